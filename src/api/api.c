@@ -486,8 +486,23 @@ double rb_api_number(const rb_api *a, const char *name)
 
 /* ---- Matrices ---------------------------------------------------------------------- */
 
-static api_array *boundary_array(rb_api *a, const char *name)
+static api_array *model_array(rb_api *a, const char *name)
 {
+    rb_rolling_model *model = &a->result.model;
+    const int n = model->mesh.n, size = a->lcp.size;
+    if (strcmp(name, "ends") == 0)
+        return rb_api_copy_array(a, name, n + 2, 1, model->mesh.ends);
+    if (strcmp(name, "gap0") == 0)
+        return rb_api_copy_array(a, name, n, 1, model->mesh.gap);
+    if (strcmp(name, "F") == 0 && model->state.p &&
+        rb_rolling_model_add_matrix(model, &a->why) != RB_OK)
+        return NULL;
+    if (strcmp(name, "F") == 0)
+        return rb_api_copy_array(a, name, 2 * n + 2, 2 * n, model->bodies.F);
+    if (strcmp(name, "lcp.M") == 0)
+        return rb_api_copy_array(a, name, size, size, a->lcp.M);
+    if (strcmp(name, "lcp.q") == 0)
+        return rb_api_copy_array(a, name, size, 1, a->lcp.b);
     rb_bem_mesh mesh;
     api_array *made = NULL;
     if (rb_rolling_boundary_mesh(&a->result.model, 0, &mesh, &a->why) != RB_OK)
@@ -515,26 +530,6 @@ static api_array *boundary_array(rb_api *a, const char *name)
     }
     rb_bem_mesh_free(&mesh);
     return made;
-}
-
-static api_array *model_array(rb_api *a, const char *name)
-{
-    rb_rolling_model *model = &a->result.model;
-    const int n = model->mesh.n, size = a->lcp.size;
-    if (strcmp(name, "ends") == 0)
-        return rb_api_copy_array(a, name, n + 2, 1, model->mesh.ends);
-    if (strcmp(name, "gap0") == 0)
-        return rb_api_copy_array(a, name, n, 1, model->mesh.gap);
-    if (strcmp(name, "F") == 0 && model->state.p &&
-        rb_rolling_model_add_matrix(model, &a->why) != RB_OK)
-        return NULL;
-    if (strcmp(name, "F") == 0)
-        return rb_api_copy_array(a, name, 2 * n + 2, 2 * n, model->bodies.F);
-    if (strcmp(name, "lcp.M") == 0)
-        return rb_api_copy_array(a, name, size, size, a->lcp.M);
-    if (strcmp(name, "lcp.q") == 0)
-        return rb_api_copy_array(a, name, size, 1, a->lcp.b);
-    return boundary_array(a, name);
 }
 
 /* Hertz and Carter at the elements' midpoints. */

@@ -577,34 +577,6 @@ static const struct {
     {RB_CASE_STUDY, "history", "a study has none"},
 };
 
-static rb_status check_purpose(const rb_case *c, rb_message *why)
-{
-    const rb_rolling_formulation formulation = c->resolved.rc.formulation;
-    const int curve = c->purpose == RB_CASE_CURVE || c->purpose == RB_CASE_SPEEDS;
-    rb_status s = RB_OK;
-    for (size_t k = 0; k < sizeof meaningless / sizeof *meaningless && s == RB_OK; k++)
-        if (c->purpose == meaningless[k].purpose)
-            s = rb_case_refuse_given(c, meaningless[k].option, meaningless[k].reason, why);
-    if (s == RB_OK && curve && formulation != RB_STEADY)
-        s = rb_case_refuse_given(c, "formulation", "a curve needs steady rolling", why);
-    if (s == RB_OK && c->purpose == RB_CASE_STUDY && formulation == RB_TRANSIENT)
-        s = rb_case_refuse_given(c, "formulation", "a study needs static or steady cases", why);
-    /* 0,3 is read as 0 and 3. */
-    if (s == RB_OK && !curve && c->resolved.mus.n > 1)
-        s = rb_case_refuse_given(
-            c, "mu",
-            (c->resolved.mus.n == 2 &&
-             c->resolved.mus.value[0] == floor(c->resolved.mus.value[0]) &&
-             c->resolved.mus.value[1] == floor(c->resolved.mus.value[1]))
-                ? "expected one number, with a decimal point; a curve takes several"
-                : "expected one number; a curve takes several",
-            why);
-    if (s == RB_OK && rb_case_has_steps(&c->resolved))
-        s = rb_case_refuse_given(c, "accuracy", "only for static and steady cases without steps",
-                                 why);
-    return s;
-}
-
 rb_status rb_case_resolve(rb_case *c, rb_message *why)
 {
     const rb_option_precedence how = rb_case_precedence(c);
@@ -624,8 +596,31 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
         s = check_formulation(c, why);
     if (s == RB_OK)
         s = rb_case_read_files(c, why);
-    if (s == RB_OK)
-        s = check_purpose(c, why);
+    if (s == RB_OK) {
+        const rb_rolling_formulation formulation = c->resolved.rc.formulation;
+        const int curve = c->purpose == RB_CASE_CURVE || c->purpose == RB_CASE_SPEEDS;
+
+        for (size_t k = 0; k < sizeof meaningless / sizeof *meaningless && s == RB_OK; k++)
+            if (c->purpose == meaningless[k].purpose)
+                s = rb_case_refuse_given(c, meaningless[k].option, meaningless[k].reason, why);
+        if (s == RB_OK && curve && formulation != RB_STEADY)
+            s = rb_case_refuse_given(c, "formulation", "a curve needs steady rolling", why);
+        if (s == RB_OK && c->purpose == RB_CASE_STUDY && formulation == RB_TRANSIENT)
+            s = rb_case_refuse_given(c, "formulation", "a study needs static or steady cases", why);
+        /* 0,3 is read as 0 and 3. */
+        if (s == RB_OK && !curve && c->resolved.mus.n > 1)
+            s = rb_case_refuse_given(
+                c, "mu",
+                (c->resolved.mus.n == 2 &&
+                 c->resolved.mus.value[0] == floor(c->resolved.mus.value[0]) &&
+                 c->resolved.mus.value[1] == floor(c->resolved.mus.value[1]))
+                    ? "expected one number, with a decimal point; a curve takes several"
+                    : "expected one number; a curve takes several",
+                why);
+        if (s == RB_OK && rb_case_has_steps(&c->resolved))
+            s = rb_case_refuse_given(c, "accuracy",
+                                     "only for static and steady cases without steps", why);
+    }
     if (s != RB_OK)
         return rb_case_locate(c, s, why);
     /* The paper's own example stays on its equal elements, as do large contacts, which

@@ -86,29 +86,6 @@ static int falls(const rb_io_contact_case *in)
     return in->law >= 2 && in->law <= 4;
 }
 
-/* What CONTACT has in a case that is run, and this program has not. */
-static void list_left_out(rb_case_contact *c, const rb_io_contact_case *in)
-{
-    static const char *const materials[] = {"", "", "the flexibility of the simplified theory",
-                                            "that of Fastsim"};
-    const rb_io_contact_digits *d = &in->digit;
-    if (in->fstat != in->fkin && d->T > 0 && !falls(in))
-        leave_out(c, "another friction law (L = %d): mu = %g, its value at rest", in->law,
-                  in->fstat);
-    if (d->M > 1 && d->M != 4)
-        leave_out(c, "%s (M = %d)", d->M < 4 ? materials[d->M] : "the material", d->M);
-    if (d->T > 0 && (in->side != 0.0 || in->spin != 0.0))
-        leave_out(c, "CETA, FY and CPHI");
-    if (d->T == 3 && !is_line_contact(in) && fabs(in->dq / in->dx - 1.0) > 0.01)
-        leave_out(c, "the step DQ = %g: slip is that over an element, DX = %g", in->dq, in->dx);
-    if (in->plan > 1)
-        leave_out(c, "the planform (IPLAN = %d)", in->plan);
-    if (d->H > 0)
-        leave_out(c, "temperatures (H = %d)", d->H);
-    if (d->E > 1)
-        leave_out(c, "the rigid slip per element (E = %d)", d->E);
-}
-
 /* A strip as wide as DY, whose ends the half-space holds: w_N = 0 at the depth DY, as in
  * the plane, but w_T at DY exp(nu/(1 - nu)), because Cerruti's displacement
  * (1 - nu)/r + nu x^2/r^3 has a second part. */
@@ -128,19 +105,6 @@ static rb_rolling_body body_of(const rb_io_contact_case *in, double width, int k
     else
         body.young /= 1.0 + in->ratio[k]; /* it relaxes at once */
     return body;
-}
-
-/* The half-length of the rectangle, and the combined radius. */
-static double set_hertz(const rb_io_contact_case *in, double width, rb_rolling_case *rc)
-{
-    const double flexibility = (1.0 - in->poisson[0]) / (2.0 * in->shear[0]) +
-                               (1.0 - in->poisson[1]) / (2.0 * in->shear[1]); /* 1/E* */
-    const double square = 4.0 * in->normal / width * flexibility / M_PI;      /* a^2/R */
-    const double a = in->potential == -4 ? sqrt(square * 0.5 / in->hertz[0]) : in->hertz[0];
-
-    rc->gap = RB_GAP_PARABOLA;
-    rc->a.radius = a * a / square;
-    return a;
 }
 
 static void set_friction(const rb_io_contact_case *in, rb_case_contact *c)
@@ -171,7 +135,25 @@ void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
     c->rc = rb_rolling_case_defaults();
     if (is_outside(c, in))
         return;
-    list_left_out(c, in);
+    /* What CONTACT has in a case that is run, and this program has not. */
+    static const char *const materials[] = {"", "", "the flexibility of the simplified theory",
+                                            "that of Fastsim"};
+    const rb_io_contact_digits *d = &in->digit;
+    if (in->fstat != in->fkin && d->T > 0 && !falls(in))
+        leave_out(c, "another friction law (L = %d): mu = %g, its value at rest", in->law,
+                  in->fstat);
+    if (d->M > 1 && d->M != 4)
+        leave_out(c, "%s (M = %d)", d->M < 4 ? materials[d->M] : "the material", d->M);
+    if (d->T > 0 && (in->side != 0.0 || in->spin != 0.0))
+        leave_out(c, "CETA, FY and CPHI");
+    if (d->T == 3 && !is_line_contact(in) && fabs(in->dq / in->dx - 1.0) > 0.01)
+        leave_out(c, "the step DQ = %g: slip is that over an element, DX = %g", in->dq, in->dx);
+    if (in->plan > 1)
+        leave_out(c, "the planform (IPLAN = %d)", in->plan);
+    if (d->H > 0)
+        leave_out(c, "temperatures (H = %d)", d->H);
+    if (d->E > 1)
+        leave_out(c, "the rigid slip per element (E = %d)", d->E);
     const int hertz = is_line_contact(in), T = in->digit.T;
     double from = in->from, to = in->from + in->mx * in->dx;
     c->runs = 1;
@@ -183,7 +165,15 @@ void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
     c->rc.b = body_of(in, c->width, 1);
     c->rc.elastic_b = 1;
     if (hertz) {
-        to = in->hertz[2] * set_hertz(in, c->width, &c->rc);
+        /* The half-length of the rectangle, and the combined radius. */
+        const double flexibility = (1.0 - in->poisson[0]) / (2.0 * in->shear[0]) +
+                                   (1.0 - in->poisson[1]) / (2.0 * in->shear[1]); /* 1/E* */
+        const double square = 4.0 * in->normal / c->width * flexibility / M_PI;   /* a^2/R */
+        const double a = in->potential == -4 ? sqrt(square * 0.5 / in->hertz[0]) : in->hertz[0];
+
+        c->rc.gap = RB_GAP_PARABOLA;
+        c->rc.a.radius = a * a / square;
+        to = in->hertz[2] * a;
         from = -to;
     } else {
         /* Parabola or circle; where its lowest point is. */

@@ -112,28 +112,6 @@ static double to_of(const rb_case_crack *k)
     return isnan(k->to) ? FAR : k->to;
 }
 
-static rb_status check_positions(const rb_resolved_case *c, const rb_case_crack *k, rb_message *why)
-{
-    const double from = from_of(c, k), to = to_of(k);
-    const int n = intervals(c), steps = rb_case_has_steps(c);
-
-    if (steps && !isnan(k->to))
-        return rb_fail(why, RB_EINVAL, "--to: the history says how far the contact goes");
-    if (steps || k->unloaded)
-        return RB_OK;
-    if (!(from < to))
-        return rb_fail(why, RB_EINVAL,
-                       "--from and --to: A rolls towards +x; expected --from below --to, "
-                       "got %g and %g",
-                       from, to);
-    if ((to - from) / n > WIDE * (1.0 + 1e-12))
-        return rb_fail(why, RB_EINVAL,
-                       "--steps: %d steps of %g half-widths would jump over the crack, "
-                       "expected at least %d",
-                       n, (to - from) / n, (int)ceil((to - from) / WIDE * (1.0 - 1e-12)));
-    return RB_OK;
-}
-
 rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k, rb_message *why)
 {
     const rb_rolling_case *rc = &c->rc;
@@ -179,7 +157,26 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
     if (k->coupled && k->fluid != RB_CRACK_DRY)
         return rb_fail(why, RB_EINVAL, "--coupled: of a crack without fluid");
     const rb_status s = rb_case_check_growth(k, why);
-    return s == RB_OK ? check_positions(c, k, why) : s;
+    if (s != RB_OK)
+        return s;
+    /* Positions of the contact. */
+    const double from = from_of(c, k), to = to_of(k);
+    const int n = intervals(c), steps = rb_case_has_steps(c);
+    if (steps && !isnan(k->to))
+        return rb_fail(why, RB_EINVAL, "--to: the history says how far the contact goes");
+    if (steps || k->unloaded)
+        return RB_OK;
+    if (!(from < to))
+        return rb_fail(why, RB_EINVAL,
+                       "--from and --to: A rolls towards +x; expected --from below --to, "
+                       "got %g and %g",
+                       from, to);
+    if ((to - from) / n > WIDE * (1.0 + 1e-12))
+        return rb_fail(why, RB_EINVAL,
+                       "--steps: %d steps of %g half-widths would jump over the crack, "
+                       "expected at least %d",
+                       n, (to - from) / n, (int)ceil((to - from) / WIDE * (1.0 - 1e-12)));
+    return RB_OK;
 }
 
 /* ---- Load -------------------------------------------------------------------------- */
@@ -197,25 +194,6 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
     }
     rb_rolling_states_set(model, step, states);
     return 0;
-}
-
-/* The contact of the case, or its steps. */
-static rb_status solve_contact(const rb_resolved_case *c, const rb_case_crack *k,
-                               rb_case_crack_result *r, rb_message *why)
-{
-    rb_resolved_case plain = *c;
-
-    plain.error = 0;
-    if (k->coupled) { /* the lip of the crack takes part in the contact beyond its edges
-                       */
-        plain.rc.mesh = RB_MESH_UNIFORM;
-        plain.rc.slip_operator = RB_SLIP_UPSTREAM;
-        if (plain.rc.zone == 0.0)
-            plain.rc.zone = ZONE * c->derived.half_width;
-    }
-    const rb_status s =
-        k->unloaded ? RB_OK : rb_case_solve(&plain, keep_step, &r->states, &r->contact, why);
-    return s == RB_INTERRUPTED ? RB_ENOMEM : s; /* by keep_step alone */
 }
 
 void rb_case_crack_track_free(rb_case_crack_track *t)
@@ -241,9 +219,10 @@ static rb_status set_loads(int n, const double *x, const double *h, const double
     return RB_OK;
 }
 
-static void note(rb_case_crack_result *r, const char *text, double value)
+/* A note where it applies; its text may show the value. */
+static void note(rb_case_crack_result *r, int applies, const char *text, double value)
 {
-    if (r->notes < RB_CASE_CRACK_NOTES)
+    if (applies && r->notes < RB_CASE_CRACK_NOTES)
         snprintf(r->note[r->notes++], sizeof r->note[0], text, value);
 }
 
@@ -251,38 +230,33 @@ static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
                        const rb_case_crack_track *t, rb_case_crack_result *r)
 {
     const double a = r->half_width, first = fabs(t->x[0] / a - k->mouth);
+    const double radius = c->rc.elastic_b ? c->rc.b.radius : INFINITY;
     double step = 0.0;
 
-    for (int i = 1; i < t->n; i++)
-        step = fmax(step, (t->x[i] - t->x[i - 1]) / a);
     if (k->unloaded)
         return;
-    if (first < FAR * (1.0 - 1e-12) && t->x[t->n - 1] > t->x[0])
-        note(r,
-             "The first position is %.3g half-widths from the mouth, where the load "
-             "already acts on the crack; begin at least 6 away (--from).",
-             first);
-    if (step > NARROW * (1.0 + 1e-9))
-        note(r,
-             "Positions are %.3g half-widths apart; the extremes of K lie between them "
-             "(take at most 0.1, --steps).",
-             step);
-    if (k->fluid == RB_CRACK_TRAPPED && !k->locate_closing)
-        note(r,
-             "The volume of the trapped fluid is that of the last position with an open "
-             "mouth, and depends on the positions; --closing located does not.",
-             0.0);
-    if (!c->rc.elastic_b)
-        note(r,
-             "Body B is rigid for the contact: K are the limits of a body that is much "
-             "stiffer than A.",
-             0.0);
-    else if (isfinite(c->rc.b.radius))
-        note(r,
-             c->rc.b.radius < 0.0
-                 ? "Body B has a bore; the crack is computed as in a half-plane."
-                 : "Body B is a cylinder; the crack is computed as in a half-plane.",
-             0.0);
+    for (int i = 1; i < t->n; i++)
+        step = fmax(step, (t->x[i] - t->x[i - 1]) / a);
+    note(r, first < FAR * (1.0 - 1e-12) && t->x[t->n - 1] > t->x[0],
+         "The first position is %.3g half-widths from the mouth, where the load "
+         "already acts on the crack; begin at least 6 away (--from).",
+         first);
+    note(r, step > NARROW * (1.0 + 1e-9),
+         "Positions are %.3g half-widths apart; the extremes of K lie between them "
+         "(take at most 0.1, --steps).",
+         step);
+    note(r, k->fluid == RB_CRACK_TRAPPED && !k->locate_closing,
+         "The volume of the trapped fluid is that of the last position with an open "
+         "mouth, and depends on the positions; --closing located does not.",
+         0.0);
+    note(r, !c->rc.elastic_b,
+         "Body B is rigid for the contact: K are the limits of a body that is much "
+         "stiffer than A.",
+         0.0);
+    note(r, isfinite(radius),
+         radius < 0.0 ? "Body B has a bore; the crack is computed as in a half-plane."
+                      : "Body B is a cylinder; the crack is computed as in a half-plane.",
+         0.0);
 }
 
 rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k,
@@ -347,19 +321,6 @@ rb_crack_passage rb_case_crack_passage(const rb_case_crack *k, const rb_case_cra
 
 /* ---- Solve ------------------------------------------------------------------------- */
 
-static void note_end_of_growth(rb_units units, rb_case_crack_result *r)
-{
-    const rb_case_crack_growth *g = &r->growth;
-    if ((!g->surfaced && !g->rests) || r->notes == RB_CASE_CRACK_NOTES)
-        return;
-    snprintf(r->note[r->notes++], sizeof r->note[0],
-             g->surfaced ? "The crack came back to the surface beyond a length of %.4g "
-                           "%s: a piece breaks out."
-                         : "The crack stops: dK is below the threshold at a length of "
-                           "%.4g %s.",
-             rb_unit_shown(units, "mm", g->length[g->n - 1]), rb_unit_name(units, "mm"));
-}
-
 /* One mesh: as many elements as times `finer` says, of crack and contact. */
 static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, int finer,
                             rb_case_crack_result *r, rb_message *why)
@@ -372,7 +333,17 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
     r->passes = k->passes;
     if (!rb_case_has_steps(c))
         refined.rc.contact_elements *= finer;
-    rb_status s = solve_contact(&refined, k, r, why);
+    refined.error = 0;
+    if (k->coupled) { /* the lip of the crack takes part in the contact beyond its edges */
+        refined.rc.mesh = RB_MESH_UNIFORM;
+        refined.rc.slip_operator = RB_SLIP_UPSTREAM;
+        if (refined.rc.zone == 0.0)
+            refined.rc.zone = ZONE * c->derived.half_width;
+    }
+    rb_status s =
+        k->unloaded ? RB_OK : rb_case_solve(&refined, keep_step, &r->states, &r->contact, why);
+    if (s == RB_INTERRUPTED)
+        s = RB_ENOMEM; /* by keep_step alone */
     if (s == RB_OK)
         s = rb_case_crack_follow(c, k, r, &t, why);
     r->shape.elements *= finer;
@@ -400,7 +371,15 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
             r->summary = rb_case_crack_summarise(&r->history, r->passes);
         if (s == RB_OK && !isnan(k->paris) && finer == 1)
             s = rb_case_grow_crack(c, k, &passage, r, why);
-        note_end_of_growth(c->units, r);
+        const rb_case_crack_growth *g = &r->growth;
+        if ((g->surfaced || g->rests) && r->notes < RB_CASE_CRACK_NOTES)
+            snprintf(r->note[r->notes++], sizeof r->note[0],
+                     g->surfaced ? "The crack came back to the surface beyond a length of %.4g "
+                                   "%s: a piece breaks out."
+                                 : "The crack stops: dK is below the threshold at a length of "
+                                   "%.4g %s.",
+                     rb_unit_shown(c->units, "mm", g->length[g->n - 1]),
+                     rb_unit_name(c->units, "mm"));
     }
     rb_crack_free(crack);
     rb_case_crack_track_free(&t);

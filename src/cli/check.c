@@ -56,14 +56,6 @@ static const char *other_command(const char *word)
     return NULL;
 }
 
-/* Of a case whose JSON this is. */
-static rb_case_purpose purpose_of(const json_t *root)
-{
-    return json_object_get(root, "crack")    ? RB_CASE_CRACK
-           : json_object_get(root, "maxima") ? RB_CASE_STRESS
-                                             : RB_CASE_SINGLE;
-}
-
 /* A case that reads regular files of bounded size alone, in the folder or below it; NULL:
  * in any.  NULL: no memory. */
 static rb_case *confined(rb_case_purpose purpose, const char *folder)
@@ -92,7 +84,11 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc, con
         *fault = "it is another command's";
         return RB_OK;
     }
-    rb_case *words = confined(purpose_of(root), folder);
+    /* Of a case whose JSON this is. */
+    rb_case *words = confined(json_object_get(root, "crack")    ? RB_CASE_CRACK
+                              : json_object_get(root, "maxima") ? RB_CASE_STRESS
+                                                                : RB_CASE_SINGLE,
+                              folder);
     if (!words)
         return RB_ENOMEM;
     cli_exit code;

@@ -29,29 +29,6 @@ static char *append_quoted(char *to, const char *word)
     return to;
 }
 
-static char *quote(int argc, char **argv)
-{
-    /* Room for every character quoted ('\''), a pair of quotes and a space each; then 4
-     * bytes for each of them in print. */
-    size_t size = sizeof "rollbem";
-    for (int i = 1; i < argc; i++)
-        size += 4 * strlen(argv[i]) + 3;
-    char *line = malloc(size);
-    if (!line)
-        return NULL;
-    memcpy(line, "rollbem", 7);
-    char *to = line + 7;
-    for (int i = 1; i < argc; i++) {
-        *to++ = ' ';
-        to = append_quoted(to, argv[i]);
-    }
-    *to = '\0';
-    char *printable = malloc(4 * strlen(line) + 1);
-    if (printable)
-        rb_printable(line, printable, 4 * strlen(line) + 1);
-    free(line);
-    return printable;
-}
 
 char **cli_split_line(char *line, int *argc)
 {
@@ -85,7 +62,24 @@ char **cli_split_line(char *line, int *argc)
 int cli_begin(const cli_command *table, int argc, char **argv)
 {
     commands = table;
-    command_line = quote(argc, argv);
+    /* Room for every character quoted ('\''), a pair of quotes and a space each; then 4
+     * bytes for each of them in print. */
+    size_t size = sizeof "rollbem";
+    for (int i = 1; i < argc; i++)
+        size += 4 * strlen(argv[i]) + 3;
+    char *line = malloc(size);
+    if (!line)
+        return 0;
+    char *to = stpcpy(line, "rollbem");
+    for (int i = 1; i < argc; i++) {
+        *to++ = ' ';
+        to = append_quoted(to, argv[i]);
+    }
+    *to = '\0';
+    command_line = malloc(4 * strlen(line) + 1);
+    if (command_line)
+        rb_printable(line, command_line, 4 * strlen(line) + 1);
+    free(line);
     return command_line != NULL;
 }
 

@@ -173,34 +173,30 @@ static element_row element_row_of(const contact_runs *all, int k, int i)
                          .UPL = s->plastic ? s->plastic[i] : 0.0};
 }
 
-static rb_status print_table(FILE *out, const contact_runs *all)
-{
-    const char *names = all->o->tractions ? element_columns : columns;
-    rb_report_cells cells = rb_report_cells_begin(out, &all->o->style, names);
-    rb_report_comment_origin(&cells, cli_command_line());
-    for (int k = 0; k < all->n; k++)
-        if (all->run[k].c.left_out[0])
-            rb_report_comment(&cells, "case %d leaves out %s", k + 1, all->run[k].c.left_out);
-    for (int k = 0; k < all->n; k++) {
-        const rb_rolling_solution *s = &all->run[k].s;
-        const case_row row = case_row_of(all, k);
-        if (!all->o->tractions)
-            cli_rows_cells(&cells, names, CASE_ROWS, case_rows, &row);
-        for (int j = 0; all->o->tractions && j < s->n; j++) {
-            const int i = all->run[k].c.sign < 0.0 ? s->n - 1 - j : j;
-            const element_row element = element_row_of(all, k, i);
-            cli_rows_cells(&cells, names, ELEMENT_ROWS, element_rows, &element);
-        }
-    }
-    return rb_report_flush(out);
-}
-
 static rb_status print(FILE *out, const void *context, rb_message *why)
 {
     const contact_runs *all = context;
     (void)why;
-    if (all->o->style.format != RB_REPORT_JSON)
-        return print_table(out, all);
+    if (all->o->style.format != RB_REPORT_JSON) {
+        const char *names = all->o->tractions ? element_columns : columns;
+        rb_report_cells cells = rb_report_cells_begin(out, &all->o->style, names);
+        rb_report_comment_origin(&cells, cli_command_line());
+        for (int k = 0; k < all->n; k++)
+            if (all->run[k].c.left_out[0])
+                rb_report_comment(&cells, "case %d leaves out %s", k + 1, all->run[k].c.left_out);
+        for (int k = 0; k < all->n; k++) {
+            const rb_rolling_solution *s = &all->run[k].s;
+            const case_row row = case_row_of(all, k);
+            if (!all->o->tractions)
+                cli_rows_cells(&cells, names, CASE_ROWS, case_rows, &row);
+            for (int j = 0; all->o->tractions && j < s->n; j++) {
+                const int i = all->run[k].c.sign < 0.0 ? s->n - 1 - j : j;
+                const element_row element = element_row_of(all, k, i);
+                cli_rows_cells(&cells, names, ELEMENT_ROWS, element_rows, &element);
+            }
+        }
+        return rb_report_flush(out);
+    }
     json_t *root = rb_report_json_start(cli_command_line()), *cases = json_array();
     for (int k = 0; k < all->n; k++) {
         const case_row row = case_row_of(all, k);
@@ -215,29 +211,6 @@ static rb_status print(FILE *out, const void *context, rb_message *why)
 }
 
 /* ---- Command ----------------------------------------------------------------------- */
-
-/* What is left out of a case, each reason at its first case only. */
-static void say_left_out(const contact_runs *all, int k)
-{
-    const contact_run *r = &all->run[k];
-    int as_before = 0;
-    for (int j = 0; j < k && !as_before; j++)
-        as_before =
-            all->run[j].c.runs == r->c.runs && strcmp(all->run[j].c.left_out, r->c.left_out) == 0;
-    if (!r->c.left_out[0] || all->o->quiet || as_before)
-        return;
-    int alike = 0;
-    for (int j = k + 1; j < all->n; j++)
-        alike +=
-            all->run[j].c.runs == r->c.runs && strcmp(all->run[j].c.left_out, r->c.left_out) == 0;
-    char more[40] = "";
-    if (alike > 0)
-        snprintf(more, sizeof more, ", and %d more case%s", alike, alike > 1 ? "s" : "");
-    cli_fail(CLI_OK,
-             r->c.runs ? "%s:%d: case %d%s solved without %s"
-                       : "%s:%d: case %d%s skipped: %s is not supported",
-             all->path, r->in->line, k + 1, more, r->c.left_out);
-}
 
 static cli_exit run_case(const contact_runs *all, int k)
 {
@@ -272,8 +245,27 @@ static cli_exit run_all(contact_runs *all, const rb_io_contact_case *cases)
         worst = code > worst ? code : worst;
         ran += all->run[k].c.runs;
     }
-    for (int k = 0; k < all->n; k++)
-        say_left_out(all, k);
+    for (int k = 0; k < all->n; k++) {
+        /* What is left out of a case, each reason at its first case only. */
+        const contact_run *r = &all->run[k];
+        int as_before = 0;
+        for (int j = 0; j < k && !as_before; j++)
+            as_before = all->run[j].c.runs == r->c.runs &&
+                        strcmp(all->run[j].c.left_out, r->c.left_out) == 0;
+        if (r->c.left_out[0] && !all->o->quiet && !as_before) {
+            int alike = 0;
+            for (int j = k + 1; j < all->n; j++)
+                alike += all->run[j].c.runs == r->c.runs &&
+                         strcmp(all->run[j].c.left_out, r->c.left_out) == 0;
+            char more[40] = "";
+            if (alike > 0)
+                snprintf(more, sizeof more, ", and %d more case%s", alike, alike > 1 ? "s" : "");
+            cli_fail(CLI_OK,
+                     r->c.runs ? "%s:%d: case %d%s solved without %s"
+                               : "%s:%d: case %d%s skipped: %s is not supported",
+                     all->path, r->in->line, k + 1, more, r->c.left_out);
+        }
+    }
     const cli_exit code = cli_write_file(all->o->output, print, all);
     if (code != CLI_OK)
         worst = code;

@@ -75,23 +75,6 @@ static const char about[] =
 
 /* ---- Writing ----------------------------------------------------------------------- */
 
-static json_t *inputs_of(const example_options *o, const char *name)
-{
-    json_t *inputs = json_object();
-    rb_report_json_set(&inputs, "example", json_string(name));
-    rb_report_json_set(&inputs, "solver", json_string(o->solver));
-    rb_report_json_set(&inputs, "tol", rb_report_json_number(o->tol));
-    if (strcmp(name, "truss") == 0) {
-        rb_report_json_set(&inputs, "layout", json_string(layouts[o->layout].name));
-        rb_report_json_set(&inputs, "nodes", json_integer(o->nodes));
-    } else if (strcmp(name, "wall") == 0) {
-        rb_report_json_set(&inputs, "mesh", json_string(meshes[o->mesh].name));
-        rb_report_json_set(&inputs, "rigid", json_boolean(o->rigid));
-        rb_report_json_set(&inputs, "step_s", rb_report_json_number(o->step));
-    }
-    return inputs;
-}
-
 /* The steps of an example: values, a struct for each step, described by rows. */
 typedef struct {
     const char *name, *columns;
@@ -108,7 +91,19 @@ static rb_status write_steps(FILE *out, const example_options *o, const step_tab
         for (int k = 0; k < steps; k++)
             rb_report_json_append(&list, cli_rows_json(t->rows, t->row, at + (size_t)k * size, 1));
         json_t *root = rb_report_json_start(cli_command_line());
-        rb_report_json_set(&root, "inputs", inputs_of(o, t->name));
+        json_t *inputs = json_object();
+        rb_report_json_set(&inputs, "example", json_string(t->name));
+        rb_report_json_set(&inputs, "solver", json_string(o->solver));
+        rb_report_json_set(&inputs, "tol", rb_report_json_number(o->tol));
+        if (strcmp(t->name, "truss") == 0) {
+            rb_report_json_set(&inputs, "layout", json_string(layouts[o->layout].name));
+            rb_report_json_set(&inputs, "nodes", json_integer(o->nodes));
+        } else if (strcmp(t->name, "wall") == 0) {
+            rb_report_json_set(&inputs, "mesh", json_string(meshes[o->mesh].name));
+            rb_report_json_set(&inputs, "rigid", json_boolean(o->rigid));
+            rb_report_json_set(&inputs, "step_s", rb_report_json_number(o->step));
+        }
+        rb_report_json_set(&root, "inputs", inputs);
         rb_report_json_set(&root, "steps", list);
         return rb_report_json_write(out, root);
     }
@@ -287,22 +282,6 @@ static rb_status draw_wall(FILE *out, rb_report_canvas canvas, const void *conte
     return rb_report_picture_wall(out, canvas, run->wall, run->steps, run->step, why);
 }
 
-static rb_status write_problem(const wall_run *run, int rank, int step, rb_message *why)
-{
-    char name[40], title[200];
-    rb_friction_problem problem = {0};
-    snprintf(name, sizeof name, "wall-%02d.hdf5", rank);
-    snprintf(title, sizeof title, "rollbem wall, step %d, solved in %d iterations", step + 1,
-             run->step[step].iterations);
-    char *path = rb_io_join(run->o->output, name);
-    rb_status s = path ? rb_fem_wall_problem(run->wall, step, &problem) : RB_ENOMEM;
-    if (s == RB_OK)
-        s = rb_friction_write(path, &problem, NULL, title, why);
-    rb_friction_problem_free(&problem);
-    free(path);
-    return s;
-}
-
 static int is_interrupted(void *context)
 {
     (void)context;
@@ -346,8 +325,20 @@ static cli_exit finish_wall(const wall_run *run)
         rb_status s = rb_io_make_folder(run->o->output, &why);
         if (s == RB_OK && count > 0)
             s = rb_fem_wall_select(run->wall, count, chosen);
-        for (int k = 0; s == RB_OK && k < count; k++)
-            s = write_problem(run, k + 1, chosen[k], &why);
+        for (int k = 0; s == RB_OK && k < count; k++) {
+            const int step = chosen[k];
+            char name[40], title[200];
+            rb_friction_problem problem = {0};
+            snprintf(name, sizeof name, "wall-%02d.hdf5", k + 1);
+            snprintf(title, sizeof title, "rollbem wall, step %d, solved in %d iterations",
+                     step + 1, run->step[step].iterations);
+            char *path = rb_io_join(run->o->output, name);
+            s = path ? rb_fem_wall_problem(run->wall, step, &problem) : RB_ENOMEM;
+            if (s == RB_OK)
+                s = rb_friction_write(path, &problem, NULL, title, &why);
+            rb_friction_problem_free(&problem);
+            free(path);
+        }
         code = s == RB_OK ? CLI_OK : cli_say(s, &why);
     }
     return code;
@@ -427,25 +418,21 @@ static cli_exit run_example(example_options *o, const char *name)
                     name, rb_guess_text(&guess, ""));
 }
 
-/* One of the cases of --example. */
-static int solve_case(int argc, char **argv)
-{
-    char **words = calloc((size_t)argc + 2, sizeof *words), option[] = "--example";
-    if (!words)
-        return cli_fail(CLI_INTERNAL, "out of memory");
-    words[0] = argv[0];
-    words[1] = option;
-    for (int k = 1; k < argc; k++)
-        words[k + 1] = argv[k];
-    const int code = cli_run("", argc + 1, words);
-    free(words);
-    return code;
-}
-
 int cli_example(int argc, char **argv)
 {
-    if (argc > 1 && cli_example_is_case(argv[1]))
-        return solve_case(argc, argv);
+    if (argc > 1 && cli_example_is_case(argv[1])) {
+        /* One of the cases of --example. */
+        char **words = calloc((size_t)argc + 2, sizeof *words), option[] = "--example";
+        if (!words)
+            return cli_fail(CLI_INTERNAL, "out of memory");
+        words[0] = argv[0];
+        words[1] = option;
+        for (int k = 1; k < argc; k++)
+            words[k + 1] = argv[k];
+        const int code = cli_run("", argc + 1, words);
+        free(words);
+        return code;
+    }
     example_options o = {
         .tol = 1e-10, .step = 1e-2, .nodes = 12, .mesh = MESH_FINE, .problems = 50};
     cli_args args = {0};

@@ -79,37 +79,6 @@ static void print_set(const rb_option_set *set, int common)
     }
 }
 
-/* The command's own options, and the common ones of the case. */
-static void print_short_help(const cli_spec *spec)
-{
-    const char *paragraph = strstr(spec->about, "\n\n");
-    const int n = (int)(paragraph ? paragraph - spec->about : (long)strlen(spec->about));
-    char about[2000];
-    snprintf(about, sizeof about, "%.*s", n, spec->about);
-    printf("Usage: %s\n\n", spec->synopsis);
-    print_text(about);
-    for (int s = 1; s < spec->set_n; s++)
-        if (!is_abbreviated(spec, s))
-            print_set(&spec->sets[s], 0);
-    puts("\nThe most used options");
-    for (int s = 0; s < spec->set_n; s++)
-        if (is_abbreviated(spec, s))
-            print_set(&spec->sets[s], 1);
-    char text[1000] = "";
-    for (int s = 0; s < spec->set_n; s++)
-        for (int i = 0; i < spec->sets[s].n; i++) {
-            const rb_option *o = &spec->sets[s].options[i];
-            if (o->kind == RB_OPTION_GROUP)
-                rb_append(text, sizeof text, "%s%s", *text ? ", " : "", o->name);
-        }
-    puts("\nMore");
-    cli_print_entry("--help=all", "every option");
-    cli_print_entry("--help=GROUP", text);
-    cli_print_entry("rollbem help WORD", "search options, results, glossary and FAQ for "
-                                         "a word, such as: rollbem help rubber");
-    cli_print_entry("rollbem help", "the other commands: curve, stress, wear, sweep, ...");
-}
-
 /* The group or the option of that name; 0: there is none. */
 static int print_part(const cli_spec *spec, const char *part)
 {
@@ -138,9 +107,35 @@ int cli_print_help(const cli_spec *spec, const char *part)
     FILE *pager = cli_open_pager();
     if (part && strcmp(part, "all") != 0)
         found = print_part(spec, part);
-    else if (!part && pager && common)
-        print_short_help(spec);
-    else {
+    else if (!part && pager && common) {
+        /* The command's own options, and the common ones of the case. */
+        const char *paragraph = strstr(spec->about, "\n\n");
+        const int n = (int)(paragraph ? paragraph - spec->about : (long)strlen(spec->about));
+        char about[2000];
+        snprintf(about, sizeof about, "%.*s", n, spec->about);
+        printf("Usage: %s\n\n", spec->synopsis);
+        print_text(about);
+        for (int s = 1; s < spec->set_n; s++)
+            if (!is_abbreviated(spec, s))
+                print_set(&spec->sets[s], 0);
+        puts("\nThe most used options");
+        for (int s = 0; s < spec->set_n; s++)
+            if (is_abbreviated(spec, s))
+                print_set(&spec->sets[s], 1);
+        char text[1000] = "";
+        for (int s = 0; s < spec->set_n; s++)
+            for (int i = 0; i < spec->sets[s].n; i++) {
+                const rb_option *o = &spec->sets[s].options[i];
+                if (o->kind == RB_OPTION_GROUP)
+                    rb_append(text, sizeof text, "%s%s", *text ? ", " : "", o->name);
+            }
+        puts("\nMore");
+        cli_print_entry("--help=all", "every option");
+        cli_print_entry("--help=GROUP", text);
+        cli_print_entry("rollbem help WORD", "search options, results, glossary and FAQ for "
+                                             "a word, such as: rollbem help rubber");
+        cli_print_entry("rollbem help", "the other commands: curve, stress, wear, sweep, ...");
+    } else {
         printf("Usage: %s\n\n", spec->synopsis);
         print_text(spec->about);
         for (int s = 0; s < spec->set_n; s++)

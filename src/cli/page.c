@@ -148,34 +148,6 @@ static rb_status write_page(FILE *out, const void *context, rb_message *why)
     return rb_report_flush(out);
 }
 
-static cli_exit fill_page(rb_case *c, const page_options *o)
-{
-    built_page page = {0};
-    cli_exit code = read_page(o->page, &page);
-    if (code == CLI_CONTINUE)
-        code = refuse_beyond(c, page.limits);
-    if (code == CLI_CONTINUE) {
-        /* The options that are given, name by name, as text of a case file. */
-        const rb_option_set set = rb_case_options(c);
-        json_t *all = json_object();
-        char buffer[64];
-        for (int k = 0; k < set.n; k++)
-            if (set.options[k].kind != RB_OPTION_GROUP && rb_case_given(c, set.options[k].name))
-                rb_report_json_set(
-                    &all, set.options[k].name,
-                    json_string(rb_option_text(&set.options[k], set.target, buffer)));
-        char *carried = all ? json_dumps(all, JSON_COMPACT) : NULL;
-        const filled_page p = {page.text, page.place, carried};
-        code = carried ? cli_write_file(o->output, write_page, &p)
-                       : cli_fail(CLI_INTERNAL, "out of memory");
-        free(carried);
-        json_decref(all);
-    }
-    free(page.text);
-    json_decref(page.limits);
-    return code;
-}
-
 int cli_page(int argc, char **argv)
 {
     page_options o = {0};
@@ -192,8 +164,31 @@ int cli_page(int argc, char **argv)
     cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
     if (code == CLI_CONTINUE)
         code = refuse_files(c);
-    if (code == CLI_CONTINUE)
-        code = fill_page(c, &o);
+    if (code == CLI_CONTINUE) {
+        built_page page = {0};
+        code = read_page(o.page, &page);
+        if (code == CLI_CONTINUE)
+            code = refuse_beyond(c, page.limits);
+        if (code == CLI_CONTINUE) {
+            /* The options that are given, name by name, as text of a case file. */
+            const rb_option_set set = rb_case_options(c);
+            json_t *all = json_object();
+            char buffer[64];
+            for (int k = 0; k < set.n; k++)
+                if (set.options[k].kind != RB_OPTION_GROUP && rb_case_given(c, set.options[k].name))
+                    rb_report_json_set(
+                        &all, set.options[k].name,
+                        json_string(rb_option_text(&set.options[k], set.target, buffer)));
+            char *carried = all ? json_dumps(all, JSON_COMPACT) : NULL;
+            const filled_page p = {page.text, page.place, carried};
+            code = carried ? cli_write_file(o.output, write_page, &p)
+                           : cli_fail(CLI_INTERNAL, "out of memory");
+            free(carried);
+            json_decref(all);
+        }
+        free(page.text);
+        json_decref(page.limits);
+    }
     cli_args_free(&args);
     rb_case_free(c);
     return code;

@@ -26,45 +26,6 @@ static const char *value_of(const rb_option *o, const char *equals, int *i, int 
     return argv[++*i];
 }
 
-static cli_exit parse_option(const cli_spec *spec, int *i, int argc, char **argv)
-{
-    const char *name = argv[*i] + 2, *equals = strchr(name, '=');
-    const size_t length = equals ? (size_t)(equals - name) : strlen(name);
-    char word[42];
-    snprintf(word, sizeof word, "%.*s", (int)(length < 41 ? length : 41), name);
-    rb_guess guess = {.word = word};
-    int k;
-    const rb_option_set *set = rb_option_find(spec->set_n, spec->sets, name, length, &k, &guess);
-    if (!set) {
-        const char *commands = cli_commands_with(name, length);
-        if (*commands)
-            return cli_fail(CLI_USAGE, "unknown option '--%.*s' (it is an option of %s)",
-                            (int)length, name, commands);
-        const char *other = cli_other_name(name, length);
-        if (other)
-            return cli_fail(CLI_USAGE, "unknown option '--%.*s' (did you mean '--%s'?)",
-                            (int)length, name, other);
-        static const char *const common[] = {"help", "usage", "version"};
-        for (int j = 0; j < 3; j++)
-            rb_guess_try(&guess, common[j]);
-        return cli_fail(CLI_USAGE, "unknown option '--%.*s'%s", (int)length, name,
-                        rb_guess_text(&guess, "--"));
-    }
-    const rb_option *o = &set->options[k];
-    char what[64];
-    snprintf(what, sizeof what, "--%s", o->name);
-    const char *value = value_of(o, equals, i, argc, argv);
-    if (!value) {
-        char expected[200];
-        return cli_fail(CLI_USAGE, "%s: expected %s, got nothing", what,
-                        rb_option_expected(o, expected, sizeof expected));
-    }
-    rb_message why = {""};
-    if (rb_option_assign(set, k, RB_GIVEN_ARGUMENT, what, value, &why) == RB_OK)
-        return CLI_CONTINUE;
-    return cli_fail(CLI_USAGE, "%s", why.text);
-}
-
 /* What stands behind `option` in the argument; NULL: it is another one. */
 static const char *value_behind(const char *option, const char *argument)
 {
@@ -124,7 +85,43 @@ static cli_exit parse_argument(const cli_spec *spec, int *i, int argc, char **ar
         return cli_fail(CLI_USAGE, "--color: expected auto, always or never, got '%s'", when);
     }
     const cli_exit code = answer_common(spec, argument);
-    return code == CLI_CONTINUE ? parse_option(spec, i, argc, argv) : code;
+    if (code != CLI_CONTINUE)
+        return code;
+    const char *name = argv[*i] + 2, *equals = strchr(name, '=');
+    const size_t length = equals ? (size_t)(equals - name) : strlen(name);
+    char word[42];
+    snprintf(word, sizeof word, "%.*s", (int)(length < 41 ? length : 41), name);
+    rb_guess guess = {.word = word};
+    int k;
+    const rb_option_set *set = rb_option_find(spec->set_n, spec->sets, name, length, &k, &guess);
+    if (!set) {
+        const char *commands = cli_commands_with(name, length);
+        if (*commands)
+            return cli_fail(CLI_USAGE, "unknown option '--%.*s' (it is an option of %s)",
+                            (int)length, name, commands);
+        const char *other = cli_other_name(name, length);
+        if (other)
+            return cli_fail(CLI_USAGE, "unknown option '--%.*s' (did you mean '--%s'?)",
+                            (int)length, name, other);
+        static const char *const common[] = {"help", "usage", "version"};
+        for (int j = 0; j < 3; j++)
+            rb_guess_try(&guess, common[j]);
+        return cli_fail(CLI_USAGE, "unknown option '--%.*s'%s", (int)length, name,
+                        rb_guess_text(&guess, "--"));
+    }
+    const rb_option *o = &set->options[k];
+    char what[64];
+    snprintf(what, sizeof what, "--%s", o->name);
+    const char *value = value_of(o, equals, i, argc, argv);
+    if (!value) {
+        char expected[200];
+        return cli_fail(CLI_USAGE, "%s: expected %s, got nothing", what,
+                        rb_option_expected(o, expected, sizeof expected));
+    }
+    rb_message why = {""};
+    if (rb_option_assign(set, k, RB_GIVEN_ARGUMENT, what, value, &why) == RB_OK)
+        return CLI_CONTINUE;
+    return cli_fail(CLI_USAGE, "%s", why.text);
 }
 
 cli_exit cli_parse(const cli_spec *spec, int argc, char **argv, cli_args *args)

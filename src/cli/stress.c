@@ -151,36 +151,6 @@ static rb_report_stress of_grid(const cli_case_run *run, const rb_rolling_stress
                               .s = &st->run.solution};
 }
 
-static rb_status find_stress(stress *st, int contours, rb_message *why)
-{
-    const rb_rolling_model *model = &st->run.model;
-    rb_status s = rb_rolling_stress_maxima_find(model, st->depth, &st->maxima, why);
-    if (s == RB_OK && wants_shakedown(st))
-        s = rb_rolling_shakedown_find(model, &st->found, why);
-    if (s == RB_OK && st->place.rows > 0) {
-        /* The first point that is not in the body is named by its line. */
-        const int n = st->place.rows;
-        int *inside = rb_alloc_int((size_t)n);
-        st->at_points = calloc((size_t)n, sizeof *st->at_points);
-        s = inside && st->at_points ? RB_OK : RB_ENOMEM;
-        if (s == RB_OK)
-            s = rb_rolling_inside(&st->run.model, n, st->xy, inside);
-        for (int k = 0; k < n && s == RB_OK; k++)
-            if (!inside[k])
-                s = rb_fail(why, RB_EFORMAT, "%.200s:%d: the point (%g, %g) mm lies outside body A",
-                            st->points, st->place.line[k], st->place.x[k], st->place.x[k + n]);
-        if (s == RB_OK)
-            s = rb_rolling_stress_at(&st->run.model, n, st->xy, st->at_points, why);
-        free(inside);
-    } else if (s == RB_OK)
-        s = rb_rolling_stress_on_grid(model, st->nx, st->ny, st->depth, &st->at, why);
-    if (s == RB_OK && st->fringes)
-        s = rb_rolling_stress_on_grid(model, FRINGES_X, FRINGES_Y, st->depth, &st->fine, why);
-    else if (s == RB_OK && contours)
-        s = rb_rolling_stress_on_grid(model, CONTOURS_X, CONTOURS_Y, st->depth, &st->fine, why);
-    return s;
-}
-
 static rb_status solve(cli_case_run *run, rb_message *why)
 {
     stress *st = run->own;
@@ -193,8 +163,34 @@ static rb_status solve(cli_case_run *run, rb_message *why)
         s = rb_rolling_stress_maxima_find(&st->run.model, 0.0, &maxima, why);
     if (s == RB_OK && run->c->error)
         s = rb_rolling_estimate_errors(&run->c->rc, &st->run.solution, &maxima, &st->errors, why);
-    if (s == RB_OK)
-        s = find_stress(st, run->o.plot != NULL, why);
+    if (s == RB_OK) {
+        const rb_rolling_model *model = &st->run.model;
+        s = rb_rolling_stress_maxima_find(model, st->depth, &st->maxima, why);
+        if (s == RB_OK && wants_shakedown(st))
+            s = rb_rolling_shakedown_find(model, &st->found, why);
+        if (s == RB_OK && st->place.rows > 0) {
+            /* The first point that is not in the body is named by its line. */
+            const int n = st->place.rows;
+            int *inside = rb_alloc_int((size_t)n);
+            st->at_points = calloc((size_t)n, sizeof *st->at_points);
+            s = inside && st->at_points ? RB_OK : RB_ENOMEM;
+            if (s == RB_OK)
+                s = rb_rolling_inside(&st->run.model, n, st->xy, inside);
+            for (int k = 0; k < n && s == RB_OK; k++)
+                if (!inside[k])
+                    s = rb_fail(why, RB_EFORMAT,
+                                "%.200s:%d: the point (%g, %g) mm lies outside body A", st->points,
+                                st->place.line[k], st->place.x[k], st->place.x[k + n]);
+            if (s == RB_OK)
+                s = rb_rolling_stress_at(&st->run.model, n, st->xy, st->at_points, why);
+            free(inside);
+        } else if (s == RB_OK)
+            s = rb_rolling_stress_on_grid(model, st->nx, st->ny, st->depth, &st->at, why);
+        if (s == RB_OK && st->fringes)
+            s = rb_rolling_stress_on_grid(model, FRINGES_X, FRINGES_Y, st->depth, &st->fine, why);
+        else if (s == RB_OK && run->o.plot)
+            s = rb_rolling_stress_on_grid(model, CONTOURS_X, CONTOURS_Y, st->depth, &st->fine, why);
+    }
     rb_rolling_stress_maxima none = st->maxima;
     rb_rolling_shakedown *found = &st->found;
     rb_case_result_convert(&st->run, run->c->units);

@@ -95,30 +95,6 @@ static void grade(const rb_crack_path *path, int n, double *s)
     }
 }
 
-static void set_elements(rb_crack *c, const double *s)
-{
-    const rb_crack_path *path = &c->shape.path;
-    double before = 0.0; /* s of the beginning of the piece */
-
-    for (int k = 0, piece = 0; k < c->shape.elements; k++) {
-        double complex along = place(path, piece + 1) - place(path, piece);
-        if (0.5 * (s[k] + s[k + 1]) > before + cabs(along)) {
-            before += cabs(along);
-            piece++;
-            along = place(path, piece + 1) - place(path, piece);
-        }
-        const double complex t = along / cabs(along);
-        c->element[k] = (rb_crack_element){place(path, piece) + (s[k] - before) * t, t,
-                                           s[k + 1] - s[k], s[k], piece};
-    }
-    for (int j = 0; j < c->n; j++) { /* at a kink: the mean direction of both sides */
-        const int k = c->first + j;
-        const double complex sum = c->element[k].t + c->element[GSL_MAX(k - 1, 0)].t;
-        c->t[j] = sum / cabs(sum);
-        c->hat[j] = 0.5 * (c->element[k].length + (k > 0 ? c->element[k - 1].length : 0));
-    }
-}
-
 /* ---- Kernels (C2) ------------------------------------------------------------------ */
 
 static inline double complex inverse(double complex c)
@@ -299,21 +275,6 @@ static rb_status add_quadrature(rb_crack *c, double g)
     return rule[0] && rule[1] ? RB_OK : RB_ENOMEM;
 }
 
-/* Turns K from (x, y) of all nodes to the frames (n, t) of each: its columns, that are D,
- * and its rows, that are forces. */
-static void turn_into_frames(rb_crack *c)
-{
-    const int n = c->n, m = 2 * n;
-
-    for (int rows = 0; rows < 2; rows++)
-        for (int j = 0; j < n; j++) {
-            const int step = rows ? m : 1;
-            double *x = c->F + (size_t)j * (rows ? 1 : m), *y = x + (size_t)n * (rows ? 1 : m);
-            cblas_drot(m, x, step, y, step, creal(c->t[j]), cimag(c->t[j])); /* (t, n) */
-            cblas_dswap(m, x, step, y, step);
-        }
-}
-
 /* F = -K^-1 of the symmetric part; the quadrature alone makes K unsymmetric. */
 static rb_status invert(rb_crack *c, rb_message *why)
 {
@@ -371,14 +332,43 @@ static rb_status assemble(const rb_crack_shape *shape, const double *s, rb_crack
     c->F = rb_alloc(2 * (size_t)c->n, 2 * (size_t)c->n);
     if (!c->element || !c->t || !c->hat || !c->F)
         return RB_ENOMEM;
-    set_elements(c, s);
+    const rb_crack_path *path = &c->shape.path;
+    double before = 0.0; /* s of the beginning of the piece */
+
+    for (int k = 0, piece = 0; k < c->shape.elements; k++) {
+        double complex along = place(path, piece + 1) - place(path, piece);
+        if (0.5 * (s[k] + s[k + 1]) > before + cabs(along)) {
+            before += cabs(along);
+            piece++;
+            along = place(path, piece + 1) - place(path, piece);
+        }
+        const double complex t = along / cabs(along);
+        c->element[k] = (rb_crack_element){place(path, piece) + (s[k] - before) * t, t,
+                                           s[k + 1] - s[k], s[k], piece};
+    }
+    for (int j = 0; j < c->n; j++) { /* at a kink: the mean direction of both sides */
+        const int k = c->first + j;
+        const double complex sum = c->element[k].t + c->element[GSL_MAX(k - 1, 0)].t;
+        c->t[j] = sum / cabs(sum);
+        c->hat[j] = 0.5 * (c->element[k].length + (k > 0 ? c->element[k - 1].length : 0));
+    }
     add_collinear(c, 2.0 * g);
     if (!shape->full_plane || shape->path.pieces > 1) {
         const rb_status status = add_quadrature(c, g);
         if (status != RB_OK)
             return status;
     }
-    turn_into_frames(c);
+    /* Turns K from (x, y) of all nodes to the frames (n, t) of each: its columns, that are D,
+     * and its rows, that are forces. */
+    const int n = c->n, m = 2 * n;
+
+    for (int rows = 0; rows < 2; rows++)
+        for (int j = 0; j < n; j++) {
+            const int step = rows ? m : 1;
+            double *x = c->F + (size_t)j * (rows ? 1 : m), *y = x + (size_t)n * (rows ? 1 : m);
+            cblas_drot(m, x, step, y, step, creal(c->t[j]), cimag(c->t[j])); /* (t, n) */
+            cblas_dswap(m, x, step, y, step);
+        }
     return invert(c, why);
 }
 

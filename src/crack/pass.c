@@ -98,19 +98,6 @@ static double largest_stress(const rb_crack_passage *p)
     return largest;
 }
 
-/* Nodal forces on the way from step k - 1 to step k; scratch: as many. */
-static rb_status load_between(const rb_crack *c, const rb_crack_passage *p, int k, double part,
-                              double *T, double *scratch)
-{
-    const double x = p->x[k - 1] + part * (p->x[k] - p->x[k - 1]);
-    rb_status s = rb_crack_load(c, load_of(p, k), x, p->tension, T);
-    if (s == RB_OK && p->loads > 1)
-        s = rb_crack_load(c, load_of(p, k - 1), x, p->tension, scratch);
-    for (int i = 0; i < 2 * c->n && p->loads > 1; i++)
-        T[i] = part * T[i] + (1.0 - part) * scratch[i];
-    return s;
-}
-
 /* What is trapped is the volume at the place where the mouth closes, and near it the
  * crack closes fast: the state becomes that just before this place, by bisection.  If the
  * mouth does not close, it stays as it is.  T: scratch for 4n. */
@@ -124,7 +111,14 @@ static rb_status approach_closing(rb_crack *c, const rb_crack_passage *p, int k,
     for (double part = 1.0; closed - open > CLOSING && s == RB_OK; part = 0.5 * (open + closed)) {
         memcpy(trial.D, state->D, 2 * (size_t)c->n * sizeof *trial.D);
         trial.volume = 0.0; /* so that nothing is trapped */
-        s = load_between(c, p, k, part, T, T + 2 * c->n);
+        /* Nodal forces on the way from step k - 1 to step k. */
+        double *before = T + 2 * c->n;
+        const double x = p->x[k - 1] + part * (p->x[k] - p->x[k - 1]);
+        s = rb_crack_load(c, load_of(p, k), x, p->tension, T);
+        if (s == RB_OK && p->loads > 1)
+            s = rb_crack_load(c, load_of(p, k - 1), x, p->tension, before);
+        for (int i = 0; i < 2 * c->n && p->loads > 1; i++)
+            T[i] = part * T[i] + (1.0 - part) * before[i];
         if (s == RB_OK)
             s = rb_crack_step(c, T, RB_CRACK_TRAPPED, 0.0, scale, &trial, why);
         const int is_open = trial.zone[0] == RB_ZONE_SEPARATED;

@@ -46,16 +46,26 @@ static rb_status check_options(const rb_fem_wall_options *o, rb_message *why)
     return RB_OK;
 }
 
-static rb_status build_wall(rb_fem_wall *w, rb_message *why)
+
+rb_status rb_fem_wall_create(const rb_fem_wall_options *options, rb_fem_wall **wall,
+                             rb_message *why)
 {
+    *wall = NULL;
+    rb_status s = check_options(options, why);
+    if (s != RB_OK)
+        return s;
+    rb_fem_wall *w = calloc(1, sizeof *w);
+    if (!w)
+        return RB_ENOMEM;
+    w->options = *options;
     w->layout = wall_lay_out(&w->options);
     w->contacts = wall_find_contacts(&w->layout, NULL);
     w->contact = calloc((size_t)w->contacts, sizeof *w->contact);
-    rb_status s = w->contact ? wall_build_mesh(&w->layout, &w->mesh) : RB_ENOMEM;
-    if (s != RB_OK)
-        return s;
-    wall_find_contacts(&w->layout, w->contact);
-    s = wall_elastic_system(&w->layout, &w->mesh, w->contacts, w->contact, &w->system, why);
+    s = w->contact ? wall_build_mesh(&w->layout, &w->mesh) : RB_ENOMEM;
+    if (s == RB_OK) {
+        wall_find_contacts(&w->layout, w->contact);
+        s = wall_elastic_system(&w->layout, &w->mesh, w->contacts, w->contact, &w->system, why);
+    }
     if (s == RB_OK && w->options.rigid) {
         wall_system elastic = w->system;
         s = wall_rigid_system(&w->layout, &w->mesh, &elastic, &w->R, &w->system);
@@ -81,21 +91,6 @@ static rb_status build_wall(rb_fem_wall *w, rb_message *why)
         s = rb_sparse_copy(&w->system.M, &w->A);
     for (int k = 0; s == RB_OK && k < w->system.K.p[w->system.K.cols]; k++)
         w->A.x[k] += w->options.dt * w->options.dt * w->system.K.x[k];
-    return s;
-}
-
-rb_status rb_fem_wall_create(const rb_fem_wall_options *options, rb_fem_wall **wall,
-                             rb_message *why)
-{
-    *wall = NULL;
-    rb_status s = check_options(options, why);
-    if (s != RB_OK)
-        return s;
-    rb_fem_wall *w = calloc(1, sizeof *w);
-    if (!w)
-        return RB_ENOMEM;
-    w->options = *options;
-    s = build_wall(w, why);
     if (s == RB_OK)
         *wall = w;
     else

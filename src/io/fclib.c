@@ -215,14 +215,27 @@ static rb_status expand(const reader *in, const char *group, int n, int nz, cons
     return RB_OK;
 }
 
-/* Triplet: i holds rows and p columns, as CSparse writes them (fclib.h says the
- * opposite). nzmax may exceed what is stored. */
-static rb_status assemble(const reader *in, const char *group, int m, int n, int nz, rb_sparse *a)
+static rb_status read_matrix(const reader *in, const char *root, const char *name, rb_sparse *a)
 {
+    char group[80];
+    int m, n, nz;
+    snprintf(group, sizeof group, "%s/%s", root, name);
+    rb_status s = read_int(in, group, "m", &m);
+    if (s == RB_OK)
+        s = read_int(in, group, "n", &n);
+    if (s == RB_OK)
+        s = read_int(in, group, "nz", &nz);
+    if (s != RB_OK)
+        return s;
+    if (m < 1 || n < 1 || fmax(m, n) > fmin(in->most, 1 << 28) || nz < -2)
+        return rb_fail(in->why, RB_EFORMAT, "%s: %s is %d x %d with nz = %d", in->path, group, m, n,
+                       nz);
+    /* Triplet: i holds rows and p columns, as CSparse writes them (fclib.h says the
+     * opposite). nzmax may exceed what is stored. */
     const int lines = nz == -1 ? n : m;
     int *p = NULL, *i = NULL, *wide = NULL;
     double *x = NULL;
-    rb_status s = read_ints(in, group, "p", nz < 0 ? lines + 1 : nz, &p);
+    s = read_ints(in, group, "p", nz < 0 ? lines + 1 : nz, &p);
     const int entries = nz < 0 && s == RB_OK ? p[lines] : nz;
     if (s == RB_OK && entries < 0)
         s = rb_fail(in->why, RB_EFORMAT, "%s: %s/p ends in %d", in->path, group, entries);
@@ -253,22 +266,6 @@ static rb_status assemble(const reader *in, const char *group, int m, int n, int
     return s;
 }
 
-static rb_status read_matrix(const reader *in, const char *group, rb_sparse *a)
-{
-    int m, n, nz;
-    rb_status s = read_int(in, group, "m", &m);
-    if (s == RB_OK)
-        s = read_int(in, group, "n", &n);
-    if (s == RB_OK)
-        s = read_int(in, group, "nz", &nz);
-    if (s != RB_OK)
-        return s;
-    if (m < 1 || n < 1 || fmax(m, n) > fmin(in->most, 1 << 28) || nz < -2)
-        return rb_fail(in->why, RB_EFORMAT, "%s: %s is %d x %d with nz = %d", in->path, group, m, n,
-                       nz);
-    return assemble(in, group, m, n, nz, a);
-}
-
 /* Only one triangle is stored: add the other. */
 static rb_status complete_symmetric(rb_sparse *a)
 {
@@ -297,122 +294,110 @@ static rb_status complete_symmetric(rb_sparse *a)
     return s;
 }
 
-static rb_status read_common(const reader *in, const char *root, int rows, rb_io_fclib *p)
+static int has(const reader *in, const char *root, const char *name)
 {
-    char vectors[60];
-    rb_status s = read_int(in, root, "spacedim", &p->spacedim);
-    if (s != RB_OK)
-        return s;
-    if (p->rolling ? p->spacedim != 5 : p->spacedim != 2 && p->spacedim != 3)
-        return rb_fail(in->why, RB_EFORMAT, "%s: spacedim is %d, expected %s", in->path,
-                       p->spacedim, p->rolling ? "5" : "2 or 3");
-    if (rows % p->spacedim)
-        return rb_fail(in->why, RB_EFORMAT, "%s: %d contact rows are no multiple of %d", in->path,
-                       rows, p->spacedim);
-    p->contacts = rows / p->spacedim;
-    snprintf(vectors, sizeof vectors, "%s/vectors", root);
-    s = read_doubles(in, vectors, "mu", p->contacts, &p->mu);
-    return s == RB_OK && p->rolling ? read_doubles(in, vectors, "mu_r", p->contacts, &p->mu_r) : s;
+    char path[80];
+    snprintf(path, sizeof path, "%s/%s", root, name);
+    return exists(in, path);
 }
 
-/* A matrix of constraints, if any part of them is there: a column for each. */
-static rb_status read_columns(const reader *in, const char *group, int rows, int *count,
-                              rb_sparse *a)
+/* A vector of the group, at least as long as it has to be in this problem. */
+static rb_status read_vector(const reader *in, const char *group, const char *name, rb_io_fclib *p)
 {
-    const rb_status s = read_matrix(in, group, a);
+    const arrays all = arrays_of(p);
+    int k = 0;
+    while (strcmp(VECTOR[k], name) != 0)
+        k++;
+    return read_doubles(in, group, name, all.length[k], all.vector[k]);
+}
+
+/* A matrix of constraints, a column for each; those of a problem have equally many. */
+static rb_status read_columns(const reader *in, const char *root, const char *name, int rows,
+                              int *count, rb_sparse *a)
+{
+    const rb_status s = read_matrix(in, root, name, a);
     if (s == RB_OK && (a->rows != rows || (*count && a->cols != *count)))
-        return rb_fail(in->why, RB_EFORMAT, "%s: %s is %d x %d, expected %d x %d", in->path, group,
-                       a->rows, a->cols, rows, *count ? *count : a->cols);
+        return rb_fail(in->why, RB_EFORMAT, "%s: %s/%s is %d x %d, expected %d x %d", in->path,
+                       root, name, a->rows, a->cols, rows, *count ? *count : a->cols);
     if (s == RB_OK)
         *count = a->cols;
     return s;
 }
 
-/* u = W r + V l + q, V' r + R l + s = 0 */
-static rb_status read_local_constraints(const reader *in, rb_io_fclib *p)
-{
-    if (!exists(in, "/fclib_local/V") && !exists(in, "/fclib_local/R") &&
-        !exists(in, "/fclib_local/vectors/s"))
-        return RB_OK;
-    rb_status s = read_columns(in, "/fclib_local/V", p->W.rows, &p->constraints, &p->V);
-    if (s == RB_OK)
-        s = read_columns(in, "/fclib_local/R", p->constraints, &p->constraints, &p->R);
-    if (s == RB_OK)
-        s = complete_symmetric(&p->R);
-    return s == RB_OK ? read_doubles(in, "/fclib_local/vectors", "s", p->constraints, &p->s) : s;
-}
-
 static const char *root_of(const rb_io_fclib *p)
 {
-    return p->rolling ? "fclib_global_rolling" : p->global ? "fclib_global" : "fclib_local";
-}
-
-/* M v = H r + G l + f, G' v + b = 0 */
-static rb_status read_global_constraints(const reader *in, rb_io_fclib *p)
-{
-    char matrix[60], vectors[60], b[60];
-    snprintf(matrix, sizeof matrix, "/%s/G", root_of(p));
-    snprintf(vectors, sizeof vectors, "/%s/vectors", root_of(p));
-    snprintf(b, sizeof b, "/%s/vectors/b", root_of(p));
-    if (!exists(in, matrix) && !exists(in, b))
-        return RB_OK;
-    const rb_status s = read_columns(in, matrix, p->M.rows, &p->constraints, &p->G);
-    return s == RB_OK ? read_doubles(in, vectors, "b", p->constraints, &p->b) : s;
+    return p->rolling ? "/fclib_global_rolling" : p->global ? "/fclib_global" : "/fclib_local";
 }
 
 static rb_status read_file(const reader *in, rb_io_fclib *p)
 {
-    rb_status s;
     if (exists(in, "/fclib_local_rolling"))
         return rb_fail(in->why, RB_EFORMAT,
                        "%s: rolling friction in the local form is not supported, only in "
                        "the global one",
                        in->path);
     p->rolling = exists(in, "/fclib_global_rolling");
-    if (!p->rolling && exists(in, "/fclib_local")) {
-        s = read_matrix(in, "/fclib_local/W", &p->W);
-        if (s == RB_OK && p->W.rows != p->W.cols)
-            s = rb_fail(in->why, RB_EFORMAT, "%s: W is %d x %d", in->path, p->W.rows, p->W.cols);
-        if (s == RB_OK)
-            s = read_common(in, "/fclib_local", p->W.rows, p);
-        if (s == RB_OK)
-            s = read_doubles(in, "/fclib_local/vectors", "q", p->W.rows, &p->q);
-        s = s == RB_OK ? read_local_constraints(in, p) : s;
-    } else if (p->rolling || exists(in, "/fclib_global")) {
-        char root[40], M[60], H[60], vectors[60];
-        p->global = 1;
-        snprintf(root, sizeof root, "/%s", root_of(p));
-        snprintf(M, sizeof M, "/%s/M", root_of(p));
-        snprintf(H, sizeof H, "/%s/H", root_of(p));
-        snprintf(vectors, sizeof vectors, "/%s/vectors", root_of(p));
-        s = read_matrix(in, M, &p->M);
+    p->global = p->rolling || (!exists(in, "/fclib_local") && exists(in, "/fclib_global"));
+    const char *root = root_of(p);
+    if (!exists(in, root))
+        return rb_fail(in->why, RB_EFORMAT, "%s: HDF5, but holds no FCLib problem", in->path);
+    char vectors[60];
+    snprintf(vectors, sizeof vectors, "%s/vectors", root);
+    /* The matrices, */
+    rb_status s;
+    if (p->global) {
+        s = read_matrix(in, root, "M", &p->M);
         if (s == RB_OK)
             s = complete_symmetric(&p->M);
         if (s == RB_OK)
-            s = read_matrix(in, H, &p->H);
+            s = read_matrix(in, root, "H", &p->H);
         if (s == RB_OK && (p->M.rows != p->M.cols || p->M.rows != p->H.rows))
             s = rb_fail(in->why, RB_EFORMAT, "%s: M is %d x %d and H is %d x %d", in->path,
                         p->M.rows, p->M.cols, p->H.rows, p->H.cols);
-        if (s == RB_OK)
-            s = read_common(in, root, p->H.cols, p);
-        if (s == RB_OK)
-            s = read_doubles(in, vectors, "f", p->M.rows, &p->f);
-        if (s == RB_OK)
-            s = read_doubles(in, vectors, "w", p->H.cols, &p->w);
-        s = s == RB_OK ? read_global_constraints(in, p) : s;
-    } else
-        return rb_fail(in->why, RB_EFORMAT, "%s: HDF5, but holds no FCLib problem", in->path);
+    } else {
+        s = read_matrix(in, root, "W", &p->W);
+        if (s == RB_OK && p->W.rows != p->W.cols)
+            s = rb_fail(in->why, RB_EFORMAT, "%s: W is %d x %d", in->path, p->W.rows, p->W.cols);
+    }
+    /* the contacts, */
+    const int rows = p->global ? p->H.cols : p->W.rows;
+    if (s == RB_OK)
+        s = read_int(in, root, "spacedim", &p->spacedim);
+    if (s == RB_OK && (p->rolling ? p->spacedim != 5 : p->spacedim != 2 && p->spacedim != 3))
+        s = rb_fail(in->why, RB_EFORMAT, "%s: spacedim is %d, expected %s", in->path, p->spacedim,
+                    p->rolling ? "5" : "2 or 3");
+    if (s == RB_OK && rows % p->spacedim)
+        s = rb_fail(in->why, RB_EFORMAT, "%s: %d contact rows are no multiple of %d", in->path,
+                    rows, p->spacedim);
     if (s != RB_OK)
         return s;
-    /* What is there under /solution and long enough. */
-    const int m = p->contacts * p->spacedim;
-    s = RB_OK;
-    if (exists(in, "/solution/r"))
-        s = read_doubles(in, "/solution", "r", m, &p->r);
-    if (s == RB_OK && exists(in, "/solution/u"))
-        s = read_doubles(in, "/solution", "u", m, &p->u);
-    if (s == RB_OK && p->global && exists(in, "/solution/v"))
-        s = read_doubles(in, "/solution", "v", p->M.rows, &p->v);
+    p->contacts = rows / p->spacedim;
+    s = read_vector(in, vectors, "mu", p);
+    if (s == RB_OK && p->rolling)
+        s = read_vector(in, vectors, "mu_r", p);
+    if (s == RB_OK)
+        s = read_vector(in, vectors, p->global ? "f" : "q", p);
+    if (s == RB_OK && p->global)
+        s = read_vector(in, vectors, "w", p);
+    /* constraints: M v = H r + G l + f, G' v + b = 0 or u = W r + V l + q, V' r + R l + s = 0, */
+    if (s == RB_OK && p->global && (has(in, root, "G") || has(in, vectors, "b"))) {
+        s = read_columns(in, root, "G", p->M.rows, &p->constraints, &p->G);
+        if (s == RB_OK)
+            s = read_vector(in, vectors, "b", p);
+    } else if (s == RB_OK && !p->global &&
+               (has(in, root, "V") || has(in, root, "R") || has(in, vectors, "s"))) {
+        s = read_columns(in, root, "V", p->W.rows, &p->constraints, &p->V);
+        if (s == RB_OK)
+            s = read_columns(in, root, "R", p->constraints, &p->constraints, &p->R);
+        if (s == RB_OK)
+            s = complete_symmetric(&p->R);
+        if (s == RB_OK)
+            s = read_vector(in, vectors, "s", p);
+    }
+    /* and what is there of a solution; v: of the global form alone. */
+    for (int k = SOLUTION; k < VECTORS - !p->global && s == RB_OK; k++)
+        if (has(in, "/solution", VECTOR[k]))
+            s = read_vector(in, "/solution", VECTOR[k], p);
     return s;
 }
 

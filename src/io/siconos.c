@@ -63,53 +63,6 @@ static void read_block(io_tokens *t, const blocks *b, int i, int k, rb_io_matrix
         }
 }
 
-/* A version line, then "[triplet: ]3-by-3, nzmax: 4 nnz: 3[, 1-norm: 3.5]". */
-static void read_sparse(io_tokens *t, rb_io_matrix *m)
-{
-    char size[60];
-    const int origin = rb_io_tokens_int(t, TRIPLETS, COLUMNS, "origin of the sparse matrix");
-    snprintf(size, sizeof size, "%d-by-%d,", m->rows, m->cols);
-    if (ok(t) && rb_io_tokens_more(t)) /* the version */
-        rb_io_tokens_skip_line(t);
-    if (origin == TRIPLETS)
-        rb_io_tokens_word(t, "triplet:");
-    rb_io_tokens_word(t, size);
-    rb_io_tokens_word(t, "nzmax:");
-    rb_io_tokens_int(t, 0, INT_MAX, "nzmax");
-    rb_io_tokens_word(t, "nnz:");
-    const int nz = rb_io_tokens_int(t, 0, INT_MAX, "nnz");
-    rb_io_tokens_skip_line(t);
-    alloc_triplets(t, (size_t)nz, m);
-    if (origin == TRIPLETS) {
-        /* "i j : value" */
-        while (ok(t) && m->entries.nz < nz) {
-            const int i = rb_io_tokens_int(t, 0, m->rows - 1, "row");
-            const int j = rb_io_tokens_int(t, 0, m->cols - 1, "column");
-            rb_io_tokens_word(t, ":");
-            rb_triplets_add(&m->entries, i, j, rb_io_tokens_real(t, "value"));
-        }
-    } else {
-        /* "i : value" below "col j : locations a to b" */
-        rb_triplets *e = &m->entries;
-        for (int j = 0; ok(t) && j < m->cols; j++) {
-            rb_io_tokens_word(t, "col");
-            rb_io_tokens_int(t, j, j, "column");
-            rb_io_tokens_word(t, ":");
-            rb_io_tokens_word(t, "locations");
-            rb_io_tokens_int(t, e->nz, e->nz, "location");
-            rb_io_tokens_word(t, "to");
-            const int last = rb_io_tokens_int(t, e->nz - 1, nz - 1, "location");
-            while (ok(t) && e->nz <= last) {
-                const int i = rb_io_tokens_int(t, 0, m->rows - 1, "row");
-                rb_io_tokens_word(t, ":");
-                rb_triplets_add(e, i, j, rb_io_tokens_real(t, "value"));
-            }
-        }
-        if (ok(t) && e->nz != nz)
-            rb_io_tokens_fail(t, "sparse matrix: expected %d entries, got %d", nz, e->nz);
-    }
-}
-
 /* A matrix of that size; rows 0: as many as the file says. */
 static void read_matrix(io_tokens *t, int rows, int cols, rb_io_matrix *m)
 {
@@ -154,8 +107,51 @@ static void read_matrix(io_tokens *t, int rows, int cols, rb_io_matrix *m)
         free(b.col_end);
         free(b.first);
         free(b.column);
-    } else
-        read_sparse(t, m);
+    } else {
+        /* A version line, then "[triplet: ]3-by-3, nzmax: 4 nnz: 3[, 1-norm: 3.5]". */
+        char size[60];
+        const int origin = rb_io_tokens_int(t, TRIPLETS, COLUMNS, "origin of the sparse matrix");
+        snprintf(size, sizeof size, "%d-by-%d,", m->rows, m->cols);
+        if (ok(t) && rb_io_tokens_more(t)) /* the version */
+            rb_io_tokens_skip_line(t);
+        if (origin == TRIPLETS)
+            rb_io_tokens_word(t, "triplet:");
+        rb_io_tokens_word(t, size);
+        rb_io_tokens_word(t, "nzmax:");
+        rb_io_tokens_int(t, 0, INT_MAX, "nzmax");
+        rb_io_tokens_word(t, "nnz:");
+        const int nz = rb_io_tokens_int(t, 0, INT_MAX, "nnz");
+        rb_io_tokens_skip_line(t);
+        alloc_triplets(t, (size_t)nz, m);
+        if (origin == TRIPLETS) {
+            /* "i j : value" */
+            while (ok(t) && m->entries.nz < nz) {
+                const int i = rb_io_tokens_int(t, 0, m->rows - 1, "row");
+                const int j = rb_io_tokens_int(t, 0, m->cols - 1, "column");
+                rb_io_tokens_word(t, ":");
+                rb_triplets_add(&m->entries, i, j, rb_io_tokens_real(t, "value"));
+            }
+        } else {
+            /* "i : value" below "col j : locations a to b" */
+            rb_triplets *e = &m->entries;
+            for (int j = 0; ok(t) && j < m->cols; j++) {
+                rb_io_tokens_word(t, "col");
+                rb_io_tokens_int(t, j, j, "column");
+                rb_io_tokens_word(t, ":");
+                rb_io_tokens_word(t, "locations");
+                rb_io_tokens_int(t, e->nz, e->nz, "location");
+                rb_io_tokens_word(t, "to");
+                const int last = rb_io_tokens_int(t, e->nz - 1, nz - 1, "location");
+                while (ok(t) && e->nz <= last) {
+                    const int i = rb_io_tokens_int(t, 0, m->rows - 1, "row");
+                    rb_io_tokens_word(t, ":");
+                    rb_triplets_add(e, i, j, rb_io_tokens_real(t, "value"));
+                }
+            }
+            if (ok(t) && e->nz != nz)
+                rb_io_tokens_fail(t, "sparse matrix: expected %d entries, got %d", nz, e->nz);
+        }
+    }
 }
 
 static double *read_vector(io_tokens *t, int n, const char *what)

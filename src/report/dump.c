@@ -49,81 +49,46 @@ static void remove_files(const char *folder)
     rb_report_remove_tableaux(folder);
 }
 
-/* ---- Meshes ------------------------------------------------------------------------ */
-
-static rb_status dump_contact(const target *t, const rb_rolling_mesh *mesh)
-{
-    const int n = mesh->n;
-    double *x = rb_alloc((size_t)n, 3);
-    if (!x)
-        return rb_fail(t->why, RB_ENOMEM, "out of memory");
-    for (int i = 0; i < n; i++) {
-        x[i] = mesh->ends[i];
-        x[i + n] = mesh->ends[i + 1];
-        x[i + 2 * n] = mesh->gap[i];
-    }
-    const rb_status s = write_matrix(t, "contact", (rb_io_dense){n, 3, x, n},
-                                     "contact elements: from, to, initial gap");
-    free(x);
-    return s;
-}
-
-static rb_status dump_mesh(const target *t, const char *name, const rb_bem_mesh *mesh)
-{
-    const size_t n = (size_t)mesh->n;
-    double *x = rb_alloc(n, 6);
-    if (!x)
-        return rb_fail(t->why, RB_ENOMEM, "out of memory");
-    memcpy(x, mesh->x0, n * sizeof *x);
-    memcpy(x + n, mesh->y0, n * sizeof *x);
-    memcpy(x + 2 * n, mesh->x1, n * sizeof *x);
-    memcpy(x + 3 * n, mesh->y1, n * sizeof *x);
-    for (size_t i = 0; i < n; i++) {
-        x[i + 4 * n] = mesh->condition[2 * i];
-        x[i + 5 * n] = mesh->condition[2 * i + 1];
-    }
-    const rb_status s =
-        write_matrix(t, name, (rb_io_dense){mesh->n, 6, x, mesh->n},
-                     "boundary elements: x0 y0 x1 y1, condition in x and y (0 traction, 1 "
-                     "displacement, 2 contact)");
-    free(x);
-    return s;
-}
-
 /* ---- Bodies ------------------------------------------------------------------------ */
 
-static rb_status dump_influence(const target *t, const char *suffix, const rb_bem_mesh *mesh,
-                                rb_bem_material material)
-{
-    const int n = 2 * mesh->n;
-    char name[8];
-    double *H = rb_alloc((size_t)n, (size_t)n), *G = rb_alloc((size_t)n, (size_t)n);
-    rb_status s = H && G ? RB_OK : rb_fail(t->why, RB_ENOMEM, "out of memory");
-    if (s == RB_OK)
-        s = rb_bem_assemble(mesh, material, H, G, n, t->why);
-    snprintf(name, sizeof name, "H%s", suffix);
-    if (s == RB_OK)
-        s = write_matrix(t, name, (rb_io_dense){n, n, H, n}, "H u = G t; rows x0, y0, x1, y1, ...");
-    name[0] = 'G';
-    if (s == RB_OK)
-        s = write_matrix(t, name, (rb_io_dense){n, n, G, n}, "H u = G t; rows x0, y0, x1, y1, ...");
-    free(H);
-    free(G);
-    return s;
-}
-
+/* Boundary elements and influence matrices, where the body has such. */
 static rb_status dump_body(const target *t, int of_b, const rb_rolling_model *model)
 {
+    static const char *const names_of[][3] = {{"mesh", "H", "G"}, {"mesh_b", "H_b", "G_b"}};
+    static const char influence[] = "H u = G t; rows x0, y0, x1, y1, ...";
     const rb_rolling_body *body = of_b ? &model->rc->b : &model->rc->a;
-    const char *suffix = of_b ? "_b" : "";
-    char name[16];
     rb_bem_mesh mesh;
     rb_status s = rb_rolling_boundary_mesh(model, of_b, &mesh, t->why);
-    snprintf(name, sizeof name, "mesh%s", suffix);
-    if (s == RB_OK && mesh.n > 0)
-        s = dump_mesh(t, name, &mesh);
-    if (s == RB_OK && mesh.n > 0)
-        s = dump_influence(t, suffix, &mesh, rb_rolling_material(model->rc, body));
+    if (s != RB_OK || mesh.n == 0) {
+        rb_bem_mesh_free(&mesh);
+        return s;
+    }
+    const int elements = mesh.n, n = 2 * elements;
+    double *x = rb_alloc((size_t)elements, 6);
+    double *H = rb_alloc((size_t)n, (size_t)n), *G = rb_alloc((size_t)n, (size_t)n);
+    for (int i = 0; x && i < elements; i++) {
+        const double row[] = {mesh.x0[i],
+                              mesh.y0[i],
+                              mesh.x1[i],
+                              mesh.y1[i],
+                              mesh.condition[2 * i],
+                              mesh.condition[2 * i + 1]};
+        for (int j = 0; j < 6; j++)
+            x[i + j * elements] = row[j];
+    }
+    s = x && H && G ? rb_bem_assemble(&mesh, rb_rolling_material(model->rc, body), H, G, n, t->why)
+                    : rb_fail(t->why, RB_ENOMEM, "out of memory");
+    if (s == RB_OK)
+        s = write_matrix(t, names_of[of_b][0], (rb_io_dense){elements, 6, x, elements},
+                         "boundary elements: x0 y0 x1 y1, condition in x and y (0 traction, 1 "
+                         "displacement, 2 contact)");
+    if (s == RB_OK)
+        s = write_matrix(t, names_of[of_b][1], (rb_io_dense){n, n, H, n}, influence);
+    if (s == RB_OK)
+        s = write_matrix(t, names_of[of_b][2], (rb_io_dense){n, n, G, n}, influence);
+    free(x);
+    free(H);
+    free(G);
     rb_bem_mesh_free(&mesh);
     return s;
 }
@@ -162,22 +127,36 @@ static rb_status dump_lcp(const target *t, const rb_rolling_model *model)
     if (s != RB_OK)
         return s;
     const int n = lcp.size;
-    s = write_matrix(t, "M", (rb_io_dense){n, n, lcp.M, n}, "scaled LCP: w = M z + b");
-    if (s == RB_OK)
-        s = write_matrix(t, "b", (rb_io_dense){n, 1, lcp.b, n}, "scaled LCP: w = M z + b");
-    if (s == RB_OK)
-        s = write_matrix(t, "z_scale", (rb_io_dense){n, 1, lcp.z_scale, n},
-                         "physical z = z_scale z");
-    if (s == RB_OK)
-        s = write_matrix(t, "w_scale", (rb_io_dense){n, 1, lcp.w_scale, n},
-                         "physical w = w_scale w");
+    const struct {
+        const char *name;
+        int columns;
+        double *x;
+        const char *comment;
+    } parts[] = {{"M", n, lcp.M, "scaled LCP: w = M z + b"},
+                 {"b", 1, lcp.b, "scaled LCP: w = M z + b"},
+                 {"z_scale", 1, lcp.z_scale, "physical z = z_scale z"},
+                 {"w_scale", 1, lcp.w_scale, "physical w = w_scale w"}};
+    for (size_t k = 0; k < sizeof parts / sizeof *parts && s == RB_OK; k++)
+        s = write_matrix(t, parts[k].name, (rb_io_dense){n, parts[k].columns, parts[k].x, n},
+                         parts[k].comment);
     rb_contact_lcp_free(&lcp);
     return s;
 }
 
 static rb_status dump_all(const target *t, const rb_rolling_model *model)
 {
-    rb_status s = dump_contact(t, &model->mesh);
+    const rb_rolling_mesh *mesh = &model->mesh;
+    const int n = mesh->n, m = n + 1;
+    double *x = rb_alloc((size_t)n, 3);
+    for (int i = 0; x && i < n; i++) {
+        x[i] = mesh->ends[i];
+        x[i + n] = mesh->ends[i + 1];
+        x[i + 2 * n] = mesh->gap[i];
+    }
+    rb_status s = x ? write_matrix(t, "contact", (rb_io_dense){n, 3, x, n},
+                                   "contact elements: from, to, initial gap")
+                    : rb_fail(t->why, RB_ENOMEM, "out of memory");
+    free(x);
     if (s == RB_OK)
         s = dump_body(t, 0, model);
     if (s == RB_OK)
@@ -186,7 +165,6 @@ static rb_status dump_all(const target *t, const rb_rolling_model *model)
         return s;
     if (!model->bodies.F) /* a large contact: neither F nor M has been formed */
         return dump_columns(t, model);
-    const int n = model->mesh.n, m = n + 1;
     s = write_matrix(t, "F", (rb_io_dense){2 * m, 2 * n, model->bodies.F, 2 * m},
                      "w = F r: w_N then w_T, each at the contact elements and the one "
                      "upstream; r_N then r_T");

@@ -11,13 +11,6 @@ typedef struct {
     double spacing, width, height; /* of the quarter [m] */
 } quarter;
 
-static quarter make_quarter(const rb_fem_model *model)
-{
-    const double *x = model->mesh.x;
-    const int last = model->structure.contacts - 1;
-    return (quarter){model, 1e-3 * (x[3] - x[0]), 1e-3 * x[3 * last], 1e-3 * x[3 * last + 1]};
-}
-
 /* Increments of a step, or displacements where total. */
 static const double *vector_of(const rb_fem_step *step, int total, int node)
 {
@@ -175,7 +168,9 @@ rb_status rb_report_picture_truss(FILE *out, rb_report_canvas canvas, const rb_f
     if (history->steps < 1)
         return rb_fail(why, RB_EINVAL, "nothing to draw");
     const int upper = model->mesh.nodes - model->structure.contacts;
-    const truss_view v = {make_quarter(model), history,
+    const double *x = model->mesh.x, *last = x + 3 * (model->structure.contacts - 1);
+    const truss_view v = {{model, 1e-3 * (x[3] - x[0]), 1e-3 * last[0], 1e-3 * last[1]},
+                          history,
                           upper < model->structure.contacts ? "upper nodes inside"
                                                             : "upper nodes overhanging"};
     return rb_report_draw(out, canvas, RB_REPORT_PANELS, write_script, &v, why);

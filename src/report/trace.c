@@ -84,38 +84,32 @@ static void each_pivot(const rb_lcp_pivot *p, void *context)
     }
 }
 
-static rb_status follow(trace *t, const rb_contact_lcp *lcp)
-{
-    rb_lcp_options options = rb_lcp_defaults();
-    rb_lcp_info info;
-    double *z = rb_alloc((size_t)lcp->size, 1);
-    if (!z)
-        return rb_fail(t->why, RB_ENOMEM, "out of memory");
-    options.trace = each_pivot;
-    options.trace_context = t;
-    options.trace_tableau = t->folder != NULL;
-    const rb_lcp_problem p = {lcp->size, lcp->M, lcp->size, lcp->b};
-    const rb_status s = rb_lcp_lemke(&p, &options, z, &info);
-    free(z);
-    if (s < 0)
-        return rb_fail(t->why, s, "%s", info.msg.text);
-    if (s != RB_OK)
-        fprintf(t->out, "Lemke's method ends here without a solution: %s\n", rb_status_text(s));
-    return t->status;
-}
-
 rb_status rb_report_trace(FILE *out, const char *folder, const rb_rolling_model *model,
                           rb_message *why)
 {
     rb_contact_lcp lcp;
-    const rb_contact_state *state = &model->state;
     rb_status s = rb_rolling_model_lcp(model, &lcp, why);
     if (s != RB_OK)
         return s;
-    if (state->solver != RB_SOLVER_LEMKE)
+    if (model->state.solver != RB_SOLVER_LEMKE)
         fputs("the case was solved by another method; Lemke's on the same problem:\n", out);
     trace t = {.out = out, .folder = folder, .lcp = &lcp, .n = model->mesh.n, .why = why};
-    s = follow(&t, &lcp);
+    const rb_lcp_problem p = {lcp.size, lcp.M, lcp.size, lcp.b};
+    rb_lcp_options options = rb_lcp_defaults();
+    rb_lcp_info info;
+    options.trace = each_pivot;
+    options.trace_context = &t;
+    options.trace_tableau = folder != NULL;
+    double *z = rb_alloc((size_t)lcp.size, 1);
+    s = z ? rb_lcp_lemke(&p, &options, z, &info) : RB_ENOMEM;
+    if (s < 0)
+        rb_fail(why, s, "%s", z ? info.msg.text : "out of memory");
+    else {
+        if (s != RB_OK)
+            fprintf(out, "Lemke's method ends here without a solution: %s\n", rb_status_text(s));
+        s = t.status;
+    }
+    free(z);
     if (s != RB_OK && folder)
         rb_report_remove_tableaux(folder);
     rb_contact_lcp_free(&lcp);
