@@ -242,15 +242,6 @@ rb_status rb_case_refuse_given(const rb_case *c, const char *name, const char *r
     return rb_case_given(c, name) ? refuse(c, rb_case_option(name), reason, why) : RB_OK;
 }
 
-/* 1: the error stands in the case file, since nothing else gives anything of the case. */
-static int all_from_file(const rb_case *c)
-{
-    for (int i = 0; i < rb_case_table_n; i++)
-        if (c->given[i] < 0)
-            return 0;
-    return c->path[0] != '\0';
-}
-
 /* The line of the case file with the option that a refusal speaks of: "zone: ...",
  * "radius of body B: ...", or the first of its --options that stands there.  0: none
  * does. */
@@ -283,21 +274,6 @@ static int line_of_blamed(const rb_case *c, const char *text)
     return 0;
 }
 
-/* "history: row 3: ..." of the library, by the file and its line: RB_EFORMAT; else
- * RB_OK. */
-static rb_status locate_row(const case_table *t, const char *name, rb_message *why)
-{
-    int row = 0, rest = 0;
-    const size_t n = strlen(name);
-    const rb_message said = *why;
-    if (!t->path || strncmp(said.text, name, n) != 0)
-        return RB_OK;
-    if (sscanf(said.text + n, ": row %d: %n", &row, &rest) < 1 || row < 1 || row > t->table.rows)
-        return rb_fail(why, RB_EFORMAT, "%s: %s", t->path, said.text);
-    return rb_fail(why, RB_EFORMAT, "%s:%d: %s", t->path, t->table.line[row - 1],
-                   said.text + n + rest);
-}
-
 rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why)
 {
     if (s != RB_EINVAL || !why)
@@ -307,15 +283,29 @@ rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why)
                                                    [CASE_IRREGULARITY] = "irregularity",
                                                    [CASE_WORN] = "worn",
                                                    [CASE_FRICTION] = "friction table"};
-    rb_status located = RB_OK;
-    for (int k = 0; k < CASE_TABLES && located == RB_OK; k++)
-        located = locate_row(&c->table[k], names[k], why);
-    const int line = located == RB_OK && *c->path ? line_of_blamed(c, why->text) : 0;
-    if (located != RB_OK || (line == 0 && !all_from_file(c)))
-        return located != RB_OK ? located : s;
     const rb_message said = *why;
-    return line > 0 ? rb_fail(why, RB_EFORMAT, "%s:%d: %s", c->path, line, said.text)
-                    : rb_fail(why, RB_EFORMAT, "%s: %s", c->path, said.text);
+    for (int k = 0; k < CASE_TABLES; k++) {
+        /* "history: row 3: ..." of the library, by the file and its line. */
+        const case_table *t = &c->table[k];
+        const size_t n = strlen(names[k]);
+        int row = 0, rest = 0;
+        if (!t->path || strncmp(said.text, names[k], n) != 0)
+            continue;
+        if (sscanf(said.text + n, ": row %d: %n", &row, &rest) == 1 && row >= 1 &&
+            row <= t->table.rows)
+            return rb_fail(why, RB_EFORMAT, "%s:%d: %s", t->path, t->table.line[row - 1],
+                           said.text + n + rest);
+        return rb_fail(why, RB_EFORMAT, "%s: %s", t->path, said.text);
+    }
+    if (!*c->path)
+        return s;
+    const int line = line_of_blamed(c, said.text);
+    if (line > 0)
+        return rb_fail(why, RB_EFORMAT, "%s:%d: %s", c->path, line, said.text);
+    for (int i = 0; i < rb_case_table_n; i++)
+        if (c->given[i] < 0) /* of the command line: the error need not stand in the file */
+            return s;
+    return rb_fail(why, RB_EFORMAT, "%s: %s", c->path, said.text);
 }
 
 /* ---- Body B ------------------------------------------------------------------------ */

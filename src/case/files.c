@@ -139,25 +139,17 @@ static rb_status read_friction(rb_case *c, rb_message *why)
 
 /* ---- The history ------------------------------------------------------------------- */
 
-/* The column in rb_rolling_program_columns that has the name. */
-static int program_column(const char *name, rb_guess *guess)
-{
-    for (int k = 0; k < RB_ROLLING_PROGRAM_COLUMNS; k++) {
-        if (strcmp(name, rb_rolling_program_columns[k].name) == 0)
-            return k;
-        rb_guess_try(guess, rb_rolling_program_columns[k].name);
-    }
-    return -1;
-}
-
 static rb_status set_program(const rb_io_table *t, const char *path, rb_rolling_program *program,
                              rb_message *why)
 {
     *program = (rb_rolling_program){.n = t->rows};
     for (int j = 0; j < t->columns; j++) {
         rb_guess guess = {.word = t->name[j]};
-        const int k = program_column(t->name[j], &guess);
-        if (k < 0)
+        int k = 0;
+        while (k < RB_ROLLING_PROGRAM_COLUMNS &&
+               strcmp(t->name[j], rb_rolling_program_columns[k].name) != 0)
+            rb_guess_try(&guess, rb_rolling_program_columns[k++].name);
+        if (k == RB_ROLLING_PROGRAM_COLUMNS)
             return rb_fail(why, RB_EFORMAT, "%s: unknown column '%s'%s", path, t->name[j],
                            rb_guess_text(&guess, ""));
         const double *column = t->x + (size_t)j * (size_t)t->rows;

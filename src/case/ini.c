@@ -38,30 +38,6 @@ static char *read_line(char *line, int size, void *context)
     return line;
 }
 
-static int known_section(const ini_state *st, const char *name, rb_guess *guess)
-{
-    for (int k = 0; k < st->n; k++)
-        for (int i = 0; i < st->sets[k].n; i++) {
-            const rb_option *o = &st->sets[k].options[i];
-            if (o->kind != RB_OPTION_GROUP)
-                continue;
-            if (strcmp(o->name, name) == 0)
-                return 1;
-            rb_guess_try(guess, o->name);
-        }
-    return 0;
-}
-
-static rb_status check_section(const ini_state *st, const rb_option_set *set, int i,
-                               const char *section)
-{
-    const char *wanted = rb_case_section(&set->options[i]);
-    if (*section == '\0' || strcmp(section, wanted) == 0)
-        return RB_OK;
-    return rb_fail(st->why, RB_EFORMAT, "%s:%d: key '%s' belongs to section [%s], not [%s]",
-                   st->path, st->line, set->options[i].name, wanted, section);
-}
-
 static rb_status set_value(const ini_state *st, const rb_option_set *set, int i, const char *value)
 {
     char what[400];
@@ -79,17 +55,26 @@ static rb_status set_value(const ini_state *st, const rb_option_set *set, int i,
 static rb_status set_key(const ini_state *st, const char *section, const char *name,
                          const char *value)
 {
-    int i;
+    int i, known = *section == '\0';
     rb_guess guess = {.word = name}, near = {.word = section};
     const rb_option_set *set = rb_option_find(st->n, st->sets, name, strlen(name), &i, &guess);
-    if (*section != '\0' && !known_section(st, section, &near))
+    for (int k = 0; k < st->n; k++)
+        for (int j = 0; j < st->sets[k].n && !known; j++) {
+            const rb_option *o = &st->sets[k].options[j];
+            known = o->kind == RB_OPTION_GROUP && strcmp(o->name, section) == 0;
+            if (o->kind == RB_OPTION_GROUP)
+                rb_guess_try(&near, o->name);
+        }
+    if (!known)
         return rb_fail(st->why, RB_EFORMAT, "%s:%d: unknown section '%s'%s", st->path, st->line,
                        section, rb_guess_text(&near, ""));
     if (!set)
         return rb_fail(st->why, RB_EFORMAT, "%s:%d: unknown key '%s'%s", st->path, st->line, name,
                        rb_guess_text(&guess, ""));
-    if (check_section(st, set, i, section) != RB_OK)
-        return RB_EFORMAT;
+    const char *wanted = rb_case_section(&set->options[i]);
+    if (*section != '\0' && strcmp(section, wanted) != 0)
+        return rb_fail(st->why, RB_EFORMAT, "%s:%d: key '%s' belongs to section [%s], not [%s]",
+                       st->path, st->line, name, wanted, section);
     const int before = set->given ? set->given[i] : 0;
     if (before > 0)
         return rb_fail(st->why, RB_EFORMAT, "%s:%d: key '%s' was given before, in line %d",

@@ -25,22 +25,13 @@ const char *rb_option_source(const rb_option *option, int given, const char *pat
     return text;
 }
 
-static size_t size_of(rb_option_kind kind)
-{
-    switch (kind) {
-    case RB_OPTION_NUMBER:
-        return sizeof(double);
-    case RB_OPTION_TEXT:
-        return sizeof(const char *);
-    default:
-        return sizeof(int);
-    }
-}
-
 static void take_back(const rb_option_set *set, int i, const void *defaults)
 {
     const rb_option *o = &set->options[i];
-    memcpy((char *)set->target + o->offset, (const char *)defaults + o->offset, size_of(o->kind));
+    const size_t size = o->kind == RB_OPTION_NUMBER ? sizeof(double)
+                        : o->kind == RB_OPTION_TEXT ? sizeof(const char *)
+                                                    : sizeof(int);
+    memcpy((char *)set->target + o->offset, (const char *)defaults + o->offset, size);
     set->given[i] = 0;
 }
 
@@ -56,34 +47,22 @@ static int is_argument_over_file(int by, int other)
     return by == RB_GIVEN_ARGUMENT && other > 0;
 }
 
-/* i and j are both given and exclude each other. */
-static rb_status resolve_pair(const rb_option_set *set, const rb_option_precedence *how, int i,
-                              int j, rb_message *why)
-{
-    char first[400], second[400];
-    const int by_i = set->given[i], by_j = set->given[j];
-    if (is_argument_over_file(by_i, by_j) || is_argument_over_file(by_j, by_i)) {
-        take_back(set, by_i > 0 ? i : j, how->defaults);
-        return RB_OK;
-    }
-    const rb_option *a = &set->options[i], *b = &set->options[j];
-    return rb_fail(why, by_i > 0 && by_j > 0 ? RB_EFORMAT : RB_EINVAL,
-                   "%s and %s exclude each other",
-                   rb_option_source(a, by_i, how->path, first, sizeof first),
-                   rb_option_source(b, by_j, how->path, second, sizeof second));
-}
-
 rb_status rb_option_resolve(const rb_option_set *set, const rb_option_precedence *how,
                             rb_message *why)
 {
     for (int i = 0; i < set->n; i++)
         for (int j = i + 1; j < set->n && set->given[i]; j++) {
-            if (!set->given[j] ||
-                !exclude_each_other(set->options[i].excludes, set->options[j].excludes, how->alike))
+            const rb_option *a = &set->options[i], *b = &set->options[j];
+            const int by_a = set->given[i], by_b = set->given[j];
+            char first[400], second[400];
+            if (!by_b || !exclude_each_other(a->excludes, b->excludes, how->alike))
                 continue;
-            const rb_status s = resolve_pair(set, how, i, j, why);
-            if (s != RB_OK)
-                return s;
+            if (!is_argument_over_file(by_a, by_b) && !is_argument_over_file(by_b, by_a))
+                return rb_fail(why, by_a > 0 && by_b > 0 ? RB_EFORMAT : RB_EINVAL,
+                               "%s and %s exclude each other",
+                               rb_option_source(a, by_a, how->path, first, sizeof first),
+                               rb_option_source(b, by_b, how->path, second, sizeof second));
+            take_back(set, by_a > 0 ? i : j, how->defaults);
         }
     return RB_OK;
 }

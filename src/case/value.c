@@ -17,18 +17,6 @@ int rb_option_number(const char *text, double *value)
     return *end == '\0' && isfinite(*value);
 }
 
-/* -1, 1: a whole number that is below, above what an int holds; NAN: none. */
-static double whole_number(const char *text, int *value)
-{
-    char *end;
-    if (strchr(" \t\n", *text)) /* or empty */
-        return NAN;
-    errno = 0;
-    const long v = strtol(text, &end, 10);
-    *value = (int)v;
-    return *end != '\0' ? NAN : v < INT_MIN ? -1.0 : v > INT_MAX ? 1.0 : 0.0;
-}
-
 /* What is read, and what comes of it. */
 typedef struct {
     int plain;      /* 1: a number came without a unit */
@@ -80,53 +68,40 @@ static int set_list(const rb_option *o, char *target, const char *value, reading
     return 0;
 }
 
-static int set_integer(const rb_option *o, int *place, const char *value, reading *r)
-{
-    int v;
-    const double beyond = whole_number(value, &v);
-    if (beyond > 0.0 && isinf(o->range.to))
-        rb_fail(&r->why, RB_EINVAL, "a whole number of at most %d, got '%.100s'", INT_MAX, value);
-    if (beyond != 0.0 || !rb_option_in_range(o, v)) /* NAN as well */
-        return 0;
-    *place = v;
-    return 1;
-}
-
-static int set_choice(const rb_option *o, char *target, const char *value)
-{
-    int *place = (int *)(target + o->offset);
-    for (const rb_choice *c = o->choices; c->name; c++)
-        if (strcmp(value, c->name) == 0) {
-            *place = c->value;
-            return 1;
-        }
-    if (!o->path || *value == '\0')
-        return 0;
-    *(const char **)(target + o->path) = value;
-    *place = o->path_value;
-    return 1;
-}
-
-static int set_flag(int *place, const char *value)
-{
-    const int yes = strcmp(value, "yes") == 0 || strcmp(value, "true") == 0;
-    const int no = strcmp(value, "no") == 0 || strcmp(value, "false") == 0;
-    *place = yes;
-    return yes || no;
-}
-
 static int set_any(const rb_option *o, char *target, const char *value, reading *r)
 {
     void *place = target + o->offset;
     switch (o->kind) {
     case RB_OPTION_NUMBER:
         return o->list ? set_list(o, target, value, r) : set_number(o, place, value, r);
-    case RB_OPTION_INTEGER:
-        return set_integer(o, place, value, r);
+    case RB_OPTION_INTEGER: {
+        char *end;
+        errno = 0;
+        const long v = strtol(value, &end, 10);
+        if (strchr(" \t\n", *value) || *end != '\0') /* or empty */
+            return 0;
+        if (v > INT_MAX && isinf(o->range.to))
+            rb_fail(&r->why, RB_EINVAL, "a whole number of at most %d, got '%.100s'", INT_MAX,
+                    value);
+        if (v < INT_MIN || v > INT_MAX || !rb_option_in_range(o, (double)v))
+            return 0;
+        *(int *)place = (int)v;
+        return 1;
+    }
     case RB_OPTION_CHOICE:
-        return set_choice(o, target, value);
+        for (const rb_choice *c = o->choices; c->name; c++)
+            if (strcmp(value, c->name) == 0) {
+                *(int *)place = c->value;
+                return 1;
+            }
+        if (!o->path || *value == '\0')
+            return 0;
+        *(const char **)(target + o->path) = value;
+        *(int *)place = o->path_value;
+        return 1;
     case RB_OPTION_FLAG:
-        return set_flag(place, value);
+        *(int *)place = strcmp(value, "yes") == 0 || strcmp(value, "true") == 0;
+        return *(int *)place || strcmp(value, "no") == 0 || strcmp(value, "false") == 0;
     case RB_OPTION_TEXT:
         *(const char **)place = value;
         return *value != '\0';
@@ -158,15 +133,6 @@ rb_status rb_option_assign(const rb_option_set *set, int k, int by, const char *
     return RB_OK;
 }
 
-static const char *choice_name(const rb_option *o, const char *target)
-{
-    const int value = *(const int *)(target + o->offset);
-    for (const rb_choice *c = o->choices; c->name; c++)
-        if (c->value == value)
-            return c->name;
-    return o->path ? *(const char *const *)(target + o->path) : "";
-}
-
 const char *rb_option_text(const rb_option *o, const void *target, char buffer[64])
 {
     const void *place = (const char *)target + o->offset;
@@ -184,7 +150,10 @@ const char *rb_option_text(const rb_option *o, const void *target, char buffer[6
         snprintf(buffer, 64, "%d", *(const int *)place);
         return buffer;
     case RB_OPTION_CHOICE:
-        return choice_name(o, target);
+        for (const rb_choice *c = o->choices; c->name; c++)
+            if (c->value == *(const int *)place)
+                return c->name;
+        return o->path ? *(const char *const *)(const void *)((const char *)target + o->path) : "";
     case RB_OPTION_FLAG:
         return *(const int *)place ? "yes" : "no";
     case RB_OPTION_TEXT: {

@@ -180,30 +180,6 @@ static cli_exit check_json(const char *path, const char *text, size_t size, cons
 
 /* ---- Tables ------------------------------------------------------------------------ */
 
-/* Resolves `words` by the command line that the table quotes. */
-static cli_exit read_inputs(const char *path, char *line, rb_case *words)
-{
-    int argc, files;
-    char **argv = cli_split_line(line, &argc);
-    if (!argv)
-        return cli_fail(CLI_INTERNAL, "%s: out of memory", path);
-    const char *other = other_command(argv[1]);
-    const int kept = cli_keep_failures(1);
-    cli_exit code = other ? CLI_DATA : cli_solve_inputs(argc, argv, words, &files);
-    cli_keep_failures(kept);
-    free(argv);
-    if (code == CLI_CONTINUE)
-        return code;
-    if (other)
-        return cli_fail(code,
-                        "%s: cannot be checked: a table of rollbem %s (only tables of "
-                        "single cases can)",
-                        path, other);
-    return cli_fail(code == CLI_INTERNAL ? code : CLI_DATA,
-                    "%s: cannot be checked: the command line in its comments: %s", path,
-                    cli_kept_failure());
-}
-
 static cli_exit check_table(const char *path, const char *text, const char *folder)
 {
     rb_report_certificate found;
@@ -218,7 +194,28 @@ static cli_exit check_table(const char *path, const char *text, const char *fold
                         "table with its comments ('# rollbem ...')",
                         path);
     rb_case *words = confined(RB_CASE_SINGLE, folder);
-    cli_exit code = words ? read_inputs(path, line, words) : CLI_INTERNAL;
+    int argc, files;
+    char **argv = words ? cli_split_line(line, &argc) : NULL;
+    cli_exit code = CLI_INTERNAL;
+    if (words && !argv)
+        cli_fail(code, "%s: out of memory", path);
+    if (argv) {
+        /* The case is that of the command line that the table quotes. */
+        const char *other = other_command(argv[1]);
+        const int kept = cli_keep_failures(1);
+        code = other ? CLI_DATA : cli_solve_inputs(argc, argv, words, &files);
+        cli_keep_failures(kept);
+        if (other)
+            cli_fail(code,
+                     "%s: cannot be checked: a table of rollbem %s (only tables of "
+                     "single cases can)",
+                     path, other);
+        else if (code != CLI_CONTINUE)
+            code = cli_fail(code == CLI_INTERNAL ? code : CLI_DATA,
+                            "%s: cannot be checked: the command line in its comments: %s", path,
+                            cli_kept_failure());
+    }
+    free(argv);
     free(line);
     if (code == CLI_CONTINUE)
         code = tell(path, rb_report_certify_table(stdout, path, text, words, &found, &why), &found,

@@ -29,7 +29,6 @@ static char *append_quoted(char *to, const char *word)
     return to;
 }
 
-
 char **cli_split_line(char *line, int *argc)
 {
     static char program[] = "rollbem";

@@ -212,23 +212,6 @@ static rb_status print(FILE *out, const void *context, rb_message *why)
 
 /* ---- Command ----------------------------------------------------------------------- */
 
-static cli_exit run_case(const contact_runs *all, int k)
-{
-    contact_run *r = &all->run[k];
-    r->before = k > 0 ? &all->run[k - 1].s : NULL;
-    rb_case_contact_follow(k > 0 ? &all->run[k - 1].c : NULL, r->before, &r->c);
-    if (!r->c.runs)
-        return CLI_OK;
-    cli_wait_begin();
-    r->status = rb_case_contact_solve(&r->c, r->before, &r->s, &r->why);
-    cli_wait_end();
-    if (r->status == RB_OK)
-        return CLI_OK;
-    const cli_exit code = r->status == RB_EINVAL ? CLI_DATA : cli_exit_of(r->status);
-    return cli_fail(code, "%s:%d: case %d: %s", all->path, r->in->line, k + 1,
-                    rb_status_reason(r->status, &r->why));
-}
-
 static cli_exit run_all(contact_runs *all, const rb_io_contact_case *cases)
 {
     cli_exit worst = CLI_OK;
@@ -241,9 +224,21 @@ static cli_exit run_all(contact_runs *all, const rb_io_contact_case *cases)
         rb_case_from_contact(&cases[k], &all->run[k].c);
     }
     for (int k = 0; k < all->n; k++) {
-        const cli_exit code = run_case(all, k);
-        worst = code > worst ? code : worst;
-        ran += all->run[k].c.runs;
+        contact_run *r = &all->run[k];
+        r->before = k > 0 ? &all->run[k - 1].s : NULL;
+        rb_case_contact_follow(k > 0 ? &all->run[k - 1].c : NULL, r->before, &r->c);
+        if (!r->c.runs)
+            continue;
+        ran++;
+        cli_wait_begin();
+        r->status = rb_case_contact_solve(&r->c, r->before, &r->s, &r->why);
+        cli_wait_end();
+        if (r->status != RB_OK) {
+            const cli_exit code = r->status == RB_EINVAL ? CLI_DATA : cli_exit_of(r->status);
+            cli_fail(code, "%s:%d: case %d: %s", all->path, r->in->line, k + 1,
+                     rb_status_reason(r->status, &r->why));
+            worst = code > worst ? code : worst;
+        }
     }
     for (int k = 0; k < all->n; k++) {
         /* What is left out of a case, each reason at its first case only. */

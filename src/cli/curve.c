@@ -92,29 +92,11 @@ static cli_exit read_end(cli_case_run *run, int place, double *end)
     return CLI_CONTINUE;
 }
 
-static cli_exit read_range(cli_case_run *run, range_options *r)
-{
-    cli_exit code = read_end(run, FROM, &r->from);
-    if (code == CLI_CONTINUE)
-        code = read_end(run, TO, &r->to);
-    return code == CLI_CONTINUE && r->from == r->to
-               ? cli_fail(CLI_USAGE, "--from and --to: expected two different values")
-               : code;
-}
-
 /* ---- Solve ------------------------------------------------------------------------ */
 
 static rb_rolling_range range_of(const range_options *r)
 {
     return (rb_rolling_range){(rb_rolling_variable)r->over, r->from, r->to, r->points};
-}
-
-static rb_status solve_curve(const rb_rolling_case *rc, const range_options *r, int with_errors,
-                             rb_rolling_curve *points, rb_rolling_curve *errors, rb_message *why)
-{
-    const rb_rolling_range range = range_of(r);
-    return with_errors ? rb_rolling_curve_with_errors(rc, &range, NULL, NULL, points, errors, why)
-                       : rb_rolling_curve_solve(rc, &range, points, why);
 }
 
 /* words NULL: without derivatives, as those of a picture. */
@@ -129,15 +111,16 @@ static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
     for (int k = 0; k < mus->n && s == RB_OK; k++) {
         rb_message reason = {""};
         rc.mu = curves->mu[k] = mus->value[k];
-        s = words && range->derivatives
-                ? rb_case_curve_choose(words, &all, range->derivatives, &curves->slopes[k], &reason)
-                : RB_OK;
-        if (s == RB_OK)
-            s = words && range->derivatives
-                    ? rb_case_curve_solve(words, &all, rc.mu, &curves->curve[k], &curves->slopes[k],
-                                          &reason)
-                    : solve_curve(&rc, range, c->error, &curves->curve[k], &curves->error[k],
-                                  &reason);
+        if (words && range->derivatives) {
+            s = rb_case_curve_choose(words, &all, range->derivatives, &curves->slopes[k], &reason);
+            if (s == RB_OK)
+                s = rb_case_curve_solve(words, &all, rc.mu, &curves->curve[k], &curves->slopes[k],
+                                        &reason);
+        } else if (c->error)
+            s = rb_rolling_curve_with_errors(&rc, &all, NULL, NULL, &curves->curve[k],
+                                             &curves->error[k], &reason);
+        else
+            s = rb_rolling_curve_solve(&rc, &all, &curves->curve[k], &reason);
         curves->n += s >= 0;
         if (s != RB_OK && mus->n > 1)
             rb_fail(why, s, "mu = %g: %.280s", rc.mu, rb_status_reason(s, &reason));
@@ -261,22 +244,22 @@ static void choose_purpose(cli_case_run *run)
 static cli_exit check(cli_case_run *run)
 {
     range_options *r = &((curve *)run->own)->range;
-    cli_exit code = read_range(run, r);
-    if (code == CLI_CONTINUE) {
-        /* The picture shows the force as a part of the friction, mu P. */
-        const rb_resolved_case *c = run->c;
-        rb_rolling_case rc = c->rc;
-        int frictionless = rb_rolling_largest_mu(&rc) == 0.0;
-        for (int k = 0; k < c->mus.n; k++) {
-            rc.mu = c->mus.value[k];
-            frictionless |= rb_rolling_largest_mu(&rc) == 0.0;
-        }
-        code = run->o.plot && frictionless && r->over != RB_OVER_SPEED
-                   ? cli_fail(CLI_USAGE, "--plot: no curve to draw at mu = 0")
-                   : CLI_CONTINUE;
-    }
+    cli_exit code = read_end(run, FROM, &r->from);
+    if (code == CLI_CONTINUE)
+        code = read_end(run, TO, &r->to);
     if (code != CLI_CONTINUE)
         return code;
+    if (r->from == r->to)
+        return cli_fail(CLI_USAGE, "--from and --to: expected two different values");
+    /* The picture shows the force as a part of the friction, mu P. */
+    rb_rolling_case rc = run->c->rc;
+    int frictionless = rb_rolling_largest_mu(&rc) == 0.0;
+    for (int k = 0; k < run->c->mus.n; k++) {
+        rc.mu = run->c->mus.value[k];
+        frictionless |= rb_rolling_largest_mu(&rc) == 0.0;
+    }
+    if (run->o.plot && frictionless && r->over != RB_OVER_SPEED)
+        return cli_fail(CLI_USAGE, "--plot: no curve to draw at mu = 0");
     /* Names of results and of numbers. */
     const rb_rolling_range range = range_of(r);
     rb_case_slopes slopes;

@@ -105,31 +105,6 @@ static cli_exit read_design(designing *f, const rb_case *words)
     return cli_say(s, &why);
 }
 
-/* What was found so far is printed too. */
-static cli_exit run(designing *f, rb_case *words, cli_output *o)
-{
-    rb_message why = {""};
-    const rb_design_observer observer = {tell, f};
-    f->tells = !o->quiet && isatty(STDERR_FILENO);
-    cli_interrupts_catch();
-    if (!o->quiet)
-        cli_wait_begin();
-    const rb_status s = rb_design_solve(words, &observer, &f->design, &why);
-    if (!o->quiet)
-        cli_wait_end();
-    cli_interrupts_leave();
-    cli_exit code = CLI_OK;
-    const results r = {f, words, o};
-    const rb_design *d = &f->design;
-    if (s == RB_OK || ((s == RB_MAXITER || s == RB_INTERRUPTED) && !isnan(d->value)))
-        code = cli_write_file(o->output, write_results, &r);
-    if (s == RB_OK && code == CLI_OK && !o->quiet)
-        fprintf(stderr, "design: %s %.6g, at the start %.6g, %d evaluations\n",
-                d->result ? d->result->name : "pressure_ripple", d->value, d->start,
-                d->evaluations);
-    return s == RB_OK ? code : cli_case_refused(words, s, &why);
-}
-
 int cli_design(int argc, char **argv)
 {
     designing f = {.most = 200, .span = NAN};
@@ -157,8 +132,29 @@ int cli_design(int argc, char **argv)
         code = cli_case_resolve(&spec, words, &args);
     if (code == CLI_CONTINUE)
         code = read_design(&f, words);
-    if (code == CLI_CONTINUE)
-        code = run(&f, words, &o);
+    if (code == CLI_CONTINUE) {
+        const rb_design_observer observer = {tell, &f};
+        const results r = {&f, words, &o};
+        const rb_design *d = &f.design;
+        f.tells = !o.quiet && isatty(STDERR_FILENO);
+        cli_interrupts_catch();
+        if (!o.quiet)
+            cli_wait_begin();
+        const rb_status s = rb_design_solve(words, &observer, &f.design, &why);
+        if (!o.quiet)
+            cli_wait_end();
+        cli_interrupts_leave();
+        code = CLI_OK;
+        /* What was found so far is printed too. */
+        if (s == RB_OK || ((s == RB_MAXITER || s == RB_INTERRUPTED) && !isnan(d->value)))
+            code = cli_write_file(o.output, write_results, &r);
+        if (s == RB_OK && code == CLI_OK && !o.quiet)
+            fprintf(stderr, "design: %s %.6g, at the start %.6g, %d evaluations\n",
+                    d->result ? d->result->name : "pressure_ripple", d->value, d->start,
+                    d->evaluations);
+        if (s != RB_OK)
+            code = cli_case_refused(words, s, &why);
+    }
     rb_design_free(&f.design);
     cli_args_free(&args);
     rb_case_free(words);

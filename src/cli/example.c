@@ -381,6 +381,18 @@ static cli_exit run_wall(const example_options *o)
 
 /* ---- Command ----------------------------------------------------------------------- */
 
+static const struct {
+    const char *name, *about, *solver; /* the quickest */
+    cli_exit (*run)(const example_options *o);
+} finite_elements[] = {
+    {"bar", "an elastic bar on an obstacle, pushed from its end (Kanno, example 3.2)", "nsn-nm",
+     run_bar},
+    {"truss", "a double-layer grid of bars, loaded, then unloaded (Kanno, 3.1)", "nsn-ac",
+     run_truss},
+    {"wall", "12 elastic blocks in running bond, pressed and sheared (after Acary 2017)", "nsn-ac",
+     run_wall}};
+enum { FINITE_ELEMENTS = sizeof finite_elements / sizeof finite_elements[0] };
+
 static cli_exit check(const example_options *o, const cli_args *args)
 {
     rb_message why = {""};
@@ -395,27 +407,6 @@ static cli_exit check(const example_options *o, const cli_args *args)
     }
     const rb_friction_solver *solver;
     return o->solver ? cli_friction_solver("solver", o->solver, &solver) : CLI_CONTINUE;
-}
-
-static cli_exit run_example(example_options *o, const char *name)
-{
-    static const struct {
-        const char *name, *solver; /* the quickest */
-        cli_exit (*run)(const example_options *o);
-    } examples[] = {
-        {"bar", "nsn-nm", run_bar}, {"truss", "nsn-ac", run_truss}, {"wall", "nsn-ac", run_wall}};
-    rb_guess guess = {.word = name};
-    for (int k = 0; k < 3; k++) {
-        if (strcmp(examples[k].name, name) == 0) {
-            o->solver = o->solver ? o->solver : examples[k].solver;
-            return examples[k].run(o);
-        }
-        rb_guess_try(&guess, examples[k].name);
-    }
-    return cli_fail(CLI_USAGE,
-                    "example: expected bar, truss, wall or a name that `rollbem examples` "
-                    "lists, got '%s'%s",
-                    name, rb_guess_text(&guess, ""));
 }
 
 int cli_example(int argc, char **argv)
@@ -446,21 +437,26 @@ int cli_example(int argc, char **argv)
         code = cli_check_files(&spec, &args);
     if (code == CLI_CONTINUE)
         code = check(&o, &args);
-    if (code == CLI_CONTINUE)
-        code = run_example(&o, args.operand[0]);
+    if (code == CLI_CONTINUE) {
+        const char *name = args.operand[0];
+        rb_guess guess = {.word = name};
+        int k = 0;
+        while (k < FINITE_ELEMENTS && strcmp(finite_elements[k].name, name) != 0)
+            rb_guess_try(&guess, finite_elements[k++].name);
+        if (k < FINITE_ELEMENTS) {
+            o.solver = o.solver ? o.solver : finite_elements[k].solver;
+            code = finite_elements[k].run(&o);
+        } else
+            code = cli_fail(CLI_USAGE,
+                            "example: expected bar, truss, wall or a name that `rollbem examples` "
+                            "lists, got '%s'%s",
+                            name, rb_guess_text(&guess, ""));
+    }
     cli_args_free(&args);
     return code;
 }
 
 /* ---- rollbem examples ---------------------------------------------------------------- */
-
-static const struct {
-    const char *name, *about;
-} finite_elements[] = {
-    {"bar", "an elastic bar on an obstacle, pushed from its end (Kanno, example 3.2)"},
-    {"truss", "a double-layer grid of bars, loaded, then unloaded (Kanno, 3.1)"},
-    {"wall", "12 elastic blocks in running bond, pressed and sheared (after Acary 2017)"}};
-enum { FINITE_ELEMENTS = sizeof finite_elements / sizeof finite_elements[0] };
 
 static void list_example(json_t **list, const char *name, const char *kind, const char *what)
 {

@@ -202,86 +202,71 @@ const char *cli_commands_with(const char *name, size_t length)
 
 /* ---- Everything else ---------------------------------------------------------------- */
 
-static void find_commands(void)
+/* What the one word may be a unit of. */
+static void find_units(const rb_option_set *options)
 {
-    char name[40];
-    search.title = "Commands";
-    for (search.in_name = 1; search.in_name >= 0; search.in_name--)
-        for (int k = 0; cli_command_name(k); k++) {
-            snprintf(name, sizeof name, "rollbem %s", cli_command_name(k));
-            show_if(name, cli_command_help(cli_command_name(k)));
-        }
+    char one[60], text[2000] = "";
+    double value;
+    int plain;
+    snprintf(one, sizeof one, "1%.50s", search.word[0]);
+    for (int i = 0; i < options->n; i++) {
+        const rb_option *o = &options->options[i];
+        if (o->kind == RB_OPTION_NUMBER && *o->unit && strcmp(o->unit, "-") != 0 &&
+            rb_unit_read(one, o->unit, &value, &plain, NULL) == RB_OK && !plain)
+            rb_append(text, sizeof text, "%s--%s", *text ? ", " : "a unit of ", o->name);
+    }
+    if (*text)
+        print(search.word[0], text);
 }
 
 static void find_results(void)
 {
     const rb_rolling_result_table *t;
     char name[80], text[600];
-    search.title = "Results: columns, names in JSON, of --results and of Python";
-    for (search.in_name = 1; search.in_name >= 0; search.in_name--)
-        for (int j = 0; (t = rb_case_result_table(j)); j++)
-            for (int k = 0; k < t->results->n; k++) {
-                const rb_rolling_result *r = &t->results->row[k];
-                const int has_unit = r->unit && *r->unit && strcmp(r->unit, "-") != 0;
-                snprintf(name, sizeof name, "%s%s%s%s", r->name, has_unit ? " [" : "",
-                         has_unit ? r->unit : "", has_unit ? "]" : "");
-                snprintf(text, sizeof text, "%s (%s)", r->meaning, t->title);
-                show_if(name, text);
-            }
+    for (int j = 0; (t = rb_case_result_table(j)); j++)
+        for (int k = 0; k < t->results->n; k++) {
+            const rb_rolling_result *r = &t->results->row[k];
+            const int has_unit = r->unit && *r->unit && strcmp(r->unit, "-") != 0;
+            snprintf(name, sizeof name, "%s%s%s%s", r->name, has_unit ? " [" : "",
+                     has_unit ? r->unit : "", has_unit ? "]" : "");
+            snprintf(text, sizeof text, "%s (%s)", r->meaning, t->title);
+            show_if(name, text);
+        }
 }
 
-static void find_texts(int kind, const char *title)
-{
-    search.title = title;
-    for (search.in_name = 1; search.in_name >= 0; search.in_name--)
-        for (int k = 0; k < TEXTS; k++)
-            if (texts[k].kind == kind)
-                show_if(texts[k].name, texts[k].text);
-}
-
-static void guess(rb_guess *guess, const rb_option_set *set)
-{
-    cli_guess_command(guess);
-    for (int i = 0; i < set->n; i++)
-        rb_guess_try(guess, set->options[i].name);
-    for (int k = 0; k < TEXTS; k++)
-        if (texts[k].kind == WORD)
-            rb_guess_try(guess, texts[k].name);
-}
-
+/* Part by part; what has the words in its name comes first. */
 static void find_everything(const rb_option_set *options)
 {
-    find_commands();
-    /* Those of all commands, each once; a command shows its own where it is asked to. */
-    search.title = "Options";
-    for (search.in_name = 1; search.in_name >= 0; search.in_name--) {
-        search.seen_n = 0;
-        run_commands("search");
-    }
-    /* What may have the unit that the one word is. */
-    char one[60], text[2000] = "";
-    double value;
-    int plain;
-    if (search.n == 1) {
-        snprintf(one, sizeof one, "1%.50s", search.word[0]);
-        for (int i = 0; i < options->n; i++) {
-            const rb_option *o = &options->options[i];
-            if (o->kind == RB_OPTION_NUMBER && *o->unit && strcmp(o->unit, "-") != 0 &&
-                rb_unit_read(one, o->unit, &value, &plain, NULL) == RB_OK && !plain)
-                rb_append(text, sizeof text, "%s--%s", *text ? ", " : "a unit of ", o->name);
+    enum { COMMANDS, OPTIONS, UNITS, RESULTS, EXAMPLES, GLOSSARY, QUESTIONS, PARTS };
+    static const char *const titles[PARTS] = {
+        "Commands", "Options",
+        "Units",    "Results: columns, names in JSON, of --results and of Python",
+        "Examples", "Glossary",
+        "Questions"};
+    char name[60], text[1000];
+    for (int part = 0; part < PARTS; part++) {
+        search.title = titles[part];
+        for (search.in_name = 1; search.in_name >= 0; search.in_name--) {
+            search.seen_n = 0;
+            for (int k = 0; part == COMMANDS && cli_command_name(k); k++) {
+                snprintf(name, sizeof name, "rollbem %s", cli_command_name(k));
+                show_if(name, cli_command_help(cli_command_name(k)));
+            }
+            if (part == OPTIONS) /* each command shows its own, those of several once */
+                run_commands("search");
+            if (part == UNITS && search.n == 1 && !search.in_name)
+                find_units(options);
+            if (part == RESULTS)
+                find_results();
+            for (int k = 0;
+                 part == EXAMPLES && cli_example_about(k, name, sizeof name, text, sizeof text);
+                 k++)
+                show_if(name, text);
+            for (int k = 0; k < TEXTS; k++)
+                if (part == (texts[k].kind == WORD ? GLOSSARY : QUESTIONS))
+                    show_if(texts[k].name, texts[k].text);
         }
-        search.title = "Units";
-        if (*text)
-            print(search.word[0], text);
     }
-    find_results();
-    char name[60], about[1000];
-    search.title = "Examples";
-    for (search.in_name = 1; search.in_name >= 0; search.in_name--)
-        for (int k = 0; cli_example_about(k, name, sizeof name, about, sizeof about); k++)
-            show_if(name, about);
-    find_texts(WORD, "Glossary");
-    find_texts(QUESTION, "Questions");
 }
 
 /* Words that a question has besides those that it is about. */
@@ -326,7 +311,12 @@ int cli_find(int n, char **words)
         find_everything(&options);
     }
     cli_close_pager(pager);
-    guess(&near, &options);
+    cli_guess_command(&near);
+    for (int i = 0; i < options.n; i++)
+        rb_guess_try(&near, options.options[i].name);
+    for (int k = 0; k < TEXTS; k++)
+        if (texts[k].kind == WORD)
+            rb_guess_try(&near, texts[k].name);
     rb_case_free(c);
     return search.found ? CLI_OK
                         : cli_fail(CLI_USAGE, "help: nothing about '%s'%s", all,

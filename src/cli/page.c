@@ -45,24 +45,6 @@ static const char marker[] = "<script type=\"application/json\" id=\"carried\">"
 /* And where the page says what it does not take. */
 static const char limits_marker[] = "<script type=\"application/json\" id=\"limits\">";
 
-/* Beside the program as it is built, or where `make install` puts it. */
-static int find_page(char *path, size_t size)
-{
-    static const char *const places[] = {"rollbem.html", "../share/rollbem/rollbem.html"};
-    char program[3000];
-    const ssize_t n = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (n <= 0)
-        return 0;
-    program[n] = '\0';
-    *strrchr(program, '/') = '\0';
-    for (size_t k = 0; k < sizeof places / sizeof *places; k++) {
-        snprintf(path, size, "%s/%s", program, places[k]);
-        if (access(path, R_OK) == 0)
-            return 1;
-    }
-    return 0;
-}
-
 typedef struct {
     char *text, *place; /* the page, and where the case goes in it */
     json_t *limits;     /* what it does not take */
@@ -71,14 +53,24 @@ typedef struct {
 /* The caller frees it, also after a refusal. */
 static cli_exit read_page(const char *given, built_page *p)
 {
-    char found[3200];
+    /* Beside the program as it is built, or where `make install` puts it. */
+    static const char *const places[] = {"rollbem.html", "../share/rollbem/rollbem.html"};
+    const char *path = given;
+    char program[3000], place[3200];
     size_t size;
     rb_message why = {""};
-    if (!given && !find_page(found, sizeof found))
+    const ssize_t n = readlink("/proc/self/exe", program, sizeof program - 1);
+    program[n > 0 ? n : 0] = '\0';
+    for (size_t k = 0; k < sizeof places / sizeof *places && !path && n > 0; k++) {
+        snprintf(place, sizeof place, "%.*s/%s", (int)(strrchr(program, '/') - program), program,
+                 places[k]);
+        if (access(place, R_OK) == 0)
+            path = place;
+    }
+    if (!path)
         return cli_fail(CLI_NOINPUT, "page: rollbem.html is neither beside the program nor in "
                                      "share/rollbem; `make page` builds it, --page FILE "
                                      "names it");
-    const char *path = given ? given : found;
     const rb_status s = rb_io_read_text(path, &p->text, &size, &why);
     if (s != RB_OK)
         return cli_say(s, &why);

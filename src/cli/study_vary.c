@@ -12,16 +12,6 @@
 
 enum { NO_MEMORY = -1 };
 
-/* What a refusal of such an option ends with: it stands on the command line or in the
- * case file. */
-static cli_exit code_of(const study *st, const char *option)
-{
-    for (int i = 0; i < st->own->n; i++)
-        if (strcmp(st->own->options[i].name, option) == 0 && st->own->given[i] > 0)
-            return CLI_DATA;
-    return CLI_USAGE;
-}
-
 /* Of a crack below the contact. */
 static int is_of_crack(const rb_option *o)
 {
@@ -158,7 +148,8 @@ static cli_exit add_varied(study *st, int k)
     int at = 0;
 
     snprintf(source, sizeof source, "--vary-%d", k + 1);
-    const cli_exit bad = code_of(st, source + 2);
+    /* It stands in the case file or on the command line. */
+    const cli_exit bad = rb_option_given(st->own, source + 2) > 0 ? CLI_DATA : CLI_USAGE;
     if (sscanf(st->o->vary[k], "%63s%n", name, &at) != 1)
         return cli_fail(bad, "%s: expected an option and numbers, got '%s'", source,
                         st->o->vary[k]);

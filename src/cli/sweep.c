@@ -559,30 +559,48 @@ static cli_exit resume(study *st)
     return code;
 }
 
-/* Two processes on one file would mix their rows. */
-static cli_exit lock(const study *st)
+static cli_exit close_output(study *st, cli_exit code)
 {
-    struct flock all = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    if (fcntl(fileno(st->out), F_SETLK, &all) != 0 && (errno == EACCES || errno == EAGAIN))
-        return cli_fail(CLI_CANTWRITE, "%s: another process is writing it", st->path);
-    return CLI_CONTINUE; /* or a file system without locks */
+    if (st->w.file) {
+        rb_message why = {""};
+        rb_status s = RB_OK;
+        if (!st->complete || st->lost) {
+            rb_io_writer_abandon(&st->w);
+            return st->lost ? cli_fail(CLI_INTERNAL, "out of memory") : code;
+        }
+        if (st->list)
+            s = write_json(st);
+        if (s == RB_OK)
+            s = rb_io_writer_commit(&st->w, &why);
+        else
+            rb_io_writer_abandon(&st->w);
+        return s == RB_OK ? code : cli_say(s, &why);
+    }
+    int failed = ferror(st->out) || !flush_rows(st), e = errno;
+    if (st->out != stdout && fclose(st->out) != 0 && !failed) {
+        failed = 1;
+        e = errno;
+    }
+    st->out = NULL;
+    if (st->text && !failed) {
+        failed = cli_show_table(st->text, 4) != RB_OK;
+        e = errno;
+    }
+    free(st->text);
+    st->text = NULL;
+    if (failed && st->path) {
+        /* What was not written whole is taken back: half a row, half a head. */
+        struct stat now;
+        if (st->created && st->whole == 0)
+            unlink(st->path);
+        else if (stat(st->path, &now) == 0 && now.st_size > st->whole)
+            (void)!truncate(st->path, st->whole);
+    }
+    if (!failed || code == CLI_CANTWRITE || (!st->path && e == EPIPE))
+        return failed ? CLI_CANTWRITE : code;
+    errno = e;
+    return cannot_write(st->o->output ? st->o->output : "standard output");
 }
-
-static cli_exit begin_file(study *st)
-{
-    struct stat now;
-    cli_exit code = lock(st);
-    if (code == CLI_CONTINUE && st->o->restart && ftruncate(fileno(st->out), 0) != 0)
-        code = cannot_write(st->path);
-    if (code != CLI_CONTINUE)
-        return code;
-    if (fstat(fileno(st->out), &now) == 0 && now.st_size > 0)
-        return resume(st);
-    write_head(st, st->out);
-    return flush_rows(st) ? CLI_CONTINUE : cannot_write(st->path);
-}
-
-static cli_exit close_output(study *st, cli_exit code);
 
 static cli_exit open_output(study *st)
 {
@@ -633,51 +651,21 @@ static cli_exit open_output(study *st)
     }
     st->path = path;
     st->created = !exists;
-    const cli_exit code = begin_file(st);
+    /* Two processes on one file would mix their rows; some file systems have no locks. */
+    struct flock all = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    struct stat now;
+    cli_exit code = CLI_CONTINUE;
+    if (fcntl(fd, F_SETLK, &all) != 0 && (errno == EACCES || errno == EAGAIN))
+        code = cli_fail(CLI_CANTWRITE, "%s: another process is writing it", path);
+    else if (st->o->restart && ftruncate(fd, 0) != 0)
+        code = cannot_write(path);
+    else if (fstat(fd, &now) == 0 && now.st_size > 0)
+        code = resume(st);
+    else {
+        write_head(st, st->out);
+        code = flush_rows(st) ? CLI_CONTINUE : cannot_write(path);
+    }
     return code == CLI_CONTINUE ? code : close_output(st, code);
-}
-
-static cli_exit close_output(study *st, cli_exit code)
-{
-    if (st->w.file) {
-        rb_message why = {""};
-        rb_status s = RB_OK;
-        if (!st->complete || st->lost) {
-            rb_io_writer_abandon(&st->w);
-            return st->lost ? cli_fail(CLI_INTERNAL, "out of memory") : code;
-        }
-        if (st->list)
-            s = write_json(st);
-        if (s == RB_OK)
-            s = rb_io_writer_commit(&st->w, &why);
-        else
-            rb_io_writer_abandon(&st->w);
-        return s == RB_OK ? code : cli_say(s, &why);
-    }
-    int failed = ferror(st->out) || !flush_rows(st), e = errno;
-    if (st->out != stdout && fclose(st->out) != 0 && !failed) {
-        failed = 1;
-        e = errno;
-    }
-    st->out = NULL;
-    if (st->text && !failed) {
-        failed = cli_show_table(st->text, 4) != RB_OK;
-        e = errno;
-    }
-    free(st->text);
-    st->text = NULL;
-    if (failed && st->path) {
-        /* What was not written whole is taken back: half a row, half a head. */
-        struct stat now;
-        if (st->created && st->whole == 0)
-            unlink(st->path);
-        else if (stat(st->path, &now) == 0 && now.st_size > st->whole)
-            (void)!truncate(st->path, st->whole);
-    }
-    if (!failed || code == CLI_CANTWRITE || (!st->path && e == EPIPE))
-        return failed ? CLI_CANTWRITE : code;
-    errno = e;
-    return cannot_write(st->o->output ? st->o->output : "standard output");
 }
 
 /* ---- Command ----------------------------------------------------------------------- */
@@ -698,22 +686,6 @@ static rb_rolling_sweep sweep_of(study *st)
                               .see = see_row,
                               .tick = tick,
                               .context = st};
-}
-
-/* Rows have no place for words: the first that was not solved is solved once more. */
-static void say_why_unsolved(study *st, const rb_rolling_sweep *sweep)
-{
-    rb_message why = {""};
-    rb_rolling_row row;
-
-    if (!st->unsolved_case)
-        return;
-    rb_rolling_sweep_case(sweep, st->unsolved_case - 1, &row, &why);
-    if (row.solution.status == RB_EINVAL && !why.text[0]) /* a sample that is no case */
-        cli_study_try_one(st, st->unsolved_case - 1, &why);
-    if (row.solution.status != RB_OK)
-        cli_fail(CLI_UNSOLVED, "case %d is not solved: %s", st->unsolved_case,
-                 why.text[0] ? why.text : rb_status_text(row.solution.status));
 }
 
 static cli_exit run(study *st)
@@ -752,7 +724,17 @@ static cli_exit run(study *st)
                         sqrt(variance));
         }
     }
-    say_why_unsolved(st, &sweep);
+    if (st->unsolved_case) {
+        /* Rows have no place for words: the first that was not solved is solved once more. */
+        rb_rolling_row row;
+        rb_message reason = {""};
+        rb_rolling_sweep_case(&sweep, st->unsolved_case - 1, &row, &reason);
+        if (row.solution.status == RB_EINVAL && !reason.text[0]) /* a sample that is no case */
+            cli_study_try_one(st, st->unsolved_case - 1, &reason);
+        if (row.solution.status != RB_OK)
+            cli_fail(CLI_UNSOLVED, "case %d is not solved: %s", st->unsolved_case,
+                     reason.text[0] ? reason.text : rb_status_text(row.solution.status));
+    }
     if (st->o->cite)
         cli_print_citations(&rb_case_resolved(st->base)->rc, NULL);
     if (st->no_memory > 0)
@@ -795,23 +777,6 @@ static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
     return code;
 }
 
-static cli_exit solve(study *st, cli_exit code)
-{
-    code = cli_pool_agree(code, code == CLI_CONTINUE ? st->fingerprint : 0);
-    if (cli_pool_is_worker()) {
-        const rb_rolling_sweep sweep = sweep_of(st);
-        rb_message why = {""};
-        if (code == CLI_CONTINUE)
-            cli_pool_run(&sweep, &why);
-        return CLI_OK; /* rank 0 has the exit code */
-    }
-    if (code == CLI_CONTINUE)
-        code = run(st);
-    if (st->out)
-        code = close_output(st, code);
-    return st->complete ? cli_study_draw(st, code) : code;
-}
-
 int cli_sweep(int argc, char **argv)
 {
     study_options o = {0};
@@ -837,7 +802,22 @@ int cli_sweep(int argc, char **argv)
         rb_case_free(c);
         return code;
     }
-    code = solve(&st, prepare(&spec, argc, argv, c, &args, &st));
+    code = prepare(&spec, argc, argv, c, &args, &st);
+    code = cli_pool_agree(code, code == CLI_CONTINUE ? st.fingerprint : 0);
+    if (cli_pool_is_worker()) {
+        const rb_rolling_sweep sweep = sweep_of(&st);
+        rb_message why = {""};
+        if (code == CLI_CONTINUE)
+            cli_pool_run(&sweep, &why);
+        code = CLI_OK; /* rank 0 has the exit code */
+    } else {
+        if (code == CLI_CONTINUE)
+            code = run(&st);
+        if (st.out)
+            code = close_output(&st, code);
+        if (st.complete)
+            code = cli_study_draw(&st, code);
+    }
     cli_pool_end();
     for (int k = 0; k < VARIED_MAX; k++)
         free(st.owned[k]);

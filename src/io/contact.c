@@ -60,10 +60,10 @@ static void fail(reading *r, const char *names, const char *got)
                             names, got ? got : "the end of the file");
 }
 
-/* The next n numbers, of one line or more; what stands behind them is a comment.  A d
- * behind an angle says degrees, and *degrees; D is Fortran's exponent.  x NULL: they are
- * skipped. */
-static void read_numbers(reading *r, int n, double *x, const char *names, int *degrees)
+/* The next n numbers to the places of `to`, of one line or more; what stands behind them is
+ * a comment.  A d behind an angle says degrees, and *degrees; D is Fortran's exponent.
+ * NULL, as a place or for all: skipped. */
+static void read_numbers(reading *r, int n, double *const *to, const char *names, int *degrees)
 {
     const char *line = r->status == RB_OK ? next_line(r) : NULL, *at = line ? line : "";
     for (int k = 0; k < n && r->status == RB_OK; k++) {
@@ -80,8 +80,8 @@ static void read_numbers(reading *r, int n, double *x, const char *names, int *d
             fail(r, names, line);
             return;
         }
-        if (x)
-            x[k] = value;
+        if (to && to[k])
+            *to[k] = value;
         if (degrees && k == 0)
             *degrees = *end == 'd';
         at = end + (*end == 'd') + strspn(end + (*end == 'd'), " \t,");
@@ -99,8 +99,9 @@ static int whole(reading *r, double x, const char *names)
     return 0;
 }
 
-/* The last n of the control digits, the rest of x is 0. */
-static void read_digits(reading *r, int n, int *x, const char *names)
+/* Control digits to the places of `to`, the last one to the last; those that are not
+ * written are 0.  NULL: not kept. */
+static void read_digits(reading *r, int n, int *const *to, const char *names)
 {
     char *line = r->status == RB_OK ? next_line(r) : NULL;
     const int length = line ? (int)strspn(line, "0123456789") : 0;
@@ -111,29 +112,21 @@ static void read_digits(reading *r, int n, int *x, const char *names)
         return;
     }
     for (int k = 0; k < n; k++)
-        x[k] = k < n - length ? 0 : line[length - n + k] - '0';
+        if (to[k])
+            *to[k] = k < n - length ? 0 : line[length - n + k] - '0';
 }
 
 /* ---- A case ------------------------------------------------------------------------ */
 
 static void read_control(reading *r, rb_io_contact_digits *d)
 {
-    int x[8] = {0};
-    read_digits(r, 6, x, "the digits P-B-T-N-F-S");
-    *d = (rb_io_contact_digits){.P = x[0], .B = x[1], .T = x[2], .N = x[3], .F = x[4], .S = x[5]};
-    read_digits(r, 7, x, "the digits L-D-C-M-Z-E");
-    d->V = x[0];
-    d->L = x[1];
-    d->D = x[2];
-    d->C = x[3];
-    d->M = x[4];
-    d->Z = x[5];
-    d->E = x[6];
-    read_digits(r, 8, x, "the digits X-H-G-I-A-O-W-R");
-    d->X = x[0];
-    d->H = x[1];
-    d->G = x[2];
-    d->R = x[7];
+    *d = (rb_io_contact_digits){0};
+    read_digits(r, 6, (int *[]){&d->P, &d->B, &d->T, &d->N, &d->F, &d->S},
+                "the digits P-B-T-N-F-S");
+    read_digits(r, 7, (int *[]){&d->V, &d->L, &d->D, &d->C, &d->M, &d->Z, &d->E},
+                "the digits L-D-C-M-Z-E");
+    read_digits(r, 8, (int *[]){&d->X, &d->H, &d->G, NULL, NULL, NULL, NULL, &d->R},
+                "the digits X-H-G-I-A-O-W-R");
     if (d->X > 0 && r->status == RB_OK)
         next_line(r); /* of debugging */
 }
@@ -141,84 +134,70 @@ static void read_control(reading *r, rb_io_contact_digits *d)
 static void read_iteration(reading *r, rb_io_contact_case *c)
 {
     const int G = c->digit.G;
-    double x[5] = {0};
     if (G != 1)
-        read_numbers(r, 5, x, "MAXGS, MAXIN, MAXNR, MAXOUT, EPS", NULL);
-    if (G == 4) {
-        read_numbers(r, 2, x, "INISLP, OMGSLP", NULL);
-        c->start = x[0];
-    } else if (G == 2 || G == 3) {
-        read_numbers(r, 4, x, "OMEGAH, OMEGAS, INISLP, OMGSLP", NULL);
-        c->start = x[2];
-    } else if (G > 4 && r->status == RB_OK) {
+        read_numbers(r, 5, NULL, "MAXGS, MAXIN, MAXNR, MAXOUT, EPS", NULL);
+    if (G == 4)
+        read_numbers(r, 2, (double *[]){&c->start, NULL}, "INISLP, OMGSLP", NULL);
+    else if (G == 2 || G == 3)
+        read_numbers(r, 4, (double *[]){NULL, NULL, &c->start, NULL},
+                     "OMEGAH, OMEGAS, INISLP, OMGSLP", NULL);
+    else if (G > 4 && r->status == RB_OK)
         next_line(r);
-    }
 }
 
 static void read_friction(reading *r, rb_io_contact_case *c)
 {
-    double x[5] = {0};
     c->law = c->digit.L == 1 ? c->law : c->digit.L;
     if (c->digit.L == 0) {
-        read_numbers(r, 2, x, "FSTAT, FKIN", NULL);
-        c->fstat = x[0];
-        c->fkin = x[1];
+        read_numbers(r, 2, (double *[]){&c->fstat, &c->fkin}, "FSTAT, FKIN", NULL);
     } else if (c->digit.L > 1) {
-        read_numbers(r, 5, x, "the coefficients of the friction law", NULL);
-        c->fkin = x[0];
-        c->fstat = c->digit.L <= 4 ? x[0] + x[1] + x[3] : x[0];
-        for (int k = 0; k < 2; k++) {
-            c->fall[k] = x[1 + 2 * k];
-            c->slip_scale[k] = x[2 + 2 * k];
-        }
-        read_numbers(r, 2, x, "MEMDST, MEM_S0", NULL);
-        c->memory = x[0];
-        c->memory_slip = x[1];
+        read_numbers(
+            r, 5,
+            (double *[]){&c->fkin, &c->fall[0], &c->slip_scale[0], &c->fall[1], &c->slip_scale[1]},
+            "the coefficients of the friction law", NULL);
+        c->fstat = c->digit.L <= 4 ? c->fkin + c->fall[0] + c->fall[1] : c->fkin;
+        read_numbers(r, 2, (double *[]){&c->memory, &c->memory_slip}, "MEMDST, MEM_S0", NULL);
     }
 }
 
 static void read_material(reading *r, rb_io_contact_case *c)
 {
-    double x[4] = {0};
+    static const char names[] = "the line of the material";
     int degrees = 0;
     if (c->digit.C < 2)
         return;
     if (c->digit.T >= 2) {
-        read_numbers(r, 3, x, "CHI, DQ, VELOC", &degrees);
-        c->chi = degrees ? x[0] : x[0] * 180.0 / 3.14159265358979323846;
-        c->dq = x[1];
-        c->velocity = x[2];
+        read_numbers(r, 3, (double *[]){&c->chi, &c->dq, &c->velocity}, "CHI, DQ, VELOC", &degrees);
+        c->chi *= degrees ? 1.0 : 180.0 / 3.14159265358979323846;
     }
-    read_numbers(r, 4, x, "POISS(1), POISS(2), GG(1), GG(2)", NULL);
-    memcpy(c->poisson, x, sizeof c->poisson);
-    memcpy(c->shear, x + 2, sizeof c->shear);
-    if (c->digit.M > 0)
-        read_numbers(r, 4, x, "the line of the material", NULL);
-    if (c->digit.M == 1) {
-        memcpy(c->ratio, x, sizeof c->ratio);
-        memcpy(c->time, x + 2, sizeof c->time);
-    } else if (c->digit.M == 4) {
-        c->layer_shear = x[0];
-        c->layer = x[1];
-        c->yield = x[2];
-        c->hardening = x[3];
-    }
+    read_numbers(r, 4, (double *[]){&c->poisson[0], &c->poisson[1], &c->shear[0], &c->shear[1]},
+                 "POISS(1), POISS(2), GG(1), GG(2)", NULL);
+    if (c->digit.M == 1)
+        read_numbers(r, 4, (double *[]){&c->ratio[0], &c->ratio[1], &c->time[0], &c->time[1]},
+                     names, NULL);
+    else if (c->digit.M == 4)
+        read_numbers(r, 4, (double *[]){&c->layer_shear, &c->layer, &c->yield, &c->hardening},
+                     names, NULL);
+    else if (c->digit.M > 0)
+        read_numbers(r, 4, NULL, names, NULL);
 }
 
 /* from: left end of the first element, whichever way it is told. */
 static void read_grid(reading *r, rb_io_contact_case *c)
 {
     double x[6] = {0};
+    double *const to[] = {x, x + 1, x + 2, x + 3, x + 4, x + 5};
     if (c->digit.D < 2)
         return;
-    read_numbers(r, 1, x, "IPOTCN", NULL);
+    read_numbers(r, 1, to, "IPOTCN", NULL);
     c->potential = whole(r, x[0], "IPOTCN");
     if (c->potential == 0 || c->potential > 4) {
         char got[16];
         snprintf(got, sizeof got, "%d", c->potential);
         fail(r, "IPOTCN from 1 to 4, or negative", got);
     }
-    read_numbers(r, c->potential > 0 || c->potential == -6 ? 6 : 5, x, "MX, MY and the grid", NULL);
+    read_numbers(r, c->potential > 0 || c->potential == -6 ? 6 : 5, to, "MX, MY and the grid",
+                 NULL);
     if (r->status == RB_OK) {
         c->mx = whole(r, x[0], "MX");
         c->my = whole(r, x[1], "MY");
@@ -244,19 +223,18 @@ static void read_grid(reading *r, rb_io_contact_case *c)
 
 static void read_gap(reading *r, rb_io_contact_case *c)
 {
-    double x[6] = {0};
+    double base = 0.0, plan = 0.0, heights = 0.0, *b = c->b;
     if (c->digit.Z < 2 || c->potential < 0)
         return;
-    read_numbers(r, 2, x, "IBASE, IPLAN", NULL);
-    c->base = whole(r, x[0], "IBASE");
-    c->plan = whole(r, x[1], "IPLAN");
+    read_numbers(r, 2, (double *[]){&base, &plan}, "IBASE, IPLAN", NULL);
+    c->base = whole(r, base, "IBASE");
+    c->plan = whole(r, plan, "IPLAN");
     if (c->base == 1)
-        read_numbers(r, 6, c->b, "B1, ..., B6", NULL);
+        read_numbers(r, 6, (double *[]){b, b + 1, b + 2, b + 3, b + 4, b + 5}, "B1, ..., B6", NULL);
     if (c->base == 2) {
-        read_numbers(r, 5, x, "NN, XM, RX1, Y1, DY1", NULL);
-        c->centre = x[1];
-        c->radius = x[2];
-        read_numbers(r, whole(r, x[0], "NN"), NULL, "the NN heights", NULL);
+        read_numbers(r, 5, (double *[]){&heights, &c->centre, &c->radius, NULL, NULL},
+                     "NN, XM, RX1, Y1, DY1", NULL);
+        read_numbers(r, whole(r, heights, "NN"), NULL, "the NN heights", NULL);
     }
     if (c->base == 3)
         read_numbers(r, 8, NULL, "the numbers of IBASE = 3", NULL);
@@ -305,21 +283,17 @@ rb_status rb_io_contact_read(const char *path, int *n, rb_io_contact_case **case
             *cases = more;
             now.module = module;
             if (module == 3) {
-                double x[4] = {0};
                 read_control(&r, &now.digit);
                 read_iteration(&r, &now);
-                read_numbers(&r, 4, x, "FN or PEN, CKSI or FX, CETA or FY, CPHI", NULL);
-                now.normal = x[0];
-                now.tangential = x[1];
-                now.side = x[2];
-                now.spin = x[3];
+                read_numbers(&r, 4,
+                             (double *[]){&now.normal, &now.tangential, &now.side, &now.spin},
+                             "FN or PEN, CKSI or FX, CETA or FY, CPHI", NULL);
             }
             if (module == 3 && now.digit.V == 0) { /* else friction stands elsewhere */
                 read_friction(&r, &now);
                 read_material(&r, &now);
-                double x[4] = {0};
                 for (int body = 0; body < 2 && now.digit.H == 3; body++)
-                    read_numbers(&r, 4, x, "BKTEMP, HEATCP, LAMBDA, DENS", NULL);
+                    read_numbers(&r, 4, NULL, "BKTEMP, HEATCP, LAMBDA, DENS", NULL);
                 if (now.digit.H == 3 && now.digit.M == 4 && r.status == RB_OK)
                     next_line(&r);
                 read_grid(&r, &now);
