@@ -113,17 +113,6 @@ static void begin(rb_api *a)
     a->stopped = a->done = a->total = 0;
 }
 
-/* Options that change neither bodies nor mesh: the flexibility may serve again. */
-static int drives(const char *name)
-{
-    static const char *const driving[] = {"mu",    "load",        "approach", "half-width", "shift",
-                                          "creep", "creep-ratio", "force",    "force-ratio"};
-    for (size_t k = 0; k < sizeof driving / sizeof *driving; k++)
-        if (strcmp(name, driving[k]) == 0)
-            return 1;
-    return 0;
-}
-
 /* All results; the model stays aside where its bodies remain those of the case. */
 static void forget(rb_api *a, int same_bodies)
 {
@@ -204,7 +193,13 @@ static int took(rb_api *a, const char *name, rb_status s)
 
 int rb_api_set(rb_api *a, const char *name, const char *text)
 {
-    forget(a, drives(name));
+    /* Options that change neither bodies nor mesh: the flexibility may serve again. */
+    static const char *const driving[] = {"mu",    "load",        "approach", "half-width", "shift",
+                                          "creep", "creep-ratio", "force",    "force-ratio"};
+    int drives = 0;
+    for (size_t k = 0; k < sizeof driving / sizeof *driving; k++)
+        drives |= strcmp(name, driving[k]) == 0;
+    forget(a, drives);
     return took(a, name, rb_case_set(a->words, name, text, RB_GIVEN_ARGUMENT, &a->why));
 }
 
@@ -305,26 +300,13 @@ static const char *written(const char *what, char *text, int size)
     return text;
 }
 
-/* values: the struct of the option's table; NULL: defaults of a case. */
-static const char *write_default(const rb_option *o, const void *values, char *text, int size)
-{
-    rb_case *c = values ? NULL : rb_case_create(RB_CASE_SINGLE);
-    char buffer[64];
-    if (!values && !c)
-        return NULL;
-    written(o->unset ? o->unset : rb_option_text(o, values ? values : rb_case_resolved(c), buffer),
-            text, size);
-    rb_case_free(c);
-    return text;
-}
-
 static const char *written_number(double x, char *text, int size)
 {
     rb_format(text, (size_t)size, "%.17g", x);
     return text;
 }
 
-/* Option k of n, whose defaults stand in `values`, as in write_default. */
+/* Option k of n, whose defaults stand in `values`; NULL: those of a case. */
 static const char *describe_option(int n, const rb_option *all, const void *values, int k,
                                    const char *field, char *text, int size)
 {
@@ -364,8 +346,19 @@ static const char *describe_option(int n, const rb_option *all, const void *valu
         return written_number(o->range.to, text, size);
     if (strcmp(field, "excludes") == 0)
         return written_number(o->excludes, text, size);
-    if (strcmp(field, "default") == 0)
-        return is_group ? written("", text, size) : write_default(o, values, text, size);
+    if (strcmp(field, "default") == 0 && is_group)
+        return written("", text, size);
+    if (strcmp(field, "default") == 0) {
+        rb_case *c = values ? NULL : rb_case_create(RB_CASE_SINGLE);
+        char buffer[64];
+        if (!values && !c)
+            return NULL;
+        written(o->unset ? o->unset
+                         : rb_option_text(o, values ? values : rb_case_resolved(c), buffer),
+                text, size);
+        rb_case_free(c);
+        return text;
+    }
     return NULL;
 }
 
@@ -784,8 +777,19 @@ static void each_pivot(const rb_lcp_pivot *p, void *context)
     a->pivots++;
 }
 
-static rb_status follow_pivots(rb_api *a)
+int rb_api_pivots(rb_api *a)
 {
+    const rb_rolling_model *model = &a->result.model;
+    begin(a);
+    if (!has_model(a))
+        return a->status;
+    rb_api_forget_arrays(a, "pivot.");
+    rb_api_forget_arrays(a, "lcp.");
+    rb_contact_lcp_free(&a->lcp);
+    memset(&a->lcp, 0, sizeof a->lcp);
+    rb_status s = rb_rolling_model_lcp(model, &a->lcp, &a->why);
+    if (s != RB_OK)
+        return rb_api_ended(a, s);
     const size_t n = (size_t)a->lcp.size;
     const rb_lcp_problem p = {a->lcp.size, a->lcp.M, a->lcp.size, a->lcp.b};
     rb_lcp_options options = rb_lcp_defaults();
@@ -798,10 +802,7 @@ static rb_status follow_pivots(rb_api *a)
     options.trace = each_pivot;
     options.trace_context = a;
     options.trace_tableau = 1;
-
-    rb_status s = RB_ENOMEM;
-    if (z && a->tableau && a->nonbasis)
-        s = rb_lcp_lemke(&p, &options, z, &info);
+    s = z && a->tableau && a->nonbasis ? rb_lcp_lemke(&p, &options, z, &info) : RB_ENOMEM;
     if (s < 0)
         rb_fail(&a->why, s, "%s", rb_status_reason(s, &info.msg));
     if (s >= 0 && a->status != RB_OK)
@@ -811,21 +812,7 @@ static rb_status follow_pivots(rb_api *a)
     free(a->nonbasis);
     a->tableau = NULL;
     a->nonbasis = NULL;
-    return s;
-}
-
-int rb_api_pivots(rb_api *a)
-{
-    const rb_rolling_model *model = &a->result.model;
-    begin(a);
-    if (!has_model(a))
-        return a->status;
-    rb_api_forget_arrays(a, "pivot.");
-    rb_api_forget_arrays(a, "lcp.");
-    rb_contact_lcp_free(&a->lcp);
-    memset(&a->lcp, 0, sizeof a->lcp);
-    rb_status s = rb_rolling_model_lcp(model, &a->lcp, &a->why);
-    return rb_api_ended(a, s == RB_OK ? follow_pivots(a) : s);
+    return rb_api_ended(a, s);
 }
 
 /* A step of Newton's method on the elements of the case; it may begin on half as many. */
@@ -1046,38 +1033,6 @@ rb_status rb_api_set_crack(rb_api *a, int n, const char *const *name, const char
     return RB_OK;
 }
 
-static rb_status keep_crack(rb_api *a, const rb_case_crack_result *r)
-{
-    char name[40];
-    for (int k = 0; k < rb_case_crack_columns.n; k++) {
-        const rb_rolling_result *row = &rb_case_crack_columns.row[k];
-        if (!rb_rolling_has_column(row, &r->history))
-            continue;
-        snprintf(name, sizeof name, "crack.%s", row->name);
-        api_array *made = rb_api_make_array(a, name, r->history.n, 1);
-        if (!made)
-            return RB_ENOMEM;
-        for (int i = 0; i < r->history.n; i++)
-            made->at[i] = rb_rolling_entry(row, &r->history, i);
-    }
-    for (int k = 0; k < rb_case_crack_growth_columns.n && r->growth.n > 0; k++) {
-        const rb_rolling_result *row = &rb_case_crack_growth_columns.row[k];
-        snprintf(name, sizeof name, "crack.growth.%s", row->name);
-        if (!rb_api_copy_array(
-                a, name, r->growth.n, 1,
-                *(double *const *)(const void *)((const char *)&r->growth + row->offset)))
-            return RB_ENOMEM;
-    }
-    for (int k = 0; k < rb_case_crack_scalars.n; k++) {
-        const rb_rolling_result *row = &rb_case_crack_scalars.row[k];
-        const double x = rb_rolling_number(row, &r->summary);
-        snprintf(name, sizeof name, "crack.summary.%s", row->name);
-        if (!rb_api_copy_array(a, name, 1, 1, &x))
-            return RB_ENOMEM;
-    }
-    return RB_OK;
-}
-
 /* What a picture of the open crack is drawn from. */
 static rb_status keep_faces(rb_api *a, const rb_case_crack_result *r)
 {
@@ -1126,8 +1081,29 @@ int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *
     if (s == RB_OK)
         s = rb_case_crack_solve(rb_case_resolved(a->words), &crack, &result, &a->why);
     rb_api_call_ends();
-    if (s == RB_OK)
-        s = keep_crack(a, &result);
+    /* Columns over the positions and over the lengths, and the numbers of the pass. */
+    const struct {
+        const char *beginning;
+        const rb_rolling_results *table;
+        const void *owner;
+        int rows; /* 0: numbers */
+    } kept[] = {{"crack.", &rb_case_crack_columns, &result.history, result.history.n},
+                {"crack.growth.", &rb_case_crack_growth_columns, &result.growth, result.growth.n},
+                {"crack.summary.", &rb_case_crack_scalars, &result.summary, 0}};
+    for (int t = 0; t < 3 && s == RB_OK; t++)
+        for (int k = 0; k < kept[t].table->n && s == RB_OK; k++) {
+            const rb_rolling_result *row = &kept[t].table->row[k];
+            const int is_number = kept[t].table == &rb_case_crack_scalars, rows = kept[t].rows;
+            char name[40];
+            if (!is_number && (rows == 0 || !rb_rolling_has_column(row, kept[t].owner)))
+                continue;
+            snprintf(name, sizeof name, "%s%s", kept[t].beginning, row->name);
+            api_array *made = rb_api_make_array(a, name, is_number ? 1 : rows, 1);
+            s = made ? RB_OK : RB_ENOMEM;
+            for (int i = 0; made && i < made->rows; i++)
+                made->at[i] = is_number ? rb_rolling_number(row, kept[t].owner)
+                                        : rb_rolling_entry(row, kept[t].owner, i);
+        }
     if (s == RB_OK)
         s = keep_faces(a, &result);
     rb_case_crack_free(&result);

@@ -149,23 +149,6 @@ static void free_curves(rb_report_curves *curves)
     }
 }
 
-/* Notes are on the last point. */
-static void note_last(cli_case_run *run, curve *r)
-{
-    const int k = r->curves.n - 1;
-    if (k < 0 || r->curves.curve[k].last.n == 0)
-        return;
-    r->last = run->c->rc;
-    r->last.formulation = RB_STEADY;
-    r->last.mu = r->curves.mu[k];
-    if (r->range.over == RB_OVER_CREEP)
-        r->last.creep = r->range.to;
-    if (r->range.over == RB_OVER_CREEP_RATIO)
-        r->last.creep_ratio = r->range.to;
-    r->curves.rc = run->noted = &r->last;
-    run->solution = &r->curves.curve[k].last;
-}
-
 static rb_status solve(cli_case_run *run, rb_message *why)
 {
     curve *r = run->own;
@@ -188,7 +171,19 @@ static rb_status solve(cli_case_run *run, rb_message *why)
         }
     }
     convert(&r->curves, run->c->units);
-    note_last(run, r);
+    const int k = r->curves.n - 1;
+    if (k >= 0 && r->curves.curve[k].last.n > 0) {
+        /* Notes are on the last point. */
+        r->last = run->c->rc;
+        r->last.formulation = RB_STEADY;
+        r->last.mu = r->curves.mu[k];
+        if (r->range.over == RB_OVER_CREEP)
+            r->last.creep = r->range.to;
+        if (r->range.over == RB_OVER_CREEP_RATIO)
+            r->last.creep_ratio = r->range.to;
+        r->curves.rc = run->noted = &r->last;
+        run->solution = &r->curves.curve[k].last;
+    }
     convert(&r->drawn, run->c->units);
     run->printable = s >= 0 && r->curves.n > 0 && r->curves.curve[0].n > 0;
     return s;

@@ -86,25 +86,6 @@ static int tell(int evaluation, double value, const double *x, void *context)
     return cli_interrupted();
 }
 
-static cli_exit read_design(designing *f, const rb_case *words)
-{
-    rb_message why = {""};
-    rb_design *d = &f->design;
-    if (!f->least == !f->largest)
-        return cli_fail(CLI_USAGE, "design needs --minimise RESULT or --maximise RESULT");
-    d->largest = f->largest != NULL;
-    d->most = f->most;
-    d->span = isnan(f->span)
-                  ? 0.0
-                  : rb_unit_stored(rb_case_units(words, RB_GIVEN_ARGUMENT), "mm", f->span);
-    rb_status s = rb_design_objective(d->largest ? f->largest : f->least, d, &why);
-    if (s == RB_OK)
-        s = rb_design_variables(words, f->over, d, &why);
-    if (s == RB_OK)
-        s = rb_design_constraints(words, f->subject, d, &why);
-    return cli_say(s, &why);
-}
-
 int cli_design(int argc, char **argv)
 {
     designing f = {.most = 200, .span = NAN};
@@ -130,8 +111,22 @@ int cli_design(int argc, char **argv)
         code = cli_fail(CLI_USAGE, "design: this rollbem was built without NLopt (libnlopt-dev)");
     if (code == CLI_CONTINUE)
         code = cli_case_resolve(&spec, words, &args);
-    if (code == CLI_CONTINUE)
-        code = read_design(&f, words);
+    if (code == CLI_CONTINUE && !f.least == !f.largest)
+        code = cli_fail(CLI_USAGE, "design needs --minimise RESULT or --maximise RESULT");
+    if (code == CLI_CONTINUE) {
+        rb_design *d = &f.design;
+        d->largest = f.largest != NULL;
+        d->most = f.most;
+        d->span = isnan(f.span)
+                      ? 0.0
+                      : rb_unit_stored(rb_case_units(words, RB_GIVEN_ARGUMENT), "mm", f.span);
+        rb_status s = rb_design_objective(d->largest ? f.largest : f.least, d, &why);
+        if (s == RB_OK)
+            s = rb_design_variables(words, f.over, d, &why);
+        if (s == RB_OK)
+            s = rb_design_constraints(words, f.subject, d, &why);
+        code = cli_say(s, &why);
+    }
     if (code == CLI_CONTINUE) {
         const rb_design_observer observer = {tell, &f};
         const results r = {&f, words, &o};

@@ -117,24 +117,20 @@ const char *cli_other_name(const char *name, size_t length)
 
 /* ---- Options ------------------------------------------------------------------------ */
 
-static int is_new(const rb_option *options)
-{
-    for (int k = 0; k < search.seen_n; k++)
-        if (search.seen[k] == options)
-            return 0;
-    if (search.seen_n < SETS_MAX)
-        search.seen[search.seen_n++] = options;
-    return 1;
-}
-
 void cli_find_options(const cli_spec *spec)
 {
     char command[24] = "", values[120], name[200], text[700];
     sscanf(spec->synopsis, "rollbem %23[a-z]", command);
     for (int s = 0; s < spec->set_n; s++) {
         const rb_option_set *set = &spec->sets[s];
-        const int n = is_new(set->options) ? set->n : 0;
-        for (int i = 0; i < n; i++) {
+        int k = 0;
+        while (k < search.seen_n && search.seen[k] != set->options)
+            k++;
+        if (k < search.seen_n)
+            continue;
+        if (k < SETS_MAX)
+            search.seen[search.seen_n++] = set->options;
+        for (int i = 0; i < set->n; i++) {
             const rb_option *o = &set->options[i];
             if (o->kind == RB_OPTION_GROUP)
                 continue;

@@ -85,17 +85,6 @@ static cli_exit read_page(const char *given, built_page *p)
 
 /* ---- The case ---------------------------------------------------------------------- */
 
-/* A page opens without any other file. */
-static cli_exit refuse_files(rb_case *c)
-{
-    const rb_option_set set = rb_case_options(c);
-    for (int k = 0; k < set.n; k++)
-        if (rb_option_path(&set.options[k], set.target))
-            return cli_fail(CLI_USAGE, "--%s: names a file, which the page cannot contain",
-                            set.options[k].name);
-    return CLI_CONTINUE;
-}
-
 /* A page that would open with a refusal is not written. */
 static cli_exit refuse_beyond(rb_case *c, const json_t *limits)
 {
@@ -154,8 +143,11 @@ int cli_page(int argc, char **argv)
         {rb_case_options(c), {options, OPTIONS, &o, o.given, NULL}, cli_example_set()},
         3};
     cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
-    if (code == CLI_CONTINUE)
-        code = refuse_files(c);
+    const rb_option_set set = rb_case_options(c);
+    for (int k = 0; k < set.n && code == CLI_CONTINUE; k++)
+        if (rb_option_path(&set.options[k], set.target)) /* it opens without any other file */
+            code = cli_fail(CLI_USAGE, "--%s: names a file, which the page cannot contain",
+                            set.options[k].name);
     if (code == CLI_CONTINUE) {
         built_page page = {0};
         code = read_page(o.page, &page);
@@ -163,7 +155,6 @@ int cli_page(int argc, char **argv)
             code = refuse_beyond(c, page.limits);
         if (code == CLI_CONTINUE) {
             /* The options that are given, name by name, as text of a case file. */
-            const rb_option_set set = rb_case_options(c);
             json_t *all = json_object();
             char buffer[64];
             for (int k = 0; k < set.n; k++)

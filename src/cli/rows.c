@@ -2,35 +2,39 @@
 
 #include <string.h>
 
-static json_t *json_of(const cli_row *row, const void *at, int known)
-{
-    const char *text;
-    switch (row->kind) {
-    case CLI_ROW_TEXT:
-    case CLI_ROW_WORDS:
-        return rb_report_json_text(*(const char *const *)at);
-    case CLI_ROW_MESSAGE:
-        text = ((const rb_message *)at)->text;
-        return *text ? rb_report_json_text(text) : json_null();
-    case CLI_ROW_WHOLE:
-        return known ? json_integer(*(const int *)at) : json_null();
-    case CLI_ROW_SIZE:
-        return *(const int *)at > 0 ? json_integer(*(const int *)at) : json_null();
-    case CLI_ROW_NUMBER:
-        return rb_report_json_number(*(const double *)at);
-    case CLI_ROW_NULL:
-        break;
-    }
-    return json_null();
-}
-
 json_t *cli_rows_json(int n, const cli_row *rows, const void *values, int known)
 {
     json_t *object = json_object();
-    for (int k = 0; k < n; k++)
-        if (rows[k].name)
-            rb_report_json_set(&object, rows[k].name,
-                               json_of(&rows[k], (const char *)values + rows[k].place, known));
+    for (int k = 0; k < n; k++) {
+        const void *at = (const char *)values + rows[k].place;
+        json_t *value = NULL;
+        if (!rows[k].name)
+            continue;
+        switch (rows[k].kind) {
+        case CLI_ROW_TEXT:
+        case CLI_ROW_WORDS:
+            value = rb_report_json_text(*(const char *const *)at);
+            break;
+        case CLI_ROW_MESSAGE: {
+            const char *text = ((const rb_message *)at)->text;
+            value = *text ? rb_report_json_text(text) : json_null();
+            break;
+        }
+        case CLI_ROW_WHOLE:
+            value = known ? json_integer(*(const int *)at) : json_null();
+            break;
+        case CLI_ROW_SIZE:
+            value = *(const int *)at > 0 ? json_integer(*(const int *)at) : json_null();
+            break;
+        case CLI_ROW_NUMBER:
+            value = rb_report_json_number(*(const double *)at);
+            break;
+        case CLI_ROW_NULL:
+            value = json_null();
+            break;
+        }
+        rb_report_json_set(&object, rows[k].name, value);
+    }
     return object;
 }
 

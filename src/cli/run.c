@@ -52,19 +52,6 @@ rb_status cli_write_snapshot(const char *folder, int step, const rb_rolling_case
     return s;
 }
 
-/* Of this step; a run that starts again may have other elements. */
-static rb_status keep_state(const rb_rolling_model *model, int step, int steps,
-                            rb_rolling_states *states, rb_message *why)
-{
-    if (step == 0) {
-        rb_rolling_states_free(states);
-        if (rb_rolling_states_alloc(model->mesh.n, steps, states) != RB_OK)
-            return rb_fail(why, RB_ENOMEM, "states: out of memory for %d steps", steps);
-    }
-    rb_rolling_states_set(model, step, states);
-    return RB_OK;
-}
-
 static int after_step(const rb_rolling_model *model, const rb_rolling_history *history, int step,
                       int steps, void *context)
 {
@@ -74,28 +61,27 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
         return cli_interrupted();
     if (asked->progress || asked->terminal) {
         /* Runs of a second or less are over before anyone has read it. */
-        const double now = rb_seconds(), pause = w->steps->terminal ? 0.1 : 0.5;
+        const double now = rb_seconds(), pause = asked->terminal ? 0.1 : 0.5;
         const int last = step + 1 == steps;
-        if (!(now - w->start < 1.0 && !w->steps->progress)) {
-            if (!(now - w->shown < pause && !last)) {
-                fprintf(stderr,
-                        "%sstep %d of %d: distance %.4g a, xi = %.4g, Q = %.4g %s, %.0f "
-                        "s left%s",
-                        w->steps->terminal ? "\r" : "", step + 1, steps, history->distance[step],
-                        history->creepage[step],
-                        rb_unit_shown(w->units, "N/mm", history->tangential_load[step]),
-                        rb_unit_name(w->units, "N/mm"),
-                        (now - w->start) / (step + 1) * (steps - step - 1),
-                        w->steps->terminal && !last ? "\033[K" : "\n");
-                w->shown = now;
-                cli_wait_rest();
-            }
+        const int is_long = now - w->start >= 1.0 || asked->progress;
+        if (is_long && (now - w->shown >= pause || last)) {
+            fprintf(stderr,
+                    "%sstep %d of %d: distance %.4g a, xi = %.4g, Q = %.4g %s, %.0f "
+                    "s left%s",
+                    asked->terminal ? "\r" : "", step + 1, steps, history->distance[step],
+                    history->creepage[step],
+                    rb_unit_shown(w->units, "N/mm", history->tangential_load[step]),
+                    rb_unit_name(w->units, "N/mm"),
+                    (now - w->start) / (step + 1) * (steps - step - 1),
+                    asked->terminal && !last ? "\033[K" : "\n");
+            w->shown = now;
+            cli_wait_rest();
         }
     }
     if (step == 0 && w->written > 0) {
         /* A run that starts again on a wider zone has other steps. */
-        for (int k = w->steps->every; k <= w->written; k += w->steps->every) {
-            char *path = name_snapshot(w->steps->snapshots, k, &w->steps->style);
+        for (int k = asked->every; k <= w->written; k += asked->every) {
+            char *path = name_snapshot(asked->snapshots, k, &asked->style);
             if (path)
                 remove(path);
             free(path);
@@ -107,14 +93,20 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
         rb_status s = rb_rolling_model_solution(model, &solution, w->why);
         rb_rolling_solution_convert(&solution, w->units);
         if (s == RB_OK)
-            s = cli_write_snapshot(w->steps->snapshots, step + 1, model->rc, &solution,
-                                   &w->steps->style, w->why);
+            s = cli_write_snapshot(asked->snapshots, step + 1, model->rc, &solution, &asked->style,
+                                   w->why);
         w->written = step + 1;
         rb_rolling_solution_free(&solution);
         w->failed = s;
     }
+    if (asked->states && step == 0 && w->failed == RB_OK) {
+        /* A run that starts again may have other elements. */
+        rb_rolling_states_free(asked->states);
+        if (rb_rolling_states_alloc(model->mesh.n, steps, asked->states) != RB_OK)
+            w->failed = rb_fail(w->why, RB_ENOMEM, "states: out of memory for %d steps", steps);
+    }
     if (asked->states && w->failed == RB_OK)
-        w->failed = keep_state(model, step, steps, asked->states, w->why);
+        rb_rolling_states_set(model, step, asked->states);
     return cli_interrupted() || w->failed != RB_OK;
 }
 

@@ -237,67 +237,6 @@ static rb_status solve(cli_case_run *run, rb_message *why)
     return s;
 }
 
-/* Options of steps mean nothing without any. */
-static cli_exit check_steps(const cli_case_run *run)
-{
-    char name[300];
-    int steps = 0;
-    for (int i = 0; i < OPTIONS && !rb_case_has_steps(run->c); i++) {
-        steps |= strcmp(options[i].name, "history-table") == 0; /* the first of them */
-        if (steps && run->set.given[i])
-            return cli_fail(run->set.given[i] > 0 ? CLI_DATA : CLI_USAGE,
-                            "%s: for --formulation transient, --history or --increments",
-                            rb_option_source(&options[i], run->set.given[i], run->args.operand[0],
-                                             name, sizeof name));
-    }
-    return CLI_CONTINUE;
-}
-
-/* With error bars of a solution there is no model to show (run.h). */
-static cli_exit check_behind(const solved *it, const rb_resolved_case *c)
-{
-    const int model_kept = rb_case_has_steps(c) || !(c->error || c->accuracy > 0.0);
-    if ((it->dump || it->trace || it->fclib) && !model_kept)
-        return cli_fail(CLI_USAGE, "--dump, --fclib and --trace: not together with error bars");
-    if (it->all_solutions &&
-        (c->rc.formulation != RB_STEADY || !model_kept || !rb_rolling_law_depends_on_state(&c->rc)))
-        return cli_fail(CLI_USAGE, "--all-solutions: only for steady rolling without error bars, "
-                                   "with friction that depends on the slip or the temperature");
-    if (it->all_solutions && (it->dump || it->trace || it->fclib))
-        return cli_fail(CLI_USAGE, "--all-solutions: not together with --dump, --fclib, "
-                                   "--trace, which show one of them");
-    if (it->all_solutions && (!isnan(c->rc.force) || !isnan(c->rc.force_ratio) || c->rc.free_axle))
-        return cli_fail(CLI_USAGE, "--all-solutions: at a given creepage, not under a given force");
-    if ((it->derivatives || it->tolerance) && !model_kept)
-        return cli_fail(CLI_USAGE, "--derivatives and --tolerance: not together with error bars");
-    if (it->derivatives && rb_case_has_steps(c) && c->error)
-        return cli_fail(CLI_USAGE, "--derivatives: not together with error bars");
-    if (it->tolerance && rb_case_has_steps(c))
-        return cli_fail(CLI_USAGE, "--tolerance: only for one step; this case has several");
-    if (it->trace && c->rc.contact.solver != RB_SOLVER_AUTO &&
-        c->rc.contact.solver != RB_SOLVER_LEMKE)
-        return cli_fail(CLI_USAGE, "--trace: only --solver lemke pivots");
-    return CLI_CONTINUE;
-}
-
-/* Names of results and of numbers. */
-static cli_exit check_derivatives(const cli_case_run *run, solved *it)
-{
-    rb_message why = {""};
-    const int steps = rb_case_has_steps(run->c);
-    if (it->derivatives && steps &&
-        rb_case_slopes_choose(run->words, &rb_rolling_history_columns, it->derivatives,
-                              RB_CASE_SLOPES_MAX, &it->slopes_of_steps, &why) != RB_OK)
-        return cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
-    if (it->derivatives && !steps &&
-        rb_report_derivatives_of(it->derivatives, &it->shown, &why) != RB_OK)
-        return cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
-    if (it->tolerance &&
-        rb_case_read_tolerances(run->words, it->tolerance, &it->tolerances, &why) != RB_OK)
-        return cli_fail(CLI_USAGE, "--tolerance: %s", why.text);
-    return CLI_CONTINUE;
-}
-
 /* Only Lemke's method has pivots to trace. */
 static cli_exit choose_pivots(rb_case *c)
 {
@@ -312,18 +251,58 @@ static cli_exit choose_pivots(rb_case *c)
 
 static cli_exit check(cli_case_run *run)
 {
-    const solved *it = run->own;
-    cli_exit code = check_steps(run);
-    if (code == CLI_CONTINUE)
-        code = check_behind(it, run->c);
-    if (code == CLI_CONTINUE && it->trace)
-        code = choose_pivots(run->words);
-    if (code == CLI_CONTINUE)
-        code = check_derivatives(run, run->own);
+    solved *it = run->own;
+    const rb_resolved_case *c = run->c;
+    const int has_steps = rb_case_has_steps(c);
+    char name[300];
+    rb_message why = {""};
+    /* Options of steps mean nothing without any; the first of them is history-table. */
+    for (int i = 0, of_steps = 0; i < OPTIONS && !has_steps; i++) {
+        of_steps |= strcmp(options[i].name, "history-table") == 0;
+        if (of_steps && run->set.given[i])
+            return cli_fail(run->set.given[i] > 0 ? CLI_DATA : CLI_USAGE,
+                            "%s: for --formulation transient, --history or --increments",
+                            rb_option_source(&options[i], run->set.given[i], run->args.operand[0],
+                                             name, sizeof name));
+    }
+    /* With error bars of a solution there is no model to show (run.h). */
+    const int model_kept = has_steps || !(c->error || c->accuracy > 0.0);
+    if ((it->dump || it->trace || it->fclib) && !model_kept)
+        return cli_fail(CLI_USAGE, "--dump, --fclib and --trace: not together with error bars");
+    if (it->all_solutions &&
+        (c->rc.formulation != RB_STEADY || !model_kept || !rb_rolling_law_depends_on_state(&c->rc)))
+        return cli_fail(CLI_USAGE, "--all-solutions: only for steady rolling without error bars, "
+                                   "with friction that depends on the slip or the temperature");
+    if (it->all_solutions && (it->dump || it->trace || it->fclib))
+        return cli_fail(CLI_USAGE, "--all-solutions: not together with --dump, --fclib, "
+                                   "--trace, which show one of them");
+    if (it->all_solutions && (!isnan(c->rc.force) || !isnan(c->rc.force_ratio) || c->rc.free_axle))
+        return cli_fail(CLI_USAGE, "--all-solutions: at a given creepage, not under a given force");
+    if ((it->derivatives || it->tolerance) && !model_kept)
+        return cli_fail(CLI_USAGE, "--derivatives and --tolerance: not together with error bars");
+    if (it->derivatives && has_steps && c->error)
+        return cli_fail(CLI_USAGE, "--derivatives: not together with error bars");
+    if (it->tolerance && has_steps)
+        return cli_fail(CLI_USAGE, "--tolerance: only for one step; this case has several");
+    if (it->trace && c->rc.contact.solver != RB_SOLVER_AUTO &&
+        c->rc.contact.solver != RB_SOLVER_LEMKE)
+        return cli_fail(CLI_USAGE, "--trace: only --solver lemke pivots");
+    const cli_exit code = it->trace ? choose_pivots(run->words) : CLI_CONTINUE;
     if (code != CLI_CONTINUE)
         return code;
+    /* Names of results and of numbers. */
+    if (it->derivatives && has_steps &&
+        rb_case_slopes_choose(run->words, &rb_rolling_history_columns, it->derivatives,
+                              RB_CASE_SLOPES_MAX, &it->slopes_of_steps, &why) != RB_OK)
+        return cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
+    if (it->derivatives && !has_steps &&
+        rb_report_derivatives_of(it->derivatives, &it->shown, &why) != RB_OK)
+        return cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
+    if (it->tolerance &&
+        rb_case_read_tolerances(run->words, it->tolerance, &it->tolerances, &why) != RB_OK)
+        return cli_fail(CLI_USAGE, "--tolerance: %s", why.text);
     /* Where the states of the steps are printed, and in which units. */
-    if (it->states && (run->o.style.format != RB_REPORT_JSON || run->c->units != RB_UNITS_MM))
+    if (it->states && (run->o.style.format != RB_REPORT_JSON || c->units != RB_UNITS_MM))
         return cli_fail(CLI_USAGE, "--states: with --json and in mm, N, MPa only");
     return CLI_CONTINUE;
 }

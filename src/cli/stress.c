@@ -79,25 +79,6 @@ static const char notes[] = CLI_CASE_NOTES "Example: rollbem stress --support ha
 
 /* ---- What is asked for ------------------------------------------------------------ */
 
-static cli_exit read_points(stress *st, rb_units units)
-{
-    rb_message why = {""};
-    const rb_status s = rb_io_table_read_columns(st->points, 2, &st->place, &why);
-    const int n = st->place.rows;
-    if (s != RB_OK)
-        return cli_say(s, &why);
-    st->xy = rb_alloc((size_t)n, 2);
-    if (!st->xy)
-        return cli_fail(CLI_INTERNAL, "out of memory");
-    for (int j = 0; j < 2; j++)
-        rb_io_table_convert(&st->place, j, "mm", units);
-    for (int k = 0; k < n; k++) {
-        st->xy[2 * k] = st->place.x[k];
-        st->xy[2 * k + 1] = st->place.x[k + n];
-    }
-    return CLI_CONTINUE;
-}
-
 static cli_exit check(cli_case_run *run)
 {
     stress *st = run->own;
@@ -124,7 +105,21 @@ static cli_exit check(cli_case_run *run)
         return cli_fail(CLI_USAGE, "--grid and --points exclude each other");
     if (!st->points)
         return CLI_CONTINUE;
-    return read_points(st, rb_case_units(run->words, rb_option_given(&run->set, "points")));
+    const rb_units units = rb_case_units(run->words, rb_option_given(&run->set, "points"));
+    const rb_status read = rb_io_table_read_columns(st->points, 2, &st->place, &why);
+    if (read != RB_OK)
+        return cli_say(read, &why);
+    const int n = st->place.rows;
+    st->xy = rb_alloc((size_t)n, 2);
+    if (!st->xy)
+        return cli_fail(CLI_INTERNAL, "out of memory");
+    for (int j = 0; j < 2; j++)
+        rb_io_table_convert(&st->place, j, "mm", units);
+    for (int k = 0; k < n; k++) {
+        st->xy[2 * k] = st->place.x[k];
+        st->xy[2 * k + 1] = st->place.x[k + n];
+    }
+    return CLI_CONTINUE;
 }
 
 /* ---- Stress ------------------------------------------------------------------------ */

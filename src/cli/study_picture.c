@@ -55,17 +55,6 @@ static rb_report_quantity axis_of(const study *st, int k, double *value)
     return (rb_report_quantity){c->name, strcmp(unit, "-") == 0 ? "" : unit, value};
 }
 
-/* Whether an option of the bodies varies. */
-static int bodies_vary(const study *st)
-{
-    for (int k = 0; k < st->columns; k++) {
-        const rb_option *o = rb_case_option(st->column[k].name);
-        if (o && strncmp(rb_case_section(o), "body-", 5) == 0)
-            return 1;
-    }
-    return 0;
-}
-
 /* "error_max_pressure" of an error bar. */
 static const char *name_of(const study_result *result, char buffer[STUDY_HEADING])
 {
@@ -83,15 +72,20 @@ static rb_status with_picture(const study *st, see_picture *see, const void *con
     const study_result *shown = &st->result[st->drawn_column - st->columns - 2];
     char name[STUDY_HEADING];
     double *value = rb_alloc((size_t)st->cases, 2);
+    int bodies_vary = 0;
     if (!value)
         return rb_fail(why, RB_ENOMEM, "out of memory");
+    for (int k = 0; k < st->columns; k++) {
+        const rb_option *o = rb_case_option(st->column[k].name);
+        bodies_vary |= o && strncmp(rb_case_section(o), "body-", 5) == 0;
+    }
     const rb_report_study picture = {
         .n = st->cases,
         .x = axis_of(st, st->over, value),
         .y = axis_of(st, st->family, value + st->cases),
         .shown = {name_of(shown, name),
                   shown->r->unit ? rb_unit_name(c->units, shown->r->unit) : "", st->drawn},
-        .rc = bodies_vary(st) ? NULL : &c->rc,
+        .rc = bodies_vary ? NULL : &c->rc,
         .units = c->units};
     const rb_status s = see(&picture, context, why);
     free(value);

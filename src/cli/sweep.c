@@ -463,29 +463,6 @@ static cli_exit cannot_write(const char *path)
                     errno == ENOMEM ? "out of memory" : strerror(errno));
 }
 
-/* The head of this study, but for the command line, which may name another count of jobs.
- * 0: the file begins with something else. */
-static int has_head(const study *st, char **line, size_t *capacity)
-{
-    char *head = NULL;
-    size_t size;
-    FILE *memory = open_memstream(&head, &size);
-    int same = memory != NULL;
-    if (memory) {
-        write_head(st, memory);
-        same = fclose(memory) == 0;
-    }
-    const char *wanted = head;
-    for (int k = 0; same && k < HEAD_LINES; k++) {
-        const size_t n = strcspn(wanted, "\n") + 1;
-        const ssize_t got = getline(line, capacity, st->out);
-        same = k == COMMAND_LINE ? got > 0 : got == (ssize_t)n && memcmp(*line, wanted, n) == 0;
-        wanted += n;
-    }
-    free(head);
-    return same;
-}
-
 /* The number behind a tab at *at; 1: there is one, and *at stands behind it. */
 static int next_number(const char **at, double *value)
 {
@@ -530,11 +507,28 @@ static int is_row(study *st, int k, const char *line, size_t length)
 /* Reads the rows that are there; what was cut at the end is written over. */
 static cli_exit resume(study *st)
 {
-    char *line = NULL;
-    size_t capacity = 0;
+    char *line = NULL, *head = NULL;
+    size_t capacity = 0, size;
     ssize_t n;
     cli_exit code = CLI_CONTINUE;
-    if (!has_head(st, &line, &capacity))
+    /* The head of this study, but for the command line, which may name another count of
+     * jobs. */
+    FILE *memory = open_memstream(&head, &size);
+    int same = memory != NULL;
+    if (memory) {
+        write_head(st, memory);
+        same = fclose(memory) == 0;
+    }
+    const char *wanted = head;
+    for (int k = 0; same && k < HEAD_LINES; k++) {
+        const size_t length = strcspn(wanted, "\n") + 1;
+        n = getline(&line, &capacity, st->out);
+        same =
+            k == COMMAND_LINE ? n > 0 : n == (ssize_t)length && memcmp(line, wanted, length) == 0;
+        wanted += length;
+    }
+    free(head);
+    if (!same)
         code = cli_fail(CLI_CANTWRITE, "%s: has other contents; --restart would overwrite it",
                         st->path);
     st->whole = ftell(st->out);

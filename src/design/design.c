@@ -340,27 +340,6 @@ static rb_status differentiate(problem *p, const rb_case *at, const rb_rolling_c
     return status;
 }
 
-/* 1: better than the best that meets all constraints. */
-static void keep_best(problem *p)
-{
-    rb_design *d = p->d;
-    const double f = d->largest ? -p->value[0] : p->value[0];
-    int meets = 1;
-
-    for (int k = 0; k < d->constraints; k++) {
-        const rb_design_constraint *c = &d->constraint[k];
-        const double over = (c->at_least ? -1.0 : 1.0) * (p->value[1 + k] - c->bound);
-        meets &= over <= MISSED * fmax(fabs(c->bound), 1e-300);
-    }
-    if (!meets || !(f < p->best_value))
-        return;
-    p->best_value = f;
-    memcpy(p->best, p->x, (size_t)d->n * sizeof *p->best);
-    d->value = p->value[0];
-    for (int k = 0; k < d->constraints; k++)
-        d->constraint[k].value = p->value[1 + k];
-}
-
 static rb_status evaluate(problem *p, const double *x)
 {
     rb_design *d = p->d;
@@ -389,7 +368,21 @@ static rb_status evaluate(problem *p, const double *x)
     if (s == RB_OK) {
         if (d->evaluations++ == 0)
             d->start = p->value[0];
-        keep_best(p);
+        /* It is the best so far if it meets all constraints. */
+        const double f = d->largest ? -p->value[0] : p->value[0];
+        int meets = 1;
+        for (int k = 0; k < d->constraints; k++) {
+            const rb_design_constraint *c = &d->constraint[k];
+            const double over = (c->at_least ? -1.0 : 1.0) * (p->value[1 + k] - c->bound);
+            meets &= over <= MISSED * fmax(fabs(c->bound), 1e-300);
+        }
+        if (meets && f < p->best_value) {
+            p->best_value = f;
+            memcpy(p->best, x, (size_t)d->n * sizeof *p->best);
+            d->value = p->value[0];
+            for (int k = 0; k < d->constraints; k++)
+                d->constraint[k].value = p->value[1 + k];
+        }
         if (p->observer && p->observer->step &&
             p->observer->step(d->evaluations, p->value[0], x, p->observer->context))
             s = rb_fail(p->why, RB_INTERRUPTED, "design: interrupted after %d evaluations",

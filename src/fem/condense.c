@@ -53,39 +53,37 @@ rb_status rb_fem_condense(const rb_fem_structure *full, rb_fem_condensation **re
         for (int i = 0; i < full->dofs; i++)
             c->place[i] = c->place[i] ? nc++ : -1 - c->nf++;
         c->condensed.dofs = nc;
-        if (c->condensed.dofs > 0) {
-            /* K_c = K_CC - K_FC' K_FF^-1 K_FC */
-            rb_sparse KFF = {0}, KCC = {0}, W = {0};
-            s = block(c, &full->K, 1, 1, &KCC);
-            if (s == RB_OK)
-                s = block(c, &full->K, 0, 1, &c->KFC);
-            if (s == RB_OK)
-                s = block(c, &full->K, 0, 0, &KFF);
-            if (s == RB_OK && c->nf > 0)
-                s = rb_sparse_cholesky_create(&KFF, &c->factor);
-            if (s == RB_SINGULAR)
-                rb_fail(why, s,
-                        "condensation: parts of the structure move even when every contact "
-                        "node is held");
-            if (s == RB_OK && c->nf > 0)
-                s = rb_sparse_cholesky_congruence(c->factor, &c->KFC, &W);
-            if (s == RB_OK) {
-                if (c->nf > 0) {
-                    /* a - b, same size. */
-                    rb_triplets t = {.rows = KCC.rows, .cols = KCC.cols};
-                    rb_triplets_add_matrix(&t, 1.0, &KCC);
-                    rb_triplets_add_matrix(&t, -1.0, &W);
-                    s = rb_sparse_from_triplets(&t, &c->condensed.K);
-                    rb_triplets_free(&t);
-                } else
-                    s = rb_sparse_copy(&KCC, &c->condensed.K);
-            }
-            rb_sparse_free(&W);
-            rb_sparse_free(&KFF);
-            rb_sparse_free(&KCC);
-        } else
+        if (nc == 0)
             s = rb_fail(why, RB_EINVAL, "condensation: no contact touches the structure");
     }
+    /* K_c = K_CC - K_FC' K_FF^-1 K_FC */
+    rb_sparse KFF = {0}, KCC = {0}, W = {0};
+    if (s == RB_OK)
+        s = block(c, &full->K, 1, 1, &KCC);
+    if (s == RB_OK)
+        s = block(c, &full->K, 0, 1, &c->KFC);
+    if (s == RB_OK)
+        s = block(c, &full->K, 0, 0, &KFF);
+    if (s == RB_OK && c->nf > 0)
+        s = rb_sparse_cholesky_create(&KFF, &c->factor);
+    if (s == RB_SINGULAR)
+        rb_fail(why, s,
+                "condensation: parts of the structure move even when every contact "
+                "node is held");
+    if (s == RB_OK && c->nf > 0)
+        s = rb_sparse_cholesky_congruence(c->factor, &c->KFC, &W);
+    if (s == RB_OK && c->nf == 0)
+        s = rb_sparse_copy(&KCC, &c->condensed.K);
+    else if (s == RB_OK) {
+        rb_triplets t = {.rows = KCC.rows, .cols = KCC.cols};
+        rb_triplets_add_matrix(&t, 1.0, &KCC);
+        rb_triplets_add_matrix(&t, -1.0, &W);
+        s = rb_sparse_from_triplets(&t, &c->condensed.K);
+        rb_triplets_free(&t);
+    }
+    rb_sparse_free(&W);
+    rb_sparse_free(&KFF);
+    rb_sparse_free(&KCC);
     if (s == RB_OK)
         s = block(c, &full->H, 1, 2, &c->condensed.H);
     if (s == RB_OK) {

@@ -72,36 +72,30 @@ static rb_status at_gauss_point(int d, const double *x, int point, gauss_point *
     return g->jacobian > 0.0 ? RB_OK : RB_EINVAL;
 }
 
-/* K_ai,bj += w [lambda N_a,i N_b,j + shear (N_a,j N_b,i + d_ij N_a,k N_b,k)] */
-static void add_stiffness(int d, const gauss_point *g, double w, double lambda, double shear,
-                          double *K)
-{
-    const int corners = 1 << d, n = d * corners;
-    for (int b = 0; b < corners; b++)
-        for (int a = 0; a < corners; a++) {
-            double dot = 0.0;
-            for (int k = 0; k < d; k++)
-                dot += g->dN[a][k] * g->dN[b][k];
-            for (int j = 0; j < d; j++)
-                for (int i = 0; i < d; i++)
-                    K[d * a + i + n * (d * b + j)] +=
-                        w * (lambda * g->dN[a][i] * g->dN[b][j] +
-                             shear * (g->dN[a][j] * g->dN[b][i] + (i == j) * dot));
-        }
-}
-
 static rb_status solid_stiffness(int d, const double *x, const rb_fem_material *m, double thickness,
                                  double *K)
 {
     const double shear = 0.5 * m->young / (1.0 + m->poisson);
     const double lambda = 2.0 * shear * m->poisson / (1.0 - 2.0 * m->poisson);
-    const int n = d << d;
+    const int corners = 1 << d, n = d * corners;
     memset(K, 0, (size_t)(n * n) * sizeof *K);
-    for (int point = 0; point < 1 << d; point++) {
+    for (int point = 0; point < corners; point++) {
         gauss_point g;
         if (at_gauss_point(d, x, point, &g) != RB_OK)
             return RB_EINVAL;
-        add_stiffness(d, &g, thickness * g.jacobian, lambda, shear, K);
+        /* K_ai,bj += w [lambda N_a,i N_b,j + shear (N_a,j N_b,i + d_ij N_a,k N_b,k)] */
+        const double w = thickness * g.jacobian;
+        for (int b = 0; b < corners; b++)
+            for (int a = 0; a < corners; a++) {
+                double dot = 0.0;
+                for (int k = 0; k < d; k++)
+                    dot += g.dN[a][k] * g.dN[b][k];
+                for (int j = 0; j < d; j++)
+                    for (int i = 0; i < d; i++)
+                        K[d * a + i + n * (d * b + j)] +=
+                            w * (lambda * g.dN[a][i] * g.dN[b][j] +
+                                 shear * (g.dN[a][j] * g.dN[b][i] + (i == j) * dot));
+            }
     }
     return RB_OK;
 }

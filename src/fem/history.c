@@ -24,20 +24,6 @@ void rb_fem_history_free(rb_fem_history *history)
     *history = (rb_fem_history){0, NULL, 0.0};
 }
 
-static rb_status alloc_step(const rb_fem_model *model, rb_fem_step *step)
-{
-    const size_t d = (size_t)model->mesh.dimension, n = (size_t)model->structure.contacts;
-    step->contact = calloc(n, sizeof *step->contact);
-    step->u = rb_alloc(d, (size_t)model->mesh.nodes);
-    step->r = rb_alloc(d, n);
-    step->du = rb_alloc(d, n);
-    step->gap = rb_alloc(n, 1);
-    if (step->contact && step->u && step->r && step->du && step->gap)
-        return RB_OK;
-    free_step(step);
-    return RB_ENOMEM;
-}
-
 static double tangential(int d, const double *x)
 {
     return d == 2 ? fabs(x[1]) : hypot(x[1], x[2]);
@@ -51,23 +37,6 @@ typedef struct {
     double *load_c, *v, *du; /* condensed unknowns twice, then dimension x contacts */
     double *u;               /* all unknowns */
 } runner;
-
-static rb_status open_runner(const rb_fem_model *model, runner *run, rb_message *why)
-{
-    memset(run, 0, sizeof *run);
-    run->model = model;
-    const rb_status s = rb_fem_condense(&model->structure, &run->condensation, why);
-    if (s != RB_OK)
-        return s;
-    run->condensed = rb_fem_condensed(run->condensation);
-    run->load_c = rb_alloc((size_t)run->condensed->dofs, 1);
-    run->v = rb_alloc((size_t)run->condensed->dofs, 1);
-    run->du = rb_alloc((size_t)run->condensed->H.cols, 1);
-    run->u = rb_alloc((size_t)model->mesh.dofs, 1);
-    if (!run->load_c || !run->v || !run->du || !run->u)
-        return RB_ENOMEM;
-    return rb_fem_state_alloc(run->condensed, &run->state);
-}
 
 /* The increment's friction problem: v and the new reactions in physical units. */
 static rb_status solve_increment(runner *run, const char *solver, double tol, rb_fem_step *step,
@@ -149,15 +118,34 @@ rb_status rb_fem_run(const rb_fem_model *model, const char *solver, double tol,
 {
     const double start = rb_seconds();
     runner run;
+    memset(&run, 0, sizeof run);
+    run.model = model;
     *history = (rb_fem_history){0, calloc((size_t)model->steps, sizeof *history->step), 0.0};
-    rb_status s = history->step ? open_runner(model, &run, why) : RB_ENOMEM;
+    rb_status s =
+        history->step ? rb_fem_condense(&model->structure, &run.condensation, why) : RB_ENOMEM;
+    if (s == RB_OK) {
+        run.condensed = rb_fem_condensed(run.condensation);
+        run.load_c = rb_alloc((size_t)run.condensed->dofs, 1);
+        run.v = rb_alloc((size_t)run.condensed->dofs, 1);
+        run.du = rb_alloc((size_t)run.condensed->H.cols, 1);
+        run.u = rb_alloc((size_t)model->mesh.dofs, 1);
+        s = run.load_c && run.v && run.du && run.u ? rb_fem_state_alloc(run.condensed, &run.state)
+                                                   : RB_ENOMEM;
+    }
     for (int k = 0; s == RB_OK && k < model->steps; k++) {
-        s = alloc_step(model, &history->step[k]);
-        if (s != RB_OK)
+        const size_t d = (size_t)model->mesh.dimension, n = (size_t)model->structure.contacts;
+        rb_fem_step *step = &history->step[history->steps++];
+        step->contact = calloc(n, sizeof *step->contact);
+        step->u = rb_alloc(d, (size_t)model->mesh.nodes);
+        step->r = rb_alloc(d, n);
+        step->du = rb_alloc(d, n);
+        step->gap = rb_alloc(n, 1);
+        if (!step->contact || !step->u || !step->r || !step->du || !step->gap) {
+            free_step(&history->step[--history->steps]);
+            s = RB_ENOMEM;
             break;
-        history->steps++;
-        rb_fem_step *step = &history->step[k];
-        const double *load = run.model->load + (size_t)k * (size_t)run.model->mesh.dofs;
+        }
+        const double *load = model->load + (size_t)k * (size_t)model->mesh.dofs;
         double length = 1.0;
         s = rb_fem_condense_load(run.condensation, load, run.load_c);
         if (s == RB_OK)
@@ -166,17 +154,15 @@ rb_status rb_fem_run(const rb_fem_model *model, const char *solver, double tol,
             const rb_status recorded = record(&run, load, length, step);
             s = recorded == RB_OK ? s : recorded;
         }
-        if (s > 0 && !isfinite(history->step[k].residual)) /* it has not begun */
+        if (s > 0 && !isfinite(step->residual)) /* it has not begun */
             free_step(&history->step[--history->steps]);
     }
-    if (history->step) {
-        rb_fem_condensation_free(run.condensation);
-        rb_fem_state_free(&run.state);
-        free(run.load_c);
-        free(run.v);
-        free(run.du);
-        free(run.u);
-    }
+    rb_fem_condensation_free(run.condensation);
+    rb_fem_state_free(&run.state);
+    free(run.load_c);
+    free(run.v);
+    free(run.du);
+    free(run.u);
     history->seconds = rb_seconds() - start;
     return s;
 }

@@ -52,61 +52,36 @@ void rb_fem_mesh_number(rb_fem_mesh *mesh)
 
 typedef rb_status element_matrix(const double *x, const rb_fem_material *m, double *A);
 
-static rb_status add_elements(const rb_fem_mesh *mesh, const rb_fem_material *material,
-                              element_matrix *matrix, rb_triplets *t, rb_message *why)
-{
-    const int d = mesh->dimension, n = d * mesh->element_nodes;
-    double x[24], A[576];
-    int dof[24];
-    for (int e = 0; e < mesh->elements; e++) {
-        for (int k = 0; k < n; k++) {
-            const int at = d * mesh->node[mesh->element_nodes * e + k / d] + k % d;
-            x[k] = mesh->x[at];
-            dof[k] = mesh->dof[at];
-        }
-        if (matrix(x, material, A) != RB_OK)
-            return rb_fail(why, RB_EINVAL, "element %d is degenerate or turned over", e);
-        for (int k = 0; k < n * n; k++)
-            if (dof[k % n] >= 0 && dof[k / n] >= 0)
-                rb_triplets_add(t, dof[k % n], dof[k / n], A[k]);
-    }
-    return RB_OK;
-}
-
-static rb_status check_mesh(const rb_fem_mesh *mesh, rb_message *why)
-{
-    const int n = mesh->element_nodes * mesh->elements;
-    for (int k = 0; k < n; k++)
-        if (mesh->node[k] < 0 || mesh->node[k] >= mesh->nodes)
-            return rb_fail(why, RB_EINVAL, "element %d: node %d of %d", k / mesh->element_nodes,
-                           mesh->node[k], mesh->nodes);
-    if (mesh->dofs < 1)
-        return rb_fail(why, RB_EINVAL, "mesh: every node is held");
-    return RB_OK;
-}
-
 static rb_status assemble(const rb_fem_mesh *mesh, const rb_fem_material *material,
                           element_matrix *matrix, rb_sparse *A, rb_message *why)
 {
+    const int d = mesh->dimension, corners = mesh->element_nodes, n = d * corners;
     rb_triplets t = {.rows = mesh->dofs, .cols = mesh->dofs};
-    rb_status s = check_mesh(mesh, why);
-    if (s == RB_OK)
-        s = add_elements(mesh, material, matrix, &t, why);
+    rb_status s = RB_OK;
+    for (int k = 0; k < corners * mesh->elements; k++)
+        if (mesh->node[k] < 0 || mesh->node[k] >= mesh->nodes)
+            return rb_fail(why, RB_EINVAL, "element %d: node %d of %d", k / corners, mesh->node[k],
+                           mesh->nodes);
+    if (mesh->dofs < 1)
+        return rb_fail(why, RB_EINVAL, "mesh: every node is held");
+    for (int e = 0; e < mesh->elements && s == RB_OK; e++) {
+        double x[24], element[576];
+        int dof[24];
+        for (int k = 0; k < n; k++) {
+            const int at = d * mesh->node[corners * e + k / d] + k % d;
+            x[k] = mesh->x[at];
+            dof[k] = mesh->dof[at];
+        }
+        if (matrix(x, material, element) != RB_OK)
+            s = rb_fail(why, RB_EINVAL, "element %d is degenerate or turned over", e);
+        for (int k = 0; k < n * n && s == RB_OK; k++)
+            if (dof[k % n] >= 0 && dof[k / n] >= 0)
+                rb_triplets_add(&t, dof[k % n], dof[k / n], element[k]);
+    }
     if (s == RB_OK)
         s = rb_sparse_from_triplets(&t, A);
     rb_triplets_free(&t);
     return s;
-}
-
-static rb_status check_material(const rb_fem_material *m, rb_fem_kind kind, rb_message *why)
-{
-    if (!(m->young > 0.0) || !isfinite(m->young))
-        return rb_fail(why, RB_EINVAL, "young = %g: expected > 0", m->young);
-    if (kind != RB_FEM_BAR && !(m->poisson > -1.0 && m->poisson < 0.5))
-        return rb_fail(why, RB_EINVAL, "poisson = %g: expected in (-1, 0.5)", m->poisson);
-    if (kind != RB_FEM_BRICK && !(m->section > 0.0))
-        return rb_fail(why, RB_EINVAL, "section = %g: expected > 0", m->section);
-    return RB_OK;
 }
 
 rb_status rb_fem_stiffness(const rb_fem_mesh *mesh, const rb_fem_material *material, rb_sparse *K,
@@ -114,8 +89,14 @@ rb_status rb_fem_stiffness(const rb_fem_mesh *mesh, const rb_fem_material *mater
 {
     static element_matrix *const matrix[] = {rb_fem_bar_stiffness, rb_fem_quad_stiffness,
                                              rb_fem_brick_stiffness};
-    const rb_status s = check_material(material, mesh->kind, why);
-    return s == RB_OK ? assemble(mesh, material, matrix[mesh->kind], K, why) : s;
+    const rb_fem_material *m = material;
+    if (!(m->young > 0.0) || !isfinite(m->young))
+        return rb_fail(why, RB_EINVAL, "young = %g: expected > 0", m->young);
+    if (mesh->kind != RB_FEM_BAR && !(m->poisson > -1.0 && m->poisson < 0.5))
+        return rb_fail(why, RB_EINVAL, "poisson = %g: expected in (-1, 0.5)", m->poisson);
+    if (mesh->kind != RB_FEM_BRICK && !(m->section > 0.0))
+        return rb_fail(why, RB_EINVAL, "section = %g: expected > 0", m->section);
+    return assemble(mesh, m, matrix[mesh->kind], K, why);
 }
 
 rb_status rb_fem_mass(const rb_fem_mesh *mesh, const rb_fem_material *material, rb_sparse *M,

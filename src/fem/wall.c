@@ -33,8 +33,11 @@ rb_fem_wall_options rb_fem_wall_defaults(void)
         .fine = {14, 10, 3}, .coarse = {5, 3, 3}, .dt = 1e-2, .press = 10, .shear = 65};
 }
 
-static rb_status check_options(const rb_fem_wall_options *o, rb_message *why)
+rb_status rb_fem_wall_create(const rb_fem_wall_options *options, rb_fem_wall **wall,
+                             rb_message *why)
 {
+    const rb_fem_wall_options *o = options;
+    *wall = NULL;
     for (int k = 0; k < 3; k++) {
         const int least = k == 1 ? 2 : 3;
         if (o->fine[k] < least || o->coarse[k] < least || o->fine[k] > 200 || o->coarse[k] > 200)
@@ -43,25 +46,14 @@ static rb_status check_options(const rb_fem_wall_options *o, rb_message *why)
     }
     if (!(o->dt > 0.0) || o->press < 1 || o->shear < 0)
         return rb_fail(why, RB_EINVAL, "wall: dt = %g, %d + %d steps", o->dt, o->press, o->shear);
-    return RB_OK;
-}
-
-
-rb_status rb_fem_wall_create(const rb_fem_wall_options *options, rb_fem_wall **wall,
-                             rb_message *why)
-{
-    *wall = NULL;
-    rb_status s = check_options(options, why);
-    if (s != RB_OK)
-        return s;
     rb_fem_wall *w = calloc(1, sizeof *w);
     if (!w)
         return RB_ENOMEM;
-    w->options = *options;
+    w->options = *o;
     w->layout = wall_lay_out(&w->options);
     w->contacts = wall_find_contacts(&w->layout, NULL);
     w->contact = calloc((size_t)w->contacts, sizeof *w->contact);
-    s = w->contact ? wall_build_mesh(&w->layout, &w->mesh) : RB_ENOMEM;
+    rb_status s = w->contact ? wall_build_mesh(&w->layout, &w->mesh) : RB_ENOMEM;
     if (s == RB_OK) {
         wall_find_contacts(&w->layout, w->contact);
         s = wall_elastic_system(&w->layout, &w->mesh, w->contacts, w->contact, &w->system, why);

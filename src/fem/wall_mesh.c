@@ -10,29 +10,24 @@ static const double block_size[3] = {0.2, 0.1, 0.1}; /* m */
  * even courses half, whole, half. */
 static const double run[2][3][2] = {{{0.0, 1.0}, {1.0, 1.0}}, {{0.0, 0.5}, {0.5, 1.0}, {1.5, 0.5}}};
 
-static wall_block make_block(const rb_fem_wall_options *o, int course, const double *piece)
-{
-    const int *n = course % 2 ? o->coarse : o->fine;
-    wall_block b = {.course = course};
-    for (int k = 0; k < 3; k++) {
-        b.size[k] = block_size[k];
-        b.n[k] = n[k];
-    }
-    b.low[0] = piece[0] * block_size[0];
-    b.low[2] = course * block_size[2];
-    b.size[0] *= piece[1];
-    if (piece[1] < 1.0)
-        b.n[0] = n[0] / 2 + 1;
-    return b;
-}
-
 wall_layout wall_lay_out(const rb_fem_wall_options *o)
 {
     wall_layout layout = {.nodes = 0};
     for (int course = 0, at = 0; course < COURSES; course++)
         for (int k = 0; k < 2 + course % 2; k++) {
+            const int *n = course % 2 ? o->coarse : o->fine;
+            const double *piece = run[course % 2][k];
             wall_block *b = &layout.block[at++];
-            *b = make_block(o, course, run[course % 2][k]);
+            b->course = course;
+            for (int d = 0; d < 3; d++) {
+                b->size[d] = block_size[d];
+                b->n[d] = n[d];
+            }
+            b->low[0] = piece[0] * block_size[0];
+            b->low[2] = course * block_size[2];
+            b->size[0] *= piece[1];
+            if (piece[1] < 1.0)
+                b->n[0] = n[0] / 2 + 1;
             b->first = layout.nodes;
             layout.nodes += b->n[0] * b->n[1] * b->n[2];
             layout.elements += (b->n[0] - 1) * (b->n[1] - 1) * (b->n[2] - 1);
@@ -45,34 +40,29 @@ int wall_node(const wall_block *b, int i, int j, int k)
     return b->first + i + b->n[0] * (j + b->n[1] * k);
 }
 
-static void place_nodes(const wall_block *b, double *x)
-{
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++) {
-                const int at[3] = {i, j, k};
-                double *p = x + 3 * wall_node(b, i, j, k);
-                for (int c = 0; c < 3; c++)
-                    p[c] = b->low[c] + b->size[c] * at[c] / (b->n[c] - 1);
-            }
-}
-
 rb_status wall_build_mesh(const wall_layout *layout, rb_fem_mesh *mesh)
 {
     const rb_status s = rb_fem_mesh_alloc(RB_FEM_BRICK, layout->nodes, layout->elements, mesh);
     if (s != RB_OK)
         return s;
     int *node = mesh->node;
-    for (int b = 0; b < BLOCKS; b++) {
-        place_nodes(&layout->block[b], mesh->x);
+    for (const wall_block *b = layout->block; b < layout->block + BLOCKS; b++) {
         static const int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                                          {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-        for (int k = 0; k + 1 < layout->block[b].n[2]; k++)
-            for (int j = 0; j + 1 < layout->block[b].n[1]; j++)
-                for (int i = 0; i + 1 < layout->block[b].n[0]; i++)
+        for (int k = 0; k < b->n[2]; k++)
+            for (int j = 0; j < b->n[1]; j++)
+                for (int i = 0; i < b->n[0]; i++) {
+                    const int at[3] = {i, j, k};
+                    double *p = mesh->x + 3 * wall_node(b, i, j, k);
+                    for (int c = 0; c < 3; c++)
+                        p[c] = b->low[c] + b->size[c] * at[c] / (b->n[c] - 1);
+                }
+        for (int k = 0; k + 1 < b->n[2]; k++)
+            for (int j = 0; j + 1 < b->n[1]; j++)
+                for (int i = 0; i + 1 < b->n[0]; i++)
                     for (int a = 0; a < 8; a++)
-                        *node++ = wall_node(&layout->block[b], i + corner[a][0], j + corner[a][1],
-                                            k + corner[a][2]);
+                        *node++ =
+                            wall_node(b, i + corner[a][0], j + corner[a][1], k + corner[a][2]);
     }
     return RB_OK;
 }

@@ -18,23 +18,6 @@ typedef struct {
     rb_message why;
 } ending;
 
-static void run_child(int to, io_work *work, const void *context)
-{
-    ending end = {.status = RB_ENOMEM};
-    FILE *out = fdopen(to, "wb");
-    /* What a crash would print, and the core it would leave, helps nobody. */
-    const struct rlimit none = {0, 0};
-    const int null = open("/dev/null", O_WRONLY);
-    setrlimit(RLIMIT_CORE, &none);
-    dup2(null, STDERR_FILENO);
-    if (out) {
-        end.status = work(out, context, &end.why);
-        fwrite(&end, sizeof end, 1, out);
-        fflush(out);
-    }
-    _exit(0); /* the library's own end may crash too */
-}
-
 rb_status rb_io_in_child(const char *name, io_work *work, const void *context, char **bytes,
                          size_t *size, rb_message *why)
 {
@@ -46,8 +29,20 @@ rb_status rb_io_in_child(const char *name, io_work *work, const void *context, c
         return rb_fail(why, RB_ENOMEM, "%s: out of memory: %s", name, strerror(errno));
     const pid_t pid = fork();
     if (pid == 0) {
+        ending mine = {.status = RB_ENOMEM};
+        /* What a crash would print, and the core it would leave, helps nobody. */
+        const struct rlimit none = {0, 0};
+        const int null = open("/dev/null", O_WRONLY);
         close(end[0]);
-        run_child(end[1], work, context);
+        FILE *out = fdopen(end[1], "wb");
+        setrlimit(RLIMIT_CORE, &none);
+        dup2(null, STDERR_FILENO);
+        if (out) {
+            mine.status = work(out, context, &mine.why);
+            fwrite(&mine, sizeof mine, 1, out);
+            fflush(out);
+        }
+        _exit(0); /* the library's own end may crash too */
     }
     close(end[1]);
     FILE *from = pid > 0 ? fdopen(end[0], "rb") : NULL;

@@ -102,36 +102,30 @@ static int exists(const reader *in, const char *name)
     return 1;
 }
 
-/* An array lies in this file, which is large enough for it. */
-static rb_status check_storage(const reader *in, const char *name, hid_t set, double points)
-{
-    const hid_t layout = H5Dget_create_plist(set), type = H5Dget_type(set);
-    const int outside = H5Pget_layout(layout) == H5D_VIRTUAL || H5Pget_external_count(layout) != 0;
-    const double bytes = points * (double)H5Tget_size(type);
-    H5Pclose(layout);
-    H5Tclose(type);
-    if (outside)
-        return rb_fail(in->why, RB_EFORMAT, "%s: %s is kept in another file", in->path, name);
-    if (bytes > in->most)
-        return rb_fail(in->why, RB_EFORMAT,
-                       "%s: %s has %g bytes: a file of this size holds at most %g", in->path, name,
-                       bytes, in->most);
-    return RB_OK;
-}
-
+/* The array lies in this file, which is large enough for it. */
 static rb_status open_array(const reader *in, const char *name, hid_t *set, int *n)
 {
     *set = exists(in, name) ? H5Dopen2(in->file, name, H5P_DEFAULT) : -1;
     if (*set < 0)
         return rb_fail(in->why, RB_EFORMAT, "%s: no %s", in->path, name);
-    const hid_t space = H5Dget_space(*set);
+    const hid_t space = H5Dget_space(*set), layout = H5Dget_create_plist(*set),
+                type = H5Dget_type(*set);
     const hssize_t points = H5Sget_simple_extent_npoints(space); /* or negative */
+    const int outside = H5Pget_layout(layout) == H5D_VIRTUAL || H5Pget_external_count(layout) != 0;
+    const double bytes = (double)points * (double)H5Tget_size(type);
+    rb_status s = RB_OK;
     H5Sclose(space);
+    H5Pclose(layout);
+    H5Tclose(type);
     *n = (int)points;
-    const rb_status s =
-        (uint64_t)points < 1 << 30
-            ? check_storage(in, name, *set, (double)points)
-            : rb_fail(in->why, RB_EFORMAT, "%s: %s: unreadable size", in->path, name);
+    if ((uint64_t)points >= 1 << 30)
+        s = rb_fail(in->why, RB_EFORMAT, "%s: %s: unreadable size", in->path, name);
+    else if (outside)
+        s = rb_fail(in->why, RB_EFORMAT, "%s: %s is kept in another file", in->path, name);
+    else if (bytes > in->most)
+        s = rb_fail(in->why, RB_EFORMAT,
+                    "%s: %s has %g bytes: a file of this size holds at most %g", in->path, name,
+                    bytes, in->most);
     if (s != RB_OK)
         H5Dclose(*set);
     return s;
@@ -584,16 +578,6 @@ static void write_text(hid_t parent, const char *name, const char *text)
     H5Tclose(type);
 }
 
-/* A column number per entry; NULL without memory. */
-static int *columns_of(const rb_sparse *a)
-{
-    int *column = rb_alloc_int((size_t)a->p[a->cols]);
-    for (int j = 0; column && j < a->cols; j++)
-        for (int k = a->p[j]; k < a->p[j + 1]; k++)
-            column[k] = j;
-    return column;
-}
-
 static rb_status write_matrix(hid_t parent, const char *name, const rb_sparse *a,
                               rb_io_fclib_layout layout)
 {
@@ -602,9 +586,13 @@ static rb_status write_matrix(hid_t parent, const char *name, const rb_sparse *a
     rb_sparse t = {0};
     int *column = NULL;
     rb_status s = RB_OK;
-    if (triplets)
-        s = (column = columns_of(a)) ? RB_OK : RB_ENOMEM;
-    else if (layout == RB_IO_FCLIB_CSR)
+    if (triplets) { /* a column number per entry */
+        column = rb_alloc_int((size_t)entries);
+        s = column ? RB_OK : RB_ENOMEM;
+        for (int j = 0; column && j < a->cols; j++)
+            for (int k = a->p[j]; k < a->p[j + 1]; k++)
+                column[k] = j;
+    } else if (layout == RB_IO_FCLIB_CSR)
         s = rb_sparse_transpose(a, &t);
     if (s == RB_OK) {
         const rb_sparse *lines = t.p ? &t : a;

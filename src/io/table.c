@@ -79,15 +79,6 @@ static rb_status no_memory(const reading *r)
     return rb_fail(r->why, RB_ENOMEM, "%s: out of memory", r->path);
 }
 
-static rb_status check_name(const reading *r, int j)
-{
-    for (int i = 0; i < j; i++)
-        if (strcmp(r->t->name[i], r->t->name[j]) == 0)
-            return rb_fail(r->why, RB_EFORMAT, "%s:%d: column '%s' is named twice", r->path,
-                           r->line, r->t->name[j]);
-    return RB_OK;
-}
-
 static rb_status keep_names(reading *r, const char *text)
 {
     rb_io_table *t = r->t;
@@ -103,7 +94,10 @@ static rb_status keep_names(reading *r, const char *text)
         if (!t->name[j])
             return no_memory(r);
         memcpy(t->name[j], word, n);
-        s = check_name(r, j);
+        for (int i = 0; i < j && s == RB_OK; i++)
+            if (strcmp(t->name[i], t->name[j]) == 0)
+                s = rb_fail(r->why, RB_EFORMAT, "%s:%d: column '%s' is named twice", r->path,
+                            r->line, t->name[j]);
     }
     return s;
 }
@@ -196,20 +190,6 @@ static rb_status read_line(reading *r, char *text)
     return s == RB_OK ? read_row(r, words) : s;
 }
 
-static rb_status by_columns(const reading *r)
-{
-    rb_io_table *t = r->t;
-    double *x = rb_alloc((size_t)t->rows, (size_t)t->columns);
-    if (!x)
-        return no_memory(r);
-    for (int i = 0; i < t->rows; i++)
-        for (int j = 0; j < t->columns; j++)
-            x[i + (size_t)j * (size_t)t->rows] = t->x[(size_t)i * (size_t)t->columns + (size_t)j];
-    free(t->x);
-    t->x = x;
-    return RB_OK;
-}
-
 rb_status rb_io_table_parse(const char *path, char *text, rb_io_table *t, rb_message *why)
 {
     reading r = {.path = path, .comment = "", .t = t, .why = why};
@@ -224,8 +204,18 @@ rb_status rb_io_table_parse(const char *path, char *text, rb_io_table *t, rb_mes
     }
     if (s == RB_OK && r.t->rows == 0)
         s = rb_fail(r.why, RB_EFORMAT, "%s: no numbers", r.path);
-    if (s == RB_OK)
-        s = by_columns(&r);
+    if (s == RB_OK) { /* from rows to columns */
+        const size_t rows = (size_t)t->rows, columns = (size_t)t->columns;
+        double *x = rb_alloc(rows, columns);
+        s = x ? RB_OK : no_memory(&r);
+        for (size_t i = 0; x && i < rows; i++)
+            for (size_t j = 0; j < columns; j++)
+                x[i + j * rows] = t->x[i * columns + j];
+        if (x) {
+            free(t->x);
+            t->x = x;
+        }
+    }
     if (s != RB_OK)
         rb_io_table_free(t);
     return s;

@@ -105,24 +105,6 @@ static int open_nameless(const char *target)
     return fd;
 }
 
-static rb_status open_file(const char *path, const struct stat *old, rb_io_writer *w,
-                           rb_message *why)
-{
-    if (old && access(path, W_OK) != 0)
-        return cannot_write(path, why);
-    w->target = resolve(path);
-    const int fd = w->target ? open_nameless(w->target) : -1;
-    if (fd >= 0 && (!old || fchmod(fd, old->st_mode & 07777) == 0))
-        w->file = fdopen(fd, "w+");
-    if (w->file)
-        return RB_OK;
-    const rb_status s = cannot_write(path, why);
-    if (fd >= 0)
-        close(fd);
-    rb_io_writer_abandon(w);
-    return s;
-}
-
 rb_status rb_io_writer_open(const char *path, rb_io_writer *w, rb_message *why)
 {
     struct stat old;
@@ -131,17 +113,24 @@ rb_status rb_io_writer_open(const char *path, rb_io_writer *w, rb_message *why)
         w->file = stdout;
         return RB_OK;
     }
-    const int exists = stat(path, &old) == 0;
-    if (exists && !S_ISREG(old.st_mode)) {
+    const int exists = stat(path, &old) == 0, is_device = exists && !S_ISREG(old.st_mode);
+    int fd = -1;
+    if (is_device) {
         w->device = strdup(path);
         w->file = w->device ? fopen(path, "w") : NULL;
-        if (w->file)
-            return RB_OK;
-        const rb_status s = cannot_write(path, why);
-        rb_io_writer_abandon(w);
-        return s;
+    } else if (!exists || access(path, W_OK) == 0) {
+        w->target = resolve(path);
+        fd = w->target ? open_nameless(w->target) : -1;
+        if (fd >= 0 && (!exists || fchmod(fd, old.st_mode & 07777) == 0))
+            w->file = fdopen(fd, "w+");
     }
-    return open_file(path, exists ? &old : NULL, w, why);
+    if (w->file)
+        return RB_OK;
+    const rb_status s = cannot_write(path, why);
+    if (fd >= 0)
+        close(fd);
+    rb_io_writer_abandon(w);
+    return s;
 }
 
 rb_status rb_io_writer_check(const char *path, rb_message *why)
@@ -227,23 +216,18 @@ static int replace(rb_io_writer *w)
     return bad;
 }
 
-/* As long as the file has a name that is not its own, no signal ends the program. */
-static int replace_undisturbed(rb_io_writer *w)
-{
-    sigset_t all, before;
-    sigfillset(&all);
-    pthread_sigmask(SIG_BLOCK, &all, &before);
-    const int bad = replace(w), e = errno;
-    pthread_sigmask(SIG_SETMASK, &before, NULL);
-    errno = e;
-    return bad;
-}
-
 rb_status rb_io_writer_commit(rb_io_writer *w, rb_message *why)
 {
     int bad;
     if (w->target) {
-        bad = replace_undisturbed(w);
+        /* As long as the file has a name that is not its own, no signal ends the program. */
+        sigset_t all, before;
+        sigfillset(&all);
+        pthread_sigmask(SIG_BLOCK, &all, &before);
+        bad = replace(w);
+        const int e = errno;
+        pthread_sigmask(SIG_SETMASK, &before, NULL);
+        errno = e;
     } else {
         bad = finish(w->file);
         w->file = NULL;

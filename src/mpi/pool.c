@@ -51,42 +51,31 @@ typedef struct {
     char machine[64], line[400];
 } verdict;
 
-static verdict verdict_of(cli_exit code, uint64_t study)
-{
-    verdict v = {.code = code, .study = study};
-
-    gethostname(v.machine, sizeof v.machine - 1);
-    snprintf(v.line, sizeof v.line, "%s", cli_kept_failure());
-    return v;
-}
-
-/* The first of them that cannot go on with rank 0. */
-static cli_exit assess(const verdict *all)
-{
-    for (int r = 1; r < size && all[0].code == CLI_CONTINUE; r++) {
-        if (all[r].code != CLI_CONTINUE)
-            return cli_fail((cli_exit)all[r].code, "process %d on %s: %s", r, all[r].machine,
-                            all[r].line);
-        if (all[r].study != all[0].study)
-            return cli_fail(CLI_DATA, "process %d on %s reads another study, or is another version",
-                            r, all[r].machine);
-    }
-    return (cli_exit)all[0].code;
-}
-
 cli_exit cli_pool_agree(cli_exit code, uint64_t study)
 {
     if (!active)
         return code;
-    const verdict own = verdict_of(code, study);
+    verdict own = {.code = code, .study = study};
     verdict *all = calloc((size_t)size, sizeof *all);
     int common = CLI_INTERNAL;
 
+    gethostname(own.machine, sizeof own.machine - 1);
+    snprintf(own.line, sizeof own.line, "%s", cli_kept_failure());
     if (!all)
         MPI_Abort(MPI_COMM_WORLD, CLI_INTERNAL);
     MPI_Gather(&own, sizeof own, MPI_BYTE, all, sizeof own, MPI_BYTE, 0, MPI_COMM_WORLD);
+    for (int r = 1; r < size && rank == 0 && all[0].code == CLI_CONTINUE; r++) {
+        /* The first of them that cannot go on with rank 0. */
+        if (all[r].code != CLI_CONTINUE)
+            all[0].code = cli_fail((cli_exit)all[r].code, "process %d on %s: %s", r, all[r].machine,
+                                   all[r].line);
+        else if (all[r].study != all[0].study)
+            all[0].code =
+                cli_fail(CLI_DATA, "process %d on %s reads another study, or is another version", r,
+                         all[r].machine);
+    }
     if (rank == 0)
-        common = assess(all);
+        common = all[0].code;
     MPI_Bcast(&common, 1, MPI_INT, 0, MPI_COMM_WORLD);
     free(all);
     return (cli_exit)common;
@@ -244,17 +233,6 @@ static int share(void)
     return most < 1 ? 1 : most > 256 ? 256 : most;
 }
 
-static rb_status lead(const rb_rolling_sweep *sweep, rb_rolling_pool *own, int *left,
-                      rb_message *why)
-{
-    ranks *all = calloc(1, sizeof *all);
-
-    if (!all)
-        MPI_Abort(MPI_COMM_WORLD, CLI_INTERNAL);
-    *all = (ranks){{idle, submit, collect, stop}, own, left};
-    return rb_rolling_sweep_by(sweep, &all->pool, why);
-}
-
 /* mpirun ends all of them. */
 static void give_up(const char *line)
 {
@@ -276,8 +254,13 @@ rb_status cli_pool_run(const rb_rolling_sweep *sweep, rb_message *why)
     /* a second case waits at each solver, so that none waits for a message */
     const int most = 2 * own->idle(own);
     MPI_Gather(&most, 1, MPI_INT, left, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    if (rank == 0)
-        return lead(&here, own, left, why);
+    if (rank == 0) {
+        ranks *all = calloc(1, sizeof *all);
+        if (!all)
+            MPI_Abort(MPI_COMM_WORLD, CLI_INTERNAL);
+        *all = (ranks){{idle, submit, collect, stop}, own, left};
+        return rb_rolling_sweep_by(&here, &all->pool, why);
+    }
     free(left);
     if (run_rank(own) < 0)
         give_up("cannot replace a lost solver");

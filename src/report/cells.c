@@ -17,18 +17,6 @@ static void begin_cell(rb_report_cells *c)
         fputc(is_csv(c) ? ',' : '\t', c->out);
 }
 
-/* As RFC 4180 wants it, which readers of tabs take as well. */
-static void write_quoted(FILE *out, const char *text)
-{
-    fputc('"', out);
-    for (; *text; text++) {
-        if (*text == '"')
-            fputc('"', out);
-        fputc(*text, out);
-    }
-    fputc('"', out);
-}
-
 void rb_report_cell_text(rb_report_cells *c, const char *text)
 {
     const size_t size = 4 * strlen(text) + 1;
@@ -36,10 +24,15 @@ void rb_report_cell_text(rb_report_cells *c, const char *text)
     /* without memory the text stands as it is */
     const char *shown = printable ? rb_printable(text, printable, size) : text;
     begin_cell(c);
-    if (strpbrk(shown, " ,\"#\t\n") || !*shown)
-        write_quoted(c->out, shown);
-    else
-        fputs(shown, c->out);
+    /* As RFC 4180 wants it, which readers of tabs take as well. */
+    const int quoted = strpbrk(shown, " ,\"#\t\n") || !*shown;
+    fputs(quoted ? "\"" : "", c->out);
+    for (const char *at = shown; *at; at++) {
+        if (*at == '"')
+            fputc('"', c->out);
+        fputc(*at, c->out);
+    }
+    fputs(quoted ? "\"" : "", c->out);
     free(printable);
 }
 

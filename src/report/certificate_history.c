@@ -23,43 +23,36 @@ static rb_status read_lists(const rb_certificate *c, const json_t *states, const
     return s;
 }
 
-static rb_status read_zones(const rb_certificate *c, rb_rolling_states *to, const double *zone,
-                            rb_message *why)
-{
-    const size_t all = (size_t)to->n * (size_t)to->steps;
-    for (size_t i = 0; i < all; i++) {
-        if (!(zone[i] >= 0.0 && zone[i] <= 5.0) || zone[i] != floor(zone[i]))
-            return rb_fail(why, RB_EFORMAT, "%s: states: zone %g", c->name, zone[i]);
-        to->zone[i] = (int)zone[i];
-    }
-    return RB_OK;
-}
-
 static rb_status read_states(const rb_certificate *c, const json_t *printed, rb_rolling_states *to,
                              rb_message *why)
 {
     const json_t *states = json_object_get(printed, "states");
-    double *zone = rb_alloc((size_t)to->n, (size_t)to->steps);
+    const int n = to->n, steps = to->steps;
+    double *zone = rb_alloc((size_t)n, (size_t)steps);
+    const struct {
+        const json_t *table;
+        const char *key;
+        int n; /* 0: lists of all elements */
+        double *to;
+    } parts[] = {{c->table, "x_mm", n, to->x},
+                 {c->table, "h_mm", n, to->h},
+                 {states, "p_MPa", 0, to->p},
+                 {states, "q_MPa", 0, to->q},
+                 {states, "shift_mm", 0, to->lambda},
+                 {states, "zone", 0, zone},
+                 {printed, "approach", steps, to->delta},
+                 {states, "motion", steps, to->xi}};
     rb_status s = zone ? RB_OK : RB_ENOMEM;
 
-    if (s == RB_OK)
-        s = rb_certificate_column(c->name, c->table, "x_mm", to->n, to->x, why);
-    if (s == RB_OK)
-        s = rb_certificate_column(c->name, c->table, "h_mm", to->n, to->h, why);
-    if (s == RB_OK)
-        s = read_lists(c, states, "p_MPa", to, to->p, why);
-    if (s == RB_OK)
-        s = read_lists(c, states, "q_MPa", to, to->q, why);
-    if (s == RB_OK)
-        s = read_lists(c, states, "shift_mm", to, to->lambda, why);
-    if (s == RB_OK)
-        s = read_lists(c, states, "zone", to, zone, why);
-    if (s == RB_OK)
-        s = read_zones(c, to, zone, why);
-    if (s == RB_OK)
-        s = rb_certificate_column(c->name, printed, "approach", to->steps, to->delta, why);
-    if (s == RB_OK)
-        s = rb_certificate_column(c->name, states, "motion", to->steps, to->xi, why);
+    for (size_t k = 0; k < sizeof parts / sizeof *parts && s == RB_OK; k++)
+        s = parts[k].n > 0 ? rb_certificate_column(c->name, parts[k].table, parts[k].key,
+                                                   parts[k].n, parts[k].to, why)
+                           : read_lists(c, states, parts[k].key, to, parts[k].to, why);
+    for (size_t i = 0; i < (size_t)n * (size_t)steps && s == RB_OK; i++)
+        if (!(zone[i] >= 0.0 && zone[i] <= 5.0) || zone[i] != floor(zone[i]))
+            s = rb_fail(why, RB_EFORMAT, "%s: states: zone %g", c->name, zone[i]);
+        else
+            to->zone[i] = (int)zone[i];
     free(zone);
     return s;
 }

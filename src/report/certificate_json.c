@@ -102,13 +102,6 @@ void rb_certificate_option_text(const json_t *value, char *text, size_t size)
     }
 }
 
-/* Material of B that --similar copies from A. */
-static int is_copied(const json_t *inputs, const char *key)
-{
-    return json_is_true(json_object_get(inputs, "similar")) &&
-           (strcmp(key, "young-b") == 0 || strcmp(key, "poisson-b") == 0);
-}
-
 /* What B has not although A has it: --similar would copy it. */
 static int is_own_of_b(const json_t *inputs, const char *key)
 {
@@ -135,7 +128,10 @@ static rb_status set_inputs(const json_t *inputs, const json_t *now, rb_case *wo
 
     json_object_foreach((json_t *)inputs, key, value)
     {
-        if (s != RB_OK || json_is_null(value) || is_copied(inputs, key) ||
+        /* material of B that --similar copies from A */
+        const int is_copied = json_is_true(json_object_get(inputs, "similar")) &&
+                              (strcmp(key, "young-b") == 0 || strcmp(key, "poisson-b") == 0);
+        if (s != RB_OK || json_is_null(value) || is_copied ||
             (json_equal(value, json_object_get(now, key)) && !is_own_of_b(inputs, key)))
             continue;
         rb_certificate_option_text(value, text, sizeof text);

@@ -26,18 +26,6 @@ static double slack_of_stress(const rb_certificate *c, const char *key, double w
                                                                                             : 1e-7);
 }
 
-/* The grid's points follow from its size. */
-static rb_status grid_again(rb_certificate *c, const json_t *printed, double depth,
-                            rb_rolling_stress_grid *grid, rb_message *why)
-{
-    const double nx = rb_certificate_member(printed, "nx");
-    const double ny = rb_certificate_member(printed, "ny");
-    const size_t n = json_array_size(json_object_get(printed, "x_mm"));
-    if (!(nx >= 2.0 && ny >= 2.0 && nx * ny == (double)n))
-        return rb_certificate_refuse(c->name, "its grid is not nx by ny points", why);
-    return rb_rolling_stress_on_grid(&c->model, (int)nx, (int)ny, depth, grid, why);
-}
-
 /* Given points are taken as they are: a list in one row. */
 static rb_status points_again(rb_certificate *c, const json_t *printed, rb_rolling_stress_grid *row,
                               rb_message *why)
@@ -65,13 +53,6 @@ static rb_status points_again(rb_certificate *c, const json_t *printed, rb_rolli
 
 /* ---- Largest stresses -------------------------------------------------------------- */
 
-static rb_rolling_extremum printed_extremum(const json_t *maxima, const char *name)
-{
-    const json_t *one = json_object_get(maxima, name);
-    return (rb_rolling_extremum){rb_certificate_member(one, "value"),
-                                 rb_certificate_member(one, "x"), rb_certificate_member(one, "y")};
-}
-
 /* Its place has to lie in the depth that was given, and no other may have more. */
 static void expect_largest(rb_certificate *c, const char *name, double depth,
                            rb_rolling_extremum printed, rb_rolling_extremum found)
@@ -93,16 +74,23 @@ static rb_status maxima_again(rb_certificate *c, const json_t *printed, double d
     rb_rolling_stress_maxima found;
     rb_status s = rb_rolling_stress_maxima_find(&c->model, depth, &found, why);
 
-    there->max_shear = printed_extremum(printed, "max_shear");
-    there->von_mises = printed_extremum(printed, "von_mises");
-    there->orthogonal_shear = printed_extremum(printed, "orthogonal_shear");
-    there->tension = printed_extremum(printed, "tension");
+    const struct {
+        const char *name;
+        rb_rolling_extremum *there, *found;
+    } kinds[] = {{"max_shear", &there->max_shear, &found.max_shear},
+                 {"von_mises", &there->von_mises, &found.von_mises},
+                 {"orthogonal_shear", &there->orthogonal_shear, &found.orthogonal_shear},
+                 {"tension", &there->tension, &found.tension}};
+    for (int k = 0; k < 4; k++) {
+        const json_t *one = json_object_get(printed, kinds[k].name);
+        *kinds[k].there =
+            (rb_rolling_extremum){rb_certificate_member(one, "value"),
+                                  rb_certificate_member(one, "x"), rb_certificate_member(one, "y")};
+        if (s == RB_OK)
+            expect_largest(c, kinds[k].name, depth, *kinds[k].there, *kinds[k].found);
+    }
     if (s != RB_OK)
         return s;
-    expect_largest(c, "max_shear", depth, there->max_shear, found.max_shear);
-    expect_largest(c, "von_mises", depth, there->von_mises, found.von_mises);
-    expect_largest(c, "orthogonal_shear", depth, there->orthogonal_shear, found.orthogonal_shear);
-    expect_largest(c, "tension", depth, there->tension, found.tension);
     s = rb_rolling_stress_maxima_at(&c->model, there, why);
     if (s == RB_EINVAL)
         rb_certificate_violated(c, "maxima: %s", why->text);
@@ -129,22 +117,6 @@ static rb_status shakedown_again(rb_certificate *c, const json_t *printed,
     return s == RB_EINVAL ? RB_OK : s;
 }
 
-/* What the program would print of them now. */
-static rb_status compare_all(rb_certificate *c, const json_t *root, const rb_report_stress *stress)
-{
-    json_t *again = json_object(), *part;
-    const char *key;
-
-    rb_report_json_stress(&again, stress);
-    json_object_foreach(again, key, part)
-    {
-        rb_certificate_compare(c, key, 0, json_object_get(root, key), part, slack_of_stress);
-    }
-    const rb_status s = again ? RB_OK : RB_ENOMEM;
-    json_decref(again);
-    return s;
-}
-
 rb_status rb_certificate_stress(rb_certificate *c, const json_t *root, rb_message *why)
 {
     const json_t *printed = json_object_get(root, "grid");
@@ -154,25 +126,43 @@ rb_status rb_certificate_stress(rb_certificate *c, const json_t *root, rb_messag
     rb_rolling_stress_grid grid = {0};
     rb_rolling_stress_maxima maxima;
     rb_rolling_shakedown limit;
-    rb_status s = is_grid ? grid_again(c, printed, depth, &grid, why)
-                          : points_again(c, json_object_get(root, "points"), &grid, why);
+    rb_status s;
 
+    if (is_grid) { /* its points follow from its size */
+        const double nx = rb_certificate_member(printed, "nx");
+        const double ny = rb_certificate_member(printed, "ny");
+        const size_t n = json_array_size(json_object_get(printed, "x_mm"));
+        s = nx >= 2.0 && ny >= 2.0 && nx * ny == (double)n
+                ? rb_rolling_stress_on_grid(&c->model, (int)nx, (int)ny, depth, &grid, why)
+                : rb_certificate_refuse(c->name, "its grid is not nx by ny points", why);
+    } else
+        s = points_again(c, json_object_get(root, "points"), &grid, why);
     if (s == RB_OK)
         s = maxima_again(c, json_object_get(root, "maxima"), depth, &maxima, why);
     if (s == RB_OK && shakedown)
         s = shakedown_again(c, shakedown, &limit, why);
-    if (s == RB_OK)
-        s = compare_all(
-            c, root,
-            &(rb_report_stress){.nx = is_grid ? grid.nx : 0,
-                                .ny = grid.ny,
-                                .n = is_grid ? grid.nx * grid.ny : grid.nx,
-                                .depth = depth,
-                                .at = grid.at,
-                                .maxima = &maxima,
-                                .shakedown = shakedown ? &limit : NULL,
-                                .yield_shear = rb_certificate_member(shakedown, "yield_shear"),
-                                .s = &c->again});
+    if (s == RB_OK) {
+        /* What the program would print of them now. */
+        const rb_report_stress stress = {.nx = is_grid ? grid.nx : 0,
+                                         .ny = grid.ny,
+                                         .n = is_grid ? grid.nx * grid.ny : grid.nx,
+                                         .depth = depth,
+                                         .at = grid.at,
+                                         .maxima = &maxima,
+                                         .shakedown = shakedown ? &limit : NULL,
+                                         .yield_shear =
+                                             rb_certificate_member(shakedown, "yield_shear"),
+                                         .s = &c->again};
+        json_t *again = json_object(), *part;
+        const char *key;
+        rb_report_json_stress(&again, &stress);
+        json_object_foreach(again, key, part)
+        {
+            rb_certificate_compare(c, key, 0, json_object_get(root, key), part, slack_of_stress);
+        }
+        s = again ? RB_OK : RB_ENOMEM;
+        json_decref(again);
+    }
     rb_rolling_stress_grid_free(&grid);
     return s;
 }

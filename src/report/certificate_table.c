@@ -63,30 +63,21 @@ static void compare_patches(rb_certificate *c, const char *text)
             rb_certificate_violated(c, "patch %d is missing", k + 1);
             continue;
         }
-        rb_certificate_expect(c, "from of a patch", 0, from, want->from,
-                              1e-8 * fabs(want->from) + length);
-        rb_certificate_expect(c, "to of a patch", 0, to, want->to, 1e-8 * fabs(want->to) + length);
-        rb_certificate_expect(c, "p0 of a patch", 0, p0, want->max_pressure,
-                              1e-8 * want->max_pressure + stress);
-        rb_certificate_expect(c, "P of a patch", 0, P, want->normal_load,
-                              1e-8 * want->normal_load + load);
-        rb_certificate_expect(c, "Q of a patch", 0, Q, want->tangential_load,
-                              1e-8 * fabs(want->tangential_load) + load);
+        const struct {
+            const char *what;
+            double printed, want, rounding;
+        } numbers[] = {{"from of a patch", from, want->from, length},
+                       {"to of a patch", to, want->to, length},
+                       {"p0 of a patch", p0, want->max_pressure, stress},
+                       {"P of a patch", P, want->normal_load, load},
+                       {"Q of a patch", Q, want->tangential_load, load}};
+        for (int j = 0; j < 5; j++)
+            rb_certificate_expect(c, numbers[j].what, 0, numbers[j].printed, numbers[j].want,
+                                  1e-8 * fabs(numbers[j].want) + numbers[j].rounding);
     }
 }
 
 /* ---- All together ------------------------------------------------------------------ */
-
-static rb_status check_inputs(const char *name, const rb_resolved_case *resolved, rb_message *why)
-{
-    const char *what = rb_case_has_steps(resolved)
-                           ? "its last state depends on the steps before it: take --json --states"
-                       : resolved->error || resolved->accuracy > 0.0
-                           ? "error bars take solutions on other meshes"
-                       : resolved->units != RB_UNITS_MM ? "units other than mm, N, MPa"
-                                                        : NULL;
-    return what ? rb_certificate_refuse(name, what, why) : RB_OK;
-}
 
 static json_t *json_of(const rb_io_table *t)
 {
@@ -108,7 +99,15 @@ rb_status rb_report_certify_table(FILE *out, const char *name, const char *text,
     char *lines = strdup(text);
 
     memset(found, 0, sizeof *found);
-    rb_status s = lines ? check_inputs(name, resolved, why) : RB_ENOMEM;
+    const char *refused =
+        rb_case_has_steps(resolved)
+            ? "its last state depends on the steps before it: take --json --states"
+        : resolved->error || resolved->accuracy > 0.0 ? "error bars take solutions on other meshes"
+        : resolved->units != RB_UNITS_MM              ? "units other than mm, N, MPa"
+                                                      : NULL;
+    rb_status s = refused ? rb_certificate_refuse(name, refused, why) : RB_OK;
+    if (s == RB_OK && !lines)
+        s = RB_ENOMEM;
     if (s == RB_OK)
         s = read_status(name, text, &residual, why);
     if (s == RB_OK)

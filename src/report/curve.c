@@ -44,16 +44,6 @@ rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const
     return rb_report_flush(out);
 }
 
-static json_t *json_errors(const rb_rolling_curve *error)
-{
-    const rb_report_columns columns = columns_of(error, 1);
-    json_t *errors = json_object();
-
-    rb_report_json_columns(&errors, error->n, &columns, 0);
-    rb_report_json_set(&errors, "free_creepage", rb_report_json_number(error->free_creepage));
-    return errors;
-}
-
 void rb_report_json_curves(json_t **root, const rb_report_curves *curves)
 {
     json_t *all = json_array();
@@ -70,8 +60,15 @@ void rb_report_json_curves(json_t **root, const rb_report_curves *curves)
         rb_report_json_set(&curve, "hertz_half_width", rb_report_json_number(c->half_width));
         rb_report_json_set(&curve, "iterations", json_integer(c->iterations));
         rb_report_json_set(&curve, "seconds", rb_report_json_number(c->seconds));
-        if (curves->has_errors)
-            rb_report_json_set(&curve, "errors", json_errors(&curves->error[k]));
+        if (curves->has_errors) {
+            const rb_rolling_curve *error = &curves->error[k];
+            const rb_report_columns bars = columns_of(error, 1);
+            json_t *errors = json_object();
+            rb_report_json_columns(&errors, error->n, &bars, 0);
+            rb_report_json_set(&errors, "free_creepage",
+                               rb_report_json_number(error->free_creepage));
+            rb_report_json_set(&curve, "errors", errors);
+        }
         rb_report_json_append(&all, curve);
     }
     rb_report_json_set(root, "curve", json_incref(json_array_get(all, 0)));

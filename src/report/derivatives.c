@@ -314,18 +314,6 @@ rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h, const rb
     return rb_report_flush(out);
 }
 
-static json_t *json_slope(const rb_case_slopes *s, int row, int k)
-{
-    const double *both = s->value + 2 * ((size_t)row * (size_t)s->n + (size_t)k);
-
-    if (both[0] == both[1] || (isnan(both[0]) && isnan(both[1])))
-        return rb_report_json_number(both[0]);
-    json_t *sides = json_array();
-    for (int side = 0; side < 2; side++)
-        rb_report_json_append(&sides, rb_report_json_number(both[side]));
-    return sides;
-}
-
 void rb_report_json_slopes(json_t **owner, const rb_case_slopes *s)
 {
     json_t *results = json_object();
@@ -337,8 +325,12 @@ void rb_report_json_slopes(json_t **owner, const rb_case_slopes *s)
 
             for (int i = k; i < s->n; i++) {
                 json_t *list = json_array();
-                for (int row = 0; row < s->rows && s->of[i].result == s->of[k].result; row++)
-                    rb_report_json_append(&list, json_slope(s, row, i));
+                for (int row = 0; row < s->rows && s->of[i].result == s->of[k].result; row++) {
+                    const double *both = s->value + 2 * ((size_t)row * (size_t)s->n + (size_t)i);
+                    const int same = both[0] == both[1] || (isnan(both[0]) && isnan(both[1]));
+                    rb_report_json_append(&list, same ? rb_report_json_number(both[0])
+                                                      : rb_report_json_numbers(2, both));
+                }
                 if (s->of[i].result == s->of[k].result)
                     rb_report_json_set(&inputs, s->of[i].input, list);
                 else

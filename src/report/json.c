@@ -95,17 +95,6 @@ static void set_results(json_t **object, const rb_rolling_results *table, const 
     }
 }
 
-static json_t *patches(const rb_rolling_solution *s)
-{
-    json_t *list = json_array();
-    for (int k = 0; k < s->patches; k++) {
-        json_t *patch = json_object();
-        set_results(&patch, &rb_rolling_patch_scalars, &s->patch[k], 0);
-        rb_report_json_append(&list, patch);
-    }
-    return list;
-}
-
 json_t *rb_report_json_summary(const rb_rolling_solution *s)
 {
     json_t *summary = json_object(), *times = json_object();
@@ -117,8 +106,15 @@ json_t *rb_report_json_summary(const rb_rolling_solution *s)
     rb_report_json_set(&summary, "lcp_form",
                        json_string(rb_case_word("lcp-form", (int)s->lcp_form)));
     set_results(&summary, &rb_rolling_solution_scalars, s, 0);
-    if (s->patches > 1)
-        rb_report_json_set(&summary, "patches", patches(s));
+    if (s->patches > 1) {
+        json_t *patches = json_array();
+        for (int k = 0; k < s->patches; k++) {
+            json_t *patch = json_object();
+            set_results(&patch, &rb_rolling_patch_scalars, &s->patch[k], 0);
+            rb_report_json_append(&patches, patch);
+        }
+        rb_report_json_set(&summary, "patches", patches);
+    }
     if (s->equal_instead)
         rb_report_json_set(&summary, "mesh", json_string("uniform"));
     if (s->edges_bounded)
@@ -133,33 +129,18 @@ json_t *rb_report_json_summary(const rb_rolling_solution *s)
     return summary;
 }
 
-static json_t *friction_power(const rb_rolling_solution *s)
-{
-    double *power = rb_alloc((size_t)s->n, 1);
-    if (!power)
-        return NULL;
-    rb_rolling_friction_power(s, power);
-    json_t *list = rb_report_json_numbers(s->n, power);
-    free(power);
-    return list;
-}
-
-static json_t *entries(const rb_rolling_result *r, const void *owner, int rows)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < rows; i++)
-        rb_report_json_append(&list, json_value(r, rb_rolling_entry(r, owner, i)));
-    return list;
-}
-
 void rb_report_json_columns(json_t **object, int rows, const rb_report_columns *c, int headed)
 {
     char heading[RB_ROLLING_HEADING];
     for (int j = 0; j < c->columns->n; j++) {
         const rb_rolling_result *r = &c->columns->row[j];
-        if ((!c->errors || r->error_bar) && rb_rolling_has_column(r, c->owner))
-            rb_report_json_set(object, headed ? rb_rolling_heading(r, c->units, heading) : r->name,
-                               entries(r, c->owner, rows));
+        if ((c->errors && !r->error_bar) || !rb_rolling_has_column(r, c->owner))
+            continue;
+        json_t *list = json_array();
+        for (int i = 0; i < rows; i++)
+            rb_report_json_append(&list, json_value(r, rb_rolling_entry(r, c->owner, i)));
+        rb_report_json_set(object, headed ? rb_rolling_heading(r, c->units, heading) : r->name,
+                           list);
     }
 }
 
@@ -174,10 +155,15 @@ json_t *rb_report_json_table_columns(const rb_rolling_solution *s)
 json_t *rb_report_json_table(const rb_rolling_solution *s)
 {
     json_t *table = rb_report_json_table_columns(s);
-    char power[40];
-    snprintf(power, sizeof power, "friction_power_%s", rb_unit_name(s->units, "MPa"));
-    if (s->formulation != RB_STATIC)
-        rb_report_json_set(&table, power, friction_power(s));
+    if (s->formulation == RB_STATIC)
+        return table;
+    char name[40];
+    double *power = rb_alloc((size_t)s->n, 1);
+    if (power)
+        rb_rolling_friction_power(s, power);
+    snprintf(name, sizeof name, "friction_power_%s", rb_unit_name(s->units, "MPa"));
+    rb_report_json_set(&table, name, power ? rb_report_json_numbers(s->n, power) : NULL);
+    free(power);
     return table;
 }
 

@@ -107,15 +107,6 @@ static json_t *summary(void)
     return with_required(object_of(properties, "the numbers of the solution"), required);
 }
 
-static json_t *heads(void)
-{
-    static const char *const words[] = {"schema", "version", "command", "conventions"};
-    json_t *required = json_array();
-    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
-        rb_report_json_append(&required, json_string(words[k]));
-    return required;
-}
-
 json_t *rb_report_json_schema(void)
 {
     json_t *of = json_object();
@@ -187,7 +178,9 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(&of, "cases", list_of(typed("object", NULL), "of contact"));
     rb_report_json_set(&of, "steps", list_of(typed("object", NULL), "of example"));
 
-    json_t *schema = with_required(object_of(of, "What rollbem prints with --json"), heads());
+    json_t *schema =
+        with_required(object_of(of, "What rollbem prints with --json"),
+                      json_pack("[s, s, s, s]", "schema", "version", "command", "conventions"));
     rb_report_json_set(&schema, "$schema",
                        json_string("https://json-schema.org/draft/2020-12/schema"));
     rb_report_json_set(&schema, "title", json_string("rollbem/1"));

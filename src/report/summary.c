@@ -10,12 +10,6 @@
 
 enum { MARGIN = 3 }; /* separated elements shown beside the contact */
 
-static char zone_mark(int zone)
-{
-    static const char mark[] = "o*SS||";
-    return mark[zone];
-}
-
 static int is_contact(const rb_rolling_solution *s, int i)
 {
     return s->zone[i] != RB_ZONE_SEPARATED;
@@ -41,10 +35,10 @@ static void shown_range(const rb_rolling_solution *s, int *first, int *last)
 /* The commonest mark among elements from .. to - 1. */
 static char majority(const rb_rolling_solution *s, int from, int to)
 {
-    static const char marks[] = "oS|*";
+    static const char marks[] = "oS|*", mark[] = "o*SS||"; /* mark: of each zone */
     int count[4] = {0}, best = 0;
     for (int i = from; i < to; i++)
-        count[strchr(marks, zone_mark(s->zone[i])) - marks]++;
+        count[strchr(marks, mark[s->zone[i]]) - marks]++;
     for (int k = 1; k < 4; k++)
         if (count[k] >= count[best])
             best = k;

@@ -71,13 +71,6 @@ typedef struct {
     int cells, per_cell;
 } selection;
 
-static void selection_free(selection *v)
-{
-    free(v->number);
-    free(v->work);
-    free(v->cell);
-}
-
 /* Quadrilaterals of which all corners are inside, or a vertex per point. */
 static void make_cells(selection *v)
 {
@@ -154,28 +147,22 @@ static void write_head(FILE *out, const char *type)
             type, little ? "LittleEndian" : "BigEndian");
 }
 
-static void write_image(FILE *out, selection *v)
-{
-    const rb_report_stress *s = v->s;
-    const rb_rolling_stress *first = &s->at[0], *last = &s->at[s->n - 1];
-    write_head(out, "ImageData");
-    fprintf(out,
-            "<ImageData WholeExtent=\"0 %d 0 %d 0 0\" Origin=\"%.17g %.17g 0\" "
-            "Spacing=\"%.17g %.17g 1\">\n<Piece Extent=\"0 %d 0 %d 0 0\">\n",
-            s->nx - 1, s->ny - 1, first->x, first->y, (last->x - first->x) / (s->nx - 1),
-            (last->y - first->y) / (s->ny - 1), s->nx - 1, s->ny - 1);
-    write_point_data(out, v);
-    fputs("</Piece>\n</ImageData>\n</VTKFile>\n", out);
-}
-
 rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stress *s)
 {
     void *before = rb_locale_begin();
     selection v;
     rb_status status = select_points(s, &v);
-    if (status == RB_OK && kind == RB_REPORT_VTI)
-        write_image(out, &v);
-    else if (status == RB_OK) {
+    if (status == RB_OK && kind == RB_REPORT_VTI) {
+        const rb_rolling_stress *first = &s->at[0], *last = &s->at[s->n - 1];
+        write_head(out, "ImageData");
+        fprintf(out,
+                "<ImageData WholeExtent=\"0 %d 0 %d 0 0\" Origin=\"%.17g %.17g 0\" "
+                "Spacing=\"%.17g %.17g 1\">\n<Piece Extent=\"0 %d 0 %d 0 0\">\n",
+                s->nx - 1, s->ny - 1, first->x, first->y, (last->x - first->x) / (s->nx - 1),
+                (last->y - first->y) / (s->ny - 1), s->nx - 1, s->ny - 1);
+        write_point_data(out, &v);
+        fputs("</Piece>\n</ImageData>\n</VTKFile>\n", out);
+    } else if (status == RB_OK) {
         write_head(out, "UnstructuredGrid");
         fprintf(out, "<UnstructuredGrid>\n<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n",
                 v.n, v.cells);
@@ -211,7 +198,9 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stre
         free(type);
         fputs("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n", out);
     }
-    selection_free(&v);
+    free(v.number);
+    free(v.work);
+    free(v.cell);
     rb_locale_end(before);
     return status == RB_OK ? rb_report_flush(out) : status;
 }
