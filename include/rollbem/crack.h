@@ -58,9 +58,6 @@ void rb_crack_places(const rb_crack *crack, double *x, double *y, double *hat, d
 /* F of (C3), 2n x 2n column-major, rows and columns (N, T): D = F r of nodal forces r.
  * Borrowed. */
 const double *rb_crack_flexibility(const rb_crack *crack);
-/* Largest difference between K and its transpose before K is symmetrised, divided by the
- * largest entry: the error of the quadrature. */
-double rb_crack_asymmetry(const rb_crack *crack);
 
 /* ---- Load -------------------------------------------------------------------------- */
 

@@ -39,9 +39,6 @@ struct rb_case {
     int texts;
 };
 
-/* Bits of `excludes` that exclude each other in this formulation. */
-unsigned rb_case_alike(rb_rolling_formulation formulation);
-
 /* Sets a number of the case in mm, N, MPa; call rb_case_resolve afterwards. */
 void rb_case_assign(rb_case *c, const rb_option *o, double value);
 

@@ -4,15 +4,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* In rolling a force stands in the place of a creepage; static contact knows no rolling. */
-unsigned rb_case_alike(rb_rolling_formulation formulation)
-{
-    return formulation == RB_STATIC ? 0 : RB_ONE_CREEPAGE | RB_ONE_LOADING;
-}
-
 rb_option_precedence rb_case_precedence(const rb_case *c)
 {
-    return (rb_option_precedence){&c->defaults, rb_case_alike(c->words.rc.formulation), c->path};
+    /* In rolling a force stands in the place of a creepage; static contact knows no rolling. */
+    const unsigned alike =
+        c->words.rc.formulation == RB_STATIC ? 0 : RB_ONE_CREEPAGE | RB_ONE_LOADING;
+    return (rb_option_precedence){&c->defaults, alike, c->path};
 }
 
 const char *rb_option_source(const rb_option *option, int given, const char *path, char *text,

@@ -279,14 +279,11 @@ static rb_status add_quadrature(rb_crack *c, double g)
 static rb_status invert(rb_crack *c, rb_message *why)
 {
     const size_t m = 2 * (size_t)c->n;
-    double *F = c->F, difference = 0.0;
+    double *F = c->F;
 
     for (size_t j = 0; j < m; j++)
-        for (size_t i = 0; i <= j; i++) {
-            difference = fmax(difference, fabs(F[i + j * m] - F[j + i * m]));
+        for (size_t i = 0; i <= j; i++)
             F[i + j * m] = F[j + i * m] = -0.5 * (F[i + j * m] + F[j + i * m]);
-        }
-    c->asymmetry = difference / rb_norm_inf(m * m, F);
     lapack_int fault = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'U', (lapack_int)m, F, (lapack_int)m);
     if (fault == 0)
         fault = LAPACKE_dpotri(LAPACK_COL_MAJOR, 'U', (lapack_int)m, F, (lapack_int)m);
@@ -442,9 +439,4 @@ void rb_crack_places(const rb_crack *c, double *x, double *y, double *hat, doubl
 const double *rb_crack_flexibility(const rb_crack *c)
 {
     return c->F;
-}
-
-double rb_crack_asymmetry(const rb_crack *c)
-{
-    return c->asymmetry;
 }

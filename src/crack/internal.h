@@ -48,8 +48,7 @@ struct rb_crack {
     double complex *t;         /* n: direction of the frame of each node */
     double *hat;               /* n: e_j */
     double *F;                 /* 2n x 2n */
-    double asymmetry;
-    double per_D; /* K over D of the node next to a tip */
+    double per_D;              /* K over D of the node next to a tip */
     rb_crack_contact faces, coupled;
 };
 

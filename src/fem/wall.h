@@ -19,7 +19,6 @@ typedef struct {
 
 wall_layout wall_lay_out(const rb_fem_wall_options *o);
 rb_status wall_build_mesh(const wall_layout *layout, rb_fem_mesh *mesh);
-int wall_node(const wall_block *b, int i, int j, int k);
 
 /* A node that meets the face of another block or a support.  N = sign e_axis points from
  * that other body to the node's block. */

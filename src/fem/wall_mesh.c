@@ -35,7 +35,7 @@ wall_layout wall_lay_out(const rb_fem_wall_options *o)
     return layout;
 }
 
-int wall_node(const wall_block *b, int i, int j, int k)
+static int wall_node(const wall_block *b, int i, int j, int k)
 {
     return b->first + i + b->n[0] * (j + b->n[1] * k);
 }
