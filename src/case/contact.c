@@ -244,22 +244,6 @@ rb_status rb_case_contact_solve(const rb_case_contact *c, const rb_rolling_solut
                : rb_rolling_solve_between(&c->rc, c->from, c->to, solution, why);
 }
 
-/* u of the particle of element i before: where a step finds it in the state before,
- * linear between midpoints; steadily rolled one element upstream.  Nothing beyond the
- * last one. */
-static double yielded_before(const rb_case_contact *c, const rb_rolling_solution *before,
-                             const rb_rolling_solution *s, int i)
-{
-    const rb_rolling_solution *from = c->step > 0.0 ? before : s;
-    const double way = c->step > 0.0 ? c->step / s->h[i] : 1.0;
-    const double ahead = i + floor(way + 1e-9), t = fmax(0.0, way + i - ahead);
-
-    if (!from || !from->plastic || !(ahead < from->n))
-        return 0.0;
-    const int j = (int)ahead;
-    return (1.0 - t) * from->plastic[j] + (j + 1 < from->n ? t * from->plastic[j + 1] : 0.0);
-}
-
 double rb_case_contact_power(const rb_io_contact_case *in, const rb_case_contact *c,
                              const rb_rolling_solution *before, const rb_rolling_solution *s)
 {
@@ -267,10 +251,19 @@ double rb_case_contact_power(const rb_io_contact_case *in, const rb_case_contact
 
     if (in->digit.T < 2)
         return NAN;
+    const rb_rolling_solution *from = !(c->step > 0.0) ? s : c->goes_on ? before : NULL;
     for (int i = 0; i < s->n; i++) {
-        const double yields =
-            s->plastic ? s->plastic[i] - yielded_before(c, c->goes_on ? before : NULL, s, i) : 0.0;
+        /* The particle of element i was `rolled` elements ahead before, in the state
+         * before a step, or in the same one of steady rolling; what it had yielded is linear
+         * between midpoints, and nothing beyond the last one. */
         const double rolled = c->step > 0.0 ? c->step / s->h[i] : 1.0;
+        const double ahead = i + floor(rolled + 1e-9), t = fmax(0.0, rolled + i - ahead);
+        double yields = s->plastic ? s->plastic[i] : 0.0;
+        if (s->plastic && from && from->plastic && ahead < from->n) {
+            const int j = (int)ahead;
+            yields -=
+                (1.0 - t) * from->plastic[j] + (j + 1 < from->n ? t * from->plastic[j + 1] : 0.0);
+        }
         power -= fabs(s->q[i]) * (fabs(s->shift[i]) - yields) / rolled;
     }
     return power * c->width * in->velocity * 1e-3;

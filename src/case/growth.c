@@ -27,19 +27,6 @@ rb_status rb_case_check_growth(const rb_case_crack *k, rb_message *why)
     return RB_OK;
 }
 
-static rb_status growth_alloc(int n, rb_case_crack_growth *g)
-{
-    double **const column[] = {&g->length,     &g->tip_x,   &g->tip_y, &g->angle, &g->K_I_max,
-                               &g->delta_K_II, &g->delta_K, &g->rate,  &g->cycles};
-    enum { COLUMNS = sizeof column / sizeof *column };
-    double *all = rb_alloc((size_t)n, COLUMNS);
-
-    *g = (rb_case_crack_growth){.n = 0};
-    for (int k = 0; all && k < COLUMNS; k++)
-        *column[k] = all + (size_t)k * (size_t)n;
-    return all ? RB_OK : RB_ENOMEM;
-}
-
 /* Direction of the last piece, to the surface [degrees]. */
 static double last_angle(const rb_crack_path *path)
 {
@@ -100,8 +87,16 @@ rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *k,
     const double first = k->length * r->half_width,
                  last = isnan(k->grow_to) ? 2.0 * first : k->grow_to * r->half_width;
     rb_case_crack_summary summary = r->summary;
-    rb_status s = growth_alloc(k->grow_steps + 1, g);
+    double **const column[] = {&g->length,     &g->tip_x,   &g->tip_y, &g->angle, &g->K_I_max,
+                               &g->delta_K_II, &g->delta_K, &g->rate,  &g->cycles};
+    enum { COLUMNS = sizeof column / sizeof *column };
+    const size_t rows = (size_t)k->grow_steps + 1;
+    double *all = rb_alloc(rows, COLUMNS);
+    rb_status s = all ? RB_OK : RB_ENOMEM;
 
+    *g = (rb_case_crack_growth){.n = 0};
+    for (size_t j = 0; all && j < COLUMNS; j++)
+        *column[j] = all + j * rows;
     if (s == RB_OK)
         add_length(c, k, &shape.path, first, &summary, g);
     for (int i = 1; i <= k->grow_steps && s == RB_OK && !g->rests; i++) {

@@ -87,17 +87,6 @@ static double pressure_at(const rb_bem_edge_load *load, double x)
     return 0.0;
 }
 
-static double largest_stress(const rb_crack_passage *p)
-{
-    double largest = fabs(p->tension);
-    for (int k = 0; k < p->loads; k++) {
-        const size_t n = (size_t)p->load[k].n;
-        largest = fmax(largest, rb_norm_inf(n, p->load[k].p));
-        largest = fmax(largest, rb_norm_inf(n, p->load[k].q));
-    }
-    return largest;
-}
-
 /* What is trapped is the volume at the place where the mouth closes, and near it the
  * crack closes fast: the state becomes that just before this place, by bisection.  If the
  * mouth does not close, it stays as it is.  T: scratch for 4n. */
@@ -153,7 +142,12 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
         return rb_fail(why, RB_EINVAL, "crack: a coupled crack cannot contain fluid");
     rb_phase("passes over the crack");
     const int n = p->steps * p->passes;
-    const double scale = largest_stress(p);
+    double scale = fabs(p->tension); /* the largest stress */
+    for (int k = 0; k < p->loads; k++) {
+        const size_t strips = (size_t)p->load[k].n;
+        scale =
+            fmax(scale, fmax(rb_norm_inf(strips, p->load[k].p), rb_norm_inf(strips, p->load[k].q)));
+    }
     double *T = rb_alloc(4, (size_t)c->n);
     rb_crack_state state = {0};
     rb_status s = T ? rb_crack_history_alloc(c, n, p->wheel ? p->wheel->n : 0, h) : RB_ENOMEM;

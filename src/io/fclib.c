@@ -193,22 +193,6 @@ static rb_status read_doubles(const reader *in, const char *group, const char *n
     return read_values(in, group, name, H5T_NATIVE_DOUBLE, least, (void **)values);
 }
 
-/* Pointers of compressed columns (rows) -> a column (row) number per entry. */
-static rb_status expand(const reader *in, const char *group, int n, int nz, const int *p,
-                        int **wide)
-{
-    *wide = rb_alloc_int((size_t)nz);
-    if (!*wide)
-        return RB_ENOMEM;
-    for (int j = 0; j < n; j++) {
-        if (p[j] < 0 || p[j] > p[j + 1] || p[j + 1] > nz)
-            return rb_fail(in->why, RB_EFORMAT, "%s: %s/p does not increase", in->path, group);
-        for (int k = p[j]; k < p[j + 1]; k++)
-            (*wide)[k] = j;
-    }
-    return RB_OK;
-}
-
 static rb_status read_matrix(const reader *in, const char *root, const char *name, rb_sparse *a)
 {
     char group[80];
@@ -237,8 +221,17 @@ static rb_status read_matrix(const reader *in, const char *root, const char *nam
         s = read_ints(in, group, "i", entries, &i);
     if (s == RB_OK)
         s = read_doubles(in, group, "x", entries, &x);
-    if (s == RB_OK && nz < 0)
-        s = expand(in, group, lines, entries, p, &wide);
+    if (s == RB_OK && nz < 0) {
+        /* Pointers of compressed columns (rows) -> a column (row) number per entry. */
+        wide = rb_alloc_int((size_t)entries);
+        s = wide ? RB_OK : RB_ENOMEM;
+    }
+    for (int j = 0; wide && j < lines && s == RB_OK; j++)
+        if (p[j] < 0 || p[j] > p[j + 1] || p[j + 1] > entries)
+            s = rb_fail(in->why, RB_EFORMAT, "%s: %s/p does not increase", in->path, group);
+        else
+            for (int k = p[j]; k < p[j + 1]; k++)
+                wide[k] = j;
     if (s == RB_OK) {
         const rb_triplets t = {.rows = m,
                                .cols = n,

@@ -66,13 +66,6 @@ typedef struct {
     int symmetric;  /* the lower triangle alone is written */
 } market_kind;
 
-static int have(io_tokens *t, const void *memory)
-{
-    if (t->status == RB_OK && !memory)
-        t->status = rb_fail(t->why, RB_ENOMEM, "%s: out of memory for matrix", t->path);
-    return t->status == RB_OK;
-}
-
 static void read_array(io_tokens *t, int symmetric, rb_io_matrix *m)
 {
     const size_t rows = (size_t)m->rows, cols = (size_t)m->cols;
@@ -81,9 +74,11 @@ static void read_array(io_tokens *t, int symmetric, rb_io_matrix *m)
         rb_io_tokens_reals(t, rows * cols, m->dense, "matrix");
         return;
     }
-    if (!rb_io_tokens_room_for(t, rows, (cols + 1) / 2, "matrix") ||
-        !have(t, m->dense = rb_alloc(rows, cols)))
+    if (!rb_io_tokens_room_for(t, rows, (cols + 1) / 2, "matrix"))
         return;
+    m->dense = rb_alloc(rows, cols);
+    if (!m->dense)
+        t->status = rb_fail(t->why, RB_ENOMEM, "%s: out of memory for matrix", t->path);
     for (size_t j = 0; t->status == RB_OK && j < cols; j++) {
         rb_io_tokens_reals(t, rows - j, m->dense + j + j * rows, "column of the triangle");
         for (size_t i = j; i < rows; i++)

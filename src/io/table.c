@@ -117,34 +117,23 @@ static int is_names(const reading *r, const char *text)
 
 /* ---- Rows -------------------------------------------------------------------------- */
 
-static rb_status make_room(reading *r)
-{
-    rb_io_table *t = r->t;
-    if (t->rows < r->capacity)
-        return RB_OK;
-    if (r->capacity > INT_MAX / 2)
-        return rb_fail(r->why, RB_EFORMAT, "%s:%d: more than %d rows", r->path, r->line,
-                       r->capacity);
-    const int capacity = r->capacity ? 2 * r->capacity : 64;
-    double *x = realloc(t->x, sizeof(double) * (size_t)capacity * (size_t)(t->columns + 1));
-    if (x)
-        t->x = x;
-    int *line = x ? realloc(t->line, sizeof(int) * (size_t)capacity) : NULL;
-    if (!line)
-        return no_memory(r);
-    t->line = line;
-    r->capacity = capacity;
-    return RB_OK;
-}
-
 static rb_status read_row(reading *r, const char *text)
 {
     rb_io_table *t = r->t;
     const char *word;
     int n = 0;
-    rb_status s = make_room(r);
-    if (s != RB_OK)
-        return s;
+    if (t->rows == r->capacity) {
+        if (r->capacity > INT_MAX / 2)
+            return rb_fail(r->why, RB_EFORMAT, "%s:%d: more than %d rows", r->path, r->line,
+                           r->capacity);
+        r->capacity = r->capacity ? 2 * r->capacity : 64;
+        double *x = realloc(t->x, sizeof *x * (size_t)r->capacity * (size_t)(t->columns + 1));
+        t->x = x ? x : t->x;
+        int *line = x ? realloc(t->line, sizeof *line * (size_t)r->capacity) : NULL;
+        if (!line)
+            return no_memory(r);
+        t->line = line;
+    }
     for (size_t length; (length = next_word(&text, &word)) > 0; n++) {
         double value;
         if (!is_number(word, length, &value))

@@ -46,16 +46,6 @@ static rb_status too_large(const char *path, size_t most, rb_message *why)
     return rb_fail(why, RB_EFORMAT, "%s: more than %zu MB, expected a text", path, most >> 20);
 }
 
-/* Of them terminals end, and /dev/null is empty. */
-static int is_endless(FILE *file, const struct stat *st)
-{
-    struct stat null;
-    if (S_ISBLK(st->st_mode))
-        return 1;
-    return S_ISCHR(st->st_mode) && !isatty(fileno(file)) &&
-           !(stat("/dev/null", &null) == 0 && null.st_rdev == st->st_rdev);
-}
-
 static rb_status cannot_read(const char *path, rb_message *why)
 {
     return errno == ENOMEM ? rb_fail(why, RB_ENOMEM, "%s: out of memory", path)
@@ -78,13 +68,16 @@ static rb_status check_text(const char *path, const char *text, size_t size, rb_
 
 rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_message *why)
 {
-    struct stat st;
+    struct stat st, null;
     *text = NULL;
     FILE *file = fopen(path, "rb");
     if (!file)
         return cannot_read(path, why);
     const int known = fstat(fileno(file), &st) == 0;
-    if (known && is_endless(file, &st)) {
+    /* Of the devices terminals end, and /dev/null is empty. */
+    if (known &&
+        (S_ISBLK(st.st_mode) || (S_ISCHR(st.st_mode) && !isatty(fileno(file)) &&
+                                 !(stat("/dev/null", &null) == 0 && null.st_rdev == st.st_rdev)))) {
         fclose(file);
         return rb_fail(why, RB_EFORMAT, "%s: a device, expected a file or a pipe", path);
     }

@@ -7,26 +7,9 @@
 
 typedef struct {
     const rb_fem_mesh *mesh;
-    double *u; /* 3 x nodes; owned */
+    const double *u; /* 3 x nodes */
     double magnify, width, height;
 } front;
-
-static rb_status open_front(const rb_fem_wall *wall, front *f)
-{
-    const rb_fem_mesh *mesh = rb_fem_wall_mesh(wall);
-    double most = 0.0;
-    *f = (front){mesh, rb_alloc(3, (size_t)mesh->nodes), 1.0, 0.0, 0.0};
-    if (!f->u || rb_fem_wall_displacements(wall, f->u) != RB_OK)
-        return RB_ENOMEM;
-    for (int a = 0; a < mesh->nodes; a++) {
-        most = fmax(most, hypot(f->u[3 * a], f->u[3 * a + 2]));
-        f->width = fmax(f->width, mesh->x[3 * a]);
-        f->height = fmax(f->height, mesh->x[3 * a + 2]);
-    }
-    if (most > 0.0)
-        f->magnify = rb_report_fem_round(0.12 * f->height / most);
-    return RB_OK;
-}
 
 static void write_node(FILE *out, const front *f, int node)
 {
@@ -176,12 +159,25 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
 rb_status rb_report_picture_wall(FILE *out, rb_report_canvas canvas, const rb_fem_wall *wall,
                                  int steps, const rb_fem_wall_step *step, rb_message *why)
 {
-    wall_view v = {.steps = steps, .step = step};
+    const rb_fem_mesh *mesh = rb_fem_wall_mesh(wall);
+    wall_view v = {.f = {.mesh = mesh, .magnify = 1.0}, .steps = steps, .step = step};
+    double *u = rb_alloc(3, (size_t)mesh->nodes), most = 0.0;
+    rb_status s = RB_OK;
     if (steps < 1)
-        return rb_fail(why, RB_EINVAL, "nothing to draw");
-    const rb_status s = open_front(wall, &v.f) == RB_OK
-                            ? rb_report_draw(out, canvas, RB_REPORT_PANELS, write_script, &v, why)
-                            : rb_fail(why, RB_ENOMEM, "out of memory");
-    free(v.f.u);
+        s = rb_fail(why, RB_EINVAL, "nothing to draw");
+    else if (!u || rb_fem_wall_displacements(wall, u) != RB_OK)
+        s = rb_fail(why, RB_ENOMEM, "out of memory");
+    if (s == RB_OK) {
+        for (int a = 0; a < mesh->nodes; a++) {
+            most = fmax(most, hypot(u[3 * a], u[3 * a + 2]));
+            v.f.width = fmax(v.f.width, mesh->x[3 * a]);
+            v.f.height = fmax(v.f.height, mesh->x[3 * a + 2]);
+        }
+        v.f.u = u;
+        if (most > 0.0)
+            v.f.magnify = rb_report_fem_round(0.12 * v.f.height / most);
+        s = rb_report_draw(out, canvas, RB_REPORT_PANELS, write_script, &v, why);
+    }
+    free(u);
     return s;
 }

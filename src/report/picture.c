@@ -54,20 +54,6 @@ static double middle_of(const view *v, int which)
     return 0.5 * (at.top + at.bottom);
 }
 
-static void choose_x_axis(view *v)
-{
-    const rb_rolling_solution *s = v->s;
-    v->length = rb_report_length_axis(s->units, s->half_width);
-    double from = s->x[0] - s->h[0] / 2, to = s->x[s->n - 1] + s->h[s->n - 1] / 2;
-    if (s->contact > 0) {
-        const double margin = 0.15 * (s->contact_to - s->contact_from);
-        from = fmax(from, s->contact_from - margin);
-        to = fmin(to, s->contact_to + margin);
-    }
-    v->from = from / v->length.size;
-    v->to = to / v->length.size;
-}
-
 static int is_shown(const view *v, int i)
 {
     const double x = v->s->x[i] / v->length.size;
@@ -107,17 +93,6 @@ static double slip_of(const view *v, int i)
 {
     const double p0 = rb_unit_stored(v->s->units, "MPa", v->s->max_pressure);
     return rb_report_tidy(v->s->slip[i], p0 / v->rc->a.young);
-}
-
-static void choose_temperature_axis(view *v)
-{
-    double least = INFINITY, most = -INFINITY;
-    for (int i = 0; i < v->s->n && v->s->temperature; i++)
-        if (is_shown(v, i)) {
-            least = fmin(least, fmin(v->s->temperature[i], v->s->temperature_b[i]));
-            most = fmax(most, fmax(v->s->temperature[i], v->s->temperature_b[i]));
-        }
-    v->heat = axis_between(least, most);
 }
 
 /* ---- Data ------------------------------------------------------------------------- */
@@ -418,15 +393,28 @@ rb_status rb_report_picture(FILE *out, rb_report_canvas canvas, const rb_rolling
     if (s->n < 1)
         return rb_fail(why, RB_EINVAL, "nothing to draw");
     view v = {.rc = rc, .s = s, .place = rb_report_place_of(canvas)};
-    choose_x_axis(&v);
-    double least = 0.0, most = 0.0;
-    for (int i = 0; i < v.s->n; i++)
+    double from = s->x[0] - s->h[0] / 2, to = s->x[s->n - 1] + s->h[s->n - 1] / 2;
+    if (s->contact > 0) {
+        const double margin = 0.15 * (s->contact_to - s->contact_from);
+        from = fmax(from, s->contact_from - margin);
+        to = fmin(to, s->contact_to + margin);
+    }
+    v.length = rb_report_length_axis(s->units, s->half_width);
+    v.from = from / v.length.size;
+    v.to = to / v.length.size;
+    double least = 0.0, most = 0.0, coldest = INFINITY, hottest = -INFINITY;
+    for (int i = 0; i < s->n; i++) {
         if (is_shown(&v, i) && has_slip(&v, i)) {
             least = fmin(least, slip_of(&v, i));
             most = fmax(most, slip_of(&v, i));
         }
+        if (is_shown(&v, i) && s->temperature) {
+            coldest = fmin(coldest, fmin(s->temperature[i], s->temperature_b[i]));
+            hottest = fmax(hottest, fmax(s->temperature[i], s->temperature_b[i]));
+        }
+    }
     v.slip = axis_between(least, most);
-    choose_temperature_axis(&v);
+    v.heat = axis_between(coldest, hottest);
     const rb_report_unit unit = rb_report_axis_unit(v.s->units, "MPa", v.s->max_pressure);
     v.stress_unit = unit.size;
     v.stress_label = unit.name;

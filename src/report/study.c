@@ -46,19 +46,6 @@ static int length_of_group(const rb_report_study *s, const spot *at, int first)
 
 /* ---- What can be drawn ------------------------------------------------------------- */
 
-/* A place has one case, or the picture would need a third direction. */
-static rb_status check_places(const rb_report_study *s, const spot *at, rb_message *why)
-{
-    for (int i = 1; i < s->n; i++)
-        if (at[i].x == at[i - 1].x && at[i].y == at[i - 1].y)
-            return rb_fail(why, RB_EINVAL,
-                           "cases %d and %d have the same %s%s%s: more options vary than "
-                           "the picture shows",
-                           at[i - 1].k + 1, at[i].k + 1, s->x.name, s->y.value ? " and " : "",
-                           s->y.value ? s->y.name : "");
-    return RB_OK;
-}
-
 static rb_status check_curves(const rb_report_study *s, const spot *at, rb_message *why)
 {
     int groups = 0;
@@ -97,7 +84,15 @@ rb_status rb_report_study_check(const rb_report_study *s, int map, rb_message *w
     spot *at = sort_cases(s);
     if (!at)
         return rb_fail(why, RB_ENOMEM, "out of memory for %d cases", s->n);
-    rb_status status = check_places(s, at, why);
+    /* A place has one case, or the picture would need a third direction. */
+    rb_status status = RB_OK;
+    for (int i = 1; i < s->n && status == RB_OK; i++)
+        if (at[i].x == at[i - 1].x && at[i].y == at[i - 1].y)
+            status = rb_fail(why, RB_EINVAL,
+                             "cases %d and %d have the same %s%s%s: more options vary than "
+                             "the picture shows",
+                             at[i - 1].k + 1, at[i].k + 1, s->x.name, s->y.value ? " and " : "",
+                             s->y.value ? s->y.name : "");
     if (status == RB_OK)
         status = map ? check_map(s, at, why) : check_curves(s, at, why);
     free(at);
@@ -160,21 +155,6 @@ static axis axis_of(int n, const rb_report_quantity *q, int may_be_logarithmic)
     a.unit = pow(10.0, a.exponent);
     a.from /= a.unit;
     a.to /= a.unit;
-    return a;
-}
-
-/* Of the result.  Where it is the same in all cases, a range around it, or the picture
- * would show the rounding. */
-static axis axis_of_result(const rb_report_study *s)
-{
-    axis a = axis_of(s->n, &s->shown, 0);
-    const double size = fmax(fabs(a.from), fabs(a.to));
-    const double margin = size > 0.0 ? 0.1 * size : 1.0;
-    a.flat = a.to - a.from <= 1e-9 * size;
-    if (a.flat) {
-        a.from -= margin;
-        a.to += margin;
-    }
     return a;
 }
 
@@ -354,12 +334,21 @@ rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas, const rb_r
         return status;
     if (!at)
         return rb_fail(why, RB_ENOMEM, "out of memory for %d cases", s->n);
-    const view v = {.study = s,
-                    .at = at,
-                    .row = length_of_group(s, at, 0),
-                    .x = axis_of(s->n, &s->x, 1),
-                    .y = axis_of(s->n, &s->y, 1),
-                    .shown = axis_of_result(s)};
+    view v = {.study = s,
+              .at = at,
+              .row = length_of_group(s, at, 0),
+              .x = axis_of(s->n, &s->x, 1),
+              .y = axis_of(s->n, &s->y, 1),
+              .shown = axis_of(s->n, &s->shown, 0)};
+    /* Where the result is the same in all cases, a range around it, or the picture would
+     * show the rounding. */
+    const double size = fmax(fabs(v.shown.from), fabs(v.shown.to));
+    v.shown.flat = v.shown.to - v.shown.from <= 1e-9 * size;
+    if (v.shown.flat) {
+        const double margin = size > 0.0 ? 0.1 * size : 1.0;
+        v.shown.from -= margin;
+        v.shown.to += margin;
+    }
     status = v.shown.from <= v.shown.to
                  ? rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS,
                                   map ? write_map : write_curves, &v, why)

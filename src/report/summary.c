@@ -15,23 +15,6 @@ static int is_contact(const rb_rolling_solution *s, int i)
     return s->zone[i] != RB_ZONE_SEPARATED;
 }
 
-/* Elements first .. last - 1: the contact and a margin. */
-static void shown_range(const rb_rolling_solution *s, int *first, int *last)
-{
-    *first = 0;
-    *last = s->n;
-    while (*first < s->n && !is_contact(s, *first))
-        ++*first;
-    if (*first == s->n) {
-        *first = 0; /* no contact at all */
-        return;
-    }
-    while (!is_contact(s, *last - 1))
-        --*last;
-    *first = *first > MARGIN ? *first - MARGIN : 0;
-    *last = *last + MARGIN < s->n ? *last + MARGIN : s->n;
-}
-
 /* The commonest mark among elements from .. to - 1. */
 static char majority(const rb_rolling_solution *s, int from, int to)
 {
@@ -47,8 +30,18 @@ static char majority(const rb_rolling_solution *s, int from, int to)
 
 void rb_report_strip(const rb_rolling_solution *s, int width, char *strip)
 {
-    int first, last, at = 0;
-    shown_range(s, &first, &last);
+    /* Elements first .. last - 1: the contact and a margin, or all without contact. */
+    int first = 0, last = s->n, at = 0;
+    while (first < s->n && !is_contact(s, first))
+        first++;
+    if (first == s->n)
+        first = 0;
+    else {
+        while (!is_contact(s, last - 1))
+            last--;
+        first = first > MARGIN ? first - MARGIN : 0;
+        last = last + MARGIN < s->n ? last + MARGIN : s->n;
+    }
     const int shown = last - first;
     const int room = width - 2;
     const int marks = shown < room ? shown : room;

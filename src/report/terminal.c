@@ -82,15 +82,6 @@ static const char *shown(const grid *g, int i, int j, const column *c, char text
     return text;
 }
 
-/* The unit behind the last "_" of a heading such as p_MPa stands below the name. */
-static void split_heading(const char *heading, column *c)
-{
-    const char *unit = strrchr(heading, '_');
-    const int known = unit && rb_unit_is_known(unit + 1);
-    snprintf(c->name, WIDTH, "%.*s", known ? (int)(unit - heading) : WIDTH - 1, heading);
-    snprintf(c->unit, WIDTH, "%s", known ? unit + 1 : "");
-}
-
 /* Which rows are shown: every so many and the last one where the first column is a number
  * (profiles, curves); otherwise (files, solvers) all but the middle. */
 typedef struct {
@@ -124,7 +115,11 @@ static void measure(const grid *g, const choice *rows, column *all)
     for (int j = 0; j < g->columns; j++) {
         column *c = &all[j];
         double x;
-        split_heading(entry(g, 0, j), c);
+        /* The unit behind the last "_" of a heading such as p_MPa stands below the name. */
+        const char *heading = entry(g, 0, j), *unit = strrchr(heading, '_');
+        const int known = unit && rb_unit_is_known(unit + 1);
+        snprintf(c->name, WIDTH, "%.*s", known ? (int)(unit - heading) : WIDTH - 1, heading);
+        snprintf(c->unit, WIDTH, "%s", known ? unit + 1 : "");
         for (int i = 1; i < g->rows; i++)
             if (read_number(entry(g, i, j), &x) && isfinite(x))
                 c->scale = fmax(c->scale, fabs(x));
