@@ -300,12 +300,6 @@ static const char *written(const char *what, char *text, int size)
     return text;
 }
 
-static const char *written_number(double x, char *text, int size)
-{
-    rb_format(text, (size_t)size, "%.17g", x);
-    return text;
-}
-
 /* Option k of n, whose defaults stand in `values`; NULL: those of a case. */
 static const char *describe_option(int n, const rb_option *all, const void *values, int k,
                                    const char *field, char *text, int size)
@@ -319,18 +313,24 @@ static const char *describe_option(int n, const rb_option *all, const void *valu
     const rb_option *o = &all[k];
     const int is_group = o->kind == RB_OPTION_GROUP;
 
-    if (strcmp(field, "name") == 0)
-        return written(o->name, text, size);
-    if (strcmp(field, "section") == 0)
-        return written(is_group ? o->name : rb_case_section(o), text, size);
-    if (strcmp(field, "kind") == 0)
-        return written(kinds[o->kind], text, size);
-    if (strcmp(field, "unit") == 0)
-        return written(o->unit, text, size);
-    if (strcmp(field, "help") == 0)
-        return written(o->help, text, size);
-    if (strcmp(field, "word") == 0)
-        return written(o->word, text, size);
+    const struct {
+        const char *field, *text;
+    } texts[] = {{"name", o->name},        {"section", is_group ? o->name : rb_case_section(o)},
+                 {"kind", kinds[o->kind]}, {"unit", o->unit},
+                 {"help", o->help},        {"word", o->word}};
+    const struct {
+        const char *field;
+        double value;
+    } numbers[] = {{"from", o->range.from}, {"to", o->range.to}, {"excludes", o->excludes}};
+
+    for (size_t j = 0; j < sizeof texts / sizeof *texts; j++)
+        if (strcmp(field, texts[j].field) == 0)
+            return written(texts[j].text, text, size);
+    for (size_t j = 0; j < sizeof numbers / sizeof *numbers; j++)
+        if (strcmp(field, numbers[j].field) == 0) {
+            rb_format(text, (size_t)size, "%.17g", numbers[j].value);
+            return text;
+        }
     if (strcmp(field, "choices") == 0) {
         int used = 0;
         text[0] = '\0';
@@ -340,12 +340,6 @@ static const char *describe_option(int n, const rb_option *all, const void *valu
     }
     if (strcmp(field, "expected") == 0)
         return is_group ? written("", text, size) : rb_option_expected(o, text, (size_t)size);
-    if (strcmp(field, "from") == 0)
-        return written_number(o->range.from, text, size);
-    if (strcmp(field, "to") == 0)
-        return written_number(o->range.to, text, size);
-    if (strcmp(field, "excludes") == 0)
-        return written_number(o->excludes, text, size);
     if (strcmp(field, "default") == 0 && is_group)
         return written("", text, size);
     if (strcmp(field, "default") == 0) {
@@ -445,34 +439,28 @@ double rb_api_number(const rb_api *a, const char *name)
 {
     const rb_resolved_case *c = rb_case_resolved(a->words);
     const rb_case_result *result = &a->result;
-    if (strcmp(name, "carter") == 0)
-        return rb_rolling_carter_holds(&c->rc);
-    if (strcmp(name, "radius") == 0)
-        return c->derived.radius;
-    if (strcmp(name, "modulus") == 0)
-        return c->derived.modulus;
-    if (strcmp(name, "hertz_load") == 0)
-        return c->derived.load;
+    /* Of the case, of the last curve or history, of the problem that was handed over. */
+    const struct {
+        const char *name;
+        double value;
+        int is_known;
+    } numbers[] = {{"carter", rb_rolling_carter_holds(&c->rc), 1},
+                   {"radius", c->derived.radius, 1},
+                   {"modulus", c->derived.modulus, 1},
+                   {"hertz_load", c->derived.load, 1},
+                   {"curve.free_creepage", a->curve.free_creepage, a->curve.n > 0},
+                   {"curve.half_width", a->curve.half_width, a->curve.n > 0},
+                   {"history.half_width", result->history.half_width, result->history.n > 0},
+                   {"task.iterations", a->iterations, 1},
+                   {"task.residual", a->residual, 1},
+                   {"task.scaled_residual", a->scaled_residual, 1}};
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        if (strcmp(name, numbers[k].name) == 0)
+            return numbers[k].is_known ? numbers[k].value : NAN;
     const int is_error = strncmp(name, error_, strlen(error_)) == 0;
     const rb_rolling_result *r =
         find_result(&rb_rolling_solution_scalars, is_error ? name + strlen(error_) : name);
-    if (!r) {
-        /* Of the last curve, or of the problem that was handed over. */
-        if (strcmp(name, "curve.free_creepage") == 0 && a->curve.n > 0)
-            return a->curve.free_creepage;
-        if (strcmp(name, "curve.half_width") == 0 && a->curve.n > 0)
-            return a->curve.half_width;
-        if (strcmp(name, "history.half_width") == 0 && a->result.history.n > 0)
-            return a->result.history.half_width;
-        if (strcmp(name, "task.iterations") == 0)
-            return a->iterations;
-        if (strcmp(name, "task.residual") == 0)
-            return a->residual;
-        if (strcmp(name, "task.scaled_residual") == 0)
-            return a->scaled_residual;
-        return NAN;
-    }
-    if (result->solution.n == 0 || (is_error && (!result->has_errors || !r->error_bar)))
+    if (!r || result->solution.n == 0 || (is_error && (!result->has_errors || !r->error_bar)))
         return NAN;
     return rb_rolling_number(r, is_error ? &result->errors.scalar : &result->solution);
 }

@@ -62,45 +62,38 @@ static const char *name_of(const study_result *result, char buffer[STUDY_HEADING
     return buffer;
 }
 
-typedef rb_status see_picture(const rb_report_study *picture, const void *context, rb_message *why);
-
-/* Calls `see` with the picture of the study. */
-static rb_status with_picture(const study *st, see_picture *see, const void *context,
-                              rb_message *why)
+/* The study as a picture, which keeps its coordinates in `value` (2 per case) and its name in
+ * `name`. */
+static rb_report_study picture_of(const study *st, double *value, char name[STUDY_HEADING])
 {
     const rb_resolved_case *c = rb_case_resolved(st->base);
     const study_result *shown = &st->result[st->drawn_column - st->columns - 2];
-    char name[STUDY_HEADING];
-    double *value = rb_alloc((size_t)st->cases, 2);
     int bodies_vary = 0;
-    if (!value)
-        return rb_fail(why, RB_ENOMEM, "out of memory");
     for (int k = 0; k < st->columns; k++) {
         const rb_option *o = rb_case_option(st->column[k].name);
         bodies_vary |= o && strncmp(rb_case_section(o), "body-", 5) == 0;
     }
-    const rb_report_study picture = {
-        .n = st->cases,
-        .x = axis_of(st, st->over, value),
-        .y = axis_of(st, st->family, value + st->cases),
-        .shown = {name_of(shown, name),
-                  shown->r->unit ? rb_unit_name(c->units, shown->r->unit) : "", st->drawn},
-        .rc = bodies_vary ? NULL : &c->rc,
-        .units = c->units};
-    const rb_status s = see(&picture, context, why);
-    free(value);
-    return s;
-}
-
-static rb_status check_picture(const rb_report_study *picture, const void *context, rb_message *why)
-{
-    return rb_report_study_check(picture, *(const int *)context, why);
+    return (rb_report_study){.n = st->cases,
+                             .x = axis_of(st, st->over, value),
+                             .y = axis_of(st, st->family, value + st->cases),
+                             .shown = {name_of(shown, name),
+                                       shown->r->unit ? rb_unit_name(c->units, shown->r->unit) : "",
+                                       st->drawn},
+                             .rc = bodies_vary ? NULL : &c->rc,
+                             .units = c->units};
 }
 
 static cli_exit check_kind(const study *st, const char *option, int map)
 {
+    char name[STUDY_HEADING];
     rb_message why = {""};
-    const rb_status s = with_picture(st, check_picture, &map, &why);
+    double *value = rb_alloc((size_t)st->cases, 2);
+    rb_status s = rb_fail(&why, RB_ENOMEM, "out of memory");
+    if (value) {
+        const rb_report_study picture = picture_of(st, value, name);
+        s = rb_report_study_check(&picture, map, &why);
+    }
+    free(value);
     return s == RB_OK ? CLI_CONTINUE : cli_say_of(option, s, &why);
 }
 
@@ -133,29 +126,26 @@ cli_exit cli_study_prepare_pictures(study *st)
     return code == CLI_CONTINUE && !st->drawn ? cli_fail(CLI_INTERNAL, "out of memory") : code;
 }
 
-typedef struct {
-    FILE *out;
-    rb_report_canvas canvas;
-    int map;
-} sheet;
-
-static rb_status draw_on(const rb_report_study *picture, const void *context, rb_message *why)
+static rb_status draw(FILE *out, rb_report_canvas canvas, const study *st, int map, rb_message *why)
 {
-    const sheet *on = context;
-    return rb_report_study_picture(on->out, on->canvas, picture, on->map, why);
+    char name[STUDY_HEADING];
+    double *value = rb_alloc((size_t)st->cases, 2);
+    if (!value)
+        return rb_fail(why, RB_ENOMEM, "out of memory");
+    const rb_report_study picture = picture_of(st, value, name);
+    const rb_status s = rb_report_study_picture(out, canvas, &picture, map, why);
+    free(value);
+    return s;
 }
 
-static rb_status draw_curves(FILE *out, rb_report_canvas canvas, const void *context,
-                             rb_message *why)
+static rb_status draw_curves(FILE *out, rb_report_canvas canvas, const void *st, rb_message *why)
 {
-    const sheet on = {out, canvas, 0};
-    return with_picture(context, draw_on, &on, why);
+    return draw(out, canvas, st, 0, why);
 }
 
-static rb_status draw_map(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
+static rb_status draw_map(FILE *out, rb_report_canvas canvas, const void *st, rb_message *why)
 {
-    const sheet on = {out, canvas, 1};
-    return with_picture(context, draw_on, &on, why);
+    return draw(out, canvas, st, 1, why);
 }
 
 /* Cases that were not solved leave holes. */

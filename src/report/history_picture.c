@@ -16,37 +16,26 @@ typedef struct {
     rb_report_place place;
 } view;
 
-/* What a panel shows of step i of the history or of its errors. */
-typedef double quantity(const view *v, const rb_rolling_history *h, int i);
+/* What a panel shows. */
+typedef enum { MOTION, FORCE, HALF_WIDTH, LOAD, APPROACH } quantity;
 
-static double motion(const view *v, const rb_rolling_history *h, int i)
+/* Of step i of the history or of its errors. */
+static double value(const view *v, const rb_rolling_history *h, quantity of, int i)
 {
-    return (v->rolls ? h->creepage[i] : h->shift[i]) / v->power;
-}
-
-static double force(const view *v, const rb_rolling_history *h, int i)
-{
-    (void)v;
-    return h->force_ratio[i];
-}
-
-static double half_width(const view *v, const rb_rolling_history *h, int i)
-{
-    (void)v;
+    switch (of) {
+    case MOTION:
+        return (v->rolls ? h->creepage[i] : h->shift[i]) / v->power;
+    case FORCE:
+        return h->force_ratio[i];
+    case LOAD:
+        return h->normal_load[i];
+    case APPROACH:
+        return h->approach[i];
+    case HALF_WIDTH:
+        break;
+    }
     const double width = h->contact_to[i] - h->contact_from[i];
     return isnan(width) ? 0.0 : 0.5 * width;
-}
-
-static double load(const view *v, const rb_rolling_history *h, int i)
-{
-    (void)v;
-    return h->normal_load[i];
-}
-
-static double approach(const view *v, const rb_rolling_history *h, int i)
-{
-    (void)v;
-    return h->approach[i];
 }
 
 /* Steps at rest have no creepage. */
@@ -89,14 +78,14 @@ static void write_panel(FILE *out, const view *v, const panel *p)
 }
 
 /* A range and tics for the values with their errors, and for what else must be seen. */
-static void write_range(FILE *out, const view *v, quantity *of, double least, double most)
+static void write_range(FILE *out, const view *v, quantity of, double least, double most)
 {
     for (int i = 0; i < v->h->n; i++) {
-        const double error = v->h->errors ? of(v, v->h->errors, i) : 0.0;
+        const double error = v->h->errors ? value(v, v->h->errors, of, i) : 0.0;
         if (!is_shown(v, i))
             continue;
-        least = fmin(least, of(v, v->h, i) - error);
-        most = fmax(most, of(v, v->h, i) + error);
+        least = fmin(least, value(v, v->h, of, i) - error);
+        most = fmax(most, value(v, v->h, of, i) + error);
     }
     const double height = fmax(most - least, 1e-3 * fmax(1.0, fabs(most)));
     fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", least - 0.08 * height,
@@ -118,10 +107,10 @@ static void write_way(FILE *out, const view *v)
                  v->rolls ? "" : " ", v->rolls ? "" : mm);
     else
         snprintf(label, sizeof label, v->rolls ? "ξ" : "shift  [%s]", mm);
-    write_range(out, v, motion, INFINITY, -INFINITY);
+    write_range(out, v, MOTION, INFINITY, -INFINITY);
     write_panel(out, v, &(panel){0, label, "#6c3483", 2, v->h->errors ? 5 : 0});
     fputs("unset label 1\nunset label 9\nunset key\n", out);
-    write_range(out, v, force, 0.0, 0.0); /* a force is seen against none */
+    write_range(out, v, FORCE, 0.0, 0.0); /* a force is seen against none */
     write_panel(out, v, &(panel){1, "Q/(μP)", "#c0392b", 3, v->h->errors ? 6 : 0});
     write_last_axis(out, v->rolls ? "rolled distance / a" : "increment");
     fputs("set yrange [0:1]\nset ytics 0.2\n", out);
@@ -130,7 +119,7 @@ static void write_way(FILE *out, const view *v)
 
 static void write_time(FILE *out, const view *v)
 {
-    static quantity *const shown[] = {half_width, load, approach};
+    static const quantity shown[] = {HALF_WIDTH, LOAD, APPROACH};
     static const char *const label[] = {"half-width  [%s]", "P  [%s]", "approach  [%s]"},
                              *const unit[] = {"mm", "N/mm", "mm"},
                              *const colour[] = {"#1f4e79", "#c0392b", "#6c3483"};
@@ -155,13 +144,13 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     for (int i = 0; i < v->h->n; i++) {
         const int contact = v->h->stick[i] + v->h->slipping[i];
         if (v->in_time)
-            fprintf(out, "%.9g %.9g %.9g %.9g\n", place(v, i), half_width(v, v->h, i),
-                    load(v, v->h, i), approach(v, v->h, i));
+            fprintf(out, "%.9g %.9g %.9g %.9g\n", place(v, i), value(v, v->h, HALF_WIDTH, i),
+                    value(v, v->h, LOAD, i), value(v, v->h, APPROACH, i));
         else if (is_shown(v, i))
-            fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g\n", place(v, i), motion(v, v->h, i),
-                    force(v, v->h, i), contact ? (double)v->h->stick[i] / contact : 0,
-                    v->h->errors ? motion(v, v->h->errors, i) : 0,
-                    v->h->errors ? force(v, v->h->errors, i) : 0);
+            fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g\n", place(v, i), value(v, v->h, MOTION, i),
+                    value(v, v->h, FORCE, i), contact ? (double)v->h->stick[i] / contact : 0,
+                    v->h->errors ? value(v, v->h->errors, MOTION, i) : 0,
+                    v->h->errors ? value(v, v->h->errors, FORCE, i) : 0);
     }
     fputs("EOD\n", out);
     fprintf(out,
@@ -194,11 +183,11 @@ rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas, const rb
               .rolls = history->step > 0.0,
               .in_time = history->step == 0.0 && history->time,
               .points = history->n <= 40,
-              .power = 1.0, /* as motion() reads it below */
+              .power = 1.0, /* as value() reads it below */
               .place = rb_report_place_of(canvas)};
     double largest = 0.0;
     for (int i = 0; i < history->n; i++)
-        largest = is_shown(&v, i) ? fmax(largest, fabs(motion(&v, history, i))) : largest;
+        largest = is_shown(&v, i) ? fmax(largest, fabs(value(&v, history, MOTION, i))) : largest;
     v.exponent = rb_report_exponent(largest);
     v.power = pow(10.0, v.exponent);
     v.from = v.rolls || v.in_time ? 0.0 : 1.0;
