@@ -65,8 +65,11 @@ static inline int run_all_tests(int (*before)(void **), int (*behind)(void **))
 #define OWNED(type) __attribute__((cleanup(type##_free))) type
 /* SCRATCH double *x: so is what x points to. */
 #define SCRATCH __attribute__((cleanup(free_scratch_)))
-/* HELD(rb_case) c: a pointer to what is freed where the block of c ends. */
-#define HELD(type) __attribute__((cleanup(type##_release_))) type *
+/* held_case *c: what it points to is freed where the block of c ends; held_api, held_system. */
+#define HELD(type) __attribute__((cleanup(type##_release_))) type
+#define held_api HELD(rb_api)
+#define held_case HELD(rb_case)
+#define held_system HELD(rb_bem_system)
 #define HELD_TYPE(type, release)                                                                   \
     static inline void type##_release_(type **held)                                                \
     {                                                                                              \

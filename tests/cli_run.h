@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#define held_json HELD(json_t)
 HELD_TYPE(json_t, json_decref)
 
 static char program[600], folder[40] = "/tmp/rollbem-cli-XXXXXX";

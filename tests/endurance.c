@@ -28,7 +28,7 @@ static int solve(int k)
 {
     static const char *const formulation[] = {"static", "steady", "transient"};
     char text[40];
-    HELD(rb_api) a = rb_api_create();
+    rb_api *a = rb_api_create();
     int s = a ? rb_api_set(a, "support", k % 5 ? "halfplane" : "hub") : -1;
     s = s ? s : rb_api_set(a, "formulation", formulation[k % 3]);
     s = s ? s : k % 3 == 2 ? rb_api_set(a, "distance", "0.2") : 0;
@@ -41,6 +41,7 @@ static int solve(int k)
     s = s ? s : rb_api_solve(a);
     if (s != 0)
         fprintf(stderr, "case %d: %s\n", k, a ? rb_api_message(a) : "out of memory");
+    rb_api_free(a);
     return s;
 }
 

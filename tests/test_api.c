@@ -65,7 +65,7 @@ TEST(descriptions_are_complete)
 /* A caller that does not look at the status of each call must not get another case. */
 TEST(what_was_refused_is_not_solved)
 {
-    HELD(rb_api) a = rb_api_create();
+    held_api *a = rb_api_create();
     const char *const wrong[][2] = {
         {"load", "1,5"}, {"radius", "x"}, {"mu", "-1"}, {"load", "2,5"}};
     assert_int_equal(rb_api_set(a, "contact-elements", "12"), RB_OK);
@@ -119,7 +119,7 @@ TEST(refusals_are_those_of_the_case)
 
 TEST(numbers_are_the_solution)
 {
-    HELD(rb_api) a = solved(steady);
+    held_api *a = solved(steady);
     const int n = 60;
     double P = 0.0, Q = 0.0;
     char text[40];
@@ -154,7 +154,7 @@ TEST(the_next_case_is_solved_as_the_first_one)
     int n = 0;
     for (; wheel[n]; n++)
         words[n] = wheel[n];
-    HELD(rb_api) a = solved(wheel);
+    held_api *a = solved(wheel);
     for (size_t k = 0; k < sizeof next / sizeof *next; k++) {
         words[n++] = next[k][0];
         words[n++] = next[k][1];
@@ -163,7 +163,7 @@ TEST(the_next_case_is_solved_as_the_first_one)
         assert_null(rb_api_array(a, "p", &(int){0}, &(int){0}));
         assert_true(isnan(rb_api_number(a, "normal_load")));
         assert_int_equal(rb_api_solve(a), RB_OK);
-        HELD(rb_api) anew = solved(words);
+        held_api *anew = solved(words);
         const double *p = array(a, "p", 12, 1), *want = array(anew, "p", 12, 1);
         for (int i = 0; i < 12; i++)
             CHECK_ABS(p[i], want[i], 0.0, "p[%d] after %s", i, next[k][0]);
@@ -176,7 +176,7 @@ TEST(the_next_case_is_solved_as_the_first_one)
  * them, and the step is that least ratio. */
 TEST(pivots_keep_the_ratio_test)
 {
-    HELD(rb_api) a = solved(wheel);
+    held_api *a = solved(wheel);
     int size, pivots, r;
     char name[32];
     assert_int_equal(rb_api_pivots(a), RB_OK);
@@ -217,7 +217,7 @@ TEST(pivots_keep_the_ratio_test)
  * of the zones that it assumes. */
 TEST(newton_ends_in_the_solution)
 {
-    HELD(rb_api) a = solved(wheel);
+    held_api *a = solved(wheel);
     int rows, steps;
     assert_int_equal(rb_api_newton(a), RB_OK);
     const double *zone = rb_api_array(a, "newton.zone", &rows, &steps);
@@ -238,7 +238,7 @@ TEST(newton_ends_in_the_solution)
 
 TEST(matrices_satisfy_their_equations)
 {
-    HELD(rb_api) a = solved(wheel);
+    held_api *a = solved(wheel);
     int m, columns;
     const double *H = rb_api_array(a, "H", &m, &columns);
     assert_non_null(H);
@@ -264,7 +264,7 @@ TEST(matrices_satisfy_their_equations)
 
 TEST(guesses_are_judged)
 {
-    HELD(rb_api) a = solved(wheel);
+    held_api *a = solved(wheel);
     int zone[12];
     const double *is = array(a, "zone", 12, 1);
     for (int i = 0; i < 12; i++)
@@ -297,7 +297,7 @@ TEST(steps_are_kept)
         "support",  "halfplane", "similar",          "yes", "load",        "500",
         "mu",       "0.3",       "creep-ratio",      "0.5", "formulation", "transient",
         "distance", "1",         "contact-elements", "20",  NULL};
-    HELD(rb_api) a = solved(words);
+    held_api *a = solved(words);
     int n, steps;
     const double *p = rb_api_array(a, "step.p", &n, &steps);
     assert_non_null(p);
@@ -321,7 +321,7 @@ TEST(steps_have_error_bars)
         "500",         "mu",        "0.3",      "creep-ratio", "0.5",
         "formulation", "transient", "distance", "0.5",         "contact-elements",
         "16",          "error",     "yes",      NULL};
-    HELD(rb_api) a = solved(words);
+    held_api *a = solved(words);
     int n, steps;
     assert_non_null(rb_api_array(a, "step.p", &n, &steps));
     const double *bar = array(a, "history.error.tangential_load", steps, 1);
@@ -334,7 +334,7 @@ TEST(notes_and_closed_forms)
 {
     char text[200];
     int rows, columns;
-    HELD(rb_api) a = rb_api_create();
+    held_api *a = rb_api_create();
     assert_null(rb_api_note(a, 0, text, sizeof text));
     static const char *const words[][2] = {{"support", "halfplane"}, {"support-b", "halfplane"},
                                            {"similar", "yes"},       {"formulation", "steady"},
@@ -364,7 +364,7 @@ TEST(notes_and_closed_forms)
 
 TEST(results_of_every_table_are_there)
 {
-    HELD(rb_api) a = rb_api_create_for("solve");
+    held_api *a = rb_api_create_for("solve");
     assert_null(rb_api_create_for("nothing"));
     assert_string_equal(rb_version(), RB_VERSION);
     for (const char *const *w = steady; *w; w += 2)
@@ -411,7 +411,7 @@ TEST(every_name_has_its_value)
                                         "lemke",
                                         NULL};
     static const double M = 2.0, q = -4.0, W = 1.0, v = -1.0, mu = 0.3;
-    HELD(rb_api) a = solved(rolls);
+    held_api *a = solved(rolls);
     const double R = 50.0, E = 94500.0 / (1.0 - 0.1 * 0.1), P = 500.0;
     const double width = sqrt(4.0 * P * R / (3.14159265358979323846 * E));
     CHECK_REL(rb_api_number(a, "radius"), R, 1e-14, "radius");
@@ -457,7 +457,7 @@ TEST(zones_of_a_yielding_interface_are_no_guess)
                                         "zone",
                                         "2",
                                         NULL};
-    HELD(rb_api) a = solved(words);
+    held_api *a = solved(words);
     const int zone[12] = {0};
     assert_true(rb_api_guess(a, 12, zone) < 0);
     assert_non_null(strstr(rb_api_message(a), "--yield-stress"));
@@ -467,7 +467,7 @@ TEST(zones_of_a_yielding_interface_are_no_guess)
 
 TEST(stress_is_known_at_points)
 {
-    HELD(rb_api) a = solved(steady);
+    held_api *a = solved(steady);
     assert_int_equal(rb_api_stress(a, 9, 7, 0.0), RB_OK);
     const double x = array(a, "stress.x", 9, 7)[30], y = array(a, "stress.y", 9, 7)[30],
                  shear = array(a, "stress.max_shear", 9, 7)[30], xy[] = {x, y};
@@ -484,7 +484,7 @@ TEST(problems_by_themselves_are_solved)
 {
     static const double M[] = {2, 1, 1, 2}, q[] = {-5, -6};
     static const double W[] = {2, 0, 0, 0, 1, 0, 0, 0, 1}, v[] = {-1, 0.1, 0.4}, mu = 0.3;
-    HELD(rb_api) a = rb_api_create();
+    held_api *a = rb_api_create();
     for (int k = 0; k < 2; k++) {
         assert_int_equal(rb_api_lcp(a, 2, M, q, k ? "newton" : "lemke", 0), RB_OK);
         const double *z = array(a, "lcp.z", 2, 1), *w = array(a, "lcp.w", 2, 1);
@@ -569,7 +569,7 @@ TEST(descriptions_have_their_ends)
                             : r->kind == RB_RESULT_SECONDS ? "seconds"
                                                            : "number");
     }
-    HELD(rb_api) a = rb_api_create();
+    held_api *a = rb_api_create();
     assert_null(rb_api_value(a, "colour", text, sizeof text));
     assert_null(rb_api_value(a, o[group].name, text, sizeof text));
     assert_string_equal(rb_api_value(a, "mu", text, sizeof text), "0.3");
@@ -627,7 +627,7 @@ TEST(solvers_have_their_names)
     static const char *const cone[] = {"support", "halfplane", "load",   "500",    "mu", "0.3",
                                        "zone",    "2",         "solver", "nsn-ac", NULL};
     static const double W[] = {2, 0, 0, 1}, v[] = {-1, 0.1}, mu = 0.3;
-    HELD(rb_api) a = solved(cone);
+    held_api *a = solved(cone);
     assert_string_equal(rb_api_word(a, "solver"), "nsn-ac");
     assert_int_equal(rb_api_friction(a, 2, 1, W, v, &mu, "nsn-ac", 1e-10, 0), RB_OK);
     assert_string_equal(rb_api_word(a, "task.solver"), "nsn-ac");
@@ -685,7 +685,7 @@ TEST(matrices_are_at_hand_or_refused)
     assert_string_equal(rb_api_message(a), "stress: expected at least one point, got 0");
     rb_api_free(a);
     a = solved(wheel);
-    HELD(rb_api) b = solved(wheel);
+    held_api *b = solved(wheel);
     const double *G = rb_api_array(a, "G", &r, &c), *H = rb_api_array(b, "H", &r, &c);
     const size_t bytes = sizeof *G * (size_t)r * (size_t)c;
     assert_memory_equal(H, array(a, "H", r, c), bytes);
@@ -809,7 +809,7 @@ typedef struct {
 static rb_status by_handle(void *context)
 {
     const handle_job *j = context;
-    HELD(rb_api) a = rb_api_create();
+    held_api *a = rb_api_create();
     int s = a ? RB_OK : RB_ENOMEM;
     for (const char *const *w = j->words; s == RB_OK && *w; w += 2)
         s = rb_api_set(a, w[0], w[1]);
@@ -847,7 +847,7 @@ TEST(short_memory_is_reported)
 TEST(wear)
 {
     int rows = 0, columns = 0, n = 0;
-    HELD(rb_api) a = rb_api_create_for("wear");
+    held_api *a = rb_api_create_for("wear");
     rb_api_set(a, "support", "halfplane");
     rb_api_set(a, "similar", "yes");
     rb_api_set(a, "gap", "parabola");
@@ -876,7 +876,7 @@ TEST(cracks)
     static const char *const names[] = {"crack-angle", "unloaded", "remote-stress"},
                              *const values[] = {"45", "yes", "2"};
     int rows = 0, columns = 0;
-    HELD(rb_api) a = rb_api_create_for("crack");
+    held_api *a = rb_api_create_for("crack");
     rb_api_set(a, "half-width", "1");
     assert_int_equal(rb_api_crack(a, 3, names, values), RB_OK);
     const double *K = rb_api_array(a, "crack.summary.K_I_max", &rows, &columns);

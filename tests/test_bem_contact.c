@@ -29,7 +29,7 @@ static rb_bem_flexibility condensed(const rb_bem_cylinder *cylinder, int n_c, do
                                     rb_bem_normals normals)
 {
     rb_bem_flexibility f;
-    HELD(rb_bem_system) system;
+    held_system *system;
     OWNED(rb_bem_mesh) mesh = mesh_of(cylinder, n_c, a);
     CHECK_OK(rb_bem_system_create(&mesh, material, &system, NULL));
     CHECK_OK(rb_bem_condense(system, normals, &f, NULL));
@@ -394,7 +394,7 @@ static void check_schur(rb_bem_normals normals)
     subtract_product(p.c, p.c + 1, p.f, Hcf, Xf + p.c * p.f, Xc);
     divide(p.c, p.c + 1, Hcc, Xc); /* u_c = Xc (t_c, 1) */
 
-    HELD(rb_bem_system) system;
+    held_system *system;
     OWNED(rb_bem_flexibility) f;
     double F[4 * (n_c + 1) * n_c], C[2][2], D[2][2];
     CHECK_OK(rb_bem_system_create(&mesh, material, &system, NULL));
@@ -435,7 +435,7 @@ TEST(every_row_is_a_displacement_of_the_full_solution)
     enum { n_c = 6 };
     OWNED(rb_bem_mesh) mesh = mesh_of(&on_hub, n_c, 5.0);
     give(&mesh, 30, RB_BEM_TRACTION, 1.0, 3.0);
-    HELD(rb_bem_system) system;
+    held_system *system;
     OWNED(rb_bem_flexibility) f;
     CHECK_OK(rb_bem_system_create(&mesh, material, &system, NULL));
     CHECK_OK(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL));
@@ -560,7 +560,7 @@ static double balance(const rb_bem_cylinder *cylinder, int n_c, int outer)
     rb_bem_cylinder wheel = *cylinder;
     wheel.outer_elements = outer;
     OWNED(rb_bem_mesh) mesh = mesh_of(&wheel, n_c, 5.0);
-    HELD(rb_bem_system) system;
+    held_system *system;
     SCRATCH double *u = rb_alloc(2 * (size_t)mesh.n, 1), *t = rb_alloc(2 * (size_t)mesh.n, 1);
     double *pressure = rb_alloc(2 * (size_t)n_c, 1), load = 0.0, sum = 0.0;
     for (int i = 0; i < n_c; i++)
@@ -642,7 +642,7 @@ static double disc_compression_error(int m, double a)
     }
     mesh.condition[2 * (m / 2)] = mesh.condition[2 * (m + m / 2)] = RB_BEM_DISPLACEMENT;
     mesh.condition[2 * (m / 4) + 1] = RB_BEM_DISPLACEMENT; /* unloaded: only the rigid motion */
-    HELD(rb_bem_system) system;
+    held_system *system;
     SCRATCH double *u = rb_alloc(4 * (size_t)m, 1), *t = rb_alloc(4 * (size_t)m, 1);
     CHECK_OK(rb_bem_system_create(&mesh, material, &system, NULL));
     CHECK_OK(rb_bem_system_solve(system, NULL, u, t));
@@ -681,7 +681,7 @@ TEST(memory_without_length_doubles_the_flexibility)
                                 .ratio = ratio,
                                 .length = length};
     OWNED(rb_bem_mesh) mesh;
-    HELD(rb_bem_system) system;
+    held_system *system;
     OWNED(rb_bem_flexibility) f;
     CHECK_OK(rb_bem_mesh_cylinder(&cylinder, n, ends, &mesh, NULL));
     CHECK_OK(rb_bem_system_create(&mesh, steel, &system, NULL));

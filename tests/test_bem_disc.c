@@ -70,7 +70,7 @@ TEST(arcs_add_up_at_any_width)
 static double element_error(int n, double alpha)
 {
     OWNED(rb_bem_mesh) mesh = pressed_disc(n, alpha);
-    HELD(rb_bem_system) system;
+    held_system *system;
     double *u = rb_alloc(2 * (size_t)n, 1), *t = rb_alloc(2 * (size_t)n, 1), error = 0.0;
     CHECK_OK(rb_bem_system_create(&mesh, material, &system, NULL));
     CHECK_OK(rb_bem_system_solve(system, NULL, u, t));

@@ -207,7 +207,7 @@ static rb_status make_wheel(const void *of)
     const double t_contact[2 * N] = {0.0, 1.0}, xy[4] = {0.0, 0.2, 0.1, 0.3};
     double stress[6], u[600], t[600];
     OWNED(rb_bem_mesh) mesh = {0}, core = {0};
-    HELD(rb_bem_system) system = NULL;
+    held_system *system = NULL;
     rb_bem_field *field = NULL;
     OWNED(rb_bem_flexibility) f = {0}, g = {0}, waves = {0};
     const rb_bem_edge_load load = {1, ends, t_contact + 1, t_contact};
@@ -308,7 +308,7 @@ TEST(fields_may_be_asked_for_alone)
     const double t_contact[2 * N] = {0.0, 1.0, 0.5, 2.0};
     double u[600], t[600], both_u[4], both_s[6], alone[6];
     OWNED(rb_bem_mesh) mesh;
-    HELD(rb_bem_system) system;
+    held_system *system;
 
     CHECK_OK(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, NULL));
     CHECK_OK(rb_bem_system_create(&mesh, steel, &system, NULL));

@@ -119,7 +119,7 @@ TEST(rigid_motions_have_no_stress)
 static errors compression_error(int n, double alpha)
 {
     OWNED(rb_bem_mesh) mesh = pressed_disc(n, alpha);
-    HELD(rb_bem_system) system;
+    held_system *system;
     double *u = rb_alloc(2 * (size_t)n, 1), *t = rb_alloc(2 * (size_t)n, 1), s[3], at[2];
     CHECK_OK(rb_bem_system_create(&mesh, material, &system, NULL));
     CHECK_OK(rb_bem_system_solve(system, NULL, u, t));
@@ -156,7 +156,7 @@ TEST(no_unit_of_length_is_preferred)
     for (int k = 0; k < 2; k++) {
         const double unit = k ? 1e-3 : 1.0;
         OWNED(rb_bem_mesh) mesh = circle(n, unit);
-        HELD(rb_bem_system) system;
+        held_system *system;
         double at[2 * n], t[2 * n], xy[2 * P];
         for (int i = 0; i < 2 * P; i++)
             xy[i] = unit * inside[i];

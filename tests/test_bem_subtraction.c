@@ -25,7 +25,7 @@ static rb_bem_system *wheel_system(int n)
 /* Largest difference of two columns' differences: rigid motion of the wheel drops out. */
 static double distance_from_halfplane(int n, int subtracted)
 {
-    HELD(rb_bem_system) system = wheel_system(n);
+    held_system *system = wheel_system(n);
     OWNED(rb_bem_flexibility) f, flat;
     const int m = n + 1;
     SCRATCH double *ends = rb_alloc((size_t)n + 2, 1), *F = rb_alloc(2 * (size_t)m, 2 * (size_t)n),
@@ -61,7 +61,7 @@ static double distance_on_gliding_sides(int side)
     const int touch = side / 5, first = 2 * side / 5;
     static const double corner[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
     OWNED(rb_bem_mesh) mesh;
-    HELD(rb_bem_system) system;
+    held_system *system;
     rb_bem_flexibility f[2];
     double *F[2], worst = 0.0, size = 0.0;
     CHECK_OK(rb_bem_mesh_alloc(4 * side, &mesh));
@@ -114,7 +114,7 @@ TEST(a_hollow_contact_is_refused)
     /* a square whose lower side is bent inwards */
     static const double x[] = {0, 1, 2, 2, 0}, y[] = {0, 0.5, 0, 2, 2};
     OWNED(rb_bem_mesh) mesh;
-    HELD(rb_bem_system) system;
+    held_system *system;
     OWNED(rb_bem_flexibility) f;
     CHECK_OK(rb_bem_mesh_alloc(5, &mesh));
     for (int j = 0; j < 5; j++) {
@@ -145,7 +145,7 @@ TEST(fields_have_their_mirror_images)
                                           .hub_ratio = 0.3};
         const double ends[n + 2] = {-1.0, -0.5, 0.0, 0.5, 1.0, 1.5};
         OWNED(rb_bem_mesh) mesh;
-        HELD(rb_bem_system) system;
+        held_system *system;
         CHECK_OK(rb_bem_mesh_cylinder(&cylinder, n, ends, &mesh, NULL));
         CHECK_OK(rb_bem_system_create(&mesh, steel, &system, NULL));
         for (int load = 0; load < 2 * n; load++) {
@@ -172,7 +172,7 @@ TEST(fields_have_their_mirror_images)
 
 TEST(every_failed_allocation_is_reported)
 {
-    HELD(rb_bem_system) system = wheel_system(4);
+    held_system *system = wheel_system(4);
     int refused = 1;
     for (int count = 0; refused; count++) {
         OWNED(rb_bem_flexibility) f;

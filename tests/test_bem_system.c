@@ -39,7 +39,7 @@ static double radial_error(const rb_bem_mesh *mesh, const double *u, int first, 
 
 static void solve(const rb_bem_mesh *mesh, double *u, double *t)
 {
-    HELD(rb_bem_system) system;
+    held_system *system;
     CHECK_OK(rb_bem_system_create(mesh, material, &system, NULL));
     CHECK_OK(rb_bem_system_solve(system, NULL, u, t));
 }
@@ -135,7 +135,7 @@ TEST(the_solution_satisfies_the_equations)
     const double ends[] = {-8.0, -5.0, -1.0, 2.0, 4.0, 7.0};
     const rb_bem_cylinder cylinder = {.radius = 50.0, .support = RB_BEM_ARC, .arc = 0.5};
     OWNED(rb_bem_mesh) mesh;
-    HELD(rb_bem_system) system;
+    held_system *system;
     CHECK_OK(rb_bem_mesh_cylinder(&cylinder, 4, ends, &mesh, NULL));
     give(&mesh, 20, RB_BEM_TRACTION, 3.0, -1.0);
     give(&mesh, 21, RB_BEM_TRACTION, 1.0, 0.0); /* along one axis alone */
@@ -180,7 +180,7 @@ static void pull_ring(double nu, int all_around, double *u, double *t)
     }
     mesh.condition[1] = RB_BEM_DISPLACEMENT; /* the rightmost element, along y */
     mesh.value[1] = 0.0;
-    HELD(rb_bem_system) system;
+    held_system *system;
     CHECK_OK(rb_bem_system_create(&mesh, (rb_bem_material){1.0, nu}, &system, &heard));
     CHECK_OK(rb_bem_system_solve(system, NULL, u, t));
     if (all_around && nu == 0.5) {
@@ -235,7 +235,7 @@ TEST(a_body_without_support_is_refused)
     mesh.condition[2 * 3] = RB_BEM_DISPLACEMENT; /* another height, but x only */
     expect_free(&mesh, "free in translation along y;");
     mesh.condition[1] = RB_BEM_DISPLACEMENT;
-    HELD(rb_bem_system) system;
+    held_system *system;
     CHECK_OK(rb_bem_system_create(&mesh, material, &system, NULL));
 }
 
@@ -292,7 +292,7 @@ TEST(failing_memory_is_reported)
     double H[40000], u[200], t[200];
     for (int count = 0, failed = 1; failed; count++) {
         OWNED(rb_bem_mesh) mesh = {0};
-        HELD(rb_bem_system) system = NULL;
+        held_system *system = NULL;
         OWNED(rb_bem_flexibility) f = {0};
         rb_message why = {""};
         char expected[sizeof why.text];

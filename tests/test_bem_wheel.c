@@ -181,7 +181,7 @@ static double boundary_error(int kind, rb_bem_normals normals, int n)
                                 .core = steel};
     double ends[80];
     OWNED(rb_bem_mesh) mesh = {0}, core = {0};
-    HELD(rb_bem_system) system = NULL;
+    held_system *system = NULL;
     OWNED(rb_bem_flexibility) f;
     for (int i = 0; i < n + 2; i++)
         ends[i] = 4.0 * (2.0 * i / n - 1.0);

@@ -70,7 +70,7 @@ static void compare(const char *file, const char *words)
 {
     char path[700];
     OWNED(rb_case_result) r;
-    HELD(rb_case) c = rb_case_create(RB_CASE_SINGLE);
+    held_case *c = rb_case_create(RB_CASE_SINGLE);
     snprintf(path, sizeof path, "%s/%s", examples, file);
     rb_status s = set_words(c, words, &heard);
     if (s == RB_OK && *file)
@@ -81,7 +81,7 @@ static void compare(const char *file, const char *words)
         fail_msg("%s %s: %s", file, words, heard.text);
 
     run_program(file, words);
-    HELD(json_t) root = json_loads(out, 0, NULL);
+    held_json *root = json_loads(out, 0, NULL);
     assert_non_null(root);
     const json_t *table = json_object_get(root, "table");
     const rb_rolling_solution *got = &r.solution;
@@ -123,9 +123,8 @@ TEST(the_same_words_give_the_same_answer)
 TEST(carter_by_names_is_on_the_fitted_mesh)
 {
     OWNED(rb_case_result) r;
-    HELD(rb_case)
-    c = case_of("similar=yes support=halfplane formulation=steady half-width=0.5 "
-                "creep-ratio=0.4 mu=0.3 radius=500");
+    held_case *c = case_of("similar=yes support=halfplane formulation=steady half-width=0.5 "
+                           "creep-ratio=0.4 mu=0.3 radius=500");
     assert_int_equal(rb_case_resolved(c)->rc.mesh, RB_MESH_FITTED);
     CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
     CHECK_ABS(r.solution.force_ratio, -0.64, 1e-4, "Carter: s (2 - s) at s = 0.4");
@@ -346,7 +345,7 @@ TEST(values_are_kept_where_they_belong)
 
 TEST(names_that_are_none_are_said)
 {
-    HELD(rb_case) c = case_of("");
+    held_case *c = case_of("");
     assert_null(rb_case_word("support", 99));
     assert_string_equal(rb_case_word("formulation", RB_STEADY), "steady");
     assert_int_equal(rb_case_given(c, "nothing"), 0);
@@ -574,7 +573,7 @@ static void check_word(rb_status s, const rb_message *why, const char *part)
 
 TEST(wrong_words_are_refused)
 {
-    HELD(rb_case) c = case_of("");
+    held_case *c = case_of("");
     check_word(rb_case_set(c, "lood", "3", RB_GIVEN_ARGUMENT, &heard), &heard, "'load'?");
     check_word(rb_case_set(c, "load", "-3", RB_GIVEN_ARGUMENT, &heard), &heard,
                "--load: expected a number > 0, got '-3'");
@@ -612,7 +611,7 @@ TEST(contradictions_are_refused)
         {"mu-heat=0.1,20", "--mu-heat: expected 3 numbers, got 2"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
-        HELD(rb_case) c = rb_case_create(RB_CASE_SINGLE);
+        held_case *c = rb_case_create(RB_CASE_SINGLE);
         CHECK_OK(set_words(c, bad[k].words, &heard));
         check_word(rb_case_resolve(c, &heard), &heard, bad[k].part);
         CHECK_STATUS(rb_case_resolve(c, NULL), RB_EINVAL);
@@ -635,7 +634,7 @@ TEST(a_purpose_refuses_what_means_nothing_to_it)
          "--formulation: a study needs static or steady cases"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
-        HELD(rb_case) c = rb_case_create(bad[k].purpose);
+        held_case *c = rb_case_create(bad[k].purpose);
         CHECK_OK(set_words(c, bad[k].words, &heard));
         check_word(rb_case_resolve(c, &heard), &heard, bad[k].part);
     }
@@ -643,7 +642,7 @@ TEST(a_purpose_refuses_what_means_nothing_to_it)
 
 TEST(a_curve_takes_several_mu)
 {
-    HELD(rb_case) c = rb_case_create(RB_CASE_CURVE);
+    held_case *c = rb_case_create(RB_CASE_CURVE);
     CHECK_OK(set_words(c, "mu=0.1,0.2 load=500", &heard));
     CHECK_OK(rb_case_resolve(c, &heard));
     assert_int_equal(rb_case_resolved(c)->mus.n, 2);
@@ -676,7 +675,7 @@ TEST(files_are_blamed_by_line)
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_message why = {""};
-        HELD(rb_case) c = rb_case_create(RB_CASE_SINGLE);
+        held_case *c = rb_case_create(RB_CASE_SINGLE);
         write_file("case.ini", bad[k].text);
         rb_status s = rb_case_read(c, "case.ini", 0, NULL, &why);
         if (s == RB_OK)
@@ -706,7 +705,7 @@ TEST(rows_are_blamed_by_file_and_line)
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         char words[300];
         rb_message why = {""};
-        HELD(rb_case) c = rb_case_create(RB_CASE_SINGLE);
+        held_case *c = rb_case_create(RB_CASE_SINGLE);
         write_file("rows.txt", bad[k].text);
         snprintf(words, sizeof words, "support=halfplane %srows.txt", bad[k].words);
         CHECK_OK(set_words(c, words, &why));
@@ -726,7 +725,7 @@ TEST(a_column_excludes_its_option)
         {"mu", "mu"}, {"load", "load"}, {"load", "approach"}, {"creep", "creep-ratio"}};
     for (size_t k = 0; k < sizeof columns / sizeof *columns; k++) {
         char text[100], words[100], wanted[100];
-        HELD(rb_case) c = rb_case_create(RB_CASE_SINGLE);
+        held_case *c = rb_case_create(RB_CASE_SINGLE);
         snprintf(text, sizeof text, "distance %s\n0 0.1\n1 0.2\n", columns[k][0]);
         write_file("way.txt", text);
         snprintf(words, sizeof words, "formulation=transient history=way.txt %s=0.3",
@@ -747,7 +746,7 @@ TEST(all_of_a_result_is_converted)
         "support=halfplane load=100 contact-elements=10 formulation=transient "
         "creep-ratio=0.5 distance=1"};
     for (int k = 0; k < 2; k++) {
-        HELD(rb_case) c = case_of(words[k]);
+        held_case *c = case_of(words[k]);
         OWNED(rb_case_result) r;
         if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard) != RB_OK)
             fail_msg("%s: %s", words[k], heard.text);
@@ -770,7 +769,7 @@ TEST(own_options_are_read_beside_the_case)
     static const rb_option options[] = {RB_GROUP_LINE("own", "Own"),
                                         RB_NUMBER_LINE("weight", 0, "", RB_ANY, "")};
     const rb_option_set set = {options, 2, &own, NULL, NULL};
-    HELD(rb_case) c = rb_case_create(RB_CASE_SINGLE);
+    held_case *c = rb_case_create(RB_CASE_SINGLE);
     write_file("own.ini", "mu = 0.2\n[own]\nweight = 2\n");
     CHECK_OK(rb_case_read(c, "own.ini", 1, &set, &heard));
     CHECK_OK(rb_case_resolve(c, &heard));
@@ -784,7 +783,7 @@ TEST(own_options_are_read_beside_the_case)
 
 TEST(an_argument_wins_over_the_file)
 {
-    HELD(rb_case) c = rb_case_create(RB_CASE_SINGLE);
+    held_case *c = rb_case_create(RB_CASE_SINGLE);
     write_file("case.ini", "load = 4\nmu = 0.1\nyoung-b = 1000\n");
     CHECK_OK(set_words(c, "approach=0.01 mu=0.2 similar=yes", &heard));
     CHECK_OK(rb_case_read(c, "case.ini", 0, NULL, &heard));
@@ -800,8 +799,8 @@ TEST(an_argument_wins_over_the_file)
  * nor what an option took back. */
 TEST(a_copy_is_settled_from_its_words)
 {
-    HELD(rb_case) base = case_of("formulation=steady similar=yes support=halfplane load=500");
-    HELD(rb_case) c = rb_case_copy(base);
+    held_case *base = case_of("formulation=steady similar=yes support=halfplane load=500");
+    held_case *c = rb_case_copy(base);
     assert_int_equal(rb_case_resolved(base)->rc.contact_elements, 100);
     CHECK_OK(rb_case_set_number(c, "zone", 4.0, &heard));
     CHECK_OK(rb_case_resolve(c, &heard));

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#define held_json HELD(json_t)
 HELD_TYPE(json_t, json_decref)
 
 static char program[700], folder[] = "/tmp/rollbem-lcp-XXXXXX";
@@ -392,7 +393,7 @@ static const char *text_of(const json_t *p, const char *key)
 TEST(json_holds_every_file)
 {
     assert_int_equal(lcp("--json --trace --solution good ray bad"), 65);
-    HELD(json_t) root = json_loads(out, 0, NULL);
+    held_json *root = json_loads(out, 0, NULL);
     assert_non_null(root);
     assert_string_equal(text_of(root, "schema"), "rollbem/1");
     const json_t *list = json_object_get(root, "problems");

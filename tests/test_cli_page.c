@@ -19,7 +19,7 @@ TEST(the_page_carries_the_case)
     assert_memory_equal(out, "<p>before</p>", 13);
     assert_string_equal(to, strstr(page, "</script><p>after</p>"));
     *to = '\0';
-    HELD(json_t) all = json_loads(from + 13, 0, NULL);
+    held_json *all = json_loads(from + 13, 0, NULL);
     assert_non_null(all);
     assert_int_equal(json_object_size(all), 3);
     assert_string_equal(json_string_value(json_object_get(all, "mu")), "0.25");

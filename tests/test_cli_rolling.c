@@ -78,9 +78,8 @@ TEST(bad_points_are_named_by_their_line)
 /* Carter (1926): Q/(mu P) = -s (2 - s). */
 TEST(curve_follows_carter)
 {
-    HELD(json_t)
-    root = run_json("curve " SIMILAR "--from -1.2 --to 1.2 --points 25 "
-                    "--contact-elements 50");
+    held_json *root = run_json("curve " SIMILAR "--from -1.2 --to 1.2 --points 25 "
+                               "--contact-elements 50");
     const json_t *curve = json_object_get(root, "curve");
     assert_int_equal(json_array_size(json_object_get(curve, "creepage")), 25);
     for (size_t i = 0; i < 25; i++) {
@@ -102,7 +101,7 @@ TEST(table_holds_the_numbers_of_json)
                        "--over creep --to 0.01";
     char command[400];
     OWNED(rb_io_table) t;
-    HELD(json_t) root = run_json(line);
+    held_json *root = run_json(line);
     const json_t *curves = json_object_get(root, "curves");
     snprintf(command, sizeof command, "%s --quiet --output curve.tsv", line);
     assert_int_equal(rollbem(command), 0);
@@ -122,7 +121,7 @@ TEST(table_holds_the_numbers_of_json)
 /* 100 points at 100 elements; a second leaves room for a busy machine. */
 TEST(curve_is_fast)
 {
-    HELD(json_t) root = run_json("curve " SIMILAR "--points 100 --contact-elements 100");
+    held_json *root = run_json("curve " SIMILAR "--points 100 --contact-elements 100");
     const json_t *curve = json_object_get(root, "curve");
     print_message("curve of 100 points at 100 elements: %g s\n", number_in(curve, "seconds"));
     assert_int_equal(json_array_size(json_object_get(curve, "creepage")), 100);
@@ -162,9 +161,8 @@ TEST(maxima_are_those_of_hertz_and_full_sliding)
 /* The first row of the grid lies on the surface: its tractions are those of the table. */
 TEST(surface_row_shows_the_tractions)
 {
-    HELD(json_t)
-    root = run_json("stress " SIMILAR "--formulation steady --creep-ratio 0.5 "
-                    "--grid 41x2 --contact-elements 200");
+    held_json *root = run_json("stress " SIMILAR "--formulation steady --creep-ratio 0.5 "
+                               "--grid 41x2 --contact-elements 200");
     const json_t *grid = json_object_get(root, "grid"), *summary = json_object_get(root, "summary");
     const double p0 = number_in(summary, "max_pressure"), a = 0.5;
     assert_int_equal(number_in(grid, "nx"), 41);
@@ -268,7 +266,7 @@ TEST(grid_of_a_wheel)
                         "--contact-elements 30 --grid 21x31 --depth 90";
     char line[300];
     OWNED(rb_io_table) t;
-    HELD(json_t) root = run_json(wheel);
+    held_json *root = run_json(wheel);
     const json_t *grid = json_object_get(root, "grid");
     int inside = 0;
     for (size_t k = 0; k < 21 * 31; k++) {
@@ -441,7 +439,7 @@ TEST(power_below_zero_is_named)
     for (int aligned = 0; aligned < 2; aligned++) {
         snprintf(line, sizeof line, "%s --formulation steady --creep 0 --error --mesh %s", unlike,
                  aligned ? "aligned" : "uniform");
-        HELD(json_t) root = run_json(line);
+        held_json *root = run_json(line);
         const json_t *summary = json_object_get(root, "summary");
         const double bar = number_in(json_object_get(summary, "errors"), "dissipation");
         CHECK_ABS(number_in(summary, "dissipation"), 2.1e-4, bar, "aligned %d", aligned);
@@ -471,7 +469,7 @@ TEST(steps_too_long_for_relaxation_are_named)
         assert_int_equal(rollbem(line), 0);
         assert_int_equal(strstr(err, "the stress relaxes") != NULL, cases[k].says != NULL);
         assert_true(!cases[k].says || strstr(err, cases[k].says));
-        HELD(json_t) root = json_loads(out, 0, NULL);
+        held_json *root = json_loads(out, 0, NULL);
         CHECK_REL(number_in(json_object_get(root, "summary"), "max_pressure"), 2.66927,
                   cases[k].bound, "p0, %s", cases[k].step);
     }
@@ -481,7 +479,7 @@ TEST(steps_too_long_for_relaxation_are_named)
 TEST(curves_have_notes)
 {
     static const char note[] = "note: The strains are far beyond";
-    HELD(json_t) root = run_json("curve --support hub --contact-elements 12 --points 3");
+    held_json *root = run_json("curve --support hub --contact-elements 12 --points 3");
     json_t *notes = json_object_get(root, "notes");
     assert_true(json_array_size(notes) >= 1);
     assert_int_equal(strncmp(json_string_value(json_array_get(notes, 0)), note + 6, 26), 0);
@@ -509,7 +507,7 @@ TEST(fitted_is_the_default_for_steady)
                  {SIMILAR, "uniform", 60},
                  {"--formulation steady --creep 0.1", "uniform", 60}};
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-        HELD(json_t) root = run_json(cases[k].arguments);
+        held_json *root = run_json(cases[k].arguments);
         const json_t *inputs = json_object_get(root, "inputs");
         assert_string_equal(json_string_value(json_object_get(inputs, "mesh")), cases[k].mesh);
         assert_int_equal(number_in(inputs, "contact-elements"), cases[k].elements);
@@ -722,9 +720,8 @@ static double top_of(const char *script)
 TEST(the_shakedown_map_shows_its_case)
 {
     const double yield_shear = 40.0;
-    HELD(json_t)
-    root = run_json("stress --example rail --force-ratio -0.6 --shakedown "
-                    "--yield-shear 40 --shakedown-map m.svg --plot-script m.gp");
+    held_json *root = run_json("stress --example rail --force-ratio -0.6 --shakedown "
+                               "--yield-shear 40 --shakedown-map m.svg --plot-script m.gp");
     const double own = number_in(json_object_get(root, "summary"), "max_pressure") / yield_shear;
     assert_true(own > 10.0);
     CHECK_REL(top_of("m.gp"), 1.1 * own, 1e-5, "p0 = %g k", own);
@@ -733,20 +730,17 @@ TEST(the_shakedown_map_shows_its_case)
 /* Over large mu the bound mu p is cut off at the largest pressure, which keeps the room. */
 TEST(a_large_bound_leaves_room_to_the_pressure)
 {
-    HELD(json_t)
-    one = run_json(SIMILAR "--mu 1 --plot 1.svg --plot-script 1.gp"),
-    *three = run_json(SIMILAR "--mu 3 --plot 3.svg --plot-script 3.gp");
+    held_json *one = run_json(SIMILAR "--mu 1 --plot 1.svg --plot-script 1.gp"),
+              *three = run_json(SIMILAR "--mu 3 --plot 3.svg --plot-script 3.gp");
     CHECK_REL(top_of("1.gp"), top_of("3.gp"), 1e-6, "upper end");
-    json_decref(three);
 }
 
 /* The value of the largest stress stands in the title of its panel, where it covers no
  * label of a contour. */
 TEST(the_largest_stress_covers_no_contour)
 {
-    HELD(json_t)
-    root = run_json("stress " SIMILAR "--contact-elements 20 --plot s.svg "
-                    "--plot-script s.gp");
+    held_json *root = run_json("stress " SIMILAR "--contact-elements 20 --plot s.svg "
+                               "--plot-script s.gp");
     const json_t *maxima = json_object_get(root, "maxima");
     char title[80];
     snprintf(title, sizeof title, "maximum shear  [MPa],  at +: %.4g'",
@@ -781,7 +775,7 @@ TEST(almost_no_friction)
         "--support halfplane --half-width 1 --mu 1e-12 --force-ratio 0.5",
         "--support hub --half-width 1 --mu 1e-14 --shift 1e-3"};
     for (size_t k = 0; k < sizeof lines / sizeof lines[0]; k++) {
-        HELD(json_t) root = run_json(lines[k]);
+        held_json *root = run_json(lines[k]);
         const json_t *summary = json_object_get(root, "summary");
         CHECK_MAX(number_in(summary, "residual"), 1e-9, "%s", lines[k]);
         assert_true(isfinite(number_in(summary, "force_ratio")));
@@ -835,15 +829,13 @@ TEST(bad_friction_laws_are_refused)
 /* Units of every number of a list, a file's own certificate, several solutions. */
 TEST(friction_laws_by_words)
 {
-    HELD(json_t)
-    mm = run_json(RAIL FALLS "--creep 0.001 --memory 0.001,2 --mu-fall 0.1,0.02 "
-                             "--slip-scale 100,50");
-    HELD(json_t)
-    si = run_json("--support halfplane --similar --radius 0.46 --young 209920e6 "
-                  "--poisson 0.28 --gap exact --load 3111080 --mu 0.18 "
-                  "--formulation steady --contact-elements 60 --friction-law "
-                  "exponential --mu-fall 0.1,0.02 --slip-scale 0.1,0.05 --speed 45 "
-                  "--memory 1e-6,2e-3 --creep 0.001 --units si");
+    held_json *mm = run_json(RAIL FALLS "--creep 0.001 --memory 0.001,2 --mu-fall 0.1,0.02 "
+                                        "--slip-scale 100,50");
+    held_json *si = run_json("--support halfplane --similar --radius 0.46 --young 209920e6 "
+                             "--poisson 0.28 --gap exact --load 3111080 --mu 0.18 "
+                             "--formulation steady --contact-elements 60 --friction-law "
+                             "exponential --mu-fall 0.1,0.02 --slip-scale 0.1,0.05 --speed 45 "
+                             "--memory 1e-6,2e-3 --creep 0.001 --units si");
     CHECK_REL(number_in(json_object_get(mm, "summary"), "force_ratio"),
               number_in(json_object_get(si, "summary"), "force_ratio"), 1e-9, "units");
     const json_t *scales = json_object_get(json_object_get(si, "inputs"), "slip-scale");
@@ -859,7 +851,7 @@ TEST(friction_laws_by_words)
     assert_non_null(strstr(err, "2 solutions that differ from 82 starts"));
     assert_non_null(strstr(err, "\n  1   Q/(mu P) = "));
     assert_non_null(strstr(err, "\n  2   Q/(mu P) = "));
-    HELD(json_t) several = json_loads(out, 0, NULL);
+    held_json *several = json_loads(out, 0, NULL);
     json_t *list = json_object_get(several, "solutions");
     assert_int_equal(json_array_size(list), 2);
     for (size_t k = 0; k < 2; k++) {

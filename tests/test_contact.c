@@ -35,7 +35,7 @@ static json_t *run_file(const char *options, int t, int f, const char *force, co
     snprintf(text, sizeof text, frame, t, f, force, angle, grid, gap);
     write_file("own.inp", text);
     snprintf(line, sizeof line, "contact own.inp %s", options);
-    HELD(json_t) root = run_json(line);
+    held_json *root = run_json(line);
     json_t *one = json_incref(json_array_get(json_object_get(root, "cases"), 0));
     assert_string_equal(json_string_value(json_object_get(one, "status")), "solved");
     return one;
@@ -112,8 +112,8 @@ TEST(a_huge_yield_stress_is_none)
 /* Rolling towards -x is the mirror image. */
 TEST(rolling_back_turns_the_signs)
 {
-    HELD(json_t) there = run_file("", 3, 0, "-0.0004", ROLLS, GRID, GAP);
-    HELD(json_t) back = run_file("", 3, 0, "0.0004", BACK, GRID, GAP);
+    held_json *there = run_file("", 3, 0, "-0.0004", ROLLS, GRID, GAP);
+    held_json *back = run_file("", 3, 0, "0.0004", BACK, GRID, GAP);
     CHECK_REL(number_in(back, "FX"), -number_in(there, "FX"), 1e-12, "FX");
     CHECK_REL(number_in(back, "CKSI"), -number_in(there, "CKSI"), 1e-12, "CKSI");
     assert_true(number_in(there, "FX") > 0.0);
@@ -124,15 +124,14 @@ TEST(grids_and_gaps_are_those_of_the_file)
 {
     static const char *const grids[] = {" 2\n 60 1 -1.5 -50. 1.5 50.\n",
                                         " 3\n 60 1 -1.475 0. 0.05 100.\n"};
-    HELD(json_t) wanted = run_file("", 3, 0, "-0.0004", ROLLS, GRID, GAP);
+    held_json *wanted = run_file("", 3, 0, "-0.0004", ROLLS, GRID, GAP);
     for (int k = 0; k < 2; k++) {
-        HELD(json_t) got = run_file("", 3, 0, "-0.0004", ROLLS, grids[k], GAP);
+        held_json *got = run_file("", 3, 0, "-0.0004", ROLLS, grids[k], GAP);
         CHECK_REL(number_in(got, "FX"), number_in(wanted, "FX"), 1e-9, "grid %d", k);
     }
     /* (x - 1)^2/(2R) = B1 x^2 - 2 B1 x + const */
-    HELD(json_t)
-    moved = run_file("", 3, 0, "-0.0004", ROLLS, " 1\n 60 1 -0.5 -50. 0.05 100.\n",
-                     "0.00166666666666666667 0. 0. -0.0033333333333333333 0. 0.");
+    held_json *moved = run_file("", 3, 0, "-0.0004", ROLLS, " 1\n 60 1 -0.5 -50. 0.05 100.\n",
+                                "0.00166666666666666667 0. 0. -0.0033333333333333333 0. 0.");
     CHECK_REL(number_in(moved, "FX"), number_in(wanted, "FX"), 1e-9, "moved by 1");
 }
 
@@ -148,7 +147,7 @@ TEST(cases_go_on_from_the_one_before)
 {
     two_cases(" 3 MODULE\n 203110\n 100000\n 0101331\n 25000. 0.6 0. 0.\n");
     assert_int_equal(rollbem("contact two.inp --json"), 0);
-    HELD(json_t) root = json_loads(out, 0, NULL);
+    held_json *root = json_loads(out, 0, NULL);
     json_t *second = json_array_get(json_object_get(root, "cases"), 1);
     CHECK_REL(number_in(second, "FX_REL"), 0.6, 1e-9, "FX of the second case");
     CHECK_ABS(number_in(second, "NPOT"), 60.0, 0.0, "the grid of the first");
@@ -205,7 +204,7 @@ static json_t *case_of(const char *file, size_t k)
 {
     char line[200];
     snprintf(line, sizeof line, "contact %s", file);
-    HELD(json_t) root = run_json(line);
+    held_json *root = run_json(line);
     json_t *one = json_incref(json_array_get(json_object_get(root, "cases"), k));
     assert_string_equal(json_string_value(json_object_get(one, "status")), "solved");
     return one;
@@ -227,7 +226,7 @@ TEST(steps_are_those_of_our_transients)
         const double step = atof(lengths[k]);
         snprintf(next, sizeof next, STEP, lengths[k]);
         sequence(1, 1, "0.6", "", STEPS, next);
-        HELD(json_t) got = case_of("steps.inp", STEPS);
+        held_json *got = case_of("steps.inp", STEPS);
         const double a = sqrt(4.0 * 300.0 * 250.0 * 2.0 * 0.91 / 213200.0 / M_PI);
         snprintf(line, sizeof line,
                  "--support halfplane --similar --radius 300 --young 213200 --poisson 0.3 "
@@ -270,7 +269,7 @@ TEST(shifts_add_up)
     static const char half[] = " 3 MODULE\n 001100\n 100000\n 0101331\n 25000. -.0002 0. 0.\n";
     static const char back[] = " 3 MODULE\n 001100\n 100000\n 0101331\n 25000. .0002 0. 0.\n";
     sequence(1, 0, "-0.0004", "", 0, "");
-    HELD(json_t) once = case_of("steps.inp", 0);
+    held_json *once = case_of("steps.inp", 0);
     sequence(1, 0, "-0.0002", "", 1, half);
     json_t *twice = case_of("steps.inp", 1);
     CHECK_REL(number_in(twice, "FX"), number_in(once, "FX"), 1e-9, "two halves");
@@ -291,9 +290,9 @@ TEST(hertzian_input_is_the_grid_it_means)
     snprintf(grid[0], sizeof *grid, " 1\n 60 1 %.17g -50. %.17g 100.\n", -1.25 * a, 2.5 * a / 60);
     snprintf(grid[1], sizeof *grid, " -4\n 60 1 0.00166666666666666667 50. 1.25\n");
     snprintf(grid[2], sizeof *grid, " -5\n 60 1 %.17g 50. 1.25\n", a);
-    HELD(json_t) wanted = run_file("", 3, 0, "-0.0004", ROLLS, grid[0], GAP);
+    held_json *wanted = run_file("", 3, 0, "-0.0004", ROLLS, grid[0], GAP);
     for (int k = 1; k < 3; k++) {
-        HELD(json_t) got = run_file("", 3, 0, "-0.0004", ROLLS, grid[k], GAP);
+        held_json *got = run_file("", 3, 0, "-0.0004", ROLLS, grid[k], GAP);
         CHECK_REL(number_in(got, "FX"), number_in(wanted, "FX"), 1e-9, "FX, %s", grid[k]);
         CHECK_REL(number_in(got, "FN"), 25000.0, 1e-12, "FN, %s", grid[k]);
         CHECK_REL(number_in(got, "PEN"), number_in(wanted, "PEN"), 1e-9, "PEN");
@@ -312,7 +311,7 @@ TEST(a_module_that_stays_has_more_cases)
         0);
     static const double wanted[] = {0.6, 0.3};
     for (size_t k = 0; k < 2; k++) {
-        HELD(json_t) one = case_of("steps.inp", k + 1);
+        held_json *one = case_of("steps.inp", k + 1);
         CHECK_REL(number_in(one, "FX_REL"), wanted[k], 1e-9, "FX of case %zu", k + 2);
     }
 }
@@ -584,7 +583,7 @@ TEST(carters_example_is_met)
 {
     char line[700];
     snprintf(line, sizeof line, "contact %s", data("carter2d.inp"));
-    HELD(json_t) root = run_json(line);
+    held_json *root = run_json(line);
     json_t *one = json_array_get(json_object_get(root, "cases"), 0);
     CHECK_REL(number_in(one, "FN"), 35780.0, 1e-9, "FN");
     CHECK_ABS(number_in(one, "FX"), 6955.0, 0.5, "FX");
@@ -603,7 +602,7 @@ TEST(falling_friction_is_met)
 {
     char line[700];
     snprintf(line, sizeof line, "contact %s --quiet", data("veldep_fric.inp"));
-    HELD(json_t) root = run_json(line);
+    held_json *root = run_json(line);
     for (size_t k = 0; k <= 2; k += 2) {
         json_t *one = json_array_get(json_object_get(root, "cases"), k);
         CHECK_REL(number_in(one, "FX"), 1.109e5, 5e-4, "FX, case %zu", k + 1);
@@ -717,7 +716,7 @@ TEST(other_examples_are_run_or_named)
         snprintf(line, sizeof line, "contact %s --json", data(all[k].name));
         assert_int_equal(rollbem(line), all[k].code);
         assert_non_null(strstr(err, all[k].wanted));
-        HELD(json_t) root = json_loads(out, 0, NULL);
+        held_json *root = json_loads(out, 0, NULL);
         const size_t cases = json_array_size(json_object_get(root, "cases"));
         if (all[k].cases)
             assert_int_equal(cases, all[k].cases);

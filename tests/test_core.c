@@ -8,7 +8,7 @@
 
 static rb_status solve(const char *const *words, rb_case_result *r, rb_message *why)
 {
-    HELD(rb_case) c = rb_case_create(RB_CASE_SINGLE);
+    held_case *c = rb_case_create(RB_CASE_SINGLE);
     rb_status s = RB_OK;
 
     for (; *words && s == RB_OK; words += 2)

@@ -53,7 +53,7 @@ TEST(results_are_valid)
 static void tampered(const char *part, const char *list, int step, size_t at, double to,
                      const char *says)
 {
-    HELD(json_t) root = json_load_file("r.json", 0, NULL);
+    held_json *root = json_load_file("r.json", 0, NULL);
     json_t *lists = json_object_get(json_object_get(root, part), list);
     json_array_set_new(step < 0 ? lists : json_array_get(lists, (size_t)step), at,
                        strcmp(list, "zone") == 0 ? json_integer((int)to) : json_real(to));
@@ -67,7 +67,7 @@ TEST(the_laws_of_the_faces_are_judged)
 {
     (void)state;
     make(CONTACT DRIVEN "--fluid trapped");
-    HELD(json_t) root = json_load_file("r.json", 0, NULL);
+    held_json *root = json_load_file("r.json", 0, NULL);
     json_t *faces = json_object_get(root, "faces");
     json_t *zones = json_object_get(faces, "zone"), *p = json_object_get(faces, "p_MPa");
     int found[4] = {0}, step[4] = {0};
@@ -100,7 +100,7 @@ TEST(the_coupled_contact_is_judged)
 {
     (void)state;
     make(CONTACT "--mu 0 --coupled --steps 60");
-    HELD(json_t) root = json_load_file("r.json", 0, NULL);
+    held_json *root = json_load_file("r.json", 0, NULL);
     const json_t *p =
         json_array_get(json_object_get(json_object_get(root, "faces"), "contact_p_MPa"), 30);
     size_t most = 0;
@@ -147,7 +147,7 @@ TEST(what_cannot_be_checked_is_refused)
     check_refused("check o.json", 65, "crack-angle");
     assert_int_equal(shell("sed 's/\"fluid_volume_mm2\"/\"else\"/' r.json > o.json"), 0);
     check_refused("check o.json", 65, "fluid_volume_mm2");
-    HELD(json_t) root = json_load_file("r.json", 0, NULL);
+    held_json *root = json_load_file("r.json", 0, NULL);
     json_object_del(root, "contact_table");
     assert_int_equal(json_dump_file(root, "o.json", JSON_REAL_PRECISION(17)), 0);
     check_refused("check o.json", 65, "contact_table has no elements");
@@ -162,7 +162,7 @@ static rb_status certify(void *context)
 {
     rb_report_certificate found;
     FILE *lines = tmpfile();
-    HELD(rb_case) words = rb_case_create(RB_CASE_CRACK);
+    held_case *words = rb_case_create(RB_CASE_CRACK);
     const rb_status s =
         words ? rb_report_certify_solutions(lines, "r", context, words, &found, &(rb_message){""})
               : RB_ENOMEM;
@@ -174,7 +174,7 @@ TEST(no_memory)
 {
     (void)state;
     make(CONTACT "--mu 0 --unloaded --remote-stress 3");
-    HELD(json_t) root = json_load_file("r.json", 0, NULL);
+    held_json *root = json_load_file("r.json", 0, NULL);
     assert_true(alloc_fail_each(certify, root) > 10);
 }
 

@@ -72,7 +72,7 @@ TEST(cycles_converge)
 {
     static const char *const steps[] = {"3", "6", "12"};
     double N[3];
-    HELD(rb_api) a = contact("mm", "1", "1000", "94500");
+    held_api *a = contact("mm", "1", "1000", "94500");
     for (int k = 0; k < 3; k++) {
         const char *const words[] = {"paris",          "1e-12,3",    "paris-range",
                                      "mode-II",        "grow-steps", steps[k],
@@ -109,7 +109,7 @@ TEST(turns)
     static const char *const words[] = {"paris",      "1e-12,3", "growth", "tension",
                                         "grow-steps", "2",       NULL};
     int rows, columns;
-    HELD(rb_api) a = contact("mm", "1", "1000", "94500");
+    held_api *a = contact("mm", "1", "1000", "94500");
     pass(a, words);
     const double kink = last(a, "crack.summary.kink_angle");
     const double *angle = rb_api_array(a, "crack.growth.angle", &rows, &columns);
@@ -125,7 +125,7 @@ TEST(turns_many_times)
     static const char *const words[] = {"paris", "1e-12,3",     "growth", "tension", "grow-steps",
                                         "24",    "crack-angle", "15",     NULL};
     int rows, columns;
-    HELD(rb_api) a = contact("mm", "1", "1000", "94500");
+    held_api *a = contact("mm", "1", "1000", "94500");
     pass(a, words);
     const double *angle = rb_api_array(a, "crack.growth.angle", &rows, &columns);
     assert_int_equal(rows, 25);
@@ -137,7 +137,7 @@ TEST(rests_below_the_threshold)
 {
     static const char *const words[] = {"paris", "1e-12,3", "threshold", "100", NULL};
     int rows, columns;
-    HELD(rb_api) a = contact("mm", "1", "1000", "94500");
+    held_api *a = contact("mm", "1", "1000", "94500");
     pass(a, words);
     assert_non_null(rb_api_array(a, "crack.growth.rate", &rows, &columns));
     assert_int_equal(rows, 1);
@@ -154,7 +154,7 @@ TEST(bad_growth)
                {{"threshold", "grow-steps"}, {"3", "3"}, "--paris"},
                {{"growth", "grow-steps"}, {"tension", "3"}, "--paris"},
                {{"paris", "unloaded"}, {"1e-12,3", "yes"}, "load"}};
-    HELD(rb_api) a = contact("mm", "1", "1000", "94500");
+    held_api *a = contact("mm", "1", "1000", "94500");
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         assert_true(rb_api_crack(a, 2, bad[k].name, bad[k].value) < 0);
         if (!strstr(rb_api_message(a), bad[k].says))

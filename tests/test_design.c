@@ -39,7 +39,7 @@ static rb_status design(const rb_case *c, const char *result, const char *over, 
 static void contacts_of_hertz(void **state)
 {
     OWNED(rb_case_result) r;
-    HELD(rb_case) c = case_of(hertz);
+    held_case *c = case_of(hertz);
     assert_int_equal(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard), RB_OK);
     const double p0 = r.solution.max_pressure, a = r.solution.half_width;
 
@@ -64,10 +64,9 @@ static void contacts_of_hertz(void **state)
  * says why it does not go on. */
 static void search_stays_where_solutions_are(void **state)
 {
-    HELD(rb_case)
-    c = case_of((const char *const[]){"support", "halfplane", "similar", "yes", "load", "500",
-                                      "mesh", "uniform", "zone", "1", "contact-elements", "40",
-                                      NULL});
+    held_case *c = case_of((const char *const[]){"support", "halfplane", "similar", "yes", "load",
+                                                 "500", "mesh", "uniform", "zone", "1",
+                                                 "contact-elements", "40", NULL});
     OWNED(rb_design) d = {.n = 0, .largest = 1};
     CHECK_STATUS(design(c, "max_pressure", "load=100:9000", NULL, &d, &heard), RB_MAXITER);
     assert_true(d.variable[0].value > 600.0 && d.variable[0].value < 800.0);
@@ -86,10 +85,9 @@ static void uniform_pressure(void **state)
         fprintf(f, "%.6f %.8f\n", x, 1e-4 * x * x + 0.1 * fmax(fabs(x) - 5.0, 0.0));
     }
     fclose(f);
-    HELD(rb_case)
-    c = case_of((const char *const[]){"support", "halfplane", "similar", "yes", "load", "5000",
-                                      "mu", "0", "gap", path, "mesh", "uniform", "zone", "6",
-                                      "contact-elements", "48", NULL});
+    held_case *c = case_of((const char *const[]){"support", "halfplane", "similar", "yes", "load",
+                                                 "5000", "mu", "0", "gap", path, "mesh", "uniform",
+                                                 "zone", "6", "contact-elements", "48", NULL});
     CHECK_OK(design(c, "pressure_ripple", "gap=-0.1:0.1", NULL, &d, &heard));
     print_message("# ripple %.2g of %.2g, %d evaluations\n", d.value, d.start, d.evaluations);
     assert_int_equal(d.n, 65);
@@ -115,7 +113,7 @@ static void what_is_refused(void **state)
                {"max_pressure", "radius=1:200", "half_width<=x", "x"},
                {"max_pressure", "radius=20:200", "half_width<=0.1", "constraints"}};
     rb_message why;
-    HELD(rb_case) c = case_of(hertz);
+    held_case *c = case_of(hertz);
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         OWNED(rb_design) d = {.n = 0};
         const rb_status s = design(c, bad[k].result, bad[k].over, bad[k].subject, &d, &why);

@@ -73,9 +73,9 @@ static void check_mirror(const char *rest, const char *control, double value, co
 {
     char line[800];
     snprintf(line, sizeof line, "%s %s --%s %.17g", one, rest, control, value);
-    HELD(json_t) a = run_json(line);
+    held_json *a = run_json(line);
     snprintf(line, sizeof line, "%s %s --%s %.17g", other, rest, control, -value);
-    HELD(json_t) b = run_json(line);
+    held_json *b = run_json(line);
     const double length = fmax(largest(a, UN), largest(a, UT)) / largest(a, SHIFT);
     check_column(a, b, X, 1.0, tol, line);
     check_column(a, b, P, 1.0, tol, line);
@@ -128,9 +128,9 @@ static void check_scaling(const char *format, double L, double E)
     const double tol = exact ? 0.0 : 1e-9;
     char line[800];
     snprintf(line, sizeof line, format, 50.0, 94500.0, 700.0, 80.0, 2e5);
-    HELD(json_t) a = run_json(line);
+    held_json *a = run_json(line);
     snprintf(line, sizeof line, format, L * 50.0, E * 94500.0, L * E * 700.0, L * 80.0, E * 2e5);
-    HELD(json_t) b = run_json(line);
+    held_json *b = run_json(line);
     static const int of_length[] = {X, H, GAP, UN, UT, SHIFT}, of_stress[] = {P, Q};
     for (size_t k = 0; k < sizeof of_length / sizeof of_length[0]; k++)
         check_column(a, b, of_length[k], L, tol, line);
@@ -169,18 +169,15 @@ TEST(test_scaling)
  * And increments of the load end where one load does. */
 TEST(test_no_friction)
 {
-    HELD(json_t)
-    pair = run_json("--support halfplane --formulation static --mu 0 --load 700 "
-                    "--young 100000 --poisson 0 --young-b 300000 --poisson-b 0 "
-                    "--gap parabola --shift 0");
-    HELD(json_t)
-    one = run_json("--support halfplane --formulation static --mu 0 --load 700 "
-                   "--young 75000 --poisson 0 --gap parabola --shift 0");
+    held_json *pair = run_json("--support halfplane --formulation static --mu 0 --load 700 "
+                               "--young 100000 --poisson 0 --young-b 300000 --poisson-b 0 "
+                               "--gap parabola --shift 0");
+    held_json *one = run_json("--support halfplane --formulation static --mu 0 --load 700 "
+                              "--young 75000 --poisson 0 --gap parabola --shift 0");
     write_file("steps.txt", "load shift\n100 0\n400 0\n700 0\n");
-    HELD(json_t)
-    steps = run_json("--support halfplane --formulation static --mu 0 "
-                     "--young 75000 --poisson 0 --gap parabola "
-                     "--history steps.txt");
+    held_json *steps = run_json("--support halfplane --formulation static --mu 0 "
+                                "--young 75000 --poisson 0 --gap parabola "
+                                "--history steps.txt");
     check_column(one, pair, X, 1.0, 1e-12, "one E*");
     check_column(one, pair, P, 1.0, 1e-10, "one E*");
     check_scalar(one, pair, "half_width", 1.0, 1e-10, "one E*");
@@ -198,7 +195,7 @@ static void check_refinement(const char *rest)
     double value[2][3];
     for (int k = 0; k < 3; k++) {
         snprintf(line, sizeof line, "%s --contact-elements %d", rest, 20 << (2 * k));
-        HELD(json_t) root = run_json(line);
+        held_json *root = run_json(line);
         for (int i = 0; i < 2; i++)
             value[i][k] = summary_of(root, names[i]);
     }
@@ -234,9 +231,9 @@ TEST(test_static_history_of_one_step)
     write_file("one.txt", "load shift\n700 1e-3\n");
     for (int k = 0; k < 3; k++) {
         snprintf(line, sizeof line, "%s --formulation static --history one.txt", supports[k]);
-        HELD(json_t) history = run_json(line);
+        held_json *history = run_json(line);
         snprintf(line, sizeof line, "%s --formulation static --load 700 --shift 1e-3", supports[k]);
-        HELD(json_t) single = run_json(line);
+        held_json *single = run_json(line);
         check_same(single, history, 1e-11, line);
     }
 }
@@ -249,9 +246,9 @@ TEST(test_transient_at_rest)
     write_file("rest.txt", "distance load\n0 700\n");
     for (int k = 0; k < 3; k++) {
         snprintf(line, sizeof line, "%s --formulation transient --history rest.txt", supports[k]);
-        HELD(json_t) rest = run_json(line);
+        held_json *rest = run_json(line);
         snprintf(line, sizeof line, "%s --formulation static --load 700", supports[k]);
-        HELD(json_t) single = run_json(line);
+        held_json *single = run_json(line);
         for (size_t j = 0; j < sizeof same / sizeof same[0]; j++)
             check_column(single, rest, same[j], 1.0, 1e-12, line);
     }
@@ -266,12 +263,12 @@ TEST(test_curve)
         snprintf(line, sizeof line, "curve %s %s --from -0.5 --to 1 --points 4 --json --quiet",
                  supports[k], rest);
         assert_int_equal(rollbem(line), 0);
-        HELD(json_t) root = json_loads(out, 0, NULL);
+        held_json *root = json_loads(out, 0, NULL);
         const json_t *curve = json_object_get(root, "curve");
         for (size_t i = 0; i < 4; i++) {
             snprintf(line, sizeof line, "%s %s --formulation steady --creep-ratio %.17g",
                      supports[k], rest, -0.5 + 0.5 * (double)i);
-            HELD(json_t) single = run_json(line);
+            held_json *single = run_json(line);
             CHECK_REL(entry(curve, "tangential_load", i), summary_of(single, "tangential_load"),
                       1e-9, "%s", line);
             CHECK_REL(entry(curve, "normal_load", i), summary_of(single, "normal_load"), 1e-9, "%s",
@@ -317,7 +314,7 @@ TEST(test_sweep)
                      "%s --formulation steady --load 700 --contact-elements 21 "
                      "--creep-ratio %g --mu %g",
                      supports[k], row <= 2 ? 0.2 : 0.4, row % 2 ? 0.1 : 0.3);
-            HELD(json_t) single = run_json(line);
+            held_json *single = run_json(line);
             CHECK_REL(cell(study, row, "tangential_load_N/mm"),
                       summary_of(single, "tangential_load"), 0.0, "%s", line);
             CHECK_REL(cell(study, row, "approach_mm"), summary_of(single, "approach"), 0.0, "%s",
@@ -342,7 +339,7 @@ TEST(test_library)
     for (int k = 0; k < 3; k++) {
         char line[300];
         OWNED(rb_rolling_solution) s;
-        HELD(rb_case) c = rb_case_create(RB_CASE_SINGLE);
+        held_case *c = rb_case_create(RB_CASE_SINGLE);
         assert_non_null(c);
         CHECK_OK(rb_case_set(c, "support", held[k], RB_GIVEN_ARGUMENT, &heard));
         for (int j = 0; j < 5; j++)
@@ -353,7 +350,7 @@ TEST(test_library)
                  "--support %s --formulation steady --load 700 --creep-ratio 0.4 --similar "
                  "--contact-elements 40",
                  held[k]);
-        HELD(json_t) root = run_json(line);
+        held_json *root = run_json(line);
         for (int i = 0; i < s.n; i++) {
             CHECK_ABS(entry(table_of(root), "q_MPa", (size_t)i), s.q[i], 0.0, "%s", line);
             CHECK_ABS(entry(table_of(root), "p_MPa", (size_t)i), s.p[i], 0.0, "%s", line);

@@ -253,7 +253,7 @@ static int same_json(const char *a, const char *b)
 /* The results of many files say of one that there was no memory for it. */
 static int says_so(const char *text)
 {
-    HELD(json_t) root = json_loads(text, 0, NULL);
+    held_json *root = json_loads(text, 0, NULL);
     const json_t *problem = json_array_get(json_object_get(root, "problems"), 0);
     const char *status = json_string_value(json_object_get(problem, "status"));
     const int said = status && strcmp(status, "out of memory") == 0;

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#define held_json HELD(json_t)
 HELD_TYPE(json_t, json_decref)
 
 static char folder[] = "/tmp/rollbem-fem-XXXXXX";
@@ -88,7 +89,7 @@ static void json_matches_the_table(const char *arguments, int code)
     assert_int_equal(run("%s", table_of), code);
     assert_int_equal(run("%s", json_of), code);
     CHECK_OK(rb_io_table_read(inside("out.tsv"), &table, &heard));
-    HELD(json_t) root = json_load_file(inside("out.json"), 0, NULL);
+    held_json *root = json_load_file(inside("out.json"), 0, NULL);
     const json_t *steps = json_object_get(root, "steps");
     assert_int_equal(json_array_size(steps), table.rows);
     for (int j = 0; j < table.columns; j++)
@@ -112,7 +113,7 @@ TEST(json_and_picture_are_written)
 {
     assert_int_equal(
         run("truss --nodes 4 --json --output %s --plot %s.png", inside("out.json"), folder), 0);
-    HELD(json_t) root = json_load_file(inside("out.json"), 0, NULL);
+    held_json *root = json_load_file(inside("out.json"), 0, NULL);
     const json_t *steps = json_object_get(root, "steps");
     static const int stick[] = {0, 16, 4, 0, 0, 0};
     assert_string_equal(json_string_value(json_object_get(root, "schema")), "rollbem/1");

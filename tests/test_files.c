@@ -228,7 +228,7 @@ TEST(names_of_any_bytes_are_printed)
     assert_int_equal(shell("n=$(printf 'a\\377b\\033.ini'); printf 'load = 1\\n' >\"$n\"; "
                            "\"$R\" \"$n\" " CASE "--json --output a.json"),
                      0);
-    HELD(json_t) root = json_load_file("a.json", 0, NULL);
+    held_json *root = json_load_file("a.json", 0, NULL);
     assert_non_null(root);
     assert_non_null(
         strstr(json_string_value(json_object_get(root, "command")), "a\\xffb\\x1b.ini"));

@@ -33,7 +33,7 @@ static int set_up(void **state)
 TEST(the_answer_can_be_checked)
 {
     assert_int_equal(rollbem("friction --json --solution slides"), 0);
-    HELD(json_t) root = json_loads(out, 0, NULL);
+    held_json *root = json_loads(out, 0, NULL);
     assert_non_null(root);
     const json_t *p = json_array_get(json_object_get(root, "problems"), 0);
     assert_non_null(p);
@@ -63,7 +63,7 @@ TEST(compare_writes_its_file)
                      0);
     assert_string_equal(out, "5\n");
     assert_int_equal(rollbem("compare --solvers nsn-ac slides --output runs.json --json"), 0);
-    HELD(json_t) root = json_load_file("runs.json", 0, NULL);
+    held_json *root = json_load_file("runs.json", 0, NULL);
     assert_non_null(root);
 }
 
@@ -223,7 +223,7 @@ TEST(the_command_line_is_checked)
 TEST(profiles_are_printed)
 {
     assert_int_equal(rollbem("compare --solvers nsn-ac,nsgs-ac,lemke --json slides zero no"), 0);
-    HELD(json_t) root = json_loads(out, 0, NULL);
+    held_json *root = json_loads(out, 0, NULL);
     assert_non_null(root);
     assert_int_equal(json_array_size(json_object_get(root, "runs")), 9);
     const json_t *profiles = json_object_get(root, "profiles");
@@ -253,7 +253,7 @@ TEST(the_chosen_measure_decides)
                  "iterations --json",
                  sweeps[k]);
         assert_int_equal(rollbem(line), 0);
-        HELD(json_t) root = json_loads(out, 0, NULL);
+        held_json *root = json_loads(out, 0, NULL);
         const json_t *run = json_array_get(json_object_get(root, "runs"), 0);
         CHECK_ABS(number_in(run, "iterations"), k == 0 ? 3.0 : 1.0, 0.0, "%s", sweeps[k]);
         assert_string_equal(json_string_value(json_object_get(root, "measure")), sweeps[k]);

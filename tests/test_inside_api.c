@@ -26,7 +26,7 @@ TEST(the_last_call_gives_the_threads_back)
 /* As many arrays as there are names in all tables, twice for the errors, fit. */
 TEST(arrays_of_every_name_fit)
 {
-    HELD(rb_api) a = rb_api_create();
+    held_api *a = rb_api_create();
     char name[20];
     int names = 60; /* of meshes, matrices, pivots, steps, guesses, problems */
     for (const rb_rolling_result_table *t = rb_rolling_result_tables; t->name; t++)

@@ -156,7 +156,7 @@ TEST(singular_systems_are_refused)
 static void condense(const rb_bem_mesh *mesh, rb_bem_material material, int dense, int subtracted,
                      double *F)
 {
-    HELD(rb_bem_system) system;
+    held_system *system;
     OWNED(rb_bem_flexibility) f;
     CHECK_OK(rb_bem_system_create_as(mesh, material, dense, &system, &heard));
     CHECK_OK((subtracted ? rb_bem_condense_subtracted
@@ -197,7 +197,7 @@ TEST(plates_are_solved_as_by_the_dense_matrix)
     for (int k = 0; k < 3; k++) {
         const rb_bem_material material = {1.0, poisson[k]};
         for (int dense = 0; dense < 2; dense++) {
-            HELD(rb_bem_system) system;
+            held_system *system;
             CHECK_OK(rb_bem_system_create_as(&mesh, material, dense, &system, NULL));
             CHECK_OK(rb_bem_system_solve(system, NULL, u + (size_t)dense * dofs,
                                          t + (size_t)dense * dofs));
@@ -241,7 +241,7 @@ static void check_identity(const rb_bem_mesh *mesh, const double *u, const doubl
 TEST(long_boundaries_are_solved)
 {
     OWNED(rb_bem_mesh) mesh = wheel(RB_BEM_HUB, 0.5, 2800);
-    HELD(rb_bem_system) system;
+    held_system *system;
     OWNED(rb_bem_flexibility) f;
     const size_t dofs = 2 * (size_t)mesh.n;
     double *u = rb_alloc(dofs, 1), *t = rb_alloc(dofs, 1), load[2 * CONTACT];
@@ -279,7 +279,7 @@ typedef struct {
 static rb_status solve_by_clusters(void *of)
 {
     const solid *b = of;
-    HELD(rb_bem_system) system = NULL;
+    held_system *system = NULL;
     SCRATCH double *u = rb_alloc(2 * (size_t)b->mesh.n, 2);
     rb_status s = u ? rb_bem_system_create_as(&b->mesh, b->material, 0, &system, NULL) : RB_ENOMEM;
     if (s == RB_OK)
@@ -312,7 +312,7 @@ TEST(failing_allocations)
         assert_true(refused ? h == NULL : h != NULL);
         rb_hierarchical_free(h);
     }
-    HELD(rb_bem_system) system;
+    held_system *system;
     CHECK_OK(rb_bem_system_create_as(&mesh, steel, 0, &system, NULL));
     for (int k = 0, refused = 1; refused; k++) {
         OWNED(rb_bem_flexibility) f;

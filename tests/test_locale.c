@@ -49,8 +49,8 @@ static int leave(void **state)
 /* All that is written of one case and read again, as text. */
 static void write_all(char *text, size_t size)
 {
-    HELD(rb_api) a = rb_api_create();
-    HELD(rb_case) words = rb_case_create(RB_CASE_SINGLE);
+    held_api *a = rb_api_create();
+    held_case *words = rb_case_create(RB_CASE_SINGLE);
     OWNED(rb_case_result) result = {0};
     char value[64];
     FILE *out = fmemopen(text, size, "w");

@@ -394,7 +394,7 @@ TEST(doubtful_values_are_noted)
         snprintf(line, sizeof line, "%s --json --quiet", all[k][0]);
         rollbem(line);
         assert_string_equal(err, "");
-        HELD(json_t) root = json_loads(out, 0, NULL);
+        held_json *root = json_loads(out, 0, NULL);
         int found = 0;
         size_t i;
         json_t *text;

@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#define held_json HELD(json_t)
 HELD_TYPE(json_t, json_decref)
 
 enum { N = 20 };
@@ -161,7 +162,7 @@ TEST(json_holds_the_same_numbers)
 TEST(no_number_is_null)
 {
     const double bad[] = {NAN, INFINITY, -INFINITY, 1.0};
-    HELD(json_t) list = rb_report_json_numbers(4, bad);
+    held_json *list = rb_report_json_numbers(4, bad);
     for (int i = 0; i < 3; i++)
         assert_true(json_is_null(json_array_get(list, (size_t)i)));
     assert_true(json_is_real(json_array_get(list, 3)));
@@ -170,7 +171,7 @@ TEST(no_number_is_null)
 
 TEST(command_that_is_not_utf8)
 {
-    HELD(json_t) root = rb_report_json_start("rollbem \xff");
+    held_json *root = rb_report_json_start("rollbem \xff");
     assert_string_equal(json_string_value(json_object_get(root, "command")), "rollbem \\xff");
 }
 

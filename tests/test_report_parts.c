@@ -441,7 +441,7 @@ TEST(vtk_files_are_known_by_their_names)
 /* A case of "name value" pairs, solved. */
 static void solve(const char *const *words, rb_case_result *result)
 {
-    HELD(rb_case) c = rb_case_create(RB_CASE_SINGLE);
+    held_case *c = rb_case_create(RB_CASE_SINGLE);
     for (; *words; words += 2)
         CHECK_OK(rb_case_set(c, words[0], words[1], RB_GIVEN_ARGUMENT, &heard));
     if (rb_case_resolve(c, &heard) != RB_OK ||

@@ -24,7 +24,7 @@ static double *flexibility_of(rb_bem_cylinder cylinder, rb_bem_material core, do
 {
     const rb_bem_material rubber = {.shear = 3.0, .poisson = 0.3};
     OWNED(rb_bem_mesh) mesh, inner = {0};
-    HELD(rb_bem_system) system = NULL;
+    held_system *system = NULL;
     OWNED(rb_bem_flexibility) f;
     double ends[N + 2];
     double *F = malloc(sizeof(double) * 4 * M * N);

@@ -345,7 +345,7 @@ TEST(studies_come_in_three_formats)
                      0);
     assert_int_equal(strncmp(out, head, strlen(head)), 0);
     assert_non_null(strstr(out, "\n3\n"));
-    HELD(json_t) root = run_json(STUDY "--vary-1 'mu 0.1 0.3'");
+    held_json *root = run_json(STUDY "--vary-1 'mu 0.1 0.3'");
     json_t *table = json_object_get(root, "table");
     CHECK_ABS(entry(table, "mu", 1), 0.3, 0.0, "mu of the second case");
     CHECK_ABS(entry(table, "case", 1), 2.0, 0.0, "its number");
@@ -354,9 +354,8 @@ TEST(studies_come_in_three_formats)
 
 TEST(any_result_is_a_column_by_its_name)
 {
-    HELD(json_t)
-    root = run_json(STUDY "--similar --vary-1 'creep-ratio 0.2 0.6' --results "
-                          "stick_length,contact_to,normal_load");
+    held_json *root = run_json(STUDY "--similar --vary-1 'creep-ratio 0.2 0.6' --results "
+                                     "stick_length,contact_to,normal_load");
     json_t *table = json_object_get(root, "table");
     const double a = entry(table, "half_width_mm", 1);
     CHECK_REL(entry(table, "contact_to_mm", 1), a, 1e-4, "edge of the contact");
@@ -588,9 +587,8 @@ TEST(rows_have_stresses_and_error_bars)
 #define SLIDING                                                                                    \
     "--support halfplane --similar --mu 0.3 --formulation steady "                                 \
     "--creep-ratio 0.5 --contact-elements 40 --error "
-    HELD(json_t)
-    root = run_json("sweep " SLIDING "--vary-1 'load 100 400' --units si "
-                    "--results max_shear,max_shear_y,tension");
+    held_json *root = run_json("sweep " SLIDING "--vary-1 'load 100 400' --units si "
+                               "--results max_shear,max_shear_y,tension");
     const json_t *table = json_object_get(root, "table");
     json_t *one = run_json("stress " SLIDING "--load 400 --units si");
     const json_t *shear = json_object_get(json_object_get(one, "maxima"), "max_shear"),

@@ -36,7 +36,7 @@ static const char *const words[CASES][16] = {
 
 static void solve(job *j)
 {
-    HELD(rb_case) c = rb_case_create(RB_CASE_SINGLE);
+    held_case *c = rb_case_create(RB_CASE_SINGLE);
     OWNED(rb_case_result) r = {0};
 
     rb_case_use_cone_solvers(c, rb_friction_cone_solver);

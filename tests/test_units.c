@@ -287,10 +287,9 @@ TEST(wear_speaks_every_system)
 {
     static const rb_units system[] = {RB_UNITS_SI, RB_UNITS_INCH};
     static const char *const name[] = {"si", "inch"};
-    HELD(json_t)
-    mm = run_json("wear --similar --support halfplane --gap parabola --load "
-                  "200N/mm --slide 1e6mm --wear-coefficient 1e-10 --wear-steps 2 "
-                  "--contact-elements 40 --profile mm.txt");
+    held_json *mm = run_json("wear --similar --support halfplane --gap parabola --load "
+                             "200N/mm --slide 1e6mm --wear-coefficient 1e-10 --wear-steps 2 "
+                             "--contact-elements 40 --profile mm.txt");
     for (int k = 0; k < 2; k++) {
         char line[600];
         snprintf(line, sizeof line,
@@ -299,7 +298,7 @@ TEST(wear_speaks_every_system)
                  "--contact-elements 40 --units %s --profile p%d.txt --snapshots s%d "
                  "--plot w%d.png",
                  name[k], k, k, k);
-        HELD(json_t) other = run_json(line);
+        held_json *other = run_json(line);
         const char *const column[][2] = {
             {"way", "mm"}, {"worn", "mm2"}, {"work", "N/mm"}, {"max_pressure", "MPa"}};
         /* to a unit in the last place: i386 rounds once more when it stores a number */
@@ -328,7 +327,7 @@ TEST(wear_speaks_every_system)
                      "--similar --support halfplane --gap parabola "
                      "--load 200 --contact-elements 40 --worn %s%c.txt",
                      m ? "p" : "m", m ? '0' + k : 'm');
-            HELD(json_t) worn = run_json(line);
+            held_json *worn = run_json(line);
             p0[m] = number_in(json_object_get(worn, "summary"), "max_pressure");
         }
         CHECK_REL(p0[1], p0[0], 1e-9, "p0 under the scar, %s", name[k]);
