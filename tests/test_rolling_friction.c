@@ -265,22 +265,22 @@ TEST(ranges_of_friction_laws)
     REFUSED("friction law rational: needs the speed", FALLS; rc.speed = 0.0);
     REFUSED("speed: expected a number > 0, got inf", FALLS; rc.speed = INFINITY);
     ACCEPTED(FALLS; rc.friction.memory = 1.0; rc.friction.memory_slip = 1.0);
-    REFUSED("friction memory: expected", FALLS; rc.friction.memory = -1.0);
-    REFUSED("friction memory: expected", FALLS; rc.friction.memory = INFINITY);
-    REFUSED("friction memory: expected", FALLS; rc.friction.memory = 1.0);
+    REFUSED("memory: expected a number > 0", FALLS; rc.friction.memory = -1.0);
+    REFUSED("memory: expected a number > 0", FALLS; rc.friction.memory = INFINITY);
+    REFUSED("memory: expected a number > 0", FALLS; rc.friction.memory = 1.0);
 
     ACCEPTED(WARM; rc.friction.heat = -0.3; rc.friction.heat_range = 100.0);
     ACCEPTED(rc.friction.heat = -0.3; rc.friction.heat_range = 100.0); /* at rest */
     REFUSED("expected mu >= 0 everywhere", WARM; rc.friction.heat = -0.31;
             rc.friction.heat_range = 100.0);
-    REFUSED("friction and heat: needs temperatures", STEADY; rc.friction.heat = -0.1;
+    REFUSED("mu-heat: needs temperatures", STEADY; rc.friction.heat = -0.1;
             rc.friction.heat_range = 100.0);
-    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = INFINITY);
-    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = -0.1;
+    REFUSED("mu-heat: expected a number, got inf", WARM; rc.friction.heat = INFINITY);
+    REFUSED("mu-heat: expected a range of temperatures > 0, got 0", WARM; rc.friction.heat = -0.1;
             rc.friction.heat_range = 0.0);
-    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = -0.1;
+    REFUSED("mu-heat: expected a range of temperatures > 0", WARM; rc.friction.heat = -0.1;
             rc.friction.heat_range = INFINITY);
-    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = -0.1;
+    REFUSED("mu-heat: expected a number, got nan", WARM; rc.friction.heat = -0.1;
             rc.friction.heat_from = NAN; rc.friction.heat_range = 100.0);
 }
 

@@ -899,13 +899,13 @@ TEST(bad_laws_are_refused)
     refused(&rc, "needs the speed of rolling");
     rc = rail(100.0);
     rc.friction.memory = 1.0;
-    refused(&rc, "a distance >= 0 and a velocity > 0");
+    refused(&rc, "memory: expected a number > 0, got 0");
     rc = warm(1.0);
     rc.friction.heat = -0.31;
     refused(&rc, "expected mu >= 0 everywhere, got -0.01");
     rc = warm(1.0);
     rc.friction.heat_range = 0.0;
-    refused(&rc, "a range > 0");
+    refused(&rc, "mu-heat: expected a range of temperatures > 0");
     rc = warm(1.0);
     rc.heat_a.conductivity = 0.0;
     refused(&rc, "needs temperatures");

@@ -326,7 +326,7 @@ TEST(shares_lie_between_0_and_1)
         OWNED(rb_rolling_solution) last;
         const rb_rolling_wear wear = shared(sliding(&rc, 0.1, 1), shares[k]);
         CHECK_SAYS(rb_rolling_wear_run(&rc, &wear, NULL, &h, &last, &heard), RB_EINVAL,
-                   "wear share: expected 0 ... 1");
+                   "wear-share: expected a number in [0, 1]");
     }
 }
 

@@ -275,14 +275,15 @@ TEST(wear_that_makes_no_sense_is_refused)
     } while (0)
 #define STEADY rc.formulation = RB_STEADY, wear.slides = 0
     REFUSED("not in a transient", rc.formulation = RB_TRANSIENT);
-    REFUSED("wear coefficient: expected > 0, got 0", wear.coefficient = 0.0);
-    REFUSED("wear coefficient: expected > 0", wear.coefficient = INFINITY);
-    REFUSED("wear coefficient: expected > 0", wear.coefficient = NAN);
-    REFUSED("a distance or cycles > 0, got -1", wear.way = -1.0);
-    REFUSED("a distance or cycles > 0", wear.way = INFINITY);
-    REFUSED("wear steps: expected 1 ... 1000000, got 0", wear.steps = 0);
-    REFUSED("wear steps: expected 1 ... 1000000", wear.steps = 1000001);
-    REFUSED("wear increments: expected >= 1, got 0", wear.slides = 0, wear.increments = 0);
+    REFUSED("wear-coefficient: expected a number > 0, got 0", wear.coefficient = 0.0);
+    REFUSED("wear-coefficient: expected a number > 0", wear.coefficient = INFINITY);
+    REFUSED("wear-coefficient: expected a number > 0", wear.coefficient = NAN);
+    REFUSED("slide: expected a number > 0, got -1", wear.way = -1.0);
+    REFUSED("slide: expected a number > 0", wear.way = INFINITY);
+    REFUSED("wear-steps: expected a whole number in [1, 1e+06], got 0", wear.steps = 0);
+    REFUSED("wear-steps: expected a whole number in [1, 1e+06]", wear.steps = 1000001);
+    REFUSED("quarter: expected a whole number in [1, 100000], got 0", wear.slides = 0,
+            wear.increments = 0);
     REFUSED("friction dissipates nothing", rc.mu = 0.0, wear.law = RB_WEAR_DISSIPATION);
     REFUSED("friction dissipates nothing", rc.mu = 0.0, wear.slides = 0);
     REFUSED("takes one coefficient of friction", wear.law = RB_WEAR_DISSIPATION,

@@ -138,6 +138,27 @@ typedef struct {
         .help = __VA_ARGS__                                                                        \
     }
 
+/* The numbers of wear, members of a struct like rb_rolling_wear; the sliding distance and
+ * the cycles are two of it, or `way` both times.  The command line and the library have
+ * their ranges from here. */
+#define RB_WEAR_LINES(PLACE, SLIDE, CYCLES)                                                        \
+    RB_NUMBER_LINE("wear-coefficient", PLACE(coefficient), "1/MPa", RB_ABOVE(0),                   \
+                   "K: worn volume per load and sliding distance, or per work, mm3/(N mm)",        \
+                   .unset = "none: it must be given"),                                             \
+        RB_NUMBER_LINE("wear-share", PLACE(share), "-", RB_FROM_TO(0, 1),                          \
+                       "fraction of K that wears B: in the contact (fretting), along its "         \
+                       "track (A slides) or at its radius (rolling)"),                             \
+        RB_NUMBER_LINE("slide", PLACE(SLIDE), "mm", RB_ABOVE(0),                                   \
+                       "static: total distance by which A slides over B, towards +x",              \
+                       .unset = "A frets, or rolls"),                                              \
+        RB_NUMBER_LINE("cycles", PLACE(CYCLES), "-", RB_ABOVE(0),                                  \
+                       "static: fretting cycles between the shift or force and its opposite; "     \
+                       "steady: turns of the wheel"),                                              \
+        RB_INTEGER_LINE("wear-steps", PLACE(steps), RB_FROM_TO(1, 1000000),                        \
+                        "number of steps; each is implicit and stable for any length"),            \
+        RB_INTEGER_LINE("quarter", PLACE(increments), RB_FROM_TO(1, 100000),                       \
+                        "number of increments per quarter of a fretting cycle")
+
 /* Describes the allowed values of an option: "a number >= 0", "lemke, newton or auto".
  * Returns text. */
 const char *rb_option_expected(const rb_option *option, char *text, size_t size);

@@ -296,36 +296,6 @@ static rb_status eliminate(const kept_lu *k, int count, const bordered *m, doubl
     return fault == 0 ? RB_OK : RB_SINGULAR;
 }
 
-static rb_status solve_bordered(const rb_contact_problem *p, const kept_lu *k, const plan *pl,
-                                rb_contact_reduced *r)
-{
-    const size_t n = (size_t)k->size, count = (size_t)pl->count;
-    double *scratch = rb_alloc(n + count, 2 * count + 1);
-
-    if (!scratch)
-        return RB_ENOMEM;
-    const bordered m = {.V = scratch,
-                        .f = scratch + n * count,
-                        .g = scratch + n * (count + 1), /* behind f */
-                        .W = scratch + n * (count + 1) + count,
-                        .T = scratch + n * (2 * count + 1) + count};
-    for (int i = 0; i < r->size; i++)
-        m.f[pl->source[i]] = r->x[i];
-    fill_border(p, r, k, pl, &m);
-    const rb_status s = eliminate(k, pl->count, &m, &r->growth);
-    for (int i = 0; i < r->size; i++)
-        r->x[i] = m.f[pl->source[i]];
-    free(scratch);
-    return s;
-}
-
-/* A border of b costs 2 b size^2 operations per step and an LU 2/3 size^3 once in a few
- * steps: least in sum where b is about the root of twice the size. */
-static int is_near(const plan *pl, const kept_lu *k)
-{
-    return (double)pl->changes * pl->changes <= 2.0 * k->size;
-}
-
 rb_status rb_contact_reduced_direct(const rb_contact_problem *p, const int *zone, rb_contact_lu lu,
                                     rb_contact_reduced *r)
 {
@@ -343,13 +313,34 @@ rb_status rb_contact_reduced_direct(const rb_contact_problem *p, const int *zone
 
     if (s == RB_OK) {
         make_plan(p, zone, r, k, &pl);
-        if (lu == RB_LU_NEW || (lu == RB_LU_KEPT && !is_near(&pl, k))) {
+        /* A border of b costs 2 b size^2 operations per step and an LU 2/3 size^3 once in a few
+         * steps: least in sum where b is about the root of twice the size. */
+        if (lu == RB_LU_NEW ||
+            (lu == RB_LU_KEPT && !((double)pl.changes * pl.changes <= 2.0 * k->size))) {
             s = factor(p, r, pl.unknown, k);
             make_plan(p, zone, r, k, &pl);
         }
     }
-    if (s == RB_OK)
-        s = solve_bordered(p, k, &pl, r);
+    if (s == RB_OK) {
+        /* Bordered: (f, g) into (x, y); growth: |A^-1 f| / |x|, the digits that cancel. */
+        const size_t n = (size_t)k->size, count = (size_t)pl.count;
+        double *scratch = rb_alloc(n + count, 2 * count + 1);
+        s = scratch ? RB_OK : RB_ENOMEM;
+        if (s == RB_OK) {
+            const bordered m = {.V = scratch,
+                                .f = scratch + n * count,
+                                .g = scratch + n * (count + 1), /* behind f */
+                                .W = scratch + n * (count + 1) + count,
+                                .T = scratch + n * (2 * count + 1) + count};
+            for (int i = 0; i < r->size; i++)
+                m.f[pl.source[i]] = r->x[i];
+            fill_border(p, r, k, &pl, &m);
+            s = eliminate(k, pl.count, &m, &r->growth);
+            for (int i = 0; i < r->size; i++)
+                r->x[i] = m.f[pl.source[i]];
+        }
+        free(scratch);
+    }
     r->changes = k->size > 0 ? pl.changes : 0;
     r->slight = k->size > 0 ? pl.slight : 0;
     free(pl.unknown);

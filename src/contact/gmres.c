@@ -49,19 +49,6 @@ static rb_status make_solver(const rb_contact_linear *l, rb_contact_gmres_scratc
     return RB_OK;
 }
 
-static void solve_border(const solver *s, const double *g, double *z)
-{
-    const double *S = s->schur;
-
-    if (s->l->borders == 1) {
-        z[0] = g[0] / S[0];
-        return;
-    }
-    const double det = S[0] * S[3] - S[1] * S[2];
-    z[0] = (S[3] * g[0] - S[2] * g[1]) / det;
-    z[1] = (S[0] * g[1] - S[1] * g[0]) / det;
-}
-
 static void precondition(const solver *s, const double *b, double *x)
 {
     const rb_contact_linear *l = s->l;
@@ -73,7 +60,14 @@ static void precondition(const solver *s, const double *b, double *x)
     l->border_rows(l->of, x, g);
     for (int k = 0; k < l->borders; k++)
         g[k] = b[l->inner + k] - g[k];
-    solve_border(s, g, z);
+    const double *S = s->schur;
+    if (l->borders == 1) {
+        z[0] = g[0] / S[0];
+    } else { /* by Cramer's rule */
+        const double det = S[0] * S[3] - S[1] * S[2];
+        z[0] = (S[3] * g[0] - S[2] * g[1]) / det;
+        z[1] = (S[0] * g[1] - S[1] * g[0]) / det;
+    }
     for (int k = 0; k < l->borders; k++) {
         cblas_daxpy(l->inner, -z[k], s->image[k], 1, x, 1);
         x[l->inner + k] = z[k];

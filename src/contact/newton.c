@@ -180,47 +180,6 @@ static void forget(const rb_contact_problem *p)
         p->op->kind->forget(p->op);
 }
 
-/* An LU of all tractions and those of one group each never take memory together: no later
- * solve would use both (memory.c). */
-static rb_status from_nothing(rb_contact_problem *p, workspace *ws, rb_contact_state *state)
-{
-    /* Everything in frictionless contact, to begin with. */
-    memset(state->p, 0, (size_t)p->n * sizeof(double));
-    memset(state->q, 0, (size_t)p->n * sizeof(double));
-    state->delta = p->delta;
-    state->xi = p->force_given ? 0.0 : p->xi;
-    for (int i = 0; i < p->n; i++)
-        state->zone[i] = RB_ZONE_STICK;
-    forget(p);
-    const int coupled = is_coupled(p);
-    const rb_status s = alternate(p, coupled ? STAGGERED_ROUNDS : 1, ws, state);
-    if (s < 0 || !coupled)
-        return s;
-    forget(p);
-    return iterate(p, RB_BOTH, ws, state);
-}
-
-/* From the zones and tractions of the same problem on half as many elements; its steps
- * count. */
-static rb_status from_half(rb_contact_problem *p, workspace *ws, rb_contact_state *state)
-{
-    rb_contact_problem half;
-    rb_contact_state coarse = {0};
-    rb_status s = rb_contact_halve(p, &half);
-
-    if (s != RB_OK)
-        return s;
-    s = rb_contact_state_alloc(half.n, &coarse);
-    if (s == RB_OK)
-        s = rb_contact_newton(&half, 0, &coarse);
-    if (s == RB_OK)
-        rb_contact_start_from_half(&coarse, state);
-    state->iterations += coarse.iterations;
-    rb_contact_state_free(&coarse);
-    rb_contact_problem_free(&half);
-    return s == RB_OK ? from_zones(p, ws, state) : s;
-}
-
 rb_status rb_contact_newton(rb_contact_problem *problem, int warm, rb_contact_state *state)
 {
     workspace ws = {rb_alloc((size_t)problem->n, 1), rb_alloc_int(2 * (size_t)problem->n), NULL};
@@ -231,9 +190,43 @@ rb_status rb_contact_newton(rb_contact_problem *problem, int warm, rb_contact_st
     if (s == RB_OK && warm)
         s = from_zones(problem, &ws, state);
     else if (s == RB_OK) {
-        s = problem->n >= HALVED ? from_half(problem, &ws, state) : RB_MAXITER;
-        if (s > 0)
-            s = from_nothing(problem, &ws, state);
+        s = RB_MAXITER;
+        if (problem->n >= HALVED) {
+            /* From the zones and tractions of the same problem on half as many elements; its
+             * steps count. */
+            rb_contact_problem half = {0};
+            rb_contact_state coarse = {0};
+            s = rb_contact_halve(problem, &half);
+            if (s == RB_OK)
+                s = rb_contact_state_alloc(half.n, &coarse);
+            if (s == RB_OK)
+                s = rb_contact_newton(&half, 0, &coarse);
+            if (s == RB_OK)
+                rb_contact_start_from_half(&coarse, state);
+            state->iterations += coarse.iterations;
+            rb_contact_state_free(&coarse);
+            rb_contact_problem_free(&half);
+            if (s == RB_OK)
+                s = from_zones(problem, &ws, state);
+        }
+        if (s > 0) {
+            /* From nothing: everything in frictionless contact, to begin with.  An LU of all
+             * tractions and those of one group each never take memory together: no later
+             * solve would use both (memory.c). */
+            memset(state->p, 0, (size_t)problem->n * sizeof(double));
+            memset(state->q, 0, (size_t)problem->n * sizeof(double));
+            state->delta = problem->delta;
+            state->xi = problem->force_given ? 0.0 : problem->xi;
+            for (int i = 0; i < problem->n; i++)
+                state->zone[i] = RB_ZONE_STICK;
+            forget(problem);
+            const int coupled = is_coupled(problem);
+            s = alternate(problem, coupled ? STAGGERED_ROUNDS : 1, &ws, state);
+            if (s >= 0 && coupled) {
+                forget(problem);
+                s = iterate(problem, RB_BOTH, &ws, state);
+            }
+        }
     }
     free(ws.gap);
     free(ws.zone);

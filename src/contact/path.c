@@ -123,24 +123,6 @@ typedef struct {
     int element, margin; /* -1: none; the margin that ends there */
 } bend;
 
-static bend next_bend(const path *k)
-{
-    bend next = {k->way * INFINITY, -1, 0};
-
-    for (int i = 0; i < k->problem->n; i++) {
-        double whole[MARGINS], none[MARGINS];
-        margins_of(k, &k->whole, i, whole);
-        margins_of(k, &k->none, i, none);
-        for (int m = 0; m < MARGINS && isfinite(none[m]); m++) {
-            const double slope = whole[m] - none[m];
-            const double t = k->way * fmax(k->way * (-none[m] / slope), k->way * k->t);
-            if (k->way * slope < 0.0 && k->way * (t - next.t) < 0.0)
-                next = (bend){t, i, m};
-        }
-    }
-    return next;
-}
-
 /* Its element into the zone behind; returns which margin there begins with zero. */
 static int cross(path *k, const bend *at)
 {
@@ -209,7 +191,19 @@ static rb_status follow(path *k)
         s = solve_both(k);
     }
     for (int count = 0; s == RB_OK && count < MOST_BENDS; count++) {
-        const bend at = next_bend(k);
+        bend at = {k->way * INFINITY, -1, 0};
+
+        for (int i = 0; i < k->problem->n; i++) {
+            double whole[MARGINS], none[MARGINS];
+            margins_of(k, &k->whole, i, whole);
+            margins_of(k, &k->none, i, none);
+            for (int m = 0; m < MARGINS && isfinite(none[m]); m++) {
+                const double slope = whole[m] - none[m];
+                const double t = k->way * fmax(k->way * (-none[m] / slope), k->way * k->t);
+                if (k->way * slope < 0.0 && k->way * (t - at.t) < 0.0)
+                    at = (bend){t, i, m};
+            }
+        }
         if (k->way < 0.0 && at.t <= 0.0)
             return RB_OK;
         if (at.element < 0)

@@ -126,17 +126,6 @@ static rb_contact_zone zone_of(double p, double lambda, double gamma_plus, doubl
     return RB_ZONE_STICK;
 }
 
-/* What neither slips nor is separated may yield, by more than its stress lacks. */
-static rb_contact_zone yielding_zone(const rb_contact_problem *problem, double plastic, double q,
-                                     double yield)
-{
-    const double lacks = (yield - fabs(q)) / rb_contact_friction_scale(problem);
-
-    if (!(fabs(plastic) / problem->slip_length > fmax(lacks, 0.0)))
-        return RB_ZONE_STICK;
-    return plastic > 0.0 ? RB_ZONE_YIELD_NEGATIVE : RB_ZONE_YIELD_POSITIVE;
-}
-
 void rb_contact_classify(const rb_contact_problem *problem, double tol, rb_contact_state *state)
 {
     const double tangential = rb_contact_friction_scale(problem), length = problem->slip_length;
@@ -149,9 +138,14 @@ void rb_contact_classify(const rb_contact_problem *problem, double tol, rb_conta
         state->zone[i] = zone_of(
             state->p[i] / problem->stress - tol, (state->lambda[i] - state->plastic[i]) / length,
             (limit + q) / tangential, (limit - q) / tangential, problem->bound[i] == 0.0);
-        if (problem->yield && state->zone[i] == RB_ZONE_STICK)
-            state->zone[i] = yielding_zone(problem, state->plastic[i], q,
-                                           rb_contact_yield_stress(problem, i, u));
+        if (problem->yield && state->zone[i] == RB_ZONE_STICK) {
+            /* What neither slips nor is separated may yield, by more than its stress lacks. */
+            const double plastic = state->plastic[i];
+            const double lacks = (rb_contact_yield_stress(problem, i, u) - fabs(q)) / tangential;
+
+            if (fabs(plastic) / length > fmax(lacks, 0.0))
+                state->zone[i] = plastic > 0.0 ? RB_ZONE_YIELD_NEGATIVE : RB_ZONE_YIELD_POSITIVE;
+        }
         second = next;
         next = u;
     }

@@ -24,39 +24,6 @@ static rb_status measure(const rb_contact_problem *problem, rb_contact_state *st
     return s;
 }
 
-/* One solve with the zones of the state, kept when that makes it better. */
-static rb_status polish(rb_contact_problem *problem, rb_contact_state *state)
-{
-    const size_t bytes = (size_t)problem->n * sizeof(double);
-    rb_contact_state trial;
-    rb_status s = rb_contact_state_alloc(problem->n, &trial);
-
-    if (s != RB_OK)
-        return s;
-    memcpy(trial.zone, state->zone, (size_t)problem->n * sizeof(int));
-    if (problem->yield) {
-        memcpy(trial.p, state->p, bytes);
-        memcpy(trial.q, state->q, bytes);
-        memcpy(trial.lambda, state->lambda, bytes);
-        memcpy(trial.plastic, state->plastic, bytes);
-        s = rb_contact_yield_polish(problem, &trial);
-    } else {
-        s = rb_contact_solve_zones(problem, RB_BOTH, &trial);
-    }
-    if (s == RB_OK)
-        s = measure(problem, &trial);
-    if (s == RB_OK && trial.residual < state->residual) {
-        memcpy(state->p, trial.p, bytes);
-        memcpy(state->q, trial.q, bytes);
-        memcpy(state->plastic, trial.plastic, bytes);
-        state->delta = trial.delta;
-        state->xi = trial.xi;
-        state->residual = trial.residual;
-    }
-    rb_contact_state_free(&trial);
-    return s == RB_SINGULAR ? RB_OK : s;
-}
-
 /* lambda, zones and residual of p, q, delta, xi.  exact: they solve the equations of
  * their zones already, as Newton's do. */
 static rb_status complete(rb_contact_problem *problem, int exact, rb_contact_state *state)
@@ -78,7 +45,33 @@ static rb_status complete(rb_contact_problem *problem, int exact, rb_contact_sta
         s = measure(problem, state);
     }
     if (s == RB_OK && !exact) {
-        s = polish(problem, state);
+        /* One solve with the zones of the state, kept when that makes it better. */
+        const size_t bytes = (size_t)problem->n * sizeof(double);
+        rb_contact_state trial;
+        s = rb_contact_state_alloc(problem->n, &trial);
+        if (s == RB_OK) {
+            memcpy(trial.zone, state->zone, (size_t)problem->n * sizeof(int));
+            if (problem->yield) {
+                memcpy(trial.p, state->p, bytes);
+                memcpy(trial.q, state->q, bytes);
+                memcpy(trial.lambda, state->lambda, bytes);
+                memcpy(trial.plastic, state->plastic, bytes);
+            }
+            s = problem->yield ? rb_contact_yield_polish(problem, &trial)
+                               : rb_contact_solve_zones(problem, RB_BOTH, &trial);
+        }
+        if (s == RB_OK)
+            s = measure(problem, &trial);
+        if (s == RB_OK && trial.residual < state->residual) {
+            memcpy(state->p, trial.p, bytes);
+            memcpy(state->q, trial.q, bytes);
+            memcpy(state->plastic, trial.plastic, bytes);
+            state->delta = trial.delta;
+            state->xi = trial.xi;
+            state->residual = trial.residual;
+        }
+        rb_contact_state_free(&trial);
+        s = s == RB_SINGULAR ? RB_OK : s;
         rb_contact_kinematics(problem, state, gap, state->lambda);
     }
     for (int i = 0; i < problem->n && s == RB_OK; i++) {
@@ -242,22 +235,16 @@ static rb_status proven(rb_status s, const rb_contact_problem *problem,
     return s == RB_OK && !is_solved(s, problem, options, state) ? RB_INACCURATE : s;
 }
 
-/* What Newton has ended with, as s says, made a state. */
-static rb_status complete_newton(rb_contact_problem *problem, rb_status s, rb_contact_state *state)
-{
-    if (s < 0)
-        return s;
-    state->solver = RB_SOLVER_NEWTON;
-    const rb_status t = complete(problem, 1, state);
-    return t < 0 ? t : s;
-}
-
 /* What Newton has ended with, as s says.  On large contacts an element whose traction is
  * rounding may come and go: a cycle that ends in a solution is one. */
 static rb_status end_newton(rb_contact_problem *problem, const rb_contact_options *options,
                             rb_status s, rb_contact_state *state)
 {
-    s = complete_newton(problem, s, state);
+    if (s < 0)
+        return s;
+    state->solver = RB_SOLVER_NEWTON;
+    const rb_status t = complete(problem, 1, state);
+    s = t < 0 ? t : s;
     /* GMRES ends at a tolerance of its own; for a smaller one the matrix solves alone */
     if (s == RB_OK && !is_solved(s, problem, options, state) &&
         rb_contact_dense_has_products(problem->op)) {
@@ -302,35 +289,6 @@ static void copy_start(int n, const rb_contact_state *from, rb_contact_state *to
     to->xi = from->xi;
 }
 
-/* Newton's steps that go round in circles end from the zones of a problem with nearly the
- * same friction.  From a small share the zones are followed to all of it, in steps that
- * are halved where Newton fails and doubled where three in a row succeed. */
-static rb_status follow_friction(rb_contact_problem *problem, const rb_contact_options *options,
-                                 friction *of, rb_contact_state *good, rb_contact_state *state)
-{
-    double step = of->share;
-    int row = 0;
-    rb_status s = RB_OK;
-
-    copy_start(problem->n, state, good);
-    while (s == RB_OK && of->share < 1.0 && step > LEAST_STEP) {
-        const double next = fmin(1.0, of->share + step);
-        take_share(of, next, problem);
-        s = solve_newton(problem, options, 1, state);
-        if (is_solved(s, problem, options, state)) {
-            of->share = next;
-            step *= ++row % 3 ? 1.0 : 2.0;
-            copy_start(problem->n, state, good);
-        } else if (s >= 0) {
-            step *= 0.5;
-            row = 0;
-            s = RB_OK;
-            copy_start(problem->n, good, state);
-        }
-    }
-    return s == RB_OK && of->share < 1.0 ? RB_MAXITER : s;
-}
-
 static rb_status solve_by_friction(rb_contact_problem *problem, const rb_contact_options *options,
                                    rb_contact_state *state)
 {
@@ -350,8 +308,31 @@ static rb_status solve_by_friction(rb_contact_problem *problem, const rb_contact
             take_share(&of, of.share *= 0.5, problem);
             s = proven(solve_newton(problem, options, 0, state), problem, options, state);
         }
-        if (s == RB_OK)
-            s = follow_friction(problem, options, &of, &good, state);
+        if (s == RB_OK) {
+            /* Newton's steps that go round in circles end from the zones of a problem with nearly
+             * the same friction.  From a small share the zones are followed to all of it, in steps
+             * that are halved where Newton fails and doubled where three in a row succeed. */
+            double step = of.share;
+            int row = 0;
+
+            copy_start(problem->n, state, &good);
+            while (s == RB_OK && of.share < 1.0 && step > LEAST_STEP) {
+                const double next = fmin(1.0, of.share + step);
+                take_share(&of, next, problem);
+                s = solve_newton(problem, options, 1, state);
+                if (is_solved(s, problem, options, state)) {
+                    of.share = next;
+                    step *= ++row % 3 ? 1.0 : 2.0;
+                    copy_start(problem->n, state, &good);
+                } else if (s >= 0) {
+                    step *= 0.5;
+                    row = 0;
+                    s = RB_OK;
+                    copy_start(problem->n, &good, state);
+                }
+            }
+            s = s == RB_OK && of.share < 1.0 ? RB_MAXITER : s;
+        }
         problem->mu = of.mu;
         memcpy(problem->bound, of.bound, n * sizeof *of.bound);
     }

@@ -477,36 +477,6 @@ static void hold_one(const laws *k, const rb_contact_state *state, law *next)
         next[held] = STICK;
 }
 
-/* Corrects all elements, or the one furthest upstream; returns how many changed. */
-static int correct(laws *k, const rb_contact_state *state, int single)
-{
-    const int n = k->p->n;
-    upstream up = {0.0, 0.0};
-    int changes = 0;
-    law *next = calloc((size_t)n, sizeof *next);
-    double *sign = calloc((size_t)n, sizeof *sign);
-
-    if (!next || !sign)
-        changes = -1;
-    for (int i = n - 1; i >= 0 && changes == 0; i--)
-        next[i] = corrected(k, state, i, &up, &sign[i]);
-    if (changes == 0 && k->p->force_given)
-        hold_one(k, state, next);
-    for (int i = n - 1; i >= 0 && changes >= 0; i--) {
-        const int slides = next[i] > STICK;
-        if (next[i] == k->law[i] && (!slides || sign[i] == k->sign[i]))
-            continue;
-        if (single && changes > 0)
-            break;
-        k->law[i] = next[i];
-        k->sign[i] = slides ? sign[i] : 0.0;
-        changes++;
-    }
-    free(sign);
-    free(next);
-    return changes;
-}
-
 /* Solves and corrects until the laws stay; where they come back, one element at a time.
  * RB_MAXITER, RB_SINGULAR, RB_ENOMEM. */
 static rb_status iterate(laws *k, rb_contact_state *state)
@@ -531,7 +501,30 @@ static rb_status iterate(laws *k, rb_contact_state *state)
             zones_of_laws(k, state);
             k->p->trace(state, k->p->trace_context);
         }
-        const int changes = correct(k, state, single);
+        /* Corrects all elements, or the one furthest upstream. */
+        upstream up = {0.0, 0.0};
+        int changes = 0;
+        law *next = calloc((size_t)k->p->n, sizeof *next);
+        double *sign = calloc((size_t)k->p->n, sizeof *sign);
+
+        if (!next || !sign)
+            changes = -1;
+        for (int i = k->p->n - 1; i >= 0 && changes == 0; i--)
+            next[i] = corrected(k, state, i, &up, &sign[i]);
+        if (changes == 0 && k->p->force_given)
+            hold_one(k, state, next);
+        for (int i = k->p->n - 1; i >= 0 && changes >= 0; i--) {
+            const int slides = next[i] > STICK;
+            if (next[i] == k->law[i] && (!slides || sign[i] == k->sign[i]))
+                continue;
+            if (single && changes > 0)
+                break;
+            k->law[i] = next[i];
+            k->sign[i] = slides ? sign[i] : 0.0;
+            changes++;
+        }
+        free(sign);
+        free(next);
         if (changes <= 0)
             return changes < 0 ? RB_ENOMEM : RB_OK;
     }

@@ -55,29 +55,114 @@ static double time_of(const history_state *r)
                             : t[r->row - 1] + (t[r->row] - t[r->row - 1]) * r->part / parts;
 }
 
-/* mu of a step that differs from that of the step before.  Coefficients that depend on
- * the state stay as they are: the iteration begins with them. */
-static void follow_way(rb_rolling_model *model, double mu_before)
+/* What must hold after every step. */
+static rb_status assess(const history_state *r, rb_status s, rb_message *reason, rb_message *why)
 {
-    rb_contact_problem *p = &model->problem;
-
-    if (model->rc->mu == mu_before)
-        return;
-    if (rb_rolling_law_depends_on_state(model->rc))
-        rb_contact_set_friction(p, rb_rolling_largest_mu(model->rc), p->bound);
-    else
-        rb_rolling_start_bounds(model->rc, NULL, &model->bodies, p);
+    if (s != RB_OK)
+        rb_fail(why, s, "step %d: %.260s", r->history->n + 1, rb_status_reason(s, reason));
+    return s;
 }
 
-static void record(history_state *r, double distance)
+/* The next step is one at rest. */
+static int is_at_rest(const history_state *r)
+{
+    return r->history->n < r->at_rest;
+}
+
+/* The problem of the next step: at rest, where the rigid shift or the given force moves
+ * the contact towards a row of the program, or on the way. */
+static rb_status begin_step(history_state *r, rb_message *why)
+{
+    rb_rolling_model *model = r->model;
+    rb_contact_problem *p = &model->problem;
+    const int k = r->history->n, rests = is_at_rest(r),
+              parts = rests ? rb_rolling_program_parts(r->program, r->rc, r->row) : 0;
+    const double c = rests ? 0.0 : r->history->step, mu_before = model->rc->mu;
+    const rb_rolling_past past = {r->particles.w_T, model->carried.yielded, c};
+    rb_rolling_case step;
+    rb_message reason = {""};
+
+    if (rests) {
+        const double before = time_of(r);
+        r->part++;
+        r->to = 0.0;
+        r->stride = (rb_rolling_stride){0.0, time_of(r) - before, k == 0};
+        step = rb_rolling_program_row(r->program, r->rc, r->row, r->part, parts);
+    } else {
+        const double part = c / r->history->half_width, from = (k - r->at_rest) * part;
+        r->to = k + 1 == r->steps ? r->program->distance[r->program->n - 1]
+                                  : (k - r->at_rest + 1) * part;
+        r->stride = (rb_rolling_stride){c, rb_rolling_relaxes(r->rc) ? c / r->rc->speed : 0.0, 0};
+        step = rb_rolling_program_step(r->program, r->rc, from, r->to);
+        memcpy(r->q, model->state.q, (size_t)model->state.n * sizeof *r->q);
+    }
+    /* The rows are checked beforehand; between two of them mu and the load both vary, and
+     * their product may be less than a force that is linear. */
+    rb_status s =
+        assess(r, r->program->mu ? rb_rolling_case_check(&step, &reason) : RB_OK, &reason, why);
+    if (rests) {
+        if (step.formulation == RB_TRANSIENT && isnan(step.force) && isnan(step.force_ratio))
+            step.force_ratio = 0.0; /* driven by its creepage as soon as it rolls */
+        step.formulation = RB_STATIC;
+        model->shift = r->shift;
+    }
+    if (s == RB_OK)
+        s = rb_rolling_model_set_case(model, &step, why);
+    if (s == RB_OK)
+        s = rb_rolling_particles_bring(&r->particles, &r->stride, why);
+    if (s == RB_OK && !rests) {
+        /* The irregularity has come nearer by the way so far. */
+        model->mesh.passed = r->to * r->history->half_width;
+        if (step.irregularity.n > 0) {
+            s = rb_rolling_mesh_set_gap(model->rc, &model->mesh);
+            rb_rolling_set_gap(&model->mesh, &model->bodies, p);
+        }
+    }
+    if (s != RB_OK)
+        return s;
+    /* Coefficients that depend on the state stay as they are: the iteration begins with
+     * them. */
+    if (step.mu != mu_before && rb_rolling_law_depends_on_state(model->rc))
+        rb_contact_set_friction(p, rb_rolling_largest_mu(model->rc), p->bound);
+    else if (step.mu != mu_before)
+        rb_rolling_start_bounds(model->rc, NULL, &model->bodies, p);
+    rb_rolling_set_past(model->rc, &model->bodies, rests && k == 0 ? NULL : &past, p);
+    rb_rolling_set_control(model->rc, p);
+    if (rests) {
+        p->xi -= p->force_given ? 0.0 : r->shift;
+        r->row += r->part == parts;
+        r->part %= parts;
+    }
+    return RB_OK;
+}
+
+/* What follows from the state that the step has found. */
+static void end_step(history_state *r, rb_status s)
 {
     rb_rolling_history *h = r->history;
     const rb_rolling_model *model = r->model;
     const rb_contact_problem *p = &model->problem;
     const rb_contact_state *state = &model->state;
+
+    if (is_at_rest(r))
+        r->shift += state->xi;
+    else if (s == RB_OK) {
+        /* Follows how long the friction has not changed. */
+        const double bound =
+            rb_contact_friction_scale(p) * STEADY_RATE * r->stride.c / h->half_width;
+        int moves = 0;
+
+        for (int i = 0; i < state->n; i++)
+            moves += fabs(state->q[i] - r->q[i]) > bound;
+        if (moves)
+            h->steady_from = -1;
+        else if (h->steady_from < 0)
+            h->steady_from = h->n;
+    }
+    rb_rolling_particles_leave(&r->particles, &r->stride);
     const int k = h->n++, rolls = model->rc->formulation == RB_TRANSIENT;
 
-    h->distance[k] = distance;
+    h->distance[k] = r->to;
     if (rolls)
         h->creepage[k] = state->xi;
     h->shift[k] = r->shift;
@@ -93,18 +178,16 @@ static void record(history_state *r, double distance)
         h->dissipation[k] = rb_rolling_dissipated_power(model->rc, p->n, state->lambda, state->q,
                                                         model->bodies.f.h, p->e_T);
     h->moment[k] = rb_contact_moment(p, state);
-    double torque_b;
+    double torque_b, hottest_at;
     rb_rolling_torques(model->rc, h->moment[k], h->tangential_load[k], &h->torque_a[k], &torque_b);
     if (h->torque_b)
         h->torque_b[k] = torque_b;
-    if (h->max_temperature) {
-        double at;
+    if (h->max_temperature)
         rb_rolling_peak_temperature(p->n, model->bodies.f.x, state->zone,
-                                    model->carried.temperature, &h->max_temperature[k], &at);
-    }
+                                    model->carried.temperature, &h->max_temperature[k],
+                                    &hottest_at);
     if (h->time) {
-        const rb_rolling_program *program = r->program;
-        h->time[k] = program->time ? time_of(r) : distance * h->half_width / r->rc->speed;
+        h->time[k] = r->program->time ? time_of(r) : r->to * h->half_width / r->rc->speed;
         h->lost_work[k] = r->particles.past.lost;
     }
     if (h->mu)
@@ -115,179 +198,37 @@ static void record(history_state *r, double distance)
     }
 }
 
-/* The state that was found in this step, with the residual that it leaves. */
-static rb_status follow(history_state *r)
-{
-    rb_rolling_model *model = r->model;
-    rb_contact_state *state = &model->state;
-    rb_contact_violation v;
-
-    rb_rolling_states_get(r->found, r->history->n, state);
-    model->half_width =
-        rb_rolling_hertz_half_width(model->rc, fmax(0.0, rb_rolling_model_load(model)));
-    if (!isnan(model->rc->creep_ratio) && model->rc->formulation == RB_TRANSIENT)
-        model->problem.xi = rb_rolling_creepage_of_ratio(model, model->rc->creep_ratio);
-    const rb_status s = rb_contact_residual(&model->problem, state, &v);
-    state->residual = v.scaled;
-    return s;
-}
-
-/* What must hold after every step. */
-static rb_status assess(const history_state *r, rb_status s, rb_message *reason, rb_message *why)
-{
-    if (s != RB_OK)
-        rb_fail(why, s, "step %d: %.260s", r->history->n + 1, rb_status_reason(s, reason));
-    return s;
-}
-
-/* The rows are checked beforehand; between two of them mu and the load both vary, and
- * their product may be less than a force that is linear. */
-static rb_status check_force(const history_state *r, const rb_rolling_case *step, rb_message *why)
-{
-    rb_message reason = {""};
-    const rb_status s = r->program->mu ? rb_rolling_case_check(step, &reason) : RB_OK;
-
-    return assess(r, s, &reason, why);
-}
-
-/* The next step is one at rest. */
-static int is_at_rest(const history_state *r)
-{
-    return r->history->n < r->at_rest;
-}
-
-/* The problem of a step at rest towards a row of the program: the rigid shift moves the
- * contact, or the given force does. */
-static rb_status begin_at_rest(history_state *r, rb_message *why)
-{
-    rb_rolling_model *model = r->model;
-    rb_contact_problem *p = &model->problem;
-    const rb_rolling_past past = {r->particles.w_T, model->carried.yielded, 0.0};
-    const int first = r->history->n == 0;
-    const int parts = rb_rolling_program_parts(r->program, r->rc, r->row);
-    const double before = time_of(r), mu_before = model->rc->mu;
-
-    r->part++;
-    r->to = 0.0;
-    r->stride = (rb_rolling_stride){0.0, time_of(r) - before, first};
-    rb_rolling_case rest = rb_rolling_program_row(r->program, r->rc, r->row, r->part, parts);
-    rb_status s = check_force(r, &rest, why);
-    if (rest.formulation == RB_TRANSIENT && isnan(rest.force) && isnan(rest.force_ratio))
-        rest.force_ratio = 0.0; /* driven by its creepage as soon as it rolls */
-    rest.formulation = RB_STATIC;
-    model->shift = r->shift;
-    if (s == RB_OK)
-        s = rb_rolling_model_set_case(model, &rest, why);
-    if (s == RB_OK)
-        s = rb_rolling_particles_bring(&r->particles, &r->stride, why);
-    if (s != RB_OK)
-        return s;
-    follow_way(model, mu_before);
-    rb_rolling_set_past(&rest, &model->bodies, first ? NULL : &past, p);
-    rb_rolling_set_control(&rest, p);
-    p->xi -= p->force_given ? 0.0 : r->shift;
-    if (r->part == parts) {
-        r->row++;
-        r->part = 0;
-    }
-    return RB_OK;
-}
-
-/* The irregularity has come nearer by the way so far. */
-static rb_status move_gap(rb_rolling_model *model, double way)
-{
-    model->mesh.passed = way;
-    if (model->rc->irregularity.n == 0)
-        return RB_OK;
-    const rb_status s = rb_rolling_mesh_set_gap(model->rc, &model->mesh);
-    rb_rolling_set_gap(&model->mesh, &model->bodies, &model->problem);
-    return s;
-}
-
-/* The problem of the next step on the way. */
-static rb_status begin_rolled(history_state *r, rb_message *why)
-{
-    rb_rolling_model *model = r->model;
-    const int k = r->history->n, rolled = k - r->at_rest;
-    const double c = r->history->step, mu_before = model->rc->mu, part = c / r->history->half_width,
-                 from = rolled * part;
-    const rb_rolling_past past = {r->particles.w_T, model->carried.yielded, c};
-
-    r->to = k + 1 == r->steps ? r->program->distance[r->program->n - 1] : (rolled + 1) * part;
-    r->stride = (rb_rolling_stride){c, rb_rolling_relaxes(r->rc) ? c / r->rc->speed : 0.0, 0};
-    const rb_rolling_case step = rb_rolling_program_step(r->program, r->rc, from, r->to);
-    rb_status s = check_force(r, &step, why);
-
-    memcpy(r->q, model->state.q, (size_t)model->state.n * sizeof *r->q);
-    if (s == RB_OK)
-        s = rb_rolling_model_set_case(model, &step, why);
-    if (s == RB_OK)
-        s = rb_rolling_particles_bring(&r->particles, &r->stride, why);
-    if (s == RB_OK)
-        s = move_gap(model, r->to * r->history->half_width);
-    if (s != RB_OK)
-        return s;
-    follow_way(model, mu_before);
-    rb_rolling_set_past(model->rc, &model->bodies, &past, &model->problem);
-    rb_rolling_set_control(model->rc, &model->problem);
-    return RB_OK;
-}
-
-static rb_status begin_step(history_state *r, rb_message *why)
-{
-    return is_at_rest(r) ? begin_at_rest(r, why) : begin_rolled(r, why);
-}
-
-/* What follows from the state that the step has found. */
-static void end_step(history_state *r, rb_status s)
-{
-    if (is_at_rest(r))
-        r->shift += r->model->state.xi;
-    else if (s == RB_OK) {
-        /* Follows how long the friction has not changed. */
-        const rb_contact_state *state = &r->model->state;
-        const rb_contact_problem *p = &r->model->problem;
-        const double bound =
-            rb_contact_friction_scale(p) * STEADY_RATE * r->stride.c / r->history->half_width;
-        int moves = 0;
-
-        for (int i = 0; i < state->n; i++)
-            moves += fabs(state->q[i] - r->q[i]) > bound;
-        if (moves)
-            r->history->steady_from = -1;
-        else if (r->history->steady_from < 0)
-            r->history->steady_from = r->history->n;
-    }
-    rb_rolling_particles_leave(&r->particles, &r->stride);
-    record(r, r->to);
-}
-
-static rb_status solve_step(history_state *r, rb_message *why)
-{
-    rb_rolling_model *model = r->model;
-    rb_message reason = {""};
-    rb_status s = begin_step(r, why);
-
-    if (s != RB_OK)
-        return s;
-    s = assess(r,
-               r->found        ? follow(r)
-               : is_at_rest(r) ? rb_rolling_model_resolve(model, 0, &reason)
-                               : rb_rolling_model_control(model, &reason),
-               &reason, why);
-    if (s >= 0)
-        end_step(r, s);
-    return s == RB_OK ? rb_rolling_check_crushed(model, why) : s;
-}
-
 static rb_status all_steps(history_state *r, rb_message *why)
 {
+    rb_rolling_model *model = r->model;
+    const rb_rolling_observer *o = r->observer;
     rb_status s = RB_OK;
 
     for (int k = 0; k < r->steps && s == RB_OK; k++) {
-        s = solve_step(r, why);
-        if (s == RB_OK && r->observer && r->observer->step &&
-            r->observer->step(r->model, r->history, k, r->steps, r->observer->context))
+        rb_message reason = {""};
+        s = begin_step(r, why);
+        if (s != RB_OK)
+            return s;
+        if (r->found) {
+            /* The given state of this step, with the residual that it leaves. */
+            rb_contact_state *state = &model->state;
+            rb_contact_violation v;
+            rb_rolling_states_get(r->found, k, state);
+            model->half_width =
+                rb_rolling_hertz_half_width(model->rc, fmax(0.0, rb_rolling_model_load(model)));
+            if (!isnan(model->rc->creep_ratio) && model->rc->formulation == RB_TRANSIENT)
+                model->problem.xi = rb_rolling_creepage_of_ratio(model, model->rc->creep_ratio);
+            s = rb_contact_residual(&model->problem, state, &v);
+            state->residual = v.scaled;
+        } else
+            s = is_at_rest(r) ? rb_rolling_model_resolve(model, 0, &reason)
+                              : rb_rolling_model_control(model, &reason);
+        s = assess(r, s, &reason, why);
+        if (s >= 0)
+            end_step(r, s);
+        if (s == RB_OK)
+            s = rb_rolling_check_crushed(model, why);
+        if (s == RB_OK && o && o->step && o->step(model, r->history, k, r->steps, o->context))
             s = rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k + 1, r->steps);
     }
     return s;
@@ -334,79 +275,63 @@ static rb_status widest_contact(const history_state *r, double zone, rb_message 
     return s;
 }
 
-/* The unit of distances: Hertz's half-width of the largest load, of bodies that relax
- * with the glassy modulus; under a given approach of the load that the largest one brings
- * at rest. */
-static double half_width(const history_state *r)
-{
-    const rb_rolling_model *widest = r->model;
-
-    if (widest->problem.load_given && (r->found || rb_rolling_relaxes(r->rc)))
-        return rb_rolling_hertz_half_width(r->rc, widest->problem.load);
-    return r->found ? r->history->half_width : widest->half_width;
-}
-
-/* Step length and number.  Where the case does not say, a step is one element, or as
- * little less as brings the last one to the last row: a single short step would find a
- * creepage that is mostly error. */
-static rb_status plan_steps(history_state *r, double *step, rb_message *why)
-{
-    const int rows = rb_rolling_program_at_rest(r->program), n = r->program->n;
-    const double unit = r->history->half_width;
-    const double way = rows < n ? r->program->distance[n - 1] * unit : 0.0;
-    const double elements = way / rb_rolling_middle_length(r->model);
-
-    r->at_rest = 0;
-    for (int row = 0; row < rows; row++)
-        r->at_rest += rb_rolling_program_parts(r->program, r->rc, row);
-    r->steps = r->at_rest;
-    *step = 0.0;
-    if (way == 0.0)
-        return RB_OK;
-    const double count = r->rc->steps > 0 ? r->rc->steps : ceil(elements * (1.0 - 1e-9));
-    if (count > 1e7)
-        return rb_fail(why, RB_EINVAL,
-                       "distance: %g half-widths are %.3g steps; expected at "
-                       "most 1e7",
-                       way / unit, count);
-    r->steps += (int)count;
-    *step = way / count;
-    return RB_OK;
-}
-
 static rb_status prepare(history_state *r, double zone, rb_message *why)
 {
-    double step = 0.0;
+    rb_rolling_model *model = r->model;
+    rb_rolling_history *h = r->history;
     rb_status s = widest_contact(r, zone, why);
 
     if (s != RB_OK)
         return s;
     r->shift = 0.0;
-    r->model->mu_varies = r->program->mu != NULL;
-    r->history->half_width = half_width(r);
+    model->mu_varies = r->program->mu != NULL;
+    /* The unit of distances: Hertz's half-width of the largest load, of bodies that relax
+     * with the glassy modulus; under a given approach of the load that the largest one
+     * brings at rest. */
+    if (model->problem.load_given && (r->found || rb_rolling_relaxes(r->rc)))
+        h->half_width = rb_rolling_hertz_half_width(r->rc, model->problem.load);
+    else if (!r->found)
+        h->half_width = model->half_width;
     if (r->found) /* as solving would have left it */
-        r->model->half_width = r->history->half_width;
-    s = plan_steps(r, &step, why);
+        model->half_width = h->half_width;
+    /* Step length and number.  Where the case does not say, a step is one element, or as
+     * little less as brings the last one to the last row: a single short step would find a
+     * creepage that is mostly error. */
+    const int rows = rb_rolling_program_at_rest(r->program), n = r->program->n;
+    const double way = rows < n ? r->program->distance[n - 1] * h->half_width : 0.0;
+    const double elements = way / rb_rolling_middle_length(model);
+    const double count = way == 0.0         ? 0.0
+                         : r->rc->steps > 0 ? r->rc->steps
+                                            : ceil(elements * (1.0 - 1e-9));
+    const double step = way == 0.0 ? 0.0 : way / count;
+
+    r->at_rest = 0;
+    for (int row = 0; row < rows; row++)
+        r->at_rest += rb_rolling_program_parts(r->program, r->rc, row);
+    if (count > 1e7)
+        s = rb_fail(why, RB_EINVAL, "distance: %g half-widths are %.3g steps; expected at most 1e7",
+                    way / h->half_width, count);
+    r->steps = r->at_rest + (s == RB_OK ? (int)count : 0);
     if (s == RB_OK && r->found && r->found->steps != r->steps)
         s = rb_fail(why, RB_EINVAL, "history: %d steps, the program has %d", r->found->steps,
                     r->steps);
     r->row = r->part = 0;
     r->particles = (rb_rolling_particles){.rc = r->rc,
-                                          .model = r->model,
+                                          .model = model,
                                           .step = step,
                                           .steps = r->steps,
                                           .keeps_elements = r->found != NULL};
     if (s == RB_OK)
         s = rb_rolling_particles_create(&r->particles, why);
     if (s == RB_OK) {
-        r->q = rb_alloc((size_t)r->model->mesh.n, 1);
+        r->q = rb_alloc((size_t)model->mesh.n, 1);
         s = r->q ? RB_OK : RB_ENOMEM;
     }
     if (s == RB_OK)
-        s = rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc, r->model->mu_varies,
-                                     r->steps, r->history);
-    r->history->step = step;
-    r->history->steady_from = -1;
+        s = rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc, model->mu_varies, r->steps,
+                                     h);
+    h->step = step;
+    h->steady_from = -1;
     return s;
 }
 
@@ -415,32 +340,6 @@ static void run_free(history_state *r)
     free(r->q);
     r->q = NULL;
     rb_rolling_particles_free(&r->particles);
-}
-
-/* Loads that move and surfaces that are irregular may widen the contact beyond that of
- * the largest load at rest: *wider is the zone with which to start again, or 0. */
-static rb_status run_on_zone(history_state *r, double zone, double *wider, rb_message *why)
-{
-    *wider = 0.0;
-    rb_status s = prepare(r, zone, why);
-
-    if (s == RB_OK) {
-        s = rb_rolling_check_layer_resolved(r->model, all_steps(r, why), why);
-        if (s == RB_OK && r->history->step == 0.0 && !r->model->problem.load_given)
-            /* nothing rolls, no distance is measured by a: it is that of the largest load */
-            r->history->half_width = rb_rolling_hertz_half_width(
-                r->rc, fmax(0.0, largest(r->history->normal_load, r->history->n, 0.0)));
-        if (s == RB_ZONE && r->rc->zone == 0.0) {
-            const rb_rolling_mesh *mesh = &r->model->mesh;
-            const double now = fmax(-mesh->ends[0], mesh->ends[mesh->n]);
-            double from, to;
-            rb_rolling_extent(r->rc, &from, &to);
-            const double widest = fmax(-from, to);
-            *wider = now < 0.999 * widest ? fmin(1.3 * now, widest) : 0.0;
-        }
-    }
-    run_free(r);
-    return s;
 }
 
 /* The case and its program, and the columns of its own one, for free(). */
@@ -466,17 +365,36 @@ static rb_status begin_program(history_state *r, const rb_rolling_case *rc, doub
     return s == RB_OK ? rb_rolling_program_check(r->program, r->rc, why) : s;
 }
 
+/* Loads that move and surfaces that are irregular may widen the contact beyond that of
+ * the largest load at rest: the run starts again on a wider zone then. */
 static rb_status run_program(history_state *r, const rb_rolling_case *rc, rb_message *why)
 {
+    rb_rolling_model *model = r->model;
     double *columns = NULL;
     rb_status s = begin_program(r, rc, &columns, why);
 
     for (double zone = r->base.zone, wider = 1.0; s == RB_OK && wider > 0.0; zone = wider) {
-        s = run_on_zone(r, zone, &wider, why);
+        wider = 0.0;
+        s = prepare(r, zone, why);
+        if (s == RB_OK) {
+            s = rb_rolling_check_layer_resolved(model, all_steps(r, why), why);
+            if (s == RB_OK && r->history->step == 0.0 && !model->problem.load_given)
+                /* nothing rolls, no distance is measured by a: it is that of the largest load */
+                r->history->half_width = rb_rolling_hertz_half_width(
+                    r->rc, fmax(0.0, largest(r->history->normal_load, r->history->n, 0.0)));
+            if (s == RB_ZONE && r->rc->zone == 0.0) {
+                const double now = fmax(-model->mesh.ends[0], model->mesh.ends[model->mesh.n]);
+                double from, to;
+                rb_rolling_extent(r->rc, &from, &to);
+                const double widest = fmax(-from, to);
+                wider = now < 0.999 * widest ? fmin(1.3 * now, widest) : 0.0;
+            }
+        }
+        run_free(r);
         if (wider > 0.0) {
             /* more than asked for, with patches */
-            r->base.contact_elements = r->model->mesh.n;
-            rb_rolling_model_free(r->model);
+            r->base.contact_elements = model->mesh.n;
+            rb_rolling_model_free(model);
             rb_rolling_history_free(r->history);
             s = RB_OK;
         }

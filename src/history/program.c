@@ -136,29 +136,6 @@ rb_rolling_case rb_rolling_program_base(const rb_rolling_program *program,
 
 /* ---- Checks ------------------------------------------------------------------------ */
 
-static rb_status check_distances(const rb_rolling_program *program, rb_message *why)
-{
-    const double *d = program->distance;
-
-    if (d[0] != 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "history: row 1: expected distance 0, where the contact starts "
-                       "from rest, got %g",
-                       d[0]);
-    for (int r = 1; r < program->n; r++) {
-        if (d[r] < d[r - 1])
-            return rb_fail(why, RB_EINVAL,
-                           "history: row %d: distance %g is less than in the row before", r + 1,
-                           d[r]);
-        if (d[r] > 0.0 && d[r] == d[r - 1])
-            return rb_fail(why, RB_EINVAL,
-                           "history: row %d: distance %g twice; a jump needs two rows a "
-                           "little apart",
-                           r + 1, d[r]);
-    }
-    return RB_OK;
-}
-
 static rb_status check_columns(const rb_rolling_program *program, const rb_rolling_case *rc,
                                rb_message *why)
 {
@@ -213,7 +190,27 @@ static rb_status check_columns(const rb_rolling_program *program, const rb_rolli
                                       "time step: %g s makes %.3g steps; expected at most 1e7",
                                       rc->time_step, steps);
     }
-    return program->distance ? check_distances(program, why) : RB_OK;
+    if (!program->distance)
+        return RB_OK;
+    const double *d = program->distance;
+
+    if (d[0] != 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "history: row 1: expected distance 0, where the contact starts "
+                       "from rest, got %g",
+                       d[0]);
+    for (int r = 1; r < program->n; r++) {
+        if (d[r] < d[r - 1])
+            return rb_fail(why, RB_EINVAL,
+                           "history: row %d: distance %g is less than in the row before", r + 1,
+                           d[r]);
+        if (d[r] > 0.0 && d[r] == d[r - 1])
+            return rb_fail(why, RB_EINVAL,
+                           "history: row %d: distance %g twice; a jump needs two rows a "
+                           "little apart",
+                           r + 1, d[r]);
+    }
+    return RB_OK;
 }
 
 rb_status rb_rolling_program_check(const rb_rolling_program *program, const rb_rolling_case *rc,

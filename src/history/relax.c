@@ -180,35 +180,6 @@ static double work(const rb_rolling_relaxing *body, const double *x, const doubl
     return sum;
 }
 
-/* One body from tractions `before` to `after`, both in its frame, behind which the track
- * has room. */
-static double advance(const rb_rolling_memory_track *r, const rb_rolling_relaxing *body,
-                      double step, const double *before, const double *after)
-{
-    const size_t size = 2 * (size_t)r->all;
-    double *e = r->scratch + 2 * (size + 2), *w = e + size + 2;
-    double lost = 0.0, of_change = 0.0, factor[3];
-
-    for (int k = 0; k < body->memory->n && step > 0.0; k++) {
-        const double time = body->memory->time[k], ratio = body->memory->ratio[k];
-        const rb_bem_fading f = rb_bem_fading_over(time, step);
-        double *past = body->past + (size_t)k * size;
-        for (size_t i = 0; i < size; i++) {
-            e[i] = before[i] - past[i];
-            past[i] = f.kept * past[i] + f.before * before[i] + f.after * after[i];
-        }
-        loss_factors(time, step, factor);
-        rb_bem_flexibility_apply(&body->f, e, w);
-        lost += ratio * (factor[0] * work(body, e, w) +
-                         2.0 * factor[1] * (work(body, after, w) - work(body, before, w)));
-        of_change += ratio * factor[2];
-    }
-    for (size_t i = 0; i < size; i++)
-        e[i] = after[i] - before[i];
-    rb_bem_flexibility_apply(&body->f, e, w);
-    return lost + of_change * work(body, e, w);
-}
-
 void rb_rolling_memory_track_end(rb_rolling_memory_track *r, double step, const double *p,
                                  const double *q)
 {
@@ -223,7 +194,31 @@ void rb_rolling_memory_track_end(rb_rolling_memory_track *r, double step, const 
             after[r->tail + i] = p[i];
             after[all + r->tail + i] = r->body[b].sign * q[i];
         }
-        r->lost += advance(r, &r->body[b], step, before, after);
+        /* One body from tractions `before` to `after`, both in its frame, behind which the track
+         * has room. */
+        const rb_rolling_relaxing *body = &r->body[b];
+        const size_t size = 2 * (size_t)r->all;
+        double *e = r->scratch + 2 * (size + 2), *w = e + size + 2;
+        double lost = 0.0, of_change = 0.0, factor[3];
+
+        for (int k = 0; k < body->memory->n && step > 0.0; k++) {
+            const double time = body->memory->time[k], ratio = body->memory->ratio[k];
+            const rb_bem_fading f = rb_bem_fading_over(time, step);
+            double *past = body->past + (size_t)k * size;
+            for (size_t i = 0; i < size; i++) {
+                e[i] = before[i] - past[i];
+                past[i] = f.kept * past[i] + f.before * before[i] + f.after * after[i];
+            }
+            loss_factors(time, step, factor);
+            rb_bem_flexibility_apply(&body->f, e, w);
+            lost += ratio * (factor[0] * work(body, e, w) +
+                             2.0 * factor[1] * (work(body, after, w) - work(body, before, w)));
+            of_change += ratio * factor[2];
+        }
+        for (size_t i = 0; i < size; i++)
+            e[i] = after[i] - before[i];
+        rb_bem_flexibility_apply(&body->f, e, w);
+        r->lost += lost + of_change * work(body, e, w);
     }
     memset(r->traction, 0, 2 * (size_t)all * sizeof *r->traction);
     memcpy(r->traction + r->tail, p, (size_t)n * sizeof *p);

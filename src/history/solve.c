@@ -81,26 +81,6 @@ rb_status rb_rolling_solve_between(const rb_rolling_case *rc, double from, doubl
 
 /* ---- One step alone ----------------------------------------------------------------- */
 
-/* Equal elements between from and to, with nothing solved on them. */
-static rb_status set_up_between(const rb_rolling_case *rc, double from, double to,
-                                rb_rolling_model *model, rb_message *why)
-{
-    const int n = rc->contact_elements;
-    const double h = (to - from) / n;
-    double *x = rb_alloc((size_t)n, 2);
-    if (!x)
-        return rb_fail(why, RB_ENOMEM, "out of memory for %d elements", n);
-    const rb_rolling_elements elements = {.n = n, .x = x, .h = x + n, .are_equal = 1};
-
-    for (int i = 0; i < n; i++) {
-        x[i] = from + (i + 0.5) * h;
-        x[n + i] = h;
-    }
-    const rb_status s = rb_rolling_model_of_result(rc, &elements, model, why);
-    free(x);
-    return s;
-}
-
 rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double to,
                                   const rb_rolling_solution *before, const rb_rolling_table *start,
                                   double step, rb_rolling_solution *solution, rb_message *why)
@@ -120,8 +100,20 @@ rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double
     if (s == RB_OK && !(rc->formulation == RB_STATIC ? step == 0.0 : step > 0.0))
         s = rb_fail(why, RB_EINVAL, "a step: its length %g: expected > 0 where it rolls, 0 at rest",
                     step);
-    if (s == RB_OK)
-        s = set_up_between(rc, from, to, &model, why);
+    if (s == RB_OK) {
+        /* Equal elements between from and to, with nothing solved on them. */
+        const int n = rc->contact_elements;
+        const double h = (to - from) / n;
+        double *x = rb_alloc((size_t)n, 2);
+        const rb_rolling_elements elements = {.n = n, .x = x, .h = x + n, .are_equal = 1};
+        for (int i = 0; i < n && x; i++) {
+            x[i] = from + (i + 0.5) * h;
+            x[n + i] = h;
+        }
+        s = x ? rb_rolling_model_of_result(rc, &elements, &model, why)
+              : rb_fail(why, RB_ENOMEM, "out of memory for %d elements", n);
+        free(x);
+    }
     if (s == RB_OK)
         s = rb_rolling_particles_create(&particles, why);
     if (s == RB_OK && before) {

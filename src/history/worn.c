@@ -119,26 +119,6 @@ static rb_status widen(wear_state *r, rb_message *why)
 
 /* ---- One implicit step ------------------------------------------------------------- */
 
-/* The bodies, whose arrays are borrowed, softer under each element by what a step wears. */
-static rb_rolling_bodies softened(wear_state *r)
-{
-    const size_t n = (size_t)r->n, m = n + 1;
-    rb_rolling_bodies bodies = r->model.bodies;
-
-    if (bodies.F) {
-        memcpy(r->softer, bodies.F, 4 * m * n * sizeof *r->softer);
-        for (size_t i = 0; i < n; i++)
-            r->softer[i + 2 * m * i] += r->compliance[i];
-        bodies.F = r->softer;
-        return bodies;
-    }
-    for (size_t i = 0; i < 2 * n; i++)
-        r->softer[i] =
-            (bodies.f.compliance ? bodies.f.compliance[i] : 0.0) + (i < n ? r->compliance[i] : 0.0);
-    bodies.f.compliance = r->softer;
-    return bodies;
-}
-
 /* The contact of these bodies with what is worn off so far. */
 static rb_status pose(wear_state *r, const rb_rolling_bodies *bodies, rb_message *why)
 {
@@ -159,7 +139,22 @@ static rb_status pose(wear_state *r, const rb_rolling_bodies *bodies, rb_message
  * worn gap and the pressure belong together at its end, however long it is. */
 static rb_status wear_off(wear_state *r, rb_message *why)
 {
-    const rb_rolling_bodies softer = softened(r);
+    /* The bodies, whose arrays are borrowed, softer under each element by what a step
+     * wears. */
+    const size_t n = (size_t)r->n, m = n + 1;
+    rb_rolling_bodies softer = r->model.bodies;
+
+    if (softer.F) {
+        memcpy(r->softer, softer.F, 4 * m * n * sizeof *r->softer);
+        for (size_t i = 0; i < n; i++)
+            r->softer[i + 2 * m * i] += r->compliance[i];
+        softer.F = r->softer;
+    } else {
+        for (size_t i = 0; i < 2 * n; i++)
+            r->softer[i] = (softer.f.compliance ? softer.f.compliance[i] : 0.0) +
+                           (i < n ? r->compliance[i] : 0.0);
+        softer.f.compliance = r->softer;
+    }
     rb_status s = pose(r, &softer, why);
 
     if (s == RB_OK)
@@ -172,30 +167,6 @@ static rb_status wear_off(wear_state *r, rb_message *why)
 }
 
 /* ---- Sliding, fretting, rolling ---------------------------------------------------- */
-
-/* Depth per pressure and slid length. */
-static double archard(const wear_state *r)
-{
-    return r->wear->law == RB_WEAR_ARCHARD ? r->wear->coefficient
-                                           : r->wear->coefficient * rb_rolling_largest_mu(&r->rc);
-}
-
-static rb_status slide(wear_state *r, double way, rb_message *why)
-{
-    const double share = r->wear->share;
-    double carried = 0.0;
-
-    for (int i = 0; i < r->n; i++)
-        r->compliance[i] = (1.0 - share) * archard(r) * way;
-    const rb_status s = wear_off(r, why);
-    if (s != RB_OK) /* the zone may have to grow first */
-        return s;
-    for (int i = 0; i < r->n; i++)
-        carried += r->model.state.p[i] * r->model.bodies.f.h[i];
-    r->passage = share * archard(r) * carried;
-    r->track += r->passage * way;
-    return RB_OK;
-}
 
 /* Adds the slip of an increment of the cycle that counts, the second one. */
 static int see_increment(const rb_rolling_model *model, const rb_rolling_history *h, int step,
@@ -212,42 +183,6 @@ static int see_increment(const rb_rolling_model *model, const rb_rolling_history
         r->work += slip * fabs(model->state.q[i]) * model->bodies.f.h[i];
     }
     return 0;
-}
-
-static rb_status fret(wear_state *r, double cycles, rb_message *why)
-{
-    rb_rolling_program program;
-    rb_rolling_history history = {0};
-    rb_rolling_model model = {0};
-    /* Loading, and one closed cycle to the other side and back, in static increments. */
-    const int quarter = r->wear->increments, rows = 5 * quarter;
-    const rb_rolling_case *rc = &r->rc;
-    double *column = rb_alloc((size_t)rows, 1);
-    const double last = !isnan(rc->force)         ? rc->force
-                        : !isnan(rc->force_ratio) ? rc->force_ratio
-                                                  : rb_rolling_wanted_shift(rc);
-
-    program = (rb_rolling_program){.n = rows};
-    *(!isnan(rc->force)         ? &program.force
-      : !isnan(rc->force_ratio) ? &program.force_ratio
-                                : &program.shift) = column;
-    for (int k = 0; k < rows && column; k++) {
-        const double t = (k + 1.0) / quarter; /* quarters of a cycle */
-        column[k] = last * (t <= 1.0 ? t : t <= 3.0 ? 2.0 - t : t - 4.0);
-    }
-
-    r->work = 0.0;
-    memset(r->path, 0, (size_t)r->n * sizeof *r->path);
-    rb_status s =
-        column ? rb_rolling_history_run(&r->rc, &program, &(rb_rolling_observer){see_increment, r},
-                                        &model, &history, why)
-               : RB_ENOMEM;
-    rb_rolling_model_free(&model);
-    rb_rolling_history_free(&history);
-    free(column);
-    for (int i = 0; i < r->n; i++)
-        r->compliance[i] = archard(r) * cycles * r->path[i];
-    return s == RB_OK ? wear_off(r, why) : s;
 }
 
 /* (W3) A round wheel stays round: R = R_before - turns dz(R); B turns R/|R_B| times as
@@ -349,43 +284,87 @@ static rb_status record(wear_state *r, double way, rb_message *why)
 static rb_status one_step(wear_state *r, double part, rb_message *why)
 {
     enum { WIDER = 12 };
+    const double share = r->wear->share;
+    const double depth = /* per pressure and slid length */
+        r->wear->coefficient *
+        (r->wear->law == RB_WEAR_ARCHARD ? 1.0 : rb_rolling_largest_mu(&r->rc));
     rb_message reason = {""};
-    rb_status s;
+    rb_status s = RB_ZONE;
 
     if (r->rc.formulation == RB_STEADY)
         return roll(r, part, why);
-    for (int k = 0; k < WIDER; k++) {
+    for (int k = 0; k < WIDER && s == RB_ZONE; k++) {
         reason.text[0] = '\0';
-        s = r->wear->slides ? slide(r, part, &reason) : fret(r, part, &reason);
-        if (s != RB_ZONE)
-            break;
-        s = widen(r, &reason);
-        if (s != RB_OK)
-            break;
+        s = k > 0 ? widen(r, &reason) : RB_OK;
+        if (s == RB_OK && !r->wear->slides) {
+            /* Loading, and one closed cycle to the other side and back, in static
+             * increments. */
+            const int quarter = r->wear->increments, rows = 5 * quarter;
+            const rb_rolling_case *rc = &r->rc;
+            const double last = !isnan(rc->force)         ? rc->force
+                                : !isnan(rc->force_ratio) ? rc->force_ratio
+                                                          : rb_rolling_wanted_shift(rc);
+            double *column = rb_alloc((size_t)rows, 1);
+            rb_rolling_program program = {.n = rows};
+            rb_rolling_history history = {0};
+            rb_rolling_model model = {0};
+
+            *(!isnan(rc->force)         ? &program.force
+              : !isnan(rc->force_ratio) ? &program.force_ratio
+                                        : &program.shift) = column;
+            for (int j = 0; j < rows && column; j++) {
+                const double t = (j + 1.0) / quarter; /* quarters of a cycle */
+                column[j] = last * (t <= 1.0 ? t : t <= 3.0 ? 2.0 - t : t - 4.0);
+            }
+            r->work = 0.0;
+            memset(r->path, 0, (size_t)r->n * sizeof *r->path);
+            s = column
+                    ? rb_rolling_history_run(rc, &program, &(rb_rolling_observer){see_increment, r},
+                                             &model, &history, &reason)
+                    : RB_ENOMEM;
+            rb_rolling_model_free(&model);
+            rb_rolling_history_free(&history);
+            free(column);
+        }
+        for (int i = 0; i < r->n && s == RB_OK; i++)
+            r->compliance[i] =
+                r->wear->slides ? (1.0 - share) * depth * part : depth * part * r->path[i];
+        if (s == RB_OK)
+            s = wear_off(r, &reason);
+    }
+    if (s == RB_OK && r->wear->slides) {
+        double carried = 0.0;
+        for (int i = 0; i < r->n; i++)
+            carried += r->model.state.p[i] * r->model.bodies.f.h[i];
+        r->passage = share * depth * carried;
+        r->track += r->passage * part;
     }
     return s == RB_OK ? s : rb_fail(why, s, "%.300s", rb_status_reason(s, &reason));
 }
 
+#define PLACE(member) offsetof(rb_rolling_wear, member)
+static const rb_option rows[] = {RB_WEAR_LINES(PLACE, way, way)};
+
 static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear, rb_message *why)
 {
     const int rolls = rc->formulation == RB_STEADY;
+    rb_status s = RB_OK;
 
     if (rc->formulation == RB_TRANSIENT)
         return rb_fail(why, RB_EINVAL,
                        "wear: only by sliding, by fretting cycles (static) or by rolling "
                        "(steady), not in a transient");
-    if (!(wear->coefficient > 0.0) || isinf(wear->coefficient))
-        return rb_fail(why, RB_EINVAL, "wear coefficient: expected > 0, got %g", wear->coefficient);
-    if (!(wear->share >= 0.0 && wear->share <= 1.0))
-        return rb_fail(why, RB_EINVAL, "wear share: expected 0 ... 1 of body B, got %g",
-                       wear->share);
-    if (!(wear->way > 0.0) || isinf(wear->way))
-        return rb_fail(why, RB_EINVAL, "wear: expected a distance or cycles > 0, got %g",
-                       wear->way);
-    if (wear->steps < 1 || wear->steps > 1000000)
-        return rb_fail(why, RB_EINVAL, "wear steps: expected 1 ... 1000000, got %d", wear->steps);
-    if (!rolls && !wear->slides && wear->increments < 1)
-        return rb_fail(why, RB_EINVAL, "wear increments: expected >= 1, got %d", wear->increments);
+    for (size_t k = 0; k < sizeof rows / sizeof *rows && s == RB_OK; k++) {
+        const void *at = (const char *)wear + rows[k].offset;
+        const char *elsewhere = wear->slides ? "cycles" : "slide";
+        const int frets = !rolls && !wear->slides;
+        if (strcmp(rows[k].name, elsewhere) != 0 && (frets || strcmp(rows[k].name, "quarter") != 0))
+            s = rb_rolling_check_option(
+                &rows[k],
+                rows[k].kind == RB_OPTION_INTEGER ? *(const int *)at : *(const double *)at, why);
+    }
+    if (s != RB_OK)
+        return s;
     if (rb_rolling_largest_mu(rc) == 0.0 && (wear->law == RB_WEAR_DISSIPATION || !wear->slides))
         return rb_fail(why, RB_EINVAL, "wear: at mu = 0 friction dissipates nothing");
     if (rc->friction.law != RB_FRICTION_constant && !rolls && wear->law == RB_WEAR_DISSIPATION)

@@ -69,28 +69,6 @@ static void note_strain(rb_rolling_note_list *list, const rb_rolling_case *rc,
             approach, width);
 }
 
-/* What a layer, cover or rim bears is a matter of its own thickness. */
-static void note_thin(rb_rolling_note_list *list, const rb_rolling_case *rc,
-                      const rb_rolling_solution *s)
-{
-    static const double large = 0.1, thick = 0.01;
-    const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
-
-    if (rb_rolling_has_thickness(rc) && s->max_strain >= large)
-        add(list,
-            "the thinnest layer, cover or rim is compressed by %.0f %% of its thickness: "
-            "linear elasticity is inaccurate there",
-            100.0 * s->max_strain);
-    for (int b = 0; b < 1 + rc->elastic_b; b++)
-        if (rc->formulation != RB_STATIC && bodies[b]->layer > 0.0 && isfinite(bodies[b]->radius) &&
-            bodies[b]->layer >= thick * fabs(bodies[b]->radius))
-            add(list,
-                "layer%s: computed as flat at thickness/R = %.2g; the free creepage of a "
-                "round cover differs by about %.0f %%, see --cover-thickness%s",
-                b ? " of B" : "", bodies[b]->layer / fabs(bodies[b]->radius),
-                280.0 * bodies[b]->layer / fabs(bodies[b]->radius), b ? "-b" : "");
-}
-
 /* What the displacement by the pressure before a step grows in it, as a part of the
  * glassy one (V6): beyond 1 the pressure behind it would have to pull under a given
  * approach. */
@@ -159,7 +137,23 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_r
 {
     rb_rolling_note_list list = {.n = 0};
     note_strain(&list, rc, s);
-    note_thin(&list, rc, s);
+    /* What a layer, cover or rim bears is a matter of its own thickness. */
+    static const double large = 0.1, thick = 0.01;
+    const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
+
+    if (rb_rolling_has_thickness(rc) && s->max_strain >= large)
+        add(&list,
+            "the thinnest layer, cover or rim is compressed by %.0f %% of its thickness: "
+            "linear elasticity is inaccurate there",
+            100.0 * s->max_strain);
+    for (int b = 0; b < 1 + rc->elastic_b; b++)
+        if (rc->formulation != RB_STATIC && bodies[b]->layer > 0.0 && isfinite(bodies[b]->radius) &&
+            bodies[b]->layer >= thick * fabs(bodies[b]->radius))
+            add(&list,
+                "layer%s: computed as flat at thickness/R = %.2g; the free creepage of a "
+                "round cover differs by about %.0f %%, see --cover-thickness%s",
+                b ? " of B" : "", bodies[b]->layer / fabs(bodies[b]->radius),
+                280.0 * bodies[b]->layer / fabs(bodies[b]->radius), b ? "-b" : "");
     note_short_memory(&list, rc, s);
     note_corners(&list, rc, s);
     const int creeps = !isnan(rc->creep) || !isnan(rc->creep_ratio);

@@ -97,23 +97,6 @@ static double unless_tiny(double x, double tiny)
     return fabs(x) <= tiny ? 0.0 : x;
 }
 
-/* M, its coefficient and where the power goes that neither Q nor M/R leave to friction. */
-static rb_status set_resistance(const rb_rolling_model *model, rb_rolling_solution *s)
-{
-    s->resistance_moment = s->resistance_ratio = s->hysteresis = NAN;
-    s->torque_a = s->torque_b = NAN;
-    if (s->formulation == RB_STATIC)
-        return RB_OK;
-    s->resistance_moment = unless_tiny(rb_contact_moment(&model->problem, &model->state),
-                                       1e-14 * s->normal_load * model->half_width);
-    s->resistance_ratio = s->normal_load > 0.0 ? s->resistance_moment /
-                                                     (s->normal_load * rb_rolling_radius(model->rc))
-                                               : NAN;
-    rb_rolling_torques(model->rc, s->resistance_moment, s->tangential_load, &s->torque_a,
-                       &s->torque_b);
-    return rb_rolling_hysteresis(model, &s->hysteresis);
-}
-
 static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
 {
     const rb_contact_problem *p = &model->problem;
@@ -255,8 +238,23 @@ rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_
         set_forces(model, s);
         status = set_table(model, s);
     }
-    if (status == RB_OK)
-        status = set_resistance(model, s);
+    if (status == RB_OK) {
+        /* M, its coefficient and where the power goes that neither Q nor M/R leave to
+         * friction. */
+        s->resistance_moment = s->resistance_ratio = s->hysteresis = NAN;
+        s->torque_a = s->torque_b = NAN;
+        if (s->formulation != RB_STATIC) {
+            s->resistance_moment = unless_tiny(rb_contact_moment(&model->problem, &model->state),
+                                               1e-14 * s->normal_load * model->half_width);
+            s->resistance_ratio =
+                s->normal_load > 0.0
+                    ? s->resistance_moment / (s->normal_load * rb_rolling_radius(model->rc))
+                    : NAN;
+            rb_rolling_torques(model->rc, s->resistance_moment, s->tangential_load, &s->torque_a,
+                               &s->torque_b);
+            status = rb_rolling_hysteresis(model, &s->hysteresis);
+        }
+    }
     if (status == RB_OK)
         status = support_balance(model, s->normal_load, &s->support_balance);
     if (status == RB_OK)

@@ -309,25 +309,6 @@ static rb_status climb(search *s, double size, gsl_multimin_fminimizer *m, gsl_v
     return status;
 }
 
-/* A simplex may collapse short of the top, into a dip between two of its corners: a
- * smaller one goes on from there. */
-static rb_status refine(search *s, rb_rolling_extremum *best)
-{
-    gsl_multimin_fminimizer *m =
-        gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, 2);
-    gsl_vector *place = gsl_vector_alloc(2), *step = gsl_vector_alloc(2);
-    rb_status status = m && place && step ? RB_OK : RB_ENOMEM;
-
-    for (int k = 0;
-         k < CLIMBS && status == RB_OK && (k == 0 || gsl_multimin_fminimizer_size(m) > CONVERGED);
-         k++)
-        status = climb(s, SIZES[k], m, place, step, best);
-    gsl_multimin_fminimizer_free(m);
-    gsl_vector_free(place);
-    gsl_vector_free(step);
-    return status;
-}
-
 /* 1: no neighbour on the grid has more.  Points outside the body are no number. */
 static int is_peak(const search *s, const rb_rolling_stress_grid *grid, int k)
 {
@@ -360,7 +341,20 @@ static rb_status maximum(search *s, const rb_rolling_stress_grid *grid, rb_rolli
         if (!at || s->of(at) < best->value - s->nearly * fabs(best->value))
             break;
         rb_rolling_extremum top = {s->of(at), at->x, at->y};
-        status = refine(s, &top);
+        /* A simplex may collapse short of the top, into a dip between two of its corners: a
+         * smaller one goes on from there. */
+        gsl_multimin_fminimizer *m =
+            gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, 2);
+        gsl_vector *place = gsl_vector_alloc(2), *step = gsl_vector_alloc(2);
+        status = m && place && step ? RB_OK : RB_ENOMEM;
+
+        for (int i = 0; i < CLIMBS && status == RB_OK &&
+                        (i == 0 || gsl_multimin_fminimizer_size(m) > CONVERGED);
+             i++)
+            status = climb(s, SIZES[i], m, place, step, &top);
+        gsl_multimin_fminimizer_free(m);
+        gsl_vector_free(place);
+        gsl_vector_free(step);
         if (top.value > best->value)
             *best = top;
     }

@@ -90,20 +90,6 @@ rb_bem_wheel rb_rolling_wheel_of(const rb_rolling_case *rc, const rb_rolling_bod
     return wheel;
 }
 
-/* What memory adds to the glassy wheel in steady rolling, which is all that asks for the
- * flexibility of a body with memory. */
-static rb_status add_memory(const rb_rolling_case *rc, const rb_bem_wheel *wheel,
-                            const rb_rolling_mesh *mesh, rb_rolling_body_flexibility *one_body,
-                            rb_message *why)
-{
-    rb_status s = rb_rolling_memory_before(&one_body->f, &one_body->memory);
-    if (s == RB_OK)
-        s = rb_bem_flexibility_add_memory(wheel, rc->normals, mesh->ends, &one_body->f, why);
-    if (s == RB_OK)
-        rb_rolling_memory_after(&one_body->f, one_body->memory);
-    return s;
-}
-
 static rb_status by_boundary_elements(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                                       const rb_rolling_body *body, const rb_rolling_mesh *mesh,
                                       rb_rolling_body_flexibility *one_body, rb_message *why)
@@ -132,8 +118,15 @@ static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_p
             ? rb_bem_flexibility_wheel(mesh->n, mesh->ends, &wheel, rc->normals, &one_body->f, why)
             : by_boundary_elements(rc, plan, body, mesh, one_body, why);
 
-    if (s == RB_OK && body->memory.n > 0)
-        s = add_memory(rc, &wheel, mesh, one_body, why);
+    if (s == RB_OK && body->memory.n > 0) {
+        /* What memory adds to the glassy wheel in steady rolling, which is all that asks for the
+         * flexibility of a body with memory. */
+        s = rb_rolling_memory_before(&one_body->f, &one_body->memory);
+        if (s == RB_OK)
+            s = rb_bem_flexibility_add_memory(&wheel, rc->normals, mesh->ends, &one_body->f, why);
+        if (s == RB_OK)
+            rb_rolling_memory_after(&one_body->f, one_body->memory);
+    }
     one_body->seconds_condense =
         rb_seconds() - start - one_body->seconds_assembly - one_body->seconds_factor;
     return s;

@@ -87,17 +87,6 @@ double rb_rolling_radius(const rb_rolling_case *rc)
     return b < 0.0 && isfinite(b) ? a * b / (a + b) : 1.0 / (1.0 / a + 1.0 / b);
 }
 
-static double thickness_of(const rb_rolling_body *body, const char **what)
-{
-    const int layer = body->layer > 0.0, cover = body->cover > 0.0;
-
-    *what = layer ? "layer" : cover ? "cover" : "rim";
-    return layer                         ? body->layer
-           : cover                       ? body->cover
-           : body->support == RB_BEM_HUB ? (1.0 - body->hub_ratio) * body->radius
-                                         : INFINITY;
-}
-
 double rb_rolling_strain(const rb_rolling_case *rc, double approach, double pressure,
                          const char **what)
 {
@@ -105,10 +94,14 @@ double rb_rolling_strain(const rb_rolling_case *rc, double approach, double pres
     double most = NAN;
 
     for (int b = 0; b < 1 + rc->elastic_b; b++) {
-        const char *name;
         const rb_rolling_body *body = bodies[b];
-        const double thickness = thickness_of(body, &name),
-                     glassy = compliance(rb_rolling_material(rc, body));
+        const int layer = body->layer > 0.0, cover = body->cover > 0.0;
+        const double thickness = layer   ? body->layer
+                                 : cover ? body->cover
+                                 : body->support == RB_BEM_HUB
+                                     ? (1.0 - body->hub_ratio) * body->radius
+                                     : INFINITY;
+        const double glassy = compliance(rb_rolling_material(rc, body));
         double slow = 1.0;
         if (isinf(thickness))
             continue;
@@ -119,7 +112,7 @@ double rb_rolling_strain(const rb_rolling_case *rc, double approach, double pres
         if (isnan(most) || strain > most) {
             most = strain;
             if (what)
-                *what = name;
+                *what = layer ? "layer" : cover ? "cover" : "rim";
         }
     }
     return most;

@@ -23,19 +23,15 @@ static double interpolated(const rb_rolling_mesh *mesh, const double *value, dou
     return value[j] + (value[other] - value[j]) * (x - here) / (there - here);
 }
 
-/* Only one state is possible with the friction law. */
-static int is_unique(const rb_rolling_model *model)
-{
-    double kappa;
-
-    return model->rc->formulation == RB_STEADY && model->rc->friction.heat <= 0.0 &&
-           rb_rolling_law_kappa(model, &kappa) == RB_OK && kappa < 1.0;
-}
-
 double *rb_rolling_friction_of(const rb_rolling_model *model)
 {
-    return rb_rolling_law_depends_on_state(model->rc) && model->state.status == RB_OK &&
-                   is_unique(model)
+    const rb_rolling_case *rc = model->rc;
+    double kappa;
+
+    /* kappa < 1: only one state is possible with the friction law */
+    return rb_rolling_law_depends_on_state(rc) && model->state.status == RB_OK &&
+                   rc->formulation == RB_STEADY && rc->friction.heat <= 0.0 &&
+                   rb_rolling_law_kappa(model, &kappa) == RB_OK && kappa < 1.0
                ? rb_copy((size_t)model->problem.n, model->problem.bound)
                : NULL;
 }

@@ -144,20 +144,28 @@ static void forget(brackets *known)
 
 /* ---- All of them ------------------------------------------------------------------- */
 
-/* From a solution to elements fitted to its edges, until these rest.  *rest: 0 where they
- * do not, or where no solution is found on them. */
-static rb_status fit(rb_rolling_model *model, int *rest, rb_message *why)
+rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *why)
+{
+    const int wanted = model->plan.elements;
+
+    model->plan.elements = (int)ceil(1.3 * wanted);
+    const rb_status s = rb_rolling_solve_zone(model, 0, why);
+    model->plan.elements = wanted;
+    return s;
+}
+
+/* From a solution to elements fitted to its edges, until these rest; where they do not, or
+ * where no solution is found on them, to equal ones. */
+rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why)
 {
     patches fitted, found;
     brackets known[MOST_PATCHES];
-    double moved = INFINITY;
-
     rb_status s = find_patches(model, &fitted);
+    int rest = 0;
 
-    *rest = 0;
     forget(known);
-    for (int round = 0;
-         round < ROUNDS && !*rest && fitted.count > 0 && (s == RB_OK || s == RB_ZONE); round++) {
+    for (int round = 0; round < ROUNDS && !rest && fitted.count > 0 && (s == RB_OK || s == RB_ZONE);
+         round++) {
         /* On a mesh that ends somewhere a corner of a punch can be a solution as well.
          * Where the solver finds that one, the zones of the solution that the mesh was
          * fitted to lead to the other one. */
@@ -179,11 +187,13 @@ static rb_status fit(rb_rolling_model *model, int *rest, rb_message *why)
             rb_contact_state_free(&old);
         }
         const rb_status t = s < 0 ? s : find_patches(model, &found);
-        if (t != RB_OK)
+        if (t != RB_OK) {
+            model->equal_instead = 0;
             return t;
+        }
         if (s == RB_OK && found.count == fitted.count) {
             /* The next edges to fit to. */
-            moved = 0.0;
+            double moved = 0.0;
 
             for (int k = 0; k < fitted.count; k++) {
                 const rb_rolling_span *now = &found.span[k];
@@ -195,60 +205,37 @@ static rb_status fit(rb_rolling_model *model, int *rest, rb_message *why)
                 span->margin_left = now->margin_left;
                 span->margin_right = now->margin_right;
             }
-            *rest = moved < (round + 1 < ROUNDS ? AT_REST : NEAR_REST);
+            rest = moved < (round + 1 < ROUNDS ? AT_REST : NEAR_REST);
         } else {
             forget(known);
             fitted = found;
         }
     }
-    return s == RB_ZONE ? RB_OK : s;
-}
-
-rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *why)
-{
-    const int wanted = model->plan.elements;
-
-    model->plan.elements = (int)ceil(1.3 * wanted);
-    const rb_status s = rb_rolling_solve_zone(model, 0, why);
-    model->plan.elements = wanted;
-    return s;
-}
-
-rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why)
-{
-    int rest;
-    const rb_status s = fit(model, &rest, why);
-
     model->equal_instead = s >= 0 && !rest;
-    return model->equal_instead ? rb_rolling_solve_equal_instead(model, why) : s;
-}
-
-/* A coarse solution to fit to: where the rest of a wheel has many elements, with few of
- * them. */
-static rb_status solve_first(rb_rolling_model *model, rb_message *why)
-{
-    const rb_rolling_plan asked = model->plan;
-
-    if (model->rc->zone == 0.0) {
-        model->plan.elements = (int)fmax(FIRST, asked.elements / 2);
-        model->plan.near_field = RB_NEAR_FIELD_PLAIN;
-    }
-    if (rb_rolling_has_fine_boundary(&asked))
-        rb_rolling_coarsen_boundary(&model->plan);
-    const rb_status s = rb_rolling_solve_zone(model, 1, why);
-    model->plan.elements = asked.elements;
-    model->plan.near_field = asked.near_field;
-    return s;
+    return model->equal_instead ? rb_rolling_solve_equal_instead(model, why)
+           : s == RB_ZONE       ? RB_OK
+                                : s;
 }
 
 rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
 {
     const rb_rolling_plan asked = model->plan;
-    rb_status s = solve_first(model, why);
+    const int fine = rb_rolling_has_fine_boundary(&asked);
 
+    /* A coarse solution to fit to: where the rest of a wheel has many elements, with few
+     * of them. */
+    if (model->rc->zone == 0.0) {
+        model->plan.elements = (int)fmax(FIRST, asked.elements / 2);
+        model->plan.near_field = RB_NEAR_FIELD_PLAIN;
+    }
+    if (fine)
+        rb_rolling_coarsen_boundary(&model->plan);
+    rb_status s = rb_rolling_solve_zone(model, 1, why);
+    model->plan.elements = asked.elements;
+    model->plan.near_field = asked.near_field;
     if (s == RB_OK)
         s = rb_rolling_model_refit(model, why);
-    if (s == RB_OK && rb_rolling_has_fine_boundary(&asked)) {
+    if (s == RB_OK && fine) {
         model->plan = asked;
         s = model->equal_instead ? rb_rolling_solve_equal_instead(model, why)
                                  : rb_rolling_model_refit(model, why);

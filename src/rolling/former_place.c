@@ -55,50 +55,34 @@ static rb_status halfplanes(const rb_rolling_case *rc, int n, double h, int plac
     return status;
 }
 
-/* Every pair of points and elements by its own. */
-static rb_status dense_ahead(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                             double step, double *W_T)
-{
-    const int n = bodies->f.n, m = bodies->f.m;
-    const double h = bodies->f.h[n / 2];
-    double *rest = rb_alloc((size_t)m, 2 * (size_t)n);
-    rb_status s = rest ? halfplanes(rc, n, h, n, step, W_T) : RB_ENOMEM;
-
-    if (s == RB_OK)
-        s = halfplanes(rc, n, h, m, 0.0, rest);
-    if (s == RB_OK) {
-        for (size_t j = 0; j < 2 * (size_t)n; j++)
-            for (size_t i = 0; i < (size_t)m; i++)
-                rest[i + j * m] = bodies->F[(size_t)m + i + j * 2 * (size_t)m] - rest[i + j * m];
-        /* What the bodies have over half-planes is smooth along the surface: linear in
-         * between, at `ahead` elements from each of the m = n + 1 midpoints, the last
-         * one's line going on. */
-        const double ahead = step / h;
-        const size_t rows = (size_t)n, all = rows + 1;
-
-        for (int i = 0; i < n; i++) {
-            const int before = i + ahead < n - 1 ? (int)(i + ahead) : n - 1;
-            const double t = i + ahead - before;
-            cblas_daxpy(2 * n, 1.0 - t, rest + before, (int)all, W_T + i, n);
-            cblas_daxpy(2 * n, t, rest + before + 1, (int)all, W_T + i, n);
-        }
-    }
-    free(rest);
-    return s;
-}
-
 rb_status rb_rolling_former_place_create(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                                          double step, rb_rolling_former_place *ahead)
 {
-    const int n = bodies->f.n;
+    const int n = bodies->f.n, m = bodies->f.m;
     const double h = bodies->f.h[n / 2];
     rb_status s = RB_ENOMEM;
 
     *ahead = (rb_rolling_former_place){.n = n, .step = step};
-    if (bodies->F) {
-        ahead->W_T = rb_alloc((size_t)n, 2 * (size_t)n);
-        if (ahead->W_T)
-            s = dense_ahead(rc, bodies, step, ahead->W_T);
+    if (bodies->F) { /* every pair of points and elements by its own */
+        double *W_T = ahead->W_T = rb_alloc((size_t)n, 2 * (size_t)n);
+        double *rest = rb_alloc((size_t)m, 2 * (size_t)n);
+        s = W_T && rest ? halfplanes(rc, n, h, n, step, W_T) : RB_ENOMEM;
+        if (s == RB_OK)
+            s = halfplanes(rc, n, h, m, 0.0, rest);
+        for (size_t j = 0; j < 2 * (size_t)n && s == RB_OK; j++)
+            for (size_t i = 0; i < (size_t)m; i++)
+                rest[i + j * m] = bodies->F[(size_t)m + i + j * 2 * (size_t)m] - rest[i + j * m];
+        /* What the bodies have over half-planes is smooth along the surface: linear in
+         * between, at step / h elements from each of the m = n + 1 midpoints, the last
+         * one's line going on. */
+        for (int i = 0; i < n && s == RB_OK; i++) {
+            const double place = i + step / h;
+            const int before = place < n - 1 ? (int)place : n - 1;
+            const double t = place - before;
+            cblas_daxpy(2 * n, 1.0 - t, rest + before, m, W_T + i, n);
+            cblas_daxpy(2 * n, t, rest + before + 1, m, W_T + i, n);
+        }
+        free(rest);
     } else {
         /* half-planes: only the distance of point and element counts */
         ahead->response = rb_alloc(2 * (size_t)n - 1, 2);

@@ -59,33 +59,6 @@ static double row_of(const kinematic *A, const double *w, const double outside[2
 
 /* ---- Its two operators ------------------------------------------------------------- */
 
-/* S = A [F_TN F_TT] (K2). */
-static rb_status dense_operator(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                                const kinematic *A, rb_contact_operator **op)
-{
-    const int n = A->n, m = n + 1;
-    const double none[2] = {0.0, 0.0};
-    double *S = rb_alloc((size_t)n, 2 * (size_t)n);
-
-    if (!S)
-        return RB_ENOMEM;
-    for (int j = 0; j < 2 * n; j++) {
-        const double *w_T = bodies->F + (size_t)j * 2 * (size_t)m + m;
-        const double *outside = A->outside ? A->outside + 2 * (size_t)j : none;
-        for (int i = 0; i < n; i++)
-            S[i + (size_t)j * n] = row_of(A, w_T, outside, i);
-    }
-    /* S has A on all of F_TT so far. */
-    for (int i = 0; i < n && A->outside; i++)
-        for (int k = 0; k < 4; k++) {
-            const int j = i - 1 + k;
-            if (j >= 0 && j < n)
-                S[i + (size_t)(n + j) * (size_t)n] +=
-                    rc->interlayer_tangential * (A->local[k] - A->stencil[k]);
-        }
-    return rb_contact_operator_dense(n, bodies->F, 2 * m, S, op);
-}
-
 /* Products by Fourier transforms. */
 typedef struct {
     rb_bem_flexibility f; /* its arrays borrowed from the bodies */
@@ -178,11 +151,31 @@ static rb_status make_operator(const rb_rolling_case *rc, const rb_rolling_bodie
                                kinematic *A, rb_contact_operator **op)
 {
     rb_contact_operator *products = NULL;
-    rb_status s = RB_OK;
 
     if (!bodies->F)
         return transform_operator(&bodies->f, rc->interlayer_tangential, A, op);
-    s = dense_operator(rc, bodies, A, op);
+    /* S = A [F_TN F_TT] (K2). */
+    const int n = A->n, m = n + 1;
+    const double none[2] = {0.0, 0.0};
+    double *S = rb_alloc((size_t)n, 2 * (size_t)n);
+
+    if (!S)
+        return RB_ENOMEM;
+    for (int j = 0; j < 2 * n; j++) {
+        const double *w_T = bodies->F + (size_t)j * 2 * (size_t)m + m;
+        const double *outside = A->outside ? A->outside + 2 * (size_t)j : none;
+        for (int i = 0; i < n; i++)
+            S[i + (size_t)j * n] = row_of(A, w_T, outside, i);
+    }
+    /* S has A on all of F_TT so far. */
+    for (int i = 0; i < n && A->outside; i++)
+        for (int k = 0; k < 4; k++) {
+            const int j = i - 1 + k;
+            if (j >= 0 && j < n)
+                S[i + (size_t)(n + j) * (size_t)n] +=
+                    rc->interlayer_tangential * (A->local[k] - A->stencil[k]);
+        }
+    rb_status s = rb_contact_operator_dense(n, bodies->F, 2 * m, S, op);
     /* another matrix than that of the bodies, as of a worn surface, has no products */
     if (s == RB_OK && bodies->transforms.n > 0 &&
         bodies->F == rb_bem_flexibility_stored(&bodies->f)) {
@@ -259,22 +252,6 @@ void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p)
         p->xi = isnan(rc->creep) ? 0.0 : rc->creep;
 }
 
-/* How far the interface has yielded where the material comes from (Y1): steadily rolled
- * u follows the slip by the difference that the local part of F_TT has (theory.md 4.10);
- * in a step it begins with what the past has left. */
-static rb_status set_yield(const rb_rolling_case *rc, rb_contact_problem *p)
-{
-    const int rolls = rc->formulation == RB_STEADY,
-              second = rolls && rc->slip_operator == RB_SLIP_SECOND;
-
-    if (rc->yield_stress == 0.0)
-        return RB_OK;
-    p->recall[0] = second ? 4.0 / 3.0 : rolls ? 1.0 : 0.0;
-    p->recall[1] = second ? -1.0 / 3.0 : 0.0;
-    p->own = second ? 2.0 / 3.0 : 1.0;
-    return rb_contact_set_yield(p, rc->yield_stress, rc->hardening);
-}
-
 /* Scales: stress by Hertz, lengths so that the diagonals of F_NN and of A F_TT become
  * about 1; where mu is small, the slip of dissimilar bodies comes from the pressure. */
 void rb_rolling_set_given(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
@@ -296,11 +273,22 @@ static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *
                               const rb_rolling_bodies *bodies, const rb_rolling_past *past,
                               rb_contact_problem *p, rb_message *why)
 {
-    if (set_yield(rc, p) != RB_OK)
-        return rb_fail(why, RB_ENOMEM, "out of memory for a contact problem of %d elements",
-                       mesh->n);
+    const int rolls = rc->formulation == RB_STEADY,
+              second = rolls && rc->slip_operator == RB_SLIP_SECOND;
+
+    if (rc->yield_stress > 0.0) {
+        /* How far the interface has yielded where the material comes from (Y1): steadily
+         * rolled u follows the slip by the difference that the local part of F_TT has
+         * (theory.md 4.10); in a step it begins with what the past has left. */
+        p->recall[0] = second ? 4.0 / 3.0 : rolls ? 1.0 : 0.0;
+        p->recall[1] = second ? -1.0 / 3.0 : 0.0;
+        p->own = second ? 2.0 / 3.0 : 1.0;
+        if (rb_contact_set_yield(p, rc->yield_stress, rc->hardening) != RB_OK)
+            return rb_fail(why, RB_ENOMEM, "out of memory for a contact problem of %d elements",
+                           mesh->n);
+    }
     rb_rolling_set_given(rc, bodies, p);
-    p->differences = rc->formulation == RB_STEADY;
+    p->differences = rolls;
     p->force_unit = " N/mm";
     rb_rolling_set_gap(mesh, bodies, p);
     rb_rolling_set_past(rc, bodies, past, p);

@@ -109,69 +109,49 @@ double rb_rolling_largest_mu(const rb_rolling_case *rc)
     return end_of_range(rc, 1.0);
 }
 
-static rb_status check_table(const rb_rolling_table *t, rb_message *why)
-{
-    if (t->n < 1)
-        return rb_fail(why, RB_EINVAL, "friction table: expected a row or more");
-    for (int k = 0; k < t->n; k++) {
-        if (!isfinite(t->x[k]) || (k > 0 && !(t->x[k] > t->x[k - 1])))
-            return rb_fail(why, RB_EINVAL, "friction table: row %d: expected x to increase, got %g",
-                           k + 1, t->x[k]);
-        if (!(isfinite(t->y[k]) && t->y[k] >= 0.0))
-            return rb_fail(why, RB_EINVAL, "friction table: row %d: expected mu >= 0, got %g",
-                           k + 1, t->y[k]);
-    }
-    return RB_OK;
-}
-
-static rb_status check_slip(const rb_rolling_case *rc, rb_message *why)
-{
-    const rb_rolling_friction *f = &rc->friction;
-    rb_status s = RB_OK;
-
-    for (int k = 0; k < 2 && s == RB_OK; k++) {
-        s = rb_rolling_check_number("mu-fall", f->fall[k], why);
-        if (s == RB_OK && f->fall[k] != 0.0)
-            s = rb_rolling_check_number("slip-scale", f->slip_scale[k], why);
-    }
-    if (s != RB_OK)
-        return s;
-    if (rc->formulation != RB_STATIC && rc->speed == 0.0)
-        return rb_fail(why, RB_EINVAL, "friction law %s: needs the speed of rolling, add --speed",
-                       names[f->law]);
-    return RB_OK;
-}
-
 rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
 {
     const rb_rolling_friction *f = &rc->friction;
     rb_status s = RB_OK;
 
-    if (f->law == RB_FRICTION_table)
-        s = check_table(&f->table, why);
-    if (s == RB_OK && rb_rolling_law_depends_on_slip(f))
-        s = check_slip(rc, why);
-    if (s == RB_OK) {
-        if (f->heat != 0.0) {
-            if (!isfinite(f->heat) || !isfinite(f->heat_from) ||
-                !(isfinite(f->heat_range) && f->heat_range > 0.0))
-                s = rb_fail(why, RB_EINVAL,
-                            "friction and heat: expected a change, a temperature and a range "
-                            "> 0, got %g, %g, %g",
-                            f->heat, f->heat_from, f->heat_range);
-            else
-                s = rc->formulation != RB_STATIC && !rb_rolling_has_heat(rc)
-                        ? rb_fail(why, RB_EINVAL,
-                                  "friction and heat: needs temperatures, add --conductivity")
-                        : RB_OK;
+    if (f->law == RB_FRICTION_table) {
+        const rb_rolling_table *t = &f->table;
+        if (t->n < 1)
+            return rb_fail(why, RB_EINVAL, "friction table: expected a row or more");
+        for (int k = 0; k < t->n; k++) {
+            if (!isfinite(t->x[k]) || (k > 0 && !(t->x[k] > t->x[k - 1])))
+                return rb_fail(why, RB_EINVAL,
+                               "friction table: row %d: expected x to increase, got %g", k + 1,
+                               t->x[k]);
+            if (!(isfinite(t->y[k]) && t->y[k] >= 0.0))
+                return rb_fail(why, RB_EINVAL, "friction table: row %d: expected mu >= 0, got %g",
+                               k + 1, t->y[k]);
         }
     }
-    if (s == RB_OK &&
-        !(f->memory >= 0.0 && isfinite(f->memory) && (f->memory == 0.0 || f->memory_slip > 0.0)))
-        s = rb_fail(why, RB_EINVAL,
-                    "friction memory: expected a distance >= 0 and a velocity > 0, got "
-                    "%g, %g",
-                    f->memory, f->memory_slip);
+    const int slips = rb_rolling_law_depends_on_slip(f);
+    for (int k = 0; k < 2 && s == RB_OK && slips; k++) {
+        s = rb_rolling_check_number("mu-fall", f->fall[k], why);
+        if (s == RB_OK && f->fall[k] != 0.0)
+            s = rb_rolling_check_number("slip-scale", f->slip_scale[k], why);
+    }
+    if (s == RB_OK && slips && rc->formulation != RB_STATIC && rc->speed == 0.0)
+        s = rb_fail(why, RB_EINVAL, "friction law %s: needs the speed of rolling, add --speed",
+                    names[f->law]);
+    if (s == RB_OK && f->heat != 0.0) {
+        s = rb_rolling_check_number("mu-heat", f->heat, why);
+        if (s == RB_OK)
+            s = rb_rolling_check_number("mu-heat", f->heat_from, why);
+        if (s == RB_OK && !(isfinite(f->heat_range) && f->heat_range > 0.0))
+            s = rb_fail(why, RB_EINVAL, "mu-heat: expected a range of temperatures > 0, got %g",
+                        f->heat_range);
+        if (s == RB_OK && rc->formulation != RB_STATIC && !rb_rolling_has_heat(rc))
+            s = rb_fail(why, RB_EINVAL, "mu-heat: needs temperatures, add --conductivity");
+    }
+    if (s == RB_OK && f->memory != 0.0) {
+        s = rb_rolling_check_number("memory", f->memory, why);
+        if (s == RB_OK)
+            s = rb_rolling_check_number("memory", f->memory_slip, why);
+    }
     if (s == RB_OK && end_of_range(rc, -1.0) < 0.0)
         s = rb_fail(why, RB_EINVAL, "friction law %s: expected mu >= 0 everywhere, got %g at least",
                     names[f->law], end_of_range(rc, -1.0));

@@ -5,17 +5,10 @@
  * round in circles. */
 enum { PATH = 12 };
 
-/* The kept LU of all tractions, or those of the normal and of the tangential ones, which
- * are less together; before it the problem of half as many elements and its LU. */
-static double newton_numbers(double n, double lu)
-{
-    return fmax(lu, n * n + 0.25 * lu) + PATH * n;
-}
-
 double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unknowns)
 {
     const rb_rolling_mesh mesh = {.n = n};
-    const double square = (double)n * n;
+    const double square = (double)n * n, lu = (double)unknowns * unknowns;
 
     /* similar bodies: one group of unknowns at once */
     if (rb_rolling_is_large(rc, &mesh))
@@ -24,11 +17,13 @@ double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unkn
                n;
     /* Numbers per n^2 of Lemke's method on an LCP of order 3n: its matrix and the
      * tableau. In Kwak's form also the inverse, and a tableau rebuilt for accuracy: 3n
-     * rows of the at most 2n variables in the basis. */
+     * rows of the at most 2n variables in the basis.  Newton's method: the kept LU of all
+     * tractions, or those of the normal and of the tangential ones, which are less
+     * together; before it the problem of half as many elements and its LU. */
     const double lcp =
         rc->contact.solver == RB_SOLVER_LEMKE
             ? (rc->contact.lcp_form == RB_LCP_KWAK ? 9.0 + 9.0 + 1.0 + 6.0 : 9.0 + 9.0) * square
-            : newton_numbers(n, (double)unknowns * unknowns);
+            : fmax(lu, square + 0.25 * lu) + PATH * (double)n;
     /* What the memory of a body adds to its flexibility is kept for the hysteresis of
      * pairs with a wheel. */
     const int bodies = (rc->a.memory.n > 0) + (rc->elastic_b && rc->b.memory.n > 0);

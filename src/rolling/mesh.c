@@ -51,28 +51,22 @@ double rb_rolling_rise_at_corners(const rb_rolling_case *rc, double from, double
     return rb_rolling_derive(rc).modulus * most / (2.0 * M_PI);
 }
 
-static double round_gap(const rb_rolling_case *rc, double x)
-{
-    if (rc->gap == RB_GAP_TABLE)
-        return rb_rolling_profile_gap(rc->profile, x);
-    if (rc->gap == RB_GAP_EXACT) {
-        /* The difference of the heights x^2/(R + sqrt(R^2 - x^2)) of two circles, formed
-         * from that of their radii: a journal may be smaller than its bore by a part in a
-         * million. */
-        if (!(rc->b.radius < 0.0))
-            return rb_bem_circle_height(rc->a.radius, x) +
-                   (isfinite(rc->b.radius) ? rb_bem_circle_height(rc->b.radius, x) : 0.0);
-        const double bore = -rc->b.radius;
-        const double a = sqrt(rc->a.radius * rc->a.radius - x * x), b = sqrt(bore * bore - x * x);
-        return x * x * (bore - rc->a.radius) * (1.0 + (rc->a.radius + bore) / (a + b)) /
-               ((rc->a.radius + a) * (bore + b));
-    }
-    return x * x / (2.0 * rb_rolling_radius(rc));
-}
-
 double rb_rolling_initial_gap(const rb_rolling_case *rc, double x)
 {
-    return round_gap(rc, x) + rb_rolling_worn_depth(rc, x);
+    const double worn = rb_rolling_worn_depth(rc, x), R = rc->a.radius, bore = -rc->b.radius;
+
+    if (rc->gap == RB_GAP_TABLE)
+        return rb_rolling_profile_gap(rc->profile, x) + worn;
+    if (rc->gap == RB_GAP_PARABOLA)
+        return x * x / (2.0 * rb_rolling_radius(rc)) + worn;
+    if (!(bore > 0.0))
+        return rb_bem_circle_height(R, x) +
+               (isfinite(bore) ? rb_bem_circle_height(rc->b.radius, x) : 0.0) + worn;
+    /* The difference of the heights x^2/(R + sqrt(R^2 - x^2)) of two circles, formed from
+     * that of their radii: a journal may be smaller than its bore by a part in a
+     * million. */
+    const double a = sqrt(R * R - x * x), b = sqrt(bore * bore - x * x);
+    return x * x * (bore - R) * (1.0 + (R + bore) / (a + b)) / ((R + a) * (bore + b)) + worn;
 }
 
 static rb_status mesh_alloc(int n, rb_rolling_mesh *mesh)
@@ -163,31 +157,24 @@ static rb_status check_extent(const rb_rolling_case *rc, double from, double to,
     return RB_OK;
 }
 
-/* Equal elements of a boundary-element cylinder are equal arcs, of a half-plane equal
+/* n equal elements: of a boundary-element cylinder equal arcs, of a half-plane equal
  * lengths; both are symmetric to rounding where from = -to. */
-static void equal_ends(const rb_rolling_case *rc, double from, double to, int n, double *ends)
-{
-    const double R = rb_rolling_body_can(&rc->a, RB_BODY_FLAT) ? INFINITY : rc->a.radius;
-    const double s0 = isinf(R) ? from : R * asin(from / R);
-    const double s1 = isinf(R) ? to : R * asin(to / R);
-
-    for (int i = 0; i <= n + 1; i++) {
-        const double s = (s0 * (n - i) + s1 * i) / n;
-        ends[i] = isinf(R) ? s : R * sin(s / R);
-    }
-}
-
-/* n equal elements. */
 static rb_status equal_elements(const rb_rolling_case *rc, int n, double from, double to,
                                 rb_rolling_mesh *mesh, rb_message *why)
 {
+    const double R = rb_rolling_body_can(&rc->a, RB_BODY_FLAT) ? INFINITY : rc->a.radius;
     rb_status s = check_extent(rc, from, to, why);
 
     if (s == RB_OK)
         s = mesh_alloc(n, mesh);
     if (s != RB_OK)
         return s;
-    equal_ends(rc, from, to, mesh->n, mesh->ends);
+    const double first = isinf(R) ? from : R * asin(from / R),
+                 last = isinf(R) ? to : R * asin(to / R);
+    for (int i = 0; i <= n + 1; i++) {
+        const double arc = (first * (n - i) + last * i) / n;
+        mesh->ends[i] = isinf(R) ? arc : R * sin(arc / R);
+    }
     s = rb_rolling_mesh_set_gap(rc, mesh);
     if (s == RB_OK && mesh->ends[mesh->n + 1] > mesh->ends[mesh->n])
         return RB_OK;

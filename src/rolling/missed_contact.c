@@ -74,22 +74,6 @@ static rb_status gather_strips(const rb_rolling_mesh *mesh, const rb_contact_sta
     return RB_OK;
 }
 
-/* Of a half-plane. */
-static rb_status add_halfplane(const rb_rolling_case *rc, const rb_rolling_body *body,
-                               double coupling, const strips *s, const targets *at)
-{
-    double length[RB_ROLLING_TERMS];
-    const rb_bem_surface surface = rb_rolling_surface_of(rc, body, length);
-    double *q = rb_alloc((size_t)s->n, 1);
-    if (!q)
-        return RB_ENOMEM;
-    cblas_daxpy(s->n, coupling, s->q, 1, q, 1);
-    const rb_bem_edge_load loads = {s->n, s->ends, s->p, q};
-    const rb_status status = rb_bem_surface_add_normal(&surface, &loads, at->n, at->x, at->w);
-    free(q);
-    return status;
-}
-
 typedef struct {
     double x, u;
 } point;
@@ -100,51 +84,14 @@ static int by_x(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* u_y of boundary elements by their system. */
-static rb_status solved_rim(const rb_rolling_model *model, const rb_contact_state *state, int is_b,
-                            double coupling, const rb_bem_mesh *mesh, double *u)
-{
-    const int n = model->mesh.n;
-    double *t_c = rb_alloc(2 * (size_t)n, 1), *all = rb_alloc(2 * (size_t)mesh->n, 2);
-    rb_status s = t_c && all ? RB_OK : RB_ENOMEM;
-
-    for (int i = 0; i < n && s == RB_OK; i++) {
-        t_c[2 * i] = coupling * state->q[i];
-        t_c[2 * i + 1] = state->p[i];
-    }
-    if (s == RB_OK)
-        s = rb_bem_system_solve(is_b ? model->bodies.system_b : model->bodies.system_a, t_c, all,
-                                all + 2 * mesh->n);
-    for (int j = 0; j < mesh->n && s == RB_OK; j++)
-        u[j] = all[2 * j + 1];
-    free(t_c);
-    free(all);
-    return s;
-}
-
-/* The same at n places x, of a cover. */
-static rb_status waved_rim(const rb_rolling_model *model, int is_b, double coupling,
-                           const strips *s, int n, const double *x, double *u)
-{
-    double length[RB_ROLLING_TERMS];
-    const rb_bem_wheel wheel =
-        rb_rolling_wheel_of(model->rc, is_b ? &model->rc->b : &model->rc->a, length);
-    double *q = rb_alloc((size_t)s->n, 1);
-    if (!q)
-        return RB_ENOMEM;
-    cblas_daxpy(s->n, coupling, s->q, 1, q, 1);
-    const rb_bem_edge_load load = {s->n, s->ends, s->p, q};
-    const rb_status status = rb_bem_wheel_normal(&wheel, &load, n, x, u);
-    free(q);
-    return status;
-}
-
-/* Of the lower half of a wheel, between the midpoints of its boundary elements. */
+/* Of the lower half of a wheel, between the midpoints of its boundary elements, by their
+ * system; of a cover, by its waves under the loads. */
 static rb_status add_wheel(const rb_rolling_model *model, const rb_contact_state *state, int is_b,
-                           const strips *loads, const targets *to)
+                           const rb_bem_edge_load *loads, const targets *to)
 {
-    const double radius = (is_b ? model->rc->b : model->rc->a).radius, coupling = is_b ? -1.0 : 1.0;
-    const int solved = (is_b ? model->bodies.system_b : model->bodies.system_a) != NULL;
+    const rb_rolling_body *body = is_b ? &model->rc->b : &model->rc->a;
+    rb_bem_system *system = is_b ? model->bodies.system_b : model->bodies.system_a;
+    const double radius = body->radius, coupling = is_b ? -1.0 : 1.0;
     rb_bem_mesh mesh;
     rb_status s = rb_rolling_boundary_mesh(model, is_b, &mesh, NULL);
     double *u = s == RB_OK ? rb_alloc((size_t)mesh.n, 2) : NULL;
@@ -153,8 +100,22 @@ static rb_status add_wheel(const rb_rolling_model *model, const rb_contact_state
 
     if (s == RB_OK && !at)
         s = RB_ENOMEM;
-    if (s == RB_OK && solved)
-        s = solved_rim(model, state, is_b, coupling, &mesh, u);
+    if (s == RB_OK && system) {
+        const int n = model->mesh.n;
+        double *t_c = rb_alloc(2 * (size_t)n, 1), *all = rb_alloc(2 * (size_t)mesh.n, 2);
+        s = t_c && all ? RB_OK : RB_ENOMEM;
+
+        for (int i = 0; i < n && s == RB_OK; i++) {
+            t_c[2 * i] = coupling * state->q[i];
+            t_c[2 * i + 1] = state->p[i];
+        }
+        if (s == RB_OK)
+            s = rb_bem_system_solve(system, t_c, all, all + 2 * mesh.n);
+        for (int j = 0; j < mesh.n && s == RB_OK; j++)
+            u[j] = all[2 * j + 1];
+        free(t_c);
+        free(all);
+    }
     for (int j = 0; j < mesh.n && s == RB_OK; j++) {
         const double mx = 0.5 * (mesh.x0[j] + mesh.x1[j]);
         const double my = 0.5 * (mesh.y0[j] + mesh.y1[j]);
@@ -162,11 +123,12 @@ static rb_status add_wheel(const rb_rolling_model *model, const rb_contact_state
         if (is_rim && my < radius)
             at[lower++] = (point){mx, u[j]};
     }
-    if (s == RB_OK && !solved) {
-        double *x = u + mesh.n;
+    if (s == RB_OK && !system) {
+        double length[RB_ROLLING_TERMS], *x = u + mesh.n;
+        const rb_bem_wheel wheel = rb_rolling_wheel_of(model->rc, body, length);
         for (int i = 0; i < lower; i++)
             x[i] = at[i].x;
-        s = waved_rim(model, is_b, coupling, loads, lower, x, u);
+        s = rb_bem_wheel_normal(&wheel, loads, lower, x, u);
         for (int i = 0; i < lower; i++)
             at[i].u = u[i];
     }
@@ -192,32 +154,21 @@ static rb_status add_wheel(const rb_rolling_model *model, const rb_contact_state
 static rb_status add_bodies(const rb_rolling_model *model, const rb_contact_state *state,
                             const strips *s, const targets *to)
 {
-    rb_status status = RB_OK;
+    double *q = rb_alloc((size_t)s->n, 1);
+    rb_status status = q ? RB_OK : RB_ENOMEM;
     for (int b = 0; b < 1 + model->rc->elastic_b && status == RB_OK; b++) {
-        /* Of one body; B is mirrored. */
         const rb_rolling_body *body = b ? &model->rc->b : &model->rc->a;
-
-        status = rb_rolling_body_can(body, RB_BODY_FLAT)
-                     ? add_halfplane(model->rc, body, b ? -1.0 : 1.0, s, to)
-                     : add_wheel(model, state, b, s, to);
+        const rb_bem_edge_load loads = {s->n, s->ends, s->p, q};
+        for (int k = 0; k < s->n; k++)
+            q[k] = (b ? -1.0 : 1.0) * s->q[k]; /* B is mirrored */
+        if (rb_rolling_body_can(body, RB_BODY_FLAT)) {
+            double length[RB_ROLLING_TERMS];
+            const rb_bem_surface surface = rb_rolling_surface_of(model->rc, body, length);
+            status = rb_bem_surface_add_normal(&surface, &loads, to->n, to->x, to->w);
+        } else
+            status = add_wheel(model, state, b, &loads, to);
     }
-    return status;
-}
-
-/* Pressed half-planes are displaced the less the further away: between from and to
- * nowhere less than at that length from either end.  A bound for wheels is not needed:
- * all their places cost one solve. */
-static rb_status least_displacement(const rb_rolling_model *model, const rb_contact_state *state,
-                                    const strips *s, double from, double to, double *least)
-{
-    const double x[2] = {2.0 * from - to, 2.0 * to - from};
-    double w[2] = {0.0, 0.0};
-
-    *least = -INFINITY;
-    if (!rb_rolling_can(model->rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS))
-        return RB_OK;
-    const rb_status status = add_bodies(model, state, s, &(targets){2, x, w});
-    *least = fmin(w[0], w[1]);
+    free(q);
     return status;
 }
 
@@ -249,15 +200,6 @@ static rb_status displacement(const rb_rolling_model *model, const rb_contact_st
 /* ---- Overlaps between the elements
  * ------------------------------------------------------- */
 
-/* Element of the mesh that x lies in; -1, n: before and behind all. */
-static int element_at(const rb_rolling_mesh *mesh, double x)
-{
-    if (x < mesh->ends[0])
-        return -1;
-    return x < mesh->ends[mesh->n] ? (int)gsl_interp_bsearch(mesh->ends, x, 0, (size_t)mesh->n)
-                                   : mesh->n;
-}
-
 static double shortest(const rb_rolling_mesh *mesh)
 {
     double h = INFINITY;
@@ -270,10 +212,9 @@ static double shortest(const rb_rolling_mesh *mesh)
  * at their midpoints only. */
 static int is_unseen(const rb_rolling_mesh *mesh, const rb_contact_state *state, double h, double x)
 {
-    const int i = element_at(mesh, x);
-
-    if (i < 0 || i >= mesh->n)
+    if (x < mesh->ends[0] || x >= mesh->ends[mesh->n])
         return 1;
+    const int i = (int)gsl_interp_bsearch(mesh->ends, x, 0, (size_t)mesh->n);
     return !is_loaded(state, i - 1) && !is_loaded(state, i) && !is_loaded(state, i + 1) &&
            mesh->ends[i + 1] - mesh->ends[i] > 2.0 * h;
 }
@@ -325,45 +266,22 @@ static void find_tables(const rb_rolling_model *model, table t[TABLES])
         t[0].n = rb_rolling_profile_rows(rc->profile, &t[0].x);
 }
 
-/* Neighbouring places of overlap as one stretch, reaching to the next places without, or
- * by h where there is none. */
-static void add_place(const double *x, int places, int i, double h, rb_rolling_overlap *o)
-{
-    const double from = i > 0 ? x[i - 1] : x[i] - h;
-    const double to = i + 1 < places ? x[i + 1] : x[i] + h;
-    const int last = o->count - 1;
-
-    if (o->count > 0 && (from <= o->to[last] || o->count == RB_MOST_OVERLAPS))
-        o->to[last] = to;
-    else {
-        o->from[o->count] = from;
-        o->to[o->count++] = to;
-    }
-}
-
-/* Of undeformed gaps: the one at the edge of Hertz's contact under the state's load. */
-static double hertz_edge_gap(const rb_rolling_model *model, const rb_contact_state *state)
-{
-    const double P = cblas_ddot(state->n, model->problem.load_N, 1, state->p, 1);
-
-    return 2.0 * fmax(P, 0.0) / (M_PI * rb_rolling_derive(model->rc).modulus);
-}
-
 /* The same in the room for x, w and gap. */
 static rb_status look(const rb_rolling_model *model, const rb_contact_state *state, const strips *s,
                       size_t scratch, double *x, rb_rolling_overlap *o)
 {
     const rb_rolling_mesh *mesh = &model->mesh;
-    const double tolerance = NEGLIGIBLE * hertz_edge_gap(model, state);
+    /* A part of the undeformed gap at the edge of Hertz's contact under the state's load. */
+    const double P = cblas_ddot(state->n, model->problem.load_N, 1, state->p, 1);
+    const double tolerance =
+        NEGLIGIBLE * 2.0 * fmax(P, 0.0) / (M_PI * rb_rolling_derive(model->rc).modulus);
     const double h = shortest(mesh);
-    double from, to;
-    double *w = x + scratch, *gap = w + scratch, least;
-    int places;
+    double limit[2], *w = x + scratch, *gap = w + scratch, least = -INFINITY;
+    int places = 0;
     /* Places of all tables in order, and the undeformed gap there. */
     table t[TABLES];
 
     find_tables(model, t);
-    places = 0;
     for (int k = 0; k < TABLES; k++)
         if (t[k].n > 1)
             places = add_places(model, state, &t[k], x, places);
@@ -372,8 +290,17 @@ static rb_status look(const rb_rolling_model *model, const rb_contact_state *sta
 
     if (status != RB_OK || places == 0)
         return status;
-    status = least_displacement(model, state, s, fmin(x[0], mesh->ends[0]),
-                                fmax(x[places - 1], mesh->ends[mesh->n]), &least);
+    if (rb_rolling_can(model->rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS)) {
+        /* Pressed half-planes are displaced the less the further away: between these ends
+         * nowhere less than at that length from either.  A bound for wheels is not needed:
+         * all their places cost one solve. */
+        const double from = fmin(x[0], mesh->ends[0]),
+                     to = fmax(x[places - 1], mesh->ends[mesh->n]),
+                     beyond[2] = {2.0 * from - to, 2.0 * to - from};
+        double there[2] = {0.0, 0.0};
+        status = add_bodies(model, state, s, &(targets){2, beyond, there});
+        least = fmin(there[0], there[1]);
+    }
     if (status != RB_OK)
         return status;
     /* The places that the displacements may close. */
@@ -390,12 +317,19 @@ static rb_status look(const rb_rolling_model *model, const rb_contact_state *sta
     if (places > 0)
         status = displacement(model, state, s, &(targets){places + 2, x, w});
     for (int i = 0; i < places && status == RB_OK; i++)
-        if (gap[i] - state->delta + w[i] < -tolerance)
-            add_place(x, places, i, h, o);
-    rb_rolling_extent(model->rc, &from, &to);
+        if (gap[i] - state->delta + w[i] < -tolerance) {
+            /* Neighbouring places of overlap are one stretch, which reaches to the next
+             * places without, or by h where there is none. */
+            const double from = i > 0 ? x[i - 1] : x[i] - h;
+            const double to = i + 1 < places ? x[i + 1] : x[i] + h;
+            if (o->count == 0 || (from > o->to[o->count - 1] && o->count < RB_MOST_OVERLAPS))
+                o->from[o->count++] = from;
+            o->to[o->count - 1] = to;
+        }
+    rb_rolling_extent(model->rc, &limit[0], &limit[1]);
     for (int k = 0; k < o->count; k++) {
-        o->from[k] = fmax(o->from[k], from);
-        o->to[k] = fmin(o->to[k], to);
+        o->from[k] = fmax(o->from[k], limit[0]);
+        o->to[k] = fmin(o->to[k], limit[1]);
     }
     return status;
 }

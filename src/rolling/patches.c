@@ -177,16 +177,6 @@ static void set_peak(const rb_rolling_mesh *mesh, const double *p, const rb_roll
     patch->peak += at;
 }
 
-static int count_patches(const rb_rolling_model *model)
-{
-    rb_rolling_run run = {.last = -1};
-    int count = 0;
-
-    while (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run))
-        count++;
-    return count;
-}
-
 double rb_rolling_peak_pressure(const rb_rolling_model *model)
 {
     rb_rolling_run run = {.last = -1};
@@ -203,12 +193,16 @@ double rb_rolling_peak_pressure(const rb_rolling_model *model)
 rb_status rb_rolling_set_patches(const rb_rolling_model *model, rb_rolling_solution *s)
 {
     rb_rolling_run run = {.last = -1};
+    size_t count = 0;
 
+    while (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run))
+        count++;
     s->contact_from = s->contact_to = NAN;
     s->max_pressure = 0.0;
-    s->patch = calloc((size_t)count_patches(model) + 1, sizeof *s->patch);
+    s->patch = calloc(count + 1, sizeof *s->patch);
     if (!s->patch)
         return RB_ENOMEM;
+    run.last = -1;
     while (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run)) {
         const rb_contact_problem *problem = &model->problem;
         const rb_contact_state *state = &model->state;

@@ -94,17 +94,31 @@ void rb_rolling_torques(const rb_rolling_case *rc, double moment, double force, 
                     : NAN;
 }
 
-/* With wheels: of each body by itself what memory adds, because the elastic part, which
- * costs nothing, would leave the error of the mesh.  r, w: room for 2m each. */
-static double work_of_memories(const rb_rolling_model *model, double *r, double *w)
+rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
 {
-    const rb_bem_flexibility *f = &model->bodies.f;
+    const rb_contact_problem *p = &model->problem;
     const rb_contact_state *state = &model->state;
+    const rb_bem_flexibility *f = &model->bodies.f;
     const rb_rolling_body *const body[] = {&model->rc->a, &model->rc->b};
-    const int n = f->n, rows = 2 * f->m;
-    double power = 0.0;
+    const int n = p->n, rows = 2 * (n + 1), flat = rb_rolling_can(model->rc, RB_BODY_FLAT);
 
-    for (int b = 0; b < 2; b++) {
+    *power = model->rc->formulation == RB_STEADY ? 0.0 : NAN;
+    if (model->rc->formulation != RB_STEADY || !rb_rolling_relaxes(model->rc))
+        return RB_OK;
+    double *w = rb_alloc((size_t)(rows + 2 * n), 1), *r = w + rows;
+    rb_status s = w ? RB_OK : RB_ENOMEM;
+    if (s == RB_OK && flat)
+        s = rb_rolling_displacement(&model->bodies, state->p, state->q, w);
+    if (s == RB_OK && flat) {
+        /* the surface's own part of the slip is paired with friction as all of it is */
+        for (int i = 0; i < n; i++)
+            r[i] = state->lambda[i] - state->xi * p->e_T[i];
+        *power = normal_work(n, f->x, w, state->p, f->h) -
+                 paired_power(model->rc, n, r, state->q, f->h, p->e_T);
+    }
+    /* With wheels: of each body by itself what memory adds, because the elastic part, which
+     * costs nothing, would leave the error of the mesh. */
+    for (int b = 0; b < 2 && s == RB_OK && !flat; b++) {
         if (!model->bodies.memory[b])
             continue;
         const int turns = !(rb_rolling_kind_of(body[b])->can & RB_BODY_FLAT) &&
@@ -115,46 +129,16 @@ static double work_of_memories(const rb_rolling_model *model, double *r, double 
         }
         cblas_dgemv(CblasColMajor, CblasNoTrans, rows, 2 * n, 1.0, model->bodies.memory[b], rows, r,
                     1, 0.0, w, 1);
-        /* -int t Dw ds of one body for the displacement w (2m) that its memory adds under
-         * p, q. D w follows the material: on a wheel the frame of the surface turns with
-         * it, so that D (w_N, w_T) = (w_N' - w_T/R, w_T' + w_N/R); radius: INFINITY on a
-         * half-plane, and where w is in that frame already. */
-        const double radius = turns ? body[b]->radius : INFINITY;
-        const double *q = r + n;
-        const double *w_N = w, *w_T = w + n + 1;
+        /* -int t Dw ds for the displacement w that the memory adds under p, q.  D w
+         * follows the material: on a wheel the frame of the surface turns with it, so that
+         * D (w_N, w_T) = (w_N' - w_T/R, w_T' + w_N/R); not on a half-plane, and not where
+         * w is in that frame already. */
+        const double *q = r + n, *w_N = w, *w_T = w + n + 1;
         double turned = 0.0;
-
         for (int i = 0; i < n; i++)
             turned += (r[i] * w_T[i] - q[i] * w_N[i]) * f->h[i];
-        power += normal_work(n, f->x, w_N, r, f->h) + normal_work(n, f->x, w_T, q, f->h) +
-                 turned / radius;
-    }
-    return power;
-}
-
-rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
-{
-    const rb_contact_problem *p = &model->problem;
-    const rb_contact_state *state = &model->state;
-    const int n = p->n;
-
-    *power = model->rc->formulation == RB_STEADY ? 0.0 : NAN;
-    if (model->rc->formulation != RB_STEADY || !rb_rolling_relaxes(model->rc))
-        return RB_OK;
-    double *w = rb_alloc(4 * (size_t)n + 2, 1), *strain = w + 2 * (n + 1);
-    if (w && !rb_rolling_can(model->rc, RB_BODY_FLAT)) {
-        *power = work_of_memories(model, strain, w);
-        free(w);
-        return RB_OK;
-    }
-    const rb_status s =
-        w ? rb_rolling_displacement(&model->bodies, state->p, state->q, w) : RB_ENOMEM;
-    if (s == RB_OK) {
-        /* the surface's own part of the slip is paired with friction as all of it is */
-        for (int i = 0; i < n; i++)
-            strain[i] = state->lambda[i] - state->xi * p->e_T[i];
-        *power = normal_work(n, model->bodies.f.x, w, state->p, model->bodies.f.h) -
-                 paired_power(model->rc, n, strain, state->q, model->bodies.f.h, p->e_T);
+        *power += normal_work(n, f->x, w_N, r, f->h) + normal_work(n, f->x, w_T, q, f->h) +
+                  (turns ? turned / body[b]->radius : 0.0);
     }
     free(w);
     return s;

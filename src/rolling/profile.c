@@ -25,21 +25,6 @@ struct rb_rolling_profile {
 
 /* ---- Checks ------------------------------------------------------------------------ */
 
-/* The contact starts where the gap is smallest: inside the table, or the table has not
- * the contact in it. */
-static rb_status check_lowest(int n, const double *gap, rb_message *why)
-{
-    const int end = gap[0] < gap[n - 1] ? 0 : n - 1;
-
-    for (int i = 1; i < n - 1; i++)
-        if (gap[i] < gap[end])
-            return RB_OK;
-    return rb_fail(why, RB_EINVAL,
-                   "gap: row %d: the smallest gap, %g mm, is at an end of the table, which must "
-                   "enclose the contact; gaps are positive where the bodies are apart",
-                   end + 1, gap[end]);
-}
-
 rb_status rb_rolling_points_check(const char *what, int n, const double *x, const double *gap,
                                   rb_message *why)
 {
@@ -143,80 +128,55 @@ static double distance_of(smoothing *s, double lambda)
     return sqrt(sum / s->n);
 }
 
-static rb_status smoothing_create(int n, const double *x, const double *gap, double noise,
-                                  smoothing *s)
+/* The curve itself: the ends of the intervals and the smoothed values there. */
+typedef struct {
+    int n;
+    double *x, *gap; /* n; gap is owned and holds both */
+} points;
+
+static rb_status smooth(int n, const double *x, const double *gap, double noise, points *curve)
 {
     const int m = n - 1 < MOST_INTERVALS ? n - 1 : MOST_INTERVALS;
     const size_t size = (size_t)m + 3;
+    smoothing s = {.n = n, .m = m, .x = x};
+    rb_status status = RB_ENOMEM;
 
-    *s = (smoothing){.n = n, .m = m, .x = x};
-    s->residual = rb_alloc((size_t)n, 1);
-    s->normal = rb_alloc(size, 2 * BAND + 2);
-    if (!s->residual || !s->normal)
-        return RB_ENOMEM;
-    s->band = s->normal + BAND * size;
-    s->load = s->band + BAND * size;
-    s->c = s->load + size;
-    const rb_status status = take_parabola(s, gap);
-    if (status != RB_OK)
-        return status;
-    const double weight = (double)s->m / s->n;
-
-    for (int i = 0; i < s->n; i++) {
+    s.residual = rb_alloc((size_t)n, 1);
+    s.normal = rb_alloc(size, 2 * BAND + 2);
+    *curve = (points){.n = m + 1, .gap = rb_alloc((size_t)m + 1, 2)};
+    curve->x = curve->gap + m + 1;
+    if (s.residual && s.normal && curve->gap) {
+        s.band = s.normal + BAND * size;
+        s.load = s.band + BAND * size;
+        s.c = s.load + size;
+        status = take_parabola(&s, gap);
+    }
+    const double weight = (double)m / n;
+    for (int i = 0; i < n && status == RB_OK; i++) {
         double b[BAND];
-        const int k = basis(s, s->x[i], b);
+        const int k = basis(&s, x[i], b);
         for (int p = 0; p < BAND; p++) {
-            s->load[k + p] += weight * b[p] * s->residual[i];
+            s.load[k + p] += weight * b[p] * s.residual[i];
             for (int q = p; q < BAND; q++)
-                s->normal[(size_t)BAND * (size_t)(k + p) + (size_t)(q - p)] += weight * b[p] * b[q];
+                s.normal[(size_t)BAND * (size_t)(k + p) + (size_t)(q - p)] += weight * b[p] * b[q];
         }
     }
     /* The largest lambda that leaves the points within the noise (Morozov's principle).
      * Of n points with that noise the sum of squares is n +- sqrt(2n) times its square;
      * curves up to twice that deviation are within it. */
-    const double bound = noise * sqrt(1.0 + 2.0 * sqrt(2.0 / s->n));
+    const double bound = noise * sqrt(1.0 + 2.0 * sqrt(2.0 / n));
     double low = WEAKEST, high = STRONGEST;
 
-    for (int k = 0; k < HALVINGS; k++) {
+    for (int k = 0; k < HALVINGS && status == RB_OK; k++) {
         const double lambda = sqrt(low * high);
-        if (distance_of(s, lambda) > bound)
-            high = lambda;
-        else
-            low = lambda;
+        *(distance_of(&s, lambda) > bound ? &high : &low) = lambda;
     }
-    distance_of(s, low);
-    return RB_OK;
-}
-
-/* ---- The curve --------------------------------------------------------------------- */
-
-static rb_status set_spline(rb_rolling_profile *p, int n, const double *x, const double *gap)
-{
-    p->from = x[0];
-    p->to = x[n - 1];
-    p->spline = gsl_spline_alloc(gsl_interp_cspline, (size_t)n);
-    return p->spline && gsl_spline_init(p->spline, x, gap, (size_t)n) == 0 ? RB_OK : RB_ENOMEM;
-}
-
-/* Through the smoothed values at the ends of the intervals. */
-static rb_status set_smoothed(rb_rolling_profile *p, int n, const double *x, const double *gap,
-                              double noise)
-{
-    smoothing s;
-    rb_status status = smoothing_create(n, x, gap, noise, &s);
-    double *at = status == RB_OK ? rb_alloc((size_t)s.m + 1, 2) : NULL;
-
-    if (at) {
-        double *smoothed = at + s.m + 1;
-        for (int k = 0; k <= s.m; k++) {
-            at[k] = k < s.m ? x[0] + (x[n - 1] - x[0]) * k / s.m : x[n - 1];
-            smoothed[k] = parabola(&s, at[k]) + value(&s, at[k]);
-        }
-        status = set_spline(p, s.m + 1, at, smoothed);
-    } else {
-        status = RB_ENOMEM;
+    if (status == RB_OK)
+        distance_of(&s, low);
+    for (int k = 0; k <= m && status == RB_OK; k++) {
+        curve->x[k] = k < m ? x[0] + (x[n - 1] - x[0]) * k / m : x[n - 1];
+        curve->gap[k] = parabola(&s, curve->x[k]) + value(&s, curve->x[k]);
     }
-    free(at);
     free(s.residual);
     free(s.normal);
     return status;
@@ -227,20 +187,35 @@ rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, d
 {
     *profile = NULL;
     rb_status s = rb_rolling_points_check("gap", n, x, gap, why);
-    if (s == RB_OK) {
-        if (!(isfinite(noise) && noise >= 0.0))
-            s = rb_fail(why, RB_EINVAL, "gap smoothing: expected >= 0, got %g", noise);
-        else {
-            if (noise > 0.0 && !(1e-9 * fmax(fabs(x[0]), fabs(x[n - 1])) < x[n - 1] - x[0]))
-                s = rb_fail(why, RB_EINVAL, "gap: all points lie at x = %g", x[0]);
-        }
-    }
     if (s == RB_OK)
-        s = check_lowest(n, gap, why);
+        s = rb_rolling_check_number("gap-smoothing", noise, why);
+    if (s == RB_OK && noise > 0.0 && !(1e-9 * fmax(fabs(x[0]), fabs(x[n - 1])) < x[n - 1] - x[0]))
+        s = rb_fail(why, RB_EINVAL, "gap: all points lie at x = %g", x[0]);
     if (s != RB_OK)
         return s;
+    /* The contact starts where the gap is smallest: inside the table, or the table has not
+     * the contact in it. */
+    const int end = gap[0] < gap[n - 1] ? 0 : n - 1;
+    int lowest = end;
+    for (int i = 1; i < n - 1; i++)
+        lowest = gap[i] < gap[lowest] ? i : lowest;
+    if (lowest == end)
+        return rb_fail(why, RB_EINVAL,
+                       "gap: row %d: the smallest gap, %g mm, is at an end of the table, which "
+                       "must enclose the contact; gaps are positive where the bodies are apart",
+                       end + 1, gap[end]);
     rb_rolling_profile *p = calloc(1, sizeof *p);
-    s = !p ? RB_ENOMEM : noise > 0.0 ? set_smoothed(p, n, x, gap, noise) : set_spline(p, n, x, gap);
+    points smoothed = {.gap = NULL};
+    s = !p ? RB_ENOMEM : noise > 0.0 ? smooth(n, x, gap, noise, &smoothed) : RB_OK;
+    if (s == RB_OK) {
+        const size_t rows = (size_t)(noise > 0.0 ? smoothed.n : n);
+        const double *at = noise > 0.0 ? smoothed.x : x, *y = noise > 0.0 ? smoothed.gap : gap;
+        p->from = at[0];
+        p->to = at[rows - 1];
+        p->spline = gsl_spline_alloc(gsl_interp_cspline, rows);
+        s = p->spline && gsl_spline_init(p->spline, at, y, rows) == 0 ? RB_OK : RB_ENOMEM;
+    }
+    free(smoothed.gap);
     if (s != RB_OK) {
         rb_rolling_profile_free(p);
         return rb_fail(why, s, "out of memory for a gap of %d points", n);

@@ -9,6 +9,7 @@ enum {
     ROUNDS = 24,
     SEPARATED_AT_END = 3, /* elements that a chosen potential contact ends with */
     IN_CONTACT = 3,       /* elements that they leave to the contact */
+    MANY = 1500,          /* elements whose line is first searched for with few */
     FEW = 150,            /* elements that tell how wide the line of many should be */
     MOST_EQUAL = 3000     /* with a dense matrix, to resolve patches far apart */
 };
@@ -132,38 +133,19 @@ static int is_open(const rb_rolling_model *model)
 
 /* ---- Equal elements ---------------------------------------------------------------- */
 
-/* Lengths of all places in contact together, and how many there are. */
-static int covered(const rb_rolling_model *model, double *length)
-{
-    rb_rolling_run run = {.last = -1};
-    int count = 0;
-
-    *length = 0.0;
-    for (; rb_rolling_next_merged_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run);
-         count++)
-        *length += run.to - run.from;
-    return count;
-}
-
 /* Patches with separated elements between them get elements as short as if they lay side
  * by side. */
 static int elements_for(const rb_rolling_model *model, interval zone)
 {
     const int n = model->plan.elements;
-    double length;
+    rb_rolling_run run = {.last = -1};
+    double covered = 0.0;
+    int patches = 0;
 
-    if (covered(model, &length) < 2)
-        return n;
-    return (int)fmin(1 << 24, fmax(n, ceil(n * width(zone) / (1.5 * length))));
-}
-
-/* 1: so many elements are too many for a dense matrix. */
-static int are_too_many(const rb_rolling_model *model, int elements)
-{
-    const rb_rolling_mesh mesh = {.n = elements};
-
-    return elements > model->plan.elements && elements > MOST_EQUAL &&
-           !rb_rolling_is_large(model->rc, &mesh);
+    for (; rb_rolling_next_merged_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run);
+         patches++)
+        covered += run.to - run.from;
+    return patches < 2 ? n : (int)fmin(1 << 24, fmax(n, ceil(n * width(zone) / (1.5 * covered))));
 }
 
 static rb_status equal_elements(const rb_rolling_model *model, interval zone, int elements,
@@ -190,45 +172,39 @@ static double crossing(const rb_rolling_case *rc, double x, double step, double 
 
 /* Where the undeformed gap is less than at the edge of Hertz's contact, a^2/(2R): this is
  * 2P/(pi E*) and does not depend on the radius. */
-static interval near_gap(const rb_rolling_case *rc, double a, interval limit)
+static interval first_zone(const rb_rolling_case *rc)
 {
     enum { POINTS = 4096 };
+    /* a: Hertz's half-width, or what a soft third body alone would have: P = 2 a^3/(3 R
+     * L_N). */
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+    const double soft = isnan(d.load) ? sqrt(2.0 * d.radius * d.approach)
+                                      : cbrt(1.5 * d.radius * rc->interlayer_normal * d.load);
+    const double a = rc->interlayer_normal > 0.0 ? fmax(d.half_width, soft) : d.half_width;
+    const interval limit = extent(rc);
     const double step = width(limit) / POINTS;
     int lowest = 0, first = 0, last = POINTS;
     double least = INFINITY;
 
+    if (is_symmetric(rc))
+        return within(scaled((interval){-a, a}, 1.3), limit);
     for (int k = 0; k <= POINTS; k++)
         if (rb_rolling_initial_gap(rc, limit.from + k * step) < least) {
             least = rb_rolling_initial_gap(rc, limit.from + k * step);
             lowest = k;
         }
-    double level = least + 0.5 * a * a / rb_rolling_radius(rc);
-    if (!isnan(rb_rolling_derive(rc).approach)) /* beyond it not even rigid bodies touch */
-        level = fmin(level, rb_rolling_derive(rc).approach);
+    double level = least + 0.5 * a * a / d.radius;
+    if (!isnan(d.approach)) /* beyond it not even rigid bodies touch */
+        level = fmin(level, d.approach);
     while (first < lowest && rb_rolling_initial_gap(rc, limit.from + first * step) > level)
         first++;
     while (last > lowest && rb_rolling_initial_gap(rc, limit.from + last * step) > level)
         last--;
-    const interval zone = {crossing(rc, limit.from + first * step, -step, level),
-                           crossing(rc, limit.from + last * step, step, level)};
-    return within(width(zone) > 0.0 ? zone : (interval){zone.from - step, zone.to + step}, limit);
-}
-
-static interval first_zone(const rb_rolling_case *rc)
-{
-    /* Hertz's half-width, or what a soft third body alone would have: P = 2 a^3/(3 R
-     * L_N). */
-    const rb_rolling_derived d = rb_rolling_derive(rc);
-    const double soft = isnan(d.load) ? sqrt(2.0 * d.radius * d.approach)
-                                      : cbrt(1.5 * d.radius * rc->interlayer_normal * d.load);
-
-    const double a = rc->interlayer_normal > 0.0 ? fmax(d.half_width, soft) : d.half_width;
-    const interval limit = extent(rc);
-    interval zone = {-a, a};
-
-    if (!is_symmetric(rc))
-        zone = near_gap(rc, a, limit);
-    return within(scaled(zone, 1.3), limit);
+    interval zone = {crossing(rc, limit.from + first * step, -step, level),
+                     crossing(rc, limit.from + last * step, step, level)};
+    if (!(width(zone) > 0.0))
+        zone = (interval){zone.from - step, zone.to + step};
+    return within(scaled(within(zone, limit), 1.3), limit);
 }
 
 /* ---- The automatic one ------------------------------------------------------------- */
@@ -266,29 +242,6 @@ static rb_status grown(const rb_rolling_model *model, interval zone, interval *w
     }
     *wider = within(*wider, extent(model->rc));
     return s;
-}
-
-/* Many elements need not be solved to learn how wide their line should be. */
-enum { MANY = 1500 };
-
-static interval known_zone(const rb_rolling_model *model)
-{
-    rb_rolling_case equal = *model->rc;
-    rb_rolling_plan few = model->plan;
-    rb_rolling_model first;
-    interval zone = first_zone(model->rc);
-
-    if (few.elements < MANY && !rb_rolling_has_fine_boundary(&few))
-        return zone;
-    if (few.elements >= MANY)
-        few.elements = FEW;
-    rb_rolling_coarsen_boundary(&few);
-    equal.mesh = RB_MESH_UNIFORM;
-    if (rb_rolling_model_begin(&equal, &few, &first, NULL) == RB_OK &&
-        rb_rolling_solve_zone(&first, 0, NULL) == RB_OK)
-        zone = (interval){first.mesh.ends[0], first.mesh.ends[first.mesh.n]};
-    rb_rolling_model_free(&first);
-    return zone;
 }
 
 /* ---- A given one ------------------------------------------------------------------- */
@@ -335,8 +288,22 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
     double too_narrow = 0.0;
     rb_status s = given ? solve_given(model, why) : RB_OK;
 
-    if (!given && (coarse || !(width(before) > 0.0)))
-        zone = known_zone(model);
+    if (!given && (coarse || !(width(before) > 0.0))) {
+        rb_rolling_plan few = model->plan;
+        zone = first_zone(model->rc);
+        if (few.elements >= MANY || rb_rolling_has_fine_boundary(&few)) {
+            /* Few elements tell as well how wide the line should be. */
+            rb_rolling_case equal = *model->rc;
+            rb_rolling_model first;
+            few.elements = few.elements >= MANY ? FEW : few.elements;
+            rb_rolling_coarsen_boundary(&few);
+            equal.mesh = RB_MESH_UNIFORM;
+            if (rb_rolling_model_begin(&equal, &few, &first, NULL) == RB_OK &&
+                rb_rolling_solve_zone(&first, 0, NULL) == RB_OK)
+                zone = (interval){first.mesh.ends[0], first.mesh.ends[first.mesh.n]};
+            rb_rolling_model_free(&first);
+        }
+    }
     for (int round = 0; !given; round++) {
         rb_rolling_mesh mesh;
         interval wider;
@@ -376,7 +343,8 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
             break;
         zone = keeps_zone ? zone : wanted;
         elements = coarse ? elements : elements_for(model, zone);
-        if (are_too_many(model, elements))
+        if (elements > model->plan.elements && elements > MOST_EQUAL &&
+            !rb_rolling_is_large(model->rc, &(rb_rolling_mesh){.n = elements}))
             return rb_fail(why, RB_ZONE,
                            "the patches of the contact are so far apart that %d equal "
                            "elements would be needed; use mesh fitted, or fewer elements",

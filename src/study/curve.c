@@ -101,25 +101,6 @@ static rb_status start_anew(rb_rolling_model *model, rb_message *why)
     return s;
 }
 
-/* A fitted mesh whose contact has moved is fitted again; a potential contact that is full
- * is chosen again. */
-static rb_status follow_contact(rb_rolling_model *model, int fills, double edge[2], rb_message *why)
-{
-    double from, to;
-
-    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
-    const double moved =
-        fmax(fabs(from - edge[0]), fabs(to - edge[1])) / (0.5 * (edge[1] - edge[0]));
-    if (!fills && !(model->rc->mesh != RB_MESH_UNIFORM && moved > REFIT))
-        return RB_OK;
-    const rb_status s = fills                                ? start_anew(model, why)
-                        : model->rc->mesh == RB_MESH_ALIGNED ? rb_rolling_model_realign(model, why)
-                                                             : rb_rolling_model_refit(model, why);
-    if (s == RB_OK)
-        rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge[0], &edge[1]);
-    return s;
-}
-
 static void set_creepage(rb_rolling_variable over, double value, rb_rolling_case *rc)
 {
     rc->creep = over == RB_OVER_CREEP ? value : NAN;
@@ -180,8 +161,21 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
             model->plan.start = &start.table;
             s = t == RB_OK ? s : t;
         }
-        if (s == RB_OK || s == RB_ZONE)
-            s = follow_contact(model, s == RB_ZONE, edge, why);
+        /* A fitted mesh whose contact has moved is fitted again; a potential contact that is
+         * full is chosen again. */
+        double from = NAN, to = NAN;
+        if (s == RB_OK)
+            rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
+        const double moved =
+            fmax(fabs(from - edge[0]), fabs(to - edge[1])) / (0.5 * (edge[1] - edge[0]));
+        if (s == RB_ZONE || (s == RB_OK && steady.mesh != RB_MESH_UNIFORM && moved > REFIT)) {
+            s = s == RB_ZONE                     ? start_anew(model, why)
+                : steady.mesh == RB_MESH_ALIGNED ? rb_rolling_model_realign(model, why)
+                                                 : rb_rolling_model_refit(model, why);
+            if (s == RB_OK)
+                rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge[0],
+                                         &edge[1]);
+        }
         if (s >= 0) {
             const rb_status t = record(model, w, c, why);
             s = t < 0 ? t : s;
