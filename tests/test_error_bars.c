@@ -698,6 +698,50 @@ static void an_accuracy_that_does_not_come_nearer_is_given_up(void **state)
     assert_int_equal(system(line), 0);
 }
 
+/* Two patches, of a parabola of R = 50 with a groove beside its middle: every scalar against
+ * the same on four times the elements. */
+static void two_patches(const char *options, double centre, double width, double depth)
+{
+    char folder[] = "/tmp/rollbem-bars-XXXXXX", line[600];
+    assert_non_null(mkdtemp(folder));
+    snprintf(line, sizeof line, "%s/gap.txt", folder);
+    FILE *file = fopen(line, "w");
+    assert_non_null(file);
+    for (int k = -100; k <= 100; k++) {
+        const double x = 0.04 * k;
+        fprintf(file, "%.10g %.10g\n", x,
+                x * x / 100.0 + depth * exp(-gsl_pow_2((x - centre) / width)));
+    }
+    fclose(file);
+    snprintf(line, sizeof line, " --gap %s/gap.txt --radius 50 --half-width 1%s", folder, options);
+    rb_case *c = case_of(line);
+    assert_non_null(c);
+    counts t;
+    memset(&t, 0, sizeof t);
+    is_shown = "of two patches";
+    count_solution(&rb_case_resolved(c)->rc, &t);
+    is_shown = NULL;
+    assert_int_equal(t.main.unsolved, 0);
+    assert_int_equal(t.main.held, t.main.all);
+    assert_int_equal(t.others.held, t.others.all);
+    assert_true(t.others.all > 4);
+    rb_case_free(c);
+    snprintf(line, sizeof line, "rm -r %s", folder);
+    assert_int_equal(system(line), 0);
+}
+
+/* The moment on 35, 49 and 70 elements agreed by chance; a patch had 12 elements on meshes of
+ * 12, 17 and 25. */
+static void bars_hold_on_two_patches(void **state)
+{
+    two_patches(" --mu 0.191 --poisson 0.47 --support hub --hub-ratio 0.5 --formulation steady"
+                " --creep-ratio -0.283 --contact-elements 70",
+                0.413643, 0.154991, 0.00529010);
+    two_patches(" --mu 0.308 --poisson 0.26 --support halfplane --formulation static"
+                " --shift 0.001953 --mesh fitted --contact-elements 25",
+                -0.243056, 0.141751, 0.00439486);
+}
+
 /* What was refused has no solution and no error bars, not what was in them before. */
 static void a_refusal_sets_every_output(void **state)
 {
@@ -772,6 +816,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(accuracy_is_that_of_the_boundary_too),
         cmocka_unit_test(a_jump_of_friction_beside_the_peak_is_no_error_of_it),
         cmocka_unit_test(an_accuracy_that_does_not_come_nearer_is_given_up),
+        cmocka_unit_test(bars_hold_on_two_patches),
         cmocka_unit_test(a_refusal_sets_every_output),
         cmocka_unit_test(an_accuracy_out_of_reach_is_said_to_be),
         cmocka_unit_test(a_failed_coarser_run_leaves_the_solution),
