@@ -18,18 +18,6 @@ static const double DRIFT = 1e-12;
 
 enum { PANEL = 512 }; /* rows of w formed at a time: no memory is asked for */
 
-/* The larger of worst and max |min(z, w)|; a NaN stays. */
-static double natural(int n, const double *z, const double *w, double worst)
-{
-    for (int i = 0; i < n; i++) {
-        const double m = z[i] < w[i] ? z[i] : w[i];
-        if (isnan(z[i]) || isnan(w[i]) || isnan(worst))
-            return NAN;
-        worst = fmax(worst, fabs(m));
-    }
-    return worst;
-}
-
 /* Half of z and more is zero: only runs of other entries are gone through. */
 static void add_product(int rows, int columns, const double *M, int ldm, const double *z, double *w)
 {
@@ -50,7 +38,11 @@ double rb_lcp_residual(const rb_lcp_problem *p, const double *z, double *w)
         double *part = w ? w + first : panel;
         cblas_dcopy(rows, p->q + first, 1, part, 1);
         add_product(rows, p->n, p->M + first, p->ldm, z, part);
-        worst = natural(rows, z + first, part, worst);
+        for (int i = 0; i < rows; i++) { /* a NaN stays */
+            const double m = z[first + i] < part[i] ? z[first + i] : part[i];
+            worst =
+                isnan(z[first + i]) || isnan(part[i]) || isnan(worst) ? NAN : fmax(worst, fabs(m));
+        }
     }
     return worst;
 }
@@ -152,37 +144,6 @@ static void correct(const lemke *l, const final_basis *b, double *w, double *r, 
         x[b->index[k]] -= r[k];
 }
 
-/* Removes the pivots' rounding errors: z_B from the final basis B and the original
- * matrix, one factorisation (in the tableau's memory) and one correction.  Taken only
- * when it is the better of the two. */
-static void polish(lemke *l, double *z)
-{
-    const size_t n = (size_t)l->n;
-    final_basis b = {.index = l->tied, .pivots = l->t.basis, .LU = l->t.T};
-    double *x = l->t.q;
-    const size_t ldm = (size_t)l->data.p.ldm;
-    b.m = 0;
-    for (int i = 0; i < l->n; i++)
-        if (l->t.place[l->n + i] >= 0)
-            b.index[b.m++] = i;
-    const size_t m = (size_t)b.m;
-    for (size_t j = 0; j < m; j++)
-        for (size_t i = 0; i < m; i++)
-            b.LU[i + j * m] = l->data.p.M[(size_t)b.index[i] + (size_t)b.index[j] * ldm];
-    if (!(m > 0 && LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, b.m, b.m, b.LU, b.m, b.pivots) == 0))
-        return;
-    memset(x, 0, n * sizeof *x);
-    correct(l, &b, l->a, l->other, x);
-    correct(l, &b, l->a, l->other, x);
-    for (size_t i = 0; i < n; i++)
-        x[i] = fmax(x[i], 0.0);
-    const double res = rb_lcp_residual(&l->data.p, x, NULL);
-    if (res <= l->info->res) {
-        memcpy(z, x, n * sizeof *z);
-        l->info->res = res;
-    }
-}
-
 void rb_lcp_lemke_answer(lemke *l, int solved, double *z)
 {
     const int n = l->n;
@@ -191,6 +152,31 @@ void rb_lcp_lemke_answer(lemke *l, int solved, double *z)
         z[i] = row >= 0 ? fmax(l->t.q[row], 0.0) : 0.0;
     }
     l->info->res = rb_lcp_residual(&l->data.p, z, NULL);
-    if (solved)
-        polish(l, z);
+    if (!solved)
+        return;
+    /* Removes the pivots' rounding errors: z_B from the final basis B and the original
+     * matrix, one factorisation (in the tableau's memory) and one correction.  Taken only
+     * when it is the better of the two. */
+    final_basis b = {.index = l->tied, .pivots = l->t.basis, .LU = l->t.T};
+    double *x = l->t.q;
+    const size_t ldm = (size_t)l->data.p.ldm;
+    for (int i = 0; i < n; i++)
+        if (l->t.place[n + i] >= 0)
+            b.index[b.m++] = i;
+    const size_t m = (size_t)b.m;
+    for (size_t j = 0; j < m; j++)
+        for (size_t i = 0; i < m; i++)
+            b.LU[i + j * m] = l->data.p.M[(size_t)b.index[i] + (size_t)b.index[j] * ldm];
+    if (m == 0 || LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, b.m, b.m, b.LU, b.m, b.pivots) != 0)
+        return;
+    memset(x, 0, (size_t)n * sizeof *x);
+    correct(l, &b, l->a, l->other, x);
+    correct(l, &b, l->a, l->other, x);
+    for (int i = 0; i < n; i++)
+        x[i] = fmax(x[i], 0.0);
+    const double res = rb_lcp_residual(&l->data.p, x, NULL);
+    if (res <= l->info->res) {
+        memcpy(z, x, (size_t)n * sizeof *z);
+        l->info->res = res;
+    }
 }

@@ -116,28 +116,6 @@ static rb_status make_dense(const rb_sparse *M, double **dense)
     return *dense ? RB_OK : RB_ENOMEM;
 }
 
-static rb_status begin(portfolio *p, member *a)
-{
-    if (a->method == &rb_lcp_tableau_method) {
-        if (!p->dense && make_dense(a->task.M.sparse, &p->dense) != RB_OK)
-            return RB_ENOMEM;
-        a->task.M.dense = p->dense;
-        a->task.M.ld = a->task.M.n;
-        a->task.generic = 1;
-    }
-    const double used = a->work ? a->work->used : 0.0;
-    const int iters = a->info.iters;
-    a->work = a->work ? a->work : malloc(a->method->size);
-    a->open = a->work != NULL;
-    if (!a->open)
-        return RB_ENOMEM;
-    a->info = RB_LCP_INFO_NONE;
-    const rb_status s = a->method->begin(&a->task, a->balance_q, &a->info, a->work);
-    a->work->used += used;
-    a->info.iters = iters;
-    return s;
-}
-
 static double used_by(const member *a)
 {
     return a->work ? a->work->used : 0.0;
@@ -147,7 +125,27 @@ static double used_by(const member *a)
 static rb_status take_turn(portfolio *p, member *a, double allowance)
 {
     for (;;) {
-        rb_status s = a->open ? RB_OK : begin(p, a);
+        rb_status s = RB_OK;
+        if (!a->open) {
+            const int tableau = a->method == &rb_lcp_tableau_method, iters = a->info.iters;
+            const double used = used_by(a);
+            if (tableau && !p->dense)
+                s = make_dense(a->task.M.sparse, &p->dense);
+            if (tableau) {
+                a->task.M.dense = p->dense;
+                a->task.M.ld = a->task.M.n;
+                a->task.generic = 1;
+            }
+            a->work = a->work ? a->work : malloc(a->method->size);
+            a->open = s == RB_OK && a->work;
+            if (a->open) {
+                a->info = RB_LCP_INFO_NONE;
+                s = a->method->begin(&a->task, a->balance_q, &a->info, a->work);
+                a->work->used += used;
+                a->info.iters = iters;
+            } else
+                s = RB_ENOMEM;
+        }
         if (s == RB_OK) {
             a->work->allowed = allowance;
             s = a->method->go_on(a->work);
@@ -172,86 +170,56 @@ static const double GROWTH = 1.25;
 /* Operations that Newton's method may always take after the pivots have failed. */
 static const double LAST_CHANCE = 1e6;
 
-static rb_status first_turn(portfolio *p)
-{
-    member *a = &p->member[0];
-    rb_status s = RB_OK;
-    if (!a->systems) {
-        /* As many pivots as a path that is not one of the long ones takes. */
-        const double n = a->task.M.n, pivots = 2.0 * n + 50.0;
-        return take_turn(p, a,
-                         (a->method == &rb_lcp_tableau_method
-                              ? pivots * rb_lcp_work_of_pivot(a->task.M.n)
-                              : pivots * (2000.0 + 40.0 * n)));
-    }
-    while (s == RB_OK && !a->ended && a->info.iters < a->systems)
-        s = take_turn(p, a, used_by(a) + 1.0);
-    return s;
-}
-
-/* No pivots are left, but Newton's method has not ended: what it may use. */
-static int only_newton(const portfolio *p, double *allowance)
-{
-    double sum = LAST_CHANCE;
-    for (int k = 0; k < p->count; k++) {
-        const member *a = &p->member[k];
-        sum += used_by(a);
-        if ((a->method == &rb_lcp_newton_method) == a->ended)
-            return 0;
-    }
-    *allowance = sum;
-    return 1;
-}
-
-/* The first method that pivots: how it has ended is what is said of a problem that none
- * has solved. */
-static member *spokesman(portfolio *p)
-{
-    return &p->member[p->member[0].method == &rb_lcp_newton_method];
-}
-
-static void keep(const portfolio *p, const member *a, double *z, rb_lcp_info *info)
-{
-    memcpy(z, p->z, (size_t)a->task.M.n * sizeof *z);
-    *info = a->info;
-    info->solver = a->method->name;
-}
-
-static rb_status play(portfolio *p, double *z, rb_lcp_info *info)
-{
-    rb_status s = RB_OK, said = RB_MAXITER;
-    double allowance = 0.0;
-    for (int round = 0, open = p->count, last = 0; open && !last; round++) {
-        last = round > 0 && only_newton(p, &allowance);
-        open = 0;
-        for (int k = 0; k < (round ? p->count : 1); k++) {
-            member *a = &p->member[k];
-            if (a->ended)
-                continue;
-            s = round ? take_turn(p, a, last ? allowance : allowance * a->share) : first_turn(p);
-            if (a->ended && (s == RB_OK || s < 0 || s == RB_INTERRUPTED || a == spokesman(p)))
-                keep(p, a, z, info);
-            if (a->ended && (s == RB_OK || s < 0 || s == RB_INTERRUPTED))
-                return s;
-            if (a->ended && a == spokesman(p))
-                said = s;
-        }
-        for (int k = 0; k < p->count; k++)
-            open += !p->member[k].ended;
-        allowance = round ? allowance * GROWTH : fmax(used_by(&p->member[0]), 1.0);
-    }
-    return said;
-}
-
 static rb_status run_portfolio(const lcp_task *task, double *z, rb_lcp_info *info)
 {
     portfolio p = {.z = rb_alloc((size_t)task->M.n, 1)};
-    rb_status s = RB_ENOMEM;
-    int iters = 0;
+    member *first = &p.member[0];
+    rb_status s = RB_OK, said = p.z ? RB_MAXITER : RB_ENOMEM;
     *info = RB_LCP_INFO_NONE;
     choose(task, &p);
-    if (p.z)
-        s = play(&p, z, info);
+    /* The first method that pivots: how it has ended is what is said of a problem that none
+     * has solved. */
+    const member *spokesman = &p.member[first->method == &rb_lcp_newton_method];
+    double allowance = 0.0;
+    int over = !p.z;
+    for (int round = 0, open = p.count, last = 0; !over && open && !last; round++) {
+        /* Where no pivots are left, but Newton's method has not ended: what it may use. */
+        double sum = LAST_CHANCE;
+        last = round > 0;
+        for (int k = 0; k < p.count; k++) {
+            sum += used_by(&p.member[k]);
+            last &= (p.member[k].method == &rb_lcp_newton_method) != p.member[k].ended;
+        }
+        open = 0;
+        for (int k = 0; !over && k < (round ? p.count : 1); k++) {
+            member *a = &p.member[k];
+            if (a->ended)
+                continue;
+            if (round)
+                s = take_turn(&p, a, last ? sum : allowance * a->share);
+            else if (!a->systems) {
+                /* As many pivots as a path that is not one of the long ones takes. */
+                const double n = task->M.n, pivots = 2.0 * n + 50.0;
+                s = take_turn(&p, a,
+                              a->method == &rb_lcp_tableau_method
+                                  ? pivots * rb_lcp_work_of_pivot(task->M.n)
+                                  : pivots * (2000.0 + 40.0 * n));
+            } else
+                for (s = RB_OK; s == RB_OK && !a->ended && a->info.iters < a->systems;)
+                    s = take_turn(&p, a, used_by(a) + 1.0);
+            over = a->ended && (s == RB_OK || s < 0 || s == RB_INTERRUPTED);
+            if (over || (a->ended && a == spokesman)) {
+                memcpy(z, p.z, (size_t)task->M.n * sizeof *z);
+                *info = a->info;
+                info->solver = a->method->name;
+                said = s;
+            }
+        }
+        for (int k = 0; k < p.count; k++)
+            open += !p.member[k].ended;
+        allowance = round ? allowance * GROWTH : fmax(used_by(first), 1.0);
+    }
+    int iters = 0;
     for (int k = 0; k < p.count; k++) {
         member *a = &p.member[k];
         if (a->open)
@@ -262,9 +230,9 @@ static rb_status run_portfolio(const lcp_task *task, double *z, rb_lcp_info *inf
     info->iters = iters;
     free(p.z);
     free(p.dense);
-    if (s == RB_ENOMEM && !*info->msg.text)
-        rb_fail(&info->msg, s, "lcp: out of memory for order %d", task->M.n);
-    return s;
+    if (said == RB_ENOMEM && !*info->msg.text)
+        rb_fail(&info->msg, said, "lcp: out of memory for order %d", task->M.n);
+    return said;
 }
 
 /* ---- By name ------------------------------------------------------------------------- */

@@ -114,9 +114,9 @@ int rb_lcp_basis_is_long(const lcp_basis *b)
 
 /* ---- Solving ----------------------------------------------------------------------- */
 
-/* y = B^-1 g with the last LU: A x = -g_R, and w_i = g_i + M_iF z_F + d_i t elsewhere. */
-static rb_status solve_lu(lcp_basis *b, const double *g, int refined, double *y)
+rb_status rb_lcp_basis_solve(lcp_basis *b, const double *g, int refined, double *y)
 {
+    /* y = B^-1 g with the last LU: A x = -g_R, and w_i = g_i + M_iF z_F + d_i t elsewhere. */
     const rb_sparse *M = b->M;
     const int m = b->A.rows;
     for (int k = 0; k < m; k++)
@@ -124,10 +124,9 @@ static rb_status solve_lu(lcp_basis *b, const double *g, int refined, double *y)
     const rb_status s = m == 0    ? RB_OK
                         : refined ? rb_sparse_lu_solve(b->lu, b->rhs, b->x)
                                   : rb_sparse_lu_solve_once(b->lu, b->rhs, b->x);
-    if (s != RB_OK)
-        return s;
-    memcpy(y, g, (size_t)b->n * sizeof *y);
-    for (int c = 0; c < m; c++) {
+    if (s == RB_OK)
+        memcpy(y, g, (size_t)b->n * sizeof *y);
+    for (int c = 0; s == RB_OK && c < m; c++) {
         const int j = b->row[c];
         if (j == b->place_of_t)
             for (int i = 0; i < b->n; i++)
@@ -136,14 +135,9 @@ static rb_status solve_lu(lcp_basis *b, const double *g, int refined, double *y)
             for (int k = M->p[j]; k < M->p[j + 1]; k++)
                 y[M->i[k]] += M->x[k] * b->x[c];
     }
-    for (int k = 0; k < m; k++)
+    for (int k = 0; s == RB_OK && k < m; k++)
         y[b->row[k]] = b->x[k];
-    return RB_OK;
-}
-
-rb_status rb_lcp_basis_solve(lcp_basis *b, const double *g, int refined, double *y)
-{
-    const rb_status s = solve_lu(b, g, refined, y);
+    /* The exchanges since. */
     for (int k = 0; s == RB_OK && k < b->exchanges; k++) {
         const double x = y[b->pivot[k]] /= b->scale[k];
         if (x == 0.0)
@@ -172,29 +166,19 @@ rb_status rb_lcp_basis_column(lcp_basis *b, int variable, double *y)
 
 /* ---- Exchanges --------------------------------------------------------------------- */
 
-static rb_status make_room(lcp_basis *b, size_t more)
-{
-    const size_t wanted = b->start[b->exchanges] + more;
-    if (wanted <= b->capacity)
-        return RB_OK;
-    const size_t capacity = 2 * wanted;
-    int *index = realloc(b->index, capacity * sizeof *index);
-    if (index)
-        b->index = index;
-    double *value = realloc(b->value, capacity * sizeof *value);
-    if (value)
-        b->value = value;
-    if (!index || !value)
-        return RB_ENOMEM;
-    b->capacity = capacity;
-    return RB_OK;
-}
-
 rb_status rb_lcp_basis_exchange(lcp_basis *b, int slot, int variable, const double *y)
 {
     const int k = b->exchanges;
-    if (make_room(b, (size_t)b->n) != RB_OK)
-        return RB_ENOMEM;
+    const size_t wanted = b->start[k] + (size_t)b->n;
+    if (wanted > b->capacity) {
+        int *index = realloc(b->index, 2 * wanted * sizeof *index);
+        b->index = index ? index : b->index;
+        double *value = realloc(b->value, 2 * wanted * sizeof *value);
+        b->value = value ? value : b->value;
+        if (!index || !value)
+            return RB_ENOMEM;
+        b->capacity = 2 * wanted;
+    }
     size_t at = b->start[k];
     for (int s = 0; s < b->n; s++)
         if (y[s] != 0.0 && s != slot) {

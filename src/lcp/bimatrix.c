@@ -141,23 +141,6 @@ typedef struct {
     rb_lcp_info *info;
 } lemke_howson;
 
-static rb_status create(const rb_lcp_game *g, lemke_howson *l)
-{
-    l->m = g->m;
-    l->labels = g->m + g->n;
-    l->tied = rb_alloc_int((size_t)l->labels);
-    if (tableau_create(g->n, l->labels, g->m, &l->of_x) != RB_OK ||
-        tableau_create(g->m, l->labels, 0, &l->of_y) != RB_OK || !l->tied)
-        return RB_ENOMEM;
-    const payoffs of_a = payoffs_of(g, g->A), of_b = payoffs_of(g, g->B);
-    for (int j = 0; j < g->n; j++)
-        for (int i = 0; i < g->m; i++) {
-            row_of(&l->of_x, j)[i] = 1.0 + scaled(of_b, g, g->B, i, j);
-            row_of(&l->of_y, i)[g->m + j] = 1.0 + scaled(of_a, g, g->A, i, j);
-        }
-    return RB_OK;
-}
-
 /* Number of a label's variable for the trace: z in its own tableau, w in the other. */
 static int variable(const lemke_howson *l, const tableau *t, int label)
 {
@@ -255,7 +238,20 @@ rb_status rb_lcp_bimatrix(const rb_lcp_game *g, int label, const rb_lcp_options 
     if (s != RB_OK)
         return s;
     double *regret = rb_alloc((size_t)g->m + (size_t)g->n, 1), payoff[2];
-    s = create(g, &l);
+    l.m = g->m;
+    l.labels = g->m + g->n;
+    l.tied = rb_alloc_int((size_t)l.labels);
+    if (tableau_create(g->n, l.labels, g->m, &l.of_x) != RB_OK ||
+        tableau_create(g->m, l.labels, 0, &l.of_y) != RB_OK || !l.tied)
+        s = RB_ENOMEM;
+    if (s == RB_OK) {
+        const payoffs of_a = payoffs_of(g, g->A), of_b = payoffs_of(g, g->B);
+        for (int j = 0; j < g->n; j++)
+            for (int i = 0; i < g->m; i++) {
+                row_of(&l.of_x, j)[i] = 1.0 + scaled(of_b, g, g->B, i, j);
+                row_of(&l.of_y, i)[g->m + j] = 1.0 + scaled(of_a, g, g->A, i, j);
+            }
+    }
     if (s != RB_OK || !regret) {
         s = out_of_memory(g, &l.info->msg);
     } else {

@@ -20,18 +20,6 @@ static rb_status check_q(int n, const double *q, rb_message *why)
     return RB_OK;
 }
 
-/* The sum of absolute values tells at once that a column is finite. */
-static rb_status check_column(int n, int j, const double *x, rb_message *why)
-{
-    if (isfinite(cblas_dasum(n, x, 1)))
-        return RB_OK;
-    for (int i = 0; i < n; i++)
-        if (!isfinite(x[i]))
-            return rb_fail(why, RB_EINVAL, "lcp: M(%d, %d) = %g: expected a finite number", i + 1,
-                           j + 1, x[i]);
-    return RB_OK;
-}
-
 rb_status rb_lcp_check_dense(const rb_lcp_problem *p, const rb_lcp_options *opt, rb_message *why)
 {
     const int n = p->n;
@@ -40,8 +28,15 @@ rb_status rb_lcp_check_dense(const rb_lcp_problem *p, const rb_lcp_options *opt,
     if (p->ldm < n)
         return rb_fail(why, RB_EINVAL, "lcp: ldm = %d: expected at least n = %d", p->ldm, n);
     rb_status s = check_options(opt, why);
-    for (int j = 0; j < n && s == RB_OK; j++)
-        s = check_column(n, j, p->M + (size_t)j * (size_t)p->ldm, why);
+    for (int j = 0; j < n && s == RB_OK; j++) {
+        const double *x = p->M + (size_t)j * (size_t)p->ldm;
+        /* The sum of absolute values tells at once that a column is finite. */
+        const int finite = isfinite(cblas_dasum(n, x, 1));
+        for (int i = 0; !finite && s == RB_OK && i < n; i++)
+            if (!isfinite(x[i]))
+                s = rb_fail(why, RB_EINVAL, "lcp: M(%d, %d) = %g: expected a finite number", i + 1,
+                            j + 1, x[i]);
+    }
     if (s == RB_OK)
         s = check_q(n, p->q, why);
     if (s != RB_OK)

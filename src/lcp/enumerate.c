@@ -37,22 +37,6 @@ static int is_place(const search *s, int i, place at)
                             : high > low;
 }
 
-/* The next choice of places, as digits of a number; 0 after the last. */
-static int next_choice(search *s)
-{
-    for (int i = 0; i < s->n; i++) {
-        for (int at = (int)s->at[i] + 1; at <= BETWEEN; at++)
-            if (is_place(s, i, (place)at)) {
-                s->at[i] = (place)at;
-                return 1;
-            }
-        s->at[i] = AT_LOWER;
-        while (!is_place(s, i, s->at[i]))
-            s->at[i]++;
-    }
-    return 0;
-}
-
 /* M z + q, with the z that are between their bounds as they stand. */
 static void product(search *s)
 {
@@ -94,26 +78,19 @@ static int basic_point(search *s)
     return 1;
 }
 
-/* z between its bounds: what is outside by rounding is put on them; 0: by more. */
-static int is_in_box(search *s)
-{
-    const double small = RIGHT * rb_norm_inf((size_t)s->n, s->z);
-    for (int i = 0; i < s->n; i++) {
-        const double low = rb_lcp_lower(s->lower, i), high = rb_lcp_upper(s->upper, i);
-        if (s->z[i] < low - small || s->z[i] > high + small)
-            return 0;
-        s->z[i] = fmin(fmax(s->z[i], low), high);
-    }
-    return 1;
-}
-
 /* The bounds of z and the signs of w, which the basis alone does not give; and that the
  * rows of z between their bounds are still zero, which large entries of M may spoil
  * where a z was put on a bound. */
 static int is_solution(search *s)
 {
-    if (!is_in_box(s))
-        return 0;
+    /* What is outside of the box by rounding is put on it. */
+    const double slack = RIGHT * rb_norm_inf((size_t)s->n, s->z);
+    for (int i = 0; i < s->n; i++) {
+        const double low = rb_lcp_lower(s->lower, i), high = rb_lcp_upper(s->upper, i);
+        if (s->z[i] < low - slack || s->z[i] > high + slack)
+            return 0;
+        s->z[i] = fmin(fmax(s->z[i], low), high);
+    }
     product(s);
     /* The terms of every row of M z + q, whose rounding is a part of them. */
     for (int i = 0; i < s->n; i++) {
@@ -137,29 +114,6 @@ static int is_solution(search *s)
     return 1;
 }
 
-static rb_status keep(search *s)
-{
-    const size_t n = (size_t)s->n, count = (size_t)s->all->count;
-    const double near = SAME * rb_norm_inf(n, s->z);
-    for (int k = 0; k < s->all->count; k++) {
-        const double *z = s->all->z + (size_t)k * n;
-        double apart = 0.0;
-        for (size_t i = 0; i < n; i++)
-            apart = fmax(apart, fabs(z[i] - s->z[i]));
-        if (apart <= near)
-            return RB_OK;
-    }
-    if ((count & (count - 1)) == 0) { /* full: room for twice as many */
-        double *z = realloc(s->all->z, (count ? 2 * count : 1) * n * sizeof *z);
-        if (!z)
-            return RB_ENOMEM;
-        s->all->z = z;
-    }
-    memcpy(s->all->z + count * n, s->z, n * sizeof *s->z);
-    s->all->count++;
-    return RB_OK;
-}
-
 void rb_lcp_solutions_free(rb_lcp_solutions *all)
 {
     if (!all)
@@ -168,17 +122,21 @@ void rb_lcp_solutions_free(rb_lcp_solutions *all)
     *all = (rb_lcp_solutions){0};
 }
 
-static rb_status check(const search *s, rb_message *why)
+rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const double *upper,
+                           rb_lcp_solutions *all, rb_message *why)
 {
+    const int n = p->n;
+    search s = {.n = n, .p = *p, .lower = lower, .upper = upper, .all = all};
+    *all = (rb_lcp_solutions){.n = n};
     const rb_lcp_options plain = rb_lcp_defaults();
-    rb_status status = rb_lcp_check_dense(&s->p, &plain, why);
+    rb_status status = rb_lcp_check_dense(&s.p, &plain, why);
     if (status == RB_OK)
-        status = rb_lcp_check_boxes(s->n, s->lower, s->upper, why);
+        status = rb_lcp_check_boxes(n, lower, upper, why);
     double bases = 1.0;
-    for (int i = 0; status == RB_OK && i < s->n; i++) {
+    for (int i = 0; status == RB_OK && i < n; i++) {
         int places = 0;
         for (int at = AT_LOWER; at <= BETWEEN; at++)
-            places += is_place(s, i, (place)at);
+            places += is_place(&s, i, (place)at);
         bases *= places;
     }
     if (status == RB_OK && bases > MOST_BASES)
@@ -186,16 +144,6 @@ static rb_status check(const search *s, rb_message *why)
                        "lcp: all solutions: %.3g complementary bases: expected at most "
                        "%.3g, that is order 22 without bounds",
                        bases, MOST_BASES);
-    return status;
-}
-
-rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const double *upper,
-                           rb_lcp_solutions *all, rb_message *why)
-{
-    const int n = p->n;
-    search s = {.n = n, .p = *p, .lower = lower, .upper = upper, .all = all};
-    *all = (rb_lcp_solutions){.n = n};
-    rb_status status = check(&s, why);
     if (status != RB_OK)
         return status;
     s.at = calloc((size_t)n, sizeof *s.at);
@@ -213,13 +161,43 @@ rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const d
         for (int i = 0; i < n; i++)
             while (!is_place(&s, i, s.at[i]))
                 s.at[i]++;
-        do {
+        for (int digit = 0; status == RB_OK && digit < n;) {
             all->bases++;
-            if (!basic_point(&s))
-                all->singular++;
-            else if (is_solution(&s))
-                status = keep(&s);
-        } while (status == RB_OK && next_choice(&s));
+            const int regular = basic_point(&s);
+            all->singular += !regular;
+            if (regular && is_solution(&s)) {
+                /* A solution that is not known yet is kept. */
+                const size_t count = (size_t)all->count, bytes = (size_t)n * sizeof *s.z;
+                const double near = SAME * rb_norm_inf((size_t)n, s.z);
+                int known = 0;
+                for (size_t k = 0; !known && k < count; k++) {
+                    double apart = 0.0;
+                    for (int i = 0; i < n; i++)
+                        apart = fmax(apart, fabs(all->z[k * (size_t)n + (size_t)i] - s.z[i]));
+                    known = apart <= near;
+                }
+                if (!known && (count & (count - 1)) == 0) { /* full: room for twice as many */
+                    double *z = realloc(all->z, (count ? 2 * count : 1) * bytes);
+                    all->z = z ? z : all->z;
+                    status = z ? RB_OK : RB_ENOMEM;
+                }
+                if (!known && status == RB_OK)
+                    memcpy(all->z + (size_t)n * (size_t)all->count++, s.z, bytes);
+            }
+            /* The next choice of places, as digits of a number. */
+            for (digit = 0; digit < n; digit++) {
+                int at = (int)s.at[digit] + 1;
+                while (at <= BETWEEN && !is_place(&s, digit, (place)at))
+                    at++;
+                if (at <= BETWEEN) {
+                    s.at[digit] = (place)at;
+                    break;
+                }
+                s.at[digit] = AT_LOWER;
+                while (!is_place(&s, digit, s.at[digit]))
+                    s.at[digit]++;
+            }
+        }
     }
     free(s.at);
     free(s.A);

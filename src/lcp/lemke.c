@@ -41,119 +41,79 @@ static void driving_column(lemke *l, int entering)
     clean_column(l, entering, l->a);
 }
 
-/* min x_i, in lanes that need not wait for each other's comparison. */
-static double least_of(int n, const double *x)
+/* The row that blocks the variable whose column is l->a; -1: none does.  z0 leaves as
+ * soon as it can, because that is a solution. */
+static int blocking_row(lemke *l)
 {
     enum { LANES = 16 };
-    double least[LANES];
-    int i = 0;
-    for (int k = 0; k < LANES; k++)
-        least[k] = INFINITY;
-    for (; i + LANES <= n; i += LANES)
-        for (int k = 0; k < LANES; k++)
-            least[k] = x[i + k] < least[k] ? x[i + k] : least[k];
-    for (; i < n; i++)
-        least[0] = x[i] < least[0] ? x[i] : least[0];
-    for (int k = 1; k < LANES; k++)
-        least[0] = least[k] < least[0] ? least[k] : least[0];
-    return least[0];
-}
-
-/* The rows that tie go to l->tied: the least ratio brings them to zero within rounding,
- * and their own ratio is so close to it that taking it instead leaves no row visibly
- * negative. Returns their number, 0 when no row blocks.  The first loop has no branches
- * because the signs of a follow no pattern. */
-static int tied_rows(lemke *l)
-{
-    const int n = l->n;
+    const int n = l->n, z0_row = l->t.place[2 * n];
     const double *a = l->a, *q = l->t.q;
     const double a_max = largest(n, a), q_max = largest(n, q), noise = -NOISE * a_max;
-    double *ratio = l->other;
+    double *ratio = l->other, least[LANES];
 
+    /* No branches, because the signs of a follow no pattern; the least ratio in lanes that
+     * need not wait for each other's comparison. */
     for (int i = 0; i < n; i++) {
         const double down = a[i] < noise ? -a[i] : 1.0;
         const double x = (q[i] > 0.0 ? q[i] : 0.0) / down;
         ratio[i] = a[i] < noise ? x : INFINITY;
     }
-    const double least = least_of(n, ratio);
-    if (!isfinite(least))
-        return 0;
+    int at = 0;
+    for (int k = 0; k < LANES; k++)
+        least[k] = INFINITY;
+    for (; at + LANES <= n; at += LANES)
+        for (int k = 0; k < LANES; k++)
+            least[k] = ratio[at + k] < least[k] ? ratio[at + k] : least[k];
+    for (; at < n; at++)
+        least[0] = ratio[at] < least[0] ? ratio[at] : least[0];
+    for (int k = 1; k < LANES; k++)
+        least[0] = least[k] < least[0] ? least[k] : least[0];
+    if (!isfinite(least[0]))
+        return -1;
 
-    const double zero = TIE * (q_max + least * a_max);
-    const double most = least + NEAR * fmax(least, q_max / a_max);
+    /* The rows that tie: the least ratio brings them to zero within rounding, and their
+     * own ratio is so close to it that taking it instead leaves no row visibly negative. */
+    const double step = least[0], zero = TIE * (q_max + step * a_max);
+    const double most = step + NEAR * fmax(step, q_max / a_max);
     int count = 0;
     for (int i = 0; i < n; i++)
-        if (ratio[i] <= most && q[i] + least * a[i] <= zero)
+        if (ratio[i] <= most && q[i] + step * a[i] <= zero)
             l->tied[count++] = i;
-    return count;
-}
-
-/* The basis inverse restricted to the column of w_j is -T_:w_j where w_j is nonbasic, a
- * unit vector where it is basic.  Columns are looked at only as long as rows tie. */
-static int lexicographic_row(lemke *l, int count)
-{
-    for (int j = 0; j < l->n && count > 1; j++) {
-        if (l->t.place[j] >= 0) {
-            /* w_j is basic in this row, which has a one in that column of the basis
-             * inverse; the other rows, of which there is one at least, have a zero and
-             * win. */
-            const int row = l->t.place[j];
-            int kept = 0;
-            for (int k = 0; k < count; k++)
-                if (l->tied[k] != row)
-                    l->tied[kept++] = l->tied[k];
-            count = kept;
-        } else {
-            rb_lcp_tableau_fetch(&l->t, -1 - l->t.place[j], NULL);
-            clean_column(l, j, l->other);
-            /* Keeps the tied rows with the least x_i/a_i, x being minus a column of the
-             * basis inverse. */
-            double least = INFINITY;
-            for (int k = 0; k < count; k++)
-                least = fmin(least, l->other[l->tied[k]] / l->a[l->tied[k]]);
-            const double zero =
-                NOISE * (largest(l->n, l->other) + fabs(least) * largest(l->n, l->a));
-            int kept = 0;
-            for (int k = 0; k < count; k++)
-                if (least * l->a[l->tied[k]] - l->other[l->tied[k]] <= zero)
-                    l->tied[kept++] = l->tied[k];
-            count = kept;
-        }
-    }
-    return l->tied[0];
-}
-
-/* The row that blocks the variable whose column is l->a; -1: none does.  z0 leaves as
- * soon as it can, because that is a solution. */
-static int blocking_row(lemke *l)
-{
-    const int count = tied_rows(l), z0_row = l->t.place[2 * l->n];
-    if (!count)
-        return -1;
     for (int k = 0; k < count; k++)
         if (l->tied[k] == z0_row)
             return z0_row;
-    return l->opt.rule == RB_LCP_FIRST_INDEX ? l->tied[0] : lexicographic_row(l, count);
-}
+    if (!count)
+        return -1;
 
-/* The row that blocks the entering variable, whose column comes to l->a; -1: none does. A
- * pivot near rounding and the absence of one are believed only when the column holds for
- * the original matrix; else the tableau is rebuilt and the column formed once more. */
-static rb_status find_row(lemke *l, int entering, int *row)
-{
-    driving_column(l, entering);
-    *row = blocking_row(l);
-    const int holds =
-        *row < 0 ? rb_lcp_lemke_column_holds(l, entering)
-                 : l->rebuilt == l->info->iters || fabs(l->a[*row]) > DOUBT * largest(l->n, l->a);
-    if (holds)
-        return RB_OK;
-    const rb_status s = rb_lcp_lemke_rebuild(l);
-    if (s == RB_OK) {
-        driving_column(l, entering);
-        *row = blocking_row(l);
+    /* The lexicographic rule.  The basis inverse restricted to the column of w_j is -T_:w_j
+     * where w_j is nonbasic, a unit vector where it is basic.  Columns are looked at only
+     * as long as rows tie. */
+    for (int j = 0; l->opt.rule != RB_LCP_FIRST_INDEX && j < n && count > 1; j++) {
+        const int row = l->t.place[j];
+        int kept = 0;
+        if (row >= 0) {
+            /* w_j is basic in this row, which has a one in that column of the basis
+             * inverse; the other rows, of which there is one at least, have a zero and
+             * win. */
+            for (int k = 0; k < count; k++)
+                if (l->tied[k] != row)
+                    l->tied[kept++] = l->tied[k];
+        } else {
+            rb_lcp_tableau_fetch(&l->t, -1 - row, NULL);
+            clean_column(l, j, l->other);
+            /* Keeps the tied rows with the least x_i/a_i, x being minus a column of the
+             * basis inverse. */
+            double first = INFINITY;
+            for (int k = 0; k < count; k++)
+                first = fmin(first, l->other[l->tied[k]] / a[l->tied[k]]);
+            const double same = NOISE * (largest(n, l->other) + fabs(first) * largest(n, a));
+            for (int k = 0; k < count; k++)
+                if (first * a[l->tied[k]] - l->other[l->tied[k]] <= same)
+                    l->tied[kept++] = l->tied[k];
+        }
+        count = kept;
     }
-    return s == RB_ENOMEM ? s : RB_OK;
+    return l->tied[0];
 }
 
 /* ---- The path ---------------------------------------------------------------------- */
@@ -253,8 +213,22 @@ static rb_status follow_path(void *state)
     while (!rb_lcp_pauses(&l->work)) {
         const int entering = rb_lcp_complement(l->n, l->leaving);
         rb_status s = rb_lcp_check_limits(l->info, &l->opt, l->n, l->task->began);
-        if (s == RB_OK)
-            s = find_row(l, entering, &row);
+        if (s == RB_OK) {
+            driving_column(l, entering);
+            row = blocking_row(l);
+            /* A pivot near rounding and the absence of one are believed only when the
+             * column holds for the original matrix; else the tableau is rebuilt and the
+             * column formed once more. */
+            const int holds = row < 0 ? rb_lcp_lemke_column_holds(l, entering)
+                                      : l->rebuilt == l->info->iters ||
+                                            fabs(l->a[row]) > DOUBT * largest(l->n, l->a);
+            if (!holds && (s = rb_lcp_lemke_rebuild(l)) == RB_OK) {
+                driving_column(l, entering);
+                row = blocking_row(l);
+            }
+            if (s != RB_ENOMEM) /* a basis that is singular leaves the tableau as it was */
+                s = RB_OK;
+        }
         if (s == RB_OK && row < 0)
             s = rb_lcp_fail_ray(l->info, l->n, entering, lemke_z0(l));
         if (s != RB_OK)

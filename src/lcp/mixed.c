@@ -223,26 +223,6 @@ static rb_status choose_cover(mixed *p)
     return RB_OK;
 }
 
-/* The slot that needs the largest t, and that t; NONE: the basic point is the solution. */
-static int first_slot(const mixed *p, double *t)
-{
-    int best = NONE;
-    *t = 0.0;
-    for (int s = 0; s < p->n; s++) {
-        const double out = violation(p, s);
-        if (out <= 0.0)
-            continue;
-        const double needs = out / fabs(p->y[s]);
-        const int before = p->opt.rule == RB_LCP_LEXICOGRAPHIC && needs == *t &&
-                           p->generic[s] / p->y[s] < p->generic[best] / p->y[best];
-        if (best == NONE || needs > *t || before) {
-            best = s;
-            *t = needs;
-        }
-    }
-    return best;
-}
-
 /* ---- The ratio test ---------------------------------------------------------------- */
 
 /* Where the basic variable of slot s moves at unit speed `delta` and meets its bound. */
@@ -253,81 +233,67 @@ static double distance(const mixed *p, int s, double delta)
     return far > 0.0 ? far : 0.0;
 }
 
-/* Of the slots that tie the one that blocks first under the perturbation, t before all. */
-static int resolve_tie(const mixed *p, int count, double sign, double own)
-{
-    int best = isfinite(own) ? OPPOSITE : NONE;
-    double least = isfinite(own) ? 0.0 : INFINITY;
-    for (int k = 0; k < count; k++) {
-        const int s = p->tied[k];
-        const double delta = -sign * p->y[s], moves = p->generic[s] / fabs(delta);
-        const double ratio = delta < 0.0 ? moves : -moves;
-        if (p->b.variable[s] == 2 * p->n)
-            return s;
-        if (p->opt.rule == RB_LCP_FIRST_INDEX && best >= 0)
-            continue;
-        if (best == NONE || ratio < least) {
-            best = s;
-            least = ratio;
-        }
-    }
-    return best;
-}
-
-/* The slot that blocks the entering variable when it moves by sign * step; OPPOSITE: its
- * own other bound; NONE. */
-static int blocking_slot(mixed *p, int entering, double sign, double *step, int *count)
-{
-    const range own = range_of(p, entering);
-    const double most_y = rb_norm_inf((size_t)p->n, p->y);
-    const double most_value = rb_norm_inf((size_t)p->n, p->value);
-    const double width = own.high - own.low;
-    double least = width;
-    *count = 0;
-    for (int s = 0; s < p->n; s++) {
-        if (fabs(p->y[s]) <= NOISE * most_y)
-            continue;
-        const double ratio = distance(p, s, -sign * p->y[s]) / fabs(p->y[s]);
-        least = ratio < least ? ratio : least;
-    }
-    if (isinf(least))
-        return NONE;
-    const double zero = TIE * (most_value + least * most_y);
-    /* where all of y is zero no slot ties, and any number or none will do */
-    const double most = least + NEAR * fmax(least, most_value / most_y);
-    for (int s = 0; s < p->n; s++) {
-        const double size = fabs(p->y[s]);
-        if (size <= NOISE * most_y)
-            continue;
-        const double far = distance(p, s, -sign * p->y[s]);
-        if (far <= most * size && far - least * size <= zero)
-            p->tied[(*count)++] = s;
-    }
-    *step = least;
-    /* most may have overflowed: a variable without another bound never comes to it */
-    return resolve_tie(p, *count, sign, isfinite(width) && width <= most ? least : INFINITY);
-}
-
-/* p->y = the column of the entering variable, without what is zero but for rounding. */
-static rb_status driving_column(mixed *p, int entering)
-{
-    const rb_status s = rb_lcp_basis_column(&p->b, entering, p->y);
-    const double noise = DROP * rb_norm_inf((size_t)p->n, p->y);
-    for (int k = 0; k < p->n; k++)
-        if (fabs(p->y[k]) <= noise)
-            p->y[k] = 0.0;
-    return s;
-}
-
-/* The slot that blocks.  A pivot near rounding and the absence of one are believed only
- * with a new LU. */
+/* The slot that blocks the entering variable, whose column comes to p->y, when it moves
+ * by sign * step; OPPOSITE: its own other bound; NONE.  count: slots that tie.  A pivot
+ * near rounding and the absence of one are believed only with a new LU. */
 static rb_status find_slot(mixed *p, int entering, double sign, int *slot, double *step, int *count)
 {
+    const range own = range_of(p, entering);
+    const double width = own.high - own.low;
     for (;;) {
-        rb_status s = driving_column(p, entering);
+        rb_status s = rb_lcp_basis_column(&p->b, entering, p->y);
         if (s != RB_OK)
             return rb_fail(&p->info->msg, s, "lcp: no column after %d pivots", p->info->iters);
-        *slot = blocking_slot(p, entering, sign, step, count);
+        const double noise = DROP * rb_norm_inf((size_t)p->n, p->y);
+        for (int k = 0; k < p->n; k++)
+            if (fabs(p->y[k]) <= noise)
+                p->y[k] = 0.0;
+        const double most_y = rb_norm_inf((size_t)p->n, p->y);
+        const double most_value = rb_norm_inf((size_t)p->n, p->value);
+        double least = width;
+        *count = 0;
+        *slot = NONE;
+        for (int k = 0; k < p->n; k++) {
+            if (fabs(p->y[k]) <= NOISE * most_y)
+                continue;
+            const double ratio = distance(p, k, -sign * p->y[k]) / fabs(p->y[k]);
+            least = ratio < least ? ratio : least;
+        }
+        if (!isinf(least)) {
+            const double zero = TIE * (most_value + least * most_y);
+            /* where all of y is zero no slot ties, and any number or none will do */
+            const double most = least + NEAR * fmax(least, most_value / most_y);
+            for (int k = 0; k < p->n; k++) {
+                const double size = fabs(p->y[k]);
+                if (size <= NOISE * most_y)
+                    continue;
+                const double far = distance(p, k, -sign * p->y[k]);
+                if (far <= most * size && far - least * size <= zero)
+                    p->tied[(*count)++] = k;
+            }
+            *step = least;
+            /* Of the slots that tie the one that blocks first under the perturbation, t
+             * before all.  most may have overflowed: a variable without another bound
+             * never comes to it. */
+            const int opposite = isfinite(width) && width <= most;
+            double first = opposite ? 0.0 : INFINITY;
+            *slot = opposite ? OPPOSITE : NONE;
+            for (int k = 0; k < *count; k++) {
+                const int tied = p->tied[k];
+                const double delta = -sign * p->y[tied], moves = p->generic[tied] / fabs(delta);
+                const double ratio = delta < 0.0 ? moves : -moves;
+                if (p->b.variable[tied] == 2 * p->n) {
+                    *slot = tied;
+                    break;
+                }
+                if (p->opt.rule == RB_LCP_FIRST_INDEX && *slot >= 0)
+                    continue;
+                if (*slot == NONE || ratio < first) {
+                    *slot = tied;
+                    first = ratio;
+                }
+            }
+        }
         const int sure =
             *slot == OPPOSITE ||
             (*slot >= 0 && fabs(p->y[*slot]) > DOUBT * rb_norm_inf((size_t)p->n, p->y));
@@ -410,7 +376,21 @@ static rb_status set_out(mixed *p, const double *start)
     }
     if (s == RB_OK)
         s = choose_cover(p);
-    const int slot = s == RB_OK ? first_slot(p, &p->first_t) : NONE;
+    /* The slot that needs the largest t; none: the basic point is the solution. */
+    int slot = NONE;
+    p->first_t = 0.0;
+    for (int k = 0; s == RB_OK && k < p->n; k++) {
+        const double out = violation(p, k);
+        if (out <= 0.0)
+            continue;
+        const double needs = out / fabs(p->y[k]);
+        const int before = p->opt.rule == RB_LCP_LEXICOGRAPHIC && needs == p->first_t &&
+                           p->generic[k] / p->y[k] < p->generic[slot] / p->y[slot];
+        if (slot == NONE || needs > p->first_t || before) {
+            slot = k;
+            p->first_t = needs;
+        }
+    }
     if (slot == NONE)
         return s;
     /* t enters at the value that makes all basic variables feasible. */
@@ -479,23 +459,6 @@ static rb_status go_on(void *state)
 
 /* ---- The problem without free variables -------------------------------------------- */
 
-/* [M, -M_:F; -M_F:, M_FF] */
-static rb_status split_matrix(const rb_sparse *M, const int *number, split *f)
-{
-    rb_triplets t = {.rows = f->n, .cols = f->n};
-    for (int j = 0; j < M->cols; j++)
-        for (int k = M->p[j]; k < M->p[j + 1]; k++)
-            for (int more = 0; more < 4; more++) {
-                const int i = M->i[k], row = more & 1 ? number[i] : i;
-                const int col = more & 2 ? number[j] : j;
-                if (row >= 0 && col >= 0)
-                    rb_triplets_add(&t, row, col, more == 1 || more == 2 ? -M->x[k] : M->x[k]);
-            }
-    const rb_status s = rb_sparse_from_triplets(&t, &f->M);
-    rb_triplets_free(&t);
-    return s;
-}
-
 static rb_status split_create(const rb_lcp_mixed_problem *p, const double *start,
                               const double *cover, split *f)
 {
@@ -530,33 +493,25 @@ static rb_status split_create(const rb_lcp_mixed_problem *p, const double *start
             f->cover[f->n] = cover[i];
         f->of[f->n++ - n] = i;
     }
-    if (s == RB_OK && f->n > n)
-        s = split_matrix(p->M, number, f);
+    if (s == RB_OK && f->n > n) { /* [M, -M_:F; -M_F:, M_FF] */
+        rb_triplets t = {.rows = f->n, .cols = f->n};
+        for (int j = 0; j < n; j++)
+            for (int k = p->M->p[j]; k < p->M->p[j + 1]; k++)
+                for (int more = 0; more < 4; more++) {
+                    const int i = p->M->i[k], row = more & 1 ? number[i] : i;
+                    const int col = more & 2 ? number[j] : j;
+                    const double x = more == 1 || more == 2 ? -p->M->x[k] : p->M->x[k];
+                    if (row >= 0 && col >= 0)
+                        rb_triplets_add(&t, row, col, x);
+                }
+        s = rb_sparse_from_triplets(&t, &f->M);
+        rb_triplets_free(&t);
+    }
     free(number);
     return s;
 }
 
 /* ---- All together ------------------------------------------------------------------ */
-
-static rb_status create(const split *f, const rb_sparse *M, mixed *p)
-{
-    const size_t n = (size_t)f->n;
-    p->n = f->n;
-    p->of = f->of;
-    p->M = M;
-    p->value = rb_alloc(n, 5);
-    p->at_upper = rb_alloc_int(4 * n + 1);
-    const rb_status s = rb_lcp_basis_create(M, &p->b);
-    if (s != RB_OK || !p->value || !p->at_upper)
-        return rb_fail(&p->info->msg, RB_ENOMEM, "lcp: out of memory for order %d", f->n);
-    p->generic = p->value + n;
-    p->shift = p->generic + n;
-    p->y = p->shift + n;
-    p->g = p->y + n;
-    p->tied = p->at_upper + n;
-    p->at_bound = p->tied + n;
-    return RB_OK;
-}
 
 double rb_lcp_residual_mixed(const rb_lcp_mixed_problem *p, const double *z, double *w)
 {
@@ -608,8 +563,24 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, v
     p->q = scaled ? p->scaled.q : f->q;
     p->lower = scaled ? p->scaled.lower : f->lower;
     p->upper = scaled ? p->scaled.upper : f->upper;
-    return s == RB_ENOMEM ? rb_fail(&info->msg, s, "lcp: out of memory for order %d", n)
-                          : create(f, scaled ? &p->scaled.sparse : M, p);
+    if (s == RB_ENOMEM)
+        return rb_fail(&info->msg, s, "lcp: out of memory for order %d", n);
+    const size_t order = (size_t)f->n;
+    p->n = f->n;
+    p->of = f->of;
+    p->M = scaled ? &p->scaled.sparse : M;
+    p->value = rb_alloc(order, 5);
+    p->at_upper = rb_alloc_int(4 * order + 1);
+    s = rb_lcp_basis_create(p->M, &p->b);
+    if (s != RB_OK || !p->value || !p->at_upper)
+        return rb_fail(&info->msg, RB_ENOMEM, "lcp: out of memory for order %d", f->n);
+    p->generic = p->value + order;
+    p->shift = p->generic + order;
+    p->y = p->shift + order;
+    p->g = p->y + order;
+    p->tied = p->at_upper + order;
+    p->at_bound = p->tied + order;
+    return RB_OK;
 }
 
 /* RB_INACCURATE: the end of the path does not solve. */
