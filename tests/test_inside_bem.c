@@ -136,6 +136,55 @@ TEST(transforms_have_lengths_that_are_quick)
     }
 }
 
+/* There and back; and a transform against its sum, as it is written down. */
+TEST(transforms_are_their_sums)
+{
+    for (int n = 1; n < 70; n += 7) {
+        OWNED(rb_fourier) f;
+        assert_true(rb_fourier_make(n, &f));
+        double x[80];
+        for (int i = 0; i < n; i++)
+            x[i] = sin(i * i + 1.0);
+        double *work = rb_fourier_alloc(&f);
+        fftw_complex *z = rb_fourier_forward(&f, n, x, work);
+        for (int k = 0; k <= f.size / 2; k++) {
+            double re = 0.0, im = 0.0;
+            for (int i = 0; i < n; i++) {
+                re += x[i] * cos(2.0 * M_PI * i * k / f.size);
+                im -= x[i] * sin(2.0 * M_PI * i * k / f.size);
+            }
+            CHECK_ABS(z[k][0], re, 1e-13, "size %d, real part of wave %d", f.size, k);
+            CHECK_ABS(z[k][1], im, 1e-13, "size %d, imaginary part of wave %d", f.size, k);
+        }
+        rb_fourier_backward(&f, work);
+        for (int i = 0; i < f.size; i++)
+            CHECK_ABS(work[i] / f.size, i < n ? x[i] : 0.0, 1e-15, "size %d, place %d", f.size, i);
+        fftw_free(work);
+    }
+}
+
+TEST(a_convolution_is_its_sum)
+{
+    for (int n = 1; n < 60; n += 11) {
+        double t[119], r[60], w[60];
+        for (int k = 0; k < 2 * n - 1; k++)
+            t[k] = cos(k * k);
+        for (int i = 0; i < n; i++)
+            r[i] = sin(i * i + 1.0);
+        rb_bem_convolution *c = rb_bem_convolution_create(n, t);
+        assert_non_null(c);
+        rb_bem_convolution_apply(c, r, w);
+        for (int i = 0; i < n; i++) {
+            double want = 0.0;
+            for (int j = 0; j < n; j++)
+                want += t[n - 1 + i - j] * r[j];
+            CHECK_ABS(w[i], want, 1e-13, "n = %d, row %d", n, i);
+        }
+        rb_bem_convolution_free(c);
+    }
+    rb_bem_convolution_free(NULL);
+}
+
 /* The preconditioner answers to distances alone, and is written out for distances up to
  * 2n; wave for wave, its differences are the other one over the symbol of A. */
 TEST(every_wave_has_its_own_inverse)

@@ -155,8 +155,8 @@ TEST(unlike_bodies_share_by_temperature)
         s.contact = 0;
         double power[100] = {0.0};
         assert_true(s.n <= 100 && RB_ZONE_SEPARATED == 0);
-        CHECK_OK(
-            rb_rolling_steady_temperature(&rc, &s, power, s.temperature, s.temperature_b, NULL));
+        CHECK_OK(rb_rolling_steady_temperature(&rc, &s, power, NULL, s.temperature, s.temperature_b,
+                                               NULL));
         for (int i = 0; i < s.n; i++) {
             CHECK_ABS(s.temperature[i], 0.0, 1e-12, "A away from B, %d at %d", k, i);
             CHECK_ABS(s.temperature_b[i], rc.heat_b.temperature, 1e-12, "B");
@@ -182,7 +182,8 @@ TEST(shares_of_equal_elements_are_those_of_any)
             power[i] = s.zone[i] != RB_ZONE_SEPARATED ? 1.0 + 0.01 * i : 0.0;
         for (int k = 0; k < 2; k++) {
             rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
-            CHECK_OK(rb_rolling_steady_temperature(&rc, &s, power, t[2 * k], t[2 * k + 1], NULL));
+            CHECK_OK(
+                rb_rolling_steady_temperature(&rc, &s, power, NULL, t[2 * k], t[2 * k + 1], NULL));
         }
         for (int i = 0; i < s.n; i++) {
             CHECK_REL(t[0][i], t[2][i], 1e-11, "A at %d, hole %d", i, hole);

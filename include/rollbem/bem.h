@@ -360,6 +360,13 @@ void rb_bem_circulant_apply_yielding(const rb_bem_circulant *c, double hardening
                                      double *r);
 void rb_bem_circulant_free(rb_bem_circulant *circulant);
 
+/* w_i = sum over j of t_(i-j) r_j (n each, w may be r) by Fourier transforms; t: those of
+ * distances 1 - n ... n - 1.  NULL without memory.  One thread at a time. */
+typedef struct rb_bem_convolution rb_bem_convolution;
+rb_bem_convolution *rb_bem_convolution_create(int n, const double *t);
+void rb_bem_convolution_apply(const rb_bem_convolution *c, const double *r, double *w);
+void rb_bem_convolution_free(rb_bem_convolution *convolution);
+
 /* ---- Interior (B8) ---------------------------------------------------------------- */
 
 /* Points at which a field is evaluated. */

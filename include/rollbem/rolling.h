@@ -657,9 +657,12 @@ typedef struct rb_rolling_model {
                         on other elements */
     int same_bodies; /* 1: `bodies` need not be built again for `rc` on the same mesh */
     rb_rolling_carried carried;
-    struct rb_rolling_model *freely; /* solved free rolling of the same case, if it was
-                                        computed on elements of its own; otherwise NULL;
-                                        owned */
+    struct rb_rolling_conduction *conduction; /* how heat warms these elements, kept from
+                                                 round to round of a friction law; NULL: not
+                                                 known yet; owned */
+    struct rb_rolling_model *freely;          /* solved free rolling of the same case, if it was
+                                                 computed on elements of its own; otherwise NULL;
+                                                 owned */
 } rb_rolling_model;
 
 /* 1 if the mesh has so many equal elements that it is solved by Fourier transforms,

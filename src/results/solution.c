@@ -209,7 +209,7 @@ static rb_status set_temperature(const rb_rolling_model *model, rb_rolling_solut
         double *power = rb_alloc((size_t)s->n, 1);
         if (power)
             rb_rolling_friction_power(s, power);
-        status = power ? rb_rolling_steady_temperature(rc, s, power, s->temperature,
+        status = power ? rb_rolling_steady_temperature(rc, s, power, NULL, s->temperature,
                                                        s->temperature_b, why)
                        : RB_ENOMEM;
         free(power);

@@ -3,6 +3,7 @@
 #include "rolling/internal.h"
 
 #include <cblas.h>
+#include <float.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sf_bessel.h>
 #include <lapacke.h>
@@ -56,21 +57,59 @@ double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, doubl
 
 /* The surfaces of one body: rise at the midpoints from heat in the elements. */
 typedef struct {
-    const rb_rolling_heat *body;
+    rb_rolling_heat body;
     double speed;
     int n;
-    const double *x, *h;
-    double *response; /* NULL, or of equal elements at distances of 1 - n ... n - 1 of
-                         them; owned */
+    double h;               /* of the first element */
+    const double *x, *all;  /* midpoints and lengths; borrowed */
+    double *response;       /* NULL, or of equal elements at distances of 1 - n ... n - 1 of
+                               them; owned */
+    rb_bem_convolution *by; /* the same, where transforms are sooner; owned */
 } conductor;
 
-static rb_status conductor_create(const rb_rolling_case *rc, const rb_rolling_heat *body,
-                                  const rb_rolling_solution *s, conductor *c)
-{
-    const int n = s->n;
+struct rb_rolling_conduction {
+    conductor a, b;
+};
 
-    *c = (conductor){body, rc->speed, n, s->x, s->h, NULL};
-    if (rc->mesh == RB_MESH_FITTED || n == 0)
+static void conductor_free(conductor *c)
+{
+    free(c->response);
+    rb_bem_convolution_free(c->by);
+    *c = (conductor){.n = 0};
+}
+
+void rb_rolling_conduction_free(struct rb_rolling_conduction *conduction)
+{
+    if (!conduction)
+        return;
+    conductor_free(&conduction->a);
+    conductor_free(&conduction->b);
+    free(conduction);
+}
+
+static int is_alike(const rb_rolling_heat *a, const rb_rolling_heat *b)
+{
+    return a->conductivity == b->conductivity && a->heat_capacity == b->heat_capacity &&
+           a->temperature == b->temperature;
+}
+
+/* Kept where it is that of the same elements. */
+static rb_status conductor_set(const rb_rolling_case *rc, const rb_rolling_heat *body,
+                               const rb_rolling_solution *s, conductor *c)
+{
+    /* more are sooner by transforms */
+    enum { DIRECT = 200 };
+    const int n = s->n, equal = rc->mesh != RB_MESH_FITTED && n > 0;
+
+    if (c->response && equal && c->n == n && c->h == s->h[0] && c->speed == rc->speed &&
+        is_alike(&c->body, body)) {
+        c->x = s->x;
+        c->all = s->h;
+        return RB_OK;
+    }
+    conductor_free(c);
+    *c = (conductor){*body, rc->speed, n, n > 0 ? s->h[0] : 0.0, s->x, s->h, NULL, NULL};
+    if (!equal)
         return RB_OK;
     c->response = rb_alloc(2 * (size_t)n - 1, 1);
     double before = rise_from_origin(body, rc->speed, s->h[0] * (0.5 - n));
@@ -78,6 +117,13 @@ static rb_status conductor_create(const rb_rolling_case *rc, const rb_rolling_he
         const double to = rise_from_origin(body, rc->speed, s->h[0] * (k + 0.5));
         c->response[n - 1 + k] = to - before;
         before = to;
+    }
+    if (c->response && n > DIRECT) { /* of distances from the heat */
+        double *t = rb_alloc(2 * (size_t)n - 1, 1);
+        for (int k = 0; t && k < 2 * n - 1; k++)
+            t[k] = c->response[2 * n - 2 - k];
+        c->by = t ? rb_bem_convolution_create(n, t) : NULL;
+        free(t);
     }
     return c->response ? RB_OK : RB_ENOMEM;
 }
@@ -90,9 +136,9 @@ static void conductor_row(const conductor *c, int i, double *row)
         memcpy(row, &c->response[c->n - 1 - i], (size_t)c->n * sizeof *row);
         return;
     }
-    double before = rise_from_origin(c->body, c->speed, c->x[0] - 0.5 * c->h[0] - c->x[i]);
+    double before = rise_from_origin(&c->body, c->speed, c->x[0] - 0.5 * c->all[0] - c->x[i]);
     for (int j = 0; j < c->n; j++) {
-        const double to = rise_from_origin(c->body, c->speed, c->x[j] + 0.5 * c->h[j] - c->x[i]);
+        const double to = rise_from_origin(&c->body, c->speed, c->x[j] + 0.5 * c->all[j] - c->x[i]);
         row[j] = to - before;
         before = to;
     }
@@ -107,6 +153,14 @@ static rb_status warm(const conductor *c, const double *heat, double *temperatur
 
     if (!c->response && !own)
         return RB_ENOMEM;
+    if (c->by) {
+        rb_bem_convolution_apply(c->by, heat, temperature);
+        const double rounding = 8.0 * DBL_EPSILON * rb_norm_inf((size_t)n, temperature);
+        for (int i = 0; i < n; i++)
+            temperature[i] =
+                c->body.temperature + (fabs(temperature[i]) > rounding ? temperature[i] : 0.0);
+        return RB_OK;
+    }
     while (from < to && heat[from] == 0.0)
         from++;
     while (from < to && heat[to - 1] == 0.0)
@@ -115,8 +169,7 @@ static rb_status warm(const conductor *c, const double *heat, double *temperatur
         const double *row = c->response ? c->response + n - 1 - i : own;
         if (own)
             conductor_row(c, i, own);
-        temperature[i] =
-            c->body->temperature + cblas_ddot(to - from, row + from, 1, heat + from, 1);
+        temperature[i] = c->body.temperature + cblas_ddot(to - from, row + from, 1, heat + from, 1);
     }
     free(own);
     return RB_OK;
@@ -184,7 +237,7 @@ static rb_status share_heat(const conductor *a, const conductor *b, const rb_rol
 
     for (int i = 0, k = 0; i < n && status == RB_OK; i++)
         if (is_contact(s, i))
-            rhs[k++] = heat_a[i] - a->body->temperature;
+            rhs[k++] = heat_a[i] - a->body.temperature;
     if (status == RB_OK) {
         if (a->response && is_one_contact(s)) {
             /* (K_A + K_B) x = rhs in the contact.  Of equal elements that follow one
@@ -228,16 +281,20 @@ static rb_status share_heat(const conductor *a, const conductor *b, const rb_rol
 }
 
 rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_rolling_solution *s,
-                                        const double *power, double *t_a, double *t_b,
-                                        rb_message *why)
+                                        const double *power,
+                                        struct rb_rolling_conduction **conduction, double *t_a,
+                                        double *t_b, rb_message *why)
 {
-    const int n = s->n, b_conducts = rc->heat_b.conductivity > 0.0;
+    const int n = s->n, b_conducts = rc->heat_b.conductivity > 0.0,
+              alike = b_conducts && is_alike(&rc->heat_a, &rc->heat_b);
     double *heat = rb_alloc((size_t)n, 2), *heat_a = heat ? heat + n : NULL;
-    conductor a = {0}, b = {0};
-    rb_status status = heat ? conductor_create(rc, &rc->heat_a, s, &a) : RB_ENOMEM;
+    struct rb_rolling_conduction *own = conduction ? *conduction : NULL;
 
-    if (status == RB_OK && b_conducts)
-        status = conductor_create(rc, &rc->heat_b, s, &b);
+    if (!own)
+        own = calloc(1, sizeof *own);
+    rb_status status = heat && own ? conductor_set(rc, &rc->heat_a, s, &own->a) : RB_ENOMEM;
+    if (status == RB_OK && b_conducts && !alike)
+        status = conductor_set(rc, &rc->heat_b, s, &own->b);
     if (status == RB_OK) {
         /* Friction heats, it never cools.  Powers of elements that begin or end the
          * contact may be negative on coarse meshes, because they hold a part of what
@@ -252,25 +309,24 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_roll
         for (int i = 0; i < n; i++)
             heat[i] = rc->speed * (all > 0.0 ? share * fmax(power[i], 0.0) : power[i]);
     }
-    if (status == RB_OK && b_conducts &&
-        !(rc->heat_a.conductivity == rc->heat_b.conductivity &&
-          rc->heat_a.heat_capacity == rc->heat_b.heat_capacity &&
-          rc->heat_a.temperature == rc->heat_b.temperature))
-        status = share_heat(&a, &b, s, heat, heat_a);
+    if (status == RB_OK && b_conducts && !alike)
+        status = share_heat(&own->a, &own->b, s, heat, heat_a);
     else
         for (int i = 0; i < n && status == RB_OK; i++)
             heat_a[i] = b_conducts ? 0.5 * heat[i] : heat[i];
     if (status == RB_OK)
-        status = warm(&a, heat_a, t_a);
+        status = warm(&own->a, heat_a, t_a);
     for (int i = 0; i < n && status == RB_OK; i++) {
         heat[i] -= heat_a[i];
-        t_b[i] = is_contact(s, i) ? t_a[i] : rc->heat_b.temperature;
+        t_b[i] = alike || is_contact(s, i) ? t_a[i] : rc->heat_b.temperature;
     }
-    if (status == RB_OK && b_conducts)
-        status = warm(&b, heat, t_b);
+    if (status == RB_OK && b_conducts && !alike)
+        status = warm(&own->b, heat, t_b);
     free(heat);
-    free(a.response);
-    free(b.response);
+    if (conduction)
+        *conduction = own;
+    else
+        rb_rolling_conduction_free(own);
     return status == RB_OK ? RB_OK
                            : rb_fail(why, status, "temperature: %s", rb_status_text(status));
 }

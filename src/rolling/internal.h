@@ -240,10 +240,13 @@ int rb_rolling_has_heat(const rb_rolling_case *rc);
 /* V a/(2 diffusivity); INFINITY if no heat enters the body. */
 double rb_rolling_peclet(const rb_rolling_heat *body, double speed, double half_width);
 /* Temperatures of both surfaces (n each) under the friction power per unit speed (n) of
- * a steady solution with tractions, slip and zones. */
+ * a steady solution with tractions, slip and zones.  conduction: NULL, or where what the
+ * elements make of heat is kept, from NULL on. */
 rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_rolling_solution *s,
-                                        const double *power, double *t_a, double *t_b,
-                                        rb_message *why);
+                                        const double *power,
+                                        struct rb_rolling_conduction **conduction, double *t_a,
+                                        double *t_b, rb_message *why);
+void rb_rolling_conduction_free(struct rb_rolling_conduction *conduction);
 /* Highest temperature in contact and its place; NAN without contact. */
 void rb_rolling_peak_temperature(int n, const double *x, const int *zone, const double *t,
                                  double *value, double *at);

@@ -44,6 +44,7 @@ void rb_rolling_model_free(rb_rolling_model *model)
     rb_rolling_mesh_free(&model->mesh);
     free(model->carried.temperature);
     free(model->carried.yielded);
+    rb_rolling_conduction_free(model->conduction);
     rb_rolling_forget_free_rolling(model);
     memset(model, 0, sizeof *model);
 }

@@ -142,6 +142,26 @@ rb_status rb_contact_operator_products(int n, const rb_contact_products *product
     return RB_EINVAL;
 }
 
+/* products are then summed one by one */
+rb_bem_convolution *rb_bem_convolution_create(int n, const double *t)
+{
+    (void)n;
+    (void)t;
+    return NULL;
+}
+
+void rb_bem_convolution_apply(const rb_bem_convolution *c, const double *r, double *w)
+{
+    (void)c;
+    (void)r;
+    (void)w;
+}
+
+void rb_bem_convolution_free(rb_bem_convolution *convolution)
+{
+    (void)convolution;
+}
+
 rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double stencil[4],
                                   const double local[4], rb_bem_circulant **circulant)
 {

@@ -1,0 +1,60 @@
+/* Products with a Toeplitz matrix by Fourier transforms. */
+#include "bem/fourier.h"
+
+#include "rollbem/bem.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct rb_bem_convolution {
+    int n;
+    fftw_complex *t; /* size/2 + 1: the transform of t, over `size` */
+    double *work;
+    rb_fourier fourier;
+};
+
+void rb_bem_convolution_free(rb_bem_convolution *c)
+{
+    if (!c)
+        return;
+    rb_fourier_free(&c->fourier);
+    fftw_free(c->t);
+    fftw_free(c->work);
+    free(c);
+}
+
+rb_bem_convolution *rb_bem_convolution_create(int n, const double *t)
+{
+    rb_bem_convolution *c = calloc(1, sizeof *c);
+
+    if (c && rb_fourier_make(2 * n, &c->fourier)) {
+        c->n = n;
+        c->t = (fftw_complex *)rb_fourier_alloc(&c->fourier);
+        c->work = rb_fourier_alloc(&c->fourier);
+    }
+    if (!c || !c->t || !c->work) {
+        rb_bem_convolution_free(c);
+        return NULL;
+    }
+    const int size = c->fourier.size;
+    double *line = (double *)c->t;
+
+    memset(line, 0, (size_t)size * sizeof *line);
+    for (int k = 1 - n; k < n; k++)
+        line[k < 0 ? size + k : k] = t[n - 1 + k] / size;
+    rb_fourier_forward(&c->fourier, size, line, line);
+    return c;
+}
+
+void rb_bem_convolution_apply(const rb_bem_convolution *c, const double *r, double *w)
+{
+    fftw_complex *z = rb_fourier_forward(&c->fourier, c->n, r, c->work);
+
+    for (int k = 0; k <= c->fourier.size / 2; k++) {
+        const double a = z[k][0], b = z[k][1], *t = c->t[k];
+        z[k][0] = a * t[0] - b * t[1];
+        z[k][1] = a * t[1] + b * t[0];
+    }
+    rb_fourier_backward(&c->fourier, c->work);
+    memcpy(w, c->work, (size_t)c->n * sizeof *w);
+}
