@@ -715,10 +715,11 @@ static rb_status keep_tractions(rb_api *a, const rb_lcp_pivot *p, const double *
     return s;
 }
 
-static rb_status keep_columns(rb_api *a, const rb_lcp_pivot *p, double *work)
+static void each_pivot(const rb_lcp_pivot *p, void *context)
 {
+    rb_api *a = context;
     const size_t n = (size_t)p->n;
-    double *value = work, *column = work + n, *basis = work + 2 * n;
+    double *value = rb_alloc(3 * n, 1), *column = value + n, *basis = value + 2 * n;
     const double entering = p->entering, leaving = p->leaving, row = p->row;
     const struct {
         const char *name;
@@ -729,37 +730,25 @@ static rb_status keep_columns(rb_api *a, const rb_lcp_pivot *p, double *work)
                 {"pivot.entering", &entering, 1}, {"pivot.leaving", &leaving, 1},
                 {"pivot.row", &row, 1},           {"pivot.ratio", &p->ratio, 1},
                 {"pivot.z0", &p->z0, 1}};
-    rb_status s = RB_OK;
 
+    if (a->status == RB_OK && !value)
+        a->status = RB_ENOMEM;
     /* The column of the entering variable and the values of the basic ones, before the
      * pivot: of the last pivot's tableau, or of z0, which enters first with a column of
      * ones. */
-    for (size_t i = 0; i < n; i++) {
-        value[i] = a->lcp.b[i];
+    for (size_t i = 0; i < n && value; i++) {
+        value[i] = a->pivots > 0 ? a->tableau[n * (n + 1) + i] : a->lcp.b[i];
         column[i] = 1.0;
-    }
-    if (a->pivots != 0) {
-        memcpy(value, &a->tableau[n * (n + 1)], n * sizeof *value);
-        for (size_t j = 0; j <= n; j++)
-            if (a->nonbasis[j] == p->entering)
-                memcpy(column, &a->tableau[n * j], n * sizeof *column);
-    }
-    for (size_t i = 0; i < n; i++)
         basis[i] = p->basis[i];
-    for (size_t k = 0; s == RB_OK && k < sizeof kept / sizeof *kept; k++)
-        s = add_column(a, kept[k].name, kept[k].rows, kept[k].x);
-    return s == RB_OK ? keep_tractions(a, p, &p->tableau[n * (n + 1)]) : s;
-}
-
-static void each_pivot(const rb_lcp_pivot *p, void *context)
-{
-    rb_api *a = context;
-    const size_t n = (size_t)p->n;
-    double *work = rb_alloc(3 * n, 1);
-
+    }
+    for (size_t j = 0; j <= n && value && a->pivots > 0; j++)
+        if (a->nonbasis[j] == p->entering)
+            memcpy(column, &a->tableau[n * j], n * sizeof *column);
+    for (size_t k = 0; a->status == RB_OK && k < sizeof kept / sizeof *kept; k++)
+        a->status = add_column(a, kept[k].name, kept[k].rows, kept[k].x);
     if (a->status == RB_OK)
-        a->status = work ? keep_columns(a, p, work) : RB_ENOMEM;
-    free(work);
+        a->status = keep_tractions(a, p, &p->tableau[n * (n + 1)]);
+    free(value);
     memcpy(a->tableau, p->tableau, n * (n + 2) * sizeof *a->tableau);
     memcpy(a->nonbasis, p->nonbasis, (n + 1) * sizeof *a->nonbasis);
     a->pivots++;

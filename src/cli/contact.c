@@ -159,20 +159,6 @@ static case_row case_row_of(const contact_runs *all, int k)
                       .NPLAST = yielding + known};
 }
 
-static element_row element_row_of(const contact_runs *all, int k, int i)
-{
-    const contact_run *r = &all->run[k];
-    const rb_rolling_solution *s = &r->s;
-    return (element_row){.number = k + 1,
-                         .X = r->c.centre + r->c.sign * s->x[i],
-                         .H = s->gap[i],
-                         .PN = s->p[i],
-                         .PX = r->c.sign * s->q[i] + 0.0,
-                         .S = r->c.sign * s->slip[i] + 0.0,
-                         .zone = s->zone[i],
-                         .UPL = s->plastic ? s->plastic[i] : 0.0};
-}
-
 static rb_status print(FILE *out, const void *context, rb_message *why)
 {
     const contact_runs *all = context;
@@ -190,8 +176,16 @@ static rb_status print(FILE *out, const void *context, rb_message *why)
             if (!all->o->tractions)
                 cli_rows_cells(&cells, names, CASE_ROWS, case_rows, &row);
             for (int j = 0; all->o->tractions && j < s->n; j++) {
-                const int i = all->run[k].c.sign < 0.0 ? s->n - 1 - j : j;
-                const element_row element = element_row_of(all, k, i);
+                const rb_case_contact *c = &all->run[k].c;
+                const int i = c->sign < 0.0 ? s->n - 1 - j : j;
+                const element_row element = {.number = k + 1,
+                                             .X = c->centre + c->sign * s->x[i],
+                                             .H = s->gap[i],
+                                             .PN = s->p[i],
+                                             .PX = c->sign * s->q[i] + 0.0,
+                                             .S = c->sign * s->slip[i] + 0.0,
+                                             .zone = s->zone[i],
+                                             .UPL = s->plastic ? s->plastic[i] : 0.0};
                 cli_rows_cells(&cells, names, ELEMENT_ROWS, element_rows, &element);
             }
         }

@@ -265,21 +265,14 @@ static void find_everything(const rb_option_set *options)
     }
 }
 
-/* Words that a question has besides those that it is about. */
-static int is_stop_word(const char *word)
-{
-    static const char *const words[] = {
-        "a",  "an", "and", "are", "can", "do", "does", "for",  "how",   "i",     "in",   "is",
-        "it", "my", "of",  "on",  "the", "to", "what", "when", "where", "which", "with", "why"};
-    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
-        if (strcasecmp(word, words[k]) == 0)
-            return 1;
-    return 0;
-}
-
 int cli_find(int n, char **words)
 {
     enum { MOST = 20 };
+    /* Words that a question has besides those that it is about. */
+    static const char *const stop_words[] = {
+        "a",  "an", "and", "are", "can", "do", "does", "for",  "how",   "i",     "in",   "is",
+        "it", "my", "of",  "on",  "the", "to", "what", "when", "where", "which", "with", "why"};
+    enum { STOP_WORDS = sizeof stop_words / sizeof *stop_words };
     rb_case *c = rb_case_create(RB_CASE_SINGLE);
     if (!c)
         return cli_fail(CLI_INTERNAL, "out of memory");
@@ -290,9 +283,13 @@ int cli_find(int n, char **words)
         rb_append(all, sizeof all, "%s%s", k ? " " : "", words[k]);
     memset(&search, 0, sizeof search);
     strcpy(split, all);
-    for (char *word; search.n < MOST && (word = strtok_r(rest, " ?", &rest)) != NULL;)
-        if (!is_stop_word(word))
+    for (char *word; search.n < MOST && (word = strtok_r(rest, " ?", &rest)) != NULL;) {
+        int k = 0;
+        while (k < STOP_WORDS && strcasecmp(word, stop_words[k]) != 0)
+            k++;
+        if (k == STOP_WORDS)
             asked[search.n++] = word;
+    }
     search.word = asked;
     if (search.n == 0) { /* stop words alone, such as: it */
         search.n = n;

@@ -368,25 +368,6 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
     return ferror(st->out);
 }
 
-/* Inputs are those of the first case. */
-static rb_status write_json(study *st)
-{
-    char heading[STUDY_HEADING];
-    json_t *root = rb_report_json_start(cli_command_line()), *table = json_object();
-    for (int j = 0; j < column_count(st); j++) {
-        json_t *list = json_array_get(st->list, (size_t)j);
-        rb_report_json_set(&table, column_name(st, j, heading), json_incref(list));
-    }
-    rb_report_json_set(&root, "units", rb_report_json_units(rb_case_resolved(st->base)->units));
-    json_t *inputs = rb_report_json_inputs(st->base);
-    rb_message why;
-    if (st->has_crack && cli_study_try_one(st, 0, &why) == RB_OK)
-        rb_report_json_crack_inputs(&inputs, &st->one_crack, rb_case_resolved(st->base)->units);
-    rb_report_json_set(&root, "inputs", inputs);
-    rb_report_json_set(&root, "table", table);
-    return rb_report_json_write(st->out, root);
-}
-
 static rb_status make_case(int k, rb_rolling_case *rc, void *context)
 {
     study *st = context;
@@ -562,8 +543,22 @@ static cli_exit close_output(study *st, cli_exit code)
             rb_io_writer_abandon(&st->w);
             return st->lost ? cli_fail(CLI_INTERNAL, "out of memory") : code;
         }
-        if (st->list)
-            s = write_json(st);
+        if (st->list) {
+            const rb_units units = rb_case_resolved(st->base)->units;
+            char heading[STUDY_HEADING];
+            json_t *root = rb_report_json_start(cli_command_line()), *table = json_object();
+            for (int j = 0; j < column_count(st); j++)
+                rb_report_json_set(&table, column_name(st, j, heading),
+                                   json_incref(json_array_get(st->list, (size_t)j)));
+            rb_report_json_set(&root, "units", rb_report_json_units(units));
+            json_t *inputs = rb_report_json_inputs(st->base); /* those of the first case */
+            if (st->has_crack && cli_study_try_one(st, 0, &why) == RB_OK)
+                rb_report_json_crack_inputs(&inputs, &st->one_crack, units);
+            why.text[0] = '\0';
+            rb_report_json_set(&root, "inputs", inputs);
+            rb_report_json_set(&root, "table", table);
+            s = rb_report_json_write(st->out, root);
+        }
         if (s == RB_OK)
             s = rb_io_writer_commit(&st->w, &why);
         else

@@ -487,24 +487,6 @@ static void *take_array(bytes_in *in, size_t size)
     return x;
 }
 
-static rb_status take_problem(const char *bytes, rb_io_fclib *p)
-{
-    bytes_in in = {.at = bytes};
-    const arrays all = arrays_of(p);
-    take(&in, p, sizeof *p); /* its pointers are those of the child: all are replaced */
-    for (int k = 0; k < MATRICES; k++) {
-        rb_sparse *a = all.matrix[k];
-        take(&in, &a->rows, sizeof a->rows);
-        take(&in, &a->cols, sizeof a->cols);
-        a->p = take_array(&in, sizeof *a->p);
-        a->i = take_array(&in, sizeof *a->i);
-        a->x = take_array(&in, sizeof *a->x);
-    }
-    for (int k = 0; k < VECTORS; k++)
-        *all.vector[k] = take_array(&in, sizeof(double));
-    return in.no_memory ? RB_ENOMEM : RB_OK;
-}
-
 rb_status rb_io_fclib_read(const char *path, rb_io_fclib *problem, rb_message *why)
 {
     char *bytes;
@@ -519,9 +501,24 @@ rb_status rb_io_fclib_read(const char *path, rb_io_fclib *problem, rb_message *w
      * refuses again */
     if (s == RB_EFORMAT)
         s = rb_io_in_child(path, read_in_child, path, &bytes, &size, why);
-    if (s == RB_OK && (s = take_problem(bytes, problem)) != RB_OK) {
-        rb_io_fclib_free(problem);
-        rb_fail(why, s, "%s: out of memory", path);
+    if (s == RB_OK) {
+        bytes_in in = {.at = bytes};
+        const arrays all = arrays_of(problem);
+        take(&in, problem, sizeof *problem); /* its pointers are the child's: all are replaced */
+        for (int k = 0; k < MATRICES; k++) {
+            rb_sparse *a = all.matrix[k];
+            take(&in, &a->rows, sizeof a->rows);
+            take(&in, &a->cols, sizeof a->cols);
+            a->p = take_array(&in, sizeof *a->p);
+            a->i = take_array(&in, sizeof *a->i);
+            a->x = take_array(&in, sizeof *a->x);
+        }
+        for (int k = 0; k < VECTORS; k++)
+            *all.vector[k] = take_array(&in, sizeof(double));
+        if (in.no_memory) {
+            rb_io_fclib_free(problem);
+            s = rb_fail(why, RB_ENOMEM, "%s: out of memory", path);
+        }
     }
     free(bytes);
     return s;

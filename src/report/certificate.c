@@ -92,17 +92,6 @@ rb_status rb_certificate_column(const char *name, const json_t *table, const cha
     return rb_certificate_list(name, json_object_get(table, heading), heading, n, x, why);
 }
 
-/* Of a table that does not say whether its mesh could be fitted. */
-static int has_equal_elements(const json_t *table)
-{
-    const json_t *h = json_object_get(table, "h_mm");
-    const double first = rb_certificate_number(json_array_get(h, 0));
-    for (size_t i = 1; i < json_array_size(h); i++)
-        if (!(fabs(rb_certificate_number(json_array_get(h, i)) - first) <= 1e-9 * first))
-            return 0;
-    return 1;
-}
-
 /* Gaps and shifts of the printed tractions at an approach and a motion: w, 2 n. */
 static void kinematics_at(const rb_certificate *c, double delta, double xi, double *w)
 {
@@ -573,13 +562,18 @@ rb_status rb_certificate_rebuild(rb_certificate *c, const rb_resolved_case *reso
     double *xh = rb_alloc((size_t)n, 2);
     rb_status s = xh ? RB_OK : RB_ENOMEM;
 
-    m->equal_instead = c->summary ? strcmp(rb_certificate_word(c->summary, "mesh"), "uniform") == 0
-                                  : has_equal_elements(c->table);
-    const int are_equal = m->equal_instead || resolved->rc.mesh != RB_MESH_FITTED;
     if (s == RB_OK)
         s = rb_certificate_column(c->name, c->table, "x_mm", n, xh, why);
     if (s == RB_OK)
         s = rb_certificate_column(c->name, c->table, "h_mm", n, xh + n, why);
+    if (c->summary)
+        m->equal_instead = strcmp(rb_certificate_word(c->summary, "mesh"), "uniform") == 0;
+    else { /* a table does not say whether its mesh could be fitted */
+        m->equal_instead = 1;
+        for (int i = 1; i < n && s == RB_OK; i++)
+            m->equal_instead &= fabs(xh[n + i] - xh[n]) <= 1e-9 * xh[n];
+    }
+    const int are_equal = m->equal_instead || resolved->rc.mesh != RB_MESH_FITTED;
     for (int i = 0; i < n && s == RB_OK; i++)
         if (!(xh[n + i] > 0.0) || (i > 0 && !(xh[i] > xh[i - 1])))
             s = rb_fail(why, RB_EFORMAT, "%s: table: element %d is out of order", c->name, i + 1);

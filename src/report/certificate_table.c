@@ -32,19 +32,6 @@ rb_status rb_report_table_command(const char *text, char **line)
 
 /* ---- Comments ---------------------------------------------------------------------- */
 
-/* "# steady, solved; residual 3.1e-14" */
-static rb_status read_status(const char *name, const char *text, double *residual, rb_message *why)
-{
-    const char *of = strstr(text, "; residual ");
-    if (!of || sscanf(of, "; residual %lf", residual) != 1)
-        return rb_certificate_refuse(name, "expected a table of a single case, with its comments",
-                                     why);
-    const size_t n = strlen(", solved");
-    return of - text > (ptrdiff_t)n && strncmp(of - n, ", solved", n) == 0
-               ? RB_OK
-               : rb_certificate_refuse(name, "its status is not solved", why);
-}
-
 /* "# patch 1: from -1 to 1 mm, p0 = 400 MPa, P = 500, Q = -20 N/mm" */
 static void compare_patches(rb_certificate *c, const char *text)
 {
@@ -108,8 +95,14 @@ rb_status rb_report_certify_table(FILE *out, const char *name, const char *text,
     rb_status s = refused ? rb_certificate_refuse(name, refused, why) : RB_OK;
     if (s == RB_OK && !lines)
         s = RB_ENOMEM;
-    if (s == RB_OK)
-        s = read_status(name, text, &residual, why);
+    /* "# steady, solved; residual 3.1e-14" */
+    const char *of = strstr(text, "; residual "), solved[] = ", solved";
+    const ptrdiff_t n = (ptrdiff_t)strlen(solved);
+    if (s == RB_OK && (!of || sscanf(of, "; residual %lf", &residual) != 1))
+        s = rb_certificate_refuse(name, "expected a table of a single case, with its comments",
+                                  why);
+    if (s == RB_OK && !(of - text > n && strncmp(of - n, solved, (size_t)n) == 0))
+        s = rb_certificate_refuse(name, "its status is not solved", why);
     if (s == RB_OK)
         s = rb_io_table_parse(name, lines, &t, why);
     free(lines);

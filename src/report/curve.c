@@ -79,16 +79,6 @@ void rb_report_json_curves(json_t **root, const rb_report_curves *curves)
 
 /* ---- For people -------------------------------------------------------------------- */
 
-/* The first of the points at the end of the curve at which nothing sticks, or -1. */
-static int full_sliding_from(const rb_rolling_curve *c)
-{
-    const int last = c->n < c->rising ? c->n : c->rising;
-    int k = last;
-    while (k > 0 && c->stick_ratio[k - 1] == 0.0)
-        k--;
-    return k < last ? k : -1;
-}
-
 static double largest(int n, const double *x)
 {
     double most = 0.0;
@@ -103,7 +93,11 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
     for (int k = 0; k < curves->n; k++) {
         const rb_rolling_curve *c = &curves->curve[k];
         const int speeds = c->n > 1 && c->speed[0] != c->speed[1];
-        const int sliding = speeds ? -1 : full_sliding_from(c);
+        /* The first of the points at the end of the curve at which nothing sticks. */
+        const int rising = c->n < c->rising ? c->n : c->rising;
+        int sliding = rising;
+        while (sliding > 0 && c->stick_ratio[sliding - 1] == 0.0)
+            sliding--;
         fprintf(out, "curve, mu = %g: %d points in %.2g s, residual <= %.2g\n", curves->mu[k], c->n,
                 c->seconds, largest(c->n, c->residual));
         if (isfinite(c->free_creepage))
@@ -152,13 +146,14 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
             fprintf(out, "  dissipation below zero at %d point%s, %.2g %s at xi = %.5g: %s\n",
                     points, points > 1 ? "s" : "", c->dissipation[least],
                     rb_unit_name(c->units, "N/mm"), c->creepage[least], rb_rolling_below_zero);
-        if (sliding > 0 && curves->mu[k] > 0.0)
+        const int slides = !speeds && sliding < rising && curves->mu[k] > 0.0;
+        if (slides && sliding > 0)
             fprintf(out,
                     "  full sliding begins between xi = %.5g and %.5g, xi R/(mu a) = %.4g "
                     "and %.4g\n",
                     c->creepage[sliding - 1], c->creepage[sliding], c->creep_ratio[sliding - 1],
                     c->creep_ratio[sliding]);
-        else if (sliding == 0 && curves->mu[k] > 0.0)
+        else if (slides)
             fprintf(out, "  full sliding at every point\n");
     }
     rb_locale_end(before);

@@ -129,26 +129,22 @@ static int is_whole(FILE *picture, rb_report_picture_kind kind)
     return n >= size && memcmp(tail + n - size, whole[kind].end, size) == 0;
 }
 
-static rb_status run(FILE *script, rb_report_picture_kind kind, double seconds, FILE *picture,
-                     FILE *errors, rb_message *why)
-{
-    pid_t pid;
-    if (fflush(script) != 0 || ferror(script))
-        return no_temporary(why);
-    rewind(script);
-    const int e = spawn(script, picture, errors, &pid);
-    const rb_status s = e ? missing(e, why) : wait_for(pid, seconds, errors, why);
-    if (s == RB_OK && !is_whole(picture, kind))
-        return rb_fail(why, RB_EWRITE,
-                       "gnuplot wrote a part of the picture only (is the disk full?)");
-    return s;
-}
-
 rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double seconds, FILE *out,
                             rb_message *why)
 {
     FILE *picture = temporary(), *errors = picture ? temporary() : NULL;
-    rb_status s = errors ? run(script, kind, seconds, picture, errors, why) : no_temporary(why);
+    rb_status s = RB_OK;
+    if (!errors || fflush(script) != 0 || ferror(script))
+        s = no_temporary(why);
+    else {
+        pid_t pid;
+        rewind(script);
+        const int e = spawn(script, picture, errors, &pid);
+        s = e ? missing(e, why) : wait_for(pid, seconds, errors, why);
+        if (s == RB_OK && !is_whole(picture, kind))
+            s = rb_fail(why, RB_EWRITE,
+                        "gnuplot wrote a part of the picture only (is the disk full?)");
+    }
     if (s == RB_OK) {
         char buffer[1 << 14];
         size_t n;

@@ -71,28 +71,6 @@ typedef struct {
     int cells, per_cell;
 } selection;
 
-/* Quadrilaterals of which all corners are inside, or a vertex per point. */
-static void make_cells(selection *v)
-{
-    const rb_report_stress *s = v->s;
-    if (s->nx == 0) {
-        for (int k = 0; k < v->n; k++)
-            v->cell[v->cells++] = k;
-        return;
-    }
-    for (int j = 0; j + 1 < s->ny; j++)
-        for (int i = 0; i + 1 < s->nx; i++) {
-            const int k = i + j * s->nx;
-            const int corner[] = {v->number[k], v->number[k + 1], v->number[k + s->nx + 1],
-                                  v->number[k + s->nx]};
-            if (corner[0] < 0 || corner[1] < 0 || corner[2] < 0 || corner[3] < 0)
-                continue;
-            for (int c = 0; c < 4; c++)
-                v->cell[4 * v->cells + c] = corner[c];
-            v->cells++;
-        }
-}
-
 static rb_status select_points(const rb_report_stress *s, selection *v)
 {
     *v = (selection){.s = s, .per_cell = s->nx > 0 ? 4 : 1};
@@ -103,7 +81,19 @@ static rb_status select_points(const rb_report_stress *s, selection *v)
         return RB_ENOMEM;
     for (int k = 0; k < s->n; k++)
         v->number[k] = rb_report_stress_is_inside(s, k) ? v->n++ : -1;
-    make_cells(v);
+    /* Cells: quadrilaterals of which all corners are inside, or a vertex per point. */
+    for (int k = 0; k < v->n && s->nx == 0; k++)
+        v->cell[v->cells++] = k;
+    for (int j = 0; j + 1 < s->ny; j++)
+        for (int i = 0; i + 1 < s->nx; i++) {
+            const int *at = v->number + i + j * s->nx;
+            const int corner[] = {at[0], at[1], at[s->nx + 1], at[s->nx]};
+            if (corner[0] < 0 || corner[1] < 0 || corner[2] < 0 || corner[3] < 0)
+                continue;
+            for (int c = 0; c < 4; c++)
+                v->cell[4 * v->cells + c] = corner[c];
+            v->cells++;
+        }
     return RB_OK;
 }
 
