@@ -84,8 +84,7 @@ static inline json_t *run_json(const char *arguments)
     snprintf(line, sizeof line, "%s --json --quiet", arguments);
     const int code = rollbem(line);
     if (code)
-        print_error("rollbem %s: %s\n", line, err);
-    assert_int_equal(code, 0);
+        fail_msg("rollbem %s: %s", line, err);
     json_t *root = json_loads(out, 0, NULL);
     assert_non_null(root);
     return root;

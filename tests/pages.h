@@ -27,8 +27,7 @@ static inline void slurp(const char *path, char text[MAX_TEXT])
 {
     FILE *file = fopen(path, "r");
     if (!file)
-        print_error("%s: cannot be read\n", path);
-    assert_non_null(file);
+        fail_msg("%s: cannot be read", path);
     const size_t n = fread(text, 1, MAX_TEXT - 1, file);
     text[n] = '\0';
     assert_true(feof(file) && n + 1 < MAX_TEXT);
@@ -67,8 +66,7 @@ static inline int next_part(const char **at, int *line, part *p)
     p->length = (size_t)(s - p->text);
     if (fenced) {
         if (strncmp(s, "```\n", 4) != 0)
-            print_error("line %d: a block without end\n", p->line);
-        assert_int_equal(strncmp(s, "```\n", 4), 0);
+            fail_msg("line %d: a block without end", p->line);
         s += 4;
         ++*line;
     }

@@ -602,8 +602,7 @@ TEST(pictures_in_sizes)
             snprintf(want, sizeof want, "width=\"%d\" height=\"%d\"", sizes[i].width,
                      sizes[i].height);
             if (!strstr(out, want))
-                print_error("%s: not %s\n", line, want);
-            assert_non_null(strstr(out, want));
+                fail_msg("%s: not %s", line, want);
             check_titles_of_axes(line);
             if (i == (int)k % 3)
                 assert_int_equal(shell("gnuplot -d sized.gp | cmp - sized.svg"), 0);

@@ -164,9 +164,7 @@ static void check_link_to_the_page(const char *page, const char *fragment)
     assert_int_equal(fclose(file), 0);
     const int code = run("%s/build/rollbem %s >/dev/null 2>&1", folder, path);
     if (code || !viewed)
-        print_error("%s: the link %s ends with code %d\n", page, fragment, code);
-    assert_int_equal(code, 0);
-    assert_true(viewed);
+        fail_msg("%s: the link %s ends with code %d", page, fragment, code);
 }
 
 /* How many links to the page in the browser a page has; all its links lead somewhere. */
@@ -192,8 +190,7 @@ static int check_links(const char *page)
                                     ? run("test -s %s/pictures/%s", folder, strrchr(built, '/') + 1)
                                     : run("cd $(dirname %s) && test -e %s", page, target);
             if (missing)
-                print_error("%s: %s leads nowhere\n", page, target);
-            assert_int_equal(missing, 0);
+                fail_msg("%s: %s leads nowhere", page, target);
         }
     }
     return of_the_page;
@@ -224,8 +221,7 @@ TEST(lessons_have_all_their_parts)
         slurp(lessons.gl_pathv[k], text);
         for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
             if (!strstr(text, wanted[i]))
-                print_error("%s: without %s\n", lessons.gl_pathv[k], wanted[i]);
-            assert_non_null(strstr(text, wanted[i]));
+                fail_msg("%s: without %s", lessons.gl_pathv[k], wanted[i]);
         }
         const char *exercises = strstr(text, "\n## Exercises");
         for (int e = 1; e <= EXERCISES; e++) {

@@ -8,8 +8,7 @@ static void check_lines_of(const char *readelf, const char *part)
     snprintf(line, sizeof line, "readelf %s", readelf);
     assert_int_equal(shell(line), 0);
     if (!strstr(out, part))
-        print_error("readelf %s: no '%s'\n", readelf, part);
-    assert_non_null(strstr(out, part));
+        fail_msg("readelf %s: no '%s'", readelf, part);
 }
 
 static void skip_where_nothing_is_hardened(void)

@@ -73,8 +73,7 @@ static void check_tables(const char *command, const char *script)
 {
     write_file("script", script);
     if (shell(command) != 0)
-        print_error("%s: %s\n%s\n", command, out, err);
-    assert_int_equal(shell(command), 0);
+        fail_msg("%s: %s\n%s", command, out, err);
     assert_int_equal(shell("grep -c . seen >/dev/null && for f in *.tsv; do "
                            "n=$(grep -v '^#' $f | tail -n +2 | wc -l); "
                            "m=$(head -1 $f | awk -F '\\t' '{print NF}'); "
