@@ -301,7 +301,17 @@ static void command_prints_derivatives(void **state)
     assert_int_equal(rollbem("--tolerance zone=1" BODIES), 64);
     assert_int_equal(rollbem("--derivatives --error" BODIES), 64);
     assert_int_equal(rollbem("--derivatives --increments 3 --error" BODIES), 64);
-    assert_int_equal(rollbem("--tolerance mu=0.1 --increments 3" BODIES), 64);
+    assert_int_equal(rollbem("--tolerance mu=0.1 --increments 3 --error" BODIES), 64);
+    assert_int_equal(rollbem("--tolerance mu=0.01,load=1% --increments 3 --json --states "
+                             "--support halfplane --similar --load 500 --shift 1e-3"),
+                     0);
+    root = json_loads(out, 0, NULL);
+    const json_t *history = json_object_get(root, "history");
+    CHECK_REL(json_real_value(json_array_get(
+                  json_object_get(json_object_get(history, "tolerances"), "normal_load"), 0)),
+              5.0 / 3.0, 1e-9, "of a third of the load");
+    assert_null(json_object_get(root, "tolerances"));
+    json_decref(root);
 }
 
 /* The example, which CONTACT's falling law has made with noise: the numbers of its first

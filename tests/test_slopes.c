@@ -3,6 +3,7 @@
 #include "case_words.h"
 #include "differences.h"
 
+#include <gsl/gsl_cdf.h>
 #include <string.h>
 
 /* ---- Histories --------------------------------------------------------------------- */
@@ -100,6 +101,71 @@ TEST(refusals_of_histories)
         assert_non_null(strstr(why.text, bad[k].words));
         rb_case_free(c);
     }
+}
+
+/* ---- Uncertain inputs of histories ------------------------------------------------- */
+
+/* A Latin hypercube of normal distributions, its second coordinate the first one with the
+ * bits of its number reversed, scatters as the tangents say, at every step. */
+TEST(samples_of_histories_scatter_as_tolerances)
+{
+    enum { BITS = 6, N = 1 << BITS };
+    static const words w = {{PLANES, ROLLS, "similar", "yes", "creep", "1e-3"}};
+    const double load = 500.0, mu = 0.3;
+    rb_message why = {""};
+    rb_case *c = case_of(RB_CASE_SINGLE, &w, NULL, 0.0);
+    rb_case_tolerances t;
+    difference_run at = {.states = {0}}, one[N] = {{.states = {0}}};
+    double quantile[N], unit = 0.0;
+
+    (void)state;
+    CHECK_STATUS(rb_case_read_tolerances(c, "load=0.3%,mu=0.002", &t, &why), RB_OK);
+    CHECK_STATUS(difference_history(rb_case_resolved(c), &rb_case_resolved(c)->rc, &at, &why),
+                 RB_OK);
+    CHECK_STATUS(rb_case_propagate_steps(c, &t, &at.states, &at.history, &why), RB_OK);
+    for (int k = 0; k < N; k++) {
+        quantile[k] = gsl_cdf_ugaussian_Pinv((k + 0.5) / N);
+        unit += quantile[k] * quantile[k] / N;
+    }
+    for (int k = 0; k < N; k++) {
+        int reversed = 0;
+        for (int bit = 0; bit < BITS; bit++)
+            reversed |= (k >> bit & 1) << (BITS - 1 - bit);
+        rb_case *sample = case_of(RB_CASE_SINGLE, &w, "mu", mu + 0.002 * quantile[reversed]);
+        CHECK_STATUS(rb_case_set_number(sample, "load", load * (1.0 + 0.003 * quantile[k]), &why),
+                     RB_OK);
+        CHECK_STATUS(rb_case_resolve(sample, &why), RB_OK);
+        CHECK_STATUS(difference_history(rb_case_resolved(sample), &rb_case_resolved(sample)->rc,
+                                        &one[k], &why),
+                     RB_OK);
+        assert_int_equal(one[k].history.n, at.history.n);
+        rb_case_free(sample);
+    }
+    int compared = 0;
+    for (int j = 0; j < rb_rolling_history_columns.n; j++) {
+        const rb_rolling_result *r = &rb_rolling_history_columns.row[j];
+        const int has = rb_sensitivity_has(r) && rb_rolling_has_column(r, at.history.deviations);
+        for (int row = 1; row < at.history.n && has; row++) {
+            double sum = 0.0, squares = 0.0;
+            const double least = difference_usual(r, &at) * 1e-6;
+            for (int k = 0; k < N; k++) {
+                const double x = rb_rolling_entry(r, &one[k].history, row) -
+                                 rb_rolling_entry(r, &at.history, row);
+                sum += x;
+                squares += x * x;
+            }
+            const double scatter = sqrt((squares - sum * sum / N) / N / unit);
+            CHECK_ABS(rb_rolling_entry(r, at.history.deviations, row), scatter,
+                      0.04 * scatter + least, "%s, step %d", r->name, row + 1);
+            compared += scatter > least;
+        }
+    }
+    if (compared < 5 * (at.history.n - 1))
+        fail_msg("%d numbers of %d steps scatter", compared, at.history.n);
+    for (int k = 0; k < N; k++)
+        difference_run_free(&one[k]);
+    difference_run_free(&at);
+    rb_case_free(c);
 }
 
 /* ---- Curves ------------------------------------------------------------------------ */

@@ -97,7 +97,8 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *   friction_power               energy that wear takes, an entry per element
  *   patch.from ...               an entry per patch of the contact
  * history.distance ... of a case with steps, an entry per step;
- *                                history.error.distance ... where errors were asked for
+ *                                history.error.distance ... where errors were asked for;
+ *                                history.tolerance.approach ... after rb_api_tolerances
  *   step.p step.q step.zone      elements x steps
  *   step.x                       its midpoints
  *   ends gap0                    of the elements; the gap without load
@@ -134,12 +135,14 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *   derivative.value             the inputs' values
  *   derivative.NAME.gap derivative.NAME.mu   of normal_load, tangential_load, approach
  *                                and creepage, with respect to gap and mu of each element
- *   tolerance.NAME               after rb_api_tolerances, of a number of the solution:
- * its standard deviation wear.way wear.worn ...       after rb_api_wear, an entry per
- * step wear.profile.x wear.profile.depth   the worn depth at the end, over x sweep.status
- * sweep.NAME ...  after rb_api_sweep, an entry per case; of cracks also the names of
- * crack.summary lcp.z lcp.w                  after rb_api_lcp friction.r friction.u after
- * rb_api_friction, dimension x contacts */
+ *   tolerance.NAME               after rb_api_tolerances, of a number of the solution: its
+ *                                standard deviation
+ *   wear.way wear.worn ...       after rb_api_wear, an entry per step
+ *   wear.profile.x wear.profile.depth   the worn depth at the end, over x
+ *   sweep.status sweep.NAME ...  after rb_api_sweep, an entry per case; of cracks also the
+ *                                names of crack.summary
+ *   lcp.z lcp.w                  after rb_api_lcp
+ *   friction.r friction.u        after rb_api_friction, dimension x contacts */
 const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns);
 
 /* Each of these functions computes the arrays that are named after it from the solved
@@ -181,7 +184,8 @@ int rb_api_derivatives(rb_api *a);
  * derivatives, or ""). NULL: no such input or field. */
 const char *rb_api_input(const rb_api *a, int k, const char *field, char *text, int size);
 /* Standard deviations of the numbers of the solution to first order, from those of inputs
- * as `rollbem --tolerance` takes them: "mu=0.02,radius=1%".  Computes the derivatives. */
+ * as `rollbem --tolerance` takes them: "mu=0.02,radius=1%"; of a case with steps those of
+ * the columns of its history.  Computes the derivatives. */
 int rb_api_tolerances(rb_api *a, const char *inputs);
 /* Stress at n points x0, y0, x1, y1, ... inside A, y > 0. */
 int rb_api_stress_at(rb_api *a, int n, const double *xy);

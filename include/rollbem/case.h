@@ -319,6 +319,12 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_to
 rb_status rb_case_propagate(const rb_case_tolerances *t, const rb_case_derivatives *all,
                             rb_rolling_solution *deviation, rb_message *why);
 
+/* Those of every step of the history whose states are given, as its `deviations`: first
+ * order, carried from step to step.  RB_EINVAL: as rb_case_slopes_of_steps. */
+rb_status rb_case_propagate_steps(const rb_case *c, const rb_case_tolerances *t,
+                                  const rb_rolling_states *states, rb_rolling_history *history,
+                                  rb_message *why);
+
 /* From mm, N, MPa to other units, once. */
 void rb_case_derivatives_convert(rb_case_derivatives *all, rb_units units);
 void rb_case_derivatives_free(rb_case_derivatives *all);

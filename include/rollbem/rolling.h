@@ -871,7 +871,10 @@ typedef struct rb_rolling_history {
     double step;       /* c [length]; 0 in a static history */
     int steady_from;   /* first step from which the state is steady until the end, or -1 */
     rb_units units;    /* of all values here */
-    struct rb_rolling_history *errors; /* error bar of every entry; NULL: not computed; owned */
+    struct rb_rolling_history *errors;     /* error bar of every entry; NULL: not computed; owned */
+    struct rb_rolling_history *deviations; /* standard deviation of every entry that has
+                                              derivatives (rb_case_propagate_steps); NULL: not
+                                              computed; owned */
 } rb_rolling_history;
 
 void rb_rolling_history_free(rb_rolling_history *history);

@@ -346,6 +346,7 @@ class History(_Named):
 
     solution: Solution
     errors: dict
+    tolerances: dict  # standard deviations, of tolerance=...
     half_width: float
     x: Array
     p: Array
@@ -358,6 +359,7 @@ class History(_Named):
         self._arrays = handle.arrays("step", "history.")
         self._numbers = {"half_width": handle.number("history.half_width")}
         self.errors = handle.arrays("step", "history.error.")
+        self.tolerances = handle.arrays("step", "history.tolerance.")
         self.x = handle.array("step.x")
         self.p, self.q, zone = (np.atleast_2d(handle.array(f"step.{name}").T) for name in ("p", "q", "zone"))
         self.zone = zone.astype(int)
@@ -504,7 +506,7 @@ def solve(case: Union[Case, str, os.PathLike, None] = None, *, progress: Progres
 
     Of a sequence of steps, ``progress(done, total)`` is called now and then.
     ``tolerance``, such as ``{"mu": 0.02, "radius": "1%"}``: standard deviations of inputs; those of the numbers are
-    then ``tolerances`` of the solution, to first order.
+    then ``tolerances`` of the solution, to first order; of a sequence of steps ``tolerances`` of its history.
     Raises :class:`Unsolved`, with what there is as its ``solution``, where the run ends
     without a full answer.
     """
@@ -540,12 +542,13 @@ def curve(case: Union[Case, str, os.PathLike, None] = None, start: float = 0.0, 
 
 
 def history(program: Optional[Table] = None, case: Union[Case, str, os.PathLike, None] = None, *,
-            progress: Progress = None, **options: Any) -> History:
+            progress: Progress = None, tolerance: Any = None, **options: Any) -> History:
     """Runs a case along a program, a dictionary of columns, or along its own distance.
 
     ``history({"distance": [0, 4], "creep": [0, 1e-3]}, load=500, support="halfplane")`` rolls
     over 4 half-widths; without ``distance`` the rows are increments of a static contact.
     ``progress(done, total)`` is called with the number of steps now and then.
+    ``tolerance`` as of :func:`solve`: standard deviations after every step are ``tolerances`` of the history.
     """
     if program is not None:
         options = {**options, "history": program}
@@ -554,7 +557,7 @@ def history(program: Optional[Table] = None, case: Union[Case, str, os.PathLike,
         rolls = program is None or "distance" in program
         whole = whole.but(formulation="transient" if rolls else "static")
     try:
-        found = whole.solve(progress).history
+        found = solve(whole, progress=progress, tolerance=tolerance).history
     except Exception as error:  # the finished steps are kept
         if getattr(error, "solution", None) is not None:
             error.solution = error.solution.history

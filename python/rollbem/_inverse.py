@@ -125,6 +125,7 @@ def history_derivatives(case: _CaseLike = None, results: str = "all", **options:
 def tolerances(solution: Union[Solution, _CaseLike] = None, *, tolerance: Any, **options: Any) -> "dict[str, float]":
     """Standard deviations of all numbers, to first order, from those of inputs, which are independent.
 
+    Of a sequence of steps: ``{}``, and those of the columns are ``tolerances`` of its ``history``.
     ``tolerance`` as of ``rollbem --tolerance``: ``"mu=0.02,radius=1%"``, or ``{"mu": 0.02, "radius": "1%"}``.
     """
     if not isinstance(solution, Solution):

@@ -80,6 +80,20 @@ def test_tolerances():
         rollbem.solve(**STEADY, tolerance={"zone": 1})
 
 
+def test_tolerances_of_histories():
+    rolled = {**PLANES, "contact_elements": 30, "formulation": "transient", "distance": 1, "creep": 1e-3}
+    h = rollbem.history(**rolled, tolerance={"mu": 0.02, "load": "1%"})
+    want = run_json(**rolled, tolerance="mu=0.02,load=1%")["history"]["tolerances"]
+    assert h.tolerances["tangential_load"] == pytest.approx(want["tangential_load"], rel=1e-6, abs=1e-12)
+    d = rollbem.history_derivatives(**rolled, results="tangential_load")["tangential_load"]
+    assert h.tolerances["tangential_load"] == pytest.approx(np.hypot(0.02 * d["mu"], 5 * d["load"]), rel=1e-6)
+    assert h.tolerances["normal_load"] == pytest.approx(5 * np.ones_like(h.distance))
+    assert rollbem.history(**rolled).tolerances == {}
+    assert rollbem.solve(**rolled, tolerance="mu=0.02").tolerances == {}
+    with pytest.raises(rollbem.InvalidInput, match="given approach"):
+        rollbem.history(**{**rolled, "load": None, "approach": 0.01}, tolerance={"mu": 0.02})
+
+
 def test_fits():
     xi = -0.5e-3 * np.arange(1, 13)
     ratio = [-rollbem.solve(**PLANES, formulation="steady", mu=0.25, creep=float(x) + 1e-4).tangential_load / 500

@@ -128,6 +128,7 @@ static void forget(rb_api *a, int same_bodies)
     rb_rolling_curve_free(&a->curve_errors);
     rb_contact_lcp_free(&a->lcp);
     rb_case_derivatives_free(&a->derivatives);
+    rb_rolling_states_free(&a->states);
     a->has_deviation = 0;
     rb_rolling_wear_history_free(&a->wear);
     rb_case_result_free(&a->result);
@@ -233,10 +234,15 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
     if (a->stopped || !model) /* no model: a run for error bars */
         return a->stopped;
     const int n = model->mesh.n;
-    if (step == 0) /* a run may start again on a wider zone */
-        rb_api_forget_arrays(a, "step.");
     double *row = rb_alloc((size_t)n, 1);
     rb_status s = row ? RB_OK : RB_ENOMEM;
+    if (step == 0) { /* a run may start again on a wider zone */
+        rb_api_forget_arrays(a, "step.");
+        rb_rolling_states_free(&a->states);
+        s = s == RB_OK ? rb_rolling_states_alloc(n, steps, &a->states) : s;
+    }
+    if (s == RB_OK)
+        rb_rolling_states_set(model, step, &a->states);
     for (int i = 0; row && i < n; i++)
         row[i] = model->state.zone[i];
     if (s == RB_OK)
@@ -544,6 +550,8 @@ static api_array *series_array(rb_api *a, const char *name)
         int rows;
     } series[] = {{"history.error.", &rb_rolling_history_columns, r->history.errors,
                    r->history.errors ? r->history.errors->n : 0},
+                  {"history.tolerance.", &rb_rolling_history_columns, r->history.deviations,
+                   r->history.deviations ? r->history.deviations->n : 0},
                   {"history.", &rb_rolling_history_columns, &r->history, r->history.n},
                   {"curve.error.", &rb_rolling_curve_columns, &a->curve_errors, a->curve_errors.n},
                   {"curve.", &rb_rolling_curve_columns, &a->curve, a->curve.n},
@@ -958,11 +966,38 @@ int rb_api_derivatives(rb_api *a)
     return rb_api_ended(a, s);
 }
 
+/* Of every step. */
+static rb_status step_tolerances(rb_api *a, const char *inputs)
+{
+    const rb_resolved_case *c = rb_case_resolved(a->words);
+    rb_rolling_history *h = &a->result.history;
+    rb_case_tolerances t;
+
+    begin(a);
+    rb_api_forget_arrays(a, "history.tolerance.");
+    if (h->deviations)
+        rb_rolling_history_free(h->deviations);
+    free(h->deviations);
+    h->deviations = NULL;
+    a->states.program = c->program.n > 0 ? &c->program : NULL;
+    a->states.half_width = h->half_width;
+    rb_api_call_begins();
+    rb_status s = a->states.steps == h->n
+                      ? rb_case_read_tolerances(a->words, inputs, &t, &a->why)
+                      : rb_fail(&a->why, RB_EINVAL, "tolerances: not all steps were solved");
+    if (s == RB_OK)
+        s = rb_case_propagate_steps(a->words, &t, &a->states, h, &a->why);
+    rb_api_call_ends();
+    return s;
+}
+
 int rb_api_tolerances(rb_api *a, const char *inputs)
 {
     rb_case_tolerances t;
-    int status = rb_api_derivatives(a);
 
+    if (a->result.history.n > 0)
+        return rb_api_ended(a, step_tolerances(a, inputs));
+    int status = rb_api_derivatives(a);
     rb_api_forget_arrays(a, "tolerance.");
     a->has_deviation = 0;
     if (status != RB_OK)

@@ -34,6 +34,7 @@ struct rb_api {
     rb_rolling_model kept; /* of the last case, where only what drives it has changed */
     rb_rolling_curve curve, curve_errors; /* curve_errors.n = 0: not asked for */
     rb_case_derivatives derivatives;      /* n = 0: not asked for */
+    rb_rolling_states states;             /* of all steps; n = 0: a case without */
     rb_rolling_solution deviation;        /* after rb_api_tolerances, has_deviation */
     int has_deviation;
     rb_rolling_wear_history wear; /* n = 0: not asked for */

@@ -34,17 +34,17 @@ static rb_status add_slope(rb_case_slopes *s, const rb_rolling_result *result,
     return RB_OK;
 }
 
-/* "RESULT", by all numbers, or "RESULT:OPTION". */
+/* "RESULT", by all numbers, or "RESULT:OPTION"; "all" in the place of RESULT. */
 static rb_status add_word(const rb_resolved_case *c, rb_case_slopes *s, char *word, int numbers,
                           const rb_case_number *number, int most, rb_message *why)
 {
     char *input = strchr(word, ':');
-    const int all = strcmp(word, "all") == 0, mu_varies = c->program.mu != NULL;
     rb_status status = RB_OK;
     int found = 0;
 
     if (input)
         *input++ = '\0';
+    const int all = strcmp(word, "all") == 0, mu_varies = c->program.mu != NULL;
     if (!all && !find_result(s->table, word)) {
         rb_guess guess = {.word = word};
 
@@ -480,4 +480,45 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
     free(v);
     free(number);
     return status;
+}
+
+rb_status rb_case_propagate_steps(const rb_case *c, const rb_case_tolerances *t,
+                                  const rb_rolling_states *states, rb_rolling_history *history,
+                                  rb_message *why)
+{
+    char words[RB_CASE_TOLERANCES_MAX * (sizeof t->name[0] + 5)] = "";
+    rb_case_slopes slopes;
+    rb_rolling_history *d = calloc(1, sizeof *d);
+
+    for (int i = 0; i < t->n; i++)
+        snprintf(words + strlen(words), sizeof words - strlen(words), "%sall:%s", i ? "," : "",
+                 t->name[i]);
+    rb_status s = rb_case_slopes_choose(c, &rb_rolling_history_columns, words, RB_CASE_SLOPES_MAX,
+                                        &slopes, why);
+    if (s == RB_OK)
+        s = rb_case_slopes_of_steps(c, states, &slopes, why);
+    if (s == RB_OK && d)
+        d->n = states->steps;
+    for (int k = 0; k < slopes.n && s == RB_OK && d; k++) {
+        double **column = (double **)(void *)((char *)d + slopes.of[k].result->offset);
+        double deviation = 0.0;
+        for (int i = 0; i < t->n; i++)
+            if (strcmp(t->name[i], slopes.of[k].input) == 0)
+                deviation = t->deviation[i];
+        if (!*column && !(*column = rb_alloc((size_t)d->n, 1)))
+            s = RB_ENOMEM;
+        for (int row = 0; row < d->n && s == RB_OK; row++)
+            (*column)[row] =
+                hypot((*column)[row], deviation * rb_case_slope_value(&slopes, row, k));
+    }
+    rb_case_slopes_free(&slopes);
+    if (s == RB_OK && d) {
+        history->deviations = d;
+        return s;
+    }
+    if (d)
+        rb_rolling_history_free(d);
+    free(d);
+    return s == RB_OK || s == RB_ENOMEM ? rb_fail(why, RB_ENOMEM, "out of memory for deviations")
+                                        : s;
 }

@@ -49,7 +49,8 @@ static const rb_option options[] = {
                  .unset = "none", .alone = "all"),
     RB_TEXT_LINE("tolerance", PLACE(tolerance), "NAME=X,...",
                  "standard deviations of inputs, as mu=0.02,radius=1%: prints those of all "
-                 "results to first order to standard error, and as tolerances in JSON",
+                 "results to first order to standard error, and as tolerances in JSON; of a case "
+                 "with steps: of columns of its history, also in --history-table",
                  .unset = "none"),
 
     RB_GROUP_LINE("output", "Steps of a transient or of a static history"),
@@ -111,7 +112,7 @@ static void add_json(const cli_case_run *run, json_t **root)
         rb_report_json_set(root, "solutions", rb_report_json_solutions(&it->all));
     if (it->derivatives && it->slopes_of_steps.n == 0)
         rb_report_json_derivatives(root, &it->shown);
-    if (it->tolerance)
+    if (it->tolerance && it->r.history.n == 0)
         rb_report_json_tolerances(root, &it->shown);
 }
 
@@ -176,7 +177,7 @@ static cli_exit show_behind(const cli_case_run *run)
 static void summarise(FILE *out, const cli_case_run *run)
 {
     const solved *it = run->own;
-    if (it->tolerance)
+    if (it->tolerance && it->r.history.n == 0)
         rb_report_tolerances(out, &it->r.solution, &it->shown);
     rb_report_summary(out, &it->r.solution, cli_terminal_width(STDERR_FILENO));
     if (it->r.has_errors)
@@ -203,15 +204,21 @@ static rb_status solve(cli_case_run *run, rb_message *why)
     const rb_units units = run->c->units;
     it->steps.style = run->o.style;
     it->steps.terminal = !run->o.quiet && isatty(STDERR_FILENO);
-    it->steps.states = it->states || it->slopes_of_steps.n > 0 ? &it->kept : NULL;
+    const int steps = rb_case_has_steps(run->c);
+    it->steps.states =
+        it->states || (steps && (it->derivatives || it->tolerance)) ? &it->kept : NULL;
     rb_status s = cli_run_case(run->c, &it->steps, &it->r, why);
     if (s == RB_OK && it->all_solutions)
         s = rb_rolling_find_solutions(&it->r.model, &it->all, why);
-    if (s == RB_OK && it->slopes_of_steps.n > 0) {
+    if (s == RB_OK && steps && (it->derivatives || it->tolerance)) {
         /* Of the columns of a history. */
         it->kept.program = run->c->program.n > 0 ? &run->c->program : NULL;
         it->kept.half_width = it->r.history.half_width;
-        s = rb_case_slopes_of_steps(run->words, &it->kept, &it->slopes_of_steps, why);
+        if (it->derivatives)
+            s = rb_case_slopes_of_steps(run->words, &it->kept, &it->slopes_of_steps, why);
+        if (s == RB_OK && it->tolerance)
+            s = rb_case_propagate_steps(run->words, &it->tolerances, &it->kept, &it->r.history,
+                                        why);
         if (s != RB_OK)
             drop_derivatives(it);
         rb_case_slopes_convert(&it->slopes_of_steps, run->c->units);
@@ -280,10 +287,9 @@ static cli_exit check(cli_case_run *run)
         return cli_fail(CLI_USAGE, "--all-solutions: at a given creepage, not under a given force");
     if ((it->derivatives || it->tolerance) && !model_kept)
         return cli_fail(CLI_USAGE, "--derivatives and --tolerance: not together with error bars");
-    if (it->derivatives && has_steps && c->error)
-        return cli_fail(CLI_USAGE, "--derivatives: not together with error bars");
-    if (it->tolerance && has_steps)
-        return cli_fail(CLI_USAGE, "--tolerance: only for one step; this case has several");
+    if ((it->derivatives || it->tolerance) && has_steps && c->error)
+        return cli_fail(CLI_USAGE, "--%s: not together with error bars",
+                        it->derivatives ? "derivatives" : "tolerance");
     if (it->trace && c->rc.contact.solver != RB_SOLVER_AUTO &&
         c->rc.contact.solver != RB_SOLVER_LEMKE)
         return cli_fail(CLI_USAGE, "--trace: only --solver lemke pivots");

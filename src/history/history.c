@@ -11,9 +11,13 @@ static const double STEADY_RATE = 1e-3;
 
 void rb_rolling_history_free(rb_rolling_history *h)
 {
-    if (h->errors)
-        rb_rolling_history_free(h->errors);
-    free(h->errors);
+    struct rb_rolling_history *const beside[] = {h->errors, h->deviations};
+
+    for (int k = 0; k < 2; k++) {
+        if (beside[k])
+            rb_rolling_history_free(beside[k]);
+        free(beside[k]);
+    }
     rb_rolling_columns_free(&rb_rolling_history_columns, h);
     memset(h, 0, sizeof *h);
 }

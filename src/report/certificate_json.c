@@ -258,9 +258,10 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root, rb_
         s = rb_certificate_stress(&c, root, why);
     if (s == RB_OK) {
         /* What the case and its state say nothing of without solving again. */
-        const json_t *steps = json_object_get(json_object_get(root, "history"), "derivatives");
-        const int slopes = steps || json_object_get(root, "derivatives"),
-                  deviations = json_object_get(root, "tolerances") != NULL;
+        const int slopes = json_object_get(history, "derivatives") ||
+                           json_object_get(root, "derivatives"),
+                  deviations =
+                      json_object_get(history, "tolerances") || json_object_get(root, "tolerances");
 
         if (slopes || deviations)
             fprintf(c.out, "%s: %s%s%s: not judged\n", c.name, slopes ? "derivatives" : "",

@@ -9,9 +9,9 @@
 
 /* ---- Table and JSON ---------------------------------------------------------------- */
 
-static rb_report_columns columns_of(const rb_rolling_curve *c, int errors)
+static rb_report_columns columns_of(const rb_rolling_curve *c, int kind)
 {
-    return (rb_report_columns){&rb_rolling_curve_columns, c, errors, c->units};
+    return (rb_report_columns){&rb_rolling_curve_columns, c, kind, c->units};
 }
 
 rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const char *command,

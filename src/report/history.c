@@ -5,16 +5,29 @@
 #include <math.h>
 #include <string.h>
 
-static rb_report_columns columns_of(const rb_rolling_history *h, int errors)
+static rb_report_columns columns_of(const rb_rolling_history *h, int kind)
 {
-    return (rb_report_columns){&rb_rolling_history_columns, h, errors, h ? h->units : RB_UNITS_MM};
+    return (rb_report_columns){&rb_rolling_history_columns, h, kind, h->units};
+}
+
+/* The history, and what stands beside its values.  Returns how many. */
+static int parts_of(const rb_rolling_history *h, rb_report_columns part[3])
+{
+    int n = 0;
+
+    part[n++] = columns_of(h, RB_REPORT_VALUES);
+    if (h->errors)
+        part[n++] = columns_of(h->errors, RB_REPORT_ERRORS);
+    if (h->deviations)
+        part[n++] = columns_of(h->deviations, RB_REPORT_DEVIATIONS);
+    return n;
 }
 
 rb_status rb_report_history(FILE *out, const rb_rolling_history *h, const char *command,
                             const rb_report_style *style)
 {
-    const rb_report_columns part[2] = {columns_of(h, 0), columns_of(h->errors, 1)};
-    const int parts = h->errors ? 2 : 1;
+    rb_report_columns part[3];
+    const int parts = parts_of(h, part);
     rb_report_cells c = rb_report_begin_columns(out, style, command, parts, part);
 
     rb_report_comment(&c,
@@ -30,19 +43,20 @@ rb_status rb_report_history(FILE *out, const rb_rolling_history *h, const char *
 
 json_t *rb_report_json_history(const rb_rolling_history *h)
 {
-    const rb_report_columns columns = columns_of(h, 0);
+    rb_report_columns part[3];
+    const int parts = parts_of(h, part);
     json_t *history = json_object();
 
-    rb_report_json_columns(&history, h->n, &columns, 0);
+    rb_report_json_columns(&history, h->n, &part[0], 0);
     rb_report_json_set(&history, "half_width", rb_report_json_number(h->half_width));
     rb_report_json_set(&history, "step", rb_report_json_number(h->step));
     rb_report_json_set(&history, "steady_from",
                        h->steady_from < 0 ? json_null() : json_integer(h->steady_from));
-    if (h->errors) {
-        const rb_report_columns bars = columns_of(h->errors, 1);
+    for (int k = 1; k < parts; k++) {
         json_t *object = json_object();
-        rb_report_json_columns(&object, h->n, &bars, 0);
-        rb_report_json_set(&history, "errors", object);
+        rb_report_json_columns(&object, h->n, &part[k], 0);
+        rb_report_json_set(&history, part[k].kind == RB_REPORT_ERRORS ? "errors" : "tolerances",
+                           object);
     }
     return history;
 }
@@ -94,6 +108,21 @@ static double unresolved(const rb_rolling_memory *m, const rb_rolling_history *h
     return time;
 }
 
+/* The last step's values with their errors or deviations; a deviation of 0 is none. */
+static void write_last(FILE *out, const rb_rolling_history *h, const rb_rolling_history *beside,
+                       const char *format)
+{
+    for (int j = 0; j < rb_rolling_history_columns.n; j++) {
+        const rb_rolling_result *r = &rb_rolling_history_columns.row[j];
+        if ((beside == h->errors && !r->error_bar) || !rb_rolling_has_column(r, beside))
+            continue;
+        const double value = rb_rolling_entry(r, h, h->n - 1);
+        const double x = rb_rolling_entry(r, beside, h->n - 1);
+        if (!isnan(value) && !isnan(x) && (x > 0.0 || beside == h->errors))
+            fprintf(out, format, r->name, value + 0.0, x);
+    }
+}
+
 void rb_report_history_summary(FILE *out, const rb_rolling_case *rc, const rb_rolling_history *h)
 {
     void *before = rb_locale_begin();
@@ -119,17 +148,12 @@ void rb_report_history_summary(FILE *out, const rb_rolling_case *rc, const rb_ro
                     time, 0.2 * time);
     }
     if (h->errors) {
-        /* The last step's values with their errors. */
         fputs("  error bars at the end (estimated from coarser meshes and longer steps)\n", out);
-        for (int j = 0; j < rb_rolling_history_columns.n; j++) {
-            const rb_rolling_result *r = &rb_rolling_history_columns.row[j];
-            if (!r->error_bar || !rb_rolling_has_column(r, h))
-                continue;
-            const double value = rb_rolling_entry(r, h, last);
-            const double error = rb_rolling_entry(r, h->errors, last);
-            if (!isnan(value) && !isnan(error))
-                fprintf(out, "    %-16s %.8g +- %.1g\n", r->name, value + 0.0, error);
-        }
+        write_last(out, h, h->errors, "    %-16s %.8g +- %.1g\n");
+    }
+    if (h->deviations) {
+        fputs("  standard deviations at the end from those of --tolerance, to first order\n", out);
+        write_last(out, h, h->deviations, "    %-16s %.6g +- %.2g\n");
     }
     rb_locale_end(before);
 }

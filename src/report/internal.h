@@ -13,11 +13,12 @@ double rb_report_tidy(double x, double size);
 
 /* ---- Columns by the tables of results ---------------------------------------------- */
 
-/* The columns of a struct; with errors = 1 only those that have error bars. */
+/* The columns of a struct: values, error bars or standard deviations; of error bars only
+ * those that there are. */
 typedef struct {
     const rb_rolling_results *columns;
     const void *owner;
-    int errors;
+    enum { RB_REPORT_VALUES, RB_REPORT_ERRORS, RB_REPORT_DEVIATIONS } kind;
     rb_units units;
 } rb_report_columns;
 

@@ -134,7 +134,7 @@ void rb_report_json_columns(json_t **object, int rows, const rb_report_columns *
     char heading[RB_ROLLING_HEADING];
     for (int j = 0; j < c->columns->n; j++) {
         const rb_rolling_result *r = &c->columns->row[j];
-        if ((c->errors && !r->error_bar) || !rb_rolling_has_column(r, c->owner))
+        if ((c->kind == RB_REPORT_ERRORS && !r->error_bar) || !rb_rolling_has_column(r, c->owner))
             continue;
         json_t *list = json_array();
         for (int i = 0; i < rows; i++)

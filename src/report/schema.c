@@ -144,7 +144,8 @@ json_t *rb_report_json_schema(void)
         list_of(typed("object", NULL), "summary and table of each, of --all-solutions"));
     rb_report_json_set(&of, "history",
                        columns(&rb_rolling_history_columns, 0,
-                               "an entry per step; states: of --states, a list per step"));
+                               "an entry per step; states: of --states, a list per step; "
+                               "tolerances: standard deviations"));
     json_t *curve = columns(&rb_rolling_curve_columns, 0, "an entry per creepage");
     rb_report_json_set(&of, "curve", curve);
     rb_report_json_set(&of, "curves", list_of(json_incref(curve), "of several coefficients"));

@@ -11,19 +11,21 @@ void rb_report_comment_head(const rb_report_cells *c, const char *command)
 /* Of errors those columns are shown that have error bars. */
 static int is_shown(const rb_report_columns *part, const rb_rolling_result *r)
 {
-    return (!part->errors || r->error_bar) && rb_rolling_has_column(r, part->owner);
+    return (part->kind != RB_REPORT_ERRORS || r->error_bar) &&
+           rb_rolling_has_column(r, part->owner);
 }
 
 void rb_report_cell_headings(rb_report_cells *c, int parts, const rb_report_columns *part)
 {
-    char heading[RB_ROLLING_HEADING], name[RB_ROLLING_HEADING + 8];
+    static const char *const beginning[] = {"", "error_", "deviation_"};
+    char heading[RB_ROLLING_HEADING], name[RB_ROLLING_HEADING + 12];
 
     for (const rb_report_columns *of = part; of < part + parts; of++)
         for (int j = 0; j < of->columns->n; j++) {
             const rb_rolling_result *r = &of->columns->row[j];
             if (!is_shown(of, r))
                 continue;
-            snprintf(name, sizeof name, "%s%s", of->errors ? "error_" : "",
+            snprintf(name, sizeof name, "%s%s", beginning[of->kind],
                      rb_rolling_heading(r, of->units, heading));
             rb_report_cell_text(c, name);
         }

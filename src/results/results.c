@@ -418,6 +418,8 @@ void rb_rolling_history_convert(rb_rolling_history *h, rb_units units)
 {
     if (h->errors)
         rb_rolling_history_convert(h->errors, units);
+    if (h->deviations)
+        rb_rolling_history_convert(h->deviations, units);
     h->units = units;
     if (units == RB_UNITS_MM)
         return;
