@@ -78,46 +78,10 @@ static int any_nonzero(int n, const double *M, int ld)
     return 0;
 }
 
-static rb_contact_response response(int n, const rb_contact_matrix *K)
-{
-    const size_t length = (size_t)n, ldf = (size_t)K->ldf;
-
-    return (rb_contact_response){.gap = mean_diagonal(n, K->F, ldf),
-                                 .slip = mean_diagonal(n, K->S + length * length, length),
-                                 .coupled_slip = rb_norm_1((size_t)n, K->S + length / 2, (size_t)n),
-                                 .coupled = any_nonzero(n, K->S, n) ||
-                                            any_nonzero(n, K->F + length * ldf, K->ldf)};
-}
-
 /* ---- Zones held fixed -------------------------------------------------------------- */
 
 /* Solves, and where a kept LU served or digits were lost, solves again for what the
- * equations still lack, until a correction is small.  *converged: 0 where none was. */
-static rb_status solve_by(const rb_contact_problem *p, rb_contact_lu lu, rb_contact_state *state,
-                          rb_contact_reduced *r, int *converged)
-{
-    double size = 0.0;
-    int passes = PASSES;
-
-    *converged = 0;
-    rb_contact_reduced_clear(p, r, state);
-    for (int pass = 0; pass < passes && !*converged; pass++) {
-        rb_contact_reduced_right_side(p, state, r);
-        rb_status s = rb_contact_reduced_direct(p, state->zone, lu, r);
-        if (s == RB_OK)
-            s = rb_contact_reduced_add(p, r, state);
-        if (s != RB_OK)
-            return s;
-        const double change = rb_norm_inf((size_t)r->size, r->x);
-        const double small = r->slight > 0 ? SMALL_SLIGHT : SMALL;
-        *converged = (r->changes == 0 && r->slight == 0 && r->growth < MOST_GROWTH) ||
-                     (pass > 0 && change <= small * size);
-        passes = r->slight > 0 ? PASSES_SLIGHT : PASSES;
-        size = fmax(size, change);
-    }
-    return RB_OK;
-}
-
+ * equations still lack, until a correction is small; where none is, with another LU. */
 static rb_status dense_solve(const rb_contact_problem *p, rb_contact_state *state,
                              rb_contact_reduced *r)
 {
@@ -128,8 +92,27 @@ static rb_status dense_solve(const rb_contact_problem *p, rb_contact_state *stat
     by_products.op = rb_contact_operator_by_products(p->op, r->size);
     if (by_products.op && by_products.op->kind->solve(&by_products, state, r) == RB_OK)
         return RB_OK;
-    for (int lu = RB_LU_KEPT; lu < RB_LU_KINDS && s >= 0 && !converged; lu++)
-        s = solve_by(p, (rb_contact_lu)lu, state, r, &converged);
+    for (int lu = RB_LU_KEPT; lu < RB_LU_KINDS && s >= 0 && !converged; lu++) {
+        double size = 0.0;
+        int passes = PASSES;
+
+        s = RB_OK;
+        rb_contact_reduced_clear(p, r, state);
+        for (int pass = 0; pass < passes && s == RB_OK && !converged; pass++) {
+            rb_contact_reduced_right_side(p, state, r);
+            s = rb_contact_reduced_direct(p, state->zone, (rb_contact_lu)lu, r);
+            if (s == RB_OK)
+                s = rb_contact_reduced_add(p, r, state);
+            if (s != RB_OK)
+                break;
+            const double change = rb_norm_inf((size_t)r->size, r->x);
+            const double small = r->slight > 0 ? SMALL_SLIGHT : SMALL;
+            converged = (r->changes == 0 && r->slight == 0 && r->growth < MOST_GROWTH) ||
+                        (pass > 0 && change <= small * size);
+            passes = r->slight > 0 ? PASSES_SLIGHT : PASSES;
+            size = fmax(size, change);
+        }
+    }
     return s;
 }
 
@@ -154,7 +137,12 @@ rb_status rb_contact_operator_dense(int n, const double *F, int ldf, double *S,
     }
     dense->S = S;
     dense->base = (rb_contact_operator){.kind = &kind, .n = n, .matrix = {F, ldf, S}};
-    dense->base.response = response(n, &dense->base.matrix);
+    const size_t length = (size_t)n, columns = length * (size_t)ldf; /* of F_NN */
+    dense->base.response =
+        (rb_contact_response){.gap = mean_diagonal(n, F, (size_t)ldf),
+                              .slip = mean_diagonal(n, S + length * length, length),
+                              .coupled_slip = rb_norm_1(length, S + length / 2, length),
+                              .coupled = any_nonzero(n, S, n) || any_nonzero(n, F + columns, ldf)};
     *op = &dense->base;
     return RB_OK;
 }

@@ -247,91 +247,76 @@ static void fill(int n, double value, double *x)
         x[i] = value;
 }
 
-/* Dimensionless unknowns: stress, mu stress and two lengths (4.4). */
-static void set_lcp_scales(const rb_contact_problem *p, rb_contact_lcp *lcp)
+rb_status rb_contact_lcp_create(const rb_contact_problem *p, rb_contact_lcp_form form, int mirrored,
+                                double xi0, rb_contact_lcp *lcp, rb_message *why)
 {
-    const int n = p->n, pivoted = lcp->form == RB_LCP_PIVOTED;
+    memset(lcp, 0, sizeof *lcp);
+    if (!rb_contact_operator_matrix(p->op).F)
+        return rb_fail(why, RB_EINVAL, "%d contact elements are too many for an LCP", p->n);
+    rb_status s = lcp_alloc(p, form, lcp);
+    if (s == RB_OK) {
+        lcp->mirrored = form == RB_LCP_PIVOTED && mirrored;
+        lcp->xi0 = xi0;
+        pivoted_form(p, lcp);
+        if (p->yield) {
+            /* s+ and s- take their parts of o T_T lambda; o r_T = gamma - mu r_N. */
+            const size_t m = (size_t)p->n, ld = (size_t)lcp->size;
+
+            for (size_t i = 0; i < m; i++)
+                for (int sign = 0; sign < 2; sign++) {
+                    const double o = sign ? -1.0 : 1.0;
+                    const size_t k = (size_t)yield_index(p, (int)i, sign);
+                    lcp->M[m + i + k * ld] = -o;
+                    lcp->M[k + (m + i) * ld] = o;
+                    lcp->M[k + i * ld] = -o * p->bound[i];
+                }
+            add_yield_stress(p, lcp);
+        }
+        if (form == RB_LCP_KWAK)
+            s = kwak_form(p, lcp);
+    }
+    if (s != RB_OK) {
+        rb_contact_lcp_free(lcp);
+        return rb_fail(why, s, "LCP of %d contact elements: %s", p->n, rb_status_text(s));
+    }
+    /* The approach enters every gap; where it is unknown, delta = delta0 + delta' starts
+     * below the first touch, also for a half-plane whose datum is close to the surface. */
+    double lowest = p->d_N[0];
+
+    for (int i = 1; i < p->n; i++)
+        lowest = fmin(lowest, p->d_N[i]);
+    lcp->delta0 = p->load_given ? lowest - 10.0 * p->gap_length : p->delta;
+    for (int i = 0; i < p->n; i++) {
+        lcp->b[i] -= lcp->delta0;
+        if (p->load_given)
+            lcp->M[i + (size_t)delta_column(p) * lcp->size] = -1.0;
+    }
+    /* Dimensionless unknowns: stress, mu stress and two lengths (4.4). */
+    const int n = p->n, delta = delta_column(p), xi = xi_column(p);
     const double bound = rb_contact_friction_scale(p);
 
     fill(n, p->stress, lcp->z_scale);
-    fill(delta_column(p) - n, p->slip_length, lcp->z_scale + n);
+    fill(delta - n, p->slip_length, lcp->z_scale + n);
     fill(n, p->gap_length, lcp->w_scale);
-    fill(delta_column(p) - n, bound, lcp->w_scale + n);
-    if (pivoted) {
+    fill(delta - n, bound, lcp->w_scale + n);
+    if (form == RB_LCP_PIVOTED) {
         fill(n, bound, lcp->z_scale + n);
         fill(n, p->slip_length, lcp->w_scale + n);
     }
     if (p->load_given) {
-        lcp->z_scale[delta_column(p)] = p->gap_length;
-        lcp->w_scale[delta_column(p)] = p->stress * rb_norm_1((size_t)n, p->load_N, 1);
+        lcp->z_scale[delta] = p->gap_length;
+        lcp->w_scale[delta] = p->stress * rb_norm_1((size_t)n, p->load_N, 1);
     }
     if (p->force_given) {
-        lcp->z_scale[xi_column(p)] = p->slip_length / (rb_norm_1((size_t)n, p->e_T, 1) / n);
-        lcp->w_scale[xi_column(p)] = bound * rb_norm_1((size_t)n, p->force_T, 1);
+        lcp->z_scale[xi] = p->slip_length / (rb_norm_1((size_t)n, p->e_T, 1) / n);
+        lcp->w_scale[xi] = bound * rb_norm_1((size_t)n, p->force_T, 1);
     }
-}
-
-rb_status rb_contact_lcp_create(const rb_contact_problem *problem, rb_contact_lcp_form form,
-                                int mirrored, double xi0, rb_contact_lcp *lcp, rb_message *why)
-{
-    memset(lcp, 0, sizeof *lcp);
-    if (!rb_contact_operator_matrix(problem->op).F)
-        return rb_fail(why, RB_EINVAL, "%d contact elements are too many for an LCP", problem->n);
-    rb_status s = lcp_alloc(problem, form, lcp);
-    if (s == RB_OK) {
-        lcp->mirrored = form == RB_LCP_PIVOTED && mirrored;
-        lcp->xi0 = xi0;
-        pivoted_form(problem, lcp);
-        if (problem->yield) {
-            /* s+ and s- take their parts of o T_T lambda; o r_T = gamma - mu r_N. */
-            const size_t n = (size_t)problem->n, ld = (size_t)lcp->size;
-
-            for (size_t i = 0; i < n; i++)
-                for (int sign = 0; sign < 2; sign++) {
-                    const double o = sign ? -1.0 : 1.0;
-                    const size_t k = (size_t)yield_index(problem, (int)i, sign);
-                    lcp->M[n + i + k * ld] = -o;
-                    lcp->M[k + (n + i) * ld] = o;
-                    lcp->M[k + i * ld] = -o * problem->bound[i];
-                }
-            add_yield_stress(problem, lcp);
-        }
-        if (form == RB_LCP_KWAK)
-            s = kwak_form(problem, lcp);
-    }
-    if (s != RB_OK) {
-        rb_contact_lcp_free(lcp);
-        return rb_fail(why, s, "LCP of %d contact elements: %s", problem->n, rb_status_text(s));
-    }
-    /* The approach enters every gap; where it is unknown, delta = delta0 + delta' starts
-     * below the first touch, also for a half-plane whose datum is close to the surface. */
-    double lowest = problem->d_N[0];
-
-    for (int i = 1; i < problem->n; i++)
-        lowest = fmin(lowest, problem->d_N[i]);
-    lcp->delta0 = problem->load_given ? lowest - 10.0 * problem->gap_length : problem->delta;
-    for (int i = 0; i < problem->n; i++) {
-        lcp->b[i] -= lcp->delta0;
-        if (problem->load_given)
-            lcp->M[i + (size_t)delta_column(problem) * lcp->size] = -1.0;
-    }
-    set_lcp_scales(problem, lcp);
     for (int j = 0; j < lcp->size; j++)
         for (int i = 0; i < lcp->size; i++)
             lcp->M[i + (size_t)j * lcp->size] *= lcp->z_scale[j] / lcp->w_scale[i];
     for (int i = 0; i < lcp->size; i++)
         lcp->b[i] /= lcp->w_scale[i];
     return RB_OK;
-}
-
-/* gamma of element i: an unknown of the pivoted form, a row w = M z + b of Kwak's. */
-static double gamma_of(const rb_contact_problem *p, const rb_contact_lcp *lcp, const double *z,
-                       int i)
-{
-    if (lcp->form == RB_LCP_PIVOTED)
-        return lcp->z_scale[p->n + i] * z[p->n + i];
-    const int row = kwak_place(p, p->n + i);
-    return lcp->w_scale[row] * (cblas_ddot(lcp->size, lcp->M + row, lcp->size, z, 1) + lcp->b[row]);
 }
 
 void rb_contact_lcp_recover(const rb_contact_problem *p, const rb_contact_lcp *lcp, const double *z,
@@ -346,32 +331,32 @@ void rb_contact_lcp_recover(const rb_contact_problem *p, const rb_contact_lcp *l
     if (p->force_given)
         state->xi = lcp->xi0 + xi_direction(lcp) * lcp->z_scale[xi_column(p)] * z[xi_column(p)];
     for (int i = 0; i < n; i++) {
+        /* gamma: an unknown of the pivoted form, a row w = M z + b of Kwak's */
         int plus = yield_index(p, i, 0), minus = yield_index(p, i, 1);
+        double gamma = lcp->z_scale[n + i] * z[n + i];
         if (lcp->form == RB_LCP_KWAK) {
+            const int row = kwak_place(p, n + i);
+            gamma = lcp->w_scale[row] *
+                    (cblas_ddot(lcp->size, lcp->M + row, lcp->size, z, 1) + lcp->b[row]);
             plus = kwak_place(p, plus);
             minus = kwak_place(p, minus);
         }
         state->p[i] = lcp->z_scale[i] * z[i];
         state->plastic[i] =
             p->yield ? orientation(lcp) * p->slip_length * (z[plus] - z[minus]) : 0.0;
-        state->q[i] = orientation(lcp) * (gamma_of(p, lcp, z, i) - p->bound[i] * state->p[i]);
+        state->q[i] = orientation(lcp) * (gamma - p->bound[i] * state->p[i]);
     }
     state->lcp_form = lcp->form;
 }
 
 /* ---- Names ------------------------------------------------------------------------- */
 
-/* Blocks of n (pivoted form) after r_N; w then z.  Mirrored, the signs change places. */
-static const char *pivoted_name(const rb_contact_lcp *lcp, int is_z, int block)
-{
-    static const char *const names[2][2][2] = {{{"lambda+", "gamma-"}, {"gamma+", "lambda-"}},
-                                               {{"lambda-", "gamma+"}, {"gamma-", "lambda+"}}};
-    return names[lcp->mirrored][is_z][block];
-}
-
 const char *rb_contact_lcp_variable(const rb_contact_lcp *lcp, int n, int variable,
                                     char name[RB_CONTACT_VARIABLE])
 {
+    /* Blocks of n (pivoted form) after r_N; w then z.  Mirrored, the signs change places. */
+    static const char *const pivoted[2][2][2] = {{{"lambda+", "gamma-"}, {"gamma+", "lambda-"}},
+                                                 {{"lambda-", "gamma+"}, {"gamma-", "lambda+"}}};
     const int size = lcp->size, is_z = variable >= size, k = variable - is_z * size;
     const int contact = (lcp->yields ? 5 : 3) * n;
     if (variable == 2 * size)
@@ -390,7 +375,7 @@ const char *rb_contact_lcp_variable(const rb_contact_lcp *lcp, int n, int variab
                      minus ? '-' : '+', i + 1);
         } else {
             const int block = (k - n) / n;
-            snprintf(name, RB_CONTACT_VARIABLE, "%s[%d]", pivoted_name(lcp, is_z, block),
+            snprintf(name, RB_CONTACT_VARIABLE, "%s[%d]", pivoted[lcp->mirrored][is_z][block],
                      (k - n) % n + 1);
         }
     } else

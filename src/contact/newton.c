@@ -80,14 +80,6 @@ static void hold_one(const rb_contact_problem *p, const rb_contact_state *state,
         zone[held] = RB_ZONE_STICK;
 }
 
-static int seen_before(int count, const uint64_t *seen, uint64_t hash)
-{
-    for (int k = 0; k < count; k++)
-        if (seen[k] == hash)
-            return 1;
-    return 0;
-}
-
 typedef struct {
     double *gap;
     int *zone, *best; /* corrected ones; those with the fewest corrections so far */
@@ -104,8 +96,11 @@ static rb_status iterate(rb_contact_problem *p, rb_contact_unknowns unknowns, wo
     int least = INT_MAX, waited = 0;
 
     for (int step = 0; step < MAX_STEPS && waited < STALL_SWEEPS; step++) {
+        int first = 0;
         seen[step] = rb_hash(RB_HASH_START, state->zone, bytes);
-        if (seen_before(step, seen, seen[step]))
+        while (seen[first] != seen[step])
+            first++;
+        if (first < step) /* seen before */
             break;
         const rb_status s = rb_contact_solve_zones(p, unknowns, state);
         if (s != RB_OK)

@@ -23,7 +23,6 @@ typedef struct {
 typedef struct {
     rb_contact_problem *problem;
     rb_contact_state *state; /* its zones are those of the path */
-    double *scratch;         /* owned: all arrays */
     point whole, none;       /* solutions of the zones for t = 1 and t = 0 */
     double *d_N, *d_T;       /* n: the problem's own */
     double *more_N, *more_T; /* n: what t = 1 adds */
@@ -31,31 +30,6 @@ typedef struct {
     double more_load, more_force;
     double t, way; /* where the path is; -1: towards 0, 1: away from it */
 } path;
-
-static rb_status path_alloc(rb_contact_problem *problem, rb_contact_state *state, path *k)
-{
-    const size_t n = (size_t)problem->n;
-    double *scratch = rb_alloc(n, 12);
-
-    *k = (path){.problem = problem,
-                .state = state,
-                .scratch = scratch,
-                .load = problem->load,
-                .force = problem->force,
-                .t = 1.0,
-                .way = -1.0};
-    if (!scratch)
-        return RB_ENOMEM;
-    k->whole = (point){scratch, scratch + n, scratch + 2 * n, scratch + 3 * n};
-    k->none = (point){scratch + 4 * n, scratch + 5 * n, scratch + 6 * n, scratch + 7 * n};
-    k->d_N = scratch + 8 * n;
-    k->d_T = scratch + 9 * n;
-    k->more_N = scratch + 10 * n;
-    k->more_T = scratch + 11 * n;
-    memcpy(k->d_N, problem->d_N, n * sizeof(double));
-    memcpy(k->d_T, problem->d_T, n * sizeof(double));
-    return RB_OK;
-}
 
 static void set_data(path *k, double t)
 {
@@ -222,13 +196,27 @@ static rb_status follow(path *k)
 
 rb_status rb_contact_follow_path(rb_contact_problem *problem, rb_contact_state *state)
 {
-    path k;
-    rb_status s = path_alloc(problem, state, &k);
+    const size_t n = (size_t)problem->n;
+    double *x = rb_alloc(n, 12);
+    if (!x)
+        return RB_ENOMEM;
+    path k = {.problem = problem,
+              .state = state,
+              .whole = {x, x + n, x + 2 * n, x + 3 * n},
+              .none = {x + 4 * n, x + 5 * n, x + 6 * n, x + 7 * n},
+              .d_N = x + 8 * n,
+              .d_T = x + 9 * n,
+              .more_N = x + 10 * n,
+              .more_T = x + 11 * n,
+              .load = problem->load,
+              .force = problem->force,
+              .t = 1.0,
+              .way = -1.0};
 
-    if (s == RB_OK) {
-        s = follow(&k);
-        set_data(&k, 0.0);
-    }
-    free(k.scratch);
+    memcpy(k.d_N, problem->d_N, n * sizeof(double));
+    memcpy(k.d_T, problem->d_T, n * sizeof(double));
+    const rb_status s = follow(&k);
+    set_data(&k, 0.0);
+    free(x);
     return s == RB_RAY ? RB_MAXITER : s;
 }

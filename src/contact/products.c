@@ -166,21 +166,6 @@ static void precondition(const void *of_system, const double *b, double *x)
     precondition_group(s, &friction, b + r->contacts, x + r->contacts);
 }
 
-/* GMRES leaves of a given load what its tolerance allows: all unknowns are multiplied by
- * so much where this changes no equation by more than that. */
-static void meet_load(const system_of *s, double *x)
-{
-    enum { ROWS = 2 };
-    static const double LITTLE = 2e-11;
-    const rb_contact_reduced *r = s->r;
-    double row[ROWS];
-
-    border_rows(s, x, row);
-    const double factor = r->x[r->contacts + r->sticks] / row[0];
-    if (fabs(factor - 1.0) * rb_norm_inf((size_t)r->size, r->x) < LITTLE)
-        cblas_dscal(r->size, factor, x, 1);
-}
-
 static rb_status products_solve(const rb_contact_problem *p, rb_contact_state *state,
                                 rb_contact_reduced *r)
 {
@@ -192,14 +177,23 @@ static rb_status products_solve(const rb_contact_problem *p, rb_contact_state *s
                                       .border_column = border_column,
                                       .border_rows = border_rows,
                                       .of = &system};
+    enum { ROWS = 2 };
+    static const double LITTLE = 2e-11;
     rb_status s = RB_OK;
 
     rb_contact_reduced_clear(p, r, state);
     rb_contact_reduced_right_side(p, state, r);
     if (r->size > 0) {
         s = rb_contact_gmres(&linear, &of(p)->scratch, r->x, r->start);
-        if (s == RB_OK && r->load)
-            meet_load(&system, r->start);
+        if (s == RB_OK && r->load) {
+            /* GMRES leaves of a given load what its tolerance allows: all unknowns are
+             * multiplied by so much where this changes no equation by more than that. */
+            double row[ROWS];
+            border_rows(&system, r->start, row);
+            const double factor = r->x[r->contacts + r->sticks] / row[0];
+            if (fabs(factor - 1.0) * rb_norm_inf((size_t)r->size, r->x) < LITTLE)
+                cblas_dscal(r->size, factor, r->start, 1);
+        }
         if (s == RB_OK)
             memcpy(r->x, r->start, (size_t)r->size * sizeof *r->x);
     }

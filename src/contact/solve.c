@@ -115,20 +115,6 @@ enum { ATTEMPTS = sizeof order_of_attempts / sizeof *order_of_attempts };
  * method allows by itself (0), evenly covered. */
 enum { ROUNDS = 3 };
 
-/* The covering vector; NULL: ones. */
-static rb_status cover_rows(const rb_contact_lcp *lcp, covering kind, double **cover)
-{
-    static const double golden = 0.6180339887498949, little = 1e-4;
-
-    *cover = NULL;
-    if (kind == EVEN)
-        return RB_OK;
-    *cover = rb_alloc((size_t)lcp->size, 1);
-    for (int i = 0; i < lcp->size && *cover; i++)
-        (*cover)[i] = (lcp->b[i] < 0.0 ? 1.0 : little) * (0.5 + fmod(0.5 + golden * i, 1.0));
-    return *cover ? RB_OK : RB_ENOMEM;
-}
-
 rb_contact_options rb_contact_defaults(void)
 {
     return (rb_contact_options){.solver = RB_SOLVER_AUTO, .lcp_form = RB_LCP_PIVOTED, .tol = 1e-10};
@@ -158,6 +144,7 @@ static int plan_forms(const rb_contact_problem *problem, const rb_contact_option
 static rb_status solve_lemke(rb_contact_problem *problem, const rb_contact_options *options,
                              rb_contact_state *state, rb_message *why)
 {
+    static const double golden = 0.6180339887498949, little = 1e-4;
     attempt all[FORMS];
     const int first = plan_forms(problem, options, all);
     int unfinished[ATTEMPTS] = {0};
@@ -176,8 +163,13 @@ static rb_status solve_lemke(rb_contact_problem *problem, const rb_contact_optio
             continue;
         s = rb_contact_lcp_create(problem, at->form, at->mirrored, at->xi0, &lcp, why);
         double *z = s == RB_OK ? rb_alloc((size_t)lcp.size, 1) : NULL;
-        if (s == RB_OK)
-            s = z ? cover_rows(&lcp, order_of_attempts[k].cover, &cover) : RB_ENOMEM;
+        const int uneven = s == RB_OK && order_of_attempts[k].cover == UNEVEN;
+        if (uneven) /* NULL: ones */
+            cover = rb_alloc((size_t)lcp.size, 1);
+        for (int i = 0; i < lcp.size && cover; i++)
+            cover[i] = (lcp.b[i] < 0.0 ? 1.0 : little) * (0.5 + fmod(0.5 + golden * i, 1.0));
+        if (s == RB_OK && (!z || (uneven && !cover)))
+            s = RB_ENOMEM;
         if (s == RB_OK) {
             pivoting.cover = cover;
             pivoting.max_iters = round + 1 < ROUNDS ? (round ? 15 : 5) * lcp.size + 100 : 0;
@@ -452,21 +444,6 @@ static int slides_fully(const rb_contact_problem *problem)
            fabs(problem->force_ratio) >= 1.0 - 1e-12;
 }
 
-/* Creepage by which the slowest element still slides; 0 where something sticks. */
-static double slowest_slip(const rb_contact_problem *problem, const rb_contact_state *state)
-{
-    double slowest = INFINITY;
-
-    for (int i = 0; i < problem->n; i++) {
-        if (state->zone[i] == RB_ZONE_SEPARATED)
-            continue;
-        if (state->zone[i] == RB_ZONE_STICK)
-            return 0.0;
-        slowest = fmin(slowest, fabs(state->lambda[i] / problem->e_T[i]));
-    }
-    return slowest;
-}
-
 /* Every creepage beyond a least one will do: finds one by doubling, then the least, which
  * has the same tractions. */
 static rb_status solve_sliding(rb_contact_problem *problem, const rb_contact_options *options,
@@ -480,7 +457,13 @@ static rb_status solve_sliding(rb_contact_problem *problem, const rb_contact_opt
     given.xi = sign * problem->sliding;
     for (int k = 0; k < 40 && s == RB_OK; k++, given.xi *= 2.0) {
         s = solve_given(&given, options, 0, state, why);
-        const double spare = slowest_slip(&given, state);
+        /* Creepage by which the slowest element still slides; 0 where something sticks. */
+        double spare = INFINITY;
+        for (int i = 0; i < given.n; i++)
+            if (state->zone[i] != RB_ZONE_SEPARATED)
+                spare = state->zone[i] == RB_ZONE_STICK
+                            ? 0.0
+                            : fmin(spare, fabs(state->lambda[i] / given.e_T[i]));
         if (s == RB_OK && spare > 0.0 && sign * given.xi > 0.0) {
             if (problem->yield) /* less slip yields less */
                 return RB_OK;

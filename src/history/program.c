@@ -56,19 +56,16 @@ int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling
     return (int)fmin(fmax(ceil(steps * (1.0 - 1e-9)), 1.0), 1e7);
 }
 
-static double value_of_part(const double *column, int r, int part, int parts)
-{
-    return part == parts ? column[r] : column[r - 1] + (column[r] - column[r - 1]) * part / parts;
-}
-
 rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program, const rb_rolling_case *rc,
                                        int r, int part, int parts)
 {
     rb_rolling_case at = *rc;
 
-    for (int c = 0; c < RB_ROLLING_PROGRAM_COLUMNS; c++)
-        if (column_of(program, c))
-            replace(&at, c, value_of_part(column_of(program, c), r, part, parts));
+    for (int c = 0; c < RB_ROLLING_PROGRAM_COLUMNS; c++) {
+        const double *x = column_of(program, c);
+        if (x)
+            replace(&at, c, part == parts ? x[r] : x[r - 1] + (x[r] - x[r - 1]) * part / parts);
+    }
     return at;
 }
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 enum { ACROSS = 161, DEPTHS = 40, HALVINGS = 40 };
+static const double golden = 0.6180339887498949; /* (sqrt(5) - 1)/2 */
 
 /* Places of one depth, from a half-width before the contact to one behind it. */
 typedef struct {
@@ -39,22 +40,8 @@ static double needed_with(const row *r, double c, double *x)
     return most;
 }
 
-/* Golden section of a convex function. */
-static double best_residual(const row *r, double low, double high)
-{
-    const double part = 0.5 * (sqrt(5.0) - 1.0);
-    double x;
-    for (int k = 0; k < 2 * HALVINGS; k++) {
-        const double a = high - part * (high - low), b = low + part * (high - low);
-        if (needed_with(r, a, &x) <= needed_with(r, b, &x))
-            high = b;
-        else
-            low = a;
-    }
-    return 0.5 * (low + high);
-}
-
-/* The yield stress in shear that the depth y needs. */
+/* The yield stress in shear that the depth y needs, with the residual stress that makes
+ * it least: golden section of a convex function. */
 static rb_status needed_at(row *r, double y, rb_rolling_shakedown *k)
 {
     double largest = 0.0;
@@ -65,33 +52,17 @@ static rb_status needed_at(row *r, double y, rb_rolling_shakedown *k)
     const rb_status s = rb_rolling_stress_at(r->model, ACROSS, r->xy, r->at, NULL);
     for (int i = 0; i < ACROSS && s == RB_OK; i++)
         largest = fmax(largest, fabs(r->at[i].sxx) + fabs(r->at[i].syy));
-    k->y = y;
-    k->residual = s == RB_OK ? 2.0 * best_residual(r, -largest, largest) : 0.0;
-    k->shear_yield = s == RB_OK ? needed_with(r, 0.5 * k->residual, &k->x) : 0.0;
-    return s;
-}
-
-/* Between the depths beside the best one of a list, again by golden section. */
-static rb_status search_depth(row *r, double low, double high, rb_rolling_shakedown *best)
-{
-    const double part = 0.5 * (sqrt(5.0) - 1.0);
-    rb_status s = RB_OK;
-    for (int k = 0; k < HALVINGS / 2; k++) {
-        rb_rolling_shakedown a, b;
-        s = needed_at(r, high - part * (high - low), &a);
-        if (s == RB_OK)
-            s = needed_at(r, low + part * (high - low), &b);
-        if (s != RB_OK)
-            break;
-        if (a.shear_yield >= b.shear_yield)
-            high = b.y;
+    double low = -largest, high = largest;
+    for (int i = 0; i < 2 * HALVINGS && s == RB_OK; i++) {
+        const double a = high - golden * (high - low), b = low + golden * (high - low);
+        if (needed_with(r, a, &k->x) <= needed_with(r, b, &k->x))
+            high = b;
         else
-            low = a.y;
-        const rb_rolling_shakedown *here = a.shear_yield >= b.shear_yield ? &a : &b;
-        /* what rounding adds is no gain: near a flat best place it would decide the place */
-        if (here->shear_yield > (1.0 + 8.0 * DBL_EPSILON) * best->shear_yield)
-            *best = *here;
+            low = a;
     }
+    k->y = y;
+    k->residual = s == RB_OK ? low + high : 0.0;
+    k->shear_yield = s == RB_OK ? needed_with(r, 0.5 * k->residual, &k->x) : 0.0;
     return s;
 }
 
@@ -121,8 +92,23 @@ rb_status rb_rolling_shakedown_find(const rb_rolling_model *model, rb_rolling_sh
             if (s == RB_OK && here.shear_yield > shakedown->shear_yield)
                 *shakedown = here;
         }
-        if (s == RB_OK)
-            s = search_depth(r, fmax(0.0, shakedown->y - step), shakedown->y + step, shakedown);
+        /* Between the depths beside the best one, again by golden section. */
+        double low = fmax(0.0, shakedown->y - step), high = shakedown->y + step;
+        for (int k = 0; k < HALVINGS / 2 && s == RB_OK; k++) {
+            rb_rolling_shakedown upper, lower;
+            s = needed_at(r, high - golden * (high - low), &upper);
+            if (s == RB_OK)
+                s = needed_at(r, low + golden * (high - low), &lower);
+            if (s != RB_OK)
+                break;
+            const int goes_up = upper.shear_yield >= lower.shear_yield;
+            const rb_rolling_shakedown *here = goes_up ? &upper : &lower;
+            *(goes_up ? &high : &low) = goes_up ? lower.y : upper.y;
+            /* what rounding adds is no gain: near a flat best place it would decide the
+             * place */
+            if (here->shear_yield > (1.0 + 8.0 * DBL_EPSILON) * shakedown->shear_yield)
+                *shakedown = *here;
+        }
     }
     free(r);
     return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the shakedown limit") : s;

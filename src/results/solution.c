@@ -43,8 +43,6 @@ static void set_stick_limits(const rb_rolling_mesh *mesh, rb_rolling_solution *s
     }
 }
 
-/* ---- Slip -------------------------------------------------------------------------- */
-
 /* ---- Forces ------------------------------------------------------------------------ */
 
 void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t)
@@ -57,18 +55,6 @@ void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t)
     }
 }
 
-static rb_status boundary_values(const rb_rolling_model *model, double *u, double *t)
-{
-    double *t_c = rb_alloc(2 * (size_t)model->problem.n, 1);
-
-    if (!t_c)
-        return RB_ENOMEM;
-    rb_rolling_contact_tractions(model, t_c);
-    const rb_status s = rb_bem_system_solve(model->bodies.system_a, t_c, u, t);
-    free(t_c);
-    return s;
-}
-
 /* Vertical reaction of the support against the load, from the tractions that hold the
  * body; NAN for a half-plane. */
 static rb_status support_balance(const rb_rolling_model *model, double load, double *balance)
@@ -77,10 +63,14 @@ static rb_status support_balance(const rb_rolling_model *model, double load, dou
     if (!model->bodies.system_a || !(load > 0.0))
         return RB_OK;
     const rb_bem_mesh *mesh = rb_bem_system_mesh(model->bodies.system_a);
-    double *u = rb_alloc(2 * (size_t)mesh->n, 1), *t = rb_alloc(2 * (size_t)mesh->n, 1);
-    rb_status s = u && t ? boundary_values(model, u, t) : RB_ENOMEM;
-    double reaction = 0.0;
+    double *u = rb_alloc(2 * (size_t)mesh->n, 1), *t = rb_alloc(2 * (size_t)mesh->n, 1),
+           *t_c = rb_alloc(2 * (size_t)model->problem.n, 1), reaction = 0.0;
+    rb_status s = u && t && t_c ? RB_OK : RB_ENOMEM;
 
+    if (s == RB_OK) {
+        rb_rolling_contact_tractions(model, t_c);
+        s = rb_bem_system_solve(model->bodies.system_a, t_c, u, t);
+    }
     for (int j = 0; j < mesh->n && s == RB_OK; j++)
         if (mesh->condition[2 * j + 1] == RB_BEM_DISPLACEMENT)
             reaction += t[2 * j + 1] * rb_bem_mesh_length(mesh, j);
@@ -88,6 +78,7 @@ static rb_status support_balance(const rb_rolling_model *model, double load, dou
         *balance = (reaction + load) / load;
     free(u);
     free(t);
+    free(t_c);
     return s;
 }
 

@@ -54,26 +54,6 @@ rb_status rb_rolling_stress_check(const rb_rolling_case *rc, rb_message *why)
                          "the past; take a rigid core, or a half-plane with a layer");
 }
 
-/* Constant strips jump in q, which makes sxx infinite at their ends: tractions linear
- * between the midpoints do not, and have the same error of second order. */
-static rb_status set_nodes(field *f)
-{
-    const rb_rolling_model *model = f->model;
-    const size_t m = (size_t)model->mesh.n;
-    f->nodes = rb_alloc(m + 2, 3);
-    if (!f->nodes)
-        return RB_ENOMEM;
-    double *x = f->nodes, *p = x + m + 2, *q = p + m + 2;
-    x[0] = model->mesh.ends[0];
-    x[m + 1] = model->mesh.ends[m];
-    for (size_t i = 0; i < m; i++)
-        x[i + 1] = 0.5 * (model->mesh.ends[i] + model->mesh.ends[i + 1]);
-    memcpy(p + 1, model->state.p, m * sizeof(double));
-    memcpy(q + 1, model->state.q, m * sizeof(double));
-    f->linear = (rb_bem_edge_load){(int)m + 2, x, p, q};
-    return RB_OK;
-}
-
 static const rb_bem_system *system_of(const field *f)
 {
     return f->made ? f->made : f->model->bodies.system_a;
@@ -84,15 +64,27 @@ static rb_status field_create(const rb_rolling_model *model, field *f, rb_messag
     memset(f, 0, sizeof *f);
     f->model = model;
     rb_status s = rb_rolling_stress_check(model->rc, why);
-    if (s == RB_OK && rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT))
-        s = set_nodes(f);
-    if (s == RB_OK && model->rc->a.layer > 0.0) {
+    if (s == RB_OK && rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT)) {
+        /* Constant strips jump in q, which makes sxx infinite at their ends: tractions
+         * linear between the midpoints do not, and have the same error of second order. */
+        const size_t m = (size_t)model->mesh.n;
         const rb_bem_surface surface = rb_rolling_surface_of(model->rc, &model->rc->a, f->length);
-        s = rb_bem_layer_field_create(&surface, &f->linear, &f->layer, why);
+        f->nodes = rb_alloc(m + 2, 3);
+        if (!f->nodes)
+            return RB_ENOMEM;
+        double *x = f->nodes, *p = x + m + 2, *q = p + m + 2;
+        x[0] = model->mesh.ends[0];
+        x[m + 1] = model->mesh.ends[m];
+        for (size_t i = 0; i < m; i++)
+            x[i + 1] = 0.5 * (model->mesh.ends[i] + model->mesh.ends[i + 1]);
+        memcpy(p + 1, model->state.p, m * sizeof(double));
+        memcpy(q + 1, model->state.q, m * sizeof(double));
+        f->linear = (rb_bem_edge_load){(int)m + 2, x, p, q};
+        return model->rc->a.layer > 0.0
+                   ? rb_bem_layer_field_create(&surface, &f->linear, &f->layer, why)
+                   : RB_OK;
     }
-    if (s != RB_OK || rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT))
-        return s;
-    if (!model->bodies.system_a)
+    if (s == RB_OK && !model->bodies.system_a)
         s = rb_rolling_boundary_system(model, &f->made, why);
     if (s != RB_OK)
         return s;
@@ -159,23 +151,6 @@ static rb_status evaluate(const field *f, int n, const double *xy, double *sigma
     return s;
 }
 
-/* szz = lateral (sxx + syy): nu in plane strain, 0 in plane stress. */
-static rb_rolling_stress derive(double x, double y, const double *sigma, double lateral)
-{
-    rb_rolling_stress s = {.x = x, .y = y, .sxx = sigma[0], .syy = sigma[1], .sxy = sigma[2]};
-    const double mean = 0.5 * (s.sxx + s.syy);
-
-    s.szz = lateral * (s.sxx + s.syy);
-    s.max_shear = hypot(0.5 * (s.sxx - s.syy), s.sxy);
-    s.principal_1 = mean + s.max_shear;
-    s.principal_2 = mean - s.max_shear;
-    s.hydrostatic = (s.sxx + s.syy + s.szz) / 3.0;
-    s.von_mises = sqrt(
-        0.5 * (gsl_pow_2(s.sxx - s.syy) + gsl_pow_2(s.syy - s.szz) + gsl_pow_2(s.szz - s.sxx)) +
-        3.0 * gsl_pow_2(s.sxy));
-    return s;
-}
-
 static rb_status stress_of_field(const field *f, int n, const double *xy, rb_rolling_stress *stress,
                                  rb_message *why)
 {
@@ -184,16 +159,30 @@ static rb_status stress_of_field(const field *f, int n, const double *xy, rb_rol
     if (!sigma)
         return RB_ENOMEM;
     rb_phase("stress inside the body");
-    const rb_status s = evaluate(f, n, xy, sigma, why);
-    for (int k = 0; k < n && s == RB_OK; k++) {
+    const rb_status status = evaluate(f, n, xy, sigma, why);
+    for (int k = 0; k < n && status == RB_OK; k++) {
         const int below = rc->a.layer > 0.0 && xy[2 * k + 1] > rc->a.layer;
-        stress[k] = derive(xy[2 * k], xy[2 * k + 1], sigma + 3 * k,
-                           rc->plane == RB_PLANE_STRESS ? 0.0
-                           : below                      ? rc->a.base_poisson
-                                                        : rc->a.poisson);
+        const double lateral = rc->plane == RB_PLANE_STRESS ? 0.0
+                               : below                      ? rc->a.base_poisson
+                                                            : rc->a.poisson;
+        rb_rolling_stress s = {.x = xy[2 * k],
+                               .y = xy[2 * k + 1],
+                               .sxx = sigma[3 * k],
+                               .syy = sigma[3 * k + 1],
+                               .sxy = sigma[3 * k + 2]};
+        const double mean = 0.5 * (s.sxx + s.syy);
+        s.szz = lateral * (s.sxx + s.syy);
+        s.max_shear = hypot(0.5 * (s.sxx - s.syy), s.sxy);
+        s.principal_1 = mean + s.max_shear;
+        s.principal_2 = mean - s.max_shear;
+        s.hydrostatic = (s.sxx + s.syy + s.szz) / 3.0;
+        s.von_mises = sqrt(
+            0.5 * (gsl_pow_2(s.sxx - s.syy) + gsl_pow_2(s.syy - s.szz) + gsl_pow_2(s.szz - s.sxx)) +
+            3.0 * gsl_pow_2(s.sxy));
+        stress[k] = s;
     }
     free(sigma);
-    return s;
+    return status;
 }
 
 rb_status rb_rolling_stress_at(const rb_rolling_model *model, int n, const double *xy,
@@ -387,20 +376,6 @@ void rb_rolling_stress_grid_free(rb_rolling_stress_grid *grid)
     memset(grid, 0, sizeof *grid);
 }
 
-/* 1: an odd number of elements lies straight below the point. */
-static int encloses(const rb_bem_mesh *mesh, double x, double y)
-{
-    int odd = 0;
-    for (int j = 0; j < mesh->n; j++) {
-        const double x0 = mesh->x0[j], x1 = mesh->x1[j];
-        if ((x0 <= x) == (x1 <= x))
-            continue;
-        const double s = (x - x0) / (x1 - x0);
-        odd ^= mesh->y0[j] + s * (mesh->y1[j] - mesh->y0[j]) <= y;
-    }
-    return odd;
-}
-
 rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *xy, int *inside)
 {
     if (rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT)) {
@@ -417,22 +392,32 @@ rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *
         memcpy(moved, xy, 2 * (size_t)n * sizeof(double));
         lift_onto_polygon(&mesh, n, moved);
     }
-    for (int k = 0; k < n && s == RB_OK; k++)
-        inside[k] =
-            moved[2 * k + 1] != xy[2 * k + 1] || encloses(&mesh, moved[2 * k], moved[2 * k + 1]);
+    for (int k = 0; k < n && s == RB_OK; k++) {
+        /* An odd number of elements lies straight below a point inside. */
+        const double x = moved[2 * k], y = moved[2 * k + 1];
+        int odd = 0;
+        for (int j = 0; j < mesh.n; j++) {
+            const double x0 = mesh.x0[j], x1 = mesh.x1[j];
+            if ((x0 <= x) != (x1 <= x))
+                odd ^= mesh.y0[j] + (x - x0) / (x1 - x0) * (mesh.y1[j] - mesh.y0[j]) <= y;
+        }
+        inside[k] = y != xy[2 * k + 1] || odd;
+    }
     free(moved);
     rb_bem_mesh_free(&mesh);
     return s;
 }
 
-/* The depth of the rows grows like a power. */
-static rb_status fill_grid(const field *f, const search *box, int power,
+/* Of grid->nx x grid->ny points; the depth of the rows grows like a power. */
+static rb_status make_grid(const field *f, const search *box, int power,
                            rb_rolling_stress_grid *grid, rb_message *why)
 {
     const int n = grid->nx * grid->ny;
     double *xy = rb_alloc((size_t)n, 2), *kept = rb_alloc((size_t)n, 2);
     rb_rolling_stress *at = calloc((size_t)n, sizeof *at);
-    rb_status s = xy && kept && at ? RB_OK : RB_ENOMEM;
+    grid->at = calloc((size_t)n, sizeof *grid->at);
+    grid->inside = rb_alloc_int((size_t)n);
+    rb_status s = xy && kept && at && grid->at && grid->inside ? RB_OK : RB_ENOMEM;
 
     for (int k = 0; k < n && s == RB_OK; k++) {
         xy[2 * k] = box->from + (box->to - box->from) * (k % grid->nx) / (grid->nx - 1);
@@ -463,22 +448,11 @@ static rb_status fill_grid(const field *f, const search *box, int power,
     free(xy);
     free(kept);
     free(at);
-    return s;
-}
-
-/* Of grid->nx x grid->ny points. */
-static rb_status make_grid(const field *f, const search *box, int power,
-                           rb_rolling_stress_grid *grid, rb_message *why)
-{
-    const int nx = grid->nx, ny = grid->ny;
-    grid->at = calloc((size_t)nx * (size_t)ny, sizeof *grid->at);
-    grid->inside = rb_alloc_int((size_t)nx * (size_t)ny);
-    const rb_status s = grid->at && grid->inside ? fill_grid(f, box, power, grid, why) : RB_ENOMEM;
+    if (s == RB_ENOMEM)
+        rb_fail(why, s, "out of memory for the stress at %d x %d points", grid->nx, grid->ny);
     if (s != RB_OK)
         rb_rolling_stress_grid_free(grid);
-    return s == RB_ENOMEM
-               ? rb_fail(why, s, "out of memory for the stress at %d x %d points", nx, ny)
-               : s;
+    return s;
 }
 
 rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int ny, double depth,
@@ -517,36 +491,11 @@ static rb_rolling_extremum *of_measure(rb_rolling_stress_maxima *m, int k)
     return all[k];
 }
 
-/* From a grid that is finer where the stress changes faster, and from two rows at the
- * surface, where friction that changes from element to element makes narrow peaks. */
-static rb_status add_maxima_under(search *s, rb_rolling_stress_maxima *maxima, rb_message *why)
-{
-    const double first_row = s->depth / gsl_pow_2(GRID_Y - 1.0);
-    const double depth[] = {s->depth, first_row}, nearly[] = {0.05, 0.002};
-    const int size[][2] = {{GRID_X, GRID_Y}, {SURFACE_X, 2}};
-    rb_status status = RB_OK;
-
-    for (int k = 0; k < 2 && status == RB_OK; k++) {
-        rb_rolling_stress_grid grid = {.nx = size[k][0], .ny = size[k][1]};
-        search box = *s;
-        box.depth = depth[k];
-        status = make_grid(s->f, &box, 2, &grid, why);
-        s->nearly = nearly[k];
-        if (status == RB_OK) {
-            /* Each where it is larger than what was found so far. */
-            for (int i = 0; i < MEASURES && status == RB_OK; i++) {
-                s->of = measures[i];
-                status = maximum(s, &grid, of_measure(maxima, i));
-            }
-        }
-        rb_rolling_stress_grid_free(&grid);
-    }
-    return status;
-}
-
 rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double depth,
                                         rb_rolling_stress_maxima *maxima, rb_message *why)
 {
+    static const double nearly[] = {0.05, 0.002};
+    static const int size[][2] = {{GRID_X, GRID_Y}, {SURFACE_X, 2}};
     const rb_rolling_extremum none = {-INFINITY, NAN, NAN};
     rb_rolling_run run = {.last = -1};
     field f = {0};
@@ -556,10 +505,26 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
     *maxima = (rb_rolling_stress_maxima){none, none, none, none};
     while (s == RB_OK &&
            rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run)) {
-        search box = box_under(model, run.from, run.to, depth);
-        box.f = &f;
-        box.depth = fmin(box.depth, deepest(model->rc));
-        s = add_maxima_under(&box, maxima, why);
+        search all = box_under(model, run.from, run.to, depth);
+        all.f = &f;
+        all.depth = fmin(all.depth, deepest(model->rc));
+        /* From a grid that is finer where the stress changes faster, and from two rows at
+         * the surface, where friction that changes from element to element makes narrow
+         * peaks. */
+        for (int k = 0; k < 2 && s == RB_OK; k++) {
+            rb_rolling_stress_grid grid = {.nx = size[k][0], .ny = size[k][1]};
+            search box = all;
+            if (k > 0)
+                box.depth = all.depth / gsl_pow_2(GRID_Y - 1.0); /* of the first row */
+            s = make_grid(&f, &box, 2, &grid, why);
+            all.nearly = nearly[k];
+            /* Each where it is larger than what was found so far. */
+            for (int i = 0; i < MEASURES && s == RB_OK; i++) {
+                all.of = measures[i];
+                s = maximum(&all, &grid, of_measure(maxima, i));
+            }
+            rb_rolling_stress_grid_free(&grid);
+        }
         patches++;
     }
     field_free(&f);

@@ -41,25 +41,6 @@ static rb_status keep(rb_rolling_solutions *all, const rb_rolling_model *model, 
     return s;
 }
 
-static rb_status try_start(rb_rolling_model *model, double x, rb_rolling_solutions *all,
-                           rb_message *why)
-{
-    rb_message reason = {""};
-    rb_status s = rb_rolling_law_start(model, x, why);
-
-    if (s != RB_OK)
-        return s;
-    s = rb_rolling_model_resolve(model, 1, &reason);
-    all->starts++;
-    if (s == RB_ENOMEM)
-        return rb_fail(why, s, "%s", reason.text);
-    if (s != RB_OK) {
-        all->failed++;
-        return RB_OK;
-    }
-    return is_known(all, model) ? RB_OK : keep(all, model, why);
-}
-
 static int by_force(const void *x, const void *y)
 {
     const rb_rolling_solution *a = x, *b = y;
@@ -87,8 +68,19 @@ rb_status rb_rolling_find_solutions(rb_rolling_model *model, rb_rolling_solution
     rb_rolling_contact_edges(rc, &model->mesh, &model->state, &from, &to);
     for (int i = 0; i < model->state.n && places < MOST; i++)
         places += model->state.zone[i] != RB_ZONE_SEPARATED;
-    for (int k = 0; k <= places && s == RB_OK; k++)
-        s = try_start(model, from + (to - from) * k / fmax(places, 1), all, why);
+    for (int k = 0; k <= places && s == RB_OK; k++) {
+        rb_message reason = {""};
+        s = rb_rolling_law_start(model, from + (to - from) * k / fmax(places, 1), why);
+        if (s != RB_OK)
+            break;
+        const rb_status t = rb_rolling_model_resolve(model, 1, &reason);
+        all->starts++;
+        all->failed += t != RB_OK && t != RB_ENOMEM;
+        if (t == RB_ENOMEM)
+            s = rb_fail(why, t, "%s", reason.text);
+        else if (t == RB_OK && !is_known(all, model))
+            s = keep(all, model, why);
+    }
     if (all->n > 1)
         qsort(all->solution, (size_t)all->n, sizeof *all->solution, by_force);
     return s;

@@ -37,24 +37,6 @@ static processes *processes_of(rb_rolling_pool *pool)
 
 /* ---- One worker -------------------------------------------------------------------- */
 
-/* What a row has besides the solution. */
-static rb_status measure(const rb_rolling_sweep *sweep, const rb_rolling_case *rc,
-                         const rb_rolling_model *model, const rb_rolling_solution *solution,
-                         rb_rolling_row *row, rb_message *why)
-{
-    const int with_stress = (sweep->also & RB_ROW_STRESS) != 0;
-    rb_status s = RB_OK;
-
-    if (with_stress)
-        s = rb_rolling_stress_maxima_find(model, 0.0, &row->stress, why);
-    if (s == RB_OK && sweep->measure)
-        s = sweep->measure(model, row->own, sweep->context, why);
-    if (s == RB_OK && sweep->also & RB_ROW_ERRORS)
-        s = rb_rolling_estimate_errors(rc, solution, with_stress ? &row->stress : NULL,
-                                       &row->errors, why);
-    return s;
-}
-
 void rb_rolling_sweep_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row *row,
                            rb_message *why)
 {
@@ -72,7 +54,16 @@ void rb_rolling_sweep_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row 
         s = rb_rolling_solve_model(&rc, &model, &solution, why);
     if (s >= 0 && solution.p)
         row->solution = rb_rolling_scalars_of(&solution);
-    row->solution.status = s == RB_OK ? measure(sweep, &rc, &model, &solution, row, why) : s;
+    /* What a row has besides the solution. */
+    const int with_stress = (sweep->also & RB_ROW_STRESS) != 0;
+    if (s == RB_OK && with_stress)
+        s = rb_rolling_stress_maxima_find(&model, 0.0, &row->stress, why);
+    if (s == RB_OK && sweep->measure)
+        s = sweep->measure(&model, row->own, sweep->context, why);
+    if (s == RB_OK && sweep->also & RB_ROW_ERRORS)
+        s = rb_rolling_estimate_errors(&rc, &solution, with_stress ? &row->stress : NULL,
+                                       &row->errors, why);
+    row->solution.status = s;
     rb_rolling_solution_free(&solution);
     rb_rolling_model_free(&model);
 }
@@ -219,17 +210,6 @@ static void stop(rb_rolling_pool *pool)
     free(p);
 }
 
-static int workers_of(const rb_rolling_sweep *sweep)
-{
-    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    const int wanted = sweep->workers             ? sweep->workers
-                       : processors < 1           ? 1
-                       : processors > WORKERS_MAX ? WORKERS_MAX
-                                                  : (int)processors;
-
-    return wanted < sweep->count ? wanted : sweep->count;
-}
-
 rb_status rb_rolling_pool_start(const rb_rolling_sweep *sweep, rb_rolling_pool **pool,
                                 rb_message *why)
 {
@@ -242,7 +222,12 @@ rb_status rb_rolling_pool_start(const rb_rolling_sweep *sweep, rb_rolling_pool *
 
     if (p)
         *p = (processes){.pool = {idle, submit, collect, stop}, .sweep = sweep};
-    for (const int wanted = workers_of(sweep); s == RB_OK && p->workers < wanted;)
+    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    const int wanted = sweep->workers             ? sweep->workers
+                       : processors < 1           ? 1
+                       : processors > WORKERS_MAX ? WORKERS_MAX
+                                                  : (int)processors;
+    while (s == RB_OK && p->workers < wanted && p->workers < sweep->count)
         if ((s = start_worker(p, &p->worker[p->workers])) == RB_OK)
             p->workers++;
     if (s == RB_OK) {

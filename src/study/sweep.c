@@ -7,79 +7,45 @@
 /* Rows that may wait for an earlier case: what a study of any length needs of memory. */
 enum { WINDOW = 1 << 14 };
 
-typedef struct {
-    const rb_rolling_sweep *sweep;
-    rb_rolling_pool *pool;
-    int given, seen; /* cases handed out, rows seen; given - seen <= window */
-    int window;
-    rb_rolling_row *row; /* window: row of the k-th case at k modulo window */
-    char *came;          /* window */
-} study_state;
-
-static rb_status collect(study_state *r)
-{
-    rb_rolling_row row;
-    int k;
-    const int came = r->pool->collect(r->pool, 5, &k, &row);
-
-    if (came <= 0)
-        return (rb_status)came;
-    const int place = (k - r->sweep->first) % r->window;
-    r->row[place] = row;
-    r->came[place] = 1;
-    return RB_OK;
-}
-
-/* Hands on the rows that are next in order. */
-static rb_status see_finished(study_state *r)
-{
-    const rb_rolling_sweep *sweep = r->sweep;
-
-    while (r->seen < r->given && r->came[r->seen % r->window]) {
-        const int k = r->seen++, place = k % r->window;
-        r->came[place] = 0;
-        if (sweep->see(sweep->first + k, &r->row[place], sweep->context))
-            return RB_INTERRUPTED;
-    }
-    if (sweep->tick && sweep->tick(r->seen, sweep->context))
-        return RB_INTERRUPTED;
-    return RB_OK;
-}
-
-static rb_status supervise(study_state *r, rb_message *why)
-{
-    rb_status s = RB_OK;
-
-    while (s == RB_OK && r->seen < r->sweep->count) {
-        const rb_rolling_sweep *sweep = r->sweep;
-
-        for (int idle = r->pool->idle(r->pool);
-             s == RB_OK && idle > 0 && r->given < sweep->count && r->given - r->seen < r->window;
-             idle--)
-            s = r->pool->submit(r->pool, sweep->first + r->given++);
-        if (s == RB_OK)
-            s = collect(r);
-        if (s == RB_OK)
-            s = see_finished(r);
-    }
-    if (s == RB_INTERRUPTED)
-        return rb_fail(why, s, "interrupted after case %d", r->sweep->first + r->seen);
-    return s == RB_OK ? s : rb_fail(why, s, "sweep: cannot replace a lost process");
-}
-
 rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_pool *pool, rb_message *why)
 {
-    study_state r = {.sweep = sweep, .pool = pool};
+    /* given: cases handed out, seen: rows seen; given - seen <= window */
+    const int window = sweep->count < WINDOW ? sweep->count : WINDOW;
+    /* of the k-th case at k modulo window */
+    rb_rolling_row *row = calloc((size_t)window + 1, sizeof *row), next;
+    char *came = calloc((size_t)window + 1, sizeof *came);
+    int given = 0, seen = 0;
+    rb_status s =
+        row && came ? RB_OK : rb_fail(why, RB_ENOMEM, "sweep: out of memory for %d rows", window);
 
-    r.window = sweep->count < WINDOW ? sweep->count : WINDOW;
-    r.row = calloc((size_t)r.window + 1, sizeof *r.row);
-    r.came = calloc((size_t)r.window + 1, sizeof *r.came);
-    const rb_status s = r.row && r.came
-                            ? supervise(&r, why)
-                            : rb_fail(why, RB_ENOMEM, "sweep: out of memory for %d rows", r.window);
+    while (s == RB_OK && seen < sweep->count) {
+        int number;
+        for (int idle = pool->idle(pool);
+             s == RB_OK && idle > 0 && given < sweep->count && given - seen < window; idle--)
+            s = pool->submit(pool, sweep->first + given++);
+        const int collected = s == RB_OK ? pool->collect(pool, 5, &number, &next) : 0;
+        if (collected > 0) {
+            row[(number - sweep->first) % window] = next;
+            came[(number - sweep->first) % window] = 1;
+        }
+        s = collected < 0 ? (rb_status)collected : s;
+        /* Hands on the rows that are next in order. */
+        while (s == RB_OK && seen < given && came[seen % window]) {
+            const int k = seen++;
+            came[k % window] = 0;
+            if (sweep->see(sweep->first + k, &row[k % window], sweep->context))
+                s = RB_INTERRUPTED;
+        }
+        if (s == RB_OK && sweep->tick && sweep->tick(seen, sweep->context))
+            s = RB_INTERRUPTED;
+        if (s == RB_INTERRUPTED)
+            rb_fail(why, s, "interrupted after case %d", sweep->first + seen);
+        else if (s != RB_OK)
+            rb_fail(why, s, "sweep: cannot replace a lost process");
+    }
     pool->stop(pool);
-    free(r.came);
-    free(r.row);
+    free(came);
+    free(row);
     return s;
 }
 
