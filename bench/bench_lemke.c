@@ -407,11 +407,33 @@ static int goes_on(int runs, double since)
     return runs < 3 || (runs < 100 && cpu_seconds() - since < 0.05);
 }
 
+/* The residual of each row against its terms, recomputed here.  z: of the scaled problem. */
+static int solves(const lcp_family *f, const double *z, const double *column)
+{
+    long double *w = calloc((size_t)f->n, 2 * sizeof *w), *terms = w + f->n;
+    int right = w != NULL;
+    for (int i = 0; right && i < f->n; i++) {
+        w[i] = f->q[i];
+        terms[i] = fabs(f->q[i]);
+    }
+    for (int j = 0; right && j < f->n; j++)
+        for (int k = f->M.p[j]; k < f->M.p[j + 1]; k++) {
+            const long double x = (long double)f->M.x[k] * z[j] * (column ? column[j] : 1.0);
+            w[f->M.i[k]] += x;
+            terms[f->M.i[k]] += fabsl(x);
+        }
+    for (int i = 0; right && i < f->n; i++) {
+        const long double x = (long double)z[i] * (column ? column[i] : 1.0);
+        right = x >= 0.0L && fabsl(x < w[i] ? x : w[i]) <= 1e-8L * terms[i];
+    }
+    free(w);
+    return right;
+}
+
 /* Of our own by name; dense: for the tableau, whose matrix is made before, or NULL. */
-static timing own(const char *name, const lcp_family *f, const double *dense)
+static timing own(const char *name, const lcp_family *f, const double *dense, double *z)
 {
     timing t = {INFINITY, name};
-    double *z = need((size_t)f->n, 1);
     const double since = cpu_seconds();
     rb_lcp_options opt = rb_lcp_defaults();
     opt.seconds = PATIENCE;
@@ -427,7 +449,6 @@ static timing own(const char *name, const lcp_family *f, const double *dense)
         t.seconds = fmin(t.seconds, cpu_seconds() - start);
         t.solver = info.solver;
     }
-    free(z);
     return t;
 }
 
@@ -503,20 +524,32 @@ static void cell(double seconds)
         printf("         . |");
 }
 
-/* A row: our own by name, auto over the best of them, and Siconos'. */
-static double family_row(const char *name, const lcp_family *f, const char *units)
+/* Claimed solutions of our own solvers, and those of them that are wrong. */
+static int claims, wrong_claims;
+
+enum { LARGEST_DENSE = 3300, LARGEST_OTHER = 1700 };
+
+/* A row: our own by name, auto over the best of them, and Siconos'.  unscaled: the problem
+ * before rows and columns were multiplied, column: by what (NULL: by nothing). */
+static double family_row(const char *name, const lcp_family *f, const lcp_family *unscaled,
+                         const double *column)
 {
-    enum { LARGEST_DENSE = 3300, LARGEST_OTHER = 1700 };
     double *dense = f->n <= LARGEST_DENSE ? dense_of(f) : NULL;
-    const timing tableau = dense ? own("lemke", f, dense) : (timing){INFINITY, NULL};
-    const timing sparse = own("lemke-sparse", f, NULL), newton = own("newton", f, NULL);
-    const timing chosen = own("auto", f, NULL);
-    const double best = fmin(tableau.seconds, fmin(sparse.seconds, newton.seconds));
-    printf("| %s%s | %d |", name, units, f->n);
-    cell(tableau.seconds);
-    cell(sparse.seconds);
-    cell(newton.seconds);
-    cell(chosen.seconds);
+    const char *const names[] = {"lemke", "lemke-sparse", "newton", "auto"};
+    double *z = need((size_t)f->n, 1), seconds[4];
+    timing chosen = {INFINITY, NULL};
+    for (int k = 0; k < 4; k++) {
+        chosen = k || dense ? own(names[k], f, k ? NULL : dense, z) : chosen;
+        seconds[k] = chosen.seconds;
+        if (isfinite(chosen.seconds)) {
+            claims++;
+            wrong_claims += !solves(unscaled, z, column);
+        }
+    }
+    const double best = fmin(seconds[0], fmin(seconds[1], seconds[2]));
+    printf("| %s%s | %d |", name, column ? ", scaled" : "", f->n);
+    for (int k = 0; k < 4; k++)
+        cell(seconds[k]);
     printf(" %s |", isfinite(chosen.seconds) ? chosen.solver : ".");
     if (isfinite(best))
         printf(" %.2g |", chosen.seconds / best);
@@ -528,6 +561,7 @@ static double family_row(const char *name, const lcp_family *f, const char *unit
 #endif
     printf("\n");
     fflush(stdout);
+    free(z);
     free(dense);
     return isfinite(best) ? chosen.seconds / best : 0.0;
 }
@@ -541,39 +575,44 @@ static lcp_family family_of(problem *p)
     return f;
 }
 
-/* Microseconds of every solver on every family, and the largest ratio of auto to the
- * best of our own. */
-static void families(void)
+/* Microseconds of every solver on every family as it is and scaled by rows and columns,
+ * and the largest ratio of auto to the best of our own.  only: one family, or NULL. */
+static void families(const char *only)
 {
     static const int contacts[] = {20, 100, 400, 1066};
     double worst = 0.0;
     printf("Families, microseconds, `.`: not solved, or not taken.\n"
            "| family | n | lemke | lemke-sparse | newton | auto | by | auto / best | "
            "lexicolemke | pathsearch | newton min | FB |\n");
-    for (int kind = 0; kind < LCP_FAMILIES; kind++)
-        for (int k = 0; k < 4 && lcp_families[kind].n[k]; k++)
-            for (int scaled = 0; scaled < (k == 1 ? 2 : 1); scaled++) {
-                lcp_family f;
-                if (lcp_family_create(kind, lcp_families[kind].n[k], &f) != RB_OK)
+    for (int kind = 0; kind <= LCP_FAMILIES; kind++) {
+        const int kwak = kind == LCP_FAMILIES;
+        const char *name = kwak ? "kwak" : lcp_families[kind].name;
+        for (int k = 0; k < 4 && (kwak || lcp_families[kind].n[k]); k++) {
+            lcp_family f[2];
+            if (only && strcmp(only, name) != 0)
+                continue;
+            for (int scaled = 0; scaled < 2; scaled++) {
+                problem p = kwak ? make_kwak(contacts[k], MU, CREEP_RATIO) : (problem){0};
+                if (kwak)
+                    f[scaled] = family_of(&p);
+                else if (lcp_family_create(kind, lcp_families[kind].n[k], &f[scaled]) != RB_OK)
                     exit(70);
-                double *column = need((size_t)f.n, 1);
-                if (scaled)
-                    lcp_family_scale(&f, 12.0, column);
-                worst =
-                    fmax(worst, family_row(lcp_families[kind].name, &f, scaled ? ", scaled" : ""));
-                free(column);
-                lcp_family_free(&f);
             }
-    for (int k = 0; k < 4; k++) {
-        problem p = make_kwak(contacts[k], MU, CREEP_RATIO);
-        lcp_family f = family_of(&p);
-        worst = fmax(worst, family_row("kwak", &f, ""));
-        lcp_family_free(&f);
+            double *column = need((size_t)f[0].n, 1);
+            lcp_family_scale(&f[1], 12.0, column);
+            worst = fmax(worst, family_row(name, &f[0], &f[0], NULL));
+            if (f[0].n <= LARGEST_OTHER)
+                worst = fmax(worst, family_row(name, &f[1], &f[0], column));
+            free(column);
+            lcp_family_free(&f[0]);
+            lcp_family_free(&f[1]);
+        }
     }
-    printf("auto / best of our own: %.2f at most\n", worst);
+    printf("auto / best of our own: %.2f at most; claimed solutions: %d, wrong: %d\n", worst,
+           claims, wrong_claims);
 }
 
-/* Alone with an argument: the families. */
+/* Alone with an argument, `families`: the families; with one more: that one. */
 int main(int argc, char **argv)
 {
     const char *core = rb_blas_better_core();
@@ -585,6 +624,6 @@ int main(int argc, char **argv)
         compare(200, 31);
         compare(800, 3);
     }
-    families();
+    families(argc > 2 ? argv[2] : NULL);
     return 0;
 }

@@ -94,18 +94,6 @@ typedef struct {
 
 /* ---- Which solvers ----------------------------------------------------------------- */
 
-static cli_exit add_solver(comparison *c, const char *name)
-{
-    const rb_friction_solver *solver;
-    const cli_exit code = cli_friction_solver("solvers", name, &solver);
-    for (int s = 0; code == CLI_CONTINUE && s < c->solvers; s++)
-        if (c->solver[s] == solver->name)
-            return cli_fail(CLI_USAGE, "--solvers: '%s' is given twice", name);
-    if (code == CLI_CONTINUE)
-        c->solver[c->solvers++] = solver->name;
-    return code;
-}
-
 static cli_exit choose_solvers(comparison *c)
 {
     int n;
@@ -121,9 +109,14 @@ static cli_exit choose_solvers(comparison *c)
         comma = strchr(name, ',');
         if (comma)
             *comma++ = '\0';
-        const cli_exit code = add_solver(c, name);
+        const rb_friction_solver *solver;
+        const cli_exit code = cli_friction_solver("solvers", name, &solver);
         if (code != CLI_CONTINUE)
             return code;
+        for (int s = 0; s < c->solvers; s++)
+            if (c->solver[s] == solver->name)
+                return cli_fail(CLI_USAGE, "--solvers: '%s' is given twice", name);
+        c->solver[c->solvers++] = solver->name;
     }
     return CLI_CONTINUE;
 }
@@ -160,21 +153,6 @@ static cli_exit run_file(comparison *c, const char *path)
     free(r);
     rb_friction_problem_free(&p);
     return code;
-}
-
-static double cost_of(const comparison *c, int problem, int solver)
-{
-    const run_result *one = &c->result[problem * c->solvers + solver];
-    if (one->status != RB_OK || one->info.seconds > c->o->limit)
-        return INFINITY;
-    switch ((cost_kind)c->o->cost) {
-    case COST_FLOPS:
-        return fmax(one->info.flops, 1.0);
-    case COST_SECONDS:
-        return one->info.seconds;
-    default:
-        return fmax(one->info.iters, 1.0);
-    }
 }
 
 /* ---- Output ------------------------------------------------------------------------ */
@@ -300,8 +278,14 @@ static cli_exit compare_files(comparison *c, int n, char **files)
         for (int k = 0; k < TAUS; k++) /* 1 ... 1000, twenty in a decade */
             c->tau[k] = pow(10.0, 0.05 * k);
         for (int p = 0; p < c->problems; p++)
-            for (int s = 0; s < c->solvers; s++)
-                cost[p + s * c->problems] = cost_of(c, p, s);
+            for (int s = 0; s < c->solvers; s++) {
+                const run_result *one = &c->result[p * c->solvers + s];
+                const int solved = one->status == RB_OK && one->info.seconds <= c->o->limit;
+                cost[p + s * c->problems] = !solved                      ? INFINITY
+                                            : c->o->cost == COST_SECONDS ? one->info.seconds
+                                            : c->o->cost == COST_FLOPS ? fmax(one->info.flops, 1.0)
+                                                                       : fmax(one->info.iters, 1.0);
+            }
         rb_friction_profile(c->problems, c->solvers, cost, TAUS, c->tau, c->rho);
     }
     code = cost && c->rho ? CLI_OK : cli_fail(CLI_INTERNAL, "out of memory");

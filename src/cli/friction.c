@@ -147,16 +147,6 @@ static const cli_row rows[] = {ROW("file", "file", TEXT, file),
 
 enum { ROWS = sizeof rows / sizeof *rows, FACTS = 5 };
 
-static const char *columns_of(const friction_options *o)
-{
-    if (o->solution)
-        return "file i r u";
-    return o->facts ? "file solver status contacts dimension iterations residual floor "
-                      "seconds scaled rank hyperstaticity nullity asymmetry indefinite"
-                    : "file solver status contacts dimension iterations residual floor "
-                      "seconds scaled";
-}
-
 /* ---- One file --------------------------------------------------------------------- */
 
 static cli_exit failed(friction_result *r, rb_status s, const char *text)
@@ -196,21 +186,6 @@ static cli_exit examine(const friction_run *run, const rb_friction_problem *p, f
                 "be unique\n",
                 r->file);
     return CLI_OK;
-}
-
-/* 1, with a line, where it can be proved that a problem that was not solved has no
- * solution. */
-static int is_infeasible(const rb_friction_problem *p, const char *file)
-{
-    double least, given;
-    if (!rb_friction_has_no_solution(p, &least, &given))
-        return 0;
-    fprintf(stderr,
-            "rollbem: %s: note: no solution exists: reactions that prevent penetration "
-            "at all contacts would need a sum W_NN r_N of at least %.2g, but |q| adds up "
-            "to %.2g\n",
-            file, least, given);
-    return 1;
 }
 
 static cli_exit assess(friction_run *run, friction_result *r, rb_status s)
@@ -277,8 +252,15 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
         if (!run->o->trace)
             cli_wait_end();
         code = assess(run, r, s);
-        if (code == CLI_UNSOLVED && is_infeasible(&p, r->file))
+        double least, given;
+        if (code == CLI_UNSOLVED && rb_friction_has_no_solution(&p, &least, &given)) {
             r->status = "infeasible";
+            fprintf(stderr,
+                    "rollbem: %s: note: no solution exists: reactions that prevent penetration "
+                    "at all contacts would need a sum W_NN r_N of at least %.2g, but |q| adds up "
+                    "to %.2g\n",
+                    r->file, least, given);
+        }
         if (p.lengths) {
             /* Rolling contacts are solved as two contacts each and told as one of five
              * entries. */
@@ -411,12 +393,18 @@ int cli_friction(int argc, char **argv)
     if (code == CLI_CONTINUE)
         code = cli_check_files(&spec, &args);
     if (code == CLI_CONTINUE) {
-        friction_run run = {.files = {.style = &o.style,
-                                      .columns = columns_of(&o),
-                                      .conventions = conventions,
-                                      .solve = solve_file,
-                                      .context = &run},
-                            .o = &o};
+        friction_run run = {
+            .files = {.style = &o.style,
+                      .columns = o.solution ? "file i r u"
+                                 : o.facts  ? "file solver status contacts dimension iterations "
+                                              "residual floor seconds scaled rank "
+                                              "hyperstaticity nullity asymmetry indefinite"
+                                            : "file solver status contacts dimension iterations "
+                                              "residual floor seconds scaled",
+                      .conventions = conventions,
+                      .solve = solve_file,
+                      .context = &run},
+            .o = &o};
         code = cli_solve_problems(&run.files, &args, o.output);
     }
     cli_args_free(&args);

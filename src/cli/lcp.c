@@ -197,72 +197,10 @@ static const cli_row rows[] = {ROW("file", "file", TEXT, file),
 
 enum { ROWS = sizeof rows / sizeof *rows };
 
-static void add_problem(lcp_run *run, const lcp_result *r)
-{
-    const int known = r->n > 0;
-    json_t *p = cli_rows_json(ROWS, rows, r, known);
-    if (run->o->game)
-        rb_report_json_set(&p, "payoffs",
-                           known ? rb_report_json_numbers(2, r->payoff) : json_null());
-    if (run->o->solution || run->o->all) {
-        /* z and w of the only solution, or the list of all. */
-        if (!run->o->all) {
-            rb_report_json_set(&p, "z", vector(r->n, r->z));
-            rb_report_json_set(&p, "w", vector(r->n, r->w));
-        } else {
-            json_t *list = json_array();
-            for (int k = 0; k < r->solutions; k++)
-                rb_report_json_append(&list, json_pack("{s:o, s:o}", "z",
-                                                       vector(r->n, r->z + (size_t)k * r->n), "w",
-                                                       vector(r->n, r->w + (size_t)k * r->n)));
-            rb_report_json_set(&p, "solutions", list);
-        }
-    }
-    if (run->o->trace)
-        rb_report_json_set(&p, "pivots", json_incref(run->pivots));
-    rb_report_json_append(&run->files.problems, p);
-}
-
-/* A row per unknown; --all numbers the solutions. */
-static void print_solutions(lcp_run *run, const lcp_result *r)
-{
-    rb_report_cells *c = &run->files.cells;
-    for (int k = 0; k < r->solutions; k++)
-        for (int i = 0; i < r->n; i++) {
-            const size_t at = (size_t)k * (size_t)r->n + (size_t)i;
-            rb_report_cell_text(c, r->file);
-            if (run->o->all)
-                rb_report_cell_whole(c, k + 1);
-            rb_report_cell_whole(c, i + 1);
-            rb_report_cell_number(c, r->z[at]);
-            rb_report_cell_number(c, r->w[at]);
-            rb_report_cells_end_row(c);
-        }
-}
-
 /* ---- A problem --------------------------------------------------------------------- */
 
 /* A scaled residual that rounding leaves. */
 static const double ROUNDING = 1e-14;
-
-/* "solved" is what the recomputed residual says, not the method. */
-static cli_exit assess(const lcp_options *o, lcp_result *r, rb_status s)
-{
-    r->status = rb_status_text(s);
-    if (s != RB_OK)
-        return CLI_UNSOLVED;
-    if (r->info.scaled <= o->tol)
-        return CLI_OK;
-    if (r->info.scaled <= ROUNDING) {
-        r->status = "solved-to-rounding";
-        return CLI_OK;
-    }
-    r->status = rb_status_text(RB_INACCURATE);
-    rb_fail(&r->info.msg, RB_INACCURATE,
-            "the residual of row %d is %.2g of its terms, above --tol %g", r->info.row + 1,
-            r->info.scaled, o->tol);
-    return CLI_UNSOLVED;
-}
 
 static cli_exit failed(lcp_result *r, rb_status s, const rb_message *why)
 {
@@ -291,9 +229,20 @@ static cli_exit invalid(lcp_result *r, rb_status s, const rb_message *msg)
     return failed(r, s == RB_EINVAL ? RB_EFORMAT : s, &why);
 }
 
+/* "solved" is what the recomputed residual says, not the method. */
 static cli_exit say_end(const lcp_options *o, lcp_result *r, rb_status s)
 {
-    const cli_exit code = assess(o, r, s);
+    cli_exit code = s == RB_OK ? CLI_OK : CLI_UNSOLVED;
+    r->status = rb_status_text(s);
+    if (s == RB_OK && r->info.scaled > o->tol && r->info.scaled <= ROUNDING)
+        r->status = "solved-to-rounding";
+    else if (s == RB_OK && !(r->info.scaled <= o->tol)) {
+        code = CLI_UNSOLVED;
+        r->status = rb_status_text(RB_INACCURATE);
+        rb_fail(&r->info.msg, RB_INACCURATE,
+                "the residual of row %d is %.2g of its terms, above --tol %g", r->info.row + 1,
+                r->info.scaled, o->tol);
+    }
     if (s == RB_MAXITER)
         cli_fail(code, "%s: no solution after --max-pivots %d", r->file, r->info.iters);
     else if (code != CLI_OK)
@@ -410,14 +359,24 @@ static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
 
 /* ---- Games ------------------------------------------------------------------------- */
 
-static cli_exit run_game(lcp_run *run, const rb_io_bimatrix *g, lcp_result *r)
+static cli_exit solve_game(lcp_run *run, lcp_result *r)
 {
+    rb_io_bimatrix g;
+    rb_message why = {""};
+    rb_status s = rb_io_bimatrix_read(r->file, &g, &why);
+    if (s == RB_OK && run->o->label > g.m + g.n)
+        s = rb_fail(&why, RB_EINVAL, "--label: expected one of the %d strategies of %.200s, got %d",
+                    g.m + g.n, r->file, run->o->label);
+    if (s != RB_OK) {
+        rb_io_bimatrix_free(&g);
+        return failed(r, s, &why);
+    }
     const rb_lcp_options opt = solver_options(run, r);
-    const rb_lcp_game game = {g->m, g->n, g->A, g->B, g->m};
+    const rb_lcp_game game = {g.m, g.n, g.A, g.B, g.m};
     const double start = rb_seconds();
     rb_lcp_solutions all = {0};
-    rb_status s = rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
-    r->n = g->m + g->n;
+    s = rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
+    r->n = g.m + g.n;
     r->solver = "lemke-howson";
     r->z = rb_alloc((size_t)r->n, 1);
     r->w = rb_alloc((size_t)r->n, 1);
@@ -428,34 +387,23 @@ static cli_exit run_game(lcp_run *run, const rb_io_bimatrix *g, lcp_result *r)
     r->seconds = rb_seconds() - start;
     if (run->o->all && s == RB_OK)
         s = take_all(r, &all);
-    if (s < 0)
-        return invalid(r, s, &r->info.msg);
-    /* z = (x, y), w = what each strategy loses, of all solutions; the residual is the
-     * worst, the payoffs are those of the first. */
-    const size_t entries = (size_t)game.m * (size_t)game.n, n = (size_t)r->n;
-    r->info.res = 0.0;
-    for (int k = r->solutions - 1; k >= 0; k--) {
-        const double res =
-            rb_lcp_bimatrix_regret(&game, r->z + (size_t)k * n, r->w + (size_t)k * n, r->payoff);
-        r->info.res = fmax(r->info.res, res);
+    if (s >= 0) {
+        /* z = (x, y), w = what each strategy loses, of all solutions; the residual is the
+         * worst, the payoffs are those of the first. */
+        const size_t entries = (size_t)game.m * (size_t)game.n, n = (size_t)r->n;
+        r->info.res = 0.0;
+        for (int k = r->solutions - 1; k >= 0; k--)
+            r->info.res =
+                fmax(r->info.res, rb_lcp_bimatrix_regret(&game, r->z + (size_t)k * n,
+                                                         r->w + (size_t)k * n, r->payoff));
+        const double size = fmax(rb_norm_inf(entries, game.A), rb_norm_inf(entries, game.B));
+        r->floor = 1e-14 * size;
+        r->info.scaled = size > 0.0 ? r->info.res / size : r->info.res;
     }
-    const double size = fmax(rb_norm_inf(entries, game.A), rb_norm_inf(entries, game.B));
-    r->floor = 1e-14 * size;
-    r->info.scaled = size > 0.0 ? r->info.res / size : r->info.res;
-    return run->o->all ? say_all(run->o, r, &all) : say_end(run->o, r, s);
-}
-
-static cli_exit solve_game(lcp_run *run, lcp_result *r)
-{
-    rb_io_bimatrix g;
-    rb_message why = {""};
-    rb_status s = rb_io_bimatrix_read(r->file, &g, &why);
-    if (s == RB_OK && run->o->label > g.m + g.n)
-        s = rb_fail(&why, RB_EINVAL, "--label: expected one of the %d strategies of %.200s, got %d",
-                    g.m + g.n, r->file, run->o->label);
-    const cli_exit code = s == RB_OK ? run_game(run, &g, r) : failed(r, s, &why);
     rb_io_bimatrix_free(&g);
-    return code;
+    return s < 0         ? invalid(r, s, &r->info.msg)
+           : run->o->all ? say_all(run->o, r, &all)
+                         : say_end(run->o, r, s);
 }
 
 /* ---- One file ---------------------------------------------------------------------- */
@@ -476,9 +424,26 @@ static cli_exit solve_file(void *context, const char *path)
     const cli_exit code = run->o->game ? solve_game(run, &r) : solve_lcp(run, &r);
     if (!run->o->trace)
         cli_wait_end();
-    if (is_json(run->o))
-        add_problem(run, &r);
-    else {
+    if (is_json(run->o)) {
+        json_t *p = cli_rows_json(ROWS, rows, &r, r.n > 0);
+        if (run->o->game)
+            rb_report_json_set(&p, "payoffs",
+                               r.n ? rb_report_json_numbers(2, r.payoff) : json_null());
+        if (run->o->all) {
+            json_t *list = json_array();
+            for (int k = 0; k < r.solutions; k++)
+                rb_report_json_append(&list, json_pack("{s:o, s:o}", "z",
+                                                       vector(r.n, r.z + (size_t)k * r.n), "w",
+                                                       vector(r.n, r.w + (size_t)k * r.n)));
+            rb_report_json_set(&p, "solutions", list);
+        } else if (run->o->solution) {
+            rb_report_json_set(&p, "z", vector(r.n, r.z));
+            rb_report_json_set(&p, "w", vector(r.n, r.w));
+        }
+        if (run->o->trace)
+            rb_report_json_set(&p, "pivots", json_incref(run->pivots));
+        rb_report_json_append(&run->files.problems, p);
+    } else {
         /* The row of a file, or its # line where the rows are pivots or unknowns. */
         rb_report_cells *c = &run->files.cells;
         if (r.n) {
@@ -491,8 +456,19 @@ static cli_exit solve_file(void *context, const char *path)
                                   residual, r.seconds);
             } else
                 cli_rows_cells(c, run->files.columns, ROWS, rows, &r);
-            if ((run->o->solution || run->o->all) && r.z)
-                print_solutions(run, &r);
+            /* A row per unknown; --all numbers the solutions. */
+            const int rows_of_z = (run->o->solution || run->o->all) && r.z;
+            for (int k = 0; rows_of_z && k < r.solutions; k++)
+                for (int i = 0; i < r.n; i++) {
+                    const size_t at = (size_t)k * (size_t)r.n + (size_t)i;
+                    rb_report_cell_text(c, r.file);
+                    if (run->o->all)
+                        rb_report_cell_whole(c, k + 1);
+                    rb_report_cell_whole(c, i + 1);
+                    rb_report_cell_number(c, r.z[at]);
+                    rb_report_cell_number(c, r.w[at]);
+                    rb_report_cells_end_row(c);
+                }
         }
     }
     json_decref(run->pivots);
