@@ -5,6 +5,7 @@
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_multifit_nlinear.h>
+#include <gsl/gsl_sort.h>
 #include <lapacke.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -655,12 +656,6 @@ static void set_intervals(problem *p, const double *theta)
 /* ---- Where to start
  * ---------------------------------------------------------------------- */
 
-static int compare_numbers(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* What the data themselves say: the largest force, the last one, the first slope, where
  * the force is 0. */
 static double start_of(const problem *p, const char *name)
@@ -699,7 +694,7 @@ static double start_of(const problem *p, const char *name)
                                          (d->force[k] - d->force[k - 1]);
     }
     if (slip)
-        qsort(slip, (size_t)p->points, sizeof *slip, compare_numbers);
+        gsl_sort(slip, 1, (size_t)p->points);
     const double middle = slip ? slip[p->points / 2] : NAN;
     free(slip);
     const double stiff = 2.0 * derived->radius / derived->half_width;

@@ -2,6 +2,7 @@
  * and a map of it over two of them. */
 #include "report/internal.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -115,12 +116,6 @@ typedef struct {
     axis x, y, shown;
 } view;
 
-static int compare_numbers(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
-
 /* Values that stand equally in their logarithm, as first:last:count:log gives them, over
  * a decade or more. */
 static int is_logarithmic(int n, const double *value)
@@ -130,7 +125,7 @@ static int is_logarithmic(int n, const double *value)
     if (!x)
         return 0;
     memcpy(x, value, (size_t)n * sizeof *x);
-    qsort(x, (size_t)n, sizeof *x, compare_numbers);
+    gsl_sort(x, 1, (size_t)n);
     for (int i = 0; i < n; i++)
         if (i == 0 || x[i] != x[k - 1])
             x[k++] = x[i];

@@ -5,6 +5,7 @@
 #include <cblas.h>
 #include <gsl/gsl_interp.h>
 #include <gsl/gsl_math.h>
+#include <gsl/gsl_sort.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -246,12 +247,6 @@ static int add_places(const rb_rolling_model *model, const rb_contact_state *sta
     return n;
 }
 
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 enum { TABLES = 3 };
 
 /* The profile, what is irregular and what is worn; n < 2: it says nothing. */
@@ -285,7 +280,7 @@ static rb_status look(const rb_rolling_model *model, const rb_contact_state *sta
     for (int k = 0; k < TABLES; k++)
         if (t[k].n > 1)
             places = add_places(model, state, &t[k], x, places);
-    qsort(x, (size_t)places, sizeof *x, by_value);
+    gsl_sort(x, 1, (size_t)places);
     rb_status status = rb_rolling_gap_along(model->rc, model->mesh.passed, places, x, gap);
 
     if (status != RB_OK || places == 0)
