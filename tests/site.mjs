@@ -3,7 +3,7 @@
 import { createServer } from "node:http";
 import { existsSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { extname, join, normalize } from "node:path";
-import { open_page } from "../web/chromium.mjs";
+import { close_browser, open_page } from "../web/chromium.mjs";
 
 const [site, pictures] = process.argv.slice(2);
 const KINDS = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".json": "application/json" };
@@ -102,5 +102,6 @@ await check(
     "course/06-rolling.html",
     { width: 1440, height: 900 },
 );
+await close_browser();
 server.close();
 process.exit(failed);

@@ -1,8 +1,14 @@
 /* The line in which every refusal of the program ends, and its exit codes. */
+#define _GNU_SOURCE /* RTLD_NEXT */
 #include "check.h"
 #include "cli/cli.h"
+#include "cli/wait.h"
 
+#include <dlfcn.h>
+#include <signal.h>
 #include <string.h>
+#include <time.h>
+#include <unistd.h>
 
 TEST(every_status_has_its_exit_code)
 {
@@ -175,6 +181,46 @@ TEST(commands_are_found_by_name)
     cli_guess_command(&guess);
     assert_string_equal(rb_guess_text(&guess, ""), " (did you mean 'lcp'?)");
     cli_end();
+}
+
+static int worked; /* seconds of the processor, for those that ask */
+
+int clock_gettime(clockid_t clock, struct timespec *now)
+{
+    int (*real)(clockid_t, struct timespec *);
+    *(void **)&real = dlsym(RTLD_NEXT, "clock_gettime");
+    const int code = real(clock, now);
+    if (clock == CLOCK_PROCESS_CPUTIME_ID)
+        now->tv_sec = worked;
+    return code;
+}
+
+/* A signal at each of these seconds: the line comes after 20 s of work, then after twice as many.
+ */
+TEST(long_work_is_said_by_the_seconds_of_the_processor)
+{
+    static const int ticks[] = {2, 19, 20, 39, 41, 79, 170, 171, 320};
+    char text[400] = "";
+    FILE *file = tmpfile();
+    const int old = dup(STDERR_FILENO);
+    assert_non_null(file);
+    dup2(fileno(file), STDERR_FILENO);
+    rb_phase("matrices");
+    cli_wait_begin();
+    for (size_t k = 0; k < sizeof ticks / sizeof *ticks; k++) {
+        worked = ticks[k];
+        raise(SIGALRM);
+    }
+    cli_wait_end();
+    dup2(old, STDERR_FILENO);
+    close(old);
+    rewind(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    assert_string_equal(text, "rollbem: 20 s of the processor so far: matrices\n"
+                              "rollbem: 41 s of the processor so far: matrices\n"
+                              "rollbem: 170 s of the processor so far: matrices\n"
+                              "rollbem: 320 s of the processor so far: matrices\n");
 }
 
 /* Last: it cannot be taken back. */

@@ -8,7 +8,10 @@ import { join } from "node:path";
 export const CHROMIUM =
     ["chromium-headless-shell", "chromium"].find((name) => spawnSync(name, ["--version"]).status === 0) ?? null;
 
-export async function open_page(url, { width = 1280, height = 900, dark = false, mobile = false } = {}) {
+/* One browser for all pages of a run; every page has cookies, storage and size of its own. */
+let running = null;
+
+function start() {
     const folder = mkdtempSync(join(tmpdir(), "page-"));
     const browser = spawn(
         CHROMIUM,
@@ -26,24 +29,25 @@ export async function open_page(url, { width = 1280, height = 900, dark = false,
     );
     const [to, from] = [browser.stdio[3], browser.stdio[4]],
         waiting = new Map(),
-        errors = [],
-        requested = [];
+        pages = new Map();
     let last = 0,
         rest = "";
     from.on("data", (chunk) => {
         const lines = (rest + chunk).split("\0");
         rest = lines.pop();
         for (const text of lines) {
-            const { id, result, error, method, params } = JSON.parse(text);
+            const { id, result, error, method, params, sessionId } = JSON.parse(text);
             if (id) {
                 const { resolve, reject } = waiting.get(id);
                 waiting.delete(id);
                 error ? reject(new Error(error.message)) : resolve(result);
             }
+            const page = pages.get(sessionId);
+            if (!page) continue;
             if (method === "Runtime.exceptionThrown")
-                errors.push(params.exceptionDetails.exception?.description ?? params.exceptionDetails.text);
-            if (method === "Log.entryAdded" && params.entry.level === "error") errors.push(params.entry.text);
-            if (method === "Network.requestWillBeSent") requested.push(params.request.url);
+                page.errors.push(params.exceptionDetails.exception?.description ?? params.exceptionDetails.text);
+            if (method === "Log.entryAdded" && params.entry.level === "error") page.errors.push(params.entry.text);
+            if (method === "Network.requestWillBeSent") page.requested.push(params.request.url);
         }
     });
     const send = (method, params = {}, sessionId) =>
@@ -51,8 +55,28 @@ export async function open_page(url, { width = 1280, height = 900, dark = false,
             waiting.set(++last, { resolve, reject });
             to.write(JSON.stringify({ id: last, method, params, sessionId }) + "\0");
         });
-    const { targetId } = await send("Target.createTarget", { url: "about:blank" });
+    return { browser, folder, pages, send };
+}
+
+export async function close_browser() {
+    if (!running) return;
+    const { browser, folder, send } = running;
+    running = null;
+    const ended = new Promise((resolve) => browser.once("exit", resolve));
+    await send("Browser.close").catch(() => {});
+    await ended;
+    rmSync(folder, { recursive: true, force: true, maxRetries: 5 });
+}
+
+export async function open_page(url, { width = 1280, height = 900, dark = false, mobile = false } = {}) {
+    running ??= start();
+    const { pages, send } = running,
+        errors = [],
+        requested = [];
+    const { browserContextId } = await send("Target.createBrowserContext");
+    const { targetId } = await send("Target.createTarget", { url: "about:blank", browserContextId });
     const { sessionId } = await send("Target.attachToTarget", { targetId, flatten: true });
+    pages.set(sessionId, { errors, requested });
     const tab = (method, params) => send(method, params, sessionId);
     for (const domain of ["Page", "Runtime", "Log", "Network"]) await tab(`${domain}.enable`);
     const size = (w, h, is_dark = false, is_mobile = false) =>
@@ -84,10 +108,8 @@ export async function open_page(url, { width = 1280, height = 900, dark = false,
         throw new Error(`not so after ${seconds} s: ${expression}`);
     }
     async function close() {
-        const ended = new Promise((resolve) => browser.once("exit", resolve));
-        await send("Browser.close").catch(() => {});
-        await ended;
-        rmSync(folder, { recursive: true, force: true, maxRetries: 5 });
+        pages.delete(sessionId);
+        await send("Target.disposeBrowserContext", { browserContextId });
     }
     async function picture(full = true) {
         const {

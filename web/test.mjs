@@ -16,7 +16,7 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { gunzipSync } from "node:zlib";
-import { CHROMIUM, open_page } from "./chromium.mjs";
+import { CHROMIUM, close_browser, open_page } from "./chromium.mjs";
 import { crawl } from "./crawl.mjs";
 import { open_in_firefox } from "./firefox.mjs";
 import { axes_of, axes_still_fit, bounds_of, tidy_number } from "./contact.js";
@@ -1769,7 +1769,7 @@ if (CHROMIUM) {
     try {
         await views(page);
     } finally {
-        await page.close();
+        await close_browser();
     }
 } else {
     console.log("[  SKIPPED ] the page in a browser: no chromium here");
