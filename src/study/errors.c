@@ -475,11 +475,11 @@ static double worst_relative(const rb_rolling_case *rc, const rb_rolling_solutio
  * the error is what the other one leaves of the accuracy, half of it at least, and by at
  * most two because an error may fall faster than its order says.  0: the limit of a part
  * is reached, or twice that would not do. */
-static int refine(double accuracy, double contact, double boundary, rb_rolling_case *rc)
+static int refine(double accuracy, double contact, double boundary, int fitted, rb_rolling_case *rc)
 {
     const int wheels = rb_rolling_error_runs(rc) > 2;
     const double most = wheels ? MOST_ON_WHEELS : MOST_ELEMENTS;
-    const double order = rc->mesh == RB_MESH_FITTED ? 2.0 : 1.0;
+    const double order = fitted ? 2.0 : 1.0;
     const double n = rc->contact_elements, outer = fmax(rc->outer_refinement, 1.0);
     const double for_contact = fmax(0.5 * accuracy, accuracy - boundary);
     const double for_boundary = fmax(0.5 * accuracy, accuracy - contact);
@@ -533,7 +533,8 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
         if (worst <= accuracy)
             return RB_OK;
     } while (stood < 2 && refine(accuracy, worst_relative(rc, solution, &parts.contact.scalar),
-                                 worst_relative(rc, solution, &parts.boundary.scalar), &refined));
+                                 worst_relative(rc, solution, &parts.boundary.scalar),
+                                 rc->mesh == RB_MESH_FITTED && !solution->equal_instead, &refined));
     if (status == RB_OK || status == RB_ENOMEM)
         status = rb_fail(why, RB_INACCURATE,
                          "accuracy %g not reached with %d elements: estimated error "
