@@ -61,7 +61,7 @@ TEST(what_is_no_accuracy_is_refused)
         rb_rolling_errors e;
         int elements;
         CHECK_SAYS(rb_rolling_solve_to_accuracy(&rc, accuracy[k], &s, &e, &elements, &heard),
-                   RB_EINVAL, "accuracy: expected in (0, 1)");
+                   RB_EINVAL, "accuracy: expected a number in (0, 1)");
     }
 }
 

@@ -62,21 +62,6 @@ void rb_rolling_memory_track_free(rb_rolling_memory_track *r)
     memset(r, 0, sizeof *r);
 }
 
-/* The mesh with so many more elements behind it, where particles are that have left it. */
-static rb_status extend(const rb_rolling_mesh *mesh, int tail, rb_rolling_mesh *longer)
-{
-    const double h = mesh->ends[1] - mesh->ends[0];
-
-    *longer =
-        (rb_rolling_mesh){.n = mesh->n + tail, .ends = rb_alloc((size_t)(mesh->n + tail) + 2, 1)};
-    if (!longer->ends)
-        return RB_ENOMEM;
-    for (int i = 0; i < tail; i++)
-        longer->ends[i] = mesh->ends[0] - (tail - i) * h;
-    memcpy(longer->ends + tail, mesh->ends, ((size_t)mesh->n + 2) * sizeof(double));
-    return RB_OK;
-}
-
 static rb_status add_body(const rb_rolling_case *rc, const rb_rolling_body *body, double sign,
                           const rb_rolling_mesh *mesh, rb_rolling_memory_track *r, rb_message *why)
 {
@@ -110,14 +95,19 @@ static rb_status add_body(const rb_rolling_case *rc, const rb_rolling_body *body
 rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                          int tail, rb_rolling_memory_track *r, rb_message *why)
 {
-    rb_rolling_mesh longer = {0};
-    rb_status s = extend(mesh, tail, &longer);
+    /* The mesh with a tail of elements behind it, where particles are that have left it. */
+    const double h = mesh->ends[1] - mesh->ends[0];
+    rb_rolling_mesh longer = {.n = mesh->n + tail,
+                              .ends = rb_alloc((size_t)(mesh->n + tail) + 2, 1)};
 
     *r = (rb_rolling_memory_track){.n = mesh->n, .tail = tail, .all = mesh->n + tail};
     r->traction = rb_alloc(2 * (size_t)r->all, 1);
     r->scratch = rb_alloc(2 * (size_t)r->all + 2, 4);
-    if (s == RB_OK && !(r->traction && r->scratch))
-        s = RB_ENOMEM;
+    rb_status s = longer.ends && r->traction && r->scratch ? RB_OK : RB_ENOMEM;
+    for (int i = 0; i < tail && s == RB_OK; i++)
+        longer.ends[i] = mesh->ends[0] - (tail - i) * h;
+    if (s == RB_OK)
+        memcpy(longer.ends + tail, mesh->ends, ((size_t)mesh->n + 2) * sizeof(double));
     if (s == RB_OK)
         s = add_body(rc, &rc->a, 1.0, &longer, r, why);
     if (s == RB_OK && rc->elastic_b)

@@ -69,26 +69,9 @@ static void note_strain(rb_rolling_note_list *list, const rb_rolling_case *rc,
             approach, width);
 }
 
-/* What the displacement by the pressure before a step grows in it, as a part of the
- * glassy one (V6): beyond 1 the pressure behind it would have to pull under a given
- * approach. */
-static double overshoot_of_step(const rb_rolling_case *rc, double step)
-{
-    const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
-    double glassy = 0.0, left = 0.0;
-
-    for (int b = 0; b < 1 + rc->elastic_b; b++) {
-        const rb_bem_material material = rb_rolling_material(rc, bodies[b]);
-        const double compliance = (1.0 - material.poisson) / material.shear;
-        glassy += compliance;
-        for (int k = 0; k < bodies[b]->memory.n; k++)
-            left += compliance * bodies[b]->memory.ratio[k] *
-                    rb_bem_fading_over(bodies[b]->memory.time[k], step).before;
-    }
-    return left / glassy;
-}
-
-/* Bodies that relax roll by an element in a step. */
+/* Bodies that relax roll by an element in a step.  Overshoot: what the displacement by the
+ * pressure before a step grows in it, as a part of the glassy one (V6); beyond 1 the
+ * pressure behind it would have to pull under a given approach. */
 static void note_short_memory(rb_rolling_note_list *list, const rb_rolling_case *rc,
                               const rb_rolling_solution *s)
 {
@@ -99,7 +82,18 @@ static void note_short_memory(rb_rolling_note_list *list, const rb_rolling_case 
         s->n == 0)
         return;
     const double step = rolls ? rb_unit_stored(s->units, "mm", s->h[0]) / rc->speed : rc->time_step;
-    const double overshoot = step > 0.0 ? overshoot_of_step(rc, step) : 0.0;
+    const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
+    double glassy = 0.0, left = 0.0;
+
+    for (int b = 0; b < 1 + rc->elastic_b; b++) {
+        const rb_bem_material material = rb_rolling_material(rc, bodies[b]);
+        const double compliance = (1.0 - material.poisson) / material.shear;
+        glassy += compliance;
+        for (int k = 0; k < bodies[b]->memory.n && step > 0.0; k++)
+            left += compliance * bodies[b]->memory.ratio[k] *
+                    rb_bem_fading_over(bodies[b]->memory.time[k], step).before;
+    }
+    const double overshoot = left / glassy;
     if (overshoot > much)
         add(list,
             "In one step (%s%.2g s) the bodies relax so much that under the given "

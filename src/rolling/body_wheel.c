@@ -90,22 +90,6 @@ rb_bem_wheel rb_rolling_wheel_of(const rb_rolling_case *rc, const rb_rolling_bod
     return wheel;
 }
 
-static rb_status by_boundary_elements(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                                      const rb_rolling_body *body, const rb_rolling_mesh *mesh,
-                                      rb_rolling_body_flexibility *one_body, rb_message *why)
-{
-    rb_status s = wheel_system(rc, plan, body, mesh, &one_body->system, why);
-
-    if (s != RB_OK)
-        return s;
-    rb_bem_system_seconds(one_body->system, &one_body->seconds_assembly, &one_body->seconds_factor);
-    return ((plan->near_field == RB_NEAR_FIELD_AUTO
-                 ? rc->mesh == RB_MESH_FITTED || body->cover > 0.0
-                 : plan->near_field == RB_NEAR_FIELD_EXACT)
-                ? rb_bem_condense_subtracted
-                : rb_bem_condense)(one_body->system, rc->normals, &one_body->f, why);
-}
-
 static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                                    const rb_rolling_body *body, const rb_rolling_mesh *mesh,
                                    rb_rolling_body_flexibility *one_body, rb_message *why)
@@ -113,11 +97,20 @@ static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_p
     double length[RB_ROLLING_TERMS];
     const rb_bem_wheel wheel = rb_rolling_wheel_of(rc, body, length);
     const double start = rb_seconds();
-    rb_status s =
-        goes_by_waves(rc, body)
-            ? rb_bem_flexibility_wheel(mesh->n, mesh->ends, &wheel, rc->normals, &one_body->f, why)
-            : by_boundary_elements(rc, plan, body, mesh, one_body, why);
+    const int by_waves = goes_by_waves(rc, body),
+              exact = plan->near_field == RB_NEAR_FIELD_AUTO
+                          ? rc->mesh == RB_MESH_FITTED || body->cover > 0.0
+                          : plan->near_field == RB_NEAR_FIELD_EXACT;
+    rb_status s = by_waves ? rb_bem_flexibility_wheel(mesh->n, mesh->ends, &wheel, rc->normals,
+                                                      &one_body->f, why)
+                           : wheel_system(rc, plan, body, mesh, &one_body->system, why);
 
+    if (s == RB_OK && !by_waves) {
+        rb_bem_system_seconds(one_body->system, &one_body->seconds_assembly,
+                              &one_body->seconds_factor);
+        s = (exact ? rb_bem_condense_subtracted : rb_bem_condense)(one_body->system, rc->normals,
+                                                                   &one_body->f, why);
+    }
     if (s == RB_OK && body->memory.n > 0) {
         /* What memory adds to the glassy wheel in steady rolling, which is all that asks for the
          * flexibility of a body with memory. */

@@ -16,18 +16,6 @@ void rb_rolling_curve_free(rb_rolling_curve *c)
     memset(c, 0, sizeof *c);
 }
 
-static rb_status record_heat(const rb_rolling_model *model, double *max_temperature,
-                             rb_message *why)
-{
-    rb_rolling_solution s;
-    const rb_status status = rb_rolling_model_solution(model, &s, why);
-
-    if (status == RB_OK)
-        *max_temperature = s.max_temperature;
-    rb_rolling_solution_free(&s);
-    return status;
-}
-
 /* Function called for each point; point NULL: none. */
 typedef struct {
     rb_rolling_point *point;
@@ -71,8 +59,12 @@ static rb_status record(const rb_rolling_model *model, const watcher *w, rb_roll
     if (c->torque_b)
         c->torque_b[k] = torque_b;
     rb_status s = rb_rolling_hysteresis(model, &c->hysteresis[k]);
-    if (s == RB_OK && c->max_temperature)
-        s = record_heat(model, &c->max_temperature[k], why);
+    if (s == RB_OK && c->max_temperature) {
+        rb_rolling_solution warm;
+        s = rb_rolling_model_solution(model, &warm, why);
+        c->max_temperature[k] = s == RB_OK ? warm.max_temperature : 0.0;
+        rb_rolling_solution_free(&warm);
+    }
     if (s == RB_OK && w->point)
         s = w->point(model, k, w->context, why);
     if (s != RB_OK || c->n != (c->branch ? 2 * c->rising : c->rising))
@@ -85,20 +77,6 @@ static rb_status record(const rb_rolling_model *model, const watcher *w, rb_roll
             c->last.kappa = fmax(c->last.kappa, c->kappa[i]);
     }
     return status;
-}
-
-/* The whole search for the contact again. */
-static rb_status start_anew(rb_rolling_model *model, rb_message *why)
-{
-    const rb_rolling_case rc = *model->rc;
-    const int iterations = model->iterations;
-    rb_rolling_plan plan = rb_rolling_plan_of(&rc);
-
-    plan.start = model->plan.start;
-    rb_rolling_model_free(model);
-    const rb_status s = rb_rolling_model_reuse(&rc, &plan, model, why);
-    model->iterations += iterations;
-    return s;
 }
 
 static void set_creepage(rb_rolling_variable over, double value, rb_rolling_case *rc)
@@ -169,9 +147,16 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
         const double moved =
             fmax(fabs(from - edge[0]), fabs(to - edge[1])) / (0.5 * (edge[1] - edge[0]));
         if (s == RB_ZONE || (s == RB_OK && steady.mesh != RB_MESH_UNIFORM && moved > REFIT)) {
-            s = s == RB_ZONE                     ? start_anew(model, why)
-                : steady.mesh == RB_MESH_ALIGNED ? rb_rolling_model_realign(model, why)
-                                                 : rb_rolling_model_refit(model, why);
+            if (s == RB_ZONE) { /* the whole search for the contact again */
+                const int iterations = model->iterations;
+                rb_rolling_plan plan = rb_rolling_plan_of(&steady);
+                plan.start = model->plan.start;
+                rb_rolling_model_free(model);
+                s = rb_rolling_model_reuse(&steady, &plan, model, why);
+                model->iterations += iterations;
+            } else
+                s = steady.mesh == RB_MESH_ALIGNED ? rb_rolling_model_realign(model, why)
+                                                   : rb_rolling_model_refit(model, why);
             if (s == RB_OK)
                 rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge[0],
                                          &edge[1]);

@@ -509,8 +509,8 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
     memset(solution, 0, sizeof *solution);
     *errors = rb_rolling_no_row(RB_OK).errors;
     *elements = 0;
-    if (status == RB_OK && !(accuracy > 0.0 && accuracy < 1.0))
-        status = rb_fail(why, RB_EINVAL, "accuracy: expected in (0, 1), got %g", accuracy);
+    if (status == RB_OK)
+        status = rb_rolling_check_number("accuracy", accuracy, why);
     if (status != RB_OK)
         return status;
     do {
