@@ -321,4 +321,22 @@ TEST(the_caller_hears_and_may_stop)
     free(r);
 }
 
+/* No solver ends on this heap, but it has a solution: scripts/follow-path found this one. */
+TEST(a_heap_that_nothing_solves_has_a_solution)
+{
+    OWNED(rb_friction_problem) p;
+    rb_friction_errors error;
+    CHECK_OK(rb_friction_read(outside_data("packings/disks2d_1000_mu0.5.dat"), &p, NULL));
+    SCRATCH double *r = rb_alloc((size_t)(2 * p.contacts), 1);
+    FILE *file = fopen("tests/data/discs-1141.txt", "r");
+    assert_non_null(file);
+    for (int i = 0; i < 2 * p.contacts; i++)
+        assert_int_equal(fscanf(file, "%lf", r + i), 1);
+    fclose(file);
+    CHECK_OK(rb_friction_error(&p, r, NULL, NULL, &error));
+    assert_true(error.scaled < 1e-9);
+    assert_true(error.residual < 1e-9);
+    assert_true(violation(&p, r) < 1e-9);
+}
+
 RUN_TESTS(NULL, NULL)
