@@ -525,6 +525,22 @@ TEST(a_sweep_is_its_cases)
         CHECK_ABS(Q[k], rb_api_number(one[k], "tangential_load"), 0.0, "case %d", k);
         CHECK_ABS(array(study, "sweep.status", 3, 1)[k], RB_OK, 0.0, "case %d", k);
     }
+    char name[100];
+    assert_int_equal(
+        rb_api_sweep_derivatives(study, 3, one, "tangential_load:mu,max_pressure:load", 2), RB_OK);
+    assert_string_equal(rb_api_sweep_derivative(study, 1, name, sizeof name), "max_pressure:load");
+    assert_null(rb_api_sweep_derivative(study, 2, name, sizeof name));
+    const double *slope = array(study, "sweep.derivative.tangential_load:mu", 3, 1);
+    for (int k = 0; k < 3; k++) {
+        int rows, inputs, of_mu = 0;
+        assert_int_equal(rb_api_solve(one[k]), RB_OK);
+        assert_int_equal(rb_api_derivatives(one[k]), RB_OK);
+        while (strcmp(rb_api_input(one[k], of_mu, "name", name, sizeof name), "mu") != 0)
+            of_mu++;
+        const double *d = rb_api_array(one[k], "derivative.tangential_load", &rows, &inputs);
+        CHECK_ABS(slope[k], d[2 * of_mu + 1], 1e-12 * fabs(slope[k]), "case %d", k);
+    }
+    assert_int_equal(rb_api_sweep_derivatives(study, 3, one, "nonsense", 2), RB_EINVAL);
     assert_int_equal(rb_api_set(one[1], "approach", "1"), RB_OK);
     assert_true(rb_api_sweep(study, 3, one, 2) < 0);
     assert_non_null(strstr(rb_api_message(study), "case 2: --approach and --load"));

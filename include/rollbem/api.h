@@ -216,6 +216,13 @@ int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double
 /* A sweep: solves n cases with `workers` processes (0: one per processor); the call
  * resolves each case.  If a case is refused, the call ends before anything is solved. */
 int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers);
+/* The same with derivatives of each case as of `rollbem sweep --derivatives`: RESULT or
+ * RESULT:OPTION, separated by commas; for a growing input where the two sides differ, NAN:
+ * none.  Arrays sweep.derivative.RESULT:OPTION, an entry per case; the second function
+ * writes the name RESULT:OPTION of the k-th, k = 0, 1, ...  NULL: there is none. */
+int rb_api_sweep_derivatives(rb_api *a, int n, rb_api *const *cases, const char *derivatives,
+                             int workers);
+const char *rb_api_sweep_derivative(const rb_api *a, int k, char *text, int size);
 /* The same with a crack below each contact: handles for "crack", and the same m options
  * of `rollbem crack` for each, whose texts are values[j + k m] in case k. */
 int rb_api_sweep_cracks(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,

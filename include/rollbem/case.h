@@ -278,6 +278,10 @@ rb_status rb_case_slopes_alloc(int rows, rb_case_slopes *slopes);
  * before. */
 rb_status rb_case_slopes_at(const rb_case *c, const rb_rolling_model *model,
                             const rb_case_slopes *slopes, double *row, rb_message *why);
+/* The same as one number per column, as rb_case_slope_value, at most RB_ROW_OWN; a case
+ * without derivatives has NAN.  RB_ENOMEM alone. */
+rb_status rb_case_slopes_row(const rb_case *c, const rb_rolling_model *model,
+                             const rb_case_slopes *slopes, double *row, rb_message *why);
 /* The derivative for a growing input, or for a falling one if the input cannot grow. */
 double rb_case_slope_value(const rb_case_slopes *slopes, int row, int k);
 /* Writes the name of a column: "d_tangential_load_N/mm_by_radius_mm". */

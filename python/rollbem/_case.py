@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from . import _values, pictures
 from ._library import (CRACK_OPTIONS, GROUPS, OPTIONS, RESULTS, SOLVED, Handle, InvalidInput, Kept, Note, Progress,
-                       Unsolved, doubles, handles, texts)
+                       Unsolved, doubles, handles, lib, texts)
 
 Array = NDArray[np.float64]
 Table = Mapping[str, Sequence[float]]
@@ -471,6 +471,7 @@ class Sweep(_Named):
 
     axes: "dict[str, Array]"
     status: Array
+    derivatives: "dict[str, dict[str, Array]]"  # of sweep(derivatives=...)
 
     def __init__(self, axes: Mapping[str, Array], handle: Handle) -> None:
         shape = tuple(len(values) for values in axes.values())
@@ -479,6 +480,12 @@ class Sweep(_Named):
                  **handle.arrays("number", "sweep.")}
         self._arrays = {name: array.reshape(shape) for name, array in found.items()}
         self._numbers = {}
+        self.derivatives = {}
+        room = handle.text_room()
+        while name := lib.rb_api_sweep_derivative(handle.at, sum(map(len, self.derivatives.values())), room, len(room)):
+            result, option = name.decode().split(":")
+            array = handle.array(f"sweep.derivative.{name.decode()}").reshape(shape)
+            self.derivatives.setdefault(result, {})[option] = array
 
     def columns(self) -> dict:
         """A row per case: the varied options, the status and all results."""
@@ -620,13 +627,15 @@ def wear(case: Union[Case, str, os.PathLike, None] = None, *, coefficient: float
 
 
 def sweep(case: Union[Case, str, os.PathLike, None] = None, workers: int = 0, progress: Progress = None,
-          **options: Any) -> Sweep:
+          derivatives: Optional[str] = None, **options: Any) -> Sweep:
     """Solves every combination of the options given as lists or arrays, the last fastest.
 
     ``sweep(mu=[0.1, 0.3], creep_ratio=np.linspace(0, 1.5, 31), formulation="steady", ...)``.
     With options of a crack, given or as lists, the contact of each case passes over it, and the
     results are also those of :func:`crack`.  One process per processor, or ``workers``.  ``progress(done, total)`` is called with the number of
     cases now and then: with tqdm, ``progress=lambda done, total: bar.update(done - bar.n)``.
+    ``derivatives``, as ``"tangential_load:mu,max_pressure"``: those of each case by one or all inputs, for a growing input
+    where the two sides differ; then ``derivatives["tangential_load"]["mu"]`` of the study is an array like its results.
     """
     workers = _values.whole("workers", workers)
     base = case if isinstance(case, Case) else Case(case)
@@ -644,7 +653,12 @@ def sweep(case: Union[Case, str, os.PathLike, None] = None, workers: int = 0, pr
                                  **{name: value for name, value in one.items() if name not in cracks}))
         words += [_values.text(name, one.get(name, options[name])) for name in cracks]
     study = Handle("sweep")
-    if cracks:
+    if cracks and derivatives:
+        raise InvalidInput("sweep: derivatives: not of cracks")
+    if derivatives:
+        status = study.run("rb_api_sweep_derivatives", len(cases), handles(cases), derivatives.encode(), workers,
+                           progress=progress)
+    elif cracks:
         names = texts([name.replace("_", "-") for name in cracks])
         status = study.run("rb_api_sweep_cracks", len(cases), handles(cases), len(cracks), names, texts(words), workers,
                            progress=progress)

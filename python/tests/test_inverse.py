@@ -69,6 +69,21 @@ def test_derivatives_in_columns():
         rollbem.curve_derivatives(**PLANES, results="nonsense")
 
 
+def test_derivatives_of_studies():
+    case = {**PLANES, "contact_elements": 30, "formulation": "steady"}
+    study = rollbem.sweep(**case, mu=[0.2, 0.3], creep_ratio=[0.3, 0.6, 0.8], workers=2,
+                          derivatives="tangential_load:mu,max_pressure")
+    one = rollbem.derivatives(**case, mu=0.3, creep_ratio=0.6)
+    assert study.derivatives["tangential_load"]["mu"].shape == (2, 3) and list(study.derivatives["tangential_load"]) == ["mu"]
+    for result, name in (("tangential_load", "mu"), ("max_pressure", "load"), ("max_pressure", "radius")):
+        assert study.derivatives[result][name][1, 1] == pytest.approx(one[result][name], rel=1e-9), name
+    assert rollbem.sweep(**case, mu=[0.2], workers=1).derivatives == {}
+    with pytest.raises(rollbem.InvalidInput, match="expected a result that has derivatives"):
+        rollbem.sweep(**case, mu=[0.2], derivatives="nonsense")
+    with pytest.raises(rollbem.InvalidInput, match="not of cracks"):
+        rollbem.sweep(**PLANES, mu=0.0, crack_angle=[30], derivatives="max_pressure")
+
+
 def test_tolerances():
     s = rollbem.solve(**STEADY, tolerance={"mu": 0.02, "radius": "1%"})
     want = run_json(**STEADY, tolerance="mu=0.02,radius=1%")["tolerances"]

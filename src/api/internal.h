@@ -7,7 +7,7 @@
 
 /* An array that was asked for. */
 typedef struct {
-    char name[40];
+    char name[120];
     int rows, columns;
     double *at; /* owned */
 } api_array;

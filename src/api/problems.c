@@ -153,12 +153,15 @@ int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double
 typedef struct {
     rb_api *a;
     rb_api *const *cases;
-    rb_case_crack *crack; /* of each case; NULL: there is none; owned */
+    rb_case_crack *crack;  /* of each case; NULL: there is none; owned */
+    rb_case_slopes slopes; /* derivatives of each case; n = 0: none */
+    int now;               /* the case that this process solves */
 } study;
 
 static rb_status make_case(int k, rb_rolling_case *rc, void *context)
 {
-    const study *st = context;
+    study *st = context;
+    st->now = k;
     *rc = rb_case_resolved(st->cases[k]->words)->rc;
     return RB_OK;
 }
@@ -169,9 +172,24 @@ static rb_status solve_crack(int k, rb_rolling_row *row, void *context, rb_messa
     return rb_case_crack_row(rb_case_resolved(st->cases[k]->words), &st->crack[k], row, why);
 }
 
+/* A case without derivatives has its results. */
+static rb_status measure_slopes(const rb_rolling_model *model, double *own, void *context,
+                                rb_message *why)
+{
+    const study *st = context;
+    return rb_case_slopes_row(st->cases[st->now]->words, model, &st->slopes, own, why);
+}
+
+/* "derivative.tangential_load:mu". */
+static const char *slope_name(const rb_case_slope *of, char text[100])
+{
+    snprintf(text, 100, "derivative.%s:%s", of->result->name, of->input);
+    return text;
+}
+
 static api_array *column_of(rb_api *a, const char *name)
 {
-    char text[40];
+    char text[120];
     snprintf(text, sizeof text, "sweep.%s", name);
     return rb_api_find_array(a, text);
 }
@@ -189,6 +207,9 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
 {
     const study *st = context;
     const rb_rolling_results *table = &rb_rolling_solution_scalars;
+    char text[100];
+    for (int j = 0; j < st->slopes.n; j++)
+        column_of(st->a, slope_name(&st->slopes.of[j], text))->at[k] = row->own[j];
     column_of(st->a, "status")->at[k] = row->solution.status;
     for (int j = 0; j < table->n; j++)
         column_of(st->a, table->row[j].name)->at[k] =
@@ -208,18 +229,18 @@ static int tick(int seen, void *context)
     return st->a->stopped;
 }
 
-/* names NULL: without cracks. */
+/* names NULL: without cracks; slopes NULL: without derivatives. */
 static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,
-                 const char *const *values, int workers)
+                 const char *const *values, const char *slopes, int workers)
 {
     study st = {.a = a, .cases = cases};
-    const rb_rolling_sweep of_cases = {.count = n,
-                                       .workers = workers,
-                                       .make = make_case,
-                                       .solve = names ? solve_crack : NULL,
-                                       .see = see_row,
-                                       .tick = tick,
-                                       .context = &st};
+    rb_rolling_sweep of_cases = {.count = n,
+                                 .workers = workers,
+                                 .make = make_case,
+                                 .solve = names ? solve_crack : NULL,
+                                 .see = see_row,
+                                 .tick = tick,
+                                 .context = &st};
     rb_status s = RB_OK;
     begin(a, "sweep.", NULL);
     if (names && n > 0) {
@@ -248,10 +269,15 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
                             "--paris: a study has the K of cracks of given lengths");
             s = u == RB_OK ? u : rb_fail(&st.a->why, u, "case %d: %.580s", k + 1, why.text);
         }
+    if (s == RB_OK && slopes && n > 0) {
+        s = rb_case_slopes_choose(cases[0]->words, &rb_rolling_solution_scalars, slopes, RB_ROW_OWN,
+                                  &st.slopes, &a->why);
+        of_cases.measure = measure_slopes;
+    }
     if (s == RB_OK && n > 0) {
         const int cracks = names != NULL;
         const rb_rolling_results *tables[] = {&rb_rolling_solution_scalars, &rb_case_crack_scalars};
-        char text[40];
+        char text[120], name[100];
         api_array *made = rb_api_make_array(a, "sweep.status", n, 1);
         for (int t = 0; t <= cracks; t++)
             for (int j = 0; made && j < tables[t]->n; j++) {
@@ -260,6 +286,10 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
                 snprintf(text, sizeof text, "sweep.%s", tables[t]->row[j].name);
                 made = rb_api_make_array(a, text, n, 1);
             }
+        for (int j = 0; made && j < st.slopes.n; j++) {
+            snprintf(text, sizeof text, "sweep.%s", slope_name(&st.slopes.of[j], name));
+            made = rb_api_make_array(a, text, n, 1);
+        }
         s = made ? RB_OK : RB_ENOMEM;
     }
     a->total = n;
@@ -269,16 +299,35 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
         rb_api_call_ends();
     }
     free(st.crack);
+    rb_case_slopes_free(&st.slopes);
     return rb_api_ended(a, s);
 }
 
 int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers)
 {
-    return sweep(a, n, cases, 0, NULL, NULL, workers);
+    return sweep(a, n, cases, 0, NULL, NULL, NULL, workers);
+}
+
+int rb_api_sweep_derivatives(rb_api *a, int n, rb_api *const *cases, const char *derivatives,
+                             int workers)
+{
+    return sweep(a, n, cases, 0, NULL, NULL, derivatives, workers);
+}
+
+const char *rb_api_sweep_derivative(const rb_api *a, int k, char *text, int size)
+{
+    static const char beginning[] = "sweep.derivative.";
+
+    for (int i = 0; i < a->arrays && size > 0; i++)
+        if (strncmp(a->made[i].name, beginning, sizeof beginning - 1) == 0 && k-- == 0) {
+            snprintf(text, (size_t)size, "%s", a->made[i].name + sizeof beginning - 1);
+            return text;
+        }
+    return NULL;
 }
 
 int rb_api_sweep_cracks(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,
                         const char *const *values, int workers)
 {
-    return sweep(a, n, cases, m, names, values, workers);
+    return sweep(a, n, cases, m, names, values, NULL, workers);
 }

@@ -194,6 +194,19 @@ rb_status rb_case_slopes_at(const rb_case *c, const rb_rolling_model *model,
     return status;
 }
 
+rb_status rb_case_slopes_row(const rb_case *c, const rb_rolling_model *model,
+                             const rb_case_slopes *s, double *row, rb_message *why)
+{
+    double both[2 * RB_ROW_OWN];
+
+    for (int k = 0; k < 2 * RB_ROW_OWN; k++)
+        both[k] = NAN;
+    const rb_status status = rb_case_slopes_at(c, model, s, both, why);
+    for (int k = 0; k < s->n; k++)
+        row[k] = isnan(both[2 * k + 1]) ? both[2 * k] : both[2 * k + 1];
+    return status == RB_ENOMEM ? status : RB_OK;
+}
+
 /* ---- Along a curve ----------------------------------------------------------------- */
 
 void rb_case_assign(rb_case *c, const rb_option *o, double value)

@@ -383,13 +383,7 @@ static rb_status measure_slopes(const rb_rolling_model *model, double *own, void
                                 rb_message *why)
 {
     const study *st = context;
-    double both[2 * RB_ROW_OWN];
-    for (int k = 0; k < 2 * RB_ROW_OWN; k++)
-        both[k] = NAN;
-    const rb_status s = rb_case_slopes_at(st->one, model, &st->slopes, both, why);
-    for (int k = 0; k < st->slopes.n; k++)
-        own[k] = isnan(both[2 * k + 1]) ? both[2 * k] : both[2 * k + 1];
-    return s == RB_ENOMEM ? s : RB_OK;
+    return rb_case_slopes_row(st->one, model, &st->slopes, own, why);
 }
 
 static rb_status solve_crack(int k, rb_rolling_row *row, void *context, rb_message *why)
