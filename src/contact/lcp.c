@@ -32,28 +32,6 @@ static int xi_column(const rb_contact_problem *p)
     return delta_column(p) + p->load_given;
 }
 
-static rb_status lcp_alloc(const rb_contact_problem *p, rb_contact_lcp_form form,
-                           rb_contact_lcp *lcp)
-{
-    memset(lcp, 0, sizeof *lcp);
-    lcp->form = form;
-    lcp->yields = p->yield != NULL;
-    lcp->size = delta_column(p) + p->load_given + p->force_given;
-    const size_t size = (size_t)lcp->size, n = (size_t)p->n;
-    lcp->M = rb_alloc(size, size);
-    lcp->b = rb_alloc(size, 1);
-    lcp->z_scale = rb_alloc(size, 1);
-    lcp->w_scale = rb_alloc(size, 1);
-    lcp->control_N = rb_alloc(n, 1);
-    lcp->control_T = rb_alloc(n, 1);
-    if (lcp->M && lcp->b && lcp->z_scale && lcp->w_scale && lcp->control_N && lcp->control_T) {
-        rb_contact_force_row(p, lcp->control_N, lcp->control_T);
-        return RB_OK;
-    }
-    rb_contact_lcp_free(lcp);
-    return RB_ENOMEM;
-}
-
 /* n x n, column-major. */
 typedef struct {
     const double *x;
@@ -250,49 +228,63 @@ static void fill(int n, double value, double *x)
 rb_status rb_contact_lcp_create(const rb_contact_problem *p, rb_contact_lcp_form form, int mirrored,
                                 double xi0, rb_contact_lcp *lcp, rb_message *why)
 {
+    const int n = p->n, delta = delta_column(p), xi = xi_column(p),
+              size = delta + p->load_given + p->force_given;
+    const size_t length = (size_t)n, ld = (size_t)size;
+
     memset(lcp, 0, sizeof *lcp);
     if (!rb_contact_operator_matrix(p->op).F)
-        return rb_fail(why, RB_EINVAL, "%d contact elements are too many for an LCP", p->n);
-    rb_status s = lcp_alloc(p, form, lcp);
+        return rb_fail(why, RB_EINVAL, "%d contact elements are too many for an LCP", n);
+    *lcp = (rb_contact_lcp){.size = size,
+                            .M = rb_alloc(ld, ld),
+                            .b = rb_alloc(ld, 1),
+                            .z_scale = rb_alloc(ld, 1),
+                            .w_scale = rb_alloc(ld, 1),
+                            .form = form,
+                            .yields = p->yield != NULL,
+                            .mirrored = form == RB_LCP_PIVOTED && mirrored,
+                            .xi0 = xi0,
+                            .control_N = rb_alloc(length, 1),
+                            .control_T = rb_alloc(length, 1)};
+    rb_status s =
+        lcp->M && lcp->b && lcp->z_scale && lcp->w_scale && lcp->control_N && lcp->control_T
+            ? RB_OK
+            : RB_ENOMEM;
     if (s == RB_OK) {
-        lcp->mirrored = form == RB_LCP_PIVOTED && mirrored;
-        lcp->xi0 = xi0;
+        rb_contact_force_row(p, lcp->control_N, lcp->control_T);
         pivoted_form(p, lcp);
-        if (p->yield) {
-            /* s+ and s- take their parts of o T_T lambda; o r_T = gamma - mu r_N. */
-            const size_t m = (size_t)p->n, ld = (size_t)lcp->size;
-
-            for (size_t i = 0; i < m; i++)
-                for (int sign = 0; sign < 2; sign++) {
-                    const double o = sign ? -1.0 : 1.0;
-                    const size_t k = (size_t)yield_index(p, (int)i, sign);
-                    lcp->M[m + i + k * ld] = -o;
-                    lcp->M[k + (m + i) * ld] = o;
-                    lcp->M[k + i * ld] = -o * p->bound[i];
-                }
-            add_yield_stress(p, lcp);
-        }
-        if (form == RB_LCP_KWAK)
-            s = kwak_form(p, lcp);
     }
+    if (s == RB_OK && p->yield) {
+        /* s+ and s- take their parts of o T_T lambda; o r_T = gamma - mu r_N. */
+        for (size_t i = 0; i < length; i++)
+            for (int sign = 0; sign < 2; sign++) {
+                const double o = sign ? -1.0 : 1.0;
+                const size_t k = (size_t)yield_index(p, (int)i, sign);
+                lcp->M[length + i + k * ld] = -o;
+                lcp->M[k + (length + i) * ld] = o;
+                lcp->M[k + i * ld] = -o * p->bound[i];
+            }
+        add_yield_stress(p, lcp);
+    }
+    if (s == RB_OK && form == RB_LCP_KWAK)
+        s = kwak_form(p, lcp);
     if (s != RB_OK) {
         rb_contact_lcp_free(lcp);
-        return rb_fail(why, s, "LCP of %d contact elements: %s", p->n, rb_status_text(s));
+        return rb_fail(why, s, "LCP of %d contact elements: %s", n, rb_status_text(s));
     }
     /* The approach enters every gap; where it is unknown, delta = delta0 + delta' starts
      * below the first touch, also for a half-plane whose datum is close to the surface. */
     double lowest = p->d_N[0];
 
-    for (int i = 1; i < p->n; i++)
+    for (int i = 1; i < n; i++)
         lowest = fmin(lowest, p->d_N[i]);
     lcp->delta0 = p->load_given ? lowest - 10.0 * p->gap_length : p->delta;
-    for (int i = 0; i < p->n; i++) {
+    for (int i = 0; i < n; i++) {
         lcp->b[i] -= lcp->delta0;
         if (p->load_given)
-            lcp->M[i + (size_t)delta_column(p) * lcp->size] = -1.0;
+            lcp->M[(size_t)i + (size_t)delta * ld] = -1.0;
     }
     /* Dimensionless unknowns: stress, mu stress and two lengths (4.4). */
-    const int n = p->n, delta = delta_column(p), xi = xi_column(p);
     const double bound = rb_contact_friction_scale(p);
 
     fill(n, p->stress, lcp->z_scale);
@@ -305,16 +297,16 @@ rb_status rb_contact_lcp_create(const rb_contact_problem *p, rb_contact_lcp_form
     }
     if (p->load_given) {
         lcp->z_scale[delta] = p->gap_length;
-        lcp->w_scale[delta] = p->stress * rb_norm_1((size_t)n, p->load_N, 1);
+        lcp->w_scale[delta] = p->stress * rb_norm_1(length, p->load_N, 1);
     }
     if (p->force_given) {
-        lcp->z_scale[xi] = p->slip_length / (rb_norm_1((size_t)n, p->e_T, 1) / n);
-        lcp->w_scale[xi] = bound * rb_norm_1((size_t)n, p->force_T, 1);
+        lcp->z_scale[xi] = p->slip_length / (rb_norm_1(length, p->e_T, 1) / n);
+        lcp->w_scale[xi] = bound * rb_norm_1(length, p->force_T, 1);
     }
-    for (int j = 0; j < lcp->size; j++)
-        for (int i = 0; i < lcp->size; i++)
-            lcp->M[i + (size_t)j * lcp->size] *= lcp->z_scale[j] / lcp->w_scale[i];
-    for (int i = 0; i < lcp->size; i++)
+    for (size_t j = 0; j < ld; j++)
+        for (size_t i = 0; i < ld; i++)
+            lcp->M[i + j * ld] *= lcp->z_scale[j] / lcp->w_scale[i];
+    for (size_t i = 0; i < ld; i++)
         lcp->b[i] /= lcp->w_scale[i];
     return RB_OK;
 }

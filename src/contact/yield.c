@@ -79,30 +79,6 @@ static double against(double slip)
     return slip > 0.0 ? -1.0 : 1.0;
 }
 
-/* From tractions and slips: what exceeds rounding against its bound decides. */
-static void laws_of_state(const rb_contact_state *state, laws *k)
-{
-    const rb_contact_problem *p = k->p;
-    const double stress = rb_contact_friction_scale(p);
-
-    rb_contact_yielded(p, state->plastic, k->yielded);
-    for (int i = 0; i < p->n; i++) {
-        const double yield = rb_contact_yield_stress(p, i, k->yielded[i]);
-        const double plastic = fabs(state->plastic[i]) / p->slip_length,
-                     slip = fabs(state->lambda[i] - state->plastic[i]) / p->slip_length;
-        const int slips =
-            slip > (p->bound[i] * state->p[i] - fabs(state->q[i])) / stress && slip > 0.0;
-        const int yields = plastic > (yield - fabs(state->q[i])) / stress;
-        k->sign[i] = slips || yields ? against(state->lambda[i]) : 0.0;
-        k->law[i] = state->zone[i] == RB_ZONE_SEPARATED ? SEPARATED
-                    : slips && yields && plastic > 0.0  ? SLIP_AND_YIELD
-                    : slips                             ? SLIP
-                    : !(yields && plastic > 0.0)        ? STICK
-                    : yield > 0.0                       ? YIELD
-                                                        : SOFTENED;
-    }
-}
-
 static void zones_of_laws(const laws *k, rb_contact_state *state)
 {
     for (int i = 0; i < k->p->n; i++) {
@@ -611,7 +587,25 @@ rb_status rb_contact_yield_polish(const rb_contact_problem *p, rb_contact_state 
 
     if (s != RB_OK)
         return s;
-    laws_of_state(state, &k);
+    /* From tractions and slips: what exceeds rounding against its bound decides. */
+    const double stress = rb_contact_friction_scale(p);
+
+    rb_contact_yielded(p, state->plastic, k.yielded);
+    for (int i = 0; i < p->n; i++) {
+        const double yield = rb_contact_yield_stress(p, i, k.yielded[i]);
+        const double plastic = fabs(state->plastic[i]) / p->slip_length,
+                     slip = fabs(state->lambda[i] - state->plastic[i]) / p->slip_length;
+        const int slips =
+            slip > (p->bound[i] * state->p[i] - fabs(state->q[i])) / stress && slip > 0.0;
+        const int yields = plastic > (yield - fabs(state->q[i])) / stress;
+        k.sign[i] = slips || yields ? against(state->lambda[i]) : 0.0;
+        k.law[i] = state->zone[i] == RB_ZONE_SEPARATED ? SEPARATED
+                   : slips && yields && plastic > 0.0  ? SLIP_AND_YIELD
+                   : slips                             ? SLIP
+                   : !(yields && plastic > 0.0)        ? STICK
+                   : yield > 0.0                       ? YIELD
+                                                       : SOFTENED;
+    }
     s = solve_laws(&k, state);
     if (s >= 0)
         zones_of_laws(&k, state);

@@ -133,10 +133,11 @@ rb_rolling_case rb_rolling_program_base(const rb_rolling_program *program,
 
 /* ---- Checks ------------------------------------------------------------------------ */
 
-static rb_status check_columns(const rb_rolling_program *program, const rb_rolling_case *rc,
-                               rb_message *why)
+rb_status rb_rolling_program_check(const rb_rolling_program *program, const rb_rolling_case *rc,
+                                   rb_message *why)
 {
     const rb_rolling_formulation formulation = rc->formulation;
+    const double *d = program->distance;
 
     if (program->n < 1)
         return rb_fail(why, RB_EINVAL, "history: expected 1 row or more");
@@ -182,21 +183,16 @@ static rb_status check_columns(const rb_rolling_program *program, const rb_rolli
                                t[r]);
             steps += rb_rolling_program_parts(program, rc, r);
         }
-        return steps <= 1e7 ? RB_OK
-                            : rb_fail(why, RB_EINVAL,
-                                      "time step: %g s makes %.3g steps; expected at most 1e7",
-                                      rc->time_step, steps);
+        if (!(steps <= 1e7))
+            return rb_fail(why, RB_EINVAL, "time step: %g s makes %.3g steps; expected at most 1e7",
+                           rc->time_step, steps);
     }
-    if (!program->distance)
-        return RB_OK;
-    const double *d = program->distance;
-
-    if (d[0] != 0.0)
+    if (d && d[0] != 0.0)
         return rb_fail(why, RB_EINVAL,
                        "history: row 1: expected distance 0, where the contact starts "
                        "from rest, got %g",
                        d[0]);
-    for (int r = 1; r < program->n; r++) {
+    for (int r = 1; r < program->n && d; r++) {
         if (d[r] < d[r - 1])
             return rb_fail(why, RB_EINVAL,
                            "history: row %d: distance %g is less than in the row before", r + 1,
@@ -207,13 +203,7 @@ static rb_status check_columns(const rb_rolling_program *program, const rb_rolli
                            "little apart",
                            r + 1, d[r]);
     }
-    return RB_OK;
-}
-
-rb_status rb_rolling_program_check(const rb_rolling_program *program, const rb_rolling_case *rc,
-                                   rb_message *why)
-{
-    rb_status s = check_columns(program, rc, why);
+    rb_status s = RB_OK;
     rb_message reason = {""};
 
     for (int r = 0; r < program->n && s == RB_OK; r++) {
