@@ -383,16 +383,17 @@ static void write_orbit(FILE *out, rb_report_canvas canvas, const void *context)
 
     write_steps(out, v->r, v->r->half_width);
     write_title(out, v, place);
+    rb_report_room(out, 0.14 + place.right, place.titled ? 0.86 : 0.79, 0.14 + place.up,
+                   0.92 + place.up);
     fprintf(out,
-            "set lmargin at screen %g\nset rmargin at screen %g\nset bmargin at screen "
-            "%g\nset tmargin at screen %g\n" RB_REPORT_GRID
+            RB_REPORT_GRID
             "set offsets graph 0.06,graph 0.06,graph 0.06,graph 0.06\nset zeroaxis "
             "linecolor rgb '#999999' linewidth 0.6\nset xlabel 'K_{I}  [%s]'\nset ylabel "
             "'K_{II}  [%s]'\nset cblabel 'position of the contact / a' offset 1,0\nunset "
             "key\n" RB_REPORT_PALETTE
             "plot $K using 2:3:1 with lines palette linewidth 2.2, $K using 2:3:1 with "
             "points palette pointtype 7 pointsize 0.6\n",
-            0.14 + place.right, place.titled ? 0.86 : 0.79, 0.14 + place.up, 0.92 + place.up, K, K);
+            K, K);
 }
 
 rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas, const rb_case_crack_result *r,
@@ -477,17 +478,18 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
     if (!place.titled)
         fprintf(out, "set label 9 'faces x %.3g' at graph 0.03, 0.06 font ',%.3g' front\n", times,
                 rb_report_key_font(canvas));
+    fputs("set size ratio -1\n", out);
+    rb_report_room(out, left, 0.965, 0.21 + place.up, 0.21 + high + place.up);
     fprintf(out,
-            "set size ratio -1\nset lmargin at screen %g\nset rmargin at screen 0.965\n"
-            "set bmargin at screen %g\nset tmargin at screen %g\nset xrange [%.9g:%.9g]\n"
+            "set xrange [%.9g:%.9g]\n"
             "set yrange [%.9g:%.9g]\nset xlabel 'x / a'\nset ylabel 'y / a'\nset xtics %g\n"
             "set ytics %g\n"
             "set key at screen 0.965, %g right horizontal maxrows 1 samplen 2 font "
             "',%.3g'\n"
             "set object 1 rectangle from graph 0, first %.9g to graph 1, first 0 "
             "fillcolor rgb '#eeeeee' fillstyle solid noborder behind\n",
-            left, 0.21 + place.up, 0.21 + high + place.up, from, to, bottom, 0.6 * margin, step,
-            step, place.titled ? 0.041 : 0.085, rb_report_key_font(canvas), bottom);
+            from, to, bottom, 0.6 * margin, step, step, place.titled ? 0.041 : 0.085,
+            rb_report_key_font(canvas), bottom);
     /* the contact above, where it is within the picture */
     fprintf(out,
             "set object 2 rectangle from %.9g, 0 to %.9g, %.9g fillcolor rgb '#bbbbbb' "

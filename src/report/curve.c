@@ -343,12 +343,11 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
             fputs("EOD\n", out);
         }
     }
-    fprintf(out,
-            "set lmargin at screen %g\nset rmargin at screen 0.965\n"
-            "set bmargin at screen %g\nset tmargin at screen %g\n" RB_REPORT_GRID
-            "set offsets 0,0,graph 0.05,0\n"
-            "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
-            0.13 + place.right, (has_heat(v) ? 0.39 : 0.14) + place.up, 0.9 + place.up);
+    rb_report_room(out, 0.13 + place.right, 0.965, (has_heat(v) ? 0.39 : 0.14) + place.up,
+                   0.9 + place.up);
+    fputs(RB_REPORT_GRID "set offsets 0,0,graph 0.05,0\n"
+                         "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
+          out);
     if (has_heat(v))
         fputs("set multiplot\nset format x ''\n", out);
     fprintf(out, "set key %s samplen 2.2 font ',%.3g'\n",

@@ -61,10 +61,7 @@ static panel panel_of(int column, int which)
 
 static void open_panel(FILE *out, panel at)
 {
-    fprintf(out,
-            "set lmargin at screen %g\nset rmargin at screen %g\n"
-            "set bmargin at screen %g\nset tmargin at screen %g\n",
-            at.left, at.right, at.bottom, at.top);
+    rb_report_room(out, at.left, at.right, at.bottom, at.top);
 }
 
 typedef struct {

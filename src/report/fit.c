@@ -213,12 +213,10 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         fprintf(out, "%.9g %.9g %.9g %.9g\n", row[k][0], row[k][1], row[k][2], row[k][3]);
     fputs("EOD\n", out);
     free(row);
-    fprintf(out,
-            "set lmargin at screen %g\nset rmargin at screen 0.965\n"
-            "set bmargin at screen %g\nset tmargin at screen %g\n" RB_REPORT_GRID
-            "set offsets graph 0.03,graph 0.03,graph 0.05,graph 0.05\n"
-            "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
-            0.15 + place.right, 0.14 + place.up, 0.9 + place.up);
+    rb_report_room(out, 0.15 + place.right, 0.965, 0.14 + place.up, 0.9 + place.up);
+    fputs(RB_REPORT_GRID "set offsets graph 0.03,graph 0.03,graph 0.05,graph 0.05\n"
+                         "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
+          out);
     fprintf(out, "set key at screen %g, %g center top horizontal samplen 2.2 font ',%.3g'\n", 0.55,
             0.935, rb_report_key_font(canvas));
     if (place.titled)

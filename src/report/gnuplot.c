@@ -285,6 +285,14 @@ rb_report_place rb_report_place_of(rb_report_canvas canvas)
                                          : (rb_report_place){1, 0.0, 0.0};
 }
 
+void rb_report_room(FILE *script, double left, double right, double bottom, double top)
+{
+    fprintf(script,
+            "set lmargin at screen %g\nset rmargin at screen %g\n"
+            "set bmargin at screen %g\nset tmargin at screen %g\n",
+            left, right, bottom, top);
+}
+
 rb_status rb_report_draw(FILE *out, rb_report_canvas canvas, rb_report_shape shape,
                          rb_report_script *script, const void *view, rb_message *why)
 {

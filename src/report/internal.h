@@ -70,6 +70,8 @@ typedef struct {
     double right, up; /* in parts of the canvas */
 } rb_report_place;
 rb_report_place rb_report_place_of(rb_report_canvas canvas);
+/* Where the axes stand on the canvas, in parts of it. */
+void rb_report_room(FILE *script, double left, double right, double bottom, double top);
 /* The label of the picture that names the bodies, centred at screen x, y. */
 void rb_report_label_bodies(FILE *script, const rb_rolling_case *rc, rb_units units, double x,
                             double y);

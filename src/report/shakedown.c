@@ -24,11 +24,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         fprintf(out, "$own << EOD\n%.9g %.9g\nEOD\n", traction, own);
     const rb_report_place place = rb_report_place_of(canvas);
     const rb_report_unit stress = rb_report_axis_unit(s->s->units, "MPa", s->s->max_pressure);
-    fprintf(out,
-            "set lmargin at screen %g\nset rmargin at screen 0.965\nset bmargin at screen "
-            "0.14\nset tmargin at screen 0.92\n" RB_REPORT_GRID
-            "set xlabel 'traction  |Q|/P'\nset ylabel 'p_0 / k' offset 1,0\n",
-            0.12 + place.right);
+    rb_report_room(out, 0.12 + place.right, 0.965, 0.14, 0.92);
+    fputs(RB_REPORT_GRID "set xlabel 'traction  |Q|/P'\nset ylabel 'p_0 / k' offset 1,0\n", out);
     fprintf(out, "set xrange [0:%.9g]\nset yrange [0:%.9g]\n", most,
             fmax(5.0, isfinite(own) ? 1.1 * own : 0.0));
     if (place.titled)

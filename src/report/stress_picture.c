@@ -133,10 +133,7 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
                         const rb_rolling_extremum *m, panel at)
 {
     const double bottom = at.middle - at.height / 2, top = bottom + at.height;
-    fprintf(out,
-            "set lmargin at screen %g\nset rmargin at screen %g\n"
-            "set bmargin at screen %g\nset tmargin at screen %g\n",
-            at.left, at.left + at.width, bottom, top);
+    rb_report_room(out, at.left, at.left + at.width, bottom, top);
     fprintf(out, "set xtics %.9g\nset ytics %.9g\n",
             rb_report_round_step((v->to - v->from) /
                                  rb_report_labels_in((v->column ? 0.7 : 1.2) * at.width)),
@@ -219,11 +216,8 @@ static void write_fringes(FILE *out, rb_report_canvas canvas, const void *contex
     const view *v = context;
     const rb_report_place place = rb_report_place_of(canvas);
     write_grid(out, v);
-    fprintf(out,
-            "set palette gray\nset cbrange [0:1]\nunset colorbox\n"
-            "set lmargin at screen %g\nset rmargin at screen 0.97\n"
-            "set bmargin at screen 0.17\nset tmargin at screen 0.87\n",
-            0.11 + 1.5 * place.right);
+    fputs("set palette gray\nset cbrange [0:1]\nunset colorbox\n", out);
+    rb_report_room(out, 0.11 + 1.5 * place.right, 0.97, 0.17, 0.87);
     write_axes(out, v);
     fprintf(out, "set size ratio %g\nset xtics %.9g\nset ytics %.9g\n", shown_aspect(v),
             rb_report_round_step((v->to - v->from) / (place.titled ? 8.0 : 5.0)),

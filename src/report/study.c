@@ -280,11 +280,10 @@ static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
         fprintf(out, "%.9g %.9g %.9g\n%s", v->at[i].x / v->x.unit, v->at[i].y / v->y.unit,
                 v->at[i].value / v->shown.unit, i % v->row == v->row - 1 ? "\n" : "");
     fprintf(out,
-            "EOD\nset view map\nset pm3d map corners2color mean interpolate %d,%d\n"
-            "unset key\nset lmargin at screen %g\nset rmargin at screen %g\n"
-            "set bmargin at screen %g\nset tmargin at screen %g\n" RB_REPORT_PALETTE,
-            steps_between(v->row), steps_between(s->n / v->row), left, left + width, bottom,
-            bottom + height);
+            "EOD\nset view map\nset pm3d map corners2color mean interpolate %d,%d\nunset key\n",
+            steps_between(v->row), steps_between(s->n / v->row));
+    rb_report_room(out, left, left + width, bottom, bottom + height);
+    fputs(RB_REPORT_PALETTE, out);
     write_title(out, v, place);
     write_axis(out, 'x', &s->x, &v->x, labels_below(place));
     write_axis(out, 'y', &s->y, &v->y, 8);
