@@ -370,45 +370,6 @@ typedef struct {
     double *g;      /* n: a column in the order of row */
 } solver;
 
-static void solver_free(solver *p)
-{
-    free(p->row);
-    free(p->A);
-    free(p->g);
-}
-
-static rb_status solver_alloc(const lcp_data *data, const lcp_tableau *t, solver *p)
-{
-    const int n = data->p.n;
-    *p = (solver){.data = data, .n = n};
-    for (int i = 0; i < n; i++)
-        p->m += t->place[i] < 0;
-    const size_t m = (size_t)p->m;
-    p->row = rb_alloc_int(2 * (size_t)n + m);
-    p->A = rb_alloc((size_t)n, m);
-    p->g = rb_alloc((size_t)n, 1);
-    if (!p->row || !p->A || !p->g) {
-        solver_free(p);
-        return RB_ENOMEM;
-    }
-    p->var = p->row + n;
-    p->pivots = p->var + n;
-    p->E = p->A + m * m;
-    return RB_OK;
-}
-
-static void choose_rows(const lcp_tableau *t, solver *p)
-{
-    const int n = p->n;
-    int r = 0, rest = p->m, c = 0;
-    for (int i = 0; i < n; i++)
-        p->row[t->place[i] < 0 ? r++ : rest++] = i;
-    for (int v = n; v <= 2 * n; v++)
-        if (t->place[v] >= 0)
-            p->var[c++] = v;
-    memcpy(p->var + p->m, p->row + p->m, (size_t)(n - p->m) * sizeof *p->var);
-}
-
 /* g of variable v. */
 static void gather(const solver *p, int v)
 {
@@ -443,19 +404,35 @@ rb_status rb_lcp_tableau_rebuild(lcp_tableau *t)
 {
     const lcp_data *data = t->data;
     const int n = t->n;
-    solver p;
-    rb_status s = solver_alloc(data, t, &p);
-    if (s != RB_OK)
-        return s;
-    choose_rows(t, &p);
+    solver p = {.data = data, .n = n};
+    for (int i = 0; i < n; i++)
+        p.m += t->place[i] < 0;
     const size_t m = (size_t)p.m, rest = (size_t)(p.n - p.m);
-    for (size_t c = 0; c < m; c++) {
+    p.row = rb_alloc_int(2 * (size_t)n + m);
+    p.A = rb_alloc((size_t)n, m);
+    p.g = rb_alloc((size_t)n, 1);
+    rb_status s = p.row && p.A && p.g ? RB_OK : RB_ENOMEM;
+    if (s == RB_OK) {
+        p.var = p.row + n;
+        p.pivots = p.var + n;
+        p.E = p.A + m * m;
+        int inside = 0, outside = p.m, solved = 0;
+        for (int i = 0; i < n; i++)
+            p.row[t->place[i] < 0 ? inside++ : outside++] = i;
+        for (int v = n; v <= 2 * n; v++)
+            if (t->place[v] >= 0)
+                p.var[solved++] = v;
+        memcpy(p.var + m, p.row + m, rest * sizeof *p.var);
+    }
+    for (size_t c = 0; s == RB_OK && c < m; c++) {
         gather(&p, p.var[c]);
         memcpy(p.A + c * m, p.g, m * sizeof *p.A);
         if (rest)
             memcpy(p.E + c * rest, p.g + m, rest * sizeof *p.E);
     }
-    if (m == 0 || LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, p.m, p.m, p.A, p.m, p.pivots) == 0) {
+    if (s == RB_OK && m && LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, p.m, p.m, p.A, p.m, p.pivots) != 0)
+        s = RB_SINGULAR;
+    if (s == RB_OK) {
         for (int c = 0; c <= n; c++) {
             gather(&p, t->nonbasis[c]);
             memcpy(t->T + (size_t)c * (size_t)n, p.g, (size_t)n * sizeof *p.g);
@@ -469,9 +446,9 @@ rb_status rb_lcp_tableau_rebuild(lcp_tableau *t)
             t->slot[c] = c;
         t->spares = 0;
         no_pivots(t);
-    } else {
-        s = RB_SINGULAR;
     }
-    solver_free(&p);
+    free(p.row);
+    free(p.A);
+    free(p.g);
     return s;
 }
