@@ -22,15 +22,17 @@ static void transfer(double m, double nu, double step, double E[4][4])
 
     memcpy(E, power, sizeof power);
     for (int k = 1; k <= TERMS; k++) {
+        const double factor = step / k;
         double next[4][4] = {{0.0}};
         for (int i = 0; i < 4; i++)
-            for (int j = 0; j < 4; j++)
-                for (int l = 0; l < 4; l++)
-                    next[i][j] += power[i][l] * M[l][j] * step / k;
-        memcpy(power, next, sizeof power);
+            for (int l = 0; l < 4; l++)
+                for (int j = 0; j < 4; j++)
+                    next[i][j] += power[i][l] * M[l][j];
         for (int i = 0; i < 4; i++)
-            for (int j = 0; j < 4; j++)
+            for (int j = 0; j < 4; j++) {
+                power[i][j] = next[i][j] * factor;
                 E[i][j] += power[i][j];
+            }
     }
 }
 

@@ -9,6 +9,7 @@
 #include "bem/internal.h"
 #include "bem/wheel.h"
 
+#include <gsl/gsl_math.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,13 +28,16 @@ typedef struct {
     rb_bem_wheel wheel;   /* elastic: borrows nothing; radius 0: a half-plane */
     rb_bem_surface plane; /* the same */
     rb_bem_normals normals;
+    int parts;       /* kernels: N, T and C of a wheel; N alone of a half-plane, whose T is N
+                        and whose C sums */
+    double coupling; /* of a half-plane: C over abs(x) */
     double *ends;    /* n + 2, as given */
     double *place;   /* cosines and sines of m midpoints, for the obstacle's normals */
     spread *from;    /* n + 1 ends */
     spread *to;      /* m midpoints */
     int *near_first; /* m + 1: pairs of a midpoint in `near` */
     int *near_end;   /* m: the first end of them */
-    rb_ring_answer *near;
+    double *near;    /* parts x pairs */
     rb_fourier fourier;
     fftw_complex *kernel[3];
     double *work[2], *charge; /* charge: 2 (n + 1) */
@@ -72,6 +76,24 @@ static fftw_complex *transform_of(const products *o, const double *charge, doubl
     return rb_fourier_forward(&o->fourier, o->steps, work, work);
 }
 
+/* What friction does to gaps of a half-plane and pressure to slips: C is abs(x), so that
+ * an element counts by the side on which it lies. */
+static void add_coupling(const products *o, const double *r, double *w)
+{
+    for (int d = 0; d < 2; d++) {
+        const double *from = r + (d ? 0 : o->n), c = d ? -o->coupling : o->coupling;
+        double all = 0.0, behind = 0.0, *to = w + (d ? o->m : 0);
+
+        for (int j = 0; j < o->n; j++)
+            all += from[j] * (o->ends[j + 1] - o->ends[j]);
+        for (int i = 0; i < o->m; i++) {
+            const double own = i < o->n ? from[i] * (o->ends[i + 1] - o->ends[i]) : 0.0;
+            to[i] += c * (2.0 * behind + own - all);
+            behind += own;
+        }
+    }
+}
+
 static void products_apply(const rb_bem_flexibility *f, const double *r, double *w)
 {
     const products *o = f->data;
@@ -94,30 +116,49 @@ static void products_apply(const rb_bem_flexibility *f, const double *r, double 
     }
     fftw_complex *a = transform_of(o, N, o->work[0]), *b = transform_of(o, T, o->work[1]);
     for (int k = 0; k <= o->fourier.size / 2; k++) {
-        const double *n = o->kernel[0][k], *t = o->kernel[1][k], *c = o->kernel[2][k];
-        const double x[2] = {a[k][0], a[k][1]}, y[2] = {b[k][0], b[k][1]};
-        a[k][0] = n[0] * x[0] - n[1] * x[1] + c[0] * y[0] - c[1] * y[1];
-        a[k][1] = n[0] * x[1] + n[1] * x[0] + c[0] * y[1] + c[1] * y[0];
+        const double *n = o->kernel[0][k], x[2] = {a[k][0], a[k][1]}, y[2] = {b[k][0], b[k][1]};
+        a[k][0] = n[0] * x[0] - n[1] * x[1];
+        a[k][1] = n[0] * x[1] + n[1] * x[0];
+        if (o->parts == 1) {
+            b[k][0] = n[0] * y[0] - n[1] * y[1];
+            b[k][1] = n[0] * y[1] + n[1] * y[0];
+            continue;
+        }
+        const double *t = o->kernel[1][k], *c = o->kernel[2][k];
+        a[k][0] += c[0] * y[0] - c[1] * y[1];
+        a[k][1] += c[0] * y[1] + c[1] * y[0];
         b[k][0] = t[0] * y[0] - t[1] * y[1] - c[0] * x[0] + c[1] * x[1];
         b[k][1] = t[0] * y[1] + t[1] * y[0] - c[0] * x[1] - c[1] * x[0];
     }
     rb_fourier_backward(&o->fourier, o->work[0]);
     rb_fourier_backward(&o->fourier, o->work[1]);
+    const size_t pairs = (size_t)o->near_first[o->m];
     for (int i = 0; i < o->m; i++) {
+        const double *n = o->near + o->near_first[i], *at_N = N + o->near_end[i],
+                     *at_T = T + o->near_end[i];
+        const int count = o->near_first[i + 1] - o->near_first[i];
         double u = 0.0, v = 0.0;
         for (int k = 0; k < ORDER; k++) {
             u += o->to[i].weight[k] * o->work[0][o->to[i].first + k];
             v += o->to[i].weight[k] * o->work[1][o->to[i].first + k];
         }
-        for (int k = o->near_first[i]; k < o->near_first[i + 1]; k++) {
-            const int j = o->near_end[i] + k - o->near_first[i];
-            u += o->near[k].N * N[j] + o->near[k].C * T[j];
-            v += o->near[k].T * T[j] - o->near[k].C * N[j];
-        }
+        if (o->parts == 1)
+            for (int k = 0; k < count; k++) {
+                u += n[k] * at_N[k];
+                v += n[k] * at_T[k];
+            }
+        else
+            for (int k = 0; k < count; k++) {
+                const double *t = n + pairs, *c = t + pairs;
+                u += n[k] * at_N[k] + c[k] * at_T[k];
+                v += t[k] * at_T[k] - c[k] * at_N[k];
+            }
         const int turned = o->normals == RB_BEM_NORMALS_OBSTACLE;
         w[i] = turned ? cosine[i] * u + sine[i] * v : u;
         w[o->m + i] = turned ? cosine[i] * v - sine[i] * u : v;
     }
+    if (o->parts == 1)
+        add_coupling(o, r, w);
 }
 
 static rb_status products_matrix(const rb_bem_flexibility *f, double *F, int ldf)
@@ -141,73 +182,86 @@ static spread spread_at(double place)
     spread at = {.first = (int)floor(place) - ORDER / 2 + 1};
     const double t = place - at.first;
 
+    /* products of t - l before and after k, over those of k - l */
+    double before = 1.0, after = 1.0, over = 1.0;
     for (int k = 0; k < ORDER; k++) {
-        at.weight[k] = 1.0;
-        for (int l = 0; l < ORDER; l++)
-            if (l != k)
-                at.weight[k] *= (t - l) / (k - l);
+        at.weight[k] = before;
+        before *= t - k;
+        over *= fmax(k, 1.0);
+    }
+    over = 1.0 / over; /* of the last one */
+    for (int k = ORDER - 1; k >= 0; k--) {
+        at.weight[k] *= after * over;
+        after *= t - k;
+        over *= -(double)k / (ORDER - k);
     }
     return at;
 }
 
 enum { WINDOW = 2 * NEAR + 2 * ORDER };
 
+/* Parts of the primitive, at steps -steps ... steps or at the steps of a window. */
+typedef double *parts_of[3];
+
+static double part_of(rb_ring_answer at, int part)
+{
+    return part == 0 ? at.N : part == 1 ? at.T : at.C;
+}
+
 /* What a charge at each step of a window makes of midpoint i; the window begins at step
  * `first`. */
-static void from_steps(const products *o, const rb_ring_answer *on_steps, int i, int first,
-                       rb_ring_answer window[WINDOW])
+static void from_steps(const products *o, parts_of on_steps, int i, int first,
+                       double window[3][WINDOW])
 {
     for (int k = 0; k < WINDOW; k++) {
-        rb_ring_answer sum = {0.0, 0.0, 0.0};
         const int apart = o->to[i].first - first - k;
         if (apart < -o->steps || apart + ORDER > o->steps)
             continue; /* beyond all charges */
-        for (int a = 0; a < ORDER; a++) {
-            const rb_ring_answer *at = on_steps + o->steps + apart + a;
-            sum.N += o->to[i].weight[a] * at->N;
-            sum.T += o->to[i].weight[a] * at->T;
-            sum.C += o->to[i].weight[a] * at->C;
+        for (int c = 0; c < o->parts; c++) {
+            const double *at = on_steps[c] + o->steps + apart;
+            double sum = 0.0;
+            for (int a = 0; a < ORDER; a++)
+                sum += o->to[i].weight[a] * at[a];
+            window[c][k] = sum;
         }
-        window[k] = sum;
     }
 }
 
 /* The pairs closer than NEAR steps. */
-static rb_status correct_near(products *o, const rb_wheel_kernel *kernel,
-                              const rb_ring_answer *on_steps, const double *end,
-                              const double *middle, double step)
+static rb_status correct_near(products *o, const rb_wheel_kernel *kernel, parts_of on_steps,
+                              const double *end, const double *middle, double step)
 {
     const double reach = NEAR * step;
-    rb_ring_answer window[WINDOW] = {{0.0, 0.0, 0.0}};
+    double window[3][WINDOW] = {{0.0}};
     int low = 0, high = 0;
 
-    for (int pass = 0; pass < 2; pass++) {
-        int count = 0;
-        low = high = 0;
-        for (int i = 0; i < o->m; i++) {
-            while (low <= o->n && end[low] < middle[i] - reach)
-                low++;
-            while (high <= o->n && end[high] <= middle[i] + reach)
-                high++;
-            o->near_first[i] = count;
-            o->near_end[i] = low;
-            if (pass == 1 && low < high)
-                from_steps(o, on_steps, i, o->from[low].first, window);
-            for (int j = low; j < high && pass == 1; j++) {
-                const rb_ring_answer *at = window + o->from[j].first - o->from[low].first;
-                rb_ring_answer own = rb_wheel_kernel_at(kernel, middle[i] - end[j]);
-                for (int b = 0; b < ORDER; b++) {
-                    own.N -= o->from[j].weight[b] * at[b].N;
-                    own.T -= o->from[j].weight[b] * at[b].T;
-                    own.C -= o->from[j].weight[b] * at[b].C;
-                }
-                o->near[count + j - low] = own;
+    for (int i = 0; i < o->m; i++) {
+        while (low <= o->n && end[low] < middle[i] - reach)
+            low++;
+        while (high <= o->n && end[high] <= middle[i] + reach)
+            high++;
+        o->near_end[i] = low;
+        o->near_first[i + 1] = o->near_first[i] + high - low;
+    }
+    const size_t pairs = (size_t)o->near_first[o->m];
+    o->near = calloc(pairs * (size_t)o->parts + 1, sizeof *o->near);
+    if (!o->near)
+        return RB_ENOMEM;
+    for (int i = 0; i < o->m; i++) {
+        const int first = o->near_end[i], count = o->near_first[i + 1] - o->near_first[i];
+        if (count > 0)
+            from_steps(o, on_steps, i, o->from[first].first, window);
+        for (int k = 0; k < count; k++) {
+            const spread *from = &o->from[first + k];
+            const int at = from->first - o->from[first].first;
+            const rb_ring_answer exact = rb_wheel_kernel_at(kernel, middle[i] - end[first + k]);
+            for (int c = 0; c < o->parts; c++) {
+                double own = part_of(exact, c);
+                for (int b = 0; b < ORDER; b++)
+                    own -= from->weight[b] * window[c][at + b];
+                o->near[(size_t)c * pairs + (size_t)(o->near_first[i] + k)] = own;
             }
-            count += high - low;
         }
-        o->near_first[o->m] = count;
-        if (pass == 0 && !(o->near = calloc((size_t)count + 1, sizeof *o->near)))
-            return RB_ENOMEM;
     }
     return RB_OK;
 }
@@ -217,16 +271,21 @@ static rb_status set_tables(products *o, const double *angles, double step)
     const double *middle = angles, *end = angles + o->m;
     const double first = end[0] - ORDER * step;
     rb_wheel_kernel kernel = {0};
-    rb_ring_answer *on_steps = calloc(2 * (size_t)o->steps + 1, sizeof *on_steps);
-    rb_status s = on_steps ? RB_OK : RB_ENOMEM;
+    const size_t both = 2 * (size_t)o->steps + 1;
+    double *all = rb_alloc(both, 3);
+    parts_of on_steps = {all, all ? all + both : NULL, all ? all + 2 * both : NULL};
+    rb_status s = all ? RB_OK : RB_ENOMEM;
 
     double smallest = 0.25 * step;
     for (int j = 0; j < o->n; j++)
         smallest = fmin(smallest, 0.25 * (end[j + 1] - end[j]));
     if (s == RB_OK && o->wheel.radius > 0.0)
         s = rb_wheel_kernel_create(&o->wheel, smallest, (o->steps + 1) * step, &kernel);
-    else if (s == RB_OK)
+    else if (s == RB_OK) {
         kernel = rb_wheel_kernel_of_plane(&o->plane);
+        o->parts = 1;
+        o->coupling = kernel.scale * 0.5 * M_PI * (kernel.kappa - 1.0);
+    }
     if (s == RB_OK) {
         for (int j = 0; j <= o->n; j++)
             o->from[j] = spread_at((end[j] - first) / step);
@@ -235,25 +294,26 @@ static rb_status set_tables(products *o, const double *angles, double step)
             o->place[i] = cos(middle[i]);
             o->place[o->m + i] = sin(middle[i]);
         }
-        for (int k = -o->steps; k <= o->steps; k++)
-            on_steps[o->steps + k] = rb_wheel_kernel_at(&kernel, k * step);
+        for (int k = -o->steps; k <= o->steps; k++) {
+            const rb_ring_answer at = rb_wheel_kernel_at(&kernel, k * step);
+            for (int c = 0; c < o->parts; c++)
+                on_steps[c][o->steps + k] = part_of(at, c);
+        }
         /* on_steps: G at steps -steps ... steps, on_steps[steps] at 0. */
         const int size = o->fourier.size;
 
-        for (int c = 0; c < 3; c++) {
+        for (int c = 0; c < o->parts; c++) {
             double *x = o->work[0];
             memset(x, 0, (size_t)(size + 2) * sizeof *x);
-            for (int k = 1 - o->steps; k < o->steps; k++) {
-                const rb_ring_answer *at = on_steps + o->steps + k;
-                x[k < 0 ? size + k : k] = (c == 0 ? at->N : c == 1 ? at->T : at->C) / size;
-            }
+            for (int k = 1 - o->steps; k < o->steps; k++)
+                x[k < 0 ? size + k : k] = on_steps[c][o->steps + k] / size;
             fftw_complex *const z = rb_fourier_forward(&o->fourier, size, x, x);
             memcpy(o->kernel[c], z, ((size_t)size / 2 + 1) * sizeof *z);
         }
         s = correct_near(o, &kernel, on_steps, end, middle, step);
         rb_wheel_kernel_free(&kernel);
     }
-    free(on_steps);
+    free(all);
     return s;
 }
 
@@ -267,6 +327,7 @@ static products *products_alloc(int n, int steps)
     o->n = n;
     o->m = n + 1;
     o->steps = steps;
+    o->parts = 3;
     if (!rb_fourier_make(2 * steps, &o->fourier)) {
         products_free(o);
         return NULL;
