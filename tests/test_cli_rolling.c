@@ -859,4 +859,38 @@ TEST(friction_laws_by_words)
     }
 }
 
+/* A stiff layer stretches over its soft base: displacements are the base's from further away
+ * than the datum, and the tangential flexibility is indefinite.  A force along the shift or
+ * full sliding under a tenth of what would slide is what was printed without a word. */
+TEST(a_datum_that_is_too_near_is_said)
+{
+    static const struct {
+        const char *options;
+        int near;
+    } all[] = {{"--base-young 1.54 --datum 14 --datum-b 14 --shift 1e-4", 1},
+               {"--base-young 1.54 --datum 20 --datum-b 20 --shift 1e-4", 0},
+               {"--base-young 1.54 --datum 14 --datum-b 14 --force-ratio 0.1", 0},
+               {"--base-young 0.38 --datum 60 --datum-b 60 --shift 1e-4", 1},
+               {"--base-young 0.38 --datum 100 --datum-b 100 --shift 1e-4", 0},
+               {"--base-young 11.3 --datum 3.4 --datum-b 3.4 --shift 1e-4", 0}};
+    char command[400];
+
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        snprintf(command, sizeof command,
+                 "--radius 5 --young 11.3 --poisson -0.1446 --support halfplane "
+                 "--layer-thickness 3.373 --base-poisson 0.3 --radius-b 5 --similar --mu 3 "
+                 "--half-width 0.47 --contact-elements 30 --json %s",
+                 all[k].options);
+        assert_int_equal(rollbem(command), 0);
+        assert_int_equal(strstr(err, "The datum, the depth of zero displacement, is so near") !=
+                             NULL,
+                         all[k].near);
+    }
+    assert_int_equal(
+        rollbem(
+            "--support halfplane --datum 0.1 --datum-b 0.1 --similar --half-width 1 --shift 0.001"),
+        0);
+    assert_non_null(strstr(err, "other solutions exist for the same shift"));
+}
+
 RUN_TESTS(enter_folder, leave_folder)

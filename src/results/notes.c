@@ -127,6 +127,51 @@ static void note_corners(rb_rolling_note_list *list, const rb_rolling_case *rc,
             rise, rb_unit_name(s->units, "MPa"));
 }
 
+/* How far a uniform traction of one on a strip of half-width a moves it on average, times pi:
+ * positive unless the datum, from which displacements are measured, is too near.  Beyond
+ * the length that a stiff layer stretches or bends over the base moves alone. */
+static double mean_compliance(const rb_rolling_case *rc, const rb_rolling_body *body, double a,
+                              int along)
+{
+    const double mean = 2.0 * exp(-1.5) * a; /* of the distances within the strip */
+    const double given = rb_rolling_datum(rc, body), radius = fabs(body->radius);
+    const double datum =
+        isfinite(given) ? given : 2.0 / exp(1.0) * (isfinite(radius) ? radius : rc->a.radius);
+    const rb_bem_material own = rb_rolling_material(rc, body);
+    const double of_own = (1.0 - own.poisson) / own.shear;
+
+    if (!(body->layer > 0.0))
+        return of_own * log(datum / mean);
+    const double thickness = fmax(body->layer, mean), of_layer = of_own * log(thickness / mean);
+    if (!(body->base_young > 0.0))
+        return of_layer;
+    const rb_bem_material base = rb_rolling_base_material(rc, body);
+    const double of_base = (1.0 - base.poisson) / base.shear, ratio = of_base / of_own;
+    const double length = thickness * fmax(1.0, along ? ratio : cbrt(ratio));
+    return of_layer + of_base * log(datum / length);
+}
+
+/* Then the flexibility is indefinite; rolling steadily under a load takes differences of
+ * displacements alone. */
+static void note_datum(rb_rolling_note_list *list, const rb_rolling_case *rc,
+                       const rb_rolling_solution *s)
+{
+    const double a = rb_unit_stored(s->units, "mm", s->half_width);
+    const int shifted = rc->formulation == RB_STATIC && rb_rolling_largest_mu(rc) > 0.0 &&
+                        !rb_rolling_force_is_given(rc);
+
+    if (!(a > 0.0) || (!shifted && isnan(rc->approach)))
+        return;
+    if (mean_compliance(rc, &rc->a, a, shifted) +
+            (rc->elastic_b ? mean_compliance(rc, &rc->b, a, shifted) : 0.0) <
+        0.0)
+        add(list,
+            "The datum, the depth of zero displacement, is so near that uniform tractions "
+            "move the surface against themselves: other solutions exist for the same "
+            "%s. Give a larger --datum.",
+            shifted ? "shift" : "approach");
+}
+
 rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_rolling_solution *s)
 {
     rb_rolling_note_list list = {.n = 0};
@@ -148,6 +193,7 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_r
                 "round cover differs by about %.0f %%, see --cover-thickness%s",
                 b ? " of B" : "", bodies[b]->layer / fabs(bodies[b]->radius),
                 280.0 * bodies[b]->layer / fabs(bodies[b]->radius), b ? "-b" : "");
+    note_datum(&list, rc, s);
     note_short_memory(&list, rc, s);
     note_corners(&list, rc, s);
     const int creeps = !isnan(rc->creep) || !isnan(rc->creep_ratio);
