@@ -301,15 +301,15 @@ static double levers(const rb_rolling_solution *s, double radius)
  * an elastic core, of A or of B, beside an elastic or a rigid other body. */
 TEST(what_does_not_relax_loses_nothing)
 {
-    for (int k = 0; k < 24; k++) {
+    for (int k = 0; k < 18; k++) {
         rb_rolling_case rc = wheel(20);
-        const int of_b = k / 12, driven = k % 2, kind = k / 2 % 3, pair = k / 6 % 2;
+        const int of_b = k >= 12, driven = k % 2, kind = k / 2 % 3, pair = k >= 6;
         rb_rolling_solution s[2];
         rc.a.cover = kind ? 3.0 : 0.0;
         rc.a.core_young = kind == 2 ? 2000.0 : 0.0;
         rc.force = NAN;
         rc.force_ratio = driven ? 0.9 : -0.9;
-        if (pair || of_b) {
+        if (pair) {
             rc.elastic_b = 1;
             rc.b = rc.a;
             rc.b.radius = 80.0;
