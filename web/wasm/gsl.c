@@ -8,6 +8,7 @@
 #include <gsl/gsl_multimin.h>
 #include <gsl/gsl_sf_bessel.h>
 #include <gsl/gsl_sf_expint.h>
+#include <gsl/gsl_sort.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -41,6 +42,19 @@ double gsl_pow_int(double x, int n)
 
 /* ---- Vectors
  * --------------------------------------------------------------------------- */
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* rollbem sorts arrays without gaps. */
+void gsl_sort(double *data, const size_t stride, const size_t n)
+{
+    if (stride == 1)
+        qsort(data, n, sizeof *data, ascending);
+}
 
 gsl_vector *gsl_vector_alloc(const size_t n)
 {
