@@ -573,6 +573,8 @@ typedef struct {
 } rb_rolling_result_table;
 extern const rb_rolling_result_table rb_rolling_result_tables[];
 
+/* The row with this name; NULL: there is none. */
+const rb_rolling_result *rb_rolling_find_result(const rb_rolling_results *table, const char *name);
 /* 1 if the case has this result.  mu_varies: 1: in a history with a column mu. */
 int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc, int mu_varies);
 /* 1 if the struct `owner` has this column. */

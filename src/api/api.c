@@ -72,14 +72,6 @@ static rb_status add_column(rb_api *a, const char *name, int rows, const double 
     return RB_OK;
 }
 
-static const rb_rolling_result *find_result(const rb_rolling_results *table, const char *name)
-{
-    for (int k = 0; k < table->n; k++)
-        if (strcmp(table->row[k].name, name) == 0)
-            return &table->row[k];
-    return NULL;
-}
-
 /* ---- A case ------------------------------------------------------------------------ */
 
 int rb_api_ended(rb_api *a, rb_status s)
@@ -464,8 +456,8 @@ double rb_api_number(const rb_api *a, const char *name)
         if (strcmp(name, numbers[k].name) == 0)
             return numbers[k].is_known ? numbers[k].value : NAN;
     const int is_error = strncmp(name, error_, strlen(error_)) == 0;
-    const rb_rolling_result *r =
-        find_result(&rb_rolling_solution_scalars, is_error ? name + strlen(error_) : name);
+    const rb_rolling_result *r = rb_rolling_find_result(&rb_rolling_solution_scalars,
+                                                        is_error ? name + strlen(error_) : name);
     if (!r || result->solution.n == 0 || (is_error && (!result->has_errors || !r->error_bar)))
         return NAN;
     return rb_rolling_number(r, is_error ? &result->errors.scalar : &result->solution);
@@ -560,7 +552,7 @@ static api_array *series_array(rb_api *a, const char *name)
     size_t n, k = 0;
     while (strncmp(name, series[k].beginning, n = strlen(series[k].beginning)) != 0)
         k++;
-    const rb_rolling_result *row = find_result(series[k].table, name + n);
+    const rb_rolling_result *row = rb_rolling_find_result(series[k].table, name + n);
     const int is_there = row && series[k].rows > 0 && rb_rolling_has_column(row, series[k].owner);
     api_array *made = is_there ? rb_api_make_array(a, name, series[k].rows, 1) : NULL;
     for (int i = 0; made && i < series[k].rows; i++)
@@ -622,7 +614,7 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
         made = series_array(a, name);
     if (!made && strncmp(name, "patch.", 6) == 0) {
         const rb_rolling_solution *s = &a->result.solution;
-        const rb_rolling_result *r = find_result(&rb_rolling_patch_scalars, name + 6);
+        const rb_rolling_result *r = rb_rolling_find_result(&rb_rolling_patch_scalars, name + 6);
         made = r && s->patches > 0 ? rb_api_make_array(a, name, s->patches, 1) : NULL;
         for (int k = 0; made && k < s->patches; k++)
             made->at[k] = rb_rolling_number(r, &s->patch[k]);

@@ -197,10 +197,7 @@ static api_array *column_of(rb_api *a, const char *name)
 /* 1: a contact has a result of that name, so that a crack's shares its column. */
 static int is_of_contact(const char *name)
 {
-    for (int k = 0; k < rb_rolling_solution_scalars.n; k++)
-        if (strcmp(rb_rolling_solution_scalars.row[k].name, name) == 0)
-            return 1;
-    return 0;
+    return rb_rolling_find_result(&rb_rolling_solution_scalars, name) != NULL;
 }
 
 static int see_row(int k, const rb_rolling_row *row, void *context)

@@ -263,17 +263,12 @@ void rb_case_derivatives_free(rb_case_derivatives *all)
 
 const rb_rolling_result *rb_case_derivative_result(const char *name, int *is_column)
 {
-    const rb_rolling_results *const lists[] = {&rb_rolling_solution_scalars,
-                                               &rb_rolling_solution_columns};
+    const rb_rolling_result *r = rb_rolling_find_result(&rb_rolling_solution_scalars, name);
 
-    for (int list = 0; list < 2; list++)
-        for (int k = 0; k < lists[list]->n; k++) {
-            const rb_rolling_result *r = &lists[list]->row[k];
-            *is_column = list;
-            if (rb_sensitivity_has(r) && strcmp(r->name, name) == 0)
-                return r;
-        }
-    return NULL;
+    *is_column = !(r && rb_sensitivity_has(r));
+    if (*is_column)
+        r = rb_rolling_find_result(&rb_rolling_solution_columns, name);
+    return r && rb_sensitivity_has(r) ? r : NULL;
 }
 
 /* "0.02", "1%", "0.5mm" of the number; RB_EINVAL. */

@@ -8,14 +8,6 @@
 
 /* ---- Which columns ----------------------------------------------------------------- */
 
-static const rb_rolling_result *find_result(const rb_rolling_results *table, const char *name)
-{
-    for (int k = 0; k < table->n; k++)
-        if (rb_sensitivity_has(&table->row[k]) && strcmp(table->row[k].name, name) == 0)
-            return &table->row[k];
-    return NULL;
-}
-
 static rb_status add_slope(rb_case_slopes *s, const rb_rolling_result *result,
                            const rb_case_number *number, int most, rb_message *why)
 {
@@ -45,7 +37,8 @@ static rb_status add_word(const rb_resolved_case *c, rb_case_slopes *s, char *wo
     if (input)
         *input++ = '\0';
     const int all = strcmp(word, "all") == 0, mu_varies = c->program.mu != NULL;
-    if (!all && !find_result(s->table, word)) {
+    const rb_rolling_result *only = rb_rolling_find_result(s->table, word);
+    if (!all && !(only && rb_sensitivity_has(only))) {
         rb_guess guess = {.word = word};
 
         for (int k = 0; k < s->table->n; k++)
@@ -55,7 +48,7 @@ static rb_status add_word(const rb_resolved_case *c, rb_case_slopes *s, char *wo
                        s->table == &rb_rolling_history_columns ? " step by step" : "", word,
                        rb_guess_text(&guess, ""));
     }
-    if (!all && !rb_rolling_has_result(find_result(s->table, word), &c->rc, mu_varies))
+    if (!all && !rb_rolling_has_result(only, &c->rc, mu_varies))
         return rb_fail(why, RB_EINVAL, "this case has no %s", word);
     for (int r = 0; r < s->table->n; r++) {
         const rb_rolling_result *result = &s->table->row[r];

@@ -366,19 +366,18 @@ rb_status rb_certificate_laws(rb_certificate *c)
 double rb_certificate_rounding(const rb_rolling_results *all, const char *name,
                                const rb_certificate_scales *s, double otherwise)
 {
-    for (int k = 0; k < all->n; k++) {
-        const char *unit = all->row[k].unit;
-        if (strncmp(name, "torque", 6) == 0)
-            return 1e-13 * s->load * s->radius;
-        if (strcmp(all->row[k].name, name) == 0 && unit)
-            return strcmp(unit, "mm") == 0     ? 1e-12 * s->half_width
-                   : strcmp(unit, "N/mm") == 0 ? 1e-13 * s->load
-                   : strcmp(unit, "N") == 0    ? 1e-12 * s->load * s->half_width
-                   : strcmp(unit, "MPa") == 0  ? 1e-12 * s->pressure
-                   : strcmp(unit, "1") == 0    ? 1e-13 * s->number
-                                               : 0.0;
-    }
-    return otherwise;
+    const rb_rolling_result *r = rb_rolling_find_result(all, name);
+
+    if (strncmp(name, "torque", 6) == 0)
+        return 1e-13 * s->load * s->radius;
+    if (!r || !r->unit)
+        return otherwise;
+    return strcmp(r->unit, "mm") == 0     ? 1e-12 * s->half_width
+           : strcmp(r->unit, "N/mm") == 0 ? 1e-13 * s->load
+           : strcmp(r->unit, "N") == 0    ? 1e-12 * s->load * s->half_width
+           : strcmp(r->unit, "MPa") == 0  ? 1e-12 * s->pressure
+           : strcmp(r->unit, "1") == 0    ? 1e-13 * s->number
+                                          : 0.0;
 }
 
 static double rounding_of(const rb_certificate *c, const char *key)

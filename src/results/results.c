@@ -305,6 +305,14 @@ static void *place(const rb_rolling_result *r, const void *owner)
     return (char *)owner + r->offset;
 }
 
+const rb_rolling_result *rb_rolling_find_result(const rb_rolling_results *table, const char *name)
+{
+    for (int k = 0; k < table->n; k++)
+        if (strcmp(table->row[k].name, name) == 0)
+            return &table->row[k];
+    return NULL;
+}
+
 /* Counts that the case has not are -1. */
 double rb_rolling_number(const rb_rolling_result *r, const void *owner)
 {
