@@ -79,6 +79,8 @@ export async function open_page(url, { width = 1280, height = 900, dark = false,
     pages.set(sessionId, { errors, requested });
     const tab = (method, params) => send(method, params, sessionId);
     for (const domain of ["Page", "Runtime", "Log", "Network"]) await tab(`${domain}.enable`);
+    /* as if it were in front: a page behind another one does not hear that a field has the focus */
+    await tab("Emulation.setFocusEmulationEnabled", { enabled: true });
     const size = (w, h, is_dark = false, is_mobile = false) =>
         Promise.all([
             tab("Emulation.setDeviceMetricsOverride", { width: w, height: h, deviceScaleFactor: 1, mobile: is_mobile }),
