@@ -209,8 +209,7 @@ static void refusals(void **state)
     rb_case_fit_free(&fit);
 }
 
-/* ---- The command
- * ------------------------------------------------------------------------ */
+/* ---- The command ------------------------------------------------------------------- */
 
 static void write_data(const char *path, const char *names)
 {
@@ -250,8 +249,7 @@ static void command_prints_parameters(void **state)
     assert_int_equal(rollbem("fit creep.tsv --fit mu --bounds mu=2:1" BODIES), 64);
 }
 
-/* ---- --derivatives and --tolerance
- * ------------------------------------------------------- */
+/* ---- --derivatives and --tolerance ------------------------------------------------- */
 
 static void command_prints_derivatives(void **state)
 {

@@ -30,8 +30,7 @@ static rb_rolling_case steady(pairing pair, int elements)
     return rc;
 }
 
-/* ---- Friction laws
- * --------------------------------------------------------------------- */
+/* ---- Friction laws ----------------------------------------------------------------- */
 
 /* The law's coefficients are followed from coarse elements to fine ones, and so is the
  * creepage of a force; the matrix begins on the fine elements, at rest. */

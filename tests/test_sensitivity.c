@@ -178,8 +178,7 @@ TEST(a_model_without_a_matrix_is_given_one)
     }
 }
 
-/* ---- Forward and adjoint
- * --------------------------------------------------------------- */
+/* ---- Forward and adjoint ----------------------------------------------------------- */
 
 TEST(forward_is_adjoint)
 {
@@ -278,8 +277,7 @@ TEST(vectors_add_up)
     }
 }
 
-/* ---- Carter
- * ---------------------------------------------------------------------------- */
+/* ---- Carter ------------------------------------------------------------------------ */
 
 /* Root mean square of d(Q/(mu P))/ds - 2 (1 - s) over s = 0.05 ... 0.95. */
 static double carter_error(const char *elements, const char *mesh)
@@ -400,8 +398,7 @@ TEST(fitted_slopes_are_those_of_fitted_solves)
     rb_case_free(c);
 }
 
-/* ---- Borders and ends of ranges
- * ---------------------------------------------------------- */
+/* ---- Borders and ends of ranges ---------------------------------------------------- */
 
 /* The creepage at which an element begins to slip: on one side the slope of one element
  * more in stick. */
@@ -475,8 +472,7 @@ TEST(ends_of_ranges)
     rb_case_free(c);
 }
 
-/* ---- Units and refusals
- * ------------------------------------------------------------------ */
+/* ---- Units and refusals ------------------------------------------------------------ */
 
 TEST(units_of_derivatives)
 {

@@ -219,8 +219,7 @@ void rb_case_store(const rb_case *c, const rb_option_set *set, void *target)
     }
 }
 
-/* ---- Where an error stands
- * --------------------------------------------------------------- */
+/* ---- Where an error stands --------------------------------------------------------- */
 
 int rb_case_given(const rb_case *c, const char *name)
 {

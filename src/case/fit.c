@@ -375,8 +375,7 @@ static rb_status place_elements(problem *p, const double *theta, int *moved, rb_
     return s;
 }
 
-/* ---- Levenberg and Marquardt
- * ----------------------------------------------------------- */
+/* ---- Levenberg and Marquardt ------------------------------------------------------- */
 
 static void within(const rb_case_parameter *of, double *x)
 {
@@ -514,8 +513,7 @@ static rb_status descend(problem *p, double *theta, const rb_case_fit_observer *
                : s;
 }
 
-/* ---- Intervals
- * ------------------------------------------------------------------------- */
+/* ---- Intervals --------------------------------------------------------------------- */
 
 /* (J'J)^-1, by the columns scaled to length 1; RB_SINGULAR with *which: the column that
  * the others make up. */
@@ -653,8 +651,7 @@ static void set_intervals(problem *p, const double *theta)
     }
 }
 
-/* ---- Where to start
- * ---------------------------------------------------------------------- */
+/* ---- Where to start ---------------------------------------------------------------- */
 
 /* What the data themselves say: the largest force, the last one, the first slope, where
  * the force is 0. */
@@ -783,8 +780,7 @@ rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_cas
     return s;
 }
 
-/* ---- All together
- * -------------------------------------------------------------------------- */
+/* ---- All together ------------------------------------------------------------------ */
 
 static int falls_unidentified(const rb_case_fit *fit)
 {

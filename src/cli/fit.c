@@ -253,8 +253,7 @@ static cli_exit run(fitting *f, rb_case *words, cli_output *o)
     return code == CLI_OK && f->fit.unidentified > 0 ? CLI_UNSOLVED : code;
 }
 
-/* ---- Command
- * --------------------------------------------------------------------------- */
+/* ---- Command ----------------------------------------------------------------------- */
 
 int cli_fit(int argc, char **argv)
 {

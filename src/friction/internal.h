@@ -93,8 +93,7 @@ void rb_friction_blocks_add(const rb_friction_blocks *blocks, int contact, const
 int rb_friction_blocks_add_all(const rb_friction_blocks *blocks, const double *x, double *y);
 void rb_friction_blocks_apply(const rb_friction_blocks *blocks, const double *x, double *y);
 
-/* ---- The problem of one contact (local_contact.c)
- * ------------------------------------------- */
+/* ---- The problem of one contact (local_contact.c) ---------------------------------- */
 
 typedef struct {
     int d;

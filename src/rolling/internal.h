@@ -124,8 +124,7 @@ double rb_rolling_datum(const rb_rolling_case *rc, const rb_rolling_body *body);
 rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc, const rb_rolling_body *body,
                                      double length[RB_ROLLING_TERMS]);
 
-/* ---- body_memory.c
- * ----------------------------------------------------------------- */
+/* ---- body_memory.c ----------------------------------------------------------------- */
 
 /* Computes the viscoelastic part, memory = whole - glassy, 2m x 2n, in two calls: before
  * the viscoelastic part is added to the flexibility, and after. RB_ENOMEM. */
@@ -144,8 +143,7 @@ rb_status rb_rolling_bodies_add_matrix(const rb_rolling_case *rc, const rb_rolli
  * RB_ENOMEM. */
 rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *mesh);
 
-/* ---- former_place.c
- * ----------------------------------------------------------------------- */
+/* ---- former_place.c ---------------------------------------------------------------- */
 
 /* Tangential displacement at the distance `step` upstream of each midpoint: w_T = w0_T +
  * W_T (p, q).  Equal elements, half-planes and wheels. */
@@ -305,8 +303,7 @@ void rb_rolling_forget_free_rolling(rb_rolling_model *model);
 rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creepage,
                                           rb_message *why);
 
-/* ---- missed_contact.c
- * --------------------------------------------------------------------- */
+/* ---- missed_contact.c -------------------------------------------------------------- */
 
 enum { RB_MOST_OVERLAPS = 16 };
 

@@ -198,8 +198,7 @@ static rb_status displacement(const rb_rolling_model *model, const rb_contact_st
     return status;
 }
 
-/* ---- Overlaps between the elements
- * ------------------------------------------------------- */
+/* ---- Overlaps between the elements ------------------------------------------------- */
 
 static double shortest(const rb_rolling_mesh *mesh)
 {

@@ -69,8 +69,7 @@ static int same_rows(const rb_rolling_case *x, const rb_rolling_case *y)
     return memcmp(&like, y, sizeof like) == 0;
 }
 
-/* ---- Half-planes: how displacements change, by formula
- * --------------------------------- */
+/* ---- Half-planes: how displacements change, by formula ----------------------------- */
 
 /* Of both bodies: 1/E*, beta/E* and what the depths of zero displacement add, which are
  * the factors of three matrices that the mesh alone makes (F1 of theory.md 3). */
@@ -159,8 +158,7 @@ static rb_status changed_displacement(const rb_rolling_model *of, const rb_rolli
     return RB_OK;
 }
 
-/* ---- Variants
- * -------------------------------------------------------------------------- */
+/* ---- Variants ---------------------------------------------------------------------- */
 
 /* The bodies that the model has, with what their change displaces as w0. */
 static rb_status borrow_bodies(const rb_rolling_model *of, const rb_rolling_case *rc, motion moved,
