@@ -35,10 +35,10 @@ int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *s
         known++;
     begin(a, "lcp.", known < count ? solvers[known].name : "");
     if (known == count)
-        return rb_api_ended(a, rb_fail(&a->why, RB_EINVAL,
-                                       "--solver: expected auto, lemke, lemke-sparse or "
-                                       "newton, got '%.60s'",
-                                       solver));
+        return rb_api_ended(
+            a,
+            rb_fail(&a->why, RB_EINVAL,
+                    "--solver: expected auto, lemke, lemke-sparse or newton, got '%.60s'", solver));
     if (n < 1)
         return rb_api_ended(a, rb_fail(&a->why, RB_EINVAL, "lcp: n = %d", n));
     api_array *z = rb_api_make_array(a, "lcp.z", n, 1);
@@ -249,8 +249,7 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
             rb_fail(&a->why, s, "case %d: %.580s", k + 1, rb_api_message(cases[k]));
         else if (rb_case_resolved(cases[k]->words)->error && !names)
             s = rb_fail(&a->why, RB_EINVAL,
-                        "case %d: error: these studies have no error bars; rollbem sweep "
-                        "has",
+                        "case %d: error: these studies have no error bars; rollbem sweep has",
                         k + 1);
         else if (names) {
             /* The crack of case k, with its m options. */

@@ -10,8 +10,7 @@ static char *command_line;
 
 static char *append_quoted(char *to, const char *word)
 {
-    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                        "-_=+.,:/@%^";
+    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+.,:/@%^";
     const size_t n = strlen(word);
     if (n > 0 && strspn(word, plain) == n) {
         memcpy(to, word, n);

@@ -60,21 +60,18 @@ enum { OPTIONS = sizeof options / sizeof options[0], TAUS = 61 };
 
 _Static_assert(OPTIONS <= 20, "given");
 
-static const char about[] = "Runs friction solvers on problems from files and compares "
-                            "them: a table of the runs and,\n"
-                            "with --profiles, --plot or --json, the share rho_s(tau) of "
-                            "problems that solver s solves at a cost of at most tau "
-                            "times the\n"
-                            "least one. FILE: as for rollbem friction.";
+static const char about[] =
+    "Runs friction solvers on problems from files and compares them: a table of the runs and,\n"
+    "with --profiles, --plot or --json, the share rho_s(tau) of problems that solver s solves at a "
+    "cost of at most tau times the\n"
+    "least one. FILE: as for rollbem friction.";
 
 static const char notes[] =
-    "A run counts as failed, at infinite cost, when the error recomputed from r is above "
-    "both\n"
-    "the tolerance and the rounding floor, when the time limit is passed, or when the "
-    "solver does\n"
+    "A run counts as failed, at infinite cost, when the error recomputed from r is above both\n"
+    "the tolerance and the rounding floor, when the time limit is passed, or when the solver does\n"
     "not take the problem. Files that cannot be read are named and left out.\n"
-    "Exit codes, the largest of all files: 0 all runs done, whatever their outcome; 64, "
-    "65, 66, 70,\n"
+    "Exit codes, the largest of all files: 0 all runs done, whatever their outcome; 64, 65, 66, "
+    "70,\n"
     "73 as for rollbem friction; 1 when no file could be compared.\n";
 
 typedef struct {

@@ -35,19 +35,15 @@ static const char about[] =
     "line contact (IPOTCN = -4, -5), Coulomb friction or friction that falls with the\n"
     "slip, elastic or viscoelastic half-spaces, with a third body that may yield;\n"
     "pressed (T = 0), shifted (T = 1), rolled step by step (T = 2) or steadily (T = 3).\n"
-    "A case with P = 0 goes on from the case before. The elements are those of the "
-    "file.\n"
+    "A case with P = 0 goes on from the case before. The elements are those of the file.\n"
     "A line for each reason says what is left out, and of which cases.\n"
     "docs/contact.md has the names and signs of both programs.";
 
 static const char notes[] =
-    "Columns in CONTACT's names, signs and units (N over the width DY, MPa, mm), then P, "
-    "Q\n"
-    "[N/mm] and the residual. FX_REL is FX/(FSTAT FN); FRIC_POWER is that of CONTACT, < "
-    "0.\n"
+    "Columns in CONTACT's names, signs and units (N over the width DY, MPa, mm), then P, Q\n"
+    "[N/mm] and the residual. FX_REL is FX/(FSTAT FN); FRIC_POWER is that of CONTACT, < 0.\n"
     "NPLAST elements yield, NSLIP others slip; UPL is what the third body has yielded.\n"
-    "Exit codes: 0 all cases that could be run are solved; 1 less than half of the "
-    "cases\n"
+    "Exit codes: 0 all cases that could be run are solved; 1 less than half of the cases\n"
     "could be run, or one was not solved; 65 malformed file; 66 no such file.\n";
 
 typedef struct {
@@ -107,8 +103,8 @@ static const cli_row case_rows[] = {ROW("case", "case", WHOLE, number),
 
 enum { CASE_ROWS = sizeof case_rows / sizeof *case_rows };
 
-static const char columns[] = "case status FN FX FX_REL CKSI PEN PMAX FRIC_POWER NPOT "
-                              "NCON NADH NSLIP P_N/mm Q_N/mm line residual NPLAST";
+static const char columns[] = "case status FN FX FX_REL CKSI PEN PMAX FRIC_POWER NPOT NCON NADH "
+                              "NSLIP P_N/mm Q_N/mm line residual NPLAST";
 
 /* An element of a case, in the table alone. */
 typedef struct {

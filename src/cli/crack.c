@@ -20,16 +20,15 @@ _Static_assert(offsetof(crack_run, crack) == 0, "the rows of the library point i
 /* Behind those of the library. */
 static const rb_option pictures[] = {
     RB_TEXT_LINE("plot-crack", PLACE(open), "FILE",
-                 "picture of the crack with its faces moved apart, magnified: .png, .svg "
-                 "or .pdf",
+                 "picture of the crack with its faces moved apart, magnified: .png, .svg or .pdf",
                  .unset = "none", .file = RB_FILE_PICTURE),
     RB_NUMBER_LINE("at", PLACE(at), "a", RB_ANY, "position of the contact in that picture"),
     RB_TEXT_LINE("orbit", PLACE(orbit), "FILE",
                  "picture of K_II over K_I in the last pass: .png, .svg or .pdf", .unset = "none",
                  .file = RB_FILE_PICTURE),
     RB_FLAG_LINE("states", PLACE(states),
-                 "with --json: opening, sliding, tractions and zone of every node of the "
-                 "faces at every position, and the contact, which rollbem check needs"),
+                 "with --json: opening, sliding, tractions and zone of every node of the faces at "
+                 "every position, and the contact, which rollbem check needs"),
 };
 enum { PICTURES = sizeof pictures / sizeof pictures[0] };
 

@@ -36,11 +36,10 @@ static const rb_option options[] = {
     RB_INTEGER_LINE("points", PLACE(points), RB_FROM_TO(2, 1000000),
                     "equally spaced (speeds: in their logarithm), both ends among them"),
     RB_CHOICE_LINE("over", PLACE(over), rb_case_curve_variables,
-                   "what is varied: xi R/(mu a), xi itself, or the speed of bodies "
-                   "that relax"),
+                   "what is varied: xi R/(mu a), xi itself, or the speed of bodies that relax"),
     RB_TEXT_LINE("derivatives", PLACE(derivatives), "RESULT,...",
-                 "columns with the derivatives of these results of single cases at "
-                 "every point, with respect to all numbers, or RESULT:OPTION to one",
+                 "columns with the derivatives of these results of single cases at every point, "
+                 "with respect to all numbers, or RESULT:OPTION to one",
                  .unset = "none", .alone = "all"),
 };
 
@@ -50,8 +49,8 @@ _Static_assert((int)OPTIONS <= (int)CLI_COMMAND_OPTIONS_MAX, "given");
 
 static const char about[] =
     "Computes a creep curve, the tangential force of steady rolling over the\n"
-    "creepage, on one mesh with warm starts, and prints a row per creepage. --mu accepts "
-    "several values separated by commas and gives one curve for each.\n"
+    "creepage, on one mesh with warm starts, and prints a row per creepage. --mu accepts several "
+    "values separated by commas and gives one curve for each.\n"
     "The picture shows -Q/(mu P), or for several mu -Q/P over xi, and Carter's law\n"
     "for similar bodies.\n"
     "If friction depends on the slip or the temperature, the curve is also computed\n"

@@ -167,8 +167,7 @@ static void print_results(const cli_spec *spec)
 {
     const rb_rolling_result_table *t;
     (void)spec;
-    puts("# Results\n\nBy the names that JSON, tables, studies and the package for Python "
-         "use.");
+    puts("# Results\n\nBy the names that JSON, tables, studies and the package for Python use.");
     for (int j = 0; (t = rb_case_result_table(j)); j++) {
         printf("\n## %s\n\n| name | unit | meaning |\n|---|---|---|\n", t->title);
         for (int k = 0; k < t->results->n; k++) {
@@ -244,8 +243,8 @@ static void zsh_command(const cli_spec *spec)
     char command[24];
     printf("    %s)\n        _arguments \\\n", *command_of(spec, command) ? command : "*");
     each_option(spec, zsh_option);
-    puts("            '--help[this text]' '--usage[the options on a few lines]' "
-         "'--version' '*:file:_files'\n        ;;");
+    puts("            '--help[this text]' '--usage[the options on a few lines]' '--version' "
+         "'*:file:_files'\n        ;;");
 }
 
 static void fish_option(const rb_option *o, const char *command)
@@ -329,8 +328,7 @@ static cli_exit bash_completion(void)
 {
     fputs("# rollbem for bash: source this file, or keep it in bash-completion's folder\n"
           "_rollbem() {\n"
-          "    local current=${COMP_WORDS[COMP_CWORD]} "
-          "previous=${COMP_WORDS[COMP_CWORD-1]}\n"
+          "    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
           "    local command=${COMP_WORDS[1]} options= values= kind=\n"
           "    # bash takes --name=value apart\n"
           "    [ \"$current\" = = ] && current=\n"

@@ -27,8 +27,8 @@ static const rb_option options[] = {
                  .unset = "none"),
     RB_TEXT_LINE("maximise", PLACE(largest), "RESULT", "the same, maximised", .unset = "none"),
     RB_TEXT_LINE("over", PLACE(over), "NAME=A:B,...",
-                 "numbers of the case by their options, with bounds; gap=A:B: every value "
-                 "of the table of --gap, which may change by A to B",
+                 "numbers of the case by their options, with bounds; gap=A:B: every value of the "
+                 "table of --gap, which may change by A to B",
                  .unset = "none"),
     RB_TEXT_LINE("subject", PLACE(subject), "RESULT<=X,...",
                  "constraints on results, <= or >=", .unset = "none"),
@@ -49,8 +49,7 @@ static const char about[] =
 static const char notes[] =
     "Example: rollbem design --support halfplane --similar --load 500 \\\n"
     "           --minimise max_pressure --over radius=20:200\n"
-    "\nExit codes: 0 found; 1 not at rest, or constraints that cannot be met; 64, 65, "
-    "66,\n"
+    "\nExit codes: 0 found; 1 not at rest, or constraints that cannot be met; 64, 65, 66,\n"
     "70, 73 as of the other commands.\n";
 
 typedef struct {

@@ -51,8 +51,7 @@ static const rb_option options[] = {
                     "wall: how many problems go to the folder"),
     CLI_STYLE_LINES(PLACE(style)),
     RB_TEXT_LINE("output", PLACE(output), "PATH",
-                 "bar, truss: file for the table or JSON; wall: folder for its problems "
-                 "(FCLib)",
+                 "bar, truss: file for the table or JSON; wall: folder for its problems (FCLib)",
                  .unset = "none"),
     CLI_PLOT_LINES(PLACE(plot), PLACE(pictures)),
     RB_FLAG_LINE("quiet", PLACE(quiet), "do not print times; wall: no line per step"),
@@ -66,8 +65,7 @@ static const char about[] =
     "Solves a finite-element example and prints one row per increment.\n"
     "  bar    Kanno, example 3.2: plane-strain bar on an obstacle, pushed from its end\n"
     "  truss  Kanno, example 3.1: double-layer grid of bars, loaded, then unloaded\n"
-    "  wall   after Acary (2017): 12 elastic blocks in running bond, pressed and "
-    "sheared;\n"
+    "  wall   after Acary (2017): 12 elastic blocks in running bond, pressed and sheared;\n"
     "         implicit dynamics, backward Euler; one step under its weight, 10 in\n"
     "         which the force grows to 30 kN, 65 in which the upper support moves\n"
     "Units: bar and truss N, mm, MPa; wall SI. x to the right, the last axis up; normal\n"
@@ -264,9 +262,7 @@ static const cli_row wall_rows[] = {
 #undef ROW
 
 static const step_table wall_table = {
-    "wall",
-    "time_s compression_N shear_N drift_m stick slip separated iterations residual "
-    "seconds",
+    "wall", "time_s compression_N shear_N drift_m stick slip separated iterations residual seconds",
     wall_rows, sizeof wall_rows / sizeof *wall_rows};
 
 static rb_status write_wall(FILE *out, const void *context, rb_message *why)
@@ -503,8 +499,7 @@ int cli_examples(int argc, char **argv)
     if (code == CLI_CONTINUE) {
         char name[60], text[1000];
         FILE *pager = cli_open_pager();
-        puts("rollbem --example NAME solves one; every command that takes a case takes "
-             "it.");
+        puts("rollbem --example NAME solves one; every command that takes a case takes it.");
         for (int k = 0; cli_example_about(k, name, sizeof name, text, sizeof text); k++)
             cli_print_entry(name, text);
         puts("rollbem example NAME solves finite elements with friction.");

@@ -17,8 +17,7 @@ static const char *chosen; /* by --example */
 static const rb_option options[] = {
     RB_GROUP_LINE("example", "A built-in case"),
     RB_TEXT_LINE("example", 0, "NAME",
-                 "start from that case instead of the defaults; `rollbem examples` lists "
-                 "the names",
+                 "start from that case instead of the defaults; `rollbem examples` lists the names",
                  .unset = "none", .common = 1),
 };
 

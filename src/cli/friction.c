@@ -48,9 +48,9 @@ static const rb_option options[] = {
     RB_GROUP_LINE("solver", "Solver"),
     RB_TEXT_LINE("solver", PLACE(solver), "NAME", "which solver; names below"),
     RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0), "tolerance of the error: see below"),
-    RB_CHOICE_LINE("measure", PLACE(measure), cli_friction_measures,
-                   "which error decides: scaled, or acary: (13), which depends on the "
-                   "units of the file"),
+    RB_CHOICE_LINE(
+        "measure", PLACE(measure), cli_friction_measures,
+        "which error decides: scaled, or acary: (13), which depends on the units of the file"),
     RB_INTEGER_LINE("max-iters", PLACE(max_iters), RB_FROM_TO(1, 1e9), "iteration limit",
                     .unset = "the solver's own"),
     RB_NUMBER_LINE("seconds", PLACE(seconds), "s", RB_ABOVE(0.0), "time limit per file",
@@ -59,14 +59,13 @@ static const rb_option options[] = {
     RB_GROUP_LINE("output", "Output"),
     RB_FLAG_LINE("facts", PLACE(facts), "rank, degree of hyperstaticity, nullity of K, asymmetry"),
     RB_FLAG_LINE("solution", PLACE(solution),
-                 "a row per component of reactions r and velocities u instead of one per "
-                 "file"),
+                 "a row per component of reactions r and velocities u instead of one per file"),
     RB_FLAG_LINE("trace", PLACE(trace),
                  "every iterate with its error, also of the members of auto"),
     CLI_JSON_LINE(PLACE(style)),
-    RB_CHOICE_LINE("format", PLACE(format), formats,
-                   "of the results: a table with tabs, with commas, or JSON; or, as --kind, "
-                   "of the files"),
+    RB_CHOICE_LINE(
+        "format", PLACE(format), formats,
+        "of the results: a table with tabs, with commas, or JSON; or, as --kind, of the files"),
     CLI_HEADER_LINE(PLACE(style)),
     CLI_OUTPUT_LINE(PLACE(output)),
 };
@@ -74,11 +73,10 @@ static const rb_option options[] = {
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
 static const char about[] =
-    "Solves frictional contact problems u = W r + q (or K v = H r + f, u = H' v + w) "
-    "with Coulomb's\n"
+    "Solves frictional contact problems u = W r + q (or K v = H r + f, u = H' v + w) with "
+    "Coulomb's\n"
     "law in two and three dimensions, [N, T...] per contact, N first.\n"
-    "FILE: FCLib (HDF5) or text format of Siconos; also Siconos' problems on "
-    "second-order cones.";
+    "FILE: FCLib (HDF5) or text format of Siconos; also Siconos' problems on second-order cones.";
 
 static const char notes[] =
     "Prints one row per file (with --solution a # line): name, solver that found the\n"
@@ -93,10 +91,9 @@ static const char notes[] =
     "--trace prints every iterate with the solver, its iterations and operations so\n"
     "far, and the scaled residual; members of auto run in turns.\n"
     "If a file fails, the others are still solved.\n"
-    "Exit codes, the largest of all files: 0 solved; 1 not solved; 64 wrong command "
-    "line; 65\n"
-    "malformed file, or one the solver does not take; 66 no such file; 70 internal; 73 "
-    "cannot write.\n"
+    "Exit codes, the largest of all files: 0 solved; 1 not solved; 64 wrong command line; 65\n"
+    "malformed file, or one the solver does not take; 66 no such file; 70 internal; 73 cannot "
+    "write.\n"
     "Solvers:\n";
 
 typedef struct {
@@ -181,10 +178,10 @@ static cli_exit examine(const friction_run *run, const rb_friction_problem *p, f
         fprintf(stderr, "rollbem: %s: note: W is not symmetric (|W - W'| is %.2g of |W|)\n",
                 r->file, r->facts.asymmetry);
     if (r->facts.indefinite)
-        fprintf(stderr,
-                "rollbem: %s: note: W is indefinite: a solution may not exist or may not "
-                "be unique\n",
-                r->file);
+        fprintf(
+            stderr,
+            "rollbem: %s: note: W is indefinite: a solution may not exist or may not be unique\n",
+            r->file);
     return CLI_OK;
 }
 
@@ -255,11 +252,11 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
         double least, given;
         if (code == CLI_UNSOLVED && rb_friction_has_no_solution(&p, &least, &given)) {
             r->status = "infeasible";
-            fprintf(stderr,
-                    "rollbem: %s: note: no solution exists: reactions that prevent penetration "
-                    "at all contacts would need a sum W_NN r_N of at least %.2g, but |q| adds up "
-                    "to %.2g\n",
-                    r->file, least, given);
+            fprintf(
+                stderr,
+                "rollbem: %s: note: no solution exists: reactions that prevent penetration at all "
+                "contacts would need a sum W_NN r_N of at least %.2g, but |q| adds up to %.2g\n",
+                r->file, least, given);
         }
         if (p.lengths) {
             /* Rolling contacts are solved as two contacts each and told as one of five
@@ -364,9 +361,8 @@ static cli_exit solve_file(void *context, const char *path)
 
 /* ---- Command ---------------------------------------------------------------------- */
 
-static const char conventions[] =
-    "[N, T...] per contact, u = W r + q, uhat = u + mu ||u_T|| N, K* contains "
-    "uhat, complementary to r in K";
+static const char conventions[] = "[N, T...] per contact, u = W r + q, uhat = u + mu ||u_T|| N, K* "
+                                  "contains uhat, complementary to r in K";
 
 int cli_friction(int argc, char **argv)
 {
@@ -395,12 +391,13 @@ int cli_friction(int argc, char **argv)
     if (code == CLI_CONTINUE) {
         friction_run run = {
             .files = {.style = &o.style,
-                      .columns = o.solution ? "file i r u"
-                                 : o.facts  ? "file solver status contacts dimension iterations "
-                                              "residual floor seconds scaled rank "
-                                              "hyperstaticity nullity asymmetry indefinite"
-                                            : "file solver status contacts dimension iterations "
-                                              "residual floor seconds scaled",
+                      .columns =
+                          o.solution ? "file i r u"
+                          : o.facts
+                              ? "file solver status contacts dimension iterations residual floor "
+                                "seconds scaled rank hyperstaticity nullity asymmetry indefinite"
+                              : "file solver status contacts dimension iterations residual floor "
+                                "seconds scaled",
                       .conventions = conventions,
                       .solve = solve_file,
                       .context = &run},

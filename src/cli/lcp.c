@@ -45,10 +45,10 @@ static const rb_option options[] = {
     RB_FLAG_LINE("game", PLACE(game),
                  "FILE holds a bimatrix game: m, n, the m rows of A, the m rows of B"),
     RB_GROUP_LINE("solver", "Solver"),
-    RB_CHOICE_LINE("solver", PLACE(solver), solvers,
-                   "auto: all methods in turns, first the one that suits the structure "
-                   "of M; lemke: with a tableau; lemke-sparse: with a sparse LU, also "
-                   "for bounds; newton: see above"),
+    RB_CHOICE_LINE(
+        "solver", PLACE(solver), solvers,
+        "auto: all methods in turns, first the one that suits the structure of M; lemke: with a "
+        "tableau; lemke-sparse: with a sparse LU, also for bounds; newton: see above"),
     RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
                    "tolerance of the scaled residual: see below"),
     RB_INTEGER_LINE("max-pivots", PLACE(max_pivots), RB_FROM_TO(1, 1e9),
@@ -77,40 +77,32 @@ static const rb_option options[] = {
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
 static const char about[] =
-    "Solves linear complementarity problems z >= 0, w = M z + q >= 0, z'w = 0 by Lemke's "
-    "method\n"
+    "Solves linear complementarity problems z >= 0, w = M z + q >= 0, z'w = 0 by Lemke's method\n"
     "(any matrix) and block principal pivoting (newton: sparse, sure for P-matrices).\n"
     "FILE: plain text: n, the n rows of M, q (# starts a comment), such as\n"
     "    2\n"
     "    2 1   1 2   -5 -6\n"
-    "or the text format of Siconos, or M in Matrix Market with q in --q FILE; - is "
-    "standard input.\n"
-    "With --lower and --upper z lies in a box, w >= 0 at its lower end, <= 0 at its "
-    "upper one,\n"
-    "0 in between. --game: an equilibrium of a bimatrix game by Lemke and Howson's "
-    "method.";
+    "or the text format of Siconos, or M in Matrix Market with q in --q FILE; - is standard "
+    "input.\n"
+    "With --lower and --upper z lies in a box, w >= 0 at its lower end, <= 0 at its upper one,\n"
+    "0 in between. --game: an equilibrium of a bimatrix game by Lemke and Howson's method.";
 
 static const char notes[] =
-    "One row per file: its name, status, n, pivots, residual max |min(z, w)| recomputed "
-    "from z,\n"
-    "seconds, scaled residual, the solver that gave the answer. The scaled residual "
-    "decides: each row's residual\n"
-    "as a part of its own terms |M| |z| + |q|, so that no units of rows and columns "
-    "change "
-    "it. With --trace,\n"
-    "--solution or --all these stand in # lines. newton counts linear systems, auto sums "
-    "those of all methods that\n"
-    "had a turn, --all counts bases. Pivots name the variables w(1) ... w(n), z(1) ... "
-    "z(n) "
-    "and the\n"
-    "artificial z0. Of a game z holds the probabilities of the row and then of the "
-    "column\n"
+    "One row per file: its name, status, n, pivots, residual max |min(z, w)| recomputed from z,\n"
+    "seconds, scaled residual, the solver that gave the answer. The scaled residual decides: each "
+    "row's residual\n"
+    "as a part of its own terms |M| |z| + |q|, so that no units of rows and columns change it. "
+    "With --trace,\n"
+    "--solution or --all these stand in # lines. newton counts linear systems, auto sums those of "
+    "all methods that\n"
+    "had a turn, --all counts bases. Pivots name the variables w(1) ... w(n), z(1) ... z(n) and "
+    "the\n"
+    "artificial z0. Of a game z holds the probabilities of the row and then of the column\n"
     "strategies, w what each loses against the best reply.\n"
     "After a file that fails the others are still solved.\n"
-    "Exit codes, the largest of all files: 0 solved; 1 secondary ray, iteration limit, "
-    "no solution\n"
-    "or residual above the tolerance; 64 wrong command line; 65 malformed file; 66 no "
-    "such file;\n"
+    "Exit codes, the largest of all files: 0 solved; 1 secondary ray, iteration limit, no "
+    "solution\n"
+    "or residual above the tolerance; 64 wrong command line; 65 malformed file; 66 no such file;\n"
     "70 internal; 73 cannot write.\n";
 
 typedef struct {
@@ -258,8 +250,8 @@ static cli_exit say_all(const lcp_options *o, lcp_result *r, const rb_lcp_soluti
     r->info.iters = all->bases;
     if (all->singular)
         fprintf(stderr,
-                "rollbem: %s: note: %d of %d complementary bases are singular: solutions "
-                "that belong to these only are not listed\n",
+                "rollbem: %s: note: %d of %d complementary bases are singular: solutions that "
+                "belong to these only are not listed\n",
                 r->file, all->singular, all->bases);
     if (all->count)
         return say_end(o, r, RB_OK);
@@ -485,8 +477,8 @@ static cli_exit solve_file(void *context, const char *path)
 /* ---- Command ---------------------------------------------------------------------- */
 
 static const char conventions[] =
-    "z >= 0, w = M z + q >= 0, z'w = 0; bounds: w >= 0 at the lower, <= 0 at the upper "
-    "one; games: z probabilities, w the loss of a strategy";
+    "z >= 0, w = M z + q >= 0, z'w = 0; bounds: w >= 0 at the lower, <= 0 at the upper one; games: "
+    "z probabilities, w the loss of a strategy";
 
 /* Options that ask for what the other method does. */
 static cli_exit check_options(const lcp_options *o)
@@ -494,25 +486,25 @@ static cli_exit check_options(const lcp_options *o)
     const int path = o->trace || o->cover || o->rule;
     const int vectors = o->lower || o->upper || o->start || o->cover;
     if (o->solver == NEWTON && path)
-        return cli_fail(CLI_USAGE, "lcp: --trace, --cover and --rule belong to Lemke's "
-                                   "method: not with --solver newton");
+        return cli_fail(
+            CLI_USAGE,
+            "lcp: --trace, --cover and --rule belong to Lemke's method: not with --solver newton");
     if (o->solver == NEWTON && (o->lower || o->upper))
         return cli_fail(CLI_USAGE,
                         "lcp: --lower and --upper need Lemke's method: not with --solver newton");
     if (o->trace && o->solution && !is_json(o))
-        return cli_fail(CLI_USAGE, "lcp: --trace and --solution are two tables: one of "
-                                   "them, or both with --json");
+        return cli_fail(
+            CLI_USAGE,
+            "lcp: --trace and --solution are two tables: one of them, or both with --json");
     if (o->all && (path || o->start || o->solver || o->max_pivots))
-        return cli_fail(CLI_USAGE,
-                        "lcp: --all tries every basis: not with --solver, --start, --cover, "
-                        "--rule, --trace or --max-pivots");
+        return cli_fail(CLI_USAGE, "lcp: --all tries every basis: not with --solver, --start, "
+                                   "--cover, --rule, --trace or --max-pivots");
     if (o->game && (vectors || o->q || o->solver || o->rule))
-        return cli_fail(CLI_USAGE,
-                        "lcp: --game reads A and B alone: not with --q, --lower, --upper, "
-                        "--start, --cover, --solver or --rule");
+        return cli_fail(CLI_USAGE, "lcp: --game reads A and B alone: not with --q, --lower, "
+                                   "--upper, --start, --cover, --solver or --rule");
     if (o->label && (!o->game || o->all))
-        return cli_fail(CLI_USAGE, "lcp: --label belongs to Lemke and Howson's method: "
-                                   "only with --game and without --all");
+        return cli_fail(CLI_USAGE, "lcp: --label belongs to Lemke and Howson's method: only with "
+                                   "--game and without --all");
     return CLI_CONTINUE;
 }
 

@@ -69,8 +69,7 @@ static cli_exit read_page(const char *given, built_page *p)
     }
     if (!path)
         return cli_fail(CLI_NOINPUT, "page: rollbem.html is neither beside the program nor in "
-                                     "share/rollbem; `make page` builds it, --page FILE "
-                                     "names it");
+                                     "share/rollbem; `make page` builds it, --page FILE names it");
     const rb_status s = rb_io_read_text(path, &p->text, &size, &why);
     if (s != RB_OK)
         return cli_say(s, &why);

@@ -65,15 +65,13 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
         const int last = step + 1 == steps;
         const int is_long = now - w->start >= 1.0 || asked->progress;
         if (is_long && (now - w->shown >= pause || last)) {
-            fprintf(stderr,
-                    "%sstep %d of %d: distance %.4g a, xi = %.4g, Q = %.4g %s, %.0f "
-                    "s left%s",
-                    asked->terminal ? "\r" : "", step + 1, steps, history->distance[step],
-                    history->creepage[step],
-                    rb_unit_shown(w->units, "N/mm", history->tangential_load[step]),
-                    rb_unit_name(w->units, "N/mm"),
-                    (now - w->start) / (step + 1) * (steps - step - 1),
-                    asked->terminal && !last ? "\033[K" : "\n");
+            fprintf(
+                stderr, "%sstep %d of %d: distance %.4g a, xi = %.4g, Q = %.4g %s, %.0f s left%s",
+                asked->terminal ? "\r" : "", step + 1, steps, history->distance[step],
+                history->creepage[step],
+                rb_unit_shown(w->units, "N/mm", history->tangential_load[step]),
+                rb_unit_name(w->units, "N/mm"), (now - w->start) / (step + 1) * (steps - step - 1),
+                asked->terminal && !last ? "\033[K" : "\n");
             w->shown = now;
             cli_wait_rest();
         }

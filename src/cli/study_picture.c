@@ -104,8 +104,7 @@ cli_exit cli_study_prepare_pictures(study *st)
     if (!cli_study_has_pictures(st))
         return o->show || o->over || o->family
                    ? cli_fail(CLI_USAGE,
-                              "--%s: there is no picture; --plot FILE or --map FILE asks "
-                              "for one",
+                              "--%s: there is no picture; --plot FILE or --map FILE asks for one",
                               o->show   ? "show"
                               : o->over ? "over"
                                         : "family")

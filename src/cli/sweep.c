@@ -20,8 +20,8 @@
 static const rb_option options[] = {
     RB_GROUP_LINE("sweep", "Study"),
     RB_TEXT_LINE("vary-1", PLACE(vary[0]), "SPEC",
-                 "an option of numbers and its values: 'mu 0.1 0.2 0.3', "
-                 "'creep-ratio 0:1.5:31' (first, last, how many), 'load 1:1e4:9:log'",
+                 "an option of numbers and its values: 'mu 0.1 0.2 0.3', 'creep-ratio 0:1.5:31' "
+                 "(first, last, how many), 'load 1:1e4:9:log'",
                  .unset = "none"),
     RB_TEXT_LINE("vary-2", PLACE(vary[1]), "SPEC", "a second one: every combination is a case",
                  .unset = "none"),
@@ -30,23 +30,22 @@ static const rb_option options[] = {
     RB_TEXT_LINE("cases", PLACE(cases), "FILE",
                  "a case per row; the columns are named like the options", .unset = "none",
                  .file = RB_FILE_READ),
-    RB_INTEGER_LINE(
-        "sample", PLACE(sample), RB_FROM_TO(0, 1000000),
-        "number of random cases whose inputs scatter by --tolerance (a Latin hypercube "
-        "of normal distributions); prints mean and standard deviation of each result to "
-        "standard error; a sample with invalid inputs counts as not solved"),
+    RB_INTEGER_LINE("sample", PLACE(sample), RB_FROM_TO(0, 1000000),
+                    "number of random cases whose inputs scatter by --tolerance (a Latin hypercube "
+                    "of normal distributions); prints mean and standard deviation of each result "
+                    "to standard error; a sample with invalid inputs counts as not solved"),
     RB_TEXT_LINE("tolerance", PLACE(tolerance), "NAME=X,...",
                  "their standard deviations, as mu=0.02,radius=1%", .unset = "none"),
     RB_INTEGER_LINE("seed", PLACE(seed), RB_FROM_TO(0, 1000000000),
                     "of the sample: the same seed gives the same cases"),
-    RB_TEXT_LINE("results", PLACE(results), "A,B,...",
-                 "further results, by their names in JSON's `summary` or `maxima`: "
-                 "stick_length, contact_from, max_shear, von_mises, max_shear_y, ...; "
-                 "those of cracks come by themselves",
-                 .unset = "none"),
+    RB_TEXT_LINE(
+        "results", PLACE(results), "A,B,...",
+        "further results, by their names in JSON's `summary` or `maxima`: stick_length, "
+        "contact_from, max_shear, von_mises, max_shear_y, ...; those of cracks come by themselves",
+        .unset = "none"),
     RB_TEXT_LINE("derivatives", PLACE(derivatives), "RESULT,...",
-                 "columns with the derivatives of these results in every case, with "
-                 "respect to all numbers, or RESULT:OPTION to one",
+                 "columns with the derivatives of these results in every case, with respect to all "
+                 "numbers, or RESULT:OPTION to one",
                  .unset = "none", .alone = "all"),
     RB_TEXT_LINE("plot", PLACE(plot), "FILE",
                  "picture of a result over an option that varies: .png, .svg or .pdf",
@@ -64,9 +63,9 @@ static const rb_option options[] = {
     CLI_PICTURE_LINES(PLACE(pictures)),
     CLI_STYLE_LINES(PLACE(style)),
     RB_TEXT_LINE("output", PLACE(output), "FILE",
-                 "file for the rows, written as they are computed; if it already has the "
-                 "first rows of this study, the study continues from there (a table with "
-                 "tabs; other formats are written completely at the end)",
+                 "file for the rows, written as they are computed; if it already has the first "
+                 "rows of this study, the study continues from there (a table with tabs; other "
+                 "formats are written completely at the end)",
                  .unset = "standard output", .file = RB_FILE_WRITTEN),
     RB_FLAG_LINE("restart", PLACE(restart), "start again and overwrite the output file"),
     RB_INTEGER_LINE("jobs", PLACE(jobs), RB_FROM_TO(0, 256),
@@ -92,8 +91,7 @@ static const char about[] =
     "\n" CLI_CASE_SIGNS;
 
 static const char notes[] = CLI_CASE_NOTES
-    "Columns: case, the varied options, status (0 solved), then results and, with "
-    "--error,\n"
+    "Columns: case, the varied options, status (0 solved), then results and, with --error,\n"
     "their error bars.\n"
     "Example: rollbem sweep --similar --support halfplane --formulation steady \\\n"
     "           --load 500 --vary-1 'mu 0.1 0.3' --vary-2 'creep-ratio 0:1.5:31'\n"
@@ -318,8 +316,8 @@ static void write_head(const study *st, FILE *out)
     rb_report_cells_end_row(&c);
     rb_report_comment_origin(&c, cli_command_line());
     rb_report_comment(&c, "study %016" PRIx64 " of %d cases", st->fingerprint, st->cases);
-    rb_report_comment(&c, "status 0: solved. xi > 0: A's surface slides towards +x, the "
-                          "friction on A points to -x, Q < 0");
+    rb_report_comment(&c, "status 0: solved. xi > 0: A's surface slides towards +x, the friction "
+                          "on A points to -x, Q < 0");
 }
 
 /* A case that was not solved shows in the exit code. */
@@ -510,10 +508,10 @@ static cli_exit resume(study *st)
     while (code == CLI_CONTINUE && (n = getline(&line, &capacity, st->out)) > 0 &&
            line[n - 1] == '\n') {
         if (st->first == st->cases || !is_row(st, st->first, line, (size_t)n))
-            code = cli_fail(CLI_CANTWRITE,
-                            "%s:%d: not the row of case %d of this study; --restart would "
-                            "overwrite the file",
-                            st->path, HEAD_LINES + st->first + 1, st->first + 1);
+            code = cli_fail(
+                CLI_CANTWRITE,
+                "%s:%d: not the row of case %d of this study; --restart would overwrite the file",
+                st->path, HEAD_LINES + st->first + 1, st->first + 1);
         st->first++;
         st->whole = ftell(st->out);
     }

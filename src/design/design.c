@@ -539,8 +539,7 @@ rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer, 
         d->variable[j].value = p.best[j];
     if (s == RB_OK && !(p.best_value < INFINITY))
         s = rb_fail(why, RB_INACCURATE,
-                    "design: no values within the bounds were found that satisfy all "
-                    "constraints");
+                    "design: no values within the bounds were found that satisfy all constraints");
     d->status = s;
     free(p.x);
     free(p.value);

@@ -132,10 +132,7 @@ static void read_text(io_tokens *t, rb_io_lcp *p)
     p->q = rb_io_tokens_alloc(t, (size_t)n, 1, "q");
     rb_io_tokens_reals(t, (size_t)n, p->q, "q");
     if (t->status == RB_OK && rb_io_tokens_more(t))
-        rb_io_tokens_fail(t,
-                          "expected the end of the file after n, n rows of M and q "
-                          "(n = %d)",
-                          n);
+        rb_io_tokens_fail(t, "expected the end of the file after n, n rows of M and q (n = %d)", n);
 }
 
 rb_status rb_io_lcp_read(const char *path, const char *q_path, rb_io_lcp *p, rb_message *why)
@@ -145,8 +142,8 @@ rb_status rb_io_lcp_read(const char *path, const char *q_path, rb_io_lcp *p, rb_
     rb_io_tokens_open(path, &t, why);
     if (is_market(&t)) {
         if (!q_path) {
-            rb_io_tokens_fail(&t, "a Matrix Market file holds M alone: q is wanted from a "
-                                  "file of its own (--q)");
+            rb_io_tokens_fail(
+                &t, "a Matrix Market file holds M alone: q is wanted from a file of its own (--q)");
         } else {
             rb_io_read_matrix_market(&t, &p->M);
             if (t.status == RB_OK && p->M.rows != p->M.cols)

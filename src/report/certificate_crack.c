@@ -435,8 +435,8 @@ static void check_node(assessment *j, int k, int i)
         off = fmax(off, fabs(qs - fmax(-most, fmin(most, qs - ls))));
     if (!(off <= TOLERANCE))
         rb_certificate_violated(&j->c,
-                                "faces: node %d: opening %.3g, pressure force %.3g, "
-                                "friction force %.3g, slip %.3g (off by %.2g)",
+                                "faces: node %d: opening %.3g, pressure force %.3g, friction force "
+                                "%.3g, slip %.3g (off by %.2g)",
                                 i + 1, gap, p, q, slip, off);
     if ((zone == RB_ZONE_SEPARATED) != (p <= TOLERANCE * force) ||
         (zone == RB_ZONE_SLIP_NEGATIVE && fabs(qs + most) > TOLERANCE) ||
@@ -477,10 +477,9 @@ static void check_fluid(assessment *j, int k)
     else if (!follows_closing(j, k)) /* there it is that of the place in between */
         rb_certificate_expect(&j->c, "faces.fluid_volume_mm2", 0, V, before, 0.0);
     if (p_f < 0.0 || volume < V - slack || (p_f > 0.0 && fabs(volume - V) > slack))
-        rb_certificate_violated(&j->c,
-                                "fluid: pressure %.3g, volume of the crack %.17g, of the "
-                                "fluid %.17g",
-                                p_f, volume, V);
+        rb_certificate_violated(
+            &j->c, "fluid: pressure %.3g, volume of the crack %.17g, of the fluid %.17g", p_f,
+            volume, V);
 }
 
 /* Everything that is printed of step k against what was computed. */
@@ -610,8 +609,8 @@ rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root, 
         json_t *hash = rb_report_json_crack_hash(words, &j.crack);
         s = hash ? rb_case_crack_check(j.resolved, &j.crack, why) : RB_ENOMEM;
         if (s == RB_OK && !json_equal(hash, json_object_get(root, "input_hash")))
-            rb_certificate_violated(&j.c, "inputs, or a file that they name, are not those "
-                                          "of the result (input_hash)");
+            rb_certificate_violated(
+                &j.c, "inputs, or a file that they name, are not those of the result (input_hash)");
         json_decref(hash);
     }
     if (s == RB_OK)

@@ -31,9 +31,8 @@ rb_status rb_certificate_head(const char *name, const json_t *root, const char *
     if (!json_is_object(inputs) || !json_is_object(summary) ||
         !json_is_object(json_object_get(root, "table")))
         return rb_certificate_refuse(name,
-                                     "inputs, summary or table is missing (only single "
-                                     "cases, histories, stress and "
-                                     "cracks without error bars can be)",
+                                     "inputs, summary or table is missing (only single cases, "
+                                     "histories, stress and cracks without error bars can be)",
                                      why);
     if (json_is_true(json_object_get(inputs, "error")) || json_object_get(summary, "errors") ||
         json_is_number(json_object_get(inputs, "accuracy")))
@@ -73,9 +72,9 @@ static rb_status check_kind(const char *name, const json_t *root, rb_message *wh
         return rb_certificate_refuse(
             name,
             json_object_get(root, "maxima")
-                ? "its last state depends on the steps before it, which `rollbem stress` "
-                  "does not print: check the contact alone, by the same case without "
-                  "`stress`, with --json --states"
+                ? "its last state depends on the steps before it, which `rollbem stress` does not "
+                  "print: check the contact alone, by the same case without `stress`, with --json "
+                  "--states"
                 : "its last state depends on the steps before it: take --states",
             why);
     return RB_OK;
@@ -240,8 +239,8 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root, rb_
         json_t *now = rb_report_json_input_hash(words);
         s = now ? RB_OK : RB_ENOMEM;
         if (now && !json_equal(now, json_object_get(root, "input_hash")))
-            rb_certificate_violated(&c, "inputs, or a file that they name, are not those of the "
-                                        "result (input_hash)");
+            rb_certificate_violated(
+                &c, "inputs, or a file that they name, are not those of the result (input_hash)");
         json_decref(now);
     }
     if (s == RB_OK && history)

@@ -20,43 +20,42 @@ static const struct {
     const char *text;
 } papers[] = {
     {1, STATIC,
-     "K. Addi, S. Adly, D. Goeleven, M. Thera, A nonsymmetric linear complementarity "
-     "problem to solve a quasistatic rolling frictional contact problem, J. Nonlinear "
-     "Convex Anal. 7 (2006) 315-324."},
+     "K. Addi, S. Adly, D. Goeleven, M. Thera, A nonsymmetric linear complementarity problem to "
+     "solve a quasistatic rolling frictional contact problem, J. Nonlinear Convex Anal. 7 (2006) "
+     "315-324."},
     {2, HALFPLANE, "K. L. Johnson, Contact Mechanics, Cambridge University Press, 1985."},
     {3, ALWAYS,
-     "B. M. Kwak, S. S. Lee, A complementarity problem formulation for two-dimensional "
-     "frictional contact problems, Computers & Structures 28 (1988) 469-480. A. "
-     "Klarbring, G. Bjorkman, A mathematical programming approach to contact problems "
-     "with friction and varying contact surface, Computers & Structures 30 (1988) "
-     "1185-1198."},
+     "B. M. Kwak, S. S. Lee, A complementarity problem formulation for two-dimensional frictional "
+     "contact problems, Computers & Structures 28 (1988) 469-480. A. Klarbring, G. Bjorkman, A "
+     "mathematical programming approach to contact problems with friction and varying contact "
+     "surface, Computers & Structures 30 (1988) 1185-1198."},
     {4, LEMKE,
-     "R. W. Cottle, J.-S. Pang, R. E. Stone, The Linear Complementarity Problem, "
-     "Academic Press, 1992."},
+     "R. W. Cottle, J.-S. Pang, R. E. Stone, The Linear Complementarity Problem, Academic Press, "
+     "1992."},
     {5, LEMKE,
-     "C. E. Lemke, Bimatrix equilibrium points and mathematical programming, Management "
-     "Science 11 (1965) 681-689."},
+     "C. E. Lemke, Bimatrix equilibrium points and mathematical programming, Management Science 11 "
+     "(1965) 681-689."},
     {7, CARTER,
-     "F. W. Carter, On the action of a locomotive driving wheel, Proc. R. Soc. London A "
-     "112 (1926) 151-157."},
+     "F. W. Carter, On the action of a locomotive driving wheel, Proc. R. Soc. London A 112 (1926) "
+     "151-157."},
     {10, DISSIMILAR,
-     "R. H. Bentall, K. L. Johnson, Slip in the rolling contact of two dissimilar "
-     "elastic rollers, Int. J. Mech. Sci. 9 (1967) 389-404."},
+     "R. H. Bentall, K. L. Johnson, Slip in the rolling contact of two dissimilar elastic rollers, "
+     "Int. J. Mech. Sci. 9 (1967) 389-404."},
     {11, ROLLS,
-     "J. J. Kalker, Three-Dimensional Elastic Bodies in Rolling Contact, Kluwer, 1990: "
-     "transient and steady rolling, CONTACT."},
+     "J. J. Kalker, Three-Dimensional Elastic Bodies in Rolling Contact, Kluwer, 1990: transient "
+     "and steady rolling, CONTACT."},
     {12, WHEEL,
-     "C. A. Brebbia, J. Dominguez, Boundary Elements: An Introductory Course, "
-     "Computational Mechanics Publications and McGraw-Hill, 1989: Kelvin's solution, "
-     "Somigliana's identity, constant elements."},
+     "C. A. Brebbia, J. Dominguez, Boundary Elements: An Introductory Course, Computational "
+     "Mechanics Publications and McGraw-Hill, 1989: Kelvin's solution, Somigliana's identity, "
+     "constant elements."},
     {13, ALWAYS,
-     "W. Thomson (Lord Kelvin), Note on the integration of the equations of equilibrium "
-     "of an elastic solid, Cambridge and Dublin Math. J. 3 (1848) 87-89. A. Flamant, Sur "
-     "la repartition des pressions dans un solide rectangulaire charge transversalement, "
-     "C. R. Acad. Sci. Paris 114 (1892) 1465-1468."},
+     "W. Thomson (Lord Kelvin), Note on the integration of the equations of equilibrium of an "
+     "elastic solid, Cambridge and Dublin Math. J. 3 (1848) 87-89. A. Flamant, Sur la repartition "
+     "des pressions dans un solide rectangulaire charge transversalement, C. R. Acad. Sci. Paris "
+     "114 (1892) 1465-1468."},
     {14, PRESSED,
-     "D. A. Spence, The Hertz contact problem with finite friction, J. Elasticity 5 "
-     "(1975) 297-319."},
+     "D. A. Spence, The Hertz contact problem with finite friction, J. Elasticity 5 (1975) "
+     "297-319."},
 };
 
 void rb_report_citations(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s)

@@ -11,13 +11,12 @@ static rb_report_columns columns_of(const rb_case_crack_result *r)
     return (rb_report_columns){&rb_case_crack_columns, &r->history, 0, r->units};
 }
 
-static const char sign_of_K[] =
-    "crack in B: K_I >= 0 opens it, K_II > 0: the face above it slides towards the tip; "
-    "x: where the contact stands";
+static const char sign_of_K[] = "crack in B: K_I >= 0 opens it, K_II > 0: the face above it slides "
+                                "towards the tip; x: where the contact stands";
 
 static const char about_growth[] =
-    "growth: a row per length of the crack; cycles: passes until it has that length; "
-    "sharp tip, linear elasticity, no wear of the mouth";
+    "growth: a row per length of the crack; cycles: passes until it has that length; sharp tip, "
+    "linear elasticity, no wear of the mouth";
 
 /* A crack that grows: its lengths; otherwise the positions of the contact. */
 rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r, const char *command,
@@ -238,9 +237,7 @@ static void write_zone_key(FILE *out, rb_report_canvas canvas, int open)
                  {RB_ZONE_SLIP_POSITIVE, 0.78, 0.53, "■ slip back"}};
     const int titled = rb_report_place_of(canvas).titled;
     for (size_t k = open ? 0 : 1; k < sizeof zones / sizeof *zones; k++)
-        fprintf(out,
-                "set label %d '%s' at screen %g, 0.025 left textcolor rgb '%s' font "
-                "',%.3g'\n",
+        fprintf(out, "set label %d '%s' at screen %g, 0.025 left textcolor rgb '%s' font ',%.3g'\n",
                 (int)k + 3, zones[k].name, titled ? zones[k].x : zones[k].in_column,
                 rb_report_zone_colour(zones[k].zone, 0), rb_report_key_font(canvas));
 }
@@ -292,8 +289,8 @@ static void write_title(FILE *out, const view *v, rb_report_place place)
     const double dx = path->x[path->pieces] - path->x[0], dy = path->y[0] - path->y[path->pieces];
     if (place.titled)
         fprintf(out,
-                "set label 1 '{/:Bold Crack}   length %.4g a, %.4g° to the surface, "
-                "friction %.3g,  a = %.4g %s' at screen 0.54, 0.972 center\n",
+                "set label 1 '{/:Bold Crack}   length %.4g a, %.4g° to the surface, friction %.3g, "
+                " a = %.4g %s' at screen 0.54, 0.972 center\n",
                 hypot(dx, dy) / rb_unit_stored(r->units, "mm", r->half_width),
                 atan2(dy, dx) * 180.0 / 3.14159265358979, r->shape.friction, r->half_width,
                 rb_unit_name(r->units, "mm"));
@@ -318,11 +315,10 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
     fprintf(out,
             "set multiplot\nset lmargin at screen %g\nset rmargin at screen %g\n"
             "set tmargin at screen %g\nset bmargin at screen %g\n" RB_REPORT_GRID
-            "set format x ''\nset xrange [%.9g:%.9g]\nset offsets 0,0,graph 0.08,graph "
-            "0.08\nset zeroaxis linecolor rgb '#999999' linewidth 0.6\n"
-            "set key at screen 0.965, %g right horizontal maxrows 1 samplen 2 font "
-            "',%.3g'\nset label 2 'K  [%s]' at screen 0.03, %g center "
-            "rotate\n",
+            "set format x ''\nset xrange [%.9g:%.9g]\nset offsets 0,0,graph 0.08,graph 0.08\nset "
+            "zeroaxis linecolor rgb '#999999' linewidth 0.6\n"
+            "set key at screen 0.965, %g right horizontal maxrows 1 samplen 2 font ',%.3g'\nset "
+            "label 2 'K  [%s]' at screen 0.03, %g center rotate\n",
             0.14 + place.right,
             !wet           ? 0.965
             : place.titled ? 0.89
@@ -332,13 +328,13 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
             rb_report_raised(rb_unit_name(r->units, "MPa.mm^0.5"), unit), 0.68);
     if (wet)
         fprintf(out,
-                "set y2tics\nset y2label 'fluid  [%s]' offset -0.5,0\nset ytics "
-                "nomirror\nset y2range [0:%.9g]\n",
+                "set y2tics\nset y2label 'fluid  [%s]' offset -0.5,0\nset ytics nomirror\nset "
+                "y2range [0:%.9g]\n",
                 rb_unit_name(r->units, "MPa"), 1.15 * r->summary.fluid_pressure_max);
-    fputs("plot $K using 1:2 with lines linecolor rgb '#c0392b' linewidth 2.4 title "
-          "'K_{I}', $K using 1:3 with lines linecolor rgb '#1f4e79' dashtype (10,3) "
-          "linewidth 2.4 title 'K_{II}'",
-          out);
+    fputs(
+        "plot $K using 1:2 with lines linecolor rgb '#c0392b' linewidth 2.4 title 'K_{I}', $K "
+        "using 1:3 with lines linecolor rgb '#1f4e79' dashtype (10,3) linewidth 2.4 title 'K_{II}'",
+        out);
     if (wet)
         fputs(", $K using 1:4 axes x1y2 with lines linecolor rgb '#27ae60' dashtype (3,3) "
               "linewidth 1.6 title 'fluid'",
@@ -353,8 +349,8 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
             0.16 + place.up, rb_report_round_step(along / 4.0), place.titled ? " the crack" : "",
             0.3 + 0.5 * place.up);
     write_zone_key(out, canvas, 1);
-    fputs("plot $zones using 1:2:3:4:5 with boxxyerror fillstyle solid noborder "
-          "linecolor rgb variable notitle",
+    fputs("plot $zones using 1:2:3:4:5 with boxxyerror fillstyle solid noborder linecolor rgb "
+          "variable notitle",
           out);
     fputs("\nunset multiplot\n", out);
 }
@@ -387,12 +383,11 @@ static void write_orbit(FILE *out, rb_report_canvas canvas, const void *context)
                    0.92 + place.up);
     fprintf(out,
             RB_REPORT_GRID
-            "set offsets graph 0.06,graph 0.06,graph 0.06,graph 0.06\nset zeroaxis "
-            "linecolor rgb '#999999' linewidth 0.6\nset xlabel 'K_{I}  [%s]'\nset ylabel "
-            "'K_{II}  [%s]'\nset cblabel 'position of the contact / a' offset 1,0\nunset "
-            "key\n" RB_REPORT_PALETTE
-            "plot $K using 2:3:1 with lines palette linewidth 2.2, $K using 2:3:1 with "
-            "points palette pointtype 7 pointsize 0.6\n",
+            "set offsets graph 0.06,graph 0.06,graph 0.06,graph 0.06\nset zeroaxis linecolor rgb "
+            "'#999999' linewidth 0.6\nset xlabel 'K_{I}  [%s]'\nset ylabel 'K_{II}  [%s]'\nset "
+            "cblabel 'position of the contact / a' offset 1,0\nunset key\n" RB_REPORT_PALETTE
+            "plot $K using 2:3:1 with lines palette linewidth 2.2, $K using 2:3:1 with points "
+            "palette pointtype 7 pointsize 0.6\n",
             K, K);
 }
 
@@ -457,11 +452,9 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
     }
     if (place.titled)
         fprintf(out,
-                "set label 1 '{/:Bold Crack}   contact at x = %.4g a,  displacement of "
-                "the faces "
-                "x %.3g' at screen 0.54, 0.972 center\n"
-                "set label 2 'K_{I} = %.4g,  K_{II} = %.4g %s' at screen 0.54, 0.935 "
-                "center\n",
+                "set label 1 '{/:Bold Crack}   contact at x = %.4g a,  displacement of the faces x "
+                "%.3g' at screen 0.54, 0.972 center\n"
+                "set label 2 'K_{I} = %.4g,  K_{II} = %.4g %s' at screen 0.54, 0.935 center\n",
                 h->x[k] / r->half_width, times, h->K_I[k], h->K_II[k],
                 rb_report_raised(rb_unit_name(r->units, "MPa.mm^0.5"), name));
     write_zone_key(out, canvas, 0);
@@ -484,26 +477,24 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
             "set xrange [%.9g:%.9g]\n"
             "set yrange [%.9g:%.9g]\nset xlabel 'x / a'\nset ylabel 'y / a'\nset xtics %g\n"
             "set ytics %g\n"
-            "set key at screen 0.965, %g right horizontal maxrows 1 samplen 2 font "
-            "',%.3g'\n"
-            "set object 1 rectangle from graph 0, first %.9g to graph 1, first 0 "
-            "fillcolor rgb '#eeeeee' fillstyle solid noborder behind\n",
+            "set key at screen 0.965, %g right horizontal maxrows 1 samplen 2 font ',%.3g'\n"
+            "set object 1 rectangle from graph 0, first %.9g to graph 1, first 0 fillcolor rgb "
+            "'#eeeeee' fillstyle solid noborder behind\n",
             from, to, bottom, 0.6 * margin, step, step, place.titled ? 0.041 : 0.085,
             rb_report_key_font(canvas), bottom);
     /* the contact above, where it is within the picture */
     fprintf(out,
-            "set object 2 rectangle from %.9g, 0 to %.9g, %.9g fillcolor rgb '#bbbbbb' "
-            "fillstyle solid noborder\n"
-            "plot 0 with lines linecolor rgb '#333333' linewidth 1.5 notitle, $face0 "
-            "using 1:2 with filledcurves closed linecolor rgb '#ffffff' notitle, $face1 "
-            "using 1:2 with filledcurves closed linecolor rgb '#ffffff' notitle",
+            "set object 2 rectangle from %.9g, 0 to %.9g, %.9g fillcolor rgb '#bbbbbb' fillstyle "
+            "solid noborder\n"
+            "plot 0 with lines linecolor rgb '#333333' linewidth 1.5 notitle, $face0 using 1:2 "
+            "with filledcurves closed linecolor rgb '#ffffff' notitle, $face1 using 1:2 with "
+            "filledcurves closed linecolor rgb '#ffffff' notitle",
             fmin(fmax(h->x[k] / r->half_width - 1.0, from), to),
             fmin(fmax(h->x[k] / r->half_width + 1.0, from), to), 0.15 * margin);
     for (int side = 0; side < 2; side++)
         fprintf(out,
-                ", $face%d using 1:2 with lines linecolor rgb '%s' linewidth 2 title '%s "
-                "face', $face%d using ($4 > 0 ? $1 : NaN):2:3 with points pointtype 7 "
-                "pointsize 1 "
+                ", $face%d using 1:2 with lines linecolor rgb '%s' linewidth 2 title '%s face', "
+                "$face%d using ($4 > 0 ? $1 : NaN):2:3 with points pointtype 7 pointsize 1 "
                 "linecolor rgb variable notitle",
                 side, side ? "#c0392b" : "#1f4e79", side ? "+" : "−", side);
     fputc('\n', out);

@@ -131,11 +131,11 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
             fprintf(out, "  error of M/(P R) <= %.1g (estimated from coarser meshes)\n",
                     largest(c->n, curves->error[k].resistance_ratio));
         else if (curves->has_errors)
-            fprintf(out,
-                    "  error of Q/(mu P) <= %.1g, of P <= %.1g %s (estimated from "
-                    "coarser meshes)\n",
-                    largest(c->n, curves->error[k].force_ratio),
-                    largest(c->n, curves->error[k].normal_load), rb_unit_name(c->units, "N/mm"));
+            fprintf(
+                out,
+                "  error of Q/(mu P) <= %.1g, of P <= %.1g %s (estimated from coarser meshes)\n",
+                largest(c->n, curves->error[k].force_ratio),
+                largest(c->n, curves->error[k].normal_load), rb_unit_name(c->units, "N/mm"));
         int points = 0, least = 0;
         for (int i = 0; i < c->n; i++) {
             points += rb_rolling_is_below_zero(c->dissipation[i], c->normal_load[i]);
@@ -148,11 +148,11 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                     rb_unit_name(c->units, "N/mm"), c->creepage[least], rb_rolling_below_zero);
         const int slides = !speeds && sliding < rising && curves->mu[k] > 0.0;
         if (slides && sliding > 0)
-            fprintf(out,
-                    "  full sliding begins between xi = %.5g and %.5g, xi R/(mu a) = %.4g "
-                    "and %.4g\n",
-                    c->creepage[sliding - 1], c->creepage[sliding], c->creep_ratio[sliding - 1],
-                    c->creep_ratio[sliding]);
+            fprintf(
+                out,
+                "  full sliding begins between xi = %.5g and %.5g, xi R/(mu a) = %.4g and %.4g\n",
+                c->creepage[sliding - 1], c->creepage[sliding], c->creep_ratio[sliding - 1],
+                c->creep_ratio[sliding]);
         else if (slides)
             fprintf(out, "  full sliding at every point\n");
     }
@@ -240,13 +240,12 @@ static void write_labels(FILE *out, const view *v, int titled)
     const rb_rolling_curve *c = &v->curves->curve[0];
     const int thick = rb_rolling_has_thickness(v->rc);
     if (titled) {
-        fprintf(out,
-                "set label 1 '{/:Bold %s}   P = %.5g %s,  %s = %.4g %s' "
-                "at screen 0.54, 0.972 center\n",
-                v->over == RB_OVER_SPEED ? "Rolling resistance" : "Creep curve",
-                c->normal_load[c->n - 1], rb_unit_name(c->units, "N/mm"),
-                thick ? "Hertz’s a of solid bodies" : "a", c->half_width,
-                rb_unit_name(c->units, "mm"));
+        fprintf(
+            out,
+            "set label 1 '{/:Bold %s}   P = %.5g %s,  %s = %.4g %s' at screen 0.54, 0.972 center\n",
+            v->over == RB_OVER_SPEED ? "Rolling resistance" : "Creep curve",
+            c->normal_load[c->n - 1], rb_unit_name(c->units, "N/mm"),
+            thick ? "Hertz’s a of solid bodies" : "a", c->half_width, rb_unit_name(c->units, "mm"));
         rb_report_label_bodies(out, v->rc, c->units, 0.54, 0.935);
     }
     if (v->over == RB_OVER_SPEED) {
@@ -277,8 +276,8 @@ static void write_heat(FILE *out, const view *v, rb_report_place place)
             most = fmax(most, v->curves->curve[k].max_temperature[i]);
         }
     fprintf(out,
-            "unset label\nunset key\nset tmargin at screen %g\nset bmargin at screen "
-            "%g\nset format x '%%g'\nset ylabel 'hottest  [K]' offset 1,0\n"
+            "unset label\nunset key\nset tmargin at screen %g\nset bmargin at screen %g\nset "
+            "format x '%%g'\nset ylabel 'hottest  [K]' offset 1,0\n"
             "set offsets 0,0,graph 0.08,graph 0.08\n",
             0.345 + place.up, 0.14 + place.up);
     if (most > least)
@@ -359,13 +358,13 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     fputs("plot ", out);
     for (int k = 0; k < v->curves->n && v->curves->has_errors; k++)
         fprintf(out,
-                "$curve%d using 1:($2-$3):($2+$3) with filledcurves linecolor rgb '%s' "
-                "fillstyle transparent solid 0.25 noborder %s, ",
+                "$curve%d using 1:($2-$3):($2+$3) with filledcurves linecolor rgb '%s' fillstyle "
+                "transparent solid 0.25 noborder %s, ",
                 k, rb_report_colour(k), k == 0 ? "title 'estimated error'" : "notitle");
     for (int k = 0; k < v->curves->n; k++)
         fprintf(out,
-                "%s$curve%d using 1:2 every ::0::%d with %s linecolor rgb '%s' "
-                "dashtype %s linewidth 2.6 title 'μ %s %g'",
+                "%s$curve%d using 1:2 every ::0::%d with %s linecolor rgb '%s' dashtype %s "
+                "linewidth 2.6 title 'μ %s %g'",
                 k > 0 ? ", " : "", k, v->curves->curve[k].rising - 1,
                 v->curves->curve[k].rising <= FEW ? "linespoints pointtype 7 pointsize 0.7"
                                                   : "lines",
@@ -375,14 +374,14 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     for (int k = 0; k < v->curves->n && back; k++)
         if (v->curves->curve[k].branch)
             fprintf(out,
-                    ", $curve%d using 1:2 every ::%d with lines linecolor rgb '%s' dashtype "
-                    "(2,3) linewidth 2.2 %s",
+                    ", $curve%d using 1:2 every ::%d with lines linecolor rgb '%s' dashtype (2,3) "
+                    "linewidth 2.2 %s",
                     k, v->curves->curve[k].rising, rb_report_colour(v->curves->n + k),
                     k == 0 ? "title 'on the way back'" : "notitle");
     for (int k = 0; k < v->curves->n && draws_carter(v); k++)
         fprintf(out,
-                ", $carter%d using 1:2 with points pointtype 6 pointsize %g linecolor "
-                "rgb '#111111' linewidth 1.1 %s",
+                ", $carter%d using 1:2 with points pointtype 6 pointsize %g linecolor rgb "
+                "'#111111' linewidth 1.1 %s",
                 k, 1.7 * rb_report_marker_scale(canvas), k == 0 ? "title 'Carter'" : "notitle");
     fputs("\n", out);
     if (has_heat(v))

@@ -58,27 +58,25 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
             place.titled ? 0.975 : 0.95, 1.005 * v->length);
     if (place.titled)
         fprintf(out,
-                "set label 1 '{/:Bold Bar pressed onto an obstacle and pushed from the "
-                "right} (Kanno, example 3.2)' at screen 0.535, 0.955 center\n"
-                "set label 2 'deformed mesh, displacements × %g;  end of the bar: %.4f "
-                "mm, %+.4f mm' at screen 0.535, 0.90 center textcolor rgb '#444444'\n",
+                "set label 1 '{/:Bold Bar pressed onto an obstacle and pushed from the right} "
+                "(Kanno, example 3.2)' at screen 0.535, 0.955 center\n"
+                "set label 2 'deformed mesh, displacements × %g;  end of the bar: %.4f mm, %+.4f "
+                "mm' at screen 0.535, 0.90 center textcolor rgb '#444444'\n",
                 magnify, end[0], end[1]);
     else
         fprintf(out,
-                "set xtics 100\nset label 2 'displacements × %g' at screen 0.58, 0.9 "
-                "center textcolor rgb '#444444'\n",
+                "set xtics 100\nset label 2 'displacements × %g' at screen 0.58, 0.9 center "
+                "textcolor rgb '#444444'\n",
                 magnify);
     fprintf(out,
             "set yrange [%g:%g]\nset ytics 0, %g\nset format x ''\nset ylabel 'y [mm]'\n"
             "set object rectangle from graph 0, graph 0 to graph 1, first 0 fillcolor rgb "
             "'#cfcfcf' fillstyle solid noborder behind\n"
-            "plot $mesh using 1:2 with lines linecolor rgb '#6f9fc8' linewidth 0.35 notitle, "
-            "$edge using 1:2 with lines linecolor rgb '#1f4e79' linewidth 1.2 notitle\n",
+            "plot $mesh using 1:2 with lines linecolor rgb '#6f9fc8' linewidth 0.35 notitle, $edge "
+            "using 1:2 with lines linecolor rgb '#1f4e79' linewidth 1.2 notitle\n",
             -0.2 * v->height, 1.55 * v->height, 0.5 * v->height);
-    fputs("unset label\nunset object\nset tmargin at screen 0.55\nset bmargin at screen "
-          "0.13\n"
-          "set format x '%g'\nset xlabel 'x [mm]' offset 0,0.3\nset ylabel 'reaction "
-          "[N/mm]'\n"
+    fputs("unset label\nunset object\nset tmargin at screen 0.55\nset bmargin at screen 0.13\n"
+          "set format x '%g'\nset xlabel 'x [mm]' offset 0,0.3\nset ylabel 'reaction [N/mm]'\n"
           "set yrange [0:*]\nset ytics autofreq\nset offsets 0, 0, graph 0.2, 0\n"
           "set key at graph 0.06, graph 0.46 left Left reverse samplen 1.5\n",
           out);
@@ -92,21 +90,21 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
             continue;
         const double from = fmax(h * (first - 0.5), 0.0), to = fmin(h * (i + 0.5), v->length);
         fprintf(out,
-                "set object rectangle from first %.9g, graph 0 to first %.9g, graph 1 "
-                "fillcolor rgb '%s' fillstyle solid noborder behind\n",
+                "set object rectangle from first %.9g, graph 0 to first %.9g, graph 1 fillcolor "
+                "rgb '%s' fillstyle solid noborder behind\n",
                 from, to, rb_report_zone_colour(zone[state], 1));
         const int wide = to - from > 0.1 * v->length;
-        fprintf(out,
-                "set label '{/*0.85 %s: %d}' at first %.9g, graph %s textcolor rgb '#555555' "
-                "front\n",
-                name[state], i - first + 1, 0.5 * (from + to),
-                wide ? "0.93 center" : "0.97 right rotate by 90");
+        fprintf(
+            out,
+            "set label '{/*0.85 %s: %d}' at first %.9g, graph %s textcolor rgb '#555555' front\n",
+            name[state], i - first + 1, 0.5 * (from + to),
+            wide ? "0.93 center" : "0.97 right rotate by 90");
         first = i + 1;
     }
     fprintf(out,
             "plot $reaction using 1:2 with points pointtype 5 pointsize 0.9 linecolor rgb "
-            "'#1f4e79' title 'normal', $reaction using 1:3 with points pointtype 9 pointsize "
-            "1.0 linecolor rgb '#c0392b' title 'tangential / μ%s'\nunset multiplot\n",
+            "'#1f4e79' title 'normal', $reaction using 1:3 with points pointtype 9 pointsize 1.0 "
+            "linecolor rgb '#c0392b' title 'tangential / μ%s'\nunset multiplot\n",
             place.titled ? ", to the right" : "");
 }
 

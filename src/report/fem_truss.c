@@ -93,15 +93,15 @@ static void write_panel(FILE *out, const quarter *q, const rb_fem_step *step, in
             total ? "total, m = " : "m = ", total ? panel : panel + 1, scale);
     if (!total)
         fprintf(out,
-                "set label 3 '{/*0.8 stick %d, slip %d}' at graph 0.5, graph 1.06 center "
-                "textcolor rgb '#555555'\n",
+                "set label 3 '{/*0.8 stick %d, slip %d}' at graph 0.5, graph 1.06 center textcolor "
+                "rgb '#555555'\n",
                 step->stick, step->slip);
     fprintf(out,
             "plot $bars using 1:2 with lines linecolor rgb '#c8ccd0' linewidth 0.7 notitle, "
-            "$rest%d using 1:2 with points pointtype 6 pointsize 1.1 linecolor rgb "
-            "'#1f4e79' notitle, $move%d using 1:2 with points pointtype 7 pointsize 0.5 "
-            "linecolor rgb '#c0392b' notitle, $move%d using 1:2:3:4 with vectors head size "
-            "screen 0.007,20 filled linecolor rgb '#c0392b' linewidth 1.3 notitle\n",
+            "$rest%d using 1:2 with points pointtype 6 pointsize 1.1 linecolor rgb '#1f4e79' "
+            "notitle, $move%d using 1:2 with points pointtype 7 pointsize 0.5 linecolor rgb "
+            "'#c0392b' notitle, $move%d using 1:2:3:4 with vectors head size screen 0.007,20 "
+            "filled linecolor rgb '#c0392b' linewidth 1.3 notitle\n",
             panel, panel, panel);
 }
 
@@ -121,18 +121,17 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
     fputs("set multiplot\n", out);
     if (!column)
         fprintf(out,
-                "set label 1 '{/:Bold Truss on an obstacle: increments of the contact "
-                "nodes} (Kanno, example 3.1; %s)' at screen 0.5, 0.955 center\n",
+                "set label 1 '{/:Bold Truss on an obstacle: increments of the contact nodes} "
+                "(Kanno, example 3.1; %s)' at screen 0.5, 0.955 center\n",
                 v->layout);
     fprintf(out, "set xrange [0:%g]\nset yrange [0:%g]\nset xtics 0, 4\nset ytics 0, 4\n",
             q->width + 1.1 * q->spacing, q->height + 1.1 * q->spacing);
     enum { LINES = 4 };
     static const char *const lines[2][LINES] = {
-        {"A quarter of the truss from above, x, y ≥ 0 from its centre [m].  {/:Bold "
-         "Red}: "
-         "slip, its displacement times the factor in parentheses.  {/:Bold Blue}: stick",
-         "(total: no displacement).  Counts are of the whole truss.  From the side: grey "
-         "at rest, blue after the last increment."},
+        {"A quarter of the truss from above, x, y ≥ 0 from its centre [m].  {/:Bold Red}: slip, "
+         "its displacement times the factor in parentheses.  {/:Bold Blue}: stick",
+         "(total: no displacement).  Counts are of the whole truss.  From the side: grey at rest, "
+         "blue after the last increment."},
         {"A quarter of the truss from above, x, y ≥ 0 from its centre [m].",
          "{/:Bold Red}: slip, its displacement times the factor in parentheses.",
          "{/:Bold Blue}: stick (total: no displacement).  Counts are of the whole truss.",
@@ -155,9 +154,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
     fprintf(out,
             "set title '{/:Bold from the side}  (×%g)' offset 0,0.1\n"
             "set autoscale\nset size ratio -1\nunset tics\nunset border\n"
-            "plot $before using 1:2 with lines linecolor rgb '#b4bac0' linewidth 0.6 "
-            "notitle, $after using 1:2 with lines linecolor rgb '#1f4e79' linewidth 0.7 "
-            "notitle\n",
+            "plot $before using 1:2 with lines linecolor rgb '#b4bac0' linewidth 0.6 notitle, "
+            "$after using 1:2 with lines linecolor rgb '#1f4e79' linewidth 0.7 notitle\n",
             scale);
     fputs("unset multiplot\n", out);
 }

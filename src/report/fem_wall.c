@@ -101,10 +101,10 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
     const panel at = panel_of(column, FRONT);
     char magnify[40];
     fprintf(out,
-            "set multiplot\nset label 1 '{/:Bold Wall of 12 blocks, pressed with %g "
-            "kN and sheared}' at screen 0.5, 0.955 center\n"
-            "set label 2 'displacements × %s, drift %s%.3g mm' at screen "
-            "%g, %g center textcolor rgb '#444444'\n%s",
+            "set multiplot\nset label 1 '{/:Bold Wall of 12 blocks, pressed with %g kN and "
+            "sheared}' at screen 0.5, 0.955 center\n"
+            "set label 2 'displacements × %s, drift %s%.3g mm' at screen %g, %g center textcolor "
+            "rgb '#444444'\n%s",
             1e-3 * last->compression, rb_report_large_number(v->f.magnify, magnify),
             column ? "" : "of the upper support ", 1e3 * last->drift, column ? 0.5 : 0.31,
             at.top + (column ? 0.025 : 0.035), column ? "unset label 1\n" : "");
@@ -112,29 +112,26 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
     fprintf(out,
             "set size ratio -1\nset xrange [%g:%g]\n"
             "set yrange [%g:%g]\nset xlabel 'x [m]' offset 0,0.3\nset ylabel 'z [m]' offset "
-            "1.5,0\nset "
-            "xtics 0, 0.1\n"
+            "1.5,0\nset xtics 0, 0.1\n"
             "set ytics 0, 0.1\n"
-            "set object rectangle from %g, %g to %g, 0 fillcolor rgb '#bdbdbd' fillstyle "
-            "solid "
+            "set object rectangle from %g, %g to %g, 0 fillcolor rgb '#bdbdbd' fillstyle solid "
             "noborder behind\n"
-            "plot $mesh using 1:2 with lines linecolor rgb '#d9a679' linewidth 0.4 notitle, "
-            "$edge using 1:2 with lines linecolor rgb '#7b3f00' linewidth 1.3 notitle\n",
+            "plot $mesh using 1:2 with lines linecolor rgb '#d9a679' linewidth 0.4 notitle, $edge "
+            "using 1:2 with lines linecolor rgb '#7b3f00' linewidth 1.3 notitle\n",
             -0.1 * v->f.width, 1.35 * v->f.width, -0.05 * v->f.height, 1.08 * v->f.height,
             -0.1 * v->f.width, -0.05 * v->f.height, 1.35 * v->f.width);
-    fputs("unset label\nunset object\nset size noratio\nset xrange [0:*]\nset yrange "
-          "[0:*]\n"
+    fputs("unset label\nunset object\nset size noratio\nset xrange [0:*]\nset yrange [0:*]\n"
           "set xtics autofreq\nset ytics autofreq\nunset xlabel\nset format x ''\n",
           out);
     if (column)
         fputs("set xtics 0.2\nset ytics 10\n", out);
     open_panel(out, panel_of(column, FORCES));
-    fputs("set ylabel 'force [kN]' offset -0.7,0\n"
-          "set key bottom right Left reverse samplen 2\n"
-          "plot $step using 1:2 with lines linewidth 2 linecolor rgb '#1f4e79' title "
-          "'compression', "
-          "$step using 1:3 with lines linewidth 2 linecolor rgb '#c0392b' title 'shear'\n",
-          out);
+    fputs(
+        "set ylabel 'force [kN]' offset -0.7,0\n"
+        "set key bottom right Left reverse samplen 2\n"
+        "plot $step using 1:2 with lines linewidth 2 linecolor rgb '#1f4e79' title 'compression', "
+        "$step using 1:3 with lines linewidth 2 linecolor rgb '#c0392b' title 'shear'\n",
+        out);
     if (column)
         fprintf(out, "set ytics %g\n",
                 rb_report_round_step((last->stick + last->slip + last->separated) / 4.0));
@@ -142,15 +139,13 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
     fputs(column ? "set ylabel 'contact points' offset 0.5,0\n"
                  : "set ylabel 'contact points' offset -0.7,0\n",
           out);
-    fputs("set format x '%g'\nset xlabel 'time [s]' offset 0,0.3\nset key center left "
-          "Left reverse\n"
-          "plot $step using 1:4 with lines linewidth 2 linecolor rgb '#2c7a57' title "
-          "'stick', "
-          "$step using 1:5 with lines linewidth 2 linecolor rgb '#c4501b' title 'slip', "
-          "$step using 1:6 with lines linewidth 2 linecolor rgb '#9a9a9a' title "
-          "'separated'\n"
-          "unset multiplot\n",
-          out);
+    fputs(
+        "set format x '%g'\nset xlabel 'time [s]' offset 0,0.3\nset key center left Left reverse\n"
+        "plot $step using 1:4 with lines linewidth 2 linecolor rgb '#2c7a57' title 'stick', $step "
+        "using 1:5 with lines linewidth 2 linecolor rgb '#c4501b' title 'slip', $step using 1:6 "
+        "with lines linewidth 2 linecolor rgb '#9a9a9a' title 'separated'\n"
+        "unset multiplot\n",
+        out);
 }
 
 rb_status rb_report_picture_wall(FILE *out, rb_report_canvas canvas, const rb_fem_wall *wall,

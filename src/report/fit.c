@@ -231,11 +231,10 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
             f->data->measure == RB_CASE_FORCE ? unit_name(f, unit) : "",
             f->data->measure == RB_CASE_FORCE ? "]" : "");
     fprintf(out,
-            "plot $fit using 1:($3-$4):($3+$4) with filledcurves linecolor rgb '%s' "
-            "fillstyle transparent solid 0.25 noborder title '%g %% of the fit', $fit "
-            "using 1:3 with lines linecolor rgb '%s' linewidth 2.2 title 'fit', $fit "
-            "using 1:2 with points pointtype 6 linecolor rgb '#111111' title "
-            "'measured'\n",
+            "plot $fit using 1:($3-$4):($3+$4) with filledcurves linecolor rgb '%s' fillstyle "
+            "transparent solid 0.25 noborder title '%g %% of the fit', $fit using 1:3 with lines "
+            "linecolor rgb '%s' linewidth 2.2 title 'fit', $fit using 1:2 with points pointtype 6 "
+            "linecolor rgb '#111111' title 'measured'\n",
             rb_report_colour(0), 100.0 * f->fit->level, rb_report_colour(0));
 }
 

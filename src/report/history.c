@@ -30,14 +30,13 @@ rb_status rb_report_history(FILE *out, const rb_rolling_history *h, const char *
     const int parts = parts_of(h, part);
     rb_report_cells c = rb_report_begin_columns(out, style, command, parts, part);
 
-    rb_report_comment(&c,
-                      "distance in a = %.9g %s, the Hertz half-width of the largest load "
-                      "of the history",
-                      h->half_width, rb_unit_name(h->units, "mm"));
-    rb_report_comment(&c, "creepage and dissipation (friction power per unit speed): "
-                          "means over the step, 0 at rest; shift: so far");
-    rb_report_comment(&c, "moment: int x p dx, > 0: the load acts ahead of x = 0; edges "
-                          "of the contact: NaN without contact");
+    rb_report_comment(
+        &c, "distance in a = %.9g %s, the Hertz half-width of the largest load of the history",
+        h->half_width, rb_unit_name(h->units, "mm"));
+    rb_report_comment(&c, "creepage and dissipation (friction power per unit speed): means over "
+                          "the step, 0 at rest; shift: so far");
+    rb_report_comment(&c, "moment: int x p dx, > 0: the load acts ahead of x = 0; edges of the "
+                          "contact: NaN without contact");
     return rb_report_end_columns(&c, h->n, parts, part);
 }
 
@@ -142,9 +141,8 @@ void rb_report_history_summary(FILE *out, const rb_rolling_case *rc, const rb_ro
             time = unresolved(&rc->b.memory, h);
         if (!isnan(time))
             fprintf(out,
-                    "            the stress relaxes within %.2g s of such a step: "
-                    "--time-step "
-                    "%.1g follows it\n",
+                    "            the stress relaxes within %.2g s of such a step: --time-step %.1g "
+                    "follows it\n",
                     time, 0.2 * time);
     }
     if (h->errors) {

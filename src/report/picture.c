@@ -177,8 +177,8 @@ static void write_zones(FILE *out, const view *v, int labelled)
         if (st.to <= st.from)
             continue;
         fprintf(out,
-                "set object rectangle from first %.9g, graph 0 to first %.9g, graph 1 "
-                "fillcolor rgb '%s' fillstyle solid noborder behind\n",
+                "set object rectangle from first %.9g, graph 0 to first %.9g, graph 1 fillcolor "
+                "rgb '%s' fillstyle solid noborder behind\n",
                 st.from, st.to, rb_report_zone_colour(st.zone, 1));
         if (labelled)
             write_zone_label(out, v, &st);
@@ -247,27 +247,25 @@ static void write_tractions(FILE *out, const view *v, double key_font, double ma
     fprintf(out, "set label 3 'traction  [%s]' at screen 0.028, %g center rotate\n",
             v->stress_label, middle_of(v, TRACTIONS));
     fprintf(out,
-            "set key at screen 0.53, %g center horizontal maxrows 1 samplen 1.2 width %d "
-            "font ',%.3g'\n",
+            "set key at screen 0.53, %g center horizontal maxrows 1 samplen 1.2 width %d font "
+            "',%.3g'\n",
             0.866 + v->place.up + (v->place.titled ? 0.0 : 0.02),
             v->carter && v->place.titled ? -2 : 0, key_font);
     write_zones(out, v, 1);
     /* few elements: what each of them carries; many: a curve */
     const char *style = v->s->n <= STEPS_UP_TO ? "histeps" : "lines";
     fprintf(out,
-            "plot 0 with lines linecolor rgb '#999999' linewidth 0.6 notitle, $data "
-            "using 1:4 with %s dashtype (6,4) linecolor rgb '#7a7a7a' linewidth 0.9 "
-            "title '%s', $data using 1:(-$4) with %s dashtype (6,4) linecolor rgb "
-            "'#7a7a7a' linewidth 0.9 notitle, $data using 1:2 with %s linecolor rgb "
-            "'#1f4e79' linewidth 1.8 title 'pressure p', $data using 1:3 with %s "
-            "linecolor rgb '#c0392b' linewidth 2.2 title 'friction q'",
+            "plot 0 with lines linecolor rgb '#999999' linewidth 0.6 notitle, $data using 1:4 with "
+            "%s dashtype (6,4) linecolor rgb '#7a7a7a' linewidth 0.9 title '%s', $data using "
+            "1:(-$4) with %s dashtype (6,4) linecolor rgb '#7a7a7a' linewidth 0.9 notitle, $data "
+            "using 1:2 with %s linecolor rgb '#1f4e79' linewidth 1.8 title 'pressure p', $data "
+            "using 1:3 with %s linecolor rgb '#c0392b' linewidth 2.2 title 'friction q'",
             style, v->s->plastic ? "bounds" : "±μp", style, style, style);
     if (v->carter)
         fprintf(out,
-                ", $carter using 1:3 with points pointtype 6 pointsize %g linecolor rgb "
-                "'#111111' linewidth 1.2 notitle, $carter using 1:2 with points "
-                "pointtype 6 pointsize %g linecolor rgb '#111111' linewidth 1.2 title "
-                "'Hertz, Carter'",
+                ", $carter using 1:3 with points pointtype 6 pointsize %g linecolor rgb '#111111' "
+                "linewidth 1.2 notitle, $carter using 1:2 with points pointtype 6 pointsize %g "
+                "linecolor rgb '#111111' linewidth 1.2 title 'Hertz, Carter'",
                 marker, marker);
     fputs("\n", out);
 }
@@ -365,8 +363,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     fprintf(out, "' at screen 0.028, %g center rotate\n", middle_of(v, SLIP));
     write_zones(out, v, 0);
     fprintf(out,
-            "plot 0 with lines linecolor rgb '#999999' linewidth 0.6, "
-            "$data using 1:($5) with %s linecolor rgb '#6c3483' linewidth 1.8\n",
+            "plot 0 with lines linecolor rgb '#999999' linewidth 0.6, $data using 1:($5) with %s "
+            "linecolor rgb '#6c3483' linewidth 1.8\n",
             v->s->n <= STEPS_UP_TO ? "linespoints pointtype 7" : "lines");
     if (v->s->temperature) {
         fputs("unset label\nunset object\n", out);
@@ -379,9 +377,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         fprintf(out, "' at screen 0.028, %g center rotate\n", middle_of(v, TEMPERATURE));
         write_zones(out, v, 0);
         write_bodies(out, v);
-        fputs("plot $data using 1:7 with lines dashtype (6,4) linecolor rgb '#7a7a7a' "
-              "linewidth 1.2, $data using 1:6 with lines linecolor rgb '#b9770e' linewidth "
-              "1.8\n",
+        fputs("plot $data using 1:7 with lines dashtype (6,4) linecolor rgb '#7a7a7a' linewidth "
+              "1.2, $data using 1:6 with lines linecolor rgb '#b9770e' linewidth 1.8\n",
               out);
     }
     fputs("unset multiplot\n", out);

@@ -158,13 +158,12 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(&of, "depth", number("of grid and maxima; null: 2.5 half-widths"));
     rb_report_json_set(&of, "maxima", typed("object", "largest stresses, their places"));
     rb_report_json_set(&of, "derivatives",
-                       typed("object", "of --derivatives: of each result with respect to "
-                                       "each input; [left, right] if the sides differ"));
+                       typed("object", "of --derivatives: of each result with respect to each "
+                                       "input; [left, right] if the sides differ"));
     rb_report_json_set(&of, "without_derivatives", typed("object", "inputs without, and why"));
     rb_report_json_set(&of, "derivatives_over_x",
-                       typed("object",
-                             "of loads, approach and creepage with respect to the gap and mu "
-                             "of every element, with fixed elements"));
+                       typed("object", "of loads, approach and creepage with respect to the gap "
+                                       "and mu of every element, with fixed elements"));
     rb_report_json_set(&of, "derivatives_are", typed("string", "what stays as it is"));
     rb_report_json_set(&of, "tolerances",
                        typed("object", "of --tolerance: standard deviations of results"));

@@ -81,8 +81,8 @@ static void write_axes(FILE *out, const view *v)
         if (s->zone[first] == RB_ZONE_SEPARATED)
             continue;
         fprintf(out,
-                "set arrow from %.9g, graph -0.018 to %.9g, graph -0.018 nohead "
-                "linewidth %d linecolor rgb '%s' front\n",
+                "set arrow from %.9g, graph -0.018 to %.9g, graph -0.018 nohead linewidth %d "
+                "linecolor rgb '%s' front\n",
                 (s->x[first] - s->h[first] / 2) / v->length.size,
                 (s->x[i - 1] + s->h[i - 1] / 2) / v->length.size,
                 s->zone[first] == RB_ZONE_STICK ? 2 : 6, rb_report_zone_colour(s->zone[first], 0));
@@ -102,8 +102,7 @@ static void write_subtitle(FILE *out, const view *v, const char *title, double y
     if (isfinite(s->force_ratio))
         fprintf(out, ",  Q/(μP) = %.4g", rb_report_tidy(s->force_ratio, 1.0) + 0.0);
     fprintf(out,
-            "' at screen 0.5, %g center\nset label 4 '{/*0.8 contact: thin green stick, "
-            "thick "
+            "' at screen 0.5, %g center\nset label 4 '{/*0.8 contact: thin green stick, thick "
             "orange and purple slip}' at screen 0.5, 0.025 center textcolor rgb '#444444'\n",
             y);
     rb_report_label_bodies(out, v->s->rc, s->units, 0.5, y - line);
@@ -142,8 +141,7 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
     fprintf(out,
             "set cbtics %.9g\nset colorbox user origin %g, %g size 0.013, %g\n"
             "set label 2 '%s  [%s],  at +: %.4g' at screen %g, %g center\n"
-            "set label 3 '' at first %.9g, %.9g point pointtype 1 pointsize 1.6 "
-            "linewidth 1.6 "
+            "set label 3 '' at first %.9g, %.9g point pointtype 1 pointsize 1.6 linewidth 1.6 "
             "linecolor rgb '#111111' front\n",
             rb_report_round_step(m->value / v->stress_unit / rb_report_labels_in(at.height)),
             at.left + at.width + 0.012, bottom, at.height, name, v->stress_label,
@@ -156,9 +154,9 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
     fprintf(out, "set cbrange [0:%.9g]\n", step * ceil(m->value / v->stress_unit / step));
     fprintf(out,
             "set cntrparam levels incremental %.9g, %.9g, %.9g\n"
-            "splot $grid using 1:2:%d with pm3d nocontour, $grid using 1:2:%d with lines "
-            "nosurface linecolor rgb '#ffffff' linewidth 0.6, $grid using 1:2:($2 > %.3g "
-            "? $%d : NaN) with labels boxed nosurface\n",
+            "splot $grid using 1:2:%d with pm3d nocontour, $grid using 1:2:%d with lines nosurface "
+            "linecolor rgb '#ffffff' linewidth 0.6, $grid using 1:2:($2 > %.3g ? $%d : NaN) with "
+            "labels boxed nosurface\n",
             step, step, m->value / v->stress_unit, column, column, 0.02 * v->depth / at.height,
             column);
 }
@@ -169,10 +167,10 @@ static void write_contours(FILE *out, rb_report_canvas canvas, const void *conte
     const panel first = panel_of(v, 0);
     write_grid(out, v);
     write_axes(out, v);
-    fprintf(out,
-            "set contour base\nset cntrlabel onecolor format '%%g' start 40 interval -1 font "
-            "',%.3g'\n",
-            0.6 * rb_report_key_font(canvas));
+    fprintf(
+        out,
+        "set contour base\nset cntrlabel onecolor format '%%g' start 40 interval -1 font ',%.3g'\n",
+        0.6 * rb_report_key_font(canvas));
     fputs(RB_REPORT_PALETTE
           "set multiplot\n"
           "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
@@ -226,8 +224,8 @@ static void write_fringes(FILE *out, rb_report_canvas canvas, const void *contex
     if (!place.titled)
         fputs("unset label 1\nunset label 9\n", out);
     fprintf(out,
-            "set label 2 'dark where σ_1 − σ_2 is a multiple of %.4g %s' at screen 0.5, "
-            "0.9 center textcolor rgb '#444444'\n",
+            "set label 2 'dark where σ_1 − σ_2 is a multiple of %.4g %s' at screen 0.5, 0.9 center "
+            "textcolor rgb '#444444'\n",
             v->fringe / v->stress_unit, v->stress_label);
     fputs("splot $grid using 1:2:(sin(pi*$5)**2) with pm3d\n", out);
 }

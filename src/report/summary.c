@@ -110,8 +110,7 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
                     rb_report_tidy(s->dissipation, s->normal_load), load);
         if (s->hysteresis > 0.0)
             fprintf(out,
-                    "  resists   M = %.5g %s, M/(P R) = %.5g, hysteresis %.5g %s per unit "
-                    "speed\n",
+                    "  resists   M = %.5g %s, M/(P R) = %.5g, hysteresis %.5g %s per unit speed\n",
                     s->resistance_moment, rb_unit_name(s->units, "N"), s->resistance_ratio,
                     s->hysteresis, load);
         if (s->hysteresis > 0.0) {

@@ -14,9 +14,7 @@ rb_status rb_report_table(FILE *out, const rb_rolling_case *rc, const rb_rolling
     rb_report_comment(&c, "%s, %s; residual %.3g", rb_case_word("formulation", (int)s->formulation),
                       rb_status_text(s->status), s->residual);
     for (int k = 0; k < s->patches && s->patches > 1; k++)
-        rb_report_comment(&c,
-                          "patch %d: from %.9g to %.9g %s, p0 = %.9g %s, P = %.9g, Q = "
-                          "%.9g %s",
+        rb_report_comment(&c, "patch %d: from %.9g to %.9g %s, p0 = %.9g %s, P = %.9g, Q = %.9g %s",
                           k + 1, s->patch[k].from, s->patch[k].to, rb_unit_name(s->units, "mm"),
                           s->patch[k].max_pressure, rb_unit_name(s->units, "MPa"),
                           s->patch[k].normal_load, s->patch[k].tangential_load,

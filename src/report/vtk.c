@@ -25,8 +25,7 @@ rb_status rb_report_vtk_check(rb_report_vtk_kind kind, const rb_report_stress *s
         return rb_fail(why, RB_EINVAL, ".vti holds regular grids; for points use .vtu");
     if (kind == RB_REPORT_VTI && !rb_rolling_body_can(&s->rc->a, RB_BODY_FLAT))
         return rb_fail(why, RB_EINVAL,
-                       ".vti holds regular grids, that of a wheel follows its surface; "
-                       "use .vtu");
+                       ".vti holds regular grids, that of a wheel follows its surface; use .vtu");
     return RB_OK;
 }
 
@@ -51,9 +50,7 @@ static void write_array(FILE *out, const char *type, const char *name, int compo
                         const void *data)
 {
     const uint64_t size = bytes;
-    fprintf(out,
-            "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" "
-            "format=\"binary\">",
+    fprintf(out, "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"binary\">",
             type, name, components);
     write_base64(out, sizeof size, (const unsigned char *)&size);
     write_base64(out, bytes, data);
@@ -132,8 +129,7 @@ static void write_head(FILE *out, const char *type)
     const int little = *(const unsigned char *)&one;
     fprintf(out,
             "<?xml version=\"1.0\"?>\n"
-            "<VTKFile type=\"%s\" version=\"1.0\" byte_order=\"%s\" "
-            "header_type=\"UInt64\">\n",
+            "<VTKFile type=\"%s\" version=\"1.0\" byte_order=\"%s\" header_type=\"UInt64\">\n",
             type, little ? "LittleEndian" : "BigEndian");
 }
 
@@ -146,8 +142,8 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stre
         const rb_rolling_stress *first = &s->at[0], *last = &s->at[s->n - 1];
         write_head(out, "ImageData");
         fprintf(out,
-                "<ImageData WholeExtent=\"0 %d 0 %d 0 0\" Origin=\"%.17g %.17g 0\" "
-                "Spacing=\"%.17g %.17g 1\">\n<Piece Extent=\"0 %d 0 %d 0 0\">\n",
+                "<ImageData WholeExtent=\"0 %d 0 %d 0 0\" Origin=\"%.17g %.17g 0\" Spacing=\"%.17g "
+                "%.17g 1\">\n<Piece Extent=\"0 %d 0 %d 0 0\">\n",
                 s->nx - 1, s->ny - 1, first->x, first->y, (last->x - first->x) / (s->nx - 1),
                 (last->y - first->y) / (s->ny - 1), s->nx - 1, s->ny - 1);
         write_point_data(out, &v);

@@ -116,8 +116,8 @@ static void write_panel(FILE *out, const rb_report_wear *w, int column)
     fputs("plot ", out);
     for (int k = 0; k < w->profiles; k++)
         fprintf(out,
-                "%s$profile%d using 1:%d with lines linecolor rgb '%s' dashtype %s "
-                "linewidth 1.8 title '%s'",
+                "%s$profile%d using 1:%d with lines linecolor rgb '%s' dashtype %s linewidth 1.8 "
+                "title '%s'",
                 k > 0 ? ", " : "", k, column, rb_report_colour(k), rb_report_dashes(k),
                 rb_report_large_number(w->profile[k].way, way));
     fputc('\n', out);
@@ -152,31 +152,29 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         fputs("EOD\n", out);
     }
     fprintf(out,
-            "set multiplot\nset lmargin at screen %g\nset rmargin at screen "
-            "0.965\n" RB_REPORT_GRID "set format x ''\n",
+            "set multiplot\nset lmargin at screen %g\nset rmargin at screen 0.965\n" RB_REPORT_GRID
+            "set format x ''\n",
             0.14 + place.right);
     fprintf(out,
-            "set xrange [%.9g:%.9g]\nset key at screen 0.965, %g right horizontal "
-            "maxrows 1 samplen 1.5 font ',%.3g'\nset label 2 '%s:' at screen %g, %g "
-            "left\n",
+            "set xrange [%.9g:%.9g]\nset key at screen 0.965, %g right horizontal maxrows 1 "
+            "samplen 1.5 font ',%.3g'\nset label 2 '%s:' at screen %g, %g left\n",
             from - 0.1 * (to - from), to + 0.1 * (to - from), 0.91 + 1.6 * place.up,
             rb_report_key_font(canvas), words.way, 0.14 - place.right, 0.897 + place.up);
     char way[40];
     if (place.titled)
         fprintf(out,
-                "set label 1 '{/:Bold Wear}   P = %.5g %s,  %.4g %s^3/%s worn after %s "
-                "%s' at screen 0.54, 0.955 center\n",
+                "set label 1 '{/:Bold Wear}   P = %.5g %s,  %.4g %s^3/%s worn after %s %s' at "
+                "screen 0.54, 0.955 center\n",
                 h->normal_load[last], rb_unit_name(h->units, "N/mm"), h->worn[last], mm, mm,
                 rb_report_large_number(h->way[last], way), words.way);
     fprintf(out,
             "set tmargin at screen 0.87\nset bmargin at screen 0.54\n"
-            "set yrange [0:*]\nset label 3 'pressure  [%s]' at screen 0.03, 0.705 center "
-            "rotate\n",
+            "set yrange [0:*]\nset label 3 'pressure  [%s]' at screen 0.03, 0.705 center rotate\n",
             stress.name);
     write_panel(out, w, 2);
     fprintf(out,
-            "unset label\nunset key\nset tmargin at screen 0.50\nset bmargin at screen "
-            "0.13\nset format x '%%g'\nset yrange [*:*]\nset offsets 0,0,0,graph 0.05\n"
+            "unset label\nunset key\nset tmargin at screen 0.50\nset bmargin at screen 0.13\nset "
+            "format x '%%g'\nset yrange [*:*]\nset offsets 0,0,0,graph 0.05\n"
             "set label 3 'worn off  [%s]' at screen 0.03, 0.315 center rotate\n"
             "set xlabel 'x [%s]' offset 0,0.3\n",
             depth.name, length.name);

@@ -5,11 +5,9 @@
 #include <stddef.h>
 
 const char *const rb_report_conventions[] = {
-    "x to the right, y up; A is the upper body and rolls towards +x: the leading edge is "
-    "at +x",
+    "x to the right, y up; A is the upper body and rolls towards +x: the leading edge is at +x",
     "p >= 0: pressure; q: friction on A, positive towards +x; loads per unit length",
-    "creepage xi > 0: A's surface slides towards +x over the ground (braked wheel), Q < "
-    "0",
+    "creepage xi > 0: A's surface slides towards +x over the ground (braked wheel), Q < 0",
     "slip > 0: A's surface slides towards +x; shift likewise",
     "zone: 0 separated, 1 stick, 2 slip with q = -mu p, 3 slip with q = +mu p",
     NULL};
