@@ -82,6 +82,11 @@ rb_status rb_sensitivity_adjoint(const rb_sensitivity *s, const rb_contact_state
                                  rb_sensitivity_rate *adjoint, rb_message *why);
 double rb_sensitivity_dot(const rb_sensitivity_rate *adjoint, const rb_sensitivity_rate *rate);
 
+/* Solves v, a variant of the model that is close to it, from the solution of the model: by
+ * Newton's method with its Jacobian, and with that of other zones where these change.
+ * v has a residual within the tolerance of its case; RB_MAXITER, RB_SINGULAR: it has not. */
+rb_status rb_sensitivity_follow(const rb_sensitivity *s, rb_rolling_model *v, rb_message *why);
+
 /* ---- With respect to numbers of a case --------------------------------------------- */
 
 /* An input: a number of a case. */

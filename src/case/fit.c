@@ -27,7 +27,7 @@ typedef struct {
     /* Solved with the accepted numbers and with those of a trial: a variant of the base,
      * or of the first point's. */
     rb_rolling_model solved[2];
-    rb_sensitivity *factors; /* with the accepted numbers */
+    rb_sensitivity *factors[2]; /* of these, where they are known */
 } point;
 
 /* A case with number `varied` (-1: none) changed to `value`, as it was resolved for a
@@ -196,48 +196,6 @@ static rb_status differentiate(problem *p, const double *theta, int k,
     return status;
 }
 
-/* Newton's method with the matrix of the last solution, whose zones v has: while these
- * stay, it needs no new matrix.  RB_MAXITER: they do not stay, or v is far away. */
-static rb_status solve_with_factors(const rb_rolling_model *last, const rb_sensitivity *s,
-                                    rb_rolling_model *v, rb_message *why)
-{
-    enum { STEPS_MOST = 8 };
-    const double enough = 0.1 * v->rc->contact.tol;
-    rb_contact_state step = {0};
-    rb_sensitivity_rate left = {0};
-    rb_contact_violation violation = {.scaled = NAN};
-    double change = INFINITY;
-    rb_status status = rb_contact_state_alloc(last->mesh.n, &step);
-
-    if (status == RB_OK)
-        status = rb_sensitivity_rate_alloc(last->mesh.n, &left);
-    for (int k = 0; k < STEPS_MOST && change > enough && status == RB_OK; k++) {
-        const double before = change;
-        status = rb_sensitivity_residual(last, v, &left, why);
-        for (int i = 0; i < left.n && status == RB_OK; i++)
-            if (last->state.zone[i] > RB_ZONE_STICK && v->state.p[i] > 0.0) {
-                left.bound[i] -= fabs(v->state.q[i]) / v->state.p[i];
-                left.yield[i] -= fabs(v->state.q[i]);
-            }
-        if (status == RB_OK)
-            status = rb_sensitivity_tangent(s, &left, 1, &step, why);
-        if (status != RB_OK)
-            break;
-        change = rb_norm_inf((size_t)step.n, step.q) / rb_contact_friction_scale(&v->problem);
-        rb_rolling_variant_set(&v->state, &step, 1.0, &v->state);
-        if (!(change < 0.5 * before))
-            break;
-    }
-    if (status == RB_OK)
-        status = rb_rolling_variant_complete(v, NULL, NULL, why);
-    if (status == RB_OK)
-        status = rb_contact_residual(&v->problem, &v->state, &violation);
-    v->state.residual = violation.scaled;
-    rb_contact_state_free(&step);
-    rb_sensitivity_rate_free(&left);
-    return status == RB_OK && !(violation.scaled <= v->rc->contact.tol) ? RB_MAXITER : status;
-}
-
 static double sigma_of(const problem *p, int k)
 {
     return p->data->sigma ? p->data->sigma[k] : 1.0;
@@ -247,25 +205,30 @@ static double sigma_of(const problem *p, int k)
 static void release(problem *p, int which)
 {
     for (int k = p->points - 1; p->at && k >= 0 && which >= 0; k--) {
+        rb_sensitivity_free(p->at[k].factors[which]);
+        p->at[k].factors[which] = NULL;
         rb_rolling_variant_free(model_below(p, k, which), &p->at[k].solved[which]);
-        if (which == p->accepted) {
-            rb_sensitivity_free(p->at[k].factors);
-            p->at[k].factors = NULL;
-        }
     }
 }
 
+/* The factors of a solved point: with those of the first point with its elements. */
+static rb_status factorise(problem *p, int k, int which, rb_message *why)
+{
+    rb_sensitivity **own = &p->at[k].factors[which], *like = p->at[p->at[k].first].factors[which];
+
+    return *own ? RB_OK : rb_sensitivity_create_like(&p->at[k].solved[which], like, own, why);
+}
+
 /* Solves a point for a trial; the first of those that share elements makes the
- * flexibility.  A point that was not solved before starts from the solution of the one
- * before it. */
+ * flexibility.  It follows its solution with the accepted numbers or, if there is none,
+ * the solution of the point before it. */
 static rb_status solve_point(problem *p, const double *theta, int k, int trial, rb_message *why)
 {
     const point *at = &p->at[k];
     const rb_rolling_model *of = model_below(p, k, trial);
-    const rb_rolling_model *from = p->accepted >= 0 ? &at->solved[p->accepted]
-                                   : at->first < k && p->at[k - 1].first == at->first
-                                       ? &p->at[k - 1].solved[trial]
-                                       : of;
+    const int is_first = p->accepted < 0,
+              follows = !is_first || (k > 0 && at->first == p->at[k - 1].first),
+              from = is_first ? k - 1 : k, which = is_first ? trial : p->accepted;
     rb_rolling_model *v = &p->at[k].solved[trial];
     place here = {p, theta, k, -1};
     rb_rolling_case rc;
@@ -276,9 +239,12 @@ static rb_status solve_point(problem *p, const double *theta, int k, int trial, 
                            : rb_rolling_variant_create(of, &rc, 0, v, why);
     if (s != RB_OK)
         return s;
-    rb_rolling_variant_set(&from->state, NULL, 0.0, &v->state);
-    s = p->accepted < 0 ? RB_MAXITER : solve_with_factors(from, at->factors, v, why);
+    s = follows ? factorise(p, from, which, why) : RB_MAXITER;
+    if (s == RB_OK)
+        s = rb_sensitivity_follow(p->at[from].factors[which], v, why);
     if (s > 0) {
+        rb_rolling_variant_set(follows ? &p->at[from].solved[which].state : &of->state, NULL, 0.0,
+                               &v->state);
         s = rb_rolling_variant_complete(v, NULL, NULL, why);
         s = s == RB_OK ? rb_rolling_model_resolve(v, 1, why) : s;
     }
@@ -314,12 +280,11 @@ static rb_status accept_numbers(problem *p, const double *theta, rb_message *why
     for (int k = 0; k < p->points && s == RB_OK; k++) {
         const rb_rolling_model *model = &p->at[k].solved[trial];
         double row[RB_CASE_FIT_MAX], kappa = NAN;
-        s = rb_sensitivity_create_like(model, p->at[p->at[k].first].factors, &p->at[k].factors,
-                                       why);
+        s = factorise(p, k, trial, why);
         if (s == RB_OK && rb_rolling_law_depends_on_state(model->rc))
             s = rb_rolling_law_kappa(model, &kappa);
         if (s == RB_OK)
-            s = differentiate(p, theta, k, model, p->at[k].factors, row, why);
+            s = differentiate(p, theta, k, model, p->at[k].factors[trial], row, why);
         if (s != RB_OK)
             break;
         p->kappa = fmax(p->kappa, kappa);
