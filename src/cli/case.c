@@ -41,18 +41,23 @@ static cli_exit read_case_file(const cli_spec *spec, const char *path, rb_case *
     return cli_fail(cli_exit_of(s), "%s%s", why.text, rb_guess_text(&guess, ""));
 }
 
+const char *cli_case_file_of(const cli_args *args)
+{
+    return args->operands > args->own ? args->operand[args->own] : NULL;
+}
+
 cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c, cli_args *args)
 {
     cli_exit code = cli_parse(spec, argc, argv, args);
-    if (code == CLI_CONTINUE && args->operands > 1 &&
-        (strcmp(args->operand[0], "solve") == 0 || strcmp(args->operand[0], "run") == 0))
-        code = read_case_file(spec, args->operand[0], c);
-    if (code == CLI_CONTINUE && args->operands > 1)
-        code = cli_fail(CLI_USAGE, "one case file at a time, got '%s' and '%s'", args->operand[0],
-                        args->operand[1]);
-    if (code == CLI_CONTINUE && args->operands == 1)
-        code = read_case_file(spec, args->operand[0], c);
-    return code == CLI_CONTINUE ? cli_example_read(c, args) : code;
+    const char *file = code == CLI_CONTINUE ? cli_case_file_of(args) : NULL;
+    const char *second = file ? args->operand[args->own + 1] : NULL;
+    if (second && (strcmp(file, "solve") == 0 || strcmp(file, "run") == 0))
+        code = read_case_file(spec, file, c);
+    if (code == CLI_CONTINUE && second)
+        code = cli_fail(CLI_USAGE, "one case file at a time, got '%s' and '%s'", file, second);
+    if (code == CLI_CONTINUE && file)
+        code = read_case_file(spec, file, c);
+    return code == CLI_CONTINUE ? cli_example_read(c, file) : code;
 }
 
 cli_exit cli_case_resolve(const cli_spec *spec, rb_case *c, const cli_args *args)
@@ -106,7 +111,8 @@ static rb_status write_results(FILE *out, const void *context, rb_message *why)
 static cli_exit write_files(const cli_spec *spec, const cli_case_run *run, int pictures)
 {
     cli_exit code = CLI_OK;
-    for (const cli_case_file *f = run->command->files; f->option && code == CLI_OK; f++) {
+    const cli_case_file *f = run->command->files;
+    for (; f && f->option && code == CLI_OK; f++) {
         const char *path = cli_option_path(spec, f->option);
         if (path && pictures && f->draw)
             code = cli_draw_file(&run->o.pictures, f->option, path, f->draw, run);
@@ -146,10 +152,9 @@ static cli_spec spec_of(cli_case_run *run)
 
 static cli_exit read_words(const cli_spec *spec, cli_case_run *run, int argc, char **argv)
 {
+    run->args.own = run->command->operands;
     const cli_exit code = cli_case_read(spec, argc, argv, run->words, &run->args);
-    if (code == CLI_CONTINUE && run->command->choose_purpose)
-        run->command->choose_purpose(run);
-    return code;
+    return code == CLI_CONTINUE && run->command->prepare ? run->command->prepare(run) : code;
 }
 
 /* given, plain: CLI_COMMAND_OPTIONS_MAX zeros each, which the run borrows. */
@@ -192,7 +197,7 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
     if (code == CLI_CONTINUE) {
         run.c = rb_case_resolved(run.words);
         rb_case_store(run.words, &run.set, own);
-        code = command->check(&run);
+        code = command->check ? command->check(&run) : code;
     }
     if (code == CLI_CONTINUE) {
         rb_message why = {""};
@@ -222,6 +227,8 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
             code = CLI_OK;
         if (code == CLI_OK && s != RB_OK)
             code = cli_case_refused(run.words, s, &why);
+        else if (code == CLI_OK && run.incomplete)
+            code = CLI_UNSOLVED;
     }
     cli_args_free(&run.args);
     rb_case_free(run.words);

@@ -37,9 +37,13 @@ cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c,
 cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c, cli_args *args);
 cli_exit cli_case_resolve(const cli_spec *spec, rb_case *c, const cli_args *args);
 
-/* --example NAME, the last set of every spec of a case, and what it asks for. */
+/* The case file among the operands; NULL: there is none. */
+const char *cli_case_file_of(const cli_args *args);
+
+/* --example NAME, the last set of every spec of a case, and what it asks for; file: the case
+ * file, which excludes it. */
 rb_option_set cli_example_set(void);
-cli_exit cli_example_read(rb_case *c, const cli_args *args);
+cli_exit cli_example_read(rb_case *c, const char *file);
 
 /* The start of JSON on a case: notes on the solution (s NULL: none) of rc (NULL: that of
  * c), units, inputs, which are taken over. */
@@ -65,6 +69,7 @@ typedef struct {
     const rb_rolling_solution *solution; /* for notes, citations, JSON; NULL: none */
     const rb_rolling_case *noted;        /* whose solution it is; NULL: that of c */
     int printable;                       /* 1: there are results, if not all that were asked for */
+    int incomplete;                      /* 1: not all of them, although nothing has failed */
 } cli_case_run;
 
 /* A file that an option of the command asks for, written or drawn by one of the two
@@ -77,18 +82,19 @@ typedef struct {
 
 enum { CLI_COMMAND_OPTIONS_MAX = 28 };
 
-/* What is the command's own.  Functions may be NULL, but for check, solve, table, json. */
+/* What is the command's own.  Functions may be NULL, but for solve, table, json, summarise. */
 struct cli_case_command {
     const char *synopsis, *about, *notes;
     rb_case_purpose purpose;
     const rb_option *options;
     int option_n;               /* CLI_COMMAND_OPTIONS_MAX at most */
     int options_last;           /* 1: they continue the section [output] */
-    const cli_case_file *files; /* the last row has no option */
+    int operands;               /* its own, in front of the case file */
+    const cli_case_file *files; /* the last row has no option; NULL: none */
 
-    /* before the case is resolved */
-    void (*choose_purpose)(cli_case_run *run);
-    /* before it is solved: CLI_CONTINUE, or an exit code after saying what is wrong */
+    /* before the case is resolved, and before it is solved: CLI_CONTINUE, or an exit code after
+     * saying what is wrong */
+    cli_exit (*prepare)(cli_case_run *run);
     cli_exit (*check)(cli_case_run *run);
     /* sets solution and printable, in the units that are shown */
     rb_status (*solve)(cli_case_run *run, rb_message *why);

@@ -125,8 +125,9 @@ typedef struct {
 
 /* Operands, in order: argument vector's own strings.  Zero it before use. */
 typedef struct {
-    char **operand;
+    char **operand; /* and NULL */
     int operands;
+    int own; /* so many in front are the command's own, the next is a case file */
 } cli_args;
 
 /* Reads argv[1] ... into the targets: --name value, --name=value, `--` ends the options.

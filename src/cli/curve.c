@@ -84,7 +84,7 @@ static cli_exit read_end(cli_case_run *run, int place, double *end)
     *end = default_end[place - FROM];
     if (!text)
         return CLI_CONTINUE;
-    rb_option_source(&number, *given, run->args.operand[0], what, sizeof what);
+    rb_option_source(&number, *given, cli_case_file_of(&run->args), what, sizeof what);
     if (rb_option_assign(&set, 0, *given, what, text, &why) != RB_OK)
         return cli_fail(*given > 0 ? CLI_DATA : CLI_USAGE, "%s", why.text);
     rb_case_store(run->words, &set, end);
@@ -229,10 +229,11 @@ static void summarise(FILE *out, const cli_case_run *run)
 
 /* ---- Command ---------------------------------------------------------------------- */
 
-static void choose_purpose(cli_case_run *run)
+static cli_exit choose_purpose(cli_case_run *run)
 {
     if (((const curve *)run->own)->range.over == RB_OVER_SPEED)
         rb_case_set_purpose(run->words, RB_CASE_SPEEDS);
+    return CLI_CONTINUE;
 }
 
 static cli_exit check(cli_case_run *run)
@@ -275,7 +276,7 @@ static const cli_case_command command = {
     .options = options,
     .option_n = OPTIONS,
     .files = files,
-    .choose_purpose = choose_purpose,
+    .prepare = choose_purpose,
     .check = check,
     .solve = solve,
     .table = write_table,

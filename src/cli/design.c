@@ -52,22 +52,24 @@ static const char notes[] =
     "\nExit codes: 0 found; 1 not at rest, or constraints that cannot be met; 64, 65, 66,\n"
     "70, 73 as of the other commands.\n";
 
-typedef struct {
-    const designing *f;
-    rb_case *words;
-    const cli_output *o;
-} results;
-
-static rb_status write_results(FILE *out, const void *context, rb_message *why)
+static rb_status write_table(FILE *out, const cli_case_run *run)
 {
-    const results *r = context;
-    const rb_units units = rb_case_resolved(r->words)->units;
-    (void)why;
-    if (r->o->style.format != RB_REPORT_JSON)
-        return rb_report_design_table(out, &r->f->design, units, cli_command_line(), &r->o->style);
-    json_t *root = cli_case_json(r->words, NULL, NULL, rb_report_json_inputs(r->words));
-    rb_report_json_design(&root, &r->f->design, units);
-    return rb_report_json_write(out, root);
+    return rb_report_design_table(out, &((const designing *)run->own)->design, run->c->units,
+                                  cli_command_line(), &run->o.style);
+}
+
+static void add_json(const cli_case_run *run, json_t **root)
+{
+    rb_report_json_design(root, &((const designing *)run->own)->design, run->c->units);
+}
+
+static void summarise(FILE *out, const cli_case_run *run)
+{
+    const rb_design *d = &((const designing *)run->own)->design;
+    if (d->status == RB_OK)
+        fprintf(out, "design: %s %.6g, at the start %.6g, %d evaluations\n",
+                d->result ? d->result->name : "pressure_ripple", d->value, d->start,
+                d->evaluations);
 }
 
 static int tell(int evaluation, double value, const double *x, void *context)
@@ -85,72 +87,67 @@ static int tell(int evaluation, double value, const double *x, void *context)
     return cli_interrupted();
 }
 
+static rb_status solve(cli_case_run *run, rb_message *why)
+{
+    designing *f = run->own;
+    const rb_design_observer observer = {tell, f};
+    f->tells = !run->o.quiet && isatty(STDERR_FILENO);
+    cli_interrupts_catch();
+    const rb_status s = rb_design_solve(run->words, &observer, &f->design, why);
+    cli_interrupts_leave();
+    /* What was found so far is printed too. */
+    run->printable =
+        s == RB_OK || ((s == RB_MAXITER || s == RB_INTERRUPTED) && !isnan(f->design.value));
+    return s;
+}
+
+static cli_exit find_nlopt(cli_case_run *run)
+{
+    (void)run;
+    return rb_design_available()
+               ? CLI_CONTINUE
+               : cli_fail(CLI_USAGE, "design: this rollbem was built without NLopt (libnlopt-dev)");
+}
+
+static cli_exit check(cli_case_run *run)
+{
+    designing *f = run->own;
+    rb_design *d = &f->design;
+    rb_message why = {""};
+    if (!f->least == !f->largest)
+        return cli_fail(CLI_USAGE, "design needs --minimise RESULT or --maximise RESULT");
+    if (run->o.plot)
+        return cli_fail(CLI_USAGE, "--plot: a design has no picture; see its case");
+    d->largest = f->largest != NULL;
+    d->most = f->most;
+    d->span = isnan(f->span) ? 0.0 : f->span;
+    rb_status s = rb_design_objective(d->largest ? f->largest : f->least, d, &why);
+    if (s == RB_OK)
+        s = rb_design_variables(run->words, f->over, d, &why);
+    if (s == RB_OK)
+        s = rb_design_constraints(run->words, f->subject, d, &why);
+    return cli_say(s, &why);
+}
+
+static const cli_case_command command = {
+    .synopsis = "rollbem design --minimise RESULT --over NAME=A:B [OPTION...] [CASE.ini]",
+    .about = about,
+    .notes = notes,
+    .purpose = RB_CASE_SINGLE,
+    .options = options,
+    .option_n = OPTIONS,
+    .prepare = find_nlopt,
+    .check = check,
+    .solve = solve,
+    .table = write_table,
+    .json = add_json,
+    .summarise = summarise,
+};
+
 int cli_design(int argc, char **argv)
 {
     designing f = {.most = 200, .span = NAN};
-    cli_output o = {.output = NULL};
-    cli_args args = {0};
-    rb_message why = {""};
-    int given[OPTIONS] = {0};
-    rb_case *words = cli_case_create(RB_CASE_SINGLE);
-    if (!words)
-        return CLI_INTERNAL;
-    const cli_spec spec = {
-        "rollbem design --minimise RESULT --over NAME=A:B [OPTION...] [CASE.ini]",
-        about,
-        notes,
-        {rb_case_options(words), {options, OPTIONS, &f, given, NULL}, cli_output_set(&o)},
-        3};
-    cli_exit code = cli_parse(&spec, argc, argv, &args);
-    if (code == CLI_CONTINUE && args.operands > 1)
-        code = cli_fail(CLI_USAGE, "design takes at most one case file");
-    if (code == CLI_CONTINUE && args.operands == 1)
-        code = cli_say(rb_case_read(words, args.operand[0], 2, spec.sets + 1, &why), &why);
-    if (code == CLI_CONTINUE && !rb_design_available())
-        code = cli_fail(CLI_USAGE, "design: this rollbem was built without NLopt (libnlopt-dev)");
-    if (code == CLI_CONTINUE)
-        code = cli_case_resolve(&spec, words, &args);
-    if (code == CLI_CONTINUE && !f.least == !f.largest)
-        code = cli_fail(CLI_USAGE, "design needs --minimise RESULT or --maximise RESULT");
-    if (code == CLI_CONTINUE) {
-        rb_design *d = &f.design;
-        d->largest = f.largest != NULL;
-        d->most = f.most;
-        d->span = isnan(f.span)
-                      ? 0.0
-                      : rb_unit_stored(rb_case_units(words, RB_GIVEN_ARGUMENT), "mm", f.span);
-        rb_status s = rb_design_objective(d->largest ? f.largest : f.least, d, &why);
-        if (s == RB_OK)
-            s = rb_design_variables(words, f.over, d, &why);
-        if (s == RB_OK)
-            s = rb_design_constraints(words, f.subject, d, &why);
-        code = cli_say(s, &why);
-    }
-    if (code == CLI_CONTINUE) {
-        const rb_design_observer observer = {tell, &f};
-        const results r = {&f, words, &o};
-        const rb_design *d = &f.design;
-        f.tells = !o.quiet && isatty(STDERR_FILENO);
-        cli_interrupts_catch();
-        if (!o.quiet)
-            cli_wait_begin();
-        const rb_status s = rb_design_solve(words, &observer, &f.design, &why);
-        if (!o.quiet)
-            cli_wait_end();
-        cli_interrupts_leave();
-        code = CLI_OK;
-        /* What was found so far is printed too. */
-        if (s == RB_OK || ((s == RB_MAXITER || s == RB_INTERRUPTED) && !isnan(d->value)))
-            code = cli_write_file(o.output, write_results, &r);
-        if (s == RB_OK && code == CLI_OK && !o.quiet)
-            fprintf(stderr, "design: %s %.6g, at the start %.6g, %d evaluations\n",
-                    d->result ? d->result->name : "pressure_ripple", d->value, d->start,
-                    d->evaluations);
-        if (s != RB_OK)
-            code = cli_case_refused(words, s, &why);
-    }
+    const cli_exit code = cli_case_run_command(&command, &f, argc, argv);
     rb_design_free(&f.design);
-    cli_args_free(&args);
-    rb_case_free(words);
     return code;
 }

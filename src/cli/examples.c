@@ -26,16 +26,16 @@ rb_option_set cli_example_set(void)
     return (rb_option_set){options, sizeof options / sizeof options[0], &chosen, NULL, NULL};
 }
 
-cli_exit cli_example_read(rb_case *c, const cli_args *args)
+cli_exit cli_example_read(rb_case *c, const char *file)
 {
     rb_message why = {""};
     rb_guess guess = {.word = chosen};
     char title[80];
     if (!chosen)
         return CLI_CONTINUE;
-    if (args->operands > 0)
+    if (file)
         return cli_fail(CLI_USAGE, "--example %s and the case file '%s': one of them", chosen,
-                        args->operand[0]);
+                        file);
     for (int k = 0; k < EXAMPLES; k++) {
         snprintf(title, sizeof title, "examples/%s", examples[k].name);
         if (strcmp(examples[k].name, chosen) == 0)

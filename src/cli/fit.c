@@ -179,31 +179,39 @@ static cli_exit read_data(fitting *f, const char *path, rb_units units)
 
 /* ---- Results ------------------------------------------------------------------------- */
 
-typedef struct {
-    const fitting *f;
-    rb_case *words;
-    const cli_output *o;
-} results;
-
-static rb_status write_results(FILE *out, const void *context, rb_message *why)
+static rb_report_fit shown(const cli_case_run *run)
 {
-    const results *r = context;
-    (void)why;
-    const rb_units units = rb_case_resolved(r->words)->units;
-    const rb_report_fit shown = {&r->f->fit, &r->f->data, units};
-    if (r->o->style.format != RB_REPORT_JSON)
-        return rb_report_fit_table(out, &shown, cli_command_line(), &r->o->style);
-    json_t *root = cli_case_json(r->words, NULL, NULL, rb_report_json_inputs(r->words));
-    rb_report_json_fit(&root, &shown);
-    return rb_report_json_write(out, root);
+    const fitting *f = run->own;
+    return (rb_report_fit){&f->fit, &f->data, run->c->units};
+}
+
+static rb_status write_table(FILE *out, const cli_case_run *run)
+{
+    const rb_report_fit fit = shown(run);
+    return rb_report_fit_table(out, &fit, cli_command_line(), &run->o.style);
+}
+
+static void add_json(const cli_case_run *run, json_t **root)
+{
+    const rb_report_fit fit = shown(run);
+    rb_report_json_fit(root, &fit);
 }
 
 static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
 {
-    const results *r = context;
-    const rb_report_fit shown = {&r->f->fit, &r->f->data, rb_case_resolved(r->words)->units};
-    return rb_report_fit_picture(out, canvas, &shown, why);
+    const rb_report_fit fit = shown(context);
+    return rb_report_fit_picture(out, canvas, &fit, why);
 }
+
+static const cli_case_file files[] = {{"plot", .draw = draw}, {NULL, NULL, NULL}};
+
+static void summarise(FILE *out, const cli_case_run *run)
+{
+    const rb_report_fit fit = shown(run);
+    rb_report_fit_summary(out, &fit);
+}
+
+/* ---- Command ----------------------------------------------------------------------- */
 
 static int tell(int iteration, double chi_square, int n, const double *value, void *context)
 {
@@ -219,82 +227,67 @@ static int tell(int iteration, double chi_square, int n, const double *value, vo
 }
 
 /* The best numbers so far are kept, so that --start goes on from there. */
-static cli_exit run(fitting *f, rb_case *words, cli_output *o)
+static rb_status solve(cli_case_run *run, rb_message *why)
 {
-    rb_message why = {""};
+    fitting *f = run->own;
     const rb_case_fit_observer observer = {tell, f};
-    f->tells = !o->quiet && isatty(STDERR_FILENO);
+    f->tells = !run->o.quiet && isatty(STDERR_FILENO);
     cli_interrupts_catch();
-    if (!o->quiet)
-        cli_wait_begin();
-    const rb_status s = rb_case_fit_solve(words, &f->data, &observer, &f->fit, &why);
-    if (!o->quiet)
-        cli_wait_end();
+    const rb_status s = rb_case_fit_solve(run->words, &f->data, &observer, &f->fit, why);
     cli_interrupts_leave();
-    cli_exit code = CLI_OK;
-    const results r = {f, words, o};
-    if (s == RB_OK)
-        code = cli_write_file(o->output, write_results, &r);
-    else if (s > 0 && s != RB_INACCURATE) {
+    if (s > 0 && s != RB_INACCURATE) {
         fprintf(stderr, "so far: --start ");
         for (int j = 0; j < f->fit.n; j++)
             fprintf(stderr, "%s%s=%.17g", j ? "," : "", f->fit.parameter[j].name,
                     f->fit.parameter[j].value);
         fputc('\n', stderr);
     }
-    if (code == CLI_OK && s == RB_OK && !o->quiet) {
-        const rb_report_fit shown = {&f->fit, &f->data, rb_case_resolved(words)->units};
-        rb_report_fit_summary(stderr, &shown);
-    }
-    if (code == CLI_OK && s == RB_OK)
-        code = cli_draw_file(&o->pictures, "plot", o->plot, draw, &r);
-    if (s != RB_OK)
-        return cli_case_refused(words, s, &why);
-    return code == CLI_OK && f->fit.unidentified > 0 ? CLI_UNSOLVED : code;
+    run->printable = s == RB_OK;
+    run->incomplete = f->fit.unidentified > 0;
+    return s;
 }
 
-/* ---- Command ----------------------------------------------------------------------- */
+static cli_exit prepare(cli_case_run *run)
+{
+    fitting *f = run->own;
+    rb_message why = {""};
+    if (run->args.operands < 1)
+        return cli_fail(CLI_USAGE, "fit needs DATA, and at most one case file");
+    cli_exit code = read_names(f);
+    if (code == CLI_CONTINUE)
+        code = read_values(f, "start", f->start, 0);
+    if (code == CLI_CONTINUE)
+        code = read_values(f, "bounds", f->bounds, 1);
+    if (code == CLI_CONTINUE)
+        code = read_data(f, run->args.operand[0], rb_case_units(run->words, RB_GIVEN_ARGUMENT));
+    f->fit.level = f->level;
+    return code == CLI_CONTINUE
+               ? cli_say(rb_case_prepare_fit(run->words, &f->data, &f->fit, &why), &why)
+               : code;
+}
+
+static const cli_case_command command = {
+    .synopsis = "rollbem fit DATA --fit NAME,... [OPTION...] [CASE.ini]",
+    .about = about,
+    .notes = notes,
+    .purpose = RB_CASE_CURVE,
+    .options = options,
+    .option_n = OPTIONS,
+    .operands = 1,
+    .files = files,
+    .prepare = prepare,
+    .solve = solve,
+    .table = write_table,
+    .json = add_json,
+    .summarise = summarise,
+};
 
 int cli_fit(int argc, char **argv)
 {
     fitting f = {.sigma = NAN, .level = 0.95};
-    cli_output o = {.output = NULL};
-    cli_args args = {0};
-    rb_message why = {""};
-    int given[OPTIONS] = {0};
-    rb_case *words = cli_case_create(RB_CASE_CURVE);
-    if (!words)
-        return CLI_INTERNAL;
-    const cli_spec spec = {
-        "rollbem fit DATA --fit NAME,... [OPTION...] [CASE.ini]",
-        about,
-        notes,
-        {rb_case_options(words), {options, OPTIONS, &f, given, NULL}, cli_output_set(&o)},
-        3};
-    cli_exit code = cli_parse(&spec, argc, argv, &args);
-    if (code == CLI_CONTINUE && (args.operands < 1 || args.operands > 2))
-        code = cli_fail(CLI_USAGE, "fit needs DATA, and at most one case file");
-    if (code == CLI_CONTINUE && args.operands == 2)
-        code = cli_say(rb_case_read(words, args.operand[1], 2, spec.sets + 1, &why), &why);
-    if (code == CLI_CONTINUE)
-        code = read_names(&f);
-    if (code == CLI_CONTINUE)
-        code = read_values(&f, "start", f.start, 0);
-    if (code == CLI_CONTINUE)
-        code = read_values(&f, "bounds", f.bounds, 1);
-    if (code == CLI_CONTINUE)
-        code = read_data(&f, args.operand[0], rb_case_units(words, RB_GIVEN_ARGUMENT));
-    if (code == CLI_CONTINUE)
-        code = cli_say(rb_case_prepare_fit(words, &f.data, &f.fit, &why), &why);
-    if (code == CLI_CONTINUE)
-        code = cli_case_resolve(&spec, words, &args);
-    f.fit.level = f.level;
-    if (code == CLI_CONTINUE)
-        code = run(&f, words, &o);
+    const cli_exit code = cli_case_run_command(&command, &f, argc, argv);
     rb_case_fit_free(&f.fit);
     rb_io_table_free(&f.table);
     free(f.sigmas);
-    cli_args_free(&args);
-    rb_case_free(words);
     return code;
 }

@@ -191,7 +191,7 @@ static cli_exit check_clash(const cli_spec *spec, const cli_args *args, const rb
 static cli_exit check_pictures(const cli_spec *spec, const cli_args *args)
 {
     char name[300];
-    const char *path = args->operand[0];
+    const char *path = args->operand[args->own]; /* of the case */
     const rb_option *size_of = NULL, *script_of = NULL;
     int pictures = 0, size = 0, script = 0;
     for (int k = 0; k < spec->set_n; k++)

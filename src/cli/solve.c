@@ -269,8 +269,8 @@ static cli_exit check(cli_case_run *run)
         if (of_steps && run->set.given[i])
             return cli_fail(run->set.given[i] > 0 ? CLI_DATA : CLI_USAGE,
                             "%s: for --formulation transient, --history or --increments",
-                            rb_option_source(&options[i], run->set.given[i], run->args.operand[0],
-                                             name, sizeof name));
+                            rb_option_source(&options[i], run->set.given[i],
+                                             cli_case_file_of(&run->args), name, sizeof name));
     }
     /* With error bars of a solution there is no model to show (run.h). */
     const int model_kept = has_steps || !(c->error || c->accuracy > 0.0);
