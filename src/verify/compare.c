@@ -41,10 +41,12 @@ void rb_verify_note(rb_verify *v, rb_status s, const rb_message *why)
     v->why = s == RB_OK ? NULL : why->text[0] ? v->said.text : rb_status_text(s);
 }
 
-void rb_verify_solve(rb_verify *v, const rb_rolling_case *rc, rb_rolling_solution *s)
+const rb_rolling_solution *rb_verify_solve(rb_verify *v, const rb_rolling_case *rc)
 {
-    *s = (rb_rolling_solution){0};
+    rb_rolling_solution *s = &v->solved[v->last = !v->last];
     rb_message why = {""};
+    rb_rolling_solution_free(s);
+    *s = (rb_rolling_solution){0};
     const rb_status status = rb_rolling_solve(rc, s, &why);
     rb_verify_note(v, status, &why);
     if (status != RB_OK) {
@@ -52,6 +54,7 @@ void rb_verify_solve(rb_verify *v, const rb_rolling_case *rc, rb_rolling_solutio
         s->approach = s->creepage = s->stick_from = s->stick_to = s->dissipation = NAN;
         s->max_temperature = NAN;
     }
+    return s;
 }
 
 rb_rolling_case rb_verify_uncoupled(void)

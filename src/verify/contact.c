@@ -48,21 +48,20 @@ static void hertz(rb_verify *v, rb_rolling_mesh_kind mesh, int elements, const c
                   const double bound[4])
 {
     rb_rolling_case rc = rb_verify_uncoupled();
-    rb_rolling_solution s;
     rc.mesh = mesh;
     rc.contact_elements = elements;
     const double modulus = rc.a.young / 0.75, a = rc.half_width;
     const double P = rb_closed_hertz_load(a, rc.a.radius, modulus);
     const curve c = {.p0 = rb_closed_hertz_max_pressure(P, a), .a = a};
-    rb_verify_solve(v, &rc, &s);
-    rb_verify_relative(v, s.normal_load, P, 1e-9, "Hertz, %s: load", name);
-    rb_verify_absolute(v, s.max_pressure / c.p0, 1.0, bound[0], "Hertz, %s: p0", name);
-    rb_verify_absolute(v, s.half_width / a, 1.0, bound[1], "Hertz, %s: half-width", name);
-    rb_verify_absolute(v, rms_error(&s, s.p, c.p0, hertz_at, &c), 0.0, bound[2],
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->normal_load, P, 1e-9, "Hertz, %s: load", name);
+    rb_verify_absolute(v, s->max_pressure / c.p0, 1.0, bound[0], "Hertz, %s: p0", name);
+    rb_verify_absolute(v, s->half_width / a, 1.0, bound[1], "Hertz, %s: half-width", name);
+    rb_verify_absolute(v, rms_error(s, s->p, c.p0, hertz_at, &c), 0.0, bound[2],
                        "Hertz, %s: rms of p / p0", name);
-    rb_verify_absolute(v, s.approach / rb_closed_half_cylinder_approach(P, rc.a.radius, modulus, a),
+    rb_verify_absolute(v,
+                       s->approach / rb_closed_half_cylinder_approach(P, rc.a.radius, modulus, a),
                        1.0, bound[3], "half-cylinder compression, %s", name);
-    rb_rolling_solution_free(&s);
 }
 
 /* ---- Similar bodies --------------------------------------------------------------- */
@@ -72,35 +71,30 @@ static void hertz(rb_verify *v, rb_rolling_mesh_kind mesh, int elements, const c
 static void carter_on(rb_verify *v, rb_bem_support support, const char *name)
 {
     rb_rolling_case rc = rolling_at(0.4);
-    rb_rolling_solution s;
     rc.a.support = support;
     rc.a.poisson = rc.b.poisson = 0.3;
     rc.elastic_b = 1;
     rc.half_width = rc.a.radius * 1e-3;
     rc.mesh = RB_MESH_UNIFORM;
     rc.contact_elements = 100;
-    rb_verify_solve(v, &rc, &s);
-    rb_verify_absolute(v, s.force_ratio, rb_closed_carter_force_ratio(0.4), 0.02,
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_absolute(v, s->force_ratio, rb_closed_carter_force_ratio(0.4), 0.02,
                        "Carter on a cylinder held by its %s", name);
-    rb_rolling_solution_free(&s);
 }
 
 /* The matrix of Addi et al. and its pivoted form are one problem. */
 static void two_forms(rb_verify *v)
 {
     rb_rolling_case rc = rolling_at(0.4);
-    rb_rolling_solution s, t;
     rc.contact.solver = RB_SOLVER_LEMKE;
-    rb_verify_solve(v, &rc, &s);
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
     rc.contact.lcp_form = RB_LCP_KWAK;
-    rb_verify_solve(v, &rc, &t);
-    double difference = s.n == t.n ? 0.0 : NAN;
-    for (int i = 0; i < s.n && s.n == t.n; i++)
-        difference = fmax(difference, fabs(s.q[i] - t.q[i]) + fabs(s.p[i] - t.p[i]));
-    rb_verify_absolute(v, difference / s.max_pressure, 0.0, 1e-9,
+    const rb_rolling_solution *t = rb_verify_solve(v, &rc);
+    double difference = s->n == t->n ? 0.0 : NAN;
+    for (int i = 0; i < s->n && s->n == t->n; i++)
+        difference = fmax(difference, fabs(s->q[i] - t->q[i]) + fabs(s->p[i] - t->p[i]));
+    rb_verify_absolute(v, difference / s->max_pressure, 0.0, 1e-9,
                        "LCP of Kwak against the pivoted form: tractions / p0");
-    rb_rolling_solution_free(&s);
-    rb_rolling_solution_free(&t);
 }
 
 /* ---- Dissimilar bodies ------------------------------------------------------------ */
@@ -130,25 +124,22 @@ static void spence(rb_verify *v, double stick)
 static void thin_discs(rb_verify *v)
 {
     rb_rolling_case rc = rb_verify_aluminium_on_steel(20.0);
-    rb_rolling_solution s;
     rc.plane = RB_PLANE_STRESS;
     const double E_a = rc.a.young, E_b = rc.b.young, a = rc.half_width, R = 25.0;
     const double modulus = 1.0 / (1.0 / E_a + 1.0 / E_b);
     const double beta = 0.5 * modulus * ((1.0 - rc.a.poisson) / E_a - (1.0 - rc.b.poisson) / E_b);
     const rb_closed_bentall_johnson rough = rb_closed_bentall_johnson_stick(beta, a, R, modulus);
-    rb_verify_solve(v, &rc, &s);
-    rb_verify_relative(v, s.creepage, -rough.creepage, 1e-3,
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->creepage, -rough.creepage, 1e-3,
                        "plane stress, Bentall-Johnson, mu = 20: creepage of mu -> inf");
-    rb_rolling_solution_free(&s);
     rc = rb_verify_aluminium_on_steel(1e-4);
     rc.plane = RB_PLANE_STRESS;
     rc.contact_elements = 200; /* one of them is all that the creepage of mu -> 0 knows */
-    rb_verify_solve(v, &rc, &s);
-    rb_verify_relative(v, s.normal_load, rb_closed_hertz_load(a, R, modulus), 1e-9,
+    s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->normal_load, rb_closed_hertz_load(a, R, modulus), 1e-9,
                        "plane stress, Hertz: load");
-    rb_verify_relative(v, s.creepage, -rb_closed_bentall_johnson_slip(beta, a, R), 2e-3,
+    rb_verify_relative(v, s->creepage, -rb_closed_bentall_johnson_slip(beta, a, R), 2e-3,
                        "plane stress, Bentall-Johnson, mu = 1e-4: creepage of mu -> 0");
-    rb_rolling_solution_free(&s);
 }
 
 static void bentall_johnson(rb_verify *v)
@@ -156,18 +147,15 @@ static void bentall_johnson(rb_verify *v)
     const double beta = 0.143834, modulus = 51572.3, a = 0.1, R = 25.0;
     const rb_closed_bentall_johnson rough = rb_closed_bentall_johnson_stick(beta, a, R, modulus);
     rb_rolling_case rc = rb_verify_aluminium_on_steel(20.0);
-    rb_rolling_solution s;
-    rb_verify_solve(v, &rc, &s);
-    rb_verify_relative(v, s.creepage, -rough.creepage, 1e-3,
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->creepage, -rough.creepage, 1e-3,
                        "Bentall-Johnson, mu = 20: creepage of mu -> inf");
-    rb_verify_relative(v, s.half_width, rough.half_width, 1e-3,
+    rb_verify_relative(v, s->half_width, rough.half_width, 1e-3,
                        "Bentall-Johnson, mu = 20: half-width of mu -> inf");
-    rb_rolling_solution_free(&s);
     rc = rb_verify_aluminium_on_steel(1e-4);
-    rb_verify_solve(v, &rc, &s);
-    rb_verify_relative(v, s.creepage, -rb_closed_bentall_johnson_slip(beta, a, R), 2e-3,
+    s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->creepage, -rb_closed_bentall_johnson_slip(beta, a, R), 2e-3,
                        "Bentall-Johnson, mu = 1e-4: creepage of mu -> 0");
-    rb_rolling_solution_free(&s);
 }
 
 /* ---- All -------------------------------------------------------------------------- */
@@ -184,7 +172,6 @@ void rb_verify_contact(rb_verify *v)
         /* A journal in its bearing, the gap of both circles, half-planes up to any arc. */
         const double part = arcs[k];
         rb_rolling_case rc = rb_verify_uncoupled();
-        rb_rolling_solution s;
         rc.gap = RB_GAP_EXACT;
         rb_verify_on_same(&rc);
         rc.b.radius = -1.02 * rc.a.radius;
@@ -192,39 +179,34 @@ void rb_verify_contact(rb_verify *v)
         rc.half_width = NAN;
         rc.load = rb_closed_circle_load(a, rc.a.radius, modulus) +
                   rb_closed_circle_load(a, rc.b.radius, modulus);
-        rb_verify_solve(v, &rc, &s);
-        rb_verify_relative(v, s.half_width, a, 2e-4,
+        const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+        rb_verify_relative(v, s->half_width, a, 2e-4,
                            "journal in a bore 2 %% wider, a/R = %g: half-width", part);
-        rb_rolling_solution_free(&s);
     }
     for (size_t k = 0; k < sizeof ratios / sizeof ratios[0]; k++) {
         const double ratio = ratios[k];
         const rb_rolling_case rc = rolling_at(ratio);
-        rb_rolling_solution s;
-        rb_verify_solve(v, &rc, &s);
-        const double a = rc.half_width, P = s.normal_load;
+        const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+        const double a = rc.half_width, P = s->normal_load;
         const curve c = {rc.mu, rb_closed_hertz_max_pressure(P, a), a, ratio};
-        rb_verify_absolute(v, s.force_ratio, rb_closed_carter_force_ratio(ratio), 5e-4,
+        rb_verify_absolute(v, s->force_ratio, rb_closed_carter_force_ratio(ratio), 5e-4,
                            "Carter, s = %g: Q/(mu P)", ratio);
         if (fabs(ratio) < 1.0)
-            rb_verify_absolute(v, s.stick_from / a, 1.0 - 2.0 * (1.0 - fabs(ratio)), 0.04,
+            rb_verify_absolute(v, s->stick_from / a, 1.0 - 2.0 * (1.0 - fabs(ratio)), 0.04,
                                "Carter, s = %g: start of stick / a", ratio);
-        rb_verify_absolute(v, rms_error(&s, s.q, rc.mu * c.p0, carter_at, &c), 0.0, 1e-2,
+        rb_verify_absolute(v, rms_error(s, s->q, rc.mu * c.p0, carter_at, &c), 0.0, 1e-2,
                            "Carter, s = %g: rms of q / (mu p0)", ratio);
-        rb_rolling_solution_free(&s);
     }
     carter_on(v, RB_BEM_ARC, "arc");
     carter_on(v, RB_BEM_HUB, "hub");
     two_forms(v);
     rb_rolling_case rc = rb_verify_uncoupled();
-    rb_rolling_solution s;
     rc.force_ratio = 0.64;
-    rb_verify_solve(v, &rc, &s);
-    rb_verify_relative(v, s.force_ratio, 0.64, 1e-9, "Cattaneo-Mindlin: Q/(mu P) as asked");
-    rb_verify_absolute(v, (s.stick_to - s.stick_from) / (2.0 * rc.half_width),
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->force_ratio, 0.64, 1e-9, "Cattaneo-Mindlin: Q/(mu P) as asked");
+    rb_verify_absolute(v, (s->stick_to - s->stick_from) / (2.0 * rc.half_width),
                        rb_closed_cattaneo_stick(0.64), 0.02,
                        "Cattaneo-Mindlin, Q = %g mu P: stick half-width / a", 0.64);
-    rb_rolling_solution_free(&s);
     for (size_t k = 0; k < sizeof sticking / sizeof *sticking; k++)
         spence(v, sticking[k]);
     bentall_johnson(v);

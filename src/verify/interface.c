@@ -11,7 +11,6 @@ static void flash_temperature(rb_verify *v, int elements, double bound)
 {
     const rb_rolling_heat steel = {50.0, 3.5, 0.0};
     rb_rolling_case rc = rb_verify_uncoupled();
-    rb_rolling_solution s;
     rc.formulation = RB_STEADY;
     rc.mesh = RB_MESH_ALIGNED;
     rc.slip_operator = RB_SLIP_SECOND;
@@ -20,14 +19,13 @@ static void flash_temperature(rb_verify *v, int elements, double bound)
     rc.creep = 0.1;
     rc.heat_a = rc.heat_b = steel;
     rc.speed = 1e6 * 2.0 * steel.conductivity / steel.heat_capacity / rc.half_width;
-    rb_verify_solve(v, &rc, &s);
-    const double p0 = rb_closed_hertz_max_pressure(s.normal_load, rc.half_width);
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    const double p0 = rb_closed_hertz_max_pressure(s->normal_load, rc.half_width);
     rb_verify_relative(
-        v, s.max_temperature,
+        v, s->max_temperature,
         rb_closed_flash_temperature(rc.mu * p0 * rc.creep * rc.speed, rc.half_width, rc.speed,
                                     2.0 * sqrt(steel.conductivity * steel.heat_capacity)),
         bound, "flash temperature, %d elements", elements);
-    rb_rolling_solution_free(&s);
 }
 
 /* A cylinder that slides until it has lost 400 times the gap at the edge of Hertz's
@@ -76,19 +74,16 @@ static void brushes(rb_verify *v, int elements, double bound)
 {
     const double s = 0.5;
     rb_rolling_case rc = stiff_bodies(elements);
-    rb_rolling_solution it;
     rc.creep = s * rc.mu * rc.interlayer_tangential / (rc.a.radius * rc.interlayer_normal);
-    rb_verify_solve(v, &rc, &it);
-    rb_verify_absolute(v, it.force_ratio, -(1.0 - (1.0 - s) * (1.0 - s) * (1.0 - s)), bound,
+    const rb_rolling_solution *it = rb_verify_solve(v, &rc);
+    rb_verify_absolute(v, it->force_ratio, -(1.0 - (1.0 - s) * (1.0 - s) * (1.0 - s)), bound,
                        "brushes, %d elements: Q/(mu P)", elements);
-    rb_rolling_solution_free(&it);
 }
 
 /* Wheel and rail of CONTACT's veldep_fric, whose friction falls with the slip. */
 static void falling_friction(rb_verify *v)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
-    rb_rolling_solution s;
     rc.a = (rb_rolling_body){.young = 2.0 * 82000.0 * 1.28,
                              .poisson = 0.28,
                              .radius = 460.0,
@@ -103,12 +98,11 @@ static void falling_friction(rb_verify *v)
     rc.mu = 0.18;
     rc.friction = (rb_rolling_friction){
         .law = RB_FRICTION_exponential, .fall = {0.12, 0.0}, .slip_scale = {100.0, 100.0}};
-    rb_verify_solve(v, &rc, &s);
-    rb_verify_absolute(v, s.force_ratio, -0.5941, 5e-4,
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_absolute(v, s->force_ratio, -0.5941, 5e-4,
                        "falling friction, %d elements: Q/(mu P) of CONTACT", 93);
-    rb_verify_absolute(v, s.stick, 45, 0.0, "falling friction, %d elements: elements that stick",
+    rb_verify_absolute(v, s->stick, 45, 0.0, "falling friction, %d elements: elements that stick",
                        93);
-    rb_rolling_solution_free(&s);
 }
 
 /* Brushes that yield: q grows by xi/L_T per length from the leading edge to the yield
@@ -116,28 +110,25 @@ static void falling_friction(rb_verify *v)
 static void yielding_brushes(rb_verify *v, int elements, double bound)
 {
     rb_rolling_case rc = stiff_bodies(elements);
-    rb_rolling_solution it;
     const double most = rc.mu / (2.0 * rc.a.radius * rc.interlayer_normal);
     const double elastic = 0.8 * most;
     rc.creep = elastic * rc.interlayer_tangential;
     rc.yield_stress = 0.3 * most;
     rc.hardening = 1.0 / rc.interlayer_tangential;
-    rb_verify_solve(v, &rc, &it);
+    const rb_rolling_solution *it = rb_verify_solve(v, &rc);
     /* in units of most, s from the leading edge: 0.8 s up to 3/8, then 0.15 + 0.4 s up
      * to where it meets 2 s - s^2 */
     const double s1 = 0.375, s2 = 0.8 + sqrt(0.49);
     const double Q = 0.4 * s1 * s1 + 0.15 * (s2 - s1) + 0.2 * (s2 * s2 - s1 * s1) + 4.0 / 3.0 -
                      s2 * s2 + s2 * s2 * s2 / 3.0;
-    rb_verify_absolute(v, it.force_ratio, -0.75 * Q, bound,
+    rb_verify_absolute(v, it->force_ratio, -0.75 * Q, bound,
                        "yielding brushes, %d elements: Q/(mu P)", elements);
-    rb_rolling_solution_free(&it);
 }
 
 /* CONTACT, testbank/examples_plast/carter_plast, DX = 0.04. */
 static void yielding_half_planes(rb_verify *v, double hardening, double want)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
-    rb_rolling_solution it;
     rc.a.support = RB_BEM_HALFPLANE;
     rc.a.young = 209920.0;
     rc.a.poisson = 0.28;
@@ -152,10 +143,9 @@ static void yielding_half_planes(rb_verify *v, double hardening, double want)
     rc.formulation = RB_STEADY;
     rc.contact_elements = 55;
     rc.zone = 1.1;
-    rb_verify_solve(v, &rc, &it);
-    rb_verify_absolute(v, it.force_ratio, want, 1e-4,
+    const rb_rolling_solution *it = rb_verify_solve(v, &rc);
+    rb_verify_absolute(v, it->force_ratio, want, 1e-4,
                        "yielding interface, hardening %g: Q/(mu P) of CONTACT", hardening);
-    rb_rolling_solution_free(&it);
 }
 
 void rb_verify_interface(rb_verify *v)

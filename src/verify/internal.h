@@ -9,8 +9,10 @@ typedef struct {
     rb_verify_each_check *each;
     void *context;
     int failed;
-    const char *why; /* reason why there is no solution; NULL: solved */
-    rb_message said; /* what `why` points to */
+    const char *why;               /* reason why there is no solution; NULL: solved */
+    rb_message said;               /* what `why` points to */
+    rb_rolling_solution solved[2]; /* the last two; owned */
+    int last;                      /* which of them */
 } rb_verify;
 
 /* Hands on one line, whose bound is of the difference or of that over `wanted`; what:
@@ -29,8 +31,9 @@ void rb_verify_relative(rb_verify *v, double got, double wanted, double bound,
 /* Keeps the reason of a failure for the next lines. */
 void rb_verify_note(rb_verify *v, rb_status s, const rb_message *why);
 
-/* Solves; when that fails every value compared is NaN and the reason is kept. */
-void rb_verify_solve(rb_verify *v, const rb_rolling_case *rc, rb_rolling_solution *s);
+/* The solution, which stays until the solve after the next; when that fails every value
+ * compared is NaN and the reason is kept. */
+const rb_rolling_solution *rb_verify_solve(rb_verify *v, const rb_rolling_case *rc);
 
 /* A half-plane against a rigid plane under the load whose Hertz half-width is R/1e4, 100
  * fitted elements; with nu = 1/2 the pair has no coupling, as similar bodies. */

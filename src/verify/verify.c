@@ -10,5 +10,7 @@ int rb_verify_run(rb_verify_each_check *each, void *context)
     rb_verify_accuracy(&v);
     rb_verify_interface(&v);
     rb_verify_crack(&v);
+    for (int k = 0; k < 2; k++)
+        rb_rolling_solution_free(&v.solved[k]);
     return v.failed;
 }
