@@ -46,6 +46,12 @@ static char *next_line(reading *r)
     return line;
 }
 
+static void skip_line(reading *r)
+{
+    if (r->status == RB_OK)
+        next_line(r);
+}
+
 static int is_module_line(const char *line, int *module)
 {
     int n = 0;
@@ -118,70 +124,6 @@ static void read_digits(reading *r, int n, int *const *to, const char *names)
 
 /* ---- A case ------------------------------------------------------------------------ */
 
-static void read_control(reading *r, rb_io_contact_digits *d)
-{
-    *d = (rb_io_contact_digits){0};
-    read_digits(r, 6, (int *[]){&d->P, &d->B, &d->T, &d->N, &d->F, &d->S},
-                "the digits P-B-T-N-F-S");
-    read_digits(r, 7, (int *[]){&d->V, &d->L, &d->D, &d->C, &d->M, &d->Z, &d->E},
-                "the digits L-D-C-M-Z-E");
-    read_digits(r, 8, (int *[]){&d->X, &d->H, &d->G, NULL, NULL, NULL, NULL, &d->R},
-                "the digits X-H-G-I-A-O-W-R");
-    if (d->X > 0 && r->status == RB_OK)
-        next_line(r); /* of debugging */
-}
-
-static void read_iteration(reading *r, rb_io_contact_case *c)
-{
-    const int G = c->digit.G;
-    if (G != 1)
-        read_numbers(r, 5, NULL, "MAXGS, MAXIN, MAXNR, MAXOUT, EPS", NULL);
-    if (G == 4)
-        read_numbers(r, 2, (double *[]){&c->start, NULL}, "INISLP, OMGSLP", NULL);
-    else if (G == 2 || G == 3)
-        read_numbers(r, 4, (double *[]){NULL, NULL, &c->start, NULL},
-                     "OMEGAH, OMEGAS, INISLP, OMGSLP", NULL);
-    else if (G > 4 && r->status == RB_OK)
-        next_line(r);
-}
-
-static void read_friction(reading *r, rb_io_contact_case *c)
-{
-    c->law = c->digit.L == 1 ? c->law : c->digit.L;
-    if (c->digit.L == 0) {
-        read_numbers(r, 2, (double *[]){&c->fstat, &c->fkin}, "FSTAT, FKIN", NULL);
-    } else if (c->digit.L > 1) {
-        read_numbers(
-            r, 5,
-            (double *[]){&c->fkin, &c->fall[0], &c->slip_scale[0], &c->fall[1], &c->slip_scale[1]},
-            "the coefficients of the friction law", NULL);
-        c->fstat = c->digit.L <= 4 ? c->fkin + c->fall[0] + c->fall[1] : c->fkin;
-        read_numbers(r, 2, (double *[]){&c->memory, &c->memory_slip}, "MEMDST, MEM_S0", NULL);
-    }
-}
-
-static void read_material(reading *r, rb_io_contact_case *c)
-{
-    static const char names[] = "the line of the material";
-    int degrees = 0;
-    if (c->digit.C < 2)
-        return;
-    if (c->digit.T >= 2) {
-        read_numbers(r, 3, (double *[]){&c->chi, &c->dq, &c->velocity}, "CHI, DQ, VELOC", &degrees);
-        c->chi *= degrees ? 1.0 : 180.0 / 3.14159265358979323846;
-    }
-    read_numbers(r, 4, (double *[]){&c->poisson[0], &c->poisson[1], &c->shear[0], &c->shear[1]},
-                 "POISS(1), POISS(2), GG(1), GG(2)", NULL);
-    if (c->digit.M == 1)
-        read_numbers(r, 4, (double *[]){&c->ratio[0], &c->ratio[1], &c->time[0], &c->time[1]},
-                     names, NULL);
-    else if (c->digit.M == 4)
-        read_numbers(r, 4, (double *[]){&c->layer_shear, &c->layer, &c->yield, &c->hardening},
-                     names, NULL);
-    else if (c->digit.M > 0)
-        read_numbers(r, 4, NULL, names, NULL);
-}
-
 /* from: left end of the first element, whichever way it is told. */
 static void read_grid(reading *r, rb_io_contact_case *c)
 {
@@ -244,6 +186,68 @@ static void read_gap(reading *r, rb_io_contact_case *c)
         read_numbers(r, c->plan == 2 ? 6 : 8, NULL, "the numbers of IPLAN", NULL);
 }
 
+/* What every case has: control digits, iteration, motion, friction, material. */
+static void read_case(reading *r, rb_io_contact_case *c)
+{
+    static const char names[] = "the line of the material";
+    rb_io_contact_digits *d = &c->digit;
+    int degrees = 0;
+    *d = (rb_io_contact_digits){0};
+    read_digits(r, 6, (int *[]){&d->P, &d->B, &d->T, &d->N, &d->F, &d->S},
+                "the digits P-B-T-N-F-S");
+    read_digits(r, 7, (int *[]){&d->V, &d->L, &d->D, &d->C, &d->M, &d->Z, &d->E},
+                "the digits L-D-C-M-Z-E");
+    read_digits(r, 8, (int *[]){&d->X, &d->H, &d->G, NULL, NULL, NULL, NULL, &d->R},
+                "the digits X-H-G-I-A-O-W-R");
+    if (d->X > 0)
+        skip_line(r); /* of debugging */
+    if (d->G != 1)
+        read_numbers(r, 5, NULL, "MAXGS, MAXIN, MAXNR, MAXOUT, EPS", NULL);
+    if (d->G == 4)
+        read_numbers(r, 2, (double *[]){&c->start, NULL}, "INISLP, OMGSLP", NULL);
+    else if (d->G == 2 || d->G == 3)
+        read_numbers(r, 4, (double *[]){NULL, NULL, &c->start, NULL},
+                     "OMEGAH, OMEGAS, INISLP, OMGSLP", NULL);
+    else if (d->G > 4)
+        skip_line(r);
+    read_numbers(r, 4, (double *[]){&c->normal, &c->tangential, &c->side, &c->spin},
+                 "FN or PEN, CKSI or FX, CETA or FY, CPHI", NULL);
+    if (d->V != 0) /* friction stands elsewhere */
+        return;
+    c->law = d->L == 1 ? c->law : d->L;
+    if (d->L == 0) {
+        read_numbers(r, 2, (double *[]){&c->fstat, &c->fkin}, "FSTAT, FKIN", NULL);
+    } else if (d->L > 1) {
+        read_numbers(
+            r, 5,
+            (double *[]){&c->fkin, &c->fall[0], &c->slip_scale[0], &c->fall[1], &c->slip_scale[1]},
+            "the coefficients of the friction law", NULL);
+        c->fstat = d->L <= 4 ? c->fkin + c->fall[0] + c->fall[1] : c->fkin;
+        read_numbers(r, 2, (double *[]){&c->memory, &c->memory_slip}, "MEMDST, MEM_S0", NULL);
+    }
+    if (d->C >= 2 && d->T >= 2) {
+        read_numbers(r, 3, (double *[]){&c->chi, &c->dq, &c->velocity}, "CHI, DQ, VELOC", &degrees);
+        c->chi *= degrees ? 1.0 : 180.0 / 3.14159265358979323846;
+    }
+    if (d->C >= 2)
+        read_numbers(r, 4, (double *[]){&c->poisson[0], &c->poisson[1], &c->shear[0], &c->shear[1]},
+                     "POISS(1), POISS(2), GG(1), GG(2)", NULL);
+    if (d->C >= 2 && d->M == 1)
+        read_numbers(r, 4, (double *[]){&c->ratio[0], &c->ratio[1], &c->time[0], &c->time[1]},
+                     names, NULL);
+    else if (d->C >= 2 && d->M == 4)
+        read_numbers(r, 4, (double *[]){&c->layer_shear, &c->layer, &c->yield, &c->hardening},
+                     names, NULL);
+    else if (d->C >= 2 && d->M > 0)
+        read_numbers(r, 4, NULL, names, NULL);
+    for (int body = 0; body < 2 && d->H == 3; body++)
+        read_numbers(r, 4, NULL, "BKTEMP, HEATCP, LAMBDA, DENS", NULL);
+    if (d->H == 3 && d->M == 4)
+        skip_line(r);
+    read_grid(r, c);
+    read_gap(r, c);
+}
+
 /* 1: the module goes on with a case that has no line MODULE of its own, R = 0 or 2;
  * behind points below the surface and the like it is not found. */
 static int stays(reading *r, const rb_io_contact_case *c)
@@ -282,23 +286,8 @@ rb_status rb_io_contact_read(const char *path, int *n, rb_io_contact_case **case
             }
             *cases = more;
             now.module = module;
-            if (module == 3) {
-                read_control(&r, &now.digit);
-                read_iteration(&r, &now);
-                read_numbers(&r, 4,
-                             (double *[]){&now.normal, &now.tangential, &now.side, &now.spin},
-                             "FN or PEN, CKSI or FX, CETA or FY, CPHI", NULL);
-            }
-            if (module == 3 && now.digit.V == 0) { /* else friction stands elsewhere */
-                read_friction(&r, &now);
-                read_material(&r, &now);
-                for (int body = 0; body < 2 && now.digit.H == 3; body++)
-                    read_numbers(&r, 4, NULL, "BKTEMP, HEATCP, LAMBDA, DENS", NULL);
-                if (now.digit.H == 3 && now.digit.M == 4 && r.status == RB_OK)
-                    next_line(&r);
-                read_grid(&r, &now);
-                read_gap(&r, &now);
-            }
+            if (module == 3)
+                read_case(&r, &now);
             more[(*n)++] = now;
             now.line = r.line + 1;
         } while (r.status == RB_OK && module == 3 && stays(&r, &now));

@@ -102,21 +102,25 @@ static int exists(const reader *in, const char *name)
     return 1;
 }
 
-/* The array lies in this file, which is large enough for it. */
-static rb_status open_array(const reader *in, const char *name, hid_t *set, int *n)
+/* The whole array, its length in n; type: what to convert to.  It must lie in this file, which
+ * is large enough for it. */
+static rb_status read_array(const reader *in, const char *name, hid_t type, size_t size, int *n,
+                            void **values)
 {
-    *set = exists(in, name) ? H5Dopen2(in->file, name, H5P_DEFAULT) : -1;
-    if (*set < 0)
+    const hid_t set = exists(in, name) ? H5Dopen2(in->file, name, H5P_DEFAULT) : -1;
+    *n = 0;
+    *values = NULL;
+    if (set < 0)
         return rb_fail(in->why, RB_EFORMAT, "%s: no %s", in->path, name);
-    const hid_t space = H5Dget_space(*set), layout = H5Dget_create_plist(*set),
-                type = H5Dget_type(*set);
+    const hid_t space = H5Dget_space(set), layout = H5Dget_create_plist(set),
+                stored = H5Dget_type(set);
     const hssize_t points = H5Sget_simple_extent_npoints(space); /* or negative */
     const int outside = H5Pget_layout(layout) == H5D_VIRTUAL || H5Pget_external_count(layout) != 0;
-    const double bytes = (double)points * (double)H5Tget_size(type);
+    const double bytes = (double)points * (double)H5Tget_size(stored);
     rb_status s = RB_OK;
     H5Sclose(space);
     H5Pclose(layout);
-    H5Tclose(type);
+    H5Tclose(stored);
     *n = (int)points;
     if ((uint64_t)points >= 1 << 30)
         s = rb_fail(in->why, RB_EFORMAT, "%s: %s: unreadable size", in->path, name);
@@ -126,22 +130,7 @@ static rb_status open_array(const reader *in, const char *name, hid_t *set, int 
         s = rb_fail(in->why, RB_EFORMAT,
                     "%s: %s has %g bytes: a file of this size holds at most %g", in->path, name,
                     bytes, in->most);
-    if (s != RB_OK)
-        H5Dclose(*set);
-    return s;
-}
-
-/* The whole array, its length in n; type: what to convert to. */
-static rb_status read_array(const reader *in, const char *name, hid_t type, size_t size, int *n,
-                            void **values)
-{
-    hid_t set;
-    *values = NULL;
-    rb_status s = open_array(in, name, &set, n);
-    if (s != RB_OK)
-        return s;
-    *values = malloc(size * (size_t)*n + 1);
-    if (!*values)
+    else if (!(*values = malloc(size * (size_t)*n + 1)))
         s = RB_ENOMEM;
     else if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, *values) < 0)
         s = rb_fail(in->why, RB_EFORMAT, "%s: %s cannot be read (truncated?)", in->path, name);

@@ -59,64 +59,18 @@ rb_status rb_io_matrix_market_write(const char *path, rb_io_dense m, const char 
     return rb_io_writer_commit(&w, why);
 }
 
-/* The kinds of Matrix Market file that hold real matrices. */
-typedef struct {
-    int coordinate; /* "row column value" lines; otherwise all entries, column by column
-                     */
-    int symmetric;  /* the lower triangle alone is written */
-} market_kind;
-
-static void read_array(io_tokens *t, int symmetric, rb_io_matrix *m)
-{
-    const size_t rows = (size_t)m->rows, cols = (size_t)m->cols;
-    if (!symmetric) {
-        m->dense = rb_io_tokens_alloc(t, rows, cols, "matrix");
-        rb_io_tokens_reals(t, rows * cols, m->dense, "matrix");
-        return;
-    }
-    if (!rb_io_tokens_room_for(t, rows, (cols + 1) / 2, "matrix"))
-        return;
-    m->dense = rb_alloc(rows, cols);
-    if (!m->dense)
-        t->status = rb_fail(t->why, RB_ENOMEM, "%s: out of memory for matrix", t->path);
-    for (size_t j = 0; t->status == RB_OK && j < cols; j++) {
-        rb_io_tokens_reals(t, rows - j, m->dense + j + j * rows, "column of the triangle");
-        for (size_t i = j; i < rows; i++)
-            m->dense[j + i * rows] = m->dense[i + j * rows];
-    }
-}
-
-static void read_coordinates(io_tokens *t, int symmetric, rb_io_matrix *m)
-{
-    const int most = symmetric ? INT_MAX / 2 : INT_MAX;
-    const int count = rb_io_tokens_int(t, 0, most, "number of entries");
-    const size_t capacity = (size_t)count << symmetric;
-    if (!rb_io_tokens_room_for(t, (size_t)count, 3, "entries"))
-        return;
-    m->entries = (rb_triplets){.rows = m->rows, .cols = m->cols};
-    if (rb_triplets_reserve(&m->entries, capacity) != RB_OK)
-        t->status = rb_fail(t->why, RB_ENOMEM, "%s: out of memory for matrix", t->path);
-    for (int k = 0; t->status == RB_OK && k < count; k++) {
-        const int i = rb_io_tokens_int(t, 1, m->rows, "row") - 1;
-        const int j = rb_io_tokens_int(t, 1, m->cols, "column") - 1;
-        const double x = rb_io_tokens_real(t, "value");
-        rb_triplets_add(&m->entries, i, j, x);
-        if (symmetric && i != j)
-            rb_triplets_add(&m->entries, j, i, x);
-    }
-}
-
+/* Files that hold real matrices: "row column value" lines (coordinate), or all entries column
+ * by column (array); of symmetric ones the lower triangle alone is written. */
 void rb_io_read_matrix_market(io_tokens *t, rb_io_matrix *m)
 {
     *m = (rb_io_matrix){0};
     /* The banner and the comment lines. */
-    market_kind kind = {0};
     int known = rb_io_tokens_take(t, "%%MatrixMarket") && rb_io_tokens_take(t, "matrix");
-    kind.coordinate = rb_io_tokens_take(t, "coordinate");
-    known = known && (kind.coordinate || rb_io_tokens_take(t, "array")) &&
+    const int coordinate = rb_io_tokens_take(t, "coordinate");
+    known = known && (coordinate || rb_io_tokens_take(t, "array")) &&
             (rb_io_tokens_take(t, "real") || rb_io_tokens_take(t, "integer"));
-    kind.symmetric = rb_io_tokens_take(t, "symmetric");
-    if (!known || !(kind.symmetric || rb_io_tokens_take(t, "general")))
+    const int symmetric = rb_io_tokens_take(t, "symmetric");
+    if (!known || !(symmetric || rb_io_tokens_take(t, "general")))
         rb_io_tokens_fail(t, "expected the line '%%%%MatrixMarket matrix array|coordinate "
                              "real|integer general|symmetric'");
     while (rb_io_tokens_more(t) && *t->at == '%')
@@ -125,12 +79,37 @@ void rb_io_read_matrix_market(io_tokens *t, rb_io_matrix *m)
     m->cols = rb_io_tokens_int(t, 0, INT_MAX, "columns");
     if (t->status == RB_OK && (m->rows == 0 || m->cols == 0))
         rb_io_tokens_fail(t, "a matrix of %d by %d has no entries", m->rows, m->cols);
-    if (t->status == RB_OK && kind.symmetric && m->rows != m->cols)
+    if (t->status == RB_OK && symmetric && m->rows != m->cols)
         rb_io_tokens_fail(t, "a symmetric matrix of %d by %d", m->rows, m->cols);
-    if (kind.coordinate)
-        read_coordinates(t, kind.symmetric, m);
-    else
-        read_array(t, kind.symmetric, m);
+    const size_t rows = (size_t)m->rows, cols = (size_t)m->cols;
+    if (coordinate) {
+        const int most = symmetric ? INT_MAX / 2 : INT_MAX;
+        const int count = rb_io_tokens_int(t, 0, most, "number of entries");
+        m->entries = (rb_triplets){.rows = m->rows, .cols = m->cols};
+        if (rb_io_tokens_room_for(t, (size_t)count, 3, "entries") &&
+            rb_triplets_reserve(&m->entries, (size_t)count << symmetric) != RB_OK)
+            t->status = rb_fail(t->why, RB_ENOMEM, "%s: out of memory for matrix", t->path);
+        for (int k = 0; t->status == RB_OK && k < count; k++) {
+            const int i = rb_io_tokens_int(t, 1, m->rows, "row") - 1;
+            const int j = rb_io_tokens_int(t, 1, m->cols, "column") - 1;
+            const double x = rb_io_tokens_real(t, "value");
+            rb_triplets_add(&m->entries, i, j, x);
+            if (symmetric && i != j)
+                rb_triplets_add(&m->entries, j, i, x);
+        }
+    } else if (symmetric) {
+        if (rb_io_tokens_room_for(t, rows, (cols + 1) / 2, "matrix") &&
+            !(m->dense = rb_alloc(rows, cols)))
+            t->status = rb_fail(t->why, RB_ENOMEM, "%s: out of memory for matrix", t->path);
+        for (size_t j = 0; t->status == RB_OK && j < cols; j++) {
+            rb_io_tokens_reals(t, rows - j, m->dense + j + j * rows, "column of the triangle");
+            for (size_t i = j; i < rows; i++)
+                m->dense[j + i * rows] = m->dense[i + j * rows];
+        }
+    } else {
+        m->dense = rb_io_tokens_alloc(t, rows, cols, "matrix");
+        rb_io_tokens_reals(t, rows * cols, m->dense, "matrix");
+    }
     if (t->status == RB_OK && rb_io_tokens_more(t))
         rb_io_tokens_fail(t, "expected the end of the file after the last number");
     if (t->status != RB_OK)

@@ -102,19 +102,6 @@ static rb_status keep_names(reading *r, const char *text)
     return s;
 }
 
-/* 1: a first line of words, none of them a number. */
-static int is_names(const reading *r, const char *text)
-{
-    const char *word;
-    double value;
-    if (r->t->rows > 0 || r->t->name)
-        return 0;
-    for (size_t n; (n = next_word(&text, &word)) > 0;)
-        if (is_number(word, n, &value))
-            return 0;
-    return 1;
-}
-
 /* ---- Rows -------------------------------------------------------------------------- */
 
 static rb_status read_row(reading *r, const char *text)
@@ -154,31 +141,6 @@ static rb_status read_row(reading *r, const char *text)
     return RB_OK;
 }
 
-static rb_status read_line(reading *r, char *text)
-{
-    const char *words = text;
-    rb_status s = RB_OK;
-    char *comment = strchr(text, '#');
-    if (comment) {
-        *comment++ = '\0';
-        if (r->t->rows == 0)
-            r->comment = comment;
-    }
-    if (count_words(text) == 0)
-        return RB_OK;
-    if (is_names(r, words))
-        return keep_names(r, words);
-    if (r->t->columns == 0) {
-        /* A comment of as many words as the first row has numbers names the columns. */
-        const int n = count_words(words);
-        if (count_words(r->comment) == n)
-            s = keep_names(r, r->comment);
-        else
-            r->t->columns = n;
-    }
-    return s == RB_OK ? read_row(r, words) : s;
-}
-
 rb_status rb_io_table_parse(const char *path, char *text, rb_io_table *t, rb_message *why)
 {
     reading r = {.path = path, .comment = "", .t = t, .why = why};
@@ -189,10 +151,30 @@ rb_status rb_io_table_parse(const char *path, char *text, rb_io_table *t, rb_mes
         if (*next)
             *next++ = '\0';
         r.line++;
-        s = read_line(&r, text);
+        char *comment = strchr(text, '#');
+        if (comment) {
+            *comment++ = '\0';
+            if (t->rows == 0)
+                r.comment = comment;
+        }
+        const int n = count_words(text);
+        if (n == 0)
+            continue;
+        /* A first line of words, none of them a number, names the columns; so does a comment
+         * of as many words as the first row has numbers. */
+        const char *at = text, *word;
+        double value;
+        int is_names = t->rows == 0 && !t->name;
+        for (size_t length; is_names && (length = next_word(&at, &word)) > 0;)
+            is_names = !is_number(word, length, &value);
+        if (is_names || (t->columns == 0 && count_words(r.comment) == n))
+            s = keep_names(&r, is_names ? text : r.comment);
+        t->columns = t->columns ? t->columns : n;
+        if (s == RB_OK && !is_names)
+            s = read_row(&r, text);
     }
-    if (s == RB_OK && r.t->rows == 0)
-        s = rb_fail(r.why, RB_EFORMAT, "%s: no numbers", r.path);
+    if (s == RB_OK && t->rows == 0)
+        s = rb_fail(why, RB_EFORMAT, "%s: no numbers", path);
     if (s == RB_OK) { /* from rows to columns */
         const size_t rows = (size_t)t->rows, columns = (size_t)t->columns;
         double *x = rb_alloc(rows, columns);

@@ -52,20 +52,6 @@ static rb_status cannot_read(const char *path, rb_message *why)
                            : rb_fail(why, RB_ENOENT, "%s: %s", path, strerror(errno));
 }
 
-/* What is no text is said to be none, before anything takes it for malformed numbers. */
-static rb_status check_text(const char *path, const char *text, size_t size, rb_message *why)
-{
-    if (size >= 2 && (memcmp(text, "\xff\xfe", 2) == 0 || memcmp(text, "\xfe\xff", 2) == 0))
-        return rb_fail(why, RB_EFORMAT, "%s: UTF-16 text, expected ASCII or UTF-8", path);
-    const char *zero = memchr(text, '\0', size);
-    if (!zero)
-        return RB_OK;
-    int line = 1;
-    for (const char *c = text; c < zero; c++)
-        line += *c == '\n';
-    return rb_fail(why, RB_EFORMAT, "%s:%d: a zero byte, expected text", path, line);
-}
-
 rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_message *why)
 {
     struct stat st, null;
@@ -91,8 +77,19 @@ rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_messag
         fclose(file);
         return too_large(path, most, why);
     }
-    rb_status s = *text ? check_text(path, *text, *size, why) : cannot_read(path, why);
+    rb_status s = *text ? RB_OK : cannot_read(path, why);
     fclose(file);
+    /* What is no text is said to be none, before anything takes it for malformed numbers. */
+    const char *zero = s == RB_OK ? memchr(*text, '\0', *size) : NULL;
+    if (s == RB_OK && *size >= 2 &&
+        (memcmp(*text, "\xff\xfe", 2) == 0 || memcmp(*text, "\xfe\xff", 2) == 0))
+        s = rb_fail(why, RB_EFORMAT, "%s: UTF-16 text, expected ASCII or UTF-8", path);
+    else if (zero) {
+        int line = 1;
+        for (const char *c = *text; c < zero; c++)
+            line += *c == '\n';
+        s = rb_fail(why, RB_EFORMAT, "%s:%d: a zero byte, expected text", path, line);
+    }
     if (s == RB_OK && strncmp(*text, "\xef\xbb\xbf", 3) == 0) /* some editors' mark */
         memset(*text, ' ', 3);
     if (s != RB_OK) {
