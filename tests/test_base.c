@@ -37,6 +37,35 @@ TEST(a_copy_is_an_array_of_its_own)
     alloc_succeed();
 }
 
+TEST(an_arena_fails_once_and_for_all_and_is_freed_at_once)
+{
+    rb_arena arena = {0};
+    double *a = rb_arena_doubles(&arena, 3, 5);
+    int *k = rb_arena_ints(&arena, 7);
+    char *bytes = rb_arena_zeros(&arena, 5, 3);
+    assert_true(a && k && bytes && !arena.failed);
+    for (int i = 0; i < 15; i++)
+        assert_true(a[i] == 0.0 && bytes[i] == 0 && k[i % 7] == 0);
+    memset(a, 1, 15 * sizeof *a); /* the address sanitizer sees whether it is all ours */
+    memset(k, 1, 7 * sizeof *k);
+    memset(bytes, 1, 15);
+    assert_int_equal((uintptr_t)a % sizeof(double), 0);
+    alloc_fail_after(0);
+    assert_null(rb_arena_doubles(&arena, 2, 2));
+    alloc_succeed();
+    assert_true(arena.failed);
+    assert_null(rb_arena_ints(&arena, 1));
+    CHECK_STATUS(rb_arena_done(&arena, RB_ENOMEM), RB_ENOMEM);
+
+    assert_non_null(rb_arena_doubles(&arena, 0, 4)); /* empty again: it may be used once more */
+    assert_null(rb_arena_doubles(&arena, SIZE_MAX / 2, 3));
+    assert_true(arena.failed);
+    CHECK_OK(rb_arena_done(&arena, RB_OK));
+    assert_null(rb_arena_zeros(&arena, SIZE_MAX / 4, 4));
+    CHECK_OK(rb_arena_done(&arena, RB_OK));
+    CHECK_OK(rb_arena_done(&arena, RB_OK)); /* of nothing */
+}
+
 TEST(absurd_sizes_are_refused_by_name)
 {
     CHECK_OK(rb_memory_check(1e3, "a small thing", &heard));

@@ -68,9 +68,10 @@ TEST(whole_elements_ahead_are_their_midpoints)
         pressed d = press(&rc, -3.0, 3.0);
         double w_T[ELEMENTS];
         for (int steps = 1; steps <= 3; steps++) {
-            OWNED(rb_rolling_former_place) ahead;
-            CHECK_OK(
-                rb_rolling_former_place_create(&rc, &d.bodies, steps * 6.0 / ELEMENTS, &ahead));
+            OWNED(rb_arena) memory = {0};
+            rb_rolling_former_place ahead;
+            CHECK_OK(rb_rolling_former_place_create(&rc, &d.bodies, steps * 6.0 / ELEMENTS, &memory,
+                                                    &ahead));
             rb_rolling_former_place_apply(&ahead, &d.bodies, d.p, d.q, w_T);
             for (int i = 0; i + steps <= ELEMENTS; i++)
                 CHECK_ABS(w_T[i], d.w[ELEMENTS + 1 + i + steps], 1e-12 * largest(&d),
@@ -86,14 +87,15 @@ TEST(places_beyond_the_mesh_are_those_of_a_longer_one)
 {
     const rb_rolling_case rc = plane_ahead(1, ELEMENTS), longer = plane_ahead(1, ELEMENTS + 4);
     pressed d = press(&rc, -3.0, 3.0), more = press(&longer, -3.5, 4.5);
-    OWNED(rb_rolling_former_place) ahead;
+    OWNED(rb_arena) memory = {0};
+    rb_rolling_former_place ahead;
     double w_T[ELEMENTS], W_T[2 * 2 * ELEMENTS], outside[2] = {0.0, 0.0};
     memset(more.p, 0, sizeof(double) * (ELEMENTS + 4));
     memset(more.q, 0, sizeof(double) * (ELEMENTS + 4));
     memcpy(more.p + 1, d.p, sizeof(double) * ELEMENTS);
     memcpy(more.q + 1, d.q, sizeof(double) * ELEMENTS);
     CHECK_OK(rb_rolling_displacement(&more.bodies, more.p, more.q, more.w));
-    CHECK_OK(rb_rolling_former_place_create(&rc, &d.bodies, 1.5, &ahead));
+    CHECK_OK(rb_rolling_former_place_create(&rc, &d.bodies, 1.5, &memory, &ahead));
     rb_rolling_former_place_apply(&ahead, &d.bodies, d.p, d.q, w_T);
     for (int i = 0; i < ELEMENTS; i++)
         CHECK_ABS(w_T[i], more.w[ELEMENTS + 5 + i + 4], 1e-12 * largest(&d), "element %d", i);
@@ -116,10 +118,11 @@ TEST(a_wheel_is_nearly_on_the_line_of_its_midpoints)
     rc.a.support = RB_BEM_HUB;
     rc.outer_elements = 60;
     pressed d = press(&rc, -0.6, 0.6);
-    OWNED(rb_rolling_former_place) ahead;
+    OWNED(rb_arena) memory = {0};
+    rb_rolling_former_place ahead;
     double w_T[ELEMENTS], W_T[2 * 2 * ELEMENTS], outside[2] = {0.0, 0.0};
     const double h = d.bodies.f.h[ELEMENTS / 2];
-    CHECK_OK(rb_rolling_former_place_create(&rc, &d.bodies, h, &ahead));
+    CHECK_OK(rb_rolling_former_place_create(&rc, &d.bodies, h, &memory, &ahead));
     rb_rolling_former_place_apply(&ahead, &d.bodies, d.p, d.q, w_T);
     for (int i = 0; i < ELEMENTS; i++)
         CHECK_ABS(w_T[i], d.w[ELEMENTS + 2 + i], 1e-5 * largest(&d), "element %d", i);
@@ -152,16 +155,16 @@ TEST(large_contacts_look_ahead_alike)
         rc.interlayer_tangential = k ? 1e-4 : 0.0;
         pressed d = press(&rc, -3.0, 3.0);
         double *w_T = rb_alloc(LARGE, 2), *half = w_T + LARGE;
+        OWNED(rb_arena) memory = {0};
         rb_rolling_former_place ahead;
         assert_non_null(w_T);
         assert_null(d.bodies.F);
-        CHECK_OK(rb_rolling_former_place_create(&rc, &d.bodies, 2.0 * h, &ahead));
+        CHECK_OK(rb_rolling_former_place_create(&rc, &d.bodies, 2.0 * h, &memory, &ahead));
         rb_rolling_former_place_apply(&ahead, &d.bodies, d.p, d.q, w_T);
-        rb_rolling_former_place_free(&ahead);
         for (int i = 0; i + 2 <= LARGE; i += 50)
             CHECK_ABS(w_T[i], d.w[LARGE + 1 + i + 2], 1e-11 * largest(&d), "element %d", i);
         /* what an interface adds half an element ahead */
-        CHECK_OK(rb_rolling_former_place_create(&rc, &d.bodies, 0.5 * h, &ahead));
+        CHECK_OK(rb_rolling_former_place_create(&rc, &d.bodies, 0.5 * h, &memory, &ahead));
         rb_rolling_former_place_apply(&ahead, &d.bodies, d.p, d.q, w_T);
         rc.interlayer_tangential = 0.0;
         pressed without = press(&rc, -3.0, 3.0);
@@ -173,7 +176,6 @@ TEST(large_contacts_look_ahead_alike)
         }
         const int last = LARGE - 1;
         CHECK_ABS(w_T[last] - half[last], k ? 0.5e-4 * d.q[last] : 0.0, 1e-13, "last");
-        rb_rolling_former_place_free(&ahead);
         release_pressed(&without);
         free(w_T);
         release_pressed(&d);
@@ -185,10 +187,12 @@ TEST(memory_for_what_is_ahead_may_be_refused)
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = plane_ahead(0, k ? LARGE : ELEMENTS);
         pressed d = press(&rc, -1.0, 1.0);
+        OWNED(rb_arena) memory = {0};
         rb_rolling_former_place ahead;
         assert_int_equal(d.bodies.F == NULL, k);
         alloc_fail_after(0);
-        CHECK_STATUS(rb_rolling_former_place_create(&rc, &d.bodies, 0.01, &ahead), RB_ENOMEM);
+        CHECK_STATUS(rb_rolling_former_place_create(&rc, &d.bodies, 0.01, &memory, &ahead),
+                     RB_ENOMEM);
         alloc_succeed();
         assert_true(!ahead.W_T && !ahead.response);
         release_pressed(&d);
@@ -206,13 +210,14 @@ TEST(large_contacts_know_what_is_ahead)
     rc.load = 100.0;
     OWNED(rb_rolling_mesh) mesh;
     OWNED(rb_rolling_bodies) bodies;
-    OWNED(rb_rolling_former_place) ahead;
+    OWNED(rb_arena) memory = {0};
+    rb_rolling_former_place ahead;
     const int n = RB_ROLLING_LARGE, m = n + 1;
 
     CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -0.2, 0.2, &mesh, NULL));
     CHECK_OK(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, NULL));
     assert_null(bodies.F);
-    CHECK_OK(rb_rolling_former_place_create(&rc, &bodies, bodies.f.h[0], &ahead));
+    CHECK_OK(rb_rolling_former_place_create(&rc, &bodies, bodies.f.h[0], &memory, &ahead));
     SCRATCH double *r = calloc((size_t)(2 * n), sizeof *r), *w = calloc((size_t)(2 * m), sizeof *w),
                    *w_T = calloc((size_t)n, sizeof *w_T);
     for (int i = n / 3; i < 2 * n / 3; i++) {
@@ -241,13 +246,14 @@ TEST(an_interface_moves_with_the_steps)
         rc.a.radius = 500.0;
         OWNED(rb_rolling_mesh) mesh;
         OWNED(rb_rolling_bodies) bodies;
-        OWNED(rb_rolling_former_place) ahead;
+        OWNED(rb_arena) memory = {0};
+        rb_rolling_former_place ahead;
         rc.contact.solver = large ? RB_SOLVER_NEWTON : RB_SOLVER_LEMKE;
         rc.interlayer_tangential = 1e-2;
         CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -1.3, 1.3, &mesh, NULL));
         CHECK_OK(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, NULL));
         assert_int_equal(bodies.F == NULL, large);
-        CHECK_OK(rb_rolling_former_place_create(&rc, &bodies, 1.3 * 2.6 / n, &ahead));
+        CHECK_OK(rb_rolling_former_place_create(&rc, &bodies, 1.3 * 2.6 / n, &memory, &ahead));
         w[large] = rb_alloc((size_t)n, 1);
         rb_rolling_former_place_apply(&ahead, &bodies, p, q, w[large]);
     }
@@ -420,29 +426,27 @@ TEST(increments_press_first_and_load_then)
     rc.increments = 2;
     rc.approach = 0.1;
     rc.shift = 0.02;
-    double *columns = rb_rolling_program_of_case(&rc, &program);
+    OWNED(rb_arena) memory = {0};
+    CHECK_OK(rb_rolling_program_of_case(&rc, &memory, &program));
     static const double approach[] = {0.05, 0.1, 0.1, 0.1}, shift[] = {0.0, 0.0, 0.01, 0.02};
     assert_int_equal(program.n, 4);
     assert_null(program.load);
     assert_null(program.distance);
     check_rows(program.approach, approach, 4, "approach");
     check_rows(program.shift, shift, 4, "shift");
-    free(columns);
 
     rc.approach = rc.shift = NAN;
     rc.load = 10.0;
-    columns = rb_rolling_program_of_case(&rc, &program);
+    CHECK_OK(rb_rolling_program_of_case(&rc, &memory, &program));
     assert_int_equal(program.n, 2); /* a shift of 0 loads nothing */
     CHECK_ABS(program.load[0], 5.0, 0.0, "half the load");
     CHECK_ABS(program.load[1], 10.0, 0.0, "the load");
-    free(columns);
 
     rc.force = -2.0;
-    columns = rb_rolling_program_of_case(&rc, &program);
+    CHECK_OK(rb_rolling_program_of_case(&rc, &memory, &program));
     assert_int_equal(program.n, 4);
     assert_null(program.shift);
     CHECK_ABS(program.force[2], -1.0, 0.0, "half the force");
-    free(columns);
 }
 
 TEST(a_transient_rolls_under_its_loads)
@@ -452,7 +456,8 @@ TEST(a_transient_rolls_under_its_loads)
     rc.distance = 3.0;
     rc.increments = 2;
     rc.force_ratio = 0.5;
-    double *columns = rb_rolling_program_of_case(&rc, &program);
+    OWNED(rb_arena) memory = {0};
+    CHECK_OK(rb_rolling_program_of_case(&rc, &memory, &program));
     static const double load[] = {5.0, 10.0, 10.0, 10.0, 10.0},
                         ratio[] = {0.0, 0.0, 0.25, 0.5, 0.5},
                         distance[] = {0.0, 0.0, 0.0, 0.0, 3.0};
@@ -460,17 +465,15 @@ TEST(a_transient_rolls_under_its_loads)
     check_rows(program.load, load, 5, "load");
     check_rows(program.force_ratio, ratio, 5, "Q/(mu P)");
     check_rows(program.distance, distance, 5, "distance");
-    free(columns);
 
     rc.force_ratio = NAN;
     rc.creep = 0.001;
     rc.increments = 1;
-    columns = rb_rolling_program_of_case(&rc, &program);
+    CHECK_OK(rb_rolling_program_of_case(&rc, &memory, &program));
     assert_int_equal(program.n, 2); /* driven by its creepage: no force at rest */
     assert_null(program.force);
     assert_null(program.force_ratio);
     assert_null(program.shift);
-    free(columns);
 }
 
 /* ---- What rides along -------------------------------------------------------------- */
@@ -485,9 +488,10 @@ TEST(whole_elements_ahead_are_known)
         const int n = model.mesh.n, m = n + 1;
         const double *F = model.bodies.F, size = fabs(F[0]);
         for (int k = 0; k <= 3; k++) {
-            OWNED(rb_rolling_former_place) ahead;
+            OWNED(rb_arena) memory = {0};
+            rb_rolling_former_place ahead;
             CHECK_OK(rb_rolling_former_place_create(&rc, &model.bodies, k * model.bodies.f.h[n / 2],
-                                                    &ahead));
+                                                    &memory, &ahead));
             for (int j = 0; j < 2 * n; j++)
                 for (int i = 0; i + k < m && i < n; i++)
                     CHECK_ABS(ahead.W_T[i + j * n], F[m + i + k + j * 2 * m], 1e-12 * size,
@@ -508,9 +512,10 @@ TEST(a_quarter_ahead_is_a_midpoint_of_halves)
     rc.contact_elements *= 2;
     CHECK_OK(rb_rolling_model_create(&rc, &fine, NULL));
     const int n = coarse.mesh.n, m = 2 * n + 1;
-    OWNED(rb_rolling_former_place) ahead;
+    OWNED(rb_arena) memory = {0};
+    rb_rolling_former_place ahead;
     CHECK_OK(rb_rolling_former_place_create(&rc, &coarse.bodies, 0.25 * coarse.bodies.f.h[n / 2],
-                                            &ahead));
+                                            &memory, &ahead));
     const double *F = fine.bodies.F, size = fabs(F[m + 4 * n * m]); /* TT */
     for (int j = 0; j < 2 * n; j++)
         for (int i = 0; i < n; i++) {
@@ -573,13 +578,14 @@ TEST(the_past_moves_with_the_material)
     enum { N = 6, TAIL = 3, ALL = N + TAIL };
     rb_rolling_case rc = rb_rolling_case_defaults();
     OWNED(rb_rolling_mesh) mesh;
+    OWNED(rb_arena) memory = {0};
     OWNED(rb_rolling_memory_track) track;
     double w0[2 * (N + 1)], past[2 * ALL], own[2 * ALL], sum[2 * ALL], w[2 * (ALL + 1)];
     rc.a.support = RB_BEM_HALFPLANE;
     rc.a.memory = (rb_rolling_memory){1, {2.0}, {0.5}};
     rc.contact_elements = N;
     CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -0.3, 0.3, &mesh, NULL));
-    CHECK_OK(rb_rolling_memory_track_create(&rc, &mesh, TAIL, &track, NULL));
+    CHECK_OK(rb_rolling_memory_track_create(&rc, &mesh, TAIL, &memory, &track, NULL));
     for (int rolls = 0; rolls < 2; rolls++) {
         for (int i = 0; i < 2 * ALL; i++) {
             track.traction[i] = own[i] = 1.0 + i;
@@ -635,9 +641,10 @@ TEST(a_step_loses_what_its_dashpot_does)
         const double f0 = (double)(-0.5L * expm1l(-2.0L * r)),
                      f1 = (double)(0.5L * faded * faded / r),
                      f2 = (double)((r - 2.0L * faded - 0.5L * expm1l(-2.0L * r)) / (r * r));
+        OWNED(rb_arena) memory = {0};
         OWNED(rb_rolling_memory_track) track;
         double e[2 * N] = {0.0}, d[2 * N], next[2 * N];
-        CHECK_OK(rb_rolling_memory_track_create(&rc, &mesh, 0, &track, NULL));
+        CHECK_OK(rb_rolling_memory_track_create(&rc, &mesh, 0, &memory, &track, NULL));
         for (int i = 0; i < 2 * N; i++)
             next[i] = 2.0 + i * i;
         if (kind > 0)

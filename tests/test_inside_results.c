@@ -69,12 +69,13 @@ TEST(steps_warm_what_passes_them)
     for (int j = 0; j < 4; j++) {
         const double h = 0.1, c = lengths[j] * h, V = 500.0;
         rb_rolling_case rc = rb_rolling_case_defaults();
+        OWNED(rb_arena) memory = {0};
         rb_rolling_heat_track track = {.n = N, .h = h, .step = c};
         double q[N], lambda[N], t[N], heat[STEPS][N];
         rc.speed = V;
         rc.heat_a = (rb_rolling_heat){40.0, 4.0, 20.0};
         rc.heat_b = (rb_rolling_heat){10.0, 1.0, 20.0};
-        CHECK_OK(rb_rolling_heat_track_create(&rc, 5.0, &track, NULL));
+        CHECK_OK(rb_rolling_heat_track_create(&rc, 5.0, &memory, &track, NULL));
         assert_int_equal(track.rows, (int)ceil(N / lengths[j]) + 1);
         const double unit = 2.0 * sqrt(c / (M_PI * V)) / (sqrt(160.0) + sqrt(10.0));
         for (int k = 0; k < STEPS; k++) {
@@ -98,8 +99,6 @@ TEST(steps_warm_what_passes_them)
                 CHECK_REL(t[i], want, 1e-9, "length %g, step %d, element %d", lengths[j], k, i);
             }
         }
-        rb_rolling_heat_track_free(&track);
-        assert_null(track.heat);
     }
 }
 
@@ -107,16 +106,16 @@ TEST(steps_warm_what_passes_them)
 TEST(a_track_is_refused_where_heat_runs_along)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
+    OWNED(rb_arena) memory = {0};
     rb_rolling_heat_track track = {.n = 8, .h = 0.1, .step = 0.0};
     rc.speed = 500.0;
     rc.heat_a = (rb_rolling_heat){40.0, 4.0, 20.0}; /* V a/(2 k) = 25 a */
-    CHECK_OK(rb_rolling_heat_track_create(&rc, 0.4, &track, &heard));
+    CHECK_OK(rb_rolling_heat_track_create(&rc, 0.4, &memory, &track, &heard));
     assert_int_equal(track.rows, 1);
-    rb_rolling_heat_track_free(&track);
-    CHECK_SAYS(rb_rolling_heat_track_create(&rc, 0.399, &track, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_heat_track_create(&rc, 0.399, &memory, &track, &heard), RB_EINVAL,
                "V a/(2 diffusivity) >= 10");
     rc.heat_b = (rb_rolling_heat){400.0, 4.0, 20.0};
-    CHECK_STATUS(rb_rolling_heat_track_create(&rc, 0.4, &track, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_heat_track_create(&rc, 0.4, &memory, &track, &heard), RB_EINVAL);
 }
 
 /* Equal temperatures beside the warmest element have no vertex. */
@@ -155,8 +154,10 @@ TEST(unlike_bodies_share_by_temperature)
         s.contact = 0;
         double power[100] = {0.0};
         assert_true(s.n <= 100 && RB_ZONE_SEPARATED == 0);
-        CHECK_OK(rb_rolling_steady_temperature(&rc, &s, power, NULL, s.temperature, s.temperature_b,
-                                               NULL));
+        struct rb_rolling_conduction *conduction = NULL;
+        CHECK_OK(rb_rolling_steady_temperature(&rc, &s, power, &conduction, s.temperature,
+                                               s.temperature_b, NULL));
+        rb_rolling_conduction_free(conduction);
         for (int i = 0; i < s.n; i++) {
             CHECK_ABS(s.temperature[i], 0.0, 1e-12, "A away from B, %d at %d", k, i);
             CHECK_ABS(s.temperature_b[i], rc.heat_b.temperature, 1e-12, "B");
@@ -182,8 +183,10 @@ TEST(shares_of_equal_elements_are_those_of_any)
             power[i] = s.zone[i] != RB_ZONE_SEPARATED ? 1.0 + 0.01 * i : 0.0;
         for (int k = 0; k < 2; k++) {
             rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
-            CHECK_OK(
-                rb_rolling_steady_temperature(&rc, &s, power, NULL, t[2 * k], t[2 * k + 1], NULL));
+            struct rb_rolling_conduction *conduction = NULL;
+            CHECK_OK(rb_rolling_steady_temperature(&rc, &s, power, &conduction, t[2 * k],
+                                                   t[2 * k + 1], NULL));
+            rb_rolling_conduction_free(conduction);
         }
         for (int i = 0; i < s.n; i++) {
             CHECK_REL(t[0][i], t[2][i], 1e-11, "A at %d, hole %d", i, hole);
@@ -197,10 +200,11 @@ TEST(shares_of_equal_elements_are_those_of_any)
 TEST(tracks_longer_than_memory_are_refused)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
-    OWNED(rb_rolling_heat_track) track = {.n = 1000, .h = 1.0, .step = 1e-15};
+    OWNED(rb_arena) memory = {0};
+    rb_rolling_heat_track track = {.n = 1000, .h = 1.0, .step = 1e-15};
     rc.speed = 1e6;
     rc.heat_a = rc.heat_b = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
-    CHECK_SAYS(rb_rolling_heat_track_create(&rc, 1.0, &track, &heard), RB_EINVAL,
+    CHECK_SAYS(rb_rolling_heat_track_create(&rc, 1.0, &memory, &track, &heard), RB_EINVAL,
                "the heat of steps");
 }
 

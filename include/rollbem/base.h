@@ -131,6 +131,33 @@ int *rb_alloc_int(size_t n);
 /* n doubles with the values of x; NULL when memory is short.  Released with free(). */
 double *rb_copy(size_t n, const double *x);
 
+/* Scratch memory: arrays that a function needs for itself.  It allocates all of them, asks
+ * once whether there was memory, and leaves at each exit through rb_arena_done, which frees
+ * them and returns the status:
+ *
+ *     rb_arena scratch = {0};
+ *     double *M = rb_arena_doubles(&scratch, n, n), *q = rb_arena_doubles(&scratch, n, 1);
+ *     if (scratch.failed)
+ *         return rb_arena_done(&scratch, RB_ENOMEM);
+ *
+ * A function that is handed an arena adds arrays to it and leaves freeing to the owner.
+ * Once an allocation has failed, all later ones do.  Each array is a block of its own, so
+ * that tools that watch memory see its ends.  One thread at a time. */
+typedef struct {
+    int failed;                 /* 1: an array could not be allocated */
+    union rb_arena_block *last; /* of a list of all arrays; owned */
+} rb_arena;
+
+/* rows x cols doubles, n ints, or count things of a size, all zero; owned by the arena.
+ * NULL when memory is short or the product overflows. */
+double *rb_arena_doubles(rb_arena *arena, size_t rows, size_t cols);
+int *rb_arena_ints(rb_arena *arena, size_t n);
+void *rb_arena_zeros(rb_arena *arena, size_t count, size_t size);
+/* Frees all arrays; the arena is empty again. */
+void rb_arena_free(rb_arena *arena);
+/* The same; returns s. */
+rb_status rb_arena_done(rb_arena *arena, rb_status s);
+
 /* Call it before a large allocation.  RB_EINVAL: the machine has less memory than bytes;
  * why then says how much `what` needs and how much there is. */
 rb_status rb_memory_check(double bytes, const char *what, rb_message *why);

@@ -2,19 +2,11 @@
  * one row of functions for each kind. */
 #include "history/internal.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 double rb_rolling_middle_length(const rb_rolling_model *model)
 {
     return model->bodies.f.h[model->mesh.n / 2];
-}
-
-/* Zeros, as many as elements and `more`. */
-static rb_status alloc(const rb_rolling_particles *r, int more, double **values)
-{
-    *values = rb_alloc((size_t)(r->model->mesh.n + more), 1);
-    return *values ? RB_OK : RB_ENOMEM;
 }
 
 /* 1: a step of this length moves particles by one element. */
@@ -60,9 +52,9 @@ static rb_status create_past(rb_rolling_particles *r, rb_message *why)
             slowest = fmax(slowest, memory[b]->time[k]);
     const double tail =
         r->step > 0.0 ? fmin(r->steps, FORGOTTEN * slowest * rc->speed / r->step) : 0.0;
-    return s == RB_OK
-               ? rb_rolling_memory_track_create(rc, &r->model->mesh, (int)ceil(tail), &r->past, why)
-               : s;
+    return s == RB_OK ? rb_rolling_memory_track_create(rc, &r->model->mesh, (int)ceil(tail),
+                                                       &r->memory, &r->past, why)
+                      : s;
 }
 
 /* In every step they are others: elastic ones of that interval, displaced by what came
@@ -98,17 +90,16 @@ static void leave_past(rb_rolling_particles *r, const rb_rolling_stride *stride)
     rb_rolling_memory_track_end(&r->past, stride->interval, state->p, state->q);
 }
 
-static void free_past(rb_rolling_particles *r)
-{
-    rb_rolling_memory_track_free(&r->past);
-}
-
 /* ---- Displacement ------------------------------------------------------------------ */
 
 static rb_status create_displacement(rb_rolling_particles *r, rb_message *why)
 {
+    const size_t n = (size_t)r->model->mesh.n;
+
     (void)why;
-    return alloc(r, 0, &r->w_T);
+    r->w_T = rb_arena_doubles(&r->memory, n, 1);
+    r->w = rb_arena_doubles(&r->memory, 2 * (n + 1), 1);
+    return r->memory.failed ? RB_ENOMEM : RB_OK;
 }
 
 /* w_T of the present tractions at the same places (c = 0), or where the particles are
@@ -124,23 +115,14 @@ static rb_status bring_displacement(rb_rolling_particles *r, const rb_rolling_st
     (void)why;
     if (stride->c > 0.0 && !element) {
         if (r->ahead.step == 0.0)
-            s = rb_rolling_former_place_create(r->rc, bodies, stride->c, &r->ahead);
+            s = rb_rolling_former_place_create(r->rc, bodies, stride->c, &r->memory, &r->ahead);
         if (s == RB_OK)
             rb_rolling_former_place_apply(&r->ahead, bodies, state->p, state->q, r->w_T);
         return s;
     }
-    double *w = rb_alloc(2 * (size_t)m, 1);
-    s = w ? rb_rolling_displacement(bodies, state->p, state->q, w) : RB_ENOMEM;
-    if (s == RB_OK)
-        memcpy(r->w_T, w + m + element, (size_t)n * sizeof(double));
-    free(w);
+    s = rb_rolling_displacement(bodies, state->p, state->q, r->w);
+    memcpy(r->w_T, r->w + m + element, (size_t)n * sizeof(double));
     return s;
-}
-
-static void free_displacement(rb_rolling_particles *r)
-{
-    free(r->w_T);
-    rb_rolling_former_place_free(&r->ahead);
 }
 
 /* ---- Coefficients of friction ------------------------------------------------------ */
@@ -148,7 +130,8 @@ static void free_displacement(rb_rolling_particles *r)
 static rb_status create_friction(rb_rolling_particles *r, rb_message *why)
 {
     (void)why;
-    return alloc(r, 0, &r->mu);
+    r->mu = rb_arena_doubles(&r->memory, (size_t)r->model->mesh.n, 1);
+    return r->mu ? RB_OK : RB_ENOMEM;
 }
 
 /* Those at the former places of the particles; nothing is iterated at rest. */
@@ -168,12 +151,6 @@ static rb_status bring_friction(rb_rolling_particles *r, const rb_rolling_stride
     return RB_OK;
 }
 
-static void free_friction(rb_rolling_particles *r)
-{
-    free(r->mu);
-    r->model->carried.mu = NULL;
-}
-
 /* ---- An interface that yields ------------------------------------------------------ */
 
 static int yields(const rb_rolling_case *rc)
@@ -183,10 +160,12 @@ static int yields(const rb_rolling_case *rc)
 
 static rb_status create_yielded(rb_rolling_particles *r, rb_message *why)
 {
-    const rb_status s = alloc(r, 1, &r->yielded);
+    const size_t n = (size_t)r->model->mesh.n;
 
     (void)why;
-    return s == RB_OK ? alloc(r, 0, &r->model->carried.yielded) : s;
+    r->yielded = rb_arena_doubles(&r->memory, n + 1, 1);
+    r->model->carried.yielded = rb_alloc(n, 1);
+    return r->yielded && r->model->carried.yielded ? RB_OK : RB_ENOMEM;
 }
 
 /* What it has yielded where the particles come from: linear between midpoints; nothing
@@ -212,27 +191,22 @@ static rb_status bring_yielded(rb_rolling_particles *r, const rb_rolling_stride 
     return RB_OK;
 }
 
-static void free_yielded(rb_rolling_particles *r)
-{
-    free(r->yielded);
-}
-
 /* ---- Heat -------------------------------------------------------------------------- */
 
 /* Both surfaces begin with the temperature of their bodies. */
 static rb_status create_heat(rb_rolling_particles *r, rb_message *why)
 {
     const int n = r->model->mesh.n;
-    const rb_status s = alloc(r, 0, &r->model->carried.temperature);
+    double *temperature = r->model->carried.temperature = rb_alloc((size_t)n, 1);
 
-    if (s != RB_OK)
-        return s;
+    if (!temperature)
+        return RB_ENOMEM;
     for (int i = 0; i < n; i++)
-        r->model->carried.temperature[i] = r->rc->heat_a.temperature;
+        temperature[i] = r->rc->heat_a.temperature;
     r->model->carried.heat = &r->heat;
     r->heat =
         (rb_rolling_heat_track){.n = n, .h = rb_rolling_middle_length(r->model), .step = r->step};
-    return rb_rolling_heat_track_create(r->rc, r->model->half_width, &r->heat, why);
+    return rb_rolling_heat_track_create(r->rc, r->model->half_width, &r->memory, &r->heat, why);
 }
 
 static rb_status bring_heat(rb_rolling_particles *r, const rb_rolling_stride *stride,
@@ -253,12 +227,6 @@ static void leave_heat(rb_rolling_particles *r, const rb_rolling_stride *stride)
                                    model->carried.temperature);
 }
 
-static void free_heat(rb_rolling_particles *r)
-{
-    rb_rolling_heat_track_free(&r->heat);
-    r->model->carried.heat = NULL;
-}
-
 /* ---- All of them ------------------------------------------------------------------- */
 
 typedef struct {
@@ -268,17 +236,16 @@ typedef struct {
     rb_status (*bring)(rb_rolling_particles *r, const rb_rolling_stride *stride, rb_message *why);
     /* What the step, solved, leaves with them; NULL: the model has it. */
     void (*leave)(rb_rolling_particles *r, const rb_rolling_stride *stride);
-    void (*free)(rb_rolling_particles *r);
     int without_past; /* 1: also brought into the first step */
 } memory;
 
 /* What looks at the bodies of the step before stands before those that change. */
 static const memory memories[] = {
-    {NULL, create_displacement, bring_displacement, NULL, free_displacement, 0},
-    {rb_rolling_law_depends_on_state, create_friction, bring_friction, NULL, free_friction, 0},
-    {yields, create_yielded, bring_yielded, NULL, free_yielded, 0},
-    {rb_rolling_has_heat, create_heat, bring_heat, leave_heat, free_heat, 0},
-    {rb_rolling_relaxes, create_past, bring_past, leave_past, free_past, 1}};
+    {NULL, create_displacement, bring_displacement, NULL, 0},
+    {rb_rolling_law_depends_on_state, create_friction, bring_friction, NULL, 0},
+    {yields, create_yielded, bring_yielded, NULL, 0},
+    {rb_rolling_has_heat, create_heat, bring_heat, leave_heat, 0},
+    {rb_rolling_relaxes, create_past, bring_past, leave_past, 1}};
 enum { MEMORIES = sizeof memories / sizeof *memories };
 
 static int is_carried(const memory *m, const rb_rolling_particles *r)
@@ -289,23 +256,25 @@ static int is_carried(const memory *m, const rb_rolling_particles *r)
 /* Backwards: the elements of bodies that relax are those of all others. */
 rb_status rb_rolling_particles_create(rb_rolling_particles *r, rb_message *why)
 {
-    rb_status s = RB_OK;
-
-    for (int k = MEMORIES - 1; k >= 0 && s == RB_OK; k--)
-        if (is_carried(&memories[k], r))
-            s = memories[k].create(r, why);
-    return s;
+    for (int k = MEMORIES - 1; k >= 0; k--) {
+        const rb_status s = is_carried(&memories[k], r) ? memories[k].create(r, why) : RB_OK;
+        if (s != RB_OK)
+            return s;
+    }
+    return RB_OK;
 }
 
 rb_status rb_rolling_particles_bring(rb_rolling_particles *r, const rb_rolling_stride *stride,
                                      rb_message *why)
 {
-    rb_status s = RB_OK;
-
-    for (int k = 0; k < MEMORIES && s == RB_OK; k++)
-        if (is_carried(&memories[k], r) && (memories[k].without_past || !stride->is_first))
-            s = memories[k].bring(r, stride, why);
-    return s;
+    for (int k = 0; k < MEMORIES; k++) {
+        const int brings =
+            is_carried(&memories[k], r) && (memories[k].without_past || !stride->is_first);
+        const rb_status s = brings ? memories[k].bring(r, stride, why) : RB_OK;
+        if (s != RB_OK)
+            return s;
+    }
+    return RB_OK;
 }
 
 void rb_rolling_particles_leave(rb_rolling_particles *r, const rb_rolling_stride *stride)
@@ -317,7 +286,11 @@ void rb_rolling_particles_leave(rb_rolling_particles *r, const rb_rolling_stride
 
 void rb_rolling_particles_free(rb_rolling_particles *r)
 {
-    for (int k = 0; r->model && k < MEMORIES; k++)
-        memories[k].free(r);
+    if (r->model) { /* borrows them */
+        r->model->carried.mu = NULL;
+        r->model->carried.heat = NULL;
+    }
+    rb_rolling_memory_track_free(&r->past);
+    rb_arena_free(&r->memory);
     memset(r, 0, sizeof *r);
 }

@@ -27,6 +27,7 @@ void rb_rolling_history_free(rb_rolling_history *h)
 typedef struct {
     rb_rolling_case base;                /* the case with equal elements, for the steps */
     rb_rolling_program own;              /* of the case, where none is given */
+    rb_arena columns;                    /* of own */
     const rb_rolling_case *rc;           /* base */
     const rb_rolling_program *program;   /* own, or the given one */
     const rb_rolling_observer *observer; /* or NULL */
@@ -38,8 +39,8 @@ typedef struct {
     int steps;    /* in all */
     int at_rest;  /* of them, before the bodies roll */
     double shift; /* rigid shift so far [length] */
-    double *q;    /* n: friction before the step */
     rb_rolling_particles particles;
+    double *q;                /* n: friction before the step; in the particles' memory */
     int row, part;            /* of the program: steps towards this row that are done */
     rb_rolling_stride stride; /* the current step */
     double to;                /* [half-widths]: where it ends */
@@ -206,11 +207,10 @@ static rb_status all_steps(history_state *r, rb_message *why)
 {
     rb_rolling_model *model = r->model;
     const rb_rolling_observer *o = r->observer;
-    rb_status s = RB_OK;
 
-    for (int k = 0; k < r->steps && s == RB_OK; k++) {
+    for (int k = 0; k < r->steps; k++) {
         rb_message reason = {""};
-        s = begin_step(r, why);
+        rb_status s = begin_step(r, why);
         if (s != RB_OK)
             return s;
         if (r->found) {
@@ -232,10 +232,12 @@ static rb_status all_steps(history_state *r, rb_message *why)
             end_step(r, s);
         if (s == RB_OK)
             s = rb_rolling_check_crushed(model, why);
-        if (s == RB_OK && o && o->step && o->step(model, r->history, k, r->steps, o->context))
-            s = rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k + 1, r->steps);
+        if (s != RB_OK)
+            return s;
+        if (o && o->step && o->step(model, r->history, k, r->steps, o->context))
+            return rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k + 1, r->steps);
     }
-    return s;
+    return RB_OK;
 }
 
 /* ---- Preparation ------------------------------------------------------------------- */
@@ -267,16 +269,17 @@ static rb_status widest_contact(const history_state *r, double zone, rb_message 
     if (r->like)
         return rb_rolling_variant_place(r->like, &widest, 0.0, r->scale, r->model, why);
     const size_t n = (size_t)r->found->n;
-    double *x = rb_alloc(n, 2), *h = x + n;
+    rb_arena scratch = {0};
+    double *x = rb_arena_doubles(&scratch, n, 1), *h = rb_arena_doubles(&scratch, n, 1);
     const rb_rolling_elements elements = {.are_equal = 1, .n = r->found->n, .x = x, .h = h};
-    for (size_t i = 0; x && i < n; i++) {
+    if (scratch.failed)
+        return rb_fail(why, rb_arena_done(&scratch, RB_ENOMEM), "out of memory for %d elements",
+                       r->found->n);
+    for (size_t i = 0; i < n; i++) {
         x[i] = r->scale * r->found->x[i];
         h[i] = r->scale * r->found->h[i];
     }
-    const rb_status s = x ? rb_rolling_model_of_result(&widest, &elements, r->model, why)
-                          : rb_fail(why, RB_ENOMEM, "out of memory for %d elements", r->found->n);
-    free(x);
-    return s;
+    return rb_arena_done(&scratch, rb_rolling_model_of_result(&widest, &elements, r->model, why));
 }
 
 static rb_status prepare(history_state *r, double zone, rb_message *why)
@@ -313,42 +316,32 @@ static rb_status prepare(history_state *r, double zone, rb_message *why)
     for (int row = 0; row < rows; row++)
         r->at_rest += rb_rolling_program_parts(r->program, r->rc, row);
     if (count > 1e7)
-        s = rb_fail(why, RB_EINVAL, "distance: %g half-widths are %.3g steps; expected at most 1e7",
-                    way / h->half_width, count);
-    r->steps = r->at_rest + (s == RB_OK ? (int)count : 0);
-    if (s == RB_OK && r->found && r->found->steps != r->steps)
-        s = rb_fail(why, RB_EINVAL, "history: %d steps, the program has %d", r->found->steps,
-                    r->steps);
+        return rb_fail(why, RB_EINVAL,
+                       "distance: %g half-widths are %.3g steps; expected at most 1e7",
+                       way / h->half_width, count);
+    r->steps = r->at_rest + (int)count;
+    if (r->found && r->found->steps != r->steps)
+        return rb_fail(why, RB_EINVAL, "history: %d steps, the program has %d", r->found->steps,
+                       r->steps);
+    h->step = step;
+    h->steady_from = -1;
     r->row = r->part = 0;
     r->particles = (rb_rolling_particles){.rc = r->rc,
                                           .model = model,
                                           .step = step,
                                           .steps = r->steps,
                                           .keeps_elements = r->found != NULL};
-    if (s == RB_OK)
-        s = rb_rolling_particles_create(&r->particles, why);
-    if (s == RB_OK) {
-        r->q = rb_alloc((size_t)model->mesh.n, 1);
-        s = r->q ? RB_OK : RB_ENOMEM;
-    }
-    if (s == RB_OK)
-        s = rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc, model->mu_varies, r->steps,
-                                     h);
-    h->step = step;
-    h->steady_from = -1;
-    return s;
+    s = rb_rolling_particles_create(&r->particles, why);
+    if (s != RB_OK)
+        return s;
+    r->q = rb_arena_doubles(&r->particles.memory, (size_t)model->mesh.n, 1);
+    return r->q ? rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc, model->mu_varies,
+                                           r->steps, h)
+                : RB_ENOMEM;
 }
 
-static void run_free(history_state *r)
-{
-    free(r->q);
-    r->q = NULL;
-    rb_rolling_particles_free(&r->particles);
-}
-
-/* The case and its program, and the columns of its own one, for free(). */
-static rb_status begin_program(history_state *r, const rb_rolling_case *rc, double **columns,
-                               rb_message *why)
+/* The case and its program. */
+static rb_status begin_program(history_state *r, const rb_rolling_case *rc, rb_message *why)
 {
     const rb_rolling_program *program = r->program;
     const rb_rolling_case whole = program ? rb_rolling_program_base(program, rc) : *rc;
@@ -363,8 +356,7 @@ static rb_status begin_program(history_state *r, const rb_rolling_case *rc, doub
         s = rb_fail(why, RB_EINVAL, "distance: expected > 0, got 0");
     if (s == RB_OK && !program) {
         r->base.half_width = NAN; /* a column of loads replaces it */
-        *columns = rb_rolling_program_of_case(rc, &r->own);
-        s = *columns ? RB_OK : RB_ENOMEM;
+        s = rb_rolling_program_of_case(rc, &r->columns, &r->own);
     }
     return s == RB_OK ? rb_rolling_program_check(r->program, r->rc, why) : s;
 }
@@ -374,8 +366,7 @@ static rb_status begin_program(history_state *r, const rb_rolling_case *rc, doub
 static rb_status run_program(history_state *r, const rb_rolling_case *rc, rb_message *why)
 {
     rb_rolling_model *model = r->model;
-    double *columns = NULL;
-    rb_status s = begin_program(r, rc, &columns, why);
+    rb_status s = begin_program(r, rc, why);
 
     for (double zone = r->base.zone, wider = 1.0; s == RB_OK && wider > 0.0; zone = wider) {
         wider = 0.0;
@@ -394,7 +385,7 @@ static rb_status run_program(history_state *r, const rb_rolling_case *rc, rb_mes
                 wider = now < 0.999 * widest ? fmin(1.3 * now, widest) : 0.0;
             }
         }
-        run_free(r);
+        rb_rolling_particles_free(&r->particles);
         if (wider > 0.0) {
             /* more than asked for, with patches */
             r->base.contact_elements = model->mesh.n;
@@ -403,8 +394,7 @@ static rb_status run_program(history_state *r, const rb_rolling_case *rc, rb_mes
             s = RB_OK;
         }
     }
-    free(columns);
-    return s;
+    return rb_arena_done(&r->columns, s);
 }
 
 rb_status rb_rolling_history_run(const rb_rolling_case *rc, const rb_rolling_program *program,
@@ -455,7 +445,6 @@ struct rb_rolling_follower {
     rb_rolling_model model;
     rb_rolling_history history;
     const rb_rolling_follower *of;
-    double *columns;
 };
 
 rb_status rb_rolling_follower_create(const rb_rolling_case *rc, const rb_rolling_states *states,
@@ -476,7 +465,7 @@ rb_status rb_rolling_follower_create(const rb_rolling_case *rc, const rb_rolling
     f->history.half_width = states->half_width;
     rb_status s = check_followed(rc, states, why);
     if (s == RB_OK)
-        s = begin_program(&f->r, rc, &f->columns, why);
+        s = begin_program(&f->r, rc, why);
     return s == RB_OK ? prepare(&f->r, f->r.base.zone, why) : s;
 }
 
@@ -504,12 +493,12 @@ void rb_rolling_follower_free(rb_rolling_follower *f)
 {
     if (!f)
         return;
-    run_free(&f->r);
+    rb_rolling_particles_free(&f->r.particles);
+    rb_arena_free(&f->r.columns);
     if (f->of)
         rb_rolling_variant_free(&f->of->model, &f->model);
     else
         rb_rolling_model_free(&f->model);
     rb_rolling_history_free(&f->history);
-    free(f->columns);
     free(f);
 }

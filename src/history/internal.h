@@ -12,7 +12,7 @@ typedef struct {
     const rb_rolling_memory *memory; /* borrowed from the case */
     double sign;                     /* 1: body A, -1: B, whose tangent is mirrored */
     rb_bem_flexibility f;            /* of the glassy body under all elements; owned */
-    double *past;                    /* terms x 2 all; owned */
+    double *past;                    /* terms x 2 all */
 } rb_rolling_relaxing;
 
 /* Stored tractions of both bodies: on the n elements of the mesh, and on `tail` elements
@@ -20,17 +20,19 @@ typedef struct {
 typedef struct {
     int n, tail, all, bodies;
     rb_rolling_relaxing body[2];
-    double *traction; /* 2 all: on A at the end of the last step; owned */
-    double *scratch;  /* owned */
+    double *traction; /* 2 all: on A at the end of the last step */
+    double *scratch;  /* (2 all + 2) x 4 */
     double lost;      /* energy that the bodies have dissipated so far [force] */
 } rb_rolling_memory_track;
 
 /* The equivalent elastic bodies for a step of this length in seconds.  INFINITY:
  * rubbery. */
 rb_rolling_case rb_rolling_memory_case(const rb_rolling_case *rc, double step);
-/* Creates a track for bodies at rest without earlier loads.  tail > 0: equal elements. */
+/* Creates a track for bodies at rest without earlier loads; its arrays are memory's.  tail >
+ * 0: equal elements. */
 rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                                         int tail, rb_rolling_memory_track *r, rb_message *why);
+                                         int tail, rb_arena *memory, rb_rolling_memory_track *r,
+                                         rb_message *why);
 /* Before a step is solved: the displacement w0 (2m) that its bodies bring along.  rolls:
  * 1: the material moves by one element towards -x. */
 void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int rolls, double *w0);
@@ -49,10 +51,12 @@ typedef struct {
     double step;                   /* length of a rolled step; 0: no rolling */
     int steps;                     /* in all */
     int keeps_elements;            /* 1: keep the elements of the given states */
+    rb_arena memory;               /* of all arrays that follow */
     double *w_T;                   /* n: tangential displacement that the next step starts from */
     double *mu;                    /* n: coefficients before the step */
     double *yielded;               /* n + 1: plastic slip of the interface, to be moved with the
                                       particles */
+    double *w;                     /* 2 (n + 1): displacements of the last step */
     rb_rolling_former_place ahead; /* for steps whose length is not that of an element */
     rb_rolling_heat_track heat;
     rb_rolling_memory_track past; /* of viscoelastic bodies */
@@ -93,7 +97,8 @@ rb_rolling_case rb_rolling_program_step(const rb_rolling_program *program,
 rb_status rb_rolling_program_check(const rb_rolling_program *program, const rb_rolling_case *rc,
                                    rb_message *why);
 /* The program of a case without a history: increments of pressing and of loading, then
- * rolling.  Returns the memory of its columns for free(); NULL: no memory. */
-double *rb_rolling_program_of_case(const rb_rolling_case *rc, rb_rolling_program *program);
+ * rolling.  Its columns are memory's.  RB_ENOMEM. */
+rb_status rb_rolling_program_of_case(const rb_rolling_case *rc, rb_arena *memory,
+                                     rb_rolling_program *program);
 
 #endif

@@ -3,7 +3,6 @@
 
 #include <gsl/gsl_interp.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define COLUMN(name, is_mean)                                                                      \
@@ -203,48 +202,45 @@ rb_status rb_rolling_program_check(const rb_rolling_program *program, const rb_r
                            "little apart",
                            r + 1, d[r]);
     }
-    rb_status s = RB_OK;
-    rb_message reason = {""};
-
-    for (int r = 0; r < program->n && s == RB_OK; r++) {
+    for (int r = 0; r < program->n; r++) {
         const rb_rolling_case at = rb_rolling_program_row(program, rc, r, 1, 1);
-        s = rb_rolling_case_check(&at, &reason);
+        rb_message reason = {""};
+        const rb_status s = rb_rolling_case_check(&at, &reason);
         if (s != RB_OK)
-            rb_fail(why, s, "history: row %d: %.200s", r + 1, reason.text);
+            return rb_fail(why, s, "history: row %d: %.200s", r + 1, reason.text);
     }
-    return s;
+    return RB_OK;
 }
 
 /* ---- The case's own program -------------------------------------------------------- */
 
-double *rb_rolling_program_of_case(const rb_rolling_case *rc, rb_rolling_program *program)
+rb_status rb_rolling_program_of_case(const rb_rolling_case *rc, rb_arena *memory,
+                                     rb_rolling_program *program)
 {
     const int rolls = rc->formulation == RB_TRANSIENT;
     const int count = rc->increments > 1 ? rc->increments : 1;
     const rb_rolling_derived d = rb_rolling_derive(rc);
     const double most = isnan(d.load) ? d.approach : d.load;
-    const int rows = 2 * count + 1; /* at most */
-    double *columns = rb_alloc((size_t)rows, 3);
+    const size_t rows = 2 * (size_t)count + 1; /* at most */
+    double *distance = rb_arena_doubles(memory, rows, 1),
+           *normal = rb_arena_doubles(memory, rows, 1),
+           *loading = rb_arena_doubles(memory, rows, 1), last;
 
-    if (!columns)
-        return NULL;
-    double *distance = columns, *normal = columns + rows, *loading = normal + rows;
+    if (memory->failed)
+        return RB_ENOMEM;
     *program = (rb_rolling_program){.distance = rolls ? distance : NULL};
     *(isnan(d.load) ? &program->approach : &program->load) = normal;
-    double last;
     /* The tangential control that loads the contact at rest: its column and last value. A
      * transient that is driven by its creepage starts without a force. */
-    double *column = columns + 2 * (size_t)rows;
-
     if (!isnan(rc->force_ratio)) {
-        program->force_ratio = column;
+        program->force_ratio = loading;
         last = rc->force_ratio;
     } else {
         if (!isnan(rc->force) || rc->formulation == RB_TRANSIENT) {
-            program->force = isnan(rc->force) ? NULL : column;
+            program->force = isnan(rc->force) ? NULL : loading;
             last = isnan(rc->force) ? 0.0 : rc->force;
         } else {
-            program->shift = column;
+            program->shift = loading;
             last = rb_rolling_wanted_shift(rc);
         }
     }
@@ -258,5 +254,5 @@ double *rb_rolling_program_of_case(const rb_rolling_case *rc, rb_rolling_program
     }
     if (rolls)
         distance[program->n - 1] = rc->distance;
-    return columns;
+    return RB_OK;
 }

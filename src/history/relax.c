@@ -6,7 +6,6 @@
 #include "history/internal.h"
 
 #include <cblas.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- One term over one step (V6) --------------------------------------------------- */
@@ -53,24 +52,21 @@ rb_rolling_case rb_rolling_memory_case(const rb_rolling_case *rc, double step)
 
 void rb_rolling_memory_track_free(rb_rolling_memory_track *r)
 {
-    for (int b = 0; b < 2; b++) {
+    for (int b = 0; b < 2; b++)
         rb_bem_flexibility_free(&r->body[b].f);
-        free(r->body[b].past);
-    }
-    free(r->traction);
-    free(r->scratch);
     memset(r, 0, sizeof *r);
 }
 
 static rb_status add_body(const rb_rolling_case *rc, const rb_rolling_body *body, double sign,
-                          const rb_rolling_mesh *mesh, rb_rolling_memory_track *r, rb_message *why)
+                          const rb_rolling_mesh *mesh, rb_arena *memory, rb_rolling_memory_track *r,
+                          rb_message *why)
 {
     rb_rolling_relaxing *own = &r->body[r->bodies];
 
     if (body->memory.n == 0)
         return RB_OK;
     *own = (rb_rolling_relaxing){.memory = &body->memory, .sign = sign};
-    own->past = rb_alloc(2 * (size_t)r->all, (size_t)body->memory.n);
+    own->past = rb_arena_doubles(memory, 2 * (size_t)r->all, (size_t)body->memory.n);
     r->bodies++;
     /* Alone, in its own frame.  Of what rolls by transforms, because there may be many
      * elements behind the mesh. */
@@ -93,26 +89,28 @@ static rb_status add_body(const rb_rolling_case *rc, const rb_rolling_body *body
 }
 
 rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                                         int tail, rb_rolling_memory_track *r, rb_message *why)
+                                         int tail, rb_arena *memory, rb_rolling_memory_track *r,
+                                         rb_message *why)
 {
     /* The mesh with a tail of elements behind it, where particles are that have left it. */
+    const size_t all = (size_t)(mesh->n + tail);
     const double h = mesh->ends[1] - mesh->ends[0];
-    rb_rolling_mesh longer = {.n = mesh->n + tail,
-                              .ends = rb_alloc((size_t)(mesh->n + tail) + 2, 1)};
+    const rb_rolling_mesh longer = {.n = (int)all, .ends = rb_arena_doubles(memory, all + 2, 1)};
 
-    *r = (rb_rolling_memory_track){.n = mesh->n, .tail = tail, .all = mesh->n + tail};
-    r->traction = rb_alloc(2 * (size_t)r->all, 1);
-    r->scratch = rb_alloc(2 * (size_t)r->all + 2, 4);
-    rb_status s = longer.ends && r->traction && r->scratch ? RB_OK : RB_ENOMEM;
-    for (int i = 0; i < tail && s == RB_OK; i++)
-        longer.ends[i] = mesh->ends[0] - (tail - i) * h;
-    if (s == RB_OK)
+    *r = (rb_rolling_memory_track){.n = mesh->n,
+                                   .tail = tail,
+                                   .all = (int)all,
+                                   .traction = rb_arena_doubles(memory, 2 * all, 1),
+                                   .scratch = rb_arena_doubles(memory, 2 * all + 2, 4)};
+    rb_status s = memory->failed ? RB_ENOMEM : RB_OK;
+    if (s == RB_OK) {
+        for (int i = 0; i < tail; i++)
+            longer.ends[i] = mesh->ends[0] - (tail - i) * h;
         memcpy(longer.ends + tail, mesh->ends, ((size_t)mesh->n + 2) * sizeof(double));
-    if (s == RB_OK)
-        s = add_body(rc, &rc->a, 1.0, &longer, r, why);
+        s = add_body(rc, &rc->a, 1.0, &longer, memory, r, why);
+    }
     if (s == RB_OK && rc->elastic_b)
-        s = add_body(rc, &rc->b, -1.0, &longer, r, why);
-    rb_rolling_mesh_free(&longer);
+        s = add_body(rc, &rc->b, -1.0, &longer, memory, r, why);
     return s == RB_ENOMEM
                ? rb_fail(why, s, "out of memory for the past of %d elements", mesh->n + tail)
                : s;

@@ -103,16 +103,15 @@ rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double
     if (s == RB_OK) {
         /* Equal elements between from and to, with nothing solved on them. */
         const int n = rc->contact_elements;
-        const double h = (to - from) / n;
-        double *x = rb_alloc((size_t)n, 2);
-        const rb_rolling_elements elements = {.n = n, .x = x, .h = x + n, .are_equal = 1};
-        for (int i = 0; i < n && x; i++) {
-            x[i] = from + (i + 0.5) * h;
-            x[n + i] = h;
+        double *x = rb_arena_doubles(&particles.memory, (size_t)n, 1),
+               *h = rb_arena_doubles(&particles.memory, (size_t)n, 1);
+        const rb_rolling_elements elements = {.n = n, .x = x, .h = h, .are_equal = 1};
+        for (int i = 0; i < n && h; i++) {
+            h[i] = (to - from) / n;
+            x[i] = from + (i + 0.5) * h[i];
         }
-        s = x ? rb_rolling_model_of_result(rc, &elements, &model, why)
+        s = h ? rb_rolling_model_of_result(rc, &elements, &model, why)
               : rb_fail(why, RB_ENOMEM, "out of memory for %d elements", n);
-        free(x);
     }
     if (s == RB_OK)
         s = rb_rolling_particles_create(&particles, why);

@@ -50,10 +50,12 @@ static rb_status needed_at(row *r, double y, rb_rolling_shakedown *k)
         r->xy[2 * i + 1] = y;
     }
     const rb_status s = rb_rolling_stress_at(r->model, ACROSS, r->xy, r->at, NULL);
-    for (int i = 0; i < ACROSS && s == RB_OK; i++)
+    if (s != RB_OK)
+        return s;
+    for (int i = 0; i < ACROSS; i++)
         largest = fmax(largest, fabs(r->at[i].sxx) + fabs(r->at[i].syy));
     double low = -largest, high = largest;
-    for (int i = 0; i < 2 * HALVINGS && s == RB_OK; i++) {
+    for (int i = 0; i < 2 * HALVINGS; i++) {
         const double a = high - golden * (high - low), b = low + golden * (high - low);
         if (needed_with(r, a, &k->x) <= needed_with(r, b, &k->x))
             high = b;
@@ -61,56 +63,59 @@ static rb_status needed_at(row *r, double y, rb_rolling_shakedown *k)
             low = a;
     }
     k->y = y;
-    k->residual = s == RB_OK ? low + high : 0.0;
-    k->shear_yield = s == RB_OK ? needed_with(r, 0.5 * k->residual, &k->x) : 0.0;
-    return s;
+    k->residual = low + high;
+    k->shear_yield = needed_with(r, 0.5 * k->residual, &k->x);
+    return RB_OK;
 }
 
 rb_status rb_rolling_shakedown_find(const rb_rolling_model *model, rb_rolling_shakedown *shakedown,
                                     rb_message *why)
 {
-    const rb_rolling_shakedown none = {0};
-    row *r = calloc(1, sizeof *r);
+    rb_arena scratch = {0};
     double from, to;
 
-    *shakedown = none;
+    *shakedown = (rb_rolling_shakedown){0};
     rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
-    rb_status s = !r ? RB_ENOMEM : rb_rolling_stress_check(model->rc, why);
-    if (s == RB_OK && !rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT))
-        s = rb_fail(why, RB_EINVAL, "shakedown: of a half-plane, whose every place sees the same");
-    if (s == RB_OK && model->rc->a.layer > 0.0)
-        s = rb_fail(why, RB_EINVAL,
-                    "shakedown: of one material; a layer and its base yield differently");
-    if (s == RB_OK && !(from < to))
-        s = rb_fail(why, RB_NO_CONTACT, "no contact, no stress");
-    if (s == RB_OK) {
-        const double a = 0.5 * (to - from), step = 2.0 * a / DEPTHS;
+    rb_status s = rb_rolling_stress_check(model->rc, why);
+    if (s != RB_OK)
+        return s;
+    if (!rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT))
+        return rb_fail(why, RB_EINVAL,
+                       "shakedown: of a half-plane, whose every place sees the same");
+    if (model->rc->a.layer > 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "shakedown: of one material; a layer and its base yield differently");
+    if (!(from < to))
+        return rb_fail(why, RB_NO_CONTACT, "no contact, no stress");
+    const double a = 0.5 * (to - from), step = 2.0 * a / DEPTHS;
+    row *r = rb_arena_zeros(&scratch, 1, sizeof *r);
+    if (r)
         *r = (row){.model = model, .from = from - a, .to = to + a};
-        for (int k = 0; k <= DEPTHS && s == RB_OK; k++) {
-            rb_rolling_shakedown here;
-            s = needed_at(r, k * step, &here);
-            if (s == RB_OK && here.shear_yield > shakedown->shear_yield)
-                *shakedown = here;
-        }
-        /* Between the depths beside the best one, again by golden section. */
-        double low = fmax(0.0, shakedown->y - step), high = shakedown->y + step;
-        for (int k = 0; k < HALVINGS / 2 && s == RB_OK; k++) {
-            rb_rolling_shakedown upper, lower;
-            s = needed_at(r, high - golden * (high - low), &upper);
-            if (s == RB_OK)
-                s = needed_at(r, low + golden * (high - low), &lower);
-            if (s != RB_OK)
-                break;
-            const int goes_up = upper.shear_yield >= lower.shear_yield;
-            const rb_rolling_shakedown *here = goes_up ? &upper : &lower;
-            *(goes_up ? &high : &low) = goes_up ? lower.y : upper.y;
-            /* what rounding adds is no gain: near a flat best place it would decide the
-             * place */
-            if (here->shear_yield > (1.0 + 8.0 * DBL_EPSILON) * shakedown->shear_yield)
-                *shakedown = *here;
-        }
+    s = r ? RB_OK : RB_ENOMEM;
+    for (int k = 0; k <= DEPTHS && s == RB_OK; k++) {
+        rb_rolling_shakedown here;
+        s = needed_at(r, k * step, &here);
+        if (s == RB_OK && here.shear_yield > shakedown->shear_yield)
+            *shakedown = here;
     }
-    free(r);
+    /* Between the depths beside the best one, again by golden section. */
+    double low = fmax(0.0, shakedown->y - step), high = shakedown->y + step;
+    for (int k = 0; k < HALVINGS / 2 && s == RB_OK; k++) {
+        rb_rolling_shakedown upper, lower;
+        s = needed_at(r, high - golden * (high - low), &upper);
+        if (s == RB_OK)
+            s = needed_at(r, low + golden * (high - low), &lower);
+        if (s != RB_OK)
+            break;
+        const int goes_up = upper.shear_yield >= lower.shear_yield;
+        const rb_rolling_shakedown *here = goes_up ? &upper : &lower;
+        *(goes_up ? &high : &low) = goes_up ? lower.y : upper.y;
+        /* what rounding adds is no gain: near a flat best place it would decide the
+         * place */
+        if (here->shear_yield > (1.0 + 8.0 * DBL_EPSILON) * shakedown->shear_yield)
+            *shakedown = *here;
+    }
+    rb_arena_done(&scratch, s);
     return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the shakedown limit") : s;
 }
 

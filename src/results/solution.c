@@ -197,12 +197,14 @@ static rb_status set_temperature(const rb_rolling_model *model, rb_rolling_solut
     if (!s->temperature)
         return RB_OK;
     if (rc->formulation == RB_STEADY) {
+        struct rb_rolling_conduction *conduction = NULL;
         double *power = rb_alloc((size_t)s->n, 1);
         if (power)
             rb_rolling_friction_power(s, power);
-        status = power ? rb_rolling_steady_temperature(rc, s, power, NULL, s->temperature,
+        status = power ? rb_rolling_steady_temperature(rc, s, power, &conduction, s->temperature,
                                                        s->temperature_b, why)
                        : RB_ENOMEM;
+        rb_rolling_conduction_free(conduction);
         free(power);
     } else if (model->carried.temperature) {
         memcpy(s->temperature, model->carried.temperature, size);

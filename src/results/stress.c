@@ -121,7 +121,8 @@ static void lift_onto_polygon(const rb_bem_mesh *mesh, int n, double *xy)
 }
 
 /* sxx, syy, sxy at each point. */
-static rb_status evaluate(const field *f, int n, const double *xy, double *sigma, rb_message *why)
+static rb_status evaluate(const field *f, int n, const double *xy, rb_arena *scratch, double *sigma,
+                          rb_message *why)
 {
     if (!f->wheel) {
         for (int k = 0; k < n; k++)
@@ -134,33 +135,36 @@ static rb_status evaluate(const field *f, int n, const double *xy, double *sigma
         const double width = ends[model->mesh.n] - ends[0], far = 20.0 * width;
         const rb_bem_edge_load load = {model->mesh.n, ends, model->state.p, model->state.q};
         rb_status s = rb_bem_halfplane_stress_linear(&f->linear, (rb_bem_points){n, xy}, sigma);
-        for (int k = 0; k < n && s == RB_OK; k++)
+        for (int k = 0; k < n; k++) {
+            if (s != RB_OK)
+                return s;
             if (hypot(xy[2 * k] - ends[0], xy[2 * k + 1]) > far)
                 s = rb_bem_halfplane_stress(&load, (rb_bem_points){1, xy + 2 * k}, sigma + 3 * k);
+        }
         return s == RB_OK && f->layer
                    ? rb_bem_layer_field_add(f->layer, (rb_bem_points){n, xy}, sigma, why)
                    : s;
     }
-    double *moved = rb_alloc((size_t)n, 2);
+    double *moved = rb_arena_doubles(scratch, (size_t)n, 2);
     if (!moved)
         return RB_ENOMEM;
     memcpy(moved, xy, 2 * (size_t)n * sizeof(double));
     lift_onto_polygon(rb_bem_system_mesh(system_of(f)), n, moved);
-    const rb_status s = rb_bem_field_stress(f->wheel, (rb_bem_points){n, moved}, sigma, why);
-    free(moved);
-    return s;
+    return rb_bem_field_stress(f->wheel, (rb_bem_points){n, moved}, sigma, why);
 }
 
 static rb_status stress_of_field(const field *f, int n, const double *xy, rb_rolling_stress *stress,
                                  rb_message *why)
 {
     const rb_rolling_case *rc = f->model->rc;
-    double *sigma = rb_alloc((size_t)n, 3);
-    if (!sigma)
-        return RB_ENOMEM;
+    rb_arena scratch = {0};
+    double *sigma = rb_arena_doubles(&scratch, (size_t)n, 3);
+
     rb_phase("stress inside the body");
-    const rb_status status = evaluate(f, n, xy, sigma, why);
-    for (int k = 0; k < n && status == RB_OK; k++) {
+    const rb_status status = sigma ? evaluate(f, n, xy, &scratch, sigma, why) : RB_ENOMEM;
+    if (status != RB_OK)
+        return rb_arena_done(&scratch, status);
+    for (int k = 0; k < n; k++) {
         const int below = rc->a.layer > 0.0 && xy[2 * k + 1] > rc->a.layer;
         const double lateral = rc->plane == RB_PLANE_STRESS ? 0.0
                                : below                      ? rc->a.base_poisson
@@ -181,8 +185,7 @@ static rb_status stress_of_field(const field *f, int n, const double *xy, rb_rol
             3.0 * gsl_pow_2(s.sxy));
         stress[k] = s;
     }
-    free(sigma);
-    return status;
+    return rb_arena_done(&scratch, RB_OK);
 }
 
 rb_status rb_rolling_stress_at(const rb_rolling_model *model, int n, const double *xy,
@@ -383,16 +386,17 @@ rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *
             inside[k] = xy[2 * k + 1] >= 0.0 && xy[2 * k + 1] <= deepest(model->rc);
         return RB_OK;
     }
-    rb_bem_mesh mesh;
-    rb_status s = rb_rolling_boundary_mesh(model, 0, &mesh, NULL);
-    double *moved = s == RB_OK ? rb_alloc((size_t)n, 2) : NULL;
-    if (s == RB_OK && !moved)
-        s = RB_ENOMEM;
-    if (s == RB_OK) {
-        memcpy(moved, xy, 2 * (size_t)n * sizeof(double));
-        lift_onto_polygon(&mesh, n, moved);
+    rb_arena scratch = {0};
+    double *moved = rb_arena_doubles(&scratch, (size_t)n, 2);
+    rb_bem_mesh mesh = {0};
+    const rb_status s = moved ? rb_rolling_boundary_mesh(model, 0, &mesh, NULL) : RB_ENOMEM;
+    if (s != RB_OK) {
+        rb_bem_mesh_free(&mesh);
+        return rb_arena_done(&scratch, s);
     }
-    for (int k = 0; k < n && s == RB_OK; k++) {
+    memcpy(moved, xy, 2 * (size_t)n * sizeof(double));
+    lift_onto_polygon(&mesh, n, moved);
+    for (int k = 0; k < n; k++) {
         /* An odd number of elements lies straight below a point inside. */
         const double x = moved[2 * k], y = moved[2 * k + 1];
         int odd = 0;
@@ -403,56 +407,52 @@ rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *
         }
         inside[k] = y != xy[2 * k + 1] || odd;
     }
-    free(moved);
     rb_bem_mesh_free(&mesh);
-    return s;
+    return rb_arena_done(&scratch, RB_OK);
 }
 
-/* Of grid->nx x grid->ny points; the depth of the rows grows like a power. */
+/* Of grid->nx x grid->ny points; the depth of the rows grows like a power.  Free the grid in
+ * any case. */
 static rb_status make_grid(const field *f, const search *box, int power,
                            rb_rolling_stress_grid *grid, rb_message *why)
 {
     const int n = grid->nx * grid->ny;
-    double *xy = rb_alloc((size_t)n, 2), *kept = rb_alloc((size_t)n, 2);
-    rb_rolling_stress *at = calloc((size_t)n, sizeof *at);
+    rb_arena scratch = {0};
+    double *xy = rb_arena_doubles(&scratch, (size_t)n, 2),
+           *kept = rb_arena_doubles(&scratch, (size_t)n, 2);
+    rb_rolling_stress *at = rb_arena_zeros(&scratch, (size_t)n, sizeof *at);
     grid->at = calloc((size_t)n, sizeof *grid->at);
     grid->inside = rb_alloc_int((size_t)n);
-    rb_status s = xy && kept && at && grid->at && grid->inside ? RB_OK : RB_ENOMEM;
+    if (scratch.failed || !grid->at || !grid->inside)
+        return rb_arena_done(&scratch, RB_ENOMEM);
 
-    for (int k = 0; k < n && s == RB_OK; k++) {
+    for (int k = 0; k < n; k++) {
         xy[2 * k] = box->from + (box->to - box->from) * (k % grid->nx) / (grid->nx - 1);
         xy[2 * k + 1] = rb_rolling_surface(f->model->rc, xy[2 * k]) +
                         box->depth * gsl_pow_int((double)(k / grid->nx) / (grid->ny - 1), power);
     }
-    if (s == RB_OK)
-        s = rb_rolling_inside(f->model, n, xy, grid->inside);
-    if (s == RB_OK) {
-        /* Keeps the points inside the body, in their order. */
-        int m = 0;
-        for (int k = 0; k < n; k++)
-            if (grid->inside[k]) {
-                kept[2 * m] = xy[2 * k];
-                kept[2 * m++ + 1] = xy[2 * k + 1];
-            }
-        s = stress_of_field(f, m, kept, at, why);
-    }
-    if (s == RB_OK) {
-        /* From the m answers back to the places of the grid. */
-        for (int k = 0, m = 0; k < n; k++)
-            if (grid->inside[k])
-                grid->at[k] = at[m++];
-            else
-                grid->at[k] = (rb_rolling_stress){xy[2 * k], xy[2 * k + 1], NAN, NAN, NAN, NAN,
-                                                  NAN,       NAN,           NAN, NAN, NAN};
-    }
-    free(xy);
-    free(kept);
-    free(at);
-    if (s == RB_ENOMEM)
-        rb_fail(why, s, "out of memory for the stress at %d x %d points", grid->nx, grid->ny);
+    rb_status s = rb_rolling_inside(f->model, n, xy, grid->inside);
     if (s != RB_OK)
-        rb_rolling_stress_grid_free(grid);
-    return s;
+        return rb_arena_done(&scratch, s);
+    /* Keeps the points inside the body, in their order. */
+    int m = 0;
+    for (int k = 0; k < n; k++)
+        if (grid->inside[k]) {
+            kept[2 * m] = xy[2 * k];
+            kept[2 * m++ + 1] = xy[2 * k + 1];
+        }
+    s = stress_of_field(f, m, kept, at, why);
+    if (s != RB_OK)
+        return rb_arena_done(&scratch, s);
+    /* From the m answers back to the places of the grid. */
+    m = 0;
+    for (int k = 0; k < n; k++)
+        if (grid->inside[k])
+            grid->at[k] = at[m++];
+        else
+            grid->at[k] = (rb_rolling_stress){xy[2 * k], xy[2 * k + 1], NAN, NAN, NAN, NAN,
+                                              NAN,       NAN,           NAN, NAN, NAN};
+    return rb_arena_done(&scratch, RB_OK);
 }
 
 rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int ny, double depth,
@@ -469,14 +469,16 @@ rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int n
     const search box = box_under(model, from, to, depth);
     field f;
     rb_status s = field_create(model, &f, why);
-    if (s == RB_ENOMEM)
-        rb_fail(why, s, "out of memory for the stress at %d x %d points", nx, ny);
     if (s == RB_OK) {
         *grid = (rb_rolling_stress_grid){.nx = nx, .ny = ny};
         s = make_grid(&f, &box, 1, grid, why);
     }
     field_free(&f);
-    return s;
+    if (s != RB_OK)
+        rb_rolling_stress_grid_free(grid);
+    return s == RB_ENOMEM
+               ? rb_fail(why, s, "out of memory for the stress at %d x %d points", nx, ny)
+               : s;
 }
 
 /* ---- All maxima -------------------------------------------------------------------- */
@@ -528,6 +530,8 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
         patches++;
     }
     field_free(&f);
+    if (s == RB_ENOMEM)
+        return rb_fail(why, s, "out of memory for the largest stresses");
     return s == RB_OK && patches == 0 ? rb_fail(why, RB_NO_CONTACT, "no contact, no stress") : s;
 }
 
@@ -542,7 +546,9 @@ rb_status rb_rolling_stress_maxima_at(const rb_rolling_model *model,
         xy[2 * k + 1] = of_measure(maxima, k)->y;
     }
     const rb_status s = rb_rolling_stress_at(model, MEASURES, xy, at, why);
-    for (int k = 0; k < MEASURES && s == RB_OK; k++)
+    if (s != RB_OK)
+        return s;
+    for (int k = 0; k < MEASURES; k++)
         of_measure(maxima, k)->value = measures[k](&at[k]);
-    return s;
+    return RB_OK;
 }

@@ -3,95 +3,77 @@
 #include "rolling/internal.h"
 
 #include <cblas.h>
-#include <stdlib.h>
 #include <string.h>
 
-/* n elements of length h, the first one's midpoint at 0, seen from places s. */
-typedef struct {
-    int n;
-    double h;
-    int places;
-    double *s;
-} line;
-
-/* T rows of the half-plane with a body's elasticity.  sum: places x 2n, added to;
- * coupling: -1 for body B, which is mirrored. */
-static rb_status add_halfplane(const rb_rolling_case *rc, const rb_rolling_body *body,
-                               double coupling, const line *of, double *sum)
+/* T rows of the bodies as half-planes: displacements at places from `first` on, h apart,
+ * by tractions on n elements of length h, the first one's midpoint at 0.  Body B is
+ * mirrored.  sum: places x 2n, added to. */
+static rb_status add_halfplanes(const rb_rolling_case *rc, int n, double h, int places,
+                                double first, double *sum)
 {
-    const int n = of->n;
-    const size_t rows = (size_t)of->places, columns = 2 * (size_t)n;
-    double length[RB_ROLLING_TERMS];
-    const rb_bem_surface surface = rb_rolling_surface_of(rc, body, length);
-    double *ends = rb_alloc((size_t)n + 1, 1), *W = rb_alloc(2 * rows, columns);
-    rb_status status = ends && W ? RB_OK : RB_ENOMEM;
+    const size_t rows = (size_t)places, columns = 2 * (size_t)n;
+    rb_arena scratch = {0};
+    double *ends = rb_arena_doubles(&scratch, (size_t)n + 1, 1),
+           *x = rb_arena_doubles(&scratch, rows, 1),
+           *W = rb_arena_doubles(&scratch, 2 * rows, columns);
 
-    for (int i = 0; i <= n && status == RB_OK; i++)
-        ends[i] = (i - 0.5) * of->h;
-    if (status == RB_OK)
-        status = rb_bem_surface_displacement(&surface, n, ends, of->places, of->s, W);
-    for (size_t j = 0; j < columns && status == RB_OK; j++)
-        cblas_daxpy(of->places, j < (size_t)n ? coupling : 1.0, W + rows + j * 2 * rows, 1,
-                    sum + j * rows, 1);
-    free(ends);
-    free(W);
-    return status;
-}
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    for (int i = 0; i <= n; i++)
+        ends[i] = (i - 0.5) * h;
+    for (int i = 0; i < places; i++)
+        x[i] = first + i * h;
+    for (int b = 0; b < 1 + rc->elastic_b; b++) {
+        double length[RB_ROLLING_TERMS];
+        const rb_bem_surface surface = rb_rolling_surface_of(rc, b ? &rc->b : &rc->a, length);
+        const rb_status s = rb_bem_surface_displacement(&surface, n, ends, places, x, W);
 
-/* Of all elastic bodies, at places from `first` on, h apart; sum: overwritten. */
-static rb_status halfplanes(const rb_rolling_case *rc, int n, double h, int places, double first,
-                            double *sum)
-{
-    const line of = {n, h, places, rb_alloc((size_t)places, 1)};
-    rb_status status = of.s ? RB_OK : RB_ENOMEM;
-
-    for (int i = 0; i < places && status == RB_OK; i++)
-        of.s[i] = first + i * h;
-    if (status == RB_OK)
-        status = add_halfplane(rc, &rc->a, 1.0, &of, sum);
-    if (status == RB_OK && rc->elastic_b)
-        status = add_halfplane(rc, &rc->b, -1.0, &of, sum);
-    free(of.s);
-    return status;
+        if (s != RB_OK)
+            return rb_arena_done(&scratch, s);
+        for (size_t j = 0; j < columns; j++)
+            cblas_daxpy(places, b && j < (size_t)n ? -1.0 : 1.0, W + rows + j * 2 * rows, 1,
+                        sum + j * rows, 1);
+    }
+    return rb_arena_done(&scratch, RB_OK);
 }
 
 rb_status rb_rolling_former_place_create(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                                         double step, rb_rolling_former_place *ahead)
+                                         double step, rb_arena *memory,
+                                         rb_rolling_former_place *ahead)
 {
     const int n = bodies->f.n, m = bodies->f.m;
     const double h = bodies->f.h[n / 2];
-    rb_status s = RB_ENOMEM;
+    rb_arena scratch = {0};
 
     *ahead = (rb_rolling_former_place){.n = n, .step = step};
-    if (bodies->F) { /* every pair of points and elements by its own */
-        double *W_T = ahead->W_T = rb_alloc((size_t)n, 2 * (size_t)n);
-        double *rest = rb_alloc((size_t)m, 2 * (size_t)n);
-        s = W_T && rest ? halfplanes(rc, n, h, n, step, W_T) : RB_ENOMEM;
-        if (s == RB_OK)
-            s = halfplanes(rc, n, h, m, 0.0, rest);
-        for (size_t j = 0; j < 2 * (size_t)n && s == RB_OK; j++)
-            for (size_t i = 0; i < (size_t)m; i++)
-                rest[i + j * m] = bodies->F[(size_t)m + i + j * 2 * (size_t)m] - rest[i + j * m];
-        /* What the bodies have over half-planes is smooth along the surface: linear in
-         * between, at step / h elements from each of the m = n + 1 midpoints, the last
-         * one's line going on. */
-        for (int i = 0; i < n && s == RB_OK; i++) {
-            const double place = i + step / h;
-            const int before = place < n - 1 ? (int)place : n - 1;
-            const double t = place - before;
-            cblas_daxpy(2 * n, 1.0 - t, rest + before, m, W_T + i, n);
-            cblas_daxpy(2 * n, t, rest + before + 1, m, W_T + i, n);
-        }
-        free(rest);
-    } else {
-        /* half-planes: only the distance of point and element counts */
-        ahead->response = rb_alloc(2 * (size_t)n - 1, 2);
-        if (ahead->response)
-            s = halfplanes(rc, 1, h, 2 * n - 1, step - (n - 1) * h, ahead->response);
+    if (!bodies->F) { /* half-planes: only the distance of point and element counts */
+        ahead->response = rb_arena_doubles(memory, 2 * (size_t)n - 1, 2);
+        return ahead->response
+                   ? add_halfplanes(rc, 1, h, 2 * n - 1, step - (n - 1) * h, ahead->response)
+                   : RB_ENOMEM;
     }
+    /* every pair of points and elements by its own */
+    double *W_T = ahead->W_T = rb_arena_doubles(memory, (size_t)n, 2 * (size_t)n);
+    double *rest = rb_arena_doubles(&scratch, (size_t)m, 2 * (size_t)n);
+    rb_status s = W_T && rest ? add_halfplanes(rc, n, h, n, step, W_T) : RB_ENOMEM;
+    if (s == RB_OK)
+        s = add_halfplanes(rc, n, h, m, 0.0, rest);
     if (s != RB_OK)
-        rb_rolling_former_place_free(ahead);
-    return s;
+        return rb_arena_done(&scratch, s);
+    for (size_t j = 0; j < 2 * (size_t)n; j++)
+        for (size_t i = 0; i < (size_t)m; i++)
+            rest[i + j * m] = bodies->F[(size_t)m + i + j * 2 * (size_t)m] - rest[i + j * m];
+    /* What the bodies have over half-planes is smooth along the surface: linear in
+     * between, at step / h elements from each of the m = n + 1 midpoints, the last one's
+     * line going on. */
+    for (int i = 0; i < n; i++) {
+        const double place = i + step / h;
+        const int before = place < n - 1 ? (int)place : n - 1;
+        const double t = place - before;
+        cblas_daxpy(2 * n, 1.0 - t, rest + before, m, W_T + i, n);
+        cblas_daxpy(2 * n, t, rest + before + 1, m, W_T + i, n);
+    }
+    return rb_arena_done(&scratch, RB_OK);
 }
 
 void rb_rolling_former_place_apply(const rb_rolling_former_place *ahead,
@@ -127,41 +109,34 @@ void rb_rolling_former_place_apply(const rb_rolling_former_place *ahead,
     }
 }
 
-void rb_rolling_former_place_free(rb_rolling_former_place *ahead)
-{
-    free(ahead->W_T);
-    free(ahead->response);
-    memset(ahead, 0, sizeof *ahead);
-}
-
-/* One row of W_T, upstream of the contact where `upstream` is 1: half-planes at a
- * midpoint beyond the mesh, and what the bodies have over them at the nearest midpoints
- * of the mesh, continued on a line. */
-static rb_status add_outside(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                             int upstream, double *W_T)
-{
-    const int n = bodies->f.n, m = bodies->f.m, near = upstream ? n : 0,
-              next = upstream ? n - 1 : 1, at[3] = {upstream ? n + 1 : -1, near, next};
-    const double h = bodies->f.h[n / 2], weight[3] = {1.0, -2.0, 1.0};
-    double *plane = rb_alloc(2 * (size_t)n, 1), *row = W_T + upstream;
-    rb_status s = plane ? RB_OK : RB_ENOMEM;
-
-    for (int k = 0; k < (bodies->F ? 3 : 1) && s == RB_OK; k++) {
-        memset(plane, 0, 2 * (size_t)n * sizeof *plane);
-        s = halfplanes(rc, n, h, 1, at[k] * h, plane);
-        cblas_daxpy(2 * n, weight[k], plane, 1, row, 2);
-    }
-    if (s == RB_OK && bodies->F) {
-        cblas_daxpy(2 * n, 2.0, bodies->F + m + near, 2 * m, row, 2);
-        cblas_daxpy(2 * n, -1.0, bodies->F + m + next, 2 * m, row, 2);
-    }
-    free(plane);
-    return s;
-}
-
+/* Half-planes at the midpoints beyond the mesh, and what the bodies have over them at the
+ * nearest midpoints of the mesh, continued on a line. */
 rb_status rb_rolling_displacement_outside(const rb_rolling_case *rc,
                                           const rb_rolling_bodies *bodies, double *W_T)
 {
-    const rb_status s = add_outside(rc, bodies, 0, W_T);
-    return s == RB_OK ? add_outside(rc, bodies, 1, W_T) : s;
+    const int n = bodies->f.n, m = bodies->f.m, size = 2 * n;
+    const double h = bodies->f.h[n / 2], weight[3] = {1.0, -2.0, 1.0};
+    rb_arena scratch = {0};
+    double *plane = rb_arena_doubles(&scratch, (size_t)size, 1);
+
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    for (int upstream = 0; upstream < 2; upstream++) {
+        const int near = upstream ? n : 0, next = upstream ? n - 1 : 1,
+                  at[3] = {upstream ? n + 1 : -1, near, next};
+        double *row = W_T + upstream;
+
+        for (int k = 0; k < (bodies->F ? 3 : 1); k++) {
+            memset(plane, 0, (size_t)size * sizeof *plane);
+            const rb_status s = add_halfplanes(rc, n, h, 1, at[k] * h, plane);
+            if (s != RB_OK)
+                return rb_arena_done(&scratch, s);
+            cblas_daxpy(size, weight[k], plane, 1, row, 2);
+        }
+        if (bodies->F) {
+            cblas_daxpy(size, 2.0, bodies->F + m + near, 2 * m, row, 2);
+            cblas_daxpy(size, -1.0, bodies->F + m + next, 2 * m, row, 2);
+        }
+    }
+    return rb_arena_done(&scratch, RB_OK);
 }

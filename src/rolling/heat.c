@@ -180,11 +180,14 @@ static rb_status warm(const conductor *c, const double *heat, double *temperatur
  * definite, so that no pivot vanishes. */
 static rb_status solve_toeplitz(int m, const double *t, double *rhs)
 {
+    rb_arena scratch = {0};
     /* Of the inverse of the leading equations: its first and its last column. */
-    double *first = rb_alloc((size_t)m, 2), *last = first ? first + m : NULL;
-    rb_status status = first ? RB_OK : RB_ENOMEM;
+    double *first = rb_arena_doubles(&scratch, (size_t)m, 1),
+           *last = rb_arena_doubles(&scratch, (size_t)m, 1);
 
-    for (int k = 0; k < m && status == RB_OK; k++) {
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    for (int k = 0; k < m; k++) {
         double ahead = 0.0, behind = 0.0, missing = rhs[k];
         for (int j = 0; j < k; j++) {
             ahead += t[k - j] * first[j];
@@ -193,7 +196,7 @@ static rb_status solve_toeplitz(int m, const double *t, double *rhs)
         }
         const double pivot = k ? 1.0 - ahead * behind : t[0];
         if (!(fabs(pivot) > 0.0))
-            status = RB_SINGULAR;
+            return rb_arena_done(&scratch, RB_SINGULAR);
         memmove(last + 1, last, (size_t)k * sizeof *last);
         last[0] = k ? 0.0 : 1.0;
         first[k] = k ? 0.0 : 1.0;
@@ -205,8 +208,7 @@ static rb_status solve_toeplitz(int m, const double *t, double *rhs)
             rhs[j] += missing * last[j];
         }
     }
-    free(first);
-    return status;
+    return rb_arena_done(&scratch, RB_OK);
 }
 
 /* ---- Both bodies ------------------------------------------------------------------- */
@@ -231,53 +233,43 @@ static int is_one_contact(const rb_rolling_solution *s)
 static rb_status share_heat(const conductor *a, const conductor *b, const rb_rolling_solution *s,
                             const double *heat, double *heat_a)
 {
-    const int n = s->n;
-    double *rhs = rb_alloc((size_t)n, 1);
-    rb_status status = rhs ? warm(b, heat, heat_a) : RB_ENOMEM;
+    const int n = s->n, m = s->contact, toeplitz = a->response && is_one_contact(s);
+    rb_arena scratch = {0};
+    double *rhs = rb_arena_doubles(&scratch, (size_t)n, 1),
+           *row = rb_arena_doubles(&scratch, (size_t)n, 2),
+           *t = toeplitz ? rb_arena_doubles(&scratch, (size_t)m, 2) : NULL,
+           *M = toeplitz ? NULL : rb_arena_doubles(&scratch, (size_t)m, (size_t)m);
+    lapack_int *pivots = rb_arena_zeros(&scratch, (size_t)m, sizeof *pivots);
+    rb_status status = scratch.failed ? RB_ENOMEM : warm(b, heat, heat_a);
 
-    for (int i = 0, k = 0; i < n && status == RB_OK; i++)
+    if (status != RB_OK)
+        return rb_arena_done(&scratch, status);
+    for (int i = 0, k = 0; i < n; i++)
         if (is_contact(s, i))
             rhs[k++] = heat_a[i] - a->body.temperature;
-    if (status == RB_OK) {
-        if (a->response && is_one_contact(s)) {
-            /* (K_A + K_B) x = rhs in the contact.  Of equal elements that follow one
-             * another the matrix depends on distances alone. */
-            double *t = rb_alloc((size_t)s->contact, 2);
-            status = t ? RB_OK : RB_ENOMEM;
-
-            for (int d = 1 - s->contact; d < s->contact && t; d++)
-                t[s->contact + d] = a->response[a->n - 1 - d] + b->response[a->n - 1 - d];
-            if (status == RB_OK)
-                status = solve_toeplitz(s->contact, t + s->contact, rhs);
-            free(t);
-        } else {
-            const int m = s->contact;
-            double *M = rb_alloc((size_t)m, (size_t)m), *row = rb_alloc((size_t)n, 2);
-            lapack_int *pivots = malloc(sizeof *pivots * ((size_t)m + 1));
-            status = M && row && pivots ? RB_OK : RB_ENOMEM;
-
-            for (int i = 0, k = 0; i < n && status == RB_OK; i++) {
-                if (!is_contact(s, i))
-                    continue;
-                conductor_row(a, i, row);
-                conductor_row(b, i, row + n);
-                for (int j = 0, l = 0; j < n; j++)
-                    if (is_contact(s, j))
-                        M[(size_t)l++ * (size_t)m + (size_t)k] = row[j] + row[n + j];
-                k++;
-            }
-            if (status == RB_OK && m > 0 &&
-                LAPACKE_dgesv_work(LAPACK_COL_MAJOR, m, 1, M, m, pivots, rhs, m) != 0)
-                status = RB_SINGULAR;
-            free(M);
-            free(row);
-            free(pivots);
+    if (toeplitz) {
+        /* (K_A + K_B) x = rhs in the contact.  Of equal elements that follow one another
+         * the matrix depends on distances alone. */
+        for (int d = 1 - m; d < m; d++)
+            t[m + d] = a->response[n - 1 - d] + b->response[n - 1 - d];
+        status = solve_toeplitz(m, t + m, rhs);
+    } else {
+        for (int i = 0, k = 0; i < n; i++) {
+            if (!is_contact(s, i))
+                continue;
+            conductor_row(a, i, row);
+            conductor_row(b, i, row + n);
+            for (int j = 0, l = 0; j < n; j++)
+                if (is_contact(s, j))
+                    M[(size_t)l++ * (size_t)m + (size_t)k] = row[j] + row[n + j];
+            k++;
         }
+        if (m > 0 && LAPACKE_dgesv_work(LAPACK_COL_MAJOR, m, 1, M, m, pivots, rhs, m) != 0)
+            status = RB_SINGULAR;
     }
-    for (int i = 0, k = 0; i < n && status == RB_OK; i++)
+    for (int i = 0, k = 0; i < n; i++)
         heat_a[i] = is_contact(s, i) ? rhs[k++] : 0.0;
-    free(rhs);
-    return status;
+    return rb_arena_done(&scratch, status);
 }
 
 rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_rolling_solution *s,
@@ -286,14 +278,17 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_roll
                                         double *t_b, rb_message *why)
 {
     const int n = s->n, b_conducts = rc->heat_b.conductivity > 0.0,
-              alike = b_conducts && is_alike(&rc->heat_a, &rc->heat_b);
-    double *heat = rb_alloc((size_t)n, 2), *heat_a = heat ? heat + n : NULL;
-    struct rb_rolling_conduction *own = conduction ? *conduction : NULL;
+              alike = b_conducts && is_alike(&rc->heat_a, &rc->heat_b),
+              shared = b_conducts && !alike;
+    rb_arena scratch = {0};
+    double *heat = rb_arena_doubles(&scratch, (size_t)n, 1),
+           *heat_a = rb_arena_doubles(&scratch, (size_t)n, 1);
+    struct rb_rolling_conduction *own = *conduction ? *conduction : calloc(1, sizeof *own);
+    rb_status status =
+        !scratch.failed && own ? conductor_set(rc, &rc->heat_a, s, &own->a) : RB_ENOMEM;
 
-    if (!own)
-        own = calloc(1, sizeof *own);
-    rb_status status = heat && own ? conductor_set(rc, &rc->heat_a, s, &own->a) : RB_ENOMEM;
-    if (status == RB_OK && b_conducts && !alike)
+    *conduction = own;
+    if (status == RB_OK && shared)
         status = conductor_set(rc, &rc->heat_b, s, &own->b);
     if (status == RB_OK) {
         /* Friction heats, it never cools.  Powers of elements that begin or end the
@@ -305,28 +300,25 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_roll
             all += power[i];
             heats += fmax(power[i], 0.0);
         }
-        const double share = all > 0.0 ? all / heats : 1.0;
-        for (int i = 0; i < n; i++)
-            heat[i] = rc->speed * (all > 0.0 ? share * fmax(power[i], 0.0) : power[i]);
-    }
-    if (status == RB_OK && b_conducts && !alike)
-        status = share_heat(&own->a, &own->b, s, heat, heat_a);
-    else
-        for (int i = 0; i < n && status == RB_OK; i++)
+        const double part = all > 0.0 ? all / heats : 1.0;
+        for (int i = 0; i < n; i++) {
+            heat[i] = rc->speed * (all > 0.0 ? part * fmax(power[i], 0.0) : power[i]);
             heat_a[i] = b_conducts ? 0.5 * heat[i] : heat[i];
+        }
+        if (shared)
+            status = share_heat(&own->a, &own->b, s, heat, heat_a);
+    }
     if (status == RB_OK)
         status = warm(&own->a, heat_a, t_a);
-    for (int i = 0; i < n && status == RB_OK; i++) {
-        heat[i] -= heat_a[i];
-        t_b[i] = alike || is_contact(s, i) ? t_a[i] : rc->heat_b.temperature;
+    if (status == RB_OK) {
+        for (int i = 0; i < n; i++) {
+            heat[i] -= heat_a[i];
+            t_b[i] = alike || is_contact(s, i) ? t_a[i] : rc->heat_b.temperature;
+        }
+        if (shared)
+            status = warm(&own->b, heat, t_b);
     }
-    if (status == RB_OK && b_conducts && !alike)
-        status = warm(&own->b, heat, t_b);
-    free(heat);
-    if (conduction)
-        *conduction = own;
-    else
-        rb_rolling_conduction_free(own);
+    rb_arena_done(&scratch, status);
     return status == RB_OK ? RB_OK
                            : rb_fail(why, status, "temperature: %s", rb_status_text(status));
 }
@@ -364,7 +356,8 @@ void rb_rolling_peak_temperature(int n, const double *x, const int *zone, const 
 static const double LEAST_PECLET = 10.0;
 
 rb_status rb_rolling_heat_track_create(const rb_rolling_case *rc, double half_width,
-                                       rb_rolling_heat_track *track, rb_message *why)
+                                       rb_arena *memory, rb_rolling_heat_track *track,
+                                       rb_message *why)
 {
     const double peclet = fmin(rb_rolling_peclet(&rc->heat_a, rc->speed, half_width),
                                rb_rolling_peclet(&rc->heat_b, rc->speed, half_width));
@@ -382,14 +375,8 @@ rb_status rb_rolling_heat_track_create(const rb_rolling_case *rc, double half_wi
     if (s != RB_OK)
         return s;
     track->rows = (int)rows;
-    track->heat = rb_alloc((size_t)track->rows, (size_t)track->n);
+    track->heat = rb_arena_doubles(memory, (size_t)track->rows, (size_t)track->n);
     return track->heat ? RB_OK : RB_ENOMEM;
-}
-
-void rb_rolling_heat_track_free(rb_rolling_heat_track *track)
-{
-    free(track->heat);
-    *track = (rb_rolling_heat_track){.n = 0};
 }
 
 void rb_rolling_heat_track_advance(rb_rolling_heat_track *t)

@@ -150,18 +150,18 @@ rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *me
 typedef struct {
     int n;
     double step;      /* 0: there is none */
-    double *W_T;      /* n x 2n; NULL without a dense flexibility; owned, as below */
+    double *W_T;      /* n x 2n; NULL without a dense flexibility */
     double *response; /* w_T of a unit p and of a unit q at 2n - 1 distances */
 } rb_rolling_former_place;
 
-/* ahead: overwritten. */
+/* ahead: overwritten; its arrays are memory's. */
 rb_status rb_rolling_former_place_create(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                                         double step, rb_rolling_former_place *ahead);
+                                         double step, rb_arena *memory,
+                                         rb_rolling_former_place *ahead);
 /* w_T: n, overwritten. */
 void rb_rolling_former_place_apply(const rb_rolling_former_place *ahead,
                                    const rb_rolling_bodies *bodies, const double *p,
                                    const double *q, double *w_T);
-void rb_rolling_former_place_free(rb_rolling_former_place *ahead);
 /* w_T of unit tractions one element downstream of the contact and two upstream of it.
  * W_T: 2 x 2n, zeroed.  Equal elements.  RB_ENOMEM. */
 rb_status rb_rolling_displacement_outside(const rb_rolling_case *rc,
@@ -238,8 +238,8 @@ int rb_rolling_has_heat(const rb_rolling_case *rc);
 /* V a/(2 diffusivity); INFINITY if no heat enters the body. */
 double rb_rolling_peclet(const rb_rolling_heat *body, double speed, double half_width);
 /* Temperatures of both surfaces (n each) under the friction power per unit speed (n) of
- * a steady solution with tractions, slip and zones.  conduction: NULL, or where what the
- * elements make of heat is kept, from NULL on. */
+ * a steady solution with tractions, slip and zones.  conduction: where what the elements
+ * make of heat is kept, from NULL on; freed by the caller. */
 rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_rolling_solution *s,
                                         const double *power,
                                         struct rb_rolling_conduction **conduction, double *t_a,
@@ -254,20 +254,20 @@ typedef struct rb_rolling_heat_track {
     int n, rows, newest, known; /* rows: number of stored steps (ring buffer), of which
                                    `known` are filled */
     double h, step;             /* lengths of an element and of a step */
-    double *heat;               /* rows x n [stress * length / time]; owned */
+    double *heat;               /* rows x n [stress * length / time] */
 } rb_rolling_heat_track;
 
-/* Creates a track for track->n elements of length h.  RB_EINVAL: the Peclet number is too
- * small for heat conduction along the depth only. */
+/* Creates a track for track->n elements of length h, in memory.  RB_EINVAL: the Peclet number is
+ * too small for heat conduction along the depth only. */
 rb_status rb_rolling_heat_track_create(const rb_rolling_case *rc, double half_width,
-                                       rb_rolling_heat_track *track, rb_message *why);
+                                       rb_arena *memory, rb_rolling_heat_track *track,
+                                       rb_message *why);
 /* Prepares the storage for the heat of the next rolled step. */
 void rb_rolling_heat_track_advance(rb_rolling_heat_track *track);
 /* Stores the heat of the newest step with friction q and slip displacement lambda, and
  * computes the temperature (n) of both surfaces at its end. */
 void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q, const double *lambda,
                                 rb_rolling_heat_track *track, double *temperature);
-void rb_rolling_heat_track_free(rb_rolling_heat_track *track);
 
 /* ---- coarse.c ---------------------------------------------------------------------- */
 

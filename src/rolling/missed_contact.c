@@ -26,7 +26,7 @@ static const double NEGLIGIBLE = 1e-3;
 /* Elements in groups with the mean of their tractions. */
 typedef struct {
     int n;
-    double *ends, *p, *q; /* owned: ends holds them all */
+    double *ends, *p, *q; /* n + 1, n, n; in scratch memory */
 } strips;
 
 /* Where a displacement w_N is added. */
@@ -43,7 +43,7 @@ static int is_loaded(const rb_contact_state *state, int i)
 
 /* From the first loaded element to the last; all where none is. */
 static rb_status gather_strips(const rb_rolling_mesh *mesh, const rb_contact_state *state,
-                               strips *s)
+                               rb_arena *scratch, strips *s)
 {
     int from = 0, to = mesh->n;
 
@@ -55,11 +55,11 @@ static rb_status gather_strips(const rb_rolling_mesh *mesh, const rb_contact_sta
         from = 0, to = mesh->n;
     const int group = (to - from + MOST_STRIPS - 1) / MOST_STRIPS;
     s->n = (to - from + group - 1) / group;
-    s->ends = rb_alloc((size_t)s->n + 1, 3);
-    if (!s->ends)
+    s->ends = rb_arena_doubles(scratch, (size_t)s->n + 1, 1);
+    s->p = rb_arena_doubles(scratch, (size_t)s->n, 1);
+    s->q = rb_arena_doubles(scratch, (size_t)s->n, 1);
+    if (scratch->failed)
         return RB_ENOMEM;
-    s->p = s->ends + s->n + 1;
-    s->q = s->p + s->n;
     for (int k = 0; k < s->n; k++) {
         const int first = from + k * group;
         const int last = first + group < to ? first + group : to;
@@ -75,8 +75,10 @@ static rb_status gather_strips(const rb_rolling_mesh *mesh, const rb_contact_sta
     return RB_OK;
 }
 
+/* The midpoint of a boundary element, and its displacement. */
 typedef struct {
     double x, u;
+    int element;
 } point;
 
 static int by_x(const void *a, const void *b)
@@ -88,78 +90,80 @@ static int by_x(const void *a, const void *b)
 /* Of the lower half of a wheel, between the midpoints of its boundary elements, by their
  * system; of a cover, by its waves under the loads. */
 static rb_status add_wheel(const rb_rolling_model *model, const rb_contact_state *state, int is_b,
-                           const rb_bem_edge_load *loads, const targets *to)
+                           const rb_bem_edge_load *loads, rb_arena *scratch, const targets *to)
 {
     const rb_rolling_body *body = is_b ? &model->rc->b : &model->rc->a;
     rb_bem_system *system = is_b ? model->bodies.system_b : model->bodies.system_a;
     const double radius = body->radius, coupling = is_b ? -1.0 : 1.0;
     rb_bem_mesh mesh;
     rb_status s = rb_rolling_boundary_mesh(model, is_b, &mesh, NULL);
-    double *u = s == RB_OK ? rb_alloc((size_t)mesh.n, 2) : NULL;
-    point *at = u ? calloc((size_t)mesh.n, sizeof *at) : NULL;
+    const int n = model->mesh.n, all = s == RB_OK ? mesh.n : 0;
+    point *at = rb_arena_zeros(scratch, (size_t)all, sizeof *at);
     int lower = 0;
 
-    if (s == RB_OK && !at)
-        s = RB_ENOMEM;
-    if (s == RB_OK && system) {
-        const int n = model->mesh.n;
-        double *t_c = rb_alloc(2 * (size_t)n, 1), *all = rb_alloc(2 * (size_t)mesh.n, 2);
-        s = t_c && all ? RB_OK : RB_ENOMEM;
-
-        for (int i = 0; i < n && s == RB_OK; i++) {
-            t_c[2 * i] = coupling * state->q[i];
-            t_c[2 * i + 1] = state->p[i];
-        }
-        if (s == RB_OK)
-            s = rb_bem_system_solve(system, t_c, all, all + 2 * mesh.n);
-        for (int j = 0; j < mesh.n && s == RB_OK; j++)
-            u[j] = all[2 * j + 1];
-        free(t_c);
-        free(all);
-    }
-    for (int j = 0; j < mesh.n && s == RB_OK; j++) {
+    for (int j = 0; j < all && at; j++) {
         const double mx = 0.5 * (mesh.x0[j] + mesh.x1[j]);
         const double my = 0.5 * (mesh.y0[j] + mesh.y1[j]);
         const int is_rim = hypot(mesh.x0[j], mesh.y0[j] - radius) > (1.0 - 1e-9) * radius;
         if (is_rim && my < radius)
-            at[lower++] = (point){mx, u[j]};
+            at[lower++] = (point){mx, 0.0, j};
     }
-    if (s == RB_OK && !system) {
-        double length[RB_ROLLING_TERMS], *x = u + mesh.n;
+    rb_bem_mesh_free(&mesh);
+    if (s == RB_OK && system) {
+        double *t_c = rb_arena_doubles(scratch, 2 * (size_t)n, 1),
+               *t = rb_arena_doubles(scratch, 2 * (size_t)all, 1),
+               *u = rb_arena_doubles(scratch, 2 * (size_t)all, 1);
+
+        if (scratch->failed)
+            return RB_ENOMEM;
+        for (int i = 0; i < n; i++) {
+            t_c[2 * i] = coupling * state->q[i];
+            t_c[2 * i + 1] = state->p[i];
+        }
+        s = rb_bem_system_solve(system, t_c, u, t);
+        for (int i = 0; i < lower; i++)
+            at[i].u = u[2 * at[i].element + 1];
+    } else if (s == RB_OK) {
+        double length[RB_ROLLING_TERMS], *x = rb_arena_doubles(scratch, (size_t)all, 1),
+                                         *u = rb_arena_doubles(scratch, (size_t)all, 1);
         const rb_bem_wheel wheel = rb_rolling_wheel_of(model->rc, body, length);
+
+        if (scratch->failed)
+            return RB_ENOMEM;
         for (int i = 0; i < lower; i++)
             x[i] = at[i].x;
         s = rb_bem_wheel_normal(&wheel, loads, lower, x, u);
         for (int i = 0; i < lower; i++)
             at[i].u = u[i];
     }
-    if (s == RB_OK && lower > 1) {
-        qsort(at, (size_t)lower, sizeof *at, by_x);
-        /* Values of the line through n points. */
-        for (int i = 0; i < to->n; i++) {
-            int k = 0;
-            for (int end = lower - 1; end - k > 1;) {
-                const int middle = (k + end) / 2;
-                *(at[middle].x <= to->x[i] ? &k : &end) = middle;
-            }
-            const double t = (to->x[i] - at[k].x) / (at[k + 1].x - at[k].x);
-            to->w[i] += at[k].u + t * (at[k + 1].u - at[k].u);
+    if (s != RB_OK || lower < 2)
+        return s;
+    qsort(at, (size_t)lower, sizeof *at, by_x);
+    /* Values of the line through n points. */
+    for (int i = 0; i < to->n; i++) {
+        int k = 0;
+        for (int end = lower - 1; end - k > 1;) {
+            const int middle = (k + end) / 2;
+            *(at[middle].x <= to->x[i] ? &k : &end) = middle;
         }
+        const double t = (to->x[i] - at[k].x) / (at[k + 1].x - at[k].x);
+        to->w[i] += at[k].u + t * (at[k + 1].u - at[k].u);
     }
-    free(at);
-    free(u);
-    rb_bem_mesh_free(&mesh);
-    return s;
+    return RB_OK;
 }
 
 static rb_status add_bodies(const rb_rolling_model *model, const rb_contact_state *state,
-                            const strips *s, const targets *to)
+                            const strips *s, rb_arena *scratch, const targets *to)
 {
-    double *q = rb_alloc((size_t)s->n, 1);
-    rb_status status = q ? RB_OK : RB_ENOMEM;
-    for (int b = 0; b < 1 + model->rc->elastic_b && status == RB_OK; b++) {
+    double *q = rb_arena_doubles(scratch, (size_t)s->n, 1);
+
+    if (scratch->failed)
+        return RB_ENOMEM;
+    for (int b = 0; b < 1 + model->rc->elastic_b; b++) {
         const rb_rolling_body *body = b ? &model->rc->b : &model->rc->a;
         const rb_bem_edge_load loads = {s->n, s->ends, s->p, q};
+        rb_status status;
+
         for (int k = 0; k < s->n; k++)
             q[k] = (b ? -1.0 : 1.0) * s->q[k]; /* B is mirrored */
         if (rb_rolling_body_can(body, RB_BODY_FLAT)) {
@@ -167,35 +171,34 @@ static rb_status add_bodies(const rb_rolling_model *model, const rb_contact_stat
             const rb_bem_surface surface = rb_rolling_surface_of(model->rc, body, length);
             status = rb_bem_surface_add_normal(&surface, &loads, to->n, to->x, to->w);
         } else
-            status = add_wheel(model, state, b, &loads, to);
+            status = add_wheel(model, state, b, &loads, scratch, to);
+        if (status != RB_OK)
+            return status;
     }
-    free(q);
-    return status;
+    return RB_OK;
 }
 
 /* w: w_N at the places x, whose last two are the outermost midpoints of the mesh.  There
  * the flexibility is known, from which the boundary elements of a wheel differ a little:
  * the difference is taken off all along. */
 static rb_status displacement(const rb_rolling_model *model, const rb_contact_state *state,
-                              const strips *s, const targets *to)
+                              const strips *s, rb_arena *scratch, const targets *to)
 {
     const int n = model->mesh.n, left = to->n - 2, right = to->n - 1;
     const double *x = to->x;
-    double *w = to->w;
-    double *own = rb_alloc(2 * (size_t)n + 2, 1);
-    rb_status status = own ? add_bodies(model, state, s, to) : RB_ENOMEM;
+    double *w = to->w, *own = rb_arena_doubles(scratch, 2 * (size_t)n + 2, 1);
+    rb_status status = own ? add_bodies(model, state, s, scratch, to) : RB_ENOMEM;
 
     if (status == RB_OK)
         status = rb_rolling_displacement(&model->bodies, state->p, state->q, own);
-    if (status == RB_OK) {
-        const double off[2] = {own[0] - w[left], own[n - 1] - w[right]};
-        for (int i = 0; i < to->n; i++) {
-            const double t = (x[i] - x[left]) / (x[right] - x[left]);
-            w[i] += off[0] + fmin(1.0, fmax(0.0, t)) * (off[1] - off[0]);
-        }
+    if (status != RB_OK)
+        return status;
+    const double off[2] = {own[0] - w[left], own[n - 1] - w[right]};
+    for (int i = 0; i < to->n; i++) {
+        const double t = (x[i] - x[left]) / (x[right] - x[left]);
+        w[i] += off[0] + fmin(1.0, fmax(0.0, t)) * (off[1] - off[0]);
     }
-    free(own);
-    return status;
+    return RB_OK;
 }
 
 /* ---- Overlaps between the elements ------------------------------------------------- */
@@ -246,45 +249,45 @@ static int add_places(const rb_rolling_model *model, const rb_contact_state *sta
     return n;
 }
 
-enum { TABLES = 3 };
-
-/* The profile, what is irregular and what is worn; n < 2: it says nothing. */
-static void find_tables(const rb_rolling_model *model, table t[TABLES])
+/* All arrays are scratch memory; the caller frees it. */
+static rb_status look(const rb_rolling_model *model, const rb_contact_state *state,
+                      rb_arena *scratch, rb_rolling_overlap *o)
 {
+    enum { TABLES = 3 };
     const rb_rolling_case *rc = model->rc;
-
-    t[0] = (table){0, NULL, 0.0};
-    t[1] = (table){rc->irregularity.n, rc->irregularity.x, model->mesh.passed};
-    t[2] = (table){rc->worn.n, rc->worn.x, 0.0};
-    if (rc->gap == RB_GAP_TABLE)
-        t[0].n = rb_rolling_profile_rows(rc->profile, &t[0].x);
-}
-
-/* The same in the room for x, w and gap. */
-static rb_status look(const rb_rolling_model *model, const rb_contact_state *state, const strips *s,
-                      size_t scratch, double *x, rb_rolling_overlap *o)
-{
     const rb_rolling_mesh *mesh = &model->mesh;
     /* A part of the undeformed gap at the edge of Hertz's contact under the state's load. */
     const double P = cblas_ddot(state->n, model->problem.load_N, 1, state->p, 1);
     const double tolerance =
-        NEGLIGIBLE * 2.0 * fmax(P, 0.0) / (M_PI * rb_rolling_derive(model->rc).modulus);
+        NEGLIGIBLE * 2.0 * fmax(P, 0.0) / (M_PI * rb_rolling_derive(rc).modulus);
     const double h = shortest(mesh);
-    double limit[2], *w = x + scratch, *gap = w + scratch, least = -INFINITY;
-    int places = 0;
-    /* Places of all tables in order, and the undeformed gap there. */
-    table t[TABLES];
+    double limit[2], least = -INFINITY;
+    strips s = {0};
+    /* The profile, what is irregular and what is worn; n < 2: it says nothing. */
+    table t[TABLES] = {{0, NULL, 0.0},
+                       {rc->irregularity.n, rc->irregularity.x, mesh->passed},
+                       {rc->worn.n, rc->worn.x, 0.0}};
+    size_t most = 2;
 
-    find_tables(model, t);
+    if (rc->gap == RB_GAP_TABLE)
+        t[0].n = rb_rolling_profile_rows(rc->profile, &t[0].x);
+    for (int k = 0; k < TABLES; k++)
+        most += (size_t)fmin(BETWEEN * (double)t[k].n, MOST_PLACES) + BETWEEN;
+    double *x = rb_arena_doubles(scratch, most, 1), *w = rb_arena_doubles(scratch, most, 1),
+           *gap = rb_arena_doubles(scratch, most, 1);
+    rb_status status = scratch->failed ? RB_ENOMEM : gather_strips(mesh, state, scratch, &s);
+    if (status != RB_OK)
+        return status;
+    /* Places of all tables in order, and the undeformed gap there. */
+    int places = 0;
     for (int k = 0; k < TABLES; k++)
         if (t[k].n > 1)
             places = add_places(model, state, &t[k], x, places);
     gsl_sort(x, 1, (size_t)places);
-    rb_status status = rb_rolling_gap_along(model->rc, model->mesh.passed, places, x, gap);
-
+    status = rb_rolling_gap_along(rc, mesh->passed, places, x, gap);
     if (status != RB_OK || places == 0)
         return status;
-    if (rb_rolling_can(model->rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS)) {
+    if (rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS)) {
         /* Pressed half-planes are displaced the less the further away: between these ends
          * nowhere less than at that length from either.  A bound for wheels is not needed:
          * all their places cost one solve. */
@@ -292,11 +295,11 @@ static rb_status look(const rb_rolling_model *model, const rb_contact_state *sta
                      to = fmax(x[places - 1], mesh->ends[mesh->n]),
                      beyond[2] = {2.0 * from - to, 2.0 * to - from};
         double there[2] = {0.0, 0.0};
-        status = add_bodies(model, state, s, &(targets){2, beyond, there});
+        status = add_bodies(model, state, &s, scratch, &(targets){2, beyond, there});
+        if (status != RB_OK)
+            return status;
         least = fmin(there[0], there[1]);
     }
-    if (status != RB_OK)
-        return status;
     /* The places that the displacements may close. */
     int n = 0;
 
@@ -305,50 +308,40 @@ static rb_status look(const rb_rolling_model *model, const rb_contact_state *sta
             x[n] = x[i];
             gap[n++] = gap[i];
         }
-    places = n;
-    x[places] = model->bodies.f.x[0];
-    x[places + 1] = model->bodies.f.x[mesh->n - 1];
-    if (places > 0)
-        status = displacement(model, state, s, &(targets){places + 2, x, w});
-    for (int i = 0; i < places && status == RB_OK; i++)
+    if (n == 0)
+        return RB_OK;
+    x[n] = model->bodies.f.x[0];
+    x[n + 1] = model->bodies.f.x[mesh->n - 1];
+    status = displacement(model, state, &s, scratch, &(targets){n + 2, x, w});
+    if (status != RB_OK)
+        return status;
+    for (int i = 0; i < n; i++)
         if (gap[i] - state->delta + w[i] < -tolerance) {
             /* Neighbouring places of overlap are one stretch, which reaches to the next
              * places without, or by h where there is none. */
             const double from = i > 0 ? x[i - 1] : x[i] - h;
-            const double to = i + 1 < places ? x[i + 1] : x[i] + h;
+            const double to = i + 1 < n ? x[i + 1] : x[i] + h;
             if (o->count == 0 || (from > o->to[o->count - 1] && o->count < RB_MOST_OVERLAPS))
                 o->from[o->count++] = from;
             o->to[o->count - 1] = to;
         }
-    rb_rolling_extent(model->rc, &limit[0], &limit[1]);
+    rb_rolling_extent(rc, &limit[0], &limit[1]);
     for (int k = 0; k < o->count; k++) {
         o->from[k] = fmax(o->from[k], limit[0]);
         o->to[k] = fmin(o->to[k], limit[1]);
     }
-    return status;
+    return RB_OK;
 }
 
 rb_status rb_rolling_find_overlap(const rb_rolling_model *model, const rb_contact_state *state,
                                   rb_rolling_overlap *o)
 {
-    const rb_rolling_case *rc = model->rc;
-    strips s = {0};
+    rb_arena scratch = {0};
 
     o->count = 0;
-    if (rb_rolling_is_convex(rc) || model->mesh.n < 2)
+    if (rb_rolling_is_convex(model->rc) || model->mesh.n < 2)
         return RB_OK;
-    table t[TABLES];
-    size_t scratch = 2;
-    find_tables(model, t);
-    for (int k = 0; k < TABLES; k++)
-        scratch += (size_t)fmin(BETWEEN * (double)t[k].n, MOST_PLACES) + BETWEEN;
-    double *x = rb_alloc(scratch, 3);
-    rb_status status = x ? gather_strips(&model->mesh, state, &s) : RB_ENOMEM;
-    if (status == RB_OK)
-        status = look(model, state, &s, scratch, x, o);
-    free(s.ends);
-    free(x);
-    return status;
+    return rb_arena_done(&scratch, look(model, state, &scratch, o));
 }
 
 /* ---- Whether the mesh holds the contact -------------------------------------------- */

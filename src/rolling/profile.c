@@ -89,10 +89,12 @@ static double parabola(const smoothing *s, double x)
 static rb_status take_parabola(smoothing *s, const double *gap)
 {
     const int n = s->n;
-    double *A = rb_alloc((size_t)n, 4), *b = A ? A + 3 * (size_t)n : NULL;
+    rb_arena scratch = {0};
+    double *A = rb_arena_doubles(&scratch, (size_t)n, 3),
+           *b = rb_arena_doubles(&scratch, (size_t)n, 1);
 
-    if (!A)
-        return RB_ENOMEM;
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
     for (int i = 0; i < n; i++) {
         A[i] = 1.0;
         A[i + n] = (s->x[i] - s->x[0]) / (s->x[n - 1] - s->x[0]);
@@ -101,10 +103,9 @@ static rb_status take_parabola(smoothing *s, const double *gap)
     }
     const int failed = LAPACKE_dgels(LAPACK_COL_MAJOR, 'N', n, 3, 1, A, n, b, n);
     memcpy(s->parabola, b, sizeof s->parabola);
-    free(A);
-    for (int i = 0; i < n && !failed; i++)
+    for (int i = 0; i < n; i++)
         s->residual[i] = gap[i] - parabola(s, s->x[i]);
-    return failed ? RB_ENOMEM : RB_OK;
+    return rb_arena_done(&scratch, failed ? RB_ENOMEM : RB_OK);
 }
 
 /* Root mean square distance of the points from the spline of this lambda. */
@@ -131,28 +132,30 @@ static double distance_of(smoothing *s, double lambda)
 /* The curve itself: the ends of the intervals and the smoothed values there. */
 typedef struct {
     int n;
-    double *x, *gap; /* n; gap is owned and holds both */
+    double *x, *gap; /* n; in scratch memory */
 } points;
 
-static rb_status smooth(int n, const double *x, const double *gap, double noise, points *curve)
+static rb_status smooth(int n, const double *x, const double *gap, double noise, rb_arena *scratch,
+                        points *curve)
 {
     const int m = n - 1 < MOST_INTERVALS ? n - 1 : MOST_INTERVALS;
     const size_t size = (size_t)m + 3;
-    smoothing s = {.n = n, .m = m, .x = x};
-    rb_status status = RB_ENOMEM;
+    smoothing s = {.n = n,
+                   .m = m,
+                   .x = x,
+                   .residual = rb_arena_doubles(scratch, (size_t)n, 1),
+                   .normal = rb_arena_doubles(scratch, BAND, size),
+                   .band = rb_arena_doubles(scratch, BAND, size),
+                   .load = rb_arena_doubles(scratch, size, 1),
+                   .c = rb_arena_doubles(scratch, size, 1)};
 
-    s.residual = rb_alloc((size_t)n, 1);
-    s.normal = rb_alloc(size, 2 * BAND + 2);
-    *curve = (points){.n = m + 1, .gap = rb_alloc((size_t)m + 1, 2)};
-    curve->x = curve->gap + m + 1;
-    if (s.residual && s.normal && curve->gap) {
-        s.band = s.normal + BAND * size;
-        s.load = s.band + BAND * size;
-        s.c = s.load + size;
-        status = take_parabola(&s, gap);
-    }
+    *curve = (points){m + 1, rb_arena_doubles(scratch, (size_t)m + 1, 1),
+                      rb_arena_doubles(scratch, (size_t)m + 1, 1)};
+    const rb_status status = scratch->failed ? RB_ENOMEM : take_parabola(&s, gap);
+    if (status != RB_OK)
+        return status;
     const double weight = (double)m / n;
-    for (int i = 0; i < n && status == RB_OK; i++) {
+    for (int i = 0; i < n; i++) {
         double b[BAND];
         const int k = basis(&s, x[i], b);
         for (int p = 0; p < BAND; p++) {
@@ -167,19 +170,16 @@ static rb_status smooth(int n, const double *x, const double *gap, double noise,
     const double bound = noise * sqrt(1.0 + 2.0 * sqrt(2.0 / n));
     double low = WEAKEST, high = STRONGEST;
 
-    for (int k = 0; k < HALVINGS && status == RB_OK; k++) {
+    for (int k = 0; k < HALVINGS; k++) {
         const double lambda = sqrt(low * high);
         *(distance_of(&s, lambda) > bound ? &high : &low) = lambda;
     }
-    if (status == RB_OK)
-        distance_of(&s, low);
-    for (int k = 0; k <= m && status == RB_OK; k++) {
+    distance_of(&s, low);
+    for (int k = 0; k <= m; k++) {
         curve->x[k] = k < m ? x[0] + (x[n - 1] - x[0]) * k / m : x[n - 1];
         curve->gap[k] = parabola(&s, curve->x[k]) + value(&s, curve->x[k]);
     }
-    free(s.residual);
-    free(s.normal);
-    return status;
+    return RB_OK;
 }
 
 rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, double noise,
@@ -205,8 +205,9 @@ rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, d
                        "must enclose the contact; gaps are positive where the bodies are apart",
                        end + 1, gap[end]);
     rb_rolling_profile *p = calloc(1, sizeof *p);
-    points smoothed = {.gap = NULL};
-    s = !p ? RB_ENOMEM : noise > 0.0 ? smooth(n, x, gap, noise, &smoothed) : RB_OK;
+    rb_arena scratch = {0};
+    points smoothed = {0};
+    s = !p ? RB_ENOMEM : noise > 0.0 ? smooth(n, x, gap, noise, &scratch, &smoothed) : RB_OK;
     if (s == RB_OK) {
         const size_t rows = (size_t)(noise > 0.0 ? smoothed.n : n);
         const double *at = noise > 0.0 ? smoothed.x : x, *y = noise > 0.0 ? smoothed.gap : gap;
@@ -215,7 +216,7 @@ rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, d
         p->spline = gsl_spline_alloc(gsl_interp_cspline, rows);
         s = p->spline && gsl_spline_init(p->spline, at, y, rows) == 0 ? RB_OK : RB_ENOMEM;
     }
-    free(smoothed.gap);
+    rb_arena_done(&scratch, s);
     if (s != RB_OK) {
         rb_rolling_profile_free(p);
         return rb_fail(why, s, "out of memory for a gap of %d points", n);
