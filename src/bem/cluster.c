@@ -1,4 +1,5 @@
 #include "bem/cluster.h"
+#include "rollbem/blas.h"
 
 int rb_cluster_levels(int n, int most)
 {
@@ -27,48 +28,56 @@ static void enclose(const rb_element *e, box *b)
     }
 }
 
-/* The `middle` elements that come first along the axis to the front (Hoare). */
-static void select_front(const rb_element *element, int axis, int *order, int count, int middle)
-{
-    int low = 0, high = count - 1;
-    while (low < high) {
-        const double pivot = along(&element[order[(low + high) / 2]], axis);
-        int i = low, j = high;
-        while (i <= j) {
-            while (along(&element[order[i]], axis) < pivot)
-                i++;
-            while (along(&element[order[j]], axis) > pivot)
-                j--;
-            if (i <= j) {
-                const int kept = order[i];
-                order[i++] = order[j];
-                order[j--] = kept;
-            }
-        }
-        if (middle <= j)
-            high = j;
-        else if (middle >= i)
-            low = i;
-        else
-            return;
-    }
-}
-
 void rb_cluster_order(int n, const rb_element *element, int levels, int *order)
 {
     for (int i = 0; i < n; i++)
         order[i] = i;
     for (int level = 0; level < levels; level++)
         for (int k = 0; k < 1 << level; k++) {
-            const int first = rb_cluster_first(n, level, k),
-                      count = rb_cluster_first(n, level, k + 1) - first,
-                      half = rb_cluster_first(n, level + 1, 2 * k + 1) - first;
+            int *own = order + rb_cluster_first(n, level, k);
+            const int count = (int)(order + rb_cluster_first(n, level, k + 1) - own),
+                      middle = (int)(order + rb_cluster_first(n, level + 1, 2 * k + 1) - own);
             box b = nothing;
             for (int i = 0; i < count; i++)
-                enclose(&element[order[first + i]], &b);
+                enclose(&element[own[i]], &b);
             const int axis = b.high[1] - b.low[1] > b.high[0] - b.low[0];
-            select_front(element, axis, order + first, count, half);
+            /* The `middle` elements that come first along the axis to the front (Hoare). */
+            for (int low = 0, high = count - 1; low < high;) {
+                const double pivot = along(&element[own[(low + high) / 2]], axis);
+                int i = low, j = high;
+                while (i <= j) {
+                    while (along(&element[own[i]], axis) < pivot)
+                        i++;
+                    while (along(&element[own[j]], axis) > pivot)
+                        j--;
+                    if (i <= j) {
+                        const int kept = own[i];
+                        own[i++] = own[j];
+                        own[j--] = kept;
+                    }
+                }
+                if (middle > j && middle < i)
+                    break;
+                if (middle <= j)
+                    high = j;
+                else
+                    low = i;
+            }
         }
+}
+
+rb_status rb_cluster_run(const void *tree, int level, rb_cluster_stage *run)
+{
+    rb_status s = RB_OK;
+
+#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(dynamic) if (level > 3)
+    for (int k = 0; k < 1 << level; k++) {
+        const rb_status own = run(tree, level, k);
+        if (own != RB_OK)
+#pragma omp critical
+            s = own;
+    }
+    return s;
 }
 
 rb_circle rb_cluster_circle(const rb_element *element, int first, int last)

@@ -272,14 +272,7 @@ static rb_status choose_loads(const particular *p, split *far)
                         (mesh->condition[2 * k + d] == RB_BEM_DISPLACEMENT ? 1.0 : over);
         }
     }
-    s = rb_skeleton_factor(&seen, 1e-2 * p->s->tolerance);
-    if (s == RB_OK) {
-        far->kept = seen.rank;
-        far->order = rb_alloc_int((size_t)loads);
-        far->T = rb_alloc((size_t)far->kept, (size_t)(loads - far->kept) + 1);
-        s = far->order && far->T ? rb_skeleton_split(&seen, far->kept, far->order, far->T)
-                                 : RB_ENOMEM;
-    }
+    s = rb_skeleton_reduce(&seen, 1e-2 * p->s->tolerance, &far->kept, &far->order, &far->T);
     rb_skeleton_free(&seen);
     return s;
 }

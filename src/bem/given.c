@@ -1,7 +1,6 @@
 #include "bem/given.h"
 #include "bem/internal.h"
 #include "bem/mixed.h"
-#include "bem/skeleton.h"
 #include "rollbem/blas.h"
 
 #include <cblas.h>
@@ -41,7 +40,7 @@ struct rb_given {
 
 static cluster *at(const rb_given *g, int level, int k)
 {
-    return g->cluster + ((size_t)1 << level) - 1 + k;
+    return g->cluster + rb_cluster_place(level, k);
 }
 
 static size_t clusters_of(const rb_given *g)
@@ -68,15 +67,6 @@ void rb_given_free(rb_given *g)
     free(g);
 }
 
-/* The leaf that holds an element. */
-static int leaf_of(int n, int levels, int element)
-{
-    int k = (int)(((size_t)element << levels) / (size_t)n);
-    while (rb_cluster_first(n, levels, k + 1) <= element)
-        k++;
-    return k;
-}
-
 /* ---- The tree ---------------------------------------------------------------------- */
 
 /* The circle beyond which a cluster is far. */
@@ -90,8 +80,9 @@ static rb_circle reach_of(const rb_given *g, int level, int k)
 
 /* The elements that the parent reaches, in two lists: every element is far from exactly
  * one cluster on the way from a leaf to the root, or near the leaf. */
-static rb_status part_points(const rb_given *g, int level, int k)
+static rb_status part_points(const void *tree, int level, int k)
 {
+    const rb_given *g = tree;
     const cluster *parent = at(g, level - 1, k / 2);
     const rb_circle reach = reach_of(g, level, k);
     cluster *c = at(g, level, k);
@@ -115,69 +106,31 @@ static rb_status part_points(const rb_given *g, int level, int k)
     return RB_OK;
 }
 
-static rb_status list_columns(const rb_given *g, int level, int k)
+/* Its columns are those of its elements, or of its parts' skeletons.  What they do on the
+ * circle decides what they do beyond it. */
+static rb_status skeletonise(const void *tree, int level, int k)
 {
-    cluster *c = at(g, level, k);
-    const int first = rb_cluster_first(g->matrix.n, level, k);
-
-    if (level == g->levels) {
-        c->columns = 2 * (rb_cluster_first(g->matrix.n, level, k + 1) - first);
-        c->column = rb_alloc_int((size_t)c->columns);
-        for (int i = 0; c->column && i < c->columns; i++)
-            c->column[i] = 2 * first + i;
-        return c->column ? RB_OK : RB_ENOMEM;
-    }
-    const cluster *part = at(g, level + 1, 2 * k);
-    c->columns = part[0].kept + part[1].kept;
-    c->column = rb_alloc_int((size_t)c->columns);
-    for (int i = 0; c->column && i < c->columns; i++)
-        c->column[i] = i < part[0].kept ? part[0].column[part[0].order[i]]
-                                        : part[1].column[part[1].order[i - part[0].kept]];
-    return c->column ? RB_OK : RB_ENOMEM;
-}
-
-/* What its columns do on the circle decides what they do beyond it. */
-static rb_status skeletonise(const rb_given *g, int level, int k)
-{
+    const rb_given *g = tree;
+    const int first = rb_cluster_first(g->matrix.n, level, k), is_leaf = level == g->levels;
+    const cluster *part = is_leaf ? NULL : at(g, level + 1, 2 * k);
     cluster *c = at(g, level, k);
     rb_circle reach = reach_of(g, level, k);
     rb_skeleton seen = {0};
-    rb_mixed_rows rows = {0};
-    rb_status s = list_columns(g, level, k);
 
+    c->columns = is_leaf ? 2 * (rb_cluster_first(g->matrix.n, level, k + 1) - first)
+                         : part[0].kept + part[1].kept;
+    c->column = rb_alloc_int((size_t)c->columns);
+    if (!c->column)
+        return RB_ENOMEM;
+    for (int i = 0; i < c->columns; i++)
+        c->column[i] = is_leaf            ? 2 * first + i
+                       : i < part[0].kept ? part[0].column[part[0].order[i]]
+                                          : part[1].column[part[1].order[i - part[0].kept]];
+    rb_status s =
+        rb_mixed_see_columns(&g->matrix, 0, NULL, &reach, g->points, c->columns, c->column, &seen);
     if (s == RB_OK)
-        s = rb_mixed_rows_make(&g->matrix, 0, NULL, &reach, g->points, &rows);
-    if (s == RB_OK)
-        s = rb_skeleton_alloc(rows.rows, c->columns, &seen);
-    if (s == RB_OK)
-        s = rb_mixed_block(&g->matrix, &rows, c->columns, c->column,
-                           (rb_matrix_view){seen.K, 1, (size_t)seen.ld});
-    if (s == RB_OK)
-        s = rb_skeleton_factor(&seen, g->tolerance);
-    if (s == RB_OK) {
-        c->kept = seen.rank;
-        c->order = rb_alloc_int((size_t)c->columns);
-        c->T = rb_alloc((size_t)c->kept, (size_t)(c->columns - c->kept) + 1);
-        s = c->order && c->T ? rb_skeleton_split(&seen, c->kept, c->order, c->T) : RB_ENOMEM;
-    }
-    rb_mixed_rows_free(&rows);
+        s = rb_skeleton_reduce(&seen, g->tolerance, &c->kept, &c->order, &c->T);
     rb_skeleton_free(&seen);
-    return s;
-}
-
-typedef rb_status stage(const rb_given *g, int level, int k);
-
-static rb_status for_clusters(const rb_given *g, int level, stage *run)
-{
-    rb_status s = RB_OK;
-
-#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(dynamic) if (level > 3)
-    for (int k = 0; k < 1 << level; k++) {
-        const rb_status own = run(g, level, k);
-        if (own != RB_OK)
-#pragma omp critical
-            s = own;
-    }
     return s;
 }
 
@@ -190,10 +143,12 @@ static void list_views(const rb_given *g, view *list, int *next)
         const cluster *c = &g->cluster[i];
         const int leaf_itself = (int)i + 1 >= leaves, all = c->near + c->far;
         for (int first = leaf_itself ? 0 : c->near; first < all;) {
-            const int k = leaf_of(n, g->levels, c->point[first]),
-                      last = rb_cluster_first(n, g->levels, k + 1),
+            /* The leaf that holds the point. */
+            int k = (int)(((size_t)c->point[first] << g->levels) / (size_t)n), count = 0;
+            while (rb_cluster_first(n, g->levels, k + 1) <= c->point[first])
+                k++;
+            const int last = rb_cluster_first(n, g->levels, k + 1),
                       end = first < c->near ? c->near : all;
-            int count = 0;
             while (first + count < end && c->point[first + count] < last &&
                    c->point[first + count] == c->point[first] + count)
                 count++;
@@ -246,9 +201,9 @@ rb_status rb_given_create(const rb_bem_mesh *mesh, rb_bem_material material, con
             for (int i = 0; i < root->near; i++)
                 root->point[i] = i;
             for (int level = 1; level <= g->levels && s == RB_OK; level++)
-                s = for_clusters(g, level, part_points);
+                s = rb_cluster_run(g, level, part_points);
             for (int level = g->levels; level > 0 && s == RB_OK; level--)
-                s = for_clusters(g, level, skeletonise);
+                s = rb_cluster_run(g, level, skeletonise);
         }
     }
     if (s == RB_OK) {
@@ -293,6 +248,7 @@ typedef struct {
     double *X;
 } product;
 
+/* All values of a leaf: the given ones in the units of its columns. */
 static rb_status leaf_values(const product *p, const cluster *c, values *v)
 {
     int any = 0;
@@ -311,53 +267,47 @@ static rb_status leaf_values(const product *p, const cluster *c, values *v)
     return v->all ? RB_OK : RB_ENOMEM;
 }
 
-/* Those of its parts' skeletons, one below the other. */
-static rb_status parent_values(const product *p, int level, int k, values *v)
-{
-    const cluster *part = at(p->g, level + 1, 2 * k), *c = at(p->g, level, k);
-    values *from = &p->of[part - p->g->cluster];
-
-    if (from[0].skeleton || from[1].skeleton) {
-        v->all = rb_alloc((size_t)c->columns, (size_t)p->q);
-        if (!v->all)
-            return RB_ENOMEM;
-        for (int h = 0, row = 0; h < 2; row += part[h++].kept)
-            if (from[h].skeleton)
-                LAPACKE_dlacpy_work(LAPACK_COL_MAJOR, 'A', part[h].kept, p->q, from[h].skeleton,
-                                    part[h].kept, v->all + row, c->columns);
-    }
-    return RB_OK;
-}
-
+/* From the leaves to the root: all values of a parent are those of its parts' skeletons,
+ * one below the other; the skeleton's are its own, and T times those of the others. */
 static rb_status make_values(const product *p, int level, int k)
 {
     const cluster *c = at(p->g, level, k);
     values *v = &p->of[c - p->g->cluster];
-    rb_status s = level == p->g->levels ? leaf_values(p, c, v) : parent_values(p, level, k, v);
 
-    if (s == RB_OK && v->all) {
-        /* The skeleton's values: its own, and T times those of the others. */
-        const size_t kept = (size_t)c->kept, others = (size_t)c->columns - kept;
-        double *rest = rb_alloc(others + 1, (size_t)p->q);
-
-        v->skeleton = rb_alloc(kept, (size_t)p->q);
-        if (!rest || !v->skeleton) {
-            free(rest);
-            s = RB_ENOMEM;
-        } else {
-            for (size_t l = 0; l < (size_t)p->q; l++) {
-                const double *all = v->all + l * (size_t)c->columns;
-                for (size_t i = 0; i < kept; i++)
-                    v->skeleton[i + l * kept] = all[c->order[i]];
-                for (size_t i = 0; i < others; i++)
-                    rest[i + l * others] = all[c->order[kept + i]];
-            }
-            if (others > 0)
-                cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, c->kept, p->q, (int)others,
-                            1.0, c->T, c->kept, rest, (int)others, 1.0, v->skeleton, c->kept);
-            free(rest);
+    if (level == p->g->levels) {
+        if (leaf_values(p, c, v) != RB_OK)
+            return RB_ENOMEM;
+    } else {
+        const cluster *part = at(p->g, level + 1, 2 * k);
+        const values *from = &p->of[part - p->g->cluster];
+        if (from[0].skeleton || from[1].skeleton) {
+            v->all = rb_alloc((size_t)c->columns, (size_t)p->q);
+            if (!v->all)
+                return RB_ENOMEM;
+            for (int h = 0, row = 0; h < 2; row += part[h++].kept)
+                if (from[h].skeleton)
+                    LAPACKE_dlacpy_work(LAPACK_COL_MAJOR, 'A', part[h].kept, p->q, from[h].skeleton,
+                                        part[h].kept, v->all + row, c->columns);
         }
     }
+    if (!v->all)
+        return RB_OK;
+    const size_t kept = (size_t)c->kept, others = (size_t)c->columns - kept;
+    double *rest = rb_alloc(others + 1, (size_t)p->q);
+
+    v->skeleton = rb_alloc(kept, (size_t)p->q);
+    const rb_status s = rest && v->skeleton ? RB_OK : RB_ENOMEM;
+    for (size_t l = 0; s == RB_OK && l < (size_t)p->q; l++) {
+        const double *all = v->all + l * (size_t)c->columns;
+        for (size_t i = 0; i < kept; i++)
+            v->skeleton[i + l * kept] = all[c->order[i]];
+        for (size_t i = 0; i < others; i++)
+            rest[i + l * others] = all[c->order[kept + i]];
+    }
+    if (s == RB_OK && others > 0)
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, c->kept, p->q, (int)others, 1.0,
+                    c->T, c->kept, rest, (int)others, 1.0, v->skeleton, c->kept);
+    free(rest);
     if (level < p->g->levels) {
         free(v->all);
         v->all = NULL;
@@ -375,7 +325,6 @@ static rb_status add_view(const product *p, const view *w, int k, double *Y, int
     const int near = w->first < c->near, columns = near ? c->columns : c->kept, m = 2 * w->count;
     int *row = rb_alloc_int((size_t)m + (size_t)columns), *column = row ? row + m : NULL;
     double *A = rb_alloc((size_t)m, (size_t)columns);
-    rb_mixed_rows rows = {0};
     rb_status s = row && A ? RB_OK : RB_ENOMEM;
 
     if (s == RB_OK) {
@@ -383,25 +332,24 @@ static rb_status add_view(const product *p, const view *w, int k, double *Y, int
             row[i] = 2 * c->point[w->first + i / 2] + i % 2;
         for (int j = 0; j < columns; j++)
             column[j] = c->column[near ? j : c->order[j]];
-        s = rb_mixed_rows_make(&g->matrix, m, row, NULL, 0, &rows);
+        s = rb_mixed_entries(&g->matrix, m, row, columns, column,
+                             (rb_matrix_view){A, 1, (size_t)m});
     }
-    if (s == RB_OK)
-        s = rb_mixed_block(&g->matrix, &rows, columns, column, (rb_matrix_view){A, 1, (size_t)m});
     if (s == RB_OK)
         cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, p->q, columns, 1.0, A, m,
                     near ? v->all : v->skeleton, columns, 1.0,
                     Y + (row[0] - 2 * rb_cluster_first(g->matrix.n, g->levels, k)), ld);
-    rb_mixed_rows_free(&rows);
     free(row);
     free(A);
     return s;
 }
 
-static rb_status add_leaf(const product *p, int k)
+static rb_status add_leaf(const void *tree, int level, int k)
 {
+    const product *p = tree;
     const rb_given *g = p->g;
-    const int first = rb_cluster_first(g->matrix.n, g->levels, k),
-              m = 2 * (rb_cluster_first(g->matrix.n, g->levels, k + 1) - first);
+    const int first = rb_cluster_first(g->matrix.n, level, k),
+              m = 2 * (rb_cluster_first(g->matrix.n, level, k + 1) - first);
     double *Y = rb_alloc((size_t)m, (size_t)p->q);
     rb_status s = Y ? RB_OK : RB_ENOMEM;
 
@@ -416,50 +364,40 @@ static rb_status add_leaf(const product *p, int k)
     return s;
 }
 
-static rb_status multiply(const product *p, int count, const int *element)
-{
-    const rb_given *g = p->g;
-    int *place = rb_alloc_int((size_t)g->matrix.n);
-    rb_status s = place ? RB_OK : RB_ENOMEM;
-
-    for (int j = 0; place && j < g->matrix.n; j++)
-        place[j] = p->place[j] = -1;
-    for (int i = 0; place && i < count; i++)
-        place[element[i]] = i;
-    for (int j = 0; place && j < g->matrix.n; j++)
-        p->place[j] = place[g->order[j]];
-    free(place);
-    for (int level = g->levels; level > 0; level--)
-        for (int k = 0; k < 1 << level && s == RB_OK; k++)
-            s = make_values(p, level, k);
-#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(dynamic)
-    for (int k = 0; k < (s == RB_OK ? 1 << g->levels : 0); k++) {
-        const rb_status own = add_leaf(p, k);
-        if (own != RB_OK)
-#pragma omp critical
-            s = own;
-    }
-    return s;
-}
-
 rb_status rb_given_multiply(const rb_given *g, int count, const int *element, int columns,
                             const double *value, double *X)
 {
+    const int n = g->matrix.n;
     product p = {.g = g,
                  .q = columns,
                  .rows = 2 * count,
                  .value = value,
-                 .place = rb_alloc_int((size_t)g->matrix.n),
+                 .place = rb_alloc_int((size_t)n),
                  .of = calloc(clusters_of(g), sizeof *p.of),
                  .X = X};
+    int *place = rb_alloc_int((size_t)n); /* in the mesh's order */
     const int threads = rb_blas_threads(1);
-    const rb_status s = p.place && p.of ? multiply(&p, count, element) : RB_ENOMEM;
+    rb_status s = p.place && p.of && place ? RB_OK : RB_ENOMEM;
 
+    if (s == RB_OK) {
+        for (int j = 0; j < n; j++)
+            place[j] = -1;
+        for (int i = 0; i < count; i++)
+            place[element[i]] = i;
+        for (int j = 0; j < n; j++)
+            p.place[j] = place[g->order[j]];
+    }
+    for (int level = g->levels; level > 0; level--)
+        for (int k = 0; k < 1 << level && s == RB_OK; k++)
+            s = make_values(&p, level, k);
+    if (s == RB_OK)
+        s = rb_cluster_run(&p, g->levels, add_leaf);
     rb_blas_threads(threads);
     for (size_t i = 0; p.of && i < clusters_of(g); i++) {
         free(p.of[i].all);
         free(p.of[i].skeleton);
     }
+    free(place);
     free(p.of);
     free(p.place);
     return s;

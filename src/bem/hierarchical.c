@@ -41,18 +41,13 @@ static rb_status make_leaf(const rb_hierarchical *h, int level, int k, rb_hierar
 {
     const int first = rb_cluster_first(h->matrix.n, level, k),
               last = rb_cluster_first(h->matrix.n, level, k + 1);
-    rb_mixed_rows rows;
 
     if (cluster_alloc(2 * (last - first), c) != RB_OK)
         return RB_ENOMEM;
     for (int i = 0; i < c->e.m; i++)
         c->e.row[i] = c->e.column[i] = 2 * first + i;
-    rb_status s = rb_mixed_rows_make(&h->matrix, c->e.m, c->e.row, NULL, 0, &rows);
-    if (s == RB_OK)
-        s = rb_mixed_block(&h->matrix, &rows, c->e.m, c->e.column,
-                           (rb_matrix_view){c->D, 1, (size_t)c->e.m});
-    rb_mixed_rows_free(&rows);
-    return s;
+    return rb_mixed_entries(&h->matrix, c->e.m, c->e.row, c->e.m, c->e.column,
+                            (rb_matrix_view){c->D, 1, (size_t)c->e.m});
 }
 
 /* The skeletons of `count` clusters as one. */
@@ -72,18 +67,9 @@ static rb_status merge(const rb_hierarchical *h, rb_hierarchical_cluster *part, 
             if (i == j)
                 LAPACKE_dlacpy_work(LAPACK_COL_MAJOR, 'A', part[j].e.kept, part[j].e.kept,
                                     part[j].D, part[j].e.m, D, m);
-            else {
-                /* A(rows of a, columns of b), to the place of D given. */
-                const rb_hierarchical_cluster *a = &part[i];
-                const rb_hierarchical_cluster *b = &part[j];
-                rb_mixed_rows rows;
-                s = rb_mixed_rows_make(&h->matrix, a->e.kept, a->e.row, NULL, 0, &rows);
-
-                if (s == RB_OK)
-                    s = rb_mixed_block(&h->matrix, &rows, b->e.kept, b->e.column,
-                                       (rb_matrix_view){D, 1, (size_t)m});
-                rb_mixed_rows_free(&rows);
-            }
+            else
+                s = rb_mixed_entries(&h->matrix, part[i].e.kept, part[i].e.row, part[j].e.kept,
+                                     part[j].e.column, (rb_matrix_view){D, 1, (size_t)m});
     }
     for (int i = 0; i < count; i++) {
         free(part[i].D);
@@ -92,105 +78,73 @@ static rb_status merge(const rb_hierarchical *h, rb_hierarchical_cluster *part, 
     return s;
 }
 
-/* ---- Elimination ------------------------------------------------------------------- */
-
-/* X = D in the new order; the lists too. */
-static rb_status reorder(rb_hierarchical_cluster *c, double *X)
-{
-    const size_t m = (size_t)c->e.m;
-    int *old = rb_alloc_int(2 * m);
-
-    if (!old)
-        return RB_ENOMEM;
-    memcpy(old, c->e.row, 2 * m * sizeof *old);
-    for (size_t j = 0; j < m; j++) {
-        const double *from = c->D + (size_t)c->order[m + j] * m;
-        for (size_t i = 0; i < m; i++)
-            X[i + j * m] = from[c->order[i]];
-        c->e.row[j] = old[c->order[j]];
-        c->e.column[j] = old[m + (size_t)c->order[m + j]];
-    }
-    free(old);
-    return RB_OK;
-}
-
-static rb_status eliminate(const rb_hierarchical *h, int level, int k)
-{
-    rb_hierarchical_cluster *c = rb_hierarchical_cluster_at(h, level, k);
-    const size_t m = (size_t)c->e.m;
-    double *X = rb_alloc(m, m);
-    rb_status s = X ? reorder(c, X) : RB_ENOMEM;
-
-    if (s == RB_OK && c->e.kept < c->e.m)
-        s = rb_elimination_run(&c->e, X);
-    free(c->D);
-    c->D = X;
-    return s;
-}
-
 /* ---- All levels -------------------------------------------------------------------- */
 
-static rb_status make_cluster(const rb_hierarchical *h, int level, int k)
+static rb_status make_cluster(const void *tree, int level, int k)
 {
+    const rb_hierarchical *h = tree;
     rb_hierarchical_cluster *c = rb_hierarchical_cluster_at(h, level, k);
+
     c->circle = rb_cluster_circle(h->matrix.element, rb_cluster_first(h->matrix.n, level, k),
                                   rb_cluster_first(h->matrix.n, level, k + 1));
     return level == h->levels ? make_leaf(h, level, k, c)
                               : merge(h, rb_hierarchical_cluster_at(h, level + 1, 2 * k), 2, c);
 }
 
-typedef rb_status stage(const rb_hierarchical *h, int level, int k);
-
-static rb_status for_clusters(const rb_hierarchical *h, int level, stage *run)
+/* Rows and columns in the new order, and all but the skeleton eliminated. */
+static rb_status eliminate(const void *tree, int level, int k)
 {
-    const int count = 1 << level;
-    rb_status s = RB_OK;
+    rb_hierarchical_cluster *c = rb_hierarchical_cluster_at(tree, level, k);
+    const size_t m = (size_t)c->e.m;
+    int *old = rb_alloc_int(2 * m);
+    double *X = rb_alloc(m, m);
+    rb_status s = old && X ? RB_OK : RB_ENOMEM;
 
-#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(dynamic) if (count > 8)
-    for (int k = 0; k < count; k++) {
-        const rb_status own = run(h, level, k);
-        if (own != RB_OK)
-#pragma omp critical
-            s = own;
+    if (s == RB_OK) {
+        memcpy(old, c->e.row, 2 * m * sizeof *old);
+        for (size_t j = 0; j < m; j++) {
+            const double *from = c->D + (size_t)c->order[m + j] * m;
+            for (size_t i = 0; i < m; i++)
+                X[i + j * m] = from[c->order[i]];
+            c->e.row[j] = old[c->order[j]];
+            c->e.column[j] = old[m + (size_t)c->order[m + j]];
+        }
+        if (c->e.kept < c->e.m)
+            s = rb_elimination_run(&c->e, X);
     }
+    free(old);
+    free(c->D);
+    c->D = X;
     return s;
-}
-
-static rb_hierarchical *hierarchical_alloc(int n, double tolerance)
-{
-    rb_hierarchical *h = calloc(1, sizeof *h);
-    if (!h)
-        return NULL;
-    h->levels = rb_cluster_levels(n, LEAF);
-    if (h->levels < TOP)
-        h->levels = 0;
-    h->tolerance = tolerance;
-    h->points = 2 * (int)ceil(-log(tolerance) / log(RB_HIERARCHICAL_REACH));
-    h->order = rb_alloc_int((size_t)n);
-    h->cluster = calloc(((size_t)2 << h->levels) - 1, sizeof *h->cluster);
-    if (h->order && h->cluster)
-        return h;
-    rb_hierarchical_free(h);
-    return NULL;
 }
 
 rb_status rb_hierarchical_create(const rb_bem_mesh *mesh, rb_bem_material material,
                                  const double *unit, double tolerance, rb_hierarchical **out)
 {
-    rb_hierarchical *h = hierarchical_alloc(mesh->n, tolerance);
-    rb_status s =
-        h ? rb_mixed_make(mesh, material, unit, h->levels, h->order, &h->matrix) : RB_ENOMEM;
+    const int n = mesh->n, levels = rb_cluster_levels(n, LEAF);
+    rb_hierarchical *h = calloc(1, sizeof *h);
+
+    *out = NULL;
+    if (!h)
+        return RB_ENOMEM;
+    h->levels = levels < TOP ? 0 : levels;
+    h->tolerance = tolerance;
+    h->points = 2 * (int)ceil(-log(tolerance) / log(RB_HIERARCHICAL_REACH));
+    h->order = rb_alloc_int((size_t)n);
+    h->cluster = calloc((size_t)rb_hierarchical_clusters(h), sizeof *h->cluster);
+    rb_status s = h->order && h->cluster
+                      ? rb_mixed_make(mesh, material, unit, h->levels, h->order, &h->matrix)
+                      : RB_ENOMEM;
     const int threads = rb_blas_threads(1);
 
-    for (int level = h ? h->levels : 0; s == RB_OK && level >= TOP; level--) {
+    for (int level = h->levels; s == RB_OK && level >= TOP; level--) {
         /* One stage after the other: a cluster looks at its neighbours' lists before any
          * is put into a new order. */
-        s = for_clusters(h, level, make_cluster);
-
+        s = rb_cluster_run(h, level, make_cluster);
         if (s == RB_OK)
-            s = for_clusters(h, level, rb_hierarchical_skeletonise);
+            s = rb_cluster_run(h, level, rb_hierarchical_skeletonise);
         if (s == RB_OK)
-            s = for_clusters(h, level, eliminate);
+            s = rb_cluster_run(h, level, eliminate);
     }
     if (s == RB_OK) {
         /* What is left at the top, dense. */
@@ -207,8 +161,9 @@ rb_status rb_hierarchical_create(const rb_bem_mesh *mesh, rb_bem_material materi
     if (s == RB_OK)
         s = rb_hierarchical_verify(h);
     rb_blas_threads(threads);
-    *out = s == RB_OK ? h : NULL;
-    if (s != RB_OK)
+    if (s == RB_OK)
+        *out = h;
+    else
         rb_hierarchical_free(h);
     return s;
 }

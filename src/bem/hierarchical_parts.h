@@ -26,7 +26,7 @@ struct rb_hierarchical {
 static inline rb_hierarchical_cluster *rb_hierarchical_cluster_at(const rb_hierarchical *h,
                                                                   int level, int k)
 {
-    return h->cluster + ((size_t)1 << level) - 1 + k;
+    return h->cluster + rb_cluster_place(level, k);
 }
 
 static inline int rb_hierarchical_clusters(const rb_hierarchical *h)
@@ -41,7 +41,7 @@ static const double RB_HIERARCHICAL_REACH = 2.0;
 
 /* Which rows and columns of cluster k stand for the others, and how: its order, and kept,
  * V and Z of its elimination.  Reads the lists of its neighbours.  RB_ENOMEM. */
-rb_status rb_hierarchical_skeletonise(const rb_hierarchical *h, int level, int k);
+rb_cluster_stage rb_hierarchical_skeletonise;
 
 /* ---- hierarchical_solve.c ---------------------------------------------------------- */
 

@@ -1,7 +1,6 @@
 /* Skeletons: rows and columns of a cluster that represent all its rows and columns for
  * the rest of the body. */
 #include "bem/hierarchical_parts.h"
-#include "bem/skeleton.h"
 
 #include <stdlib.h>
 
@@ -24,8 +23,8 @@ static int overlap(const rb_circle *a, const rb_circle *b)
     return dx * dx + dy * dy < r * r;
 }
 
-static rb_status neighbours_alloc(const rb_hierarchical *h, int level, int k,
-                                  const rb_circle *reach, neighbours *near)
+static rb_status find_neighbours(const rb_hierarchical *h, int level, int k, const rb_circle *reach,
+                                 neighbours *near)
 {
     size_t most = 1;
 
@@ -35,15 +34,9 @@ static rb_status neighbours_alloc(const rb_hierarchical *h, int level, int k,
             most += (size_t)c->e.m;
     }
     *near = (neighbours){.row = rb_alloc_int(2 * most)};
-    near->column = near->row + most;
-    return near->row ? RB_OK : RB_ENOMEM;
-}
-
-static rb_status find_neighbours(const rb_hierarchical *h, int level, int k, const rb_circle *reach,
-                                 neighbours *near)
-{
-    if (neighbours_alloc(h, level, k, reach, near) != RB_OK)
+    if (!near->row)
         return RB_ENOMEM;
+    near->column = near->row + most;
     for (int i = 0; i < 1 << level; i++) {
         const rb_hierarchical_cluster *c = rb_hierarchical_cluster_at(h, level, i);
         if (i == k || !overlap(&c->circle, reach))
@@ -58,69 +51,46 @@ static rb_status find_neighbours(const rb_hierarchical *h, int level, int k, con
     return RB_OK;
 }
 
-/* What the cluster's columns do to the others' rows, and to the far circle. */
-static rb_status see_columns(const rb_hierarchical *h, const rb_hierarchical_cluster *c,
-                             const neighbours *near, rb_circle reach, rb_skeleton *s)
+rb_status rb_hierarchical_skeletonise(const void *tree, int level, int k)
 {
-    rb_mixed_rows rows;
-    rb_status status =
-        rb_mixed_rows_make(&h->matrix, near->rows, near->row, &reach, h->points, &rows);
-    if (status == RB_OK)
-        status = rb_skeleton_alloc(rows.rows, c->e.m, s);
-    if (status == RB_OK)
-        status = rb_mixed_block(&h->matrix, &rows, c->e.m, c->e.column,
-                                (rb_matrix_view){s->K, 1, (size_t)s->ld});
-    rb_mixed_rows_free(&rows);
-    return status;
-}
-
-/* What the others' columns, and loads on the far circle, do to the cluster's rows:
- * transposed. */
-static rb_status see_rows(const rb_hierarchical *h, const rb_hierarchical_cluster *c,
-                          const neighbours *near, rb_circle reach, rb_skeleton *s)
-{
-    rb_mixed_rows rows;
-    rb_status status = rb_mixed_rows_make(&h->matrix, c->e.m, c->e.row, NULL, 0, &rows);
-
-    if (status == RB_OK)
-        status = rb_skeleton_alloc(near->columns + 2 * h->points, c->e.m, s);
-    if (status == RB_OK)
-        status = rb_mixed_block(&h->matrix, &rows, near->columns, near->column,
-                                (rb_matrix_view){s->K, (size_t)s->ld, 1});
-    if (status == RB_OK)
-        status = rb_mixed_far(&h->matrix, &rows, reach, h->points,
-                              (rb_matrix_view){s->K + near->columns, (size_t)s->ld, 1});
-    rb_mixed_rows_free(&rows);
-    return status;
-}
-
-rb_status rb_hierarchical_skeletonise(const rb_hierarchical *h, int level, int k)
-{
+    const rb_hierarchical *h = tree;
     rb_hierarchical_cluster *c = rb_hierarchical_cluster_at(h, level, k);
+    rb_elimination *e = &c->e;
     rb_circle reach = c->circle;
     rb_skeleton columns = {0}, rows = {0};
+    rb_mixed_rows own = {0};
     neighbours near;
 
     reach.r *= RB_HIERARCHICAL_REACH;
     rb_status s = find_neighbours(h, level, k, &reach, &near);
+    /* What the cluster's columns do to the others' rows, and to the far circle. */
     if (s == RB_OK)
-        s = see_columns(h, c, &near, reach, &columns);
+        s = rb_mixed_see_columns(&h->matrix, near.rows, near.row, &reach, h->points, e->m,
+                                 e->column, &columns);
+    /* What the others' columns, and loads on the far circle, do to the cluster's rows:
+     * transposed. */
     if (s == RB_OK)
-        s = see_rows(h, c, &near, reach, &rows);
-    if (s == RB_OK) {
-        /* Both decompositions to the larger of their ranks. */
-        rb_elimination *e = &c->e;
+        s = rb_mixed_rows_make(&h->matrix, e->m, e->row, NULL, 0, &own);
+    if (s == RB_OK)
+        s = rb_skeleton_alloc(near.columns + 2 * h->points, e->m, &rows);
+    if (s == RB_OK)
+        s = rb_mixed_block(&h->matrix, &own, near.columns, near.column,
+                           (rb_matrix_view){rows.K, (size_t)rows.ld, 1});
+    if (s == RB_OK)
+        s = rb_mixed_far(&h->matrix, &own, reach, h->points,
+                         (rb_matrix_view){rows.K + near.columns, (size_t)rows.ld, 1});
+    /* Both decompositions to the larger of their ranks. */
+    if (s == RB_OK)
         s = rb_skeleton_factor(&columns, h->tolerance);
-
-        if (s == RB_OK)
-            s = rb_skeleton_factor(&rows, h->tolerance);
-        if (s == RB_OK)
-            s = rb_elimination_keep(rows.rank > columns.rank ? rows.rank : columns.rank, e);
-        if (s == RB_OK)
-            s = rb_skeleton_split(&columns, e->kept, c->order + e->m, e->Z);
-        if (s == RB_OK)
-            s = rb_skeleton_split(&rows, e->kept, c->order, e->V);
-    }
+    if (s == RB_OK)
+        s = rb_skeleton_factor(&rows, h->tolerance);
+    if (s == RB_OK)
+        s = rb_elimination_keep(rows.rank > columns.rank ? rows.rank : columns.rank, e);
+    if (s == RB_OK)
+        s = rb_skeleton_split(&columns, e->kept, c->order + e->m, e->Z);
+    if (s == RB_OK)
+        s = rb_skeleton_split(&rows, e->kept, c->order, e->V);
+    rb_mixed_rows_free(&own);
     rb_skeleton_free(&columns);
     rb_skeleton_free(&rows);
     free(near.row);

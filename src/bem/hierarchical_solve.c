@@ -40,35 +40,29 @@ static size_t largest_cluster(const rb_hierarchical *h)
     return (size_t)most;
 }
 
-static rb_status solve_panel(const rb_hierarchical *h, int q, double *X)
-{
-    const size_t all = 2 * (size_t)h->matrix.n * (size_t)q;
-    double *b = rb_alloc(2 * all + largest_cluster(h) * (size_t)q, 1);
-
-    if (!b)
-        return RB_ENOMEM;
-    double *y = b + all;
-    permute(h, q, X, b, 0);
-    solve_ordered(h, q, b, y, y + all);
-    permute(h, q, y, X, 1);
-    free(b);
-    return RB_OK;
-}
-
 rb_status rb_hierarchical_solve(const rb_hierarchical *h, int columns, double *X)
 {
+    const size_t dofs = 2 * (size_t)h->matrix.n, most = largest_cluster(h);
     const int panels = (columns + PANEL - 1) / PANEL;
     const int threads = rb_blas_threads(1);
     rb_status s = RB_OK;
 
 #pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(dynamic) if (panels > 1)
     for (int p = 0; p < panels; p++) {
-        const int first = p * PANEL, rest = columns - first;
-        const rb_status own = solve_panel(h, rest < PANEL ? rest : PANEL,
-                                          X + 2 * (size_t)h->matrix.n * (size_t)first);
-        if (own != RB_OK)
+        const int first = p * PANEL, q = columns - first < PANEL ? columns - first : PANEL;
+        const size_t all = dofs * (size_t)q;
+        double *x = X + dofs * (size_t)first, *b = rb_alloc(2 * all + most * (size_t)q, 1);
+
+        if (b) {
+            double *y = b + all;
+            permute(h, q, x, b, 0);
+            solve_ordered(h, q, b, y, y + all);
+            permute(h, q, y, x, 1);
+        } else {
 #pragma omp critical
-            s = own;
+            s = RB_ENOMEM;
+        }
+        free(b);
     }
     rb_blas_threads(threads);
     return s;
@@ -105,29 +99,12 @@ static rb_status sample_residual(const rb_hierarchical *h, int rows, const int *
     return s;
 }
 
-/* Elements all over the boundary, and the one whose unknowns are largest, ascending. */
-static int choose_samples(const rb_hierarchical *h, const double *x, int *row)
-{
-    const int n = h->matrix.n, count = n < SAMPLES ? n : SAMPLES;
-    const int largest = (int)cblas_idamax(2 * n, x, 1) / 2;
-    int rows = 0;
-
-    for (int i = 0; i < count; i++) {
-        int j = (int)((double)i * n / count);
-        const int next = (int)((i + 1.0) * n / count);
-        if (largest > j && largest < next)
-            j = largest;
-        for (int k = 0; k < 2; k++)
-            row[rows++] = 2 * j + k;
-    }
-    return rows;
-}
-
 /* A singular matrix has an inverse too where low ranks and rounding have moved it a
  * little: one that does not give b back, and a random b has something of all vectors. */
 rb_status rb_hierarchical_verify(const rb_hierarchical *h)
 {
-    const size_t dofs = 2 * (size_t)h->matrix.n;
+    const int n = h->matrix.n, count = n < SAMPLES ? n : SAMPLES;
+    const size_t dofs = 2 * (size_t)n;
     double *b = rb_alloc(dofs, 3), *scratch = rb_alloc(largest_cluster(h), 1);
     double left = INFINITY;
     int row[2 * SAMPLES];
@@ -141,7 +118,17 @@ rb_status rb_hierarchical_verify(const rb_hierarchical *h)
             used[i] = b[i] = state / 4294967296.0 - 0.5;
         }
         solve_ordered(h, 1, used, x, scratch);
-        s = sample_residual(h, choose_samples(h, x, row), row, b, x, &left);
+        /* Elements all over the boundary, and the one whose unknowns are largest. */
+        const int largest = (int)cblas_idamax(2 * n, x, 1) / 2;
+        for (int i = 0; i < count; i++) {
+            const int next = (int)((i + 1.0) * n / count);
+            int j = (int)((double)i * n / count);
+            if (largest > j && largest < next)
+                j = largest;
+            row[2 * i] = 2 * j;
+            row[2 * i + 1] = 2 * j + 1;
+        }
+        s = sample_residual(h, 2 * count, row, b, x, &left);
     }
     free(b);
     free(scratch);

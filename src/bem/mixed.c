@@ -181,6 +181,32 @@ rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns,
     return RB_OK;
 }
 
+rb_status rb_mixed_entries(const rb_mixed *a, int rows, const int *row, int columns,
+                           const int *column, rb_matrix_view out)
+{
+    rb_mixed_rows r;
+    rb_status s = rb_mixed_rows_make(a, rows, row, NULL, 0, &r);
+
+    if (s == RB_OK)
+        s = rb_mixed_block(a, &r, columns, column, out);
+    rb_mixed_rows_free(&r);
+    return s;
+}
+
+rb_status rb_mixed_see_columns(const rb_mixed *a, int rows, const int *row, const rb_circle *circle,
+                               int points, int columns, const int *column, rb_skeleton *seen)
+{
+    rb_mixed_rows r;
+    rb_status s = rb_mixed_rows_make(a, rows, row, circle, points, &r);
+
+    if (s == RB_OK)
+        s = rb_skeleton_alloc(r.rows, columns, seen);
+    if (s == RB_OK)
+        s = rb_mixed_block(a, &r, columns, column, (rb_matrix_view){seen->K, 1, (size_t)seen->ld});
+    rb_mixed_rows_free(&r);
+    return s;
+}
+
 rb_status rb_mixed_far(const rb_mixed *a, const rb_mixed_rows *r, rb_circle circle, int points,
                        rb_matrix_view out)
 {

@@ -6,6 +6,7 @@
 #include "bem/cluster.h"
 #include "bem/column.h"
 #include "bem/incompressible.h"
+#include "bem/skeleton.h"
 
 /* Rows: displacement at the midpoints.  Columns: the unknowns, displacements or, where
  * these are given, tractions over unit[j].  Dofs 2j, 2j + 1 in the clusters' order. */
@@ -49,7 +50,16 @@ typedef struct {
 rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns, const int *column,
                          rb_matrix_view out);
 
-/* The same for loads along x and y on each of `points` parts of the circle; of order one. */
+/* out(i, j) = A(row[i], column[j]); row: ascending. */
+rb_status rb_mixed_entries(const rb_mixed *a, int rows, const int *row, int columns,
+                           const int *column, rb_matrix_view out);
+
+/* What columns do to rows, and to points of the circle: the skeleton's K, not factored. */
+rb_status rb_mixed_see_columns(const rb_mixed *a, int rows, const int *row, const rb_circle *circle,
+                               int points, int columns, const int *column, rb_skeleton *seen);
+
+/* The same as rb_mixed_block for loads along x and y on each of `points` parts of the circle; of
+ * order one. */
 rb_status rb_mixed_far(const rb_mixed *a, const rb_mixed_rows *r, rb_circle circle, int points,
                        rb_matrix_view out);
 

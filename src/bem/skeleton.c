@@ -87,3 +87,15 @@ rb_status rb_skeleton_split(const rb_skeleton *s, int kept, int *order, double *
     free(X);
     return RB_OK;
 }
+
+rb_status rb_skeleton_reduce(rb_skeleton *s, double tolerance, int *kept, int **order, double **T)
+{
+    const rb_status status = rb_skeleton_factor(s, tolerance);
+
+    if (status != RB_OK)
+        return status;
+    *kept = s->rank;
+    *order = rb_alloc_int((size_t)s->columns);
+    *T = rb_alloc((size_t)s->rank, (size_t)(s->columns - s->rank) + 1);
+    return *order && *T ? rb_skeleton_split(s, *kept, *order, *T) : RB_ENOMEM;
+}

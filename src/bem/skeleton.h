@@ -27,4 +27,8 @@ rb_status rb_skeleton_factor(rb_skeleton *s, double tolerance);
  * order[i] times T(i, j).  Columns kept beyond the rank take no part. */
 rb_status rb_skeleton_split(const rb_skeleton *s, int kept, int *order, double *T);
 
+/* Both, for as many columns as the rank says: order (columns) and T are the caller's to
+ * free, also after RB_ENOMEM. */
+rb_status rb_skeleton_reduce(rb_skeleton *s, double tolerance, int *kept, int **order, double **T);
+
 #endif
