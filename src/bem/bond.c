@@ -24,64 +24,15 @@ static int in_core(const rb_bond *bond, int i)
     return i < bond->n ? bond->n - 1 - i : i;
 }
 
-/* Where the cover's own inner contour is the core's outer one, run backwards. */
-static rb_status check_interface(const rb_bem_mesh *cover, const rb_bond *bond, rb_message *why)
-{
-    const double tolerance = 1e-9 * rb_bem_mesh_size(cover);
-
-    for (int i = 0; i < bond->n; i++) {
-        const int j = bond->first + i, k = in_core(bond, i);
-        const double apart =
-            hypot(cover->x0[j] - bond->core.x1[k], cover->y0[j] - bond->core.y1[k]);
-        if (!(apart <= tolerance))
-            return rb_fail(why, RB_EINVAL,
-                           "bond: element %d of the cover is not element %d of the core", j, k);
-    }
-    return RB_OK;
-}
-
-/* Columns of the core's right-hand sides: G of the interface, -H of the hub. */
-static rb_status load_columns(const rb_bond *bond, double *X)
-{
-    const size_t rows = 2 * (size_t)bond->core.n;
-    rb_assembly assembly;
-    const rb_status s = rb_assembly_begin(&bond->core, bond->material, &assembly);
-
-    if (s != RB_OK)
-        return s;
-    for (int j = 0; j < bond->core.n; j++) {
-        double *x = X + 2 * (size_t)j * rows, *y = x + rows;
-        const int hub = j >= bond->n;
-        rb_assembly_columns(
-            &assembly, j, 1.0,
-            (double *const[4]){hub ? x : NULL, hub ? y : NULL, hub ? NULL : x, hub ? NULL : y});
-        for (size_t i = 0; hub && i < 2 * rows; i++)
-            x[i] = -x[i];
-    }
-    rb_assembly_end(&assembly);
-    return RB_OK;
-}
-
-/* The rows of the interface in the cover's order; the cover's traction is the opposite of
- * the core's, so that a positive C answers it with -C t. */
-static void take_interface(rb_bond *bond, const double *X)
-{
-    const size_t rows = 2 * (size_t)bond->core.n, kept = 2 * (size_t)bond->n;
-
-    for (int j = 0; j < bond->core.n; j++)
-        for (int b = 0; b < 2; b++) {
-            const double *from = X + (size_t)(2 * in_core(bond, j) + b) * rows;
-            double *to = bond->C + (size_t)(2 * j + b) * kept;
-            for (int i = 0; i < bond->n; i++)
-                for (int a = 0; a < 2; a++)
-                    to[2 * i + a] = from[2 * in_core(bond, i) + a];
-        }
-}
-
 rb_status rb_bond_create(const rb_bem_mesh *cover, const rb_bem_mesh *core,
                          rb_bem_material material, rb_bond **bond, rb_message *why)
 {
+    const size_t rows = 2 * (size_t)core->n;
+    const double tolerance = 1e-9 * rb_bem_mesh_size(cover);
     rb_bond *b = calloc(1, sizeof *b);
+    rb_bem_system *system = NULL;
+    rb_assembly assembly;
+    double *X = NULL;
     int hub_n = 0;
 
     *bond = NULL;
@@ -93,27 +44,50 @@ rb_status rb_bond_create(const rb_bem_mesh *cover, const rb_bem_mesh *core,
         b->hub_n = hub_n;
         b->first = cover->n - b->n;
         b->material = material;
-        b->C = rb_alloc(2 * (size_t)b->n, 2 * (size_t)core->n);
+        b->C = rb_alloc(2 * (size_t)b->n, rows);
         b->W = b->C ? b->C + 4 * (size_t)b->n * (size_t)b->n : NULL;
-        s = b->C ? check_interface(cover, b, why) : RB_ENOMEM;
+        X = rb_alloc(rows, rows);
+        s = b->C && X ? RB_OK : RB_ENOMEM;
     }
+    /* The cover's own inner contour is the core's outer one, run backwards. */
+    for (int i = 0; s == RB_OK && i < b->n; i++) {
+        const int j = b->first + i, k = in_core(b, i);
+        const double apart = hypot(cover->x0[j] - core->x1[k], cover->y0[j] - core->y1[k]);
+        if (!(apart <= tolerance))
+            s = rb_fail(why, RB_EINVAL,
+                        "bond: element %d of the cover is not element %d of the core", j, k);
+    }
+    /* One solve with a right-hand side for every dof of the core's boundary: G of the
+     * interface, -H of the hub. */
+    if (s == RB_OK)
+        s = rb_bem_system_create_as(&b->core, material, 1, &system, why);
+    if (s == RB_OK)
+        s = rb_assembly_begin(&b->core, material, &assembly);
     if (s == RB_OK) {
-        /* One solve with a right-hand side for every dof of the core's boundary. */
-        const size_t rows = 2 * (size_t)b->core.n;
-        rb_bem_system *system;
-        s = rb_bem_system_create_as(&b->core, b->material, 1, &system, why);
-
-        if (s == RB_OK) {
-            double *X = rb_alloc(rows, rows);
-            s = X ? load_columns(b, X) : RB_ENOMEM;
-            if (s == RB_OK)
-                s = rb_bem_system_solve_columns(system, (int)rows, X);
-            if (s == RB_OK)
-                take_interface(b, X);
-            free(X);
-            rb_bem_system_free(system);
+        for (int j = 0; j < core->n; j++) {
+            double *x = X + 2 * (size_t)j * rows, *y = x + rows;
+            const int hub = j >= b->n;
+            rb_assembly_columns(
+                &assembly, j, 1.0,
+                (double *const[4]){hub ? x : NULL, hub ? y : NULL, hub ? NULL : x, hub ? NULL : y});
+            for (size_t i = 0; hub && i < 2 * rows; i++)
+                x[i] = -x[i];
         }
+        rb_assembly_end(&assembly);
+        s = rb_bem_system_solve_columns(system, (int)rows, X);
     }
+    /* The rows of the interface in the cover's order; the cover's traction is the opposite
+     * of the core's, so that a positive C answers it with -C t. */
+    for (int j = 0; s == RB_OK && j < core->n; j++)
+        for (int k = 0; k < 2; k++) {
+            const double *from = X + (size_t)(2 * in_core(b, j) + k) * rows;
+            double *to = b->C + (size_t)(2 * j + k) * 2 * (size_t)b->n;
+            for (int i = 0; i < b->n; i++)
+                for (int a = 0; a < 2; a++)
+                    to[2 * i + a] = from[2 * in_core(b, i) + a];
+        }
+    rb_bem_system_free(system);
+    free(X);
     if (s == RB_OK)
         *bond = b;
     else

@@ -7,12 +7,14 @@
 #include <gsl/gsl_math.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 struct rb_bem_circulant {
     int n;
     double *inverse;          /* size/2 + 1: 1/(transform of the kernel), over `size` */
     fftw_complex *difference; /* size/2 + 1: that over the symbol of A */
     double *tangential;       /* size/2 + 1: the transform of F_TT's kernel */
+    double *yielding;         /* size/2 + 1, behind it: scratch */
     double *work;
     rb_fourier fourier;
 };
@@ -80,7 +82,8 @@ rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double sten
         c->n = f->n;
         c->inverse = rb_alloc(half, 1);
         c->difference = calloc(half, sizeof *c->difference);
-        c->tangential = rb_alloc(half, 1);
+        c->tangential = rb_alloc(half, 2);
+        c->yielding = c->tangential + half;
         c->work = rb_fourier_alloc(&c->fourier);
     }
     if (!c || !c->inverse || !c->difference || !c->tangential || !c->work ||
@@ -116,27 +119,18 @@ void rb_bem_circulant_apply(const rb_bem_circulant *c, const double *w, double *
 {
     fftw_complex *z = rb_fourier_forward(&c->fourier, c->n, w, c->work);
 
-    for (int k = 0; k <= c->fourier.size / 2; k++) {
-        z[k][0] *= c->inverse[k];
-        z[k][1] *= c->inverse[k];
-    }
+    rb_fourier_times_real(&c->fourier, c->inverse, z);
     rb_fourier_backward(&c->fourier, c->work);
-    for (int i = 0; i < c->n; i++)
-        r[i] = c->work[i];
+    memcpy(r, c->work, (size_t)c->n * sizeof *r);
 }
 
 void rb_bem_circulant_apply_difference(const rb_bem_circulant *c, const double *w, double *r)
 {
     fftw_complex *z = rb_fourier_forward(&c->fourier, c->n, w, c->work);
 
-    for (int k = 0; k <= c->fourier.size / 2; k++) {
-        const double a = z[k][0], b = z[k][1], *x = c->difference[k];
-        z[k][0] = a * x[0] - b * x[1];
-        z[k][1] = a * x[1] + b * x[0];
-    }
+    rb_fourier_times(&c->fourier, c->difference[0], z);
     rb_fourier_backward(&c->fourier, c->work);
-    for (int i = 0; i < c->n; i++)
-        r[i] = c->work[i];
+    memcpy(r, c->work, (size_t)c->n * sizeof *r);
 }
 
 void rb_bem_circulant_apply_yielding(const rb_bem_circulant *c, double hardening, const double *w,
@@ -144,12 +138,9 @@ void rb_bem_circulant_apply_yielding(const rb_bem_circulant *c, double hardening
 {
     fftw_complex *z = rb_fourier_forward(&c->fourier, c->n, w, c->work);
 
-    for (int k = 0; k <= c->fourier.size / 2; k++) {
-        const double factor = 1.0 / ((1.0 + hardening * c->tangential[k]) * c->fourier.size);
-        z[k][0] *= factor;
-        z[k][1] *= factor;
-    }
+    for (int k = 0; k <= c->fourier.size / 2; k++)
+        c->yielding[k] = 1.0 / ((1.0 + hardening * c->tangential[k]) * c->fourier.size);
+    rb_fourier_times_real(&c->fourier, c->yielding, z);
     rb_fourier_backward(&c->fourier, c->work);
-    for (int i = 0; i < c->n; i++)
-        r[i] = c->work[i];
+    memcpy(r, c->work, (size_t)c->n * sizeof *r);
 }

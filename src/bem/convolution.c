@@ -36,13 +36,7 @@ rb_bem_convolution *rb_bem_convolution_create(int n, const double *t)
         rb_bem_convolution_free(c);
         return NULL;
     }
-    const int size = c->fourier.size;
-    double *line = (double *)c->t;
-
-    memset(line, 0, (size_t)size * sizeof *line);
-    for (int k = 1 - n; k < n; k++)
-        line[k < 0 ? size + k : k] = t[n - 1 + k] / size;
-    rb_fourier_forward(&c->fourier, size, line, line);
+    rb_fourier_kernel(&c->fourier, n, t, (double *)c->t);
     return c;
 }
 
@@ -50,11 +44,7 @@ void rb_bem_convolution_apply(const rb_bem_convolution *c, const double *r, doub
 {
     fftw_complex *z = rb_fourier_forward(&c->fourier, c->n, r, c->work);
 
-    for (int k = 0; k <= c->fourier.size / 2; k++) {
-        const double a = z[k][0], b = z[k][1], *t = c->t[k];
-        z[k][0] = a * t[0] - b * t[1];
-        z[k][1] = a * t[1] + b * t[0];
-    }
+    rb_fourier_times(&c->fourier, c->t[0], z);
     rb_fourier_backward(&c->fourier, c->work);
     memcpy(w, c->work, (size_t)c->n * sizeof *w);
 }

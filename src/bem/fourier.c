@@ -12,22 +12,6 @@
 /* Below this length a transform is over before a second thread has begun. */
 enum { THREADS_FROM = 1 << 17 };
 
-/* The smallest even 2^a 3^b 5^c >= least: FFTW transforms such lengths fastest. */
-static int good_size(int least)
-{
-    for (int size = least + least % 2;; size += 2) {
-        int rest = size;
-        while (rest % 2 == 0)
-            rest /= 2;
-        while (rest % 3 == 0)
-            rest /= 3;
-        while (rest % 5 == 0)
-            rest /= 5;
-        if (rest == 1)
-            return size;
-    }
-}
-
 double *rb_fourier_alloc(const rb_fourier *f)
 {
     return fftw_alloc_real((size_t)f->size + 2);
@@ -39,7 +23,16 @@ static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
 
 int rb_fourier_make(int least, rb_fourier *f)
 {
-    *f = (rb_fourier){.size = good_size(least)};
+    static const int primes[] = {2, 3, 5};
+
+    /* The smallest even 2^a 3^b 5^c >= least: FFTW transforms such lengths fastest. */
+    *f = (rb_fourier){.size = least + least % 2};
+    for (int rest = 0; rest != 1; f->size += rest == 1 ? 0 : 2) {
+        rest = f->size;
+        for (int k = 0; k < 3; k++)
+            while (rest % primes[k] == 0)
+                rest /= primes[k];
+    }
     const int half = f->size / 2;
     fftw_complex *work = fftw_alloc_complex((size_t)half + 1);
 
@@ -132,4 +125,31 @@ void rb_fourier_backward(const rb_fourier *f, double *work)
     z[0][0] = first + last;
     z[0][1] = first - last;
     fftw_execute_dft(f->backward, z, z);
+}
+
+fftw_complex *rb_fourier_kernel(const rb_fourier *f, int n, const double *t, double *work)
+{
+    const int size = f->size;
+
+    memset(work, 0, (size_t)size * sizeof *work);
+    for (int k = 1 - n; k < n; k++)
+        work[k < 0 ? size + k : k] = t[n - 1 + k] / size;
+    return rb_fourier_forward(f, size, work, work);
+}
+
+void rb_fourier_times(const rb_fourier *f, const double *by, fftw_complex *z)
+{
+    for (int k = 0; k <= f->size / 2; k++) {
+        const double re = z[k][0], im = z[k][1];
+        z[k][0] = by[2 * k] * re - by[2 * k + 1] * im;
+        z[k][1] = by[2 * k] * im + by[2 * k + 1] * re;
+    }
+}
+
+void rb_fourier_times_real(const rb_fourier *f, const double *by, fftw_complex *z)
+{
+    for (int k = 0; k <= f->size / 2; k++) {
+        z[k][0] *= by[k];
+        z[k][1] *= by[k];
+    }
 }

@@ -21,4 +21,11 @@ double *rb_fourier_alloc(const rb_fourier *f);
 fftw_complex *rb_fourier_forward(const rb_fourier *f, int n, const double *x, double *work);
 void rb_fourier_backward(const rb_fourier *f, double *work);
 
+/* The transform over `size` of a kernel at distances 1 - n ... n - 1, in work. */
+fftw_complex *rb_fourier_kernel(const rb_fourier *f, int n, const double *t, double *work);
+
+/* z times a complex number (two of `by`), or a real one, for each wave. */
+void rb_fourier_times(const rb_fourier *f, const double *by, fftw_complex *z);
+void rb_fourier_times_real(const rb_fourier *f, const double *by, fftw_complex *z);
+
 #endif

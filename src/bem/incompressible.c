@@ -16,32 +16,6 @@ void rb_held_contours_free(rb_held_contours *held)
     *held = (rb_held_contours){0};
 }
 
-static void add_contours(const rb_bem_mesh *mesh, const int *next, rb_held_contours *held)
-{
-    int first = 0, all = 1;
-    for (int j = 0; j < mesh->n; j++) {
-        held->contour[j] = -1;
-        all = all && mesh->condition[2 * j] == RB_BEM_DISPLACEMENT &&
-              mesh->condition[2 * j + 1] == RB_BEM_DISPLACEMENT;
-        if (next[j] == j + 1)
-            continue;
-        if (all) {
-            /* Elements first ... last - 1 are a whole contour. */
-            const int last = j + 1;
-            for (int i = first; i < last; i++) {
-                const double dx = mesh->x1[i] - mesh->x0[i], dy = mesh->y1[i] - mesh->y0[i],
-                             scale = 1.0 / (hypot(dx, dy) * sqrt(last - first));
-                held->contour[i] = held->count;
-                held->normal[2 * i] = dy * scale;
-                held->normal[2 * i + 1] = -dx * scale;
-            }
-            held->count++;
-        }
-        first = j + 1;
-        all = 1;
-    }
-}
-
 rb_status rb_held_contours_find(const rb_bem_mesh *mesh, rb_bem_material material,
                                 rb_held_contours *held)
 {
@@ -54,9 +28,25 @@ rb_status rb_held_contours_find(const rb_bem_mesh *mesh, rb_bem_material materia
     held->contour = rb_alloc_int(n);
     held->normal = rb_alloc(n, 2);
     const rb_status s = next && held->contour && held->normal ? RB_OK : RB_ENOMEM;
-    if (s == RB_OK) {
+    if (s == RB_OK)
         rb_bem_mesh_next(mesh, next);
-        add_contours(mesh, next, held);
+    for (int j = 0, first = 0, all = 1; s == RB_OK && j < mesh->n; j++) {
+        held->contour[j] = -1;
+        all = all && mesh->condition[2 * j] == RB_BEM_DISPLACEMENT &&
+              mesh->condition[2 * j + 1] == RB_BEM_DISPLACEMENT;
+        if (next[j] == j + 1)
+            continue;
+        /* Elements first ... j are a whole contour. */
+        for (int i = first; all && i <= j; i++) {
+            const double dx = mesh->x1[i] - mesh->x0[i], dy = mesh->y1[i] - mesh->y0[i],
+                         scale = 1.0 / (hypot(dx, dy) * sqrt(j + 1 - first));
+            held->contour[i] = held->count;
+            held->normal[2 * i] = dy * scale;
+            held->normal[2 * i + 1] = -dx * scale;
+        }
+        held->count += all;
+        first = j + 1;
+        all = 1;
     }
     if (s != RB_OK || held->count == 0)
         rb_held_contours_free(held);

@@ -72,49 +72,10 @@ double rb_bem_mesh_size(const rb_bem_mesh *mesh)
     return hypot(right - left, high - low);
 }
 
-static rb_status check_elements(const rb_bem_mesh *mesh, rb_message *why)
-{
-    for (int j = 0; j < mesh->n; j++) {
-        const double h = rb_bem_mesh_length(mesh, j);
-        if (!(h > 0.0 && isfinite(h)))
-            return rb_fail(why, RB_EINVAL, "element %d: length %g, expected > 0", j, h);
-        for (int k = 0; k < 2; k++) {
-            if (!isfinite(mesh->value[2 * j + k]))
-                return rb_fail(why, RB_EINVAL, "element %d: given %s in %c = %g", j,
-                               mesh->condition[2 * j + k] == RB_BEM_DISPLACEMENT ? "displacement"
-                                                                                 : "traction",
-                               "xy"[k], mesh -> value[2 * j + k]);
-            const int in_contact =
-                j >= mesh->contact_first && j < mesh->contact_first + mesh->contact_n;
-            if ((mesh->condition[2 * j + k] == RB_BEM_CONTACT) != in_contact)
-                return rb_fail(why, RB_EINVAL,
-                               "element %d: %s contact, but its condition in %c says otherwise", j,
-                               in_contact ? "in" : "outside the", "xy"[k]);
-        }
-    }
-    return RB_OK;
-}
-
 static int meets(const rb_bem_mesh *mesh, int j, int next)
 {
     const double gap = hypot(mesh->x0[next] - mesh->x1[j], mesh->y0[next] - mesh->y1[j]);
     return gap <= 1e-9 * fmin(rb_bem_mesh_length(mesh, j), rb_bem_mesh_length(mesh, next));
-}
-
-/* Each contour is a run of elements, end to start, whose last end is the run's start. */
-static rb_status check_contours(const rb_bem_mesh *mesh, rb_message *why)
-{
-    int start = 0;
-    for (int j = 0; j < mesh->n; j++) {
-        if (meets(mesh, j, start))
-            start = j + 1;
-        else if (j + 1 == mesh->n || !meets(mesh, j, j + 1))
-            return rb_fail(why, RB_EINVAL,
-                           "element %d ends at (%g, %g): the contour from element %d does not "
-                           "close",
-                           j, mesh->x1[j], mesh->y1[j], start);
-    }
-    return RB_OK;
 }
 
 void rb_bem_mesh_next(const rb_bem_mesh *mesh, int *next)
@@ -127,48 +88,57 @@ void rb_bem_mesh_next(const rb_bem_mesh *mesh, int *next)
     }
 }
 
-/* Twice the area that lies on the left of all contours. */
-static double area(const rb_bem_mesh *mesh)
+rb_status rb_bem_mesh_check(const rb_bem_mesh *mesh, rb_message *why)
 {
-    const double cx = mesh->x0[0], cy = mesh->y0[0];
-    double sum = 0.0;
-    for (int j = 0; j < mesh->n; j++)
-        sum += (mesh->x0[j] - cx) * (mesh->y1[j] - mesh->y0[j]) -
-               (mesh->y0[j] - cy) * (mesh->x1[j] - mesh->x0[j]);
-    return sum;
-}
+    const int n = mesh->n, first = mesh->contact_first, upstream = first + mesh->contact_n;
 
-static rb_status check_contact(const rb_bem_mesh *mesh, rb_message *why)
-{
-    const int first = mesh->contact_first, n = mesh->contact_n, upstream = first + n;
-    if (n == 0)
-        return RB_OK;
-    if (n < 0 || first < 0 || n >= mesh->n - first)
+    if (n < 1)
+        return rb_fail(why, RB_EINVAL, "a mesh of %d elements", n);
+    /* The contact, and the element upstream of it. */
+    if (mesh->contact_n < 0 || (mesh->contact_n > 0 && (first < 0 || mesh->contact_n >= n - first)))
         return rb_fail(why, RB_EINVAL,
                        "contact elements %d to %d and one after them: the mesh has %d", first,
-                       upstream - 1, mesh->n);
-    for (int k = 0; k < 2; k++)
+                       upstream - 1, n);
+    for (int k = 0; mesh->contact_n > 0 && k < 2; k++)
         if (mesh->condition[2 * upstream + k] != RB_BEM_TRACTION)
             return rb_fail(why, RB_EINVAL, "element %d, upstream of the contact, is not free",
                            upstream);
-    for (int j = first; j <= upstream; j++)
+    for (int j = first; mesh->contact_n > 0 && j <= upstream; j++)
         if (!(mesh->x0[j] < mesh->x1[j]))
             return rb_fail(why, RB_EINVAL, "contact element %d does not run towards +x", j);
-    return RB_OK;
-}
-
-rb_status rb_bem_mesh_check(const rb_bem_mesh *mesh, rb_message *why)
-{
-    if (mesh->n < 1)
-        return rb_fail(why, RB_EINVAL, "a mesh of %d elements", mesh->n);
-    rb_status s = check_contact(mesh, why);
-    if (s == RB_OK)
-        s = check_elements(mesh, why);
-    if (s == RB_OK)
-        s = check_contours(mesh, why);
-    if (s == RB_OK && !(area(mesh) > 0.0))
-        s = rb_fail(why, RB_EINVAL,
-                    "the body is not on the left of its contours: outer ones run "
-                    "counter-clockwise, holes clockwise");
-    return s;
+    for (int j = 0; j < n; j++) {
+        const int in_contact = j >= first && j < upstream;
+        const double h = rb_bem_mesh_length(mesh, j);
+        if (!(h > 0.0 && isfinite(h)))
+            return rb_fail(why, RB_EINVAL, "element %d: length %g, expected > 0", j, h);
+        for (int k = 0; k < 2; k++) {
+            const rb_bem_condition given = mesh->condition[2 * j + k];
+            if (!isfinite(mesh->value[2 * j + k]))
+                return rb_fail(why, RB_EINVAL, "element %d: given %s in %c = %g", j,
+                               given == RB_BEM_DISPLACEMENT ? "displacement" : "traction", "xy"[k],
+                               mesh -> value[2 * j + k]);
+            if ((given == RB_BEM_CONTACT) != in_contact)
+                return rb_fail(why, RB_EINVAL,
+                               "element %d: %s contact, but its condition in %c says otherwise", j,
+                               in_contact ? "in" : "outside the", "xy"[k]);
+        }
+    }
+    /* Each contour is a run of elements, end to start, whose last end is the run's start. */
+    for (int j = 0, start = 0; j < n; j++) {
+        if (meets(mesh, j, start))
+            start = j + 1;
+        else if (j + 1 == n || !meets(mesh, j, j + 1))
+            return rb_fail(why, RB_EINVAL,
+                           "element %d ends at (%g, %g): the contour from element %d does not "
+                           "close",
+                           j, mesh->x1[j], mesh->y1[j], start);
+    }
+    double area = 0.0; /* twice that on the left of all contours */
+    for (int j = 0; j < n; j++)
+        area += (mesh->x0[j] - mesh->x0[0]) * (mesh->y1[j] - mesh->y0[j]) -
+                (mesh->y0[j] - mesh->y0[0]) * (mesh->x1[j] - mesh->x0[j]);
+    return area > 0.0 ? RB_OK
+                      : rb_fail(why, RB_EINVAL,
+                                "the body is not on the left of its contours: outer ones run "
+                                "counter-clockwise, holes clockwise");
 }

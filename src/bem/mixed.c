@@ -20,64 +20,48 @@ static rb_constants scaled(const rb_element *e, rb_bem_material material, double
     return k;
 }
 
-/* Elements in the clusters' order. */
-static rb_status order_elements(const rb_bem_mesh *mesh, int levels, int *order, rb_mixed *a)
-{
-    rb_element *element = calloc((size_t)a->n, sizeof *element);
-
-    if (!element)
-        return RB_ENOMEM;
-    for (int j = 0; j < a->n; j++)
-        element[j] = rb_element_make(mesh->x0[j], mesh->y0[j], mesh->x1[j], mesh->y1[j], a->size);
-    rb_cluster_order(a->n, element, levels, order);
-    for (int j = 0; j < a->n; j++)
-        a->element[j] = element[order[j]];
-    free(element);
-    return RB_OK;
-}
-
-/* The same of the contours. */
-static rb_status order_contours(const rb_bem_mesh *mesh, const int *order, rb_mixed *a)
-{
-    rb_held_contours *to = &a->contours, from;
-    rb_status s = rb_held_contours_find(mesh, a->material, &from);
-
-    if (s != RB_OK || from.count == 0)
-        return s;
-    *to = (rb_held_contours){.count = from.count,
-                             .contour = rb_alloc_int((size_t)a->n),
-                             .normal = rb_alloc((size_t)a->n, 2)};
-    s = to->contour && to->normal ? RB_OK : RB_ENOMEM;
-    for (int j = 0; s == RB_OK && j < a->n; j++) {
-        to->contour[j] = from.contour[order[j]];
-        for (int k = 0; k < 2; k++)
-            to->normal[2 * j + k] = from.normal[2 * order[j] + k];
-    }
-    rb_held_contours_free(&from);
-    return s;
-}
-
 rb_status rb_mixed_make(const rb_bem_mesh *mesh, rb_bem_material material, const double *unit,
                         int levels, int *order, rb_mixed *a)
 {
     const size_t n = (size_t)mesh->n;
+    const double size = rb_bem_mesh_size(mesh);
+    rb_element *element = calloc(n, sizeof *element);
+    rb_held_contours contours;
+    rb_status s = rb_held_contours_find(mesh, material, &contours);
 
-    *a = (rb_mixed){.n = mesh->n, .material = material, .size = rb_bem_mesh_size(mesh)};
-    a->element = calloc(n, sizeof *a->element);
-    a->constants = calloc(n, sizeof *a->constants);
-    a->held = rb_alloc_int(2 * n);
-    if (!a->element || !a->constants || !a->held ||
-        order_elements(mesh, levels, order, a) != RB_OK ||
-        order_contours(mesh, order, a) != RB_OK) {
-        rb_mixed_free(a);
-        return RB_ENOMEM;
+    *a = (rb_mixed){.n = mesh->n,
+                    .material = material,
+                    .size = size,
+                    .element = calloc(n, sizeof *a->element),
+                    .constants = calloc(n, sizeof *a->constants),
+                    .held = rb_alloc_int(2 * n)};
+    if (contours.count > 0)
+        a->contours = (rb_held_contours){contours.count, rb_alloc_int(n), rb_alloc(n, 2)};
+    if (!element || !a->element || !a->constants || !a->held ||
+        (contours.count > 0 && (!a->contours.contour || !a->contours.normal)))
+        s = RB_ENOMEM;
+    if (s == RB_OK) {
+        for (size_t j = 0; j < n; j++)
+            element[j] = rb_element_make(mesh->x0[j], mesh->y0[j], mesh->x1[j], mesh->y1[j], size);
+        rb_cluster_order(a->n, element, levels, order);
     }
-    for (int j = 0; j < a->n; j++) {
-        a->constants[j] = scaled(&a->element[j], material, -unit[order[j]]);
+    for (int j = 0; s == RB_OK && j < a->n; j++) {
+        const int from = order[j];
+        a->element[j] = element[from];
+        a->constants[j] = scaled(&a->element[j], material, -unit[from]);
         for (int k = 0; k < 2; k++)
-            a->held[2 * j + k] = mesh->condition[2 * order[j] + k] == RB_BEM_DISPLACEMENT;
+            a->held[2 * j + k] = mesh->condition[2 * from + k] == RB_BEM_DISPLACEMENT;
+        if (contours.count > 0) {
+            a->contours.contour[j] = contours.contour[from];
+            a->contours.normal[2 * j] = contours.normal[2 * from];
+            a->contours.normal[2 * j + 1] = contours.normal[2 * from + 1];
+        }
     }
-    return RB_OK;
+    free(element);
+    rb_held_contours_free(&contours);
+    if (s != RB_OK)
+        rb_mixed_free(a);
+    return s;
 }
 
 void rb_mixed_rows_free(rb_mixed_rows *r)

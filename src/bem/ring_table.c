@@ -113,11 +113,16 @@ static wave_sum *wave_sum_make(const rb_bem_wheel *wheel, rb_ring_waves *waves, 
     return s;
 }
 
-/* The long waves, panel by panel. */
-static void add_panels(const wave_sum *s, double x, cplx sum[3])
+static rb_ring_answer wave_sum_at(const wave_sum *s, double x)
 {
+    const cplx z = cos(x) + I * sin(x);
+    cplx sum[3] = {0.0};
     cplx over[NODES] = {0.0}; /* sum over the waves of a panel of polynomial k exp(irx) */
 
+    for (int m = s->singles; m >= 1; m--)
+        for (int d = 0; d < 3; d++)
+            sum[d] = (sum[d] + s->single[m - 1][d]) * z;
+    /* The long waves, panel by panel. */
     for (int r = 0; r < SHORT && s->octaves > 0; r++)
         for (int k = 0; k < NODES; k++)
             over[k] += s->on_short[r][k] * (cos(r * x) + I * sin(r * x));
@@ -141,17 +146,6 @@ static void add_panels(const wave_sum *s, double x, cplx sum[3])
                 longer[k] += over[i] * (s->half[0][i][k] + turn * s->half[1][i][k]);
         memcpy(over, longer, sizeof over);
     }
-}
-
-static rb_ring_answer wave_sum_at(const wave_sum *s, double x)
-{
-    const cplx z = cos(x) + I * sin(x);
-    cplx sum[3] = {0.0};
-
-    for (int m = s->singles; m >= 1; m--)
-        for (int d = 0; d < 3; d++)
-            sum[d] = (sum[d] + s->single[m - 1][d]) * z;
-    add_panels(s, x, sum);
     return (rb_ring_answer){creal(sum[0]) + s->linear[0] * x, creal(sum[1]) + s->linear[1] * x,
                             cimag(sum[2]) + s->linear[2] * x};
 }
@@ -174,14 +168,6 @@ static inline int find(double y, double *t)
     return PARTS * octave + k;
 }
 
-/* abs(x)/smallest at place t of a panel. */
-static double place(int panel, double t)
-{
-    const int octave = panel / PARTS;
-    const double part = (panel % PARTS + 0.5 * (1.0 + t)) / PARTS;
-    return octave == 0 ? part : ldexp(0.5 * (1.0 + part), octave);
-}
-
 typedef double chebyshev[ORDER][3];
 
 static inline chebyshev *panel_of(const rb_ring_table *t, int side, int k)
@@ -192,12 +178,14 @@ static inline chebyshev *panel_of(const rb_ring_table *t, int side, int k)
 static void fill_panel(const rb_bem_wheel *wheel, const wave_sum *sum, rb_ring_primitive *rest,
                        const rb_ring_table *table, int side, int k)
 {
+    const int octave = k / PARTS;
     double value[ORDER][3];
     chebyshev *c = panel_of(table, side, k);
 
     for (int i = 0; i < ORDER; i++) {
-        const double x =
-            (side ? -1.0 : 1.0) * table->smallest * place(k, cos(M_PI * (i + 0.5) / ORDER));
+        const double part = (k % PARTS + 0.5 * (1.0 + cos(M_PI * (i + 0.5) / ORDER))) / PARTS,
+                     y = octave == 0 ? part : ldexp(0.5 * (1.0 + part), octave),
+                     x = (side ? -1.0 : 1.0) * table->smallest * y;
         const rb_ring_answer s = wave_sum_at(sum, x),
                              r = rest ? rest(wheel, x) : (rb_ring_answer){0.0, 0.0, 0.0};
         value[i][0] = s.N + r.N;

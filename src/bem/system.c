@@ -62,58 +62,9 @@ void rb_bem_system_seconds(const rb_bem_system *system, double *assembly, double
     *factor = system->seconds_factor;
 }
 
-static rb_bem_system *system_alloc(const rb_bem_mesh *mesh, int dense)
-{
-    const size_t dofs = 2 * (size_t)mesh->n, loads = 2 * (size_t)mesh->contact_n;
-    rb_bem_system *s = calloc(1, sizeof *s);
-    if (!s)
-        return NULL;
-    s->dofs = 2 * mesh->n;
-    s->offset = loads ? 2 * (mesh->contact_first + mesh->contact_n + 1) % s->dofs : 0;
-    if (dense) {
-        /* Columns begin at a cache line, and not all at the same place of the caches. */
-        const int ld = (s->dofs + 7) / 8 * 8;
-        s->ld = ld % 512 ? ld : ld + 8;
-    } else
-        s->ld = s->dofs;
-    if (dense)
-        s->A = rb_large_alloc((size_t)s->ld, dofs);
-    s->Gc = rb_large_alloc((size_t)s->ld, loads);
-    s->b = rb_alloc(dofs, 1);
-    s->unit = rb_alloc(dofs, 1);
-    s->pivot = calloc(dofs, sizeof *s->pivot);
-    if (rb_bem_mesh_copy(mesh, &s->mesh) == RB_OK && (s->A || !dense) && s->Gc && s->b && s->unit &&
-        s->pivot)
-        return s;
-    rb_bem_system_free(s);
-    return NULL;
-}
-
 static double *column_of(const rb_bem_system *s, int dof)
 {
     return s->A + (size_t)((dof - s->offset + s->dofs) % s->dofs) * (size_t)s->ld;
-}
-
-/* Element j: the unknowns' columns into A, a contact element's loads into Gc. */
-static void assemble_element(rb_bem_system *s, const rb_assembly *assembly, int j)
-{
-    const rb_bem_condition *condition = s->mesh.condition + 2 * j;
-    double *H[2] = {NULL, NULL}, *G[2] = {NULL, NULL};
-    double factor = 1.0;
-
-    if (!s->A && condition[0] != RB_BEM_CONTACT)
-        return;
-    for (int k = 0; k < 2; k++) {
-        if (s->A && condition[k] == RB_BEM_DISPLACEMENT) {
-            G[k] = column_of(s, 2 * j + k);
-            factor = -s->unit[j];
-        } else if (s->A) {
-            H[k] = column_of(s, 2 * j + k);
-        }
-        if (condition[k] == RB_BEM_CONTACT)
-            G[k] = s->Gc + (2 * (size_t)(j - s->mesh.contact_first) + (size_t)k) * (size_t)s->ld;
-    }
-    rb_assembly_columns(assembly, j, factor, (double *const[4]){H[0], H[1], G[0], G[1]});
 }
 
 /* b += G t for given tractions, b -= H u for given displacements; value: 2n, t or u as
@@ -140,18 +91,6 @@ static rb_status add_given(const rb_bem_system *s, const rb_assembly *assembly, 
     }
     free(scratch);
     return RB_OK;
-}
-
-static rb_status fix_pressures(rb_bem_system *s)
-{
-    rb_held_contours held;
-    const rb_status status = rb_held_contours_find(&s->mesh, s->material, &held);
-
-    for (int j = 0; held.count && j < s->dofs; j++)
-        for (int i = 0; held.contour[j / 2] >= 0 && i < s->dofs; i++)
-            column_of(s, j)[i] += rb_held_contours_term(&held, i, j);
-    rb_held_contours_free(&held);
-    return status;
 }
 
 /* On a bonded contour u = -C t: the columns of its tractions, -G so far, are -(G + H C). */
@@ -189,14 +128,36 @@ static rb_status assemble(rb_bem_system *s)
         s->unit[j] = s->material.shear / rb_bem_mesh_length(mesh, j);
 #pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
     schedule(static) if ((double)mesh->n * mesh->n > rb_pairs_for_threads)
-    for (int j = 0; j < mesh->n; j++)
-        assemble_element(s, &assembly, j);
+    for (int j = 0; j < mesh->n; j++) {
+        /* The unknowns' columns into A, a contact element's loads into Gc. */
+        const rb_bem_condition *condition = mesh->condition + 2 * j;
+        double *H[2] = {NULL, NULL}, *G[2] = {NULL, NULL}, G_factor = 1.0;
+        if (!s->A && condition[0] != RB_BEM_CONTACT)
+            continue;
+        for (int k = 0; k < 2; k++) {
+            if (s->A && condition[k] == RB_BEM_DISPLACEMENT) {
+                G[k] = column_of(s, 2 * j + k);
+                G_factor = -s->unit[j];
+            } else if (s->A) {
+                H[k] = column_of(s, 2 * j + k);
+            }
+            if (condition[k] == RB_BEM_CONTACT)
+                G[k] = s->Gc + (2 * (size_t)(j - mesh->contact_first) + (size_t)k) * (size_t)s->ld;
+        }
+        rb_assembly_columns(&assembly, j, G_factor, (double *const[4]){H[0], H[1], G[0], G[1]});
+    }
     status = s->bond ? add_bond(s, &assembly) : RB_OK;
     if (status == RB_OK)
         status = add_given(s, &assembly, s->mesh.value, s->b);
     rb_assembly_end(&assembly);
-    if (status == RB_OK && s->A)
-        status = fix_pressures(s);
+    if (status == RB_OK && s->A) { /* pressures that nothing fixes */
+        rb_held_contours held;
+        status = rb_held_contours_find(mesh, s->material, &held);
+        for (int j = 0; held.count && j < s->dofs; j++)
+            for (int i = 0; held.contour[j / 2] >= 0 && i < s->dofs; i++)
+                column_of(s, j)[i] += rb_held_contours_term(&held, i, j);
+        rb_held_contours_free(&held);
+    }
     return status;
 }
 
@@ -270,9 +231,25 @@ static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int d
         return status;
     }
     const double start = rb_seconds();
-    rb_bem_system *s = system_alloc(mesh, dense);
+    const size_t dofs = 2 * (size_t)mesh->n, loads = 2 * (size_t)mesh->contact_n;
+    rb_bem_system *s = calloc(1, sizeof *s);
+    status = RB_ENOMEM;
     if (s) {
-        s->material = material;
+        /* Columns begin at a cache line, and not all at the same place of the caches. */
+        const int n = 2 * mesh->n, lines = (n + 7) / 8 * 8;
+        *s = (rb_bem_system){.material = material,
+                             .dofs = n,
+                             .ld = !dense        ? n
+                                   : lines % 512 ? lines
+                                                 : lines + 8,
+                             .offset =
+                                 loads ? 2 * (mesh->contact_first + mesh->contact_n + 1) % n : 0,
+                             .bond = bond,
+                             .b = rb_alloc(dofs, 1),
+                             .unit = rb_alloc(dofs, 1),
+                             .pivot = calloc(dofs, sizeof *s->pivot)};
+        s->A = dense ? rb_large_alloc((size_t)s->ld, dofs) : NULL;
+        s->Gc = rb_large_alloc((size_t)s->ld, loads);
         /* Of a hierarchical matrix: 1e-9 leaves an error of the flexibility of 1e-8, far
          * below that of the elements (1e-4 at such lengths).  In a nearly incompressible
          * body the matrix hardly feels a uniform pressure on a held contour, by 1 - 2 nu:
@@ -280,12 +257,15 @@ static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int d
         const double volume = 1.0 - 2.0 * material.poisson;
         s->tolerance =
             rb_is_incompressible(material) ? 1e-9 : fmin(1e-9, fmax(1e-12, 1e-6 * volume));
-        s->bond = bond;
+        if (rb_bem_mesh_copy(mesh, &s->mesh) == RB_OK && (s->A || !dense) && s->Gc && s->b &&
+            s->unit && s->pivot)
+            status = RB_OK;
     } else {
         rb_bond_free(bond);
     }
     rb_phase("integrals over boundary elements");
-    status = s ? assemble(s) : RB_ENOMEM;
+    if (status == RB_OK)
+        status = assemble(s);
     if (status == RB_OK) {
         const double assembled = rb_seconds();
         s->seconds_assembly = assembled - start;

@@ -56,30 +56,27 @@ static void toeplitz_free(void *data)
     free(o);
 }
 
-static int alloc_kernels(toeplitz *o)
-{
-    const size_t distances = 2 * (size_t)o->n + 1, half = (size_t)o->fourier.size / 2 + 1;
-
-    for (int k = 0; k < 2; k++) {
-        o->t[k] = k && o->alike ? o->t[N] : rb_alloc(distances, 1);
-        o->t_hat[k] = k && o->alike ? o->t_hat[N] : rb_alloc(half, 2);
-        o->work[k] = rb_fourier_alloc(&o->fourier);
-    }
-    o->s = rb_alloc(distances, 1);
-    o->s_hat = rb_alloc(half, 2);
-    return o->t[N] && o->t[T] && o->s && o->t_hat[N] && o->t_hat[T] && o->s_hat && o->work[N] &&
-           o->work[T];
-}
-
 static toeplitz *toeplitz_alloc(int n, int alike)
 {
     toeplitz *o = calloc(1, sizeof *o);
+
     if (!o)
         return NULL;
     o->n = n;
     o->alike = alike;
-    if (rb_fourier_make(2 * n + 1, &o->fourier) && alloc_kernels(o))
-        return o;
+    if (rb_fourier_make(2 * n + 1, &o->fourier)) {
+        const size_t distances = 2 * (size_t)n + 1, half = (size_t)o->fourier.size / 2 + 1;
+        for (int k = 0; k < 2; k++) {
+            o->t[k] = k && alike ? o->t[N] : rb_alloc(distances, 1);
+            o->t_hat[k] = k && alike ? o->t_hat[N] : rb_alloc(half, 2);
+            o->work[k] = rb_fourier_alloc(&o->fourier);
+        }
+        o->s = rb_alloc(distances, 1);
+        o->s_hat = rb_alloc(half, 2);
+        if (o->t[N] && o->t[T] && o->s && o->t_hat[N] && o->t_hat[T] && o->s_hat && o->work[N] &&
+            o->work[T])
+            return o;
+    }
     toeplitz_free(o);
     return NULL;
 }
@@ -113,23 +110,15 @@ static void transform_back(const toeplitz *o, double constant, double *work, dou
 /* One traction, no coupling: the product with t. */
 static void apply_alone(const toeplitz *o, int k, const double *r, double *w)
 {
-    const double *t = o->t_hat[k];
-
     if (all_zero(o->n, r)) {
         memset(w, 0, ((size_t)o->n + 1) * sizeof *w);
         return;
     }
     fftw_complex *z = rb_fourier_forward(&o->fourier, o->n, r, o->work[0]);
-    for (int j = 0; j <= o->fourier.size / 2; j++) {
-        const double re = z[j][0], im = z[j][1];
-        if (o->symmetric) {
-            z[j][0] = t[j] * re;
-            z[j][1] = t[j] * im;
-        } else {
-            z[j][0] = t[2 * j] * re - t[2 * j + 1] * im;
-            z[j][1] = t[2 * j] * im + t[2 * j + 1] * re;
-        }
-    }
+    if (o->symmetric)
+        rb_fourier_times_real(&o->fourier, o->t_hat[k], z);
+    else
+        rb_fourier_times(&o->fourier, o->t_hat[k], z);
     transform_back(o, o->base[k] * sum_of(o->n, r), o->work[0], w);
 }
 
@@ -283,61 +272,6 @@ static void set_transforms(toeplitz *o)
         transform(o, o->s, 0.0, 1, o->s_hat);
 }
 
-/* One strip seen from distances -n ... n elements. */
-static rb_status set_response(toeplitz *o, double h, const rb_bem_surface *body)
-{
-    const double strip[2] = {-0.5 * h, 0.5 * h};
-    const int n = o->n, first = o->symmetric ? 0 : -n;
-    const size_t points = (size_t)(n - first) + 1;
-    double *x = rb_alloc(points, 1), *W = rb_alloc(2 * points, 2);
-    rb_status s = x && W ? RB_OK : RB_ENOMEM;
-
-    if (s == RB_OK) {
-        for (int i = first; i <= n; i++)
-            x[i - first] = i * h;
-        s = rb_bem_surface_displacement(body, 1, strip, (int)points, x, W);
-    }
-    if (s == RB_OK) {
-        memcpy(o->t[N] + n + first, W, points * sizeof *W);
-        if (!o->alike)
-            memcpy(o->t[T] + n + first, W + 3 * points, points * sizeof *W);
-        memcpy(o->s + n + first, W + 2 * points, points * sizeof *W);
-        if (o->symmetric)
-            mirror(o);
-        set_transforms(o);
-    }
-    free(x);
-    free(W);
-    return s;
-}
-
-/* 1 where all n_c + 1 elements are of one length, to rounding. */
-static int are_equal(int n_c, const double *ends)
-{
-    const double h = (ends[n_c + 1] - ends[0]) / (n_c + 1);
-    const double rounding = 8.0 * DBL_EPSILON * fmax(fabs(ends[0]), fabs(ends[n_c + 1]));
-
-    for (int i = 0; i <= n_c; i++)
-        if (!(fabs(ends[i + 1] - ends[i] - h) <= 1e-9 * h + rounding))
-            return 0;
-    return 1;
-}
-
-static rb_status check(int n_c, const double *ends, const rb_bem_surface *body, rb_message *why)
-{
-    if (n_c > 1 << 28)
-        return rb_fail(why, RB_EINVAL, "contact elements: %d, expected at most %d", n_c, 1 << 28);
-    rb_status s = rb_bem_surface_check(body, why);
-    if (s == RB_OK)
-        s = rb_bem_ends_check(n_c, ends, why);
-    if (s == RB_OK && !are_equal(n_c, ends))
-        s = rb_fail(why, RB_EINVAL,
-                    "half-plane by Fourier transforms: %d elements of "
-                    "different lengths, expected equal ones",
-                    n_c + 1);
-    return s;
-}
-
 static int toeplitz_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
 {
     if (b->apply != toeplitz_apply)
@@ -376,15 +310,46 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends, const rb_bem_
                                       rb_bem_flexibility *f, rb_message *why)
 {
     *f = (rb_bem_flexibility){0};
-    rb_status s = check(n_c, ends, body, why);
+    if (n_c > 1 << 28)
+        return rb_fail(why, RB_EINVAL, "contact elements: %d, expected at most %d", n_c, 1 << 28);
+    rb_status s = rb_bem_surface_check(body, why);
+    if (s == RB_OK)
+        s = rb_bem_ends_check(n_c, ends, why);
     if (s != RB_OK)
         return s;
+    const double h = (ends[n_c + 1] - ends[0]) / (n_c + 1), strip[2] = {-0.5 * h, 0.5 * h},
+                 rounding = 8.0 * DBL_EPSILON * fmax(fabs(ends[0]), fabs(ends[n_c + 1]));
+    for (int i = 0; i <= n_c; i++)
+        if (!(fabs(ends[i + 1] - ends[i] - h) <= 1e-9 * h + rounding))
+            return rb_fail(why, RB_EINVAL,
+                           "half-plane by Fourier transforms: %d elements of "
+                           "different lengths, expected equal ones",
+                           n_c + 1);
+    /* One strip seen from distances -n ... n elements, or 0 ... n where both sides are alike. */
+    const int symmetric = body->terms == 0, first = symmetric ? 0 : -n_c;
+    const size_t points = (size_t)(n_c - first) + 1;
     toeplitz *o = start(n_c, ends, body->thickness == 0.0, f);
-    if (o) {
-        o->flat = 1;
-        o->symmetric = body->terms == 0;
+    double *x = rb_alloc(points, 1), *W = rb_alloc(2 * points, 2);
+
+    s = o && x && W ? RB_OK : RB_ENOMEM;
+    if (s == RB_OK) {
+        for (int i = first; i <= n_c; i++)
+            x[i - first] = i * h;
+        s = rb_bem_surface_displacement(body, 1, strip, (int)points, x, W);
     }
-    s = o ? set_response(o, (ends[n_c + 1] - ends[0]) / (n_c + 1), body) : RB_ENOMEM;
+    if (s == RB_OK) {
+        o->flat = 1;
+        o->symmetric = symmetric;
+        memcpy(o->t[N] + n_c + first, W, points * sizeof *W);
+        if (!o->alike)
+            memcpy(o->t[T] + n_c + first, W + 3 * points, points * sizeof *W);
+        memcpy(o->s + n_c + first, W + 2 * points, points * sizeof *W);
+        if (symmetric)
+            mirror(o);
+        set_transforms(o);
+    }
+    free(x);
+    free(W);
     if (s == RB_OK)
         return s;
     rb_bem_flexibility_free(f);
@@ -406,11 +371,72 @@ static int other_arc(int n_c, const double *ends, double radius, double tol)
     return 0;
 }
 
-static rb_status check_disc(int n_c, const double *ends, const rb_bem_disc *disc, rb_message *why)
+/* From the response of disc.c, outwards and counter-clockwise, to n inwards.  The
+ * translation -conj(P) exp(2 i alpha) of theory.md's letters is added to it:
+ * displacements are then measured from where the load is held, and the flexibility is
+ * symmetric. */
+static rb_status disc_response(const rb_bem_disc *disc, int n, double h, double *N_, double *T_,
+                               double *C)
+{
+    const double scale = disc->radius / (4.0 * M_PI * disc->material.shear);
+
+    for (int k = 0; k <= n; k++) {
+        double u[4];
+        const rb_status s = rb_bem_disc_response(disc, h, k * h, u);
+        if (s != RB_OK)
+            return s;
+        const double shift = scale * 2.0 * sin(0.5 * h) * cos(k * h);
+        N_[k] = u[0] - shift;
+        T_[k] = u[3] + shift;
+        C[k] = 0.5 * (u[1] - u[2]);
+    }
+    return RB_OK;
+}
+
+/* A disc, or a wheel: one of both. */
+static rb_status on_equal_arcs(int n_c, const double *ends, const rb_bem_disc *disc,
+                               const rb_bem_wheel *wheel, rb_bem_normals normals,
+                               rb_bem_flexibility *f)
+{
+    const double radius = disc ? disc->radius : wheel->radius, first = asin(ends[0] / radius);
+    const double h = (asin(ends[n_c + 1] / radius) - first) / (n_c + 1);
+    toeplitz *o = start(n_c, ends, 0, f);
+
+    if (!o)
+        return RB_ENOMEM;
+    for (int i = 0; i < f->m; i++) /* arcs are longer than their projections */
+        f->h[i] = radius * h;
+    if (normals == RB_BEM_NORMALS_OBSTACLE) {
+        /* Turns by the angle from the lowest point. */
+        o->cosine = rb_alloc((size_t)f->m, 1);
+        o->sine = rb_alloc((size_t)f->m, 1);
+        o->turned = rb_alloc(2 * (size_t)f->m, 1);
+        if (!o->cosine || !o->sine || !o->turned)
+            return RB_ENOMEM;
+        for (int i = 0; i < f->m; i++) {
+            o->cosine[i] = cos(first + (i + 0.5) * h);
+            o->sine[i] = sin(first + (i + 0.5) * h);
+        }
+    }
+    double *const t_N = o->t[N] + n_c, *const t_T = o->t[T] + n_c, *const s = o->s + n_c;
+    const rb_status status = disc ? disc_response(disc, n_c, h, t_N, t_T, s)
+                                  : rb_wheel_response(wheel, n_c, h, t_N, t_T, s);
+    if (status == RB_OK) {
+        o->symmetric = 1;
+        s[0] = 0.0;
+        mirror(o);
+        set_transforms(o);
+    }
+    return status;
+}
+
+rb_status rb_bem_flexibility_disc(int n_c, const double *ends, const rb_bem_disc *disc,
+                                  rb_bem_normals normals, rb_bem_flexibility *f, rb_message *why)
 {
     const double radius = disc->radius;
     rb_status s = rb_bem_material_check(disc->material, why);
 
+    *f = (rb_bem_flexibility){0};
     if (s == RB_OK)
         s = rb_bem_ends_check(n_c, ends, why);
     if (s == RB_OK && !(isfinite(radius) && fabs(ends[0]) < radius && fabs(ends[n_c + 1]) < radius))
@@ -419,71 +445,10 @@ static rb_status check_disc(int n_c, const double *ends, const rb_bem_disc *disc
     if (s != RB_OK)
         return s;
     const int other = other_arc(n_c, ends, radius, 1e-6);
-    return other ? rb_fail(why, RB_EINVAL,
-                           "disc: contact element %d has another length than the others", other)
-                 : RB_OK;
-}
-
-/* Turns by the angle from the lowest point; arcs are longer than their projections. */
-static rb_status set_frames(toeplitz *o, double first, double h, double radius,
-                            rb_bem_normals normals, rb_bem_flexibility *f)
-{
-    const size_t m = (size_t)f->m;
-
-    for (int i = 0; i < f->m; i++)
-        f->h[i] = radius * h;
-    if (normals == RB_BEM_NORMALS_SURFACE)
-        return RB_OK;
-    o->cosine = rb_alloc(m, 1);
-    o->sine = rb_alloc(m, 1);
-    o->turned = rb_alloc(2 * m, 1);
-    if (!o->cosine || !o->sine || !o->turned)
-        return RB_ENOMEM;
-    for (int i = 0; i < f->m; i++) {
-        o->cosine[i] = cos(first + (i + 0.5) * h);
-        o->sine[i] = sin(first + (i + 0.5) * h);
-    }
-    return RB_OK;
-}
-
-/* From the response of disc.c, outwards and counter-clockwise, to n inwards.  The
- * translation -conj(P) exp(2 i alpha) of theory.md's letters is added to it:
- * displacements are then measured from where the load is held, and the flexibility is
- * symmetric. */
-static rb_status set_disc(toeplitz *o, double h, const rb_bem_disc *disc)
-{
-    const double scale = disc->radius / (4.0 * M_PI * disc->material.shear);
-
-    for (int k = 0; k <= o->n; k++) {
-        double u[4];
-        const rb_status s = rb_bem_disc_response(disc, h, k * h, u);
-        if (s != RB_OK)
-            return s;
-        const double shift = scale * 2.0 * sin(0.5 * h) * cos(k * h);
-        o->t[N][o->n + k] = u[0] - shift;
-        o->t[T][o->n + k] = u[3] + shift;
-        o->s[o->n + k] = k == 0 ? 0.0 : 0.5 * (u[1] - u[2]);
-    }
-    o->symmetric = 1;
-    mirror(o);
-    set_transforms(o);
-    return RB_OK;
-}
-
-rb_status rb_bem_flexibility_disc(int n_c, const double *ends, const rb_bem_disc *disc,
-                                  rb_bem_normals normals, rb_bem_flexibility *f, rb_message *why)
-{
-    const double radius = disc->radius;
-    *f = (rb_bem_flexibility){0};
-    rb_status s = check_disc(n_c, ends, disc, why);
-    if (s != RB_OK)
-        return s;
-    const double first = asin(ends[0] / radius);
-    const double h = (asin(ends[n_c + 1] / radius) - first) / (n_c + 1);
-    toeplitz *o = start(n_c, ends, 0, f);
-    s = o ? set_frames(o, first, h, radius, normals, f) : RB_ENOMEM;
-    if (s == RB_OK)
-        s = set_disc(o, h, disc);
+    if (other)
+        return rb_fail(why, RB_EINVAL,
+                       "disc: contact element %d has another length than the others", other);
+    s = on_equal_arcs(n_c, ends, disc, NULL, normals, f);
     if (s == RB_OK)
         return s;
     rb_bem_flexibility_free(f);
@@ -500,18 +465,5 @@ int rb_wheel_has_equal_arcs(int n_c, const double *ends, double radius)
 rb_status rb_wheel_on_equal_arcs(int n_c, const double *ends, const rb_bem_wheel *wheel,
                                  rb_bem_normals normals, rb_bem_flexibility *f)
 {
-    const double radius = wheel->radius, first = asin(ends[0] / radius);
-    const double h = (asin(ends[n_c + 1] / radius) - first) / (n_c + 1);
-    toeplitz *o = start(n_c, ends, 0, f);
-    rb_status s = o ? set_frames(o, first, h, radius, normals, f) : RB_ENOMEM;
-
-    if (s == RB_OK)
-        s = rb_wheel_response(wheel, n_c, h, o->t[N] + n_c, o->t[T] + n_c, o->s + n_c);
-    if (s == RB_OK) {
-        o->symmetric = 1;
-        o->s[n_c] = 0.0;
-        mirror(o);
-        set_transforms(o);
-    }
-    return s;
+    return on_equal_arcs(n_c, ends, NULL, wheel, normals, f);
 }

@@ -50,21 +50,13 @@ static void glassy_waves(const rb_bem_wheel *w, double m, cplx c[3])
     inner_waves(w, m, 1.0, c);
 }
 
-/* 1 + sum f_k/(1 - i m L_k/R). */
-static cplx creep(const rb_bem_wheel *w, double m)
-{
-    cplx c = 1.0;
-    for (int k = 0; k < w->terms; k++)
-        c += w->ratio[k] / (1.0 - I * (m * w->length[k] / w->radius));
-    return c;
-}
-
 /* What memory adds to them.  On a rigid core all is softer alike. */
 static void memory_waves(const rb_bem_wheel *w, double m, cplx c[3])
 {
-    const cplx softer = creep(w, m);
-    cplx glassy[3];
+    cplx softer = 1.0, glassy[3];
 
+    for (int k = 0; k < w->terms; k++) /* 1 + sum f_k/(1 - i m L_k/R) */
+        softer += w->ratio[k] / (1.0 - I * (m * w->length[k] / w->radius));
     inner_waves(w, m, 1.0, glassy);
     inner_waves(w, m, w->hub > 0.0 ? softer : 1.0, c);
     for (int k = 0; k < 3; k++)
@@ -135,33 +127,6 @@ typedef struct {
     gsl_interp_accel *near;
 } table;
 
-/* Equal steps to +-reach, growing ones from there to +-pi. */
-static rb_status table_alloc(double reach, double step, table *t)
-{
-    enum { OUTSIDE = 1500, LEAST = 400, MOST = 20000 };
-    const int half = (int)fmin(fmax(ceil(reach / step), LEAST), MOST);
-
-    memset(t, 0, sizeof *t);
-    t->first = OUTSIDE;
-    t->count = 2 * half + 1;
-    t->nodes = t->count + 2 * OUTSIDE;
-    t->x = rb_alloc((size_t)t->nodes, 1);
-    t->N = rb_alloc((size_t)t->count, 3);
-    t->near = gsl_interp_accel_alloc();
-    if (!t->x || !t->N || !t->near)
-        return RB_ENOMEM;
-    t->T = t->N + t->count;
-    t->C = t->T + t->count;
-    const int middle = OUTSIDE + half;
-    for (int i = 0; i <= half + OUTSIDE; i++) {
-        const double x =
-            i <= half ? reach * i / half : reach * pow(M_PI / reach, (i - half) / (double)OUTSIDE);
-        t->x[middle + i] = x;
-        t->x[middle - i] = -x;
-    }
-    return RB_OK;
-}
-
 /* Adds one term of the disc's memory.  From x to pi upstream the disc's answer is
  * the half-plane's and a rest that is linear between the nodes; what lies beyond pi fades
  * as a whole, and one turn brings it back. */
@@ -196,20 +161,37 @@ static void add_disc(const rb_bem_wheel *w, int term, table *t)
     }
 }
 
+/* Equal steps to +-reach, growing ones from there to +-pi. */
 static rb_status make_table(const rb_bem_wheel *w, double reach, table *t)
 {
-    rb_status s = table_alloc(reach, 0.05 * log(w->radius / w->inner), t);
+    enum { OUTSIDE = 1500, LEAST = 400, MOST = 20000 };
+    const double step = 0.05 * log(w->radius / w->inner);
+    const int half = (int)fmin(fmax(ceil(reach / step), LEAST), MOST), middle = OUTSIDE + half;
 
-    for (int k = 0; k < w->terms && s == RB_OK; k++)
-        add_disc(w, k, t);
-    for (int k = 0; k < 3 && s == RB_OK; k++) {
-        t->spline[k] = gsl_spline_alloc(gsl_interp_cspline, (size_t)t->count);
-        if (!t->spline[k])
-            s = RB_ENOMEM;
-        else
-            gsl_spline_init(t->spline[k], t->x + t->first, t->N + k * t->count, (size_t)t->count);
+    *t = (table){.first = OUTSIDE, .count = 2 * half + 1, .nodes = 2 * middle + 1};
+    const size_t count = (size_t)t->count;
+    t->x = rb_alloc((size_t)t->nodes, 1);
+    t->N = rb_alloc(count, 3);
+    t->near = gsl_interp_accel_alloc();
+    if (!t->x || !t->N || !t->near)
+        return RB_ENOMEM;
+    t->T = t->N + count;
+    t->C = t->T + count;
+    for (int i = 0; i <= middle; i++) {
+        const double x =
+            i <= half ? reach * i / half : reach * pow(M_PI / reach, (i - half) / (double)OUTSIDE);
+        t->x[middle + i] = x;
+        t->x[middle - i] = -x;
     }
-    return s;
+    for (int k = 0; k < w->terms; k++)
+        add_disc(w, k, t);
+    for (size_t k = 0; k < 3; k++) {
+        t->spline[k] = gsl_spline_alloc(gsl_interp_cspline, count);
+        if (!t->spline[k])
+            return RB_ENOMEM;
+        gsl_spline_init(t->spline[k], t->x + t->first, t->N + k * count, count);
+    }
+    return RB_OK;
 }
 
 /* Over a load of half-angle b. */
@@ -352,24 +334,6 @@ static rb_status place_circumference(double radius, int n, const double *ends, i
     for (size_t i = 0; i < 2 * m + 1; i++)
         c->arc[i] *= radius;
     return RB_OK;
-}
-
-/* What memory adds to the half-plane. */
-static rb_status remember_circumference(const rb_bem_wheel *w, const circumference *c)
-{
-    const int n = c->n, m = n + 1;
-    const size_t size = 2 * (size_t)m * 2 * (size_t)n;
-    rb_bem_surface plane = rb_bem_halfplane(w->material, w->radius);
-    rb_status s = rb_bem_surface_displacement(&plane, n, c->end, m, c->arc, c->W + size);
-
-    plane.terms = w->terms;
-    plane.ratio = w->ratio;
-    plane.length = w->length;
-    if (s == RB_OK)
-        s = rb_bem_surface_displacement(&plane, n, c->end, m, c->arc, c->W);
-    for (size_t k = 0; k < size && s == RB_OK; k++)
-        c->W[k] -= c->W[size + k];
-    return s;
 }
 
 /* Turns B = (NN, TN, NT, TT), from a load in direction `from` to a point in direction
@@ -581,6 +545,7 @@ rb_status rb_bem_wheel_normal(const rb_bem_wheel *wheel, const rb_bem_edge_load 
 rb_status rb_bem_flexibility_add_memory(const rb_bem_wheel *wheel, rb_bem_normals normals,
                                         const double *ends, rb_bem_flexibility *f, rb_message *why)
 {
+    rb_bem_surface plane = rb_bem_halfplane(wheel->material, wheel->radius);
     table t = {0};
     rb_ring_table inner = {0};
     circumference c = {0};
@@ -591,8 +556,18 @@ rb_status rb_bem_flexibility_add_memory(const rb_bem_wheel *wheel, rb_bem_normal
     s = rb_bem_flexibility_store(f);
     if (s == RB_OK)
         s = place_circumference(wheel->radius, f->n, ends, 2, &c);
-    if (s == RB_OK)
-        s = remember_circumference(wheel, &c);
+    if (s == RB_OK) {
+        /* What memory adds to the half-plane. */
+        const size_t size = 4 * (size_t)f->m * (size_t)f->n;
+        s = rb_bem_surface_displacement(&plane, f->n, c.end, f->m, c.arc, c.W + size);
+        plane.terms = wheel->terms;
+        plane.ratio = wheel->ratio;
+        plane.length = wheel->length;
+        if (s == RB_OK)
+            s = rb_bem_surface_displacement(&plane, f->n, c.end, f->m, c.arc, c.W);
+        for (size_t k = 0; k < size && s == RB_OK; k++)
+            c.W[k] -= c.W[size + k];
+    }
     if (s == RB_OK)
         s = make_table(wheel, (c.end[f->m] - c.end[0]) / wheel->radius, &t);
     if (s == RB_OK)

@@ -115,18 +115,15 @@ static void products_apply(const rb_bem_flexibility *f, const double *r, double 
         memcpy(before, now, sizeof now);
     }
     fftw_complex *a = transform_of(o, N, o->work[0]), *b = transform_of(o, T, o->work[1]);
-    for (int k = 0; k <= o->fourier.size / 2; k++) {
-        const double *n = o->kernel[0][k], x[2] = {a[k][0], a[k][1]}, y[2] = {b[k][0], b[k][1]};
-        a[k][0] = n[0] * x[0] - n[1] * x[1];
-        a[k][1] = n[0] * x[1] + n[1] * x[0];
-        if (o->parts == 1) {
-            b[k][0] = n[0] * y[0] - n[1] * y[1];
-            b[k][1] = n[0] * y[1] + n[1] * y[0];
-            continue;
-        }
-        const double *t = o->kernel[1][k], *c = o->kernel[2][k];
-        a[k][0] += c[0] * y[0] - c[1] * y[1];
-        a[k][1] += c[0] * y[1] + c[1] * y[0];
+    if (o->parts == 1) {
+        rb_fourier_times(&o->fourier, o->kernel[0][0], a);
+        rb_fourier_times(&o->fourier, o->kernel[0][0], b);
+    }
+    for (int k = 0; o->parts > 1 && k <= o->fourier.size / 2; k++) {
+        const double *n = o->kernel[0][k], *t = o->kernel[1][k], *c = o->kernel[2][k];
+        const double x[2] = {a[k][0], a[k][1]}, y[2] = {b[k][0], b[k][1]};
+        a[k][0] = (n[0] * x[0] - n[1] * x[1]) + (c[0] * y[0] - c[1] * y[1]);
+        a[k][1] = (n[0] * x[1] + n[1] * x[0]) + (c[0] * y[1] + c[1] * y[0]);
         b[k][0] = t[0] * y[0] - t[1] * y[1] - c[0] * x[0] + c[1] * x[1];
         b[k][1] = t[0] * y[1] + t[1] * y[0] - c[0] * x[1] - c[1] * x[0];
     }
@@ -208,25 +205,6 @@ static double part_of(rb_ring_answer at, int part)
     return part == 0 ? at.N : part == 1 ? at.T : at.C;
 }
 
-/* What a charge at each step of a window makes of midpoint i; the window begins at step
- * `first`. */
-static void from_steps(const products *o, parts_of on_steps, int i, int first,
-                       double window[3][WINDOW])
-{
-    for (int k = 0; k < WINDOW; k++) {
-        const int apart = o->to[i].first - first - k;
-        if (apart < -o->steps || apart + ORDER > o->steps)
-            continue; /* beyond all charges */
-        for (int c = 0; c < o->parts; c++) {
-            const double *at = on_steps[c] + o->steps + apart;
-            double sum = 0.0;
-            for (int a = 0; a < ORDER; a++)
-                sum += o->to[i].weight[a] * at[a];
-            window[c][k] = sum;
-        }
-    }
-}
-
 /* The pairs closer than NEAR steps. */
 static rb_status correct_near(products *o, const rb_wheel_kernel *kernel, parts_of on_steps,
                               const double *end, const double *middle, double step)
@@ -249,8 +227,20 @@ static rb_status correct_near(products *o, const rb_wheel_kernel *kernel, parts_
         return RB_ENOMEM;
     for (int i = 0; i < o->m; i++) {
         const int first = o->near_end[i], count = o->near_first[i + 1] - o->near_first[i];
-        if (count > 0)
-            from_steps(o, on_steps, i, o->from[first].first, window);
+        /* What a charge at each step of the window makes of midpoint i; beyond all charges
+         * nothing is asked for. */
+        for (int k = 0; count > 0 && k < WINDOW; k++) {
+            const int apart = o->to[i].first - o->from[first].first - k;
+            if (apart < -o->steps || apart + ORDER > o->steps)
+                continue;
+            for (int c = 0; c < o->parts; c++) {
+                const double *at = on_steps[c] + o->steps + apart;
+                double sum = 0.0;
+                for (int a = 0; a < ORDER; a++)
+                    sum += o->to[i].weight[a] * at[a];
+                window[c][k] = sum;
+            }
+        }
         for (int k = 0; k < count; k++) {
             const spread *from = &o->from[first + k];
             const int at = from->first - o->from[first].first;
@@ -300,15 +290,10 @@ static rb_status set_tables(products *o, const double *angles, double step)
                 on_steps[c][o->steps + k] = part_of(at, c);
         }
         /* on_steps: G at steps -steps ... steps, on_steps[steps] at 0. */
-        const int size = o->fourier.size;
-
         for (int c = 0; c < o->parts; c++) {
-            double *x = o->work[0];
-            memset(x, 0, (size_t)(size + 2) * sizeof *x);
-            for (int k = 1 - o->steps; k < o->steps; k++)
-                x[k < 0 ? size + k : k] = on_steps[c][o->steps + k] / size;
-            fftw_complex *const z = rb_fourier_forward(&o->fourier, size, x, x);
-            memcpy(o->kernel[c], z, ((size_t)size / 2 + 1) * sizeof *z);
+            fftw_complex *const z =
+                rb_fourier_kernel(&o->fourier, o->steps, on_steps[c] + 1, o->work[0]);
+            memcpy(o->kernel[c], z, ((size_t)o->fourier.size / 2 + 1) * sizeof *z);
         }
         s = correct_near(o, &kernel, on_steps, end, middle, step);
         rb_wheel_kernel_free(&kernel);
@@ -317,66 +302,49 @@ static rb_status set_tables(products *o, const double *angles, double step)
     return s;
 }
 
-static products *products_alloc(int n, int steps)
-{
-    products *o = calloc(1, sizeof *o);
-    const size_t m = (size_t)n + 1;
-
-    if (!o)
-        return NULL;
-    o->n = n;
-    o->m = n + 1;
-    o->steps = steps;
-    o->parts = 3;
-    if (!rb_fourier_make(2 * steps, &o->fourier)) {
-        products_free(o);
-        return NULL;
-    }
-    int all = 1;
-    for (int k = 0; k < 3; k++) {
-        o->kernel[k] = fftw_alloc_complex((size_t)o->fourier.size / 2 + 1);
-        all = all && o->kernel[k];
-    }
-    for (int k = 0; k < 2; k++) {
-        o->work[k] = rb_fourier_alloc(&o->fourier);
-        all = all && o->work[k];
-    }
-    o->ends = rb_alloc(m + 1, 1);
-    o->place = rb_alloc(m, 2);
-    o->charge = rb_alloc(m, 2);
-    o->from = calloc(m, sizeof *o->from);
-    o->to = calloc(m, sizeof *o->to);
-    o->near_first = rb_alloc_int(m + 1);
-    o->near_end = rb_alloc_int(m);
-    if (!all || !o->ends || !o->place || !o->charge || !o->from || !o->to || !o->near_first ||
-        !o->near_end) {
-        products_free(o);
-        return NULL;
-    }
-    return o;
-}
-
-/* x: n + 1 midpoints and n + 2 ends, of arcs as angles; taken over.  o->wheel or o->plane
- * is set afterwards from `like`. */
+/* x: n + 1 midpoints and n + 2 ends, of arcs as angles; taken over. */
 static rb_status make(const products *like, double *x, double step, const double *ends,
                       rb_bem_flexibility *f)
 {
-    const int n = f->n;
-    const double *end = x + n + 1;
-    const int steps = (int)ceil((end[n + 1] - end[0]) / step) + 2 * ORDER;
-    products *o = products_alloc(n, steps);
-    rb_status s = RB_ENOMEM;
+    const size_t m = (size_t)f->m;
+    const double *end = x + m;
+    products *o = calloc(1, sizeof *o);
+    int all = 0;
 
     f->data = o;
     f->free_data = products_free;
     f->apply = products_apply;
     f->matrix = products_matrix;
     if (o) {
-        o->wheel = like->wheel;
-        o->plane = like->plane;
+        *o = (products){.n = f->n,
+                        .m = f->m,
+                        .steps = (int)ceil((end[m] - end[0]) / step) + 2 * ORDER,
+                        .wheel = like->wheel,
+                        .plane = like->plane,
+                        .normals = like->normals,
+                        .parts = 3,
+                        .ends = rb_alloc(m + 1, 1),
+                        .place = rb_alloc(m, 2),
+                        .charge = rb_alloc(m, 2),
+                        .from = calloc(m, sizeof *o->from),
+                        .to = calloc(m, sizeof *o->to),
+                        .near_first = rb_alloc_int(m + 1),
+                        .near_end = rb_alloc_int(m)};
         o->wheel.terms = 0;
-        o->normals = like->normals;
-        memcpy(o->ends, ends, ((size_t)n + 2) * sizeof *ends);
+        all = o->ends && o->place && o->charge && o->from && o->to && o->near_first &&
+              o->near_end && rb_fourier_make(2 * o->steps, &o->fourier);
+        for (int k = 0; all && k < 3; k++) {
+            o->kernel[k] = fftw_alloc_complex((size_t)o->fourier.size / 2 + 1);
+            all = o->kernel[k] != NULL;
+        }
+        for (int k = 0; all && k < 2; k++) {
+            o->work[k] = rb_fourier_alloc(&o->fourier);
+            all = o->work[k] != NULL;
+        }
+    }
+    rb_status s = RB_ENOMEM;
+    if (all) {
+        memcpy(o->ends, ends, (m + 1) * sizeof *ends);
         s = set_tables(o, x, step);
     }
     free(x);
