@@ -528,8 +528,12 @@ TEST(a_sweep_is_its_cases)
     char name[100];
     assert_int_equal(
         rb_api_sweep_derivatives(study, 3, one, "tangential_load:mu,max_pressure:load", 2), RB_OK);
-    assert_string_equal(rb_api_sweep_derivative(study, 1, name, sizeof name), "max_pressure:load");
-    assert_null(rb_api_sweep_derivative(study, 2, name, sizeof name));
+    assert_string_equal(rb_api_derivative(study, "sweep", 1, "name", name, sizeof name),
+                        "max_pressure:load");
+    assert_string_equal(rb_api_derivative(study, "sweep", 1, "unit", name, sizeof name), "N/mm");
+    assert_null(rb_api_derivative(study, "sweep", 2, "name", name, sizeof name));
+    assert_null(rb_api_derivative(study, "sweep", 1, "colour", name, sizeof name));
+    assert_null(rb_api_derivative(study, "wear", 0, "name", name, sizeof name));
     const double *slope = array(study, "sweep.derivative.tangential_load:mu", 3, 1);
     for (int k = 0; k < 3; k++) {
         int rows, inputs, of_mu = 0;
@@ -977,6 +981,131 @@ TEST(derivatives)
     assert_null(rb_api_array(a, "tolerance.tangential_load", &rows, &columns));
     assert_null(rb_api_array(a, "derivative.q", &rows, &columns));
     rb_api_free(a);
+}
+
+/* Place of an input among those of rb_api_derivatives. */
+static int place_of(const rb_api *a, const char *input)
+{
+    char name[40];
+    int k = 0;
+    while (rb_api_input(a, k, "name", name, sizeof name) && strcmp(name, input) != 0)
+        k++;
+    return k;
+}
+
+/* Every point of a curve has both sides of the single case that it is, for every result and
+ * input; a refusal leaves nothing of the curve before, and the handle goes on. */
+TEST(derivatives_of_a_curve_are_those_of_its_points)
+{
+    static const char *const curve_words[] = {
+        "support", "halfplane", "support-b", "halfplane", "similar",          "yes", "load", "500",
+        "mesh",    "uniform",   "zone",      "1.2",       "contact-elements", "30",  NULL};
+    held_api *a = rb_api_create_for("curve"), *point = rb_api_create();
+    char name[120], result[60], input[60], column[140];
+    int rows, columns, compared = 0, one_sided = 0;
+    for (const char *const *w = curve_words; *w; w += 2) {
+        assert_int_equal(rb_api_set(a, w[0], w[1]), RB_OK);
+        assert_int_equal(rb_api_set(point, w[0], w[1]), RB_OK);
+    }
+    assert_int_equal(rb_api_resolve(a), RB_OK);
+    assert_null(rb_api_derivative(a, "curve", 0, "name", name, sizeof name));
+    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.25, 1.0, 4, "all"), RB_OK);
+    const double *Q = array(a, "curve.tangential_load", 4, 1);
+    assert_int_equal(rb_api_set(point, "formulation", "steady"), RB_OK);
+    for (int k = 0; k < 4; k += 3) {
+        snprintf(name, sizeof name, "%g", 0.25 * (k + 1));
+        assert_int_equal(rb_api_set(point, "creep-ratio", name), RB_OK);
+        assert_int_equal(rb_api_solve(point), RB_OK);
+        assert_int_equal(rb_api_derivatives(point), RB_OK);
+        CHECK_REL(Q[k], rb_api_number(point, "tangential_load"), 1e-9, "point %d", k);
+        for (int j = 0; rb_api_derivative(a, "curve", j, "name", name, sizeof name); j++) {
+            rb_api_derivative(a, "curve", j, "result", result, sizeof result);
+            rb_api_derivative(a, "curve", j, "input", input, sizeof input);
+            snprintf(column, sizeof column, "curve.derivative.%s", name);
+            const double *d = array(a, column, 4, 2);
+            snprintf(column, sizeof column, "derivative.%s", result);
+            const double *all = rb_api_array(point, column, &rows, &columns);
+            assert_non_null(all);
+            for (int side = 0; side < 2; side++) {
+                const double x = d[k + 4 * side], y = all[2 * place_of(point, input) + side],
+                             scale = array(point, "derivative.value", 1,
+                                           columns / 2)[place_of(point, input)];
+                assert_int_equal(isnan(x), isnan(y));
+                one_sided += side && isnan(x) != isnan(d[k]);
+                if (isnan(x))
+                    continue;
+                CHECK_ABS(x, y,
+                          1e-7 * (fabs(y) + fabs(rb_api_number(point, result) /
+                                                 (scale != 0.0 ? scale : 1e-3))),
+                          "%s, point %d", name, k);
+                compared++;
+            }
+        }
+    }
+    if (compared < 500 || one_sided < 10)
+        fail_msg("%d compared, %d one-sided", compared, one_sided);
+
+    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, 5, "nonsense"),
+                     RB_EINVAL);
+    assert_null(rb_api_array(a, "curve.derivative.tangential_load:mu", &rows, &columns));
+    assert_null(rb_api_array(a, "curve.tangential_load", &rows, &columns));
+    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, 5, "approach:zone"),
+                     RB_EINVAL);
+    assert_int_equal(rb_api_curve_over(a, "creep-ratio", 0.2, 1.0, 3), RB_OK);
+    assert_null(rb_api_derivative(a, "curve", 0, "name", name, sizeof name));
+    assert_int_equal(rb_api_set(a, "error", "yes"), RB_OK);
+    assert_int_equal(rb_api_resolve(a), RB_OK);
+    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, 5, "all:mu"), RB_EINVAL);
+    assert_non_null(strstr(rb_api_message(a), "not together with error bars"));
+    assert_int_equal(rb_api_set(point, "formulation", "static"), RB_OK);
+    assert_int_equal(rb_api_resolve(point), RB_OK);
+    assert_int_equal(rb_api_curve_derivatives(point, "creep-ratio", 0.2, 1.0, 5, "all:mu"),
+                     RB_EINVAL);
+    assert_non_null(strstr(rb_api_message(point), "give --formulation steady"));
+}
+
+/* By handle the tangent of a history is what two histories nearby say, and one uncertain
+ * input gives its size; what is refused leaves the steps alone. */
+TEST(derivatives_of_steps)
+{
+    static const char *const words[] = {
+        "support",  "halfplane", "similar",          "yes", "load",        "500",
+        "mu",       "0.3",       "creep-ratio",      "0.5", "formulation", "transient",
+        "distance", "1",         "contact-elements", "16",  NULL};
+    held_api *a = solved(words), *b = solved(words);
+    char name[120];
+    int steps, columns;
+    const double *Q = rb_api_array(a, "history.tangential_load", &steps, &columns);
+    double before[400];
+    assert_true(steps > 3 && steps <= 400);
+    memcpy(before, Q, sizeof *before * (size_t)steps);
+    assert_int_equal(rb_api_step_derivatives(a, "tangential_load:moo"), RB_EINVAL);
+    assert_int_equal(rb_api_step_derivatives(a, "p0"), RB_EINVAL);
+    assert_int_equal(rb_api_step_derivatives(a, "tangential_load,normal_load:load"), RB_OK);
+    assert_string_equal(rb_api_derivative(a, "history", 0, "result", name, sizeof name),
+                        "tangential_load");
+    const double *d = array(a, "history.derivative.tangential_load:mu", steps, 1),
+                 *by_load = array(a, "history.derivative.normal_load:load", steps, 1);
+    assert_null(rb_api_array(a, "history.derivative.normal_load:mu", &steps, &columns));
+    assert_int_equal(rb_api_set(b, "mu", "0.30003"), RB_OK);
+    assert_int_equal(rb_api_solve(b), RB_OK);
+    Q = rb_api_array(b, "history.tangential_load", &steps, &columns);
+    for (int k = 0; k < steps; k++) {
+        CHECK_ABS(d[k], (Q[k] - before[k]) / 3e-5, 0.02 * fabs(before[steps - 1]), "step %d", k);
+        CHECK_REL(by_load[k], 1.0, 1e-9, "step %d", k);
+    }
+    assert_int_equal(rb_api_tolerances(a, "mu=0.02"), RB_OK);
+    const double *deviation = array(a, "history.tolerance.tangential_load", steps, 1);
+    for (int k = 0; k < steps; k++)
+        CHECK_ABS(deviation[k], 0.02 * fabs(d[k]), 1e-12 * fabs(before[steps - 1]), "step %d", k);
+    assert_int_equal(rb_api_set(a, "mu", "0.2"), RB_OK);
+    assert_int_equal(rb_api_step_derivatives(a, "tangential_load"), RB_EINVAL);
+    assert_non_null(strstr(rb_api_message(a), "of a solved case with steps"));
+    assert_int_equal(rb_api_set(a, "error", "yes"), RB_OK);
+    assert_int_equal(rb_api_solve(a), RB_OK);
+    assert_int_equal(rb_api_step_derivatives(a, "tangential_load"), RB_EINVAL);
+    assert_int_equal(rb_api_tolerances(a, "mu=0.02"), RB_EINVAL);
+    assert_non_null(strstr(rb_api_message(a), "not together with error bars"));
 }
 
 RUN_TESTS(NULL, NULL)

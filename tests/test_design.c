@@ -101,7 +101,7 @@ static void what_is_refused(void **state)
     static const struct {
         const char *result, *over, *subject, *says;
     } bad[] = {{"max_presure", "radius=1:2", NULL, "max_pressure"},
-               {"iterations", "radius=1:2", NULL, "no result"},
+               {"iterations", "radius=1:2", NULL, "expected a result that has derivatives"},
                {"max_pressure", "", NULL, "--over"},
                {"max_pressure", "radius", NULL, "radius=A:B"},
                {"max_pressure", "radius=2:1", NULL, "A < B"},

@@ -98,7 +98,9 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *   patch.from ...               an entry per patch of the contact
  * history.distance ... of a case with steps, an entry per step;
  *                                history.error.distance ... where errors were asked for;
- *                                history.tolerance.approach ... after rb_api_tolerances
+ *                                history.tolerance.approach ... after rb_api_tolerances;
+ *                                history.derivative.approach:mu ... after
+ *                                rb_api_step_derivatives
  *   step.p step.q step.zone      elements x steps
  *   step.x                       its midpoints
  *   ends gap0                    of the elements; the gap without load
@@ -107,6 +109,8 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *   mesh.x0 mesh.y0 mesh.x1 mesh.y1   boundary of a wheel
  *   H G                          its boundary elements' matrices
  *   curve.creepage ...           after rb_api_curve, an entry per point; curve.error. ...
+ *   curve.derivative.approach:mu ...   after rb_api_curve_derivatives, points x 2: for a
+ *                                falling and for a growing mu; NAN: none
  *   lcp.M lcp.q                  after rb_api_pivots, M z + q
  *   pivot.entering pivot.leaving pivot.row pivot.ratio pivot.z0   an entry per pivot
  *   pivot.basis pivot.value      rows x pivots: basic variables, their values after it
@@ -141,6 +145,7 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *   wear.profile.x wear.profile.depth   the worn depth at the end, over x
  *   sweep.status sweep.NAME ...  after rb_api_sweep, an entry per case; of cracks also the
  *                                names of crack.summary
+ *   sweep.derivative.approach:mu ...   after rb_api_sweep_derivatives
  *   lcp.z lcp.w                  after rb_api_lcp
  *   friction.r friction.u        after rb_api_friction, dimension x contacts */
 const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns);
@@ -148,12 +153,18 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
 /* Each of these functions computes the arrays that are named after it from the solved
  * case. */
 
-/* A creep curve of a resolved case: steady rolling at `points` creepage ratios between
- * from and to. */
+/* A creep curve of the case: steady rolling at `points` creepage ratios between from and
+ * to. */
 int rb_api_curve(rb_api *a, double from, double to, int points);
 /* The same over "creep-ratio", "creep" or (viscoelastic bodies) "speed", with error bars
  * if the case has them. */
 int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points);
+/* The same with derivatives at every point: those of the single case that the point is.
+ * derivatives: RESULT (with respect to every number of the case) or RESULT:OPTION,
+ * separated by commas; "all" in the place of RESULT.  The case must be steady and have no
+ * error bars.  Without derivatives at some points rb_api_note says why. */
+int rb_api_curve_derivatives(rb_api *a, const char *over, double from, double to, int points,
+                             const char *derivatives);
 /* Lemke's method; variables are numbered w, z, z0 (rollbem/lcp.h). */
 int rb_api_pivots(rb_api *a);
 /* Newton's method from a contact that sticks everywhere. */
@@ -183,6 +194,15 @@ int rb_api_derivatives(rb_api *a);
  * the second number of its list), "unit", "refusal" (the reason why it has no
  * derivatives, or ""). NULL: no such input or field. */
 const char *rb_api_input(const rb_api *a, int k, const char *field, char *text, int size);
+/* Derivatives of the columns of the history of a solved case with steps, after every step;
+ * `derivatives` as of rb_api_curve_derivatives, RESULT a column of the history.  Where the
+ * two sides differ they are those for a growing input; then rb_api_note says so. */
+int rb_api_step_derivatives(rb_api *a, const char *derivatives);
+/* Field of array k = 0, 1, ... of derivatives of a "curve", of "history" or of a "sweep":
+ * "name" (RESULT:OPTION, as in the name of the array), "result", "input", "unit" (of the
+ * input).  NULL: no such array or field. */
+const char *rb_api_derivative(const rb_api *a, const char *of, int k, const char *field, char *text,
+                              int size);
 /* Standard deviations of the numbers of the solution to first order, from those of inputs
  * as `rollbem --tolerance` takes them: "mu=0.02,radius=1%"; of a case with steps those of
  * the columns of its history.  Computes the derivatives. */
@@ -216,13 +236,10 @@ int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double
 /* A sweep: solves n cases with `workers` processes (0: one per processor); the call
  * resolves each case.  If a case is refused, the call ends before anything is solved. */
 int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers);
-/* The same with derivatives of each case as of `rollbem sweep --derivatives`: RESULT or
- * RESULT:OPTION, separated by commas; for a growing input where the two sides differ, NAN:
- * none.  Arrays sweep.derivative.RESULT:OPTION, an entry per case; the second function
- * writes the name RESULT:OPTION of the k-th, k = 0, 1, ...  NULL: there is none. */
+/* The same with derivatives of each case; `derivatives` as of rb_api_curve_derivatives, at
+ * most 128 arrays.  For a growing input where the two sides differ, NAN: none. */
 int rb_api_sweep_derivatives(rb_api *a, int n, rb_api *const *cases, const char *derivatives,
                              int workers);
-const char *rb_api_sweep_derivative(const rb_api *a, int k, char *text, int size);
 /* The same with a crack below each contact: handles for "crack", and the same m options
  * of `rollbem crack` for each, whose texts are values[j + k m] in case k. */
 int rb_api_sweep_cracks(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,

@@ -243,6 +243,11 @@ rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model,
 /* The result `name` if it has derivatives, otherwise NULL.  *is_column is 1 if it has one
  * entry per element. */
 const rb_rolling_result *rb_case_derivative_result(const char *name, int *is_column);
+/* RB_EINVAL, and why says that `name` is no result of the table that has derivatives, with
+ * the one that may have been meant; more: another name that would be accepted (NULL:
+ * none). */
+rb_status rb_case_refuse_result(const char *name, const rb_rolling_results *table, const char *more,
+                                rb_message *why);
 
 /* ---- Derivatives in columns: along a curve, over a study, step by step -------------- */
 
@@ -263,7 +268,10 @@ typedef struct {
                           (the same where both are alike; of histories always); NAN: none;
                           owned */
     int degenerate;    /* of a history: steps in which elements stand between two zones */
-    rb_units units;    /* mm at first */
+    int without;       /* of a curve: points that have no derivatives, and why the last one
+                          has none */
+    rb_message reason;
+    rb_units units; /* mm at first */
 } rb_case_slopes;
 
 /* Chooses the columns by words: "all", or a list, separated by commas, of RESULT (with
@@ -287,6 +295,9 @@ double rb_case_slope_value(const rb_case_slopes *slopes, int row, int k);
 /* Writes the name of a column: "d_tangential_load_N/mm_by_radius_mm". */
 const char *rb_case_slope_heading(const rb_case_slope *of, rb_units units,
                                   char text[RB_CASE_SLOPE_HEADING]);
+/* Writes what must be known to read the columns: points without derivatives, steps with
+ * one-sided ones.  0: nothing, note is empty. */
+int rb_case_slopes_note(const rb_case_slopes *slopes, rb_message *note);
 /* Converts a derivative from mm, N, MPa to other units. */
 double rb_case_slope_shown(const rb_case_slope *of, rb_units units, double x);
 void rb_case_slopes_convert(rb_case_slopes *slopes, rb_units units);
@@ -295,9 +306,11 @@ void rb_case_slopes_free(rb_case_slopes *slopes);
 /* Chooses the columns of a curve; the purpose of the case must be a curve. */
 rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range, const char *words,
                                rb_case_slopes *slopes, rb_message *why);
-/* rb_rolling_curve_solve with these derivatives at each point. */
+/* rb_rolling_curve_observe with these derivatives at each point (point NULL: nobody
+ * observes).  RB_EINVAL: no point has derivatives. */
 rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, double mu,
-                              rb_rolling_curve *curve, rb_case_slopes *slopes, rb_message *why);
+                              rb_rolling_point *point, void *context, rb_rolling_curve *curve,
+                              rb_case_slopes *slopes, rb_message *why);
 /* Derivatives of the history whose states are given; if the two sides differ, those for
  * growing inputs.  RB_EINVAL: friction that depends on the state, an interface that
  * yields, or a given approach. */

@@ -12,7 +12,7 @@ Units are mm, N/mm (per length of the axis) and MPa; creepage > 0 brakes A, then
 """
 
 from . import _library, pictures  # _library first: see _kernels
-from ._case import (Answer, Case, Complementarity, Curve, Extremum, Friction, History, Solution, Stress,
+from ._case import (Answer, Case, Complementarity, Curve, Derivatives, Extremum, Friction, History, Solution, Stress,
                     Sweep, Wear, curve, friction, history, lcp, solve, stress, sweep, wear)
 from ._inverse import (Crack, Design, Fit, Parameter, crack, curve_derivatives, derivatives, design, fit,
                        history_derivatives, tolerances)
@@ -20,7 +20,8 @@ from ._library import (OPTIONS, RESULTS, VERSION as __version__, Error, InvalidI
                        Note, OutOfMemory, Unsolved)
 from ._program import Check, ContactCases, Reference, References, check, contact, examples, verify
 
-__all__ = ["Answer", "Case", "Check", "Complementarity", "ContactCases", "Crack", "Curve", "Design",
+__all__ = ["Answer", "Case", "Check", "Complementarity", "ContactCases", "Crack", "Curve", "Derivatives",
+           "Design",
            "Error", "Extremum", "Fit", "Friction", "History", "InvalidInput", "MissingFile", "Note",
            "OPTIONS", "OutOfMemory", "Parameter", "RESULTS", "Reference", "References", "Solution",
            "Stress", "Sweep",

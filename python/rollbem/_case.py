@@ -99,7 +99,7 @@ class Case:
     def solve(self, progress: Progress = None) -> "Solution":
         """See :func:`solve`."""
         solution = self._solve("solve", progress)
-        solution._warn()
+        _warn(solution.notes)
         return solution
 
     def _solve(self, purpose: str, progress: Progress = None) -> "Solution":
@@ -140,6 +140,92 @@ def _case(case: Union[Case, str, os.PathLike, None], options: Mapping[str, Any])
 # ---- Results ------------------------------------------------------------------------------
 
 
+class _ByInput(dict):
+    """By the names of options, with ``_`` or ``-``."""
+
+    def __missing__(self, name: str) -> Any:
+        other = name.replace("_", "-") if isinstance(name, str) else name
+        if other in self:
+            return self[other]
+        raise KeyError(name)
+
+
+def _unit(result: str, table: str, unit_of_input: str) -> str:
+    """The unit of a derivative; "1": it has none."""
+    one, by = RESULTS[table][result].unit or "1", "" if unit_of_input in ("-", "1") else unit_of_input
+    if not by or one == by:
+        return "1" if by else one
+    return "/".join(f"({unit})" if "/" in unit else unit for unit in (one, by))
+
+
+class Derivatives(dict):
+    """Derivatives by result and option: ``d["tangential_load"]["mu"]``, in mm, N and MPa.
+
+    Of a curve, of the steps of a history or of a study each is an array like the results. Where the two sides of a
+    derivative differ it is that for a growing input; of a curve ``sides`` has both: arrays of points x 2 for a falling and
+    for a growing input, NaN where there is none.  ``units["tangential_load"]["mu"]`` is the unit of each.
+    """
+
+    sides: "dict[str, dict[str, Array]]"
+    units: "dict[str, dict[str, str]]"
+
+    def __init__(self, handle: Any = None, of: str = "", shape: "tuple[int, ...]" = (-1,)) -> None:
+        super().__init__()
+        self.sides, self.units = {}, {}
+        for slope in handle.slopes(of) if handle is not None else []:
+            array = handle.array(f"{of}.derivative.{slope.name}").copy()
+            if array.ndim == 2:
+                self.sides.setdefault(slope.result, _ByInput())[slope.input] = array
+                array = np.where(np.isnan(array[:, 1]), array[:, 0], array[:, 1])
+            self._add(slope.result, slope.input, array.reshape(shape),
+                      _unit(slope.result, "step" if of == "history" else "number", slope.unit))
+
+    def _add(self, result: str, name: str, value: Any, unit: str) -> None:
+        self.setdefault(result, _ByInput())[name] = value
+        self.units.setdefault(result, _ByInput())[name] = unit
+
+    def columns(self) -> dict:
+        """Arrays by the names of their columns: ``d_tangential_load_by_mu``."""
+        return {_heading(result, name): np.ravel(value) for result, inputs in self.items()
+                for name, value in inputs.items()}
+
+    def to_pandas(self) -> Any:
+        """Of a curve, a history or a study a ``pandas.DataFrame`` with a column each; of a solution a row per result
+        and option: ``left`` and ``right`` (falling and growing input), ``unit``."""
+        import pandas
+
+        entries = [(result, name, value) for result, inputs in self.items() for name, value in inputs.items()]
+        if entries and all(isinstance(value, np.ndarray) for *_, value in entries):
+            frame = pandas.DataFrame(self.columns())
+            frame.attrs["units"] = _units_of(self)
+            return frame
+        return pandas.DataFrame(
+            [(result, name, *(value if isinstance(value, tuple) else (value, value)), self.units[result][name])
+             for result, name, value in entries if np.ndim(value) == 0 or isinstance(value, tuple) and np.ndim(value[0]) == 0],
+            columns=["result", "input", "left", "right", "unit"])
+
+
+def _heading(result: str, name: str) -> str:
+    return f"d_{result}_by_{name.replace('-', '_')}"
+
+
+def _units_of(derivatives: Derivatives) -> dict:
+    return {_heading(result, name): unit for result, inputs in derivatives.units.items() for name, unit in inputs.items()}
+
+
+def _words(derivatives: Any) -> bytes:
+    """What ``derivatives=`` asks for, as the library reads it."""
+    words = "all" if derivatives is True else derivatives
+    if isinstance(words, str):
+        words = words.split(",")
+    if not isinstance(words, (list, tuple)) or not words or not all(isinstance(word, str) for word in words):
+        raise InvalidInput("derivatives=: expected True, or RESULT or RESULT:OPTION, separated by commas or in a list, "
+                           f"got {derivatives!r}")
+    parts = [word.strip().partition(":") for word in words]
+    return _values.word("derivatives", ",".join(result + colon + name.replace("_", "-") for result, colon, name in parts),
+                        "names")
+
+
 class _Named:
     """Results as attributes by the names of the library's tables."""
 
@@ -160,7 +246,8 @@ class _Named:
 
     def columns(self) -> dict:
         """All arrays by name, as ``pandas.DataFrame(...)`` takes them."""
-        return dict(self._arrays)
+        derivatives = self.__dict__.get("derivatives")
+        return {**self._arrays, **(derivatives.columns() if derivatives else {})}
 
     def to_pandas(self) -> Any:
         """The columns as a ``pandas.DataFrame``; ``attrs["units"]`` has their units."""
@@ -169,6 +256,9 @@ class _Named:
         columns = self.columns()
         frame = pandas.DataFrame({name: np.ravel(values) for name, values in columns.items()})
         known = {name: row.unit for table in RESULTS.values() for name, row in table.items()}
+        known.update({f"deviation_{name}": unit for name, unit in known.items()})
+        if self.__dict__.get("derivatives"):
+            known.update(_units_of(self.__dict__["derivatives"]))
         frame.attrs["units"] = {name: known[name] for name in columns if known.get(name) not in (None, "", "1")}
         return frame
 
@@ -184,6 +274,15 @@ class _Named:
         picture = drawn.getvalue()
         pictures.close(figure)
         return text + picture[picture.index("<svg"):]
+
+
+def _warn(notes: "list[str]") -> None:
+    """Notes as warnings, at the line that called this package."""
+    here, depth, frame = os.path.dirname(__file__), 2, sys._getframe(1)
+    while frame.f_back and frame.f_code.co_filename.startswith(here):
+        frame, depth = frame.f_back, depth + 1
+    for note in notes:
+        warnings.warn(note, Note, stacklevel=depth)
 
 
 class Solution(_Named):
@@ -209,14 +308,6 @@ class Solution(_Named):
             except Unsolved as error:
                 self._handle = error.solution._handle
         return self._handle
-
-    def _warn(self) -> None:
-        """The notes as warnings, at the line that called this package."""
-        here, depth, frame = os.path.dirname(__file__), 2, sys._getframe(1)
-        while frame.f_back and frame.f_code.co_filename.startswith(here):
-            frame, depth = frame.f_back, depth + 1
-        for note in self.notes:
-            warnings.warn(note, Note, stacklevel=depth)
 
     def _all(self, what: str, make: Any) -> Any:
         if what not in self._more:
@@ -286,11 +377,19 @@ class Solution(_Named):
         return self._handle.number("carter") == 1.0
 
     @property
-    def derivatives(self) -> dict:
+    def derivatives(self) -> Derivatives:
         """See :func:`rollbem.derivatives`."""
         from ._inverse import derivatives
 
-        return derivatives(self)
+        return self._all("derivatives", lambda: derivatives(self))
+
+    @property
+    def derivatives_over_x(self) -> "dict[str, dict[str, Array]]":
+        """Derivatives of normal_load, tangential_load, approach and creepage with respect to the gap and to mu of every
+        element: ``s.derivatives_over_x["tangential_load"]["gap"]``, an entry per element.  {}: there are none (friction
+        that depends on the state, an element between two zones, 1500 elements and more)."""
+        self.derivatives
+        return self._all("over_x", dict)
 
     # What the solution is made of:
 
@@ -323,8 +422,9 @@ class Solution(_Named):
     def lcp(self) -> tuple:
         """M and q of the complementarity problem that Lemke's method tries first."""
         handle = self._live()
-        handle.check(handle.run("rb_api_pivots"))
-        return handle.array("lcp.M").copy(), handle.array("lcp.q").copy()
+        with handle.lock:
+            handle.check(handle.run("rb_api_pivots"))
+            return handle.array("lcp.M").copy(), handle.array("lcp.q").copy()
 
     def plot(self, figure: Any = None) -> Any:
         """The picture of the program: tractions, zones, slip.  Returns the figure."""
@@ -347,6 +447,8 @@ class History(_Named):
     solution: Solution
     errors: dict
     tolerances: dict  # standard deviations, of tolerance=...
+    derivatives: Derivatives  # of derivatives=..., an entry per step
+    notes: "list[str]"  # on how the history and its derivatives must be read
     half_width: float
     x: Array
     p: Array
@@ -359,10 +461,16 @@ class History(_Named):
         self._arrays = handle.arrays("step", "history.")
         self._numbers = {"half_width": handle.number("history.half_width")}
         self.errors = handle.arrays("step", "history.error.")
-        self.tolerances = handle.arrays("step", "history.tolerance.")
+        self.tolerances = handle.arrays("step", "history.tolerance.", copied=True)
+        self.derivatives = Derivatives(handle, "history")
+        self.notes = handle.notes()
         self.x = handle.array("step.x")
         self.p, self.q, zone = (np.atleast_2d(handle.array(f"step.{name}").T) for name in ("p", "q", "zone"))
         self.zone = zone.astype(int)
+
+    def columns(self) -> dict:
+        """All arrays with an entry per step by name: also ``deviation_...`` of tolerances, ``d_..._by_...`` of derivatives."""
+        return {**super().columns(), **{f"deviation_{name}": array for name, array in self.tolerances.items()}}
 
     def plot(self, figure: Any = None) -> Any:
         """Force and stick over the rolled distance.  Returns the figure."""
@@ -380,6 +488,8 @@ class Curve(_Named):
     case: Case
     over: str
     errors: dict
+    derivatives: Derivatives  # of derivatives=..., an entry per point
+    notes: "list[str]"  # on how its derivatives must be read
     mu: Value
     carter_holds: bool
     free_creepage: float
@@ -390,6 +500,8 @@ class Curve(_Named):
         self._arrays = handle.arrays("point", "curve.")
         self._numbers = {name: handle.number(f"curve.{name}") for name in ("free_creepage", "half_width")}
         self.errors = handle.arrays("point", "curve.error.")
+        self.derivatives = Derivatives(handle, "curve")
+        self.notes = handle.notes()
         self.mu = _value("mu", handle)
         self.carter_holds = handle.number("carter") == 1.0
 
@@ -471,7 +583,7 @@ class Sweep(_Named):
 
     axes: "dict[str, Array]"
     status: Array
-    derivatives: "dict[str, dict[str, Array]]"  # of sweep(derivatives=...)
+    derivatives: Derivatives  # of sweep(derivatives=...)
 
     def __init__(self, axes: Mapping[str, Array], handle: Handle) -> None:
         shape = tuple(len(values) for values in axes.values())
@@ -480,18 +592,13 @@ class Sweep(_Named):
                  **handle.arrays("number", "sweep.")}
         self._arrays = {name: array.reshape(shape) for name, array in found.items()}
         self._numbers = {}
-        self.derivatives = {}
-        room = handle.text_room()
-        while name := lib.rb_api_sweep_derivative(handle.at, sum(map(len, self.derivatives.values())), room, len(room)):
-            result, option = name.decode().split(":")
-            array = handle.array(f"sweep.derivative.{name.decode()}").reshape(shape)
-            self.derivatives.setdefault(result, {})[option] = array
+        self.derivatives = Derivatives(handle, "sweep", shape)
 
     def columns(self) -> dict:
         """A row per case: the varied options, the status and all results."""
         grid = np.meshgrid(*self.axes.values(), indexing="ij")
         found = {name: values.ravel() for name, values in zip(self.axes, grid)}
-        return {**{name: array.ravel() for name, array in self._arrays.items()}, **found}
+        return {**{name: array.ravel() for name, array in super().columns().items()}, **found}
 
     def plot(self, figure: Any = None, show: str = "force_ratio", over: Optional[str] = None,
              family: Optional[str] = None, map: bool = False) -> Any:
@@ -526,36 +633,44 @@ def solve(case: Union[Case, str, os.PathLike, None] = None, *, progress: Progres
 
 
 def curve(case: Union[Case, str, os.PathLike, None] = None, start: float = 0.0, stop: float = 1.5,
-          points: int = 61, over: str = "creep-ratio", *, progress: Progress = None,
+          points: int = 61, over: str = "creep-ratio", *, derivatives: Any = None, progress: Progress = None,
           **options: Any) -> Union[Curve, "list[Curve]"]:
     """Steady rolling at equally spaced creepage ratios, or over="creep" creepages.
 
     With several ``mu`` a list of curves.  ``progress(done, total)`` is called with the number of points
     now and then, for each curve anew.
+    ``derivatives``, as ``"tangential_load:mu,max_pressure"`` or a list of such names, or True for all: those of the numbers
+    of each point by one or all options; ``derivatives["tangential_load"]["mu"]`` of the curve has an entry per point.
     """
     case = _case(case, options)
     mu = case.options.get("mu")
     if mu is not None and np.ndim(mu) == 1:
-        return [curve(case.but(mu=value), start, stop, points, over, progress=progress)
+        return [curve(case.but(mu=value), start, stop, points, over, derivatives=derivatives, progress=progress)
                 for value in _values.vector("mu", mu)]
     handle = case.handle("curve")
-    handle.check(handle.ask("rb_api_resolve"))
-    status = handle.run("rb_api_curve_over", _values.word("over", over, "creep-ratio, creep or speed"),
-                        _values.number("start", start), _values.number("stop", stop),
-                        _values.whole("points", points), progress=progress)
+    range_ = (_values.word("over", over, "creep-ratio, creep or speed"), _values.number("start", start),
+              _values.number("stop", stop), _values.whole("points", points))
+    if derivatives is None:
+        status = handle.run("rb_api_curve_over", *range_, progress=progress)
+    else:
+        status = handle.run("rb_api_curve_derivatives", *range_, _words(derivatives), progress=progress)
     if status < SOLVED:
         raise handle.error(status)
-    return _kept(Curve(case, handle, over), handle, status)
+    found = Curve(case, handle, over)
+    _warn(found.notes)
+    return _kept(found, handle, status)
 
 
 def history(program: Optional[Table] = None, case: Union[Case, str, os.PathLike, None] = None, *,
-            progress: Progress = None, tolerance: Any = None, **options: Any) -> History:
+            progress: Progress = None, tolerance: Any = None, derivatives: Any = None, **options: Any) -> History:
     """Runs a case along a program, a dictionary of columns, or along its own distance.
 
     ``history({"distance": [0, 4], "creep": [0, 1e-3]}, load=500, support="halfplane")`` rolls
     over 4 half-widths; without ``distance`` the rows are increments of a static contact.
     ``progress(done, total)`` is called with the number of steps now and then.
     ``tolerance`` as of :func:`solve`: standard deviations after every step are ``tolerances`` of the history.
+    ``derivatives`` as of :func:`curve`, of its columns: ``derivatives["tangential_load"]["mu"]`` of the history has an
+    entry per step.
     """
     if program is not None:
         options = {**options, "history": program}
@@ -571,6 +686,12 @@ def history(program: Optional[Table] = None, case: Union[Case, str, os.PathLike,
         raise
     if found is None:
         raise InvalidInput("history: the case has no steps")
+    if derivatives is not None:
+        handle, before = found.solution._live(), found.notes
+        with handle.lock:
+            handle.check(handle.run("rb_api_step_derivatives", _words(derivatives)))
+            found = History(found.solution)
+        _warn([note for note in found.notes if note not in before])
     return found
 
 
@@ -585,22 +706,23 @@ def stress(case: Union[Solution, Case, str, os.PathLike, None] = None, grid: "tu
     else:
         whole = case.case.but(**options) if isinstance(case, Solution) else _case(case, options)
         solution = whole._solve("stress")
-        solution._warn()
+        _warn(solution.notes)
     handle = solution._live()
     depth = 0.0 if depth is None else _values.number("depth", depth)
-    handle.check(handle.run("rb_api_stress_maxima", depth))
-    names = ("max_shear", "von_mises", "orthogonal_shear", "tension")
-    maxima = {name: Extremum(handle.array(f"maxima.{name}").tolist()) for name in names}
-    if points is None:
-        if np.ndim(grid) != 1 or len(grid) != 2:
-            raise InvalidInput(f"grid=: expected two whole numbers, got {grid!r}")
-        handle.check(handle.run("rb_api_stress", *(_values.whole("grid", n, 2) for n in grid), depth))
-    else:
-        xy = np.ascontiguousarray(_values.array("points", points))
-        if xy.ndim != 2 or xy.shape[1] != 2 or len(xy) == 0:
-            raise InvalidInput(f"points=: expected an array of n x 2, got {' x '.join(map(str, xy.shape))}")
-        handle.check(handle.run("rb_api_stress_at", len(xy), doubles(xy)))
-    return Stress(solution, maxima)
+    with handle.lock:  # what the call has made is read before another thread calls
+        handle.check(handle.run("rb_api_stress_maxima", depth))
+        names = ("max_shear", "von_mises", "orthogonal_shear", "tension")
+        maxima = {name: Extremum(handle.array(f"maxima.{name}").tolist()) for name in names}
+        if points is None:
+            if np.ndim(grid) != 1 or len(grid) != 2:
+                raise InvalidInput(f"grid=: expected two whole numbers, got {grid!r}")
+            handle.check(handle.run("rb_api_stress", *(_values.whole("grid", n, 2) for n in grid), depth))
+        else:
+            xy = np.ascontiguousarray(_values.array("points", points))
+            if xy.ndim != 2 or xy.shape[1] != 2 or len(xy) == 0:
+                raise InvalidInput(f"points=: expected an array of n x 2, got {' x '.join(map(str, xy.shape))}")
+            handle.check(handle.run("rb_api_stress_at", len(xy), doubles(xy)))
+        return Stress(solution, maxima)
 
 
 def wear(case: Union[Case, str, os.PathLike, None] = None, *, coefficient: float, slide: Optional[float] = None,
@@ -627,15 +749,15 @@ def wear(case: Union[Case, str, os.PathLike, None] = None, *, coefficient: float
 
 
 def sweep(case: Union[Case, str, os.PathLike, None] = None, workers: int = 0, progress: Progress = None,
-          derivatives: Optional[str] = None, **options: Any) -> Sweep:
+          derivatives: Any = None, **options: Any) -> Sweep:
     """Solves every combination of the options given as lists or arrays, the last fastest.
 
     ``sweep(mu=[0.1, 0.3], creep_ratio=np.linspace(0, 1.5, 31), formulation="steady", ...)``.
     With options of a crack, given or as lists, the contact of each case passes over it, and the
     results are also those of :func:`crack`.  One process per processor, or ``workers``.  ``progress(done, total)`` is called with the number of
     cases now and then: with tqdm, ``progress=lambda done, total: bar.update(done - bar.n)``.
-    ``derivatives``, as ``"tangential_load:mu,max_pressure"``: those of each case by one or all inputs, for a growing input
-    where the two sides differ; then ``derivatives["tangential_load"]["mu"]`` of the study is an array like its results.
+    ``derivatives`` as of :func:`curve`: those of each case, for a growing input where the two sides differ; then
+    ``derivatives["tangential_load"]["mu"]`` of the study is an array like its results.
     """
     workers = _values.whole("workers", workers)
     base = case if isinstance(case, Case) else Case(case)
@@ -653,10 +775,10 @@ def sweep(case: Union[Case, str, os.PathLike, None] = None, workers: int = 0, pr
                                  **{name: value for name, value in one.items() if name not in cracks}))
         words += [_values.text(name, one.get(name, options[name])) for name in cracks]
     study = Handle("sweep")
-    if cracks and derivatives:
+    if cracks and derivatives is not None:
         raise InvalidInput("sweep: derivatives: not of cracks")
-    if derivatives:
-        status = study.run("rb_api_sweep_derivatives", len(cases), handles(cases), derivatives.encode(), workers,
+    if derivatives is not None:
+        status = study.run("rb_api_sweep_derivatives", len(cases), handles(cases), _words(derivatives), workers,
                            progress=progress)
     elif cracks:
         names = texts([name.replace("_", "-") for name in cracks])

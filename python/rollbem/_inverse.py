@@ -9,7 +9,8 @@ from typing import Any, Mapping, NamedTuple, Optional, Sequence, Union
 import numpy as np
 
 from . import _program, _values
-from ._case import Array, Case, Solution, Table, _case, _Named, crack_option
+from ._case import (Array, Case, Derivatives, Solution, Table, _case, _Named, _unit, crack_option, curve,
+                    history)
 from ._library import OPTIONS, SOLVED, InvalidInput, Unsolved, lib, texts
 
 _CaseLike = Union[Case, str, os.PathLike, None]
@@ -93,33 +94,15 @@ def crack(case: _CaseLike = None, **options: Any) -> Crack:
 # ---- Derivatives --------------------------------------------------------------------------
 
 
-def _columns(root: dict) -> "dict[str, dict[str, Array]]":
-    """Derivatives that stand in columns; for a growing input where the two sides differ."""
-    def one(entry: Any) -> float:
-        sides = entry if isinstance(entry, list) else [entry]
-        return next((float(x) for x in reversed(sides) if x is not None), float("nan"))
-
-    return {result: {name: np.array([one(x) for x in rows]) for name, rows in inputs.items()}
-            for result, inputs in root["derivatives"].items()}
+def curve_derivatives(case: _CaseLike = None, results: Any = True, start: float = 0.0, stop: float = 1.5,
+                      points: int = 61, over: str = "creep-ratio", **options: Any) -> Derivatives:
+    """``curve(..., derivatives=results).derivatives``: see :func:`curve`."""
+    return curve(_case(case, options), start, stop, points, over, derivatives=results).derivatives
 
 
-def curve_derivatives(case: _CaseLike = None, results: str = "all", start: float = 0.0, stop: float = 1.5,
-                      points: int = 61, over: str = "creep-ratio", **options: Any) -> "dict[str, dict[str, Array]]":
-    """Derivatives at every point of :func:`curve`: ``d["tangential_load"]["mu"]``, an array.
-
-    ``results`` as of ``rollbem curve --derivatives``: names with commas between, ``RESULT:OPTION`` for one input.
-    """
-    words = [f"--derivatives={results}", f"--from={_text(start)}", f"--to={_text(stop)}", f"--points={points}",
-             f"--over={over}"]
-    return _columns(_ask("curve", _case(case, options), words, [], "curve")[1]["curve"])
-
-
-def history_derivatives(case: _CaseLike = None, results: str = "all", **options: Any) -> "dict[str, dict[str, Array]]":
-    """Derivatives after every step of a sequence of steps: ``d["tangential_load"]["mu"]``, an array.
-
-    ``results``: columns of the history with commas between, ``RESULT:OPTION`` for one input.
-    """
-    return _columns(_ask(f"--derivatives={results}", _case(case, options), [], [])[1]["history"])
+def history_derivatives(case: _CaseLike = None, results: Any = True, **options: Any) -> Derivatives:
+    """``history(..., derivatives=results).derivatives``: see :func:`history`."""
+    return history(None, _case(case, options), derivatives=results).derivatives
 
 
 def tolerances(solution: Union[Solution, _CaseLike] = None, *, tolerance: Any, **options: Any) -> "dict[str, float]":
@@ -128,49 +111,61 @@ def tolerances(solution: Union[Solution, _CaseLike] = None, *, tolerance: Any, *
     Of a sequence of steps: ``{}``, and those of the columns are ``tolerances`` of its ``history``.
     ``tolerance`` as of ``rollbem --tolerance``: ``"mu=0.02,radius=1%"``, or ``{"mu": 0.02, "radius": "1%"}``.
     """
+    if isinstance(tolerance, Mapping):
+        words = ",".join(f"{name.replace('_', '-')}={_values.text(f'tolerance of {name}', value)}"
+                         for name, value in tolerance.items())
+    else:
+        words = tolerance
+    text = _values.word("tolerance", words, "\"mu=0.02,radius=1%\", or a dictionary")
     if not isinstance(solution, Solution):
         solution = _case(solution, options).solve()
     handle = solution._live()
-    words = tolerance if isinstance(tolerance, str) else ",".join(
-        f"{name.replace('_', '-')}={_text(value)}" for name, value in tolerance.items())
-    status = handle.run("rb_api_tolerances", words.encode())
-    if status != SOLVED:
-        raise handle.error(status)
-    found = {name: handle.array(f"tolerance.{name}") for name in solution._numbers}
-    return {name: float(x.ravel()[0]) for name, x in found.items() if x is not None and np.isfinite(x).all()}
+    with handle.lock:
+        status = handle.run("rb_api_tolerances", text)
+        if status != SOLVED:
+            raise handle.error(status)
+        found = {name: handle.array(f"tolerance.{name}") for name in solution._numbers}
+        return {name: float(x.ravel()[0]) for name, x in found.items() if x is not None and np.isfinite(x).all()}
 
 
-def derivatives(solution: Union[Solution, _CaseLike] = None, **options: Any) -> "dict[str, dict[str, Any]]":
+def derivatives(solution: Union[Solution, _CaseLike] = None, **options: Any) -> Derivatives:
     """Derivatives of every number of a solution by every number of its case: ``d["tangential_load"]["mu"]``.
 
     A pair (left, right) where the two sides differ, NaN where there is none. Names of columns (``"p"``, ``"q"``) give an array with an
-    entry per element. In mm, N and MPa.
+    entry per element. In mm, N and MPa; ``d.units`` has the units. ``d.to_pandas()``: a row per result and option.
     """
     if not isinstance(solution, Solution):
         solution = _case(solution, options).solve()
     handle = solution._live()
-    status = handle.run("rb_api_derivatives")
-    if status != SOLVED:
-        raise handle.error(status)
-    room, inputs = handle.text_room(), []
-    while True:
-        name = lib.rb_api_input(handle.at, len(inputs), b"name", room, len(room))
-        if name is None:
-            break
-        inputs.append(name.decode())
-    found: "dict[str, dict[str, Any]]" = {}
-    for result in (*solution._numbers, *solution._arrays):
-        array = handle.array(f"derivative.{result}")
-        if array is None or np.isnan(array).all():
-            continue
-        sides = np.atleast_2d(array.reshape(-1, 2 * len(inputs)))
-        found[result] = {}
-        for k, name in enumerate(inputs):
-            left, right = sides[:, 2 * k].copy(), sides[:, 2 * k + 1].copy()
-            if result not in solution._arrays:
-                left, right = float(left[0]), float(right[0])
-            same = np.array_equal(left, right, equal_nan=True)
-            found[result][name] = left if same else (left, right)
+    with handle.lock:
+        status = handle.run("rb_api_derivatives")
+        if status != SOLVED:
+            raise handle.error(status)
+        room, inputs = handle.text_room(), []
+
+        def field(name: str) -> Optional[str]:
+            text = lib.rb_api_input(handle.at, len(inputs), name.encode(), room, len(room))
+            return None if text is None else text.decode()
+
+        while (name := field("name")) is not None:
+            inputs.append((name, field("unit")))
+        found = Derivatives()
+        for result in (*solution._numbers, *solution._arrays):
+            array = handle.array(f"derivative.{result}")
+            if array is None or np.isnan(array).all():
+                continue
+            is_column = result in solution._arrays
+            sides = np.atleast_2d(array.reshape(-1, 2 * len(inputs)))
+            for k, (name, unit) in enumerate(inputs):
+                left, right = sides[:, 2 * k].copy(), sides[:, 2 * k + 1].copy()
+                same = np.array_equal(left, right, equal_nan=True)
+                if not is_column:
+                    left, right = float(left[0]), float(right[0])
+                found._add(result, name, left if same else (left, right), _unit(result, "column" if is_column else "number", unit))
+        over_x = {result: {by: handle.array(f"derivative.{result}.{by}") for by in ("gap", "mu")}
+                  for result in ("normal_load", "tangential_load", "approach", "creepage")}
+        solution._more["over_x"] = {result: {by: array.copy() for by, array in both.items()}
+                                    for result, both in over_x.items() if both["gap"] is not None}
     return found
 
 

@@ -55,6 +55,9 @@ FUNCTIONS = {
     "rb_api_stress_maxima": (_Int, _Handle, _Double),
     "rb_api_crack": (_Int, _Handle, _Int, ctypes.POINTER(_Text), ctypes.POINTER(_Text)),
     "rb_api_derivatives": (_Int, _Handle),
+    "rb_api_curve_derivatives": (_Int, _Handle, _Text, _Double, _Double, _Int, _Text),
+    "rb_api_step_derivatives": (_Int, _Handle, _Text),
+    "rb_api_derivative": (_Text, _Handle, _Text, _Int, _Text, _Text, _Int),
     "rb_api_tolerances": (_Int, _Handle, _Text),
     "rb_api_input": (_Text, _Handle, _Int, _Text, _Text, _Int),
     "rb_api_pivots": (_Int, _Handle),
@@ -66,7 +69,6 @@ FUNCTIONS = {
     "rb_api_wear": (_Int, _Handle, _Text, _Double, _Double, _Double, _Double, _Int, _Int),
     "rb_api_sweep": (_Int, _Handle, _Int, ctypes.POINTER(_Handle), _Int),
     "rb_api_sweep_derivatives": (_Int, _Handle, _Int, ctypes.POINTER(_Handle), _Text, _Int),
-    "rb_api_sweep_derivative": (_Text, _Handle, _Int, _Text, _Int),
     "rb_api_sweep_cracks": (_Int, _Handle, _Int, ctypes.POINTER(_Handle), _Int, ctypes.POINTER(_Text),
                             ctypes.POINTER(_Text), _Int),
 }
@@ -228,11 +230,21 @@ def in_keywords(text: str) -> str:
 # ---- Handles ------------------------------------------------------------------------------
 
 
+class Slope(NamedTuple):
+    """An array of derivatives in columns: its name, and what it is of."""
+
+    name: str
+    result: str
+    input: str
+    unit: str  # of the input
+
+
 class _Answers:
     """What the tables of results name, read from what answers to a single name."""
 
     number: Callable[[str], float]
     array: "Callable[[str], Optional[NDArray[np.float64]]]"
+    slopes: "Callable[[str], list[Slope]]"
 
     def numbers(self, table: str, prefix: str = "") -> dict:
         """The numbers of a table by name, whole ones as int; NaN where there is none."""
@@ -256,7 +268,8 @@ _NUMBERS = ([prefix + name for prefix in ("", "error.") for name in RESULTS["num
             + ["carter", "radius", "modulus", "hertz_load", "history.half_width"])
 _WORDS = ("status", "formulation", "solver", "lcp-form")
 _ARRAYS = (list(RESULTS["column"]) + [f"patch.{name}" for name in RESULTS["patch"]]
-           + [prefix + name for prefix in ("history.", "history.error.") for name in RESULTS["step"]]
+           + [prefix + name for prefix in ("history.", "history.error.", "history.tolerance.")
+              for name in RESULTS["step"]]
            + ["step.x", "step.p", "step.q", "step.zone", "friction_power", "ends", "gap0"])
 
 
@@ -273,6 +286,7 @@ class Handle(_Answers):
 
     def __init__(self, purpose: str) -> None:
         self.purpose = purpose
+        self.lock = threading.RLock()  # around a call and the reading of what it has made
         self.at = lib.rb_api_create_for(purpose.encode())
         if not self.at:
             raise OutOfMemory("out of memory")
@@ -288,11 +302,13 @@ class Handle(_Answers):
         return self
 
     def __reduce__(self) -> tuple:
-        arrays = {name: self.array(name) for name in _ARRAYS}
+        slopes = {"history": self.slopes("history")}
+        arrays = {name: self.array(name)
+                  for name in [*_ARRAYS, *(f"history.derivative.{slope.name}" for slope in slopes["history"])]}
         return Kept, (self.purpose, {name: self.number(name) for name in _NUMBERS},
                       {name: self.word(name) for name in _WORDS}, self.notes(),
                       {option.name: self.value(option.name) for option in OPTIONS.values()},
-                      {name: array for name, array in arrays.items() if array is not None})
+                      {name: array for name, array in arrays.items() if array is not None}, slopes)
 
     @property
     def message(self) -> str:
@@ -331,7 +347,10 @@ class Handle(_Answers):
         """
         if progress is not None and not callable(progress):
             raise InvalidInput(f"progress=: expected a function of done and total, got {progress!r}")
-        call = getattr(lib, function)
+        with self.lock:
+            return self._run(getattr(lib, function), arguments, progress)
+
+    def _run(self, call: Any, arguments: tuple, progress: Progress) -> int:
         if progress is None and threading.current_thread() is not threading.main_thread():
             return call(self.at, *arguments)
         status: list = []
@@ -376,6 +395,10 @@ class Handle(_Answers):
             found.append(in_keywords(text.decode()))
         return found
 
+    def slopes(self, of: str) -> "list[Slope]":
+        """The derivatives in columns of a "curve", of "history" or of a "sweep"."""
+        return _rows(Slope, lib.rb_api_derivative, self.at, of.encode())
+
     def value(self, name: str) -> str:
         room = ctypes.create_string_buffer(4096)
         return lib.rb_api_value(self.at, name.encode(), room, len(room)).decode()
@@ -387,7 +410,8 @@ class Handle(_Answers):
         is to be copied.
         """
         rows, columns = ctypes.c_int(), ctypes.c_int()
-        at = lib.rb_api_array(self.at, name.encode(), rows, columns)
+        with self.lock:
+            at = lib.rb_api_array(self.at, name.encode(), rows, columns)
         if not at:
             return None
         memory = (ctypes.c_double * (rows.value * columns.value)).from_address(at)
@@ -400,9 +424,10 @@ class Handle(_Answers):
 class Kept(_Answers):
     """What a handle answered, without the library: of a result that was pickled."""
 
-    def __init__(self, purpose: str, numbers: dict, words: dict, notes: list, values: dict, arrays: dict) -> None:
-        self.purpose, self._all = purpose, (numbers, words, notes, values, arrays)
-        self._numbers, self._words, self._notes, self._values, self._arrays = self._all
+    def __init__(self, purpose: str, numbers: dict, words: dict, notes: list, values: dict, arrays: dict,
+                 slopes: dict) -> None:
+        self.purpose, self._all = purpose, (numbers, words, notes, values, arrays, slopes)
+        self._numbers, self._words, self._notes, self._values, self._arrays, self._slopes = self._all
         for array in arrays.values():
             array.flags.writeable = False
 
@@ -417,6 +442,9 @@ class Kept(_Answers):
 
     def notes(self) -> list:
         return list(self._notes)
+
+    def slopes(self, of: str) -> "list[Slope]":
+        return list(self._slopes.get(of, []))
 
     def value(self, name: str) -> str:
         return self._values[name]

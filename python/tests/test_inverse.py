@@ -1,5 +1,9 @@
 """Cracks, derivatives, fits and designs answer as the program does."""
 
+import copy
+import pickle
+import threading
+
 import numpy as np
 import pytest
 from conftest import run_json
@@ -67,6 +71,132 @@ def test_derivatives_in_columns():
     assert steps["tangential_load"]["mu"] == pytest.approx((high - low) / 2e-4, rel=1e-4, abs=1e-6)
     with pytest.raises(rollbem.InvalidInput, match="expected a result that has derivatives"):
         rollbem.curve_derivatives(**PLANES, results="nonsense")
+
+
+SMALL = {**PLANES, "contact_elements": 30}
+ROLLED = {**SMALL, "formulation": "transient", "distance": 1, "creep": 1e-3}
+
+
+def assert_as_printed(derivatives, printed, size):
+    """As the program prints them: a number, or [left, right] of both sides."""
+    assert set(derivatives) == set(printed)
+    for result, inputs in printed.items():
+        assert list(derivatives[result]) == list(inputs)
+        for name, rows in inputs.items():
+            both = np.array([row if isinstance(row, list) else [row, row] for row in rows], dtype=float)
+            found = derivatives.sides[result][name] if derivatives.sides else derivatives[result][name]
+            one = np.where(np.isnan(both[:, 1]), both[:, 0], both[:, 1])
+            assert found == pytest.approx(both if found.ndim == 2 else one, rel=1e-7, abs=1e-9, nan_ok=True)
+            assert derivatives[result][name] == pytest.approx(one, rel=1e-7, abs=1e-9, nan_ok=True)
+            assert len(derivatives[result][name]) == size
+
+
+def test_columns_are_those_of_the_program():
+    c = rollbem.curve(**SMALL, points=4, derivatives=True)
+    assert_as_printed(c.derivatives, run_json("curve", **SMALL, points=4, derivatives="all")["curve"]["derivatives"], 4)
+    assert (np.isnan(c.derivatives.sides["tangential_load"]["interlayer-tangential"]) == [True, False]).all()
+    h = rollbem.history(**ROLLED, derivatives=["tangential_load", "all:load"])
+    assert_as_printed(h.derivatives, run_json(**ROLLED, derivatives="tangential_load,all:load")["history"]["derivatives"],
+                      len(h.distance))
+    # numbers are in mm, N and MPa, whatever units the options have
+    si = dict(support="halfplane", similar=True, load=500e3, units="si", contact_elements=30, radius=0.05, young=2.1e11)
+    mm = {**SMALL, "radius": 50, "young": 2.1e5}
+    by = [rollbem.curve(**case, points=3, derivatives="tangential_load:radius").derivatives for case in (mm, si)]
+    assert by[1]["tangential_load"]["radius"] == pytest.approx(by[0]["tangential_load"]["radius"], rel=1e-9)
+    assert by[1].units["tangential_load"]["radius"] == "(N/mm)/mm"
+    for several in rollbem.curve(**SMALL, mu=[0.2, 0.3], points=3, derivatives="tangential_load:mu"):
+        assert several.derivatives["tangential_load"]["mu"].shape == (3,)
+    over = rollbem.curve(start=10, stop=1000, points=3, over="speed", creep=1e-3, relaxation_time=1e-3, relaxation_ratio=1,
+                         derivatives="resistance_moment:creep", **SMALL)
+    assert len(over.derivatives["resistance_moment"]["creep"]) == 3
+
+
+def test_columns_as_pandas_has_them():
+    pandas = pytest.importorskip("pandas")
+    c = rollbem.curve(**SMALL, points=4, derivatives="tangential_load:creep_ratio,max_pressure:radius")
+    frame = c.to_pandas()
+    assert (frame["d_tangential_load_by_creep_ratio"] == c.derivatives["tangential_load"]["creep_ratio"]).all()
+    assert frame.attrs["units"]["d_max_pressure_by_radius"] == "MPa/mm"
+    h = rollbem.history(**ROLLED, derivatives="tangential_load:mu", tolerance={"mu": 0.02}).to_pandas()
+    assert h["deviation_tangential_load"].values == pytest.approx(0.02 * abs(h["d_tangential_load_by_mu"].values))
+    study = rollbem.sweep(**SMALL, mu=[0.2, 0.3], workers=1, derivatives="max_pressure:load").to_pandas()
+    assert study["d_max_pressure_by_load"].values == pytest.approx(study["max_pressure"].values / 1000, rel=1e-3)
+    table = rollbem.solve(**STEADY).derivatives.to_pandas()
+    assert isinstance(table, pandas.DataFrame) and set(table["result"]) > {"tangential_load", "max_pressure"}
+    row = table[(table["result"] == "tangential_load") & (table["input"] == "interlayer-tangential")].iloc[0]
+    assert np.isnan(row["left"]) and row["right"] > 0 and row["unit"] == "(N/mm)/(mm/MPa)"
+    table = table[(table["result"] == "normal_load") & (table["input"] == "load")].iloc[0]
+    assert table["left"] == table["right"] == pytest.approx(1) and table["unit"] == "1"
+
+
+def test_derivatives_over_x():
+    s = rollbem.solve(**STEADY)
+    printed = run_json(**STEADY, derivatives="tangential_load")["derivatives_over_x"]
+    for result, both in printed.items():
+        for by, values in both.items():
+            assert s.derivatives_over_x[result][by] == pytest.approx(np.array(values), rel=1e-6, abs=1e-6)
+    stays = rollbem.solve(**PLANES, formulation="steady", creep=2e-3, mesh="uniform", zone=1.2)
+    total = stays.derivatives_over_x["tangential_load"]["mu"].sum()  # mu of every element is mu of the case
+    assert total == pytest.approx(stays.derivatives["tangential_load"]["mu"], rel=1e-8) and total < -10
+    assert rollbem.solve(**STEADY, mu_fall=0.1, slip_scale=50.0, speed=1000.0, friction_law="exponential").derivatives_over_x == {}
+
+
+def test_derivatives_are_copied_and_kept():
+    c = rollbem.curve(**SMALL, points=3, derivatives="tangential_load")
+    h = rollbem.history(**ROLLED, derivatives="tangential_load", tolerance={"mu": 0.02})
+    for again in (copy.deepcopy, lambda x: pickle.loads(pickle.dumps(x))):
+        for one, other in ((c.derivatives, again(c).derivatives), (h.derivatives, again(h).derivatives),
+                           (h.derivatives, again(h.solution).history.derivatives),
+                           (h.tolerances, again(h.solution).history.tolerances)):
+            assert list(one) == list(other) and getattr(one, "units", 0) == getattr(other, "units", 0)
+            for result in one:
+                inputs = one[result] if isinstance(one[result], dict) else {"": one[result]}
+                others = other[result] if isinstance(one[result], dict) else {"": other[result]}
+                assert all(np.array_equal(inputs[name], others[name]) for name in inputs)
+        assert again(c.derivatives)["tangential_load"]["creep_ratio"] is not None
+    before = h.tolerances["tangential_load"].copy()  # the next call computes in the same place
+    rollbem.tolerances(h.solution, tolerance="mu=0.04")
+    assert np.array_equal(h.tolerances["tangential_load"], before)
+    with pytest.raises(KeyError):
+        c.derivatives["tangential_load"]["creep"]
+
+
+def test_derivatives_in_threads():
+    s = rollbem.solve(**STEADY)
+    want, wrong = rollbem.derivatives(s)["tangential_load"]["mu"], []
+
+    def work():
+        try:
+            for _ in range(10):
+                slope = rollbem.derivatives(s)["tangential_load"]["mu"]
+                deviation = rollbem.tolerances(s, tolerance="mu=1")["tangential_load"]
+                if slope != want or deviation != pytest.approx(abs(want)) or rollbem.stress(s, (4, 4)).sxx.shape != (4, 4):
+                    wrong.append(slope)
+        except Exception as error:
+            wrong.append(error)
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert wrong == []
+
+
+@pytest.mark.parametrize("wrong, said", [
+    ("", "expected a name"), (3, "expected True, or RESULT"), ([], "expected True"), (False, "expected True"),
+    ("all:zone", "'zone' is not a number of this case"), ("max_presure", "did you mean"), ("a\0b", "expected names"),
+    ("max_pressure:load:mu", "not a number of this case"), ("x" * 3000, "expected a result that has derivatives")])
+def test_what_has_no_derivatives_is_refused(wrong, said):
+    for call in (lambda: rollbem.curve(**SMALL, points=3, derivatives=wrong),
+                 lambda: rollbem.history(**ROLLED, derivatives=wrong),
+                 lambda: rollbem.sweep(**SMALL, mu=[0.1, 0.2], workers=1, derivatives=wrong)):
+        with pytest.raises(rollbem.InvalidInput, match=said):
+            call()
+    for call in (lambda: rollbem.curve(**SMALL, points=3, error=True, derivatives="max_pressure"),
+                 lambda: rollbem.history(**ROLLED, error=True, derivatives="max_pressure")):
+        with pytest.raises(rollbem.InvalidInput, match="not together with error bars"):
+            call()
 
 
 def test_derivatives_of_studies():

@@ -15,8 +15,8 @@
 api_array *rb_api_find_array(rb_api *a, const char *name)
 {
     for (int k = 0; k < a->arrays; k++)
-        if (strcmp(a->made[k].name, name) == 0)
-            return &a->made[k];
+        if (strcmp(a->made[k]->name, name) == 0)
+            return a->made[k];
     return NULL;
 }
 
@@ -24,28 +24,33 @@ void rb_api_forget_arrays(rb_api *a, const char *beginning)
 {
     int kept = 0;
     for (int k = 0; k < a->arrays; k++)
-        if (strncmp(a->made[k].name, beginning, strlen(beginning)) == 0)
-            free(a->made[k].at);
-        else
+        if (strncmp(a->made[k]->name, beginning, strlen(beginning)) == 0) {
+            free(a->made[k]->at);
+            free(a->made[k]);
+        } else
             a->made[kept++] = a->made[k];
     a->arrays = kept;
+    if (kept == 0) {
+        free(a->made);
+        a->made = NULL;
+    }
 }
 
 /* A new array of zeros.  NULL: no memory. */
 api_array *rb_api_make_array(rb_api *a, const char *name, int rows, int columns)
 {
-    if (a->arrays == API_ARRAYS)
+    api_array **more = realloc(a->made, ((size_t)a->arrays + 1) * sizeof *more);
+    api_array *made = more ? calloc(1, sizeof *made) : NULL;
+    a->made = more ? more : a->made;
+    if (!made || !(made->at = rb_alloc((size_t)rows, (size_t)columns))) {
+        free(made);
         return NULL;
-    api_array *made = &a->made[a->arrays];
+    }
     snprintf(made->name, sizeof made->name, "%s", name);
     made->rows = rows;
     made->columns = columns;
-    made->at = rb_alloc((size_t)rows, (size_t)columns);
-    if (!made->at)
-        return NULL;
     memset(made->at, 0, sizeof(double) * (size_t)rows * (size_t)columns);
-    a->arrays++;
-    return made;
+    return a->made[a->arrays++] = made;
 }
 
 api_array *rb_api_copy_array(rb_api *a, const char *name, int rows, int columns, const double *x)
@@ -120,6 +125,8 @@ static void forget(rb_api *a, int same_bodies)
     rb_rolling_curve_free(&a->curve_errors);
     rb_contact_lcp_free(&a->lcp);
     rb_case_derivatives_free(&a->derivatives);
+    for (int of = 0; of < API_SLOPES_N; of++)
+        rb_case_slopes_free(&a->slopes[of]);
     rb_rolling_states_free(&a->states);
     a->has_deviation = 0;
     rb_rolling_wear_history_free(&a->wear);
@@ -146,8 +153,10 @@ rb_api *rb_api_create_for(const char *purpose)
         free(a);
         a = NULL;
     }
-    if (a)
-        rb_case_use_cone_solvers(a->words, rb_friction_cone_solver);
+    if (!a)
+        return NULL;
+    a->is_curve = strcmp(purpose, "curve") == 0;
+    rb_case_use_cone_solvers(a->words, rb_friction_cone_solver);
     return a;
 }
 
@@ -418,11 +427,13 @@ const char *rb_api_word(const rb_api *a, const char *name)
 const char *rb_api_note(const rb_api *a, int k, char *text, int size)
 {
     const rb_rolling_solution *s = &a->result.solution;
-    if (k == 0 && a->note.text[0]) {
+    const int own = a->note.text[0] != '\0'; /* on the last call */
+    if (k == 0 && own) {
         snprintf(text, (size_t)size, "%s", a->note.text);
         return text;
     }
-    if (s->n == 0 || k < 0 || a->note.text[0])
+    k -= own;
+    if (s->n == 0 || k < 0)
         return NULL;
     const rb_rolling_note_list list = rb_rolling_find_notes(&rb_case_resolved(a->words)->rc, s);
     if (k >= list.n)
@@ -596,6 +607,74 @@ static api_array *derivative_array(rb_api *a, const char *name, const char *resu
     return made;
 }
 
+/* ---- Derivatives in columns -------------------------------------------------------- */
+
+static const char *const slopes_of[API_SLOPES_N] = {
+    [API_SLOPES_CURVE] = "curve", [API_SLOPES_HISTORY] = "history", [API_SLOPES_SWEEP] = "sweep"};
+
+void rb_api_forget_slopes(rb_api *a, api_slopes of)
+{
+    char beginning[40];
+
+    snprintf(beginning, sizeof beginning, "%s.derivative.", slopes_of[of]);
+    rb_api_forget_arrays(a, beginning);
+    rb_case_slopes_free(&a->slopes[of]);
+}
+
+/* "tangential_load:mu". */
+static const char *slope_name(const rb_case_slope *of, char text[100])
+{
+    snprintf(text, 100, "%s:%s", of->result->name, of->input);
+    return text;
+}
+
+const char *rb_api_derivative(const rb_api *a, const char *of, int k, const char *field, char *text,
+                              int size)
+{
+    char name[100];
+    int j = 0;
+
+    while (j < API_SLOPES_N && strcmp(of, slopes_of[j]) != 0)
+        j++;
+    if (j == API_SLOPES_N || k < 0 || k >= a->slopes[j].n || size < 1)
+        return NULL;
+    const rb_case_slope *slope = &a->slopes[j].of[k];
+    const char *what = strcmp(field, "name") == 0     ? slope_name(slope, name)
+                       : strcmp(field, "result") == 0 ? slope->result->name
+                       : strcmp(field, "input") == 0  ? slope->input
+                       : strcmp(field, "unit") == 0   ? slope->unit
+                                                      : NULL;
+    return what ? written(what, text, size) : NULL;
+}
+
+/* Both sides of each point of a curve; otherwise the one number of each row. */
+static api_array *slope_array(rb_api *a, const char *name)
+{
+    static const char derivative_[] = ".derivative.";
+
+    for (int of = 0; of < API_SLOPES_N; of++) {
+        const rb_case_slopes *s = &a->slopes[of];
+        const size_t n = strlen(slopes_of[of]), m = sizeof derivative_ - 1;
+        const int sides = of == API_SLOPES_CURVE ? 2 : 1;
+        char text[100];
+        int k = 0;
+        if (s->rows == 0 || strncmp(name, slopes_of[of], n) != 0 ||
+            strncmp(name + n, derivative_, m) != 0)
+            continue;
+        while (k < s->n && strcmp(name + n + m, slope_name(&s->of[k], text)) != 0)
+            k++;
+        api_array *made = k < s->n ? rb_api_make_array(a, name, s->rows, sides) : NULL;
+        for (int row = 0; made && row < s->rows; row++) {
+            const double *both = s->value + 2 * ((size_t)row * (size_t)s->n + (size_t)k);
+            made->at[row] = sides == 2 ? both[0] : rb_case_slope_value(s, row, k);
+            if (sides == 2)
+                made->at[s->rows + row] = both[1];
+        }
+        return made;
+    }
+    return NULL;
+}
+
 static api_array *tolerance_array(rb_api *a, const char *name, const char *result)
 {
     for (int k = 0; k < rb_rolling_solution_scalars.n && a->has_deviation; k++) {
@@ -610,6 +689,8 @@ static api_array *tolerance_array(rb_api *a, const char *name, const char *resul
 const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
 {
     api_array *made = rb_api_find_array(a, name);
+    if (!made)
+        made = slope_array(a, name);
     if (!made)
         made = series_array(a, name);
     if (!made && strncmp(name, "patch.", 6) == 0) {
@@ -649,32 +730,63 @@ static rb_status count_point(const rb_rolling_model *model, int k, void *context
     return a->stopped ? rb_fail(why, RB_INTERRUPTED, "interrupted") : RB_OK;
 }
 
-int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points)
+static int curve(rb_api *a, const char *over, double from, double to, int points,
+                 const char *derivatives)
 {
     const rb_resolved_case *c = rb_case_resolved(a->words);
     const rb_choice *variable = rb_case_curve_variables;
     while (variable->name && strcmp(variable->name, over) != 0)
         variable++;
     begin(a);
+    a->note.text[0] = '\0';
+    rb_api_forget_slopes(a, API_SLOPES_CURVE);
     rb_api_forget_arrays(a, "curve.");
     rb_rolling_curve_free(&a->curve);
     rb_rolling_curve_free(&a->curve_errors);
     const rb_rolling_range range = {(rb_rolling_variable)variable->value, from, to, points};
     rb_api_call_begins();
     rb_status s = check_refusals(a, &a->why);
+    if (a->is_curve) /* they differ in the options that they refuse */
+        rb_case_set_purpose(a->words, range.over == RB_OVER_SPEED ? RB_CASE_SPEEDS : RB_CASE_CURVE);
+    if (s == RB_OK)
+        s = rb_case_resolve(a->words, &a->why);
     a->total = (c->error ? 1 + rb_rolling_error_runs(&c->rc) : 1) *
                (range.over != RB_OVER_SPEED && rb_rolling_law_depends_on_state(&c->rc) ? 2 * points
                                                                                        : points);
+    rb_case_slopes *slopes = &a->slopes[API_SLOPES_CURVE];
+    if (s == RB_OK && !variable->name)
+        s = rb_fail(&a->why, RB_EINVAL,
+                    "--over: expected creep-ratio, creep or speed, got '%.100s'", over);
+    if (s == RB_OK && derivatives && c->error)
+        s = rb_fail(&a->why, RB_EINVAL, "--derivatives: not together with error bars");
+    if (s == RB_OK && derivatives && c->rc.formulation != RB_STEADY)
+        s = rb_fail(&a->why, RB_EINVAL,
+                    "derivatives of a curve: those of a steady case; give --formulation steady");
+    if (s == RB_OK && derivatives)
+        s = rb_case_curve_choose(a->words, &range, derivatives, slopes, &a->why);
     if (s == RB_OK)
-        s = !variable->name
-                ? rb_fail(&a->why, RB_EINVAL,
-                          "--over: expected creep-ratio, creep or speed, got '%.100s'", over)
+        s = derivatives ? rb_case_curve_solve(a->words, &range, c->rc.mu, count_point, a, &a->curve,
+                                              slopes, &a->why)
             : c->error
                 ? rb_rolling_curve_with_errors(&c->rc, &range, count_point, a, &a->curve,
                                                &a->curve_errors, &a->why)
                 : rb_rolling_curve_observe(&c->rc, &range, count_point, a, &a->curve, &a->why);
     rb_api_call_ends();
+    rb_case_slopes_note(slopes, &a->note);
+    if (s != RB_OK)
+        rb_api_forget_slopes(a, API_SLOPES_CURVE);
     return rb_api_ended(a, s != RB_OK ? rb_case_locate(a->words, s, &a->why) : s);
+}
+
+int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points)
+{
+    return curve(a, over, from, to, points, NULL);
+}
+
+int rb_api_curve_derivatives(rb_api *a, const char *over, double from, double to, int points,
+                             const char *derivatives)
+{
+    return curve(a, over, from, to, points, derivatives);
 }
 
 int rb_api_curve(rb_api *a, double from, double to, int points)
@@ -958,10 +1070,47 @@ int rb_api_derivatives(rb_api *a)
     return rb_api_ended(a, s);
 }
 
+/* What the derivatives of steps are computed from. */
+static rb_status states_of_steps(rb_api *a)
+{
+    const rb_resolved_case *c = rb_case_resolved(a->words);
+    const rb_rolling_history *h = &a->result.history;
+
+    a->states.program = c->program.n > 0 ? &c->program : NULL;
+    a->states.half_width = h->half_width;
+    return h->n == 0
+               ? rb_fail(&a->why, RB_EINVAL, "derivatives of steps: of a solved case with steps")
+           : c->error
+               ? rb_fail(&a->why, RB_EINVAL, "derivatives of steps: not together with error bars")
+           : a->states.steps != h->n
+               ? rb_fail(&a->why, RB_EINVAL, "derivatives of steps: not all steps were solved")
+               : RB_OK;
+}
+
+int rb_api_step_derivatives(rb_api *a, const char *derivatives)
+{
+    rb_case_slopes *s = &a->slopes[API_SLOPES_HISTORY];
+
+    begin(a);
+    a->note.text[0] = '\0';
+    rb_api_forget_slopes(a, API_SLOPES_HISTORY);
+    rb_status status = states_of_steps(a);
+    rb_api_call_begins();
+    if (status == RB_OK)
+        status = rb_case_slopes_choose(a->words, &rb_rolling_history_columns, derivatives,
+                                       RB_CASE_SLOPES_MAX, s, &a->why);
+    if (status == RB_OK)
+        status = rb_case_slopes_of_steps(a->words, &a->states, s, &a->why);
+    rb_api_call_ends();
+    rb_case_slopes_note(s, &a->note);
+    if (status != RB_OK)
+        rb_api_forget_slopes(a, API_SLOPES_HISTORY);
+    return rb_api_ended(a, status);
+}
+
 /* Of every step. */
 static rb_status step_tolerances(rb_api *a, const char *inputs)
 {
-    const rb_resolved_case *c = rb_case_resolved(a->words);
     rb_rolling_history *h = &a->result.history;
     rb_case_tolerances t;
 
@@ -971,12 +1120,10 @@ static rb_status step_tolerances(rb_api *a, const char *inputs)
         rb_rolling_history_free(h->deviations);
     free(h->deviations);
     h->deviations = NULL;
-    a->states.program = c->program.n > 0 ? &c->program : NULL;
-    a->states.half_width = h->half_width;
+    rb_status s = states_of_steps(a);
     rb_api_call_begins();
-    rb_status s = a->states.steps == h->n
-                      ? rb_case_read_tolerances(a->words, inputs, &t, &a->why)
-                      : rb_fail(&a->why, RB_EINVAL, "tolerances: not all steps were solved");
+    if (s == RB_OK)
+        s = rb_case_read_tolerances(a->words, inputs, &t, &a->why);
     if (s == RB_OK)
         s = rb_case_propagate_steps(a->words, &t, &a->states, h, &a->why);
     rb_api_call_ends();

@@ -12,7 +12,8 @@ typedef struct {
     double *at; /* owned */
 } api_array;
 
-enum { API_ARRAYS = 256 }; /* more than all tables have names */
+/* What has derivatives in columns, by the beginning of their names. */
+typedef enum { API_SLOPES_CURVE, API_SLOPES_HISTORY, API_SLOPES_SWEEP, API_SLOPES_N } api_slopes;
 
 /* An option, or a case file, that was refused and has not been set since. */
 typedef struct {
@@ -30,10 +31,12 @@ rb_status rb_api_set_crack(rb_api *a, int n, const char *const *names, const cha
 
 struct rb_api {
     rb_case *words;
+    int is_curve; /* its purpose: a curve, over the creepage or the speed */
     rb_case_result result;
     rb_rolling_model kept; /* of the last case, where only what drives it has changed */
     rb_rolling_curve curve, curve_errors; /* curve_errors.n = 0: not asked for */
     rb_case_derivatives derivatives;      /* n = 0: not asked for */
+    rb_case_slopes slopes[API_SLOPES_N];  /* n = 0: not asked for */
     rb_rolling_states states;             /* of all steps; n = 0: a case without */
     rb_rolling_solution deviation;        /* after rb_api_tolerances, has_deviation */
     int has_deviation;
@@ -53,7 +56,7 @@ struct rb_api {
     rb_message why;
     api_refusal refused[API_REFUSALS];
     int refusals;
-    api_array made[API_ARRAYS];
+    api_array **made; /* arrays; owned, as each of them */
     int arrays;
 };
 
@@ -64,6 +67,8 @@ api_array *rb_api_make_array(rb_api *a, const char *name, int rows, int columns)
 /* NULL also where x is. */
 api_array *rb_api_copy_array(rb_api *a, const char *name, int rows, int columns, const double *x);
 void rb_api_forget_arrays(rb_api *a, const char *beginning);
+/* Forgets the derivatives of this kind, with their arrays. */
+void rb_api_forget_slopes(rb_api *a, api_slopes of);
 /* Keeps the status of a call, with a line that says it where the call has left none. */
 int rb_api_ended(rb_api *a, rb_status s);
 

@@ -153,9 +153,9 @@ int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double
 typedef struct {
     rb_api *a;
     rb_api *const *cases;
-    rb_case_crack *crack;  /* of each case; NULL: there is none; owned */
-    rb_case_slopes slopes; /* derivatives of each case; n = 0: none */
-    int now;               /* the case that this process solves */
+    rb_case_crack *crack;   /* of each case; NULL: there is none; owned */
+    rb_case_slopes *slopes; /* derivatives of each case, of the handle; n = 0: none */
+    int now;                /* the case that this process solves */
 } study;
 
 static rb_status make_case(int k, rb_rolling_case *rc, void *context)
@@ -177,14 +177,7 @@ static rb_status measure_slopes(const rb_rolling_model *model, double *own, void
                                 rb_message *why)
 {
     const study *st = context;
-    return rb_case_slopes_row(st->cases[st->now]->words, model, &st->slopes, own, why);
-}
-
-/* "derivative.tangential_load:mu". */
-static const char *slope_name(const rb_case_slope *of, char text[100])
-{
-    snprintf(text, 100, "derivative.%s:%s", of->result->name, of->input);
-    return text;
+    return rb_case_slopes_row(st->cases[st->now]->words, model, st->slopes, own, why);
 }
 
 static api_array *column_of(rb_api *a, const char *name)
@@ -204,9 +197,9 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
 {
     const study *st = context;
     const rb_rolling_results *table = &rb_rolling_solution_scalars;
-    char text[100];
-    for (int j = 0; j < st->slopes.n; j++)
-        column_of(st->a, slope_name(&st->slopes.of[j], text))->at[k] = row->own[j];
+    for (int j = 0; j < st->slopes->n; j++)
+        for (int side = 0; side < 2; side++)
+            st->slopes->value[2 * (k * st->slopes->n + j) + side] = row->own[j];
     column_of(st->a, "status")->at[k] = row->solution.status;
     for (int j = 0; j < table->n; j++)
         column_of(st->a, table->row[j].name)->at[k] =
@@ -230,7 +223,8 @@ static int tick(int seen, void *context)
 static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,
                  const char *const *values, const char *slopes, int workers)
 {
-    study st = {.a = a, .cases = cases};
+    rb_case_slopes *own = &a->slopes[API_SLOPES_SWEEP];
+    study st = {.a = a, .cases = cases, .slopes = own};
     rb_rolling_sweep of_cases = {.count = n,
                                  .workers = workers,
                                  .make = make_case,
@@ -240,6 +234,7 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
                                  .context = &st};
     rb_status s = RB_OK;
     begin(a, "sweep.", NULL);
+    rb_api_forget_slopes(a, API_SLOPES_SWEEP);
     if (names && n > 0) {
         st.crack = calloc((size_t)n, sizeof *st.crack);
         s = st.crack ? RB_OK : RB_ENOMEM;
@@ -267,13 +262,15 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
         }
     if (s == RB_OK && slopes && n > 0) {
         s = rb_case_slopes_choose(cases[0]->words, &rb_rolling_solution_scalars, slopes, RB_ROW_OWN,
-                                  &st.slopes, &a->why);
+                                  own, &a->why);
+        if (s == RB_OK)
+            s = rb_case_slopes_alloc(n, own);
         of_cases.measure = measure_slopes;
     }
     if (s == RB_OK && n > 0) {
         const int cracks = names != NULL;
         const rb_rolling_results *tables[] = {&rb_rolling_solution_scalars, &rb_case_crack_scalars};
-        char text[120], name[100];
+        char text[120];
         api_array *made = rb_api_make_array(a, "sweep.status", n, 1);
         for (int t = 0; t <= cracks; t++)
             for (int j = 0; made && j < tables[t]->n; j++) {
@@ -282,10 +279,6 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
                 snprintf(text, sizeof text, "sweep.%s", tables[t]->row[j].name);
                 made = rb_api_make_array(a, text, n, 1);
             }
-        for (int j = 0; made && j < st.slopes.n; j++) {
-            snprintf(text, sizeof text, "sweep.%s", slope_name(&st.slopes.of[j], name));
-            made = rb_api_make_array(a, text, n, 1);
-        }
         s = made ? RB_OK : RB_ENOMEM;
     }
     a->total = n;
@@ -295,7 +288,8 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
         rb_api_call_ends();
     }
     free(st.crack);
-    rb_case_slopes_free(&st.slopes);
+    if (s != RB_OK)
+        rb_api_forget_slopes(a, API_SLOPES_SWEEP);
     return rb_api_ended(a, s);
 }
 
@@ -308,18 +302,6 @@ int rb_api_sweep_derivatives(rb_api *a, int n, rb_api *const *cases, const char 
                              int workers)
 {
     return sweep(a, n, cases, 0, NULL, NULL, derivatives, workers);
-}
-
-const char *rb_api_sweep_derivative(const rb_api *a, int k, char *text, int size)
-{
-    static const char beginning[] = "sweep.derivative.";
-
-    for (int i = 0; i < a->arrays && size > 0; i++)
-        if (strncmp(a->made[i].name, beginning, sizeof beginning - 1) == 0 && k-- == 0) {
-            snprintf(text, (size_t)size, "%s", a->made[i].name + sizeof beginning - 1);
-            return text;
-        }
-    return NULL;
 }
 
 int rb_api_sweep_cracks(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,

@@ -271,6 +271,21 @@ const rb_rolling_result *rb_case_derivative_result(const char *name, int *is_col
     return r && rb_sensitivity_has(r) ? r : NULL;
 }
 
+rb_status rb_case_refuse_result(const char *name, const rb_rolling_results *table, const char *more,
+                                rb_message *why)
+{
+    rb_guess guess = {.word = name};
+
+    if (more)
+        rb_guess_try(&guess, more);
+    for (int k = 0; k < table->n; k++)
+        if (rb_sensitivity_has(&table->row[k]))
+            rb_guess_try(&guess, table->row[k].name);
+    return rb_fail(why, RB_EINVAL, "expected a result that has derivatives%s, got '%.60s'%s",
+                   table == &rb_rolling_history_columns ? " step by step" : "", name,
+                   rb_guess_text(&guess, ""));
+}
+
 /* "0.02", "1%", "0.5mm" of the number; RB_EINVAL. */
 static rb_status read_deviation(const rb_case_number *number, const char *text, double *deviation,
                                 rb_message *why)
@@ -311,6 +326,8 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_to
     t->n = 0;
     if (s == RB_OK)
         s = rb_case_numbers(c, number, &numbers, why);
+    if (s == RB_OK && !*text)
+        s = rb_fail(why, RB_EINVAL, "expected a name, got ''");
     for (size_t n; s == RB_OK && *text; text += n + (text[n] == ',')) {
         char word[100];
         n = strcspn(text, ",");

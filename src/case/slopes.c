@@ -38,16 +38,8 @@ static rb_status add_word(const rb_resolved_case *c, rb_case_slopes *s, char *wo
         *input++ = '\0';
     const int all = strcmp(word, "all") == 0, mu_varies = c->program.mu != NULL;
     const rb_rolling_result *only = rb_rolling_find_result(s->table, word);
-    if (!all && !(only && rb_sensitivity_has(only))) {
-        rb_guess guess = {.word = word};
-
-        for (int k = 0; k < s->table->n; k++)
-            if (rb_sensitivity_has(&s->table->row[k]))
-                rb_guess_try(&guess, s->table->row[k].name);
-        return rb_fail(why, RB_EINVAL, "expected a result that has derivatives%s, got '%s'%s",
-                       s->table == &rb_rolling_history_columns ? " step by step" : "", word,
-                       rb_guess_text(&guess, ""));
-    }
+    if (!all && !(only && rb_sensitivity_has(only)))
+        return rb_case_refuse_result(word, s->table, NULL, why);
     if (!all && !rb_rolling_has_result(only, &c->rc, mu_varies))
         return rb_fail(why, RB_EINVAL, "this case has no %s", word);
     for (int r = 0; r < s->table->n; r++) {
@@ -76,6 +68,8 @@ rb_status rb_case_slopes_choose(const rb_case *c, const rb_rolling_results *tabl
     *s = (rb_case_slopes){.table = table, .of = calloc((size_t)most, sizeof *s->of)};
     status = number && s->of ? rb_case_numbers(c, number, &numbers, why)
                              : rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
+    if (status == RB_OK && !*words)
+        status = rb_fail(why, RB_EINVAL, "expected a name, got ''");
     for (size_t n; status == RB_OK && *words; words += n + (words[n] == ',')) {
         char word[100];
         n = strcspn(words, ",");
@@ -123,6 +117,20 @@ void rb_case_slopes_convert(rb_case_slopes *s, rb_units units)
     s->units = units;
     for (size_t i = 0; i < 2 * (size_t)s->rows * (size_t)s->n; i++)
         s->value[i] = rb_case_slope_shown(&s->of[i / 2 % (size_t)s->n], units, s->value[i]);
+}
+
+int rb_case_slopes_note(const rb_case_slopes *s, rb_message *note)
+{
+    note->text[0] = '\0';
+    if (s->without > 0)
+        rb_fail(note, RB_OK, "%d of %d points have no derivatives: %.500s", s->without, s->rows,
+                s->reason.text);
+    else if (s->degenerate > 0)
+        rb_fail(note, RB_OK,
+                "in %d of %d steps an element stands between two zones: derivatives from "
+                "there on are those for growing numbers",
+                s->degenerate, s->rows);
+    return note->text[0] != '\0';
 }
 
 static void append_word(const char *word, char text[RB_CASE_SLOPE_HEADING])
@@ -223,6 +231,8 @@ typedef struct {
     const rb_rolling_range *range;
     double mu;
     rb_case_slopes *s;
+    rb_rolling_point *point; /* of who observes the curve; NULL: nobody */
+    void *context;
 } curve_slopes;
 
 static rb_case *case_of_point(const curve_slopes *of, const rb_rolling_model *model,
@@ -254,7 +264,7 @@ static rb_case *case_of_point(const curve_slopes *of, const rb_rolling_model *mo
 rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range, const char *words,
                                rb_case_slopes *s, rb_message *why)
 {
-    const curve_slopes of = {c, range, c->resolved.rc.mu, NULL};
+    const curve_slopes of = {.c = c, .range = range, .mu = c->resolved.rc.mu};
     rb_case *point = case_of_point(&of, NULL, why);
 
     *s = (rb_case_slopes){0};
@@ -269,28 +279,32 @@ rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range, 
 static rb_status see_point(const rb_rolling_model *model, int k, void *context, rb_message *why)
 {
     const curve_slopes *of = context;
-    rb_case *point = case_of_point(of, model, why);
-    const rb_status s =
-        point ? rb_case_slopes_at(point, model, of->s,
-                                  of->s->value + 2 * (size_t)k * (size_t)of->s->n, why)
-              : RB_EINVAL;
+    double *row = of->s->value + 2 * (size_t)k * (size_t)of->s->n;
+    rb_message *reason = &of->s->reason;
+    rb_case *point = case_of_point(of, model, reason);
+    const rb_status s = point ? rb_case_slopes_at(point, model, of->s, row, reason) : RB_EINVAL;
 
     rb_case_free(point);
-    return s;
+    if (s == RB_ENOMEM)
+        return rb_fail(why, s, "%s", reason->text);
+    of->s->without += s != RB_OK;
+    return of->point ? of->point(model, k, of->context, why) : RB_OK;
 }
 
 rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, double mu,
-                              rb_rolling_curve *curve, rb_case_slopes *s, rb_message *why)
+                              rb_rolling_point *point, void *context, rb_rolling_curve *curve,
+                              rb_case_slopes *s, rb_message *why)
 {
     rb_rolling_case rc = c->resolved.rc;
-    curve_slopes of = {c, range, mu, s};
+    curve_slopes of = {c, range, mu, s, point, context};
 
     rc.mu = mu;
     if (rb_case_slopes_alloc(2 * range->points, s) != RB_OK)
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     const rb_status status = rb_rolling_curve_observe(&rc, range, see_point, &of, curve, why);
     s->rows = curve->n;
-    return status;
+    return status == RB_OK && s->without == s->rows ? rb_fail(why, RB_EINVAL, "%s", s->reason.text)
+                                                    : status;
 }
 
 /* ---- Step by step (D7) ------------------------------------------------------------- */

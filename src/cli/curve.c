@@ -113,8 +113,8 @@ static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
         if (words && range->derivatives) {
             s = rb_case_curve_choose(words, &all, range->derivatives, &curves->slopes[k], &reason);
             if (s == RB_OK)
-                s = rb_case_curve_solve(words, &all, rc.mu, &curves->curve[k], &curves->slopes[k],
-                                        &reason);
+                s = rb_case_curve_solve(words, &all, rc.mu, NULL, NULL, &curves->curve[k],
+                                        &curves->slopes[k], &reason);
         } else if (c->error)
             s = rb_rolling_curve_with_errors(&rc, &all, NULL, NULL, &curves->curve[k],
                                              &curves->error[k], &reason);

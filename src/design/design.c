@@ -42,13 +42,9 @@ static rb_status find_result(const char *name, const rb_rolling_result **result,
     *result = rb_case_derivative_result(name, &is_column);
     if (*result && !is_column)
         return RB_OK;
-    rb_guess guess = {.word = name};
-    rb_guess_try(&guess, ripple_);
-    for (int k = 0; k < rb_rolling_solution_scalars.n; k++)
-        if (rb_sensitivity_has(&rb_rolling_solution_scalars.row[k]))
-            rb_guess_try(&guess, rb_rolling_solution_scalars.row[k].name);
-    return rb_fail(why, RB_EINVAL, "design: '%.40s' is no result with derivatives%s", name,
-                   rb_guess_text(&guess, ""));
+    rb_message reason;
+    rb_case_refuse_result(name, &rb_rolling_solution_scalars, ripple_, &reason);
+    return rb_fail(why, RB_EINVAL, "design: %s", reason.text);
 }
 
 rb_status rb_design_objective(const char *name, rb_design *d, rb_message *why)

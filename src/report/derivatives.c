@@ -32,14 +32,8 @@ rb_status rb_report_derivatives_of(const char *names, rb_report_derivatives *d, 
         n = strcspn(names, ",");
         snprintf(name, sizeof name, "%.*s", (int)(n < 39 ? n : 39), names);
         const rb_rolling_result *r = rb_case_derivative_result(name, &is_column);
-        if (!r) {
-            rb_guess guess = {.word = name};
-            for (int k = 0; k < all->n; k++)
-                if (rb_sensitivity_has(&all->row[k]))
-                    rb_guess_try(&guess, all->row[k].name);
-            return rb_fail(why, RB_EINVAL, "expected a result that has derivatives, got '%s'%s",
-                           name, rb_guess_text(&guess, ""));
-        }
+        if (!r)
+            return rb_case_refuse_result(name, all, NULL, why);
         add_result(r, is_column, d);
     }
     return RB_OK;
@@ -284,14 +278,13 @@ void rb_report_cell_slopes(rb_report_cells *c, const rb_case_slopes *s, int row)
 
 void rb_report_comment_slopes(const rb_report_cells *c, const rb_case_slopes *s)
 {
+    rb_message note;
+
     if (s->n > 0)
         rb_report_comment(c, "d_A_by_B: derivative of A with respect to B, for a growing "
                              "B where the two sides differ");
-    if (s->degenerate > 0)
-        rb_report_comment(c,
-                          "in %d of %d steps an element stands between two zones: "
-                          "derivatives from there on are those for growing numbers",
-                          s->degenerate, s->rows);
+    if (rb_case_slopes_note(s, &note))
+        rb_report_comment(c, "%s", note.text);
 }
 
 rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h, const rb_case_slopes *s,
