@@ -51,7 +51,7 @@ typedef struct {
 } border;
 
 typedef struct {
-    traction *unknown; /* present ones, without delta and xi; owned, as all here */
+    traction *unknown; /* present ones, without delta and xi; in scratch memory, as all here */
     int *source;       /* of r->x among (x, y) */
     border *border;
     int count, changes; /* borders; those that stand for zones */
@@ -269,14 +269,12 @@ static void fill_border(const rb_contact_problem *p, const rb_contact_reduced *r
     }
 }
 
-/* (f, g) into (x, y); growth: |A^-1 f| / |x|, the digits that cancel. */
-static rb_status eliminate(const kept_lu *k, int count, const bordered *m, double *growth)
+/* (f, g) into (x, y); growth: |A^-1 f| / |x|, the digits that cancel.  pivots: count. */
+static rb_status eliminate(const kept_lu *k, int count, const bordered *m, lapack_int *pivots,
+                           double *growth)
 {
     const int n = k->size;
-    lapack_int *pivots = calloc((size_t)count + 1, sizeof *pivots);
 
-    if (!pivots)
-        return RB_ENOMEM;
     if (n > 0)
         LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, count + 1, k->LU, n, k->pivots, m->V, n);
     *growth = rb_norm_inf((size_t)n, m->f);
@@ -292,7 +290,6 @@ static rb_status eliminate(const kept_lu *k, int count, const bordered *m, doubl
     if (n > 0 && count > 0)
         cblas_dgemv(CblasColMajor, CblasNoTrans, n, count, -1.0, m->V, n, m->g, 1, 1.0, m->f, 1);
     *growth /= fmax(rb_norm_inf((size_t)n, m->f), DBL_MIN);
-    free(pivots);
     return fault == 0 ? RB_OK : RB_SINGULAR;
 }
 
@@ -302,49 +299,42 @@ rb_status rb_contact_reduced_direct(const rb_contact_problem *p, const int *zone
     kept_lu none = {0}; /* all unknowns are borders then */
     rb_contact_factors *factors = ((const rb_contact_dense *)p->op)->factors;
     kept_lu *k = lu == RB_LU_WHOLE ? &none : &factors->kept[r->unknowns - 1];
-    plan pl = {0};
+    rb_arena scratch = {0};
     /* All arrays at their largest: every kept unknown lapsed, every present one new. */
     const size_t size = (size_t)r->size + 1;
+    plan pl = {.unknown = rb_arena_zeros(&scratch, size, sizeof *pl.unknown),
+               .source = rb_arena_ints(&scratch, size),
+               .border = rb_arena_zeros(&scratch, size + (size_t)k->size, sizeof *pl.border)};
 
-    pl.unknown = calloc(size, sizeof *pl.unknown);
-    pl.source = rb_alloc_int(size);
-    pl.border = calloc(size + (size_t)k->size, sizeof *pl.border);
-    rb_status s = pl.unknown && pl.source && pl.border ? RB_OK : RB_ENOMEM;
-
-    if (s == RB_OK) {
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    make_plan(p, zone, r, k, &pl);
+    /* A border of b costs 2 b size^2 operations per step and an LU 2/3 size^3 once in a few
+     * steps: least in sum where b is about the root of twice the size. */
+    if (lu == RB_LU_NEW ||
+        (lu == RB_LU_KEPT && !((double)pl.changes * pl.changes <= 2.0 * k->size))) {
+        const rb_status s = factor(p, r, pl.unknown, k);
+        if (s != RB_OK)
+            return rb_arena_done(&scratch, s);
         make_plan(p, zone, r, k, &pl);
-        /* A border of b costs 2 b size^2 operations per step and an LU 2/3 size^3 once in a few
-         * steps: least in sum where b is about the root of twice the size. */
-        if (lu == RB_LU_NEW ||
-            (lu == RB_LU_KEPT && !((double)pl.changes * pl.changes <= 2.0 * k->size))) {
-            s = factor(p, r, pl.unknown, k);
-            make_plan(p, zone, r, k, &pl);
-        }
-    }
-    if (s == RB_OK) {
-        /* Bordered: (f, g) into (x, y); growth: |A^-1 f| / |x|, the digits that cancel. */
-        const size_t n = (size_t)k->size, count = (size_t)pl.count;
-        double *scratch = rb_alloc(n + count, 2 * count + 1);
-        s = scratch ? RB_OK : RB_ENOMEM;
-        if (s == RB_OK) {
-            const bordered m = {.V = scratch,
-                                .f = scratch + n * count,
-                                .g = scratch + n * (count + 1), /* behind f */
-                                .W = scratch + n * (count + 1) + count,
-                                .T = scratch + n * (2 * count + 1) + count};
-            for (int i = 0; i < r->size; i++)
-                m.f[pl.source[i]] = r->x[i];
-            fill_border(p, r, k, &pl, &m);
-            s = eliminate(k, pl.count, &m, &r->growth);
-            for (int i = 0; i < r->size; i++)
-                r->x[i] = m.f[pl.source[i]];
-        }
-        free(scratch);
     }
     r->changes = k->size > 0 ? pl.changes : 0;
     r->slight = k->size > 0 ? pl.slight : 0;
-    free(pl.unknown);
-    free(pl.source);
-    free(pl.border);
-    return s;
+    const size_t n = (size_t)k->size, count = (size_t)pl.count;
+    bordered m = {.V = rb_arena_doubles(&scratch, n * (count + 1) + count, 1),
+                  .W = rb_arena_doubles(&scratch, count, n),
+                  .T = rb_arena_doubles(&scratch, count, count)};
+    lapack_int *pivots = rb_arena_zeros(&scratch, count, sizeof *pivots);
+
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    m.f = m.V + n * count; /* with g behind it */
+    m.g = m.f + n;
+    for (int i = 0; i < r->size; i++)
+        m.f[pl.source[i]] = r->x[i];
+    fill_border(p, r, k, &pl, &m);
+    const rb_status s = eliminate(k, pl.count, &m, pivots, &r->growth);
+    for (int i = 0; i < r->size; i++)
+        r->x[i] = m.f[pl.source[i]];
+    return rb_arena_done(&scratch, s);
 }

@@ -26,8 +26,9 @@ typedef struct {
     double *start;                 /* size: the unknowns of the state at the beginning */
     double *x;                     /* size: right-hand side, then solution */
     int changes;                   /* number of unknowns changed since the LU that was used */
-    int slight;    /* number of unknowns whose friction has changed slightly since then */
-    double growth; /* ratio of the tractions without borders to those with borders */
+    int slight;      /* number of unknowns whose friction has changed slightly since then */
+    double growth;   /* ratio of the tractions without borders to those with borders */
+    rb_arena memory; /* of the arrays */
 } rb_contact_reduced;
 
 rb_status rb_contact_reduced_alloc(const rb_contact_problem *problem, rb_contact_unknowns unknowns,

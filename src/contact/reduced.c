@@ -1,19 +1,11 @@
 #include "contact/internal.h"
 
 #include <cblas.h>
-#include <stdlib.h>
 #include <string.h>
 
 void rb_contact_reduced_free(rb_contact_reduced *r)
 {
-    free(r->contact);
-    free(r->stick);
-    free(r->control_N);
-    free(r->control_T);
-    free(r->gap);
-    free(r->lambda);
-    free(r->start);
-    free(r->x);
+    rb_arena_free(&r->memory);
 }
 
 rb_status rb_contact_reduced_alloc(const rb_contact_problem *p, rb_contact_unknowns unknowns,
@@ -24,13 +16,13 @@ rb_status rb_contact_reduced_alloc(const rb_contact_problem *p, rb_contact_unkno
 
     memset(r, 0, sizeof *r);
     r->unknowns = unknowns;
-    r->contact = rb_alloc_int(n);
-    r->stick = rb_alloc_int(n);
-    r->control_N = rb_alloc(n, 1);
-    r->control_T = rb_alloc(n, 1);
-    r->gap = rb_alloc(n, 1);
-    r->lambda = rb_alloc(n, 1);
-    if (!r->contact || !r->stick || !r->control_N || !r->control_T || !r->gap || !r->lambda)
+    r->contact = rb_arena_ints(&r->memory, n);
+    r->stick = rb_arena_ints(&r->memory, n);
+    r->control_N = rb_arena_doubles(&r->memory, n, 1);
+    r->control_T = rb_arena_doubles(&r->memory, n, 1);
+    r->gap = rb_arena_doubles(&r->memory, n, 1);
+    r->lambda = rb_arena_doubles(&r->memory, n, 1);
+    if (r->memory.failed)
         return RB_ENOMEM;
     for (int i = 0; i < p->n; i++) {
         if ((unknowns & RB_NORMAL) && zone[i] != RB_ZONE_SEPARATED)
@@ -42,9 +34,9 @@ rb_status rb_contact_reduced_alloc(const rb_contact_problem *p, rb_contact_unkno
     r->load = (unknowns & RB_NORMAL) && p->load_given;
     r->force = (unknowns & RB_TANGENTIAL) && p->force_given;
     r->size = r->contacts + r->sticks + r->load + r->force;
-    r->start = rb_alloc((size_t)r->size, 1);
-    r->x = rb_alloc((size_t)r->size, 1);
-    if (!r->start || !r->x)
+    r->start = rb_arena_doubles(&r->memory, (size_t)r->size, 1);
+    r->x = rb_arena_doubles(&r->memory, (size_t)r->size, 1);
+    if (r->memory.failed)
         return RB_ENOMEM;
     int k = 0;
 

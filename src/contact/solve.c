@@ -28,22 +28,21 @@ static rb_status measure(const rb_contact_problem *problem, rb_contact_state *st
  * their zones already, as Newton's do. */
 static rb_status complete(rb_contact_problem *problem, int exact, rb_contact_state *state)
 {
-    double *gap = rb_alloc((size_t)problem->n, 1);
-    rb_status s = gap ? RB_OK : RB_ENOMEM;
+    rb_arena scratch = {0};
+    double *gap = rb_arena_doubles(&scratch, (size_t)problem->n, 1);
+    /* A cone solver leaves rounding where its elements are separated: no traction there.
+     * What is more than rounding stays, and the residual tells it. */
+    const double most = ROUNDING * problem->stress;
 
-    if (s == RB_OK) {
-        rb_contact_kinematics(problem, state, gap, state->lambda);
-        rb_contact_classify(problem, ROUNDING, state);
-        /* A cone solver leaves rounding where its elements are separated: no traction
-         * there. What is more than rounding stays, and the residual tells it. */
-        const double most = ROUNDING * problem->stress;
-
-        for (int i = 0; i < problem->n; i++)
-            if (state->zone[i] == RB_ZONE_SEPARATED && fabs(state->p[i]) <= most &&
-                fabs(state->q[i]) <= most)
-                state->p[i] = state->q[i] = 0.0;
-        s = measure(problem, state);
-    }
+    if (!gap)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    rb_contact_kinematics(problem, state, gap, state->lambda);
+    rb_contact_classify(problem, ROUNDING, state);
+    for (int i = 0; i < problem->n; i++)
+        if (state->zone[i] == RB_ZONE_SEPARATED && fabs(state->p[i]) <= most &&
+            fabs(state->q[i]) <= most)
+            state->p[i] = state->q[i] = 0.0;
+    rb_status s = measure(problem, state);
     if (s == RB_OK && !exact) {
         /* One solve with the zones of the state, kept when that makes it better. */
         const size_t bytes = (size_t)problem->n * sizeof(double);
@@ -74,7 +73,9 @@ static rb_status complete(rb_contact_problem *problem, int exact, rb_contact_sta
         s = s == RB_SINGULAR ? RB_OK : s;
         rb_contact_kinematics(problem, state, gap, state->lambda);
     }
-    for (int i = 0; i < problem->n && s == RB_OK; i++) {
+    if (s != RB_OK)
+        return rb_arena_done(&scratch, s);
+    for (int i = 0; i < problem->n; i++) {
         if (state->zone[i] == RB_ZONE_STICK)
             state->lambda[i] = 0.0;
         else if (state->zone[i] != RB_ZONE_SEPARATED && problem->bound[i] == 0.0)
@@ -82,8 +83,7 @@ static rb_status complete(rb_contact_problem *problem, int exact, rb_contact_sta
         if (state->zone[i] <= RB_ZONE_STICK)
             state->plastic[i] = 0.0;
     }
-    free(gap);
-    return s;
+    return rb_arena_done(&scratch, RB_OK);
 }
 
 /* What the artificial variable of Lemke's method lifts: every row alike; or what is
@@ -451,12 +451,13 @@ static rb_status solve_sliding(rb_contact_problem *problem, const rb_contact_opt
 {
     const double sign = backwards ? -1.0 : 1.0;
     rb_contact_problem given = *problem; /* arrays stay the problem's */
-    rb_status s = RB_OK;
 
     given.force_given = 0;
     given.xi = sign * problem->sliding;
-    for (int k = 0; k < 40 && s == RB_OK; k++, given.xi *= 2.0) {
-        s = solve_given(&given, options, 0, state, why);
+    for (int k = 0; k < 40; k++, given.xi *= 2.0) {
+        const rb_status s = solve_given(&given, options, 0, state, why);
+        if (s != RB_OK)
+            return s;
         /* Creepage by which the slowest element still slides; 0 where something sticks. */
         double spare = INFINITY;
         for (int i = 0; i < given.n; i++)
@@ -464,7 +465,7 @@ static rb_status solve_sliding(rb_contact_problem *problem, const rb_contact_opt
                 spare = state->zone[i] == RB_ZONE_STICK
                             ? 0.0
                             : fmin(spare, fabs(state->lambda[i] / given.e_T[i]));
-        if (s == RB_OK && spare > 0.0 && sign * given.xi > 0.0) {
+        if (spare > 0.0 && sign * given.xi > 0.0) {
             if (problem->yield) /* less slip yields less */
                 return RB_OK;
             state->xi -= sign * spare;
@@ -473,7 +474,7 @@ static rb_status solve_sliding(rb_contact_problem *problem, const rb_contact_opt
             return RB_OK;
         }
     }
-    return s == RB_OK ? RB_MAXITER : s;
+    return RB_MAXITER;
 }
 
 /* Where elements are tilted P has a part of the friction and Q one of the pressure: full

@@ -8,7 +8,6 @@
 #include <cblas.h>
 #include <lapacke.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Rounds of all elements at once, and of one element at a time. */
@@ -29,41 +28,34 @@ typedef struct {
 
 typedef struct {
     const rb_contact_problem *p;
-    law *law;                        /* n; owned, as the rest */
-    double *sign;                    /* n */
+    law *law, *next;                 /* n: as they are, and corrected */
+    double *sign, *next_sign;        /* n */
     int *at_p, *at_q;                /* n: number of the unknown, or -1 */
     int inner, size;                 /* unknowns: pressures and frictions; delta, xi */
     double *gap, *yielded, *control; /* n, n, 2n: the row of the given force */
     motion scratch;
     rb_contact_operator *by; /* whose products solve; NULL: the matrices; borrowed */
+    rb_arena memory;         /* of the arrays */
 } laws;
 
-static void laws_free(laws *k)
-{
-    free(k->law);
-    free(k->sign);
-    free(k->at_p);
-    free(k->gap);
-    free(k->scratch.p);
-}
-
+/* Free k->memory in any case. */
 static rb_status laws_alloc(const rb_contact_problem *p, laws *k)
 {
     const size_t n = (size_t)p->n;
 
-    *k = (laws){.p = p,
-                .law = calloc(n, sizeof(law)),
-                .sign = rb_alloc(n, 1),
-                .at_p = calloc(2 * n, sizeof(int)),
-                .gap = rb_alloc(n, 4),
-                .scratch = {.p = rb_alloc(n, 4)}};
-    if (!k->law || !k->sign || !k->at_p || !k->gap || !k->scratch.p) {
-        laws_free(k);
+    *k = (laws){.p = p};
+    k->law = rb_arena_zeros(&k->memory, n, sizeof *k->law);
+    k->next = rb_arena_zeros(&k->memory, n, sizeof *k->next);
+    k->sign = rb_arena_doubles(&k->memory, n, 1);
+    k->next_sign = rb_arena_doubles(&k->memory, n, 1);
+    k->at_p = rb_arena_ints(&k->memory, n);
+    k->at_q = rb_arena_ints(&k->memory, n);
+    k->gap = rb_arena_doubles(&k->memory, n, 1);
+    k->yielded = rb_arena_doubles(&k->memory, n, 1);
+    k->control = rb_arena_doubles(&k->memory, n, 2);
+    k->scratch.p = rb_arena_doubles(&k->memory, n, 4);
+    if (k->memory.failed)
         return RB_ENOMEM;
-    }
-    k->at_q = k->at_p + n;
-    k->yielded = k->gap + n;
-    k->control = k->yielded + n;
     k->scratch.q = k->scratch.p + n;
     k->scratch.gap = k->scratch.q + n;
     k->scratch.lambda = k->scratch.gap + n;
@@ -237,56 +229,54 @@ static void precondition(const void *of_laws, const double *b, double *x)
 }
 
 /* x: the right side, then the solution. */
-static rb_status solve_by_matrix(const laws *k, double *x)
+static rb_status solve_by_matrix(const laws *k, rb_arena *scratch, double *x)
 {
     const size_t size = (size_t)k->size;
-    double *A = rb_alloc(size, size);
-    lapack_int *pivots = calloc(size, sizeof *pivots);
-    rb_status s = A && pivots ? RB_OK : RB_ENOMEM;
+    double *A = rb_arena_doubles(scratch, size, size);
+    lapack_int *pivots = rb_arena_zeros(scratch, size, sizeof *pivots);
 
-    if (s == RB_OK) {
-        /* Column by column from the matrices. */
-        const rb_contact_problem *p = k->p;
-        const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
-        const size_t n = (size_t)p->n, bytes = n * sizeof(double);
-        const int length = p->n;
-        motion m = k->scratch;
+    if (scratch->failed)
+        return RB_ENOMEM;
+    /* Column by column from the matrices. */
+    const rb_contact_problem *p = k->p;
+    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
+    const size_t n = (size_t)p->n, bytes = n * sizeof(double);
+    const int length = p->n;
+    motion m = k->scratch;
 
-        memset(m.p, 0, 2 * bytes);
-        for (int i = 0; i < length; i++)
-            for (int tangential = 0; tangential < 2; tangential++) {
-                const int column = tangential ? k->at_q[i] : k->at_p[i];
-                const size_t from = (size_t)i + (size_t)tangential * n;
-                const double share = tangential ? 0.0 : friction_of(k, i);
-                if (column < 0)
-                    continue;
-                (tangential ? m.q : m.p)[i] = p->stress;
-                memset(m.gap, 0, 2 * bytes);
-                cblas_daxpy(length, p->stress, K.F + from * (size_t)K.ldf, 1, m.gap, 1);
-                cblas_daxpy(length, p->stress, K.S + from * n, 1, m.lambda, 1);
-                if (share != 0.0) {
-                    m.q[i] = share * p->stress;
-                    cblas_daxpy(length, m.q[i], K.F + (from + n) * (size_t)K.ldf, 1, m.gap, 1);
-                    cblas_daxpy(length, m.q[i], K.S + (from + n) * n, 1, m.lambda, 1);
-                }
-                inner_rows(k, &m, 0, A + (size_t)column * size);
-                control_rows(k, &m, 0, A + (size_t)column * size + k->inner);
-                m.p[i] = m.q[i] = 0.0;
+    memset(m.p, 0, 2 * bytes);
+    for (int i = 0; i < length; i++)
+        for (int tangential = 0; tangential < 2; tangential++) {
+            const int column = tangential ? k->at_q[i] : k->at_p[i];
+            const size_t from = (size_t)i + (size_t)tangential * n;
+            const double share = tangential ? 0.0 : friction_of(k, i);
+            if (column < 0)
+                continue;
+            (tangential ? m.q : m.p)[i] = p->stress;
+            memset(m.gap, 0, 2 * bytes);
+            cblas_daxpy(length, p->stress, K.F + from * (size_t)K.ldf, 1, m.gap, 1);
+            cblas_daxpy(length, p->stress, K.S + from * n, 1, m.lambda, 1);
+            if (share != 0.0) {
+                m.q[i] = share * p->stress;
+                cblas_daxpy(length, m.q[i], K.F + (from + n) * (size_t)K.ldf, 1, m.gap, 1);
+                cblas_daxpy(length, m.q[i], K.S + (from + n) * n, 1, m.lambda, 1);
             }
-        for (size_t c = (size_t)k->inner; c < size; c++) {
-            memset(A + c * size, 0, size * sizeof *A);
-            border_column(k, (int)c - k->inner, A + c * size);
+            inner_rows(k, &m, 0, A + (size_t)column * size);
+            control_rows(k, &m, 0, A + (size_t)column * size + k->inner);
+            m.p[i] = m.q[i] = 0.0;
         }
-        if (LAPACKE_dgesv_work(LAPACK_COL_MAJOR, k->size, 1, A, k->size, pivots, x, k->size) != 0)
-            s = RB_SINGULAR;
+    for (size_t c = (size_t)k->inner; c < size; c++) {
+        memset(A + c * size, 0, size * sizeof *A);
+        border_column(k, (int)c - k->inner, A + c * size);
     }
-    free(pivots);
-    free(A);
-    return s;
+    const int fault =
+        LAPACKE_dgesv_work(LAPACK_COL_MAJOR, k->size, 1, A, k->size, pivots, x, k->size);
+    return fault == 0 ? RB_OK : RB_SINGULAR;
 }
 
 /* x as above; from the unknowns that the state has. */
-static rb_status solve_by_products(const laws *k, const rb_contact_state *state, double *x)
+static rb_status solve_by_products(const laws *k, const rb_contact_state *state, rb_arena *scratch,
+                                   double *x)
 {
     const rb_contact_problem *p = k->p;
     const rb_contact_linear linear = {.inner = k->inner,
@@ -296,24 +286,23 @@ static rb_status solve_by_products(const laws *k, const rb_contact_state *state,
                                       .border_column = border_column,
                                       .border_rows = border_rows,
                                       .of = k};
-    double *start = rb_alloc((size_t)k->size, 1), *border = start + k->inner;
-    rb_status s = start ? RB_OK : RB_ENOMEM;
+    double *start = rb_arena_doubles(scratch, (size_t)k->size, 1), *border = start + k->inner;
 
-    for (int i = 0; i < p->n && s == RB_OK; i++) {
+    if (!start)
+        return RB_ENOMEM;
+    for (int i = 0; i < p->n; i++) {
         if (k->at_p[i] >= 0)
             start[k->at_p[i]] = state->p[i] / p->stress;
         if (k->at_q[i] >= 0)
             start[k->at_q[i]] = state->q[i] / p->stress;
     }
-    if (s == RB_OK && p->load_given)
+    if (p->load_given)
         *border++ = isfinite(state->delta) ? state->delta / p->gap_length : 0.0;
-    if (s == RB_OK && p->force_given)
+    if (p->force_given)
         *border = state->xi * p->e_T[0] / p->slip_length;
-    if (s == RB_OK)
-        s = k->by->kind->gmres(k->by, &linear, x, start);
+    const rb_status s = k->by->kind->gmres(k->by, &linear, x, start);
     if (s == RB_OK)
         memcpy(x, start, (size_t)k->size * sizeof *x);
-    free(start);
     return s;
 }
 
@@ -329,50 +318,50 @@ static rb_status solve_laws(laws *k, rb_contact_state *state)
     for (int i = 0; i < p->n; i++)
         k->at_q[i] = k->law[i] == STICK || k->law[i] == YIELD ? k->inner++ : -1;
     k->size = k->inner + p->load_given + p->force_given;
-    double *x = rb_alloc((size_t)k->size, 1);
-    rb_status s = x ? RB_OK : RB_ENOMEM;
+    rb_arena scratch = {0};
+    double *x = rb_arena_doubles(&scratch, (size_t)k->size, 1);
+    rb_status s = RB_OK;
 
-    if (s == RB_OK) {
-        memset(m.p, 0, 2 * (size_t)p->n * sizeof *m.p);
-        for (int i = 0; i < p->n; i++) {
-            m.gap[i] = p->d_N[i] - (p->load_given ? 0.0 : p->delta);
-            m.lambda[i] = p->d_T[i] + (p->force_given ? 0.0 : p->xi * p->e_T[i]);
-        }
-        inner_rows(k, &m, 1, x);
-        control_rows(k, &m, 1, x + k->inner);
-        cblas_dscal(k->size, -1.0, x, 1);
-        k->by = rb_contact_operator_by_products(p->op, k->size);
-        if (k->size > 0)
-            s = k->by ? solve_by_products(k, state, x) : solve_by_matrix(k, x);
-        if (s == RB_OK && !isfinite(rb_norm_1((size_t)k->size, x, 1)))
-            s = RB_SINGULAR;
+    if (!x)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    memset(m.p, 0, 2 * (size_t)p->n * sizeof *m.p);
+    for (int i = 0; i < p->n; i++) {
+        m.gap[i] = p->d_N[i] - (p->load_given ? 0.0 : p->delta);
+        m.lambda[i] = p->d_T[i] + (p->force_given ? 0.0 : p->xi * p->e_T[i]);
     }
-    if (s == RB_OK) {
-        const double *border = x + k->inner;
-        set_tractions(k, x, &m);
-        memcpy(state->p, m.p, (size_t)p->n * sizeof *m.p);
-        memcpy(state->q, m.q, (size_t)p->n * sizeof *m.q);
-        state->delta = p->load_given ? p->gap_length * *border++ : p->delta;
-        state->xi = p->force_given ? p->slip_length / p->e_T[0] * *border : p->xi;
-        rb_contact_kinematics(p, state, k->gap, state->lambda);
-        /* Plastic slips from the slips, upstream first. */
-        double next = 0.0, second = 0.0;
+    inner_rows(k, &m, 1, x);
+    control_rows(k, &m, 1, x + k->inner);
+    cblas_dscal(k->size, -1.0, x, 1);
+    k->by = rb_contact_operator_by_products(p->op, k->size);
+    if (k->size > 0)
+        s = k->by ? solve_by_products(k, state, &scratch, x) : solve_by_matrix(k, &scratch, x);
+    if (s == RB_OK && !isfinite(rb_norm_1((size_t)k->size, x, 1)))
+        s = RB_SINGULAR;
+    if (s != RB_OK)
+        return rb_arena_done(&scratch, s);
+    const double *border = x + k->inner;
+    set_tractions(k, x, &m);
+    memcpy(state->p, m.p, (size_t)p->n * sizeof *m.p);
+    memcpy(state->q, m.q, (size_t)p->n * sizeof *m.q);
+    state->delta = p->load_given ? p->gap_length * *border++ : p->delta;
+    state->xi = p->force_given ? p->slip_length / p->e_T[0] * *border : p->xi;
+    rb_contact_kinematics(p, state, k->gap, state->lambda);
+    /* Plastic slips from the slips, upstream first. */
+    double next = 0.0, second = 0.0;
 
-        for (int i = p->n - 1; i >= 0; i--) {
-            const double before = p->recall[0] * next + p->recall[1] * second;
-            double own = 0.0;
-            if (k->law[i] == YIELD || k->law[i] == SOFTENED)
-                own = -k->sign[i] * state->lambda[i];
-            else if (k->law[i] == SLIP_AND_YIELD)
-                own = ((p->bound[i] * state->p[i] - p->yield[i]) / p->hardening - before) / p->own;
-            state->plastic[i] = -k->sign[i] * own;
-            k->yielded[i] = before + p->own * own;
-            second = next;
-            next = k->yielded[i];
-        }
+    for (int i = p->n - 1; i >= 0; i--) {
+        const double before = p->recall[0] * next + p->recall[1] * second;
+        double own = 0.0;
+        if (k->law[i] == YIELD || k->law[i] == SOFTENED)
+            own = -k->sign[i] * state->lambda[i];
+        else if (k->law[i] == SLIP_AND_YIELD)
+            own = ((p->bound[i] * state->p[i] - p->yield[i]) / p->hardening - before) / p->own;
+        state->plastic[i] = -k->sign[i] * own;
+        k->yielded[i] = before + p->own * own;
+        second = next;
+        next = k->yielded[i];
     }
-    free(x);
-    return s;
+    return rb_arena_done(&scratch, RB_OK);
 }
 
 /* ---- Corrections ------------------------------------------------------------------- */
@@ -480,29 +469,23 @@ static rb_status iterate(laws *k, rb_contact_state *state)
         /* Corrects all elements, or the one furthest upstream. */
         upstream up = {0.0, 0.0};
         int changes = 0;
-        law *next = calloc((size_t)k->p->n, sizeof *next);
-        double *sign = calloc((size_t)k->p->n, sizeof *sign);
 
-        if (!next || !sign)
-            changes = -1;
-        for (int i = k->p->n - 1; i >= 0 && changes == 0; i--)
-            next[i] = corrected(k, state, i, &up, &sign[i]);
-        if (changes == 0 && k->p->force_given)
-            hold_one(k, state, next);
-        for (int i = k->p->n - 1; i >= 0 && changes >= 0; i--) {
-            const int slides = next[i] > STICK;
-            if (next[i] == k->law[i] && (!slides || sign[i] == k->sign[i]))
+        for (int i = k->p->n - 1; i >= 0; i--)
+            k->next[i] = corrected(k, state, i, &up, &k->next_sign[i]);
+        if (k->p->force_given)
+            hold_one(k, state, k->next);
+        for (int i = k->p->n - 1; i >= 0; i--) {
+            const int slides = k->next[i] > STICK;
+            if (k->next[i] == k->law[i] && (!slides || k->next_sign[i] == k->sign[i]))
                 continue;
             if (single && changes > 0)
                 break;
-            k->law[i] = next[i];
-            k->sign[i] = slides ? sign[i] : 0.0;
+            k->law[i] = k->next[i];
+            k->sign[i] = slides ? k->next_sign[i] : 0.0;
             changes++;
         }
-        free(sign);
-        free(next);
-        if (changes <= 0)
-            return changes < 0 ? RB_ENOMEM : RB_OK;
+        if (changes == 0)
+            return RB_OK;
     }
     return RB_MAXITER;
 }
@@ -514,12 +497,14 @@ static rb_status iterate(laws *k, rb_contact_state *state)
 static rb_status follow(rb_contact_problem *p, laws *k, double excess, rb_contact_state *state)
 {
     const size_t n = (size_t)p->n;
-    law *good = malloc(n * sizeof *good);
-    double *sign = rb_alloc(n, 2), *yield = sign + n, share = 1.0, step = 0.5;
-    rb_status s = good && sign ? RB_OK : RB_ENOMEM;
+    law *good = rb_arena_zeros(&k->memory, n, sizeof *good);
+    double *sign = rb_arena_doubles(&k->memory, n, 1), *yield = rb_arena_doubles(&k->memory, n, 1),
+           share = 1.0, step = 0.5;
+    rb_status s = RB_OK;
 
-    if (s == RB_OK)
-        memcpy(yield, p->yield, n * sizeof *yield);
+    if (k->memory.failed)
+        return RB_ENOMEM;
+    memcpy(yield, p->yield, n * sizeof *yield);
     while (s == RB_OK && share > 0.0 && step > LEAST_STEP) {
         const double next = share > step ? share - step : 0.0;
         memcpy(good, k->law, n * sizeof *good);
@@ -537,8 +522,6 @@ static rb_status follow(rb_contact_problem *p, laws *k, double excess, rb_contac
             s = RB_OK;
         }
     }
-    free(sign);
-    free(good);
     return s == RB_OK && share > 0.0 ? RB_MAXITER : s;
 }
 
@@ -564,7 +547,7 @@ rb_status rb_contact_yield_newton(rb_contact_problem *p, int follows, rb_contact
     rb_status s = laws_alloc(p, &k);
 
     if (s != RB_OK)
-        return s;
+        return rb_arena_done(&k.memory, s);
     /* From zones alone, such as an elastic solution or a neighbouring one has them. */
     static const law of[] = {SEPARATED, STICK, SLIP, SLIP, YIELD, YIELD};
     static const double sign[] = {0.0, 0.0, -1.0, 1.0, -1.0, 1.0};
@@ -576,8 +559,7 @@ rb_status rb_contact_yield_newton(rb_contact_problem *p, int follows, rb_contact
     s = follows ? follow(p, &k, excess, state) : iterate(&k, state);
     if (s >= 0)
         zones_of_laws(&k, state);
-    laws_free(&k);
-    return s;
+    return rb_arena_done(&k.memory, s);
 }
 
 rb_status rb_contact_yield_polish(const rb_contact_problem *p, rb_contact_state *state)
@@ -586,7 +568,7 @@ rb_status rb_contact_yield_polish(const rb_contact_problem *p, rb_contact_state 
     rb_status s = laws_alloc(p, &k);
 
     if (s != RB_OK)
-        return s;
+        return rb_arena_done(&k.memory, s);
     /* From tractions and slips: what exceeds rounding against its bound decides. */
     const double stress = rb_contact_friction_scale(p);
 
@@ -609,6 +591,5 @@ rb_status rb_contact_yield_polish(const rb_contact_problem *p, rb_contact_state 
     s = solve_laws(&k, state);
     if (s >= 0)
         zones_of_laws(&k, state);
-    laws_free(&k);
-    return s;
+    return rb_arena_done(&k.memory, s);
 }
