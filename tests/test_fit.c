@@ -139,6 +139,99 @@ static void noise_leaves_it_in_the_intervals(void **state)
     rb_case_fit_free(&fit);
 }
 
+/* From the solution at one creepage to those at others, with other zones; and beyond the
+ * border of a zone, where an element violates the law. */
+static void solutions_are_followed(void **state)
+{
+    rb_message why = {""};
+    rb_rolling_case rc[2];
+    rb_rolling_model from = {.mesh = {.n = 0}};
+    rb_sensitivity *s = NULL;
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_case *c = case_of(RB_CASE_SINGLE);
+        CHECK_STATUS(rb_case_set(c, "friction-law", "exponential", RB_GIVEN_ARGUMENT, &why), RB_OK);
+        set_number(c, "mu", k ? 1.1 * MU : MU);
+        set_number(c, "mu-fall", FALL);
+        set_number(c, "slip-scale", SCALE);
+        set_number(c, "speed", 200.0);
+        set_number(c, "creep", k ? -1.8e-3 : -1e-3);
+        CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
+        rc[k] = rb_case_resolved(c)->rc;
+        rb_case_free(c);
+    }
+    CHECK_STATUS(rb_rolling_model_create(&rc[0], &from, &why), RB_OK);
+    CHECK_STATUS(rb_sensitivity_create(&from, 0, &s, &why), RB_OK);
+    const double traction = from.problem.mu * from.problem.stress;
+    rb_rolling_model followed = {.mesh = {.n = 0}}, solved = {.mesh = {.n = 0}};
+    CHECK_STATUS(rb_rolling_variant_create(&from, &rc[1], 1, &followed, &why), RB_OK);
+    CHECK_STATUS(rb_sensitivity_follow(s, &followed, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_variant_solve(&from, &rc[1], &solved, &why), RB_OK);
+    int others = 0, border = 0;
+    for (int i = 0; i < from.mesh.n; i++) {
+        others += from.state.zone[i] != solved.state.zone[i];
+        assert_int_equal(followed.state.zone[i], solved.state.zone[i]);
+        CHECK_ABS(followed.state.q[i], solved.state.q[i], 1e-10 * traction, "element %d", i);
+        if (i > 0 && from.state.zone[i] == RB_ZONE_STICK && from.state.zone[i - 1] > RB_ZONE_STICK)
+            border = i;
+    }
+    assert_true(others > 2);
+    CHECK_MAX(followed.state.residual, rc[1].contact.tol, "residual");
+
+    rb_rolling_model beyond = {.mesh = {.n = 0}};
+    rb_sensitivity *extended = NULL;
+    rb_sensitivity_rate left = {0};
+    const int zone = from.state.zone[border - 1];
+    assert_true(border > 0);
+    CHECK_STATUS(rb_sensitivity_extend(s, border, zone, &beyond, &extended, &why), RB_OK);
+    CHECK_STATUS(rb_sensitivity_rate_alloc(from.mesh.n, &left), RB_OK);
+    CHECK_STATUS(rb_sensitivity_residual(&from, &beyond, &left, &why), RB_OK);
+    const double sign = zone == RB_ZONE_SLIP_POSITIVE ? 1.0 : -1.0;
+    CHECK_MAX(left.slip[border] * -sign, 0.0, "the slip violates the law");
+    for (int i = 0; i < from.mesh.n; i++) {
+        const rb_contact_state *x = &beyond.state;
+        if (x->zone[i] == RB_ZONE_STICK)
+            CHECK_ABS(left.slip[i], 0.0, 1e-10 * from.problem.slip_length, "sticks: %d", i);
+        else if (x->zone[i] != RB_ZONE_SEPARATED)
+            CHECK_ABS(x->q[i], sign * left.bound[i] * x->p[i], 1e-10 * traction, "slides: %d", i);
+    }
+    rb_sensitivity_rate_free(&left);
+    rb_sensitivity_free(extended);
+    rb_rolling_variant_free(&from, &beyond);
+    rb_rolling_variant_free(&from, &solved);
+    rb_rolling_variant_free(&from, &followed);
+    rb_sensitivity_free(s);
+    rb_rolling_model_free(&from);
+}
+
+/* The sum of squares has kinks where elements change their zones, and its minimum may lie
+ * at one of them: every start ends there. */
+static void starts_end_at_one_minimum(void **state)
+{
+    double force[POINTS];
+    const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, force, NULL, NULL,
+                               NULL,   NULL};
+    (void)state;
+    for (int set = 0; set < 6; set++) {
+        double least = 0.0;
+        for (int k = 0; k < POINTS; k++)
+            force[k] = exact[k] + noisy[(k + set) % POINTS] - exact[(k + set) % POINTS];
+        for (int start = 0; start < 3; start++) {
+            static const double part[] = {NAN, 0.8, 1.15};
+            rb_case_fit fit = fit_of(5, all);
+            rb_message why = {""};
+            for (int j = 0; j < 5; j++)
+                fit.parameter[j].start = part[start] * *truth[j];
+            if (solve(&data, 200.0, &fit, &why) != RB_OK)
+                fail_msg("%s", why.text);
+            if (start == 0)
+                least = fit.chi_square;
+            CHECK_REL(fit.chi_square, least, 1e-9, "set %d, start %d", set, start);
+            rb_case_fit_free(&fit);
+        }
+    }
+}
+
 /* The derivative of the sum of squares is zero at the fit, in other units of force too. */
 static void forces_and_ratios_agree(void **state)
 {
@@ -455,6 +548,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_data_give_the_truth),
         cmocka_unit_test(noise_leaves_it_in_the_intervals),
+        cmocka_unit_test(solutions_are_followed),
+        cmocka_unit_test(starts_end_at_one_minimum),
         cmocka_unit_test(forces_and_ratios_agree),
         cmocka_unit_test(no_falling_part_is_said),
         cmocka_unit_test(refusals),

@@ -86,6 +86,12 @@ double rb_sensitivity_dot(const rb_sensitivity_rate *adjoint, const rb_sensitivi
  * Newton's method with its Jacobian, and with that of other zones where these change.
  * v has a residual within the tolerance of its case; RB_MAXITER, RB_SINGULAR: it has not. */
 rb_status rb_sensitivity_follow(const rb_sensitivity *s, rb_rolling_model *v, rb_message *why);
+/* Continues the solution of the model beyond the border of an element's zone: v, a variant
+ * of the model, solves the equations with the element in `zone`, even if its gap,
+ * tractions and slip ask for another one.  *extended: its Jacobian.  v, *extended: zero on
+ * entry; free both in any case.  RB_EINVAL: no matrices; RB_MAXITER, RB_SINGULAR. */
+rb_status rb_sensitivity_extend(const rb_sensitivity *s, int element, int zone, rb_rolling_model *v,
+                                rb_sensitivity **extended, rb_message *why);
 
 /* ---- With respect to numbers of a case --------------------------------------------- */
 

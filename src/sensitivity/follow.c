@@ -50,23 +50,21 @@ static int change_zones(rb_rolling_model *v, const double *gap, const double *sl
     return changed;
 }
 
-rb_status rb_sensitivity_follow(const rb_sensitivity *s, rb_rolling_model *v, rb_message *why)
+/* The equations of v with the Jacobian `at`, and with own ones where it does not do: like
+ * the one of s.  may_change: 1: elements take the zones that they ask for. */
+static rb_status iterate(const rb_sensitivity *s, const rb_sensitivity *at, int may_change,
+                         rb_rolling_model *v, rb_sensitivity **own, rb_message *why)
 {
     enum { STEPS = 20, JACOBIANS = 6 };
     const double enough = 0.1 * v->rc->contact.tol;
-    const int may_change = v->bodies.F && !v->problem.yield;
-    const rb_sensitivity *at = s;
-    rb_sensitivity *own = NULL;
     rb_contact_state step = {0};
     rb_sensitivity_rate left = {0};
-    rb_contact_violation violation = {.scaled = NAN};
     double change = INFINITY;
     int jacobians = 0;
     rb_status status = rb_contact_state_alloc(s->n, &step);
 
     if (status == RB_OK)
         status = rb_sensitivity_rate_alloc(s->n, &left);
-    rb_rolling_variant_set(&s->model->state, NULL, 0.0, &v->state);
     if (status == RB_OK)
         status = rb_sensitivity_residual(at->model, v, &left, why);
     for (int k = 0; k < STEPS && change > enough && status == RB_OK; k++) {
@@ -76,7 +74,8 @@ rb_status rb_sensitivity_follow(const rb_sensitivity *s, rb_rolling_model *v, rb
                 left.bound[i] -= fabs(v->state.q[i]) / v->state.p[i];
                 left.yield[i] -= fabs(v->state.q[i]);
             }
-        status = rb_sensitivity_tangent(at, &left, 1, &step, why);
+        status = at->factors ? rb_sensitivity_forward(at, at->factors, &left, &step)
+                             : rb_sensitivity_tangent(at, &left, 1, &step, why);
         if (status != RB_OK)
             break;
         change = rb_norm_inf((size_t)s->n, step.q) / rb_contact_friction_scale(&v->problem);
@@ -87,21 +86,49 @@ rb_status rb_sensitivity_follow(const rb_sensitivity *s, rb_rolling_model *v, rb
         if (status != RB_OK || (!changed && change < 0.5 * before))
             continue;
         /* the matrix of other zones, or of a state that is closer */
-        if (!may_change || jacobians++ == JACOBIANS)
+        if (!at->factors || jacobians++ == JACOBIANS)
             break;
         change = INFINITY;
         status = rb_rolling_variant_complete(v, NULL, NULL, why);
         if (status == RB_OK)
-            status = linearise(v, s, &own, why);
-        at = own;
+            status = linearise(v, s, own, why);
+        at = *own;
         if (status == RB_OK)
             status = rb_sensitivity_residual(at->model, v, &left, why);
     }
-    if (status == RB_OK)
+    rb_contact_state_free(&step);
+    rb_sensitivity_rate_free(&left);
+    return status == RB_OK && !(change <= enough) ? RB_MAXITER : status;
+}
+
+rb_status rb_sensitivity_follow(const rb_sensitivity *s, rb_rolling_model *v, rb_message *why)
+{
+    rb_contact_violation violation = {.scaled = NAN};
+    rb_sensitivity *own = NULL;
+
+    rb_rolling_variant_set(&s->model->state, NULL, 0.0, &v->state);
+    rb_status status = iterate(s, s, v->bodies.F && !v->problem.yield, v, &own, why);
+    if (status == RB_OK || status == RB_MAXITER)
         status = rb_contact_residual(&v->problem, &v->state, &violation);
     v->state.residual = violation.scaled;
     rb_sensitivity_free(own);
-    rb_contact_state_free(&step);
-    rb_sensitivity_rate_free(&left);
     return status == RB_OK && !(violation.scaled <= v->rc->contact.tol) ? RB_MAXITER : status;
+}
+
+rb_status rb_sensitivity_extend(const rb_sensitivity *s, int element, int zone, rb_rolling_model *v,
+                                rb_sensitivity **extended, rb_message *why)
+{
+    const rb_rolling_model *model = s->model;
+    rb_status status = s->factors ? rb_rolling_variant_create(model, model->rc, 1, v, why)
+                                  : rb_fail(why, RB_EINVAL, "derivatives: no matrices");
+
+    if (status != RB_OK)
+        return status;
+    v->state.zone[element] = zone;
+    status = rb_rolling_variant_complete(v, NULL, NULL, why);
+    if (status == RB_OK)
+        status = linearise(v, s, extended, why);
+    if (status == RB_OK)
+        status = iterate(s, *extended, 0, v, extended, why);
+    return status == RB_OK ? linearise(v, s, extended, why) : status;
 }
