@@ -393,7 +393,7 @@ WASM_CC = clang-14
 WASM_TARGET = --target=wasm32-wasi --sysroot=/usr
 WASM_FLAGS = $(WASM_TARGET) -std=c11 -D_POSIX_C_SOURCE=200809L -O3 -msimd128 -DRB_TRANSFORMS=0 -Iweb/wasm/include -Iinclude -Isrc -idirafter /usr/include
 WASM_EXPORTS = malloc free $(addprefix rb_api_,create create_for free set resolve solve status message option result value word number \
-    note array curve pivots newton variable guess stress stress_maxima crack derivatives input)
+    note array curve pivots newton variable guess stress stress_maxima crack derivatives tolerances input)
 WASM_WORDS := $(shell sed 's/\#.*//' web/sources)
 WASM_SRC := $(filter-out $(patsubst -%,src/%,$(filter -%,$(WASM_WORDS))),$(wildcard $(patsubst %,src/%/*.c,$(filter-out -%,$(WASM_WORDS))) web/wasm/*.c))
 WASM_OBJ := $(WASM_SRC:%.c=$(PAGE)/%.o)

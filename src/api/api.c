@@ -1136,11 +1136,11 @@ int rb_api_tolerances(rb_api *a, const char *inputs)
 
     if (a->result.history.n > 0)
         return rb_api_ended(a, step_tolerances(a, inputs));
-    int status = rb_api_derivatives(a);
     rb_api_forget_arrays(a, "tolerance.");
     a->has_deviation = 0;
-    if (status != RB_OK)
-        return status;
+    if (a->derivatives.n == 0 && rb_api_derivatives(a) != RB_OK)
+        return a->status;
+    begin(a);
     rb_api_call_begins();
     rb_status s = rb_case_read_tolerances(a->words, inputs, &t, &a->why);
     if (s == RB_OK)

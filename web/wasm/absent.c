@@ -112,19 +112,13 @@ rb_status rb_skeleton_alloc(int rows, int columns, rb_skeleton *s)
     return RB_EINVAL;
 }
 
-rb_status rb_skeleton_factor(rb_skeleton *s, double tolerance)
+rb_status rb_skeleton_reduce(rb_skeleton *s, double tolerance, int *kept, int **order, double **T)
 {
     (void)s;
     (void)tolerance;
-    return RB_EINVAL;
-}
-
-rb_status rb_skeleton_split(const rb_skeleton *s, int kept, int *order, double *T)
-{
-    (void)s;
-    (void)kept;
-    (void)order;
-    (void)T;
+    *kept = 0;
+    *order = NULL;
+    *T = NULL;
     return RB_EINVAL;
 }
 
