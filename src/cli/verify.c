@@ -37,16 +37,12 @@ static void print_check(const rb_verify_check *c, void *context)
 
 static void list_check(const rb_verify_check *c, void *context)
 {
-    json_t *one = json_object();
-    rb_report_json_set(&one, "what", json_string(c->what));
-    rb_report_json_set(&one, "wanted", rb_report_json_number(c->wanted));
-    rb_report_json_set(&one, "got", rb_report_json_number(c->got));
-    rb_report_json_set(&one, "error", rb_report_json_number(c->error));
-    rb_report_json_set(&one, "bound", rb_report_json_number(c->bound));
-    rb_report_json_set(&one, "relative", json_boolean(c->relative));
-    rb_report_json_set(&one, "holds", json_boolean(c->holds));
-    rb_report_json_set(&one, "why", c->why ? json_string(c->why) : json_null());
-    rb_report_json_append(context, one);
+    rb_report_json_append(context, json_pack("{s:s, s:o, s:o, s:o, s:o, s:b, s:b, s:s?}", "what",
+                                             c->what, "wanted", rb_report_json_number(c->wanted),
+                                             "got", rb_report_json_number(c->got), "error",
+                                             rb_report_json_number(c->error), "bound",
+                                             rb_report_json_number(c->bound), "relative",
+                                             c->relative, "holds", c->holds, "why", c->why));
 }
 
 static rb_status write_json(FILE *out, const void *context, rb_message *why)

@@ -51,6 +51,12 @@ double rb_report_round_step(double step)
     return power * (digit <= 1.0 ? 1.0 : digit <= 2.0 ? 2.0 : digit <= 5.0 ? 5.0 : 10.0);
 }
 
+double rb_report_round_down(double x)
+{
+    const double ten = pow(10.0, floor(log10(x))), lead = x / ten * (1.0 + 1e-12);
+    return (lead >= 5.0 ? 5.0 : lead >= 2.0 ? 2.0 : 1.0) * ten;
+}
+
 const char *rb_report_raised(const char *unit, char text[40])
 {
     text[0] = '\0';

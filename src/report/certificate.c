@@ -86,6 +86,20 @@ rb_status rb_certificate_list(const char *name, const json_t *list, const char *
     return RB_OK;
 }
 
+rb_status rb_certificate_lists(const char *name, const char *of, const json_t *lists,
+                               const char *heading, int steps, int n, size_t apart, double *x,
+                               rb_message *why)
+{
+    rb_status s = RB_OK;
+
+    if ((int)json_array_size(lists) != steps)
+        return rb_fail(why, RB_EFORMAT, "%s: %sexpected %d steps in %s", name, of, steps, heading);
+    for (int k = 0; k < steps && s == RB_OK; k++)
+        s = rb_certificate_list(name, json_array_get(lists, (size_t)k), heading, n,
+                                x + (size_t)k * apart, why);
+    return s;
+}
+
 rb_status rb_certificate_column(const char *name, const json_t *table, const char *heading, int n,
                                 double *x, rb_message *why)
 {
@@ -189,33 +203,18 @@ static rb_status read_state(rb_certificate *c, rb_message *why)
 
 /* ---- Sums -------------------------------------------------------------------------- */
 
-/* Neumaier's sum of products that fma splits without error. */
-typedef struct {
-    double sum, lost;
-} compensated;
-
-static void add(compensated *s, double x)
-{
-    const double t = s->sum + x;
-    s->lost += fabs(s->sum) >= fabs(x) ? (s->sum - t) + x : (x - t) + s->sum;
-    s->sum = t;
-}
-
-static void add_product(compensated *s, double a, double b)
-{
-    const double product = a * b;
-    add(s, product);
-    s->lost += fma(a, b, -product);
-}
-
+/* a'p + b'q: Neumaier's sum of products that fma splits without error. */
 static double weighted(int n, const double *a, const double *p, const double *b, const double *q)
 {
-    compensated s = {0.0, 0.0};
-    for (int i = 0; i < n; i++) {
-        add_product(&s, a[i], p[i]);
-        add_product(&s, b[i], q[i]);
+    double sum = 0.0, lost = 0.0;
+    for (int i = 0; i < 2 * n; i++) {
+        const double x = i % 2 ? b[i / 2] : a[i / 2], y = i % 2 ? q[i / 2] : p[i / 2];
+        const double product = x * y, t = sum + product;
+        lost += fabs(sum) >= fabs(product) ? (sum - t) + product : (product - t) + sum;
+        lost += fma(x, y, -product);
+        sum = t;
     }
-    return s.sum + s.lost;
+    return sum + lost;
 }
 
 void rb_certificate_given(rb_certificate *c, double load)
@@ -398,14 +397,6 @@ static double rounding_of(const rb_certificate *c, const char *key)
     return rb_certificate_rounding(&rb_rolling_solution_scalars, key, &scales, 1e-10);
 }
 
-/* Displacements are differences of larger ones; in static contact the slip, of these. */
-static double rounding_of_column(const rb_certificate *c, const char *key, int i)
-{
-    if (strcmp(key, "un_mm") == 0 || strcmp(key, "ut_mm") == 0)
-        return c->displacement;
-    return strcmp(key, "slip") == 0 ? c->displacement / c->again.h[i] : 0.0;
-}
-
 /* How the answer was found, which nothing but solving again would tell. */
 static int is_of_the_way(const char *key)
 {
@@ -417,36 +408,28 @@ static int is_of_the_way(const char *key)
     return 0;
 }
 
-/* The members of an object, and that there are no others. */
-static void compare_members(rb_certificate *c, const char *name, int element, const json_t *printed,
+void rb_certificate_compare(rb_certificate *c, const char *name, int element, const json_t *printed,
                             const json_t *again, rb_certificate_slack *slack)
 {
-    const char *key;
+    const size_t n = json_array_size(again);
+    const char *key, *dot = strrchr(name, '.');
     json_t *value;
     char own[120] = "", path[160];
     snprintf(own, sizeof own, element > 0 ? "%s.%d" : "%s", name, element);
+    /* The members of an object, and that there are no others. */
     json_object_foreach((json_t *)again, key, value)
     {
         snprintf(path, sizeof path, "%s.%s", own, key);
         if (!is_of_the_way(key))
             rb_certificate_compare(c, path, 0, json_object_get(printed, key), value, slack);
     }
-    json_object_foreach((json_t *)printed, key, value)
-    {
-        if (!json_object_get(again, key))
-            rb_certificate_violated(c, "%s.%s is no result of this case", own, key);
-    }
-}
-
-/* name: the path of the member, element: its place in a list. */
-void rb_certificate_compare(rb_certificate *c, const char *name, int element, const json_t *printed,
-                            const json_t *again, rb_certificate_slack *slack)
-{
-    const size_t n = json_array_size(again);
-    if (json_is_object(again))
-        compare_members(c, name, element, printed, again, slack);
-    else if (json_is_number(again) || json_is_null(again)) {
-        const char *dot = strrchr(name, '.');
+    if (json_is_object(again)) {
+        json_object_foreach((json_t *)printed, key, value)
+        {
+            if (!json_object_get(again, key))
+                rb_certificate_violated(c, "%s.%s is no result of this case", own, key);
+        }
+    } else if (json_is_number(again) || json_is_null(again)) {
         const double want = rb_certificate_number(again);
         const int exact = json_is_null(again) || json_is_integer(again);
 
@@ -519,12 +502,19 @@ static rb_status compare_results(rb_certificate *c)
                                         json_array_size(printed), json_array_size(list));
             if (strcmp(key, "gap_mm") == 0)
                 continue; /* the laws have it; p and q are those of the last step */
+            /* Displacements are differences of larger ones; in static contact the slip, of
+             * these. */
             const double most = largest(list);
+            const int is_length = strcmp(key, "un_mm") == 0 || strcmp(key, "ut_mm") == 0;
+            const int is_slip = strcmp(key, "slip") == 0;
             for (size_t i = 0; i < json_array_size(list); i++) {
                 const double want = rb_certificate_number(json_array_get(list, i));
-                rb_certificate_expect(
-                    c, key, (int)i + 1, rb_certificate_number(json_array_get(printed, i)), want,
-                    1e-9 * fabs(want) + 1e-11 * most + rounding_of_column(c, key, (int)i));
+                rb_certificate_expect(c, key, (int)i + 1,
+                                      rb_certificate_number(json_array_get(printed, i)), want,
+                                      1e-9 * fabs(want) + 1e-11 * most +
+                                          (is_length ? c->displacement
+                                           : is_slip ? c->displacement / c->again.h[i]
+                                                     : 0.0));
             }
         }
         if (json_object_size(c->table) != json_object_size(table))

@@ -46,11 +46,20 @@ void rb_certificate_option_text(const json_t *value, char *text, size_t size);
 rb_status rb_certificate_rebuild_case(const char *name, const json_t *inputs, rb_case *words,
                                       rb_message *why);
 
+/* A violation where the hash of the inputs and of the files that they name, which is taken over,
+ * is not the printed one.  RB_ENOMEM: now is NULL. */
+rb_status rb_certificate_hash(rb_certificate *c, const json_t *root, json_t *now);
+
 /* n numbers: a list, and the one that a table has under a heading. */
 rb_status rb_certificate_list(const char *name, const json_t *list, const char *heading, int n,
                               double *x, rb_message *why);
 rb_status rb_certificate_column(const char *name, const json_t *table, const char *heading, int n,
                                 double *x, rb_message *why);
+
+/* n numbers of each of the steps of `of`, `apart` numbers from step to step. */
+rb_status rb_certificate_lists(const char *name, const char *of, const json_t *lists,
+                               const char *heading, int steps, int n, size_t apart, double *x,
+                               rb_message *why);
 
 /* Typical sizes of the numbers of a result; rounding errors are compared with them. */
 typedef struct {

@@ -139,21 +139,6 @@ static rb_status check_contact(assessment *j, rb_case *words, rb_message *why)
 
 /* ---- What is printed --------------------------------------------------------------- */
 
-/* n numbers of each of the steps, `apart` numbers from step to step. */
-static rb_status read_lists(const assessment *j, const json_t *object, const char *key, int steps,
-                            int n, size_t apart, double *to, rb_message *why)
-{
-    const json_t *lists = json_object_get(object, key);
-    rb_status s = RB_OK;
-
-    if ((int)json_array_size(lists) != steps)
-        return rb_fail(why, RB_EFORMAT, "%s: expected %d steps in %s", j->c.name, steps, key);
-    for (int k = 0; k < steps && s == RB_OK; k++)
-        s = rb_certificate_list(j->c.name, json_array_get(lists, (size_t)k), key, n,
-                                to + (size_t)k * apart, why);
-    return s;
-}
-
 /* Elements and tractions of the contact, of one state or of all steps, where the track
  * looks for them. */
 static rb_status read_contact(assessment *j, rb_message *why)
@@ -185,9 +170,11 @@ static rb_status read_contact(assessment *j, rb_message *why)
         one->p = to->p;
         one->q = to->q;
     } else if (s == RB_OK) {
-        s = read_lists(j, states, "p_MPa", steps, n, (size_t)n, to->p, why);
+        s = rb_certificate_lists(name, "", json_object_get(states, "p_MPa"), "p_MPa", steps, n,
+                                 (size_t)n, to->p, why);
         if (s == RB_OK)
-            s = read_lists(j, states, "q_MPa", steps, n, (size_t)n, to->q, why);
+            s = rb_certificate_lists(name, "", json_object_get(states, "q_MPa"), "q_MPa", steps, n,
+                                     (size_t)n, to->q, why);
         run->distance = rb_alloc((size_t)steps, 1);
         if (s == RB_OK)
             s = run->distance
@@ -223,8 +210,9 @@ static rb_status read_history(assessment *j, rb_message *why)
 
     for (size_t k = 0; k < sizeof lists / sizeof *lists && s == RB_OK; k++)
         if (lists[k].to)
-            s = read_lists(j, faces, lists[k].key, steps, lists[k].n, lists[k].apart, lists[k].to,
-                           why);
+            s = rb_certificate_lists(j->c.name, "", json_object_get(faces, lists[k].key),
+                                     lists[k].key, steps, lists[k].n, lists[k].apart, lists[k].to,
+                                     why);
     if (s == RB_OK)
         s = rb_certificate_column(j->c.name, faces, "fluid_volume_mm2", steps, h->fluid_volume,
                                   why);
@@ -605,14 +593,10 @@ rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root, 
         s = rb_certificate_rebuild_case(name, inputs, words, why);
         j.resolved = rb_case_resolved(words);
     }
-    if (s == RB_OK) {
-        json_t *hash = rb_report_json_crack_hash(words, &j.crack);
-        s = hash ? rb_case_crack_check(j.resolved, &j.crack, why) : RB_ENOMEM;
-        if (s == RB_OK && !json_equal(hash, json_object_get(root, "input_hash")))
-            rb_certificate_violated(
-                &j.c, "inputs, or a file that they name, are not those of the result (input_hash)");
-        json_decref(hash);
-    }
+    if (s == RB_OK)
+        s = rb_case_crack_check(j.resolved, &j.crack, why);
+    if (s == RB_OK)
+        s = rb_certificate_hash(&j.c, root, rb_report_json_crack_hash(words, &j.crack));
     if (s == RB_OK)
         s = rebuild(&j, &reason);
     if (s == RB_OK && !j.crack.unloaded)

@@ -8,21 +8,6 @@
 
 /* ---- The states -------------------------------------------------------------------- */
 
-/* n numbers of each step. */
-static rb_status read_lists(const rb_certificate *c, const json_t *states, const char *key,
-                            const rb_rolling_states *to, double *values, rb_message *why)
-{
-    const json_t *lists = json_object_get(states, key);
-    rb_status s = RB_OK;
-    if ((int)json_array_size(lists) != to->steps)
-        return rb_fail(why, RB_EFORMAT, "%s: states: expected %d steps in %s", c->name, to->steps,
-                       key);
-    for (int k = 0; k < to->steps && s == RB_OK; k++)
-        s = rb_certificate_list(c->name, json_array_get(lists, (size_t)k), key, to->n,
-                                values + (size_t)k * (size_t)to->n, why);
-    return s;
-}
-
 static rb_status read_states(const rb_certificate *c, const json_t *printed, rb_rolling_states *to,
                              rb_message *why)
 {
@@ -45,9 +30,11 @@ static rb_status read_states(const rb_certificate *c, const json_t *printed, rb_
     rb_status s = zone ? RB_OK : RB_ENOMEM;
 
     for (size_t k = 0; k < sizeof parts / sizeof *parts && s == RB_OK; k++)
-        s = parts[k].n > 0 ? rb_certificate_column(c->name, parts[k].table, parts[k].key,
-                                                   parts[k].n, parts[k].to, why)
-                           : read_lists(c, states, parts[k].key, to, parts[k].to, why);
+        s = parts[k].n > 0
+                ? rb_certificate_column(c->name, parts[k].table, parts[k].key, parts[k].n,
+                                        parts[k].to, why)
+                : rb_certificate_lists(c->name, "states: ", json_object_get(states, parts[k].key),
+                                       parts[k].key, steps, n, (size_t)n, parts[k].to, why);
     for (size_t i = 0; i < (size_t)n * (size_t)steps && s == RB_OK; i++)
         if (!(zone[i] >= 0.0 && zone[i] <= 5.0) || zone[i] != floor(zone[i]))
             s = rb_fail(why, RB_EFORMAT, "%s: states: zone %g", c->name, zone[i]);

@@ -171,6 +171,17 @@ rb_status rb_certificate_rebuild_case(const char *name, const json_t *inputs, rb
     return s;
 }
 
+rb_status rb_certificate_hash(rb_certificate *c, const json_t *root, json_t *now)
+{
+    if (!now)
+        return RB_ENOMEM;
+    if (!json_equal(now, json_object_get(root, "input_hash")))
+        rb_certificate_violated(
+            c, "inputs, or a file that they name, are not those of the result (input_hash)");
+    json_decref(now);
+    return RB_OK;
+}
+
 /* Two texts in which numbers may differ by one in their second digit: they are rounded. */
 static int is_same_note(const char *a, const char *b)
 {
@@ -234,15 +245,8 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root, rb_
         s = rb_certificate_refuse(name, "its table has no elements", why);
     if (s == RB_OK)
         s = rb_certificate_rebuild_case(name, json_object_get(root, "inputs"), words, why);
-    if (s == RB_OK) {
-        /* Also of what the answer does not depend on, and of the files that inputs name. */
-        json_t *now = rb_report_json_input_hash(words);
-        s = now ? RB_OK : RB_ENOMEM;
-        if (now && !json_equal(now, json_object_get(root, "input_hash")))
-            rb_certificate_violated(
-                &c, "inputs, or a file that they name, are not those of the result (input_hash)");
-        json_decref(now);
-    }
+    if (s == RB_OK) /* also of what the answer does not depend on */
+        s = rb_certificate_hash(&c, root, rb_report_json_input_hash(words));
     if (s == RB_OK && history)
         s = rb_certificate_follow(&c, history, rb_case_resolved(words), n, &again, why);
     else if (s == RB_OK)

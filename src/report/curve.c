@@ -205,29 +205,6 @@ static int draws_carter(const view *v)
     return v->over != RB_OVER_SPEED && rb_rolling_carter_holds(v->rc);
 }
 
-/* The key stands right below, left above if the curves leave it no room there. */
-static void choose_corner(view *v, double line)
-{
-    const double wide = 0.5, high = 0.08 + line * (v->curves->n + 1.0);
-    double least = 0.0, most = -INFINITY;
-    int taken[2] = {0, 0};
-    for (int k = 0; k < v->curves->n; k++)
-        for (int i = 0; i < v->curves->curve[k].n; i++) {
-            const double y = y_of(v, &v->curves->curve[k], i, scale_of(v, k));
-            least = fmin(least, y);
-            most = fmax(most, y);
-        }
-    for (int k = 0; k < v->curves->n; k++)
-        for (int i = 0; i < v->curves->curve[k].n; i++) {
-            const rb_rolling_curve *c = &v->curves->curve[k];
-            const double x = (x_of(v, c, i) - v->from) / (v->to - v->from);
-            const double y = (y_of(v, c, i, scale_of(v, k)) - least) / (most - least);
-            taken[0] += x > 1.0 - wide && y < high;
-            taken[1] += x < wide && y > 1.0 - high;
-        }
-    v->corner = taken[0] > taken[1];
-}
-
 /* "creepage ξ  [10^{-3}]" */
 static void write_label(FILE *out, const char *axis, const char *what, int exponent)
 {
@@ -409,12 +386,28 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas, const rb_r
     v.exponent = rb_report_exponent(largest);
     v.from = INFINITY;
     v.to = -INFINITY;
+    double least = 0.0, most = -INFINITY;
     for (int k = 0; k < v.curves->n; k++)
         for (int i = 0; i < v.curves->curve[k].n; i++) {
-            v.from = fmin(v.from, x_of(&v, &v.curves->curve[k], i));
-            v.to = fmax(v.to, x_of(&v, &v.curves->curve[k], i));
+            const double x = x_of(&v, &v.curves->curve[k], i);
+            const double y = y_of(&v, &v.curves->curve[k], i, scale_of(&v, k));
+            v.from = fmin(v.from, x);
+            v.to = fmax(v.to, x);
+            least = fmin(least, y);
+            most = fmax(most, y);
         }
-    const double line = canvas.size == RB_REPORT_85MM ? 0.05 : 0.035;
-    choose_corner(&v, has_heat(&v) ? 1.6 * line : line);
+    /* The key stands right below, left above if the curves leave it no room there. */
+    const double line = (canvas.size == RB_REPORT_85MM ? 0.05 : 0.035) * (has_heat(&v) ? 1.6 : 1.0);
+    const double wide = 0.5, high = 0.08 + line * (curves->n + 1.0);
+    int taken[2] = {0, 0};
+    for (int k = 0; k < curves->n; k++)
+        for (int i = 0; i < curves->curve[k].n; i++) {
+            const rb_rolling_curve *c = &curves->curve[k];
+            const double x = (x_of(&v, c, i) - v.from) / (v.to - v.from);
+            const double y = (y_of(&v, c, i, scale_of(&v, k)) - least) / (most - least);
+            taken[0] += x > 1.0 - wide && y < high;
+            taken[1] += x < wide && y > 1.0 - high;
+        }
+    v.corner = taken[0] > taken[1];
     return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why);
 }

@@ -80,11 +80,11 @@ void rb_report_json_design(json_t **root, const rb_design *d, rb_units units)
                        json_string(d->status == RB_OK ? "solved" : rb_status_text(d->status)));
     for (int j = 0; j < d->n; j++) {
         const rb_design_variable *v = &d->variable[j];
-        json_t *one = json_object();
-        rb_report_json_set(&one, "start", number(units, v->unit, v->start));
-        rb_report_json_set(&one, "value", number(units, v->unit, v->value));
-        rb_report_json_set(&one, "low", number(units, v->unit, v->low));
-        rb_report_json_set(&one, "high", number(units, v->unit, v->high));
+        const rb_report_named numbers[] = {{"start", shown(units, v->unit, v->start)},
+                                           {"value", shown(units, v->unit, v->value)},
+                                           {"low", shown(units, v->unit, v->low)},
+                                           {"high", shown(units, v->unit, v->high)}};
+        json_t *one = rb_report_json_named(4, numbers);
         if (j >= d->gap_from && j < d->gap_from + d->gap_n)
             rb_report_json_set(&one, "x", number(units, "mm", d->gap_x[j - d->gap_from]));
         rb_report_json_set(&variables, v->name, one);

@@ -118,36 +118,12 @@ static rb_status dump_columns(const target *t, const rb_rolling_model *model)
     return s;
 }
 
-/* ---- LCP --------------------------------------------------------------------------- */
-
-static rb_status dump_lcp(const target *t, const rb_rolling_model *model)
-{
-    rb_contact_lcp lcp;
-    rb_status s = rb_rolling_model_lcp(model, &lcp, t->why);
-    if (s != RB_OK)
-        return s;
-    const int n = lcp.size;
-    const struct {
-        const char *name;
-        int columns;
-        double *x;
-        const char *comment;
-    } parts[] = {{"M", n, lcp.M, "scaled LCP: w = M z + b"},
-                 {"b", 1, lcp.b, "scaled LCP: w = M z + b"},
-                 {"z_scale", 1, lcp.z_scale, "physical z = z_scale z"},
-                 {"w_scale", 1, lcp.w_scale, "physical w = w_scale w"}};
-    for (size_t k = 0; k < sizeof parts / sizeof *parts && s == RB_OK; k++)
-        s = write_matrix(t, parts[k].name, (rb_io_dense){n, parts[k].columns, parts[k].x, n},
-                         parts[k].comment);
-    rb_contact_lcp_free(&lcp);
-    return s;
-}
-
 static rb_status dump_all(const target *t, const rb_rolling_model *model)
 {
     const rb_rolling_mesh *mesh = &model->mesh;
     const int n = mesh->n, m = n + 1;
     double *x = rb_alloc((size_t)n, 3);
+
     for (int i = 0; x && i < n; i++) {
         x[i] = mesh->ends[i];
         x[i + n] = mesh->ends[i + 1];
@@ -165,10 +141,26 @@ static rb_status dump_all(const target *t, const rb_rolling_model *model)
         return s;
     if (!model->bodies.F) /* a large contact: neither F nor M has been formed */
         return dump_columns(t, model);
-    s = write_matrix(t, "F", (rb_io_dense){2 * m, 2 * n, model->bodies.F, 2 * m},
-                     "w = F r: w_N then w_T, each at the contact elements and the one "
-                     "upstream; r_N then r_T");
-    return s == RB_OK ? dump_lcp(t, model) : s;
+    rb_contact_lcp lcp;
+    s = rb_rolling_model_lcp(model, &lcp, t->why);
+    if (s != RB_OK)
+        return s;
+    const struct {
+        const char *name;
+        rb_io_dense m;
+        const char *comment;
+    } parts[] = {{"F",
+                  {2 * m, 2 * n, model->bodies.F, 2 * m},
+                  "w = F r: w_N then w_T, each at the contact elements and the one upstream; r_N "
+                  "then r_T"},
+                 {"M", {lcp.size, lcp.size, lcp.M, lcp.size}, "scaled LCP: w = M z + b"},
+                 {"b", {lcp.size, 1, lcp.b, lcp.size}, "scaled LCP: w = M z + b"},
+                 {"z_scale", {lcp.size, 1, lcp.z_scale, lcp.size}, "physical z = z_scale z"},
+                 {"w_scale", {lcp.size, 1, lcp.w_scale, lcp.size}, "physical w = w_scale w"}};
+    for (size_t k = 0; k < sizeof parts / sizeof *parts && s == RB_OK; k++)
+        s = write_matrix(t, parts[k].name, parts[k].m, parts[k].comment);
+    rb_contact_lcp_free(&lcp);
+    return s;
 }
 
 rb_status rb_report_dump(const char *folder, const rb_rolling_model *model, rb_message *why)

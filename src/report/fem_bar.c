@@ -1,5 +1,6 @@
 /* The bar's picture: deformed mesh above, reactions below. */
-#include "report/fem_internal.h"
+#include "report/internal.h"
+#include "rollbem/report_fem.h"
 
 #include <math.h>
 

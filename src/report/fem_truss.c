@@ -1,7 +1,8 @@
 /* The truss's picture: a quarter of it from above, one panel an increment, the
  * displacements of its contact nodes at the end, and the quarter seen from the side, at
  * rest and at the end. */
-#include "report/fem_internal.h"
+#include "report/internal.h"
+#include "rollbem/report_fem.h"
 
 #include <math.h>
 
@@ -52,7 +53,7 @@ static double scale_of(const quarter *q, const rb_fem_step *step, int total)
         const double *t = vector_of(step, total, i);
         most = fmax(most, hypot(t[0], t[1]));
     }
-    return most > 1e-9 ? rb_report_fem_round(1.1e3 * q->spacing / most) : 1.0;
+    return most > 1e-9 ? rb_report_round_down(1.1e3 * q->spacing / most) : 1.0;
 }
 
 /* Four panels in a row, or two in a column of print, whose letters are larger. */

@@ -1,6 +1,7 @@
 /* The wall's picture: its deformed front on the left, forces and contacts over time on
  * the right. */
-#include "report/fem_internal.h"
+#include "report/internal.h"
+#include "rollbem/report_fem.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -43,25 +44,19 @@ static int is_inner(const front *f, int a, int b)
     return 0;
 }
 
-/* Where the panels lie on the canvas: side by side, or below each other in a column. */
-typedef struct {
-    double left, right, bottom, top;
-} panel;
-
 enum { FRONT, FORCES, CONTACTS };
 
-static panel panel_of(int column, int which)
-{
-    static const panel beside[] = {
-        {0.08, 0.54, 0.14, 0.85}, {0.655, 0.965, 0.53, 0.87}, {0.655, 0.965, 0.14, 0.485}};
-    static const panel below[] = {
-        {0.18, 0.93, 0.50, 0.93}, {0.18, 0.93, 0.27, 0.41}, {0.18, 0.93, 0.09, 0.245}};
-    return column ? below[which] : beside[which];
-}
+/* Where the panels lie on the canvas: side by side, or below each other in a column. */
+static const struct {
+    double left, right, bottom, top;
+} panels[2][3] = {
+    {{0.08, 0.54, 0.14, 0.85}, {0.655, 0.965, 0.53, 0.87}, {0.655, 0.965, 0.14, 0.485}},
+    {{0.18, 0.93, 0.50, 0.93}, {0.18, 0.93, 0.27, 0.41}, {0.18, 0.93, 0.09, 0.245}}};
 
-static void open_panel(FILE *out, panel at)
+static void open_panel(FILE *out, int column, int which)
 {
-    rb_report_room(out, at.left, at.right, at.bottom, at.top);
+    rb_report_room(out, panels[column][which].left, panels[column][which].right,
+                   panels[column][which].bottom, panels[column][which].top);
 }
 
 typedef struct {
@@ -98,7 +93,6 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
                 1e-3 * v->step[k].shear, v->step[k].stick, v->step[k].slip, v->step[k].separated,
                 v->step[k].iterations);
     fputs("EOD\n", out);
-    const panel at = panel_of(column, FRONT);
     char magnify[40];
     fprintf(out,
             "set multiplot\nset label 1 '{/:Bold Wall of 12 blocks, pressed with %g kN and "
@@ -107,8 +101,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
             "rgb '#444444'\n%s",
             1e-3 * last->compression, rb_report_large_number(v->f.magnify, magnify),
             column ? "" : "of the upper support ", 1e3 * last->drift, column ? 0.5 : 0.31,
-            at.top + (column ? 0.025 : 0.035), column ? "unset label 1\n" : "");
-    open_panel(out, at);
+            panels[column][FRONT].top + (column ? 0.025 : 0.035), column ? "unset label 1\n" : "");
+    open_panel(out, column, FRONT);
     fprintf(out,
             "set size ratio -1\nset xrange [%g:%g]\n"
             "set yrange [%g:%g]\nset xlabel 'x [m]' offset 0,0.3\nset ylabel 'z [m]' offset "
@@ -125,7 +119,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
           out);
     if (column)
         fputs("set xtics 0.2\nset ytics 10\n", out);
-    open_panel(out, panel_of(column, FORCES));
+    open_panel(out, column, FORCES);
     fputs(
         "set ylabel 'force [kN]' offset -0.7,0\n"
         "set key bottom right Left reverse samplen 2\n"
@@ -135,7 +129,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
     if (column)
         fprintf(out, "set ytics %g\n",
                 rb_report_round_step((last->stick + last->slip + last->separated) / 4.0));
-    open_panel(out, panel_of(column, CONTACTS));
+    open_panel(out, column, CONTACTS);
     fputs(column ? "set ylabel 'contact points' offset 0.5,0\n"
                  : "set ylabel 'contact points' offset -0.7,0\n",
           out);
@@ -167,7 +161,7 @@ rb_status rb_report_picture_wall(FILE *out, rb_report_canvas canvas, const rb_fe
         }
         v.f.u = u;
         if (most > 0.0)
-            v.f.magnify = rb_report_fem_round(0.12 * v.f.height / most);
+            v.f.magnify = rb_report_round_down(0.12 * v.f.height / most);
         s = rb_report_draw(out, canvas, RB_REPORT_PANELS, write_script, &v, why);
     }
     free(u);

@@ -42,24 +42,11 @@ static json_t *column(const rb_report_fit *f, const double *x, const double *les
     return list;
 }
 
-/* The lines of the sentences. */
-static json_t *sentences(const rb_case_fit *fit)
-{
-    json_t *list = json_array();
-
-    for (const char *at = fit->sentences; *at;) {
-        const size_t n = strcspn(at, "\n");
-        rb_report_json_append(&list, json_stringn(at, n));
-        at += n + (at[n] == '\n');
-    }
-    return list;
-}
-
 void rb_report_json_fit(json_t **root, const rb_report_fit *f)
 {
     const rb_case_fit *fit = f->fit;
     const char *unit = force_unit(f);
-    json_t *parameters = json_object(), *curve = json_object();
+    json_t *parameters = json_object(), *curve = json_object(), *sentences = json_array();
 
     for (int j = 0; j < fit->n; j++) {
         /* A number that the data do not tell is null. */
@@ -88,7 +75,12 @@ void rb_report_json_fit(json_t **root, const rb_report_fit *f)
         rb_report_json_set(&parameters, fit->parameter[j].name, object);
     }
     rb_report_json_set(root, "parameters", parameters);
-    rb_report_json_set(root, "sentences", sentences(fit));
+    for (const char *at = fit->sentences; *at;) { /* line by line */
+        const size_t n = strcspn(at, "\n");
+        rb_report_json_append(&sentences, json_stringn(at, n));
+        at += n + (at[n] == '\n');
+    }
+    rb_report_json_set(root, "sentences", sentences);
     rb_report_json_set(root, "level", json_real(fit->level));
     rb_report_json_set(root, "chi_square", rb_report_json_number(fit->chi_square));
     rb_report_json_set(root, "degrees_of_freedom", json_integer(fit->degrees_of_freedom));

@@ -49,6 +49,13 @@ rb_status rb_report_end_columns(rb_report_cells *c, int rows, int parts,
 void rb_report_json_columns(struct json_t **object, int rows, const rb_report_columns *c,
                             int headed);
 
+/* An object of numbers. */
+typedef struct {
+    const char *name;
+    double x;
+} rb_report_named;
+struct json_t *rb_report_json_named(int n, const rb_report_named *number);
+
 /* ---- Stress ------------------------------------------------------------------------ */
 
 int rb_report_stress_is_inside(const rb_report_stress *s, int k);
@@ -103,11 +110,12 @@ typedef struct {
 rb_report_length rb_report_length_axis(rb_units units, double a);
 /* The power of ten for showing small numbers up to `largest`; 0 for other numbers. */
 int rb_report_exponent(double largest);
-/* The next of 1, 2, 5 times a power of ten. */
+/* The next of 1, 2, 5 times a power of ten; the one before, at most x. */
 double rb_report_round_step(double step);
-/* Five digits, 2·10^{5} from 1e5 on: no "2e+05" in a picture. */
+double rb_report_round_down(double x);
 /* "MPa.mm^0.5" as gnuplot writes it, exponents raised.  Returns text. */
 const char *rb_report_raised(const char *unit, char text[40]);
+/* Five digits, 2·10^{5} from 1e5 on: no "2e+05" in a picture. */
 const char *rb_report_large_number(double x, char text[40]);
 /* Number of labels that fit into this part of the canvas without touching. */
 double rb_report_labels_in(double height);

@@ -46,6 +46,14 @@ json_t *rb_report_json_numbers(int n, const double *x)
     return list;
 }
 
+json_t *rb_report_json_named(int n, const rb_report_named *number)
+{
+    json_t *object = json_object();
+    for (int k = 0; k < n; k++)
+        rb_report_json_set(&object, number[k].name, rb_report_json_number(number[k].x));
+    return object;
+}
+
 json_t *rb_report_json_start(const char *command)
 {
     json_t *root = json_object();

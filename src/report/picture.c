@@ -97,18 +97,6 @@ static double slip_of(const view *v, int i)
 
 /* ---- Data ------------------------------------------------------------------------- */
 
-/* What friction may be at element i: mu p, or the yield stress of the interface. */
-static double bound_of(const view *v, int i)
-{
-    const rb_rolling_solution *s = v->s;
-    const double limit = (s->mu ? s->mu[i] : rb_rolling_largest_mu(v->rc)) * s->p[i];
-    if (!s->plastic)
-        return limit;
-    const double u = rb_unit_stored(s->units, "mm", s->plastic[i]);
-    const double yield = fmax(v->rc->yield_stress + v->rc->hardening * u, 0.0);
-    return fmin(limit, rb_unit_shown(s->units, "MPa", yield));
-}
-
 enum { STEPS_UP_TO = 16 };
 
 /* Curves of the tractions fall to zero where the contact ends; slip just ends. */
@@ -122,9 +110,16 @@ static void write_data(FILE *out, const view *v)
         if (!steps && ends)
             fprintf(out, "%.9g 0 0 0 ? ? ?\n", (s->x[i] - s->h[i] / 2) / v->length.size);
         fprintf(out, "%.9g", s->x[i] / v->length.size);
+        /* What friction may be: mu p, or the yield stress of the interface. */
+        double bound = (s->mu ? s->mu[i] : rb_rolling_largest_mu(v->rc)) * s->p[i];
+        if (s->plastic) {
+            const double u = rb_unit_stored(s->units, "mm", s->plastic[i]);
+            const double yield = fmax(v->rc->yield_stress + v->rc->hardening * u, 0.0);
+            bound = fmin(bound, rb_unit_shown(s->units, "MPa", yield));
+        }
         if (steps || has_slip(v, i))
             fprintf(out, " %.9g %.9g %.9g", s->p[i] / v->stress_unit, s->q[i] / v->stress_unit,
-                    bound_of(v, i) / v->stress_unit);
+                    bound / v->stress_unit);
         else
             fputs(" ? ? ?", out);
         if (has_slip(v, i))

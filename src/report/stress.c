@@ -112,11 +112,7 @@ rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s, const cha
 
 static json_t *json_extremum(rb_rolling_extremum m)
 {
-    json_t *object = json_object();
-    rb_report_json_set(&object, "value", rb_report_json_number(m.value));
-    rb_report_json_set(&object, "x", rb_report_json_number(m.x));
-    rb_report_json_set(&object, "y", rb_report_json_number(m.y));
-    return object;
+    return rb_report_json_named(3, (rb_report_named[]){{"value", m.value}, {"x", m.x}, {"y", m.y}});
 }
 
 void rb_report_json_stress(json_t **root, const rb_report_stress *s)
@@ -133,15 +129,13 @@ void rb_report_json_stress(json_t **root, const rb_report_stress *s)
     rb_report_json_set(root, "maxima", all);
     if (s->shakedown) {
         const rb_rolling_shakedown *d = s->shakedown;
-        json_t *object = json_object();
-        rb_report_json_set(&object, "limit",
-                           rb_report_json_number(s->s->max_pressure / d->shear_yield));
-        rb_report_json_set(&object, "shear_yield", rb_report_json_number(d->shear_yield));
-        rb_report_json_set(&object, "x", rb_report_json_number(d->x));
-        rb_report_json_set(&object, "y", rb_report_json_number(d->y));
-        rb_report_json_set(&object, "residual", rb_report_json_number(d->residual));
-        rb_report_json_set(&object, "yield_shear", rb_report_json_number(s->yield_shear));
-        rb_report_json_set(root, "shakedown", object);
+        const rb_report_named numbers[] = {{"limit", s->s->max_pressure / d->shear_yield},
+                                           {"shear_yield", d->shear_yield},
+                                           {"x", d->x},
+                                           {"y", d->y},
+                                           {"residual", d->residual},
+                                           {"yield_shear", s->yield_shear}};
+        rb_report_json_set(root, "shakedown", rb_report_json_named(6, numbers));
     }
     if (s->nx > 0) {
         rb_report_json_set(&points, "nx", json_integer(s->nx));

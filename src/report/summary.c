@@ -15,21 +15,9 @@ static int is_contact(const rb_rolling_solution *s, int i)
     return s->zone[i] != RB_ZONE_SEPARATED;
 }
 
-/* The commonest mark among elements from .. to - 1. */
-static char majority(const rb_rolling_solution *s, int from, int to)
-{
-    static const char marks[] = "oS|*", mark[] = "o*SS||"; /* mark: of each zone */
-    int count[4] = {0}, best = 0;
-    for (int i = from; i < to; i++)
-        count[strchr(marks, mark[s->zone[i]]) - marks]++;
-    for (int k = 1; k < 4; k++)
-        if (count[k] >= count[best])
-            best = k;
-    return marks[best];
-}
-
 void rb_report_strip(const rb_rolling_solution *s, int width, char *strip)
 {
+    static const char marks[] = "oS|*", mark[] = "o*SS||"; /* mark: of each zone */
     /* Elements first .. last - 1: the contact and a margin, or all without contact. */
     int first = 0, last = s->n, at = 0;
     while (first < s->n && !is_contact(s, first))
@@ -44,12 +32,19 @@ void rb_report_strip(const rb_rolling_solution *s, int width, char *strip)
     }
     const int shown = last - first;
     const int room = width - 2;
-    const int marks = shown < room ? shown : room;
+    const int n = shown < room ? shown : room;
     strip[at++] = '.';
-    for (int k = 0; k < marks; k++) {
-        const int from = first + (int)((long)shown * k / marks);
-        const int to = first + (int)((long)shown * (k + 1) / marks);
-        strip[at++] = majority(s, from, to);
+    for (int k = 0; k < n; k++) {
+        const int from = first + (int)((long)shown * k / n);
+        const int to = first + (int)((long)shown * (k + 1) / n);
+        /* The commonest mark of these elements. */
+        int count[4] = {0}, best = 0;
+        for (int i = from; i < to; i++)
+            count[strchr(marks, mark[s->zone[i]]) - marks]++;
+        for (int j = 1; j < 4; j++)
+            if (count[j] >= count[best])
+                best = j;
+        strip[at++] = marks[best];
     }
     strip[at++] = '.';
     strip[at] = '\0';

@@ -89,17 +89,6 @@ typedef struct {
     int from, to; /* the middle, left out: empty where from > to */
 } choice;
 
-static choice choose_rows(const grid *g, int most)
-{
-    const int rows = g->rows - 1;
-    double x;
-    if (rows <= most)
-        return (choice){1, 1, 0};
-    if (!read_number(entry(g, 1, 0), &x))
-        return (choice){1, most / 2 + 1, rows - (most - most / 2 - 1)};
-    return (choice){(rows - 1 + most - 2) / (most - 1), 1, 0};
-}
-
 static int next_row(const grid *g, int i, const choice *c)
 {
     const int next = i + c->step;
@@ -239,7 +228,12 @@ rb_status rb_report_terminal(FILE *out, char *text, const rb_report_window *wind
     if (all) {
         /* names, units, two lines about the rest, and the prompt */
         const int most = window->rows - 5 > LEAST_ROWS ? window->rows - 5 : LEAST_ROWS;
-        const choice rows = choose_rows(&g, most);
+        const int n = g.rows - 1;
+        double x;
+        const choice rows = n <= most ? (choice){1, 1, 0}
+                            : read_number(entry(&g, 1, 0), &x)
+                                ? (choice){(n - 1 + most - 2) / (most - 1), 1, 0}
+                                : (choice){1, most / 2 + 1, n - (most - most / 2 - 1)};
         int width = 0;
         measure(&g, &rows, all);
         /* Columns that differ, from the left, as many as fit; those of `minor` only where
