@@ -47,16 +47,14 @@ typedef struct {
 
 /* The displacement of one load's strip. */
 typedef struct {
-    const rb_bem_mesh *mesh;
-    int element;
-    double unit;
+    const rb_strip *strip;
     double complex load;
 } strip_load;
 
 static double complex strip_field(rb_bem_material material, double complex z, const void *context)
 {
     const strip_load *l = context;
-    const rb_strip strip = rb_strip_on(l->mesh, l->element, material, l->unit);
+    const rb_strip strip = rb_strip_in(*l->strip, material);
     return rb_strip_under(rb_strip_displacement(&strip, z), l->load);
 }
 
@@ -92,34 +90,6 @@ static void left_over(const particular *p, int k, int c, double value[2][2])
 /* Elements whose columns are multiplied at once; rows of one product. */
 enum { BLOCK = 32, SLICE = 256 };
 
-/* A block of elements: columns of [G, -H] for the values that are left over (ld x 2
- * BLOCK), and these (2 BLOCK x loads). */
-typedef struct {
-    double *columns, *values;
-} block;
-
-/* The part of element k, the i-th of its block. */
-static void fill_left_over(const particular *p, const rb_assembly *assembly, int k, int i,
-                           const block *b)
-{
-    const rb_bem_system *s = p->s;
-    double *out[4] = {NULL, NULL, NULL, NULL};
-
-    for (int d = 0; d < 2; d++) {
-        const int held = s->mesh.condition[2 * k + d] == RB_BEM_DISPLACEMENT;
-        out[held ? d : 2 + d] = b->columns + (size_t)(2 * i + d) * (size_t)s->ld;
-    }
-    rb_assembly_columns(assembly, k, 1.0, out);
-    for (int c = 0; c < s->mesh.contact_n; c++) {
-        double value[2][2];
-        left_over(p, k, c, value);
-        for (int l = 0; l < 2; l++)
-            for (int d = 0; d < 2; d++)
-                b->values[2 * i + d + (size_t)(2 * c + l) * 2 * BLOCK] =
-                    out[d] ? -value[l][d] : value[l][d];
-    }
-}
-
 rb_status rb_bem_check_convex(const rb_bem_system *s, rb_message *why)
 {
     const rb_bem_mesh *mesh = &s->mesh;
@@ -152,7 +122,7 @@ static rb_status particular_make(const rb_bem_system *s, particular *p)
         return RB_ENOMEM;
     rb_status status = RB_OK;
     for (int k = 0; k < 2 * s->mesh.contact_n && status == RB_OK; k++) {
-        const strip_load load = {&s->mesh, s->mesh.contact_first + k / 2, unit, k % 2 ? I : 1.0};
+        const strip_load load = {&p->strip[k / 2], k % 2 ? I : 1.0};
         status = rb_bond_left_over(s->bond, &s->mesh, s->material, strip_field, &load,
                                    p->bonded + (size_t)k * 2 * (size_t)s->bond->n);
     }
@@ -163,11 +133,13 @@ static rb_status subtracted_loads_dense(const particular *p, double *X)
 {
     const rb_bem_system *s = p->s;
     const size_t loads = 2 * (size_t)s->mesh.contact_n;
-    const block b = {rb_alloc((size_t)s->ld, 2 * BLOCK), rb_alloc(2 * BLOCK, loads)};
+    /* Of a block of elements: columns of [G, -H] for the values that are left over (ld x 2
+     * BLOCK), and these (2 BLOCK x loads). */
+    double *columns = rb_alloc((size_t)s->ld, 2 * BLOCK), *values = rb_alloc(2 * BLOCK, loads);
     const int threads = rb_blas_threads(1);
     rb_assembly assembly;
     rb_status status =
-        b.columns && b.values ? rb_assembly_begin(&s->mesh, s->material, &assembly) : RB_ENOMEM;
+        columns && values ? rb_assembly_begin(&s->mesh, s->material, &assembly) : RB_ENOMEM;
 
     if (status == RB_OK) {
         for (int from = 0; from < s->mesh.n; from += BLOCK) {
@@ -178,21 +150,35 @@ static rb_status subtracted_loads_dense(const particular *p, double *X)
                                                              rb_pairs_for_threads / 32)
             {
 #pragma omp for schedule(static)
-                for (int k = from; k < to; k++)
-                    fill_left_over(p, &assembly, k, k - from, &b);
+                for (int k = from; k < to; k++) {
+                    double *out[4] = {NULL, NULL, NULL, NULL}, value[2][2];
+                    const int row = 2 * (k - from);
+                    for (int d = 0; d < 2; d++) {
+                        const int held = s->mesh.condition[2 * k + d] == RB_BEM_DISPLACEMENT;
+                        out[held ? d : 2 + d] = columns + (size_t)(row + d) * (size_t)s->ld;
+                    }
+                    rb_assembly_columns(&assembly, k, 1.0, out);
+                    for (int c = 0; c < s->mesh.contact_n; c++) {
+                        left_over(p, k, c, value);
+                        for (int l = 0; l < 2; l++)
+                            for (int d = 0; d < 2; d++)
+                                values[row + d + (size_t)(2 * c + l) * 2 * BLOCK] =
+                                    out[d] ? -value[l][d] : value[l][d];
+                    }
+                }
 #pragma omp for schedule(static)
                 for (int row = 0; row < s->dofs; row += SLICE)
                     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans,
                                 s->dofs - row < SLICE ? s->dofs - row : SLICE,
-                                2 * s->mesh.contact_n, 2 * (to - from), 1.0, b.columns + row, s->ld,
-                                b.values, 2 * BLOCK, 1.0, X + row, s->ld);
+                                2 * s->mesh.contact_n, 2 * (to - from), 1.0, columns + row, s->ld,
+                                values, 2 * BLOCK, 1.0, X + row, s->ld);
             }
         }
         rb_assembly_end(&assembly);
     }
     rb_blas_threads(threads);
-    free(b.columns);
-    free(b.values);
+    free(columns);
+    free(values);
     return status;
 }
 
@@ -300,35 +286,13 @@ static rb_status multiply_values(const particular *p, const rb_given *given, int
     return s;
 }
 
-static rb_status add_far(const particular *p, const rb_given *given, const split *far, double *X)
-{
-    const size_t rows = (size_t)p->s->dofs;
-    const int others = 2 * p->s->mesh.contact_n - far->kept, n = p->s->dofs;
-    double *few = rb_alloc(rows, (size_t)far->kept), *rest = rb_alloc(rows, (size_t)others + 1);
-    rb_status s = few && rest ? multiply_values(p, given, far->far, far->element + far->near,
-                                                far->kept, far->order, few)
-                              : RB_ENOMEM;
-
-    if (s == RB_OK) {
-        if (others > 0)
-            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, others, far->kept, 1.0, few,
-                        n, far->T, far->kept, 0.0, rest, n);
-        for (int l = 0; l < far->kept + others; l++)
-            cblas_daxpy(n, 1.0,
-                        l < far->kept ? few + (size_t)l * rows
-                                      : rest + (size_t)(l - far->kept) * rows,
-                        1, X + (size_t)far->order[l] * rows, 1);
-    }
-    free(few);
-    free(rest);
-    return s;
-}
-
 static rb_status subtracted_loads_long(const particular *p, double *X)
 {
     const rb_bem_system *s = p->s;
+    const int n = s->dofs, loads = 2 * s->mesh.contact_n;
     rb_given *given = NULL;
     split parts = {0};
+    double *few = NULL, *rest = NULL;
     rb_status status = split_elements(&s->mesh, &parts);
 
     if (status == RB_OK)
@@ -336,37 +300,30 @@ static rb_status subtracted_loads_long(const particular *p, double *X)
     if (status == RB_OK)
         status = rb_given_create(&s->mesh, s->material, s->unit, s->tolerance, &given);
     if (status == RB_OK)
-        status =
-            multiply_values(p, given, parts.near, parts.element, 2 * s->mesh.contact_n, NULL, X);
-    if (status == RB_OK)
-        status = add_far(p, given, &parts, X);
+        status = multiply_values(p, given, parts.near, parts.element, loads, NULL, X);
+    const int kept = parts.kept, others = loads - kept;
+    if (status == RB_OK) {
+        few = rb_alloc((size_t)n, (size_t)kept);
+        rest = rb_alloc((size_t)n, (size_t)others + 1);
+        status = few && rest ? multiply_values(p, given, parts.far, parts.element + parts.near,
+                                               kept, parts.order, few)
+                             : RB_ENOMEM;
+    }
+    if (status == RB_OK && others > 0)
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, others, kept, 1.0, few, n,
+                    parts.T, kept, 0.0, rest, n);
+    for (int l = 0; status == RB_OK && l < loads; l++)
+        cblas_daxpy(n, 1.0,
+                    l < kept ? few + (size_t)l * (size_t)n : rest + (size_t)(l - kept) * (size_t)n,
+                    1, X + (size_t)parts.order[l] * (size_t)n, 1);
+    free(few);
+    free(rest);
     rb_given_free(given);
     free(parts.element);
     free(parts.sample);
     free(parts.order);
     free(parts.T);
     return status;
-}
-
-/* The strips' own displacements, on top of what was solved for. */
-static void add_particular(const particular *p, double *X)
-{
-    const rb_bem_system *s = p->s;
-    const rb_bem_mesh *mesh = &s->mesh;
-    const int m = mesh->contact_n + 1;
-
-    for (int c = 0; c < mesh->contact_n; c++) {
-        double *U = X + 2 * (size_t)c * (size_t)s->ld + (size_t)(s->dofs - 2 * m);
-        for (int i = 0; i < m; i++) {
-            const rb_strip_answer answer = rb_strip_displacement(
-                &p->strip[c], rb_strip_midpoint(mesh, mesh->contact_first + i));
-            for (int l = 0; l < 2; l++) {
-                const double complex u = rb_strip_under(answer, l ? I : 1.0);
-                U[2 * i + (size_t)l * (size_t)s->ld] += creal(u);
-                U[2 * i + 1 + (size_t)l * (size_t)s->ld] += cimag(u);
-            }
-        }
-    }
 }
 
 /* Normal into the body and tangent of element j, as rows: frame[0] = n, frame[1] = t. */
@@ -380,37 +337,13 @@ static void contact_frame(const rb_bem_mesh *mesh, int j, rb_bem_normals normals
     frame[0][0] = -frame[1][1];
 }
 
-/* F_ab(i, j) = e_a(i)' U(i, j) e_b(j), a, b in {N, T}; the last column of X gives w0. */
-static void turn_to_frames(const rb_bem_system *s, rb_bem_normals normals, const double *X,
-                           rb_bem_flexibility *f, double *F)
-{
-    const int n = f->n, m = f->m, first = s->mesh.contact_first;
-    const size_t ld = (size_t)s->ld;
-    const double *U = X + s->dofs - 2 * m;
-    double to[2][2], from[2][2];
-
-    for (int i = 0; i < m; i++) {
-        const double *w0 = U + 2 * i + 2 * (size_t)n * ld;
-        contact_frame(&s->mesh, first + i, normals, to);
-        for (int a = 0; a < 2; a++)
-            f->w0[a * m + i] = to[a][0] * w0[0] + to[a][1] * w0[1];
-        for (int j = 0; j < n; j++) {
-            const double *x = U + 2 * i + 2 * (size_t)j * ld, *y = x + ld;
-            contact_frame(&s->mesh, first + j, normals, from);
-            for (int a = 0; a < 2; a++)
-                for (int b = 0; b < 2; b++)
-                    F[(size_t)(a * m + i) + (size_t)(b * n + j) * 2 * (size_t)m] =
-                        to[a][0] * (x[0] * from[b][0] + y[0] * from[b][1]) +
-                        to[a][1] * (x[1] * from[b][0] + y[1] * from[b][1]);
-        }
-    }
-}
-
 /* Unit tractions on the contact, given values in the last column: the right-hand sides,
  * solved.  p: NULL where nothing is subtracted. */
 static rb_status solve_loads(const rb_bem_system *s, const particular *p, double *X)
 {
-    const size_t rows = (size_t)s->ld, loads = 2 * (size_t)s->mesh.contact_n;
+    const rb_bem_mesh *mesh = &s->mesh;
+    const int n = mesh->contact_n, m = n + 1;
+    const size_t rows = (size_t)s->ld, loads = 2 * (size_t)n;
     rb_status status = RB_OK;
 
     memcpy(X + rows * loads, s->b, (size_t)s->dofs * sizeof *X);
@@ -422,8 +355,19 @@ static rb_status solve_loads(const rb_bem_system *s, const particular *p, double
     }
     if (status == RB_OK)
         status = solve_contact(s, X);
-    if (status == RB_OK && p)
-        add_particular(p, X);
+    /* The strips' own displacements, on top of what was solved for. */
+    for (int c = 0; status == RB_OK && p && c < n; c++) {
+        double *U = X + 2 * (size_t)c * rows + (size_t)(s->dofs - 2 * m);
+        for (int i = 0; i < m; i++) {
+            const rb_strip_answer answer = rb_strip_displacement(
+                &p->strip[c], rb_strip_midpoint(mesh, mesh->contact_first + i));
+            for (int l = 0; l < 2; l++) {
+                const double complex u = rb_strip_under(answer, l ? I : 1.0);
+                U[2 * i + (size_t)l * rows] += creal(u);
+                U[2 * i + 1 + (size_t)l * rows] += cimag(u);
+            }
+        }
+    }
     return status;
 }
 
@@ -431,7 +375,8 @@ static rb_status condense(const rb_bem_system *system, rb_bem_normals normals, i
                           rb_bem_flexibility *f, rb_message *why)
 {
     const rb_bem_mesh *mesh = &system->mesh;
-    const int n = mesh->contact_n;
+    const int n = mesh->contact_n, m = n + 1, first = mesh->contact_first;
+    const size_t ld = (size_t)system->ld;
     double *F = NULL, *X = NULL;
 
     *f = (rb_bem_flexibility){0};
@@ -441,7 +386,7 @@ static rb_status condense(const rb_bem_system *system, rb_bem_normals normals, i
     particular p = {0};
     rb_status s = subtract ? particular_make(system, &p) : RB_OK;
 
-    X = rb_large_alloc((size_t)system->ld, 2 * (size_t)system->mesh.contact_n + 1);
+    X = rb_large_alloc(ld, 2 * (size_t)n + 1);
     if (!X)
         s = RB_ENOMEM;
     if (s == RB_OK)
@@ -450,15 +395,27 @@ static rb_status condense(const rb_bem_system *system, rb_bem_normals normals, i
     free(p.bonded);
     if (s == RB_OK)
         s = rb_bem_flexibility_dense(n, f, &F);
-    if (s == RB_OK) {
-        for (int i = 0; i < f->m; i++) {
-            const int j = mesh->contact_first + i;
-            f->x[i] = 0.5 * (mesh->x0[j] + mesh->x1[j]);
-            f->h[i] = rb_bem_mesh_length(mesh, j);
-        }
-        turn_to_frames(system, normals, X, f, F);
-    } else {
+    if (s != RB_OK)
         rb_fail(why, s, "condensation: out of memory for %d contact elements", n);
+    /* F_ab(i, j) = e_a(i)' U(i, j) e_b(j), a, b in {N, T}; the last column of X gives w0. */
+    for (int i = 0; s == RB_OK && i < m; i++) {
+        const double *U = X + system->dofs - 2 * m + 2 * i, *w0 = U + 2 * (size_t)n * ld;
+        const int element = first + i;
+        double to[2][2], from[2][2];
+        contact_frame(mesh, element, normals, to);
+        f->x[i] = 0.5 * (mesh->x0[element] + mesh->x1[element]);
+        f->h[i] = rb_bem_mesh_length(mesh, element);
+        for (int a = 0; a < 2; a++)
+            f->w0[a * m + i] = to[a][0] * w0[0] + to[a][1] * w0[1];
+        for (int j = 0; j < n; j++) {
+            const double *x = U + 2 * (size_t)j * ld, *y = x + ld;
+            contact_frame(mesh, first + j, normals, from);
+            for (int a = 0; a < 2; a++)
+                for (int b = 0; b < 2; b++)
+                    F[(size_t)(a * m + i) + (size_t)(b * n + j) * 2 * (size_t)m] =
+                        to[a][0] * (x[0] * from[b][0] + y[0] * from[b][1]) +
+                        to[a][1] * (x[1] * from[b][0] + y[1] * from[b][1]);
+        }
     }
     free(X);
     return s;

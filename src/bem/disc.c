@@ -47,25 +47,6 @@ double complex rb_ring_disc_primitive(double kappa, double x)
     return -kappa * (primitive_1(x) + x + 0.5 * I * conj(one_less(x))) - primitive_2(x);
 }
 
-/* int over [b - h/2, b + h/2] of exp(-ix) ln(1-exp(ix)) and exp(-ix) ln(1-exp(-ix)); far
- * off by three Gauss points, where primitives would cancel. */
-static void integrate_logs(double b, double h, cplx *first, cplx *second)
-{
-    if (fabs(b) < 50.0 * h) {
-        *first = primitive_1(b + 0.5 * h) - primitive_1(b - 0.5 * h);
-        *second = primitive_2(b + 0.5 * h) - primitive_2(b - 0.5 * h);
-        return;
-    }
-    const double at = 0.5 * h * sqrt(0.6);
-    *first = *second = 0.0;
-    for (int k = -1; k <= 1; k++) {
-        const double x = b + k * at, weight = h * (k ? 5.0 : 8.0) / 18.0;
-        const cplx l = log_one_less(x), turn = weight * (cos(x) - sin(x) * I);
-        *first += turn * l;
-        *second += turn * conj(l);
-    }
-}
-
 rb_status rb_bem_disc_response(const rb_bem_disc *disc, double h, double angle, double response[4])
 {
     const rb_bem_material material = disc->material;
@@ -74,8 +55,20 @@ rb_status rb_bem_disc_response(const rb_bem_disc *disc, double h, double angle, 
         return RB_EINVAL;
     const double b = remainder(angle, 2.0 * M_PI), kap = 3.0 - 4.0 * material.poisson;
     const double scale = disc->radius / (4.0 * M_PI * material.shear);
-    cplx first, second;
-    integrate_logs(b, h, &first, &second);
+    /* int over [b - h/2, b + h/2] of exp(-ix) ln(1-exp(ix)) and exp(-ix) ln(1-exp(-ix)); far
+     * off by three Gauss points, where primitives would cancel. */
+    cplx first = 0.0, second = 0.0;
+    if (fabs(b) < 50.0 * h) {
+        first = primitive_1(b + 0.5 * h) - primitive_1(b - 0.5 * h);
+        second = primitive_2(b + 0.5 * h) - primitive_2(b - 0.5 * h);
+    } else {
+        for (int k = -1; k <= 1; k++) {
+            const double x = b + k * (0.5 * h * sqrt(0.6)), weight = h * (k ? 5.0 : 8.0) / 18.0;
+            const cplx l = log_one_less(x), turn = weight * (cos(x) - sin(x) * I);
+            first += turn * l;
+            second += turn * conj(l);
+        }
+    }
     const cplx direct = -kap * first - kap * h - second,
                turned = 2.0 * sin(0.5 * h) * (cos(b) + sin(b) * I);
     for (int k = 0; k < 2; k++) {

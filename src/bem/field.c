@@ -81,46 +81,12 @@ static void add_strips(const rb_bem_field *f, double complex z, int without, dou
 }
 
 /* Displacement of the strips; far away, where it is asked for, their mean is enough. */
-static double complex strips_displacement(const rb_bem_field *f, double complex z)
-{
-    double complex u = 0.0;
-    for (int k = 0; k < f->pieces; k++)
-        u += rb_strip_under(rb_strip_displacement(&f->piece[k].strip, z), f->piece[k].traction);
-    return u;
-}
-
-/* What the strips leave of the given value at element j, in both directions.  A contact
- * element's own strips give its traction exactly: computed at its midpoint, where their
- * ends meet, they would give it but for the rounding of coordinates over a part in 1e9 of
- * a short element. */
-static void left_over(const rb_bem_field *f, int j, double value[2])
-{
-    const rb_bem_mesh *mesh = &f->system->mesh;
-    const double complex z = rb_strip_midpoint(mesh, j), normal = rb_strip_outward(mesh, j);
-    const double n[2] = {creal(normal), cimag(normal)};
-    double s[3] = {0.0, 0.0, 0.0};
-
-    const int contact = mesh->condition[2 * j] == RB_BEM_CONTACT ? j - mesh->contact_first : -1;
-    add_strips(f, z, contact, s);
-    const double t[2] = {s[0] * n[0] + s[2] * n[1], s[2] * n[0] + s[1] * n[1]};
-    const double complex u = strips_displacement(f, z);
-    for (int d = 0; d < 2; d++) {
-        const rb_bem_condition condition = mesh->condition[2 * j + d];
-        value[d] = contact >= 0 ? -t[d]
-                   : condition == RB_BEM_TRACTION
-                       ? mesh->value[2 * j + d] - t[d]
-                       : mesh->value[2 * j + d] - (d ? cimag(u) : creal(u));
-    }
-}
-
 static double complex strips_field(rb_bem_material material, double complex z, const void *context)
 {
     const rb_bem_field *f = context;
     double complex u = 0.0;
     for (int k = 0; k < f->pieces; k++) {
-        rb_strip strip = f->piece[k].strip;
-        strip.shear = material.shear;
-        strip.kappa = 3.0 - 4.0 * material.poisson;
+        const rb_strip strip = rb_strip_in(f->piece[k].strip, material);
         u += rb_strip_under(rb_strip_displacement(&strip, z), f->piece[k].traction);
     }
     return u;
@@ -145,7 +111,7 @@ rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_conta
     }
     if (f && value && f->piece && f->u) {
         f->t = f->u + dofs;
-        const rb_bem_mesh *mesh = &f->system->mesh;
+        const rb_bem_mesh *mesh = &system->mesh;
         const double unit = rb_bem_mesh_size(mesh);
 
         for (int c = 0; c < mesh->contact_n; c++) {
@@ -158,8 +124,25 @@ rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_conta
             f->piece[2 * c + 1] = half_element(
                 middle, to, own, end_traction(mesh, t_contact, c + 1), f->system->material, unit);
         }
-        for (int j = 0; j < system->mesh.n; j++)
-            left_over(f, j, value + 2 * j);
+        /* What the strips leave of the given values.  A contact element's own strips give
+         * its traction exactly: computed at its midpoint, where their ends meet, they would
+         * give it but for the rounding of coordinates over a part in 1e9 of a short element. */
+        for (int j = 0; j < mesh->n; j++) {
+            const double complex z = rb_strip_midpoint(mesh, j), n = rb_strip_outward(mesh, j);
+            const int contact =
+                mesh->condition[2 * j] == RB_BEM_CONTACT ? j - mesh->contact_first : -1;
+            double sum[3] = {0.0, 0.0, 0.0};
+            add_strips(f, z, contact, sum);
+            const double t[2] = {sum[0] * creal(n) + sum[2] * cimag(n),
+                                 sum[2] * creal(n) + sum[1] * cimag(n)};
+            const double complex u = strips_field(system->material, z, f);
+            for (int d = 0; d < 2; d++) {
+                const int held = mesh->condition[2 * j + d] != RB_BEM_TRACTION;
+                value[2 * j + d] = contact >= 0 ? -t[d]
+                                   : held       ? mesh->value[2 * j + d] - (d ? cimag(u) : creal(u))
+                                                : mesh->value[2 * j + d] - t[d];
+            }
+        }
         s = system->bond ? rb_bond_left_over(system->bond, &system->mesh, system->material,
                                              strips_field, f, value + 2 * system->bond->first)
                          : RB_OK;

@@ -228,38 +228,19 @@ static rb_status pair_matrix(const rb_bem_flexibility *f, double *F, int ldf)
     return s;
 }
 
-static rb_status same_points(const rb_bem_flexibility *a, const rb_bem_flexibility *b,
-                             rb_message *why)
-{
-    if (a->n < 1 || a->n != b->n)
-        return rb_fail(why, RB_EINVAL, "bodies in contact: %d elements on A, %d on B", a->n, b->n);
-    for (int i = 0; i < a->m; i++)
-        if (!(fabs(a->x[i] - b->x[i]) <= 1e-9 * a->h[i]))
-            return rb_fail(why, RB_EINVAL, "bodies in contact: point %d at x = %g on A, %g on B", i,
-                           a->x[i], b->x[i]);
-    return RB_OK;
-}
-
-static rb_status join(const body_pair *pair, rb_bem_flexibility *f)
-{
-    const rb_bem_flexibility *a = &pair->a;
-    const rb_status s = rb_bem_flexibility_points(a->n, f);
-    if (s != RB_OK)
-        return s;
-    copy_points(a, f);
-    add_mirrored(a->m, pair->b.w0, f->w0);
-    f->apply = pair_apply;
-    f->matrix = pair_matrix;
-    return RB_OK;
-}
-
 rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
                                   rb_bem_flexibility *f, rb_message *why)
 {
-    rb_status s = same_points(a, b, why);
     const size_t n = (size_t)a->n, m = (size_t)a->m;
+    rb_status s = RB_OK;
 
     memset(f, 0, sizeof *f);
+    if (a->n < 1 || a->n != b->n)
+        s = rb_fail(why, RB_EINVAL, "bodies in contact: %d elements on A, %d on B", a->n, b->n);
+    for (int i = 0; s == RB_OK && i < a->m; i++)
+        if (!(fabs(a->x[i] - b->x[i]) <= 1e-9 * a->h[i]))
+            s = rb_fail(why, RB_EINVAL, "bodies in contact: point %d at x = %g on A, %g on B", i,
+                        a->x[i], b->x[i]);
     if (s == RB_OK && a->add_mirrored && a->add_mirrored(a, b)) {
         add_mirrored(a->m, b->w0, a->w0);
         *f = *a;
@@ -267,25 +248,25 @@ rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
         rb_bem_flexibility_free(b);
         return RB_OK;
     }
-    body_pair *pair = calloc(1, sizeof *pair);
+    body_pair *pair = s == RB_OK ? calloc(1, sizeof *pair) : NULL;
     if (!pair) {
         rb_bem_flexibility_free(a);
         rb_bem_flexibility_free(b);
         return s == RB_OK ? rb_fail(why, RB_ENOMEM, "bodies in contact: out of memory") : s;
     }
-    *pair = (body_pair){.a = *a, .b = *b};
+    *pair = (body_pair){.a = *a, .b = *b, .r = rb_alloc(2 * n, 1), .w = rb_alloc(2 * m, 1)};
     memset(a, 0, sizeof *a);
     memset(b, 0, sizeof *b);
-    if (s == RB_OK) {
-        pair->r = rb_alloc(2 * n, 1);
-        pair->w = rb_alloc(2 * m, 1);
-        s = pair->r && pair->w ? join(pair, f) : RB_ENOMEM;
-        if (s != RB_OK)
-            rb_fail(why, s, "bodies in contact: out of memory for %d elements", pair->a.n);
-    }
+    s = rb_bem_flexibility_points((int)n, f);
+    f->apply = pair_apply;
+    f->matrix = pair_matrix;
     f->free_data = pair_free;
     f->data = pair;
-    if (s != RB_OK)
-        rb_bem_flexibility_free(f);
-    return s;
+    if (s == RB_OK && pair->r && pair->w) {
+        copy_points(&pair->a, f);
+        add_mirrored(pair->a.m, pair->b.w0, f->w0);
+        return RB_OK;
+    }
+    rb_bem_flexibility_free(f);
+    return rb_fail(why, RB_ENOMEM, "bodies in contact: out of memory for %d elements", (int)n);
 }

@@ -1,4 +1,5 @@
-/* Stress in the half-plane y >= 0 loaded on y = 0 by constant strips (Flamant). */
+/* Stress in the half-plane y >= 0 loaded on y = 0 by constant strips (Flamant), or by
+ * tractions that are linear between nodes. */
 #include "bem/internal.h"
 #include "bem/complex.h"
 #include "bem/kernels.h"
@@ -8,29 +9,24 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* One strip seen from (x, y), in the letters of kernels.h with t = +x, so that d = y; the
- * strip's own ends, where a jump of q makes sxx infinite, get the finite part. */
-static rb_view_angles see_strip(const rb_element *strip, double x, double y)
-{
-    rb_view_angles v = rb_see(strip, x, y);
-    if (v.W > 0.0)
-        return rb_view_angles_of(strip, x, y);
-    v.q = v.Lam = 0.0;
-    v.Th = 0.5 * M_PI;
-    return v;
-}
-
-/* From Flamant's  s_ij = -(2/pi) (p y + q x) x_i x_j/r^4,  dQ = q_ (2 d^2 - dot),
- * d2P = -2 d X q_, q_ = cross/W:
+/* From Flamant's  s_ij = -(2/pi) (p y + q x) x_i x_j/r^4, in the letters of kernels.h with
+ * t = +x, so that d = y:  dQ = q_ (2 d^2 - dot), d2P = -2 d X q_, q_ = cross/W:
  *     sxx = -(p/pi) (Th - dQ) + (q/pi) (2 Lam + d2P)
  *     syy = -(p/pi) (Th + dQ) - (q/pi) d2P
- *     sxy = -(p/pi) d2P       - (q/pi) (Th - dQ) */
+ *     sxy = -(p/pi) d2P       - (q/pi) (Th - dQ)
+ * The strip's own ends, where a jump of q makes sxx infinite, get the finite part. */
 static void add_strip(const rb_element *strip, double p, double q, double x, double y,
                       double *stress)
 {
-    const rb_view_angles v = see_strip(strip, x, y);
-    const double q_ = v.q, dQ = q_ * (2.0 * v.d * v.d - (v.rho - strip->a * strip->a)),
-                 d2P = -2.0 * v.d * v.X * q_;
+    rb_view_angles v = rb_see(strip, x, y);
+    if (v.W > 0.0) {
+        v = rb_view_angles_of(strip, x, y);
+    } else {
+        v.q = v.Lam = 0.0;
+        v.Th = 0.5 * M_PI;
+    }
+    const double dQ = v.q * (2.0 * v.d * v.d - (v.rho - strip->a * strip->a)),
+                 d2P = -2.0 * v.d * v.X * v.q;
     stress[0] += (-p * (v.Th - dQ) + q * (2.0 * v.Lam + d2P)) / M_PI;
     stress[1] += (-p * (v.Th + dQ) - q * d2P) / M_PI;
     stress[2] += (-p * d2P - q * (v.Th - dQ)) / M_PI;
@@ -48,24 +44,6 @@ typedef struct {
     double middle, half;
     double complex moment[TERMS + 1]; /* of v^m, without 1/m */
 } far_field;
-
-static far_field far_field_of(const rb_bem_edge_load *load)
-{
-    const double first = load->x[0], last = load->x[load->n];
-    far_field f = {.middle = 0.5 * (first + last), .half = 0.5 * (last - first)};
-
-    for (int i = 0; i < load->n; i++) {
-        const double u = (load->x[i] - f.middle) / f.half,
-                     next = (load->x[i + 1] - f.middle) / f.half;
-        double complex at = complex_of(load->q[i], -load->p[i]) / (-2.0 * M_PI), to = at;
-        for (int m = 1; m <= TERMS; m++) {
-            at *= u;
-            to *= next;
-            f.moment[m] += to - at;
-        }
-    }
-    return f;
-}
 
 /* syy + i sxy = Phi(z) - Phi(conj z) + (z - conj z) conj(Phi'(z)), sxx + syy = 4 Re Phi;
  * z is the point's mirror image, whose shear has the other sign. */
@@ -112,7 +90,18 @@ rb_status rb_bem_halfplane_stress(const rb_bem_edge_load *load, rb_bem_points po
     for (int i = 0; i < n; i++)
         strip[i] = rb_element_make(load->x[i], 0.0, load->x[i + 1], 0.0, 1.0);
     const int is_series = points.n > TERMS && n > 1;
-    const far_field far = is_series ? far_field_of(load) : (far_field){0.0, 0.0, {0.0}};
+    const double first = load->x[0], last = load->x[n];
+    far_field far = {.middle = 0.5 * (first + last), .half = 0.5 * (last - first)};
+    for (int i = 0; is_series && i < n; i++) {
+        const double u = (load->x[i] - far.middle) / far.half,
+                     next = (load->x[i + 1] - far.middle) / far.half;
+        double complex at = complex_of(load->q[i], -load->p[i]) / (-2.0 * M_PI), to = at;
+        for (int m = 1; m <= TERMS; m++) {
+            at *= u;
+            to *= next;
+            far.moment[m] += to - at;
+        }
+    }
 #pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
     schedule(static) if ((double)points.n * n > rb_pairs_for_threads)
     for (int k = 0; k < points.n; k++) {
@@ -127,5 +116,57 @@ rb_status rb_bem_halfplane_stress(const rb_bem_edge_load *load, rb_bem_points po
             stress[3 * k + c] = sum[c];
     }
     free(strip);
+    return RB_OK;
+}
+
+/* ---- Tractions that are linear between nodes --------------------------------------- */
+
+/* No jump of q, so that sxx stays finite on the surface.
+ *
+ * With g = -p + i q on y = 0 and Phi = (1/2 pi i) int g(t)/(t - z) dt (Muskhelishvili):
+ *     sxx + syy = 4 Re Phi(z),
+ *     syy - i sxy = Phi(z) - Phi(z*) + (z - z*) Phi'(z)*.
+ * For g linear between nodes t_j and 0 at both ends, integration leaves one term for each
+ * node, with the change of slope k_j there:
+ *     2 pi i Phi = sum k_j (z - t_j) ln(t_j - z),   2 pi i Phi' = sum k_j ln(t_j - z). */
+rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_points points,
+                                         double *stress)
+{
+    const int n = load->n;
+    const double *nodes = load->x, *p = load->p, *q = load->q;
+    if (n < 2 || !rb_bem_edge_load_is_valid(load, n, points))
+        return RB_EINVAL;
+    double complex *k = malloc((size_t)n * sizeof *k);
+    if (!k)
+        return RB_ENOMEM;
+    double complex before = 0.0;
+    for (int j = 0; j < n; j++) {
+        const double complex after =
+            j + 1 < n ? complex_of(p[j] - p[j + 1], q[j + 1] - q[j]) / (nodes[j + 1] - nodes[j])
+                      : 0.0;
+        k[j] = before - after;
+        before = after;
+    }
+#pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
+    schedule(static) if ((double)points.n * n > 1e5)
+    for (int i = 0; i < points.n; i++) {
+        const double x = points.xy[2 * i], y = points.xy[2 * i + 1];
+        double complex above = 0.0, below = 0.0, slope = 0.0;
+        for (int j = 0; j < n; j++) {
+            const double dx = x - nodes[j];
+            if (dx == 0.0 && y == 0.0)
+                continue;                                       /* w ln w -> 0 */
+            const double complex l = clog(complex_of(-dx, -y)); /* -0: the limit from inside */
+            above += k[j] * complex_of(dx, y) * l;
+            below += k[j] * complex_of(dx, -y) * conj(l);
+            slope += k[j] * l;
+        }
+        const double complex c = 1.0 / (2.0 * M_PI * I);
+        const double complex normal = c * above - c * below + 2.0 * I * y * conj(c * slope);
+        stress[3 * i] = 4.0 * creal(c * above) - creal(normal);
+        stress[3 * i + 1] = creal(normal);
+        stress[3 * i + 2] = -cimag(normal);
+    }
+    free(k);
     return RB_OK;
 }

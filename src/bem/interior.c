@@ -177,19 +177,6 @@ static int element_at(const rb_interior *in, double x, double y, double *s)
     return -1;
 }
 
-/* u_s at the distance s from the midpoint of j: the quotients hold at the element's ends,
- * the parabola's slope at its midpoint; linear between them. */
-static cplx slope_at(const rb_interior *in, int j, double s)
-{
-    const int i = in->previous[j], k = in->next[j];
-    const double h = rb_bem_mesh_length(in->mesh, j), hi = rb_bem_mesh_length(in->mesh, i),
-                 hk = rb_bem_mesh_length(in->mesh, k);
-    const cplx before = slope_after(in, i), after = slope_after(in, j);
-    const cplx middle = (before * (h + hk) + after * (h + hi)) / (2.0 * h + hi + hk);
-    const double part = fabs(s) / (0.5 * h);
-    return middle + part * ((s < 0.0 ? before : after) - middle);
-}
-
 static void evaluate_surface(const rb_interior *in, int j, double s, double *displacement,
                              double *stress)
 {
@@ -199,11 +186,19 @@ static void evaluate_surface(const rb_interior *in, int j, double s, double *dis
         displacement[1] = cimag(u);
     }
     if (stress) {
+        /* u_s: the quotients hold at the element's ends, the parabola's slope at its
+         * midpoint; linear between them. */
+        const int i = in->previous[j], k = in->next[j];
+        const double h = rb_bem_mesh_length(in->mesh, j), hi = rb_bem_mesh_length(in->mesh, i),
+                     hk = rb_bem_mesh_length(in->mesh, k), part = fabs(s) / (0.5 * h);
+        const cplx before = slope_after(in, i), after = slope_after(in, j);
+        const cplx middle = (before * (h + hk) + after * (h + hi)) / (2.0 * h + hi + hk);
+        const cplx slope = middle + part * ((s < 0.0 ? before : after) - middle);
         /* sigma_nn, sigma_ns from t, and sigma_ss from the plane-strain Hooke law
          * 2G eps_ss = (1-nu) sigma_ss - nu sigma_nn; turned back to x, y. */
         const cplx e = in->piece[2 * j].direction, t = pair_of(in->t, j) * conj(e);
         const double ns = creal(t), nn = -cimag(t); /* outward normal = -i e */
-        const double strain = creal(slope_at(in, j, s) * conj(e));
+        const double strain = creal(slope * conj(e));
         const double ss = (2.0 * in->shear * strain + in->nu * nn) / (1.0 - in->nu);
         /* in the axes (e, i e): s11 = ss, s22 = nn, s12 = -ns */
         const double mean = 0.5 * (ss + nn);
@@ -212,27 +207,6 @@ static void evaluate_surface(const rb_interior *in, int j, double s, double *dis
         stress[1] = mean + creal(deviator);
         stress[2] = cimag(deviator);
     }
-}
-
-/* The first point outside the body, or `points`. */
-static int evaluate(const rb_interior *in, rb_bem_points points, double *displacement,
-                    double *stress)
-{
-    int outside = points.n;
-#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(static)                      \
-    reduction(min                                                                                  \
-              : outside) if ((double)points.n * in->n > rb_pairs_for_threads)
-    for (int k = 0; k < points.n; k++) {
-        const double x = points.xy[2 * k], y = points.xy[2 * k + 1];
-        double *u = displacement ? displacement + 2 * k : NULL,
-               *sigma = stress ? stress + 3 * k : NULL, s;
-        const int j = element_at(in, x, y, &s);
-        if (j >= 0)
-            evaluate_surface(in, j, s, u, sigma);
-        else if (!evaluate_inside(in, x, y, u, sigma))
-            outside = k < outside ? k : outside;
-    }
-    return outside;
 }
 
 rb_status rb_bem_interior(const rb_bem_boundary *body, rb_bem_points points, double *displacement,
@@ -249,7 +223,20 @@ rb_status rb_bem_interior(const rb_bem_boundary *body, rb_bem_points points, dou
     s = interior_make(body, &in);
     if (s != RB_OK)
         return rb_fail(why, s, "interior: out of memory for %d elements", body->mesh->n);
-    const int outside = evaluate(&in, points, displacement, stress);
+    int outside = points.n; /* the first point there */
+#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(static)                      \
+    reduction(min                                                                                  \
+              : outside) if ((double)points.n * in.n > rb_pairs_for_threads)
+    for (int k = 0; k < points.n; k++) {
+        const double x = points.xy[2 * k], y = points.xy[2 * k + 1];
+        double *u = displacement ? displacement + 2 * k : NULL,
+               *sigma = stress ? stress + 3 * k : NULL, along;
+        const int j = element_at(&in, x, y, &along);
+        if (j >= 0)
+            evaluate_surface(&in, j, along, u, sigma);
+        else if (!evaluate_inside(&in, x, y, u, sigma))
+            outside = k < outside ? k : outside;
+    }
     if (outside < points.n)
         s = rb_fail(why, RB_EINVAL, "point %d at (%g, %g) lies outside the body", outside,
                     points.xy[2 * outside], points.xy[2 * outside + 1]);

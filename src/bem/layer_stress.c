@@ -66,35 +66,29 @@ struct rb_bem_layer_field {
     wave *wave; /* n, k increasing; owned */
 };
 
-/* f, f' and f'' at the depth y. */
-static void functions_at(const wave *w, double y, double thickness, double complex f[3])
-{
-    const double eta = w->k * y;
-    if (y <= thickness) {
-        const double e = exp(eta), sh = eta < 1e-3 ? sinh(eta) : 0.5 * (e - 1.0 / e),
-                     ch = 0.5 * (e + 1.0 / e);
-        f[0] = w->c * eta * sh + w->d * (eta * ch - sh);
-        f[1] = w->c * (sh + eta * ch) + w->d * eta * sh;
-        f[2] = w->c * (2.0 * ch + eta * sh) + w->d * (sh + eta * ch);
-    } else {
-        const double z = w->k * (y - thickness), e = exp(-z);
-        f[0] = (w->a + w->b * z) * e;
-        f[1] = (w->b - w->a - w->b * z) * e;
-        f[2] = (w->a - 2.0 * w->b + w->b * z) * e;
-    }
-}
-
 /* s_xx = f'', s_yy = -f, s_xy = -i f', each times exp(i k x).  Waves that fade on their
  * way down, and up again from the bond, are left out. */
 static void add_waves(const rb_bem_layer_field *field, const double xy[2], double *stress)
 {
     const wave *w = field->wave;
-    const double d = field->body.thickness;
-    const double fades = LAST / fmax(2.0 * d - xy[1], xy[1]);
+    const double thickness = field->body.thickness,
+                 fades = LAST / fmax(2.0 * thickness - xy[1], xy[1]);
     for (int k = 0; k < field->n && w[k].k <= fades; k++) {
-        double complex f[3];
-        const double complex e = cexp(I * w[k].k * xy[0]);
-        functions_at(&w[k], xy[1], d, f);
+        const double complex e = cexp(I * w[k].k * xy[0]), c = w[k].c, d = w[k].d;
+        const double eta = w[k].k * xy[1];
+        double complex f[3]; /* f, f' and f'' */
+        if (xy[1] <= thickness) {
+            const double up = exp(eta), sh = eta < 1e-3 ? sinh(eta) : 0.5 * (up - 1.0 / up),
+                         ch = 0.5 * (up + 1.0 / up);
+            f[0] = c * eta * sh + d * (eta * ch - sh);
+            f[1] = c * (sh + eta * ch) + d * eta * sh;
+            f[2] = c * (2.0 * ch + eta * sh) + d * (sh + eta * ch);
+        } else {
+            const double z = w[k].k * (xy[1] - thickness), down = exp(-z);
+            f[0] = (w[k].a + w[k].b * z) * down;
+            f[1] = (w[k].b - w[k].a - w[k].b * z) * down;
+            f[2] = (w[k].a - 2.0 * w[k].b + w[k].b * z) * down;
+        }
         stress[0] += creal(e * f[2]);
         stress[1] -= creal(e * f[0]);
         stress[2] += cimag(e * f[1]);

@@ -76,15 +76,6 @@ typedef struct {
 
 enum { GAUSS = 20 };
 
-/* The smallest wave number, over that of the thickness, at which Z changes. */
-static double smallest_scale(const rb_bem_surface *body)
-{
-    double scale = 1.0 / fmax(1.0, rb_bem_layer_base_compliance(body));
-    for (int k = 0; k < body->terms; k++)
-        scale = fmin(scale, 1.0 / fmax(1.0, fabs(body->length[k])));
-    return scale;
-}
-
 static void add_panel(const rb_bem_surface *body, double from, double to, double complex ray,
                       const double Z_0[3], const gsl_integration_glfixed_table *rule, waves *w)
 {
@@ -107,7 +98,11 @@ static rb_status make_waves(const rb_bem_surface *body, double x_0, waves *w)
 {
     const int near = x_0 == 1.0;
     const double last = near ? 24.0 : 72.0, width = near ? 1.5 : 6.0;
-    const double smallest = x_0 * smallest_scale(body);
+    /* The smallest wave number, over that of the thickness, at which Z changes. */
+    double smallest = 1.0 / fmax(1.0, rb_bem_layer_base_compliance(body));
+    for (int k = 0; k < body->terms; k++)
+        smallest = fmin(smallest, 1.0 / fmax(1.0, fabs(body->length[k])));
+    smallest *= x_0;
     const int halvings = (int)fmax(0.0, ceil(log2(width / smallest)) + 1.0);
     const double complex ray = near ? 1.0 : 0.5 * (sqrt(3.0) + I);
     gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(GAUSS);
@@ -162,15 +157,6 @@ static void interpolate(const double value[SAMPLES][3], piece *p)
             for (int i = 0; i <= k; i++)
                 p->c[i][c] += a * T[k][i];
         }
-}
-
-static inline rb_bem_layer_kernel value_of(const piece *p, double t)
-{
-    rb_bem_layer_kernel v = {{0.0}};
-    for (int k = DEGREE; k >= 0; k--)
-        for (int c = 0; c < 4; c++)
-            v.of[c] = v.of[c] * t + p->c[k][c];
-    return v;
 }
 
 /* From the middle of a piece with this half-length to t. */
@@ -244,7 +230,7 @@ static rb_bem_layer_kernel look_up(const rb_bem_layer_table *table, double X, in
     double t, low, width;
     const int k = find(fabs(X), &t);
     const piece *p = table->side[behind && !mirrored] + k;
-    rb_bem_layer_kernel v;
+    rb_bem_layer_kernel v = {{0.0}};
 
     if (integral) {
         place(k, &low, &width);
@@ -252,7 +238,9 @@ static rb_bem_layer_kernel look_up(const rb_bem_layer_table *table, double X, in
         for (int c = 0; c < 4; c++)
             v.of[c] = (v.of[c] + p->before[c]) * (behind ? -1.0 : 1.0);
     } else {
-        v = value_of(p, t);
+        for (int i = DEGREE; i >= 0; i--)
+            for (int c = 0; c < 4; c++)
+                v.of[c] = v.of[c] * t + p->c[i][c];
     }
     v.of[2] *= mirrored ? -1.0 : 1.0;
     return v;

@@ -14,12 +14,16 @@ rb_strip rb_strip_between(double complex from, double complex to, rb_bem_materia
 {
     const double h = cabs(to - from);
 
-    return (rb_strip){.middle = 0.5 * (from + to),
-                      .along = (to - from) / h,
-                      .h = h,
-                      .shear = material.shear,
-                      .kappa = 3.0 - 4.0 * material.poisson,
-                      .unit = unit};
+    return rb_strip_in(
+        (rb_strip){.middle = 0.5 * (from + to), .along = (to - from) / h, .h = h, .unit = unit},
+        material);
+}
+
+rb_strip rb_strip_in(rb_strip strip, rb_bem_material material)
+{
+    strip.shear = material.shear;
+    strip.kappa = 3.0 - 4.0 * material.poisson;
+    return strip;
 }
 
 rb_strip rb_strip_on(const rb_bem_mesh *mesh, int j, rb_bem_material material, double unit)
@@ -96,23 +100,20 @@ rb_strip_answer rb_strip_traction(const rb_strip *strip, double complex z, doubl
                              C * strip->along * strip->along * (conj(lambda) * n + conj(n * bent))};
 }
 
-/* At the ends the logarithm of a strip is infinite; those of its neighbours, whose
- * traction goes on from there, cancel it if they take the same distance.  It is that of
- * the unit, so large that the rounding of coordinates is not felt in it. */
-static double complex off_the_ends(const rb_strip *strip, double complex z)
-{
-    const double end = creal(z) < 0.0 ? -0.5 * strip->h : 0.5 * strip->h;
-    const double close = 1e-13 * strip->unit;
-    return cabs(z - end) < close ? complex_of(end, close) : z;
-}
-
 /* With w = z - s and F = f_z - slope w, f_z = f + slope z:
  * int F/w ds = f_z Lambda - slope h,  int F/w^2 ds = f_z (1/b - 1/a) - slope Lambda. */
 void rb_strip_linear_stress(const rb_strip *strip, double complex z, double complex f,
                             double complex slope, double stress[3])
 {
-    const double h = strip->h;
-    const double complex at = off_the_ends(strip, below(strip, z)), lambda = log_ratio(at, h);
+    const double h = strip->h, close = 1e-13 * strip->unit;
+    double complex at = below(strip, z);
+    /* At the ends the logarithm of a strip is infinite; those of its neighbours, whose
+     * traction goes on from there, cancel it if they take the same distance.  It is that
+     * of the unit, so large that the rounding of coordinates is not felt in it. */
+    const double end = creal(at) < 0.0 ? -0.5 * h : 0.5 * h;
+    if (cabs(at - end) < close)
+        at = complex_of(end, close);
+    const double complex lambda = log_ratio(at, h);
     const double complex turn = conj(strip->along), middle = turn * f;
     /* far away the slope is not felt, and would cost digits */
     const double complex rise = cabs(at) < 1e4 * h ? turn * slope : 0.0;

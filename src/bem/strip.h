@@ -19,6 +19,9 @@ rb_strip rb_strip_between(double complex from, double complex to, rb_bem_materia
                           double unit);
 rb_strip rb_strip_on(const rb_bem_mesh *mesh, int j, rb_bem_material material, double unit);
 
+/* The same strip on another half-plane. */
+rb_strip rb_strip_in(rb_strip strip, rb_bem_material material);
+
 /* Midpoint and outward normal of element j as complex numbers. */
 double complex rb_strip_midpoint(const rb_bem_mesh *mesh, int j);
 double complex rb_strip_outward(const rb_bem_mesh *mesh, int j);
