@@ -112,26 +112,6 @@ static double outer_demand(const outer_layout *layout)
     return 2.0 + side_elements(&layout->right) + side_elements(&layout->left);
 }
 
-/* `wanted` elements outside the contact: the growth that needs so many, without a cap,
- * by bisection of the falling function outer_demand.  Where even equal elements are too
- * few the growth ends at zero, and count_elements takes smaller ones. */
-static void fit_growth(outer_layout *layout, int wanted)
-{
-    double low = 1e-9, high = 20.0;
-    layout->right.cap = layout->left.cap = 1e6; /* none */
-    for (int k = 0; k < 100; k++) {
-        const double g = sqrt(low * high);
-        layout->right.growth = layout->left.growth = g;
-        if (outer_demand(layout) > wanted)
-            low = g;
-        else
-            high = g;
-    }
-    const double right = side_elements(&layout->right), left = side_elements(&layout->left);
-    count_elements(&layout->right, whole((wanted - 2) * right / (right + left)));
-    count_elements(&layout->left, whole((wanted - 2) * left / (right + left)));
-}
-
 /* Angle at which the mirror image of the upstream element ends, left of the contact: it
  * is to the first contact element what the upstream one is to the last. */
 static double downstream_angle(double R, int n_c, const double *ends)
@@ -207,9 +187,22 @@ static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const doub
     double finer = refinement(cylinder);
 
     if (cylinder->outer_elements > 0) {
-        const int wanted = (int)round(finer * cylinder->outer_elements);
-        finer *= wanted / outer_demand(&layout);
-        fit_growth(&layout, wanted > 8 ? wanted : 8);
+        const int asked = (int)round(finer * cylinder->outer_elements),
+                  wanted = asked > 8 ? asked : 8;
+        finer *= asked / outer_demand(&layout);
+        /* The growth that needs so many, without a cap, by bisection of the falling
+         * function outer_demand.  Where even equal elements are too few the growth ends at
+         * zero, and count_elements takes smaller ones. */
+        double low = 1e-9, high = 20.0;
+        layout.right.cap = layout.left.cap = 1e6; /* none */
+        for (int k = 0; k < 100; k++) {
+            const double g = sqrt(low * high);
+            layout.right.growth = layout.left.growth = g;
+            *(outer_demand(&layout) > wanted ? &low : &high) = g;
+        }
+        const double right = side_elements(&layout.right), left = side_elements(&layout.left);
+        count_elements(&layout.right, whole((wanted - 2) * right / (right + left)));
+        count_elements(&layout.left, whole((wanted - 2) * left / (right + left)));
     } else {
         count_elements(&layout.right, 0);
         count_elements(&layout.left, 0);
@@ -358,20 +351,6 @@ static void place_hub(double R, double r, const outer_layout *layout, int first,
     }
 }
 
-/* Few elements are long chords, which must not cut the core. */
-static rb_status check_chords(const rb_bem_cylinder *cylinder, int outer, const rb_bem_mesh *mesh,
-                              rb_message *why)
-{
-    const double R = cylinder->radius, core = inner_radius(cylinder);
-    for (int j = 0; cylinder->support == RB_BEM_HUB && j < outer; j++)
-        if (hypot(0.5 * (mesh->x0[j] + mesh->x1[j]), 0.5 * (mesh->y0[j] + mesh->y1[j]) - R) <= core)
-            return rb_fail(why, RB_EINVAL,
-                           "outer elements = %d: elements this long cut through the "
-                           "hub of radius %g; use more, or 0",
-                           cylinder->outer_elements, core);
-    return RB_OK;
-}
-
 rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c, const double *ends,
                                rb_bem_mesh *mesh, rb_message *why)
 {
@@ -379,18 +358,18 @@ rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c, const d
     rb_status s = check_cylinder(cylinder, n_c, ends, why);
     if (s != RB_OK)
         return s;
+    const double R = cylinder->radius, core = inner_radius(cylinder);
     const outer_layout layout = lay_out(cylinder, n_c, ends);
-    const int outer = n_c + outer_count(&layout);
+    const int outer = n_c + outer_count(&layout), arc_first = n_c + 1 + layout.right.free_n,
+              arc_n = layout.right.arc_n + layout.left.arc_n;
 
     s = rb_bem_mesh_alloc(outer + layout.hub_n, mesh);
     if (s != RB_OK)
         return rb_fail(why, s, "cylinder: out of memory for %d elements", outer + layout.hub_n);
     mesh->contact_n = n_c;
-    const int arc_first = n_c + 1 + layout.right.free_n,
-              arc_n = layout.right.arc_n + layout.left.arc_n, n = n_c + outer_count(&layout);
-    point from = outer_node(&layout, cylinder->radius, n_c, ends, 0);
-    for (int j = 0; j < n; j++) {
-        const point to = outer_node(&layout, cylinder->radius, n_c, ends, j + 1);
+    point from = outer_node(&layout, R, n_c, ends, 0);
+    for (int j = 0; j < outer; j++) {
+        const point to = outer_node(&layout, R, n_c, ends, j + 1);
         const int clamped = j >= arc_first && j < arc_first + arc_n;
         place(mesh, j, from, to,
               j < n_c   ? RB_BEM_CONTACT
@@ -398,9 +377,15 @@ rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c, const d
                         : RB_BEM_TRACTION);
         from = to;
     }
-    place_hub(cylinder->radius, inner_radius(cylinder), &layout, outer, mesh);
-    s = check_chords(cylinder, outer, mesh, why);
-    return s == RB_OK ? rb_bem_mesh_check(mesh, why) : s;
+    place_hub(R, core, &layout, outer, mesh);
+    /* Few elements are long chords, which must not cut the core. */
+    for (int j = 0; cylinder->support == RB_BEM_HUB && j < outer; j++)
+        if (hypot(0.5 * (mesh->x0[j] + mesh->x1[j]), 0.5 * (mesh->y0[j] + mesh->y1[j]) - R) <= core)
+            return rb_fail(why, RB_EINVAL,
+                           "outer elements = %d: elements this long cut through the "
+                           "hub of radius %g; use more, or 0",
+                           cylinder->outer_elements, core);
+    return rb_bem_mesh_check(mesh, why);
 }
 
 rb_status rb_bem_mesh_core(const rb_bem_cylinder *cylinder, const rb_bem_mesh *cover,

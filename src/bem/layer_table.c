@@ -372,29 +372,20 @@ const rb_bem_layer_table *rb_bem_layer_table_of(const rb_bem_surface *body, doub
     while (k < KEPT && kept[k] && !is_for(kept[k], body))
         k++;
     rb_bem_layer_table *found = k < KEPT ? kept[k] : NULL;
-    if (found && found->pieces >= pieces) {
-        memmove(kept + 1, kept, (size_t)k * sizeof *kept);
-        kept[0] = found;
-    } else {
-        rb_bem_layer_table *table = make_table(body, pieces, found);
-        if (table && found) {
-            memmove(kept + 1, kept, (size_t)k * sizeof *kept);
-            kept[0] = table;
-            leave(found);
-        } else if (table) {
-            /* `tables` is locked. */
-            int old = k;
-            if (old == KEPT)
-                leave(kept[--old]);
-            memmove(kept + 1, kept, (size_t)old * sizeof *kept);
-            kept[0] = table;
-        }
-        found = table;
+    rb_bem_layer_table *table =
+        found && found->pieces >= pieces ? found : make_table(body, pieces, found);
+    if (table && table != found) {
+        table->users = 1; /* the list */
         if (found)
-            found->users = 1;
+            leave(found);
+        else if (k == KEPT)
+            leave(kept[--k]);
     }
-    if (found)
-        found->users++;
+    if (table) {
+        memmove(kept + 1, kept, (size_t)k * sizeof *kept);
+        kept[0] = table;
+        table->users++;
+    }
     pthread_mutex_unlock(&tables);
-    return found;
+    return table;
 }

@@ -56,31 +56,6 @@ static void toeplitz_free(void *data)
     free(o);
 }
 
-static toeplitz *toeplitz_alloc(int n, int alike)
-{
-    toeplitz *o = calloc(1, sizeof *o);
-
-    if (!o)
-        return NULL;
-    o->n = n;
-    o->alike = alike;
-    if (rb_fourier_make(2 * n + 1, &o->fourier)) {
-        const size_t distances = 2 * (size_t)n + 1, half = (size_t)o->fourier.size / 2 + 1;
-        for (int k = 0; k < 2; k++) {
-            o->t[k] = k && alike ? o->t[N] : rb_alloc(distances, 1);
-            o->t_hat[k] = k && alike ? o->t_hat[N] : rb_alloc(half, 2);
-            o->work[k] = rb_fourier_alloc(&o->fourier);
-        }
-        o->s = rb_alloc(distances, 1);
-        o->s_hat = rb_alloc(half, 2);
-        if (o->t[N] && o->t[T] && o->s && o->t_hat[N] && o->t_hat[T] && o->s_hat && o->work[N] &&
-            o->work[T])
-            return o;
-    }
-    toeplitz_free(o);
-    return NULL;
-}
-
 /* ---- Products ---------------------------------------------------------------------- */
 
 static int all_zero(int n, const double *x)
@@ -291,10 +266,10 @@ static int toeplitz_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
     return 1;
 }
 
-/* An operator without kernels at the midpoints of the ends. */
+/* An operator without kernels at the midpoints of the ends; NULL without memory. */
 static toeplitz *start(int n_c, const double *ends, int alike, rb_bem_flexibility *f)
 {
-    toeplitz *o = rb_bem_flexibility_points(n_c, f) == RB_OK ? toeplitz_alloc(n_c, alike) : NULL;
+    toeplitz *o = rb_bem_flexibility_points(n_c, f) == RB_OK ? calloc(1, sizeof *o) : NULL;
     if (!o)
         return NULL;
     f->data = o;
@@ -303,7 +278,22 @@ static toeplitz *start(int n_c, const double *ends, int alike, rb_bem_flexibilit
     f->add_mirrored = toeplitz_add;
     f->free_data = toeplitz_free;
     rb_bem_flexibility_place(ends, f);
-    return o;
+    o->n = n_c;
+    o->alike = alike;
+    if (!rb_fourier_make(2 * n_c + 1, &o->fourier))
+        return NULL;
+    const size_t distances = 2 * (size_t)n_c + 1, half = (size_t)o->fourier.size / 2 + 1;
+    for (int k = 0; k < 2; k++) {
+        o->t[k] = k && alike ? o->t[N] : rb_alloc(distances, 1);
+        o->t_hat[k] = k && alike ? o->t_hat[N] : rb_alloc(half, 2);
+        o->work[k] = rb_fourier_alloc(&o->fourier);
+    }
+    o->s = rb_alloc(distances, 1);
+    o->s_hat = rb_alloc(half, 2);
+    return o->t[N] && o->t[T] && o->s && o->t_hat[N] && o->t_hat[T] && o->s_hat && o->work[N] &&
+                   o->work[T]
+               ? o
+               : NULL;
 }
 
 rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends, const rb_bem_surface *body,
