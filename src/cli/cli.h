@@ -136,6 +136,11 @@ typedef struct {
 cli_exit cli_parse(const cli_spec *spec, int argc, char **argv, cli_args *args);
 void cli_args_free(cli_args *args);
 
+/* "curve" of "rollbem curve [OPTION...]"; "" for the command without a name.  Returns name. */
+const char *cli_command_of(const cli_spec *spec, char name[24]);
+/* What every command but help says to --describe=FORM; the one without a name last, or first. */
+cli_exit cli_describe_all(const char *form, int nameless_first);
+
 /* How the value of an option is shown: " X", " arc|hub"; "" of a flag. */
 void cli_option_metavar(const rb_option *o, char *text, size_t size);
 /* The help line with unit, range and default. */

@@ -8,26 +8,6 @@
 static const cli_command *commands;
 static char *command_line;
 
-static char *append_quoted(char *to, const char *word)
-{
-    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+.,:/@%^";
-    const size_t n = strlen(word);
-    if (n > 0 && strspn(word, plain) == n) {
-        memcpy(to, word, n);
-        return to + n;
-    }
-    *to++ = '\'';
-    for (const char *c = word; *c; c++) {
-        if (*c == '\'') {
-            memcpy(to, "'\\'", 3);
-            to += 3;
-        }
-        *to++ = *c;
-    }
-    *to++ = '\'';
-    return to;
-}
-
 char **cli_split_line(char *line, int *argc)
 {
     static char program[] = "rollbem";
@@ -70,8 +50,16 @@ int cli_begin(const cli_command *table, int argc, char **argv)
         return 0;
     char *to = stpcpy(line, "rollbem");
     for (int i = 1; i < argc; i++) {
-        *to++ = ' ';
-        to = append_quoted(to, argv[i]);
+        static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                    "-_=+.,:/@%^";
+        const int quoted = !argv[i][0] || argv[i][strspn(argv[i], plain)];
+        to = stpcpy(to, quoted ? " '" : " ");
+        for (const char *c = argv[i]; *c; c++) {
+            if (*c == '\'')
+                to = stpcpy(to, "'\\'");
+            *to++ = *c;
+        }
+        to = stpcpy(to, quoted ? "'" : "");
     }
     *to = '\0';
     command_line = malloc(4 * strlen(line) + 1);
@@ -85,6 +73,29 @@ void cli_end(void)
 {
     free(command_line);
     command_line = NULL;
+}
+
+const char *cli_command_of(const cli_spec *spec, char name[24])
+{
+    if (sscanf(spec->synopsis, "rollbem %23[a-z]", name) != 1)
+        name[0] = '\0';
+    return name;
+}
+
+cli_exit cli_describe_all(const char *form, int nameless_first)
+{
+    char describe[40];
+    char *words[] = {"", describe, NULL};
+    int code = CLI_OK;
+    snprintf(describe, sizeof describe, "--describe=%s", form);
+    if (nameless_first)
+        code = cli_run("", 2, words);
+    for (int k = 0; code == CLI_OK && cli_command_name(k); k++)
+        if (strcmp(cli_command_name(k), "help") != 0)
+            code = cli_run(cli_command_name(k), 2, words);
+    if (code == CLI_OK && !nameless_first)
+        code = cli_run("", 2, words);
+    return code;
 }
 
 const char *cli_command_line(void)

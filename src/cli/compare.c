@@ -160,10 +160,7 @@ typedef struct {
     rb_friction_info info;
 } told_run;
 
-#define ROW(name, column, kind, member)                                                            \
-    {                                                                                              \
-        name, column, CLI_ROW_##kind, offsetof(told_run, member)                                   \
-    }
+#define ROW(name, column, kind, member) CLI_ROW(told_run, name, column, kind, member)
 
 static const cli_row rows[] = {ROW("file", "file", TEXT, file),
                                ROW("solver", "solver", TEXT, solver),

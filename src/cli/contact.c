@@ -72,10 +72,7 @@ typedef struct {
         residual, NPLAST;
 } case_row;
 
-#define ROW(name, column, kind, member)                                                            \
-    {                                                                                              \
-        name, column, CLI_ROW_##kind, offsetof(case_row, member)                                   \
-    }
+#define ROW(name, column, kind, member) CLI_ROW(case_row, name, column, kind, member)
 #define NUMBER(name, member) ROW(name, name, NUMBER, member)
 
 static const cli_row case_rows[] = {ROW("case", "case", WHOLE, number),
@@ -112,10 +109,7 @@ typedef struct {
     double X, H, PN, PX, S, UPL;
 } element_row;
 
-#define COLUMN(kind, column, member)                                                               \
-    {                                                                                              \
-        NULL, column, CLI_ROW_##kind, offsetof(element_row, member)                                \
-    }
+#define COLUMN(kind, column, member) CLI_ROW(element_row, NULL, column, kind, member)
 
 static const cli_row element_rows[] = {COLUMN(WHOLE, "case", number), COLUMN(NUMBER, "X", X),
                                        COLUMN(NUMBER, "H", H),        COLUMN(NUMBER, "PN", PN),

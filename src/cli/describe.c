@@ -8,14 +8,6 @@
 #include <ctype.h>
 #include <string.h>
 
-/* "curve" of "rollbem curve [OPTION...]"; "" for the command without a name. */
-static const char *command_of(const cli_spec *spec, char buffer[24])
-{
-    if (sscanf(spec->synopsis, "rollbem %23[a-z]", buffer) != 1)
-        buffer[0] = '\0';
-    return buffer;
-}
-
 static int is_option(const rb_option *o)
 {
     return o->kind != RB_OPTION_GROUP;
@@ -93,7 +85,7 @@ static void print_upper(const char *text)
 static void print_man(const cli_spec *spec)
 {
     char command[24];
-    const char *dash = *command_of(spec, command) ? "-" : "";
+    const char *dash = *cli_command_of(spec, command) ? "-" : "";
     fputs(".TH ROLLBEM", stdout);
     fputs(dash, stdout);
     print_upper(command);
@@ -141,7 +133,7 @@ static void print_code_block(const char *text)
 static void print_markdown(const cli_spec *spec)
 {
     char command[24], values[120], text[600];
-    command_of(spec, command);
+    cli_command_of(spec, command);
     printf("# rollbem%s%s\n\n%s\n", *command ? " " : "", command, cli_command_help(command));
     print_code_block(spec->synopsis);
     print_code_block(spec->about);
@@ -185,7 +177,7 @@ static void each_option(const cli_spec *spec,
                         void (*print)(const rb_option *o, const char *command))
 {
     char command[24];
-    command_of(spec, command);
+    cli_command_of(spec, command);
     for (int s = 0; s < spec->set_n; s++)
         for (int i = 0; i < spec->sets[s].n; i++)
             if (is_option(&spec->sets[s].options[i]))
@@ -211,7 +203,7 @@ static void bash_name(const rb_option *o, const char *command)
 static void bash_command(const cli_spec *spec)
 {
     char command[24];
-    printf("    %s)\n        case $previous in\n", *command_of(spec, command) ? command : "*");
+    printf("    %s)\n        case $previous in\n", *cli_command_of(spec, command) ? command : "*");
     each_option(spec, bash_value);
     fputs("        esac\n        options=\"", stdout);
     each_option(spec, bash_name);
@@ -241,7 +233,7 @@ static void zsh_option(const rb_option *o, const char *command)
 static void zsh_command(const cli_spec *spec)
 {
     char command[24];
-    printf("    %s)\n        _arguments \\\n", *command_of(spec, command) ? command : "*");
+    printf("    %s)\n        _arguments \\\n", *cli_command_of(spec, command) ? command : "*");
     each_option(spec, zsh_option);
     puts("            '--help[this text]' '--usage[the options on a few lines]' '--version' "
          "'*:file:_files'\n        ;;");
@@ -301,23 +293,6 @@ cli_exit cli_describe(const cli_spec *spec, const char *form)
 
 /* ---- A whole completion ------------------------------------------------------------ */
 
-/* What every command says of itself; the one without a name last, or first. */
-static cli_exit describe_all(const char *form, int nameless_first)
-{
-    char describe[40];
-    char *words[] = {"", describe, NULL};
-    int code = CLI_OK;
-    snprintf(describe, sizeof describe, "--describe=%s", form);
-    if (nameless_first)
-        code = cli_run("", 2, words);
-    for (int k = 0; code == CLI_OK && cli_command_name(k); k++)
-        if (strcmp(cli_command_name(k), "help") != 0)
-            code = cli_run(cli_command_name(k), 2, words);
-    if (code == CLI_OK && !nameless_first)
-        code = cli_run("", 2, words);
-    return code;
-}
-
 static void print_commands(const char *between)
 {
     for (int k = 0; cli_command_name(k); k++)
@@ -335,7 +310,7 @@ static cli_exit bash_completion(void)
           "    [ \"$previous\" = = ] && previous=${COMP_WORDS[COMP_CWORD-2]}\n"
           "    case $command in\n",
           stdout);
-    const cli_exit code = describe_all("bash", 0);
+    const cli_exit code = cli_describe_all("bash", 0);
     fputs("    esac\n"
           "    options=\"$options --help --usage --version\"\n"
           "    [ \"$COMP_CWORD\" -eq 1 ] && options=\"$options ",
@@ -364,7 +339,7 @@ static cli_exit zsh_completion(void)
           stdout);
     print_commands(" ");
     fputs("\n    fi\n    case $command in\n", stdout);
-    const cli_exit code = describe_all("zsh", 0);
+    const cli_exit code = cli_describe_all("zsh", 0);
     fputs("    esac\n}\n_rollbem \"$@\"\n", stdout);
     return code;
 }
@@ -381,7 +356,7 @@ static cli_exit fish_completion(void)
         print_quoted(cli_command_help(cli_command_name(k)));
         puts("'");
     }
-    return describe_all("fish", 1);
+    return cli_describe_all("fish", 1);
 }
 
 cli_exit cli_complete(const char *shell)

@@ -121,10 +121,7 @@ typedef struct {
     rb_report_fem_sums sums;
 } model_step;
 
-#define ROW(name, column, kind, member)                                                            \
-    {                                                                                              \
-        name, column, CLI_ROW_##kind, offsetof(model_step, member)                                 \
-    }
+#define ROW(name, column, kind, member) CLI_ROW(model_step, name, column, kind, member)
 #define COMMON_ROWS                                                                                \
     ROW(NULL, "step", WHOLE, number), ROW("status", NULL, TEXT, status),                           \
         ROW("stick", "stick", WHOLE, stick), ROW("slip", "slip", WHOLE, slip),                     \
@@ -247,10 +244,7 @@ typedef struct {
     int steps;
 } wall_run;
 
-#define ROW(name, kind, member)                                                                    \
-    {                                                                                              \
-        name, name, CLI_ROW_##kind, offsetof(rb_fem_wall_step, member)                             \
-    }
+#define ROW(name, kind, member) CLI_ROW(rb_fem_wall_step, name, name, kind, member)
 
 static const cli_row wall_rows[] = {
     ROW("time_s", NUMBER, time),        ROW("compression_N", NUMBER, compression),

@@ -119,8 +119,8 @@ const char *cli_other_name(const char *name, size_t length)
 
 void cli_find_options(const cli_spec *spec)
 {
-    char command[24] = "", values[120], name[200], text[700];
-    sscanf(spec->synopsis, "rollbem %23[a-z]", command);
+    char command[24], values[120], name[200], text[700];
+    cli_command_of(spec, command);
     for (int s = 0; s < spec->set_n; s++) {
         const rb_option_set *set = &spec->sets[s];
         int k = 0;
@@ -159,8 +159,8 @@ static struct {
 
 void cli_find_holder(const cli_spec *spec)
 {
-    char command[24] = "";
-    sscanf(spec->synopsis, "rollbem %23[a-z]", command);
+    char command[24];
+    cli_command_of(spec, command);
     for (int s = 0; s < spec->set_n; s++)
         for (int i = 0; i < spec->sets[s].n; i++) {
             const rb_option *o = &spec->sets[s].options[i];
@@ -171,64 +171,19 @@ void cli_find_holder(const cli_spec *spec)
         }
 }
 
-static void run_commands(const char *form)
-{
-    char describe[40];
-    snprintf(describe, sizeof describe, "--describe=%s", form);
-    for (int k = -1; k < 0 || cli_command_name(k); k++) {
-        char name[24];
-        snprintf(name, sizeof name, "%s", k < 0 ? "" : cli_command_name(k));
-        char *words[] = {name, describe, NULL};
-        if (strcmp(name, "help") != 0)
-            cli_run(name, 2, words);
-    }
-}
-
 const char *cli_commands_with(const char *name, size_t length)
 {
     wanted.name = name;
     wanted.length = length;
     wanted.n = 0;
     *wanted.commands = '\0';
-    run_commands("holder");
+    cli_describe_all("holder", 1);
     if (wanted.n > SHOWN)
         rb_append(wanted.commands, sizeof wanted.commands, " and others");
     return wanted.commands;
 }
 
 /* ---- Everything else ---------------------------------------------------------------- */
-
-/* What the one word may be a unit of. */
-static void find_units(const rb_option_set *options)
-{
-    char one[60], text[2000] = "";
-    double value;
-    int plain;
-    snprintf(one, sizeof one, "1%.50s", search.word[0]);
-    for (int i = 0; i < options->n; i++) {
-        const rb_option *o = &options->options[i];
-        if (o->kind == RB_OPTION_NUMBER && *o->unit && strcmp(o->unit, "-") != 0 &&
-            rb_unit_read(one, o->unit, &value, &plain, NULL) == RB_OK && !plain)
-            rb_append(text, sizeof text, "%s--%s", *text ? ", " : "a unit of ", o->name);
-    }
-    if (*text)
-        print(search.word[0], text);
-}
-
-static void find_results(void)
-{
-    const rb_rolling_result_table *t;
-    char name[80], text[600];
-    for (int j = 0; (t = rb_case_result_table(j)); j++)
-        for (int k = 0; k < t->results->n; k++) {
-            const rb_rolling_result *r = &t->results->row[k];
-            const int has_unit = r->unit && *r->unit && strcmp(r->unit, "-") != 0;
-            snprintf(name, sizeof name, "%s%s%s%s", r->name, has_unit ? " [" : "",
-                     has_unit ? r->unit : "", has_unit ? "]" : "");
-            snprintf(text, sizeof text, "%s (%s)", r->meaning, t->title);
-            show_if(name, text);
-        }
-}
 
 /* Part by part; what has the words in its name comes first. */
 static void find_everything(const rb_option_set *options)
@@ -239,7 +194,7 @@ static void find_everything(const rb_option_set *options)
         "Units",    "Results: columns, names in JSON, of --results and of Python",
         "Examples", "Glossary",
         "Questions"};
-    char name[60], text[1000];
+    char name[80], text[1000];
     for (int part = 0; part < PARTS; part++) {
         search.title = titles[part];
         for (search.in_name = 1; search.in_name >= 0; search.in_name--) {
@@ -249,11 +204,32 @@ static void find_everything(const rb_option_set *options)
                 show_if(name, cli_command_help(cli_command_name(k)));
             }
             if (part == OPTIONS) /* each command shows its own, those of several once */
-                run_commands("search");
-            if (part == UNITS && search.n == 1 && !search.in_name)
-                find_units(options);
-            if (part == RESULTS)
-                find_results();
+                cli_describe_all("search", 1);
+            if (part == UNITS && search.n == 1 && !search.in_name) {
+                /* What the one word may be a unit of. */
+                char one[60], of[2000] = "";
+                double value;
+                int plain;
+                snprintf(one, sizeof one, "1%.50s", search.word[0]);
+                for (int i = 0; i < options->n; i++) {
+                    const rb_option *o = &options->options[i];
+                    if (o->kind == RB_OPTION_NUMBER && *o->unit && strcmp(o->unit, "-") != 0 &&
+                        rb_unit_read(one, o->unit, &value, &plain, NULL) == RB_OK && !plain)
+                        rb_append(of, sizeof of, "%s--%s", *of ? ", " : "a unit of ", o->name);
+                }
+                if (*of)
+                    print(search.word[0], of);
+            }
+            const rb_rolling_result_table *t;
+            for (int j = 0; part == RESULTS && (t = rb_case_result_table(j)); j++)
+                for (int k = 0; k < t->results->n; k++) {
+                    const rb_rolling_result *r = &t->results->row[k];
+                    const int has_unit = r->unit && *r->unit && strcmp(r->unit, "-") != 0;
+                    snprintf(name, sizeof name, "%s%s%s%s", r->name, has_unit ? " [" : "",
+                             has_unit ? r->unit : "", has_unit ? "]" : "");
+                    snprintf(text, sizeof text, "%s (%s)", r->meaning, t->title);
+                    show_if(name, text);
+                }
             for (int k = 0;
                  part == EXAMPLES && cli_example_about(k, name, sizeof name, text, sizeof text);
                  k++)

@@ -118,10 +118,7 @@ static int is_json(const friction_options *o)
 
 /* ---- Output ----------------------------------------------------------------------- */
 
-#define ROW(name, column, kind, member)                                                            \
-    {                                                                                              \
-        name, column, CLI_ROW_##kind, offsetof(friction_result, member)                            \
-    }
+#define ROW(name, column, kind, member) CLI_ROW(friction_result, name, column, kind, member)
 
 static const cli_row rows[] = {ROW("file", "file", TEXT, file),
                                ROW("solver", "solver", TEXT, info.solver),

@@ -171,15 +171,12 @@ static json_t *vector(int n, const double *x)
     return x ? rb_report_json_numbers(n, x) : json_null();
 }
 
-#define ROW(name, column, kind, member)                                                            \
-    {                                                                                              \
-        name, column, CLI_ROW_##kind, offsetof(lcp_result, member)                                 \
-    }
+#define ROW(name, column, kind, member) CLI_ROW(lcp_result, name, column, kind, member)
 
 static const cli_row rows[] = {ROW("file", "file", TEXT, file),
                                ROW("solver", "solver", TEXT, solver),
                                ROW("status", "status", WORDS, status),
-                               ROW("contacts", NULL, NULL, n),
+                               ROW("contacts", NULL, NONE, n),
                                ROW("dimension", "n", SIZE, n),
                                ROW("iterations", "pivots", WHOLE, info.iters),
                                ROW("residual", "residual", NUMBER, info.res),

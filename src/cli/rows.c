@@ -29,7 +29,7 @@ json_t *cli_rows_json(int n, const cli_row *rows, const void *values, int known)
         case CLI_ROW_NUMBER:
             value = rb_report_json_number(*(const double *)at);
             break;
-        case CLI_ROW_NULL:
+        case CLI_ROW_NONE:
             value = json_null();
             break;
         }

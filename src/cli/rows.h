@@ -15,7 +15,7 @@ typedef enum {
     CLI_ROW_WHOLE,   /* int, null where nothing is known */
     CLI_ROW_SIZE,    /* int, null when it is 0 */
     CLI_ROW_NUMBER,  /* double */
-    CLI_ROW_NULL     /* what other commands have there; in JSON alone */
+    CLI_ROW_NONE     /* what other commands have there; in JSON alone */
 } cli_row_kind;
 
 typedef struct {
@@ -23,6 +23,12 @@ typedef struct {
     cli_row_kind kind;
     size_t place; /* in the struct of the values */
 } cli_row;
+
+/* kind: the name behind CLI_ROW_. */
+#define CLI_ROW(type, name, column, kind, member)                                                  \
+    {                                                                                              \
+        name, column, CLI_ROW_##kind, offsetof(type, member)                                       \
+    }
 
 /* The members of an object, in the order of the rows.  known: 0 writes whole numbers as
  * null.  The object is NULL without memory, as those of rb_report_json_set. */
