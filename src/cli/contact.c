@@ -196,72 +196,6 @@ static rb_status print(FILE *out, const void *context, rb_message *why)
 
 /* ---- Command ----------------------------------------------------------------------- */
 
-static cli_exit run_all(contact_runs *all, const rb_io_contact_case *cases)
-{
-    cli_exit worst = CLI_OK;
-    int ran = 0;
-    all->run = calloc((size_t)all->n, sizeof *all->run);
-    if (!all->run)
-        return cli_fail(CLI_INTERNAL, "out of memory");
-    for (int k = 0; k < all->n; k++) {
-        all->run[k].in = &cases[k];
-        rb_case_from_contact(&cases[k], &all->run[k].c);
-    }
-    for (int k = 0; k < all->n; k++) {
-        contact_run *r = &all->run[k];
-        r->before = k > 0 ? &all->run[k - 1].s : NULL;
-        rb_case_contact_follow(k > 0 ? &all->run[k - 1].c : NULL, r->before, &r->c);
-        if (!r->c.runs)
-            continue;
-        ran++;
-        cli_wait_begin();
-        r->status = rb_case_contact_solve(&r->c, r->before, &r->s, &r->why);
-        cli_wait_end();
-        if (r->status != RB_OK) {
-            const cli_exit code = r->status == RB_EINVAL ? CLI_DATA : cli_exit_of(r->status);
-            cli_fail(code, "%s:%d: case %d: %s", all->path, r->in->line, k + 1,
-                     rb_status_reason(r->status, &r->why));
-            worst = code > worst ? code : worst;
-        }
-    }
-    for (int k = 0; k < all->n; k++) {
-        /* What is left out of a case, each reason at its first case only. */
-        const contact_run *r = &all->run[k];
-        int as_before = 0;
-        for (int j = 0; j < k && !as_before; j++)
-            as_before = all->run[j].c.runs == r->c.runs &&
-                        strcmp(all->run[j].c.left_out, r->c.left_out) == 0;
-        if (r->c.left_out[0] && !all->o->quiet && !as_before) {
-            int alike = 0;
-            for (int j = k + 1; j < all->n; j++)
-                alike += all->run[j].c.runs == r->c.runs &&
-                         strcmp(all->run[j].c.left_out, r->c.left_out) == 0;
-            char more[40] = "";
-            if (alike > 0)
-                snprintf(more, sizeof more, ", and %d more case%s", alike, alike > 1 ? "s" : "");
-            cli_fail(CLI_OK,
-                     r->c.runs ? "%s:%d: case %d%s solved without %s"
-                               : "%s:%d: case %d%s skipped: %s is not supported",
-                     all->path, r->in->line, k + 1, more, r->c.left_out);
-        }
-    }
-    const cli_exit code = cli_write_file(all->o->output, print, all);
-    if (code != CLI_OK)
-        worst = code;
-    else if (ran == 0)
-        worst = cli_fail(CLI_UNSOLVED, "%s: no case that could be run", all->path);
-    else if (ran < all->n) { /* with most of them missing, the file has not been run */
-        const cli_exit missing = 2 * ran < all->n ? CLI_UNSOLVED : CLI_OK;
-        cli_fail(missing, "%s: %d of %d cases run, %d skipped", all->path, ran, all->n,
-                 all->n - ran);
-        worst = missing > worst ? missing : worst;
-    }
-    for (int k = 0; k < all->n; k++)
-        rb_rolling_solution_free(&all->run[k].s);
-    free(all->run);
-    return worst;
-}
-
 int cli_contact(int argc, char **argv)
 {
     contact_options o = {0};
@@ -276,15 +210,78 @@ int cli_contact(int argc, char **argv)
         code = cli_fail(CLI_USAGE, "contact: expected one FILE.inp, got %d files", args.operands);
     if (code == CLI_CONTINUE)
         code = cli_check_files(&spec, &args);
+    contact_runs all = {.o = &o};
+    rb_io_contact_case *cases = NULL;
+    cli_exit worst = CLI_OK;
+    int ran = 0;
     if (code == CLI_CONTINUE) {
-        contact_runs all = {.o = &o, .path = args.operand[0]};
-        rb_io_contact_case *cases = NULL;
         rb_message why = {""};
+        all.path = args.operand[0];
         code = cli_say(rb_io_contact_read(all.path, &all.n, &cases, &why), &why);
-        if (code == CLI_CONTINUE)
-            code = run_all(&all, cases);
-        free(cases);
     }
+    if (code == CLI_CONTINUE && !(all.run = calloc((size_t)all.n, sizeof *all.run)))
+        code = cli_fail(CLI_INTERNAL, "out of memory");
+    if (code == CLI_CONTINUE) {
+        for (int k = 0; k < all.n; k++) {
+            all.run[k].in = &cases[k];
+            rb_case_from_contact(&cases[k], &all.run[k].c);
+        }
+        for (int k = 0; k < all.n; k++) {
+            contact_run *r = &all.run[k];
+            r->before = k > 0 ? &all.run[k - 1].s : NULL;
+            rb_case_contact_follow(k > 0 ? &all.run[k - 1].c : NULL, r->before, &r->c);
+            if (!r->c.runs)
+                continue;
+            ran++;
+            cli_wait_begin();
+            r->status = rb_case_contact_solve(&r->c, r->before, &r->s, &r->why);
+            cli_wait_end();
+            if (r->status != RB_OK) {
+                const cli_exit one = r->status == RB_EINVAL ? CLI_DATA : cli_exit_of(r->status);
+                cli_fail(one, "%s:%d: case %d: %s", all.path, r->in->line, k + 1,
+                         rb_status_reason(r->status, &r->why));
+                worst = one > worst ? one : worst;
+            }
+        }
+        for (int k = 0; k < all.n; k++) {
+            /* What is left out of a case, each reason at its first case only. */
+            const contact_run *r = &all.run[k];
+            int as_before = 0;
+            for (int j = 0; j < k && !as_before; j++)
+                as_before = all.run[j].c.runs == r->c.runs &&
+                            strcmp(all.run[j].c.left_out, r->c.left_out) == 0;
+            if (r->c.left_out[0] && !all.o->quiet && !as_before) {
+                int alike = 0;
+                for (int j = k + 1; j < all.n; j++)
+                    alike += all.run[j].c.runs == r->c.runs &&
+                             strcmp(all.run[j].c.left_out, r->c.left_out) == 0;
+                char more[40] = "";
+                if (alike > 0)
+                    snprintf(more, sizeof more, ", and %d more case%s", alike,
+                             alike > 1 ? "s" : "");
+                cli_fail(CLI_OK,
+                         r->c.runs ? "%s:%d: case %d%s solved without %s"
+                                   : "%s:%d: case %d%s skipped: %s is not supported",
+                         all.path, r->in->line, k + 1, more, r->c.left_out);
+            }
+        }
+        code = cli_write_file(all.o->output, print, &all);
+        if (code != CLI_OK)
+            worst = code;
+        else if (ran == 0)
+            worst = cli_fail(CLI_UNSOLVED, "%s: no case that could be run", all.path);
+        else if (ran < all.n) { /* with most of them missing, the file has not been run */
+            const cli_exit missing = 2 * ran < all.n ? CLI_UNSOLVED : CLI_OK;
+            cli_fail(missing, "%s: %d of %d cases run, %d skipped", all.path, ran, all.n,
+                     all.n - ran);
+            worst = missing > worst ? missing : worst;
+        }
+        for (int k = 0; k < all.n; k++)
+            rb_rolling_solution_free(&all.run[k].s);
+        code = worst;
+    }
+    free(all.run);
+    free(cases);
     cli_args_free(&args);
     return code;
 }

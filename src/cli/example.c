@@ -278,29 +278,6 @@ static int is_interrupted(void *context)
     return cli_interrupted();
 }
 
-static cli_exit advance_all(const example_options *o, wall_run *run)
-{
-    const int planned = rb_fem_wall_steps(run->wall);
-    rb_message why = {""};
-    rb_status s = RB_OK;
-    cli_interrupts_catch();
-    while (s == RB_OK && run->steps < planned && !cli_interrupted()) {
-        rb_fem_wall_step *step = &run->step[run->steps];
-        s = rb_fem_wall_advance(run->wall, o->solver, o->tol, step, &why);
-        if (s < RB_OK || s == RB_INTERRUPTED)
-            break;
-        run->steps++;
-        if (!o->quiet)
-            fprintf(stderr, "step %d of %d: shear %.0f N, %d iterations, %.2f s\n", run->steps,
-                    planned, rint(step->shear) + 0.0, /* no -0 */
-                    step->iterations, step->seconds);
-    }
-    cli_interrupts_leave();
-    if (s == RB_OK && run->steps < planned)
-        s = rb_fail(&why, RB_INTERRUPTED, "interrupted after step %d", run->steps);
-    return s == RB_OK ? CLI_OK : cli_say(s, &why);
-}
-
 static cli_exit finish_wall(const wall_run *run)
 {
     const example_options *o = run->o;
@@ -347,7 +324,7 @@ static cli_exit run_wall(const example_options *o)
     w.stopped = is_interrupted;
     wall_run run = {.o = o};
     rb_message why = {""};
-    const rb_status s = rb_fem_wall_create(&w, &run.wall, &why);
+    rb_status s = rb_fem_wall_create(&w, &run.wall, &why);
     if (s != RB_OK)
         return cli_say(s, &why);
     if (!o->quiet) {
@@ -358,8 +335,25 @@ static cli_exit run_wall(const example_options *o)
         if (rb_fem_wall_rank(run.wall, &rank) == RB_OK)
             fprintf(stderr, "H has rank %d: %d times hyperstatic\n", rank, 3 * contacts - rank);
     }
-    run.step = calloc((size_t)rb_fem_wall_steps(run.wall), sizeof *run.step);
-    cli_exit code = run.step ? advance_all(o, &run) : cli_fail(CLI_INTERNAL, "out of memory");
+    const int planned = rb_fem_wall_steps(run.wall);
+    run.step = calloc((size_t)planned, sizeof *run.step);
+    s = run.step ? RB_OK : rb_fail(&why, RB_ENOMEM, "out of memory");
+    cli_interrupts_catch();
+    while (s == RB_OK && run.steps < planned && !cli_interrupted()) {
+        rb_fem_wall_step *step = &run.step[run.steps];
+        s = rb_fem_wall_advance(run.wall, o->solver, o->tol, step, &why);
+        if (s < RB_OK || s == RB_INTERRUPTED)
+            break;
+        run.steps++;
+        if (!o->quiet)
+            fprintf(stderr, "step %d of %d: shear %.0f N, %d iterations, %.2f s\n", run.steps,
+                    planned, rint(step->shear) + 0.0, /* no -0 */
+                    step->iterations, step->seconds);
+    }
+    cli_interrupts_leave();
+    if (s == RB_OK && run.steps < planned)
+        s = rb_fail(&why, RB_INTERRUPTED, "interrupted after step %d", run.steps);
+    cli_exit code = s == RB_OK ? CLI_OK : cli_say(s, &why);
     if (run.steps > 0) {
         const cli_exit finished = finish_wall(&run);
         code = code == CLI_OK ? finished : code;

@@ -72,26 +72,6 @@ static rb_case_parameter *parameter_of(fitting *f, const char *name, size_t n)
     return NULL;
 }
 
-static cli_exit read_names(fitting *f)
-{
-    if (!f->names)
-        return cli_fail(CLI_USAGE, "fit needs --fit NAME,...");
-    for (const char *at = f->names; *at;) {
-        const size_t n = strcspn(at, ",");
-        if (n == 0 || n > 39 || parameter_of(f, at, n))
-            return cli_fail(CLI_USAGE, "--fit: expected different names, got '%s'", f->names);
-        if (f->fit.n == RB_CASE_FIT_MAX)
-            return cli_fail(CLI_USAGE, "--fit: expected at most %d names", RB_CASE_FIT_MAX);
-        rb_case_parameter *p = &f->fit.parameter[f->fit.n++];
-        memcpy(p->name, at, n);
-        p->start = NAN;
-        p->low = -INFINITY;
-        p->high = INFINITY;
-        at += n + (at[n] == ',');
-    }
-    return CLI_CONTINUE;
-}
-
 /* NAME=X or NAME=A:B, commas between. */
 static cli_exit read_values(fitting *f, const char *option, const char *text, int ranges)
 {
@@ -253,9 +233,22 @@ static cli_exit prepare(cli_case_run *run)
     rb_message why = {""};
     if (run->args.operands < 1)
         return cli_fail(CLI_USAGE, "fit needs DATA, and at most one case file");
-    cli_exit code = read_names(f);
-    if (code == CLI_CONTINUE)
-        code = read_values(f, "start", f->start, 0);
+    if (!f->names)
+        return cli_fail(CLI_USAGE, "fit needs --fit NAME,...");
+    for (const char *at = f->names; *at;) {
+        const size_t n = strcspn(at, ",");
+        if (n == 0 || n > 39 || parameter_of(f, at, n))
+            return cli_fail(CLI_USAGE, "--fit: expected different names, got '%s'", f->names);
+        if (f->fit.n == RB_CASE_FIT_MAX)
+            return cli_fail(CLI_USAGE, "--fit: expected at most %d names", RB_CASE_FIT_MAX);
+        rb_case_parameter *p = &f->fit.parameter[f->fit.n++];
+        memcpy(p->name, at, n);
+        p->start = NAN;
+        p->low = -INFINITY;
+        p->high = INFINITY;
+        at += n + (at[n] == ',');
+    }
+    cli_exit code = read_values(f, "start", f->start, 0);
     if (code == CLI_CONTINUE)
         code = read_values(f, "bounds", f->bounds, 1);
     if (code == CLI_CONTINUE)

@@ -163,25 +163,6 @@ static cli_exit unreadable(friction_result *r, rb_status s, const rb_message *wh
 /* Beyond this many rows only --facts looks at W's shape: it costs a factorisation. */
 #define MOST_ROWS 3000
 
-/* Ranks on request; unsymmetric and indefinite W in any case. */
-static cli_exit examine(const friction_run *run, const rb_friction_problem *p, friction_result *r)
-{
-    if (!run->o->facts && r->m > MOST_ROWS)
-        return CLI_OK;
-    const rb_status s = rb_friction_examine(p, run->o->facts, &r->facts);
-    if (s != RB_OK)
-        return failed(r, s, rb_status_text(s));
-    if (r->facts.asymmetry > 1e-12)
-        fprintf(stderr, "rollbem: %s: note: W is not symmetric (|W - W'| is %.2g of |W|)\n",
-                r->file, r->facts.asymmetry);
-    if (r->facts.indefinite)
-        fprintf(
-            stderr,
-            "rollbem: %s: note: W is indefinite: a solution may not exist or may not be unique\n",
-            r->file);
-    return CLI_OK;
-}
-
 static cli_exit assess(friction_run *run, friction_result *r, rb_status s)
 {
     r->status = rb_friction_status_text(s, run->o->tol, &r->info);
@@ -236,7 +217,21 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
     r->m = p.dimension * p.contacts;
     r->r = rb_alloc((size_t)r->m, 1);
     r->u = rb_alloc((size_t)r->m, 1);
-    cli_exit code = r->r && r->u ? examine(run, &p, r) : failed(r, RB_ENOMEM, "out of memory");
+    cli_exit code = r->r && r->u ? CLI_OK : failed(r, RB_ENOMEM, "out of memory");
+    /* Ranks on request; unsymmetric and indefinite W in any case. */
+    if (code == CLI_OK && (run->o->facts || r->m <= MOST_ROWS)) {
+        s = rb_friction_examine(&p, run->o->facts, &r->facts);
+        if (s != RB_OK)
+            code = failed(r, s, rb_status_text(s));
+        else if (r->facts.asymmetry > 1e-12)
+            fprintf(stderr, "rollbem: %s: note: W is not symmetric (|W - W'| is %.2g of |W|)\n",
+                    r->file, r->facts.asymmetry);
+        if (s == RB_OK && r->facts.indefinite)
+            fprintf(stderr,
+                    "rollbem: %s: note: W is indefinite: a solution may not exist or may not be "
+                    "unique\n",
+                    r->file);
+    }
     if (code == CLI_OK) {
         const rb_friction_options opt = solver_options(run);
         const rb_friction_solution solution = {r->r, r->u, NULL};

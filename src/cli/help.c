@@ -79,11 +79,17 @@ static void print_set(const rb_option_set *set, int common)
     }
 }
 
-/* The group or the option of that name; 0: there is none. */
-static int print_part(const cli_spec *spec, const char *part)
+int cli_print_help(const cli_spec *spec, const char *part)
 {
-    int inside = 0, found = 0;
-    for (int s = 0; s < spec->set_n; s++, inside = 0)
+    char *words[] = {(char[80]){""}, NULL};
+    const int is_part = part && strcmp(part, "all") != 0;
+    int found = !is_part, common = 0;
+    for (int i = 0; spec->set_n > 0 && i < spec->sets[0].n; i++)
+        common |= spec->sets[0].options[i].common;
+    FILE *pager = cli_open_pager();
+    for (int s = 0; s < spec->set_n && is_part; s++) {
+        /* The groups that begin so, and the option of that name. */
+        int inside = 0;
         for (int i = 0; i < spec->sets[s].n; i++) {
             const rb_option *o = &spec->sets[s].options[i];
             if (o->kind == RB_OPTION_GROUP) {
@@ -95,19 +101,8 @@ static int print_part(const cli_spec *spec, const char *part)
                 found = 1;
             }
         }
-    return found;
-}
-
-int cli_print_help(const cli_spec *spec, const char *part)
-{
-    char *words[] = {(char[80]){""}, NULL};
-    int found = 1, common = 0;
-    for (int i = 0; spec->set_n > 0 && i < spec->sets[0].n; i++)
-        common |= spec->sets[0].options[i].common;
-    FILE *pager = cli_open_pager();
-    if (part && strcmp(part, "all") != 0)
-        found = print_part(spec, part);
-    else if (!part && pager && common) {
+    }
+    if (!part && pager && common) {
         /* The command's own options, and the common ones of the case. */
         const char *paragraph = strstr(spec->about, "\n\n");
         const int n = (int)(paragraph ? paragraph - spec->about : (long)strlen(spec->about));
@@ -135,7 +130,7 @@ int cli_print_help(const cli_spec *spec, const char *part)
         cli_print_entry("rollbem help WORD", "search options, results, glossary and FAQ for "
                                              "a word, such as: rollbem help rubber");
         cli_print_entry("rollbem help", "the other commands: curve, stress, wear, sweep, ...");
-    } else {
+    } else if (!is_part) {
         printf("Usage: %s\n\n", spec->synopsis);
         print_text(spec->about);
         for (int s = 0; s < spec->set_n; s++)

@@ -187,40 +187,32 @@ static cli_exit check_clash(const cli_spec *spec, const cli_args *args, const rb
     return CLI_CONTINUE;
 }
 
-/* A size needs a picture, and a script belongs to one alone. */
-static cli_exit check_pictures(const cli_spec *spec, const cli_args *args)
+cli_exit cli_check_files(const cli_spec *spec, const cli_args *args)
 {
+    const rb_option *o, *size_of = NULL, *script_of = NULL;
+    const char *path, *file = args->operand[args->own]; /* file: of the case */
     char name[300];
-    const char *path = args->operand[args->own]; /* of the case */
-    const rb_option *size_of = NULL, *script_of = NULL;
-    int pictures = 0, size = 0, script = 0;
+    cli_exit code = CLI_CONTINUE;
+    int set = 0, i = 0, pictures = 0, size = 0, script = 0;
     for (int k = 0; k < spec->set_n; k++)
-        for (int i = 0; i < spec->sets[k].n; i++) {
-            const rb_option_set *set = &spec->sets[k];
-            const rb_option *o = &set->options[i];
-            pictures += o->file == RB_FILE_PICTURE && rb_option_path(o, set->target);
-            if (strcmp(o->name, "plot-size") == 0 && (size = set->given[i]) != 0)
+        for (int j = 0; j < spec->sets[k].n; j++) {
+            const rb_option_set *of = &spec->sets[k];
+            o = &of->options[j];
+            pictures += o->file == RB_FILE_PICTURE && rb_option_path(o, of->target);
+            if (strcmp(o->name, "plot-size") == 0 && (size = of->given[j]) != 0)
                 size_of = o;
-            if (strcmp(o->name, "plot-script") == 0 && (script = set->given[i]) != 0)
+            if (strcmp(o->name, "plot-script") == 0 && (script = of->given[j]) != 0)
                 script_of = o;
         }
+    /* A size needs a picture, and a script belongs to one alone. */
     if (size && pictures == 0)
         return cli_fail(size > 0 ? CLI_DATA : CLI_USAGE,
                         "%s: there is no picture; --plot FILE asks for one",
-                        rb_option_source(size_of, size, path, name, sizeof name));
+                        rb_option_source(size_of, size, file, name, sizeof name));
     if (script && pictures != 1)
         return cli_fail(script > 0 ? CLI_DATA : CLI_USAGE,
                         "%s: expected one picture (such as --plot FILE), got %d",
-                        rb_option_source(script_of, script, path, name, sizeof name), pictures);
-    return CLI_CONTINUE;
-}
-
-cli_exit cli_check_files(const cli_spec *spec, const cli_args *args)
-{
-    const rb_option *o;
-    const char *path;
-    cli_exit code = check_pictures(spec, args);
-    int set = 0, i = 0;
+                        rb_option_source(script_of, script, file, name, sizeof name), pictures);
     while (code == CLI_CONTINUE && (path = next_path(spec, &set, &i, &o)) != NULL) {
         if (is_output(o) && strcmp(path, "-") != 0)
             code = check_clash(spec, args, o, path);

@@ -57,71 +57,21 @@ static int answer_common(const cli_spec *spec, const char *argument)
     return CLI_OK;
 }
 
-static cli_exit parse_argument(const cli_spec *spec, int *i, int argc, char **argv, cli_args *args,
-                               int *operands_only)
+static cli_exit unknown_option(const char *name, int length, rb_guess *guess)
 {
-    char *argument = argv[*i];
-    if (*operands_only || argument[0] != '-' || argument[1] == '\0') {
-        args->operand[args->operands++] = argument;
-        return CLI_CONTINUE;
-    }
-    if (strcmp(argument, "--") == 0) {
-        *operands_only = 1;
-        return CLI_CONTINUE;
-    }
-    if (strcmp(argument, "-h") == 0)
-        return cli_print_help(spec, NULL);
-    if (argument[1] != '-') {
-        const size_t n = strcspn(argument + 1, "=");
-        const char *other = cli_other_name(argument + 1, n);
-        return cli_fail(CLI_USAGE, "unknown option '%s' (options start with --, as --%.*s)",
-                        argument, other ? (int)strlen(other) : (int)n,
-                        other ? other : argument + 1);
-    }
-    if (value_behind("--color=", argument)) {
-        const char *when = value_behind("--color=", argument);
-        if (cli_set_colour(when))
-            return CLI_CONTINUE;
-        return cli_fail(CLI_USAGE, "--color: expected auto, always or never, got '%s'", when);
-    }
-    const cli_exit code = answer_common(spec, argument);
-    if (code != CLI_CONTINUE)
-        return code;
-    const char *name = argv[*i] + 2, *equals = strchr(name, '=');
-    const size_t length = equals ? (size_t)(equals - name) : strlen(name);
-    char word[42];
-    snprintf(word, sizeof word, "%.*s", (int)(length < 41 ? length : 41), name);
-    rb_guess guess = {.word = word};
-    int k;
-    const rb_option_set *set = rb_option_find(spec->set_n, spec->sets, name, length, &k, &guess);
-    if (!set) {
-        const char *commands = cli_commands_with(name, length);
-        if (*commands)
-            return cli_fail(CLI_USAGE, "unknown option '--%.*s' (it is an option of %s)",
-                            (int)length, name, commands);
-        const char *other = cli_other_name(name, length);
-        if (other)
-            return cli_fail(CLI_USAGE, "unknown option '--%.*s' (did you mean '--%s'?)",
-                            (int)length, name, other);
-        static const char *const common[] = {"help", "usage", "version"};
-        for (int j = 0; j < 3; j++)
-            rb_guess_try(&guess, common[j]);
-        return cli_fail(CLI_USAGE, "unknown option '--%.*s'%s", (int)length, name,
-                        rb_guess_text(&guess, "--"));
-    }
-    const rb_option *o = &set->options[k];
-    char what[64];
-    snprintf(what, sizeof what, "--%s", o->name);
-    const char *value = value_of(o, equals, i, argc, argv);
-    if (!value) {
-        char expected[200];
-        return cli_fail(CLI_USAGE, "%s: expected %s, got nothing", what,
-                        rb_option_expected(o, expected, sizeof expected));
-    }
-    rb_message why = {""};
-    if (rb_option_assign(set, k, RB_GIVEN_ARGUMENT, what, value, &why) == RB_OK)
-        return CLI_CONTINUE;
-    return cli_fail(CLI_USAGE, "%s", why.text);
+    static const char *const common[] = {"help", "usage", "version"};
+    const char *commands = cli_commands_with(name, (size_t)length);
+    const char *other = cli_other_name(name, (size_t)length);
+    if (*commands)
+        return cli_fail(CLI_USAGE, "unknown option '--%.*s' (it is an option of %s)", length, name,
+                        commands);
+    if (other)
+        return cli_fail(CLI_USAGE, "unknown option '--%.*s' (did you mean '--%s'?)", length, name,
+                        other);
+    for (int j = 0; j < 3; j++)
+        rb_guess_try(guess, common[j]);
+    return cli_fail(CLI_USAGE, "unknown option '--%.*s'%s", length, name,
+                    rb_guess_text(guess, "--"));
 }
 
 cli_exit cli_parse(const cli_spec *spec, int argc, char **argv, cli_args *args)
@@ -131,9 +81,50 @@ cli_exit cli_parse(const cli_spec *spec, int argc, char **argv, cli_args *args)
     if (!args->operand)
         return cli_fail(CLI_INTERNAL, "out of memory");
     for (int i = 1; i < argc; i++) {
-        const cli_exit code = parse_argument(spec, &i, argc, argv, args, &operands_only);
+        char *argument = argv[i];
+        if (operands_only || argument[0] != '-' || argument[1] == '\0') {
+            args->operand[args->operands++] = argument;
+            continue;
+        }
+        if (strcmp(argument, "--") == 0) {
+            operands_only = 1;
+            continue;
+        }
+        if (strcmp(argument, "-h") == 0)
+            return cli_print_help(spec, NULL);
+        if (argument[1] != '-') {
+            const size_t n = strcspn(argument + 1, "=");
+            const char *other = cli_other_name(argument + 1, n);
+            return cli_fail(CLI_USAGE, "unknown option '%s' (options start with --, as --%.*s)",
+                            argument, other ? (int)strlen(other) : (int)n,
+                            other ? other : argument + 1);
+        }
+        const char *when = value_behind("--color=", argument);
+        if (when && cli_set_colour(when))
+            continue;
+        if (when)
+            return cli_fail(CLI_USAGE, "--color: expected auto, always or never, got '%s'", when);
+        const cli_exit code = answer_common(spec, argument);
         if (code != CLI_CONTINUE)
             return code;
+        const char *name = argument + 2, *equals = strchr(name, '=');
+        const size_t length = equals ? (size_t)(equals - name) : strlen(name);
+        char word[42], what[64], expected[200];
+        snprintf(word, sizeof word, "%.*s", (int)(length < 41 ? length : 41), name);
+        rb_guess guess = {.word = word};
+        rb_message why = {""};
+        int k;
+        const rb_option_set *set =
+            rb_option_find(spec->set_n, spec->sets, name, length, &k, &guess);
+        if (!set)
+            return unknown_option(name, (int)length, &guess);
+        snprintf(what, sizeof what, "--%s", set->options[k].name);
+        const char *value = value_of(&set->options[k], equals, &i, argc, argv);
+        if (!value)
+            return cli_fail(CLI_USAGE, "%s: expected %s, got nothing", what,
+                            rb_option_expected(&set->options[k], expected, sizeof expected));
+        if (rb_option_assign(set, k, RB_GIVEN_ARGUMENT, what, value, &why) != RB_OK)
+            return cli_fail(CLI_USAGE, "%s", why.text);
     }
     return CLI_CONTINUE;
 }
