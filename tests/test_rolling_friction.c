@@ -276,9 +276,9 @@ TEST(ranges_of_friction_laws)
     REFUSED("mu-heat: needs temperatures", STEADY; rc.friction.heat = -0.1;
             rc.friction.heat_range = 100.0);
     REFUSED("mu-heat: expected a number, got inf", WARM; rc.friction.heat = INFINITY);
-    REFUSED("mu-heat: expected a range of temperatures > 0, got 0", WARM; rc.friction.heat = -0.1;
+    REFUSED("mu-heat: expected a number > 0 as the third, got 0", WARM; rc.friction.heat = -0.1;
             rc.friction.heat_range = 0.0);
-    REFUSED("mu-heat: expected a range of temperatures > 0", WARM; rc.friction.heat = -0.1;
+    REFUSED("mu-heat: expected a number > 0 as the third", WARM; rc.friction.heat = -0.1;
             rc.friction.heat_range = INFINITY);
     REFUSED("mu-heat: expected a number, got nan", WARM; rc.friction.heat = -0.1;
             rc.friction.heat_from = NAN; rc.friction.heat_range = 100.0);

@@ -388,7 +388,7 @@ TEST(ways_that_lead_nowhere_are_refused)
         CHECK_SAYS(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &heard), RB_EINVAL,
                    k == 0  ? "distance: expected > 0, got 0"
                    : k < 3 ? "distance: expected a number > 0"
-                           : "expected at most 1e7");
+                           : "expected at most 1e+07");
         assert_int_equal(h.n, 0);
         release(&model, &h);
     }

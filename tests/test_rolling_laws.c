@@ -905,7 +905,7 @@ TEST(bad_laws_are_refused)
     refused(&rc, "expected mu >= 0 everywhere, got -0.01");
     rc = warm(1.0);
     rc.friction.heat_range = 0.0;
-    refused(&rc, "mu-heat: expected a range of temperatures > 0");
+    refused(&rc, "mu-heat: expected a number > 0 as the third");
     rc = warm(1.0);
     rc.heat_a.conductivity = 0.0;
     refused(&rc, "needs temperatures");

@@ -82,6 +82,9 @@ typedef struct {
  * cancellation (B9). */
 double rb_bem_circle_height(double radius, double x);
 
+/* The most elements of the contact, and outside it, of a cylinder's mesh. */
+enum { RB_BEM_MOST_ELEMENTS = 1000000 };
+
 /* Meshes a cylinder.  ends: n_c + 2 increasing abscissae |x| < R, the ends of n_c contact
  * elements and of the upstream element after them.  Outside the contact the elements grow
  * geometrically; symmetric ends give a symmetric mesh.  RB_EINVAL: the contact elements

@@ -29,8 +29,8 @@ typedef struct {
     int from_open, to_open; /* 1: the end itself is not allowed */
 } rb_range;
 
-/* Numbers separated by commas. */
-enum { RB_NUMBERS_MAX = 16 };
+/* Numbers separated by commas: as many as a body has relaxation times. */
+enum { RB_NUMBERS_MAX = RB_ROLLING_TERMS };
 
 typedef struct {
     int n;
@@ -54,6 +54,7 @@ typedef struct {
     size_t offset;    /* of the value in the set's target */
     const char *unit; /* "mm"; "" for none; for a text its placeholder in the help */
     rb_range range;   /* numbers and integers */
+    rb_range third;   /* of the third of several numbers, where that is another one; else {0} */
     const char *word; /* numbers: a word that is allowed instead of a number and means
                          word_value, or NULL */
     double word_value;

@@ -43,6 +43,15 @@ typedef enum {
     RB_NEAR_FIELD_EXACT
 } rb_rolling_near_field;
 
+/* The most of each that a case may ask for: elements of the contact and on the circle outside
+ * it, steps of a history, points of a curve. */
+enum {
+    RB_ROLLING_MOST_ELEMENTS = 1 << 24,
+    RB_ROLLING_MOST_OUTER = RB_BEM_MOST_ELEMENTS,
+    RB_ROLLING_MOST_STEPS = 10000000,
+    RB_ROLLING_MOST_POINTS = 1000000
+};
+
 /* Viscoelasticity (V1): creep compliance J(t) = J_g [1 + sum f_k (1 - exp(-t/tau_k))],
  * Poisson's ratio constant. */
 enum { RB_ROLLING_TERMS = 16 };

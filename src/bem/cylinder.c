@@ -260,7 +260,7 @@ static rb_status check_cylinder(const rb_bem_cylinder *c, int n_c, const double 
                        c->outer_elements);
     if (!(c->refinement >= 0.0 && c->refinement <= 1000.0))
         return rb_fail(why, RB_EINVAL, "refinement = %g: expected 0 ... 1000", c->refinement);
-    if (n_c > 1000000 || c->outer_elements > 1000000)
+    if (n_c > RB_BEM_MOST_ELEMENTS || c->outer_elements > RB_BEM_MOST_ELEMENTS)
         return rb_fail(why, RB_EINVAL, "%d contact and %d outer elements: at most a million", n_c,
                        c->outer_elements);
     const double reach = fmax(-ends[0], ends[n_c + 1]);

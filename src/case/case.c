@@ -241,6 +241,24 @@ rb_status rb_case_refuse_given(const rb_case *c, const char *name, const char *r
     return rb_case_given(c, name) ? refuse(c, rb_case_option(name), reason, why) : RB_OK;
 }
 
+/* An option that means nothing to a case, where that is so. */
+typedef struct {
+    int has_no_meaning;
+    const char *option, *reason;
+} rule;
+
+static rb_status refuse_by(const rb_case *c, size_t n, const rule *rules, rb_message *why)
+{
+    for (size_t k = 0; k < n; k++) {
+        const rb_status s = rules[k].has_no_meaning
+                                ? rb_case_refuse_given(c, rules[k].option, rules[k].reason, why)
+                                : RB_OK;
+        if (s != RB_OK)
+            return s;
+    }
+    return RB_OK;
+}
+
 /* The line of the case file with the option that a refusal speaks of: "zone: ...",
  * "radius of body B: ...", or the first of its --options that stands there.  0: none
  * does. */
@@ -403,35 +421,34 @@ static rb_status resolve_bodies(rb_case *c, rb_message *why)
         status = resolve_memory(&s->memory_a, "", &s->rc.a.memory, why);
     if (status == RB_OK)
         status = resolve_memory(&s->memory_b, "-b", &s->rc.b.memory, why);
-    for (int body = 0; body < 2 && status == RB_OK; body++) {
+    for (int body = 0; body < 2; body++) {
         const rb_rolling_body_kind *kind;
         for (int k = 0; (kind = rb_rolling_body_kind_get(k)); k++)
-            for (const rb_rolling_parameter *p = rb_rolling_kind_parameters(kind);
-                 p->option && status == RB_OK; p++)
+            for (const rb_rolling_parameter *p = rb_rolling_kind_parameters(kind); p->option; p++) {
+                if (status != RB_OK)
+                    return status;
                 status = check_parameter(c, body, kind, p, why);
+            }
     }
     return status;
 }
 
-static rb_status check_heat(rb_case *c, rb_message *why)
+static rb_status check_heat(const rb_case *c, rb_message *why)
 {
-    static const char *const of_heat[] = {"heat-capacity", "temperature", "conductivity-b",
-                                          "heat-capacity-b", "temperature-b"};
-    rb_resolved_case *s = &c->resolved;
-    rb_status status = RB_OK;
+    static const char for_heat[] = "for temperatures only, see --conductivity";
+    const rb_resolved_case *s = &c->resolved;
+    const int cold = !(s->rc.heat_a.conductivity > 0.0),
+              stands = cold && rb_rolling_can(&s->rc, RB_BODY_ELASTIC) && s->law.falls.n == 0;
+    const rule rules[] = {{cold, "heat-capacity", for_heat},
+                          {cold, "temperature", for_heat},
+                          {cold, "conductivity-b", for_heat},
+                          {cold, "heat-capacity-b", for_heat},
+                          {cold, "temperature-b", for_heat},
+                          {stands, "speed",
+                           "only for viscoelastic bodies, temperatures and velocity-dependent "
+                           "friction; see --relaxation-time, --conductivity and --mu-fall"}};
 
-    if (s->rc.heat_a.conductivity > 0.0)
-        return RB_OK;
-    for (size_t k = 0; k < sizeof of_heat / sizeof *of_heat && status == RB_OK; k++)
-        status =
-            rb_case_refuse_given(c, of_heat[k], "for temperatures only, see --conductivity", why);
-    if (status == RB_OK && rb_rolling_can(&s->rc, RB_BODY_ELASTIC) && s->law.falls.n == 0)
-        status = rb_case_refuse_given(
-            c, "speed",
-            "only for viscoelastic bodies, temperatures and velocity-dependent "
-            "friction; see --relaxation-time, --conductivity and --mu-fall",
-            why);
-    return status;
+    return refuse_by(c, sizeof rules / sizeof *rules, rules, why);
 }
 
 /* ---- Friction laws ----------------------------------------------------------------- */
@@ -455,30 +472,31 @@ static rb_status resolve_law(rb_case *c, rb_message *why)
     const rb_case_law *typed = &c->resolved.law;
     rb_rolling_friction *f = &c->resolved.rc.friction;
     const int falls = f->law != RB_FRICTION_constant && f->law != RB_FRICTION_table;
+    static const char for_falls[] = "only for velocity-dependent friction, see --friction-law";
+    const rule rules[] = {
+        {falls && typed->falls.n == 0, "friction-law", "needs --mu-fall and --slip-scale"},
+        {!falls, "mu-fall", for_falls},
+        {!falls, "slip-scale", for_falls},
+        {!falls && typed->heats.n == 0, "memory",
+         "only for friction that changes, see --mu-fall and --mu-heat"}};
     rb_status s = count_numbers(c, "mu-fall", &typed->falls, 1, 2, why);
 
     if (s == RB_OK && falls && typed->falls.n != typed->slip_scales.n)
         s = rb_fail(why, RB_EINVAL,
                     "--mu-fall and --slip-scale: expected equally many numbers, got %d and %d",
                     typed->falls.n, typed->slip_scales.n);
-    if (s == RB_OK && falls && typed->falls.n == 0)
-        s = rb_case_refuse_given(c, "friction-law", "needs --mu-fall and --slip-scale", why);
-    for (int k = 0; k < 2 && s == RB_OK && !falls; k++)
-        s = rb_case_refuse_given(c, k ? "slip-scale" : "mu-fall",
-                                 "only for velocity-dependent friction, see --friction-law", why);
     if (s == RB_OK)
         s = count_numbers(c, "memory", &typed->memories, 1, 2, why);
     if (s == RB_OK)
         s = count_numbers(c, "mu-heat", &typed->heats, 3, 3, why);
-    if (s == RB_OK && !falls && typed->heats.n == 0)
-        s = rb_case_refuse_given(
-            c, "memory", "only for friction that changes, see --mu-fall and --mu-heat", why);
-    for (int k = 0; k < 2 && s == RB_OK; k++) {
+    if (s == RB_OK)
+        s = refuse_by(c, sizeof rules / sizeof *rules, rules, why);
+    if (s != RB_OK)
+        return s;
+    for (int k = 0; k < 2; k++) {
         f->fall[k] = k < typed->falls.n ? typed->falls.value[k] : 0.0;
         f->slip_scale[k] = k < typed->slip_scales.n ? typed->slip_scales.value[k] : 0.0;
     }
-    if (s != RB_OK)
-        return s;
     if (typed->memories.n > 0) {
         f->memory = typed->memory;
         f->memory_slip = typed->memories.n > 1 ? typed->memories.value[1] : 1.0;
@@ -509,62 +527,79 @@ static rb_status check_formulation(const rb_case *c, rb_message *why)
     const int transient = rc->formulation == RB_TRANSIENT, steady = rc->formulation == RB_STEADY,
               history = resolved->history_file != NULL;
     const int relaxes_at_rest = rc->formulation == RB_STATIC && rb_rolling_relaxes(rc);
-    const struct {
-        int has_no_meaning;
-        const char *option, *reason;
-    } rules[] = {{!transient, "distance", "of transient rolling only"},
-                 {transient && history, "distance", "the history says how far"},
-                 /* of a crack: positions of the contact */
-                 {!transient && c->purpose != RB_CASE_CRACK, "steps", "of transient rolling only"},
-                 {!transient, "irregularity",
-                  "only for transient rolling, in which it moves through the contact"},
-                 {steady, "history", "steady rolling has no history"},
-                 {steady && rc->increments > 1, "increments",
-                  "steady rolling does not depend on how the bodies were pressed"},
-                 {!relaxes_at_rest, "time-step", "only for static contact of viscoelastic bodies"},
-                 {relaxes_at_rest && history, "speed", "static contact does not roll"},
-                 {history, "increments", "the history says them row by row"},
-                 {rb_case_has_steps(resolved) && rc->mesh != RB_MESH_UNIFORM, "mesh",
-                  "a computation with steps needs equal elements"}};
-    rb_status s = RB_OK;
-    for (size_t k = 0; k < sizeof rules / sizeof *rules && s == RB_OK; k++)
-        if (rules[k].has_no_meaning)
-            s = rb_case_refuse_given(c, rules[k].option, rules[k].reason, why);
-    if (s == RB_OK && relaxes_at_rest && !history)
-        s = rb_fail(why, RB_EINVAL,
-                    "static contact of viscoelastic bodies needs --history, a table with "
-                    "a column time");
-    if (s == RB_OK && transient && !history && !(rc->distance > 0.0))
-        s = rb_fail(why, RB_EINVAL, "transient rolling needs --distance or --history");
-    return s;
+    const rule rules[] = {
+        {!transient, "distance", "of transient rolling only"},
+        {transient && history, "distance", "the history says how far"},
+        /* of a crack: positions of the contact */
+        {!transient && c->purpose != RB_CASE_CRACK, "steps", "of transient rolling only"},
+        {!transient, "irregularity",
+         "only for transient rolling, in which it moves through the contact"},
+        {steady, "history", "steady rolling has no history"},
+        {steady && rc->increments > 1, "increments",
+         "steady rolling does not depend on how the bodies were pressed"},
+        {!relaxes_at_rest, "time-step", "only for static contact of viscoelastic bodies"},
+        {relaxes_at_rest && history, "speed", "static contact does not roll"},
+        {history, "increments", "the history says them row by row"},
+        {rb_case_has_steps(resolved) && rc->mesh != RB_MESH_UNIFORM, "mesh",
+         "a computation with steps needs equal elements"}};
+    const rb_status s = refuse_by(c, sizeof rules / sizeof *rules, rules, why);
+    if (s != RB_OK)
+        return s;
+    if (relaxes_at_rest && !history)
+        return rb_fail(why, RB_EINVAL,
+                       "static contact of viscoelastic bodies needs --history, a table with "
+                       "a column time");
+    if (transient && !history && !(rc->distance > 0.0))
+        return rb_fail(why, RB_EINVAL, "transient rolling needs --distance or --history");
+    return RB_OK;
 }
 
-/* Options that mean nothing to a purpose. */
-static const struct {
-    rb_case_purpose purpose;
-    const char *option, *reason;
-} meaningless[] = {
-    {RB_CASE_CURVE, "shift", "the curve varies it from --from to --to"},
-    {RB_CASE_CURVE, "creep", "the curve varies it from --from to --to"},
-    {RB_CASE_CURVE, "creep-ratio", "the curve varies it from --from to --to"},
-    {RB_CASE_CURVE, "force", "the curve varies it from --from to --to"},
-    {RB_CASE_CURVE, "force-ratio", "the curve varies it from --from to --to"},
-    {RB_CASE_CURVE, "free-axle", "the curve varies it from --from to --to"},
-    {RB_CASE_CURVE, "history", "the curve varies it from --from to --to"},
-    {RB_CASE_CURVE, "accuracy", "only for single cases; a curve has --error"},
-    {RB_CASE_SPEEDS, "speed", "the curve varies it from --from to --to"},
-    {RB_CASE_SPEEDS, "accuracy", "only for single cases; a curve has --error"},
-    {RB_CASE_STRESS, "conductivity", "stress has no temperatures"},
-    {RB_CASE_STRESS, "accuracy", "stress has error bars (--error), but no refinement"},
-    {RB_CASE_WEAR, "error", "wear has no error bars"},
-    {RB_CASE_WEAR, "accuracy", "wear does not refine"},
-    {RB_CASE_WEAR, "history", "the cycles have their own"},
-    {RB_CASE_WEAR, "increments", "the cycles have their own, --quarter"},
-    {RB_CASE_WEAR, "conductivity", "wear has no temperatures"},
-    {RB_CASE_CRACK, "accuracy", "a crack has error bars (--error), but no refinement"},
-    {RB_CASE_STUDY, "accuracy", "a study has error bars (--error), but no refinement"},
-    {RB_CASE_STUDY, "history", "a study has none"},
-};
+/* Options that mean nothing to what the case is solved for. */
+static rb_status check_purpose(const rb_case *c, rb_message *why)
+{
+    static const char varies[] = "the curve varies it from --from to --to";
+    const rb_case_purpose purpose = c->purpose;
+    const int curve = purpose == RB_CASE_CURVE, speeds = purpose == RB_CASE_SPEEDS,
+              stress = purpose == RB_CASE_STRESS, wear = purpose == RB_CASE_WEAR,
+              crack = purpose == RB_CASE_CRACK, study = purpose == RB_CASE_STUDY;
+    const rb_rolling_formulation formulation = c->resolved.rc.formulation;
+    const rb_numbers *mus = &c->resolved.mus;
+    /* 0,3 is read as 0 and 3. */
+    const int comma = mus->n == 2 && mus->value[0] == floor(mus->value[0]) &&
+                      mus->value[1] == floor(mus->value[1]);
+    const rule rules[] = {
+        {curve, "shift", varies},
+        {curve, "creep", varies},
+        {curve, "creep-ratio", varies},
+        {curve, "force", varies},
+        {curve, "force-ratio", varies},
+        {curve, "free-axle", varies},
+        {curve, "history", varies},
+        {curve, "accuracy", "only for single cases; a curve has --error"},
+        {speeds, "speed", varies},
+        {speeds, "accuracy", "only for single cases; a curve has --error"},
+        {stress, "conductivity", "stress has no temperatures"},
+        {stress, "accuracy", "stress has error bars (--error), but no refinement"},
+        {wear, "error", "wear has no error bars"},
+        {wear, "accuracy", "wear does not refine"},
+        {wear, "history", "the cycles have their own"},
+        {wear, "increments", "the cycles have their own, --quarter"},
+        {wear, "conductivity", "wear has no temperatures"},
+        {crack, "accuracy", "a crack has error bars (--error), but no refinement"},
+        {study, "accuracy", "a study has error bars (--error), but no refinement"},
+        {study, "history", "a study has none"},
+        {(curve || speeds) && formulation != RB_STEADY, "formulation",
+         "a curve needs steady rolling"},
+        {study && formulation == RB_TRANSIENT, "formulation",
+         "a study needs static or steady cases"},
+        {!curve && !speeds && mus->n > 1, "mu",
+         comma ? "expected one number, with a decimal point; a curve takes several"
+               : "expected one number; a curve takes several"},
+        {rb_case_has_steps(&c->resolved), "accuracy",
+         "only for static and steady cases without steps"}};
+
+    return refuse_by(c, sizeof rules / sizeof *rules, rules, why);
+}
 
 rb_status rb_case_resolve(rb_case *c, rb_message *why)
 {
@@ -585,31 +620,8 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
         s = check_formulation(c, why);
     if (s == RB_OK)
         s = rb_case_read_files(c, why);
-    if (s == RB_OK) {
-        const rb_rolling_formulation formulation = c->resolved.rc.formulation;
-        const int curve = c->purpose == RB_CASE_CURVE || c->purpose == RB_CASE_SPEEDS;
-
-        for (size_t k = 0; k < sizeof meaningless / sizeof *meaningless && s == RB_OK; k++)
-            if (c->purpose == meaningless[k].purpose)
-                s = rb_case_refuse_given(c, meaningless[k].option, meaningless[k].reason, why);
-        if (s == RB_OK && curve && formulation != RB_STEADY)
-            s = rb_case_refuse_given(c, "formulation", "a curve needs steady rolling", why);
-        if (s == RB_OK && c->purpose == RB_CASE_STUDY && formulation == RB_TRANSIENT)
-            s = rb_case_refuse_given(c, "formulation", "a study needs static or steady cases", why);
-        /* 0,3 is read as 0 and 3. */
-        if (s == RB_OK && !curve && c->resolved.mus.n > 1)
-            s = rb_case_refuse_given(
-                c, "mu",
-                (c->resolved.mus.n == 2 &&
-                 c->resolved.mus.value[0] == floor(c->resolved.mus.value[0]) &&
-                 c->resolved.mus.value[1] == floor(c->resolved.mus.value[1]))
-                    ? "expected one number, with a decimal point; a curve takes several"
-                    : "expected one number; a curve takes several",
-                why);
-        if (s == RB_OK && rb_case_has_steps(&c->resolved))
-            s = rb_case_refuse_given(c, "accuracy",
-                                     "only for static and steady cases without steps", why);
-    }
+    if (s == RB_OK)
+        s = check_purpose(c, why);
     if (s != RB_OK)
         return rb_case_locate(c, s, why);
     /* The paper's own example stays on its equal elements, as do large contacts, which

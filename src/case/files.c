@@ -190,17 +190,19 @@ static rb_status read_program_table(const rb_case *c, case_table *t, const char 
     if (is_read(t, path, units))
         return RB_OK;
     free_table(t);
-    rb_status s = read_table(c, path, 0, &t->table, why);
-    if (s == RB_OK && !t->table.name)
-        s = rb_fail(why, RB_EFORMAT, "%s: expected a line that names the columns", path);
-    t->path = s == RB_OK ? path : NULL;
+    const rb_status s = read_table(c, path, 0, &t->table, why);
+    if (s != RB_OK)
+        return s;
+    if (!t->table.name)
+        return rb_fail(why, RB_EFORMAT, "%s: expected a line that names the columns", path);
+    t->path = path;
     t->units = units;
-    for (int j = 0; j < t->table.columns && s == RB_OK; j++) {
+    for (int j = 0; j < t->table.columns; j++) {
         const rb_option *option = replaced_option(t->table.name[j]);
         if (option)
             rb_io_table_convert(&t->table, j, option->unit, units);
     }
-    return s;
+    return RB_OK;
 }
 
 rb_status rb_case_read_history(rb_case *c, rb_message *why)
@@ -220,16 +222,17 @@ rb_status rb_case_read_history(rb_case *c, rb_message *why)
     const rb_option_precedence how = rb_case_precedence(c);
     const rb_option_set set = rb_case_options(c);
 
-    s = RB_OK;
-    for (int j = 0; j < t->columns && s == RB_OK; j++) {
+    for (int j = 0; j < t->columns; j++) {
         char reason[80];
         const rb_option *option = replaced_option(t->name[j]);
         snprintf(reason, sizeof reason, "the history has a column %s", t->name[j]);
-        if (option)
-            s = rb_option_resolve_against(&set, &how, option, rb_case_given(c, "history"), reason,
-                                          why);
+        s = option ? rb_option_resolve_against(&set, &how, option, rb_case_given(c, "history"),
+                                               reason, why)
+                   : RB_OK;
+        if (s != RB_OK)
+            return s;
     }
-    return s;
+    return RB_OK;
 }
 
 /* ---- All others -------------------------------------------------------------------- */

@@ -31,7 +31,6 @@ static rb_status add_word(const rb_resolved_case *c, rb_case_slopes *s, char *wo
                           const rb_case_number *number, int most, rb_message *why)
 {
     char *input = strchr(word, ':');
-    rb_status status = RB_OK;
     int found = 0;
 
     if (input)
@@ -47,15 +46,16 @@ static rb_status add_word(const rb_resolved_case *c, rb_case_slopes *s, char *wo
         if (!rb_sensitivity_has(result) || (!all && strcmp(result->name, word) != 0) ||
             !rb_rolling_has_result(result, &c->rc, mu_varies))
             continue;
-        for (int k = 0; k < numbers && status == RB_OK; k++)
-            if (!input || strcmp(number[k].name, input) == 0) {
-                found = 1;
-                status = add_slope(s, result, &number[k], most, why);
-            }
+        for (int k = 0; k < numbers; k++) {
+            if (input && strcmp(number[k].name, input) != 0)
+                continue;
+            found = 1;
+            const rb_status status = add_slope(s, result, &number[k], most, why);
+            if (status != RB_OK)
+                return status;
+        }
     }
-    return status == RB_OK && !found
-               ? rb_fail(why, RB_EINVAL, "'%s' is not a number of this case", input)
-               : status;
+    return found ? RB_OK : rb_fail(why, RB_EINVAL, "'%s' is not a number of this case", input);
 }
 
 rb_status rb_case_slopes_choose(const rb_case *c, const rb_rolling_results *table,
@@ -318,7 +318,7 @@ typedef struct {
     double step;
     rb_sensitivity_stencil of;
     rb_rolling_follower *at[RB_SENSITIVITY_PLACES];
-    rb_sensitivity_rate rate;
+    rb_sensitivity_rate left, rate; /* what one of them leaves; by how much all differ */
     rb_contact_state tangent;
 } varied;
 
@@ -331,6 +331,7 @@ static double unit_of_way(const rb_rolling_case *rc, const rb_rolling_program *p
     return rb_rolling_hertz_half_width(rc, load);
 }
 
+/* Free v in any case. */
 static rb_status vary(const rb_case *c, const rb_rolling_states *states,
                       const rb_rolling_follower *base, varied *v, rb_message *why)
 {
@@ -339,16 +340,19 @@ static rb_status vary(const rb_case *c, const rb_rolling_states *states,
     const int grow = rc->zone == 0.0 || rb_rolling_relaxes(rc);
     rb_status s = rb_sensitivity_rate_alloc(states->n, &v->rate);
 
-    v->step = STEP * input->scale;
+    if (s == RB_OK)
+        s = rb_sensitivity_rate_alloc(states->n, &v->left);
     if (s == RB_OK)
         s = rb_contact_state_alloc(states->n, &v->tangent);
+    if (s != RB_OK)
+        return s;
+    v->step = STEP * input->scale;
     const rb_sensitivity_stencil *stencil = rb_sensitivity_stencil_of(input, v->step);
-    if (s == RB_OK && !stencil)
-        s = rb_fail(why, RB_EINVAL, "derivatives: %s cannot vary within its range",
-                    v->number->name);
-    if (s == RB_OK)
-        v->of = *stencil;
-    for (int k = 0; k < v->of.n && s == RB_OK; k++) {
+    if (!stencil)
+        return rb_fail(why, RB_EINVAL, "derivatives: %s cannot vary within its range",
+                       v->number->name);
+    v->of = *stencil;
+    for (int k = 0; k < v->of.n; k++) {
         rb_rolling_case at;
         s = input->vary(input->context, input->value + v->of.place[k] * v->step, &at, why);
         if (s == RB_OK)
@@ -356,14 +360,17 @@ static rb_status vary(const rb_case *c, const rb_rolling_states *states,
                 &at, states, base,
                 grow ? unit_of_way(&at, states->program) / unit_of_way(rc, states->program) : 1.0,
                 &v->at[k], why);
+        if (s != RB_OK)
+            return s;
     }
-    return s;
+    return RB_OK;
 }
 
 static void varied_free(varied *v)
 {
     for (int k = 0; k < RB_SENSITIVITY_PLACES; k++)
         rb_rolling_follower_free(v->at[k]);
+    rb_sensitivity_rate_free(&v->left);
     rb_sensitivity_rate_free(&v->rate);
     rb_contact_state_free(&v->tangent);
 }
@@ -374,27 +381,26 @@ static void varied_free(varied *v)
 static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *base, varied *v,
                                     rb_message *why)
 {
-    rb_status status = RB_OK;
-
-    for (int k = 0; k < v->of.n && status == RB_OK; k++)
-        status = rb_rolling_follower_begin(v->at[k], why);
-    rb_sensitivity_rate left = {0};
-    if (status == RB_OK)
-        status = rb_sensitivity_rate_alloc(base->mesh.n, &left);
-    if (status == RB_OK)
-        memset(v->rate.gap, 0, 4 * (size_t)v->rate.n * sizeof *v->rate.gap);
+    memset(v->rate.gap, 0, 4 * (size_t)v->rate.n * sizeof *v->rate.gap);
     v->rate.normal = v->rate.tangential = 0.0;
-    for (int k = 0; k < v->of.n && status == RB_OK; k++) {
+    for (int k = 0; k < v->of.n; k++) {
         rb_rolling_model *at = rb_rolling_follower_model(v->at[k]);
+        rb_status status = rb_rolling_follower_begin(v->at[k], why);
+
+        if (status != RB_OK)
+            return status;
         rb_rolling_variant_set(&base->state, NULL, 0.0, &at->state);
-        status = rb_sensitivity_residual(base, at, &left, why);
-        rb_sensitivity_rate_add(&left, v->of.weight[k] / v->step, &v->rate);
+        status = rb_sensitivity_residual(base, at, &v->left, why);
+        if (status != RB_OK)
+            return status;
+        rb_sensitivity_rate_add(&v->left, v->of.weight[k] / v->step, &v->rate);
     }
-    rb_sensitivity_rate_free(&left);
-    if (status == RB_OK)
-        status = rb_sensitivity_tangent(s, &v->rate, 1, &v->tangent, why);
-    for (int k = 0; k < v->of.n && status == RB_OK; k++) {
+    rb_status status = rb_sensitivity_tangent(s, &v->rate, 1, &v->tangent, why);
+    for (int k = 0; k < v->of.n; k++) {
         rb_rolling_model *at = rb_rolling_follower_model(v->at[k]);
+
+        if (status != RB_OK)
+            return status;
         rb_rolling_variant_set(&base->state, &v->tangent, v->of.place[k] * v->step, &at->state);
         status = rb_rolling_variant_complete(at, NULL, NULL, why);
         if (status == RB_OK)
@@ -407,11 +413,10 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
                            varied *v, rb_case_slopes *slopes, rb_message *why)
 {
     rb_rolling_model *model = rb_rolling_follower_model(base);
-    rb_status status = RB_OK;
 
-    for (int step = 0; step < states->steps && status == RB_OK; step++) {
+    for (int step = 0; step < states->steps; step++) {
         rb_sensitivity *s = NULL;
-        status = rb_rolling_follower_begin(base, why);
+        rb_status status = rb_rolling_follower_begin(base, why);
         rb_rolling_states_get(states, step, &model->state);
         if (status == RB_OK)
             status = rb_sensitivity_create(model, 0, &s, why);
@@ -420,10 +425,11 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
         for (int k = 0; k < n && status == RB_OK; k++)
             status = differentiate_step(s, model, &v[k], why);
         rb_sensitivity_free(s);
-        if (status == RB_OK)
-            rb_rolling_follower_end(base);
+        if (status != RB_OK)
+            return status;
+        rb_rolling_follower_end(base);
     }
-    return status;
+    return RB_OK;
 }
 
 /* Columns of the histories at the four values. */
@@ -455,34 +461,32 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
 {
     const char *name[RB_CASE_NUMBERS_MAX];
     const int asked = inputs_of(s, name);
-    rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
-    varied *v = calloc(RB_CASE_NUMBERS_MAX, sizeof *v);
+    const rb_rolling_case *rc = &c->resolved.rc;
+    rb_arena scratch = {0};
     rb_rolling_follower *base = NULL;
     int numbers = 0, n = 0;
-    rb_status status =
-        rb_rolling_law_depends_on_state(&c->resolved.rc) || c->resolved.rc.yield_stress > 0.0
-            ? rb_fail(why, RB_EINVAL,
-                      "derivatives of a history: not for friction that depends on the "
-                      "state or an interface that yields, whose state variables are "
-                      "not stored")
-        : isnan(rb_rolling_derive(&c->resolved.rc).load) &&
-                !(states->program && states->program->load)
-            ? rb_fail(why, RB_EINVAL,
-                      "derivatives of a history: under a given approach the unit of "
-                      "its distances depends on the solution; give a load")
-        : states->n >= RB_ROLLING_LARGE
-            ? rb_fail(why, RB_EINVAL,
-                      "derivatives of a history need a matrix: expected fewer than %d elements",
-                      RB_ROLLING_LARGE)
-            : RB_OK;
 
-    if (!number || !v)
-        status = rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
+    if (rb_rolling_law_depends_on_state(rc) || rc->yield_stress > 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "derivatives of a history: not for friction that depends on the "
+                       "state or an interface that yields, whose state variables are "
+                       "not stored");
+    if (isnan(rb_rolling_derive(rc).load) && !(states->program && states->program->load))
+        return rb_fail(why, RB_EINVAL,
+                       "derivatives of a history: under a given approach the unit of "
+                       "its distances depends on the solution; give a load");
+    if (states->n >= RB_ROLLING_LARGE)
+        return rb_fail(why, RB_EINVAL,
+                       "derivatives of a history need a matrix: expected fewer than %d elements",
+                       RB_ROLLING_LARGE);
+    rb_case_number *number = rb_arena_zeros(&scratch, RB_CASE_NUMBERS_MAX, sizeof *number);
+    varied *v = rb_arena_zeros(&scratch, RB_CASE_NUMBERS_MAX, sizeof *v);
+    if (scratch.failed)
+        return rb_fail(why, rb_arena_done(&scratch, RB_ENOMEM), "out of memory for derivatives");
+    rb_status status = rb_case_numbers(c, number, &numbers, why);
     if (status == RB_OK)
-        status = rb_case_numbers(c, number, &numbers, why);
-    if (status == RB_OK)
-        status = rb_rolling_follower_create(&c->resolved.rc, states, NULL, 1.0, &base, why);
-    for (int k = 0; k < numbers && status == RB_OK; k++)
+        status = rb_rolling_follower_create(rc, states, NULL, 1.0, &base, why);
+    for (int k = 0; k < numbers; k++)
         for (int j = 0; j < asked && status == RB_OK; j++)
             if (strcmp(number[k].name, name[j]) == 0) {
                 v[n].number = &number[k];
@@ -494,12 +498,10 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
         status = rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     if (status == RB_OK)
         take_columns(v, n, s);
-    for (int k = 0; v && k < n; k++)
+    for (int k = 0; k < n; k++)
         varied_free(&v[k]);
     rb_rolling_follower_free(base);
-    free(v);
-    free(number);
-    return status;
+    return rb_arena_done(&scratch, status);
 }
 
 rb_status rb_case_propagate_steps(const rb_case *c, const rb_case_tolerances *t,

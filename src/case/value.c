@@ -65,6 +65,7 @@ static int set_list(const rb_option *o, char *target, const char *value, reading
             return 1;
         }
     }
+    rb_fail(&r->why, RB_EINVAL, "at most %d numbers", RB_NUMBERS_MAX);
     return 0;
 }
 

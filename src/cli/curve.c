@@ -33,7 +33,7 @@ static const rb_option options[] = {
     RB_TEXT_LINE("from", PLACE(end[0]), "X", "first value; a speed [mm/s] may have a unit",
                  .unset = "0"),
     RB_TEXT_LINE("to", PLACE(end[1]), "X", "last value", .unset = "1.5"),
-    RB_INTEGER_LINE("points", PLACE(points), RB_FROM_TO(2, 1000000),
+    RB_INTEGER_LINE("points", PLACE(points), RB_FROM_TO(2, RB_ROLLING_MOST_POINTS),
                     "equally spaced (speeds: in their logarithm), both ends among them"),
     RB_CHOICE_LINE("over", PLACE(over), rb_case_curve_variables,
                    "what is varied: xi R/(mu a), xi itself, or the speed of bodies that relax"),

@@ -315,10 +315,10 @@ static rb_status prepare(history_state *r, double zone, rb_message *why)
     r->at_rest = 0;
     for (int row = 0; row < rows; row++)
         r->at_rest += rb_rolling_program_parts(r->program, r->rc, row);
-    if (count > 1e7)
+    if (count > RB_ROLLING_MOST_STEPS)
         return rb_fail(why, RB_EINVAL,
-                       "distance: %g half-widths are %.3g steps; expected at most 1e7",
-                       way / h->half_width, count);
+                       "distance: %g half-widths are %.3g steps; expected at most %g",
+                       way / h->half_width, count, (double)RB_ROLLING_MOST_STEPS);
     r->steps = r->at_rest + (int)count;
     if (r->found && r->found->steps != r->steps)
         return rb_fail(why, RB_EINVAL, "history: %d steps, the program has %d", r->found->steps,

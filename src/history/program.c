@@ -52,7 +52,7 @@ int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling
     if (!program->time || r == 0 || !(rc->time_step > 0.0))
         return 1;
     const double steps = (program->time[r] - program->time[r - 1]) / rc->time_step;
-    return (int)fmin(fmax(ceil(steps * (1.0 - 1e-9)), 1.0), 1e7);
+    return (int)fmin(fmax(ceil(steps * (1.0 - 1e-9)), 1.0), RB_ROLLING_MOST_STEPS);
 }
 
 rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program, const rb_rolling_case *rc,
@@ -182,9 +182,9 @@ rb_status rb_rolling_program_check(const rb_rolling_program *program, const rb_r
                                t[r]);
             steps += rb_rolling_program_parts(program, rc, r);
         }
-        if (!(steps <= 1e7))
-            return rb_fail(why, RB_EINVAL, "time step: %g s makes %.3g steps; expected at most 1e7",
-                           rc->time_step, steps);
+        if (!(steps <= RB_ROLLING_MOST_STEPS))
+            return rb_fail(why, RB_EINVAL, "time step: %g s makes %.3g steps; expected at most %g",
+                           rc->time_step, steps, (double)RB_ROLLING_MOST_STEPS);
     }
     if (d && d[0] != 0.0)
         return rb_fail(why, RB_EINVAL,

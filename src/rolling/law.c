@@ -141,9 +141,8 @@ rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
         s = rb_rolling_check_number("mu-heat", f->heat, why);
         if (s == RB_OK)
             s = rb_rolling_check_number("mu-heat", f->heat_from, why);
-        if (s == RB_OK && !(isfinite(f->heat_range) && f->heat_range > 0.0))
-            s = rb_fail(why, RB_EINVAL, "mu-heat: expected a range of temperatures > 0, got %g",
-                        f->heat_range);
+        if (s == RB_OK)
+            s = rb_rolling_check_third("mu-heat", f->heat_range, why);
         if (s == RB_OK && rc->formulation != RB_STATIC && !rb_rolling_has_heat(rc))
             s = rb_fail(why, RB_EINVAL, "mu-heat: needs temperatures, add --conductivity");
     }

@@ -178,7 +178,7 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("mu-heat", PLACE(law.heat), "-", RB_ANY,
                    "dmu,Tref,dT: mu changes linearly by dmu while the surface temperature "
                    "rises from Tref to Tref + dT [K]; see --conductivity",
-                   .unset = "none", .list = PLACE(law.heats)),
+                   .unset = "none", .list = PLACE(law.heats), .third = RB_ABOVE(0)),
 
     RB_GROUP_LINE("interlayer", "Third body between the surfaces, elastic or plastic"),
     RB_NUMBER_LINE("interlayer-normal", RC(interlayer_normal), "mm/MPa", RB_FROM(0),
@@ -248,7 +248,7 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("distance", RC(distance), "a", RB_ABOVE(0),
                    "transient: rolled distance, in Hertz half-widths of the load",
                    .unset = "as --history says", .frozen = 1),
-    RB_INTEGER_LINE("steps", RC(steps), RB_FROM(0),
+    RB_INTEGER_LINE("steps", RC(steps), RB_FROM_TO(0, RB_ROLLING_MOST_STEPS),
                     "transient: number of steps of equal length; 0: steps of at most one element"),
     RB_TEXT_LINE("history", PLACE(history_file), "FILE",
                  "table with named columns: distance (transient, in Hertz half-widths of "
@@ -277,7 +277,8 @@ const rb_option rb_case_table[] = {
                    "steady, equal elements: difference to the element upstream, or of "
                    "second order",
                    .unset = "second on aligned elements, else upstream"),
-    RB_INTEGER_LINE("contact-elements", RC(contact_elements), RB_FROM(3),
+    RB_INTEGER_LINE("contact-elements", RC(contact_elements),
+                    RB_FROM_TO(3, RB_ROLLING_MOST_ELEMENTS),
                     "number of elements: in the potential contact (uniform) or across "
                     "the contact (fitted, aligned)",
                     .unset = "60, fitted 100", .common = 1),
@@ -285,7 +286,7 @@ const rb_option rb_case_table[] = {
                    "half-width of the potential contact; auto: enlarged until each end "
                    "has three separated elements",
                    .word = "auto", .word_value = 0.0, .frozen = 1),
-    RB_INTEGER_LINE("outer-elements", RC(outer_elements), RB_FROM(0),
+    RB_INTEGER_LINE("outer-elements", RC(outer_elements), RB_FROM_TO(0, RB_ROLLING_MOST_OUTER),
                     "number on the circle outside the contact, one more if that makes the mesh "
                     "symmetric; 0: graded, neighbours differ by at most a fifth"),
     RB_CHOICE_LINE("normals", RC(normals), normals,
@@ -339,18 +340,24 @@ int rb_option_in_range(const rb_option *o, double value)
            (r->to_open ? value < r->to : value <= r->to);
 }
 
+/* 1e+06, but 16777216: all digits where six are not enough. */
+static char *end_text(double end, char text[RB_NUMBER_TEXT])
+{
+    rb_format(text, RB_NUMBER_TEXT, "%g", end);
+    return rb_read_number(text, NULL) == end ? text : rb_number_text(end, text);
+}
+
 const char *rb_option_expected(const rb_option *o, char *text, size_t size)
 {
-    char range[64];
-    if (isfinite(o->range.from) && isfinite(o->range.to))
-        rb_format(range, sizeof range, " in %c%g, %g%c", o->range.from_open ? '(' : '[',
-                  o->range.from, o->range.to, o->range.to_open ? ')' : ']');
-    else if (isfinite(o->range.from))
-        rb_format(range, sizeof range, " %s %g", o->range.from_open ? ">" : ">=", o->range.from);
-    else if (isfinite(o->range.to))
-        rb_format(range, sizeof range, " %s %g", o->range.to_open ? "<" : "<=", o->range.to);
-    else
-        range[0] = '\0';
+    const rb_range *r = &o->range;
+    char range[80] = "", from[RB_NUMBER_TEXT], to[RB_NUMBER_TEXT];
+    if (isfinite(r->from) && isfinite(r->to))
+        snprintf(range, sizeof range, " in %c%s, %s%c", r->from_open ? '(' : '[',
+                 end_text(r->from, from), end_text(r->to, to), r->to_open ? ')' : ']');
+    else if (isfinite(r->from))
+        snprintf(range, sizeof range, " %s %s", r->from_open ? ">" : ">=", end_text(r->from, from));
+    else if (isfinite(r->to))
+        snprintf(range, sizeof range, " %s %s", r->to_open ? "<" : "<=", end_text(r->to, to));
     switch (o->kind) {
     case RB_OPTION_NUMBER:
         snprintf(text, size, "a number%s%s%s", range, o->word ? " or " : "",
@@ -402,8 +409,10 @@ static double number_at(const rb_rolling_case *rc, const rb_option *o, size_t pl
 static rb_status refuse(const rb_option *o, double value, rb_message *why)
 {
     char expected[200];
-    return rb_fail(why, RB_EINVAL, "%s: expected %s, got %g", o->name,
-                   rb_option_expected(o, expected, sizeof expected), value);
+    rb_option_expected(o, expected, sizeof expected);
+    return o->kind == RB_OPTION_INTEGER
+               ? rb_fail(why, RB_EINVAL, "%s: expected %s, got %.0f", o->name, expected, value)
+               : rb_fail(why, RB_EINVAL, "%s: expected %s, got %g", o->name, expected, value);
 }
 
 rb_status rb_rolling_check_option(const rb_option *o, double value, rb_message *why)
@@ -411,13 +420,30 @@ rb_status rb_rolling_check_option(const rb_option *o, double value, rb_message *
     return rb_option_in_range(o, value) ? RB_OK : refuse(o, value, why);
 }
 
-rb_status rb_rolling_check_number(const char *option, double value, rb_message *why)
+static const rb_option *option_of(const char *name)
 {
     const rb_option *o = rb_case_table;
 
-    while (o->kind == RB_OPTION_GROUP || strcmp(o->name, option) != 0)
+    while (o->kind == RB_OPTION_GROUP || strcmp(o->name, name) != 0)
         o++;
-    return rb_rolling_check_option(o, value, why);
+    return o;
+}
+
+rb_status rb_rolling_check_number(const char *option, double value, rb_message *why)
+{
+    return rb_rolling_check_option(option_of(option), value, why);
+}
+
+rb_status rb_rolling_check_third(const char *option, double value, rb_message *why)
+{
+    rb_option third = *option_of(option);
+    char expected[200];
+
+    third.range = third.third;
+    return rb_option_in_range(&third, value)
+               ? RB_OK
+               : rb_fail(why, RB_EINVAL, "%s: expected %s as the third, got %g", option,
+                         rb_option_expected(&third, expected, sizeof expected), value);
 }
 
 rb_status rb_rolling_check_ranges(const rb_rolling_case *rc, const rb_rolling_case *defaults,

@@ -145,7 +145,9 @@ static int elements_for(const rb_rolling_model *model, interval zone)
     for (; rb_rolling_next_merged_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run);
          patches++)
         covered += run.to - run.from;
-    return patches < 2 ? n : (int)fmin(1 << 24, fmax(n, ceil(n * width(zone) / (1.5 * covered))));
+    return patches < 2 ? n
+                       : (int)fmin(RB_ROLLING_MOST_ELEMENTS,
+                                   fmax(n, ceil(n * width(zone) / (1.5 * covered))));
 }
 
 static rb_status equal_elements(const rb_rolling_model *model, interval zone, int elements,

@@ -199,8 +199,9 @@ static rb_status check_curve(const rb_rolling_case *rc, const rb_rolling_range *
     if (!isfinite(r->from) || !isfinite(r->to))
         return rb_fail(why, RB_EINVAL, "curve: from %g to %g: expected finite numbers", r->from,
                        r->to);
-    if (r->points < 1 || r->points > 1000000)
-        return rb_fail(why, RB_EINVAL, "points: expected 1 ... 1000000, got %d", r->points);
+    if (r->points < 1 || r->points > RB_ROLLING_MOST_POINTS)
+        return rb_fail(why, RB_EINVAL, "points: expected 1 ... %d, got %d", RB_ROLLING_MOST_POINTS,
+                       r->points);
     if (r->over == RB_OVER_CREEP_RATIO && rb_rolling_largest_mu(rc) == 0.0)
         return rb_fail(why, RB_EINVAL,
                        "curve: xi R/(mu a) has no meaning at mu = 0; give creepages");
