@@ -56,10 +56,12 @@ static rb_status iterate(const rb_sensitivity *s, const rb_sensitivity *at, int 
                          rb_rolling_model *v, rb_sensitivity **own, rb_message *why)
 {
     enum { STEPS = 20, JACOBIANS = 6 };
+    /* Steps that shrink less are more of them than a new Jacobian costs. */
+    static const double FAST = 0.15;
     const double enough = 0.1 * v->rc->contact.tol;
     rb_contact_state step = {0};
     rb_sensitivity_rate left = {0};
-    double change = INFINITY;
+    double change = INFINITY, error = INFINITY;
     int jacobians = 0;
     rb_status status = rb_contact_state_alloc(s->n, &step);
 
@@ -67,7 +69,7 @@ static rb_status iterate(const rb_sensitivity *s, const rb_sensitivity *at, int 
         status = rb_sensitivity_rate_alloc(s->n, &left);
     if (status == RB_OK)
         status = rb_sensitivity_residual(at->model, v, &left, why);
-    for (int k = 0; k < STEPS && change > enough && status == RB_OK; k++) {
+    for (int k = 0; k < STEPS && error > enough && status == RB_OK; k++) {
         const double before = change;
         for (int i = 0; i < s->n; i++)
             if (v->state.zone[i] > RB_ZONE_STICK && v->state.p[i] > 0.0) {
@@ -79,16 +81,18 @@ static rb_status iterate(const rb_sensitivity *s, const rb_sensitivity *at, int 
         if (status != RB_OK)
             break;
         change = rb_norm_inf((size_t)s->n, step.q) / rb_contact_friction_scale(&v->problem);
+        /* what steps that shrink as the last ones did leave */
+        error = isfinite(before) ? change * fmin(1.0, change / before) : change;
         rb_rolling_variant_set(&v->state, &step, 1.0, &v->state);
         status = rb_sensitivity_residual(at->model, v, &left, why);
         const int changed =
             status == RB_OK && may_change ? change_zones(v, left.gap, left.slip) : 0;
-        if (status != RB_OK || (!changed && change < 0.5 * before))
+        if (status != RB_OK || (!changed && change < FAST * before))
             continue;
         /* the matrix of other zones, or of a state that is closer */
         if (!at->factors || jacobians++ == JACOBIANS)
             break;
-        change = INFINITY;
+        change = error = INFINITY;
         status = rb_rolling_variant_complete(v, NULL, NULL, why);
         if (status == RB_OK)
             status = linearise(v, s, own, why);
@@ -98,7 +102,7 @@ static rb_status iterate(const rb_sensitivity *s, const rb_sensitivity *at, int 
     }
     rb_contact_state_free(&step);
     rb_sensitivity_rate_free(&left);
-    return status == RB_OK && !(change <= enough) ? RB_MAXITER : status;
+    return status == RB_OK && !(error <= enough) ? RB_MAXITER : status;
 }
 
 rb_status rb_sensitivity_follow(const rb_sensitivity *s, rb_rolling_model *v, rb_message *why)

@@ -183,16 +183,36 @@ static void fill_controls(const rb_sensitivity *s, rb_sensitivity_factors *f)
                                        : p->e_T[0] / p->slip_length;
 }
 
-/* Equations that determine p and delta alone have the factors of `like`, if it has the
- * same flexibility and the same elements in contact. */
-static int takes_first_block(const rb_sensitivity_factors *like, rb_sensitivity_factors *f)
+/* 1: elements in contact have the same normal flexibility in both problems. */
+static int same_normal_flexibility(const rb_contact_problem *x, const rb_contact_problem *y,
+                                   const rb_sensitivity_factors *f)
 {
+    const rb_contact_matrix K = rb_contact_operator_matrix(x->op),
+                            L = rb_contact_operator_matrix(y->op);
+
+    for (int j = 0; j < f->contacts && x->op != y->op; j++) {
+        const double *of_x = K.F + (size_t)K.ldf * (size_t)f->contact[j],
+                     *of_y = L.F + (size_t)L.ldf * (size_t)f->contact[j];
+        for (int i = 0; i < f->contacts; i++)
+            if (of_x[f->contact[i]] != of_y[f->contact[i]])
+                return 0;
+    }
+    return 1;
+}
+
+/* Equations that determine p and delta alone have the factors of `other`, if it has the
+ * same flexibility and the same elements in contact. */
+static int takes_first_block(const rb_sensitivity *s, const rb_sensitivity *other,
+                             rb_sensitivity_factors *f)
+{
+    const rb_sensitivity_factors *like = other->factors;
     const size_t bytes = (size_t)f->contacts * sizeof *f->contact, size = (size_t)f->size;
 
-    if (f->first == f->size || like->first != f->first ||
+    if (!like || f->first == f->size || like->first != f->first ||
         memcmp(like->contact, f->contact, bytes) != 0 ||
         memcmp(like->row, f->row, (size_t)f->first * sizeof *f->row) != 0 ||
-        memcmp(like->unknown, f->unknown, (size_t)f->first * sizeof *f->unknown) != 0)
+        memcmp(like->unknown, f->unknown, (size_t)f->first * sizeof *f->unknown) != 0 ||
+        !same_normal_flexibility(&s->model->problem, &other->model->problem, f))
         return 0;
     for (size_t j = 0; j < (size_t)f->first; j++)
         memcpy(f->J + j * size, like->J + j * size, (size_t)f->first * sizeof *f->J);
@@ -228,8 +248,7 @@ rb_status rb_sensitivity_factor(const rb_sensitivity *s, const int *zone,
     }
     fill_controls(s, f);
     free(scratch);
-    const int is_known = like && like->factors && like->model->problem.op == p->op &&
-                         takes_first_block(like->factors, f);
+    const int is_known = like && takes_first_block(s, like, f);
     for (int j = 0; j < (is_known ? 0 : k); j++) {
         const int of_q = j > m;
         double *gap = f->J + (size_t)j * (size_t)size;
