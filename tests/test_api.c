@@ -950,7 +950,11 @@ TEST(derivatives)
                                      "formulation", "steady", "creep-ratio", "3",
                                      "contact-elements", "30", NULL});
     assert_null(rb_api_input(a, 0, "name", name, sizeof name));
+    assert_null(rb_api_word(a, "elements"));
     assert_int_equal(rb_api_derivatives(a), RB_OK);
+    assert_string_equal(
+        rb_api_word(a, "elements"),
+        "on elements that move with the edges of the contact, to which they are fitted");
     for (int k = 0; rb_api_input(a, k, "name", name, sizeof name); k++) {
         mu = strcmp(name, "mu") == 0 ? k : mu;
         layer = strcmp(name, "interlayer-normal") == 0 ? k : layer;

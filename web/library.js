@@ -151,6 +151,10 @@ export async function load_library(bytes) {
         derivatives() {
             return c.rb_api_derivatives(this.at);
         }
+        /* Standard deviations of the results from those of inputs: "mu=0.02,radius=1%". */
+        tolerances(inputs) {
+            return with_text([inputs], (text) => c.rb_api_tolerances(this.at, text));
+        }
         /* Input k of the derivatives: { name, unit, refusal }, or null. */
         input(k) {
             const field = (name) => with_text([name], (f) => text_at(c.rb_api_input(this.at, k, f, room, 4096)));

@@ -1,12 +1,14 @@
-/* Which input matters: what one percent more of each input does to a result, by the library's own derivatives. */
-import { card, html, segments, show } from "./draw.js";
+/* Which input matters: what one percent more of each input does to a result and to the tractions, and how uncertain the
+ * results are, by the library's own derivatives. */
+import { card, chart, html, legend, line, segments, show, stroke, svg, width_of } from "./draw.js";
 import { say } from "./words.js";
 
 const RESULTS = ["max_pressure", "approach", "tangential_load", "creepage"],
     MOST_ROWS = 8,
     LIVE = 150 /* ms: what takes longer waits until the hand lets go */,
     PATIENCE = 300 /* ms after which bars of the case before say so */,
-    SMALL = 1e-6; /* of the result: rounding, not an effect */
+    SMALL = 1e-6 /* of the result: rounding, not an effect */,
+    UNCERTAIN = "mu=10%,radius=1%,young=1%";
 
 /* [{ name, less, more }], the largest first: the change of a result, as a part of it, for one percent less and more of
  * each input; both have the same size where the result has one derivative.  Inputs that are zero have no percent. */
@@ -21,6 +23,13 @@ export function effects(inputs, values, derivative, result) {
         .filter(({ less, more }) => Math.max(Math.abs(less) || 0, Math.abs(more) || 0) > SMALL / 100)
         .sort((a, b) => size_of(b) - size_of(a));
 }
+/* What one percent more (less, where it cannot grow) of input k changes in a column of n elements. */
+export function change_along(derivative, n, k, value) {
+    const side = (from) => Array.from({ length: n }, (_, i) => derivative[i + n * (2 * k + from)]),
+        right = side(1),
+        grows = right.some(Number.isFinite);
+    return (grows ? right : side(0)).map((slope) => (slope * value) / (grows ? 100 : -100));
+}
 const size_of = ({ less, more }) => Math.max(Math.abs(less) || 0, Math.abs(more) || 0);
 
 export function matters_card(words, page) {
@@ -28,15 +37,36 @@ export function matters_card(words, page) {
         w = words.matters,
         rows = html("div", { class: "bars" }),
         choice = html("div", { class: "narrow" }),
-        told = html("p", { "aria-live": "polite" });
+        told = html("p", { "aria-live": "polite" }),
+        along = html("figure"),
+        deviations = html("ul", { class: "deviations", "aria-live": "polite" }),
+        field = html("input", {
+            type: "text",
+            id: "uncertain",
+            value: UNCERTAIN,
+            spellcheck: "false",
+            autocomplete: "off",
+            onchange: () => page.ask_view("bench"),
+        });
     let chosen = "max_pressure",
+        input = null /* whose changes along the contact are shown; null: the one that matters most */,
         data = null,
         drawn_for = null,
         scale = 0,
         cost = 0,
         behind_since = 0,
         seen = false;
-    const node = card(w.title, html("p", { class: "note" }, w.note), choice, rows, told);
+    const node = card(
+        w.title,
+        html("p", { class: "note" }, w.note),
+        choice,
+        rows,
+        told,
+        along,
+        html("label", { for: "uncertain", class: "uncertain" }, html("span", {}, w.uncertain), field),
+        html("p", { class: "note" }, w.uncertain_note),
+        deviations,
+    );
     new IntersectionObserver(([entry]) => {
         seen = entry.isIntersecting;
         if (seen) page.ask_view("bench");
@@ -70,13 +100,15 @@ export function matters_card(words, page) {
             setTimeout(draw, PATIENCE + 20);
         }
         const old = behind_since > 0 && performance.now() - behind_since > PATIENCE,
-            key = [data, chosen, store.trouble("main"), old];
+            key = [data, chosen, input, store.trouble("main"), old];
         node.classList.toggle("stale-inside", Boolean(store.trouble("main")));
         rows.classList.toggle("old", old);
         if (!data || (drawn_for && key.every((part, k) => part === drawn_for[k]))) return;
         drawn_for = key;
+        draw_deviations(old);
         if (data.refused || !has(chosen)) {
             rows.replaceChildren();
+            along.replaceChildren();
             told.textContent = data.refused
                 ? say(words.refused, { why: data.refused })
                 : say(w.zero, { result: words.numbers[chosen] });
@@ -91,12 +123,26 @@ export function matters_card(words, page) {
         const most = list.length ? size_of(list[0]) : 0.01;
         /* The scale holds while a hand moves something. */
         if (!scale || most > scale || (!store.holding && most < 0.5 * scale)) scale = most;
+        const shown = list.slice(0, MOST_ROWS),
+            focused = rows.contains(document.activeElement) && document.activeElement.closest(".bar")?.dataset.input,
+            at = shown.some(({ name }) => name === input) ? input : shown[0]?.name;
         rows.replaceChildren(
-            ...list.slice(0, MOST_ROWS).map(({ name, less, more }) =>
+            ...shown.map(({ name, less, more }) =>
                 html(
                     "div",
                     { class: "bar", "data-input": name },
-                    html("span", {}, words.names[name] ?? name),
+                    html(
+                        "button",
+                        {
+                            type: "button",
+                            "aria-pressed": String(name === at),
+                            onclick: () => {
+                                input = name;
+                                draw();
+                            },
+                        },
+                        words.names[name] ?? name,
+                    ),
                     html(
                         "span",
                         { class: "track", "aria-hidden": "true" },
@@ -114,6 +160,8 @@ export function matters_card(words, page) {
                 ),
             ),
         );
+        if (focused) rows.querySelector(`[data-input="${focused}"] button`)?.focus();
+        draw_along(at);
         const kinks = list.filter(({ less, more }) => !(Math.abs(less + more) <= 1e-3 * scale));
         if (old) {
             told.textContent = "…";
@@ -132,15 +180,87 @@ export function matters_card(words, page) {
             .filter(Boolean)
             .join(" ");
     }
+    /* What one percent of this input changes in pressure and friction. */
+    function draw_along(name) {
+        const k = data.inputs.findIndex((one) => one.name === name),
+            n = data.x.length;
+        if (k < 0 || !data["derivative.p"]) return along.replaceChildren();
+        const [p, q] = ["p", "q"].map((column) =>
+                change_along(data[`derivative.${column}`].at, n, k, data["derivative.value"].at[k]),
+            ),
+            most = (list) => Math.max(...list.map((v) => Math.abs(v) || 0)),
+            ends = [Math.min(...p, ...q) || 0, Math.max(...p, ...q) || 0],
+            room = 0.08 * (ends[1] - ends[0]) || 1,
+            { contact_from: from, contact_to: to } = data.numbers,
+            beside = 0.08 * (to - from),
+            of = words.names[name] ?? name;
+        const { root, X, Y } = chart({
+            width: width_of(along),
+            height: 210,
+            x: [from - beside, to + beside],
+            y: [Math.min(ends[0], 0) - room, Math.max(ends[1], 0) + room],
+            x_label: words.x_axis,
+            y_label: words.mpa,
+            y_ticks: 4,
+            label: say(w.along_alt, { name: of, p: show(most(p), 3), q: show(most(q), 3) }),
+        });
+        const inside = [...data.x.keys()].filter((i) => data.x[i] > from - beside && data.x[i] < to + beside);
+        for (const [column, colour, width] of [
+            [p, "--press", 2.4],
+            [q, "--rub", 2.4],
+        ])
+            root.append(
+                svg("path", { d: line(inside.map((i) => [X(data.x[i]), Y(column[i])])), style: stroke(colour, width) }),
+            );
+        along.replaceChildren(
+            html("p", { class: "note" }, say(w.along, { name: of, elements: data.elements })),
+            root,
+            legend(["--press", words.pressure], ["--rub", words.friction]),
+        );
+    }
+    function draw_deviations(old) {
+        field.toggleAttribute("aria-invalid", Boolean(data.uncertain));
+        deviations.classList.toggle("old", old);
+        deviations.replaceChildren(
+            ...(data.uncertain
+                ? [html("li", {}, say(w.uncertain_refused, { why: data.uncertain }))]
+                : data.deviations
+                  ? RESULTS.filter((name) => Number.isFinite(data.deviations[name])).map((name) =>
+                        html(
+                            "li",
+                            { "data-deviation": name },
+                            old
+                                ? "…"
+                                : say(w.uncertain_of, {
+                                      result: words.numbers[name],
+                                      value: show(data.numbers[name], 4),
+                                      deviation: show(data.deviations[name], 2),
+                                      unit: page.units[name] === "-" ? "" : (page.units[name] ?? ""),
+                                  }),
+                        ),
+                    )
+                  : []),
+        );
+    }
     return {
         node,
         draw,
         wants: () =>
-            !seen || store.trouble("main") || (store.holding && cost > LIVE) || data?.given === page.given
+            !seen ||
+            store.trouble("main") ||
+            (store.holding && cost > LIVE) ||
+            (data?.given === page.given && data.tolerance === field.value.trim())
                 ? []
-                : [{ kind: "derivatives", slot: "derivatives bench", given: page.given }],
+                : [
+                      {
+                          kind: "derivatives",
+                          slot: "derivatives bench",
+                          given: page.given,
+                          tolerance: field.value.trim(),
+                      },
+                  ],
         take(answer, request) {
-            data = { ...answer, given: request.given };
+            data = { ...answer, given: request.given, tolerance: request.tolerance };
             cost = answer.milliseconds ?? cost;
             draw();
         },

@@ -22,7 +22,7 @@ import { open_in_firefox } from "./firefox.mjs";
 import { axes_of, axes_still_fit, bounds_of, tidy_number } from "./contact.js";
 import { value_to_hold, with_motion } from "./controls.js";
 import { CRACK_CASE, at_the_mouth, crack_request, faces_at } from "./crack.js";
-import { effects } from "./matters.js";
+import { change_along, effects } from "./matters.js";
 import { LESSONS, PAGES } from "./take.js";
 import { headline_of, slip_share } from "./hero.js";
 import { fit_lens, offsets_of } from "./lens.js";
@@ -526,6 +526,37 @@ await test("which input matters: the derivatives are differences of the library'
         JSON.stringify(list),
     );
 });
+await test("changes along the contact and standard deviations are the program's", () => {
+    const given = { ...PRESETS.rail, "interlayer-tangential": "0" },
+        ask = (tolerance) => answer(library, { kind: "derivatives", given, tolerance }),
+        got = ask("mu=10%,radius=4.6"),
+        want = JSON.parse(
+            run(["--json", "--quiet", "--derivatives=p,q", "--tolerance=mu=10%,radius=4.6", ...words_of(given)]).stdout,
+        );
+    check(got.elements === want.derivatives_are.split(";")[0], got.elements);
+    for (const name of ["load", "mu", "interlayer-tangential"]) {
+        const k = got.inputs.findIndex((one) => one.name === name);
+        for (const column of ["p", "q"]) {
+            const along = change_along(got[`derivative.${column}`].at, got.x.length, k, 100),
+                rows = want.derivatives[column][name],
+                sides = Array.isArray(rows[0] ?? rows[1]) ? rows[1] : rows /* it can only grow */,
+                most = Math.max(...sides.map(Math.abs)) || 1;
+            sides.forEach((v, i) => check_close(along[i], v, 1e-5 * most, `${column} by ${name}, element ${i}`));
+        }
+    }
+    check(Object.keys(want.tolerances).length > 5 && want.tolerances.tangential_load > 0, "no tolerances");
+    for (const [name, v] of Object.entries(want.tolerances))
+        check_close(got.deviations[name], v, 1e-5 * Math.abs(v) + 1e-12, `deviation of ${name}`);
+    for (const [wrong, why] of [
+        ["moo=1%", /'moo' is not a number/],
+        ["mu=-1", /standard deviation >= 0/],
+        ["mu=1%,mu=2%", /twice/],
+    ]) {
+        const refused = ask(wrong);
+        check(why.test(refused.uncertain) && !refused.deviations && refused["derivative.p"], refused.uncertain);
+    }
+    check(ask("").deviations === null && ask("").uncertain === "", "nothing uncertain");
+});
 await test("lessons that figures name are there", () => {
     for (const file of [...Object.values(LESSONS), ...Object.values(PAGES)]) check(existsSync(`docs/${file}`), file);
 });
@@ -958,6 +989,29 @@ async function views(page) {
             /matters most/.test(await page.run("document.querySelector('.bars').nextSibling.textContent")),
             "no sentence",
         );
+        await page.run("document.querySelector('#at-bench .bar[data-input=load] button').click()");
+        check(
+            await page.run(
+                "document.querySelector('#at-bench .bar[data-input=load] button').getAttribute('aria-pressed') === 'true' && /1 % more of load P/.test(document.querySelector('#at-bench .bars ~ figure').textContent)",
+            ),
+            "no changes along the contact by the load",
+        );
+    });
+    await test("uncertain inputs give standard deviations, a wrong name its refusal", async () => {
+        const type = async (text) => {
+            await page.run(
+                `{ const field = document.getElementById('uncertain'); field.value = ${JSON.stringify(text)}; field.dispatchEvent(new Event("change")); }`,
+            );
+            await settled();
+            return page.run("document.querySelector('.deviations').textContent");
+        };
+        /* It skids: Q = -mu P. */
+        const [P, Q] = [await number("normal_load"), await number("tangential_load")];
+        check_close(Q, -0.3 * P, 1e-6 * P, "Q");
+        check(/Q friction −3750 ± 380 N\/mm/.test(await type("mu=10%")), await type("mu=10%"));
+        check(/Not a standard deviation of this case: 'moo'/.test(await type("moo=1%")), await type("moo=1%"));
+        check((await type("")) === "", "nothing is uncertain");
+        await type("mu=10%,radius=1%,young=1%");
     });
     await test("notes of the library stand beside the chapter's numbers", async () => {
         await page.run("rollbem.open('soft')");

@@ -221,6 +221,13 @@ export const words = {
         little: "< 0.01 %",
         zero: "{result} is zero here: there is no part of it to compare with.",
         kink: "Two different slopes: {names}. There a zone is about to change.",
+        along: "What 1 % more of {name} changes along the contact, {elements}.",
+        along_alt: "1 % more of {name} changes the pressure by {p} MPa at most, the friction by {q} MPa.",
+        uncertain: "How uncertain are the inputs?",
+        uncertain_note:
+            "Their standard deviations, in per cent or in the input's unit, as mu=0.02,radius=1%. Those of the results follow to first order.",
+        uncertain_refused: "Not a standard deviation of this case: {why}.",
+        uncertain_of: "{result} {value} ± {deviation} {unit}",
     },
     curve_title: "Creep curve: take the point and drag it",
     curve_note: "Dragging sets the force; the creepage follows. Arrow keys work too.",

@@ -113,19 +113,29 @@ const answers = {
                       ),
                   },
         ),
-    /* Of the numbers of a solution, with respect to every input. */
-    derivatives: (library, { slot, given }) =>
+    /* Of the numbers and tractions of a solution, with respect to every input; tolerance: standard deviations of inputs,
+     * for those of the numbers. */
+    derivatives: (library, { slot, given, tolerance = "" }) =>
         solve_case(library, slot, given, (work, l) => {
             if (work.derivatives() !== 0) return { refused: work.message };
             const inputs = [];
             for (let k = 0, input; (input = work.input(k)) !== null; k++) inputs.push(input);
+            const numbers = l.results.number.map((row) => row.name),
+                uncertain = tolerance && work.tolerances(tolerance) !== 0 ? work.message : "";
             return {
-                numbers: Object.fromEntries(l.results.number.map(({ name }) => [name, work.number(name)])),
+                numbers: Object.fromEntries(numbers.map((name) => [name, work.number(name)])),
                 inputs,
+                x: work.array("x").at,
                 ...arrays(
                     work,
-                    ["value", ...l.results.number.map((row) => row.name)].map((name) => `derivative.${name}`),
+                    ["value", "p", "q", ...numbers].map((name) => `derivative.${name}`),
                 ),
+                deviations:
+                    tolerance && !uncertain
+                        ? Object.fromEntries(numbers.map((name) => [name, work.array(`tolerance.${name}`)?.at[0]]))
+                        : null,
+                uncertain,
+                elements: work.word("elements"),
             };
         }),
     /* The contact, then its pass over a crack. */

@@ -84,8 +84,9 @@ const char *rb_api_value(const rb_api *a, const char *name, char *text, int size
  * "curve.half_width", "history.half_width"; "task.iterations", "task.residual",
  * "task.scaled_residual" of rb_api_lcp and rb_api_friction.  NAN: there is none. */
 double rb_api_number(const rb_api *a, const char *name);
-/* "status", in words; of a solution "formulation", "solver", "lcp-form"; "task.solver".
- * Static text, or NULL. */
+/* "status", in words; of a solution "formulation", "solver", "lcp-form"; "task.solver";
+ * after rb_api_derivatives "elements": whether they move while an input changes.  Static
+ * text, or NULL. */
 const char *rb_api_word(const rb_api *a, const char *name);
 /* Note k = 0, 1, ... on how the solution must be read; writes at most `size` bytes and
  * returns text.  NULL: there is no such note, or no solution. */

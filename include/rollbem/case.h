@@ -240,6 +240,9 @@ extern const char *const rb_case_over_x_names[RB_CASE_OVER_X_N];
 rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model, int n,
                                 const char *const *names, rb_case_derivatives *all,
                                 rb_message *why);
+/* Says whether the elements move while an input changes: "on the elements of the solution,
+ * which do not move". */
+const char *rb_case_derivatives_are(const rb_case_derivatives *all);
 /* The result `name` if it has derivatives, otherwise NULL.  *is_column is 1 if it has one
  * entry per element. */
 const rb_rolling_result *rb_case_derivative_result(const char *name, int *is_column);

@@ -168,6 +168,7 @@ class Derivatives(dict):
 
     sides: "dict[str, dict[str, Array]]"
     units: "dict[str, dict[str, str]]"
+    elements: Optional[str] = None  # of a solution: whether its elements move while an input changes
 
     def __init__(self, handle: Any = None, of: str = "", shape: "tuple[int, ...]" = (-1,)) -> None:
         super().__init__()

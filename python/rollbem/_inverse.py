@@ -150,6 +150,7 @@ def derivatives(solution: Union[Solution, _CaseLike] = None, **options: Any) -> 
         while (name := field("name")) is not None:
             inputs.append((name, field("unit")))
         found = Derivatives()
+        found.elements = handle.word("elements")
         for result in (*solution._numbers, *solution._arrays):
             array = handle.array(f"derivative.{result}")
             if array is None or np.isnan(array).all():

@@ -52,6 +52,7 @@ def test_derivatives():
         else:
             assert d["tangential_load"][name] == pytest.approx(value, rel=1e-6)
     assert d["normal_load"]["load"] == pytest.approx(1, rel=1e-9)
+    assert run_json(**STEADY, derivatives="tangential_load")["derivatives_are"].startswith(d.elements)
     assert d["q"]["mu"].shape == s.q.shape
     assert rollbem.derivatives(**STEADY)["max_pressure"]["load"] == pytest.approx(s.max_pressure / 1000, rel=1e-3)
     with pytest.raises(rollbem.InvalidInput):

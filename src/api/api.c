@@ -413,6 +413,8 @@ const char *rb_api_word(const rb_api *a, const char *name)
         return rb_status_text(a->status);
     if (strcmp(name, "task.solver") == 0)
         return a->solver;
+    if (strcmp(name, "elements") == 0)
+        return a->derivatives.n > 0 ? rb_case_derivatives_are(&a->derivatives) : NULL;
     if (s->n == 0)
         return NULL;
     if (strcmp(name, "formulation") == 0)

@@ -70,17 +70,6 @@ static int has_result(const rb_report_derivatives *d, int k)
     return 0;
 }
 
-static const char *elements_of(const rb_report_derivatives *d)
-{
-    static const char *const text[] = {
-        [RB_SENSITIVITY_FIXED] = "on the elements of the solution, which do not move",
-        [RB_SENSITIVITY_HERTZ] =
-            "on elements that grow with Hertz's half-width, as the automatic zone does",
-        [RB_SENSITIVITY_EDGES] = ("on elements that move with the edges of the contact, "
-                                  "to which they are fitted")};
-    return text[d->all->elements];
-}
-
 void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
 {
     json_t *results = json_object(), *without = json_object(), *over_x = json_object();
@@ -122,7 +111,8 @@ void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
         rb_report_json_set(&over_x, rb_case_over_x_names[k], both);
     }
     rb_report_json_set(root, "derivatives_over_x", over_x);
-    snprintf(text, sizeof text, "%s; [left, right] where the two sides differ", elements_of(d));
+    snprintf(text, sizeof text, "%s; [left, right] where the two sides differ",
+             rb_case_derivatives_are(d->all));
     rb_report_json_set(root, "derivatives_are", json_string(text));
 }
 
@@ -198,7 +188,7 @@ rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,
 
     rb_report_comment_origin(&c, command);
     rb_report_comment(&c, "derivatives %s; left, right: for a falling and a growing input",
-                      elements_of(d));
+                      rb_case_derivatives_are(d->all));
     for (int i = 0; i < d->all->n; i++)
         if (d->all->of[i].status != RB_OK)
             rb_report_comment(&c, "none by %s: %s", d->all->of[i].name, d->all->of[i].why.text);
