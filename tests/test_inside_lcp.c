@@ -277,7 +277,8 @@ static void bench_create(bench *b)
         for (int j = 0; j < LDM; j++)
             M_[j + i * LDM] = uniform() + (i == j ? ROWS : 0.0);
     }
-    *b = (bench){.l = {.n = ROWS, .data = {{ROWS, M_, LDM, q_}, cover_}, .largest = ROWS + 1.0}};
+    *b = (bench){
+        .l = {.n = ROWS, .data = {{ROWS, M_, LDM, q_}, cover_}, .posed.largest = ROWS + 1.0}};
     l->info = &b->info;
     l->a = b->room;
     l->other = l->a + ROWS;

@@ -74,7 +74,7 @@ static double defect(const lemke *l, const double *constant, const double *basic
         size = fmax(size, fmax(fabs(fixed), fabs(cover)));
         r[i] = fixed + cover - r[i];
     }
-    size = fmax(size, l->largest * values(l, basic, entering, n, z));
+    size = fmax(size, l->posed.largest * values(l, basic, entering, n, z));
     add_product(n, n, l->data.p.M, l->data.p.ldm, z, r);
     return size > 0.0 ? rb_norm_inf((size_t)n, r) / size : 0.0;
 }

@@ -261,28 +261,15 @@ static const double GENERIC = 0.0625;
 static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, void *state)
 {
     lemke *l = state;
-    const lcp_matrix *M = &task->M;
-    const int n = M->n;
-    *l = (lemke){.work.allowed = INFINITY,
-                 .task = task,
-                 .leaving = -1,
-                 .n = n,
-                 .info = info,
-                 .opt = *task->opt};
-    l->data = (lcp_data){{n, M->dense, M->ld, task->q}, task->opt->cover};
-    rb_status s = rb_lcp_scale_create(M, task->q, balance_q, &l->scale);
-    l->largest = l->scale.largest;
-    if (s == RB_OK && l->scale.needed) {
-        s = rb_lcp_scaled_create(M, &l->scale, task->q, NULL, NULL, task->opt, &l->scaled);
-        if (s == RB_OK) {
-            l->opt = l->scaled.opt;
-            l->data = (lcp_data){{n, l->scaled.dense, n, l->scaled.q}, l->opt.cover};
-            l->largest = 1.0;
-        }
-    }
+    const int n = task->M.n;
+    *l = (lemke){.work.allowed = INFINITY, .task = task, .leaving = -1, .n = n, .info = info};
+    rb_status s = rb_lcp_pose(&task->M, task->q, NULL, NULL, task->opt, balance_q, &l->posed);
     if (s == RB_ENOMEM)
         s = fail_memory(l);
     else {
+        const lcp_posed *p = &l->posed;
+        l->opt = p->opt;
+        l->data = (lcp_data){{n, p->M.dense, p->M.ld, p->q}, p->opt.cover};
         const int traced = l->opt.trace && l->opt.trace_tableau;
         const rb_status status = rb_lcp_tableau_create(&l->data, &l->t);
         l->a = rb_alloc((size_t)l->n + 1, 7);
@@ -317,9 +304,8 @@ static rb_status end(void *state, rb_status s, double *z)
     const lcp_task *task = l->task;
     if (s >= 0) {
         rb_lcp_lemke_answer(l, s == RB_OK, z);
-        if (l->scaled.q)
-            rb_lcp_scale_back(&l->scale, l->n, z);
-        if (rb_lcp_measure(&task->M, &l->scale, task->q, NULL, NULL, z, l->info) != RB_OK)
+        rb_lcp_scale_back(&l->posed, z);
+        if (rb_lcp_measure(&task->M, &l->posed.scale, task->q, NULL, NULL, z, l->info) != RB_OK)
             s = fail_memory(l);
     }
     if (s == RB_OK)
@@ -328,8 +314,7 @@ static rb_status end(void *state, rb_status s, double *z)
     free(l->a);
     free(l->tied);
     free(l->image);
-    rb_lcp_scaled_free(&l->scaled);
-    rb_lcp_scale_free(&l->scale);
+    rb_lcp_posed_free(&l->posed);
     return s;
 }
 

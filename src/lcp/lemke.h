@@ -25,12 +25,11 @@ static const double VANISHED = 1e-13;
 typedef struct {
     lcp_work work;
     const lcp_task *task;
-    lcp_scale scale;
-    lcp_scaled scaled; /* the problem that is solved, where the scale is needed */
-    int leaving;       /* what left last; -1: z0 has not entered yet */
+    lcp_posed posed; /* the problem that is solved */
+    int leaving;     /* what left last; -1: z0 has not entered yet */
     int n;
-    lcp_data data;
-    rb_lcp_options opt;
+    lcp_data data;      /* of it */
+    rb_lcp_options opt; /* the same */
     lcp_tableau t;
     double *a;               /* n: driving column */
     double *other, *scratch; /* n each */
@@ -40,7 +39,6 @@ typedef struct {
     double *image;           /* n x (n + 2): the whole tableau for the trace, or NULL */
     double start, refreshed; /* z0 after the first pivot, at the last refresh */
     int checked, rebuilt;    /* pivots at the last refresh, at the last rebuild */
-    double largest;          /* max |M| */
     rb_lcp_info *info;
 } lemke;
 

@@ -31,12 +31,11 @@ typedef struct {
     lcp_work work;
     const lcp_task *task;
     split f;
-    lcp_scale scale;
-    lcp_scaled scaled; /* the problem that is solved, where the scale is needed */
-    int underway;      /* 0: the path has not begun */
-    int leaving;       /* what left last */
-    int n, given;      /* order; that of the caller's problem, before free variables are split */
-    const int *of;     /* n - given: whose other half each more is */
+    lcp_posed posed; /* the problem that is solved */
+    int underway;    /* 0: the path has not begun */
+    int leaving;     /* what left last */
+    int n, given;    /* order; that of the caller's problem, before free variables are split */
+    const int *of;   /* n - given: whose other half each more is */
     const rb_sparse *M;
     const double *q, *lower, *upper; /* n; no box without a finite end */
     rb_lcp_options opt;
@@ -548,27 +547,21 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, v
         .work.allowed = INFINITY, .task = task, .given = n, .info = info, .opt = *task->opt};
     split *f = &p->f;
     rb_status s = split_create(&given, p->opt.start, p->opt.cover, f);
-    const rb_sparse *M = f->n > n ? &f->M : given.M;
-    const lcp_matrix all = {.n = f->n, .sparse = M};
+    const lcp_matrix all = {.n = f->n, .sparse = f->n > n ? &f->M : given.M};
     p->opt.start = f->start;
     p->opt.cover = f->cover;
     if (s == RB_OK)
-        s = rb_lcp_scale_create(&all, f->q, balance_q, &p->scale);
-    if (s == RB_OK && p->scale.needed) {
-        s = rb_lcp_scaled_create(&all, &p->scale, f->q, f->lower, f->upper, &p->opt, &p->scaled);
-        if (s == RB_OK)
-            p->opt = p->scaled.opt;
-    }
-    const int scaled = p->scaled.q != NULL;
-    p->q = scaled ? p->scaled.q : f->q;
-    p->lower = scaled ? p->scaled.lower : f->lower;
-    p->upper = scaled ? p->scaled.upper : f->upper;
+        s = rb_lcp_pose(&all, f->q, f->lower, f->upper, &p->opt, balance_q, &p->posed);
     if (s == RB_ENOMEM)
         return rb_fail(&info->msg, s, "lcp: out of memory for order %d", n);
     const size_t order = (size_t)f->n;
     p->n = f->n;
     p->of = f->of;
-    p->M = scaled ? &p->scaled.sparse : M;
+    p->opt = p->posed.opt;
+    p->M = p->posed.M.sparse;
+    p->q = p->posed.q;
+    p->lower = p->posed.lower;
+    p->upper = p->posed.upper;
     p->value = rb_alloc(order, 5);
     p->at_upper = rb_alloc_int(4 * order + 1);
     s = rb_lcp_basis_create(p->M, &p->b);
@@ -589,9 +582,8 @@ static rb_status end(void *state, rb_status s, double *z)
     mixed *p = state;
     const lcp_task *task = p->task;
     if (s >= 0) {
-        /* z from the basic point, the halves of free ones together.  col: the scale of
-         * the columns, NULL: ones. */
-        const double *col = p->scaled.q ? p->scale.col : NULL;
+        /* z from the basic point, the halves of free ones together. */
+        const double *col = p->posed.scaled ? p->posed.scale.col : NULL;
         for (int i = 0; i < p->n; i++) {
             const int slot = p->b.slot[p->n + i];
             double x = slot >= 0 ? p->value[slot] : nonbasic_z(p, i);
@@ -601,8 +593,8 @@ static rb_status end(void *state, rb_status s, double *z)
             else
                 z[p->f.of[i - task->M.n]] -= x;
         }
-        if (rb_lcp_measure(&task->M, &p->scale, task->q, task->lower, task->upper, z, p->info) !=
-            RB_OK)
+        if (rb_lcp_measure(&task->M, &p->posed.scale, task->q, task->lower, task->upper, z,
+                           p->info) != RB_OK)
             s = rb_fail(&p->info->msg, RB_ENOMEM, "lcp: out of memory for order %d", task->M.n);
     }
     if (s == RB_OK)
@@ -613,8 +605,7 @@ static rb_status end(void *state, rb_status s, double *z)
     rb_sparse_free(&p->f.M);
     free(p->f.of);
     free(p->f.q);
-    rb_lcp_scaled_free(&p->scaled);
-    rb_lcp_scale_free(&p->scale);
+    rb_lcp_posed_free(&p->posed);
     return s;
 }
 

@@ -21,9 +21,8 @@ static const double PER_FACTOR = 40.0, PER_ENTRY = 10.0, PER_ROW = 20.0;
 typedef struct {
     lcp_work work;
     const lcp_task *task;
-    lcp_scale scale;
-    lcp_scaled scaled; /* the problem that is solved, where the scale is needed */
-    rb_lcp_mixed_problem p;
+    lcp_posed posed;        /* the problem that is solved */
+    rb_lcp_mixed_problem p; /* the same */
     int fewest, chances;
     double *z, *w, *rhs, *x; /* n each */
     int *number;             /* n: of i among the basic z, or -1 */
@@ -149,19 +148,14 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, v
     const double *start = task->opt->start;
     *s = (newton){.work.allowed = INFINITY,
                   .task = task,
-                  .p = {.M = M, .q = task->q},
                   .fewest = M->rows + 1,
                   .chances = CHANCES,
                   .info = info};
-    rb_status status = rb_lcp_scale_create(&task->M, task->q, balance_q, &s->scale);
-    if (status == RB_OK && s->scale.needed)
-        status =
-            rb_lcp_scaled_create(&task->M, &s->scale, task->q, NULL, NULL, task->opt, &s->scaled);
-    if (s->scaled.q)
-        s->p = (rb_lcp_mixed_problem){.M = &s->scaled.sparse, .q = s->scaled.q};
+    rb_status status = rb_lcp_pose(&task->M, task->q, NULL, NULL, task->opt, balance_q, &s->posed);
     if (status == RB_ENOMEM)
         status = fail_memory(s);
     else {
+        s->p = (rb_lcp_mixed_problem){.M = s->posed.M.sparse, .q = s->posed.q};
         const size_t n = (size_t)s->p.M->rows, nz = (size_t)s->p.M->p[s->p.M->cols];
         s->z = rb_alloc(n, 4);
         s->number = rb_alloc_int(2 * n);
@@ -198,9 +192,8 @@ static rb_status end(void *state, rb_status status, double *z)
     if (status >= 0) {
         for (int i = 0; i < n; i++)
             z[i] = fmax(s->z[i], 0.0);
-        if (s->scaled.q)
-            rb_lcp_scale_back(&s->scale, n, z);
-        if (rb_lcp_measure(&task->M, &s->scale, task->q, NULL, NULL, z, s->info) != RB_OK)
+        rb_lcp_scale_back(&s->posed, z);
+        if (rb_lcp_measure(&task->M, &s->posed.scale, task->q, NULL, NULL, z, s->info) != RB_OK)
             status = fail_memory(s);
     }
     if (status == RB_OK)
@@ -208,8 +201,7 @@ static rb_status end(void *state, rb_status status, double *z)
     free(s->z);
     free(s->number);
     rb_sparse_free(&s->A);
-    rb_lcp_scaled_free(&s->scaled);
-    rb_lcp_scale_free(&s->scale);
+    rb_lcp_posed_free(&s->posed);
     return status;
 }
 

@@ -184,7 +184,7 @@ void rb_lcp_scale_free(lcp_scale *s)
     *s = (lcp_scale){0};
 }
 
-/* ---- The scaled problem ------------------------------------------------------------ */
+/* ---- The problem that is solved ------------------------------------------------------------ */
 
 /* The size of a variable (w 0 ... n - 1, z, z0) in units of the scaled problem. */
 static double unit_of(const lcp_scale *s, int n, int variable)
@@ -197,19 +197,19 @@ static double unit_of(const lcp_scale *s, int n, int variable)
  * number that depends on them. */
 static void trace_in_units(const rb_lcp_pivot *p, void *context)
 {
-    lcp_scaled *s = context;
+    lcp_posed *s = context;
     const int n = p->n;
     rb_lcp_pivot seen = *p;
     for (int i = 0; i < n; i++)
-        s->value[i] = p->value[i] * unit_of(s->scale, n, p->basis[i]);
+        s->value[i] = p->value[i] * unit_of(&s->scale, n, p->basis[i]);
     seen.value = s->value;
-    seen.ratio *= unit_of(s->scale, n, p->entering);
+    seen.ratio *= unit_of(&s->scale, n, p->entering);
     if (p->tableau) {
         for (int c = 0; c < n + 2; c++) {
-            const double of_column = c <= n ? unit_of(s->scale, n, p->nonbasis[c]) : 1.0;
+            const double of_column = c <= n ? unit_of(&s->scale, n, p->nonbasis[c]) : 1.0;
             for (int i = 0; i < n; i++) {
                 const size_t at = (size_t)i + (size_t)c * (size_t)n;
-                s->tableau[at] = p->tableau[at] * unit_of(s->scale, n, p->basis[i]) / of_column;
+                s->tableau[at] = p->tableau[at] * unit_of(&s->scale, n, p->basis[i]) / of_column;
             }
         }
         seen.tableau = s->tableau;
@@ -228,61 +228,73 @@ static int scale_vector(int n, const double *by, int inverse, const double *from
     return fits;
 }
 
-rb_status rb_lcp_scaled_create(const lcp_matrix *M, const lcp_scale *scale, const double *q,
-                               const double *lower, const double *upper, const rb_lcp_options *opt,
-                               lcp_scaled *s)
+/* In the scale, which is known.  RB_EINVAL: the scaled numbers overflow. */
+static rb_status pose_scaled(lcp_posed *s)
 {
-    const size_t n = (size_t)M->n;
-    const int tableau = opt->trace && opt->trace_tableau && M->dense;
-    *s = (lcp_scaled){.scale = scale, .opt = *opt, .caller = *opt};
-    s->q = rb_alloc(n, 6);
-    s->dense = M->dense ? rb_alloc(n, n) : NULL;
-    s->tableau = tableau ? rb_alloc(n, n + 2) : NULL;
-    rb_status status = M->dense ? RB_OK : rb_sparse_copy(M->sparse, &s->sparse);
-    if (!s->q || (M->dense && !s->dense) || (tableau && !s->tableau))
-        status = RB_ENOMEM;
-    for (int j = 0; status == RB_OK && j < M->n; j++) {
-        const column a = column_of(M, j);
-        double *to = M->dense ? s->dense + (size_t)j * n : s->sparse.x + M->sparse->p[j];
+    const lcp_matrix given = s->M;
+    const rb_lcp_options *opt = &s->caller;
+    const double *row = s->scale.row, *col = s->scale.col;
+    const int n = given.n, tableau = opt->trace && opt->trace_tableau && given.dense;
+    const size_t order = (size_t)n;
+    s->vectors = rb_alloc(order, 6);
+    s->dense = given.dense ? rb_alloc(order, order) : NULL;
+    s->tableau = tableau ? rb_alloc(order, order + 2) : NULL;
+    if (!s->vectors || (given.dense && !s->dense) || (tableau && !s->tableau) ||
+        (!given.dense && rb_sparse_copy(given.sparse, &s->sparse) != RB_OK))
+        return RB_ENOMEM;
+    for (int j = 0; j < n; j++) {
+        const column a = column_of(&given, j);
+        double *to = s->dense ? s->dense + (size_t)j * order : s->sparse.x + s->sparse.p[j];
         for (int k = 0; k < a.count; k++)
-            to[k] = a.x[k] * scale->row[a.row ? a.row[k] : k] * scale->col[j];
+            to[k] = a.x[k] * row[a.row ? a.row[k] : k] * col[j];
     }
-    if (status == RB_OK) {
-        double *cover = s->q + n, *start = cover + n;
-        s->lower = lower ? start + n : NULL;
-        s->upper = upper ? start + 2 * n : NULL;
-        s->value = start + 3 * n;
-        if (!scale_vector(M->n, scale->row, 0, q, s->q) ||
-            !scale_vector(M->n, scale->row, 0, opt->cover, cover) ||
-            !scale_vector(M->n, scale->col, 1, opt->start, start) ||
-            !scale_vector(M->n, scale->col, 1, lower, s->lower) ||
-            !scale_vector(M->n, scale->col, 1, upper, s->upper))
-            status = RB_EINVAL;
-        s->opt.cover = opt->cover ? cover : NULL;
-        s->opt.start = opt->start ? start : NULL;
-        if (opt->trace) {
-            s->opt.trace = trace_in_units;
-            s->opt.trace_context = s;
-        }
+    double *q = s->vectors, *cover = q + n, *start = cover + n, *lower = start + n,
+           *upper = lower + n;
+    s->value = upper + n;
+    if (!scale_vector(n, row, 0, s->q, q) || !scale_vector(n, row, 0, opt->cover, cover) ||
+        !scale_vector(n, col, 1, opt->start, start) || !scale_vector(n, col, 1, s->lower, lower) ||
+        !scale_vector(n, col, 1, s->upper, upper))
+        return RB_EINVAL;
+    s->scaled = 1;
+    s->largest = 1.0;
+    s->M = (lcp_matrix){n, s->dense, n, s->dense ? NULL : &s->sparse};
+    s->q = q;
+    s->lower = s->lower ? lower : NULL;
+    s->upper = s->upper ? upper : NULL;
+    s->opt.cover = opt->cover ? cover : NULL;
+    s->opt.start = opt->start ? start : NULL;
+    if (opt->trace) {
+        s->opt.trace = trace_in_units;
+        s->opt.trace_context = s;
     }
-    if (status != RB_OK)
-        rb_lcp_scaled_free(s);
-    return status;
+    return RB_OK;
 }
 
-void rb_lcp_scaled_free(lcp_scaled *s)
+rb_status rb_lcp_pose(const lcp_matrix *M, const double *q, const double *lower,
+                      const double *upper, const rb_lcp_options *opt, int always, lcp_posed *s)
 {
+    *s = (lcp_posed){.M = *M, .q = q, .lower = lower, .upper = upper, .opt = *opt, .caller = *opt};
+    rb_status status = rb_lcp_scale_create(M, q, always, &s->scale);
+    s->largest = s->scale.largest;
+    if (status == RB_OK && s->scale.needed)
+        status = pose_scaled(s);
+    return status == RB_EINVAL ? RB_OK : status;
+}
+
+void rb_lcp_posed_free(lcp_posed *s)
+{
+    rb_lcp_scale_free(&s->scale);
     free(s->dense);
     free(s->tableau);
-    free(s->q);
+    free(s->vectors);
     rb_sparse_free(&s->sparse);
-    *s = (lcp_scaled){0};
+    *s = (lcp_posed){0};
 }
 
-void rb_lcp_scale_back(const lcp_scale *scale, int n, double *z)
+void rb_lcp_scale_back(const lcp_posed *s, double *z)
 {
-    for (int i = 0; i < n; i++)
-        z[i] *= scale->col[i];
+    for (int i = 0; s->scaled && i < s->M.n; i++)
+        z[i] *= s->scale.col[i];
 }
 
 /* ---- The residual of each row in its own scale -------------------------------------- */

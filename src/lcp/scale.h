@@ -25,26 +25,30 @@ typedef struct {
 rb_status rb_lcp_scale_create(const lcp_matrix *M, const double *q, int always, lcp_scale *s);
 void rb_lcp_scale_free(lcp_scale *s);
 
-/* A problem in the scale: R M C, R q, and what the options and boxes hold.  Members that
- * are NULL for the caller are NULL here. */
+/* The problem that a method solves: the given one, or in the scale R M C, R q and what
+ * options and boxes hold, where that is needed.  Members that are NULL for the caller are
+ * NULL here. */
 typedef struct {
-    const lcp_scale *scale; /* borrowed */
-    double *dense;          /* n x n; owned, as sparse and q, which owns the vectors */
+    lcp_scale scale;
+    int scaled; /* 1: in the scale */
+    lcp_matrix M;
+    double largest;                  /* max |M| */
+    const double *q, *lower, *upper; /* n each */
+    rb_lcp_options opt;              /* its cover, start and trace are those of this problem */
+    double *dense;                   /* n x n; owned, as the two below */
     rb_sparse sparse;
-    double *q, *lower, *upper; /* n each */
-    rb_lcp_options opt;        /* its cover, start and trace are those of this problem */
-    rb_lcp_options caller;     /* as they were given */
-    double *value, *tableau;   /* for the caller's trace */
-} lcp_scaled;
+    double *vectors;         /* 6 n */
+    rb_lcp_options caller;   /* as they were given */
+    double *value, *tableau; /* for the caller's trace; tableau is owned */
+} lcp_posed;
 
-/* opt: the caller's, borrowed as long as the problem.  RB_ENOMEM; RB_EINVAL: the scaled
- * numbers overflow, solve the problem as it stands. */
-rb_status rb_lcp_scaled_create(const lcp_matrix *M, const lcp_scale *scale, const double *q,
-                               const double *lower, const double *upper, const rb_lcp_options *opt,
-                               lcp_scaled *s);
-void rb_lcp_scaled_free(lcp_scaled *s);
-/* z of the scaled problem becomes that of the caller's. */
-void rb_lcp_scale_back(const lcp_scale *scale, int n, double *z);
+/* What it is given is borrowed as long as the problem; always: as above.  Where scaled
+ * numbers would overflow the problem stays as it stands.  RB_ENOMEM; free in any case. */
+rb_status rb_lcp_pose(const lcp_matrix *M, const double *q, const double *lower,
+                      const double *upper, const rb_lcp_options *opt, int always, lcp_posed *s);
+void rb_lcp_posed_free(lcp_posed *s);
+/* z of the problem becomes that of the caller's. */
+void rb_lcp_scale_back(const lcp_posed *s, double *z);
 
 /* info->res, info->scaled and info->row of z, as rb_lcp_scaled_residual has them.
  * RB_ENOMEM. */
