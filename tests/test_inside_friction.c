@@ -221,7 +221,7 @@ TEST(a_newton_step_solves_its_system)
         }
         rb_friction_shared shared = {.problem = &p, .local = &p};
         rb_friction_task task = {.shared = &shared, .problem = &p, .d = d, .contacts = nc, .m = m};
-        CHECK_OK(rb_friction_system_init(&task, &s));
+        CHECK_OK(rb_friction_system_init(&task, task.n, &s));
         CHECK_OK(rb_friction_system_step(&s, &at, NULL, dr, NULL));
         assert_true((s.lu != NULL) == (k / 2));
         rb_friction_blocks_apply(&shared.blocks, dr, y);
@@ -347,7 +347,7 @@ TEST(a_step_of_all_bodies_solves_its_system)
         CHECK_OK(rb_sparse_from_triplets(&th, &p.H));
         OWNED(rb_friction_system) s;
         rb_friction_task task = {.problem = &p, .d = 2, .contacts = nc, .m = m, .n = n};
-        CHECK_OK(rb_friction_system_init(&task, &s));
+        CHECK_OK(rb_friction_system_init(&task, task.n, &s));
         CHECK_OK(rb_friction_system_estimate(&s, &estimate));
         CHECK_OK(rb_friction_system_step(&s, &at, e, dr, dv));
         assert_true((s.lu != NULL) == sparse);

@@ -59,6 +59,8 @@ TEST(products_agree_with_the_dense_matrix)
     for (int i = 0; i < M; i++)
         CHECK_ABS(y[i], want[i], 1e-13, "row %d", i);
     for (int j = 0; j < N; j++)
+        assert_true(rb_sparse_diagonal(&a, j) == dense[j + j * M]);
+    for (int j = 0; j < N; j++)
         CHECK_ABS(yt[j], want_t[j], 1e-12, "column %d", j);
 
     CHECK_OK(rb_sparse_transpose(&a, &t));

@@ -41,6 +41,9 @@ rb_status rb_sparse_copy(const rb_sparse *a, rb_sparse *b);
 rb_status rb_sparse_transpose(const rb_sparse *a, rb_sparse *t);
 void rb_sparse_free(rb_sparse *a);
 
+/* A_jj, 0 where it has no entry. */
+double rb_sparse_diagonal(const rb_sparse *a, int j);
+
 /* y = alpha A x + beta y, and the same with the transpose. */
 void rb_sparse_apply(double alpha, const rb_sparse *a, const double *x, double beta, double *y);
 void rb_sparse_apply_transposed(double alpha, const rb_sparse *a, const double *x, double beta,

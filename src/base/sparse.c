@@ -225,6 +225,14 @@ rb_status rb_sparse_copy(const rb_sparse *a, rb_sparse *b)
     return RB_OK;
 }
 
+double rb_sparse_diagonal(const rb_sparse *a, int j)
+{
+    for (int k = a->p[j]; k < a->p[j + 1]; k++)
+        if (a->i[k] == j)
+            return a->x[k];
+    return 0.0;
+}
+
 rb_status rb_sparse_transpose(const rb_sparse *a, rb_sparse *t)
 {
     const int nz = a->p[a->cols];

@@ -110,39 +110,38 @@ static inline normal_entry entry_of(const strip_kernel *k, double X, double b)
     return (normal_entry){-k->K * log, k->c * sign};
 }
 
-/* 2m x 2n, column-major: displacements of m points under n strips. */
-typedef struct {
-    size_t m, n;
-    double *F;
-} response;
-
-/* Point i, strip j: four entries. */
-static void set_entries(const strip_kernel *k, double X, double b, const response *to, size_t i,
-                        size_t j)
-{
-    const normal_entry e = entry_of(k, X, b);
-    const size_t m = to->m;
-    double *N = to->F + j * 2 * m, *T = to->F + (j + to->n) * 2 * m;
-    N[i] = e.p;
-    T[m + i] = e.p + 2.0 * b * k->sheared;
-    T[i] = e.q;
-    N[m + i] = -e.q;
-}
-
 /* ---- Many -------------------------------------------------------------------------- */
+
+/* W, 2m x 2n: displacements of the m points x under n strips.  Each point is the middle
+ * between low[i] and high[i]: distances are differences of these and of the ends, exact
+ * where the ends nearly meet (B9). */
+static rb_status displacements(const rb_bem_surface *body, int n, const double *ends, int points,
+                               const double *low, const double *high, const double *x, double *W)
+{
+    const strip_kernel k = kernel_of(body);
+    const size_t m = (size_t)points;
+
+    for (size_t j = 0; j < (size_t)n; j++) {
+        double *N = W + j * 2 * m, *T = W + (j + (size_t)n) * 2 * m;
+        const double b = 0.5 * (ends[j + 1] - ends[j]);
+        for (size_t i = 0; i < m; i++) {
+            const normal_entry e =
+                entry_of(&k, 0.5 * ((ends[j] - low[i]) + (ends[j + 1] - high[i])), b);
+            N[i] = e.p;
+            T[m + i] = e.p + 2.0 * b * k.sheared;
+            T[i] = e.q;
+            N[m + i] = -e.q;
+        }
+    }
+    return body->thickness > 0.0 ? rb_bem_layer_add_remainder(body, points, x, n, ends, W) : RB_OK;
+}
 
 rb_status rb_bem_surface_displacement(const rb_bem_surface *body, int n, const double *ends,
                                       int points, const double *x, double *W)
 {
     if (rb_bem_surface_check(body, NULL) != RB_OK || n < 1 || points < 1)
         return RB_EINVAL;
-    const strip_kernel kernel = kernel_of(body);
-    const response to = {(size_t)points, (size_t)n, W};
-    for (size_t j = 0; j < to.n; j++)
-        for (size_t i = 0; i < to.m; i++)
-            set_entries(&kernel, 0.5 * ((ends[j] - x[i]) + (ends[j + 1] - x[i])),
-                        0.5 * (ends[j + 1] - ends[j]), &to, i, j);
-    return body->thickness > 0.0 ? rb_bem_layer_add_remainder(body, points, x, n, ends, W) : RB_OK;
+    return displacements(body, n, ends, points, x, x, x, W);
 }
 
 rb_status rb_bem_surface_add_normal(const rb_bem_surface *body, const rb_bem_edge_load *load,
@@ -175,16 +174,7 @@ rb_status rb_bem_flexibility_surface(int n_c, const double *ends, const rb_bem_s
     s = rb_bem_flexibility_dense(n_c, f, &F);
     if (s == RB_OK) {
         rb_bem_flexibility_place(ends, f);
-        /* Distances are differences of ends, exact where the ends nearly meet (B9). */
-        const strip_kernel kernel = kernel_of(body);
-        const response to = {(size_t)n_c + 1, (size_t)n_c, F};
-
-        for (size_t j = 0; j < to.n; j++)
-            for (size_t i = 0; i < to.m; i++)
-                set_entries(&kernel, 0.5 * ((ends[j] - ends[i]) + (ends[j + 1] - ends[i + 1])),
-                            0.5 * (ends[j + 1] - ends[j]), &to, i, j);
-        s = body->thickness > 0.0 ? rb_bem_layer_add_remainder(body, n_c + 1, f->x, n_c, ends, F)
-                                  : RB_OK;
+        s = displacements(body, n_c, ends, n_c + 1, ends, ends + 1, f->x, F);
     }
     if (s == RB_OK)
         return s;

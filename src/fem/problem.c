@@ -30,9 +30,7 @@ rb_status rb_fem_problem(const rb_fem_structure *s, const double *load, const rb
         /* Forces by the largest load, lengths so that K has a mean diagonal of one. */
         double trace = 0.0;
         for (int j = 0; j < s->dofs; j++)
-            for (int k = s->K.p[j]; k < s->K.p[j + 1]; k++)
-                if (s->K.i[k] == j)
-                    trace += s->K.x[k];
+            trace += rb_sparse_diagonal(&s->K, j);
         const double force = rb_norm_inf((size_t)s->dofs, load);
         rb_fem_units u = {force > 0.0 ? force : 1.0, 1.0};
         if (trace > 0.0)

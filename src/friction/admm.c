@@ -97,7 +97,7 @@ static rb_status start_admm(rb_friction_task *task, int variant, void *state)
     split(a);
     rb_status st = rb_anderson_init(task->m, &a->anderson);
     if (st == RB_OK)
-        st = rb_friction_system_init_local(task, &a->system);
+        st = rb_friction_system_init(task, 0, &a->system);
     return st;
 }
 

@@ -249,9 +249,8 @@ typedef struct {
     double flops;
 } rb_friction_system;
 
-rb_status rb_friction_system_init(rb_friction_task *task, rb_friction_system *system);
-/* The same for the local form, also if the problem is global and W has been condensed. */
-rb_status rb_friction_system_init_local(rb_friction_task *task, rb_friction_system *system);
+/* n: the task's; 0: the local form, also if the problem is global and W has been condensed. */
+rb_status rb_friction_system_init(rb_friction_task *task, int n, rb_friction_system *system);
 void rb_friction_system_free(rb_friction_system *system);
 /* u = W r + q, or H' v + w; constant 0 leaves q and w out (changes of u). */
 void rb_friction_system_velocity(const rb_friction_system *system, double constant, const double *r,

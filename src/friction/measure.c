@@ -97,9 +97,7 @@ rb_status rb_friction_measure_init(const rb_friction_problem *p, rb_friction_mea
             rb_sparse held = {0};
             double sum = 0.0;
             for (int j = 0; j < p->K.cols; j++)
-                for (int l = p->K.p[j]; l < p->K.p[j + 1]; l++)
-                    if (p->K.i[l] == j)
-                        sum += fabs(p->K.x[l]);
+                sum += fabs(rb_sparse_diagonal(&p->K, j));
             measure->spring = sum > 0.0 ? sum / p->K.cols : 1.0;
             rb_triplets_add_matrix(&t, 1.0, &p->K);
             for (int j = 0; j < h->cols; j++)

@@ -58,7 +58,7 @@ static rb_status start_newton(rb_friction_task *task, int variant, void *state)
     s->v = s->dv + n;
     for (int k = 0; k < MEMORY; k++)
         s->history[k] = INFINITY;
-    return rb_friction_system_init(task, &s->system);
+    return rb_friction_system_init(task, task->n, &s->system);
 }
 
 /* F at (r, u), and A, B where wanted; returns ||F||^2 */

@@ -22,9 +22,7 @@ rb_status rb_friction_rho(const rb_friction_problem *p, double *rho)
         if (!diagonal)
             return RB_ENOMEM;
         for (int j = 0; j < p->dofs; j++)
-            for (int k = p->K.p[j]; k < p->K.p[j + 1]; k++)
-                if (p->K.i[k] == j)
-                    diagonal[j] = p->K.x[k];
+            diagonal[j] = rb_sparse_diagonal(&p->K, j);
         for (int j = 0; j < h->cols; j++) {
             double own = 0.0, *at = &rho[2 * (j / d) + (j % d > 0)];
             for (int k = h->p[j]; k < h->p[j + 1]; k++)

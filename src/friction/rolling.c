@@ -69,9 +69,7 @@ rb_status rb_friction_split_rolling(rb_friction_problem *problem, const double *
     if (st == RB_OK) {
         rb_triplets_add_matrix(&s.K, 1.0, &p->K);
         for (int j = 0; j < p->dofs; j++)
-            for (int k = p->K.p[j]; k < p->K.p[j + 1]; k++)
-                if (p->K.i[k] == j)
-                    diagonal[j] = p->K.x[k];
+            diagonal[j] = rb_sparse_diagonal(&p->K, j);
         memcpy(out.f, p->f, n * sizeof *out.f);
     }
     /* Columns, velocities and coefficients of contact c as those of A and B. */

@@ -365,7 +365,7 @@ static rb_status run_smoothing(rb_friction_task *task, int variant)
     friction f = {.task = task};
     f.u = rb_alloc(m * (3 + 2 * d) + nc * (2 + 2 * d), 1);
     double *z = rb_alloc(m + nc + (size_t)task->n, 1);
-    rb_status st = f.u && z ? rb_friction_system_init(task, &f.system) : RB_ENOMEM;
+    rb_status st = f.u && z ? rb_friction_system_init(task, task->n, &f.system) : RB_ENOMEM;
     if (st == RB_OK) {
         f.du = f.u + m;
         f.at.F = f.du + m;

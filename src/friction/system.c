@@ -18,8 +18,7 @@ void rb_friction_system_free(rb_friction_system *s)
 
 /* ---- Global form: the transposed matrix, whose columns are the equations ----------- */
 
-/* n: 0 for the local form */
-static rb_status init(rb_friction_task *task, int n, rb_friction_system *s)
+rb_status rb_friction_system_init(rb_friction_task *task, int n, rb_friction_system *s)
 {
     const size_t order = (size_t)(n + task->m), nc = (size_t)task->contacts;
     *s = (rb_friction_system){.problem = task->problem,
@@ -59,16 +58,6 @@ static rb_status init(rb_friction_task *task, int n, rb_friction_system *s)
     if (st != RB_OK)
         rb_friction_system_free(s);
     return st;
-}
-
-rb_status rb_friction_system_init(rb_friction_task *task, rb_friction_system *s)
-{
-    return init(task, task->n, s);
-}
-
-rb_status rb_friction_system_init_local(rb_friction_task *task, rb_friction_system *s)
-{
-    return init(task, 0, s);
 }
 
 /* ---- Products ---------------------------------------------------------------------- */

@@ -62,19 +62,60 @@ rb_status rb_friction_local_pattern(rb_friction_system *s)
     return rb_sparse_lu_create(&s->j, &s->lu);
 }
 
-static void fill_sparse(rb_friction_system *s, const double *A, const double *B)
+/* ---- One factorisation, many solves ------------------------------------------------ */
+
+static int wants_dense(const rb_friction_system *s)
 {
-    const rb_friction_blocks *w = s->blocks;
-    const int d = s->d, dd = d * d;
-    double *x = s->j.x;
-    for (int c = 0; c < s->contacts; c++)
-        for (int b = 0; b < d; b++)
-            for (int k = w->p[c]; k < w->p[c + 1]; k++, x += d) {
-                times(d, B + w->i[k] * dd, w->x + (size_t)k * (size_t)dd + b * d, x);
-                for (int a = 0; k == w->diag[c] && a < d; a++)
-                    x[a] += A[c * dd + a + b * d];
-            }
+    const double nc = s->contacts;
+    return rb_friction_system_is_dense(s->m, s->blocks->p[s->contacts] / (nc * nc));
 }
+
+rb_status rb_friction_local_factor(rb_friction_system *s, const double *A, const double *B)
+{
+    const double m = s->m;
+    s->flops += 2.0 * s->d * s->d * s->d * (double)s->blocks->p[s->contacts];
+    if (!wants_dense(s)) {
+        const rb_status st = s->lu ? RB_OK : rb_friction_local_pattern(s);
+        if (st != RB_OK)
+            return st;
+        const rb_friction_blocks *w = s->blocks;
+        const int d = s->d, dd = d * d;
+        double *x = s->j.x;
+        for (int c = 0; c < s->contacts; c++)
+            for (int b = 0; b < d; b++)
+                for (int k = w->p[c]; k < w->p[c + 1]; k++, x += d) {
+                    times(d, B + w->i[k] * dd, w->x + (size_t)k * (size_t)dd + b * d, x);
+                    for (int a = 0; k == w->diag[c] && a < d; a++)
+                        x[a] += A[c * dd + a + b * d];
+                }
+        return rb_sparse_lu_factor(s->lu, &s->j, &s->flops);
+    }
+    const rb_status st = rb_friction_system_dense(s, (size_t)s->m);
+    if (st != RB_OK)
+        return st;
+    for (int c = 0; c < s->contacts; c++)
+        s->place[c] = c;
+    for (int c = 0; c < s->contacts; c++)
+        fill_dense_columns(s, c, (size_t)s->m, A, B);
+    s->flops += 2.0 / 3.0 * m * m * m;
+    return rb_lapack_status(
+        LAPACKE_dgetrf(LAPACK_COL_MAJOR, s->m, s->m, s->dense, s->m, s->pivots));
+}
+
+rb_status rb_friction_local_solve(rb_friction_system *s, double *x)
+{
+    if (wants_dense(s)) {
+        s->flops += 2.0 * s->m * (double)s->m;
+        return rb_lapack_status(
+            LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->m, 1, s->dense, s->m, s->pivots, x, s->m));
+    }
+    for (int k = 0; k < s->m; k++)
+        s->rhs[k] = x[k];
+    s->flops += 2.0 * rb_sparse_lu_entries(s->lu);
+    return rb_sparse_lu_solve_once(s->lu, s->rhs, x);
+}
+
+/* ---- A step ------------------------------------------------------------------------ */
 
 rb_status rb_friction_local_step(rb_friction_system *s, const rb_friction_linearised *at)
 {
@@ -90,20 +131,18 @@ rb_status rb_friction_local_step(rb_friction_system *s, const rb_friction_linear
         s->place[c] = open ? -1 : closed++;
     }
     const int order = d * closed;
-    s->flops += 2.0 * s->d * s->d * s->d * blocks;
     if (!rb_friction_system_is_dense(order, blocks / (nc * nc))) {
-        rb_status st = s->lu ? RB_OK : rb_friction_local_pattern(s);
-        if (st != RB_OK)
+        rb_status st = rb_friction_local_factor(s, at->A, at->B); /* sparse all the more */
+        if (!s->lu)
             return st;
-        fill_sparse(s, at->A, at->B);
         for (int k = 0; k < s->m; k++)
             s->rhs[k] = -at->F[k];
-        st = rb_sparse_lu_factor(s->lu, &s->j, &s->flops);
         if (st == RB_OK)
             st = rb_sparse_lu_solve(s->lu, s->rhs, s->x);
         s->flops += 4.0 * s->j.p[s->j.cols];
         return st;
     }
+    s->flops += 2.0 * s->d * s->d * s->d * blocks;
     rb_status st = rb_friction_system_dense(s, (size_t)order);
     if (st != RB_OK)
         return st;
@@ -137,48 +176,4 @@ rb_status rb_friction_local_step(rb_friction_system *s, const rb_friction_linear
         for (int a = 0; a < d; a++)
             s->x[c * d + a] = s->place[c] < 0 ? -at->F[c * d + a] : s->x[s->place[c] * d + a];
     return RB_OK;
-}
-
-/* ---- One factorisation, many solves ------------------------------------------------ */
-
-static int wants_dense(const rb_friction_system *s)
-{
-    const double nc = s->contacts;
-    return rb_friction_system_is_dense(s->m, s->blocks->p[s->contacts] / (nc * nc));
-}
-
-rb_status rb_friction_local_factor(rb_friction_system *s, const double *A, const double *B)
-{
-    const double m = s->m;
-    s->flops += 2.0 * s->d * s->d * s->d * (double)s->blocks->p[s->contacts];
-    if (!wants_dense(s)) {
-        const rb_status st = s->lu ? RB_OK : rb_friction_local_pattern(s);
-        if (st != RB_OK)
-            return st;
-        fill_sparse(s, A, B);
-        return rb_sparse_lu_factor(s->lu, &s->j, &s->flops);
-    }
-    const rb_status st = rb_friction_system_dense(s, (size_t)s->m);
-    if (st != RB_OK)
-        return st;
-    for (int c = 0; c < s->contacts; c++)
-        s->place[c] = c;
-    for (int c = 0; c < s->contacts; c++)
-        fill_dense_columns(s, c, (size_t)s->m, A, B);
-    s->flops += 2.0 / 3.0 * m * m * m;
-    return rb_lapack_status(
-        LAPACKE_dgetrf(LAPACK_COL_MAJOR, s->m, s->m, s->dense, s->m, s->pivots));
-}
-
-rb_status rb_friction_local_solve(rb_friction_system *s, double *x)
-{
-    if (wants_dense(s)) {
-        s->flops += 2.0 * s->m * (double)s->m;
-        return rb_lapack_status(
-            LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->m, 1, s->dense, s->m, s->pivots, x, s->m));
-    }
-    for (int k = 0; k < s->m; k++)
-        s->rhs[k] = x[k];
-    s->flops += 2.0 * rb_sparse_lu_entries(s->lu);
-    return rb_sparse_lu_solve_once(s->lu, s->rhs, x);
 }

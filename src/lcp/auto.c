@@ -42,13 +42,8 @@ static structure read_structure(const rb_sparse *M)
 {
     const int n = M->cols;
     structure s = {n, 1, M->p[n] / ((double)n * n)};
-    for (int j = 0; s.positive && j < n; j++) {
-        double diagonal = 0.0;
-        for (int k = M->p[j]; k < M->p[j + 1] && M->i[k] <= j; k++)
-            if (M->i[k] == j)
-                diagonal = M->x[k];
-        s.positive = diagonal > 0.0;
-    }
+    for (int j = 0; s.positive && j < n; j++)
+        s.positive = rb_sparse_diagonal(M, j) > 0.0;
     return s;
 }
 
