@@ -334,15 +334,8 @@ typedef struct {
 static int difference_keep(const rb_rolling_model *model, const rb_rolling_history *history,
                            int step, int steps, void *context)
 {
-    rb_rolling_states *states = context;
     (void)history;
-    if (step == 0) {
-        rb_rolling_states_free(states);
-        if (rb_rolling_states_alloc(model->mesh.n, steps, states) != RB_OK)
-            return 1;
-    }
-    rb_rolling_states_set(model, step, states);
-    return 0;
+    return rb_rolling_states_keep(model, step, steps, context) != RB_OK;
 }
 
 static rb_status difference_history(const rb_resolved_case *c, const rb_rolling_case *rc,

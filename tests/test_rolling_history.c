@@ -399,11 +399,8 @@ TEST(ways_that_lead_nowhere_are_refused)
 static int keep_state(const rb_rolling_model *model, const rb_rolling_history *history, int step,
                       int steps, void *context)
 {
-    rb_rolling_states *states = context;
     (void)history;
-    if (step == 0)
-        CHECK_OK(rb_rolling_states_alloc(model->state.n, steps, states));
-    rb_rolling_states_set(model, step, states);
+    CHECK_OK(rb_rolling_states_keep(model, step, steps, context));
     return 0;
 }
 

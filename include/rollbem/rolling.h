@@ -929,8 +929,10 @@ typedef struct {
 
 /* On RB_ENOMEM states is empty. */
 rb_status rb_rolling_states_alloc(int n, int steps, rb_rolling_states *states);
-/* Copies the state and the elements of the model into states; step is counted from 0. */
-void rb_rolling_states_set(const rb_rolling_model *model, int step, rb_rolling_states *states);
+/* Copies the state and the elements of the model after a step into states.  Step 0 begins with
+ * new memory for all steps: a run that starts again may have other elements.  RB_ENOMEM. */
+rb_status rb_rolling_states_keep(const rb_rolling_model *model, int step, int steps,
+                                 rb_rolling_states *states);
 /* Copies tractions, slip, zones, delta and xi of a step into a state of as many elements;
  * its status becomes RB_OK. */
 void rb_rolling_states_get(const rb_rolling_states *states, int step, rb_contact_state *state);

@@ -237,13 +237,10 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
     const int n = model->mesh.n;
     double *row = rb_alloc((size_t)n, 1);
     rb_status s = row ? RB_OK : RB_ENOMEM;
-    if (step == 0) { /* a run may start again on a wider zone */
+    if (step == 0) /* a run may start again on a wider zone */
         rb_api_forget_arrays(a, "step.");
-        rb_rolling_states_free(&a->states);
-        s = s == RB_OK ? rb_rolling_states_alloc(n, steps, &a->states) : s;
-    }
     if (s == RB_OK)
-        rb_rolling_states_set(model, step, &a->states);
+        s = rb_rolling_states_keep(model, step, steps, &a->states);
     for (int i = 0; row && i < n; i++)
         row[i] = model->state.zone[i];
     if (s == RB_OK)

@@ -181,19 +181,11 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
 
 /* ---- Load -------------------------------------------------------------------------- */
 
-/* A run that starts again on a wider zone calls this with step 0 again. */
 static int keep_step(const rb_rolling_model *model, const rb_rolling_history *history, int step,
                      int steps, void *context)
 {
-    rb_rolling_states *states = context;
     (void)history;
-    if (step == 0) {
-        rb_rolling_states_free(states);
-        if (rb_rolling_states_alloc(model->mesh.n, steps, states) != RB_OK)
-            return 1;
-    }
-    rb_rolling_states_set(model, step, states);
-    return 0;
+    return rb_rolling_states_keep(model, step, steps, context) != RB_OK;
 }
 
 void rb_case_crack_track_free(rb_case_crack_track *t)

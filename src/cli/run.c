@@ -97,14 +97,9 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
         rb_rolling_solution_free(&solution);
         w->failed = s;
     }
-    if (asked->states && step == 0 && w->failed == RB_OK) {
-        /* A run that starts again may have other elements. */
-        rb_rolling_states_free(asked->states);
-        if (rb_rolling_states_alloc(model->mesh.n, steps, asked->states) != RB_OK)
-            w->failed = rb_fail(w->why, RB_ENOMEM, "states: out of memory for %d steps", steps);
-    }
-    if (asked->states && w->failed == RB_OK)
-        rb_rolling_states_set(model, step, asked->states);
+    if (asked->states && w->failed == RB_OK &&
+        rb_rolling_states_keep(model, step, steps, asked->states) != RB_OK)
+        w->failed = rb_fail(w->why, RB_ENOMEM, "states: out of memory for %d steps", steps);
     return cli_interrupted() || w->failed != RB_OK;
 }
 

@@ -34,11 +34,17 @@ rb_status rb_rolling_states_alloc(int n, int steps, rb_rolling_states *s)
     return RB_OK;
 }
 
-void rb_rolling_states_set(const rb_rolling_model *model, int step, rb_rolling_states *s)
+rb_status rb_rolling_states_keep(const rb_rolling_model *model, int step, int steps,
+                                 rb_rolling_states *s)
 {
     const rb_contact_state *state = &model->state;
-    const size_t n = (size_t)s->n, at = (size_t)step * n;
+    const size_t n = (size_t)model->mesh.n, at = (size_t)step * n;
 
+    if (step == 0) {
+        rb_rolling_states_free(s);
+        if (rb_rolling_states_alloc(model->mesh.n, steps, s) != RB_OK)
+            return RB_ENOMEM;
+    }
     memcpy(s->x, model->bodies.f.x, n * sizeof *s->x);
     memcpy(s->h, model->bodies.f.h, n * sizeof *s->h);
     memcpy(s->p + at, state->p, n * sizeof *s->p);
@@ -47,6 +53,7 @@ void rb_rolling_states_set(const rb_rolling_model *model, int step, rb_rolling_s
     memcpy(s->zone + at, state->zone, n * sizeof *s->zone);
     s->delta[step] = state->delta;
     s->xi[step] = state->xi;
+    return RB_OK;
 }
 
 void rb_rolling_states_get(const rb_rolling_states *s, int step, rb_contact_state *state)

@@ -324,26 +324,6 @@ static rb_status take_sample(const rb_rolling_case *rc, int with_stress, sample 
     return status;
 }
 
-/* Another mesh where there are several patches.  The edges of each pass elements on their
- * own, and three meshes agree by chance: a fourth one between them.  A fitted patch has 12
- * elements at least, which half of fewer than 24 still are: a finer one. */
-static double another_part(const rb_rolling_case *rc, const rb_rolling_solution *s)
-{
-    int fewest = 24;
-
-    for (int k = 0; k < s->patches; k++)
-        fewest = s->patch[k].contact < fewest ? s->patch[k].contact : fewest;
-    return s->patches < 2 ? 0.0 : rc->mesh == RB_MESH_FITTED && fewest < 24 ? 2.0 : 0.85;
-}
-
-static rb_status take_another(const rb_rolling_case *rc, double of_own, int with_stress, sample *s)
-{
-    rb_rolling_case another = *rc;
-
-    another.contact_elements = (int)(of_own * rc->contact_elements);
-    return take_sample(&another, with_stress, s, NULL);
-}
-
 /* The error by the spread over the coarser runs and over another one, NAN where it does
  * not have the value. */
 static double contact_error_with(const double coarser[], double own, double another, int is_finer)
@@ -364,7 +344,7 @@ static rb_status find_parts(const rb_rolling_case *rc, int with_stress, const sa
 {
     sample run[RB_ERROR_RUNS] = {0}, another = {0};
     rb_message reason = {""};
-    const int runs = rb_rolling_error_runs(rc);
+    const int runs = rb_rolling_error_runs(rc), patches = own->solution.patches;
     rb_status status = RB_OK;
 
     for (int k = 0; k < runs && status == RB_OK; k++) {
@@ -374,9 +354,17 @@ static rb_status find_parts(const rb_rolling_case *rc, int with_stress, const sa
             rb_fail(why, status, "error bars: %d contact elements: %.200s",
                     coarser.contact_elements, rb_status_reason(status, &reason));
     }
-    const double of_own = another_part(rc, &own->solution);
-    const int has_another =
-        status == RB_OK && of_own > 0.0 && take_another(rc, of_own, with_stress, &another) == RB_OK;
+    /* Another mesh where there are several patches.  The edges of each pass elements on
+     * their own, and three meshes agree by chance: a fourth one between them.  A fitted patch
+     * has 12 elements at least, which half of fewer than 24 still are: a finer one. */
+    int fewest = 24;
+    for (int k = 0; k < patches; k++)
+        fewest = own->solution.patch[k].contact < fewest ? own->solution.patch[k].contact : fewest;
+    const double of_own = rc->mesh == RB_MESH_FITTED && fewest < 24 ? 2.0 : 0.85;
+    rb_rolling_case other_mesh = *rc;
+    other_mesh.contact_elements = (int)(of_own * rc->contact_elements);
+    const int has_another = status == RB_OK && patches > 1 &&
+                            take_sample(&other_mesh, with_stress, &another, NULL) == RB_OK;
     if (status == RB_OK) {
         double coarser[RB_ERROR_RUNS];
 
