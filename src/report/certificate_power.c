@@ -116,24 +116,35 @@ static body body_of(const rb_rolling_case *rc, const rb_rolling_body *of, double
     return b;
 }
 
-/* Per length of wave number k = m/R: Im of conj(p, q) times m/R (w_N, w_T), over pi. */
+/* Per length of wave number k = m/R: Im of conj(p, q) times m/R (w_N, w_T), over pi.  On what
+ * is flat, an element as wide as the one before has that one's wave, turned on. */
 static double loss(const rb_certificate *c, const body *b, int is_b, double m)
 {
     const rb_rolling_model *model = &c->model;
     const double *x = c->again.x, *h = c->again.h, k = m / b->radius;
     const double mirror = is_b ? -1.0 : 1.0;
     const int turns = (is_b ? model->rc->b : model->rc->a).support == RB_BEM_HUB;
-    cplx p = 0.0, q = 0.0;
+    enum { AFRESH = 32 }; /* elements, behind which roundings no longer add up */
+    cplx p = 0.0, q = 0.0, wave = 0.0, turn = 0.0;
+    int run = 0; /* elements since the wave was computed; 0: the one before carries nothing */
 
     for (int i = 0; i < c->again.n; i++) {
-        if (model->state.p[i] == 0.0 && model->state.q[i] == 0.0)
-            continue;
         const double P = model->state.p[i], Q = mirror * model->state.q[i];
+        if (P == 0.0 && Q == 0.0) {
+            run = 0;
+            continue;
+        }
         const double sine = turns ? x[i] / b->radius : 0.0, half = 0.5 * k * h[i];
         const double at = turns ? b->radius * asin(sine) : x[i];
         const int given = model->rc->normals == RB_BEM_NORMALS_SURFACE;
         const double cosine = given ? 1.0 : sqrt(1.0 - sine * sine), turned = given ? 0.0 : sine;
-        const cplx wave = h[i] * (half > 1e-8 ? sin(half) / half : 1.0) * cexp(-I * k * at);
+        if (!turns && run > 0 && run < AFRESH && fabs(h[i] - h[i - 1]) < 1e-12 * h[i]) {
+            turn = run++ == 1 ? cexp(-I * k * h[i]) : turn;
+            wave *= turn;
+        } else {
+            run = 1;
+            wave = h[i] * (half > 1e-8 ? sin(half) / half : 1.0) * cexp(-I * k * at);
+        }
         p += (P * cosine - Q * turned) * wave;
         q += (Q * cosine + P * turned) * wave;
     }
