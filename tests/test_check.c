@@ -951,9 +951,10 @@ TEST(whatever_is_changed_is_noticed)
              "--speed 100 --formulation transient --distance 0.2 --creep 1e-3" STATES,
         TINY "--support hub --history calm.txt --relaxation-time 1e-3 "
              "--relaxation-ratio 1" STATES,
-        "stress " TINY "--support halfplane --load 100 --creep-ratio 0.4 --grid 2x2 "
-        "--shakedown --yield-shear 300" STEADY,
-        "stress " TINY "--load 100 --creep-ratio 0.5 --points near.txt" STEADY,
+        "stress " TINY "--support halfplane --load 100 --creep-ratio 0.4 --grid 2x2" STEADY,
+        "stress " TINY "--support halfplane --load 100 --creep-ratio 0.4 --shakedown "
+        "--yield-shear 300" STEADY,
+        "stress " TINY "--load 100 --outer-elements 24 --creep-ratio 0.5 --points near.txt" STEADY,
         "crack " TINY "--support halfplane --similar --half-width 1 --radius 1000 "
         "--crack-elements 8 --steps 30 --passes 2 --fluid trapped --creep-ratio "
         "-3" STEADY STATES,
@@ -983,13 +984,15 @@ TEST(whatever_is_changed_is_noticed)
         t.root = run_json(kinds[k]);
         assert_int_equal(json_dump_file(t.root, "changed.json", JSON_REAL_PRECISION(17)), 0);
         assert_int_equal(shell("\"$R\" check changed.json"), 0);
-        if (k > 0 && !getenv("ROLLBEM_TEST_ALL")) { /* they are the same of all kinds */
+        if (k > 0 && !getenv("ROLLBEM_TEST_ALL")) {
+            /* inputs are the same of all kinds; a limit of shakedown takes long to be found */
+            const int shakedown = strstr(kinds[k], "--shakedown") != NULL;
             json_t *inputs = json_incref(json_object_get(t.root, "inputs"));
             json_t *parts = json_copy(t.root), *part;
             const char *key;
             json_object_foreach(parts, key, part)
             {
-                if (part != inputs)
+                if (part != inputs && (!shakedown || strcmp(key, "shakedown") == 0))
                     tamper(&t, part, key);
             }
             json_decref(parts);
