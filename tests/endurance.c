@@ -71,8 +71,7 @@ int main(int argc, char **argv)
         pthread_join(thread[t], NULL);
     const double megabyte = (double)sysconf(_SC_PAGESIZE) / 1048576.0;
     const double first = (double)early * megabyte, last = (double)resident_pages() * megabyte;
-    printf("%d cases in %d threads: %.1f MB after a tenth of them, %.1f MB at the end, "
-           "%d failed\n",
+    printf("%d cases in %d threads: %.1f MB after a tenth of them, %.1f MB at the end, %d failed\n",
            solves, threads, first, last, (int)failed);
     return failed || last > 1.05 * first + 2.0;
 }

@@ -181,20 +181,16 @@ static inline void random_interface(random_case *c)
         break;
     case 2:
         if (c->regime == RANDOM_STATIC || rolls)
-            random_add(c,
-                       " --interlayer-tangential %.4g --yield-stress %.4g --hardening "
-                       "%.4g",
+            random_add(c, " --interlayer-tangential %.4g --yield-stress %.4g --hardening %.4g",
                        soft * random_log(c, 1e-2, 1.0),
                        E * c->half_width / c->radius * random_log(c, 0.01, 0.3),
                        E / c->half_width * random_log(c, 1e-2, 1.0));
         break;
     case 3:
         if (rolls && mu > 0.0 && !strstr(c->line, "--relaxation"))
-            random_add(c,
-                       " --speed 1000 --friction-law exponential --mu-fall %.4g "
-                       "--slip-scale %.4g",
-                       0.3 * mu,
-                       1000.0 * mu * c->half_width / c->radius * random_log(c, 0.3, 10.0));
+            random_add(
+                c, " --speed 1000 --friction-law exponential --mu-fall %.4g --slip-scale %.4g",
+                0.3 * mu, 1000.0 * mu * c->half_width / c->radius * random_log(c, 0.3, 10.0));
         break;
     case 4:
         if (rolls && mu > 0.0 && !strstr(c->line, "--relaxation"))

@@ -173,7 +173,7 @@ TEST(a_value_survives_as_text)
 
 TEST(numbers_are_words_too)
 {
-    rb_case *c = case_of("load=500"), *by_number = case_of("");
+    held_case *c = case_of("load=500"), *by_number = case_of("");
     CHECK_OK(rb_case_set_number(by_number, "load", 500.0, &heard));
     CHECK_OK(rb_case_set_number(by_number, "contact-elements", 40.0, &heard));
     CHECK_OK(rb_case_resolve(by_number, &heard));
@@ -181,8 +181,6 @@ TEST(numbers_are_words_too)
     assert_int_equal(rb_case_resolved(by_number)->rc.contact_elements, 40);
     assert_int_equal(rb_case_given(by_number, "load"), RB_GIVEN_NUMBER);
     assert_int_equal(rb_case_given(by_number, "mu"), 0);
-    rb_case_free(c);
-    rb_case_free(by_number);
 }
 
 /* ---- One value --------------------------------------------------------------------- */

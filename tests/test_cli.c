@@ -129,10 +129,8 @@ static const struct {
 } bad_files[] = {
     {"[friction]\nmu = 0.3\ncrep = 0.1\n", "case.ini:3: unknown key 'crep' (did you mean "
                                            "'creep'?)"},
-    {"[frction]\nmu = 0.3\n", "case.ini:2: unknown section 'frction' (did you mean "
-                              "'friction'?)"},
-    {"[normal]\nmu = 0.3\n", "case.ini:2: key 'mu' belongs to section [friction], not "
-                             "[normal]"},
+    {"[frction]\nmu = 0.3\n", "case.ini:2: unknown section 'frction' (did you mean 'friction'?)"},
+    {"[normal]\nmu = 0.3\n", "case.ini:2: key 'mu' belongs to section [friction], not [normal]"},
     {"# a comment\n\n  mu = abc\n", "case.ini:3: mu: expected a number >= 0, got 'abc'"},
     {"mu = nan\n", "case.ini:1: mu: expected a number >= 0, got 'nan'"},
     {"mu = 0.1\nmu = 0.2\n", "case.ini:2: key 'mu' was given before, in line 1"},
@@ -444,11 +442,9 @@ TEST(similar_copies_all_that_a_has)
     static const char *const of[][3] = {
         {"--support halfplane --layer-thickness 2 --base-young 3e5 --base-poisson 0.2",
          "--layer-thickness-b 2 --base-young-b 3e5 --base-poisson-b 0.2", "none"},
-        {"--support hub --radius-b 60 --support-b hub --cover-thickness 4 --core-young "
-         "2e5",
+        {"--support hub --radius-b 60 --support-b hub --cover-thickness 4 --core-young 2e5",
          "--cover-thickness-b 4 --core-young-b 2e5 --core-poisson-b 0.1", ""},
-        {"--support halfplane --relaxation-time 0.01,0.1 --relaxation-ratio 1,0.5 "
-         "--speed 9",
+        {"--support halfplane --relaxation-time 0.01,0.1 --relaxation-ratio 1,0.5 --speed 9",
          "--relaxation-time-b 0.01,0.1 --relaxation-ratio-b 1,0.5", ""}};
     for (int k = 0; k < 3; k++) {
         static const char common[] = "--load 100 --formulation steady --force 0 "
@@ -581,8 +577,7 @@ TEST(lost_contact_has_no_ratios)
 TEST(increments_press_gradually)
 {
     held_json *root = run_json("--support halfplane --gap parabola --load 100 "
-                               "--contact-elements 40 --increments 5 --force-ratio .3 "
-                               "--error");
+                               "--contact-elements 40 --increments 5 --force-ratio .3 --error");
     assert_int_equal(history_length(root, "normal_load"), 10);
     CHECK_REL(entry(json_object_get(root, "history"), "normal_load", 0), 20.0, 1e-9,
               "the first increment");
@@ -609,11 +604,9 @@ TEST(irregularities_are_of_transients)
     check_refused("--irregularity open.txt", 64, "--irregularity: only for transient rolling");
     check_refused("--formulation steady --irregularity open.txt", 64, "--irregularity:");
     check_refused("curve --irregularity open.txt", 64, "--irregularity:");
-    check_refused("--formulation transient --creep 1e-3 --distance 1 --irregularity "
-                  "open.txt",
-                  65, "open.txt:3: expected gap 0 where it ends");
-    check_refused("--formulation transient --creep 1e-3 --distance 1 --irregularity "
-                  "nowhere.txt",
+    check_refused("--formulation transient --creep 1e-3 --distance 1 --irregularity open.txt", 65,
+                  "open.txt:3: expected gap 0 where it ends");
+    check_refused("--formulation transient --creep 1e-3 --distance 1 --irregularity nowhere.txt",
                   66, "nowhere.txt");
 }
 
@@ -848,10 +841,9 @@ TEST(dump_that_cannot_be_written)
  * can be seen all the same. */
 TEST(trace_of_a_case_that_newton_solved)
 {
-    assert_int_equal(rollbem("--support arc --similar --radius-b 50 --support-b arc "
-                             "--formulation static --mesh fitted --contact-elements 40 "
-                             "--gap parabola --mu 1e-3 --load 800 --force-ratio -0.4 "
-                             "--near-field exact --trace"),
+    assert_int_equal(rollbem("--support arc --similar --radius-b 50 --support-b arc --formulation "
+                             "static --mesh fitted --contact-elements 40 --gap parabola --mu 1e-3 "
+                             "--load 800 --force-ratio -0.4 --near-field exact --trace"),
                      0);
     assert_non_null(strstr(err, "pivot    1 "));
 }

@@ -210,8 +210,7 @@ TEST(loads_of_every_kind)
         HERTZ "--mu 0.3 --formulation steady --force-ratio 0.5",
         HERTZ "--mu 0.3 --formulation steady --creep 5e-4 --support hub",
         HERTZ STEADY "--support arc",
-        HERTZ STEADY "--mu-fall 0.1 --slip-scale 100 --friction-law exponential --speed "
-                     "1000",
+        HERTZ STEADY "--mu-fall 0.1 --slip-scale 100 --friction-law exponential --speed 1000",
         HERTZ STEADY "--mu-fall 0.1 --slip-scale 100 --friction-law rational --speed 1000",
         HERTZ STEADY "--conductivity 50 --heat-capacity 3.8 --speed 1000",
         HERTZ STEADY "--plane stress",
@@ -346,8 +345,7 @@ TEST(studies)
     const json_t *table = json_object_get(study, "table");
     for (size_t k = 0; k < 4; k++) {
         snprintf(line, sizeof line,
-                 "crack cracks.ini --units inch --error --crack-length %g --crack-angle "
-                 "%d",
+                 "crack cracks.ini --units inch --error --crack-length %g --crack-angle %d",
                  k < 2 ? 0.5 : 1.0, k % 2 ? 60 : 30);
         held_json *one = run_json(line);
         const json_t *errors = json_object_get(json_object_get(one, "summary"), "errors");
@@ -369,8 +367,7 @@ TEST(studies)
     assert_int_equal(shell("sed -i 's/all.tsv --map m.svg/part.tsv/' part.tsv"), 0);
     assert_int_equal(rollbem(VARIED "--quiet --output part.tsv"), 0);
     assert_int_equal(shell("grep -v '^#' all.tsv > a; grep -v '^#' part.tsv | cmp - a"), 0);
-    assert_int_equal(rollbem(VARIED "--crack-friction 0.4 --quiet --output "
-                                    "part.tsv"),
+    assert_int_equal(rollbem(VARIED "--crack-friction 0.4 --quiet --output part.tsv"),
                      73); /* another study */
 
     /* loads with steps of their own; trapped fluid; a coupled contact */

@@ -146,8 +146,7 @@ TEST(maxima_are_those_of_hertz_and_full_sliding)
     check_maximum(root, "von_mises", 0.55752, 0.0, 0.70429);
     check_maximum(root, "orthogonal_shear", 0.25, 0.866, 0.5);
     json_decref(root);
-    root = run_json("stress " SIMILAR "--mu 0.2 --formulation steady --creep-ratio 2 "
-                    "--grid 3x3");
+    root = run_json("stress " SIMILAR "--mu 0.2 --formulation steady --creep-ratio 2 --grid 3x3");
     check_maximum(root, "max_shear", 0.31899, -0.625, 0.601);
     const json_t *tension = json_object_get(json_object_get(root, "maxima"), "tension");
     CHECK_REL(number_in(tension, "value"),
@@ -389,9 +388,8 @@ TEST(bad_rows_are_named_by_their_line)
         {"load creep\n50 0\n", "h.txt: history: transient rolling needs a column"}};
     for (size_t k = 0; k < sizeof histories / sizeof histories[0]; k++) {
         write_file("h.txt", histories[k][0]);
-        check_refused("--support halfplane --similar --formulation transient "
-                      "--history h.txt",
-                      65, histories[k][1]);
+        check_refused("--support halfplane --similar --formulation transient --history h.txt", 65,
+                      histories[k][1]);
     }
     write_file("gap.txt", "0 0\n1 1\n\n1 2\n");
     check_refused("--load 10 --gap gap.txt", 65, "gap.txt:4: expected an x larger");
@@ -461,10 +459,9 @@ TEST(steps_too_long_for_relaxation_are_named)
     write_file("held.txt", "time load\n0 20\n2 20\n");
     for (int k = 0; k < 3; k++) {
         snprintf(line, sizeof line,
-                 "--formulation static --support halfplane --radius 40 --young 100 "
-                 "--poisson 0.4 --young-b 300 --poisson-b 0.2 --mu 0 --gap parabola "
-                 "--contact-elements 61 --relaxation-time 0.5,5 --relaxation-ratio 1,0.7 "
-                 "--history held.txt --json %s",
+                 "--formulation static --support halfplane --radius 40 --young 100 --poisson 0.4 "
+                 "--young-b 300 --poisson-b 0.2 --mu 0 --gap parabola --contact-elements 61 "
+                 "--relaxation-time 0.5,5 --relaxation-ratio 1,0.7 --history held.txt --json %s",
                  cases[k].step);
         assert_int_equal(rollbem(line), 0);
         assert_int_equal(strstr(err, "the stress relaxes") != NULL, cases[k].says != NULL);
@@ -566,8 +563,7 @@ TEST(pictures_in_sizes)
         {"--approach 0.5 --contact-elements 20 --increments 2", "history-plot", 481, 321},
         {"curve " SIMILAR "--points 9 --contact-elements 20", "plot", 481, 321},
         {"stress " SIMILAR "--contact-elements 20 --grid 15x9", "plot", 267, 391},
-        {"stress --support halfplane --half-width 0.05 --contact-elements 20 "
-         "--grid 15x9",
+        {"stress --support halfplane --half-width 0.05 --contact-elements 20 --grid 15x9",
          "fringes", 481, 321},
         {"stress " SIMILAR "--contact-elements 8 --grid 5x3 --shakedown", "shakedown-map", 481,
          321},
@@ -623,12 +619,10 @@ TEST(pictures_name_the_case)
     } pictures[] = {
         {"--approach 0.5", "plot", "A: arc, R = 50 mm, E = 94.5 GPa;  B rigid"},
         {"--approach 0.5e-3 --units si", "plot", "A: arc, R = 0.05 m, E = 94.5 GPa"},
-        {"--support hub --young-b 2e5 --poisson-b 0.3 --support-b halfplane "
-         "--approach 0.5",
-         "plot", "A: hub, R = 50 mm, E = 94.5 GPa;  B: half-plane, E = 200 GPa"},
-        {"--support hub --cover-thickness 5 --relaxation-time 1e-3 "
-         "--relaxation-ratio 1 --speed 1000 --load 100 --formulation steady "
-         "--creep 1e-4",
+        {"--support hub --young-b 2e5 --poisson-b 0.3 --support-b halfplane --approach 0.5", "plot",
+         "A: hub, R = 50 mm, E = 94.5 GPa;  B: half-plane, E = 200 GPa"},
+        {"--support hub --cover-thickness 5 --relaxation-time 1e-3 --relaxation-ratio 1 "
+         "--speed 1000 --load 100 --formulation steady --creep 1e-4",
          "plot", "A: hub, R = 50 mm, cover 5 mm, E = 94.5 GPa, relaxes;  B rigid"},
         {"curve " SIMILAR "--points 5", "plot", "A: half-plane, R = 50 mm, E"},
         {"curve " SIMILAR "--points 5 --mu 0.1,0.3", "plot",
@@ -754,8 +748,7 @@ TEST(a_truss_is_drawn_with_its_bars)
     assert_int_equal(rollbem("example truss --nodes 4 --output t.tsv --plot t.svg "
                              "--plot-script t.gp"),
                      0);
-    assert_int_equal(shell("awk '/^.bars/ { b = 1; next } /^EOD/ { b = 0 } b && NF' t.gp "
-                           "| wc -l"),
+    assert_int_equal(shell("awk '/^.bars/ { b = 1; next } /^EOD/ { b = 0 } b && NF' t.gp | wc -l"),
                      0);
     /* a quarter of 4 x 4 nodes below and 3 x 3 above: 4 bars of the lower grid, 4 of the
      * upper one, whose nodes stand on the axes too, and 9 between the layers */
@@ -769,8 +762,7 @@ TEST(a_truss_is_drawn_with_its_bars)
 TEST(almost_no_friction)
 {
     static const char *const lines[] = {
-        "--support halfplane --half-width 1 --mu 1e-12 --formulation steady "
-        "--creep-ratio 0.5",
+        "--support halfplane --half-width 1 --mu 1e-12 --formulation steady --creep-ratio 0.5",
         "--support halfplane --half-width 1 --mu 1e-12 --force-ratio 0.5",
         "--support hub --half-width 1 --mu 1e-14 --shift 1e-3"};
     for (size_t k = 0; k < sizeof lines / sizeof lines[0]; k++) {

@@ -96,9 +96,8 @@ static void wear(random_case *c)
 static void crack(random_case *c)
 {
     static const char *const fluid[] = {"", " --fluid trapped", " --fluid pressure", " --coupled"};
-    add(" --crack-length %.4g --crack-angle %.4g --crack-friction %.3g --crack-elements "
-        "%d"
-        " --passes %d%s",
+    add(" --crack-length %.4g --crack-angle %.4g --crack-friction %.3g --crack-elements %d "
+        "--passes %d%s",
         random_log(c, 0.1, 5.0), random_between(c, 10.0, 170.0), random_between(c, 0.0, 0.8),
         4 + random_choice(c, 100), 1 + random_choice(c, 3), fluid[random_choice(c, 4)]);
     if (!random_choice(c, 4))

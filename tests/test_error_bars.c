@@ -310,7 +310,7 @@ static void count_history(const rb_rolling_case *rc, counts *t)
 {
     const rb_rolling_case fine = finer(rc);
     rb_rolling_model model = {0}, fine_model = {0};
-    rb_rolling_history h = {0}, truth = {0};
+    OWNED(rb_rolling_history) h = {0}, truth = {0};
     rb_status status = rb_rolling_history_with_errors(rc, NULL, NULL, &model, &h, NULL);
 
     if (status == RB_OK)
@@ -319,8 +319,6 @@ static void count_history(const rb_rolling_case *rc, counts *t)
     unit = 0.0;
     if (status == RB_OK)
         count_steps(&h, &truth, t);
-    rb_rolling_history_free(&h);
-    rb_rolling_history_free(&truth);
     rb_rolling_model_free(&model);
     rb_rolling_model_free(&fine_model);
 }
@@ -343,9 +341,8 @@ static const char *const formulations[] = {"static", "steady", "transient"};
 
 static void print_line(const char *name, counts *t)
 {
-    printf("| %-38s | %4d of %4d | %5.1f %% | %5.1f | %4d of %4d | %5.1f %% | %5.1f | %d "
-           "|\n",
-           name, t->main.held, t->main.all, 100.0 * t->main.held / fmax(1.0, t->main.all),
+    printf("| %-38s | %4d of %4d | %5.1f %% | %5.1f | %4d of %4d | %5.1f %% | %5.1f | %d |\n", name,
+           t->main.held, t->main.all, 100.0 * t->main.held / fmax(1.0, t->main.all),
            median(&t->main), t->others.held, t->others.all,
            100.0 * t->others.held / fmax(1.0, t->others.all), median(&t->others), t->main.unsolved);
     fflush(stdout);
@@ -367,8 +364,7 @@ static int study(int cases)
     int short_of = 0;
 
     puts("| class | Q, D, approach, free creepage, p0: held | | median bar/error "
-         "| P, creepage, shift, half-width, stick: held | | median bar/error | unsolved "
-         "|");
+         "| P, creepage, shift, half-width, stick: held | | median bar/error | unsolved |");
     puts("|---|---|---|---|---|---|---|---|");
     for (int k = 0; k < CLASSES; k++) {
         const class c = class_of(k);
@@ -575,7 +571,7 @@ static const double thin_rim_force_ratio = 0.12864;
 static void bars_hold_on_a_thin_rim(void **state)
 {
     const rb_rolling_case rc = thin_rim();
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_rolling_errors e;
     CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_OK);
     CHECK_ABS(s.force_ratio, thin_rim_force_ratio, e.scalar.force_ratio, "Q/(mu P)");
@@ -584,7 +580,6 @@ static void bars_hold_on_a_thin_rim(void **state)
     CHECK_ABS(s.free_creepage, 0.0070014, e.scalar.free_creepage, "free creepage");
     CHECK_ABS(s.dissipation, 0.005808, e.scalar.dissipation, "dissipation");
     CHECK_MAX(e.scalar.force_ratio, 0.03, "not absurdly wide");
-    rb_rolling_solution_free(&s);
 }
 
 /* Pressed and shifted in one step, dissimilar bodies stick in a strip narrower than an
@@ -593,7 +588,7 @@ static void bars_hold_on_a_thin_rim(void **state)
 static void a_narrow_stick_zone_widens_the_bars(void **state)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
-    rb_rolling_solution s, truth;
+    OWNED(rb_rolling_solution) s, truth;
     rb_rolling_errors e;
     rc.a.support = RB_BEM_HALFPLANE;
     rc.a.poisson = 0.06;
@@ -609,8 +604,6 @@ static void a_narrow_stick_zone_widens_the_bars(void **state)
     CHECK_ABS(s.tangential_load, truth.tangential_load, e.scalar.tangential_load, "Q");
     CHECK_ABS(s.max_pressure, truth.max_pressure, e.scalar.max_pressure, "p0");
     CHECK_MAX(e.scalar.force_ratio, 0.3, "not absurdly wide");
-    rb_rolling_solution_free(&s);
-    rb_rolling_solution_free(&truth);
 }
 
 /* Half the given outer elements are compared with as well. */
@@ -636,14 +629,13 @@ static void given_outer_elements_have_bars(void **state)
 static void accuracy_is_that_of_the_boundary_too(void **state)
 {
     rb_rolling_case rc = thin_rim();
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_rolling_errors e;
     int elements = 0;
     rc.contact_elements = 24;
     CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1.5e-2, &s, &e, &elements, NULL), RB_OK);
     CHECK_ABS(s.force_ratio, thin_rim_force_ratio, 1.5e-2, "Q/(mu P), %d elements", elements);
     CHECK_MAX(e.scalar.force_ratio, 1.5e-2, "its bar");
-    rb_rolling_solution_free(&s);
 }
 
 static rb_rolling_solution to_accuracy(const char *line, rb_status wanted)
@@ -772,7 +764,7 @@ static void a_refusal_sets_every_output(void **state)
 static void an_accuracy_out_of_reach_is_said_to_be(void **state)
 {
     rb_rolling_case rc = thin_rim();
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_rolling_errors e;
     rb_message why = {""};
     int elements = 0;
@@ -781,7 +773,6 @@ static void an_accuracy_out_of_reach_is_said_to_be(void **state)
     assert_int_equal(elements, 40);
     CHECK_ABS(s.force_ratio, thin_rim_force_ratio, e.scalar.force_ratio, "Q/(mu P)");
     assert_non_null(strstr(why.text, "not reached"));
-    rb_rolling_solution_free(&s);
 }
 
 /* A coarser run that fails takes nothing from the case that was solved: half the elements
@@ -789,7 +780,7 @@ static void an_accuracy_out_of_reach_is_said_to_be(void **state)
 static void a_failed_coarser_run_leaves_the_solution(void **state)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
-    rb_rolling_solution s;
+    OWNED(rb_rolling_solution) s;
     rb_rolling_errors e;
     rb_message why = {""};
     rc.a.support = RB_BEM_HALFPLANE;
@@ -802,7 +793,6 @@ static void a_failed_coarser_run_leaves_the_solution(void **state)
     CHECK_REL(s.normal_load, 0.25 * M_PI * 94500.0 / 0.75 * 0.01 / 50.0, 1e-10, "load");
     assert_true(isnan(e.scalar.max_pressure));
     assert_non_null(strstr(why.text, "error bars: 20 contact elements: "));
-    rb_rolling_solution_free(&s);
 }
 
 int main(int argc, char **argv)

@@ -105,10 +105,8 @@ TEST(test_mirror)
         "--poisson-b 0.31 --radius-b 50 --support-b hub"};
     static const char *const rest[] = {
         "--formulation steady --half-width 1 --mu 0.3 --contact-elements 30",
-        "--formulation steady --approach 0.05 --mu 3 --contact-elements 31 --mesh "
-        "uniform",
-        "--formulation transient --distance 0.5 --load 700 --mu 0.1 --contact-elements "
-        "30",
+        "--formulation steady --approach 0.05 --mu 3 --contact-elements 31 --mesh uniform",
+        "--formulation transient --distance 0.5 --load 700 --mu 0.1 --contact-elements 30",
         "--formulation static --load 700 --mu 0.1 --contact-elements 30"};
     for (int k = 0; k < 4; k++) {
         const char *control = k == 3 ? "shift" : k == 1 ? "force-ratio" : "creep-ratio";
@@ -147,8 +145,7 @@ static void check_scaling(const char *format, double L, double E)
 TEST(test_scaling)
 {
     static const char *const cases[] = {
-        "--support halfplane --formulation steady --creep-ratio 0.4 --contact-elements "
-        "30 "
+        "--support halfplane --formulation steady --creep-ratio 0.4 --contact-elements 30 "
         "--radius %.17g --young %.17g --load %.17g --radius-b %.17g --young-b %.17g",
         "--support hub --support-b arc --formulation steady --force-ratio 0.4 "
         "--contact-elements 20 "
@@ -175,9 +172,8 @@ TEST(test_no_friction)
     held_json *one = run_json("--support halfplane --formulation static --mu 0 --load 700 "
                               "--young 75000 --poisson 0 --gap parabola --shift 0");
     write_file("steps.txt", "load shift\n100 0\n400 0\n700 0\n");
-    held_json *steps = run_json("--support halfplane --formulation static --mu 0 "
-                                "--young 75000 --poisson 0 --gap parabola "
-                                "--history steps.txt");
+    held_json *steps = run_json("--support halfplane --formulation static --mu 0 --young 75000 "
+                                "--poisson 0 --gap parabola --history steps.txt");
     check_column(one, pair, X, 1.0, 1e-12, "one E*");
     check_column(one, pair, P, 1.0, 1e-10, "one E*");
     check_scalar(one, pair, "half_width", 1.0, 1e-10, "one E*");
@@ -210,8 +206,7 @@ TEST(test_refinement)
 {
     static const char *const cases[] = {
         "--support halfplane --formulation steady --load 700 --creep-ratio 0.4",
-        "--support halfplane --formulation steady --load 700 --young-b 2e5 --mesh "
-        "uniform "
+        "--support halfplane --formulation steady --load 700 --young-b 2e5 --mesh uniform "
         "--creep-ratio 0.4",
         "--support hub --formulation steady --load 700 --similar --creep-ratio -0.4",
         "--support halfplane --formulation static --load 700 --shift 1e-3 --similar"};

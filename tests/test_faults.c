@@ -84,20 +84,14 @@ static const char *const allocating[] = {
     "--conductivity 50 --heat-capacity 3 --speed 1e4",
     "in/b.ini --formulation steady --force-ratio 0.5 --interlayer-tangential 1e-5 "
     "--interlayer-normal 1e-6 --yield-stress 10 --hardening 100",
-    "in/b.ini --support hub --outer-elements 24 --formulation steady --free-axle "
-    "--young-b 2e5",
+    "in/b.ini --support hub --outer-elements 24 --formulation steady --free-axle --young-b 2e5",
     "in/b.ini --increments 2 --shift 0.001 --json",
     "in/b.ini --formulation steady --creep-ratio 0.5 --mesh fitted --solver newton",
-    "in/b.ini --formulation steady --creep-ratio 0.5 --mesh aligned --contact-elements "
-    "12",
-    "in/b.ini --formulation steady --force-ratio 0.5 --slip-operator second --solver "
-    "nsn-ac",
-    "in/b.ini --formulation steady --creep-ratio 0.5 --lcp-form kwak --solver lemke "
-    "--trace",
-    "in/b.ini --formulation steady --creep-ratio 0.5 --error --json --contact-elements "
-    "12",
-    "in/b.ini --formulation steady --creep-ratio 0.5 --accuracy 0.2 --contact-elements "
-    "12",
+    "in/b.ini --formulation steady --creep-ratio 0.5 --mesh aligned --contact-elements 12",
+    "in/b.ini --formulation steady --force-ratio 0.5 --slip-operator second --solver nsn-ac",
+    "in/b.ini --formulation steady --creep-ratio 0.5 --lcp-form kwak --solver lemke --trace",
+    "in/b.ini --formulation steady --creep-ratio 0.5 --error --json --contact-elements 12",
+    "in/b.ini --formulation steady --creep-ratio 0.5 --accuracy 0.2 --contact-elements 12",
     "in/b.ini --units si --load 1e5 --format csv --plot-script p.gp --plot p.svg",
     "in/b.ini --formulation transient --distance 0.3 --steps 2 --creep-ratio 0.5 "
     "--history-plot h.svg --progress --error --contact-elements 12",
@@ -113,8 +107,7 @@ static const char *const allocating[] = {
     "--cycles 1000 --wear-steps 2 --json --plot p.svg --plot-script p.gp",
     "wear in/b.ini --wear-law dissipation --wear-coefficient 1e-7 --slide 10 "
     "--wear-steps 2 --snapshots s --profile w.tsv",
-    "wear in/b.ini --wear-coefficient 1e-7 --shift 0.001 --cycles 100 --quarter 2 "
-    "--wear-steps 2",
+    "wear in/b.ini --wear-coefficient 1e-7 --shift 0.001 --cycles 100 --quarter 2 --wear-steps 2",
     "check in/static.json",
     "check in/steady.json",
     "check in/transient.json",
@@ -150,8 +143,7 @@ static const char *const allocating[] = {
     "lcp in/dense --json --solution",
     "lcp in/rod.txt --start in/start.txt --json",
     "lcp in/rod.txt --cover in/start.txt --json",
-    "compare in/f.hdf5 in/two-blocks.dat --solvers nsgs-ac,nsn-ac --cost iterations "
-    "--json "
+    "compare in/f.hdf5 in/two-blocks.dat --solvers nsgs-ac,nsn-ac --cost iterations --json "
     "--profiles q.tsv --plot p.svg --plot-script p.gp",
     "contact in/carter.inp --tractions",
     "contact in/carter.inp --json",
@@ -565,24 +557,21 @@ static const char *const making_inputs[] = {
     "1\\n' "
     ">b.ini; cat b.ini >s.ini; printf 'formulation = steady\\n[sweep]\\n"
     "vary-1 = load 100 200\\nvary-2 = creep-ratio 0 0.5\\n' >>s.ini",
-    "cd in; printf 'time shift load\\n0 0 100\\n0.2 0.001 100\\n' >time.txt; "
-    "printf -- '-3 0.09\\n-2 0.04\\n-1 0.01\\n0 0\\n1 0.01\\n2 0.04\\n3 0.09\\n' "
-    ">gap.txt; "
-    "printf '0.5 0\\n0.6 0.0001\\n0.7 0\\n' >flat.txt; "
-    "printf -- '-2 0\\n0 0.0001\\n2 0\\n' >worn.txt; "
-    "printf -- '-1 0.3\\n1 0.2\\n' >mu.txt; printf '0 0.1\\n0.1 0.2\\n' >points.txt; "
-    "printf 'creep-ratio mu\\n0.2 0.1\\n0.5 0.3\\n' >cases.txt",
-    "\"$R\" in/b.ini --quiet --fclib in/f.hdf5; "
-    "\"$R\" in/b.ini --quiet --json --output in/static.json; $R in/b.ini --quiet "
-    "--output in/table.tsv; "
-    "\"$R\" in/b.ini --quiet --formulation steady --creep-ratio 0.5 --json --output "
-    "in/steady.json; \"$R\" in/b.ini --quiet --formulation transient --distance 0.3 "
-    "--steps 2 --creep-ratio 0.5 --states --json --output in/transient.json",
-    "\"$R\" in/b.ini --quiet --formulation steady --creep-ratio 0.5 --friction-law "
-    "exponential --mu-fall 0.1 --slip-scale 10 --speed 1e3 --all-solutions --json "
-    "--output in/all.json; "
-    "\"$R\" stress in/b.ini --quiet --shift 0.001 --grid 3x3 --shakedown --json --output "
-    "in/grid.json; \"$R\" stress in/b.ini --quiet --shift 0.001 --points in/points.txt "
+    "cd in; printf 'time shift load\\n0 0 100\\n0.2 0.001 100\\n' >time.txt; printf "
+    "-- '-3 0.09\\n-2 0.04\\n-1 0.01\\n0 0\\n1 0.01\\n2 0.04\\n3 0.09\\n' "
+    ">gap.txt; printf '0.5 0\\n0.6 0.0001\\n0.7 0\\n' >flat.txt; printf "
+    "-- '-2 0\\n0 0.0001\\n2 0\\n' >worn.txt; printf -- '-1 0.3\\n1 0.2\\n' "
+    ">mu.txt; printf '0 0.1\\n0.1 0.2\\n' "
+    ">points.txt; printf 'creep-ratio mu\\n0.2 0.1\\n0.5 0.3\\n' >cases.txt",
+    "\"$R\" in/b.ini --quiet --fclib in/f.hdf5; \"$R\" in/b.ini --quiet --json "
+    "--output in/static.json; $R in/b.ini --quiet --output in/table.tsv; \"$R\" in/b.ini --quiet "
+    "--formulation steady --creep-ratio 0.5 --json --output in/steady.json; \"$R\" in/b.ini "
+    "--quiet --formulation transient --distance 0.3 --steps 2 --creep-ratio 0.5 --states --json "
+    "--output in/transient.json",
+    "\"$R\" in/b.ini --quiet --formulation steady --creep-ratio 0.5 --friction-law exponential "
+    "--mu-fall 0.1 --slip-scale 10 --speed 1e3 --all-solutions --json --output in/all.json; "
+    "\"$R\" stress in/b.ini --quiet --shift 0.001 --grid 3x3 --shakedown --json "
+    "--output in/grid.json; \"$R\" stress in/b.ini --quiet --shift 0.001 --points in/points.txt "
     "--json --output in/points.json"};
 
 /* HDF5 is a part of the program where its archive is linked, and makes more calls that

@@ -176,8 +176,7 @@ TEST(front_of_the_wall_is_drawn)
     assert_int_equal(ends, 2 * edges);
     char title[200];
     snprintf(title, sizeof title,
-             "displacements × %g, drift of the upper support %.3g mm' at screen 0.31, "
-             "0.885 center",
+             "displacements × %g, drift of the upper support %.3g mm' at screen 0.31, 0.885 center",
              factor, 1e3 * w->step[STEPS - 1].drift);
     check_says(script, title);
     check_says(script, "pressed with 30 kN and sheared}' at screen 0.5, 0.955 center");

@@ -96,9 +96,7 @@ TEST(full_disks_leave_nothing)
     for (size_t k = 0; k < sizeof lines / sizeof lines[0]; k++) {
         char line[400];
         snprintf(line, sizeof line,
-                 "(ulimit -f 8; \"$R\" %s | cat >/dev/null; exit "
-                 "${PIPESTATUS[0]})",
-                 lines[k]);
+                 "(ulimit -f 8; \"$R\" %s | cat >/dev/null; exit ${PIPESTATUS[0]})", lines[k]);
         write_file("job", line);
         const int code = shell("bash -c \"R='$R'; $(cat job)\"");
         unlink("job");
@@ -269,8 +267,7 @@ TEST(a_limit_of_memory_is_said)
     for (int megabytes = 100; megabytes <= 400; megabytes += 50) {
         char line[300];
         snprintf(line, sizeof line,
-                 "ulimit -v %d; timeout 60 \"$R\" --support hub --contact-elements 200 "
-                 "--quiet",
+                 "ulimit -v %d; timeout 60 \"$R\" --support hub --contact-elements 200 --quiet",
                  1024 * megabytes);
         const int code = shell(line);
         if (code == 127) /* not even the libraries */

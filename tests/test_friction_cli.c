@@ -248,8 +248,7 @@ TEST(the_chosen_measure_decides)
     for (int k = 0; k < 2; k++) {
         char line[200];
         snprintf(line, sizeof line,
-                 "compare stiff --solvers nsgs-ac --tol 1e-2 --measure %s --cost "
-                 "iterations --json",
+                 "compare stiff --solvers nsgs-ac --tol 1e-2 --measure %s --cost iterations --json",
                  sweeps[k]);
         assert_int_equal(rollbem(line), 0);
         held_json *root = json_loads(out, 0, NULL);

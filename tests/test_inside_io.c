@@ -76,7 +76,7 @@ TEST(a_child_without_means_is_told)
     } all[] = {{"pipe", EMFILE, "it: out of memory: Too many open files"},
                {"fork", EAGAIN, "it: out of memory"},
                {"fdopen", ENOMEM, "it: out of memory"}};
-    char *bytes;
+    SCRATCH char *bytes;
     size_t size;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         const int next = dup(0);
@@ -94,12 +94,11 @@ TEST(a_child_without_means_is_told)
     CHECK_OK(in_child(ANSWERS, &bytes, &size, &heard));
     assert_true(calls_succeed());
     assert_int_equal(waitpid(-1, NULL, WNOHANG), -1); /* nobody is left to wait for */
-    free(bytes);
 }
 
 TEST(a_child_is_quiet)
 {
-    char *bytes;
+    SCRATCH char *bytes;
     size_t size;
     struct stat st;
     const int own = dup(2), file = open(path, O_WRONLY | O_TRUNC);
@@ -112,7 +111,6 @@ TEST(a_child_is_quiet)
     assert_int_equal(size, 0);
     assert_int_equal(stat(path, &st), 0);
     assert_int_equal(st.st_size, 0);
-    free(bytes);
 }
 
 RUN_TESTS(make_path, remove_path)

@@ -100,8 +100,7 @@ TEST(refusals_have_their_code_and_reason)
         {64, "b.ini --friction-law exponential --mu-fall 0.1,0.2 --slip-scale 1 --speed 1",
          "equally many numbers, got 2 and 1"},
         {64,
-         "b.ini --friction-law exponential --mu-fall 0.1 --slip-scale 1 --speed 1 "
-         "--memory 1,2,3",
+         "b.ini --friction-law exponential --mu-fall 0.1 --slip-scale 1 --speed 1 --memory 1,2,3",
          "--memory: expected 1 or 2 numbers, got 3"},
         {64, "b.ini --friction-law exponential", "needs --mu-fall and --slip-scale"},
         {64, "b.ini --mu-fall 0.1 --slip-scale 1", "only for velocity-dependent friction"},
@@ -195,9 +194,7 @@ TEST(refusals_have_their_code_and_reason)
         {64, "b.ini --shift 0.001 --trace --solver newton", "--trace: only --solver lemke pivots"},
         {64, "b.ini --formulation transient --distance 0.3 --steps 2 --states",
          "--states: with --json and in mm, N, MPa only"},
-        {64,
-         "b.ini --formulation transient --distance 0.3 --steps 2 --states --json --units "
-         "si",
+        {64, "b.ini --formulation transient --distance 0.3 --steps 2 --states --json --units si",
          "--states: with --json and in mm, N, MPa only"},
         {73, "b.ini --output .", ".: cannot write: Is a directory"},
         {73, "b.ini --dump b.ini", "b.ini: cannot write: Not a directory"},
@@ -222,9 +219,7 @@ TEST(refusals_have_their_code_and_reason)
         {64, "wear b.ini --wear-coefficient 1", "wear needs --slide or --cycles"},
         {64, "wear b.ini --wear-coefficient 1 --slide 1 --cycles 1",
          "--slide and --cycles exclude each other"},
-        {64,
-         "wear b.ini --wear-coefficient 1e-7 --slide 1 --formulation steady "
-         "--creep-ratio 0.5",
+        {64, "wear b.ini --wear-coefficient 1e-7 --slide 1 --formulation steady --creep-ratio 0.5",
          "--slide needs --formulation static"},
         {64,
          "wear b.ini --wear-coefficient 1e-7 --cycles 1 --formulation steady "

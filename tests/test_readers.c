@@ -11,28 +11,22 @@ static int set_up(void **state)
         return -1;
     write_file("two.txt", "2\n2 1  1 2  -5 -6\n");
     write_file("ray.txt", "1\n-1\n-1\n");
-    return shell("\"$R\" --contact-elements 24 --quiet >tractions.tsv; "
-                 "\"$R\" --similar --support halfplane --load 500 --formulation transient "
-                 "--creep-ratio .5 --distance 1 --contact-elements 24 --error --quiet "
-                 "--history-table history.tsv >/dev/null; "
-                 "\"$R\" curve --points 3 --mu 0.1,0.3 --quiet >curve.tsv; "
-                 "\"$R\" stress --support halfplane --load 500 --grid 5x4 --quiet >stress.tsv; "
-                 "\"$R\" sweep --support halfplane --load 500 --vary-1 'mu 0.1 0.3' --quiet "
-                 ">study.tsv; "
-                 "\"$R\" sweep --support halfplane --load 500 --vary-1 'mu 0.1 0.3' --quiet "
-                 "--format csv >study.csv; "
-                 "\"$R\" --contact-elements 24 --fclib problem.hdf5 --quiet --format csv "
-                 ">tractions.csv; "
-                 "\"$R\" lcp two.txt ray.txt >files.tsv; "
-                 "\"$R\" lcp --solution two.txt >unknowns.tsv; "
-                 "\"$R\" lcp --trace two.txt >pivots.tsv; "
-                 "\"$R\" friction --facts problem.hdf5 >friction.tsv; "
-                 "\"$R\" friction --trace problem.hdf5 >friction-trace.tsv; "
-                 "\"$R\" friction --solution problem.hdf5 >reactions.tsv; "
-                 "\"$R\" compare --solvers nsn-ac,lemke problem.hdf5 --profiles profiles.tsv "
-                 ">compare.tsv; "
-                 "\"$R\" example truss --nodes 4 >truss.tsv; "
-                 "cp tractions.tsv table.tsv; ls *.tsv *.csv | wc -l");
+    return shell("\"$R\" --contact-elements 24 --quiet >tractions.tsv; \"$R\" --similar --support "
+                 "halfplane --load 500 --formulation transient --creep-ratio .5 --distance 1 "
+                 "--contact-elements 24 --error --quiet --history-table history.tsv >/dev/null; "
+                 "\"$R\" curve --points 3 --mu 0.1,0.3 --quiet >curve.tsv; \"$R\" stress --support "
+                 "halfplane --load 500 --grid 5x4 --quiet >stress.tsv; \"$R\" sweep --support "
+                 "halfplane --load 500 --vary-1 'mu 0.1 0.3' --quiet >study.tsv; \"$R\" sweep "
+                 "--support halfplane --load 500 --vary-1 'mu 0.1 0.3' --quiet --format csv "
+                 ">study.csv; \"$R\" --contact-elements 24 --fclib problem.hdf5 --quiet "
+                 "--format csv >tractions.csv; \"$R\" lcp two.txt ray.txt >files.tsv; \"$R\" lcp "
+                 "--solution two.txt >unknowns.tsv; \"$R\" lcp --trace two.txt >pivots.tsv; \"$R\" "
+                 "friction --facts problem.hdf5 >friction.tsv; \"$R\" friction "
+                 "--trace problem.hdf5 >friction-trace.tsv; \"$R\" friction "
+                 "--solution problem.hdf5 >reactions.tsv; \"$R\" compare "
+                 "--solvers nsn-ac,lemke problem.hdf5 --profiles profiles.tsv >compare.tsv; "
+                 "\"$R\" example truss --nodes 4 "
+                 ">truss.tsv; cp tractions.tsv table.tsv; ls *.tsv *.csv | wc -l");
 }
 
 /* The lines of the k-th block of docs/tables.md in that language. */
@@ -134,8 +128,7 @@ TEST(octave_opens_all)
     check_lines("octave-cli --no-init-file --quiet lines", "octave", 0);
     write_file("script",
                "t = importdata('history.tsv', \"\\t\"); u = importdata('curve.tsv', \"\\t\");\n"
-               "printf('%d %d %d', columns(t.data), columns(u.data), "
-               "rows(u.data));\n");
+               "printf('%d %d %d', columns(t.data), columns(u.data), rows(u.data));\n");
     if (shell("octave-cli --no-init-file --quiet script") != 0)
         print_error("%s\n", err);
     int seen[3] = {0}, wanted[2] = {0};

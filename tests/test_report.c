@@ -132,7 +132,7 @@ TEST(full_disc_is_told)
 TEST(json_holds_the_same_numbers)
 {
     const rb_rolling_solution s = carter();
-    json_t *root = rb_report_json_start("rollbem 'a b'");
+    held_json *root = rb_report_json_start("rollbem 'a b'");
     json_object_set_new(root, "summary", rb_report_json_summary(&s));
     json_object_set_new(root, "table", rb_report_json_table(&s));
     FILE *file = tmpfile();
@@ -155,7 +155,6 @@ TEST(json_holds_the_same_numbers)
     assert_string_equal(json_string_value(json_object_get(summary, "formulation")), "steady");
     CHECK_ABS(json_number_value(json_object_get(summary, "force_ratio")), -0.75, 0.0, "ratio");
     assert_int_equal(json_integer_value(json_object_get(summary, "iterations")), 21);
-    json_decref(root);
     fclose(file);
 }
 

@@ -380,8 +380,7 @@ TEST(maps_suit_the_number_of_cases)
             assert_non_null(strstr(script, range));
             assert_null(strstr(script, "contour base"));
             assert_null(strstr(script, "labels boxed"));
-            assert_true(!map || strstr(script, "splot $map using 1:2:3 with pm3d "
-                                               "nocontour\n"));
+            assert_true(!map || strstr(script, "splot $map using 1:2:3 with pm3d nocontour\n"));
         }
     }
     room[2 * MOST] = 1e-8; /* beside zero that is a difference */

@@ -36,14 +36,13 @@ TEST(histories_have_derivatives)
     for (size_t h = 0; h < sizeof histories / sizeof *histories; h++) {
         rb_message why = {""};
         differences d;
-        rb_case *c = case_of(RB_CASE_SINGLE, &histories[h], NULL, 0.0);
+        held_case *c = case_of(RB_CASE_SINGLE, &histories[h], NULL, 0.0);
         if (compare_steps(c, 0, 1, &d, &why) != RB_OK)
             fail_msg("history %d: %s", (int)h, why.text);
         if (!(d.off <= 1e-8))
             fail_msg("history %d: %.2g: %s", (int)h, d.off, d.text);
         if (d.compared < 3)
             fail_msg("history %d: %d numbers compared", (int)h, d.compared);
-        rb_case_free(c);
     }
 }
 
@@ -65,7 +64,7 @@ TEST(single_cases_have_derivatives)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         rb_message why = {""};
         differences d;
-        rb_case *c = case_of(RB_CASE_SINGLE, &cases[k], "tol", 1e-13);
+        held_case *c = case_of(RB_CASE_SINGLE, &cases[k], "tol", 1e-13);
         if (compare_single(c, 0, 1, &d, &why) != RB_OK)
             fail_msg("case %d: %s", (int)k, why.text);
         /* a wheel's flexibility, whose difference is taken, is known to 1e-12 or so */
@@ -73,7 +72,6 @@ TEST(single_cases_have_derivatives)
             fail_msg("case %d: %.2g: %s", (int)k, d.off, d.text);
         if (d.compared < 4)
             fail_msg("case %d: %d numbers compared", (int)k, d.compared);
-        rb_case_free(c);
     }
 }
 
@@ -96,10 +94,9 @@ TEST(refusals_of_histories)
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_message why = {""};
         differences d;
-        rb_case *c = case_of(RB_CASE_SINGLE, &bad[k].w, NULL, 0.0);
+        held_case *c = case_of(RB_CASE_SINGLE, &bad[k].w, NULL, 0.0);
         CHECK_STATUS(compare_steps(c, 0, 1, &d, &why), RB_EINVAL);
         assert_non_null(strstr(why.text, bad[k].words));
-        rb_case_free(c);
     }
 }
 
@@ -131,7 +128,7 @@ TEST(samples_of_histories_scatter_as_tolerances)
         int reversed = 0;
         for (int bit = 0; bit < BITS; bit++)
             reversed |= (k >> bit & 1) << (BITS - 1 - bit);
-        rb_case *sample = case_of(RB_CASE_SINGLE, &w, "mu", mu + 0.002 * quantile[reversed]);
+        held_case *sample = case_of(RB_CASE_SINGLE, &w, "mu", mu + 0.002 * quantile[reversed]);
         CHECK_STATUS(rb_case_set_number(sample, "load", load * (1.0 + 0.003 * quantile[k]), &why),
                      RB_OK);
         CHECK_STATUS(rb_case_resolve(sample, &why), RB_OK);
@@ -139,7 +136,6 @@ TEST(samples_of_histories_scatter_as_tolerances)
                                         &one[k], &why),
                      RB_OK);
         assert_int_equal(one[k].history.n, at.history.n);
-        rb_case_free(sample);
     }
     int compared = 0;
     for (int j = 0; j < rb_rolling_history_columns.n; j++) {
@@ -202,7 +198,7 @@ TEST(points_are_single_cases)
         assert_int_equal(s.rows, curve[k].range.points);
         for (int row = 0; row < s.rows; row++) {
             words one = curve[k].w;
-            rb_case_result r;
+            OWNED(rb_case_result) r;
             int at = 0;
             while (one.word[at])
                 at += 2;
@@ -236,7 +232,6 @@ TEST(points_are_single_cases)
                               s.of[j].input, row);
             }
             rb_case_slopes_free(&want);
-            rb_case_result_free(&r);
             rb_case_free(single);
         }
         int at = 0;

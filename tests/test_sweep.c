@@ -234,8 +234,7 @@ TEST(tables_are_in_the_units_of_the_file_that_names_them)
     write_file("si.txt", "load\n100000\n200000\n");
     write_file("mm.txt", "load\n100\n200\n");
     assert_int_equal(rollbem("sweep --support halfplane --young 2e5 --radius 300 "
-                             "--contact-elements 12 --cases mm.txt --header bare "
-                             "--quiet"),
+                             "--contact-elements 12 --cases mm.txt --header bare --quiet"),
                      0);
     assert_non_null(strstr(out, "\n1\t100\t"));
     assert_int_equal(rollbem("sweep si.ini --units mm --header bare --quiet"), 0);
@@ -366,8 +365,7 @@ TEST(any_result_is_a_column_by_its_name)
 
 TEST(studies_name_their_papers)
 {
-    assert_int_equal(rollbem(STUDY "--similar --contact-elements 20 --vary-1 'mu .1 .2' "
-                                   "--cite"),
+    assert_int_equal(rollbem(STUDY "--similar --contact-elements 20 --vary-1 'mu .1 .2' --cite"),
                      0);
     assert_non_null(strstr(err, "Carter"));
     assert_null(strstr(out, "Carter"));
@@ -575,8 +573,7 @@ TEST(what_cannot_be_drawn_is_refused)
     }
     check_refused(STUDY "--vary-1 'mu .1 .2' --map a.png", 64, "--map: a map needs two options");
     check_refused(STUDY "--vary-1 'mu .1 .1' --plot a.png", 64, "--plot: no option varies");
-    check_refused(STUDY "--vary-1 'load 1:99:20' --vary-2 'mu .1 .2' --plot a.png "
-                        "--family load",
+    check_refused(STUDY "--vary-1 'load 1:99:20' --vary-2 'mu .1 .2' --plot a.png --family load",
                   64, "--plot: 20 values of load: at most 16 curves");
     check_refused(STUDY "--cases one --plot a.png", 66, "one: No such file");
 }
@@ -659,10 +656,8 @@ TEST(two_programs_on_one_file_are_refused)
         "\"$R\" " STUDY "--contact-elements 200 --jobs 1 --vary-1 'creep-ratio 0:1:4000' "
         "--output both.tsv & p=$!; until [ -s both.tsv ]; do sleep 0.02; done; "
         "\"$R\" " STUDY "--contact-elements 200 --vary-1 'creep-ratio 0:1:4000' --output "
-        "both.tsv; code=$?; "
-        "\"$R\" " STUDY "--contact-elements 200 --vary-1 'creep-ratio 0:1:4000' "
-        "--output both.tsv --restart; again=$?; kill $p; wait $p; "
-        "[ $again = 73 ] && exit $code";
+        "both.tsv; code=$?; \"$R\" " STUDY "--contact-elements 200 --vary-1 'creep-ratio 0:1:4000' "
+        "--output both.tsv --restart; again=$?; kill $p; wait $p; [ $again = 73 ] && exit $code";
     assert_int_equal(shell(line), 73);
     assert_non_null(strstr(err, "both.tsv: another process is writing it"));
 }

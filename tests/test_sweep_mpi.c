@@ -83,9 +83,7 @@ TEST(another_study_on_one_of_them_is_refused)
 TEST(a_build_without_mpi_says_so)
 {
     solve_alone();
-    assert_int_equal(shell("cp \"$R\" alone; OMPI_COMM_WORLD_SIZE=3 ./alone sweep "
-                           "study.ini"),
-                     70);
+    assert_int_equal(shell("cp \"$R\" alone; OMPI_COMM_WORLD_SIZE=3 ./alone sweep study.ini"), 70);
     assert_non_null(strstr(err, "built without Open MPI"));
     /* finished before: its exit code stays that of a study with failures */
     assert_int_equal(shell("OMPI_COMM_WORLD_SIZE=1 ./alone sweep study.ini --quiet"), 1);

@@ -133,24 +133,20 @@ TEST(every_command_converts_the_same_numbers)
                 "steady --creep-ratio .4 --interlayer-normal $C1 --interlayer-tangential $C1",
                 "out"},
                {"$R --radius $R1 --young $E1 --load $P1 --support halfplane --similar "
-                "--formulation "
-                "steady --creep-ratio .4 --zone $Z1 --mesh uniform",
+                "--formulation steady --creep-ratio .4 --zone $Z1 --mesh uniform",
                 "out"},
                {"$R --radius $R1 --young $E1 --load $P1 --support halfplane --similar "
-                "--formulation "
-                "transient --creep-ratio .4 --distance 1 --contact-elements 30 --error "
-                "--history-table h.tsv && cat h.tsv",
+                "--formulation transient --creep-ratio .4 --distance 1 --contact-elements 30 "
+                "--error --history-table h.tsv && cat h.tsv",
                 "out"},
                {"$R curve --radius $R1 --young $E1 --load $P1 --support halfplane --similar "
                 "--points 3",
                 "out"},
                {"$R stress --radius $R1 --young $E1 --load $P1 --support halfplane --similar "
-                "--depth "
-                "$Z1 --grid 4x3",
+                "--depth $Z1 --grid 4x3",
                 "out"},
                {"$R sweep --radius $R1 --young $E1 --support halfplane --similar --load $P1 "
-                "--vary-1 "
-                "'mu .1 .3'",
+                "--vary-1 'mu .1 .3'",
                 "out"},
                {"$R wear --radius $R1 --young $E1 --support halfplane --similar --load $P1 "
                 "--shift "
@@ -158,8 +154,7 @@ TEST(every_command_converts_the_same_numbers)
                 "out"}};
     static const char *const values[] = {
         "R1=46.5; E1=205000; A1=2.5; P1=712; Z1=1.25; C1=2e-6; D1=0.002; K1=1e-9",
-        "R1=0.0465; E1=205e9; A1=0.0025; P1=712e3; "
-        "Z1=0.00125; C1=2e-15; D1=2e-6; K1=1e-15"};
+        "R1=0.0465; E1=205e9; A1=0.0025; P1=712e3; Z1=0.00125; C1=2e-15; D1=2e-6; K1=1e-15"};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         char line[800];
         for (int u = 0; u < 2; u++) {
@@ -178,8 +173,7 @@ TEST(every_command_converts_the_same_numbers)
 /* A value's own unit: the same case to the last digit. */
 TEST(values_say_their_own_units)
 {
-    const char *same = "--support halfplane --similar --formulation steady --quiet "
-                       "--header=bare";
+    const char *same = "--support halfplane --similar --formulation steady --quiet --header=bare";
     char line[600];
     snprintf(line, sizeof line,
              "\"$R\" %s --radius 457.2 --young 210000 --load 100 --creep 0.001 >a && "
@@ -206,11 +200,10 @@ TEST(files_take_units)
                              "points = points3.txt\n");
     write_file("points3.txt", "0 0.5\n");
     assert_int_equal(
-        shell("S='--support halfplane --similar --quiet --header=bare'; "
-              "\"$R\" $S --history a.txt >a && \"$R\" $S --history b.txt >b && cmp a b && "
-              "\"$R\" $S --units si --history c.txt --json >c && "
-              "\"$R\" $S --gap gap.txt --load 10 >d && "
-              "\"$R\" $S --gap gap2.txt --load 10 >e && cmp d e"),
+        shell("S='--support halfplane --similar --quiet --header=bare'; \"$R\" $S --history a.txt "
+              ">a && \"$R\" $S --history b.txt >b && cmp a b && \"$R\" $S --units si "
+              "--history c.txt --json >c && \"$R\" $S --gap gap.txt --load 10 >d && \"$R\" $S "
+              "--gap gap2.txt --load 10 >e && cmp d e"),
         0);
     /* tables of points and of worn depths too; those that a case file names are in its
      * units, whatever is shown */
@@ -293,10 +286,9 @@ TEST(wear_speaks_every_system)
     for (int k = 0; k < 2; k++) {
         char line[600];
         snprintf(line, sizeof line,
-                 "wear --similar --support halfplane --gap parabola --load 200N/mm "
-                 "--slide 1e6mm --wear-coefficient '1e-10 1/MPa' --wear-steps 2 "
-                 "--contact-elements 40 --units %s --profile p%d.txt --snapshots s%d "
-                 "--plot w%d.png",
+                 "wear --similar --support halfplane --gap parabola --load 200N/mm --slide 1e6mm "
+                 "--wear-coefficient '1e-10 1/MPa' --wear-steps 2 --contact-elements 40 --units %s "
+                 "--profile p%d.txt --snapshots s%d --plot w%d.png",
                  name[k], k, k, k);
         held_json *other = run_json(line);
         const char *const column[][2] = {
@@ -316,9 +308,7 @@ TEST(wear_speaks_every_system)
         CHECK_REL(number_in(inputs, "wear-coefficient"), rb_unit_shown(system[k], "1/MPa", 1e-10),
                   1e-15, "K");
         /* the same scar from either file */
-        snprintf(line, sizeof line,
-                 "test -s w%d.png && head -1 s%d/step_000002.tsv | "
-                 "grep -q p_%s",
+        snprintf(line, sizeof line, "test -s w%d.png && head -1 s%d/step_000002.tsv | grep -q p_%s",
                  k, k, rb_unit_name(system[k], "MPa"));
         assert_int_equal(shell(line), 0);
         double p0[2];
@@ -375,10 +365,9 @@ TEST(case_files_have_their_own_units)
               ">$f.own; done; cmp mm.mm si.mm && cmp mm.si si.si && cmp mm.inch si.inch && "
               "cmp mm.own mm.mm && cmp si.own si.si && grep -q x_in mm.inch"),
         0);
-    assert_int_equal(shell("\"$R\" mm.ini --units si --approach 1e-5 --header=bare --quiet "
-                           ">a; \"$R\" mm.ini --approach 0.01 --units mm --header=bare "
-                           "--quiet >b; head -2 a | tail -1 | cut -f10; "
-                           "test $(wc -l <a) = $(wc -l <b)"),
+    assert_int_equal(shell("\"$R\" mm.ini --units si --approach 1e-5 --header=bare --quiet >a; "
+                           "\"$R\" mm.ini --approach 0.01 --units mm --header=bare --quiet "
+                           ">b; head -2 a | tail -1 | cut -f10; test $(wc -l <a) = $(wc -l <b)"),
                      0);
     json_t *root = run_json("--example rail --creep-ratio 0.4 --units inch");
     CHECK_REL(number_in(json_object_get(root, "inputs"), "radius"), 460.0 / 25.4, 1e-12,
@@ -417,12 +406,10 @@ TEST(wrong_units_are_named)
     /* a refusal in mm says so to one who speaks of metres */
     check_refused("--units si --support hub --radius 0.05 --cover-thickness 0.06", 64,
                   "less than the radius, 50 mm, got 60 mm");
-    check_refused("--units si --support halfplane --load 1e5 --formulation steady "
-                  "--force 9e4",
-                  64, "force Q = 90 N/mm: friction carries at most mu P = 30 N/mm");
+    check_refused("--units si --support halfplane --load 1e5 --formulation steady --force 9e4", 64,
+                  "force Q = 90 N/mm: friction carries at most mu P = 30 N/mm");
     /* the same where only the solution tells what is carried */
-    check_refused("--units si --support halfplane --approach 1e-5 --formulation steady "
-                  "--force 9e6",
+    check_refused("--units si --support halfplane --approach 1e-5 --formulation steady --force 9e6",
                   64, "force Q = 9000 N/mm: friction carries at most mu P = 79.2238 N/mm");
     check_refused("--units si --support halfplane --load 1e5 --formulation steady "
                   "--force 25000 --yield-stress 1e6",
