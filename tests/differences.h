@@ -294,18 +294,21 @@ static rb_status compare_single(const rb_case *c, int first, int every, differen
     rb_rolling_solution at = {0};
     rb_rolling_model model = {0};
     difference_frame f;
-    int numbers = 0;
+    const char *names[RB_CASE_NUMBERS_MAX];
+    int numbers = 0, chosen = 0;
 
     *d = (differences){0};
     rb_status s =
         number ? rb_rolling_solve_model(&rb_case_resolved(c)->rc, &model, &at, why) : RB_ENOMEM;
     if (s == RB_OK)
-        s = rb_case_differentiate(c, &model, 0, NULL, &all, why);
-    if (s == RB_OK)
         s = rb_case_numbers(c, number, &numbers, why);
+    for (int k = first; k < numbers; k += every)
+        names[chosen++] = number[k].name;
+    if (s == RB_OK)
+        s = rb_case_differentiate(c, &model, chosen, names, &all, why);
     if (s == RB_OK && difference_begin(&model, all.elements, &f, why) == RB_OK)
-        for (int k = first; k < numbers; k += every) {
-            const rb_case_derivative *of = &all.of[k];
+        for (int k = first; k < numbers && chosen > 0; k += every) {
+            const rb_case_derivative *of = &all.of[(k - first) / every];
             if (of->status != RB_OK || of->d.sides != 1 || number[k].input.value == 0.0)
                 continue;
             const int before = d->compared;

@@ -46,6 +46,28 @@ TEST(histories_have_derivatives)
     }
 }
 
+/* A boundary that is compressed: variants are so closely that steps do not show it. */
+TEST(compressed_boundaries_have_derivatives)
+{
+    static const words w = {{"support", "hub", "load", "500", "contact-elements", "16",
+                             "outer-elements", "1500", "formulation", "steady", "mesh", "uniform",
+                             "creep-ratio", "0.4", "poisson", "0.3"}};
+    rb_message why = {""};
+    differences d;
+    rb_case *c = case_of(RB_CASE_SINGLE, &w, "tol", 1e-13);
+    rb_case_number number[RB_CASE_NUMBERS_MAX];
+    int n, poisson = 0;
+
+    (void)state;
+    CHECK_STATUS(rb_case_numbers(c, number, &n, &why), RB_OK);
+    while (strcmp(number[poisson].name, "poisson") != 0)
+        poisson++;
+    CHECK_STATUS(compare_single(c, poisson, n, &d, &why), RB_OK);
+    assert_int_equal(d.compared, 1);
+    CHECK_MAX(d.off, 3e-8, "%s", d.text);
+    rb_case_free(c);
+}
+
 /* Elements fitted to the edges, aligned with them, of wheels, of a zone that is given. */
 TEST(single_cases_have_derivatives)
 {

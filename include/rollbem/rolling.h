@@ -302,6 +302,7 @@ typedef struct {
      * that falls steeply has several solutions (kappa > 1), and the iteration then finds
      * one close to its start. */
     const rb_rolling_table *start; /* borrowed */
+    double compression;            /* as in rb_bem_system_create_within; usual: INFINITY */
 } rb_rolling_plan;
 
 /* The plan with the values of the case; functions that get plan NULL use it. */
@@ -756,9 +757,11 @@ rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_
  * number, on the same elements, with the model's state and zones, to be completed.  If
  * the flexibility is the same, it is borrowed from the model.  RB_INACCURATE: the number
  * of elements outside the contact differs.  results: 0 if only the equations are needed.
- * variant: overwritten; free it in any case. */
+ * own_bodies: 1: a boundary that is compressed is not borrowed, so that all variants of
+ * the model have it compressed as closely.  variant: overwritten; free it in any case. */
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
-                                    int results, rb_rolling_model *variant, rb_message *why);
+                                    int results, int own_bodies, rb_rolling_model *variant,
+                                    rb_message *why);
 /* A variant with the model's case on elements whose ends x are moved to shift + scale
  * x. */
 rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
@@ -773,6 +776,12 @@ int rb_rolling_same_bodies(const rb_rolling_case *x, const rb_rolling_case *y);
 /* A variant that is also solved, starting from the zones of the model. */
 rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_case *rc,
                                    rb_rolling_model *variant, rb_message *why);
+/* 1: a boundary of the model is so fine that its matrix is compressed. */
+int rb_rolling_is_compressed(const rb_rolling_model *model);
+/* The model itself solved again, its boundaries compressed as closely as those of its
+ * variants. */
+rb_status rb_rolling_variant_closely(const rb_rolling_model *of, rb_rolling_model *variant,
+                                     rb_message *why);
 /* The model itself with a matrix of its own, if it has fewer than RB_ROLLING_LARGE
  * elements. */
 rb_status rb_rolling_variant_with_matrix(const rb_rolling_model *of, rb_rolling_model *variant,

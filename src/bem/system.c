@@ -212,8 +212,8 @@ static double bytes_of(const rb_bem_mesh *mesh, int dense)
 }
 
 /* Takes over the bond; NULL: none. */
-static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int dense, rb_bond *bond,
-                        rb_bem_system **system, rb_message *why)
+static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
+                        double compression, rb_bond *bond, rb_bem_system **system, rb_message *why)
 {
     rb_status status = rb_bem_mesh_check(mesh, why);
     if (status == RB_OK)
@@ -257,6 +257,7 @@ static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int d
         const double volume = 1.0 - 2.0 * material.poisson;
         s->tolerance =
             rb_is_incompressible(material) ? 1e-9 : fmin(1e-9, fmax(1e-12, 1e-6 * volume));
+        s->tolerance = fmin(s->tolerance, compression);
         if (rb_bem_mesh_copy(mesh, &s->mesh) == RB_OK && (s->A || !dense) && s->Gc && s->b &&
             s->unit && s->pivot)
             status = RB_OK;
@@ -287,7 +288,7 @@ rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material mater
                                   rb_bem_system **system, rb_message *why)
 {
     *system = NULL;
-    return create(mesh, material, dense, NULL, system, why);
+    return create(mesh, material, dense, INFINITY, NULL, system, why);
 }
 
 /* An incompressible cover does not tell how its core is pressed all around. */
@@ -306,7 +307,14 @@ rb_status rb_bem_system_create_bonded(const rb_bem_mesh *cover, rb_bem_material 
         s = rb_bem_material_check(core_material, why);
     if (s == RB_OK)
         s = rb_bond_create(cover, core, core_material, &bond, why);
-    return s == RB_OK ? create(cover, material, 1, bond, system, why) : s;
+    return s == RB_OK ? create(cover, material, 1, INFINITY, bond, system, why) : s;
+}
+
+rb_status rb_bem_system_create_within(const rb_bem_mesh *mesh, rb_bem_material material,
+                                      double compression, rb_bem_system **system, rb_message *why)
+{
+    *system = NULL;
+    return create(mesh, material, mesh->n < RB_BEM_HIERARCHICAL, compression, NULL, system, why);
 }
 
 rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,

@@ -144,7 +144,7 @@ static rb_status differentiate_over_x(const rb_sensitivity *s, const rb_rolling_
     if (!has_matrix) {
         status = rb_rolling_variant_with_matrix(model, &copy, why);
         if (status == RB_OK)
-            status = rb_sensitivity_create(&copy, 1, &of_copy, why);
+            status = rb_sensitivity_create(&copy, 0, &of_copy, why);
         s = of_copy;
     }
     if (status == RB_OK && !(all->over_x = rb_alloc((size_t)n, 2 * RB_CASE_OVER_X_N)))

@@ -47,7 +47,7 @@ static rb_status wheel_system(const rb_rolling_case *rc, const rb_rolling_plan *
             s = rb_bem_system_create_bonded(&boundary, material, &core,
                                             rb_rolling_base_material(rc, body), system, why);
     } else if (s == RB_OK) {
-        s = rb_bem_system_create(&boundary, material, system, why);
+        s = rb_bem_system_create_within(&boundary, material, plan->compression, system, why);
     }
     rb_bem_mesh_free(&core);
     rb_bem_mesh_free(&boundary);

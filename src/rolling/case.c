@@ -210,7 +210,7 @@ int rb_rolling_carter_holds(const rb_rolling_case *rc)
 rb_rolling_plan rb_rolling_plan_of(const rb_rolling_case *rc)
 {
     return (rb_rolling_plan){rc->contact_elements, rc->near_field, rc->outer_elements,
-                             rc->outer_refinement, NULL};
+                             rc->outer_refinement, NULL,           INFINITY};
 }
 
 int rb_rolling_has_fine_boundary(const rb_rolling_plan *plan)

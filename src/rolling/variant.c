@@ -41,13 +41,18 @@ static int same_body(const rb_rolling_body *x, const rb_rolling_body *y)
     return memcmp(x, y, sizeof *x) == 0;
 }
 
-int rb_rolling_same_bodies(const rb_rolling_case *x, const rb_rolling_case *y)
+/* What is between them may differ. */
+static int same_but_interlayer(const rb_rolling_case *x, const rb_rolling_case *y)
 {
     return same_body(&x->a, &y->a) && x->elastic_b == y->elastic_b &&
            (!x->elastic_b || same_body(&x->b, &y->b)) &&
-           x->interlayer_normal == y->interlayer_normal &&
-           x->interlayer_tangential == y->interlayer_tangential &&
            (x->speed == y->speed || !rb_rolling_relaxes(x));
+}
+
+int rb_rolling_same_bodies(const rb_rolling_case *x, const rb_rolling_case *y)
+{
+    return same_but_interlayer(x, y) && x->interlayer_normal == y->interlayer_normal &&
+           x->interlayer_tangential == y->interlayer_tangential;
 }
 
 /* 1: the cases differ at most in friction and in given load, motion and force, which leave
@@ -126,15 +131,21 @@ static rb_status changed_displacement(const rb_rolling_model *of, const rb_rolli
     const rb_bem_flexibility *f = &of->bodies.f;
     const rb_contact_state *state = &of->state;
     const int n = f->n, m = f->m;
-    const factors at = factors_of(of->rc), to = factors_of(rc);
     const double layer[2] = {of->rc->interlayer_normal, of->rc->interlayer_tangential},
                  changed[2] = {rc->interlayer_normal, rc->interlayer_tangential};
-    double *w = rb_alloc((size_t)m, 4), *b = w + 2 * m;
 
+    for (int i = 0; i < m; i++) {
+        w0[i] = f->w0[i] + (i < n ? (changed[0] - layer[0]) * state->p[i] : 0.0);
+        w0[m + i] = f->w0[m + i] + (i < n ? (changed[1] - layer[1]) * state->q[i] : 0.0);
+    }
+    if (scale == 1.0 && same_but_interlayer(rc, of->rc))
+        return RB_OK;
+    double *w = rb_alloc((size_t)m, 4), *b = w + 2 * m;
     if (!w || rb_rolling_displacement(&of->bodies, state->p, state->q, w) != RB_OK) {
         free(w);
         return RB_ENOMEM;
     }
+    const factors at = factors_of(of->rc), to = factors_of(rc);
     sign_integral(f, state->q, b);     /* of the normal displacement */
     sign_integral(f, state->p, b + m); /* less that of the tangential one */
     for (int part = 0; part < 2; part++) {
@@ -148,10 +159,9 @@ static rb_status changed_displacement(const rb_rolling_model *of, const rb_rolli
             const double direct = (w[at_i] - f->w0[at_i] - at.datum * sum -
                                    sign * at.coupled * b[at_i] - layer[part] * own) /
                                   at.direct;
-            w0[at_i] = f->w0[at_i] + (scale * to.direct - at.direct) * direct +
-                       (scale * (to.datum - to.direct * log(scale)) - at.datum) * sum +
-                       sign * (scale * to.coupled - at.coupled) * b[at_i] +
-                       (changed[part] - layer[part]) * own;
+            w0[at_i] += (scale * to.direct - at.direct) * direct +
+                        (scale * (to.datum - to.direct * log(scale)) - at.datum) * sum +
+                        sign * (scale * to.coupled - at.coupled) * b[at_i];
         }
     }
     free(w);
@@ -159,6 +169,17 @@ static rb_status changed_displacement(const rb_rolling_model *of, const rb_rolli
 }
 
 /* ---- Variants ---------------------------------------------------------------------- */
+
+/* Of boundaries whose flexibility is subtracted from that of others nearby: what
+ * hierarchical matrices leave out by chance is divided by the step between them. */
+static const double COMPRESSION = 1e-13;
+
+int rb_rolling_is_compressed(const rb_rolling_model *model)
+{
+    const rb_bem_system *a = model->bodies.system_a, *b = model->bodies.system_b;
+
+    return (a && isnan(rb_bem_system_rcond(a))) || (b && isnan(rb_bem_system_rcond(b)));
+}
 
 /* The bodies that the model has, with what their change displaces as w0. */
 static rb_status borrow_bodies(const rb_rolling_model *of, const rb_rolling_case *rc, motion moved,
@@ -203,18 +224,22 @@ static rb_status borrow_rows(const rb_rolling_model *of, rb_rolling_model *v)
 /* by_formula: 1: bodies that change, or elements that move, need no new flexibility; 2:
  * only where all results stay right. */
 static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, int by_formula,
-                        motion moved, rb_rolling_model *v, rb_message *why)
+                        int own_bodies, motion moved, rb_rolling_model *v, rb_message *why)
 {
+    rb_rolling_plan plan = rb_rolling_plan_of(rc);
     /* The formula must know how the flexibility changes.  kappa of a law asks for the
      * matrix itself. */
     const int moves = moved.scale != 1.0 || moved.shift != 0.0,
               shares = by_formula && !moves && same_rows(rc, of->rc);
-    const int borrows =
-        (rb_rolling_same_bodies(rc, of->rc) && !moves) ||
-        (by_formula && are_plain_halfplanes(of->rc) && are_plain_halfplanes(rc) &&
-         rc->elastic_b == of->rc->elastic_b && rc->slip_operator == RB_SLIP_UPSTREAM &&
-         (by_formula == 1 || !rb_rolling_law_depends_on_state(rc)));
+    const int borrows = (rb_rolling_same_bodies(rc, of->rc) && !moves &&
+                         !(own_bodies && rb_rolling_is_compressed(of))) ||
+                        (by_formula && rc->slip_operator == RB_SLIP_UPSTREAM &&
+                         ((same_but_interlayer(rc, of->rc) && !moves) ||
+                          (are_plain_halfplanes(of->rc) && are_plain_halfplanes(rc) &&
+                           rc->elastic_b == of->rc->elastic_b)) &&
+                         (by_formula == 1 || !rb_rolling_law_depends_on_state(rc)));
 
+    plan.compression = COMPRESSION;
     rb_status s = rb_rolling_model_begin(rc, NULL, v, why);
     v->equal_instead = of->equal_instead;
     v->mu_varies = of->mu_varies;
@@ -225,7 +250,7 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, i
     if (s == RB_OK && borrows)
         s = borrow_bodies(of, rc, moved, v);
     else if (s == RB_OK)
-        s = rb_rolling_bodies_create(rc, NULL, &v->mesh, &v->bodies, why);
+        s = rb_rolling_bodies_create(rc, &plan, &v->mesh, &v->bodies, why);
     if (s == RB_OK && !(have_same_boundary(of->bodies.system_a, v->bodies.system_a) &&
                         have_same_boundary(of->bodies.system_b, v->bodies.system_b)))
         s = rb_fail(why, RB_INACCURATE,
@@ -246,20 +271,31 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, i
 rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
                                   rb_rolling_model *v, rb_message *why)
 {
-    return create(of, of->rc, 2, (motion){shift, scale}, v, why);
+    return create(of, of->rc, 2, 0, (motion){shift, scale}, v, why);
 }
 
 rb_status rb_rolling_variant_place(const rb_rolling_model *of, const rb_rolling_case *rc,
                                    double shift, double scale, rb_rolling_model *v, rb_message *why)
 {
-    const rb_status s = create(of, rc, 0, (motion){shift, scale}, v, why);
+    const rb_status s = create(of, rc, 0, 0, (motion){shift, scale}, v, why);
     return s == RB_OK ? rb_rolling_variant_complete(v, NULL, NULL, why) : s;
 }
 
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
-                                    int results, rb_rolling_model *v, rb_message *why)
+                                    int results, int own_bodies, rb_rolling_model *v,
+                                    rb_message *why)
 {
-    return create(of, rc, results ? 2 : 1, at_rest, v, why);
+    return create(of, rc, results ? 2 : 1, own_bodies, at_rest, v, why);
+}
+
+rb_status rb_rolling_variant_closely(const rb_rolling_model *of, rb_rolling_model *v,
+                                     rb_message *why)
+{
+    rb_status s = create(of, of->rc, 0, 1, at_rest, v, why);
+
+    if (s == RB_OK)
+        s = rb_rolling_variant_complete(v, NULL, NULL, why);
+    return s == RB_OK ? rb_rolling_model_control(v, why) : s;
 }
 
 rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_case *rc,

@@ -57,9 +57,11 @@ void rb_sensitivity_derivative_free(rb_sensitivity_derivative *d)
 typedef struct {
     const rb_rolling_model *base;
     int results; /* 0: rates alone */
+    int bodies;  /* 1: they change with the input */
     rb_sensitivity_stencil at;
     double step;
     rb_rolling_model model[PLACES];
+    const rb_rolling_model *of[PLACES]; /* that each has borrowed from */
 } variants;
 
 /* Step and stencil: both ways where the range allows it. */
@@ -75,8 +77,8 @@ static rb_status choose_places(const rb_sensitivity *s, const rb_sensitivity_inp
 
     if (status != RB_OK)
         return status;
-    v->step = (input->vary && rb_rolling_same_bodies(&rc, s->model->rc) ? STEP : STEP_OF_BODIES) *
-              input->scale;
+    v->bodies = !input->vary || !rb_rolling_same_bodies(&rc, s->model->rc);
+    v->step = (v->bodies ? STEP_OF_BODIES : STEP) * input->scale;
     const rb_sensitivity_stencil *at = rb_sensitivity_stencil_of(input, v->step);
     if (!at)
         return rb_fail(why, RB_EINVAL, "derivatives: the input cannot vary within its range");
@@ -100,7 +102,8 @@ static rb_rolling_case on_the_same_elements(const rb_rolling_case *rc, const rb_
 static void variants_free(variants *v)
 {
     for (int k = 0; k < v->at.n; k++)
-        rb_rolling_variant_free(v->base, &v->model[k]);
+        if (v->of[k])
+            rb_rolling_variant_free(v->of[k], &v->model[k]);
 }
 
 /* An input that cannot vary is a motion of the elements, of this kind. */
@@ -109,13 +112,29 @@ typedef struct {
     double centre, half; /* of what is stretched */
 } motion;
 
+/* What the variant can borrow from: another model's variant has the flexibility too, if it was
+ * computed for it on the same elements; by formula it has that of its own tractions alone. */
+static const rb_rolling_model *lender(const rb_rolling_model *base, const variants *others, int k)
+{
+    const rb_rolling_model *other = others ? &others->model[k] : NULL;
+
+    return other && other->bodies.f.data && other->bodies.f.data != others->base->bodies.f.data &&
+                   other->mesh.n == base->mesh.n &&
+                   memcmp(others->base->mesh.ends, base->mesh.ends,
+                          (size_t)base->mesh.n * sizeof *base->mesh.ends) == 0
+               ? other
+               : base;
+}
+
+/* others: for the same values of the input, of the model in free rolling its model; or NULL. */
 static rb_status variants_create(const rb_rolling_model *base, const rb_sensitivity_input *input,
-                                 int freely, variants *v, rb_message *why)
+                                 const variants *others, int freely, variants *v, rb_message *why)
 {
     rb_status s = RB_OK;
 
     for (int k = 0; k < v->at.n && s == RB_OK; k++) {
         const double by = v->at.place[k] * v->step;
+        const rb_rolling_model *of = v->of[k] = lender(base, others, k);
         rb_rolling_case rc;
         if (!input->vary) {
             const motion *m = input->context;
@@ -130,7 +149,10 @@ static rb_status variants_create(const rb_rolling_model *base, const rb_sensitiv
         rc = on_the_same_elements(&rc, base->rc, base->mesh.n);
         if (freely)
             rc = rb_rolling_without_force(&rc);
-        s = rb_rolling_variant_create(base, &rc, v->results, &v->model[k], why);
+        s = rb_rolling_variant_create(of, &rc, v->results, of == base && v->bodies, &v->model[k],
+                                      why);
+        if (s == RB_OK && of != base)
+            rb_rolling_variant_set(&base->state, NULL, 0.0, &v->model[k].state);
     }
     return s;
 }
@@ -177,7 +199,7 @@ rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_inp
             rb_sensitivity_given(model, &given, &model->state, &left);
             *mu += weight * given.mu;
         } else {
-            status = rb_rolling_variant_create(model, &rc, 0, &v.model[k], why);
+            status = rb_rolling_variant_create(model, &rc, 0, v.bodies, &v.model[k], why);
             if (status == RB_OK)
                 status = rb_sensitivity_residual(model, &v.model[k], &left, why);
             *mu += weight * v.model[k].problem.mu;
@@ -408,10 +430,10 @@ static rb_status differentiate_free(const rb_sensitivity *freely, const rb_sensi
                                     const variants *of, int side, rb_contact_state *tangent,
                                     rb_message *why)
 {
-    variants v = {.base = freely->model, .at = of->at, .step = of->step};
+    variants v = {.base = freely->model, .bodies = of->bodies, .at = of->at, .step = of->step};
     rb_sensitivity_rate rate = {0};
     double by[2];
-    rb_status status = variants_create(freely->model, input, 1, &v, why);
+    rb_status status = variants_create(freely->model, input, of, 1, &v, why);
 
     if (status == RB_OK)
         status = rb_sensitivity_rate_alloc(freely->n, &rate);
@@ -483,7 +505,7 @@ rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensiti
     const int from = both ? 0 : v.at.place[1] > 0.0, to = both ? two : from;
     d->sides = two || !both ? 2 : 1;
     if (status == RB_OK)
-        status = variants_create(s->model, input, 0, &v, why);
+        status = variants_create(s->model, input, NULL, 0, &v, why);
     if (status == RB_OK)
         status = rb_sensitivity_rate_alloc(s->n, &d->rate);
     if (status == RB_OK)

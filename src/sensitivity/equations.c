@@ -134,7 +134,7 @@ rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why)
     if (!s->law_slip || !scratch || (model->rc->friction.heat != 0.0 && !s->law_force))
         status = rb_fail(why, RB_ENOMEM, "out of memory for %d coefficients", s->n);
     if (status == RB_OK)
-        status = rb_rolling_variant_create(model, model->rc, 1, &v, why);
+        status = rb_rolling_variant_create(model, model->rc, 1, 0, &v, why);
     if (status == RB_OK)
         status = rb_rolling_variant_complete(&v, NULL, NULL, why);
     if (status == RB_OK)

@@ -17,8 +17,9 @@ struct rb_sensitivity {
     struct rb_sensitivity_factors *factors; /* for the zones of the model; owned */
     struct rb_sensitivity *free_rolling;    /* for free rolling of the same model; NULL: none */
     rb_rolling_model *freely;               /* the model in free rolling; owned */
-    rb_rolling_model *with_matrix;          /* a copy of the model with matrices, if it was solved
-                                               without; otherwise NULL; owned */
+    rb_rolling_model *own;                  /* a copy of the model with what derivatives need and it
+                                               has not: a matrix, or boundaries compressed as closely as
+                                               those of variants; NULL: it has all; owned */
     int moves;                              /* rb_sensitivity_elements, fixed at first */
     rb_rolling_solution motion[2];          /* derivatives for elements that are stretched or
                                                shifted by 1 mm; owned */

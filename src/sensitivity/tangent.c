@@ -286,21 +286,31 @@ rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_r
 
 /* ---- Making one -------------------------------------------------------------------- */
 
-/* A model that was solved without a matrix, with one. */
-static rb_status take_matrix(rb_sensitivity *s, rb_message *why)
+/* make: from the model the copy that takes its place. */
+static rb_status take_own(rb_sensitivity *s,
+                          rb_status (*make)(const rb_rolling_model *, rb_rolling_model *,
+                                            rb_message *),
+                          rb_message *why)
 {
     const rb_rolling_model *model = s->model;
 
-    if (model->bodies.F || s->n >= RB_ROLLING_LARGE)
-        return RB_OK;
-    s->with_matrix = calloc(1, sizeof *s->with_matrix);
-    if (!s->with_matrix)
+    s->own = calloc(1, sizeof *s->own);
+    if (!s->own)
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
-    s->model = s->with_matrix;
-    return rb_rolling_variant_with_matrix(model, s->with_matrix, why);
+    s->model = s->own;
+    return make(model, s->own, why);
 }
 
-static rb_status create(const rb_rolling_model *model, const rb_sensitivity *like,
+/* A model that was solved without a matrix, with one. */
+static rb_status take_matrix(rb_sensitivity *s, rb_message *why)
+{
+    return s->model->bodies.F || s->n >= RB_ROLLING_LARGE
+               ? RB_OK
+               : take_own(s, rb_rolling_variant_with_matrix, why);
+}
+
+/* closely: a model whose boundaries are compressed is replaced by one of closer ones. */
+static rb_status create(const rb_rolling_model *model, const rb_sensitivity *like, int closely,
                         rb_sensitivity **made, rb_message *why)
 {
     rb_sensitivity *s = *made = calloc(1, sizeof *s);
@@ -310,7 +320,9 @@ static rb_status create(const rb_rolling_model *model, const rb_sensitivity *lik
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     s->model = model;
     s->n = model->problem.n;
-    if (model->problem.yield || rb_rolling_law_depends_on_state(model->rc))
+    if (closely && rb_rolling_is_compressed(model))
+        status = take_own(s, rb_rolling_variant_closely, why);
+    else if (model->problem.yield || rb_rolling_law_depends_on_state(model->rc))
         status = take_matrix(s, why);
     if (status == RB_OK)
         status = check(s->model, why);
@@ -347,20 +359,20 @@ static rb_status roll_freely(rb_sensitivity *s, rb_message *why)
         !rb_contact_operator_response(model->problem.op).coupled)
         return RB_OK;
     if (model->freely) /* the solve has found it */
-        return create(model->freely, NULL, &s->free_rolling, why);
+        return create(model->freely, NULL, 0, &s->free_rolling, why);
     v = s->freely = calloc(1, sizeof *v);
     if (!v)
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     status = rc->mesh == RB_MESH_UNIFORM ? rb_rolling_variant_solve(model, &freely, v, why)
                                          : rb_rolling_model_create(&freely, v, why);
-    return status == RB_OK ? create(v, NULL, &s->free_rolling, why) : status;
+    return status == RB_OK ? create(v, NULL, 0, &s->free_rolling, why) : status;
 }
 
 rb_status rb_sensitivity_create(const rb_rolling_model *model, int results, rb_sensitivity **s,
                                 rb_message *why)
 {
     rb_message reason = {""};
-    rb_status status = create(model, NULL, s, why);
+    rb_status status = create(model, NULL, results, s, why);
 
     if (status == RB_OK && results && rb_rolling_has_steps(model->rc))
         status = rb_fail(why, RB_EINVAL, "derivatives: only for one step; this case has several");
@@ -388,7 +400,7 @@ rb_status rb_sensitivity_create(const rb_rolling_model *model, int results, rb_s
 rb_status rb_sensitivity_create_like(const rb_rolling_model *model, const rb_sensitivity *like,
                                      rb_sensitivity **s, rb_message *why)
 {
-    const rb_status status = create(model, like, s, why);
+    const rb_status status = create(model, like, 0, s, why);
 
     if (status != RB_OK) {
         rb_sensitivity_free(*s);
@@ -413,9 +425,9 @@ void rb_sensitivity_free(rb_sensitivity *s)
     free(s->law_slip);
     free(s->law_force);
     rb_sensitivity_factors_free(s->factors);
-    if (s->with_matrix)
-        rb_rolling_model_free(s->with_matrix);
-    free(s->with_matrix);
+    if (s->own)
+        rb_rolling_model_free(s->own);
+    free(s->own);
     free(s);
 }
 
