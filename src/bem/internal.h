@@ -32,6 +32,13 @@ int rb_bem_edge_load_is_valid(const rb_bem_edge_load *load, int xs, rb_bem_point
 /* RB_EINVAL: material, datum, terms or thickness out of range. */
 rb_status rb_bem_surface_check(const rb_bem_surface *body, rb_message *why);
 
+/* What the memory of a body adds to the element integrals of the half-plane (V2), for a
+ * strip of half-length b whose middle lies at distance x upstream (+x) of it:
+ *   log = sum f_k (E_k - 1) int ln|x - s| ds,  sign = sum f_k (E_k - 1) int sgn(x - s) ds
+ * with (E u)(x) = (1/L) int_0^inf exp(-r/L) u(x + r) dr. */
+void rb_bem_memory_integrals(const rb_bem_surface *body, double x, double b, double *log,
+                             double *sign);
+
 /* A flexibility with x, h, w0 zeroed and nothing behind it. */
 rb_status rb_bem_flexibility_points(int n, rb_bem_flexibility *f);
 /* x and h of elements between these ends (n + 2). */

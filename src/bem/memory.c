@@ -1,7 +1,7 @@
 /* Element integrals of a viscoelastic half-plane (V2): in steady rolling the displacement
  * is the elastic one plus exponential averages along the path of the particle
  * upstream. */
-#include "bem/memory.h"
+#include "bem/internal.h"
 
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sf_expint.h>

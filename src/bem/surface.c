@@ -3,7 +3,6 @@
  * on a base (L3). */
 #include "bem/internal.h"
 #include "bem/layer.h"
-#include "bem/memory.h"
 
 #include <float.h>
 #include <gsl/gsl_math.h>

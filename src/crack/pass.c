@@ -78,15 +78,6 @@ static const rb_bem_edge_load *load_of(const rb_crack_passage *p, int k)
     return p->loads > 0 && !p->wheel ? &p->load[p->loads > 1 ? k : 0] : NULL;
 }
 
-/* Pressure of the load where the mouth is. */
-static double pressure_at(const rb_bem_edge_load *load, double x)
-{
-    for (int i = 0; load && i < load->n; i++)
-        if (load->x[i] <= x && x < load->x[i + 1])
-            return load->p[i];
-    return 0.0;
-}
-
 /* What is trapped is the volume at the place where the mouth closes, and near it the
  * crack closes fast: the state becomes that just before this place, by bisection.  If the
  * mouth does not close, it stays as it is.  T: scratch for 4n. */
@@ -161,15 +152,18 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
         if (p->locate_closing && p->fluid == RB_CRACK_TRAPPED && step > 0 &&
             state.zone[0] == RB_ZONE_SEPARATED && state.fluid_pressure == 0.0)
             s = approach_closing(c, p, step, scale, T, &state, &reason);
+        const rb_bem_edge_load *load = load_of(p, step);
+        double at_mouth = 0.0; /* the pressure of the load there */
+        for (int i = 0; load && i < load->n; i++)
+            if (load->x[i] <= c->shape.path.x[0] - x && c->shape.path.x[0] - x < load->x[i + 1])
+                at_mouth = load->p[i];
         if (s == RB_OK)
-            s = rb_crack_load(c, load_of(p, step), x, p->tension, T);
+            s = rb_crack_load(c, load, x, p->tension, T);
         if (s == RB_OK)
             s = p->wheel
                     ? rb_crack_step_coupled(c, p->wheel, x, T, scale, &state,
                                             h->wheel + (size_t)k * (size_t)h->elements, &reason)
-                    : rb_crack_step(c, T, p->fluid,
-                                    pressure_at(load_of(p, step), c->shape.path.x[0] - x), scale,
-                                    &state, &reason);
+                    : rb_crack_step(c, T, p->fluid, at_mouth, scale, &state, &reason);
         if (s == RB_OK)
             record(&state, x, (size_t)n, h);
         else if (s > 0)

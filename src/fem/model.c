@@ -4,14 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int slides(const rb_fem_mesh *mesh, int node)
-{
-    for (int k = 0; k < mesh->dimension - 1; k++)
-        if (mesh->dof[mesh->dimension * node + k] < 0)
-            return 0;
-    return 1;
-}
-
 rb_status rb_fem_model_alloc(rb_fem_kind kind, int nodes, int elements, int contacts,
                              rb_fem_model *model)
 {
@@ -32,8 +24,10 @@ rb_status rb_fem_model_build(rb_fem_model *model, const rb_fem_material *materia
     rb_fem_structure *s = &model->structure;
     rb_fem_mesh_number(&model->mesh);
     s->dofs = model->mesh.dofs;
-    for (int i = 0; i < s->contacts; i++)
-        s->mu[i] = slides(&model->mesh, model->contact_node[i]) ? mu : 0.0;
+    for (int i = 0; i < s->contacts; i++) { /* a node that is held along the obstacle has none */
+        const int d = model->mesh.dimension, *dof = model->mesh.dof + d * model->contact_node[i];
+        s->mu[i] = dof[0] >= 0 && dof[d - 2] >= 0 ? mu : 0.0;
+    }
     model->steps = steps;
     model->load = rb_alloc((size_t)s->dofs, (size_t)steps);
     if (!model->load)

@@ -70,8 +70,13 @@ rb_status wall_elastic_system(const wall_layout *layout, const rb_fem_mesh *mesh
 
 /* ---- Rigid blocks ------------------------------------------------------------------ */
 
-static rb_status rigid_motions(const wall_layout *layout, const rb_fem_mesh *mesh, rb_sparse *R)
+rb_status wall_rigid_system(const wall_layout *layout, const rb_fem_mesh *mesh,
+                            const wall_system *elastic, rb_sparse *R, wall_system *s)
 {
+    rb_sparse Rt = {0}, MR = {0};
+    memset(s, 0, sizeof *s);
+    s->dofs = 6 * BLOCKS + 1;
+    const rb_triplets none = {.rows = s->dofs, .cols = s->dofs};
     rb_triplets t = {.rows = mesh->dofs + 1, .cols = 6 * BLOCKS + 1};
     for (int b = 0; b < BLOCKS; b++) {
         const wall_block *block = &layout->block[b];
@@ -92,19 +97,8 @@ static rb_status rigid_motions(const wall_layout *layout, const rb_fem_mesh *mes
         }
     }
     rb_triplets_add(&t, mesh->dofs, 6 * BLOCKS, 1.0);
-    const rb_status s = rb_sparse_from_triplets(&t, R);
+    rb_status status = rb_sparse_from_triplets(&t, R);
     rb_triplets_free(&t);
-    return s;
-}
-
-rb_status wall_rigid_system(const wall_layout *layout, const rb_fem_mesh *mesh,
-                            const wall_system *elastic, rb_sparse *R, wall_system *s)
-{
-    rb_sparse Rt = {0}, MR = {0};
-    memset(s, 0, sizeof *s);
-    s->dofs = 6 * BLOCKS + 1;
-    const rb_triplets none = {.rows = s->dofs, .cols = s->dofs};
-    rb_status status = rigid_motions(layout, mesh, R);
     if (status == RB_OK)
         status = rb_sparse_transpose(R, &Rt);
     if (status == RB_OK)

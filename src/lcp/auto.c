@@ -6,8 +6,6 @@
  * own operations reach its share of an allowance, which grows from round to round.
  * Operations are counted by formulas, so that the same problem is always solved in the
  * same way. */
-#include "lcp/coarse.h"
-#include "lcp/game.h"
 #include "lcp/lemke.h"
 
 #include <math.h>

@@ -1,8 +1,8 @@
 /* A start for Newton's method on large sparse problems, which needs no grid: neighbours
  * are joined to aggregates, and the basic variables of the coarser problem, which itself
  * starts from a coarser one, are the first basic variables of the finer problem. */
-#include "lcp/coarse.h"
 
+#include "lcp/lemke.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

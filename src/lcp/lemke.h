@@ -84,6 +84,26 @@ static inline double rb_lcp_upper(const double *upper, int i)
     return upper ? upper[i] : INFINITY;
 }
 
+/* ---- game.c: problems that are bimatrix games ---------------------------------------- */
+
+/* z and info as the other solvers.  RB_SINGULAR: it is no game, and nothing was done;
+ * other statuses as rb_lcp_bimatrix. */
+rb_status rb_lcp_game_solve(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
+                            double *z, rb_lcp_info *info);
+
+/* ---- coarse.c: a start of discretised inequalities from coarser ones ------------------ */
+
+/* Orders from which on a coarser problem comes first. */
+enum { LCP_COARSE_FROM = 300 };
+
+/* 1: diagonal entries are positive and others hardly ever, as in discretised
+ * inequalities: then a start with too many basic z is mended in fewer steps than one with
+ * too few. */
+int rb_lcp_coarse_fits(const rb_sparse *M);
+/* z (n): what the solution of a coarser problem comes to; work grows by its operations.
+ * RB_SINGULAR: there is no coarser one, or it was not solved; RB_ENOMEM. */
+rb_status rb_lcp_coarse_start(const rb_sparse *M, const double *q, double *z, double *work);
+
 /* ---- accuracy.c: what the rounding errors of the pivots have done ------------------ */
 
 /* Refreshes the constants when z0 has fallen far or many pivots have passed: one step of

@@ -1,7 +1,6 @@
 /* Block principal pivoting (Judice and Pires, Computers and Operations Research 21,
  * 1994): Newton's method on min(z, M z + q) = 0, guarded so that it ends for every
  * P-matrix. */
-#include "lcp/coarse.h"
 #include "lcp/lemke.h"
 
 #include <math.h>
