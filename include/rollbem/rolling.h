@@ -749,7 +749,11 @@ void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *
  * residuals. */
 rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_solution *solution,
                                     rb_message *why);
-/* The same without the residuals, which stay 0. */
+/* The same after a solve that began at `begun` (rb_seconds) and has ended with status s, as far
+ * as there is a state; with status and time.  Returns the status of both. */
+rb_status rb_rolling_end_solve(const rb_rolling_model *model, rb_status s, double begun,
+                               rb_rolling_solution *solution, rb_message *why);
+/* The solution without the residuals, which stay 0. */
 rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_solution *solution,
                                       rb_message *why);
 

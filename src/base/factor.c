@@ -324,9 +324,11 @@ rb_status rb_sparse_cholesky_congruence(rb_sparse_cholesky *factor, const rb_spa
 {
     *w = (rb_sparse){0};
     const size_t m = (size_t)h->cols;
-    double *rhs = rb_alloc((size_t)h->rows, PANEL), *panel = rb_alloc(m, PANEL);
+    rb_arena scratch = {0};
+    double *rhs = rb_arena_doubles(&scratch, (size_t)h->rows, PANEL),
+           *panel = rb_arena_doubles(&scratch, m, PANEL);
     rb_triplets t = {.rows = h->cols, .cols = h->cols};
-    rb_status s = rhs && panel ? RB_OK : RB_ENOMEM;
+    rb_status s = scratch.failed ? RB_ENOMEM : RB_OK;
     for (int j = 0; s == RB_OK && j < h->cols; j += PANEL) {
         const int n = h->cols - j < PANEL ? h->cols - j : PANEL;
         s = congruence_panel(factor, h, j, n, rhs, panel);
@@ -336,9 +338,7 @@ rb_status rb_sparse_cholesky_congruence(rb_sparse_cholesky *factor, const rb_spa
     if (s == RB_OK)
         s = rb_sparse_from_triplets(&t, w);
     rb_triplets_free(&t);
-    free(panel);
-    free(rhs);
-    return s;
+    return rb_arena_done(&scratch, s);
 }
 
 /* UMFPACK's own estimate is an upper bound that is ten to sixty times too large; the

@@ -79,29 +79,21 @@ rb_status rb_sparse_from_triplets(const rb_triplets *t, rb_sparse *a)
         if (t->row[k] < 0 || t->row[k] >= t->rows || t->col[k] < 0 || t->col[k] >= t->cols)
             return RB_EINVAL;
 
-    rb_status s = sparse_alloc(t->rows, t->cols, t->nz, a);
-    int *order = rb_alloc_int((size_t)t->nz);
-    if (s == RB_OK && !order)
-        s = RB_ENOMEM;
-    if (s == RB_OK) {
-        int *start = rb_alloc_int((size_t)t->rows + 1);
-        if (!start)
-            s = RB_ENOMEM;
-        else {
-            for (int k = 0; k < t->nz; k++)
-                start[t->row[k] + 1]++;
-            running_sum(t->rows, start);
-            for (int k = 0; k < t->nz; k++)
-                order[start[t->row[k]]++] = k;
-            free(start);
-        }
-    }
-    if (s == RB_OK)
-        s = place_entries(t, order, a);
+    rb_arena scratch = {0};
+    int *order = rb_arena_ints(&scratch, (size_t)t->nz),
+        *start = rb_arena_ints(&scratch, (size_t)t->rows + 1);
+    rb_status s = scratch.failed ? RB_ENOMEM : sparse_alloc(t->rows, t->cols, t->nz, a);
+    if (s != RB_OK)
+        return rb_arena_done(&scratch, s);
+    for (int k = 0; k < t->nz; k++)
+        start[t->row[k] + 1]++;
+    running_sum(t->rows, start);
+    for (int k = 0; k < t->nz; k++)
+        order[start[t->row[k]]++] = k;
+    s = place_entries(t, order, a);
     if (s != RB_OK)
         rb_sparse_free(a);
-    free(order);
-    return s;
+    return rb_arena_done(&scratch, s);
 }
 
 /* The status is set for good when there is no room: entries would be missing. */
@@ -184,11 +176,13 @@ rb_status rb_sparse_multiply(const rb_sparse *a, const rb_sparse *b, rb_sparse *
     if (a->cols != b->rows)
         return RB_EINVAL;
     rb_triplets t = {.rows = a->rows, .cols = b->cols};
-    double *sum = rb_alloc((size_t)a->rows, 1);
-    int *seen = rb_alloc_int(2 * (size_t)a->rows);
-    rb_status s = sum && seen ? RB_OK : RB_ENOMEM;
-    for (int j = 0; s == RB_OK && j < b->cols; j++) {
-        int *touched = seen + a->rows;
+    rb_arena scratch = {0};
+    double *sum = rb_arena_doubles(&scratch, (size_t)a->rows, 1);
+    int *seen = rb_arena_ints(&scratch, (size_t)a->rows),
+        *touched = rb_arena_ints(&scratch, (size_t)a->rows);
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    for (int j = 0; j < b->cols; j++) {
         /* Column j of the product: sum, over the entries of B's column, of columns of A;
          * touched: its rows, each once, marked by seen = j + 1. */
         int count = 0;
@@ -204,14 +198,10 @@ rb_status rb_sparse_multiply(const rb_sparse *a, const rb_sparse *b, rb_sparse *
             }
         for (int k = 0; k < count; k++)
             rb_triplets_add(&t, touched[k], j, sum[touched[k]]);
-        s = t.status;
     }
-    if (s == RB_OK)
-        s = rb_sparse_from_triplets(&t, c);
+    const rb_status s = rb_sparse_from_triplets(&t, c); /* that of t, where it has failed */
     rb_triplets_free(&t);
-    free(seen);
-    free(sum);
-    return s;
+    return rb_arena_done(&scratch, s);
 }
 
 rb_status rb_sparse_copy(const rb_sparse *a, rb_sparse *b)

@@ -28,16 +28,9 @@ rb_status rb_case_solve_again(const rb_resolved_case *c, rb_rolling_step *step, 
         const double start = rb_seconds();
         const rb_rolling_program *program = c->program.n > 0 ? &c->program : NULL;
         const rb_rolling_observer observer = {step, context};
-        rb_status s = (c->error ? rb_rolling_history_with_errors : rb_rolling_history_run)(
+        const rb_status s = (c->error ? rb_rolling_history_with_errors : rb_rolling_history_run)(
             &c->rc, program, &observer, &r->model, &r->history, why);
-        if (s >= 0 && r->model.state.p) {
-            const rb_status t = rb_rolling_model_solution(&r->model, &r->solution, why);
-            s = t == RB_OK ? s : t;
-        }
-        if (s >= 0)
-            r->solution.status = s;
-        r->solution.seconds_total = rb_seconds() - start;
-        return s;
+        return rb_rolling_end_solve(&r->model, s, start, &r->solution, why);
     }
     r->has_errors = 1;
     if (c->accuracy > 0.0)

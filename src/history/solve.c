@@ -4,15 +4,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of a model whose solve has ended with status s; the status of both. */
-static rb_status take_solution(const rb_rolling_model *model, rb_status s,
+rb_status rb_rolling_end_solve(const rb_rolling_model *model, rb_status s, double begun,
                                rb_rolling_solution *solution, rb_message *why)
 {
     memset(solution, 0, sizeof *solution);
-    if (s < 0 || !model->state.p)
-        return s;
-    const rb_status t = rb_rolling_model_solution(model, solution, why);
-    return t == RB_OK ? s : t;
+    if (s >= 0 && model->state.p) {
+        const rb_status t = rb_rolling_model_solution(model, solution, why);
+        s = t == RB_OK ? s : t;
+    }
+    if (s >= 0)
+        solution->status = s;
+    solution->seconds_total = rb_seconds() - begun;
+    return s;
 }
 
 rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
@@ -37,12 +40,11 @@ rb_status rb_rolling_solve_model_reuse(const rb_rolling_case *rc, rb_rolling_mod
                                             why);
     }
     rb_rolling_history_free(&history);
-    s = take_solution(model, s, solution, why);
-    if (s == RB_OK && rc->formulation == RB_STEADY && rb_rolling_largest_mu(rc) > 0.0)
+    s = rb_rolling_end_solve(model, s, start, solution, why);
+    if (s == RB_OK && rc->formulation == RB_STEADY && rb_rolling_largest_mu(rc) > 0.0) {
         s = rb_rolling_free_creepage_if_any(model, &solution->free_creepage, why);
-    if (s >= 0)
-        solution->status = s;
-    solution->seconds_total = rb_seconds() - start;
+        solution->seconds_total = rb_seconds() - start;
+    }
     return s;
 }
 
@@ -70,10 +72,7 @@ rb_status rb_rolling_solve_between(const rb_rolling_case *rc, double from, doubl
         s = rb_rolling_mesh_uniform(rc, NULL, from, to, &mesh, why);
     if (s == RB_OK)
         s = rb_rolling_model_build(&model, &mesh, why);
-    s = take_solution(&model, s, solution, why);
-    if (s >= 0)
-        solution->status = s;
-    solution->seconds_total = rb_seconds() - start;
+    s = rb_rolling_end_solve(&model, s, start, solution, why);
     rb_rolling_mesh_free(&mesh);
     rb_rolling_model_free(&model);
     return s;
@@ -142,10 +141,7 @@ rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double
         rb_rolling_set_control(rc, &model.problem);
         s = rb_rolling_model_resolve(&model, 0, why);
     }
-    s = take_solution(&model, s, solution, why);
-    if (s >= 0)
-        solution->status = s;
-    solution->seconds_total = rb_seconds() - begun;
+    s = rb_rolling_end_solve(&model, s, begun, solution, why);
     rb_rolling_particles_free(&particles);
     rb_rolling_model_free(&model);
     return s;

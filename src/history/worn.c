@@ -19,6 +19,7 @@ typedef struct {
     rb_rolling_case rc;     /* on the present mesh, with the worn depth so far */
     rb_rolling_model model; /* mesh, bodies and the contact after the last step */
     int n;
+    rb_arena memory;    /* of the arrays */
     double *x, *depth;  /* n: midpoints, and what is worn off there [length] */
     double *compliance; /* n: depth that a step wears per pressure [length/stress] */
     double *path;       /* n: way that the surfaces slide in a cycle [length] */
@@ -36,11 +37,7 @@ typedef struct {
 static void run_free(wear_state *r)
 {
     rb_rolling_model_free(&r->model);
-    free(r->x);
-    free(r->depth);
-    free(r->compliance);
-    free(r->path);
-    free(r->softer);
+    rb_arena_free(&r->memory);
 }
 
 static rb_rolling_table worn_of(const wear_state *r)
@@ -76,16 +73,15 @@ static rb_status press(wear_state *r, rb_message *why)
     if (s != RB_OK)
         return s;
     const size_t n = (size_t)r->model.mesh.n, m = n + 1;
-    double **const arrays[] = {&r->x, &r->depth, &r->compliance, &r->path};
-    int complete = 1;
 
     r->n = (int)n;
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
-        *arrays[k] = rb_alloc(n, 1);
-        complete = complete && *arrays[k];
-    }
-    r->softer = r->model.bodies.F ? rb_alloc(2 * m, 2 * n) : rb_alloc(n, 2);
-    if (!complete || !r->softer)
+    r->x = rb_arena_doubles(&r->memory, n, 1);
+    r->depth = rb_arena_doubles(&r->memory, n, 1);
+    r->compliance = rb_arena_doubles(&r->memory, n, 1);
+    r->path = rb_arena_doubles(&r->memory, n, 1);
+    r->softer = r->model.bodies.F ? rb_arena_doubles(&r->memory, 2 * m, 2 * n)
+                                  : rb_arena_doubles(&r->memory, n, 2);
+    if (r->memory.failed)
         return RB_ENOMEM;
     memcpy(r->x, r->model.bodies.f.x, n * sizeof *r->x);
     for (size_t i = 0; i < n; i++)
@@ -107,10 +103,10 @@ static rb_status widen(wear_state *r, rb_message *why)
     wider.rc.contact_elements = n + 2 * more;
     wider.rc.zone = r->rc.zone * (n + 2 * more) / n;
     memset(&wider.model, 0, sizeof wider.model);
-    wider.x = wider.depth = wider.compliance = wider.path = wider.softer = NULL;
-    rb_status s = press(&wider, why);
-    for (int i = 0; i < n && s == RB_OK; i++)
-        wider.depth[i + more] = r->depth[i];
+    wider.memory = (rb_arena){0};
+    const rb_status s = press(&wider, why);
+    if (s == RB_OK)
+        memcpy(wider.depth + more, r->depth, (size_t)n * sizeof *r->depth);
     run_free(r);
     *r = wider;
     r->rc.worn = worn_of(r);
@@ -304,7 +300,8 @@ static rb_status one_step(wear_state *r, double part, rb_message *why)
             const double last = !isnan(rc->force)         ? rc->force
                                 : !isnan(rc->force_ratio) ? rc->force_ratio
                                                           : rb_rolling_wanted_shift(rc);
-            double *column = rb_alloc((size_t)rows, 1);
+            rb_arena scratch = {0};
+            double *column = rb_arena_doubles(&scratch, (size_t)rows, 1);
             rb_rolling_program program = {.n = rows};
             rb_rolling_history history = {0};
             rb_rolling_model model = {0};
@@ -324,13 +321,14 @@ static rb_status one_step(wear_state *r, double part, rb_message *why)
                     : RB_ENOMEM;
             rb_rolling_model_free(&model);
             rb_rolling_history_free(&history);
-            free(column);
+            rb_arena_free(&scratch);
         }
-        for (int i = 0; i < r->n && s == RB_OK; i++)
+        if (s != RB_OK)
+            continue;
+        for (int i = 0; i < r->n; i++)
             r->compliance[i] =
                 r->wear->slides ? (1.0 - share) * depth * part : depth * part * r->path[i];
-        if (s == RB_OK)
-            s = wear_off(r, &reason);
+        s = wear_off(r, &reason);
     }
     if (s == RB_OK && r->wear->slides) {
         double carried = 0.0;
@@ -348,23 +346,23 @@ static const rb_option rows[] = {RB_WEAR_LINES(PLACE, way, way)};
 static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear, rb_message *why)
 {
     const int rolls = rc->formulation == RB_STEADY;
-    rb_status s = RB_OK;
 
     if (rc->formulation == RB_TRANSIENT)
         return rb_fail(why, RB_EINVAL,
                        "wear: only by sliding, by fretting cycles (static) or by rolling "
                        "(steady), not in a transient");
-    for (size_t k = 0; k < sizeof rows / sizeof *rows && s == RB_OK; k++) {
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         const void *at = (const char *)wear + rows[k].offset;
+        const double value =
+            rows[k].kind == RB_OPTION_INTEGER ? *(const int *)at : *(const double *)at;
         const char *elsewhere = wear->slides ? "cycles" : "slide";
-        const int frets = !rolls && !wear->slides;
-        if (strcmp(rows[k].name, elsewhere) != 0 && (frets || strcmp(rows[k].name, "quarter") != 0))
-            s = rb_rolling_check_option(
-                &rows[k],
-                rows[k].kind == RB_OPTION_INTEGER ? *(const int *)at : *(const double *)at, why);
+        const int frets = !rolls && !wear->slides,
+                  counts = strcmp(rows[k].name, elsewhere) != 0 &&
+                           (frets || strcmp(rows[k].name, "quarter") != 0);
+        const rb_status s = counts ? rb_rolling_check_option(&rows[k], value, why) : RB_OK;
+        if (s != RB_OK)
+            return s;
     }
-    if (s != RB_OK)
-        return s;
     if (rb_rolling_largest_mu(rc) == 0.0 && (wear->law == RB_WEAR_DISSIPATION || !wear->slides))
         return rb_fail(why, RB_EINVAL, "wear: at mu = 0 friction dissipates nothing");
     if (rc->friction.law != RB_FRICTION_constant && !rolls && wear->law == RB_WEAR_DISSIPATION)

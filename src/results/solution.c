@@ -63,23 +63,21 @@ static rb_status support_balance(const rb_rolling_model *model, double load, dou
     if (!model->bodies.system_a || !(load > 0.0))
         return RB_OK;
     const rb_bem_mesh *mesh = rb_bem_system_mesh(model->bodies.system_a);
-    double *u = rb_alloc(2 * (size_t)mesh->n, 1), *t = rb_alloc(2 * (size_t)mesh->n, 1),
-           *t_c = rb_alloc(2 * (size_t)model->problem.n, 1), reaction = 0.0;
-    rb_status s = u && t && t_c ? RB_OK : RB_ENOMEM;
+    rb_arena scratch = {0};
+    double *u = rb_arena_doubles(&scratch, 2 * (size_t)mesh->n, 1),
+           *t = rb_arena_doubles(&scratch, 2 * (size_t)mesh->n, 1),
+           *t_c = rb_arena_doubles(&scratch, 2 * (size_t)model->problem.n, 1), reaction = 0.0;
 
-    if (s == RB_OK) {
-        rb_rolling_contact_tractions(model, t_c);
-        s = rb_bem_system_solve(model->bodies.system_a, t_c, u, t);
-    }
-    for (int j = 0; j < mesh->n && s == RB_OK; j++)
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    rb_rolling_contact_tractions(model, t_c);
+    const rb_status s = rb_bem_system_solve(model->bodies.system_a, t_c, u, t);
+    for (int j = 0; j < mesh->n; j++)
         if (mesh->condition[2 * j + 1] == RB_BEM_DISPLACEMENT)
             reaction += t[2 * j + 1] * rb_bem_mesh_length(mesh, j);
     if (s == RB_OK)
         *balance = (reaction + load) / load;
-    free(u);
-    free(t);
-    free(t_c);
-    return s;
+    return rb_arena_done(&scratch, s);
 }
 
 /* What is smaller is rounding, or what the solver leaves: zero, as by symmetry. */

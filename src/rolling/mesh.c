@@ -351,11 +351,12 @@ rb_status rb_rolling_mesh_of_result(const rb_rolling_case *rc, const rb_rolling_
     for (int i = 0; i < n; i++)
         mesh->ends[i + 1] = x[i] + half_extent(rc, x[i], h[i]);
     put_upstream(rc, n, mesh->ends);
-    for (int i = 0; i <= n && s == RB_OK; i++)
-        if (!(mesh->ends[i + 1] > mesh->ends[i]))
-            s = rb_fail(why, RB_EINVAL, "element %d ends before it begins", i + 1);
-    if (s == RB_OK)
-        s = rb_rolling_mesh_set_gap(rc, mesh);
+    for (int i = 0; i <= n; i++)
+        if (!(mesh->ends[i + 1] > mesh->ends[i])) {
+            rb_rolling_mesh_free(mesh);
+            return rb_fail(why, RB_EINVAL, "element %d ends before it begins", i + 1);
+        }
+    s = rb_rolling_mesh_set_gap(rc, mesh);
     if (s != RB_OK)
         rb_rolling_mesh_free(mesh);
     return s;

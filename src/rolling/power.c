@@ -105,11 +105,15 @@ rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
     *power = model->rc->formulation == RB_STEADY ? 0.0 : NAN;
     if (model->rc->formulation != RB_STEADY || !rb_rolling_relaxes(model->rc))
         return RB_OK;
-    double *w = rb_alloc((size_t)(rows + 2 * n), 1), *r = w + rows;
-    rb_status s = w ? RB_OK : RB_ENOMEM;
-    if (s == RB_OK && flat)
-        s = rb_rolling_displacement(&model->bodies, state->p, state->q, w);
-    if (s == RB_OK && flat) {
+    rb_arena scratch = {0};
+    double *w = rb_arena_doubles(&scratch, (size_t)rows, 1),
+           *r = rb_arena_doubles(&scratch, 2 * (size_t)n, 1);
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    if (flat) {
+        const rb_status s = rb_rolling_displacement(&model->bodies, state->p, state->q, w);
+        if (s != RB_OK)
+            return rb_arena_done(&scratch, s);
         /* the surface's own part of the slip is paired with friction as all of it is */
         for (int i = 0; i < n; i++)
             r[i] = state->lambda[i] - state->xi * p->e_T[i];
@@ -118,7 +122,7 @@ rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
     }
     /* With wheels: of each body by itself what memory adds, because the elastic part, which
      * costs nothing, would leave the error of the mesh. */
-    for (int b = 0; b < 2 && s == RB_OK && !flat; b++) {
+    for (int b = 0; b < 2 && !flat; b++) {
         if (!model->bodies.memory[b])
             continue;
         const int turns = !(rb_rolling_kind_of(body[b])->can & RB_BODY_FLAT) &&
@@ -140,6 +144,5 @@ rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
         *power += normal_work(n, f->x, w_N, r, f->h) + normal_work(n, f->x, w_T, q, f->h) +
                   (turns ? turned / body[b]->radius : 0.0);
     }
-    free(w);
-    return s;
+    return rb_arena_done(&scratch, RB_OK);
 }
