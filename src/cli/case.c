@@ -78,19 +78,6 @@ cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why)
     return cli_say(rb_case_locate(c, s, why), why);
 }
 
-json_t *cli_case_json(const rb_case *c, const rb_rolling_case *rc, const rb_rolling_solution *s,
-                      json_t *inputs)
-{
-    const rb_resolved_case *resolved = rb_case_resolved(c);
-    json_t *root = rb_report_json_start(cli_command_line());
-    if (s)
-        rb_report_json_set(&root, "notes", rb_report_json_notes(rc ? rc : &resolved->rc, s));
-    rb_report_json_set(&root, "units", rb_report_json_units(resolved->units));
-    rb_report_json_set(&root, "input_hash", rb_report_json_input_hash(c));
-    rb_report_json_set(&root, "inputs", inputs);
-    return root;
-}
-
 /* ---- Commands that solve one ------------------------------------------------------ */
 
 static rb_status write_results(FILE *out, const void *context, rb_message *why)
@@ -102,7 +89,14 @@ static rb_status write_results(FILE *out, const void *context, rb_message *why)
     json_t *inputs = rb_report_json_inputs(run->words);
     if (run->command->inputs)
         run->command->inputs(run, &inputs);
-    json_t *root = cli_case_json(run->words, run->noted, run->solution, inputs);
+    json_t *root = rb_report_json_start(cli_command_line());
+    if (run->solution)
+        rb_report_json_set(
+            &root, "notes",
+            rb_report_json_notes(run->noted ? run->noted : &run->c->rc, run->solution));
+    rb_report_json_set(&root, "units", rb_report_json_units(run->c->units));
+    rb_report_json_set(&root, "input_hash", rb_report_json_input_hash(run->words));
+    rb_report_json_set(&root, "inputs", inputs);
     run->command->json(run, &root);
     return rb_report_json_write(out, root);
 }

@@ -45,11 +45,6 @@ const char *cli_case_file_of(const cli_args *args);
 rb_option_set cli_example_set(void);
 cli_exit cli_example_read(rb_case *c, const char *file);
 
-/* The start of JSON on a case: notes on the solution (s NULL: none) of rc (NULL: that of
- * c), units, inputs, which are taken over. */
-struct json_t *cli_case_json(const rb_case *c, const rb_rolling_case *rc,
-                             const rb_rolling_solution *s, struct json_t *inputs);
-
 /* Prints why the library refused the case; the exit code tells command line from file. */
 cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why);
 

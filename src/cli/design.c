@@ -101,14 +101,6 @@ static rb_status solve(cli_case_run *run, rb_message *why)
     return s;
 }
 
-static cli_exit find_nlopt(cli_case_run *run)
-{
-    (void)run;
-    return rb_design_available()
-               ? CLI_CONTINUE
-               : cli_fail(CLI_USAGE, "design: this rollbem was built without NLopt (libnlopt-dev)");
-}
-
 static cli_exit check(cli_case_run *run)
 {
     designing *f = run->own;
@@ -136,7 +128,6 @@ static const cli_case_command command = {
     .purpose = RB_CASE_SINGLE,
     .options = options,
     .option_n = OPTIONS,
-    .prepare = find_nlopt,
     .check = check,
     .solve = solve,
     .table = write_table,

@@ -377,22 +377,6 @@ static const struct {
      run_wall}};
 enum { FINITE_ELEMENTS = sizeof finite_elements / sizeof finite_elements[0] };
 
-static cli_exit check(const example_options *o, const cli_args *args)
-{
-    rb_message why = {""};
-    if (args->operands != 1)
-        return cli_fail(CLI_USAGE, "example: expected one of bar, truss, wall");
-    if (o->output) { /* a folder or a file */
-        const rb_status s = strcmp(args->operand[0], "wall") == 0
-                                ? rb_io_folder_check(o->output, &why)
-                                : rb_io_writer_check(o->output, &why);
-        if (s != RB_OK)
-            return cli_say(s, &why);
-    }
-    const rb_friction_solver *solver;
-    return o->solver ? cli_friction_solver("solver", o->solver, &solver) : CLI_CONTINUE;
-}
-
 int cli_example(int argc, char **argv)
 {
     if (argc > 1 && cli_example_is_case(argv[1])) {
@@ -419,10 +403,19 @@ int cli_example(int argc, char **argv)
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE)
         code = cli_check_files(&spec, &args);
-    if (code == CLI_CONTINUE)
-        code = check(&o, &args);
+    if (code == CLI_CONTINUE && args.operands != 1)
+        code = cli_fail(CLI_USAGE, "example: expected one of bar, truss, wall");
+    const char *name = args.operand ? args.operand[0] : NULL;
+    if (code == CLI_CONTINUE && o.output) { /* a folder or a file */
+        rb_message why = {""};
+        code = cli_say(strcmp(name, "wall") == 0 ? rb_io_folder_check(o.output, &why)
+                                                 : rb_io_writer_check(o.output, &why),
+                       &why);
+    }
+    const rb_friction_solver *solver;
+    if (code == CLI_CONTINUE && o.solver)
+        code = cli_friction_solver("solver", o.solver, &solver);
     if (code == CLI_CONTINUE) {
-        const char *name = args.operand[0];
         rb_guess guess = {.word = name};
         int k = 0;
         while (k < FINITE_ELEMENTS && strcmp(finite_elements[k].name, name) != 0)

@@ -301,47 +301,47 @@ static cli_exit run_all(lcp_run *run, rb_io_matrix *M, lcp_result *r)
     return say_all(run->o, r, &all);
 }
 
-static cli_exit solve_problem(lcp_run *run, rb_io_lcp *p, lcp_result *r)
-{
-    r->n = p->n;
-    r->z = rb_alloc((size_t)p->n, 1);
-    r->w = rb_alloc((size_t)p->n, 1);
-    if (rb_io_matrix_to_sparse(&p->M, &r->M) != RB_OK || !r->z || !r->w)
-        return failed(r, RB_ENOMEM, &(rb_message){""});
-    r->boxed = (rb_lcp_mixed_problem){&r->M, p->q, r->lower, r->upper};
-    if (run->o->all)
-        return run_all(run, &p->M, r);
-    const rb_lcp_options opt = solver_options(run, r);
-    const double start = rb_seconds();
-    const rb_status s = rb_lcp_solve(solvers[run->o->solver].name, &r->boxed, &opt, r->z, &r->info);
-    r->seconds = rb_seconds() - start;
-    if (s < 0)
-        return invalid(r, s, &r->info.msg);
-    r->solver = r->info.solver;
-    r->floor = rb_lcp_rounding_floor(&r->boxed, r->z, r->w);
-    r->info.res = rb_lcp_residual_mixed(&r->boxed, r->z, r->w);
-    if (rb_lcp_scaled_residual(&r->boxed, r->z, &r->info.scaled, &r->info.row) != RB_OK)
-        return invalid(r, RB_ENOMEM, &(rb_message){"out of memory"});
-    return say_end(run->o, r, s);
-}
-
 static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
 {
+    const lcp_options *o = run->o;
     rb_io_lcp p;
     rb_message why = {""};
-    rb_status s = rb_io_lcp_read(r->file, run->o->q, &p, &why);
+    rb_status s = rb_io_lcp_read(r->file, o->q, &p, &why);
+    /* The vectors of the options, each of n numbers. */
+    if (s == RB_OK && o->lower)
+        s = rb_io_bounds_read(o->lower, p.n, "lower", &r->lower, &why);
+    if (s == RB_OK && o->upper)
+        s = rb_io_bounds_read(o->upper, p.n, "upper", &r->upper, &why);
+    if (s == RB_OK && o->cover)
+        s = rb_io_vector_read(o->cover, p.n, "cover", &r->cover, &why);
+    if (s == RB_OK && o->start)
+        s = rb_io_vector_read(o->start, p.n, "start", &r->start, &why);
     if (s == RB_OK) {
-        /* The vectors of the options, each of n numbers. */
-        if (run->o->lower)
-            s = rb_io_bounds_read(run->o->lower, p.n, "lower", &r->lower, &why);
-        if (s == RB_OK && run->o->upper)
-            s = rb_io_bounds_read(run->o->upper, p.n, "upper", &r->upper, &why);
-        if (s == RB_OK && run->o->cover)
-            s = rb_io_vector_read(run->o->cover, p.n, "cover", &r->cover, &why);
-        if (s == RB_OK && run->o->start)
-            s = rb_io_vector_read(run->o->start, p.n, "start", &r->start, &why);
+        r->n = p.n;
+        r->z = rb_alloc((size_t)p.n, 1);
+        r->w = rb_alloc((size_t)p.n, 1);
+        s = r->z && r->w ? rb_io_matrix_to_sparse(&p.M, &r->M) : RB_ENOMEM;
+        r->boxed = (rb_lcp_mixed_problem){&r->M, p.q, r->lower, r->upper};
     }
-    const cli_exit code = s == RB_OK ? solve_problem(run, &p, r) : failed(r, s, &why);
+    cli_exit code = CLI_CONTINUE;
+    if (s != RB_OK)
+        code = failed(r, s, &why);
+    else if (o->all)
+        code = run_all(run, &p.M, r);
+    if (code == CLI_CONTINUE) {
+        const rb_lcp_options opt = solver_options(run, r);
+        const double start = rb_seconds();
+        s = rb_lcp_solve(solvers[o->solver].name, &r->boxed, &opt, r->z, &r->info);
+        r->seconds = rb_seconds() - start;
+        if (s >= 0) {
+            r->solver = r->info.solver;
+            r->floor = rb_lcp_rounding_floor(&r->boxed, r->z, r->w);
+            r->info.res = rb_lcp_residual_mixed(&r->boxed, r->z, r->w);
+            if (rb_lcp_scaled_residual(&r->boxed, r->z, &r->info.scaled, &r->info.row) != RB_OK)
+                s = rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
+        }
+        code = s < 0 ? invalid(r, s, &r->info.msg) : say_end(o, r, s);
+    }
     rb_io_lcp_free(&p);
     return code;
 }

@@ -103,29 +103,8 @@ static int read_value(typed *t, const char *word, double *value)
     return 1;
 }
 
-/* "from:to:count" or "from:to:count:log"; 0 where the word is something else. */
-static int read_range(typed *t, const char *word, double **value)
-{
-    double from, to, count;
-    char a[64], b[64], n[64], kind[8] = "";
-    const int parts = sscanf(word, "%63[^:]:%63[^:]:%63[^:]:%7s", a, b, n, kind);
-    const int logarithmic = parts == 4 && strcmp(kind, "log") == 0;
-
-    if (parts < 3 || (parts == 4 && !logarithmic) || !read_value(t, a, &from) ||
-        !read_value(t, b, &to) || !rb_option_number(n, &count) || count < 2 || count > 1e7 ||
-        count != floor(count) || (logarithmic && !(from > 0.0 && to > 0.0)))
-        return 0;
-    *value = rb_alloc((size_t)count, 1);
-    for (int k = 0; *value && k < count; k++) {
-        const double part = k / (count - 1.0);
-        (*value)[k] = logarithmic ? from * pow(to / from, part) : from + (to - from) * part;
-    }
-    if (*value)
-        (*value)[(int)count - 1] = to;
-    return *value ? (int)count : NO_MEMORY;
-}
-
-/* How many numbers the text has; 0: it is none of the forms; NO_MEMORY. */
+/* How many numbers the text has: a list, or "from:to:count", or "from:to:count:log"; 0: it is
+ * none of the forms; NO_MEMORY. */
 static int read_values(typed *t, char *text, double **value)
 {
     int n = 0;
@@ -133,8 +112,26 @@ static int read_values(typed *t, char *text, double **value)
     char *rest, *word = strtok_r(text, " \t,", &rest);
     if (!word)
         return 0;
-    if (strchr(word, ':'))
-        return strtok_r(NULL, " \t,", &rest) ? 0 : read_range(t, word, value);
+    if (strchr(word, ':')) {
+        double from, to, count;
+        char a[64], b[64], how_many[64], kind[8] = "";
+        const int parts = sscanf(word, "%63[^:]:%63[^:]:%63[^:]:%7s", a, b, how_many, kind);
+        const int logarithmic = parts == 4 && strcmp(kind, "log") == 0;
+
+        if (strtok_r(NULL, " \t,", &rest) || parts < 3 || (parts == 4 && !logarithmic) ||
+            !read_value(t, a, &from) || !read_value(t, b, &to) ||
+            !rb_option_number(how_many, &count) || count < 2 || count > 1e7 ||
+            count != floor(count) || (logarithmic && !(from > 0.0 && to > 0.0)))
+            return 0;
+        *value = rb_alloc((size_t)count, 1);
+        for (int k = 0; *value && k < count; k++) {
+            const double part = k / (count - 1.0);
+            (*value)[k] = logarithmic ? from * pow(to / from, part) : from + (to - from) * part;
+        }
+        if (*value)
+            (*value)[(int)count - 1] = to;
+        return *value ? (int)count : NO_MEMORY;
+    }
     *value = rb_alloc(most, 1);
     for (; *value && word; word = strtok_r(NULL, " \t,", &rest))
         if (!read_value(t, word, &(*value)[n++]))

@@ -98,73 +98,69 @@ static rb_status read_bounds(const rb_case *c, const char *name, const char *uni
                                : rb_fail(why, RB_EINVAL, "--over: %s: expected A < B", name);
 }
 
-static rb_status add_gap(const rb_case *c, const double bound[2], rb_design *d, rb_message *why)
+/* The next variable; NULL: no memory. */
+static rb_design_variable *add_variable(rb_design *d, const char *unit, double low, double high,
+                                        double start)
 {
-    const double *gap;
+    rb_design_variable *all = realloc(d->variable, (size_t)(d->n + 1) * sizeof *all);
+    if (!all)
+        return NULL;
+    d->variable = all;
+    all[d->n] = (rb_design_variable){
+        .unit = unit, .low = low, .high = high, .start = start, .value = start};
+    return &all[d->n++];
+}
 
+/* The number of that name, or every value of the table of the gap; range: "A:B". */
+static rb_status add_variables(const rb_case *c, int numbers, const rb_case_number *number,
+                               const char *name, char *range, rb_design *d, rb_message *why)
+{
+    rb_guess guess = {.word = name};
+    const int is_gap = strcmp(name, "gap") == 0;
+    const double *gap = NULL;
+    double bound[2];
+    int k = 0;
+
+    for (; !is_gap && k < numbers && strcmp(number[k].name, name) != 0; k++)
+        rb_guess_try(&guess, number[k].name);
+    if (!is_gap && (k == numbers || number[k].entry > 0))
+        return rb_fail(why, RB_EINVAL, "--over: '%.40s' is no number of this case%s", name,
+                       rb_guess_text(&guess, ""));
+    const char *unit = is_gap ? "mm" : number[k].option->unit;
+    if (read_bounds(c, name, unit, range, bound, why) != RB_OK)
+        return RB_EINVAL;
+    if (!is_gap) {
+        const double value = number[k].input.value;
+        if (!(bound[0] <= value && value <= bound[1]))
+            return rb_fail(why, RB_EINVAL,
+                           "--over: %s begins at %g, which is not within its bounds", name, value);
+        rb_design_variable *v = add_variable(d, unit, bound[0], bound[1], value);
+        if (v)
+            snprintf(v->name, sizeof v->name, "%.39s", name);
+        return v ? RB_OK : rb_fail(why, RB_ENOMEM, "out of memory for a design");
+    }
     d->gap_from = d->n;
     d->gap_n = rb_case_gap_rows(c, &d->gap_x, &gap);
     if (d->gap_n == 0)
         return rb_fail(why, RB_EINVAL, "--over gap: needs a gap from a table (--gap FILE)");
-    rb_design_variable *all = realloc(d->variable, (size_t)(d->n + d->gap_n + 1) * sizeof *all);
-    if (!all)
-        return rb_fail(why, RB_ENOMEM, "out of memory for a design");
-    d->variable = all;
-    for (int k = 0; k < d->gap_n; k++) {
-        rb_design_variable *v = &all[d->n++];
-        *v = (rb_design_variable){.unit = "mm",
-                                  .low = gap[k] + bound[0],
-                                  .high = gap[k] + bound[1],
-                                  .start = gap[k],
-                                  .value = gap[k]};
-        snprintf(v->name, sizeof v->name, "gap-%d", k + 1);
+    for (int i = 0; i < d->gap_n; i++) {
+        rb_design_variable *v = add_variable(d, unit, gap[i] + bound[0], gap[i] + bound[1], gap[i]);
+        if (!v)
+            return rb_fail(why, RB_ENOMEM, "out of memory for a design");
+        snprintf(v->name, sizeof v->name, "gap-%d", i + 1);
     }
-    return RB_OK;
-}
-
-static rb_status add_number(const rb_case *c, const char *name, char *range, rb_design *d,
-                            rb_case_number *number, rb_message *why)
-{
-    rb_guess guess = {.word = name};
-    double bound[2];
-    int n, k = 0;
-    rb_status s = rb_case_numbers(c, number, &n, why);
-
-    for (; k < n && strcmp(number[k].name, name) != 0; k++)
-        rb_guess_try(&guess, number[k].name);
-    if (s == RB_OK && (k == n || number[k].entry > 0))
-        return rb_fail(why, RB_EINVAL, "--over: '%.40s' is no number of this case%s", name,
-                       rb_guess_text(&guess, ""));
-    if (s == RB_OK)
-        s = read_bounds(c, name, number[k].option->unit, range, bound, why);
-    if (s != RB_OK)
-        return s;
-    const double value = number[k].input.value;
-    if (!(bound[0] <= value && value <= bound[1]))
-        return rb_fail(why, RB_EINVAL, "--over: %s begins at %g, which is not within its bounds",
-                       name, value);
-    rb_design_variable *all = realloc(d->variable, (size_t)(d->n + 1) * sizeof *all);
-    if (!all)
-        return rb_fail(why, RB_ENOMEM, "out of memory for a design");
-    d->variable = all;
-    rb_design_variable *v = &all[d->n++];
-    *v = (rb_design_variable){.unit = number[k].option->unit,
-                              .low = bound[0],
-                              .high = bound[1],
-                              .start = value,
-                              .value = value};
-    snprintf(v->name, sizeof v->name, "%.39s", name);
     return RB_OK;
 }
 
 rb_status rb_design_variables(const rb_case *c, const char *text, rb_design *d, rb_message *why)
 {
     rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
-    rb_status s = number ? RB_OK : rb_fail(why, RB_ENOMEM, "out of memory for a design");
+    int numbers = 0;
+    rb_status s = number ? rb_case_numbers(c, number, &numbers, why)
+                         : rb_fail(why, RB_ENOMEM, "out of memory for a design");
 
     for (size_t n; text && *text && s == RB_OK; text += n + (text[n] == ',')) {
         char word[120];
-        double bound[2];
         n = strcspn(text, ",");
         snprintf(word, sizeof word, "%.*s", (int)(n < 119 ? n : 119), text);
         char *range = strchr(word, '=');
@@ -173,13 +169,8 @@ rb_status rb_design_variables(const rb_case *c, const char *text, rb_design *d, 
         for (int k = 0; k < d->n && s == RB_OK; k++)
             if (strcmp(d->variable[k].name, word) == 0)
                 s = rb_fail(why, RB_EINVAL, "--over: %s stands there twice", word);
-        if (s == RB_OK && strcmp(word, "gap") == 0) {
-            s = read_bounds(c, word, "mm", range, bound, why);
-            if (s == RB_OK)
-                s = add_gap(c, bound, d, why);
-        } else if (s == RB_OK) {
-            s = add_number(c, word, range, d, number, why);
-        }
+        if (s == RB_OK)
+            s = add_variables(c, numbers, number, word, range, d, why);
     }
     free(number);
     return s == RB_OK && d->n == 0 ? rb_fail(why, RB_EINVAL, "design: needs --over NAME=A:B") : s;
@@ -259,44 +250,34 @@ static double weight_of(const rb_rolling_solution *s, double span, int i)
     return span == 0.0 || fabs(s->x[i]) < span ? s->h[i] : 0.0;
 }
 
-/* The ripple, and its derivative along p_rate (NULL: 0). */
-static double ripple(const rb_rolling_solution *s, double span, const double *p_rate, double *rate)
-{
-    double length = 0.0, mean = 0.0, sum = 0.0, mean_rate = 0.0, sum_rate = 0.0;
-
-    for (int i = 0; i < s->n; i++) {
-        const double h = weight_of(s, span, i);
-        length += h;
-        mean += h * s->p[i];
-        mean_rate += p_rate ? h * p_rate[i] : 0.0;
-    }
-    mean /= length;
-    mean_rate /= length;
-    for (int i = 0; i < s->n; i++) {
-        const double off = s->p[i] / mean - 1.0, h = weight_of(s, span, i);
-        sum += h / length * off * off;
-        sum_rate +=
-            p_rate ? 2.0 * h / length * off * (p_rate[i] - s->p[i] * mean_rate / mean) / mean : 0.0;
-    }
-    const double r = sqrt(sum);
-    *rate = r > 0.0 ? 0.5 * sum_rate / r : 0.0;
-    return r;
-}
-
 /* Values of all functions; along a derivative: their rates. */
 static void read_functions(const rb_design *d, const rb_rolling_solution *s,
                            const rb_rolling_solution *along, double *f, int stride)
 {
+    double length = 0.0, mean = 0.0, sum = 0.0, mean_rate = 0.0, sum_rate = 0.0;
+
+    /* The ripple, and its derivative. */
+    for (int i = 0; i < s->n; i++) {
+        const double h = weight_of(s, d->span, i);
+        length += h;
+        mean += h * s->p[i];
+        mean_rate += along ? h * along->p[i] : 0.0;
+    }
+    mean /= length;
+    mean_rate /= length;
+    for (int i = 0; i < s->n; i++) {
+        const double off = s->p[i] / mean - 1.0, h = weight_of(s, d->span, i);
+        sum += h / length * off * off;
+        sum_rate += along
+                        ? 2.0 * h / length * off * (along->p[i] - s->p[i] * mean_rate / mean) / mean
+                        : 0.0;
+    }
+    const double ripple = sqrt(sum), rate = ripple > 0.0 ? 0.5 * sum_rate / ripple : 0.0;
     for (int k = 0; k <= d->constraints; k++) {
         const rb_rolling_result *r = k == 0 ? d->result : d->constraint[k - 1].result;
-        double rate, *to = &f[(size_t)k * (size_t)stride];
-        if (r)
-            *to = rb_rolling_number(r, along ? along : s);
-        else {
-            *to = ripple(s, d->span, along ? along->p : NULL, &rate);
-            if (along)
-                *to = rate;
-        }
+        f[(size_t)k * (size_t)stride] = r       ? rb_rolling_number(r, along ? along : s)
+                                        : along ? rate
+                                                : ripple;
     }
 }
 
@@ -496,14 +477,6 @@ static rb_status search(problem *p)
     return p->status;
 }
 
-#else
-
-static rb_status search(problem *p)
-{
-    return rb_fail(p->why, RB_EINVAL,
-                   "design: this rollbem was built without NLopt (libnlopt-dev)");
-}
-
 #endif
 
 rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer, rb_design *d,
@@ -521,7 +494,9 @@ rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer, 
                  .why = why};
     rb_status s = RB_OK;
 
-    if (rb_case_has_steps(rb_case_resolved(c)) || rb_case_resolved(c)->error)
+    if (!rb_design_available())
+        s = rb_fail(why, RB_EINVAL, "design: this rollbem was built without NLopt (libnlopt-dev)");
+    else if (rb_case_has_steps(rb_case_resolved(c)) || rb_case_resolved(c)->error)
         s = rb_fail(why, RB_EINVAL, "design: only for cases of one step without error bars");
     else if (!p.x || !p.value || !p.gradient || !p.best)
         s = rb_fail(why, RB_ENOMEM, "out of memory for a design");
@@ -529,8 +504,10 @@ rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer, 
     d->start = d->value = NAN;
     for (int j = 0; j < d->n && p.best; j++)
         p.best[j] = d->variable[j].start;
+#if RB_NLOPT
     if (s == RB_OK)
         s = search(&p);
+#endif
     for (int j = 0; j < d->n && p.best; j++)
         d->variable[j].value = p.best[j];
     if (s == RB_OK && !(p.best_value < INFINITY))
