@@ -72,8 +72,8 @@ const char *rb_certificate_word(const json_t *object, const char *key)
 
 /* ---- The model again --------------------------------------------------------------- */
 
-rb_status rb_certificate_list(const char *name, const json_t *list, const char *heading, int n,
-                              double *x, rb_message *why)
+static rb_status read_list(const char *name, const json_t *list, const char *heading, int n,
+                           double *x, rb_message *why)
 {
     if ((int)json_array_size(list) != n)
         return rb_fail(why, RB_EFORMAT, "%s: table: expected %d numbers in %s", name, n, heading);
@@ -95,15 +95,15 @@ rb_status rb_certificate_lists(const char *name, const char *of, const json_t *l
     if ((int)json_array_size(lists) != steps)
         return rb_fail(why, RB_EFORMAT, "%s: %sexpected %d steps in %s", name, of, steps, heading);
     for (int k = 0; k < steps && s == RB_OK; k++)
-        s = rb_certificate_list(name, json_array_get(lists, (size_t)k), heading, n,
-                                x + (size_t)k * apart, why);
+        s = read_list(name, json_array_get(lists, (size_t)k), heading, n, x + (size_t)k * apart,
+                      why);
     return s;
 }
 
 rb_status rb_certificate_column(const char *name, const json_t *table, const char *heading, int n,
                                 double *x, rb_message *why)
 {
-    return rb_certificate_list(name, json_object_get(table, heading), heading, n, x, why);
+    return read_list(name, json_object_get(table, heading), heading, n, x, why);
 }
 
 /* Gaps and shifts of the printed tractions at an approach and a motion: w, 2 n. */
@@ -246,60 +246,6 @@ void rb_certificate_motion(rb_certificate *c)
                               CONTROLS * fabs(p->xi));
 }
 
-static void check_zone(rb_certificate *c, int i, double slack, double yield)
-{
-    const rb_contact_problem *problem = &c->model.problem;
-    const rb_contact_state *x = &c->model.state;
-    const double p = x->p[i], q = x->q[i], bound = problem->bound[i] * p;
-    const double slip = x->lambda[i], length = slack * problem->slip_length;
-    const double stress = slack * fmax(problem->mu, 1e-3) * problem->stress;
-    const int zone = x->zone[i];
-
-    if (p < 0.0)
-        rb_certificate_violated(c, "pressure of element %d: %.3g < 0", i + 1, p);
-    if ((p > 0.0) != (zone != RB_ZONE_SEPARATED))
-        rb_certificate_violated(c, "zone of element %d: %d at a pressure of %.3g", i + 1, zone, p);
-    if (fabs(q) > bound + stress)
-        rb_certificate_violated(
-            c, "Coulomb's bound of element %d: |q| exceeds mu p by %.3g (allowed %.2g)", i + 1,
-            fabs(q) - bound, stress);
-    if (zone == RB_ZONE_STICK && fabs(slip) > length)
-        rb_certificate_violated(c, "stick of element %d: it slips by %.3g (allowed %.2g)", i + 1,
-                                fabs(slip), length);
-    if (zone == RB_ZONE_SLIP_NEGATIVE && (fabs(q + bound) > stress || slip < -length))
-        rb_certificate_violated(c, "slip of element %d: q + mu p = %.3g, shift %.3g", i + 1,
-                                q + bound, slip);
-    if (zone == RB_ZONE_SLIP_POSITIVE && (fabs(q - bound) > stress || slip > length))
-        rb_certificate_violated(c, "slip of element %d: q - mu p = %.3g, shift %.3g", i + 1,
-                                q - bound, slip);
-    if (zone > RB_ZONE_SLIP_POSITIVE && fabs(fabs(q) - yield) > stress)
-        rb_certificate_violated(c, "yield of element %d: |q| is off its yield stress by %.3g",
-                                i + 1, fabs(q) - yield);
-    if (fabs(q) > yield + stress)
-        rb_certificate_violated(c,
-                                "yield stress of element %d: |q| exceeds it by %.3g (allowed %.2g)",
-                                i + 1, fabs(q) - yield, stress);
-}
-
-/* Of the half-planes that thin layers would be without their bases: what these take away
- * is subtracted from it. */
-static double displacement_without_bases(const rb_certificate *c)
-{
-    const rb_rolling_case *rc = c->model.rc;
-    const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
-    const rb_contact_state *state = &c->model.state;
-    double tractions = 0.0, compliance = 0.0;
-
-    for (int i = 0; i < c->model.problem.n; i++)
-        tractions += (fabs(state->p[i]) + fabs(state->q[i])) * c->model.bodies.f.h[i];
-    for (int b = 0; b < 1 + rc->elastic_b; b++) {
-        const rb_bem_material material = rb_rolling_material(rc, bodies[b]);
-        if (bodies[b]->layer > 0.0)
-            compliance += (1.0 - material.poisson) / material.shear;
-    }
-    return tractions * compliance;
-}
-
 /* The residual that the result prints is believed where it is below what was asked for.
  * Hierarchical matrices approximate: other ends of elements, by a rounding, other digits. */
 void rb_certificate_tolerances(rb_certificate *c, double residual)
@@ -316,43 +262,86 @@ void rb_certificate_tolerances(rb_certificate *c, double residual)
     const double share = c->hierarchical                             ? 1e-10
                          : rb_rolling_can(c->model.rc, RB_BODY_FLAT) ? 1e-13
                                                                      : 2e-12;
+    /* Of the half-planes that thin layers would be without their bases: what these take away is
+     * subtracted from it. */
+    const rb_rolling_case *rc = c->model.rc;
+    const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
+    double tractions = 0.0, compliance = 0.0;
+    for (int i = 0; i < p->n; i++)
+        tractions +=
+            (fabs(c->model.state.p[i]) + fabs(c->model.state.q[i])) * c->model.bodies.f.h[i];
+    for (int b = 0; b < 1 + rc->elastic_b; b++) {
+        const rb_bem_material material = rb_rolling_material(rc, bodies[b]);
+        if (bodies[b]->layer > 0.0)
+            compliance += (1.0 - material.poisson) / material.shear;
+    }
     c->displacement =
         share * (largest(json_object_get(c->table, "un_mm")) +
-                 largest(json_object_get(c->table, "ut_mm")) + displacement_without_bases(c));
+                 largest(json_object_get(c->table, "ut_mm")) + tractions * compliance);
     c->tol = (c->hierarchical ? 100.0 : 10.0) * asked +
              c->displacement / fmin(p->gap_length, p->slip_length);
 }
 
 rb_status rb_certificate_laws(rb_certificate *c)
 {
-    const rb_contact_problem *p = &c->model.problem;
+    const rb_contact_problem *problem = &c->model.problem;
     const rb_contact_state *x = &c->model.state;
-    const int n = p->n;
+    const int n = problem->n;
+    const double apart = c->tol * problem->gap_length + c->displacement;
+    const double length = c->tol * problem->slip_length;
+    const double stress = c->tol * fmax(problem->mu, 1e-3) * problem->stress;
     double *gap = rb_alloc((size_t)n, 3), *yielded = gap + 2 * n;
     rb_contact_violation v;
 
     if (!gap)
         return RB_ENOMEM;
-    rb_contact_kinematics(p, x, gap, gap + n);
-    rb_contact_yielded(p, x->plastic, yielded);
+    rb_contact_kinematics(problem, x, gap, gap + n);
+    rb_contact_yielded(problem, x->plastic, yielded);
     for (int i = 0; i < n; i++) {
         const json_t *printed = json_array_get(json_object_get(c->table, "gap_mm"), (size_t)i);
-        const double length = c->tol * p->gap_length + c->displacement;
+        const double p = x->p[i], q = x->q[i], slip = x->lambda[i], bound = problem->bound[i] * p;
+        const double yield = rb_contact_yield_stress(problem, i, yielded[i]);
+        const int zone = x->zone[i];
+
         if (c->step == 0)
             rb_certificate_expect(c, "gap_mm", i + 1, rb_certificate_number(printed), gap[i],
-                                  c->exact * p->gap_length + c->displacement);
-        rb_certificate_expect(c, "shift_mm", i + 1, x->lambda[i], gap[n + i],
-                              c->exact * p->slip_length + c->displacement);
-        if (x->p[i] > 0.0 ? fabs(gap[i]) > length : gap[i] < -length)
+                                  c->exact * problem->gap_length + c->displacement);
+        rb_certificate_expect(c, "shift_mm", i + 1, slip, gap[n + i],
+                              c->exact * problem->slip_length + c->displacement);
+        if (p > 0.0 ? fabs(gap[i]) > apart : gap[i] < -apart)
             rb_certificate_violated(c,
                                     "gap of element %d: %.3g at a pressure of %.3g (allowed %.2g)",
-                                    i + 1, gap[i], x->p[i], length);
-        check_zone(c, i, c->tol, rb_contact_yield_stress(p, i, yielded[i]));
+                                    i + 1, gap[i], p, apart);
+        if (p < 0.0)
+            rb_certificate_violated(c, "pressure of element %d: %.3g < 0", i + 1, p);
+        if ((p > 0.0) != (zone != RB_ZONE_SEPARATED))
+            rb_certificate_violated(c, "zone of element %d: %d at a pressure of %.3g", i + 1, zone,
+                                    p);
+        if (fabs(q) > bound + stress)
+            rb_certificate_violated(
+                c, "Coulomb's bound of element %d: |q| exceeds mu p by %.3g (allowed %.2g)", i + 1,
+                fabs(q) - bound, stress);
+        if (zone == RB_ZONE_STICK && fabs(slip) > length)
+            rb_certificate_violated(c, "stick of element %d: it slips by %.3g (allowed %.2g)",
+                                    i + 1, fabs(slip), length);
+        if (zone == RB_ZONE_SLIP_NEGATIVE && (fabs(q + bound) > stress || slip < -length))
+            rb_certificate_violated(c, "slip of element %d: q + mu p = %.3g, shift %.3g", i + 1,
+                                    q + bound, slip);
+        if (zone == RB_ZONE_SLIP_POSITIVE && (fabs(q - bound) > stress || slip > length))
+            rb_certificate_violated(c, "slip of element %d: q - mu p = %.3g, shift %.3g", i + 1,
+                                    q - bound, slip);
+        if (zone > RB_ZONE_SLIP_POSITIVE && fabs(fabs(q) - yield) > stress)
+            rb_certificate_violated(c, "yield of element %d: |q| is off its yield stress by %.3g",
+                                    i + 1, fabs(q) - yield);
+        if (fabs(q) > yield + stress)
+            rb_certificate_violated(
+                c, "yield stress of element %d: |q| exceeds it by %.3g (allowed %.2g)", i + 1,
+                fabs(q) - yield, stress);
     }
     if (x->p[0] > 0.0 || x->p[n - 1] > 0.0)
         rb_certificate_violated(c, "the contact reaches an end of the table");
     free(gap);
-    const rb_status s = rb_contact_residual(p, x, &v);
+    const rb_status s = rb_contact_residual(problem, x, &v);
     if (s == RB_OK && !(v.scaled <= c->tol))
         rb_certificate_violated(c, "residual: %.3g (allowed %.2g)", v.scaled, c->tol);
     c->found->residual = v.scaled;
@@ -379,7 +368,7 @@ double rb_certificate_rounding(const rb_rolling_results *all, const char *name,
                                           : 0.0;
 }
 
-static double rounding_of(const rb_certificate *c, const char *key)
+static double slack_of_summary(const rb_certificate *c, const char *key, double want)
 {
     const rb_rolling_solution *s = &c->again;
     const rb_certificate_scales scales = {.half_width = /* or nothing in contact */
@@ -387,14 +376,15 @@ static double rounding_of(const rb_certificate *c, const char *key)
                                           .load = s->normal_load,
                                           .pressure = s->max_pressure,
                                           .radius = rb_rolling_larger_radius(c->model.rc)};
+    const rb_contact_problem *p = &c->model.problem;
 
-    if (strcmp(key, "residual") == 0)
-        return c->tol;
-    if (strncmp(key, "residual_", 9) == 0)
-        return c->tol * (strcmp(key, "residual_friction") == 0 ? c->model.problem.stress
-                         : strcmp(key, "residual_gap") == 0    ? c->model.problem.gap_length
-                                                               : c->model.problem.slip_length);
-    return rb_certificate_rounding(&rb_rolling_solution_scalars, key, &scales, 1e-10);
+    return 1e-9 * fabs(want) +
+           (strcmp(key, "residual") == 0            ? c->tol
+            : strcmp(key, "residual_friction") == 0 ? c->tol * p->stress
+            : strcmp(key, "residual_gap") == 0      ? c->tol * p->gap_length
+            : strncmp(key, "residual_", 9) == 0
+                ? c->tol * p->slip_length
+                : rb_certificate_rounding(&rb_rolling_solution_scalars, key, &scales, 1e-10));
 }
 
 /* How the answer was found, which nothing but solving again would tell. */
@@ -444,11 +434,6 @@ void rb_certificate_compare(rb_certificate *c, const char *name, int element, co
                                    json_array_get(again, i), slack);
     else if (!json_equal(printed, again))
         rb_certificate_violated(c, "%s is not what it should be", name);
-}
-
-static double slack_of_summary(const rb_certificate *c, const char *key, double want)
-{
-    return 1e-9 * fabs(want) + rounding_of(c, key);
 }
 
 /* The library's own formula against one that shares nothing with it.  What sticks up to

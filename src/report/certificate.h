@@ -50,9 +50,7 @@ rb_status rb_certificate_rebuild_case(const char *name, const json_t *inputs, rb
  * is not the printed one.  RB_ENOMEM: now is NULL. */
 rb_status rb_certificate_hash(rb_certificate *c, const json_t *root, json_t *now);
 
-/* n numbers: a list, and the one that a table has under a heading. */
-rb_status rb_certificate_list(const char *name, const json_t *list, const char *heading, int n,
-                              double *x, rb_message *why);
+/* n numbers that a table has under a heading. */
 rb_status rb_certificate_column(const char *name, const json_t *table, const char *heading, int n,
                                 double *x, rb_message *why);
 

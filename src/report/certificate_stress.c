@@ -53,19 +53,6 @@ static rb_status points_again(rb_certificate *c, const json_t *printed, rb_rolli
 
 /* ---- Largest stresses -------------------------------------------------------------- */
 
-/* Its place has to lie in the depth that was given, and no other may have more. */
-static void expect_largest(rb_certificate *c, const char *name, double depth,
-                           rb_rolling_extremum printed, rb_rolling_extremum found)
-{
-    const double below = printed.y - rb_rolling_surface(c->model.rc, printed.x);
-    if (depth > 0.0 && !(below <= depth * (1.0 + 1e-9)))
-        rb_certificate_violated(c, "maxima.%s: %g below the surface, searched down to %g", name,
-                                below, depth);
-    if (!(found.value <= printed.value + search_slack(c)))
-        rb_certificate_violated(c, "maxima.%s: printed %.17g, but %.17g at (%g, %g)", name,
-                                printed.value, found.value, found.x, found.y);
-}
-
 /* The stresses at the places that are printed: where a flat or symmetric maximum has
  * several places, a search may end at another one. */
 static rb_status maxima_again(rb_certificate *c, const json_t *printed, double depth,
@@ -86,8 +73,17 @@ static rb_status maxima_again(rb_certificate *c, const json_t *printed, double d
         *kinds[k].there =
             (rb_rolling_extremum){rb_certificate_member(one, "value"),
                                   rb_certificate_member(one, "x"), rb_certificate_member(one, "y")};
-        if (s == RB_OK)
-            expect_largest(c, kinds[k].name, depth, *kinds[k].there, *kinds[k].found);
+        if (s != RB_OK)
+            continue;
+        /* Its place has to lie in the depth that was given, and no other may have more. */
+        const rb_rolling_extremum *at = kinds[k].there, *more = kinds[k].found;
+        const double below = at->y - rb_rolling_surface(c->model.rc, at->x);
+        if (depth > 0.0 && !(below <= depth * (1.0 + 1e-9)))
+            rb_certificate_violated(c, "maxima.%s: %g below the surface, searched down to %g",
+                                    kinds[k].name, below, depth);
+        if (!(more->value <= at->value + search_slack(c)))
+            rb_certificate_violated(c, "maxima.%s: printed %.17g, but %.17g at (%g, %g)",
+                                    kinds[k].name, at->value, more->value, more->x, more->y);
     }
     if (s != RB_OK)
         return s;

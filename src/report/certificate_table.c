@@ -66,16 +66,6 @@ static void compare_patches(rb_certificate *c, const char *text)
 
 /* ---- All together ------------------------------------------------------------------ */
 
-static json_t *json_of(const rb_io_table *t)
-{
-    json_t *table = json_object();
-    char name[80]; /* JSON has no bytes that are not UTF-8; no column of ours is longer */
-    for (int j = 0; t->name && j < t->columns; j++)
-        rb_report_json_set(&table, rb_printable(t->name[j], name, sizeof name),
-                           rb_report_json_numbers(t->rows, t->x + (size_t)j * (size_t)t->rows));
-    return table;
-}
-
 rb_status rb_report_certify_table(FILE *out, const char *name, const char *text,
                                   const rb_case *words, rb_report_certificate *found,
                                   rb_message *why)
@@ -106,7 +96,12 @@ rb_status rb_report_certify_table(FILE *out, const char *name, const char *text,
     if (s == RB_OK)
         s = rb_io_table_parse(name, lines, &t, why);
     free(lines);
-    json_t *table = json_of(&t);
+    json_t *table = json_object();
+    for (int j = 0; t.name && j < t.columns; j++) {
+        char column[80]; /* JSON has no bytes that are not UTF-8; no column of ours is longer */
+        rb_report_json_set(&table, rb_printable(t.name[j], column, sizeof column),
+                           rb_report_json_numbers(t.rows, t.x + (size_t)j * (size_t)t.rows));
+    }
     rb_certificate c = {.out = out, .name = name, .found = found, .table = table};
     if (s == RB_OK && !table)
         s = RB_ENOMEM;

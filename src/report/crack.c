@@ -402,15 +402,6 @@ rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas, const rb_cas
 
 /* ---- Picture: the crack open and torn ------------------------------------------------ */
 
-static int nearest(const rb_case_crack_result *r, double at)
-{
-    int best = first_of(r);
-    for (int k = best; k < r->history.n; k++)
-        if (fabs(r->history.x[k] - at) < fabs(r->history.x[best] - at))
-            best = k;
-    return best;
-}
-
 /* Both faces, displaced by half of D each, times a round magnification. */
 static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
 {
@@ -419,7 +410,11 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
     const rb_crack_history *h = &r->history;
     const rb_report_place place = rb_report_place_of(canvas);
     const rb_crack_path *path = &r->shape.path;
-    const int n = h->nodes, k = nearest(r, v->at * r->half_width);
+    const int n = h->nodes;
+    int k = first_of(r); /* the position nearest to the one asked for */
+    for (int i = k; i < h->n; i++)
+        if (fabs(h->x[i] - v->at * r->half_width) < fabs(h->x[k] - v->at * r->half_width))
+            k = i;
     const double unit = rb_unit_stored(r->units, "mm", r->half_width); /* a in mm */
     char name[40];
     const double *D = h->D + (size_t)k * 2 * (size_t)n;

@@ -93,31 +93,6 @@ static rb_status dump_body(const target *t, int of_b, const rb_rolling_model *mo
     return s;
 }
 
-/* Four columns hold all of F where its blocks are constant along their diagonals, as
- * those of half-planes are. */
-static rb_status dump_columns(const target *t, const rb_rolling_model *model)
-{
-    const rb_bem_flexibility *f = &model->bodies.f;
-    const int n = f->n, m = f->m, column[] = {0, n - 1, n, 2 * n - 1};
-    const size_t rows = 2 * (size_t)m;
-    double *w = rb_alloc(rows, 4), *r = rb_alloc(2 * (size_t)n, 1);
-    rb_status s = w && r ? RB_OK : rb_fail(t->why, RB_ENOMEM, "out of memory");
-    for (int k = 0; k < 4 && s == RB_OK; k++) {
-        r[column[k]] = 1.0;
-        rb_bem_flexibility_apply(f, r, w + (size_t)k * rows);
-        r[column[k]] = 0.0;
-    }
-    if (s == RB_OK)
-        s = write_matrix(t, "F_columns", (rb_io_dense){2 * m, 4, w, 2 * m},
-                         rb_rolling_can(model->rc, RB_BODY_FLAT)
-                             ? "columns 1, n, n + 1 and 2n of F, w = F r: its four "
-                               "blocks are Toeplitz matrices"
-                             : "columns 1, n, n + 1 and 2n of F, w = F r");
-    free(w);
-    free(r);
-    return s;
-}
-
 static rb_status dump_all(const target *t, const rb_rolling_model *model)
 {
     const rb_rolling_mesh *mesh = &model->mesh;
@@ -139,8 +114,29 @@ static rb_status dump_all(const target *t, const rb_rolling_model *model)
         s = dump_body(t, 1, model);
     if (s != RB_OK)
         return s;
-    if (!model->bodies.F) /* a large contact: neither F nor M has been formed */
-        return dump_columns(t, model);
+    if (!model->bodies.F) {
+        /* A large contact: neither F nor M has been formed.  Four columns hold all of F where its
+         * blocks are constant along their diagonals, as those of half-planes are. */
+        const rb_bem_flexibility *f = &model->bodies.f;
+        const int column[] = {0, n - 1, n, 2 * n - 1};
+        const size_t rows = 2 * (size_t)f->m;
+        double *w = rb_alloc(rows, 4), *r = rb_alloc(2 * (size_t)n, 1);
+        s = w && r ? RB_OK : rb_fail(t->why, RB_ENOMEM, "out of memory");
+        for (int k = 0; k < 4 && s == RB_OK; k++) {
+            r[column[k]] = 1.0;
+            rb_bem_flexibility_apply(f, r, w + (size_t)k * rows);
+            r[column[k]] = 0.0;
+        }
+        if (s == RB_OK)
+            s = write_matrix(t, "F_columns", (rb_io_dense){2 * f->m, 4, w, 2 * f->m},
+                             rb_rolling_can(model->rc, RB_BODY_FLAT)
+                                 ? "columns 1, n, n + 1 and 2n of F, w = F r: its four blocks are "
+                                   "Toeplitz matrices"
+                                 : "columns 1, n, n + 1 and 2n of F, w = F r");
+        free(w);
+        free(r);
+        return s;
+    }
     rb_contact_lcp lcp;
     s = rb_rolling_model_lcp(model, &lcp, t->why);
     if (s != RB_OK)

@@ -140,20 +140,6 @@ static const char *colour_of(const column *c, const char *text)
     return "";
 }
 
-static void print_row(FILE *out, const grid *g, int i, const column *all, int colour)
-{
-    char text[WIDTH];
-    for (int j = 0; j < g->columns; j++) {
-        if (!all[j].is_shown)
-            continue;
-        shown(g, i, j, &all[j], text);
-        const char *start = colour ? colour_of(&all[j], text) : "";
-        fprintf(out, "%*s%s%s%s", GAP + all[j].width - (int)strlen(text), "", start, text,
-                *start ? "\033[0m" : "");
-    }
-    fputc('\n', out);
-}
-
 /* Items of a list behind a heading, in lines of the window's width. */
 typedef struct {
     FILE *out;
@@ -268,7 +254,16 @@ rb_status rb_report_terminal(FILE *out, char *text, const rb_report_window *wind
             for (int i = 1; i < g.rows; i = next_row(&g, i, &rows)) {
                 if (rows.from <= rows.to && i == rows.to + 1)
                     fprintf(out, "%*s...\n", GAP, "");
-                print_row(out, &g, i, all, window->colour);
+                for (int j = 0; j < g.columns; j++) {
+                    char cell[WIDTH];
+                    if (!all[j].is_shown)
+                        continue;
+                    shown(&g, i, j, &all[j], cell);
+                    const char *start = window->colour ? colour_of(&all[j], cell) : "";
+                    fprintf(out, "%*s%s%s%s", GAP + all[j].width - (int)strlen(cell), "", start,
+                            cell, *start ? "\033[0m" : "");
+                }
+                fputc('\n', out);
             }
             print_rest(out, &g, all, &rows, window->columns);
         }
