@@ -1013,7 +1013,7 @@ TEST(derivatives_of_a_curve_are_those_of_its_points)
     }
     assert_int_equal(rb_api_resolve(a), RB_OK);
     assert_null(rb_api_derivative(a, "curve", 0, "name", name, sizeof name));
-    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.25, 1.0, 4, "all"), RB_OK);
+    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.25, 1.0, 4, "all", NULL), RB_OK);
     const double *Q = array(a, "curve.tangential_load", 4, 1);
     assert_int_equal(rb_api_set(point, "formulation", "steady"), RB_OK);
     for (int k = 0; k < 4; k += 3) {
@@ -1049,21 +1049,43 @@ TEST(derivatives_of_a_curve_are_those_of_its_points)
     if (compared < 500 || one_sided < 10)
         fail_msg("%d compared, %d one-sided", compared, one_sided);
 
-    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, 5, "nonsense"),
+    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, 5, "nonsense", NULL),
                      RB_EINVAL);
     assert_null(rb_api_array(a, "curve.derivative.tangential_load:mu", &rows, &columns));
     assert_null(rb_api_array(a, "curve.tangential_load", &rows, &columns));
-    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, 5, "approach:zone"),
+    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, 5, "approach:zone", NULL),
                      RB_EINVAL);
+    /* per cent are those of each point's own creep ratio */
+    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, 3,
+                                              "tangential_load:mu,tangential_load:creep-ratio",
+                                              "mu=0.02,creep-ratio=10%"),
+                     RB_OK);
+    const double *by_mu = array(a, "curve.derivative.tangential_load:mu", 3, 2),
+                 *by_creep = array(a, "curve.derivative.tangential_load:creep-ratio", 3, 2),
+                 *deviation = array(a, "curve.tolerance.tangential_load", 3, 1);
+    for (int k = 0; k < 3; k++) {
+        const double mean[] = {0.5 * (fabs(by_mu[k]) + fabs(by_mu[k + 3])),
+                               0.5 * (fabs(by_creep[k]) + fabs(by_creep[k + 3]))};
+        CHECK_REL(deviation[k], hypot(0.02 * mean[0], 0.1 * (0.2 + 0.4 * k) * mean[1]), 1e-9,
+                  "deviation at point %d", k);
+    }
+    assert_null(rb_api_array(a, "curve.tolerance.stick_ratio", &rows, &columns));
+    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, 3, NULL, "zone=1"),
+                     RB_EINVAL);
+    assert_null(rb_api_array(a, "curve.tolerance.tangential_load", &rows, &columns));
+    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, -3, NULL, "mu=1%"),
+                     RB_EINVAL);
+    assert_non_null(strstr(rb_api_message(a), "points: expected"));
     assert_int_equal(rb_api_curve_over(a, "creep-ratio", 0.2, 1.0, 3), RB_OK);
     assert_null(rb_api_derivative(a, "curve", 0, "name", name, sizeof name));
     assert_int_equal(rb_api_set(a, "error", "yes"), RB_OK);
     assert_int_equal(rb_api_resolve(a), RB_OK);
-    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, 5, "all:mu"), RB_EINVAL);
+    assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.2, 1.0, 5, "all:mu", NULL),
+                     RB_EINVAL);
     assert_non_null(strstr(rb_api_message(a), "not together with error bars"));
     assert_int_equal(rb_api_set(point, "formulation", "static"), RB_OK);
     assert_int_equal(rb_api_resolve(point), RB_OK);
-    assert_int_equal(rb_api_curve_derivatives(point, "creep-ratio", 0.2, 1.0, 5, "all:mu"),
+    assert_int_equal(rb_api_curve_derivatives(point, "creep-ratio", 0.2, 1.0, 5, "all:mu", NULL),
                      RB_EINVAL);
     assert_non_null(strstr(rb_api_message(point), "give --formulation steady"));
 }

@@ -487,6 +487,8 @@ static void derivatives_stand_in_columns(void **state)
     CHECK_REL(atof(last), in_json, 1e-9, "last step");
     static const char *const bad[][2] = {
         {"curve --derivatives nonsense", "expected a result that has derivatives, got"},
+        {"curve --tolerance zone=1", "--tolerance: 'zone' is not a number of this case"},
+        {"curve --tolerance mu=1% --error", "--tolerance: not together with error bars"},
         {"curve --derivatives force_ratio:zone", "'zone' is not a number of this case"},
         {"curve --derivatives force_ratio --error", "not together with error bars"},
         {"curve --derivatives max_temperature", "this case has no max_temperature"},

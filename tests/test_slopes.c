@@ -213,7 +213,7 @@ TEST(points_are_single_cases)
         const rb_case_purpose purpose =
             curve[k].range.over == RB_OVER_SPEED ? RB_CASE_SPEEDS : RB_CASE_CURVE;
         rb_case *c = case_of(purpose, &curve[k].w, NULL, 0.0);
-        if (rb_case_curve_choose(c, &curve[k].range, "all", &s, &why) != RB_OK ||
+        if (rb_case_curve_choose(c, &curve[k].range, "all", NULL, &s, &why) != RB_OK ||
             rb_case_curve_solve(c, &curve[k].range, rb_case_resolved(c)->rc.mu, NULL, NULL, &points,
                                 &s, &why) != RB_OK)
             fail_msg("curve %d: %s", (int)k, why.text);

@@ -112,6 +112,8 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *   curve.creepage ...           after rb_api_curve, an entry per point; curve.error. ...
  *   curve.derivative.approach:mu ...   after rb_api_curve_derivatives, points x 2: for a
  *                                falling and for a growing mu; NAN: none
+ *   curve.tolerance.tangential_load ...   with uncertain inputs: standard deviations of the
+ *                                columns that have derivatives
  *   lcp.M lcp.q                  after rb_api_pivots, M z + q
  *   pivot.entering pivot.leaving pivot.row pivot.ratio pivot.z0   an entry per pivot
  *   pivot.basis pivot.value      rows x pivots: basic variables, their values after it
@@ -162,10 +164,12 @@ int rb_api_curve(rb_api *a, double from, double to, int points);
 int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points);
 /* The same with derivatives at every point: those of the single case that the point is.
  * derivatives: RESULT (with respect to every number of the case) or RESULT:OPTION,
- * separated by commas; "all" in the place of RESULT.  The case must be steady and have no
- * error bars.  Without derivatives at some points rb_api_note says why. */
+ * separated by commas; "all" in the place of RESULT; NULL: none.  tolerance: uncertain
+ * inputs as of rb_api_tolerances, for curve.tolerance.NAME; NULL: none; per cent are those
+ * of the point's own numbers.  The case must be steady and have no error bars.  Without derivatives
+ * at some points rb_api_note says why. */
 int rb_api_curve_derivatives(rb_api *a, const char *over, double from, double to, int points,
-                             const char *derivatives);
+                             const char *derivatives, const char *tolerance);
 /* Lemke's method; variables are numbered w, z, z0 (rollbem/lcp.h). */
 int rb_api_pivots(rb_api *a);
 /* Newton's method from a contact that sticks everywhere. */

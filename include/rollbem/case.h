@@ -274,7 +274,9 @@ typedef struct {
     int without;       /* of a curve: points that have no derivatives, and why the last one
                           has none */
     rb_message reason;
-    rb_units units; /* mm at first */
+    const char *tolerance; /* of a curve: uncertain inputs, for the standard deviations of its
+                              points; NULL: none; borrowed */
+    rb_units units;        /* mm at first */
 } rb_case_slopes;
 
 /* Chooses the columns by words: "all", or a list, separated by commas, of RESULT (with
@@ -306,11 +308,12 @@ double rb_case_slope_shown(const rb_case_slope *of, rb_units units, double x);
 void rb_case_slopes_convert(rb_case_slopes *slopes, rb_units units);
 void rb_case_slopes_free(rb_case_slopes *slopes);
 
-/* Chooses the columns of a curve; the purpose of the case must be a curve. */
+/* Chooses the columns of a curve (words NULL: none) and checks uncertain inputs, as
+ * rb_case_read_tolerances reads them (NULL: none); the purpose of the case must be a curve. */
 rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range, const char *words,
-                               rb_case_slopes *slopes, rb_message *why);
-/* rb_rolling_curve_observe with these derivatives at each point (point NULL: nobody
- * observes).  RB_EINVAL: no point has derivatives. */
+                               const char *tolerance, rb_case_slopes *slopes, rb_message *why);
+/* rb_rolling_curve_observe with these derivatives and standard deviations at each point
+ * (point NULL: nobody observes).  RB_EINVAL: no point has derivatives. */
 rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, double mu,
                               rb_rolling_point *point, void *context, rb_rolling_curve *curve,
                               rb_case_slopes *slopes, rb_message *why);

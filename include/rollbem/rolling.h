@@ -1061,7 +1061,7 @@ typedef struct {
 } rb_rolling_range;
 
 /* One entry per creepage or speed; owned. */
-typedef struct {
+typedef struct rb_rolling_curve {
     int n;
     double *creepage, *creep_ratio, *force_ratio;
     double *tangential_load, *normal_load;
@@ -1081,7 +1081,10 @@ typedef struct {
     int iterations;
     rb_rolling_solution last; /* solution at the last point, for notes, but with the largest kappa
                                  and the smallest dissipation of all points; n = 0: none */
-    rb_units units;           /* of all values here */
+    struct rb_rolling_curve *deviations; /* standard deviation of every entry that has
+                                            derivatives (rb_case_curve_solve); NULL: not
+                                            computed; owned */
+    rb_units units;                      /* of all values here */
 } rb_rolling_curve;
 
 /* Convert from mm, N, MPa to other units; call them once only.  The field `units` tells

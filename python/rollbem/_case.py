@@ -214,6 +214,14 @@ def _units_of(derivatives: Derivatives) -> dict:
     return {_heading(result, name): unit for result, inputs in derivatives.units.items() for name, unit in inputs.items()}
 
 
+def _uncertain(tolerance: Any) -> bytes:
+    """Uncertain inputs as the library reads them: "mu=0.02,radius=1%"."""
+    if isinstance(tolerance, Mapping):
+        tolerance = ",".join(f"{name.replace('_', '-')}={_values.text(f'tolerance of {name}', value)}"
+                             for name, value in tolerance.items())
+    return _values.word("tolerance", tolerance, "\"mu=0.02,radius=1%\", or a dictionary")
+
+
 def _words(derivatives: Any) -> bytes:
     """What ``derivatives=`` asks for, as the library reads it."""
     words = "all" if derivatives is True else derivatives
@@ -246,9 +254,11 @@ class _Named:
         return sorted({*super().__dir__(), *found})
 
     def columns(self) -> dict:
-        """All arrays by name, as ``pandas.DataFrame(...)`` takes them."""
-        derivatives = self.__dict__.get("derivatives")
-        return {**self._arrays, **(derivatives.columns() if derivatives else {})}
+        """All arrays by name, as ``pandas.DataFrame(...)`` takes them; of a curve or a history also those of
+        derivatives, ``d_..._by_...``, and of tolerances, ``deviation_...``."""
+        derivatives, tolerances = (self.__dict__.get(name) or {} for name in ("derivatives", "tolerances"))
+        return {**self._arrays, **(derivatives.columns() if derivatives else {}),
+                **{f"deviation_{name}": x for name, x in tolerances.items() if np.ndim(x) == 1}}
 
     def to_pandas(self) -> Any:
         """The columns as a ``pandas.DataFrame``; ``attrs["units"]`` has their units."""
@@ -469,10 +479,6 @@ class History(_Named):
         self.p, self.q, zone = (np.atleast_2d(handle.array(f"step.{name}").T) for name in ("p", "q", "zone"))
         self.zone = zone.astype(int)
 
-    def columns(self) -> dict:
-        """All arrays with an entry per step by name: also ``deviation_...`` of tolerances, ``d_..._by_...`` of derivatives."""
-        return {**super().columns(), **{f"deviation_{name}": array for name, array in self.tolerances.items()}}
-
     def plot(self, figure: Any = None) -> Any:
         """Force and stick over the rolled distance.  Returns the figure."""
         return pictures.history(self, figure)
@@ -489,6 +495,7 @@ class Curve(_Named):
     case: Case
     over: str
     errors: dict
+    tolerances: dict  # standard deviations, of tolerance=...
     derivatives: Derivatives  # of derivatives=..., an entry per point
     notes: "list[str]"  # on how its derivatives must be read
     mu: Value
@@ -501,6 +508,7 @@ class Curve(_Named):
         self._arrays = handle.arrays("point", "curve.")
         self._numbers = {name: handle.number(f"curve.{name}") for name in ("free_creepage", "half_width")}
         self.errors = handle.arrays("point", "curve.error.")
+        self.tolerances = handle.arrays("point", "curve.tolerance.")
         self.derivatives = Derivatives(handle, "curve")
         self.notes = handle.notes()
         self.mu = _value("mu", handle)
@@ -634,27 +642,30 @@ def solve(case: Union[Case, str, os.PathLike, None] = None, *, progress: Progres
 
 
 def curve(case: Union[Case, str, os.PathLike, None] = None, start: float = 0.0, stop: float = 1.5,
-          points: int = 61, over: str = "creep-ratio", *, derivatives: Any = None, progress: Progress = None,
-          **options: Any) -> Union[Curve, "list[Curve]"]:
+          points: int = 61, over: str = "creep-ratio", *, derivatives: Any = None, tolerance: Any = None,
+          progress: Progress = None, **options: Any) -> Union[Curve, "list[Curve]"]:
     """Steady rolling at equally spaced creepage ratios, or over="creep" creepages.
 
     With several ``mu`` a list of curves.  ``progress(done, total)`` is called with the number of points
     now and then, for each curve anew.
     ``derivatives``, as ``"tangential_load:mu,max_pressure"`` or a list of such names, or True for all: those of the numbers
     of each point by one or all options; ``derivatives["tangential_load"]["mu"]`` of the curve has an entry per point.
+    ``tolerance`` as of :func:`solve`, per cent of each point's own numbers: standard deviations of the columns are
+    ``tolerances`` of the curve.
     """
     case = _case(case, options)
     mu = case.options.get("mu")
     if mu is not None and np.ndim(mu) == 1:
-        return [curve(case.but(mu=value), start, stop, points, over, derivatives=derivatives, progress=progress)
+        return [curve(case.but(mu=value), start, stop, points, over, derivatives=derivatives, tolerance=tolerance, progress=progress)
                 for value in _values.vector("mu", mu)]
     handle = case.handle("curve")
     range_ = (_values.word("over", over, "creep-ratio, creep or speed"), _values.number("start", start),
               _values.number("stop", stop), _values.whole("points", points))
-    if derivatives is None:
+    if derivatives is None and tolerance is None:
         status = handle.run("rb_api_curve_over", *range_, progress=progress)
     else:
-        status = handle.run("rb_api_curve_derivatives", *range_, _words(derivatives), progress=progress)
+        status = handle.run("rb_api_curve_derivatives", *range_, None if derivatives is None else _words(derivatives),
+                            None if tolerance is None else _uncertain(tolerance), progress=progress)
     if status < SOLVED:
         raise handle.error(status)
     found = Curve(case, handle, over)

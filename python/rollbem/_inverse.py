@@ -9,7 +9,7 @@ from typing import Any, Mapping, NamedTuple, Optional, Sequence, Union
 import numpy as np
 
 from . import _program, _values
-from ._case import (Array, Case, Derivatives, Solution, Table, _case, _Named, _unit, crack_option, curve,
+from ._case import (Array, Case, Derivatives, Solution, Table, _case, _Named, _uncertain, _unit, crack_option, curve,
                     history)
 from ._library import OPTIONS, SOLVED, InvalidInput, Unsolved, lib, texts
 
@@ -111,12 +111,7 @@ def tolerances(solution: Union[Solution, _CaseLike] = None, *, tolerance: Any, *
     Of a sequence of steps: ``{}``, and those of the columns are ``tolerances`` of its ``history``.
     ``tolerance`` as of ``rollbem --tolerance``: ``"mu=0.02,radius=1%"``, or ``{"mu": 0.02, "radius": "1%"}``.
     """
-    if isinstance(tolerance, Mapping):
-        words = ",".join(f"{name.replace('_', '-')}={_values.text(f'tolerance of {name}', value)}"
-                         for name, value in tolerance.items())
-    else:
-        words = tolerance
-    text = _values.word("tolerance", words, "\"mu=0.02,radius=1%\", or a dictionary")
+    text = _uncertain(tolerance)
     if not isinstance(solution, Solution):
         solution = _case(solution, options).solve()
     handle = solution._live()

@@ -240,6 +240,21 @@ def test_tolerances_of_histories():
         rollbem.history(**{**rolled, "load": None, "approach": 0.01}, tolerance={"mu": 0.02})
 
 
+def test_tolerances_of_curves():
+    c = rollbem.curve(**SMALL, points=4, tolerance={"mu": 0.02, "creep_ratio": "5%"})
+    printed = run_json("curve", **SMALL, points=4, tolerance="mu=0.02,creep-ratio=5%")["curve"]["tolerances"]
+    assert len(c.tolerances) > 5 and c.derivatives == {}
+    for name, values in c.tolerances.items():
+        column = next(key for key in printed if key.split("_N")[0] in (name, {"tangential_load": "Q", "normal_load": "P"}.get(name)))
+        assert values == pytest.approx(np.array(printed[column], dtype=float), rel=1e-7, abs=1e-12), name
+    assert c.tolerances["tangential_load"][-1] == pytest.approx(0.02 * 500)  # it slides
+    assert (pytest.importorskip("pandas") and c.to_pandas())["deviation_tangential_load"].iloc[-1] == pytest.approx(10)
+    with pytest.raises(rollbem.InvalidInput, match="'zone' is not a number"):
+        rollbem.curve(**SMALL, points=4, tolerance="zone=1")
+    with pytest.raises(rollbem.InvalidInput, match="not together with error bars"):
+        rollbem.curve(**SMALL, points=4, error=True, tolerance="mu=1%")
+
+
 def test_fits():
     xi = -0.5e-3 * np.arange(1, 13)
     ratio = [-rollbem.solve(**PLANES, formulation="steady", mu=0.25, creep=float(x) + 1e-4).tangential_load / 500

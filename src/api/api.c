@@ -555,6 +555,8 @@ static api_array *series_array(rb_api *a, const char *name)
                   {"history.tolerance.", &rb_rolling_history_columns, r->history.deviations,
                    r->history.deviations ? r->history.deviations->n : 0},
                   {"history.", &rb_rolling_history_columns, &r->history, r->history.n},
+                  {"curve.tolerance.", &rb_rolling_curve_columns, a->curve.deviations,
+                   a->curve.deviations ? a->curve.n : 0},
                   {"curve.error.", &rb_rolling_curve_columns, &a->curve_errors, a->curve_errors.n},
                   {"curve.", &rb_rolling_curve_columns, &a->curve, a->curve.n},
                   {"wear.", &rb_rolling_wear_columns, &a->wear, a->wear.n},
@@ -730,7 +732,7 @@ static rb_status count_point(const rb_rolling_model *model, int k, void *context
 }
 
 static int curve(rb_api *a, const char *over, double from, double to, int points,
-                 const char *derivatives)
+                 const char *derivatives, const char *tolerance)
 {
     const rb_resolved_case *c = rb_case_resolved(a->words);
     const rb_choice *variable = rb_case_curve_variables;
@@ -756,22 +758,25 @@ static int curve(rb_api *a, const char *over, double from, double to, int points
     if (s == RB_OK && !variable->name)
         s = rb_fail(&a->why, RB_EINVAL,
                     "--over: expected creep-ratio, creep or speed, got '%.100s'", over);
-    if (s == RB_OK && derivatives && c->error)
-        s = rb_fail(&a->why, RB_EINVAL, "--derivatives: not together with error bars");
-    if (s == RB_OK && derivatives && c->rc.formulation != RB_STEADY)
+    const int differentiated = derivatives || tolerance;
+    if (s == RB_OK && differentiated && c->error)
+        s = rb_fail(&a->why, RB_EINVAL, "--%s: not together with error bars",
+                    derivatives ? "derivatives" : "tolerance");
+    if (s == RB_OK && differentiated && c->rc.formulation != RB_STEADY)
         s = rb_fail(&a->why, RB_EINVAL,
                     "derivatives of a curve: those of a steady case; give --formulation steady");
-    if (s == RB_OK && derivatives)
-        s = rb_case_curve_choose(a->words, &range, derivatives, slopes, &a->why);
+    if (s == RB_OK && differentiated)
+        s = rb_case_curve_choose(a->words, &range, derivatives, tolerance, slopes, &a->why);
     if (s == RB_OK)
-        s = derivatives ? rb_case_curve_solve(a->words, &range, c->rc.mu, count_point, a, &a->curve,
-                                              slopes, &a->why)
+        s = differentiated ? rb_case_curve_solve(a->words, &range, c->rc.mu, count_point, a,
+                                                 &a->curve, slopes, &a->why)
             : c->error
                 ? rb_rolling_curve_with_errors(&c->rc, &range, count_point, a, &a->curve,
                                                &a->curve_errors, &a->why)
                 : rb_rolling_curve_observe(&c->rc, &range, count_point, a, &a->curve, &a->why);
     rb_api_call_ends();
     rb_case_slopes_note(slopes, &a->note);
+    slopes->tolerance = NULL; /* the caller's */
     if (s != RB_OK)
         rb_api_forget_slopes(a, API_SLOPES_CURVE);
     return rb_api_ended(a, s != RB_OK ? rb_case_locate(a->words, s, &a->why) : s);
@@ -779,13 +784,13 @@ static int curve(rb_api *a, const char *over, double from, double to, int points
 
 int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points)
 {
-    return curve(a, over, from, to, points, NULL);
+    return curve(a, over, from, to, points, NULL, NULL);
 }
 
 int rb_api_curve_derivatives(rb_api *a, const char *over, double from, double to, int points,
-                             const char *derivatives)
+                             const char *derivatives, const char *tolerance)
 {
-    return curve(a, over, from, to, points, derivatives);
+    return curve(a, over, from, to, points, derivatives, tolerance);
 }
 
 int rb_api_curve(rb_api *a, double from, double to, int points)

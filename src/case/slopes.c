@@ -231,7 +231,8 @@ typedef struct {
     const rb_rolling_range *range;
     double mu;
     rb_case_slopes *s;
-    rb_rolling_point *point; /* of who observes the curve; NULL: nobody */
+    rb_rolling_curve *deviations; /* NULL: not asked for */
+    rb_rolling_point *point;      /* of who observes the curve; NULL: nobody */
     void *context;
 } curve_slopes;
 
@@ -262,18 +263,76 @@ static rb_case *case_of_point(const curve_slopes *of, const rb_rolling_model *mo
 }
 
 rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range, const char *words,
-                               rb_case_slopes *s, rb_message *why)
+                               const char *tolerance, rb_case_slopes *s, rb_message *why)
 {
+    rb_case_tolerances t;
     const curve_slopes of = {.c = c, .range = range, .mu = c->resolved.rc.mu};
     rb_case *point = case_of_point(&of, NULL, why);
 
     *s = (rb_case_slopes){0};
     if (!point)
         return RB_EINVAL;
-    const rb_status status = rb_case_slopes_choose(point, &rb_rolling_solution_scalars, words,
-                                                   RB_CASE_SLOPES_MAX, s, why);
+    rb_status status = RB_OK;
+    if (words)
+        status = rb_case_slopes_choose(point, &rb_rolling_solution_scalars, words,
+                                       RB_CASE_SLOPES_MAX, s, why);
+    if (status == RB_OK && tolerance)
+        status = rb_case_read_tolerances(point, tolerance, &t, why);
+    s->tolerance = tolerance;
     rb_case_free(point);
     return status;
+}
+
+/* Standard deviations of point k: per cent are those of its own numbers. */
+static rb_status propagate_point(const curve_slopes *of, const rb_case *point,
+                                 const rb_rolling_model *model, int k, rb_message *why)
+{
+    const char *name[RB_CASE_TOLERANCES_MAX];
+    rb_case_tolerances t;
+    rb_case_derivatives all = {.n = 0};
+    rb_rolling_solution deviation;
+    rb_status s = rb_case_read_tolerances(point, of->s->tolerance, &t, why);
+
+    for (int i = 0; i < t.n; i++)
+        name[i] = t.name[i];
+    if (s == RB_OK)
+        s = rb_case_differentiate(point, model, t.n, name, &all, why);
+    if (s == RB_OK)
+        s = rb_case_propagate(&t, &all, &deviation, why);
+    rb_case_derivatives_free(&all);
+    for (int j = 0; j < rb_rolling_curve_columns.n && s == RB_OK; j++) {
+        const rb_rolling_result *column = &rb_rolling_curve_columns.row[j],
+                                *of_case = rb_rolling_find_result(&rb_rolling_solution_scalars,
+                                                                  column->name);
+        double *to = *(double **)(void *)((char *)of->deviations + column->offset);
+        if (to && of_case)
+            to[k] = rb_rolling_number(of_case, &deviation);
+    }
+    return s;
+}
+
+/* Columns of NAN for the standard deviations of what the points of a curve have. */
+static rb_status deviations_alloc(const rb_case *c, int points, rb_rolling_curve **deviations)
+{
+    rb_rolling_curve *d = *deviations = calloc(1, sizeof *d);
+
+    if (!d)
+        return RB_ENOMEM;
+    d->n = points;
+    for (int j = 0; j < rb_rolling_curve_columns.n; j++) {
+        const rb_rolling_result *column = &rb_rolling_curve_columns.row[j],
+                                *of_case = rb_rolling_find_result(&rb_rolling_solution_scalars,
+                                                                  column->name);
+        double **to = (double **)(void *)((char *)d + column->offset);
+        if (!of_case || !rb_sensitivity_has(of_case) ||
+            !rb_rolling_has_result(of_case, &c->resolved.rc, 0))
+            continue;
+        if (!(*to = rb_alloc((size_t)points, 1)))
+            return RB_ENOMEM;
+        for (int k = 0; k < points; k++)
+            (*to)[k] = NAN;
+    }
+    return RB_OK;
 }
 
 static rb_status see_point(const rb_rolling_model *model, int k, void *context, rb_message *why)
@@ -282,8 +341,12 @@ static rb_status see_point(const rb_rolling_model *model, int k, void *context, 
     double *row = of->s->value + 2 * (size_t)k * (size_t)of->s->n;
     rb_message *reason = &of->s->reason;
     rb_case *point = case_of_point(of, model, reason);
-    const rb_status s = point ? rb_case_slopes_at(point, model, of->s, row, reason) : RB_EINVAL;
+    rb_status s = point ? RB_OK : RB_EINVAL;
 
+    if (s == RB_OK && of->s->n > 0)
+        s = rb_case_slopes_at(point, model, of->s, row, reason);
+    if (s == RB_OK && of->deviations)
+        s = propagate_point(of, point, model, k, reason);
     rb_case_free(point);
     if (s == RB_ENOMEM)
         return rb_fail(why, s, "%s", reason->text);
@@ -296,13 +359,21 @@ rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, d
                               rb_case_slopes *s, rb_message *why)
 {
     rb_rolling_case rc = c->resolved.rc;
-    curve_slopes of = {c, range, mu, s, point, context};
+    curve_slopes of = {c, range, mu, s, NULL, point, context};
+    /* a curve of other numbers of points is refused below */
+    const int rows = range->points >= 1 && range->points <= 1000000 ? 2 * range->points : 1;
+    rb_status status = rb_case_slopes_alloc(rows, s);
 
     rc.mu = mu;
-    if (rb_case_slopes_alloc(2 * range->points, s) != RB_OK)
-        return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
-    const rb_status status = rb_rolling_curve_observe(&rc, range, see_point, &of, curve, why);
+    *curve = (rb_rolling_curve){0};
+    if (status == RB_OK && s->tolerance)
+        status = deviations_alloc(c, rows, &of.deviations);
+    status = status == RB_OK ? rb_rolling_curve_observe(&rc, range, see_point, &of, curve, why)
+                             : rb_fail(why, status, "out of memory for derivatives");
     s->rows = curve->n;
+    curve->deviations = of.deviations;
+    if (of.deviations)
+        of.deviations->n = curve->n;
     return status == RB_OK && s->without == s->rows ? rb_fail(why, RB_EINVAL, "%s", s->reason.text)
                                                     : status;
 }

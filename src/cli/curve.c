@@ -12,7 +12,7 @@ typedef struct {
     const char *end[2]; /* NULL: the default */
     double from, to;    /* creepages, or speeds [mm/s] */
     int points, over;   /* rb_rolling_variable */
-    const char *derivatives;
+    const char *derivatives, *tolerance;
 } range_options;
 
 typedef struct {
@@ -41,6 +41,10 @@ static const rb_option options[] = {
                  "columns with the derivatives of these results of single cases at every point, "
                  "with respect to all numbers, or RESULT:OPTION to one",
                  .unset = "none", .alone = "all"),
+    RB_TEXT_LINE("tolerance", PLACE(tolerance), "NAME=X,...",
+                 "standard deviations of inputs, as mu=0.02,radius=1%: columns with those "
+                 "of the results at every point, to first order",
+                 .unset = "none"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -110,8 +114,9 @@ static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
     for (int k = 0; k < mus->n && s == RB_OK; k++) {
         rb_message reason = {""};
         rc.mu = curves->mu[k] = mus->value[k];
-        if (words && range->derivatives) {
-            s = rb_case_curve_choose(words, &all, range->derivatives, &curves->slopes[k], &reason);
+        if (words && (range->derivatives || range->tolerance)) {
+            s = rb_case_curve_choose(words, &all, range->derivatives, range->tolerance,
+                                     &curves->slopes[k], &reason);
             if (s == RB_OK)
                 s = rb_case_curve_solve(words, &all, rc.mu, NULL, NULL, &curves->curve[k],
                                         &curves->slopes[k], &reason);
@@ -259,13 +264,20 @@ static cli_exit check(cli_case_run *run)
     const rb_rolling_range range = range_of(r);
     rb_case_slopes slopes;
     rb_message why = {""};
-    if (!r->derivatives)
-        return CLI_CONTINUE;
-    if (run->c->error)
-        return cli_fail(CLI_USAGE, "--derivatives: not together with error bars");
-    const rb_status s = rb_case_curve_choose(run->words, &range, r->derivatives, &slopes, &why);
-    rb_case_slopes_free(&slopes);
-    return s == RB_OK ? CLI_CONTINUE : cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
+    if ((r->derivatives || r->tolerance) && run->c->error)
+        return cli_fail(CLI_USAGE, "--%s: not together with error bars",
+                        r->derivatives ? "derivatives" : "tolerance");
+    for (int k = 0; k < 2; k++) {
+        const char *words = k ? NULL : r->derivatives, *tolerance = k ? r->tolerance : NULL;
+        if (!words && !tolerance)
+            continue;
+        const rb_status s =
+            rb_case_curve_choose(run->words, &range, words, tolerance, &slopes, &why);
+        rb_case_slopes_free(&slopes);
+        if (s != RB_OK)
+            return cli_fail(CLI_USAGE, "--%s: %s", k ? "tolerance" : "derivatives", why.text);
+    }
+    return CLI_CONTINUE;
 }
 
 static const cli_case_command command = {

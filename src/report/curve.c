@@ -20,9 +20,11 @@ rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const
     rb_report_cells c = rb_report_cells_begin(out, style, "");
     for (int k = 0; k < curves->n; k++) {
         /* The coefficient of friction stands before the columns of its curve. */
-        const rb_report_columns part[2] = {columns_of(&curves->curve[k], 0),
-                                           columns_of(&curves->error[k], 1)};
-        const int parts = curves->has_errors ? 2 : 1;
+        const rb_rolling_curve *d = curves->curve[k].deviations;
+        const rb_report_columns part[2] = {columns_of(&curves->curve[k], RB_REPORT_VALUES),
+                                           d ? columns_of(d, RB_REPORT_DEVIATIONS)
+                                             : columns_of(&curves->error[k], RB_REPORT_ERRORS)};
+        const int parts = curves->has_errors || d ? 2 : 1;
 
         if (k == 0) {
             rb_report_cell_text(&c, "mu");
@@ -56,6 +58,12 @@ void rb_report_json_curves(json_t **root, const rb_report_curves *curves)
         rb_report_json_columns(&curve, c->n, &columns, 0);
         if (curves->slopes[k].n > 0)
             rb_report_json_slopes(&curve, &curves->slopes[k]);
+        if (c->deviations) {
+            const rb_report_columns of = columns_of(c->deviations, RB_REPORT_DEVIATIONS);
+            json_t *tolerances = json_object();
+            rb_report_json_columns(&tolerances, c->n, &of, 0);
+            rb_report_json_set(&curve, "tolerances", tolerances);
+        }
         rb_report_json_set(&curve, "free_creepage", rb_report_json_number(c->free_creepage));
         rb_report_json_set(&curve, "hertz_half_width", rb_report_json_number(c->half_width));
         rb_report_json_set(&curve, "iterations", json_integer(c->iterations));
@@ -136,6 +144,12 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                 "  error of Q/(mu P) <= %.1g, of P <= %.1g %s (estimated from coarser meshes)\n",
                 largest(c->n, curves->error[k].force_ratio),
                 largest(c->n, curves->error[k].normal_load), rb_unit_name(c->units, "N/mm"));
+        if (c->deviations && speeds)
+            fprintf(out, "  standard deviation of M/(P R) <= %.2g, from those of --tolerance\n",
+                    largest(c->n, c->deviations->resistance_ratio));
+        else if (c->deviations)
+            fprintf(out, "  standard deviation of Q <= %.2g %s, from those of --tolerance\n",
+                    largest(c->n, c->deviations->tangential_load), rb_unit_name(c->units, "N/mm"));
         int points = 0, least = 0;
         for (int i = 0; i < c->n; i++) {
             points += rb_rolling_is_below_zero(c->dissipation[i], c->normal_load[i]);

@@ -146,7 +146,8 @@ json_t *rb_report_json_schema(void)
                        columns(&rb_rolling_history_columns, 0,
                                "an entry per step; states: of --states, a list per step; "
                                "tolerances: standard deviations"));
-    json_t *curve = columns(&rb_rolling_curve_columns, 0, "an entry per creepage");
+    json_t *curve = columns(&rb_rolling_curve_columns, 0,
+                            "an entry per creepage; tolerances: standard deviations");
     rb_report_json_set(&of, "curve", curve);
     rb_report_json_set(&of, "curves", list_of(json_incref(curve), "of several coefficients"));
     rb_report_json_set(&of, "wear",

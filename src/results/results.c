@@ -455,6 +455,8 @@ void rb_rolling_wear_history_convert(rb_rolling_wear_history *h, rb_units units)
 
 void rb_rolling_curve_convert(rb_rolling_curve *c, rb_units units)
 {
+    if (c->deviations)
+        rb_rolling_curve_convert(c->deviations, units);
     rb_rolling_solution_convert(&c->last, units);
     c->units = units;
     if (units == RB_UNITS_MM)

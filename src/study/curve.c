@@ -11,6 +11,9 @@ static const double REFIT = 0.01;
 
 void rb_rolling_curve_free(rb_rolling_curve *c)
 {
+    if (c->deviations)
+        rb_rolling_curve_free(c->deviations);
+    free(c->deviations);
     rb_rolling_columns_free(&rb_rolling_curve_columns, c);
     rb_rolling_solution_free(&c->last);
     memset(c, 0, sizeof *c);
