@@ -117,6 +117,28 @@ static void exact_data_give_the_truth(void **state)
     rb_case_fit_free(&fit);
 }
 
+/* From poor starts too: numbers that must be positive stay within reach. */
+static void poor_starts_give_the_truth(void **state)
+{
+    static const double far[][5] = {{NAN, NAN, 15.0, NAN, NAN},  {NAN, NAN, 0.3, NAN, NAN},
+                                    {0.1, 0.05, NAN, NAN, NAN},  {0.6, 0.05, 1.0, 5e-3, NAN},
+                                    {0.3, 0.4, 6.0, 5e-5, 1e-3}, {NAN, 0.01, 4.0, NAN, -1e-3}};
+    const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, exact, NULL, NULL,
+                               NULL,   NULL};
+    (void)state;
+    for (size_t k = 0; k < sizeof far / sizeof *far; k++) {
+        rb_case_fit fit = fit_of(5, all);
+        rb_message why = {""};
+        for (int j = 0; j < 5; j++)
+            fit.parameter[j].start = far[k][j];
+        if (solve(&data, 200.0, &fit, &why) != RB_OK)
+            fail_msg("start %zu: %s", k, why.text);
+        for (int j = 0; j < 5; j++)
+            CHECK_REL(fit.parameter[j].value, *truth[j], 1e-6, "start %zu: %s", k, all[j]);
+        rb_case_fit_free(&fit);
+    }
+}
+
 static void noise_leaves_it_in_the_intervals(void **state)
 {
     const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL,
@@ -549,6 +571,7 @@ int main(void)
         return 1;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_data_give_the_truth),
+        cmocka_unit_test(poor_starts_give_the_truth),
         cmocka_unit_test(noise_leaves_it_in_the_intervals),
         cmocka_unit_test(solutions_are_followed),
         cmocka_unit_test(starts_end_at_one_minimum),

@@ -12,6 +12,8 @@
 enum { STEPS = 100 };
 /* A part of chi^2 that is not worth a step. */
 static const double CONVERGED = 1e-10;
+/* A part that an undamped step may be trusted with. */
+static const double NEAR = 0.6;
 
 /* ---- Trials ------------------------------------------------------------------------ */
 
@@ -45,6 +47,7 @@ typedef struct {
     int known, has_rows; /* 1: theta has f and chi^2; it was accepted, and has J */
     int clipped, held[RB_CASE_FIT_MAX];
     double chi2, accepted_chi2, worst;
+    double promise; /* what the linear model promises, as a part of accepted_chi2 */
     kink kink[KINKS];
     int most;         /* steps */
     int kinks, stops; /* stops: 1: a trial that is worse, beyond kinks, stops GSL's solver */
@@ -59,6 +62,19 @@ static double over_scale(const state *at, const double *theta, size_t j)
     return theta[j] / at->p->fit->parameter[j].scale;
 }
 
+/* A step changes the distance from an end that does not belong to the range, which is no
+ * minimum, by a factor of ten at most. */
+static void keep_inside(const rb_case_parameter *of, double from, double *x)
+{
+    static const double MOST = 10.0;
+
+    if (of->low_open && of->low == of->from && isfinite(of->low))
+        *x = fmin(fmax(*x, of->low + (from - of->low) / MOST), of->low + (from - of->low) * MOST);
+    if (of->high_open && of->high == of->to && isfinite(of->high))
+        *x = fmin(fmax(*x, of->high - (of->high - from) * MOST),
+                  of->high - (of->high - from) / MOST);
+}
+
 /* Makes x the last trial. */
 static void evaluate_at(const gsl_vector *x, state *at)
 {
@@ -71,6 +87,8 @@ static void evaluate_at(const gsl_vector *x, state *at)
         const double wanted = gsl_vector_get(x, (size_t)j) * p->fit->parameter[j].scale;
         theta[j] = wanted;
         rb_case_fit_clip(&p->fit->parameter[j], &theta[j]);
+        if (p->accepted >= 0)
+            keep_inside(&p->fit->parameter[j], at->accepted[j], &theta[j]);
         at->clipped |= theta[j] != wanted;
     }
     if (at->known && memcmp(theta, at->theta, bytes) == 0)
@@ -86,30 +104,6 @@ static void evaluate_at(const gsl_vector *x, state *at)
     at->chi2 = at->accepted_chi2;
     for (int k = 0; k < p->points; k++)
         p->f[k] = rb_case_fit_residual(p, k, p->fit->model[k]);
-}
-
-/* Accepts the last trial, which was x. */
-static void accept(const gsl_vector *x, state *at)
-{
-    fit_problem *p = at->p;
-
-    if (at->status != RB_OK || at->has_rows)
-        return;
-    at->accepted_status = rb_case_fit_accept(p, at->theta, at->why);
-    at->has_rows = at->stops = 1;
-    memcpy(at->accepted, at->theta, sizeof at->theta);
-    at->accepted_chi2 = at->chi2;
-    gsl_vector_memcpy(at->x, x);
-    for (size_t j = 0; j < (size_t)p->n && at->clipped; j++)
-        gsl_vector_set(at->x, j, over_scale(at, at->accepted, j));
-    for (int j = 0; j < p->n && at->accepted_status == RB_OK; j++) {
-        /* A bound that the sum of squares presses against holds a parameter. */
-        const rb_case_parameter *of = &p->fit->parameter[j];
-        const double down = fit_dot(p->points, fit_column(p, j), p->f);
-        const double near = 1e-8 * of->scale;
-        at->held[j] = (at->theta[j] <= of->low + near && down > 0.0) ||
-                      (at->theta[j] >= of->high - near && down < 0.0);
-    }
 }
 
 /* After each step. */
@@ -177,21 +171,22 @@ enum { STAYS, ENDS, CROSSES, CHOICES };
 
 /* The step d, over scales, to the least sum of squares of residuals that are linear on
  * either side of each kink: the least of those that go where they are meant to go. */
-static rb_status step_to_least(const state *at, double *d, double *least)
+static rb_status step_to_least(const state *at, int kinks, double *d, double *least)
 {
     const fit_problem *p = at->p;
     const size_t points = (size_t)p->points, ld = (size_t)p->n;
     double *A = rb_alloc(points, ld + 1), *f = A + points * ld;
-    int number[RB_CASE_FIT_MAX], n = 0, choices = 1; /* number: of those that no bound holds */
+    int number[RB_CASE_FIT_MAX],
+        n = 0, choices = 1; /* number: of those that move f and that no bound holds */
 
     *least = INFINITY;
     memset(d, 0, ld * sizeof *d);
     if (!A)
         return rb_fail(at->why, RB_ENOMEM, "out of memory for a step");
     for (int j = 0; j < p->n; j++)
-        if (!at->held[j])
+        if (!at->held[j] && rb_norm_inf(points, fit_column(p, j)) > 0.0)
             number[n++] = j;
-    for (int j = 0; j < at->kinks; j++)
+    for (int j = 0; j < kinks; j++)
         choices *= CHOICES;
     for (int choice = 0; choice < choices; choice++) {
         double B[KINKS][RB_CASE_FIT_MAX], end[KINKS], x[RB_CASE_FIT_MAX], sum = 0.0;
@@ -202,7 +197,7 @@ static rb_status step_to_least(const state *at, double *d, double *least)
                 A[k * ld + (size_t)i] =
                     fit_column(p, number[i])[k] * p->fit->parameter[number[i]].scale;
         }
-        for (int j = 0, rest = choice; j < at->kinks; j++, rest /= CHOICES) {
+        for (int j = 0, rest = choice; j < kinks; j++, rest /= CHOICES) {
             const kink *of = &at->kink[j];
             const int crosses = rest % CHOICES == CROSSES;
             f[of->point] -= crosses ? of->more : 0.0;
@@ -218,7 +213,7 @@ static rb_status step_to_least(const state *at, double *d, double *least)
             continue;
         for (int k = n - ends; k < p->points; k++)
             sum += f[k] * f[k];
-        for (int j = 0, rest = choice; j < at->kinks; j++, rest /= CHOICES) {
+        for (int j = 0, rest = choice; j < kinks; j++, rest /= CHOICES) {
             const kink *of = &at->kink[j];
             double more = of->more;
             for (int i = 0; i < n; i++)
@@ -236,6 +231,34 @@ static rb_status step_to_least(const state *at, double *d, double *least)
     return RB_OK;
 }
 
+/* Accepts the last trial, which was x. */
+static void accept(const gsl_vector *x, state *at)
+{
+    fit_problem *p = at->p;
+    double d[RB_CASE_FIT_MAX], least = 0.0;
+
+    if (at->status != RB_OK || at->has_rows)
+        return;
+    at->accepted_status = rb_case_fit_accept(p, at->theta, at->why);
+    at->has_rows = at->stops = 1;
+    memcpy(at->accepted, at->theta, sizeof at->theta);
+    at->accepted_chi2 = at->chi2;
+    gsl_vector_memcpy(at->x, x);
+    for (size_t j = 0; j < (size_t)p->n && at->clipped; j++)
+        gsl_vector_set(at->x, j, over_scale(at, at->accepted, j));
+    for (int j = 0; j < p->n && at->accepted_status == RB_OK; j++) {
+        /* A bound that the sum of squares presses against holds a parameter. */
+        const rb_case_parameter *of = &p->fit->parameter[j];
+        const double down = fit_dot(p->points, fit_column(p, j), p->f);
+        const double near = 1e-8 * of->scale;
+        at->held[j] = (at->theta[j] <= of->low + near && down > 0.0) ||
+                      (at->theta[j] >= of->high - near && down < 0.0);
+    }
+    if (at->accepted_status == RB_OK)
+        at->accepted_status = step_to_least(at, 0, d, &least);
+    at->promise = isfinite(least) ? 1.0 - least / at->accepted_chi2 : 1.0;
+}
+
 /* Gauss's and Newton's method from the accepted numbers, where the least sum of squares
  * may lie at kinks.  *done: 1: it has converged; 0: a step was not successful. */
 static rb_status descend_at_kinks(state *at, int *done)
@@ -250,10 +273,10 @@ static rb_status descend_at_kinks(state *at, int *done)
         rb_status beyond = RB_OK;
         for (int j = 0; j < at->kinks && beyond == RB_OK; j++)
             beyond = look_beyond(at, &at->kink[j]);
-        s = beyond == RB_ENOMEM ? beyond : step_to_least(at, d, &least);
-        *done = s == RB_OK && beyond == RB_OK &&
+        s = beyond == RB_ENOMEM ? beyond : step_to_least(at, at->kinks, d, &least);
+        *done = s == RB_OK && beyond == RB_OK && isfinite(least) &&
                 at->accepted_chi2 - least <= CONVERGED * at->accepted_chi2;
-        if (s != RB_OK || beyond != RB_OK || *done)
+        if (s != RB_OK || beyond != RB_OK || *done || !isfinite(least))
             break;
         for (size_t j = 0; j < (size_t)p->n; j++)
             gsl_vector_set(x, j, gsl_vector_get(at->x, j) + d[j]);
@@ -290,7 +313,8 @@ static int residuals(const gsl_vector *x, void *context, gsl_vector *f)
     at->kinks = 0;
     const int is_worse =
         !fails && at->p->accepted >= 0 && !at->has_rows && at->chi2 >= at->accepted_chi2;
-    return is_worse && at->stops && find_kinks(at) ? BEYOND_KINKS : GSL_SUCCESS;
+    return is_worse && at->stops && at->promise <= NEAR && find_kinks(at) ? BEYOND_KINKS
+                                                                          : GSL_SUCCESS;
 }
 
 static int rows(const gsl_vector *x, void *context, gsl_matrix *J)
@@ -338,16 +362,14 @@ rb_status rb_case_fit_descend(fit_problem *p, double *theta, const rb_case_fit_o
                                         : rb_fail(why, RB_INACCURATE, "fit: no start");
     while (s == RB_OK && !done && p->fit->iterations < at.most) {
         const double chi2 = at.accepted_chi2;
-        double d[RB_CASE_FIT_MAX], least;
         const int ended = gsl_multifit_nlinear_iterate(w);
         s = at.status == RB_ENOMEM ? at.status : at.accepted_status;
         if (s == RB_OK && ended == BEYOND_KINKS) {
             s = descend_at_kinks(&at, &done);
         } else if (s == RB_OK) {
-            s = step_to_least(&at, d, &least);
             done = ended != GSL_SUCCESS || chi2 - at.accepted_chi2 <= CONVERGED * chi2 ||
-                   at.accepted_chi2 - least <= CONVERGED * at.accepted_chi2;
-            s = s == RB_OK ? tell(&at) : s;
+                   at.promise <= CONVERGED;
+            s = tell(&at);
         }
         if (s == RB_OK && !done && (at.clipped || ended == BEYOND_KINKS)) {
             /* goes on from the bound, or from the kinks */
