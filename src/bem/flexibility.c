@@ -48,6 +48,15 @@ void rb_bem_flexibility_free(rb_bem_flexibility *f)
     memset(f, 0, sizeof *f);
 }
 
+rb_status rb_bem_flexibility_end(const char *what, int n_c, rb_status s, rb_bem_flexibility *f,
+                                 rb_message *why)
+{
+    if (s == RB_OK)
+        return s;
+    rb_bem_flexibility_free(f);
+    return rb_fail(why, s, "%s: out of memory for %d contact elements", what, n_c);
+}
+
 rb_status rb_bem_flexibility_points(int n, rb_bem_flexibility *f)
 {
     memset(f, 0, sizeof *f);

@@ -39,6 +39,10 @@ rb_status rb_bem_surface_check(const rb_bem_surface *body, rb_message *why);
 void rb_bem_memory_integrals(const rb_bem_surface *body, double x, double b, double *log,
                              double *sign);
 
+/* s; unless that is RB_OK, f is freed and why says that there was no memory for it. */
+rb_status rb_bem_flexibility_end(const char *what, int n_c, rb_status s, rb_bem_flexibility *f,
+                                 rb_message *why);
+
 /* A flexibility with x, h, w0 zeroed and nothing behind it. */
 rb_status rb_bem_flexibility_points(int n, rb_bem_flexibility *f);
 /* x and h of elements between these ends (n + 2). */

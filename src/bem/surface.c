@@ -175,8 +175,5 @@ rb_status rb_bem_flexibility_surface(int n_c, const double *ends, const rb_bem_s
         rb_bem_flexibility_place(ends, f);
         s = displacements(body, n_c, ends, n_c + 1, ends, ends + 1, f->x, F);
     }
-    if (s == RB_OK)
-        return s;
-    rb_bem_flexibility_free(f);
-    return rb_fail(why, s, "half-plane: out of memory for %d contact elements", n_c);
+    return rb_bem_flexibility_end("half-plane", n_c, s, f, why);
 }

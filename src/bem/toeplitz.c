@@ -340,10 +340,7 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends, const rb_bem_
     }
     free(x);
     free(W);
-    if (s == RB_OK)
-        return s;
-    rb_bem_flexibility_free(f);
-    return rb_fail(why, RB_ENOMEM, "half-plane: out of memory for %d contact elements", n_c);
+    return rb_bem_flexibility_end("half-plane", n_c, s, f, why);
 }
 
 /* ---- Disc and wheel ---------------------------------------------------------------- */
@@ -439,10 +436,7 @@ rb_status rb_bem_flexibility_disc(int n_c, const double *ends, const rb_bem_disc
         return rb_fail(why, RB_EINVAL,
                        "disc: contact element %d has another length than the others", other);
     s = on_equal_arcs(n_c, ends, disc, NULL, normals, f);
-    if (s == RB_OK)
-        return s;
-    rb_bem_flexibility_free(f);
-    return rb_fail(why, s, "disc: out of memory for %d contact elements", n_c);
+    return rb_bem_flexibility_end("disc", n_c, s, f, why);
 }
 
 /* To rounding, which is that of angles up to pi/2 beside an arc. */

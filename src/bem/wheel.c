@@ -499,10 +499,7 @@ rb_status rb_bem_flexibility_wheel(int n_c, const double *ends, const rb_bem_whe
         s = add_matrix(wheel, normals, &c, &inner, NULL, F);
     rb_ring_table_free(&inner);
     circumference_free(&c);
-    if (s == RB_OK)
-        return s;
-    rb_bem_flexibility_free(f);
-    return rb_fail(why, s, "wheel: out of memory for %d contact elements", n_c);
+    return rb_bem_flexibility_end("wheel", n_c, s, f, why);
 }
 
 rb_status rb_bem_wheel_normal(const rb_bem_wheel *wheel, const rb_bem_edge_load *load, int points,

@@ -363,10 +363,7 @@ rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends, const r
         return s;
     if (rb_wheel_has_equal_arcs(n_c, ends, wheel->radius)) {
         s = rb_wheel_on_equal_arcs(n_c, ends, wheel, normals, f);
-        if (s == RB_OK)
-            return s;
-        rb_bem_flexibility_free(f);
-        return rb_fail(why, s, "wheel: out of memory for %d contact elements", n_c);
+        return rb_bem_flexibility_end("wheel", n_c, s, f, why);
     }
     double *angles = rb_wheel_angles(wheel->radius, n_c, ends);
     if (!angles)
@@ -385,10 +382,7 @@ rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends, const r
     } else {
         free(angles);
     }
-    if (s == RB_OK)
-        return s;
-    rb_bem_flexibility_free(f);
-    return rb_fail(why, s, "wheel: out of memory for %d contact elements", n_c);
+    return rb_bem_flexibility_end("wheel", n_c, s, f, why);
 }
 
 rb_status rb_bem_flexibility_plane_products(int n_c, const double *ends,
@@ -417,8 +411,5 @@ rb_status rb_bem_flexibility_plane_products(int n_c, const double *ends,
         memcpy(x + f->m, ends, ((size_t)f->m + 1) * sizeof *x);
         s = make(&like, x, (ends[n_c + 1] - ends[0]) / (n_c + 1), ends, f);
     }
-    if (s == RB_OK)
-        return s;
-    rb_bem_flexibility_free(f);
-    return rb_fail(why, s, "half-plane: out of memory for %d contact elements", n_c);
+    return rb_bem_flexibility_end("half-plane", n_c, s, f, why);
 }
