@@ -36,10 +36,11 @@ typedef struct {
 
 typedef struct {
     const rb_bem_mesh *mesh;
-    const double *u, *t;  /* borrowed */
-    int n;                /* pieces: 2 mesh.n */
-    rb_piece *piece;      /* owned */
-    int *next, *previous; /* owned */
+    const double *u, *t; /* borrowed */
+    int n;               /* pieces: 2 mesh.n */
+    rb_piece *piece;
+    int *next, *previous;
+    rb_arena memory; /* of the three */
     double shear, nu, kap;
 } rb_interior;
 
@@ -56,13 +57,6 @@ static cplx slope_after(const rb_interior *in, int j)
            (0.5 * (rb_bem_mesh_length(in->mesh, j) + rb_bem_mesh_length(in->mesh, k)));
 }
 
-static void interior_free(rb_interior *in)
-{
-    free(in->piece);
-    free(in->next);
-    free(in->previous);
-}
-
 static rb_status interior_make(const rb_bem_boundary *body, rb_interior *in)
 {
     const rb_bem_mesh *mesh = body->mesh;
@@ -74,13 +68,11 @@ static rb_status interior_make(const rb_bem_boundary *body, rb_interior *in)
                         .shear = body->material.shear,
                         .nu = body->material.poisson,
                         .kap = 3.0 - 4.0 * body->material.poisson};
-    in->piece = malloc(2 * n * sizeof *in->piece);
-    in->next = rb_alloc_int(n);
-    in->previous = rb_alloc_int(n);
-    if (!in->piece || !in->next || !in->previous) {
-        interior_free(in);
-        return RB_ENOMEM;
-    }
+    in->piece = rb_arena_zeros(&in->memory, 2 * n, sizeof *in->piece);
+    in->next = rb_arena_ints(&in->memory, n);
+    in->previous = rb_arena_ints(&in->memory, n);
+    if (in->memory.failed)
+        return rb_arena_done(&in->memory, RB_ENOMEM);
     rb_bem_mesh_next(mesh, in->next);
     for (int j = 0; j < mesh->n; j++)
         in->previous[in->next[j]] = j;
@@ -240,6 +232,5 @@ rb_status rb_bem_interior(const rb_bem_boundary *body, rb_bem_points points, dou
     if (outside < points.n)
         s = rb_fail(why, RB_EINVAL, "point %d at (%g, %g) lies outside the body", outside,
                     points.xy[2 * outside], points.xy[2 * outside + 1]);
-    interior_free(&in);
-    return s;
+    return rb_arena_done(&in.memory, s);
 }

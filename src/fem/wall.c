@@ -25,6 +25,7 @@ struct rb_fem_wall {
     double *u, *v, *r, *ur; /* displacements, velocities, impulses, relative velocities */
     double *mu;
     recorded_step *record; /* press + shear */
+    rb_arena memory;       /* of the arrays */
 };
 
 rb_fem_wall_options rb_fem_wall_defaults(void)
@@ -52,7 +53,7 @@ rb_status rb_fem_wall_create(const rb_fem_wall_options *options, rb_fem_wall **w
     w->options = *o;
     w->layout = wall_lay_out(&w->options);
     w->contacts = wall_find_contacts(&w->layout, NULL);
-    w->contact = calloc((size_t)w->contacts, sizeof *w->contact);
+    w->contact = rb_arena_zeros(&w->memory, (size_t)w->contacts, sizeof *w->contact);
     rb_status s = w->contact ? wall_build_mesh(&w->layout, &w->mesh) : RB_ENOMEM;
     if (s == RB_OK) {
         wall_find_contacts(&w->layout, w->contact);
@@ -65,13 +66,13 @@ rb_status rb_fem_wall_create(const rb_fem_wall_options *options, rb_fem_wall **w
     }
     if (s == RB_OK) {
         const size_t n = (size_t)w->system.dofs, m = 3 * (size_t)w->contacts;
-        w->u = rb_alloc(n, 1);
-        w->v = rb_alloc(n, 1);
-        w->r = rb_alloc(m, 1);
-        w->ur = rb_alloc(m, 1);
-        w->mu = rb_alloc((size_t)w->contacts, 1);
-        w->record = calloc((size_t)rb_fem_wall_steps(w), sizeof *w->record);
-        if (!w->u || !w->v || !w->r || !w->ur || !w->mu || !w->record)
+        w->u = rb_arena_doubles(&w->memory, n, 1);
+        w->v = rb_arena_doubles(&w->memory, n, 1);
+        w->r = rb_arena_doubles(&w->memory, m, 1);
+        w->ur = rb_arena_doubles(&w->memory, m, 1);
+        w->mu = rb_arena_doubles(&w->memory, (size_t)w->contacts, 1);
+        w->record = rb_arena_zeros(&w->memory, (size_t)rb_fem_wall_steps(w), sizeof *w->record);
+        if (w->memory.failed)
             s = RB_ENOMEM;
     }
     for (int i = 0; s == RB_OK && i < w->contacts; i++) {
@@ -98,17 +99,11 @@ void rb_fem_wall_free(rb_fem_wall *w)
         free(w->record[k].f);
         free(w->record[k].w);
     }
-    free(w->record);
     rb_fem_mesh_free(&w->mesh);
     wall_system_free(&w->system);
     rb_sparse_free(&w->R);
     rb_sparse_free(&w->A);
-    free(w->contact);
-    free(w->u);
-    free(w->v);
-    free(w->r);
-    free(w->ur);
-    free(w->mu);
+    rb_arena_free(&w->memory);
     free(w);
 }
 

@@ -23,6 +23,7 @@ typedef struct {
     double **Y;                /* bodies: Y_b of a small one by rows, or NULL */
     rb_sparse *W;              /* bodies: H_b' K_b^-1 H_b of a large one */
     double flops;
+    rb_arena memory; /* of all arrays */
 } condenser;
 
 /* The entries of a in rows of `body` and in the listed columns, renumbered. */
@@ -121,7 +122,7 @@ static rb_status condense_small(condenser *c, int body, double *q)
             return RB_SINGULAR;
     if (cols == 0)
         return RB_OK;
-    c->Y[body] = rb_alloc((size_t)n, (size_t)cols);
+    c->Y[body] = rb_arena_doubles(&c->memory, (size_t)n, (size_t)cols);
     if (!c->Y[body])
         return RB_ENOMEM;
     for (int i = 0; i < n; i++)
@@ -148,11 +149,12 @@ static rb_status condense_small(condenser *c, int body, double *q)
 static rb_status list_columns(condenser *c)
 {
     const rb_sparse *h = &c->p->H;
-    int *last = rb_alloc_int((size_t)c->bodies);
-    c->column = rb_alloc_int((size_t)h->p[h->cols]);
-    c->columns_of = rb_alloc_int((size_t)c->bodies + 2);
-    rb_status s = last && c->column && c->columns_of ? RB_OK : RB_ENOMEM;
-    for (int pass = 0; s == RB_OK && pass < 2; pass++) {
+    int *last = rb_arena_ints(&c->memory, (size_t)c->bodies);
+    c->column = rb_arena_ints(&c->memory, (size_t)h->p[h->cols]);
+    c->columns_of = rb_arena_ints(&c->memory, (size_t)c->bodies + 2);
+    if (c->memory.failed)
+        return RB_ENOMEM;
+    for (int pass = 0; pass < 2; pass++) {
         int *next = c->columns_of + 1;
         for (int b = 0; b < c->bodies; b++)
             last[b] = -1;
@@ -170,8 +172,7 @@ static rb_status list_columns(condenser *c)
         for (int b = 0; pass == 0 && b < c->bodies; b++)
             next[b + 1] += next[b];
     }
-    free(last);
-    return s;
+    return RB_OK;
 }
 
 /* The bodies, their degrees of freedom and the columns of H that touch them.  Of a
@@ -180,45 +181,38 @@ static rb_status list_columns(condenser *c)
 static rb_status find_bodies(condenser *c)
 {
     const int n = c->p->dofs;
-    c->body = rb_alloc_int((size_t)n);
-    c->number = rb_alloc_int((size_t)n);
-    c->dof = rb_alloc_int((size_t)n);
-    rb_status s = c->body && c->number && c->dof
-                      ? rb_sparse_components(&c->p->K, &c->bodies, c->body)
-                      : RB_ENOMEM;
+    c->body = rb_arena_ints(&c->memory, (size_t)n);
+    c->number = rb_arena_ints(&c->memory, (size_t)n);
+    c->dof = rb_arena_ints(&c->memory, (size_t)n);
+    rb_status s =
+        c->memory.failed ? RB_ENOMEM : rb_sparse_components(&c->p->K, &c->bodies, c->body);
     if (s == RB_OK)
         s = list_columns(c);
-    int *joined = s == RB_OK ? rb_alloc_int(2 * (size_t)c->bodies) : NULL;
-    if (s == RB_OK && !joined)
-        s = RB_ENOMEM;
-    if (s == RB_OK) {
-        int *dofs = joined + c->bodies;
-        for (int i = 0; i < n; i++)
-            dofs[c->body[i]]++;
-        int count = 0, size = 0; /* of the joined one that grows */
-        for (int b = 0; b < c->bodies; b++) {
-            const int *from = c->columns_of + b, cols = from[1] - from[0];
-            const int same = b > 0 && cols > 0 && cols == from[0] - from[-1] &&
-                             size + dofs[b] <= MOST_DOFS &&
-                             !memcmp(c->column + from[0], c->column + from[-1],
-                                     (size_t)cols * sizeof *c->column);
-            size = same ? size + dofs[b] : dofs[b];
-            count += !same;
-            joined[b] = count - 1;
-        }
-        for (int i = 0; i < n; i++)
-            c->body[i] = joined[c->body[i]];
-        c->bodies = count;
-        free(joined);
-        free(c->column);
-        free(c->columns_of);
-        s = list_columns(c);
-        c->dofs_of = rb_alloc_int((size_t)c->bodies + 2);
-        if (!c->dofs_of)
-            s = RB_ENOMEM;
-    }
     if (s != RB_OK)
         return s;
+    int *joined = rb_arena_ints(&c->memory, (size_t)c->bodies),
+        *dofs = rb_arena_ints(&c->memory, (size_t)c->bodies);
+    if (c->memory.failed)
+        return RB_ENOMEM;
+    for (int i = 0; i < n; i++)
+        dofs[c->body[i]]++;
+    int count = 0, size = 0; /* of the joined one that grows */
+    for (int b = 0; b < c->bodies; b++) {
+        const int *from = c->columns_of + b, cols = from[1] - from[0];
+        const int same =
+            b > 0 && cols > 0 && cols == from[0] - from[-1] && size + dofs[b] <= MOST_DOFS &&
+            !memcmp(c->column + from[0], c->column + from[-1], (size_t)cols * sizeof *c->column);
+        size = same ? size + dofs[b] : dofs[b];
+        count += !same;
+        joined[b] = count - 1;
+    }
+    for (int i = 0; i < n; i++)
+        c->body[i] = joined[c->body[i]];
+    c->bodies = count;
+    s = list_columns(c);
+    c->dofs_of = rb_arena_ints(&c->memory, (size_t)c->bodies + 2);
+    if (c->memory.failed)
+        return RB_ENOMEM;
     int *next = c->dofs_of + 1; /* one place ahead: filling moves the starts into place */
     for (int i = 0; i < n; i++)
         next[c->body[i] + 1]++;
@@ -237,7 +231,7 @@ static rb_status find_bodies(condenser *c)
 /* The bodies that a column touches, by increasing number, and its place among the columns
  * of each. */
 typedef struct {
-    int *start;        /* m + 1; owns the others */
+    int *start;        /* m + 1 */
     int *body, *place; /* start[m] */
 } touches;
 
@@ -285,13 +279,14 @@ static int list_rows(const condenser *c, const touches *t, int j, const rb_spars
 static rb_status assemble(const condenser *c, int m, rb_sparse *W)
 {
     const int touching = c->columns_of[c->bodies];
-    double *x = rb_alloc((size_t)m, 2);
-    int *other = rb_alloc_int((size_t)m);
-    touches t = {.start = rb_alloc_int((size_t)m + 2 + 2 * (size_t)touching)};
-    rb_status s = x && other && t.start ? RB_OK : RB_ENOMEM;
+    rb_arena scratch = {0};
+    double *x = rb_arena_doubles(&scratch, (size_t)m, 2);
+    int *other = rb_arena_ints(&scratch, (size_t)m);
+    touches t = {.start = rb_arena_ints(&scratch, (size_t)m + 2),
+                 .body = rb_arena_ints(&scratch, (size_t)touching),
+                 .place = rb_arena_ints(&scratch, (size_t)touching)};
+    rb_status s = scratch.failed ? RB_ENOMEM : RB_OK;
     if (s == RB_OK) {
-        t.body = t.start + m + 2;
-        t.place = t.body + touching;
         int *next = t.start + 1; /* as in find_bodies */
         for (int k = 0; k < touching; k++)
             next[c->column[k] + 1]++;
@@ -346,10 +341,7 @@ static rb_status assemble(const condenser *c, int m, rb_sparse *W)
         }
         W->p[j + 1] = W->p[j] + count;
     }
-    free(t.start);
-    free(other);
-    free(x);
-    return s;
+    return rb_arena_done(&scratch, s);
 }
 
 rb_status rb_friction_condense_counted(const rb_friction_problem *global,
@@ -365,11 +357,11 @@ rb_status rb_friction_condense_counted(const rb_friction_problem *global,
     rb_status s = local->mu && local->q ? find_bodies(&c) : RB_ENOMEM;
     if (s == RB_OK) {
         const size_t n = (size_t)global->dofs, bodies = c.bodies > 0 ? (size_t)c.bodies : 1;
-        c.f = rb_alloc(n, 1);
-        c.v = rb_alloc(n, 1);
-        c.Y = calloc(bodies, sizeof *c.Y);
-        c.W = calloc(bodies, sizeof *c.W);
-        if (!c.f || !c.v || !c.Y || !c.W)
+        c.f = rb_arena_doubles(&c.memory, n, 1);
+        c.v = rb_arena_doubles(&c.memory, n, 1);
+        c.Y = rb_arena_zeros(&c.memory, bodies, sizeof *c.Y);
+        c.W = rb_arena_zeros(&c.memory, bodies, sizeof *c.W);
+        if (c.memory.failed)
             s = RB_ENOMEM;
     }
     for (int body = 0; s == RB_OK && body < c.bodies; body++)
@@ -378,22 +370,9 @@ rb_status rb_friction_condense_counted(const rb_friction_problem *global,
     if (s == RB_OK)
         s = assemble(&c, (int)m, &local->Ws);
     *flops += c.flops;
-    for (int b = 0; b < c.bodies; b++) {
-        if (c.Y)
-            free(c.Y[b]);
-        if (c.W)
-            rb_sparse_free(&c.W[b]);
-    }
-    free(c.W);
-    free(c.Y);
-    free(c.v);
-    free(c.f);
-    free(c.columns_of);
-    free(c.column);
-    free(c.dofs_of);
-    free(c.dof);
-    free(c.number);
-    free(c.body);
+    for (int b = 0; c.W && b < c.bodies; b++)
+        rb_sparse_free(&c.W[b]);
+    rb_arena_free(&c.memory);
     if (s != RB_OK)
         rb_friction_problem_free(local);
     if (s != RB_SINGULAR)
@@ -421,9 +400,11 @@ rb_status rb_friction_condense_estimate(const rb_friction_problem *global,
     const rb_sparse *h = &global->H;
     const size_t n = (size_t)global->dofs;
     const double each = rb_sparse_cholesky_entries(factor) / global->dofs;
-    int *body = rb_alloc_int(n), *size = rb_alloc_int(n), *last = rb_alloc_int(n), bodies;
-    rb_status s =
-        body && size && last ? rb_sparse_components(&global->K, &bodies, body) : RB_ENOMEM;
+    rb_arena scratch = {0};
+    int *body = rb_arena_ints(&scratch, n), *size = rb_arena_ints(&scratch, n),
+        *last = rb_arena_ints(&scratch, n), bodies;
+    const rb_status s =
+        scratch.failed ? RB_ENOMEM : rb_sparse_components(&global->K, &bodies, body);
     *flops = rb_sparse_cholesky_flops(factor);
     for (size_t i = 0; s == RB_OK && i < n; i++)
         size[body[i]]++;
@@ -434,8 +415,5 @@ rb_status rb_friction_condense_estimate(const rb_friction_problem *global,
                 *flops += 4.0 * each * size[b];
             last[b] = j + 1;
         }
-    free(last);
-    free(size);
-    free(body);
-    return s;
+    return rb_arena_done(&scratch, s);
 }

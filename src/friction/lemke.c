@@ -53,6 +53,7 @@ typedef struct {
     double *basis;     /* n x n */
     double *z, *w, *cover;
     int *pivots;
+    rb_arena memory; /* of all arrays */
 } lemke;
 
 /* ---- The equations E u - W r = q --------------------------------------------------- */
@@ -219,21 +220,20 @@ static rb_status try(lemke *s, const attempt *a)
     rb_status st = RB_OK;
     if (!s->M) { /* no dense attempt was made yet */
         const size_t m = (size_t)t->m, n = 3 * (size_t)t->contacts;
-        *s = (lemke){.task = t,
-                     .nc = t->contacts,
-                     .n = (int)n,
-                     .W = rb_alloc(m, m),
-                     .q = rb_alloc(m, 1),
-                     .M = rb_alloc(n, n),
-                     .b = rb_alloc(n, 1),
-                     .basis = rb_alloc(n, n),
-                     .z = rb_alloc(n, 1),
-                     .w = rb_alloc(n, 1),
-                     .cover = rb_alloc(n, 1),
-                     .pivots = rb_alloc_int(n)};
-        st = s->W && s->q && s->M && s->b && s->basis && s->z && s->w && s->cover && s->pivots
-                 ? RB_OK
-                 : RB_ENOMEM;
+        rb_arena *memory = &s->memory;
+        s->nc = t->contacts;
+        s->n = (int)n;
+        s->W = rb_arena_doubles(memory, m, m);
+        s->E = w ? NULL : rb_arena_doubles(memory, m, m);
+        s->q = rb_arena_doubles(memory, m, 1);
+        s->M = rb_arena_doubles(memory, n, n);
+        s->b = rb_arena_doubles(memory, n, 1);
+        s->basis = rb_arena_doubles(memory, n, n);
+        s->z = rb_arena_doubles(memory, n, 1);
+        s->w = rb_arena_doubles(memory, n, 1);
+        s->cover = rb_arena_doubles(memory, n, 1);
+        s->pivots = rb_arena_ints(memory, n);
+        st = memory->failed ? RB_ENOMEM : RB_OK;
         if (st == RB_OK && w) {
             if (is_sparse)
                 scatter(&w->Ws, s->W);
@@ -242,8 +242,7 @@ static rb_status try(lemke *s, const attempt *a)
             memcpy(s->q, w->q, m * sizeof *s->q);
         } else if (st == RB_OK) { /* K singular: W, q with springs k, and E = 1 - k W */
             rb_sparse held = {0};
-            s->E = rb_alloc(m, m);
-            st = s->E ? rb_friction_measure_spring_load(t->measure, s->q) : RB_ENOMEM;
+            st = rb_friction_measure_spring_load(t->measure, s->q);
             if (st == RB_OK)
                 st = rb_sparse_cholesky_congruence(t->measure->factor, &t->problem->H, &held);
             if (st == RB_OK)
@@ -279,16 +278,7 @@ static rb_status run_lemke(rb_friction_task *task, int variant)
         if (st == RB_INTERRUPTED)
             break;
     }
-    free(s.W);
-    free(s.E);
-    free(s.q);
-    free(s.M);
-    free(s.b);
-    free(s.basis);
-    free(s.z);
-    free(s.w);
-    free(s.cover);
-    free(s.pivots);
+    rb_arena_free(&s.memory);
     return st > 0 ? first : st;
 }
 

@@ -169,16 +169,17 @@ rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *p, const rb_frict
     const double unit = trace > 0.0 ? p->n / trace : 1.0;
     const int acary = used.measure == RB_FRICTION_BY_ACARY;
     const size_t n = (size_t)p->n;
+    rb_arena scratch = {0};
     canonical c = {.p = p,
                    .unit = acary ? 1.0 : unit,
                    .tol = used.tol,
                    .deadline = used.seconds > 0.0 ? start + used.seconds : 0.0,
-                   .y = rb_alloc(n, 1),
-                   .s = rb_alloc(n, 1),
-                   .P = rb_alloc(n, 1),
-                   .D = rb_alloc((size_t)largest, (size_t)largest),
-                   .J = rb_alloc(n, n),
-                   .pivots = rb_alloc_int(n)};
+                   .y = rb_arena_doubles(&scratch, n, 1),
+                   .s = rb_arena_doubles(&scratch, n, 1),
+                   .P = rb_arena_doubles(&scratch, n, 1),
+                   .D = rb_arena_doubles(&scratch, (size_t)largest, (size_t)largest),
+                   .J = rb_arena_doubles(&scratch, n, n),
+                   .pivots = rb_arena_ints(&scratch, n)};
     const rb_friction_smooth_problem smooth = {.n = p->n,
                                                .context = &c,
                                                .residual = canonical_residual,
@@ -188,14 +189,9 @@ rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *p, const rb_frict
     for (int i = 0; i < p->n; i++)
         x[i] = used.r0 ? used.r0[i] : 0.0;
     rb_status s = RB_ENOMEM;
-    if (c.y && c.s && c.P && c.D && c.J && c.pivots)
+    if (!scratch.failed)
         s = rb_friction_smooth(&smooth, used.max_iters ? used.max_iters : LIMIT, x, &info->iters);
-    free(c.pivots);
-    free(c.J);
-    free(c.D);
-    free(c.P);
-    free(c.s);
-    free(c.y);
+    rb_arena_free(&scratch);
     info->measure = used.measure;
     info->scaled = error_in(p, unit, x, y);
     info->residual = rb_friction_soclcp_error(p, x, y);
