@@ -52,6 +52,18 @@ static inline int rollbem(const char *arguments)
     return shell(line);
 }
 
+/* The same, with a format. */
+__attribute__((format(printf, 1, 2))) static inline int shellf(const char *format, ...)
+{
+    char line[3000];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(line, sizeof line, format, args);
+    va_end(args);
+    return shell(line);
+}
+#define rollbemf(...) shellf("\"$R\" " __VA_ARGS__)
+
 /* Nothing on stdout, exactly one line on stderr, containing `part`. */
 static inline void check_refused(const char *arguments, int code, const char *part)
 {

@@ -48,7 +48,7 @@ typedef struct {
 static void judge(int k, verdicts *v)
 {
     static random_case c;
-    char command[1700], line[800];
+    char command[1700];
 
     snprintf(command, sizeof command, "%s%s --quiet --output r", command_of(&c, k), c.line);
     const int code = rollbem(command);
@@ -60,8 +60,7 @@ static void judge(int k, verdicts *v)
     if (code != 0)
         return;
     if (strstr(c.line, "--json")) {
-        snprintf(line, sizeof line, "%s r", checker);
-        v->wrong += shell(line) != 0;
+        v->wrong += shellf("%s r", checker) != 0;
         if (out[0])
             print_error("case %d: rollbem %.1400s\n    %.400s", k, command, out);
     }

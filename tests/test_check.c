@@ -67,16 +67,15 @@ static rb_status certify(const json_t *root, rb_report_certificate *found, rb_me
 static rb_case *case_of(const char *given)
 {
     char text[600], *name, *value;
-    rb_message why = {""};
     rb_case *words = rb_case_create(RB_CASE_SINGLE);
     assert_non_null(words);
     snprintf(text, sizeof text, "%s", given);
     for (name = strtok(text, " "); name; name = strtok(NULL, " ")) {
         value = strtok(NULL, " ");
         assert_non_null(value);
-        CHECK_STATUS(rb_case_set(words, name + 2, value, RB_GIVEN_ARGUMENT, &why), RB_OK);
+        CHECK_STATUS(rb_case_set(words, name + 2, value, RB_GIVEN_ARGUMENT, &heard), RB_OK);
     }
-    CHECK_STATUS(rb_case_resolve(words, &why), RB_OK);
+    CHECK_STATUS(rb_case_resolve(words, &heard), RB_OK);
     return words;
 }
 
@@ -238,8 +237,7 @@ TEST(every_changed_number_of_a_history_is_found)
         json_t *states = json_object_get(history, "states"), *names;
         const char *key;
         rb_report_certificate found;
-        rb_message why = {""};
-        CHECK_STATUS(certify(root, &found, &why), RB_OK);
+        CHECK_STATUS(certify(root, &found, &heard), RB_OK);
         assert_int_equal(found.violations, 0);
         json_object_foreach(history, key, list) changes +=
             change_list(root, histories[k], key, list);
@@ -272,8 +270,7 @@ TEST(every_changed_number_is_found)
         json_t *table = json_object_get(root, "table");
         const char *key;
         rb_report_certificate found;
-        rb_message why = {""};
-        CHECK_STATUS(certify(root, &found, &why), RB_OK);
+        CHECK_STATUS(certify(root, &found, &heard), RB_OK);
         assert_int_equal(found.violations, 0);
         json_t *names = json_copy(summary);
         json_object_foreach(names, key, value)
@@ -331,8 +328,7 @@ static int change_reals(const char *key, json_t *list)
 static void expect_violations(const json_t *root, int wanted)
 {
     rb_report_certificate found;
-    rb_message why = {""};
-    CHECK_STATUS(certify(root, &found, &why), RB_OK);
+    CHECK_STATUS(certify(root, &found, &heard), RB_OK);
     assert_int_equal(found.violations, wanted);
 }
 
@@ -445,16 +441,15 @@ TEST(inputs_belong_to_the_result)
         json_t *all = json_object_get(root, "inputs");
         const double x = json_number_value(json_object_get(all, inputs[k].key)) * (1.0 + 1e-5);
         char value[40];
-        rb_message why = {""};
         rb_report_certificate found;
         json_object_set_new(all, inputs[k].key, json_real(x));
         rb_case *words = case_of(cases[inputs[k].which]);
         snprintf(value, sizeof value, "%.17g", x);
-        CHECK_STATUS(rb_case_set(words, inputs[k].key, value, RB_GIVEN_ARGUMENT, &why), RB_OK);
-        CHECK_STATUS(rb_case_resolve(words, &why), RB_OK);
+        CHECK_STATUS(rb_case_set(words, inputs[k].key, value, RB_GIVEN_ARGUMENT, &heard), RB_OK);
+        CHECK_STATUS(rb_case_resolve(words, &heard), RB_OK);
         json_object_set_new(root, "input_hash", rb_report_json_input_hash(words));
         rb_case_free(words);
-        CHECK_STATUS(certify(root, &found, &why), RB_OK);
+        CHECK_STATUS(certify(root, &found, &heard), RB_OK);
         assert_true(found.violations > 0);
     }
 }
@@ -474,9 +469,7 @@ TEST(files_belong_to_the_result)
 
 static void check_says(const char *make, int code, const char *part)
 {
-    char line[900];
-    snprintf(line, sizeof line, "{ %s ; } >r.json 2>/dev/null; \"$R\" check r.json", make);
-    const int got = shell(line);
+    const int got = shellf("{ %s ; } >r.json 2>/dev/null; \"$R\" check r.json", make);
     const char *text = code == 1 ? out : err;
     if (got != code || !strstr(text, part))
         print_error("%s: exit %d\n%s%s", make, got, out, err);
@@ -556,7 +549,6 @@ TEST(all_solutions_are_judged)
     json_t *root = run_json(given), *all = json_object_get(root, "solutions");
     held_case *words = rb_case_create(RB_CASE_SINGLE);
     rb_report_certificate found;
-    rb_message why = {""};
     assert_int_equal(json_array_size(all), 3);
     for (int change = 0; change < 4; change++) {
         FILE *lines = tmpfile();
@@ -571,7 +563,7 @@ TEST(all_solutions_are_judged)
             json_array_set(list, 2, json_array_get(list, 1));
         if (change == 3)
             json_array_remove(list, 0), json_array_remove(list, 0);
-        CHECK_STATUS(rb_report_certify_solutions(lines, "r", wrong, words, &found, &why), RB_OK);
+        CHECK_STATUS(rb_report_certify_solutions(lines, "r", wrong, words, &found, &heard), RB_OK);
         rewind(lines);
         if (change == 0)
             assert_int_equal(found.violations, 0);

@@ -658,9 +658,7 @@ TEST(devices_are_refused)
                                         "check /dev/zero",
                                         "sweep /dev/zero"};
     for (size_t k = 0; k < sizeof lines / sizeof *lines; k++) {
-        char line[200];
-        snprintf(line, sizeof line, "ulimit -t 10; timeout 20 \"$R\" %s", lines[k]);
-        const int code = shell(line);
+        const int code = shellf("ulimit -t 10; timeout 20 \"$R\" %s", lines[k]);
         if (code != 65 || !strstr(err, ": a device, expected a file or a pipe"))
             fail_msg("%s: exit %d: %s", lines[k], code, err);
     }

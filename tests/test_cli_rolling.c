@@ -99,12 +99,10 @@ TEST(table_holds_the_numbers_of_json)
                                              {"stick_ratio", "stick_ratio"}};
     const char *line = "curve " SIMILAR "--points 7 --mu 0.1,0.3 --contact-elements 20 "
                        "--over creep --to 0.01";
-    char command[400];
     OWNED(rb_io_table) t;
     held_json *root = run_json(line);
     const json_t *curves = json_object_get(root, "curves");
-    snprintf(command, sizeof command, "%s --quiet --output curve.tsv", line);
-    assert_int_equal(rollbem(command), 0);
+    assert_int_equal(rollbemf("%s --quiet --output curve.tsv", line), 0);
     assert_int_equal(rb_io_table_read("curve.tsv", &t, NULL), RB_OK);
     assert_int_equal(t.rows, 14);
     assert_int_equal(json_array_size(curves), 2);
@@ -281,8 +279,7 @@ TEST(grid_of_a_wheel)
             assert_true(there);
     }
     assert_true(inside < 21 * 31);
-    snprintf(line, sizeof line, "%s --quiet --output wheel.tsv --vtk wheel.vtu", wheel);
-    assert_int_equal(rollbem(line), 0);
+    assert_int_equal(rollbemf("%s --quiet --output wheel.tsv --vtk wheel.vtu", wheel), 0);
     assert_int_equal(rb_io_table_read("wheel.tsv", &t, NULL), RB_OK);
     assert_int_equal(t.rows, inside);
     slurp("wheel.vtu", out, sizeof out);
@@ -430,9 +427,8 @@ TEST(power_below_zero_is_named)
         "--support halfplane --layer-thickness 2 --young-b 2e5 --interlayer-normal 2e-6 "
         "--interlayer-tangential 1e-6 --half-width 1 --contact-elements 24 ";
     char line[500];
-    snprintf(line, sizeof line, "curve %s --mesh uniform --from -0.25 --to 0.25 --points 3",
-             unlike);
-    assert_int_equal(rollbem(line), 0);
+    assert_int_equal(rollbemf("curve %s --mesh uniform --from -0.25 --to 0.25 --points 3", unlike),
+                     0);
     assert_non_null(strstr(err, "below zero at 1 point, -0.00032 N/mm at xi = 0:"));
     for (int aligned = 0; aligned < 2; aligned++) {
         snprintf(line, sizeof line, "%s --formulation steady --creep 0 --error --mesh %s", unlike,
@@ -640,8 +636,7 @@ TEST(pictures_name_the_case)
                  "--plot-script named.gp",
                  pictures[k].line, pictures[k].option);
         assert_int_equal(rollbem(line), 0);
-        snprintf(line, sizeof line, "grep -F \"%s\" named.gp", pictures[k].text);
-        if (shell(line) != 0)
+        if (shellf("grep -F \"%s\" named.gp", pictures[k].text) != 0)
             fail_msg("--%s: no %s", pictures[k].option, pictures[k].text);
     }
 }

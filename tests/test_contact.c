@@ -708,9 +708,7 @@ TEST(other_examples_are_run_or_named)
         const char *wanted;
     } all[] = {{"cattaneo.inp", 1, 2, "three dimensions (MY = 19"}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
-        char line[700];
-        snprintf(line, sizeof line, "contact %s --json", data(all[k].name));
-        assert_int_equal(rollbem(line), all[k].code);
+        assert_int_equal(rollbemf("contact %s --json", data(all[k].name)), all[k].code);
         assert_non_null(strstr(err, all[k].wanted));
         held_json *root = json_loads(out, 0, NULL);
         const size_t cases = json_array_size(json_object_get(root, "cases"));

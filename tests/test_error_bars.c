@@ -642,13 +642,12 @@ static rb_rolling_solution to_accuracy(const char *line, rb_status wanted)
 {
     rb_rolling_solution s;
     rb_rolling_errors e;
-    rb_message why = {""};
     int elements = 0;
     rb_case *c = case_of(line);
 
     assert_non_null(c);
     CHECK_STATUS(
-        rb_rolling_solve_to_accuracy(&rb_case_resolved(c)->rc, 3e-3, &s, &e, &elements, &why),
+        rb_rolling_solve_to_accuracy(&rb_case_resolved(c)->rc, 3e-3, &s, &e, &elements, &heard),
         wanted);
     rb_case_free(c);
     return s;
@@ -766,13 +765,12 @@ static void an_accuracy_out_of_reach_is_said_to_be(void **state)
     rb_rolling_case rc = thin_rim();
     OWNED(rb_rolling_solution) s;
     rb_rolling_errors e;
-    rb_message why = {""};
     int elements = 0;
     rc.mesh = RB_MESH_UNIFORM;
-    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1e-7, &s, &e, &elements, &why), RB_INACCURATE);
+    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1e-7, &s, &e, &elements, &heard), RB_INACCURATE);
     assert_int_equal(elements, 40);
     CHECK_ABS(s.force_ratio, thin_rim_force_ratio, e.scalar.force_ratio, "Q/(mu P)");
-    assert_non_null(strstr(why.text, "not reached"));
+    assert_non_null(strstr(heard.text, "not reached"));
 }
 
 /* A coarser run that fails takes nothing from the case that was solved: half the elements
@@ -782,17 +780,16 @@ static void a_failed_coarser_run_leaves_the_solution(void **state)
     rb_rolling_case rc = rb_rolling_case_defaults();
     OWNED(rb_rolling_solution) s;
     rb_rolling_errors e;
-    rb_message why = {""};
     rc.a.support = RB_BEM_HALFPLANE;
     rc.a.poisson = 0.5;
     rc.half_width = 0.1;
     rc.zone = 1.05 * rc.half_width;
     rc.contact_elements = 40;
-    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, &why), RB_ZONE);
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, &heard), RB_ZONE);
     CHECK_STATUS(s.status, RB_OK);
     CHECK_REL(s.normal_load, 0.25 * M_PI * 94500.0 / 0.75 * 0.01 / 50.0, 1e-10, "load");
     assert_true(isnan(e.scalar.max_pressure));
-    assert_non_null(strstr(why.text, "error bars: 20 contact elements: "));
+    assert_non_null(strstr(heard.text, "error bars: 20 contact elements: "));
 }
 
 int main(int argc, char **argv)

@@ -255,9 +255,9 @@ TEST(test_curve)
     char line[500];
     for (int k = 0; k < 3; k++) {
         const char *rest = "--mesh uniform --zone 1.5 --load 700 --contact-elements 31";
-        snprintf(line, sizeof line, "curve %s %s --from -0.5 --to 1 --points 4 --json --quiet",
-                 supports[k], rest);
-        assert_int_equal(rollbem(line), 0);
+        assert_int_equal(
+            rollbemf("curve %s %s --from -0.5 --to 1 --points 4 --json --quiet", supports[k], rest),
+            0);
         held_json *root = json_loads(out, 0, NULL);
         const json_t *curve = json_object_get(root, "curve");
         for (size_t i = 0; i < 4; i++) {

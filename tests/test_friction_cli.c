@@ -52,12 +52,9 @@ TEST(the_answer_can_be_checked)
 TEST(compare_writes_its_file)
 {
     const char *const command = "compare --solvers nsn-ac,lemke slides zero";
-    char line[200];
-    snprintf(line, sizeof line, "%s --output runs.tsv", command);
-    assert_int_equal(rollbem(line), 0);
+    assert_int_equal(rollbemf("%s --output runs.tsv", command), 0);
     assert_string_equal(out, "");
-    snprintf(line, sizeof line, "\"$R\" %s >printed", command);
-    assert_int_equal(shell(line), 0);
+    assert_int_equal(shellf("\"$R\" %s >printed", command), 0);
     assert_int_equal(shell("for f in printed runs.tsv; do grep -v '^#' $f | cut -f 1-3 >$f.part; "
                            "done; cmp printed.part runs.tsv.part && grep -c . printed.part"),
                      0);

@@ -4,9 +4,7 @@
 
 static void check_lines_of(const char *readelf, const char *part)
 {
-    char line[800];
-    snprintf(line, sizeof line, "readelf %s", readelf);
-    assert_int_equal(shell(line), 0);
+    assert_int_equal(shellf("readelf %s", readelf), 0);
     if (!strstr(out, part))
         fail_msg("readelf %s: no '%s'", readelf, part);
 }

@@ -289,8 +289,7 @@ static int run_case(int k, double *seconds)
         print_error("case %d:%s\n    ends with %d: %.300s\n", k, line, code, err);
         return WRONG;
     }
-    snprintf(command, sizeof command, "%s json", checker);
-    if (shell(command) == 0)
+    if (shellf("%s json", checker) == 0)
         return SOLVED;
     print_error("case %d:%s\n    %.600s\n", k, line, out);
     count_reason("wrong", out);

@@ -378,7 +378,6 @@ TEST(doubtful_values_are_noted)
         {"--arc 0.5", "in radians, write --arc"},
         {"--example rail --radius 0.46", "far beyond linear elasticity"}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
-        char line[200];
         rollbem(all[k][0]);
         const char *note = strstr(err, all[k][1]), *summary = strstr(err, "  load ");
         if (!note || !summary)
@@ -386,8 +385,7 @@ TEST(doubtful_values_are_noted)
         assert_true(note < summary); /* before the numbers */
         const char *line_of_table = strstr(out, all[k][1]);
         assert_non_null(line_of_table);
-        snprintf(line, sizeof line, "%s --json --quiet", all[k][0]);
-        rollbem(line);
+        rollbemf("%s --json --quiet", all[k][0]);
         assert_string_equal(err, "");
         held_json *root = json_loads(out, 0, NULL);
         int found = 0;
@@ -539,9 +537,7 @@ TEST(closed_pipes_end_in_silence)
                                            "halfplane --mu 0 --quiet",
                                            "help mesh", "examples", "--help=all"};
     for (size_t k = 0; k < sizeof commands / sizeof *commands; k++) {
-        char line[300];
-        snprintf(line, sizeof line, "\"$R\" %s | head -n 1", commands[k]);
-        assert_int_equal(shell(line), 0);
+        assert_int_equal(shellf("\"$R\" %s | head -n 1", commands[k]), 0);
         assert_string_equal(err, "");
     }
 }

@@ -176,9 +176,7 @@ TEST(options_may_need_the_one_that_varies)
         "--similar --heat-capacity 3.8 --speed 1000 --vary-1 'conductivity 10 50'",
         "--similar --relaxation-time .1 --relaxation-ratio 1 --vary-1 'speed 1 10'"};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
-        char line[400];
-        snprintf(line, sizeof line, STUDY "--contact-elements 20 --header bare %s", all[k]);
-        if (rollbem(line) != 0)
+        if (rollbemf(STUDY "--contact-elements 20 --header bare %s", all[k]) != 0)
             fail_msg("%s: %s", all[k], err);
         assert_non_null(strstr(out, "\n2\t"));
     }
@@ -301,8 +299,7 @@ TEST(a_full_disk_leaves_whole_rows)
     static const char study[] = STUDY "--contact-elements 30 --vary-1 'mu 0.1:0.3:12' ";
     static char whole[20000], part[20000];
     char line[600];
-    snprintf(line, sizeof line, "%s --output whole.tsv", study);
-    assert_int_equal(rollbem(line), 0);
+    assert_int_equal(rollbemf("%s --output whole.tsv", study), 0);
     slurp("whole.tsv", whole, sizeof whole);
     for (int blocks = 0; blocks < 3; blocks += 2) {
         snprintf(line, sizeof line,
@@ -327,8 +324,7 @@ TEST(a_full_disk_leaves_whole_rows)
     assert_int_equal(shell(line), 73);
     slurp("empty.tsv", part, sizeof part);
     assert_string_equal(part, "");
-    snprintf(line, sizeof line, "%s --output full.tsv", study);
-    assert_int_equal(rollbem(line), 0);
+    assert_int_equal(rollbemf("%s --output full.tsv", study), 0);
     slurp("full.tsv", part, sizeof part);
     assert_string_equal(strstr(part, "\n1\t"), strstr(whole, "\n1\t"));
 }

@@ -156,14 +156,13 @@ TEST(every_command_converts_the_same_numbers)
         "R1=46.5; E1=205000; A1=2.5; P1=712; Z1=1.25; C1=2e-6; D1=0.002; K1=1e-9",
         "R1=0.0465; E1=205e9; A1=0.0025; P1=712e3; Z1=0.00125; C1=2e-15; D1=2e-6; K1=1e-15"};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
-        char line[800];
         for (int u = 0; u < 2; u++) {
             const char *quiet = strstr(all[k].command, "&&");
             const int n = quiet ? (int)(quiet - all[k].command) : 800;
-            snprintf(line, sizeof line, "%s; %.*s --quiet --units %s > t%d %s%s", values[u], n,
-                     all[k].command, u ? "si" : "mm", u, quiet ? "&& cp h.tsv t" : "",
-                     quiet ? (u ? "1" : "0") : "");
-            assert_int_equal(shell(line), 0);
+            assert_int_equal(shellf("%s; %.*s --quiet --units %s > t%d %s%s", values[u], n,
+                                    all[k].command, u ? "si" : "mm", u,
+                                    quiet ? "&& cp h.tsv t" : "", quiet ? (u ? "1" : "0") : ""),
+                             0);
             assert_int_equal(shell("sed -i s/NaN/0/g t?"), 0);
         }
         compare_tables("t0", "t1", RB_UNITS_SI);
@@ -308,9 +307,9 @@ TEST(wear_speaks_every_system)
         CHECK_REL(number_in(inputs, "wear-coefficient"), rb_unit_shown(system[k], "1/MPa", 1e-10),
                   1e-15, "K");
         /* the same scar from either file */
-        snprintf(line, sizeof line, "test -s w%d.png && head -1 s%d/step_000002.tsv | grep -q p_%s",
-                 k, k, rb_unit_name(system[k], "MPa"));
-        assert_int_equal(shell(line), 0);
+        assert_int_equal(shellf("test -s w%d.png && head -1 s%d/step_000002.tsv | grep -q p_%s", k,
+                                k, rb_unit_name(system[k], "MPa")),
+                         0);
         double p0[2];
         for (int m = 0; m < 2; m++) {
             snprintf(line, sizeof line,
