@@ -6,8 +6,6 @@
 #include "two_threads.h"
 
 #include <signal.h>
-#include <stdio.h>
-#include <string.h>
 #include <sys/time.h>
 
 static rb_api *solved(const char *const *words)

@@ -1,8 +1,6 @@
 #include "check.h"
 #include "rollbem/base.h"
 
-#include <string.h>
-
 TEST(refusals_write_their_line)
 {
     CHECK_STATUS(rb_fail(&heard, RB_EINVAL, "mu = %g: expected >= 0", -1.0), RB_EINVAL);

@@ -2,7 +2,6 @@
 #include "bem_shapes.h"
 
 #include <lapacke.h>
-#include <string.h>
 
 static const rb_bem_material material = {.shear = 80.0, .poisson = 0.3};
 static const rb_bem_cylinder on_arc = {.radius = 50.0, .support = RB_BEM_ARC, .arc = M_PI / 6.0},

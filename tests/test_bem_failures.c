@@ -2,8 +2,6 @@
  * refusal. */
 #include "bem_shapes.h"
 
-#include <string.h>
-
 static const rb_bem_material steel = {82000.0, 0.28}, rubber = {1.0, 0.45};
 
 /* Equal elements in the middle, which a disc of this radius takes for equal arcs. */

@@ -6,7 +6,6 @@
 #include <complex.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 static const rb_bem_material steel = {.shear = 82000.0, .poisson = 0.28};
 static const double uneven[] = {-1.0, -0.7, -0.65, 0.1, 0.4, 0.5, 1.1};

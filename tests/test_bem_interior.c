@@ -3,7 +3,6 @@
 #include "bem_shapes.h"
 
 #include <complex.h>
-#include <string.h>
 
 static const rb_bem_material material = {.shear = 80.0, .poisson = 0.3};
 

@@ -4,7 +4,6 @@
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
-#include <string.h>
 
 /* ---- Against quadrature ------------------------------------------------------------ */
 
@@ -157,8 +156,7 @@ static double translation_error(const rb_bem_mesh *mesh, int direction)
     SCRATCH double *u = rb_alloc(2 * (size_t)mesh->n, 1);
     for (int j = 0; j < mesh->n; j++)
         u[2 * j + direction] = 1.0;
-    const double error = rows_times(mesh, u);
-    return error;
+    return rows_times(mesh, u);
 }
 
 static double rotation_error(const rb_bem_mesh *mesh)
@@ -168,8 +166,7 @@ static double rotation_error(const rb_bem_mesh *mesh)
         u[2 * j] = -midpoint_y(mesh, j);
         u[2 * j + 1] = midpoint_x(mesh, j);
     }
-    const double error = rows_times(mesh, u);
-    return error;
+    return rows_times(mesh, u);
 }
 
 /* A star-shaped polygon with sides from 0.002 to 1. */

@@ -4,7 +4,6 @@
 #include "check.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 static const rb_bem_material steel = {.shear = 82000.0, .poisson = 0.28};
 

@@ -7,7 +7,6 @@
 #include <complex.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
-#include <string.h>
 
 enum { MANY = 4000 };
 

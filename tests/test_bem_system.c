@@ -1,8 +1,6 @@
 /* Mixed problems: classical solutions, support, refusals. */
 #include "bem_shapes.h"
 
-#include <string.h>
-
 static const rb_bem_material material = {.shear = 80.0, .poisson = 0.3};
 
 /* Elements 0 ... n - 1 of a circle are centred on the axes (n a multiple of 4).  Held by
@@ -54,8 +52,7 @@ static double disc_error(int n)
     press(&mesh, 0, n, 5.0, 1.0);
     SCRATCH double *u = rb_alloc(2 * (size_t)n, 1), *t = rb_alloc(2 * (size_t)n, 1);
     solve(&mesh, u, t);
-    const double error = radial_error(&mesh, u, 0, n, -5.0 * 2.0 * 0.4 / (2.0 * 80.0));
-    return error;
+    return radial_error(&mesh, u, 0, n, -5.0 * 2.0 * 0.4 / (2.0 * 80.0));
 }
 
 /* Lame, internal pressure p: u_r(r) = p a^2/(2G (b^2-a^2)) [(1-2nu) r + b^2/r] */

@@ -4,7 +4,6 @@
 #include "michell.h"
 
 #include <gsl/gsl_math.h>
-#include <stdlib.h>
 
 static double *matrix_of(const rb_bem_flexibility *f)
 {
@@ -194,8 +193,7 @@ static double boundary_error(int kind, rb_bem_normals normals, int n)
     }
     CHECK_OK(rb_bem_condense_subtracted(system, normals, &f, &heard));
     SCRATCH double *A = matrix_of(&f), *B = wheel_matrix(&wheel, normals, n, ends);
-    const double error = apart(n, A, B);
-    return error;
+    return apart(n, A, B);
 }
 
 TEST(boundary_elements_come_to_it)

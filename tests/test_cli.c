@@ -4,11 +4,7 @@
 #include "rollbem/io.h"
 #include "rollbem/lcp.h"
 
-#include <jansson.h>
-#include <string.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 /* A quick, exact case. */
 #define QUICK "--support halfplane --load 100 --contact-elements 24"

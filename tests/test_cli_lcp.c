@@ -3,7 +3,6 @@
 #include "check.h"
 
 #include <jansson.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 

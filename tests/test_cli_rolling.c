@@ -327,8 +327,7 @@ static double last_of(const char *path, const char *column)
     assert_int_equal(rb_io_table_read(path, &t, NULL), RB_OK);
     const double *x = rb_io_table_column(&t, column);
     assert_non_null(x);
-    const double value = x[t.rows - 1];
-    return value;
+    return x[t.rows - 1];
 }
 
 /* Carter at s = 0.4, the end of a curve and of a long way. */

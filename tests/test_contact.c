@@ -5,7 +5,6 @@
 #include "rollbem/io_contact.h"
 
 #include <gsl/gsl_math.h>
-#include <stdlib.h>
 
 /* Steel on steel, R = 300, P = 250 N/mm over a width of 100; the digits, the line of
  * forces, the angle of rolling, grid and gap are filled in. */

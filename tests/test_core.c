@@ -4,8 +4,6 @@
 #include "check.h"
 #include "rollbem/case.h"
 
-#include <string.h>
-
 static rb_status solve(const char *const *words, rb_case_result *r, rb_message *why)
 {
     held_case *c = rb_case_create(RB_CASE_SINGLE);

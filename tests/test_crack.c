@@ -10,7 +10,6 @@
 #include <complex.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 enum { STRIPS = 100, STEPS = 121 };
 

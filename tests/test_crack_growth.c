@@ -4,7 +4,6 @@
 #include "rollbem/api.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 static rb_api *contact(const char *units, const char *half_width, const char *radius,
                        const char *young)

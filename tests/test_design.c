@@ -4,8 +4,6 @@
 
 #include "rollbem/rollbem.h"
 
-#include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 static rb_case *case_of(const char *const *word)

@@ -20,7 +20,6 @@
 
 #include <gsl/gsl_math.h>
 #include <signal.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>

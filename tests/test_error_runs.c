@@ -4,8 +4,6 @@
 #include "check.h"
 #include "rollbem/rolling.h"
 
-#include <string.h>
-
 static const struct {
     double contact, boundary;
 } parts[] = {{0.5, 1.0}, {0.7, 1.0}, {1.0, 0.5}};

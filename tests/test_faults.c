@@ -248,8 +248,7 @@ static int says_so(const char *text)
     held_json *root = json_loads(text, 0, NULL);
     const json_t *problem = json_array_get(json_object_get(root, "problems"), 0);
     const char *status = json_string_value(json_object_get(problem, "status"));
-    const int said = status && strcmp(status, "out of memory") == 0;
-    return said;
+    return status && strcmp(status, "out of memory") == 0;
 }
 
 typedef struct {

@@ -2,8 +2,6 @@
 #include "check.h"
 #include "rollbem/fem.h"
 
-#include <string.h>
-
 static const rb_fem_material material = {
     .young = 7.0, .poisson = 0.3, .density = 2.5, .section = 0.4};
 

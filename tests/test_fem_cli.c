@@ -5,7 +5,6 @@
 #include "rollbem/io.h"
 
 #include <jansson.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 

@@ -4,7 +4,6 @@
 #include "rollbem/fem.h"
 
 #include <jansson.h>
-#include <string.h>
 
 static json_t *reference;
 

@@ -4,8 +4,6 @@
 #include "rollbem/report_fem.h"
 #include "small_wall.h"
 
-#include <string.h>
-
 static const rb_report_canvas page = {.kind = RB_REPORT_SVG, .script = 1};
 static const rb_report_canvas one_column = {
     .kind = RB_REPORT_SVG, .size = RB_REPORT_85MM, .script = 1};

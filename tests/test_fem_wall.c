@@ -2,8 +2,6 @@
 #include "check.h"
 #include "small_wall.h"
 
-#include <string.h>
-
 TEST(selection_is_by_difficulty)
 {
     rb_fem_wall_options o = small_wall(0);

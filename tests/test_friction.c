@@ -4,8 +4,6 @@
 #include "numbers.h"
 #include "sparse_friction.h"
 
-#include <string.h>
-
 /* Equation (13), written down a second time: by the disjunction of *Acary* (2) for the
  * projection instead of the library's formula. */
 static double measure_again(int d, int nc, const double *mu, const double *r, const double *u,

@@ -6,7 +6,6 @@
 #include "rollbem/io_fclib.h"
 #include "numbers.h"
 
-#include <string.h>
 #include <unistd.h>
 
 enum { DOFS = 14, CONTACTS = 3, ROWS = 3 * CONTACTS, JOINTS = 4 };

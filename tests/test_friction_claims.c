@@ -7,8 +7,6 @@
 #include "rollbem/friction.h"
 #include "numbers.h"
 
-#include <string.h>
-
 enum { MOST = 36 }; /* rows */
 
 typedef struct {

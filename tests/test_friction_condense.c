@@ -5,8 +5,6 @@
 #include "rollbem/friction.h"
 #include "numbers.h"
 
-#include <string.h>
-
 static unsigned long long seed = 9;
 
 static double uniform(void)

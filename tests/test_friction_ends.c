@@ -5,7 +5,6 @@
 #include "numbers.h"
 
 #include <float.h>
-#include <string.h>
 
 enum { NC = 4, LARGEST = 3 * NC };
 

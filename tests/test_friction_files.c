@@ -5,8 +5,6 @@
 #include "rollbem/io_fclib.h"
 #include "scratch.h"
 
-#include <string.h>
-
 static void put(const char *text)
 {
     FILE *f = fopen(path, "w");
@@ -205,16 +203,14 @@ TEST(problems_go_into_fclib_and_come_back)
 static rb_status read_problem(void *context)
 {
     OWNED(rb_friction_problem) p;
-    const rb_status s = rb_friction_read_as(path, *(rb_friction_file *)context, &p, &heard);
-    return s;
+    return rb_friction_read_as(path, *(rb_friction_file *)context, &p, &heard);
 }
 
 static rb_status read_cones(void *context)
 {
     OWNED(rb_friction_soclcp_data) d;
     (void)context;
-    const rb_status s = rb_friction_soclcp_read(path, &d, &heard);
-    return s;
+    return rb_friction_soclcp_read(path, &d, &heard);
 }
 
 TEST(short_memory_is_reported)

@@ -3,8 +3,6 @@
 #include "rollbem/friction.h"
 #include "numbers.h"
 
-#include <string.h>
-
 enum { MOST = 90 };
 
 static double W[MOST * MOST], q[MOST], mu[MOST];

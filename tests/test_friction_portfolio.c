@@ -5,7 +5,6 @@
 #include "packing.h"
 #include "rollbem/friction.h"
 
-#include <string.h>
 #include <unistd.h>
 
 /* Coulomb's law contact by contact, from r alone; in units of velocity over ||q||.  W is

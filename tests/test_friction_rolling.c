@@ -7,7 +7,6 @@
 #include "scratch.h"
 #include "numbers.h"
 
-#include <string.h>
 #include <unistd.h>
 
 enum { MOST = 12, CONTACTS = 2 * MOST, ROWS = 5 * CONTACTS, DOFS = 6 * MOST };

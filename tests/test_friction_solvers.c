@@ -3,8 +3,6 @@
 #include "rollbem/friction.h"
 #include "numbers.h"
 
-#include <string.h>
-
 /* A chain of contacts, each coupled to its neighbours, W block tridiagonal and positive
  * definite: sparse, and with a load that separates, sticks and slips. */
 static void chain(int d, int nc, rb_friction_problem *p)

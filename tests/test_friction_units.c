@@ -3,8 +3,6 @@
 #include "rollbem/friction.h"
 #include "numbers.h"
 
-#include <string.h>
-
 /* W = B B' + 1, q random: some contacts open, some stick, some slip. */
 static void random_problem(int d, int nc, unsigned seed, rb_friction_problem *p)
 {

@@ -6,7 +6,6 @@
 
 #include <dirent.h>
 #include <signal.h>
-#include <string.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>

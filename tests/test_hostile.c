@@ -6,7 +6,6 @@
 #include "cli_run.h"
 
 #include <signal.h>
-#include <stdint.h>
 #include <sys/resource.h>
 
 static char checker[700];

@@ -5,8 +5,6 @@
 #include "check.h"
 #include "two_threads.h"
 
-#include <string.h>
-
 static void end_calls(int forced)
 {
     rb_api_call_begins();

@@ -14,8 +14,6 @@
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sf_expint.h>
-#include <stdint.h>
-#include <string.h>
 
 static const rb_bem_material steel = {.shear = 82000.0, .poisson = 0.28};
 

@@ -6,7 +6,6 @@
 
 #include <dlfcn.h>
 #include <signal.h>
-#include <string.h>
 #include <time.h>
 #include <unistd.h>
 

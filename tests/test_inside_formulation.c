@@ -7,8 +7,6 @@
 #include "solved.h"
 
 #include <gsl/gsl_math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* ---- Problems ---------------------------------------------------------------------- */
 

@@ -7,8 +7,6 @@
 #include "numbers.h"
 #include "sparse_friction.h"
 
-#include <string.h>
-
 /* A A' + shift, with a part that is not symmetric */
 static void positive_definite(int d, double unsymmetric, unsigned *seed, double *W)
 {

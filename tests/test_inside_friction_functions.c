@@ -4,8 +4,6 @@
 #include "friction/internal.h"
 #include "numbers.h"
 
-#include <string.h>
-
 static unsigned long long seed = 21;
 
 static double uniform(void)

@@ -4,8 +4,6 @@
 #include "friction/internal.h"
 #include "numbers.h"
 
-#include <string.h>
-
 enum { NC = 7, M = 2 * NC, DOFS = M + 3 };
 
 static unsigned long long seed = 5;

@@ -6,8 +6,6 @@
 #include "bem/system.h"
 #include "bem_shapes.h"
 
-#include <string.h>
-
 static const rb_bem_material steel = {82000.0, 0.28};
 
 enum { CONTACT = 20 };

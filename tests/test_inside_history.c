@@ -5,8 +5,6 @@
 #include "history/internal.h"
 
 #include <gsl/gsl_math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* ---- Former places ----------------------------------------------------------------- */
 

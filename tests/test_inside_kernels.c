@@ -4,8 +4,6 @@
 #include "bem_shapes.h"
 #include "numbers.h"
 
-#include <string.h>
-
 enum { n_seen = 1003, rounds = 40 };
 
 /* Where the points of one column lie, seen from the element. */

@@ -6,8 +6,6 @@
 #include "lcp/lemke.h"
 #include "numbers.h"
 
-#include <string.h>
-
 /* A multiple of the columns that go through the blocks together. */
 enum { N = 64, LDM = 65 };
 

@@ -5,7 +5,6 @@
 #include "solved.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 /* A steel wheel on a plane of aluminium; half-planes or a wheel on its hub. */
 static rb_rolling_case steady(rb_bem_support support, int elements)

@@ -7,8 +7,6 @@
 #include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* ---- Surfaces and meshes ----------------------------------------------------------- */
 

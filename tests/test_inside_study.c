@@ -5,7 +5,6 @@
 #include "study/internal.h"
 
 #include <float.h>
-#include <string.h>
 
 /* ---- Error bars -------------------------------------------------------------------- */
 

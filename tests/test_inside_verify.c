@@ -3,8 +3,6 @@
 #include "check.h"
 #include "verify/internal.h"
 
-#include <string.h>
-
 static void keep(const rb_verify_check *check, void *context)
 {
     *(rb_verify_check *)context = *check;

@@ -5,7 +5,6 @@
 #include "scratch.h"
 
 #include <dirent.h>
-#include <string.h>
 #include <unistd.h>
 
 /* A new file each time: ext4 waits for the disk where a file is cut to nothing and
@@ -177,15 +176,13 @@ static rb_status read_any_lcp(void)
 static rb_status read_friction(void)
 {
     OWNED(rb_io_friction) p;
-    const rb_status s = rb_io_siconos_read_friction(path, &p, &why);
-    return s;
+    return rb_io_siconos_read_friction(path, &p, &why);
 }
 
 static rb_status read_soclcp(void)
 {
     OWNED(rb_io_soclcp) p;
-    const rb_status s = rb_io_siconos_read_soclcp(path, &p, &why);
-    return s;
+    return rb_io_siconos_read_soclcp(path, &p, &why);
 }
 
 /* One contact in space on three of four degrees of freedom, as Siconos writes it. */
@@ -220,15 +217,13 @@ TEST(global_friction_problems)
 static rb_status read_global(void)
 {
     OWNED(rb_io_friction_global) g;
-    const rb_status s = rb_io_siconos_read_friction_global(path, &g, &why);
-    return s;
+    return rb_io_siconos_read_friction_global(path, &g, &why);
 }
 
 static rb_status read_market(void)
 {
     OWNED(rb_io_matrix) m;
-    const rb_status s = rb_io_matrix_market_read(path, &m, &why);
-    return s;
+    return rb_io_matrix_market_read(path, &m, &why);
 }
 
 static rb_status guess(void)

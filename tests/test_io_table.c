@@ -2,7 +2,6 @@
 #include "check.h"
 #include "rollbem/io.h"
 
-#include <string.h>
 #include <unistd.h>
 
 static rb_status read_text(const char *text, rb_io_table *t, rb_message *why)

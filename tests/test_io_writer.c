@@ -6,7 +6,6 @@
 
 #include <dirent.h>
 #include <signal.h>
-#include <string.h>
 
 static char folder[64], path[128];
 

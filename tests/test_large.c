@@ -4,8 +4,6 @@
 
 #include <cblas.h>
 #include <gsl/gsl_math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* Steel cylinder on a plane of steel, of a softer metal, or rigid. */
 typedef enum { SIMILAR, DISSIMILAR, RIGID } pairing;

@@ -4,8 +4,6 @@
 #include "check.h"
 
 #include <dirent.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 /* A folder and the public headers (without rollbem/ and .h) that it may include. */

@@ -4,8 +4,6 @@
 #include "rollbem/lcp.h"
 #include "numbers.h"
 
-#include <string.h>
-
 static unsigned long long seed = 20240229;
 
 /* Uniform in [-1, 1). */

@@ -6,9 +6,6 @@
 #include "../bench/lcp_families.h"
 #include "rollbem/lcp.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #define CHECK_TRUE(condition, ...)                                                                 \
     do {                                                                                           \
         if (!(condition)) {                                                                        \

@@ -4,8 +4,6 @@
 #include "rollbem/lcp.h"
 #include "numbers.h"
 
-#include <string.h>
-
 static unsigned long long state_of_random = 77;
 
 static double uniform(void)

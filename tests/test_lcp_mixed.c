@@ -5,8 +5,6 @@
 #include "rollbem/lcp.h"
 #include "numbers.h"
 
-#include <string.h>
-
 static unsigned long long state_of_random = 4;
 
 /* Uniform in [-1, 1). */

@@ -4,10 +4,6 @@
 #include "rollbem/lcp.h"
 #include "numbers.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 enum { LARGEST = 60, KINDS = 5 };
 
 typedef struct {

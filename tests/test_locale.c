@@ -9,9 +9,6 @@
 
 #include <jansson.h>
 #include <locale.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 static char folder[] = "/tmp/rollbem-locale-XXXXXX";

@@ -5,7 +5,6 @@
 #include "rollbem/report.h"
 
 #include <dirent.h>
-#include <string.h>
 
 /* What is in a file, in static storage. */
 static char *content(FILE *file)

@@ -5,7 +5,6 @@
 #include "solved.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 /* nu = 1/2 on a rigid plane is uncoupled, a = 0.05 on R = 50. */
 static rb_rolling_case carter(int n)

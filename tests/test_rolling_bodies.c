@@ -3,8 +3,6 @@
 #include "solved.h"
 #include "numbers.h"
 
-#include <string.h>
-
 static rb_rolling_case steady_wheel(rb_bem_support support, double poisson)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
@@ -91,8 +89,7 @@ static double finite_free_creepage(double ratio, double mu)
     rc.half_width = ratio * rc.a.radius;
     rc.force = 0.0;
     OWNED(rb_rolling_solution) s = solved(&rc);
-    const double scaled = s.creepage * rb_rolling_radius(&rc) / rc.half_width;
-    return scaled;
+    return s.creepage * rb_rolling_radius(&rc) / rc.half_width;
 }
 
 TEST(finite_cylinders_tend_to_bentall_and_johnson)

@@ -5,7 +5,6 @@
 #include "rollbem/rolling.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 typedef struct {
     const char *word; /* that the refusal must contain */

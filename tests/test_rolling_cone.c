@@ -4,8 +4,6 @@
 #include "rollbem/friction.h"
 #include "rollbem/rolling.h"
 
-#include <string.h>
-
 /* Steady rolling of dissimilar bodies: W is not symmetric. */
 static rb_rolling_case dissimilar_rolling(void)
 {

@@ -3,8 +3,6 @@
 #include "rollbem/rolling.h"
 #include "numbers.h"
 
-#include <string.h>
-
 static double log_uniform(double a, double b)
 {
     return exp(between(log(a), log(b)));

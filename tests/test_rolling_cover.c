@@ -4,8 +4,6 @@
 #include "rollbem/rolling.h"
 
 #include <gsl/gsl_math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 /* ---- The flexibility --------------------------------------------------------------- */
@@ -110,8 +108,7 @@ static int elements_of(rb_bem_cylinder cylinder, double half)
 
     equal_ends(half, ends);
     CHECK_OK(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, &heard));
-    const int n = mesh.n;
-    return n;
+    return mesh.n;
 }
 
 /* The elements of a rim grow where its stress has died down: with all of them as small as

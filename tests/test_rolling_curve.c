@@ -3,8 +3,6 @@
 #include "rollbem/rolling.h"
 #include "solved.h"
 
-#include <string.h>
-
 static rb_rolling_case carter(int elements)
 {
     rb_rolling_case rc = half_plane(RB_STATIC, elements);

@@ -7,7 +7,6 @@
 
 #include <gsl/gsl_math.h>
 #include <lapacke.h>
-#include <string.h>
 
 enum { NODES = 201 }; /* at most */
 

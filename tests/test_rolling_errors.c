@@ -4,7 +4,6 @@
 #include "solved.h"
 
 #include <float.h>
-#include <string.h>
 
 /* ---- Histories --------------------------------------------------------------------- */
 

@@ -5,7 +5,6 @@
 #include "solved.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 static rb_rolling_case plane(int elements)
 {
@@ -23,8 +22,7 @@ static const rb_rolling_heat warm = {.conductivity = 40.0, .heat_capacity = 3.5}
 static rb_status solve(void *context)
 {
     OWNED(rb_rolling_solution) s;
-    const rb_status status = rb_rolling_solve(context, &s, NULL);
-    return status;
+    return rb_rolling_solve(context, &s, NULL);
 }
 
 static rb_status find_all(void *context)
@@ -57,8 +55,7 @@ static rb_status wear(void *context)
         .law = RB_WEAR_ARCHARD, .coefficient = 1e-9, .way = 1.0, .steps = 1, .increments = 1};
     OWNED(rb_rolling_wear_history) h;
     OWNED(rb_rolling_solution) last;
-    const rb_status s = rb_rolling_wear_run(rc, &w, NULL, &h, &last, NULL);
-    return s;
+    return rb_rolling_wear_run(rc, &w, NULL, &h, &last, NULL);
 }
 
 static rb_status draw(void *context)

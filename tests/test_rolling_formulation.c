@@ -4,7 +4,6 @@
 
 #include <cblas.h>
 #include <float.h>
-#include <string.h>
 
 /* Tangential displacement of midpoint i, the one upstream included, under a unit traction
  * j. */

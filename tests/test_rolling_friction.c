@@ -5,9 +5,6 @@
 #include "rollbem/rolling.h"
 #include "solved.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 /* Half as much friction over the middle of the contact as at its ends. */
 static const double places[] = {-0.6, -0.2, 0.2, 0.6}, values[] = {0.4, 0.2, 0.2, 0.4};
 static const rb_rolling_table sand = {4, places, values};

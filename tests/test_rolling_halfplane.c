@@ -5,7 +5,6 @@
 #include "solved.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 /* nu = 1/2 on a rigid plane: a similar pair, so that Carter holds (theory.md 4.5). */
 static rb_rolling_case incompressible_wheel(void)

@@ -8,7 +8,6 @@
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sf_bessel.h>
-#include <string.h>
 
 /* ---- The strip --------------------------------------------------------------------- */
 

@@ -3,7 +3,6 @@
 #include "cases.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 static void run(const rb_rolling_case *rc, const rb_rolling_program *program,
                 rb_rolling_model *model, rb_rolling_history *history)

@@ -4,7 +4,6 @@
 #include "solved.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 /* Bodies so stiff that the layer alone gives way: P = 2 a^3/(3 R L_N) with a = 1. */
 static rb_rolling_case brushes(int n, double s)

@@ -3,9 +3,6 @@
 #include "cases.h"
 #include "solved.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 /* ---- The coefficients of a state --------------------------------------------------- */
 
 TEST(each_element_has_the_coefficient_of_its_slip)
@@ -114,8 +111,7 @@ static double force_at(rb_rolling_case rc, double creepage)
     rc.force = rc.force_ratio = NAN;
     rc.creep = creepage;
     OWNED(rb_rolling_solution) s = solved(&rc);
-    const double Q = s.tangential_load;
-    return Q;
+    return s.tangential_load;
 }
 
 /* Either direction, as a force or as a ratio, in steady rolling and in steps; from a few

@@ -4,9 +4,6 @@
 #include "rollbem/rolling.h"
 #include "solved.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 /* Wheel and rail of veldep_fric.inp (CONTACT): 92 elements there, 81 in contact. */
 static rb_rolling_case rail(double slip_scale)
 {
@@ -32,8 +29,7 @@ static rb_rolling_case rail(double slip_scale)
 static double ratio_of(const rb_rolling_case *rc)
 {
     OWNED(rb_rolling_model) model = solved_model(rc);
-    const double ratio = rb_rolling_force_ratio(&model);
-    return ratio;
+    return rb_rolling_force_ratio(&model);
 }
 
 /* ---- Laws ------------------------------------------------------------------------- */

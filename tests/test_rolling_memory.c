@@ -5,7 +5,6 @@
 #include "rollbem/rolling.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 static double moment_of(const rb_rolling_solution *s)
 {

@@ -3,7 +3,6 @@
 #include "cases.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 static double length(const rb_rolling_mesh *mesh, int i)
 {

@@ -3,8 +3,6 @@
 #include "refused.h"
 #include "solved.h"
 
-#include <string.h>
-
 /* The constants of plane strain that a thin disc of E and nu has. */
 static void set_equivalent(double *young, double *poisson)
 {

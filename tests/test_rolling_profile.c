@@ -5,8 +5,6 @@
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* A wheel of 460 mm under p0 = 1 GPa, a = 8 mm (examples/rail). */
 static rb_rolling_case rail(void)
@@ -43,8 +41,7 @@ static double peak(const rb_rolling_case *rc)
 {
     OWNED(rb_rolling_solution) s;
     CHECK_OK(rb_rolling_solve(rc, &s, &heard));
-    const double p0 = s.max_pressure;
-    return p0;
+    return s.max_pressure;
 }
 
 static double x[MOST], gap[MOST];

@@ -5,7 +5,6 @@
 #include "rollbem/rolling.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 /* ---- Cases ------------------------------------------------------------------------- */
 
@@ -58,8 +57,7 @@ static double run(const rb_rolling_case *rc, const rb_rolling_program *program,
         CHECK_MAX(h->residual[k], 1e-9, "step %d", k);
     if (rc->elastic_b == 0)
         check_laws(rc, &model);
-    const double element = model.mesh.ends[1] - model.mesh.ends[0];
-    return element;
+    return model.mesh.ends[1] - model.mesh.ends[0];
 }
 
 /* ---- Held approach ----------------------------------------------------------------- */

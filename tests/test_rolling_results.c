@@ -5,7 +5,6 @@
 #include "numbers.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 static rb_rolling_case wheel_on_plane(double poisson)
 {

@@ -4,9 +4,6 @@
 #include "check.h"
 #include "rollbem/rolling.h"
 
-#include <math.h>
-#include <string.h>
-
 enum { N = 1201 };
 
 /* (sxx - szz)/2 and sxz at depth z, a = p0 = 1, friction mu p towards +x. */

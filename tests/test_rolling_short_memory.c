@@ -5,8 +5,6 @@
 #include "check.h"
 #include "rollbem/rolling.h"
 
-#include <string.h>
-
 typedef struct {
     rb_rolling_case rc;
     rb_rolling_model model;
@@ -56,8 +54,7 @@ static rb_status solve(void *context)
 {
     task *t = context;
     OWNED(rb_rolling_solution) s;
-    const rb_status status = rb_rolling_solve(&t->rc, &s, &t->why);
-    return status;
+    return rb_rolling_solve(&t->rc, &s, &t->why);
 }
 
 static rb_status curve_over(rb_rolling_variable over, double from, double to, task *t)
@@ -108,8 +105,7 @@ static rb_status wear_by(const rb_rolling_wear *wear, task *t)
 {
     OWNED(rb_rolling_wear_history) h;
     OWNED(rb_rolling_solution) last;
-    const rb_status s = rb_rolling_wear_run(&t->rc, wear, NULL, &h, &last, &t->why);
-    return s;
+    return rb_rolling_wear_run(&t->rc, wear, NULL, &h, &last, &t->why);
 }
 
 static rb_status slide(void *context)
@@ -143,8 +139,7 @@ static rb_status with_model(task *t, rb_status (*use)(task *t))
 static rb_status use_solutions(task *t)
 {
     OWNED(rb_rolling_solutions) all;
-    const rb_status s = rb_rolling_find_solutions(&t->model, &all, &t->why);
-    return s;
+    return rb_rolling_find_solutions(&t->model, &all, &t->why);
 }
 
 static rb_status use_stress(task *t)

@@ -2,9 +2,6 @@
 #include "cases.h"
 #include "solved.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 /* Every part of the work of a wheel takes some of its time. */
 TEST(the_parts_of_the_time_are_within_the_whole)
 {

@@ -4,8 +4,6 @@
 #include "check.h"
 #include "rollbem/rolling.h"
 
-#include <string.h>
-
 static const rb_bem_support supports[] = {RB_BEM_ARC, RB_BEM_HUB, RB_BEM_HALFPLANE};
 enum { KINDS = 12 };
 
@@ -195,8 +193,7 @@ static double stick_under_a_flat_punch(int elements)
     CHECK_OK(rb_rolling_problem_create(&rc, &mesh, &model.bodies, NULL, &model.problem, NULL));
     CHECK_OK(rb_contact_state_alloc(mesh.n, &model.state));
     CHECK_OK(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, NULL));
-    const double part = stick_part(&model);
-    return part;
+    return stick_part(&model);
 }
 
 TEST(increments_press_as_spence)

@@ -5,7 +5,6 @@
 #include "solved.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 static rb_rolling_case hertz(int elements)
 {

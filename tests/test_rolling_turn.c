@@ -7,8 +7,6 @@
 
 #include <complex.h>
 #include <gsl/gsl_math.h>
-#include <stdlib.h>
-#include <string.h>
 
 typedef double complex cplx;
 

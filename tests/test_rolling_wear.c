@@ -6,7 +6,6 @@
 #include "rollbem/rolling.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 /* Similar half-planes, a = 1. */
 static rb_rolling_case cylinder(int elements, double zone)

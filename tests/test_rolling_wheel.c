@@ -6,7 +6,6 @@
 #include "solved.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 static const rb_bem_support wheels[] = {RB_BEM_ARC, RB_BEM_HUB};
 
@@ -125,8 +124,7 @@ static double bentall_johnson_error(rb_bem_support support, int elements)
     const double modulus = rb_rolling_derive(&rc).modulus, R = rb_rolling_radius(&rc);
     const rb_closed_bentall_johnson want =
         rb_closed_bentall_johnson_stick(rb_rolling_derive(&rc).dundurs, rc.half_width, R, modulus);
-    const double error = fabs(s.creepage + want.creepage) / want.creepage;
-    return error;
+    return fabs(s.creepage + want.creepage) / want.creepage;
 }
 
 /* Fitted meshes take the near field of every load exactly: what is left is the mesh of
@@ -157,10 +155,9 @@ static double support_constant(const rb_rolling_case *rc)
 {
     OWNED(rb_rolling_solution) s = valid(rc);
     const double modulus = rb_rolling_derive(rc).modulus;
-    const double k = (s.approach - rb_closed_half_cylinder_approach(s.normal_load, rc->a.radius,
-                                                                    modulus, rc->half_width)) *
-                     M_PI * modulus / s.normal_load;
-    return k;
+    return (s.approach - rb_closed_half_cylinder_approach(s.normal_load, rc->a.radius, modulus,
+                                                          rc->half_width)) *
+           M_PI * modulus / s.normal_load;
 }
 
 TEST(approach_differs_by_a_constant_of_the_support)
@@ -232,8 +229,7 @@ TEST(the_two_signs_mirror_up_to_delta_over_R)
 static double free_creepage(rb_rolling_case rc)
 {
     OWNED(rb_rolling_solution) s = valid(&rc);
-    const double creepage = s.free_creepage;
-    return creepage;
+    return s.free_creepage;
 }
 
 /* The surface's strain under the load, which is all that free rolling then has: (a/R)^2
@@ -285,8 +281,7 @@ static double support_balance(rb_rolling_case rc, int outer, int fine)
     rc.contact_elements = 30 * fine;
     rc.outer_elements = outer * fine;
     OWNED(rb_rolling_solution) s = valid(&rc);
-    const double balance = fabs(s.support_balance);
-    return balance;
+    return fabs(s.support_balance);
 }
 
 /* At least first order in the size of the elements: graded outside a small contact, equal

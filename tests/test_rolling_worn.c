@@ -4,7 +4,6 @@
 #include "solved.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 static rb_rolling_case plane(int elements)
 {

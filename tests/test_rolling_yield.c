@@ -6,8 +6,6 @@
 #include "solved.h"
 
 #include <gsl/gsl_math.h>
-#include <stdlib.h>
-#include <string.h>
 
 static rb_rolling_solution valid(const rb_rolling_case *rc)
 {

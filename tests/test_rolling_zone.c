@@ -6,8 +6,6 @@
 
 #include <gsl/gsl_math.h>
 
-#include <string.h>
-
 static rb_rolling_case halfplane(double poisson, double mu, int elements)
 {
     rb_rolling_case rc = half_plane(RB_STEADY, elements);

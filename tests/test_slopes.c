@@ -4,7 +4,6 @@
 #include "differences.h"
 
 #include <gsl/gsl_cdf.h>
-#include <string.h>
 
 /* ---- Histories --------------------------------------------------------------------- */
 

@@ -4,8 +4,6 @@
 
 #include <limits.h>
 #include <suitesparse/SuiteSparse_config.h>
-#include <stdio.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <unistd.h>
 

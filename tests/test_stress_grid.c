@@ -4,8 +4,6 @@
 
 #include <gsl/gsl_math.h>
 
-#include <string.h>
-
 static rb_rolling_case pressed(rb_bem_support support)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();

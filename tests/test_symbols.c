@@ -4,8 +4,6 @@
 
 #include <ctype.h>
 #include <dirent.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 enum { MOST = 2000, WORD = 80 };

@@ -6,7 +6,6 @@
 #include "rollbem/friction.h"
 
 #include <pthread.h>
-#include <string.h>
 
 enum { THREADS = 4, CASES = 8, NUMBERS = 8 };
 

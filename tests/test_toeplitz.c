@@ -4,7 +4,6 @@
 #include "rollbem/bem.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 typedef rb_status make(int, const double *, const rb_bem_surface *, rb_bem_flexibility *,
                        rb_message *);
