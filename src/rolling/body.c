@@ -83,10 +83,9 @@ rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc, const rb_rolling
 rb_status rb_rolling_body_check(const rb_rolling_case *rc, const rb_rolling_body *b,
                                 const char *which, int plane_allowed, rb_message *why)
 {
-    const int plane = plane_allowed && b->radius == INFINITY;
-    rb_status s = RB_OK;
+    const int plane = plane_allowed && b->radius == INFINITY,
+              bore = plane_allowed && b->radius < 0.0;
 
-    const int bore = plane_allowed && b->radius < 0.0;
     if (b->radius == 0.0)
         return rb_fail(why, RB_EINVAL, "radius%s: expected > 0, or < 0 of a bore, got 0", which);
     if (!rb_rolling_kind_of(b))
@@ -98,10 +97,12 @@ rb_status rb_rolling_body_check(const rb_rolling_case *rc, const rb_rolling_body
                        which);
     if (plane && !(rb_rolling_kind_of(b)->can & RB_BODY_FLAT))
         return rb_fail(why, RB_EINVAL, "support%s: a plane has the support halfplane only", which);
-    s = rb_rolling_check_poisson(rc, NULL, b->poisson, which, why);
-    for (const rb_rolling_body_kind *const *kind = rb_rolling_body_kinds; *kind && s == RB_OK;
-         kind++)
+    rb_status s = rb_rolling_check_poisson(rc, NULL, b->poisson, which, why);
+    for (const rb_rolling_body_kind *const *kind = rb_rolling_body_kinds; *kind; kind++) {
+        if (s != RB_OK)
+            return s;
         if ((*kind)->check && ((*kind)->holds || (*kind)->support == b->support))
             s = (*kind)->check(rc, b, which, why);
+    }
     return s;
 }

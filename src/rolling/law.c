@@ -112,7 +112,6 @@ double rb_rolling_largest_mu(const rb_rolling_case *rc)
 rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
 {
     const rb_rolling_friction *f = &rc->friction;
-    rb_status s = RB_OK;
 
     if (f->law == RB_FRICTION_table) {
         const rb_rolling_table *t = &f->table;
@@ -128,33 +127,41 @@ rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
                                k + 1, t->y[k]);
         }
     }
-    const int slips = rb_rolling_law_depends_on_slip(f);
-    for (int k = 0; k < 2 && s == RB_OK && slips; k++) {
-        s = rb_rolling_check_number("mu-fall", f->fall[k], why);
-        if (s == RB_OK && f->fall[k] != 0.0)
-            s = rb_rolling_check_number("slip-scale", f->slip_scale[k], why);
+    const int slips = rb_rolling_law_depends_on_slip(f), rolls = rc->formulation != RB_STATIC,
+              heats = f->heat != 0.0, remembers = f->memory != 0.0;
+    const struct {
+        int counts;
+        const char *option;
+        double value;
+    } numbers[] = {{slips, "mu-fall", f->fall[0]},
+                   {slips && f->fall[0] != 0.0, "slip-scale", f->slip_scale[0]},
+                   {slips, "mu-fall", f->fall[1]},
+                   {slips && f->fall[1] != 0.0, "slip-scale", f->slip_scale[1]},
+                   {heats, "mu-heat", f->heat},
+                   {heats, "mu-heat", f->heat_from},
+                   {remembers, "memory", f->memory},
+                   {remembers, "memory", f->memory_slip}};
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
+        const rb_status s = numbers[k].counts
+                                ? rb_rolling_check_number(numbers[k].option, numbers[k].value, why)
+                                : RB_OK;
+        if (s != RB_OK)
+            return s;
     }
-    if (s == RB_OK && slips && rc->formulation != RB_STATIC && rc->speed == 0.0)
-        s = rb_fail(why, RB_EINVAL, "friction law %s: needs the speed of rolling, add --speed",
-                    names[f->law]);
-    if (s == RB_OK && f->heat != 0.0) {
-        s = rb_rolling_check_number("mu-heat", f->heat, why);
-        if (s == RB_OK)
-            s = rb_rolling_check_number("mu-heat", f->heat_from, why);
-        if (s == RB_OK)
-            s = rb_rolling_check_third("mu-heat", f->heat_range, why);
-        if (s == RB_OK && rc->formulation != RB_STATIC && !rb_rolling_has_heat(rc))
-            s = rb_fail(why, RB_EINVAL, "mu-heat: needs temperatures, add --conductivity");
-    }
-    if (s == RB_OK && f->memory != 0.0) {
-        s = rb_rolling_check_number("memory", f->memory, why);
-        if (s == RB_OK)
-            s = rb_rolling_check_number("memory", f->memory_slip, why);
-    }
-    if (s == RB_OK && end_of_range(rc, -1.0) < 0.0)
-        s = rb_fail(why, RB_EINVAL, "friction law %s: expected mu >= 0 everywhere, got %g at least",
-                    names[f->law], end_of_range(rc, -1.0));
-    return s;
+    const rb_status s = heats ? rb_rolling_check_third("mu-heat", f->heat_range, why) : RB_OK;
+    if (s != RB_OK)
+        return s;
+    if (slips && rolls && rc->speed == 0.0)
+        return rb_fail(why, RB_EINVAL, "friction law %s: needs the speed of rolling, add --speed",
+                       names[f->law]);
+    if (heats && rolls && !rb_rolling_has_heat(rc))
+        return rb_fail(why, RB_EINVAL, "mu-heat: needs temperatures, add --conductivity");
+    const double least = end_of_range(rc, -1.0);
+    if (least < 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "friction law %s: expected mu >= 0 everywhere, got %g at least",
+                       names[f->law], least);
+    return RB_OK;
 }
 
 /* ---- The coefficients of a state --------------------------------------------------- */
