@@ -131,6 +131,14 @@ static int is_open(const rb_rolling_model *model)
     return left == model->state.n;
 }
 
+/* s, or that a solution has no contact. */
+static rb_status unless_open(const rb_rolling_model *model, rb_status s, rb_message *why)
+{
+    return s == RB_OK && is_open(model)
+               ? rb_fail(why, RB_NO_CONTACT, "no contact: the bodies do not touch")
+               : s;
+}
+
 /* ---- Equal elements ---------------------------------------------------------------- */
 
 /* Patches with separated elements between them get elements as short as if they lay side
@@ -283,14 +291,15 @@ static rb_status solve_given(rb_rolling_model *model, rb_message *why)
  * coarse solution will do. */
 rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message *why)
 {
-    const int given = model->rc->zone > 0.0;
     const interval before = {model->first_from, model->first_to};
     interval zone = before;
     int elements = model->plan.elements;
     double too_narrow = 0.0;
-    rb_status s = given ? solve_given(model, why) : RB_OK;
+    rb_status s;
 
-    if (!given && (coarse || !(width(before) > 0.0))) {
+    if (model->rc->zone > 0.0)
+        return unless_open(model, solve_given(model, why), why);
+    if (coarse || !(width(before) > 0.0)) {
         rb_rolling_plan few = model->plan;
         zone = first_zone(model->rc);
         if (few.elements >= MANY || rb_rolling_has_fine_boundary(&few)) {
@@ -306,7 +315,7 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
             rb_rolling_model_free(&first);
         }
     }
-    for (int round = 0; !given; round++) {
+    for (int round = 0;; round++) {
         rb_rolling_mesh mesh;
         interval wider;
         if (round == ROUNDS)
@@ -356,7 +365,5 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
         model->first_from = model->mesh.ends[0];
         model->first_to = model->mesh.ends[model->mesh.n];
     }
-    return s == RB_OK && is_open(model)
-               ? rb_fail(why, RB_NO_CONTACT, "no contact: the bodies do not touch")
-               : s;
+    return unless_open(model, s, why);
 }
