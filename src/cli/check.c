@@ -115,30 +115,6 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc, con
     return no_memory ? RB_ENOMEM : RB_OK;
 }
 
-/* The command line that the result quotes against its inputs.  RB_ENOMEM. */
-static rb_status compare_command(const char *path, const json_t *root, const char *folder,
-                                 rb_report_certificate *found, rb_message *why)
-{
-    const char *text = json_string_value(json_object_get(root, "command"));
-    const char *fault = "it is not a command line of rollbem";
-    rb_status s = RB_OK;
-    if (text && strncmp(text, "rollbem", 7) == 0 && strchr(" ", text[7])) {
-        char *line = strdup(text + 7);
-        int argc;
-        char **argv = line ? cli_split_line(line, &argc) : NULL;
-        const int kept = cli_keep_failures(1);
-        s = argv ? fault_of_command(root, argv, argc, folder, &fault) : RB_ENOMEM;
-        cli_keep_failures(kept);
-        free(argv);
-        free(line);
-    }
-    if (s == RB_OK && fault) {
-        printf("%s: violated: command: %s\n", path, fault);
-        found->violations++;
-    }
-    return s == RB_OK ? s : rb_fail(why, s, "%s: out of memory", path);
-}
-
 /* Jansson 2.14 cuts a text that it has no memory for and reads on. */
 static int memory_was_refused;
 
@@ -171,8 +147,27 @@ static cli_exit check_json(const char *path, const char *text, size_t size, cons
         confined(json_object_get(root, "crack") ? RB_CASE_CRACK : RB_CASE_SINGLE, folder);
     rb_status s =
         words ? rb_report_certify_solutions(stdout, path, root, words, &found, &why) : RB_ENOMEM;
-    if (s == RB_OK)
-        s = compare_command(path, root, folder, &found, &why);
+    if (s == RB_OK) {
+        /* The command line that the result quotes against its inputs. */
+        const char *quoted = json_string_value(json_object_get(root, "command"));
+        const char *fault = "it is not a command line of rollbem";
+        if (quoted && strncmp(quoted, "rollbem", 7) == 0 && strchr(" ", quoted[7])) {
+            char *line = strdup(quoted + 7);
+            int argc;
+            char **argv = line ? cli_split_line(line, &argc) : NULL;
+            const int kept = cli_keep_failures(1);
+            s = argv ? fault_of_command(root, argv, argc, folder, &fault) : RB_ENOMEM;
+            cli_keep_failures(kept);
+            free(argv);
+            free(line);
+        }
+        if (s != RB_OK)
+            rb_fail(&why, s, "%s: out of memory", path);
+        else if (fault) {
+            printf("%s: violated: command: %s\n", path, fault);
+            found.violations++;
+        }
+    }
     rb_case_free(words);
     json_decref(root);
     return tell(path, s, &found, &why);

@@ -320,7 +320,8 @@ static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
         r->n = p.n;
         r->z = rb_alloc((size_t)p.n, 1);
         r->w = rb_alloc((size_t)p.n, 1);
-        s = r->z && r->w ? rb_io_matrix_to_sparse(&p.M, &r->M) : RB_ENOMEM;
+        if (!r->z || !r->w || rb_io_matrix_to_sparse(&p.M, &r->M) != RB_OK)
+            s = rb_fail(&why, RB_ENOMEM, "out of memory");
         r->boxed = (rb_lcp_mixed_problem){&r->M, p.q, r->lower, r->upper};
     }
     cli_exit code = CLI_CONTINUE;

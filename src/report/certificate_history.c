@@ -6,44 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- The states -------------------------------------------------------------------- */
-
-static rb_status read_states(const rb_certificate *c, const json_t *printed, rb_rolling_states *to,
-                             rb_message *why)
-{
-    const json_t *states = json_object_get(printed, "states");
-    const int n = to->n, steps = to->steps;
-    double *zone = rb_alloc((size_t)n, (size_t)steps);
-    const struct {
-        const json_t *table;
-        const char *key;
-        int n; /* 0: lists of all elements */
-        double *to;
-    } parts[] = {{c->table, "x_mm", n, to->x},
-                 {c->table, "h_mm", n, to->h},
-                 {states, "p_MPa", 0, to->p},
-                 {states, "q_MPa", 0, to->q},
-                 {states, "shift_mm", 0, to->lambda},
-                 {states, "zone", 0, zone},
-                 {printed, "approach", steps, to->delta},
-                 {states, "motion", steps, to->xi}};
-    rb_status s = zone ? RB_OK : RB_ENOMEM;
-
-    for (size_t k = 0; k < sizeof parts / sizeof *parts && s == RB_OK; k++)
-        s = parts[k].n > 0
-                ? rb_certificate_column(c->name, parts[k].table, parts[k].key, parts[k].n,
-                                        parts[k].to, why)
-                : rb_certificate_lists(c->name, "states: ", json_object_get(states, parts[k].key),
-                                       parts[k].key, steps, n, (size_t)n, parts[k].to, why);
-    for (size_t i = 0; i < (size_t)n * (size_t)steps && s == RB_OK; i++)
-        if (!(zone[i] >= 0.0 && zone[i] <= 5.0) || zone[i] != floor(zone[i]))
-            s = rb_fail(why, RB_EFORMAT, "%s: states: zone %g", c->name, zone[i]);
-        else
-            to->zone[i] = (int)zone[i];
-    free(zone);
-    return s;
-}
-
 /* ---- Steps ------------------------------------------------------------------------- */
 
 typedef struct {
@@ -76,18 +38,46 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
     const int steps = (int)json_array_size(json_object_get(printed, "approach"));
     step_check j = {c, json_object_get(printed, "residual"), RB_OK};
     const rb_rolling_observer observer = {assess_step, &j};
-    rb_rolling_states states = {0};
+    const json_t *states = json_object_get(printed, "states");
+    rb_rolling_states to = {0};
 
     if (steps < 1)
         return rb_fail(why, RB_EFORMAT, "%s: cannot be checked: no steps", c->name);
-    rb_status s = rb_rolling_states_alloc(n, steps, &states);
+    rb_status s = rb_rolling_states_alloc(n, steps, &to);
+    double *zone = rb_alloc((size_t)n, (size_t)steps);
+    const struct {
+        const json_t *table;
+        const char *key;
+        int n; /* 0: lists of all elements */
+        double *to;
+    } parts[] = {{c->table, "x_mm", n, to.x},
+                 {c->table, "h_mm", n, to.h},
+                 {states, "p_MPa", 0, to.p},
+                 {states, "q_MPa", 0, to.q},
+                 {states, "shift_mm", 0, to.lambda},
+                 {states, "zone", 0, zone},
+                 {printed, "approach", steps, to.delta},
+                 {states, "motion", steps, to.xi}};
+    if (s == RB_OK && !zone)
+        s = RB_ENOMEM;
+    for (size_t k = 0; k < sizeof parts / sizeof *parts && s == RB_OK; k++) {
+        const char *key = parts[k].key;
+        s = parts[k].n > 0
+                ? rb_certificate_column(c->name, parts[k].table, key, parts[k].n, parts[k].to, why)
+                : rb_certificate_lists(c->name, "states: ", json_object_get(states, key), key,
+                                       steps, n, (size_t)n, parts[k].to, why);
+    }
+    for (size_t i = 0; i < (size_t)n * (size_t)steps && s == RB_OK; i++)
+        if (!(zone[i] >= 0.0 && zone[i] <= 5.0) || zone[i] != floor(zone[i]))
+            s = rb_fail(why, RB_EFORMAT, "%s: states: zone %g", c->name, zone[i]);
+        else
+            to.zone[i] = (int)zone[i];
+    free(zone);
+    to.half_width = rb_certificate_member(printed, "half_width");
+    to.program = resolved->program.n > 0 ? &resolved->program : NULL;
     if (s == RB_OK)
-        s = read_states(c, printed, &states, why);
-    states.half_width = rb_certificate_member(printed, "half_width");
-    states.program = resolved->program.n > 0 ? &resolved->program : NULL;
-    if (s == RB_OK)
-        s = rb_rolling_history_follow(&resolved->rc, &states, &observer, &c->model, h, why);
-    rb_rolling_states_free(&states);
+        s = rb_rolling_history_follow(&resolved->rc, &to, &observer, &c->model, h, why);
+    rb_rolling_states_free(&to);
     return j.status != RB_OK ? j.status : s;
 }
 

@@ -170,11 +170,6 @@ static int rows_of(const rb_report_derivatives *d, int k, int entry, derivative 
     return n;
 }
 
-static const char *unit_of(const rb_report_derivatives *d, const char *unit)
-{
-    return unit && strcmp(unit, "-") != 0 ? rb_unit_name(d->all->units, unit) : "1";
-}
-
 rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,
                                      const rb_report_derivatives *d, const char *command,
                                      const rb_report_style *style)
@@ -200,8 +195,8 @@ rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,
             for (int i = 0; i < n; i++) {
                 rb_report_cell_text(&c, name);
                 rb_report_cell_text(&c, row[i].of->name);
-                rb_report_cell_text(&c, unit_of(d, d->result[k]->unit));
-                rb_report_cell_text(&c, unit_of(d, row[i].of->unit));
+                rb_report_cell_text(&c, rb_report_unit_name(d->all->units, d->result[k]->unit));
+                rb_report_cell_text(&c, rb_report_unit_name(d->all->units, row[i].of->unit));
                 rb_report_cell_number(&c, entry < 0 ? rb_rolling_number(d->result[k], s)
                                                     : rb_rolling_entry(d->result[k], s, e));
                 rb_report_cell_number(&c, row[i].of->value);
@@ -224,7 +219,7 @@ rb_status rb_report_brief_derivatives(FILE *out, const rb_rolling_solution *s,
         if (d->is_column[k] || !has_result(d, k))
             continue;
         fprintf(out, "%s = %.5g %s\n", d->result[k]->name, rb_rolling_number(d->result[k], s),
-                unit_of(d, d->result[k]->unit));
+                rb_report_unit_name(d->all->units, d->result[k]->unit));
         const int n = rows_of(d, k, -1, row);
         for (int i = 0; i < n && i < MOST && row[i].one != 0.0; i++)
             fprintf(out, "  %-24s %12.5g  1 %% of it changes the result by %.3g\n", row[i].of->name,
@@ -240,7 +235,7 @@ void rb_report_tolerances(FILE *out, const rb_rolling_solution *s, const rb_repo
     for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
         const double deviation = rb_rolling_number(r, &d->deviation);
-        const char *unit = unit_of(d, r->unit);
+        const char *unit = rb_report_unit_name(d->all->units, r->unit);
         const int plain = strcmp(unit, "1") == 0;
         if (rb_sensitivity_has(r) && deviation > 0.0)
             fprintf(out, "  %-20s %.6g +- %.2g%s%s\n", r->name, rb_rolling_number(r, s) + 0.0,

@@ -6,11 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-static const char *unit_of(rb_units units, const char *unit)
-{
-    return unit && strcmp(unit, "-") != 0 ? rb_unit_name(units, unit) : "1";
-}
-
 static double shown(rb_units units, const char *unit, double x)
 {
     return unit && strcmp(unit, "-") != 0 ? rb_unit_shown(units, unit, x) : x;
@@ -36,19 +31,19 @@ rb_status rb_report_design_table(FILE *out, const rb_design *d, rb_units units, 
     rb_report_comment(&c, "%s %s: %.10g, at the start %.10g [%s]", d->largest ? "largest" : "least",
                       name_of(d->result), shown(units, unit_of_result(d->result), d->value),
                       shown(units, unit_of_result(d->result), d->start),
-                      unit_of(units, unit_of_result(d->result)));
+                      rb_report_unit_name(units, unit_of_result(d->result)));
     for (int k = 0; k < d->constraints; k++) {
         const rb_design_constraint *k_ = &d->constraint[k];
         const char *unit = unit_of_result(k_->result);
         rb_report_comment(&c, "%s %s %.10g: %.10g [%s]", name_of(k_->result),
                           k_->at_least ? ">=" : "<=", shown(units, unit, k_->bound),
-                          shown(units, unit, k_->value), unit_of(units, unit));
+                          shown(units, unit, k_->value), rb_report_unit_name(units, unit));
     }
     for (int j = 0; j < d->n; j++) {
         const rb_design_variable *v = &d->variable[j];
         const int is_gap = j >= d->gap_from && j < d->gap_from + d->gap_n;
         rb_report_cell_text(&c, v->name);
-        rb_report_cell_text(&c, unit_of(units, v->unit));
+        rb_report_cell_text(&c, rb_report_unit_name(units, v->unit));
         rb_report_cell_number(&c,
                               is_gap ? rb_unit_shown(units, "mm", d->gap_x[j - d->gap_from]) : NAN);
         rb_report_cell_number(&c, shown(units, v->unit, v->start));
@@ -72,7 +67,7 @@ void rb_report_json_design(json_t **root, const rb_design *d, rb_units units)
 
     rb_report_json_set(&design, "result", json_string(name_of(d->result)));
     rb_report_json_set(&design, "largest", json_boolean(d->largest));
-    rb_report_json_set(&design, "unit", json_string(unit_of(units, unit)));
+    rb_report_json_set(&design, "unit", json_string(rb_report_unit_name(units, unit)));
     rb_report_json_set(&design, "start", number(units, unit, d->start));
     rb_report_json_set(&design, "value", number(units, unit, d->value));
     rb_report_json_set(&design, "evaluations", json_integer(d->evaluations));

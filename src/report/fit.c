@@ -25,11 +25,6 @@ static const char *force_name(const rb_report_fit *f)
                                                      : "force_over_load";
 }
 
-static const char *unit_name(const rb_report_fit *f, const char *unit)
-{
-    return strcmp(unit, "-") == 0 ? "1" : rb_unit_name(f->units, unit);
-}
-
 /* ---- JSON ---------------------------------------------------------------------------- */
 
 static json_t *column(const rb_report_fit *f, const double *x, const double *less, const char *unit)
@@ -69,7 +64,7 @@ void rb_report_json_fit(json_t **root, const rb_report_fit *f)
         rb_report_json_set(
             &object, "deviation",
             rb_report_json_number(p->identified ? in_units(f, p->unit, p->deviation) : NAN));
-        rb_report_json_set(&object, "unit", json_string(unit_name(f, p->unit)));
+        rb_report_json_set(&object, "unit", json_string(rb_report_unit_name(f->units, p->unit)));
         rb_report_json_set(&object, "identified", json_boolean(p->identified));
         rb_report_json_set(&object, "at_bound", json_boolean(p->at_bound));
         rb_report_json_set(&parameters, fit->parameter[j].name, object);
@@ -105,7 +100,7 @@ static const char *unit_behind(const rb_report_fit *f, const char *unit, char te
 {
     const int has = strcmp(unit, "-") != 0;
 
-    snprintf(text, 20, "%s%s", has ? " " : "", has ? unit_name(f, unit) : "");
+    snprintf(text, 20, "%s%s", has ? " " : "", has ? rb_report_unit_name(f->units, unit) : "");
     return text;
 }
 
@@ -141,7 +136,7 @@ rb_status rb_report_fit_table(FILE *out, const rb_report_fit *f, const char *com
         at += n + (at[n] == '\n');
     }
     if (f->data->measure == RB_CASE_FORCE)
-        rb_report_comment(&c, "forces in %s", unit_name(f, "N/mm"));
+        rb_report_comment(&c, "forces in %s", rb_report_unit_name(f->units, "N/mm"));
     rb_report_comment(&c, "intervals and band of %g %%", 100.0 * f->fit->level);
     for (int k = 0; k < f->data->n; k++) {
         const char *unit = force_unit(f);
@@ -220,7 +215,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
             f->data->measure == RB_CASE_FORCE         ? "Q  ["
             : f->data->measure == RB_CASE_FORCE_RATIO ? "Q/(μP)"
                                                       : "Q/P",
-            f->data->measure == RB_CASE_FORCE ? unit_name(f, unit) : "",
+            f->data->measure == RB_CASE_FORCE ? rb_report_unit_name(f->units, unit) : "",
             f->data->measure == RB_CASE_FORCE ? "]" : "");
     fprintf(out,
             "plot $fit using 1:($3-$4):($3+$4) with filledcurves linecolor rgb '%s' fillstyle "

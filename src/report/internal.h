@@ -7,6 +7,9 @@
 /* Name of the solver that found the solution, as in the option `solver`. */
 const char *rb_report_solver(const rb_rolling_solution *s);
 
+/* The name of a unit in the system; "1" of NULL and "-", which are none. */
+const char *rb_report_unit_name(rb_units units, const char *unit);
+
 /* Returns 0 if x is only a rounding error of a sum of terms of this size, otherwise x;
  * for output to readers. */
 double rb_report_tidy(double x, double size);

@@ -68,32 +68,6 @@ typedef struct {
     int cells, per_cell;
 } selection;
 
-static rb_status select_points(const rb_report_stress *s, selection *v)
-{
-    *v = (selection){.s = s, .per_cell = s->nx > 0 ? 4 : 1};
-    v->number = rb_alloc_int((size_t)s->n);
-    v->work = rb_alloc((size_t)s->n, 6);
-    v->cell = calloc((size_t)s->n * 4, sizeof *v->cell);
-    if (!v->number || !v->work || !v->cell)
-        return RB_ENOMEM;
-    for (int k = 0; k < s->n; k++)
-        v->number[k] = rb_report_stress_is_inside(s, k) ? v->n++ : -1;
-    /* Cells: quadrilaterals of which all corners are inside, or a vertex per point. */
-    for (int k = 0; k < v->n && s->nx == 0; k++)
-        v->cell[v->cells++] = k;
-    for (int j = 0; j + 1 < s->ny; j++)
-        for (int i = 0; i + 1 < s->nx; i++) {
-            const int *at = v->number + i + j * s->nx;
-            const int corner[] = {at[0], at[1], at[s->nx + 1], at[s->nx]};
-            if (corner[0] < 0 || corner[1] < 0 || corner[2] < 0 || corner[3] < 0)
-                continue;
-            for (int c = 0; c < 4; c++)
-                v->cell[4 * v->cells + c] = corner[c];
-            v->cells++;
-        }
-    return RB_OK;
-}
-
 /* ---- Point data -------------------------------------------------------------------- */
 
 static void write_point_data(FILE *out, selection *v)
@@ -136,8 +110,25 @@ static void write_head(FILE *out, const char *type)
 rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stress *s)
 {
     void *before = rb_locale_begin();
-    selection v;
-    rb_status status = select_points(s, &v);
+    selection v = {.s = s,
+                   .per_cell = s->nx > 0 ? 4 : 1,
+                   .number = rb_alloc_int((size_t)s->n),
+                   .work = rb_alloc((size_t)s->n, 6),
+                   .cell = calloc((size_t)s->n * 4, sizeof *v.cell)};
+    rb_status status = v.number && v.work && v.cell ? RB_OK : RB_ENOMEM;
+    for (int k = 0; k < s->n && status == RB_OK; k++)
+        v.number[k] = rb_report_stress_is_inside(s, k) ? v.n++ : -1;
+    /* Cells: quadrilaterals of which all corners are inside, or a vertex per point. */
+    for (int k = 0; k < v.n && s->nx == 0; k++)
+        v.cell[v.cells++] = k;
+    for (int j = 0; j + 1 < s->ny && status == RB_OK; j++)
+        for (int i = 0; i + 1 < s->nx; i++) {
+            const int *at = v.number + i + j * s->nx;
+            const int32_t corner[] = {at[0], at[1], at[s->nx + 1], at[s->nx]};
+            if (corner[0] < 0 || corner[1] < 0 || corner[2] < 0 || corner[3] < 0)
+                continue;
+            memcpy(v.cell + 4 * v.cells++, corner, sizeof corner);
+        }
     if (status == RB_OK && kind == RB_REPORT_VTI) {
         const rb_rolling_stress *first = &s->at[0], *last = &s->at[s->n - 1];
         write_head(out, "ImageData");

@@ -3,6 +3,7 @@
 #include "rollbem/case.h"
 
 #include <stddef.h>
+#include <string.h>
 
 const char *const rb_report_conventions[] = {
     "x to the right, y up; A is the upper body and rolls towards +x: the leading edge is at +x",
@@ -15,4 +16,9 @@ const char *const rb_report_conventions[] = {
 const char *rb_report_solver(const rb_rolling_solution *s)
 {
     return s->solver == RB_SOLVER_CONE ? s->cone_solver : rb_case_word("solver", (int)s->solver);
+}
+
+const char *rb_report_unit_name(rb_units units, const char *unit)
+{
+    return unit && strcmp(unit, "-") != 0 ? rb_unit_name(units, unit) : "1";
 }
