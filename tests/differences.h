@@ -77,6 +77,8 @@ static rb_status difference_solve(const difference_frame *f, const rb_rolling_ca
         at.mesh == RB_MESH_UNIFORM ? f->base->mesh.n : f->base->rc->contact_elements;
     rb_status s =
         rb_rolling_variant_place(f->base, &at, by[1] + f->centre * (1.0 - scale), scale, v, why);
+    if (s == RB_OK && !rb_rolling_same_sides(f->base, v))
+        s = RB_INACCURATE;
     if (s == RB_OK)
         s = rb_rolling_model_control(v, why);
     if (s == RB_OK &&
@@ -311,9 +313,19 @@ static rb_status compare_single(const rb_case *c, int first, int every, differen
             const rb_case_derivative *of = &all.of[(k - first) / every];
             if (of->status != RB_OK || of->d.sides != 1 || number[k].input.value == 0.0)
                 continue;
-            const int before = d->compared;
-            for (double part = 1e-3; part > 1e-6 && d->compared == before; part *= 0.1)
-                difference_of_input(&f, &number[k], of, &at, part, d);
+            /* a zone may change within the step, or the elements outside the contact have a
+             * kink there: then a shorter one counts */
+            differences best = {.off = INFINITY};
+            for (double part = 1e-3; part > 1e-6 && !(best.off <= 1e-8); part *= 0.1) {
+                differences one = {0};
+                difference_of_input(&f, &number[k], of, &at, part, &one);
+                if (one.compared && one.off < best.off)
+                    best = one;
+            }
+            const int compared = d->compared + best.compared;
+            if (best.compared && best.off > d->off)
+                *d = best;
+            d->compared = compared;
         }
     if (number && rb_case_numbers(c, number, &numbers, why) == RB_OK) {
         const rb_status t = compare_with_matrix(c, number, d, why);

@@ -80,7 +80,36 @@ TEST(single_cases_have_derivatives)
           "force-ratio", "0.4", "mesh", "fitted", "outer-elements", "60"}},
         {{"support", "halfplane", "formulation", "steady", "similar", "yes", "creep-ratio", "-0.4",
           "half-width", "1", "yield-stress", "200", "hardening", "-2000", "mu", "3",
-          "contact-elements", "20"}}};
+          "contact-elements", "20"}},
+        /* within the usual step an element goes from one side of the wheel to the other */
+        {{"support",
+          "arc",
+          "arc",
+          "60",
+          "outer-elements",
+          "500",
+          "contact-elements",
+          "15",
+          "zone",
+          "2",
+          "poisson",
+          "0.4",
+          "young-b",
+          "200000",
+          "poisson-b",
+          "0.28",
+          "datum-b",
+          "60",
+          "approach",
+          "0.04",
+          "force-ratio",
+          "-0.4",
+          "formulation",
+          "steady",
+          "mesh",
+          "uniform",
+          "plane",
+          "stress"}}};
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         rb_message why = {""};

@@ -780,6 +780,9 @@ int rb_rolling_same_bodies(const rb_rolling_case *x, const rb_rolling_case *y);
 /* A variant that is also solved, starting from the zones of the model. */
 rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_case *rc,
                                    rb_rolling_model *variant, rb_message *why);
+/* 1: a variant has as many elements as the model on each side of its wheels, not only as
+ * many together: else the flexibility jumps between them. */
+int rb_rolling_same_sides(const rb_rolling_model *of, const rb_rolling_model *variant);
 /* 1: a boundary of the model is so fine that its matrix is compressed. */
 int rb_rolling_is_compressed(const rb_rolling_model *model);
 /* The model itself solved again, its boundaries compressed as closely as those of its

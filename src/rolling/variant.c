@@ -36,6 +36,28 @@ static int have_same_boundary(const rb_bem_system *x, const rb_bem_system *y)
     return !x || rb_bem_system_mesh(x)->n == rb_bem_system_mesh(y)->n;
 }
 
+/* All sides as well as all elements: those of a side climb on the upper half, those of the
+ * next one fall; and those that are held. */
+static int have_same_sides(const rb_bem_system *x, const rb_bem_system *y)
+{
+    const rb_bem_mesh *a = x ? rb_bem_system_mesh(x) : NULL, *b = x ? rb_bem_system_mesh(y) : NULL;
+    double top = 0.0;
+
+    for (int j = 0; a && j < a->n; j++)
+        top = fmax(top, a->y0[j]);
+    for (int j = 0; a && j < a->n; j++)
+        if (a->condition[2 * j] != b->condition[2 * j] ||
+            (a->y0[j] + a->y1[j] > top && (a->y1[j] > a->y0[j]) != (b->y1[j] > b->y0[j])))
+            return 0;
+    return 1;
+}
+
+int rb_rolling_same_sides(const rb_rolling_model *x, const rb_rolling_model *y)
+{
+    return have_same_sides(x->bodies.system_a, y->bodies.system_a) &&
+           have_same_sides(x->bodies.system_b, y->bodies.system_b);
+}
+
 static int same_body(const rb_rolling_body *x, const rb_rolling_body *y)
 {
     return memcmp(x, y, sizeof *x) == 0;

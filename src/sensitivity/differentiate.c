@@ -114,11 +114,13 @@ typedef struct {
 
 /* What the variant can borrow from: another model's variant has the flexibility too, if it was
  * computed for it on the same elements; by formula it has that of its own tractions alone. */
-static const rb_rolling_model *lender(const rb_rolling_model *base, const variants *others, int k)
+static const rb_rolling_model *lender(const rb_rolling_model *base, const variants *others,
+                                      double step, int k)
 {
     const rb_rolling_model *other = others ? &others->model[k] : NULL;
 
-    return other && other->bodies.f.data && other->bodies.f.data != others->base->bodies.f.data &&
+    return other && others->step == step && other->bodies.f.data &&
+                   other->bodies.f.data != others->base->bodies.f.data &&
                    other->mesh.n == base->mesh.n &&
                    memcmp(others->base->mesh.ends, base->mesh.ends,
                           (size_t)base->mesh.n * sizeof *base->mesh.ends) == 0
@@ -126,33 +128,55 @@ static const rb_rolling_model *lender(const rb_rolling_model *base, const varian
                : base;
 }
 
-/* others: for the same values of the input, of the model in free rolling its model; or NULL. */
-static rb_status variants_create(const rb_rolling_model *base, const rb_sensitivity_input *input,
-                                 const variants *others, int freely, variants *v, rb_message *why)
+static rb_status variants_at_places(const rb_rolling_model *base, const rb_sensitivity_input *input,
+                                    const variants *others, int freely, variants *v,
+                                    rb_message *why)
 {
     rb_status s = RB_OK;
 
     for (int k = 0; k < v->at.n && s == RB_OK; k++) {
         const double by = v->at.place[k] * v->step;
-        const rb_rolling_model *of = v->of[k] = lender(base, others, k);
+        const rb_rolling_model *of = v->of[k] = lender(base, others, v->step, k);
         rb_rolling_case rc;
         if (!input->vary) {
             const motion *m = input->context;
             s = m->kind == SHIFT ? rb_rolling_variant_move(base, by, 1.0, &v->model[k], why)
                                  : rb_rolling_variant_move(base, -by * m->centre / m->half,
                                                            1.0 + by / m->half, &v->model[k], why);
-            continue;
+        } else {
+            s = input->vary(input->context, input->value + by, &rc, why);
+            if (s != RB_OK)
+                return s;
+            rc = on_the_same_elements(&rc, base->rc, base->mesh.n);
+            if (freely)
+                rc = rb_rolling_without_force(&rc);
+            s = rb_rolling_variant_create(of, &rc, v->results, of == base && v->bodies,
+                                          &v->model[k], why);
+            if (s == RB_OK && of != base)
+                rb_rolling_variant_set(&base->state, NULL, 0.0, &v->model[k].state);
         }
-        s = input->vary(input->context, input->value + by, &rc, why);
-        if (s != RB_OK)
-            return s;
-        rc = on_the_same_elements(&rc, base->rc, base->mesh.n);
-        if (freely)
-            rc = rb_rolling_without_force(&rc);
-        s = rb_rolling_variant_create(of, &rc, v->results, of == base && v->bodies, &v->model[k],
-                                      why);
-        if (s == RB_OK && of != base)
-            rb_rolling_variant_set(&base->state, NULL, 0.0, &v->model[k].state);
+        if (s == RB_OK && !rb_rolling_same_sides(base, &v->model[k]))
+            s = rb_fail(why, RB_INACCURATE,
+                        "the elements outside the contact change with the input");
+    }
+    return s;
+}
+
+/* others: for the same values of the input, of the model in free rolling its model; or NULL.
+ * The step is made smaller where the elements outside the contact change within it. */
+static rb_status variants_create(const rb_rolling_model *base, const rb_sensitivity_input *input,
+                                 const variants *others, int freely, variants *v, rb_message *why)
+{
+    enum { TRIALS = 3 };
+    rb_status s = RB_INACCURATE;
+
+    for (int k = 0; k < TRIALS && s == RB_INACCURATE; k++) {
+        if (k > 0) {
+            variants_free(v);
+            memset(v->model, 0, sizeof v->model);
+            v->step *= 0.1;
+        }
+        s = variants_at_places(base, input, others, freely, v, why);
     }
     return s;
 }
