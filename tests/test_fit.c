@@ -306,6 +306,33 @@ static void no_falling_part_is_said(void **state)
     rb_case_fit_free(&fit);
 }
 
+/* Every nineteenth fails. */
+static void failing_allocations_are_told(void **state)
+{
+    static const char *const names[] = {"mu", "interlayer-tangential"};
+    const rb_case_data data = {6, 0, RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL, NULL, NULL};
+    int failures = 0;
+    (void)state;
+    for (int count = 0;; count += 19) {
+        rb_case_fit fit = fit_of(2, names);
+        rb_message why = {""};
+        rb_case *c = case_of(RB_CASE_CURVE);
+        set_number(c, "contact-elements", 20.0);
+        CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
+        alloc_fail_after(count);
+        const rb_status s = rb_case_fit_solve(c, &data, NULL, &fit, &why);
+        const int failed = alloc_failed();
+        alloc_succeed();
+        rb_case_fit_free(&fit);
+        rb_case_free(c);
+        if (!failed)
+            break;
+        CHECK_STATUS(s, RB_ENOMEM);
+        failures++;
+    }
+    assert_true(failures > 100);
+}
+
 static void refusals(void **state)
 {
     const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL,
@@ -577,6 +604,7 @@ int main(void)
         cmocka_unit_test(starts_end_at_one_minimum),
         cmocka_unit_test(forces_and_ratios_agree),
         cmocka_unit_test(no_falling_part_is_said),
+        cmocka_unit_test(failing_allocations_are_told),
         cmocka_unit_test(refusals),
         cmocka_unit_test(command_prints_parameters),
         cmocka_unit_test(command_prints_derivatives),
