@@ -979,6 +979,10 @@ TEST(derivatives)
     assert_non_null(x);
     CHECK_REL(*x, 10.0, 1e-10, "of Q = -mu P");
     assert_null(rb_api_array(a, "tolerance.contact", &rows, &columns));
+    assert_int_equal(rb_api_smooth_derivatives(a), RB_OK);
+    x = rb_api_array(a, "derivative.tangential_load", &rows, &columns);
+    CHECK_REL(x[2 * mu], -500.0, 1e-10, "no zone changes");
+    assert_null(rb_api_array(a, "derivative.tangential_load.gap", &rows, &columns));
     rb_api_set(a, "mu", "0.2"); /* forgets them */
     assert_null(rb_api_array(a, "tolerance.tangential_load", &rows, &columns));
     assert_null(rb_api_array(a, "derivative.q", &rows, &columns));

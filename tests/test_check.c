@@ -776,6 +776,10 @@ TEST(what_stands_beside_derivatives_is_judged)
                            "\"$R\" check s2.json"),
                      1);
     assert_non_null(strstr(out, "violated: summary.normal_load"));
+    snprintf(command, sizeof command, "%s --formulation steady --smooth-derivatives", line);
+    assert_int_equal(rollbem(command), 0);
+    assert_int_equal(rollbem("check slopes.json"), 0);
+    assert_non_null(strstr(out, "slopes.json: derivatives: not judged\n"));
     snprintf(command, sizeof command,
              "%s --formulation transient --distance 0.5 --states --derivatives tangential_load",
              line);

@@ -215,6 +215,7 @@ rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n, rb_m
 typedef struct {
     int n;
     rb_case_derivative *of;           /* in the order of the options; owned */
+    int smooth;                       /* 1: by rb_case_differentiate_smoothly; without over_x */
     int degenerate;                   /* number of elements on the border of two zones */
     rb_sensitivity_elements elements; /* whether elements move when an input changes */
     int n_x;        /* number of elements; 0: over_x was not computed (law that depends on the
@@ -240,6 +241,10 @@ extern const char *const rb_case_over_x_names[RB_CASE_OVER_X_N];
 rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model, int n,
                                 const char *const *names, rb_case_derivatives *all,
                                 rb_message *why);
+/* The same with smooth derivatives (theory.md, D8). */
+rb_status rb_case_differentiate_smoothly(const rb_case *c, const rb_rolling_model *model, int n,
+                                         const char *const *names, rb_case_derivatives *all,
+                                         rb_message *why);
 /* Says whether the elements move while an input changes: "on the elements of the solution,
  * which do not move". */
 const char *rb_case_derivatives_are(const rb_case_derivatives *all);

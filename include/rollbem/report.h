@@ -441,8 +441,8 @@ typedef struct {
 /* Reads a list of names of results, or "all".  RB_EINVAL: there is no such result, or it
  * has no derivatives. */
 rb_status rb_report_derivatives_of(const char *names, rb_report_derivatives *d, rb_message *why);
-/* Sets derivatives: {result: {input: number, or [left, right]}}; columns have a list of
- * numbers instead of a number. */
+/* Sets derivatives, or smooth_derivatives: {result: {input: number, or [left, right]}}; columns
+ * have a list of numbers instead of a number. */
 void rb_report_json_derivatives(struct json_t **root, const rb_report_derivatives *d);
 /* tolerances: {result: standard deviation}. */
 void rb_report_json_tolerances(struct json_t **root, const rb_report_derivatives *d);

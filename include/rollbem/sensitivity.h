@@ -130,12 +130,29 @@ typedef struct {
     int has[2]; /* 0: the range of the input ends there */
     rb_rolling_solution value[2];
     rb_sensitivity_rate rate; /* for the side that exists */
+    double stays[2]; /* smooth derivatives: changes of the input, < 0 and > 0, to first order,
+                        where the next elements change between stick and slip */
 } rb_sensitivity_derivative;
 
 /* derivative: overwritten; free it in any case. */
 rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensitivity_input *input,
                                        rb_sensitivity_derivative *derivative, rb_message *why);
 void rb_sensitivity_derivative_free(rb_sensitivity_derivative *derivative);
+
+/* What derivatives jump by where the boundaries between stick and slip move by one element
+ * (D8); opaque. */
+typedef struct rb_sensitivity_jumps rb_sensitivity_jumps;
+/* s: made with results, borrowed.  RB_EINVAL: an element exactly between two zones, a zone of
+ * one element, friction with memory or heat, an interface that yields.  RB_SINGULAR,
+ * RB_ENOMEM. */
+rb_status rb_sensitivity_jumps_create(const rb_sensitivity *s, rb_sensitivity_jumps **jumps,
+                                      rb_message *why);
+void rb_sensitivity_jumps_free(rb_sensitivity_jumps *jumps);
+/* Makes a derivative of s continuous where an element changes between stick and slip, and
+ * sets `stays`.  RB_EINVAL: the input moves the edges of the contact over the elements. */
+rb_status rb_sensitivity_smooth(const rb_sensitivity_jumps *jumps,
+                                const rb_sensitivity_input *input,
+                                rb_sensitivity_derivative *derivative, rb_message *why);
 
 /* Multiplies all derivatives of one side by factor. */
 void rb_sensitivity_scale(rb_rolling_solution *value, double factor);

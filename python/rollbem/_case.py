@@ -402,6 +402,13 @@ class Solution(_Named):
         self.derivatives
         return self._all("over_x", dict)
 
+    @property
+    def smooth_derivatives(self) -> Derivatives:
+        """See :func:`rollbem.derivatives`, with ``smooth=True``."""
+        from ._inverse import derivatives
+
+        return self._all("smooth_derivatives", lambda: derivatives(self, smooth=True))
+
     # What the solution is made of:
 
     @property

@@ -123,17 +123,18 @@ def tolerances(solution: Union[Solution, _CaseLike] = None, *, tolerance: Any, *
         return {name: float(x.ravel()[0]) for name, x in found.items() if x is not None and np.isfinite(x).all()}
 
 
-def derivatives(solution: Union[Solution, _CaseLike] = None, **options: Any) -> Derivatives:
+def derivatives(solution: Union[Solution, _CaseLike] = None, *, smooth: bool = False, **options: Any) -> Derivatives:
     """Derivatives of every number of a solution by every number of its case: ``d["tangential_load"]["mu"]``.
 
     A pair (left, right) where the two sides differ, NaN where there is none. Names of columns (``"p"``, ``"q"``) give an array with an
-    entry per element. In mm, N and MPa; ``d.units`` has the units. ``d.to_pandas()``: a row per result and option.
+    entry per element. In mm, N and MPa; ``d.units`` has the units. ``d.to_pandas()``: a row per result and option. ``smooth``:
+    without the jumps where an element changes between stick and slip, as of ``rollbem --smooth-derivatives``.
     """
     if not isinstance(solution, Solution):
         solution = _case(solution, options).solve()
     handle = solution._live()
     with handle.lock:
-        status = handle.run("rb_api_derivatives")
+        status = handle.run("rb_api_smooth_derivatives" if smooth else "rb_api_derivatives")
         if status != SOLVED:
             raise handle.error(status)
         room, inputs = handle.text_room(), []
@@ -158,6 +159,8 @@ def derivatives(solution: Union[Solution, _CaseLike] = None, **options: Any) -> 
                 if not is_column:
                     left, right = float(left[0]), float(right[0])
                 found._add(result, name, left if same else (left, right), _unit(result, "column" if is_column else "number", unit))
+        if smooth:
+            return found
         over_x = {result: {by: handle.array(f"derivative.{result}.{by}") for by in ("gap", "mu")}
                   for result in ("normal_load", "tangential_load", "approach", "creepage")}
         solution._more["over_x"] = {result: {by: array.copy() for by, array in both.items()}

@@ -55,6 +55,7 @@ FUNCTIONS = {
     "rb_api_stress_maxima": (_Int, _Handle, _Double),
     "rb_api_crack": (_Int, _Handle, _Int, ctypes.POINTER(_Text), ctypes.POINTER(_Text)),
     "rb_api_derivatives": (_Int, _Handle),
+    "rb_api_smooth_derivatives": (_Int, _Handle),
     "rb_api_curve_derivatives": (_Int, _Handle, _Text, _Double, _Double, _Int, _Text, _Text),
     "rb_api_step_derivatives": (_Int, _Handle, _Text),
     "rb_api_derivative": (_Text, _Handle, _Text, _Int, _Text, _Text, _Int),

@@ -59,6 +59,16 @@ def test_derivatives():
         rollbem.derivatives(**PLANES, formulation="static", increments=3)
 
 
+def test_smooth_derivatives():
+    case = dict(STEADY, mesh="aligned", creep=-5e-4)
+    case.pop("creep_ratio", None)
+    s = rollbem.solve(**case)
+    want = run_json(**case, smooth_derivatives="tangential_load")["smooth_derivatives"]["tangential_load"]
+    assert s.smooth_derivatives["tangential_load"]["creep"] == pytest.approx(want["creep"], rel=1e-9)
+    assert s.derivatives["tangential_load"]["creep"] != pytest.approx(want["creep"], rel=1e-6)
+    assert rollbem.derivatives(**case, smooth=True)["tangential_load"]["mu"] == pytest.approx(want["mu"], rel=1e-9)
+
+
 def test_derivatives_in_columns():
     d = rollbem.curve_derivatives(**{**PLANES, "contact_elements": 30}, results="tangential_load:mu,max_pressure",
                                   start=0.2, stop=0.6, points=3)

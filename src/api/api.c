@@ -1057,7 +1057,7 @@ int rb_api_stress_at(rb_api *a, int n, const double *xy)
 
 /* ---- Derivatives ------------------------------------------------------------------- */
 
-int rb_api_derivatives(rb_api *a)
+static int differentiate(rb_api *a, int smooth)
 {
     begin(a);
     rb_api_forget_arrays(a, "derivative.");
@@ -1065,13 +1065,24 @@ int rb_api_derivatives(rb_api *a)
     rb_api_call_begins();
     const rb_status s =
         a->result.solution.n > 0 && a->result.model.state.p
-            ? rb_case_differentiate(a->words, &a->result.model, 0, NULL, &a->derivatives, &a->why)
+            ? (smooth ? rb_case_differentiate_smoothly : rb_case_differentiate)(
+                  a->words, &a->result.model, 0, NULL, &a->derivatives, &a->why)
             : rb_fail(&a->why, RB_EINVAL,
                       "derivatives: of a solved case of one step, without error bars");
     rb_api_call_ends();
     if (s != RB_OK)
         rb_case_derivatives_free(&a->derivatives);
     return rb_api_ended(a, s);
+}
+
+int rb_api_derivatives(rb_api *a)
+{
+    return differentiate(a, 0);
+}
+
+int rb_api_smooth_derivatives(rb_api *a)
+{
+    return differentiate(a, 1);
 }
 
 /* What the derivatives of steps are computed from. */

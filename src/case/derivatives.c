@@ -186,16 +186,20 @@ static rb_status differentiate_over_x(const rb_sensitivity *s, const rb_rolling_
     return status == RB_ENOMEM ? rb_fail(why, status, "out of memory for derivatives") : RB_OK;
 }
 
-rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model, int n,
-                                const char *const *names, rb_case_derivatives *all, rb_message *why)
+static rb_status differentiate(const rb_case *c, const rb_rolling_model *model, int smooth, int n,
+                               const char *const *names, rb_case_derivatives *all, rb_message *why)
 {
     int numbers;
     rb_sensitivity *s = NULL;
+    rb_sensitivity_jumps *jumps = NULL;
     rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
 
-    *all = (rb_case_derivatives){.of = calloc(RB_CASE_NUMBERS_MAX, sizeof(rb_case_derivative))};
+    *all = (rb_case_derivatives){.of = calloc(RB_CASE_NUMBERS_MAX, sizeof(rb_case_derivative)),
+                                 .smooth = smooth};
     rb_status status = number && all->of ? rb_sensitivity_create(model, 1, &s, why)
                                          : rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
+    if (status == RB_OK && smooth)
+        status = rb_sensitivity_jumps_create(s, &jumps, why);
     if (status == RB_OK)
         status = rb_case_numbers(c, number, &numbers, why);
     for (int k = 0; status == RB_OK && k < numbers; k++) {
@@ -210,6 +214,8 @@ rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model,
         it->unit = number[k].option->unit;
         it->value = number[k].input.value;
         it->status = rb_sensitivity_differentiate(s, &number[k].input, &it->d, &it->why);
+        if (it->status == RB_OK && jumps)
+            it->status = rb_sensitivity_smooth(jumps, &number[k].input, &it->d, &it->why);
         if (it->status == RB_ENOMEM)
             status = rb_fail(why, RB_ENOMEM, "%s", it->why.text);
     }
@@ -217,11 +223,25 @@ rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model,
         all->degenerate = rb_sensitivity_degenerate(s);
         all->elements = rb_sensitivity_motion(s);
     }
-    if (status == RB_OK)
+    if (status == RB_OK && !smooth)
         status = differentiate_over_x(s, model, all, why);
+    rb_sensitivity_jumps_free(jumps);
     rb_sensitivity_free(s);
     free(number);
     return status;
+}
+
+rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model, int n,
+                                const char *const *names, rb_case_derivatives *all, rb_message *why)
+{
+    return differentiate(c, model, 0, n, names, all, why);
+}
+
+rb_status rb_case_differentiate_smoothly(const rb_case *c, const rb_rolling_model *model, int n,
+                                         const char *const *names, rb_case_derivatives *all,
+                                         rb_message *why)
+{
+    return differentiate(c, model, 1, n, names, all, why);
 }
 
 void rb_case_derivatives_convert(rb_case_derivatives *all, rb_units units)

@@ -12,7 +12,7 @@ typedef struct {
     /* options */
     int trace, all_solutions, states;
     const char *dump, *fclib, *history_table, *history_plot;
-    const char *derivatives, *tolerance;
+    const char *derivatives, *smooth, *tolerance;
     cli_steps steps;
     /* results */
     rb_case_result r;
@@ -46,6 +46,10 @@ static const rb_option options[] = {
                  "all numbers of the case: the table, or derivatives in JSON; p, q: of the "
                  "tractions; of a case with steps: of columns of its history; RESULT:OPTION: with "
                  "respect to one number",
+                 .unset = "none", .alone = "all"),
+    RB_TEXT_LINE("smooth-derivatives", PLACE(smooth), "RESULT,...",
+                 "the same without the jumps where an element changes between stick and slip: on "
+                 "aligned and fitted elements slopes of second order; of one solution",
                  .unset = "none", .alone = "all"),
     RB_TEXT_LINE("tolerance", PLACE(tolerance), "NAME=X,...",
                  "standard deviations of inputs, as mu=0.02,radius=1%: prints those of all "
@@ -224,7 +228,8 @@ static rb_status solve(cli_case_run *run, rb_message *why)
         rb_case_slopes_convert(&it->slopes_of_steps, run->c->units);
     } else if (s == RB_OK && (it->derivatives || it->tolerance)) {
         /* Of what is asked for, in the units that are shown. */
-        s = rb_case_differentiate(run->words, &it->r.model, 0, NULL, &it->slopes, why);
+        s = (it->smooth ? rb_case_differentiate_smoothly : rb_case_differentiate)(
+            run->words, &it->r.model, 0, NULL, &it->slopes, why);
         if (s == RB_OK && it->tolerance)
             s = rb_case_propagate(&it->tolerances, &it->slopes, &it->shown.deviation, why);
         if (s != RB_OK) /* the case has its solution, and nothing beside it */
@@ -285,6 +290,14 @@ static cli_exit check(cli_case_run *run)
                                    "--trace, which show one of them");
     if (it->all_solutions && (!isnan(c->rc.force) || !isnan(c->rc.force_ratio) || c->rc.free_axle))
         return cli_fail(CLI_USAGE, "--all-solutions: at a given creepage, not under a given force");
+    if (it->smooth && (it->derivatives || it->tolerance))
+        return cli_fail(CLI_USAGE, "--smooth-derivatives: not together with --%s",
+                        it->derivatives ? "derivatives" : "tolerance");
+    if (it->smooth && (has_steps || !model_kept))
+        return cli_fail(CLI_USAGE, "--smooth-derivatives: of one solution, not of %s",
+                        has_steps ? "a case with steps" : "error bars");
+    if (it->smooth)
+        it->derivatives = it->smooth;
     if ((it->derivatives || it->tolerance) && !model_kept)
         return cli_fail(CLI_USAGE, "--derivatives and --tolerance: not together with error bars");
     if ((it->derivatives || it->tolerance) && has_steps && c->error)
@@ -303,7 +316,7 @@ static cli_exit check(cli_case_run *run)
         return cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
     if (it->derivatives && !has_steps &&
         rb_report_derivatives_of(it->derivatives, &it->shown, &why) != RB_OK)
-        return cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
+        return cli_fail(CLI_USAGE, "--%sderivatives: %s", it->smooth ? "smooth-" : "", why.text);
     if (it->tolerance &&
         rb_case_read_tolerances(run->words, it->tolerance, &it->tolerances, &why) != RB_OK)
         return cli_fail(CLI_USAGE, "--tolerance: %s", why.text);

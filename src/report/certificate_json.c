@@ -50,12 +50,12 @@ rb_status rb_certificate_head(const char *name, const json_t *root, const char *
 /* Results of `rollbem` itself. */
 static rb_status check_kind(const char *name, const json_t *root, rb_message *why)
 {
-    static const char *const known[] = {"schema", "version", "command", "conventions", "notes",
-                                        "units", "input_hash", "inputs", "summary", "table",
-                                        "history", "depth", "maxima", "grid", "points", "shakedown",
-                                        /* not judged; the result beside them is */
-                                        "derivatives", "without_derivatives", "derivatives_over_x",
-                                        "derivatives_are", "tolerances", NULL};
+    static const char *const known[] = {
+        "schema", "version", "command", "conventions", "notes", "units", "input_hash", "inputs",
+        "summary", "table", "history", "depth", "maxima", "grid", "points", "shakedown",
+        /* not judged; the result beside them is */
+        "derivatives", "smooth_derivatives", "without_derivatives", "derivatives_over_x",
+        "derivatives_are", "tolerances", NULL};
     const json_t *history = json_object_get(root, "history");
     const json_t *inputs = json_object_get(root, "inputs");
     const rb_status s = rb_certificate_head(name, root, known, why);
@@ -262,7 +262,8 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root, rb_
     if (s == RB_OK) {
         /* What the case and its state say nothing of without solving again. */
         const int slopes = json_object_get(history, "derivatives") ||
-                           json_object_get(root, "derivatives"),
+                           json_object_get(root, "derivatives") ||
+                           json_object_get(root, "smooth_derivatives"),
                   deviations =
                       json_object_get(history, "tolerances") || json_object_get(root, "tolerances");
 

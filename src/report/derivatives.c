@@ -94,7 +94,7 @@ void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
             }
             rb_report_json_set(&results, d->result[k]->name, object);
         }
-    rb_report_json_set(root, "derivatives", results);
+    rb_report_json_set(root, d->all->smooth ? "smooth_derivatives" : "derivatives", results);
     for (int i = 0; i < d->all->n; i++)
         if (d->all->of[i].status != RB_OK)
             rb_report_json_set(&without, d->all->of[i].name, json_string(d->all->of[i].why.text));
@@ -110,7 +110,10 @@ void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
         }
         rb_report_json_set(&over_x, rb_case_over_x_names[k], both);
     }
-    rb_report_json_set(root, "derivatives_over_x", over_x);
+    if (d->all->smooth)
+        json_decref(over_x);
+    else
+        rb_report_json_set(root, "derivatives_over_x", over_x);
     snprintf(text, sizeof text, "%s; [left, right] where the two sides differ",
              rb_case_derivatives_are(d->all));
     rb_report_json_set(root, "derivatives_are", json_string(text));
@@ -182,8 +185,8 @@ rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,
     char name[64];
 
     rb_report_comment_origin(&c, command);
-    rb_report_comment(&c, "derivatives %s; left, right: for a falling and a growing input",
-                      rb_case_derivatives_are(d->all));
+    rb_report_comment(&c, "%sderivatives %s; left, right: for a falling and a growing input",
+                      d->all->smooth ? "smooth " : "", rb_case_derivatives_are(d->all));
     for (int i = 0; i < d->all->n; i++)
         if (d->all->of[i].status != RB_OK)
             rb_report_comment(&c, "none by %s: %s", d->all->of[i].name, d->all->of[i].why.text);

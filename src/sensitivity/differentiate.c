@@ -273,6 +273,11 @@ static void blend(rb_rolling_solution *d, double keep, const rb_rolling_solution
     }
 }
 
+void rb_sensitivity_add(rb_rolling_solution *d, double factor, const rb_rolling_solution *x)
+{
+    blend(d, 1.0, x, factor, NULL);
+}
+
 void rb_sensitivity_scale(rb_rolling_solution *s, double factor)
 {
     blend(s, factor, NULL, 0.0, NULL);
@@ -550,6 +555,35 @@ rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensiti
         d->has[1] = 0;
         d->sides = 1;
     }
+    variants_free(&v);
+    return status;
+}
+
+/* The case itself, whatever the input. */
+static rb_status same_case(void *context, double value, rb_rolling_case *rc, rb_message *why)
+{
+    const rb_sensitivity *s = context;
+
+    (void)value;
+    (void)why;
+    *rc = *s->model->rc;
+    return RB_OK;
+}
+
+rb_status rb_sensitivity_along(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
+                               rb_rolling_solution *d, rb_message *why)
+{
+    rb_sensitivity own = *s;
+    const rb_sensitivity_input input = {.vary = same_case, .context = &own};
+    variants v = {.base = s->model, .results = 1, .at = middle, .step = STEP_OF_BODIES};
+    rb_status status = variants_create(s->model, &input, 0, &v, why);
+
+    if (status == RB_OK)
+        status = differentiate_side(s, &v, 1, rate, d, why);
+    if (status == RB_OK && s->moves != RB_SENSITIVITY_FIXED)
+        add_motions(s, &v, d);
+    if (status == RB_OK)
+        clean(s, 1.0, d);
     variants_free(&v);
     return status;
 }

@@ -92,6 +92,28 @@ static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_mod
     return s;
 }
 
+/* The same of elements that stick, where they begin to slip against their friction. */
+static rb_status differentiate_at_rest(const rb_rolling_model *model, rb_rolling_model *v,
+                                       double step, double *derivative, rb_message *why)
+{
+    static const double weight[] = {-25.0, 48.0, -36.0, 16.0, -3.0};
+    rb_status s = RB_OK;
+
+    memset(derivative, 0, (size_t)v->problem.n * sizeof *derivative);
+    for (int k = 0; k < 5 && s == RB_OK; k++) {
+        for (int i = 0; i < v->problem.n; i++)
+            if (v->state.zone[i] == RB_ZONE_STICK)
+                v->state.lambda[i] = model->state.q[i] > 0.0 ? -k * step : k * step;
+        s = rb_rolling_model_friction(v, why);
+        for (int i = 0; i < v->problem.n; i++)
+            derivative[i] += (model->state.q[i] > 0.0 ? -weight[k] : weight[k]) *
+                             v->problem.bound[i] / (12.0 * step);
+    }
+    for (int i = 0; i < v->problem.n; i++)
+        v->state.lambda[i] *= v->state.zone[i] != RB_ZONE_STICK;
+    return s;
+}
+
 /* Coefficients of one element follow from its own slip alone, but where friction
  * remembers or heats: then every element asks all others. */
 static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *scratch, rb_message *why)
@@ -107,6 +129,11 @@ static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *scratc
         status = differentiate_law(model, v, 0, slip, -1, scratch, why);
         for (size_t i = 0; i < n; i++)
             s->law_slip[i + i * n] = scratch[i];
+        if (status == RB_OK)
+            status = differentiate_at_rest(model, v, slip, scratch, why);
+        for (size_t i = 0; i < n; i++)
+            if (model->state.zone[i] == RB_ZONE_STICK)
+                s->law_slip[i + i * n] = scratch[i];
         return status;
     }
     for (size_t j = 0; j < n && status == RB_OK; j++) {

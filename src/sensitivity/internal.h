@@ -43,6 +43,12 @@ rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why);
 
 /* Determines whether and how the elements move.  RB_ENOMEM. */
 rb_status rb_sensitivity_set_motion(rb_sensitivity *s);
+/* Derivatives of all results where the equations alone change, by these rates; elements
+ * move as they do for inputs.  d: overwritten; free it in any case. */
+rb_status rb_sensitivity_along(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
+                               rb_rolling_solution *d, rb_message *why);
+/* d += factor x, of all that has derivatives. */
+void rb_sensitivity_add(rb_rolling_solution *d, double factor, const rb_rolling_solution *x);
 
 /* ---- jacobian.c -------------------------------------------------------------------- */
 

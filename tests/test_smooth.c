@@ -1,0 +1,325 @@
+/* Smooth derivatives (theory.md D8): Carter's slopes to second order; the jump at a change
+ * of zones against a solution on its other side; where zones change; refusals. */
+#include "case_words.h"
+
+#include "rollbem/rollbem.h"
+
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+#define ROLLING "support", "halfplane", "formulation", "steady", "load", "500"
+#define FIXED ROLLING, "mesh", "uniform", "zone", "1.2", "contact-elements", "50"
+#define ALIGNED ROLLING, "gap", "parabola", "mesh", "aligned"
+
+/* A solved case and its derivatives with respect to one input. */
+typedef struct {
+    rb_case *c;
+    rb_case_result r;
+    rb_case_derivatives all;
+    const rb_case_derivative *by;
+} differentiated;
+
+static void differentiated_free(differentiated *d)
+{
+    rb_case_derivatives_free(&d->all);
+    rb_case_result_free(&d->r);
+    rb_case_free(d->c);
+}
+
+/* With respect to one input, or to n of them. */
+static rb_status differentiate_by(const words *w, const char *name, double value, int n,
+                                  const char *const *inputs, int smooth, differentiated *d,
+                                  rb_message *why)
+{
+    d->c = case_of(RB_CASE_SINGLE, w, name, value);
+    if (rb_case_solve(rb_case_resolved(d->c), NULL, NULL, &d->r, why) != RB_OK)
+        fail_msg("%s", why->text);
+    const rb_status s = (smooth ? rb_case_differentiate_smoothly : rb_case_differentiate)(
+        d->c, &d->r.model, n, inputs, &d->all, why);
+    d->by = d->all.of;
+    if (s == RB_OK)
+        assert_int_equal(d->all.n, n);
+    if (s == RB_OK && d->by->status != RB_OK)
+        *why = d->by->why;
+    return s == RB_OK ? d->by->status : s;
+}
+
+static rb_status differentiate(const words *w, const char *name, double value, const char *input,
+                               int smooth, differentiated *d, rb_message *why)
+{
+    return differentiate_by(w, name, value, 1, &input, smooth, d, why);
+}
+
+static double slope_of_Q(const words *w, const char *name, double value, const char *input,
+                         int smooth)
+{
+    rb_message why = {""};
+    differentiated d;
+    if (differentiate(w, name, value, input, smooth, &d, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    const double slope = d.by->d.value[!d.by->d.has[0]].tangential_load;
+    differentiated_free(&d);
+    return slope;
+}
+
+/* ---- Carter ------------------------------------------------------------------------ */
+
+/* Root mean squares, over s, of the errors of d(Q/(mu P))/ds and of d(Q/P)/dmu. */
+static void carter_errors(const char *elements, const char *mesh, int smooth, double error[2])
+{
+    enum { PLACES = 53 };
+    const words w = {{ROLLING, "similar", "yes", "gap", "parabola", "mu", "0.3", "mesh", mesh,
+                      "contact-elements", elements}};
+    const double mu = 0.3, P = 500.0, E = 94500.0 / (2.0 * (1.0 - 0.1 * 0.1)),
+                 unit = mu * sqrt(4.0 * P / (M_PI * E * 50.0)); /* mu a/R */
+    double sum[2] = {0.0, 0.0};
+    for (int k = 0; k < PLACES; k++) {
+        const double s = 0.05 + 0.9 * k / (PLACES - 1) + 1e-3 * sin(k);
+        static const char *const inputs[] = {"mu", "creep"};
+        rb_message why = {""};
+        differentiated d;
+        CHECK_STATUS(differentiate_by(&w, "creep", -s * unit, 2, inputs, smooth, &d, &why), RB_OK);
+        const double by_mu = d.by[0].d.value[0].tangential_load / P,
+                     by_s = d.by[1].d.value[0].tangential_load * -unit / (mu * P);
+        assert_string_equal(d.by[1].name, "creep");
+        differentiated_free(&d);
+        sum[0] += pow(by_s - 2.0 * (1.0 - s), 2.0);
+        sum[1] += pow(by_mu - s * s, 2.0);
+    }
+    error[0] = sqrt(sum[0] / PLACES);
+    error[1] = sqrt(sum[1] / PLACES);
+}
+
+TEST(carter_slopes_are_of_second_order)
+{
+    static const char *const meshes[] = {"aligned", "fitted"}, *const elements[] = {"50", "100",
+                                                                                    "200"};
+    for (int m = 0; m < 2; m++) {
+        double e[3][2], exact[2];
+        for (int k = 0; k < 3; k++)
+            carter_errors(elements[k], meshes[m], 1, e[k]);
+        carter_errors("200", meshes[m], 0, exact);
+        for (int by = 0; by < 2; by++) {
+            const double first = log2(e[0][by] / e[1][by]), second = log2(e[1][by] / e[2][by]);
+            if (!(first > 1.8 && second > 1.8 && e[2][by] < 5e-5))
+                fail_msg("%s, by %s: errors %.3g %.3g %.3g, orders %.2f %.2f", meshes[m],
+                         by ? "mu" : "creep", e[0][by], e[1][by], e[2][by], first, second);
+            if (!(exact[by] > 50.0 * e[2][by]))
+                fail_msg("%s: exact derivatives %.3g, smooth ones %.3g", meshes[m], exact[by],
+                         e[2][by]);
+        }
+    }
+}
+
+/* ---- Changes of zones -------------------------------------------------------------- */
+
+static int zones_that_differ(const rb_rolling_solution *a, const rb_rolling_solution *b)
+{
+    int n = 0;
+    assert_int_equal(a->n, b->n);
+    for (int i = 0; i < a->n; i++)
+        n += a->zone[i] != b->zone[i];
+    return n;
+}
+
+/* With one stick zone on elements that stay, tractions are piecewise linear in creepage
+ * and mu: zones change exactly where the derivative says, and behind that the derivative
+ * is the one of the exchange. */
+TEST(jumps_are_those_of_solutions)
+{
+    static const struct {
+        words w;
+        const char *input;
+        double value[3];
+    } tests[] = {
+        {{{FIXED, "similar", "yes"}}, "creep", {-8e-4, -1.13e-3, -2.01e-3}},
+        {{{FIXED, "similar", "yes", "creep", "-1.1e-3"}}, "mu", {0.21, 0.3, 0.41}},
+        {{{FIXED, "similar", "yes", "interlayer-tangential", "1e-6"}},
+         "creep",
+         {-8e-4, -1.13e-3, -2.02e-3}},
+        {{{FIXED, "similar", "yes", "slip-operator", "second"}},
+         "creep",
+         {-8e-4, -1.13e-3, -2.01e-3}},
+        {{{FIXED, "similar", "yes", "slip-operator", "second"}}, "force-ratio", {0.23, 0.5, 0.71}},
+    };
+    int sides[2] = {0, 0};
+    for (size_t t = 0; t < sizeof tests / sizeof *tests; t++)
+        for (int k = 0; k < 3; k++) {
+            const words *w = &tests[t].w;
+            const char *input = tests[t].input;
+            const double value = tests[t].value[k];
+            const int by_force = strcmp(input, "force-ratio") == 0;
+            rb_message why = {""};
+            differentiated smooth, exact, before, behind;
+            CHECK_STATUS(differentiate(w, input, value, input, 1, &smooth, &why), RB_OK);
+            CHECK_STATUS(differentiate(w, input, value, input, 0, &exact, &why), RB_OK);
+            const double *at = smooth.by->d.stays;
+            assert_true(at[0] < 0.0 && at[1] > 0.0);
+            const int next = at[1] < -at[0];
+            const double part = 0.5 - fabs(at[next]) / (at[1] - at[0]);
+            sides[next]++;
+            CHECK_STATUS(
+                differentiate(w, input, value + 0.999999 * at[next], input, 0, &before, &why),
+                RB_OK);
+            CHECK_STATUS(
+                differentiate(w, input, value + 1.000001 * at[next], input, 0, &behind, &why),
+                RB_OK);
+            assert_int_equal(zones_that_differ(&before.r.solution, &smooth.r.solution), 0);
+            assert_int_equal(zones_that_differ(&behind.r.solution, &smooth.r.solution), 1);
+            const rb_rolling_solution *a = &smooth.by->d.value[0], *b = &exact.by->d.value[0],
+                                      *c = &behind.by->d.value[0];
+            if (by_force)
+                CHECK_REL(b->creepage + (a->creepage - b->creepage) / part, c->creepage, 1e-9,
+                          "creepage %zu %d", t, k);
+            else
+                CHECK_REL(b->tangential_load + (a->tangential_load - b->tangential_load) / part,
+                          c->tangential_load, 1e-9, "Q %zu %d", t, k);
+            for (int i = 0; i < a->n; i++)
+                CHECK_ABS(b->q[i] + (a->q[i] - b->q[i]) / part, c->q[i],
+                          1e-8 * exact.r.solution.max_pressure / fabs(value), "q[%d] %zu %d", i, t,
+                          k);
+            differentiated_free(&smooth);
+            differentiated_free(&exact);
+            differentiated_free(&before);
+            differentiated_free(&behind);
+        }
+    assert_true(sides[0] > 1 && sides[1] > 1);
+}
+
+/* Both sides of the change meet, also where elements move, bodies differ and friction
+ * falls; the exact derivatives jump. */
+TEST(smooth_derivatives_are_continuous)
+{
+    static const struct {
+        words w;
+        const char *input;
+        double value;
+    } tests[] = {
+        {{{ALIGNED, "similar", "yes", "contact-elements", "80"}}, "creep", -1.1e-3},
+        {{{ALIGNED, "similar", "yes", "contact-elements", "80", "creep", "-1.1e-3"}}, "mu", 0.3},
+        {{{ALIGNED, "similar", "yes", "contact-elements", "80", "creep", "-1.1e-3"}},
+         "load",
+         500.0},
+        {{{ALIGNED, "young-b", "70000", "contact-elements", "80", "creep", "-1.1e-3"}}, "mu", 0.3},
+        {{{ROLLING, "gap", "parabola", "mesh", "fitted", "young-b", "70000", "contact-elements",
+           "60"}},
+         "creep",
+         -1.1e-3},
+        {{{FIXED, "similar", "yes", "friction-law", "exponential", "mu-fall", "0.3", "slip-scale",
+           "5", "speed", "1000"}},
+         "creep",
+         -1.5e-3},
+        {{{ROLLING, "gap", "parabola", "mesh", "aligned", "similar", "yes", "layer-thickness", "1",
+           "base-young", "300000", "base-poisson", "0.3", "contact-elements", "60"}},
+         "creep",
+         -1.3e-3},
+        {{{"support", "halfplane", "load", "500", "similar", "yes", "gap", "parabola", "mesh",
+           "aligned", "formulation", "static", "contact-elements", "60"}},
+         "shift",
+         1.5e-3},
+    };
+    for (size_t t = 0; t < sizeof tests / sizeof *tests; t++) {
+        const words *w = &tests[t].w;
+        const char *input = tests[t].input;
+        double value = tests[t].value, step = 0.0, slope[2][2];
+        rb_message why = {""};
+        differentiated d;
+        for (double to = INFINITY; fabs(to) > 0.1 * step;) { /* to first order each time */
+            CHECK_STATUS(differentiate(w, input, value, input, 1, &d, &why), RB_OK);
+            const double *at = d.by->d.stays;
+            to = at[at[1] < -at[0]];
+            value += 0.999 * to;
+            step = 0.004 * (at[1] - at[0]);
+            differentiated_free(&d);
+        }
+        for (int smooth = 0; smooth < 2; smooth++)
+            for (int side = 0; side < 2; side++)
+                slope[smooth][side] =
+                    slope_of_Q(w, input, value + (side ? step : -step), input, smooth);
+        const double jump = fabs(slope[0][1] - slope[0][0]), left = fabs(slope[1][1] - slope[1][0]);
+        CHECK_MAX(1e-3 * fabs(slope[0][0]), jump, "jump of case %zu", t);
+        CHECK_MAX(left / jump, 0.05, "case %zu", t);
+    }
+}
+
+/* ---- Without matrices, and refusals ------------------------------------------------ */
+
+/* A model that is solved by Fourier transforms, and a copy of it with matrices. */
+TEST(transforms_have_the_same_smooth_derivatives)
+{
+    static const char *const inputs[] = {"mu", "load", "creep"};
+    const words w = {{ALIGNED, "similar", "yes", "creep", "-1.1e-3", "contact-elements", "400"}};
+    rb_message why = {""};
+    differentiated fast;
+    rb_rolling_model dense;
+    rb_case_derivatives all;
+    CHECK_STATUS(differentiate_by(&w, NULL, 0.0, 3, inputs, 1, &fast, &why), RB_OK);
+    assert_null(fast.r.model.bodies.F);
+    CHECK_STATUS(rb_rolling_variant_with_matrix(&fast.r.model, &dense, &why), RB_OK);
+    CHECK_STATUS(rb_case_differentiate_smoothly(fast.c, &dense, 3, inputs, &all, &why), RB_OK);
+    for (int k = 0; k < 3; k++) {
+        CHECK_REL(fast.by[k].d.value[0].tangential_load, all.of[k].d.value[0].tangential_load, 1e-7,
+                  "Q by %s", all.of[k].name);
+        CHECK_REL(fast.by[k].d.value[0].dissipation, all.of[k].d.value[0].dissipation, 1e-6,
+                  "dissipation by %s", all.of[k].name);
+    }
+    rb_case_derivatives_free(&all);
+    rb_rolling_model_free(&dense);
+    differentiated_free(&fast);
+}
+
+TEST(what_has_no_smooth_derivatives)
+{
+    static const struct {
+        words w;
+        const char *input, *reason;
+    } tests[] = {
+        {{{FIXED, "similar", "yes", "creep", "-1e-3", "yield-stress", "30", "hardening", "100",
+           "interlayer-tangential", "1e-6"}},
+         "creep",
+         "an interface that yields"},
+        {{{FIXED, "similar", "yes", "creep", "-1e-3", "friction-law", "rational", "mu", "0.2",
+           "mu-fall", "0.2", "slip-scale", "5", "speed", "1000", "memory", "0.1"}},
+         "creep",
+         "friction with memory"},
+        {{{FIXED, "similar", "yes", "creep", "-1e-3"}},
+         "load",
+         "edges of the contact move over the elements"},
+        {{{"support", "hub", "load", "500", "mu", "0.3", "formulation", "steady", "mesh", "fitted",
+           "contact-elements", "20", "creep-ratio", "0.7", "outer-elements", "200"}},
+         "creep-ratio",
+         "too short"},
+    };
+    for (size_t t = 0; t < sizeof tests / sizeof *tests; t++) {
+        rb_message why = {""};
+        differentiated d;
+        CHECK_STATUS(differentiate(&tests[t].w, NULL, 0.0, tests[t].input, 1, &d, &why), RB_EINVAL);
+        if (!strstr(why.text, tests[t].reason))
+            fail_msg("%s: %s", tests[t].reason, why.text);
+        differentiated_free(&d);
+    }
+}
+
+TEST(between_two_zones_there_are_none)
+{
+    const words w = {{FIXED, "similar", "yes"}};
+    rb_message why = {""};
+    differentiated d;
+    CHECK_STATUS(differentiate(&w, "creep", -1e-3, "creep", 1, &d, &why), RB_OK);
+    const double there = -1e-3 + d.by->d.stays[1];
+    differentiated_free(&d);
+    CHECK_STATUS(differentiate(&w, "creep", there, "creep", 1, &d, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "1 element stands exactly between two zones"));
+    differentiated_free(&d);
+}
+
+/* Where nothing changes its zone both derivatives are the same. */
+TEST(without_zones_to_change_they_are_exact)
+{
+    const words w = {{ALIGNED, "similar", "yes", "contact-elements", "60"}};
+    CHECK_REL(slope_of_Q(&w, "creep", -9e-3, "mu", 1), 500.0, 1e-9, "full sliding");
+    CHECK_REL(slope_of_Q(&w, "creep", -1e-6, "creep", 1),
+              slope_of_Q(&w, "creep", -1e-6, "creep", 0), 1e-14, "full stick");
+}
+
+RUN_TESTS(NULL, NULL)
