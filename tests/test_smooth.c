@@ -242,6 +242,28 @@ TEST(smooth_derivatives_are_continuous)
     }
 }
 
+/* On equal elements the one at the leading edge may slip. Its zone does not move with the
+ * creepage, so that in the middle between two changes of the other one nothing is added. */
+TEST(a_zone_at_an_edge_does_not_count)
+{
+    const words w = {
+        {ROLLING, "mesh", "uniform", "zone", "1.2", "contact-elements", "60", "similar", "yes"}};
+    rb_message why = {""};
+    differentiated d;
+    double value = -1.13e-3;
+    CHECK_STATUS(differentiate(&w, "creep", value, "creep", 1, &d, &why), RB_OK);
+    value += 0.5 * (d.by->d.stays[0] + d.by->d.stays[1]);
+    const int *zone = d.r.solution.zone;
+    int last = d.r.solution.n - 1;
+    while (zone[last] == RB_ZONE_SEPARATED)
+        last--;
+    assert_int_equal(zone[last], RB_ZONE_SLIP_POSITIVE);
+    assert_int_equal(zone[last - 1], RB_ZONE_STICK);
+    differentiated_free(&d);
+    CHECK_REL(slope_of_Q(&w, "creep", value, "creep", 1),
+              slope_of_Q(&w, "creep", value, "creep", 0), 1e-9, "in the middle");
+}
+
 /* ---- Without matrices, and refusals ------------------------------------------------ */
 
 /* A model that is solved by Fourier transforms, and a copy of it with matrices. */
