@@ -576,7 +576,7 @@ rb_status rb_sensitivity_along(const rb_sensitivity *s, const rb_sensitivity_rat
     rb_sensitivity own = *s;
     const rb_sensitivity_input input = {.vary = same_case, .context = &own};
     variants v = {.base = s->model, .results = 1, .at = middle, .step = STEP_OF_BODIES};
-    rb_status status = variants_create(s->model, &input, 0, &v, why);
+    rb_status status = variants_create(s->model, &input, NULL, 0, &v, why);
 
     if (status == RB_OK)
         status = differentiate_side(s, &v, 1, rate, d, why);
