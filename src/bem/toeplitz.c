@@ -33,6 +33,7 @@ typedef struct {
     rb_fourier fourier;
     double *cosine, *sine; /* m: of the angle to the obstacle's frame; NULL: none */
     double *turned;        /* 2n: tractions in the surface's frame */
+    rb_arena memory;       /* of all arrays but work */
 } toeplitz;
 
 static void toeplitz_free(void *data)
@@ -41,18 +42,9 @@ static void toeplitz_free(void *data)
     if (!o)
         return;
     rb_fourier_free(&o->fourier);
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 2; k++)
         fftw_free(o->work[k]);
-        if (k == N || !o->alike) {
-            free(o->t[k]);
-            free(o->t_hat[k]);
-        }
-    }
-    free(o->s);
-    free(o->s_hat);
-    free(o->cosine);
-    free(o->sine);
-    free(o->turned);
+    rb_arena_free(&o->memory);
     free(o);
 }
 
@@ -284,16 +276,13 @@ static toeplitz *start(int n_c, const double *ends, int alike, rb_bem_flexibilit
         return NULL;
     const size_t distances = 2 * (size_t)n_c + 1, half = (size_t)o->fourier.size / 2 + 1;
     for (int k = 0; k < 2; k++) {
-        o->t[k] = k && alike ? o->t[N] : rb_alloc(distances, 1);
-        o->t_hat[k] = k && alike ? o->t_hat[N] : rb_alloc(half, 2);
+        o->t[k] = k && alike ? o->t[N] : rb_arena_doubles(&o->memory, distances, 1);
+        o->t_hat[k] = k && alike ? o->t_hat[N] : rb_arena_doubles(&o->memory, half, 2);
         o->work[k] = rb_fourier_alloc(&o->fourier);
     }
-    o->s = rb_alloc(distances, 1);
-    o->s_hat = rb_alloc(half, 2);
-    return o->t[N] && o->t[T] && o->s && o->t_hat[N] && o->t_hat[T] && o->s_hat && o->work[N] &&
-                   o->work[T]
-               ? o
-               : NULL;
+    o->s = rb_arena_doubles(&o->memory, distances, 1);
+    o->s_hat = rb_arena_doubles(&o->memory, half, 2);
+    return !o->memory.failed && o->work[N] && o->work[T] ? o : NULL;
 }
 
 rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends, const rb_bem_surface *body,
@@ -395,10 +384,10 @@ static rb_status on_equal_arcs(int n_c, const double *ends, const rb_bem_disc *d
         f->h[i] = radius * h;
     if (normals == RB_BEM_NORMALS_OBSTACLE) {
         /* Turns by the angle from the lowest point. */
-        o->cosine = rb_alloc((size_t)f->m, 1);
-        o->sine = rb_alloc((size_t)f->m, 1);
-        o->turned = rb_alloc(2 * (size_t)f->m, 1);
-        if (!o->cosine || !o->sine || !o->turned)
+        o->cosine = rb_arena_doubles(&o->memory, (size_t)f->m, 1);
+        o->sine = rb_arena_doubles(&o->memory, (size_t)f->m, 1);
+        o->turned = rb_arena_doubles(&o->memory, (size_t)f->m, 2);
+        if (o->memory.failed)
             return RB_ENOMEM;
         for (int i = 0; i < f->m; i++) {
             o->cosine[i] = cos(first + (i + 0.5) * h);

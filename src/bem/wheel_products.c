@@ -41,6 +41,7 @@ typedef struct {
     rb_fourier fourier;
     fftw_complex *kernel[3];
     double *work[2], *charge; /* charge: 2 (n + 1) */
+    rb_arena memory;          /* of all arrays but kernel and work */
 } products;
 
 static void products_free(void *data)
@@ -54,14 +55,7 @@ static void products_free(void *data)
         fftw_free(o->kernel[k]);
     for (int k = 0; k < 2; k++)
         fftw_free(o->work[k]);
-    free(o->charge);
-    free(o->near);
-    free(o->near_end);
-    free(o->near_first);
-    free(o->to);
-    free(o->from);
-    free(o->place);
-    free(o->ends);
+    rb_arena_free(&o->memory);
     free(o);
 }
 
@@ -222,7 +216,7 @@ static rb_status correct_near(products *o, const rb_wheel_kernel *kernel, parts_
         o->near_first[i + 1] = o->near_first[i] + high - low;
     }
     const size_t pairs = (size_t)o->near_first[o->m];
-    o->near = calloc(pairs * (size_t)o->parts + 1, sizeof *o->near);
+    o->near = rb_arena_doubles(&o->memory, pairs * (size_t)o->parts + 1, 1);
     if (!o->near)
         return RB_ENOMEM;
     for (int i = 0; i < o->m; i++) {
@@ -322,17 +316,16 @@ static rb_status make(const products *like, double *x, double step, const double
                         .wheel = like->wheel,
                         .plane = like->plane,
                         .normals = like->normals,
-                        .parts = 3,
-                        .ends = rb_alloc(m + 1, 1),
-                        .place = rb_alloc(m, 2),
-                        .charge = rb_alloc(m, 2),
-                        .from = calloc(m, sizeof *o->from),
-                        .to = calloc(m, sizeof *o->to),
-                        .near_first = rb_alloc_int(m + 1),
-                        .near_end = rb_alloc_int(m)};
+                        .parts = 3};
         o->wheel.terms = 0;
-        all = o->ends && o->place && o->charge && o->from && o->to && o->near_first &&
-              o->near_end && rb_fourier_make(2 * o->steps, &o->fourier);
+        o->ends = rb_arena_doubles(&o->memory, m + 1, 1);
+        o->place = rb_arena_doubles(&o->memory, m, 2);
+        o->charge = rb_arena_doubles(&o->memory, m, 2);
+        o->from = rb_arena_zeros(&o->memory, m, sizeof *o->from);
+        o->to = rb_arena_zeros(&o->memory, m, sizeof *o->to);
+        o->near_first = rb_arena_ints(&o->memory, m + 1);
+        o->near_end = rb_arena_ints(&o->memory, m);
+        all = !o->memory.failed && rb_fourier_make(2 * o->steps, &o->fourier);
         for (int k = 0; all && k < 3; k++) {
             o->kernel[k] = fftw_alloc_complex((size_t)o->fourier.size / 2 + 1);
             all = o->kernel[k] != NULL;

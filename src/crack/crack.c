@@ -305,10 +305,7 @@ void rb_crack_free(rb_crack *c)
         return;
     rb_crack_contact_free(&c->faces);
     rb_crack_contact_free(&c->coupled);
-    free(c->element);
-    free(c->t);
-    free(c->hat);
-    free(c->F);
+    rb_arena_free(&c->memory);
     free(c);
 }
 
@@ -323,11 +320,11 @@ static rb_status assemble(const rb_crack_shape *shape, const double *s, rb_crack
     c->shape = *shape;
     c->first = shape->full_plane || shape->path.y[0] < 0.0;
     c->n = shape->elements - c->first;
-    c->element = calloc((size_t)shape->elements, sizeof *c->element);
-    c->t = calloc((size_t)c->n, sizeof *c->t);
-    c->hat = rb_alloc((size_t)c->n, 1);
-    c->F = rb_alloc(2 * (size_t)c->n, 2 * (size_t)c->n);
-    if (!c->element || !c->t || !c->hat || !c->F)
+    c->element = rb_arena_zeros(&c->memory, (size_t)shape->elements, sizeof *c->element);
+    c->t = rb_arena_zeros(&c->memory, (size_t)c->n, sizeof *c->t);
+    c->hat = rb_arena_doubles(&c->memory, (size_t)c->n, 1);
+    c->F = rb_arena_doubles(&c->memory, 2 * (size_t)c->n, 2 * (size_t)c->n);
+    if (c->memory.failed)
         return RB_ENOMEM;
     const rb_crack_path *path = &c->shape.path;
     double before = 0.0; /* s of the beginning of the piece */

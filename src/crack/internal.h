@@ -44,12 +44,13 @@ struct rb_crack {
     rb_crack_shape shape;
     int n;                     /* unknown nodes: first, first + 1, ... */
     int first;                 /* 0: the mouth is a node; 1: the upper end is a tip */
-    rb_crack_element *element; /* shape.elements; owned, as all here */
+    rb_crack_element *element; /* shape.elements */
     double complex *t;         /* n: direction of the frame of each node */
     double *hat;               /* n: e_j */
     double *F;                 /* 2n x 2n */
     double per_D;              /* K over D of the node next to a tip */
     rb_crack_contact faces, coupled;
+    rb_arena memory; /* of the arrays */
 };
 
 /* ---- contact.c --------------------------------------------------------------------- */

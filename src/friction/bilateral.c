@@ -24,25 +24,19 @@ typedef struct {
     int *at; /* rows */
 } equations;
 
-static void free_equations(equations *e)
-{
-    free(e->A);
-    free(e->at);
-}
-
 /* The equations are dense: 2 GB of them at most. */
 #define MOST_ENTRIES ((size_t)1 << 28)
 
-static rb_status make_equations(int rows, int unknowns, int width, equations *e)
+static rb_status make_equations(int rows, int unknowns, int width, rb_arena *memory, equations *e)
 {
     if ((size_t)rows * (size_t)width > MOST_ENTRIES)
         return RB_ENOMEM;
     *e = (equations){.rows = rows,
                      .unknowns = unknowns,
                      .width = width,
-                     .A = rb_alloc((size_t)rows, (size_t)width),
-                     .at = rb_alloc_int((size_t)rows)};
-    return e->A && e->at ? RB_OK : RB_ENOMEM;
+                     .A = rb_arena_doubles(memory, (size_t)rows, (size_t)width),
+                     .at = rb_arena_ints(memory, (size_t)rows)};
+    return memory->failed ? RB_ENOMEM : RB_OK;
 }
 
 static double *row_of(const equations *e, int i)
@@ -123,9 +117,11 @@ rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
         return s;
     /* touched: the degrees of freedom that constraints move; number: the place among them
      * or -1, later that in y. */
-    int *touched = rb_alloc_int((size_t)n), *number = rb_alloc_int((size_t)n);
+    rb_arena scratch = {0};
+    int *touched = rb_arena_ints(&scratch, (size_t)n), *number = rb_arena_ints(&scratch, (size_t)n);
+    double *v0 = rb_arena_doubles(&scratch, (size_t)n, 1), *f = NULL;
     s = RB_ENOMEM;
-    if (touched && number) {
+    if (!scratch.failed) {
         int count = 0;
         for (int i = 0; i < G->rows; i++)
             number[i] = -1;
@@ -136,7 +132,7 @@ rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
                 number[i] = count;
                 touched[count++] = i;
             }
-        s = make_equations(G->cols, count, count + 1, &e);
+        s = make_equations(G->cols, count, count + 1, &scratch, &e);
     }
     if (s == RB_OK) {
         /* Row by row of G': the motions it couples, and b. */
@@ -153,9 +149,6 @@ rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
     }
     /* v = v0 + Z y: every motion that is not solved for is one of y.  Zt: Z'. */
     rb_sparse Zt = {0}, Z = {0}, ZK = {0}, K = {0}, H = {0};
-    double *v0 = rb_alloc((size_t)n, 1), *f = NULL;
-    if (s == RB_OK && !v0)
-        s = RB_ENOMEM;
     if (s == RB_OK) {
         rb_triplets t = {.rows = n - e.rank, .cols = n};
         for (int i = 0; i < n; i++)
@@ -201,11 +194,7 @@ rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
     rb_sparse_free(&ZK);
     rb_sparse_free(&Z);
     rb_sparse_free(&Zt);
-    free(v0);
-    free_equations(&e);
-    free(number);
-    free(touched);
-    return s;
+    return rb_arena_done(&scratch, s);
 }
 
 /* ---- Local form -------------------------------------------------------------------- */
@@ -226,7 +215,8 @@ rb_status rb_friction_eliminate_local(rb_friction_problem *local, const rb_spars
         st = rb_friction_check_vector("s", (size_t)c, s, why);
     if (st != RB_OK)
         return st;
-    st = make_equations(c, c, c + m + 1, &e);
+    rb_arena scratch = {0};
+    st = make_equations(c, c, c + m + 1, &scratch, &e);
     if (st == RB_OK) {
         /* [R, V', s] (l, r, 1) = 0 */
         for (int j = 0; j < c; j++) {
@@ -280,6 +270,5 @@ rb_status rb_friction_eliminate_local(rb_friction_problem *local, const rb_spars
     rb_triplets_free(&l);
     rb_sparse_free(&change);
     rb_sparse_free(&minus_L);
-    free_equations(&e);
-    return st;
+    return rb_arena_done(&scratch, st);
 }

@@ -16,8 +16,8 @@ static const double SAME = 1e-11, SMALL = 1e-11;
  * one the right-hand side. */
 typedef struct {
     int rows, width;
-    double *T;  /* rows x width; owned */
-    int *basis; /* rows: labels; owned */
+    double *T;  /* rows x width */
+    int *basis; /* rows: labels */
     int first;  /* label of the s of row 0 */
 } tableau;
 
@@ -26,25 +26,17 @@ static double *row_of(const tableau *t, int row)
     return t->T + (size_t)row * (size_t)t->width;
 }
 
-static rb_status tableau_create(int rows, int labels, int first, tableau *t)
+/* In an arena that may have failed. */
+static void tableau_create(int rows, int labels, int first, rb_arena *memory, tableau *t)
 {
     *t = (tableau){.rows = rows, .width = labels + 1, .first = first};
-    t->T = rb_alloc((size_t)rows, (size_t)labels + 1);
-    t->basis = rb_alloc_int((size_t)rows);
-    if (!t->T || !t->basis)
-        return RB_ENOMEM;
-    for (int r = 0; r < rows; r++) {
+    t->T = rb_arena_doubles(memory, (size_t)rows, (size_t)labels + 1);
+    t->basis = rb_arena_ints(memory, (size_t)rows);
+    for (int r = 0; r < rows && !memory->failed; r++) {
         row_of(t, r)[first + r] = 1.0;
         row_of(t, r)[labels] = 1.0;
         t->basis[r] = first + r;
     }
-    return RB_OK;
-}
-
-static void tableau_free(tableau *t)
-{
-    free(t->T);
-    free(t->basis);
 }
 
 /* The row that blocks the entering label: least ratio of the right-hand side, then of the
@@ -136,7 +128,7 @@ static double scaled(payoffs p, const rb_lcp_game *g, const double *P, int i, in
 typedef struct {
     int m, labels;
     tableau of_x, of_y;
-    int *tied; /* labels: scratch; owned */
+    int *tied; /* labels: scratch */
     const rb_lcp_options *opt;
     rb_lcp_info *info;
 } lemke_howson;
@@ -237,39 +229,31 @@ rb_status rb_lcp_bimatrix(const rb_lcp_game *g, int label, const rb_lcp_options 
     rb_status s = check_input(g, label, &l.info->msg);
     if (s != RB_OK)
         return s;
-    double *regret = rb_alloc((size_t)g->m + (size_t)g->n, 1), payoff[2];
+    rb_arena memory = {0};
+    double *regret = rb_arena_doubles(&memory, (size_t)g->m + (size_t)g->n, 1), payoff[2];
     l.m = g->m;
     l.labels = g->m + g->n;
-    l.tied = rb_alloc_int((size_t)l.labels);
-    if (tableau_create(g->n, l.labels, g->m, &l.of_x) != RB_OK ||
-        tableau_create(g->m, l.labels, 0, &l.of_y) != RB_OK || !l.tied)
-        s = RB_ENOMEM;
+    l.tied = rb_arena_ints(&memory, (size_t)l.labels);
+    tableau_create(g->n, l.labels, g->m, &memory, &l.of_x);
+    tableau_create(g->m, l.labels, 0, &memory, &l.of_y);
+    if (memory.failed)
+        return rb_arena_done(&memory, out_of_memory(g, &l.info->msg));
+    const payoffs of_a = payoffs_of(g, g->A), of_b = payoffs_of(g, g->B);
+    for (int j = 0; j < g->n; j++)
+        for (int i = 0; i < g->m; i++) {
+            row_of(&l.of_x, j)[i] = 1.0 + scaled(of_b, g, g->B, i, j);
+            row_of(&l.of_y, i)[g->m + j] = 1.0 + scaled(of_a, g, g->A, i, j);
+        }
+    s = follow_path(&l, label);
+    strategy(&l.of_x, 0, g->m, z);
+    strategy(&l.of_y, g->m, g->n, z + g->m);
+    l.info->res = rb_lcp_bimatrix_regret(g, z, regret, payoff);
     if (s == RB_OK) {
-        const payoffs of_a = payoffs_of(g, g->A), of_b = payoffs_of(g, g->B);
-        for (int j = 0; j < g->n; j++)
-            for (int i = 0; i < g->m; i++) {
-                row_of(&l.of_x, j)[i] = 1.0 + scaled(of_b, g, g->B, i, j);
-                row_of(&l.of_y, i)[g->m + j] = 1.0 + scaled(of_a, g, g->A, i, j);
-            }
-    }
-    if (s != RB_OK || !regret) {
-        s = out_of_memory(g, &l.info->msg);
-    } else {
-        s = follow_path(&l, label);
-        strategy(&l.of_x, 0, g->m, z);
-        strategy(&l.of_y, g->m, g->n, z + g->m);
-        l.info->res = rb_lcp_bimatrix_regret(g, z, regret, payoff);
-    }
-    if (s == RB_OK) {
-        const double size = fmax(payoffs_of(g, g->A).wide, payoffs_of(g, g->B).wide);
+        const double size = fmax(of_a.wide, of_b.wide);
         l.info->scaled = size > 0.0 ? l.info->res / size : l.info->res;
         s = rb_lcp_assess(l.info);
     }
-    tableau_free(&l.of_x);
-    tableau_free(&l.of_y);
-    free(l.tied);
-    free(regret);
-    return s;
+    return rb_arena_done(&memory, s);
 }
 
 /* ---- All equilibria ---------------------------------------------------------------- */
