@@ -78,6 +78,16 @@ static const char *const names[] = {"p",
                                     "friction.r",
                                     "patch.from",
                                     "friction_power",
+                                    "derivative.tangential_load",
+                                    "derivative.q",
+                                    "derivative.value",
+                                    "derivative.approach.gap",
+                                    "tolerance.max_pressure",
+                                    "curve.derivative.tangential_load:mu",
+                                    "curve.tolerance.tangential_load",
+                                    "history.derivative.tangential_load:load",
+                                    "history.tolerance.approach",
+                                    "sweep.derivative.max_pressure:mu",
                                     "nothing",
                                     ""};
 
@@ -91,6 +101,15 @@ enum {
     WORDS = sizeof words / sizeof words[0],
     CALLS_MAX = 40
 };
+
+/* What has derivatives, and what has none. */
+static const char *const of[] = {"all",      "tangential_load:mu,max_pressure:mu",
+                                 "all:load", "max_pressure,tangential_load:load",
+                                 "all:zone", "residual",
+                                 ",",        ""};
+static const char *const uncertain[] = {"mu=0.02",           "radius=1%,load=2%", "mu=-1", "zone=1",
+                                        "mu=1%,mu=1%",       "load=1e300",        "",      "=",
+                                        "creep-ratio=10%,mu"};
 
 /* Every entry of the array can be read. */
 static void look_at(rb_api *a, const char *name)
@@ -170,6 +189,36 @@ static void call(rb_api *a, rb_api *other, fuzz_bytes *b)
     case 19:
         look_at(a, names[fuzz_choice(b, NAMES)]);
         break;
+    case 23: { /* derivatives */
+        const char *const results = of[fuzz_choice(b, sizeof of / sizeof *of)],
+                          *inputs = uncertain[fuzz_choice(b, sizeof uncertain / sizeof *uncertain)];
+        switch (fuzz_choice(b, 7)) {
+        case 0:
+            rb_api_derivatives(a);
+            break;
+        case 1:
+            rb_api_tolerances(a, inputs);
+            break;
+        case 2:
+            rb_api_curve_derivatives(a, "creep-ratio", 0.0, 1.0, fuzz_choice(b, 4) - 1, results,
+                                     fuzz_choice(b, 2) ? inputs : NULL);
+            break;
+        case 3:
+            rb_api_curve_derivatives(a, "creep", fuzz_number(b), 1e-3, 2, NULL, inputs);
+            break;
+        case 4:
+            rb_api_step_derivatives(a, results);
+            break;
+        case 5:
+            rb_api_sweep_derivatives(a, fuzz_choice(b, 2), cases, results, 1);
+            break;
+        default:
+            rb_api_derivative(a, fuzz_choice(b, 2) ? "curve" : "history", fuzz_byte(b) - 3, "name",
+                              text, (int)sizeof text);
+            rb_api_input(a, fuzz_byte(b) - 3, "name", text, 3);
+        }
+        break;
+    }
     default: {
         const char *const *s = settings[fuzz_choice(b, SETTINGS)];
         char kept[64];
