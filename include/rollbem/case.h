@@ -450,10 +450,11 @@ rb_status rb_case_crack_solve(const rb_resolved_case *resolved, const rb_case_cr
 /* Where the contact stands, and its tractions there. */
 typedef struct {
     int n;
-    double *x; /* n positions [length]; owned, like all arrays here */
+    double *x; /* n positions [length] */
     int loads; /* as in rb_crack_passage */
     rb_bem_edge_load *load;
     double *ends;
+    rb_arena memory; /* of the arrays */
 } rb_case_crack_track;
 
 /* The track of result->contact and result->states, whose arrays it borrows; also sets

@@ -3,7 +3,6 @@
 
 #include <gsl/gsl_math.h>
 #include <stddef.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Positions farther apart, in half-widths, miss the crack; above NARROW extremes lie
@@ -190,17 +189,15 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
 
 void rb_case_crack_track_free(rb_case_crack_track *t)
 {
-    free(t->x);
-    free(t->load);
-    free(t->ends);
-    memset(t, 0, sizeof *t);
+    rb_arena_free(&t->memory);
+    *t = (rb_case_crack_track){0};
 }
 
 /* The ends of n contact elements, and their tractions in each of the loads. */
 static rb_status set_loads(int n, const double *x, const double *h, const double *p,
                            const double *q, rb_case_crack_track *t)
 {
-    t->ends = rb_alloc((size_t)n + 1, 1);
+    t->ends = rb_arena_doubles(&t->memory, (size_t)n + 1, 1);
     if (!t->ends)
         return RB_ENOMEM;
     for (int i = 0; i < n; i++)
@@ -275,9 +272,9 @@ rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k
     r->passes = k->unloaded ? 1 : k->passes;
     t->n = k->unloaded ? 1 : has_steps ? steps->steps : intervals(c) + 1;
     t->loads = k->unloaded ? 0 : has_steps ? t->n : 1;
-    t->x = rb_alloc((size_t)t->n, 1);
-    t->load = calloc((size_t)t->n, sizeof *t->load);
-    if (!t->x || !t->load)
+    t->x = rb_arena_doubles(&t->memory, (size_t)t->n, 1);
+    t->load = rb_arena_zeros(&t->memory, (size_t)t->n, sizeof *t->load);
+    if (t->memory.failed)
         return RB_ENOMEM;
     for (int i = 0; i < t->n; i++)
         t->x[i] = r->half_width * (k->unloaded  ? from

@@ -323,9 +323,9 @@ double rb_rolling_number(const rb_rolling_result *r, const void *owner)
     return count < 0 ? (double)NAN : count; /* NAN is a float */
 }
 
-static void *column_of(const rb_rolling_result *r, const void *owner)
+double *rb_rolling_column(const rb_rolling_result *r, const void *owner)
 {
-    void *column;
+    double *column;
     memcpy(&column, place(r, owner), sizeof column);
     return column;
 }
@@ -357,17 +357,12 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc,
 
 int rb_rolling_has_column(const rb_rolling_result *r, const void *owner)
 {
-    return column_of(r, owner) != NULL;
-}
-
-double *rb_rolling_column(const rb_rolling_result *r, const void *owner)
-{
-    return column_of(r, owner);
+    return rb_rolling_column(r, owner) != NULL;
 }
 
 double rb_rolling_entry(const rb_rolling_result *r, const void *owner, int i)
 {
-    const void *column = column_of(r, owner);
+    const void *column = rb_rolling_column(r, owner);
     return r->kind == RB_RESULT_WHOLE ? ((const int *)column)[i] : ((const double *)column)[i];
 }
 
@@ -405,7 +400,7 @@ static void convert_columns(const rb_rolling_results *t, int rows, void *owner, 
 {
     for (int k = 0; k < t->n; k++) {
         const rb_rolling_result *r = &t->row[k];
-        double *x = column_of(r, owner);
+        double *x = rb_rolling_column(r, owner);
         for (int i = 0; i < rows && x && r->unit && r->kind == RB_RESULT_NUMBER; i++)
             x[i] = rb_unit_shown(units, r->unit, x[i]);
     }
@@ -537,5 +532,5 @@ rb_status rb_rolling_columns_alloc(const rb_rolling_results *table, const rb_rol
 void rb_rolling_columns_free(const rb_rolling_results *table, void *owner)
 {
     for (int k = 0; k < table->n; k++)
-        free(column_of(&table->row[k], owner));
+        free(rb_rolling_column(&table->row[k], owner));
 }
