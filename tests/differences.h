@@ -163,7 +163,9 @@ static rb_status difference_at(const difference_frame *f, const rb_rolling_case 
         solution->contact_to =
             at->contact_to + by[1] + by[0] * (at->contact_to - f->centre) / f->half;
         solution->nip_width = solution->contact_to - solution->contact_from;
+        const double found_half = solution->half_width;
         solution->half_width = at->half_width + 0.5 * (solution->nip_width - at->nip_width);
+        solution->peclet *= solution->half_width / found_half;
     }
     if (s == RB_OK && at->max_strain == strain) /* no layer: a/(2R) */
         solution->max_strain = 0.5 * solution->half_width / rb_rolling_derive(rc).radius;

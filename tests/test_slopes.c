@@ -81,6 +81,11 @@ TEST(single_cases_have_derivatives)
         {{"support", "halfplane", "formulation", "steady", "similar", "yes", "creep-ratio", "-0.4",
           "half-width", "1", "yield-stress", "200", "hardening", "-2000", "mu", "3",
           "contact-elements", "20"}},
+        /* within the step another element becomes the warmest one */
+        {{"support",     "halfplane",     "load",   "800",     "contact-elements",
+          "15",          "formulation",   "steady", "similar", "yes",
+          "force-ratio", "-0.4",          "mesh",   "fitted",  "conductivity",
+          "50",          "heat-capacity", "3.5",    "speed",   "3000"}},
         /* within the usual step an element goes from one side of the wheel to the other */
         {{"support",
           "arc",

@@ -757,6 +757,11 @@ rb_status rb_rolling_end_solve(const rb_rolling_model *model, rb_status s, doubl
 rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_solution *solution,
                                       rb_message *why);
 
+/* Highest of the temperatures t of elements in contact, by a parabola through the warmest
+ * one and its neighbours, and its place; NAN without contact.  x, zone, t: n. */
+void rb_rolling_peak_temperature(int n, const double *x, const int *zone, const double *t,
+                                 double *value, double *at);
+
 /* A variant of a solved model: a case that differs slightly from the model's in some
  * number, on the same elements, with the model's state and zones, to be completed.  If
  * the flexibility is the same, it is borrowed from the model.  RB_INACCURATE: the number

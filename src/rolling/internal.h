@@ -247,9 +247,6 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_roll
                                         struct rb_rolling_conduction **conduction, double *t_a,
                                         double *t_b, rb_message *why);
 void rb_rolling_conduction_free(struct rb_rolling_conduction *conduction);
-/* Highest temperature in contact and its place; NAN without contact. */
-void rb_rolling_peak_temperature(int n, const double *x, const int *zone, const double *t,
-                                 double *value, double *at);
 
 /* The heat of earlier steps, for the particles that are still in the mesh. */
 typedef struct rb_rolling_heat_track {

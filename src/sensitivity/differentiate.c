@@ -515,9 +515,31 @@ static void add_motions(const rb_sensitivity *s, const variants *v, rb_rolling_s
         d->nip_width = d->contact_to - d->contact_from;
         const double radius = rb_rolling_derive(s->model->rc).radius, before = d->half_width;
         d->half_width = 0.5 * d->nip_width;
+        d->peclet += s->solution.peclet / s->solution.half_width * (d->half_width - before);
         if (s->solution.max_strain == 0.5 * s->solution.half_width / radius)
             d->max_strain += 0.5 * (d->half_width - before) / radius;
     }
+}
+
+/* The peak stays with the element that is warmest in the solution, though another one may
+ * be warmer at the places of the stencil. */
+static rb_status set_peak_temperature(const rb_sensitivity *s, double scale, rb_rolling_solution *d)
+{
+    const rb_rolling_solution *at = &s->solution;
+    const double part = 1e-5 * scale;
+    double peak[2], x;
+
+    if (!at->temperature)
+        return RB_OK;
+    double *t = rb_alloc((size_t)s->n, 1);
+    for (int k = 0; k < 2 && t; k++) {
+        for (int i = 0; i < s->n; i++)
+            t[i] = at->temperature[i] + (k ? part : -part) * d->temperature[i];
+        rb_rolling_peak_temperature(s->n, at->x, at->zone, t, &peak[k], &x);
+    }
+    d->max_temperature = t ? (peak[1] - peak[0]) / (2.0 * part) : NAN;
+    free(t);
+    return t ? RB_OK : RB_ENOMEM;
 }
 
 rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensitivity_input *input,
@@ -547,6 +569,8 @@ rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensiti
             status = set_free_creepage(s, input, &v, side, &d->value[k], why);
         if (status == RB_OK && s->moves != RB_SENSITIVITY_FIXED)
             add_motions(s, &v, &d->value[k]);
+        if (status == RB_OK)
+            status = set_peak_temperature(s, input->scale, &d->value[k]);
         if (status == RB_OK)
             clean(s, input->scale, &d->value[k]);
     }
