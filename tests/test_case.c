@@ -156,7 +156,7 @@ TEST(a_value_survives_as_text)
 {
     int n;
     const rb_option *o = rb_case_describe(&n);
-    rb_case *c = case_of(""), *again = case_of("");
+    held_case *c = case_of(""), *again = case_of("");
     rb_resolved_case *words = rb_case_options(c).target;
     const rb_resolved_case *back = rb_case_options(again).target;
     for (int i = 0; i < n; i++) {
@@ -167,8 +167,6 @@ TEST(a_value_survives_as_text)
         CHECK_OK(rb_case_set(again, o[i].name, text, RB_GIVEN_ARGUMENT, &heard));
         assert_string_equal(rb_option_text(&o[i], back, room2), text);
     }
-    rb_case_free(c);
-    rb_case_free(again);
 }
 
 TEST(numbers_are_words_too)

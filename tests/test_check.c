@@ -648,7 +648,7 @@ TEST(every_changed_number_of_a_table_is_found)
     static char text[sizeof out], changed_text[sizeof out];
     int changes = 0;
     for (int k = 0; k < CASES; k++) {
-        rb_case *words = case_of(cases[k]);
+        held_case *words = case_of(cases[k]);
         assert_int_equal(rollbem(cases[k]), 0);
         memcpy(text, out, sizeof text);
         assert_int_equal(violations_of(text, words), 0);
@@ -664,7 +664,6 @@ TEST(every_changed_number_of_a_table_is_found)
                 changes++;
             }
         }
-        rb_case_free(words);
     }
     assert_true(changes > 200);
 }
@@ -1322,7 +1321,7 @@ TEST(every_edit_is_named)
                      ? "stress "
                      : "",
                  results[k].given);
-        json_t *root = run_json(line);
+        held_json *root = run_json(line);
         for (size_t i = 0; i < 50 && results[k].edit[i].path; i++) {
             const char *path = results[k].edit[i].path, *value = results[k].edit[i].value,
                        *part = results[k].edit[i].part;
@@ -1344,7 +1343,6 @@ TEST(every_edit_is_named)
                 assert_int_equal(*said != '\0', beyond);
             }
         }
-        json_decref(root);
     }
     assert_int_equal(wrong, 0);
 }

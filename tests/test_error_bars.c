@@ -224,7 +224,7 @@ static int is_main(const char *name)
 static void count_solution(const rb_rolling_case *rc, counts *t)
 {
     const rb_rolling_case fine = finer(rc);
-    rb_rolling_solution s, truth = {0};
+    OWNED(rb_rolling_solution) s, truth = {0};
     rb_rolling_errors e;
     rb_status status = rb_rolling_solve_with_errors(rc, &s, &e, NULL);
 
@@ -242,8 +242,6 @@ static void count_solution(const rb_rolling_case *rc, counts *t)
         count_bar(is_main(r->name) ? &t->main : &t->others, rb_rolling_number(r, &s),
                   rb_rolling_number(r, &truth), bar);
     }
-    rb_rolling_solution_free(&s);
-    rb_rolling_solution_free(&truth);
 }
 
 /* A column of the finer run at a way of rolling that its steps need not meet. */
@@ -308,7 +306,7 @@ static void count_steps(const rb_rolling_history *h, const rb_rolling_history *t
 static void count_history(const rb_rolling_case *rc, counts *t)
 {
     const rb_rolling_case fine = finer(rc);
-    rb_rolling_model model = {0}, fine_model = {0};
+    OWNED(rb_rolling_model) model = {0}, fine_model = {0};
     OWNED(rb_rolling_history) h = {0}, truth = {0};
     rb_status status = rb_rolling_history_with_errors(rc, NULL, NULL, &model, &h, NULL);
 
@@ -318,8 +316,6 @@ static void count_history(const rb_rolling_case *rc, counts *t)
     unit = 0.0;
     if (status == RB_OK)
         count_steps(&h, &truth, t);
-    rb_rolling_model_free(&model);
-    rb_rolling_model_free(&fine_model);
 }
 
 static void count_case(int class_number, int k, counts *t)

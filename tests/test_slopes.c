@@ -53,7 +53,7 @@ TEST(compressed_boundaries_have_derivatives)
                              "creep-ratio", "0.4", "poisson", "0.3"}};
     rb_message why = {""};
     differences d;
-    rb_case *c = case_of(RB_CASE_SINGLE, &w, "tol", 1e-13);
+    held_case *c = case_of(RB_CASE_SINGLE, &w, "tol", 1e-13);
     rb_case_number number[RB_CASE_NUMBERS_MAX];
     int n, poisson = 0;
 
@@ -64,7 +64,6 @@ TEST(compressed_boundaries_have_derivatives)
     CHECK_STATUS(compare_single(c, poisson, n, &d, &why), RB_OK);
     assert_int_equal(d.compared, 1);
     CHECK_MAX(d.off, 3e-8, "%s", d.text);
-    rb_case_free(c);
 }
 
 /* Elements fitted to the edges, aligned with them, of wheels, of a zone that is given. */
@@ -162,7 +161,7 @@ TEST(samples_of_histories_scatter_as_tolerances)
     enum { BITS = 6, N = 1 << BITS };
     static const words w = {{PLANES, ROLLS, "similar", "yes", "creep", "1e-3"}};
     const double load = 500.0, mu = 0.3;
-    rb_case *c = case_of(RB_CASE_SINGLE, &w, NULL, 0.0);
+    held_case *c = case_of(RB_CASE_SINGLE, &w, NULL, 0.0);
     rb_case_tolerances t;
     difference_run at = {.states = {0}}, one[N] = {{.states = {0}}};
     double quantile[N], unit = 0.0;
@@ -213,7 +212,6 @@ TEST(samples_of_histories_scatter_as_tolerances)
     for (int k = 0; k < N; k++)
         difference_run_free(&one[k]);
     difference_run_free(&at);
-    rb_case_free(c);
 }
 
 /* ---- Curves ------------------------------------------------------------------------ */
@@ -259,7 +257,7 @@ TEST(points_are_single_cases)
             const double value = curve[k].range.over == RB_OVER_SPEED   ? points.speed[row]
                                  : curve[k].range.over == RB_OVER_CREEP ? points.creepage[row]
                                                                         : points.creep_ratio[row];
-            rb_case *single = case_of(RB_CASE_SINGLE, &one, curve[k].over, value);
+            held_case *single = case_of(RB_CASE_SINGLE, &one, curve[k].over, value);
             CHECK_STATUS(rb_case_solve(rb_case_resolved(single), NULL, NULL, &r, &why), RB_OK);
             CHECK_STATUS(
                 rb_case_slopes_choose(single, s.table, "all", RB_CASE_SLOPES_MAX, &want, &why),
@@ -284,7 +282,6 @@ TEST(points_are_single_cases)
                               s.of[j].input, row);
             }
             rb_case_slopes_free(&want);
-            rb_case_free(single);
         }
         int at = 0;
         while (strcmp(s.of[at].result->name, "tangential_load") != 0 ||
