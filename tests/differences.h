@@ -53,12 +53,31 @@ static double difference_edge(const rb_rolling_model *m, int side)
     return at + (at - before) * fall / (1.0 - fall);
 }
 
+/* 1: the mesh ends where the contact that is found on it does, up to this part of an
+ * element: x is an end of one. */
+static int difference_is_end(const rb_rolling_model *m, double x)
+{
+    const double at = (x - m->mesh.ends[0]) / (m->mesh.ends[1] - m->mesh.ends[0]);
+    return fabs(at - round(at)) < 1e-2;
+}
+
 typedef struct {
     const rb_rolling_model *base;
     rb_sensitivity_elements elements;
+    int is_aligned;      /* 1: the edges are those that the solver aligns elements with */
     double half, centre; /* of the contact on the elements of the base */
     double gain[4];      /* of the motion by what is found; of fitted elements */
 } difference_frame;
+
+static void difference_edges(const difference_frame *f, const rb_rolling_model *m, double *from,
+                             double *to)
+{
+    rb_rolling_contact_edges(m->rc, &m->mesh, &m->state, from, to);
+    if (!f->is_aligned) {
+        *from = difference_edge(m, -1);
+        *to = difference_edge(m, 1);
+    }
+}
 
 /* Solves rc on elements that are stretched to the half-width half + by[0] about a centre
  * shifted by by[1]; found: what these are afterwards less what they were. */
@@ -85,7 +104,8 @@ static rb_status difference_solve(const difference_frame *f, const rb_rolling_ca
         memcmp(v->state.zone, f->base->state.zone, (size_t)v->mesh.n * sizeof *v->state.zone) != 0)
         s = RB_ZONE;
     if (s == RB_OK && f->elements == RB_SENSITIVITY_EDGES) {
-        const double from = difference_edge(v, -1), to = difference_edge(v, 1);
+        double from, to;
+        difference_edges(f, v, &from, &to);
         found[0] = 0.5 * (to - from) - f->half;
         found[1] = 0.5 * (to + from) - f->centre;
     }
@@ -95,10 +115,18 @@ static rb_status difference_solve(const difference_frame *f, const rb_rolling_ca
 static rb_status difference_begin(const rb_rolling_model *base, rb_sensitivity_elements elements,
                                   difference_frame *f, rb_message *why)
 {
-    *f = (difference_frame){base, elements, rb_rolling_derive(base->rc).half_width, 0.0, {0}};
+    double from, to;
+    rb_rolling_contact_edges(base->rc, &base->mesh, &base->state, &from, &to);
+    *f = (difference_frame){base,
+                            elements,
+                            base->rc->mesh == RB_MESH_ALIGNED && difference_is_end(base, from) &&
+                                difference_is_end(base, to),
+                            rb_rolling_derive(base->rc).half_width,
+                            0.0,
+                            {0}};
     if (elements != RB_SENSITIVITY_EDGES)
         return RB_OK;
-    const double from = difference_edge(base, -1), to = difference_edge(base, 1);
+    difference_edges(f, base, &from, &to);
     f->half = 0.5 * (to - from);
     f->centre = 0.5 * (to + from);
     double J[4]; /* 1 - found_e */

@@ -398,6 +398,30 @@ TEST(fitted_slopes_are_those_of_fitted_solves)
     rb_case_free(c);
 }
 
+/* On aligned elements under strong coupling by the creepage, against solves that are aligned
+ * anew, whose edges rest to 1e-4 elements. */
+TEST(aligned_slopes_are_those_of_aligned_solves)
+{
+    const words w = {{"support", "halfplane", "load", "2000", "formulation", "steady", "mu", "0.5",
+                      "mesh", "aligned", "contact-elements", "24", "creep", "1e-3"}};
+    static const char *const names[] = {"creep"};
+    rb_message why = {""};
+    rb_case_result r, left, right;
+    rb_case_derivatives all;
+    rb_case *c = solved(&w, NULL, 0.0, &r);
+    CHECK_STATUS(rb_case_differentiate(c, &r.model, 1, names, &all, &why), RB_OK);
+    rb_case_free(solved(&w, "creep", 0.9999e-3, &left));
+    rb_case_free(solved(&w, "creep", 1.0001e-3, &right));
+    CHECK_REL(of(&all, "creep")->d.value[0].tangential_load,
+              (right.solution.tangential_load - left.solution.tangential_load) / 2e-7, 1e-3,
+              "Q by creep");
+    rb_case_result_free(&left);
+    rb_case_result_free(&right);
+    rb_case_derivatives_free(&all);
+    rb_case_result_free(&r);
+    rb_case_free(c);
+}
+
 /* ---- Borders and ends of ranges ---------------------------------------------------- */
 
 /* The creepage at which an element begins to slip: on one side the slope of one element

@@ -73,6 +73,8 @@ TEST(single_cases_have_derivatives)
         {{PLANES, "formulation", "steady", "young-b", "70000", "creep", "1e-3", "mesh", "fitted"}},
         {{PLANES, "formulation", "steady", "similar", "yes", "creep-ratio", "0.4", "mesh",
           "aligned"}},
+        /* edges that move with their elements: coupled strongly */
+        {{PLANES, "formulation", "steady", "mu", "0.5", "creep", "1.5e-3", "mesh", "aligned"}},
         {{PLANES, "formulation", "steady", "creep-ratio", "0.4", "mesh", "fitted", "plane",
           "stress", "layer-thickness", "2"}},
         {{"support", "hub", "load", "500", "contact-elements", "24", "formulation", "steady",

@@ -6,6 +6,7 @@
  * from the derivatives with respect to two motions of the elements. */
 #include "sensitivity/internal.h"
 
+#include <float.h>
 #include <gsl/gsl_math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,6 +20,9 @@ static const double ROUNDING = 1e-11;
 
 /* Of 1 - found_e: edges that stand at midpoints move with them, whatever these do. */
 static const double LEAST_DETERMINANT = 0.1;
+
+/* Elements by which the edge found may miss the end of an aligned element. */
+static const double LARGEST_MISS = 1e-2;
 
 enum { PLACES = RB_SENSITIVITY_PLACES };
 
@@ -409,12 +413,44 @@ static double edge_of(const rb_rolling_model *model, const double *p_rate, int s
     return 0.5 * (ends[j] + ends[j + 1]) + apart * fall / (1.0 - fall);
 }
 
-/* Half-width and centre of the contact, and their rates. */
-static motion edges_of(const rb_rolling_model *model, const double *p_rate, double rate[2])
+/* 1: aligned elements end where the contact that is found on them does, and not at the
+ * outer side of a jump. */
+static int are_aligned(const rb_rolling_model *model, double from, double to)
 {
-    double left, right;
-    const double from = edge_of(model, p_rate, -1, &left), to = edge_of(model, p_rate, 1, &right);
+    const double *ends = model->mesh.ends, h = ends[1] - ends[0],
+                 across[2] = {(from - ends[0]) / h, (to - ends[0]) / h};
 
+    return model->rc->mesh == RB_MESH_ALIGNED &&
+           fabs(across[0] - round(across[0])) < LARGEST_MISS &&
+           fabs(across[1] - round(across[1])) < LARGEST_MISS;
+}
+
+/* Half-width and centre of the contact, and their rates: of the edges that the elements
+ * were aligned with; otherwise, as those that a mesh is fitted to jump with its elements,
+ * of the zeros of p^2. */
+static motion edges_of(const rb_sensitivity *s, const double *p_rate, double rate[2])
+{
+    const rb_rolling_model *model = s->model;
+    rb_contact_state moved = model->state;
+    double from, to, left = 0.0, right = 0.0;
+
+    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
+    if (!are_aligned(model, from, to)) {
+        from = edge_of(model, p_rate, -1, &left);
+        to = edge_of(model, p_rate, 1, &right);
+    } else if (p_rate) {
+        const double part = 1e-5 * rb_norm_inf((size_t)s->n, moved.p) /
+                            fmax(rb_norm_inf((size_t)s->n, p_rate), DBL_MIN);
+        double x[2], y[2];
+        moved.p = s->moved;
+        for (int k = 0; k < 2; k++) {
+            for (int i = 0; i < s->n; i++)
+                moved.p[i] = model->state.p[i] + (k ? part : -part) * p_rate[i];
+            rb_rolling_contact_edges(model->rc, &model->mesh, &moved, &x[k], &y[k]);
+        }
+        left = (x[1] - x[0]) / (2.0 * part);
+        right = (y[1] - y[0]) / (2.0 * part);
+    }
     rate[0] = 0.5 * (right - left);
     rate[1] = 0.5 * (right + left);
     return (motion){STRETCH, 0.5 * (to + from), 0.5 * (to - from)};
@@ -432,7 +468,7 @@ static void motions_of(const rb_sensitivity *s, int moves, const variants *v, co
         by[0] += v->at.weight[k] / v->step * rb_rolling_derive(v->model[k].rc).half_width;
     if (moves != RB_SENSITIVITY_EDGES)
         return;
-    edges_of(s->model, p_rate, found);
+    edges_of(s, p_rate, found);
     by[0] = s->gain[0] * found[0] + s->gain[1] * found[1];
     by[1] = s->gain[2] * found[0] + s->gain[3] * found[1];
 }
@@ -443,8 +479,8 @@ static int set_gain(rb_sensitivity *s, const double *stretched, const double *sh
 {
     double a[2], b[2];
 
-    edges_of(s->model, stretched, a);
-    edges_of(s->model, shifted, b);
+    edges_of(s, stretched, a);
+    edges_of(s, shifted, b);
     const double det = a[0] * b[1] - b[0] * a[1];
     s->gain[0] = -b[1] / det;
     s->gain[1] = b[0] / det;
@@ -509,7 +545,7 @@ static void add_motions(const rb_sensitivity *s, const variants *v, rb_rolling_s
             blend(d, 1.0, &s->motion[k], by[k], NULL);
     d->free_creepage = free_creepage;
     if (s->moves == RB_SENSITIVITY_EDGES) { /* edges move as the elements there */
-        const motion m = edges_of(s->model, NULL, found);
+        const motion m = edges_of(s, NULL, found);
         d->contact_from = by[1] + by[0] * (s->solution.contact_from - m.centre) / m.half;
         d->contact_to = by[1] + by[0] * (s->solution.contact_to - m.centre) / m.half;
         d->nip_width = d->contact_to - d->contact_from;
@@ -641,7 +677,7 @@ static rb_status set_free_motion(rb_sensitivity *freely, int moves, rb_sensitivi
     rb_status status = RB_OK;
 
     if (moves == RB_SENSITIVITY_EDGES)
-        *m = edges_of(freely->model, NULL, rate);
+        *m = edges_of(freely, NULL, rate);
     for (int k = 0; k < moves && status == RB_OK; k++) {
         m->kind = k ? SHIFT : STRETCH;
         status = differentiate_free(freely, input, &v, 1, &tangent[k], &why);
@@ -663,7 +699,7 @@ rb_status rb_sensitivity_set_motion(rb_sensitivity *s)
     rb_status status = RB_OK;
 
     if (moves == RB_SENSITIVITY_EDGES)
-        m = edges_of(s->model, NULL, rate);
+        m = edges_of(s, NULL, rate);
     rb_sensitivity_input input = {0.0, m.half, -INFINITY, INFINITY, NULL, &m};
     for (int k = 0; k < moves && status == RB_OK; k++) { /* as many motions */
         rb_sensitivity_derivative d;
