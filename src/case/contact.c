@@ -69,9 +69,8 @@ static int is_outside(rb_case_contact *c, const rb_io_contact_case *in)
         return is_another_step(c, in);
     else if (in->base != 1 && in->base != 2)
         leave_out(c,
-                  "IBASE = %d gives the surface by a list of heights or a wavy form; "
-                  "give a parabola or "
-                  "circle (IBASE = 1, 2), or the gap to rollbem --gap",
+                  "IBASE = %d gives the surface by a list of heights or a wavy form; give a "
+                  "parabola or circle (IBASE = 1, 2), or the gap to rollbem --gap",
                   in->base);
     else if (in->base == 1 && !(in->b[0] > 0.0))
         leave_out(c, "a gap without curvature (B1 = %g)", in->b[0]);

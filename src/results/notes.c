@@ -51,21 +51,19 @@ static void note_strain(rb_rolling_note_list *list, const rb_rolling_case *rc,
         widest / (bore ? rb_unit_shown(s->units, "mm", rb_rolling_derive(rc).radius) : radius);
     if (bore && widest > inaccurate_width * radius)
         add(list,
-            "The contact spans %.3g degrees of the journal. Half-planes hold for small "
-            "arcs: expect errors of the order (a/R)^2 = %.2g.",
+            "The contact spans %.3g degrees of the journal. Half-planes hold for small arcs: "
+            "expect errors of the order (a/R)^2 = %.2g.",
             360.0 / acos(-1.0) * asin(fmin(widest / radius, 1.0)),
             widest / radius * (widest / radius));
     if (approach > broken_approach || width > broken_width)
         add(list,
-            "The strains are far beyond linear elasticity (approach = %.2g R, a = %.2g "
-            "R): "
-            "treat the numbers as a test problem.",
+            "The strains are far beyond linear elasticity (approach = %.2g R, a = %.2g R): treat "
+            "the numbers as a test problem.",
             approach, width);
     else if (approach > inaccurate_approach || width > inaccurate_width)
         add(list,
-            "The strains are large for linear elasticity (approach = %.2g R, a = %.2g "
-            "R): "
-            "expect errors of that order.",
+            "The strains are large for linear elasticity (approach = %.2g R, a = %.2g R): expect "
+            "errors of that order.",
             approach, width);
 }
 
@@ -96,9 +94,8 @@ static void note_short_memory(rb_rolling_note_list *list, const rb_rolling_case 
     const double overshoot = left / glassy;
     if (overshoot > much)
         add(list,
-            "In one step (%s%.2g s) the bodies relax so much that under the given "
-            "approach the pressure may fall too far, to zero even, and come back: take "
-            "%.2g %s.",
+            "In one step (%s%.2g s) the bodies relax so much that under the given approach the "
+            "pressure may fall too far, to zero even, and come back: take %.2g %s.",
             rolls ? "one element, " : "", step,
             rolls ? ceil(2.0 * overshoot) : 0.5 * step / overshoot,
             rolls ? "times as many --contact-elements" : "s as --time-step");
@@ -121,9 +118,8 @@ static void note_corners(rb_rolling_note_list *list, const rb_rolling_case *rc,
                                    rb_unit_stored(s->units, "mm", s->contact_to), longest, 2.0));
     if (rise > much * s->max_pressure)
         add(list,
-            "The worn table has corners in the contact, where the pressure is infinite: "
-            "p0 rises by %.2g %s each time the elements are halved. Give the table more "
-            "rows.",
+            "The worn table has corners in the contact, where the pressure is infinite: p0 rises "
+            "by %.2g %s each time the elements are halved. Give the table more rows.",
             rise, rb_unit_name(s->units, "MPa"));
 }
 
@@ -166,9 +162,9 @@ static void note_datum(rb_rolling_note_list *list, const rb_rolling_case *rc,
             (rc->elastic_b ? mean_compliance(rc, &rc->b, a, shifted) : 0.0) <
         0.0)
         add(list,
-            "The datum, the depth of zero displacement, is so near that uniform tractions "
-            "move the surface against themselves: other solutions exist for the same "
-            "%s. Give a larger --datum.",
+            "The datum, the depth of zero displacement, is so near that uniform tractions move the "
+            "surface against themselves: other solutions exist for the same %s. Give a larger "
+            "--datum.",
             shifted ? "shift" : "approach");
 }
 
@@ -182,15 +178,15 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_r
 
     if (rb_rolling_has_thickness(rc) && s->max_strain >= large)
         add(&list,
-            "the thinnest layer, cover or rim is compressed by %.0f %% of its thickness: "
-            "linear elasticity is inaccurate there",
+            "the thinnest layer, cover or rim is compressed by %.0f %% of its thickness: linear "
+            "elasticity is inaccurate there",
             100.0 * s->max_strain);
     for (int b = 0; b < 1 + rc->elastic_b; b++)
         if (rc->formulation != RB_STATIC && bodies[b]->layer > 0.0 && isfinite(bodies[b]->radius) &&
             bodies[b]->layer >= thick * fabs(bodies[b]->radius))
             add(&list,
-                "layer%s: computed as flat at thickness/R = %.2g; the free creepage of a "
-                "round cover differs by about %.0f %%, see --cover-thickness%s",
+                "layer%s: computed as flat at thickness/R = %.2g; the free creepage of a round "
+                "cover differs by about %.0f %%, see --cover-thickness%s",
                 b ? " of B" : "", bodies[b]->layer / fabs(bodies[b]->radius),
                 280.0 * bodies[b]->layer / fabs(bodies[b]->radius), b ? "-b" : "");
     note_datum(&list, rc, s);
@@ -202,15 +198,14 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_r
         add(&list, "In a static case --creep does not change the tractions; use --formulation "
                    "steady to roll.");
     if (rc->formulation == RB_STEADY && !creeps && !forced)
-        add(&list, "No --creep, --creep-ratio, --force or --force-ratio is given: the "
-                   "wheel rolls "
+        add(&list, "No --creep, --creep-ratio, --force or --force-ratio is given: the wheel rolls "
                    "at creepage 0.");
     /* Given values that look as if they were meant in other units. */
     const int arcs = rc->a.support == RB_BEM_ARC;
     if (rc->formulation == RB_STEADY && !isnan(rc->creep) && fabs(s->creep_ratio) > 20.0)
         add(&list,
-            "xi R/(mu a) = %.3g is far beyond full sliding, which begins near 1. If the "
-            "creepage is meant in per cent, write --creep %g%%.",
+            "xi R/(mu a) = %.3g is far beyond full sliding, which begins near 1. If the creepage "
+            "is meant in per cent, write --creep %g%%.",
             s->creep_ratio, s->creepage);
     if (arcs && rc->a.arc < 2.0)
         add(&list, "The arc is %g degrees. If it is meant in radians, write --arc %grad.",
@@ -219,37 +214,33 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_r
     const int force = !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
     if (s->formulation != RB_STATIC && force && s->stick == 0 && rb_rolling_largest_mu(rc) > 0.0 &&
         s->contact > 0 && !rb_rolling_law_depends_on_state(rc))
-        add(&list, "The whole contact slides: the creepage is not unique, every larger "
-                   "one gives "
+        add(&list, "The whole contact slides: the creepage is not unique, every larger one gives "
                    "the same force.");
     if (s->kappa > not_unique)
         add(&list,
-            "Friction falls so steeply with the slip velocity (kappa = %.3g) that other "
-            "solutions may exist; the start decides which one is found.",
+            "Friction falls so steeply with the slip velocity (kappa = %.3g) that other solutions "
+            "may exist; the start decides which one is found.",
             s->kappa);
     if (rc->formulation != RB_STATIC && !rb_rolling_body_can(&rc->a, RB_BODY_TURNS))
-        add(&list, "On an arc support the answer depends on the angle of the wheel; "
-                   "--support hub "
+        add(&list, "On an arc support the answer depends on the angle of the wheel; --support hub "
                    "and halfplane do not have this.");
     if (s->yielding > 0)
-        add(&list, "The interface yields: zone 4 with q < 0, zone 5 with q > 0. The "
-                   "column shift "
+        add(&list, "The interface yields: zone 4 with q < 0, zone 5 with q > 0. The column shift "
                    "is slip and yielding together, plastic is the yielded part.");
     if (s->equal_instead)
-        add(&list, "Fitting the mesh to the contact edges did not converge; equal elements were "
-                   "used.");
+        add(&list,
+            "Fitting the mesh to the contact edges did not converge; equal elements were used.");
     if (s->edges_bounded && s->contact > 0)
-        add(&list, "The pressure ends abruptly at one edge; its position is uncertain by one "
-                   "element.");
+        add(&list,
+            "The pressure ends abruptly at one edge; its position is uncertain by one element.");
     /* Slip between two midpoints that the mean of their tractions does not oppose. */
     if (rb_rolling_is_below_zero(s->dissipation, s->normal_load))
         add(&list, "The dissipation, %.2g %s, is below zero: it is %s.", s->dissipation,
             rb_unit_name(s->units, "N/mm"), rb_rolling_below_zero);
     if (rc->formulation == RB_STATIC && rb_rolling_largest_mu(rc) > 0.0 && s->slip_violations > 0)
         add(&list,
-            "In %d of %d elements the slip computed afterwards points along the "
-            "friction, "
-            "not against it; for rolling use --formulation steady.",
+            "In %d of %d elements the slip computed afterwards points along the friction, not "
+            "against it; for rolling use --formulation steady.",
             s->slip_violations, s->n);
     return list;
 }
