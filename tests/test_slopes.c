@@ -66,6 +66,55 @@ TEST(compressed_boundaries_have_derivatives)
     CHECK_MAX(d.off, 3e-8, "%s", d.text);
 }
 
+static rb_status with_poisson(void *context, double value, rb_rolling_case *rc, rb_message *why)
+{
+    (void)why;
+    *rc = *(const rb_rolling_case *)context;
+    rc->a.poisson = value;
+    return RB_OK;
+}
+
+/* At an end of the range one place of the stencil is the case itself, whose model has a
+ * boundary that is compressed less. */
+TEST(compressed_boundaries_have_rates)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_message why = {""};
+    rb_rolling_model model, closely;
+    rb_sensitivity_rate rate[2];
+    double off = 0.0, largest = 0.0;
+
+    (void)state;
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.a.support = RB_BEM_HUB;
+    rc.a.poisson = 0.5;
+    rc.load = 500.0;
+    rc.contact_elements = 16;
+    rc.outer_elements = 1500;
+    rc.creep_ratio = 0.4;
+    const rb_sensitivity_input poisson = {rc.a.poisson, 0.3, -1.0, 0.5, with_poisson, &rc};
+    CHECK_STATUS(rb_rolling_model_create(&rc, &model, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_variant_closely(&model, &closely, &why), RB_OK);
+    for (int k = 0; k < 2; k++) {
+        rb_sensitivity *s;
+        double mu;
+        CHECK_STATUS(rb_sensitivity_create(k ? &closely : &model, 0, &s, &why), RB_OK);
+        CHECK_STATUS(rb_sensitivity_rates(s, &poisson, &rate[k], &mu, &why), RB_OK);
+        rb_sensitivity_free(s);
+    }
+    for (int i = 0; i < model.mesh.n; i++)
+        if (model.state.zone[i] == RB_ZONE_STICK) {
+            off = fmax(off, fabs(rate[0].slip[i] - rate[1].slip[i]));
+            largest = fmax(largest, fabs(rate[1].slip[i]));
+        }
+    CHECK_MAX(off, 1e-6 * largest, "slip by poisson");
+    for (int k = 0; k < 2; k++)
+        rb_sensitivity_rate_free(&rate[k]);
+    rb_rolling_variant_free(&model, &closely);
+    rb_rolling_model_free(&model);
+}
+
 /* Elements fitted to the edges, aligned with them, of wheels, of a zone that is given. */
 TEST(single_cases_have_derivatives)
 {

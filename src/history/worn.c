@@ -105,12 +105,15 @@ static rb_status widen(wear_state *r, rb_message *why)
     memset(&wider.model, 0, sizeof wider.model);
     wider.memory = (rb_arena){0};
     const rb_status s = press(&wider, why);
-    if (s == RB_OK)
-        memcpy(wider.depth + more, r->depth, (size_t)n * sizeof *r->depth);
+    if (s != RB_OK) {
+        run_free(&wider);
+        return s;
+    }
+    memcpy(wider.depth + more, r->depth, (size_t)n * sizeof *r->depth);
     run_free(r);
     *r = wider;
     r->rc.worn = worn_of(r);
-    return s;
+    return RB_OK;
 }
 
 /* ---- One implicit step ------------------------------------------------------------- */

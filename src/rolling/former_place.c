@@ -45,12 +45,14 @@ rb_status rb_rolling_former_place_create(const rb_rolling_case *rc, const rb_rol
     const double h = bodies->f.h[n / 2];
     rb_arena scratch = {0};
 
-    *ahead = (rb_rolling_former_place){.n = n, .step = step};
+    *ahead = (rb_rolling_former_place){.n = n};
     if (!bodies->F) { /* half-planes: only the distance of point and element counts */
         ahead->response = rb_arena_doubles(memory, 2 * (size_t)n - 1, 2);
-        return ahead->response
-                   ? add_halfplanes(rc, 1, h, 2 * n - 1, step - (n - 1) * h, ahead->response)
-                   : RB_ENOMEM;
+        const rb_status s = ahead->response ? add_halfplanes(rc, 1, h, 2 * n - 1,
+                                                             step - (n - 1) * h, ahead->response)
+                                            : RB_ENOMEM;
+        ahead->step = s == RB_OK ? step : 0.0;
+        return s;
     }
     /* every pair of points and elements by its own */
     double *W_T = ahead->W_T = rb_arena_doubles(memory, (size_t)n, 2 * (size_t)n);
@@ -73,6 +75,7 @@ rb_status rb_rolling_former_place_create(const rb_rolling_case *rc, const rb_rol
         cblas_daxpy(2 * n, 1.0 - t, rest + before, m, W_T + i, n);
         cblas_daxpy(2 * n, t, rest + before + 1, m, W_T + i, n);
     }
+    ahead->step = step;
     return rb_arena_done(&scratch, RB_OK);
 }
 

@@ -110,8 +110,8 @@ static rb_status line_search(newton *w, double *norm)
         set_trial(w, part, w->step);
         memcpy(w->direction, w->weight, (size_t)w->n * sizeof *w->weight);
         const rb_status s = residual_of(w, 1, w->image);
-        const double now = s == RB_OK ? cblas_dnrm2(w->n, w->image, 1) : INFINITY;
-        if (now <= (1.0 - 0.1 * part) * *norm) {
+        const double now = cblas_dnrm2(w->n, w->image, 1);
+        if (s == RB_OK && now <= (1.0 - 0.1 * part) * *norm) {
             *norm = now;
             memcpy(w->r, w->image, (size_t)w->n * sizeof *w->r);
             memcpy(w->b, w->trial, (size_t)w->n * sizeof *w->b);

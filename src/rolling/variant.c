@@ -252,11 +252,11 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, i
     /* The formula must know how the flexibility changes.  kappa of a law asks for the
      * matrix itself. */
     const int moves = moved.scale != 1.0 || moved.shift != 0.0,
-              shares = by_formula && !moves && same_rows(rc, of->rc);
-    const int borrows = (rb_rolling_same_bodies(rc, of->rc) && !moves &&
-                         !(own_bodies && rb_rolling_is_compressed(of))) ||
+              own = own_bodies && rb_rolling_is_compressed(of),
+              shares = by_formula && !own && !moves && same_rows(rc, of->rc);
+    const int borrows = (rb_rolling_same_bodies(rc, of->rc) && !moves && !own) ||
                         (by_formula && rc->slip_operator == RB_SLIP_UPSTREAM &&
-                         ((same_but_interlayer(rc, of->rc) && !moves) ||
+                         ((same_but_interlayer(rc, of->rc) && !moves && !own) ||
                           (are_plain_halfplanes(of->rc) && are_plain_halfplanes(rc) &&
                            rc->elastic_b == of->rc->elastic_b)) &&
                          (by_formula == 1 || !rb_rolling_law_depends_on_state(rc)));

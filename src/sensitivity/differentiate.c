@@ -61,7 +61,8 @@ void rb_sensitivity_derivative_free(rb_sensitivity_derivative *d)
 typedef struct {
     const rb_rolling_model *base;
     int results; /* 0: rates alone */
-    int bodies;  /* 1: they change with the input */
+    int bodies;  /* 1: they or the interlayer change with the input */
+    int own;     /* 1: the bodies do; where they are compressed, each place has its own */
     rb_sensitivity_stencil at;
     double step;
     rb_rolling_model model[PLACES];
@@ -82,6 +83,11 @@ static rb_status choose_places(const rb_sensitivity *s, const rb_sensitivity_inp
     if (status != RB_OK)
         return status;
     v->bodies = !input->vary || !rb_rolling_same_bodies(&rc, s->model->rc);
+    if (v->bodies && input->vary) {
+        rc.interlayer_normal = s->model->rc->interlayer_normal;
+        rc.interlayer_tangential = s->model->rc->interlayer_tangential;
+        v->own = !rb_rolling_same_bodies(&rc, s->model->rc) && rb_rolling_is_compressed(s->model);
+    }
     v->step = (v->bodies ? STEP_OF_BODIES : STEP) * input->scale;
     const rb_sensitivity_stencil *at = rb_sensitivity_stencil_of(input, v->step);
     if (!at)
@@ -154,8 +160,8 @@ static rb_status variants_at_places(const rb_rolling_model *base, const rb_sensi
             rc = on_the_same_elements(&rc, base->rc, base->mesh.n);
             if (freely)
                 rc = rb_rolling_without_force(&rc);
-            s = rb_rolling_variant_create(of, &rc, v->results, of == base && v->bodies,
-                                          &v->model[k], why);
+            s = rb_rolling_variant_create(of, &rc, v->results, of == base && v->own, &v->model[k],
+                                          why);
             if (s == RB_OK && of != base)
                 rb_rolling_variant_set(&base->state, NULL, 0.0, &v->model[k].state);
         }
@@ -223,11 +229,11 @@ rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_inp
         if (status != RB_OK)
             break;
         rc = on_the_same_elements(&rc, model->rc, s->n);
-        if (rb_rolling_variant_given(model, &rc, left.bound, &given, &status, why)) {
+        if (!v.own && rb_rolling_variant_given(model, &rc, left.bound, &given, &status, why)) {
             rb_sensitivity_given(model, &given, &model->state, &left);
             *mu += weight * given.mu;
         } else {
-            status = rb_rolling_variant_create(model, &rc, 0, v.bodies, &v.model[k], why);
+            status = rb_rolling_variant_create(model, &rc, 0, v.own, &v.model[k], why);
             if (status == RB_OK)
                 status = rb_sensitivity_residual(model, &v.model[k], &left, why);
             *mu += weight * v.model[k].problem.mu;
@@ -495,7 +501,11 @@ static rb_status differentiate_free(const rb_sensitivity *freely, const rb_sensi
                                     const variants *of, int side, rb_contact_state *tangent,
                                     rb_message *why)
 {
-    variants v = {.base = freely->model, .bodies = of->bodies, .at = of->at, .step = of->step};
+    variants v = {.base = freely->model,
+                  .bodies = of->bodies,
+                  .own = of->own,
+                  .at = of->at,
+                  .step = of->step};
     rb_sensitivity_rate rate = {0};
     double by[2];
     rb_status status = variants_create(freely->model, input, of, 1, &v, why);
