@@ -58,7 +58,7 @@ static double difference_edge(const rb_rolling_model *m, int side)
 static int difference_is_end(const rb_rolling_model *m, double x)
 {
     const double at = (x - m->mesh.ends[0]) / (m->mesh.ends[1] - m->mesh.ends[0]);
-    return fabs(at - round(at)) < 1e-2;
+    return fabs(at - round(at)) < 5e-3;
 }
 
 typedef struct {

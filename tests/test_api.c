@@ -388,6 +388,53 @@ TEST(results_of_every_table_are_there)
     assert_true(rb_api_curve_over(a, "slip", 0.0, 1.0, 3) < 0);
 }
 
+/* A curve over the speed refuses options that one over the creepage takes, and the handle
+ * goes on. */
+TEST(a_refused_curve_leaves_the_solution)
+{
+    static const char *const words[] = {"support",
+                                        "halfplane",
+                                        "similar",
+                                        "yes",
+                                        "load",
+                                        "500",
+                                        "formulation",
+                                        "steady",
+                                        "relaxation-time",
+                                        "1e-3",
+                                        "relaxation-ratio",
+                                        "1",
+                                        "speed",
+                                        "100"};
+    held_api *a = rb_api_create_for("curve");
+    for (size_t k = 0; k < sizeof words / sizeof *words; k += 2)
+        assert_int_equal(rb_api_set(a, words[k], words[k + 1]), RB_OK);
+    assert_int_equal(rb_api_solve(a), RB_OK);
+    assert_true(rb_api_curve_over(a, "speed", 1.0, 1e3, 3) < 0);
+    assert_int_equal(rb_api_derivatives(a), RB_OK);
+    assert_true(isfinite(rb_api_number(a, "max_pressure")));
+    int rows, columns;
+    assert_non_null(rb_api_array(a, "derivative.max_pressure", &rows, &columns));
+    assert_int_equal(rb_api_tolerances(a, "load=1%"), RB_OK);
+    assert_int_equal(rb_api_solve(a), RB_OK);
+}
+
+/* Tolerances are those of the derivatives, not of smooth ones. */
+TEST(tolerances_take_exact_derivatives)
+{
+    held_api *a = rb_api_create_for("solve");
+    for (const char *const *w = steady; *w; w += 2)
+        assert_int_equal(rb_api_set(a, w[0], w[1]), RB_OK);
+    assert_int_equal(rb_api_set(a, "mesh", "aligned"), RB_OK);
+    assert_int_equal(rb_api_solve(a), RB_OK);
+    assert_int_equal(rb_api_tolerances(a, "mu=1%"), RB_OK);
+    const double exact = array(a, "tolerance.tangential_load", 1, 1)[0];
+    assert_int_equal(rb_api_smooth_derivatives(a), RB_OK);
+    assert_int_equal(rb_api_tolerances(a, "mu=1%"), RB_OK);
+    assert_true(array(a, "tolerance.tangential_load", 1, 1)[0] == exact);
+    assert_true(exact > 0.0);
+}
+
 /* What the models, the curve, the history and a problem alone are asked by name. */
 TEST(every_name_has_its_value)
 {

@@ -306,6 +306,27 @@ static void no_falling_part_is_said(void **state)
     rb_case_fit_free(&fit);
 }
 
+/* Q/P over a creepage ratio does not depend on the load: on elements that stay every one
+ * seems to have a best fit. */
+static void elements_that_do_not_come_to_rest_are_told(void **state)
+{
+    static double ratio[] = {0.1, 0.5, 1.0}, share[] = {-0.18, -0.7, -0.95};
+    static const char *const names[] = {"load"}, *const words[] = {"support", "halfplane", "load",
+                                                                   "500",     "similar",   "yes"};
+    const rb_case_data data = {3, 1, RB_CASE_FORCE_RATIO, ratio, share, NULL, NULL, NULL, NULL};
+    rb_case_fit fit = fit_of(1, names);
+    rb_message why = {""};
+    rb_case *c = rb_case_create(RB_CASE_CURVE);
+    (void)state;
+    for (int k = 0; k < 6; k += 2)
+        CHECK_STATUS(rb_case_set(c, words[k], words[k + 1], RB_GIVEN_ARGUMENT, &why), RB_OK);
+    CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
+    CHECK_STATUS(rb_case_fit_solve(c, &data, NULL, &fit, &why), RB_MAXITER);
+    assert_non_null(strstr(why.text, "asks for other elements"));
+    rb_case_fit_free(&fit);
+    rb_case_free(c);
+}
+
 /* Every nineteenth fails. */
 static void failing_allocations_are_told(void **state)
 {
@@ -604,6 +625,7 @@ int main(void)
         cmocka_unit_test(starts_end_at_one_minimum),
         cmocka_unit_test(forces_and_ratios_agree),
         cmocka_unit_test(no_falling_part_is_said),
+        cmocka_unit_test(elements_that_do_not_come_to_rest_are_told),
         cmocka_unit_test(failing_allocations_are_told),
         cmocka_unit_test(refusals),
         cmocka_unit_test(command_prints_parameters),

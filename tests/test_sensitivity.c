@@ -371,6 +371,26 @@ TEST(fitted_elements_move_with_the_edges)
     }
 }
 
+/* Where two elements have nearly the largest pressure: stresses scale with P and E. */
+TEST(peaks_stay_with_their_elements)
+{
+    const words w = {{"support", "halfplane", "gap", "parabola", "load", "500", ROLLING, "mesh",
+                      "fitted", "creep", "-0.0019", "contact-elements", "100"}};
+    static const char *const names[] = {"load", "young"};
+    rb_message why = {""};
+    rb_case_result r;
+    rb_case_derivatives all;
+    rb_case *c = solved(&w, NULL, 0.0, &r);
+    CHECK_STATUS(rb_case_differentiate(c, &r.model, 2, names, &all, &why), RB_OK);
+    const rb_case_derivative *by_P = of(&all, "load"), *by_E = of(&all, "young");
+    CHECK_REL(by_P->value * by_P->d.value[0].max_pressure +
+                  by_E->value * by_E->d.value[0].max_pressure,
+              r.solution.max_pressure, 1e-6, "p0");
+    rb_case_derivatives_free(&all);
+    rb_case_result_free(&r);
+    rb_case_free(c);
+}
+
 /* On fitted elements by mu, against solves that are fitted anew. */
 TEST(fitted_slopes_are_those_of_fitted_solves)
 {

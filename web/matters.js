@@ -219,7 +219,7 @@ export function matters_card(words, page) {
         );
     }
     function draw_deviations(old) {
-        field.toggleAttribute("aria-invalid", Boolean(data.uncertain));
+        field.setAttribute("aria-invalid", String(Boolean(data.uncertain)));
         deviations.classList.toggle("old", old);
         deviations.replaceChildren(
             ...(data.uncertain

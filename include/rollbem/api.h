@@ -214,7 +214,8 @@ const char *rb_api_derivative(const rb_api *a, const char *of, int k, const char
                               int size);
 /* Standard deviations of the numbers of the solution to first order, from those of inputs
  * as `rollbem --tolerance` takes them: "mu=0.02,radius=1%"; of a case with steps those of
- * the columns of its history.  Computes the derivatives unless rb_api_derivatives has. */
+ * the columns of its history.  Computes the derivatives unless rb_api_derivatives has; smooth
+ * ones are forgotten. */
 int rb_api_tolerances(rb_api *a, const char *inputs);
 /* Stress at n points x0, y0, x1, y1, ... inside A, y > 0. */
 int rb_api_stress_at(rb_api *a, int n, const double *xy);

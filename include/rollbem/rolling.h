@@ -794,6 +794,8 @@ int rb_rolling_is_compressed(const rb_rolling_model *model);
  * variants. */
 rb_status rb_rolling_variant_closely(const rb_rolling_model *of, rb_rolling_model *variant,
                                      rb_message *why);
+/* p0 of the model's state, MPa: the largest peak of all patches; 0 without contact. */
+double rb_rolling_peak_pressure(const rb_rolling_model *model);
 /* The model itself with a matrix of its own, if it has fewer than RB_ROLLING_LARGE
  * elements. */
 rb_status rb_rolling_variant_with_matrix(const rb_rolling_model *of, rb_rolling_model *variant,

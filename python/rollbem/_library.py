@@ -426,8 +426,8 @@ class Kept(_Answers):
     """What a handle answered, without the library: of a result that was pickled."""
 
     def __init__(self, purpose: str, numbers: dict, words: dict, notes: list, values: dict, arrays: dict,
-                 slopes: dict) -> None:
-        self.purpose, self._all = purpose, (numbers, words, notes, values, arrays, slopes)
+                 slopes: Optional[dict] = None) -> None:
+        self.purpose, self._all = purpose, (numbers, words, notes, values, arrays, slopes or {})
         self._numbers, self._words, self._notes, self._values, self._arrays, self._slopes = self._all
         for array in arrays.values():
             array.flags.writeable = False

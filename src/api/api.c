@@ -747,10 +747,21 @@ static int curve(rb_api *a, const char *over, double from, double to, int points
     const rb_rolling_range range = {(rb_rolling_variable)variable->value, from, to, points};
     rb_api_call_begins();
     rb_status s = check_refusals(a, &a->why);
-    if (a->is_curve) /* they differ in the options that they refuse */
-        rb_case_set_purpose(a->words, range.over == RB_OVER_SPEED ? RB_CASE_SPEEDS : RB_CASE_CURVE);
-    if (s == RB_OK)
+    if (s == RB_OK) {
+        /* Variables differ in the options that they refuse. */
+        if (a->is_curve && range.over == RB_OVER_SPEED)
+            rb_case_set_purpose(a->words, RB_CASE_SPEEDS);
         s = rb_case_resolve(a->words, &a->why);
+        if (a->is_curve)
+            rb_case_set_purpose(a->words, RB_CASE_CURVE);
+        if (s != RB_OK) { /* the solution keeps its case */
+            rb_message known;
+            s = rb_case_locate(a->words, s, &a->why);
+            rb_case_resolve(a->words, &known);
+            rb_api_call_ends();
+            return rb_api_ended(a, s);
+        }
+    }
     a->total = (c->error ? 1 + rb_rolling_error_runs(&c->rc) : 1) *
                (range.over != RB_OVER_SPEED && rb_rolling_law_depends_on_state(&c->rc) ? 2 * points
                                                                                        : points);
@@ -779,7 +790,9 @@ static int curve(rb_api *a, const char *over, double from, double to, int points
     slopes->tolerance = NULL; /* the caller's */
     if (s != RB_OK)
         rb_api_forget_slopes(a, API_SLOPES_CURVE);
-    return rb_api_ended(a, s != RB_OK ? rb_case_locate(a->words, s, &a->why) : s);
+    if (s != RB_OK)
+        s = rb_case_locate(a->words, s, &a->why);
+    return rb_api_ended(a, s);
 }
 
 int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points)
@@ -1153,7 +1166,7 @@ int rb_api_tolerances(rb_api *a, const char *inputs)
         return rb_api_ended(a, step_tolerances(a, inputs));
     rb_api_forget_arrays(a, "tolerance.");
     a->has_deviation = 0;
-    if (a->derivatives.n == 0 && rb_api_derivatives(a) != RB_OK)
+    if ((a->derivatives.n == 0 || a->derivatives.smooth) && rb_api_derivatives(a) != RB_OK)
         return a->status;
     begin(a);
     rb_api_call_begins();

@@ -3,14 +3,17 @@
 #include "case/fit.h"
 
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_math.h>
 #include <gsl/gsl_sort.h>
 #include <lapacke.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A second round has the elements of the first one's result, if they are others. */
-enum { ROUNDS = 2 };
+/* A further round has the elements of the last one's result, if the sum of squares is another
+ * one on them, by this part of itself or of the squares of the measured forces. */
+enum { ROUNDS = 8 };
+static const double SAME = 1e-3, SAME_OF_ALL = 1e-8;
 /* The least and the largest of a coefficient of friction and its fall. */
 static const double LEAST_MU = 0.01, MOST_MU = 3.0;
 /* A correlation that is worth a word. */
@@ -308,8 +311,8 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
                      .load = rb_case_option("load"),
                      .speed = rb_case_option("speed"),
                      .temperature = rb_case_option("temperature")};
-    double theta[RB_CASE_FIT_MAX];
-    int moved = 1;
+    double theta[RB_CASE_FIT_MAX], squares = 0.0;
+    int moved = 1, round = 0;
     rb_status s = RB_OK;
 
     if (data->n <= fit->n)
@@ -332,11 +335,23 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
                     "--fit creep-offset: needs creepages, a column creep and no ratios");
     if (s == RB_OK)
         s = rb_case_fit_place(&p, theta, &moved, why);
-    for (int round = 0; round < ROUNDS && s == RB_OK && moved; round++) {
+    for (int k = 0; k < p.points; k++)
+        squares += gsl_pow_2(rb_case_fit_residual(&p, k, 0.0));
+    for (; round < ROUNDS && s == RB_OK && moved; round++) {
+        double chi2;
         s = rb_case_fit_descend(&p, theta, observer, why);
-        if (s == RB_OK && round + 1 < ROUNDS)
+        if (s == RB_OK)
             s = rb_case_fit_place(&p, theta, &moved, why);
+        if (s == RB_OK && moved)
+            s = rb_case_fit_try(&p, theta, &chi2, why);
+        if (s == RB_OK && moved)
+            moved = fabs(chi2 - fit->chi_square) > SAME * fit->chi_square + SAME_OF_ALL * squares;
     }
+    if (s == RB_OK && moved)
+        s = rb_fail(why, RB_MAXITER,
+                    "fit: not converged, each of %d results asks for other elements; fix them "
+                    "(--zone), or give another start (--start)",
+                    ROUNDS);
     for (int j = 0; j < fit->n && s != RB_EINVAL && s != RB_ENOMEM; j++)
         fit->parameter[j].value = theta[j];
     fit->kappa = p.kappa;

@@ -452,8 +452,6 @@ int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh
  * bodies opens every other element. */
 int rb_rolling_next_merged_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                  const rb_contact_state *state, int at, rb_rolling_run *run);
-/* p0: the largest peak of all patches; 0 without contact. */
-double rb_rolling_peak_pressure(const rb_rolling_model *model);
 /* Computes the patches of a solution and the results that depend on all of them.
  * RB_ENOMEM. */
 rb_status rb_rolling_set_patches(const rb_rolling_model *model, rb_rolling_solution *solution);

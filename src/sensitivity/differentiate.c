@@ -22,7 +22,7 @@ static const double ROUNDING = 1e-11;
 static const double LEAST_DETERMINANT = 0.1;
 
 /* Elements by which the edge found may miss the end of an aligned element. */
-static const double LARGEST_MISS = 1e-2;
+static const double LARGEST_MISS = 5e-3;
 
 enum { PLACES = RB_SENSITIVITY_PLACES };
 
@@ -353,6 +353,17 @@ static int rolls_freely_at_rest(const rb_sensitivity *s)
            !rb_contact_operator_response(model->problem.op).coupled;
 }
 
+/* 0: the input makes bodies that are alike in tangential and normal loads unlike. */
+static int keeps_similarity(const variants *v)
+{
+    int keeps = 1;
+
+    for (int k = 0; k < v->at.n && v->bodies; k++)
+        keeps &= !rb_contact_operator_response(v->model[k].problem.op).coupled &&
+                 fabs(rb_rolling_derive(v->model[k].rc).dundurs) < 1e-12;
+    return keeps;
+}
+
 /* 1: both sides have the same derivatives, but for rounding. */
 static int sides_agree(const rb_sensitivity_derivative *d)
 {
@@ -534,11 +545,12 @@ static rb_status set_free_creepage(const rb_sensitivity *s, const rb_sensitivity
     rb_contact_state tangent = {0};
     rb_status status = RB_OK;
 
-    d->free_creepage = rolls_freely_at_rest(s) ? 0.0 : NAN;
+    d->free_creepage = rolls_freely_at_rest(s) && keeps_similarity(v) ? 0.0 : NAN;
     if (!s->free_rolling || !input->vary)
         return RB_OK;
     status = differentiate_free(s->free_rolling, input, v, side, &tangent, why);
-    d->free_creepage = tangent.xi;
+    /* between two zones its elements do not move as the others do */
+    d->free_creepage = s->free_rolling->moves == s->moves ? tangent.xi : NAN;
     rb_contact_state_free(&tangent);
     return status;
 }
@@ -588,6 +600,29 @@ static rb_status set_peak_temperature(const rb_sensitivity *s, double scale, rb_
     return t ? RB_OK : RB_ENOMEM;
 }
 
+/* So does that of the pressure, which depends on p and, of wheels, on the places of the
+ * elements. */
+static void set_peak_pressure(const rb_sensitivity *s, const variants *v, double scale,
+                              rb_rolling_solution *d)
+{
+    const double part = 1e-5 * scale;
+    rb_rolling_model model = *s->model; /* borrows */
+    double peak[2];
+
+    model.state.p = s->moved;
+    for (int k = 0; k < 2; k++) {
+        for (int i = 0; i < s->n; i++)
+            s->moved[i] = s->model->state.p[i] + (k ? part : -part) * d->p[i];
+        peak[k] = rb_rolling_peak_pressure(&model);
+    }
+    d->max_pressure = (peak[1] - peak[0]) / (2.0 * part);
+    model.state.p = s->model->state.p;
+    for (int k = 0; k < v->at.n; k++) {
+        model.mesh = v->model[k].mesh;
+        d->max_pressure += v->at.weight[k] / v->step * rb_rolling_peak_pressure(&model);
+    }
+}
+
 rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensitivity_input *input,
                                        rb_sensitivity_derivative *d, rb_message *why)
 {
@@ -615,8 +650,10 @@ rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensiti
             status = set_free_creepage(s, input, &v, side, &d->value[k], why);
         if (status == RB_OK && s->moves != RB_SENSITIVITY_FIXED)
             add_motions(s, &v, &d->value[k]);
-        if (status == RB_OK)
+        if (status == RB_OK) {
+            set_peak_pressure(s, &v, input->scale, &d->value[k]);
             status = set_peak_temperature(s, input->scale, &d->value[k]);
+        }
         if (status == RB_OK)
             clean(s, input->scale, &d->value[k]);
     }
@@ -652,8 +689,10 @@ rb_status rb_sensitivity_along(const rb_sensitivity *s, const rb_sensitivity_rat
         status = differentiate_side(s, &v, 1, rate, d, why);
     if (status == RB_OK && s->moves != RB_SENSITIVITY_FIXED)
         add_motions(s, &v, d);
-    if (status == RB_OK)
+    if (status == RB_OK) {
+        set_peak_pressure(s, &v, 1.0, d);
         clean(s, 1.0, d);
+    }
     variants_free(&v);
     return status;
 }

@@ -225,6 +225,8 @@ rb_status rb_sensitivity_smooth(const rb_sensitivity_jumps *jumps,
             add_jumps(jumps, &d->rate, part, &d->value[k]);
             if (s->free_rolling)
                 d->value[k].free_creepage = NAN; /* of a solution with its own zones */
+            if (jumps->n > 0)                    /* an element that begins to slip dissipates too */
+                d->value[k].dissipation = d->value[k].max_temperature = NAN;
         }
     free(part);
     return move ? rb_fail(why, RB_EINVAL,
