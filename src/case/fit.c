@@ -312,7 +312,7 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
                      .speed = rb_case_option("speed"),
                      .temperature = rb_case_option("temperature")};
     double theta[RB_CASE_FIT_MAX], squares = 0.0;
-    int moved = 1, round = 0;
+    int moved = 1, round = 0, moves = 0;
     rb_status s = RB_OK;
 
     if (data->n <= fit->n)
@@ -342,6 +342,7 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
         s = rb_case_fit_descend(&p, theta, observer, why);
         if (s == RB_OK)
             s = rb_case_fit_place(&p, theta, &moved, why);
+        moves |= moved;
         if (s == RB_OK && moved)
             s = rb_case_fit_try(&p, theta, &chi2, why);
         if (s == RB_OK && moved)
@@ -349,14 +350,19 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
     }
     if (s == RB_OK && moved)
         s = rb_fail(why, RB_MAXITER,
-                    "fit: not converged, each of %d results asks for other elements; fix them "
-                    "(--zone), or give another start (--start)",
+                    "fit: not converged, each of %d results asks for other elements; keep them "
+                    "(--mesh uniform --zone X), or give another start (--start)",
                     ROUNDS);
     for (int j = 0; j < fit->n && s != RB_EINVAL && s != RB_ENOMEM; j++)
         fit->parameter[j].value = theta[j];
     fit->kappa = p.kappa;
     if (s == RB_OK)
         set_intervals(&p, theta);
+    if (s == RB_OK && moves)
+        say(fit,
+            "the elements move with the numbers, which the intervals leave out: they can be too "
+            "narrow%s%s; --mesh uniform and --zone keep the elements\n",
+            "", "");
     /* a fall that the data do not tell has a kappa that they do not tell */
     if (s == RB_OK && p.kappa > 1.0 && !falls_unidentified(fit))
         s = rb_fail(why, RB_INACCURATE,
