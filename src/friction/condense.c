@@ -250,7 +250,7 @@ static int list_rows(const condenser *c, const touches *t, int j, const rb_spars
 {
     const int first = t->start[j], bodies = t->start[j + 1] - first;
     int count = 0;
-    if (j > 0 && first - t->start[j - 1] == bodies && !c->W[t->body[first]].p &&
+    if (j > 0 && bodies > 0 && first - t->start[j - 1] == bodies && !c->W[t->body[first]].p &&
         !memcmp(t->body + first, t->body + t->start[j - 1], (size_t)bodies * sizeof(int))) {
         count = W->p[j] - W->p[j - 1];
         memcpy(row, row - count, (size_t)count * sizeof *row);
