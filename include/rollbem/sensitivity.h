@@ -130,8 +130,10 @@ typedef struct {
     int has[2]; /* 0: the range of the input ends there */
     rb_rolling_solution value[2];
     rb_sensitivity_rate rate; /* for the side that exists */
-    double stays[2]; /* smooth derivatives: changes of the input, < 0 and > 0, to first order,
-                        where the next elements change between stick and slip */
+    double edges[2][2]; /* of each value: half-width and centre between the edges that elements
+                           follow (D6), on elements that move as the input says alone */
+    double stays[2];    /* smooth derivatives: changes of the input, < 0 and > 0, to first order,
+                           where the next elements change between stick and slip */
 } rb_sensitivity_derivative;
 
 /* derivative: overwritten; free it in any case. */

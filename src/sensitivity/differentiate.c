@@ -6,7 +6,6 @@
  * from the derivatives with respect to two motions of the elements. */
 #include "sensitivity/internal.h"
 
-#include <float.h>
 #include <gsl/gsl_math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +13,10 @@
 /* Parts of the input's scale: where flexibilities change, which are known to fewer
  * digits, and where they do not. */
 static const double STEP_OF_BODIES = 5e-4, STEP = 2e-5;
+
+/* The same, of a step along the tangent within which no other element comes first, and the
+ * pressure beside an edge hardly changes. */
+static const double STEP_OF_STATE = 5e-7;
 
 /* A change of a result over the input's scale that is none, as a part of its size. */
 static const double ROUNDING = 1e-11;
@@ -64,7 +67,7 @@ typedef struct {
     int bodies;  /* 1: they or the interlayer change with the input */
     int own;     /* 1: the bodies do; where they are compressed, each place has its own */
     rb_sensitivity_stencil at;
-    double step;
+    double step, scale;
     rb_rolling_model model[PLACES];
     const rb_rolling_model *of[PLACES]; /* that each has borrowed from */
 } variants;
@@ -89,6 +92,7 @@ static rb_status choose_places(const rb_sensitivity *s, const rb_sensitivity_inp
         v->own = !rb_rolling_same_bodies(&rc, s->model->rc) && rb_rolling_is_compressed(s->model);
     }
     v->step = (v->bodies ? STEP_OF_BODIES : STEP) * input->scale;
+    v->scale = input->scale;
     const rb_sensitivity_stencil *at = rb_sensitivity_stencil_of(input, v->step);
     if (!at)
         return rb_fail(why, RB_EINVAL, "derivatives: the input cannot vary within its range");
@@ -122,22 +126,6 @@ typedef struct {
     double centre, half; /* of what is stretched */
 } motion;
 
-/* What the variant can borrow from: another model's variant has the flexibility too, if it was
- * computed for it on the same elements; by formula it has that of its own tractions alone. */
-static const rb_rolling_model *lender(const rb_rolling_model *base, const variants *others,
-                                      double step, int k)
-{
-    const rb_rolling_model *other = others ? &others->model[k] : NULL;
-
-    return other && others->step == step && other->bodies.f.data &&
-                   other->bodies.f.data != others->base->bodies.f.data &&
-                   other->mesh.n == base->mesh.n &&
-                   memcmp(others->base->mesh.ends, base->mesh.ends,
-                          (size_t)base->mesh.n * sizeof *base->mesh.ends) == 0
-               ? other
-               : base;
-}
-
 static rb_status variants_at_places(const rb_rolling_model *base, const rb_sensitivity_input *input,
                                     const variants *others, int freely, variants *v,
                                     rb_message *why)
@@ -146,7 +134,15 @@ static rb_status variants_at_places(const rb_rolling_model *base, const rb_sensi
 
     for (int k = 0; k < v->at.n && s == RB_OK; k++) {
         const double by = v->at.place[k] * v->step;
-        const rb_rolling_model *of = v->of[k] = lender(base, others, v->step, k);
+        /* Another model's variant has the flexibility too, if it was computed for it on the same
+         * elements; by formula it has that of its own tractions alone. */
+        const rb_rolling_model *other = others ? &others->model[k] : NULL;
+        const int lends = other && others->step == v->step && other->bodies.f.data &&
+                          other->bodies.f.data != others->base->bodies.f.data &&
+                          other->mesh.n == base->mesh.n &&
+                          memcmp(others->base->mesh.ends, base->mesh.ends,
+                                 (size_t)base->mesh.n * sizeof *base->mesh.ends) == 0;
+        const rb_rolling_model *of = v->of[k] = lends ? other : base;
         rb_rolling_case rc;
         if (!input->vary) {
             const motion *m = input->context;
@@ -329,10 +325,135 @@ static rb_status differentiate_results(variants *v, const rb_contact_state *tang
     return s;
 }
 
-/* What follows from the rates on one side. */
+/* Results that are found at elements which a change may exchange for others: the edges of
+ * the contact, those that elements follow (D6), and the largest pressure. */
+typedef struct {
+    double from, to, followed_from, followed_to, peak;
+} picked;
+
+/* Where p^2, on a line through the second and third element in contact, is zero, on the
+ * side -1 or 1; NAN: too few are in contact. */
+static double zero_of(const rb_rolling_mesh *mesh, const rb_contact_state *state, int side)
+{
+    const double *p = state->p, *ends = mesh->ends;
+    int j = side > 0 ? state->n - 1 : 0;
+
+    while (j >= 0 && j < state->n && state->zone[j] == RB_ZONE_SEPARATED)
+        j -= side;
+    j -= side;
+    const int i = j - side;
+    if (i < 0 || i >= state->n)
+        return NAN;
+    const double fall = gsl_pow_2(p[j] / p[i]),
+                 apart = 0.5 * (ends[j] + ends[j + 1] - ends[i] - ends[i + 1]);
+    return 0.5 * (ends[j] + ends[j + 1]) + apart * fall / (1.0 - fall);
+}
+
+/* 1: aligned elements end where the contact that is found on them does, and not at the
+ * outer side of a jump. */
+static int are_aligned(const rb_rolling_model *model)
+{
+    const double *ends = model->mesh.ends, h = ends[1] - ends[0];
+    double from, to;
+
+    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
+    const double across[2] = {(from - ends[0]) / h, (to - ends[0]) / h};
+    return model->rc->mesh == RB_MESH_ALIGNED &&
+           fabs(across[0] - round(across[0])) < LARGEST_MISS &&
+           fabs(across[1] - round(across[1])) < LARGEST_MISS;
+}
+
+/* Elements follow the edges that they were aligned with; otherwise, as those that a mesh is
+ * fitted to jump with its elements, the zeros of p^2. */
+static picked pick(const rb_rolling_model *of, const rb_contact_state *state, int aligned)
+{
+    rb_rolling_model model = *of; /* borrows */
+    picked x;
+
+    model.state = *state;
+    rb_rolling_contact_edges(model.rc, &model.mesh, state, &x.from, &x.to);
+    x.followed_from = aligned ? x.from : zero_of(&model.mesh, state, -1);
+    x.followed_to = aligned ? x.to : zero_of(&model.mesh, state, 1);
+    x.peak = rb_rolling_peak_pressure(&model);
+    return x;
+}
+
+static void add_picked(double weight, picked x, picked *sum)
+{
+    sum->from += weight * x.from;
+    sum->to += weight * x.to;
+    sum->followed_from += weight * x.followed_from;
+    sum->followed_to += weight * x.followed_to;
+    sum->peak += weight * x.peak;
+}
+
+/* Their derivatives: by the input where the state stays, and along the tangent. */
+static picked differentiate_picked(const variants *v, const rb_contact_state *tangent)
+{
+    const int aligned = are_aligned(v->base);
+    const double step = STEP_OF_STATE * v->scale;
+    rb_contact_state state = v->model[0].state; /* its arrays serve all */
+    picked d = {0.0, 0.0, 0.0, 0.0, 0.0};
+
+    rb_rolling_variant_set(&v->base->state, NULL, 0.0, &state);
+    for (int k = 0; k < v->at.n; k++)
+        add_picked(v->at.weight[k] / v->step, pick(&v->model[k], &state, aligned), &d);
+    for (int side = -1; side < 2; side += 2) {
+        rb_rolling_variant_set(&v->base->state, tangent, side * step, &state);
+        add_picked(0.5 * side / step, pick(v->base, &state, aligned), &d);
+    }
+    return d;
+}
+
+/* Half-width and centre between the edges that elements follow. */
+static void find_edges(picked x, double edges[2])
+{
+    edges[0] = 0.5 * (x.followed_to - x.followed_from);
+    edges[1] = 0.5 * (x.followed_to + x.followed_from);
+}
+
+/* Of the edges of the contact, and what follows from them. */
+static void set_edges(const rb_sensitivity *s, double from, double to, rb_rolling_solution *d)
+{
+    const rb_rolling_solution *at = &s->solution;
+    const double radius = rb_rolling_derive(s->model->rc).radius, before = d->half_width;
+
+    d->contact_from = from;
+    d->contact_to = to;
+    d->nip_width = to - from;
+    d->half_width = 0.5 * d->nip_width;
+    d->peclet += at->peclet / at->half_width * (d->half_width - before);
+    if (at->max_strain == 0.5 * at->half_width / radius)
+        d->max_strain += 0.5 * (d->half_width - before) / radius;
+}
+
+/* The warmest element is that of the solution, though another one may be warmer at the
+ * places of the stencil. */
+static rb_status set_peak_temperature(const rb_sensitivity *s, const variants *v,
+                                      rb_rolling_solution *d)
+{
+    const rb_rolling_solution *at = &s->solution;
+    const double step = STEP_OF_STATE * v->scale;
+    double peak[2], x;
+
+    if (!at->temperature)
+        return RB_OK;
+    double *t = rb_alloc((size_t)s->n, 1);
+    for (int k = 0; k < 2 && t; k++) {
+        for (int i = 0; i < s->n; i++)
+            t[i] = at->temperature[i] + (k ? step : -step) * d->temperature[i];
+        rb_rolling_peak_temperature(s->n, at->x, at->zone, t, &peak[k], &x);
+    }
+    d->max_temperature = t ? (peak[1] - peak[0]) / (2.0 * step) : NAN;
+    free(t);
+    return t ? RB_OK : RB_ENOMEM;
+}
+
+/* What follows from the rates on one side, on elements that move as the input says; edges:
+ * of those that elements follow. */
 static rb_status differentiate_side(const rb_sensitivity *s, variants *v, int side,
                                     const rb_sensitivity_rate *rate, rb_rolling_solution *d,
-                                    rb_message *why)
+                                    double edges[2], rb_message *why)
 {
     rb_contact_state tangent;
     rb_status status = rb_contact_state_alloc(s->n, &tangent);
@@ -341,27 +462,15 @@ static rb_status differentiate_side(const rb_sensitivity *s, variants *v, int si
         status = rb_sensitivity_tangent(s, rate, side, &tangent, why);
     if (status == RB_OK)
         status = differentiate_results(v, &tangent, d, why);
+    if (status == RB_OK) {
+        const picked x = differentiate_picked(v, &tangent);
+        d->max_pressure = x.peak;
+        set_edges(s, x.from, x.to, d);
+        find_edges(x, edges);
+        status = set_peak_temperature(s, v, d);
+    }
     rb_contact_state_free(&tangent);
     return status;
-}
-
-static int rolls_freely_at_rest(const rb_sensitivity *s)
-{
-    const rb_rolling_model *model = s->model;
-
-    return model->rc->formulation == RB_STEADY &&
-           !rb_contact_operator_response(model->problem.op).coupled;
-}
-
-/* 0: the input makes bodies that are alike in tangential and normal loads unlike. */
-static int keeps_similarity(const variants *v)
-{
-    int keeps = 1;
-
-    for (int k = 0; k < v->at.n && v->bodies; k++)
-        keeps &= !rb_contact_operator_response(v->model[k].problem.op).coupled &&
-                 fabs(rb_rolling_derive(v->model[k].rc).dundurs) < 1e-12;
-    return keeps;
 }
 
 /* 1: both sides have the same derivatives, but for rounding. */
@@ -409,114 +518,55 @@ static void clean(const rb_sensitivity *s, double scale, rb_rolling_solution *d)
     }
 }
 
-/* Where p^2, on a line through the second and third element in contact, is zero, on the
- * side -1 or 1; *rate: of that place on elements that stay (p_rate NULL: none). */
-static double edge_of(const rb_rolling_model *model, const double *p_rate, int side, double *rate)
-{
-    const rb_contact_state *state = &model->state;
-    const double *p = state->p, *ends = model->mesh.ends;
-    int j = side > 0 ? state->n - 1 : 0;
-
-    while (state->zone[j] == RB_ZONE_SEPARATED)
-        j -= side;
-    j -= side;
-    const int i = j - side;
-    const double fall = gsl_pow_2(p[j] / p[i]),
-                 apart = 0.5 * (ends[j] + ends[j + 1] - ends[i] - ends[i + 1]);
-
-    *rate = p_rate
-                ? apart * 2.0 * fall * (p_rate[j] / p[j] - p_rate[i] / p[i]) / gsl_pow_2(1.0 - fall)
-                : 0.0;
-    return 0.5 * (ends[j] + ends[j + 1]) + apart * fall / (1.0 - fall);
-}
-
-/* 1: aligned elements end where the contact that is found on them does, and not at the
- * outer side of a jump. */
-static int are_aligned(const rb_rolling_model *model, double from, double to)
-{
-    const double *ends = model->mesh.ends, h = ends[1] - ends[0],
-                 across[2] = {(from - ends[0]) / h, (to - ends[0]) / h};
-
-    return model->rc->mesh == RB_MESH_ALIGNED &&
-           fabs(across[0] - round(across[0])) < LARGEST_MISS &&
-           fabs(across[1] - round(across[1])) < LARGEST_MISS;
-}
-
-/* Half-width and centre of the contact, and their rates: of the edges that the elements
- * were aligned with; otherwise, as those that a mesh is fitted to jump with its elements,
- * of the zeros of p^2. */
-static motion edges_of(const rb_sensitivity *s, const double *p_rate, double rate[2])
-{
-    const rb_rolling_model *model = s->model;
-    rb_contact_state moved = model->state;
-    double from, to, left = 0.0, right = 0.0;
-
-    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
-    if (!are_aligned(model, from, to)) {
-        from = edge_of(model, p_rate, -1, &left);
-        to = edge_of(model, p_rate, 1, &right);
-    } else if (p_rate) {
-        const double part = 1e-5 * rb_norm_inf((size_t)s->n, moved.p) /
-                            fmax(rb_norm_inf((size_t)s->n, p_rate), DBL_MIN);
-        double x[2], y[2];
-        moved.p = s->moved;
-        for (int k = 0; k < 2; k++) {
-            for (int i = 0; i < s->n; i++)
-                moved.p[i] = model->state.p[i] + (k ? part : -part) * p_rate[i];
-            rb_rolling_contact_edges(model->rc, &model->mesh, &moved, &x[k], &y[k]);
-        }
-        left = (x[1] - x[0]) / (2.0 * part);
-        right = (y[1] - y[0]) / (2.0 * part);
-    }
-    rate[0] = 0.5 * (right - left);
-    rate[1] = 0.5 * (right + left);
-    return (motion){STRETCH, 0.5 * (to + from), 0.5 * (to - from)};
-}
-
 /* (D6) how an input moves the elements: stretches them as Hertz's half-width grows, or as
  * the contact that is found on them grows and shifts, e' = found' + found_e e'. */
-static void motions_of(const rb_sensitivity *s, int moves, const variants *v, const double *p_rate,
+static void motions_of(const rb_sensitivity *s, int moves, const variants *v, const double edges[2],
                        double by[2])
 {
-    double found[2];
-
     by[0] = by[1] = 0.0;
     for (int k = 0; k < v->at.n && moves == RB_SENSITIVITY_HERTZ; k++)
         by[0] += v->at.weight[k] / v->step * rb_rolling_derive(v->model[k].rc).half_width;
     if (moves != RB_SENSITIVITY_EDGES)
         return;
-    edges_of(s, p_rate, found);
-    by[0] = s->gain[0] * found[0] + s->gain[1] * found[1];
-    by[1] = s->gain[2] * found[0] + s->gain[3] * found[1];
+    by[0] = s->gain[0] * edges[0] + s->gain[1] * edges[1];
+    by[1] = s->gain[2] * edges[0] + s->gain[3] * edges[1];
 }
 
-/* (1 - found_e)^-1 from the rates of p under both motions: what moves with the elements
- * cancels the 1.  0: the edges do not tell how the elements move. */
-static int set_gain(rb_sensitivity *s, const double *stretched, const double *shifted)
+/* (1 - found_e)^-1 from the derivatives of half-width and centre by both motions.  0: the
+ * edges do not tell how the elements move. */
+static int set_gain(rb_sensitivity *s, const double stretched[2], const double shifted[2])
 {
-    double a[2], b[2];
+    const double a[2] = {1.0 - stretched[0], -stretched[1]}, b[2] = {-shifted[0], 1.0 - shifted[1]},
+                 det = a[0] * b[1] - b[0] * a[1];
 
-    edges_of(s, stretched, a);
-    edges_of(s, shifted, b);
-    const double det = a[0] * b[1] - b[0] * a[1];
-    s->gain[0] = -b[1] / det;
-    s->gain[1] = b[0] / det;
-    s->gain[2] = a[1] / det;
-    s->gain[3] = -a[0] / det;
+    s->gain[0] = b[1] / det;
+    s->gain[1] = -b[0] / det;
+    s->gain[2] = -a[1] / det;
+    s->gain[3] = a[0] / det;
     return fabs(det) > LEAST_DETERMINANT;
+}
+
+/* A stretch of what lies between the edges that the elements follow. */
+static motion stretch_of(const rb_rolling_model *model)
+{
+    double edges[2];
+
+    find_edges(pick(model, &model->state, are_aligned(model)), edges);
+    return (motion){STRETCH, edges[1], edges[0]};
 }
 
 /* The tangent of free rolling, which has its own equations, and what the motion of its
  * elements adds to its creepage. */
 static rb_status differentiate_free(const rb_sensitivity *freely, const rb_sensitivity_input *input,
                                     const variants *of, int side, rb_contact_state *tangent,
-                                    rb_message *why)
+                                    double edges[2], rb_message *why)
 {
     variants v = {.base = freely->model,
                   .bodies = of->bodies,
                   .own = of->own,
                   .at = of->at,
-                  .step = of->step};
+                  .step = of->step,
+                  .scale = of->scale};
     rb_sensitivity_rate rate = {0};
     double by[2];
     rb_status status = variants_create(freely->model, input, of, 1, &v, why);
@@ -530,7 +580,8 @@ static rb_status differentiate_free(const rb_sensitivity *freely, const rb_sensi
     if (status == RB_OK)
         status = rb_sensitivity_tangent(freely, &rate, side, tangent, why);
     if (status == RB_OK) {
-        motions_of(freely, freely->moves, &v, tangent->p, by);
+        find_edges(differentiate_picked(&v, tangent), edges);
+        motions_of(freely, freely->moves, &v, edges, by);
         tangent->xi += by[0] * freely->creepage[0] + by[1] * freely->creepage[1];
     }
     rb_sensitivity_rate_free(&rate);
@@ -543,83 +594,42 @@ static rb_status set_free_creepage(const rb_sensitivity *s, const rb_sensitivity
                                    rb_message *why)
 {
     rb_contact_state tangent = {0};
-    rb_status status = RB_OK;
+    double edges[2];
+    /* Bodies without coupling roll freely at no creepage, unless the input makes them unlike. */
+    int rests = s->model->rc->formulation == RB_STEADY &&
+                !rb_contact_operator_response(s->model->problem.op).coupled;
 
-    d->free_creepage = rolls_freely_at_rest(s) && keeps_similarity(v) ? 0.0 : NAN;
+    for (int k = 0; k < v->at.n && v->bodies; k++)
+        rests &= !rb_contact_operator_response(v->model[k].problem.op).coupled &&
+                 fabs(rb_rolling_derive(v->model[k].rc).dundurs) < 1e-12;
+    d->free_creepage = rests ? 0.0 : NAN;
     if (!s->free_rolling || !input->vary)
         return RB_OK;
-    status = differentiate_free(s->free_rolling, input, v, side, &tangent, why);
+    const rb_status status =
+        differentiate_free(s->free_rolling, input, v, side, &tangent, edges, why);
     /* between two zones its elements do not move as the others do */
     d->free_creepage = s->free_rolling->moves == s->moves ? tangent.xi : NAN;
     rb_contact_state_free(&tangent);
     return status;
 }
 
-/* What the motion of the elements changes, but for free rolling, which has its own. */
-static void add_motions(const rb_sensitivity *s, const variants *v, rb_rolling_solution *d)
+/* What the motion of the elements changes, but for free rolling, which has its own.  edges: of
+ * those that the elements follow. */
+static void add_motions(const rb_sensitivity *s, const variants *v, const double edges[2],
+                        rb_rolling_solution *d)
 {
     const double free_creepage = d->free_creepage;
-    double by[2], found[2];
+    double by[2];
 
-    motions_of(s, s->moves, v, d->p, by);
+    motions_of(s, s->moves, v, edges, by);
     for (int k = 0; k < 2; k++)
         if (by[k] != 0.0)
             blend(d, 1.0, &s->motion[k], by[k], NULL);
     d->free_creepage = free_creepage;
     if (s->moves == RB_SENSITIVITY_EDGES) { /* edges move as the elements there */
-        const motion m = edges_of(s, NULL, found);
-        d->contact_from = by[1] + by[0] * (s->solution.contact_from - m.centre) / m.half;
-        d->contact_to = by[1] + by[0] * (s->solution.contact_to - m.centre) / m.half;
-        d->nip_width = d->contact_to - d->contact_from;
-        const double radius = rb_rolling_derive(s->model->rc).radius, before = d->half_width;
-        d->half_width = 0.5 * d->nip_width;
-        d->peclet += s->solution.peclet / s->solution.half_width * (d->half_width - before);
-        if (s->solution.max_strain == 0.5 * s->solution.half_width / radius)
-            d->max_strain += 0.5 * (d->half_width - before) / radius;
-    }
-}
-
-/* The peak stays with the element that is warmest in the solution, though another one may
- * be warmer at the places of the stencil. */
-static rb_status set_peak_temperature(const rb_sensitivity *s, double scale, rb_rolling_solution *d)
-{
-    const rb_rolling_solution *at = &s->solution;
-    const double part = 1e-5 * scale;
-    double peak[2], x;
-
-    if (!at->temperature)
-        return RB_OK;
-    double *t = rb_alloc((size_t)s->n, 1);
-    for (int k = 0; k < 2 && t; k++) {
-        for (int i = 0; i < s->n; i++)
-            t[i] = at->temperature[i] + (k ? part : -part) * d->temperature[i];
-        rb_rolling_peak_temperature(s->n, at->x, at->zone, t, &peak[k], &x);
-    }
-    d->max_temperature = t ? (peak[1] - peak[0]) / (2.0 * part) : NAN;
-    free(t);
-    return t ? RB_OK : RB_ENOMEM;
-}
-
-/* So does that of the pressure, which depends on p and, of wheels, on the places of the
- * elements. */
-static void set_peak_pressure(const rb_sensitivity *s, const variants *v, double scale,
-                              rb_rolling_solution *d)
-{
-    const double part = 1e-5 * scale;
-    rb_rolling_model model = *s->model; /* borrows */
-    double peak[2];
-
-    model.state.p = s->moved;
-    for (int k = 0; k < 2; k++) {
-        for (int i = 0; i < s->n; i++)
-            s->moved[i] = s->model->state.p[i] + (k ? part : -part) * d->p[i];
-        peak[k] = rb_rolling_peak_pressure(&model);
-    }
-    d->max_pressure = (peak[1] - peak[0]) / (2.0 * part);
-    model.state.p = s->model->state.p;
-    for (int k = 0; k < v->at.n; k++) {
-        model.mesh = v->model[k].mesh;
-        d->max_pressure += v->at.weight[k] / v->step * rb_rolling_peak_pressure(&model);
+        const motion m = stretch_of(s->model);
+        set_edges(s, by[1] + by[0] * (s->solution.contact_from - m.centre) / m.half,
+                  by[1] + by[0] * (s->solution.contact_to - m.centre) / m.half, d);
     }
 }
 
@@ -645,15 +655,11 @@ rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensiti
     for (int k = from; k <= to && status == RB_OK; k++) {
         const int side = k ? 1 : -1;
         d->has[k] = 1;
-        status = differentiate_side(s, &v, side, &d->rate, &d->value[k], why);
+        status = differentiate_side(s, &v, side, &d->rate, &d->value[k], d->edges[k], why);
         if (status == RB_OK)
             status = set_free_creepage(s, input, &v, side, &d->value[k], why);
         if (status == RB_OK && s->moves != RB_SENSITIVITY_FIXED)
-            add_motions(s, &v, &d->value[k]);
-        if (status == RB_OK) {
-            set_peak_pressure(s, &v, input->scale, &d->value[k]);
-            status = set_peak_temperature(s, input->scale, &d->value[k]);
-        }
+            add_motions(s, &v, d->edges[k], &d->value[k]);
         if (status == RB_OK)
             clean(s, input->scale, &d->value[k]);
     }
@@ -682,17 +688,17 @@ rb_status rb_sensitivity_along(const rb_sensitivity *s, const rb_sensitivity_rat
 {
     rb_sensitivity own = *s;
     const rb_sensitivity_input input = {.vary = same_case, .context = &own};
-    variants v = {.base = s->model, .results = 1, .at = middle, .step = STEP_OF_BODIES};
+    variants v = {
+        .base = s->model, .results = 1, .at = middle, .step = STEP_OF_BODIES, .scale = 1.0};
+    double edges[2];
     rb_status status = variants_create(s->model, &input, NULL, 0, &v, why);
 
     if (status == RB_OK)
-        status = differentiate_side(s, &v, 1, rate, d, why);
+        status = differentiate_side(s, &v, 1, rate, d, edges, why);
     if (status == RB_OK && s->moves != RB_SENSITIVITY_FIXED)
-        add_motions(s, &v, d);
-    if (status == RB_OK) {
-        set_peak_pressure(s, &v, 1.0, d);
+        add_motions(s, &v, edges, d);
+    if (status == RB_OK)
         clean(s, 1.0, d);
-    }
     variants_free(&v);
     return status;
 }
@@ -720,20 +726,19 @@ static rb_status set_free_motion(rb_sensitivity *freely, int moves, rb_sensitivi
                                  motion *m)
 {
     rb_contact_state tangent[2] = {{0}, {0}};
-    const variants v = {.at = middle, .step = STEP_OF_BODIES * input->scale};
+    const variants v = {.at = middle, .step = STEP_OF_BODIES * input->scale, .scale = input->scale};
     rb_message why;
-    double rate[2];
+    double edges[2][2];
     rb_status status = RB_OK;
 
     if (moves == RB_SENSITIVITY_EDGES)
-        *m = edges_of(freely, NULL, rate);
+        *m = stretch_of(freely->model);
     for (int k = 0; k < moves && status == RB_OK; k++) {
         m->kind = k ? SHIFT : STRETCH;
-        status = differentiate_free(freely, input, &v, 1, &tangent[k], &why);
+        status = differentiate_free(freely, input, &v, 1, &tangent[k], edges[k], &why);
         freely->creepage[k] = tangent[k].xi;
     }
-    if (status == RB_OK &&
-        (moves != RB_SENSITIVITY_EDGES || set_gain(freely, tangent[0].p, tangent[1].p)))
+    if (status == RB_OK && (moves != RB_SENSITIVITY_EDGES || set_gain(freely, edges[0], edges[1])))
         freely->moves = moves;
     rb_contact_state_free(&tangent[0]);
     rb_contact_state_free(&tangent[1]);
@@ -744,11 +749,11 @@ rb_status rb_sensitivity_set_motion(rb_sensitivity *s)
 {
     const int moves = motion_of(s);
     motion m = {STRETCH, 0.0, rb_rolling_derive(s->model->rc).half_width};
-    double rate[2];
+    double edges[2][2] = {{0.0}};
     rb_status status = RB_OK;
 
     if (moves == RB_SENSITIVITY_EDGES)
-        m = edges_of(s, NULL, rate);
+        m = stretch_of(s->model);
     rb_sensitivity_input input = {0.0, m.half, -INFINITY, INFINITY, NULL, &m};
     for (int k = 0; k < moves && status == RB_OK; k++) { /* as many motions */
         rb_sensitivity_derivative d;
@@ -756,6 +761,7 @@ rb_status rb_sensitivity_set_motion(rb_sensitivity *s)
         m.kind = k ? SHIFT : STRETCH;
         status = rb_sensitivity_differentiate(s, &input, &d, &why);
         if (status == RB_OK) {
+            memcpy(edges[k], d.edges[0], sizeof edges[k]);
             s->motion[k] = d.value[0];
             memset(&d.value[0], 0, sizeof d.value[0]);
         }
@@ -763,8 +769,7 @@ rb_status rb_sensitivity_set_motion(rb_sensitivity *s)
     }
     if (status == RB_OK && s->free_rolling && !s->free_rolling->degenerate)
         status = set_free_motion(s->free_rolling, moves, &input, &m);
-    if (status == RB_OK &&
-        (moves != RB_SENSITIVITY_EDGES || set_gain(s, s->motion[0].p, s->motion[1].p)))
+    if (status == RB_OK && (moves != RB_SENSITIVITY_EDGES || set_gain(s, edges[0], edges[1])))
         s->moves = moves;
     return status == RB_ENOMEM ? status : RB_OK;
 }

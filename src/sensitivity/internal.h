@@ -11,7 +11,6 @@ struct rb_sensitivity {
     int n, degenerate;
     char *border;                           /* n: which pairs of an element are degenerate; owned */
     double *slip;                           /* 2n: T_T lambda and gap of the state; owned */
-    double *moved;                          /* n: for pressures along a tangent; owned */
     double *law_slip, *law_force;           /* n x n: derivatives of the bounds with respect to
                                                slips and friction; NULL: zero; owned */
     rb_rolling_solution solution;           /* of the model, if results are differentiated */

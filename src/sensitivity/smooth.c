@@ -159,35 +159,6 @@ rb_status rb_sensitivity_jumps_create(const rb_sensitivity *s, rb_sensitivity_ju
 
 /* ---- Of an input ------------------------------------------------------------------- */
 
-/* 1: an edge of the contact moves from element to element. */
-static int edges_move(const rb_sensitivity *s, double scale, const rb_rolling_solution *d)
-{
-    const double least = NO_CHANGE * s->model->problem.stress;
-    int moves = 0;
-
-    for (int i = 0; i + 1 < s->n && s->moves != RB_SENSITIVITY_EDGES; i++) {
-        const int in = kind_of(s, i) ? i : i + 1, out = kind_of(s, i) ? i + 1 : i;
-        if (kind_of(s, in) && !kind_of(s, out) && fabs(d->p[in]) * scale > least)
-            moves |= d->p[in] * d->gap[out] < 0.0;
-    }
-    return moves;
-}
-
-/* Changes of the input, below and above 0, where the next elements change between stick and
- * slip, to first order. */
-static void find_next(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
-                      const rb_rolling_solution *d, double next[2])
-{
-    next[0] = -INFINITY;
-    next[1] = INFINITY;
-    for (int i = 0; i < s->n; i++) {
-        const int way = kind_of(s, i) == 1 ? BEGINS_TO_SLIP : BEGINS_TO_STICK;
-        const double at = -condition(s, way, i) / condition_rate(s, way, i, rate->bound[i], d);
-        if (kind_of(s, i) != 0 && isfinite(at))
-            next[at > 0.0] = at > 0.0 ? fmin(next[1], at) : fmax(next[0], at);
-    }
-}
-
 static void add_jumps(const rb_sensitivity_jumps *jumps, const rb_sensitivity_rate *rate,
                       double *part, rb_rolling_solution *d)
 {
@@ -209,28 +180,46 @@ static void add_jumps(const rb_sensitivity_jumps *jumps, const rb_sensitivity_ra
 }
 
 rb_status rb_sensitivity_smooth(const rb_sensitivity_jumps *jumps,
-                                const rb_sensitivity_input *input, rb_sensitivity_derivative *d,
-                                rb_message *why)
+                                const rb_sensitivity_input *input,
+                                rb_sensitivity_derivative *derivative, rb_message *why)
 {
     const rb_sensitivity *s = jumps->s;
-    double *part = rb_alloc(2 * (size_t)jumps->n + 1, 1);
+    const double least = NO_CHANGE * s->model->problem.stress;
+    double *part = rb_alloc(2 * (size_t)jumps->n + 1, 1), *next = derivative->stays;
+    int edges_move = 0;
 
     if (!part)
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
-    int move = 0;
-    for (int k = 0; k < 2; k++)
-        if (d->has[k]) {
-            move |= edges_move(s, input->scale, &d->value[k]);
-            find_next(s, &d->rate, &d->value[k], d->stays);
-            add_jumps(jumps, &d->rate, part, &d->value[k]);
-            if (s->free_rolling)
-                d->value[k].free_creepage = NAN; /* of a solution with its own zones */
-            if (jumps->n > 0)                    /* an element that begins to slip dissipates too */
-                d->value[k].dissipation = d->value[k].max_temperature = NAN;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_solution *d = &derivative->value[k];
+        if (!derivative->has[k])
+            continue;
+        /* changes of the input where the next elements change their zones, to first order */
+        next[0] = -INFINITY;
+        next[1] = INFINITY;
+        for (int i = 0; i < s->n; i++) {
+            const int way = kind_of(s, i) == 1 ? BEGINS_TO_SLIP : BEGINS_TO_STICK;
+            const double at =
+                -condition(s, way, i) / condition_rate(s, way, i, derivative->rate.bound[i], d);
+            if (kind_of(s, i) != 0 && isfinite(at))
+                next[at > 0.0] = at > 0.0 ? fmin(next[1], at) : fmax(next[0], at);
         }
+        /* an edge of the contact that moves from element to element */
+        for (int i = 0; i + 1 < s->n && s->moves != RB_SENSITIVITY_EDGES; i++) {
+            const int in = kind_of(s, i) ? i : i + 1, out = kind_of(s, i) ? i + 1 : i;
+            if (kind_of(s, in) && !kind_of(s, out) && fabs(d->p[in]) * input->scale > least)
+                edges_move |= d->p[in] * d->gap[out] < 0.0;
+        }
+        add_jumps(jumps, &derivative->rate, part, d);
+        if (s->free_rolling)
+            d->free_creepage = NAN; /* of a solution with its own zones */
+        if (jumps->n > 0)           /* an element that begins to slip dissipates too */
+            d->dissipation = d->max_temperature = NAN;
+    }
     free(part);
-    return move ? rb_fail(why, RB_EINVAL,
-                          "smooth derivatives: the edges of the contact move over the elements; "
-                          "give --mesh aligned or fitted")
-                : RB_OK;
+    return edges_move
+               ? rb_fail(why, RB_EINVAL,
+                         "smooth derivatives: the edges of the contact move over the elements; "
+                         "give --mesh aligned or fitted")
+               : RB_OK;
 }

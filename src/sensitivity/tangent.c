@@ -327,9 +327,8 @@ static rb_status create(const rb_rolling_model *model, const rb_sensitivity *lik
     if (status == RB_OK)
         status = check(s->model, why);
     s->border = calloc((size_t)s->n, 1);
-    s->moved = rb_alloc((size_t)s->n, 1);
     if (status == RB_OK)
-        status = s->border && s->moved ? find_borders(s) : RB_ENOMEM;
+        status = s->border ? find_borders(s) : RB_ENOMEM;
     if (status == RB_OK && s->degenerate)
         status = take_matrix(s, why);
     if (status == RB_OK)
@@ -423,7 +422,6 @@ void rb_sensitivity_free(rb_sensitivity *s)
     rb_rolling_solution_free(&s->motion[1]);
     free(s->border);
     free(s->slip);
-    free(s->moved);
     free(s->law_slip);
     free(s->law_force);
     rb_sensitivity_factors_free(s->factors);
