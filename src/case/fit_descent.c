@@ -62,33 +62,27 @@ static double over_scale(const state *at, const double *theta, size_t j)
     return theta[j] / at->p->fit->parameter[j].scale;
 }
 
-/* A step changes the distance from an end that does not belong to the range, which is no
- * minimum, by a factor of ten at most. */
-static void keep_inside(const rb_case_parameter *of, double from, double *x)
-{
-    static const double MOST = 10.0;
-
-    if (of->low_open && of->low == of->from && isfinite(of->low))
-        *x = fmin(fmax(*x, of->low + (from - of->low) / MOST), of->low + (from - of->low) * MOST);
-    if (of->high_open && of->high == of->to && isfinite(of->high))
-        *x = fmin(fmax(*x, of->high - (of->high - from) * MOST),
-                  of->high - (of->high - from) / MOST);
-}
-
 /* Makes x the last trial. */
 static void evaluate_at(const gsl_vector *x, state *at)
 {
+    /* A step changes the distance from an end that does not belong to the range, which is
+     * no minimum, by this factor at most. */
+    static const double MOST = 10.0;
     fit_problem *p = at->p;
     double theta[RB_CASE_FIT_MAX];
     const size_t bytes = (size_t)p->n * sizeof *theta;
 
     at->clipped = 0;
     for (int j = 0; j < p->n; j++) {
-        const double wanted = gsl_vector_get(x, (size_t)j) * p->fit->parameter[j].scale;
+        const rb_case_parameter *of = &p->fit->parameter[j];
+        const double wanted = gsl_vector_get(x, (size_t)j) * of->scale,
+                     above = at->accepted[j] - of->low, below = of->high - at->accepted[j];
         theta[j] = wanted;
-        rb_case_fit_clip(&p->fit->parameter[j], &theta[j]);
-        if (p->accepted >= 0)
-            keep_inside(&p->fit->parameter[j], at->accepted[j], &theta[j]);
+        rb_case_fit_clip(of, &theta[j]);
+        if (p->accepted >= 0 && of->low_open && of->low == of->from && isfinite(of->low))
+            theta[j] = fmin(fmax(theta[j], of->low + above / MOST), of->low + above * MOST);
+        if (p->accepted >= 0 && of->high_open && of->high == of->to && isfinite(of->high))
+            theta[j] = fmin(fmax(theta[j], of->high - below * MOST), of->high - below / MOST);
         at->clipped |= theta[j] != wanted;
     }
     if (at->known && memcmp(theta, at->theta, bytes) == 0)

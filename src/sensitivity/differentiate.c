@@ -29,11 +29,7 @@ static const double LARGEST_MISS = 5e-3;
 
 enum { PLACES = RB_SENSITIVITY_PLACES };
 
-static const rb_sensitivity_stencil middle = {
-    4, {-2, -1, 1, 2}, {1 / 12., -8 / 12., 8 / 12., -1 / 12.}};
 static const rb_sensitivity_stencil nearest = {2, {-1, 1}, {-0.5, 0.5}};
-static const rb_sensitivity_stencil ahead = {
-    5, {0, 1, 2, 3, 4}, {-25 / 12., 48 / 12., -36 / 12., 16 / 12., -3 / 12.}};
 static const rb_sensitivity_stencil behind = {
     5, {0, -1, -2, -3, -4}, {25 / 12., -48 / 12., 36 / 12., -16 / 12., 3 / 12.}};
 
@@ -43,7 +39,10 @@ const rb_sensitivity_stencil *rb_sensitivity_stencil_of(const rb_sensitivity_inp
     const int can_fall = input->value - 2.0 * step > input->from,
               can_grow = input->value + 2.0 * step < input->to;
 
-    return can_fall && can_grow ? &middle : can_grow ? &ahead : can_fall ? &behind : NULL;
+    return can_fall && can_grow ? &rb_sensitivity_middle
+           : can_grow           ? &rb_sensitivity_ahead
+           : can_fall           ? &behind
+                                : NULL;
 }
 
 int rb_sensitivity_has(const rb_rolling_result *r)
@@ -211,7 +210,7 @@ rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_inp
 
     memset(rate, 0, sizeof *rate);
     *mu = 0.0;
-    if (v.at.n == middle.n)
+    if (v.at.n == rb_sensitivity_middle.n)
         v.at = nearest;
     if (status == RB_OK)
         status = rb_sensitivity_rate_alloc(s->n, rate);
@@ -643,7 +642,7 @@ rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensiti
     if (s->solution.n == 0)
         return rb_fail(why, RB_EINVAL, "derivatives: made without results");
     rb_status status = choose_places(s, input, &v, why);
-    const int both = v.at.n == middle.n;
+    const int both = v.at.n == rb_sensitivity_middle.n;
     const int from = both ? 0 : v.at.place[1] > 0.0, to = both ? two : from;
     d->sides = two || !both ? 2 : 1;
     if (status == RB_OK)
@@ -688,8 +687,11 @@ rb_status rb_sensitivity_along(const rb_sensitivity *s, const rb_sensitivity_rat
 {
     rb_sensitivity own = *s;
     const rb_sensitivity_input input = {.vary = same_case, .context = &own};
-    variants v = {
-        .base = s->model, .results = 1, .at = middle, .step = STEP_OF_BODIES, .scale = 1.0};
+    variants v = {.base = s->model,
+                  .results = 1,
+                  .at = rb_sensitivity_middle,
+                  .step = STEP_OF_BODIES,
+                  .scale = 1.0};
     double edges[2];
     rb_status status = variants_create(s->model, &input, NULL, 0, &v, why);
 
@@ -726,7 +728,8 @@ static rb_status set_free_motion(rb_sensitivity *freely, int moves, rb_sensitivi
                                  motion *m)
 {
     rb_contact_state tangent[2] = {{0}, {0}};
-    const variants v = {.at = middle, .step = STEP_OF_BODIES * input->scale, .scale = input->scale};
+    const variants v = {
+        .at = rb_sensitivity_middle, .step = STEP_OF_BODIES * input->scale, .scale = input->scale};
     rb_message why;
     double edges[2][2];
     rb_status status = RB_OK;

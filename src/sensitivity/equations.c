@@ -63,54 +63,40 @@ rb_status rb_sensitivity_residual(const rb_rolling_model *base, rb_rolling_model
     return RB_OK;
 }
 
+const rb_sensitivity_stencil rb_sensitivity_middle = {
+    4, {-2, -1, 1, 2}, {1 / 12., -8 / 12., 8 / 12., -1 / 12.}};
+const rb_sensitivity_stencil rb_sensitivity_ahead = {
+    5, {0, 1, 2, 3, 4}, {-25 / 12., 48 / 12., -36 / 12., 16 / 12., -3 / 12.}};
+
 /* ---- The law ----------------------------------------------------------------------- */
 
-/* Coefficients that the law gives slips and friction that differ by `step` at element
- * `at` (-1: at every element), in four places: their derivative.  scratch: 2n. */
+/* Derivative of the coefficients that the law gives with respect to the slips, or to the
+ * friction, of element `at` (-1: of every element) that slips, or of those that stick, where
+ * they begin to slip against their friction. */
 static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_model *v,
-                                   int of_friction, double step, int at, double *derivative,
-                                   rb_message *why)
+                                   int of_friction, int at_rest, double step, int at,
+                                   double *derivative, rb_message *why)
 {
-    static const double part[] = {-2.0, -1.0, 1.0, 2.0}, weight[] = {1.0, -8.0, 8.0, -1.0};
+    const rb_sensitivity_stencil *places = at_rest ? &rb_sensitivity_ahead : &rb_sensitivity_middle;
     const int n = model->problem.n;
     double *x = of_friction ? v->state.q : v->state.lambda;
     rb_status s = RB_OK;
 
     memset(derivative, 0, (size_t)n * sizeof *derivative);
-    for (int k = 0; k < 4 && s == RB_OK; k++) {
+    for (int k = 0; k < places->n && s == RB_OK; k++) {
         for (int i = 0; i < n; i++)
-            if ((at < 0 || i == at) && v->state.zone[i] > RB_ZONE_STICK)
-                x[i] += part[k] * step;
+            if ((at < 0 || i == at) &&
+                (at_rest ? v->state.zone[i] == RB_ZONE_STICK : v->state.zone[i] > RB_ZONE_STICK))
+                x[i] += (at_rest && v->state.q[i] > 0.0 ? -step : step) * places->place[k];
         s = rb_rolling_model_friction(v, why);
         memcpy(v->state.lambda, model->state.lambda, (size_t)n * sizeof *x);
         memcpy(v->state.q, model->state.q, (size_t)n * sizeof *x);
         for (int i = 0; i < n; i++) {
+            const double unit = at_rest && v->state.q[i] > 0.0 ? -step : step;
             v->state.lambda[i] *= v->state.zone[i] != RB_ZONE_STICK;
-            derivative[i] += weight[k] * v->problem.bound[i] / (12.0 * step);
+            derivative[i] += places->weight[k] * v->problem.bound[i] / unit;
         }
     }
-    return s;
-}
-
-/* The same of elements that stick, where they begin to slip against their friction. */
-static rb_status differentiate_at_rest(const rb_rolling_model *model, rb_rolling_model *v,
-                                       double step, double *derivative, rb_message *why)
-{
-    static const double weight[] = {-25.0, 48.0, -36.0, 16.0, -3.0};
-    rb_status s = RB_OK;
-
-    memset(derivative, 0, (size_t)v->problem.n * sizeof *derivative);
-    for (int k = 0; k < 5 && s == RB_OK; k++) {
-        for (int i = 0; i < v->problem.n; i++)
-            if (v->state.zone[i] == RB_ZONE_STICK)
-                v->state.lambda[i] = model->state.q[i] > 0.0 ? -k * step : k * step;
-        s = rb_rolling_model_friction(v, why);
-        for (int i = 0; i < v->problem.n; i++)
-            derivative[i] += (model->state.q[i] > 0.0 ? -weight[k] : weight[k]) *
-                             v->problem.bound[i] / (12.0 * step);
-    }
-    for (int i = 0; i < v->problem.n; i++)
-        v->state.lambda[i] *= v->state.zone[i] != RB_ZONE_STICK;
     return s;
 }
 
@@ -126,11 +112,11 @@ static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *scratc
     rb_status status = RB_OK;
 
     if (f->memory == 0.0 && f->heat == 0.0) {
-        status = differentiate_law(model, v, 0, slip, -1, scratch, why);
+        status = differentiate_law(model, v, 0, 0, slip, -1, scratch, why);
         for (size_t i = 0; i < n; i++)
             s->law_slip[i + i * n] = scratch[i];
         if (status == RB_OK)
-            status = differentiate_at_rest(model, v, slip, scratch, why);
+            status = differentiate_law(model, v, 0, 1, slip, -1, scratch, why);
         for (size_t i = 0; i < n; i++)
             if (model->state.zone[i] == RB_ZONE_STICK)
                 s->law_slip[i + i * n] = scratch[i];
@@ -139,9 +125,9 @@ static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *scratc
     for (size_t j = 0; j < n && status == RB_OK; j++) {
         if (model->state.zone[j] <= RB_ZONE_STICK)
             continue;
-        status = differentiate_law(model, v, 0, slip, (int)j, s->law_slip + j * n, why);
+        status = differentiate_law(model, v, 0, 0, slip, (int)j, s->law_slip + j * n, why);
         if (status == RB_OK && s->law_force)
-            status = differentiate_law(model, v, 1, stress, (int)j, s->law_force + j * n, why);
+            status = differentiate_law(model, v, 1, 0, stress, (int)j, s->law_force + j * n, why);
     }
     return status;
 }

@@ -32,6 +32,8 @@ enum { BORDER_GAP = 1, BORDER_SLIP = 2 };
 
 /* ---- equations.c ------------------------------------------------------------------- */
 
+/* Fourth-order differences: around a value, and from it on. */
+extern const rb_sensitivity_stencil rb_sensitivity_middle, rb_sensitivity_ahead;
 /* The part of a residual that bounds and given values make, controls scaled as the
  * unknowns of the base are. */
 void rb_sensitivity_given(const rb_rolling_model *base, const rb_contact_problem *problem,
