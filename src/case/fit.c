@@ -349,20 +349,20 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
             moved = fabs(chi2 - fit->chi_square) > SAME * fit->chi_square + SAME_OF_ALL * squares;
     }
     if (s == RB_OK && moved)
-        s = rb_fail(why, RB_MAXITER,
-                    "fit: not converged, each of %d results asks for other elements; keep them "
-                    "(--mesh uniform --zone X), or give another start (--start)",
-                    ROUNDS);
+        s = rb_fail(
+            why, RB_MAXITER,
+            "fit: not converged: after %d rounds a new mesh still changes the sum of squares. The "
+            "data may not determine all numbers: fit fewer, keep the elements (--mesh uniform "
+            "--zone "
+            "X), or give another start (--start)",
+            ROUNDS);
     for (int j = 0; j < fit->n && s != RB_EINVAL && s != RB_ENOMEM; j++)
         fit->parameter[j].value = theta[j];
     fit->kappa = p.kappa;
+    if (s == RB_OK && moves)
+        s = rb_case_fit_move(&p, theta, why);
     if (s == RB_OK)
         set_intervals(&p, theta);
-    if (s == RB_OK && moves)
-        say(fit,
-            "the elements move with the numbers, which the intervals leave out: they can be too "
-            "narrow%s%s; --mesh uniform and --zone keep the elements\n",
-            "", "");
     /* a fall that the data do not tell has a kappa that they do not tell */
     if (s == RB_OK && p.kappa > 1.0 && !falls_unidentified(fit))
         s = rb_fail(why, RB_INACCURATE,

@@ -55,6 +55,9 @@ rb_status rb_case_fit_accept(fit_problem *p, const double *theta, rb_message *wh
  * in another zone (rb_sensitivity_extend). */
 rb_status rb_case_fit_extend(fit_problem *p, const double *theta, int k, int element, int zone,
                              double *f, double *row, rb_message *why);
+/* Gives J the derivatives on elements that move with the numbers (theory.md, D6), for
+ * intervals; columns of numbers that change nothing then are 0. */
+rb_status rb_case_fit_move(fit_problem *p, const double *theta, rb_message *why);
 /* Frees the solutions of all points with the accepted numbers, or those of a trial. */
 void rb_case_fit_release(fit_problem *p, int which);
 /* Of a force that the model gives point k. */

@@ -3,9 +3,15 @@
  * the sum of squares is continuous. */
 #include "case/fit.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Elements that differ by rounding, in lengths of the mesh. */
+static const double SAME_PLACE = 1e-9;
+/* A derivative that is none where elements move, of the one where they stay. */
+static const double NONE = 1e-4;
 
 /* ---- One point ----------------------------------------------------------------------- */
 
@@ -296,11 +302,58 @@ rb_status rb_case_fit_place(fit_problem *p, const double *theta, int *moved, rb_
         if (s == RB_OK && of->first == k)
             s = rb_rolling_model_create(&rc, &fresh, why);
         const rb_rolling_mesh *old = &of->base.mesh, *mesh = &fresh.mesh;
-        if (of->first == k && s == RB_OK)
-            *moved |= old->n != mesh->n || memcmp(old->ends, mesh->ends,
-                                                  ((size_t)mesh->n + 1) * sizeof *mesh->ends) != 0;
+        *moved |= old->n != mesh->n;
+        for (int i = 0; i <= mesh->n && mesh->n > 0 && !*moved; i++)
+            *moved = fabs(mesh->ends[i] - old->ends[i]) >
+                     SAME_PLACE * (mesh->ends[mesh->n] - mesh->ends[0]);
         rb_rolling_model_free(&of->base);
         of->base = fresh;
     }
     return s;
+}
+
+rb_status rb_case_fit_move(fit_problem *p, const double *theta, rb_message *why)
+{
+    const int ratio = p->data->measure == RB_CASE_FORCE_RATIO;
+    rb_arena scratch = {0};
+    double *staying = rb_arena_doubles(&scratch, (size_t)p->n, 1);
+    rb_status status = scratch.failed ? RB_ENOMEM : RB_OK;
+
+    for (int j = 0; j < p->n && status == RB_OK; j++)
+        staying[j] = rb_norm_inf((size_t)p->points, fit_column(p, j));
+    for (int k = 0; k < p->points && status == RB_OK; k++) {
+        place at = {p, theta, k, -1};
+        rb_rolling_case rc;
+        rb_rolling_model model = {.mesh = {.n = 0}};
+        rb_sensitivity *s = NULL;
+        status = case_at(&at, 0.0, &rc, why);
+        if (status == RB_OK)
+            status = rb_rolling_model_create(&rc, &model, why);
+        if (status == RB_OK)
+            status = rb_sensitivity_create(&model, 1, &s, why);
+        for (int j = 0; j < p->n && status == RB_OK; j++) {
+            const rb_case_parameter *of = &p->fit->parameter[j];
+            place varied = {p, theta, k, j};
+            const rb_sensitivity_input input = {theta[j], of->scale, of->from,
+                                                of->to,   case_at,   &varied};
+            rb_sensitivity_derivative d;
+            status = rb_sensitivity_differentiate(s, &input, &d, why);
+            const rb_rolling_solution *by = &d.value[d.has[1]];
+            const double P = rb_contact_load(&model.problem, &model.state),
+                         Q = rb_contact_force(&model.problem, &model.state),
+                         force = by->tangential_load;
+            fit_column(p, j)[k] = (ratio ? by->force_ratio
+                                   : p->data->measure == RB_CASE_FORCE_OVER_LOAD
+                                       ? (force - Q / P * by->normal_load) / P
+                                       : force) /
+                                  sigma_of(p, k);
+            rb_sensitivity_derivative_free(&d);
+        }
+        rb_sensitivity_free(s);
+        rb_rolling_model_free(&model);
+    }
+    for (int j = 0; j < p->n && status == RB_OK; j++)
+        if (rb_norm_inf((size_t)p->points, fit_column(p, j)) < NONE * staying[j])
+            memset(fit_column(p, j), 0, (size_t)p->points * sizeof(double));
+    return rb_arena_done(&scratch, status);
 }
