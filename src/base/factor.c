@@ -186,10 +186,8 @@ static rb_status equilibrate(const rb_sparse *k, double *scale, rb_sparse *sks)
     if (!scale || rb_sparse_copy(k, sks) != RB_OK)
         return RB_ENOMEM;
     for (int j = 0; j < k->cols; j++) {
-        scale[j] = 1.0;
-        for (int l = k->p[j]; l < k->p[j + 1]; l++)
-            if (k->i[l] == j && k->x[l] > 0.0)
-                scale[j] = 1.0 / sqrt(k->x[l]);
+        const double own = rb_sparse_diagonal(k, j);
+        scale[j] = own > 0.0 ? 1.0 / sqrt(own) : 1.0;
     }
     for (int j = 0; j < k->cols; j++)
         for (int l = k->p[j]; l < k->p[j + 1]; l++)

@@ -26,9 +26,9 @@ int rb_fourier_make(int least, rb_fourier *f)
     static const int primes[] = {2, 3, 5};
 
     /* The smallest even 2^a 3^b 5^c >= least: FFTW transforms such lengths fastest. */
-    *f = (rb_fourier){.size = least + least % 2};
-    for (int rest = 0; rest != 1; f->size += rest == 1 ? 0 : 2) {
-        rest = f->size;
+    *f = (rb_fourier){0};
+    for (int size = least + least % 2, rest = 0; rest != 1; size += 2) {
+        rest = f->size = size;
         for (int k = 0; k < 3; k++)
             while (rest % primes[k] == 0)
                 rest /= primes[k];

@@ -45,7 +45,7 @@ static cluster *at(const rb_given *g, int level, int k)
 
 static size_t clusters_of(const rb_given *g)
 {
-    return ((size_t)2 << g->levels) - 1;
+    return rb_cluster_place(g->levels + 1, 0);
 }
 
 void rb_given_free(rb_given *g)

@@ -148,7 +148,7 @@ rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_po
         before = after;
     }
 #pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
-    schedule(static) if ((double)points.n * n > 1e5)
+    schedule(static) if ((double)points.n * n > rb_pairs_for_threads)
     for (int i = 0; i < points.n; i++) {
         const double x = points.xy[2 * i], y = points.xy[2 * i + 1];
         double complex above = 0.0, below = 0.0, slope = 0.0;

@@ -23,7 +23,6 @@
 
 #include <complex.h>
 #include <gsl/gsl_math.h>
-#include <stdlib.h>
 
 typedef double complex cplx;
 

@@ -215,6 +215,7 @@ static double bytes_of(const rb_bem_mesh *mesh, int dense)
 static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
                         double compression, rb_bond *bond, rb_bem_system **system, rb_message *why)
 {
+    *system = NULL;
     rb_status status = rb_bem_mesh_check(mesh, why);
     if (status == RB_OK)
         status = rb_bem_material_check(material, why);
@@ -287,7 +288,6 @@ static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int d
 rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
                                   rb_bem_system **system, rb_message *why)
 {
-    *system = NULL;
     return create(mesh, material, dense, INFINITY, NULL, system, why);
 }
 
@@ -313,14 +313,13 @@ rb_status rb_bem_system_create_bonded(const rb_bem_mesh *cover, rb_bem_material 
 rb_status rb_bem_system_create_within(const rb_bem_mesh *mesh, rb_bem_material material,
                                       double compression, rb_bem_system **system, rb_message *why)
 {
-    *system = NULL;
     return create(mesh, material, mesh->n < RB_BEM_HIERARCHICAL, compression, NULL, system, why);
 }
 
 rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,
                                rb_bem_system **system, rb_message *why)
 {
-    return rb_bem_system_create_as(mesh, material, mesh->n < RB_BEM_HIERARCHICAL, system, why);
+    return rb_bem_system_create_within(mesh, material, INFINITY, system, why);
 }
 
 rb_status rb_bem_system_solve_columns(const rb_bem_system *s, int columns, double *X)

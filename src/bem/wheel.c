@@ -15,7 +15,6 @@
 #include <gsl/gsl_spline.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 typedef double complex cplx;
 

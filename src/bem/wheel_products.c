@@ -360,7 +360,7 @@ rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends, const r
     }
     double *angles = rb_wheel_angles(wheel->radius, n_c, ends);
     if (!angles)
-        return rb_fail(why, RB_ENOMEM, "wheel: out of memory for %d contact elements", n_c);
+        return rb_bem_flexibility_end("wheel", n_c, RB_ENOMEM, f, why);
     const double length = angles[2 * n_c + 2] - angles[n_c + 1],
                  step = fmin(length / (n_c + 1), log(wheel->radius / wheel->inner) / 8.0);
     if (!(length < MOST_STEPS * step)) { /* very thin */

@@ -361,7 +361,8 @@ rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, d
     rb_rolling_case rc = c->resolved.rc;
     curve_slopes of = {c, range, mu, s, NULL, point, context};
     /* a curve of other numbers of points is refused below */
-    const int rows = range->points >= 1 && range->points <= 1000000 ? 2 * range->points : 1;
+    const int rows =
+        range->points >= 1 && range->points <= RB_ROLLING_MOST_POINTS ? 2 * range->points : 1;
     rb_status status = rb_case_slopes_alloc(rows, s);
 
     rc.mu = mu;

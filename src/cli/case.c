@@ -41,11 +41,6 @@ static cli_exit read_case_file(const cli_spec *spec, const char *path, rb_case *
     return cli_fail(cli_exit_of(s), "%s%s", why.text, rb_guess_text(&guess, ""));
 }
 
-const char *cli_case_file_of(const cli_args *args)
-{
-    return args->operands > args->own ? args->operand[args->own] : NULL;
-}
-
 cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c, cli_args *args)
 {
     cli_exit code = cli_parse(spec, argc, argv, args);

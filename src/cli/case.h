@@ -37,9 +37,6 @@ cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c,
 cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c, cli_args *args);
 cli_exit cli_case_resolve(const cli_spec *spec, rb_case *c, const cli_args *args);
 
-/* The case file among the operands; NULL: there is none. */
-const char *cli_case_file_of(const cli_args *args);
-
 /* --example NAME, the last set of every spec of a case, and what it asks for; file: the case
  * file, which excludes it. */
 rb_option_set cli_example_set(void);

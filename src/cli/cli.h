@@ -135,6 +135,8 @@ typedef struct {
  * --version are answered here, an error has been printed.  Free args in any case. */
 cli_exit cli_parse(const cli_spec *spec, int argc, char **argv, cli_args *args);
 void cli_args_free(cli_args *args);
+/* The case file among the operands; NULL: there is none. */
+const char *cli_case_file_of(const cli_args *args);
 
 /* "curve" of "rollbem curve [OPTION...]"; "" for the command without a name.  Returns name. */
 const char *cli_command_of(const cli_spec *spec, char name[24]);

@@ -190,7 +190,7 @@ static cli_exit check_clash(const cli_spec *spec, const cli_args *args, const rb
 cli_exit cli_check_files(const cli_spec *spec, const cli_args *args)
 {
     const rb_option *o, *size_of = NULL, *script_of = NULL;
-    const char *path, *file = args->operand[args->own]; /* file: of the case */
+    const char *path, *file = cli_case_file_of(args);
     char name[300];
     cli_exit code = CLI_CONTINUE;
     int set = 0, i = 0, pictures = 0, size = 0, script = 0;

@@ -129,6 +129,11 @@ cli_exit cli_parse(const cli_spec *spec, int argc, char **argv, cli_args *args)
     return CLI_CONTINUE;
 }
 
+const char *cli_case_file_of(const cli_args *args)
+{
+    return args->operands > args->own ? args->operand[args->own] : NULL;
+}
+
 void cli_args_free(cli_args *args)
 {
     free(args->operand);

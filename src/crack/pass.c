@@ -153,9 +153,9 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
             state.zone[0] == RB_ZONE_SEPARATED && state.fluid_pressure == 0.0)
             s = approach_closing(c, p, step, scale, T, &state, &reason);
         const rb_bem_edge_load *load = load_of(p, step);
-        double at_mouth = 0.0; /* the pressure of the load there */
+        double mouth = c->shape.path.x[0] - x, at_mouth = 0.0; /* the pressure of the load there */
         for (int i = 0; load && i < load->n; i++)
-            if (load->x[i] <= c->shape.path.x[0] - x && c->shape.path.x[0] - x < load->x[i + 1])
+            if (load->x[i] <= mouth && mouth < load->x[i + 1])
                 at_mouth = load->p[i];
         if (s == RB_OK)
             s = rb_crack_load(c, load, x, p->tension, T);

@@ -98,17 +98,18 @@ static rb_status read_bounds(const rb_case *c, const char *name, const char *uni
                                : rb_fail(why, RB_EINVAL, "--over: %s: expected A < B", name);
 }
 
-/* The next variable; NULL: no memory. */
-static rb_design_variable *add_variable(rb_design *d, const char *unit, double low, double high,
-                                        double start)
+static rb_status add_variable(rb_design *d, const char *name, const char *unit, double low,
+                              double high, double start, rb_message *why)
 {
     rb_design_variable *all = realloc(d->variable, (size_t)(d->n + 1) * sizeof *all);
     if (!all)
-        return NULL;
+        return rb_fail(why, RB_ENOMEM, "out of memory for a design");
     d->variable = all;
     all[d->n] = (rb_design_variable){
         .unit = unit, .low = low, .high = high, .start = start, .value = start};
-    return &all[d->n++];
+    snprintf(all[d->n].name, sizeof all->name, "%.39s", name);
+    d->n++;
+    return RB_OK;
 }
 
 /* The number of that name, or every value of the table of the gap; range: "A:B". */
@@ -134,22 +135,19 @@ static rb_status add_variables(const rb_case *c, int numbers, const rb_case_numb
         if (!(bound[0] <= value && value <= bound[1]))
             return rb_fail(why, RB_EINVAL,
                            "--over: %s begins at %g, which is not within its bounds", name, value);
-        rb_design_variable *v = add_variable(d, unit, bound[0], bound[1], value);
-        if (v)
-            snprintf(v->name, sizeof v->name, "%.39s", name);
-        return v ? RB_OK : rb_fail(why, RB_ENOMEM, "out of memory for a design");
+        return add_variable(d, name, unit, bound[0], bound[1], value, why);
     }
     d->gap_from = d->n;
     d->gap_n = rb_case_gap_rows(c, &d->gap_x, &gap);
     if (d->gap_n == 0)
         return rb_fail(why, RB_EINVAL, "--over gap: needs a gap from a table (--gap FILE)");
-    for (int i = 0; i < d->gap_n; i++) {
-        rb_design_variable *v = add_variable(d, unit, gap[i] + bound[0], gap[i] + bound[1], gap[i]);
-        if (!v)
-            return rb_fail(why, RB_ENOMEM, "out of memory for a design");
-        snprintf(v->name, sizeof v->name, "gap-%d", i + 1);
+    rb_status s = RB_OK;
+    for (int i = 0; i < d->gap_n && s == RB_OK; i++) {
+        char row[40];
+        snprintf(row, sizeof row, "gap-%d", i + 1);
+        s = add_variable(d, row, unit, gap[i] + bound[0], gap[i] + bound[1], gap[i], why);
     }
-    return RB_OK;
+    return s;
 }
 
 rb_status rb_design_variables(const rb_case *c, const char *text, rb_design *d, rb_message *why)

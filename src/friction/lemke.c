@@ -18,7 +18,6 @@
 #include <lapacke.h>
 #include <limits.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef enum { FORCE, PAIRS, DISPLACEMENT, STIFFNESS } basis_kind; /* PAIRS: 4 n_c */

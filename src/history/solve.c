@@ -1,7 +1,6 @@
 /* From case to solution in one call. */
 #include "history/internal.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 rb_status rb_rolling_end_solve(const rb_rolling_model *model, rb_status s, double begun,

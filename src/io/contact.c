@@ -186,10 +186,9 @@ static void read_gap(reading *r, rb_io_contact_case *c)
         read_numbers(r, c->plan == 2 ? 6 : 8, NULL, "the numbers of IPLAN", NULL);
 }
 
-/* What every case has: control digits, iteration, motion, friction, material. */
+/* What every case has: control digits, iteration, motion, friction, material, grid, gap. */
 static void read_case(reading *r, rb_io_contact_case *c)
 {
-    static const char names[] = "the line of the material";
     rb_io_contact_digits *d = &c->digit;
     int degrees = 0;
     *d = (rb_io_contact_digits){0};
@@ -232,14 +231,13 @@ static void read_case(reading *r, rb_io_contact_case *c)
     if (d->C >= 2)
         read_numbers(r, 4, (double *[]){&c->poisson[0], &c->poisson[1], &c->shear[0], &c->shear[1]},
                      "POISS(1), POISS(2), GG(1), GG(2)", NULL);
-    if (d->C >= 2 && d->M == 1)
-        read_numbers(r, 4, (double *[]){&c->ratio[0], &c->ratio[1], &c->time[0], &c->time[1]},
-                     names, NULL);
-    else if (d->C >= 2 && d->M == 4)
-        read_numbers(r, 4, (double *[]){&c->layer_shear, &c->layer, &c->yield, &c->hardening},
-                     names, NULL);
-    else if (d->C >= 2 && d->M > 0)
-        read_numbers(r, 4, NULL, names, NULL);
+    if (d->C >= 2 && d->M > 0)
+        read_numbers(r, 4,
+                     d->M == 1 ? (double *[]){&c->ratio[0], &c->ratio[1], &c->time[0], &c->time[1]}
+                     : d->M == 4
+                         ? (double *[]){&c->layer_shear, &c->layer, &c->yield, &c->hardening}
+                         : NULL,
+                     "the line of the material", NULL);
     for (int body = 0; body < 2 && d->H == 3; body++)
         read_numbers(r, 4, NULL, "BKTEMP, HEATCP, LAMBDA, DENS", NULL);
     if (d->H == 3 && d->M == 4)

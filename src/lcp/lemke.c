@@ -88,7 +88,7 @@ static int blocking_row(lemke *l)
     /* The lexicographic rule.  The basis inverse restricted to the column of w_j is -T_:w_j
      * where w_j is nonbasic, a unit vector where it is basic.  Columns are looked at only
      * as long as rows tie. */
-    for (int j = 0; l->opt.rule != RB_LCP_FIRST_INDEX && j < n && count > 1; j++) {
+    for (int j = 0; l->posed.opt.rule != RB_LCP_FIRST_INDEX && j < n && count > 1; j++) {
         const int row = l->t.place[j];
         int kept = 0;
         if (row >= 0) {
@@ -125,7 +125,7 @@ static int pivot(lemke *l, int row, int entering)
     lcp_tableau *t = &l->t;
     const int leaving = t->basis[row], iter = l->info->iters++;
     rb_lcp_tableau_pivot(t, row, -1 - t->place[entering], l->a);
-    if (l->opt.trace) {
+    if (l->posed.opt.trace) {
         /* Hands the pivot to the trace, with the whole tableau where that is wanted. */
         rb_lcp_pivot seen = {.pivot = iter,
                              .entering = entering,
@@ -133,7 +133,7 @@ static int pivot(lemke *l, int row, int entering)
                              .row = row,
                              .ratio = t->q[row],
                              .z0 = lemke_z0(l),
-                             .attempt = l->opt.attempt,
+                             .attempt = l->posed.opt.attempt,
                              .n = l->n,
                              .basis = t->basis,
                              .value = t->q,
@@ -146,7 +146,7 @@ static int pivot(lemke *l, int row, int entering)
             memcpy(l->image + n * (n + 1), l->t.q, n * sizeof(double));
         }
         seen.tableau = l->image;
-        l->opt.trace(&seen, l->opt.trace_context);
+        l->posed.opt.trace(&seen, l->posed.opt.trace_context);
     }
     return leaving;
 }
@@ -198,7 +198,8 @@ static rb_status follow_path(void *state)
             if (l->data.p.q[i] >= 0.0)
                 continue;
             const double ratio = l->data.p.q[i] / rb_lcp_cover(&l->data, i);
-            const int wins = l->opt.rule == RB_LCP_LEXICOGRAPHIC ? ratio <= least : ratio < least;
+            const int wins =
+                l->posed.opt.rule == RB_LCP_LEXICOGRAPHIC ? ratio <= least : ratio < least;
             if (wins) {
                 least = ratio;
                 row = i;
@@ -212,7 +213,7 @@ static rb_status follow_path(void *state)
     }
     while (!rb_lcp_pauses(&l->work)) {
         const int entering = rb_lcp_complement(l->n, l->leaving);
-        rb_status s = rb_lcp_check_limits(l->info, &l->opt, l->n, l->task->began);
+        rb_status s = rb_lcp_check_limits(l->info, &l->posed.opt, l->n, l->task->began);
         if (s == RB_OK) {
             driving_column(l, entering);
             row = blocking_row(l);
@@ -268,9 +269,8 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, v
         s = fail_memory(l);
     else {
         const lcp_posed *p = &l->posed;
-        l->opt = p->opt;
         l->data = (lcp_data){{n, p->M.dense, p->M.ld, p->q}, p->opt.cover};
-        const int traced = l->opt.trace && l->opt.trace_tableau;
+        const int traced = p->opt.trace && p->opt.trace_tableau;
         const rb_status status = rb_lcp_tableau_create(&l->data, &l->t);
         l->a = rb_alloc((size_t)l->n + 1, 7);
         l->tied = rb_alloc_int((size_t)l->n);

@@ -28,8 +28,7 @@ typedef struct {
     lcp_posed posed; /* the problem that is solved */
     int leaving;     /* what left last; -1: z0 has not entered yet */
     int n;
-    lcp_data data;      /* of it */
-    rb_lcp_options opt; /* the same */
+    lcp_data data; /* of it */
     lcp_tableau t;
     double *a;               /* n: driving column */
     double *other, *scratch; /* n each */

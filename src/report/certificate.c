@@ -86,10 +86,11 @@ static rb_status read_list(const char *name, const json_t *list, const char *hea
     return RB_OK;
 }
 
-rb_status rb_certificate_lists(const char *name, const char *of, const json_t *lists,
+rb_status rb_certificate_lists(const char *name, const char *of, const json_t *table,
                                const char *heading, int steps, int n, size_t apart, double *x,
                                rb_message *why)
 {
+    const json_t *lists = json_object_get(table, heading);
     rb_status s = RB_OK;
 
     if ((int)json_array_size(lists) != steps)
@@ -402,24 +403,25 @@ void rb_certificate_compare(rb_certificate *c, const char *name, int element, co
                             const json_t *again, rb_certificate_slack *slack)
 {
     const size_t n = json_array_size(again);
-    const char *key, *dot = strrchr(name, '.');
-    json_t *value;
-    char own[120] = "", path[160];
-    snprintf(own, sizeof own, element > 0 ? "%s.%d" : "%s", name, element);
-    /* The members of an object, and that there are no others. */
-    json_object_foreach((json_t *)again, key, value)
-    {
-        snprintf(path, sizeof path, "%s.%s", own, key);
-        if (!is_of_the_way(key))
-            rb_certificate_compare(c, path, 0, json_object_get(printed, key), value, slack);
-    }
     if (json_is_object(again)) {
+        /* Its members, and that there are no others. */
+        const char *key;
+        json_t *value;
+        char own[120] = "", path[160];
+        snprintf(own, sizeof own, element > 0 ? "%s.%d" : "%s", name, element);
+        json_object_foreach((json_t *)again, key, value)
+        {
+            snprintf(path, sizeof path, "%s.%s", own, key);
+            if (!is_of_the_way(key))
+                rb_certificate_compare(c, path, 0, json_object_get(printed, key), value, slack);
+        }
         json_object_foreach((json_t *)printed, key, value)
         {
             if (!json_object_get(again, key))
                 rb_certificate_violated(c, "%s.%s is no result of this case", own, key);
         }
     } else if (json_is_number(again) || json_is_null(again)) {
+        const char *dot = strrchr(name, '.');
         const double want = rb_certificate_number(again);
         const int exact = json_is_null(again) || json_is_integer(again);
 

@@ -54,8 +54,8 @@ rb_status rb_certificate_hash(rb_certificate *c, const json_t *root, json_t *now
 rb_status rb_certificate_column(const char *name, const json_t *table, const char *heading, int n,
                                 double *x, rb_message *why);
 
-/* n numbers of each of the steps of `of`, `apart` numbers from step to step. */
-rb_status rb_certificate_lists(const char *name, const char *of, const json_t *lists,
+/* The same of each of the steps of `of`, `apart` numbers from step to step. */
+rb_status rb_certificate_lists(const char *name, const char *of, const json_t *table,
                                const char *heading, int steps, int n, size_t apart, double *x,
                                rb_message *why);
 

@@ -170,11 +170,9 @@ static rb_status read_contact(assessment *j, rb_message *why)
         one->p = to->p;
         one->q = to->q;
     } else if (s == RB_OK) {
-        s = rb_certificate_lists(name, "", json_object_get(states, "p_MPa"), "p_MPa", steps, n,
-                                 (size_t)n, to->p, why);
+        s = rb_certificate_lists(name, "", states, "p_MPa", steps, n, (size_t)n, to->p, why);
         if (s == RB_OK)
-            s = rb_certificate_lists(name, "", json_object_get(states, "q_MPa"), "q_MPa", steps, n,
-                                     (size_t)n, to->q, why);
+            s = rb_certificate_lists(name, "", states, "q_MPa", steps, n, (size_t)n, to->q, why);
         run->distance = rb_alloc((size_t)steps, 1);
         if (s == RB_OK)
             s = run->distance
@@ -210,9 +208,8 @@ static rb_status read_history(assessment *j, rb_message *why)
 
     for (size_t k = 0; k < sizeof lists / sizeof *lists && s == RB_OK; k++)
         if (lists[k].to)
-            s = rb_certificate_lists(j->c.name, "", json_object_get(faces, lists[k].key),
-                                     lists[k].key, steps, lists[k].n, lists[k].apart, lists[k].to,
-                                     why);
+            s = rb_certificate_lists(j->c.name, "", faces, lists[k].key, steps, lists[k].n,
+                                     lists[k].apart, lists[k].to, why);
     if (s == RB_OK)
         s = rb_certificate_column(j->c.name, faces, "fluid_volume_mm2", steps, h->fluid_volume,
                                   why);

@@ -64,8 +64,8 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
         const char *key = parts[k].key;
         s = parts[k].n > 0
                 ? rb_certificate_column(c->name, parts[k].table, key, parts[k].n, parts[k].to, why)
-                : rb_certificate_lists(c->name, "states: ", json_object_get(states, key), key,
-                                       steps, n, (size_t)n, parts[k].to, why);
+                : rb_certificate_lists(c->name, "states: ", parts[k].table, key, steps, n,
+                                       (size_t)n, parts[k].to, why);
     }
     for (size_t i = 0; i < (size_t)n * (size_t)steps && s == RB_OK; i++)
         if (!(zone[i] >= 0.0 && zone[i] <= 5.0) || zone[i] != floor(zone[i]))

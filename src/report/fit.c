@@ -100,7 +100,7 @@ static const char *unit_behind(const rb_report_fit *f, const char *unit, char te
 {
     const int has = strcmp(unit, "-") != 0;
 
-    snprintf(text, 20, "%s%s", has ? " " : "", has ? rb_report_unit_name(f->units, unit) : "");
+    snprintf(text, 20, "%s%s", has ? " " : "", has ? rb_unit_name(f->units, unit) : "");
     return text;
 }
 

@@ -3,7 +3,6 @@
 #include "results/internal.h"
 
 #include <float.h>
-#include <stdlib.h>
 
 enum { ACROSS = 161, DEPTHS = 40, HALVINGS = 40 };
 static const double golden = 0.6180339887498949; /* (sqrt(5) - 1)/2 */
@@ -115,7 +114,7 @@ rb_status rb_rolling_shakedown_find(const rb_rolling_model *model, rb_rolling_sh
         if (here->shear_yield > (1.0 + 8.0 * DBL_EPSILON) * shakedown->shear_yield)
             *shakedown = *here;
     }
-    rb_arena_done(&scratch, s);
+    rb_arena_free(&scratch);
     return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the shakedown limit") : s;
 }
 

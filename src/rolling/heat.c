@@ -236,7 +236,7 @@ static rb_status share_heat(const conductor *a, const conductor *b, const rb_rol
     const int n = s->n, m = s->contact, toeplitz = a->response && is_one_contact(s);
     rb_arena scratch = {0};
     double *rhs = rb_arena_doubles(&scratch, (size_t)n, 1),
-           *row = rb_arena_doubles(&scratch, (size_t)n, 2),
+           *row = toeplitz ? NULL : rb_arena_doubles(&scratch, (size_t)n, 2),
            *t = toeplitz ? rb_arena_doubles(&scratch, (size_t)m, 2) : NULL,
            *M = toeplitz ? NULL : rb_arena_doubles(&scratch, (size_t)m, (size_t)m);
     lapack_int *pivots = rb_arena_zeros(&scratch, (size_t)m, sizeof *pivots);
@@ -318,7 +318,7 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_roll
         if (shared)
             status = warm(&own->b, heat, t_b);
     }
-    rb_arena_done(&scratch, status);
+    rb_arena_free(&scratch);
     return status == RB_OK ? RB_OK
                            : rb_fail(why, status, "temperature: %s", rb_status_text(status));
 }

@@ -3,7 +3,6 @@
 
 #include <cblas.h>
 #include <math.h>
-#include <stdlib.h>
 
 /* 0: no element with friction slips.  What opens between an element in contact and an
  * open one is then no slip, although their mean friction is not 0. */

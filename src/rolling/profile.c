@@ -216,7 +216,7 @@ rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, d
         p->spline = gsl_spline_alloc(gsl_interp_cspline, rows);
         s = p->spline && gsl_spline_init(p->spline, at, y, rows) == 0 ? RB_OK : RB_ENOMEM;
     }
-    rb_arena_done(&scratch, s);
+    rb_arena_free(&scratch);
     if (s != RB_OK) {
         rb_rolling_profile_free(p);
         return rb_fail(why, s, "out of memory for a gap of %d points", n);
