@@ -1175,7 +1175,7 @@ TEST(derivatives_of_steps)
         CHECK_ABS(deviation[k], 0.02 * fabs(d[k]), 1e-12 * fabs(before[steps - 1]), "step %d", k);
     assert_int_equal(rb_api_set(a, "mu", "0.2"), RB_OK);
     assert_int_equal(rb_api_step_derivatives(a, "tangential_load"), RB_EINVAL);
-    assert_non_null(strstr(rb_api_message(a), "of a solved case with steps"));
+    assert_non_null(strstr(rb_api_message(a), "need a case with steps that has been solved"));
     assert_int_equal(rb_api_set(a, "error", "yes"), RB_OK);
     assert_int_equal(rb_api_solve(a), RB_OK);
     assert_int_equal(rb_api_step_derivatives(a, "tangential_load"), RB_EINVAL);

@@ -307,7 +307,7 @@ TEST(what_has_no_smooth_derivatives)
          "friction with memory"},
         {{{FIXED, "similar", "yes", "creep", "-1e-3"}},
          "load",
-         "edges of the contact move over the elements"},
+         "moves the edges of the contact over the elements"},
         {{{"support", "hub", "load", "500", "mu", "0.3", "formulation", "steady", "mesh", "fitted",
            "contact-elements", "20", "creep-ratio", "0.7", "outer-elements", "200"}},
          "creep-ratio",

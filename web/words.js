@@ -225,7 +225,7 @@ export const words = {
         along_alt: "1 % more of {name} changes the pressure by {p} MPa at most, the friction by {q} MPa.",
         uncertain: "How uncertain are the inputs?",
         uncertain_note:
-            "Their standard deviations, in per cent or in the input's unit, as mu=0.02,radius=1%. Those of the results follow to first order.",
+            "Their standard deviations, in per cent or in the input's unit, for example mu=0.02,radius=1%. Those of the results are computed to first order.",
         uncertain_refused: "Not a standard deviation of this case: {why}.",
         uncertain_of: "{result} {value} ± {deviation} {unit}",
     },

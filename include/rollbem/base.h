@@ -132,7 +132,7 @@ int *rb_alloc_int(size_t n);
 double *rb_copy(size_t n, const double *x);
 
 /* Scratch memory: arrays that a function needs for itself.  It allocates all of them, asks
- * once whether there was memory, and leaves at each exit through rb_arena_done, which frees
+ * once whether there was memory, and returns rb_arena_done(...) at each exit, which frees
  * them and returns the status:
  *
  *     rb_arena scratch = {0};

@@ -146,8 +146,9 @@ enum { RB_BEM_HIERARCHICAL = 1500 };
  * material or the mesh is invalid; RB_SINGULAR; RB_ENOMEM. */
 rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,
                                rb_bem_system **system, rb_message *why);
-/* The same; a hierarchical matrix leaves out `compression` of what clusters do to others,
- * if that is less than usual (at most 1e-9), for systems whose difference is taken. */
+/* As rb_bem_system_create; a hierarchical matrix is compressed to the relative tolerance
+ * `compression`, if that is less than usual (at most 1e-9), for systems whose difference is
+ * taken. */
 rb_status rb_bem_system_create_within(const rb_bem_mesh *mesh, rb_bem_material material,
                                       double compression, rb_bem_system **system, rb_message *why);
 /* A cover bonded to an elastic core (B11).  The inner contour of the cover (the last

@@ -766,8 +766,9 @@ void rb_rolling_peak_temperature(int n, const double *x, const int *zone, const 
  * number, on the same elements, with the model's state and zones, to be completed.  If
  * the flexibility is the same, it is borrowed from the model.  RB_INACCURATE: the number
  * of elements outside the contact differs.  results: 0 if only the equations are needed.
- * own_bodies: 1: a boundary that is compressed is not borrowed, so that all variants of
- * the model have it compressed as closely.  variant: overwritten; free it in any case. */
+ * own_bodies: 1: the variant has a compressed boundary of its own instead of the model's,
+ * so that all variants have it compressed as closely.  variant: overwritten; free it in any case.
+ */
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
                                     int results, int own_bodies, rb_rolling_model *variant,
                                     rb_message *why);

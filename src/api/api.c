@@ -775,7 +775,7 @@ static int curve(rb_api *a, const char *over, double from, double to, int points
                     derivatives ? "derivatives" : "tolerance");
     if (s == RB_OK && differentiated && c->rc.formulation != RB_STEADY)
         s = rb_fail(&a->why, RB_EINVAL,
-                    "derivatives of a curve: those of a steady case; give --formulation steady");
+                    "derivatives of a curve need a steady case; give --formulation steady");
     if (s == RB_OK && differentiated)
         s = rb_case_curve_choose(a->words, &range, derivatives, tolerance, slopes, &a->why);
     if (s == RB_OK)
@@ -1106,8 +1106,8 @@ static rb_status states_of_steps(rb_api *a)
 
     a->states.program = c->program.n > 0 ? &c->program : NULL;
     a->states.half_width = h->half_width;
-    return h->n == 0
-               ? rb_fail(&a->why, RB_EINVAL, "derivatives of steps: of a solved case with steps")
+    return h->n == 0 ? rb_fail(&a->why, RB_EINVAL,
+                               "derivatives of steps need a case with steps that has been solved")
            : c->error
                ? rb_fail(&a->why, RB_EINVAL, "derivatives of steps: not together with error bars")
            : a->states.steps != h->n

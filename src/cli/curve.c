@@ -41,10 +41,11 @@ static const rb_option options[] = {
                  "columns with the derivatives of these results of single cases at every point, "
                  "with respect to all numbers, or RESULT:OPTION to one",
                  .unset = "none", .alone = "all"),
-    RB_TEXT_LINE("tolerance", PLACE(tolerance), "NAME=X,...",
-                 "standard deviations of inputs, as mu=0.02,radius=1%: columns with those "
-                 "of the results at every point, to first order",
-                 .unset = "none"),
+    RB_TEXT_LINE(
+        "tolerance", PLACE(tolerance), "NAME=X,...",
+        "standard deviations of inputs, as mu=0.02,radius=1%: a column deviation_... with that "
+        "of each result at every point, to first order",
+        .unset = "none"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };

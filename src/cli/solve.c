@@ -47,10 +47,11 @@ static const rb_option options[] = {
                  "tractions; of a case with steps: of columns of its history; RESULT:OPTION: with "
                  "respect to one number",
                  .unset = "none", .alone = "all"),
-    RB_TEXT_LINE("smooth-derivatives", PLACE(smooth), "RESULT,...",
-                 "the same without the jumps where an element changes between stick and slip: on "
-                 "aligned and fitted elements slopes of second order; of one solution",
-                 .unset = "none", .alone = "all"),
+    RB_TEXT_LINE(
+        "smooth-derivatives", PLACE(smooth), "RESULT,...",
+        "as --derivatives, but without the jumps where an element changes between stick and "
+        "slip: of second order on aligned and fitted elements; not for cases with steps",
+        .unset = "none", .alone = "all"),
     RB_TEXT_LINE("tolerance", PLACE(tolerance), "NAME=X,...",
                  "standard deviations of inputs, as mu=0.02,radius=1%: prints those of all "
                  "results to first order to standard error, and as tolerances in JSON; of a case "
@@ -294,7 +295,7 @@ static cli_exit check(cli_case_run *run)
         return cli_fail(CLI_USAGE, "--smooth-derivatives: not together with --%s",
                         it->derivatives ? "derivatives" : "tolerance");
     if (it->smooth && (has_steps || !model_kept))
-        return cli_fail(CLI_USAGE, "--smooth-derivatives: of one solution, not of %s",
+        return cli_fail(CLI_USAGE, "--smooth-derivatives: not for %s",
                         has_steps ? "a case with steps" : "error bars");
     if (it->smooth)
         it->derivatives = it->smooth;

@@ -145,10 +145,11 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                 largest(c->n, curves->error[k].force_ratio),
                 largest(c->n, curves->error[k].normal_load), rb_unit_name(c->units, "N/mm"));
         if (c->deviations && speeds)
-            fprintf(out, "  standard deviation of M/(P R) <= %.2g, from those of --tolerance\n",
+            fprintf(out,
+                    "  standard deviation of M/(P R) at most %.2g, from those of --tolerance\n",
                     largest(c->n, c->deviations->resistance_ratio));
         else if (c->deviations)
-            fprintf(out, "  standard deviation of Q <= %.2g %s, from those of --tolerance\n",
+            fprintf(out, "  standard deviation of Q at most %.2g %s, from those of --tolerance\n",
                     largest(c->n, c->deviations->tangential_load), rb_unit_name(c->units, "N/mm"));
         int points = 0, least = 0;
         for (int i = 0; i < c->n; i++) {

@@ -219,7 +219,7 @@ rb_status rb_sensitivity_smooth(const rb_sensitivity_jumps *jumps,
     free(part);
     return edges_move
                ? rb_fail(why, RB_EINVAL,
-                         "smooth derivatives: the edges of the contact move over the elements; "
+                         "smooth derivatives: the input moves the edges of the contact over the elements; "
                          "give --mesh aligned or fitted")
                : RB_OK;
 }
