@@ -217,9 +217,9 @@ rb_status rb_sensitivity_smooth(const rb_sensitivity_jumps *jumps,
             d->dissipation = d->max_temperature = NAN;
     }
     free(part);
-    return edges_move
-               ? rb_fail(why, RB_EINVAL,
-                         "smooth derivatives: the input moves the edges of the contact over the elements; "
-                         "give --mesh aligned or fitted")
-               : RB_OK;
+    return edges_move ? rb_fail(why, RB_EINVAL,
+                                "smooth derivatives: the input moves the edges of the contact over "
+                                "the elements; "
+                                "give --mesh aligned or fitted")
+                      : RB_OK;
 }
