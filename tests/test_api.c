@@ -1036,6 +1036,42 @@ TEST(derivatives)
     rb_api_free(a);
 }
 
+/* What the last of several steps began with, its heat too, is gone when they are solved. */
+TEST(derivatives_of_several_steps_are_refused)
+{
+    rb_api *a = solved((const char *const[]){"support",
+                                             "hub",
+                                             "similar",
+                                             "yes",
+                                             "load",
+                                             "500",
+                                             "formulation",
+                                             "transient",
+                                             "distance",
+                                             "0.6",
+                                             "steps",
+                                             "3",
+                                             "creep",
+                                             "1e-3",
+                                             "speed",
+                                             "1000",
+                                             "mu-heat",
+                                             "-0.1,0,300",
+                                             "conductivity",
+                                             "50",
+                                             "heat-capacity",
+                                             "3.8",
+                                             "contact-elements",
+                                             "20",
+                                             NULL});
+
+    assert_int_equal(rb_api_derivatives(a), RB_EINVAL);
+    assert_non_null(strstr(rb_api_message(a), "only for one step"));
+    assert_int_equal(rb_api_smooth_derivatives(a), RB_EINVAL);
+    assert_int_equal(rb_api_tolerances(a, "mu=0.02"), RB_EINVAL);
+    rb_api_free(a);
+}
+
 /* Place of an input among those of rb_api_derivatives. */
 static int place_of(const rb_api *a, const char *input)
 {

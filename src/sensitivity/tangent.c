@@ -372,10 +372,12 @@ rb_status rb_sensitivity_create(const rb_rolling_model *model, int results, rb_s
                                 rb_message *why)
 {
     rb_message reason = {""};
-    rb_status status = create(model, NULL, results, s, why);
+    rb_status status;
 
-    if (status == RB_OK && results && rb_rolling_has_steps(model->rc))
-        status = rb_fail(why, RB_EINVAL, "derivatives: only for one step; this case has several");
+    *s = NULL;
+    if (results && rb_rolling_has_steps(model->rc)) /* what steps carried is gone after the last */
+        return rb_fail(why, RB_EINVAL, "derivatives: only for one step; this case has several");
+    status = create(model, NULL, results, s, why);
     if (status == RB_OK && results)
         status = rb_rolling_model_solution(model, &(*s)->solution, why);
     if (status == RB_OK && results) {
