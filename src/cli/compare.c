@@ -154,36 +154,6 @@ static cli_exit run_file(comparison *c, const char *path)
 
 /* ---- Output ------------------------------------------------------------------------ */
 
-/* A run as it is told. */
-typedef struct {
-    const char *file, *solver, *status;
-    rb_friction_info info;
-} told_run;
-
-#define ROW(name, column, kind, member) CLI_ROW(told_run, name, column, kind, member)
-
-static const cli_row rows[] = {ROW("file", "file", TEXT, file),
-                               ROW("solver", "solver", TEXT, solver),
-                               ROW("status", "status", WORDS, status),
-                               ROW("iterations", "iterations", WHOLE, info.iters),
-                               ROW("residual", "residual", NUMBER, info.residual),
-                               ROW("scaled_residual", "scaled", NUMBER, info.scaled),
-                               ROW("floor", "floor", NUMBER, info.floor),
-                               ROW("flops", "flops", NUMBER, info.flops),
-                               ROW("seconds", "seconds", NUMBER, info.seconds)};
-
-enum { ROWS = sizeof rows / sizeof *rows };
-
-static told_run told(const comparison *c, int k)
-{
-    const run_result *one = &c->result[k];
-    return (told_run){c->file[k / c->solvers], c->solver[k % c->solvers],
-                      one->status == RB_EINVAL
-                          ? "not taken"
-                          : rb_friction_status_text(one->status, c->o->tol, &one->info),
-                      one->info};
-}
-
 static rb_status print_profiles(FILE *out, const void *context, rb_message *why)
 {
     const comparison *c = context;
@@ -207,27 +177,33 @@ static rb_status print_profiles(FILE *out, const void *context, rb_message *why)
 static rb_status write_results(FILE *out, const void *context, rb_message *why)
 {
     const comparison *c = context;
+    cli_rows rows = cli_rows_begin(
+        out, &c->o->style, "file solver status iterations residual floor flops seconds scaled");
     (void)why;
-    if (c->o->style.format != RB_REPORT_JSON) {
-        const char *columns = "file solver status iterations residual floor flops seconds scaled";
-        rb_report_cells cells = rb_report_cells_begin(out, &c->o->style, columns);
-        rb_report_comment_origin(&cells, cli_command_line());
-        for (int k = 0; k < c->problems * c->solvers; k++) {
-            const told_run run = told(c, k);
-            cli_rows_cells(&cells, columns, ROWS, rows, &run);
-        }
-        return rb_report_flush(out);
-    }
-    json_t *root = rb_report_json_start(cli_command_line()), *profiles = json_object();
-    json_t *runs = json_array();
     for (int k = 0; k < c->problems * c->solvers; k++) {
-        const told_run run = told(c, k);
-        rb_report_json_append(&runs, cli_rows_json(ROWS, rows, &run, 1));
+        const run_result *one = &c->result[k];
+        const rb_friction_info *info = &one->info;
+        const char *status = one->status == RB_EINVAL
+                                 ? "not taken"
+                                 : rb_friction_status_text(one->status, c->o->tol, info);
+        const cli_value values[] = {CLI_TEXT("file", "file", c->file[k / c->solvers]),
+                                    CLI_TEXT("solver", "solver", c->solver[k % c->solvers]),
+                                    CLI_WORDS("status", "status", status),
+                                    CLI_WHOLE("iterations", "iterations", info->iters),
+                                    CLI_NUMBER("residual", "residual", info->residual),
+                                    CLI_NUMBER("scaled_residual", "scaled", info->scaled),
+                                    CLI_NUMBER("floor", "floor", info->floor),
+                                    CLI_NUMBER("flops", "flops", info->flops),
+                                    CLI_NUMBER("seconds", "seconds", info->seconds)};
+        cli_rows_add(&rows, sizeof values / sizeof *values, values);
     }
+    if (!rows.is_json)
+        return rb_report_flush(out);
+    json_t *root = rb_report_json_start(cli_command_line()), *profiles = json_object();
     rb_report_json_set(&root, "cost", json_string(costs[c->o->cost].name));
     rb_report_json_set(&root, "measure", json_string(cli_friction_measures[c->o->measure].name));
     rb_report_json_set(&root, "tol", rb_report_json_number(c->o->tol));
-    rb_report_json_set(&root, "runs", runs);
+    rb_report_json_set(&root, "runs", rows.list);
     rb_report_json_set(&root, "tau", rb_report_json_numbers(TAUS, c->tau));
     for (int s = 0; s < c->solvers; s++)
         rb_report_json_set(&profiles, c->solver[s],

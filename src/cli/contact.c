@@ -64,133 +64,80 @@ typedef struct {
 
 /* ---- Results in CONTACT's words ---------------------------------------------------- */
 
-/* A case: its row of the table and its object. */
-typedef struct {
-    int number;
-    const char *status, *left_out;
-    double FN, FX, FX_REL, CKSI, PEN, PMAX, FRIC_POWER, NPOT, NCON, NADH, NSLIP, P, Q, line,
-        residual, NPLAST;
-} case_row;
-
-#define ROW(name, column, kind, member) CLI_ROW(case_row, name, column, kind, member)
-#define NUMBER(name, member) ROW(name, name, NUMBER, member)
-
-static const cli_row case_rows[] = {ROW("case", "case", WHOLE, number),
-                                    ROW("status", "status", WORDS, status),
-                                    ROW("left_out", NULL, TEXT, left_out),
-                                    NUMBER("FN", FN),
-                                    NUMBER("FX", FX),
-                                    NUMBER("FX_REL", FX_REL),
-                                    NUMBER("CKSI", CKSI),
-                                    NUMBER("PEN", PEN),
-                                    NUMBER("PMAX", PMAX),
-                                    NUMBER("FRIC_POWER", FRIC_POWER),
-                                    NUMBER("NPOT", NPOT),
-                                    NUMBER("NCON", NCON),
-                                    NUMBER("NADH", NADH),
-                                    NUMBER("NSLIP", NSLIP),
-                                    NUMBER("P_N/mm", P),
-                                    NUMBER("Q_N/mm", Q),
-                                    NUMBER("line", line),
-                                    NUMBER("residual", residual),
-                                    NUMBER("NPLAST", NPLAST)};
-
-#undef ROW
-#undef NUMBER
-
-enum { CASE_ROWS = sizeof case_rows / sizeof *case_rows };
-
 static const char columns[] = "case status FN FX FX_REL CKSI PEN PMAX FRIC_POWER NPOT NCON NADH "
-                              "NSLIP P_N/mm Q_N/mm line residual NPLAST";
+                              "NSLIP P_N/mm Q_N/mm line residual NPLAST",
+                  element_columns[] = "case X H PN PX S zone UPL";
 
-/* An element of a case, in the table alone. */
-typedef struct {
-    int number, zone;
-    double X, H, PN, PX, S, UPL;
-} element_row;
+#define NUMBER(name, x) CLI_NUMBER(name, name, (x) + known)
 
-#define COLUMN(kind, column, member) CLI_ROW(element_row, NULL, column, kind, member)
-
-static const cli_row element_rows[] = {COLUMN(WHOLE, "case", number), COLUMN(NUMBER, "X", X),
-                                       COLUMN(NUMBER, "H", H),        COLUMN(NUMBER, "PN", PN),
-                                       COLUMN(NUMBER, "PX", PX),      COLUMN(NUMBER, "S", S),
-                                       COLUMN(WHOLE, "zone", zone),   COLUMN(NUMBER, "UPL", UPL)};
-
-enum { ELEMENT_ROWS = sizeof element_rows / sizeof *element_rows };
-
-static const char element_columns[] = "case X H PN PX S zone UPL";
-
-/* x + 0.0: no -0; NAN where the case was not run. */
-static case_row case_row_of(const contact_runs *all, int k)
+/* A case as a row; x + 0.0: no -0; NAN where it was not run. */
+static void add_case(cli_rows *rows, int number, const contact_run *r)
 {
-    const contact_run *r = &all->run[k];
     const rb_rolling_solution *s = &r->s;
     const rb_io_contact_case *in = r->in;
     const double known = s->n > 0 ? 0.0 : NAN, sign = r->c.sign, width = r->c.width;
     const int yielding = s->yielding > 0 ? s->yielding : 0;
-    return (case_row){.number = k + 1,
-                      .status = r->c.runs ? rb_status_text(r->status) : "not run",
-                      .left_out = r->c.left_out,
-                      .FN = s->normal_load * width + known,
-                      .FX = sign * s->tangential_load * width + known,
-                      .FX_REL = sign * s->force_ratio + known,
-                      .CKSI = sign * (in->digit.T >= 2 ? s->creepage : s->tangential_shift) + known,
-                      .PEN = s->approach + known,
-                      .PMAX = s->max_pressure + known,
-                      .FRIC_POWER = rb_case_contact_power(in, &r->c, r->before, s) + known,
-                      .NPOT = s->n + known,
-                      .NCON = s->contact + known,
-                      .NADH = s->stick + known,
-                      .NSLIP = s->slipping - yielding + known,
-                      .P = s->normal_load + known,
-                      .Q = s->tangential_load + known,
-                      .line = in->line + known,
-                      .residual = s->residual + known,
-                      .NPLAST = yielding + known};
+    const cli_value values[] = {
+        CLI_WHOLE("case", "case", number),
+        CLI_WORDS("status", "status", r->c.runs ? rb_status_text(r->status) : "not run"),
+        CLI_TEXT("left_out", NULL, r->c.left_out),
+        NUMBER("FN", s->normal_load * width),
+        NUMBER("FX", sign * s->tangential_load * width),
+        NUMBER("FX_REL", sign * s->force_ratio),
+        NUMBER("CKSI", sign * (in->digit.T >= 2 ? s->creepage : s->tangential_shift)),
+        NUMBER("PEN", s->approach),
+        NUMBER("PMAX", s->max_pressure),
+        NUMBER("FRIC_POWER", rb_case_contact_power(in, &r->c, r->before, s)),
+        NUMBER("NPOT", s->n),
+        NUMBER("NCON", s->contact),
+        NUMBER("NADH", s->stick),
+        NUMBER("NSLIP", s->slipping - yielding),
+        NUMBER("P_N/mm", s->normal_load),
+        NUMBER("Q_N/mm", s->tangential_load),
+        NUMBER("line", in->line),
+        NUMBER("residual", s->residual),
+        NUMBER("NPLAST", yielding)};
+    cli_rows_add(rows, sizeof values / sizeof *values, values);
 }
+
+#undef NUMBER
 
 static rb_status print(FILE *out, const void *context, rb_message *why)
 {
     const contact_runs *all = context;
+    const int tractions = all->o->tractions;
+    cli_rows rows = cli_rows_begin(out, &all->o->style, tractions ? element_columns : columns);
     (void)why;
-    if (all->o->style.format != RB_REPORT_JSON) {
-        const char *names = all->o->tractions ? element_columns : columns;
-        rb_report_cells cells = rb_report_cells_begin(out, &all->o->style, names);
-        rb_report_comment_origin(&cells, cli_command_line());
-        for (int k = 0; k < all->n; k++)
-            if (all->run[k].c.left_out[0])
-                rb_report_comment(&cells, "case %d leaves out %s", k + 1, all->run[k].c.left_out);
-        for (int k = 0; k < all->n; k++) {
-            const rb_rolling_solution *s = &all->run[k].s;
-            const case_row row = case_row_of(all, k);
-            if (!all->o->tractions)
-                cli_rows_cells(&cells, names, CASE_ROWS, case_rows, &row);
-            for (int j = 0; all->o->tractions && j < s->n; j++) {
-                const rb_case_contact *c = &all->run[k].c;
-                const int i = c->sign < 0.0 ? s->n - 1 - j : j;
-                const element_row element = {.number = k + 1,
-                                             .X = c->centre + c->sign * s->x[i],
-                                             .H = s->gap[i],
-                                             .PN = s->p[i],
-                                             .PX = c->sign * s->q[i] + 0.0,
-                                             .S = c->sign * s->slip[i] + 0.0,
-                                             .zone = s->zone[i],
-                                             .UPL = s->plastic ? s->plastic[i] : 0.0};
-                cli_rows_cells(&cells, names, ELEMENT_ROWS, element_rows, &element);
-            }
-        }
-        return rb_report_flush(out);
-    }
-    json_t *root = rb_report_json_start(cli_command_line()), *cases = json_array();
+    for (int k = 0; k < all->n && !rows.is_json; k++)
+        if (all->run[k].c.left_out[0])
+            rb_report_comment(&rows.cells, "case %d leaves out %s", k + 1, all->run[k].c.left_out);
     for (int k = 0; k < all->n; k++) {
-        const case_row row = case_row_of(all, k);
-        json_t *one = cli_rows_json(CASE_ROWS, case_rows, &row, 1);
-        if (all->o->tractions && all->run[k].s.n > 0)
-            rb_report_json_set(&one, "table", rb_report_json_table(&all->run[k].s));
-        rb_report_json_append(&cases, one);
+        const contact_run *r = &all->run[k];
+        if (rows.is_json || !tractions)
+            add_case(&rows, k + 1, r);
+        if (rows.is_json && tractions && r->s.n > 0)
+            cli_rows_set(&rows, "table", rb_report_json_table(&r->s));
+        for (int j = 0; j < r->s.n && tractions && !rows.is_json; j++) {
+            /* The elements along the x of the file. */
+            const rb_rolling_solution *s = &r->s;
+            const double sign = r->c.sign;
+            const int i = sign < 0.0 ? s->n - 1 - j : j;
+            const cli_value values[] = {CLI_WHOLE(NULL, "case", k + 1),
+                                        CLI_NUMBER(NULL, "X", r->c.centre + sign * s->x[i]),
+                                        CLI_NUMBER(NULL, "H", s->gap[i]),
+                                        CLI_NUMBER(NULL, "PN", s->p[i]),
+                                        CLI_NUMBER(NULL, "PX", sign * s->q[i] + 0.0),
+                                        CLI_NUMBER(NULL, "S", sign * s->slip[i] + 0.0),
+                                        CLI_WHOLE(NULL, "zone", s->zone[i]),
+                                        CLI_NUMBER(NULL, "UPL", s->plastic ? s->plastic[i] : 0.0)};
+            cli_rows_add(&rows, sizeof values / sizeof *values, values);
+        }
     }
+    if (!rows.is_json)
+        return rb_report_flush(out);
+    json_t *root = rb_report_json_start(cli_command_line());
     rb_report_json_set(&root, "file", rb_report_json_text(all->path));
-    rb_report_json_set(&root, "cases", cases);
+    rb_report_json_set(&root, "cases", rows.list);
     return rb_report_json_write(out, root);
 }
 

@@ -73,88 +73,49 @@ static const char about[] =
 
 /* ---- Writing ----------------------------------------------------------------------- */
 
-/* The steps of an example: values, a struct for each step, described by rows. */
-typedef struct {
-    const char *name, *columns;
-    const cli_row *row;
-    int rows;
-} step_table;
-
-static rb_status write_steps(FILE *out, const example_options *o, const step_table *t, int steps,
-                             const void *values, size_t size)
+/* The end of a table, or the JSON of an example with its steps. */
+static rb_status end_steps(FILE *out, const example_options *o, const cli_rows *rows,
+                           const char *name)
 {
-    const char *at = values;
-    if (o->style.format == RB_REPORT_JSON) {
-        json_t *list = json_array();
-        for (int k = 0; k < steps; k++)
-            rb_report_json_append(&list, cli_rows_json(t->rows, t->row, at + (size_t)k * size, 1));
-        json_t *root = rb_report_json_start(cli_command_line());
-        json_t *inputs = json_object();
-        rb_report_json_set(&inputs, "example", json_string(t->name));
-        rb_report_json_set(&inputs, "solver", json_string(o->solver));
-        rb_report_json_set(&inputs, "tol", rb_report_json_number(o->tol));
-        if (strcmp(t->name, "truss") == 0) {
-            rb_report_json_set(&inputs, "layout", json_string(layouts[o->layout].name));
-            rb_report_json_set(&inputs, "nodes", json_integer(o->nodes));
-        } else if (strcmp(t->name, "wall") == 0) {
-            rb_report_json_set(&inputs, "mesh", json_string(meshes[o->mesh].name));
-            rb_report_json_set(&inputs, "rigid", json_boolean(o->rigid));
-            rb_report_json_set(&inputs, "step_s", rb_report_json_number(o->step));
-        }
-        rb_report_json_set(&root, "inputs", inputs);
-        rb_report_json_set(&root, "steps", list);
-        return rb_report_json_write(out, root);
+    if (!rows->is_json)
+        return rb_report_flush(out);
+    json_t *root = rb_report_json_start(cli_command_line()), *inputs = json_object();
+    rb_report_json_set(&inputs, "example", json_string(name));
+    rb_report_json_set(&inputs, "solver", json_string(o->solver));
+    rb_report_json_set(&inputs, "tol", rb_report_json_number(o->tol));
+    if (strcmp(name, "truss") == 0) {
+        rb_report_json_set(&inputs, "layout", json_string(layouts[o->layout].name));
+        rb_report_json_set(&inputs, "nodes", json_integer(o->nodes));
+    } else if (strcmp(name, "wall") == 0) {
+        rb_report_json_set(&inputs, "mesh", json_string(meshes[o->mesh].name));
+        rb_report_json_set(&inputs, "rigid", json_boolean(o->rigid));
+        rb_report_json_set(&inputs, "step_s", rb_report_json_number(o->step));
     }
-    rb_report_cells c = rb_report_cells_begin(out, &o->style, t->columns);
-    rb_report_comment_origin(&c, cli_command_line());
-    for (int k = 0; k < steps; k++)
-        cli_rows_cells(&c, t->columns, t->rows, t->row, at + (size_t)k * size);
-    return rb_report_flush(out);
+    rb_report_json_set(&root, "inputs", inputs);
+    rb_report_json_set(&root, "steps", rows->list);
+    return rb_report_json_write(out, root);
 }
+
+/* A number of that name in table and JSON. */
+#define NUMBER(name, x) CLI_NUMBER(name, name, x)
+#define WHOLE(name, x) CLI_WHOLE(name, name, x)
 
 /* ---- Bar and truss ----------------------------------------------------------------- */
 
 typedef struct {
-    int number, stick, slip, separated, iterations;
-    const char *status;
-    double residual;
-    rb_report_fem_sums sums;
-} model_step;
-
-#define ROW(name, column, kind, member) CLI_ROW(model_step, name, column, kind, member)
-#define COMMON_ROWS                                                                                \
-    ROW(NULL, "step", WHOLE, number), ROW("status", NULL, TEXT, status),                           \
-        ROW("stick", "stick", WHOLE, stick), ROW("slip", "slip", WHOLE, slip),                     \
-        ROW("separated", "separated", WHOLE, separated),                                           \
-        ROW("iterations", "iterations", WHOLE, iterations),                                        \
-        ROW("residual", "residual", NUMBER, residual)
-#define SUM(name, member) ROW(name, name, NUMBER, sums.member)
-
-static const cli_row bar_rows[] = {COMMON_ROWS, SUM("corner_ux_mm", corner[0]),
-                                   SUM("corner_uy_mm", corner[1]), SUM("normal_sum_N", normal),
-                                   SUM("tangential_sum_N", tangential[0])};
-static const cli_row truss_rows[] = {COMMON_ROWS, SUM("max_increment_mm", increment),
-                                     SUM("normal_sum_N", normal)};
-
-#undef ROW
-#undef SUM
-#undef COMMON_ROWS
-
-typedef struct {
-    step_table table;
+    const char *name, *columns;
     rb_status (*picture)(FILE *out, rb_report_canvas canvas, const rb_fem_model *model,
                          const rb_fem_history *history, rb_message *why);
 } example;
 
-static const example bar = {{"bar",
-                             "step stick slip separated corner_ux_mm corner_uy_mm normal_sum_N "
-                             "tangential_sum_N iterations residual",
-                             bar_rows, sizeof bar_rows / sizeof *bar_rows},
-                            rb_report_picture_bar};
-static const example truss = {
-    {"truss", "step stick slip separated max_increment_mm normal_sum_N iterations residual",
-     truss_rows, sizeof truss_rows / sizeof *truss_rows},
-    rb_report_picture_truss};
+static const example bar = {"bar",
+                            "step stick slip separated corner_ux_mm corner_uy_mm normal_sum_N "
+                            "tangential_sum_N iterations residual",
+                            rb_report_picture_bar},
+                     truss = {"truss",
+                              "step stick slip separated max_increment_mm normal_sum_N iterations "
+                              "residual",
+                              rb_report_picture_truss};
 
 typedef struct {
     const example_options *o;
@@ -166,24 +127,29 @@ typedef struct {
 static rb_status write_history(FILE *out, const void *context, rb_message *why)
 {
     const example_run *r = context;
-    const int steps = r->history->steps;
-    model_step *all = calloc((size_t)steps, sizeof *all);
-    if (!all)
-        return rb_fail(why, RB_ENOMEM, "out of memory");
-    for (int k = 0; k < steps; k++) {
+    cli_rows rows = cli_rows_begin(out, &r->o->style, r->e->columns);
+    (void)why;
+    for (int k = 0; k < r->history->steps; k++) {
+        enum { COMMON = 7 };
         const rb_fem_step *s = &r->history->step[k];
-        all[k] = (model_step){.number = k + 1,
-                              .stick = s->stick,
-                              .slip = s->slip,
-                              .separated = s->separated,
-                              .iterations = s->iterations,
-                              .status = rb_status_text(s->status),
-                              .residual = s->residual,
-                              .sums = rb_report_fem_sum(r->model, s)};
+        const rb_report_fem_sums sums = rb_report_fem_sum(r->model, s);
+        cli_value values[COMMON + 4] = {
+            CLI_WHOLE(NULL, "step", k + 1),   CLI_TEXT("status", NULL, rb_status_text(s->status)),
+            WHOLE("stick", s->stick),         WHOLE("slip", s->slip),
+            WHOLE("separated", s->separated), WHOLE("iterations", s->iterations),
+            NUMBER("residual", s->residual)};
+        int n = COMMON;
+        if (r->e == &bar) {
+            values[n++] = NUMBER("corner_ux_mm", sums.corner[0]);
+            values[n++] = NUMBER("corner_uy_mm", sums.corner[1]);
+        } else
+            values[n++] = NUMBER("max_increment_mm", sums.increment);
+        values[n++] = NUMBER("normal_sum_N", sums.normal);
+        if (r->e == &bar)
+            values[n++] = NUMBER("tangential_sum_N", sums.tangential[0]);
+        cli_rows_add(&rows, n, values);
     }
-    const rb_status s = write_steps(out, r->o, &r->e->table, steps, all, sizeof *all);
-    free(all);
-    return s;
+    return end_steps(out, r->o, &rows, r->e->name);
 }
 
 static rb_status draw_history(FILE *out, rb_report_canvas canvas, const void *context,
@@ -244,26 +210,24 @@ typedef struct {
     int steps;
 } wall_run;
 
-#define ROW(name, kind, member) CLI_ROW(rb_fem_wall_step, name, name, kind, member)
-
-static const cli_row wall_rows[] = {
-    ROW("time_s", NUMBER, time),        ROW("compression_N", NUMBER, compression),
-    ROW("shear_N", NUMBER, shear),      ROW("drift_m", NUMBER, drift),
-    ROW("stick", WHOLE, stick),         ROW("slip", WHOLE, slip),
-    ROW("separated", WHOLE, separated), ROW("iterations", WHOLE, iterations),
-    ROW("residual", NUMBER, residual),  ROW("seconds", NUMBER, seconds)};
-
-#undef ROW
-
-static const step_table wall_table = {
-    "wall", "time_s compression_N shear_N drift_m stick slip separated iterations residual seconds",
-    wall_rows, sizeof wall_rows / sizeof *wall_rows};
-
 static rb_status write_wall(FILE *out, const void *context, rb_message *why)
 {
     const wall_run *run = context;
+    cli_rows rows = cli_rows_begin(out, &run->o->style,
+                                   "time_s compression_N shear_N drift_m stick slip separated "
+                                   "iterations residual seconds");
     (void)why;
-    return write_steps(out, run->o, &wall_table, run->steps, run->step, sizeof *run->step);
+    for (int k = 0; k < run->steps; k++) {
+        const rb_fem_wall_step *s = &run->step[k];
+        const cli_value values[] = {
+            NUMBER("time_s", s->time),        NUMBER("compression_N", s->compression),
+            NUMBER("shear_N", s->shear),      NUMBER("drift_m", s->drift),
+            WHOLE("stick", s->stick),         WHOLE("slip", s->slip),
+            WHOLE("separated", s->separated), WHOLE("iterations", s->iterations),
+            NUMBER("residual", s->residual),  NUMBER("seconds", s->seconds)};
+        cli_rows_add(&rows, sizeof values / sizeof *values, values);
+    }
+    return end_steps(out, run->o, &rows, "wall");
 }
 
 static rb_status draw_wall(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)

@@ -111,36 +111,6 @@ typedef struct {
     double *r, *u;   /* m; owned */
 } friction_result;
 
-static int is_json(const friction_options *o)
-{
-    return o->style.format == RB_REPORT_JSON;
-}
-
-/* ---- Output ----------------------------------------------------------------------- */
-
-#define ROW(name, column, kind, member) CLI_ROW(friction_result, name, column, kind, member)
-
-static const cli_row rows[] = {ROW("file", "file", TEXT, file),
-                               ROW("solver", "solver", TEXT, info.solver),
-                               ROW("status", "status", WORDS, status),
-                               ROW("contacts", "contacts", WHOLE, contacts),
-                               ROW("dimension", "dimension", SIZE, dimension),
-                               ROW("iterations", "iterations", WHOLE, info.iters),
-                               ROW("residual", "residual", NUMBER, info.residual),
-                               ROW("scaled_residual", "scaled", NUMBER, info.scaled),
-                               ROW("measure", NULL, TEXT, measure),
-                               ROW("note", NULL, MESSAGE, note),
-                               ROW("floor", "floor", NUMBER, info.floor),
-                               ROW("flops", NULL, NUMBER, info.flops),
-                               ROW("seconds", "seconds", NUMBER, info.seconds),
-                               ROW("rank", "rank", WHOLE, facts.rank),
-                               ROW("hyperstaticity", "hyperstaticity", WHOLE, facts.hyperstaticity),
-                               ROW("nullity", "nullity", WHOLE, facts.nullity),
-                               ROW("asymmetry", "asymmetry", NUMBER, facts.asymmetry),
-                               ROW("indefinite", "indefinite", WHOLE, facts.indefinite)};
-
-enum { ROWS = sizeof rows / sizeof *rows, FACTS = 5 };
-
 /* ---- One file --------------------------------------------------------------------- */
 
 static cli_exit failed(friction_result *r, rb_status s, const char *text)
@@ -181,14 +151,14 @@ static cli_exit assess(friction_run *run, friction_result *r, rb_status s)
 static int trace(const rb_friction_progress *at, void *context)
 {
     friction_run *run = context;
-    if (is_json(run->o))
+    if (run->files.rows.is_json)
         rb_report_json_append(&run->steps,
                               json_pack("{s:s, s:i, s:o, s:o}", "solver", at->solver, "iterations",
                                         at->iters, "flops", rb_report_json_number(at->flops),
                                         "scaled_residual", rb_report_json_number(at->error)));
     else
-        rb_report_comment(&run->files.cells, "%s\t%d\t%.4g\t%.3g", at->solver, at->iters, at->flops,
-                          at->error);
+        rb_report_comment(&run->files.rows.cells, "%s\t%d\t%.4g\t%.3g", at->solver, at->iters,
+                          at->flops, at->error);
     return 0;
 }
 
@@ -305,7 +275,7 @@ static cli_exit solve_file(void *context, const char *path)
     rb_status s = RB_OK;
     if (kind == RB_FRICTION_FILE_ANY)
         s = rb_friction_file_kind(path, &kind, &why);
-    run->steps = is_json(run->o) && run->o->trace ? json_array() : NULL;
+    run->steps = json_array();
     cli_exit code;
     if (s != RB_OK)
         code = unreadable(&r, s, &why);
@@ -313,37 +283,59 @@ static cli_exit solve_file(void *context, const char *path)
         code = solve_cones(run, &r);
     else
         code = solve_friction(run, &r);
-    if (is_json(run->o)) {
-        json_t *p = cli_rows_json(run->o->facts ? ROWS : ROWS - FACTS, rows, &r, r.m > 0);
+    const int known = r.m > 0;
+    const rb_friction_info *info = &r.info;
+    const rb_friction_facts *facts = &r.facts;
+    const cli_value values[] = {
+        CLI_TEXT("file", "file", r.file),
+        CLI_TEXT("solver", "solver", info->solver),
+        CLI_WORDS("status", "status", r.status),
+        CLI_KNOWN("contacts", "contacts", r.contacts, known),
+        CLI_KNOWN("dimension", "dimension", r.dimension, r.dimension > 0),
+        CLI_KNOWN("iterations", "iterations", info->iters, known),
+        CLI_NUMBER("residual", "residual", info->residual),
+        CLI_NUMBER("scaled_residual", "scaled", info->scaled),
+        CLI_TEXT("measure", NULL, r.measure),
+        CLI_TEXT("note", NULL, r.note.text[0] ? r.note.text : NULL),
+        CLI_NUMBER("floor", "floor", info->floor),
+        CLI_NUMBER("flops", NULL, info->flops),
+        CLI_NUMBER("seconds", "seconds", info->seconds),
+        CLI_KNOWN("rank", "rank", facts->rank, known),
+        CLI_KNOWN("hyperstaticity", "hyperstaticity", facts->hyperstaticity, known),
+        CLI_KNOWN("nullity", "nullity", facts->nullity, known),
+        CLI_NUMBER("asymmetry", "asymmetry", facts->asymmetry),
+        CLI_KNOWN("indefinite", "indefinite", facts->indefinite, known)};
+    enum { VALUES = sizeof values / sizeof *values, FACTS = 5 };
+    cli_rows *rows = &run->files.rows;
+    if (rows->is_json) {
+        cli_rows_add(rows, run->o->facts ? VALUES : VALUES - FACTS, values);
         if (run->o->solution) {
-            rb_report_json_set(&p, "r", r.r ? rb_report_json_numbers(r.m, r.r) : json_null());
-            rb_report_json_set(&p, "u", r.u ? rb_report_json_numbers(r.m, r.u) : json_null());
+            cli_rows_set(rows, "r", r.r ? rb_report_json_numbers(r.m, r.r) : json_null());
+            cli_rows_set(rows, "u", r.u ? rb_report_json_numbers(r.m, r.u) : json_null());
         }
         if (run->o->trace)
-            rb_report_json_set(&p, "trace", json_incref(run->steps));
-        rb_report_json_append(&run->files.problems, p);
-    } else {
-        if (r.m && r.note.text[0])
-            rb_report_comment(&run->files.cells, "note: %s: %s", r.file, r.note.text);
-        if (r.m && run->o->solution) {
-            rb_report_comment(&run->files.cells,
+            cli_rows_set(rows, "trace", json_incref(run->steps));
+    } else if (known) {
+        if (r.note.text[0])
+            rb_report_comment(&rows->cells, "note: %s: %s", r.file, r.note.text);
+        if (!run->o->solution)
+            cli_rows_add(rows, VALUES, values);
+        else
+            rb_report_comment(&rows->cells,
                               "%s: %s by %s, %d contacts, %d iterations, residual %.3g, %.3g s",
-                              r.file, r.status, r.info.solver, r.contacts, r.info.iters,
-                              r.info.residual, r.info.seconds);
-            if (run->o->facts)
-                rb_report_comment(&run->files.cells,
-                                  "rank %d, hyperstaticity %d, nullity %d, asymmetry %.3g%s",
-                                  r.facts.rank, r.facts.hyperstaticity, r.facts.nullity,
-                                  r.facts.asymmetry, r.facts.indefinite ? ", indefinite" : "");
-            for (int i = 0; i < r.m; i++) {
-                rb_report_cell_text(&run->files.cells, r.file);
-                rb_report_cell_whole(&run->files.cells, i + 1);
-                rb_report_cell_number(&run->files.cells, r.r[i]);
-                rb_report_cell_number(&run->files.cells, r.u[i]);
-                rb_report_cells_end_row(&run->files.cells);
-            }
-        } else if (r.m)
-            cli_rows_cells(&run->files.cells, run->files.columns, ROWS, rows, &r);
+                              r.file, r.status, info->solver, r.contacts, info->iters,
+                              info->residual, info->seconds);
+        if (run->o->solution && run->o->facts)
+            rb_report_comment(&rows->cells,
+                              "rank %d, hyperstaticity %d, nullity %d, asymmetry %.3g%s",
+                              facts->rank, facts->hyperstaticity, facts->nullity, facts->asymmetry,
+                              facts->indefinite ? ", indefinite" : "");
+        for (int i = 0; i < r.m && run->o->solution; i++) {
+            const cli_value component[] = {
+                CLI_TEXT(NULL, "file", r.file), CLI_WHOLE(NULL, "i", i + 1),
+                CLI_NUMBER(NULL, "r", r.r[i]), CLI_NUMBER(NULL, "u", r.u[i])};
+            cli_rows_add(rows, sizeof component / sizeof *component, component);
+        }
     }
     json_decref(run->steps);
     free(r.r);

@@ -109,7 +109,7 @@ typedef struct {
     cli_problems files;
     const lcp_options *o;
     const char *file; /* the current file */
-    json_t *pivots;   /* of it; JSON only, NULL without memory */
+    cli_rows pivots;  /* of it, for JSON alone */
 } lcp_run;
 
 typedef struct {
@@ -125,11 +125,6 @@ typedef struct {
     double payoff[2];                      /* --game, the first solution */
 } lcp_result;
 
-static int is_json(const lcp_options *o)
-{
-    return o->style.format == RB_REPORT_JSON;
-}
-
 /* ---- Trace ------------------------------------------------------------------------ */
 
 static const char *variable(int n, int v, char buffer[24])
@@ -144,47 +139,21 @@ static void trace(const rb_lcp_pivot *p, void *context)
 {
     lcp_run *run = context;
     char in[24], out[24];
-    const char *entering = variable(p->n, p->entering, in);
-    const char *leaving = variable(p->n, p->leaving, out);
-    if (is_json(run->o))
-        rb_report_json_append(&run->pivots,
-                              json_pack("{s:s, s:s, s:i, s:o, s:o}", "entering", entering,
-                                        "leaving", leaving, "row", p->row + 1, "ratio",
-                                        rb_report_json_number(p->ratio), "z0",
-                                        rb_report_json_number(p->z0)));
-    else {
-        rb_report_cell_text(&run->files.cells, run->file);
-        rb_report_cell_whole(&run->files.cells, p->pivot + 1);
-        rb_report_cell_text(&run->files.cells, entering);
-        rb_report_cell_text(&run->files.cells, leaving);
-        rb_report_cell_whole(&run->files.cells, p->row + 1);
-        rb_report_cell_number(&run->files.cells, p->ratio);
-        rb_report_cell_number(&run->files.cells, p->z0);
-        rb_report_cells_end_row(&run->files.cells);
-    }
+    const cli_value values[] = {CLI_TEXT(NULL, "file", run->file),
+                                CLI_WHOLE(NULL, "pivot", p->pivot + 1),
+                                CLI_TEXT("entering", "entering", variable(p->n, p->entering, in)),
+                                CLI_TEXT("leaving", "leaving", variable(p->n, p->leaving, out)),
+                                CLI_WHOLE("row", "row", p->row + 1),
+                                CLI_NUMBER("ratio", "ratio", p->ratio),
+                                CLI_NUMBER("z0", "z0", p->z0)};
+    cli_rows_add(run->files.rows.is_json ? &run->pivots : &run->files.rows,
+                 sizeof values / sizeof *values, values);
 }
-
-/* ---- Output ----------------------------------------------------------------------- */
 
 static json_t *vector(int n, const double *x)
 {
     return x ? rb_report_json_numbers(n, x) : json_null();
 }
-
-#define ROW(name, column, kind, member) CLI_ROW(lcp_result, name, column, kind, member)
-
-static const cli_row rows[] = {ROW("file", "file", TEXT, file),
-                               ROW("solver", "solver", TEXT, solver),
-                               ROW("status", "status", WORDS, status),
-                               ROW("contacts", NULL, NONE, n),
-                               ROW("dimension", "n", SIZE, n),
-                               ROW("iterations", "pivots", WHOLE, info.iters),
-                               ROW("residual", "residual", NUMBER, info.res),
-                               ROW("scaled_residual", "scaled", NUMBER, info.scaled),
-                               ROW("floor", NULL, NUMBER, floor),
-                               ROW("seconds", "seconds", NUMBER, seconds)};
-
-enum { ROWS = sizeof rows / sizeof *rows };
 
 /* ---- A problem --------------------------------------------------------------------- */
 
@@ -408,60 +377,63 @@ static cli_exit solve_file(void *context, const char *path)
                     .seconds = NAN,
                     .solutions = 1};
     run->file = path;
-    run->pivots = is_json(run->o) && run->o->trace ? json_array() : NULL;
+    run->pivots = (cli_rows){.is_json = 1, .list = json_array()};
     if (!run->o->trace)
         cli_wait_begin();
     const cli_exit code = run->o->game ? solve_game(run, &r) : solve_lcp(run, &r);
     if (!run->o->trace)
         cli_wait_end();
-    if (is_json(run->o)) {
-        json_t *p = cli_rows_json(ROWS, rows, &r, r.n > 0);
+    const int known = r.n > 0;
+    const cli_value values[] = {CLI_TEXT("file", "file", r.file),
+                                CLI_TEXT("solver", "solver", r.solver),
+                                CLI_WORDS("status", "status", r.status),
+                                CLI_KNOWN("contacts", NULL, 0, 0), /* as of `friction` */
+                                CLI_KNOWN("dimension", "n", r.n, known),
+                                CLI_KNOWN("iterations", "pivots", r.info.iters, known),
+                                CLI_NUMBER("residual", "residual", r.info.res),
+                                CLI_NUMBER("scaled_residual", "scaled", r.info.scaled),
+                                CLI_NUMBER("floor", NULL, r.floor),
+                                CLI_NUMBER("seconds", "seconds", r.seconds)};
+    enum { VALUES = sizeof values / sizeof *values };
+    cli_rows *rows = &run->files.rows;
+    if (rows->is_json) {
+        cli_rows_add(rows, VALUES, values);
         if (run->o->game)
-            rb_report_json_set(&p, "payoffs",
-                               r.n ? rb_report_json_numbers(2, r.payoff) : json_null());
+            cli_rows_set(rows, "payoffs",
+                         known ? rb_report_json_numbers(2, r.payoff) : json_null());
         if (run->o->all) {
             json_t *list = json_array();
             for (int k = 0; k < r.solutions; k++)
                 rb_report_json_append(&list, json_pack("{s:o, s:o}", "z",
                                                        vector(r.n, r.z + (size_t)k * r.n), "w",
                                                        vector(r.n, r.w + (size_t)k * r.n)));
-            rb_report_json_set(&p, "solutions", list);
+            cli_rows_set(rows, "solutions", list);
         } else if (run->o->solution) {
-            rb_report_json_set(&p, "z", vector(r.n, r.z));
-            rb_report_json_set(&p, "w", vector(r.n, r.w));
+            cli_rows_set(rows, "z", vector(r.n, r.z));
+            cli_rows_set(rows, "w", vector(r.n, r.w));
         }
         if (run->o->trace)
-            rb_report_json_set(&p, "pivots", json_incref(run->pivots));
-        rb_report_json_append(&run->files.problems, p);
-    } else {
-        /* The row of a file, or its # line where the rows are pivots or unknowns. */
-        rb_report_cells *c = &run->files.cells;
-        if (r.n) {
-            if (run->o->trace || run->o->solution || run->o->all) {
-                char residual[40] = ""; /* without a solution there is none */
-                if (isfinite(r.info.res))
-                    snprintf(residual, sizeof residual, ", scaled residual %.3g", r.info.scaled);
-                rb_report_comment(c, "%s: %s by %s, n = %d, %d %s%s, %.3g s", r.file, r.status,
-                                  r.solver, r.n, r.info.iters, run->o->all ? "bases" : "pivots",
-                                  residual, r.seconds);
-            } else
-                cli_rows_cells(c, run->files.columns, ROWS, rows, &r);
-            /* A row per unknown; --all numbers the solutions. */
-            const int rows_of_z = (run->o->solution || run->o->all) && r.z;
-            for (int k = 0; rows_of_z && k < r.solutions; k++)
-                for (int i = 0; i < r.n; i++) {
-                    const size_t at = (size_t)k * (size_t)r.n + (size_t)i;
-                    rb_report_cell_text(c, r.file);
-                    if (run->o->all)
-                        rb_report_cell_whole(c, k + 1);
-                    rb_report_cell_whole(c, i + 1);
-                    rb_report_cell_number(c, r.z[at]);
-                    rb_report_cell_number(c, r.w[at]);
-                    rb_report_cells_end_row(c);
-                }
-        }
-    }
-    json_decref(run->pivots);
+            cli_rows_set(rows, "pivots", json_incref(run->pivots.list));
+    } else if (known && (run->o->trace || run->o->solution || run->o->all)) {
+        /* A # line of the file, and a row per unknown, of each solution. */
+        char residual[40] = ""; /* without a solution there is none */
+        if (isfinite(r.info.res))
+            snprintf(residual, sizeof residual, ", scaled residual %.3g", r.info.scaled);
+        rb_report_comment(&rows->cells, "%s: %s by %s, n = %d, %d %s%s, %.3g s", r.file, r.status,
+                          r.solver, r.n, r.info.iters, run->o->all ? "bases" : "pivots", residual,
+                          r.seconds);
+        for (int k = 0; k < r.solutions && !run->o->trace && r.z; k++)
+            for (int i = 0; i < r.n; i++) {
+                const size_t at = (size_t)k * (size_t)r.n + (size_t)i;
+                const cli_value unknown[] = {
+                    CLI_TEXT(NULL, "file", r.file), CLI_WHOLE(NULL, "solution", k + 1),
+                    CLI_WHOLE(NULL, "i", i + 1), CLI_NUMBER(NULL, "z", r.z[at]),
+                    CLI_NUMBER(NULL, "w", r.w[at])};
+                cli_rows_add(rows, sizeof unknown / sizeof *unknown, unknown);
+            }
+    } else if (known)
+        cli_rows_add(rows, VALUES, values);
+    json_decref(run->pivots.list);
     rb_sparse_free(&r.M);
     free(r.lower);
     free(r.upper);
@@ -490,7 +462,7 @@ static cli_exit check_options(const lcp_options *o)
     if (o->solver == NEWTON && (o->lower || o->upper))
         return cli_fail(CLI_USAGE,
                         "lcp: --lower and --upper need Lemke's method: not with --solver newton");
-    if (o->trace && o->solution && !is_json(o))
+    if (o->trace && o->solution && o->style.format != RB_REPORT_JSON)
         return cli_fail(
             CLI_USAGE,
             "lcp: --trace and --solution are two tables: one of them, or both with --json");

@@ -319,24 +319,18 @@ static rb_status write_problems(FILE *out, const void *context, rb_message *why)
 {
     const problem_run *run = context;
     cli_problems *p = run->problems;
-    const int is_json = p->style->format == RB_REPORT_JSON;
 
     (void)why;
-    if (is_json) {
-        p->problems = json_array();
-    } else {
-        p->cells = rb_report_cells_begin(out, p->style, p->columns);
-        rb_report_comment_origin(&p->cells, cli_command_line());
-    }
+    p->rows = cli_rows_begin(out, p->style, p->columns);
     for (int i = 0; i < run->args->operands; i++) {
         const cli_exit code = p->solve(p->context, run->args->operand[i]);
         *run->worst = code > *run->worst ? code : *run->worst;
     }
-    if (!is_json)
+    if (!p->rows.is_json)
         return RB_OK;
     json_t *root = rb_report_json_start(cli_command_line());
     rb_report_json_set(&root, "conventions", json_string(p->conventions));
-    rb_report_json_set(&root, "problems", p->problems);
+    rb_report_json_set(&root, "problems", p->rows.list);
     return rb_report_json_write(out, root);
 }
 

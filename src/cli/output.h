@@ -3,6 +3,7 @@
 #define ROLLBEM_CLI_OUTPUT_H
 
 #include "cli/cli.h"
+#include "cli/rows.h"
 #include "rollbem/report.h"
 
 enum { CLI_OUTPUT_OPTIONS_MAX = 10 };
@@ -100,8 +101,7 @@ typedef struct {
     const char *columns, *conventions;
     cli_exit (*solve)(void *context, const char *file); /* adds to what follows */
     void *context;
-    rb_report_cells cells;   /* of the table */
-    struct json_t *problems; /* of JSON alone */
+    cli_rows rows;
 } cli_problems;
 
 /* All operands, also after one that fails; the largest exit code of them. */

@@ -1,63 +1,58 @@
 #include "cli/rows.h"
 
+#include "cli/cli.h"
+
 #include <string.h>
 
-json_t *cli_rows_json(int n, const cli_row *rows, const void *values, int known)
+cli_rows cli_rows_begin(FILE *out, const rb_report_style *style, const char *columns)
 {
-    json_t *object = json_object();
-    for (int k = 0; k < n; k++) {
-        const void *at = (const char *)values + rows[k].place;
-        json_t *value = NULL;
-        if (!rows[k].name)
-            continue;
-        switch (rows[k].kind) {
-        case CLI_ROW_TEXT:
-        case CLI_ROW_WORDS:
-            value = rb_report_json_text(*(const char *const *)at);
-            break;
-        case CLI_ROW_MESSAGE: {
-            const char *text = ((const rb_message *)at)->text;
-            value = *text ? rb_report_json_text(text) : json_null();
-            break;
-        }
-        case CLI_ROW_WHOLE:
-            value = known ? json_integer(*(const int *)at) : json_null();
-            break;
-        case CLI_ROW_SIZE:
-            value = *(const int *)at > 0 ? json_integer(*(const int *)at) : json_null();
-            break;
-        case CLI_ROW_NUMBER:
-            value = rb_report_json_number(*(const double *)at);
-            break;
-        case CLI_ROW_NONE:
-            value = json_null();
-            break;
-        }
-        rb_report_json_set(&object, rows[k].name, value);
+    cli_rows r = {.columns = columns, .is_json = style->format == RB_REPORT_JSON};
+    if (r.is_json)
+        r.list = json_array();
+    else {
+        r.cells = rb_report_cells_begin(out, style, columns);
+        rb_report_comment_origin(&r.cells, cli_command_line());
     }
-    return object;
+    return r;
 }
 
-void cli_rows_cells(rb_report_cells *c, const char *columns, int n, const cli_row *rows,
-                    const void *values)
+void cli_rows_add(cli_rows *r, int n, const cli_value *values)
 {
-    for (size_t length; *columns; columns += length + strspn(columns + length, " ")) {
-        length = strcspn(columns, " ");
-        for (int k = 0; k < n; k++) {
-            const cli_row *row = &rows[k];
-            const void *at = (const char *)values + row->place;
-            if (!row->column || strlen(row->column) != length ||
-                memcmp(row->column, columns, length) != 0)
+    if (r->is_json) {
+        r->row = json_object();
+        rb_report_json_append(&r->list, r->row);
+        for (const cli_value *v = values; v < values + n; v++)
+            if (v->name)
+                cli_rows_set(r, v->name,
+                             v->kind == CLI_VALUE_NUMBER  ? rb_report_json_number(v->number)
+                             : v->kind == CLI_VALUE_WHOLE ? json_integer(v->whole)
+                             : v->text                    ? rb_report_json_text(v->text)
+                                                          : json_null());
+        return;
+    }
+    const char *column = r->columns;
+    for (size_t length; *column; column += length + strspn(column + length, " ")) {
+        length = strcspn(column, " ");
+        for (const cli_value *v = values; v < values + n; v++) {
+            if (!v->column || strlen(v->column) != length || strncmp(v->column, column, length))
                 continue;
-            if (row->kind == CLI_ROW_TEXT)
-                rb_report_cell_text(c, *(const char *const *)at);
-            else if (row->kind == CLI_ROW_WORDS)
-                rb_report_cell_words(c, *(const char *const *)at);
-            else if (row->kind == CLI_ROW_NUMBER)
-                rb_report_cell_number(c, *(const double *)at);
+            if (v->kind == CLI_VALUE_TEXT)
+                rb_report_cell_text(&r->cells, v->text);
+            else if (v->kind == CLI_VALUE_WORDS)
+                rb_report_cell_words(&r->cells, v->text);
+            else if (v->kind == CLI_VALUE_WHOLE)
+                rb_report_cell_whole(&r->cells, v->whole);
             else
-                rb_report_cell_whole(c, *(const int *)at);
+                rb_report_cell_number(&r->cells, v->number);
         }
     }
-    rb_report_cells_end_row(c);
+    rb_report_cells_end_row(&r->cells);
+}
+
+void cli_rows_set(cli_rows *r, const char *name, json_t *value)
+{
+    if (r->list && json_object_set_new(r->row, name, value) == 0)
+        return;
+    json_decref(r->list);
+    r->list = NULL;
 }

@@ -1,41 +1,50 @@
-/* What a command finds of a file or of a run, as rows: a name in JSON, a column of the
- * table, or both. */
+/* Rows of what a command finds of a file, a run or a step: as lines of a table, or as
+ * objects of a list in JSON. */
 #ifndef ROLLBEM_CLI_ROWS_H
 #define ROLLBEM_CLI_ROWS_H
 
 #include "rollbem/report.h"
 
 #include <jansson.h>
-#include <stddef.h>
 
-typedef enum {
-    CLI_ROW_TEXT,    /* const char * */
-    CLI_ROW_WORDS,   /* the same, one word in the table */
-    CLI_ROW_MESSAGE, /* rb_message, null when it is empty; in JSON alone */
-    CLI_ROW_WHOLE,   /* int, null where nothing is known */
-    CLI_ROW_SIZE,    /* int, null when it is 0 */
-    CLI_ROW_NUMBER,  /* double */
-    CLI_ROW_NONE     /* what other commands have there; in JSON alone */
-} cli_row_kind;
+/* A value with its name in JSON, the column of the table that shows it, or both; NULL: not
+ * there. */
+typedef struct {
+    const char *name, *column;
+    enum {
+        CLI_VALUE_TEXT,  /* NULL: null, in JSON alone */
+        CLI_VALUE_WORDS, /* one word in the table */
+        CLI_VALUE_WHOLE,
+        CLI_VALUE_NUMBER,
+        CLI_VALUE_NONE /* null, in JSON alone */
+    } kind;
+    const char *text;
+    int whole;
+    double number;
+} cli_value;
+
+#define CLI_TEXT(name, column, x) ((cli_value){name, column, .kind = CLI_VALUE_TEXT, .text = (x)})
+#define CLI_WORDS(name, column, x) ((cli_value){name, column, .kind = CLI_VALUE_WORDS, .text = (x)})
+#define CLI_NUMBER(name, column, x)                                                                \
+    ((cli_value){name, column, .kind = CLI_VALUE_NUMBER, .number = (x)})
+#define CLI_WHOLE(name, column, x)                                                                 \
+    ((cli_value){name, column, .kind = CLI_VALUE_WHOLE, .whole = (x)})
+/* A whole number that is null where it is not known. */
+#define CLI_KNOWN(name, column, x, is_known)                                                       \
+    ((cli_value){name, column, .kind = (is_known) ? CLI_VALUE_WHOLE : CLI_VALUE_NONE, .whole = (x)})
 
 typedef struct {
-    const char *name, *column; /* NULL: not in JSON, not in the table */
-    cli_row_kind kind;
-    size_t place; /* in the struct of the values */
-} cli_row;
+    const char *columns; /* of the table, with blanks between */
+    int is_json;
+    rb_report_cells cells; /* of the table */
+    json_t *list, *row;    /* of JSON, for the command's root; row: its last; NULL without memory */
+} cli_rows;
 
-/* kind: the name behind CLI_ROW_. */
-#define CLI_ROW(type, name, column, kind, member)                                                  \
-    {                                                                                              \
-        name, column, CLI_ROW_##kind, offsetof(type, member)                                       \
-    }
-
-/* The members of an object, in the order of the rows.  known: 0 writes whole numbers as
- * null.  The object is NULL without memory, as those of rb_report_json_set. */
-json_t *cli_rows_json(int n, const cli_row *rows, const void *values, int known);
-
-/* The cells of a row of the table whose columns these words name. */
-void cli_rows_cells(rb_report_cells *c, const char *columns, int n, const cli_row *rows,
-                    const void *values);
+/* The head of the table, or an empty list. */
+cli_rows cli_rows_begin(FILE *out, const rb_report_style *style, const char *columns);
+/* A row of the table, or an object of the list. */
+void cli_rows_add(cli_rows *r, int n, const cli_value *values);
+/* One more member, taken over, of the last object of the list. */
+void cli_rows_set(cli_rows *r, const char *name, json_t *value);
 
 #endif
