@@ -412,6 +412,76 @@ static void command_prints_parameters(void **state)
     assert_int_equal(rollbem("fit creep.tsv --fit mu --bounds mu=2:1" BODIES), 64);
 }
 
+/* ---- Picture ----------------------------------------------------------------------- */
+
+/* The script of a picture of these data; in static storage. */
+static const char *script_of(const rb_case_data *data, const rb_case_fit *fit, rb_units units)
+{
+    static char text[20000];
+    const rb_report_canvas canvas = {.kind = RB_REPORT_SVG, .script = 1};
+    const rb_report_fit shown = {fit, data, units};
+    rb_message why = {""};
+    FILE *file = tmpfile();
+    assert_non_null(file);
+    if (rb_report_fit_picture(file, canvas, &shown, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    rewind(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    return text;
+}
+
+/* Rows of one load are one curve, whatever their order; -Q points upwards. */
+static void each_test_has_its_curve(void **state)
+{
+    static const double at[] = {3e-3, 1e-3, 2e-3, 1e-3, 2e-3}, Q[] = {-30, -11, -20, -21, -40},
+                        loads[] = {100, 201, 99, 200, 50};
+    static double model[] = {-31, -12, -22, -22, -41}, band[] = {1, 2, 3, 4, 5};
+    rb_case_data data = {.n = 5, .measure = RB_CASE_FORCE, .creep = at, .force = Q, .load = loads};
+    rb_case_fit fit = {.n = 2, .level = 0.9, .model = model, .band = band};
+    fit.parameter[0] = (rb_case_parameter){
+        .name = "mu", .unit = "-", .value = 0.3, .interval = {0.25, 0.35}, .identified = 1};
+    fit.parameter[1] = (rb_case_parameter){.name = "young", .unit = "MPa"};
+    const char *script = script_of(&data, &fit, RB_UNITS_MM);
+    static const char *const parts[] = {
+        "$test0 << EOD\n2 20 22 3\n3 30 31 1\nEOD\n$test1 << EOD\n1 11 12 2\n1 21 22 4\nEOD\n"
+        "$test2 << EOD\n2 40 41 5\nEOD\n",
+        "mu 0.3 (0.25 … 0.35);  young not identified",
+        "'P = 99.5 N/mm'",
+        "'P = 200.5 N/mm'",
+        "'P = 50 N/mm'",
+        "$test1 using 1:($3-$4):($3+$4) with filledcurves",
+        "$test2 using 1:3:4 with yerrorbars",
+        "'90 % confidence band, at most ±5 N/mm'",
+        "'creepage ξ  [10^{-3}]'",
+        "'braking force  −Q  [N/mm]'"};
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
+        if (!strstr(script, parts[k]))
+            fail_msg("%s not in\n%s", parts[k], script);
+    script = script_of(&data, &fit, RB_UNITS_SI); /* N/m */
+    assert_non_null(strstr(script, "2 20000 22000 3000\n"));
+    assert_non_null(strstr(script, "'P = 9.95·10^{4} N/m'"));
+    /* one number is not identified */
+    band[4] = NAN;
+    script = script_of(&data, &fit, RB_UNITS_MM);
+    assert_non_null(strstr(script, "$test1 using 1:3 with lines"));
+    assert_null(strstr(script, "filledcurves"));
+    assert_null(strstr(script, "yerrorbars"));
+    assert_null(strstr(script, "band"));
+    /* one load: one curve without its name; a driven wheel: the key on the other side */
+    static const double driven[] = {-3e-3, -1e-3, -2e-3, -1e-3, -2e-3};
+    data.load = NULL;
+    data.creep = driven;
+    data.measure = RB_CASE_FORCE_RATIO;
+    data.is_ratio = 1;
+    script = script_of(&data, &fit, RB_UNITS_MM);
+    assert_null(strstr(script, "$test1"));
+    assert_null(strstr(script, "'P ="));
+    assert_non_null(strstr(script, "set key left top"));
+    assert_non_null(strstr(script, "'creepage ratio  ξR/(μa)  [10^{-3}]'"));
+    assert_non_null(strstr(script, "'braking force  −Q/(μP)'"));
+}
+
 /* ---- --derivatives and --tolerance ------------------------------------------------- */
 
 static void command_prints_derivatives(void **state)
@@ -629,6 +699,7 @@ int main(void)
         cmocka_unit_test(failing_allocations_are_told),
         cmocka_unit_test(refusals),
         cmocka_unit_test(command_prints_parameters),
+        cmocka_unit_test(each_test_has_its_curve),
         cmocka_unit_test(command_prints_derivatives),
         cmocka_unit_test(the_example_is_found_again),
         cmocka_unit_test(derivatives_stand_in_columns),

@@ -484,8 +484,8 @@ void rb_report_json_fit(struct json_t **root, const rb_report_fit *f);
 rb_status rb_report_fit_table(FILE *out, const rb_report_fit *f, const char *command,
                               const rb_report_style *style);
 void rb_report_fit_summary(FILE *out, const rb_report_fit *f);
-/* Points, fitted curve and its band.  RB_EINVAL: no band, because some number is not
- * identified. */
+/* Points, fitted curve of each test (rows of equal load, speed and temperature) and its band,
+ * which is left out where some number is not identified. */
 rb_status rb_report_fit_picture(FILE *out, rb_report_canvas canvas, const rb_report_fit *f,
                                 rb_message *why);
 

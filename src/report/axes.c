@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- Axes -------------------------------------------------------------------------- */
@@ -77,18 +78,17 @@ const char *rb_report_raised(const char *unit, char text[40])
     return text;
 }
 
-const char *rb_report_large_number(double x, char text[40])
+const char *rb_report_number(double x, int digits, char text[40])
 {
-    /* what is a power of ten when it is rounded to five digits is one */
-    const int power = x >= 99999.5 ? (int)floor(log10(x) + 2.2e-6) : 0;
-    char digits[20];
-    snprintf(digits, sizeof digits, "%.5g", x / pow(10.0, power));
-    if (power == 0)
-        snprintf(text, 40, "%s", digits);
-    else if (strcmp(digits, "1") == 0)
-        snprintf(text, 40, "10^{%d}", power);
-    else
-        snprintf(text, 40, "%s·10^{%d}", digits, power);
+    snprintf(text, 40, "%.*g", digits, x);
+    char *power = strchr(text, 'e');
+    if (power) {
+        const int exponent = atoi(power + 1);
+        *power = '\0';
+        if (strcmp(text, "1") == 0)
+            text[0] = '\0';
+        rb_append(text, 40, text[0] ? "·10^{%d}" : "10^{%d}", exponent);
+    }
     return text;
 }
 
@@ -116,11 +116,14 @@ __attribute__((format(printf, 2, 3))) static void add_words(words *w, const char
 
 static void add_length(words *w, const char *of, double length, rb_units units)
 {
-    add_words(w, ", %s%.5g %s", of, rb_unit_shown(units, "mm", length), rb_unit_name(units, "mm"));
+    char number[40];
+    add_words(w, ", %s%s %s", of, rb_report_number(rb_unit_shown(units, "mm", length), 5, number),
+              rb_unit_name(units, "mm"));
 }
 
 static void add_body(words *w, const rb_rolling_body *b, rb_units units)
 {
+    char number[40];
     const double young = rb_unit_shown(units, "MPa", b->young);
     const rb_report_unit unit = rb_report_axis_unit(units, "MPa", young);
     add_words(w, "%s", rb_rolling_kind_name(rb_rolling_kind_of(b)));
@@ -130,7 +133,7 @@ static void add_body(words *w, const rb_rolling_body *b, rb_units units)
         add_length(w, "cover ", b->cover, units);
     if (b->layer > 0.0)
         add_length(w, "layer ", b->layer, units);
-    add_words(w, ", E = %.4g %s%s", young / unit.size, unit.name,
+    add_words(w, ", E = %s %s%s", rb_report_number(young / unit.size, 5, number), unit.name,
               b->memory.n > 0 ? ", relaxes" : "");
 }
 

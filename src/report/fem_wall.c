@@ -99,7 +99,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
             "sheared}' at screen 0.5, 0.955 center\n"
             "set label 2 'displacements × %s, drift %s%.3g mm' at screen %g, %g center textcolor "
             "rgb '#444444'\n%s",
-            1e-3 * last->compression, rb_report_large_number(v->f.magnify, magnify),
+            1e-3 * last->compression, rb_report_number(v->f.magnify, 5, magnify),
             column ? "" : "of the upper support ", 1e3 * last->drift, column ? 0.5 : 0.31,
             panels[column][FRONT].top + (column ? 0.025 : 0.035), column ? "unset label 1\n" : "");
     open_panel(out, column, FRONT);

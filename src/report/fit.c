@@ -170,67 +170,245 @@ void rb_report_fit_summary(FILE *out, const rb_report_fit *f)
 
 /* ---- Picture ------------------------------------------------------------------------- */
 
-static int by_creepage(const void *a, const void *b)
+/* A row of the data; rows under the same conditions are one test, with one curve. */
+typedef struct {
+    int test, row;
+    double creep;
+} point;
+
+typedef struct {
+    const rb_report_fit *fit;
+    point *point; /* by test, then by creepage */
+    int tests, exponent;
+    double widest; /* half-width of the band; NAN: some number is not identified */
+} view;
+
+enum { NAMED = 8 }; /* tests that have a line in the key */
+
+static int by_test(const void *a, const void *b)
 {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+    const point *p = a, *q = b;
+    return p->test != q->test ? p->test - q->test : (p->creep > q->creep) - (p->creep < q->creep);
+}
+
+/* Measured conditions scatter. */
+static int is_near(const double *column, int i, int k)
+{
+    return !column || fabs(column[i] - column[k]) <= 0.02 * fmax(fabs(column[i]), fabs(column[k]));
+}
+
+static int see(view *v)
+{
+    const rb_case_data *d = v->fit->data;
+    int *first = calloc((size_t)d->n, sizeof *first);
+
+    v->point = calloc((size_t)d->n, sizeof *v->point);
+    for (int k = 0; first && v->point && k < d->n; k++) {
+        int t = 0;
+        while (t < v->tests && !(is_near(d->load, first[t], k) && is_near(d->speed, first[t], k) &&
+                                 is_near(d->temperature, first[t], k)))
+            t++;
+        if (t == v->tests)
+            first[v->tests++] = k;
+        v->point[k] = (point){t, k, d->creep[k]};
+    }
+    if (v->tests > 0)
+        qsort(v->point, (size_t)d->n, sizeof *v->point, by_test);
+    free(first);
+    return v->tests > 0;
+}
+
+/* "P = 500 N/mm": what tells this test from the others. */
+static void write_conditions(FILE *out, const view *v, int test)
+{
+    const rb_case_data *d = v->fit->data;
+    const struct {
+        const double *column;
+        const char *name, *unit;
+    } all[] = {{d->load, "P", "N/mm"}, {d->speed, "V", "mm/s"}, {d->temperature, "T", "K"}};
+    const char *between = "";
+    char number[40];
+
+    for (size_t c = 0; c < sizeof all / sizeof *all; c++) {
+        double sum = 0.0;
+        int n = 0, varies = 0;
+        for (int k = 0; all[c].column && k < d->n; k++) {
+            varies |= !is_near(all[c].column, 0, k);
+            if (v->point[k].test == test) {
+                sum += all[c].column[v->point[k].row];
+                n++;
+            }
+        }
+        if (!varies)
+            continue;
+        fprintf(out, "%s%s = %s %s", between, all[c].name,
+                rb_report_number(in_units(v->fit, all[c].unit, sum / n), 4, number),
+                rb_unit_name(v->fit->units, all[c].unit));
+        between = ", ";
+    }
+}
+
+/* x, measured, fitted, half-width of the band of each test; forces as in the picture of a
+ * curve: those that brake, -Q, upwards. */
+static void write_data(FILE *out, const view *v)
+{
+    const rb_report_fit *f = v->fit;
+    const char *unit = force_unit(f);
+
+    for (int k = 0; k < f->data->n; k++) {
+        const point *at = &v->point[k];
+        if (k == 0 || at->test != at[-1].test)
+            fprintf(out, "%s$test%d << EOD\n", k ? "EOD\n" : "", at->test);
+        fprintf(out, "%.9g %.9g %.9g %.9g\n", at->creep / pow(10.0, v->exponent),
+                -in_units(f, unit, f->data->force[at->row]),
+                -in_units(f, unit, f->fit->model[at->row]),
+                isnan(v->widest) ? 0.0 : in_units(f, unit, f->fit->band[at->row]));
+    }
+    fputs("EOD\n", out);
+}
+
+/* Names, values and intervals, as far as they are identified. */
+static void write_title(FILE *out, const rb_report_fit *f, double middle)
+{
+    enum { FITS = 90 }; /* characters in a line */
+    char text[RB_CASE_FIT_MAX * 120] = "", number[3][40], unit[20];
+
+    for (int j = 0; j < f->fit->n; j++) {
+        const rb_case_parameter *p = &f->fit->parameter[j];
+        rb_append(text, sizeof text, "%s%s ", j ? ";  " : "", p->name);
+        if (p->identified)
+            rb_append(text, sizeof text, "%s (%s … %s)%s",
+                      rb_report_number(in_units(f, p->unit, p->value), 4, number[0]),
+                      rb_report_number(in_units(f, p->unit, p->interval[0]), 3, number[1]),
+                      rb_report_number(in_units(f, p->unit, p->interval[1]), 3, number[2]),
+                      unit_behind(f, p->unit, unit));
+        else
+            rb_append(text, sizeof text, "not identified");
+    }
+    const size_t n = strlen(text);
+    fprintf(out,
+            "set label 1 '{/:Bold Fitted creep curve}   %d points' at screen %g, 0.972 center\n"
+            "set label 9 '{/*%.3g %s}' at screen %g, 0.935 center textcolor rgb '#444444'\n",
+            f->data->n, middle, n > FITS ? 0.95 * FITS / (double)n : 0.95, text, middle);
+}
+
+/* Marks of the measured points, and of a fitted one that has no other to be joined to. */
+#define MEASURED "pointsize 1.4 linewidth 1.4"
+#define FITTED_ALONE "pointtype 7 pointsize 0.5"
+#define BAND "fillstyle transparent solid 0.3 noborder"
+
+static void write_curves(FILE *out, const view *v, int titled)
+{
+    /* shapes that differ without their colours */
+    static const int markers[NAMED] = {6, 4, 8, 12, 10, 1, 2, 3};
+    const rb_report_fit *f = v->fit;
+    const int named = v->tests > 1 && v->tests <= NAMED, n = f->data->n;
+    const char *unit = force_unit(f);
+    int some_alone = 0;
+
+    fputs("plot ", out);
+    for (int k = 0; k < n; k++) {
+        const int t = v->point[k].test;
+        if (k > 0 && t == v->point[k - 1].test)
+            continue;
+        const char *colour = rb_report_colour(named ? t : 0);
+        const int marker = markers[named ? t : 0];
+        const int alone = k + 1 == n || v->point[k + 1].test != t;
+        some_alone |= alone;
+        if (!isnan(v->widest))
+            fprintf(out, "$test%d using 1:%s linecolor rgb '%s' notitle, ", t,
+                    alone ? "3:4 with yerrorbars " FITTED_ALONE
+                          : "($3-$4):($3+$4) with filledcurves " BAND,
+                    colour);
+        fprintf(out,
+                "$test%d using 1:3 with %s linecolor rgb '%s' dashtype %s linewidth 2.2 notitle, "
+                "$test%d using 1:2 with points pointtype %d " MEASURED
+                " linecolor rgb '%s' notitle, ",
+                t, alone ? "points " FITTED_ALONE : "lines", colour,
+                rb_report_dashes(named ? t : 0), t, marker, colour);
+        if (named) {
+            fprintf(out,
+                    "NaN with linespoints pointtype %d " MEASURED
+                    " linecolor rgb '%s' dashtype %s title '",
+                    marker, colour, rb_report_dashes(t));
+            write_conditions(out, v, t);
+            fputs("', ", out);
+        }
+    }
+    const char *colour = named ? "#444444" : rb_report_colour(0);
+    fprintf(out,
+            "NaN with points pointtype %d " MEASURED
+            " linecolor rgb '%s' title 'measured', NaN with %s linecolor rgb '%s' linewidth 2.2 "
+            "title 'fitted'",
+            markers[0], colour, some_alone ? "linespoints " FITTED_ALONE : "lines", colour);
+    if (!isnan(v->widest)) {
+        fprintf(out, ", NaN with filledcurves " BAND " linecolor rgb '%s' title '%g %% %sband",
+                colour, 100.0 * f->fit->level, titled ? "confidence " : "");
+        char number[40], name[20];
+        if (titled) /* there is room, and a thin band hides behind its curve */
+            fprintf(out, ", at most ±%s%s",
+                    rb_report_number(in_units(f, unit, v->widest), 2, number),
+                    unit_behind(f, unit, name));
+        fputc('\'', out);
+    }
+    fputc('\n', out);
 }
 
 static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
 {
-    const rb_report_fit *f = context;
+    const view *v = context;
+    const rb_report_fit *f = v->fit;
     const rb_report_place place = rb_report_place_of(canvas);
-    const int n = f->data->n;
-    const char *unit = force_unit(f);
-    double(*row)[4] = calloc((size_t)n, sizeof *row), most = 0.0;
-    for (int k = 0; k < n; k++)
-        most = fmax(most, fabs(f->data->creep[k]));
-    const int power = rb_report_exponent(most);
+    const double *creep = f->data->creep, *force = f->data->force;
+    double sum = 0.0;
+    int drives = 0, pushes = 0; /* creepage and -Q below zero */
 
-    for (int k = 0; row && k < n; k++) {
-        row[k][0] = f->data->creep[k] / pow(10.0, power);
-        row[k][1] = in_units(f, unit, f->data->force[k]);
-        row[k][2] = in_units(f, unit, f->fit->model[k]);
-        row[k][3] = in_units(f, unit, f->fit->band[k]);
+    write_data(out, v);
+    for (int k = 0; k < f->data->n; k++) {
+        sum += creep[k];
+        drives |= creep[k] < 0.0;
+        pushes |= force[k] > 0.0;
     }
-    if (row)
-        qsort(row, (size_t)n, sizeof *row, by_creepage);
-    fputs("$fit << EOD\n", out);
-    for (int k = 0; row && k < n; k++)
-        fprintf(out, "%.9g %.9g %.9g %.9g\n", row[k][0], row[k][1], row[k][2], row[k][3]);
-    fputs("EOD\n", out);
-    free(row);
-    rb_report_room(out, 0.15 + place.right, 0.965, 0.14 + place.up, 0.9 + place.up);
-    fputs(RB_REPORT_GRID "set offsets graph 0.03,graph 0.03,graph 0.05,graph 0.05\n"
-                         "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
-          out);
-    fprintf(out, "set key at screen %g, %g center top horizontal samplen 2.2 font ',%.3g'\n", 0.55,
-            0.935, rb_report_key_font(canvas));
-    if (place.titled)
-        fputs("set label 1 '{/:Bold Fitted creep curve}' at screen 0.55, 0.965 center\n", out);
-    fprintf(out, "set xlabel 'creepage %s", f->data->is_ratio ? "ratio  ξR/(μa)" : "ξ");
-    if (power)
-        fprintf(out, "  [10^{%d}]", power);
-    fprintf(out, "'\nset ylabel 'force on A  %s%s%s'\n",
-            f->data->measure == RB_CASE_FORCE         ? "Q  ["
-            : f->data->measure == RB_CASE_FORCE_RATIO ? "Q/(μP)"
-                                                      : "Q/P",
-            f->data->measure == RB_CASE_FORCE ? rb_report_unit_name(f->units, unit) : "",
-            f->data->measure == RB_CASE_FORCE ? "]" : "");
+    rb_report_room(out, 0.13 + place.right, 0.965, 0.14 + place.up, 0.9 + place.up);
     fprintf(out,
-            "plot $fit using 1:($3-$4):($3+$4) with filledcurves linecolor rgb '%s' fillstyle "
-            "transparent solid 0.25 noborder title '%g %% of the fit', $fit using 1:3 with lines "
-            "linecolor rgb '%s' linewidth 2.2 title 'fit', $fit using 1:2 with points pointtype 6 "
-            "linecolor rgb '#111111' title 'measured'\n",
-            rb_report_colour(0), 100.0 * f->fit->level, rb_report_colour(0));
+            RB_REPORT_GRID "set offsets %s,graph 0.03,graph 0.05,%s\n"
+                           "set xrange [*<0:0<*]\nset yrange [*<0:0<*]\n"
+                           "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
+            drives ? "graph 0.03" : "0", pushes ? "graph 0.05" : "0");
+    fprintf(out, "set key %s samplen 2.2 font ',%.3g'\n",
+            sum < 0.0 ? "left top Left reverse" : "right bottom", rb_report_key_font(canvas));
+    if (place.titled)
+        write_title(out, f, 0.54);
+    fprintf(out, "set xlabel 'creepage %s", f->data->is_ratio ? "ratio  ξR/(μa)" : "ξ");
+    if (v->exponent)
+        fprintf(out, "  [10^{%d}]", v->exponent);
+    fprintf(out, "'\nset ylabel 'braking force  −Q%s%s%s' offset 1,0\n",
+            f->data->measure == RB_CASE_FORCE         ? "  ["
+            : f->data->measure == RB_CASE_FORCE_RATIO ? "/(μP)"
+                                                      : "/P",
+            f->data->measure == RB_CASE_FORCE ? rb_report_unit_name(f->units, force_unit(f)) : "",
+            f->data->measure == RB_CASE_FORCE ? "]" : "");
+    write_curves(out, v, place.titled);
 }
 
 rb_status rb_report_fit_picture(FILE *out, rb_report_canvas canvas, const rb_report_fit *f,
                                 rb_message *why)
 {
-    for (int k = 0; k < f->data->n; k++)
-        if (!isfinite(f->fit->band[k]))
-            return rb_fail(why, RB_EINVAL,
-                           "no band to draw: the data do not determine all of these numbers");
-    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, f, why);
+    view v = {.fit = f};
+    double most = 0.0;
+    int banded = 1;
+
+    for (int k = 0; k < f->data->n; k++) {
+        most = fmax(most, fabs(f->data->creep[k]));
+        banded &= isfinite(f->fit->band[k]) != 0;
+        v.widest = fmax(v.widest, f->fit->band[k]);
+    }
+    if (!banded)
+        v.widest = NAN;
+    v.exponent = rb_report_exponent(most);
+    const rb_status s =
+        see(&v) ? rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why)
+                : rb_fail(why, RB_ENOMEM, "out of memory");
+    free(v.point);
+    return s;
 }

@@ -118,8 +118,8 @@ double rb_report_round_step(double step);
 double rb_report_round_down(double x);
 /* "MPa.mm^0.5" as gnuplot writes it, exponents raised.  Returns text. */
 const char *rb_report_raised(const char *unit, char text[40]);
-/* Five digits, 2·10^{5} from 1e5 on: no "2e+05" in a picture. */
-const char *rb_report_large_number(double x, char text[40]);
+/* So many digits, as 2·10^{5} where %g says 2e+05.  Returns text. */
+const char *rb_report_number(double x, int digits, char text[40]);
 /* Number of labels that fit into this part of the canvas without touching. */
 double rb_report_labels_in(double height);
 /* Colours of a field, from least to most, which are grey from dark to light in print. */

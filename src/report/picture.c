@@ -334,7 +334,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         char large[40];
         fprintf(out, "set label 1 '{/:Bold %s}   μ %s %g,  P = %s %s,  Q = %.5g %s",
                 kinds[s->formulation], s->mu ? "≤" : "=", rb_rolling_largest_mu(v->rc),
-                rb_report_large_number(s->normal_load, large), load,
+                rb_report_number(s->normal_load, 5, large), load,
                 rb_report_tidy(s->tangential_load, s->normal_load), load);
         /* a longer line in smaller letters */
         const int longer = s->contact > 0 ? other_a(v) + other_radius(v) : 0;

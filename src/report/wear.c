@@ -119,7 +119,7 @@ static void write_panel(FILE *out, const rb_report_wear *w, int column)
                 "%s$profile%d using 1:%d with lines linecolor rgb '%s' dashtype %s linewidth 1.8 "
                 "title '%s'",
                 k > 0 ? ", " : "", k, column, rb_report_colour(k), rb_report_dashes(k),
-                rb_report_large_number(w->profile[k].way, way));
+                rb_report_number(w->profile[k].way, 5, way));
     fputc('\n', out);
 }
 
@@ -166,7 +166,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
                 "set label 1 '{/:Bold Wear}   P = %.5g %s,  %.4g %s^3/%s worn after %s %s' at "
                 "screen 0.54, 0.955 center\n",
                 h->normal_load[last], rb_unit_name(h->units, "N/mm"), h->worn[last], mm, mm,
-                rb_report_large_number(h->way[last], way), words.way);
+                rb_report_number(h->way[last], 5, way), words.way);
     fprintf(out,
             "set tmargin at screen 0.87\nset bmargin at screen 0.54\n"
             "set yrange [0:*]\nset label 3 'pressure  [%s]' at screen 0.03, 0.705 center rotate\n",
