@@ -210,7 +210,7 @@ static void call(rb_api *a, rb_api *other, fuzz_bytes *b)
             rb_api_step_derivatives(a, results);
             break;
         case 5:
-            rb_api_sweep_derivatives(a, fuzz_choice(b, 2), cases, results, 1);
+            rb_api_sweep_derivatives(a, fuzz_choice(b, 2), cases, results, "mu=1%", 1);
             break;
         default:
             rb_api_derivative(a, fuzz_choice(b, 2) ? "curve" : "history", fuzz_byte(b) - 3, "name",

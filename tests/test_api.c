@@ -571,8 +571,9 @@ TEST(a_sweep_is_its_cases)
         CHECK_ABS(array(study, "sweep.status", 3, 1)[k], RB_OK, 0.0, "case %d", k);
     }
     char name[100];
-    assert_int_equal(
-        rb_api_sweep_derivatives(study, 3, one, "tangential_load:mu,max_pressure:load", 2), RB_OK);
+    assert_int_equal(rb_api_sweep_derivatives(study, 3, one, "tangential_load:mu,max_pressure:load",
+                                              "mu=10%,load=5", 2),
+                     RB_OK);
     assert_string_equal(rb_api_derivative(study, "sweep", 1, "name", name, sizeof name),
                         "max_pressure:load");
     assert_string_equal(rb_api_derivative(study, "sweep", 1, "unit", name, sizeof name), "N/mm");
@@ -588,8 +589,25 @@ TEST(a_sweep_is_its_cases)
             of_mu++;
         const double *d = rb_api_array(one[k], "derivative.tangential_load", &rows, &inputs);
         CHECK_ABS(slope[k], d[2 * of_mu + 1], 1e-12 * fabs(slope[k]), "case %d", k);
+        assert_int_equal(rb_api_tolerances(one[k], "mu=10%,load=5"), RB_OK);
+        CHECK_REL(array(study, "sweep.tolerance.tangential_load", 3, 1)[k],
+                  *array(one[k], "tolerance.tangential_load", 1, 1), 1e-12, "case %d", k);
     }
-    assert_int_equal(rb_api_sweep_derivatives(study, 3, one, "nonsense", 2), RB_EINVAL);
+    const double alone = 0.004 * fabs(slope[2]);
+    assert_int_equal(rb_api_sweep_derivatives(study, 3, one, NULL, "mu=1%", 2), RB_OK);
+    CHECK_REL(array(study, "sweep.tolerance.tangential_load", 3, 1)[2], alone, 1e-12,
+              "by mu alone");
+    int rows, columns;
+    assert_null(rb_api_array(study, "sweep.tolerance.iterations", &rows, &columns));
+    assert_null(rb_api_derivative(study, "sweep", 0, "name", name, sizeof name));
+    assert_int_equal(rb_api_sweep_derivatives(study, 3, one, "nonsense", NULL, 2), RB_EINVAL);
+    assert_int_equal(rb_api_sweep_derivatives(study, 3, one, NULL, "zone=1", 2), RB_EINVAL);
+    assert_int_equal(rb_api_sweep_derivatives(study, 3, one,
+                                              "all:mu,all:load,all:radius,all:young,"
+                                              "all:poisson",
+                                              "mu=1%", 2),
+                     RB_EINVAL);
+    assert_non_null(strstr(rb_api_message(study), "128 columns"));
     assert_int_equal(rb_api_set(one[1], "approach", "1"), RB_OK);
     assert_true(rb_api_sweep(study, 3, one, 2) < 0);
     assert_non_null(strstr(rb_api_message(study), "case 2: --approach and --load"));

@@ -240,6 +240,39 @@ TEST(tables_are_in_the_units_of_the_file_that_names_them)
     assert_non_null(strstr(out, "\n2\t200\t"));
 }
 
+/* To first order, as rollbem --tolerance of each case; per cent are those of its own
+ * numbers, units those of the study. */
+TEST(tolerances_of_a_study_are_those_of_its_cases)
+{
+#define UNCERTAIN "--contact-elements 30 --tolerance mu=0.02,creep-ratio=10%,young=1% "
+#define VARIED "--vary-1 'creep-ratio 0.3 0.8' "
+    held_json *all = run_json(STUDY UNCERTAIN VARIED "--derivatives tangential_load:mu");
+    held_json *in_si = run_json("sweep --support halfplane --formulation steady --load 500000 "
+                                "--units si " UNCERTAIN VARIED);
+    const json_t *table = json_object_get(all, "table");
+    for (size_t k = 0; k < 2; k++) {
+        held_json *one = run_json(k ? STUDY UNCERTAIN "--creep-ratio 0.8" + strlen("sweep ")
+                                    : STUDY UNCERTAIN "--creep-ratio 0.3" + strlen("sweep "));
+        const json_t *want = json_object_get(one, "tolerances");
+        const double Q = number_in(want, "tangential_load");
+        CHECK_REL(entry(table, "deviation_tangential_load_N/mm", k), Q, 1e-12, "case %zu", k);
+        CHECK_REL(entry(table, "deviation_max_strain", k), number_in(want, "max_strain"), 1e-12,
+                  "case %zu", k);
+        CHECK_REL(entry(json_object_get(in_si, "table"), "deviation_tangential_load_N/m", k),
+                  1e3 * Q, 1e-9, "case %zu in SI", k);
+    }
+    /* other deviations are another study */
+    assert_int_equal(rollbem(STUDY UNCERTAIN VARIED "--output t"), 0);
+    assert_int_equal(rollbem(STUDY UNCERTAIN VARIED "--output t"), 0);
+    assert_int_equal(
+        rollbem(STUDY "--contact-elements 30 --tolerance mu=0.03 " VARIED "--output t"), 73);
+    assert_non_null(strstr(err, "has other contents"));
+    check_refused(STUDY "--vary-1 'mu .1 .2' --tolerance zone=1", 64,
+                  "--tolerance: 'zone' is not a number of this case");
+    check_refused(STUDY "--vary-1 'crack-length .1 .2' --tolerance mu=1", 64,
+                  "--tolerance: the K of cracks have no derivatives; give --sample");
+}
+
 TEST(cases_that_fail_are_rows_and_an_exit_code)
 {
     assert_int_equal(rollbem("sweep --support halfplane --mu 0 --vary-1 'load 1 2' "

@@ -149,6 +149,7 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *   sweep.status sweep.NAME ...  after rb_api_sweep, an entry per case; of cracks also the
  *                                names of crack.summary
  *   sweep.derivative.approach:mu ...   after rb_api_sweep_derivatives
+ *   sweep.tolerance.approach ...   with uncertain inputs: standard deviations
  *   lcp.z lcp.w                  after rb_api_lcp
  *   friction.r friction.u        after rb_api_friction, dimension x contacts */
 const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns);
@@ -247,9 +248,10 @@ int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double
  * resolves each case.  If a case is refused, the call ends before anything is solved. */
 int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers);
 /* The same with derivatives of each case; `derivatives` as of rb_api_curve_derivatives, at
- * most 128 arrays.  For a growing input where the two sides differ, NAN: none. */
+ * most 128 arrays.  For a growing input where the two sides differ, NAN: none.  tolerance:
+ * uncertain inputs, as of rb_api_curve_derivatives; NULL: none, as derivatives. */
 int rb_api_sweep_derivatives(rb_api *a, int n, rb_api *const *cases, const char *derivatives,
-                             int workers);
+                             const char *tolerance, int workers);
 /* The same with a crack below each contact: handles for "crack", and the same m options
  * of `rollbem crack` for each, whose texts are values[j + k m] in case k. */
 int rb_api_sweep_cracks(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,

@@ -279,9 +279,11 @@ typedef struct {
     int without;       /* of a curve: points that have no derivatives, and why the last one
                           has none */
     rb_message reason;
-    const char *tolerance; /* of a curve: uncertain inputs, for the standard deviations of its
-                              points; NULL: none; borrowed */
-    rb_units units;        /* mm at first */
+    const char *tolerance; /* of a curve or a study: uncertain inputs, for the standard
+                              deviations of its points or cases; NULL: none; borrowed */
+    int deviations;        /* of a study: how many results have them */
+    const rb_rolling_result *deviation[RB_ROW_OWN];
+    rb_units units; /* mm at first */
 } rb_case_slopes;
 
 /* Chooses the columns by words: "all", or a list, separated by commas, of RESULT (with
@@ -290,14 +292,21 @@ typedef struct {
 rb_status rb_case_slopes_choose(const rb_case *c, const rb_rolling_results *table,
                                 const char *words, int most, rb_case_slopes *slopes,
                                 rb_message *why);
+/* Adds the standard deviations of those of the n results that have derivatives to the
+ * columns of a study; c: one of its cases; tolerance is borrowed.  RB_EINVAL: as of
+ * rb_case_read_tolerances, or more than RB_ROW_OWN columns. */
+rb_status rb_case_slopes_add_deviations(const rb_case *c, const char *tolerance, int n,
+                                        const rb_rolling_result *const *result,
+                                        rb_case_slopes *slopes, rb_message *why);
 /* Allocates the given number of rows, without values.  RB_ENOMEM. */
 rb_status rb_case_slopes_alloc(int rows, rb_case_slopes *slopes);
 /* Computes one row of derivatives from a solved model of the case; row: 2 n values, NAN
  * before. */
 rb_status rb_case_slopes_at(const rb_case *c, const rb_rolling_model *model,
                             const rb_case_slopes *slopes, double *row, rb_message *why);
-/* The same as one number per column, as rb_case_slope_value, at most RB_ROW_OWN; a case
- * without derivatives has NAN.  RB_ENOMEM alone. */
+/* The same as one number per column, as rb_case_slope_value, and behind them the standard
+ * deviations of the results of `deviation`, together at most RB_ROW_OWN; a case without
+ * derivatives has NAN.  RB_ENOMEM alone. */
 rb_status rb_case_slopes_row(const rb_case *c, const rb_rolling_model *model,
                              const rb_case_slopes *slopes, double *row, rb_message *why);
 /* The derivative for a growing input, or for a falling one if the input cannot grow. */
@@ -346,6 +355,11 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_to
  * input has no derivatives. */
 rb_status rb_case_propagate(const rb_case_tolerances *t, const rb_case_derivatives *all,
                             rb_rolling_solution *deviation, rb_message *why);
+
+/* The same of a solved model of the case by the text of its uncertain inputs: per cent are
+ * those of its own numbers. */
+rb_status rb_case_deviations(const rb_case *c, const rb_rolling_model *model, const char *tolerance,
+                             rb_rolling_solution *deviation, rb_message *why);
 
 /* Those of every step of the history whose states are given, as its `deviations`: first
  * order, carried from step to step.  RB_EINVAL: as rb_case_slopes_of_steps. */

@@ -258,7 +258,7 @@ class _Named:
         derivatives, ``d_..._by_...``, and of tolerances, ``deviation_...``."""
         derivatives, tolerances = (self.__dict__.get(name) or {} for name in ("derivatives", "tolerances"))
         return {**self._arrays, **(derivatives.columns() if derivatives else {}),
-                **{f"deviation_{name}": x for name, x in tolerances.items() if np.ndim(x) == 1}}
+                **{f"deviation_{name}": x for name, x in tolerances.items() if np.ndim(x) > 0}}
 
     def to_pandas(self) -> Any:
         """The columns as a ``pandas.DataFrame``; ``attrs["units"]`` has their units."""
@@ -600,6 +600,7 @@ class Sweep(_Named):
     axes: "dict[str, Array]"
     status: Array
     derivatives: Derivatives  # of sweep(derivatives=...)
+    tolerances: dict  # standard deviations, of sweep(tolerance=...)
 
     def __init__(self, axes: Mapping[str, Array], handle: Handle) -> None:
         shape = tuple(len(values) for values in axes.values())
@@ -609,6 +610,8 @@ class Sweep(_Named):
         self._arrays = {name: array.reshape(shape) for name, array in found.items()}
         self._numbers = {}
         self.derivatives = Derivatives(handle, "sweep", shape)
+        self.tolerances = {name: array.reshape(shape) for name, array in handle.arrays("number", "sweep.tolerance.").items()
+                           if np.isfinite(array).any()}
 
     def columns(self) -> dict:
         """A row per case: the varied options, the status and all results."""
@@ -768,7 +771,7 @@ def wear(case: Union[Case, str, os.PathLike, None] = None, *, coefficient: float
 
 
 def sweep(case: Union[Case, str, os.PathLike, None] = None, workers: int = 0, progress: Progress = None,
-          derivatives: Any = None, **options: Any) -> Sweep:
+          derivatives: Any = None, tolerance: Any = None, **options: Any) -> Sweep:
     """Solves every combination of the options given as lists or arrays, the last fastest.
 
     ``sweep(mu=[0.1, 0.3], creep_ratio=np.linspace(0, 1.5, 31), formulation="steady", ...)``.
@@ -777,6 +780,8 @@ def sweep(case: Union[Case, str, os.PathLike, None] = None, workers: int = 0, pr
     cases now and then: with tqdm, ``progress=lambda done, total: bar.update(done - bar.n)``.
     ``derivatives`` as of :func:`curve`: those of each case, for a growing input where the two sides differ; then
     ``derivatives["tangential_load"]["mu"]`` of the study is an array like its results.
+    ``tolerance`` as of :func:`curve`, per cent of each case's own numbers: standard deviations of the results are
+    ``tolerances`` of the study.
     """
     workers = _values.whole("workers", workers)
     base = case if isinstance(case, Case) else Case(case)
@@ -794,11 +799,12 @@ def sweep(case: Union[Case, str, os.PathLike, None] = None, workers: int = 0, pr
                                  **{name: value for name, value in one.items() if name not in cracks}))
         words += [_values.text(name, one.get(name, options[name])) for name in cracks]
     study = Handle("sweep")
-    if cracks and derivatives is not None:
-        raise InvalidInput("sweep: derivatives: not of cracks")
-    if derivatives is not None:
-        status = study.run("rb_api_sweep_derivatives", len(cases), handles(cases), _words(derivatives), workers,
-                           progress=progress)
+    if cracks and (derivatives is not None or tolerance is not None):
+        raise InvalidInput(f"sweep: {'tolerance' if derivatives is None else 'derivatives'}: not of cracks")
+    if derivatives is not None or tolerance is not None:
+        status = study.run("rb_api_sweep_derivatives", len(cases), handles(cases),
+                           None if derivatives is None else _words(derivatives),
+                           None if tolerance is None else _uncertain(tolerance), workers, progress=progress)
     elif cracks:
         names = texts([name.replace("_", "-") for name in cracks])
         status = study.run("rb_api_sweep_cracks", len(cases), handles(cases), len(cracks), names, texts(words), workers,

@@ -69,7 +69,7 @@ FUNCTIONS = {
     "rb_api_friction_file": (_Int, _Handle, _Text, _Text, _Double, _Int),
     "rb_api_wear": (_Int, _Handle, _Text, _Double, _Double, _Double, _Double, _Int, _Int),
     "rb_api_sweep": (_Int, _Handle, _Int, ctypes.POINTER(_Handle), _Int),
-    "rb_api_sweep_derivatives": (_Int, _Handle, _Int, ctypes.POINTER(_Handle), _Text, _Int),
+    "rb_api_sweep_derivatives": (_Int, _Handle, _Int, ctypes.POINTER(_Handle), _Text, _Text, _Int),
     "rb_api_sweep_cracks": (_Int, _Handle, _Int, ctypes.POINTER(_Handle), _Int, ctypes.POINTER(_Text),
                             ctypes.POINTER(_Text), _Int),
 }

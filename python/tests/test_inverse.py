@@ -225,6 +225,25 @@ def test_derivatives_of_studies():
         rollbem.sweep(**PLANES, mu=0.0, crack_angle=[30], derivatives="max_pressure")
 
 
+def test_tolerances_of_studies():
+    pandas = pytest.importorskip("pandas")
+    case = {**PLANES, "contact_elements": 30, "formulation": "steady"}
+    study = rollbem.sweep(**case, mu=[0.2, 0.3], creep_ratio=[0.3, 0.6, 0.8], workers=2, derivatives="tangential_load:mu",
+                          tolerance={"mu": "10%", "creep_ratio": 0.05})
+    one = rollbem.solve(**case, mu=0.3, creep_ratio=0.6, tolerance="mu=10%,creep-ratio=0.05")
+    for name in ("tangential_load", "max_pressure", "dissipation"):
+        assert study.tolerances[name].shape == (2, 3)
+        assert study.tolerances[name][1, 1] == pytest.approx(one.tolerances[name], rel=1e-9), name
+    frame = study.to_pandas()
+    assert isinstance(frame, pandas.DataFrame) and frame["deviation_tangential_load"].iloc[4] == one.tolerances["tangential_load"]
+    assert rollbem.sweep(**case, mu=[0.2], workers=1, tolerance="mu=1%").derivatives == {}
+    assert rollbem.sweep(**case, mu=[0.2], workers=1).tolerances == {}
+    with pytest.raises(rollbem.InvalidInput, match="'zone' is not a number"):
+        rollbem.sweep(**case, mu=[0.2], tolerance="zone=1")
+    with pytest.raises(rollbem.InvalidInput, match="tolerance: not of cracks"):
+        rollbem.sweep(**PLANES, mu=0.0, crack_angle=[30], tolerance="load=1%")
+
+
 def test_tolerances():
     s = rollbem.solve(**STEADY, tolerance={"mu": 0.02, "radius": "1%"})
     want = run_json(**STEADY, tolerance="mu=0.02,radius=1%")["tolerances"]

@@ -200,6 +200,11 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
     for (int j = 0; j < st->slopes->n; j++)
         for (int side = 0; side < 2; side++)
             st->slopes->value[2 * (k * st->slopes->n + j) + side] = row->own[j];
+    for (int j = 0; j < st->slopes->deviations; j++) {
+        char name[60];
+        snprintf(name, sizeof name, "tolerance.%s", st->slopes->deviation[j]->name);
+        column_of(st->a, name)->at[k] = row->own[st->slopes->n + j];
+    }
     column_of(st->a, "status")->at[k] = row->solution.status;
     for (int j = 0; j < table->n; j++)
         column_of(st->a, table->row[j].name)->at[k] =
@@ -219,9 +224,35 @@ static int tick(int seen, void *context)
     return st->a->stopped;
 }
 
-/* names NULL: without cracks; slopes NULL: without derivatives. */
+/* The columns of derivatives and of standard deviations; NULL: none. */
+static rb_status choose_slopes(rb_api *a, int n, rb_api *const *cases, const char *derivatives,
+                               const char *tolerance, rb_case_slopes *s)
+{
+    const rb_rolling_results *table = &rb_rolling_solution_scalars;
+    const rb_rolling_result *result[RB_ROW_OWN];
+    rb_status status = RB_OK;
+    int known = 0;
+    if (derivatives)
+        status = rb_case_slopes_choose(cases[0]->words, table, derivatives, RB_ROW_OWN, s, &a->why);
+    if (status == RB_OK)
+        status = rb_case_slopes_alloc(n, s);
+    for (; known < table->n && known < RB_ROW_OWN; known++)
+        result[known] = &table->row[known];
+    if (status == RB_OK && tolerance)
+        status =
+            rb_case_slopes_add_deviations(cases[0]->words, tolerance, known, result, s, &a->why);
+    for (int k = 0; k < s->deviations && status == RB_OK; k++) {
+        char name[60];
+        snprintf(name, sizeof name, "sweep.tolerance.%s", s->deviation[k]->name);
+        status = rb_api_make_array(a, name, n, 1) ? RB_OK : RB_ENOMEM;
+    }
+    return status;
+}
+
+/* names NULL: without cracks; derivatives, tolerance NULL: without them. */
 static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,
-                 const char *const *values, const char *slopes, int workers)
+                 const char *const *values, const char *derivatives, const char *tolerance,
+                 int workers)
 {
     rb_case_slopes *own = &a->slopes[API_SLOPES_SWEEP];
     study st = {.a = a, .cases = cases, .slopes = own};
@@ -260,11 +291,8 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
                             "--paris: a study has the K of cracks of given lengths");
             s = u == RB_OK ? u : rb_fail(&st.a->why, u, "case %d: %.580s", k + 1, why.text);
         }
-    if (s == RB_OK && slopes && n > 0) {
-        s = rb_case_slopes_choose(cases[0]->words, &rb_rolling_solution_scalars, slopes, RB_ROW_OWN,
-                                  own, &a->why);
-        if (s == RB_OK)
-            s = rb_case_slopes_alloc(n, own);
+    if (s == RB_OK && (derivatives || tolerance) && n > 0) {
+        s = choose_slopes(a, n, cases, derivatives, tolerance, own);
         of_cases.measure = measure_slopes;
     }
     if (s == RB_OK && n > 0) {
@@ -288,6 +316,7 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
         rb_api_call_ends();
     }
     free(st.crack);
+    own->tolerance = NULL; /* the caller's */
     if (s != RB_OK)
         rb_api_forget_slopes(a, API_SLOPES_SWEEP);
     return rb_api_ended(a, s);
@@ -295,17 +324,17 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
 
 int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers)
 {
-    return sweep(a, n, cases, 0, NULL, NULL, NULL, workers);
+    return sweep(a, n, cases, 0, NULL, NULL, NULL, NULL, workers);
 }
 
 int rb_api_sweep_derivatives(rb_api *a, int n, rb_api *const *cases, const char *derivatives,
-                             int workers)
+                             const char *tolerance, int workers)
 {
-    return sweep(a, n, cases, 0, NULL, NULL, derivatives, workers);
+    return sweep(a, n, cases, 0, NULL, NULL, derivatives, tolerance, workers);
 }
 
 int rb_api_sweep_cracks(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,
                         const char *const *values, int workers)
 {
-    return sweep(a, n, cases, m, names, values, NULL, workers);
+    return sweep(a, n, cases, m, names, values, NULL, NULL, workers);
 }

@@ -80,6 +80,26 @@ rb_status rb_case_slopes_choose(const rb_case *c, const rb_rolling_results *tabl
     return status;
 }
 
+rb_status rb_case_slopes_add_deviations(const rb_case *c, const char *tolerance, int n,
+                                        const rb_rolling_result *const *result, rb_case_slopes *s,
+                                        rb_message *why)
+{
+    rb_case_tolerances t;
+    const rb_status status = rb_case_read_tolerances(c, tolerance, &t, why);
+
+    s->tolerance = tolerance;
+    for (int k = 0; k < n && status == RB_OK; k++) {
+        if (!rb_sensitivity_has(result[k]))
+            continue;
+        if (s->n + s->deviations == RB_ROW_OWN)
+            return rb_fail(why, RB_EINVAL,
+                           "more than %d columns with those of the derivatives; name fewer of them",
+                           RB_ROW_OWN);
+        s->deviation[s->deviations++] = result[k];
+    }
+    return status;
+}
+
 rb_status rb_case_slopes_alloc(int rows, rb_case_slopes *s)
 {
     const size_t all = 2 * (size_t)rows * (size_t)s->n;
@@ -202,9 +222,14 @@ rb_status rb_case_slopes_row(const rb_case *c, const rb_rolling_model *model,
 
     for (int k = 0; k < 2 * RB_ROW_OWN; k++)
         both[k] = NAN;
-    const rb_status status = rb_case_slopes_at(c, model, s, both, why);
+    rb_status status = s->n > 0 ? rb_case_slopes_at(c, model, s, both, why) : RB_OK;
     for (int k = 0; k < s->n; k++)
         row[k] = isnan(both[2 * k + 1]) ? both[2 * k] : both[2 * k + 1];
+    rb_rolling_solution deviation;
+    if (status != RB_ENOMEM && s->deviations > 0)
+        status = rb_case_deviations(c, model, s->tolerance, &deviation, why);
+    for (int k = 0; k < s->deviations; k++)
+        row[s->n + k] = status == RB_OK ? rb_rolling_number(s->deviation[k], &deviation) : NAN;
     return status == RB_ENOMEM ? status : RB_OK;
 }
 
@@ -283,23 +308,13 @@ rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range, 
     return status;
 }
 
-/* Standard deviations of point k: per cent are those of its own numbers. */
+/* Standard deviations of point k. */
 static rb_status propagate_point(const curve_slopes *of, const rb_case *point,
                                  const rb_rolling_model *model, int k, rb_message *why)
 {
-    const char *name[RB_CASE_TOLERANCES_MAX];
-    rb_case_tolerances t;
-    rb_case_derivatives all = {.n = 0};
     rb_rolling_solution deviation;
-    rb_status s = rb_case_read_tolerances(point, of->s->tolerance, &t, why);
+    const rb_status s = rb_case_deviations(point, model, of->s->tolerance, &deviation, why);
 
-    for (int i = 0; i < t.n; i++)
-        name[i] = t.name[i];
-    if (s == RB_OK)
-        s = rb_case_differentiate(point, model, t.n, name, &all, why);
-    if (s == RB_OK)
-        s = rb_case_propagate(&t, &all, &deviation, why);
-    rb_case_derivatives_free(&all);
     for (int j = 0; j < rb_rolling_curve_columns.n && s == RB_OK; j++) {
         const rb_rolling_result *column = &rb_rolling_curve_columns.row[j],
                                 *of_case = rb_rolling_find_result(&rb_rolling_solution_scalars,

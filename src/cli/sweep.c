@@ -34,8 +34,12 @@ static const rb_option options[] = {
                     "number of random cases whose inputs scatter by --tolerance (a Latin hypercube "
                     "of normal distributions); prints mean and standard deviation of each result "
                     "to standard error; a sample with invalid inputs counts as not solved"),
-    RB_TEXT_LINE("tolerance", PLACE(tolerance), "NAME=X,...",
-                 "their standard deviations, as mu=0.02,radius=1%", .unset = "none"),
+    RB_TEXT_LINE(
+        "tolerance", PLACE(tolerance), "NAME=X,...",
+        "standard deviations of inputs, as mu=0.02,radius=1%: of those of --sample; without "
+        "--sample a column deviation_... with that of each result in every case, to first "
+        "order",
+        .unset = "none"),
     RB_INTEGER_LINE("seed", PLACE(seed), RB_FROM_TO(0, 1000000000),
                     "of the sample: the same seed gives the same cases"),
     RB_TEXT_LINE(
@@ -118,6 +122,8 @@ static cli_exit find_fingerprint(study *st)
         const char *text = o->kind == RB_OPTION_GROUP ? "" : rb_option_text(o, &st->crack, buffer);
         hash = rb_hash(hash, text, strlen(text));
     }
+    if (st->slopes.tolerance)
+        hash = rb_hash(hash, st->slopes.tolerance, strlen(st->slopes.tolerance));
     for (int k = 0; k < st->columns; k++) {
         const study_column *c = &st->column[k];
         hash = rb_hash(hash, c->name, strlen(c->name));
@@ -198,6 +204,24 @@ static cli_exit choose_by_name(study *st, const char *option, const char *name)
     return cli_fail(CLI_USAGE, "--%s: no result '%s'%s%s", option, name, near, all);
 }
 
+/* Of the results of the contact, behind the derivatives. */
+static cli_exit choose_deviations(study *st)
+{
+    const rb_rolling_result *of[RESULTS_MAX];
+    rb_message why = {""};
+    int n = 0;
+    for (int k = 0; k < st->results; k++)
+        if (st->result[k].of == OF_SOLUTION && !st->result[k].is_error)
+            of[n++] = st->result[k].r;
+    if (st->has_crack)
+        return cli_fail(CLI_USAGE,
+                        "--tolerance: the K of cracks have no derivatives; give --sample");
+    return rb_case_slopes_add_deviations(st->base, st->o->tolerance, n, of, &st->slopes, &why) ==
+                   RB_OK
+               ? CLI_CONTINUE
+               : cli_fail(CLI_USAGE, "--tolerance: %s", why.text);
+}
+
 /* Those of the crack, or those that the cases have and no option names, then those of
  * --results and --show, then the error bars of all. */
 static cli_exit choose_results(study *st)
@@ -241,6 +265,8 @@ static cli_exit choose_results(study *st)
                                   RB_ROW_OWN, &st->slopes, &why) != RB_OK)
             code = cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
     }
+    if (code == CLI_CONTINUE && st->o->tolerance && st->o->sample == 0)
+        code = choose_deviations(st);
     /* Not every body's stress is known; what else is wrong is known with the first case. */
     if (code != CLI_CONTINUE)
         return code;
@@ -252,10 +278,11 @@ static cli_exit choose_results(study *st)
     return CLI_CONTINUE;
 }
 
-/* Columns: the number of the case, what varies, the status, the results, derivatives. */
+/* Columns: the number of the case, what varies, the status, the results, derivatives,
+ * standard deviations. */
 static int column_count(const study *st)
 {
-    return 1 + st->columns + 1 + st->results + st->slopes.n;
+    return 1 + st->columns + 1 + st->results + st->slopes.n + st->slopes.deviations;
 }
 
 static const char *column_name(const study *st, int j, char text[STUDY_HEADING])
@@ -263,6 +290,11 @@ static const char *column_name(const study *st, int j, char text[STUDY_HEADING])
     char heading[RB_ROLLING_HEADING];
     const rb_units units = rb_case_resolved(st->base)->units;
     const int slope = j - st->columns - 2 - st->results;
+    if (slope >= st->slopes.n) {
+        const rb_rolling_result *r = st->slopes.deviation[slope - st->slopes.n];
+        snprintf(text, STUDY_HEADING, "deviation_%s", rb_rolling_heading(r, units, heading));
+        return text;
+    }
     if (slope >= 0)
         return rb_case_slope_heading(&st->slopes.of[slope], units, text);
     if (j == 0)
@@ -287,15 +319,17 @@ static double cell_value(const study *st, int j, int k, const rb_rolling_row *ro
     if (j == st->columns + 1)
         return (double)row->solution.status;
     const int slope = j - st->columns - 2 - st->results;
+    const rb_units units = rb_case_resolved(st->base)->units;
+    if (slope >= st->slopes.n) {
+        const rb_rolling_result *r = st->slopes.deviation[slope - st->slopes.n];
+        return r->unit ? rb_unit_shown(units, r->unit, row->own[slope]) : row->own[slope];
+    }
     if (slope >= 0)
-        return rb_case_slope_shown(&st->slopes.of[slope], rb_case_resolved(st->base)->units,
-                                   row->own[slope]);
+        return rb_case_slope_shown(&st->slopes.of[slope], units, row->own[slope]);
     const study_result *result = &st->result[j - st->columns - 2];
     if (result->of == OF_CRACK) {
         const double x = rb_case_crack_of_row(result->r, result->is_error, row);
-        return result->r->unit
-                   ? rb_unit_shown(rb_case_resolved(st->base)->units, result->r->unit, x)
-                   : x;
+        return result->r->unit ? rb_unit_shown(units, result->r->unit, x) : x;
     }
     const void *owner =
         result->of == OF_STRESS
@@ -662,7 +696,8 @@ static rb_rolling_sweep sweep_of(study *st)
                               .count = st->cases - st->first,
                               .workers = st->o->jobs,
                               .make = make_case,
-                              .measure = st->slopes.n > 0 ? measure_slopes : NULL,
+                              .measure =
+                                  st->slopes.n + st->slopes.deviations > 0 ? measure_slopes : NULL,
                               .solve = st->has_crack ? solve_crack : NULL,
                               .see = see_row,
                               .tick = tick,
