@@ -435,6 +435,19 @@ TEST(tolerances_take_exact_derivatives)
     assert_true(exact > 0.0);
 }
 
+/* First order: with the input's deviation, however large or small. */
+TEST(tolerances_grow_with_the_deviation)
+{
+    held_api *a = solved(steady);
+    assert_int_equal(rb_api_tolerances(a, "load=1"), RB_OK);
+    const double of_one = array(a, "tolerance.max_pressure", 1, 1)[0];
+    assert_true(of_one > 0.0);
+    assert_int_equal(rb_api_tolerances(a, "load=1e300"), RB_OK);
+    CHECK_REL(array(a, "tolerance.max_pressure", 1, 1)[0], 1e300 * of_one, 1e-12, "large");
+    assert_int_equal(rb_api_tolerances(a, "load=1e-300"), RB_OK);
+    CHECK_REL(array(a, "tolerance.max_pressure", 1, 1)[0], 1e-300 * of_one, 1e-12, "small");
+}
+
 /* What the models, the curve, the history and a problem alone are asked by name. */
 TEST(every_name_has_its_value)
 {

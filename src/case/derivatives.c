@@ -413,7 +413,7 @@ rb_status rb_case_propagate(const rb_case_tolerances *t, const rb_case_derivativ
     *deviation = (rb_rolling_solution){.units = all->units};
     for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
-        double sum = 0.0;
+        double deviates = 0.0;
         for (int i = 0; i < t->n; i++) {
             const rb_case_derivative *of = all->of;
             while (of < all->of + all->n && strcmp(of->name, t->name[i]) != 0)
@@ -428,11 +428,11 @@ rb_status rb_case_propagate(const rb_case_tolerances *t, const rb_case_derivativ
             const double slope = isnan(left)    ? right
                                  : isnan(right) ? left
                                                 : 0.5 * (fabs(left) + fabs(right));
-            sum += slope * slope * t->deviation[i] * t->deviation[i];
+            deviates = hypot(deviates, slope * t->deviation[i]); /* a square may overflow */
         }
         if (r->kind != RB_RESULT_WHOLE)
             *(double *)(void *)((char *)deviation + r->offset) =
-                rb_sensitivity_has(r) ? sqrt(sum) : NAN;
+                rb_sensitivity_has(r) ? deviates : NAN;
     }
     return RB_OK;
 }

@@ -70,8 +70,8 @@ const rb_sensitivity_stencil rb_sensitivity_ahead = {
 
 /* ---- The law ----------------------------------------------------------------------- */
 
-/* Derivative of the coefficients that the law gives with respect to the slips, or to the
- * friction, of element `at` (-1: of every element) that slips, or of those that stick, where
+/* Derivative of the coefficients that the law gives with respect to the slip, or to the
+ * friction, of element `at`; -1: to the slips of all that slip, or of those that stick, where
  * they begin to slip against their friction. */
 static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_model *v,
                                    int of_friction, int at_rest, double step, int at,
@@ -85,8 +85,9 @@ static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_mod
     memset(derivative, 0, (size_t)n * sizeof *derivative);
     for (int k = 0; k < places->n && s == RB_OK; k++) {
         for (int i = 0; i < n; i++)
-            if ((at < 0 || i == at) &&
-                (at_rest ? v->state.zone[i] == RB_ZONE_STICK : v->state.zone[i] > RB_ZONE_STICK))
+            if (at >= 0   ? i == at
+                : at_rest ? v->state.zone[i] == RB_ZONE_STICK
+                          : v->state.zone[i] > RB_ZONE_STICK)
                 x[i] += (at_rest && v->state.q[i] > 0.0 ? -step : step) * places->place[k];
         s = rb_rolling_model_friction(v, why);
         memcpy(v->state.lambda, model->state.lambda, (size_t)n * sizeof *x);
@@ -122,11 +123,17 @@ static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *scratc
                 s->law_slip[i + i * n] = scratch[i];
         return status;
     }
+    /* The friction of an element heats by the slips at both its ends: that of an element that
+     * sticks by the one behind it, where the next element slips; and what opens behind the
+     * contact heats its last element. */
     for (size_t j = 0; j < n && status == RB_OK; j++) {
-        if (model->state.zone[j] <= RB_ZONE_STICK)
-            continue;
-        status = differentiate_law(model, v, 0, 0, slip, (int)j, s->law_slip + j * n, why);
-        if (status == RB_OK && s->law_force)
+        const int *zone = model->state.zone, heats = s->law_force != NULL;
+        if (zone[j] > RB_ZONE_STICK ||
+            (heats && zone[j] == RB_ZONE_SEPARATED && j + 1 < n && zone[j + 1] != zone[j]))
+            status = differentiate_law(model, v, 0, 0, slip, (int)j, s->law_slip + j * n, why);
+        if (status == RB_OK && heats &&
+            (zone[j] > RB_ZONE_STICK ||
+             (zone[j] == RB_ZONE_STICK && j > 0 && zone[j - 1] != zone[j])))
             status = differentiate_law(model, v, 1, 0, stress, (int)j, s->law_force + j * n, why);
     }
     return status;

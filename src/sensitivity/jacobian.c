@@ -75,9 +75,10 @@ static void dependence(const rb_sensitivity *s, const int *zone, int i, double *
     memset(force, 0, n * sizeof *force);
     if (slides(zone[i]) && s->law_slip)
         for (size_t j = 0; j < n; j++) {
-            const int moves = zone[j] > RB_ZONE_STICK;
-            weight[j] = moves ? -friction * s->law_slip[(size_t)i + j * n] : 0.0;
-            force[j] = moves && s->law_force ? -friction * s->law_force[(size_t)i + j * n] : 0.0;
+            weight[j] = zone[j] != RB_ZONE_STICK ? -friction * s->law_slip[(size_t)i + j * n] : 0.0;
+            force[j] = s->law_force && zone[j] != RB_ZONE_SEPARATED
+                           ? -friction * s->law_force[(size_t)i + j * n]
+                           : 0.0;
         }
     /* what has softened away carries nothing, whatever it yields further */
     const int carries = fabs(s->model->state.q[i]) > 1e-9 * rb_contact_friction_scale(p);
