@@ -103,7 +103,6 @@ static rb_rolling_range range_of(const range_options *r)
     return (rb_rolling_range){(rb_rolling_variable)r->over, r->from, r->to, r->points};
 }
 
-/* words NULL: without derivatives, as those of a picture. */
 static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
                               const range_options *range, rb_report_curves *curves, rb_message *why)
 {
@@ -115,7 +114,7 @@ static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
     for (int k = 0; k < mus->n && s == RB_OK; k++) {
         rb_message reason = {""};
         rc.mu = curves->mu[k] = mus->value[k];
-        if (words && (range->derivatives || range->tolerance)) {
+        if (range->derivatives || range->tolerance) {
             s = rb_case_curve_choose(words, &all, range->derivatives, range->tolerance,
                                      &curves->slopes[k], &reason);
             if (s == RB_OK)
@@ -172,7 +171,8 @@ static rb_status solve(cli_case_run *run, rb_message *why)
                 common.from = fmin(common.from, fmin(c->creepage[0], c->creepage[c->rising - 1]));
                 common.to = fmax(common.to, fmax(c->creepage[0], c->creepage[c->rising - 1]));
             }
-            s = solve_curves(NULL, run->c, &common, &r->drawn, why);
+            common.derivatives = NULL;
+            s = solve_curves(run->words, run->c, &common, &r->drawn, why);
         }
     }
     convert(&r->curves, run->c->units);

@@ -116,14 +116,12 @@ __attribute__((format(printf, 2, 3))) static void add_words(words *w, const char
 
 static void add_length(words *w, const char *of, double length, rb_units units)
 {
-    char number[40];
-    add_words(w, ", %s%s %s", of, rb_report_number(rb_unit_shown(units, "mm", length), 5, number),
+    add_words(w, ", %s%s %s", of, RB_REPORT_NUMBER(rb_unit_shown(units, "mm", length), 5),
               rb_unit_name(units, "mm"));
 }
 
 static void add_body(words *w, const rb_rolling_body *b, rb_units units)
 {
-    char number[40];
     const double young = rb_unit_shown(units, "MPa", b->young);
     const rb_report_unit unit = rb_report_axis_unit(units, "MPa", young);
     add_words(w, "%s", rb_rolling_kind_name(rb_rolling_kind_of(b)));
@@ -133,7 +131,7 @@ static void add_body(words *w, const rb_rolling_body *b, rb_units units)
         add_length(w, "cover ", b->cover, units);
     if (b->layer > 0.0)
         add_length(w, "layer ", b->layer, units);
-    add_words(w, ", E = %s %s%s", rb_report_number(young / unit.size, 5, number), unit.name,
+    add_words(w, ", E = %s %s%s", RB_REPORT_NUMBER(young / unit.size, 5), unit.name,
               b->memory.n > 0 ? ", relaxes" : "");
 }
 

@@ -176,14 +176,19 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
 
 /* ---- Picture ----------------------------------------------------------------------- */
 
+/* y: those of several mu are compared by Q/P; standard deviations are those of Q, because
+ * mu and P may be uncertain, too. */
+typedef enum { FORCE_RATIO, FORCE_OVER_LOAD, FORCE, RESISTANCE } ordinate;
+
 typedef struct {
     const rb_rolling_case *rc;
     const rb_report_curves *curves;
     rb_rolling_variable over; /* x */
-    int over_load;            /* y: -Q/P instead of -Q/(mu P) */
-    int exponent;             /* of the axis of xi, or of M/(P R) */
+    ordinate y;
+    int exponent; /* of the axis of xi, or of M/(P R) */
     double from, to;
-    int corner; /* of the key: 1 left top, 0 right bottom */
+    int corner;  /* of the key: 1 left top, 0 right bottom */
+    int above_0; /* nothing is below 0 but a sliver of a band */
 } view;
 
 /* The coefficient that Q/(mu P) refers to. */
@@ -203,9 +208,22 @@ static double x_of(const view *v, const rb_rolling_curve *c, int i)
 
 static double y_of(const view *v, const rb_rolling_curve *c, int i, double mu)
 {
-    return v->over == RB_OVER_SPEED ? c->resistance_ratio[i] / pow(10.0, v->exponent)
-           : v->over_load           ? -c->force_ratio[i] * mu
-                                    : -c->force_ratio[i];
+    return v->y == RESISTANCE        ? c->resistance_ratio[i] / pow(10.0, v->exponent)
+           : v->y == FORCE           ? -c->tangential_load[i]
+           : v->y == FORCE_OVER_LOAD ? -c->force_ratio[i] * mu
+                                     : -c->force_ratio[i];
+}
+
+/* The curve of half-widths of a band; NULL: none. */
+static const rb_rolling_curve *band_of(const view *v, int k)
+{
+    return v->curves->has_errors ? &v->curves->error[k] : v->curves->curve[k].deviations;
+}
+
+static double half_width(const view *v, int k, int i)
+{
+    const rb_rolling_curve *band = band_of(v, k);
+    return band ? fabs(y_of(v, band, i, scale_of(v, k))) : 0.0;
 }
 
 static int has_heat(const view *v)
@@ -232,24 +250,30 @@ static void write_labels(FILE *out, const view *v, int titled)
     const rb_rolling_curve *c = &v->curves->curve[0];
     const int thick = rb_rolling_has_thickness(v->rc);
     if (titled) {
-        fprintf(
-            out,
-            "set label 1 '{/:Bold %s}   P = %.5g %s,  %s = %.4g %s' at screen 0.54, 0.972 center\n",
-            v->over == RB_OVER_SPEED ? "Rolling resistance" : "Creep curve",
-            c->normal_load[c->n - 1], rb_unit_name(c->units, "N/mm"),
-            thick ? "Hertz’s a of solid bodies" : "a", c->half_width, rb_unit_name(c->units, "mm"));
+        fprintf(out,
+                "set label 1 '{/:Bold %s}   P = %s %s,  %s = %s %s' at screen 0.54, 0.972 center\n",
+                v->over == RB_OVER_SPEED ? "Rolling resistance" : "Creep curve",
+                RB_REPORT_NUMBER(c->normal_load[c->n - 1], 5), rb_unit_name(c->units, "N/mm"),
+                thick ? "Hertz’s a of solid bodies" : "a", RB_REPORT_NUMBER(c->half_width, 4),
+                rb_unit_name(c->units, "mm"));
         rb_report_label_bodies(out, v->rc, c->units, 0.54, 0.935);
     }
     if (v->over == RB_OVER_SPEED) {
         fputs("set logscale x\n", out);
         write_label(out, "y", "resistance to rolling  M/(PR)", v->exponent);
     } else
-        fprintf(out, "set ylabel 'braking force  −Q/%s' offset 1,0\n", v->over_load ? "P" : "(μP)");
+        fprintf(out, "set ylabel 'braking force  −Q%s%s%s' offset 1,0\n",
+                v->y == FORCE             ? "  ["
+                : v->y == FORCE_OVER_LOAD ? "/P"
+                                          : "/(μP)",
+                v->y == FORCE ? rb_unit_name(c->units, "N/mm") : "", v->y == FORCE ? "]" : "");
 }
 
 static void write_x_label(FILE *out, const view *v)
 {
     char label[32];
+    if (v->over == RB_OVER_SPEED && (v->to >= 1e4 || v->from < 1e-3)) /* longer than their tics */
+        fputs("set format x '10^{%L}'\n", out);
     snprintf(label, sizeof label, "speed  [%s]", rb_unit_name(v->curves->curve[0].units, "mm/s"));
     write_label(out, "x",
                 v->over == RB_OVER_SPEED   ? label
@@ -270,7 +294,7 @@ static void write_heat(FILE *out, const view *v, rb_report_place place)
     fprintf(out,
             "unset label\nunset key\nset tmargin at screen %g\nset bmargin at screen %g\nset "
             "format x '%%g'\nset ylabel 'hottest  [K]' offset 1,0\n"
-            "set offsets 0,0,graph 0.08,graph 0.08\n",
+            "set offsets 0,0,graph 0.08,graph 0.08\nset yrange [*:*]\n",
             0.345 + place.up, 0.14 + place.up);
     if (most > least)
         fprintf(out, "set ytics %.9g\n", rb_report_round_step((most - least) / 4.0));
@@ -303,6 +327,23 @@ static int comes_back_otherwise(const view *v)
     return 0;
 }
 
+/* With its size, because a narrow band is hidden by its curve. */
+static void write_band_title(FILE *out, const view *v, int titled)
+{
+    const rb_rolling_curve *c = &v->curves->curve[0];
+    double most = 0.0;
+
+    for (int k = 0; k < v->curves->n; k++)
+        for (int i = 0; i < v->curves->curve[k].n; i++)
+            most = fmax(most, half_width(v, k, i));
+    most *= v->y == RESISTANCE ? pow(10.0, v->exponent) : 1.0;
+    fprintf(out, "title '%s", v->curves->has_errors ? "estimated error" : "standard deviation");
+    if (titled)
+        fprintf(out, ", at most %s%s%s", RB_REPORT_NUMBER(most, 2), v->y == FORCE ? " " : "",
+                v->y == FORCE ? rb_unit_name(c->units, "N/mm") : "");
+    fputs("', ", out);
+}
+
 static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
@@ -313,9 +354,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         /* In units of y; 0 where it was not asked for. */
         for (int i = 0; i < c->n; i++)
             fprintf(out, "%.9g %.9g %.9g %.9g\n", x_of(v, c, i), y_of(v, c, i, scale_of(v, k)),
-                    v->curves->has_errors ? fabs(y_of(v, &v->curves->error[k], i, scale_of(v, k)))
-                                          : 0.0,
-                    has_heat(v) ? c->max_temperature[i] : 0.0);
+                    half_width(v, k, i), has_heat(v) ? c->max_temperature[i] : 0.0);
         fputs("EOD\n", out);
     }
     if (draws_carter(v)) {
@@ -329,7 +368,9 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
                 const double t = (double)i / POINTS;
                 const double s = (1.0 - t) * c->creep_ratio[0] + t * c->creep_ratio[last];
                 fprintf(out, "%.9g %.9g\n", (1.0 - t) * x_of(v, c, 0) + t * x_of(v, c, last),
-                        -rb_closed_carter_force_ratio(s) * (v->over_load ? v->curves->mu[k] : 1.0));
+                        -rb_closed_carter_force_ratio(s) *
+                            (v->y == FORCE_RATIO ? 1.0 : v->curves->mu[k]) *
+                            (v->y == FORCE ? c->normal_load[last] : 1.0));
             }
             fputs("EOD\n", out);
         }
@@ -344,15 +385,23 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     fprintf(out, "set key %s samplen 2.2 font ',%.3g'\n",
             v->corner ? "left top Left reverse" : "right bottom", rb_report_key_font(canvas));
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
+    if (v->above_0)
+        fputs("set yrange [0:*]\n", out);
     write_labels(out, v, place.titled);
     if (!has_heat(v))
         write_x_label(out, v);
     fputs("plot ", out);
-    for (int k = 0; k < v->curves->n && v->curves->has_errors; k++)
-        fprintf(out,
-                "$curve%d using 1:($2-$3):($2+$3) with filledcurves linecolor rgb '%s' fillstyle "
-                "transparent solid 0.25 noborder %s, ",
-                k, rb_report_colour(k), k == 0 ? "title 'estimated error'" : "notitle");
+    for (int k = 0; k < v->curves->n && band_of(v, 0); k++) {
+        fprintf(
+            out,
+            "$curve%d using 1:($2-$3):($2+$3) every ::0::%d with filledcurves linecolor rgb '%s' "
+            "fillstyle transparent solid 0.3 noborder ",
+            k, v->curves->curve[k].rising - 1, rb_report_colour(k));
+        if (k == 0)
+            write_band_title(out, v, place.titled);
+        else
+            fputs("notitle, ", out);
+    }
     for (int k = 0; k < v->curves->n; k++)
         fprintf(out,
                 "%s$curve%d using 1:2 every ::0::%d with %s linecolor rgb '%s' dashtype %s "
@@ -363,13 +412,20 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
                 rb_report_colour(k), rb_report_dashes(k), v->curves->curve[k].branch ? "≤" : "=",
                 scale_of(v, k));
     const int back = v->over != RB_OVER_SPEED && comes_back_otherwise(v);
-    for (int k = 0; k < v->curves->n && back; k++)
+    for (int k = 0; k < v->curves->n && back; k++) {
+        const int first = v->curves->curve[k].rising;
+        const char *colour = rb_report_colour(v->curves->n + k);
+        if (v->curves->curve[k].branch && band_of(v, k))
+            fprintf(out,
+                    ", $curve%d using 1:($2-$3):($2+$3) every ::%d with filledcurves linecolor rgb "
+                    "'%s' fillstyle transparent solid 0.3 noborder notitle",
+                    k, first, colour);
         if (v->curves->curve[k].branch)
             fprintf(out,
                     ", $curve%d using 1:2 every ::%d with lines linecolor rgb '%s' dashtype (2,3) "
                     "linewidth 2.2 %s",
-                    k, v->curves->curve[k].rising, rb_report_colour(v->curves->n + k),
-                    k == 0 ? "title 'on the way back'" : "notitle");
+                    k, first, colour, k == 0 ? "title 'on the way back'" : "notitle");
+    }
     for (int k = 0; k < v->curves->n && draws_carter(v); k++)
         fprintf(out,
                 ", $carter%d using 1:2 with points pointtype 6 pointsize %g linecolor rgb "
@@ -384,10 +440,14 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas, const rb_r
                                   const rb_report_curves *curves, rb_rolling_variable over,
                                   rb_message *why)
 {
+    const int uncertain = curves->n > 0 && curves->curve[0].deviations;
     view v = {.rc = rc,
               .curves = curves,
               .over = over == RB_OVER_CREEP_RATIO && curves->n > 1 ? RB_OVER_CREEP : over,
-              .over_load = curves->n > 1};
+              .y = over == RB_OVER_SPEED ? RESISTANCE
+                   : uncertain           ? FORCE
+                   : curves->n > 1       ? FORCE_OVER_LOAD
+                                         : FORCE_RATIO};
     for (int k = 0; k < curves->n; k++)
         if (curves->curve[k].n < 2 || (scale_of(&v, k) == 0.0 && over != RB_OVER_SPEED))
             return rb_fail(why, RB_EINVAL, "no curve to draw at mu = %g", curves->mu[k]);
@@ -401,7 +461,7 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas, const rb_r
     v.exponent = rb_report_exponent(largest);
     v.from = INFINITY;
     v.to = -INFINITY;
-    double least = 0.0, most = -INFINITY;
+    double least = 0.0, most = -INFINITY, lowest = 0.0;
     for (int k = 0; k < v.curves->n; k++)
         for (int i = 0; i < v.curves->curve[k].n; i++) {
             const double x = x_of(&v, &v.curves->curve[k], i);
@@ -410,7 +470,9 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas, const rb_r
             v.to = fmax(v.to, x);
             least = fmin(least, y);
             most = fmax(most, y);
+            lowest = fmin(lowest, y - half_width(&v, k, i));
         }
+    v.above_0 = lowest < 0.0 && lowest > -0.02 * most;
     /* The key stands right below, left above if the curves leave it no room there. */
     const double line = (canvas.size == RB_REPORT_85MM ? 0.05 : 0.035) * (has_heat(&v) ? 1.6 : 1.0);
     const double wide = 0.5, high = 0.08 + line * (curves->n + 1.0);

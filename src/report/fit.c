@@ -227,7 +227,6 @@ static void write_conditions(FILE *out, const view *v, int test)
         const char *name, *unit;
     } all[] = {{d->load, "P", "N/mm"}, {d->speed, "V", "mm/s"}, {d->temperature, "T", "K"}};
     const char *between = "";
-    char number[40];
 
     for (size_t c = 0; c < sizeof all / sizeof *all; c++) {
         double sum = 0.0;
@@ -242,7 +241,7 @@ static void write_conditions(FILE *out, const view *v, int test)
         if (!varies)
             continue;
         fprintf(out, "%s%s = %s %s", between, all[c].name,
-                rb_report_number(in_units(v->fit, all[c].unit, sum / n), 4, number),
+                RB_REPORT_NUMBER(in_units(v->fit, all[c].unit, sum / n), 4),
                 rb_unit_name(v->fit->units, all[c].unit));
         between = ", ";
     }
@@ -271,16 +270,16 @@ static void write_data(FILE *out, const view *v)
 static void write_title(FILE *out, const rb_report_fit *f, double middle)
 {
     enum { FITS = 90 }; /* characters in a line */
-    char text[RB_CASE_FIT_MAX * 120] = "", number[3][40], unit[20];
+    char text[RB_CASE_FIT_MAX * 120] = "", unit[20];
 
     for (int j = 0; j < f->fit->n; j++) {
         const rb_case_parameter *p = &f->fit->parameter[j];
         rb_append(text, sizeof text, "%s%s ", j ? ";  " : "", p->name);
         if (p->identified)
             rb_append(text, sizeof text, "%s (%s … %s)%s",
-                      rb_report_number(in_units(f, p->unit, p->value), 4, number[0]),
-                      rb_report_number(in_units(f, p->unit, p->interval[0]), 3, number[1]),
-                      rb_report_number(in_units(f, p->unit, p->interval[1]), 3, number[2]),
+                      RB_REPORT_NUMBER(in_units(f, p->unit, p->value), 4),
+                      RB_REPORT_NUMBER(in_units(f, p->unit, p->interval[0]), 3),
+                      RB_REPORT_NUMBER(in_units(f, p->unit, p->interval[1]), 3),
                       unit_behind(f, p->unit, unit));
         else
             rb_append(text, sizeof text, "not identified");
@@ -344,10 +343,9 @@ static void write_curves(FILE *out, const view *v, int titled)
     if (!isnan(v->widest)) {
         fprintf(out, ", NaN with filledcurves " BAND " linecolor rgb '%s' title '%g %% %sband",
                 colour, 100.0 * f->fit->level, titled ? "confidence " : "");
-        char number[40], name[20];
+        char name[20];
         if (titled) /* there is room, and a thin band hides behind its curve */
-            fprintf(out, ", at most ±%s%s",
-                    rb_report_number(in_units(f, unit, v->widest), 2, number),
+            fprintf(out, ", at most ±%s%s", RB_REPORT_NUMBER(in_units(f, unit, v->widest), 2),
                     unit_behind(f, unit, name));
         fputc('\'', out);
     }

@@ -161,13 +161,15 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
     if (v->place.titled)
         fprintf(out,
-                "set label 1 '{/:Bold %s}   %d steps,  at the end P = %.5g %s,  Q = %.5g "
+                "set label 1 '{/:Bold %s}   %d steps,  at the end P = %s %s,  Q = %s "
                 "%s' at screen 0.54, 0.978 center\n",
                 v->rolls     ? "Transient rolling"
                 : v->in_time ? "Static contact in time"
                              : "Static history",
-                v->h->n, v->h->normal_load[last], unit,
-                rb_report_tidy(v->h->tangential_load[last], v->h->normal_load[last]), unit);
+                v->h->n, RB_REPORT_NUMBER(v->h->normal_load[last], 5), unit,
+                RB_REPORT_NUMBER(
+                    rb_report_tidy(v->h->tangential_load[last], v->h->normal_load[last]), 5),
+                unit);
     if (v->place.titled)
         rb_report_label_bodies(out, v->rc, v->h->units, 0.54, 0.944);
     (v->in_time ? write_time : write_way)(out, v);

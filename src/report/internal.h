@@ -120,6 +120,8 @@ double rb_report_round_down(double x);
 const char *rb_report_raised(const char *unit, char text[40]);
 /* So many digits, as 2·10^{5} where %g says 2e+05.  Returns text. */
 const char *rb_report_number(double x, int digits, char text[40]);
+/* The same in a text of the block in which it stands. */
+#define RB_REPORT_NUMBER(x, digits) rb_report_number(x, digits, (char[40]){""})
 /* Number of labels that fit into this part of the canvas without touching. */
 double rb_report_labels_in(double height);
 /* Colours of a field, from least to most, which are grey from dark to light in print. */

@@ -202,25 +202,27 @@ static void write_results(FILE *out, const view *v)
         return;
     }
     const rb_report_unit length = rb_report_axis_unit(s->units, "mm", s->half_width);
-    fprintf(out, "a = %.4g %s,  p_0 = %.5g %s", s->half_width / length.size, length.name,
-            s->max_pressure / v->stress_unit, v->stress_label);
+    fprintf(out, "a = %s %s,  p_0 = %s %s", RB_REPORT_NUMBER(s->half_width / length.size, 4),
+            length.name, RB_REPORT_NUMBER(s->max_pressure / v->stress_unit, 5), v->stress_label);
     if (!isnan(s->creepage) && moves)
-        fprintf(out, ",  ξ = %.4g", s->creepage);
+        fprintf(out, ",  ξ = %s", RB_REPORT_NUMBER(s->creepage, 4));
     if (!isnan(s->creep_ratio) && moves) {
         /* With the a and R of its formula where they are not those that the title shows. */
         const double radius = rb_unit_shown(s->units, "mm", rb_rolling_derive(v->rc).radius);
-        fprintf(out, ",  ξR/(μa%s) = %.3g", other_a(v) ? "_H" : "", s->creep_ratio);
+        fprintf(out, ",  ξR/(μa%s) = %s", other_a(v) ? "_H" : "",
+                RB_REPORT_NUMBER(s->creep_ratio, 3));
         if (other_a(v) || other_radius(v)) {
             fputs(":", out);
             if (other_radius(v))
-                fprintf(out, " R = %.4g %s%s", radius / length.size, length.name,
+                fprintf(out, " R = %s %s%s", RB_REPORT_NUMBER(radius / length.size, 4), length.name,
                         other_a(v) ? "," : "");
             if (other_a(v))
-                fprintf(out, " a_H = %.4g %s", s->hertz_half_width / length.size, length.name);
+                fprintf(out, " a_H = %s %s", RB_REPORT_NUMBER(s->hertz_half_width / length.size, 4),
+                        length.name);
         }
     }
     if (!isnan(s->force_ratio) && s->tangential_load != 0.0)
-        fprintf(out, ",  Q/(μP) = %.4g", rb_report_tidy(s->force_ratio, 1.0));
+        fprintf(out, ",  Q/(μP) = %s", RB_REPORT_NUMBER(rb_report_tidy(s->force_ratio, 1.0), 4));
 }
 
 static void write_tractions(FILE *out, const view *v, double key_font, double marker)
@@ -331,11 +333,10 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
                                             "Transient rolling"};
         const rb_rolling_solution *s = v->s;
         const char *load = rb_unit_name(s->units, "N/mm");
-        char large[40];
-        fprintf(out, "set label 1 '{/:Bold %s}   μ %s %g,  P = %s %s,  Q = %.5g %s",
+        fprintf(out, "set label 1 '{/:Bold %s}   μ %s %g,  P = %s %s,  Q = %s %s",
                 kinds[s->formulation], s->mu ? "≤" : "=", rb_rolling_largest_mu(v->rc),
-                rb_report_number(s->normal_load, 5, large), load,
-                rb_report_tidy(s->tangential_load, s->normal_load), load);
+                RB_REPORT_NUMBER(s->normal_load, 5), load,
+                RB_REPORT_NUMBER(rb_report_tidy(s->tangential_load, s->normal_load), 5), load);
         /* a longer line in smaller letters */
         const int longer = s->contact > 0 ? other_a(v) + other_radius(v) : 0;
         fprintf(out, "' at screen 0.53, 0.977 center\nset label 2 '{/*%g ",

@@ -95,10 +95,10 @@ static void write_subtitle(FILE *out, const view *v, const char *title, double y
     static const char *const kinds[] = {"static", "steady rolling", "transient rolling"};
     const rb_rolling_solution *s = v->s->s;
     const rb_report_unit length = rb_report_axis_unit(s->units, "mm", s->half_width);
-    fprintf(out, "set label 1 '{/:Bold %s}   %s,  μ %s %g,  p_0 = %.5g %s,  a = %.4g %s", title,
+    fprintf(out, "set label 1 '{/:Bold %s}   %s,  μ %s %g,  p_0 = %s %s,  a = %s %s", title,
             kinds[s->formulation], s->mu ? "≤" : "=", rb_rolling_largest_mu(v->s->rc),
-            s->max_pressure / v->stress_unit, v->stress_label, s->half_width / length.size,
-            length.name);
+            RB_REPORT_NUMBER(s->max_pressure / v->stress_unit, 5), v->stress_label,
+            RB_REPORT_NUMBER(s->half_width / length.size, 4), length.name);
     if (isfinite(s->force_ratio))
         fprintf(out, ",  Q/(μP) = %.4g", rb_report_tidy(s->force_ratio, 1.0) + 0.0);
     fprintf(out,

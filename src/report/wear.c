@@ -112,14 +112,13 @@ rb_status rb_report_wear_keep(rb_report_wear *w, const rb_rolling_solution *s,
 
 static void write_panel(FILE *out, const rb_report_wear *w, int column)
 {
-    char way[40];
     fputs("plot ", out);
     for (int k = 0; k < w->profiles; k++)
         fprintf(out,
                 "%s$profile%d using 1:%d with lines linecolor rgb '%s' dashtype %s linewidth 1.8 "
                 "title '%s'",
                 k > 0 ? ", " : "", k, column, rb_report_colour(k), rb_report_dashes(k),
-                rb_report_number(w->profile[k].way, 5, way));
+                RB_REPORT_NUMBER(w->profile[k].way, 5));
     fputc('\n', out);
 }
 
@@ -160,13 +159,13 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
             "samplen 1.5 font ',%.3g'\nset label 2 '%s:' at screen %g, %g left\n",
             from - 0.1 * (to - from), to + 0.1 * (to - from), 0.91 + 1.6 * place.up,
             rb_report_key_font(canvas), words.way, 0.14 - place.right, 0.897 + place.up);
-    char way[40];
     if (place.titled)
         fprintf(out,
-                "set label 1 '{/:Bold Wear}   P = %.5g %s,  %.4g %s^3/%s worn after %s %s' at "
+                "set label 1 '{/:Bold Wear}   P = %s %s,  %s %s^3/%s worn after %s %s' at "
                 "screen 0.54, 0.955 center\n",
-                h->normal_load[last], rb_unit_name(h->units, "N/mm"), h->worn[last], mm, mm,
-                rb_report_number(h->way[last], 5, way), words.way);
+                RB_REPORT_NUMBER(h->normal_load[last], 5), rb_unit_name(h->units, "N/mm"),
+                RB_REPORT_NUMBER(h->worn[last], 4), mm, mm, RB_REPORT_NUMBER(h->way[last], 5),
+                words.way);
     fprintf(out,
             "set tmargin at screen 0.87\nset bmargin at screen 0.54\n"
             "set yrange [0:*]\nset label 3 'pressure  [%s]' at screen 0.03, 0.705 center rotate\n",
