@@ -112,6 +112,9 @@ struct json_t *rb_report_json_numbers(int n, const double *x);
 struct json_t *rb_report_json_summary(const rb_rolling_solution *s);
 /* The value of an option in the struct of its table. */
 struct json_t *rb_report_json_option(const rb_option *option, const void *values, rb_units units);
+/* Sets each of n options in the object. */
+void rb_report_json_options(struct json_t **inputs, int n, const rb_option *options,
+                            const void *values, rb_units units);
 /* Every value that the resolved case uses, defaults included. */
 struct json_t *rb_report_json_inputs(const rb_case *c);
 /* A hash of these values and of the contents of the files that they name; it tells if two

@@ -43,7 +43,7 @@ static const rb_option options[] = {
                  .unset = "none", .file = RB_FILE_WRITTEN),
 };
 
-enum { OPTIONS = sizeof options / sizeof options[0] };
+enum { OPTIONS = sizeof options / sizeof options[0], INPUTS = 8 /* what comes before the files */ };
 
 _Static_assert((int)OPTIONS <= (int)CLI_COMMAND_OPTIONS_MAX, "given");
 
@@ -107,17 +107,7 @@ static rb_status solve(cli_case_run *run, rb_message *why)
 
 static void add_inputs(const cli_case_run *run, json_t **inputs)
 {
-    const wear *w = run->own;
-    const rb_units units = run->c->units;
-    rb_report_json_set(inputs, "wear-law", json_string(laws[w->law].name));
-    rb_report_json_set(inputs, "wear-coefficient",
-                       json_real(rb_unit_shown(units, "1/MPa", w->coefficient)));
-    rb_report_json_set(inputs, "wear-share", json_real(w->share));
-    rb_report_json_set(inputs, "slide",
-                       rb_report_json_number(rb_unit_shown(units, "mm", w->slide)));
-    rb_report_json_set(inputs, "cycles", rb_report_json_number(w->cycles));
-    rb_report_json_set(inputs, "wear-steps", json_integer(w->steps));
-    rb_report_json_set(inputs, "quarter", json_integer(w->increments));
+    rb_report_json_options(inputs, INPUTS, options, run->own, run->c->units);
 }
 
 static void add_json(const cli_case_run *run, json_t **root)

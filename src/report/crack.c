@@ -8,7 +8,7 @@
 
 static rb_report_columns columns_of(const rb_case_crack_result *r)
 {
-    return (rb_report_columns){&rb_case_crack_columns, &r->history, 0, r->units};
+    return (rb_report_columns){&rb_case_crack_columns, &r->history, 0, r->units, 0};
 }
 
 static const char sign_of_K[] = "crack in B: K_I >= 0 opens it, K_II > 0: the face above it slides "
@@ -24,7 +24,7 @@ rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r, const 
 {
     const int grows = r->growth.n > 0;
     const rb_report_columns columns =
-        grows ? (rb_report_columns){&rb_case_crack_growth_columns, &r->growth, 0, r->units}
+        grows ? (rb_report_columns){&rb_case_crack_growth_columns, &r->growth, 0, r->units, 0}
               : columns_of(r);
     rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
     rb_report_comment(&c, "%s", grows ? about_growth : sign_of_K);
@@ -75,11 +75,7 @@ static json_t *numbers(const rb_case_crack_summary *s)
 
 void rb_report_json_crack_inputs(json_t **inputs, const rb_case_crack *crack, rb_units units)
 {
-    for (int k = 0; k < rb_case_crack_options_n; k++) {
-        const rb_option *o = &rb_case_crack_options[k];
-        if (o->kind != RB_OPTION_GROUP)
-            rb_report_json_set(inputs, o->name, rb_report_json_option(o, crack, units));
-    }
+    rb_report_json_options(inputs, rb_case_crack_options_n, rb_case_crack_options, crack, units);
 }
 
 void rb_report_json_crack(json_t **root, const rb_case_crack_result *r)
@@ -106,31 +102,14 @@ void rb_report_json_crack(json_t **root, const rb_case_crack_result *r)
     rb_report_json_set(root, "summary", summary);
     rb_report_json_set(root, "table", table);
     if (r->growth.n > 0) {
-        const rb_report_columns growth = {&rb_case_crack_growth_columns, &r->growth, 0, r->units};
+        const rb_report_columns growth = {&rb_case_crack_growth_columns, &r->growth, 0, r->units,
+                                          0};
         json_t *grown = json_object();
         rb_report_json_columns(&grown, r->growth.n, &growth, 0);
         rb_report_json_set(&grown, "rests", json_boolean(r->growth.rests));
         rb_report_json_set(&grown, "surfaced", json_boolean(r->growth.surfaced));
         rb_report_json_set(root, "growth", grown);
     }
-}
-
-/* A list per step: the N or T half of values of 2n nodes, over `by` if there is one, or zones. */
-static json_t *lists_of(const rb_crack_history *h, const double *values, const int *zones,
-                        const double *by)
-{
-    const size_t n = (size_t)h->nodes;
-    json_t *lists = json_array();
-
-    for (size_t k = 0; k < (size_t)h->n; k++) {
-        json_t *list = json_array();
-        for (size_t j = 0; j < n; j++)
-            rb_report_json_append(
-                &list, zones ? json_integer(zones[k * n + j])
-                             : rb_report_json_number(values[k * 2 * n + j] / (by ? by[j] : 1.0)));
-        rb_report_json_append(&lists, list);
-    }
-    return lists;
 }
 
 void rb_report_json_crack_faces(json_t **root, const rb_case_crack_result *r)
@@ -145,21 +124,23 @@ void rb_report_json_crack_faces(json_t **root, const rb_case_crack_result *r)
         rb_report_json_set(&faces, "x_mm", rb_report_json_numbers(n, v.x));
         rb_report_json_set(&faces, "y_mm", rb_report_json_numbers(n, v.y));
         rb_report_json_set(&faces, "length_mm", rb_report_json_numbers(n, v.hat));
-        rb_report_json_set(&faces, "opening_mm", lists_of(h, h->D, NULL, NULL));
-        rb_report_json_set(&faces, "sliding_mm", lists_of(h, h->D + n, NULL, NULL));
-        rb_report_json_set(&faces, "p_MPa", lists_of(h, h->r, NULL, v.hat));
-        rb_report_json_set(&faces, "q_MPa", lists_of(h, h->r + n, NULL, v.hat));
-        rb_report_json_set(&faces, "zone", lists_of(h, NULL, h->zone, NULL));
+        const size_t both = 2 * (size_t)n; /* halves N and T in each step */
+        json_t *zones = rb_report_json_lists(h->n, n, (size_t)n, NULL, h->zone, NULL);
+        json_t *D_N = rb_report_json_lists(h->n, n, both, h->D, NULL, NULL);
+        json_t *D_T = rb_report_json_lists(h->n, n, both, h->D + n, NULL, NULL);
+        json_t *p = rb_report_json_lists(h->n, n, both, h->r, NULL, v.hat);
+        json_t *q = rb_report_json_lists(h->n, n, both, h->r + n, NULL, v.hat);
+        rb_report_json_set(&faces, "opening_mm", D_N);
+        rb_report_json_set(&faces, "sliding_mm", D_T);
+        rb_report_json_set(&faces, "p_MPa", p);
+        rb_report_json_set(&faces, "q_MPa", q);
+        rb_report_json_set(&faces, "zone", zones);
         rb_report_json_set(&faces, "fluid_volume_mm2",
                            rb_report_json_numbers(h->n, h->fluid_volume));
-        json_t *wheel = json_array();
-        for (int k = 0; k < h->n && h->wheel; k++)
-            rb_report_json_append(&wheel,
-                                  rb_report_json_numbers(h->elements, h->wheel + k * h->elements));
         if (h->wheel)
-            rb_report_json_set(&faces, "contact_p_MPa", wheel);
-        else
-            json_decref(wheel);
+            rb_report_json_set(
+                &faces, "contact_p_MPa",
+                rb_report_json_lists(h->n, h->elements, (size_t)h->elements, h->wheel, NULL, NULL));
     }
     rb_report_json_set(root, "faces", faces);
     if (r->contact.solution.n > 0)

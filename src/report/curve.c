@@ -11,7 +11,7 @@
 
 static rb_report_columns columns_of(const rb_rolling_curve *c, int kind)
 {
-    return (rb_report_columns){&rb_rolling_curve_columns, c, kind, c->units};
+    return (rb_report_columns){&rb_rolling_curve_columns, c, kind, c->units, 0};
 }
 
 rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const char *command,

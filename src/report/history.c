@@ -7,7 +7,7 @@
 
 static rb_report_columns columns_of(const rb_rolling_history *h, int kind)
 {
-    return (rb_report_columns){&rb_rolling_history_columns, h, kind, h->units};
+    return (rb_report_columns){&rb_rolling_history_columns, h, kind, h->units, 0};
 }
 
 /* The history, and what stands beside its values.  Returns how many. */
@@ -60,33 +60,18 @@ json_t *rb_report_json_history(const rb_rolling_history *h)
     return history;
 }
 
-static json_t *lists_of(const rb_rolling_states *s, const double *values)
-{
-    json_t *lists = json_array();
-
-    for (int k = 0; k < s->steps; k++)
-        rb_report_json_append(&lists,
-                              rb_report_json_numbers(s->n, values + (size_t)k * (size_t)s->n));
-    return lists;
-}
-
 json_t *rb_report_json_states(const rb_rolling_states *s)
 {
+    const int steps = s->steps, n = s->n;
+    const size_t apart = (size_t)n;
     json_t *states = json_object();
 
-    rb_report_json_set(&states, "motion", rb_report_json_numbers(s->steps, s->xi));
-    rb_report_json_set(&states, "p_MPa", lists_of(s, s->p));
-    rb_report_json_set(&states, "q_MPa", lists_of(s, s->q));
-    rb_report_json_set(&states, "shift_mm", lists_of(s, s->lambda));
-    json_t *lists = json_array();
-
-    for (int k = 0; k < s->steps; k++) {
-        json_t *list = json_array();
-        for (int i = 0; i < s->n; i++)
-            rb_report_json_append(&list, json_integer(s->zone[k * s->n + i]));
-        rb_report_json_append(&lists, list);
-    }
-    rb_report_json_set(&states, "zone", lists);
+    rb_report_json_set(&states, "motion", rb_report_json_numbers(steps, s->xi));
+    rb_report_json_set(&states, "p_MPa", rb_report_json_lists(steps, n, apart, s->p, NULL, NULL));
+    rb_report_json_set(&states, "q_MPa", rb_report_json_lists(steps, n, apart, s->q, NULL, NULL));
+    rb_report_json_set(&states, "shift_mm",
+                       rb_report_json_lists(steps, n, apart, s->lambda, NULL, NULL));
+    rb_report_json_set(&states, "zone", rb_report_json_lists(steps, n, apart, NULL, s->zone, NULL));
     return states;
 }
 

@@ -35,6 +35,14 @@ json_t *rb_report_json_option(const rb_option *o, const void *values, rb_units u
     }
 }
 
+void rb_report_json_options(json_t **inputs, int n, const rb_option *options, const void *values,
+                            rb_units units)
+{
+    for (const rb_option *o = options; o < options + n; o++)
+        if (o->kind != RB_OPTION_GROUP)
+            rb_report_json_set(inputs, o->name, rb_report_json_option(o, values, units));
+}
+
 json_t *rb_report_json_inputs(const rb_case *c)
 {
     int n;

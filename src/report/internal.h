@@ -16,14 +16,19 @@ double rb_report_tidy(double x, double size);
 
 /* ---- Columns by the tables of results ---------------------------------------------- */
 
-/* The columns of a struct: values, error bars or standard deviations; of error bars only
- * those that there are. */
+/* The columns of a struct, or the numbers of an array of structs: values, error bars or
+ * standard deviations; of error bars only those that there are. */
 typedef struct {
     const rb_rolling_results *columns;
     const void *owner;
     enum { RB_REPORT_VALUES, RB_REPORT_ERRORS, RB_REPORT_DEVIATIONS } kind;
     rb_units units;
+    size_t size; /* of a struct of the array; 0: owner has columns */
 } rb_report_columns;
+
+/* 1: the column is there and shown. */
+int rb_report_shows(const rb_report_columns *c, const rb_rolling_result *r);
+double rb_report_entry(const rb_report_columns *c, const rb_rolling_result *r, int i);
 
 /* Writes the headings of all parts as one row, and # lines with version, command,
  * conventions. */
@@ -51,6 +56,10 @@ rb_status rb_report_end_columns(rb_report_cells *c, int rows, int parts,
 /* Sets a list for each column, with its name or (headed = 1) its heading. */
 void rb_report_json_columns(struct json_t **object, int rows, const rb_report_columns *c,
                             int headed);
+/* A list for each of the steps: n numbers or whole numbers, `apart` entries from step to step;
+ * by: what each number is divided by; NULL: nothing. */
+struct json_t *rb_report_json_lists(int steps, int n, size_t apart, const double *x,
+                                    const int *whole, const double *by);
 
 /* An object of numbers. */
 typedef struct {

@@ -46,6 +46,22 @@ json_t *rb_report_json_numbers(int n, const double *x)
     return list;
 }
 
+json_t *rb_report_json_lists(int steps, int n, size_t apart, const double *x, const int *whole,
+                             const double *by)
+{
+    json_t *lists = json_array();
+    for (int k = 0; k < steps; k++) {
+        const size_t from = (size_t)k * apart;
+        json_t *list = json_array();
+        for (int i = 0; i < n; i++)
+            rb_report_json_append(
+                &list, whole ? json_integer(whole[from + (size_t)i])
+                             : rb_report_json_number(x[from + (size_t)i] / (by ? by[i] : 1.0)));
+        rb_report_json_append(&lists, list);
+    }
+    return lists;
+}
+
 json_t *rb_report_json_named(int n, const rb_report_named *number)
 {
     json_t *object = json_object();
@@ -142,11 +158,11 @@ void rb_report_json_columns(json_t **object, int rows, const rb_report_columns *
     char heading[RB_ROLLING_HEADING];
     for (int j = 0; j < c->columns->n; j++) {
         const rb_rolling_result *r = &c->columns->row[j];
-        if ((c->kind == RB_REPORT_ERRORS && !r->error_bar) || !rb_rolling_has_column(r, c->owner))
+        if (!rb_report_shows(c, r))
             continue;
         json_t *list = json_array();
         for (int i = 0; i < rows; i++)
-            rb_report_json_append(&list, json_value(r, rb_rolling_entry(r, c->owner, i)));
+            rb_report_json_append(&list, json_value(r, rb_report_entry(c, r, i)));
         rb_report_json_set(object, headed ? rb_rolling_heading(r, c->units, heading) : r->name,
                            list);
     }
@@ -154,7 +170,7 @@ void rb_report_json_columns(json_t **object, int rows, const rb_report_columns *
 
 json_t *rb_report_json_table_columns(const rb_rolling_solution *s)
 {
-    const rb_report_columns columns = {&rb_rolling_solution_columns, s, 0, s->units};
+    const rb_report_columns columns = {&rb_rolling_solution_columns, s, 0, s->units, 0};
     json_t *table = json_object();
     rb_report_json_columns(&table, s->n, &columns, 1);
     return table;

@@ -9,10 +9,16 @@ void rb_report_comment_head(const rb_report_cells *c, const char *command)
 }
 
 /* Of errors those columns are shown that have error bars. */
-static int is_shown(const rb_report_columns *part, const rb_rolling_result *r)
+int rb_report_shows(const rb_report_columns *c, const rb_rolling_result *r)
 {
-    return (part->kind != RB_REPORT_ERRORS || r->error_bar) &&
-           rb_rolling_has_column(r, part->owner);
+    return (c->kind != RB_REPORT_ERRORS || r->error_bar) &&
+           (c->size > 0 || rb_rolling_has_column(r, c->owner));
+}
+
+double rb_report_entry(const rb_report_columns *c, const rb_rolling_result *r, int i)
+{
+    return c->size > 0 ? rb_rolling_number(r, (const char *)c->owner + (size_t)i * c->size)
+                       : rb_rolling_entry(r, c->owner, i);
 }
 
 void rb_report_cell_headings(rb_report_cells *c, int parts, const rb_report_columns *part)
@@ -23,7 +29,7 @@ void rb_report_cell_headings(rb_report_cells *c, int parts, const rb_report_colu
     for (const rb_report_columns *of = part; of < part + parts; of++)
         for (int j = 0; j < of->columns->n; j++) {
             const rb_rolling_result *r = &of->columns->row[j];
-            if (!is_shown(of, r))
+            if (!rb_report_shows(of, r))
                 continue;
             snprintf(name, sizeof name, "%s%s", beginning[of->kind],
                      rb_rolling_heading(r, of->units, heading));
@@ -47,8 +53,8 @@ void rb_report_cell_entries(rb_report_cells *c, int i, int parts, const rb_repor
     for (const rb_report_columns *of = part; of < part + parts; of++)
         for (int j = 0; j < of->columns->n; j++) {
             const rb_rolling_result *r = &of->columns->row[j];
-            if (is_shown(of, r))
-                rb_report_cell_number(c, rb_rolling_entry(r, of->owner, i));
+            if (rb_report_shows(of, r))
+                rb_report_cell_number(c, rb_report_entry(of, r, i));
         }
 }
 

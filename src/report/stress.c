@@ -81,17 +81,18 @@ void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
 
 /* ---- Table ------------------------------------------------------------------------- */
 
+static rb_report_columns columns_of(const rb_report_stress *s)
+{
+    return (rb_report_columns){&rb_rolling_stress_scalars, s->at, 0, s->s->units, sizeof *s->at};
+}
+
 rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s, const char *command,
                                  const rb_report_style *style)
 {
-    const rb_rolling_results *columns = &rb_rolling_stress_scalars;
-    char heading[RB_ROLLING_HEADING], line[400];
-    rb_report_cells c = rb_report_cells_begin(out, style, "");
+    const rb_report_columns columns = columns_of(s);
+    char line[400];
+    rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
 
-    for (int j = 0; j < columns->n; j++)
-        rb_report_cell_text(&c, rb_rolling_heading(&columns->row[j], s->s->units, heading));
-    rb_report_cells_end_row(&c);
-    rb_report_comment_head(&c, command);
     rb_report_comment_notes(&c, s->rc, s->s);
     rb_report_comment(&c, "tension positive; y > 0 inside A; the grid follows A's surface");
     for (int k = 0; maximum(k); k++)
@@ -101,8 +102,7 @@ rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s, const cha
     for (int k = 0; k < s->n; k++) {
         if (!rb_report_stress_is_inside(s, k))
             continue;
-        for (int j = 0; j < columns->n; j++)
-            rb_report_cell_number(&c, rb_rolling_number(&columns->row[j], &s->at[k]));
+        rb_report_cell_entries(&c, k, 1, &columns);
         rb_report_cells_end_row(&c);
     }
     return rb_report_flush(out);
@@ -117,6 +117,7 @@ static json_t *json_extremum(rb_rolling_extremum m)
 
 void rb_report_json_stress(json_t **root, const rb_report_stress *s)
 {
+    const rb_report_columns columns = columns_of(s);
     json_t *points = json_object();
     rb_report_json_set(root, "depth", rb_report_json_number(s->depth > 0.0 ? s->depth : NAN));
     json_t *all = json_object();
@@ -141,13 +142,6 @@ void rb_report_json_stress(json_t **root, const rb_report_stress *s)
         rb_report_json_set(&points, "nx", json_integer(s->nx));
         rb_report_json_set(&points, "ny", json_integer(s->ny));
     }
-    for (int j = 0; j < rb_rolling_stress_scalars.n; j++) {
-        const rb_rolling_result *r = &rb_rolling_stress_scalars.row[j];
-        char heading[RB_ROLLING_HEADING];
-        json_t *list = json_array();
-        for (int k = 0; k < s->n; k++)
-            rb_report_json_append(&list, rb_report_json_number(rb_rolling_number(r, &s->at[k])));
-        rb_report_json_set(&points, rb_rolling_heading(r, s->s->units, heading), list);
-    }
+    rb_report_json_columns(&points, s->n, &columns, 1);
     rb_report_json_set(root, s->nx > 0 ? "grid" : "points", points);
 }

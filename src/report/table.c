@@ -8,7 +8,7 @@
 rb_status rb_report_table(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s,
                           const char *command, const rb_report_style *style)
 {
-    const rb_report_columns columns = {&rb_rolling_solution_columns, s, 0, s->units};
+    const rb_report_columns columns = {&rb_rolling_solution_columns, s, 0, s->units, 0};
     rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
 
     rb_report_comment(&c, "%s, %s; residual %.3g", rb_case_word("formulation", (int)s->formulation),

@@ -8,7 +8,7 @@
 
 static rb_report_columns columns_of(const rb_rolling_wear_history *h)
 {
-    return (rb_report_columns){&rb_rolling_wear_columns, h, 0, h->units};
+    return (rb_report_columns){&rb_rolling_wear_columns, h, 0, h->units, 0};
 }
 
 /* What the way counts, and what the work of friction is per. */
