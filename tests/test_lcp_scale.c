@@ -220,6 +220,28 @@ TEST(the_trace_keeps_the_units_of_the_caller)
     }
 }
 
+/* In the scale of the first column, 1e-10, a start and a bound overflow: the start is left out,
+ * and no solution comes near the bound. */
+TEST(numbers_too_large_for_the_scale_are_taken)
+{
+    const double full[] = {2e20, 0.0, 0.0, 0.0, 2.0, 1.0, 0.0, 1.0, 2.0};
+    const double q[] = {-1e10, -1.0, -1.0}, large[] = {1e305, 1e305, 1e305};
+    const double want[] = {5e-11, 1.0 / 3.0, 1.0 / 3.0};
+    rb_lcp_options opt = rb_lcp_defaults();
+    OWNED(rb_sparse) M;
+    double z[4][3];
+    CHECK_OK(rb_sparse_from_dense(3, 3, full, 3, &M));
+    CHECK_OK(
+        rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = q, .upper = large}, NULL, z[0], NULL));
+    opt.start = large;
+    CHECK_OK(rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = q}, &opt, z[1], NULL));
+    CHECK_OK(rb_lcp_newton(&M, q, &opt, z[2], NULL));
+    CHECK_OK(rb_lcp_lemke(&(rb_lcp_problem){3, full, 3, q}, &opt, z[3], NULL));
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < 3; i++)
+            CHECK_REL(z[k][i], want[i], 1e-14, "z(%d) of method %d", i + 1, k);
+}
+
 static rb_status solve_anew(void *context)
 {
     const problem *p = context;

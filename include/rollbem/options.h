@@ -53,8 +53,7 @@ typedef struct {
     rb_option_kind kind;
     size_t offset;    /* of the value in the set's target */
     const char *unit; /* "mm"; "" for none; for a text its placeholder in the help */
-    rb_range range;   /* numbers and integers */
-    rb_range third;   /* of the third of several numbers, where that is another one; else {0} */
+    rb_range range;   /* numbers and integers; texts: of a count in them */
     const char *word; /* numbers: a word that is allowed instead of a number and means
                          word_value, or NULL */
     double word_value;

@@ -396,8 +396,9 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc, const rb_rolling_
                                     const rb_rolling_bodies *bodies, const rb_rolling_past *past,
                                     rb_contact_problem *problem, rb_message *why);
 
-/* Solves the problem with the solver of the case.  warm: 1 to start from the zones of the
- * state. */
+/* Solves the problem with the solver of the case, and searches of a creepage by its scale,
+ * problem->sliding: that of the case with the coefficients of friction that the problem has
+ * now.  warm: 1 to start from the zones of the state. */
 rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling_case *rc, int warm,
                                    rb_contact_state *state, rb_message *why);
 

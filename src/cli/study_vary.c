@@ -65,9 +65,9 @@ static cli_exit add_factor(study *st, const char *source, cli_exit bad, int rows
     return CLI_CONTINUE;
 }
 
-/* Values of one option as they are typed: where they stand and what is wrong with them. */
+/* Values of one option as they are typed, and what is wrong with them. */
 typedef struct {
-    const char *source; /* vary-1, cases */
+    const rb_option *source; /* vary-1, cases: where they stand */
     const rb_option *option;
     rb_units from, to; /* of plain numbers; of the study, which shows the values */
     rb_message why;    /* of a unit; "" otherwise */
@@ -75,10 +75,12 @@ typedef struct {
 
 static typed typed_of(const study *st, const char *source, const char *name)
 {
-    const int by = rb_option_given(st->own, source);
-    return (typed){.source = source,
+    int at;
+    rb_guess none = {.word = source};
+    rb_option_find(1, st->own, source, strlen(source), &at, &none);
+    return (typed){.source = &st->own->options[at],
                    .option = cli_study_option(name),
-                   .from = rb_case_units(st->base, by),
+                   .from = rb_case_units(st->base, st->own->given[at]),
                    .to = rb_case_units(st->base, RB_GIVEN_ARGUMENT)};
 }
 
@@ -120,7 +122,7 @@ static int read_values(typed *t, char *text, double **value)
 
         if (strtok_r(NULL, " \t,", &rest) || parts < 3 || (parts == 4 && !logarithmic) ||
             !read_value(t, a, &from) || !read_value(t, b, &to) ||
-            !rb_option_number(how_many, &count) || count < 2 || count > 1e7 ||
+            !rb_option_number(how_many, &count) || !rb_option_in_range(t->source, count) ||
             count != floor(count) || (logarithmic && !(from > 0.0 && to > 0.0)))
             return 0;
         *value = rb_alloc((size_t)count, 1);

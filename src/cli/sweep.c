@@ -16,17 +16,18 @@
 #include <unistd.h>
 
 #define PLACE(member) offsetof(study_options, member)
+/* The range is that of the count of first:last:count. */
+#define VARY_LINE(name, place, help)                                                               \
+    RB_TEXT_LINE(name, place, "SPEC", help, .unset = "none", .range = RB_FROM_TO(2, 1e7))
 
 static const rb_option options[] = {
     RB_GROUP_LINE("sweep", "Study"),
-    RB_TEXT_LINE("vary-1", PLACE(vary[0]), "SPEC",
-                 "an option of numbers and its values: 'mu 0.1 0.2 0.3', 'creep-ratio 0:1.5:31' "
-                 "(first, last, how many), 'load 1:1e4:9:log'",
-                 .unset = "none"),
-    RB_TEXT_LINE("vary-2", PLACE(vary[1]), "SPEC", "a second one: every combination is a case",
-                 .unset = "none"),
-    RB_TEXT_LINE("vary-3", PLACE(vary[2]), "SPEC", "a third one", .unset = "none"),
-    RB_TEXT_LINE("vary-4", PLACE(vary[3]), "SPEC", "a fourth one", .unset = "none"),
+    VARY_LINE("vary-1", PLACE(vary[0]),
+              "an option of numbers and its values: 'mu 0.1 0.2 0.3', 'creep-ratio 0:1.5:31' "
+              "(first, last, how many), 'load 1:1e4:9:log'"),
+    VARY_LINE("vary-2", PLACE(vary[1]), "a second one: every combination is a case"),
+    VARY_LINE("vary-3", PLACE(vary[2]), "a third one"),
+    VARY_LINE("vary-4", PLACE(vary[3]), "a fourth one"),
     RB_TEXT_LINE("cases", PLACE(cases), "FILE",
                  "a case per row; the columns are named like the options", .unset = "none",
                  .file = RB_FILE_READ),

@@ -4,6 +4,7 @@
 #include "lcp/lemke.h"
 #include "lcp/scale.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -217,18 +218,22 @@ static void trace_in_units(const rb_lcp_pivot *p, void *context)
     s->caller.trace(&seen, s->caller.trace_context);
 }
 
-/* to = by times from, or over it where `inverse`; 0: a finite number overflows. */
+/* to = by times from, or over it where `inverse`.  A finite number that overflows becomes
+ * the largest one, as a bound that no solution in the scale reaches; 0: there is one. */
 static int scale_vector(int n, const double *by, int inverse, const double *from, double *to)
 {
     int fits = 1;
     for (int i = 0; from && i < n; i++) {
         to[i] = inverse ? from[i] / by[i] : from[i] * by[i];
-        fits = fits && isfinite(to[i]) == isfinite(from[i]);
+        if (isinf(to[i]) && !isinf(from[i])) {
+            to[i] = copysign(DBL_MAX, to[i]);
+            fits = 0;
+        }
     }
     return fits;
 }
 
-/* In the scale, which is known.  RB_EINVAL: the scaled numbers overflow. */
+/* In the scale, which is known. */
 static rb_status pose_scaled(lcp_posed *s)
 {
     const lcp_matrix given = s->M;
@@ -251,10 +256,11 @@ static rb_status pose_scaled(lcp_posed *s)
     double *q = s->vectors, *cover = q + n, *start = cover + n, *lower = start + n,
            *upper = lower + n;
     s->value = upper + n;
-    if (!scale_vector(n, row, 0, s->q, q) || !scale_vector(n, row, 0, opt->cover, cover) ||
-        !scale_vector(n, col, 1, opt->start, start) || !scale_vector(n, col, 1, s->lower, lower) ||
-        !scale_vector(n, col, 1, s->upper, upper))
-        return RB_EINVAL;
+    scale_vector(n, row, 0, s->q, q);
+    scale_vector(n, row, 0, opt->cover, cover);
+    scale_vector(n, col, 1, s->lower, lower);
+    scale_vector(n, col, 1, s->upper, upper);
+    const int starts = opt->start && scale_vector(n, col, 1, opt->start, start);
     s->scaled = 1;
     s->largest = 1.0;
     s->M = (lcp_matrix){n, s->dense, n, s->dense ? NULL : &s->sparse};
@@ -262,7 +268,7 @@ static rb_status pose_scaled(lcp_posed *s)
     s->lower = s->lower ? lower : NULL;
     s->upper = s->upper ? upper : NULL;
     s->opt.cover = opt->cover ? cover : NULL;
-    s->opt.start = opt->start ? start : NULL;
+    s->opt.start = starts ? start : NULL;
     if (opt->trace) {
         s->opt.trace = trace_in_units;
         s->opt.trace_context = s;
@@ -274,11 +280,9 @@ rb_status rb_lcp_pose(const lcp_matrix *M, const double *q, const double *lower,
                       const double *upper, const rb_lcp_options *opt, int always, lcp_posed *s)
 {
     *s = (lcp_posed){.M = *M, .q = q, .lower = lower, .upper = upper, .opt = *opt, .caller = *opt};
-    rb_status status = rb_lcp_scale_create(M, q, always, &s->scale);
+    const rb_status status = rb_lcp_scale_create(M, q, always, &s->scale);
     s->largest = s->scale.largest;
-    if (status == RB_OK && s->scale.needed)
-        status = pose_scaled(s);
-    return status == RB_EINVAL ? RB_OK : status;
+    return status == RB_OK && s->scale.needed ? pose_scaled(s) : status;
 }
 
 void rb_lcp_posed_free(lcp_posed *s)

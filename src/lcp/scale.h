@@ -42,8 +42,9 @@ typedef struct {
     double *value, *tableau; /* for the caller's trace; tableau is owned */
 } lcp_posed;
 
-/* What it is given is borrowed as long as the problem; always: as above.  Where scaled
- * numbers would overflow the problem stays as it stands.  RB_ENOMEM; free in any case. */
+/* What it is given is borrowed as long as the problem; always: as above.  Of numbers that
+ * would overflow in the scale the largest one remains, and a start with such a number is
+ * left out; the residual is that of the given problem.  RB_ENOMEM; free in any case. */
 rb_status rb_lcp_pose(const lcp_matrix *M, const double *q, const double *lower,
                       const double *upper, const rb_lcp_options *opt, int always, lcp_posed *s);
 void rb_lcp_posed_free(lcp_posed *s);

@@ -26,11 +26,9 @@ int rb_rolling_has_transforms(const rb_rolling_case *rc);
  * has its default is not given. */
 rb_status rb_rolling_check_ranges(const rb_rolling_case *rc, const rb_rolling_case *defaults,
                                   rb_message *why);
-/* Checks a number against the range of an option; of the one with this name; as the third of
- * its numbers. */
+/* Checks a number against the range of an option; of the one with this name. */
 rb_status rb_rolling_check_option(const rb_option *option, double value, rb_message *why);
 rb_status rb_rolling_check_number(const char *option, double value, rb_message *why);
-rb_status rb_rolling_check_third(const char *option, double value, rb_message *why);
 
 /* ---- profile.c --------------------------------------------------------------------- */
 

@@ -148,9 +148,9 @@ rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
         if (s != RB_OK)
             return s;
     }
-    const rb_status s = heats ? rb_rolling_check_third("mu-heat", f->heat_range, why) : RB_OK;
-    if (s != RB_OK)
-        return s;
+    if (heats && !(isfinite(f->heat_range) && f->heat_range > 0.0))
+        return rb_fail(why, RB_EINVAL, "mu-heat: expected a number > 0 as the third, got %g",
+                       f->heat_range);
     if (slips && rolls && rc->speed == 0.0)
         return rb_fail(why, RB_EINVAL, "friction law %s: needs the speed of rolling, add --speed",
                        names[f->law]);

@@ -178,7 +178,7 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("mu-heat", PLACE(law.heat), "-", RB_ANY,
                    "dmu,Tref,dT: mu changes linearly by dmu while the surface temperature "
                    "rises from Tref to Tref + dT [K]; see --conductivity",
-                   .unset = "none", .list = PLACE(law.heats), .third = RB_ABOVE(0)),
+                   .unset = "none", .list = PLACE(law.heats)),
 
     RB_GROUP_LINE("interlayer", "Third body between the surfaces, elastic or plastic"),
     RB_NUMBER_LINE("interlayer-normal", RC(interlayer_normal), "mm/MPa", RB_FROM(0),
@@ -432,18 +432,6 @@ static const rb_option *option_of(const char *name)
 rb_status rb_rolling_check_number(const char *option, double value, rb_message *why)
 {
     return rb_rolling_check_option(option_of(option), value, why);
-}
-
-rb_status rb_rolling_check_third(const char *option, double value, rb_message *why)
-{
-    rb_option third = *option_of(option);
-    char expected[200];
-
-    third.range = third.third;
-    return rb_option_in_range(&third, value)
-               ? RB_OK
-               : rb_fail(why, RB_EINVAL, "%s: expected %s as the third, got %g", option,
-                         rb_option_expected(&third, expected, sizeof expected), value);
 }
 
 rb_status rb_rolling_check_ranges(const rb_rolling_case *rc, const rb_rolling_case *defaults,
