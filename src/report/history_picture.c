@@ -19,23 +19,45 @@ typedef struct {
 /* What a panel shows. */
 typedef enum { MOTION, FORCE, HALF_WIDTH, LOAD, APPROACH } quantity;
 
-/* Of step i of the history or of its errors. */
-static double value(const view *v, const rb_rolling_history *h, quantity of, int i)
+/* Standard deviations are those of Q, because mu and P may be uncertain, too. */
+static int shows_Q(const view *v)
 {
-    switch (of) {
-    case MOTION:
-        return (v->rolls ? h->creepage[i] : h->shift[i]) / v->power;
-    case FORCE:
-        return h->force_ratio[i];
-    case LOAD:
-        return h->normal_load[i];
-    case APPROACH:
-        return h->approach[i];
-    case HALF_WIDTH:
-        break;
-    }
-    const double width = h->contact_to[i] - h->contact_from[i];
+    return v->h->deviations && !v->h->errors;
+}
+
+/* The column of the history, of its errors or of its standard deviations; NULL: not there. */
+static const double *column_of(const view *v, const rb_rolling_history *h, quantity of)
+{
+    return of == MOTION  ? (v->rolls ? h->creepage : h->shift)
+           : of == FORCE ? (shows_Q(v) ? h->tangential_load : h->force_ratio)
+           : of == LOAD  ? h->normal_load
+                         : h->approach;
+}
+
+static double value(const view *v, quantity of, int i)
+{
+    if (of != HALF_WIDTH)
+        return column_of(v, v->h, of)[i] / (of == MOTION ? v->power : 1.0);
+    const double width = v->h->contact_to[i] - v->h->contact_from[i];
     return isnan(width) ? 0.0 : 0.5 * width;
+}
+
+static const rb_rolling_history *bands_of(const view *v)
+{
+    return v->h->errors ? v->h->errors : v->h->deviations;
+}
+
+/* Half the width of its band. */
+static double band(const view *v, quantity of, int i)
+{
+    const rb_rolling_history *h = bands_of(v);
+    double half = 0.0;
+    if (h && of == HALF_WIDTH) { /* edges that vary in opposite directions */
+        if (h->contact_from && h->contact_to)
+            half = 0.5 * (h->contact_from[i] + h->contact_to[i]);
+    } else if (h && column_of(v, h, of))
+        half = column_of(v, h, of)[i] / (of == MOTION ? v->power : 1.0);
+    return isnan(half) ? 0.0 : half;
 }
 
 /* Steps at rest have no creepage. */
@@ -53,7 +75,7 @@ static double place(const view *v, int i)
 typedef struct {
     int k;
     const char *label, *colour;
-    int column, error; /* error: column of half the width of a band, or 0 */
+    int column, band; /* of the data; band: half its width, or 0 */
 } panel;
 
 static void write_panel(FILE *out, const view *v, const panel *p)
@@ -66,28 +88,34 @@ static void write_panel(FILE *out, const view *v, const panel *p)
             "set tmargin at screen %g\nset bmargin at screen %g\n"
             "set label 2 '%s' at screen 0.03, %g center rotate\nplot ",
             top, top - height, p->label, top - height / 2);
-    if (p->error)
+    if (p->band && bands_of(v))
         fprintf(out,
                 "$data using 1:($%d-$%d):($%d+$%d) with filledcurves linecolor rgb '%s' "
-                "fillstyle transparent solid 0.25 noborder title 'estimated error', ",
-                p->column, p->error, p->column, p->error, p->colour);
+                "fillstyle transparent solid 0.3 noborder title '%s', ",
+                p->column, p->band, p->column, p->band, p->colour,
+                v->h->errors ? "estimated error" : "standard deviation");
     fprintf(out,
             "$data using 1:%d with %s linecolor rgb '%s' linewidth 1.8 pointtype 7 "
             "pointsize 0.8 notitle\n",
             p->column, v->points ? "linespoints" : "lines", p->colour);
 }
 
-/* A range and tics for the values with their errors, and for what else must be seen. */
+/* A range and tics for the values with their bands, and for what else must be seen. */
 static void write_range(FILE *out, const view *v, quantity of, double least, double most)
 {
     for (int i = 0; i < v->h->n; i++) {
-        const double error = v->h->errors ? value(v, v->h->errors, of, i) : 0.0;
         if (!is_shown(v, i))
             continue;
-        least = fmin(least, value(v, v->h, of, i) - error);
-        most = fmax(most, value(v, v->h, of, i) + error);
+        least = fmin(least, value(v, of, i) - band(v, of, i));
+        most = fmax(most, value(v, of, i) + band(v, of, i));
     }
-    const double height = fmax(most - least, 1e-3 * fmax(1.0, fabs(most)));
+    const double size = fmax(fabs(least), fabs(most));
+    if (most - least <= 1e-6 * size || size == 0.0) { /* one value, but for rounding */
+        const double margin = size > 0.0 ? 0.1 * size : 1.0;
+        least -= margin;
+        most += margin;
+    }
+    const double height = most - least;
     fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", least - 0.08 * height,
             most + 0.08 * height, rb_report_round_step(height / 5.0));
 }
@@ -108,10 +136,12 @@ static void write_way(FILE *out, const view *v)
     else
         snprintf(label, sizeof label, v->rolls ? "ξ" : "shift  [%s]", mm);
     write_range(out, v, MOTION, INFINITY, -INFINITY);
-    write_panel(out, v, &(panel){0, label, "#6c3483", 2, v->h->errors ? 5 : 0});
+    write_panel(out, v, &(panel){0, label, "#6c3483", 2, 5});
     fputs("unset label 1\nunset label 9\nunset key\n", out);
     write_range(out, v, FORCE, 0.0, 0.0); /* a force is seen against none */
-    write_panel(out, v, &(panel){1, "Q/(μP)", "#c0392b", 3, v->h->errors ? 6 : 0});
+    snprintf(label, sizeof label, shows_Q(v) ? "Q  [%s]" : "Q/(μP)",
+             rb_unit_name(v->h->units, "N/mm"));
+    write_panel(out, v, &(panel){1, label, "#c0392b", 3, 6});
     write_last_axis(out, v->rolls ? "rolled distance / a" : "increment");
     fputs("set yrange [0:1]\nset ytics 0.2\n", out);
     write_panel(out, v, &(panel){2, "stick / contact", "#1f4e79", 4, 0});
@@ -130,7 +160,7 @@ static void write_time(FILE *out, const view *v)
         if (k == 2)
             write_last_axis(out, "time  [s]");
         write_range(out, v, shown[k], 0.0, 0.0);
-        write_panel(out, v, &(panel){k, text, colour[k], 2 + k, 0});
+        write_panel(out, v, &(panel){k, text, colour[k], 2 + k, 5 + k});
         fputs("unset label 1\nunset label 9\nunset key\n", out);
     }
 }
@@ -144,13 +174,13 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     for (int i = 0; i < v->h->n; i++) {
         const int contact = v->h->stick[i] + v->h->slipping[i];
         if (v->in_time)
-            fprintf(out, "%.9g %.9g %.9g %.9g\n", place(v, i), value(v, v->h, HALF_WIDTH, i),
-                    value(v, v->h, LOAD, i), value(v, v->h, APPROACH, i));
+            fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", place(v, i),
+                    value(v, HALF_WIDTH, i), value(v, LOAD, i), value(v, APPROACH, i),
+                    band(v, HALF_WIDTH, i), band(v, LOAD, i), band(v, APPROACH, i));
         else if (is_shown(v, i))
-            fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g\n", place(v, i), value(v, v->h, MOTION, i),
-                    value(v, v->h, FORCE, i), contact ? (double)v->h->stick[i] / contact : 0,
-                    v->h->errors ? value(v, v->h->errors, MOTION, i) : 0,
-                    v->h->errors ? value(v, v->h->errors, FORCE, i) : 0);
+            fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g\n", place(v, i), value(v, MOTION, i),
+                    value(v, FORCE, i), contact ? (double)v->h->stick[i] / contact : 0,
+                    band(v, MOTION, i), band(v, FORCE, i));
     }
     fputs("EOD\n", out);
     fprintf(out,
@@ -159,6 +189,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
             "set key at screen 0.965, %g right samplen 2.2 font ',%.3g'\n",
             0.14 + v->place.right, 0.924 + v->place.up, rb_report_key_font(canvas));
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
+    if (!v->rolls && !v->in_time) /* no half increments */
+        fprintf(out, "set xtics %g\n", fmax(1.0, rb_report_round_step((v->to - v->from) / 8.0)));
     if (v->place.titled)
         fprintf(out,
                 "set label 1 '{/:Bold %s}   %d steps,  at the end P = %s %s,  Q = %s "
@@ -189,7 +221,7 @@ rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas, const rb
               .place = rb_report_place_of(canvas)};
     double largest = 0.0;
     for (int i = 0; i < history->n; i++)
-        largest = is_shown(&v, i) ? fmax(largest, fabs(value(&v, history, MOTION, i))) : largest;
+        largest = is_shown(&v, i) ? fmax(largest, fabs(value(&v, MOTION, i))) : largest;
     v.exponent = rb_report_exponent(largest);
     v.power = pow(10.0, v.exponent);
     v.from = v.rolls || v.in_time ? 0.0 : 1.0;
