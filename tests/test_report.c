@@ -461,7 +461,7 @@ TEST(history_of_few_steps_is_drawn)
     CHECK_OK(rb_report_history_picture(out, canvas, &rc, &h, &heard));
     script = content(out);
     assert_non_null(strstr(script, "Static contact in time}   2 steps"));
-    assert_non_null(strstr(script, "$data << EOD\n0 2 100 0\n0.5 0 0 0\nEOD"));
+    assert_non_null(strstr(script, "$data << EOD\n0 2 100 0 0 0 0\n0.5 0 0 0 0 0 0\nEOD"));
     assert_non_null(strstr(script, "set xrange [0:0.5]\n"));
     fclose(out);
 }
