@@ -433,6 +433,11 @@ rb_case_crack rb_case_crack_defaults(void);
 /* The options of the section [crack]; their offsets refer to rb_case_crack. */
 extern const rb_option rb_case_crack_options[];
 extern const int rb_case_crack_options_n;
+/* A second set of options of the case, which takes them from now on: rb_case_set knows their
+ * names, and the inputs of a case of RB_CASE_CRACK contain them. */
+rb_option_set rb_case_crack_set(rb_case *c);
+/* The crack of the resolved case in mm, N, MPa; NULL: it takes none. */
+const rb_case_crack *rb_case_crack_of(const rb_case *c);
 
 enum { RB_CASE_CRACK_NOTES = 6 };
 typedef struct {

@@ -115,7 +115,7 @@ struct json_t *rb_report_json_option(const rb_option *option, const void *values
 /* Sets each of n options in the object. */
 void rb_report_json_options(struct json_t **inputs, int n, const rb_option *options,
                             const void *values, rb_units units);
-/* Every value that the resolved case uses, defaults included. */
+/* Every value that the resolved case uses, defaults included, and those of its crack. */
 struct json_t *rb_report_json_inputs(const rb_case *c);
 /* A hash of these values and of the contents of the files that they name; it tells if two
  * results have the same inputs.  RB_ENOENT, RB_EFORMAT: of a file; RB_ENOMEM. */
@@ -261,15 +261,11 @@ void rb_report_wear_free(rb_report_wear *w);
 /* One row per position of the contact, all passes.  RB_EWRITE: see errno. */
 rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r, const char *command,
                                 const rb_report_style *style);
-void rb_report_json_crack_inputs(struct json_t **inputs, const rb_case_crack *crack,
-                                 rb_units units);
 /* Sets "crack", "contact", "summary", "table", and adds to "notes". */
 void rb_report_json_crack(struct json_t **root, const rb_case_crack_result *r);
 /* Sets "faces", with a list per position, and the tractions of the contact,
  * "contact_table" or "history" with its states: what rollbem check needs.  In mm, N, MPa. */
 void rb_report_json_crack_faces(struct json_t **root, const rb_case_crack_result *r);
-/* input_hash of a case and its crack. */
-struct json_t *rb_report_json_crack_hash(const rb_case *c, const rb_case_crack *crack);
 /* A summary of a few lines, below its notes. */
 void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r, int colour);
 /* Pictures of the last pass: K over the position with the zones of the faces below; K_II

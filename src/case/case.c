@@ -156,47 +156,49 @@ const char *rb_case_section(const rb_option *option)
 
 /* ---- Setting ----------------------------------------------------------------------- */
 
-/* NULL, with a line in why, where there is no such option. */
-static const rb_option *find(const char *name, rb_message *why)
+/* The set that has the option, its place in *k; n = 0, with a line in why: none has. */
+static rb_option_set find(rb_case *c, const char *name, int *k, rb_message *why)
 {
-    int i;
     rb_guess guess = {.word = name};
-    const rb_option_set set = {.options = rb_case_table, .n = rb_case_table_n};
-    if (rb_option_find(1, &set, name, strlen(name), &i, &guess))
-        return &rb_case_table[i];
+    const rb_option_set sets[] = {rb_case_options(c),
+                                  c->crack.is_taken ? rb_case_crack_set(c) : (rb_option_set){0}};
+    const rb_option_set *set = rb_option_find(2, sets, name, strlen(name), k, &guess);
+    if (set)
+        return *set;
     rb_fail(why, RB_EINVAL, "unknown option '%s'%s", name, rb_guess_text(&guess, ""));
-    return NULL;
+    return (rb_option_set){0};
 }
 
-static rb_status set(rb_case *c, const rb_option *o, const char *text, int by, rb_message *why)
+static rb_status set(const rb_case *c, const rb_option_set *all, int k, const char *text, int by,
+                     rb_message *why)
 {
     char what[400];
-    const int k = (int)(o - rb_case_table);
-    const rb_option_set all = rb_case_options(c);
-    rb_option_source(o, by, c->path, what, sizeof what);
-    const rb_status s = rb_option_assign(&all, k, by, what, text, why);
+    rb_option_source(&all->options[k], by, c->path, what, sizeof what);
+    const rb_status s = rb_option_assign(all, k, by, what, text, why);
     return s != RB_OK && by > 0 ? RB_EFORMAT : s;
 }
 
 rb_status rb_case_set(rb_case *c, const char *name, const char *text, int by, rb_message *why)
 {
-    const rb_option *o = find(name, why);
-    if (!o)
+    int k;
+    const rb_option_set all = find(c, name, &k, why);
+    if (all.n == 0)
         return RB_EINVAL;
     const char *kept = rb_case_keep(c, text);
-    return kept ? set(c, o, kept, by, why) : rb_fail(why, RB_ENOMEM, "out of memory");
+    return kept ? set(c, &all, k, kept, by, why) : rb_fail(why, RB_ENOMEM, "out of memory");
 }
 
 rb_status rb_case_set_number(rb_case *c, const char *name, double value, rb_message *why)
 {
     char text[32];
-    const rb_option *o = find(name, why);
-    if (!o)
+    int k;
+    const rb_option_set all = find(c, name, &k, why);
+    if (all.n == 0)
         return RB_EINVAL;
-    if (o->kind != RB_OPTION_NUMBER && o->kind != RB_OPTION_INTEGER)
+    if (all.options[k].kind != RB_OPTION_NUMBER && all.options[k].kind != RB_OPTION_INTEGER)
         return rb_fail(why, RB_EINVAL, "%s: takes no number", name);
     rb_format(text, sizeof text, "%.17g", value);
-    return set(c, o, text, RB_GIVEN_NUMBER, why);
+    return set(c, &all, k, text, RB_GIVEN_NUMBER, why);
 }
 
 rb_units rb_case_units(const rb_case *c, int by)
@@ -610,6 +612,11 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
         s = rb_case_read_history(c, why);
     c->resolved = c->words;
     rb_case_store(c, &set, &c->resolved);
+    if (c->crack.is_taken) {
+        const rb_option_set crack = rb_case_crack_set(c);
+        c->crack.resolved = c->crack.words;
+        rb_case_store(c, &crack, &c->crack.resolved);
+    }
     if (s == RB_OK)
         s = resolve_bodies(c, why);
     if (s == RB_OK)

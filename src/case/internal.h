@@ -23,6 +23,15 @@ typedef struct {
 /* The tables that a case may name. */
 enum { CASE_HISTORY, CASE_GAP, CASE_IRREGULARITY, CASE_WORN, CASE_FRICTION, CASE_TABLES };
 
+enum { CASE_CRACK_OPTIONS_MAX = 40 };
+
+/* The crack of a case, as given and as used. */
+typedef struct {
+    int is_taken; /* 1: the case takes its options */
+    rb_case_crack words, resolved;
+    int given[CASE_CRACK_OPTIONS_MAX], plain[CASE_CRACK_OPTIONS_MAX];
+} case_crack;
+
 struct rb_case {
     rb_case_purpose purpose;
     rb_resolved_case defaults, words,
@@ -32,6 +41,7 @@ struct rb_case {
     int given[RB_CASE_OPTIONS_MAX], plain[RB_CASE_OPTIONS_MAX];
     case_table table[CASE_TABLES];
     case_profile profile;
+    case_crack crack;
     rb_contact_cone_finder *find_cone_solver; /* NULL: there are none */
     int confined;                             /* 1: rb_case_confine was called */
     const char *folder;                       /* of it; borrowed */

@@ -131,12 +131,14 @@ static cli_spec spec_of(cli_case_run *run)
 {
     const cli_case_command *command = run->command;
     const rb_option_set output = cli_output_set(&run->o);
-    return (cli_spec){command->synopsis,
-                      command->about,
-                      command->notes,
-                      {rb_case_options(run->words), command->options_last ? output : run->set,
-                       command->options_last ? run->set : output, cli_example_set()},
-                      4};
+    cli_spec spec = {
+        command->synopsis, command->about, command->notes, {rb_case_options(run->words)}, 1};
+    if (command->takes_crack)
+        spec.sets[spec.set_n++] = rb_case_crack_set(run->words);
+    spec.sets[spec.set_n++] = command->options_last ? output : run->set;
+    spec.sets[spec.set_n++] = command->options_last ? run->set : output;
+    spec.sets[spec.set_n++] = cli_example_set();
+    return spec;
 }
 
 static cli_exit read_words(const cli_spec *spec, cli_case_run *run, int argc, char **argv)

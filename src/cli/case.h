@@ -81,6 +81,7 @@ struct cli_case_command {
     const rb_option *options;
     int option_n;               /* CLI_COMMAND_OPTIONS_MAX at most */
     int options_last;           /* 1: they continue the section [output] */
+    int takes_crack;            /* 1: the case takes the options of a crack */
     int operands;               /* its own, in front of the case file */
     const cli_case_file *files; /* the last row has no option; NULL: none */
 
@@ -108,9 +109,8 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
 cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words, int *files);
 /* The same of `rollbem stress`; yield_shear: what it was given, NAN: nothing. */
 cli_exit cli_stress_inputs(int argc, char **argv, rb_case *words, int *files, double *yield_shear);
-/* The same of `rollbem crack`; inputs: of case and crack as JSON, NULL without memory. */
-cli_exit cli_crack_inputs(int argc, char **argv, rb_case *words, int *files,
-                          struct json_t **inputs);
+/* The same of `rollbem crack`. */
+cli_exit cli_crack_inputs(int argc, char **argv, rb_case *words, int *files);
 /* The same of any such command; files: written, how many case files it names. */
 cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc, char **argv,
                          rb_case *words, int *files);

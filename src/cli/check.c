@@ -76,7 +76,6 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc, con
               is_crack = other && strcmp(other, "crack") == 0;
     double given = NAN; /* yield_shear as printed; NAN: nowhere */
     int files = 0;
-    json_t *inputs = NULL;
     *fault = NULL;
     if ((other && !is_stress && !is_crack) ||
         is_stress != (json_object_get(root, "maxima") != NULL) ||
@@ -91,14 +90,10 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc, con
                               folder);
     if (!words)
         return RB_ENOMEM;
-    cli_exit code;
-    if (is_crack) {
-        code = cli_crack_inputs(argc - 1, argv + 1, words, &files, &inputs);
-    } else {
-        code = is_stress ? cli_stress_inputs(argc - 1, argv + 1, words, &files, &given)
-                         : cli_solve_inputs(argc, argv, words, &files);
-        inputs = code == CLI_CONTINUE ? rb_report_json_inputs(words) : NULL;
-    }
+    const cli_exit code = is_crack    ? cli_crack_inputs(argc - 1, argv + 1, words, &files)
+                          : is_stress ? cli_stress_inputs(argc - 1, argv + 1, words, &files, &given)
+                                      : cli_solve_inputs(argc, argv, words, &files);
+    json_t *inputs = code == CLI_CONTINUE ? rb_report_json_inputs(words) : NULL;
     const json_t *printed = json_object_get(root, "shakedown");
     const double yield = json_number_value(json_object_get(printed, "yield_shear"));
     const int no_memory = code == CLI_INTERNAL || (code == CLI_CONTINUE && !inputs);

@@ -113,7 +113,7 @@ int cli_terminal_height(void);
 
 /* ---- Options (rollbem/case.h) ----------------------------------------------------- */
 
-#define CLI_MAX_SETS 4
+#define CLI_MAX_SETS 5
 
 typedef struct {
     const char *synopsis; /* "rollbem lcp [OPTION...] FILE..." */

@@ -6,19 +6,16 @@
 #include <string.h>
 
 typedef struct {
-    rb_case_crack crack; /* options; first, because the rows of case.h point into it */
-    double at;
+    double at; /* options */
     const char *open, *orbit;
     int states;
     rb_case_crack_result result;
 } crack_run;
 
-_Static_assert(offsetof(crack_run, crack) == 0, "the rows of the library point into it");
-
 #define PLACE(member) offsetof(crack_run, member)
 
-/* Behind those of the library. */
-static const rb_option pictures[] = {
+/* Behind those of the crack. */
+static const rb_option options[] = {
     RB_TEXT_LINE("plot-crack", PLACE(open), "FILE",
                  "picture of the crack with its faces moved apart, magnified: .png, .svg or .pdf",
                  .unset = "none", .file = RB_FILE_PICTURE),
@@ -30,7 +27,7 @@ static const rb_option pictures[] = {
                  "with --json: opening, sliding, tractions and zone of every node of the faces at "
                  "every position, and the contact, which rollbem check needs"),
 };
-enum { PICTURES = sizeof pictures / sizeof pictures[0] };
+enum { OPTIONS = sizeof options / sizeof options[0] };
 
 static const char about[] =
     "Solves a case and moves its contact over a crack in body B, position by\n"
@@ -51,13 +48,14 @@ static const char notes[] =
 static cli_exit check(cli_case_run *run)
 {
     const crack_run *own = run->own;
+    const rb_case_crack *crack = rb_case_crack_of(run->words);
     rb_message why = {""};
-    const rb_status s = rb_case_crack_check(run->c, &own->crack, &why);
+    const rb_status s = rb_case_crack_check(run->c, crack, &why);
     if (s != RB_OK)
         return cli_case_refused(run->words, s, &why);
     if (own->states && (run->o.style.format != RB_REPORT_JSON || run->c->units != RB_UNITS_MM))
         return cli_fail(CLI_USAGE, "--states: with --json and in mm, N, MPa only");
-    return own->crack.unloaded && (run->o.plot || own->orbit)
+    return crack->unloaded && (run->o.plot || own->orbit)
                ? cli_fail(CLI_USAGE, "%s: --unloaded has no positions to draw over",
                           run->o.plot ? "--plot" : "--orbit")
                : CLI_CONTINUE;
@@ -67,7 +65,7 @@ static rb_status solve(cli_case_run *run, rb_message *why)
 {
     crack_run *own = run->own;
     rb_case_crack_result *r = &own->result;
-    const rb_status s = rb_case_crack_solve(run->c, &own->crack, r, why);
+    const rb_status s = rb_case_crack_solve(run->c, rb_case_crack_of(run->words), r, why);
     rb_case_crack_convert(r, run->c->units);
     run->solution = r->contact.solution.n > 0 ? &r->contact.solution : NULL;
     run->printable = s == RB_OK;
@@ -76,15 +74,9 @@ static rb_status solve(cli_case_run *run, rb_message *why)
 
 /* ---- Print ------------------------------------------------------------------------- */
 
-static void add_inputs(const cli_case_run *run, json_t **inputs)
-{
-    rb_report_json_crack_inputs(inputs, &((const crack_run *)run->own)->crack, run->c->units);
-}
-
 static void add_json(const cli_case_run *run, json_t **root)
 {
     const crack_run *own = run->own;
-    rb_report_json_set(root, "input_hash", rb_report_json_crack_hash(run->words, &own->crack));
     rb_report_json_crack(root, &own->result);
     if (own->states)
         rb_report_json_crack_faces(root, &own->result);
@@ -125,46 +117,32 @@ static void summarise(FILE *out, const cli_case_run *run)
     rb_report_crack_summary(out, &((const crack_run *)run->own)->result, cli_is_coloured(stderr));
 }
 
-/* Options of the library, then those of the pictures. */
-static cli_case_command command(void)
-{
-    static rb_option options[CLI_COMMAND_OPTIONS_MAX];
-    const int n = rb_case_crack_options_n;
-    memcpy(options, rb_case_crack_options, (size_t)n * sizeof *options);
-    memcpy(options + n, pictures, sizeof pictures);
-    return (cli_case_command){
-        .synopsis = "rollbem crack [OPTION...] [CASE.ini]",
-        .about = about,
-        .notes = notes,
-        .purpose = RB_CASE_CRACK,
-        .options = options,
-        .option_n = n + PICTURES,
-        .files = files,
-        .check = check,
-        .solve = solve,
-        .table = write_table,
-        .inputs = add_inputs,
-        .json = add_json,
-        .summarise = summarise,
-    };
-}
+static const cli_case_command command = {
+    .synopsis = "rollbem crack [OPTION...] [CASE.ini]",
+    .about = about,
+    .notes = notes,
+    .purpose = RB_CASE_CRACK,
+    .options = options,
+    .option_n = OPTIONS,
+    .takes_crack = 1,
+    .files = files,
+    .check = check,
+    .solve = solve,
+    .table = write_table,
+    .json = add_json,
+    .summarise = summarise,
+};
 
-cli_exit cli_crack_inputs(int argc, char **argv, rb_case *words, int *case_files, json_t **inputs)
+cli_exit cli_crack_inputs(int argc, char **argv, rb_case *words, int *case_files)
 {
-    const cli_case_command of = command();
-    crack_run own = {.crack = rb_case_crack_defaults()};
-    const cli_exit code = cli_case_inputs(&of, &own, argc, argv, words, case_files);
-    *inputs = code == CLI_CONTINUE ? rb_report_json_inputs(words) : NULL;
-    if (*inputs)
-        rb_report_json_crack_inputs(inputs, &own.crack, rb_case_resolved(words)->units);
-    return code;
+    crack_run own = {0};
+    return cli_case_inputs(&command, &own, argc, argv, words, case_files);
 }
 
 int cli_crack(int argc, char **argv)
 {
-    const cli_case_command of = command();
-    crack_run own = {.crack = rb_case_crack_defaults()};
-    const cli_exit code = cli_case_run_command(&of, &own, argc, argv);
+    crack_run own = {0};
+    const cli_exit code = cli_case_run_command(&command, &own, argc, argv);
     rb_case_crack_free(&own.result);
     return code;
 }

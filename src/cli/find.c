@@ -126,8 +126,9 @@ void cli_find_options(const cli_spec *spec)
         int k = 0;
         while (k < search.seen_n && search.seen[k] != set->options)
             k++;
-        if (k < search.seen_n)
-            continue;
+        if (k < search.seen_n ||
+            (set->options == rb_case_crack_options && strcmp(command, "crack") != 0))
+            continue; /* a study takes those of a crack, too */
         if (k < SETS_MAX)
             search.seen[search.seen_n++] = set->options;
         for (int i = 0; i < set->n; i++) {

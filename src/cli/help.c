@@ -63,8 +63,7 @@ static void print_group_title(const rb_option *group)
 static int is_abbreviated(const cli_spec *spec, int s)
 {
     const rb_option *first = spec->sets[s].options;
-    return s == 0 || first->kind != RB_OPTION_GROUP || strcmp(first->name, "output") == 0 ||
-           strcmp(first->name, "example") == 0;
+    return s == 0 || strcmp(first->name, "output") == 0 || strcmp(first->name, "example") == 0;
 }
 
 /* All options of the set, or the common ones below one title. */
@@ -87,9 +86,8 @@ int cli_print_help(const cli_spec *spec, const char *part)
     for (int i = 0; spec->set_n > 0 && i < spec->sets[0].n; i++)
         common |= spec->sets[0].options[i].common;
     FILE *pager = cli_open_pager();
-    for (int s = 0; s < spec->set_n && is_part; s++) {
+    for (int s = 0, inside = 0; s < spec->set_n && is_part; s++)
         /* The groups that begin so, and the option of that name. */
-        int inside = 0;
         for (int i = 0; i < spec->sets[s].n; i++) {
             const rb_option *o = &spec->sets[s].options[i];
             if (o->kind == RB_OPTION_GROUP) {
@@ -101,7 +99,6 @@ int cli_print_help(const cli_spec *spec, const char *part)
                 found = 1;
             }
         }
-    }
     if (!part && pager && common) {
         /* The command's own options, and the common ones of the case. */
         const char *paragraph = strstr(spec->about, "\n\n");

@@ -43,11 +43,9 @@ typedef struct {
     rb_case *one; /* the current case: a copy of base with other numbers */
     const study_options *o;
     const rb_option_set *own;    /* the options of a study, whose values are in o */
-    const rb_option_set *cracks; /* those of a crack, whose values are in crack */
-    rb_case_crack crack;         /* as typed */
-    int has_crack;           /* 1: one of them is given or varies: the contact passes over a crack
-                              */
-    rb_case_crack one_crack; /* of the current case, in mm, N, MPa */
+    const rb_option_set *cracks; /* those of a crack of base */
+    int has_crack; /* 1: one of them is given or varies: the contact passes over a crack
+                    */
     study_column column[COLUMNS_MAX];
     int columns, factors, cases;
     int rows[VARIED_MAX + 2]; /* of each factor */
@@ -90,7 +88,7 @@ double cli_study_value(const study *st, const study_column *c, int k);
 cli_exit cli_study_set_values(const study *st, rb_case *c, int k);
 /* The option of a case or of a crack; NULL: there is none. */
 const rb_option *cli_study_option(const char *name);
-/* Sets st->one, and st->one_crack, to that case; says nothing of what is wrong with it. */
+/* Sets st->one to that case; says nothing of what is wrong with it. */
 rb_status cli_study_try_one(study *st, int k, rb_message *why);
 /* The first case that is one: of a sample not every case may be. */
 int cli_study_first(study *st, const rb_case *c);

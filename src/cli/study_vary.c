@@ -12,12 +12,6 @@
 
 enum { NO_MEMORY = -1 };
 
-/* Of a crack below the contact. */
-static int is_of_crack(const rb_option *o)
-{
-    return o >= rb_case_crack_options && o < rb_case_crack_options + rb_case_crack_options_n;
-}
-
 const rb_option *cli_study_option(const char *name)
 {
     const rb_option *o = rb_case_option(name);
@@ -48,7 +42,7 @@ static cli_exit add_column(study *st, const char *source, cli_exit bad, const ch
     c->value = value;
     st->columns++;
     const rb_option *o = cli_study_option(c->name);
-    st->has_crack |= o && is_of_crack(o);
+    st->has_crack |= o && o != rb_case_option(c->name);
     return o && (o->kind == RB_OPTION_NUMBER || o->kind == RB_OPTION_INTEGER)
                ? CLI_CONTINUE
                : cli_fail(bad, "%s: '%s' is not an option of a case with a number as value", source,
@@ -261,14 +255,6 @@ double cli_study_value(const study *st, const study_column *c, int k)
     return c->value[row_of(st, c, k)];
 }
 
-/* The table of cases is the first factor, and is located by its line. */
-static cli_exit refuse_value(const study *st, const study_column *c, int k, const rb_message *why)
-{
-    return st->o->cases && c->factor == 0 ? cli_fail(c->bad, "%s:%d: %s", st->o->cases,
-                                                     st->table.line[row_of(st, c, k)], why->text)
-                                          : cli_fail(c->bad, "case %d: %s", k + 1, why->text);
-}
-
 /* *bad: the column whose value is no value of its option; NULL: none. */
 static rb_status try_values(const study *st, rb_case *c, int k, const study_column **bad,
                             rb_message *why)
@@ -276,8 +262,6 @@ static rb_status try_values(const study *st, rb_case *c, int k, const study_colu
     *bad = NULL;
     for (int j = 0; j < st->columns; j++) {
         const study_column *column = &st->column[j];
-        if (is_of_crack(cli_study_option(column->name)))
-            continue;
         const rb_status s =
             rb_case_set_number(c, column->name, cli_study_value(st, column, k), why);
         if (s != RB_OK) {
@@ -293,39 +277,25 @@ cli_exit cli_study_set_values(const study *st, rb_case *c, int k)
     rb_message why = {""};
     const study_column *bad;
 
-    return try_values(st, c, k, &bad, &why) == RB_OK ? CLI_CONTINUE
-                                                     : refuse_value(st, bad, k, &why);
+    if (try_values(st, c, k, &bad, &why) == RB_OK)
+        return CLI_CONTINUE;
+    /* The table of cases is the first factor, and is located by its line. */
+    return st->o->cases && bad->factor == 0 ? cli_fail(bad->bad, "%s:%d: %s", st->o->cases,
+                                                       st->table.line[row_of(st, bad, k)], why.text)
+                                            : cli_fail(bad->bad, "case %d: %s", k + 1, why.text);
 }
 
-/* The crack of case k, whose contact is st->one; *bad as in try_values. */
-static rb_status try_crack(study *st, int k, const study_column **bad, rb_message *why)
+/* The crack of the current case. */
+static rb_status check_crack(const study *st, rb_message *why)
 {
-    int given[CLI_COMMAND_OPTIONS_MAX], plain[CLI_COMMAND_OPTIONS_MAX], at;
-    const rb_option_set set = {st->cracks->options, st->cracks->n, &st->one_crack, given, plain};
-
-    *bad = NULL;
-    st->one_crack = st->crack;
-    memcpy(given, st->cracks->given, (size_t)set.n * sizeof *given);
-    memcpy(plain, st->cracks->plain, (size_t)set.n * sizeof *plain);
-    for (int j = 0; j < st->columns; j++) {
-        const study_column *column = &st->column[j];
-        char text[32];
-        rb_guess none = {.word = column->name};
-        if (!rb_option_find(1, &set, column->name, strlen(column->name), &at, &none))
-            continue;
-        rb_format(text, sizeof text, "%.17g", cli_study_value(st, column, k));
-        const rb_status s = rb_option_assign(&set, at, RB_GIVEN_NUMBER, column->name, text, why);
-        if (s != RB_OK) {
-            *bad = column;
-            return s;
-        }
-    }
-    if (!isnan(st->one_crack.paris))
+    const rb_case_crack *crack = rb_case_crack_of(st->one);
+    if (!crack)
+        return RB_OK;
+    if (!isnan(crack->paris))
         return rb_fail(why, RB_EINVAL,
                        "--paris: a study has the K of cracks of given lengths; rollbem "
                        "crack lets one grow");
-    rb_case_store(st->one, &set, &st->one_crack);
-    return rb_case_crack_check(rb_case_resolved(st->one), &st->one_crack, why);
+    return rb_case_crack_check(rb_case_resolved(st->one), crack, why);
 }
 
 rb_status cli_study_try_one(study *st, int k, rb_message *why)
@@ -335,7 +305,7 @@ rb_status cli_study_try_one(study *st, int k, rb_message *why)
 
     if (s == RB_OK)
         s = rb_case_resolve(st->one, why);
-    return s == RB_OK && st->has_crack ? try_crack(st, k, &bad, why) : s;
+    return s == RB_OK ? check_crack(st, why) : s;
 }
 
 int cli_study_first(study *st, const rb_case *c)
@@ -368,12 +338,9 @@ cli_exit cli_study_check(study *st)
         code = cli_study_set_values(st, st->one, k);
         if (code == CLI_CONTINUE)
             code = cli_say(rb_case_resolve(st->one, &why), &why);
-        const study_column *bad = NULL;
-        const rb_status s =
-            code == CLI_CONTINUE && st->has_crack ? try_crack(st, k, &bad, &why) : RB_OK;
+        const rb_status s = code == CLI_CONTINUE ? check_crack(st, &why) : RB_OK;
         if (s != RB_OK)
-            code = bad ? refuse_value(st, bad, k, &why)
-                       : cli_fail(cli_exit_of(s), "case %d: %s", k + 1, why.text);
+            code = cli_fail(cli_exit_of(s), "case %d: %s", k + 1, why.text);
     }
     return code;
 }

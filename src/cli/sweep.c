@@ -117,12 +117,6 @@ static cli_exit find_fingerprint(study *st)
     if (s != RB_OK)
         return cli_say(s, &why);
     hash = rb_hash(hash, RB_VERSION, sizeof RB_VERSION);
-    for (int k = 0; k < st->cracks->n && st->has_crack; k++) {
-        char buffer[64];
-        const rb_option *o = &st->cracks->options[k];
-        const char *text = o->kind == RB_OPTION_GROUP ? "" : rb_option_text(o, &st->crack, buffer);
-        hash = rb_hash(hash, text, strlen(text));
-    }
     if (st->slopes.tolerance)
         hash = rb_hash(hash, st->slopes.tolerance, strlen(st->slopes.tolerance));
     for (int k = 0; k < st->columns; k++) {
@@ -168,7 +162,7 @@ static int has_error_bar(const study *st, const study_result *of)
 /* A crack may have a result of the same name as its contact. */
 static int has_meaning(const study *st, const study_result *of)
 {
-    return of->of != OF_CRACK || rb_case_crack_has_result(of->r, &st->one_crack);
+    return of->of != OF_CRACK || rb_case_crack_has_result(of->r, rb_case_crack_of(st->one));
 }
 
 /* "error_max_pressure" is the error bar of max_pressure, which comes along. */
@@ -423,7 +417,9 @@ static rb_status solve_crack(int k, rb_rolling_row *row, void *context, rb_messa
 {
     study *st = context;
     const rb_status s = cli_study_try_one(st, k, why);
-    return s == RB_OK ? rb_case_crack_row(rb_case_resolved(st->one), &st->one_crack, row, why) : s;
+    return s == RB_OK
+               ? rb_case_crack_row(rb_case_resolved(st->one), rb_case_crack_of(st->one), row, why)
+               : s;
 }
 
 /* ---- Progress ---------------------------------------------------------------------- */
@@ -578,11 +574,7 @@ static cli_exit close_output(study *st, cli_exit code)
                 rb_report_json_set(&table, column_name(st, j, heading),
                                    json_incref(json_array_get(st->list, (size_t)j)));
             rb_report_json_set(&root, "units", rb_report_json_units(units));
-            json_t *inputs = rb_report_json_inputs(st->base); /* those of the first case */
-            if (st->has_crack && cli_study_try_one(st, 0, &why) == RB_OK)
-                rb_report_json_crack_inputs(&inputs, &st->one_crack, units);
-            why.text[0] = '\0';
-            rb_report_json_set(&root, "inputs", inputs);
+            rb_report_json_set(&root, "inputs", rb_report_json_inputs(st->base)); /* first case */
             rb_report_json_set(&root, "table", table);
             s = rb_report_json_write(st->out, root);
         }
@@ -799,19 +791,17 @@ int cli_sweep(int argc, char **argv)
     study_options o = {0};
     cli_args args = {0};
     rb_case *c = cli_case_create(RB_CASE_STUDY);
-    study st = {.base = c, .o = &o, .crack = rb_case_crack_defaults(), .over = -1, .family = -1};
-    int given[CLI_COMMAND_OPTIONS_MAX] = {0}, plain[CLI_COMMAND_OPTIONS_MAX] = {0};
+    study st = {.base = c, .o = &o, .over = -1, .family = -1};
     if (!c)
         return CLI_INTERNAL;
-    const cli_spec spec = {
-        "rollbem sweep [OPTION...] [STUDY.ini]",
-        about,
-        notes,
-        {rb_case_options(c),
-         {options, OPTIONS, &o, o.given, NULL},
-         {rb_case_crack_options, rb_case_crack_options_n, &st.crack, given, plain},
-         cli_example_set()},
-        4};
+    const cli_spec spec = {"rollbem sweep [OPTION...] [STUDY.ini]",
+                           about,
+                           notes,
+                           {rb_case_options(c),
+                            {options, OPTIONS, &o, o.given, NULL},
+                            rb_case_crack_set(c),
+                            cli_example_set()},
+                           4};
     st.own = &spec.sets[1];
     st.cracks = &spec.sets[2];
     cli_exit code = cli_pool_begin(argc, argv);

@@ -40,8 +40,6 @@ double rb_certificate_member(const json_t *object, const char *key);
  * versions, with error bars, or not solved. */
 rb_status rb_certificate_head(const char *name, const json_t *root, const char *const *known,
                               rb_message *why);
-/* A value as an option takes it: a word, a number, numbers with commas. */
-void rb_certificate_option_text(const json_t *value, char *text, size_t size);
 /* Sets and resolves words by the inputs, and sees that the same inputs come out. */
 rb_status rb_certificate_rebuild_case(const char *name, const json_t *inputs, rb_case *words,
                                       rb_message *why);

@@ -51,50 +51,6 @@ static rb_status check_kind(const char *name, const json_t *root, rb_message *wh
     return rb_certificate_head(name, root, known, why);
 }
 
-/* The inputs of the case alone, in mm, N, MPa; those of the crack go into j->crack. NULL:
- * refused, or no memory. */
-static json_t *split_inputs(assessment *j, rb_status *s, rb_message *why)
-{
-    const json_t *inputs = json_object_get(j->root, "inputs");
-    const rb_option_set set = {rb_case_crack_options, rb_case_crack_options_n, &j->crack, NULL,
-                               NULL};
-    json_t *own = json_copy((json_t *)inputs), *again = json_object();
-    rb_message reason = {""};
-    const char *key;
-    json_t *value;
-
-    *s = own && again ? RB_OK : RB_ENOMEM;
-    j->crack = rb_case_crack_defaults();
-    for (int k = 0; k < set.n && *s == RB_OK; k++) {
-        char text[400];
-        const char *name = set.options[k].name;
-        value = json_object_get(inputs, name);
-        if (set.options[k].kind == RB_OPTION_GROUP || !value || json_is_null(value))
-            continue;
-        rb_certificate_option_text(value, text, sizeof text);
-        *s = rb_option_assign(&set, k, RB_GIVEN_ARGUMENT, name, text, &reason);
-        if (*s == RB_EINVAL)
-            *s = rb_certificate_refuse(j->c.name, reason.text, why);
-    }
-    if (*s == RB_OK) {
-        rb_report_json_crack_inputs(&again, &j->crack, RB_UNITS_MM);
-        *s = again ? RB_OK : RB_ENOMEM;
-    }
-    json_object_foreach(again, key, value)
-    {
-        if (*s == RB_OK && !json_equal(value, json_object_get(inputs, key)))
-            *s = rb_fail(why, RB_EFORMAT,
-                         "%s: cannot be checked: '%s' of inputs cannot be built again", j->c.name,
-                         key);
-        json_object_del(own, key);
-    }
-    json_decref(again);
-    if (*s == RB_OK)
-        return own;
-    json_decref(own);
-    return NULL;
-}
-
 /* ---- Contact ----------------------------------------------------------------------- */
 
 /* The contact as a result of its own. */
@@ -117,6 +73,7 @@ static rb_status check_contact(assessment *j, rb_case *words, rb_message *why)
         if (s == RB_OK)
             s = rb_case_resolve(words, why);
     }
+    rb_case_set_purpose(words, RB_CASE_SINGLE); /* its inputs are without those of the crack */
     for (size_t k = 0; k < sizeof shared / sizeof *shared; k++) {
         json_t *part = json_object_get(j->root, shared[k][0]);
         if (part)
@@ -580,20 +537,20 @@ rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root, 
 {
     assessment j = {.c = {.out = out, .name = name, .found = found}, .root = root};
     rb_message reason = {""};
-    json_t *inputs = NULL;
 
     memset(found, 0, sizeof *found);
+    rb_case_crack_set(words);
     rb_status s = check_kind(name, root, why);
     if (s == RB_OK)
-        inputs = split_inputs(&j, &s, why);
+        s = rb_certificate_rebuild_case(name, json_object_get(root, "inputs"), words, why);
     if (s == RB_OK) {
-        s = rb_certificate_rebuild_case(name, inputs, words, why);
         j.resolved = rb_case_resolved(words);
+        j.crack = *rb_case_crack_of(words);
     }
     if (s == RB_OK)
         s = rb_case_crack_check(j.resolved, &j.crack, why);
     if (s == RB_OK)
-        s = rb_certificate_hash(&j.c, root, rb_report_json_crack_hash(words, &j.crack));
+        s = rb_certificate_hash(&j.c, root, rb_report_json_input_hash(words));
     if (s == RB_OK)
         s = rebuild(&j, &reason);
     if (s == RB_OK && !j.crack.unloaded)
@@ -613,7 +570,6 @@ rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root, 
     j.c.step = 0;
     if (s == RB_OK)
         s = compare_rest(&j);
-    json_decref(inputs);
     rb_case_crack_track_free(&j.track);
     rb_crack_history_free(&j.again);
     rb_crack_free(j.body);

@@ -82,7 +82,8 @@ static rb_status check_kind(const char *name, const json_t *root, rb_message *wh
 
 /* ---- The case again ---------------------------------------------------------------- */
 
-void rb_certificate_option_text(const json_t *value, char *text, size_t size)
+/* A value as an option takes it: a word, a number, numbers with commas. */
+static void option_text(const json_t *value, char *text, size_t size)
 {
     if (json_is_string(value))
         snprintf(text, size, "%s", json_string_value(value));
@@ -133,7 +134,7 @@ static rb_status set_inputs(const json_t *inputs, const json_t *now, rb_case *wo
         if (s != RB_OK || json_is_null(value) || is_copied ||
             (json_equal(value, json_object_get(now, key)) && !is_own_of_b(inputs, key)))
             continue;
-        rb_certificate_option_text(value, text, sizeof text);
+        option_text(value, text, sizeof text);
         s = rb_case_set(words, key, text, RB_GIVEN_ARGUMENT, why);
     }
     return s == RB_OK ? rb_case_resolve(words, why) : s;

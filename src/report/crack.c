@@ -73,11 +73,6 @@ static json_t *numbers(const rb_case_crack_summary *s)
     return object;
 }
 
-void rb_report_json_crack_inputs(json_t **inputs, const rb_case_crack *crack, rb_units units)
-{
-    rb_report_json_options(inputs, rb_case_crack_options_n, rb_case_crack_options, crack, units);
-}
-
 void rb_report_json_crack(json_t **root, const rb_case_crack_result *r)
 {
     const rb_report_columns columns = columns_of(r);

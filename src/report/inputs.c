@@ -55,6 +55,9 @@ json_t *rb_report_json_inputs(const rb_case *c)
                                rb_case_is_replaced(c, &o[i])
                                    ? json_null()
                                    : rb_report_json_option(&o[i], resolved, resolved->units));
+    if (rb_case_crack_of(c))
+        rb_report_json_options(&inputs, rb_case_crack_options_n, rb_case_crack_options,
+                               rb_case_crack_of(c), resolved->units);
     return inputs;
 }
 
@@ -66,9 +69,9 @@ static int add_text(const char *text, size_t size, void *hash)
     return 0;
 }
 
-/* Of inputs, which are taken over, and of the files that the case names. */
-static rb_status hash_of(const rb_case *c, json_t *inputs, uint64_t *hash, rb_message *why)
+rb_status rb_report_input_hash(const rb_case *c, uint64_t *hash, rb_message *why)
 {
+    json_t *inputs = rb_report_json_inputs(c);
     *hash = RB_HASH_START;
     /* json_dumps loses pieces where its text cannot grow */
     const int failed = json_dump_callback(inputs, add_text, hash, JSON_COMPACT) != 0;
@@ -92,30 +95,13 @@ static rb_status hash_of(const rb_case *c, json_t *inputs, uint64_t *hash, rb_me
     return RB_OK;
 }
 
-rb_status rb_report_input_hash(const rb_case *c, uint64_t *hash, rb_message *why)
-{
-    return hash_of(c, rb_report_json_inputs(c), hash, why);
-}
-
-static json_t *hash_as_text(const rb_case *c, json_t *inputs)
+json_t *rb_report_json_input_hash(const rb_case *c)
 {
     char text[17];
     uint64_t hash;
-    const rb_status s = hash_of(c, inputs, &hash, NULL);
+    const rb_status s = rb_report_input_hash(c, &hash, NULL);
     if (s != RB_OK)
         return s == RB_ENOMEM ? NULL : json_null();
     snprintf(text, sizeof text, "%016" PRIx64, hash);
     return json_string(text);
-}
-
-json_t *rb_report_json_input_hash(const rb_case *c)
-{
-    return hash_as_text(c, rb_report_json_inputs(c));
-}
-
-json_t *rb_report_json_crack_hash(const rb_case *c, const rb_case_crack *crack)
-{
-    json_t *inputs = rb_report_json_inputs(c);
-    rb_report_json_crack_inputs(&inputs, crack, rb_case_resolved(c)->units);
-    return hash_as_text(c, inputs);
 }
