@@ -197,6 +197,35 @@ TEST(pictures)
     assert_int_equal(shell("for f in a b c; do grep -q '</svg>' $f.svg || exit 1; done"), 0);
 }
 
+/* The face on the side of +x, to which K_II > 0 refers, lies above at 30 degrees and below at
+ * 150, where the mirrored crack has the opposite K_II. */
+TEST(faces_are_named_as_they_lie)
+{
+    static const struct {
+        const char *angle, *plus, *minus;
+    } cracks[] = {{"30", "upper", "lower"}, {"90", "right", "left"}, {"150", "lower", "upper"}};
+    double K[3];
+    (void)state;
+    for (size_t k = 0; k < sizeof cracks / sizeof *cracks; k++) {
+        char line[300];
+        snprintf(line, sizeof line,
+                 HERTZ "--mu 0 --crack-friction 0 --quiet --units si --plot-crack f.svg "
+                       "--plot-script f.gp --json --crack-angle %s",
+                 cracks[k].angle);
+        json_t *root = run_json(line);
+        K[k] = in_summary(root, k == 2 ? "K_II_min" : "K_II_max");
+        json_decref(root);
+        snprintf(line, sizeof line,
+                 "grep -q 'solid title .%s face' f.gp && grep -q ') title .%s face' f.gp && "
+                 "grep -q '■ %s face slips to the tip' f.gp && grep -q 'MPa·m' f.gp",
+                 cracks[k].plus, cracks[k].minus, cracks[k].plus);
+        assert_int_equal(shell(line), 0);
+    }
+    CHECK_REL(K[2], -K[0], 1e-9, "K_II of the mirrored crack");
+    assert_int_equal(rollbem(HERTZ "--mu 0"), 0);
+    assert_non_null(strstr(out, "the face on the side of +x, the upper one below 90 degrees"));
+}
+
 /* Supports, laws, meshes, heat, bores, gap tables, force control, steps and histories,
  * and every example that is a case: solved, or refused in one line. */
 TEST(loads_of_every_kind)

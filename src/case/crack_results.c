@@ -21,7 +21,8 @@
 static const rb_rolling_result scalars[] = {
     NUMBER(K_I_max, IS_K, .meaning = "largest K_I at the tip in the last pass"),
     NUMBER(K_I_min, IS_K, .meaning = "smallest K_I"),
-    NUMBER(K_II_max, IS_K, .meaning = "largest K_II; > 0: the upper face slides down"),
+    NUMBER(K_II_max, IS_K,
+           .meaning = "largest K_II; > 0: the face on the side of +x slides towards the tip"),
     NUMBER(K_II_min, IS_K, .meaning = "smallest K_II"),
     NUMBER(delta_K_I, IS_K, .meaning = "K_I_max - K_I_min"),
     NUMBER(delta_K_II, IS_K, .meaning = "K_II_max - K_II_min"),

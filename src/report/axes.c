@@ -20,7 +20,9 @@ rb_report_unit rb_report_axis_unit(rb_units units, const char *unit, double larg
                {RB_UNITS_SI, "MPa", 1e10, {1e9, "GPa"}},
                {RB_UNITS_SI, "MPa", 1e6, {1e6, "MPa"}},
                {RB_UNITS_SI, "MPa", 1e4, {1e3, "kPa"}},
-               {RB_UNITS_INCH, "MPa", 1e4, {1e3, "ksi"}}};
+               {RB_UNITS_INCH, "MPa", 1e4, {1e3, "ksi"}},
+               {RB_UNITS_SI, "MPa.mm^0.5", 1e4, {1e6, "MPa.m^0.5"}},
+               {RB_UNITS_INCH, "MPa.mm^0.5", 1e4, {1e3, "ksi.in^0.5"}}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         if (all[k].units == units && strcmp(all[k].of, unit) == 0 && largest >= all[k].from)
             return all[k].unit;

@@ -11,8 +11,9 @@ static rb_report_columns columns_of(const rb_case_crack_result *r)
     return (rb_report_columns){&rb_case_crack_columns, &r->history, 0, r->units, 0};
 }
 
-static const char sign_of_K[] = "crack in B: K_I >= 0 opens it, K_II > 0: the face above it slides "
-                                "towards the tip; x: where the contact stands";
+static const char sign_of_K[] =
+    "crack in B: K_I >= 0 opens it, K_II > 0: the face on the side of +x, the upper one below 90 "
+    "degrees, slides towards the tip; x: where the contact stands";
 
 static const char about_growth[] =
     "growth: a row per length of the crack; cycles: passes until it has that length; sharp tip, "
@@ -199,23 +200,45 @@ static const char *colour_of(int zone)
     return rb_report_zone_colour(zone, zone == RB_ZONE_SEPARATED);
 }
 
-/* What the colours mean, in one line at the bottom of the picture; open: 1, where there
- * is something to be seen of it. */
-static void write_zone_key(FILE *out, rb_report_canvas canvas, int open)
+/* The faces on the + side, which is that of +x, and on the other one, as they lie. */
+typedef struct {
+    const char *plus, *minus;
+} faces;
+
+static faces faces_of(const rb_case_crack_result *r)
+{
+    const rb_crack_path *path = &r->shape.path;
+    const double dx = path->x[path->pieces] - path->x[0], dy = path->y[path->pieces] - path->y[0];
+    const double steep = 0.2 * hypot(dx, dy);
+    return dx > steep    ? (faces){"upper", "lower"}
+           : dx < -steep ? (faces){"lower", "upper"}
+                         : (faces){"right", "left"};
+}
+
+/* What the colours mean, at the bottom of the picture; open: 1, where there is something to
+ * be seen of it.  A column, whose letters are larger, takes two lines. */
+static void write_zone_key(FILE *out, rb_report_canvas canvas, const char *slips, int open)
 {
     static const struct {
-        int zone;
-        double in_column, x; /* letters are larger in a column */
-        const char *name;
-    } zones[] = {{RB_ZONE_SEPARATED, 0.14, 0.14, "□ open"},
-                 {RB_ZONE_STICK, 0.3, 0.24, "■ stick"},
-                 {RB_ZONE_SLIP_NEGATIVE, 0.46, 0.34, "■ slip to the tip"},
-                 {RB_ZONE_SLIP_POSITIVE, 0.78, 0.53, "■ slip back"}};
+        int zone, line;
+        double in_column, x;
+        const char *box, *name;
+    } zones[] = {{RB_ZONE_SEPARATED, 0, 0.03, 0.14, "□", "open"},
+                 {RB_ZONE_STICK, 0, 0.2, 0.24, "■", "stick"},
+                 {RB_ZONE_SLIP_NEGATIVE, 1, 0.03, 0.34, "■", "face slips to the tip"},
+                 {RB_ZONE_SLIP_POSITIVE, 1, 0.66, 0.66, "■", "away from the tip"}};
     const int titled = rb_report_place_of(canvas).titled;
-    for (size_t k = open ? 0 : 1; k < sizeof zones / sizeof *zones; k++)
-        fprintf(out, "set label %d '%s' at screen %g, 0.025 left textcolor rgb '%s' font ',%.3g'\n",
-                (int)k + 3, zones[k].name, titled ? zones[k].x : zones[k].in_column,
-                rb_report_zone_colour(zones[k].zone, 0), rb_report_key_font(canvas));
+    for (size_t k = open ? 0 : 1; k < sizeof zones / sizeof *zones; k++) {
+        const int slip = zones[k].zone == RB_ZONE_SLIP_NEGATIVE;
+        fprintf(out,
+                "set label %d '%s %s%s%s' at screen %g, %g left textcolor rgb '%s' font ',%.3g'\n",
+                (int)k + 3, zones[k].box, slip ? slips : "", slip ? " " : "",
+                titled || zones[k].zone != RB_ZONE_SLIP_POSITIVE ? zones[k].name : "away from it",
+                titled ? zones[k].x : zones[k].in_column, titled || zones[k].line ? 0.025 : 0.065,
+                zones[k].zone == RB_ZONE_SEPARATED ? "#666666"
+                                                   : rb_report_zone_colour(zones[k].zone, 0),
+                rb_report_key_font(canvas));
+    }
 }
 
 /* Steps of the last pass. */
@@ -224,13 +247,27 @@ static int first_of(const rb_case_crack_result *r)
     return r->summary.from;
 }
 
+/* Of the axes of K and of the pressure in the crack. */
+typedef struct {
+    rb_report_unit K, fluid;
+} axes;
+
+static axes axes_of(const rb_case_crack_result *r)
+{
+    const rb_case_crack_summary *s = &r->summary;
+    const double K = fmax(fmax(s->K_I_max, s->K_II_max), -s->K_II_min);
+    return (axes){rb_report_axis_unit(r->units, "MPa.mm^0.5", K),
+                  rb_report_axis_unit(r->units, "MPa", s->fluid_pressure_max)};
+}
+
 static void write_steps(FILE *out, const rb_case_crack_result *r, double length)
 {
     const rb_crack_history *h = &r->history;
+    const axes unit = axes_of(r);
     fputs("$K << EOD\n", out);
     for (int k = first_of(r); k < h->n; k++)
-        fprintf(out, "%.9g %.9g %.9g %.9g\n", h->x[k] / length, h->K_I[k], h->K_II[k],
-                h->fluid_pressure[k]);
+        fprintf(out, "%.9g %.9g %.9g %.9g\n", h->x[k] / length, h->K_I[k] / unit.K.size,
+                h->K_II[k] / unit.K.size, h->fluid_pressure[k] / unit.fluid.size);
     fputs("EOD\n", out);
 }
 
@@ -264,12 +301,13 @@ static void write_title(FILE *out, const view *v, rb_report_place place)
     const rb_crack_path *path = &r->shape.path;
     const double dx = path->x[path->pieces] - path->x[0], dy = path->y[0] - path->y[path->pieces];
     if (place.titled)
-        fprintf(out,
-                "set label 1 '{/:Bold Crack}   length %.4g a, %.4g° to the surface, friction %.3g, "
-                " a = %.4g %s' at screen 0.54, 0.972 center\n",
-                hypot(dx, dy) / rb_unit_stored(r->units, "mm", r->half_width),
-                atan2(dy, dx) * 180.0 / 3.14159265358979, r->shape.friction, r->half_width,
-                rb_unit_name(r->units, "mm"));
+        fprintf(
+            out,
+            "set label 1 '{/:Bold Crack}   length %.4g a at %.4g° to the surface,  μ of the faces "
+            "%.3g,  a = %s %s' at screen 0.54, 0.972 center\n",
+            hypot(dx, dy) / rb_unit_stored(r->units, "mm", r->half_width),
+            atan2(dy, dx) * 180.0 / 3.14159265358979, r->shape.friction,
+            RB_REPORT_NUMBER(r->half_width, 4), rb_unit_name(r->units, "mm"));
 }
 
 static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
@@ -280,6 +318,7 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
     const rb_report_place place = rb_report_place_of(canvas);
     const double a = r->half_width;
     char unit[40];
+    const axes shown = axes_of(r);
     const int wet = r->summary.fluid_pressure_max > 0.0;
     double along = 0.0; /* the whole crack, in half-widths */
 
@@ -301,30 +340,30 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
                            : 0.83,
             0.88 + place.up, 0.48, h->x[first_of(r)] / a, h->x[h->n - 1] / a,
             0.925 + 1.4 * place.up, rb_report_key_font(canvas),
-            rb_report_raised(rb_unit_name(r->units, "MPa.mm^0.5"), unit), 0.68);
+            rb_report_raised(shown.K.name, unit), 0.68);
     if (wet)
         fprintf(out,
                 "set y2tics\nset y2label 'fluid  [%s]' offset -0.5,0\nset ytics nomirror\nset "
                 "y2range [0:%.9g]\n",
-                rb_unit_name(r->units, "MPa"), 1.15 * r->summary.fluid_pressure_max);
+                shown.fluid.name, 1.15 * r->summary.fluid_pressure_max / shown.fluid.size);
     fputs(
         "plot $K using 1:2 with lines linecolor rgb '#c0392b' linewidth 2.4 title 'K_{I}', $K "
         "using 1:3 with lines linecolor rgb '#1f4e79' dashtype (10,3) linewidth 2.4 title 'K_{II}'",
         out);
     if (wet)
-        fputs(", $K using 1:4 axes x1y2 with lines linecolor rgb '#27ae60' dashtype (3,3) "
+        fputs(", $K using 1:4 axes x1y2 with lines linecolor rgb '#117864' dashtype (3,3) "
               "linewidth 1.6 title 'fluid'",
               out);
     fprintf(out,
             "\nunset label 1\nunset label 2\nunset y2tics\nunset y2label\nunset key\n"
-            "set ytics mirror\nset tmargin at screen 0.44\nset bmargin at screen %g\n"
+            "set ytics nomirror\nset tmargin at screen 0.44\nset bmargin at screen %g\n"
             "set format x '%%g'\nset xlabel 'position of the contact / a' offset 0,0.3\n"
             "set offsets 0,0,0,0\nset yrange [*:*] reverse\nset autoscale yfix\n"
             "set ytics %g\n"
-            "set label 2 'along%s / a' at screen 0.03, %g center rotate\n",
-            0.16 + place.up, rb_report_round_step(along / 4.0), place.titled ? " the crack" : "",
-            0.3 + 0.5 * place.up);
-    write_zone_key(out, canvas, 1);
+            "set label 2 '%salong the crack / a%s' at screen 0.03, %g center rotate\n",
+            0.16 + place.up, rb_report_round_step(along / 4.0), place.titled ? "" : "{/*0.85 ",
+            place.titled ? "" : "}", 0.3 + 0.5 * place.up);
+    write_zone_key(out, canvas, faces_of(r).plus, 1);
     fputs("plot $zones using 1:2:3:4:5 with boxxyerror fillstyle solid noborder linecolor rgb "
           "variable notitle",
           out);
@@ -351,7 +390,7 @@ static void write_orbit(FILE *out, rb_report_canvas canvas, const void *context)
     const view *v = context;
     const rb_report_place place = rb_report_place_of(canvas);
     char unit[40];
-    const char *K = rb_report_raised(rb_unit_name(v->r->units, "MPa.mm^0.5"), unit);
+    const char *K = rb_report_raised(axes_of(v->r).K.name, unit);
 
     write_steps(out, v->r, v->r->half_width);
     write_title(out, v, place);
@@ -421,14 +460,17 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
         fprintf(out, "%.9g %.9g 0 0\nEOD\n", path->x[path->pieces] / unit,
                 path->y[path->pieces] / unit);
     }
+    const rb_report_unit K = axes_of(r).K;
     if (place.titled)
         fprintf(out,
-                "set label 1 '{/:Bold Crack}   contact at x = %.4g a,  displacement of the faces x "
-                "%.3g' at screen 0.54, 0.972 center\n"
-                "set label 2 'K_{I} = %.4g,  K_{II} = %.4g %s' at screen 0.54, 0.935 center\n",
-                h->x[k] / r->half_width, times, h->K_I[k], h->K_II[k],
-                rb_report_raised(rb_unit_name(r->units, "MPa.mm^0.5"), name));
-    write_zone_key(out, canvas, 0);
+                "set label 1 '{/:Bold Crack}   contact at x = %s a,  displacements of the faces × "
+                "%s' at screen 0.54, 0.972 center\n"
+                "set label 2 'K_{I} = %s,  K_{II} = %s %s' at screen 0.54, 0.935 center\n",
+                RB_REPORT_NUMBER(rb_report_tidy(h->x[k] / r->half_width, 1.0), 4),
+                RB_REPORT_NUMBER(times, 3), RB_REPORT_NUMBER(h->K_I[k] / K.size, 4),
+                RB_REPORT_NUMBER(h->K_II[k] / K.size, 4), rb_report_raised(K.name, name));
+    const faces face = faces_of(r);
+    write_zone_key(out, canvas, face.plus, 0);
     const double margin = 0.25 * size, step = rb_report_round_step(0.2 * size);
     /* more of the body, until the panel is filled at equal scales */
     const double left = 0.12 + place.right, high = 0.68,
@@ -440,19 +482,18 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
     from -= 0.5 * beside + margin;
     to += 0.5 * beside + margin;
     if (!place.titled)
-        fprintf(out, "set label 9 'faces x %.3g' at graph 0.03, 0.06 font ',%.3g' front\n", times,
-                rb_report_key_font(canvas));
+        fprintf(out, "set label 9 'faces × %s' at graph 0.03, 0.06 font ',%.3g' front\n",
+                RB_REPORT_NUMBER(times, 3), rb_report_key_font(canvas));
     fputs("set size ratio -1\n", out);
     rb_report_room(out, left, 0.965, 0.21 + place.up, 0.21 + high + place.up);
     fprintf(out,
             "set xrange [%.9g:%.9g]\n"
             "set yrange [%.9g:%.9g]\nset xlabel 'x / a'\nset ylabel 'y / a'\nset xtics %g\n"
             "set ytics %g\n"
-            "set key at screen 0.965, %g right horizontal maxrows 1 samplen 2 font ',%.3g'\n"
+            "set key inside right top horizontal maxrows 1 samplen 2 font ',%.3g'\n"
             "set object 1 rectangle from graph 0, first %.9g to graph 1, first 0 fillcolor rgb "
             "'#eeeeee' fillstyle solid noborder behind\n",
-            from, to, bottom, 0.6 * margin, step, step, place.titled ? 0.041 : 0.085,
-            rb_report_key_font(canvas), bottom);
+            from, to, bottom, 0.6 * margin, step, step, rb_report_key_font(canvas), bottom);
     /* the contact above, where it is within the picture */
     fprintf(out,
             "set object 2 rectangle from %.9g, 0 to %.9g, %.9g fillcolor rgb '#bbbbbb' fillstyle "
@@ -462,12 +503,18 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
             "filledcurves closed linecolor rgb '#ffffff' notitle",
             fmin(fmax(h->x[k] / r->half_width - 1.0, from), to),
             fmin(fmax(h->x[k] / r->half_width + 1.0, from), to), 0.15 * margin);
+    /* the dashed one above, or a closed crack would have one face; the zones on both */
+    for (int side = 1; side >= 0; side--)
+        fprintf(out,
+                ", $face%d using 1:2 with lines linecolor rgb '%s' linewidth 2 dashtype %s title "
+                "'%s face'",
+                side, side ? "#111111" : "#8aa4bd", side ? "solid" : "(6,6)",
+                side ? face.plus : face.minus);
     for (int side = 0; side < 2; side++)
         fprintf(out,
-                ", $face%d using 1:2 with lines linecolor rgb '%s' linewidth 2 title '%s face', "
-                "$face%d using ($4 > 0 ? $1 : NaN):2:3 with points pointtype 7 pointsize 1 "
+                ", $face%d using ($4 > 0 ? $1 : NaN):2:3 with points pointtype 7 pointsize 1 "
                 "linecolor rgb variable notitle",
-                side, side ? "#c0392b" : "#1f4e79", side ? "+" : "−", side);
+                side);
     fputc('\n', out);
 }
 

@@ -110,8 +110,8 @@ typedef struct {
     const char *name;
 } rb_report_unit;
 
-/* A unit in which numbers up to `largest` are neither too long nor too small; unit: "MPa"
- * or "mm". */
+/* A unit in which numbers up to `largest` are neither too long nor too small; unit: "MPa",
+ * "MPa.mm^0.5" or "mm". */
 rb_report_unit rb_report_axis_unit(rb_units units, const char *unit, double largest);
 /* Lengths about a contact of half-width a, in the system's unit or, where that has too
  * many digits, in a: "[mm]", "/ a". */

@@ -71,7 +71,6 @@ static void write_axes(FILE *out, const view *v)
           out);
     fprintf(out, "set xrange [%.9g:%.9g]\nset yrange [0:%.9g]\n", v->from, v->to, v->depth);
     write_x_label(out, v);
-    fprintf(out, "set ylabel 'y %s, into A'\n", v->length.label);
     /* Where A touches: one line for each zone, drawn below the surface. */
     const rb_rolling_solution *s = v->s->s;
     for (int i = 0; i < s->n;) {
@@ -101,10 +100,11 @@ static void write_subtitle(FILE *out, const view *v, const char *title, double y
             RB_REPORT_NUMBER(s->half_width / length.size, 4), length.name);
     if (isfinite(s->force_ratio))
         fprintf(out, ",  Q/(μP) = %.4g", rb_report_tidy(s->force_ratio, 1.0) + 0.0);
-    fprintf(out,
-            "' at screen 0.5, %g center\nset label 4 '{/*0.8 contact: thin green stick, thick "
-            "orange and purple slip}' at screen 0.5, 0.025 center textcolor rgb '#444444'\n",
-            y);
+    fprintf(
+        out,
+        "' at screen 0.5, %g center\nset label 4 '{/*0.8 contact: thin line stick, thick line slip "
+        "(orange →, purple ←)}' at screen 0.5, 0.025 center textcolor rgb '#444444'\n",
+        y);
     rb_report_label_bodies(out, v->s->rc, s->units, 0.5, y - line);
 }
 
@@ -121,11 +121,18 @@ static panel panel_of(const view *v, int k)
     const double wide = v->column ? 0.61 : 0.345, high = v->column ? 0.31 : 0.60;
     const double aspect = v->shape * shown_aspect(v);
     const double width = fmin(wide, high / aspect);
-    const double left = v->column ? 0.2 : 0.075 + 0.48 * k;
+    const double left = v->column ? 0.2 : 0.085 + 0.475 * k;
     return (panel){.left = left + 0.5 * (wide - width),
                    .middle = !v->column ? 0.48 : 0.755 - 0.45 * k,
                    .width = width,
                    .height = width * aspect};
+}
+
+/* Where there is room beside the numbers: gnuplot would put it beyond the canvas. */
+static void write_y_label(FILE *out, const view *v, panel at)
+{
+    fprintf(out, "set label 5 'y %s, into A' at screen %g, %g center rotate\n", v->length.label,
+            at.left - (v->column ? 0.145 : 0.073), at.middle);
 }
 
 static void write_panel(FILE *out, const view *v, const char *name, int column,
@@ -140,13 +147,13 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
     /* the value of the maximum stands in the title, where it covers no contour's */
     fprintf(out,
             "set cbtics %.9g\nset colorbox user origin %g, %g size 0.013, %g\n"
-            "set label 2 '%s  [%s],  at +: %.4g' at screen %g, %g center\n"
+            "set label 2 '%s  [%s],  largest %s at +' at screen %g, %g center\n"
             "set label 3 '' at first %.9g, %.9g point pointtype 1 pointsize 1.6 linewidth 1.6 "
             "linecolor rgb '#111111' front\n",
             rb_report_round_step(m->value / v->stress_unit / rb_report_labels_in(at.height)),
             at.left + at.width + 0.012, bottom, at.height, name, v->stress_label,
-            m->value / v->stress_unit, at.left + at.width / 2, top + (v->column ? 0.03 : 0.05),
-            m->x / v->length.size, m->y / v->length.size);
+            RB_REPORT_NUMBER(m->value / v->stress_unit, 4), at.left + at.width / 2,
+            top + (v->column ? 0.03 : 0.05), m->x / v->length.size, m->y / v->length.size);
     /* the line of the contact would cover half of a value at the surface: these contours
      * are cut off there, and so both sorts need the same levels */
     const double step = rb_report_round_step(m->value / v->stress_unit /
@@ -179,13 +186,16 @@ static void write_contours(FILE *out, rb_report_canvas canvas, const void *conte
                    0.06);
     if (v->column) /* its caption says the rest; the lower panel has the x axis of both */
         fputs("unset label 1\nunset label 9\nset xlabel\n", out);
+    const panel second = panel_of(v, 1);
+    write_y_label(out, v, first);
     write_panel(out, v, "maximum shear", 3, &v->s->maxima->max_shear, first);
     fputs("unset label 1\nunset label 4\nunset label 9\n", out);
-    if (v->column)
+    if (v->column) {
         write_x_label(out, v);
-    else
-        fputs("unset ylabel\n", out);
-    write_panel(out, v, "von Mises", 4, &v->s->maxima->von_mises, panel_of(v, 1));
+        write_y_label(out, v, second);
+    } else
+        fputs("unset label 5\n", out);
+    write_panel(out, v, "von Mises", 4, &v->s->maxima->von_mises, second);
     fputs("unset multiplot\n", out);
 }
 
@@ -217,6 +227,7 @@ static void write_fringes(FILE *out, rb_report_canvas canvas, const void *contex
     fputs("set palette gray\nset cbrange [0:1]\nunset colorbox\n", out);
     rb_report_room(out, 0.11 + 1.5 * place.right, 0.97, 0.17, 0.87);
     write_axes(out, v);
+    fprintf(out, "set ylabel 'y %s, into A'\n", v->length.label);
     fprintf(out, "set size ratio %g\nset xtics %.9g\nset ytics %.9g\n", shown_aspect(v),
             rb_report_round_step((v->to - v->from) / (place.titled ? 8.0 : 5.0)),
             rb_report_round_step(v->depth / 5.0));
