@@ -798,6 +798,11 @@ rb_status rb_rolling_variant_closely(const rb_rolling_model *of, rb_rolling_mode
                                      rb_message *why);
 /* p0 of the model's state, MPa: the largest peak of all patches; 0 without contact. */
 double rb_rolling_peak_pressure(const rb_rolling_model *model);
+/* Compression of the layer, cover or rim of A and of B divided by its thickness: of each body
+ * that by the approach and that by the pressure, the lesser of which holds; NAN: it has none.
+ * max_strain is the larger one of both bodies. */
+void rb_rolling_strains(const rb_rolling_case *rc, double approach, double pressure,
+                        double strain[4]);
 /* The model itself with a matrix of its own, if it has fewer than RB_ROLLING_LARGE
  * elements. */
 rb_status rb_rolling_variant_with_matrix(const rb_rolling_model *of, rb_rolling_model *variant,

@@ -125,15 +125,21 @@ rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_inp
 /* Derivatives of all results of the model, each in the field of the result: value[0] for
  * a falling, value[1] for a growing input.  Integers, residuals and places known only to
  * within one element have no derivative (NAN). */
-typedef struct {
+typedef struct rb_sensitivity_derivative {
     int sides;  /* 1: value[0] holds for both; 2: they differ, or the range ends here */
     int has[2]; /* 0: the range of the input ends there */
     rb_rolling_solution value[2];
-    rb_sensitivity_rate rate; /* for the side that exists */
-    double edges[2][2]; /* of each value: half-width and centre between the edges that elements
-                           follow (D6), on elements that move as the input says alone */
-    double stays[2];    /* smooth derivatives: changes of the input, < 0 and > 0, to first order,
-                           where the next elements change between stick and slip */
+    rb_sensitivity_rate rate;  /* for the side that exists */
+    rb_contact_state state[2]; /* of p, q, delta, xi, and slip in lambda, on elements that move
+                                  as the input says alone */
+    double edges[2][2];  /* half-width and centre between the edges that elements follow (D6), as
+                            state */
+    double by[2][2];     /* how much the elements are stretched and shifted besides */
+    double strain[2][4]; /* of what compresses the layers (rb_rolling_strains) */
+    struct rb_sensitivity_derivative *free_rolling; /* of the case in free rolling, without
+                                                       results; NULL: none; owned */
+    double stays[2]; /* smooth derivatives: changes of the input, < 0 and > 0, to first order,
+                        where the next elements change between stick and slip */
 } rb_sensitivity_derivative;
 
 /* derivative: overwritten; free it in any case. */

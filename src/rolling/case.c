@@ -87,33 +87,52 @@ double rb_rolling_radius(const rb_rolling_case *rc)
     return b < 0.0 && isfinite(b) ? a * b / (a + b) : 1.0 / (1.0 / a + 1.0 / b);
 }
 
+static double thickness_of(const rb_rolling_body *body, const char **what)
+{
+    const int layer = body->layer > 0.0, cover = body->cover > 0.0;
+
+    *what = layer ? "layer" : cover ? "cover" : "rim";
+    return layer                         ? body->layer
+           : cover                       ? body->cover
+           : body->support == RB_BEM_HUB ? (1.0 - body->hub_ratio) * body->radius
+                                         : INFINITY;
+}
+
+void rb_rolling_strains(const rb_rolling_case *rc, double approach, double pressure,
+                        double strain[4])
+{
+    const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
+
+    for (int b = 0; b < 2; b++) {
+        const char *what;
+        const double thickness = thickness_of(bodies[b], &what);
+        double slow = 1.0;
+        strain[2 * b] = strain[2 * b + 1] = NAN;
+        if (isinf(thickness) || (b == 1 && !rc->elastic_b))
+            continue;
+        for (int k = 0; k < bodies[b]->memory.n; k++)
+            slow += bodies[b]->memory.ratio[k];
+        strain[2 * b] =
+            approach * compliance(rb_rolling_material(rc, bodies[b])) * modulus(rc) / thickness;
+        strain[2 * b + 1] = 2.0 * pressure * slow / bodies[b]->young;
+    }
+}
+
 double rb_rolling_strain(const rb_rolling_case *rc, double approach, double pressure,
                          const char **what)
 {
-    const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
-    double most = NAN;
+    double all[4], most = NAN;
 
-    for (int b = 0; b < 1 + rc->elastic_b; b++) {
-        const rb_rolling_body *body = bodies[b];
-        const int layer = body->layer > 0.0, cover = body->cover > 0.0;
-        const double thickness = layer   ? body->layer
-                                 : cover ? body->cover
-                                 : body->support == RB_BEM_HUB
-                                     ? (1.0 - body->hub_ratio) * body->radius
-                                     : INFINITY;
-        const double glassy = compliance(rb_rolling_material(rc, body));
-        double slow = 1.0;
-        if (isinf(thickness))
+    rb_rolling_strains(rc, approach, pressure, all);
+    for (int b = 0; b < 2; b++) {
+        const double strain = fmin(all[2 * b], all[2 * b + 1]);
+        const char *of_body;
+        if (isnan(strain) || strain <= most)
             continue;
-        for (int k = 0; k < body->memory.n; k++)
-            slow += body->memory.ratio[k];
-        const double strain =
-            fmin(approach * glassy * modulus(rc) / thickness, 2.0 * pressure * slow / body->young);
-        if (isnan(most) || strain > most) {
-            most = strain;
-            if (what)
-                *what = layer ? "layer" : cover ? "cover" : "rim";
-        }
+        most = strain;
+        thickness_of(b ? &rc->b : &rc->a, &of_body);
+        if (what)
+            *what = of_body;
     }
     return most;
 }

@@ -29,7 +29,11 @@ static const double LARGEST_MISS = 5e-3;
 
 enum { PLACES = RB_SENSITIVITY_PLACES };
 
-static const rb_sensitivity_stencil nearest = {2, {-1, 1}, {-0.5, 0.5}};
+/* Of two values that share the largest one. */
+static const double TIE = 1e-9;
+
+static const rb_sensitivity_stencil nearest = {2, {-1, 1}, {-0.5, 0.5}},
+                                    onwards = {3, {0, 1, 2}, {-1.5, 2.0, -0.5}};
 static const rb_sensitivity_stencil behind = {
     5, {0, -1, -2, -3, -4}, {25 / 12., -48 / 12., 36 / 12., -16 / 12., 3 / 12.}};
 
@@ -52,9 +56,14 @@ int rb_sensitivity_has(const rb_rolling_result *r)
 
 void rb_sensitivity_derivative_free(rb_sensitivity_derivative *d)
 {
-    for (int k = 0; k < 2; k++)
+    for (int k = 0; k < 2; k++) {
         rb_rolling_solution_free(&d->value[k]);
+        rb_contact_state_free(&d->state[k]);
+    }
     rb_sensitivity_rate_free(&d->rate);
+    if (d->free_rolling)
+        rb_sensitivity_derivative_free(d->free_rolling);
+    free(d->free_rolling);
     memset(d, 0, sizeof *d);
 }
 
@@ -200,12 +209,39 @@ static rb_status rates(variants *v, rb_sensitivity_rate *rate, rb_message *why)
     return s;
 }
 
+/* By what the varied case gives, where it differs in nothing else.  0: it does. */
+static int rates_of_given(const rb_sensitivity *s, const rb_sensitivity_input *input,
+                          const variants *v, rb_sensitivity_rate *rate, double *mu,
+                          rb_status *status, rb_message *why)
+{
+    rb_sensitivity_rate left = {0};
+    int is_given = !v->own;
+
+    *status = rb_sensitivity_rate_alloc(s->n, &left);
+    /* the last place tells: the first one may be the value itself, where nothing differs */
+    for (int k = v->at.n - 1; k >= 0 && is_given && *status == RB_OK; k--) {
+        const double weight = v->at.weight[k] / v->step;
+        rb_rolling_case rc;
+        rb_contact_problem given;
+        *status = input->vary(input->context, input->value + v->at.place[k] * v->step, &rc, why);
+        if (*status != RB_OK)
+            break;
+        rc = on_the_same_elements(&rc, s->model->rc, s->n);
+        is_given = rb_rolling_variant_given(s->model, &rc, left.bound, &given, status, why);
+        if (!is_given)
+            break;
+        rb_sensitivity_given(s->model, &given, &s->model->state, &left);
+        rb_sensitivity_rate_add(&left, weight, rate);
+        *mu += weight * given.mu;
+    }
+    rb_sensitivity_rate_free(&left);
+    return is_given;
+}
+
 rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_input *input,
                                rb_sensitivity_rate *rate, double *mu, rb_message *why)
 {
-    const rb_rolling_model *model = s->model;
-    variants v = {.base = model};
-    rb_sensitivity_rate left = {0};
+    variants v = {.base = s->model};
     rb_status status = choose_places(s, input, &v, why);
 
     memset(rate, 0, sizeof *rate);
@@ -214,29 +250,15 @@ rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_inp
         v.at = nearest;
     if (status == RB_OK)
         status = rb_sensitivity_rate_alloc(s->n, rate);
+    if (status != RB_OK || rates_of_given(s, input, &v, rate, mu, &status, why))
+        return status;
     if (status == RB_OK)
-        status = rb_sensitivity_rate_alloc(s->n, &left);
-    for (int k = 0; k < v.at.n && status == RB_OK; k++) {
-        const double weight = v.at.weight[k] / v.step;
-        rb_rolling_case rc;
-        rb_contact_problem given;
-        status = input->vary(input->context, input->value + v.at.place[k] * v.step, &rc, why);
-        if (status != RB_OK)
-            break;
-        rc = on_the_same_elements(&rc, model->rc, s->n);
-        if (!v.own && rb_rolling_variant_given(model, &rc, left.bound, &given, &status, why)) {
-            rb_sensitivity_given(model, &given, &model->state, &left);
-            *mu += weight * given.mu;
-        } else {
-            status = rb_rolling_variant_create(model, &rc, 0, v.own, &v.model[k], why);
-            if (status == RB_OK)
-                status = rb_sensitivity_residual(model, &v.model[k], &left, why);
-            *mu += weight * v.model[k].problem.mu;
-            rb_rolling_variant_free(model, &v.model[k]);
-        }
-        rb_sensitivity_rate_add(&left, weight, rate);
-    }
-    rb_sensitivity_rate_free(&left);
+        status = variants_create(s->model, input, NULL, 0, &v, why);
+    if (status == RB_OK)
+        status = rates(&v, rate, why);
+    for (int k = 0; k < v.at.n && status == RB_OK; k++)
+        *mu += v.at.weight[k] / v.step * v.model[k].problem.mu;
+    variants_free(&v);
     return status;
 }
 
@@ -276,11 +298,6 @@ static void blend(rb_rolling_solution *d, double keep, const rb_rolling_solution
                                    (less ? rb_rolling_entry(r, less, i) : 0.0))
                        : 0.0);
     }
-}
-
-void rb_sensitivity_add(rb_rolling_solution *d, double factor, const rb_rolling_solution *x)
-{
-    blend(d, 1.0, x, factor, NULL);
 }
 
 void rb_sensitivity_scale(rb_rolling_solution *s, double factor)
@@ -324,12 +341,6 @@ static rb_status differentiate_results(variants *v, const rb_contact_state *tang
     return s;
 }
 
-/* Results that are found at elements which a change may exchange for others: the edges of
- * the contact, those that elements follow (D6), and the largest pressure. */
-typedef struct {
-    double from, to, followed_from, followed_to, peak;
-} picked;
-
 /* Where p^2, on a line through the second and third element in contact, is zero, on the
  * side -1 or 1; NAN: too few are in contact. */
 static double zero_of(const rb_rolling_mesh *mesh, const rb_contact_state *state, int side)
@@ -362,53 +373,66 @@ static int are_aligned(const rb_rolling_model *model)
            fabs(across[1] - round(across[1])) < LARGEST_MISS;
 }
 
+/* Results that are found at elements which a change may exchange for others: the edges of
+ * the contact, those that elements follow (D6), and the largest pressure. */
+enum { FROM, TO, FOLLOWED_FROM, FOLLOWED_TO, PEAK, PICKED };
+typedef struct {
+    double of[PICKED];
+} picked;
+
 /* Elements follow the edges that they were aligned with; otherwise, as those that a mesh is
  * fitted to jump with its elements, the zeros of p^2. */
 static picked pick(const rb_rolling_model *of, const rb_contact_state *state, int aligned)
 {
     rb_rolling_model model = *of; /* borrows */
     picked x;
+    double *d = x.of;
 
     model.state = *state;
-    rb_rolling_contact_edges(model.rc, &model.mesh, state, &x.from, &x.to);
-    x.followed_from = aligned ? x.from : zero_of(&model.mesh, state, -1);
-    x.followed_to = aligned ? x.to : zero_of(&model.mesh, state, 1);
-    x.peak = rb_rolling_peak_pressure(&model);
+    rb_rolling_contact_edges(model.rc, &model.mesh, state, &d[FROM], &d[TO]);
+    d[FOLLOWED_FROM] = aligned ? d[FROM] : zero_of(&model.mesh, state, -1);
+    d[FOLLOWED_TO] = aligned ? d[TO] : zero_of(&model.mesh, state, 1);
+    d[PEAK] = rb_rolling_peak_pressure(&model);
     return x;
 }
 
 static void add_picked(double weight, picked x, picked *sum)
 {
-    sum->from += weight * x.from;
-    sum->to += weight * x.to;
-    sum->followed_from += weight * x.followed_from;
-    sum->followed_to += weight * x.followed_to;
-    sum->peak += weight * x.peak;
+    for (int k = 0; k < PICKED; k++)
+        sum->of[k] += weight * x.of[k];
 }
 
-/* Their derivatives: by the input where the state stays, and along the tangent. */
+/* Their derivatives along the tangent; state: of the model, overwritten. */
+static void pick_along(const rb_rolling_model *model, const rb_contact_state *tangent, double step,
+                       rb_contact_state *state, picked *d)
+{
+    const int aligned = are_aligned(model);
+
+    for (int side = -1; side < 2; side += 2) {
+        rb_rolling_variant_set(&model->state, tangent, side * step, state);
+        add_picked(0.5 * side / step, pick(model, state, aligned), d);
+    }
+}
+
+/* By the input where the state stays, and along the tangent. */
 static picked differentiate_picked(const variants *v, const rb_contact_state *tangent)
 {
     const int aligned = are_aligned(v->base);
-    const double step = STEP_OF_STATE * v->scale;
     rb_contact_state state = v->model[0].state; /* its arrays serve all */
-    picked d = {0.0, 0.0, 0.0, 0.0, 0.0};
+    picked d = {{0.0}};
 
     rb_rolling_variant_set(&v->base->state, NULL, 0.0, &state);
     for (int k = 0; k < v->at.n; k++)
         add_picked(v->at.weight[k] / v->step, pick(&v->model[k], &state, aligned), &d);
-    for (int side = -1; side < 2; side += 2) {
-        rb_rolling_variant_set(&v->base->state, tangent, side * step, &state);
-        add_picked(0.5 * side / step, pick(v->base, &state, aligned), &d);
-    }
+    pick_along(v->base, tangent, STEP_OF_STATE * v->scale, &state, &d);
     return d;
 }
 
 /* Half-width and centre between the edges that elements follow. */
 static void find_edges(picked x, double edges[2])
 {
-    edges[0] = 0.5 * (x.followed_to - x.followed_from);
-    edges[1] = 0.5 * (x.followed_to + x.followed_from);
+    edges[0] = 0.5 * (x.of[FOLLOWED_TO] - x.of[FOLLOWED_FROM]);
+    edges[1] = 0.5 * (x.of[FOLLOWED_TO] + x.of[FOLLOWED_FROM]);
 }
 
 /* Of the edges of the contact, and what follows from them. */
@@ -428,11 +452,9 @@ static void set_edges(const rb_sensitivity *s, double from, double to, rb_rollin
 
 /* The warmest element is that of the solution, though another one may be warmer at the
  * places of the stencil. */
-static rb_status set_peak_temperature(const rb_sensitivity *s, const variants *v,
-                                      rb_rolling_solution *d)
+static rb_status set_peak_temperature(const rb_sensitivity *s, double step, rb_rolling_solution *d)
 {
     const rb_rolling_solution *at = &s->solution;
-    const double step = STEP_OF_STATE * v->scale;
     double peak[2], x;
 
     if (!at->temperature)
@@ -448,28 +470,61 @@ static rb_status set_peak_temperature(const rb_sensitivity *s, const variants *v
     return t ? RB_OK : RB_ENOMEM;
 }
 
-/* What follows from the rates on one side, on elements that move as the input says; edges:
- * of those that elements follow. */
-static rb_status differentiate_side(const rb_sensitivity *s, variants *v, int side,
-                                    const rb_sensitivity_rate *rate, rb_rolling_solution *d,
-                                    double edges[2], rb_message *why)
+/* Of what compresses the layers, which is linear in approach and pressure. v: NULL: no input
+ * changes the layers. */
+static void set_strains(const rb_sensitivity *s, const variants *v, double approach,
+                        double pressure, double strain[4])
 {
-    rb_contact_state tangent;
-    rb_status status = rb_contact_state_alloc(s->n, &tangent);
+    const rb_rolling_solution *at = &s->solution;
+    double x[4];
 
-    if (status == RB_OK)
-        status = rb_sensitivity_tangent(s, rate, side, &tangent, why);
-    if (status == RB_OK)
-        status = differentiate_results(v, &tangent, d, why);
-    if (status == RB_OK) {
-        const picked x = differentiate_picked(v, &tangent);
-        d->max_pressure = x.peak;
-        set_edges(s, x.from, x.to, d);
-        find_edges(x, edges);
-        status = set_peak_temperature(s, v, d);
+    rb_rolling_strains(s->model->rc, approach, pressure, strain);
+    for (int k = 0; v && k < v->at.n; k++) {
+        rb_rolling_strains(v->model[k].rc, at->approach, at->max_pressure, x);
+        for (int j = 0; j < 4; j++)
+            strain[j] += v->at.weight[k] / v->step * x[j];
     }
-    rb_contact_state_free(&tangent);
-    return status;
+}
+
+static rb_status set_picked(const rb_sensitivity *s, picked x, double scale, rb_rolling_solution *d)
+{
+    d->max_pressure = x.of[PEAK];
+    set_edges(s, x.of[FROM], x.of[TO], d);
+    return set_peak_temperature(s, STEP_OF_STATE * scale, d);
+}
+
+/* 1: but for rounding, or none is there. */
+static int are_equal(double x, double y)
+{
+    return !(fabs(x - y) > TIE * fmax(fabs(x), fabs(y)));
+}
+
+/* The derivative of the largest strain: that of the body that is compressed most, by the lesser
+ * of two amounts. Where two are equal, the side decides. */
+static double strain_of(const rb_sensitivity *s, int side, const double strain[4])
+{
+    double at[4], most = NAN, of_most = NAN;
+
+    rb_rolling_strains(s->model->rc, s->solution.approach, s->solution.max_pressure, at);
+    for (int b = 0; b < 4; b += 2) {
+        const double *x = at + b, *by = strain + b;
+        const int second = are_equal(x[0], x[1]) ? side * by[1] < side * by[0] : x[1] < x[0];
+        if (isnan(x[second]) ||
+            (!isnan(most) &&
+             (are_equal(most, x[second]) ? side * by[second] <= side * of_most : x[second] < most)))
+            continue;
+        most = x[second];
+        of_most = by[second];
+    }
+    return of_most;
+}
+
+static void set_strain(const rb_sensitivity *s, int k, rb_sensitivity_derivative *d)
+{
+    const double strain = strain_of(s, k ? 1 : -1, d->strain[k]);
+
+    if (!isnan(strain)) /* otherwise it is that of the contact */
+        d->value[k].max_strain = strain;
 }
 
 /* 1: both sides have the same derivatives, but for rounding. */
@@ -517,24 +572,13 @@ static void clean(const rb_sensitivity *s, double scale, rb_rolling_solution *d)
     }
 }
 
-/* (D6) how an input moves the elements: stretches them as Hertz's half-width grows, or as
- * the contact that is found on them grows and shifts, e' = found' + found_e e'. */
-static void motions_of(const rb_sensitivity *s, int moves, const variants *v, const double edges[2],
-                       double by[2])
-{
-    by[0] = by[1] = 0.0;
-    for (int k = 0; k < v->at.n && moves == RB_SENSITIVITY_HERTZ; k++)
-        by[0] += v->at.weight[k] / v->step * rb_rolling_derive(v->model[k].rc).half_width;
-    if (moves != RB_SENSITIVITY_EDGES)
-        return;
-    by[0] = s->gain[0] * edges[0] + s->gain[1] * edges[1];
-    by[1] = s->gain[2] * edges[0] + s->gain[3] * edges[1];
-}
+/* ---- Elements that move (D6) ------------------------------------------------------- */
 
 /* (1 - found_e)^-1 from the derivatives of half-width and centre by both motions.  0: the
  * edges do not tell how the elements move. */
-static int set_gain(rb_sensitivity *s, const double stretched[2], const double shifted[2])
+static int set_gain(rb_sensitivity *s)
 {
+    const double *stretched = s->motion[0].edges[0], *shifted = s->motion[1].edges[0];
     const double a[2] = {1.0 - stretched[0], -stretched[1]}, b[2] = {-shifted[0], 1.0 - shifted[1]},
                  det = a[0] * b[1] - b[0] * a[1];
 
@@ -554,77 +598,32 @@ static motion stretch_of(const rb_rolling_model *model)
     return (motion){STRETCH, edges[1], edges[0]};
 }
 
-/* The tangent of free rolling, which has its own equations, and what the motion of its
- * elements adds to its creepage. */
-static rb_status differentiate_free(const rb_sensitivity *freely, const rb_sensitivity_input *input,
-                                    const variants *of, int side, rb_contact_state *tangent,
-                                    double edges[2], rb_message *why)
+/* How much the elements are stretched and shifted: as Hertz's half-width grows, or as the
+ * contact that is found on them grows and shifts, e' = found' + found_e e'.  v: NULL: no
+ * input, which leaves Hertz's half-width as it is. */
+static void set_motions(const rb_sensitivity *s, const variants *v, const double edges[2],
+                        double by[2])
 {
-    variants v = {.base = freely->model,
-                  .bodies = of->bodies,
-                  .own = of->own,
-                  .at = of->at,
-                  .step = of->step,
-                  .scale = of->scale};
-    rb_sensitivity_rate rate = {0};
-    double by[2];
-    rb_status status = variants_create(freely->model, input, of, 1, &v, why);
-
-    if (status == RB_OK)
-        status = rb_sensitivity_rate_alloc(freely->n, &rate);
-    if (status == RB_OK)
-        status = rates(&v, &rate, why);
-    if (status == RB_OK)
-        status = rb_contact_state_alloc(freely->n, tangent);
-    if (status == RB_OK)
-        status = rb_sensitivity_tangent(freely, &rate, side, tangent, why);
-    if (status == RB_OK) {
-        find_edges(differentiate_picked(&v, tangent), edges);
-        motions_of(freely, freely->moves, &v, edges, by);
-        tangent->xi += by[0] * freely->creepage[0] + by[1] * freely->creepage[1];
-    }
-    rb_sensitivity_rate_free(&rate);
-    variants_free(&v);
-    return status;
+    by[0] = by[1] = 0.0;
+    for (int k = 0; s->moves == RB_SENSITIVITY_HERTZ && v && k < v->at.n; k++)
+        by[0] += v->at.weight[k] / v->step * rb_rolling_derive(v->model[k].rc).half_width;
+    if (s->moves != RB_SENSITIVITY_EDGES)
+        return;
+    by[0] = s->gain[0] * edges[0] + s->gain[1] * edges[1];
+    by[1] = s->gain[2] * edges[0] + s->gain[3] * edges[1];
 }
 
-static rb_status set_free_creepage(const rb_sensitivity *s, const rb_sensitivity_input *input,
-                                   const variants *v, int side, rb_rolling_solution *d,
-                                   rb_message *why)
-{
-    rb_contact_state tangent = {0};
-    double edges[2];
-    /* Bodies without coupling roll freely at no creepage, unless the input makes them unlike. */
-    int rests = s->model->rc->formulation == RB_STEADY &&
-                !rb_contact_operator_response(s->model->problem.op).coupled;
-
-    for (int k = 0; k < v->at.n && v->bodies; k++)
-        rests &= !rb_contact_operator_response(v->model[k].problem.op).coupled &&
-                 fabs(rb_rolling_derive(v->model[k].rc).dundurs) < 1e-12;
-    d->free_creepage = rests ? 0.0 : NAN;
-    if (!s->free_rolling || !input->vary)
-        return RB_OK;
-    const rb_status status =
-        differentiate_free(s->free_rolling, input, v, side, &tangent, edges, why);
-    /* between two zones its elements do not move as the others do */
-    d->free_creepage = s->free_rolling->moves == s->moves ? tangent.xi : NAN;
-    rb_contact_state_free(&tangent);
-    return status;
-}
-
-/* What the motion of the elements changes, but for free rolling, which has its own.  edges: of
- * those that the elements follow. */
-static void add_motions(const rb_sensitivity *s, const variants *v, const double edges[2],
+/* What the motion of the elements changes. */
+static void add_motions(const rb_sensitivity *s, const double by[2], double strain[4],
                         rb_rolling_solution *d)
 {
-    const double free_creepage = d->free_creepage;
-    double by[2];
-
-    motions_of(s, s->moves, v, edges, by);
-    for (int k = 0; k < 2; k++)
-        if (by[k] != 0.0)
-            blend(d, 1.0, &s->motion[k], by[k], NULL);
-    d->free_creepage = free_creepage;
+    for (int k = 0; k < 2; k++) {
+        if (by[k] == 0.0)
+            continue;
+        blend(d, 1.0, &s->motion[k].value[0], by[k], NULL);
+        for (int j = 0; j < 4; j++)
+            strain[j] += by[k] * s->motion[k].strain[0][j];
+    }
     if (s->moves == RB_SENSITIVITY_EDGES) { /* edges move as the elements there */
         const motion m = stretch_of(s->model);
         set_edges(s, by[1] + by[0] * (s->solution.contact_from - m.centre) / m.half,
@@ -632,80 +631,249 @@ static void add_motions(const rb_sensitivity *s, const variants *v, const double
     }
 }
 
+double rb_sensitivity_creepage(const rb_sensitivity *s, const rb_sensitivity_derivative *d, int k)
+{
+    double xi = d->state[k].xi;
+
+    for (int j = 0; j < 2; j++)
+        xi += d->by[k][j] != 0.0 ? d->by[k][j] * s->motion[j].state[0].xi : 0.0;
+    return xi;
+}
+
+/* ---- With respect to an input ------------------------------------------------------ */
+
+/* The slip that belongs to a tangent; rate: of an input, or NULL; `released`: element that
+ * sticks and begins to slip, or -1. */
+static rb_status set_slip(const rb_sensitivity *s, const rb_sensitivity_rate *rate, int released,
+                          rb_contact_state *y)
+{
+    const rb_contact_problem *p = &s->model->problem;
+    double *gap = rb_alloc((size_t)s->n, 1);
+
+    if (!gap)
+        return RB_ENOMEM;
+    for (int i = 0; i < s->n; i++)
+        y->lambda[i] = y->xi * p->e_T[i] + (rate ? rate->slip[i] : 0.0);
+    rb_contact_operator_add(p->op, y->p, y->q, gap, y->lambda);
+    for (int i = 0; i < s->n; i++)
+        y->lambda[i] *= s->model->state.zone[i] != RB_ZONE_STICK || i == released;
+    free(gap);
+    return RB_OK;
+}
+
+/* On one side, of elements that move. */
+static rb_status differentiate_side(const rb_sensitivity *s, variants *v, int k,
+                                    rb_sensitivity_derivative *d, rb_message *why)
+{
+    rb_status status = rb_contact_state_alloc(s->n, &d->state[k]);
+
+    if (status == RB_OK)
+        status = rb_sensitivity_tangent(s, &d->rate, k ? 1 : -1, &d->state[k], why);
+    if (status == RB_OK)
+        status = set_slip(s, &d->rate, -1, &d->state[k]);
+    if (status != RB_OK)
+        return status;
+    const picked x = differentiate_picked(v, &d->state[k]);
+    find_edges(x, d->edges[k]);
+    set_motions(s, v, d->edges[k], d->by[k]);
+    if (!v->results)
+        return RB_OK;
+    status = differentiate_results(v, &d->state[k], &d->value[k], why);
+    if (status == RB_OK)
+        status = set_picked(s, x, v->scale, &d->value[k]);
+    if (status == RB_OK) {
+        set_strains(s, v, d->state[k].delta, x.of[PEAK], d->strain[k]);
+        add_motions(s, d->by[k], d->strain[k], &d->value[k]);
+        set_strain(s, k, d);
+    }
+    return status;
+}
+
+/* On the sides that d has.  others: variants for the same input, of the model to which this is
+ * free rolling; NULL: it is not. */
+static rb_status differentiate(const rb_sensitivity *s, const rb_sensitivity_input *input,
+                               const variants *others, variants *v, rb_sensitivity_derivative *d,
+                               rb_message *why)
+{
+    rb_status status = variants_create(s->model, input, others, others != NULL, v, why);
+
+    if (status == RB_OK)
+        status = rb_sensitivity_rate_alloc(s->n, &d->rate);
+    if (status == RB_OK)
+        status = rates(v, &d->rate, why);
+    for (int k = 0; k < 2 && status == RB_OK; k++)
+        if (d->has[k])
+            status = differentiate_side(s, v, k, d, why);
+    return status;
+}
+
+/* Free rolling has its own equations. */
+static rb_status differentiate_free(const rb_sensitivity *s, const rb_sensitivity_input *input,
+                                    const variants *of, rb_sensitivity_derivative *d,
+                                    rb_message *why)
+{
+    const rb_sensitivity *freely = s->free_rolling;
+    /* Bodies without coupling roll freely at no creepage, unless the input makes them unlike. */
+    int rests = s->model->rc->formulation == RB_STEADY &&
+                !rb_contact_operator_response(s->model->problem.op).coupled;
+    rb_status status = RB_OK;
+
+    for (int k = 0; k < of->at.n && of->bodies; k++)
+        rests &= !rb_contact_operator_response(of->model[k].problem.op).coupled &&
+                 fabs(rb_rolling_derive(of->model[k].rc).dundurs) < 1e-12;
+    if (freely && input->vary) {
+        rb_sensitivity_derivative *f = d->free_rolling = calloc(1, sizeof *f);
+        variants v = *of;
+        v.base = freely->model;
+        v.results = 0;
+        memset(v.model, 0, sizeof v.model);
+        memset(v.of, 0, sizeof v.of);
+        if (!f)
+            return RB_ENOMEM;
+        memcpy(f->has, d->has, sizeof f->has);
+        status = differentiate(freely, input, of, &v, f, why);
+        variants_free(&v);
+    }
+    for (int k = 0; k < 2 && status == RB_OK; k++) /* between two zones its elements stay */
+        d->value[k].free_creepage = rests ? 0.0
+                                    : !d->free_rolling || !d->has[k] || freely->moves != s->moves
+                                        ? NAN
+                                        : rb_sensitivity_creepage(freely, d->free_rolling, k);
+    return status;
+}
+
 rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensitivity_input *input,
                                        rb_sensitivity_derivative *d, rb_message *why)
 {
     variants v = {.base = s->model, .results = 1};
-    const int two = s->degenerate > 0 || (s->free_rolling && s->free_rolling->degenerate);
 
     memset(d, 0, sizeof *d);
     if (s->solution.n == 0)
         return rb_fail(why, RB_EINVAL, "derivatives: made without results");
     rb_status status = choose_places(s, input, &v, why);
-    const int both = v.at.n == rb_sensitivity_middle.n;
-    const int from = both ? 0 : v.at.place[1] > 0.0, to = both ? two : from;
-    d->sides = two || !both ? 2 : 1;
+    const int both = v.at.n == rb_sensitivity_middle.n,
+              two = s->degenerate > 0 || (s->free_rolling && s->free_rolling->degenerate);
+    d->has[0] = both || v.at.place[1] < 0.0;
+    d->has[1] = both ? two : !d->has[0];
     if (status == RB_OK)
-        status = variants_create(s->model, input, NULL, 0, &v, why);
-    if (status == RB_OK)
-        status = rb_sensitivity_rate_alloc(s->n, &d->rate);
-    if (status == RB_OK)
-        status = rates(&v, &d->rate, why);
-    for (int k = from; k <= to && status == RB_OK; k++) {
-        const int side = k ? 1 : -1;
-        d->has[k] = 1;
-        status = differentiate_side(s, &v, side, &d->rate, &d->value[k], d->edges[k], why);
-        if (status == RB_OK)
-            status = set_free_creepage(s, input, &v, side, &d->value[k], why);
-        if (status == RB_OK && s->moves != RB_SENSITIVITY_FIXED)
-            add_motions(s, &v, d->edges[k], &d->value[k]);
-        if (status == RB_OK)
-            clean(s, input->scale, &d->value[k]);
+        status = differentiate(s, input, NULL, &v, d, why);
+    if (status == RB_OK && both && !d->has[1] &&
+        !are_equal(strain_of(s, -1, d->strain[0]), strain_of(s, 1, d->strain[0]))) {
+        d->has[1] = 1;
+        status = differentiate_side(s, &v, 1, d, why);
     }
-    if (status == RB_OK && both && d->sides == 2 && sides_agree(d)) {
+    if (status == RB_OK)
+        status = differentiate_free(s, input, &v, d, why);
+    variants_free(&v);
+    if (status != RB_OK)
+        return status;
+    for (int k = 0; k < 2; k++)
+        if (d->has[k])
+            clean(s, input->scale, &d->value[k]);
+    if (both && d->has[1] && sides_agree(d)) {
         rb_rolling_solution_free(&d->value[1]);
         d->has[1] = 0;
-        d->sides = 1;
     }
-    variants_free(&v);
+    d->sides = both && !d->has[1] ? 1 : 2;
     return status;
 }
 
-/* The case itself, whatever the input. */
-static rb_status same_case(void *context, double value, rb_rolling_case *rc, rb_message *why)
-{
-    const rb_sensitivity *s = context;
-
-    (void)value;
-    (void)why;
-    *rc = *s->model->rc;
-    return RB_OK;
-}
+/* ---- Along a line ------------------------------------------------------------------ */
 
 rb_status rb_sensitivity_along(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
-                               rb_rolling_solution *d, rb_message *why)
+                               int released, rb_sensitivity_derivative *d, rb_message *why)
 {
-    rb_sensitivity own = *s;
-    const rb_sensitivity_input input = {.vary = same_case, .context = &own};
-    variants v = {.base = s->model,
-                  .results = 1,
-                  .at = rb_sensitivity_middle,
-                  .step = STEP_OF_BODIES,
-                  .scale = 1.0};
-    double edges[2];
-    rb_status status = variants_create(s->model, &input, NULL, 0, &v, why);
+    rb_contact_state scratch = {0};
+    picked x = {{0.0}};
 
+    memset(d, 0, sizeof *d);
+    rb_status status = rb_contact_state_alloc(s->n, &d->state[0]);
     if (status == RB_OK)
-        status = differentiate_side(s, &v, 1, rate, d, edges, why);
-    if (status == RB_OK && s->moves != RB_SENSITIVITY_FIXED)
-        add_motions(s, &v, edges, d);
+        status = rb_contact_state_alloc(s->n, &scratch);
     if (status == RB_OK)
-        clean(s, 1.0, d);
-    variants_free(&v);
+        status = rb_sensitivity_tangent(s, rate, 1, &d->state[0], why);
+    if (status == RB_OK)
+        status = set_slip(s, NULL, released, &d->state[0]);
+    if (status == RB_OK) {
+        pick_along(s->model, &d->state[0], STEP_OF_STATE, &scratch, &x);
+        find_edges(x, d->edges[0]);
+        set_motions(s, NULL, d->edges[0], d->by[0]);
+    }
+    rb_contact_state_free(&scratch);
     return status;
 }
 
-/* ---- Elements that move (D6) ------------------------------------------------------- */
+/* to += factor times x. */
+static void add_state(rb_contact_state *to, double factor, const rb_contact_state *x)
+{
+    for (int i = 0; i < to->n; i++) {
+        to->p[i] += factor * x->p[i];
+        to->q[i] += factor * x->q[i];
+        to->lambda[i] += factor * x->lambda[i];
+    }
+    to->delta += factor * x->delta;
+    to->xi += factor * x->xi;
+}
+
+/* The results of state y, with its slips. */
+static rb_status results_of(const rb_contact_state *y, rb_rolling_model *v,
+                            rb_rolling_solution *results, rb_message *why)
+{
+    rb_rolling_variant_set(y, NULL, 0.0, &v->state);
+    const rb_status status = rb_rolling_variant_complete(v, NULL, NULL, why);
+
+    memcpy(v->state.lambda, y->lambda, (size_t)y->n * sizeof *y->lambda);
+    return status == RB_OK ? rb_rolling_variant_solution(v, results, why) : status;
+}
+
+rb_status rb_sensitivity_add_jump(const rb_sensitivity *s, const rb_sensitivity_derivative *line,
+                                  int element, double factor, double ahead, int k,
+                                  rb_sensitivity_derivative *d, rb_message *why)
+{
+    /* to the side on which friction heats, as it does on one side of the change */
+    const double way = line->state[0].lambda[element] * s->model->state.q[element] > 0.0 ? -1 : 1,
+                 step = way * STEP_OF_BODIES;
+    rb_rolling_model v = {.mesh = {.n = 0}};
+    rb_rolling_solution moved[3] = {{0}};
+    rb_contact_state y = {0};
+    picked x = {{0.0}};
+    double strain[4];
+    rb_status status = rb_contact_state_alloc(s->n, &y);
+
+    if (status == RB_OK)
+        status = rb_rolling_variant_create(s->model, s->model->rc, 1, 0, &v, why);
+    for (int j = 0; j < onwards.n && status == RB_OK; j++) {
+        rb_rolling_variant_set(&s->model->state, NULL, 0.0, &y);
+        memcpy(y.lambda, s->model->state.lambda, (size_t)s->n * sizeof *y.lambda);
+        add_state(&y, ahead, &d->state[k]);
+        for (int m = 0; m < 2; m++)
+            if (d->by[k][m] != 0.0)
+                add_state(&y, ahead * d->by[k][m], &s->motion[m].state[0]);
+        y.lambda[element] = 0.0; /* it changes its zone there */
+        add_state(&y, onwards.place[j] * step, &line->state[0]);
+        status = results_of(&y, &v, &moved[j], why);
+    }
+    if (status == RB_OK) {
+        combine(&onwards, step, moved);
+        pick_along(s->model, &line->state[0], STEP_OF_STATE, &y, &x);
+        status = set_picked(s, x, 1.0, &moved[1]);
+    }
+    if (status == RB_OK) {
+        set_strains(s, NULL, line->state[0].delta, x.of[PEAK], strain);
+        add_motions(s, line->by[0], strain, &moved[1]);
+        blend(&d->value[k], 1.0, &moved[1], factor, NULL);
+        for (int j = 0; j < 4; j++)
+            d->strain[k][j] += factor * strain[j];
+        set_strain(s, k, d);
+    }
+    for (int j = 0; j < onwards.n; j++)
+        rb_rolling_solution_free(&moved[j]);
+    rb_rolling_variant_free(s->model, &v);
+    rb_contact_state_free(&y);
+    return status;
+}
+
+/* ---- Two motions of the elements --------------------------------------------------- */
 
 /* Those that the program has placed: fitted to the edges of the only patch, or equal ones
  * of an automatic zone under a gap that is symmetric. */
@@ -723,56 +891,39 @@ static int motion_of(const rb_sensitivity *s)
                                                        : RB_SENSITIVITY_HERTZ;
 }
 
-/* Of the creepage of free rolling, by its own contact on these elements. */
-static rb_status set_free_motion(rb_sensitivity *freely, int moves, rb_sensitivity_input *input,
-                                 motion *m)
+static rb_status differentiate_motions(rb_sensitivity *s, int moves)
 {
-    rb_contact_state tangent[2] = {{0}, {0}};
-    const variants v = {
-        .at = rb_sensitivity_middle, .step = STEP_OF_BODIES * input->scale, .scale = input->scale};
-    rb_message why;
-    double edges[2][2];
+    motion m = moves == RB_SENSITIVITY_EDGES
+                   ? stretch_of(s->model)
+                   : (motion){STRETCH, 0.0, rb_rolling_derive(s->model->rc).half_width};
+    const rb_sensitivity_input input = {0.0, m.half, -INFINITY, INFINITY, NULL, &m};
     rb_status status = RB_OK;
 
-    if (moves == RB_SENSITIVITY_EDGES)
-        *m = stretch_of(freely->model);
-    for (int k = 0; k < moves && status == RB_OK; k++) {
-        m->kind = k ? SHIFT : STRETCH;
-        status = differentiate_free(freely, input, &v, 1, &tangent[k], edges[k], &why);
-        freely->creepage[k] = tangent[k].xi;
+    for (int k = 0; k < moves && status == RB_OK; k++) { /* as many motions */
+        variants v = {.base = s->model,
+                      .results = s->solution.n > 0,
+                      .at = rb_sensitivity_middle,
+                      .step = STEP_OF_BODIES * m.half,
+                      .scale = m.half};
+        rb_message why;
+        m.kind = k ? SHIFT : STRETCH;
+        s->motion[k].has[0] = 1;
+        status = differentiate(s, &input, NULL, &v, &s->motion[k], &why);
+        variants_free(&v);
+        if (status == RB_OK && v.results)
+            clean(s, m.half, &s->motion[k].value[0]);
     }
-    if (status == RB_OK && (moves != RB_SENSITIVITY_EDGES || set_gain(freely, edges[0], edges[1])))
-        freely->moves = moves;
-    rb_contact_state_free(&tangent[0]);
-    rb_contact_state_free(&tangent[1]);
-    return status;
+    if (status == RB_OK && (moves != RB_SENSITIVITY_EDGES || set_gain(s)))
+        s->moves = moves;
+    return status == RB_ENOMEM ? status : RB_OK;
 }
 
 rb_status rb_sensitivity_set_motion(rb_sensitivity *s)
 {
     const int moves = motion_of(s);
-    motion m = {STRETCH, 0.0, rb_rolling_derive(s->model->rc).half_width};
-    double edges[2][2] = {{0.0}};
-    rb_status status = RB_OK;
+    rb_status status = differentiate_motions(s, moves);
 
-    if (moves == RB_SENSITIVITY_EDGES)
-        m = stretch_of(s->model);
-    rb_sensitivity_input input = {0.0, m.half, -INFINITY, INFINITY, NULL, &m};
-    for (int k = 0; k < moves && status == RB_OK; k++) { /* as many motions */
-        rb_sensitivity_derivative d;
-        rb_message why;
-        m.kind = k ? SHIFT : STRETCH;
-        status = rb_sensitivity_differentiate(s, &input, &d, &why);
-        if (status == RB_OK) {
-            memcpy(edges[k], d.edges[0], sizeof edges[k]);
-            s->motion[k] = d.value[0];
-            memset(&d.value[0], 0, sizeof d.value[0]);
-        }
-        rb_sensitivity_derivative_free(&d);
-    }
     if (status == RB_OK && s->free_rolling && !s->free_rolling->degenerate)
-        status = set_free_motion(s->free_rolling, moves, &input, &m);
-    if (status == RB_OK && (moves != RB_SENSITIVITY_EDGES || set_gain(s, edges[0], edges[1])))
-        s->moves = moves;
-    return status == RB_ENOMEM ? status : RB_OK;
+        status = differentiate_motions(s->free_rolling, moves);
+    return status;
 }

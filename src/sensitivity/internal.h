@@ -21,10 +21,8 @@ struct rb_sensitivity {
                                                has not: a matrix, or boundaries compressed as closely as
                                                those of variants; NULL: it has all; owned */
     int moves;                              /* rb_sensitivity_elements, fixed at first */
-    rb_rolling_solution motion[2];          /* derivatives for elements that are stretched or
-                                               shifted by 1 mm; owned */
-    double creepage[2]; /* derivatives of the free-rolling creepage for these motions */
-    double gain[4];     /* derivatives of the computed half-width and centre for these motions */
+    rb_sensitivity_derivative motion[2];    /* by elements that are stretched or shifted by 1 mm */
+    double gain[4]; /* derivatives of the computed half-width and centre for these motions */
 };
 
 /* Bits for degenerate complementary pairs. */
@@ -45,12 +43,18 @@ rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why);
 
 /* Determines whether and how the elements move.  RB_ENOMEM. */
 rb_status rb_sensitivity_set_motion(rb_sensitivity *s);
-/* Derivatives of all results where the equations alone change, by these rates; elements
- * move as they do for inputs.  d: overwritten; free it in any case. */
+/* How the state moves where the equations alone change, by these rates; released: element
+ * that sticks and begins to slip, or -1.  d: state[0], edges[0] and by[0], without results;
+ * free it in any case. */
 rb_status rb_sensitivity_along(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
-                               rb_rolling_solution *d, rb_message *why);
-/* d += factor x, of all that has derivatives. */
-void rb_sensitivity_add(rb_rolling_solution *d, double factor, const rb_rolling_solution *x);
+                               int released, rb_sensitivity_derivative *d, rb_message *why);
+/* Adds to side k of d, `factor` times, how all results change along such a line, where the
+ * input is `ahead` of its value and the element changes its zone. */
+rb_status rb_sensitivity_add_jump(const rb_sensitivity *s, const rb_sensitivity_derivative *line,
+                                  int element, double factor, double ahead, int k,
+                                  rb_sensitivity_derivative *d, rb_message *why);
+/* The derivative of the creepage on side k, with what the motion of the elements adds. */
+double rb_sensitivity_creepage(const rb_sensitivity *s, const rb_sensitivity_derivative *d, int k);
 
 /* ---- jacobian.c -------------------------------------------------------------------- */
 

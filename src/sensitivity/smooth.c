@@ -14,23 +14,27 @@ static const double NO_CHANGE = 1e-9;
 enum { BEGINS_TO_SLIP, BEGINS_TO_STICK };
 
 typedef struct {
-    int element[2];                /* neighbours: the one that sticks, the one that slips */
-    rb_rolling_solution change[2]; /* jumps of all derivatives where either of them changes its
-                                      zone, if its condition changes by 1 per input; owned */
+    int element[2];                    /* neighbours: the one that sticks, the one that slips */
+    rb_sensitivity_derivative line[2]; /* along which the state may move where either of them
+                                          changes its zone; owned */
+    double rate[2];                    /* of its condition along the line */
 } boundary;
 
 struct rb_sensitivity_jumps {
     const rb_sensitivity *s; /* borrowed */
     int n;
-    boundary *at; /* owned */
+    boundary *at;                 /* owned */
+    rb_sensitivity_jumps *freely; /* of free rolling; NULL: none; owned */
 };
 
 void rb_sensitivity_jumps_free(rb_sensitivity_jumps *jumps)
 {
-    for (int k = 0; jumps && k < 2 * jumps->n; k++)
-        rb_rolling_solution_free(&jumps->at[k / 2].change[k % 2]);
-    if (jumps)
-        free(jumps->at);
+    if (!jumps)
+        return;
+    for (int k = 0; k < 2 * jumps->n; k++)
+        rb_sensitivity_derivative_free(&jumps->at[k / 2].line[k % 2]);
+    rb_sensitivity_jumps_free(jumps->freely);
+    free(jumps->at);
     free(jumps);
 }
 
@@ -50,54 +54,62 @@ static double condition(const rb_sensitivity *s, int way, int i)
     const rb_contact_state *x = &s->model->state;
 
     return way == BEGINS_TO_SLIP ? s->model->problem.bound[i] * x->p[i] - fabs(x->q[i])
-                                 : s->solution.shift[i];
+                                 : x->lambda[i];
 }
 
-/* Its derivative, where the coefficient of friction alone has the derivative bound. */
-static double condition_rate(const rb_sensitivity *s, int way, int i, double bound,
-                             const rb_rolling_solution *d)
+/* Its derivative, on elements that stay. */
+static double rate_of(const rb_sensitivity *s, int way, int i, const rb_sensitivity_rate *rate,
+                      const rb_contact_state *y)
 {
     const rb_contact_state *x = &s->model->state;
 
-    return way == BEGINS_TO_SLIP ? s->model->problem.bound[i] * d->p[i] + bound * x->p[i] -
-                                       (x->q[i] < 0.0 ? -d->q[i] : d->q[i])
-                                 : d->shift[i];
+    return way == BEGINS_TO_SLIP
+               ? s->model->problem.bound[i] * y->p[i] + (rate ? rate->bound[i] * x->p[i] : 0.0) -
+                     (x->q[i] < 0.0 ? -y->q[i] : y->q[i])
+               : y->lambda[i];
+}
+
+static double condition_rate(const rb_sensitivity *s, int way, int i,
+                             const rb_sensitivity_rate *rate, const rb_sensitivity_derivative *d,
+                             int k)
+{
+    double sum = rate_of(s, way, i, rate, &d->state[k]);
+
+    for (int m = 0; m < 2; m++)
+        if (d->by[k][m] != 0.0)
+            sum += d->by[k][m] * rate_of(s, way, i, &s->motion[m].rate, &s->motion[m].state[0]);
+    return sum;
 }
 
 /* ---- Exchanges --------------------------------------------------------------------- */
 
-/* Without the equation of the element the solution may move along one line; there it moves
- * as far as the condition asks for. */
+/* Without the equation of the element the solution may move along one line. */
 static rb_status exchange(const rb_sensitivity *s, int way, boundary *b, rb_sensitivity_rate *rate,
                           rb_message *why)
 {
-    const int i = b->element[way];
-    double *left_out = way == BEGINS_TO_SLIP ? &rate->slip[i] : &rate->bound[i];
-    const double by = way == BEGINS_TO_SLIP ? s->model->problem.slip_length : s->model->problem.mu;
+    const int i = b->element[way], slips = way == BEGINS_TO_SLIP;
+    double *left_out = slips ? &rate->slip[i] : &rate->bound[i];
+    const double by = slips ? s->model->problem.slip_length : s->model->problem.mu;
 
     *left_out = by;
-    const rb_status status = rb_sensitivity_along(s, rate, &b->change[way], why);
+    const rb_status status = rb_sensitivity_along(s, rate, slips ? i : -1, &b->line[way], why);
+    /* what slips by -by obeys the law, as far as it depends on the slip */
     *left_out = 0.0;
-    if (status != RB_OK)
-        return status;
-    /* what slips by -by obeys the law */
-    const double bound = way == BEGINS_TO_SLIP && s->law_slip
-                             ? -by * s->law_slip[(size_t)i * (size_t)(s->n + 1)]
-                             : 0.0,
-                 g = condition_rate(s, way, i, bound, &b->change[way]);
-    if (!isnormal(g))
-        return rb_fail(why, RB_SINGULAR, "smooth derivatives: element %d cannot change its zone",
-                       i + 1);
-    rb_sensitivity_scale(&b->change[way], -1.0 / g);
-    return RB_OK;
+    if (slips && s->law_slip)
+        rate->bound[i] = -by * s->law_slip[(size_t)i * (size_t)(s->n + 1)];
+    if (status == RB_OK)
+        b->rate[way] = condition_rate(s, way, i, rate, &b->line[way], 0);
+    rate->bound[i] = 0.0;
+    return status == RB_OK && !isnormal(b->rate[way])
+               ? rb_fail(why, RB_SINGULAR, "smooth derivatives: element %d cannot change its zone",
+                         i + 1)
+               : status;
 }
 
 static rb_status check(const rb_sensitivity *s, rb_message *why)
 {
     const rb_rolling_friction *f = &s->model->rc->friction;
 
-    if (s->solution.n == 0)
-        return rb_fail(why, RB_EINVAL, "smooth derivatives: made without results");
     if (s->degenerate > 0)
         return rb_fail(why, RB_EINVAL,
                        "smooth derivatives: %d element%s exactly between two zones; change an "
@@ -123,8 +135,7 @@ static int is_boundary(const rb_sensitivity *s, int i)
     return kind_of(s, i) * kind_of(s, i + 1) != 0 && kind_of(s, i) != kind_of(s, i + 1);
 }
 
-rb_status rb_sensitivity_jumps_create(const rb_sensitivity *s, rb_sensitivity_jumps **made,
-                                      rb_message *why)
+static rb_status create(const rb_sensitivity *s, rb_sensitivity_jumps **made, rb_message *why)
 {
     rb_sensitivity_rate rate = {0};
     rb_sensitivity_jumps *jumps = *made = calloc(1, sizeof *jumps);
@@ -134,7 +145,7 @@ rb_status rb_sensitivity_jumps_create(const rb_sensitivity *s, rb_sensitivity_ju
     for (int i = 0; i + 1 < s->n; i++)
         all += is_boundary(s, i);
     if (jumps)
-        *jumps = (rb_sensitivity_jumps){s, 0, calloc((size_t)all + 1, sizeof *jumps->at)};
+        *jumps = (rb_sensitivity_jumps){s, 0, calloc((size_t)all + 1, sizeof *jumps->at), NULL};
     if (status == RB_OK &&
         (!jumps || !jumps->at || rb_sensitivity_rate_alloc(s->n, &rate) != RB_OK))
         status = rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
@@ -157,69 +168,106 @@ rb_status rb_sensitivity_jumps_create(const rb_sensitivity *s, rb_sensitivity_ju
     return status;
 }
 
+rb_status rb_sensitivity_jumps_create(const rb_sensitivity *s, rb_sensitivity_jumps **made,
+                                      rb_message *why)
+{
+    rb_message reason;
+
+    *made = NULL;
+    if (s->solution.n == 0)
+        return rb_fail(why, RB_EINVAL, "smooth derivatives: made without results");
+    rb_status status = create(s, made, why);
+    /* free rolling may have none where the case has */
+    if (status == RB_OK && s->free_rolling &&
+        create(s->free_rolling, &(*made)->freely, &reason) == RB_ENOMEM) {
+        rb_sensitivity_jumps_free(*made);
+        *made = NULL;
+        status = rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
+    }
+    return status;
+}
+
 /* ---- Of an input ------------------------------------------------------------------- */
 
-static void add_jumps(const rb_sensitivity_jumps *jumps, const rb_sensitivity_rate *rate,
-                      double *part, rb_rolling_solution *d)
+/* Adds to side k of d, of the same rolling as the jumps, what is between the sides of the next
+ * change of each boundary. */
+static rb_status add_jumps(const rb_sensitivity_jumps *jumps, int k, rb_sensitivity_derivative *d,
+                           double *creepage, rb_message *why)
 {
-    for (int k = 0; k < jumps->n; k++) {
+    const rb_sensitivity *s = jumps->s;
+    rb_status status = RB_OK;
+
+    for (int b = 0; b < jumps->n && status == RB_OK; b++) {
+        const boundary *it = &jumps->at[b];
         double at[2], by[2];
         for (int way = 0; way < 2; way++) {
-            const int i = jumps->at[k].element[way];
-            by[way] = condition_rate(jumps->s, way, i, rate->bound[i], d);
-            at[way] = -condition(jumps->s, way, i) / by[way];
+            by[way] = condition_rate(s, way, it->element[way], &d->rate, d, k);
+            at[way] = -condition(s, way, it->element[way]) / by[way];
         }
-        const int nearer = fabs(at[1]) < fabs(at[0]);
-        part[2 * k] = part[2 * k + 1] = 0.0;
-        if (isfinite(at[0]) && isfinite(at[1]) && at[0] * at[1] < 0.0)
-            part[2 * k + nearer] = by[nearer] * (0.5 - fabs(at[nearer] / (at[1] - at[0])));
+        if (!isfinite(at[0]) || !isfinite(at[1]) || !(at[0] * at[1] < 0.0))
+            continue;
+        const int next = fabs(at[1]) < fabs(at[0]);
+        const double part = 0.5 - fabs(at[next] / (at[1] - at[0])),
+                     factor = -part * by[next] / it->rate[next];
+        *creepage += factor * rb_sensitivity_creepage(s, &it->line[next], 0);
+        if (s->solution.n > 0 && factor != 0.0)
+            status = rb_sensitivity_add_jump(s, &it->line[next], it->element[next], factor,
+                                             at[next], k, d, why);
     }
-    for (int k = 0; k < 2 * jumps->n; k++)
-        if (part[k] != 0.0)
-            rb_sensitivity_add(d, part[k], &jumps->at[k / 2].change[k % 2]);
+    return status;
+}
+
+/* Changes of the input where the next elements change their zones, to first order. */
+static void set_stays(const rb_sensitivity *s, int k, rb_sensitivity_derivative *d)
+{
+    double *next = d->stays;
+
+    next[0] = -INFINITY;
+    next[1] = INFINITY;
+    for (int i = 0; i < s->n; i++) {
+        const int way = kind_of(s, i) == 1 ? BEGINS_TO_SLIP : BEGINS_TO_STICK;
+        const double at = -condition(s, way, i) / condition_rate(s, way, i, &d->rate, d, k);
+        if (kind_of(s, i) != 0 && isfinite(at))
+            next[at > 0.0] = at > 0.0 ? fmin(next[1], at) : fmax(next[0], at);
+    }
+}
+
+/* 1: an edge of the contact moves from element to element. */
+static int edges_move(const rb_sensitivity *s, double scale, const rb_rolling_solution *d)
+{
+    const double least = NO_CHANGE * s->model->problem.stress;
+
+    for (int i = 0; i + 1 < s->n && s->moves != RB_SENSITIVITY_EDGES; i++) {
+        const int in = kind_of(s, i) ? i : i + 1, out = kind_of(s, i) ? i + 1 : i;
+        if (kind_of(s, in) && !kind_of(s, out) && fabs(d->p[in]) * scale > least &&
+            d->p[in] * d->gap[out] < 0.0)
+            return 1;
+    }
+    return 0;
 }
 
 rb_status rb_sensitivity_smooth(const rb_sensitivity_jumps *jumps,
                                 const rb_sensitivity_input *input,
                                 rb_sensitivity_derivative *derivative, rb_message *why)
 {
-    const rb_sensitivity *s = jumps->s;
-    const double least = NO_CHANGE * s->model->problem.stress;
-    double *part = rb_alloc(2 * (size_t)jumps->n + 1, 1), *next = derivative->stays;
-    int edges_move = 0;
+    rb_status status = RB_OK;
 
-    if (!part)
-        return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 2 && status == RB_OK; k++) {
         rb_rolling_solution *d = &derivative->value[k];
+        double creepage = d->free_creepage, unused = 0.0;
         if (!derivative->has[k])
             continue;
-        /* changes of the input where the next elements change their zones, to first order */
-        next[0] = -INFINITY;
-        next[1] = INFINITY;
-        for (int i = 0; i < s->n; i++) {
-            const int way = kind_of(s, i) == 1 ? BEGINS_TO_SLIP : BEGINS_TO_STICK;
-            const double at =
-                -condition(s, way, i) / condition_rate(s, way, i, derivative->rate.bound[i], d);
-            if (kind_of(s, i) != 0 && isfinite(at))
-                next[at > 0.0] = at > 0.0 ? fmin(next[1], at) : fmax(next[0], at);
-        }
-        /* an edge of the contact that moves from element to element */
-        for (int i = 0; i + 1 < s->n && s->moves != RB_SENSITIVITY_EDGES; i++) {
-            const int in = kind_of(s, i) ? i : i + 1, out = kind_of(s, i) ? i + 1 : i;
-            if (kind_of(s, in) && !kind_of(s, out) && fabs(d->p[in]) * input->scale > least)
-                edges_move |= d->p[in] * d->gap[out] < 0.0;
-        }
-        add_jumps(jumps, &derivative->rate, part, d);
-        if (s->free_rolling)
-            d->free_creepage = NAN; /* of a solution with its own zones */
-        if (jumps->n > 0)           /* an element that begins to slip dissipates too */
-            d->dissipation = d->max_temperature = NAN;
+        if (edges_move(jumps->s, input->scale, d))
+            return rb_fail(why, RB_EINVAL,
+                           "smooth derivatives: the input moves the edges of the contact over the "
+                           "elements; give --mesh aligned or fitted");
+        set_stays(jumps->s, k, derivative);
+        status = add_jumps(jumps, k, derivative, &unused, why);
+        if (status == RB_OK && derivative->free_rolling)
+            status = jumps->freely
+                         ? add_jumps(jumps->freely, k, derivative->free_rolling, &creepage, why)
+                         : RB_OK;
+        d->free_creepage = derivative->free_rolling && !jumps->freely ? NAN : creepage;
     }
-    free(part);
-    return edges_move ? rb_fail(why, RB_EINVAL,
-                                "smooth derivatives: the input moves the edges of the contact over "
-                                "the elements; "
-                                "give --mesh aligned or fitted")
-                      : RB_OK;
+    return status;
 }

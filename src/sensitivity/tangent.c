@@ -420,8 +420,8 @@ void rb_sensitivity_free(rb_sensitivity *s)
         rb_rolling_variant_free(s->model, s->freely);
     free(s->freely);
     rb_rolling_solution_free(&s->solution);
-    rb_rolling_solution_free(&s->motion[0]);
-    rb_rolling_solution_free(&s->motion[1]);
+    rb_sensitivity_derivative_free(&s->motion[0]);
+    rb_sensitivity_derivative_free(&s->motion[1]);
     free(s->border);
     free(s->slip);
     free(s->law_slip);
