@@ -86,6 +86,9 @@ static const struct {
      "--smooth-derivatives: not together with --derivatives"},
     {"--smooth-derivatives --tolerance mu=0.1", 64,
      "--smooth-derivatives: not together with --tolerance"},
+    {"--smooth-derivatives max_temperature", 64,
+     "--smooth-derivatives: this case has no max_temperature"},
+    {"--derivatives p,temperature", 64, "--derivatives: this case has no temperature"},
     {"--smooth-derivatives solver", 64,
      "--smooth-derivatives: expected a result that has derivatives"},
     {"--support halfplane --similar --formulation steady --creep -1e-3 --interlayer-tangential "

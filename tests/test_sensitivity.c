@@ -281,6 +281,42 @@ TEST(vectors_add_up)
     }
 }
 
+/* ---- Layers of both bodies --------------------------------------------------------- */
+
+/* Where two layers are compressed equally, a thinner one has the largest strain and a thicker
+ * one leaves it to the other. What the pressure compresses of thin ones has one side. */
+TEST(strain_of_two_layers_has_two_sides)
+{
+    static const words layers[] = {
+        {{PLANES, ROLLING, "similar", "yes", "creep", "1e-3", "layer-thickness", "2", "base-young",
+          "200000", "base-poisson", "0.3"}},
+        {{PLANES, ROLLING, "similar", "yes", "creep", "1e-3", "layer-thickness", "0.01",
+          "base-young", "200000", "base-poisson", "0.3", "contact-elements", "300", "gap",
+          "parabola"}}};
+    static const char *const name = "layer-thickness-b";
+    for (size_t k = 0; k < sizeof layers / sizeof *layers; k++) {
+        rb_message why = {""};
+        rb_case_result r, near[2];
+        rb_case_derivatives all;
+        rb_case *c = solved(&layers[k], NULL, 0.0, &r);
+        CHECK_STATUS(rb_case_differentiate(c, &r.model, 1, &name, &all, &why), RB_OK);
+        const rb_case_derivative *d = &all.of[0];
+        assert_int_equal(d->status, RB_OK);
+        const double h = 1e-6 * d->value, at = r.solution.max_strain, size = at / d->value;
+        for (int side = 0; side < 2; side++) {
+            rb_case_free(solved(&layers[k], name, d->value + (side ? h : -h), &near[side]));
+            const double want = (near[side].solution.max_strain - at) / (side ? h : -h);
+            CHECK_ABS(d->d.value[d->d.sides == 1 ? 0 : side].max_strain, want, 1e-4 * size,
+                      "case %zu, side %d", k, side);
+            rb_case_result_free(&near[side]);
+        }
+        assert_int_equal(d->d.sides, k == 0 ? 2 : 1);
+        rb_case_derivatives_free(&all);
+        rb_case_result_free(&r);
+        rb_case_free(c);
+    }
+}
+
 /* ---- Carter ------------------------------------------------------------------------ */
 
 /* Root mean square of d(Q/(mu P))/ds - 2 (1 - s) over s = 0.05 ... 0.95. */

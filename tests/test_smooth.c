@@ -284,6 +284,34 @@ TEST(smooth_derivatives_are_continuous)
     }
 }
 
+/* Free rolling has zones of its own, which jump while the case slides fully: its slopes add up
+ * to the difference, and their second differences nearly vanish. */
+TEST(free_rolling_is_smooth_too)
+{
+    enum { PLACES = 7 };
+    const words w = {{ROLLING, "poisson", "0.2", "gap", "parabola", "mesh", "aligned", "creep",
+                      "-3e-2", "contact-elements", "240"}};
+    const double step = 1e-3;
+    double slope[2][PLACES], kink[2] = {0.0, 0.0}, sum = 0.0, xi[2] = {0.0, 0.0};
+    for (int k = 0; k < PLACES; k++)
+        for (int smooth = 0; smooth < 2; smooth++) {
+            rb_message why = {""};
+            differentiated d;
+            CHECK_STATUS(differentiate(&w, "mu", 0.06 + k * step, "mu", smooth, &d, &why), RB_OK);
+            slope[smooth][k] = d.by->d.value[0].free_creepage;
+            xi[k > 0] = d.r.solution.free_creepage;
+            differentiated_free(&d);
+        }
+    for (int smooth = 0; smooth < 2; smooth++)
+        for (int k = 1; k + 1 < PLACES; k++)
+            kink[smooth] = fmax(kink[smooth], fabs(slope[smooth][k - 1] - 2.0 * slope[smooth][k] +
+                                                   slope[smooth][k + 1]));
+    for (int k = 0; k + 1 < PLACES; k++)
+        sum += 0.5 * step * (slope[1][k] + slope[1][k + 1]);
+    CHECK_REL(sum, xi[1] - xi[0], 2e-3, "slopes of free rolling");
+    CHECK_MAX(kink[1], 0.03 * kink[0], "kinks of free rolling, exact %g", kink[0]);
+}
+
 /* On equal elements the one at the leading edge may slip. Its zone does not move with the
  * creepage, so that in the middle between two changes of the other one nothing is added. */
 TEST(a_zone_at_an_edge_does_not_count)

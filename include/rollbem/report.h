@@ -430,16 +430,18 @@ rb_status rb_report_trace(FILE *out, const char *folder, const rb_rolling_model 
 enum { RB_REPORT_RESULTS_MAX = 64 };
 /* The derivatives of a case that are shown. */
 typedef struct {
-    int n; /* results by name; 0: all numbers */
+    int n;     /* results by name; 0: all numbers */
+    int named; /* 1: they were asked for by their names */
     const rb_rolling_result *result[RB_REPORT_RESULTS_MAX];
     int is_column[RB_REPORT_RESULTS_MAX];
     const rb_case_derivatives *all; /* borrowed; in the units of the output */
     rb_rolling_solution deviation;  /* standard deviations for given tolerances */
 } rb_report_derivatives;
 
-/* Reads a list of names of results, or "all".  RB_EINVAL: there is no such result, or it
- * has no derivatives. */
-rb_status rb_report_derivatives_of(const char *names, rb_report_derivatives *d, rb_message *why);
+/* Reads a list of names of results, or "all".  RB_EINVAL: there is no such result, it has no
+ * derivatives, or the case has it not. */
+rb_status rb_report_derivatives_of(const char *names, const rb_resolved_case *c,
+                                   rb_report_derivatives *d, rb_message *why);
 /* Sets derivatives, or smooth_derivatives: {result: {input: number, or [left, right]}}; columns
  * have a list of numbers instead of a number. */
 void rb_report_json_derivatives(struct json_t **root, const rb_report_derivatives *d);

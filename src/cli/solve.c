@@ -316,7 +316,7 @@ static cli_exit check(cli_case_run *run)
                               RB_CASE_SLOPES_MAX, &it->slopes_of_steps, &why) != RB_OK)
         return cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
     if (it->derivatives && !has_steps &&
-        rb_report_derivatives_of(it->derivatives, &it->shown, &why) != RB_OK)
+        rb_report_derivatives_of(it->derivatives, c, &it->shown, &why) != RB_OK)
         return cli_fail(CLI_USAGE, "--%sderivatives: %s", it->smooth ? "smooth-" : "", why.text);
     if (it->tolerance &&
         rb_case_read_tolerances(run->words, it->tolerance, &it->tolerances, &why) != RB_OK)

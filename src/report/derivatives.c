@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const char *const nothing = "this solution has none, or none that has a derivative";
+
 static void add_result(const rb_rolling_result *r, int is_column, rb_report_derivatives *d)
 {
     if (d->n < RB_REPORT_RESULTS_MAX) {
@@ -16,11 +18,13 @@ static void add_result(const rb_rolling_result *r, int is_column, rb_report_deri
     }
 }
 
-rb_status rb_report_derivatives_of(const char *names, rb_report_derivatives *d, rb_message *why)
+rb_status rb_report_derivatives_of(const char *names, const rb_resolved_case *c,
+                                   rb_report_derivatives *d, rb_message *why)
 {
     const rb_rolling_results *all = &rb_rolling_solution_scalars;
 
     d->n = 0;
+    d->named = strcmp(names, "all") != 0;
     for (int k = 0; k < all->n && strcmp(names, "all") == 0; k++)
         if (rb_sensitivity_has(&all->row[k]))
             add_result(&all->row[k], 0, d);
@@ -34,6 +38,8 @@ rb_status rb_report_derivatives_of(const char *names, rb_report_derivatives *d, 
         const rb_rolling_result *r = rb_case_derivative_result(name, &is_column);
         if (!r)
             return rb_case_refuse_result(name, all, NULL, why);
+        if (!rb_rolling_has_result(r, &c->rc, c->program.mu != NULL))
+            return rb_fail(why, RB_EINVAL, "this case has no %s", name);
         add_result(r, is_column, d);
     }
     return RB_OK;
@@ -93,7 +99,8 @@ void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
                 rb_report_json_set(&object, of->name, value);
             }
             rb_report_json_set(&results, d->result[k]->name, object);
-        }
+        } else if (d->named)
+            rb_report_json_set(&without, d->result[k]->name, json_string(nothing));
     rb_report_json_set(root, d->all->smooth ? "smooth_derivatives" : "derivatives", results);
     for (int i = 0; i < d->all->n; i++)
         if (d->all->of[i].status != RB_OK)
@@ -190,6 +197,9 @@ rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,
     for (int i = 0; i < d->all->n; i++)
         if (d->all->of[i].status != RB_OK)
             rb_report_comment(&c, "none by %s: %s", d->all->of[i].name, d->all->of[i].why.text);
+    for (int k = 0; k < d->n && d->named; k++)
+        if (!has_result(d, k))
+            rb_report_comment(&c, "none of %s: %s", d->result[k]->name, nothing);
     for (int k = 0; k < d->n; k++)
         for (int e = 0; has_result(d, k) && e < (d->is_column[k] ? s->n : 1); e++) {
             const int entry = d->is_column[k] ? e : -1;
