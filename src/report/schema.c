@@ -164,7 +164,8 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(&of, "smooth_derivatives",
                        typed("object", "of --smooth-derivatives: the same without jumps where an "
                                        "element changes between stick and slip"));
-    rb_report_json_set(&of, "without_derivatives", typed("object", "inputs, and results asked for by name, without, and why"));
+    rb_report_json_set(&of, "without_derivatives",
+                       typed("object", "inputs, and results asked for by name, without, and why"));
     rb_report_json_set(&of, "derivatives_over_x",
                        typed("object", "of loads, approach and creepage with respect to the gap "
                                        "and mu of every element, with fixed elements"));
