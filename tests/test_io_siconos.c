@@ -82,7 +82,7 @@ TEST(friction_and_cones)
     put(FRICTION);
     CHECK_OK(rb_io_siconos_guess(path, &kind, NULL));
     assert_int_equal(kind, RB_IO_SICONOS_FRICTION);
-    CHECK_OK(rb_io_siconos_read_friction(path, &f, NULL));
+    CHECK_OK(rb_io_siconos_read_friction(path, 0, &f, NULL));
     assert_int_equal(f.dimension, 2);
     assert_int_equal(f.contacts, 1);
     CHECK_ABS(f.mu[0], 0.5, 0.0, "mu");
@@ -176,7 +176,7 @@ static rb_status read_any_lcp(void)
 static rb_status read_friction(void)
 {
     OWNED(rb_io_friction) p;
-    return rb_io_siconos_read_friction(path, &p, &why);
+    return rb_io_siconos_read_friction(path, 0, &p, &why);
 }
 
 static rb_status read_soclcp(void)
@@ -194,13 +194,13 @@ static const char GLOBAL[] =
 
 TEST(global_friction_problems)
 {
-    OWNED(rb_io_friction_global) g;
+    OWNED(rb_io_friction) g;
     rb_io_siconos_kind kind;
     OWNED(rb_sparse) H;
     put(GLOBAL);
     CHECK_OK(rb_io_siconos_guess(path, &kind, NULL));
     assert_int_equal(kind, RB_IO_SICONOS_FRICTION_GLOBAL);
-    CHECK_OK(rb_io_siconos_read_friction_global(path, &g, NULL));
+    CHECK_OK(rb_io_siconos_read_friction(path, 1, &g, NULL));
     assert_int_equal(g.M.rows, 4);
     assert_int_equal(g.H.cols, 3);
     CHECK_ABS(g.f[0], -9.81, 0.0, "f");
@@ -216,8 +216,8 @@ TEST(global_friction_problems)
 
 static rb_status read_global(void)
 {
-    OWNED(rb_io_friction_global) g;
-    return rb_io_siconos_read_friction_global(path, &g, &why);
+    OWNED(rb_io_friction) g;
+    return rb_io_siconos_read_friction(path, 1, &g, &why);
 }
 
 static rb_status read_market(void)

@@ -560,7 +560,7 @@ TEST(plane_friction_problems_are_solved)
         OWNED(rb_io_friction) p;
         rb_lcp_info info;
         snprintf(name, sizeof name, "siconos/fc2d/%s.dat", files[k].file);
-        CHECK_OK(rb_io_siconos_read_friction(outside_data(name), &p, NULL));
+        CHECK_OK(rb_io_siconos_read_friction(outside_data(name), 0, &p, NULL));
         CHECK_OK(rb_io_matrix_to_dense(&p.W));
         const int n = 3 * p.contacts;
         SCRATCH double *M = calloc((size_t)(n * n), sizeof *M), *q = calloc((size_t)n, sizeof *q);

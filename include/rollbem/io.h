@@ -172,27 +172,20 @@ typedef struct {
 rb_status rb_io_bimatrix_read(const char *path, rb_io_bimatrix *p, rb_message *why);
 void rb_io_bimatrix_free(rb_io_bimatrix *p);
 
-/* u = W r + q, per contact [N, T] or [N, T1, T2]. */
+/* local: u = W r + q.  global: M v = H r + f, u = H' v + w; in the file f is named q and w
+ * is named b.  [N, T] or [N, T1, T2] per contact. */
 typedef struct {
+    int global;
     int dimension, contacts;
-    rb_io_matrix W;
-    double *q;  /* dimension * contacts */
-    double *mu; /* contacts */
+    rb_io_matrix W;    /* local */
+    rb_io_matrix M, H; /* global: n x n; n x dimension * contacts */
+    double *q, *f, *w; /* dimension * contacts, but f: n */
+    double *mu;        /* contacts */
 } rb_io_friction;
 
-rb_status rb_io_siconos_read_friction(const char *path, rb_io_friction *p, rb_message *why);
+rb_status rb_io_siconos_read_friction(const char *path, int global, rb_io_friction *p,
+                                      rb_message *why);
 void rb_io_friction_free(rb_io_friction *p);
-
-/* M v = H r + f, u = H' v + w; in the file f is named q and w is named b. */
-typedef struct {
-    int dimension, contacts;
-    rb_io_matrix M, H; /* n x n; n x dimension * contacts */
-    double *f, *w, *mu;
-} rb_io_friction_global;
-
-rb_status rb_io_siconos_read_friction_global(const char *path, rb_io_friction_global *p,
-                                             rb_message *why);
-void rb_io_friction_global_free(rb_io_friction_global *p);
 
 /* Cone k: rows start[k] ... start[k + 1] - 1, slope tau[k]. */
 typedef struct {

@@ -45,27 +45,34 @@ static rb_status read_fclib(const char *path, rb_friction_problem *problem, rb_m
 /* Below this share of entries a dense W is kept sparse. */
 #define SPARSE_FILL 0.5
 
-static rb_status read_global(const char *path, rb_friction_problem *problem, rb_message *why)
+static rb_status read_siconos(const char *path, int global, rb_friction_problem *p, rb_message *why)
 {
-    rb_io_friction_global file = {0};
-    rb_status s = rb_io_siconos_read_friction_global(path, &file, why);
-    if (s == RB_OK) {
-        *problem = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
-                                         .dimension = file.dimension,
-                                         .contacts = file.contacts,
-                                         .mu = file.mu,
-                                         .dofs = file.M.rows,
-                                         .f = file.f,
-                                         .w = file.w};
-        file.mu = file.f = file.w = NULL;
-        s = rb_io_matrix_to_sparse(&file.M, &problem->K);
-        if (s == RB_OK)
-            s = rb_io_matrix_to_sparse(&file.H, &problem->H);
-        if (s != RB_OK)
-            rb_fail(why, s, "%s: out of memory", path);
+    rb_io_friction file;
+    rb_status s = rb_io_siconos_read_friction(path, global, &file, why);
+    if (s != RB_OK)
+        return s;
+    const double m = (double)file.dimension * file.contacts;
+    *p = (rb_friction_problem){.form = global ? RB_FRICTION_GLOBAL : RB_FRICTION_LOCAL_SPARSE,
+                               .dimension = file.dimension,
+                               .contacts = file.contacts,
+                               .mu = file.mu,
+                               .q = file.q,
+                               .dofs = file.M.rows,
+                               .f = file.f,
+                               .w = file.w};
+    file.mu = file.q = file.f = file.w = NULL;
+    s = global ? rb_io_matrix_to_sparse(&file.M, &p->K) : rb_io_matrix_to_sparse(&file.W, &p->Ws);
+    if (s == RB_OK && global)
+        s = rb_io_matrix_to_sparse(&file.H, &p->H);
+    else if (s == RB_OK && p->Ws.p[p->Ws.cols] > SPARSE_FILL * m * m) {
+        rb_sparse_free(&p->Ws);
+        s = rb_io_matrix_to_dense(&file.W);
+        p->form = RB_FRICTION_LOCAL_DENSE;
+        p->W = file.W.dense;
+        file.W.dense = NULL;
     }
-    rb_io_friction_global_free(&file);
-    return s;
+    rb_io_friction_free(&file);
+    return s == RB_OK ? s : rb_fail(why, s, "%s: out of memory", path);
 }
 
 /* With as many degrees of freedom as rows of contacts the head fits both forms: the local
@@ -73,29 +80,8 @@ static rb_status read_global(const char *path, rb_friction_problem *problem, rb_
 static rb_status read_text(const char *path, rb_friction_problem *problem, rb_message *why)
 {
     rb_message other = {""};
-    rb_io_friction file = {0};
-    rb_status s = rb_io_siconos_read_friction(path, &file, why);
-    if (s == RB_OK) {
-        const double m = (double)file.dimension * file.contacts;
-        rb_sparse w = {0};
-        s = rb_io_matrix_to_sparse(&file.W, &w);
-        *problem = (rb_friction_problem){.form = RB_FRICTION_LOCAL_SPARSE,
-                                         .dimension = file.dimension,
-                                         .contacts = file.contacts,
-                                         .Ws = w,
-                                         .q = file.q,
-                                         .mu = file.mu};
-        file.q = file.mu = NULL;
-        if (s == RB_OK && w.p[w.cols] > SPARSE_FILL * m * m) {
-            rb_sparse_free(&problem->Ws);
-            s = rb_io_matrix_to_dense(&file.W);
-            problem->form = RB_FRICTION_LOCAL_DENSE;
-            problem->W = file.W.dense;
-            file.W.dense = NULL;
-        }
-    }
-    rb_io_friction_free(&file);
-    const rb_status t = s == RB_EFORMAT ? read_global(path, problem, &other) : s;
+    const rb_status s = read_siconos(path, 0, problem, why);
+    const rb_status t = s == RB_EFORMAT ? read_siconos(path, 1, problem, &other) : s;
     if (t == RB_ENOMEM && s == RB_EFORMAT)
         return rb_fail(why, t, "%s", rb_status_reason(t, &other));
     if (t == RB_OK && why) /* nothing is wrong with the file */
@@ -132,7 +118,7 @@ rb_status rb_friction_read_as(const char *path, rb_friction_file kind, rb_fricti
         s = rb_fail(why, RB_EFORMAT, "%s: a problem on cones, not one of friction", path);
     if (s == RB_OK)
         s = kind == RB_FRICTION_FILE_FCLIB            ? read_fclib(path, problem, why)
-            : kind == RB_FRICTION_FILE_SICONOS_GLOBAL ? read_global(path, problem, why)
+            : kind == RB_FRICTION_FILE_SICONOS_GLOBAL ? read_siconos(path, 1, problem, why)
                                                       : read_text(path, problem, why);
     if (s == RB_OK)
         s = rb_friction_problem_check(problem, &detail);

@@ -192,7 +192,11 @@ rb_status rb_io_siconos_read_lcp(const char *path, rb_io_lcp *p, rb_message *why
 void rb_io_friction_free(rb_io_friction *p)
 {
     rb_io_matrix_free(&p->W);
+    rb_io_matrix_free(&p->M);
+    rb_io_matrix_free(&p->H);
     free(p->q);
+    free(p->f);
+    free(p->w);
     free(p->mu);
     *p = (rb_io_friction){0};
 }
@@ -206,56 +210,29 @@ static void expect_end(io_tokens *t)
         rb_io_tokens_fail(t, "expected the end of the file after the last number");
 }
 
-/* The first line of every friction problem.  Returns the number of contact equations. */
-static int read_sizes(io_tokens *t, int *dimension, int *contacts)
-{
-    *dimension = rb_io_tokens_int(t, 2, 3, "dimension");
-    *contacts = rb_io_tokens_int(t, 1, INT_MAX / 3, "number of contacts");
-    return *dimension * *contacts;
-}
-
-rb_status rb_io_siconos_read_friction(const char *path, rb_io_friction *p, rb_message *why)
+rb_status rb_io_siconos_read_friction(const char *path, int global, rb_io_friction *p,
+                                      rb_message *why)
 {
     io_tokens t;
-    *p = (rb_io_friction){0};
+    *p = (rb_io_friction){.global = global};
     rb_io_tokens_open(path, &t, why);
-    const int m = read_sizes(&t, &p->dimension, &p->contacts);
-    read_matrix(&t, m, m, &p->W);
-    p->q = read_vector(&t, m, "q");
+    p->dimension = rb_io_tokens_int(&t, 2, 3, "dimension");
+    p->contacts = rb_io_tokens_int(&t, 1, INT_MAX / 3, "number of contacts");
+    const int m = p->dimension * p->contacts;
+    if (global) {
+        read_matrix(&t, 0, 0, &p->M);
+        if (ok(&t))
+            read_matrix(&t, p->M.rows, m, &p->H);
+        p->f = read_vector(&t, p->M.rows, "q");
+        p->w = read_vector(&t, m, "b");
+    } else {
+        read_matrix(&t, m, m, &p->W);
+        p->q = read_vector(&t, m, "q");
+    }
     p->mu = read_vector(&t, p->contacts, "mu");
     expect_end(&t);
     if (!ok(&t))
         rb_io_friction_free(p);
-    rb_io_tokens_close(&t);
-    return t.status;
-}
-
-void rb_io_friction_global_free(rb_io_friction_global *p)
-{
-    rb_io_matrix_free(&p->M);
-    rb_io_matrix_free(&p->H);
-    free(p->f);
-    free(p->w);
-    free(p->mu);
-    *p = (rb_io_friction_global){0};
-}
-
-rb_status rb_io_siconos_read_friction_global(const char *path, rb_io_friction_global *p,
-                                             rb_message *why)
-{
-    io_tokens t;
-    *p = (rb_io_friction_global){0};
-    rb_io_tokens_open(path, &t, why);
-    const int m = read_sizes(&t, &p->dimension, &p->contacts);
-    read_matrix(&t, 0, 0, &p->M);
-    if (ok(&t))
-        read_matrix(&t, p->M.rows, m, &p->H);
-    p->f = read_vector(&t, p->M.rows, "q");
-    p->w = read_vector(&t, m, "b");
-    p->mu = read_vector(&t, p->contacts, "mu");
-    expect_end(&t);
-    if (!ok(&t))
-        rb_io_friction_global_free(p);
     rb_io_tokens_close(&t);
     return t.status;
 }
