@@ -632,6 +632,125 @@ TEST(a_sweep_is_its_cases)
     rb_api_free(study);
 }
 
+/* Data of Carter's law at mu = 0.25 with an offset. */
+TEST(fits_by_handle)
+{
+    enum { N = 12 };
+    static const char *const columns[] = {"creep", "force_over_load", "test"};
+    static const char *const wrong[] = {"creep", "forse", "test"};
+    static const char *const plane[] = {"support", "halfplane", "support-b", "halfplane", "similar",
+                                        "yes",     "load",      "500",       NULL};
+    double data[3 * N] = {0};
+    rb_api *a = rb_api_create();
+    for (const char *const *w = plane; *w; w += 2)
+        assert_int_equal(rb_api_set(a, w[0], w[1]), RB_OK);
+    assert_int_equal(rb_api_solve(a), RB_OK);
+    const double half = rb_api_number(a, "hertz_half_width");
+    for (int k = 0; k < N; k++) {
+        data[k] = -0.5e-3 * (k + 1);
+        const double s = fmin((-data[k] - 1e-4) * rb_api_number(a, "radius") / (0.25 * half), 1.0);
+        data[k + N] = 0.25 * s * (2.0 - s);
+    }
+    const char *unknown = "mou", *names = "mu,creep-offset";
+    assert_int_equal(rb_api_fit(a, 3, columns, N, data, unknown, NULL, NULL, NAN, 0.95), RB_EINVAL);
+    assert_non_null(strstr(rb_api_message(a), "(did you mean 'mu'?)"));
+    assert_int_equal(rb_api_fit(a, 3, wrong, N, data, names, NULL, NULL, NAN, 0.95), RB_EFORMAT);
+    assert_non_null(strstr(rb_api_message(a), "unknown column 'forse' (did you mean 'force'?)"));
+    assert_int_equal(rb_api_fit(a, 3, columns, N, data, names, "mu=0.3", "mu=0.1:0.6", NAN, 0.95),
+                     RB_OK);
+    CHECK_REL(array(a, "fit.value", 2, 1)[0], 0.25, 5e-3, "mu");
+    CHECK_REL(array(a, "fit.value", 2, 1)[1], 1e-4, 0.1, "offset");
+    for (int k = 0; k < N; k++)
+        CHECK_ABS(array(a, "fit.fitted", N, 1)[k], data[k + N], 5e-3, "point %d", k);
+    CHECK_ABS(array(a, "fit.force_over_load", N, 1)[3], data[3 + N], 0.0, "as given");
+    CHECK_ABS(array(a, "fit.correlation", 2, 2)[1], array(a, "fit.correlation", 2, 2)[2], 1e-12,
+              "symmetric");
+    CHECK_ABS(*array(a, "fit.degrees_of_freedom", 1, 1), N - 2, 0.0, "degrees of freedom");
+    assert_string_equal(rb_api_word(a, "fit.sentences"), "");
+    assert_null(rb_api_word(a, "design.variables"));
+    /* it stays the case that was solved */
+    CHECK_REL(rb_api_number(a, "hertz_half_width"), half, 1e-12, "solved case");
+    data[4 + N] = NAN;
+    assert_int_equal(rb_api_fit(a, 3, columns, N, data, names, NULL, NULL, NAN, 0.95), RB_EFORMAT);
+    assert_string_equal(rb_api_message(a), "data, row 5: force: expected a finite number, got nan");
+    int rows, n;
+    assert_null(rb_api_array(a, "fit.value", &rows, &n));
+    assert_int_equal(rb_api_fit(a, 3, columns, 1, data, "mu", NULL, NULL, NAN, 0.95), RB_EINVAL);
+    assert_non_null(strstr(rb_api_message(a), "expected at least 2 points for 1 number, got 1"));
+    assert_int_equal(rb_api_fit(a, 3, columns, 0, data, "mu", NULL, NULL, NAN, 0.95), RB_EINVAL);
+    assert_int_equal(rb_api_fit(a, 3, columns, N, data, "mu", NULL, NULL, NAN, 1.0), RB_EINVAL);
+    assert_int_equal(rb_api_fit(a, 3, columns, N, data, "mu", NULL, NULL, 0.0, 0.9), RB_EINVAL);
+    assert_int_equal(rb_api_fit_file(a, "/no/such", "mu", NULL, NULL, NAN, 0.95), RB_ENOENT);
+    /* twice the standard deviation of each force, twice that of the number, in any unit */
+    double deviation[3];
+    for (int k = 0; k < 3; k++) {
+        rb_api *of = rb_api_create();
+        const char *const words[] = {"units",     k == 2 ? "si" : "mm",
+                                     "support",   "halfplane",
+                                     "similar",   "yes",
+                                     "support-b", "halfplane",
+                                     "radius",    k == 2 ? "0.3" : "300",
+                                     "load",      k == 2 ? "500000" : "500",
+                                     "young",     k == 2 ? "2.1e11" : "2.1e5"};
+        for (size_t w = 0; w < sizeof words / sizeof *words; w += 2)
+            assert_int_equal(rb_api_set(of, words[w], words[w + 1]), RB_OK);
+        data[4 + N] = 0.2;
+        const char *const force[] = {"creep", "force", "test"};
+        const double sigma = k == 0 ? 1.0 : k == 1 ? 2.0 : 1000.0;
+        double in[3 * N];
+        for (int i = 0; i < 3 * N; i++)
+            in[i] = i / N == 1 ? data[i] * (k == 2 ? 500000.0 : 500.0) : data[i];
+        assert_int_equal(rb_api_fit(of, 3, force, N, in, "load", NULL,
+                                    k == 2 ? "load=300000:700000" : "load=300:700", sigma, 0.95),
+                         RB_OK);
+        deviation[k] = array(of, "fit.deviation", 1, 1)[0];
+        rb_api_free(of);
+    }
+    CHECK_REL(deviation[1], 2.0 * deviation[0], 1e-9, "sigma");
+    CHECK_REL(deviation[2], 1000.0 * deviation[0], 1e-6, "in SI");
+    rb_api_free(a);
+}
+
+TEST(designs_by_handle)
+{
+    rb_api *a = rb_api_create();
+    int rows, columns;
+    for (const char *const *w = steady; *w; w += 2)
+        assert_int_equal(rb_api_set(a, w[0], w[1]), RB_OK);
+    const int found =
+        rb_api_design(a, "max_pressure", 0, "radius=20:400", "half_width<=1.2", NAN, 100);
+    if (found == RB_EINVAL && strstr(rb_api_message(a), "without NLopt")) {
+        rb_api_free(a);
+        skip();
+    }
+    assert_int_equal(found, RB_OK);
+    assert_string_equal(rb_api_word(a, "design.variables"), "radius");
+    assert_string_equal(rb_api_word(a, "design.constraints"), "half_width");
+    const double *subject = array(a, "design.constraint", 1, 3);
+    CHECK_ABS(subject[0], 0.0, 0.0, "<=");
+    CHECK_ABS(subject[1], 1.2, 0.0, "bound");
+    CHECK_REL(subject[2], 1.2, 1e-5, "at its bound");
+    char radius[40];
+    snprintf(radius, sizeof radius, "%.17g", array(a, "design.value", 1, 1)[0]);
+    const double pressure = *array(a, "design.result", 1, 1);
+    assert_int_equal(rb_api_set(a, "radius", radius), RB_OK);
+    assert_null(rb_api_word(a, "design.variables")); /* of another case */
+    assert_int_equal(rb_api_solve(a), RB_OK);
+    CHECK_REL(rb_api_number(a, "max_pressure"), pressure, 1e-9, "of the case found");
+    assert_int_equal(rb_api_design(a, "max_presure", 0, "radius=20:400", NULL, NAN, 9), RB_EINVAL);
+    assert_non_null(strstr(rb_api_message(a), "did you mean 'max_pressure'?"));
+    assert_int_equal(rb_api_design(a, "max_pressure", 0, "radius=20:30", NULL, NAN, 9), RB_EINVAL);
+    assert_int_equal(rb_api_design(a, "max_pressure", 1, "radius=20:400", NULL, NAN, 0), RB_EINVAL);
+    assert_int_equal(rb_api_design(a, "max_pressure", 1, "radius=20:400", NULL, 0.0, 9), RB_EINVAL);
+    assert_int_equal(rb_api_design(a, "max_pressure", 0, "radius=20:400",
+                                   "half_width<=0.5,half_width>=1", NAN, 50),
+                     RB_INACCURATE);
+    assert_null(rb_api_array(a, "design.value", &rows, &columns));
+    assert_int_equal(rb_api_set(a, "radius", "-1"), RB_EINVAL);
+    assert_int_equal(rb_api_design(a, "max_pressure", 0, "radius=20:400", NULL, NAN, 9), RB_EINVAL);
+    rb_api_free(a);
+}
+
 /* Descriptions of options and results that are none, and texts cut to their room. */
 TEST(descriptions_have_their_ends)
 {

@@ -45,12 +45,12 @@ int rb_api_resolve(rb_api *a);
 /* Resolves and solves the case; of a sequence of steps every step is kept. */
 int rb_api_solve(rb_api *a);
 /* May be called from another thread or a signal handler.  The running call ends with
- * RB_INTERRUPTED after its current step, point of a curve, case of a sweep or iterate of
- * a friction solver. */
+ * RB_INTERRUPTED after its current step, point of a curve, case of a sweep, step of a fit,
+ * evaluation of a design or iterate of a friction solver. */
 void rb_api_stop(rb_api *a);
-/* Steps of a history or of wear, points of a curve, or cases of a sweep, that the running
- * call has done, of so many; 0 of 0 where the call does not count.  May be asked from
- * another thread. */
+/* Steps of a history or of wear, points of a curve, cases of a sweep, steps of a fit (of 0),
+ * or evaluations of a design, that the running call has done, of so many; 0 of 0 where the call
+ * does not count.  May be asked from another thread. */
 void rb_api_progress(const rb_api *a, int *done, int *total);
 
 /* Status and message of the last call that returned a status. */
@@ -85,8 +85,10 @@ const char *rb_api_value(const rb_api *a, const char *name, char *text, int size
  * "task.scaled_residual" of rb_api_lcp and rb_api_friction.  NAN: there is none. */
 double rb_api_number(const rb_api *a, const char *name);
 /* "status", in words; of a solution "formulation", "solver", "lcp-form"; "task.solver";
- * after rb_api_derivatives "elements": whether they move while an input changes.  Static
- * text, or NULL. */
+ * after rb_api_derivatives "elements": whether they move while an input changes; after
+ * rb_api_fit "fit.sentences": what the data do not determine, a line each; after
+ * rb_api_design "design.variables" and "design.constraints": names, blanks between.  Text
+ * that stays until the next call, or NULL. */
 const char *rb_api_word(const rb_api *a, const char *name);
 /* Note k = 0, 1, ... on how the solution must be read; writes at most `size` bytes and
  * returns text.  NULL: there is no such note, or no solution. */
@@ -144,6 +146,19 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *                                and creepage, with respect to gap and mu of each element
  *   tolerance.NAME               after rb_api_tolerances, of a number of the solution: its
  *                                standard deviation
+ *   fit.value fit.interval.from fit.interval.to fit.deviation   after rb_api_fit, an entry per
+ *                                parameter, in the units of the case; NAN: not identified
+ *   fit.identified fit.at_bound  1 or 0
+ *   fit.correlation              parameters x parameters
+ *   fit.creep fit.force fit.fitted fit.band   an entry per point: the data, by the name of their
+ *                                column (fit.creep_ratio, fit.force_over_load ...), and the
+ *                                fitted curve
+ *   fit.chi_square fit.degrees_of_freedom fit.noise fit.kappa fit.iterations   one number each
+ *   design.value design.start    after rb_api_design, an entry per variable, in the units of
+ *                                the case
+ *   design.gap.x                 places of those that are values of the table of the gap
+ *   design.constraint            constraints x 3: 1 for >= or 0 for <=, bound, value
+ *   design.result design.result.start design.evaluations   one number each
  *   wear.way wear.worn ...       after rb_api_wear, an entry per step
  *   wear.profile.x wear.profile.depth   the worn depth at the end, over x
  *   sweep.status sweep.NAME ...  after rb_api_sweep, an entry per case; of cracks also the
@@ -218,6 +233,23 @@ const char *rb_api_derivative(const rb_api *a, const char *of, int k, const char
  * the columns of its history.  Computes the derivatives unless rb_api_derivatives has; smooth
  * ones are forgotten. */
 int rb_api_tolerances(rb_api *a, const char *inputs);
+/* Fits numbers of the case to measured forces, as `rollbem fit`.  data: rows x columns,
+ * column by column, of these names; names, start (NULL: none) and bounds (NULL: none) as
+ * --fit, --start, --bounds; sigma NAN: from a column or the residuals; level of the
+ * intervals.  Numbers are in the units of the case unless they have one.  A positive
+ * status leaves the numbers so far in fit.value. */
+int rb_api_fit(rb_api *a, int columns, const char *const *column, int rows, const double *data,
+               const char *names, const char *start, const char *bounds, double sigma,
+               double level);
+/* The same with the data of a file. */
+int rb_api_fit_file(rb_api *a, const char *path, const char *names, const char *start,
+                    const char *bounds, double sigma, double level);
+/* Minimises (largest 1: maximises) a result over numbers of the case, as `rollbem design`:
+ * over and subject (NULL: none) as --over and --subject, span NAN: all elements, at most
+ * so many evaluations.  After RB_MAXITER or RB_INTERRUPTED the arrays hold the best values
+ * so far, if there are any. */
+int rb_api_design(rb_api *a, const char *result, int largest, const char *over, const char *subject,
+                  double span, int evaluations);
 /* Stress at n points x0, y0, x1, y1, ... inside A, y > 0. */
 int rb_api_stress_at(rb_api *a, int n, const double *xy);
 /* The largest stresses and their places, down to a depth [length] (0: automatic). */

@@ -17,6 +17,7 @@
 #define ROLLBEM_CASE_H
 
 #include "rollbem/base.h"
+#include "rollbem/io.h"
 #include "rollbem/io_contact.h"
 #include "rollbem/crack.h"
 #include "rollbem/options.h"
@@ -92,8 +93,7 @@ extern const rb_choice rb_case_curve_variables[];
 
 /* Creates a case with the default values; it is already resolved.  NULL: no memory. */
 rb_case *rb_case_create(rb_case_purpose purpose);
-/* Changes a curve over the creepage into one over the speed and back; call
- * rb_case_resolve afterwards. */
+/* Changes the purpose, with its defaults; call rb_case_resolve afterwards. */
 void rb_case_set_purpose(rb_case *c, rb_case_purpose purpose);
 /* The option `solver` may also name the cone solvers that `find` knows (NULL: none). */
 void rb_case_use_cone_solvers(rb_case *c, rb_contact_cone_finder *find);
@@ -561,6 +561,20 @@ typedef struct {
     int (*step)(int iteration, double chi_square, int n, const double *value, void *context);
     void *context;
 } rb_case_fit_observer;
+
+/* Reads the names of the parameters, "mu,creep-offset".  RB_EINVAL: none, too many, one
+ * twice, or not a number that can be fitted. */
+rb_status rb_case_fit_names(const char *text, rb_case_fit *fit, rb_message *why);
+/* Reads values of these parameters: option "start", "mu=0.3,load=2kN/m", or "bounds",
+ * "mu=0.1:0.6"; text NULL: none.  Numbers without a unit are in the units of the case. */
+rb_status rb_case_fit_values(const rb_case *c, const char *option, const char *text,
+                             rb_case_fit *fit, rb_message *why);
+/* The data of a table with named columns, which is converted to mm, N, MPa; data borrows from
+ * it.  path: what it is called in messages; without table->line they name rows.  sigma: of all
+ * points, added to a table that has no such column; NAN: unknown.  RB_EFORMAT: a column is missing
+ * or misspelt, or a value is not finite. */
+rb_status rb_case_fit_data(const rb_case *c, const char *path, rb_io_table *table, double sigma,
+                           rb_case_data *data, rb_message *why);
 
 /* Sets options that a fit needs and the case does not give: a velocity-dependent friction
  * law, a speed and related options.  Call it before rb_case_resolve. */

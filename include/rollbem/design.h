@@ -54,6 +54,9 @@ rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d
 /* Sets the objective: a result that has derivatives, or "pressure_ripple". */
 rb_status rb_design_objective(const char *name, rb_design *d, rb_message *why);
 
+/* The name of a result, where NULL is the ripple. */
+const char *rb_design_result_name(const rb_rolling_result *result);
+
 /* Called after each evaluation; a return value other than 0 ends the search. */
 typedef struct {
     int (*step)(int evaluation, double value, const double *x, void *context);

@@ -2,29 +2,17 @@
 
 from __future__ import annotations
 
-import json
 import os
 from typing import Any, Mapping, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 
-from . import _program, _values
-from ._case import (Array, Case, Derivatives, Solution, Table, _case, _Named, _uncertain, _unit, crack_option, curve,
-                    history)
-from ._library import OPTIONS, SOLVED, InvalidInput, Unsolved, lib, texts
+from . import _values
+from ._case import (Array, Case, Derivatives, Solution, Table, _case, _Named, _uncertain, _unit, _warn, crack_option,
+                    curve, history)
+from ._library import SOLVED, InvalidInput, Progress, doubles, in_keywords, lib, texts
 
 _CaseLike = Union[Case, str, os.PathLike, None]
-
-
-def _text(value: Any) -> str:
-    """As the program reads it: numbers to the last bit."""
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, (str, os.PathLike)):
-        return os.fspath(value)
-    if np.ndim(value) == 1:
-        return ",".join(_text(x) for x in value)
-    return repr(float(value)) if not float(value).is_integer() else str(int(value))
 
 
 # ---- Cracks -------------------------------------------------------------------------------
@@ -168,30 +156,7 @@ def derivatives(solution: Union[Solution, _CaseLike] = None, *, smooth: bool = F
     return found
 
 
-# ---- By the program -----------------------------------------------------------------------
-
-
-def _arguments(case: Case) -> "list[str]":
-    words = []
-    for name, text in case._texts.items():
-        flag = name in OPTIONS and OPTIONS[name].kind == "flag"
-        option = "--" + name.replace("_", "-")
-        if not flag:
-            words.append(f"{option}={text}")
-        elif text == "yes":
-            words.append(option)
-    return words
-
-
-def _ask(command: str, case: Case, words: "list[str]", operands: "list[str]",
-         purpose: str = "solve") -> "tuple[int, dict]":
-    case.handle(purpose)  # refusals of single options in this package's words
-    if case.file is not None:
-        operands = [*operands, _values.path("case", case.file)]
-    code, printed, message = _program._run(command, *words, *_arguments(case), "--json", "--quiet", "--", *operands)
-    if not printed:
-        raise Unsolved(message)
-    return code, json.loads(printed)
+# ---- Fits and designs ---------------------------------------------------------------------
 
 
 class Parameter(NamedTuple):
@@ -210,19 +175,23 @@ class Fit(_Named):
     parameters: "dict[str, Parameter]"
     sentences: "list[str]"
 
-    def __init__(self, answer: Mapping[str, Any]) -> None:
-        def number(x: Optional[float]) -> float:
-            return float("nan") if x is None else float(x)
-
-        self.parameters = {
-            name: Parameter(number(p["value"]), tuple(map(number, p["interval"])), number(p["deviation"]),
-                            {other: number(x) for other, x in p["correlation"].items()}, p["identified"])
-            for name, p in answer["parameters"].items()}
-        self.sentences = list(answer["sentences"])
-        self._arrays = {name: np.array([number(x) for x in column]) for name, column in answer["fit"].items()}
-        self._arrays["residual"] = np.array([number(x) for x in answer["residuals"]])
-        self._numbers = {name: answer[name] for name in ("level", "chi_square", "degrees_of_freedom", "noise", "kappa",
-                                                          "iterations")}
+    def __init__(self, names: Sequence[str], handle: Any, level: float) -> None:
+        columns = [handle.array(f"fit.{name}") for name in
+                   ("value", "interval.from", "interval.to", "deviation", "identified")]
+        correlation = np.atleast_2d(handle.array("fit.correlation"))
+        self.parameters = {}
+        for j, name in enumerate(names):
+            value, low, high, deviation, identified = (float(column[j]) for column in columns)
+            others = {other: float(correlation[i, j]) for i, other in enumerate(names) if i != j}
+            self.parameters[name] = Parameter(value, (low, high), deviation, others, identified == 1.0)
+        self.sentences = [in_keywords(line) for line in handle.word("fit.sentences").splitlines()]
+        self._arrays = {name: array.copy() for name in ("creep", "creep_ratio", *_FORCES, "fitted", "band")
+                        if (array := handle.array(f"fit.{name}")) is not None}
+        force = next(name for name in _FORCES if name in self._arrays)
+        self._arrays["residual"] = self._arrays[force] - self._arrays["fitted"]
+        numbers = {name: float(handle.array(f"fit.{name}")[0])
+                   for name in ("chi_square", "degrees_of_freedom", "noise", "kappa", "iterations")}
+        self._numbers = {"level": level, **numbers, **{name: int(numbers[name]) for name in ("degrees_of_freedom", "iterations")}}
 
     def __getitem__(self, name: str) -> Parameter:
         return self.parameters[name.replace("_", "-")]
@@ -247,34 +216,75 @@ class Fit(_Named):
                                     for name, p in self.parameters.items()) + ">"
 
 
+def _assigned(name: str, of: Optional[Mapping[str, Any]], ends: int) -> Optional[bytes]:
+    """``{"mu": (0.1, 0.6)}`` as the library reads it: ``mu=0.1:0.6``; texts may have units."""
+    if not of:
+        return None
+    if not isinstance(of, Mapping):
+        raise InvalidInput(f"{name}=: expected a dictionary, got {of!r}")
+
+    def text(key: str, value: Any) -> str:
+        values = list(value) if ends == 2 and np.ndim(value) == 1 and not isinstance(value, str) else [value]
+        if len(values) != ends:
+            raise InvalidInput(f"{name}=: expected {key}: (from, to), got {value!r}")
+        return ":".join(_values.text(f"{name} of {key}", x) for x in values)
+
+    return ",".join(f"{str(key).replace('_', '-')}={text(key, value)}" for key, value in of.items()).encode()
+
+
+_FORCES = ("force", "force_ratio", "force_over_load")
+_MEASURED = ("creep", *_FORCES, "load", "speed", "temperature", "sigma")
+
+
+def _columns(data: Table) -> "dict[str, Array]":
+    """Those that are numbers; others, such as the names of tests, are left out where nobody reads them."""
+    found = {}
+    for name in data:
+        try:
+            found[str(name)] = np.asarray(data[name], dtype=float)
+        except (TypeError, ValueError):
+            if str(name).lower().startswith(_MEASURED):
+                raise InvalidInput(f"data: column {name!r}: expected numbers") from None
+    if len({column.shape for column in found.values()}) != 1 or any(column.ndim != 1 for column in found.values()):
+        raise InvalidInput("data: expected columns of one length")
+    return found
+
+
 def fit(data: Union[str, os.PathLike, Table], names: Union[str, Sequence[str]], case: _CaseLike = None,
         sigma: Optional[float] = None, bounds: Optional[Mapping[str, "tuple[float, float]"]] = None,
-        start: Optional[Mapping[str, float]] = None, level: float = 0.95, **options: Any) -> Fit:
-    """Fits numbers of a case to a measured creep curve, by ``rollbem fit``.
+        start: Optional[Mapping[str, float]] = None, level: float = 0.95, progress: Progress = None,
+        **options: Any) -> Fit:
+    """Fits numbers of a case to a measured creep curve, as ``rollbem fit``.
 
     ``data`` is a file, a dictionary of columns or a ``pandas.DataFrame``: ``creep`` or ``creep_ratio``; ``force``,
     ``force_ratio`` or ``force_over_load``; and ``load``, ``speed``, ``temperature``, ``sigma`` where they vary.
     ``names`` are options, or ``creep_offset``. Numbers are in the units of the case.
+    A number that the data do not tell is NaN; a warning (:class:`Note`, also in ``sentences``) says so.
+    ``progress(done, 0)`` is called with the number of steps now and then. A fit that does not converge raises
+    :class:`Unsolved`, whose ``solution`` has the numbers so far, for ``start=``.
     """
     whole = _case(case, options)
     names = [names] if isinstance(names, str) else list(names)
-
-    def program(name: str) -> str:
-        return name.replace("_", "-")
-
-    if not isinstance(data, (str, os.PathLike)):
-        columns = {str(name): np.asarray(data[name], dtype=float) for name in data}
-        if len({len(column) for column in columns.values()}) != 1:
-            raise InvalidInput("data: expected columns of one length")
-        data = whole._write_table(columns)
-    words = ["--fit=" + ",".join(map(program, names)), f"--level={level!r}"]
-    if sigma is not None:
-        words.append(f"--sigma={float(sigma)!r}")
-    if bounds:
-        words.append("--bounds=" + ",".join(f"{program(k)}={float(a)!r}:{float(b)!r}" for k, (a, b) in bounds.items()))
-    if start:
-        words.append("--start=" + ",".join(f"{program(k)}={float(x)!r}" for k, x in start.items()))
-    return Fit(_ask("fit", whole, words, [os.fspath(data)])[1])
+    names = [name.replace("_", "-") for text in names for name in str(text).split(",")]
+    handle = whole.handle("solve")
+    level = _values.number("level", level)
+    words = (_values.word("names", ",".join(names), "names of options"), _assigned("start", start, 1),
+             _assigned("bounds", bounds, 2), float("nan") if sigma is None else _values.number("sigma", sigma), level)
+    if isinstance(data, (str, bytes, os.PathLike)):
+        status = handle.run("rb_api_fit_file", os.fsencode(_values.path("data", data)), *words, progress=progress)
+    else:
+        columns = _columns(data)
+        table = np.concatenate(list(columns.values()))
+        status = handle.run("rb_api_fit", len(columns), texts(list(columns)), len(table) // len(columns), doubles(table),
+                            *words, progress=progress)
+    if status == SOLVED:
+        found = Fit(names, handle, level)
+        _warn(found.sentences)
+        return found
+    error, so_far = handle.error(status), handle.array("fit.value")
+    if so_far is not None:
+        error.solution = dict(zip(names, so_far.tolist()))
+    raise error
 
 
 class Design(_Named):
@@ -282,15 +292,20 @@ class Design(_Named):
 
     variables: "dict[str, float]"
 
-    def __init__(self, answer: Mapping[str, Any]) -> None:
-        design = answer["design"]
-        self.variables = {name: v["value"] for name, v in design["variables"].items()}
-        self.constraints = design["constraints"]
-        table = [v for v in design["variables"].values() if "x" in v]
-        self._arrays = ({"x": np.array([v["x"] for v in table]), "gap": np.array([v["value"] for v in table])}
-                        if table else {})
-        self._numbers = {name: design[name] for name in ("value", "start", "evaluations")}
-        self.result, self.status = design["result"], design["status"]
+    def __init__(self, result: str, handle: Any) -> None:
+        names, values = handle.word("design.variables").split(), handle.array("design.value").tolist()
+        self.variables = dict(zip(names, values))
+        subject = handle.array("design.constraint")
+        rows = [] if subject is None else np.reshape(subject, (-1, 3)).tolist()
+        self.constraints = [{"result": name, "at_least": at_least == 1.0, "bound": bound, "value": value}
+                            for name, (at_least, bound, value) in zip(handle.word("design.constraints").split(), rows)]
+        x = handle.array("design.gap.x")
+        gap = [value for name, value in self.variables.items() if name.startswith("gap-")]
+        self._arrays = {} if x is None else {"x": x.copy(), "gap": np.array(gap)}
+        self._numbers = {"value": float(handle.array("design.result")[0]),
+                         "start": float(handle.array("design.result.start")[0]),
+                         "evaluations": int(handle.array("design.evaluations")[0])}
+        self.result, self.status = result, handle.word("status")
 
     def __repr__(self) -> str:
         return f"<Design: {self.result} {self.value:.6g}, at the start {self.start:.6g}>"
@@ -298,21 +313,24 @@ class Design(_Named):
 
 def design(case: _CaseLike = None, *, minimise: Optional[str] = None, maximise: Optional[str] = None,
            over: Mapping[str, "tuple[float, float]"], subject: Union[str, Sequence[str]] = (),
-           span: Optional[float] = None, evaluations: int = 200, **options: Any) -> Design:
-    """The minimum or maximum of a result over numbers of a case, by ``rollbem design``.
+           span: Optional[float] = None, evaluations: int = 200, progress: Progress = None, **options: Any) -> Design:
+    """The minimum or maximum of a result over numbers of a case, as ``rollbem design``.
 
     ``design(load=500, minimise="max_pressure", over={"radius": (20, 200)}, subject=["half_width<=1.2"])``; ``over={"gap":
     (a, b)}`` varies every value of the table of the gap. Numbers are in the units of the case.
+    ``progress(done, total)`` is called with the number of evaluations now and then.
     """
     whole = _case(case, options)
-    words = ["--over=" + ",".join(f"{k.replace('_', '-')}={float(a)!r}:{float(b)!r}" for k, (a, b) in over.items()),
-             f"--evaluations={int(evaluations)}"]
-    for option, result in (("--minimise", minimise), ("--maximise", maximise)):
-        if result is not None:
-            words.append(f"{option}={result}")
+    if (minimise is None) == (maximise is None):
+        raise InvalidInput("design: expected minimise= or maximise=, one of them")
+    result = str(minimise if maximise is None else maximise)
     subject = [subject] if isinstance(subject, str) else list(subject)
-    if subject:
-        words.append("--subject=" + ",".join(subject))
-    if span is not None:
-        words.append(f"--span={float(span)!r}")
-    return Design(_ask("design", whole, words, [])[1])
+    handle = whole.handle("solve")
+    status = handle.run("rb_api_design", _values.word("minimise" if maximise is None else "maximise", result, "a result"),
+                        int(maximise is not None), _assigned("over", over, 2) or b"",
+                        ",".join(map(str, subject)).encode() or None,
+                        float("nan") if span is None else _values.number("span", span),
+                        _values.whole("evaluations", evaluations, 1), progress=progress)
+    if status != SOLVED and (status < SOLVED or handle.array("design.value") is None):
+        raise handle.error(status)
+    return Design(result, handle)

@@ -61,6 +61,9 @@ FUNCTIONS = {
     "rb_api_derivative": (_Text, _Handle, _Text, _Int, _Text, _Text, _Int),
     "rb_api_tolerances": (_Int, _Handle, _Text),
     "rb_api_input": (_Text, _Handle, _Int, _Text, _Text, _Int),
+    "rb_api_fit": (_Int, _Handle, _Int, ctypes.POINTER(_Text), _Int, _Doubles, _Text, _Text, _Text, _Double, _Double),
+    "rb_api_fit_file": (_Int, _Handle, _Text, _Text, _Text, _Text, _Double, _Double),
+    "rb_api_design": (_Int, _Handle, _Text, _Int, _Text, _Text, _Double, _Int),
     "rb_api_pivots": (_Int, _Handle),
     "rb_api_variable": (_Text, _Handle, _Int, _Text, _Int),
     "rb_api_lcp": (_Int, _Handle, _Int, _Doubles, _Doubles, _Text, _Int),
@@ -335,7 +338,7 @@ class Handle(_Answers):
         self.check(self.ask("rb_api_set", name, text.encode(errors="surrogateescape")))
 
     def progress(self) -> "tuple[int, int]":
-        """Steps or cases that the running call has done, and of how many."""
+        """Steps or cases that the running call has done, and of how many; 0: it does not know."""
         done, total = _Int(), _Int()
         lib.rb_api_progress(self.at, done, total)
         return done.value, total.value
@@ -368,7 +371,7 @@ class Handle(_Answers):
                 thread.join(_LOOK)
                 runs = thread.is_alive()
                 now = self.progress()
-                if now != seen and now[1]:
+                if now != seen and any(now):
                     seen = now
                     progress(*now)
             thread.join()

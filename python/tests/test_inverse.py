@@ -284,7 +284,7 @@ def test_tolerances_of_curves():
         rollbem.curve(**SMALL, points=4, error=True, tolerance="mu=1%")
 
 
-def test_fits():
+def test_fits(tmp_path):
     xi = -0.5e-3 * np.arange(1, 13)
     ratio = [-rollbem.solve(**PLANES, formulation="steady", mu=0.25, creep=float(x) + 1e-4).tangential_load / 500
              for x in xi]
@@ -296,8 +296,54 @@ def test_fits():
         assert found["creep_offset"].value == pytest.approx(1e-4, abs=1e-5)
         assert found["mu"].interval[0] <= found["mu"].value <= found["mu"].interval[1]
         assert len(found.fitted) == 12 and "mu" in repr(found)
-    with pytest.raises(rollbem.InvalidInput, match="fit"):
+    with pytest.raises(rollbem.InvalidInput, match="did you mean 'mu'"):
         rollbem.fit(data, "mou", **PLANES)
+    pandas.DataFrame(data).to_csv(tmp_path / "data.csv", index=False)
+    printed = run_json("fit", tmp_path / "data.csv", **PLANES, fit="mu,creep-offset", start="mu=0.3")["parameters"]["mu"]
+    by_file = rollbem.fit(tmp_path / "data.csv", "mu,creep-offset", **PLANES, start={"mu": 0.3})
+    assert by_file["mu"].interval == pytest.approx(printed["interval"], rel=1e-9)
+    assert by_file["mu"].correlation == pytest.approx(printed["correlation"], rel=1e-6)
+
+
+def test_data_of_fits():
+    pandas = pytest.importorskip("pandas")
+    xi = -0.5e-3 * np.arange(1, 13)
+    force = 100 * np.tanh(-600 * xi) + np.where(np.arange(12) % 2, 1.5, -1.5)
+    frame = pandas.DataFrame({"test": ["A"] * 6 + ["B"] * 6, "creep": xi, "force": force, "load": [500.0] * 6 + [600.0] * 6})
+    seen = []
+    found = rollbem.fit(frame, "mu", **PLANES, progress=lambda done, total: seen.append((done, total)))
+    assert 0.1 < found["mu"].value < 0.3 and found["mu"].identified and len(found.residual) == 12
+    wider = rollbem.fit(frame, "mu", **PLANES, sigma=20.0)
+    assert wider["mu"].deviation == pytest.approx(found["mu"].deviation * 20 / found.noise, rel=1e-6)
+    assert rollbem.fit(frame, ["mu", "creep_offset"], **PLANES, bounds={"mu": ("0.1", 0.6)})["creep-offset"].identified
+    si = frame.assign(force=1e3 * force, load=1e3 * frame["load"])
+    case = dict(support="halfplane", similar=True, load=500e3, units="si", young=2.1e11, radius=0.3)
+    loads = [rollbem.fit(one.drop(columns="load"), "load", **of, bounds={"load": ends}, mu=0.2)["load"].value
+             for one, of, ends in ((frame, {**PLANES, "young": 2.1e5, "radius": 300}, (300, 900)),
+                                   (si, case, (3e5, "900 N/mm")))]
+    assert loads[0] == pytest.approx(475, rel=0.1) and loads[1] == pytest.approx(1e3 * loads[0], rel=1e-6)
+    with pytest.warns(rollbem.Note, match="do not determine young"):
+        assert np.isnan(rollbem.fit(frame, "young", **PLANES, mu=0.05)["young"].value)
+    for columns, said in (({"creep": xi, "Force": force}, "unknown column 'Force' .did you mean 'force'"),
+                          ({"creep": xi, "force": np.where(xi < -5e-3, np.nan, force)}, "data, row 11: force: expected a finite"),
+                          ({"creep": xi[:1], "force": force[:1]}, "expected at least 2 points for 1 number, got 1"),
+                          ({"creep": xi, "force": ["1,5"] * 12}, "column 'force': expected numbers"),
+                          ({"creep": xi, "force": force[:-1]}, "columns of one length"), ({}, "columns of one length"),
+                          ({"creep": xi, "force": force, "sigma": -np.ones(12)}, "data, row 1: sigma: expected > 0"),
+                          ({"creep": xi}, "expected a column creep or creep_ratio")):
+        with pytest.raises(rollbem.InvalidInput, match=said):
+            rollbem.fit(columns, "mu", **PLANES)
+    for wrong, said in (({"bounds": {"mu": 0.1}}, "from, to"), ({"bounds": {"load": (1, 2)}}, "of a fitted number"),
+                        ({"start": {"mu": "x"}}, "start=: expected NAME=X"), ({"level": 95}, "level=: expected a number > 0"),
+                        ({"sigma": -1}, "sigma=: expected a number > 0"), ({"bounds": 3}, "a dictionary")):
+        with pytest.raises(rollbem.InvalidInput, match=said):
+            rollbem.fit(frame, "mu", **PLANES, **wrong)
+    with pytest.raises(KeyboardInterrupt):
+        rollbem.fit(frame, "mu", **PLANES, progress=interrupt)
+
+
+def interrupt(done, total):
+    raise KeyboardInterrupt
 
 
 def test_designs():
@@ -311,5 +357,12 @@ def test_designs():
     table = rollbem.design(**PLANES, mu=0, gap={"x": x, "gap": 1e-2 * x**2}, minimise="max_pressure",
                            over={"gap": (-1e-3, 1e-3)}, evaluations=20)
     assert table.gap.shape == x.shape and table.value < table.start
+    with pytest.raises(rollbem.InvalidInput, match="one of them"):
+        rollbem.design(**PLANES, over={"radius": (20, 200)})
+    with pytest.raises(rollbem.Unsolved, match="satisfy all constraints"):
+        rollbem.design(**PLANES, minimise="max_pressure", over={"radius": (20, 200)}, subject=["half_width<=0.1", "half_width>=1"])
+    best = rollbem.design(**PLANES, minimise="max_pressure", over={"radius": (20, 200)}, evaluations=2)
+    assert best.status == "iteration limit" and best.value <= best.start and best.constraints == []
+    assert found.constraints[0]["result"] == "half_width" and not found.constraints[0]["at_least"]
     with pytest.raises(rollbem.InvalidInput, match="did you mean|no result"):
         rollbem.design(**PLANES, minimise="max_presure", over={"radius": (20, 200)})

@@ -121,6 +121,10 @@ static void forget(rb_api *a, int same_bodies)
     if (!same_bodies)
         rb_rolling_model_free(&a->kept);
     rb_api_forget_arrays(a, "");
+    for (int k = 0; k < API_SAID_N; k++) {
+        free(a->said[k]);
+        a->said[k] = NULL;
+    }
     rb_rolling_curve_free(&a->curve);
     rb_rolling_curve_free(&a->curve_errors);
     rb_contact_lcp_free(&a->lcp);
@@ -211,7 +215,7 @@ int rb_api_read(rb_api *a, const char *path)
     return took(a, path, rb_case_read(a->words, path, 0, NULL, &a->why));
 }
 
-static rb_status check_refusals(const rb_api *a, rb_message *why)
+rb_status rb_api_check_refusals(const rb_api *a, rb_message *why)
 {
     return a->refusals > 0 ? rb_fail(why, RB_EINVAL, "%s", a->refused[0].why.text) : RB_OK;
 }
@@ -219,7 +223,7 @@ static rb_status check_refusals(const rb_api *a, rb_message *why)
 int rb_api_resolve(rb_api *a)
 {
     forget(a, 1);
-    rb_status s = check_refusals(a, &a->why);
+    rb_status s = rb_api_check_refusals(a, &a->why);
     if (s == RB_OK)
         s = rb_case_resolve(a->words, &a->why);
     return rb_api_ended(a, s);
@@ -405,11 +409,17 @@ const char *rb_api_value(const rb_api *a, const char *name, char *text, int size
 
 const char *rb_api_word(const rb_api *a, const char *name)
 {
+    static const char *const said[API_SAID_N] = {[API_FIT_SENTENCES] = "fit.sentences",
+                                                 [API_DESIGN_VARIABLES] = "design.variables",
+                                                 [API_DESIGN_CONSTRAINTS] = "design.constraints"};
     const rb_rolling_solution *s = &a->result.solution;
     if (strcmp(name, "status") == 0)
         return rb_status_text(a->status);
     if (strcmp(name, "task.solver") == 0)
         return a->solver;
+    for (int k = 0; k < API_SAID_N; k++)
+        if (strcmp(name, said[k]) == 0)
+            return a->said[k];
     if (strcmp(name, "elements") == 0)
         return a->derivatives.n > 0 ? rb_case_derivatives_are(&a->derivatives) : NULL;
     if (s->n == 0)
@@ -746,7 +756,7 @@ static int curve(rb_api *a, const char *over, double from, double to, int points
     rb_rolling_curve_free(&a->curve_errors);
     const rb_rolling_range range = {(rb_rolling_variable)variable->value, from, to, points};
     rb_api_call_begins();
-    rb_status s = check_refusals(a, &a->why);
+    rb_status s = rb_api_check_refusals(a, &a->why);
     if (s == RB_OK) {
         /* Variables differ in the options that they refuse. */
         if (a->is_curve && range.over == RB_OVER_SPEED)
@@ -1315,7 +1325,7 @@ int rb_api_wear(rb_api *a, const char *law, double coefficient, double share, do
     begin(a);
     rb_api_forget_arrays(a, "wear.");
     rb_rolling_wear_history_free(&a->wear);
-    rb_status s = check_refusals(a, &a->why);
+    rb_status s = rb_api_check_refusals(a, &a->why);
     if (s == RB_OK && how.law == RB_WEAR_DISSIPATION && strcmp(law, "dissipation") != 0)
         s = rb_fail(&a->why, RB_EINVAL, "wear law: expected archard or dissipation, got '%.100s'",
                     law);

@@ -15,6 +15,14 @@ typedef struct {
 /* What has derivatives in columns, by the beginning of their names. */
 typedef enum { API_SLOPES_CURVE, API_SLOPES_HISTORY, API_SLOPES_SWEEP, API_SLOPES_N } api_slopes;
 
+/* Texts that a call has made, for rb_api_word. */
+typedef enum {
+    API_FIT_SENTENCES,
+    API_DESIGN_VARIABLES,
+    API_DESIGN_CONSTRAINTS,
+    API_SAID_N
+} api_said;
+
 /* An option, or a case file, that was refused and has not been set since. */
 typedef struct {
     char name[80];
@@ -56,7 +64,8 @@ struct rb_api {
     rb_message why;
     api_refusal refused[API_REFUSALS];
     int refusals;
-    api_array **made; /* arrays; owned, as each of them */
+    char *said[API_SAID_N]; /* NULL: not asked for; owned */
+    api_array **made;       /* arrays; owned, as each of them */
     int arrays;
 };
 
@@ -71,6 +80,9 @@ void rb_api_forget_arrays(rb_api *a, const char *beginning);
 void rb_api_forget_slopes(rb_api *a, api_slopes of);
 /* Keeps the status of a call, with a line that says it where the call has left none. */
 int rb_api_ended(rb_api *a, rb_status s);
+
+/* RB_EINVAL: an option was refused and has not been set since. */
+rb_status rb_api_check_refusals(const rb_api *a, rb_message *why);
 
 /* Around what may use BLAS. */
 void rb_api_call_begins(void);

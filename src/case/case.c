@@ -39,6 +39,8 @@ void rb_case_set_purpose(rb_case *c, rb_case_purpose purpose)
 {
     c->purpose = purpose;
     c->defaults = default_words(purpose);
+    if (!rb_case_given(c, "formulation"))
+        c->words.rc.formulation = c->defaults.rc.formulation;
 }
 
 void rb_case_use_cone_solvers(rb_case *c, rb_contact_cone_finder *find)

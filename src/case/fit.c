@@ -218,10 +218,8 @@ static rb_status set_parameter(fit_problem *p, int j, rb_message *why)
         strcmp(of->name, "creep-offset") == 0 ? p->creep : rb_case_option(of->name);
     const rb_rolling_derived *d = &p->c->resolved.derived;
 
-    if (!o || o->kind != RB_OPTION_NUMBER || o->frozen ||
-        (o == p->creep && strcmp(of->name, "creep") == 0))
-        return rb_fail(why, RB_EINVAL, "--fit: '%s' is not a number that can be fitted to forces",
-                       of->name);
+    if (rb_case_fit_check_name(of->name, why) != RB_OK)
+        return RB_EINVAL;
     p->option[j] = o;
     of->unit = o->unit;
     const int offset = o == p->creep;
@@ -316,8 +314,8 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
     rb_status s = RB_OK;
 
     if (data->n <= fit->n)
-        return rb_fail(why, RB_EINVAL, "--fit: %d points are not enough for %d parameters", data->n,
-                       fit->n);
+        return rb_fail(why, RB_EINVAL, "--fit: expected at least %d points for %d number%s, got %d",
+                       fit->n + 1, fit->n, fit->n > 1 ? "s" : "", data->n);
     p.at = calloc(points, sizeof *p.at);
     p.known = calloc(FIT_CASES, sizeof *p.known);
     p.f = rb_alloc(points, 1);

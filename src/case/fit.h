@@ -71,6 +71,11 @@ rb_status rb_case_fit_descend(fit_problem *p, double *theta, const rb_case_fit_o
 /* Moves a number into its bounds. */
 void rb_case_fit_clip(const rb_case_parameter *of, double *x);
 
+/* ---- fit_words.c ------------------------------------------------------------------- */
+
+/* RB_EINVAL: not the name of a number that can be fitted. */
+rb_status rb_case_fit_check_name(const char *name, rb_message *why);
+
 /* ---- For all of them --------------------------------------------------------------- */
 
 /* GSL's header of BLAS and OpenBLAS's exclude each other. */

@@ -68,8 +68,7 @@ static void summarise(FILE *out, const cli_case_run *run)
     const rb_design *d = &((const designing *)run->own)->design;
     if (d->status == RB_OK)
         fprintf(out, "design: %s %.6g, at the start %.6g, %d evaluations\n",
-                d->result ? d->result->name : "pressure_ripple", d->value, d->start,
-                d->evaluations);
+                rb_design_result_name(d->result), d->value, d->start, d->evaluations);
 }
 
 static int tell(int evaluation, double value, const double *x, void *context)
@@ -78,8 +77,8 @@ static int tell(int evaluation, double value, const double *x, void *context)
     const rb_design *d = &f->design;
     if (f->tells) {
         cli_wait_rest();
-        fprintf(stderr, "evaluation %d: %s %.8g", evaluation,
-                d->result ? d->result->name : "pressure_ripple", value);
+        fprintf(stderr, "evaluation %d: %s %.8g", evaluation, rb_design_result_name(d->result),
+                value);
         for (int j = 0; j < d->n && j < 4; j++)
             fprintf(stderr, " %s=%.6g", d->variable[j].name, x[j]);
         fputc('\n', stderr);

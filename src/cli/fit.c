@@ -7,18 +7,16 @@
 #include <jansson.h>
 #include <math.h>
 #include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 typedef struct {
     const char *names, *bounds, *start; /* options */
     double sigma, level;
     rb_io_table table;
-    double *sigmas; /* of --sigma; owned */
     rb_case_data data;
     rb_case_fit fit;
     int tells; /* 1: steps on standard error */
+    rb_units units;
 } fitting;
 
 #define PLACE(member) offsetof(fitting, member)
@@ -60,102 +58,6 @@ static const char notes[] =
     "\nExit codes: 0 fitted; 1 not fitted, or some numbers are not identified; 64, 65, "
     "66,\n"
     "70, 73 as of the other commands.\n";
-
-/* ---- What is asked for --------------------------------------------------------------- */
-
-static rb_case_parameter *parameter_of(fitting *f, const char *name, size_t n)
-{
-    for (int j = 0; j < f->fit.n; j++)
-        if (strlen(f->fit.parameter[j].name) == n &&
-            strncmp(f->fit.parameter[j].name, name, n) == 0)
-            return &f->fit.parameter[j];
-    return NULL;
-}
-
-/* NAME=X or NAME=A:B, commas between. */
-static cli_exit read_values(fitting *f, const char *option, const char *text, int ranges)
-{
-    for (const char *at = text; at && *at;) {
-        const size_t n = strcspn(at, "=,"), all = strcspn(at, ",");
-        rb_case_parameter *p = parameter_of(f, at, n);
-        double x, y;
-        char end;
-        const int found = at[n] != '=' ? 0
-                          : ranges     ? sscanf(at + n + 1, "%lf:%lf%c", &x, &y, &end)
-                                       : sscanf(at + n + 1, "%lf%c", &x, &end);
-        if (!p ||
-            (ranges ? found != 2 && !(found == 3 && end == ',')
-                    : found != 1 && !(found == 2 && end == ',')) ||
-            (ranges && !(x < y)))
-            return cli_fail(CLI_USAGE, "--%s: expected %s of a fitted number, got '%.*s'", option,
-                            ranges ? "NAME=A:B" : "NAME=X", (int)all, at);
-        if (ranges) {
-            p->low = x;
-            p->high = y;
-        } else {
-            p->start = x;
-        }
-        at += all + (at[all] == ',');
-    }
-    return CLI_CONTINUE;
-}
-
-/* A column in mm, N, MPa; NULL: there is none. */
-static const double *column(fitting *f, const char *name, const char *unit, rb_units units)
-{
-    for (int j = 0; j < f->table.columns && f->table.name; j++)
-        if (strncmp(f->table.name[j], name, strlen(name)) == 0) {
-            const char *rest = f->table.name[j] + strlen(name);
-            if (*rest == '\0' ||
-                (*rest == '_' && strcmp(unit, "-") != 0 && strncmp(rest, "_ratio", 6) != 0 &&
-                 strncmp(rest, "_over", 5) != 0)) {
-                rb_io_table_convert(&f->table, j, unit, units);
-                return f->table.x + (size_t)j * (size_t)f->table.rows;
-            }
-        }
-    return NULL;
-}
-
-static cli_exit read_data(fitting *f, const char *path, rb_units units)
-{
-    rb_message why = {""};
-    rb_case_data *d = &f->data;
-    const cli_exit code = cli_say(rb_io_table_read(path, &f->table, &why), &why);
-    if (code != CLI_CONTINUE)
-        return code;
-    d->n = f->table.rows;
-    d->creep = column(f, "creep", "-", units);
-    d->is_ratio = !d->creep;
-    if (!d->creep)
-        d->creep = column(f, "creep_ratio", "-", units);
-    d->force = column(f, "force", "N/mm", units);
-    d->measure = RB_CASE_FORCE;
-    if (!d->force && (d->force = column(f, "force_ratio", "-", units)) != NULL)
-        d->measure = RB_CASE_FORCE_RATIO;
-    if (!d->force && (d->force = column(f, "force_over_load", "-", units)) != NULL)
-        d->measure = RB_CASE_FORCE_OVER_LOAD;
-    d->load = column(f, "load", "N/mm", units);
-    d->speed = column(f, "speed", "mm/s", units);
-    d->temperature = column(f, "temperature", "K", units);
-    d->sigma = column(f, "sigma", d->measure == RB_CASE_FORCE ? "N/mm" : "-", units);
-    if (!d->creep || !d->force)
-        return cli_fail(CLI_DATA,
-                        "%s: expected a column creep or creep_ratio, and one of force, "
-                        "force_ratio, force_over_load",
-                        path);
-    for (int k = 0; k < d->n && d->sigma; k++)
-        if (!(d->sigma[k] > 0.0))
-            return cli_fail(CLI_DATA, "%s:%d: sigma: expected > 0, got %g", path, f->table.line[k],
-                            d->sigma[k]);
-    if (!d->sigma && !isnan(f->sigma)) {
-        f->sigmas = rb_alloc((size_t)d->n, 1);
-        for (int k = 0; k < d->n && f->sigmas; k++)
-            f->sigmas[k] =
-                d->measure == RB_CASE_FORCE ? rb_unit_stored(units, "N/mm", f->sigma) : f->sigma;
-        d->sigma = f->sigmas;
-    }
-    return CLI_CONTINUE;
-}
 
 /* ---- Results ------------------------------------------------------------------------- */
 
@@ -200,7 +102,8 @@ static int tell(int iteration, double chi_square, int n, const double *value, vo
         cli_wait_rest();
         fprintf(stderr, "step %d: sum of squares %.6g;", iteration, chi_square);
         for (int j = 0; j < n; j++)
-            fprintf(stderr, " %s=%.6g", f->fit.parameter[j].name, value[j]);
+            fprintf(stderr, " %s=%.6g", f->fit.parameter[j].name,
+                    rb_unit_shown(f->units, f->fit.parameter[j].unit, value[j]));
         fputc('\n', stderr);
     }
     return cli_interrupted();
@@ -212,6 +115,7 @@ static rb_status solve(cli_case_run *run, rb_message *why)
     fitting *f = run->own;
     const rb_case_fit_observer observer = {tell, f};
     f->tells = !run->o.quiet && isatty(STDERR_FILENO);
+    f->units = run->c->units;
     cli_interrupts_catch();
     const rb_status s = rb_case_fit_solve(run->words, &f->data, &observer, &f->fit, why);
     cli_interrupts_leave();
@@ -219,7 +123,7 @@ static rb_status solve(cli_case_run *run, rb_message *why)
         fprintf(stderr, "so far: --start ");
         for (int j = 0; j < f->fit.n; j++)
             fprintf(stderr, "%s%s=%.17g", j ? "," : "", f->fit.parameter[j].name,
-                    f->fit.parameter[j].value);
+                    rb_unit_shown(f->units, f->fit.parameter[j].unit, f->fit.parameter[j].value));
         fputc('\n', stderr);
     }
     run->printable = s == RB_OK;
@@ -235,28 +139,20 @@ static cli_exit prepare(cli_case_run *run)
         return cli_fail(CLI_USAGE, "fit needs DATA, and at most one case file");
     if (!f->names)
         return cli_fail(CLI_USAGE, "fit needs --fit NAME,...");
-    for (const char *at = f->names; *at;) {
-        const size_t n = strcspn(at, ",");
-        if (n == 0 || n > 39 || parameter_of(f, at, n))
-            return cli_fail(CLI_USAGE, "--fit: expected different names, got '%s'", f->names);
-        if (f->fit.n == RB_CASE_FIT_MAX)
-            return cli_fail(CLI_USAGE, "--fit: expected at most %d names", RB_CASE_FIT_MAX);
-        rb_case_parameter *p = &f->fit.parameter[f->fit.n++];
-        memcpy(p->name, at, n);
-        p->start = NAN;
-        p->low = -INFINITY;
-        p->high = INFINITY;
-        at += n + (at[n] == ',');
-    }
-    cli_exit code = read_values(f, "start", f->start, 0);
-    if (code == CLI_CONTINUE)
-        code = read_values(f, "bounds", f->bounds, 1);
-    if (code == CLI_CONTINUE)
-        code = read_data(f, run->args.operand[0], rb_case_units(run->words, RB_GIVEN_ARGUMENT));
+    const char *path = run->args.operand[0];
+    rb_status s = rb_case_fit_names(f->names, &f->fit, &why);
+    if (s == RB_OK)
+        s = rb_case_fit_values(run->words, "start", f->start, &f->fit, &why);
+    if (s == RB_OK)
+        s = rb_case_fit_values(run->words, "bounds", f->bounds, &f->fit, &why);
+    if (s == RB_OK)
+        s = rb_io_table_read(path, &f->table, &why);
+    if (s == RB_OK)
+        s = rb_case_fit_data(run->words, path, &f->table, f->sigma, &f->data, &why);
     f->fit.level = f->level;
-    return code == CLI_CONTINUE
-               ? cli_say(rb_case_prepare_fit(run->words, &f->data, &f->fit, &why), &why)
-               : code;
+    if (s == RB_OK)
+        s = rb_case_prepare_fit(run->words, &f->data, &f->fit, &why);
+    return cli_say(s, &why);
 }
 
 static const cli_case_command command = {
@@ -281,6 +177,5 @@ int cli_fit(int argc, char **argv)
     const cli_exit code = cli_case_run_command(&command, &f, argc, argv);
     rb_case_fit_free(&f.fit);
     rb_io_table_free(&f.table);
-    free(f.sigmas);
     return code;
 }

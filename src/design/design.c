@@ -32,6 +32,11 @@ void rb_design_free(rb_design *d)
 
 static const char ripple_[] = "pressure_ripple";
 
+const char *rb_design_result_name(const rb_rolling_result *result)
+{
+    return result ? result->name : ripple_;
+}
+
 static rb_status find_result(const char *name, const rb_rolling_result **result, rb_message *why)
 {
     int is_column = 0;

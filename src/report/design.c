@@ -11,11 +11,6 @@ static double shown(rb_units units, const char *unit, double x)
     return unit && strcmp(unit, "-") != 0 ? rb_unit_shown(units, unit, x) : x;
 }
 
-static const char *name_of(const rb_rolling_result *r)
-{
-    return r ? r->name : "pressure_ripple";
-}
-
 static const char *unit_of_result(const rb_rolling_result *r)
 {
     return r ? r->unit : NULL;
@@ -29,13 +24,14 @@ rb_status rb_report_design_table(FILE *out, const rb_design *d, rb_units units, 
 
     rb_report_comment_origin(&c, command);
     rb_report_comment(&c, "%s %s: %.10g, at the start %.10g [%s]", d->largest ? "largest" : "least",
-                      name_of(d->result), shown(units, unit_of_result(d->result), d->value),
+                      rb_design_result_name(d->result),
+                      shown(units, unit_of_result(d->result), d->value),
                       shown(units, unit_of_result(d->result), d->start),
                       rb_report_unit_name(units, unit_of_result(d->result)));
     for (int k = 0; k < d->constraints; k++) {
         const rb_design_constraint *k_ = &d->constraint[k];
         const char *unit = unit_of_result(k_->result);
-        rb_report_comment(&c, "%s %s %.10g: %.10g [%s]", name_of(k_->result),
+        rb_report_comment(&c, "%s %s %.10g: %.10g [%s]", rb_design_result_name(k_->result),
                           k_->at_least ? ">=" : "<=", shown(units, unit, k_->bound),
                           shown(units, unit, k_->value), rb_report_unit_name(units, unit));
     }
@@ -65,7 +61,7 @@ void rb_report_json_design(json_t **root, const rb_design *d, rb_units units)
     const char *unit = unit_of_result(d->result);
     json_t *design = json_object(), *variables = json_object(), *all = json_array();
 
-    rb_report_json_set(&design, "result", json_string(name_of(d->result)));
+    rb_report_json_set(&design, "result", json_string(rb_design_result_name(d->result)));
     rb_report_json_set(&design, "largest", json_boolean(d->largest));
     rb_report_json_set(&design, "unit", json_string(rb_report_unit_name(units, unit)));
     rb_report_json_set(&design, "start", number(units, unit, d->start));
@@ -88,7 +84,7 @@ void rb_report_json_design(json_t **root, const rb_design *d, rb_units units)
     for (int k = 0; k < d->constraints; k++) {
         const rb_design_constraint *c = &d->constraint[k];
         json_t *one = json_object();
-        rb_report_json_set(&one, "result", json_string(name_of(c->result)));
+        rb_report_json_set(&one, "result", json_string(rb_design_result_name(c->result)));
         rb_report_json_set(&one, "at_least", json_boolean(c->at_least));
         rb_report_json_set(&one, "bound", number(units, unit_of_result(c->result), c->bound));
         rb_report_json_set(&one, "value", number(units, unit_of_result(c->result), c->value));
