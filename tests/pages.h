@@ -216,19 +216,19 @@ static inline int link_folder(const char *folder)
                build ? build : "build", folder, folder);
 }
 
-/* Runs the Python blocks that a page has, named by their lines, one after the other in
- * one process: what a block prints goes to the file printed-LINE.  Ends with the number
- * of blocks that raise something. */
-static inline int run_python(const char *folder, const char *lines)
+/* Runs blocks of Python, named PAGE-LINE, one after the other in one process: what a
+ * block prints goes to the file printed-PAGE-LINE.  Ends with the number of blocks that
+ * raise something. */
+static inline int run_python(const char *folder, const char *names)
 {
     static const char program[] =
         "import contextlib, sys, traceback, warnings\n"
         "warnings.simplefilter('ignore')\n"
         "wrong = 0\n"
-        "for line in sys.argv[1:]:\n"
-        "    with open('printed-' + line, 'w') as out, contextlib.redirect_stdout(out):\n"
+        "for name in sys.argv[1:]:\n"
+        "    with open('printed-' + name, 'w') as out, contextlib.redirect_stdout(out):\n"
         "        try:\n"
-        "            exec(compile(open('block-' + line).read(), 'block', 'exec'), "
+        "            exec(compile(open('block-' + name).read(), 'block', 'exec'), "
         "{'__name__': '__main__'})\n"
         "        except Exception:\n"
         "            wrong += 1\n"
@@ -242,7 +242,7 @@ static inline int run_python(const char *folder, const char *lines)
     assert_int_equal(fclose(file), 0);
     return run("cd %s && PYTHONPATH=python ROLLBEM_LIBRARY=build/librollbem.so "
                "PYTHONDONTWRITEBYTECODE=1 %s blocks.py%s 2>errors || { cat errors; false; }",
-               folder, python_of_pages(), lines);
+               folder, python_of_pages(), names);
 }
 
 static inline int is_in(const part *p, const char *language)
@@ -250,13 +250,14 @@ static inline int is_in(const part *p, const char *language)
     return strcmp(p->language, language) == 0;
 }
 
-/* Runs the blocks of a page in the folder: those of the shell and of Octave in order,
- * then those of Python.  How many there are, and how many print something else than the
- * page shows. */
-static inline int run_page(const char *page, const char *folder, int *wrong)
+/* Runs the blocks of a page, the k-th one, in the folder: those of the shell and of
+ * Octave, in order; the names of those of Python are added to a list.  How many blocks
+ * there are. */
+static inline int run_blocks(const char *page, int k, const char *folder, char python[MAX_TEXT],
+                             int *wrong)
 {
-    static char text[MAX_TEXT], got[MAX_TEXT];
-    char path[100], python[2000] = "";
+    static char text[MAX_TEXT];
+    char path[100];
     const char *at = text;
     int line = 1, blocks = 0;
     part p;
@@ -265,43 +266,75 @@ static inline int run_page(const char *page, const char *folder, int *wrong)
         if (!is_in(&p, "sh") && !is_in(&p, "octave") && !is_in(&p, "python"))
             continue;
         blocks++;
-        snprintf(path, sizeof path, "%s/block-%d", folder, p.line);
+        snprintf(path, sizeof path, "%s/block-%d-%d", folder, k, p.line);
         FILE *file = fopen(path, "w");
         assert_non_null(file);
         fwrite(p.text, 1, p.length, file);
         assert_int_equal(fclose(file), 0);
         int code = 0;
         if (is_in(&p, "sh"))
-            code = run("cd %s && sh -e block-%d >printed-%d 2>&1", folder, p.line, p.line);
+            code =
+                run("cd %s && sh -e block-%d-%d >printed-%d-%d 2>&1", folder, k, p.line, k, p.line);
         else if (is_in(&p, "octave") && have_octave())
-            code = run("cd %s && octave --no-gui --no-init-file --quiet block-%d >printed-%d "
-                       "2>errors",
-                       folder, p.line, p.line);
+            code = run("cd %s && octave --no-gui --no-init-file --quiet block-%d-%d "
+                       ">printed-%d-%d 2>errors",
+                       folder, k, p.line, k, p.line);
         else if (is_in(&p, "python") && python_of_pages())
-            snprintf(python + strlen(python), sizeof python - strlen(python), " %d", p.line);
+            snprintf(python + strlen(python), MAX_TEXT - strlen(python), " %d-%d", k, p.line);
         if (code)
             print_error("%s:%d ends with code %d\n", page, p.line, code);
         *wrong += code != 0;
     }
-    if (python[0]) {
-        const int raised = run_python(folder, python);
-        if (raised)
-            print_error("%s: %d blocks of Python raise something\n", page, raised);
-        *wrong += raised != 0;
-    }
-    int printed = 0; /* the line of the block that the next ```text is of */
-    for (at = text, line = 1; next_part(&at, &line, &p);)
+    return blocks;
+}
+
+/* How many blocks of the k-th page have printed something else than it shows. */
+static inline int count_different(const char *page, int k, const char *folder)
+{
+    static char text[MAX_TEXT], got[MAX_TEXT];
+    char path[100];
+    const char *at = text;
+    int line = 1, wrong = 0, printed = 0; /* the line of the block that the next ```text is of */
+    part p;
+    slurp(page, text);
+    while (next_part(&at, &line, &p))
         if (!p.language[0])
             printed = is_blank(&p) ? printed : 0;
         else if (is_in(&p, "text")) {
-            snprintf(path, sizeof path, "%s/printed-%d", folder, printed);
+            snprintf(path, sizeof path, "%s/printed-%d-%d", folder, k, printed);
             if (printed && access(path, F_OK) == 0) {
                 slurp(path, got);
-                *wrong += differs(page, &p, got);
+                wrong += differs(page, &p, got);
             }
         } else
             printed = p.line;
-    return run("rm -f %s/printed-* %s/block-*", folder, folder) ? -1 : blocks;
+    return wrong;
+}
+
+/* Runs the blocks of pages, each of which has so many at least, those of Python at the
+ * end.  How many raise something or print something else than the pages show. */
+static inline int run_pages(char *const page[], size_t pages, int least, const char *folder)
+{
+    static char python[MAX_TEXT];
+    int wrong = 0;
+    python[0] = '\0';
+    for (size_t k = 0; k < pages; k++)
+        assert_true(run_blocks(page[k], (int)k, folder, python, &wrong) >= least);
+    if (python[0]) {
+        const int raised = run_python(folder, python);
+        if (raised)
+            print_error("%d blocks of Python raise something\n", raised);
+        wrong += raised != 0;
+    }
+    for (size_t k = 0; k < pages; k++)
+        wrong += count_different(page[k], (int)k, folder);
+    assert_int_equal(run("rm -f %s/printed-* %s/block-*", folder, folder), 0);
+    return wrong;
+}
+
+static inline int run_page(char *page, int least, const char *folder)
+{
+    return run_pages(&page, 1, least, folder);
 }
 
 #endif

@@ -131,34 +131,26 @@ TEST(by_hand_is_computed_again_by_octave)
 
 TEST(blocks_of_the_readme_print_what_it_shows)
 {
-    int wrong = 0;
-    assert_true(run_page("README.md", folder, &wrong) >= 3);
-    assert_int_equal(wrong, 0);
+    assert_int_equal(run_page("README.md", 3, folder), 0);
 }
 
 TEST(commands_of_the_cookbook_run)
 {
-    int wrong = 0;
-    assert_true(run_page("docs/rolling-cookbook.md", folder, &wrong) >= 12);
-    assert_int_equal(wrong, 0);
+    assert_int_equal(run_page("docs/rolling-cookbook.md", 12, folder), 0);
     assert_int_equal(run("test -s %s/states/step_000050.tsv", folder), 0);
     assert_int_equal(run("test -s %s/fringes.png", folder), 0);
 }
 
 TEST(commands_of_the_rolls_run)
 {
-    int wrong = 0;
-    assert_true(run_page("docs/rolls.md", folder, &wrong) >= 7);
-    assert_int_equal(wrong, 0);
+    assert_int_equal(run_page("docs/rolls.md", 7, folder), 0);
     assert_int_equal(run("test -s %s/nip.png", folder), 0);
     assert_int_equal(run("test -s %s/resistance.png", folder), 0);
 }
 
 TEST(commands_of_the_cracks_run)
 {
-    int wrong = 0;
-    assert_true(run_page("docs/crack.md", folder, &wrong) >= 2);
-    assert_int_equal(wrong, 0);
+    assert_int_equal(run_page("docs/crack.md", 2, folder), 0);
     assert_int_equal(run("test -s %s/crack.png", folder), 0);
     assert_int_equal(run("test -s %s/orbit.png", folder), 0);
 }

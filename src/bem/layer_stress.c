@@ -41,7 +41,8 @@ static void set_wave(const rb_bem_surface *body, const rb_bem_edge_load *load, d
         const double even = t > 0.0 ? sin(t) / t : 1.0,
                      odd = t > 0.1 ? (even - cos(t)) / (2.0 * t)
                                    : t / 6.0 * (1.0 - t * t / 10.0 * (1.0 - t * t / 28.0));
-        const double complex shift = h * cexp(-I * w->k * 0.5 * (load->x[j] + load->x[j + 1]));
+        const double kx = w->k * 0.5 * (load->x[j] + load->x[j + 1]);
+        const double complex shift = h * (cos(kx) - I * sin(kx));
         p += shift *
              (even * 0.5 * (load->p[j] + load->p[j + 1]) - I * odd * (load->p[j + 1] - load->p[j]));
         q += shift *
@@ -74,8 +75,8 @@ static void add_waves(const rb_bem_layer_field *field, const double xy[2], doubl
     const double thickness = field->body.thickness,
                  fades = LAST / fmax(2.0 * thickness - xy[1], xy[1]);
     for (int k = 0; k < field->n && w[k].k <= fades; k++) {
-        const double complex e = cexp(I * w[k].k * xy[0]), c = w[k].c, d = w[k].d;
-        const double eta = w[k].k * xy[1];
+        const double complex c = w[k].c, d = w[k].d;
+        const double kx = w[k].k * xy[0], even = cos(kx), odd = sin(kx), eta = w[k].k * xy[1];
         double complex f[3]; /* f, f' and f'' */
         if (xy[1] <= thickness) {
             const double up = exp(eta), sh = eta < 1e-3 ? sinh(eta) : 0.5 * (up - 1.0 / up),
@@ -89,9 +90,9 @@ static void add_waves(const rb_bem_layer_field *field, const double xy[2], doubl
             f[1] = (w[k].b - w[k].a - w[k].b * z) * down;
             f[2] = (w[k].a - 2.0 * w[k].b + w[k].b * z) * down;
         }
-        stress[0] += creal(e * f[2]);
-        stress[1] -= creal(e * f[0]);
-        stress[2] += cimag(e * f[1]);
+        stress[0] += even * creal(f[2]) - odd * cimag(f[2]);
+        stress[1] -= even * creal(f[0]) - odd * cimag(f[0]);
+        stress[2] += even * cimag(f[1]) + odd * creal(f[1]);
     }
 }
 
