@@ -31,6 +31,14 @@ export function change_along(derivative, n, k, value) {
     return (grows ? right : side(0)).map((slope) => (slope * value) / (grows ? 100 : -100));
 }
 const size_of = ({ less, more }) => Math.max(Math.abs(less) || 0, Math.abs(more) || 0);
+/* The change to tell: for one percent more, or less of an input at the end of its range, which can only fall. */
+export const told_change = ({ less, more }) =>
+    Number.isFinite(more) ? { falls: false, change: more } : { falls: true, change: less };
+/* Those of which one percent less is not the opposite of one percent more. */
+export const kinks_of = (list, scale) =>
+    list.filter(
+        ({ less, more }) => Number.isFinite(less) && Number.isFinite(more) && Math.abs(less + more) > 1e-3 * scale,
+    );
 
 export function matters_card(words, page) {
     const { store } = page,
@@ -86,6 +94,8 @@ export function matters_card(words, page) {
             },
         ),
     );
+    const name_of = (name) => words.names[name] ?? name,
+        side_of = (falls) => (falls ? w.less : w.more);
     const percent = (x) =>
         !Number.isFinite(x)
             ? "–"
@@ -141,7 +151,7 @@ export function matters_card(words, page) {
                                 draw();
                             },
                         },
-                        words.names[name] ?? name,
+                        told_change({ less, more }).falls ? say(w.less_of, { name: name_of(name) }) : name_of(name),
                     ),
                     html(
                         "span",
@@ -156,13 +166,13 @@ export function matters_card(words, page) {
                             }),
                         ),
                     ),
-                    html("span", { class: "value" }, old ? "…" : percent(more)),
+                    html("span", { class: "value" }, old ? "…" : percent(told_change({ less, more }).change)),
                 ),
             ),
         );
         if (focused) rows.querySelector(`[data-input="${focused}"] button`)?.focus();
-        draw_along(at);
-        const kinks = list.filter(({ less, more }) => !(Math.abs(less + more) <= 1e-3 * scale));
+        draw_along(at, list.some((row) => row.name === at && told_change(row).falls));
+        const kinks = kinks_of(list, scale);
         if (old) {
             told.textContent = "…";
             return;
@@ -170,18 +180,19 @@ export function matters_card(words, page) {
         told.textContent = [
             list.length
                 ? say(w.most, {
-                      name: words.names[list[0].name] ?? list[0].name,
+                      name: name_of(list[0].name),
                       result: words.numbers[chosen],
-                      change: percent(Number.isFinite(list[0].more) ? list[0].more : list[0].less),
+                      side: side_of(told_change(list[0]).falls),
+                      change: percent(told_change(list[0]).change),
                   })
                 : say(w.none, { result: words.numbers[chosen] }),
-            kinks.length && say(w.kink, { names: kinks.map(({ name }) => words.names[name] ?? name).join(", ") }),
+            kinks.length && say(w.kink, { names: kinks.map(({ name }) => name_of(name)).join(", ") }),
         ]
             .filter(Boolean)
             .join(" ");
     }
-    /* What one percent of this input changes in pressure and friction. */
-    function draw_along(name) {
+    /* What one percent more, or less, of this input changes in pressure and friction. */
+    function draw_along(name, falls) {
         const k = data.inputs.findIndex((one) => one.name === name),
             n = data.x.length;
         if (k < 0 || !data["derivative.p"]) return along.replaceChildren();
@@ -193,7 +204,7 @@ export function matters_card(words, page) {
             room = 0.08 * (ends[1] - ends[0]) || 1,
             { contact_from: from, contact_to: to } = data.numbers,
             beside = 0.08 * (to - from),
-            of = words.names[name] ?? name;
+            of = { name: name_of(name), side: side_of(falls) };
         const { root, X, Y } = chart({
             width: width_of(along),
             height: 210,
@@ -202,7 +213,7 @@ export function matters_card(words, page) {
             x_label: words.x_axis,
             y_label: words.mpa,
             y_ticks: 4,
-            label: say(w.along_alt, { name: of, p: show(most(p), 3), q: show(most(q), 3) }),
+            label: say(w.along_alt, { ...of, p: show(most(p), 3), q: show(most(q), 3) }),
         });
         const inside = [...data.x.keys()].filter((i) => data.x[i] > from - beside && data.x[i] < to + beside);
         for (const [column, colour, width] of [
@@ -213,7 +224,7 @@ export function matters_card(words, page) {
                 svg("path", { d: line(inside.map((i) => [X(data.x[i]), Y(column[i])])), style: stroke(colour, width) }),
             );
         along.replaceChildren(
-            html("p", { class: "note" }, say(w.along, { name: of, elements: data.elements })),
+            html("p", { class: "note" }, say(w.along, { ...of, elements: data.elements })),
             root,
             legend(["--press", words.pressure], ["--rub", words.friction]),
         );

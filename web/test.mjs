@@ -22,7 +22,7 @@ import { open_in_firefox } from "./firefox.mjs";
 import { axes_of, axes_still_fit, bounds_of, tidy_number } from "./contact.js";
 import { value_to_hold, with_motion } from "./controls.js";
 import { CRACK_CASE, at_the_mouth, crack_request, faces_at } from "./crack.js";
-import { change_along, effects } from "./matters.js";
+import { change_along, effects, kinks_of, told_change } from "./matters.js";
 import { LESSONS, PAGES } from "./take.js";
 import { headline_of, slip_share } from "./hero.js";
 import { fit_lens, offsets_of } from "./lens.js";
@@ -526,6 +526,24 @@ await test("which input matters: the derivatives are differences of the library'
         JSON.stringify(list),
     );
 });
+await test("an input at the end of its range: what one percent less changes is told as that", () => {
+    const given = { support: "halfplane", load: "500", poisson: "0.5", "contact-elements": "20" },
+        got = answer(library, { kind: "derivatives", given }),
+        list = effects(
+            got.inputs.map(({ name }) => name),
+            got["derivative.value"].at,
+            got["derivative.max_pressure"].at,
+            got.numbers.max_pressure,
+        ),
+        poisson = list.find(({ name }) => name === "poisson"),
+        told = told_change(poisson),
+        less = 1e3 * (solve({ ...given, poisson: "0.499995" }).numbers.max_pressure / got.numbers.max_pressure - 1);
+    check(told.falls && told.change < 0, JSON.stringify(poisson));
+    check_close(told.change, less, 1e-3 * Math.abs(less), "1 % less of poisson");
+    check(!told_change(list.find(({ name }) => name === "young")).falls, "young can grow");
+    check(!kinks_of(list, 0.01).some(({ name }) => name === "poisson"), "one slope is no kink");
+    check(kinks_of([{ name: "mu", less: 0.001, more: 0.001 }], 0.01).length === 1, "two slopes are");
+});
 await test("changes along the contact and standard deviations are the program's", () => {
     const given = { ...PRESETS.rail, "interlayer-tangential": "0" },
         ask = (tolerance) => answer(library, { kind: "derivatives", given, tolerance }),
@@ -996,6 +1014,15 @@ async function views(page) {
             ),
             "no changes along the contact by the load",
         );
+        await page.run("rollbem.page.change({ ...rollbem.page.given, poisson: '0.5' })");
+        await settled();
+        await page.run(
+            "document.querySelector('#at-bench [name=matters][value=max_pressure]').click(); document.querySelector('#at-bench .bar[data-input=poisson] button').click()",
+        );
+        const texts = await page.run(
+            "[document.querySelector('#at-bench .bar[data-input=poisson]').textContent, document.querySelector('#at-bench .bars ~ figure').textContent]",
+        );
+        check(/, 1 % less−/.test(texts[0]) && /What 1 % less of /.test(texts[1]), texts.join(" | "));
     });
     await test("uncertain inputs give standard deviations, a wrong name its refusal", async () => {
         const type = async (text) => {
