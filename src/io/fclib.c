@@ -396,14 +396,43 @@ static herr_t note_error(hid_t stack, void *no_memory)
     return H5Ewalk2(stack, H5E_WALK_DOWNWARD, look_for_memory, no_memory);
 }
 
-/* ---- From the child to the parent: sizes and arrays as they lie in memory ---------- */
+/* ---- From the child to the parent -------------------------------------------------- */
 
-static void put_array(FILE *out, const void *x, size_t size, int n)
+/* An array as it lies in memory, where there is one: written as it is, or read into memory of
+ * its own, NULL after a failure. */
+static void *pass(FILE *f, int reads, int *ok, void *x, size_t size, size_t n)
 {
-    const int count = x ? n : -1;
-    fwrite(&count, sizeof count, 1, out);
-    if (x)
-        fwrite(x, size, (size_t)n, out);
+    if (!x)
+        return NULL;
+    if (!reads) {
+        *ok &= fwrite(x, size, n, f) == n;
+        return x;
+    }
+    void *own = *ok ? malloc(size * n + 1) : NULL;
+    *ok = own && fread(own, size, n, f) == n;
+    return own;
+}
+
+/* The problem and all its arrays; when it is read, the pointers of the child tell which there
+ * are.  0: not all of them. */
+static int pass_problem(FILE *f, int reads, rb_io_fclib *p)
+{
+    int ok = 1;
+    if ((reads ? fread(p, sizeof *p, 1, f) : fwrite(p, sizeof *p, 1, f)) != 1) {
+        *p = (rb_io_fclib){0};
+        return 0;
+    }
+    const arrays all = arrays_of(p);
+    for (int k = 0; k < MATRICES; k++) {
+        rb_sparse *a = all.matrix[k];
+        a->p = pass(f, reads, &ok, a->p, sizeof *a->p, (size_t)a->cols + 1);
+        const size_t entries = a->p && ok ? (size_t)a->p[a->cols] : 0;
+        a->i = pass(f, reads, &ok, a->i, sizeof *a->i, entries);
+        a->x = pass(f, reads, &ok, a->x, sizeof *a->x, entries);
+    }
+    for (int k = 0; k < VECTORS; k++)
+        *all.vector[k] = pass(f, reads, &ok, *all.vector[k], sizeof(double), (size_t)all.length[k]);
+    return ok;
 }
 
 static rb_status read_in_child(FILE *out, const void *path, rb_message *why)
@@ -434,46 +463,8 @@ static rb_status read_in_child(FILE *out, const void *path, rb_message *why)
     free(probe);
     if (s != RB_OK)
         return s;
-    const arrays all = arrays_of(&p);
-    fwrite(&p, sizeof p, 1, out);
-    for (int k = 0; k < MATRICES; k++) {
-        const rb_sparse *a = all.matrix[k];
-        const int nz = a->p ? a->p[a->cols] : 0;
-        fwrite(&a->rows, sizeof a->rows, 1, out);
-        fwrite(&a->cols, sizeof a->cols, 1, out);
-        put_array(out, a->p, sizeof *a->p, a->cols + 1);
-        put_array(out, a->i, sizeof *a->i, nz);
-        put_array(out, a->x, sizeof *a->x, nz);
-    }
-    for (int k = 0; k < VECTORS; k++)
-        put_array(out, *all.vector[k], sizeof(double), all.length[k]);
+    pass_problem(out, 0, &p); /* what is missing, the parent notices */
     return RB_OK;
-}
-
-typedef struct {
-    const char *at;
-    int no_memory;
-} bytes_in;
-
-static void take(bytes_in *in, void *to, size_t size)
-{
-    memcpy(to, in->at, size);
-    in->at += size;
-}
-
-static void *take_array(bytes_in *in, size_t size)
-{
-    int n;
-    take(in, &n, sizeof n);
-    if (n < 0)
-        return NULL;
-    void *x = malloc(size * (size_t)n + 1);
-    if (x)
-        memcpy(x, in->at, size * (size_t)n);
-    else
-        in->no_memory = 1;
-    in->at += size * (size_t)n;
-    return x;
 }
 
 rb_status rb_io_fclib_read(const char *path, rb_io_fclib *problem, rb_message *why)
@@ -490,25 +481,13 @@ rb_status rb_io_fclib_read(const char *path, rb_io_fclib *problem, rb_message *w
      * refuses again */
     if (s == RB_EFORMAT)
         s = rb_io_in_child(path, read_in_child, path, &bytes, &size, why);
-    if (s == RB_OK) {
-        bytes_in in = {.at = bytes};
-        const arrays all = arrays_of(problem);
-        take(&in, problem, sizeof *problem); /* its pointers are the child's: all are replaced */
-        for (int k = 0; k < MATRICES; k++) {
-            rb_sparse *a = all.matrix[k];
-            take(&in, &a->rows, sizeof a->rows);
-            take(&in, &a->cols, sizeof a->cols);
-            a->p = take_array(&in, sizeof *a->p);
-            a->i = take_array(&in, sizeof *a->i);
-            a->x = take_array(&in, sizeof *a->x);
-        }
-        for (int k = 0; k < VECTORS; k++)
-            *all.vector[k] = take_array(&in, sizeof(double));
-        if (in.no_memory) {
-            rb_io_fclib_free(problem);
-            s = rb_fail(why, RB_ENOMEM, "%s: out of memory", path);
-        }
+    FILE *in = s == RB_OK ? fmemopen(bytes, size, "rb") : NULL;
+    if (s == RB_OK && !(in && pass_problem(in, 1, problem))) {
+        rb_io_fclib_free(problem);
+        s = rb_fail(why, RB_ENOMEM, "%s: out of memory", path);
     }
+    if (in)
+        fclose(in);
     free(bytes);
     return s;
 }
