@@ -153,3 +153,17 @@ void rb_fourier_times_real(const rb_fourier *f, const double *by, fftw_complex *
         z[k][1] *= by[k];
     }
 }
+
+void rb_fourier_times_coupled(const rb_fourier *f, const double *N, const double *T,
+                              const double *C, fftw_complex *a, fftw_complex *b)
+{
+    for (int k = 0; k <= f->size / 2; k++) {
+        const double *n = N + 2 * k, *t = T + 2 * k, *c = C + 2 * k;
+        const double x[2] = {a[k][0], a[k][1]}, y[2] = {b[k][0], b[k][1]};
+
+        a[k][0] = n[0] * x[0] - n[1] * x[1] + c[0] * y[0] - c[1] * y[1];
+        a[k][1] = n[0] * x[1] + n[1] * x[0] + c[0] * y[1] + c[1] * y[0];
+        b[k][0] = t[0] * y[0] - t[1] * y[1] - c[0] * x[0] + c[1] * x[1];
+        b[k][1] = t[0] * y[1] + t[1] * y[0] - c[0] * x[1] - c[1] * x[0];
+    }
+}

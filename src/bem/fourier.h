@@ -27,5 +27,8 @@ fftw_complex *rb_fourier_kernel(const rb_fourier *f, int n, const double *t, dou
 /* z times a complex number (two of `by`), or a real one, for each wave. */
 void rb_fourier_times(const rb_fourier *f, const double *by, fftw_complex *z);
 void rb_fourier_times_real(const rb_fourier *f, const double *by, fftw_complex *z);
+/* a becomes N a + C b, b becomes T b - C a, for complex N, T and C of each wave. */
+void rb_fourier_times_coupled(const rb_fourier *f, const double *N, const double *T,
+                              const double *C, fftw_complex *a, fftw_complex *b);
 
 #endif

@@ -96,40 +96,20 @@ static void apply_coupled(const toeplitz *o, const double *r, double *w)
     fftw_complex *p = rb_fourier_forward(f, o->n, r, o->work[N]);
     fftw_complex *q = rb_fourier_forward(f, o->n, r + o->n, o->work[T]);
 
-    for (int k = 0; k <= f->size / 2; k++)
-        if (o->symmetric) {
-            /* Mode k of both, p and q, for real transforms of t and imaginary ones of s. */
-            const double t_N = o->t_hat[N][k], t_T = o->t_hat[T][k], s = o->s_hat[k];
-            const double p0 = p[k][0], p1 = p[k][1], q0 = q[k][0], q1 = q[k][1];
+    if (!o->symmetric)
+        rb_fourier_times_coupled(f, o->t_hat[N], o->t_hat[T], o->s_hat, p, q);
+    for (int k = 0; o->symmetric && k <= f->size / 2; k++) {
+        /* Mode k of both, p and q, for real transforms of t and imaginary ones of s. */
+        const double t_N = o->t_hat[N][k], t_T = o->t_hat[T][k], s = o->s_hat[k];
+        const double p0 = p[k][0], p1 = p[k][1], q0 = q[k][0], q1 = q[k][1];
 
-            p[k][0] = t_N * p0 - s * q1;
-            p[k][1] = t_N * p1 + s * q0;
-            q[k][0] = t_T * q0 + s * p1;
-            q[k][1] = t_T * q1 - s * p0;
-        } else {
-            const double *t_N = o->t_hat[N] + 2 * k, *t_T = o->t_hat[T] + 2 * k,
-                         *s = o->s_hat + 2 * k;
-            const double p0 = p[k][0], p1 = p[k][1], q0 = q[k][0], q1 = q[k][1];
-
-            p[k][0] = t_N[0] * p0 - t_N[1] * p1 + s[0] * q0 - s[1] * q1;
-            p[k][1] = t_N[0] * p1 + t_N[1] * p0 + s[0] * q1 + s[1] * q0;
-            q[k][0] = t_T[0] * q0 - t_T[1] * q1 - s[0] * p0 + s[1] * p1;
-            q[k][1] = t_T[0] * q1 + t_T[1] * q0 - s[0] * p1 - s[1] * p0;
-        }
+        p[k][0] = t_N * p0 - s * q1;
+        p[k][1] = t_N * p1 + s * q0;
+        q[k][0] = t_T * q0 + s * p1;
+        q[k][1] = t_T * q1 - s * p0;
+    }
     transform_back(o, o->base[N] * sum_of(o->n, r), o->work[N], w);
     transform_back(o, o->base[T] * sum_of(o->n, r + o->n), o->work[T], w + o->n + 1);
-}
-
-/* From the frame of the obstacle to that of the surface (way = 1), or back (way = -1):
- * r_n = cos r_N - way sin r_T, r_t = way sin r_N + cos r_T. */
-static void turn(const toeplitz *o, int way, int count, const double *from, double *to)
-{
-    for (int i = 0; i < count; i++) {
-        const double c = o->cosine[i], s = way * o->sine[i];
-        const double along_n = from[i], along_t = from[count + i];
-        to[i] = c * along_n - s * along_t;
-        to[count + i] = s * along_n + c * along_t;
-    }
 }
 
 static void toeplitz_apply(const rb_bem_flexibility *f, const double *r, double *w)
@@ -137,7 +117,7 @@ static void toeplitz_apply(const rb_bem_flexibility *f, const double *r, double 
     const toeplitz *o = f->data;
 
     if (o->cosine) {
-        turn(o, 1, f->n, r, o->turned);
+        rb_wheel_turn(o->cosine, o->sine, 1, f->n, r, o->turned);
         r = o->turned;
     }
     if (o->coupled) {
@@ -147,23 +127,7 @@ static void toeplitz_apply(const rb_bem_flexibility *f, const double *r, double 
         apply_alone(o, T, r + f->n, w + f->m);
     }
     if (o->cosine)
-        turn(o, -1, f->m, w, w);
-}
-
-/* e = R_i^T e R_j for the turns R of turn(). */
-static void turn_entry(const toeplitz *o, size_t i, size_t j, double *e)
-{
-    const double ci = o->cosine[i], si = o->sine[i], cj = o->cosine[j], sj = o->sine[j];
-    double f[4];
-
-    for (int c = 0; c < 2; c++) {
-        f[2 * c] = ci * e[2 * c] + si * e[2 * c + 1];
-        f[2 * c + 1] = -si * e[2 * c] + ci * e[2 * c + 1];
-    }
-    for (int k = 0; k < 2; k++) {
-        e[k] = f[k] * cj + f[2 + k] * sj;
-        e[2 + k] = -f[k] * sj + f[2 + k] * cj;
-    }
+        rb_wheel_turn(o->cosine, o->sine, -1, f->m, w, w);
 }
 
 static rb_status toeplitz_matrix(const rb_bem_flexibility *f, double *F, int ldf)
@@ -182,7 +146,8 @@ static rb_status toeplitz_matrix(const rb_bem_flexibility *f, double *F, int ldf
             e[1] = -e[2];
             e[3] = o->t[T][k];
             if (o->cosine)
-                turn_entry(o, i, j, e);
+                rb_wheel_turn_block((rb_direction){o->cosine[i], o->sine[i]},
+                                    (rb_direction){o->cosine[j], o->sine[j]}, e);
             column_N[i] = e[0];
             column_N[m + i] = e[1];
             column_T[i] = e[2];

@@ -199,6 +199,29 @@ static double integral(const gsl_spline *spline, gsl_interp_accel *near, double 
     return gsl_spline_eval_integ(spline, x - b, x + b, near);
 }
 
+/* ---- Frames ------------------------------------------------------------------------ */
+
+void rb_wheel_turn(const double *cosine, const double *sine, int way, int count, const double *from,
+                   double *to)
+{
+    for (int i = 0; i < count; i++) {
+        const double c = cosine[i], s = way * sine[i], N = from[i], T = from[count + i];
+        to[i] = c * N - s * T;
+        to[count + i] = s * N + c * T;
+    }
+}
+
+void rb_wheel_turn_block(rb_direction to, rb_direction from, double B[4])
+{
+    const double c = to.cosine, s = to.sine, cf = from.cosine, sf = from.sine;
+    const double P[4] = {cf * B[0] + sf * B[2], cf * B[1] + sf * B[3], cf * B[2] - sf * B[0],
+                         cf * B[3] - sf * B[1]};
+    B[0] = c * P[0] + s * P[1];
+    B[1] = c * P[1] - s * P[0];
+    B[2] = c * P[2] + s * P[3];
+    B[3] = c * P[3] - s * P[2];
+}
+
 /* ---- The kernel, glassy ------------------------------------------------------------ */
 
 double *rb_wheel_angles(double radius, int n, const double *ends)
@@ -297,16 +320,12 @@ rb_status rb_wheel_response(const rb_bem_wheel *w, int n, double h, double *N, d
 
 /* ---- The matrix -------------------------------------------------------------------- */
 
-typedef struct {
-    double cosine, sine;
-} direction;
-
 /* The angles of m = n + 1 midpoints and m + 1 ends, times R, the directions of the
  * midpoints and what the half-plane adds along the circumference (2m x 2n). */
 typedef struct {
     int n;
     double *arc, *end, *W;
-    direction *at;
+    rb_direction *at;
 } circumference;
 
 static void circumference_free(circumference *c)
@@ -329,23 +348,10 @@ static rb_status place_circumference(double radius, int n, const double *ends, i
         return RB_ENOMEM;
     c->end = c->arc + m;
     for (size_t i = 0; i < m; i++)
-        c->at[i] = (direction){cos(c->arc[i]), sin(c->arc[i])};
+        c->at[i] = (rb_direction){cos(c->arc[i]), sin(c->arc[i])};
     for (size_t i = 0; i < 2 * m + 1; i++)
         c->arc[i] *= radius;
     return RB_OK;
-}
-
-/* Turns B = (NN, TN, NT, TT), from a load in direction `from` to a point in direction
- * `to`, from the frames of the surface into the obstacle's. */
-static void turn(const direction *to, const direction *from, double B[4])
-{
-    const double c = to->cosine, s = to->sine, cf = from->cosine, sf = from->sine;
-    const double P[4] = {cf * B[0] + sf * B[2], cf * B[1] + sf * B[3], cf * B[2] - sf * B[0],
-                         cf * B[3] - sf * B[1]};
-    B[0] = c * P[0] + s * P[1];
-    B[1] = c * P[1] - s * P[0];
-    B[2] = c * P[2] + s * P[3];
-    B[3] = c * P[3] - s * P[2];
 }
 
 /* The integrals of the inner table over the loads from end j to the midpoints. */
@@ -384,7 +390,7 @@ static void add_columns(const rb_bem_wheel *w, rb_bem_normals normals, const cir
             double B[4] = {c->W[N] + scale * own.N, c->W[N + m] - scale * own.C,
                            c->W[T] + scale * own.C, c->W[T + m] + scale * own.T};
             if (normals == RB_BEM_NORMALS_OBSTACLE)
-                turn(c->at + i, c->at + j, B);
+                rb_wheel_turn_block(c->at[i], c->at[j], B);
             F[N] += B[0];
             F[N + m] += B[1];
             F[T] += B[2];
@@ -530,7 +536,8 @@ rb_status rb_bem_wheel_normal(const rb_bem_wheel *wheel, const rb_bem_edge_load 
                                  high = rb_wheel_kernel_at(&kernel, to - end[1]);
             const double C = low.C - high.C;
             double B[4] = {low.N - high.N, -C, C, low.T - high.T};
-            turn(&(direction){cos(to), sin(to)}, &(direction){cos(from), sin(from)}, B);
+            rb_wheel_turn_block((rb_direction){cos(to), sin(to)},
+                                (rb_direction){cos(from), sin(from)}, B);
             w[i] += B[0] * load->p[j] + B[2] * load->q[j];
         }
     }

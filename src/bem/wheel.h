@@ -13,6 +13,22 @@ rb_status rb_wheel_check(int n_c, const double *ends, const rb_bem_wheel *wheel,
 double *rb_wheel_angles(double radius, int n, const double *ends);
 void rb_wheel_chords(double radius, int n, const double *ends, double *h);
 
+/* ---- Frames ---- */
+
+/* Of a surface at an angle from the lowest point, where it has the obstacle's frame. */
+typedef struct {
+    double cosine, sine;
+} rb_direction;
+
+/* Normal and tangential components, `count` of each one after the other, from the frame
+ * of the obstacle to that of the surface (way = 1), or back (way = -1); from and to may be
+ * the same. */
+void rb_wheel_turn(const double *cosine, const double *sine, int way, int count, const double *from,
+                   double *to);
+/* B = (NN, TN, NT, TT), from a load in direction `from` to a point in direction `to`: from
+ * the frames of the surface into the obstacle's. */
+void rb_wheel_turn_block(rb_direction to, rb_direction from, double B[4]);
+
 /* The primitive over the angle of the answer of the glassy wheel to a unit load. */
 typedef struct {
     double kappa, scale, datum;

@@ -41,6 +41,7 @@ typedef struct {
     rb_fourier fourier;
     fftw_complex *kernel[3];
     double *work[2], *charge; /* charge: 2 (n + 1) */
+    double *turned;           /* 2n: tractions in the surface's frame */
     rb_arena memory;          /* of all arrays but kernel and work */
 } products;
 
@@ -92,35 +93,24 @@ static void products_apply(const rb_bem_flexibility *f, const double *r, double 
 {
     const products *o = f->data;
     const double *cosine = o->place, *sine = o->place + o->m;
+    const int turned = o->normals == RB_BEM_NORMALS_OBSTACLE;
     double *N = o->charge, *T = o->charge + o->n + 1;
 
-    /* Frames of the obstacle into those of the surface. */
-    double before[2] = {0.0, 0.0};
-
+    if (turned) {
+        rb_wheel_turn(cosine, sine, 1, o->n, r, o->turned);
+        r = o->turned;
+    }
     for (int j = 0; j <= o->n; j++) {
-        double now[2] = {j < o->n ? r[j] : 0.0, j < o->n ? r[o->n + j] : 0.0};
-        if (o->normals == RB_BEM_NORMALS_OBSTACLE) {
-            const double p = now[0], q = now[1];
-            now[0] = cosine[j] * p - sine[j] * q;
-            now[1] = sine[j] * p + cosine[j] * q;
-        }
-        N[j] = now[0] - before[0];
-        T[j] = now[1] - before[1];
-        memcpy(before, now, sizeof now);
+        N[j] = (j < o->n ? r[j] : 0.0) - (j > 0 ? r[j - 1] : 0.0);
+        T[j] = (j < o->n ? r[o->n + j] : 0.0) - (j > 0 ? r[o->n + j - 1] : 0.0);
     }
     fftw_complex *a = transform_of(o, N, o->work[0]), *b = transform_of(o, T, o->work[1]);
     if (o->parts == 1) {
         rb_fourier_times(&o->fourier, o->kernel[0][0], a);
         rb_fourier_times(&o->fourier, o->kernel[0][0], b);
-    }
-    for (int k = 0; o->parts > 1 && k <= o->fourier.size / 2; k++) {
-        const double *n = o->kernel[0][k], *t = o->kernel[1][k], *c = o->kernel[2][k];
-        const double x[2] = {a[k][0], a[k][1]}, y[2] = {b[k][0], b[k][1]};
-        a[k][0] = (n[0] * x[0] - n[1] * x[1]) + (c[0] * y[0] - c[1] * y[1]);
-        a[k][1] = (n[0] * x[1] + n[1] * x[0]) + (c[0] * y[1] + c[1] * y[0]);
-        b[k][0] = t[0] * y[0] - t[1] * y[1] - c[0] * x[0] + c[1] * x[1];
-        b[k][1] = t[0] * y[1] + t[1] * y[0] - c[0] * x[1] - c[1] * x[0];
-    }
+    } else
+        rb_fourier_times_coupled(&o->fourier, o->kernel[0][0], o->kernel[1][0], o->kernel[2][0], a,
+                                 b);
     rb_fourier_backward(&o->fourier, o->work[0]);
     rb_fourier_backward(&o->fourier, o->work[1]);
     const size_t pairs = (size_t)o->near_first[o->m];
@@ -144,10 +134,11 @@ static void products_apply(const rb_bem_flexibility *f, const double *r, double 
                 u += n[k] * at_N[k] + c[k] * at_T[k];
                 v += t[k] * at_T[k] - c[k] * at_N[k];
             }
-        const int turned = o->normals == RB_BEM_NORMALS_OBSTACLE;
-        w[i] = turned ? cosine[i] * u + sine[i] * v : u;
-        w[o->m + i] = turned ? cosine[i] * v - sine[i] * u : v;
+        w[i] = u;
+        w[o->m + i] = v;
     }
+    if (turned)
+        rb_wheel_turn(cosine, sine, -1, o->m, w, w);
     if (o->parts == 1)
         add_coupling(o, r, w);
 }
@@ -321,6 +312,7 @@ static rb_status make(const products *like, double *x, double step, const double
         o->ends = rb_arena_doubles(&o->memory, m + 1, 1);
         o->place = rb_arena_doubles(&o->memory, m, 2);
         o->charge = rb_arena_doubles(&o->memory, m, 2);
+        o->turned = rb_arena_doubles(&o->memory, m, 2);
         o->from = rb_arena_zeros(&o->memory, m, sizeof *o->from);
         o->to = rb_arena_zeros(&o->memory, m, sizeof *o->to);
         o->near_first = rb_arena_ints(&o->memory, m + 1);
