@@ -3,6 +3,7 @@
  * is approximated by polynomials on pieces a quarter as long, integrals over strips are
  * integrals of polynomials, and a table to any distance has a few pieces per octave. */
 #include "bem/layer.h"
+#include "bem/panels.h"
 
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_math.h>
@@ -15,9 +16,7 @@
 enum {
     DEGREE = 11, /* a piece's half-length is an eighth of the way to a singularity */
     SAMPLES = DEGREE + 1,
-    FIRST = 8,       /* pieces of 0 <= X < 2 */
-    PER_OCTAVE = 4,  /* from there on */
-    NEAR_OCTAVES = 2 /* by waves of real numbers, up to X = 8 */
+    NEAR = 4 * RB_PANELS_PER_OCTAVE /* pieces by waves of real numbers, up to X = 8 */
 };
 
 /* Polynomials of t, -1 ... 1, of pressure, friction, coupling and of nothing. */
@@ -34,31 +33,6 @@ struct rb_bem_layer_table {
     piece *side[2];
     int users;
 };
-
-/* ---- Pieces ------------------------------------------------------------------------ */
-
-/* Piece k: from *low, *width long. */
-static void place(int k, double *low, double *width)
-{
-    const int beyond = k - FIRST, octave = beyond / PER_OCTAVE + 1;
-
-    *width = k < FIRST ? 2.0 / FIRST : ldexp(1.0 / PER_OCTAVE, octave);
-    *low = k < FIRST ? k * *width : ldexp(1.0, octave) + beyond % PER_OCTAVE * *width;
-}
-
-/* The piece that holds X >= 0, and the place t in it. */
-static int find(double X, double *t)
-{
-    const int octave = X < 2.0 ? 0 : ilogb(X);
-    const int k =
-        X < 2.0 ? (int)(X * (FIRST / 2.0))
-                : FIRST + (octave - 1) * PER_OCTAVE + (int)((ldexp(X, -octave) - 1.0) * PER_OCTAVE);
-    double low, width;
-
-    place(k, &low, &width);
-    *t = 2.0 * (X - low) / width - 1.0;
-    return k;
-}
 
 /* ---- Waves ------------------------------------------------------------------------- */
 
@@ -139,24 +113,21 @@ static void waves_free(waves *w)
 
 /* ---- Polynomials ------------------------------------------------------------------- */
 
-/* From values at Chebyshev's points cos(pi (j + 1/2)/SAMPLES) to powers of t. */
+/* From values at Chebyshev's points to powers of t. */
 static void interpolate(const double value[SAMPLES][3], piece *p)
 {
     double T[SAMPLES][SAMPLES] = {{1.0}, {0.0, 1.0}}; /* coefficients of T_k */
+    double a[SAMPLES][3];
 
     for (int k = 2; k < SAMPLES; k++)
         for (int i = 0; i < SAMPLES; i++)
             T[k][i] = (i > 0 ? 2.0 * T[k - 1][i - 1] : 0.0) - T[k - 2][i];
     memset(p->c, 0, sizeof p->c);
+    rb_panel_chebyshev(SAMPLES, value, a);
     for (int k = 0; k < SAMPLES; k++)
-        for (int c = 0; c < 3; c++) {
-            double a = 0.0;
-            for (int j = 0; j < SAMPLES; j++)
-                a += value[j][c] * cos(M_PI * k * (j + 0.5) / SAMPLES);
-            a *= (k == 0 ? 1.0 : 2.0) / SAMPLES;
+        for (int c = 0; c < 3; c++)
             for (int i = 0; i <= k; i++)
-                p->c[i][c] += a * T[k][i];
-        }
+                p->c[i][c] += a[k][c] * T[k][i];
 }
 
 /* From the middle of a piece with this half-length to t. */
@@ -182,14 +153,14 @@ static rb_status fill_side(const rb_bem_layer_table *table, int side, int from)
     for (int k = from; k < table->pieces && s == RB_OK; k++) {
         piece *p = table->side[side] + k;
         double low, width, value[SAMPLES][3];
-        place(k, &low, &width);
+        rb_panel_place(k, &low, &width);
         const double unit = low < 8.0 ? 1.0 : ldexp(1.0, ilogb(low));
         if (unit != w.unit) {
             waves_free(&w);
             s = make_waves(&body, unit, &w);
         }
         for (int j = 0; j < SAMPLES && s == RB_OK; j++) {
-            const double X = low + 0.5 * width * (1.0 + cos(M_PI * (j + 0.5) / SAMPLES));
+            const double X = low + width * rb_panel_point(SAMPLES, j);
             double *of = value[j];
             double complex sum[3] = {w.constant[0], w.constant[1], w.constant[2]};
 
@@ -210,8 +181,8 @@ static rb_status fill_side(const rb_bem_layer_table *table, int side, int from)
     for (int k = 0; k < table->pieces && s == RB_OK; k++) {
         piece *p = table->side[side] + k;
         double low, width, low_before, width_before;
-        place(k, &low, &width);
-        place(k > 0 ? k - 1 : 0, &low_before, &width_before);
+        rb_panel_place(k, &low, &width);
+        rb_panel_place(k > 0 ? k - 1 : 0, &low_before, &width_before);
         const rb_bem_layer_kernel own = integral_of(p, -1.0, 0.5 * width),
                                   other = k > 0 ? integral_of(p - 1, 1.0, 0.5 * width_before)
                                                 : (rb_bem_layer_kernel){{0.0}};
@@ -228,12 +199,12 @@ static rb_bem_layer_kernel look_up(const rb_bem_layer_table *table, double X, in
 {
     const int behind = X < 0.0, mirrored = behind && table->body.terms == 0;
     double t, low, width;
-    const int k = find(fabs(X), &t);
+    const int k = rb_panel_of(fabs(X), &t);
     const piece *p = table->side[behind && !mirrored] + k;
     rb_bem_layer_kernel v = {{0.0}};
 
     if (integral) {
-        place(k, &low, &width);
+        rb_panel_place(k, &low, &width);
         v = integral_of(p, t, 0.5 * width);
         for (int c = 0; c < 4; c++)
             v.of[c] = (v.of[c] + p->before[c]) * (behind ? -1.0 : 1.0);
@@ -364,8 +335,7 @@ const rb_bem_layer_table *rb_bem_layer_table_of(const rb_bem_surface *body, doub
 {
     /* How many reach as far. */
     double t;
-    const int least = FIRST + NEAR_OCTAVES * PER_OCTAVE;
-    const int pieces = (int)fmax(least, find(reach, &t) + 1);
+    const int pieces = (int)fmax(NEAR, rb_panel_of(reach, &t) + 1);
     int k = 0;
 
     pthread_mutex_lock(&tables);

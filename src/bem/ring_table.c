@@ -1,6 +1,7 @@
 /* Sums of waves exp(imx) on rings, tabulated by Chebyshev's polynomials on panels that
  * grow with the distance from the load. */
 #include "bem/internal.h"
+#include "bem/panels.h"
 #include "bem/ring.h"
 #include "rollbem/blas.h"
 
@@ -154,19 +155,7 @@ static rb_ring_answer wave_sum_at(const wave_sum *s, double x)
 
 /* The waves fall like exp(-2 m ln(R/inner)): their sum is analytic within twice that
  * around the load, and what is left further away varies over lengths of the distance. */
-enum { ORDER = 16, PARTS = 4 };
-
-/* Panel of y = abs(x)/smallest and the place in it, -1 to 1. */
-static inline int find(double y, double *t)
-{
-    int octave = 0;
-    double part = y; /* 0 to 1 of the octave */
-    if (y >= 1.0)
-        part = 2.0 * frexp(y, &octave) - 1.0;
-    const int k = (int)(PARTS * part);
-    *t = 2.0 * (PARTS * part - k) - 1.0;
-    return PARTS * octave + k;
-}
+enum { ORDER = 16 };
 
 typedef double chebyshev[ORDER][3];
 
@@ -178,12 +167,12 @@ static inline chebyshev *panel_of(const rb_ring_table *t, int side, int k)
 static void fill_panel(const rb_bem_wheel *wheel, const wave_sum *sum, rb_ring_primitive *rest,
                        const rb_ring_table *table, int side, int k)
 {
-    const int octave = k / PARTS;
+    const int octave = k / RB_PANELS_PER_OCTAVE;
     double value[ORDER][3];
-    chebyshev *c = panel_of(table, side, k);
 
     for (int i = 0; i < ORDER; i++) {
-        const double part = (k % PARTS + 0.5 * (1.0 + cos(M_PI * (i + 0.5) / ORDER))) / PARTS,
+        const double part = (k % RB_PANELS_PER_OCTAVE + rb_panel_point(ORDER, i)) /
+                            RB_PANELS_PER_OCTAVE,
                      y = octave == 0 ? part : ldexp(0.5 * (1.0 + part), octave),
                      x = (side ? -1.0 : 1.0) * table->smallest * y;
         const rb_ring_answer s = wave_sum_at(sum, x),
@@ -192,13 +181,7 @@ static void fill_panel(const rb_bem_wheel *wheel, const wave_sum *sum, rb_ring_p
         value[i][1] = s.T + r.T;
         value[i][2] = s.C + r.C;
     }
-    for (int j = 0; j < ORDER; j++)
-        for (int d = 0; d < 3; d++) {
-            double a = 0.0;
-            for (int i = 0; i < ORDER; i++)
-                a += value[i][d] * cos(M_PI * j * (i + 0.5) / ORDER);
-            (*c)[j][d] = a * (j ? 2.0 : 1.0) / ORDER;
-        }
+    rb_panel_chebyshev(ORDER, (const double(*)[3])value, *panel_of(table, side, k));
 }
 
 void rb_ring_table_free(rb_ring_table *table)
@@ -212,7 +195,7 @@ rb_status rb_ring_table_create(const rb_bem_wheel *wheel, rb_ring_waves *waves, 
                                rb_ring_table *table)
 {
     double t;
-    const int panels = find(1.001 * reach / smallest, &t) + 1;
+    const int panels = rb_panel_of(1.001 * reach / smallest, &t) + 1;
     wave_sum *sum = wave_sum_make(wheel, waves, last);
 
     *table = (rb_ring_table){smallest, panels, sum && sum->real ? 1 : 2,
@@ -229,7 +212,7 @@ rb_status rb_ring_table_create(const rb_bem_wheel *wheel, rb_ring_waves *waves, 
 rb_ring_answer rb_ring_table_at(const rb_ring_table *table, double x)
 {
     double t, b[3] = {0.0}, before[3] = {0.0};
-    const int k = find(fabs(x) / table->smallest, &t);
+    const int k = rb_panel_of(fabs(x) / table->smallest, &t);
     const int mirrored = x < 0.0 && table->sides == 1;
     chebyshev *const c = panel_of(table, x < 0.0 && !mirrored, k);
 
