@@ -316,9 +316,9 @@ static int other_arc(int n_c, const double *ends, double radius, double tol)
  * translation -conj(P) exp(2 i alpha) of theory.md's letters is added to it:
  * displacements are then measured from where the load is held, and the flexibility is
  * symmetric. */
-static rb_status disc_response(const rb_bem_disc *disc, int n, double h, double *N_, double *T_,
-                               double *C)
+static rb_status disc_response(const void *body, int n, double h, double *N_, double *T_, double *C)
 {
+    const rb_bem_disc *disc = body;
     const double scale = disc->radius / (4.0 * M_PI * disc->material.shear);
 
     for (int k = 0; k <= n; k++) {
@@ -334,12 +334,11 @@ static rb_status disc_response(const rb_bem_disc *disc, int n, double h, double 
     return RB_OK;
 }
 
-/* A disc, or a wheel: one of both. */
-static rb_status on_equal_arcs(int n_c, const double *ends, const rb_bem_disc *disc,
-                               const rb_bem_wheel *wheel, rb_bem_normals normals,
-                               rb_bem_flexibility *f)
+rb_status rb_wheel_on_equal_arcs(int n_c, const double *ends, double radius,
+                                 rb_wheel_responds *responds, const void *body,
+                                 rb_bem_normals normals, rb_bem_flexibility *f)
 {
-    const double radius = disc ? disc->radius : wheel->radius, first = asin(ends[0] / radius);
+    const double first = asin(ends[0] / radius);
     const double h = (asin(ends[n_c + 1] / radius) - first) / (n_c + 1);
     toeplitz *o = start(n_c, ends, 0, f);
 
@@ -360,8 +359,7 @@ static rb_status on_equal_arcs(int n_c, const double *ends, const rb_bem_disc *d
         }
     }
     double *const t_N = o->t[N] + n_c, *const t_T = o->t[T] + n_c, *const s = o->s + n_c;
-    const rb_status status = disc ? disc_response(disc, n_c, h, t_N, t_T, s)
-                                  : rb_wheel_response(wheel, n_c, h, t_N, t_T, s);
+    const rb_status status = responds(body, n_c, h, t_N, t_T, s);
     if (status == RB_OK) {
         o->symmetric = 1;
         s[0] = 0.0;
@@ -389,7 +387,7 @@ rb_status rb_bem_flexibility_disc(int n_c, const double *ends, const rb_bem_disc
     if (other)
         return rb_fail(why, RB_EINVAL,
                        "disc: contact element %d has another length than the others", other);
-    s = on_equal_arcs(n_c, ends, disc, NULL, normals, f);
+    s = rb_wheel_on_equal_arcs(n_c, ends, radius, disc_response, disc, normals, f);
     return rb_bem_flexibility_end("disc", n_c, s, f, why);
 }
 
@@ -398,10 +396,4 @@ int rb_wheel_has_equal_arcs(int n_c, const double *ends, double radius)
 {
     const double h = (asin(ends[n_c + 1] / radius) - asin(ends[0] / radius)) / (n_c + 1);
     return other_arc(n_c, ends, radius, 1e-12 + 8.0 * DBL_EPSILON / h) == 0;
-}
-
-rb_status rb_wheel_on_equal_arcs(int n_c, const double *ends, const rb_bem_wheel *wheel,
-                                 rb_bem_normals normals, rb_bem_flexibility *f)
-{
-    return on_equal_arcs(n_c, ends, NULL, wheel, normals, f);
 }

@@ -282,8 +282,9 @@ rb_ring_answer rb_wheel_kernel_at(const rb_wheel_kernel *kernel, double x)
 
 /* The waves that the inner contour changes are as long as the ring is thick, so that few
  * panels hold their sum; the disc is added in closed form. */
-rb_status rb_wheel_response(const rb_bem_wheel *w, int n, double h, double *N, double *T, double *C)
+rb_status rb_wheel_response(const void *body, int n, double h, double *N, double *T, double *C)
 {
+    const rb_bem_wheel *w = body;
     const double scale = w->radius / (4.0 * M_PI * w->material.shear), length = h * w->radius,
                  strip[2] = {-0.5 * length, 0.5 * length};
     const rb_bem_surface plane = rb_bem_halfplane(w->material, w->radius);

@@ -44,15 +44,19 @@ void rb_wheel_kernel_free(rb_wheel_kernel *kernel);
 /* [length/stress] */
 rb_ring_answer rb_wheel_kernel_at(const rb_wheel_kernel *kernel, double x);
 
-/* The answer of the glassy wheel, normals those of its surface, at arcs 0 ... n after a
- * load on one arc of angle h: N and T as above, C the normal one by friction.  RB_ENOMEM. */
-rb_status rb_wheel_response(const rb_bem_wheel *wheel, int n, double h, double *N, double *T,
-                            double *C);
+/* What a body that is alike at every angle does at arcs 0 ... n after a load on one arc of
+ * angle h, normals those of its surface: N and T as above, C the normal one by friction.
+ * RB_ENOMEM. */
+typedef rb_status rb_wheel_responds(const void *body, int n, double h, double *N, double *T,
+                                    double *C);
+/* Of the glassy wheel, an rb_bem_wheel. */
+rb_wheel_responds rb_wheel_response;
 
-/* Its flexibility as a Toeplitz matrix, and whether the elements are equal arcs, as it
- * asks.  RB_ENOMEM; free in any case. */
+/* The flexibility of such a body as a Toeplitz matrix, and whether the elements are equal
+ * arcs, as it asks.  RB_ENOMEM; free in any case. */
 int rb_wheel_has_equal_arcs(int n_c, const double *ends, double radius);
-rb_status rb_wheel_on_equal_arcs(int n_c, const double *ends, const rb_bem_wheel *wheel,
+rb_status rb_wheel_on_equal_arcs(int n_c, const double *ends, double radius,
+                                 rb_wheel_responds *responds, const void *body,
                                  rb_bem_normals normals, rb_bem_flexibility *f);
 
 #endif

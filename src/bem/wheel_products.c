@@ -347,7 +347,7 @@ rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends, const r
     if (s != RB_OK)
         return s;
     if (rb_wheel_has_equal_arcs(n_c, ends, wheel->radius)) {
-        s = rb_wheel_on_equal_arcs(n_c, ends, wheel, normals, f);
+        s = rb_wheel_on_equal_arcs(n_c, ends, wheel->radius, rb_wheel_response, wheel, normals, f);
         return rb_bem_flexibility_end("wheel", n_c, s, f, why);
     }
     double *angles = rb_wheel_angles(wheel->radius, n_c, ends);

@@ -6,7 +6,6 @@
 #include <gsl/gsl_interp.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sort.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -75,18 +74,6 @@ static rb_status gather_strips(const rb_rolling_mesh *mesh, const rb_contact_sta
     return RB_OK;
 }
 
-/* The midpoint of a boundary element, and its displacement. */
-typedef struct {
-    double x, u;
-    int element;
-} point;
-
-static int by_x(const void *a, const void *b)
-{
-    const double x = ((const point *)a)->x, y = ((const point *)b)->x;
-    return (x > y) - (x < y);
-}
-
 /* Of the lower half of a wheel, between the midpoints of its boundary elements, by their
  * system; of a cover, by its waves under the loads. */
 static rb_status add_wheel(const rb_rolling_model *model, const rb_contact_state *state, int is_b,
@@ -97,57 +84,48 @@ static rb_status add_wheel(const rb_rolling_model *model, const rb_contact_state
     const double radius = body->radius, coupling = is_b ? -1.0 : 1.0;
     rb_bem_mesh mesh;
     rb_status s = rb_rolling_boundary_mesh(model, is_b, &mesh, NULL);
-    const int n = model->mesh.n, all = s == RB_OK ? mesh.n : 0;
-    point *at = rb_arena_zeros(scratch, (size_t)all, sizeof *at);
-    int lower = 0;
+    const size_t n = (size_t)model->mesh.n, all = s == RB_OK ? (size_t)mesh.n : 0;
+    double *x = rb_arena_doubles(scratch, all, 1), *w = rb_arena_doubles(scratch, all, 1);
+    int *element = rb_arena_ints(scratch, all);
+    size_t lower = 0;
 
-    for (int j = 0; j < all && at; j++) {
+    for (size_t j = 0; j < all && !scratch->failed; j++) {
         const double mx = 0.5 * (mesh.x0[j] + mesh.x1[j]);
         const double my = 0.5 * (mesh.y0[j] + mesh.y1[j]);
         const int is_rim = hypot(mesh.x0[j], mesh.y0[j] - radius) > (1.0 - 1e-9) * radius;
-        if (is_rim && my < radius)
-            at[lower++] = (point){mx, 0.0, j};
+        if (is_rim && my < radius) {
+            x[lower] = mx;
+            element[lower++] = (int)j;
+        }
     }
     rb_bem_mesh_free(&mesh);
     if (s == RB_OK && system) {
-        double *t_c = rb_arena_doubles(scratch, 2 * (size_t)n, 1),
-               *t = rb_arena_doubles(scratch, 2 * (size_t)all, 1),
-               *u = rb_arena_doubles(scratch, 2 * (size_t)all, 1);
+        double *t_c = rb_arena_doubles(scratch, 2 * n, 1),
+               *t = rb_arena_doubles(scratch, 2 * all, 1),
+               *u = rb_arena_doubles(scratch, 2 * all, 1);
 
         if (scratch->failed)
             return RB_ENOMEM;
-        for (int i = 0; i < n; i++) {
+        for (size_t i = 0; i < n; i++) {
             t_c[2 * i] = coupling * state->q[i];
             t_c[2 * i + 1] = state->p[i];
         }
         s = rb_bem_system_solve(system, t_c, u, t);
-        for (int i = 0; i < lower; i++)
-            at[i].u = u[2 * at[i].element + 1];
+        for (size_t i = 0; i < lower; i++)
+            w[i] = u[2 * element[i] + 1];
     } else if (s == RB_OK) {
-        double length[RB_ROLLING_TERMS], *x = rb_arena_doubles(scratch, (size_t)all, 1),
-                                         *u = rb_arena_doubles(scratch, (size_t)all, 1);
+        double length[RB_ROLLING_TERMS];
         const rb_bem_wheel wheel = rb_rolling_wheel_of(model->rc, body, length);
 
-        if (scratch->failed)
-            return RB_ENOMEM;
-        for (int i = 0; i < lower; i++)
-            x[i] = at[i].x;
-        s = rb_bem_wheel_normal(&wheel, loads, lower, x, u);
-        for (int i = 0; i < lower; i++)
-            at[i].u = u[i];
+        s = scratch->failed ? RB_ENOMEM : rb_bem_wheel_normal(&wheel, loads, (int)lower, x, w);
     }
     if (s != RB_OK || lower < 2)
         return s;
-    qsort(at, (size_t)lower, sizeof *at, by_x);
-    /* Values of the line through n points. */
+    gsl_sort2(x, 1, w, 1, lower);
     for (int i = 0; i < to->n; i++) {
-        int k = 0;
-        for (int end = lower - 1; end - k > 1;) {
-            const int middle = (k + end) / 2;
-            *(at[middle].x <= to->x[i] ? &k : &end) = middle;
-        }
-        const double t = (to->x[i] - at[k].x) / (at[k + 1].x - at[k].x);
-        to->w[i] += at[k].u + t * (at[k + 1].u - at[k].u);
+        const size_t k = gsl_interp_bsearch(x, to->x[i], 0, lower - 1);
+        const double t = (to->x[i] - x[k]) / (x[k + 1] - x[k]);
+        to->w[i] += w[k] + t * (w[k + 1] - w[k]);
     }
     return RB_OK;
 }
