@@ -171,7 +171,10 @@ export function matters_card(words, page) {
             ),
         );
         if (focused) rows.querySelector(`[data-input="${focused}"] button`)?.focus();
-        draw_along(at, list.some((row) => row.name === at && told_change(row).falls));
+        draw_along(
+            at,
+            list.some((row) => row.name === at && told_change(row).falls),
+        );
         const kinks = kinks_of(list, scale);
         if (old) {
             told.textContent = "…";
