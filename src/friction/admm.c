@@ -101,26 +101,15 @@ static rb_status start_admm(rb_friction_task *task, int variant, void *state)
     return st;
 }
 
-static rb_status assess(admm *a)
-{
-    rb_friction_task *t = a->task;
-    memcpy(t->r, a->z, (size_t)t->m * sizeof(double));
-    return rb_friction_task_assess(t);
-}
-
 static rb_status go_on_alternating(void *state)
 {
     admm *a = state;
     rb_friction_task *t = a->task;
-    rb_status st = a->begun ? RB_MAXITER : assess(a);
-    if (!a->begun && st == RB_MAXITER && isfinite(t->budget) &&
-        rb_friction_system_estimate(&a->system, &a->cost) == RB_ENOMEM)
-        return RB_ENOMEM;
-    a->begun = 1;
-    if (st == RB_MAXITER && a->cost > 0.0 && t->info->flops + a->cost > t->budget) {
-        t->budget = t->info->flops; /* the factorisation would cost too much */
+    if (!a->begun)
+        memcpy(t->r, a->z, (size_t)t->m * sizeof(double));
+    rb_status st = rb_friction_system_begin(&a->system, t, &a->begun, &a->cost);
+    if (st == RB_MAXITER && !rb_friction_task_affords(t, a->cost))
         return st;
-    }
     if (st == RB_MAXITER && !a->factored) {
         st = factor(a);
         a->factored = 1;
@@ -165,8 +154,13 @@ static rb_status go_on_alternating(void *state)
                 st = factor(a);
             }
         }
-        if (st == RB_OK)
-            st = a->k % LOOK_EVERY == 0 || a->k == a->limit ? assess(a) : RB_MAXITER;
+        if (st == RB_OK) {
+            st = RB_MAXITER;
+            if (a->k % LOOK_EVERY == 0 || a->k == a->limit) {
+                memcpy(t->r, a->z, (size_t)t->m * sizeof(double));
+                st = rb_friction_task_assess(t);
+            }
+        }
     }
     return st;
 }

@@ -238,18 +238,15 @@ static rb_status go_on_sweeping(void *state)
         if (change <= s->tau || s->k % LOOK_EVERY == 0 || s->k == s->limit ||
             (s->k < LOOK_EVERY && power_of_two)) {
             const double error = look(s, s->k % LOOK_EVERY == 0 || change <= LEAST_CHANGE);
-            if (rb_friction_task_accepts(t, error))
-                return RB_OK;
-            if (!isfinite(error))
-                return RB_SINGULAR;
-            if (change <= LEAST_CHANGE)
-                return RB_INACCURATE;
+            const rb_status st = rb_friction_task_status(t, error, change <= LEAST_CHANGE);
+            if (st != RB_MAXITER)
+                return st;
             if (s->k >= STALL_FROM / 2 && power_of_two) {
                 /* The measure has hardly fallen while the number of sweeps doubled. */
                 stalled = s->k >= STALL_FROM && error > STALL * s->before;
                 s->before = error;
             }
-            s->tau = fmin(0.5 * change, 0.9 * change * t->opt.tol / error);
+            s->tau = rb_friction_task_next_look(t, change, error);
         }
         if ((s->flags & RB_FRICTION_SWEEP_ANDERSON) && s->k < s->limit &&
             accelerate(s, change) != RB_OK)

@@ -197,9 +197,15 @@ int rb_friction_task_accepts(const rb_friction_task *task, double error);
 int rb_friction_task_goes_on(const rb_friction_task *task);
 /* 1: the time limit has passed, or the caller wants to stop. */
 int rb_friction_task_late(const rb_friction_task *task);
-/* Status of the task's iterate.  RB_OK: accepted; RB_MAXITER: not accepted yet;
- * RB_SINGULAR: not a finite number; RB_INTERRUPTED: time limit or stop. */
+/* Status of the task's iterate with this error.  RB_OK: accepted; RB_MAXITER: not accepted
+ * yet; RB_SINGULAR: not a finite number; RB_INACCURATE: not accepted, and `stands`: the
+ * method changes it no more. */
+rb_status rb_friction_task_status(const rb_friction_task *task, double error, int stands);
+/* The same after computing the error; RB_INTERRUPTED: time limit or stop. */
 rb_status rb_friction_task_assess(rb_friction_task *task);
+/* The relative change of an iterate at which the measure is worth another look, after one
+ * with this change and error. */
+double rb_friction_task_next_look(const rb_friction_task *task, double change, double error);
 /* Records that the task's iterate has this error: stores the iterate if it is the best,
  * and calls the progress function. */
 void rb_friction_task_seen(rb_friction_task *task, double error);
@@ -260,6 +266,12 @@ void rb_friction_system_imbalance(const rb_friction_system *system, const double
                                   const double *v, double *e);
 /* Operations that the first step may take, from the pattern of its matrix alone. */
 rb_status rb_friction_system_estimate(rb_friction_system *system, double *flops);
+/* The beginning of a method of such steps, once: assesses the start and, under a budget,
+ * estimates the first step.  RB_MAXITER: it goes on. */
+rb_status rb_friction_system_begin(rb_friction_system *system, rb_friction_task *task, int *begun,
+                                   double *cost);
+/* 1: the budget is enough for so many operations; else the method pauses. */
+int rb_friction_task_affords(rb_friction_task *task, double flops);
 /* at: of all contacts, one after the other; e: n.  dr: m, dv: n, written. */
 rb_status rb_friction_system_step(rb_friction_system *system, const rb_friction_linearised *at,
                                   const double *e, double *dr, double *dv);

@@ -141,16 +141,10 @@ static rb_status go_on_stepping(void *state)
 {
     newton *s = state;
     rb_friction_task *t = s->task;
-    rb_status st = s->begun ? RB_MAXITER : rb_friction_task_assess(s->task);
-    if (!s->begun && st == RB_MAXITER && isfinite(t->budget) &&
-        rb_friction_system_estimate(&s->system, &s->last) == RB_ENOMEM)
-        return RB_ENOMEM;
-    s->begun = 1;
+    rb_status st = rb_friction_system_begin(&s->system, t, &s->begun, &s->last);
     while (st == RB_MAXITER && s->k < s->limit && rb_friction_task_left(t, 1)) {
-        if (t->info->flops + s->last > t->budget) {
-            t->budget = t->info->flops; /* a step more would cost too much */
+        if (!rb_friction_task_affords(t, s->last))
             return st;
-        }
         st = step(s);
         s->k++;
         if (st == RB_OK)

@@ -8,6 +8,8 @@
 #include <string.h>
 
 #define STEPS 50000
+#define LEAST_CHANGE 1e-17 /* of r, below which the steps stand still */
+#define LOOK_EVERY 200     /* steps between looks at the measure that no change asked for */
 
 typedef struct {
     rb_friction_task *task;
@@ -65,26 +67,11 @@ static void project_all(const projector *s, const double *uhat, double *p)
     t->info->flops += 12.0 * t->m;
 }
 
-static rb_status assess(projector *s, double change)
-{
-    rb_friction_task *t = s->task;
-    const double error = rb_friction_task_error(t);
-    if (rb_friction_task_accepts(t, error))
-        return RB_OK;
-    if (!isfinite(error))
-        return RB_SINGULAR;
-    if (change <= 1e-17)
-        return RB_INACCURATE;
-    if (change <= s->tau)
-        s->tau = fmin(0.5 * change, 0.9 * change * t->opt.tol / error);
-    return RB_MAXITER;
-}
-
 static rb_status go_on_projecting(void *state)
 {
     projector *s = state;
     rb_friction_task *t = s->task;
-    rb_status st = s->begun ? RB_MAXITER : assess(s, INFINITY);
+    rb_status st = s->begun ? RB_MAXITER : rb_friction_task_assess(t);
     s->begun = 1;
     while (st == RB_MAXITER && s->k < s->limit && rb_friction_task_goes_on(t)) {
         /* One step from r, uhat; ||r_{k+1} - r_k|| / ||r_{k+1}||.  rho shrinks until the
@@ -116,8 +103,12 @@ static rb_status go_on_projecting(void *state)
         t->info->iters++;
         if (rb_friction_task_late(t))
             return RB_INTERRUPTED;
-        if (change <= s->tau || s->k % 200 == 0 || s->k == s->limit)
-            st = assess(s, change);
+        if (change <= s->tau || s->k % LOOK_EVERY == 0 || s->k == s->limit) {
+            const double error = rb_friction_task_error(t);
+            st = rb_friction_task_status(t, error, change <= LEAST_CHANGE);
+            if (change <= s->tau)
+                s->tau = rb_friction_task_next_look(t, change, error);
+        }
     }
     return st;
 }

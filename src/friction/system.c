@@ -181,6 +181,19 @@ rb_status rb_friction_system_estimate(rb_friction_system *s, double *flops)
     return st == RB_OK ? rb_sparse_lu_estimate(&s->j, flops) : st;
 }
 
+rb_status rb_friction_system_begin(rb_friction_system *s, rb_friction_task *task, int *begun,
+                                   double *cost)
+{
+    if (*begun)
+        return RB_MAXITER;
+    *begun = 1;
+    const rb_status st = rb_friction_task_assess(task);
+    return st == RB_MAXITER && isfinite(task->budget) &&
+                   rb_friction_system_estimate(s, cost) == RB_ENOMEM
+               ? RB_ENOMEM
+               : st;
+}
+
 rb_status rb_friction_system_step(rb_friction_system *s, const rb_friction_linearised *at,
                                   const double *e, double *dr, double *dv)
 {

@@ -189,14 +189,34 @@ int rb_friction_task_late(const rb_friction_task *task)
     return task->shared->stop || (task->deadline > 0.0 && rb_seconds() > task->deadline);
 }
 
-rb_status rb_friction_task_assess(rb_friction_task *task)
+int rb_friction_task_affords(rb_friction_task *task, double flops)
 {
-    const double error = rb_friction_task_error(task);
+    if (!(task->info->flops + flops > task->budget))
+        return 1;
+    task->budget = task->info->flops;
+    return 0;
+}
+
+/* ---- Whether an iterate is the end ------------------------------------------------- */
+
+rb_status rb_friction_task_status(const rb_friction_task *task, double error, int stands)
+{
     if (rb_friction_task_accepts(task, error))
         return RB_OK;
     if (!isfinite(error))
         return task->measured == RB_OK ? RB_SINGULAR : task->measured;
-    return rb_friction_task_late(task) ? RB_INTERRUPTED : RB_MAXITER;
+    return stands ? RB_INACCURATE : RB_MAXITER;
+}
+
+rb_status rb_friction_task_assess(rb_friction_task *task)
+{
+    const rb_status s = rb_friction_task_status(task, rb_friction_task_error(task), 0);
+    return s == RB_MAXITER && rb_friction_task_late(task) ? RB_INTERRUPTED : s;
+}
+
+double rb_friction_task_next_look(const rb_friction_task *task, double change, double error)
+{
+    return fmin(0.5 * change, 0.9 * change * task->opt.tol / error);
 }
 
 /* ---- Runs -------------------------------------------------------------------------- */
