@@ -1216,7 +1216,7 @@ TEST(derivatives_of_several_steps_are_refused)
                                              NULL});
 
     assert_int_equal(rb_api_derivatives(a), RB_EINVAL);
-    assert_non_null(strstr(rb_api_message(a), "only for one step"));
+    assert_non_null(strstr(rb_api_message(a), "ask for those of its history, step by step"));
     assert_int_equal(rb_api_smooth_derivatives(a), RB_EINVAL);
     assert_int_equal(rb_api_tolerances(a, "mu=0.02"), RB_EINVAL);
     rb_api_free(a);

@@ -113,6 +113,8 @@ TEST(refusals_have_their_code_and_reason)
         {64, "b.ini --contact-elements 3.5", "got '3.5'"},
         {64, "b.ini --plot-script p.gp", "got 0"},
         {65, "size.ini", "size.ini:3: plot-size: there is no picture; --plot FILE asks for one"},
+        {65, "design size.ini --minimise max_pressure", "size.ini:3: unknown key 'plot-size'"},
+        {64, "design b.ini --plot p.svg", "unknown option '--plot'"},
         {65, "arc.ini", "arc.ini:2: arc: of the support arc only"},
         {64, "help --nothing", "nothing about '--nothing'"},
         {64, "b.ini --friction-law exponential --mu-fall 1,2,3 --slip-scale 1,2,3 --speed 1",

@@ -370,6 +370,45 @@ TEST(picture_of_another_kind)
     assert_int_equal(rb_report_picture_kind_of(".png", &kind, &why), RB_EINVAL);
 }
 
+/* Of several curves each says which of its points have no derivatives, in both forms. */
+TEST(curves_say_what_has_no_derivatives)
+{
+    double load[2] = {500.0, 500.0}, slope[2][2 * 2] = {{1.0, 1.0, NAN, NAN}, {2.0, 2.0, 3.0, 3.0}};
+    rb_case_slope of = {.result = &rb_rolling_solution_scalars.row[0], .input = "mu", .unit = "-"};
+    rb_report_curves curves = {.n = 3, .mu = {0.1, 0.2, 0.3}};
+    const rb_report_style style = {.format = RB_REPORT_TSV};
+    char text[4000] = "";
+    FILE *out = fmemopen(text, sizeof text, "w");
+    for (int k = 0; k < 3; k++) {
+        curves.curve[k] = (rb_rolling_curve){.n = 2, .rising = 2, .normal_load = load};
+        curves.slopes[k] = (rb_case_slopes){.table = &rb_rolling_solution_scalars,
+                                            .n = 1,
+                                            .rows = 2,
+                                            .of = &of,
+                                            .value = slope[k == 1],
+                                            .without = k != 1};
+        rb_fail(&curves.slopes[k].reason, RB_EINVAL, "reason %d", k);
+    }
+    CHECK_STATUS(rb_report_curve_table(out, &curves, "curve", &style), RB_OK);
+    fclose(out);
+    assert_non_null(strstr(text, "# mu = 0.1: 1 of 2 points have no derivatives: reason 0\n"));
+    assert_non_null(strstr(text, "# mu = 0.3: 1 of 2 points have no derivatives: reason 2\n"));
+    assert_null(strstr(text, "# mu = 0.2:"));
+    held_json *root = json_object();
+    rb_report_json_curves(&root, &curves);
+    const json_t *all = json_object_get(root, "curves");
+    for (size_t k = 0; k < 3; k++) {
+        const json_t *note = json_object_get(json_array_get(all, k), "derivatives_note");
+        assert_true(k == 1 ? !note
+                           : strstr(json_string_value(note), "no derivatives: reason") != NULL);
+    }
+    out = fmemopen(text, sizeof text, "w");
+    curves.n = 1;
+    CHECK_STATUS(rb_report_curve_table(out, &curves, "curve", &style), RB_OK);
+    fclose(out);
+    assert_non_null(strstr(text, "# 1 of 2 points have no derivatives: reason 0\n"));
+}
+
 /* What has no steps, no grid, no contact is no picture, and no file is written. */
 TEST(pictures_need_something_to_draw)
 {

@@ -223,6 +223,9 @@ const char *rb_api_input(const rb_api *a, int k, const char *field, char *text, 
  * `derivatives` as of rb_api_curve_derivatives, RESULT a column of the history.  Where the
  * two sides differ they are those for a growing input; then rb_api_note says so. */
 int rb_api_step_derivatives(rb_api *a, const char *derivatives);
+/* Resolves the case and checks, before it is solved, what rb_api_step_derivatives and
+ * rb_api_tolerances would be asked (NULL: nothing). */
+int rb_api_check_derivatives(rb_api *a, const char *derivatives, const char *tolerance);
 /* Field of array k = 0, 1, ... of derivatives of a "curve", of "history" or of a "sweep":
  * "name" (RESULT:OPTION, as in the name of the array), "result", "input", "unit" (of the
  * input).  NULL: no such array or field. */

@@ -331,9 +331,11 @@ rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range, 
 rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, double mu,
                               rb_rolling_point *point, void *context, rb_rolling_curve *curve,
                               rb_case_slopes *slopes, rb_message *why);
+/* RB_EINVAL: histories of the resolved case have no derivatives: friction that depends on
+ * the state, an interface that yields, or a given approach. */
+rb_status rb_case_slopes_check_steps(const rb_case *c, rb_message *why);
 /* Derivatives of the history whose states are given; if the two sides differ, those for
- * growing inputs.  RB_EINVAL: friction that depends on the state, an interface that
- * yields, or a given approach. */
+ * growing inputs.  RB_EINVAL: as rb_case_slopes_check_steps, or too many elements. */
 rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *states,
                                   rb_case_slopes *slopes, rb_message *why);
 

@@ -235,6 +235,13 @@ def _words(derivatives: Any) -> bytes:
                         "names")
 
 
+def _check(case: "Case", derivatives: Any, tolerance: Any) -> None:
+    """Refuses before a case is solved what would be refused after it."""
+    handle = case.handle("solve")
+    handle.check(handle.ask("rb_api_check_derivatives", None if derivatives is None else _words(derivatives),
+                            None if tolerance is None else _uncertain(tolerance)))
+
+
 class _Named:
     """Results as attributes by the names of the library's tables."""
 
@@ -643,7 +650,10 @@ def solve(case: Union[Case, str, os.PathLike, None] = None, *, progress: Progres
     Raises :class:`Unsolved`, with what there is as its ``solution``, where the run ends
     without a full answer.
     """
-    solution = _case(case, options).solve(progress)
+    whole = _case(case, options)
+    if tolerance is not None:
+        _check(whole, None, tolerance)
+    solution = whole.solve(progress)
     if tolerance is not None:
         from ._inverse import tolerances
 
@@ -700,6 +710,8 @@ def history(program: Optional[Table] = None, case: Union[Case, str, os.PathLike,
     if "formulation" not in whole.options and whole.file is None:
         rolls = program is None or "distance" in program
         whole = whole.but(formulation="transient" if rolls else "static")
+    if derivatives is not None:
+        _check(whole, derivatives, tolerance)
     try:
         found = solve(whole, progress=progress, tolerance=tolerance).history
     except Exception as error:  # the finished steps are kept

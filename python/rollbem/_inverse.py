@@ -120,6 +120,8 @@ def derivatives(solution: Union[Solution, _CaseLike] = None, *, smooth: bool = F
     """
     if not isinstance(solution, Solution):
         solution = _case(solution, options).solve()
+    if solution.history is not None:
+        raise InvalidInput("derivatives: this case has several steps; history(..., derivatives=...) has those after each")
     handle = solution._live()
     with handle.lock:
         status = handle.run("rb_api_smooth_derivatives" if smooth else "rb_api_derivatives")

@@ -140,6 +140,21 @@ def test_columns_as_pandas_has_them():
     assert table["left"] == table["right"] == pytest.approx(1) and table["unit"] == "1"
 
 
+def test_wrong_questions_of_histories_are_refused_before_they_run():
+    seen = []
+    case = {**ROLLED, "progress": lambda done, total: seen.append(done)}
+    for wrong, said in (({"derivatives": "tangentil_load"}, "did you mean 'tangential_load'"), ({"derivatives": 3}, "expected True"),
+                        ({"tolerance": {"zone": 1}}, "'zone' is not a number"), ({"tolerance": "mu=-1"}, "standard deviation >= 0"),
+                        ({"derivatives": "all", "load": None, "approach": 0.01}, "given approach"),
+                        ({"tolerance": "mu=1%", "load": None, "approach": 0.01}, "given approach"),
+                        ({"derivatives": "all", "error": True}, "not together with error bars")):
+        with pytest.raises(rollbem.InvalidInput, match=said):
+            rollbem.history(**{**case, **wrong})
+    assert seen == []
+    with pytest.raises(rollbem.InvalidInput, match=r"history\(..., derivatives=...\) has those after each"):
+        rollbem.derivatives(**ROLLED)
+
+
 def test_derivatives_over_x():
     s = rollbem.solve(**STEADY)
     printed = run_json(**STEADY, derivatives="tangential_load")["derivatives_over_x"]

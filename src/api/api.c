@@ -1146,6 +1146,28 @@ int rb_api_step_derivatives(rb_api *a, const char *derivatives)
     return rb_api_ended(a, status);
 }
 
+int rb_api_check_derivatives(rb_api *a, const char *derivatives, const char *tolerance)
+{
+    const rb_resolved_case *c = rb_case_resolved(a->words);
+    rb_case_slopes slopes = {0};
+    rb_case_tolerances t;
+
+    if (rb_api_resolve(a) < 0)
+        return a->status;
+    rb_status s = c->error ? rb_fail(&a->why, RB_EINVAL, "%s: not together with error bars",
+                                     derivatives ? "derivatives" : "tolerances")
+                           : RB_OK;
+    if (s == RB_OK && derivatives)
+        s = rb_case_slopes_choose(a->words, &rb_rolling_history_columns, derivatives,
+                                  RB_CASE_SLOPES_MAX, &slopes, &a->why);
+    if (s == RB_OK && tolerance)
+        s = rb_case_read_tolerances(a->words, tolerance, &t, &a->why);
+    if (s == RB_OK && (derivatives || (tolerance && rb_case_has_steps(c))))
+        s = rb_case_slopes_check_steps(a->words, &a->why);
+    rb_case_slopes_free(&slopes);
+    return rb_api_ended(a, s);
+}
+
 /* Of every step. */
 static rb_status step_tolerances(rb_api *a, const char *inputs)
 {

@@ -543,6 +543,23 @@ static void take_columns(const varied *v, int n, rb_case_slopes *s)
         }
 }
 
+rb_status rb_case_slopes_check_steps(const rb_case *c, rb_message *why)
+{
+    const rb_rolling_case *rc = &c->resolved.rc;
+
+    if (rb_rolling_law_depends_on_state(rc) || rc->yield_stress > 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "derivatives of a history: not for friction that depends on the "
+                       "state or an interface that yields, whose state variables are "
+                       "not stored");
+    if (isnan(rb_rolling_derive(rc).load) &&
+        !(c->resolved.program.n > 0 && c->resolved.program.load))
+        return rb_fail(why, RB_EINVAL,
+                       "derivatives of a history: under a given approach the unit of "
+                       "its distances depends on the solution; give a load");
+    return RB_OK;
+}
+
 rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *states,
                                   rb_case_slopes *s, rb_message *why)
 {
@@ -553,15 +570,9 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
     rb_rolling_follower *base = NULL;
     int numbers = 0, n = 0;
 
-    if (rb_rolling_law_depends_on_state(rc) || rc->yield_stress > 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "derivatives of a history: not for friction that depends on the "
-                       "state or an interface that yields, whose state variables are "
-                       "not stored");
-    if (isnan(rb_rolling_derive(rc).load) && !(states->program && states->program->load))
-        return rb_fail(why, RB_EINVAL,
-                       "derivatives of a history: under a given approach the unit of "
-                       "its distances depends on the solution; give a load");
+    rb_status status = rb_case_slopes_check_steps(c, why);
+    if (status != RB_OK)
+        return status;
     if (states->n >= RB_ROLLING_LARGE)
         return rb_fail(why, RB_EINVAL,
                        "derivatives of a history need a matrix: expected fewer than %d elements",
@@ -570,7 +581,7 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
     varied *v = rb_arena_zeros(&scratch, RB_CASE_NUMBERS_MAX, sizeof *v);
     if (scratch.failed)
         return rb_fail(why, rb_arena_done(&scratch, RB_ENOMEM), "out of memory for derivatives");
-    rb_status status = rb_case_numbers(c, number, &numbers, why);
+    status = rb_case_numbers(c, number, &numbers, why);
     if (status == RB_OK)
         status = rb_rolling_follower_create(rc, states, NULL, 1.0, &base, why);
     for (int k = 0; k < numbers; k++)

@@ -130,7 +130,10 @@ static void summarise(const cli_case_run *run)
 static cli_spec spec_of(cli_case_run *run)
 {
     const cli_case_command *command = run->command;
-    const rb_option_set output = cli_output_set(&run->o);
+    int draws = 0;
+    for (const cli_case_file *f = command->files; f && f->option; f++)
+        draws |= strcmp(f->option, "plot") == 0;
+    const rb_option_set output = cli_output_set(&run->o, draws);
     cli_spec spec = {
         command->synopsis, command->about, command->notes, {rb_case_options(run->words)}, 1};
     if (command->takes_crack)

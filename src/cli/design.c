@@ -107,10 +107,6 @@ static cli_exit check(cli_case_run *run)
     rb_message why = {""};
     if (!f->least == !f->largest)
         return cli_fail(CLI_USAGE, "design needs --minimise RESULT or --maximise RESULT");
-    if (run->o.plot)
-        return cli_fail(
-            CLI_USAGE,
-            "--plot: a design has no picture; solve the case with the values found, with --plot");
     d->largest = f->largest != NULL;
     d->most = f->most;
     d->span = isnan(f->span) ? 0.0 : f->span;

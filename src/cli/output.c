@@ -28,22 +28,26 @@ const rb_choice cli_picture_sizes[] = {{"own", RB_REPORT_OWN_SIZE},
 
 #define PLACE(member) offsetof(cli_output, member)
 
-static const rb_option options[] = {
-    RB_GROUP_LINE("output", "Output"),
-    CLI_STYLE_LINES(PLACE(style)),
-    CLI_OUTPUT_LINE(PLACE(output)),
-    CLI_PLOT_LINES(PLACE(plot), PLACE(pictures)),
-    RB_FLAG_LINE("quiet", PLACE(quiet), "no summary and no notes on standard error"),
-    RB_FLAG_LINE("cite", PLACE(cite), "print references to the methods used to standard error"),
-};
+#define FIRST_LINES                                                                                \
+    RB_GROUP_LINE("output", "Output"), CLI_STYLE_LINES(PLACE(style)), CLI_OUTPUT_LINE(PLACE(output))
+#define LAST_LINES                                                                                 \
+    RB_FLAG_LINE("quiet", PLACE(quiet), "no summary and no notes on standard error"),              \
+        RB_FLAG_LINE("cite", PLACE(cite),                                                          \
+                     "print references to the methods used to standard "                           \
+                     "error")
+
+static const rb_option options[] = {FIRST_LINES, CLI_PLOT_LINES(PLACE(plot), PLACE(pictures)),
+                                    LAST_LINES};
+static const rb_option without_pictures[] = {FIRST_LINES, LAST_LINES};
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
 _Static_assert((int)OPTIONS <= (int)CLI_OUTPUT_OPTIONS_MAX, "CLI_OUTPUT_OPTIONS_MAX is too small");
 
-rb_option_set cli_output_set(cli_output *o)
+rb_option_set cli_output_set(cli_output *o, int draws)
 {
-    return (rb_option_set){options, OPTIONS, o, o->given, NULL};
+    const int n = draws ? OPTIONS : (int)(sizeof without_pictures / sizeof *without_pictures);
+    return (rb_option_set){draws ? options : without_pictures, n, o, o->given, NULL};
 }
 
 /* ---- Terminals --------------------------------------------------------------------- */

@@ -56,8 +56,9 @@ typedef struct {
     int given[CLI_OUTPUT_OPTIONS_MAX];
 } cli_output;
 
-/* Section [output]: form of the results, --output, --plot and how, --quiet, --cite. */
-rb_option_set cli_output_set(cli_output *o);
+/* Section [output]: form of the results, --output, --plot and how if the command draws,
+ * --quiet, --cite. */
+rb_option_set cli_output_set(cli_output *o, int draws);
 
 /* 1: the results are abbreviated: standard output is a terminal, and nobody has asked for
  * a form of the results, or --format is brief. */

@@ -14,6 +14,18 @@ static rb_report_columns columns_of(const rb_rolling_curve *c, int kind)
     return (rb_report_columns){&rb_rolling_curve_columns, c, kind, c->units, 0};
 }
 
+/* What must be known of each curve's derivatives. */
+static void comment_slopes(const rb_report_cells *c, const rb_report_curves *curves)
+{
+    rb_message note;
+    rb_report_comment_slopes(c, &curves->slopes[0]);
+    for (int k = 0; k < curves->n; k++)
+        if (rb_case_slopes_note(&curves->slopes[k], &note) && curves->n > 1)
+            rb_report_comment(c, "mu = %g: %s", curves->mu[k], note.text);
+        else if (*note.text)
+            rb_report_comment(c, "%s", note.text);
+}
+
 rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const char *command,
                                 const rb_report_style *style)
 {
@@ -32,7 +44,7 @@ rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const
             rb_report_cell_slope_headings(&c, &curves->slopes[k]);
             rb_report_cells_end_row(&c);
             rb_report_comment_head(&c, command);
-            rb_report_comment_slopes(&c, &curves->slopes[k]);
+            comment_slopes(&c, curves);
             if (curves->rc)
                 rb_report_comment_notes(&c, curves->rc, &curves->curve[curves->n - 1].last);
         }
@@ -53,11 +65,14 @@ void rb_report_json_curves(json_t **root, const rb_report_curves *curves)
         const rb_rolling_curve *c = &curves->curve[k];
         const rb_report_columns columns = columns_of(c, 0);
         json_t *curve = json_object();
+        rb_message note;
 
         rb_report_json_set(&curve, "mu", rb_report_json_number(curves->mu[k]));
         rb_report_json_columns(&curve, c->n, &columns, 0);
         if (curves->slopes[k].n > 0)
             rb_report_json_slopes(&curve, &curves->slopes[k]);
+        if (rb_case_slopes_note(&curves->slopes[k], &note))
+            rb_report_json_set(&curve, "derivatives_note", json_string(note.text));
         if (c->deviations) {
             const rb_report_columns of = columns_of(c->deviations, RB_REPORT_DEVIATIONS);
             json_t *tolerances = json_object();

@@ -276,18 +276,15 @@ void rb_report_cell_slopes(rb_report_cells *c, const rb_case_slopes *s, int row)
 
 void rb_report_comment_slopes(const rb_report_cells *c, const rb_case_slopes *s)
 {
-    rb_message note;
-
     if (s->n > 0)
         rb_report_comment(c, "d_A_by_B: derivative of A with respect to B, for a growing "
                              "B where the two sides differ");
-    if (rb_case_slopes_note(s, &note))
-        rb_report_comment(c, "%s", note.text);
 }
 
 rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h, const rb_case_slopes *s,
                                 const char *command, const rb_report_style *style)
 {
+    rb_message note;
     rb_report_cells c = rb_report_cells_begin(out, style, "");
 
     rb_report_cell_text(&c, "step");
@@ -296,6 +293,8 @@ rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h, const rb
     rb_report_cells_end_row(&c);
     rb_report_comment_origin(&c, command);
     rb_report_comment_slopes(&c, s);
+    if (rb_case_slopes_note(s, &note))
+        rb_report_comment(&c, "%s", note.text);
     for (int row = 0; row < s->rows; row++) {
         rb_report_cell_whole(&c, row + 1);
         rb_report_cell_number(&c, h->distance[row]);

@@ -110,7 +110,7 @@ static void write_parameter(char *text, size_t size, const rb_report_fit *f, int
     char unit[20];
 
     if (p->identified)
-        snprintf(text, size, "%-22s %12.6g   %.4g ... %.4g%s", p->name,
+        snprintf(text, size, "%-22s %12.6g   %.6g ... %.6g%s", p->name,
                  in_units(f, p->unit, p->value), in_units(f, p->unit, p->interval[0]),
                  in_units(f, p->unit, p->interval[1]), unit_behind(f, p->unit, unit));
     else

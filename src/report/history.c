@@ -102,8 +102,10 @@ static void write_last(FILE *out, const rb_rolling_history *h, const rb_rolling_
             continue;
         const double value = rb_rolling_entry(r, h, h->n - 1);
         const double x = rb_rolling_entry(r, beside, h->n - 1);
+        const char *name = rb_report_unit_name(h->units, r->unit);
+        const char *unit = strcmp(name, "1") == 0 ? "" : name;
         if (!isnan(value) && !isnan(x) && (x > 0.0 || beside == h->errors))
-            fprintf(out, format, r->name, value + 0.0, x);
+            fprintf(out, format, r->name, value + 0.0, x, *unit ? " " : "", unit);
     }
 }
 
@@ -132,11 +134,11 @@ void rb_report_history_summary(FILE *out, const rb_rolling_case *rc, const rb_ro
     }
     if (h->errors) {
         fputs("  error bars at the end (estimated from coarser meshes and longer steps)\n", out);
-        write_last(out, h, h->errors, "    %-16s %.8g +- %.1g\n");
+        write_last(out, h, h->errors, "    %-16s %.8g +- %.1g%s%s\n");
     }
     if (h->deviations) {
         fputs("  standard deviations at the end from those of --tolerance, to first order\n", out);
-        write_last(out, h, h->deviations, "    %-16s %.6g +- %.2g\n");
+        write_last(out, h, h->deviations, "    %-16s %.6g +- %.2g%s%s\n");
     }
     rb_locale_end(before);
 }

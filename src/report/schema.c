@@ -147,7 +147,8 @@ json_t *rb_report_json_schema(void)
                                "an entry per step; states: of --states, a list per step; "
                                "tolerances: standard deviations"));
     json_t *curve = columns(&rb_rolling_curve_columns, 0,
-                            "an entry per creepage; tolerances: standard deviations");
+                            "an entry per creepage; tolerances: standard deviations; "
+                            "derivatives_note: how many points have none, and why");
     rb_report_json_set(&of, "curve", curve);
     rb_report_json_set(&of, "curves", list_of(json_incref(curve), "of several coefficients"));
     rb_report_json_set(&of, "wear",

@@ -376,7 +376,9 @@ rb_status rb_sensitivity_create(const rb_rolling_model *model, int results, rb_s
 
     *s = NULL;
     if (results && rb_rolling_has_steps(model->rc)) /* what steps carried is gone after the last */
-        return rb_fail(why, RB_EINVAL, "derivatives: only for one step; this case has several");
+        return rb_fail(why, RB_EINVAL,
+                       "derivatives: this case has several steps; ask for those of its "
+                       "history, step by step");
     status = create(model, NULL, results, s, why);
     if (status == RB_OK && results)
         status = rb_rolling_model_solution(model, &(*s)->solution, why);
