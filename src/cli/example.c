@@ -14,6 +14,7 @@
 #include <string.h>
 
 typedef struct {
+    const char *name; /* bar, truss or wall */
     const char *solver, *output, *plot;
     double tol, step;
     rb_report_style style;
@@ -74,19 +75,18 @@ static const char about[] =
 /* ---- Writing ----------------------------------------------------------------------- */
 
 /* The end of a table, or the JSON of an example with its steps. */
-static rb_status end_steps(FILE *out, const example_options *o, const cli_rows *rows,
-                           const char *name)
+static rb_status end_steps(FILE *out, const example_options *o, const cli_rows *rows)
 {
     if (!rows->is_json)
         return rb_report_flush(out);
     json_t *root = rb_report_json_start(cli_command_line()), *inputs = json_object();
-    rb_report_json_set(&inputs, "example", json_string(name));
+    rb_report_json_set(&inputs, "example", json_string(o->name));
     rb_report_json_set(&inputs, "solver", json_string(o->solver));
     rb_report_json_set(&inputs, "tol", rb_report_json_number(o->tol));
-    if (strcmp(name, "truss") == 0) {
+    if (strcmp(o->name, "truss") == 0) {
         rb_report_json_set(&inputs, "layout", json_string(layouts[o->layout].name));
         rb_report_json_set(&inputs, "nodes", json_integer(o->nodes));
-    } else if (strcmp(name, "wall") == 0) {
+    } else if (strcmp(o->name, "wall") == 0) {
         rb_report_json_set(&inputs, "mesh", json_string(meshes[o->mesh].name));
         rb_report_json_set(&inputs, "rigid", json_boolean(o->rigid));
         rb_report_json_set(&inputs, "step_s", rb_report_json_number(o->step));
@@ -103,23 +103,8 @@ static rb_status end_steps(FILE *out, const example_options *o, const cli_rows *
 /* ---- Bar and truss ----------------------------------------------------------------- */
 
 typedef struct {
-    const char *name, *columns;
-    rb_status (*picture)(FILE *out, rb_report_canvas canvas, const rb_fem_model *model,
-                         const rb_fem_history *history, rb_message *why);
-} example;
-
-static const example bar = {"bar",
-                            "step stick slip separated corner_ux_mm corner_uy_mm normal_sum_N "
-                            "tangential_sum_N iterations residual",
-                            rb_report_picture_bar},
-                     truss = {"truss",
-                              "step stick slip separated max_increment_mm normal_sum_N iterations "
-                              "residual",
-                              rb_report_picture_truss};
-
-typedef struct {
     const example_options *o;
-    const example *e;
+    int is_bar;
     const rb_fem_model *model;
     const rb_fem_history *history;
 } example_run;
@@ -127,7 +112,11 @@ typedef struct {
 static rb_status write_history(FILE *out, const void *context, rb_message *why)
 {
     const example_run *r = context;
-    cli_rows rows = cli_rows_begin(out, &r->o->style, r->e->columns);
+    cli_rows rows = cli_rows_begin(
+        out, &r->o->style,
+        r->is_bar ? "step stick slip separated corner_ux_mm corner_uy_mm normal_sum_N "
+                    "tangential_sum_N iterations residual"
+                  : "step stick slip separated max_increment_mm normal_sum_N iterations residual");
     (void)why;
     for (int k = 0; k < r->history->steps; k++) {
         enum { COMMON = 7 };
@@ -139,39 +128,45 @@ static rb_status write_history(FILE *out, const void *context, rb_message *why)
             WHOLE("separated", s->separated), WHOLE("iterations", s->iterations),
             NUMBER("residual", s->residual)};
         int n = COMMON;
-        if (r->e == &bar) {
+        if (r->is_bar) {
             values[n++] = NUMBER("corner_ux_mm", sums.corner[0]);
             values[n++] = NUMBER("corner_uy_mm", sums.corner[1]);
         } else
             values[n++] = NUMBER("max_increment_mm", sums.increment);
         values[n++] = NUMBER("normal_sum_N", sums.normal);
-        if (r->e == &bar)
+        if (r->is_bar)
             values[n++] = NUMBER("tangential_sum_N", sums.tangential[0]);
         cli_rows_add(&rows, n, values);
     }
-    return end_steps(out, r->o, &rows, r->e->name);
+    return end_steps(out, r->o, &rows);
 }
 
 static rb_status draw_history(FILE *out, rb_report_canvas canvas, const void *context,
                               rb_message *why)
 {
     const example_run *r = context;
-    return r->e->picture(out, canvas, r->model, r->history, why);
+    return (r->is_bar ? rb_report_picture_bar : rb_report_picture_truss)(out, canvas, r->model,
+                                                                         r->history, why);
 }
 
-/* made: the status of the model, which is taken over. */
-static cli_exit run_history(const example_options *o, const example *e, rb_status made,
-                            rb_fem_model *model, rb_message why)
+static cli_exit run_history(const example_options *o)
 {
+    rb_fem_model model;
     rb_fem_history history;
-    if (made != RB_OK)
-        return cli_say(made, &why);
+    rb_message why = {""};
+    const int is_bar = strcmp(o->name, "bar") == 0;
+    const cli_exit made =
+        cli_say(is_bar ? rb_fem_model_bar(160, 16, &model, &why)
+                       : rb_fem_model_truss((rb_fem_layout)o->layout, o->nodes, &model, &why),
+                &why);
+    if (made != CLI_CONTINUE)
+        return made;
     if (!o->quiet)
         cli_wait_begin();
-    const rb_status s = rb_fem_run(model, o->solver, o->tol, &history, &why);
+    const rb_status s = rb_fem_run(&model, o->solver, o->tol, &history, &why);
     if (!o->quiet)
         cli_wait_end();
-    const example_run r = {o, e, model, &history};
+    const example_run r = {o, is_bar, &model, &history};
     const int begun = s >= RB_OK && history.steps > 0;
     cli_exit code = CLI_OK;
     if (begun)
@@ -181,24 +176,8 @@ static cli_exit run_history(const example_options *o, const example *e, rb_statu
     if (s != RB_OK && code == CLI_OK)
         code = cli_say(s, &why);
     rb_fem_history_free(&history);
-    rb_fem_model_free(model);
+    rb_fem_model_free(&model);
     return code;
-}
-
-static cli_exit run_bar(const example_options *o)
-{
-    rb_fem_model model;
-    rb_message why = {""};
-    const rb_status s = rb_fem_model_bar(160, 16, &model, &why);
-    return run_history(o, &bar, s, &model, why);
-}
-
-static cli_exit run_truss(const example_options *o)
-{
-    rb_fem_model model;
-    rb_message why = {""};
-    const rb_status s = rb_fem_model_truss((rb_fem_layout)o->layout, o->nodes, &model, &why);
-    return run_history(o, &truss, s, &model, why);
 }
 
 /* ---- Wall -------------------------------------------------------------------------- */
@@ -227,7 +206,7 @@ static rb_status write_wall(FILE *out, const void *context, rb_message *why)
             NUMBER("residual", s->residual),  NUMBER("seconds", s->seconds)};
         cli_rows_add(&rows, sizeof values / sizeof *values, values);
     }
-    return end_steps(out, run->o, &rows, "wall");
+    return end_steps(out, run->o, &rows);
 }
 
 static rb_status draw_wall(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
@@ -334,9 +313,9 @@ static const struct {
     cli_exit (*run)(const example_options *o);
 } finite_elements[] = {
     {"bar", "an elastic bar on an obstacle, pushed from its end (Kanno, example 3.2)", "nsn-nm",
-     run_bar},
+     run_history},
     {"truss", "a double-layer grid of bars, loaded, then unloaded (Kanno, 3.1)", "nsn-ac",
-     run_truss},
+     run_history},
     {"wall", "12 elastic blocks in running bond, pressed and sheared (after Acary 2017)", "nsn-ac",
      run_wall}};
 enum { FINITE_ELEMENTS = sizeof finite_elements / sizeof finite_elements[0] };
@@ -385,6 +364,7 @@ int cli_example(int argc, char **argv)
         while (k < FINITE_ELEMENTS && strcmp(finite_elements[k].name, name) != 0)
             rb_guess_try(&guess, finite_elements[k++].name);
         if (k < FINITE_ELEMENTS) {
+            o.name = name;
             o.solver = o.solver ? o.solver : finite_elements[k].solver;
             code = finite_elements[k].run(&o);
         } else
