@@ -84,9 +84,9 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc, con
         return RB_OK;
     }
     /* Of a case whose JSON this is. */
-    rb_case *words = confined(json_object_get(root, "crack")    ? RB_CASE_CRACK
-                              : json_object_get(root, "maxima") ? RB_CASE_STRESS
-                                                                : RB_CASE_SINGLE,
+    rb_case *words = confined(is_crack    ? RB_CASE_CRACK
+                              : is_stress ? RB_CASE_STRESS
+                                          : RB_CASE_SINGLE,
                               folder);
     if (!words)
         return RB_ENOMEM;

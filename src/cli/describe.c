@@ -95,13 +95,12 @@ static void print_man(const cli_spec *spec)
     print_troff(spec->synopsis);
     puts(".SH DESCRIPTION");
     print_troff(spec->about);
-    for (int s = 0; s < spec->set_n; s++)
-        for (int i = 0; i < spec->sets[s].n; i++) {
-            const rb_option *o = &spec->sets[s].options[i];
+    for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
+        for (const rb_option *o = set->options; o < set->options + set->n; o++) {
             if (is_option(o)) {
                 char values[120], text[600];
                 cli_option_metavar(o, values, sizeof values);
-                cli_option_text(o, spec->sets[s].target, text, sizeof text);
+                cli_option_text(o, set->target, text, sizeof text);
                 fputs(".TP\n\\fB\\-\\-", stdout);
                 print_escaped(o->name, "-", "\\");
                 fputs("\\fR\\fI", stdout);
@@ -137,15 +136,14 @@ static void print_markdown(const cli_spec *spec)
     printf("# rollbem%s%s\n\n%s\n", *command ? " " : "", command, cli_command_help(command));
     print_code_block(spec->synopsis);
     print_code_block(spec->about);
-    for (int s = 0; s < spec->set_n; s++)
-        for (int i = 0; i < spec->sets[s].n; i++) {
-            const rb_option *o = &spec->sets[s].options[i];
+    for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
+        for (const rb_option *o = set->options; o < set->options + set->n; o++) {
             if (!is_option(o)) {
                 printf("\n## %s `[%s]`\n\n| option | meaning |\n|---|---|\n", o->help, o->name);
                 continue;
             }
             cli_option_metavar(o, values, sizeof values);
-            cli_option_text(o, spec->sets[s].target, text, sizeof text);
+            cli_option_text(o, set->target, text, sizeof text);
             printf("| `--%s%s` | ", o->name, values);
             print_escaped(text, "|*_<", "\\");
             puts(" |");
@@ -178,10 +176,10 @@ static void each_option(const cli_spec *spec,
 {
     char command[24];
     cli_command_of(spec, command);
-    for (int s = 0; s < spec->set_n; s++)
-        for (int i = 0; i < spec->sets[s].n; i++)
-            if (is_option(&spec->sets[s].options[i]))
-                print(&spec->sets[s].options[i], command);
+    for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
+        for (const rb_option *o = set->options; o < set->options + set->n; o++)
+            if (is_option(o))
+                print(o, command);
 }
 
 static void bash_value(const rb_option *o, const char *command)

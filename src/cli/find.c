@@ -121,8 +121,7 @@ void cli_find_options(const cli_spec *spec)
 {
     char command[24], values[120], name[200], text[700];
     cli_command_of(spec, command);
-    for (int s = 0; s < spec->set_n; s++) {
-        const rb_option_set *set = &spec->sets[s];
+    for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++) {
         int k = 0;
         while (k < search.seen_n && search.seen[k] != set->options)
             k++;
@@ -131,8 +130,7 @@ void cli_find_options(const cli_spec *spec)
             continue; /* a study takes those of a crack, too */
         if (k < SETS_MAX)
             search.seen[search.seen_n++] = set->options;
-        for (int i = 0; i < set->n; i++) {
-            const rb_option *o = &set->options[i];
+        for (const rb_option *o = set->options; o < set->options + set->n; o++) {
             if (o->kind == RB_OPTION_GROUP)
                 continue;
             cli_option_metavar(o, values, sizeof values);
@@ -162,14 +160,12 @@ void cli_find_holder(const cli_spec *spec)
 {
     char command[24];
     cli_command_of(spec, command);
-    for (int s = 0; s < spec->set_n; s++)
-        for (int i = 0; i < spec->sets[s].n; i++) {
-            const rb_option *o = &spec->sets[s].options[i];
+    for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
+        for (const rb_option *o = set->options; o < set->options + set->n; o++)
             if (o->kind != RB_OPTION_GROUP && strlen(o->name) == wanted.length &&
                 strncmp(o->name, wanted.name, wanted.length) == 0 && wanted.n++ < SHOWN)
                 rb_append(wanted.commands, sizeof wanted.commands, "%srollbem%s%s",
                           wanted.n > 1 ? ", " : "", *command ? " " : "", command);
-        }
 }
 
 const char *cli_commands_with(const char *name, size_t length)

@@ -69,8 +69,7 @@ static int is_abbreviated(const cli_spec *spec, int s)
 /* All options of the set, or the common ones below one title. */
 static void print_set(const rb_option_set *set, int common)
 {
-    for (int i = 0; i < set->n; i++) {
-        const rb_option *o = &set->options[i];
+    for (const rb_option *o = set->options; o < set->options + set->n; o++) {
         if (o->kind == RB_OPTION_GROUP && !common)
             print_group_title(o);
         else if (o->kind != RB_OPTION_GROUP && (o->common || !common))
@@ -86,19 +85,18 @@ int cli_print_help(const cli_spec *spec, const char *part)
     for (int i = 0; spec->set_n > 0 && i < spec->sets[0].n; i++)
         common |= spec->sets[0].options[i].common;
     FILE *pager = cli_open_pager();
-    for (int s = 0, inside = 0; s < spec->set_n && is_part; s++)
+    int inside = 0;
+    for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n && is_part; set++)
         /* The groups that begin so, and the option of that name. */
-        for (int i = 0; i < spec->sets[s].n; i++) {
-            const rb_option *o = &spec->sets[s].options[i];
+        for (const rb_option *o = set->options; o < set->options + set->n; o++)
             if (o->kind == RB_OPTION_GROUP) {
                 inside = strncmp(o->name, part, strlen(part)) == 0;
                 if (inside)
                     print_group_title(o);
             } else if (inside || strcmp(o->name, part) == 0) {
-                print_option(o, spec->sets[s].target);
+                print_option(o, set->target);
                 found = 1;
             }
-        }
     if (!part && pager && common) {
         /* The command's own options, and the common ones of the case. */
         const char *paragraph = strstr(spec->about, "\n\n");
@@ -115,12 +113,10 @@ int cli_print_help(const cli_spec *spec, const char *part)
             if (is_abbreviated(spec, s))
                 print_set(&spec->sets[s], 1);
         char text[1000] = "";
-        for (int s = 0; s < spec->set_n; s++)
-            for (int i = 0; i < spec->sets[s].n; i++) {
-                const rb_option *o = &spec->sets[s].options[i];
+        for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
+            for (const rb_option *o = set->options; o < set->options + set->n; o++)
                 if (o->kind == RB_OPTION_GROUP)
                     rb_append(text, sizeof text, "%s%s", *text ? ", " : "", o->name);
-            }
         puts("\nMore");
         cli_print_entry("--help=all", "every option");
         cli_print_entry("--help=GROUP", text);
@@ -159,9 +155,8 @@ void cli_print_usage(const cli_spec *spec)
     char values[120];
     int at = 0;
     printf("Usage: %s\n", spec->synopsis);
-    for (int s = 0; s < spec->set_n; s++)
-        for (int i = 0; i < spec->sets[s].n; i++) {
-            const rb_option *o = &spec->sets[s].options[i];
+    for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
+        for (const rb_option *o = set->options; o < set->options + set->n; o++) {
             if (o->kind == RB_OPTION_GROUP)
                 continue;
             cli_option_metavar(o, values, sizeof values);
