@@ -602,6 +602,10 @@ TEST(what_cannot_be_drawn_is_refused)
     }
     check_refused(STUDY "--vary-1 'mu .1 .2' --map a.png", 64, "--map: a map needs two options");
     check_refused(STUDY "--vary-1 'mu .1 .1' --plot a.png", 64, "--plot: no option varies");
+    check_refused(STUDY "--sample 5 --tolerance mu=.1,load=1% --map a.png", 64,
+                  "--map: the cases of a sample are on no grid; --plot draws them");
+    check_refused(STUDY "--sample 5 --tolerance mu=.1,load=1% --family mu --plot a.png", 64,
+                  "--family: the cases of --sample are points");
     check_refused(STUDY "--vary-1 'load 1:99:20' --vary-2 'mu .1 .2' --plot a.png --family load",
                   64, "--plot: 20 values of load: at most 16 curves");
     check_refused(STUDY "--cases one --plot a.png", 66, "one: No such file");

@@ -383,13 +383,17 @@ typedef struct {
     rb_report_quantity shown;  /* the result */
     const rb_rolling_case *rc; /* a case with the bodies of all cases; NULL: the bodies differ */
     rb_units units;
+    const double *half_width; /* of the band about the result, for every case; NULL: none */
+    const char *band;         /* what it is: "estimated error" */
+    int is_sample;            /* 1: the cases are points, not curves; without y */
 } rb_report_study;
 
 /* Checks a picture before the cases are solved.  RB_EINVAL: two cases at the same x and
  * y, more than RB_REPORT_CURVES curves, or a curve with a single point; for a map also if
  * a combination of x and y is missing. */
 rb_status rb_report_study_check(const rb_report_study *study, int map, rb_message *why);
-/* Curves of the result over x, one for each y; or a map of it over x and y. */
+/* Curves of the result over x, one for each y, or the points of a sample; or a map of it over x
+ * and y. */
 rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas, const rb_report_study *study,
                                   int map, rb_message *why);
 

@@ -57,10 +57,10 @@ typedef struct {
     rb_io_table table;
     study_result result[RESULTS_MAX];
     int results;
-    rb_case_slopes slopes; /* columns behind those of the results; n = 0: none */
-    int over, family;      /* columns of the pictures; -1: none */
-    int drawn_column;
-    double *drawn;        /* of every case: what the pictures show; NULL: no picture */
+    rb_case_slopes slopes;         /* columns behind those of the results; n = 0: none */
+    int over, family;              /* columns of the pictures; -1: none */
+    int drawn_column, band_column; /* of the result and of its error or deviation; band 0: none */
+    double *drawn, *band; /* of every case: what the pictures show; NULL: no picture, no band */
     uint64_t fingerprint; /* of all inputs */
     FILE *out;
     char *text; /* what it has, where it is memory for a terminal; owned */
@@ -100,6 +100,8 @@ cli_exit cli_study_check(study *st);
 int cli_study_has_pictures(const study *st);
 /* The name of the result that they show. */
 const char *cli_study_shown(const study *st);
+/* Keeps what the pictures show of a number of the table: column j of case k. */
+void cli_study_keep(study *st, int j, int k, double x);
 /* Refuses, before anything is solved, what cannot be drawn. */
 cli_exit cli_study_prepare_pictures(study *st);
 /* Behind the table, whose exit code is `code`. */

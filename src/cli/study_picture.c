@@ -15,6 +15,31 @@ const char *cli_study_shown(const study *st)
     return st->o->show ? st->o->show : st->has_crack ? "delta_K_II" : "force_ratio";
 }
 
+void cli_study_keep(study *st, int j, int k, double x)
+{
+    if (st->drawn && j == st->drawn_column)
+        st->drawn[k] = x;
+    if (st->band && j == st->band_column)
+        st->band[k] = x;
+}
+
+/* The column of the error bar or of the standard deviation of the result that is shown; 0: it
+ * has none. */
+static int find_band(const study *st)
+{
+    const int first = st->columns + 2;
+    const study_result *shown = &st->result[st->drawn_column - first];
+    if (shown->is_error || st->o->sample > 0)
+        return 0;
+    for (int j = 0; j < st->results; j++)
+        if (st->result[j].r == shown->r && st->result[j].is_error)
+            return first + j;
+    for (int j = 0; j < st->slopes.deviations; j++)
+        if (st->slopes.deviation[j] == shown->r)
+            return first + st->results + st->slopes.n + j;
+    return 0;
+}
+
 static int varies(const study *st, const study_column *c)
 {
     const double *value = c->value;
@@ -80,7 +105,10 @@ static rb_report_study picture_of(const study *st, double *value, char name[STUD
                                        shown->r->unit ? rb_unit_name(c->units, shown->r->unit) : "",
                                        st->drawn},
                              .rc = bodies_vary ? NULL : &c->rc,
-                             .units = c->units};
+                             .units = c->units,
+                             .half_width = st->band,
+                             .band = st->o->tolerance ? "standard deviation" : "estimated error",
+                             .is_sample = st->o->sample > 0};
 }
 
 static cli_exit check_kind(const study *st, const char *option, int map)
@@ -115,14 +143,22 @@ cli_exit cli_study_prepare_pictures(study *st)
     cli_exit code = choose_axis(st, "over", o->over, -1, &st->over);
     if (code == CLI_CONTINUE && st->over < 0)
         code = cli_fail(CLI_USAGE, "--%s: no option varies", o->plot ? "plot" : "map");
-    if (code == CLI_CONTINUE)
+    st->family = -1;
+    if (code == CLI_CONTINUE && o->sample > 0 && o->family)
+        code = cli_fail(CLI_USAGE, "--family: the cases of --sample are points, not curves");
+    if (code == CLI_CONTINUE && o->sample == 0)
         code = choose_axis(st, "family", o->family, st->over, &st->family);
     if (code == CLI_CONTINUE && o->plot)
         code = check_kind(st, "plot", 0);
     if (code == CLI_CONTINUE && o->map)
         code = check_kind(st, "map", 1);
-    st->drawn = code == CLI_CONTINUE ? rb_alloc((size_t)st->cases, 1) : NULL;
-    return code == CLI_CONTINUE && !st->drawn ? cli_fail(CLI_INTERNAL, "out of memory") : code;
+    if (code != CLI_CONTINUE)
+        return code;
+    st->band_column = find_band(st);
+    st->drawn = rb_alloc((size_t)st->cases, 1);
+    st->band = st->band_column ? rb_alloc((size_t)st->cases, 1) : NULL;
+    return !st->drawn || (st->band_column && !st->band) ? cli_fail(CLI_INTERNAL, "out of memory")
+                                                        : CLI_CONTINUE;
 }
 
 static rb_status draw(FILE *out, rb_report_canvas canvas, const study *st, int map, rb_message *why)

@@ -370,8 +370,7 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
     rb_rolling_row_convert(&shown, rb_case_resolved(st->base)->units);
     for (int j = 0; j < column_count(st); j++) {
         const double x = cell_value(st, j, k, &shown);
-        if (st->drawn && j == st->drawn_column)
-            st->drawn[k] = x;
+        cli_study_keep(st, j, k, x);
         if (st->o->style.format == RB_REPORT_JSON)
             st->lost |= json_array_append_new(json_array_get(st->list, (size_t)j),
                                               rb_report_json_number(x)) != 0;
@@ -500,8 +499,8 @@ static int is_row(study *st, int k, const char *line, size_t length)
     good = good && next_number(&at, &status);
     for (int j = st->columns + 2; good && j < column_count(st); j++) {
         good = next_number(&at, &value);
-        if (good && st->drawn && j == st->drawn_column)
-            st->drawn[k] = value;
+        if (good)
+            cli_study_keep(st, j, k, value);
     }
     if (good && *at == '\n')
         count_status(st, k, (rb_status)status);
@@ -830,6 +829,7 @@ int cli_sweep(int argc, char **argv)
         free(st.owned[k]);
     rb_io_table_free(&st.table);
     free(st.drawn);
+    free(st.band);
     free(st.sampled);
     rb_case_slopes_free(&st.slopes);
     json_decref(st.list);

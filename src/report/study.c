@@ -10,7 +10,7 @@
 /* ---- The cases in order ------------------------------------------------------------ */
 
 typedef struct {
-    double x, y, value;
+    double x, y, value, half_width;
     int k; /* number of the case, from 0 */
 } spot;
 
@@ -30,7 +30,8 @@ static spot *sort_cases(const rb_report_study *s)
     spot *at = calloc((size_t)s->n + 1, sizeof *at);
     for (int k = 0; at && k < s->n; k++)
         at[k] = (spot){s->x.value[k], s->y.value ? s->y.value[k] : 0.0,
-                       s->shown.value ? s->shown.value[k] : NAN, k};
+                       s->shown.value ? s->shown.value[k] : NAN,
+                       s->half_width ? s->half_width[k] : 0.0, k};
     if (at)
         qsort(at, (size_t)s->n, sizeof *at, compare);
     return at;
@@ -87,14 +88,16 @@ rb_status rb_report_study_check(const rb_report_study *s, int map, rb_message *w
         return rb_fail(why, RB_ENOMEM, "out of memory for %d cases", s->n);
     /* A place has one case, or the picture would need a third direction. */
     rb_status status = RB_OK;
-    for (int i = 1; i < s->n && status == RB_OK; i++)
+    if (s->is_sample && map)
+        status = rb_fail(why, RB_EINVAL, "the cases of a sample are on no grid; --plot draws them");
+    for (int i = 1; i < s->n && status == RB_OK && !s->is_sample; i++)
         if (at[i].x == at[i - 1].x && at[i].y == at[i - 1].y)
             status = rb_fail(why, RB_EINVAL,
                              "cases %d and %d have the same %s%s%s: more options vary than "
                              "the picture shows",
                              at[i - 1].k + 1, at[i].k + 1, s->x.name, s->y.value ? " and " : "",
                              s->y.value ? s->y.name : "");
-    if (status == RB_OK)
+    if (status == RB_OK && !s->is_sample)
         status = map ? check_map(s, at, why) : check_curves(s, at, why);
     free(at);
     return status;
@@ -192,9 +195,11 @@ static void write_axis(FILE *out, char letter, const rb_report_quantity *q, cons
     label[0] = letter;
     write_label(out, label, q, a);
     fprintf(out, "set %crange [%.9g:%.9g]\n", letter, a->from, a->to);
-    if (a->logarithmic)
+    if (a->logarithmic) {
         fprintf(out, "set logscale %c\n", letter);
-    else
+        if (a->to >= 1e4 || a->from < 1e-3) /* longer than their tics */
+            fprintf(out, "set format %c '10^{%%L}'\n", letter);
+    } else
         fprintf(out, "set %ctics %.9g\n", letter, rb_report_round_step((a->to - a->from) / labels));
 }
 
@@ -210,8 +215,9 @@ static void write_title(FILE *out, const view *v, rb_report_place place)
     char shown[64];
     if (!place.titled)
         return;
-    fprintf(out, "set label 1 '{/:Bold %s}   %d cases' at screen 0.5, 0.972 center\n",
-            plain(s->shown.name, shown), s->n);
+    fprintf(out, "set label 1 '{/:Bold %s}   %d cases%s%s%s' at screen 0.5, 0.972 center\n",
+            plain(s->shown.name, shown), s->n, s->is_sample ? " of a sample" : "",
+            s->half_width ? ",  band: ± " : "", s->half_width ? s->band : "");
     if (s->rc)
         rb_report_label_bodies(out, s->rc, s->units, 0.5, 0.935);
 }
@@ -230,7 +236,8 @@ static void write_curves(FILE *out, rb_report_canvas canvas, const void *context
     for (int i = 0; i < s->n; curves++) {
         fprintf(out, "$curve%d << EOD\n", curves);
         for (const int end = i + length_of_group(s, v->at, i); i < end; i++)
-            fprintf(out, "%.9g %.9g\n", v->at[i].x / v->x.unit, v->at[i].value / v->shown.unit);
+            fprintf(out, s->half_width ? "%.9g %.9g %.9g\n" : "%.9g %.9g\n", v->at[i].x / v->x.unit,
+                    v->at[i].value / v->shown.unit, v->at[i].half_width / v->shown.unit);
         fputs("EOD\n", out);
     }
     fprintf(out,
@@ -249,12 +256,20 @@ static void write_curves(FILE *out, rb_report_canvas canvas, const void *context
                 s->y.unit, s->y.unit[0] ? "]" : "");
     else
         fputs("unset key\n", out);
+    fputs("plot ", out);
+    for (int k = 0; k < curves && s->half_width; k++)
+        fprintf(out,
+                "$curve%d using 1:($2-$3):($2+$3) with filledcurves linecolor rgb '%s' fillstyle "
+                "transparent solid 0.3 noborder notitle, ",
+                k, rb_report_colour(k));
     for (int k = 0, i = 0; k < curves; i += length_of_group(s, v->at, i), k++)
         fprintf(out,
                 "%s$curve%d using 1:2 with %s linecolor rgb '%s' dashtype %s "
                 "pointtype 7 pointsize 0.7 linewidth 2.2 title '%g'",
-                k ? ", " : "plot ", k,
-                length_of_group(s, v->at, i) > POINTS_UP_TO ? "lines" : "linespoints",
+                k ? ", " : "", k,
+                s->is_sample                                  ? "points"
+                : length_of_group(s, v->at, i) > POINTS_UP_TO ? "lines"
+                                                              : "linespoints",
                 rb_report_colour(k), rb_report_dashes(k), v->at[i].y);
     fputc('\n', out);
 }
