@@ -101,7 +101,7 @@ TEST(coarser_problems_come_first)
     static const int kinds[] = {3, 4, 5}; /* obstacle, bearing, option */
     for (int k = 0; k < 3; k++) {
         lcp_family f;
-        assert_int_equal(lcp_family_create(kinds[k], 10000, &f), RB_OK);
+        assert_int_equal(lcp_family_create(kinds[k], 2500, &f), RB_OK);
         SCRATCH double *z = malloc((size_t)f.n * sizeof *z),
                        *ones = malloc((size_t)f.n * sizeof *z);
         SCRATCH double *same = malloc((size_t)f.n * sizeof *z);

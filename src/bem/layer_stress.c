@@ -12,7 +12,9 @@
 /* Beyond this product of wave number and thickness exp(-al), by which the bond feels the
  * surface, is below rounding. */
 static const double LAST = 40.0;
-enum { GAUSS = 16, MOST_WAVES = 1 << 16 };
+/* Waves are Gauss points of panels of one width, but the first panel, which is halved
+ * towards long waves. */
+enum { GAUSS = 16, HALVINGS = 12, MOST_WAVES = 1 << 16 };
 
 /* A wave exp(i k x): Airy's function over k^2 is, with eta = k y,
  *     layer: half-plane's + c eta sinh eta + d (eta cosh eta - sinh eta)
@@ -68,31 +70,49 @@ struct rb_bem_layer_field {
 };
 
 /* s_xx = f'', s_yy = -f, s_xy = -i f', each times exp(i k x).  Waves that fade on their
- * way down, and up again from the bond, are left out. */
+ * way down, and up again from the bond, are left out.  From panel to panel exp(i k x) and
+ * exp(k y) change by a factor, by which they are multiplied ANEW times at the most. */
 static void add_waves(const rb_bem_layer_field *field, const double xy[2], double *stress)
 {
+    enum { EQUAL = GAUSS * HALVINGS, ANEW = 32 };
     const wave *w = field->wave;
     const double thickness = field->body.thickness,
                  fades = LAST / fmax(2.0 * thickness - xy[1], xy[1]);
+    const int in_layer = xy[1] <= thickness;
+    const double rate = in_layer ? xy[1] : thickness - xy[1],
+                 width = w[EQUAL + GAUSS].k - w[EQUAL].k, factor = exp(width * rate);
+    const double complex turn = cos(width * xy[0]) + I * sin(width * xy[0]);
+    double complex along[GAUSS];
+    double into[GAUSS];
+
     for (int k = 0; k < field->n && w[k].k <= fades; k++) {
-        const double complex c = w[k].c, d = w[k].d;
-        const double kx = w[k].k * xy[0], even = cos(kx), odd = sin(kx), eta = w[k].k * xy[1];
+        double complex *e = &along[k % GAUSS];
+        double *up = &into[k % GAUSS];
+        if (k < EQUAL || (k - EQUAL) / GAUSS % ANEW == 0) {
+            *e = cos(w[k].k * xy[0]) + I * sin(w[k].k * xy[0]);
+            *up = exp(w[k].k * rate);
+        } else {
+            *e *= turn;
+            *up *= factor;
+        }
         double complex f[3]; /* f, f' and f'' */
-        if (xy[1] <= thickness) {
-            const double up = exp(eta), sh = eta < 1e-3 ? sinh(eta) : 0.5 * (up - 1.0 / up),
-                         ch = 0.5 * (up + 1.0 / up);
+        const double eta = fabs(w[k].k * rate);
+        if (in_layer) {
+            const double complex c = w[k].c, d = w[k].d;
+            const double sh = eta < 1e-3 ? sinh(eta) : 0.5 * (*up - 1.0 / *up),
+                         ch = 0.5 * (*up + 1.0 / *up);
             f[0] = c * eta * sh + d * (eta * ch - sh);
             f[1] = c * (sh + eta * ch) + d * eta * sh;
             f[2] = c * (2.0 * ch + eta * sh) + d * (sh + eta * ch);
         } else {
-            const double z = w[k].k * (xy[1] - thickness), down = exp(-z);
-            f[0] = (w[k].a + w[k].b * z) * down;
-            f[1] = (w[k].b - w[k].a - w[k].b * z) * down;
-            f[2] = (w[k].a - 2.0 * w[k].b + w[k].b * z) * down;
+            const double complex a = w[k].a, b = w[k].b;
+            f[0] = (a + b * eta) * *up;
+            f[1] = (b - a - b * eta) * *up;
+            f[2] = (a - 2.0 * b + b * eta) * *up;
         }
-        stress[0] += even * creal(f[2]) - odd * cimag(f[2]);
-        stress[1] -= even * creal(f[0]) - odd * cimag(f[0]);
-        stress[2] += even * cimag(f[1]) + odd * creal(f[1]);
+        stress[0] += creal(*e) * creal(f[2]) - cimag(*e) * cimag(f[2]);
+        stress[1] -= creal(*e) * creal(f[0]) - cimag(*e) * cimag(f[0]);
+        stress[2] += creal(*e) * cimag(f[1]) + cimag(*e) * creal(f[1]);
     }
 }
 
@@ -107,10 +127,9 @@ void rb_bem_layer_field_free(rb_bem_layer_field *field)
 }
 
 /* For points and strips that are `reach` apart at most: the rule integrates ten radians
- * to rounding.  The first panel is halved towards long waves. */
+ * to rounding. */
 static rb_status make_waves(rb_bem_layer_field *f, double reach, rb_message *why)
 {
-    enum { HALVINGS = 12 };
     const double d = f->body.thickness;
     const double panels = ceil(LAST * fmax(1.0, 0.1 * reach / d)), width = LAST / panels;
     if (!(GAUSS * (panels + HALVINGS) < MOST_WAVES))
