@@ -730,7 +730,7 @@ TEST(the_largest_stress_covers_no_contour)
                                "--plot-script s.gp");
     const json_t *maxima = json_object_get(root, "maxima");
     char title[80];
-    snprintf(title, sizeof title, "maximum shear  [MPa],  at +: %.4g'",
+    snprintf(title, sizeof title, "maximum shear  [MPa],  largest %.4g at +'",
              number_in(json_object_get(maxima, "max_shear"), "value"));
     slurp("s.gp", out, sizeof out);
     assert_non_null(strstr(out, title));

@@ -137,26 +137,34 @@ static double shear_below(double friction, double x, double y)
 
 double rb_closed_shakedown_limit(double friction)
 {
-    enum { POINTS = 400 };
-    double most = fabs(friction), x = 0.0, y = 0.0, step = 0.01;
+    enum { POINTS = 80 };
+    static const double way[8][2] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
+                                     {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+    double most = fabs(friction); /* at the surface */
 
-    for (int i = -POINTS; i <= POINTS; i++)
-        for (int j = 1; j <= POINTS; j++)
-            if (fabs(shear_below(friction, 2.0 * i / POINTS, 2.0 * j / POINTS)) > most) {
-                x = 2.0 * i / POINTS;
-                y = 2.0 * j / POINTS;
-                most = fabs(shear_below(friction, x, y));
+    for (int side = -1; side <= 1; side += 2) {
+        double x = 0.0, y = 0.0, found = 0.0;
+        for (int i = 0; i <= POINTS; i++)
+            for (int j = 1; j <= POINTS; j++) {
+                const double u = side * 2.0 * i / POINTS, v = 2.0 * j / POINTS,
+                             shear = fabs(shear_below(friction, u, v));
+                if (shear > found) {
+                    x = u;
+                    y = v;
+                    found = shear;
+                }
             }
-    for (; y > 0.0 && step > 1e-9; step *= 0.5)
-        for (int k = 0; k < 8; k++) {
-            static const double way[8][2] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
-                                             {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
-            const double u = x + step * way[k][0], v = fmax(0.0, y + step * way[k][1]);
-            if (fabs(shear_below(friction, u, v)) > most) {
-                most = fabs(shear_below(friction, u, v));
-                x = u;
-                y = v;
+        for (double step = 4.0 / POINTS; step > 1e-9; step *= 0.5)
+            for (int k = 0; k < 8; k++) {
+                const double u = x + step * way[k][0], v = fmax(0.0, y + step * way[k][1]),
+                             shear = fabs(shear_below(friction, u, v));
+                if (shear > found) {
+                    x = u;
+                    y = v;
+                    found = shear;
+                }
             }
-        }
+        most = fmax(most, found);
+    }
     return 1.0 / most;
 }
