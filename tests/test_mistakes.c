@@ -115,6 +115,11 @@ TEST(refusals_have_their_code_and_reason)
         {65, "size.ini", "size.ini:3: plot-size: there is no picture; --plot FILE asks for one"},
         {65, "design size.ini --minimise max_pressure", "size.ini:3: unknown key 'plot-size'"},
         {64, "design b.ini --plot p.svg", "unknown option '--plot'"},
+        {64, "b.ini --tolerance mou=0.1",
+         "'mou' is not a number of this case (did you mean 'mu'?)"},
+        {64, "b.ini --tolerance mu=inf", "mu: expected a standard deviation >= 0"},
+        {65, "si.ini --units mm", "si.ini:4: tolerance: its numbers are in the units of the file"},
+        {65, "sweep si.ini --units mm --vary-1 'mu 0.1 0.2'", "si.ini:4: tolerance: its numbers"},
         {65, "arc.ini", "arc.ini:2: arc: of the support arc only"},
         {64, "help --nothing", "nothing about '--nothing'"},
         {64, "b.ini --friction-law exponential --mu-fall 1,2,3 --slip-scale 1,2,3 --speed 1",
@@ -347,6 +352,7 @@ TEST(refusals_have_their_code_and_reason)
     write_file("w.ini", "formulation = steady\nsupport = halfplane\nload = 100\n"
                         "creep = 0.1\n");
     write_file("every.ini", "load = 100\nevery = 2\n");
+    write_file("si.ini", "units = si\nsupport = halfplane\nload = 100000\ntolerance = load=1000\n");
     write_file("size.ini", "load = 100\n[output]\nplot-size = slide\n");
     write_file("script.ini", "load = 100\n[output]\nplot-script = p.gp\n");
     write_file("list.json", "[1]\n");

@@ -317,6 +317,16 @@ rb_status rb_case_refuse_result(const char *name, const rb_rolling_results *tabl
                    rb_guess_text(&guess, ""));
 }
 
+/* "mu = 0.02, radius = 1%" */
+static char *without_blanks(char *text)
+{
+    text += strspn(text, " ");
+    size_t n = strlen(text);
+    while (n > 0 && text[n - 1] == ' ')
+        text[--n] = '\0';
+    return text;
+}
+
 /* "0.02", "1%", "0.5mm" of the number; RB_EINVAL. */
 static rb_status read_deviation(const rb_case_number *number, const char *text, double *deviation,
                                 rb_message *why)
@@ -327,7 +337,7 @@ static rb_status read_deviation(const rb_case_number *number, const char *text, 
 
     if (n > 1 && n < sizeof digits && text[n - 1] == '%') {
         snprintf(digits, sizeof digits, "%.*s", (int)n - 1, text);
-        if (!rb_option_number(digits, deviation))
+        if (!rb_option_number(without_blanks(digits), deviation))
             return RB_EINVAL;
         *deviation *= 0.01 * fabs(number->input.value);
         return RB_OK;
@@ -367,18 +377,22 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_to
         int k = 0;
         if (value)
             *value++ = '\0';
-        while (k < numbers && strcmp(number[k].name, word) != 0)
-            k++;
+        char *name = without_blanks(word);
+        rb_guess guess = {.word = name};
+        value = value ? without_blanks(value) : NULL;
+        for (; k < numbers && strcmp(number[k].name, name) != 0; k++)
+            rb_guess_try(&guess, number[k].name);
         if (k == numbers || t->n == RB_CASE_TOLERANCES_MAX)
-            s = rb_fail(why, RB_EINVAL, "'%s' is not a number of this case", word);
-        else if (is_among(word, t))
-            s = rb_fail(why, RB_EINVAL, "%s: given twice", word);
+            s = rb_fail(why, RB_EINVAL, "'%s' is not a number of this case%s", name,
+                        rb_guess_text(&guess, ""));
+        else if (is_among(name, t))
+            s = rb_fail(why, RB_EINVAL, "%s: given twice", name);
         else if (!value)
-            s = rb_fail(why, RB_EINVAL, "%s: expected %s=X, X its standard deviation", word, word);
+            s = rb_fail(why, RB_EINVAL, "%s: expected %s=X, X its standard deviation", name, name);
         else if (read_deviation(&number[k], value, &t->deviation[t->n], why) != RB_OK ||
-                 !(t->deviation[t->n] >= 0.0))
+                 !(t->deviation[t->n] >= 0.0 && isfinite(t->deviation[t->n])))
             s = rb_fail(why, RB_EINVAL,
-                        "%s: expected a standard deviation >= 0 or per cent, got '%s'", word,
+                        "%s: expected a standard deviation >= 0 or per cent, got '%s'", name,
                         value);
         else {
             t->value[t->n] = number[k].input.value;

@@ -68,6 +68,23 @@ cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c,
     return code == CLI_CONTINUE ? cli_case_resolve(spec, c, args) : code;
 }
 
+cli_exit cli_check_units(const rb_case *c, const rb_option_set *set, const cli_args *args)
+{
+    char what[300];
+    for (int k = 0; k < set->n; k++) {
+        const rb_option *o = &set->options[k];
+        if (o->kind == RB_OPTION_TEXT && set->given[k] > 0 && strchr(o->unit, '=') &&
+            rb_case_units(c, set->given[k]) != rb_case_units(c, RB_GIVEN_ARGUMENT))
+            return cli_fail(
+                CLI_DATA,
+                "%s: its numbers are in the units of the file, but --units gives "
+                "others; give --%s too",
+                rb_option_source(o, set->given[k], cli_case_file_of(args), what, sizeof what),
+                o->name);
+    }
+    return CLI_CONTINUE;
+}
+
 cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why)
 {
     return cli_say(rb_case_locate(c, s, why), why);
@@ -188,6 +205,8 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
     cli_exit code = read_words(&spec, &run, argc, argv);
     if (code == CLI_CONTINUE)
         code = cli_case_resolve(&spec, run.words, &run.args);
+    if (code == CLI_CONTINUE)
+        code = cli_check_units(run.words, &run.set, &run.args);
     if (code == CLI_CONTINUE) {
         run.c = rb_case_resolved(run.words);
         rb_case_store(run.words, &run.set, own);

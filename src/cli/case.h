@@ -42,6 +42,10 @@ cli_exit cli_case_resolve(const cli_spec *spec, rb_case *c, const cli_args *args
 rb_option_set cli_example_set(void);
 cli_exit cli_example_read(rb_case *c, const char *file);
 
+/* Refuses a text with numbers, such as NAME=X, that a case file has in other units than the
+ * case. */
+cli_exit cli_check_units(const rb_case *c, const rb_option_set *set, const cli_args *args);
+
 /* Prints why the library refused the case; the exit code tells command line from file. */
 cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why);
 

@@ -773,6 +773,8 @@ static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
     if (code == CLI_CONTINUE)
         code = cli_case_resolve(spec, c, args);
     if (code == CLI_CONTINUE)
+        code = cli_check_units(c, st->own, args);
+    if (code == CLI_CONTINUE)
         code = cli_study_check(st);
     if (code == CLI_CONTINUE)
         code = choose_results(st);
