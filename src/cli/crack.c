@@ -3,7 +3,6 @@
 
 #include <jansson.h>
 #include <stddef.h>
-#include <string.h>
 
 typedef struct {
     double at; /* options */
