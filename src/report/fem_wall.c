@@ -124,7 +124,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
         "set ylabel 'force [kN]' offset -0.7,0\n"
         "set key bottom right Left reverse samplen 2\n"
         "plot $step using 1:2 with lines linewidth 2 linecolor rgb '#1f4e79' title 'compression', "
-        "$step using 1:3 with lines linewidth 2 linecolor rgb '#c0392b' title 'shear'\n",
+        "$step using 1:3 with lines linewidth 2 linecolor rgb '#c0392b' dashtype (9,4) title "
+        "'shear'\n",
         out);
     if (column)
         fprintf(out, "set ytics %g\n",
@@ -136,8 +137,9 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
     fputs(
         "set format x '%g'\nset xlabel 'time [s]' offset 0,0.3\nset key center left Left reverse\n"
         "plot $step using 1:4 with lines linewidth 2 linecolor rgb '#2c7a57' title 'stick', $step "
-        "using 1:5 with lines linewidth 2 linecolor rgb '#c4501b' title 'slip', $step using 1:6 "
-        "with lines linewidth 2 linecolor rgb '#9a9a9a' title 'separated'\n"
+        "using 1:5 with lines linewidth 2 linecolor rgb '#c4501b' dashtype (9,4) title 'slip', "
+        "$step using 1:6 "
+        "with lines linewidth 2 linecolor rgb '#9a9a9a' dashtype (3,3) title 'separated'\n"
         "unset multiplot\n",
         out);
 }

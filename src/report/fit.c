@@ -266,23 +266,29 @@ static void write_data(FILE *out, const view *v)
     fputs("EOD\n", out);
 }
 
-/* Names, values and intervals, as far as they are identified. */
+/* Names, values and intervals, as far as they are identified; without the intervals where the
+ * line would be too long. */
 static void write_title(FILE *out, const rb_report_fit *f, double middle)
 {
-    enum { FITS = 90 }; /* characters in a line */
-    char text[RB_CASE_FIT_MAX * 120] = "", unit[20];
+    enum { FITS = 90, LONG = 125 }; /* characters in a line, and in one of smaller letters */
+    char text[RB_CASE_FIT_MAX * 120], unit[20];
 
-    for (int j = 0; j < f->fit->n; j++) {
-        const rb_case_parameter *p = &f->fit->parameter[j];
-        rb_append(text, sizeof text, "%s%s ", j ? ";  " : "", p->name);
-        if (p->identified)
-            rb_append(text, sizeof text, "%s (%s … %s)%s",
-                      RB_REPORT_NUMBER(in_units(f, p->unit, p->value), 4),
-                      RB_REPORT_NUMBER(in_units(f, p->unit, p->interval[0]), 3),
-                      RB_REPORT_NUMBER(in_units(f, p->unit, p->interval[1]), 3),
-                      unit_behind(f, p->unit, unit));
-        else
-            rb_append(text, sizeof text, "not identified");
+    for (int intervals = 1; intervals >= 0; intervals--) {
+        text[0] = '\0';
+        for (int j = 0; j < f->fit->n; j++) {
+            const rb_case_parameter *p = &f->fit->parameter[j];
+            rb_append(text, sizeof text, "%s%s %s", j ? ";  " : "", p->name,
+                      p->identified ? RB_REPORT_NUMBER(in_units(f, p->unit, p->value), 4)
+                                    : "not identified");
+            if (p->identified && intervals)
+                rb_append(text, sizeof text, " (%s … %s)",
+                          RB_REPORT_NUMBER(in_units(f, p->unit, p->interval[0]), 3),
+                          RB_REPORT_NUMBER(in_units(f, p->unit, p->interval[1]), 3));
+            if (p->identified)
+                rb_append(text, sizeof text, "%s", unit_behind(f, p->unit, unit));
+        }
+        if (strlen(text) <= LONG)
+            break;
     }
     const size_t n = strlen(text);
     fprintf(out,

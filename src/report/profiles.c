@@ -28,7 +28,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
         fprintf(out,
                 "%s$profiles using 1:%d with steps linecolor rgb '%s' dashtype %s "
                 "linewidth 1.8 title '%s'",
-                s ? ", " : "", s + 2, rb_report_colour(s), rb_report_dashes(s / 8), p->solver[s]);
+                s ? ", " : "", s + 2, rb_report_colour(s), rb_report_dashes(s), p->solver[s]);
     fputc('\n', out);
 }
 
