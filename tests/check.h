@@ -191,6 +191,24 @@ void alloc_fail_after(int count);
 void alloc_succeed(void);
 int alloc_failed(void);
 
+/* The call where its k-th allocation and all after it fail: it says that there is no memory,
+ * or needs no more than k and ends well.  Whether one was refused. */
+#define REFUSED_FROM(k, ...)                                                                       \
+    (alloc_fail_after(k),                                                                          \
+     check_refused_from_(k, (int)(__VA_ARGS__), #__VA_ARGS__, __FILE__, __LINE__))
+
+static inline int check_refused_from_(int k, int got, const char *call, const char *file, int line)
+{
+    const int refused = alloc_failed();
+    alloc_succeed();
+    if (got != (refused ? RB_ENOMEM : RB_OK)) {
+        print_error("%s: status %d, allocations from %d on %s\n", call, got, k,
+                    refused ? "failed" : "were not needed");
+        _fail(file, line);
+    }
+    return refused;
+}
+
 /* Does the work again and again; in the k-th run the k-th allocation fails and those
  * after it succeed, until there is none left.  The work returns RB_ENOMEM, or RB_OK where
  * it does without.  How many allocations there were. */

@@ -137,11 +137,7 @@ TEST(interfaces_yield_under_their_own_traction)
 static void check_memory(rb_status (*work)(const void *of), const void *of)
 {
     for (int count = 0, refused = 1; refused; count += 1 + count / 40) {
-        alloc_fail_after(count);
-        const rb_status s = work(of);
-        refused = alloc_failed();
-        alloc_succeed();
-        assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
+        refused = REFUSED_FROM(count, work(of));
         assert_true(count < 10000);
     }
 }

@@ -172,24 +172,15 @@ TEST(fields_have_their_mirror_images)
 TEST(every_failed_allocation_is_reported)
 {
     held_system *system = wheel_system(4);
-    int refused = 1;
-    for (int count = 0; refused; count++) {
+    for (int count = 0, refused = 1; refused; count++) {
         OWNED(rb_bem_flexibility) f;
-        alloc_fail_after(count);
-        const rb_status s = rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL);
-        refused = alloc_failed();
-        alloc_succeed();
-        CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
+        refused = REFUSED_FROM(
+            count, rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL));
     }
     const double t[8] = {0.0, 1.0, 0.1, 2.0, 0.1, 2.0, 0.0, 1.0};
-    refused = 1;
-    for (int count = 0; refused; count++) {
+    for (int count = 0, refused = 1; refused; count++) {
         rb_bem_field *field;
-        alloc_fail_after(count);
-        const rb_status s = rb_bem_field_create(system, t, &field, NULL);
-        refused = alloc_failed();
-        alloc_succeed();
-        CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
+        refused = REFUSED_FROM(count, rb_bem_field_create(system, t, &field, NULL));
         rb_bem_field_free(field);
     }
 }

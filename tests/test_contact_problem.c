@@ -961,11 +961,7 @@ TEST(no_memory_is_said)
     }
     assert_true(alloc_fail_every_call(solve_all, p) > 10); /* one alone, then all from one on */
     for (int count = 0, refused = 1; refused; count++) {
-        alloc_fail_after(count);
-        const rb_status s = solve_all(p);
-        refused = alloc_failed();
-        alloc_succeed();
-        assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
+        refused = REFUSED_FROM(count, solve_all(p));
         assert_true(count < 5000);
     }
     for (int k = 0; k < PROBLEMS; k++)

@@ -389,16 +389,8 @@ static rb_status build_and_condense(void)
 
 TEST(memory_runs_out)
 {
-    for (int k = 0;; k++) {
-        alloc_fail_after(k);
-        const rb_status s = build_and_condense();
-        const int refused = alloc_failed();
-        alloc_succeed();
-        if (!refused) {
-            CHECK_OK(s);
-            break;
-        }
-        CHECK_STATUS(s, RB_ENOMEM);
+    for (int k = 0, refused = 1; refused; k++) {
+        refused = REFUSED_FROM(k, build_and_condense());
     }
 }
 

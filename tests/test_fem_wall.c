@@ -140,15 +140,9 @@ TEST(failures_name_the_step)
     const rb_status selected = rb_fem_wall_select(wall, 1, &chosen);
     alloc_succeed();
     CHECK_STATUS(selected, RB_ENOMEM);
-    for (int k = 0;; k++) {
-        alloc_fail_after(k);
-        const rb_status s = rb_fem_wall_problem(wall, 0, &problem);
-        const int refused = alloc_failed();
-        alloc_succeed();
-        CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
+    for (int k = 0, refused = 1; refused; k++) {
+        refused = REFUSED_FROM(k, rb_fem_wall_problem(wall, 0, &problem));
         rb_friction_problem_free(&problem);
-        if (!refused)
-            break;
     }
     rb_fem_wall_free(wall);
 }
@@ -202,18 +196,10 @@ TEST(memory_runs_out)
 {
     for (int rigid = 0; rigid < 2; rigid++) {
         const rb_fem_wall_options o = small_wall(rigid);
-        for (int k = 0;; k++) {
+        for (int k = 0, refused = 1; refused; k++) {
             rb_fem_wall *wall;
-            alloc_fail_after(k);
-            const rb_status s = rb_fem_wall_create(&o, &wall, NULL);
-            const int refused = alloc_failed();
-            alloc_succeed();
+            refused = REFUSED_FROM(k, rb_fem_wall_create(&o, &wall, NULL));
             rb_fem_wall_free(wall);
-            if (!refused) {
-                CHECK_OK(s);
-                break;
-            }
-            CHECK_STATUS(s, RB_ENOMEM);
         }
     }
 }

@@ -154,15 +154,9 @@ TEST(short_memory_is_reported)
     memset(W, 0, sizeof W);
     q[0] = -2.0, q[1] = 3.0, mu[0] = 0.5;
     const rb_friction_problem p = problem(2, 1);
-    for (int i = 0;; i++) {
+    for (int i = 0, refused = 1; refused; i++) {
         double y[1], least;
-        alloc_fail_after(i);
-        const rb_status s = rb_friction_infeasible(&p, y, &least);
-        const int refused = alloc_failed();
-        alloc_succeed();
-        CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
-        if (!refused)
-            break;
+        refused = REFUSED_FROM(i, rb_friction_infeasible(&p, y, &least));
     }
 }
 

@@ -356,15 +356,10 @@ static int allocations(rb_contact_problem *p, rb_contact_state *s)
 {
     double gap[24];
 
-    for (int count = 0;; count++) {
-        alloc_fail_after(count);
-        const rb_status status = rb_contact_try_zones(p, s, gap);
-        const int failed = alloc_failed();
-        alloc_succeed();
-        CHECK_STATUS(status, failed ? RB_ENOMEM : RB_OK);
-        if (!failed)
-            return count;
-    }
+    int count = 0;
+    while (REFUSED_FROM(count, rb_contact_try_zones(p, s, gap)))
+        count++;
+    return count;
 }
 
 /* The second solve has the room of the first one, until that is forgotten; bounds that

@@ -302,11 +302,7 @@ TEST(failing_allocations)
     SCRATCH double *unit = units(&mesh, steel);
     for (int k = 0, refused = 1; refused; k++) {
         rb_hierarchical *h;
-        alloc_fail_after(k);
-        const rb_status s = rb_hierarchical_create(&mesh, steel, unit, 1e-6, &h);
-        refused = alloc_failed();
-        alloc_succeed();
-        assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
+        refused = REFUSED_FROM(k, rb_hierarchical_create(&mesh, steel, unit, 1e-6, &h));
         assert_true(refused ? h == NULL : h != NULL);
         rb_hierarchical_free(h);
     }
@@ -314,11 +310,8 @@ TEST(failing_allocations)
     CHECK_OK(rb_bem_system_create_as(&mesh, steel, 0, &system, NULL));
     for (int k = 0, refused = 1; refused; k++) {
         OWNED(rb_bem_flexibility) f;
-        alloc_fail_after(k);
-        const rb_status s = rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL);
-        refused = alloc_failed();
-        alloc_succeed();
-        assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
+        refused =
+            REFUSED_FROM(k, rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL));
     }
 }
 

@@ -187,16 +187,11 @@ TEST(lines_of_any_length_are_read)
 TEST(tables_without_memory)
 {
     char text[2000] = "load force\n";
-    int refused = 1;
     for (int i = 0; i < 200; i++)
         strcat(text, "1 2\n");
-    for (int k = 0; refused; k++) {
+    for (int k = 0, refused = 1; refused; k++) {
         OWNED(rb_io_table) t;
-        alloc_fail_after(k);
-        const rb_status s = read_text(text, &t, NULL);
-        refused = alloc_failed();
-        alloc_succeed();
-        assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
+        refused = REFUSED_FROM(k, read_text(text, &t, NULL));
     }
 }
 

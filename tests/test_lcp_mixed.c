@@ -808,16 +808,10 @@ TEST(short_memory_is_reported)
     p.lower[2] = -INFINITY;
     OWNED(rb_sparse) M;
     CHECK_OK(rb_sparse_from_dense(p.n, p.n, p.M, p.n, &M));
-    for (int i = 0;; i++) {
+    for (int i = 0, refused = 1; refused; i++) {
         double z[N];
-        alloc_fail_after(i);
-        const rb_status s =
-            rb_lcp_mixed(&(rb_lcp_mixed_problem){&M, p.q, p.lower, p.upper}, NULL, z, NULL);
-        const int refused = alloc_failed();
-        alloc_succeed();
-        CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
-        if (!refused)
-            break;
+        refused = REFUSED_FROM(
+            i, rb_lcp_mixed(&(rb_lcp_mixed_problem){&M, p.q, p.lower, p.upper}, NULL, z, NULL));
     }
     rb_lcp_mixed_problem one = {&M, p.q, p.lower, p.upper};
     assert_true(alloc_fail_each(solve_anew, &one) > 5);

@@ -154,15 +154,9 @@ TEST(short_memory_is_reported)
     const double M[] = {2.0, 1.0, 1.0, 2.0}, q[] = {-5.0, -6.0};
     OWNED(rb_sparse) a;
     CHECK_OK(rb_sparse_from_dense(2, 2, M, 2, &a));
-    for (int i = 0;; i++) {
+    for (int i = 0, refused = 1; refused; i++) {
         double z[2];
-        alloc_fail_after(i);
-        const rb_status s = rb_lcp_newton(&a, q, NULL, z, NULL);
-        const int refused = alloc_failed();
-        alloc_succeed();
-        CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
-        if (!refused)
-            break;
+        refused = REFUSED_FROM(i, rb_lcp_newton(&a, q, NULL, z, NULL));
     }
     assert_true(alloc_fail_each(solve_anew, &a) > 2);
 }

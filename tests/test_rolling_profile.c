@@ -248,15 +248,10 @@ TEST(every_failed_allocation_is_reported)
     const int n = tabulate(-30.0, 30.0, 0.5, 0.0, 1, x, gap);
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
     for (int k = 0; k < 2; k++) {
-        int refused = 1;
-        for (int count = 0; refused; count++) {
+        for (int count = 0, refused = 1; refused; count++) {
             rb_rolling_profile *profile;
-            alloc_fail_after(count);
-            const rb_status s =
-                rb_rolling_profile_create(n, x, gap, k ? 1e-3 : 0.0, &profile, NULL);
-            refused = alloc_failed();
-            alloc_succeed();
-            CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
+            refused = REFUSED_FROM(
+                count, rb_rolling_profile_create(n, x, gap, k ? 1e-3 : 0.0, &profile, NULL));
             rb_rolling_profile_free(profile);
         }
     }

@@ -348,27 +348,16 @@ TEST(every_failed_allocation_is_reported)
     rb_rolling_case rc = wheel_on_plane(0.5);
     OWNED(rb_rolling_model) model;
     rb_rolling_stress_maxima maxima;
-    int refused = 1;
     rc.contact_elements = 12;
     CHECK_OK(rb_rolling_model_create(&rc, &model, NULL));
-    for (int count = 0; refused && count < 100; count++) {
-        alloc_fail_after(count);
-        const rb_status s = rb_rolling_stress_maxima_find(&model, 0.0, &maxima, NULL);
-        refused = alloc_failed();
-        alloc_succeed();
-        if (refused && s == RB_OK)
-            fail_msg("allocation %d failed unnoticed", count);
+    for (int count = 0, refused = 1; refused && count < 100; count++) {
+        refused = REFUSED_FROM(count, rb_rolling_stress_maxima_find(&model, 0.0, &maxima, NULL));
     }
-    refused = 1;
-    for (int count = 0; refused; count++) {
+    for (int count = 0, refused = 1; refused; count++) {
         OWNED(rb_rolling_curve) c, e;
-        alloc_fail_after(count);
-        const rb_status s = rb_rolling_curve_with_errors(&rc, &(rb_rolling_range){0, 0.1, 0.5, 3},
-                                                         NULL, NULL, &c, &e, NULL);
-        refused = alloc_failed();
-        alloc_succeed();
-        if (refused && s == RB_OK)
-            fail_msg("allocation %d of a curve failed unnoticed", count);
+        refused = REFUSED_FROM(
+            count, rb_rolling_curve_with_errors(&rc, &(rb_rolling_range){0, 0.1, 0.5, 3}, NULL,
+                                                NULL, &c, &e, NULL));
     }
 }
 

@@ -320,12 +320,8 @@ TEST(bad_discs_are_refused)
     }
     SCRATCH double *ends = equal_arcs(6, 3.0, -0.5, 0.5);
     for (int k = 0, refused = 1; refused; k++) {
-        alloc_fail_after(k);
-        const rb_status s = rb_bem_flexibility_disc(6, ends, &(rb_bem_disc){3.0, steel},
-                                                    RB_BEM_NORMALS_OBSTACLE, &f, &why);
-        refused = alloc_failed();
-        alloc_succeed();
-        assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
+        refused = REFUSED_FROM(k, rb_bem_flexibility_disc(6, ends, &(rb_bem_disc){3.0, steel},
+                                                          RB_BEM_NORMALS_OBSTACLE, &f, &why));
         rb_bem_flexibility_free(&f);
         assert_true(k < 40);
     }
@@ -370,11 +366,8 @@ TEST(failing_allocations)
     SCRATCH double *ends = equal_ends(6, 0.0, 1.0);
     for (int k = 0, refused = 1; refused; k++) {
         OWNED(rb_bem_flexibility) f;
-        alloc_fail_after(k);
-        const rb_status s = rb_bem_flexibility_toeplitz(6, ends, HALFPLANE(steel, 1.0), &f, &heard);
-        refused = alloc_failed();
-        alloc_succeed();
-        assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
+        refused = REFUSED_FROM(
+            k, rb_bem_flexibility_toeplitz(6, ends, HALFPLANE(steel, 1.0), &f, &heard));
         assert_true(k < 40);
     }
 }
