@@ -28,7 +28,6 @@ TEST(edge_cracks)
                                      {45, 0.704910, 0.364491},
                                      {30, 0.462431, 0.336140}};
     char line[200];
-    (void)state;
     for (size_t k = 0; k < sizeof want / sizeof *want; k++) {
         snprintf(line, sizeof line, HERTZ "--unloaded --remote-stress 3 --crack-angle %g",
                  want[k][0]);
@@ -62,7 +61,6 @@ TEST(passes)
                  {-.03968, -.01912, .05546, .05546, -.02563, .00152}}};
     static const size_t step[] = {45, 55, 65, 75, 80, 120};
     char line[300];
-    (void)state;
     for (size_t k = 0; k < sizeof want / sizeof *want; k++) {
         snprintf(line, sizeof line, HERTZ "--formulation steady %s", want[k].load);
         held_json *root = run_json(line);
@@ -124,7 +122,6 @@ TEST(trapped)
 /* The same physics in other units, and through a case file. */
 TEST(units_and_case_files)
 {
-    (void)state;
     held_json *mm = run_json(HERTZ "--mu 0 --remote-stress 20 --crack-mouth 0.2"),
               *si = run_json("crack --units si --similar --support halfplane --half-width 1mm "
                              "--radius 1 --young 94500e6 --mu 0 --remote-stress 20MPa "
@@ -147,7 +144,6 @@ TEST(units_and_case_files)
 /* A wheel rolls without friction: transient and steady are the same load. */
 TEST(histories)
 {
-    (void)state;
     held_json *steady = run_json(HERTZ "--mu 0 --mesh uniform --contact-elements 80 --zone 1.3 "
                                        "--steps 60"),
               *transient = run_json(HERTZ "--mu 0 --formulation transient --distance 12 --steps 60 "
@@ -168,7 +164,6 @@ TEST(histories)
 
 TEST(error_bars)
 {
-    (void)state;
     held_json *root = run_json(HERTZ "--mu 0 --formulation steady --crack-elements 20 --error");
     const json_t *errors = json_object_get(json_object_get(root, "summary"), "errors");
     const double unit = scale_of(root);
@@ -179,7 +174,6 @@ TEST(error_bars)
 
 TEST(below_the_surface)
 {
-    (void)state;
     held_json *root = run_json(HERTZ "--mu 0 --crack-depth 0.4 --crack-angle 0 --crack-mouth "
                                      "-0.5 --crack-friction 0.1 --from -7 --to 7 --steps 140");
     /* a horizontal crack under a symmetric load: the ends change places */
@@ -190,7 +184,6 @@ TEST(below_the_surface)
 
 TEST(pictures)
 {
-    (void)state;
     assert_int_equal(rollbem(HERTZ "--mu 0 --plot a.svg --plot-crack b.svg --at 0.5 --orbit "
                                    "c.svg --quiet"),
                      0);
@@ -205,7 +198,6 @@ TEST(faces_are_named_as_they_lie)
         const char *angle, *plus, *minus;
     } cracks[] = {{"30", "upper", "lower"}, {"90", "right", "left"}, {"150", "lower", "upper"}};
     double K[3];
-    (void)state;
     for (size_t k = 0; k < sizeof cracks / sizeof *cracks; k++) {
         char line[300];
         snprintf(line, sizeof line,
@@ -269,7 +261,6 @@ TEST(loads_of_every_kind)
          "homogeneous and elastic only"},
         {HERTZ "--mu 0.3 --history shift.txt", "the history has a column load"},
         {HERTZ "--mu 0.3 --over creep", "unknown option '--over'"}};
-    (void)state;
     write_file("gap.txt", "x gap\n-4 0.008\n-2 0.002\n0 0\n2 0.002\n4 0.008\n");
     write_file("way.txt", "distance creep\n0 0\n4 1e-3\n");
     write_file("shift.txt", "load shift\n20 0\n40 1e-4\n40 -1e-4\n");
@@ -293,7 +284,6 @@ TEST(coupled)
         double alone, coupled;
     } want[] = {{"--young 1e13 --young-b 1e5", 0.1508, 0.1268}, {"--similar", 0.1508, 0.137}};
     char line[300];
-    (void)state;
     for (size_t k = 0; k < 2; k++)
         for (int both = 0; both < 2; both++) {
             snprintf(line, sizeof line,
@@ -337,7 +327,6 @@ TEST(back_to_the_surface)
               "tension --grow-to 4 --grow-steps %d --units inch --half-width 1mm --radius "
               "1000mm --young 94500MPa";
     char text[300];
-    (void)state;
     for (int steps = 1; steps <= 8; steps += 7) {
         snprintf(text, sizeof text, line, steps);
         held_json *root = run_json(text);
@@ -366,7 +355,6 @@ TEST(studies)
 {
     static const char *const names[] = {"K_I_max", "K_II_max", "delta_K_II", "K_II_min_at"};
     char line[300], heading[60];
-    (void)state;
     write_file("cracks.ini", "[body-a]\nradius = 1000\nsupport = halfplane\n[body-b]\nsimilar = "
                              "yes\n[normal]\nhalf-width = 1\n[friction]\nmu = 0\n[crack]\n"
                              "remote-stress = 20MPa\ncrack-elements = 12\n");
@@ -433,7 +421,6 @@ TEST(studies)
 
 TEST(refusals)
 {
-    (void)state;
     check_refused(HERTZ "--crack-angle 0", 64, "outside body B");
     check_refused(HERTZ "--crack-angle 180", 64, "outside body B");
     check_refused(HERTZ "--crack-angle -30", 64, "outside body B");

@@ -270,7 +270,6 @@ TEST(betti)
     double px[N], py[N], tx[N], ty[N], T[2][2 * N], work = 0.0, lift = 0.0;
     double complex z[N + 1], D[N + 1];
     OWNED(rb_crack_history) h;
-    (void)state;
     rb_crack *c = create(edge_crack(60.0, N, 0.1));
     CHECK_OK(rb_crack_pass(c, &passage, &h, NULL));
     rb_crack_places(c, px, py, NULL, tx, ty);

@@ -38,7 +38,6 @@ TEST(results_are_valid)
         CONTACT "--mu 0 --coupled --steps 60 --passes 2",
         CONTACT "--mu 0 --coupled --steps 60 --formulation steady --crack-depth 0.3",
         "crack --example rail --steps 40"};
-    (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         make(cases[k]);
         if (shell("\"$R\" check r.json") != 0 || !strstr(out, ": valid: "))
@@ -65,7 +64,6 @@ static void tampered(const char *part, const char *list, int step, size_t at, do
 
 TEST(the_laws_of_the_faces_are_judged)
 {
-    (void)state;
     make(CONTACT DRIVEN "--fluid trapped");
     held_json *root = json_load_file("r.json", 0, NULL);
     json_t *faces = json_object_get(root, "faces");
@@ -98,7 +96,6 @@ TEST(the_laws_of_the_faces_are_judged)
 /* The contact that feels its crack: gaps by Betti's theorem, load, largest pressure. */
 TEST(the_coupled_contact_is_judged)
 {
-    (void)state;
     make(CONTACT "--mu 0 --coupled --steps 60");
     held_json *root = json_load_file("r.json", 0, NULL);
     const json_t *p =
@@ -121,7 +118,6 @@ TEST(what_cannot_be_checked_is_refused)
 {
     static const char *const refused[][2] = {{"--mu 0 --paris 1e-12,3", "a crack that grows"},
                                              {"--mu 0 --error", "error bars"}};
-    (void)state;
     for (size_t k = 0; k < sizeof refused / sizeof *refused; k++) {
         char line[400];
         snprintf(line, sizeof line, CONTACT "%s --steps 60", refused[k][0]);
@@ -172,7 +168,6 @@ static rb_status certify(void *context)
 
 TEST(no_memory)
 {
-    (void)state;
     make(CONTACT "--mu 0 --unloaded --remote-stress 3");
     held_json *root = json_load_file("r.json", 0, NULL);
     assert_true(alloc_fail_each(certify, root) > 10);

@@ -34,7 +34,7 @@ static rb_status design(const rb_case *c, const char *result, const char *over, 
 
 /* p0 = sqrt(P E-star/(pi R)): the least one has the largest radius that a bound or a
  * constraint leaves; the load is proportional to p0^2 R. */
-static void contacts_of_hertz(void **state)
+TEST(contacts_of_hertz)
 {
     OWNED(rb_case_result) r;
     held_case *c = case_of(hertz);
@@ -60,7 +60,7 @@ static void contacts_of_hertz(void **state)
 
 /* Beyond 700 N/mm the contact leaves its zone: the search stays where solutions are, and
  * says why it does not go on. */
-static void search_stays_where_solutions_are(void **state)
+TEST(search_stays_where_solutions_are)
 {
     held_case *c = case_of((const char *const[]){"support", "halfplane", "similar", "yes", "load",
                                                  "500", "mesh", "uniform", "zone", "1",
@@ -72,7 +72,7 @@ static void search_stays_where_solutions_are(void **state)
 }
 
 /* The values of a table of the gap: pressure that is the same all over the span. */
-static void uniform_pressure(void **state)
+TEST(uniform_pressure)
 {
     char path[] = "/tmp/rollbem-gap-XXXXXX";
     OWNED(rb_design) d = {.n = 0, .span = 5.0, .most = 900};
@@ -94,7 +94,7 @@ static void uniform_pressure(void **state)
     unlink(path);
 }
 
-static void what_is_refused(void **state)
+TEST(what_is_refused)
 {
     static const struct {
         const char *result, *over, *subject, *says;
@@ -122,15 +122,9 @@ static void what_is_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(contacts_of_hertz),
-        cmocka_unit_test(search_stays_where_solutions_are),
-        cmocka_unit_test(uniform_pressure),
-        cmocka_unit_test(what_is_refused),
-    };
     if (!rb_design_available()) {
         puts("[  SKIPPED ] designs: built without NLopt");
         return 0;
     }
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_all_tests(NULL, NULL);
 }

@@ -496,7 +496,7 @@ static int study_of_all_options(int cases, int from)
 
 /* Every class of half-planes and some of wheels, all together: too few cases to
  * judge a class by. */
-static void bars_hold(void **state)
+TEST(bars_hold)
 {
     const int all = getenv("ROLLBEM_TEST_ALL") != NULL;
     for (int k = 0; k < CLASSES; k++)
@@ -513,7 +513,7 @@ static void bars_hold(void **state)
 
 /* Full sliding on 50 equal elements, partial slip on fine ones, Q/(mu P) = 0.9996 by
  * Carter: its bar was 5e-15. */
-static void an_element_that_slides_may_stick(void **state)
+TEST(an_element_that_slides_may_stick)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
@@ -563,7 +563,7 @@ static rb_rolling_case thin_rim(void)
  * the bars used to say 0.1246 +- 0.00002. */
 static const double thin_rim_force_ratio = 0.12864;
 
-static void bars_hold_on_a_thin_rim(void **state)
+TEST(bars_hold_on_a_thin_rim)
 {
     const rb_rolling_case rc = thin_rim();
     OWNED(rb_rolling_solution) s;
@@ -580,7 +580,7 @@ static void bars_hold_on_a_thin_rim(void **state)
 /* Pressed and shifted in one step, dissimilar bodies stick in a strip narrower than an
  * element, over which friction turns round: Q/(mu P) = 0 on all of 12, 17 and 24 elements
  * and 0.0088 on 600, where the strip has 14. */
-static void a_narrow_stick_zone_widens_the_bars(void **state)
+TEST(a_narrow_stick_zone_widens_the_bars)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     OWNED(rb_rolling_solution) s, truth;
@@ -602,7 +602,7 @@ static void a_narrow_stick_zone_widens_the_bars(void **state)
 }
 
 /* Half the given outer elements are compared with as well. */
-static void given_outer_elements_have_bars(void **state)
+TEST(given_outer_elements_have_bars)
 {
     rb_rolling_case rc = thin_rim();
     rb_rolling_solution s;
@@ -621,7 +621,7 @@ static void given_outer_elements_have_bars(void **state)
 }
 
 /* --accuracy refines what needs it, here the boundary. */
-static void accuracy_is_that_of_the_boundary_too(void **state)
+TEST(accuracy_is_that_of_the_boundary_too)
 {
     rb_rolling_case rc = thin_rim();
     OWNED(rb_rolling_solution) s;
@@ -650,7 +650,7 @@ static rb_rolling_solution to_accuracy(const char *line, rb_status wanted)
 
 /* Friction turns round over an element that no mesh resolves, far from the largest
  * pressure, which it does not change: its bar was mu beta p0 on every mesh. */
-static void a_jump_of_friction_beside_the_peak_is_no_error_of_it(void **state)
+TEST(a_jump_of_friction_beside_the_peak_is_no_error_of_it)
 {
     rb_rolling_solution s = to_accuracy(
         " --radius 300.226 --young 81172.5 --poisson -0.04338 --support halfplane --mu 0.059302"
@@ -664,7 +664,7 @@ static void a_jump_of_friction_beside_the_peak_is_no_error_of_it(void **state)
 
 /* At a corner of the worn table the pressure is infinite: finer meshes do not help, and the
  * third one that does not is the last. */
-static void an_accuracy_that_does_not_come_nearer_is_given_up(void **state)
+TEST(an_accuracy_that_does_not_come_nearer_is_given_up)
 {
     char folder[] = "/tmp/rollbem-bars-XXXXXX", line[600];
     assert_non_null(mkdtemp(folder));
@@ -718,7 +718,7 @@ static void two_patches(const char *options, double centre, double width, double
 
 /* The moment on 35, 49 and 70 elements agreed by chance; a patch had 12 elements on meshes of
  * 12, 17 and 25. */
-static void bars_hold_on_two_patches(void **state)
+TEST(bars_hold_on_two_patches)
 {
     two_patches(" --mu 0.191 --poisson 0.47 --support hub --hub-ratio 0.5 --formulation steady"
                 " --creep-ratio -0.283 --contact-elements 70",
@@ -729,7 +729,7 @@ static void bars_hold_on_two_patches(void **state)
 }
 
 /* What was refused has no solution and no error bars, not what was in them before. */
-static void a_refusal_sets_every_output(void **state)
+TEST(a_refusal_sets_every_output)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
@@ -755,7 +755,7 @@ static void a_refusal_sets_every_output(void **state)
 }
 
 /* Where no mesh that can be solved will do, that is said at once, with the best there is. */
-static void an_accuracy_out_of_reach_is_said_to_be(void **state)
+TEST(an_accuracy_out_of_reach_is_said_to_be)
 {
     rb_rolling_case rc = thin_rim();
     OWNED(rb_rolling_solution) s;
@@ -770,7 +770,7 @@ static void an_accuracy_out_of_reach_is_said_to_be(void **state)
 
 /* A coarser run that fails takes nothing from the case that was solved: half the elements
  * of this narrow zone are all in contact. */
-static void a_failed_coarser_run_leaves_the_solution(void **state)
+TEST(a_failed_coarser_run_leaves_the_solution)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     OWNED(rb_rolling_solution) s;
@@ -789,23 +789,9 @@ static void a_failed_coarser_run_leaves_the_solution(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_element_that_slides_may_stick),
-        cmocka_unit_test(bars_hold),
-        cmocka_unit_test(bars_hold_on_a_thin_rim),
-        cmocka_unit_test(a_narrow_stick_zone_widens_the_bars),
-        cmocka_unit_test(given_outer_elements_have_bars),
-        cmocka_unit_test(accuracy_is_that_of_the_boundary_too),
-        cmocka_unit_test(a_jump_of_friction_beside_the_peak_is_no_error_of_it),
-        cmocka_unit_test(an_accuracy_that_does_not_come_nearer_is_given_up),
-        cmocka_unit_test(bars_hold_on_two_patches),
-        cmocka_unit_test(a_refusal_sets_every_output),
-        cmocka_unit_test(an_accuracy_out_of_reach_is_said_to_be),
-        cmocka_unit_test(a_failed_coarser_run_leaves_the_solution),
-    };
     if (argc > 2) /* all N [FROM] */
         return study_of_all_options(atoi(argv[2]), argc > 3 ? atoi(argv[3]) : 0) > 0;
     if (argc > 1)
         return study(atoi(argv[1])) > 0;
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return run_all_tests(NULL, NULL);
 }

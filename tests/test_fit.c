@@ -71,7 +71,7 @@ static int make_data(void **state)
         exact[k] = force_at(creep[k] + OFFSET);
         noisy[k] = exact[k] + 1e-3 * noise[k];
     }
-    return enter_folder(state);
+    return getcwd(project, sizeof project) ? enter_folder(state) : -1;
 }
 
 static rb_case_fit fit_of(int n, const char *const *names)
@@ -104,7 +104,7 @@ static const char *const all[] = {"mu", "mu-fall", "slip-scale", "interlayer-tan
                                   "creep-offset"};
 static const double *const truth[] = {&MU, &FALL, &SCALE, &LAYER, &OFFSET};
 
-static void exact_data_give_the_truth(void **state)
+TEST(exact_data_give_the_truth)
 {
     const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, exact, NULL, NULL,
                                NULL,   NULL};
@@ -118,14 +118,13 @@ static void exact_data_give_the_truth(void **state)
 }
 
 /* From poor starts too: numbers that must be positive stay within reach. */
-static void poor_starts_give_the_truth(void **state)
+TEST(poor_starts_give_the_truth)
 {
     static const double far[][5] = {{NAN, NAN, 15.0, NAN, NAN},  {NAN, NAN, 0.3, NAN, NAN},
                                     {0.1, 0.05, NAN, NAN, NAN},  {0.6, 0.05, 1.0, 5e-3, NAN},
                                     {0.3, 0.4, 6.0, 5e-5, 1e-3}, {NAN, 0.01, 4.0, NAN, -1e-3}};
     const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, exact, NULL, NULL,
                                NULL,   NULL};
-    (void)state;
     for (size_t k = 0; k < sizeof far / sizeof *far; k++) {
         rb_case_fit fit = fit_of(5, all);
         rb_message why = {""};
@@ -139,7 +138,7 @@ static void poor_starts_give_the_truth(void **state)
     }
 }
 
-static void noise_leaves_it_in_the_intervals(void **state)
+TEST(noise_leaves_it_in_the_intervals)
 {
     const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL,
                                NULL,   NULL};
@@ -163,13 +162,12 @@ static void noise_leaves_it_in_the_intervals(void **state)
 
 /* From the solution at one creepage to those at others, with other zones; and beyond the
  * border of a zone, where an element violates the law. */
-static void solutions_are_followed(void **state)
+TEST(solutions_are_followed)
 {
     rb_message why = {""};
     rb_rolling_case rc[2];
     rb_rolling_model from = {.mesh = {.n = 0}};
     rb_sensitivity *s = NULL;
-    (void)state;
     for (int k = 0; k < 2; k++) {
         rb_case *c = case_of(RB_CASE_SINGLE);
         CHECK_STATUS(rb_case_set(c, "friction-law", "exponential", RB_GIVEN_ARGUMENT, &why), RB_OK);
@@ -228,12 +226,11 @@ static void solutions_are_followed(void **state)
 
 /* The sum of squares has kinks where elements change their zones, and its minimum may lie
  * at one of them: every start ends there. */
-static void starts_end_at_one_minimum(void **state)
+TEST(starts_end_at_one_minimum)
 {
     double force[POINTS];
     const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, force, NULL, NULL,
                                NULL,   NULL};
-    (void)state;
     for (int set = 0; set < 6; set++) {
         double least = 0.0;
         for (int k = 0; k < POINTS; k++)
@@ -255,7 +252,7 @@ static void starts_end_at_one_minimum(void **state)
 }
 
 /* The derivative of the sum of squares is zero at the fit, in other units of force too. */
-static void forces_and_ratios_agree(void **state)
+TEST(forces_and_ratios_agree)
 {
     static const char *const names[] = {"mu"};
     double ratio[7], force[7], P;
@@ -292,7 +289,7 @@ static void forces_and_ratios_agree(void **state)
     rb_case_fit_free(&fits[1]);
 }
 
-static void no_falling_part_is_said(void **state)
+TEST(no_falling_part_is_said)
 {
     const rb_case_data data = {7, 0, RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL, NULL, NULL};
     static const char *const names[] = {"mu", "mu-fall", "slip-scale"};
@@ -308,7 +305,7 @@ static void no_falling_part_is_said(void **state)
 
 /* Q/P over a creepage ratio does not depend on the load: on elements that stay every one
  * seems to have a best fit. */
-static void elements_that_do_not_come_to_rest_are_told(void **state)
+TEST(elements_that_do_not_come_to_rest_are_told)
 {
     static double ratio[] = {0.1, 0.5, 1.0}, share[] = {-0.18, -0.7, -0.95};
     static const char *const names[] = {"load"}, *const words[] = {"support", "halfplane", "load",
@@ -317,7 +314,6 @@ static void elements_that_do_not_come_to_rest_are_told(void **state)
     rb_case_fit fit = fit_of(1, names);
     rb_message why = {""};
     rb_case *c = rb_case_create(RB_CASE_CURVE);
-    (void)state;
     for (int k = 0; k < 6; k += 2)
         CHECK_STATUS(rb_case_set(c, words[k], words[k + 1], RB_GIVEN_ARGUMENT, &why), RB_OK);
     CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
@@ -328,12 +324,11 @@ static void elements_that_do_not_come_to_rest_are_told(void **state)
 }
 
 /* Every nineteenth fails. */
-static void failing_allocations_are_told(void **state)
+TEST(failing_allocations_are_told)
 {
     static const char *const names[] = {"mu", "interlayer-tangential"};
     const rb_case_data data = {6, 0, RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL, NULL, NULL};
     int failures = 0;
-    (void)state;
     for (int count = 0;; count += 19) {
         rb_case_fit fit = fit_of(2, names);
         rb_message why = {""};
@@ -354,7 +349,7 @@ static void failing_allocations_are_told(void **state)
     assert_true(failures > 100);
 }
 
-static void refusals(void **state)
+TEST(refusals)
 {
     const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL,
                                NULL,   NULL};
@@ -389,7 +384,7 @@ static void write_data(const char *path, const char *names)
     "--half-width 1"                                                                               \
     " --mesh uniform --zone 1.2 --contact-elements 36"
 
-static void command_prints_parameters(void **state)
+TEST(command_prints_parameters)
 {
     write_data("creep.tsv", "creep\tforce_over_load");
     json_t *root = run_json("fit creep.tsv --fit mu,interlayer-tangential" BODIES);
@@ -432,7 +427,7 @@ static const char *script_of(const rb_case_data *data, const rb_case_fit *fit, r
 }
 
 /* Rows of one load are one curve, whatever their order; -Q points upwards. */
-static void each_test_has_its_curve(void **state)
+TEST(each_test_has_its_curve)
 {
     static const double at[] = {3e-3, 1e-3, 2e-3, 1e-3, 2e-3}, Q[] = {-30, -11, -20, -21, -40},
                         loads[] = {100, 201, 99, 200, 50};
@@ -484,7 +479,7 @@ static void each_test_has_its_curve(void **state)
 
 /* ---- --derivatives and --tolerance ------------------------------------------------- */
 
-static void command_prints_derivatives(void **state)
+TEST(command_prints_derivatives)
 {
     json_t *root = run_json("--derivatives" BODIES " --formulation steady --creep -2e-3 "
                             "--tolerance mu=0.02,radius=1%");
@@ -547,7 +542,7 @@ static void command_prints_derivatives(void **state)
 
 /* The example, which CONTACT's falling law has made with noise: the numbers of its first
  * lines lie in the intervals. */
-static void the_example_is_found_again(void **state)
+TEST(the_example_is_found_again)
 {
     static const struct {
         const char *name;
@@ -557,7 +552,6 @@ static void the_example_is_found_again(void **state)
                    {"slip-scale", 8.0},
                    {"interlayer-tangential", 4e-7},
                    {"creep-offset", 1e-4}};
-    (void)state;
     char line[900];
     snprintf(line, sizeof line,
              "fit %s/examples/fit/creep.tsv --fit mu,mu-fall,slip-scale,"
@@ -586,7 +580,7 @@ static double slope_of(json_t *owner, const char *result, const char *input, siz
 }
 
 /* The same numbers in the columns of curves, studies and histories, and in JSON. */
-static void derivatives_stand_in_columns(void **state)
+TEST(derivatives_stand_in_columns)
 {
     json_t *one = run_json("--derivatives tangential_load,max_pressure" BODIES
                            " --formulation steady --creep-ratio 0.6");
@@ -648,7 +642,7 @@ static void derivatives_stand_in_columns(void **state)
 }
 
 /* A sample scatters as the first-order propagation says; the same seed gives the same. */
-static void samples_scatter_as_tolerances(void **state)
+TEST(samples_scatter_as_tolerances)
 {
     const char *const line = "sweep --sample 60 --tolerance mu=0.01,load=1% --jobs 1 --seed 3 "
                              "--similar --support halfplane --load 500 --formulation steady "
@@ -683,27 +677,4 @@ static void samples_scatter_as_tolerances(void **state)
     assert_int_equal(rollbem("sweep --sample 3 --tolerance zone=1"), 64);
 }
 
-int main(void)
-{
-    if (!getcwd(project, sizeof project))
-        return 1;
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exact_data_give_the_truth),
-        cmocka_unit_test(poor_starts_give_the_truth),
-        cmocka_unit_test(noise_leaves_it_in_the_intervals),
-        cmocka_unit_test(solutions_are_followed),
-        cmocka_unit_test(starts_end_at_one_minimum),
-        cmocka_unit_test(forces_and_ratios_agree),
-        cmocka_unit_test(no_falling_part_is_said),
-        cmocka_unit_test(elements_that_do_not_come_to_rest_are_told),
-        cmocka_unit_test(failing_allocations_are_told),
-        cmocka_unit_test(refusals),
-        cmocka_unit_test(command_prints_parameters),
-        cmocka_unit_test(each_test_has_its_curve),
-        cmocka_unit_test(command_prints_derivatives),
-        cmocka_unit_test(the_example_is_found_again),
-        cmocka_unit_test(derivatives_stand_in_columns),
-        cmocka_unit_test(samples_scatter_as_tolerances),
-    };
-    return cmocka_run_group_tests(tests, make_data, leave_folder);
-}
+RUN_TESTS(make_data, leave_folder)
