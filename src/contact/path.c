@@ -69,8 +69,6 @@ static rb_status solve_both(path *k)
     return s;
 }
 
-/* ---- The start --------------------------------------------------------------------- */
-
 /* ---- Bends ------------------------------------------------------------------------- */
 
 /* In contact and sliding: the pressure, and the slip against the friction. */
