@@ -711,6 +711,39 @@ TEST(fits_by_handle)
     rb_api_free(a);
 }
 
+/* Whatever allocation fails, the call says so and the handle goes on. */
+TEST(fits_and_designs_without_memory)
+{
+    static const char *const columns[] = {"creep", "force_over_load"};
+    static const double data[] = {-1e-3, -2e-3, -3e-3, -4e-3, 0.1, 0.17, 0.22, 0.25};
+    int failures[2] = {0};
+    for (int of = 0; of < 2; of++)
+        for (int count = 0;; count += count < 60 ? 1 : 37) {
+            rb_api *a = rb_api_create();
+            for (const char *const *w = steady; *w && (of || strcmp(*w, "creep-ratio") != 0);
+                 w += 2)
+                assert_int_equal(rb_api_set(a, w[0], w[1]), RB_OK);
+            assert_int_equal(rb_api_set(a, "contact-elements", "12"), RB_OK);
+            alloc_fail_after(count);
+            const int s =
+                of == 0
+                    ? rb_api_fit(a, 2, columns, 4, data, "mu", "mu=0.3", "mu=0.1:1", 0.01, 0.9)
+                    : rb_api_design(a, "max_pressure", 0, "radius=20:400", "half_width<=2", NAN, 3);
+            const int failed = alloc_failed();
+            alloc_succeed();
+            char said[700];
+            snprintf(said, sizeof said, "%s", rb_api_message(a));
+            const int unavailable = s == RB_EINVAL && strstr(rb_api_message(a), "without NLopt");
+            rb_api_free(a);
+            if (!failed || unavailable)
+                break;
+            if (s != RB_ENOMEM && s != RB_OK && s != RB_MAXITER)
+                fail_msg("call %d, allocation %d: %d: %s", of, count, s, said);
+            failures[of] += s == RB_ENOMEM;
+        }
+    assert_true(failures[0] > 20 && (failures[1] == 0 || failures[1] > 40));
+}
+
 TEST(designs_by_handle)
 {
     rb_api *a = rb_api_create();

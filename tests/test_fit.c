@@ -641,6 +641,41 @@ TEST(derivatives_stand_in_columns)
     }
 }
 
+/* Signs and units of other programs, misspelt columns, units of bounds. */
+TEST(doubtful_data_are_told)
+{
+    static const struct {
+        const char *data, *options;
+        int code;
+        const char *part; /* of what is said */
+    } wrong[] = {
+        {"creep force_over_load\n1e-3 0.1\n2e-3 0.15\n3e-3 0.2\n", "", 1,
+         "most forces have the sign of their creepage"},
+        {"creep force\n-1e-3 1e5\n-2e-3 2e5\n-3e-3 2e5\n", "", 1,
+         "the largest force is 833 times the load: check the units of the forces"},
+        {"creep force_over_load\n-1e-3 0.1\n", "", 64, "expected at least 2 points for 1 number"},
+        {"creep force_over_load\n-1e-3 0.1\n-2e-3 nan\n", "", 65, "t.tsv:3: expected a number"},
+        {"creep force_N\n-1e-3 0.1\n-2e-3 1\n", "", 65, "unknown column 'force_N' (did you mean"},
+        {"creep force load\n-1e-3 20 240\n-2e-3 30 0\n", "", 65, "t.tsv:3: load: expected > 0"},
+        {"creep force\n-1e-3 20\n-2e-3 30\n", "--bounds mu=0.1mm:0.2mm", 64, "--bounds: expected"},
+        {"creep force\n-1e-3 20\n-2e-3 30\n", "--bounds mu=0.2:0.1", 64, "--bounds: expected"},
+        {"creep force\n-1e-3 20\n-2e-3 30\n", "--start load=2", 64, "of a fitted number"},
+        {"creep force\n-1e-3 20\n-2e-3 30\n", "--fit force", 64, "creep-offset is added"}};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        write_file("t.tsv", wrong[k].data);
+        const int code = rollbemf("fit t.tsv --fit mu --support halfplane --similar --load 240 "
+                                  "--contact-elements 20 %s",
+                                  wrong[k].options);
+        if (code != wrong[k].code || !strstr(err, wrong[k].part))
+            fail_msg("%zu: %d: %s", k, code, err);
+    }
+    write_file("t.tsv", "creep_% force_kN/m\n-0.1 25\n-0.2 44\n-0.3 58\n-0.4 65\n");
+    assert_int_equal(rollbem("fit t.tsv --fit load --mu 0.3 --support halfplane --similar "
+                             "--load 240 --contact-elements 20 --bounds load=0.1kN/mm:400"),
+                     0);
+    assert_null(strstr(err, "check"));
+}
+
 /* A sample scatters as the first-order propagation says; the same seed gives the same. */
 TEST(samples_scatter_as_tolerances)
 {

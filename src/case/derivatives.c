@@ -64,27 +64,29 @@ static rb_status vary(void *context, double value, rb_rolling_case *rc, rb_messa
     return s;
 }
 
-/* The option must have a meaning in the case, so that it could be given. */
-static int has_meaning(const rb_case *c, const rb_option *o, int entry, double value)
+/* The option must have a meaning in the case, so that it could be given.  RB_ENOMEM. */
+static rb_status has_meaning(const rb_case *c, const rb_option *o, int entry, double value,
+                             int *means)
 {
     const double step = 1e-3 * (value != 0.0 ? fabs(value) : natural_scale(c, o));
-    int means = 0;
 
-    for (int side = -1; side <= 1 && !means; side += 2) {
+    *means = 0;
+    for (int side = -1; side <= 1 && !*means; side += 2) {
         rb_message why;
-        rb_case *copy = varied(c, o, entry, value + side * step);
         const double x = value + side * step;
-        means =
-            copy && x >= o->range.from && x <= o->range.to && rb_case_resolve(copy, &why) == RB_OK;
+        rb_case *copy = varied(c, o, entry, x);
+        const rb_status s = copy ? rb_case_resolve(copy, &why) : RB_ENOMEM;
         rb_case_free(copy);
+        if (s == RB_ENOMEM)
+            return s;
+        *means = s == RB_OK && x >= o->range.from && x <= o->range.to;
     }
-    return means;
+    return RB_OK;
 }
 
 rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n, rb_message *why)
 {
     *n = 0;
-    (void)why;
     for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++) {
         const rb_numbers *list =
             (const rb_numbers *)(const void *)((const char *)&c->resolved + o->list);
@@ -94,23 +96,27 @@ rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n, rb_m
             rb_resolved_case resolved = c->resolved, words = c->words;
             const double value = *place_of(o, entry, &resolved);
 
-            if (!(*n == RB_CASE_NUMBERS_MAX || !isfinite(value) ||
-                  (entry == 0 && isnan(*(double *)(void *)((char *)&words + o->offset))) ||
-                  (o->word && value == o->word_value && o->word_value != 0.0) ||
-                  (o->word && value == o->word_value && value == 0.0 && o->range.from >= 0.0) ||
-                  rb_case_is_replaced(c, o) || !has_meaning(c, o, entry, value))) {
-                rb_case_number *it = &number[(*n)++];
-                *it = (rb_case_number){.option = o, .entry = entry, .c = c};
-                snprintf(it->name, sizeof it->name, entry ? "%.32s-%d" : "%.32s", o->name,
-                         entry + 1);
-                it->input = (rb_sensitivity_input){.value = value,
-                                                   .scale = value != 0.0 ? fabs(value)
-                                                                         : natural_scale(c, o),
-                                                   .from = o->range.from,
-                                                   .to = o->range.to,
-                                                   .vary = vary,
-                                                   .context = it};
-            }
+            int means = 0;
+            if (*n == RB_CASE_NUMBERS_MAX || !isfinite(value) ||
+                (entry == 0 && isnan(*(double *)(void *)((char *)&words + o->offset))) ||
+                (o->word && value == o->word_value && o->word_value != 0.0) ||
+                (o->word && value == o->word_value && value == 0.0 && o->range.from >= 0.0) ||
+                rb_case_is_replaced(c, o))
+                continue;
+            if (has_meaning(c, o, entry, value, &means) != RB_OK)
+                return rb_fail(why, RB_ENOMEM, "out of memory for the numbers of a case");
+            if (!means)
+                continue;
+            rb_case_number *it = &number[(*n)++];
+            *it = (rb_case_number){.option = o, .entry = entry, .c = c};
+            snprintf(it->name, sizeof it->name, entry ? "%.32s-%d" : "%.32s", o->name, entry + 1);
+            it->input =
+                (rb_sensitivity_input){.value = value,
+                                       .scale = value != 0.0 ? fabs(value) : natural_scale(c, o),
+                                       .from = o->range.from,
+                                       .to = o->range.to,
+                                       .vary = vary,
+                                       .context = it};
         }
     }
     return RB_OK;

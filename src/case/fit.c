@@ -157,6 +157,40 @@ static void set_intervals(fit_problem *p, const double *theta)
     }
 }
 
+/* |Q/P| of a point, as well as it is known before the fit. */
+static double force_over_load(const fit_problem *p, int k)
+{
+    const rb_case_data *d = p->data;
+    const rb_resolved_case *c = &p->c->resolved;
+    const double P = d->load ? d->load[k] : c->derived.load;
+
+    return fabs(d->force[k]) * (d->measure == RB_CASE_FORCE         ? 1.0 / P
+                                : d->measure == RB_CASE_FORCE_RATIO ? c->rc.mu
+                                                                    : 1.0);
+}
+
+/* Signs and units of others. */
+static void doubt_data(const fit_problem *p)
+{
+    int alike = 0;
+    double most = 0.0;
+    char text[40];
+
+    for (int k = 0; k < p->points; k++) {
+        alike += p->data->creep[k] * p->data->force[k] > 0.0;
+        most = fmax(most, force_over_load(p, k));
+    }
+    if (2 * alike > p->points)
+        say(p->fit,
+            "most forces have the sign of their creepage: a braked wheel has creepage > 0 and "
+            "force < 0; change the sign of %s%s\n",
+            "one of the two columns", "");
+    snprintf(text, sizeof text, "%.3g", most);
+    if (most > MOST_MU)
+        say(p->fit, "the largest force is %s times the load: check the units of the forces%s\n",
+            text, "");
+}
+
 /* ---- Where to start ---------------------------------------------------------------- */
 
 /* What the data themselves say: the largest force, the last one, the first slope, where
@@ -172,15 +206,7 @@ static double start_of(const fit_problem *p, const char *name)
     for (int j = 0; j < p->n; j++)
         falls |= strcmp(p->fit->parameter[j].name, "mu-fall") == 0;
     for (int k = 0; k < p->points; k++) {
-        /* |Q/P| of a point, as well as it is known before the fit. */
-        const rb_resolved_case *c = &p->c->resolved;
-        const double P = p->data->load ? p->data->load[k] : c->derived.load;
-
-        const double xi = fabs(d->creep[k]),
-                     f = fabs(p->data->force[k]) * (p->data->measure == RB_CASE_FORCE ? 1.0 / P
-                                                    : p->data->measure == RB_CASE_FORCE_RATIO
-                                                        ? c->rc.mu
-                                                        : 1.0);
+        const double xi = fabs(d->creep[k]), f = force_over_load(p, k);
         most = fmax(most, f);
         if (xi >= far) {
             far = xi;
@@ -359,8 +385,10 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
     fit->kappa = p.kappa;
     if (s == RB_OK && moves)
         s = rb_case_fit_move(&p, theta, why);
-    if (s == RB_OK)
+    if (s == RB_OK) {
+        doubt_data(&p);
         set_intervals(&p, theta);
+    }
     /* a fall that the data do not tell has a kappa that they do not tell */
     if (s == RB_OK && p.kappa > 1.0 && !falls_unidentified(fit))
         s = rb_fail(why, RB_INACCURATE,

@@ -154,8 +154,9 @@ void rb_report_fit_summary(FILE *out, const rb_report_fit *f)
 {
     char line[200], unit[20];
 
-    fprintf(out, "fit of %d points, %d steps, %d degrees of freedom, intervals of %g %%\n",
-            f->data->n, f->fit->iterations, f->fit->degrees_of_freedom, 100.0 * f->fit->level);
+    fprintf(out, "fit of %d points, %d step%s, %d degrees of freedom, intervals of %g %%\n",
+            f->data->n, f->fit->iterations, f->fit->iterations == 1 ? "" : "s",
+            f->fit->degrees_of_freedom, 100.0 * f->fit->level);
     for (int j = 0; j < f->fit->n; j++) {
         write_parameter(line, sizeof line, f, j);
         fprintf(out, "  %s\n", line);
