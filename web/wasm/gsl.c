@@ -56,6 +56,22 @@ void gsl_sort(double *data, const size_t stride, const size_t n)
         qsort(data, n, sizeof *data, ascending);
 }
 
+/* By insertion: the places of a surface, which come nearly in order. */
+void gsl_sort2(double *data1, const size_t stride1, double *data2, const size_t stride2,
+               const size_t n)
+{
+    for (size_t i = 1; stride1 == 1 && stride2 == 1 && i < n; i++) {
+        const double x = data1[i], y = data2[i];
+        size_t k = i;
+        for (; k > 0 && data1[k - 1] > x; k--) {
+            data1[k] = data1[k - 1];
+            data2[k] = data2[k - 1];
+        }
+        data1[k] = x;
+        data2[k] = y;
+    }
+}
+
 gsl_vector *gsl_vector_alloc(const size_t n)
 {
     gsl_vector *v = calloc(1, sizeof *v);
