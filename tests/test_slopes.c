@@ -115,6 +115,68 @@ TEST(compressed_boundaries_have_rates)
     rb_rolling_model_free(&model);
 }
 
+/* Rates of fits, too, take a smaller step where an element goes from one side of the wheel to
+ * the other within the usual one. */
+TEST(rates_of_wheels_are_those_of_derivatives)
+{
+    static const words w = {{"support",
+                             "arc",
+                             "arc",
+                             "60",
+                             "outer-elements",
+                             "500",
+                             "contact-elements",
+                             "15",
+                             "zone",
+                             "2",
+                             "poisson",
+                             "0.4",
+                             "young-b",
+                             "200000",
+                             "poisson-b",
+                             "0.28",
+                             "datum-b",
+                             "60",
+                             "approach",
+                             "0.04",
+                             "force-ratio",
+                             "-0.4",
+                             "formulation",
+                             "steady",
+                             "mesh",
+                             "uniform",
+                             "plane",
+                             "stress"}};
+    rb_message why = {""};
+    rb_case_number number[RB_CASE_NUMBERS_MAX];
+    rb_case_result r;
+    rb_sensitivity *s;
+    int n;
+    held_case *c = case_of(RB_CASE_SINGLE, &w, "tol", 1e-13);
+    CHECK_STATUS(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why), RB_OK);
+    CHECK_STATUS(rb_sensitivity_create(&r.model, 1, &s, &why), RB_OK);
+    CHECK_STATUS(rb_case_numbers(c, number, &n, &why), RB_OK);
+    for (int k = 0; k < n; k++) {
+        rb_sensitivity_derivative d;
+        rb_sensitivity_rate rate;
+        double mu, off = 0.0, largest = 0.0;
+        const rb_status exact = rb_sensitivity_differentiate(s, &number[k].input, &d, &why),
+                        status = rb_sensitivity_rates(s, &number[k].input, &rate, &mu, &why);
+        CHECK_STATUS(status, exact);
+        for (int i = 0; i < r.solution.n && exact == RB_OK; i++)
+            if (r.solution.zone[i] != RB_ZONE_SEPARATED) {
+                off = fmax(off, fabs(rate.gap[i] - d.rate.gap[i]));
+                largest = fmax(largest, fabs(d.rate.gap[i]));
+            }
+        CHECK_MAX(off, 1e-5 * largest + 1e-9 * r.model.problem.gap_length / number[k].input.scale,
+                  "gap by %s", number[k].name);
+        rb_sensitivity_rate_free(&rate);
+        rb_sensitivity_derivative_free(&d);
+    }
+    rb_sensitivity_free(s);
+    rb_case_result_free(&r);
+}
+
 /* Elements fitted to the edges, aligned with them, of wheels, of a zone that is given. */
 TEST(single_cases_have_derivatives)
 {

@@ -418,13 +418,46 @@ static double unit_of_way(const rb_rolling_case *rc, const rb_rolling_program *p
     return rb_rolling_hertz_half_width(rc, load);
 }
 
-/* Free v in any case. */
-static rb_status vary(const rb_case *c, const rb_rolling_states *states,
-                      const rb_rolling_follower *base, varied *v, rb_message *why)
+static void followers_free(varied *v)
+{
+    for (int k = 0; k < RB_SENSITIVITY_PLACES; k++) {
+        rb_rolling_follower_free(v->at[k]);
+        v->at[k] = NULL;
+    }
+}
+
+/* RB_INACCURATE: elements outside the contact go from one side of it to the other. */
+static rb_status follow_all(const rb_case *c, const rb_rolling_states *states,
+                            rb_rolling_follower *base, varied *v, rb_message *why)
 {
     const rb_sensitivity_input *input = &v->number->input;
     const rb_rolling_case *rc = &c->resolved.rc;
     const int grow = rc->zone == 0.0 || rb_rolling_relaxes(rc);
+    rb_status s = RB_OK;
+
+    for (int k = 0; k < v->of.n && s == RB_OK; k++) {
+        rb_rolling_case at;
+        s = input->vary(input->context, input->value + v->of.place[k] * v->step, &at, why);
+        if (s == RB_OK)
+            s = rb_rolling_follower_create(
+                &at, states, base,
+                grow ? unit_of_way(&at, states->program) / unit_of_way(rc, states->program) : 1.0,
+                &v->at[k], why);
+        if (s == RB_OK && !rb_rolling_same_sides(rb_rolling_follower_model(base),
+                                                 rb_rolling_follower_model(v->at[k])))
+            s = rb_fail(why, RB_INACCURATE,
+                        "derivatives: the elements outside the contact change with %s",
+                        v->number->name);
+    }
+    return s;
+}
+
+/* Free v in any case. */
+static rb_status vary(const rb_case *c, const rb_rolling_states *states, rb_rolling_follower *base,
+                      varied *v, rb_message *why)
+{
+    enum { TRIALS = 3 };
+    const rb_sensitivity_input *input = &v->number->input;
     rb_status s = rb_sensitivity_rate_alloc(states->n, &v->rate);
 
     if (s == RB_OK)
@@ -439,24 +472,18 @@ static rb_status vary(const rb_case *c, const rb_rolling_states *states,
         return rb_fail(why, RB_EINVAL, "derivatives: %s cannot vary within its range",
                        v->number->name);
     v->of = *stencil;
-    for (int k = 0; k < v->of.n; k++) {
-        rb_rolling_case at;
-        s = input->vary(input->context, input->value + v->of.place[k] * v->step, &at, why);
-        if (s == RB_OK)
-            s = rb_rolling_follower_create(
-                &at, states, base,
-                grow ? unit_of_way(&at, states->program) / unit_of_way(rc, states->program) : 1.0,
-                &v->at[k], why);
-        if (s != RB_OK)
-            return s;
+    s = follow_all(c, states, base, v, why);
+    for (int k = 1; k < TRIALS && s == RB_INACCURATE; k++) {
+        followers_free(v);
+        v->step *= 0.1;
+        s = follow_all(c, states, base, v, why);
     }
-    return RB_OK;
+    return s;
 }
 
 static void varied_free(varied *v)
 {
-    for (int k = 0; k < RB_SENSITIVITY_PLACES; k++)
-        rb_rolling_follower_free(v->at[k]);
+    followers_free(v);
     rb_sensitivity_rate_free(&v->left);
     rb_sensitivity_rate_free(&v->rate);
     rb_contact_state_free(&v->tangent);

@@ -36,6 +36,13 @@ static int have_same_boundary(const rb_bem_system *x, const rb_bem_system *y)
     return !x || rb_bem_system_mesh(x)->n == rb_bem_system_mesh(y)->n;
 }
 
+/* 1: element j climbs, -1: it falls, 0: it is level but for rounding. */
+static int climbs(const rb_bem_mesh *m, int j)
+{
+    const double rise = m->y1[j] - m->y0[j];
+    return fabs(rise) < 1e-9 * rb_bem_mesh_length(m, j) ? 0 : rise > 0.0 ? 1 : -1;
+}
+
 /* All sides as well as all elements: those of a side climb on the upper half, those of the
  * next one fall; and those that are held. */
 static int have_same_sides(const rb_bem_system *x, const rb_bem_system *y)
@@ -43,11 +50,13 @@ static int have_same_sides(const rb_bem_system *x, const rb_bem_system *y)
     const rb_bem_mesh *a = x ? rb_bem_system_mesh(x) : NULL, *b = x ? rb_bem_system_mesh(y) : NULL;
     double top = 0.0;
 
+    if (a && a->n != b->n)
+        return 0;
     for (int j = 0; a && j < a->n; j++)
         top = fmax(top, a->y0[j]);
     for (int j = 0; a && j < a->n; j++)
         if (a->condition[2 * j] != b->condition[2 * j] ||
-            (a->y0[j] + a->y1[j] > top && (a->y1[j] > a->y0[j]) != (b->y1[j] > b->y0[j])))
+            (a->y0[j] + a->y1[j] > top && climbs(a, j) != climbs(b, j)))
             return 0;
     return 1;
 }

@@ -14,9 +14,16 @@
  * digits, and where they do not. */
 static const double STEP_OF_BODIES = 5e-4, STEP = 2e-5;
 
+/* Flexibilities of wheels are known to fewer digits still: their step is longer, in such steps,
+ * where no end of the input's range is near. */
+static const double STEP_OF_WHEELS = 4.0, NEAR = 80.0;
+
 /* The same, of a step along the tangent within which no other element comes first, and the
  * pressure beside an edge hardly changes. */
 static const double STEP_OF_STATE = 5e-7;
+/* A step, in such steps, that rounding leaves more digits; a deviation of its derivative that
+ * the rounding of the short step explains. */
+static const double LONGER_STEP = 40.0, SAME = 1e-7;
 
 /* A change of a result over the input's scale that is none, as a part of its size. */
 static const double ROUNDING = 1e-11;
@@ -75,10 +82,16 @@ typedef struct {
     int bodies;  /* 1: they or the interlayer change with the input */
     int own;     /* 1: the bodies do; where they are compressed, each place has its own */
     rb_sensitivity_stencil at;
+    int is_long; /* 1: the step is the longer one of wheels */
     double step, scale;
     rb_rolling_model model[PLACES];
     const rb_rolling_model *of[PLACES]; /* that each has borrowed from */
 } variants;
+
+static int can_vary_by(const rb_sensitivity_input *input, double most)
+{
+    return input->value - most > input->from && input->value + most < input->to;
+}
 
 /* Step and stencil: both ways where the range allows it. */
 static rb_status choose_places(const rb_sensitivity *s, const rb_sensitivity_input *input,
@@ -101,6 +114,11 @@ static rb_status choose_places(const rb_sensitivity *s, const rb_sensitivity_inp
     }
     v->step = (v->bodies ? STEP_OF_BODIES : STEP) * input->scale;
     v->scale = input->scale;
+    if (v->results && v->bodies && (s->model->bodies.system_a || s->model->bodies.system_b) &&
+        can_vary_by(input, NEAR * v->step)) {
+        v->step *= STEP_OF_WHEELS;
+        v->is_long = 1;
+    }
     const rb_sensitivity_stencil *at = rb_sensitivity_stencil_of(input, v->step);
     if (!at)
         return rb_fail(why, RB_EINVAL, "derivatives: the input cannot vary within its range");
@@ -182,13 +200,15 @@ static rb_status variants_create(const rb_rolling_model *base, const rb_sensitiv
                                  const variants *others, int freely, variants *v, rb_message *why)
 {
     enum { TRIALS = 3 };
+    const int trials = TRIALS + v->is_long;
     rb_status s = RB_INACCURATE;
 
-    for (int k = 0; k < TRIALS && s == RB_INACCURATE; k++) {
+    for (int k = 0; k < trials && s == RB_INACCURATE; k++) {
         if (k > 0) {
             variants_free(v);
             memset(v->model, 0, sizeof v->model);
-            v->step *= 0.1;
+            v->step *= v->is_long ? 1.0 / STEP_OF_WHEELS : 0.1;
+            v->is_long = 0;
         }
         s = variants_at_places(base, input, others, freely, v, why);
     }
@@ -402,15 +422,35 @@ static void add_picked(double weight, picked x, picked *sum)
         sum->of[k] += weight * x.of[k];
 }
 
-/* Their derivatives along the tangent; state: of the model, overwritten. */
-static void pick_along(const rb_rolling_model *model, const rb_contact_state *tangent, double step,
-                       rb_contact_state *state, picked *d)
+/* With these steps along the tangent. state: of the model, overwritten. */
+static picked pick_with_steps(const rb_rolling_model *model, const rb_contact_state *tangent,
+                              const rb_sensitivity_stencil *at, double step,
+                              rb_contact_state *state)
 {
     const int aligned = are_aligned(model);
+    picked d = {{0.0}};
 
-    for (int side = -1; side < 2; side += 2) {
-        rb_rolling_variant_set(&model->state, tangent, side * step, state);
-        add_picked(0.5 * side / step, pick(model, state, aligned), d);
+    for (int k = 0; k < at->n; k++) {
+        rb_rolling_variant_set(&model->state, tangent, at->place[k] * step, state);
+        add_picked(at->weight[k] / step, pick(model, state, aligned), &d);
+    }
+    return d;
+}
+
+/* Adds their derivatives along the tangent: to ten digits, unless another element comes first
+ * within these steps. */
+static void pick_along(const rb_rolling_model *model, const rb_contact_state *tangent, double scale,
+                       rb_contact_state *state, picked *d)
+{
+    const picked at = pick(model, &model->state, are_aligned(model)),
+                 near = pick_with_steps(model, tangent, &nearest, STEP_OF_STATE * scale, state),
+                 far = pick_with_steps(model, tangent, &rb_sensitivity_middle,
+                                       LONGER_STEP * STEP_OF_STATE * scale, state);
+
+    for (int k = 0; k < PICKED; k++) {
+        const double off = fabs(far.of[k] - near.of[k]);
+        d->of[k] +=
+            off <= SAME * fmax(fabs(near.of[k]), fabs(at.of[k]) / scale) ? far.of[k] : near.of[k];
     }
 }
 
@@ -424,7 +464,7 @@ static picked differentiate_picked(const variants *v, const rb_contact_state *ta
     rb_rolling_variant_set(&v->base->state, NULL, 0.0, &state);
     for (int k = 0; k < v->at.n; k++)
         add_picked(v->at.weight[k] / v->step, pick(&v->model[k], &state, aligned), &d);
-    pick_along(v->base, tangent, STEP_OF_STATE * v->scale, &state, &d);
+    pick_along(v->base, tangent, v->scale, &state, &d);
     return d;
 }
 
@@ -795,7 +835,7 @@ rb_status rb_sensitivity_along(const rb_sensitivity *s, const rb_sensitivity_rat
     if (status == RB_OK)
         status = set_slip(s, NULL, released, &d->state[0]);
     if (status == RB_OK) {
-        pick_along(s->model, &d->state[0], STEP_OF_STATE, &scratch, &x);
+        pick_along(s->model, &d->state[0], 1.0, &scratch, &x);
         find_edges(x, d->edges[0]);
         set_motions(s, NULL, d->edges[0], d->by[0]);
     }
@@ -855,7 +895,7 @@ rb_status rb_sensitivity_add_jump(const rb_sensitivity *s, const rb_sensitivity_
     }
     if (status == RB_OK) {
         combine(&onwards, step, moved);
-        pick_along(s->model, &line->state[0], STEP_OF_STATE, &y, &x);
+        pick_along(s->model, &line->state[0], 1.0, &y, &x);
         status = set_picked(s, x, 1.0, &moved[1]);
     }
     if (status == RB_OK) {
