@@ -1023,6 +1023,10 @@ async function views(page) {
             "[document.querySelector('#at-bench .bar[data-input=poisson]').textContent, document.querySelector('#at-bench .bars ~ figure').textContent]",
         );
         check(/, 1 % less−/.test(texts[0]) && /What 1 % less of /.test(texts[1]), texts.join(" | "));
+        await page.run(
+            "rollbem.page.change({ ...rollbem.page.given, poisson: '0.3' }); document.querySelector('#at-bench [name=matters][value=tangential_load]').click()",
+        );
+        await settled();
     });
     await test("uncertain inputs give standard deviations, a wrong name its refusal", async () => {
         const type = async (text) => {

@@ -215,7 +215,7 @@ export const words = {
     matters: {
         title: "Which input matters",
         of: "Result",
-        note: "The effect of 1 % more of each input on a result, with all other inputs unchanged: derivatives computed by the library with the zones and elements of this solution. Whole bars: 1 % more, hatched ones: 1 % less; an input at the end of its range has one of them.",
+        note: "The effect of 1 % more of each input on a result, with all other inputs unchanged: derivatives computed by the library with the zones and elements of this solution. Whole bars: 1 % more, hatched ones: 1 % less.",
         most: "{name} matters most: 1 % {side} of it changes {result} by {change}.",
         more: "more",
         less: "less",
