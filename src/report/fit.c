@@ -248,25 +248,6 @@ static void write_conditions(FILE *out, const view *v, int test)
     }
 }
 
-/* x, measured, fitted, half-width of the band of each test; forces as in the picture of a
- * curve: those that brake, -Q, upwards. */
-static void write_data(FILE *out, const view *v)
-{
-    const rb_report_fit *f = v->fit;
-    const char *unit = force_unit(f);
-
-    for (int k = 0; k < f->data->n; k++) {
-        const point *at = &v->point[k];
-        if (k == 0 || at->test != at[-1].test)
-            fprintf(out, "%s$test%d << EOD\n", k ? "EOD\n" : "", at->test);
-        fprintf(out, "%.9g %.9g %.9g %.9g\n", at->creep / pow(10.0, v->exponent),
-                -in_units(f, unit, f->data->force[at->row]),
-                -in_units(f, unit, f->fit->model[at->row]),
-                isnan(v->widest) ? 0.0 : in_units(f, unit, f->fit->band[at->row]));
-    }
-    fputs("EOD\n", out);
-}
-
 /* Names, values and intervals, as far as they are identified; without the intervals where the
  * line would be too long. */
 static void write_title(FILE *out, const rb_report_fit *f, double middle)
@@ -365,15 +346,24 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     const rb_report_fit *f = v->fit;
     const rb_report_place place = rb_report_place_of(canvas);
     const double *creep = f->data->creep, *force = f->data->force;
+    const char *unit = force_unit(f);
     double sum = 0.0;
     int drives = 0, pushes = 0; /* creepage and -Q below zero */
 
-    write_data(out, v);
+    /* x, measured, fitted, half-width of the band of each test; forces as in the picture of a
+     * curve: those that brake, -Q, upwards */
     for (int k = 0; k < f->data->n; k++) {
+        const point *at = &v->point[k];
+        if (k == 0 || at->test != at[-1].test)
+            fprintf(out, "%s$test%d << EOD\n", k ? "EOD\n" : "", at->test);
+        fprintf(out, "%.9g %.9g %.9g %.9g\n", at->creep / pow(10.0, v->exponent),
+                -in_units(f, unit, force[at->row]), -in_units(f, unit, f->fit->model[at->row]),
+                isnan(v->widest) ? 0.0 : in_units(f, unit, f->fit->band[at->row]));
         sum += creep[k];
         drives |= creep[k] < 0.0;
         pushes |= force[k] > 0.0;
     }
+    fputs("EOD\n", out);
     rb_report_room(out, 0.13 + place.right, 0.965, 0.14 + place.up, 0.9 + place.up);
     fprintf(out,
             RB_REPORT_GRID "set offsets %s,graph 0.03,graph 0.05,%s\n"
