@@ -439,8 +439,8 @@ TEST(each_test_has_its_curve)
     fit.parameter[1] = (rb_case_parameter){.name = "young", .unit = "MPa"};
     const char *script = script_of(&data, &fit, RB_UNITS_MM);
     static const char *const parts[] = {
-        "$test0 << EOD\n2 20 22 3\n3 30 31 1\nEOD\n$test1 << EOD\n1 11 12 2\n1 21 22 4\nEOD\n"
-        "$test2 << EOD\n2 40 41 5\nEOD\n",
+        ("$test0 << EOD\n2 20 22 3\n3 30 31 1\nEOD\n$test1 << EOD\n1 11 12 2\n1 21 22 4\nEOD\n"
+         "$test2 << EOD\n2 40 41 5\nEOD\n"),
         "mu 0.3 (0.25 … 0.35);  young not identified",
         "'P = 99.5 N/mm'",
         "'P = 200.5 N/mm'",
