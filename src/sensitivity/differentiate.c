@@ -88,6 +88,11 @@ typedef struct {
     const rb_rolling_model *of[PLACES]; /* that each has borrowed from */
 } variants;
 
+static int has_wheels(const rb_rolling_model *model)
+{
+    return model->bodies.system_a || model->bodies.system_b;
+}
+
 static int can_vary_by(const rb_sensitivity_input *input, double most)
 {
     return input->value - most > input->from && input->value + most < input->to;
@@ -114,8 +119,7 @@ static rb_status choose_places(const rb_sensitivity *s, const rb_sensitivity_inp
     }
     v->step = (v->bodies ? STEP_OF_BODIES : STEP) * input->scale;
     v->scale = input->scale;
-    if (v->results && v->bodies && (s->model->bodies.system_a || s->model->bodies.system_b) &&
-        can_vary_by(input, NEAR * v->step)) {
+    if (v->results && v->bodies && has_wheels(s->model) && can_vary_by(input, NEAR * v->step)) {
         v->step *= STEP_OF_WHEELS;
         v->is_long = 1;
     }
@@ -943,7 +947,9 @@ static rb_status differentiate_motions(rb_sensitivity *s, int moves)
         variants v = {.base = s->model,
                       .results = s->solution.n > 0,
                       .at = rb_sensitivity_middle,
-                      .step = STEP_OF_BODIES * m.half,
+                      .is_long = has_wheels(s->model),
+                      .step =
+                          (has_wheels(s->model) ? STEP_OF_WHEELS : 1.0) * STEP_OF_BODIES * m.half,
                       .scale = m.half};
         rb_message why;
         m.kind = k ? SHIFT : STRETCH;
