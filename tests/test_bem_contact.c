@@ -196,6 +196,7 @@ TEST(bad_cylinders_are_refused)
         OWNED(rb_bem_mesh) mesh;
         CHECK_SAYS(rb_bem_mesh_cylinder(&bad[k].cylinder, bad[k].n_c, bad[k].ends, &mesh, &heard),
                    RB_EINVAL, bad[k].text);
+        assert_null(mesh.x0); /* who is refused owns nothing */
     }
 }
 

@@ -89,7 +89,7 @@ enum { RB_BEM_MOST_ELEMENTS = 1000000 };
  * elements and of the upstream element after them.  Outside the contact the elements grow
  * geometrically; symmetric ends give a symmetric mesh.  RB_EINVAL: the contact elements
  * reach the support, the ends do not increase, or the numbers of elements are out of
- * range. */
+ * range; mesh is then empty. */
 rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c, const double *ends,
                                rb_bem_mesh *mesh, rb_message *why);
 

@@ -379,13 +379,17 @@ rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c, const d
     }
     place_hub(R, core, &layout, outer, mesh);
     /* Few elements are long chords, which must not cut the core. */
-    for (int j = 0; cylinder->support == RB_BEM_HUB && j < outer; j++)
+    for (int j = 0; cylinder->support == RB_BEM_HUB && s == RB_OK && j < outer; j++)
         if (hypot(0.5 * (mesh->x0[j] + mesh->x1[j]), 0.5 * (mesh->y0[j] + mesh->y1[j]) - R) <= core)
-            return rb_fail(why, RB_EINVAL,
-                           "outer elements = %d: elements this long cut through the "
-                           "hub of radius %g; use more, or 0",
-                           cylinder->outer_elements, core);
-    return rb_bem_mesh_check(mesh, why);
+            s = rb_fail(why, RB_EINVAL,
+                        "outer elements = %d: elements this long cut through the "
+                        "hub of radius %g; use more, or 0",
+                        cylinder->outer_elements, core);
+    if (s == RB_OK)
+        s = rb_bem_mesh_check(mesh, why);
+    if (s != RB_OK)
+        rb_bem_mesh_free(mesh);
+    return s;
 }
 
 rb_status rb_bem_mesh_core(const rb_bem_cylinder *cylinder, const rb_bem_mesh *cover,
