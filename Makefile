@@ -267,8 +267,8 @@ $(B)/tests/fault_malloc.so: tests/fault_malloc.c tests/fault_malloc.h tests/faul
 # the checker of the net shares nothing with the library; whoever builds a test that runs it gets it too
 $(B)/tests/test_net $(B)/tests/test_hostile $(B)/tests/test_certificates: | $(B)/tests/checker $(B)/rollbem
 $(B)/tests/test_commands: | $(B)/rollbem
-$(B)/tests/test_net: | $(B)/tests/differences
-$(B)/tests/differences: tests/differences.c tests/differences.h $(B)/librollbem.a
+$(B)/tests/test_net: | $(B)/tests/differences $(B)/tests/calls
+$(B)/tests/calls $(B)/tests/differences: $(B)/tests/%: tests/%.c tests/differences.h $(B)/librollbem.a
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Itests -MMD -MP -MF $@.d -o $@ $< $(B)/librollbem.a $(LDFLAGS) $(LDLIBS) -lcmocka

@@ -843,7 +843,7 @@ static void empty_folder(void)
 
 /* ---- A row ------------------------------------------------------------------------- */
 
-static char checker[700], differences[700];
+static char checker[700], differences[700], calls[700];
 
 /* table: the first run printed one. */
 static void check_verdict(const int *row, int table)
@@ -915,6 +915,24 @@ static void check_derivatives(const int *row, const char *the_case)
         complain("the differences end with %d: %s", code, err);
     if (out[0])
         complain("%s", out);
+}
+
+/* What else the library computes from this case, in a process of its own; of derivatives of
+ * one step every third row has some. */
+static void check_calls(const int *row, const char *the_case)
+{
+    static const char *const kinds[] = {"smooth", "exact", "stress", "stress", "stress", "stress"};
+    char arguments[2000];
+    if (starts(row, OUTPUT, "curve") || is(row, SIZE, "transforms") ||
+        is(row, SIZE, "hierarchical")) /* "--points" is none of the case; large ones take long */
+        return;
+    snprintf(arguments, sizeof arguments, "%s %s%s", kinds[rows % 6], the_case,
+             is(row, OUTPUT, "error") ? " --error" : "");
+    const int code = run(calls, arguments, "verdict", "verdict.err");
+    slurp("verdict", out, sizeof out);
+    slurp("verdict.err", err, sizeof err);
+    if (code != 0 || out[0] || err[0])
+        complain("the calls end with %d: %.1000s%.400s", code, out, err);
 }
 
 /* Cone solvers may fail, but say so; what there is, is printed. */
@@ -989,6 +1007,7 @@ static void check_row(const int *row)
     if (is(row, OUTPUT, "derivatives") && code == CODE_LINE &&
         is_refusal("out.table", "table.err") && has_no_derivatives(err))
         return;
+    check_calls(row, the_case);
     if (code != 0) {
         check_failure(row, code, "table.err");
         return;
@@ -1162,6 +1181,7 @@ static int enter(void **state)
     snprintf(checker, sizeof checker, "%.*s/tests/checker", (int)(slash - program), program);
     snprintf(differences, sizeof differences, "%.*s/tests/differences", (int)(slash - program),
              program);
+    snprintf(calls, sizeof calls, "%.*s/tests/calls", (int)(slash - program), program);
     set_levels();
     parse_conflicts();
     return entered;
