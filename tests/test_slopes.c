@@ -45,6 +45,40 @@ TEST(histories_have_derivatives)
     }
 }
 
+/* Those of an automatic zone under a table of the gap stay, as those of a zone given like it. */
+TEST(elements_under_a_table_stay)
+{
+    static const words w = {{PLANES, ROLLS, "similar", "yes", "creep", "1e-3", "mesh", "uniform",
+                             "gap", "tests/data/slopes_gap.tsv"}};
+    rb_case_slopes of[2] = {{0}};
+    double zone = 0.0;
+
+    for (int given = 0; given < 2; given++) {
+        difference_run run = {.states = {0}};
+        rb_message why = {""};
+        held_case *c = case_of(RB_CASE_SINGLE, &w, given ? "zone" : NULL, zone);
+        const rb_resolved_case *resolved = rb_case_resolved(c);
+        CHECK_STATUS(difference_history(resolved, &resolved->rc, &run, &why), RB_OK);
+        zone = run.model.mesh.ends[run.model.mesh.n];
+        CHECK_STATUS(rb_case_slopes_choose(c, &rb_rolling_history_columns,
+                                           "tangential_load:radius,contact_to:load,approach:young",
+                                           9, &of[given], &why),
+                     RB_OK);
+        CHECK_STATUS(rb_case_slopes_of_steps(c, &run.states, &of[given], &why), RB_OK);
+        assert_int_equal(rb_case_slopes_note(&of[given], &why), !given);
+        difference_run_free(&run);
+    }
+    assert_int_equal(of[0].rows, of[1].rows);
+    for (int row = 0; row < of[0].rows; row++)
+        for (int k = 0; k < of[0].n; k++) {
+            const double want = rb_case_slope_value(&of[1], row, k);
+            CHECK_ABS(rb_case_slope_value(&of[0], row, k), want, 1e-9 * fabs(want),
+                      "column %d, step %d", k, row + 1);
+        }
+    for (int given = 0; given < 2; given++)
+        rb_case_slopes_free(&of[given]);
+}
+
 /* A boundary that is compressed: variants are so closely that steps do not show it. */
 TEST(compressed_boundaries_have_derivatives)
 {
@@ -174,6 +208,26 @@ TEST(rates_of_wheels_are_those_of_derivatives)
         rb_sensitivity_derivative_free(&d);
     }
     rb_sensitivity_free(s);
+    rb_case_result_free(&r);
+}
+
+/* Nor do the elements that follow its edges: not even by rounding. */
+TEST(the_pressure_of_similar_bodies_does_not_depend_on_friction)
+{
+    static const words w = {{PLANES, "similar", "yes", "formulation", "steady", "mesh", "fitted",
+                             "radius", "460", "creep-ratio", "0.5"}};
+    static const char *const name[] = {"mu"};
+    held_case *c = case_of(RB_CASE_SINGLE, &w, NULL, 0.0);
+    rb_case_derivatives all;
+    rb_case_result r;
+
+    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
+    CHECK_OK(rb_case_differentiate(c, &r.model, 1, name, &all, &heard));
+    const rb_rolling_solution *d = &all.of[0].d.value[0];
+    for (int i = 0; i < d->n; i++)
+        CHECK_ABS(d->p[i], 0.0, 0.0, "p of element %d", i);
+    CHECK_ABS(d->contact_to, 0.0, 0.0, "edge");
+    rb_case_derivatives_free(&all);
     rb_case_result_free(&r);
 }
 

@@ -276,6 +276,7 @@ typedef struct {
                           (the same where both are alike; of histories always); NAN: none;
                           owned */
     int degenerate;    /* of a history: steps in which elements stand between two zones */
+    int stay;          /* of a history: 1: elements of an automatic zone are frozen */
     int without;       /* of a curve: points that have no derivatives, and why the last one
                           has none */
     rb_message reason;

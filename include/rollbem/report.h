@@ -465,7 +465,7 @@ void rb_report_tolerances(FILE *out, const rb_rolling_solution *s, const rb_repo
 rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h, const rb_case_slopes *s,
                                 const char *command, const rb_report_style *style);
 /* derivatives: {result: {input: numbers, or where the two sides differ [left, right]}},
- * an entry per row. */
+ * an entry per row; derivatives_note: rb_case_slopes_note. */
 void rb_report_json_slopes(struct json_t **owner, const rb_case_slopes *s);
 
 /* ---- Fits (case.h) ------------------------------------------------------------------ */

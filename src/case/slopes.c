@@ -141,15 +141,19 @@ void rb_case_slopes_convert(rb_case_slopes *s, rb_units units)
 
 int rb_case_slopes_note(const rb_case_slopes *s, rb_message *note)
 {
+    const size_t size = sizeof note->text;
+
     note->text[0] = '\0';
+    if (s->stay)
+        rb_append(note->text, size, "derivatives are those on elements that do not move");
     if (s->without > 0)
-        rb_fail(note, RB_OK, "%d of %d points have no derivatives: %.500s", s->without, s->rows,
-                s->reason.text);
+        rb_append(note->text, size, "%s%d of %d points have no derivatives: %.500s",
+                  s->stay ? "; " : "", s->without, s->rows, s->reason.text);
     else if (s->degenerate > 0)
-        rb_fail(note, RB_OK,
-                "in %d of %d steps an element stands between two zones: derivatives from "
-                "there on are those for growing numbers",
-                s->degenerate, s->rows);
+        rb_append(note->text, size,
+                  "%sin %d of %d steps an element stands between two zones: derivatives from "
+                  "there on are those for growing numbers",
+                  s->stay ? "; " : "", s->degenerate, s->rows);
     return note->text[0] != '\0';
 }
 
@@ -426,13 +430,21 @@ static void followers_free(varied *v)
     }
 }
 
+/* 1: elements grow with the unit of the way; those of an automatic zone under a table of the gap,
+ * whose search no closed form tells, stay as those of a given zone do. */
+static int elements_grow(const rb_rolling_case *rc)
+{
+    return (rc->zone == 0.0 && rc->gap != RB_GAP_TABLE && rc->worn.n == 0) ||
+           rb_rolling_relaxes(rc);
+}
+
 /* RB_INACCURATE: elements outside the contact go from one side of it to the other. */
 static rb_status follow_all(const rb_case *c, const rb_rolling_states *states,
                             rb_rolling_follower *base, varied *v, rb_message *why)
 {
     const rb_sensitivity_input *input = &v->number->input;
     const rb_rolling_case *rc = &c->resolved.rc;
-    const int grow = rc->zone == 0.0 || rb_rolling_relaxes(rc);
+    const int grow = elements_grow(rc);
     rb_status s = RB_OK;
 
     for (int k = 0; k < v->of.n && s == RB_OK; k++) {
@@ -600,6 +612,7 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
     rb_status status = rb_case_slopes_check_steps(c, why);
     if (status != RB_OK)
         return status;
+    s->stay = rc->zone == 0.0 && !elements_grow(rc);
     if (states->n >= RB_ROLLING_LARGE)
         return rb_fail(why, RB_EINVAL,
                        "derivatives of a history need a matrix: expected fewer than %d elements",

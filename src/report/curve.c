@@ -65,14 +65,10 @@ void rb_report_json_curves(json_t **root, const rb_report_curves *curves)
         const rb_rolling_curve *c = &curves->curve[k];
         const rb_report_columns columns = columns_of(c, 0);
         json_t *curve = json_object();
-        rb_message note;
 
         rb_report_json_set(&curve, "mu", rb_report_json_number(curves->mu[k]));
         rb_report_json_columns(&curve, c->n, &columns, 0);
-        if (curves->slopes[k].n > 0)
-            rb_report_json_slopes(&curve, &curves->slopes[k]);
-        if (rb_case_slopes_note(&curves->slopes[k], &note))
-            rb_report_json_set(&curve, "derivatives_note", json_string(note.text));
+        rb_report_json_slopes(&curve, &curves->slopes[k]);
         if (c->deviations) {
             const rb_report_columns of = columns_of(c->deviations, RB_REPORT_DEVIATIONS);
             json_t *tolerances = json_object();

@@ -307,6 +307,7 @@ rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h, const rb
 void rb_report_json_slopes(json_t **owner, const rb_case_slopes *s)
 {
     json_t *results = json_object();
+    rb_message note;
 
     for (int k = 0; k < s->n; k++)
         if (!json_object_get(results, s->of[k].result->name)) {
@@ -328,5 +329,10 @@ void rb_report_json_slopes(json_t **owner, const rb_case_slopes *s)
             }
             rb_report_json_set(&results, s->of[k].result->name, inputs);
         }
-    rb_report_json_set(owner, "derivatives", results);
+    if (s->n > 0)
+        rb_report_json_set(owner, "derivatives", results);
+    else
+        json_decref(results);
+    if (rb_case_slopes_note(s, &note))
+        rb_report_json_set(owner, "derivatives_note", json_string(note.text));
 }

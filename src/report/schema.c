@@ -145,7 +145,8 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(&of, "history",
                        columns(&rb_rolling_history_columns, 0,
                                "an entry per step; states: of --states, a list per step; "
-                               "tolerances: standard deviations"));
+                               "tolerances: standard deviations; derivatives_note: how the "
+                               "derivatives must be read"));
     json_t *curve = columns(&rb_rolling_curve_columns, 0,
                             "an entry per creepage; tolerances: standard deviations; "
                             "derivatives_note: how many points have none, and why");

@@ -420,23 +420,24 @@ static picked pick(const rb_rolling_model *of, const rb_contact_state *state, in
     return x;
 }
 
-static void add_picked(double weight, picked x, picked *sum)
+/* Weights times what each has more than `at`, as in combine. */
+static void add_picked(double weight, picked x, picked at, picked *sum)
 {
     for (int k = 0; k < PICKED; k++)
-        sum->of[k] += weight * x.of[k];
+        sum->of[k] += weight * (x.of[k] - at.of[k]);
 }
 
-/* With these steps along the tangent. state: of the model, overwritten. */
+/* With these steps along the tangent. at: before them; state: of the model, overwritten. */
 static picked pick_with_steps(const rb_rolling_model *model, const rb_contact_state *tangent,
-                              const rb_sensitivity_stencil *at, double step,
+                              const rb_sensitivity_stencil *steps, double step, picked at,
                               rb_contact_state *state)
 {
     const int aligned = are_aligned(model);
     picked d = {{0.0}};
 
-    for (int k = 0; k < at->n; k++) {
-        rb_rolling_variant_set(&model->state, tangent, at->place[k] * step, state);
-        add_picked(at->weight[k] / step, pick(model, state, aligned), &d);
+    for (int k = 0; k < steps->n; k++) {
+        rb_rolling_variant_set(&model->state, tangent, steps->place[k] * step, state);
+        add_picked(steps->weight[k] / step, pick(model, state, aligned), at, &d);
     }
     return d;
 }
@@ -447,9 +448,9 @@ static void pick_along(const rb_rolling_model *model, const rb_contact_state *ta
                        rb_contact_state *state, picked *d)
 {
     const picked at = pick(model, &model->state, are_aligned(model)),
-                 near = pick_with_steps(model, tangent, &nearest, STEP_OF_STATE * scale, state),
+                 near = pick_with_steps(model, tangent, &nearest, STEP_OF_STATE * scale, at, state),
                  far = pick_with_steps(model, tangent, &rb_sensitivity_middle,
-                                       LONGER_STEP * STEP_OF_STATE * scale, state);
+                                       LONGER_STEP * STEP_OF_STATE * scale, at, state);
 
     for (int k = 0; k < PICKED; k++) {
         const double off = fabs(far.of[k] - near.of[k]);
@@ -462,12 +463,13 @@ static void pick_along(const rb_rolling_model *model, const rb_contact_state *ta
 static picked differentiate_picked(const variants *v, const rb_contact_state *tangent)
 {
     const int aligned = are_aligned(v->base);
+    const picked at = pick(v->base, &v->base->state, aligned);
     rb_contact_state state = v->model[0].state; /* its arrays serve all */
     picked d = {{0.0}};
 
     rb_rolling_variant_set(&v->base->state, NULL, 0.0, &state);
     for (int k = 0; k < v->at.n; k++)
-        add_picked(v->at.weight[k] / v->step, pick(&v->model[k], &state, aligned), &d);
+        add_picked(v->at.weight[k] / v->step, pick(&v->model[k], &state, aligned), at, &d);
     pick_along(v->base, tangent, v->scale, &state, &d);
     return d;
 }
