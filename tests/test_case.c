@@ -621,7 +621,7 @@ TEST(a_purpose_refuses_what_means_nothing_to_it)
         rb_case_purpose purpose;
         const char *words, *part;
     } bad[] = {
-        {RB_CASE_CURVE, "load=500 creep=0.1", "--creep: the curve varies it"},
+        {RB_CASE_CURVE, "load=500 creep=0.1", "--creep: a curve varies it"},
         {RB_CASE_CURVE, "load=500 formulation=static", "needs steady rolling"},
         {RB_CASE_CURVE, "load=500 accuracy=0.1", "a curve has --error"},
         {RB_CASE_STRESS, "load=500 accuracy=0.1", "but no refinement"},

@@ -56,7 +56,7 @@ static const struct {
     {"--gap one.txt --load 10", "one.txt:1: expected 2 numbers, got 1"},
     {"--example rial", "did you mean 'rail'"},
     {"--example rail good.ini", "--example rail and the case file 'good.ini': one of them"},
-    {"curve --creep 0.001", "the curve varies it from --from"},
+    {"curve --creep 0.001", "a curve varies it from --from"},
     {"curve --from 1 --to 1", "expected two different values"},
     {"sweep", "a study needs --vary-1 or --cases"},
     {"lcp", "expected at least one FILE"},

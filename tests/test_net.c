@@ -315,7 +315,7 @@ static const conflict conflicts[] = {
      "static and steady cases without steps"},
     {{"output=trace|dump-trace", "solver=newton|cone"}, "only --solver lemke pivots"},
     {{"output=curve*", "regime!steady"}, "a curve needs steady rolling"},
-    {{"output=curve*", "tangential!none"}, "the curve varies it from --from"},
+    {{"output=curve*", "tangential!none"}, "a curve varies it from --from"},
     {{"size=transforms", "output=fclib"}, "dense"},
     {{YIELDING, "law=exponential|rational|linear|memory|heat|both"}, "not with a law that follows"},
     {{YIELDING, "solver=cone"}, "solves Coulomb's law only"},

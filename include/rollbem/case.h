@@ -583,7 +583,8 @@ rb_status rb_case_fit_data(const rb_case *c, const char *path, rb_io_table *tabl
  * law, a speed and related options.  Call it before rb_case_resolve. */
 rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_case_fit *fit,
                               rb_message *why);
-/* Fits the parameters to the data; the given creepage or force of the case is ignored.
+/* Fits the parameters to the data, which give creepages and forces (RB_CASE_CURVE refuses
+ * those of a case).
  * On entry fit has n, names, starts, bounds and level; free it in any case.  RB_EINVAL: a
  * name is not a number of the case, or there are too few points; RB_INACCURATE: kappa >
  * 1; RB_MAXITER, RB_INTERRUPTED: fit holds the last values. */

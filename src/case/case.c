@@ -561,7 +561,8 @@ static rb_status check_formulation(const rb_case *c, rb_message *why)
 /* Options that mean nothing to what the case is solved for. */
 static rb_status check_purpose(const rb_case *c, rb_message *why)
 {
-    static const char varies[] = "the curve varies it from --from to --to";
+    static const char varies[] =
+        "a curve varies it from --from to --to, a fit takes it from its data";
     const rb_case_purpose purpose = c->purpose;
     const int curve = purpose == RB_CASE_CURVE, speeds = purpose == RB_CASE_SPEEDS,
               stress = purpose == RB_CASE_STRESS, wear = purpose == RB_CASE_WEAR,
