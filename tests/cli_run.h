@@ -84,7 +84,7 @@ static inline void check_refused(const char *arguments, int code, const char *pa
 /* For a shell: waits until process $p catches a signal, by the last digit of its mask: a
  * signal that comes before, a shell's `&` makes it ignore. */
 #define WHEN_CAUGHT(digits)                                                                        \
-    "until grep -q 'SigCgt:.*[" digits "]$' /proc/$p/status || [ $((n+=1)) -gt 500 ]; "            \
+    "until grep -q 'SigCgt:.*[" digits "]$' /proc/$p/status || [ $((n+=1)) -gt 3000 ]; "           \
     "do sleep 0.01; done; "
 #define INT_CAUGHT "2367abef" /* bit 1 */
 #define HUP_CAUGHT "37bf"     /* bits 0 and 1: without nohup both are caught */

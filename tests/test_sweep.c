@@ -216,7 +216,7 @@ TEST(an_interrupted_study_in_json_leaves_no_file)
 {
     write_file("whole.json", "before");
     assert_int_equal(shell("\"$R\" " STUDY
-                           "--contact-elements 30 --vary-1 'creep-ratio 0:1.5:1000000' "
+                           "--contact-elements 30 --vary-1 'creep-ratio 0:1.5:60000' "
                            "--jobs 1 --json --output whole.json & p=$!; " WHEN_CAUGHT(
                                INT_CAUGHT) "kill -INT $p; wait $p"),
                      1);
