@@ -1,6 +1,7 @@
 /* Friction that depends on the state: the coefficients of a state, starts, the uniqueness
  * number, forces, each recomputed here; and in how many solves they are found. */
 #include "cases.h"
+#include "rollbem/sensitivity.h"
 #include "solved.h"
 
 /* ---- The coefficients of a state --------------------------------------------------- */
@@ -65,6 +66,26 @@ TEST(warm_elements_have_another_coefficient)
     }
     assert_true(s.max_temperature > 21.0);
     CHECK_MAX(s.residual, 1e-10, "residual");
+}
+
+/* The heat of earlier steps is gone with their history: who asks for the coefficients then is
+ * told so. */
+TEST(after_a_history_its_heat_is_unknown)
+{
+    rb_rolling_case rc = falling_case(RB_TRANSIENT, 0.0, 1.0);
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_history) history;
+    rb_sensitivity *s;
+    rc.distance = 0.5;
+    rc.steps = 3;
+    rc.creep_ratio = 2.0;
+    rc.heat_a = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5, .temperature = 20.0};
+    rc.heat_b.temperature = 20.0;
+    rc.friction.heat = -0.1;
+    rc.friction.heat_range = 200.0;
+    CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &heard));
+    CHECK_SAYS(rb_sensitivity_create(&model, 0, &s, &heard), RB_EINVAL, "while their history runs");
+    assert_null(s);
 }
 
 /* ---- Uniqueness -------------------------------------------------------------------- */

@@ -23,6 +23,10 @@ static rb_status temperatures_of(rb_rolling_model *model, double *t, rb_message 
                                 .slip_operator = rc->slip_operator};
 
     if (rc->formulation == RB_TRANSIENT) {
+        if (!model->carried.heat)
+            return rb_fail(why, RB_EINVAL,
+                           "temperature: the heat of the steps before is known only while their "
+                           "history runs");
         rb_rolling_heat_track_step(rc, state->q, state->lambda, model->carried.heat, t);
         return RB_OK;
     }
