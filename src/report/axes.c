@@ -54,6 +54,12 @@ double rb_report_round_step(double step)
     return power * (digit <= 1.0 ? 1.0 : digit <= 2.0 ? 2.0 : digit <= 5.0 ? 5.0 : 10.0);
 }
 
+void rb_report_log_tics(FILE *script, char axis, double from, double to)
+{
+    if (to >= 1e4 || from < 1e-3)
+        fprintf(script, "set format %c '10^{%%L}'\n", axis);
+}
+
 double rb_report_round_down(double x)
 {
     const double ten = pow(10.0, floor(log10(x))), lead = x / ten * (1.0 + 1e-12);

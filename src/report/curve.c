@@ -283,8 +283,8 @@ static void write_labels(FILE *out, const view *v, int titled)
 static void write_x_label(FILE *out, const view *v)
 {
     char label[32];
-    if (v->over == RB_OVER_SPEED && (v->to >= 1e4 || v->from < 1e-3)) /* longer than their tics */
-        fputs("set format x '10^{%L}'\n", out);
+    if (v->over == RB_OVER_SPEED)
+        rb_report_log_tics(out, 'x', v->from, v->to);
     snprintf(label, sizeof label, "speed  [%s]", rb_unit_name(v->curves->curve[0].units, "mm/s"));
     write_label(out, "x",
                 v->over == RB_OVER_SPEED   ? label
@@ -403,11 +403,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         write_x_label(out, v);
     fputs("plot ", out);
     for (int k = 0; k < v->curves->n && band_of(v, 0); k++) {
-        fprintf(
-            out,
-            "$curve%d using 1:($2-$3):($2+$3) every ::0::%d with filledcurves linecolor rgb '%s' "
-            "fillstyle transparent solid 0.3 noborder ",
-            k, v->curves->curve[k].rising - 1, rb_report_colour(k));
+        fprintf(out, "$curve%d using 1:($2-$3):($2+$3) every ::0::%d " RB_REPORT_BAND " ", k,
+                v->curves->curve[k].rising - 1, rb_report_colour(k));
         if (k == 0)
             write_band_title(out, v, place.titled);
         else
@@ -427,9 +424,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         const int first = v->curves->curve[k].rising;
         const char *colour = rb_report_colour(v->curves->n + k);
         if (v->curves->curve[k].branch && band_of(v, k))
-            fprintf(out,
-                    ", $curve%d using 1:($2-$3):($2+$3) every ::%d with filledcurves linecolor rgb "
-                    "'%s' fillstyle transparent solid 0.3 noborder notitle",
+            fprintf(out, ", $curve%d using 1:($2-$3):($2+$3) every ::%d " RB_REPORT_BAND " notitle",
                     k, first, colour);
         if (v->curves->curve[k].branch)
             fprintf(out,

@@ -198,7 +198,8 @@ static int is_near(const double *column, int i, int k)
     return !column || fabs(column[i] - column[k]) <= 0.02 * fmax(fabs(column[i]), fabs(column[k]));
 }
 
-static int see(view *v)
+/* 0: no memory. */
+static int sort_points(view *v)
 {
     const rb_case_data *d = v->fit->data;
     int *first = calloc((size_t)d->n, sizeof *first);
@@ -282,7 +283,6 @@ static void write_title(FILE *out, const rb_report_fit *f, double middle)
 /* Marks of the measured points, and of a fitted one that has no other to be joined to. */
 #define MEASURED "pointsize 1.4 linewidth 1.4"
 #define FITTED_ALONE "pointtype 7 pointsize 0.5"
-#define BAND "fillstyle transparent solid 0.3 noborder"
 
 static void write_curves(FILE *out, const view *v, int titled)
 {
@@ -303,10 +303,11 @@ static void write_curves(FILE *out, const view *v, int titled)
         const int alone = k + 1 == n || v->point[k + 1].test != t;
         some_alone |= alone;
         if (!isnan(v->widest))
-            fprintf(out, "$test%d using 1:%s linecolor rgb '%s' notitle, ", t,
-                    alone ? "3:4 with yerrorbars " FITTED_ALONE
-                          : "($3-$4):($3+$4) with filledcurves " BAND,
-                    colour);
+            fprintf(out,
+                    alone ? "$test%d using 1:3:4 with yerrorbars " FITTED_ALONE
+                            " linecolor rgb '%s' notitle, "
+                          : "$test%d using 1:($3-$4):($3+$4) " RB_REPORT_BAND " notitle, ",
+                    t, colour);
         fprintf(out,
                 "$test%d using 1:3 with %s linecolor rgb '%s' dashtype %s linewidth 2.2 notitle, "
                 "$test%d using 1:2 with points pointtype %d " MEASURED
@@ -329,8 +330,8 @@ static void write_curves(FILE *out, const view *v, int titled)
             "title 'fitted'",
             markers[0], colour, some_alone ? "linespoints " FITTED_ALONE : "lines", colour);
     if (!isnan(v->widest)) {
-        fprintf(out, ", NaN with filledcurves " BAND " linecolor rgb '%s' title '%g %% %sband",
-                colour, 100.0 * f->fit->level, titled ? "confidence " : "");
+        fprintf(out, ", NaN " RB_REPORT_BAND " title '%g %% %sband", colour, 100.0 * f->fit->level,
+                titled ? "confidence " : "");
         char name[20];
         if (titled) /* there is room, and a thin band hides behind its curve */
             fprintf(out, ", at most ±%s%s", RB_REPORT_NUMBER(in_units(f, unit, v->widest), 2),
@@ -381,7 +382,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
             f->data->measure == RB_CASE_FORCE         ? "  ["
             : f->data->measure == RB_CASE_FORCE_RATIO ? "/(μP)"
                                                       : "/P",
-            f->data->measure == RB_CASE_FORCE ? rb_report_unit_name(f->units, force_unit(f)) : "",
+            f->data->measure == RB_CASE_FORCE ? rb_report_unit_name(f->units, unit) : "",
             f->data->measure == RB_CASE_FORCE ? "]" : "");
     write_curves(out, v, place.titled);
 }
@@ -402,8 +403,8 @@ rb_status rb_report_fit_picture(FILE *out, rb_report_canvas canvas, const rb_rep
         v.widest = NAN;
     v.exponent = rb_report_exponent(most);
     const rb_status s =
-        see(&v) ? rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why)
-                : rb_fail(why, RB_ENOMEM, "out of memory");
+        sort_points(&v) ? rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why)
+                        : rb_fail(why, RB_ENOMEM, "out of memory");
     free(v.point);
     return s;
 }

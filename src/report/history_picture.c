@@ -89,10 +89,8 @@ static void write_panel(FILE *out, const view *v, const panel *p)
             "set label 2 '%s' at screen 0.03, %g center rotate\nplot ",
             top, top - height, p->label, top - height / 2);
     if (p->band && bands_of(v))
-        fprintf(out,
-                "$data using 1:($%d-$%d):($%d+$%d) with filledcurves linecolor rgb '%s' "
-                "fillstyle transparent solid 0.3 noborder title '%s', ",
-                p->column, p->band, p->column, p->band, p->colour,
+        fprintf(out, "$data using 1:($%d-$%d):($%d+$%d) " RB_REPORT_BAND " title '%s', ", p->column,
+                p->band, p->column, p->band, p->colour,
                 v->h->errors ? "estimated error" : "standard deviation");
     fprintf(out,
             "$data using 1:%d with %s linecolor rgb '%s' linewidth 1.8 pointtype 7 "

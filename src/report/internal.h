@@ -96,6 +96,12 @@ void rb_report_label_bodies(FILE *script, const rb_rolling_case *rc, rb_units un
                             double y);
 /* Thin grid lines at the tics. */
 #define RB_REPORT_GRID "set grid linecolor rgb '#dddddd' linewidth 0.6\n"
+/* A band about a curve, as a part of plot; its argument: the colour of the curve. */
+#define RB_REPORT_BAND                                                                             \
+    "with filledcurves linecolor rgb '%s' fillstyle transparent solid 0.3 noborder"
+/* The powers alone at the tics of a logarithmic axis, 'x' or 'y', where numbers would be
+ * longer than their tics. */
+void rb_report_log_tics(FILE *script, char axis, double from, double to);
 /* The colour of curve k of several, as gnuplot's rgb. */
 const char *rb_report_colour(int k);
 /* gnuplot draws markers larger in svg; this is the factor that corrects their size. */

@@ -197,8 +197,7 @@ static void write_axis(FILE *out, char letter, const rb_report_quantity *q, cons
     fprintf(out, "set %crange [%.9g:%.9g]\n", letter, a->from, a->to);
     if (a->logarithmic) {
         fprintf(out, "set logscale %c\n", letter);
-        if (a->to >= 1e4 || a->from < 1e-3) /* longer than their tics */
-            fprintf(out, "set format %c '10^{%%L}'\n", letter);
+        rb_report_log_tics(out, letter, a->from, a->to);
     } else
         fprintf(out, "set %ctics %.9g\n", letter, rb_report_round_step((a->to - a->from) / labels));
 }
@@ -258,10 +257,8 @@ static void write_curves(FILE *out, rb_report_canvas canvas, const void *context
         fputs("unset key\n", out);
     fputs("plot ", out);
     for (int k = 0; k < curves && s->half_width; k++)
-        fprintf(out,
-                "$curve%d using 1:($2-$3):($2+$3) with filledcurves linecolor rgb '%s' fillstyle "
-                "transparent solid 0.3 noborder notitle, ",
-                k, rb_report_colour(k));
+        fprintf(out, "$curve%d using 1:($2-$3):($2+$3) " RB_REPORT_BAND " notitle, ", k,
+                rb_report_colour(k));
     for (int k = 0, i = 0; k < curves; i += length_of_group(s, v->at, i), k++)
         fprintf(out,
                 "%s$curve%d using 1:2 with %s linecolor rgb '%s' dashtype %s "
