@@ -14,18 +14,6 @@ static rb_report_columns columns_of(const rb_rolling_curve *c, int kind)
     return (rb_report_columns){&rb_rolling_curve_columns, c, kind, c->units, 0};
 }
 
-/* What must be known of each curve's derivatives. */
-static void comment_slopes(const rb_report_cells *c, const rb_report_curves *curves)
-{
-    rb_message note;
-    rb_report_comment_slopes(c, &curves->slopes[0]);
-    for (int k = 0; k < curves->n; k++)
-        if (rb_case_slopes_note(&curves->slopes[k], &note) && curves->n > 1)
-            rb_report_comment(c, "mu = %g: %s", curves->mu[k], note.text);
-        else if (*note.text)
-            rb_report_comment(c, "%s", note.text);
-}
-
 rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const char *command,
                                 const rb_report_style *style)
 {
@@ -44,7 +32,7 @@ rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const
             rb_report_cell_slope_headings(&c, &curves->slopes[k]);
             rb_report_cells_end_row(&c);
             rb_report_comment_head(&c, command);
-            comment_slopes(&c, curves);
+            rb_report_comment_slopes(&c, curves->n, curves->slopes, curves->mu);
             if (curves->rc)
                 rb_report_comment_notes(&c, curves->rc, &curves->curve[curves->n - 1].last);
         }

@@ -274,17 +274,27 @@ void rb_report_cell_slopes(rb_report_cells *c, const rb_case_slopes *s, int row)
         rb_report_cell_number(c, rb_case_slope_value(s, row, k));
 }
 
-void rb_report_comment_slopes(const rb_report_cells *c, const rb_case_slopes *s)
+void rb_report_comment_slopes(const rb_report_cells *c, int n, const rb_case_slopes *s,
+                              const double *mu)
 {
+    rb_message note;
+
     if (s->n > 0)
         rb_report_comment(c, "d_A_by_B: derivative of A with respect to B, for a growing "
                              "B where the two sides differ");
+    for (int k = 0; k < n; k++) {
+        if (!rb_case_slopes_note(&s[k], &note))
+            continue;
+        if (n > 1)
+            rb_report_comment(c, "mu = %g: %s", mu[k], note.text);
+        else
+            rb_report_comment(c, "%s", note.text);
+    }
 }
 
 rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h, const rb_case_slopes *s,
                                 const char *command, const rb_report_style *style)
 {
-    rb_message note;
     rb_report_cells c = rb_report_cells_begin(out, style, "");
 
     rb_report_cell_text(&c, "step");
@@ -292,9 +302,7 @@ rb_status rb_report_step_slopes(FILE *out, const rb_rolling_history *h, const rb
     rb_report_cell_slope_headings(&c, s);
     rb_report_cells_end_row(&c);
     rb_report_comment_origin(&c, command);
-    rb_report_comment_slopes(&c, s);
-    if (rb_case_slopes_note(s, &note))
-        rb_report_comment(&c, "%s", note.text);
+    rb_report_comment_slopes(&c, 1, s, NULL);
     for (int row = 0; row < s->rows; row++) {
         rb_report_cell_whole(&c, row + 1);
         rb_report_cell_number(&c, h->distance[row]);

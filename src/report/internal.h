@@ -38,10 +38,13 @@ rb_report_cells rb_report_begin_columns(FILE *out, const rb_report_style *style,
 /* Write the headings, or entry i of every column, as cells of the current row. */
 void rb_report_cell_headings(rb_report_cells *c, int parts, const rb_report_columns *part);
 void rb_report_cell_entries(rb_report_cells *c, int i, int parts, const rb_report_columns *part);
-/* The same of derivatives, where there are any; and what they are, as # lines. */
+/* The same of derivatives, where there are any. */
 void rb_report_cell_slope_headings(rb_report_cells *c, const rb_case_slopes *s);
 void rb_report_cell_slopes(rb_report_cells *c, const rb_case_slopes *s, int row);
-void rb_report_comment_slopes(const rb_report_cells *c, const rb_case_slopes *s);
+/* What they are, and what must be known of those of each of n tables, as # lines; mu: the
+ * coefficients of friction that tell several tables apart. */
+void rb_report_comment_slopes(const rb_report_cells *c, int n, const rb_case_slopes *s,
+                              const double *mu);
 /* # lines with version, command, conventions. */
 void rb_report_comment_head(const rb_report_cells *c, const char *command);
 /* A note as a line of text, its first word in colour. */
