@@ -81,6 +81,8 @@ TEST(powers_of_ten_are_exact)
     }
     assert_true(isnan(rb_unit_shown(RB_UNITS_SI, "mm", NAN)));
     CHECK_ABS(rb_unit_shown(RB_UNITS_SI, "degrees", 30.0), 30.0, 0.0, "degrees");
+    CHECK_ABS(rb_unit_shown(RB_UNITS_SI, NULL, 0.3), 0.3, 0.0, "without a unit");
+    CHECK_ABS(rb_unit_stored(RB_UNITS_INCH, NULL, 0.3), 0.3, 0.0, "without a unit");
 }
 
 /* ---- Results ----------------------------------------------------------------------- */

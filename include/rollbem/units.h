@@ -22,7 +22,7 @@ typedef enum {
 const char *rb_unit_name(rb_units system, const char *unit);
 /* rb_unit_shown converts a value from mm, N, MPa to the system, rb_unit_stored converts
  * it back.  Factors that are powers of ten only move the decimal point, so 0.0465 m gives
- * the same double as 46.5 mm. */
+ * the same double as 46.5 mm.  unit NULL: a plain number, as of results without a unit. */
 double rb_unit_shown(rb_units system, const char *unit, double x);
 double rb_unit_stored(rb_units system, const char *unit, double x);
 

@@ -219,7 +219,7 @@ static int see_evaluation(int evaluation, double value, const double *x, void *c
 
 static double shown(const rb_rolling_result *r, rb_units units, double x)
 {
-    return r && r->unit ? rb_unit_shown(units, r->unit, x) : x;
+    return rb_unit_shown(units, r ? r->unit : NULL, x);
 }
 
 /* Of the variables, and of the results under constraints, with blanks between. */

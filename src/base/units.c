@@ -191,21 +191,24 @@ static double to_stored(const unit_row *u, double x)
     return move_point(x, u->power) * u->factor;
 }
 
+/* NULL: nothing is to be converted. */
 static const unit_row *row_of(rb_units system, const char *unit)
 {
+    if (system == RB_UNITS_MM || !unit)
+        return NULL;
     const char *name = rb_unit_name(system, unit);
     return find(name, strlen(name), unit);
 }
 
 double rb_unit_shown(rb_units system, const char *unit, double x)
 {
-    const unit_row *u = system == RB_UNITS_MM ? NULL : row_of(system, unit);
+    const unit_row *u = row_of(system, unit);
     return u ? move_point(x / u->factor, -u->power) : x;
 }
 
 double rb_unit_stored(rb_units system, const char *unit, double x)
 {
-    const unit_row *u = system == RB_UNITS_MM ? NULL : row_of(system, unit);
+    const unit_row *u = row_of(system, unit);
     return u ? to_stored(u, x) : x;
 }
 

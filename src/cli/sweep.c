@@ -317,15 +317,14 @@ static double cell_value(const study *st, int j, int k, const rb_rolling_row *ro
     const rb_units units = rb_case_resolved(st->base)->units;
     if (slope >= st->slopes.n) {
         const rb_rolling_result *r = st->slopes.deviation[slope - st->slopes.n];
-        return r->unit ? rb_unit_shown(units, r->unit, row->own[slope]) : row->own[slope];
+        return rb_unit_shown(units, r->unit, row->own[slope]);
     }
     if (slope >= 0)
         return rb_case_slope_shown(&st->slopes.of[slope], units, row->own[slope]);
     const study_result *result = &st->result[j - st->columns - 2];
-    if (result->of == OF_CRACK) {
-        const double x = rb_case_crack_of_row(result->r, result->is_error, row);
-        return result->r->unit ? rb_unit_shown(units, result->r->unit, x) : x;
-    }
+    if (result->of == OF_CRACK)
+        return rb_unit_shown(units, result->r->unit,
+                             rb_case_crack_of_row(result->r, result->is_error, row));
     const void *owner =
         result->of == OF_STRESS
             ? result->is_error ? (const void *)&row->errors.stress : (const void *)&row->stress

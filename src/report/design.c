@@ -4,12 +4,6 @@
 
 #include <jansson.h>
 #include <math.h>
-#include <string.h>
-
-static double shown(rb_units units, const char *unit, double x)
-{
-    return unit && strcmp(unit, "-") != 0 ? rb_unit_shown(units, unit, x) : x;
-}
 
 static const char *unit_of_result(const rb_rolling_result *r)
 {
@@ -25,15 +19,15 @@ rb_status rb_report_design_table(FILE *out, const rb_design *d, rb_units units, 
     rb_report_comment_origin(&c, command);
     rb_report_comment(&c, "%s %s: %.10g, at the start %.10g [%s]", d->largest ? "largest" : "least",
                       rb_design_result_name(d->result),
-                      shown(units, unit_of_result(d->result), d->value),
-                      shown(units, unit_of_result(d->result), d->start),
+                      rb_unit_shown(units, unit_of_result(d->result), d->value),
+                      rb_unit_shown(units, unit_of_result(d->result), d->start),
                       rb_report_unit_name(units, unit_of_result(d->result)));
     for (int k = 0; k < d->constraints; k++) {
         const rb_design_constraint *k_ = &d->constraint[k];
         const char *unit = unit_of_result(k_->result);
         rb_report_comment(&c, "%s %s %.10g: %.10g [%s]", rb_design_result_name(k_->result),
-                          k_->at_least ? ">=" : "<=", shown(units, unit, k_->bound),
-                          shown(units, unit, k_->value), rb_report_unit_name(units, unit));
+                          k_->at_least ? ">=" : "<=", rb_unit_shown(units, unit, k_->bound),
+                          rb_unit_shown(units, unit, k_->value), rb_report_unit_name(units, unit));
     }
     for (int j = 0; j < d->n; j++) {
         const rb_design_variable *v = &d->variable[j];
@@ -42,10 +36,10 @@ rb_status rb_report_design_table(FILE *out, const rb_design *d, rb_units units, 
         rb_report_cell_text(&c, rb_report_unit_name(units, v->unit));
         rb_report_cell_number(&c,
                               is_gap ? rb_unit_shown(units, "mm", d->gap_x[j - d->gap_from]) : NAN);
-        rb_report_cell_number(&c, shown(units, v->unit, v->start));
-        rb_report_cell_number(&c, shown(units, v->unit, v->value));
-        rb_report_cell_number(&c, shown(units, v->unit, v->low));
-        rb_report_cell_number(&c, shown(units, v->unit, v->high));
+        rb_report_cell_number(&c, rb_unit_shown(units, v->unit, v->start));
+        rb_report_cell_number(&c, rb_unit_shown(units, v->unit, v->value));
+        rb_report_cell_number(&c, rb_unit_shown(units, v->unit, v->low));
+        rb_report_cell_number(&c, rb_unit_shown(units, v->unit, v->high));
         rb_report_cells_end_row(&c);
     }
     return rb_report_flush(out);
@@ -53,7 +47,7 @@ rb_status rb_report_design_table(FILE *out, const rb_design *d, rb_units units, 
 
 static json_t *number(rb_units units, const char *unit, double x)
 {
-    return rb_report_json_number(shown(units, unit, x));
+    return rb_report_json_number(rb_unit_shown(units, unit, x));
 }
 
 void rb_report_json_design(json_t **root, const rb_design *d, rb_units units)
@@ -71,10 +65,10 @@ void rb_report_json_design(json_t **root, const rb_design *d, rb_units units)
                        json_string(d->status == RB_OK ? "solved" : rb_status_text(d->status)));
     for (int j = 0; j < d->n; j++) {
         const rb_design_variable *v = &d->variable[j];
-        const rb_report_named numbers[] = {{"start", shown(units, v->unit, v->start)},
-                                           {"value", shown(units, v->unit, v->value)},
-                                           {"low", shown(units, v->unit, v->low)},
-                                           {"high", shown(units, v->unit, v->high)}};
+        const rb_report_named numbers[] = {{"start", rb_unit_shown(units, v->unit, v->start)},
+                                           {"value", rb_unit_shown(units, v->unit, v->value)},
+                                           {"low", rb_unit_shown(units, v->unit, v->low)},
+                                           {"high", rb_unit_shown(units, v->unit, v->high)}};
         json_t *one = rb_report_json_named(4, numbers);
         if (j >= d->gap_from && j < d->gap_from + d->gap_n)
             rb_report_json_set(&one, "x", number(units, "mm", d->gap_x[j - d->gap_from]));
