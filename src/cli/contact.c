@@ -68,39 +68,8 @@ static const char columns[] = "case status FN FX FX_REL CKSI PEN PMAX FRIC_POWER
                               "NSLIP P_N/mm Q_N/mm line residual NPLAST",
                   element_columns[] = "case X H PN PX S zone UPL";
 
+/* x + 0.0: no -0; NAN where the case was not run. */
 #define NUMBER(name, x) CLI_NUMBER(name, name, (x) + known)
-
-/* A case as a row; x + 0.0: no -0; NAN where it was not run. */
-static void add_case(cli_rows *rows, int number, const contact_run *r)
-{
-    const rb_rolling_solution *s = &r->s;
-    const rb_io_contact_case *in = r->in;
-    const double known = s->n > 0 ? 0.0 : NAN, sign = r->c.sign, width = r->c.width;
-    const int yielding = s->yielding > 0 ? s->yielding : 0;
-    const cli_value values[] = {
-        CLI_WHOLE("case", "case", number),
-        CLI_WORDS("status", "status", r->c.runs ? rb_status_text(r->status) : "not run"),
-        CLI_TEXT("left_out", NULL, r->c.left_out),
-        NUMBER("FN", s->normal_load * width),
-        NUMBER("FX", sign * s->tangential_load * width),
-        NUMBER("FX_REL", sign * s->force_ratio),
-        NUMBER("CKSI", sign * (in->digit.T >= 2 ? s->creepage : s->tangential_shift)),
-        NUMBER("PEN", s->approach),
-        NUMBER("PMAX", s->max_pressure),
-        NUMBER("FRIC_POWER", rb_case_contact_power(in, &r->c, r->before, s)),
-        NUMBER("NPOT", s->n),
-        NUMBER("NCON", s->contact),
-        NUMBER("NADH", s->stick),
-        NUMBER("NSLIP", s->slipping - yielding),
-        NUMBER("P_N/mm", s->normal_load),
-        NUMBER("Q_N/mm", s->tangential_load),
-        NUMBER("line", in->line),
-        NUMBER("residual", s->residual),
-        NUMBER("NPLAST", yielding)};
-    cli_rows_add(rows, sizeof values / sizeof *values, values);
-}
-
-#undef NUMBER
 
 static rb_status print(FILE *out, const void *context, rb_message *why)
 {
@@ -113,14 +82,37 @@ static rb_status print(FILE *out, const void *context, rb_message *why)
             rb_report_comment(&rows.cells, "case %d leaves out %s", k + 1, all->run[k].c.left_out);
     for (int k = 0; k < all->n; k++) {
         const contact_run *r = &all->run[k];
-        if (rows.is_json || !tractions)
-            add_case(&rows, k + 1, r);
-        if (rows.is_json && tractions && r->s.n > 0)
-            cli_rows_set(&rows, "table", rb_report_json_table(&r->s));
-        for (int j = 0; j < r->s.n && tractions && !rows.is_json; j++) {
-            /* The elements along the x of the file. */
-            const rb_rolling_solution *s = &r->s;
-            const double sign = r->c.sign;
+        const rb_rolling_solution *s = &r->s;
+        const double sign = r->c.sign;
+        if (rows.is_json || !tractions) {
+            const double known = s->n > 0 ? 0.0 : NAN, width = r->c.width;
+            const int yielding = s->yielding > 0 ? s->yielding : 0;
+            const cli_value values[] = {
+                CLI_WHOLE("case", "case", k + 1),
+                CLI_WORDS("status", "status", r->c.runs ? rb_status_text(r->status) : "not run"),
+                CLI_TEXT("left_out", NULL, r->c.left_out),
+                NUMBER("FN", s->normal_load * width),
+                NUMBER("FX", sign * s->tangential_load * width),
+                NUMBER("FX_REL", sign * s->force_ratio),
+                NUMBER("CKSI", sign * (r->in->digit.T >= 2 ? s->creepage : s->tangential_shift)),
+                NUMBER("PEN", s->approach),
+                NUMBER("PMAX", s->max_pressure),
+                NUMBER("FRIC_POWER", rb_case_contact_power(r->in, &r->c, r->before, s)),
+                NUMBER("NPOT", s->n),
+                NUMBER("NCON", s->contact),
+                NUMBER("NADH", s->stick),
+                NUMBER("NSLIP", s->slipping - yielding),
+                NUMBER("P_N/mm", s->normal_load),
+                NUMBER("Q_N/mm", s->tangential_load),
+                NUMBER("line", r->in->line),
+                NUMBER("residual", s->residual),
+                NUMBER("NPLAST", yielding)};
+            cli_rows_add(&rows, sizeof values / sizeof *values, values);
+        }
+        if (rows.is_json && tractions && s->n > 0)
+            cli_rows_set(&rows, "table", rb_report_json_table(s));
+        /* The elements along the x of the file. */
+        for (int j = 0; j < s->n && tractions && !rows.is_json; j++) {
             const int i = sign < 0.0 ? s->n - 1 - j : j;
             const cli_value values[] = {CLI_WHOLE(NULL, "case", k + 1),
                                         CLI_NUMBER(NULL, "X", r->c.centre + sign * s->x[i]),
@@ -140,6 +132,8 @@ static rb_status print(FILE *out, const void *context, rb_message *why)
     rb_report_json_set(&root, "cases", rows.list);
     return rb_report_json_write(out, root);
 }
+
+#undef NUMBER
 
 /* ---- Command ----------------------------------------------------------------------- */
 

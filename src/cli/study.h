@@ -44,8 +44,7 @@ typedef struct {
     const study_options *o;
     const rb_option_set *own;    /* the options of a study, whose values are in o */
     const rb_option_set *cracks; /* those of a crack of base */
-    int has_crack; /* 1: one of them is given or varies: the contact passes over a crack
-                    */
+    int has_crack; /* 1: one of them is given or varies, the contact passes over a crack */
     study_column column[COLUMNS_MAX];
     int columns, factors, cases;
     int rows[VARIED_MAX + 2]; /* of each factor */

@@ -23,23 +23,6 @@ void cli_study_keep(study *st, int j, int k, double x)
         st->band[k] = x;
 }
 
-/* The column of the error bar or of the standard deviation of the result that is shown; 0: it
- * has none. */
-static int find_band(const study *st)
-{
-    const int first = st->columns + 2;
-    const study_result *shown = &st->result[st->drawn_column - first];
-    if (shown->is_error || st->o->sample > 0)
-        return 0;
-    for (int j = 0; j < st->results; j++)
-        if (st->result[j].r == shown->r && st->result[j].is_error)
-            return first + j;
-    for (int j = 0; j < st->slopes.deviations; j++)
-        if (st->slopes.deviation[j] == shown->r)
-            return first + st->results + st->slopes.n + j;
-    return 0;
-}
-
 static int varies(const study *st, const study_column *c)
 {
     const double *value = c->value;
@@ -154,7 +137,17 @@ cli_exit cli_study_prepare_pictures(study *st)
         code = check_kind(st, "map", 1);
     if (code != CLI_CONTINUE)
         return code;
-    st->band_column = find_band(st);
+    /* The band is the error bar of the result that is shown, or its standard deviation. */
+    const int first = st->columns + 2;
+    const study_result *shown = &st->result[st->drawn_column - first];
+    if (!shown->is_error && o->sample == 0) {
+        for (int j = 0; j < st->slopes.deviations; j++)
+            if (st->slopes.deviation[j] == shown->r)
+                st->band_column = first + st->results + st->slopes.n + j;
+        for (int j = 0; j < st->results; j++)
+            if (st->result[j].r == shown->r && st->result[j].is_error)
+                st->band_column = first + j;
+    }
     st->drawn = rb_alloc((size_t)st->cases, 1);
     st->band = st->band_column ? rb_alloc((size_t)st->cases, 1) : NULL;
     return !st->drawn || (st->band_column && !st->band) ? cli_fail(CLI_INTERNAL, "out of memory")

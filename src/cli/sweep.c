@@ -199,31 +199,15 @@ static cli_exit choose_by_name(study *st, const char *option, const char *name)
     return cli_fail(CLI_USAGE, "--%s: no result '%s'%s%s", option, name, near, all);
 }
 
-/* Of the results of the contact, behind the derivatives. */
-static cli_exit choose_deviations(study *st)
-{
-    const rb_rolling_result *of[RESULTS_MAX];
-    rb_message why = {""};
-    int n = 0;
-    for (int k = 0; k < st->results; k++)
-        if (st->result[k].of == OF_SOLUTION && !st->result[k].is_error)
-            of[n++] = st->result[k].r;
-    if (st->has_crack)
-        return cli_fail(CLI_USAGE,
-                        "--tolerance: the K of cracks have no derivatives; give --sample");
-    return rb_case_slopes_add_deviations(st->base, st->o->tolerance, n, of, &st->slopes, &why) ==
-                   RB_OK
-               ? CLI_CONTINUE
-               : cli_fail(CLI_USAGE, "--tolerance: %s", why.text);
-}
-
 /* Those of the crack, or those that the cases have and no option names, then those of
- * --results and --show, then the error bars of all. */
+ * --results and --show, then the error bars of all; derivatives, and standard deviations of
+ * the results of the contact. */
 static cli_exit choose_results(study *st)
 {
     const rb_resolved_case *one = rb_case_resolved(st->one);
     char heading[RB_ROLLING_HEADING];
     const rb_rolling_result *r;
+    rb_message why = {""};
     cli_exit code = CLI_CONTINUE;
     for (int k = 0; k < rb_case_crack_scalars.n && st->has_crack; k++)
         if (has_meaning(st, &(study_result){&rb_case_crack_scalars.row[k], OF_CRACK, 0}))
@@ -255,17 +239,27 @@ static cli_exit choose_results(study *st)
     if (code == CLI_CONTINUE && st->o->derivatives && st->has_crack)
         code = cli_fail(CLI_USAGE, "--derivatives: the K of cracks have none");
     if (code == CLI_CONTINUE && st->o->derivatives) {
-        rb_message why = {""};
         if (rb_case_slopes_choose(st->base, &rb_rolling_solution_scalars, st->o->derivatives,
                                   RB_ROW_OWN, &st->slopes, &why) != RB_OK)
             code = cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
     }
-    if (code == CLI_CONTINUE && st->o->tolerance && st->o->sample == 0)
-        code = choose_deviations(st);
+    const int deviates = st->o->tolerance && st->o->sample == 0;
+    if (code == CLI_CONTINUE && deviates && st->has_crack)
+        code =
+            cli_fail(CLI_USAGE, "--tolerance: the K of cracks have no derivatives; give --sample");
+    if (code == CLI_CONTINUE && deviates) {
+        const rb_rolling_result *of[RESULTS_MAX];
+        int n = 0;
+        for (int k = 0; k < st->results; k++)
+            if (st->result[k].of == OF_SOLUTION && !st->result[k].is_error)
+                of[n++] = st->result[k].r;
+        if (rb_case_slopes_add_deviations(st->base, st->o->tolerance, n, of, &st->slopes, &why) !=
+            RB_OK)
+            code = cli_fail(CLI_USAGE, "--tolerance: %s", why.text);
+    }
     /* Not every body's stress is known; what else is wrong is known with the first case. */
     if (code != CLI_CONTINUE)
         return code;
-    rb_message why = {""};
     const rb_status s = rb_rolling_stress_check(&rb_case_resolved(st->one)->rc, &why);
     for (int k = 0; k < st->results; k++)
         if (st->result[k].of == OF_STRESS && s != RB_OK)

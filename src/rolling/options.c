@@ -420,18 +420,13 @@ rb_status rb_rolling_check_option(const rb_option *o, double value, rb_message *
     return rb_option_in_range(o, value) ? RB_OK : refuse(o, value, why);
 }
 
-static const rb_option *option_of(const char *name)
+rb_status rb_rolling_check_number(const char *option, double value, rb_message *why)
 {
     const rb_option *o = rb_case_table;
 
-    while (o->kind == RB_OPTION_GROUP || strcmp(o->name, name) != 0)
+    while (o->kind == RB_OPTION_GROUP || strcmp(o->name, option) != 0)
         o++;
-    return o;
-}
-
-rb_status rb_rolling_check_number(const char *option, double value, rb_message *why)
-{
-    return rb_rolling_check_option(option_of(option), value, why);
+    return rb_rolling_check_option(o, value, why);
 }
 
 rb_status rb_rolling_check_ranges(const rb_rolling_case *rc, const rb_rolling_case *defaults,
