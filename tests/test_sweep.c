@@ -261,6 +261,16 @@ TEST(tolerances_of_a_study_are_those_of_its_cases)
         CHECK_REL(entry(json_object_get(in_si, "table"), "deviation_tangential_load_N/m", k),
                   1e3 * Q, 1e-9, "case %zu in SI", k);
     }
+    /* with both the band is the error bar, and says so */
+    for (int error = 0; error < 2; error++) {
+        assert_int_equal(
+            rollbem(error ? STUDY UNCERTAIN VARIED "--error --plot b.svg --plot-script b.gp --quiet"
+                          : STUDY UNCERTAIN VARIED "--plot b.svg --plot-script b.gp --quiet"),
+            0);
+        assert_int_equal(shell(error ? "grep -q 'band: ± estimated error' b.gp"
+                                     : "grep -q 'band: ± standard deviation' b.gp"),
+                         0);
+    }
     /* other deviations are another study */
     assert_int_equal(rollbem(STUDY UNCERTAIN VARIED "--output t"), 0);
     assert_int_equal(rollbem(STUDY UNCERTAIN VARIED "--output t"), 0);

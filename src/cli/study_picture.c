@@ -81,17 +81,18 @@ static rb_report_study picture_of(const study *st, double *value, char name[STUD
         const rb_option *o = rb_case_option(st->column[k].name);
         bodies_vary |= o && strncmp(rb_case_section(o), "body-", 5) == 0;
     }
-    return (rb_report_study){.n = st->cases,
-                             .x = axis_of(st, st->over, value),
-                             .y = axis_of(st, st->family, value + st->cases),
-                             .shown = {name_of(shown, name),
-                                       shown->r->unit ? rb_unit_name(c->units, shown->r->unit) : "",
-                                       st->drawn},
-                             .rc = bodies_vary ? NULL : &c->rc,
-                             .units = c->units,
-                             .half_width = st->band,
-                             .band = st->o->tolerance ? "standard deviation" : "estimated error",
-                             .is_sample = st->o->sample > 0};
+    return (rb_report_study){
+        .n = st->cases,
+        .x = axis_of(st, st->over, value),
+        .y = axis_of(st, st->family, value + st->cases),
+        .shown = {name_of(shown, name),
+                  shown->r->unit ? rb_unit_name(c->units, shown->r->unit) : "", st->drawn},
+        .rc = bodies_vary ? NULL : &c->rc,
+        .units = c->units,
+        .half_width = st->band,
+        .band = st->band_column < st->columns + 2 + st->results ? "estimated error"
+                                                                : "standard deviation",
+        .is_sample = st->o->sample > 0};
 }
 
 static cli_exit check_kind(const study *st, const char *option, int map)
