@@ -430,7 +430,7 @@ TEST(points_are_single_cases)
                 rb_case_slopes_choose(single, s.table, "all", RB_CASE_SLOPES_MAX, &want, &why),
                 RB_OK);
             CHECK_STATUS(rb_case_slopes_alloc(1, &want), RB_OK);
-            CHECK_STATUS(rb_case_slopes_at(single, &r.model, &want, want.value, &why), RB_OK);
+            CHECK_STATUS(rb_case_slopes_at(single, &r.model, &want, want.value, NULL, &why), RB_OK);
             assert_int_equal(want.n, s.n);
             for (int j = 0; j < s.n; j++) {
                 const double x = rb_case_slope_value(&s, row, j),

@@ -302,9 +302,11 @@ rb_status rb_case_slopes_add_deviations(const rb_case *c, const char *tolerance,
 /* Allocates the given number of rows, without values.  RB_ENOMEM. */
 rb_status rb_case_slopes_alloc(int rows, rb_case_slopes *slopes);
 /* Computes one row of derivatives from a solved model of the case; row: 2 n values, NAN
- * before. */
+ * before.  deviation: overwritten with the standard deviations of its results by `tolerance`,
+ * of which per cent are those of the case's own numbers; NULL: not wanted. */
 rb_status rb_case_slopes_at(const rb_case *c, const rb_rolling_model *model,
-                            const rb_case_slopes *slopes, double *row, rb_message *why);
+                            const rb_case_slopes *slopes, double *row,
+                            rb_rolling_solution *deviation, rb_message *why);
 /* The same as one number per column, as rb_case_slope_value, and behind them the standard
  * deviations of the results of `deviation`, together at most RB_ROW_OWN; a case without
  * derivatives has NAN.  RB_ENOMEM alone. */
@@ -358,11 +360,6 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_to
  * input has no derivatives. */
 rb_status rb_case_propagate(const rb_case_tolerances *t, const rb_case_derivatives *all,
                             rb_rolling_solution *deviation, rb_message *why);
-
-/* The same of a solved model of the case by the text of its uncertain inputs: per cent are
- * those of its own numbers. */
-rb_status rb_case_deviations(const rb_case *c, const rb_rolling_model *model, const char *tolerance,
-                             rb_rolling_solution *deviation, rb_message *why);
 
 /* Those of every step of the history whose states are given, as its `deviations`: first
  * order, carried from step to step.  RB_EINVAL: as rb_case_slopes_of_steps. */

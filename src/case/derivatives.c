@@ -409,24 +409,6 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_to
     return s;
 }
 
-rb_status rb_case_deviations(const rb_case *c, const rb_rolling_model *model, const char *tolerance,
-                             rb_rolling_solution *deviation, rb_message *why)
-{
-    const char *name[RB_CASE_TOLERANCES_MAX];
-    rb_case_tolerances t;
-    rb_case_derivatives all = {.n = 0};
-    rb_status s = rb_case_read_tolerances(c, tolerance, &t, why);
-
-    for (int i = 0; i < t.n; i++)
-        name[i] = t.name[i];
-    if (s == RB_OK)
-        s = rb_case_differentiate(c, model, t.n, name, &all, why);
-    if (s == RB_OK)
-        s = rb_case_propagate(&t, &all, deviation, why);
-    rb_case_derivatives_free(&all);
-    return s;
-}
-
 rb_status rb_case_propagate(const rb_case_tolerances *t, const rb_case_derivatives *all,
                             rb_rolling_solution *deviation, rb_message *why)
 {

@@ -182,28 +182,41 @@ const char *rb_case_slope_heading(const rb_case_slope *of, rb_units units,
 
 /* ---- Of single solutions ----------------------------------------------------------- */
 
+/* Adds a name unless it is among the n; returns how many there are then. */
+static int add_name(const char *name[RB_CASE_NUMBERS_MAX], int n, const char *one)
+{
+    int k = 0;
+
+    while (k < n && strcmp(name[k], one) != 0)
+        k++;
+    if (k == n && n < RB_CASE_NUMBERS_MAX)
+        name[n++] = one;
+    return n;
+}
+
 /* The inputs of the columns, each once. */
 static int inputs_of(const rb_case_slopes *s, const char *name[RB_CASE_NUMBERS_MAX])
 {
     int n = 0;
 
-    for (int k = 0; k < s->n; k++) {
-        int known = 0;
-        for (int j = 0; j < n; j++)
-            known |= strcmp(name[j], s->of[k].input) == 0;
-        if (!known && n < RB_CASE_NUMBERS_MAX)
-            name[n++] = s->of[k].input;
-    }
+    for (int k = 0; k < s->n; k++)
+        n = add_name(name, n, s->of[k].input);
     return n;
 }
 
 rb_status rb_case_slopes_at(const rb_case *c, const rb_rolling_model *model,
-                            const rb_case_slopes *s, double *row, rb_message *why)
+                            const rb_case_slopes *s, double *row, rb_rolling_solution *deviation,
+                            rb_message *why)
 {
     const char *name[RB_CASE_NUMBERS_MAX];
-    rb_case_derivatives all;
-    const rb_status status = rb_case_differentiate(c, model, inputs_of(s, name), name, &all, why);
+    rb_case_tolerances t;
+    rb_case_derivatives all = {.n = 0};
+    int n = inputs_of(s, name);
+    const rb_status known = deviation ? rb_case_read_tolerances(c, s->tolerance, &t, why) : RB_OK;
 
+    for (int i = 0; deviation && known == RB_OK && i < t.n; i++)
+        n = add_name(name, n, t.name[i]);
+    rb_status status = n > 0 ? rb_case_differentiate(c, model, n, name, &all, why) : RB_OK;
     for (int k = 0; k < s->n && status == RB_OK; k++)
         for (int j = 0; j < all.n; j++) {
             const rb_case_derivative *of = &all.of[j];
@@ -215,6 +228,10 @@ rb_status rb_case_slopes_at(const rb_case *c, const rb_rolling_model *model,
                     row[2 * k + side] = rb_rolling_number(s->of[k].result, &of->d.value[from]);
             }
         }
+    if (status == RB_OK)
+        status = known;
+    if (status == RB_OK && deviation)
+        status = rb_case_propagate(&t, &all, deviation, why);
     rb_case_derivatives_free(&all);
     return status;
 }
@@ -223,15 +240,14 @@ rb_status rb_case_slopes_row(const rb_case *c, const rb_rolling_model *model,
                              const rb_case_slopes *s, double *row, rb_message *why)
 {
     double both[2 * RB_ROW_OWN];
+    rb_rolling_solution deviation;
 
     for (int k = 0; k < 2 * RB_ROW_OWN; k++)
         both[k] = NAN;
-    rb_status status = s->n > 0 ? rb_case_slopes_at(c, model, s, both, why) : RB_OK;
+    const rb_status status =
+        rb_case_slopes_at(c, model, s, both, s->deviations > 0 ? &deviation : NULL, why);
     for (int k = 0; k < s->n; k++)
         row[k] = isnan(both[2 * k + 1]) ? both[2 * k] : both[2 * k + 1];
-    rb_rolling_solution deviation;
-    if (status != RB_ENOMEM && s->deviations > 0)
-        status = rb_case_deviations(c, model, s->tolerance, &deviation, why);
     for (int k = 0; k < s->deviations; k++)
         row[s->n + k] = status == RB_OK ? rb_rolling_number(s->deviation[k], &deviation) : NAN;
     return status == RB_ENOMEM ? status : RB_OK;
@@ -312,24 +328,6 @@ rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range, 
     return status;
 }
 
-/* Standard deviations of point k. */
-static rb_status propagate_point(const curve_slopes *of, const rb_case *point,
-                                 const rb_rolling_model *model, int k, rb_message *why)
-{
-    rb_rolling_solution deviation;
-    const rb_status s = rb_case_deviations(point, model, of->s->tolerance, &deviation, why);
-
-    for (int j = 0; j < rb_rolling_curve_columns.n && s == RB_OK; j++) {
-        const rb_rolling_result *column = &rb_rolling_curve_columns.row[j],
-                                *of_case = rb_rolling_find_result(&rb_rolling_solution_scalars,
-                                                                  column->name);
-        double *to = *(double **)(void *)((char *)of->deviations + column->offset);
-        if (to && of_case)
-            to[k] = rb_rolling_number(of_case, &deviation);
-    }
-    return s;
-}
-
 /* Columns of NAN for the standard deviations of what the points of a curve have. */
 static rb_status deviations_alloc(const rb_case *c, int points, rb_rolling_curve **deviations)
 {
@@ -359,13 +357,20 @@ static rb_status see_point(const rb_rolling_model *model, int k, void *context, 
     const curve_slopes *of = context;
     double *row = of->s->value + 2 * (size_t)k * (size_t)of->s->n;
     rb_message *reason = &of->s->reason;
+    rb_rolling_solution deviation;
     rb_case *point = case_of_point(of, model, reason);
     rb_status s = point ? RB_OK : RB_EINVAL;
 
-    if (s == RB_OK && of->s->n > 0)
-        s = rb_case_slopes_at(point, model, of->s, row, reason);
-    if (s == RB_OK && of->deviations)
-        s = propagate_point(of, point, model, k, reason);
+    if (s == RB_OK)
+        s = rb_case_slopes_at(point, model, of->s, row, of->deviations ? &deviation : NULL, reason);
+    for (int j = 0; j < rb_rolling_curve_columns.n && s == RB_OK && of->deviations; j++) {
+        const rb_rolling_result *column = &rb_rolling_curve_columns.row[j],
+                                *of_case = rb_rolling_find_result(&rb_rolling_solution_scalars,
+                                                                  column->name);
+        double *to = *(double **)(void *)((char *)of->deviations + column->offset);
+        if (to && of_case)
+            to[k] = rb_rolling_number(of_case, &deviation);
+    }
     rb_case_free(point);
     if (s == RB_ENOMEM)
         return rb_fail(why, s, "%s", reason->text);
