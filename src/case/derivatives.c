@@ -192,9 +192,14 @@ static rb_status differentiate_over_x(const rb_sensitivity *s, const rb_rolling_
     return status == RB_ENOMEM ? rb_fail(why, status, "out of memory for derivatives") : RB_OK;
 }
 
-static rb_status differentiate(const rb_case *c, const rb_rolling_model *model, int smooth, int n,
-                               const char *const *names, rb_case_derivatives *all, rb_message *why)
+/* What is computed: derivatives by numbers; those over x, too; or smooth ones by numbers. */
+typedef enum { BY_NUMBERS, AND_OVER_X, SMOOTH } kind_of_derivatives;
+
+static rb_status differentiate(const rb_case *c, const rb_rolling_model *model,
+                               kind_of_derivatives kind, int n, const char *const *names,
+                               rb_case_derivatives *all, rb_message *why)
 {
+    const int smooth = kind == SMOOTH;
     int numbers;
     rb_sensitivity *s = NULL;
     rb_sensitivity_jumps *jumps = NULL;
@@ -229,7 +234,7 @@ static rb_status differentiate(const rb_case *c, const rb_rolling_model *model, 
         all->degenerate = rb_sensitivity_degenerate(s);
         all->elements = rb_sensitivity_motion(s);
     }
-    if (status == RB_OK && !smooth)
+    if (status == RB_OK && kind == AND_OVER_X)
         status = differentiate_over_x(s, model, all, why);
     rb_sensitivity_jumps_free(jumps);
     rb_sensitivity_free(s);
@@ -240,14 +245,21 @@ static rb_status differentiate(const rb_case *c, const rb_rolling_model *model, 
 rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model, int n,
                                 const char *const *names, rb_case_derivatives *all, rb_message *why)
 {
-    return differentiate(c, model, 0, n, names, all, why);
+    return differentiate(c, model, AND_OVER_X, n, names, all, why);
+}
+
+rb_status rb_case_differentiate_by_numbers(const rb_case *c, const rb_rolling_model *model, int n,
+                                           const char *const *names, rb_case_derivatives *all,
+                                           rb_message *why)
+{
+    return differentiate(c, model, BY_NUMBERS, n, names, all, why);
 }
 
 rb_status rb_case_differentiate_smoothly(const rb_case *c, const rb_rolling_model *model, int n,
                                          const char *const *names, rb_case_derivatives *all,
                                          rb_message *why)
 {
-    return differentiate(c, model, 1, n, names, all, why);
+    return differentiate(c, model, SMOOTH, n, names, all, why);
 }
 
 void rb_case_derivatives_convert(rb_case_derivatives *all, rb_units units)

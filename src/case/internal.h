@@ -64,6 +64,13 @@ rb_status rb_case_refuse_given(const rb_case *c, const char *name, const char *r
  * of the file. */
 rb_status rb_case_without_content(const rb_case *c, const char *path, rb_status s, rb_message *why);
 
+/* ---- derivatives.c ------------------------------------------------------------------ */
+
+/* As rb_case_differentiate, but without over_x. */
+rb_status rb_case_differentiate_by_numbers(const rb_case *c, const rb_rolling_model *model, int n,
+                                           const char *const *names, rb_case_derivatives *all,
+                                           rb_message *why);
+
 /* ---- files.c: the tables that a case names ----------------------------------------- */
 
 void rb_case_free_files(rb_case *c);

@@ -216,7 +216,8 @@ rb_status rb_case_slopes_at(const rb_case *c, const rb_rolling_model *model,
 
     for (int i = 0; deviation && known == RB_OK && i < t.n; i++)
         n = add_name(name, n, t.name[i]);
-    rb_status status = n > 0 ? rb_case_differentiate(c, model, n, name, &all, why) : RB_OK;
+    rb_status status =
+        n > 0 ? rb_case_differentiate_by_numbers(c, model, n, name, &all, why) : RB_OK;
     for (int k = 0; k < s->n && status == RB_OK; k++)
         for (int j = 0; j < all.n; j++) {
             const rb_case_derivative *of = &all.of[j];
