@@ -6,7 +6,6 @@
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sort.h>
 #include <lapacke.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -57,13 +56,6 @@ static rb_status covariance(const fit_problem *p, double *C, int *which)
     return RB_OK;
 }
 
-static void say(rb_case_fit *fit, const char *format, const char *name, const char *more)
-{
-    const size_t used = strlen(fit->sentences);
-    if (used < sizeof fit->sentences)
-        snprintf(fit->sentences + used, sizeof fit->sentences - used, format, name, more);
-}
-
 /* How many points lie where the force falls beyond its largest, by more than the noise. */
 static int falling_points(const fit_problem *p)
 {
@@ -95,9 +87,11 @@ static void not_identified(const fit_problem *p, int j)
     of->identified = 0;
     p->fit->unidentified++;
     if (is_of_fall(of) && falling_points(p) < 2)
-        say(p->fit, "%sno point in the falling part: %s is not identified\n", "", of->name);
+        rb_append(p->fit->sentences, sizeof p->fit->sentences,
+                  "no point in the falling part: %s is not identified\n", of->name);
     else
-        say(p->fit, "%sthe data do not determine %s: it is not identified\n", "", of->name);
+        rb_append(p->fit->sentences, sizeof p->fit->sentences,
+                  "the data do not determine %s: it is not identified\n", of->name);
 }
 
 static void set_intervals(fit_problem *p, const double *theta)
@@ -136,14 +130,15 @@ static void set_intervals(fit_problem *p, const double *theta)
             (of->positive && !(half < fabs(of->value))))
             not_identified(p, j);
         if (of->at_bound && of->identified)
-            say(fit, "%s lies at an end of its range; its interval does not hold there%s\n",
-                of->name, "");
+            rb_append(fit->sentences, sizeof fit->sentences,
+                      "%s lies at an end of its range; its interval does not hold there\n",
+                      of->name);
         for (int i = 0; i < j; i++)
             if (fabs(of->correlation[i]) > CORRELATED)
-                say(fit,
-                    "%s and %s are correlated by more than 0.95: the data determine "
-                    "only a combination of them\n",
-                    fit->parameter[i].name, of->name);
+                rb_append(fit->sentences, sizeof fit->sentences,
+                          "%s and %s are correlated by more than 0.95: the data determine only a "
+                          "combination of them\n",
+                          fit->parameter[i].name, of->name);
     }
     /* the band of the fitted curve */
     for (int k = 0; k < p->points; k++) {
@@ -174,24 +169,30 @@ static void doubt_data(const fit_problem *p)
 {
     int alike = 0;
     double most = 0.0;
-    char text[40];
 
     for (int k = 0; k < p->points; k++) {
         alike += p->data->creep[k] * p->data->force[k] > 0.0;
         most = fmax(most, force_over_load(p, k));
     }
     if (2 * alike > p->points)
-        say(p->fit,
-            "most forces have the sign of their creepage: a braked wheel has creepage > 0 and "
-            "force < 0; change the sign of %s%s\n",
-            "one of the two columns", "");
-    snprintf(text, sizeof text, "%.3g", most);
+        rb_append(p->fit->sentences, sizeof p->fit->sentences,
+                  "most forces have the sign of their creepage: a braked wheel has creepage > 0 "
+                  "and force < 0; change the sign of one of the two columns\n");
     if (most > MOST_MU)
-        say(p->fit, "the largest force is %s times the load: check the units of the forces%s\n",
-            text, "");
+        rb_append(p->fit->sentences, sizeof p->fit->sentences,
+                  "the largest force is %.3g times the load: check the units of the forces\n",
+                  most);
 }
 
 /* ---- Where to start ---------------------------------------------------------------- */
+
+static int is_fitted(const rb_case_fit *fit, const char *name)
+{
+    int found = 0;
+    for (int j = 0; j < fit->n; j++)
+        found |= strcmp(fit->parameter[j].name, name) == 0;
+    return found;
+}
 
 /* What the data themselves say: the largest force, the last one, the first slope, where
  * the force is 0. */
@@ -201,10 +202,7 @@ static double start_of(const fit_problem *p, const char *name)
     const rb_rolling_derived *derived = &p->c->resolved.derived;
     double most = 0.0, far = 0.0, near = INFINITY, last = 0.0, slope = 0.0, zero = 0.0;
     double *slip = rb_alloc((size_t)p->points, 1);
-    int falls = 0;
 
-    for (int j = 0; j < p->n; j++)
-        falls |= strcmp(p->fit->parameter[j].name, "mu-fall") == 0;
     for (int k = 0; k < p->points; k++) {
         const double xi = fabs(d->creep[k]), f = force_over_load(p, k);
         most = fmax(most, f);
@@ -227,7 +225,8 @@ static double start_of(const fit_problem *p, const char *name)
     const double middle = slip ? slip[p->points / 2] : NAN;
     free(slip);
     const double stiff = 2.0 * derived->radius / derived->half_width;
-    return strcmp(name, "mu") == 0           ? fmax(falls ? 0.95 * last : most, LEAST_MU)
+    return strcmp(name, "mu") == 0
+               ? fmax(is_fitted(p->fit, "mu-fall") ? 0.95 * last : most, LEAST_MU)
            : strcmp(name, "mu-fall") == 0    ? fmax(most - last, 0.1 * most)
            : strcmp(name, "slip-scale") == 0 ? middle
            : strcmp(name, "interlayer-tangential") == 0
@@ -268,9 +267,9 @@ static rb_status set_parameter(fit_problem *p, int j, rb_message *why)
     of->low = fmax(of->low, strcmp(of->name, "mu") == 0        ? LEAST_MU
                             : strcmp(of->name, "mu-fall") == 0 ? 0.0
                                                                : of->from);
-    of->high = fmin(of->high, strncmp(of->name, "mu", 3) == 0 || strcmp(of->name, "mu-fall") == 0
-                                  ? MOST_MU
-                                  : of->to);
+    of->high =
+        fmin(of->high,
+             strcmp(of->name, "mu") == 0 || strcmp(of->name, "mu-fall") == 0 ? MOST_MU : of->to);
     if (!isfinite(of->value))
         return rb_fail(why, RB_EINVAL, "--fit: %s has no value to start from; give --%s", of->name,
                        of->name);
@@ -280,14 +279,6 @@ static rb_status set_parameter(fit_problem *p, int j, rb_message *why)
                                                  : 1e-2;
     rb_case_fit_clip(of, &of->value);
     return RB_OK;
-}
-
-static int is_fitted(const rb_case_fit *fit, const char *name)
-{
-    int found = 0;
-    for (int j = 0; j < fit->n; j++)
-        found |= strcmp(fit->parameter[j].name, name) == 0;
-    return found;
 }
 
 rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_case_fit *fit,
