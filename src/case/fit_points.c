@@ -324,13 +324,15 @@ rb_status rb_case_fit_move(fit_problem *p, const double *theta, rb_message *why)
     for (int k = 0; k < p->points && status == RB_OK; k++) {
         place at = {p, theta, k, -1};
         rb_rolling_case rc;
-        rb_rolling_model model = {.mesh = {.n = 0}};
+        rb_rolling_model own = {.mesh = {.n = 0}};
+        const int is_first = p->at[k].first == k; /* its base is the solution for theta */
+        const rb_rolling_model *model = is_first ? &p->at[k].base : &own;
         rb_sensitivity *s = NULL;
-        status = case_at(&at, 0.0, &rc, why);
+        status = is_first ? RB_OK : case_at(&at, 0.0, &rc, why);
+        if (status == RB_OK && !is_first)
+            status = rb_rolling_model_create(&rc, &own, why);
         if (status == RB_OK)
-            status = rb_rolling_model_create(&rc, &model, why);
-        if (status == RB_OK)
-            status = rb_sensitivity_create(&model, 1, &s, why);
+            status = rb_sensitivity_create(model, 1, &s, why);
         for (int j = 0; j < p->n && status == RB_OK; j++) {
             const rb_case_parameter *of = &p->fit->parameter[j];
             place varied = {p, theta, k, j};
@@ -339,8 +341,8 @@ rb_status rb_case_fit_move(fit_problem *p, const double *theta, rb_message *why)
             rb_sensitivity_derivative d;
             status = rb_sensitivity_differentiate(s, &input, &d, why);
             const rb_rolling_solution *by = &d.value[d.has[1]];
-            const double P = rb_contact_load(&model.problem, &model.state),
-                         Q = rb_contact_force(&model.problem, &model.state),
+            const double P = rb_contact_load(&model->problem, &model->state),
+                         Q = rb_contact_force(&model->problem, &model->state),
                          force = by->tangential_load;
             fit_column(p, j)[k] = (ratio ? by->force_ratio
                                    : p->data->measure == RB_CASE_FORCE_OVER_LOAD
@@ -350,7 +352,7 @@ rb_status rb_case_fit_move(fit_problem *p, const double *theta, rb_message *why)
             rb_sensitivity_derivative_free(&d);
         }
         rb_sensitivity_free(s);
-        rb_rolling_model_free(&model);
+        rb_rolling_model_free(&own);
     }
     for (int j = 0; j < p->n && status == RB_OK; j++)
         if (rb_norm_inf((size_t)p->points, fit_column(p, j)) < NONE * staying[j])
