@@ -9,6 +9,13 @@
 
 #define PLANES "support", "halfplane", "load", "500", "contact-elements", "30"
 #define ROLLS "formulation", "transient", "distance", "1"
+/* A wheel of which, within the usual step of some inputs, an element goes from one side to the
+ * other. */
+#define SIDES_CHANGE                                                                               \
+    "support", "arc", "arc", "60", "outer-elements", "500", "contact-elements", "15", "zone", "2", \
+        "poisson", "0.4", "young-b", "200000", "poisson-b", "0.28", "datum-b", "60", "approach",   \
+        "0.04", "force-ratio", "-0.4", "formulation", "steady", "mesh", "uniform", "plane",        \
+        "stress"
 
 static const words histories[] = {
     {{PLANES, ROLLS, "similar", "yes", "creep", "1e-3"}},
@@ -153,34 +160,7 @@ TEST(compressed_boundaries_have_rates)
  * the other within the usual one. */
 TEST(rates_of_wheels_are_those_of_derivatives)
 {
-    static const words w = {{"support",
-                             "arc",
-                             "arc",
-                             "60",
-                             "outer-elements",
-                             "500",
-                             "contact-elements",
-                             "15",
-                             "zone",
-                             "2",
-                             "poisson",
-                             "0.4",
-                             "young-b",
-                             "200000",
-                             "poisson-b",
-                             "0.28",
-                             "datum-b",
-                             "60",
-                             "approach",
-                             "0.04",
-                             "force-ratio",
-                             "-0.4",
-                             "formulation",
-                             "steady",
-                             "mesh",
-                             "uniform",
-                             "plane",
-                             "stress"}};
+    static const words w = {{SIDES_CHANGE}};
     rb_message why = {""};
     rb_case_number number[RB_CASE_NUMBERS_MAX];
     rb_case_result r;
@@ -252,35 +232,7 @@ TEST(single_cases_have_derivatives)
           "15",          "formulation",   "steady", "similar", "yes",
           "force-ratio", "-0.4",          "mesh",   "fitted",  "conductivity",
           "50",          "heat-capacity", "3.5",    "speed",   "3000"}},
-        /* within the usual step an element goes from one side of the wheel to the other */
-        {{"support",
-          "arc",
-          "arc",
-          "60",
-          "outer-elements",
-          "500",
-          "contact-elements",
-          "15",
-          "zone",
-          "2",
-          "poisson",
-          "0.4",
-          "young-b",
-          "200000",
-          "poisson-b",
-          "0.28",
-          "datum-b",
-          "60",
-          "approach",
-          "0.04",
-          "force-ratio",
-          "-0.4",
-          "formulation",
-          "steady",
-          "mesh",
-          "uniform",
-          "plane",
-          "stress"}}};
+        {{SIDES_CHANGE}}};
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         rb_message why = {""};

@@ -15,8 +15,8 @@
 static const double STEP_OF_BODIES = 5e-4, STEP = 2e-5;
 
 /* Flexibilities of wheels are known to fewer digits still: their step is longer, in such steps,
- * where no end of the input's range is near. */
-static const double STEP_OF_WHEELS = 4.0, NEAR = 80.0;
+ * where steps even longer lead to no end of the input's range. */
+static const double STEP_OF_WHEELS = 4.0, NEAR = 40.0;
 
 /* The same, of a step along the tangent within which no other element comes first, and the
  * pressure beside an edge hardly changes. */
@@ -93,11 +93,6 @@ static int has_wheels(const rb_rolling_model *model)
     return model->bodies.system_a || model->bodies.system_b;
 }
 
-static int can_vary_by(const rb_sensitivity_input *input, double most)
-{
-    return input->value - most > input->from && input->value + most < input->to;
-}
-
 /* Step and stencil: both ways where the range allows it. */
 static rb_status choose_places(const rb_sensitivity *s, const rb_sensitivity_input *input,
                                variants *v, rb_message *why)
@@ -119,7 +114,8 @@ static rb_status choose_places(const rb_sensitivity *s, const rb_sensitivity_inp
     }
     v->step = (v->bodies ? STEP_OF_BODIES : STEP) * input->scale;
     v->scale = input->scale;
-    if (v->results && v->bodies && has_wheels(s->model) && can_vary_by(input, NEAR * v->step)) {
+    if (v->results && v->bodies && has_wheels(s->model) &&
+        rb_sensitivity_stencil_of(input, NEAR * v->step) == &rb_sensitivity_middle) {
         v->step *= STEP_OF_WHEELS;
         v->is_long = 1;
     }
@@ -459,21 +455,6 @@ static void pick_along(const rb_rolling_model *model, const rb_contact_state *ta
     }
 }
 
-/* By the input where the state stays, and along the tangent. */
-static picked differentiate_picked(const variants *v, const rb_contact_state *tangent)
-{
-    const int aligned = are_aligned(v->base);
-    const picked at = pick(v->base, &v->base->state, aligned);
-    rb_contact_state state = v->model[0].state; /* its arrays serve all */
-    picked d = {{0.0}};
-
-    rb_rolling_variant_set(&v->base->state, NULL, 0.0, &state);
-    for (int k = 0; k < v->at.n; k++)
-        add_picked(v->at.weight[k] / v->step, pick(&v->model[k], &state, aligned), at, &d);
-    pick_along(v->base, tangent, v->scale, &state, &d);
-    return d;
-}
-
 /* Half-width and centre between the edges that elements follow. */
 static void find_edges(picked x, double edges[2])
 {
@@ -711,6 +692,10 @@ static rb_status set_slip(const rb_sensitivity *s, const rb_sensitivity_rate *ra
 static rb_status differentiate_side(const rb_sensitivity *s, variants *v, int k,
                                     rb_sensitivity_derivative *d, rb_message *why)
 {
+    const int aligned = are_aligned(s->model);
+    const picked at = pick(s->model, &s->model->state, aligned);
+    rb_contact_state state = v->model[0].state; /* its arrays serve all */
+    picked x = {{0.0}};
     rb_status status = rb_contact_state_alloc(s->n, &d->state[k]);
 
     if (status == RB_OK)
@@ -719,7 +704,11 @@ static rb_status differentiate_side(const rb_sensitivity *s, variants *v, int k,
         status = set_slip(s, &d->rate, -1, &d->state[k]);
     if (status != RB_OK)
         return status;
-    const picked x = differentiate_picked(v, &d->state[k]);
+    /* by the input where the state stays, and along the tangent */
+    rb_rolling_variant_set(&s->model->state, NULL, 0.0, &state);
+    for (int j = 0; j < v->at.n; j++)
+        add_picked(v->at.weight[j] / v->step, pick(&v->model[j], &state, aligned), at, &x);
+    pick_along(s->model, &d->state[k], v->scale, &state, &x);
     find_edges(x, d->edges[k]);
     set_motions(s, v, d->edges[k], d->by[k]);
     if (!v->results)
