@@ -679,6 +679,7 @@ TEST(fits_by_handle)
     assert_non_null(strstr(rb_api_message(a), "expected at least 2 points for 1 number, got 1"));
     assert_int_equal(rb_api_fit(a, 3, columns, 0, data, "mu", NULL, NULL, NAN, 0.95), RB_EINVAL);
     assert_int_equal(rb_api_fit(a, 3, columns, N, data, "mu", NULL, NULL, NAN, 1.0), RB_EINVAL);
+    assert_string_equal(rb_api_message(a), "--level: expected a number in (0, 1), got 1");
     assert_int_equal(rb_api_fit(a, 3, columns, N, data, "mu", NULL, NULL, 0.0, 0.9), RB_EINVAL);
     assert_int_equal(rb_api_fit_file(a, "/no/such", "mu", NULL, NULL, NAN, 0.95), RB_ENOENT);
     /* twice the standard deviation of each force, twice that of the number, in any unit */
@@ -774,6 +775,10 @@ TEST(designs_by_handle)
     assert_non_null(strstr(rb_api_message(a), "did you mean 'max_pressure'?"));
     assert_int_equal(rb_api_design(a, "max_pressure", 0, "radius=20:30", NULL, NAN, 9), RB_EINVAL);
     assert_int_equal(rb_api_design(a, "max_pressure", 1, "radius=20:400", NULL, NAN, 0), RB_EINVAL);
+    assert_int_equal(rb_api_design(a, "max_pressure", 1, "radius=20:400", NULL, NAN, 100001),
+                     RB_EINVAL);
+    assert_string_equal(rb_api_message(a),
+                        "--evaluations: expected a whole number in [1, 100000], got 100001");
     assert_int_equal(rb_api_design(a, "max_pressure", 1, "radius=20:400", NULL, 0.0, 9), RB_EINVAL);
     assert_int_equal(rb_api_design(a, "max_pressure", 0, "radius=20:400",
                                    "half_width<=0.5,half_width>=1", NAN, 50),

@@ -159,6 +159,21 @@ typedef struct {
         RB_INTEGER_LINE("quarter", PLACE(increments), RB_FROM_TO(1, 100000),                       \
                         "number of increments per quarter of a fretting cycle")
 
+/* Numbers of a fit and of a design, which the command line and the library refuse alike. */
+#define RB_FIT_SIGMA_LINE(place)                                                                   \
+    RB_NUMBER_LINE("sigma", place, "-", RB_ABOVE(0),                                               \
+                   "standard deviation of the measured forces, in their units; a column "          \
+                   "sigma gives one for each",                                                     \
+                   .unset = "from the residuals")
+#define RB_FIT_LEVEL_LINE(place)                                                                   \
+    RB_NUMBER_LINE("level", place, "-", RB_BETWEEN(0, 1), "of the intervals (Student's)")
+#define RB_DESIGN_SPAN_LINE(place)                                                                 \
+    RB_NUMBER_LINE("span", place, "mm", RB_ABOVE(0),                                               \
+                   "half-width of the span of pressure_ripple, about x = 0",                       \
+                   .unset = "all elements")
+#define RB_DESIGN_EVALUATIONS_LINE(place)                                                          \
+    RB_INTEGER_LINE("evaluations", place, RB_FROM_TO(1, 100000), "solved cases at most")
+
 /* Describes the allowed values of an option: "a number >= 0", "lemke, newton or auto".
  * Returns text. */
 const char *rb_option_expected(const rb_option *option, char *text, size_t size);

@@ -349,7 +349,7 @@ def test_data_of_fits():
         with pytest.raises(rollbem.InvalidInput, match=said):
             rollbem.fit(columns, "mu", **PLANES)
     for wrong, said in (({"bounds": {"mu": 0.1}}, "from, to"), ({"bounds": {"load": (1, 2)}}, "of a fitted number"),
-                        ({"start": {"mu": "x"}}, "start=: expected NAME=X"), ({"level": 95}, "level=: expected a number > 0"),
+                        ({"start": {"mu": "x"}}, "start=: expected NAME=X"), ({"level": 95}, r"level=: expected a number in \(0, 1\), got 95"),
                         ({"sigma": -1}, "sigma=: expected a number > 0"), ({"bounds": 3}, "a dictionary")):
         with pytest.raises(rollbem.InvalidInput, match=said):
             rollbem.fit(frame, "mu", **PLANES, **wrong)

@@ -21,6 +21,17 @@ static rb_case *begin(rb_api *a, const char *arrays, rb_case_purpose purpose)
     return c;
 }
 
+/* Refuses what the command line refuses. */
+static rb_status check(const rb_option *o, double value, rb_message *why)
+{
+    char expected[80];
+
+    return rb_option_in_range(o, value)
+               ? RB_OK
+               : rb_fail(why, RB_EINVAL, "--%s: expected %s, got %g", o->name,
+                         rb_option_expected(o, expected, sizeof expected), value);
+}
+
 static rb_status keep(rb_api *a, const char *name, int rows, int columns, const double *x)
 {
     return rb_api_copy_array(a, name, rows, columns, x) ? RB_OK : RB_ENOMEM;
@@ -123,18 +134,10 @@ typedef struct {
     double sigma, level;
 } fit_words;
 
-static rb_status check_words(const fit_words *w, rb_message *why)
-{
-    return !(w->level > 0.0 && w->level < 1.0)
-               ? rb_fail(why, RB_EINVAL, "--level: expected a number > 0 and < 1, got %g", w->level)
-           : !isnan(w->sigma) && !(w->sigma > 0.0 && isfinite(w->sigma))
-               ? rb_fail(why, RB_EINVAL, "--sigma: expected a number > 0, got %g", w->sigma)
-               : RB_OK;
-}
-
 /* Reads the table from path unless it has rows; frees it. */
 static int fit_table(rb_api *a, const char *path, rb_io_table *t, const fit_words *w)
 {
+    static const rb_option level = RB_FIT_LEVEL_LINE(0), sigma = RB_FIT_SIGMA_LINE(0);
     rb_case *c = begin(a, "fit.", RB_CASE_CURVE);
     rb_case_data data = {0};
     rb_case_fit fit = {.level = w->level};
@@ -142,7 +145,9 @@ static int fit_table(rb_api *a, const char *path, rb_io_table *t, const fit_word
     rb_status s = c ? rb_api_check_refusals(a, &a->why) : RB_ENOMEM;
 
     if (s == RB_OK)
-        s = check_words(w, &a->why);
+        s = check(&level, w->level, &a->why);
+    if (s == RB_OK && !isnan(w->sigma))
+        s = check(&sigma, w->sigma, &a->why);
     if (s == RB_OK)
         s = rb_case_fit_names(w->names, &fit, &a->why);
     if (s == RB_OK)
@@ -281,16 +286,16 @@ static rb_status keep_design(rb_api *a, const rb_design *d, rb_units units)
 int rb_api_design(rb_api *a, const char *result, int largest, const char *over, const char *subject,
                   double span, int evaluations)
 {
+    static const rb_option most = RB_DESIGN_EVALUATIONS_LINE(0), width = RB_DESIGN_SPAN_LINE(0);
     rb_case *c = begin(a, "design.", RB_CASE_SINGLE);
     rb_design d = {.largest = largest, .most = evaluations};
     const rb_design_observer observer = {see_evaluation, a};
     rb_status s = c ? rb_api_check_refusals(a, &a->why) : RB_ENOMEM;
 
-    if (s == RB_OK && evaluations < 1)
-        s = rb_fail(&a->why, RB_EINVAL, "--evaluations: expected a number >= 1, got %d",
-                    evaluations);
-    if (s == RB_OK && !isnan(span) && !(span > 0.0 && isfinite(span)))
-        s = rb_fail(&a->why, RB_EINVAL, "--span: expected a number > 0, got %g", span);
+    if (s == RB_OK)
+        s = check(&most, evaluations, &a->why);
+    if (s == RB_OK && !isnan(span))
+        s = check(&width, span, &a->why);
     if (s == RB_OK)
         s = rb_case_resolve(c, &a->why);
     if (s == RB_OK) {

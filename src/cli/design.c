@@ -32,10 +32,8 @@ static const rb_option options[] = {
                  .unset = "none"),
     RB_TEXT_LINE("subject", PLACE(subject), "RESULT<=X,...",
                  "constraints on results, <= or >=", .unset = "none"),
-    RB_NUMBER_LINE("span", PLACE(span), "mm", RB_ABOVE(0),
-                   "half-width of the span of pressure_ripple, about x = 0",
-                   .unset = "all elements"),
-    RB_INTEGER_LINE("evaluations", PLACE(most), RB_FROM_TO(1, 100000), "solved cases at most"),
+    RB_DESIGN_SPAN_LINE(PLACE(span)),
+    RB_DESIGN_EVALUATIONS_LINE(PLACE(most)),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };

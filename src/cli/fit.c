@@ -27,16 +27,13 @@ static const rb_option options[] = {
                  "numbers of the case by their options, such as mu,mu-fall,slip-scale,"
                  "interlayer-tangential; creep-offset: a constant added to the measured creepage",
                  .unset = "none"),
-    RB_NUMBER_LINE("sigma", PLACE(sigma), "-", RB_ABOVE(0),
-                   "standard deviation of the measured forces, in their units; a column "
-                   "sigma gives one for each",
-                   .unset = "from the residuals"),
+    RB_FIT_SIGMA_LINE(PLACE(sigma)),
     RB_TEXT_LINE("start", PLACE(start), "NAME=X,...",
                  "values to start from, such as those of an earlier fit",
                  .unset = "the case's, or from the data"),
     RB_TEXT_LINE("bounds", PLACE(bounds), "NAME=A:B,...", "ranges of the numbers",
                  .unset = "those of the options"),
-    RB_NUMBER_LINE("level", PLACE(level), "-", RB_BETWEEN(0, 1), "of the intervals (Student's)"),
+    RB_FIT_LEVEL_LINE(PLACE(level)),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
