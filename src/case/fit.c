@@ -368,8 +368,7 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
             why, RB_MAXITER,
             "fit: not converged: after %d rounds a new mesh still changes the sum of squares. The "
             "data may not determine all numbers: fit fewer, keep the elements (--mesh uniform "
-            "--zone "
-            "X), or give another start (--start)",
+            "--zone X), or give another start (--start)",
             ROUNDS);
     for (int j = 0; j < fit->n && s != RB_EINVAL && s != RB_ENOMEM; j++)
         fit->parameter[j].value = theta[j];
