@@ -79,7 +79,7 @@ static const struct {
     {"--contact-elements 10000000 --zone 10", 64, "GB of memory"},
     {"--force-ratio 1.5", 64, "friction carries at most 1"},
     {"--error --dump d", 64, "--dump, --fclib and --trace: not together with error bars"},
-    {"--smooth-derivatives --error", 64, "--smooth-derivatives: not for error bars"},
+    {"--smooth-derivatives --error", 64, "--smooth-derivatives: not together with error bars"},
     {"--smooth-derivatives --formulation static --increments 3", 64,
      "--smooth-derivatives: not for a case with steps"},
     {"--smooth-derivatives --derivatives", 64,
@@ -95,6 +95,11 @@ static const struct {
      "1e-6 "
      "--yield-stress 30 --smooth-derivatives",
      64, "smooth derivatives: not for friction with memory or heat, or an interface that yields"},
+    {"--support halfplane --load 500 --mu 0 --smooth-derivatives", 64,
+     "slide in opposite directions without friction; give --derivatives"},
+    {"design --support halfplane --load 500 --minimise max_pressure --maximise half_width "
+     "--over radius=20:200",
+     64, "--minimise and --maximise exclude each other"},
     {"--accuracy 0.1 --trace", 64, "--trace: not together with error bars"},
     {"--support halfplane --load 9 --contact-elements 2100 --fclib f.hdf5", 64,
      "--fclib: 2100 elements are too many for a dense W"},

@@ -555,6 +555,41 @@ TEST(ends_of_ranges)
     rb_case_free(c);
 }
 
+/* Without friction an element that does not slide has no direction: a coefficient that begins to
+ * grow lets it rest, or finds one. */
+TEST(friction_begins_where_nothing_slides)
+{
+    static const words cases[] = {
+        {{PLANES, ROLLING, "similar", "yes", "creep", "0"}},
+        {{PLANES, "similar", "yes"}},
+        {{PLANES, "similar", "yes", "contact-elements", "400"}}, /* transforms */
+        {{PLANES, "contact-elements", "61"}},                    /* one element in the middle */
+        {{PLANES, "contact-elements", "61", ROLLING, "creep", "0"}},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        rb_message why = {""};
+        rb_case_result r, some;
+        rb_case_derivatives all;
+        rb_case *c = solved(&cases[k], "mu", 0.0, &r);
+        CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
+        const rb_case_derivative *d = of(&all, "mu");
+        assert_int_equal(d->status, RB_OK);
+        assert_false(d->d.has[0]);
+        rb_case_free(solved(&cases[k], "mu", 1e-6, &some));
+        CHECK_ABS(d->d.value[1].tangential_load, some.solution.tangential_load / 1e-6, 5e-3,
+                  "Q, case %zu", k);
+        double sum = 0.0;
+        for (int i = 0; i < all.n_x; i++)
+            sum += fabs(all.over_x[(2 * RB_CASE_OVER_X_FORCE + 1) * all.n_x + i]) *
+                   (r.model.problem.bound[i] == 0.0 && fabs(r.model.state.lambda[i]) < 1e-15);
+        CHECK_ABS(sum, 0.0, 1e-12, "one element with friction, case %zu", k);
+        rb_case_result_free(&some);
+        rb_case_derivatives_free(&all);
+        rb_case_result_free(&r);
+        rb_case_free(c);
+    }
+}
+
 /* ---- Units and refusals ------------------------------------------------------------ */
 
 TEST(units_of_derivatives)

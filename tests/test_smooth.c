@@ -407,6 +407,17 @@ TEST(between_two_zones_there_are_none)
     differentiated_free(&d);
 }
 
+/* What is rounding is 0, as of exact derivatives: free rolling does not know the creepage. */
+TEST(rounding_is_no_derivative)
+{
+    const words w = {{ALIGNED, "contact-elements", "200"}};
+    rb_message why = {""};
+    differentiated d;
+    CHECK_STATUS(differentiate(&w, "creep", 5e-4, "creep", 1, &d, &why), RB_OK);
+    assert_true(d.by->d.value[0].free_creepage == 0.0);
+    differentiated_free(&d);
+}
+
 /* Where nothing changes its zone both derivatives are the same. */
 TEST(without_zones_to_change_they_are_exact)
 {

@@ -68,7 +68,7 @@ rb_status rb_case_fit_names(const char *text, rb_case_fit *fit, rb_message *why)
         p->high = INFINITY;
         at += n + (at[n] == ',');
     }
-    return fit->n > 0 ? RB_OK : rb_fail(why, RB_EINVAL, "--fit: expected different names, got ''");
+    return fit->n > 0 ? RB_OK : rb_fail(why, RB_EINVAL, "--fit: expected a name, got ''");
 }
 
 /* 1: it is a number of the parameter, alone or with a unit. */
@@ -104,7 +104,8 @@ rb_status rb_case_fit_values(const rb_case *c, const char *option, const char *t
         if (!p || !second != !ranges || !read_number(c, p, first, &x) ||
             (ranges && (!read_number(c, p, second, &y) || !(x < y))))
             return rb_fail(why, RB_EINVAL, "--%s: expected %s of a fitted number, got '%.*s'",
-                           option, ranges ? "NAME=A:B" : "NAME=X", (int)(n < 119 ? n : 119), text);
+                           option, ranges ? "NAME=A:B, A < B," : "NAME=X", (int)(n < 119 ? n : 119),
+                           text);
         if (ranges) {
             p->low = x;
             p->high = y;

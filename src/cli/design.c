@@ -103,7 +103,9 @@ static cli_exit check(cli_case_run *run)
     designing *f = run->own;
     rb_design *d = &f->design;
     rb_message why = {""};
-    if (!f->least == !f->largest)
+    if (f->least && f->largest)
+        return cli_fail(CLI_USAGE, "--minimise and --maximise exclude each other");
+    if (!f->least && !f->largest)
         return cli_fail(CLI_USAGE, "design needs --minimise RESULT or --maximise RESULT");
     d->largest = f->largest != NULL;
     d->most = f->most;

@@ -295,8 +295,8 @@ static cli_exit check(cli_case_run *run)
         return cli_fail(CLI_USAGE, "--smooth-derivatives: not together with --%s",
                         it->derivatives ? "derivatives" : "tolerance");
     if (it->smooth && (has_steps || !model_kept))
-        return cli_fail(CLI_USAGE, "--smooth-derivatives: not for %s",
-                        has_steps ? "a case with steps" : "error bars");
+        return cli_fail(CLI_USAGE, "--smooth-derivatives: not %s",
+                        has_steps ? "for a case with steps" : "together with error bars");
     if (it->smooth)
         it->derivatives = it->smooth;
     if ((it->derivatives || it->tolerance) && !model_kept)

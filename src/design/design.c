@@ -66,7 +66,7 @@ rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d
         char *sign = strpbrk(word, "<>");
         if (!sign || d->constraints == RB_DESIGN_CONSTRAINTS)
             return rb_fail(why, RB_EINVAL,
-                           "design: expected RESULT<=X or RESULT>=X, at most %d, got '%s'",
+                           "--subject: expected at most %d of RESULT<=X or RESULT>=X, got '%s'",
                            RB_DESIGN_CONSTRAINTS, word);
         rb_design_constraint *k = &d->constraint[d->constraints++];
         *k = (rb_design_constraint){.at_least = *sign == '>'};
@@ -130,7 +130,7 @@ static rb_status add_variables(const rb_case *c, int numbers, const rb_case_numb
     for (; !is_gap && k < numbers && strcmp(number[k].name, name) != 0; k++)
         rb_guess_try(&guess, number[k].name);
     if (!is_gap && (k == numbers || number[k].entry > 0))
-        return rb_fail(why, RB_EINVAL, "--over: '%.40s' is no number of this case%s", name,
+        return rb_fail(why, RB_EINVAL, "--over: '%.40s' is not a number of this case%s", name,
                        rb_guess_text(&guess, ""));
     const char *unit = is_gap ? "mm" : number[k].option->unit;
     if (read_bounds(c, name, unit, range, bound, why) != RB_OK)

@@ -587,8 +587,7 @@ double rb_sensitivity_rounding(const rb_rolling_case *rc, const rb_rolling_resul
     return ROUNDING * fmax(usual, fabs(value));
 }
 
-/* What is rounding of the result is no change. */
-static void clean(const rb_sensitivity *s, double scale, rb_rolling_solution *d)
+void rb_sensitivity_clean(const rb_sensitivity *s, double scale, rb_rolling_solution *d)
 {
     for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
@@ -804,7 +803,7 @@ rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensiti
         return status;
     for (int k = 0; k < 2; k++)
         if (d->has[k])
-            clean(s, input->scale, &d->value[k]);
+            rb_sensitivity_clean(s, input->scale, &d->value[k]);
     if (both && d->has[1] && sides_agree(d)) {
         rb_rolling_solution_free(&d->value[1]);
         d->has[1] = 0;
@@ -948,7 +947,7 @@ static rb_status differentiate_motions(rb_sensitivity *s, int moves)
         status = differentiate(s, &input, NULL, &v, &s->motion[k], &why);
         variants_free(&v);
         if (status == RB_OK && v.results)
-            clean(s, m.half, &s->motion[k].value[0]);
+            rb_sensitivity_clean(s, m.half, &s->motion[k].value[0]);
     }
     if (status == RB_OK && (moves != RB_SENSITIVITY_EDGES || set_gain(s)))
         s->moves = moves;

@@ -9,6 +9,7 @@
 struct rb_sensitivity {
     const rb_rolling_model *model; /* borrowed */
     int n, degenerate;
+    int contact, at_rest;                   /* elements in contact; of these, with BORDER_REST */
     char *border;                           /* n: which pairs of an element are degenerate; owned */
     double *slip;                           /* 2n: T_T lambda and gap of the state; owned */
     double *law_slip, *law_force;           /* n x n: derivatives of the bounds with respect to
@@ -25,8 +26,9 @@ struct rb_sensitivity {
     double gain[4]; /* derivatives of the computed half-width and centre for these motions */
 };
 
-/* Bits for degenerate complementary pairs. */
-enum { BORDER_GAP = 1, BORDER_SLIP = 2 };
+/* Degenerate complementary pairs. BORDER_REST: an element in contact that neither slides nor has
+ * friction; only an input that brings it friction must find its zone. */
+enum { BORDER_GAP = 1, BORDER_SLIP, BORDER_REST };
 
 /* ---- equations.c ------------------------------------------------------------------- */
 
@@ -48,6 +50,8 @@ rb_status rb_sensitivity_set_motion(rb_sensitivity *s);
  * free it in any case. */
 rb_status rb_sensitivity_along(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
                                int released, rb_sensitivity_derivative *d, rb_message *why);
+/* Sets to 0 what is rounding of the results over the scale of the input. */
+void rb_sensitivity_clean(const rb_sensitivity *s, double scale, rb_rolling_solution *d);
 /* Adds to side k of d, `factor` times, how all results change along such a line, where the
  * input is `ahead` of its value and the element changes its zone. */
 rb_status rb_sensitivity_add_jump(const rb_sensitivity *s, const rb_sensitivity_derivative *line,

@@ -355,7 +355,9 @@ rb_status rb_sensitivity_adjoint(const rb_sensitivity *s, const rb_contact_state
         if (zone == RB_ZONE_STICK)
             adjoint->slip[i] = -tangential;
         else if (slides(zone))
-            adjoint->bound[i] = sign_of(zone) * state->p[i] * tangential;
+            adjoint->bound[i] = s->border && s->border[i] == BORDER_REST
+                                    ? 0.0 /* alone it rests */
+                                    : sign_of(zone) * state->p[i] * tangential;
         else
             adjoint->yield[i] = sign_of(zone) * tangential;
     }

@@ -121,6 +121,11 @@ static rb_status check(const rb_sensitivity *s, rb_message *why)
                        "that yields");
     for (int i = 0; i < s->n; i++) {
         const int left = kind_of(s, i - 1), own = kind_of(s, i), right = kind_of(s, i + 1);
+        if (own * right == -2 && s->model->problem.bound[i] == 0.0)
+            return rb_fail(why, RB_EINVAL,
+                           "smooth derivatives: elements %d and %d slide in opposite directions "
+                           "without friction; give --derivatives",
+                           i + 1, i + 2);
         if (own * right == -2 || (left * own * right != 0 && left != own && right != own))
             return rb_fail(why, RB_EINVAL,
                            "smooth derivatives: the zone of element %d is too short; give more "
@@ -268,6 +273,7 @@ rb_status rb_sensitivity_smooth(const rb_sensitivity_jumps *jumps,
                          ? add_jumps(jumps->freely, k, derivative->free_rolling, &creepage, why)
                          : RB_OK;
         d->free_creepage = derivative->free_rolling && !jumps->freely ? NAN : creepage;
+        rb_sensitivity_clean(jumps->s, input->scale, d);
     }
     return status;
 }

@@ -11,6 +11,8 @@
 static const double BORDER = 1e-9;
 /* What is below this part of the largest change is none. */
 static const double NO_CHANGE = 1e-9;
+/* The same of data that are differences of products. */
+static const double NO_CHANGE_OF_DATA = 1e-6;
 /* The residual of a state that has derivatives. */
 static const double SOLVED = 1e-8;
 
@@ -66,7 +68,11 @@ static rb_status find_borders(rb_sensitivity *s)
             s->border[i] = left < BORDER * friction ? BORDER_SLIP : 0;
         else if (p->bound[i] > 0.0 && zone <= RB_ZONE_SLIP_POSITIVE)
             s->border[i] = fabs(slip[i]) < BORDER * p->slip_length ? BORDER_SLIP : 0;
-        s->degenerate += s->border[i] != 0;
+        else if (p->bound[i] == 0.0 && zone <= RB_ZONE_SLIP_POSITIVE)
+            s->border[i] = fabs(slip[i]) < BORDER * p->slip_length ? BORDER_REST : 0;
+        s->contact += zone != RB_ZONE_SEPARATED;
+        s->at_rest += s->border[i] == BORDER_REST;
+        s->degenerate += s->border[i] != 0 && s->border[i] != BORDER_REST;
     }
     return RB_OK;
 }
@@ -207,6 +213,12 @@ static threshold threshold_of(const rb_sensitivity *s, const rb_sensitivity_rate
                          rb_norm_inf(n, rate->slip))};
 }
 
+/* 1: element i neither slides nor has friction, which its coefficient brings it now. */
+static int begins_to_rub(const rb_sensitivity *s, const rb_sensitivity_rate *rate, size_t i)
+{
+    return s->border[i] == BORDER_REST && rate->bound[i] != 0.0;
+}
+
 /* The zone of element i at a border, if the tangent (times side) does not suit the one
  * that it has. */
 static int next_zone(const rb_sensitivity *s, const rb_sensitivity_rate *rate, int side,
@@ -219,6 +231,15 @@ static int next_zone(const rb_sensitivity *s, const rb_sensitivity_rate *rate, i
     const int toward = state->q[i] > 0.0 ? RB_ZONE_SLIP_POSITIVE : RB_ZONE_SLIP_NEGATIVE;
     const double sign = toward == RB_ZONE_SLIP_POSITIVE ? 1.0 : -1.0;
 
+    if (s->border[i] == BORDER_REST && zone == RB_ZONE_STICK)
+        return side * rate->bound[i] * state->p[i] - fabs(y->q[i]) < -least.traction
+                   ? (side * y->q[i] > 0.0 ? RB_ZONE_SLIP_POSITIVE : RB_ZONE_SLIP_NEGATIVE)
+                   : zone;
+    if (s->border[i] == BORDER_REST)
+        return side * (zone == RB_ZONE_SLIP_POSITIVE ? 1.0 : -1.0) * (slip[i] + rate->slip[i]) >
+                       least.slip
+                   ? RB_ZONE_STICK
+                   : zone;
     if (s->border[i] == BORDER_GAP && zone == RB_ZONE_SEPARATED)
         return side * (gap[i] + rate->gap[i]) < -least.gap
                    ? (s->slip[i] > 0.0 ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_SLIP_POSITIVE)
@@ -237,13 +258,16 @@ static rb_status tangent_at_border(const rb_sensitivity *s, const rb_sensitivity
 {
     const rb_contact_problem *p = &s->model->problem;
     const size_t n = (size_t)s->n;
-    const int most = 1 << (s->degenerate < 10 ? s->degenerate : 10);
+    const int pairs = s->degenerate + s->at_rest, most = 1 << (pairs < 10 ? pairs : 10);
     double *gap = rb_alloc(n, 2), *slip = gap + n;
     int *zone = rb_alloc_int(n), k = 0, moved = 1;
     rb_status status = gap && zone ? RB_OK : RB_ENOMEM;
 
     if (status == RB_OK)
         memcpy(zone, s->model->state.zone, n * sizeof *zone);
+    for (size_t i = 0; i < n && status == RB_OK; i++)
+        if (begins_to_rub(s, rate, i))
+            zone[i] = RB_ZONE_STICK;
     for (; k <= most && moved && status == RB_OK; k++) {
         rb_sensitivity_factors *f;
         status = rb_sensitivity_factor(s, zone, NULL, &f);
@@ -257,8 +281,10 @@ static rb_status tangent_at_border(const rb_sensitivity *s, const rb_sensitivity
         rb_contact_operator_add(p->op, y->p, y->q, gap, slip);
         moved = 0;
         for (int i = 0; i < s->n && !moved && status == RB_OK; i++) {
+            const int can_change =
+                s->border[i] && (s->border[i] != BORDER_REST || begins_to_rub(s, rate, i));
             const int to =
-                s->border[i] ? next_zone(s, rate, side, y, gap, slip, i, zone[i]) : zone[i];
+                can_change ? next_zone(s, rate, side, y, gap, slip, i, zone[i]) : zone[i];
             moved = to != zone[i];
             zone[i] = to;
         }
@@ -269,16 +295,48 @@ static rb_status tangent_at_border(const rb_sensitivity *s, const rb_sensitivity
                ? rb_fail(why, RB_MAXITER,
                          "derivatives: the zones beside %d elements at a border were not "
                          "found",
-                         s->degenerate)
+                         pairs)
                : status;
+}
+
+/* 1: nothing changes but coefficients of friction, from 0 on, of surfaces that do not slide. */
+static int stays_at_rest(const rb_sensitivity *s, const rb_sensitivity_rate *rate)
+{
+    const rb_contact_problem *p = &s->model->problem;
+    const size_t n = (size_t)s->n;
+    const double least = NO_CHANGE_OF_DATA * rb_norm_inf(n, rate->bound);
+
+    /* tangential: 0 / 0 where a force is given, which is 0 without friction */
+    return s->at_rest == s->contact && fabs(rate->normal) <= least &&
+           !(fabs(rate->tangential) > least) &&
+           rb_norm_inf(n, rate->gap) <= least * p->gap_length &&
+           rb_norm_inf(n, rate->slip) <= least * p->slip_length;
 }
 
 rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_rate *rate, int side,
                                  rb_contact_state *tangent, rb_message *why)
 {
-    const rb_status status = !s->factors     ? tangent_by_products(s, rate, tangent)
-                             : s->degenerate ? tangent_at_border(s, rate, side, tangent, why)
-                                             : rb_sensitivity_forward(s, s->factors, rate, tangent);
+    const size_t n = (size_t)s->n;
+    int rub = 0;
+
+    for (size_t i = 0; i < n && s->at_rest > 0; i++)
+        rub += begins_to_rub(s, rate, i);
+    if (rub > 0 && stays_at_rest(s, rate)) {
+        memset(tangent->p, 0, n * sizeof *tangent->p);
+        memset(tangent->q, 0, n * sizeof *tangent->q);
+        memset(tangent->lambda, 0, n * sizeof *tangent->lambda);
+        tangent->delta = tangent->xi = 0.0;
+        return RB_OK;
+    }
+    if (rub > 0 && !s->factors)
+        return rb_fail(why, RB_EINVAL,
+                       "derivatives: which way %d element%s without friction will slide is found "
+                       "by matrices: give fewer than %d elements",
+                       rub, rub == 1 ? "" : "s", RB_ROLLING_LARGE);
+    const rb_status status = !s->factors ? tangent_by_products(s, rate, tangent)
+                             : s->degenerate || rub > 0
+                                 ? tangent_at_border(s, rate, side, tangent, why)
+                                 : rb_sensitivity_forward(s, s->factors, rate, tangent);
     return status == RB_SINGULAR
                ? rb_fail(why, status, "derivatives: the Jacobian is singular here")
                : status;
@@ -329,7 +387,7 @@ static rb_status create(const rb_rolling_model *model, const rb_sensitivity *lik
     s->border = calloc((size_t)s->n, 1);
     if (status == RB_OK)
         status = s->border ? find_borders(s) : RB_ENOMEM;
-    if (status == RB_OK && s->degenerate)
+    if (status == RB_OK && (s->degenerate || s->at_rest < s->contact) && s->degenerate + s->at_rest)
         status = take_matrix(s, why);
     if (status == RB_OK)
         status = rb_sensitivity_law(s, why);
