@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const nothing = "this solution has none, or none that has a derivative";
+static const char *const nothing = "this solution has no such result, or one without a derivative";
 
 static void add_result(const rb_rolling_result *r, int is_column, rb_report_derivatives *d)
 {
