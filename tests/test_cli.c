@@ -96,7 +96,7 @@ static const struct {
      "--yield-stress 30 --smooth-derivatives",
      64, "smooth derivatives: not for friction with memory or heat, or an interface that yields"},
     {"--support halfplane --load 500 --mu 0 --smooth-derivatives", 64,
-     "slide in opposite directions without friction; give --derivatives"},
+     "slide in opposite directions without friction; take the exact derivatives"},
     {"design --support halfplane --load 500 --minimise max_pressure --maximise half_width "
      "--over radius=20:200",
      64, "--minimise and --maximise exclude each other"},

@@ -124,7 +124,7 @@ static rb_status check(const rb_sensitivity *s, rb_message *why)
         if (own * right == -2 && s->model->problem.bound[i] == 0.0)
             return rb_fail(why, RB_EINVAL,
                            "smooth derivatives: elements %d and %d slide in opposite directions "
-                           "without friction; give --derivatives",
+                           "without friction; take the exact derivatives",
                            i + 1, i + 2);
         if (own * right == -2 || (left * own * right != 0 && left != own && right != own))
             return rb_fail(why, RB_EINVAL,
