@@ -17,7 +17,6 @@ void rb_hierarchical_free(rb_hierarchical *h)
         rb_elimination_free(&h->cluster[i].e);
         free(h->cluster[i].order);
         free(h->cluster[i].D);
-        h->cluster[i] = (rb_hierarchical_cluster){0};
     }
     free(h->cluster);
     free(h->order);
