@@ -241,6 +241,25 @@ TEST(curve_has_the_temperature_of_its_cases)
     CHECK_REL(curve.max_temperature[1], s.max_temperature, 1e-9, "last point");
 }
 
+/* Beside free rolling the power of coarse elements falls through zero: so does the heat. */
+TEST(power_below_zero_heats_nothing)
+{
+    rb_rolling_case rc = half_plane(RB_STEADY, 20);
+    rc.half_width = 1.0;
+    rc.mu = 1.0;
+    rc.speed = 1000.0;
+    rc.heat_a = rc.heat_b = (rb_rolling_heat){50.0, 3.5, 0.0};
+    rc.creep = -0.005;
+    OWNED(rb_rolling_solution) far = solved(&rc);
+    rc.creep = far.free_creepage * 0.99999;
+    OWNED(rb_rolling_solution) above = solved(&rc);
+    rc.creep = far.free_creepage * 1.00001;
+    OWNED(rb_rolling_solution) below = solved(&rc);
+    assert_true(above.dissipation > 0.0 && below.dissipation < 0.0);
+    assert_true(above.max_temperature > 0.0 && above.max_temperature < 1e-3 * far.max_temperature);
+    CHECK_ABS(below.max_temperature, 0.0, 0.0, "without heat");
+}
+
 /* ---- Without, and refused ---------------------------------------------------------- */
 
 TEST(other_cases_have_no_temperature)

@@ -293,16 +293,16 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_roll
     if (status == RB_OK) {
         /* Friction heats, it never cools.  Powers of elements that begin or end the
          * contact may be negative on coarse meshes, because they hold a part of what
-         * opens beside them: then the others have as much less. */
+         * opens beside them: then the others have as much less, down to no heat. */
         double all = 0.0, heats = 0.0;
 
         for (int i = 0; i < n; i++) {
             all += power[i];
             heats += fmax(power[i], 0.0);
         }
-        const double part = all > 0.0 ? all / heats : 1.0;
+        const double part = all > 0.0 ? all / heats : 0.0;
         for (int i = 0; i < n; i++) {
-            heat[i] = rc->speed * (all > 0.0 ? part * fmax(power[i], 0.0) : power[i]);
+            heat[i] = rc->speed * part * fmax(power[i], 0.0);
             heat_a[i] = b_conducts ? 0.5 * heat[i] : heat[i];
         }
         if (shared)
