@@ -169,8 +169,6 @@ static void write_zones(FILE *out, const view *v, int labelled)
         const double from = (s->x[first] - s->h[first] / 2) / v->length.size;
         const double to = (s->x[i - 1] + s->h[i - 1] / 2) / v->length.size;
         const stretch st = (stretch){fmax(from, v->from), fmin(to, v->to), s->zone[first]};
-        if (st.to <= st.from)
-            continue;
         fprintf(out,
                 "set object rectangle from first %.9g, graph 0 to first %.9g, graph 1 fillcolor "
                 "rgb '%s' fillstyle solid noborder behind\n",

@@ -193,11 +193,11 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_r
     note_short_memory(&list, rc, s);
     note_corners(&list, rc, s);
     const int creeps = !isnan(rc->creep) || !isnan(rc->creep_ratio);
-    const int forced = !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
+    const int force = rb_rolling_force_is_given(rc);
     if (rc->formulation == RB_STATIC && creeps)
         add(&list, "In a static case --creep does not change the tractions; use --formulation "
                    "steady to roll.");
-    if (rc->formulation == RB_STEADY && !creeps && !forced)
+    if (rc->formulation == RB_STEADY && !creeps && !force)
         add(&list, "No --creep, --creep-ratio, --force or --force-ratio is given: the wheel rolls "
                    "at creepage 0.");
     /* Given values that look as if they were meant in other units. */
@@ -211,7 +211,6 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_r
         add(&list, "The arc is %g degrees. If it is meant in radians, write --arc %grad.",
             rc->a.arc, rc->a.arc);
     /* Beyond full sliding the force does not change: it does not tell the creepage. */
-    const int force = !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
     if (s->formulation != RB_STATIC && force && s->stick == 0 && rb_rolling_largest_mu(rc) > 0.0 &&
         s->contact > 0 && !rb_rolling_law_depends_on_state(rc))
         add(&list, "The whole contact slides: the creepage is not unique, every larger one gives "

@@ -102,7 +102,7 @@ static void place_column(const rb_rolling_history *from, const double *column, i
                          const rb_rolling_history *to, double *out)
 {
     const int rest = steps_at_rest(from);
-    int k = is_mean || rest == 0 ? rest : rest - 1;
+    int k = is_mean ? rest : rest - 1;
 
     for (int i = 0; i < to->n; i++) {
         if (to->distance[i] == 0.0) {
