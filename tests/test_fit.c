@@ -660,7 +660,17 @@ TEST(doubtful_data_are_told)
         {"creep force\n-1e-3 20\n-2e-3 30\n", "--bounds mu=0.1mm:0.2mm", 64, "--bounds: expected"},
         {"creep force\n-1e-3 20\n-2e-3 30\n", "--bounds mu=0.2:0.1", 64, "--bounds: expected"},
         {"creep force\n-1e-3 20\n-2e-3 30\n", "--start load=2", 64, "of a fitted number"},
-        {"creep force\n-1e-3 20\n-2e-3 30\n", "--fit force", 64, "creep-offset is added"}};
+        {"creep force\n-1e-3 20\n-2e-3 30\n", "--fit force", 64, "creep-offset is added"},
+        {"creep force\n-1e-3 20\n-2e-3 30\n", "--start mu=7", 64,
+         "--start: mu = 7 is not within its bounds, 0.01 to 3"},
+        {"creep force\n-1e-3 20\n-2e-3 30\n", "--start mu=0.3 --bounds mu=0.4:0.5", 64,
+         "--start: mu = 0.3 is not within its bounds, 0.4 to 0.5"},
+        {"creep force\n-1e-3 20\n-2e-3 30\n", "--bounds mu=5:9", 64,
+         "--bounds: mu: no value of 5 to 9 can be fitted"},
+        {"creep force temperature\n-1e-3 20 20\n-2e-3 30 20\n", "", 64,
+         "a column temperature, but the case has no heat: give --conductivity"},
+        {"creep force speed\n-1e-3 20 20\n-2e-3 30 20\n", "", 64,
+         "a column speed, but nothing in the case depends on it: give --relaxation-time"}};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         write_file("t.tsv", wrong[k].data);
         const int code = rollbemf("fit t.tsv --fit mu --support halfplane --similar --load 240 "

@@ -81,7 +81,7 @@ TEST(notes_begin_where_they_should)
                       opposes[] = "points along the friction, not against it",
                       angle[] = "depends on the angle of the wheel";
     noted n;
-    for (int k = 0; k < 45; k++) {
+    for (int k = 0; k < 47; k++) {
         const char *want = NULL;
         quiet(&n);
         rb_rolling_case *rc = &n.rc;
@@ -259,6 +259,13 @@ TEST(notes_begin_where_they_should)
             s->normal_load = 100.0;
             s->dissipation = k == 41 ? -1e-9 : -1e-11;
             want = k == 41 ? "The dissipation, -1e-09 N/mm, is below zero" : NULL;
+            break;
+        case 45: /* where they are aligned, or cannot be */
+        case 46:
+            s->normal_load = 100.0;
+            s->dissipation = -1e-9;
+            rc->mesh = k == 45 ? RB_MESH_UNIFORM : RB_MESH_ALIGNED;
+            want = k == 45 ? "take more of them or --mesh aligned." : "take more of them.";
             break;
         case 39:
         case 40:

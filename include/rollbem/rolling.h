@@ -625,7 +625,7 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_r
 /* 1: the friction power is negative by more than rounding errors, which is an error of
  * the mesh; the text of the note about it. */
 int rb_rolling_is_below_zero(double dissipation, double load);
-extern const char rb_rolling_below_zero[];
+const char *rb_rolling_below_zero(const rb_rolling_case *rc);
 
 /* Temperature rise at a point of the surface caused by a unit heat flux that enters the
  * body between the distances `from` < `to` upstream of the point (T1), at any Peclet

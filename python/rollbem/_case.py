@@ -26,6 +26,8 @@ Array = NDArray[np.float64]
 Table = Mapping[str, Sequence[float]]
 Value = Union[bool, int, float, str, os.PathLike, Sequence[float], Table]
 
+_CaseLike = Union["Case", str, os.PathLike, Mapping[str, Optional[Value]], None]
+
 # ---- Cases --------------------------------------------------------------------------------
 
 
@@ -42,10 +44,15 @@ class Case:
     ``Case(mu=0.3, creep=0.1)``, ``Case("rail.ini", load=800)``.  Names are those of the
     program with ``_`` for ``-``; what is given here wins over the file.  Options that name a
     file with a table (``gap``, ``irregularity``, ``history``) take a dictionary of columns as
-    well.  ``case["mu"]`` is a value as the program resolves it.
+    well.  ``case["mu"]`` is a value as the program resolves it.  A dictionary of options may
+    stand for the file: ``Case({"mu": 0.3, "contact-elements": 60})``.
     """
 
-    def __init__(self, file: Union[str, os.PathLike, None] = None, **options: Optional[Value]) -> None:
+    def __init__(self, file: Union[str, os.PathLike, Mapping[str, Optional[Value]], None] = None,
+                 **options: Optional[Value]) -> None:
+        if isinstance(file, Mapping):
+            options = {**_values.names("case", file), **options}
+            file = None
         self.file = file
         self._take({name: value for name, value in options.items() if value is not None})
         self.handle("solve")
@@ -131,7 +138,7 @@ def _kept(solution: Any, handle: Handle, status: int) -> Any:
     raise error
 
 
-def _case(case: Union[Case, str, os.PathLike, None], options: Mapping[str, Any]) -> Case:
+def _case(case: _CaseLike, options: Mapping[str, Any]) -> Case:
     if isinstance(case, Case):
         return case.but(**options) if options else case
     return Case(case, **options)
@@ -640,7 +647,7 @@ class Sweep(_Named):
 # ---- Questions ----------------------------------------------------------------------------
 
 
-def solve(case: Union[Case, str, os.PathLike, None] = None, *, progress: Progress = None,
+def solve(case: _CaseLike = None, *, progress: Progress = None,
           tolerance: Any = None, **options: Any) -> Solution:
     """Solves one case: ``solve(mu=0.3, creep=0.1)``, ``solve("rail.ini", load=800)``.
 
@@ -661,7 +668,7 @@ def solve(case: Union[Case, str, os.PathLike, None] = None, *, progress: Progres
     return solution
 
 
-def curve(case: Union[Case, str, os.PathLike, None] = None, start: float = 0.0, stop: float = 1.5,
+def curve(case: _CaseLike = None, start: float = 0.0, stop: float = 1.5,
           points: int = 61, over: str = "creep-ratio", *, derivatives: Any = None, tolerance: Any = None,
           progress: Progress = None, **options: Any) -> Union[Curve, "list[Curve]"]:
     """Steady rolling at equally spaced creepage ratios, or over="creep" creepages.
@@ -693,7 +700,7 @@ def curve(case: Union[Case, str, os.PathLike, None] = None, start: float = 0.0, 
     return _kept(found, handle, status)
 
 
-def history(program: Optional[Table] = None, case: Union[Case, str, os.PathLike, None] = None, *,
+def history(program: Optional[Table] = None, case: _CaseLike = None, *,
             progress: Progress = None, tolerance: Any = None, derivatives: Any = None, **options: Any) -> History:
     """Runs a case along a program, a dictionary of columns, or along its own distance.
 
@@ -729,7 +736,7 @@ def history(program: Optional[Table] = None, case: Union[Case, str, os.PathLike,
     return found
 
 
-def stress(case: Union[Solution, Case, str, os.PathLike, None] = None, grid: "tuple[int, int]" = (61, 41),
+def stress(case: Union[Solution, _CaseLike] = None, grid: "tuple[int, int]" = (61, 41),
            depth: Optional[float] = None, points: Any = None, **options: Any) -> Stress:
     """Stress below the surface of A, on a grid or at points (n x 2: x, y > 0 inside A).
 
@@ -759,7 +766,7 @@ def stress(case: Union[Solution, Case, str, os.PathLike, None] = None, grid: "tu
         return Stress(solution, maxima)
 
 
-def wear(case: Union[Case, str, os.PathLike, None] = None, *, coefficient: float, slide: Optional[float] = None,
+def wear(case: _CaseLike = None, *, coefficient: float, slide: Optional[float] = None,
          cycles: Optional[float] = None, law: str = "archard", share: float = 0.0, steps: int = 20,
          quarter: int = 8, progress: Progress = None, **options: Any) -> Wear:
     """Wears A, and B by its ``share``, as ``rollbem wear`` does.
@@ -782,7 +789,7 @@ def wear(case: Union[Case, str, os.PathLike, None] = None, *, coefficient: float
     return _kept(Wear(whole, handle), handle, status)
 
 
-def sweep(case: Union[Case, str, os.PathLike, None] = None, workers: int = 0, progress: Progress = None,
+def sweep(case: _CaseLike = None, workers: int = 0, progress: Progress = None,
           derivatives: Any = None, tolerance: Any = None, **options: Any) -> Sweep:
     """Solves every combination of the options given as lists or arrays, the last fastest.
 

@@ -8,11 +8,9 @@ from typing import Any, Mapping, NamedTuple, Optional, Sequence, Union
 import numpy as np
 
 from . import _values
-from ._case import (Array, Case, Derivatives, Solution, Table, _case, _Named, _uncertain, _unit, _warn, crack_option,
-                    curve, history)
+from ._case import (Array, Case, Derivatives, Solution, Table, _case, _CaseLike, _Named, _uncertain, _unit, _warn,
+                    crack_option, curve, history)
 from ._library import SOLVED, InvalidInput, Progress, doubles, in_keywords, lib, texts
-
-_CaseLike = Union[Case, str, os.PathLike, None]
 
 
 # ---- Cracks -------------------------------------------------------------------------------

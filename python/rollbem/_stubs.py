@@ -21,7 +21,7 @@ Table = Mapping[str, Sequence[float]]
 Progress = Optional[Callable[[int, int], object]]
 Value = Union[bool, int, float, str, os.PathLike, Sequence[float], Table]
 _Path = Union[str, os.PathLike]
-_CaseLike = Union["Case", str, os.PathLike, None]
+_CaseLike = Union["Case", str, os.PathLike, Mapping[str, Optional[Value]], None]
 _Numbers = Union[float, Sequence[float], Array]
 """
 

@@ -56,6 +56,14 @@ def path(name: str, value: Any) -> str:
     return found
 
 
+def names(name: str, value: Mapping[str, Any]) -> dict[str, Any]:
+    """Options by their names as keywords are."""
+    for key in value:
+        if not isinstance(key, str):
+            raise InvalidInput(f"{name}=: expected names of options, got {_shown(key)}")
+    return {key.replace("-", "_"): value[key] for key in value}
+
+
 def vector(name: str, value: Any) -> NDArray[np.float64]:
     """Numbers in one row, at least one."""
     found = array(name, value)

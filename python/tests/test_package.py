@@ -327,6 +327,12 @@ def test_numbers_of_any_kind(mu):
     assert rollbem.Case(mu=mu)["mu"] == 0.25
 
 
+def test_a_dictionary_stands_for_the_file():
+    case = rollbem.Case({"mu": 0.2, "contact-elements": 20, "load": None}, mu=0.25)
+    assert (case["mu"], case["contact-elements"]) == (0.25, 20)
+    assert len(rollbem.sweep({"contact_elements": 20, "shift": 0.01}, mu=[0.2, 0.3]).tangential_load) == 2
+
+
 EYE, TOO_LARGE = np.eye(3), "from 0 to 2147483647, got 2147483648"
 
 
@@ -337,6 +343,8 @@ EYE, TOO_LARGE = np.eye(3), "from 0 to 2147483647, got 2147483648"
     (lambda: rollbem.solve(mu="0.3\0"), "mu=: a NUL character"),
     (lambda: rollbem.solve("case.ini\0"), "case=: a NUL character"),
     (lambda: rollbem.Case(3), "case=: expected the name of a file, got 3"),
+    (lambda: rollbem.Case({3: 1}), "case=: expected names of options, got 3"),
+    (lambda: rollbem.solve({"mu": -1}), "mu=: expected a number >= 0"),
     (lambda: rollbem.solve(**{"mu\0": 1}), "unknown option"),
     (lambda: rollbem.solve(mu=[]), "mu=: expected at least one number"),
     (lambda: rollbem.solve(mu=1j), "mu=: expected numbers, got 1j"),

@@ -12,15 +12,24 @@ static int min2(int a, int b)
 
 void rb_guess_try(rb_guess *guess, const char *candidate)
 {
+    /* the beginning of a name is as near as one edit */
+    enum { BEGINNING = 3 };
+    const size_t typed = strlen(guess->word);
+    if (typed >= BEGINNING && strncmp(candidate, guess->word, typed) == 0 &&
+        !(guess->best && guess->distance <= 1)) {
+        guess->best = candidate;
+        guess->distance = 1;
+        return;
+    }
     /* every letter more or less is an edit */
-    const int at_least = abs((int)strlen(guess->word) - (int)strlen(candidate));
+    const int at_least = abs((int)typed - (int)strlen(candidate));
     if (guess->best && at_least >= guess->distance)
         return;
     int distance;
     /* Optimal string alignment: insertions, deletions, substitutions and swapped
      * neighbours. */
     enum { MAX = 40 };
-    const size_t n = strlen(guess->word), m = strlen(candidate);
+    const size_t n = typed, m = strlen(candidate);
     if (n > MAX || m > MAX)
         distance = MAX;
     else {

@@ -264,6 +264,7 @@ static rb_status set_parameter(fit_problem *p, int j, rb_message *why)
     of->high_open = o->range.to_open;
     of->positive =
         !offset && o->range.from == 0.0 && (o->range.from_open || strcmp(of->name, "mu") == 0);
+    const double asked[] = {of->low, of->high};
     of->low = fmax(of->low, strcmp(of->name, "mu") == 0        ? LEAST_MU
                             : strcmp(of->name, "mu-fall") == 0 ? 0.0
                                                                : of->from);
@@ -277,8 +278,31 @@ static rb_status set_parameter(fit_problem *p, int j, rb_message *why)
                 : offset                         ? 0.1 * d->half_width / d->radius
                 : strcmp(o->unit, "mm/MPa") == 0 ? 1e-2 * d->half_width / d->modulus
                                                  : 1e-2;
-    rb_case_fit_clip(of, &of->value);
+    const rb_units units = p->c->resolved.units;
+    if (!(of->low <= of->high))
+        return rb_fail(why, RB_EINVAL, "--bounds: %s: no value of %g to %g can be fitted", of->name,
+                       rb_unit_shown(units, of->unit, asked[0]),
+                       rb_unit_shown(units, of->unit, asked[1]));
+    double inside = of->value;
+    rb_case_fit_clip(of, &inside);
+    /* what other units round may be on an end */
+    if (!isnan(of->start) && fabs(inside - of->value) > 1e-12 * of->scale)
+        return rb_fail(why, RB_EINVAL, "--start: %s = %g is not within its bounds, %g to %g",
+                       of->name, rb_unit_shown(units, of->unit, of->value),
+                       rb_unit_shown(units, of->unit, of->low),
+                       rb_unit_shown(units, of->unit, of->high));
+    of->value = inside;
     return RB_OK;
+}
+
+static int depends_on_speed(const rb_case *c)
+{
+    static const char *const names[] = {"relaxation-time", "relaxation-time-b", "conductivity",
+                                        "mu-fall"};
+    int found = 0;
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+        found |= rb_case_given(c, names[k]) != 0;
+    return found;
 }
 
 rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_case_fit *fit,
@@ -293,6 +317,14 @@ rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_cas
         s = rb_case_set_number(c, "mu-fall", 0.1, why);
     if (s == RB_OK && falls && !rb_case_given(c, "slip-scale"))
         s = rb_case_set_number(c, "slip-scale", 1.0, why);
+    if (s == RB_OK && data->temperature && !rb_case_given(c, "conductivity"))
+        s = rb_fail(why, RB_EINVAL,
+                    "the data have a column temperature, but the case has no heat: give "
+                    "--conductivity, --heat-capacity and --mu-heat, or leave the column out");
+    if (s == RB_OK && data->speed && !depends_on_speed(c))
+        s = rb_fail(why, RB_EINVAL,
+                    "the data have a column speed, but nothing in the case depends on it: give "
+                    "--relaxation-time, --conductivity or --mu-fall, or leave the column out");
     if (s == RB_OK && data->speed && !rb_case_given(c, "speed"))
         s = rb_case_set_number(c, "speed", 1.0, why);
     if (s == RB_OK && data->load && !rb_case_given(c, "load") && !rb_case_given(c, "half-width") &&

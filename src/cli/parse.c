@@ -74,6 +74,23 @@ static cli_exit unknown_option(const char *name, int length, rb_guess *guess)
                     rb_guess_text(guess, "--"));
 }
 
+/* The last one of the command's, because its own and those of the output stand at the end;
+ * or NULL. */
+static const char *option_that_begins(const cli_spec *spec, const char *letters, size_t n)
+{
+    const char *found = NULL;
+    for (int s = 0; s < spec->set_n; s++)
+        for (int k = 0; k < spec->sets[s].n; k++) {
+            const rb_option *o = &spec->sets[s].options[k];
+            if (o->kind == RB_OPTION_GROUP || strncmp(o->name, letters, n) != 0)
+                continue;
+            found = o->name;
+            if (!found[n])
+                return found;
+        }
+    return found;
+}
+
 cli_exit cli_parse(const cli_spec *spec, int argc, char **argv, cli_args *args)
 {
     int operands_only = 0;
@@ -95,9 +112,10 @@ cli_exit cli_parse(const cli_spec *spec, int argc, char **argv, cli_args *args)
         if (argument[1] != '-') {
             const size_t n = strcspn(argument + 1, "=");
             const char *other = cli_other_name(argument + 1, n);
-            return cli_fail(CLI_USAGE, "unknown option '%s' (options start with --, as --%.*s)",
-                            argument, other ? (int)strlen(other) : (int)n,
-                            other ? other : argument + 1);
+            if (!other)
+                other = option_that_begins(spec, argument + 1, n);
+            return cli_fail(CLI_USAGE, "unknown option '%s' (options start with --%s%s)", argument,
+                            other ? ", as --" : "; --help lists them", other ? other : "");
         }
         const char *when = value_behind("--color=", argument);
         if (when && cli_set_colour(when))

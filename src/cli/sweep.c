@@ -455,8 +455,8 @@ static int tick(int seen, void *context)
 
 static cli_exit cannot_write(const char *path)
 {
-    return cli_fail(errno == ENOMEM ? CLI_INTERNAL : CLI_CANTWRITE, "%s: %s", path,
-                    errno == ENOMEM ? "out of memory" : strerror(errno));
+    return errno == ENOMEM ? cli_fail(CLI_INTERNAL, "%s: out of memory", path)
+                           : cli_fail(CLI_CANTWRITE, "%s: cannot write: %s", path, strerror(errno));
 }
 
 /* The number behind a tab at *at; 1: there is one, and *at stands behind it. */
@@ -572,8 +572,16 @@ static cli_exit close_output(study *st, cli_exit code)
         }
         if (s == RB_OK)
             s = rb_io_writer_commit(&st->w, &why);
-        else
+        else {
+            if (s == RB_EWRITE)
+                rb_fail(&why, s, "%s: cannot write: %s",
+                        st->o->output ? st->o->output : "standard output", strerror(errno));
+            const int e = errno;
             rb_io_writer_abandon(&st->w);
+            errno = e;
+        }
+        if (s == RB_EWRITE && !st->o->output && errno == EPIPE)
+            return CLI_CANTWRITE; /* | head has seen enough */
         return s == RB_OK ? code : cli_say(s, &why);
     }
     int failed = ferror(st->out) || !flush_rows(st), e = errno;

@@ -29,8 +29,13 @@ add(rb_rolling_note_list *list, const char *format, ...)
     rb_locale_end(before);
 }
 
-const char rb_rolling_below_zero[] =
-    "smaller than its error on these elements; take more of them or --mesh aligned";
+const char *rb_rolling_below_zero(const rb_rolling_case *rc)
+{
+    /* steps need equal elements */
+    return rc && (rc->mesh == RB_MESH_ALIGNED || rb_rolling_has_steps(rc))
+               ? "smaller than its error on these elements; take more of them"
+               : "smaller than its error on these elements; take more of them or --mesh aligned";
+}
 
 int rb_rolling_is_below_zero(double dissipation, double load)
 {
@@ -235,7 +240,7 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_r
     /* Slip between two midpoints that the mean of their tractions does not oppose. */
     if (rb_rolling_is_below_zero(s->dissipation, s->normal_load))
         add(&list, "The dissipation, %.2g %s, is below zero: it is %s.", s->dissipation,
-            rb_unit_name(s->units, "N/mm"), rb_rolling_below_zero);
+            rb_unit_name(s->units, "N/mm"), rb_rolling_below_zero(rc));
     if (rc->formulation == RB_STATIC && rb_rolling_largest_mu(rc) > 0.0 && s->slip_violations > 0)
         add(&list,
             "In %d of %d elements the slip computed afterwards points along the friction, not "

@@ -265,7 +265,11 @@ rb_status rb_sensitivity_smooth(const rb_sensitivity_jumps *jumps,
         if (edges_move(jumps->s, input->scale, d))
             return rb_fail(why, RB_EINVAL,
                            "smooth derivatives: the input moves the edges of the contact over the "
-                           "elements; give --mesh aligned or fitted");
+                           "elements; %s",
+                           jumps->s->model->equal_instead
+                               ? "fitting the mesh to them did not converge: take more elements, "
+                                 "or --derivatives"
+                               : "give --mesh aligned or fitted");
         set_stays(jumps->s, k, derivative);
         status = add_jumps(jumps, k, derivative, &unused, why);
         if (status == RB_OK && derivative->free_rolling)
