@@ -166,14 +166,3 @@ rb_status rb_hierarchical_create(const rb_bem_mesh *mesh, rb_bem_material materi
         rb_hierarchical_free(h);
     return s;
 }
-
-double rb_hierarchical_ratio(const rb_hierarchical *h)
-{
-    const double dofs = 2.0 * h->matrix.n;
-    double stored = 0.0;
-    for (int i = 0; i < rb_hierarchical_clusters(h); i++) {
-        const double kept = h->cluster[i].e.kept, others = h->cluster[i].e.m - kept;
-        stored += (4.0 * kept + others) * others;
-    }
-    return stored / (dofs * dofs);
-}

@@ -18,8 +18,6 @@ rb_status rb_hierarchical_create(const rb_bem_mesh *mesh, rb_bem_material materi
                                  const double *unit, double tolerance, rb_hierarchical **h);
 /* X: 2n x columns, leading dimension 2n, overwritten by the solutions. */
 rb_status rb_hierarchical_solve(const rb_hierarchical *h, int columns, double *X);
-/* Numbers stored / 4 n^2. */
-double rb_hierarchical_ratio(const rb_hierarchical *h);
 void rb_hierarchical_free(rb_hierarchical *h);
 
 #endif

@@ -6,9 +6,7 @@
 
 /* ---- results.c --------------------------------------------------------------------- */
 
-/* A solution without columns: of numbers that are not there (NAN), or those of another. */
-rb_rolling_solution rb_rolling_no_scalars(rb_status status);
-/* The same of a row: NAN throughout. */
+/* A row without columns, of numbers that are not there (NAN). */
 rb_rolling_row rb_rolling_no_row(rb_status status);
 
 /* Zeros for every column of the table that the case has; the owner's others stay NULL.

@@ -478,7 +478,7 @@ void rb_rolling_row_convert(rb_rolling_row *row, rb_units units)
 
 /* ---- Owners ------------------------------------------------------------------------ */
 
-rb_rolling_solution rb_rolling_no_scalars(rb_status status)
+static rb_rolling_solution no_scalars(rb_status status)
 {
     rb_rolling_solution s = {.status = status};
     for (int i = 0; i < rb_rolling_solution_scalars.n; i++)
@@ -489,8 +489,7 @@ rb_rolling_solution rb_rolling_no_scalars(rb_status status)
 
 rb_rolling_row rb_rolling_no_row(rb_status status)
 {
-    rb_rolling_row row = {.solution = rb_rolling_no_scalars(status),
-                          .errors.scalar = rb_rolling_no_scalars(RB_OK)};
+    rb_rolling_row row = {.solution = no_scalars(status), .errors.scalar = no_scalars(RB_OK)};
     for (int i = 0; i < rb_rolling_maxima_scalars.n; i++)
         *(double *)place(&maxima[i], &row.stress) =
             *(double *)place(&maxima[i], &row.errors.stress) = NAN;
