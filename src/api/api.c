@@ -798,10 +798,10 @@ static int curve(rb_api *a, const char *over, double from, double to, int points
     rb_api_call_ends();
     rb_case_slopes_note(slopes, &a->note);
     slopes->tolerance = NULL; /* the caller's */
-    if (s != RB_OK)
+    if (s != RB_OK) {
         rb_api_forget_slopes(a, API_SLOPES_CURVE);
-    if (s != RB_OK)
         s = rb_case_locate(a->words, s, &a->why);
+    }
     return rb_api_ended(a, s);
 }
 

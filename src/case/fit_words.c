@@ -118,12 +118,9 @@ rb_status rb_case_fit_values(const rb_case *c, const char *option, const char *t
 
 /* ---- Data -------------------------------------------------------------------------- */
 
-/* What a column holds, and its unit; a force's sigma has the unit of the force. */
-static const struct {
-    const char *name, *unit;
-} columns[] = {{"creep", "-"},           {"creep_ratio", "-"}, {"force", "N/mm"},
-               {"force_ratio", "-"},     {"load", "N/mm"},     {"speed", "mm/s"},
-               {"force_over_load", "-"}, {"temperature", "K"}, {"sigma", "N/mm"}};
+static const char *const columns[] = {"creep",           "creep_ratio", "force",
+                                      "force_ratio",     "load",        "speed",
+                                      "force_over_load", "temperature", "sigma"};
 
 enum { COLUMNS = sizeof columns / sizeof *columns };
 
@@ -159,8 +156,8 @@ static rb_status check_names(const rb_io_table *t, const char *path, rb_message 
         rb_guess guess = {.word = t->name[j]};
         int known = 0;
         for (int k = 0; k < COLUMNS; k++) {
-            known |= strcmp(t->name[j], columns[k].name) == 0;
-            rb_guess_try(&guess, columns[k].name);
+            known |= strcmp(t->name[j], columns[k]) == 0;
+            rb_guess_try(&guess, columns[k]);
         }
         const char *meant = rb_guess_text(&guess, "");
         if (!known && *meant)

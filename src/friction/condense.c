@@ -145,14 +145,14 @@ static rb_status condense_small(condenser *c, int body, double *q)
 /* ---- All bodies -------------------------------------------------------------------- */
 
 /* column and columns_of: the columns of H that touch a body, each once. */
-static rb_status list_columns(condenser *c)
+static void list_columns(condenser *c)
 {
     const rb_sparse *h = &c->p->H;
     int *last = rb_arena_ints(&c->memory, (size_t)c->bodies);
     c->column = rb_arena_ints(&c->memory, (size_t)h->p[h->cols]);
     c->columns_of = rb_arena_ints(&c->memory, (size_t)c->bodies + 2);
     if (c->memory.failed)
-        return RB_ENOMEM;
+        return;
     for (int pass = 0; pass < 2; pass++) {
         int *next = c->columns_of + 1;
         for (int b = 0; b < c->bodies; b++)
@@ -171,7 +171,6 @@ static rb_status list_columns(condenser *c)
         for (int b = 0; pass == 0 && b < c->bodies; b++)
             next[b + 1] += next[b];
     }
-    return RB_OK;
 }
 
 /* The bodies, their degrees of freedom and the columns of H that touch them.  Of a
@@ -183,12 +182,11 @@ static rb_status find_bodies(condenser *c)
     c->body = rb_arena_ints(&c->memory, (size_t)n);
     c->number = rb_arena_ints(&c->memory, (size_t)n);
     c->dof = rb_arena_ints(&c->memory, (size_t)n);
-    rb_status s =
+    const rb_status s =
         c->memory.failed ? RB_ENOMEM : rb_sparse_components(&c->p->K, &c->bodies, c->body);
-    if (s == RB_OK)
-        s = list_columns(c);
     if (s != RB_OK)
         return s;
+    list_columns(c);
     int *joined = rb_arena_ints(&c->memory, (size_t)c->bodies),
         *dofs = rb_arena_ints(&c->memory, (size_t)c->bodies);
     if (c->memory.failed)
@@ -208,7 +206,7 @@ static rb_status find_bodies(condenser *c)
     for (int i = 0; i < n; i++)
         c->body[i] = joined[c->body[i]];
     c->bodies = count;
-    s = list_columns(c);
+    list_columns(c);
     c->dofs_of = rb_arena_ints(&c->memory, (size_t)c->bodies + 2);
     if (c->memory.failed)
         return RB_ENOMEM;

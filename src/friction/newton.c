@@ -100,9 +100,8 @@ static rb_status step(newton *s)
         if (st == RB_OK)
             break;
     }
-    if (st == RB_OK)
-        rb_friction_system_velocity(&s->system, 0.0, s->dr, s->dv, s->du);
     if (st == RB_OK) {
+        rb_friction_system_velocity(&s->system, 0.0, s->dr, s->dv, s->du);
         const double e = rb_friction_norm((size_t)t->n, s->e), imbalance = e * e;
         double highest = merit + imbalance, lowest = INFINITY, length = 1.0;
         s->history[s->k % MEMORY] = merit + imbalance;

@@ -26,7 +26,6 @@ typedef struct {
     int *inside, *swap;    /* n, 2n: those z; pivots, and work of dgecon */
     double *z, *w, *terms; /* n; terms: of the rows of w, by modulus */
     double *work;          /* 4n, of dgecon */
-    rb_lcp_solutions *all;
 } search;
 
 static int is_place(const search *s, int i, place at)
@@ -126,7 +125,7 @@ rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const d
                            rb_lcp_solutions *all, rb_message *why)
 {
     const int n = p->n;
-    search s = {.n = n, .p = *p, .lower = lower, .upper = upper, .all = all};
+    search s = {.n = n, .p = *p, .lower = lower, .upper = upper};
     *all = (rb_lcp_solutions){.n = n};
     const rb_lcp_options plain = rb_lcp_defaults();
     rb_status status = rb_lcp_check_dense(&s.p, &plain, why);

@@ -372,9 +372,8 @@ static rb_status set_out(mixed *p, const double *start)
         for (int i = 0; i < p->n; i++)
             p->generic[i] = inwards(p, i) * rb_lcp_random(&seed);
         combine_columns(p, p->generic, p->shift);
-    }
-    if (s == RB_OK)
         s = choose_cover(p);
+    }
     /* The slot that needs the largest t; none: the basic point is the solution. */
     int slot = NONE;
     p->first_t = 0.0;
