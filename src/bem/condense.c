@@ -188,12 +188,13 @@ static rb_status subtracted_loads_dense(const particular *p, double *X)
  * from it, where a few loads stand for all. */
 typedef struct {
     int near, far;
-    int *element; /* the near ones first; owned, as all here */
+    int *element; /* the near ones first */
     int sampled;  /* far elements that tell which loads stand for the others */
     int *sample;
-    int kept;   /* so many loads stand for all */
-    int *order; /* loads: these first */
-    double *T;  /* kept x others */
+    int kept;        /* so many loads stand for all */
+    int *order;      /* loads: these first */
+    double *T;       /* kept x others */
+    rb_arena memory; /* of the arrays */
 } split;
 
 static double distance_from(double complex middle, const rb_bem_mesh *mesh, int k)
@@ -212,8 +213,9 @@ static rb_status split_elements(const rb_bem_mesh *mesh, split *p)
     const double reach = cabs(b - a); /* twice the radius of the contact */
     char seen[2 * MOST] = {0};
 
-    *p = (split){.element = rb_alloc_int((size_t)n), .sample = rb_alloc_int(2 * MOST)};
-    if (!p->element || !p->sample)
+    p->element = rb_arena_ints(&p->memory, (size_t)n);
+    p->sample = rb_arena_ints(&p->memory, 2 * MOST);
+    if (p->memory.failed)
         return RB_ENOMEM;
     for (int k = 0; k < n; k++)
         if (distance_from(middle, mesh, k) < reach)
@@ -258,7 +260,8 @@ static rb_status choose_loads(const particular *p, split *far)
                         (mesh->condition[2 * k + d] == RB_BEM_DISPLACEMENT ? 1.0 : over);
         }
     }
-    s = rb_skeleton_reduce(&seen, 1e-2 * p->s->tolerance, &far->kept, &far->order, &far->T);
+    s = rb_skeleton_reduce(&seen, 1e-2 * p->s->tolerance, &far->memory, &far->kept, &far->order,
+                           &far->T);
     rb_skeleton_free(&seen);
     return s;
 }
@@ -303,11 +306,12 @@ static rb_status subtracted_loads_long(const particular *p, double *X)
         status = multiply_values(p, given, parts.near, parts.element, loads, NULL, X);
     const int kept = parts.kept, others = loads - kept;
     if (status == RB_OK) {
-        few = rb_alloc((size_t)n, (size_t)kept);
-        rest = rb_alloc((size_t)n, (size_t)others + 1);
-        status = few && rest ? multiply_values(p, given, parts.far, parts.element + parts.near,
-                                               kept, parts.order, few)
-                             : RB_ENOMEM;
+        few = rb_arena_doubles(&parts.memory, (size_t)n, (size_t)kept);
+        rest = rb_arena_doubles(&parts.memory, (size_t)n, (size_t)others + 1);
+        status = parts.memory.failed
+                     ? RB_ENOMEM
+                     : multiply_values(p, given, parts.far, parts.element + parts.near, kept,
+                                       parts.order, few);
     }
     if (status == RB_OK && others > 0)
         cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, others, kept, 1.0, few, n,
@@ -316,14 +320,8 @@ static rb_status subtracted_loads_long(const particular *p, double *X)
         cblas_daxpy(n, 1.0,
                     l < kept ? few + (size_t)l * (size_t)n : rest + (size_t)(l - kept) * (size_t)n,
                     1, X + (size_t)parts.order[l] * (size_t)n, 1);
-    free(few);
-    free(rest);
     rb_given_free(given);
-    free(parts.element);
-    free(parts.sample);
-    free(parts.order);
-    free(parts.T);
-    return status;
+    return rb_arena_done(&parts.memory, status);
 }
 
 /* Normal into the body and tangent of element j, as rows: frame[0] = n, frame[1] = t. */

@@ -3,17 +3,10 @@
 #include <cblas.h>
 #include <stdlib.h>
 
-void rb_elimination_free(rb_elimination *e)
-{
-    free(e->row);
-    free(e->V);
-    free(e->pivot);
-    *e = (rb_elimination){0};
-}
-
 rb_status rb_elimination_begin(int m, rb_elimination *e)
 {
-    *e = (rb_elimination){.m = m, .kept = m, .row = rb_alloc_int(2 * (size_t)m)};
+    *e = (rb_elimination){.m = m, .kept = m};
+    e->row = rb_arena_ints(&e->memory, 2 * (size_t)m);
     e->column = e->row + m;
     return e->row ? RB_OK : RB_ENOMEM;
 }
@@ -22,9 +15,9 @@ rb_status rb_elimination_keep(int kept, rb_elimination *e)
 {
     const size_t k = (size_t)kept, others = (size_t)(e->m - kept);
     e->kept = kept;
-    e->V = rb_alloc(4 * k + others + 1, others + 1);
-    e->pivot = calloc(others + 1, sizeof *e->pivot);
-    if (!e->V || !e->pivot)
+    e->V = rb_arena_doubles(&e->memory, 4 * k + others + 1, others + 1);
+    e->pivot = rb_arena_zeros(&e->memory, others + 1, sizeof *e->pivot);
+    if (e->memory.failed)
         return RB_ENOMEM;
     e->Z = e->V + k * others;
     e->lower = e->Z + k * others;

@@ -14,11 +14,12 @@
  * stands alone, and D_SS - X_SR X_RR^-1 X_RS is left of the skeleton's. */
 typedef struct {
     int m, kept;
-    int *row, *column;     /* m dofs; owned, one allocation */
-    double *V, *Z;         /* kept x others; owned with the rest in one allocation */
+    int *row, *column;     /* m dofs */
+    double *V, *Z;         /* kept x others */
     double *lower, *upper; /* X_SR; X_RR^-1 X_RS */
     double *LU;            /* of X_RR */
-    lapack_int *pivot;     /* owned */
+    lapack_int *pivot;
+    rb_arena memory; /* of the arrays */
 } rb_elimination;
 
 /* Rows and columns, everything kept. */
@@ -28,7 +29,6 @@ rb_status rb_elimination_keep(int kept, rb_elimination *e);
 /* D: m x m in the order of row and column, with V and Z set; its corner becomes the
  * skeleton's part.  RB_SINGULAR. */
 rb_status rb_elimination_run(rb_elimination *e, double *D);
-void rb_elimination_free(rb_elimination *e);
 
 /* From the leaves to the root: b by rows, y by columns, n x q; scratch: m x q. */
 void rb_elimination_up(const rb_elimination *e, size_t n, int q, double *b, double *y,

@@ -14,11 +14,12 @@ static const double REACH = 2.0;
 
 typedef struct {
     int columns, kept; /* of its own elements or of its parts' skeletons; the skeleton */
-    int *column;       /* columns: their dofs; owned, as all here */
+    int *column;       /* columns: their dofs */
     int *order;        /* columns: places in `column`, skeleton first */
     double *T;         /* kept x others: the others are the skeleton's times T */
     int near, far;     /* elements within reach; those within the parent's reach alone */
     int *point;        /* near + far: which elements these are, the near ones first */
+    rb_arena memory;   /* of the arrays */
 } cluster;
 
 /* What a cluster does to neighbouring points of one leaf. */
@@ -36,6 +37,7 @@ struct rb_given {
     cluster *cluster; /* levels 0 ... levels, level by level */
     int *first;       /* 2^levels + 1: where the views of a leaf begin */
     view *view;
+    rb_arena memory; /* of the arrays */
 };
 
 static cluster *at(const rb_given *g, int level, int k)
@@ -52,18 +54,10 @@ void rb_given_free(rb_given *g)
 {
     if (!g)
         return;
-    for (size_t i = 0; g->cluster && i < clusters_of(g); i++) {
-        free(g->cluster[i].column);
-        free(g->cluster[i].order);
-        free(g->cluster[i].T);
-        free(g->cluster[i].point);
-    }
+    for (size_t i = 0; g->cluster && i < clusters_of(g); i++)
+        rb_arena_free(&g->cluster[i].memory);
     rb_mixed_free(&g->matrix);
-    free(g->order);
-    free(g->factor);
-    free(g->cluster);
-    free(g->first);
-    free(g->view);
+    rb_arena_free(&g->memory);
     free(g);
 }
 
@@ -88,7 +82,7 @@ static rb_status part_points(const void *tree, int level, int k)
     cluster *c = at(g, level, k);
     int far = parent->near;
 
-    c->point = rb_alloc_int((size_t)parent->near + 1);
+    c->point = rb_arena_ints(&c->memory, (size_t)parent->near + 1);
     if (!c->point)
         return RB_ENOMEM;
     for (int i = 0; i < parent->near; i++) {
@@ -119,7 +113,7 @@ static rb_status skeletonise(const void *tree, int level, int k)
 
     c->columns = is_leaf ? 2 * (rb_cluster_first(g->matrix.n, level, k + 1) - first)
                          : part[0].kept + part[1].kept;
-    c->column = rb_alloc_int((size_t)c->columns);
+    c->column = rb_arena_ints(&c->memory, (size_t)c->columns);
     if (!c->column)
         return RB_ENOMEM;
     for (int i = 0; i < c->columns; i++)
@@ -129,7 +123,7 @@ static rb_status skeletonise(const void *tree, int level, int k)
     rb_status s =
         rb_mixed_see_columns(&g->matrix, 0, NULL, &reach, g->points, c->columns, c->column, &seen);
     if (s == RB_OK)
-        s = rb_skeleton_reduce(&seen, g->tolerance, &c->kept, &c->order, &c->T);
+        s = rb_skeleton_reduce(&seen, g->tolerance, &c->memory, &c->kept, &c->order, &c->T);
     rb_skeleton_free(&seen);
     return s;
 }
@@ -170,10 +164,10 @@ rb_status rb_given_create(const rb_bem_mesh *mesh, rb_bem_material material, con
         g->levels = rb_cluster_levels(mesh->n, LEAF);
         g->tolerance = tolerance;
         g->points = 2 * (int)ceil(-log(tolerance) / log(REACH));
-        g->order = rb_alloc_int((size_t)mesh->n);
-        g->factor = rb_alloc(2 * (size_t)mesh->n, 1);
-        g->cluster = calloc(clusters_of(g), sizeof *g->cluster);
-        s = g->order && g->factor && g->cluster ? RB_OK : RB_ENOMEM;
+        g->order = rb_arena_ints(&g->memory, (size_t)mesh->n);
+        g->factor = rb_arena_doubles(&g->memory, 2 * (size_t)mesh->n, 1);
+        g->cluster = rb_arena_zeros(&g->memory, clusters_of(g), sizeof *g->cluster);
+        s = g->memory.failed ? RB_ENOMEM : RB_OK;
     }
     const int threads = rb_blas_threads(1);
     if (s == RB_OK) {
@@ -194,7 +188,7 @@ rb_status rb_given_create(const rb_bem_mesh *mesh, rb_bem_material material, con
         cluster *root = at(g, 0, 0);
 
         root->near = g->matrix.n;
-        root->point = rb_alloc_int((size_t)root->near);
+        root->point = rb_arena_ints(&root->memory, (size_t)root->near);
         if (!root->point)
             s = RB_ENOMEM;
         else {
@@ -208,20 +202,19 @@ rb_status rb_given_create(const rb_bem_mesh *mesh, rb_bem_material material, con
     }
     if (s == RB_OK) {
         const size_t leaves = (size_t)1 << g->levels;
-        int *next = rb_alloc_int(leaves);
+        int *next = rb_arena_ints(&g->memory, leaves);
 
-        g->first = rb_alloc_int(leaves + 1);
-        if (next && g->first) {
+        g->first = rb_arena_ints(&g->memory, leaves + 1);
+        if (!g->memory.failed) {
             list_views(g, NULL, next);
             for (size_t k = 0; k < leaves; k++) {
                 g->first[k + 1] = g->first[k] + next[k];
                 next[k] = g->first[k];
             }
-            g->view = calloc((size_t)g->first[leaves] + 1, sizeof *g->view);
+            g->view = rb_arena_zeros(&g->memory, (size_t)g->first[leaves] + 1, sizeof *g->view);
             if (g->view)
                 list_views(g, g->view, next);
         }
-        free(next);
         s = g->view ? RB_OK : RB_ENOMEM;
     }
     rb_blas_threads(threads);
@@ -323,25 +316,24 @@ static rb_status add_view(const product *p, const view *w, int k, double *Y, int
     const cluster *c = w->from;
     const values *v = &p->of[c - g->cluster];
     const int near = w->first < c->near, columns = near ? c->columns : c->kept, m = 2 * w->count;
-    int *row = rb_alloc_int((size_t)m + (size_t)columns), *column = row ? row + m : NULL;
-    double *A = rb_alloc((size_t)m, (size_t)columns);
-    rb_status s = row && A ? RB_OK : RB_ENOMEM;
+    rb_arena scratch = {0};
+    int *row = rb_arena_ints(&scratch, (size_t)m),
+        *column = rb_arena_ints(&scratch, (size_t)columns);
+    double *A = rb_arena_doubles(&scratch, (size_t)m, (size_t)columns);
 
-    if (s == RB_OK) {
-        for (int i = 0; i < m; i++)
-            row[i] = 2 * c->point[w->first + i / 2] + i % 2;
-        for (int j = 0; j < columns; j++)
-            column[j] = c->column[near ? j : c->order[j]];
-        s = rb_mixed_entries(&g->matrix, m, row, columns, column,
-                             (rb_matrix_view){A, 1, (size_t)m});
-    }
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    for (int i = 0; i < m; i++)
+        row[i] = 2 * c->point[w->first + i / 2] + i % 2;
+    for (int j = 0; j < columns; j++)
+        column[j] = c->column[near ? j : c->order[j]];
+    const rb_status s =
+        rb_mixed_entries(&g->matrix, m, row, columns, column, (rb_matrix_view){A, 1, (size_t)m});
     if (s == RB_OK)
         cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, p->q, columns, 1.0, A, m,
                     near ? v->all : v->skeleton, columns, 1.0,
                     Y + (row[0] - 2 * rb_cluster_first(g->matrix.n, g->levels, k)), ld);
-    free(row);
-    free(A);
-    return s;
+    return rb_arena_done(&scratch, s);
 }
 
 static rb_status add_leaf(const void *tree, int level, int k)

@@ -14,8 +14,7 @@ void rb_hierarchical_free(rb_hierarchical *h)
     if (!h)
         return;
     for (int i = 0; h->cluster && i < rb_hierarchical_clusters(h); i++) {
-        rb_elimination_free(&h->cluster[i].e);
-        free(h->cluster[i].order);
+        rb_arena_free(&h->cluster[i].e.memory);
         free(h->cluster[i].D);
     }
     free(h->cluster);
@@ -31,7 +30,7 @@ static rb_status cluster_alloc(int m, rb_hierarchical_cluster *c)
     const size_t size = (size_t)m;
     const rb_status s = rb_elimination_begin(m, &c->e);
 
-    c->order = rb_alloc_int(2 * size);
+    c->order = rb_arena_ints(&c->e.memory, 2 * size);
     c->D = rb_alloc(size, size);
     return s == RB_OK && c->order && c->D ? RB_OK : RB_ENOMEM;
 }

@@ -7,9 +7,9 @@
 #include "bem/mixed.h"
 
 typedef struct {
-    rb_elimination e; /* its rows and columns */
+    rb_elimination e; /* its rows and columns, and memory */
     rb_circle circle; /* about its elements */
-    int *order;       /* of the rows, then of the columns: skeleton first; owned */
+    int *order;       /* of the rows, then of the columns: skeleton first */
     double *D;        /* its part of the matrix, m x m, then the skeleton's in its corner;
                          owned, gone with the parent's */
 } rb_hierarchical_cluster;

@@ -6,10 +6,7 @@
 
 void rb_skeleton_free(rb_skeleton *s)
 {
-    free(s->K);
-    free(s->scale);
-    free(s->pivot);
-    *s = (rb_skeleton){0};
+    rb_arena_free(&s->memory);
 }
 
 rb_status rb_skeleton_alloc(int rows, int columns, rb_skeleton *s)
@@ -17,13 +14,10 @@ rb_status rb_skeleton_alloc(int rows, int columns, rb_skeleton *s)
     const int ld = rows > 0 ? rows : 1;
 
     *s = (rb_skeleton){.rows = rows, .columns = columns, .ld = ld};
-    s->K = rb_alloc((size_t)ld, (size_t)columns);
-    s->scale = rb_alloc((size_t)columns, 1);
-    s->pivot = calloc((size_t)columns, sizeof *s->pivot);
-    if (s->K && s->scale && s->pivot)
-        return RB_OK;
-    rb_skeleton_free(s);
-    return RB_ENOMEM;
+    s->K = rb_arena_doubles(&s->memory, (size_t)ld, (size_t)columns);
+    s->scale = rb_arena_doubles(&s->memory, (size_t)columns, 1);
+    s->pivot = rb_arena_zeros(&s->memory, (size_t)columns, sizeof *s->pivot);
+    return s->memory.failed ? rb_arena_done(&s->memory, RB_ENOMEM) : RB_OK;
 }
 
 enum { WIDE = 96 };
@@ -55,14 +49,12 @@ rb_status rb_skeleton_split(const rb_skeleton *s, int kept, int *order, double *
 {
     const int others = s->columns - kept, used = kept < s->rank ? kept : s->rank;
     const size_t ld = (size_t)s->ld;
-    int *to = rb_alloc_int((size_t)s->columns);
-    double *X = rb_alloc((size_t)kept, (size_t)others);
+    rb_arena scratch = {0};
+    int *to = rb_arena_ints(&scratch, (size_t)s->columns);
+    double *X = rb_arena_doubles(&scratch, (size_t)kept, (size_t)others);
 
-    if (!to || !X) {
-        free(to);
-        free(X);
-        return RB_ENOMEM;
-    }
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
     for (int j = 0; j < others; j++)
         cblas_dcopy(used, s->K + (size_t)(kept + j) * ld, 1, X + (size_t)j * (size_t)kept, 1);
     if (used && others)
@@ -83,19 +75,18 @@ rb_status rb_skeleton_split(const rb_skeleton *s, int kept, int *order, double *
         for (int i = 0; i < kept; i++)
             T[to[i] + (size_t)(to[kept + j] - kept) * (size_t)kept] =
                 X[i + (size_t)j * (size_t)kept];
-    free(to);
-    free(X);
-    return RB_OK;
+    return rb_arena_done(&scratch, RB_OK);
 }
 
-rb_status rb_skeleton_reduce(rb_skeleton *s, double tolerance, int *kept, int **order, double **T)
+rb_status rb_skeleton_reduce(rb_skeleton *s, double tolerance, rb_arena *memory, int *kept,
+                             int **order, double **T)
 {
     const rb_status status = rb_skeleton_factor(s, tolerance);
 
     if (status != RB_OK)
         return status;
     *kept = s->rank;
-    *order = rb_alloc_int((size_t)s->columns);
-    *T = rb_alloc((size_t)s->rank, (size_t)(s->columns - s->rank) + 1);
-    return *order && *T ? rb_skeleton_split(s, *kept, *order, *T) : RB_ENOMEM;
+    *order = rb_arena_ints(memory, (size_t)s->columns);
+    *T = rb_arena_doubles(memory, (size_t)s->rank, (size_t)(s->columns - s->rank) + 1);
+    return memory->failed ? RB_ENOMEM : rb_skeleton_split(s, *kept, *order, *T);
 }

@@ -10,9 +10,10 @@
 typedef struct {
     int rows, columns, ld; /* ld: of K */
     int rank;              /* so many columns span the others, once factored */
-    double *K;             /* owned; Q and R once factored */
-    double *scale;         /* of the reflectors; owned */
-    lapack_int *pivot;     /* owned */
+    double *K;             /* Q and R once factored */
+    double *scale;         /* of the reflectors */
+    lapack_int *pivot;
+    rb_arena memory; /* of the arrays */
 } rb_skeleton;
 
 /* K: rows x columns, zeroed. */
@@ -27,8 +28,9 @@ rb_status rb_skeleton_factor(rb_skeleton *s, double tolerance);
  * order[i] times T(i, j).  Columns kept beyond the rank take no part. */
 rb_status rb_skeleton_split(const rb_skeleton *s, int kept, int *order, double *T);
 
-/* Both, for as many columns as the rank says: order (columns) and T are the caller's to
- * free, also after RB_ENOMEM. */
-rb_status rb_skeleton_reduce(rb_skeleton *s, double tolerance, int *kept, int **order, double **T);
+/* Both, for as many columns as the rank says: order (columns) and T in the caller's
+ * memory. */
+rb_status rb_skeleton_reduce(rb_skeleton *s, double tolerance, rb_arena *memory, int *kept,
+                             int **order, double **T);
 
 #endif
