@@ -588,6 +588,10 @@ static void kinked(double degrees, double length, double *K_I, double *K_II)
         const double n_x = -0.5 * (y[j + 2] - y[j]), n_y = 0.5 * (x[j + 2] - x[j]);
         T[j] = -n_x * t_y[j] + n_y * t_x[j];
         T[N - 1 + j] = n_x * t_x[j] + n_y * t_y[j];
+        /* the tangent of a node halves the angle between its two elements */
+        const double before = atan2(y[j + 1] - y[j], x[j + 1] - x[j]);
+        const double behind = atan2(y[j + 2] - y[j + 1], x[j + 2] - x[j + 1]);
+        CHECK_ABS(atan2(t_y[j], t_x[j]), 0.5 * (before + behind), 1e-9, "tangent %d", j);
     }
     CHECK_OK(rb_crack_step(c, T, RB_CRACK_DRY, 0.0, 1.0, &s, NULL));
     *K_I = s.K_I / sqrt(M_PI);

@@ -122,7 +122,8 @@ TEST(poor_starts_give_the_truth)
 {
     static const double far[][5] = {{NAN, NAN, 15.0, NAN, NAN},  {NAN, NAN, 0.3, NAN, NAN},
                                     {0.1, 0.05, NAN, NAN, NAN},  {0.6, 0.05, 1.0, 5e-3, NAN},
-                                    {0.3, 0.4, 6.0, 5e-5, 1e-3}, {NAN, 0.01, 4.0, NAN, -1e-3}};
+                                    {0.3, 0.4, 6.0, 5e-5, 1e-3}, {NAN, 0.01, 4.0, NAN, -1e-3},
+                                    {NAN, NAN, NAN, 0.0, 0.0}};
     const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, exact, NULL, NULL,
                                NULL,   NULL};
     for (size_t k = 0; k < sizeof far / sizeof *far; k++) {
@@ -134,6 +135,8 @@ TEST(poor_starts_give_the_truth)
             fail_msg("start %zu: %s", k, why.text);
         for (int j = 0; j < 5; j++)
             CHECK_REL(fit.parameter[j].value, *truth[j], 1e-6, "start %zu: %s", k, all[j]);
+        if (far[k][3] == 0.0) /* a part of a/E*, where the start has no size; E* = 200 MPa */
+            CHECK_REL(fit.parameter[3].scale, 1e-2 / 200.0, 1e-12, "start %zu: scale", k);
         rb_case_fit_free(&fit);
     }
 }
@@ -157,6 +160,13 @@ TEST(noise_leaves_it_in_the_intervals)
         CHECK_REL(p->correlation[(j + 1) % 5], fit.parameter[(j + 1) % 5].correlation[j], 1e-10,
                   "both ways");
     }
+    /* of the band: J (J'J)^-1 J' projects onto as many directions as there are numbers */
+    const rb_case_parameter *mu = &fit.parameter[0];
+    const double t = (mu->interval[1] - mu->value) / mu->deviation;
+    double sum = 0.0;
+    for (int k = 0; k < POINTS; k++)
+        sum += fit.band[k] * fit.band[k] / (t * t * fit.noise * fit.noise);
+    CHECK_REL(sum, 5.0, 1e-9, "trace of the projection");
     rb_case_fit_free(&fit);
 }
 

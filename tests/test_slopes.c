@@ -86,6 +86,39 @@ TEST(elements_under_a_table_stay)
         rb_case_slopes_free(&of[given]);
 }
 
+/* What must be known to read the columns, from one step or point on. */
+TEST(one_step_is_told)
+{
+    rb_case_slopes of = {.rows = 7};
+    rb_message note;
+
+    assert_int_equal(rb_case_slopes_note(&of, &note), 0);
+    assert_string_equal(note.text, "");
+    of.degenerate = 1;
+    assert_int_equal(rb_case_slopes_note(&of, &note), 1);
+    assert_non_null(strstr(note.text, "in 1 of 7 steps an element stands between two zones"));
+    of.without = 1;
+    snprintf(of.reason.text, sizeof of.reason.text, "reason");
+    assert_int_equal(rb_case_slopes_note(&of, &note), 1);
+    assert_string_equal(note.text, "1 of 7 points have no derivatives: reason");
+    of.stay = 1;
+    assert_int_equal(rb_case_slopes_note(&of, &note), 1);
+    assert_string_equal(note.text, "derivatives are those on elements that do not move; 1 of 7 "
+                                   "points have no derivatives: reason");
+}
+
+/* A standard deviation of a number by which nobody has differentiated. */
+TEST(tolerances_need_derivatives)
+{
+    const rb_case_tolerances t = {.n = 1, .name = {"radius"}, .deviation = {0.1}};
+    rb_case_derivative other = {.name = "young"};
+    const rb_case_derivatives all = {.n = 1, .of = &other};
+    rb_rolling_solution deviation;
+
+    CHECK_STATUS(rb_case_propagate(&t, &all, &deviation, &heard), RB_EINVAL);
+    assert_string_equal(heard.text, "tolerance: radius: no derivatives");
+}
+
 /* A boundary that is compressed: variants are so closely that steps do not show it. */
 TEST(compressed_boundaries_have_derivatives)
 {
