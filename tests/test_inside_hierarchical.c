@@ -104,18 +104,6 @@ static double stored_part(const rb_hierarchical *h)
 }
 
 /* Largest error of a known solution; frees the mesh. */
-/* Numbers stored / 4 n^2. */
-static double stored_part(const rb_hierarchical *h)
-{
-    const double dofs = 2.0 * h->matrix.n;
-    double stored = 0.0;
-    for (int i = 0; i < rb_hierarchical_clusters(h); i++) {
-        const double kept = h->cluster[i].e.kept, others = h->cluster[i].e.m - kept;
-        stored += (4.0 * kept + others) * others;
-    }
-    return stored / (dofs * dofs);
-}
-
 static double solution_error(rb_bem_mesh mesh, rb_bem_material material, double tolerance,
                              double *ratio)
 {
