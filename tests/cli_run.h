@@ -81,10 +81,11 @@ static inline void check_refused(const char *arguments, int code, const char *pa
     assert_string_equal(out, "");
 }
 
-/* For a shell: waits until process $p catches a signal, by the last digit of its mask: a
- * signal that comes before, a shell's `&` makes it ignore. */
+/* For a shell: waits until process $p catches a signal, by the last digit of its mask, or has
+ * ended: a signal that comes before, a shell's `&` makes it ignore. */
 #define WHEN_CAUGHT(digits)                                                                        \
-    "until grep -q 'SigCgt:.*[" digits "]$' /proc/$p/status || [ $((n+=1)) -gt 3000 ]; "           \
+    "until [ ! -e /proc/$p/status ] || "                                                           \
+    "grep -q -e 'SigCgt:.*[" digits "]$' -e '^State:.*Z' /proc/$p/status; "                        \
     "do sleep 0.01; done; "
 #define INT_CAUGHT "2367abef" /* bit 1 */
 #define HUP_CAUGHT "37bf"     /* bits 0 and 1: without nohup both are caught */

@@ -470,6 +470,56 @@ static rb_status check_hysteresis(rb_certificate *c)
     return RB_OK;
 }
 
+/* The creepage of free rolling is that of another solution; but it is 0 where friction acts on
+ * nothing else than itself, and friction drives towards it elsewhere. */
+static void check_free_creepage(rb_certificate *c)
+{
+    const rb_rolling_case *rc = c->model.rc;
+    const rb_contact_problem *p = &c->model.problem;
+    const json_t *printed = json_object_get(c->summary, "free_creepage");
+    const double free = rb_certificate_number(printed), xi = c->again.creepage,
+                 Q = c->again.tangential_load;
+
+    c->found->numbers++;
+    if (rc->formulation != RB_STEADY || rb_rolling_largest_mu(rc) == 0.0) {
+        if (!json_is_null(printed))
+            rb_certificate_violated(c, "summary.free_creepage is missing, or should be null");
+    } else if (!rb_contact_operator_response(p->op).coupled &&
+               rb_norm_inf((size_t)p->n, p->d_T) == 0.0)
+        rb_certificate_expect(c, "summary.free_creepage", 0, free, 0.0, 0.0);
+    else if (!json_is_null(printed) && !json_is_number(printed))
+        rb_certificate_violated(c, "summary.free_creepage is no number");
+    else if (!rb_rolling_law_depends_on_state(rc) && fabs(Q) > 1e-6 * c->again.normal_load &&
+             (free - xi) * Q < 0.0)
+        rb_certificate_violated(c,
+                                "summary.free_creepage: printed %.17g, which the friction at a "
+                                "creepage of %.17g does not drive to",
+                                free, xi);
+}
+
+/* How the answer was found: of the right kind. */
+static void check_way(rb_certificate *c)
+{
+    const json_t *steps = json_object_get(c->summary, "iterations");
+    const json_t *seconds = json_object_get(c->summary, "seconds");
+    const char *key;
+    json_t *value;
+
+    if (!json_is_integer(steps) || json_integer_value(steps) < 0)
+        rb_certificate_violated(c, "summary.iterations is no count");
+    if (!json_is_object(seconds))
+        rb_certificate_violated(c, "summary.seconds is missing");
+    json_object_foreach((json_t *)seconds, key, value)
+    {
+        if (!(rb_certificate_number(value) >= 0.0))
+            rb_certificate_violated(c, "summary.seconds.%s is no time", key);
+    }
+    if (!rb_certificate_word(c->summary, "integrals")[0] ||
+        !rb_certificate_word(c->summary, "openblas")[0])
+        rb_certificate_violated(c, "summary.integrals or summary.openblas is missing");
+    check_free_creepage(c);
+}
+
 static rb_status compare_results(rb_certificate *c)
 {
     json_t *summary = rb_report_json_summary(&c->again);
@@ -522,6 +572,7 @@ static rb_status compare_results(rb_certificate *c)
                 rb_certificate_violated(c, "summary.solver is none that this case may have");
             if (strcmp(form, kwak) != 0 && strcmp(form, pivoted) != 0)
                 rb_certificate_violated(c, "summary.lcp_form is none");
+            check_way(c);
         }
         rb_certificate_motion(c);
         s = check_hysteresis(c);

@@ -53,7 +53,7 @@ rb_status rb_rolling_find_solutions(rb_rolling_model *model, rb_rolling_solution
 {
     enum { MOST = 200 };
     const rb_rolling_case *rc = model->rc;
-    double from, to;
+    double from, to, free_creepage = NAN;
     int places = 0;
 
     memset(all, 0, sizeof *all);
@@ -65,6 +65,8 @@ rb_status rb_rolling_find_solutions(rb_rolling_model *model, rb_rolling_solution
         return rb_fail(why, RB_EINVAL,
                        "all solutions: at a given creepage, not under a given force");
     rb_status s = keep(all, model, why);
+    if (s == RB_OK)
+        s = rb_rolling_free_creepage_if_any(model, &free_creepage, why);
     rb_rolling_contact_edges(rc, &model->mesh, &model->state, &from, &to);
     for (int i = 0; i < model->state.n && places < MOST; i++)
         places += model->state.zone[i] != RB_ZONE_SEPARATED;
@@ -81,6 +83,8 @@ rb_status rb_rolling_find_solutions(rb_rolling_model *model, rb_rolling_solution
         else if (t == RB_OK && !is_known(all, model))
             s = keep(all, model, why);
     }
+    for (int k = 0; k < all->n; k++)
+        all->solution[k].free_creepage = free_creepage;
     if (all->n > 1)
         qsort(all->solution, (size_t)all->n, sizeof *all->solution, by_force);
     return s;
