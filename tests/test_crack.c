@@ -74,6 +74,29 @@ TEST(edge_cracks_in_tension)
     }
 }
 
+/* A larger crack is similar: K grows with the root of its length. */
+TEST(length_is_the_only_scale)
+{
+    const double x = 0.0;
+    const rb_crack_passage passage = {.steps = 1, .x = &x, .passes = 1, .tension = 1.0};
+    double K[3][2];
+    for (int k = 0; k < 3; k++) {
+        const double length = pow(10.0, 4.0 * (k - 1));
+        rb_crack_shape shape = edge_crack(60.0, 20, 0.1);
+        OWNED(rb_crack_history) h;
+        shape.path = rb_crack_straight(0.0, 0.0, length, 60.0);
+        rb_crack *c = create(shape);
+        CHECK_OK(rb_crack_pass(c, &passage, &h, NULL));
+        K[k][0] = h.K_I[0] / sqrt(length);
+        K[k][1] = h.K_II[0] / sqrt(length);
+        rb_crack_free(c);
+    }
+    for (int mode = 0; mode < 2; mode++) {
+        CHECK_REL(K[0][mode], K[1][mode], 1e-11, "short, K %d", mode);
+        CHECK_REL(K[2][mode], K[1][mode], 1e-11, "long, K %d", mode);
+    }
+}
+
 /* A crack and its mirror image: K_I alike, K_II turned. */
 TEST(mirror_images)
 {

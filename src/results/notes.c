@@ -45,8 +45,8 @@ int rb_rolling_is_below_zero(double dissipation, double load)
 static void note_strain(rb_rolling_note_list *list, const rb_rolling_case *rc,
                         const rb_rolling_solution *s)
 {
-    double widest = s->patches > 1 ? 0.0 : s->half_width;
-    for (int k = 0; k < s->patches && s->patches > 1; k++)
+    double widest = s->patches > 0 ? 0.0 : s->half_width;
+    for (int k = 0; k < s->patches; k++)
         widest = fmax(widest, 0.5 * (s->patch[k].to - s->patch[k].from));
     const double radius = rb_unit_shown(s->units, "mm", rc->a.radius);
     const double approach = s->approach / radius;
