@@ -13,6 +13,10 @@
  * one on them, by this part of itself or of the squares of the measured forces. */
 enum { ROUNDS = 8 };
 static const double SAME = 1e-3, SAME_OF_ALL = 1e-8;
+/* Steps with elements that move; what moves the fitted curve less, as a part of its noise, is none;
+ * and what a fit that finds no lesser sum may be off. */
+enum { MOVING_STEPS = 20, HALVINGS = 5 };
+static const double AT_REST = 0.02, LITTLE = 0.3;
 /* The least and the largest of a coefficient of friction and its fall. */
 static const double LEAST_MU = 0.01, MOST_MU = 3.0;
 /* A correlation that is worth a word. */
@@ -54,6 +58,11 @@ static rb_status covariance(const fit_problem *p, double *C, int *which)
         for (int i = j; i < n; i++)
             C[j + i * n] = C[i + j * n] /= length[i] * length[j];
     return RB_OK;
+}
+
+static double variance_of(const fit_problem *p)
+{
+    return p->data->sigma ? 1.0 : p->fit->chi_square / p->fit->degrees_of_freedom;
 }
 
 /* How many points lie where the force falls beyond its largest, by more than the noise. */
@@ -101,8 +110,7 @@ static void set_intervals(fit_problem *p, const double *theta)
     const int n = p->n;
     int which = -1;
 
-    fit->degrees_of_freedom = p->points - n;
-    const double variance = p->data->sigma ? 1.0 : fit->chi_square / fit->degrees_of_freedom;
+    const double variance = variance_of(p);
     const double t = gsl_cdf_tdist_Pinv(0.5 + 0.5 * fit->level, fit->degrees_of_freedom);
     const rb_status s = covariance(p, C, &which);
 
@@ -333,6 +341,84 @@ rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_cas
     return s;
 }
 
+/* ---- Elements that do not come to rest --------------------------------------------- */
+
+/* Gauss's step d to the least sum of squares, and by what part of the noise the curve then moves,
+ * all points together. */
+static rb_status gauss_step(const fit_problem *p, double *d, double *moves, rb_message *why)
+{
+    const size_t points = (size_t)p->points, n = (size_t)p->n;
+    rb_arena scratch = {0};
+    double *J = rb_arena_doubles(&scratch, points, n), *b = rb_arena_doubles(&scratch, points, 1),
+           singular[RB_CASE_FIT_MAX], squares = 0.0;
+    lapack_int rank = 0;
+
+    if (scratch.failed)
+        return rb_arena_done(&scratch, rb_fail(why, RB_ENOMEM, "out of memory for a step"));
+    for (size_t j = 0; j < n; j++)
+        for (size_t k = 0; k < points; k++)
+            J[k + j * points] = fit_column(p, (int)j)[k] * p->fit->parameter[j].scale;
+    for (size_t k = 0; k < points; k++)
+        b[k] = -p->f[k];
+    const int info = LAPACKE_dgelsd(LAPACK_COL_MAJOR, p->points, p->n, 1, J, p->points, b,
+                                    p->points, singular, 1e-9, &rank);
+    for (size_t j = 0; j < n; j++)
+        d[j] = b[j] * p->fit->parameter[j].scale;
+    for (int k = 0; k < p->points; k++) {
+        double by = 0.0;
+        for (int j = 0; j < p->n; j++)
+            by += fit_column(p, j)[k] * d[j];
+        squares += by * by;
+    }
+    *moves = sqrt(squares / variance_of(p));
+    return rb_arena_done(&scratch,
+                         info == 0 ? RB_OK : rb_fail(why, RB_SINGULAR, "fit: no step is found"));
+}
+
+/* Gauss's method on elements that move with the numbers, where the minima on elements that stay
+ * lead from one to the next.  The points have their elements for theta and are tried there.
+ * RB_MAXITER: no minimum is found. */
+static rb_status descend_with_elements(fit_problem *p, double *theta, double chi2, rb_message *why)
+{
+    double d[RB_CASE_FIT_MAX], trial[RB_CASE_FIT_MAX], moves = INFINITY;
+    rb_status s = RB_OK;
+
+    for (int k = 0; k < MOVING_STEPS && s == RB_OK; k++) {
+        double part = 1.0, least = INFINITY;
+        p->fit->chi_square = chi2;
+        s = rb_case_fit_move(p, theta, why);
+        if (s == RB_OK)
+            s = gauss_step(p, d, &moves, why);
+        if (s != RB_OK || moves <= AT_REST)
+            break;
+        for (int h = 0; h < HALVINGS && s == RB_OK && !(least < chi2); h++, part *= 0.5) {
+            int moved;
+            for (int j = 0; j < p->n; j++) {
+                trial[j] = theta[j] + part * d[j];
+                rb_case_fit_clip(&p->fit->parameter[j], &trial[j]);
+            }
+            s = rb_case_fit_place(p, trial, &moved, why);
+            if (s == RB_OK)
+                s = rb_case_fit_try(p, trial, &least, why);
+        }
+        if (s == RB_OK && least < chi2) {
+            memcpy(theta, trial, sizeof trial);
+            chi2 = least;
+            continue;
+        }
+        /* back to the elements of the least sum */
+        int moved;
+        if (s == RB_OK)
+            s = rb_case_fit_place(p, theta, &moved, why);
+        if (s == RB_OK)
+            s = rb_case_fit_try(p, theta, &chi2, why);
+        break;
+    }
+    for (int k = 0; k < p->points; k++)
+        p->fit->model[k] = p->data->force[k] + p->f[k] * (p->data->sigma ? p->data->sigma[k] : 1.0);
+    return s == RB_OK && !(moves <= LITTLE) ? RB_MAXITER : s;
+}
+
 /* ---- All together ------------------------------------------------------------------ */
 
 static int falls_unidentified(const rb_case_fit *fit)
@@ -359,12 +445,14 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
                      .speed = rb_case_option("speed"),
                      .temperature = rb_case_option("temperature")};
     double theta[RB_CASE_FIT_MAX], squares = 0.0;
+    double chi2 = INFINITY;
     int moved = 1, round = 0, moves = 0;
     rb_status s = RB_OK;
 
     if (data->n <= fit->n)
         return rb_fail(why, RB_EINVAL, "--fit: expected at least %d points for %d number%s, got %d",
                        fit->n + 1, fit->n, fit->n > 1 ? "s" : "", data->n);
+    fit->degrees_of_freedom = data->n - fit->n;
     p.at = calloc(points, sizeof *p.at);
     p.known = calloc(FIT_CASES, sizeof *p.known);
     p.f = rb_alloc(points, 1);
@@ -385,7 +473,6 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
     for (int k = 0; k < p.points; k++)
         squares += gsl_pow_2(rb_case_fit_residual(&p, k, 0.0));
     for (; round < ROUNDS && s == RB_OK && moved; round++) {
-        double chi2;
         s = rb_case_fit_descend(&p, theta, observer, why);
         if (s == RB_OK)
             s = rb_case_fit_place(&p, theta, &moved, why);
@@ -395,17 +482,19 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
         if (s == RB_OK && moved)
             moved = fabs(chi2 - fit->chi_square) > SAME * fit->chi_square + SAME_OF_ALL * squares;
     }
-    if (s == RB_OK && moved)
-        s = rb_fail(
-            why, RB_MAXITER,
-            "fit: not converged: after %d rounds a new mesh still changes the sum of squares. The "
-            "data may not determine all numbers: fit fewer, keep the elements (--mesh uniform "
-            "--zone X), or give another start (--start)",
-            ROUNDS);
+    if (s == RB_OK && moved) {
+        s = descend_with_elements(&p, theta, chi2, why);
+        if (s == RB_MAXITER)
+            s = rb_fail(why, s,
+                        "fit: not converged: after %d rounds a new mesh still changes the sum of "
+                        "squares. The data may not determine all numbers: fit fewer, keep the "
+                        "elements (--mesh uniform --zone X), or give another start (--start)",
+                        ROUNDS);
+    }
     for (int j = 0; j < fit->n && s != RB_EINVAL && s != RB_ENOMEM; j++)
         fit->parameter[j].value = theta[j];
     fit->kappa = p.kappa;
-    if (s == RB_OK && moves)
+    if (s == RB_OK && moves && !moved) /* otherwise they are known */
         s = rb_case_fit_move(&p, theta, why);
     if (s == RB_OK) {
         doubt_data(&p);

@@ -39,7 +39,9 @@ typedef struct {
     double known_for[RB_CASE_FIT_MAX];
     double *f, *J; /* points: residuals of the last trial; points x n: derivatives of those
                       of the accepted numbers */
-    double kappa;  /* the largest of all points, with the accepted numbers */
+    double staying[RB_CASE_FIT_MAX]; /* the largest entries of the columns of J on elements that
+                                        stay */
+    double kappa;                    /* the largest of all points, with the accepted numbers */
 } fit_problem;
 
 /* ---- fit_points.c ------------------------------------------------------------------ */

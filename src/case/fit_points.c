@@ -104,6 +104,25 @@ static double measure(const fit_problem *p, const rb_rolling_model *model)
                                                          : Q / (model->problem.mu * P);
 }
 
+static double sigma_of(const fit_problem *p, int k)
+{
+    return p->data->sigma ? p->data->sigma[k] : 1.0;
+}
+
+/* Number j as an input of derivatives, whose steps are parts of the scale: of the number that
+ * has been reached, which may be far from the start. */
+static rb_sensitivity_input input_of(const fit_problem *p, int j, double value, place *at)
+{
+    const rb_case_parameter *of = &p->fit->parameter[j];
+
+    return (rb_sensitivity_input){.value = value,
+                                  .scale = of->positive && value > 0.0 ? value : of->scale,
+                                  .from = of->from,
+                                  .to = of->to,
+                                  .vary = case_at,
+                                  .context = at};
+}
+
 /* The derivatives of the force at a solved point with respect to all parameters: one
  * adjoint solve. */
 static rb_status differentiate(fit_problem *p, const double *theta, int k,
@@ -130,9 +149,8 @@ static rb_status differentiate(fit_problem *p, const double *theta, int k,
     if (status == RB_OK)
         status = rb_sensitivity_adjoint(s, &weight, &adjoint, why);
     for (int j = 0; j < p->n && status == RB_OK; j++) {
-        const rb_case_parameter *of = &p->fit->parameter[j];
         place at = {p, theta, k, j};
-        const rb_sensitivity_input input = {theta[j], of->scale, of->from, of->to, case_at, &at};
+        const rb_sensitivity_input input = input_of(p, j, theta[j], &at);
         double mu_rate = 0.0;
         status = rb_sensitivity_rates(s, &input, &rate, &mu_rate, why);
         if (status == RB_OK)
@@ -142,11 +160,6 @@ static rb_status differentiate(fit_problem *p, const double *theta, int k,
     rb_sensitivity_rate_free(&adjoint);
     rb_contact_state_free(&weight);
     return status;
-}
-
-static double sigma_of(const fit_problem *p, int k)
-{
-    return p->data->sigma ? p->data->sigma[k] : 1.0;
 }
 
 double rb_case_fit_residual(const fit_problem *p, int k, double model)
@@ -244,6 +257,8 @@ rb_status rb_case_fit_accept(fit_problem *p, const double *theta, rb_message *wh
         for (int j = 0; j < p->n; j++)
             p->J[(size_t)k + (size_t)j * (size_t)p->points] = row[j] / sigma_of(p, k);
     }
+    for (int j = 0; j < p->n && s == RB_OK; j++)
+        p->staying[j] = rb_norm_inf((size_t)p->points, fit_column(p, j));
     return s;
 }
 
@@ -315,12 +330,8 @@ rb_status rb_case_fit_place(fit_problem *p, const double *theta, int *moved, rb_
 rb_status rb_case_fit_move(fit_problem *p, const double *theta, rb_message *why)
 {
     const int ratio = p->data->measure == RB_CASE_FORCE_RATIO;
-    rb_arena scratch = {0};
-    double *staying = rb_arena_doubles(&scratch, (size_t)p->n, 1);
-    rb_status status = scratch.failed ? RB_ENOMEM : RB_OK;
+    rb_status status = RB_OK;
 
-    for (int j = 0; j < p->n && status == RB_OK; j++)
-        staying[j] = rb_norm_inf((size_t)p->points, fit_column(p, j));
     for (int k = 0; k < p->points && status == RB_OK; k++) {
         place at = {p, theta, k, -1};
         rb_rolling_case rc;
@@ -334,10 +345,8 @@ rb_status rb_case_fit_move(fit_problem *p, const double *theta, rb_message *why)
         if (status == RB_OK)
             status = rb_sensitivity_create(model, 1, &s, why);
         for (int j = 0; j < p->n && status == RB_OK; j++) {
-            const rb_case_parameter *of = &p->fit->parameter[j];
             place varied = {p, theta, k, j};
-            const rb_sensitivity_input input = {theta[j], of->scale, of->from,
-                                                of->to,   case_at,   &varied};
+            const rb_sensitivity_input input = input_of(p, j, theta[j], &varied);
             rb_sensitivity_derivative d;
             status = rb_sensitivity_differentiate(s, &input, &d, why);
             const rb_rolling_solution *by = &d.value[d.has[1]];
@@ -355,7 +364,7 @@ rb_status rb_case_fit_move(fit_problem *p, const double *theta, rb_message *why)
         rb_rolling_model_free(&own);
     }
     for (int j = 0; j < p->n && status == RB_OK; j++)
-        if (rb_norm_inf((size_t)p->points, fit_column(p, j)) < NONE * staying[j])
+        if (rb_norm_inf((size_t)p->points, fit_column(p, j)) < NONE * p->staying[j])
             memset(fit_column(p, j), 0, (size_t)p->points * sizeof(double));
-    return rb_arena_done(&scratch, status);
+    return status;
 }
