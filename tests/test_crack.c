@@ -690,6 +690,9 @@ TEST(bad_input)
     shape = edge_crack(30.0, 20, 0.1);
     shape.path.x[1] = shape.path.y[1] = 0.0;
     refuses(shape, "no length");
+    shape = edge_crack(30.0, 20, 0.1);
+    shape.poisson = -1.0;
+    refuses(shape, "Poisson");
     rb_crack_free(NULL);
 
     const double x = 0.0;
@@ -699,6 +702,16 @@ TEST(bad_input)
                            wet = {.steps = 1, .x = &x, .passes = 1, .fluid = RB_CRACK_TRAPPED};
     CHECK_STATUS(rb_crack_pass(c, &none, &h, &heard), RB_EINVAL);
     CHECK_SAYS(rb_crack_pass(c, &wet, &h, &heard), RB_EINVAL, "mouth");
+    /* flat elements are all pressed */
+    const double ends[] = {-0.2, -0.1, 0.0, 0.1, 0.2}, gap[4] = {0.0}, p[4] = {1, 1, 1, 1};
+    const double F[16] = {[0] = 0.1, [5] = 0.1, [10] = 0.1, [15] = 0.1};
+    const rb_bem_edge_load load = {4, ends, p, gap};
+    const rb_crack_wheel wheel = {4, ends, F, gap, 4, 0.4, 0.1};
+    const rb_crack_passage pressed = {
+        .steps = 1, .x = &x, .loads = 1, .load = &load, .passes = 1, .wheel = &wheel};
+    CHECK_SAYS(rb_crack_pass(c, &pressed, &h, &heard), RB_ZONE,
+               "crack: step 1, contact at x = 0: the contact fills its elements");
+    rb_crack_history_free(&h);
     rb_crack_free(c);
 }
 

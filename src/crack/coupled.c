@@ -67,13 +67,12 @@ static rb_status find_approach(const rb_crack_wheel *w, rb_crack_contact *both, 
 {
     double before = 0.0, load_before = 0.0, at = 0.0; /* d_N are those of approach 0 */
     double next = both->warm ? both->approach : w->approach;
-    rb_status s = RB_OK;
 
-    for (int k = 0; k < TRIALS && s == RB_OK; k++) {
+    for (int k = 0; k < TRIALS; k++) {
         for (int i = 0; i < w->n; i++)
             both->problem.d_N[i] -= (next - at) * both->scale[i];
         both->approach = at = next;
-        s = rb_crack_contact_solve(both, why);
+        const rb_status s = rb_crack_contact_solve(both, why);
         const double load = cblas_ddot(w->n, both->state.p, 1, both->scale, 1);
         if (s != RB_OK || fabs(load - w->load) <= LOAD_TOLERANCE * w->load)
             return s;
@@ -83,7 +82,7 @@ static rb_status find_approach(const rb_crack_wheel *w, rb_crack_contact *both, 
         load_before = load;
         next = slope > 0.0 ? at + (w->load - load) / slope : at * (1.0 + 1e-3);
     }
-    return s == RB_OK ? rb_fail(why, RB_MAXITER, "the load was not found") : s;
+    return rb_fail(why, RB_MAXITER, "the load was not found");
 }
 
 rb_status rb_crack_step_coupled(rb_crack *c, const rb_crack_wheel *w, double x, const double *T,

@@ -283,7 +283,7 @@ static rb_status invert(rb_crack *c, rb_message *why)
 
     for (size_t j = 0; j < m; j++)
         for (size_t i = 0; i <= j; i++)
-            F[i + j * m] = F[j + i * m] = -0.5 * (F[i + j * m] + F[j + i * m]);
+            F[i + j * m] = -0.5 * (F[i + j * m] + F[j + i * m]);
     lapack_int fault = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'U', (lapack_int)m, F, (lapack_int)m);
     if (fault == 0)
         fault = LAPACKE_dpotri(LAPACK_COL_MAJOR, 'U', (lapack_int)m, F, (lapack_int)m);

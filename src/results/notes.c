@@ -81,8 +81,7 @@ static void note_short_memory(rb_rolling_note_list *list, const rb_rolling_case 
     static const double much = 0.8;
     const int rolls = rc->formulation == RB_TRANSIENT;
 
-    if (rc->formulation == RB_STEADY || !rb_rolling_relaxes(rc) || !isnan(s->load_error) ||
-        s->n == 0)
+    if (rc->formulation == RB_STEADY || !isnan(s->load_error) || s->n == 0)
         return;
     const double step = rolls ? rb_unit_stored(s->units, "mm", s->h[0]) / rc->speed : rc->time_step;
     const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
