@@ -121,86 +121,92 @@ void rb_lcp_solutions_free(rb_lcp_solutions *all)
     *all = (rb_lcp_solutions){0};
 }
 
+/* Adds z, unless it is known already.  RB_ENOMEM. */
+static rb_status keep(const search *s, rb_lcp_solutions *all)
+{
+    const size_t n = (size_t)s->n, count = (size_t)all->count, bytes = n * sizeof *s->z;
+    const double near = SAME * rb_norm_inf(n, s->z);
+    for (size_t k = 0; k < count; k++) {
+        double apart = 0.0;
+        for (size_t i = 0; i < n; i++)
+            apart = fmax(apart, fabs(all->z[k * n + i] - s->z[i]));
+        if (apart <= near)
+            return RB_OK;
+    }
+    if ((count & (count - 1)) == 0) { /* full: room for twice as many */
+        double *z = realloc(all->z, (count ? 2 * count : 1) * bytes);
+        if (!z)
+            return RB_ENOMEM;
+        all->z = z;
+    }
+    memcpy(all->z + n * (size_t)all->count++, s->z, bytes);
+    return RB_OK;
+}
+
+/* The first place of z_i that there is from `at` on; 0: there is none. */
+static int place_from(search *s, int i, int at)
+{
+    for (; at <= BETWEEN; at++)
+        if (is_place(s, i, (place)at)) {
+            s->at[i] = (place)at;
+            return 1;
+        }
+    return 0;
+}
+
+/* The next basis, the places being the digits of a number; 0: that was the last. */
+static int next_basis(search *s)
+{
+    for (int i = 0; i < s->n; i++) {
+        if (place_from(s, i, (int)s->at[i] + 1))
+            return 1;
+        place_from(s, i, AT_LOWER);
+    }
+    return 0;
+}
+
 rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const double *upper,
                            rb_lcp_solutions *all, rb_message *why)
 {
     const int n = p->n;
+    const size_t order = (size_t)n;
     search s = {.n = n, .p = *p, .lower = lower, .upper = upper};
     *all = (rb_lcp_solutions){.n = n};
     const rb_lcp_options plain = rb_lcp_defaults();
     rb_status status = rb_lcp_check_dense(&s.p, &plain, why);
     if (status == RB_OK)
         status = rb_lcp_check_boxes(n, lower, upper, why);
+    if (status != RB_OK)
+        return status;
     double bases = 1.0;
-    for (int i = 0; status == RB_OK && i < n; i++) {
-        int places = 0;
-        for (int at = AT_LOWER; at <= BETWEEN; at++)
-            places += is_place(&s, i, (place)at);
-        bases *= places;
-    }
-    if (status == RB_OK && bases > MOST_BASES)
+    for (int i = 0; i < n; i++)
+        bases *= is_place(&s, i, AT_LOWER) + is_place(&s, i, AT_UPPER) + is_place(&s, i, BETWEEN);
+    if (bases > MOST_BASES)
         return rb_fail(why, RB_EINVAL,
                        "lcp: all solutions: %.3g complementary bases: expected at most "
                        "%.3g, that is order 22 without bounds",
                        bases, MOST_BASES);
-    if (status != RB_OK)
-        return status;
-    s.at = calloc((size_t)n, sizeof *s.at);
-    s.A = rb_alloc((size_t)n, (size_t)n + 8);
-    s.inside = rb_alloc_int(3 * (size_t)n);
-    if (!s.at || !s.A || !s.inside)
-        status = RB_ENOMEM;
-    if (status == RB_OK) {
-        s.x = s.A + (size_t)n * (size_t)n;
-        s.z = s.x + n;
-        s.w = s.z + n;
-        s.terms = s.w + n;
-        s.work = s.terms + n;
-        s.swap = s.inside + n;
-        for (int i = 0; i < n; i++)
-            while (!is_place(&s, i, s.at[i]))
-                s.at[i]++;
-        for (int digit = 0; status == RB_OK && digit < n;) {
-            all->bases++;
-            const int regular = basic_point(&s);
-            all->singular += !regular;
-            if (regular && is_solution(&s)) {
-                /* A solution that is not known yet is kept. */
-                const size_t count = (size_t)all->count, bytes = (size_t)n * sizeof *s.z;
-                const double near = SAME * rb_norm_inf((size_t)n, s.z);
-                int known = 0;
-                for (size_t k = 0; !known && k < count; k++) {
-                    double apart = 0.0;
-                    for (int i = 0; i < n; i++)
-                        apart = fmax(apart, fabs(all->z[k * (size_t)n + (size_t)i] - s.z[i]));
-                    known = apart <= near;
-                }
-                if (!known && (count & (count - 1)) == 0) { /* full: room for twice as many */
-                    double *z = realloc(all->z, (count ? 2 * count : 1) * bytes);
-                    all->z = z ? z : all->z;
-                    status = z ? RB_OK : RB_ENOMEM;
-                }
-                if (!known && status == RB_OK)
-                    memcpy(all->z + (size_t)n * (size_t)all->count++, s.z, bytes);
-            }
-            /* The next choice of places, as digits of a number. */
-            for (digit = 0; digit < n; digit++) {
-                int at = (int)s.at[digit] + 1;
-                while (at <= BETWEEN && !is_place(&s, digit, (place)at))
-                    at++;
-                if (at <= BETWEEN) {
-                    s.at[digit] = (place)at;
-                    break;
-                }
-                s.at[digit] = AT_LOWER;
-                while (!is_place(&s, digit, s.at[digit]))
-                    s.at[digit]++;
-            }
-        }
+    rb_arena scratch = {0};
+    s.at = rb_arena_zeros(&scratch, order, sizeof *s.at);
+    s.A = rb_arena_doubles(&scratch, order, order);
+    s.x = rb_arena_doubles(&scratch, order, 1);
+    s.z = rb_arena_doubles(&scratch, order, 1);
+    s.w = rb_arena_doubles(&scratch, order, 1);
+    s.terms = rb_arena_doubles(&scratch, order, 1);
+    s.work = rb_arena_doubles(&scratch, order, 4);
+    s.inside = rb_arena_ints(&scratch, order);
+    s.swap = rb_arena_ints(&scratch, 2 * order);
+    status = scratch.failed ? RB_ENOMEM : RB_OK;
+    for (int i = 0; status == RB_OK && i < n; i++)
+        place_from(&s, i, AT_LOWER);
+    for (int more = 1; status == RB_OK && more; more = next_basis(&s)) {
+        const int regular = basic_point(&s);
+        all->bases++;
+        all->singular += !regular;
+        if (regular && is_solution(&s))
+            status = keep(&s, all);
     }
-    free(s.at);
-    free(s.A);
-    free(s.inside);
+    rb_arena_free(&scratch);
     if (status == RB_OK)
         return RB_OK;
     rb_lcp_solutions_free(all);

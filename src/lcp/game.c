@@ -4,7 +4,6 @@
 #include "lcp/lemke.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Strategies that paths begin with. */
@@ -29,63 +28,74 @@ static int read_sides(const rb_sparse *M, const double *q, int *side, int *m)
     return of_other > 0 && *m > 0;
 }
 
+/* Payoffs of the row player (A) and of the column player (B), m x (n - m): minus the
+ * costs in units of -q, each unknown in a unit of its own that makes its largest cost
+ * near 1.  of[i]: which strategy of its player unknown i is. */
+static void find_payoffs(const rb_sparse *M, const double *q, const int *side, const int *of, int m,
+                         double *A, double *B, double *unit)
+{
+    for (int j = 0; j < M->cols; j++) {
+        double most = 0.0;
+        for (int k = M->p[j]; k < M->p[j + 1]; k++)
+            most = fmax(most, M->x[k] / -q[M->i[k]]);
+        unit[j] = exp2(-floor(log2(most)));
+        for (int k = M->p[j]; k < M->p[j + 1]; k++) {
+            const int i = M->i[k], row = side[j] ? of[i] : of[j], col = side[j] ? of[j] : of[i];
+            (side[j] ? A : B)[(size_t)row + (size_t)col * (size_t)m] = M->x[k] / q[i] * unit[j];
+        }
+    }
+}
+
+/* Paths that begin with one strategy can be long where others are short: one after the
+ * other, with a limit that grows. */
+static rb_status follow_paths(const rb_lcp_game *game, const rb_lcp_options *opt, double *mixed,
+                              rb_lcp_info *info)
+{
+    const int n = game->m + game->n, own = opt->max_iters;
+    const double began = rb_seconds();
+    rb_lcp_options o = *opt;
+    rb_status s = RB_MAXITER;
+    int iters = 0;
+    for (int limit = 2 * n + 20; s == RB_MAXITER && limit < 50 * n + 1000; limit *= 2)
+        for (int label = 0; s == RB_MAXITER && label < LABELS && label < n; label++) {
+            o.max_iters = own && own < limit ? own : limit;
+            s = rb_lcp_bimatrix(game, label * (n / LABELS > 0 ? n / LABELS : 1), &o, mixed, info);
+            iters += info->iters;
+            if (opt->seconds > 0.0 && rb_seconds() - began > opt->seconds)
+                s = s == RB_MAXITER ? RB_INTERRUPTED : s;
+        }
+    info->iters = iters;
+    return s;
+}
+
 rb_status rb_lcp_game_solve(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
                             double *z, rb_lcp_info *info)
 {
-    const int n = M->cols;
+    const size_t n = (size_t)M->cols;
     int m = 0, count[2] = {0, 0};
-    int *side = rb_alloc_int(2 * (size_t)n), *of = side ? side + n : NULL;
-    double *A = NULL, *mixed = NULL, payoff[2];
+    rb_arena scratch = {0};
+    int *side = rb_arena_ints(&scratch, n), *of = rb_arena_ints(&scratch, n);
+    if (side && of && !read_sides(M, q, side, &m))
+        return rb_arena_done(&scratch, RB_SINGULAR);
+    const size_t rows = (size_t)m, columns = n - rows;
+    double *A = rb_arena_doubles(&scratch, rows, columns),
+           *B = rb_arena_doubles(&scratch, rows, columns),
+           *mixed = rb_arena_doubles(&scratch, n, 1), *regret = rb_arena_doubles(&scratch, n, 1),
+           *unit = rb_arena_doubles(&scratch, n, 1), payoff[2];
     lcp_scale scale = {0};
-    rb_status s = !side ? RB_ENOMEM : read_sides(M, q, side, &m) ? RB_OK : RB_SINGULAR;
-    const size_t entries = s == RB_OK ? (size_t)m * (size_t)(n - m) : 0;
+    rb_status s = scratch.failed ? RB_ENOMEM : RB_OK;
     if (s == RB_OK) {
-        A = rb_alloc(entries, 2);
-        mixed = rb_alloc((size_t)n, 3);
-        s = A && mixed ? RB_OK : RB_ENOMEM;
-    }
-    if (s == RB_OK) {
-        double *B = A + entries, *regret = mixed + n, *unit = regret + n;
-        const rb_lcp_game game = {m, n - m, A, B, m};
-        for (int i = 0; i < n; i++)
+        const rb_lcp_game game = {m, (int)columns, A, B, m};
+        for (size_t i = 0; i < n; i++)
             of[i] = count[side[i]]++;
-        /* Payoffs of the row player (A, m x n) and of the column player (B): minus the
-         * costs in units of -q, each unknown in a unit of its own that makes its largest
-         * cost near 1. unit: n. */
-        for (int j = 0; j < M->cols; j++) {
-            double most = 0.0;
-            for (int k = M->p[j]; k < M->p[j + 1]; k++)
-                most = fmax(most, M->x[k] / -q[M->i[k]]);
-            unit[j] = exp2(-floor(log2(most)));
-            for (int k = M->p[j]; k < M->p[j + 1]; k++) {
-                const int i = M->i[k], row = side[j] ? of[i] : of[j];
-                const int col = side[j] ? of[j] : of[i];
-                (side[j] ? A : B)[(size_t)row + (size_t)col * (size_t)m] = M->x[k] / q[i] * unit[j];
-            }
-        }
-        /* Paths that begin with one strategy can be long where others are short: one
-         * after the other, with a limit that grows. */
-        const int own = opt->max_iters;
-        const double began = rb_seconds();
-        rb_lcp_options o = *opt;
-        s = RB_MAXITER;
-        int iters = 0;
-        for (int limit = 2 * n + 20; s == RB_MAXITER && limit < 50 * n + 1000; limit *= 2)
-            for (int label = 0; s == RB_MAXITER && label < LABELS && label < n; label++) {
-                o.max_iters = own && own < limit ? own : limit;
-                s = rb_lcp_bimatrix(&game, label * (n / LABELS > 0 ? n / LABELS : 1), &o, mixed,
-                                    info);
-                iters += info->iters;
-                if (opt->seconds > 0.0 && rb_seconds() - began > opt->seconds)
-                    s = s == RB_MAXITER ? RB_INTERRUPTED : s;
-            }
-        info->iters = iters;
+        find_payoffs(M, q, side, of, m, A, B, unit);
+        s = follow_paths(&game, opt, mixed, info);
         rb_lcp_bimatrix_regret(&game, mixed, regret, payoff);
         /* y over the row player's costs, x over the column player's */
-        for (int i = 0; i < n; i++)
+        for (size_t i = 0; i < n; i++)
             z[i] = mixed[side[i] ? m + of[i] : of[i]] / -payoff[!side[i]] * unit[i];
     }
-    const lcp_matrix all = {.n = n, .sparse = M};
+    const lcp_matrix all = {.n = M->cols, .sparse = M};
     if (s == RB_OK)
         s = rb_lcp_scale_create(&all, q, 0, &scale);
     if (s == RB_OK)
@@ -93,11 +103,8 @@ rb_status rb_lcp_game_solve(const rb_sparse *M, const double *q, const rb_lcp_op
     if (s == RB_OK)
         s = rb_lcp_assess(info);
     if (s == RB_ENOMEM)
-        rb_fail(&info->msg, s, "lcp: out of memory for a game of order %d", n);
+        rb_fail(&info->msg, s, "lcp: out of memory for a game of order %d", M->cols);
     info->solver = "lemke-howson";
     rb_lcp_scale_free(&scale);
-    free(side);
-    free(A);
-    free(mixed);
-    return s;
+    return rb_arena_done(&scratch, s);
 }
