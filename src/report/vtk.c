@@ -4,7 +4,6 @@
 
 #include <math.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 rb_status rb_report_vtk_kind_of(const char *path, rb_report_vtk_kind *kind, rb_message *why)
@@ -61,12 +60,37 @@ static void write_array(FILE *out, const char *type, const char *name, int compo
 
 typedef struct {
     const rb_report_stress *s;
-    int n;         /* points inside the body */
-    int *number;   /* s->n: their new numbers, -1 outside */
-    double *work;  /* 6 n: for one array at a time */
-    int32_t *cell; /* 4 per cell */
-    int cells, per_cell;
+    int n, cells;           /* points inside the body; cells between them */
+    int *number;            /* s->n: new numbers of the points, -1 outside */
+    double *work;           /* 6 n: for one array at a time */
+    int32_t *corner, *ends; /* of the cells: points, and where those of each end */
+    uint8_t *kind;          /* of the cells */
 } selection;
+
+/* A cell is a quadrilateral of a grid whose corners are all inside, or a single point. */
+static void add_cell(selection *v, int corners, const int32_t *corner)
+{
+    enum { VERTEX = 1, QUADRILATERAL = 9 };
+    memcpy(v->corner + corners * v->cells, corner, (size_t)corners * sizeof *corner);
+    v->kind[v->cells++] = corners == 4 ? QUADRILATERAL : VERTEX;
+    v->ends[v->cells - 1] = corners * v->cells;
+}
+
+static void select_inside(selection *v)
+{
+    const rb_report_stress *s = v->s;
+    for (int k = 0; k < s->n; k++)
+        v->number[k] = rb_report_stress_is_inside(s, k) ? v->n++ : -1;
+    for (int32_t k = 0; k < v->n && s->nx == 0; k++)
+        add_cell(v, 1, &k);
+    for (int j = 0; j + 1 < s->ny; j++)
+        for (int i = 0; i + 1 < s->nx; i++) {
+            const int *at = v->number + i + j * s->nx;
+            const int32_t corner[] = {at[0], at[1], at[s->nx + 1], at[s->nx]};
+            if (corner[0] >= 0 && corner[1] >= 0 && corner[2] >= 0 && corner[3] >= 0)
+                add_cell(v, 4, corner);
+        }
+}
 
 /* ---- Point data -------------------------------------------------------------------- */
 
@@ -107,77 +131,58 @@ static void write_head(FILE *out, const char *type)
             type, little ? "LittleEndian" : "BigEndian");
 }
 
+static void write_image(FILE *out, selection *v)
+{
+    const rb_report_stress *s = v->s;
+    const rb_rolling_stress *first = &s->at[0], *last = &s->at[s->n - 1];
+    write_head(out, "ImageData");
+    fprintf(out,
+            "<ImageData WholeExtent=\"0 %d 0 %d 0 0\" Origin=\"%.17g %.17g 0\" Spacing=\"%.17g "
+            "%.17g 1\">\n<Piece Extent=\"0 %d 0 %d 0 0\">\n",
+            s->nx - 1, s->ny - 1, first->x, first->y, (last->x - first->x) / (s->nx - 1),
+            (last->y - first->y) / (s->ny - 1), s->nx - 1, s->ny - 1);
+    write_point_data(out, v);
+    fputs("</Piece>\n</ImageData>\n</VTKFile>\n", out);
+}
+
+static void write_grid(FILE *out, selection *v)
+{
+    const size_t cells = (size_t)v->cells, corners = cells ? (size_t)v->ends[cells - 1] : 0;
+    write_head(out, "UnstructuredGrid");
+    fprintf(out, "<UnstructuredGrid>\n<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n", v->n,
+            v->cells);
+    write_point_data(out, v);
+    double *to = v->work;
+    for (int k = 0; k < v->s->n; k++)
+        if (v->number[k] >= 0) {
+            *to++ = v->s->at[k].x;
+            *to++ = v->s->at[k].y;
+            *to++ = 0.0;
+        }
+    fputs("<Points>\n", out);
+    write_array(out, "Float64", "Points", 3, sizeof(double) * 3 * (size_t)v->n, v->work);
+    fputs("</Points>\n<Cells>\n", out);
+    write_array(out, "Int32", "connectivity", 1, sizeof *v->corner * corners, v->corner);
+    write_array(out, "Int32", "offsets", 1, sizeof *v->ends * cells, v->ends);
+    write_array(out, "UInt8", "types", 1, cells, v->kind);
+    fputs("</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n", out);
+}
+
 rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stress *s)
 {
-    void *before = rb_locale_begin();
+    const size_t n = (size_t)s->n;
+    rb_arena scratch = {0};
     selection v = {.s = s,
-                   .per_cell = s->nx > 0 ? 4 : 1,
-                   .number = rb_alloc_int((size_t)s->n),
-                   .work = rb_alloc((size_t)s->n, 6),
-                   .cell = calloc((size_t)s->n * 4, sizeof *v.cell)};
-    rb_status status = v.number && v.work && v.cell ? RB_OK : RB_ENOMEM;
-    for (int k = 0; k < s->n && status == RB_OK; k++)
-        v.number[k] = rb_report_stress_is_inside(s, k) ? v.n++ : -1;
-    /* Cells: quadrilaterals of which all corners are inside, or a vertex per point. */
-    for (int k = 0; k < v.n && s->nx == 0; k++)
-        v.cell[v.cells++] = k;
-    for (int j = 0; j + 1 < s->ny && status == RB_OK; j++)
-        for (int i = 0; i + 1 < s->nx; i++) {
-            const int *at = v.number + i + j * s->nx;
-            const int32_t corner[] = {at[0], at[1], at[s->nx + 1], at[s->nx]};
-            if (corner[0] < 0 || corner[1] < 0 || corner[2] < 0 || corner[3] < 0)
-                continue;
-            memcpy(v.cell + 4 * v.cells++, corner, sizeof corner);
-        }
-    if (status == RB_OK && kind == RB_REPORT_VTI) {
-        const rb_rolling_stress *first = &s->at[0], *last = &s->at[s->n - 1];
-        write_head(out, "ImageData");
-        fprintf(out,
-                "<ImageData WholeExtent=\"0 %d 0 %d 0 0\" Origin=\"%.17g %.17g 0\" Spacing=\"%.17g "
-                "%.17g 1\">\n<Piece Extent=\"0 %d 0 %d 0 0\">\n",
-                s->nx - 1, s->ny - 1, first->x, first->y, (last->x - first->x) / (s->nx - 1),
-                (last->y - first->y) / (s->ny - 1), s->nx - 1, s->ny - 1);
-        write_point_data(out, &v);
-        fputs("</Piece>\n</ImageData>\n</VTKFile>\n", out);
-    } else if (status == RB_OK) {
-        write_head(out, "UnstructuredGrid");
-        fprintf(out, "<UnstructuredGrid>\n<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n",
-                v.n, v.cells);
-        write_point_data(out, &v);
-        double *to = v.work;
-        for (int k = 0; k < v.s->n; k++)
-            if (v.number[k] >= 0) {
-                *to++ = v.s->at[k].x;
-                *to++ = v.s->at[k].y;
-                *to++ = 0.0;
-            }
-        fputs("<Points>\n", out);
-        write_array(out, "Float64", "Points", 3, sizeof(double) * 3 * (size_t)v.n, v.work);
-        fputs("</Points>\n", out);
-        enum { VERTEX = 1, QUADRILATERAL = 9 };
-        const size_t n = (size_t)v.cells;
-        int32_t *offset = calloc(n ? n : 1, sizeof *offset);
-        uint8_t *type = calloc(n ? n : 1, 1);
-        status = offset && type ? RB_OK : RB_ENOMEM;
-        for (size_t k = 0; k < n && status == RB_OK; k++) {
-            offset[k] = (int32_t)(k + 1) * v.per_cell;
-            type[k] = v.per_cell == 4 ? QUADRILATERAL : VERTEX;
-        }
-        if (status == RB_OK) {
-            fputs("<Cells>\n", out);
-            write_array(out, "Int32", "connectivity", 1, sizeof *v.cell * n * (size_t)v.per_cell,
-                        v.cell);
-            write_array(out, "Int32", "offsets", 1, sizeof *offset * n, offset);
-            write_array(out, "UInt8", "types", 1, n, type);
-            fputs("</Cells>\n", out);
-        }
-        free(offset);
-        free(type);
-        fputs("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n", out);
-    }
-    free(v.number);
-    free(v.work);
-    free(v.cell);
+                   .number = rb_arena_ints(&scratch, n),
+                   .work = rb_arena_doubles(&scratch, n, 6),
+                   .corner = rb_arena_zeros(&scratch, 4 * n, sizeof *v.corner),
+                   .ends = rb_arena_zeros(&scratch, n, sizeof *v.ends),
+                   .kind = rb_arena_zeros(&scratch, n, sizeof *v.kind)};
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    void *before = rb_locale_begin();
+    select_inside(&v);
+    (kind == RB_REPORT_VTI ? write_image : write_grid)(out, &v);
     rb_locale_end(before);
-    return status == RB_OK ? rb_report_flush(out) : status;
+    return rb_arena_done(&scratch, rb_report_flush(out));
 }
