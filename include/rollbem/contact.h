@@ -219,15 +219,15 @@ double rb_contact_moment(const rb_contact_problem *problem, const rb_contact_sta
  * for a given force (K6). */
 typedef struct {
     int size;
-    double *M, *b;             /* size x size column-major, size; owned */
-    double *z_scale, *w_scale; /* size; owned */
+    double *M, *b;             /* size x size column-major, size */
+    double *z_scale, *w_scale; /* size */
     rb_contact_lcp_form form;
     int yields;         /* 1: after the first 3n unknowns follow plastic slips and distances to
                            the yield stress */
     int mirrored;       /* pivoted form: unknowns (gamma-, lambda+) instead of (gamma+, lambda-)
                          */
     double delta0, xi0; /* values of delta and xi at which the unknowns of the borders are 0 (K6) */
-    double *control_N, *control_T; /* n: row of the given force; owned */
+    rb_arena memory;    /* of the arrays */
 } rb_contact_lcp;
 
 /* RB_EINVAL: the operator has no matrices; RB_SINGULAR, RB_ENOMEM. */

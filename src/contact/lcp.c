@@ -6,18 +6,12 @@
 #include <cblas.h>
 #include <lapacke.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 void rb_contact_lcp_free(rb_contact_lcp *lcp)
 {
-    free(lcp->M);
-    free(lcp->b);
-    free(lcp->z_scale);
-    free(lcp->w_scale);
-    free(lcp->control_N);
-    free(lcp->control_T);
-    memset(lcp, 0, sizeof *lcp);
+    rb_arena_free(&lcp->memory);
+    *lcp = (rb_contact_lcp){0};
 }
 
 /* Columns of the two bordered unknowns, delta' and xi', behind those of the contact: 3n,
@@ -91,8 +85,10 @@ static void pivoted_border(const rb_contact_problem *p, border_row e, rb_contact
 }
 
 /* z = (r_N, gamma, nu), w = (y_N, l, mu r_N - o r_T), o the orientation:
- * gamma = mu r_N + o r_T, l - nu = o T_T lambda. */
-static void pivoted_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
+ * gamma = mu r_N + o r_T, l - nu = o T_T lambda.  force_N, force_T (n): row of the given
+ * force. */
+static void pivoted_form(const rb_contact_problem *p, const double *force_N, const double *force_T,
+                         rb_contact_lcp *lcp)
 {
     const int n = p->n, ld = lcp->size;
     const double o = orientation(lcp);
@@ -120,10 +116,8 @@ static void pivoted_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
     if (p->load_given)
         pivoted_border(p, (border_row){delta_column(p), 1.0, p->load_N, p->load_T, p->load}, lcp);
     if (p->force_given)
-        pivoted_border(p,
-                       (border_row){xi_column(p), -xi_direction(lcp), lcp->control_N,
-                                    lcp->control_T, p->force},
-                       lcp);
+        pivoted_border(
+            p, (border_row){xi_column(p), -xi_direction(lcp), force_N, force_T, p->force}, lcp);
 }
 
 /* ---- A layer that yields (Y1) ------------------------------------------------------ */
@@ -135,15 +129,26 @@ static int yield_index(const rb_contact_problem *p, int i, int sign)
     return (3 + sign) * p->n + i;
 }
 
-/* yield + hardening u, u from the unit plastic slips of each element j. */
-static void add_yield_stress(const rb_contact_problem *p, rb_contact_lcp *lcp)
+/* s+ and s- take their parts of o T_T lambda, o r_T = gamma - mu r_N; and yield +
+ * hardening u, u from the unit plastic slips of each element j. */
+static void add_yield(const rb_contact_problem *p, rb_contact_lcp *lcp)
 {
+    const size_t n = (size_t)p->n, ld = (size_t)lcp->size;
+
+    for (size_t i = 0; i < n; i++)
+        for (int sign = 0; sign < 2; sign++) {
+            const double o = sign ? -1.0 : 1.0;
+            const size_t k = (size_t)yield_index(p, (int)i, sign);
+            lcp->M[n + i + k * ld] = -o;
+            lcp->M[k + (n + i) * ld] = o;
+            lcp->M[k + i * ld] = -o * p->bound[i];
+        }
     for (int j = 0; j < p->n; j++) {
         double u = p->own, next = 0.0;
         for (int i = j; i >= 0 && u != 0.0; i--) {
             for (int k = 0; k < 4; k++)
-                lcp->M[yield_index(p, i, k % 2) +
-                       (size_t)yield_index(p, j, k / 2) * (size_t)lcp->size] += p->hardening * u;
+                lcp->M[yield_index(p, i, k % 2) + (size_t)yield_index(p, j, k / 2) * ld] +=
+                    p->hardening * u;
             const double before = p->recall[0] * u + p->recall[1] * next;
             next = u;
             u = before;
@@ -212,79 +217,40 @@ static rb_status kwak_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
 
 /* ---- Both -------------------------------------------------------------------------- */
 
+/* The approach enters every gap; where it is unknown, delta = delta0 + delta' starts below
+ * the first touch, also for a half-plane whose datum is close to the surface. */
+static void add_approach(const rb_contact_problem *p, rb_contact_lcp *lcp)
+{
+    double lowest = p->d_N[0];
+
+    for (int i = 1; i < p->n; i++)
+        lowest = fmin(lowest, p->d_N[i]);
+    lcp->delta0 = p->load_given ? lowest - 10.0 * p->gap_length : p->delta;
+    for (int i = 0; i < p->n; i++) {
+        lcp->b[i] -= lcp->delta0;
+        if (p->load_given)
+            lcp->M[(size_t)i + (size_t)delta_column(p) * (size_t)lcp->size] = -1.0;
+    }
+}
+
 static void fill(int n, double value, double *x)
 {
     for (int i = 0; i < n; i++)
         x[i] = value;
 }
 
-rb_status rb_contact_lcp_create(const rb_contact_problem *p, rb_contact_lcp_form form, int mirrored,
-                                double xi0, rb_contact_lcp *lcp, rb_message *why)
+/* Dimensionless unknowns: stress, mu stress and two lengths (4.4). */
+static void make_dimensionless(const rb_contact_problem *p, rb_contact_lcp *lcp)
 {
-    const int n = p->n, delta = delta_column(p), xi = xi_column(p),
-              size = delta + p->load_given + p->force_given;
-    const size_t length = (size_t)n, ld = (size_t)size;
-
-    memset(lcp, 0, sizeof *lcp);
-    if (!rb_contact_operator_matrix(p->op).F)
-        return rb_fail(why, RB_EINVAL, "%d contact elements are too many for an LCP", n);
-    *lcp = (rb_contact_lcp){.size = size,
-                            .M = rb_alloc(ld, ld),
-                            .b = rb_alloc(ld, 1),
-                            .z_scale = rb_alloc(ld, 1),
-                            .w_scale = rb_alloc(ld, 1),
-                            .form = form,
-                            .yields = p->yield != NULL,
-                            .mirrored = form == RB_LCP_PIVOTED && mirrored,
-                            .xi0 = xi0,
-                            .control_N = rb_alloc(length, 1),
-                            .control_T = rb_alloc(length, 1)};
-    rb_status s =
-        lcp->M && lcp->b && lcp->z_scale && lcp->w_scale && lcp->control_N && lcp->control_T
-            ? RB_OK
-            : RB_ENOMEM;
-    if (s == RB_OK) {
-        rb_contact_force_row(p, lcp->control_N, lcp->control_T);
-        pivoted_form(p, lcp);
-    }
-    if (s == RB_OK && p->yield) {
-        /* s+ and s- take their parts of o T_T lambda; o r_T = gamma - mu r_N. */
-        for (size_t i = 0; i < length; i++)
-            for (int sign = 0; sign < 2; sign++) {
-                const double o = sign ? -1.0 : 1.0;
-                const size_t k = (size_t)yield_index(p, (int)i, sign);
-                lcp->M[length + i + k * ld] = -o;
-                lcp->M[k + (length + i) * ld] = o;
-                lcp->M[k + i * ld] = -o * p->bound[i];
-            }
-        add_yield_stress(p, lcp);
-    }
-    if (s == RB_OK && form == RB_LCP_KWAK)
-        s = kwak_form(p, lcp);
-    if (s != RB_OK) {
-        rb_contact_lcp_free(lcp);
-        return rb_fail(why, s, "LCP of %d contact elements: %s", n, rb_status_text(s));
-    }
-    /* The approach enters every gap; where it is unknown, delta = delta0 + delta' starts
-     * below the first touch, also for a half-plane whose datum is close to the surface. */
-    double lowest = p->d_N[0];
-
-    for (int i = 1; i < n; i++)
-        lowest = fmin(lowest, p->d_N[i]);
-    lcp->delta0 = p->load_given ? lowest - 10.0 * p->gap_length : p->delta;
-    for (int i = 0; i < n; i++) {
-        lcp->b[i] -= lcp->delta0;
-        if (p->load_given)
-            lcp->M[(size_t)i + (size_t)delta * ld] = -1.0;
-    }
-    /* Dimensionless unknowns: stress, mu stress and two lengths (4.4). */
+    const int n = p->n, delta = delta_column(p), xi = xi_column(p);
+    const size_t length = (size_t)n, ld = (size_t)lcp->size;
     const double bound = rb_contact_friction_scale(p);
 
     fill(n, p->stress, lcp->z_scale);
     fill(delta - n, p->slip_length, lcp->z_scale + n);
     fill(n, p->gap_length, lcp->w_scale);
     fill(delta - n, bound, lcp->w_scale + n);
-    if (form == RB_LCP_PIVOTED) {
+    if (lcp->form == RB_LCP_PIVOTED) {
         fill(n, bound, lcp->z_scale + n);
         fill(n, p->slip_length, lcp->w_scale + n);
     }
@@ -301,6 +267,43 @@ rb_status rb_contact_lcp_create(const rb_contact_problem *p, rb_contact_lcp_form
             lcp->M[i + j * ld] *= lcp->z_scale[j] / lcp->w_scale[i];
     for (size_t i = 0; i < ld; i++)
         lcp->b[i] /= lcp->w_scale[i];
+}
+
+rb_status rb_contact_lcp_create(const rb_contact_problem *p, rb_contact_lcp_form form, int mirrored,
+                                double xi0, rb_contact_lcp *lcp, rb_message *why)
+{
+    const size_t n = (size_t)p->n,
+                 size = (size_t)(delta_column(p) + p->load_given + p->force_given);
+    rb_arena scratch = {0};
+
+    *lcp = (rb_contact_lcp){.size = (int)size,
+                            .form = form,
+                            .yields = p->yield != NULL,
+                            .mirrored = form == RB_LCP_PIVOTED && mirrored,
+                            .xi0 = xi0};
+    if (!rb_contact_operator_matrix(p->op).F)
+        return rb_fail(why, RB_EINVAL, "%d contact elements are too many for an LCP", p->n);
+    lcp->M = rb_arena_doubles(&lcp->memory, size, size);
+    lcp->b = rb_arena_doubles(&lcp->memory, size, 1);
+    lcp->z_scale = rb_arena_doubles(&lcp->memory, size, 1);
+    lcp->w_scale = rb_arena_doubles(&lcp->memory, size, 1);
+    double *force_N = rb_arena_doubles(&scratch, n, 1), *force_T = rb_arena_doubles(&scratch, n, 1);
+    rb_status s = lcp->memory.failed || scratch.failed ? RB_ENOMEM : RB_OK;
+    if (s == RB_OK) {
+        rb_contact_force_row(p, force_N, force_T);
+        pivoted_form(p, force_N, force_T, lcp);
+    }
+    if (s == RB_OK && p->yield)
+        add_yield(p, lcp);
+    if (s == RB_OK && form == RB_LCP_KWAK)
+        s = kwak_form(p, lcp);
+    rb_arena_free(&scratch);
+    if (s != RB_OK) {
+        rb_contact_lcp_free(lcp);
+        return rb_fail(why, s, "LCP of %d contact elements: %s", p->n, rb_status_text(s));
+    }
+    add_approach(p, lcp);
+    make_dimensionless(p, lcp);
     return RB_OK;
 }
 
