@@ -112,11 +112,11 @@ test-all:
 	@$(MAKE) --no-print-directory B=$(B) analyse
 
 # the longest programs start first, so that no processor waits for one of them at the end
-LONGEST := $(B)/tests/test_net $(B)/tests/test_cli_examples tests/page $(patsubst %,$(B)/tests/test_%,check faults rolling_laws cli_rolling recorded) tests/site tests/python $(patsubst %,$(B)/tests/test_%,course rolling_turn rolling_wheel sweep cli error_bars rolling_cover rolling_memory) tests/journeys/phd-student-in-python $(patsubst %,$(B)/tests/test_%,fem_examples hostile friction_portfolio facts fem_cli)
+LONGEST := tests/page $(B)/tests/test_net $(B)/tests/test_cli_examples $(patsubst %,$(B)/tests/test_%,check faults rolling_laws cli_rolling recorded) tests/site tests/python $(patsubst %,$(B)/tests/test_%,course rolling_turn rolling_wheel sweep cli error_bars rolling_cover rolling_memory) tests/journeys/phd-student-in-python $(patsubst %,$(B)/tests/test_%,fem_examples hostile friction_portfolio facts fem_cli)
 OTHERS := tests/octave tests/install tests/release tests/figures $(wildcard tests/journeys/*) $(TESTS)
 
 # only the summary line comes last: continuous integration reads it
-check-tests: all page-where-possible $(TESTS) $(B)/packings $(if $(ROLLBEM_TEST_ALL),$(BENCHES),$(B)/bench/bench_large)
+check-tests: all page-where-possible $(if $(shell command -v gnuplot),$(B)/course/.drawn) $(TESTS) $(B)/packings $(if $(ROLLBEM_TEST_ALL),$(BENCHES),$(B)/bench/bench_large)
 	@B=$(B) tests/run $(LONGEST) $(filter-out $(LONGEST),$(OTHERS))
 
 # the tests that compare digits and what is printed, under each kernel of OpenBLAS that the processor
@@ -125,6 +125,7 @@ KERNELS ?= $(shell scripts/kernels)
 KERNEL_TESTS ?= $(patsubst %,$(B)/tests/test_%,recorded course facts certificates lcp lcp_scale inside_lcp lcp_mixed friction inside_newton bem_system fem crack rolling_plane rolling_shakedown api)
 KERNEL_BLIND = tests/page tests/site tests/install tests/release tests/octave tests/python tests/journeys/% $(B)/tests/test_symbols $(B)/tests/test_hardening $(B)/tests/test_fuzz
 kernels: all $(TESTS) $(B)/packings $(B)/bench/bench_large
+	@rm -f $(B)/course/.drawn # each draws the pictures of the course
 	@for kernel in $(KERNELS); do echo "== OPENBLAS_CORETYPE=$$kernel"; \
 		OPENBLAS_CORETYPE=$$kernel B=$(B) tests/run $(KERNEL_TESTS) || exit 1; done
 
@@ -379,8 +380,11 @@ deb: dist
 
 # the pictures of docs/course
 course: packages
-	@$(MAKE) --no-print-directory B=$(B) $(B)/rollbem
-	ROLLBEM=$(B)/rollbem docs/course/pictures $(B)/course
+	@$(MAKE) --no-print-directory B=$(B) $(B)/course/.drawn
+# once for all who want them; where it fails, the suite's test of the course says so
+$(B)/course/.drawn: docs/course/pictures $(B)/rollbem
+	@echo "  DRAW $(@D)"
+	-$(Q)ROLLBEM=$(B)/rollbem docs/course/pictures $(@D) && touch $@
 
 # the documentation as a site
 site:
