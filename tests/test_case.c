@@ -3,6 +3,7 @@
 #include "cli_run.h"
 #include "rollbem/blas.h"
 #include "rollbem/case.h"
+#include "rollbem/closed_forms.h"
 
 #include <gsl/gsl_math.h>
 
@@ -437,6 +438,20 @@ TEST(cases_of_contact_are_our_own)
     rb_case_from_contact(&in, &c);
     assert_true(c.rc.gap == RB_GAP_EXACT && c.rc.a.radius == 460.0 && c.centre == 0.5);
     assert_true(c.rc.force_ratio == -4e-4 && isnan(c.rc.creep));
+
+    /* Hertz's line contact by its curvature, and by the half-length that it leads to. */
+    const double modulus = 1.0 / (0.7 / (2.0 * 82000.0) + 0.72 / (2.0 * 81000.0));
+    const double a = rb_closed_hertz_half_width(250.0, 300.0, modulus);
+    in = steel;
+    for (in.potential = -4; in.potential >= -5; in.potential--) {
+        in.hertz[0] = in.potential == -4 ? 1.0 / 600.0 : a;
+        in.hertz[1] = 50.0;
+        in.hertz[2] = 1.2;
+        rb_case_from_contact(&in, &c);
+        CHECK_REL(c.rc.a.radius, 300.0, 1e-14, "IPOTCN = %d", in.potential);
+        CHECK_REL(c.to, 1.2 * a, 1e-14, "IPOTCN = %d", in.potential);
+        CHECK_REL(c.from, -1.2 * a, 1e-14, "IPOTCN = %d", in.potential);
+    }
 }
 
 TEST(materials_and_laws_of_contact)
