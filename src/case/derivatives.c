@@ -42,6 +42,8 @@ static rb_case *varied(const rb_case *c, const rb_option *o, int entry, double v
         const rb_numbers *list =
             (const rb_numbers *)(const void *)((const char *)&c->resolved + o->list);
         *(rb_numbers *)(void *)((char *)words + o->list) = *list;
+        if (list->n > 0)
+            *(double *)(void *)((char *)words + o->offset) = list->value[0];
     }
     *place_of(o, entry, words) = value;
     if (entry == 0)
