@@ -21,6 +21,18 @@ typedef struct {
 static const double difference_place[] = {-2.0, -1.0, 1.0, 2.0},
                     difference_weight[] = {1.0 / 12.0, -8.0 / 12.0, 8.0 / 12.0, -1.0 / 12.0};
 
+/* Parts of an input's scale, ended by 0: within a long step zones change, within a short one
+ * the rounding of solutions counts.  The flexibility of a wheel is known to 1e-12 or so: steps that
+ * would divide this to more than 1e-8 tell nothing. */
+static const double *difference_parts(const rb_rolling_case *rc)
+{
+    static const double of_planes[] = {1e-3, 1e-4, 1e-5, 0.0},
+                        of_wheels[] = {4e-3, 2e-3, 1e-3, 4e-4, 0.0};
+    const int has_wheels =
+        rc->a.support != RB_BEM_HALFPLANE || (rc->elastic_b && rc->b.support != RB_BEM_HALFPLANE);
+    return has_wheels ? of_wheels : of_planes;
+}
+
 /* size: of the value, for a change of the input by all of its own; NAN: both NAN. */
 static void difference_note(differences *d, double got, double want, double size,
                             const char *format, ...)
@@ -35,6 +47,15 @@ static void difference_note(differences *d, double got, double want, double size
     const int n = vsnprintf(d->text, sizeof d->text, format, args);
     va_end(args);
     snprintf(d->text + n, sizeof d->text - (size_t)n, ": %.10g, differences %.10g", got, want);
+}
+
+/* Adds what the best step of an input found. */
+static void difference_take(const differences *best, differences *d)
+{
+    const int compared = d->compared + best->compared;
+    if (best->compared && best->off > d->off)
+        *d = *best;
+    d->compared = compared;
 }
 
 /* ---- Single cases ------------------------------------------------------------------ */
@@ -324,7 +345,7 @@ static rb_status compare_single(const rb_case *c, int first, int every, differen
     rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
     rb_case_derivatives all = {0};
     rb_rolling_solution at = {0};
-    rb_rolling_model model = {0};
+    rb_rolling_model model = {0}, closely = {0};
     difference_frame f;
     const char *names[RB_CASE_NUMBERS_MAX];
     int numbers = 0, chosen = 0;
@@ -338,7 +359,12 @@ static rb_status compare_single(const rb_case *c, int first, int every, differen
         names[chosen++] = number[k].name;
     if (s == RB_OK)
         s = rb_case_differentiate(c, &model, chosen, names, &all, why);
-    if (s == RB_OK && difference_begin(&model, all.elements, &f, why) == RB_OK)
+    /* what differences borrow has to be compressed as closely as the rest */
+    const int compressed = s == RB_OK && rb_rolling_is_compressed(&model);
+    if (compressed)
+        s = rb_rolling_variant_closely(&model, &closely, why);
+    if (s == RB_OK &&
+        difference_begin(compressed ? &closely : &model, all.elements, &f, why) == RB_OK)
         for (int k = first; k < numbers && chosen > 0; k += every) {
             const rb_case_derivative *of = &all.of[(k - first) / every];
             if (of->status != RB_OK || of->d.sides != 1 || number[k].input.value == 0.0)
@@ -346,16 +372,14 @@ static rb_status compare_single(const rb_case *c, int first, int every, differen
             /* a zone may change within the step, or the elements outside the contact have a
              * kink there: then a shorter one counts */
             differences best = {.off = INFINITY};
-            for (double part = 1e-3; part > 1e-6 && !(best.off <= 1e-8); part *= 0.1) {
+            for (const double *part = difference_parts(model.rc); *part && !(best.off <= 1e-8);
+                 part++) {
                 differences one = {0};
-                difference_of_input(&f, &number[k], of, &at, part, &one);
+                difference_of_input(&f, &number[k], of, &at, *part, &one);
                 if (one.compared && one.off < best.off)
                     best = one;
             }
-            const int compared = d->compared + best.compared;
-            if (best.compared && best.off > d->off)
-                *d = best;
-            d->compared = compared;
+            difference_take(&best, d);
         }
     if (number && rb_case_numbers(c, number, &numbers, why) == RB_OK) {
         const rb_status t = compare_with_matrix(c, number, d, why);
@@ -363,6 +387,7 @@ static rb_status compare_single(const rb_case *c, int first, int every, differen
     }
     rb_case_derivatives_free(&all);
     rb_rolling_solution_free(&at);
+    rb_rolling_model_free(&closely);
     rb_rolling_model_free(&model);
     free(number);
     return s;
@@ -392,6 +417,33 @@ static rb_status difference_history(const rb_resolved_case *c, const rb_rolling_
         rb_rolling_history_run(rc, program, &observer, &run->model, &run->history, why);
     run->states.program = program;
     run->states.half_width = run->history.half_width;
+    return s;
+}
+
+/* Solves the history again on the elements that it has, if their boundary is compressed, as
+ * closely as derivatives ask for: 1e-9 over a step would leave six digits of them. */
+static rb_status difference_closely(const rb_rolling_case *rc, difference_run *run, rb_message *why)
+{
+    rb_rolling_follower *f = NULL;
+    if (!rb_rolling_is_compressed(&run->model))
+        return RB_OK;
+    rb_status s = rb_rolling_follower_create(rc, &run->states, NULL, 1.0, &f, why);
+    for (int k = 0; k < run->states.steps && s == RB_OK; k++) {
+        s = rb_rolling_follower_begin(f, why);
+        rb_rolling_states_get(&run->states, k, &rb_rolling_follower_model(f)->state);
+        if (s == RB_OK)
+            s = rb_rolling_model_control(rb_rolling_follower_model(f), why);
+        if (s == RB_OK)
+            rb_rolling_follower_end(f);
+    }
+    for (int k = 0; k < rb_rolling_history_columns.n && s == RB_OK; k++) {
+        const rb_rolling_result *r = &rb_rolling_history_columns.row[k];
+        for (int row = 0; row < run->history.n && rb_sensitivity_has(r); row++)
+            if (rb_rolling_has_column(r, &run->history))
+                (*(double **)(void *)((char *)&run->history + r->offset))[row] =
+                    rb_rolling_entry(r, rb_rolling_follower_history(f), row);
+    }
+    rb_rolling_follower_free(f);
     return s;
 }
 
@@ -429,6 +481,7 @@ static void difference_of_steps(const rb_resolved_case *c, const rb_case_number 
                                   number->input.value + difference_place[j] * step, &rc,
                                   &why) == RB_OK &&
                difference_history(c, &rc, &near[j], &why) == RB_OK &&
+               difference_closely(&rc, &near[j], &why) == RB_OK &&
                near[j].states.n == at->states.n && near[j].states.steps == at->states.steps &&
                memcmp(near[j].states.zone, at->states.zone, zones * sizeof(int)) == 0;
     }
@@ -467,10 +520,15 @@ static rb_status compare_steps(const rb_case *c, int first, int every, differenc
     if (s == RB_OK)
         s = rb_case_numbers(c, number, &numbers, why);
     for (int k = first; k < numbers && s == RB_OK && slopes.degenerate == 0; k += every) {
-        const int before = d->compared;
-        for (double part = 1e-3;
-             part > 1e-6 && d->compared == before && number[k].input.value != 0.0; part *= 0.1)
-            difference_of_steps(resolved, &number[k], &at, &slopes, part, d);
+        differences best = {.off = INFINITY};
+        for (const double *part = difference_parts(&resolved->rc);
+             *part && !(best.off <= 1e-8) && number[k].input.value != 0.0; part++) {
+            differences one = {0};
+            difference_of_steps(resolved, &number[k], &at, &slopes, *part, &one);
+            if (one.compared && one.off < best.off)
+                best = one;
+        }
+        difference_take(&best, d);
     }
     rb_case_slopes_free(&slopes);
     difference_run_free(&at);

@@ -896,17 +896,14 @@ static int has_no_derivatives(const char *errors)
 }
 
 /* Against differences of solutions, in a process of its own: every sixth input; of
- * transforms against the same state with a matrix.  A flexibility by transforms, or of a
- * wheel, is known to 1e-12 or so; a boundary of 1500 elements is compressed, and those of
- * the solved histories to 1e-9 only. */
+ * transforms against the same state with a matrix.  A flexibility by transforms is known to
+ * 1e-12 or so; a boundary of 1500 elements is compressed. */
 static void check_derivatives(const int *row, const char *the_case)
 {
     char arguments[2000];
-    const char *bound = is(row, SIZE, "hierarchical") ? (has_steps(row) ? "1e-3" : "1e-7")
-                        : is(row, SIZE, "transforms") || !is(row, SUPPORT, "halfplane") ||
-                                is(row, BODY_B, "hub") || is(row, BODY_B, "arc")
-                            ? "3e-8"
-                            : "1e-8";
+    const char *bound = is(row, SIZE, "hierarchical") && has_steps(row) ? "1e-7"
+                        : is(row, SIZE, "transforms")                   ? "3e-8"
+                                                                        : "1e-8";
     snprintf(arguments, sizeof arguments, "%d 6 %s%s", rows % 6, bound, the_case);
     const int code = run(differences, arguments, "verdict", "verdict.err");
     slurp("verdict", out, sizeof out);

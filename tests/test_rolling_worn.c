@@ -105,7 +105,7 @@ static double dense_residual(const rb_rolling_case *rc, const rb_rolling_solutio
     worn.worn = (rb_rolling_table){last->n, last->x, last->worn};
     worn.force_ratio = -1.0;
     worn.contact.solver = RB_SOLVER_LEMKE; /* which has the matrix */
-    CHECK_OK(rb_rolling_model_of_result(&worn, &at, &model, NULL));
+    CHECK_OK(rb_rolling_model_of_result(&worn, NULL, &at, &model, NULL));
     assert_non_null(model.bodies.F);
     memcpy(model.state.p, last->p, (size_t)last->n * sizeof(double));
     memcpy(model.state.q, last->q, (size_t)last->n * sizeof(double));

@@ -137,7 +137,7 @@ TEST(compressed_boundaries_have_derivatives)
         poisson++;
     CHECK_STATUS(compare_single(c, poisson, n, &d, &why), RB_OK);
     assert_int_equal(d.compared, 1);
-    CHECK_MAX(d.off, 3e-8, "%s", d.text);
+    CHECK_MAX(d.off, 1e-8, "%s", d.text);
 }
 
 static rb_status with_poisson(void *context, double value, rb_rolling_case *rc, rb_message *why)
@@ -273,8 +273,7 @@ TEST(single_cases_have_derivatives)
         held_case *c = case_of(RB_CASE_SINGLE, &cases[k], "tol", 1e-13);
         if (compare_single(c, 0, 1, &d, &why) != RB_OK)
             fail_msg("case %d: %s", (int)k, why.text);
-        /* a wheel's flexibility, whose difference is taken, is known to 1e-12 or so */
-        if (!(d.off <= (strcmp(cases[k].word[1], "hub") == 0 ? 3e-8 : 1e-8)))
+        if (!(d.off <= 1e-8))
             fail_msg("case %d: %.2g: %s", (int)k, d.off, d.text);
         if (d.compared < 4)
             fail_msg("case %d: %d numbers compared", (int)k, d.compared);

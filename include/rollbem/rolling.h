@@ -305,6 +305,10 @@ typedef struct {
     double compression;            /* as in rb_bem_system_create_within; usual: INFINITY */
 } rb_rolling_plan;
 
+/* Compression of boundaries whose flexibility is subtracted from that of others nearby: what
+ * hierarchical matrices leave out by chance is divided by the step between them. */
+#define RB_ROLLING_CLOSE 1e-13
+
 /* The plan with the values of the case; functions that get plan NULL use it. */
 rb_rolling_plan rb_rolling_plan_of(const rb_rolling_case *rc);
 
@@ -708,9 +712,11 @@ rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message
  * motion of the model's case has changed. */
 rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why);
 /* Builds bodies and contact problem on the elements of a result, with a state of zeros,
- * and solves nothing.  model: all zeros before; free it in any case. */
-rb_status rb_rolling_model_of_result(const rb_rolling_case *rc, const rb_rolling_elements *elements,
-                                     rb_rolling_model *model, rb_message *why);
+ * and solves nothing.  plan: NULL: that of the case.  model: all zeros before; free it in
+ * any case. */
+rb_status rb_rolling_model_of_result(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                     const rb_rolling_elements *elements, rb_rolling_model *model,
+                                     rb_message *why);
 void rb_rolling_model_free(rb_rolling_model *model);
 
 /* The boundary elements of A or B; n = 0 for half-planes and rigid bodies.  RB_EINVAL,

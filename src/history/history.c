@@ -33,6 +33,7 @@ typedef struct {
     const rb_rolling_observer *observer; /* or NULL */
     const rb_rolling_states *found;      /* to follow without solving; or NULL */
     const rb_rolling_model *like;        /* whose bodies may be borrowed; or NULL */
+    double compression;                  /* of boundaries, where states are found */
     double scale;                        /* of the elements of `found` */
     rb_rolling_model *model;
     rb_rolling_history *history;
@@ -279,7 +280,10 @@ static rb_status widest_contact(const history_state *r, double zone, rb_message 
         x[i] = r->scale * r->found->x[i];
         h[i] = r->scale * r->found->h[i];
     }
-    return rb_arena_done(&scratch, rb_rolling_model_of_result(&widest, &elements, r->model, why));
+    rb_rolling_plan plan = rb_rolling_plan_of(&widest);
+    plan.compression = r->compression;
+    return rb_arena_done(&scratch,
+                         rb_rolling_model_of_result(&widest, &plan, &elements, r->model, why));
 }
 
 static rb_status prepare(history_state *r, double zone, rb_message *why)
@@ -427,6 +431,7 @@ rb_status rb_rolling_history_follow(const rb_rolling_case *rc, const rb_rolling_
     history_state r = {.program = states->program,
                        .observer = observer,
                        .found = states,
+                       .compression = INFINITY,
                        .scale = 1.0,
                        .model = model,
                        .history = history};
@@ -458,6 +463,7 @@ rb_status rb_rolling_follower_create(const rb_rolling_case *rc, const rb_rolling
     f->r = (history_state){.program = states->program,
                            .found = states,
                            .like = of && !rb_rolling_relaxes(rc) ? &of->model : NULL,
+                           .compression = RB_ROLLING_CLOSE,
                            .scale = scale,
                            .model = &f->model,
                            .history = &f->history};

@@ -108,7 +108,7 @@ rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double
             h[i] = (to - from) / n;
             x[i] = from + (i + 0.5) * h[i];
         }
-        s = h ? rb_rolling_model_of_result(rc, &elements, &model, why)
+        s = h ? rb_rolling_model_of_result(rc, NULL, &elements, &model, why)
               : rb_fail(why, RB_ENOMEM, "out of memory for %d elements", n);
     }
     if (s == RB_OK)

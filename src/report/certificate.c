@@ -605,7 +605,7 @@ rb_status rb_certificate_rebuild(rb_certificate *c, const rb_resolved_case *reso
         if (!(xh[n + i] > 0.0) || (i > 0 && !(xh[i] > xh[i - 1])))
             s = rb_fail(why, RB_EFORMAT, "%s: table: element %d is out of order", c->name, i + 1);
     if (s == RB_OK)
-        s = rb_rolling_model_of_result(&resolved->rc,
+        s = rb_rolling_model_of_result(&resolved->rc, NULL,
                                        &(rb_rolling_elements){n, xh, xh + n, are_equal}, m, why);
     free(xh);
     if (s == RB_OK)

@@ -268,8 +268,9 @@ static rb_status rebuild(assessment *j, rb_message *why)
             return RB_ENOMEM;
         j->slip = j->gap + elements;
         j->none = j->slip + elements;
-        s = rb_rolling_model_of_result(
-            &j->resolved->rc, &(rb_rolling_elements){elements, of->x, of->h, 1}, &j->wheel, why);
+        s = rb_rolling_model_of_result(&j->resolved->rc, NULL,
+                                       &(rb_rolling_elements){elements, of->x, of->h, 1}, &j->wheel,
+                                       why);
     }
     if (s != RB_OK)
         return s;

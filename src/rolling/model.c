@@ -156,12 +156,13 @@ rb_status rb_rolling_model_add_matrix(rb_rolling_model *model, rb_message *why)
                : s;
 }
 
-rb_status rb_rolling_model_of_result(const rb_rolling_case *rc, const rb_rolling_elements *elements,
-                                     rb_rolling_model *model, rb_message *why)
+rb_status rb_rolling_model_of_result(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                     const rb_rolling_elements *elements, rb_rolling_model *model,
+                                     rb_message *why)
 {
     rb_status s = rb_rolling_model_set_case(model, rc, why);
 
-    model->plan = rb_rolling_plan_of(rc);
+    model->plan = plan ? *plan : rb_rolling_plan_of(rc);
     if (s == RB_OK)
         s = rb_rolling_mesh_of_result(rc, elements, &model->mesh, why);
     return s == RB_OK ? set_up(model, 0, why) : s;

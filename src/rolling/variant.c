@@ -201,10 +201,6 @@ static rb_status changed_displacement(const rb_rolling_model *of, const rb_rolli
 
 /* ---- Variants ---------------------------------------------------------------------- */
 
-/* Of boundaries whose flexibility is subtracted from that of others nearby: what
- * hierarchical matrices leave out by chance is divided by the step between them. */
-static const double COMPRESSION = 1e-13;
-
 int rb_rolling_is_compressed(const rb_rolling_model *model)
 {
     const rb_bem_system *a = model->bodies.system_a, *b = model->bodies.system_b;
@@ -270,7 +266,7 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, i
                            rc->elastic_b == of->rc->elastic_b)) &&
                          (by_formula == 1 || !rb_rolling_law_depends_on_state(rc)));
 
-    plan.compression = COMPRESSION;
+    plan.compression = RB_ROLLING_CLOSE;
     rb_status s = rb_rolling_model_begin(rc, NULL, v, why);
     v->equal_instead = of->equal_instead;
     v->mu_varies = of->mu_varies;

@@ -310,8 +310,12 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
             rb_rolling_coarsen_boundary(&few);
             equal.mesh = RB_MESH_UNIFORM;
             if (rb_rolling_model_begin(&equal, &few, &first, NULL) == RB_OK &&
-                rb_rolling_solve_zone(&first, 0, NULL) == RB_OK)
+                rb_rolling_solve_zone(&first, 0, NULL) == RB_OK) {
                 zone = (interval){first.mesh.ends[0], first.mesh.ends[first.mesh.n]};
+                /* As many have tried what is tighter.  A zone between edges that were found
+                 * would not grow like Hertz's half-width. */
+                too_narrow = few.elements == elements ? width(zone) : 0.0;
+            }
             rb_rolling_model_free(&first);
         }
     }
