@@ -516,7 +516,7 @@ static rb_status compare_steps(const rb_case *c, int first, int every, differenc
         s = rb_case_slopes_choose(c, &rb_rolling_history_columns, "all", RB_CASE_SLOPES_MAX,
                                   &slopes, why);
     if (s == RB_OK)
-        s = rb_case_slopes_of_steps(c, &at.states, &slopes, why);
+        s = rb_case_slopes_of_steps(c, &at.states, &slopes, NULL, NULL, why);
     if (s == RB_OK)
         s = rb_case_numbers(c, number, &numbers, why);
     for (int k = first; k < numbers && s == RB_OK && slopes.degenerate == 0; k += every) {

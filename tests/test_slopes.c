@@ -71,7 +71,7 @@ TEST(elements_under_a_table_stay)
                                            "tangential_load:radius,contact_to:load,approach:young",
                                            9, &of[given], &why),
                      RB_OK);
-        CHECK_STATUS(rb_case_slopes_of_steps(c, &run.states, &of[given], &why), RB_OK);
+        CHECK_STATUS(rb_case_slopes_of_steps(c, &run.states, &of[given], NULL, NULL, &why), RB_OK);
         assert_int_equal(rb_case_slopes_note(&of[given], &why), !given);
         difference_run_free(&run);
     }
@@ -321,7 +321,7 @@ TEST(samples_of_histories_scatter_as_tolerances)
     CHECK_STATUS(rb_case_read_tolerances(c, "load=0.3%,mu=0.002", &t, &heard), RB_OK);
     CHECK_STATUS(difference_history(rb_case_resolved(c), &rb_case_resolved(c)->rc, &at, &heard),
                  RB_OK);
-    CHECK_STATUS(rb_case_propagate_steps(c, &t, &at.states, &at.history, &heard), RB_OK);
+    CHECK_STATUS(rb_case_slopes_of_steps(c, &at.states, NULL, &t, &at.history, &heard), RB_OK);
     for (int k = 0; k < N; k++) {
         quantile[k] = gsl_cdf_ugaussian_Pinv((k + 0.5) / N);
         unit += quantile[k] * quantile[k] / N;

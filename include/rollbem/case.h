@@ -337,11 +337,6 @@ rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, d
 /* RB_EINVAL: histories of the resolved case have no derivatives: friction that depends on
  * the state, an interface that yields, or a given approach. */
 rb_status rb_case_slopes_check_steps(const rb_case *c, rb_message *why);
-/* Derivatives of the history whose states are given; if the two sides differ, those for
- * growing inputs.  RB_EINVAL: as rb_case_slopes_check_steps, or too many elements. */
-rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *states,
-                                  rb_case_slopes *slopes, rb_message *why);
-
 /* Uncertain inputs with their standard deviations, as in "mu=0.02,radius=1%"; the inputs
  * are independent. */
 enum { RB_CASE_TOLERANCES_MAX = 32 };
@@ -361,11 +356,13 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_to
 rb_status rb_case_propagate(const rb_case_tolerances *t, const rb_case_derivatives *all,
                             rb_rolling_solution *deviation, rb_message *why);
 
-/* Those of every step of the history whose states are given, as its `deviations`: first
- * order, carried from step to step.  RB_EINVAL: as rb_case_slopes_of_steps. */
-rb_status rb_case_propagate_steps(const rb_case *c, const rb_case_tolerances *t,
-                                  const rb_rolling_states *states, rb_rolling_history *history,
-                                  rb_message *why);
+/* Derivatives of the history whose states are given, carried from step to step; if the two
+ * sides differ, those for growing inputs.  slopes: which ones, or NULL.  t: NULL, or inputs whose
+ * standard deviations become, to first order, the `deviations` of the history (NULL without t).
+ * RB_EINVAL: as rb_case_slopes_check_steps, or too many elements. */
+rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *states,
+                                  rb_case_slopes *slopes, const rb_case_tolerances *t,
+                                  rb_rolling_history *history, rb_message *why);
 
 /* From mm, N, MPa to other units, once. */
 void rb_case_derivatives_convert(rb_case_derivatives *all, rb_units units);

@@ -783,6 +783,10 @@ rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling
  * x. */
 rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
                                   rb_rolling_model *variant, rb_message *why);
+/* Gap and coefficients of friction on elements moved to shift + scale x, n values each; friction
+ * that does not depend on the place alone stays that of the model.  RB_ENOMEM. */
+rb_status rb_rolling_variant_data(const rb_rolling_model *of, double shift, double scale,
+                                  double *gap, double *bound, rb_message *why);
 /* A variant with another case on elements whose ends x are moved to shift + scale x.  The
  * flexibility is computed again if they move or the bodies differ. */
 rb_status rb_rolling_variant_place(const rb_rolling_model *of, const rb_rolling_case *rc,
@@ -920,7 +924,7 @@ typedef struct rb_rolling_history {
     rb_units units;    /* of all values here */
     struct rb_rolling_history *errors;     /* error bar of every entry; NULL: not computed; owned */
     struct rb_rolling_history *deviations; /* standard deviation of every entry that has
-                                              derivatives (rb_case_propagate_steps); NULL: not
+                                              derivatives (rb_case_slopes_of_steps); NULL: not
                                               computed; owned */
 } rb_rolling_history;
 

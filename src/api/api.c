@@ -1138,7 +1138,7 @@ int rb_api_step_derivatives(rb_api *a, const char *derivatives)
         status = rb_case_slopes_choose(a->words, &rb_rolling_history_columns, derivatives,
                                        RB_CASE_SLOPES_MAX, s, &a->why);
     if (status == RB_OK)
-        status = rb_case_slopes_of_steps(a->words, &a->states, s, &a->why);
+        status = rb_case_slopes_of_steps(a->words, &a->states, s, NULL, NULL, &a->why);
     rb_api_call_ends();
     rb_case_slopes_note(s, &a->note);
     if (status != RB_OK)
@@ -1185,7 +1185,7 @@ static rb_status step_tolerances(rb_api *a, const char *inputs)
     if (s == RB_OK)
         s = rb_case_read_tolerances(a->words, inputs, &t, &a->why);
     if (s == RB_OK)
-        s = rb_case_propagate_steps(a->words, &t, &a->states, h, &a->why);
+        s = rb_case_slopes_of_steps(a->words, &a->states, NULL, &t, h, &a->why);
     rb_api_call_ends();
     return s;
 }

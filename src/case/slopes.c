@@ -567,28 +567,53 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
     return RB_OK;
 }
 
-/* Columns of the histories at the four values. */
-static void take_columns(const varied *v, int n, rb_case_slopes *s)
+/* Of a column after a step, from the histories at the four values. */
+static double slope_of(const varied *v, const rb_rolling_result *r, int row)
+{
+    double sum = 0.0, at = 0.0;
+
+    for (int i = 0; i < v->of.n; i++) {
+        at = rb_rolling_entry(r, rb_rolling_follower_history(v->at[i]), row);
+        sum += v->of.weight[i] / v->step * at;
+    }
+    const rb_rolling_case *rc = rb_rolling_follower_model(v->at[0])->rc;
+    return fabs(sum) * v->number->input.scale < rb_sensitivity_rounding(rc, r, at) ? 0.0 : sum;
+}
+
+static void take_slopes(const varied *v, int n, rb_case_slopes *s)
 {
     for (int k = 0; k < s->n; k++)
-        for (int j = 0; j < n; j++) {
-            const rb_rolling_result *r = s->of[k].result;
-            const rb_sensitivity_input *input = &v[j].number->input;
-            if (strcmp(v[j].number->name, s->of[k].input) != 0)
-                continue;
-            for (int row = 0; row < s->rows; row++) {
+        for (int j = 0; j < n; j++)
+            for (int row = 0; row < s->rows && strcmp(v[j].number->name, s->of[k].input) == 0;
+                 row++) {
                 double *both = s->value + 2 * ((size_t)row * (size_t)s->n + (size_t)k);
-                double sum = 0.0, at = 0.0;
-                for (int i = 0; i < v[j].of.n; i++) {
-                    at = rb_rolling_entry(r, rb_rolling_follower_history(v[j].at[i]), row);
-                    sum += v[j].of.weight[i] / v[j].step * at;
-                }
-                const rb_rolling_case *rc = rb_rolling_follower_model(v[j].at[0])->rc;
-                if (fabs(sum) * input->scale < rb_sensitivity_rounding(rc, r, at))
-                    sum = 0.0;
-                both[0] = both[1] = sum;
+                both[0] = both[1] = slope_of(&v[j], s->of[k].result, row);
             }
-        }
+}
+
+/* Standard deviations of all columns that the history has. */
+static rb_status take_deviations(const rb_case_tolerances *t, const varied *v, int n,
+                                 rb_rolling_history *history)
+{
+    rb_rolling_history *d = history->deviations = calloc(1, sizeof *d);
+
+    if (!d)
+        return RB_ENOMEM;
+    d->n = history->n;
+    for (int k = 0; k < rb_rolling_history_columns.n; k++) {
+        const rb_rolling_result *r = &rb_rolling_history_columns.row[k];
+        double **column = (double **)(void *)((char *)d + r->offset);
+        if (!rb_sensitivity_has(r) || !rb_rolling_has_column(r, history))
+            continue;
+        if (!(*column = rb_alloc((size_t)d->n, 1)))
+            return RB_ENOMEM;
+        for (int j = 0; j < n; j++)
+            for (int i = 0; i < t->n; i++)
+                for (int row = 0; row < d->n && strcmp(t->name[i], v[j].number->name) == 0; row++)
+                    (*column)[row] =
+                        hypot((*column)[row], t->deviation[i] * slope_of(&v[j], r, row));
+    }
+    return RB_OK;
 }
 
 rb_status rb_case_slopes_check_steps(const rb_case *c, rb_message *why)
@@ -609,11 +634,12 @@ rb_status rb_case_slopes_check_steps(const rb_case *c, rb_message *why)
 }
 
 rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *states,
-                                  rb_case_slopes *s, rb_message *why)
+                                  rb_case_slopes *s, const rb_case_tolerances *t,
+                                  rb_rolling_history *history, rb_message *why)
 {
     const char *name[RB_CASE_NUMBERS_MAX];
-    const int asked = inputs_of(s, name);
     const rb_rolling_case *rc = &c->resolved.rc;
+    rb_case_slopes none = {0};
     rb_arena scratch = {0};
     rb_rolling_follower *base = NULL;
     int numbers = 0, n = 0;
@@ -621,11 +647,15 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
     rb_status status = rb_case_slopes_check_steps(c, why);
     if (status != RB_OK)
         return status;
+    s = s ? s : &none;
     s->stay = rc->zone == 0.0 && !elements_grow(rc);
     if (states->n >= RB_ROLLING_LARGE)
         return rb_fail(why, RB_EINVAL,
                        "derivatives of a history need a matrix: expected fewer than %d elements",
                        RB_ROLLING_LARGE);
+    int asked = inputs_of(s, name);
+    for (int i = 0; t && i < t->n; i++)
+        asked = add_name(name, asked, t->name[i]);
     rb_case_number *number = rb_arena_zeros(&scratch, RB_CASE_NUMBERS_MAX, sizeof *number);
     varied *v = rb_arena_zeros(&scratch, RB_CASE_NUMBERS_MAX, sizeof *v);
     if (scratch.failed)
@@ -641,53 +671,14 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
             }
     if (status == RB_OK)
         status = all_steps(states, base, n, v, s, why);
-    if (status == RB_OK && rb_case_slopes_alloc(states->steps, s) != RB_OK)
+    if (status == RB_OK && s->n > 0 && rb_case_slopes_alloc(states->steps, s) != RB_OK)
         status = rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     if (status == RB_OK)
-        take_columns(v, n, s);
+        take_slopes(v, n, s);
+    if (status == RB_OK && t && take_deviations(t, v, n, history) != RB_OK)
+        status = rb_fail(why, RB_ENOMEM, "out of memory for deviations");
     for (int k = 0; k < n; k++)
         varied_free(&v[k]);
     rb_rolling_follower_free(base);
     return rb_arena_done(&scratch, status);
-}
-
-rb_status rb_case_propagate_steps(const rb_case *c, const rb_case_tolerances *t,
-                                  const rb_rolling_states *states, rb_rolling_history *history,
-                                  rb_message *why)
-{
-    char words[RB_CASE_TOLERANCES_MAX * (sizeof t->name[0] + 5)] = "";
-    rb_case_slopes slopes;
-    rb_rolling_history *d = calloc(1, sizeof *d);
-
-    for (int i = 0; i < t->n; i++)
-        snprintf(words + strlen(words), sizeof words - strlen(words), "%sall:%s", i ? "," : "",
-                 t->name[i]);
-    rb_status s = rb_case_slopes_choose(c, &rb_rolling_history_columns, words, RB_CASE_SLOPES_MAX,
-                                        &slopes, why);
-    if (s == RB_OK)
-        s = rb_case_slopes_of_steps(c, states, &slopes, why);
-    if (s == RB_OK && d)
-        d->n = states->steps;
-    for (int k = 0; k < slopes.n && s == RB_OK && d; k++) {
-        double **column = (double **)(void *)((char *)d + slopes.of[k].result->offset);
-        double deviation = 0.0;
-        for (int i = 0; i < t->n; i++)
-            if (strcmp(t->name[i], slopes.of[k].input) == 0)
-                deviation = t->deviation[i];
-        if (!*column && !(*column = rb_alloc((size_t)d->n, 1)))
-            s = RB_ENOMEM;
-        for (int row = 0; row < d->n && s == RB_OK; row++)
-            (*column)[row] =
-                hypot((*column)[row], deviation * rb_case_slope_value(&slopes, row, k));
-    }
-    rb_case_slopes_free(&slopes);
-    if (s == RB_OK && d) {
-        history->deviations = d;
-        return s;
-    }
-    if (d)
-        rb_rolling_history_free(d);
-    free(d);
-    return s == RB_OK || s == RB_ENOMEM ? rb_fail(why, RB_ENOMEM, "out of memory for deviations")
-                                        : s;
 }

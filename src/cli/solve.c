@@ -219,11 +219,9 @@ static rb_status solve(cli_case_run *run, rb_message *why)
         /* Of the columns of a history. */
         it->kept.program = run->c->program.n > 0 ? &run->c->program : NULL;
         it->kept.half_width = it->r.history.half_width;
-        if (it->derivatives)
-            s = rb_case_slopes_of_steps(run->words, &it->kept, &it->slopes_of_steps, why);
-        if (s == RB_OK && it->tolerance)
-            s = rb_case_propagate_steps(run->words, &it->tolerances, &it->kept, &it->r.history,
-                                        why);
+        s = rb_case_slopes_of_steps(run->words, &it->kept,
+                                    it->derivatives ? &it->slopes_of_steps : NULL,
+                                    it->tolerance ? &it->tolerances : NULL, &it->r.history, why);
         if (s != RB_OK)
             drop_derivatives(it);
         rb_case_slopes_convert(&it->slopes_of_steps, run->c->units);

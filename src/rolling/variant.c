@@ -301,6 +301,31 @@ rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, doub
     return create(of, of->rc, 2, 0, (motion){shift, scale}, v, why);
 }
 
+rb_status rb_rolling_variant_data(const rb_rolling_model *of, double shift, double scale,
+                                  double *gap, double *bound, rb_message *why)
+{
+    const size_t n = (size_t)of->mesh.n;
+    rb_rolling_mesh mesh = {.passed = of->mesh.passed};
+    rb_contact_problem p = of->problem;
+    rb_rolling_bodies bodies = of->bodies;
+    rb_status s = copy_mesh(of->rc, &of->mesh, 0, (motion){shift, scale}, &mesh, why);
+    double *x = bodies.f.x = rb_alloc(n + 1, 1);
+
+    if (s == RB_OK && !x)
+        s = RB_ENOMEM;
+    p.bound = bound;
+    memcpy(bound, of->problem.bound, n * sizeof *bound);
+    for (size_t i = 0; i < n && s == RB_OK; i++) {
+        gap[i] = mesh.gap[i];
+        x[i] = 0.5 * (mesh.ends[i] + mesh.ends[i + 1]);
+    }
+    if (s == RB_OK && !rb_rolling_law_depends_on_state(of->rc))
+        rb_rolling_start_bounds(of->rc, NULL, &bodies, &p);
+    free(x);
+    rb_rolling_mesh_free(&mesh);
+    return s;
+}
+
 rb_status rb_rolling_variant_place(const rb_rolling_model *of, const rb_rolling_case *rc,
                                    double shift, double scale, rb_rolling_model *v, rb_message *why)
 {

@@ -152,6 +152,13 @@ typedef struct {
     double centre, half; /* of what is stretched */
 } motion;
 
+/* Elements move to shift + scale x. */
+static void motion_by(const motion *m, double by, double *shift, double *scale)
+{
+    *shift = m->kind == SHIFT ? by : -by * m->centre / m->half;
+    *scale = m->kind == SHIFT ? 1.0 : 1.0 + by / m->half;
+}
+
 static rb_status variants_at_places(const rb_rolling_model *base, const rb_sensitivity_input *input,
                                     const variants *others, int freely, variants *v,
                                     rb_message *why)
@@ -171,10 +178,9 @@ static rb_status variants_at_places(const rb_rolling_model *base, const rb_sensi
         const rb_rolling_model *of = v->of[k] = lends ? other : base;
         rb_rolling_case rc;
         if (!input->vary) {
-            const motion *m = input->context;
-            s = m->kind == SHIFT ? rb_rolling_variant_move(base, by, 1.0, &v->model[k], why)
-                                 : rb_rolling_variant_move(base, -by * m->centre / m->half,
-                                                           1.0 + by / m->half, &v->model[k], why);
+            double shift, scale;
+            motion_by(input->context, by, &shift, &scale);
+            s = rb_rolling_variant_move(base, shift, scale, &v->model[k], why);
         } else {
             s = input->vary(input->context, input->value + by, &rc, why);
             if (s != RB_OK)
@@ -226,6 +232,31 @@ static rb_status rates(variants *v, rb_sensitivity_rate *rate, rb_message *why)
         rb_sensitivity_rate_add(&left, v->at.weight[k] / v->step, rate);
     }
     rb_sensitivity_rate_free(&left);
+    return s;
+}
+
+/* Tables of gap and friction over x have kinks, which the step of a flexibility would span: of
+ * elements that move, what these tables add is that of a short step. */
+static rb_status rates_of_tables(const variants *v, const motion *m, rb_sensitivity_rate *rate,
+                                 rb_message *why)
+{
+    const int n = v->base->mesh.n, law = rb_rolling_law_depends_on_state(v->base->rc);
+    const double step = STEP * m->half;
+    double *gap = rb_alloc((size_t)n, 2), *bound = gap + n;
+    rb_status s = gap ? RB_OK : RB_ENOMEM;
+
+    for (int k = 0; k < v->at.n && s == RB_OK; k++) {
+        const double of_short = v->at.weight[k] / step, of_long = v->at.weight[k] / v->step;
+        double shift, scale;
+        motion_by(m, v->at.place[k] * step, &shift, &scale);
+        s = rb_rolling_variant_data(v->base, shift, scale, gap, bound, why);
+        for (int i = 0; i < n && s == RB_OK; i++) {
+            rate->gap[i] += of_short * gap[i] - of_long * v->model[k].mesh.gap[i];
+            if (!law)
+                rate->bound[i] += of_short * bound[i] - of_long * v->model[k].problem.bound[i];
+        }
+    }
+    free(gap);
     return s;
 }
 
@@ -735,6 +766,8 @@ static rb_status differentiate(const rb_sensitivity *s, const rb_sensitivity_inp
         status = rb_sensitivity_rate_alloc(s->n, &d->rate);
     if (status == RB_OK)
         status = rates(v, &d->rate, why);
+    if (status == RB_OK && !input->vary)
+        status = rates_of_tables(v, input->context, &d->rate, why);
     for (int k = 0; k < 2 && status == RB_OK; k++)
         if (d->has[k])
             status = differentiate_side(s, v, k, d, why);
