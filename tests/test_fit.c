@@ -5,7 +5,10 @@
 
 #include "rollbem/rollbem.h"
 
+#include <fcntl.h>
 #include <jansson.h>
+#include <poll.h>
+#include <signal.h>
 #include <string.h>
 
 enum { POINTS = 14 };
@@ -758,6 +761,111 @@ TEST(doubtful_data_are_told)
                              "--load 240 --contact-elements 20 --bounds load=0.1kN/mm:400"),
                      0);
     assert_null(strstr(err, "check"));
+}
+
+/* Where Fourier transforms solve, a fit takes matrices: as with Lemke's method, which has one. */
+TEST(fits_of_many_elements_have_matrices)
+{
+    double value[2];
+    write_data("creep.tsv", "creep\tforce_over_load");
+    for (int k = 0; k < 2; k++) {
+        char line[500];
+        snprintf(line, sizeof line,
+                 "fit creep.tsv --fit mu,interlayer-tangential --similar --support halfplane "
+                 "--young 364 --poisson 0.3 --radius 100 --half-width 1 --mesh uniform --zone 1.2 "
+                 "--contact-elements 160 --solver %s",
+                 k ? "lemke" : "auto");
+        held_json *root = run_json(line);
+        value[k] = number_in(json_object_get(json_object_get(root, "parameters"), "mu"), "value");
+    }
+    CHECK_REL(value[0], value[1], 1e-8, "mu");
+    assert_int_equal(rollbem("fit creep.tsv --fit mu --similar --support halfplane --load 240 "
+                             "--contact-elements 1600 --mesh uniform --zone 5"),
+                     64);
+    assert_non_null(strstr(err, "fit: expected fewer than 1500 elements, got 1600"));
+}
+
+#define RESUMED                                                                                    \
+    "fit creep.tsv --fit mu,interlayer-tangential --resume st" BODIES " --progress --json "
+
+/* Runs RESUMED with standard error into a pipe that is full, so that it waits where it tells
+ * of its first step, and interrupts it there. */
+static void interrupt_after_one_step(void)
+{
+    int ends[2];
+    assert_int_equal(pipe(ends), 0);
+    assert_int_equal(fcntl(ends[1], F_SETFL, O_NONBLOCK), 0);
+    while (write(ends[1], ".", 1) == 1)
+        ;
+    assert_int_equal(fcntl(ends[1], F_SETFL, 0), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        char line[1000];
+        dup2(ends[1], 2);
+        snprintf(line, sizeof line, "exec '%s' " RESUMED ">part.json", program);
+        execl("/bin/sh", "sh", "-c", line, (char *)NULL);
+        _exit(127);
+    }
+    close(ends[1]);
+    int status;
+    while (access("st", R_OK) != 0) {
+        assert_int_equal(waitpid(child, &status, WNOHANG), 0);
+        poll(NULL, 0, 1);
+    }
+    assert_int_equal(kill(child, SIGINT), 0);
+    size_t n = 0;
+    ssize_t got;
+    while ((got = read(ends[0], err, sizeof err - 1)) > 0)
+        n = (size_t)got;
+    err[n] = '\0'; /* the last that it said */
+    close(ends[0]);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 1);
+}
+
+/* An interrupted fit goes on where it was, and ends where it would have ended; a file of
+ * another fit stays as it is. */
+TEST(an_interrupted_fit_goes_on)
+{
+    write_data("creep.tsv", "creep\tforce_over_load");
+    held_json *whole = run_json("fit creep.tsv --fit mu,interlayer-tangential" BODIES);
+    interrupt_after_one_step();
+    assert_int_equal(shell("cat st; cat part.json"), 0);
+    assert_int_equal(strncmp(out, "fit ", 4), 0);
+    assert_non_null(strstr(out, " step 1\nmu 0."));
+    assert_non_null(strstr(out, "\ninterlayer-tangential "));
+    static const struct {
+        const char *change, *part;
+    } others[] = {{"sed 's/mu 0/mu x/' st >other", "other holds no numbers of this fit"},
+                  {"sed 's/step 1/step 0/' st >other", "other holds no numbers of this fit"},
+                  {"(cat st; echo mu 1) >other", "other holds no numbers of this fit"},
+                  {"head -n 2 st >other", "other holds no numbers of this fit"},
+                  {": >other", "other holds no numbers of this fit"},
+                  {"cp st other; sed -i 's/^-/-1/' creep.tsv", "other holds no numbers"}};
+    char line[700];
+    for (size_t k = 0; k < sizeof others / sizeof *others; k++) {
+        snprintf(line, sizeof line,
+                 "cp creep.tsv kept; %s; cp other before; \"$R\" fit creep.tsv --fit "
+                 "mu,interlayer-tangential --resume other%s; code=$?; cmp other before || code=9; "
+                 "mv kept creep.tsv; exit $code",
+                 others[k].change, BODIES);
+        if (shell(line) != 73 || !strstr(err, others[k].part))
+            fail_msg("%zu: %s", k, err);
+    }
+    assert_int_equal(rollbem("fit creep.tsv --fit mu --resume st" BODIES), 73);
+    assert_int_equal(rollbem("fit creep.tsv --fit mu --resume creep.tsv" BODIES), 64);
+    assert_int_equal(rollbem(RESUMED), 0);
+    assert_non_null(strstr(err, "st holds the numbers after 1 step\n"));
+    assert_non_null(strstr(err, "step 1: sum of squares"));
+    assert_true(access("st", R_OK) != 0);
+    held_json *rest = json_loads(out, 0, NULL);
+    for (int j = 0; j < 2; j++) {
+        const char *name = j ? "interlayer-tangential" : "mu";
+        const json_t *a = json_object_get(json_object_get(whole, "parameters"), name),
+                     *b = json_object_get(json_object_get(rest, "parameters"), name);
+        CHECK_REL(number_in(b, "value"), number_in(a, "value"), 1e-6, "%s", name);
+    }
 }
 
 /* A sample scatters as the first-order propagation says; the same seed gives the same. */

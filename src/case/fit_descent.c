@@ -109,8 +109,8 @@ static rb_status tell(const state *at)
     fit->iterations++;
     return o && o->step &&
                    o->step(fit->iterations, at->accepted_chi2, fit->n, at->accepted, o->context)
-               ? rb_fail(at->why, RB_INTERRUPTED, "fit: interrupted after %d steps",
-                         fit->iterations)
+               ? rb_fail(at->why, RB_INTERRUPTED, "fit: interrupted after %d step%s",
+                         fit->iterations, fit->iterations == 1 ? "" : "s")
                : RB_OK;
 }
 

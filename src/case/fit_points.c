@@ -203,6 +203,8 @@ static rb_status solve_point(fit_problem *p, const double *theta, int k, int tri
     if (s == RB_OK)
         s = at->first == k ? rb_rolling_variant_place(of, &rc, 0.0, 1.0, v, why)
                            : rb_rolling_variant_create(of, &rc, 0, 0, v, why);
+    if (s == RB_OK)
+        s = rb_rolling_model_add_matrix(v, why);
     if (s != RB_OK)
         return s;
     s = follows ? factorise(p, from, which, why) : RB_MAXITER;
@@ -316,6 +318,13 @@ rb_status rb_case_fit_place(fit_problem *p, const double *theta, int *moved, rb_
         s = of->first < k ? RB_OK : case_at(&at, 0.0, &rc, why);
         if (s == RB_OK && of->first == k)
             s = rb_rolling_model_create(&rc, &fresh, why);
+        if (s == RB_OK && fresh.mesh.n >= RB_ROLLING_LARGE)
+            s = rb_fail(why, RB_EINVAL,
+                        "fit: expected fewer than %d elements, got %d; give fewer by "
+                        "--contact-elements or a smaller --zone",
+                        RB_ROLLING_LARGE, fresh.mesh.n);
+        if (s == RB_OK && of->first == k) /* an adjoint takes its factors */
+            s = rb_rolling_model_add_matrix(&fresh, why);
         const rb_rolling_mesh *old = &of->base.mesh, *mesh = &fresh.mesh;
         *moved |= old->n != mesh->n;
         for (int i = 0; i <= mesh->n && mesh->n > 0 && !*moved; i++)

@@ -3,20 +3,31 @@
 #include "cli/interrupt.h"
 #include "cli/wait.h"
 #include "rollbem/io.h"
+#include "rollbem/report.h"
 
+#include <errno.h>
+#include <inttypes.h>
 #include <jansson.h>
 #include <math.h>
 #include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 typedef struct {
-    const char *names, *bounds, *start; /* options */
+    const char *names, *bounds, *start, *resume; /* options */
     double sigma, level;
+    int progress;
     rb_io_table table;
     rb_case_data data;
     rb_case_fit fit;
     int tells; /* 1: steps on standard error */
     rb_units units;
+    uint64_t fingerprint;          /* of the case, what is fitted, and the data */
+    int steps;                     /* those before this run, and of it */
+    double value[RB_CASE_FIT_MAX]; /* after so many steps, in mm, N, MPa */
+    rb_status kept;                /* of writing them */
+    rb_message why;
 } fitting;
 
 #define PLACE(member) offsetof(fitting, member)
@@ -34,6 +45,12 @@ static const rb_option options[] = {
     RB_TEXT_LINE("bounds", PLACE(bounds), "NAME=A:B,...", "ranges of the numbers",
                  .unset = "those of the options"),
     RB_FIT_LEVEL_LINE(PLACE(level)),
+    RB_TEXT_LINE("resume", PLACE(resume), "FILE",
+                 "keeps the numbers of every step in FILE: after an interruption the same command "
+                 "goes on from there; a fit that ends removes it",
+                 .unset = "none", .file = RB_FILE_WRITTEN),
+    RB_FLAG_LINE("progress", PLACE(progress),
+                 "print every step even when standard error is not a terminal"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -90,11 +107,83 @@ static void summarise(FILE *out, const cli_case_run *run)
     rb_report_fit_summary(out, &fit);
 }
 
+/* ---- Resume ------------------------------------------------------------------------ */
+
+static rb_status write_numbers(FILE *out, const void *context, rb_message *why)
+{
+    const fitting *f = context;
+    (void)why;
+    fprintf(out, "fit %016" PRIx64 " step %d\n", f->fingerprint, f->steps);
+    for (int j = 0; j < f->fit.n; j++)
+        fprintf(out, "%s %.17g\n", f->fit.parameter[j].name, f->value[j]);
+    return rb_report_flush(out);
+}
+
+/* 1: the text holds numbers of this fit, which it starts from. */
+static int read_numbers(const char *text, fitting *f)
+{
+    uint64_t fingerprint;
+    int at = 0, whole = 0;
+    if (sscanf(text, "fit %16" SCNx64 " step %d%n", &fingerprint, &f->steps, &at) != 2 ||
+        fingerprint != f->fingerprint || text[at] != '\n' || f->steps < 1)
+        return 0;
+    for (int j = 0; j < f->fit.n; j++) {
+        rb_case_parameter *p = &f->fit.parameter[j];
+        char name[sizeof p->name], number[40];
+        if (sscanf(text + at, "%39s %39s%n", name, number, &whole) != 2 ||
+            strcmp(name, p->name) != 0 || !rb_option_number(number, &p->start))
+            return 0;
+        at += whole;
+    }
+    return strcmp(text + at, "\n") == 0;
+}
+
+static cli_exit resume(cli_case_run *run)
+{
+    fitting *f = run->own;
+    rb_message why = {""};
+    char *text = NULL;
+    size_t size;
+    const rb_io_table *t = &f->table;
+    if (!f->resume)
+        return CLI_CONTINUE;
+    rb_status s = rb_report_input_hash(run->words, &f->fingerprint, &why);
+    if (s == RB_OK) {
+        const char *const words[] = {RB_VERSION, f->names, f->bounds ? f->bounds : ""};
+        for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+            f->fingerprint = rb_hash(f->fingerprint, words[k], strlen(words[k]) + 1);
+        for (int j = 0; j < t->columns; j++)
+            f->fingerprint = rb_hash(f->fingerprint, t->name[j], strlen(t->name[j]) + 1);
+        f->fingerprint =
+            rb_hash(f->fingerprint, t->x, (size_t)t->rows * (size_t)t->columns * sizeof *t->x);
+        s = rb_io_read_text(f->resume, &text, &size, &why);
+    }
+    if (s == RB_ENOENT)
+        return CLI_CONTINUE;
+    if (s != RB_OK)
+        return cli_say(s, &why);
+    const int known = read_numbers(text, f);
+    free(text);
+    if (!known)
+        return cli_fail(CLI_CANTWRITE,
+                        "--resume: %s holds no numbers of this fit, and would be overwritten",
+                        f->resume);
+    if (!run->o.quiet)
+        fprintf(stderr, "rollbem: %s holds the numbers after %d step%s\n", f->resume, f->steps,
+                f->steps == 1 ? "" : "s");
+    return CLI_CONTINUE;
+}
+
 /* ---- Command ----------------------------------------------------------------------- */
 
 static int tell(int iteration, double chi_square, int n, const double *value, void *context)
 {
-    const fitting *f = context;
+    fitting *f = context;
+    f->steps++;
+    if (f->resume && f->kept == RB_OK) {
+        memcpy(f->value, value, (size_t)n * sizeof *value);
+        f->kept = cli_write_to(f->resume, write_numbers, f, &f->why);
+    }
     if (f->tells) {
         cli_wait_rest();
         fprintf(stderr, "step %d: sum of squares %.6g;", iteration, chi_square);
@@ -103,7 +192,7 @@ static int tell(int iteration, double chi_square, int n, const double *value, vo
                     rb_unit_shown(f->units, f->fit.parameter[j].unit, value[j]));
         fputc('\n', stderr);
     }
-    return cli_interrupted();
+    return f->kept != RB_OK || cli_interrupted();
 }
 
 /* The best numbers so far are kept, so that --start goes on from there. */
@@ -111,12 +200,19 @@ static rb_status solve(cli_case_run *run, rb_message *why)
 {
     fitting *f = run->own;
     const rb_case_fit_observer observer = {tell, f};
-    f->tells = !run->o.quiet && isatty(STDERR_FILENO);
+    f->tells = !run->o.quiet && (f->progress || isatty(STDERR_FILENO));
     f->units = run->c->units;
     cli_interrupts_catch();
-    const rb_status s = rb_case_fit_solve(run->words, &f->data, &observer, &f->fit, why);
+    rb_status s = rb_case_fit_solve(run->words, &f->data, &observer, &f->fit, why);
     cli_interrupts_leave();
-    if (s > 0 && s != RB_INACCURATE) {
+    if (f->kept != RB_OK) {
+        *why = f->why;
+        s = f->kept;
+    }
+    if (s > 0 && s != RB_INACCURATE && f->resume && f->steps > 0)
+        fprintf(stderr, "%s holds the numbers so far: the same command goes on from there\n",
+                f->resume);
+    else if (s > 0 && s != RB_INACCURATE) {
         fprintf(stderr, "so far: --start ");
         for (int j = 0; j < f->fit.n; j++)
             fprintf(stderr, "%s%s=%.17g", j ? "," : "", f->fit.parameter[j].name,
@@ -162,6 +258,7 @@ static const cli_case_command command = {
     .operands = 1,
     .files = files,
     .prepare = prepare,
+    .check = resume,
     .solve = solve,
     .table = write_table,
     .json = add_json,
@@ -172,6 +269,10 @@ int cli_fit(int argc, char **argv)
 {
     fitting f = {.sigma = NAN, .level = 0.95};
     const cli_exit code = cli_case_run_command(&command, &f, argc, argv);
+    /* it has ended, and its results are written */
+    if (f.resume && f.steps > 0 && (code == CLI_OK || code == CLI_UNSOLVED) &&
+        (f.fit.status == RB_OK || f.fit.status == RB_INACCURATE))
+        unlink(f.resume);
     rb_case_fit_free(&f.fit);
     rb_io_table_free(&f.table);
     return code;
