@@ -65,6 +65,8 @@ typedef struct {
     double *response;       /* NULL, or of equal elements at distances of 1 - n ... n - 1 of
                                them; owned */
     rb_bem_convolution *by; /* the same, where transforms are sooner; owned */
+    double *rows;           /* NULL, or of unequal elements: n rows; x and all that they are
+                               for; owned */
 } conductor;
 
 struct rb_rolling_conduction {
@@ -74,6 +76,7 @@ struct rb_rolling_conduction {
 static void conductor_free(conductor *c)
 {
     free(c->response);
+    free(c->rows);
     rb_bem_convolution_free(c->by);
     *c = (conductor){.n = 0};
 }
@@ -93,24 +96,62 @@ static int is_alike(const rb_rolling_heat *a, const rb_rolling_heat *b)
            a->temperature == b->temperature;
 }
 
+/* row_j: rise at midpoint i of a unit heat per area and time in element j, which begins
+ * where the one before ends. */
+static void conductor_row(const conductor *c, int i, double *row)
+{
+    if (c->response || c->rows) {
+        memcpy(row, c->rows ? &c->rows[(size_t)i * (size_t)c->n] : &c->response[c->n - 1 - i],
+               (size_t)c->n * sizeof *row);
+        return;
+    }
+    double before = rise_from_origin(&c->body, c->speed, c->x[0] - 0.5 * c->all[0] - c->x[i]);
+    for (int j = 0; j < c->n; j++) {
+        const double to = rise_from_origin(&c->body, c->speed, c->x[j] + 0.5 * c->all[j] - c->x[i]);
+        row[j] = to - before;
+        before = to;
+    }
+}
+
+/* Whether the conductor is that of the same elements. */
+static int is_known(const rb_rolling_case *rc, const rb_rolling_heat *body,
+                    const rb_rolling_solution *s, int equal, const conductor *c)
+{
+    const size_t n = (size_t)s->n;
+
+    if (c->n != s->n || c->speed != rc->speed || !is_alike(&c->body, body))
+        return 0;
+    return equal ? c->response && c->h == s->h[0]
+                 : c->rows && memcmp(c->rows + n * n, s->x, n * sizeof *s->x) == 0 &&
+                       memcmp(c->rows + n * n + n, s->h, n * sizeof *s->h) == 0;
+}
+
 /* Kept where it is that of the same elements. */
 static rb_status conductor_set(const rb_rolling_case *rc, const rb_rolling_heat *body,
                                const rb_rolling_solution *s, conductor *c)
 {
-    /* more are sooner by transforms */
-    enum { DIRECT = 200 };
+    /* more are sooner by transforms, and rows of more are too large to be kept */
+    enum { DIRECT = 200, ROWS = 500 };
     const int n = s->n, equal = rc->mesh != RB_MESH_FITTED && n > 0;
 
-    if (c->response && equal && c->n == n && c->h == s->h[0] && c->speed == rc->speed &&
-        is_alike(&c->body, body)) {
+    if (is_known(rc, body, s, equal, c)) {
         c->x = s->x;
         c->all = s->h;
         return RB_OK;
     }
     conductor_free(c);
-    *c = (conductor){*body, rc->speed, n, n > 0 ? s->h[0] : 0.0, s->x, s->h, NULL, NULL};
-    if (!equal)
-        return RB_OK;
+    *c = (conductor){*body, rc->speed, n, n > 0 ? s->h[0] : 0.0, s->x, s->h, NULL, NULL, NULL};
+    if (!equal) {
+        double *rows = n > 0 && n <= ROWS ? rb_alloc((size_t)n, (size_t)n + 2) : NULL;
+        for (int i = 0; i < n && rows; i++)
+            conductor_row(c, i, &rows[(size_t)i * (size_t)n]);
+        if (rows) {
+            memcpy(rows + n * n, s->x, (size_t)n * sizeof *rows);
+            memcpy(rows + n * n + n, s->h, (size_t)n * sizeof *rows);
+        }
+        c->rows = rows;
+        return rows || n == 0 || n > ROWS ? RB_OK : RB_ENOMEM;
+    }
     c->response = rb_alloc(2 * (size_t)n - 1, 1);
     double before = rise_from_origin(body, rc->speed, s->h[0] * (0.5 - n));
     for (int k = 1 - n; c->response && k < n; k++) {
@@ -128,30 +169,15 @@ static rb_status conductor_set(const rb_rolling_case *rc, const rb_rolling_heat 
     return c->response ? RB_OK : RB_ENOMEM;
 }
 
-/* row_j: rise at midpoint i of a unit heat per area and time in element j, which begins
- * where the one before ends. */
-static void conductor_row(const conductor *c, int i, double *row)
-{
-    if (c->response) {
-        memcpy(row, &c->response[c->n - 1 - i], (size_t)c->n * sizeof *row);
-        return;
-    }
-    double before = rise_from_origin(&c->body, c->speed, c->x[0] - 0.5 * c->all[0] - c->x[i]);
-    for (int j = 0; j < c->n; j++) {
-        const double to = rise_from_origin(&c->body, c->speed, c->x[j] + 0.5 * c->all[j] - c->x[i]);
-        row[j] = to - before;
-        before = to;
-    }
-}
-
 /* T = T_0 + K H; elements without heat at the ends cost nothing. */
 static rb_status warm(const conductor *c, const double *heat, double *temperature)
 {
     const int n = c->n;
-    double *own = c->response ? NULL : rb_alloc((size_t)n, 1);
+    const int is_kept = c->response || c->rows;
+    double *own = is_kept ? NULL : rb_alloc((size_t)n, 1);
     int from = 0, to = n;
 
-    if (!c->response && !own)
+    if (!is_kept && !own)
         return RB_ENOMEM;
     if (c->by) {
         rb_bem_convolution_apply(c->by, heat, temperature);
@@ -166,7 +192,9 @@ static rb_status warm(const conductor *c, const double *heat, double *temperatur
     while (from < to && heat[to - 1] == 0.0)
         to--;
     for (int i = 0; i < n; i++) {
-        const double *row = c->response ? c->response + n - 1 - i : own;
+        const double *row = c->response ? c->response + n - 1 - i
+                            : c->rows   ? &c->rows[(size_t)i * (size_t)n]
+                                        : own;
         if (own)
             conductor_row(c, i, own);
         temperature[i] = c->body.temperature + cblas_ddot(to - from, row + from, 1, heat + from, 1);
