@@ -609,6 +609,16 @@ TEST(units_of_derivatives)
     rb_case_derivatives_free(&all);
     rb_case_result_free(&r);
     rb_case_free(c);
+    /* of a number that was given in the units of the case: all slides, Q = -mu P */
+    static const words metres = {{"units", "si", "support", "halfplane", "load", "5e5", ROLLING,
+                                  "creep", "1e-2", "contact-elements", "20"}};
+    c = solved(&metres, NULL, 0.0, &r);
+    CHECK_STATUS(rb_case_differentiate(c, &r.model, 1, names, &all, &why), RB_OK);
+    CHECK_REL(all.of[0].value, 500.0, 1e-14, "load in N/mm");
+    CHECK_REL(all.of[0].d.value[0].tangential_load, -0.3, 1e-10, "Q by P");
+    rb_case_derivatives_free(&all);
+    rb_case_result_free(&r);
+    rb_case_free(c);
 }
 
 TEST(steps_are_refused)
