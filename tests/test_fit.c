@@ -148,6 +148,33 @@ TEST(poor_starts_give_the_truth)
     }
 }
 
+/* Numbers that are given in the units of the case are fitted in mm, N, MPa. */
+TEST(units_do_not_matter)
+{
+    static const char *const words[][2] = {
+        {"units", "si"},        {"young", "364e6"},
+        {"radius", "0.1"},      {"half-width", "1e-3"},
+        {"zone", "1.2e-3"},     {"friction-law", "exponential"},
+        {"mu", "0.24"},         {"mu-fall", "0.16"},
+        {"slip-scale", "2e-3"}, {"interlayer-tangential", "1e-12"},
+        {"speed", "0.2"}};
+    const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, exact, NULL, NULL,
+                               NULL,   NULL};
+    rb_case_fit fit = fit_of(3, all + 2);
+    rb_message why = {""};
+    rb_case *c = case_of(RB_CASE_CURVE);
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+        CHECK_STATUS(rb_case_set(c, words[k][0], words[k][1], RB_GIVEN_ARGUMENT, &why), RB_OK);
+    CHECK_STATUS(rb_case_prepare_fit(c, &data, &fit, &why), RB_OK);
+    CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
+    if (rb_case_fit_solve(c, &data, NULL, &fit, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    for (int j = 0; j < 3; j++)
+        CHECK_REL(fit.parameter[j].value, *truth[2 + j], 1e-6, "%s", all[2 + j]);
+    rb_case_fit_free(&fit);
+    rb_case_free(c);
+}
+
 TEST(noise_leaves_it_in_the_intervals)
 {
     const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL,
