@@ -429,6 +429,10 @@ TEST(elements_longer_than_the_cover_are_refused)
     CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL,
                "cover thickness: with nu = 0.5 the elements");
     assert_non_null(strstr(heard.text, "may not be longer than the thickness, 0.2 mm"));
+    const char *advice = strstr(heard.text, "; take ");
+    assert_int_equal(advice ? sscanf(advice, "; take %d", &rc.contact_elements) : 0, 1);
+    assert_int_equal(rc.contact_elements, 7); /* 6 of 0.216 mm */
+    CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
 }
 
 RUN_TESTS(NULL, NULL)
