@@ -50,7 +50,7 @@ class Case:
 
     def __init__(self, file: Union[str, os.PathLike, Mapping[str, Optional[Value]], None] = None,
                  **options: Optional[Value]) -> None:
-        if isinstance(file, Mapping):
+        if hasattr(file, "keys"):  # also a pandas.Series
             options = {**_values.names("case", file), **options}
             file = None
         self.file = file

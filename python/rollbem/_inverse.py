@@ -238,6 +238,8 @@ _MEASURED = ("creep", *_FORCES, "load", "speed", "temperature", "sigma")
 
 def _columns(data: Table) -> "dict[str, Array]":
     """Those that are numbers; others, such as the names of tests, are left out where nobody reads them."""
+    if not hasattr(data, "keys"):
+        raise InvalidInput(f"data=: expected the name of a file, or columns by their names, got {_values.shown(data)}")
     found = {}
     for name in data:
         try:
@@ -245,6 +247,8 @@ def _columns(data: Table) -> "dict[str, Array]":
         except (TypeError, ValueError):
             if str(name).lower().startswith(_MEASURED):
                 raise InvalidInput(f"data: column {name!r}: expected numbers") from None
+    if all(column.size == 0 for column in found.values()):
+        raise InvalidInput("data: expected at least one row")
     if len({column.shape for column in found.values()}) != 1 or any(column.ndim != 1 for column in found.values()):
         raise InvalidInput("data: expected columns of one length")
     return found

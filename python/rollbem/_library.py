@@ -194,6 +194,11 @@ def _keyword(name: str) -> str:
     return name.replace("-", "_")
 
 
+# What functions call otherwise than the program, which needs longer names.
+_SHORTER = {"fit": "names", "wear_coefficient": "coefficient", "wear_law": "law", "wear_share": "share",
+            "wear_steps": "steps"}
+
+
 _all_options = _rows(Option, lib.rb_api_option)
 GROUPS = {option.name: option.help for option in _all_options if option.kind == "group"}
 OPTIONS = {_keyword(option.name): option for option in _all_options if option.kind != "group"}
@@ -217,13 +222,14 @@ def in_keywords(text: str) -> str:
         if found["quoted"] is not None:  # 'did you mean' names an option, all else is the user's
             return f"'{_keyword(found['quoted'][2:])}'" if found["quoted"].startswith("--") else found[0]
         if found["bare"]:
-            return _keyword(found[0]) if _keyword(found[0]) in OPTIONS else found[0]
+            name = _keyword(found[0])
+            return name if name in OPTIONS else f"{_SHORTER[name]}=" if name in _SHORTER else found[0]
         name, value = _keyword(found["option"]), found["value"]
         option = OPTIONS.get(name)
         if option and option.kind == "flag":
             return f"{name}=True" + (f" {value}" if value else "")
         if value is None:
-            return f"{name}="
+            return f"{_SHORTER.get(name, name)}="
         if option and value in option.choices.split():
             return f"{name}='{value}'"
         is_value = re.fullmatch(r"[-+.\d][-+.\de]*|[A-Z]", value)

@@ -18,9 +18,9 @@ def _one(value: Any) -> Any:
     return value.item() if isinstance(value, (np.ndarray, np.generic)) and np.ndim(value) == 0 else value
 
 
-def _shown(value: Any) -> str:
-    shown = repr(value)
-    return shown if len(shown) < 60 else f"{shown[:56]} ..."
+def shown(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) < 60 else f"{text[:56]} ..."
 
 
 def number(name: str, value: Any) -> float:
@@ -31,44 +31,44 @@ def number(name: str, value: Any) -> float:
             return float(value)
     except (TypeError, ValueError, OverflowError):
         pass
-    raise InvalidInput(f"{name}=: expected a number, got {_shown(value)}")
+    raise InvalidInput(f"{name}=: expected a number, got {shown(value)}")
 
 
 def whole(name: str, value: Any, least: int = 0, most: int = MOST) -> int:
     value = _one(value)
     if hasattr(value, "__index__") and least <= int(value) <= most:
         return int(value)
-    raise InvalidInput(f"{name}=: expected a whole number from {least} to {most}, got {_shown(value)}")
+    raise InvalidInput(f"{name}=: expected a whole number from {least} to {most}, got {shown(value)}")
 
 
 def word(name: str, value: Any, expected: str) -> bytes:
     if isinstance(value, str) and "\0" not in value:
         return value.encode(errors="surrogateescape")
-    raise InvalidInput(f"{name}=: expected {expected}, got {_shown(value)}")
+    raise InvalidInput(f"{name}=: expected {expected}, got {shown(value)}")
 
 
 def path(name: str, value: Any) -> str:
     if not isinstance(value, (str, bytes, os.PathLike)):
-        raise InvalidInput(f"{name}=: expected the name of a file, got {_shown(value)}")
+        raise InvalidInput(f"{name}=: expected the name of a file, got {shown(value)}")
     found = os.fsdecode(value)
     if "\0" in found:
-        raise InvalidInput(f"{name}=: a NUL character is in {_shown(found)}")
+        raise InvalidInput(f"{name}=: a NUL character is in {shown(found)}")
     return found
 
 
 def names(name: str, value: Mapping[str, Any]) -> dict[str, Any]:
     """Options by their names as keywords are."""
-    for key in value:
+    for key in value.keys():
         if not isinstance(key, str):
-            raise InvalidInput(f"{name}=: expected names of options, got {_shown(key)}")
-    return {key.replace("-", "_"): value[key] for key in value}
+            raise InvalidInput(f"{name}=: expected names of options, got {shown(key)}")
+    return {key.replace("-", "_"): value[key] for key in value.keys()}
 
 
 def vector(name: str, value: Any) -> NDArray[np.float64]:
     """Numbers in one row, at least one."""
     found = array(name, value)
     if found.size == 0:
-        raise InvalidInput(f"{name}=: expected at least one number, got {_shown(value)}")
+        raise InvalidInput(f"{name}=: expected at least one number, got {shown(value)}")
     if found.size != max(found.shape, default=1):
         raise InvalidInput(f"{name}=: expected numbers in one row, got {' x '.join(map(str, found.shape))}")
     return np.ascontiguousarray(found.ravel())
@@ -80,7 +80,7 @@ def array(name: str, value: Any) -> NDArray[np.float64]:
             return np.asarray(value, dtype=float)
     except (TypeError, ValueError, OverflowError):
         pass
-    raise InvalidInput(f"{name}=: expected numbers, got {_shown(value)}")
+    raise InvalidInput(f"{name}=: expected numbers, got {shown(value)}")
 
 
 def matrix(name: str, value: Any, rows: int) -> NDArray[np.float64]:

@@ -343,7 +343,7 @@ def test_data_of_fits():
                           ({"creep": xi, "force": np.where(xi < -5e-3, np.nan, force)}, "data, row 11: force: expected a finite"),
                           ({"creep": xi[:1], "force": force[:1]}, "expected at least 2 points for 1 number, got 1"),
                           ({"creep": xi, "force": ["1,5"] * 12}, "column 'force': expected numbers"),
-                          ({"creep": xi, "force": force[:-1]}, "columns of one length"), ({}, "columns of one length"),
+                          ({"creep": xi, "force": force[:-1]}, "columns of one length"), ({}, "expected at least one row"),
                           ({"creep": xi, "force": force, "sigma": -np.ones(12)}, "data, row 1: sigma: expected > 0"),
                           ({"creep": xi}, "expected a column creep or creep_ratio")):
         with pytest.raises(rollbem.InvalidInput, match=said):
@@ -355,6 +355,17 @@ def test_data_of_fits():
             rollbem.fit(frame, "mu", **PLANES, **wrong)
     with pytest.raises(KeyboardInterrupt):
         rollbem.fit(frame, "mu", **PLANES, progress=interrupt)
+
+
+@pytest.mark.parametrize("data, names, said", [
+    (None, "mu", "data=: expected the name of a file, or columns by their names, got None"),
+    ([1, 2, 3], "mu", "data=: expected the name of a file, or columns by their names, got .1, 2, 3"),
+    ({}, "mu", "data: expected at least one row"),
+    ({"creep": [], "force": []}, "mu", "data: expected at least one row"),
+    ({"creep": [1e-3], "force": [-1]}, "mus", "^names=: 'mus' is not a number .*did you mean 'mu'")])
+def test_data_that_are_none(data, names, said):
+    with pytest.raises(rollbem.InvalidInput, match=said):
+        rollbem.fit(data, names, load=500, support="halfplane")
 
 
 def interrupt(done, total):

@@ -345,6 +345,7 @@ EYE, TOO_LARGE = np.eye(3), "from 0 to 2147483647, got 2147483648"
     (lambda: rollbem.Case(3), "case=: expected the name of a file, got 3"),
     (lambda: rollbem.Case({3: 1}), "case=: expected names of options, got 3"),
     (lambda: rollbem.solve({"mu": -1}), "mu=: expected a number >= 0"),
+    (lambda: rollbem.wear(load=10, coefficient=-1, slide=1), "^coefficient=: expected a number > 0"),
     (lambda: rollbem.solve(**{"mu\0": 1}), "unknown option"),
     (lambda: rollbem.solve(mu=[]), "mu=: expected at least one number"),
     (lambda: rollbem.solve(mu=1j), "mu=: expected numbers, got 1j"),
