@@ -247,7 +247,7 @@ rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const 
                        double *z, rb_lcp_info *info)
 {
     const rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
-    rb_lcp_info unread = {0};
+    rb_lcp_info unread;
     info = info ? info : &unread;
     *info = RB_LCP_INFO_NONE;
     int kind = AUTO;

@@ -614,7 +614,7 @@ rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
                        rb_lcp_info *info)
 {
     const rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
-    rb_lcp_info unread = {0};
+    rb_lcp_info unread;
     info = info ? info : &unread;
     *info = RB_LCP_INFO_NONE;
     const rb_status s = rb_lcp_check_mixed(p, &o, &info->msg);

@@ -210,7 +210,7 @@ rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_option
                         rb_lcp_info *info)
 {
     rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
-    rb_lcp_info unread = {0};
+    rb_lcp_info unread;
     info = info ? info : &unread;
     *info = RB_LCP_INFO_NONE;
     o.cover = NULL;
