@@ -714,13 +714,12 @@ static cli_exit run(study *st)
         return cli_fail(cli_exit_of(s), "%s%s", why.text,
                         st->path ? "; the same command continues from there" : "");
     st->complete = 1;
-    if (!st->o->quiet)
-        fprintf(stderr, "study: %d cases in %.3g s; not solved: %d of %d\n", sweep.count, spent,
-                st->unsolved, st->cases);
     if (!st->o->quiet) {
         char heading[STUDY_HEADING];
         const double n = st->summed;
 
+        fprintf(stderr, "study: %d cases in %.3g s; not solved: %d of %d\n", sweep.count, spent,
+                st->unsolved, st->cases);
         for (int j = 0; j < st->results && st->summed > 1; j++) {
             const double mean = st->sum[j] / n;
             const double variance = (st->square[j] - n * mean * mean) / (n - 1.0);

@@ -145,7 +145,6 @@ void rb_report_json_tolerances(json_t **root, const rb_report_derivatives *d)
 typedef struct {
     const rb_rolling_result *result;
     const rb_case_derivative *of;
-    int entry; /* of a column, from 0; -1: a number */
     double side[2], one;
 } derivative;
 
@@ -157,14 +156,15 @@ static int by_size(const void *a, const void *b)
                                          : (x->of > y->of) - (x->of < y->of);
 }
 
-/* Those of result k (entry of a column) with respect to all inputs, the largest first. */
+/* Those of result k (entry of a column, from 0; -1: a number) with respect to all inputs, the
+ * largest first. */
 static int rows_of(const rb_report_derivatives *d, int k, int entry, derivative *row)
 {
     int n = 0;
 
     for (int i = 0; i < d->all->n; i++) {
         const rb_case_derivative *of = &d->all->of[i];
-        derivative r = {d->result[k], of, entry, {NAN, NAN}, NAN};
+        derivative r = {d->result[k], of, {NAN, NAN}, NAN};
         for (int side = 0; side < 2 && of->status == RB_OK; side++)
             if (of->d.has[side])
                 r.side[side] = entry < 0 ? rb_rolling_number(r.result, &of->d.value[side])
