@@ -232,13 +232,66 @@ static double distance(const mixed *p, int s, double delta)
     return far > 0.0 ? far : 0.0;
 }
 
+/* Of the slots that tie the one that blocks first under the perturbation, t before all;
+ * opposite: so does the entering variable's own other bound. */
+static int first_of_tied(const mixed *p, double sign, int opposite, int count)
+{
+    int slot = opposite ? OPPOSITE : NONE;
+    double first = opposite ? 0.0 : INFINITY;
+    for (int k = 0; k < count; k++) {
+        const int tied = p->tied[k];
+        const double delta = -sign * p->y[tied], moves = p->generic[tied] / fabs(delta);
+        const double ratio = delta < 0.0 ? moves : -moves;
+        if (p->b.variable[tied] == 2 * p->n)
+            return tied;
+        if (p->opt.rule == RB_LCP_FIRST_INDEX && slot >= 0)
+            continue;
+        if (slot == NONE || ratio < first) {
+            slot = tied;
+            first = ratio;
+        }
+    }
+    return slot;
+}
+
+/* find_slot with the column in p->y as it is.  width: between the bounds of the entering
+ * variable. */
+static int blocking_slot(mixed *p, double sign, double width, double *step, int *count)
+{
+    const double most_y = rb_norm_inf((size_t)p->n, p->y);
+    const double most_value = rb_norm_inf((size_t)p->n, p->value);
+    double least = width;
+    *count = 0;
+    for (int k = 0; k < p->n; k++) {
+        if (fabs(p->y[k]) <= NOISE * most_y)
+            continue;
+        const double ratio = distance(p, k, -sign * p->y[k]) / fabs(p->y[k]);
+        least = ratio < least ? ratio : least;
+    }
+    if (isinf(least))
+        return NONE;
+    *step = least;
+    const double zero = TIE * (most_value + least * most_y);
+    /* where all of y is zero no slot ties, and any number or none will do */
+    const double most = least + NEAR * fmax(least, most_value / most_y);
+    for (int k = 0; k < p->n; k++) {
+        const double size = fabs(p->y[k]);
+        if (size <= NOISE * most_y)
+            continue;
+        const double far = distance(p, k, -sign * p->y[k]);
+        if (far <= most * size && far - least * size <= zero)
+            p->tied[(*count)++] = k;
+    }
+    /* most may have overflowed: a variable without another bound never comes to it */
+    return first_of_tied(p, sign, isfinite(width) && width <= most, *count);
+}
+
 /* The slot that blocks the entering variable, whose column comes to p->y, when it moves
  * by sign * step; OPPOSITE: its own other bound; NONE.  count: slots that tie.  A pivot
  * near rounding and the absence of one are believed only with a new LU. */
 static rb_status find_slot(mixed *p, int entering, double sign, int *slot, double *step, int *count)
 {
     const range own = range_of(p, entering);
-    const double width = own.high - own.low;
     for (;;) {
         rb_status s = rb_lcp_basis_column(&p->b, entering, p->y);
         if (s != RB_OK)
@@ -247,52 +300,7 @@ static rb_status find_slot(mixed *p, int entering, double sign, int *slot, doubl
         for (int k = 0; k < p->n; k++)
             if (fabs(p->y[k]) <= noise)
                 p->y[k] = 0.0;
-        const double most_y = rb_norm_inf((size_t)p->n, p->y);
-        const double most_value = rb_norm_inf((size_t)p->n, p->value);
-        double least = width;
-        *count = 0;
-        *slot = NONE;
-        for (int k = 0; k < p->n; k++) {
-            if (fabs(p->y[k]) <= NOISE * most_y)
-                continue;
-            const double ratio = distance(p, k, -sign * p->y[k]) / fabs(p->y[k]);
-            least = ratio < least ? ratio : least;
-        }
-        if (!isinf(least)) {
-            const double zero = TIE * (most_value + least * most_y);
-            /* where all of y is zero no slot ties, and any number or none will do */
-            const double most = least + NEAR * fmax(least, most_value / most_y);
-            for (int k = 0; k < p->n; k++) {
-                const double size = fabs(p->y[k]);
-                if (size <= NOISE * most_y)
-                    continue;
-                const double far = distance(p, k, -sign * p->y[k]);
-                if (far <= most * size && far - least * size <= zero)
-                    p->tied[(*count)++] = k;
-            }
-            *step = least;
-            /* Of the slots that tie the one that blocks first under the perturbation, t
-             * before all.  most may have overflowed: a variable without another bound
-             * never comes to it. */
-            const int opposite = isfinite(width) && width <= most;
-            double first = opposite ? 0.0 : INFINITY;
-            *slot = opposite ? OPPOSITE : NONE;
-            for (int k = 0; k < *count; k++) {
-                const int tied = p->tied[k];
-                const double delta = -sign * p->y[tied], moves = p->generic[tied] / fabs(delta);
-                const double ratio = delta < 0.0 ? moves : -moves;
-                if (p->b.variable[tied] == 2 * p->n) {
-                    *slot = tied;
-                    break;
-                }
-                if (p->opt.rule == RB_LCP_FIRST_INDEX && *slot >= 0)
-                    continue;
-                if (*slot == NONE || ratio < first) {
-                    *slot = tied;
-                    first = ratio;
-                }
-            }
-        }
+        *slot = blocking_slot(p, sign, own.high - own.low, step, count);
         const int sure =
             *slot == OPPOSITE ||
             (*slot >= 0 && fabs(p->y[*slot]) > DOUBT * rb_norm_inf((size_t)p->n, p->y));
