@@ -32,13 +32,9 @@ static struct {
 static int has(const char *text, const char *word)
 {
     const size_t n = strlen(word);
-    for (const char *at = text; *at; at++) {
-        size_t k = 0;
-        while (k < n && tolower((unsigned char)at[k]) == tolower((unsigned char)word[k]))
-            k++;
-        if (k == n && (at == text || !isalnum((unsigned char)at[-1])))
+    for (const char *at = text; *at; at++)
+        if (strncasecmp(at, word, n) == 0 && (at == text || !isalnum((unsigned char)at[-1])))
             return 1;
-    }
     return 0;
 }
 

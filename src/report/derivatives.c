@@ -107,14 +107,11 @@ void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
             rb_report_json_set(&without, d->all->of[i].name, json_string(d->all->of[i].why.text));
     rb_report_json_set(root, "without_derivatives", without);
     for (int k = 0; k < RB_CASE_OVER_X_N && d->all->n_x > 0; k++) {
+        const int n = d->all->n_x;
+        const double *gap = d->all->over_x + 2 * k * n;
         json_t *both = json_object();
-        for (int by = 0; by < 2; by++) {
-            json_t *list = json_array();
-            for (int i = 0; i < d->all->n_x; i++)
-                rb_report_json_append(
-                    &list, rb_report_json_number(d->all->over_x[(2 * k + by) * d->all->n_x + i]));
-            rb_report_json_set(&both, by ? "mu" : "gap", list);
-        }
+        rb_report_json_set(&both, "gap", rb_report_json_numbers(n, gap));
+        rb_report_json_set(&both, "mu", rb_report_json_numbers(n, gap + n));
         rb_report_json_set(&over_x, rb_case_over_x_names[k], both);
     }
     if (d->all->smooth)
