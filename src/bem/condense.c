@@ -129,53 +129,60 @@ static rb_status particular_make(const rb_bem_system *s, particular *p)
     return status;
 }
 
+/* Element k: its columns of [G, -H] for the values that are left over, from `row` on, and
+ * these values. */
+static void left_over_of_element(const particular *p, const rb_assembly *assembly, int k, int row,
+                                 double *columns, double *values)
+{
+    const rb_bem_mesh *mesh = &p->s->mesh;
+    double *out[4] = {NULL, NULL, NULL, NULL}, value[2][2];
+
+    for (int d = 0; d < 2; d++) {
+        const int held = mesh->condition[2 * k + d] == RB_BEM_DISPLACEMENT;
+        out[held ? d : 2 + d] = columns + (size_t)(row + d) * (size_t)p->s->ld;
+    }
+    rb_assembly_columns(assembly, k, 1.0, out);
+    for (int c = 0; c < mesh->contact_n; c++) {
+        left_over(p, k, c, value);
+        for (int l = 0; l < 2; l++)
+            for (int d = 0; d < 2; d++)
+                values[row + d + (size_t)(2 * c + l) * 2 * BLOCK] =
+                    out[d] ? -value[l][d] : value[l][d];
+    }
+}
+
 static rb_status subtracted_loads_dense(const particular *p, double *X)
 {
     const rb_bem_system *s = p->s;
-    const size_t loads = 2 * (size_t)s->mesh.contact_n;
     /* Of a block of elements: columns of [G, -H] for the values that are left over (ld x 2
      * BLOCK), and these (2 BLOCK x loads). */
-    double *columns = rb_alloc((size_t)s->ld, 2 * BLOCK), *values = rb_alloc(2 * BLOCK, loads);
+    double *columns = rb_alloc((size_t)s->ld, 2 * BLOCK),
+           *values = rb_alloc(2 * BLOCK, 2 * (size_t)s->mesh.contact_n);
     const int threads = rb_blas_threads(1);
     rb_assembly assembly;
     rb_status status =
         columns && values ? rb_assembly_begin(&s->mesh, s->material, &assembly) : RB_ENOMEM;
 
-    if (status == RB_OK) {
-        for (int from = 0; from < s->mesh.n; from += BLOCK) {
-            const int to = from + BLOCK < s->mesh.n ? from + BLOCK : s->mesh.n;
-            /* X += [G, -H] times the boundary values left over. All in one parallel
-             * region: threads that wait for a product by one of them would spin. */
+    for (int from = 0; status == RB_OK && from < s->mesh.n; from += BLOCK) {
+        const int to = from + BLOCK < s->mesh.n ? from + BLOCK : s->mesh.n;
+        /* X += [G, -H] times the boundary values left over. All in one parallel region:
+         * threads that wait for a product by one of them would spin. */
 #pragma omp parallel num_threads(rb_blas_loop_threads()) if ((double)(to - from) * s->mesh.n >     \
                                                              rb_pairs_for_threads / 32)
-            {
+        {
 #pragma omp for schedule(static)
-                for (int k = from; k < to; k++) {
-                    double *out[4] = {NULL, NULL, NULL, NULL}, value[2][2];
-                    const int row = 2 * (k - from);
-                    for (int d = 0; d < 2; d++) {
-                        const int held = s->mesh.condition[2 * k + d] == RB_BEM_DISPLACEMENT;
-                        out[held ? d : 2 + d] = columns + (size_t)(row + d) * (size_t)s->ld;
-                    }
-                    rb_assembly_columns(&assembly, k, 1.0, out);
-                    for (int c = 0; c < s->mesh.contact_n; c++) {
-                        left_over(p, k, c, value);
-                        for (int l = 0; l < 2; l++)
-                            for (int d = 0; d < 2; d++)
-                                values[row + d + (size_t)(2 * c + l) * 2 * BLOCK] =
-                                    out[d] ? -value[l][d] : value[l][d];
-                    }
-                }
+            for (int k = from; k < to; k++)
+                left_over_of_element(p, &assembly, k, 2 * (k - from), columns, values);
 #pragma omp for schedule(static)
-                for (int row = 0; row < s->dofs; row += SLICE)
-                    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans,
-                                s->dofs - row < SLICE ? s->dofs - row : SLICE,
-                                2 * s->mesh.contact_n, 2 * (to - from), 1.0, columns + row, s->ld,
-                                values, 2 * BLOCK, 1.0, X + row, s->ld);
-            }
+            for (int row = 0; row < s->dofs; row += SLICE)
+                cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans,
+                            s->dofs - row < SLICE ? s->dofs - row : SLICE, 2 * s->mesh.contact_n,
+                            2 * (to - from), 1.0, columns + row, s->ld, values, 2 * BLOCK, 1.0,
+                            X + row, s->ld);
         }
-        rb_assembly_end(&assembly);
     }
+    if (status == RB_OK)
+        rb_assembly_end(&assembly);
     rb_blas_threads(threads);
     free(columns);
     free(values);
