@@ -11,7 +11,7 @@
 
 /* A further round has the elements of the last one's result, if the sum of squares is another
  * one on them, by this part of itself or of the squares of the measured forces. */
-enum { ROUNDS = 8 };
+enum { ROUNDS = 2 };
 static const double SAME = 1e-3, SAME_OF_ALL = 1e-8;
 /* Steps with elements that move; what moves the fitted curve less, as a part of its noise, is none;
  * and what a fit that finds no lesser sum may be off. */
@@ -485,11 +485,11 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
     if (s == RB_OK && moved) {
         s = descend_with_elements(&p, theta, chi2, why);
         if (s == RB_MAXITER)
-            s = rb_fail(why, s,
-                        "fit: not converged: after %d rounds a new mesh still changes the sum of "
-                        "squares. The data may not determine all numbers: fit fewer, keep the "
-                        "elements (--mesh uniform --zone X), or give another start (--start)",
-                        ROUNDS);
+            s = rb_fail(
+                why, s,
+                "fit: not converged: a new mesh still changes the sum of squares. The data may "
+                "not determine all numbers: fit fewer, keep the elements (--mesh uniform "
+                "--zone X), or give another start (--start)");
     }
     for (int j = 0; j < fit->n && s != RB_EINVAL && s != RB_ENOMEM; j++)
         fit->parameter[j].value = theta[j];
