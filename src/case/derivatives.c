@@ -392,7 +392,7 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_to
     for (size_t n; s == RB_OK && *text; text += n + (text[n] == ',')) {
         char word[100];
         n = strcspn(text, ",");
-        snprintf(word, sizeof word, "%.*s", (int)(n < 99 ? n : 99), text);
+        snprintf(word, sizeof word, "%.*s", (int)n, text);
         char *value = strchr(word, '=');
         int k = 0;
         if (value)

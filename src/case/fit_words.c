@@ -54,7 +54,7 @@ rb_status rb_case_fit_names(const char *text, rb_case_fit *fit, rb_message *why)
     for (const char *at = text; *at;) {
         const size_t n = strcspn(at, ",");
         char name[sizeof fit->parameter->name];
-        snprintf(name, sizeof name, "%.*s", (int)(n < sizeof name ? n : sizeof name), at);
+        snprintf(name, sizeof name, "%.*s", (int)n, at);
         if (n == 0 || n >= sizeof name || parameter_of(fit, name))
             return rb_fail(why, RB_EINVAL, "--fit: expected different names, got '%.200s'", text);
         if (fit->n == RB_CASE_FIT_MAX)
@@ -93,7 +93,7 @@ rb_status rb_case_fit_values(const rb_case *c, const char *option, const char *t
     for (size_t n; text && *text; text += n + (text[n] == ',')) {
         char word[120];
         n = strcspn(text, ",");
-        snprintf(word, sizeof word, "%.*s", (int)(n < 119 ? n : 119), text);
+        snprintf(word, sizeof word, "%.*s", (int)n, text);
         char *first = strchr(word, '='), *second = first ? strchr(first, ':') : NULL;
         double x = NAN, y = NAN;
         if (first)

@@ -73,7 +73,7 @@ rb_status rb_case_slopes_choose(const rb_case *c, const rb_rolling_results *tabl
     for (size_t n; status == RB_OK && *words; words += n + (words[n] == ',')) {
         char word[100];
         n = strcspn(words, ",");
-        snprintf(word, sizeof word, "%.*s", (int)(n < 99 ? n : 99), words);
+        snprintf(word, sizeof word, "%.*s", (int)n, words);
         status = add_word(&c->resolved, s, word, numbers, number, most, why);
     }
     free(number);

@@ -128,7 +128,7 @@ cli_exit cli_parse(const cli_spec *spec, int argc, char **argv, cli_args *args)
         const char *name = argument + 2, *equals = strchr(name, '=');
         const size_t length = equals ? (size_t)(equals - name) : strlen(name);
         char word[42], what[64], expected[200];
-        snprintf(word, sizeof word, "%.*s", (int)(length < 41 ? length : 41), name);
+        snprintf(word, sizeof word, "%.*s", (int)length, name);
         rb_guess guess = {.word = word};
         rb_message why = {""};
         int k;

@@ -62,7 +62,7 @@ rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d
     for (size_t n; text && *text; text += n + (text[n] == ',')) {
         char word[120];
         n = strcspn(text, ",");
-        snprintf(word, sizeof word, "%.*s", (int)(n < 119 ? n : 119), text);
+        snprintf(word, sizeof word, "%.*s", (int)n, text);
         char *sign = strpbrk(word, "<>");
         if (!sign || d->constraints == RB_DESIGN_CONSTRAINTS)
             return rb_fail(why, RB_EINVAL,
@@ -165,7 +165,7 @@ rb_status rb_design_variables(const rb_case *c, const char *text, rb_design *d, 
     for (size_t n; text && *text && s == RB_OK; text += n + (text[n] == ',')) {
         char word[120];
         n = strcspn(text, ",");
-        snprintf(word, sizeof word, "%.*s", (int)(n < 119 ? n : 119), text);
+        snprintf(word, sizeof word, "%.*s", (int)n, text);
         char *range = strchr(word, '=');
         if (range)
             *range++ = '\0';

@@ -34,7 +34,7 @@ rb_status rb_report_derivatives_of(const char *names, const rb_resolved_case *c,
         char name[40];
         int is_column;
         n = strcspn(names, ",");
-        snprintf(name, sizeof name, "%.*s", (int)(n < 39 ? n : 39), names);
+        snprintf(name, sizeof name, "%.*s", (int)n, names);
         const rb_rolling_result *r = rb_case_derivative_result(name, &is_column);
         if (!r)
             return rb_case_refuse_result(name, all, NULL, why);
