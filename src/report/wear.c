@@ -85,11 +85,10 @@ void rb_report_wear_free(rb_report_wear *w)
 rb_status rb_report_wear_keep(rb_report_wear *w, const rb_rolling_solution *s,
                               const rb_rolling_wear_history *h, int step, int steps)
 {
-    const int most = RB_REPORT_WEAR_PROFILES - 1;
-    const int part = steps > most ? (int)((long)step * most / steps) : step;
-    const int before = steps > most ? (int)((long)(step - 1) * most / steps) : step - 1;
+    const long parts = RB_REPORT_WEAR_PROFILES - 1;
 
-    if ((step > 0 && part == before) || w->profiles == RB_REPORT_WEAR_PROFILES)
+    if ((step > 0 && step * parts / steps == (step - 1) * parts / steps) ||
+        w->profiles == RB_REPORT_WEAR_PROFILES)
         return RB_OK;
     const double way = h->slides ? rb_unit_shown(s->units, "mm", h->way[step]) : h->way[step];
     const double depth = rb_unit_shown(s->units, "mm", h->max_depth[step]);
