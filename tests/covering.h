@@ -126,7 +126,7 @@ static inline int covering_complete(covering *c, int *row)
 /* The best of some completions of `seed`; 0: none is allowed. */
 static inline int covering_row(covering *c, const int *seed, int *row)
 {
-    enum { CANDIDATES = 6, TRIES = 60 };
+    enum { CANDIDATES = 16, TRIES = 160 };
     int most = -1, found = 0;
     for (int k = 0; k < TRIES && found < CANDIDATES; k++) {
         int trial[COVERING_FACTORS];
