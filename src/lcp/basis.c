@@ -14,39 +14,30 @@ rb_status rb_lcp_basis_create(const rb_sparse *M, lcp_basis *b)
 {
     const size_t n = (size_t)M->rows, nz = (size_t)M->p[M->cols];
     *b = (lcp_basis){.n = M->rows, .M = M};
-    b->d = rb_alloc(n, 4);
-    b->variable = rb_alloc_int(5 * n + 1);
-    b->A.p = rb_alloc_int(n + 2);
-    b->A.i = rb_alloc_int(nz + n + 1);
-    b->A.x = rb_alloc(nz + n + 1, 1);
-    b->pivot = rb_alloc_int(MOST_EXCHANGES);
-    b->scale = rb_alloc(MOST_EXCHANGES, 1);
-    b->start = calloc(MOST_EXCHANGES + 1, sizeof *b->start);
-    if (!b->d || !b->variable || !b->A.p || !b->A.i || !b->A.x || !b->pivot || !b->scale ||
-        !b->start) {
-        rb_lcp_basis_free(b);
-        return RB_ENOMEM;
-    }
-    b->g = b->d + n;
-    b->rhs = b->g + n;
-    b->x = b->rhs + n;
-    b->slot = b->variable + n;
-    b->row = b->slot + 2 * n + 1;
-    b->position = b->row + n;
-    return RB_OK;
+    rb_arena *memory = &b->memory;
+    b->d = rb_arena_doubles(memory, n, 1);
+    b->g = rb_arena_doubles(memory, n, 1);
+    b->rhs = rb_arena_doubles(memory, n, 1);
+    b->x = rb_arena_doubles(memory, n, 1);
+    b->variable = rb_arena_ints(memory, n);
+    b->slot = rb_arena_ints(memory, 2 * n + 1);
+    b->row = rb_arena_ints(memory, n);
+    b->position = rb_arena_ints(memory, n);
+    b->A.p = rb_arena_ints(memory, n + 2);
+    b->A.i = rb_arena_ints(memory, nz + n + 1);
+    b->A.x = rb_arena_doubles(memory, nz + n + 1, 1);
+    b->pivot = rb_arena_ints(memory, MOST_EXCHANGES);
+    b->scale = rb_arena_doubles(memory, MOST_EXCHANGES, 1);
+    b->start = rb_arena_zeros(memory, MOST_EXCHANGES + 1, sizeof *b->start);
+    return memory->failed ? RB_ENOMEM : RB_OK;
 }
 
 void rb_lcp_basis_free(lcp_basis *b)
 {
     rb_sparse_lu_free(b->lu);
-    rb_sparse_free(&b->A);
-    free(b->d);
-    free(b->variable);
-    free(b->pivot);
-    free(b->scale);
-    free(b->start);
     free(b->index);
     free(b->value);
+    rb_arena_free(&b->memory);
     *b = (lcp_basis){0};
 }
 

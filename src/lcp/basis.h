@@ -16,7 +16,7 @@
 typedef struct {
     int n;
     const rb_sparse *M; /* borrowed */
-    double *d;          /* n; owned, as all below */
+    double *d;          /* n */
     int *variable;      /* n: the basic variable of each slot */
     int *slot;          /* 2n + 1: of each variable, or -1 */
 
@@ -33,9 +33,10 @@ typedef struct {
     double *scale;   /* y_r */
     size_t *start;   /* entries of exchange k: start[k] ... start[k + 1] - 1 */
     size_t capacity; /* for entries */
-    int *index;      /* the other slots where y is not zero */
-    double *value;   /* y there */
+    int *index;      /* the other slots where y is not zero; owned */
+    double *value;   /* y there; owned */
     double pending;  /* operations that the exchanges have cost so far */
+    rb_arena memory; /* of the other arrays */
 } lcp_basis;
 
 /* Memory alone: the caller chooses what is basic, in variable and slot, and factors. */
