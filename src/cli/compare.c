@@ -82,11 +82,12 @@ typedef struct {
 typedef struct {
     const compare_options *o;
     int solvers, problems; /* problems: those that could be read */
-    const char **solver;   /* names of static storage; owned */
-    char *names;           /* copy of --solvers, cut at its commas; owned */
-    const char **file;     /* problems; owned */
-    run_result *result;    /* solvers per problem; owned */
+    const char **solver;   /* names of static storage */
+    char *names;           /* copy of --solvers, cut at its commas */
+    const char **file;     /* problems */
+    run_result *result;    /* solvers per problem */
     double tau[TAUS], *rho;
+    rb_arena memory; /* of the arrays */
 } comparison;
 
 /* ---- Which solvers ----------------------------------------------------------------- */
@@ -95,10 +96,12 @@ static cli_exit choose_solvers(comparison *c)
 {
     int n;
     const rb_friction_solver *all = rb_friction_solvers(&n);
-    c->solver = calloc((size_t)n, sizeof *c->solver); /* none is given twice */
-    c->names = strdup(c->o->solvers ? c->o->solvers : "");
-    if (!c->solver || !c->names)
+    const char *given = c->o->solvers ? c->o->solvers : "";
+    c->solver = rb_arena_zeros(&c->memory, (size_t)n, sizeof *c->solver); /* none is given twice */
+    c->names = rb_arena_zeros(&c->memory, strlen(given) + 1, 1);
+    if (c->memory.failed)
         return cli_fail(CLI_INTERNAL, "out of memory");
+    strcpy(c->names, given);
     if (!c->o->solvers)
         for (int k = 0; k < n; k++)
             c->solver[c->solvers++] = all[k].name;
@@ -229,9 +232,12 @@ static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, r
 
 static cli_exit compare_files(comparison *c, int n, char **files)
 {
-    c->file = calloc((size_t)n, sizeof *c->file);
-    c->result = calloc((size_t)n * (size_t)c->solvers, sizeof *c->result);
-    if (!c->file || !c->result)
+    const size_t runs = (size_t)n * (size_t)c->solvers;
+    c->file = rb_arena_zeros(&c->memory, (size_t)n, sizeof *c->file);
+    c->result = rb_arena_zeros(&c->memory, runs, sizeof *c->result);
+    c->rho = rb_arena_doubles(&c->memory, TAUS, (size_t)c->solvers);
+    double *cost = rb_arena_doubles(&c->memory, runs, 1);
+    if (c->memory.failed)
         return cli_fail(CLI_INTERNAL, "out of memory");
     cli_exit worst = CLI_OK, code;
     for (int k = 0; k < n; k++) {
@@ -241,27 +247,20 @@ static cli_exit compare_files(comparison *c, int n, char **files)
             return code;
     }
     if (!c->problems)
-        return worst; /* of the files that cannot be read */
-    double *cost = rb_alloc((size_t)c->problems, (size_t)c->solvers);
-    c->rho = rb_alloc(TAUS, (size_t)c->solvers);
-    if (cost && c->rho) {
-        for (int k = 0; k < TAUS; k++) /* 1 ... 1000, twenty in a decade */
-            c->tau[k] = pow(10.0, 0.05 * k);
-        for (int p = 0; p < c->problems; p++)
-            for (int s = 0; s < c->solvers; s++) {
-                const run_result *one = &c->result[p * c->solvers + s];
-                const int solved = one->status == RB_OK && one->info.seconds <= c->o->limit;
-                cost[p + s * c->problems] = !solved                      ? INFINITY
-                                            : c->o->cost == COST_SECONDS ? one->info.seconds
-                                            : c->o->cost == COST_FLOPS ? fmax(one->info.flops, 1.0)
-                                                                       : fmax(one->info.iters, 1.0);
-            }
-        rb_friction_profile(c->problems, c->solvers, cost, TAUS, c->tau, c->rho);
-    }
-    code = cost && c->rho ? CLI_OK : cli_fail(CLI_INTERNAL, "out of memory");
-    free(cost);
-    if (code == CLI_OK)
-        code = cli_write_file(c->o->output, write_results, c);
+        return worst;              /* of the files that cannot be read */
+    for (int k = 0; k < TAUS; k++) /* 1 ... 1000, twenty in a decade */
+        c->tau[k] = pow(10.0, 0.05 * k);
+    for (int p = 0; p < c->problems; p++)
+        for (int s = 0; s < c->solvers; s++) {
+            const run_result *one = &c->result[p * c->solvers + s];
+            const int solved = one->status == RB_OK && one->info.seconds <= c->o->limit;
+            cost[p + s * c->problems] = !solved                      ? INFINITY
+                                        : c->o->cost == COST_SECONDS ? one->info.seconds
+                                        : c->o->cost == COST_FLOPS   ? fmax(one->info.flops, 1.0)
+                                                                     : fmax(one->info.iters, 1.0);
+        }
+    rb_friction_profile(c->problems, c->solvers, cost, TAUS, c->tau, c->rho);
+    code = cli_write_file(c->o->output, write_results, c);
     if (code == CLI_OK && c->o->profiles)
         code = cli_write_file(c->o->profiles, print_profiles, c);
     if (code == CLI_OK)
@@ -288,11 +287,7 @@ int cli_compare(int argc, char **argv)
         code = choose_solvers(&c);
     if (code == CLI_CONTINUE)
         code = compare_files(&c, args.operands, args.operand);
-    free(c.solver);
-    free(c.names);
-    free(c.file);
-    free(c.result);
-    free(c.rho);
+    rb_arena_free(&c.memory);
     cli_args_free(&args);
     return code;
 }
