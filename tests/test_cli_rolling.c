@@ -807,7 +807,8 @@ TEST(bad_friction_laws_are_refused)
     check_refused("both.ini", 65, "both.ini:2: mu: the table");
     assert_int_equal(shell("\"$R\" own.ini --friction-law mu.txt --quiet > table.tsv"), 0);
     check_refused(RAIL FALLS "--force -840", 64, "the largest is -5");
-    check_refused(RAIL FALLS "--force -100 --all-solutions", 64, "a given creepage");
+    check_refused(RAIL FALLS "--force -100 --all-solutions", 64,
+                  "--all-solutions: at a given creepage");
     check_refused(RAIL "--all-solutions", 64, "friction that depends on");
 }
 
