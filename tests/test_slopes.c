@@ -265,6 +265,74 @@ TEST(single_cases_have_derivatives)
           "15",          "formulation",   "steady", "similar", "yes",
           "force-ratio", "-0.4",          "mesh",   "fitted",  "conductivity",
           "50",          "heat-capacity", "3.5",    "speed",   "3000"}},
+        /* within the step the power of an element beside stick changes its sign */
+        {{"support",
+          "arc",
+          "arc",
+          "71",
+          "radius",
+          "14.9",
+          "young",
+          "171800",
+          "poisson",
+          "0.3",
+          "mu",
+          "0.132",
+          "speed",
+          "1000",
+          "conductivity",
+          "36.2",
+          "heat-capacity",
+          "10",
+          "formulation",
+          "steady",
+          "mesh",
+          "fitted",
+          "approach",
+          "0.00186",
+          "creep",
+          "-6.5e-6",
+          "contact-elements",
+          "39"}},
+        /* a slip beside that at which memory has a kink */
+        {{"support",
+          "halfplane",
+          "radius",
+          "45",
+          "young",
+          "1.1",
+          "poisson",
+          "-0.3",
+          "young-b",
+          "0.83",
+          "poisson-b",
+          "0.45",
+          "layer-thickness-b",
+          "1.6",
+          "base-young-b",
+          "9.3",
+          "datum-b",
+          "16",
+          "mu",
+          "0.039",
+          "speed",
+          "1000",
+          "friction-law",
+          "exponential",
+          "mu-fall",
+          "0.0117",
+          "slip-scale",
+          "0.273",
+          "memory",
+          "7.7e-6,0.1476",
+          "formulation",
+          "steady",
+          "approach",
+          "0.00417",
+          "force-ratio",
+          "-0.43",
+          "contact-elements",
+          "19"}},
         {{SIDES_CHANGE}}};
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
@@ -278,6 +346,49 @@ TEST(single_cases_have_derivatives)
         if (d.compared < 4)
             fail_msg("case %d: %d numbers compared", (int)k, d.compared);
     }
+}
+
+/* The edge that is found may jump with the mesh; a/(2R) has the derivative that follows from a. */
+TEST(the_strain_without_a_layer_follows_the_half_width)
+{
+    static const words w = {{"support",
+                             "arc",
+                             "arc",
+                             "37.787495254254864",
+                             "radius",
+                             "293.2308540130111",
+                             "young",
+                             "461.47108588842997",
+                             "poisson",
+                             "-0.3",
+                             "similar",
+                             "yes",
+                             "mu",
+                             "0.3331272921451354",
+                             "formulation",
+                             "steady",
+                             "load",
+                             "117.86737277829526",
+                             "creep",
+                             "-0.002735447231628198",
+                             "contact-elements",
+                             "38"}};
+    static const char *const name[] = {"radius"};
+    held_case *c = case_of(RB_CASE_SINGLE, &w, NULL, 0.0);
+    const double radius = rb_rolling_derive(&rb_case_resolved(c)->rc).radius;
+    rb_case_derivatives all;
+    rb_case_result r;
+
+    (void)state;
+    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
+    CHECK_OK(rb_case_differentiate(c, &r.model, 1, name, &all, &heard));
+    const rb_rolling_solution *d = &all.of[0].d.value[0];
+    /* similar bodies: 1/R is twice that of A */
+    CHECK_REL(d->max_strain,
+              0.5 * (d->half_width / radius - r.solution.half_width / (radius * all.of[0].value)),
+              1e-9, "max_strain");
+    rb_case_derivatives_free(&all);
+    rb_case_result_free(&r);
 }
 
 TEST(refusals_of_histories)

@@ -769,6 +769,11 @@ rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_
 void rb_rolling_peak_temperature(int n, const double *x, const int *zone, const double *t,
                                  double *value, double *at);
 
+/* Temperatures of steady rolling from x, h, zone, q, slip and shift of the solution, into
+ * t_a and t_b, n each. */
+rb_status rb_rolling_solution_heat(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                                   double *t_a, double *t_b, rb_message *why);
+
 /* A variant of a solved model: a case that differs slightly from the model's in some
  * number, on the same elements, with the model's state and zones, to be completed.  If
  * the flexibility is the same, it is borrowed from the model.  RB_INACCURATE: the number

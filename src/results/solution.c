@@ -182,6 +182,22 @@ static void set_counts(const rb_rolling_model *model, rb_rolling_solution *s)
     s->seconds_lcp = model->seconds_lcp;
 }
 
+rb_status rb_rolling_solution_heat(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                                   double *t_a, double *t_b, rb_message *why)
+{
+    struct rb_rolling_conduction *conduction = NULL;
+    double *power = rb_alloc((size_t)s->n, 1);
+
+    if (!power)
+        return RB_ENOMEM;
+    rb_rolling_friction_power(s, power);
+    const rb_status status =
+        rb_rolling_steady_temperature(rc, s, power, &conduction, t_a, t_b, why);
+    rb_rolling_conduction_free(conduction);
+    free(power);
+    return status;
+}
+
 /* Steady rolling heats by the current solution; of a transient the steps have followed
  * the heat. */
 static rb_status set_temperature(const rb_rolling_model *model, rb_rolling_solution *s,
@@ -195,15 +211,7 @@ static rb_status set_temperature(const rb_rolling_model *model, rb_rolling_solut
     if (!s->temperature)
         return RB_OK;
     if (rc->formulation == RB_STEADY) {
-        struct rb_rolling_conduction *conduction = NULL;
-        double *power = rb_alloc((size_t)s->n, 1);
-        if (power)
-            rb_rolling_friction_power(s, power);
-        status = power ? rb_rolling_steady_temperature(rc, s, power, &conduction, s->temperature,
-                                                       s->temperature_b, why)
-                       : RB_ENOMEM;
-        rb_rolling_conduction_free(conduction);
-        free(power);
+        status = rb_rolling_solution_heat(rc, s, s->temperature, s->temperature_b, why);
     } else if (model->carried.temperature) {
         memcpy(s->temperature, model->carried.temperature, size);
         memcpy(s->temperature_b, model->carried.temperature, size);

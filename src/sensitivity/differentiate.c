@@ -6,6 +6,7 @@
  * from the derivatives with respect to two motions of the elements. */
 #include "sensitivity/internal.h"
 
+#include <cblas.h>
 #include <gsl/gsl_math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -221,18 +222,32 @@ static rb_status variants_create(const rb_rolling_model *base, const rb_sensitiv
     return s;
 }
 
-/* D2: how the equations change while the unknowns stay. */
-static rb_status rates(variants *v, rb_sensitivity_rate *rate, rb_message *why)
+/* D2: how the equations change while the unknowns stay.  A law asks for the size of slips, and
+ * within the step small ones change their sign: the law is differentiated where they stay, and by
+ * them as in J. */
+static rb_status rates(const rb_sensitivity *s, variants *v, rb_sensitivity_rate *rate,
+                       rb_message *why)
 {
+    const rb_contact_state *state = &s->model->state;
+    const size_t n = (size_t)s->n;
     rb_sensitivity_rate left;
-    rb_status s = rb_sensitivity_rate_alloc(v->base->mesh.n, &left);
+    rb_status status = rb_sensitivity_rate_alloc(s->n, &left);
 
-    for (int k = 0; k < v->at.n && s == RB_OK; k++) {
-        s = rb_sensitivity_residual(v->base, &v->model[k], &left, why);
+    for (int k = 0; k < v->at.n && status == RB_OK; k++) {
+        rb_rolling_model *at = &v->model[k];
+        status = rb_sensitivity_residual(v->base, at, &left, why);
+        if (status == RB_OK && s->law_slip) {
+            memcpy(at->state.lambda, state->lambda, n * sizeof *state->lambda);
+            status = rb_rolling_model_friction(at, why);
+            memcpy(left.bound, at->problem.bound, n * sizeof *left.bound);
+        }
         rb_sensitivity_rate_add(&left, v->at.weight[k] / v->step, rate);
     }
+    for (size_t j = 0; j < n && status == RB_OK && s->law_slip; j++)
+        if (state->zone[j] != RB_ZONE_STICK)
+            cblas_daxpy(s->n, rate->slip[j], s->law_slip + j * n, 1, rate->bound, 1);
     rb_sensitivity_rate_free(&left);
-    return s;
+    return status;
 }
 
 /* Tables of gap and friction over x have kinks, which the step of a flexibility would span: of
@@ -306,7 +321,7 @@ rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_inp
     if (status == RB_OK)
         status = variants_create(s->model, input, NULL, 0, &v, why);
     if (status == RB_OK)
-        status = rates(&v, rate, why);
+        status = rates(s, &v, rate, why);
     for (int k = 0; k < v.at.n && status == RB_OK; k++)
         *mu += v.at.weight[k] / v.step * v.model[k].problem.mu;
     variants_free(&v);
@@ -356,10 +371,29 @@ void rb_sensitivity_scale(rb_rolling_solution *s, double factor)
     blend(s, factor, NULL, 0.0, NULL);
 }
 
+/* 1: the largest strain is that of no layer, a/(2R). */
+static int follows_half_width(const rb_sensitivity *s)
+{
+    const rb_rolling_solution *at = &s->solution;
+
+    return at->max_strain == 0.5 * at->half_width / rb_rolling_derive(s->model->rc).radius;
+}
+
 /* In the place of the second one the derivative: weights times what each has more than
  * the first one, so that what does not change has a derivative of exactly 0. */
-static void combine(const rb_sensitivity_stencil *at, double step, rb_rolling_solution *moved)
+static void combine(const rb_sensitivity *s, const rb_sensitivity_stencil *at, double step,
+                    rb_rolling_solution *moved)
 {
+    const double half = s->solution.half_width;
+
+    /* An edge that is found may jump between the places; what is proportional to the half-width
+     * has the same factor beside it. */
+    for (int j = 0; j < at->n; j++) {
+        moved[j].peclet *= half / moved[j].half_width;
+        if (follows_half_width(s))
+            moved[j].max_strain *= half / moved[j].half_width;
+        moved[j].half_width = half;
+    }
     for (int j = 1; j < at->n; j++)
         blend(&moved[1], j > 1, &moved[j], at->weight[j] / step, &moved[0]);
     for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
@@ -369,27 +403,68 @@ static void combine(const rb_sensitivity_stencil *at, double step, rb_rolling_so
     }
 }
 
+/* What place k of the stencil adds to the derivatives of both temperatures.  Only powers > 0 heat,
+ * and small ones change their sign within the step: the case varies where the solution stays, and
+ * the solution goes a small part of its way. */
+static rb_status add_heat(const rb_sensitivity *s, const variants *v, int k,
+                          const rb_rolling_solution *moved, double *warmer, rb_message *why)
+{
+    const rb_rolling_solution *at = &s->solution;
+    const size_t n = (size_t)s->n;
+    const double part = STEP_OF_STATE * v->scale / v->step, weight = v->at.weight[k] / v->step;
+    const double *from[] = {at->x, at->h, at->q, at->slip, at->shift},
+                 *to[] = {moved->x, moved->h, moved->q, moved->slip, moved->shift};
+    double *near = rb_alloc(n, 7), *t = near + 5 * n;
+    rb_rolling_solution small = *at;
+
+    if (!near)
+        return RB_ENOMEM;
+    for (size_t i = 0; i < 5 * n; i++)
+        near[i] = from[i / n][i % n] + part * (to[i / n][i % n] - from[i / n][i % n]);
+    small.x = near;
+    small.h = near + n;
+    small.q = near + 2 * n;
+    small.slip = near + 3 * n;
+    small.shift = near + 4 * n;
+    rb_status status = rb_rolling_solution_heat(v->model[k].rc, at, t, t + n, why);
+    cblas_daxpy(2 * s->n, weight, t, 1, warmer, 1);
+    if (status == RB_OK)
+        status = rb_rolling_solution_heat(s->model->rc, &small, t, t + n, why);
+    cblas_daxpy(2 * s->n, weight / part, t, 1, warmer, 1);
+    free(near);
+    return status;
+}
+
 /* (D4) the results at the places of the stencil, moved along the tangent. */
-static rb_status differentiate_results(variants *v, const rb_contact_state *tangent,
-                                       rb_rolling_solution *d, rb_message *why)
+static rb_status differentiate_results(const rb_sensitivity *s, variants *v,
+                                       const rb_contact_state *tangent, rb_rolling_solution *d,
+                                       rb_message *why)
 {
     rb_rolling_solution moved[PLACES] = {{0}};
-    rb_status s = RB_OK;
+    double *warmer = s->solution.temperature ? rb_alloc((size_t)s->n, 2) : NULL;
+    rb_status status = warmer || !s->solution.temperature ? RB_OK : RB_ENOMEM;
 
-    for (int k = 0; k < v->at.n && s == RB_OK; k++) {
+    for (int k = 0; k < v->at.n && status == RB_OK; k++) {
         rb_rolling_variant_set(&v->base->state, tangent, v->at.place[k] * v->step,
                                &v->model[k].state);
-        s = rb_rolling_variant_complete(&v->model[k], NULL, NULL, why);
-        if (s == RB_OK)
-            s = rb_rolling_variant_solution(&v->model[k], &moved[k], why);
+        status = rb_rolling_variant_complete(&v->model[k], NULL, NULL, why);
+        if (status == RB_OK)
+            status = rb_rolling_variant_solution(&v->model[k], &moved[k], why);
+        if (status == RB_OK && warmer)
+            status = add_heat(s, v, k, &moved[k], warmer, why);
     }
-    if (s == RB_OK)
-        combine(&v->at, v->step, moved);
+    if (status == RB_OK)
+        combine(s, &v->at, v->step, moved);
+    if (status == RB_OK && warmer) {
+        memcpy(moved[1].temperature, warmer, (size_t)s->n * sizeof *warmer);
+        memcpy(moved[1].temperature_b, warmer + s->n, (size_t)s->n * sizeof *warmer);
+    }
     *d = moved[1];
     for (int k = 0; k < v->at.n; k++)
         if (k != 1)
             rb_rolling_solution_free(&moved[k]);
-    return s;
+    free(warmer);
+    return status;
 }
 
 /* Where p^2, on a line through the second and third element in contact, is zero, on the
@@ -504,7 +579,7 @@ static void set_edges(const rb_sensitivity *s, double from, double to, rb_rollin
     d->nip_width = to - from;
     d->half_width = 0.5 * d->nip_width;
     d->peclet += at->peclet / at->half_width * (d->half_width - before);
-    if (at->max_strain == 0.5 * at->half_width / radius)
+    if (follows_half_width(s))
         d->max_strain += 0.5 * (d->half_width - before) / radius;
 }
 
@@ -743,7 +818,7 @@ static rb_status differentiate_side(const rb_sensitivity *s, variants *v, int k,
     set_motions(s, v, d->edges[k], d->by[k]);
     if (!v->results)
         return RB_OK;
-    status = differentiate_results(v, &d->state[k], &d->value[k], why);
+    status = differentiate_results(s, v, &d->state[k], &d->value[k], why);
     if (status == RB_OK)
         status = set_picked(s, x, v->scale, &d->value[k]);
     if (status == RB_OK) {
@@ -765,7 +840,7 @@ static rb_status differentiate(const rb_sensitivity *s, const rb_sensitivity_inp
     if (status == RB_OK)
         status = rb_sensitivity_rate_alloc(s->n, &d->rate);
     if (status == RB_OK)
-        status = rates(v, &d->rate, why);
+        status = rates(s, v, &d->rate, why);
     if (status == RB_OK && !input->vary)
         status = rates_of_tables(v, input->context, &d->rate, why);
     for (int k = 0; k < 2 && status == RB_OK; k++)
@@ -921,7 +996,7 @@ rb_status rb_sensitivity_add_jump(const rb_sensitivity *s, const rb_sensitivity_
         status = results_of(&y, &v, &moved[j], why);
     }
     if (status == RB_OK) {
-        combine(&onwards, step, moved);
+        combine(s, &onwards, step, moved);
         pick_along(s->model, &line->state[0], 1.0, &y, &x);
         status = set_picked(s, x, 1.0, &moved[1]);
     }

@@ -70,6 +70,18 @@ const rb_sensitivity_stencil rb_sensitivity_ahead = {
 
 /* ---- The law ----------------------------------------------------------------------- */
 
+/* Heat asks for powers > 0, and memory for at least a slip of its own: a step passes neither. */
+static double step_at(const rb_rolling_model *model, int of_friction, int i, double step)
+{
+    const double x = fabs(of_friction ? model->state.q[i] : model->state.lambda[i]),
+                 kink = of_friction ? 0.0
+                                    : model->rc->friction.memory_slip * model->problem.e_T[i] /
+                                          model->rc->speed,
+                 room = fmin(x > 0.0 ? x : INFINITY, x != kink ? fabs(x - kink) : INFINITY);
+
+    return fmin(step, 0.25 * room);
+}
+
 /* Derivative of the coefficients that the law gives with respect to the slip, or to the
  * friction, of element `at`; -1: to the slips of all that slip, or of those that stick, where
  * they begin to slip against their friction. */
@@ -88,12 +100,15 @@ static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_mod
             if (at >= 0   ? i == at
                 : at_rest ? v->state.zone[i] == RB_ZONE_STICK
                           : v->state.zone[i] > RB_ZONE_STICK)
-                x[i] += (at_rest && v->state.q[i] > 0.0 ? -step : step) * places->place[k];
+                x[i] += (at_rest ? (v->state.q[i] > 0.0 ? -step : step)
+                                 : step_at(model, of_friction, i, step)) *
+                        places->place[k];
         s = rb_rolling_model_friction(v, why);
         memcpy(v->state.lambda, model->state.lambda, (size_t)n * sizeof *x);
         memcpy(v->state.q, model->state.q, (size_t)n * sizeof *x);
         for (int i = 0; i < n; i++) {
-            const double unit = at_rest && v->state.q[i] > 0.0 ? -step : step;
+            const double unit = at_rest ? (v->state.q[i] > 0.0 ? -step : step)
+                                        : step_at(model, of_friction, at >= 0 ? at : i, step);
             v->state.lambda[i] *= v->state.zone[i] != RB_ZONE_STICK;
             derivative[i] += places->weight[k] * v->problem.bound[i] / unit;
         }
