@@ -107,7 +107,8 @@ TEST(what_is_refused)
                {"max_pressure", "radius=1:200,radius=1:200", NULL, "twice"},
                {"max_pressure", "contact-elements=1:200", NULL, "is not a number of this case"},
                {"max_pressure", "gap=-1:1", NULL, "table"},
-               {"max_pressure", "radius=1:200", "half_width=3", "--subject: expected at most"},
+               {"max_pressure", "radius=1:200", "half_width=3",
+                "--subject: expected RESULT<=X or RESULT>=X, got"},
                {"max_pressure", "radius=1:200", "half_width<=x", "x"},
                {"max_pressure", "radius=20:200", "half_width<=0.1", "constraints"}};
     rb_message why;

@@ -181,7 +181,7 @@ TEST(options_may_need_the_one_that_varies)
         assert_non_null(strstr(out, "\n2\t"));
     }
     check_refused(STUDY "--heat-capacity 3.8 --vary-1 'mu .1 .2'", 64,
-                  "for temperatures only, see --conductivity");
+                  "only where friction heats the bodies: give --conductivity, too");
 }
 
 TEST(an_interrupted_study_goes_on)

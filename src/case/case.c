@@ -439,7 +439,7 @@ static rb_status resolve_bodies(rb_case *c, rb_message *why)
 
 static rb_status check_heat(const rb_case *c, rb_message *why)
 {
-    static const char for_heat[] = "for temperatures only, see --conductivity";
+    static const char for_heat[] = "only where friction heats the bodies: give --conductivity, too";
     const rb_resolved_case *s = &c->resolved;
     const int cold = !(s->rc.heat_a.conductivity > 0.0),
               stands = cold && rb_rolling_can(&s->rc, RB_BODY_ELASTIC) && s->law.falls.n == 0;

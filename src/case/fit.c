@@ -449,6 +449,8 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
     int moved = 1, round = 0, moves = 0;
     rb_status s = RB_OK;
 
+    if (c->resolved.error)
+        return rb_fail(why, RB_EINVAL, "--error: a fit has intervals instead of error bars");
     if (data->n <= fit->n)
         return rb_fail(why, RB_EINVAL, "--fit: expected at least %d points for %d number%s, got %d",
                        fit->n + 1, fit->n, fit->n > 1 ? "s" : "", data->n);

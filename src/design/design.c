@@ -64,10 +64,12 @@ rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d
         n = strcspn(text, ",");
         snprintf(word, sizeof word, "%.*s", (int)n, text);
         char *sign = strpbrk(word, "<>");
-        if (!sign || d->constraints == RB_DESIGN_CONSTRAINTS)
-            return rb_fail(why, RB_EINVAL,
-                           "--subject: expected at most %d of RESULT<=X or RESULT>=X, got '%s'",
-                           RB_DESIGN_CONSTRAINTS, word);
+        if (!sign)
+            return rb_fail(why, RB_EINVAL, "--subject: expected RESULT<=X or RESULT>=X, got '%s'",
+                           word);
+        if (d->constraints == RB_DESIGN_CONSTRAINTS)
+            return rb_fail(why, RB_EINVAL, "--subject: expected at most %d constraints",
+                           RB_DESIGN_CONSTRAINTS);
         rb_design_constraint *k = &d->constraint[d->constraints++];
         *k = (rb_design_constraint){.at_least = *sign == '>'};
         const char *number = sign + 1 + (sign[1] == '=');
@@ -78,7 +80,7 @@ rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d
             return RB_EINVAL;
         const char *unit = k->result && k->result->unit ? k->result->unit : "-";
         if (rb_unit_read(number, unit, &x, &plain, why) != RB_OK)
-            return rb_fail(why, RB_EINVAL, "design: %s: expected a number, got '%.40s'", word,
+            return rb_fail(why, RB_EINVAL, "--subject: %s: expected a number, got '%.40s'", word,
                            number);
         k->bound = plain ? rb_unit_stored(rb_case_units(c, RB_GIVEN_ARGUMENT), unit, x) : x;
     }
@@ -468,9 +470,10 @@ static rb_status search(problem *p)
             r = nlopt_optimize(opt, u, &least);
         }
         if (p->status == RB_OK && r == NLOPT_MAXEVAL_REACHED)
-            p->status = rb_fail(p->why, RB_MAXITER,
-                                "design: not converged after %d evaluations%s%s", d->evaluations,
-                                *p->reason.text ? "; some have no solution: " : "", p->reason.text);
+            p->status =
+                rb_fail(p->why, RB_MAXITER, "design: not converged after %d evaluation%s%s%s",
+                        d->evaluations, d->evaluations == 1 ? "" : "s",
+                        *p->reason.text ? "; some have no solution: " : "", p->reason.text);
         else if (p->status == RB_OK && r < 0 && r != NLOPT_ROUNDOFF_LIMITED)
             p->status = rb_fail(p->why, RB_INACCURATE, "design: the search failed: %s",
                                 nlopt_result_to_string(r));

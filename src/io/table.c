@@ -104,10 +104,20 @@ static rb_status keep_names(reading *r, const char *text)
 
 /* ---- Rows -------------------------------------------------------------------------- */
 
+/* Of files from where a decimal has a comma; "": the line is not one of them. */
+static const char *about_commas(const char *line)
+{
+    const size_t n = strcspn(line, "\n");
+    const char *comma = memchr(line, ',', n);
+    return comma && (memchr(line, ';', n) || memchr(line, '\t', n))
+               ? "; decimals have a point, and columns are separated by tabs, blanks or commas"
+               : "";
+}
+
 static rb_status read_row(reading *r, const char *text)
 {
     rb_io_table *t = r->t;
-    const char *word;
+    const char *word, *whole = text;
     int n = 0;
     if (t->rows == r->capacity) {
         if (r->capacity > INT_MAX / 2)
@@ -124,8 +134,8 @@ static rb_status read_row(reading *r, const char *text)
     for (size_t length; (length = next_word(&text, &word)) > 0; n++) {
         double value;
         if (!is_number(word, length, &value))
-            return rb_fail(r->why, RB_EFORMAT, "%s:%d: expected a number, got '%.*s'", r->path,
-                           r->line, length < 60 ? (int)length : 60, word);
+            return rb_fail(r->why, RB_EFORMAT, "%s:%d: expected a number, got '%.*s'%s", r->path,
+                           r->line, length < 60 ? (int)length : 60, word, about_commas(whole));
         if (n < t->columns)
             t->x[(size_t)t->rows * (size_t)t->columns + (size_t)n] = value;
     }
@@ -133,9 +143,9 @@ static rb_status read_row(reading *r, const char *text)
         char names[160] = "";
         for (int j = 0; r->t->name && j < r->t->columns; j++)
             rb_append(names, sizeof names, "%s%s", j ? ", " : " (", r->t->name[j]);
-        return rb_fail(r->why, RB_EFORMAT, "%s:%d: expected %d number%s%s%s, got %d", r->path,
+        return rb_fail(r->why, RB_EFORMAT, "%s:%d: expected %d number%s%s%s, got %d%s", r->path,
                        r->line, r->t->columns, r->t->columns == 1 ? "" : "s", names,
-                       *names ? ")" : "", n);
+                       *names ? ")" : "", n, about_commas(whole));
     }
     t->line[t->rows++] = r->line;
     return RB_OK;
