@@ -140,8 +140,14 @@ static double mean_compliance(const rb_rolling_case *rc, const rb_rolling_body *
     const rb_bem_material own = rb_rolling_material(rc, body);
     const double of_own = (1.0 - own.poisson) / own.shear;
 
-    if (!(body->layer > 0.0))
-        return of_own * log(datum / mean);
+    if (!(body->layer > 0.0)) {
+        /* what relaxes does so within V tau */
+        double all = of_own * log(datum / mean);
+        for (int k = 0; k < body->memory.n && rc->formulation == RB_STEADY; k++)
+            all += of_own * body->memory.ratio[k] *
+                   log(datum / fmax(mean, rc->speed * body->memory.time[k]));
+        return all;
+    }
     const double thickness = fmax(body->layer, mean), of_layer = of_own * log(thickness / mean);
     if (!(body->base_young > 0.0))
         return of_layer;
@@ -160,11 +166,18 @@ static void note_datum(rb_rolling_note_list *list, const rb_rolling_case *rc,
     const int shifted = rc->formulation == RB_STATIC && rb_rolling_largest_mu(rc) > 0.0 &&
                         !rb_rolling_force_is_given(rc);
 
-    if (!(a > 0.0) || (!shifted && isnan(rc->approach)))
+    const int rises = !shifted && isnan(rc->approach);
+
+    if (!(a > 0.0) || (rises && !(s->approach < 0.0)))
         return;
     if (mean_compliance(rc, &rc->a, a, shifted) +
-            (rc->elastic_b ? mean_compliance(rc, &rc->b, a, shifted) : 0.0) <
+            (rc->elastic_b ? mean_compliance(rc, &rc->b, a, shifted) : 0.0) >=
         0.0)
+        return;
+    if (rises)
+        add(list, "The approach is negative: the datum, the depth of zero displacement from which "
+                  "it is measured, is too near. Give a larger --datum.");
+    else
         add(list,
             "The datum, the depth of zero displacement, is so near that uniform tractions move the "
             "surface against themselves: other solutions exist for the same %s. Give a larger "
