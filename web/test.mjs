@@ -1177,12 +1177,14 @@ async function views(page) {
         await settled();
         const saved = async (text, wait) =>
             page.run(`(async () => {
-                const blobs = [], make = URL.createObjectURL;
+                const blobs = [], make = URL.createObjectURL, timer = window.setTimeout;
+                window.setTimeout = (act, ms) => timer(act, Math.min(ms, 1000)); /* a clip of a second */
                 URL.createObjectURL = (blob) => { blobs.push(blob); return make.call(URL, blob); };
                 HTMLAnchorElement.prototype.click = function () { this.dispatchEvent(new Event("click")); };
                 [...document.querySelectorAll("#at-hero .menu button")].find((b) => b.textContent === ${JSON.stringify(text)}).click();
                 for (const end = performance.now() + ${wait}; !blobs.length && performance.now() < end; ) await new Promise((r) => setTimeout(r, 50));
                 URL.createObjectURL = make;
+                window.setTimeout = timer;
                 delete HTMLAnchorElement.prototype.click;
                 const head = blobs[0] ? [...new Uint8Array(await blobs[0].slice(0, 4).arrayBuffer())] : [];
                 return blobs[0] ? [blobs[0].type, blobs[0].size, head] : document.querySelector("#at-hero .menu [role=status]").textContent;
