@@ -4,7 +4,6 @@
 #include "lcp/lemke.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* A component counts as negative below this part of the largest. */
@@ -27,6 +26,7 @@ typedef struct {
     int *number;             /* n: of i among the basic z, or -1 */
     int *wrong, m;           /* n: the negative components, and how many */
     rb_sparse A;             /* M of the basic z; room for all of M */
+    rb_arena memory;         /* of the arrays */
     rb_lcp_info *info;
 } newton;
 
@@ -150,36 +150,31 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, v
                   .fewest = M->rows + 1,
                   .chances = CHANCES,
                   .info = info};
-    rb_status status = rb_lcp_pose(&task->M, task->q, NULL, NULL, task->opt, balance_q, &s->posed);
-    if (status == RB_ENOMEM)
-        status = fail_memory(s);
-    else {
-        s->p = (rb_lcp_mixed_problem){.M = s->posed.M.sparse, .q = s->posed.q};
-        const size_t n = (size_t)s->p.M->rows, nz = (size_t)s->p.M->p[s->p.M->cols];
-        s->z = rb_alloc(n, 4);
-        s->number = rb_alloc_int(2 * n);
-        s->A.p = rb_alloc_int(n + 1);
-        s->A.i = rb_alloc_int(nz + 1);
-        s->A.x = rb_alloc(nz + 1, 1);
-        if (!s->z || !s->number || !s->A.p || !s->A.i || !s->A.x)
-            status = fail_memory(s);
-        else {
-            s->w = s->z + n;
-            s->rhs = s->w + n;
-            s->x = s->rhs + n;
-            s->wrong = s->number + n;
-            status = RB_OK;
-        }
-    }
-    const int fits = status == RB_OK && !start && rb_lcp_coarse_fits(M);
+    if (rb_lcp_pose(&task->M, task->q, NULL, NULL, task->opt, balance_q, &s->posed) == RB_ENOMEM)
+        return fail_memory(s);
+    s->p = (rb_lcp_mixed_problem){.M = s->posed.M.sparse, .q = s->posed.q};
+    const size_t n = (size_t)s->p.M->rows, nz = (size_t)s->p.M->p[s->p.M->cols];
+    s->z = rb_arena_doubles(&s->memory, n, 1);
+    s->w = rb_arena_doubles(&s->memory, n, 1);
+    s->rhs = rb_arena_doubles(&s->memory, n, 1);
+    s->x = rb_arena_doubles(&s->memory, n, 1);
+    s->number = rb_arena_ints(&s->memory, n);
+    s->wrong = rb_arena_ints(&s->memory, n);
+    s->A.p = rb_arena_ints(&s->memory, n + 1);
+    s->A.i = rb_arena_ints(&s->memory, nz);
+    s->A.x = rb_arena_doubles(&s->memory, nz, 1);
+    if (s->memory.failed)
+        return fail_memory(s);
+    const int fits = !start && rb_lcp_coarse_fits(M);
     if (fits && M->rows >= LCP_COARSE_FROM) {
         const rb_status coarse = rb_lcp_coarse_start(M, task->q, s->z, &s->work.used);
-        status = coarse == RB_ENOMEM ? fail_memory(s) : RB_OK;
+        if (coarse == RB_ENOMEM)
+            return fail_memory(s);
         start = coarse == RB_OK ? s->z : NULL;
     }
-    for (int i = 0; status == RB_OK && i < M->rows; i++)
+    for (int i = 0; i < M->rows; i++)
         s->number[i] = (start ? start[i] > 0.0 : fits ? 1 : task->q[i] < 0.0) ? 0 : -1;
-    return status;
+    return RB_OK;
 }
 
 /* RB_INACCURATE: the end does not solve. */
@@ -197,9 +192,7 @@ static rb_status end(void *state, rb_status status, double *z)
     }
     if (status == RB_OK)
         status = rb_lcp_assess(s->info);
-    free(s->z);
-    free(s->number);
-    rb_sparse_free(&s->A);
+    rb_arena_free(&s->memory);
     rb_lcp_posed_free(&s->posed);
     return status;
 }
