@@ -64,8 +64,10 @@ static rb_status dump_body(const target *t, int of_b, const rb_rolling_model *mo
         return s;
     }
     const int elements = mesh.n, n = 2 * elements;
-    double *x = rb_alloc((size_t)elements, 6);
-    double *H = rb_alloc((size_t)n, (size_t)n), *G = rb_alloc((size_t)n, (size_t)n);
+    rb_arena scratch = {0};
+    double *x = rb_arena_doubles(&scratch, (size_t)elements, 6),
+           *H = rb_arena_doubles(&scratch, (size_t)n, (size_t)n),
+           *G = rb_arena_doubles(&scratch, (size_t)n, (size_t)n);
     for (int i = 0; x && i < elements; i++) {
         const double row[] = {mesh.x0[i],
                               mesh.y0[i],
@@ -76,8 +78,9 @@ static rb_status dump_body(const target *t, int of_b, const rb_rolling_model *mo
         for (int j = 0; j < 6; j++)
             x[i + j * elements] = row[j];
     }
-    s = x && H && G ? rb_bem_assemble(&mesh, rb_rolling_material(model->rc, body), H, G, n, t->why)
-                    : rb_fail(t->why, RB_ENOMEM, "out of memory");
+    s = scratch.failed
+            ? rb_fail(t->why, RB_ENOMEM, "out of memory")
+            : rb_bem_assemble(&mesh, rb_rolling_material(model->rc, body), H, G, n, t->why);
     if (s == RB_OK)
         s = write_matrix(t, names_of[of_b][0], (rb_io_dense){elements, 6, x, elements},
                          "boundary elements: x0 y0 x1 y1, condition in x and y (0 traction, 1 "
@@ -86,11 +89,33 @@ static rb_status dump_body(const target *t, int of_b, const rb_rolling_model *mo
         s = write_matrix(t, names_of[of_b][1], (rb_io_dense){n, n, H, n}, influence);
     if (s == RB_OK)
         s = write_matrix(t, names_of[of_b][2], (rb_io_dense){n, n, G, n}, influence);
-    free(x);
-    free(H);
-    free(G);
     rb_bem_mesh_free(&mesh);
-    return s;
+    return rb_arena_done(&scratch, s);
+}
+
+/* Of a large contact neither F nor M has been formed.  Four columns hold all of F where
+ * its blocks are constant along their diagonals, as those of half-planes are. */
+static rb_status dump_columns(const target *t, const rb_rolling_model *model)
+{
+    const rb_bem_flexibility *f = &model->bodies.f;
+    const int n = model->mesh.n, column[] = {0, n - 1, n, 2 * n - 1};
+    const size_t rows = 2 * (size_t)f->m;
+    rb_arena scratch = {0};
+    double *w = rb_arena_doubles(&scratch, rows, 4),
+           *r = rb_arena_doubles(&scratch, 2 * (size_t)n, 1);
+    if (scratch.failed)
+        return rb_arena_done(&scratch, rb_fail(t->why, RB_ENOMEM, "out of memory"));
+    for (int k = 0; k < 4; k++) {
+        r[column[k]] = 1.0;
+        rb_bem_flexibility_apply(f, r, w + (size_t)k * rows);
+        r[column[k]] = 0.0;
+    }
+    const char *comment = rb_rolling_can(model->rc, RB_BODY_FLAT)
+                              ? "columns 1, n, n + 1 and 2n of F, w = F r: its four blocks are "
+                                "Toeplitz matrices"
+                              : "columns 1, n, n + 1 and 2n of F, w = F r";
+    return rb_arena_done(
+        &scratch, write_matrix(t, "F_columns", (rb_io_dense){2 * f->m, 4, w, 2 * f->m}, comment));
 }
 
 static rb_status dump_all(const target *t, const rb_rolling_model *model)
@@ -114,29 +139,8 @@ static rb_status dump_all(const target *t, const rb_rolling_model *model)
         s = dump_body(t, 1, model);
     if (s != RB_OK)
         return s;
-    if (!model->bodies.F) {
-        /* A large contact: neither F nor M has been formed.  Four columns hold all of F where its
-         * blocks are constant along their diagonals, as those of half-planes are. */
-        const rb_bem_flexibility *f = &model->bodies.f;
-        const int column[] = {0, n - 1, n, 2 * n - 1};
-        const size_t rows = 2 * (size_t)f->m;
-        double *w = rb_alloc(rows, 4), *r = rb_alloc(2 * (size_t)n, 1);
-        s = w && r ? RB_OK : rb_fail(t->why, RB_ENOMEM, "out of memory");
-        for (int k = 0; k < 4 && s == RB_OK; k++) {
-            r[column[k]] = 1.0;
-            rb_bem_flexibility_apply(f, r, w + (size_t)k * rows);
-            r[column[k]] = 0.0;
-        }
-        if (s == RB_OK)
-            s = write_matrix(t, "F_columns", (rb_io_dense){2 * f->m, 4, w, 2 * f->m},
-                             rb_rolling_can(model->rc, RB_BODY_FLAT)
-                                 ? "columns 1, n, n + 1 and 2n of F, w = F r: its four blocks are "
-                                   "Toeplitz matrices"
-                                 : "columns 1, n, n + 1 and 2n of F, w = F r");
-        free(w);
-        free(r);
-        return s;
-    }
+    if (!model->bodies.F)
+        return dump_columns(t, model);
     rb_contact_lcp lcp;
     s = rb_rolling_model_lcp(model, &lcp, t->why);
     if (s != RB_OK)
