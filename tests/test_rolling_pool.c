@@ -304,7 +304,9 @@ TEST(a_pool_s_rows_are_seen_in_order)
     rb_rolling_sweep sweep = of(40000, 1, 0);
     sweep.see = see_in_order;
     sweep.context = &p;
-    CHECK_OK(rb_rolling_sweep_by(&sweep, &p.pool, NULL));
+    heard.text[0] = '\0';
+    CHECK_OK(rb_rolling_sweep_by(&sweep, &p.pool, &heard));
+    assert_string_equal(heard.text, "");
     assert_int_equal(p.seen, 40000);
     assert_int_equal(p.most, 16384);
     assert_int_equal(p.stopped, 1);
