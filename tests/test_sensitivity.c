@@ -311,10 +311,29 @@ TEST(strain_of_two_layers_has_two_sides)
             rb_case_result_free(&near[side]);
         }
         assert_int_equal(d->d.sides, k == 0 ? 2 : 1);
+        if (k == 0) /* of that result alone */
+            CHECK_ABS(d->d.value[1].max_pressure, d->d.value[0].max_pressure, 0.0, "both sides");
         rb_case_derivatives_free(&all);
         rb_case_result_free(&r);
         rb_case_free(c);
     }
+}
+
+/* A force of 0 without friction is that of every creepage at which the surfaces slide. */
+TEST(a_force_without_friction_tells_no_creepage)
+{
+    static const words w = {{PLANES, ROLLING, "young-b", "70000", "mu", "0", "force", "0"}};
+    static const char *const names[] = {"load", "mu"};
+    rb_case_derivatives all;
+    rb_case_result r;
+    held_case *c = solved(&w, NULL, 0.0, &r);
+
+    CHECK_OK(rb_case_differentiate(c, &r.model, 2, names, &all, &heard));
+    assert_int_equal(of(&all, "load")->status, RB_OK);
+    assert_int_equal(of(&all, "mu")->status, RB_EINVAL);
+    assert_non_null(strstr(of(&all, "mu")->why.text, "does not tell the creepage"));
+    rb_case_derivatives_free(&all);
+    rb_case_result_free(&r);
 }
 
 /* ---- Carter ------------------------------------------------------------------------ */

@@ -660,18 +660,22 @@ static void set_strain(const rb_sensitivity *s, int k, rb_sensitivity_derivative
         d->value[k].max_strain = strain;
 }
 
-/* 1: both sides have the same derivatives, but for rounding. */
-static int sides_agree(const rb_sensitivity_derivative *d)
+/* Where both sides of a result are the same but for rounding, they are equal.  1: of all. */
+static int unite_sides(rb_sensitivity_derivative *d)
 {
-    double worst = 0.0;
+    int all = 1;
 
     for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
         const double x = rb_rolling_number(r, &d->value[0]), y = rb_rolling_number(r, &d->value[1]);
-        if (rb_sensitivity_has(r)) /* fmax leaves out what is no number, as 0/0 */
-            worst = fmax(worst, fabs(x - y) / fmax(fabs(x), fabs(y)));
+        if (!rb_sensitivity_has(r) || (isnan(x) && isnan(y)))
+            continue;
+        if (fabs(x - y) <= 1e-8 * fmax(fabs(x), fabs(y)))
+            *number_of(r, &d->value[1]) = x;
+        else
+            all = 0;
     }
-    return worst < 1e-8;
+    return all;
 }
 
 double rb_sensitivity_rounding(const rb_rolling_case *rc, const rb_rolling_result *r, double value)
@@ -912,7 +916,7 @@ rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensiti
     for (int k = 0; k < 2; k++)
         if (d->has[k])
             rb_sensitivity_clean(s, input->scale, &d->value[k]);
-    if (both && d->has[1] && sides_agree(d)) {
+    if (both && d->has[1] && unite_sides(d)) {
         rb_rolling_solution_free(&d->value[1]);
         d->has[1] = 0;
     }
