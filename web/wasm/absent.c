@@ -112,10 +112,12 @@ rb_status rb_skeleton_alloc(int rows, int columns, rb_skeleton *s)
     return RB_EINVAL;
 }
 
-rb_status rb_skeleton_reduce(rb_skeleton *s, double tolerance, int *kept, int **order, double **T)
+rb_status rb_skeleton_reduce(rb_skeleton *s, double tolerance, rb_arena *memory, int *kept,
+                             int **order, double **T)
 {
     (void)s;
     (void)tolerance;
+    (void)memory;
     *kept = 0;
     *order = NULL;
     *T = NULL;
