@@ -180,6 +180,8 @@ TEST(misspelt_words_are_guessed)
                {"m", "mu"},
                {"um", "mu"},
                {"x", ""},
+               {"cre", "creep"}, /* a beginning */
+               {"lo", ""},
                {"peerc", ""},
                {"load-facotr", "load-factor"},
                {"creeeep", "creep"},

@@ -16,6 +16,7 @@ static const struct {
     {"-zorro=0.1", "options start with --; --help lists them)"},
     {"-o table.tsv", "as --output"},
     {"-q", "as --quiet)"},
+    {"--conductivity 40 --temperature 20C", "in one of K; got '20C'\n"},
     {"--tolerance rad=1%", "did you mean 'radius'"},
     {"design --minimise max_pressure --over rad=20:60", "did you mean 'radius'"},
     {"--E 210000", "did you mean '--young'"},

@@ -15,7 +15,7 @@ void rb_guess_try(rb_guess *guess, const char *candidate)
     /* the beginning of a name is as near as one edit */
     enum { BEGINNING = 3 };
     const size_t typed = strlen(guess->word);
-    if (typed >= BEGINNING && strncmp(candidate, guess->word, typed) == 0 &&
+    if (typed >= BEGINNING && strncmp(candidate, guess->word, typed) == 0 && candidate[typed] &&
         !(guess->best && guess->distance <= 1)) {
         guess->best = candidate;
         guess->distance = 1;
@@ -58,8 +58,9 @@ const char *rb_guess_text(rb_guess *guess, const char *prefix)
 {
     const int length = (int)strlen(guess->word);
     guess->text[0] = '\0';
-    /* more than a third wrong is another word */
-    if (guess->best && guess->distance <= (length + 2) / 3)
+    /* more than a third wrong is another word, as is another letter */
+    if (guess->best && guess->distance <= (length + 2) / 3 &&
+        (guess->distance < length || guess->best[0] == guess->word[0]))
         snprintf(guess->text, sizeof guess->text, " (did you mean '%s%s'?)", prefix, guess->best);
     return guess->text;
 }

@@ -86,7 +86,7 @@ int main(int argc, char **argv)
         code = code == CLI_OK ? CLI_CANTWRITE : code;
     else {
         if (failed && code != CLI_CANTWRITE)
-            code = cli_fail(CLI_CANTWRITE, "standard output: %s",
+            code = cli_fail(CLI_CANTWRITE, "standard output: cannot write: %s",
                             errno ? strerror(errno) : "write error");
     }
     cli_end();
