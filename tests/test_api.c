@@ -678,6 +678,7 @@ TEST(fits_by_handle)
     assert_int_equal(rb_api_fit(a, 3, columns, 1, data, "mu", NULL, NULL, NAN, 0.95), RB_EINVAL);
     assert_non_null(strstr(rb_api_message(a), "expected at least 2 points for 1 number, got 1"));
     assert_int_equal(rb_api_fit(a, 3, columns, 0, data, "mu", NULL, NULL, NAN, 0.95), RB_EINVAL);
+    assert_int_equal(rb_api_fit(a, 1, columns, N, data, "mu", NULL, NULL, NAN, 0.95), RB_EFORMAT);
     assert_int_equal(rb_api_fit(a, 3, columns, N, data, "mu", NULL, NULL, NAN, 1.0), RB_EINVAL);
     assert_string_equal(rb_api_message(a), "--level: expected a number in (0, 1), got 1");
     assert_int_equal(rb_api_fit(a, 3, columns, N, data, "mu", NULL, NULL, 0.0, 0.9), RB_EINVAL);

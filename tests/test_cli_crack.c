@@ -184,6 +184,8 @@ TEST(below_the_surface)
 
 TEST(pictures)
 {
+    assert_int_equal(rollbem("crack --help"), 0);
+    assert_non_null(strstr(out, "in that picture [a] (0)")); /* below the contact */
     assert_int_equal(rollbem(HERTZ "--mu 0 --plot a.svg --plot-crack b.svg --at 0.5 --orbit "
                                    "c.svg --quiet"),
                      0);
