@@ -395,7 +395,7 @@ static double squares_at(const rb_case_data *data, double mu, double young)
 TEST(elements_follow_the_numbers)
 {
     static double xi[] = {-0.05, -0.03, -0.01, 0.01, 0.03, 0.05},
-                  share[] = {0.400, 0.394, 0.256, -0.153, -0.385, -0.399};
+                  share[] = {0.4012, 0.3474, 0.0821, -0.2452, -0.3841, -0.3991};
     static const char *const names[] = {"mu", "young"};
     static const double starts[] = {10.0, 1.0, 100.0};
     const rb_case_data data = {6, 0, RB_CASE_FORCE_OVER_LOAD, xi, share, NULL, NULL, NULL, NULL};
@@ -414,6 +414,8 @@ TEST(elements_follow_the_numbers)
         const double mu = fit.parameter[0].value, young = fit.parameter[1].value,
                      least = squares_at(&data, mu, young);
         CHECK_REL(fit.chi_square, least, 1e-9, "start %g", starts[k]);
+        assert_true(fit.parameter[0].identified && fit.parameter[1].identified);
+        CHECK_ABS(young, 10.0, 2.0 * fit.parameter[1].deviation, "start %g", starts[k]);
         for (int side = -1; side <= 1; side += 2) {
             const double off[2] = {0.2 * side * fit.parameter[0].deviation,
                                    0.2 * side * fit.parameter[1].deviation};
