@@ -464,8 +464,8 @@ TEST(pictures_need_something_to_draw)
 /* A history by hand: one step has a range too, a step without contact a width of zero. */
 TEST(history_of_few_steps_is_drawn)
 {
-    double column[12][2] = {{0.0}};
-    int stick[2] = {3, 0}, slipping[2] = {1, 0};
+    double column[12][17] = {{0.0}};
+    int stick[17] = {3, 0}, slipping[17] = {1, 0};
     rb_rolling_history h = {.n = 1,
                             .distance = column[0],
                             .creepage = column[1],
@@ -490,6 +490,12 @@ TEST(history_of_few_steps_is_drawn)
     assert_non_null(strstr(script, "set xrange [1:1.000001]\n"));
     assert_non_null(strstr(script, "$data << EOD\n1 0.25 0 0.75 0 0\nEOD"));
     assert_non_null(strstr(script, "set label 2 'shift  [mm]'"));
+    fclose(out);
+
+    out = tmpfile();
+    h.n = 17; /* from 1 on: eight marks of two increments */
+    CHECK_OK(rb_report_history_picture(out, canvas, &rc, &h, &heard));
+    assert_non_null(strstr(content(out), "set xtics 2\n"));
     fclose(out);
 
     out = tmpfile();
