@@ -397,7 +397,7 @@ TEST(elements_follow_the_numbers)
     static double xi[] = {-0.05, -0.03, -0.01, 0.01, 0.03, 0.05},
                   share[] = {0.4012, 0.3474, 0.0821, -0.2452, -0.3841, -0.3991};
     static const char *const names[] = {"mu", "young"};
-    static const double starts[] = {10.0, 1.0, 100.0};
+    static const double starts[] = {10.0, 1.0, 1e3};
     const rb_case_data data = {6, 0, RB_CASE_FORCE_OVER_LOAD, xi, share, NULL, NULL, NULL, NULL};
     double first = 0.0;
     for (int k = 0; k < 3; k++) {
@@ -424,6 +424,36 @@ TEST(elements_follow_the_numbers)
         }
         first = k ? first : young;
         CHECK_ABS(young, first, 0.05 * fit.parameter[1].deviation, "start %g", starts[k]);
+        rb_case_fit_free(&fit);
+        rb_case_free(c);
+    }
+}
+
+/* The steps of derivatives are parts of the numbers reached, not of the start. */
+TEST(a_start_far_away_ends_at_the_same_numbers)
+{
+    static double xi[] = {-0.05, -0.03, -0.01, 0.01, 0.03, 0.05},
+                  share[] = {0.4007, 0.3828, 0.2684, 0.0166, -0.2809, -0.3991};
+    static const char *const names[] = {"mu", "layer-thickness"};
+    const rb_case_data data = {6, 0, RB_CASE_FORCE_OVER_LOAD, xi, share, NULL, NULL, NULL, NULL};
+    rb_case_parameter near = {.value = 0.0};
+    for (int k = 0; k < 2; k++) {
+        rb_case_fit fit = fit_of(2, names);
+        rb_message why = {""};
+        rb_case *c = rb_case_create(RB_CASE_CURVE);
+        for (int i = 0; i < 10; i += 2)
+            CHECK_OK(rb_case_set(c, rubber[i], rubber[i + 1], RB_GIVEN_ARGUMENT, &why));
+        set_number(c, "young", 10.0);
+        set_number(c, "layer-thickness", 3.0);
+        set_number(c, "contact-elements", 16.0);
+        fit.parameter[0].start = 0.4;
+        fit.parameter[1].start = k ? 3e4 : 3.0;
+        CHECK_OK(rb_case_resolve(c, &why));
+        if (rb_case_fit_solve(c, &data, NULL, &fit, &why) != RB_OK)
+            fail_msg("%s", why.text);
+        near = k ? near : fit.parameter[1];
+        CHECK_ABS(fit.parameter[1].value, near.value, 0.1 * near.deviation, "thickness");
+        CHECK_REL(fit.parameter[1].deviation, near.deviation, 0.02, "its deviation");
         rb_case_fit_free(&fit);
         rb_case_free(c);
     }
