@@ -1,70 +1,28 @@
 /* `rollbem lcp` as its users meet it.  B: the build directory, default build. */
 #define _XOPEN_SOURCE 700
-#include "check.h"
-
-#include <jansson.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#define held_json HELD(json_t)
-HELD_TYPE(json_t, json_decref)
-
-static char program[700], folder[] = "/tmp/rollbem-lcp-XXXXXX";
-static char out[20000], err[4000];
+#include "cli_run.h"
 
 static const char GOOD[] = "2\n0\n2\n2\n2 2\n2 1\n1 2\n-5 -6\n";
 static const char RAY[] = "1 0 1 1 1 1 -1 -1";
 static const char KOSTREVA[] = "3 0 3 3 3 3 1 0 2 2 1 0 0 2 1 -1 -1 -1";
 
-static void slurp(const char *name, char *text, size_t size)
-{
-    FILE *f = fopen(name, "r");
-    assert_non_null(f);
-    text[fread(text, 1, size - 1, f)] = '\0';
-    fclose(f);
-}
-
-static void put(const char *name, const char *text)
-{
-    FILE *f = fopen(name, "w");
-    assert_non_null(f);
-    fputs(text, f);
-    fclose(f);
-}
-
 static int lcp(const char *arguments)
 {
-    char line[1500];
-    snprintf(line, sizeof line, "'%s' lcp %s >out 2>err", program, arguments);
-    const int status = system(line);
-    assert_true(WIFEXITED(status));
-    slurp("out", out, sizeof out);
-    slurp("err", err, sizeof err);
-    return WEXITSTATUS(status);
+    return rollbemf("lcp %s", arguments);
 }
 
-static int enter_folder(void **state)
+static int enter(void **state)
 {
-    char here[512];
-    const char *build = getenv("B");
-    if (!build || !*build)
-        build = "build";
-    if (!getcwd(here, sizeof here))
-        return -1;
-    if (build[0] == '/')
-        snprintf(program, sizeof program, "%s/rollbem", build);
-    else
-        snprintf(program, sizeof program, "%s/%s/rollbem", here, build);
-    if (!mkdtemp(folder) || chdir(folder) != 0)
-        return -1;
-    put("good", GOOD);
-    put("ray", RAY);
-    put("kostreva", KOSTREVA);
-    put("bad", "2 0 2 2 2 2 1 x 1 2 -5 -6");
-    return 0;
+    const int entered = enter_folder(state);
+    write_file("good", GOOD);
+    write_file("ray", RAY);
+    write_file("kostreva", KOSTREVA);
+    write_file("bad", "2 0 2 2 2 2 1 x 1 2 -5 -6");
+    return entered;
 }
 
-static int leave_folder(void **state)
+/* Nothing else was left behind. */
+static int leave(void **state)
 {
     const char *names[] = {"good", "ray", "kostreva", "bad", "out", "err", "p", "x", "y"};
     for (int i = 0; i < 9; i++)
@@ -146,7 +104,7 @@ TEST(plain_text_is_read)
         "2\n1 2\n2 1\n-1 -2\n# and so on"};
     for (int k = 0; k < 3; k++) {
         double z[2];
-        put("p", files[k]);
+        write_file("p", files[k]);
         assert_int_equal(lcp("--solution p"), 0);
         solution(z);
         const double w1 = z[0] + 2.0 * z[1] - 1.0, w2 = 2.0 * z[0] + z[1] - 2.0;
@@ -158,7 +116,7 @@ TEST(plain_text_is_read)
 
 static void refused(const char *text, const char *arguments, const char *words)
 {
-    put("p", text);
+    write_file("p", text);
     assert_int_equal(lcp(arguments), 65);
     if (!strstr(err, words))
         fail_msg("expected '%s' in: %s", words, err);
@@ -173,7 +131,7 @@ TEST(what_is_no_problem_is_refused)
     refused("", "p", "n: expected");
     refused("2 1 0 2 2 2 2 1 0 0 1 -1 0 0.5", "p", "friction problem");
     refused("%%MatrixMarket matrix array real general\n2 2\n1 0 0 1\n", "p", "--q");
-    put("x", "-1 -1 -1");
+    write_file("x", "-1 -1 -1");
     refused("%%MatrixMarket matrix array real general\n2 2\n1 0 0 1\n", "--q x p",
             "x:1: q: expected 2 numbers, got 3");
     refused("%%MatrixMarket matrix array real general\n3 2\n1 0 0 1 1 1\n", "--q x p",
@@ -185,13 +143,13 @@ TEST(what_is_no_problem_is_refused)
 TEST(matrix_market_is_read)
 {
     double z[2];
-    put("p", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 1 1\n2 2 2");
-    put("x", "-5 -6 # q\n");
+    write_file("p", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 1 1\n2 2 2");
+    write_file("x", "-5 -6 # q\n");
     assert_int_equal(lcp("--solution --q x p"), 0);
     solution(z);
     CHECK_REL(z[0], 4.0 / 3.0, 1e-15, "z(1)");
     CHECK_REL(z[1], 7.0 / 3.0, 1e-15, "z(2)");
-    put("x", "%%MatrixMarket matrix array real general\n2 1\n-5\n-6\n");
+    write_file("x", "%%MatrixMarket matrix array real general\n2 1\n-5\n-6\n");
     assert_int_equal(lcp("--solution --q - p <x"), 0);
     solution(z);
     CHECK_REL(z[1], 7.0 / 3.0, 1e-15, "z(2)");
@@ -200,18 +158,18 @@ TEST(matrix_market_is_read)
 TEST(a_cover_may_hold_zeros_where_q_is_not_negative)
 {
     double z[2];
-    put("p", "2\n2 1\n-3 2\n-1 0.5\n");
-    put("x", "1 0");
+    write_file("p", "2\n2 1\n-3 2\n-1 0.5\n");
+    write_file("x", "1 0");
     assert_int_equal(lcp("--solution --cover x p"), 0);
     solution(z);
     CHECK_REL(z[0], 2.5 / 7.0, 1e-14, "z(1)");
     CHECK_REL(z[1], 2.0 / 7.0, 1e-14, "z(2)");
-    put("x", "0 1");
+    write_file("x", "0 1");
     assert_int_equal(lcp("--cover x p"), 65);
     assert_non_null(strstr(err, "cover(1) = 0: expected a number > 0, because q(1) = -1"));
-    put("x", "1 -1");
+    write_file("x", "1 -1");
     assert_int_equal(lcp("--cover x p"), 65);
-    put("x", "1 1 1");
+    write_file("x", "1 1 1");
     assert_int_equal(lcp("--cover x p"), 65);
     assert_non_null(strstr(err, "cover: expected 2 numbers, got 3"));
 }
@@ -234,20 +192,20 @@ TEST(the_cap_is_named)
     assert_int_equal(lcp("p"), 0); /* another covering vector, or Newton */
 }
 
-/* The obstacle problem of 100 x 100 points: without a dense tableau, which takes 800 MB. */
+/* The obstacle problem of n x n points: M in p, q in x. */
+static void obstacle(int n)
+{
+    assert_int_equal(shellf("O=\"${R%%/*}/obstacle\"; \"$O\" %d >p && \"$O\" -q %d >x", n, n), 0);
+}
+
+/* Of 100 x 100 points: without a dense tableau, which takes 800 MB. */
 TEST(a_large_sparse_problem_needs_no_dense_tableau)
 {
-    char line[1500];
     double residual;
-    const int length = (int)(strlen(program) - strlen("rollbem"));
-    snprintf(line, sizeof line, "'%.*sobstacle' 100 >p && '%.*sobstacle' -q 100 >x", length,
-             program, length, program);
-    assert_int_equal(system(line), 0);
-    snprintf(line, sizeof line, "%s OPENBLAS_NUM_THREADS=1 '%s' lcp --q x p >out",
-             SANITIZED ? "" : "ulimit -v 600000;", program);
-    assert_int_equal(system(line), 0);
-    slurp("out", out, sizeof out);
-    line[0] = 0;
+    obstacle(100);
+    assert_int_equal(shellf("%s OPENBLAS_NUM_THREADS=1 \"$R\" lcp --q x p",
+                            SANITIZED ? "" : "ulimit -v 600000;"),
+                     0);
     assert_non_null(strstr(out, "\np\tsolved\t10000\t"));
     assert_int_equal(sscanf(strstr(out, "\np\t"), "\np\t%*s\t%*d\t%*d\t%lf", &residual), 1);
     CHECK_MAX(residual, 1e-15, "residual");
@@ -256,12 +214,8 @@ TEST(a_large_sparse_problem_needs_no_dense_tableau)
 /* Lemke's method itself on 50 x 50 points: a dense tableau would be 50 MB larger. */
 TEST(lemke_on_a_large_sparse_problem_needs_no_tableau)
 {
-    char line[1500];
     double residual;
-    const int length = (int)(strlen(program) - strlen("rollbem"));
-    snprintf(line, sizeof line, "'%.*sobstacle' 50 >p && '%.*sobstacle' -q 50 >x", length, program,
-             length, program);
-    assert_int_equal(system(line), 0);
+    obstacle(50);
     assert_int_equal(lcp("--solver lemke --q x p"), 0);
     assert_int_equal(sscanf(strstr(out, "\np\t"), "\np\tsolved\t2500\t%*d\t%lf", &residual), 1);
     CHECK_MAX(residual, 1e-15, "residual");
@@ -286,7 +240,7 @@ TEST(the_solver_can_be_chosen)
 TEST(boxes_are_solved)
 {
     double z[2];
-    put("x", "1 inf # the upper bounds\n");
+    write_file("x", "1 inf # the upper bounds\n");
     assert_int_equal(lcp("--solution --upper x good"), 0);
     solution(z);
     CHECK_REL(z[0], 1.0, 1e-15, "z(1)");
@@ -295,24 +249,24 @@ TEST(boxes_are_solved)
     assert_int_equal(lcp("--trace --upper x good"), 0);
     assert_non_null(strstr(out, "\tz0\n"));
     assert_non_null(strstr(out, "\ngood\t1\tz0\t"));
-    put("y", "-inf 3");
+    write_file("y", "-inf 3");
     assert_int_equal(lcp("--solution --lower y good"), 0);
     solution(z);
     CHECK_REL(z[0], 1.0, 1e-15, "z(1)");
     CHECK_REL(z[1], 3.0, 1e-15, "z(2)");
     assert_int_equal(lcp("--lower y --upper x good --solver newton"), 64);
     assert_non_null(strstr(err, "--lower and --upper need Lemke's"));
-    put("y", "-inf inf");
-    put("x", "1 -inf");
+    write_file("y", "-inf inf");
+    write_file("x", "1 -inf");
     assert_int_equal(lcp("--lower y --upper x good"), 65);
     assert_non_null(strstr(err, "good: lcp: bounds 2 are [inf, -inf]"));
-    put("x", "0 1 2");
+    write_file("x", "0 1 2");
     assert_int_equal(lcp("--upper x good"), 65);
     assert_non_null(strstr(err, "x:1: upper: expected 2 numbers, got 3"));
-    put("x", "1 nan");
+    write_file("x", "1 nan");
     assert_int_equal(lcp("--upper x good"), 65);
     assert_non_null(strstr(err, "expected a number, inf or -inf, got 'nan'"));
-    put("x", "1 inf");
+    write_file("x", "1 inf");
     assert_int_equal(lcp("--cover x good"), 65);
 }
 
@@ -329,19 +283,19 @@ static int pivots_of(const char *file)
 
 TEST(a_start_saves_the_pivots)
 {
-    put("x", "1.3 2.3");
+    write_file("x", "1.3 2.3");
     assert_int_equal(lcp("--start x --solver lemke good"), 0);
     assert_int_equal(pivots_of("\ngood"), 0);
     assert_int_equal(lcp("--start x --solver newton good"), 0);
     assert_int_equal(pivots_of("\ngood"), 1);
-    put("x", "0 2.3");
+    write_file("x", "0 2.3");
     assert_int_equal(lcp("--start x good"), 0);
     assert_int_equal(lcp("--start missing good"), 66);
 }
 
 TEST(all_solutions_are_listed)
 {
-    put("p", "1 -1 1"); /* w = 1 - z: 0 and 1 */
+    write_file("p", "1 -1 1"); /* w = 1 - z: 0 and 1 */
     assert_int_equal(lcp("--all p"), 0);
     assert_non_null(strstr(out, "by enumeration, n = 1, 2 bases"));
     assert_non_null(strstr(out, "\np\t1\t1\t0\t1\n"));
@@ -351,7 +305,7 @@ TEST(all_solutions_are_listed)
     assert_non_null(strstr(out, "# ray: no solution by enumeration, n = 1, 2 bases, "));
     assert_null(strstr(out, "nan"));
     assert_int_equal(lcp("--all --trace p"), 64);
-    put("p", "1 0 0");
+    write_file("p", "1 0 0");
     assert_int_equal(lcp("--all p"), 0);
     assert_non_null(strstr(err, "1 of 2 complementary bases are singular"));
     assert_int_equal(lcp("--all --json p"), 0);
@@ -360,7 +314,7 @@ TEST(all_solutions_are_listed)
 
 TEST(games_are_solved)
 {
-    put("p", "2 2 # battle of the sexes\n2 0 0 1\n1 0 0 2\n");
+    write_file("p", "2 2 # battle of the sexes\n2 0 0 1\n1 0 0 2\n");
     assert_int_equal(lcp("--game --solution p"), 0);
     assert_non_null(strstr(out, "p\t1\t1\t0\np\t2\t0\t2\np\t3\t1\t0\np\t4\t0\t1\n"));
     assert_int_equal(lcp("--game --solution --label 2 p"), 0);
@@ -377,10 +331,10 @@ TEST(games_are_solved)
     assert_non_null(strstr(err, "no solution after --max-pivots 1"));
     assert_int_equal(lcp("--label 1 good"), 64);
     assert_int_equal(lcp("--game --upper x p"), 64);
-    put("p", "2 2  2 0 0 1  1 0 0 2  7");
+    write_file("p", "2 2  2 0 0 1  1 0 0 2  7");
     assert_int_equal(lcp("--game p"), 65);
     assert_non_null(strstr(err, "expected the end of the file after m, n, A and B"));
-    put("p", "2 2  2 0 0 1  1 0 0");
+    write_file("p", "2 2  2 0 0 1  1 0 0");
     assert_int_equal(lcp("--game p"), 65);
 }
 
@@ -425,4 +379,4 @@ TEST(the_collection_is_solved)
     assert_true(solved >= 9);
 }
 
-RUN_TESTS(enter_folder, leave_folder)
+RUN_TESTS(enter, leave)
