@@ -696,7 +696,7 @@ TEST(bad_input)
     rb_crack_free(NULL);
 
     const double x = 0.0;
-    rb_crack_history h;
+    OWNED(rb_crack_history) h;
     rb_crack *c = create(closed_crack(10, 0.1));
     const rb_crack_passage none = {.steps = 0, .x = &x, .passes = 1},
                            wet = {.steps = 1, .x = &x, .passes = 1, .fluid = RB_CRACK_TRAPPED};
@@ -711,7 +711,6 @@ TEST(bad_input)
         .steps = 1, .x = &x, .loads = 1, .load = &load, .passes = 1, .wheel = &wheel};
     CHECK_SAYS(rb_crack_pass(c, &pressed, &h, &heard), RB_ZONE,
                "crack: step 1, contact at x = 0: the contact fills its elements");
-    rb_crack_history_free(&h);
     rb_crack_free(c);
 }
 

@@ -652,14 +652,13 @@ static rb_rolling_solution to_accuracy(const char *line, rb_status wanted)
  * pressure, which it does not change: its bar was mu beta p0 on every mesh. */
 TEST(a_jump_of_friction_beside_the_peak_is_no_error_of_it)
 {
-    rb_rolling_solution s = to_accuracy(
+    OWNED(rb_rolling_solution) s = to_accuracy(
         " --radius 300.226 --young 81172.5 --poisson -0.04338 --support halfplane --mu 0.059302"
         " --formulation static --approach 0.0779395 --force-ratio -0.80908 --contact-elements 23"
         " --mesh fitted",
         RB_OK);
     CHECK_MAX(s.n, 100, "elements");
     CHECK_REL(s.max_pressure, 395.283, 3e-3, "p0 of 1472 elements");
-    rb_rolling_solution_free(&s);
 }
 
 /* At a corner of the worn table the pressure is infinite: finer meshes do not help, and the

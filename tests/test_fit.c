@@ -115,13 +115,12 @@ TEST(exact_data_give_the_truth)
 {
     const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, exact, NULL, NULL,
                                NULL,   NULL};
-    rb_case_fit fit = fit_of(5, all);
+    OWNED(rb_case_fit) fit = fit_of(5, all);
     rb_message why = {""};
     if (solve(&data, 200.0, &fit, &why) != RB_OK)
         fail_msg("%s", why.text);
     for (int j = 0; j < 5; j++)
         CHECK_REL(fit.parameter[j].value, *truth[j], 1e-5, "%s", all[j]);
-    rb_case_fit_free(&fit);
 }
 
 /* From poor starts too: numbers that must be positive stay within reach. */
@@ -134,7 +133,7 @@ TEST(poor_starts_give_the_truth)
     const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, exact, NULL, NULL,
                                NULL,   NULL};
     for (size_t k = 0; k < sizeof far / sizeof *far; k++) {
-        rb_case_fit fit = fit_of(5, all);
+        OWNED(rb_case_fit) fit = fit_of(5, all);
         rb_message why = {""};
         for (int j = 0; j < 5; j++)
             fit.parameter[j].start = far[k][j];
@@ -144,7 +143,6 @@ TEST(poor_starts_give_the_truth)
             CHECK_REL(fit.parameter[j].value, *truth[j], 1e-6, "start %zu: %s", k, all[j]);
         if (far[k][3] == 0.0) /* a part of a/E*, where the start has no size; E* = 200 MPa */
             CHECK_REL(fit.parameter[3].scale, 1e-2 / 200.0, 1e-12, "start %zu: scale", k);
-        rb_case_fit_free(&fit);
     }
 }
 
@@ -160,7 +158,7 @@ TEST(units_do_not_matter)
         {"speed", "0.2"}};
     const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, exact, NULL, NULL,
                                NULL,   NULL};
-    rb_case_fit fit = fit_of(3, all + 2);
+    OWNED(rb_case_fit) fit = fit_of(3, all + 2);
     rb_message why = {""};
     rb_case *c = case_of(RB_CASE_CURVE);
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
@@ -171,7 +169,6 @@ TEST(units_do_not_matter)
         fail_msg("%s", why.text);
     for (int j = 0; j < 3; j++)
         CHECK_REL(fit.parameter[j].value, *truth[2 + j], 1e-6, "%s", all[2 + j]);
-    rb_case_fit_free(&fit);
     rb_case_free(c);
 }
 
@@ -179,7 +176,7 @@ TEST(noise_leaves_it_in_the_intervals)
 {
     const rb_case_data data = {POINTS, 0,   RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL,
                                NULL,   NULL};
-    rb_case_fit fit = fit_of(5, all);
+    OWNED(rb_case_fit) fit = fit_of(5, all);
     rb_message why = {""};
     if (solve(&data, 200.0, &fit, &why) != RB_OK)
         fail_msg("%s", why.text);
@@ -201,7 +198,6 @@ TEST(noise_leaves_it_in_the_intervals)
     for (int k = 0; k < POINTS; k++)
         sum += fit.band[k] * fit.band[k] / (t * t * fit.noise * fit.noise);
     CHECK_REL(sum, 5.0, 1e-9, "trace of the projection");
-    rb_case_fit_free(&fit);
 }
 
 /* From the solution at one creepage to those at others, with other zones; and beyond the
@@ -210,7 +206,7 @@ TEST(solutions_are_followed)
 {
     rb_message why = {""};
     rb_rolling_case rc[2];
-    rb_rolling_model from = {.mesh = {.n = 0}};
+    OWNED(rb_rolling_model) from = {.mesh = {.n = 0}};
     rb_sensitivity *s = NULL;
     for (int k = 0; k < 2; k++) {
         rb_case *c = case_of(RB_CASE_SINGLE);
@@ -265,7 +261,6 @@ TEST(solutions_are_followed)
     rb_rolling_variant_free(&from, &solved);
     rb_rolling_variant_free(&from, &followed);
     rb_sensitivity_free(s);
-    rb_rolling_model_free(&from);
 }
 
 /* The sum of squares has kinks where elements change their zones, and its minimum may lie
@@ -281,7 +276,7 @@ TEST(starts_end_at_one_minimum)
             force[k] = exact[k] + noisy[(k + set) % POINTS] - exact[(k + set) % POINTS];
         for (int start = 0; start < 3; start++) {
             static const double part[] = {NAN, 0.8, 1.15};
-            rb_case_fit fit = fit_of(5, all);
+            OWNED(rb_case_fit) fit = fit_of(5, all);
             rb_message why = {""};
             for (int j = 0; j < 5; j++)
                 fit.parameter[j].start = part[start] * *truth[j];
@@ -290,7 +285,6 @@ TEST(starts_end_at_one_minimum)
             if (start == 0)
                 least = fit.chi_square;
             CHECK_REL(fit.chi_square, least, 1e-9, "set %d, start %d", set, start);
-            rb_case_fit_free(&fit);
         }
     }
 }
@@ -337,14 +331,13 @@ TEST(no_falling_part_is_said)
 {
     const rb_case_data data = {7, 0, RB_CASE_FORCE_OVER_LOAD, creep, noisy, NULL, NULL, NULL, NULL};
     static const char *const names[] = {"mu", "mu-fall", "slip-scale"};
-    rb_case_fit fit = fit_of(3, names);
+    OWNED(rb_case_fit) fit = fit_of(3, names);
     rb_message why = {""};
     if (solve(&data, 200.0, &fit, &why) != RB_OK)
         fail_msg("%s", why.text);
     assert_non_null(
         strstr(fit.sentences, "no point in the falling part: slip-scale is not identified"));
     assert_false(fit.parameter[2].identified);
-    rb_case_fit_free(&fit);
 }
 
 /* Q/P over a creepage ratio does not depend on the load: on elements that stay every one
@@ -356,7 +349,7 @@ TEST(numbers_that_only_move_elements_are_told)
                                                                    "500",     "similar",   "yes",
                                                                    "gap",     "parabola"};
     const rb_case_data data = {3, 1, RB_CASE_FORCE_RATIO, ratio, share, NULL, NULL, NULL, NULL};
-    rb_case_fit fit = fit_of(1, names);
+    OWNED(rb_case_fit) fit = fit_of(1, names);
     rb_message why = {""};
     rb_case *c = rb_case_create(RB_CASE_CURVE);
     for (int k = 0; k < 8; k += 2)
@@ -365,7 +358,6 @@ TEST(numbers_that_only_move_elements_are_told)
     CHECK_STATUS(rb_case_fit_solve(c, &data, NULL, &fit, &why), RB_OK);
     assert_false(fit.parameter[0].identified);
     assert_non_null(strstr(fit.sentences, "the data do not determine load"));
-    rb_case_fit_free(&fit);
     rb_case_free(c);
 }
 
@@ -376,7 +368,7 @@ static double squares_at(const rb_case_data *data, double mu, double young)
     for (int k = 0; k < data->n; k++) {
         rb_message why = {""};
         rb_case *c = rb_case_create(RB_CASE_SINGLE);
-        rb_case_result r;
+        OWNED(rb_case_result) r;
         for (int i = 0; i < 10; i += 2)
             CHECK_OK(rb_case_set(c, rubber[i], rubber[i + 1], RB_GIVEN_ARGUMENT, &why));
         set_number(c, "mu", mu);
@@ -385,7 +377,6 @@ static double squares_at(const rb_case_data *data, double mu, double young)
         CHECK_OK(rb_case_resolve(c, &why));
         CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why));
         sum += pow(r.solution.tangential_load / r.solution.normal_load - data->force[k], 2.0);
-        rb_case_result_free(&r);
         rb_case_free(c);
     }
     return sum;
@@ -401,7 +392,7 @@ TEST(elements_follow_the_numbers)
     const rb_case_data data = {6, 0, RB_CASE_FORCE_OVER_LOAD, xi, share, NULL, NULL, NULL, NULL};
     double first = 0.0;
     for (int k = 0; k < 3; k++) {
-        rb_case_fit fit = fit_of(2, names);
+        OWNED(rb_case_fit) fit = fit_of(2, names);
         rb_message why = {""};
         rb_case *c = rb_case_create(RB_CASE_CURVE);
         for (int i = 0; i < 10; i += 2)
@@ -424,7 +415,6 @@ TEST(elements_follow_the_numbers)
         }
         first = k ? first : young;
         CHECK_ABS(young, first, 0.05 * fit.parameter[1].deviation, "start %g", starts[k]);
-        rb_case_fit_free(&fit);
         rb_case_free(c);
     }
 }

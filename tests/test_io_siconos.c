@@ -59,7 +59,7 @@ TEST(every_storage_gives_the_same_lcp)
 {
     const char *texts[] = {DENSE, BLOCK, TRIPLET, COLUMN};
     for (int k = 0; k < 4; k++) {
-        rb_io_lcp p;
+        OWNED(rb_io_lcp) p;
         rb_io_siconos_kind kind;
         put(texts[k]);
         CHECK_OK(rb_io_siconos_guess(path, &kind, &heard));
@@ -69,7 +69,6 @@ TEST(every_storage_gives_the_same_lcp)
         CHECK_ABS(p.q[0], -5.0, 0.0, "q");
         CHECK_ABS(p.q[1], -6.0, 0.0, "q");
         check_matrix(&p.M);
-        rb_io_lcp_free(&p);
         rb_io_lcp_free(&p);
     }
 }
