@@ -63,11 +63,6 @@ rb_status rb_sensitivity_residual(const rb_rolling_model *base, rb_rolling_model
     return RB_OK;
 }
 
-const rb_sensitivity_stencil rb_sensitivity_middle = {
-    4, {-2, -1, 1, 2}, {1 / 12., -8 / 12., 8 / 12., -1 / 12.}};
-const rb_sensitivity_stencil rb_sensitivity_ahead = {
-    5, {0, 1, 2, 3, 4}, {-25 / 12., 48 / 12., -36 / 12., 16 / 12., -3 / 12.}};
-
 /* ---- The law ----------------------------------------------------------------------- */
 
 /* Heat asks for powers > 0, and memory for at least a slip of its own: a step passes neither. */

@@ -32,14 +32,111 @@ enum { BORDER_GAP = 1, BORDER_SLIP, BORDER_REST };
 
 /* ---- equations.c ------------------------------------------------------------------- */
 
-/* Fourth-order differences: around a value, and from it on. */
-extern const rb_sensitivity_stencil rb_sensitivity_middle, rb_sensitivity_ahead;
 /* The part of a residual that bounds and given values make, controls scaled as the
  * unknowns of the base are. */
 void rb_sensitivity_given(const rb_rolling_model *base, const rb_contact_problem *problem,
                           const rb_contact_state *state, rb_sensitivity_rate *left);
 /* Computes law_slip and law_force.  RB_ENOMEM. */
 rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why);
+
+/* ---- variants.c -------------------------------------------------------------------- */
+
+/* Fourth-order differences: around a value, and from it on; of second order around it. */
+extern const rb_sensitivity_stencil rb_sensitivity_middle, rb_sensitivity_ahead,
+    rb_sensitivity_nearest;
+
+/* Parts of the input's scale: where flexibilities change, which are known to fewer digits; those of
+ * wheels have a step so much longer; and of a step along the tangent within which no other element
+ * comes first, and the pressure beside an edge hardly changes. */
+#define RB_STEP_OF_BODIES 5e-4
+#define RB_STEP_OF_WHEELS 4.0
+#define RB_STEP_OF_STATE 5e-7
+
+/* An input that cannot vary is a motion of the elements, of this kind. */
+typedef struct {
+    enum { STRETCH, SHIFT } kind;
+    double centre, half; /* of what is stretched */
+} rb_sensitivity_move;
+
+/* The model at the values of an input nearby. */
+typedef struct {
+    const rb_rolling_model *base;
+    int results; /* 0: rates alone */
+    int bodies;  /* 1: they or the interlayer change with the input */
+    int own;     /* 1: the bodies do; where they are compressed, each place has its own */
+    rb_sensitivity_stencil at;
+    int is_long; /* 1: the step is the longer one of wheels */
+    double step, scale;
+    rb_rolling_model model[RB_SENSITIVITY_PLACES];
+    const rb_rolling_model *of[RB_SENSITIVITY_PLACES]; /* that each has borrowed from */
+} rb_sensitivity_variants;
+
+int rb_sensitivity_has_wheels(const rb_rolling_model *model);
+/* Step and stencil: both ways where the range allows it.  RB_EINVAL: it allows neither. */
+rb_status rb_sensitivity_choose_places(const rb_sensitivity *s, const rb_sensitivity_input *input,
+                                       rb_sensitivity_variants *v, rb_message *why);
+/* others: for the same values of the input, of the model in free rolling its model; or NULL.
+ * The step is made smaller where the elements outside the contact change within it; RB_INACCURATE:
+ * they do within every step. */
+rb_status rb_sensitivity_variants_create(const rb_rolling_model *base,
+                                         const rb_sensitivity_input *input,
+                                         const rb_sensitivity_variants *others, int freely,
+                                         rb_sensitivity_variants *v, rb_message *why);
+void rb_sensitivity_variants_free(rb_sensitivity_variants *v);
+/* D2: adds to rate how the equations change while the unknowns stay. */
+rb_status rb_sensitivity_rates_at(const rb_sensitivity *s, const rb_sensitivity_input *input,
+                                  rb_sensitivity_variants *v, rb_sensitivity_rate *rate,
+                                  rb_message *why);
+
+/* ---- results.c --------------------------------------------------------------------- */
+
+/* d = keep d + weight (x - less) of all that has derivatives; NULL: nothing. */
+void rb_sensitivity_blend(rb_rolling_solution *d, double keep, const rb_rolling_solution *x,
+                          double weight, const rb_rolling_solution *less);
+/* In the place of the second of the results moved to the places of a stencil the derivative. */
+void rb_sensitivity_combine(const rb_sensitivity *s, const rb_sensitivity_stencil *at, double step,
+                            rb_rolling_solution *moved);
+/* (D4) derivatives of the results, whose picked ones are to be set. */
+rb_status rb_sensitivity_results(const rb_sensitivity *s, rb_sensitivity_variants *v,
+                                 const rb_contact_state *tangent, rb_rolling_solution *d,
+                                 rb_message *why);
+/* 1: the largest strain is that of no layer, a/(2R). */
+int rb_sensitivity_follows_half_width(const rb_sensitivity *s);
+/* Where both sides of a result are the same but for rounding, they are equal.  1: of all. */
+int rb_sensitivity_unite_sides(rb_sensitivity_derivative *d);
+/* Sets to 0 what is rounding of the results over the scale of the input. */
+void rb_sensitivity_clean(const rb_sensitivity *s, double scale, rb_rolling_solution *d);
+
+/* ---- picked.c ---------------------------------------------------------------------- */
+
+/* Results that are found at elements which a change may exchange for others: the edges of
+ * the contact, those that elements follow (D6), and the largest pressure. */
+enum { FROM, TO, FOLLOWED_FROM, FOLLOWED_TO, PEAK, PICKED };
+typedef struct {
+    double of[PICKED];
+} rb_sensitivity_picked;
+
+/* Their derivatives by a tangent, and, v not NULL, by the input; state: of the model's size,
+ * overwritten. */
+rb_sensitivity_picked rb_sensitivity_differentiate_picked(const rb_sensitivity *s,
+                                                          const rb_sensitivity_variants *v,
+                                                          const rb_contact_state *tangent,
+                                                          rb_contact_state *state);
+/* Half-width and centre between the edges that elements follow. */
+void rb_sensitivity_find_edges(rb_sensitivity_picked x, double edges[2]);
+void rb_sensitivity_edges_of(const rb_rolling_model *model, double edges[2]);
+/* Sets the edges of the contact, and what follows from them. */
+void rb_sensitivity_set_edges(const rb_sensitivity *s, double from, double to,
+                              rb_rolling_solution *d);
+/* Sets what is picked; strain: becomes the derivatives of what compresses the layers.  v: NULL: no
+ * input changes them.  RB_ENOMEM. */
+rb_status rb_sensitivity_set_picked(const rb_sensitivity *s, const rb_sensitivity_variants *v,
+                                    rb_sensitivity_picked x, double approach, double strain[4],
+                                    rb_rolling_solution *d);
+/* Sets the largest strain of side k from what compresses the layers. */
+void rb_sensitivity_set_strain(const rb_sensitivity *s, int k, rb_sensitivity_derivative *d);
+/* 1: two are compressed equally now, and not beside. */
+int rb_sensitivity_strain_has_sides(const rb_sensitivity *s, const double strain[4]);
 
 /* ---- differentiate.c --------------------------------------------------------------- */
 
@@ -50,8 +147,6 @@ rb_status rb_sensitivity_set_motion(rb_sensitivity *s);
  * free it in any case. */
 rb_status rb_sensitivity_along(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
                                int released, rb_sensitivity_derivative *d, rb_message *why);
-/* Sets to 0 what is rounding of the results over the scale of the input. */
-void rb_sensitivity_clean(const rb_sensitivity *s, double scale, rb_rolling_solution *d);
 /* Adds to side k of d, `factor` times, how all results change along such a line, where the
  * input is `ahead` of its value and the element changes its zone. */
 rb_status rb_sensitivity_add_jump(const rb_sensitivity *s, const rb_sensitivity_derivative *line,
