@@ -33,6 +33,8 @@ static const words histories[] = {
       "3.5", "speed", "1000"}},
     {{PLANES, ROLLS, "creep", "1e-3", "layer-thickness", "2", "base-young", "200000",
       "base-poisson", "0.3"}},
+    /* no force at rest without friction: none by mu, but all others */
+    {{PLANES, ROLLS, "young-b", "70000", "creep", "2e-3", "mu", "0"}},
     {{"support", "halfplane", "contact-elements", "30", "formulation", "transient", "similar",
       "yes", "history", "tests/data/slopes_history.tsv"}},
 };

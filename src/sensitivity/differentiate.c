@@ -158,6 +158,11 @@ static rb_status differentiate(const rb_sensitivity *s, const rb_sensitivity_inp
         status = rb_sensitivity_rate_alloc(s->n, &d->rate);
     if (status == RB_OK)
         status = rb_sensitivity_rates_at(s, input, v, &d->rate, why);
+    /* over a friction of 0; surfaces that do not slide rest */
+    if (status == RB_OK && !isfinite(d->rate.tangential) && s->at_rest < s->contact)
+        status = rb_fail(why, RB_EINVAL,
+                         "derivatives: a given force does not tell the creepage of surfaces that "
+                         "slide without friction");
     for (int k = 0; k < 2 && status == RB_OK; k++)
         if (d->has[k])
             status = differentiate_side(s, v, k, d, why);

@@ -263,10 +263,6 @@ rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_r
         tangent->delta = tangent->xi = 0.0;
         return RB_OK;
     }
-    if (!isfinite(rate->tangential)) /* over a friction of 0 */
-        return rb_fail(why, RB_EINVAL,
-                       "derivatives: a given force does not tell the creepage of surfaces that "
-                       "slide without friction");
     if (rub > 0 && !s->factors)
         return rb_fail(why, RB_EINVAL,
                        "derivatives: which way %d element%s without friction will slide is found "
