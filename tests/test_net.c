@@ -885,12 +885,11 @@ static void check_certificate(void)
 }
 
 /* Of what has none: friction that depends on the state, or yields, without matrices or in
- * steps; a history whose unit is found; elements that yield and slide at once. */
+ * steps; a history whose unit is found. */
 static int has_no_derivatives(const char *errors)
 {
     static const char *const reasons[] = {"needs matrices", "not for friction that depends",
-                                          "give a load",
-                                          "the interface yields while the surfaces slide"};
+                                          "give a load"};
     for (size_t k = 0; k < sizeof reasons / sizeof *reasons; k++)
         if (strstr(errors, reasons[k]))
             return 1;

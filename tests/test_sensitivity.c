@@ -56,6 +56,9 @@ static const words regimes[] = {
       "speed",    "1000",  "memory",  "0.1",     "tol",   "1e-13"}},
     {{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "yield-stress", "30", "hardening", "100",
       "interlayer-tangential", "1e-6"}},
+    /* it yields where the surfaces slide, too */
+    {{PLANES, ROLLING, "similar", "yes", "creep", "-3e-3", "yield-stress", "5", "hardening", "1e5",
+      "interlayer-tangential", "1e-5", "slip-operator", "second"}},
     {{PLANES, ROLLING, "young-b", "70000", "creep", "1.5e-3", "conductivity", "50", "heat-capacity",
       "3.5", "speed", "1000"}},
     {{PLANES, ROLLING, "similar", "yes", "creep", "1e-3", "conductivity", "50", "heat-capacity",

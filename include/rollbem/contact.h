@@ -186,6 +186,11 @@ typedef struct rb_contact_state {
 rb_status rb_contact_state_alloc(int n, rb_contact_state *state);
 void rb_contact_state_free(rb_contact_state *state);
 
+/* 1: in element i the surfaces slide and the layer between them yields, too: |r_T| = bound r_N
+ * and, with hardening, u is what raises the yield stress up to it (Y1). */
+int rb_contact_slips_and_yields(const rb_contact_problem *problem, const rb_contact_state *state,
+                                int i);
+
 /* Computes gap (n) and lambda (n) from p, q, delta and xi. */
 void rb_contact_kinematics(const rb_contact_problem *problem, const rb_contact_state *state,
                            double *gap, double *lambda);

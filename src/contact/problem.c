@@ -137,6 +137,12 @@ void rb_contact_yielded(const rb_contact_problem *p, const double *plastic, doub
     }
 }
 
+int rb_contact_slips_and_yields(const rb_contact_problem *p, const rb_contact_state *state, int i)
+{
+    return p->yield && state->plastic[i] != 0.0 &&
+           (state->zone[i] == RB_ZONE_SLIP_NEGATIVE || state->zone[i] == RB_ZONE_SLIP_POSITIVE);
+}
+
 double rb_contact_yield_stress(const rb_contact_problem *p, int i, double u)
 {
     return p->yield ? fmax(p->yield[i] + p->hardening * u, 0.0) : INFINITY;

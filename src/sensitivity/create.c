@@ -26,12 +26,11 @@ static rb_status check(const rb_rolling_model *model, rb_message *why)
                        "derivatives: friction that depends on the state, or an interface "
                        "that yields, needs matrices: fewer than %d elements",
                        RB_ROLLING_LARGE);
-    for (int i = 0; i < state->n && model->problem.yield; i++)
-        if (state->zone[i] != RB_ZONE_SEPARATED && state->zone[i] <= RB_ZONE_SLIP_POSITIVE &&
-            state->plastic[i] != 0.0)
+    for (int i = 0; i < state->n && model->problem.hardening == 0.0; i++)
+        if (rb_contact_slips_and_yields(&model->problem, state, i))
             return rb_fail(why, RB_EINVAL,
-                           "derivatives: at element %d the interface yields while the "
-                           "surfaces slide",
+                           "derivatives: at element %d the interface yields without hardening "
+                           "while the surfaces slide",
                            i + 1);
     const rb_status s = rb_contact_residual(&model->problem, state, &violation);
     if (s == RB_OK && !(violation.scaled <= fmax(SOLVED, model->problem.rounding)))

@@ -61,11 +61,12 @@ static rb_sensitivity_factors *factors_alloc(int n, const int *zone)
     return NULL;
 }
 
-/* How the tangential unknowns of element i depend on the slips of others: the friction of
- * an element that slides on those that the law asks, that of one that yields on what has
- * yielded upstream. weight: n, of the slips; force: n, of the friction. */
+/* How the tangential unknowns of element i depend on those of others: the friction of an element
+ * that slides on the slips that the law asks, that of one that yields on what has yielded upstream,
+ * which where the surfaces slip, too, is what mu p asks. weight: n, of the slips; force: n, of the
+ * friction; pressure: n. */
 static void dependence(const rb_sensitivity *s, const int *zone, int i, double *weight,
-                       double *force)
+                       double *force, double *pressure)
 {
     const rb_contact_problem *p = &s->model->problem;
     const size_t n = (size_t)s->n;
@@ -73,6 +74,7 @@ static void dependence(const rb_sensitivity *s, const int *zone, int i, double *
 
     memset(weight, 0, n * sizeof *weight);
     memset(force, 0, n * sizeof *force);
+    memset(pressure, 0, n * sizeof *pressure);
     if (slides(zone[i]) && s->law_slip)
         for (size_t j = 0; j < n; j++) {
             weight[j] = zone[j] != RB_ZONE_STICK ? -friction * s->law_slip[(size_t)i + j * n] : 0.0;
@@ -86,10 +88,13 @@ static void dependence(const rb_sensitivity *s, const int *zone, int i, double *
         return;
     double now = -sign_of(zone[i]) * p->hardening, next = 0.0;
     for (int j = i; j < s->n; j++) { /* u_i in those upstream of it */
-        const double after = p->recall[0] * now + next;
-        if (yields(zone[j]))
+        const int ends = slides(zone[j]) && rb_contact_slips_and_yields(p, &s->model->state, j);
+        const double after = (ends ? 0.0 : p->recall[0] * now) + next;
+        if (ends)
+            pressure[j] = now * p->bound[j] / p->hardening;
+        else if (yields(zone[j]))
             weight[j] = -sign_of(zone[j]) * p->own * now;
-        next = p->recall[1] * now;
+        next = ends ? 0.0 : p->recall[1] * now;
         now = after;
     }
 }
@@ -116,7 +121,7 @@ static void fill_element(const rb_sensitivity *s, rb_sensitivity_factors *f, int
     const rb_contact_problem *p = &s->model->problem;
     const int m = f->contacts, i = f->contact[c], zone = f->zone[i];
     const size_t n = (size_t)s->n, ld = (size_t)f->size;
-    double *tangential = f->J + m + 1 + c, *force = weight + n;
+    double *tangential = f->J + m + 1 + c, *force = weight + n, *pressure = force + n;
 
     f->row[m + 1 + c] = 1.0 / (zone == RB_ZONE_STICK ? p->slip_length : p->stress);
     if (zone == RB_ZONE_STICK) {
@@ -126,12 +131,14 @@ static void fill_element(const rb_sensitivity *s, rb_sensitivity_factors *f, int
     tangential[(size_t)(m + 1 + c) * ld] = 1.0;
     if (slides(zone))
         tangential[(size_t)c * ld] = -sign_of(zone) * p->bound[i];
-    dependence(s, f->zone, i, weight, force);
+    dependence(s, f->zone, i, weight, force, pressure);
     for (int j = 0; j < s->n; j++)
         if (weight[j] != 0.0)
             add_slip(s, f, j, weight[j], tangential);
-    for (int k = 0; k < m; k++)
+    for (int k = 0; k < m; k++) {
+        tangential[(size_t)k * ld] += pressure[f->contact[k]];
         tangential[(size_t)(m + 1 + k) * ld] += force[f->contact[k]];
+    }
 }
 
 double rb_sensitivity_xi_by_load(const rb_rolling_model *model)
@@ -227,7 +234,7 @@ rb_status rb_sensitivity_factor(const rb_sensitivity *s, const int *zone,
     const rb_contact_problem *p = &s->model->problem;
     const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
     rb_sensitivity_factors *f = *factors = factors_alloc(s->n, zone);
-    double *scratch = rb_alloc((size_t)s->n, 2);
+    double *scratch = rb_alloc((size_t)s->n, 3);
 
     if (!f || !scratch) {
         free(scratch);
