@@ -65,16 +65,28 @@ rb_status rb_sensitivity_residual(const rb_rolling_model *base, rb_rolling_model
 
 /* ---- The law ----------------------------------------------------------------------- */
 
-/* Heat asks for powers > 0, and memory for at least a slip of its own: a step passes neither. */
+/* A step of the slip or friction of element i, ahead of which the law is smooth: laws ask for the
+ * size of slips, heat for powers > 0, and memory for at least a slip of its own. It goes away from
+ * the nearest kink, as a slip that is nearly 0 is too small to be a step. At rest it goes against
+ * the friction. */
 static double step_at(const rb_rolling_model *model, int of_friction, int i, double step)
 {
-    const double x = fabs(of_friction ? model->state.q[i] : model->state.lambda[i]),
+    enum { PLACES_AHEAD = 4 };
+    const double q = model->state.q[i],
+                 x = of_friction                             ? q
+                     : model->state.zone[i] == RB_ZONE_STICK ? 0.0
+                                                             : model->state.lambda[i],
+                 size = fabs(x),
+                 away = x != 0.0  ? copysign(1.0, x)
+                        : q > 0.0 ? -1.0
+                                  : 1.0,
                  kink = of_friction ? 0.0
                                     : model->rc->friction.memory_slip * model->problem.e_T[i] /
-                                          model->rc->speed,
-                 room = fmin(x > 0.0 ? x : INFINITY, x != kink ? fabs(x - kink) : INFINITY);
+                                          model->rc->speed;
 
-    return fmin(step, 0.25 * room);
+    return size >= kink        ? away * step
+           : 2.0 * size < kink ? away * fmin(step, (kink - size) / PLACES_AHEAD)
+                               : -away * fmin(step, size / PLACES_AHEAD);
 }
 
 /* Derivative of the coefficients that the law gives with respect to the slip, or to the
@@ -84,7 +96,7 @@ static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_mod
                                    int of_friction, int at_rest, double step, int at,
                                    double *derivative, rb_message *why)
 {
-    const rb_sensitivity_stencil *places = at_rest ? &rb_sensitivity_ahead : &rb_sensitivity_middle;
+    const rb_sensitivity_stencil *places = &rb_sensitivity_ahead;
     const int n = model->problem.n;
     double *x = of_friction ? v->state.q : v->state.lambda;
     rb_status s = RB_OK;
@@ -95,17 +107,14 @@ static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_mod
             if (at >= 0   ? i == at
                 : at_rest ? v->state.zone[i] == RB_ZONE_STICK
                           : v->state.zone[i] > RB_ZONE_STICK)
-                x[i] += (at_rest ? (v->state.q[i] > 0.0 ? -step : step)
-                                 : step_at(model, of_friction, i, step)) *
-                        places->place[k];
+                x[i] += step_at(model, of_friction, i, step) * places->place[k];
         s = rb_rolling_model_friction(v, why);
         memcpy(v->state.lambda, model->state.lambda, (size_t)n * sizeof *x);
         memcpy(v->state.q, model->state.q, (size_t)n * sizeof *x);
         for (int i = 0; i < n; i++) {
-            const double unit = at_rest ? (v->state.q[i] > 0.0 ? -step : step)
-                                        : step_at(model, of_friction, at >= 0 ? at : i, step);
             v->state.lambda[i] *= v->state.zone[i] != RB_ZONE_STICK;
-            derivative[i] += places->weight[k] * v->problem.bound[i] / unit;
+            derivative[i] += places->weight[k] * v->problem.bound[i] /
+                             step_at(model, of_friction, at >= 0 ? at : i, step);
         }
     }
     return s;
@@ -119,7 +128,7 @@ static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *scratc
     const rb_rolling_friction *f = &model->rc->friction;
     const rb_contact_problem *p = &model->problem;
     const size_t n = (size_t)s->n;
-    const double slip = 1e-3 * p->slip_length, stress = 1e-3 * p->mu * p->stress;
+    const double slip = 5e-5 * p->slip_length, stress = 5e-5 * p->mu * p->stress;
     rb_status status = RB_OK;
 
     if (f->memory == 0.0 && f->heat == 0.0) {
