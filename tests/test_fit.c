@@ -419,6 +419,37 @@ TEST(elements_follow_the_numbers)
     }
 }
 
+/* Of elements that move, too, a bound holds the number that presses against it, and a start may lie
+ * on a bound. */
+TEST(bounds_hold_where_elements_move)
+{
+    static double xi[] = {-0.05, -0.03, -0.01, 0.01, 0.03, 0.05},
+                  share[] = {0.4012, 0.3474, 0.0821, -0.2452, -0.3841, -0.3991};
+    static const char *const names[] = {"mu", "young"};
+    const rb_case_data data = {6, 0, RB_CASE_FORCE_OVER_LOAD, xi, share, NULL, NULL, NULL, NULL};
+    for (int k = 0; k < 2; k++) {
+        OWNED(rb_case_fit) fit = fit_of(2, names);
+        rb_message why = {""};
+        rb_case *c = rb_case_create(RB_CASE_CURVE);
+        for (int i = 0; i < 10; i += 2)
+            CHECK_OK(rb_case_set(c, rubber[i], rubber[i + 1], RB_GIVEN_ARGUMENT, &why));
+        fit.parameter[0].start = 0.4;
+        fit.parameter[1].start = k ? 10.5 : 30.0;
+        fit.parameter[1].low = 10.5;
+        CHECK_OK(rb_case_resolve(c, &why));
+        if (rb_case_fit_solve(c, &data, NULL, &fit, &why) != RB_OK)
+            fail_msg("%s", why.text);
+        const double mu = fit.parameter[0].value, young = fit.parameter[1].value,
+                     least = squares_at(&data, mu, young), off = 0.2 * fit.parameter[0].deviation;
+        CHECK_ABS(young, 10.5, 1e-6, "start %d", k);
+        assert_true(fit.parameter[1].at_bound);
+        CHECK_REL(fit.chi_square, least, 1e-3, "start %d", k);
+        assert_true(squares_at(&data, mu - off, young) > least);
+        assert_true(squares_at(&data, mu + off, young) > least);
+        rb_case_free(c);
+    }
+}
+
 /* The steps of derivatives are parts of the numbers reached, not of the start. */
 TEST(a_start_far_away_ends_at_the_same_numbers)
 {

@@ -291,15 +291,14 @@ static rb_status set_parameter(fit_problem *p, int j, rb_message *why)
         return rb_fail(why, RB_EINVAL, "--bounds: %s: no value of %g to %g can be fitted", of->name,
                        rb_unit_shown(units, of->unit, asked[0]),
                        rb_unit_shown(units, of->unit, asked[1]));
-    double inside = of->value;
-    rb_case_fit_clip(of, &inside);
-    /* what other units round may be on an end */
-    if (!isnan(of->start) && fabs(inside - of->value) > 1e-12 * of->scale)
+    const double x = of->value, near = 1e-12 * of->scale; /* what other units round */
+    if (!isnan(of->start) && (x < of->low - near || x > of->high + near ||
+                              (of->low_open && x <= of->from) || (of->high_open && x >= of->to)))
         return rb_fail(why, RB_EINVAL, "--start: %s = %g is not within its bounds, %g to %g",
                        of->name, rb_unit_shown(units, of->unit, of->value),
                        rb_unit_shown(units, of->unit, of->low),
                        rb_unit_shown(units, of->unit, of->high));
-    of->value = inside;
+    rb_case_fit_clip(of, &of->value);
     return RB_OK;
 }
 
@@ -343,9 +342,10 @@ rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_cas
 
 /* ---- Elements that do not come to rest --------------------------------------------- */
 
-/* Gauss's step d to the least sum of squares, and by what part of the noise the curve then moves,
- * all points together. */
-static rb_status gauss_step(const fit_problem *p, double *d, double *moves, rb_message *why)
+/* Gauss's step d from theta to the least sum of squares, and by what part of the noise the curve
+ * then moves, all points together.  Numbers that a bound holds stay. */
+static rb_status gauss_step(const fit_problem *p, const double *theta, double *d, double *moves,
+                            rb_message *why)
 {
     const size_t points = (size_t)p->points, n = (size_t)p->n;
     rb_arena scratch = {0};
@@ -355,9 +355,12 @@ static rb_status gauss_step(const fit_problem *p, double *d, double *moves, rb_m
 
     if (scratch.failed)
         return rb_arena_done(&scratch, rb_fail(why, RB_ENOMEM, "out of memory for a step"));
-    for (size_t j = 0; j < n; j++)
+    for (size_t j = 0; j < n; j++) {
+        const double scale =
+            rb_case_fit_is_held(p, (int)j, theta[j]) ? 0.0 : p->fit->parameter[j].scale;
         for (size_t k = 0; k < points; k++)
-            J[k + j * points] = fit_column(p, (int)j)[k] * p->fit->parameter[j].scale;
+            J[k + j * points] = fit_column(p, (int)j)[k] * scale;
+    }
     for (size_t k = 0; k < points; k++)
         b[k] = -p->f[k];
     const int info = LAPACKE_dgelsd(LAPACK_COL_MAJOR, p->points, p->n, 1, J, p->points, b,
@@ -378,18 +381,19 @@ static rb_status gauss_step(const fit_problem *p, double *d, double *moves, rb_m
 /* Gauss's method on elements that move with the numbers, where the minima on elements that stay
  * lead from one to the next.  The points have their elements for theta and are tried there.
  * RB_MAXITER: no minimum is found. */
-static rb_status descend_with_elements(fit_problem *p, double *theta, double chi2, rb_message *why)
+static rb_status descend_with_elements(fit_problem *p, double *theta, double chi2,
+                                       const rb_case_fit_observer *observer, rb_message *why)
 {
     double d[RB_CASE_FIT_MAX], trial[RB_CASE_FIT_MAX], moves = INFINITY;
     rb_status s = RB_OK;
 
-    for (int k = 0; k < MOVING_STEPS && s == RB_OK; k++) {
+    for (int k = 0; s == RB_OK; k++) {
         double part = 1.0, least = INFINITY;
         p->fit->chi_square = chi2;
         s = rb_case_fit_move(p, theta, why);
         if (s == RB_OK)
-            s = gauss_step(p, d, &moves, why);
-        if (s != RB_OK || moves <= AT_REST)
+            s = gauss_step(p, theta, d, &moves, why);
+        if (s != RB_OK || moves <= AT_REST || k == MOVING_STEPS)
             break;
         for (int h = 0; h < HALVINGS && s == RB_OK && !(least < chi2); h++, part *= 0.5) {
             int moved;
@@ -400,10 +404,15 @@ static rb_status descend_with_elements(fit_problem *p, double *theta, double chi
             s = rb_case_fit_place(p, trial, &moved, why);
             if (s == RB_OK)
                 s = rb_case_fit_try(p, trial, &least, why);
+            if (s != RB_OK && s != RB_ENOMEM) { /* a point has no solution there */
+                least = INFINITY;
+                s = RB_OK;
+            }
         }
         if (s == RB_OK && least < chi2) {
-            memcpy(theta, trial, sizeof trial);
+            memcpy(theta, trial, (size_t)p->n * sizeof *trial);
             chi2 = least;
+            s = rb_case_fit_tell(p->fit, observer, chi2, theta, why);
             continue;
         }
         /* back to the elements of the least sum */
@@ -485,7 +494,7 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
             moved = fabs(chi2 - fit->chi_square) > SAME * fit->chi_square + SAME_OF_ALL * squares;
     }
     if (s == RB_OK && moved) {
-        s = descend_with_elements(&p, theta, chi2, why);
+        s = descend_with_elements(&p, theta, chi2, observer, why);
         if (s == RB_MAXITER)
             s = rb_fail(
                 why, s,
@@ -495,9 +504,9 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
     }
     for (int j = 0; j < fit->n && s != RB_EINVAL && s != RB_ENOMEM; j++)
         fit->parameter[j].value = theta[j];
-    fit->kappa = p.kappa;
     if (s == RB_OK && moves && !moved) /* otherwise they are known */
         s = rb_case_fit_move(&p, theta, why);
+    fit->kappa = p.kappa;
     if (s == RB_OK) {
         doubt_data(&p);
         set_intervals(&p, theta);

@@ -41,7 +41,7 @@ typedef struct {
                       of the accepted numbers */
     double staying[RB_CASE_FIT_MAX]; /* the largest entries of the columns of J on elements that
                                         stay */
-    double kappa;                    /* the largest of all points, with the accepted numbers */
+    double kappa;                    /* the largest of all points, with the numbers of J */
 } fit_problem;
 
 /* ---- fit_points.c ------------------------------------------------------------------ */
@@ -57,8 +57,8 @@ rb_status rb_case_fit_accept(fit_problem *p, const double *theta, rb_message *wh
  * in another zone (rb_sensitivity_extend). */
 rb_status rb_case_fit_extend(fit_problem *p, const double *theta, int k, int element, int zone,
                              double *f, double *row, rb_message *why);
-/* Gives J the derivatives on elements that move with the numbers (theory.md, D6), for
- * intervals; columns of numbers that change nothing then are 0. */
+/* Gives J the derivatives on elements that move with the numbers (theory.md, D6); columns of
+ * numbers that change nothing then are 0.  And kappa of the elements for theta. */
 rb_status rb_case_fit_move(fit_problem *p, const double *theta, rb_message *why);
 /* Frees the solutions of all points with the accepted numbers, or those of a trial. */
 void rb_case_fit_release(fit_problem *p, int which);
@@ -70,6 +70,11 @@ double rb_case_fit_residual(const fit_problem *p, int k, double model);
 /* Moves theta to the least sum of squares. */
 rb_status rb_case_fit_descend(fit_problem *p, double *theta, const rb_case_fit_observer *observer,
                               rb_message *why);
+/* After each step: 1 more.  RB_INTERRUPTED: the observer (or NULL) wants no other. */
+rb_status rb_case_fit_tell(rb_case_fit *fit, const rb_case_fit_observer *o, double chi2,
+                           const double *theta, rb_message *why);
+/* 1: number j has the value x at a bound that the sum of squares, with f and J, presses against. */
+int rb_case_fit_is_held(const fit_problem *p, int j, double x);
 /* Moves a number into its bounds. */
 void rb_case_fit_clip(const rb_case_parameter *of, double *x);
 

@@ -25,6 +25,14 @@ void rb_case_fit_clip(const rb_case_parameter *of, double *x)
               of->high - (of->high_open ? inside : 0.0));
 }
 
+int rb_case_fit_is_held(const fit_problem *p, int j, double x)
+{
+    const rb_case_parameter *of = &p->fit->parameter[j];
+    const double down = fit_dot(p->points, fit_column(p, j), p->f), near = 1e-8 * of->scale;
+
+    return (x <= of->low + near && down > 0.0) || (x >= of->high - near && down < 0.0);
+}
+
 /* An element that is in another zone at a trial than at the accepted numbers.  Where it
  * changes, the residual of its point is continuous, but its derivatives are not. */
 typedef struct {
@@ -100,18 +108,19 @@ static void evaluate_at(const gsl_vector *x, state *at)
         p->f[k] = rb_case_fit_residual(p, k, p->fit->model[k]);
 }
 
-/* After each step. */
+rb_status rb_case_fit_tell(rb_case_fit *fit, const rb_case_fit_observer *o, double chi2,
+                           const double *theta, rb_message *why)
+{
+    fit->iterations++;
+    return o && o->step && o->step(fit->iterations, chi2, fit->n, theta, o->context)
+               ? rb_fail(why, RB_INTERRUPTED, "fit: interrupted after %d step%s", fit->iterations,
+                         fit->iterations == 1 ? "" : "s")
+               : RB_OK;
+}
+
 static rb_status tell(const state *at)
 {
-    rb_case_fit *fit = at->p->fit;
-    const rb_case_fit_observer *o = at->observer;
-
-    fit->iterations++;
-    return o && o->step &&
-                   o->step(fit->iterations, at->accepted_chi2, fit->n, at->accepted, o->context)
-               ? rb_fail(at->why, RB_INTERRUPTED, "fit: interrupted after %d step%s",
-                         fit->iterations, fit->iterations == 1 ? "" : "s")
-               : RB_OK;
+    return rb_case_fit_tell(at->p->fit, at->observer, at->accepted_chi2, at->accepted, at->why);
 }
 
 /* ---- Kinks ------------------------------------------------------------------------- */
@@ -169,7 +178,7 @@ static rb_status step_to_least(const state *at, int kinks, double *d, double *le
 {
     const fit_problem *p = at->p;
     const size_t points = (size_t)p->points, ld = (size_t)p->n;
-    double *A = rb_alloc(points, ld + 1), *f = A + points * ld;
+    double *A = rb_alloc(points, ld + 1);
     int number[RB_CASE_FIT_MAX],
         n = 0, choices = 1; /* number: of those that move f and that no bound holds */
 
@@ -177,6 +186,7 @@ static rb_status step_to_least(const state *at, int kinks, double *d, double *le
     memset(d, 0, ld * sizeof *d);
     if (!A)
         return rb_fail(at->why, RB_ENOMEM, "out of memory for a step");
+    double *f = A + points * ld;
     for (int j = 0; j < p->n; j++)
         if (!at->held[j] && rb_norm_inf(points, fit_column(p, j)) > 0.0)
             number[n++] = j;
@@ -240,14 +250,8 @@ static void accept(const gsl_vector *x, state *at)
     gsl_vector_memcpy(at->x, x);
     for (size_t j = 0; j < (size_t)p->n && at->clipped; j++)
         gsl_vector_set(at->x, j, over_scale(at, at->accepted, j));
-    for (int j = 0; j < p->n && at->accepted_status == RB_OK; j++) {
-        /* A bound that the sum of squares presses against holds a parameter. */
-        const rb_case_parameter *of = &p->fit->parameter[j];
-        const double down = fit_dot(p->points, fit_column(p, j), p->f);
-        const double near = 1e-8 * of->scale;
-        at->held[j] = (at->theta[j] <= of->low + near && down > 0.0) ||
-                      (at->theta[j] >= of->high - near && down < 0.0);
-    }
+    for (int j = 0; j < p->n && at->accepted_status == RB_OK; j++)
+        at->held[j] = rb_case_fit_is_held(p, j, at->theta[j]);
     if (at->accepted_status == RB_OK)
         at->accepted_status = step_to_least(at, 0, d, &least);
     at->promise = isfinite(least) ? 1.0 - least / at->accepted_chi2 : 1.0;

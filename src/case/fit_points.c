@@ -341,8 +341,10 @@ rb_status rb_case_fit_move(fit_problem *p, const double *theta, rb_message *why)
     const int ratio = p->data->measure == RB_CASE_FORCE_RATIO;
     rb_status status = RB_OK;
 
+    p->kappa = 0.0;
     for (int k = 0; k < p->points && status == RB_OK; k++) {
         place at = {p, theta, k, -1};
+        double kappa = NAN;
         rb_rolling_case rc;
         rb_rolling_model own = {.mesh = {.n = 0}};
         const int is_first = p->at[k].first == k; /* its base is the solution for theta */
@@ -351,6 +353,9 @@ rb_status rb_case_fit_move(fit_problem *p, const double *theta, rb_message *why)
         status = is_first ? RB_OK : case_at(&at, 0.0, &rc, why);
         if (status == RB_OK && !is_first)
             status = rb_rolling_model_create(&rc, &own, why);
+        if (status == RB_OK && rb_rolling_law_depends_on_state(model->rc))
+            status = rb_rolling_law_kappa(model, &kappa);
+        p->kappa = fmax(p->kappa, kappa);
         if (status == RB_OK)
             status = rb_sensitivity_create(model, 1, &s, why);
         for (int j = 0; j < p->n && status == RB_OK; j++) {
