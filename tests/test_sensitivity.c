@@ -577,6 +577,36 @@ TEST(ends_of_ranges)
     rb_case_free(c);
 }
 
+/* Heat brings the coefficient to 0, but not below. */
+TEST(what_heat_takes_away)
+{
+    const words w = {{PLANES, ROLLING, "similar", "yes", "creep", "2e-3", "speed", "1000",
+                      "conductivity", "50", "heat-capacity", "3.8", "mu", "0.2", "mu-heat",
+                      "-0.2,0,1", "tol", "1e-13"}};
+    const double step = 1e-6;
+    rb_message why = {""};
+    rb_case_result r, some[2];
+    rb_case_derivatives all;
+    rb_case *c = solved(&w, NULL, 0.0, &r);
+    CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
+    CHECK_STATUS(of(&all, "mu-heat")->status, RB_OK);
+    const rb_case_derivative *d = of(&all, "mu");
+    CHECK_STATUS(d->status, RB_OK);
+    assert_false(d->d.has[0]);
+    for (int j = 0; j < 2; j++)
+        rb_case_free(solved(&w, "mu", 0.2 + (j + 1) * step, &some[j]));
+    CHECK_REL(d->d.value[1].tangential_load,
+              (-1.5 * r.solution.tangential_load + 2.0 * some[0].solution.tangential_load -
+               0.5 * some[1].solution.tangential_load) /
+                  step,
+              1e-6, "Q by mu");
+    for (int j = 0; j < 2; j++)
+        rb_case_result_free(&some[j]);
+    rb_case_derivatives_free(&all);
+    rb_case_result_free(&r);
+    rb_case_free(c);
+}
+
 /* Without friction an element that does not slide has no direction: a coefficient that begins to
  * grow lets it rest, or finds one. */
 TEST(friction_begins_where_nothing_slides)

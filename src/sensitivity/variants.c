@@ -70,6 +70,10 @@ rb_status rb_sensitivity_choose_places(const rb_sensitivity *s, const rb_sensiti
         v->is_long = 1;
     }
     const rb_sensitivity_stencil *at = rb_sensitivity_stencil_of(input, v->step);
+    /* where slip or heat brings mu to 0, a smaller mu is no case */
+    if (at == &rb_sensitivity_middle && rb_rolling_law_depends_on_state(s->model->rc) &&
+        input->vary && input->vary(input->context, x - 2.0 * v->step, &rc, why) == RB_EINVAL)
+        at = &rb_sensitivity_ahead;
     if (!at)
         return rb_fail(why, RB_EINVAL, "derivatives: the input cannot vary within its range");
     v->at = *at;
