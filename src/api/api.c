@@ -858,7 +858,8 @@ static void each_pivot(const rb_lcp_pivot *p, void *context)
 {
     rb_api *a = context;
     const size_t n = (size_t)p->n;
-    double *value = rb_alloc(3 * n, 1), *column = value + n, *basis = value + 2 * n;
+    double *value = rb_alloc(3 * n, 1), *column = value ? value + n : NULL,
+           *basis = value ? value + 2 * n : NULL;
     const double entering = p->entering, leaving = p->leaving, row = p->row;
     const struct {
         const char *name;

@@ -7,8 +7,10 @@ rb_status rb_elimination_begin(int m, rb_elimination *e)
 {
     *e = (rb_elimination){.m = m, .kept = m};
     e->row = rb_arena_ints(&e->memory, 2 * (size_t)m);
+    if (!e->row)
+        return RB_ENOMEM;
     e->column = e->row + m;
-    return e->row ? RB_OK : RB_ENOMEM;
+    return RB_OK;
 }
 
 rb_status rb_elimination_keep(int kept, rb_elimination *e)

@@ -301,7 +301,7 @@ static rb_bem_layer_table *make_table(const rb_bem_surface *body, int pieces,
 {
     const size_t terms = (size_t)body->terms;
     rb_bem_layer_table *table = calloc(1, sizeof *table);
-    double *ratio = rb_alloc(terms + 1, 3), *length = ratio + terms;
+    double *ratio = rb_alloc(terms + 1, 3), *length = ratio ? ratio + terms : NULL;
 
     if (!table || !ratio) {
         free(table);

@@ -591,7 +591,7 @@ static void take_slopes(const varied *v, int n, rb_case_slopes *s)
             }
 }
 
-/* Standard deviations of all columns that the history has. */
+/* Standard deviations of all columns that the history has; without memory it has none. */
 static rb_status take_deviations(const rb_case_tolerances *t, const varied *v, int n,
                                  rb_rolling_history *history)
 {
@@ -605,8 +605,12 @@ static rb_status take_deviations(const rb_case_tolerances *t, const varied *v, i
         double **column = (double **)(void *)((char *)d + r->offset);
         if (!rb_sensitivity_has(r) || !rb_rolling_has_column(r, history))
             continue;
-        if (!(*column = rb_alloc((size_t)d->n, 1)))
+        if (!(*column = rb_alloc((size_t)d->n, 1))) {
+            rb_rolling_history_free(d);
+            free(d);
+            history->deviations = NULL;
             return RB_ENOMEM;
+        }
         for (int j = 0; j < n; j++)
             for (int i = 0; i < t->n; i++)
                 for (int row = 0; row < d->n && strcmp(t->name[i], v[j].number->name) == 0; row++)

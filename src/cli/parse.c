@@ -112,7 +112,7 @@ cli_exit cli_parse(const cli_spec *spec, int argc, char **argv, cli_args *args)
         if (argument[1] != '-') {
             const size_t n = strcspn(argument + 1, "=");
             const char *other = cli_other_name(argument + 1, n);
-            if (!other)
+            if (!other && n > 0)
                 other = option_that_begins(spec, argument + 1, n);
             return cli_fail(CLI_USAGE, "unknown option '%s' (options start with --%s%s)", argument,
                             other ? ", as --" : "; --help lists them", other ? other : "");

@@ -286,10 +286,11 @@ static rb_status solve_by_products(const laws *k, const rb_contact_state *state,
                                       .border_column = border_column,
                                       .border_rows = border_rows,
                                       .of = k};
-    double *start = rb_arena_doubles(scratch, (size_t)k->size, 1), *border = start + k->inner;
+    double *start = rb_arena_doubles(scratch, (size_t)k->size, 1);
 
     if (!start)
         return RB_ENOMEM;
+    double *border = start + k->inner;
     for (int i = 0; i < p->n; i++) {
         if (k->at_p[i] >= 0)
             start[k->at_p[i]] = state->p[i] / p->stress;

@@ -14,7 +14,7 @@ rb_status rb_crack_load(const rb_crack *c, const rb_bem_edge_load *load, double 
     gsl_integration_glfixed_table *const rule[2] = {gsl_integration_glfixed_table_alloc(POINTS),
                                                     NULL};
     rb_crack_point *point = calloc(points, sizeof *point);
-    double *xy = rb_alloc(points, 5), *stress = xy + 2 * points;
+    double *xy = rb_alloc(points, 5), *stress = xy ? xy + 2 * points : NULL;
     double *q = rb_alloc((size_t)strips + 1, 1);
     rb_status s = rule[0] && point && xy && q ? RB_OK : RB_ENOMEM;
 

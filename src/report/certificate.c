@@ -133,9 +133,10 @@ static rb_status fit_motion(rb_certificate *c, rb_message *why)
     const rb_contact_problem *p = &c->model.problem;
     rb_contact_state *x = &c->model.state;
     const size_t n = (size_t)p->n;
-    double *w = rb_alloc(n, 6), *unit = w + 2 * n, *printed = w + 4 * n;
+    double *w = rb_alloc(n, 6);
     if (!w)
         return RB_ENOMEM;
+    double *unit = w + 2 * n, *printed = w + 4 * n;
     const rb_status s = rb_certificate_column(c->name, c->table, "gap_mm", p->n, printed, why);
     memcpy(printed + n, x->lambda, n * sizeof *printed);
     x->xi = p->xi;
@@ -291,11 +292,12 @@ rb_status rb_certificate_laws(rb_certificate *c)
     const double apart = c->tol * problem->gap_length + c->displacement;
     const double length = c->tol * problem->slip_length;
     const double stress = c->tol * fmax(problem->mu, 1e-3) * problem->stress;
-    double *gap = rb_alloc((size_t)n, 3), *yielded = gap + 2 * n;
+    double *gap = rb_alloc((size_t)n, 3);
     rb_contact_violation v;
 
     if (!gap)
         return RB_ENOMEM;
+    double *yielded = gap + 2 * n;
     rb_contact_kinematics(problem, x, gap, gap + n);
     rb_contact_yielded(problem, x->plastic, yielded);
     for (int i = 0; i < n; i++) {

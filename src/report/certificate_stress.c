@@ -31,7 +31,7 @@ static rb_status points_again(rb_certificate *c, const json_t *printed, rb_rolli
                               rb_message *why)
 {
     const int n = (int)json_array_size(json_object_get(printed, "x_mm"));
-    double *x = rb_alloc((size_t)n, 4), *y = x + n, *xy = y + n;
+    double *x = rb_alloc((size_t)n, 4), *y = x ? x + n : NULL, *xy = x ? y + n : NULL;
     rb_status s = x ? RB_OK : RB_ENOMEM;
 
     if (s == RB_OK)

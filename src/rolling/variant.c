@@ -171,7 +171,7 @@ static rb_status changed_displacement(const rb_rolling_model *of, const rb_rolli
     }
     if (scale == 1.0 && same_but_interlayer(rc, of->rc))
         return RB_OK;
-    double *w = rb_alloc((size_t)m, 4), *b = w + 2 * m;
+    double *w = rb_alloc((size_t)m, 4), *b = w ? w + 2 * m : NULL;
     if (!w || rb_rolling_displacement(&of->bodies, state->p, state->q, w) != RB_OK) {
         free(w);
         return RB_ENOMEM;
@@ -441,7 +441,7 @@ static void set_plastic(const rb_contact_problem *p, rb_contact_state *state)
         if (state->zone[i] > RB_ZONE_SLIP_POSITIVE) {
             state->plastic[i] = state->lambda[i];
             u += p->own * fabs(state->plastic[i]);
-        } else if (rb_contact_slips_and_yields(p, state, i)) {
+        } else if (p->hardening != 0.0 && rb_contact_slips_and_yields(p, state, i)) {
             u = (p->bound[i] * state->p[i] - p->yield[i]) / p->hardening;
             state->plastic[i] =
                 (u - before) / p->own * (state->zone[i] == RB_ZONE_SLIP_POSITIVE ? -1.0 : 1.0);

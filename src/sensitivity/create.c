@@ -44,10 +44,11 @@ static rb_status find_borders(rb_sensitivity *s)
 {
     const rb_contact_problem *p = &s->model->problem;
     const rb_contact_state *state = &s->model->state;
-    double *slip = s->slip = rb_alloc((size_t)s->n, 2), *gap = slip + s->n;
+    double *slip = s->slip = rb_alloc((size_t)s->n, 2);
 
     if (!slip)
         return RB_ENOMEM;
+    double *gap = slip + s->n;
     rb_contact_kinematics(p, state, gap, slip);
     for (int i = 0; i < s->n; i++) {
         const double friction = rb_contact_friction_scale(p);

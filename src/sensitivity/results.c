@@ -101,11 +101,12 @@ static rb_status add_heat(const rb_sensitivity *s, const rb_sensitivity_variants
     const double part = RB_STEP_OF_STATE * v->scale / v->step, weight = v->at.weight[k] / v->step;
     const double *from[] = {at->x, at->h, at->q, at->slip, at->shift},
                  *to[] = {moved->x, moved->h, moved->q, moved->slip, moved->shift};
-    double *near = rb_alloc(n, 7), *t = near + 5 * n;
+    double *near = rb_alloc(n, 7);
     rb_rolling_solution small = *at;
 
     if (!near)
         return RB_ENOMEM;
+    double *t = near + 5 * n;
     for (size_t i = 0; i < 5 * n; i++)
         near[i] = from[i / n][i % n] + part * (to[i / n][i % n] - from[i / n][i % n]);
     small.x = near;

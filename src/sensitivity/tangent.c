@@ -21,12 +21,12 @@ static rb_status solve_moved(const rb_sensitivity *s, const rb_sensitivity_rate 
     const rb_contact_problem *base = &s->model->problem;
     const rb_contact_state *state = &s->model->state;
     const size_t n = (size_t)s->n;
-    double *scratch = rb_alloc(n, 5), *friction = scratch + 2 * n, *none = scratch + 3 * n,
-           *gap = scratch + 4 * n;
+    double *scratch = rb_alloc(n, 5);
     rb_contact_problem p = *base;
 
     if (!scratch)
         return RB_ENOMEM;
+    double *friction = scratch + 2 * n, *none = scratch + 3 * n, *gap = scratch + 4 * n;
     p.d_N = scratch;
     p.d_T = scratch + n;
     for (size_t i = 0; i < n; i++) {
@@ -194,7 +194,7 @@ static rb_status tangent_at_border(const rb_sensitivity *s, const rb_sensitivity
     const rb_contact_problem *p = &s->model->problem;
     const size_t n = (size_t)s->n;
     const int pairs = s->degenerate + s->at_rest, most = 1 << (pairs < 10 ? pairs : 10);
-    double *gap = rb_alloc(n, 2), *slip = gap + n;
+    double *gap = rb_alloc(n, 2), *slip = gap ? gap + n : NULL;
     int *zone = rb_alloc_int(n), k = 0, moved = 1;
     rb_status status = gap && zone ? RB_OK : RB_ENOMEM;
 

@@ -178,7 +178,7 @@ static rb_status rates_of_tables(const rb_sensitivity_variants *v, const rb_sens
 {
     const int n = v->base->mesh.n, law = rb_rolling_law_depends_on_state(v->base->rc);
     const double step = STEP * m->half;
-    double *gap = rb_alloc((size_t)n, 2), *bound = gap + n;
+    double *gap = rb_alloc((size_t)n, 2), *bound = gap ? gap + n : NULL;
     rb_status s = gap ? RB_OK : RB_ENOMEM;
 
     for (int k = 0; k < v->at.n && s == RB_OK; k++) {
