@@ -627,7 +627,14 @@ TEST(pictures_name_the_case)
         {"stress " SIMILAR "--grid 15x9", "fringes", "A: half-plane, R = 50 mm, E"},
         {SIMILAR "--increments 2 --force-ratio 0.5", "history-plot", "A: half-plane, R"},
         {SIMILAR "--increments 2 --force-ratio 0.5 --error", "history-plot",
-         "title 'estimated error'"}};
+         "title 'estimated error, at most "},
+        /* all of it slides: 0.02 P; the key names the force, as the creepage is given */
+        {SIMILAR "--formulation transient --distance 1 --creep 0.05 --tolerance mu=0.02",
+         "history-plot",
+         "'#c0392b' fillstyle transparent solid 0.3 noborder title 'standard deviation, at most "
+         "4.1 N/mm'"},
+        {SIMILAR "--formulation transient --distance 1 --creep 0.01 --error", "history-plot",
+         "'#c0392b' fillstyle transparent solid 0.3 noborder title 'estimated error, at most "}};
     for (size_t k = 0; k < sizeof pictures / sizeof *pictures; k++) {
         char line[400];
         snprintf(line, sizeof line,

@@ -944,7 +944,7 @@ TEST(an_interrupted_fit_goes_on)
     assert_int_equal(rollbem("fit creep.tsv --fit mu --resume st" BODIES), 73);
     assert_int_equal(rollbem("fit creep.tsv --fit mu --resume creep.tsv" BODIES), 64);
     assert_int_equal(rollbem(RESUMED), 0);
-    assert_non_null(strstr(err, "st holds the numbers after 1 step\n"));
+    assert_non_null(strstr(err, "st holds the numbers after 1 step: the fit goes on from there\n"));
     assert_non_null(strstr(err, "step 1: sum of squares"));
     assert_true(access("st", R_OK) != 0);
     held_json *rest = json_loads(out, 0, NULL);

@@ -383,6 +383,9 @@ rb_status rb_case_fit_descend(fit_problem *p, double *theta, const rb_case_fit_o
     gsl_vector_free(x);
     gsl_vector_free(at.x);
     return s == RB_OK && !done
-               ? rb_fail(why, RB_MAXITER, "fit: not converged after %d steps", STEPS)
+               ? rb_fail(why, RB_MAXITER,
+                         "fit: not converged after %d steps. Try fewer elements "
+                         "(--contact-elements 40), fewer numbers, or another start (--start)",
+                         STEPS)
                : s;
 }

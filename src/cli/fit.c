@@ -169,8 +169,9 @@ static cli_exit resume(cli_case_run *run)
                         "--resume: %s holds no numbers of this fit, and would be overwritten",
                         f->resume);
     if (!run->o.quiet)
-        fprintf(stderr, "rollbem: %s holds the numbers after %d step%s\n", f->resume, f->steps,
-                f->steps == 1 ? "" : "s");
+        fprintf(stderr,
+                "rollbem: %s holds the numbers after %d step%s: the fit goes on from there\n",
+                f->resume, f->steps, f->steps == 1 ? "" : "s");
     return CLI_CONTINUE;
 }
 

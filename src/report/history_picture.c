@@ -4,6 +4,11 @@
 
 #include <math.h>
 
+#define ROUNDING 1e-9 /* a band below this part of its curve is that of a given value */
+
+/* What a panel shows. */
+typedef enum { MOTION, FORCE, STICK, HALF_WIDTH, LOAD, APPROACH } quantity;
+
 typedef struct {
     const rb_rolling_case *rc;
     const rb_rolling_history *h;
@@ -13,11 +18,9 @@ typedef struct {
     int exponent; /* of the creepage or shift */
     double power; /* 10^exponent */
     double from, to;
+    quantity named; /* whose band the key names: the first that has one */
     rb_report_place place;
 } view;
-
-/* What a panel shows. */
-typedef enum { MOTION, FORCE, HALF_WIDTH, LOAD, APPROACH } quantity;
 
 /* Standard deviations are those of Q, because mu and P may be uncertain, too. */
 static int shows_Q(const view *v)
@@ -71,12 +74,49 @@ static double place(const view *v, int i)
     return v->rolls ? v->h->distance[i] : v->in_time ? v->h->time[i] : i + 1;
 }
 
+static double largest_of(const view *v, quantity of)
+{
+    double most = 0.0;
+
+    for (int i = 0; i < v->h->n; i++)
+        most = fmax(most, is_shown(v, i) ? fabs(value(v, of, i)) : 0.0);
+    return most;
+}
+
+static double widest(const view *v, quantity of)
+{
+    double most = 0.0;
+
+    for (int i = 0; i < v->h->n; i++)
+        most = fmax(most, is_shown(v, i) ? band(v, of, i) : 0.0);
+    return most;
+}
+
 /* One of three, k from above. */
 typedef struct {
     int k;
+    quantity of;
     const char *label, *colour;
     int column, band; /* of the data; band: half its width, or 0 */
 } panel;
+
+/* With its size, because a narrow band is hidden by its curve; a key for one panel. */
+static void write_band_title(FILE *out, const view *v, const panel *p)
+{
+    const double most = widest(v, p->of) * (p->of == MOTION ? v->power : 1.0);
+    const char *unit = p->of == FORCE || p->of == LOAD ? "N/mm" : "mm";
+    const int pure = (p->of == MOTION && v->rolls) || (p->of == FORCE && !shows_Q(v));
+
+    if (p->of != v->named) {
+        fputs("notitle, ", out);
+        return;
+    }
+    fprintf(out, "title '%s", v->h->errors ? "estimated error" : "standard deviation");
+    if (v->place.titled)
+        fprintf(out, ", at most %s%s%s", RB_REPORT_NUMBER(most, 2), pure ? "" : " ",
+                pure ? "" : rb_unit_name(v->h->units, unit));
+    fputs("', ", out);
+}
 
 static void write_panel(FILE *out, const view *v, const panel *p)
 {
@@ -88,10 +128,11 @@ static void write_panel(FILE *out, const view *v, const panel *p)
             "set tmargin at screen %g\nset bmargin at screen %g\n"
             "set label 2 '%s' at screen 0.03, %g center rotate\nplot ",
             top, top - height, p->label, top - height / 2);
-    if (p->band && bands_of(v))
-        fprintf(out, "$data using 1:($%d-$%d):($%d+$%d) " RB_REPORT_BAND " title '%s', ", p->column,
-                p->band, p->column, p->band, p->colour,
-                v->h->errors ? "estimated error" : "standard deviation");
+    if (p->band && bands_of(v)) {
+        fprintf(out, "$data using 1:($%d-$%d):($%d+$%d) " RB_REPORT_BAND " ", p->column, p->band,
+                p->column, p->band, p->colour);
+        write_band_title(out, v, p);
+    }
     fprintf(out,
             "$data using 1:%d with %s linecolor rgb '%s' linewidth 1.8 pointtype 7 "
             "pointsize 0.8 notitle\n",
@@ -134,15 +175,15 @@ static void write_way(FILE *out, const view *v)
     else
         snprintf(label, sizeof label, v->rolls ? "ξ" : "shift  [%s]", mm);
     write_range(out, v, MOTION, INFINITY, -INFINITY);
-    write_panel(out, v, &(panel){0, label, "#6c3483", 2, 5});
-    fputs("unset label 1\nunset label 9\nunset key\n", out);
+    write_panel(out, v, &(panel){0, MOTION, label, "#6c3483", 2, 5});
+    fputs("unset label 1\nunset label 9\n", out);
     write_range(out, v, FORCE, 0.0, 0.0); /* a force is seen against none */
     snprintf(label, sizeof label, shows_Q(v) ? "Q  [%s]" : "Q/(μP)",
              rb_unit_name(v->h->units, "N/mm"));
-    write_panel(out, v, &(panel){1, label, "#c0392b", 3, 6});
+    write_panel(out, v, &(panel){1, FORCE, label, "#c0392b", 3, 6});
     write_last_axis(out, v->rolls ? "rolled distance / a" : "increment");
     fputs("set yrange [0:1]\nset ytics 0.2\n", out);
-    write_panel(out, v, &(panel){2, "stick / contact", "#1f4e79", 4, 0});
+    write_panel(out, v, &(panel){2, STICK, "stick / contact", "#1f4e79", 4, 0});
 }
 
 static void write_time(FILE *out, const view *v)
@@ -158,8 +199,8 @@ static void write_time(FILE *out, const view *v)
         if (k == 2)
             write_last_axis(out, "time  [s]");
         write_range(out, v, shown[k], 0.0, 0.0);
-        write_panel(out, v, &(panel){k, text, colour[k], 2 + k, 5 + k});
-        fputs("unset label 1\nunset label 9\nunset key\n", out);
+        write_panel(out, v, &(panel){k, shown[k], text, colour[k], 2 + k, 5 + k});
+        fputs("unset label 1\nunset label 9\n", out);
     }
 }
 
@@ -217,11 +258,14 @@ rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas, const rb
               .points = history->n <= 40,
               .power = 1.0, /* as value() reads it below */
               .place = rb_report_place_of(canvas)};
-    double largest = 0.0;
-    for (int i = 0; i < history->n; i++)
-        largest = is_shown(&v, i) ? fmax(largest, fabs(value(&v, MOTION, i))) : largest;
-    v.exponent = rb_report_exponent(largest);
+    v.exponent = rb_report_exponent(largest_of(&v, MOTION));
     v.power = pow(10.0, v.exponent);
+    static const quantity ways[] = {MOTION, FORCE}, times[] = {HALF_WIDTH, LOAD, APPROACH};
+    const quantity *shown = v.in_time ? times : ways;
+    const int panels = v.in_time ? 3 : 2;
+    v.named = shown[0];
+    for (int k = panels - 1; k >= 0; k--)
+        v.named = widest(&v, shown[k]) > ROUNDING * largest_of(&v, shown[k]) ? shown[k] : v.named;
     v.from = v.rolls || v.in_time ? 0.0 : 1.0;
     v.to = place(&v, history->n - 1);
     if (!(v.to > v.from)) /* a single step */
