@@ -769,7 +769,7 @@ TEST(what_stands_beside_derivatives_is_judged)
              "%s --formulation steady --derivatives tangential_load,p --tolerance mu=0.02", line);
     assert_int_equal(rollbem(command), 0);
     assert_int_equal(rollbem("check slopes.json"), 0);
-    assert_non_null(strstr(out, "slopes.json: derivatives and tolerances: not judged\n"));
+    assert_non_null(strstr(out, "slopes.json: derivatives and tolerances: not checked\n"));
     assert_non_null(strstr(out, "slopes.json: valid"));
     assert_int_equal(shell("sed 's/\"normal_load\": \\([0-9]\\)/\"normal_load\": 1\\1/' "
                            "slopes.json >s2.json; "
@@ -779,13 +779,13 @@ TEST(what_stands_beside_derivatives_is_judged)
     snprintf(command, sizeof command, "%s --formulation steady --smooth-derivatives", line);
     assert_int_equal(rollbem(command), 0);
     assert_int_equal(rollbem("check slopes.json"), 0);
-    assert_non_null(strstr(out, "slopes.json: derivatives: not judged\n"));
+    assert_non_null(strstr(out, "slopes.json: derivatives: not checked\n"));
     snprintf(command, sizeof command,
              "%s --formulation transient --distance 0.5 --states --derivatives tangential_load",
              line);
     assert_int_equal(rollbem(command), 0);
     assert_int_equal(rollbem("check slopes.json"), 0);
-    assert_non_null(strstr(out, "slopes.json: derivatives: not judged\n"));
+    assert_non_null(strstr(out, "slopes.json: derivatives: not checked\n"));
 }
 
 TEST(what_cannot_be_checked_is_refused)

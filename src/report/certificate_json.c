@@ -53,7 +53,7 @@ static rb_status check_kind(const char *name, const json_t *root, rb_message *wh
     static const char *const known[] = {
         "schema", "version", "command", "conventions", "notes", "units", "input_hash", "inputs",
         "summary", "table", "history", "depth", "maxima", "grid", "points", "shakedown",
-        /* not judged; the result beside them is */
+        /* not checked; the result beside them is */
         "derivatives", "smooth_derivatives", "without_derivatives", "derivatives_over_x",
         "derivatives_are", "tolerances", NULL};
     const json_t *history = json_object_get(root, "history");
@@ -269,7 +269,7 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root, rb_
                       json_object_get(history, "tolerances") || json_object_get(root, "tolerances");
 
         if (slopes || deviations)
-            fprintf(c.out, "%s: %s%s%s: not judged\n", c.name, slopes ? "derivatives" : "",
+            fprintf(c.out, "%s: %s%s%s: not checked\n", c.name, slopes ? "derivatives" : "",
                     slopes && deviations ? " and " : "", deviations ? "tolerances" : "");
     }
     rb_rolling_history_free(&again);
