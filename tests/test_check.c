@@ -669,6 +669,16 @@ TEST(every_changed_number_of_a_table_is_found)
     assert_true(changes > 200);
 }
 
+/* Rounding of what is computed again adds no note to a force of 0.001 mu P and takes none away. */
+TEST(a_note_begins_at_no_number_that_is_given)
+{
+    assert_int_equal(shell("for nu in 0 0.1 0.2 0.3 0.4; do \"$R\" --support halfplane --similar "
+                           "--load 50 --mu 0.05 --young 10 --contact-elements 16 --formulation "
+                           "steady --force-ratio 0.001 --poisson $nu --json --quiet >n.json; "
+                           "\"$R\" check n.json || exit; done"),
+                     0);
+}
+
 /* From the command line that the table quotes: a case file, options behind it, words in
  * quotes, several contacts. */
 TEST(tables_are_valid_by_their_comments)

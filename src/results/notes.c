@@ -253,9 +253,10 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_r
     if (rb_rolling_is_below_zero(s->dissipation, s->normal_load))
         add(&list, "The dissipation, %.2g %s, is below zero: it is %s.", s->dissipation,
             rb_unit_name(s->units, "N/mm"), rb_rolling_below_zero(rc));
-    /* What the force does beside free rolling goes into slip at the trailing edge. */
+    /* What the force does beside free rolling goes into slip at the trailing edge; the least is no
+     * number that is given, which rounding would put on either side. */
     if (rc->formulation == RB_STEADY && s->slipping == 0 && s->stick > 0 &&
-        fabs(s->force_ratio) > 1e-3)
+        fabs(s->force_ratio) > 1.0001e-3)
         add(&list, "No element slips, and the dissipation is 0: the slip at the trailing edge, "
                    "which the force drives, is shorter than an element; take more of them.");
     if (rc->formulation == RB_STATIC && rb_rolling_largest_mu(rc) > 0.0 && s->slip_violations > 0)
