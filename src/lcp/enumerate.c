@@ -154,17 +154,6 @@ static int place_from(search *s, int i, int at)
     return 0;
 }
 
-/* The next basis, the places being the digits of a number; 0: that was the last. */
-static int next_basis(search *s)
-{
-    for (int i = 0; i < s->n; i++) {
-        if (place_from(s, i, (int)s->at[i] + 1))
-            return 1;
-        place_from(s, i, AT_LOWER);
-    }
-    return 0;
-}
-
 rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const double *upper,
                            rb_lcp_solutions *all, rb_message *why)
 {
@@ -199,12 +188,15 @@ rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const d
     status = scratch.failed ? RB_ENOMEM : RB_OK;
     for (int i = 0; status == RB_OK && i < n; i++)
         place_from(&s, i, AT_LOWER);
-    for (int more = 1; status == RB_OK && more; more = next_basis(&s)) {
+    for (int digit = 0; status == RB_OK && digit < n;) {
         const int regular = basic_point(&s);
         all->bases++;
         all->singular += !regular;
         if (regular && is_solution(&s))
             status = keep(&s, all);
+        /* The next basis, the places being the digits of a number. */
+        for (digit = 0; digit < n && !place_from(&s, digit, (int)s.at[digit] + 1); digit++)
+            place_from(&s, digit, AT_LOWER);
     }
     rb_arena_free(&scratch);
     if (status == RB_OK)

@@ -28,46 +28,6 @@ static int read_sides(const rb_sparse *M, const double *q, int *side, int *m)
     return of_other > 0 && *m > 0;
 }
 
-/* Payoffs of the row player (A) and of the column player (B), m x (n - m): minus the
- * costs in units of -q, each unknown in a unit of its own that makes its largest cost
- * near 1.  of[i]: which strategy of its player unknown i is. */
-static void find_payoffs(const rb_sparse *M, const double *q, const int *side, const int *of, int m,
-                         double *A, double *B, double *unit)
-{
-    for (int j = 0; j < M->cols; j++) {
-        double most = 0.0;
-        for (int k = M->p[j]; k < M->p[j + 1]; k++)
-            most = fmax(most, M->x[k] / -q[M->i[k]]);
-        unit[j] = exp2(-floor(log2(most)));
-        for (int k = M->p[j]; k < M->p[j + 1]; k++) {
-            const int i = M->i[k], row = side[j] ? of[i] : of[j], col = side[j] ? of[j] : of[i];
-            (side[j] ? A : B)[(size_t)row + (size_t)col * (size_t)m] = M->x[k] / q[i] * unit[j];
-        }
-    }
-}
-
-/* Paths that begin with one strategy can be long where others are short: one after the
- * other, with a limit that grows. */
-static rb_status follow_paths(const rb_lcp_game *game, const rb_lcp_options *opt, double *mixed,
-                              rb_lcp_info *info)
-{
-    const int n = game->m + game->n, own = opt->max_iters;
-    const double began = rb_seconds();
-    rb_lcp_options o = *opt;
-    rb_status s = RB_MAXITER;
-    int iters = 0;
-    for (int limit = 2 * n + 20; s == RB_MAXITER && limit < 50 * n + 1000; limit *= 2)
-        for (int label = 0; s == RB_MAXITER && label < LABELS && label < n; label++) {
-            o.max_iters = own && own < limit ? own : limit;
-            s = rb_lcp_bimatrix(game, label * (n / LABELS > 0 ? n / LABELS : 1), &o, mixed, info);
-            iters += info->iters;
-            if (opt->seconds > 0.0 && rb_seconds() - began > opt->seconds)
-                s = s == RB_MAXITER ? RB_INTERRUPTED : s;
-        }
-    info->iters = iters;
-    return s;
-}
-
 rb_status rb_lcp_game_solve(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
                             double *z, rb_lcp_info *info)
 {
@@ -88,8 +48,37 @@ rb_status rb_lcp_game_solve(const rb_sparse *M, const double *q, const rb_lcp_op
         const rb_lcp_game game = {m, (int)columns, A, B, m};
         for (size_t i = 0; i < n; i++)
             of[i] = count[side[i]]++;
-        find_payoffs(M, q, side, of, m, A, B, unit);
-        s = follow_paths(&game, opt, mixed, info);
+        /* Payoffs of the row player (A, m x n) and of the column player (B): minus the
+         * costs in units of -q, each unknown in a unit of its own that makes its largest
+         * cost near 1. */
+        for (size_t j = 0; j < n; j++) {
+            const int begin = M->p[j], end = M->p[j + 1];
+            double most = 0.0;
+            for (int k = begin; k < end; k++)
+                most = fmax(most, M->x[k] / -q[M->i[k]]);
+            unit[j] = exp2(-floor(log2(most)));
+            for (int k = begin; k < end; k++) {
+                const int i = M->i[k], row = side[j] ? of[i] : of[j], col = side[j] ? of[j] : of[i];
+                (side[j] ? A : B)[(size_t)row + (size_t)col * rows] = M->x[k] / q[i] * unit[j];
+            }
+        }
+        /* Paths that begin with one strategy can be long where others are short: one
+         * after the other, with a limit that grows. */
+        const int order = M->cols, apart = order / LABELS > 0 ? order / LABELS : 1,
+                  own = opt->max_iters;
+        const double began = rb_seconds();
+        rb_lcp_options o = *opt;
+        int iters = 0;
+        s = RB_MAXITER;
+        for (int limit = 2 * order + 20; s == RB_MAXITER && limit < 50 * order + 1000; limit *= 2)
+            for (int k = 0; s == RB_MAXITER && k < LABELS && k < order; k++) {
+                o.max_iters = own && own < limit ? own : limit;
+                s = rb_lcp_bimatrix(&game, k * apart, &o, mixed, info);
+                iters += info->iters;
+                if (opt->seconds > 0.0 && rb_seconds() - began > opt->seconds)
+                    s = s == RB_MAXITER ? RB_INTERRUPTED : s;
+            }
+        info->iters = iters;
         rb_lcp_bimatrix_regret(&game, mixed, regret, payoff);
         /* y over the row player's costs, x over the column player's */
         for (size_t i = 0; i < n; i++)

@@ -232,31 +232,9 @@ static double distance(const mixed *p, int s, double delta)
     return far > 0.0 ? far : 0.0;
 }
 
-/* Of the slots that tie the one that blocks first under the perturbation, t before all;
- * opposite: so does the entering variable's own other bound. */
-static int first_of_tied(const mixed *p, double sign, int opposite, int count)
-{
-    int slot = opposite ? OPPOSITE : NONE;
-    double first = opposite ? 0.0 : INFINITY;
-    for (int k = 0; k < count; k++) {
-        const int tied = p->tied[k];
-        const double delta = -sign * p->y[tied], moves = p->generic[tied] / fabs(delta);
-        const double ratio = delta < 0.0 ? moves : -moves;
-        if (p->b.variable[tied] == 2 * p->n)
-            return tied;
-        if (p->opt.rule == RB_LCP_FIRST_INDEX && slot >= 0)
-            continue;
-        if (slot == NONE || ratio < first) {
-            slot = tied;
-            first = ratio;
-        }
-    }
-    return slot;
-}
-
 /* find_slot with the column in p->y as it is.  width: between the bounds of the entering
  * variable. */
-static int blocking_slot(mixed *p, double sign, double width, double *step, int *count)
+static int ratio_test(mixed *p, double sign, double width, double *step, int *count)
 {
     const double most_y = rb_norm_inf((size_t)p->n, p->y);
     const double most_value = rb_norm_inf((size_t)p->n, p->value);
@@ -282,8 +260,25 @@ static int blocking_slot(mixed *p, double sign, double width, double *step, int 
         if (far <= most * size && far - least * size <= zero)
             p->tied[(*count)++] = k;
     }
-    /* most may have overflowed: a variable without another bound never comes to it */
-    return first_of_tied(p, sign, isfinite(width) && width <= most, *count);
+    /* Of the slots that tie the one that blocks first under the perturbation, t before
+     * all.  most may have overflowed: a variable without another bound never comes to it. */
+    const int opposite = isfinite(width) && width <= most;
+    int slot = opposite ? OPPOSITE : NONE;
+    double first = opposite ? 0.0 : INFINITY;
+    for (int k = 0; k < *count; k++) {
+        const int tied = p->tied[k];
+        const double delta = -sign * p->y[tied], moves = p->generic[tied] / fabs(delta);
+        const double ratio = delta < 0.0 ? moves : -moves;
+        if (p->b.variable[tied] == 2 * p->n)
+            return tied;
+        if (p->opt.rule == RB_LCP_FIRST_INDEX && slot >= 0)
+            continue;
+        if (slot == NONE || ratio < first) {
+            slot = tied;
+            first = ratio;
+        }
+    }
+    return slot;
 }
 
 /* The slot that blocks the entering variable, whose column comes to p->y, when it moves
@@ -300,7 +295,7 @@ static rb_status find_slot(mixed *p, int entering, double sign, int *slot, doubl
         for (int k = 0; k < p->n; k++)
             if (fabs(p->y[k]) <= noise)
                 p->y[k] = 0.0;
-        *slot = blocking_slot(p, sign, own.high - own.low, step, count);
+        *slot = ratio_test(p, sign, own.high - own.low, step, count);
         const int sure =
             *slot == OPPOSITE ||
             (*slot >= 0 && fabs(p->y[*slot]) > DOUBT * rb_norm_inf((size_t)p->n, p->y));
