@@ -190,6 +190,10 @@ void rb_contact_state_free(rb_contact_state *state);
  * and, with hardening, u is what raises the yield stress up to it (Y1). */
 int rb_contact_slips_and_yields(const rb_contact_problem *problem, const rb_contact_state *state,
                                 int i);
+/* Sets the plastic slips from zones, pressures and slips: all of lambda where the layer yields
+ * alone; what hardens it up to bound r_N where the surfaces slide, too, which is where the plastic
+ * slip was not 0 before; else 0.  u: n accumulated plastic slips, or NULL. */
+void rb_contact_set_plastic(const rb_contact_problem *problem, rb_contact_state *state, double *u);
 
 /* Computes gap (n) and lambda (n) from p, q, delta and xi. */
 void rb_contact_kinematics(const rb_contact_problem *problem, const rb_contact_state *state,

@@ -217,22 +217,6 @@ static rb_status kwak_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
 
 /* ---- Both -------------------------------------------------------------------------- */
 
-/* The approach enters every gap; where it is unknown, delta = delta0 + delta' starts below
- * the first touch, also for a half-plane whose datum is close to the surface. */
-static void add_approach(const rb_contact_problem *p, rb_contact_lcp *lcp)
-{
-    double lowest = p->d_N[0];
-
-    for (int i = 1; i < p->n; i++)
-        lowest = fmin(lowest, p->d_N[i]);
-    lcp->delta0 = p->load_given ? lowest - 10.0 * p->gap_length : p->delta;
-    for (int i = 0; i < p->n; i++) {
-        lcp->b[i] -= lcp->delta0;
-        if (p->load_given)
-            lcp->M[(size_t)i + (size_t)delta_column(p) * (size_t)lcp->size] = -1.0;
-    }
-}
-
 static void fill(int n, double value, double *x)
 {
     for (int i = 0; i < n; i++)
@@ -302,7 +286,17 @@ rb_status rb_contact_lcp_create(const rb_contact_problem *p, rb_contact_lcp_form
         rb_contact_lcp_free(lcp);
         return rb_fail(why, s, "LCP of %d contact elements: %s", p->n, rb_status_text(s));
     }
-    add_approach(p, lcp);
+    /* The approach enters every gap; where it is unknown, delta = delta0 + delta' starts below the
+     * first touch, also for a half-plane whose datum is close to the surface. */
+    double lowest = p->d_N[0];
+    for (size_t i = 1; i < n; i++)
+        lowest = fmin(lowest, p->d_N[i]);
+    lcp->delta0 = p->load_given ? lowest - 10.0 * p->gap_length : p->delta;
+    for (size_t i = 0; i < n; i++) {
+        lcp->b[i] -= lcp->delta0;
+        if (p->load_given)
+            lcp->M[i + (size_t)delta_column(p) * size] = -1.0;
+    }
     make_dimensionless(p, lcp);
     return RB_OK;
 }

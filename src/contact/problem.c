@@ -143,6 +143,28 @@ int rb_contact_slips_and_yields(const rb_contact_problem *p, const rb_contact_st
            (state->zone[i] == RB_ZONE_SLIP_NEGATIVE || state->zone[i] == RB_ZONE_SLIP_POSITIVE);
 }
 
+void rb_contact_set_plastic(const rb_contact_problem *p, rb_contact_state *state, double *u)
+{
+    double next = 0.0, second = 0.0;
+
+    for (int i = p->n - 1; i >= 0; i--) { /* upstream first */
+        const int zone = state->zone[i],
+                  positive = zone == RB_ZONE_SLIP_POSITIVE || zone == RB_ZONE_YIELD_POSITIVE;
+        const double before = p->recall[0] * next + p->recall[1] * second,
+                     against = positive ? -1.0 : 1.0;
+        double own = 0.0;
+        if (zone > RB_ZONE_SLIP_POSITIVE)
+            own = against * state->lambda[i];
+        else if (p->hardening != 0.0 && rb_contact_slips_and_yields(p, state, i))
+            own = ((p->bound[i] * state->p[i] - p->yield[i]) / p->hardening - before) / p->own;
+        state->plastic[i] = against * own;
+        second = next;
+        next = before + p->own * own;
+        if (u)
+            u[i] = next;
+    }
+}
+
 double rb_contact_yield_stress(const rb_contact_problem *p, int i, double u)
 {
     return p->yield ? fmax(p->yield[i] + p->hardening * u, 0.0) : INFINITY;

@@ -307,12 +307,13 @@ static rb_status solve_by_products(const laws *k, const rb_contact_state *state,
     return s;
 }
 
-/* p, q, delta, xi, lambda, plastic of the state.  RB_SINGULAR, RB_ENOMEM. */
+/* p, q, delta, xi, lambda, zone, plastic of the state.  RB_SINGULAR, RB_ENOMEM. */
 static rb_status solve_laws(laws *k, rb_contact_state *state)
 {
     const rb_contact_problem *p = k->p;
     motion m = k->scratch;
 
+    zones_of_laws(k, state);
     k->inner = 0;
     for (int i = 0; i < p->n; i++)
         k->at_p[i] = k->law[i] != SEPARATED ? k->inner++ : -1;
@@ -347,21 +348,9 @@ static rb_status solve_laws(laws *k, rb_contact_state *state)
     state->delta = p->load_given ? p->gap_length * *border++ : p->delta;
     state->xi = p->force_given ? p->slip_length / p->e_T[0] * *border : p->xi;
     rb_contact_kinematics(p, state, k->gap, state->lambda);
-    /* Plastic slips from the slips, upstream first. */
-    double next = 0.0, second = 0.0;
-
-    for (int i = p->n - 1; i >= 0; i--) {
-        const double before = p->recall[0] * next + p->recall[1] * second;
-        double own = 0.0;
-        if (k->law[i] == YIELD || k->law[i] == SOFTENED)
-            own = -k->sign[i] * state->lambda[i];
-        else if (k->law[i] == SLIP_AND_YIELD)
-            own = ((p->bound[i] * state->p[i] - p->yield[i]) / p->hardening - before) / p->own;
-        state->plastic[i] = -k->sign[i] * own;
-        k->yielded[i] = before + p->own * own;
-        second = next;
-        next = k->yielded[i];
-    }
+    for (int i = 0; i < p->n; i++)
+        state->plastic[i] = k->law[i] == SLIP_AND_YIELD;
+    rb_contact_set_plastic(p, state, k->yielded);
     return rb_arena_done(&scratch, RB_OK);
 }
 
@@ -589,8 +578,5 @@ rb_status rb_contact_yield_polish(const rb_contact_problem *p, rb_contact_state 
                    : yield > 0.0                       ? YIELD
                                                        : SOFTENED;
     }
-    s = solve_laws(&k, state);
-    if (s >= 0)
-        zones_of_laws(&k, state);
-    return rb_arena_done(&k.memory, s);
+    return rb_arena_done(&k.memory, solve_laws(&k, state));
 }

@@ -429,29 +429,6 @@ static rb_status follow_state(rb_rolling_model *v, rb_message *why)
     return rb_rolling_model_friction(v, why);
 }
 
-/* Plastic slips: all of the slip where the layer yields alone; where the surfaces slip, too, what
- * hardens it up to mu p. */
-static void set_plastic(const rb_contact_problem *p, rb_contact_state *state)
-{
-    double next = 0.0, second = 0.0;
-
-    for (int i = state->n - 1; i >= 0; i--) {
-        const double before = p->recall[0] * next + p->recall[1] * second;
-        double u = before;
-        if (state->zone[i] > RB_ZONE_SLIP_POSITIVE) {
-            state->plastic[i] = state->lambda[i];
-            u += p->own * fabs(state->plastic[i]);
-        } else if (p->hardening != 0.0 && rb_contact_slips_and_yields(p, state, i)) {
-            u = (p->bound[i] * state->p[i] - p->yield[i]) / p->hardening;
-            state->plastic[i] =
-                (u - before) / p->own * (state->zone[i] == RB_ZONE_SLIP_POSITIVE ? -1.0 : 1.0);
-        } else
-            state->plastic[i] = 0.0;
-        second = next;
-        next = u;
-    }
-}
-
 rb_status rb_rolling_variant_complete(rb_rolling_model *v, double *gap, double *slip,
                                       rb_message *why)
 {
@@ -466,7 +443,7 @@ rb_status rb_rolling_variant_complete(rb_rolling_model *v, double *gap, double *
     free(scratch);
     for (int i = 0; i < state->n; i++)
         state->lambda[i] *= state->zone[i] != RB_ZONE_STICK;
-    set_plastic(&v->problem, state);
+    rb_contact_set_plastic(&v->problem, state, NULL);
     return follow_state(v, why);
 }
 
