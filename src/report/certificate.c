@@ -499,29 +499,6 @@ static void check_free_creepage(rb_certificate *c)
                                 free, xi);
 }
 
-/* How the answer was found: of the right kind. */
-static void check_way(rb_certificate *c)
-{
-    const json_t *steps = json_object_get(c->summary, "iterations");
-    const json_t *seconds = json_object_get(c->summary, "seconds");
-    const char *key;
-    json_t *value;
-
-    if (!json_is_integer(steps) || json_integer_value(steps) < 0)
-        rb_certificate_violated(c, "summary.iterations is no count");
-    if (!json_is_object(seconds))
-        rb_certificate_violated(c, "summary.seconds is missing");
-    json_object_foreach((json_t *)seconds, key, value)
-    {
-        if (!(rb_certificate_number(value) >= 0.0))
-            rb_certificate_violated(c, "summary.seconds.%s is no time", key);
-    }
-    if (!rb_certificate_word(c->summary, "integrals")[0] ||
-        !rb_certificate_word(c->summary, "openblas")[0])
-        rb_certificate_violated(c, "summary.integrals or summary.openblas is missing");
-    check_free_creepage(c);
-}
-
 static rb_status compare_results(rb_certificate *c)
 {
     json_t *summary = rb_report_json_summary(&c->again);
@@ -574,7 +551,23 @@ static rb_status compare_results(rb_certificate *c)
                 rb_certificate_violated(c, "summary.solver is none that this case may have");
             if (strcmp(form, kwak) != 0 && strcmp(form, pivoted) != 0)
                 rb_certificate_violated(c, "summary.lcp_form is none");
-            check_way(c);
+            /* How the answer was found: of the right kind. */
+            const json_t *steps = json_object_get(c->summary, "iterations");
+            const json_t *seconds = json_object_get(c->summary, "seconds");
+            json_t *time;
+            if (!json_is_integer(steps) || json_integer_value(steps) < 0)
+                rb_certificate_violated(c, "summary.iterations is no count");
+            if (!json_is_object(seconds))
+                rb_certificate_violated(c, "summary.seconds is missing");
+            json_object_foreach((json_t *)seconds, key, time)
+            {
+                if (!(rb_certificate_number(time) >= 0.0))
+                    rb_certificate_violated(c, "summary.seconds.%s is no time", key);
+            }
+            if (!rb_certificate_word(c->summary, "integrals")[0] ||
+                !rb_certificate_word(c->summary, "openblas")[0])
+                rb_certificate_violated(c, "summary.integrals or summary.openblas is missing");
+            check_free_creepage(c);
         }
         rb_certificate_motion(c);
         s = check_hysteresis(c);

@@ -93,31 +93,6 @@ static rb_status dump_body(const target *t, int of_b, const rb_rolling_model *mo
     return rb_arena_done(&scratch, s);
 }
 
-/* Of a large contact neither F nor M has been formed.  Four columns hold all of F where
- * its blocks are constant along their diagonals, as those of half-planes are. */
-static rb_status dump_columns(const target *t, const rb_rolling_model *model)
-{
-    const rb_bem_flexibility *f = &model->bodies.f;
-    const int n = model->mesh.n, column[] = {0, n - 1, n, 2 * n - 1};
-    const size_t rows = 2 * (size_t)f->m;
-    rb_arena scratch = {0};
-    double *w = rb_arena_doubles(&scratch, rows, 4),
-           *r = rb_arena_doubles(&scratch, 2 * (size_t)n, 1);
-    if (scratch.failed)
-        return rb_arena_done(&scratch, rb_fail(t->why, RB_ENOMEM, "out of memory"));
-    for (int k = 0; k < 4; k++) {
-        r[column[k]] = 1.0;
-        rb_bem_flexibility_apply(f, r, w + (size_t)k * rows);
-        r[column[k]] = 0.0;
-    }
-    const char *comment = rb_rolling_can(model->rc, RB_BODY_FLAT)
-                              ? "columns 1, n, n + 1 and 2n of F, w = F r: its four blocks are "
-                                "Toeplitz matrices"
-                              : "columns 1, n, n + 1 and 2n of F, w = F r";
-    return rb_arena_done(
-        &scratch, write_matrix(t, "F_columns", (rb_io_dense){2 * f->m, 4, w, 2 * f->m}, comment));
-}
-
 static rb_status dump_all(const target *t, const rb_rolling_model *model)
 {
     const rb_rolling_mesh *mesh = &model->mesh;
@@ -139,8 +114,28 @@ static rb_status dump_all(const target *t, const rb_rolling_model *model)
         s = dump_body(t, 1, model);
     if (s != RB_OK)
         return s;
-    if (!model->bodies.F)
-        return dump_columns(t, model);
+    if (!model->bodies.F) {
+        /* Of a large contact neither F nor M has been formed.  Four columns hold all of F where
+         * its blocks are constant along their diagonals, as those of half-planes are. */
+        const int column[] = {0, n - 1, n, 2 * n - 1};
+        const size_t rows = 2 * (size_t)m;
+        rb_arena scratch = {0};
+        double *w = rb_arena_doubles(&scratch, rows, 4),
+               *r = rb_arena_doubles(&scratch, 2 * (size_t)n, 1);
+        if (scratch.failed)
+            return rb_arena_done(&scratch, rb_fail(t->why, RB_ENOMEM, "out of memory"));
+        for (int k = 0; k < 4; k++) {
+            r[column[k]] = 1.0;
+            rb_bem_flexibility_apply(&model->bodies.f, r, w + (size_t)k * rows);
+            r[column[k]] = 0.0;
+        }
+        s = write_matrix(t, "F_columns", (rb_io_dense){2 * m, 4, w, 2 * m},
+                         rb_rolling_can(model->rc, RB_BODY_FLAT)
+                             ? "columns 1, n, n + 1 and 2n of F, w = F r: its four blocks are "
+                               "Toeplitz matrices"
+                             : "columns 1, n, n + 1 and 2n of F, w = F r");
+        return rb_arena_done(&scratch, s);
+    }
     rb_contact_lcp lcp;
     s = rb_rolling_model_lcp(model, &lcp, t->why);
     if (s != RB_OK)

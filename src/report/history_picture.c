@@ -100,24 +100,6 @@ typedef struct {
     int column, band; /* of the data; band: half its width, or 0 */
 } panel;
 
-/* With its size, because a narrow band is hidden by its curve; a key for one panel. */
-static void write_band_title(FILE *out, const view *v, const panel *p)
-{
-    const double most = widest(v, p->of) * (p->of == MOTION ? v->power : 1.0);
-    const char *unit = p->of == FORCE || p->of == LOAD ? "N/mm" : "mm";
-    const int pure = (p->of == MOTION && v->rolls) || (p->of == FORCE && !shows_Q(v));
-
-    if (p->of != v->named) {
-        fputs("notitle, ", out);
-        return;
-    }
-    fprintf(out, "title '%s", v->h->errors ? "estimated error" : "standard deviation");
-    if (v->place.titled)
-        fprintf(out, ", at most %s%s%s", RB_REPORT_NUMBER(most, 2), pure ? "" : " ",
-                pure ? "" : rb_unit_name(v->h->units, unit));
-    fputs("', ", out);
-}
-
 static void write_panel(FILE *out, const view *v, const panel *p)
 {
     static const double tops[] = {0.9, 0.634, 0.368};
@@ -131,7 +113,17 @@ static void write_panel(FILE *out, const view *v, const panel *p)
     if (p->band && bands_of(v)) {
         fprintf(out, "$data using 1:($%d-$%d):($%d+$%d) " RB_REPORT_BAND " ", p->column, p->band,
                 p->column, p->band, p->colour);
-        write_band_title(out, v, p);
+        if (p->of == v->named) {
+            /* with its size, because a narrow band is hidden by its curve */
+            const double most = widest(v, p->of) * (p->of == MOTION ? v->power : 1.0);
+            const char *unit = p->of == FORCE || p->of == LOAD ? "N/mm" : "mm";
+            const int pure = (p->of == MOTION && v->rolls) || (p->of == FORCE && !shows_Q(v));
+            fprintf(out, "title '%s", v->h->errors ? "estimated error" : "standard deviation");
+            if (v->place.titled)
+                fprintf(out, ", at most %s%s%s", RB_REPORT_NUMBER(most, 2), pure ? "" : " ",
+                        pure ? "" : rb_unit_name(v->h->units, unit));
+        }
+        fputs(p->of == v->named ? "', " : "notitle, ", out); /* a key for one panel */
     }
     fprintf(out,
             "$data using 1:%d with %s linecolor rgb '%s' linewidth 1.8 pointtype 7 "

@@ -202,59 +202,6 @@ static void print_one_row(FILE *out, const grid *g, const column *all, int colou
     }
 }
 
-static choice choose_rows(const grid *g, const rb_report_window *window)
-{
-    /* names, units, two lines about the rest, and the prompt */
-    const int most = window->rows - 5 > LEAST_ROWS ? window->rows - 5 : LEAST_ROWS, n = g->rows - 1;
-    double x;
-    return n <= most                         ? (choice){1, 1, 0}
-           : read_number(entry(g, 1, 0), &x) ? (choice){(n - 1 + most - 2) / (most - 1), 1, 0}
-                                             : (choice){1, most / 2 + 1, n - (most - most / 2 - 1)};
-}
-
-/* Columns that differ, from the left, as many as fit; those of `minor` only where all do. */
-static void choose_columns(const grid *g, const rb_report_window *window, column *all)
-{
-    int wanted = 0, used = 0;
-    for (int j = 0; j < g->columns; j++)
-        wanted += all[j].is_constant ? 0 : GAP + all[j].width;
-    for (column *c = all; c < all + g->columns; c++) {
-        char word[WIDTH + 2];
-        snprintf(word, sizeof word, " %s ", c->name);
-        const int minor = window->minor && strstr(window->minor, word) && wanted > window->columns;
-        c->is_shown = !c->is_constant && !minor && used + GAP + c->width <= window->columns;
-        used += c->is_shown ? GAP + c->width : 0;
-    }
-}
-
-static void print_names(FILE *out, const grid *g, const column *all, int colour)
-{
-    int units = 0;
-    for (int j = 0; j < g->columns; j++)
-        units |= all[j].is_shown && all[j].unit[0];
-    for (int line = 0; line <= units; line++) {
-        fputs(colour ? "\033[1m" : "", out);
-        for (int j = 0; j < g->columns; j++)
-            if (all[j].is_shown)
-                fprintf(out, "%*s", GAP + all[j].width, line ? all[j].unit : all[j].name);
-        fputs(colour ? "\033[0m\n" : "\n", out);
-    }
-}
-
-static void print_row(FILE *out, const grid *g, int i, const column *all, int colour)
-{
-    char cell[WIDTH];
-    for (int j = 0; j < g->columns; j++) {
-        if (!all[j].is_shown)
-            continue;
-        shown(g, i, j, &all[j], cell);
-        const char *start = colour ? colour_of(&all[j], cell) : "";
-        fprintf(out, "%*s%s%s%s", GAP + all[j].width - (int)strlen(cell), "", start, cell,
-                *start ? "\033[0m" : "");
-    }
-    fputc('\n', out);
-}
-
 rb_status rb_report_terminal(FILE *out, char *text, const rb_report_window *window)
 {
     grid g;
@@ -266,20 +213,51 @@ rb_status rb_report_terminal(FILE *out, char *text, const rb_report_window *wind
         free(g.cell);
         return is_table ? RB_ENOMEM : rb_report_flush(out);
     }
-    const choice rows = choose_rows(&g, window);
-    int width = 0;
+    /* names, units, two lines about the rest, and the prompt */
+    const int most = window->rows - 5 > LEAST_ROWS ? window->rows - 5 : LEAST_ROWS, n = g.rows - 1;
+    double x;
+    const choice rows = n <= most ? (choice){1, 1, 0}
+                        : read_number(entry(&g, 1, 0), &x)
+                            ? (choice){(n - 1 + most - 2) / (most - 1), 1, 0}
+                            : (choice){1, most / 2 + 1, n - (most - most / 2 - 1)};
+    int width = 0, wanted = 0, used = 0, units = 0;
     measure(&g, &rows, all);
-    choose_columns(&g, window, all);
-    for (int j = 0; j < g.columns; j++)
+    for (int j = 0; j < g.columns; j++) {
         width += GAP + all[j].width;
+        wanted += all[j].is_constant ? 0 : GAP + all[j].width;
+    }
+    /* Columns that differ, from the left, as many as fit; those of `minor` only where all do. */
+    for (column *c = all; c < all + g.columns; c++) {
+        char word[WIDTH + 2];
+        snprintf(word, sizeof word, " %s ", c->name);
+        const int minor = window->minor && strstr(window->minor, word) && wanted > window->columns;
+        c->is_shown = !c->is_constant && !minor && used + GAP + c->width <= window->columns;
+        used += c->is_shown ? GAP + c->width : 0;
+        units |= c->is_shown && c->unit[0];
+    }
     if (g.rows == 2 && width > window->columns) {
         print_one_row(out, &g, all, window->colour);
     } else {
-        print_names(out, &g, all, window->colour);
+        for (int line = 0; line <= units; line++) {
+            fputs(window->colour ? "\033[1m" : "", out);
+            for (int j = 0; j < g.columns; j++)
+                if (all[j].is_shown)
+                    fprintf(out, "%*s", GAP + all[j].width, line ? all[j].unit : all[j].name);
+            fputs(window->colour ? "\033[0m\n" : "\n", out);
+        }
         for (int i = 1; i < g.rows; i = next_row(&g, i, &rows)) {
             if (rows.from <= rows.to && i == rows.to + 1)
                 fprintf(out, "%*s...\n", GAP, "");
-            print_row(out, &g, i, all, window->colour);
+            for (int j = 0; j < g.columns; j++) {
+                char cell[WIDTH];
+                if (!all[j].is_shown)
+                    continue;
+                shown(&g, i, j, &all[j], cell);
+                const char *start = window->colour ? colour_of(&all[j], cell) : "";
+                fprintf(out, "%*s%s%s%s", GAP + all[j].width - (int)strlen(cell), "", start, cell,
+                        *start ? "\033[0m" : "");
+            }
+            fputc('\n', out);
         }
         print_rest(out, &g, all, &rows, window->columns);
     }

@@ -2,7 +2,6 @@
  * (UnstructuredGrid); arrays inline in base64, each behind its size in bytes. */
 #include "report/internal.h"
 
-#include <math.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -74,22 +73,6 @@ static void add_cell(selection *v, int corners, const int32_t *corner)
     memcpy(v->corner + corners * v->cells, corner, (size_t)corners * sizeof *corner);
     v->kind[v->cells++] = corners == 4 ? QUADRILATERAL : VERTEX;
     v->ends[v->cells - 1] = corners * v->cells;
-}
-
-static void select_inside(selection *v)
-{
-    const rb_report_stress *s = v->s;
-    for (int k = 0; k < s->n; k++)
-        v->number[k] = rb_report_stress_is_inside(s, k) ? v->n++ : -1;
-    for (int32_t k = 0; k < v->n && s->nx == 0; k++)
-        add_cell(v, 1, &k);
-    for (int j = 0; j + 1 < s->ny; j++)
-        for (int i = 0; i + 1 < s->nx; i++) {
-            const int *at = v->number + i + j * s->nx;
-            const int32_t corner[] = {at[0], at[1], at[s->nx + 1], at[s->nx]};
-            if (corner[0] >= 0 && corner[1] >= 0 && corner[2] >= 0 && corner[3] >= 0)
-                add_cell(v, 4, corner);
-        }
 }
 
 /* ---- Point data -------------------------------------------------------------------- */
@@ -181,7 +164,17 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stre
     if (scratch.failed)
         return rb_arena_done(&scratch, RB_ENOMEM);
     void *before = rb_locale_begin();
-    select_inside(&v);
+    for (int k = 0; k < s->n; k++)
+        v.number[k] = rb_report_stress_is_inside(s, k) ? v.n++ : -1;
+    for (int32_t k = 0; k < v.n && s->nx == 0; k++)
+        add_cell(&v, 1, &k);
+    for (int j = 0; j + 1 < s->ny; j++)
+        for (int i = 0; i + 1 < s->nx; i++) {
+            const int *at = v.number + i + j * s->nx;
+            const int32_t corner[] = {at[0], at[1], at[s->nx + 1], at[s->nx]};
+            if (corner[0] >= 0 && corner[1] >= 0 && corner[2] >= 0 && corner[3] >= 0)
+                add_cell(&v, 4, corner);
+        }
     (kind == RB_REPORT_VTI ? write_image : write_grid)(out, &v);
     rb_locale_end(before);
     return rb_arena_done(&scratch, rb_report_flush(out));
