@@ -925,12 +925,13 @@ TEST(an_interrupted_fit_goes_on)
     assert_non_null(strstr(out, "\ninterlayer-tangential "));
     static const struct {
         const char *change, *part;
-    } others[] = {{"sed 's/mu 0/mu x/' st >other", "other holds no numbers of this fit"},
-                  {"sed 's/step 1/step 0/' st >other", "other holds no numbers of this fit"},
-                  {"(cat st; echo mu 1) >other", "other holds no numbers of this fit"},
-                  {"head -n 2 st >other", "other holds no numbers of this fit"},
-                  {": >other", "other holds no numbers of this fit"},
-                  {"cp st other; sed -i 's/^-/-1/' creep.tsv", "other holds no numbers"}};
+    } others[] = {
+        {"sed 's/mu 0/mu x/' st >other", "this fit, and would be overwritten: remove it, or give"},
+        {"sed 's/step 1/step 0/' st >other", "other holds no numbers of this fit"},
+        {"(cat st; echo mu 1) >other", "other holds no numbers of this fit"},
+        {"head -n 2 st >other", "other holds no numbers of this fit"},
+        {": >other", "other holds no numbers of this fit"},
+        {"cp st other; sed -i 's/^-/-1/' creep.tsv", "other holds no numbers"}};
     char line[700];
     for (size_t k = 0; k < sizeof others / sizeof *others; k++) {
         snprintf(line, sizeof line,

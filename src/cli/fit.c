@@ -166,7 +166,8 @@ static cli_exit resume(cli_case_run *run)
     free(text);
     if (!known)
         return cli_fail(CLI_CANTWRITE,
-                        "--resume: %s holds no numbers of this fit, and would be overwritten",
+                        "--resume: %s holds no numbers of this fit, and would be overwritten: "
+                        "remove it, or give another name",
                         f->resume);
     if (!run->o.quiet)
         fprintf(stderr,

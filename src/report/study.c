@@ -188,12 +188,30 @@ static void write_label(FILE *out, const char *label, const rb_report_quantity *
     fprintf(out, "%s%s'\n", rb_report_raised(q->unit, unit), a->exponent || q->unit[0] ? "]" : "");
 }
 
+/* Digits that tell the numbers of an axis apart where gnuplot's own five do not; else 0. */
+static int digits_of(const axis *a)
+{
+    enum { OF_GNUPLOT = 5, OF_DOUBLE = 15 };
+    if (a->flat || a->logarithmic || !(a->to > a->from))
+        return 0;
+    const double largest = fmax(fabs(a->from), fabs(a->to)), step = (a->to - a->from) / 10.0;
+    const double digits = floor(log10(largest)) - floor(log10(step)) + 1.0;
+    return digits > OF_GNUPLOT ? (int)fmin(digits, OF_DOUBLE) : 0;
+}
+
+static void write_format(FILE *out, const char *letters, const axis *a)
+{
+    if (digits_of(a))
+        fprintf(out, "set format %s '%%.%dg'\n", letters, digits_of(a));
+}
+
 static void write_axis(FILE *out, char letter, const rb_report_quantity *q, const axis *a,
                        int labels)
 {
     char label[] = "xlabel";
     label[0] = letter;
     write_label(out, label, q, a);
+    write_format(out, (char[]){letter, '\0'}, a);
     fprintf(out, "set %crange [%.9g:%.9g]\n", letter, a->from, a->to);
     if (a->logarithmic) {
         fprintf(out, "set logscale %c\n", letter);
@@ -247,6 +265,7 @@ static void write_curves(FILE *out, rb_report_canvas canvas, const void *context
     write_title(out, v, place);
     write_axis(out, 'x', &s->x, &v->x, labels_below(place));
     write_label(out, "ylabel", &s->shown, &v->shown);
+    write_format(out, "y", &v->shown);
     if (v->shown.flat)
         fprintf(out, "set yrange [%.9g:%.9g]\n", v->shown.from, v->shown.to);
     if (s->y.value)
@@ -285,8 +304,12 @@ static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
     const view *v = context;
     const rb_report_study *s = v->study;
     const rb_report_place place = rb_report_place_of(canvas);
-    const double bottom = 0.14 + place.up, height = 0.76, left = 0.13 + place.right;
-    const double width = 0.67 - 2.0 * place.right;
+    /* Long numbers beside the map and its scale take room from it. */
+    const double of_digit = 0.012;
+    const double beside = of_digit * fmax(digits_of(&v->y) - 3.0, 0.0);
+    const double right = of_digit * fmax(digits_of(&v->shown) - 5.0, 0.0);
+    const double bottom = 0.14 + place.up, height = 0.76, left = 0.13 + place.right + beside;
+    const double width = 0.67 - 2.0 * place.right - beside - right;
     fputs("$map << EOD\n", out);
     for (int i = 0; i < s->n; i++)
         fprintf(out, "%.9g %.9g %.9g\n%s", v->at[i].x / v->x.unit, v->at[i].y / v->y.unit,
@@ -305,6 +328,7 @@ static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
     snprintf(label, sizeof label, "label 2 at screen 0.968, %g center rotate",
              bottom + height / 2.0);
     write_label(out, label, &s->shown, &v->shown);
+    write_format(out, "cb", &v->shown);
     if (v->shown.flat)
         fprintf(out, "set cbrange [%.9g:%.9g]\n", v->shown.from, v->shown.to);
     else {
