@@ -40,37 +40,6 @@ static rb_status check(const rb_rolling_model *model, rb_message *why)
     return s;
 }
 
-static rb_status find_borders(rb_sensitivity *s)
-{
-    const rb_contact_problem *p = &s->model->problem;
-    const rb_contact_state *state = &s->model->state;
-    double *slip = s->slip = rb_alloc((size_t)s->n, 2);
-
-    if (!slip)
-        return RB_ENOMEM;
-    double *gap = slip + s->n;
-    rb_contact_kinematics(p, state, gap, slip);
-    for (int i = 0; i < s->n; i++) {
-        const double friction = rb_contact_friction_scale(p);
-        const int zone = state->zone[i];
-        const double left = p->bound[i] * state->p[i] - fabs(state->q[i]);
-        if (zone == RB_ZONE_SEPARATED)
-            s->border[i] = gap[i] < BORDER * p->gap_length ? BORDER_GAP : 0;
-        else if (state->p[i] < BORDER * p->stress)
-            s->border[i] = BORDER_GAP;
-        else if (p->bound[i] > 0.0 && zone == RB_ZONE_STICK)
-            s->border[i] = left < BORDER * friction ? BORDER_SLIP : 0;
-        else if (p->bound[i] > 0.0 && zone <= RB_ZONE_SLIP_POSITIVE)
-            s->border[i] = fabs(slip[i]) < BORDER * p->slip_length ? BORDER_SLIP : 0;
-        else if (p->bound[i] == 0.0 && zone <= RB_ZONE_SLIP_POSITIVE)
-            s->border[i] = fabs(slip[i]) < BORDER * p->slip_length ? BORDER_REST : 0;
-        s->contact += zone != RB_ZONE_SEPARATED;
-        s->at_rest += s->border[i] == BORDER_REST;
-        s->degenerate += s->border[i] != 0 && s->border[i] != BORDER_REST;
-    }
-    return RB_OK;
-}
-
 /* ---- Making one -------------------------------------------------------------------- */
 
 /* make: from the model the copy that takes its place. */
@@ -113,9 +82,32 @@ static rb_status create(const rb_rolling_model *model, const rb_sensitivity *lik
         status = take_matrix(s, why);
     if (status == RB_OK)
         status = check(s->model, why);
+    const rb_contact_problem *p = &s->model->problem;
+    const rb_contact_state *state = &s->model->state;
     s->border = calloc((size_t)s->n, 1);
+    s->slip = rb_alloc((size_t)s->n, 2);
+    if (status == RB_OK && !(s->border && s->slip))
+        status = RB_ENOMEM;
     if (status == RB_OK)
-        status = s->border ? find_borders(s) : RB_ENOMEM;
+        rb_contact_kinematics(p, state, s->slip + s->n, s->slip);
+    for (int i = 0; i < s->n && status == RB_OK; i++) {
+        const double gap = s->slip[s->n + i], slip = fabs(s->slip[i]);
+        const double left = p->bound[i] * state->p[i] - fabs(state->q[i]);
+        const int zone = state->zone[i];
+        if (zone == RB_ZONE_SEPARATED)
+            s->border[i] = gap < BORDER * p->gap_length ? BORDER_GAP : 0;
+        else if (state->p[i] < BORDER * p->stress)
+            s->border[i] = BORDER_GAP;
+        else if (p->bound[i] > 0.0 && zone == RB_ZONE_STICK)
+            s->border[i] = left < BORDER * rb_contact_friction_scale(p) ? BORDER_SLIP : 0;
+        else if (p->bound[i] > 0.0 && zone <= RB_ZONE_SLIP_POSITIVE)
+            s->border[i] = slip < BORDER * p->slip_length ? BORDER_SLIP : 0;
+        else if (p->bound[i] == 0.0 && zone <= RB_ZONE_SLIP_POSITIVE)
+            s->border[i] = slip < BORDER * p->slip_length ? BORDER_REST : 0;
+        s->contact += zone != RB_ZONE_SEPARATED;
+        s->at_rest += s->border[i] == BORDER_REST;
+        s->degenerate += s->border[i] != 0 && s->border[i] != BORDER_REST;
+    }
     if (status == RB_OK && (s->degenerate || s->at_rest < s->contact) && s->degenerate + s->at_rest)
         status = take_matrix(s, why);
     if (status == RB_OK)
