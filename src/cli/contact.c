@@ -137,60 +137,9 @@ static rb_status print(FILE *out, const void *context, rb_message *why)
 
 /* ---- Command ----------------------------------------------------------------------- */
 
-/* Each case from what the one before has left.  Returns how many ran; worst: the largest
- * exit code of these. */
-static int run_cases(const contact_runs *all, const rb_io_contact_case *cases, cli_exit *worst)
-{
-    int ran = 0;
-    for (int k = 0; k < all->n; k++) {
-        all->run[k].in = &cases[k];
-        rb_case_from_contact(&cases[k], &all->run[k].c);
-    }
-    for (int k = 0; k < all->n; k++) {
-        contact_run *r = &all->run[k];
-        r->before = k > 0 ? &all->run[k - 1].s : NULL;
-        rb_case_contact_follow(k > 0 ? &all->run[k - 1].c : NULL, r->before, &r->c);
-        if (!r->c.runs)
-            continue;
-        ran++;
-        cli_wait_begin();
-        r->status = rb_case_contact_solve(&r->c, r->before, &r->s, &r->why);
-        cli_wait_end();
-        if (r->status == RB_OK)
-            continue;
-        const cli_exit one = r->status == RB_EINVAL ? CLI_DATA : cli_exit_of(r->status);
-        cli_fail(one, "%s:%d: case %d: %s", all->path, r->in->line, k + 1,
-                 rb_status_reason(r->status, &r->why));
-        *worst = one > *worst ? one : *worst;
-    }
-    return ran;
-}
-
 static int is_left_out_alike(const contact_run *a, const contact_run *b)
 {
     return a->c.runs == b->c.runs && strcmp(a->c.left_out, b->c.left_out) == 0;
-}
-
-/* What is left out of the cases, each reason at its first case only. */
-static void tell_left_out(const contact_runs *all)
-{
-    for (int k = 0; k < all->n; k++) {
-        const contact_run *r = &all->run[k];
-        int as_before = 0, alike = 0;
-        for (int j = 0; j < k; j++)
-            as_before |= is_left_out_alike(&all->run[j], r);
-        for (int j = k + 1; j < all->n; j++)
-            alike += is_left_out_alike(&all->run[j], r);
-        if (!r->c.left_out[0] || as_before)
-            continue;
-        char more[40] = "";
-        if (alike > 0)
-            snprintf(more, sizeof more, ", and %d more case%s", alike, alike > 1 ? "s" : "");
-        cli_fail(CLI_OK,
-                 r->c.runs ? "%s:%d: case %d%s solved without %s"
-                           : "%s:%d: case %d%s skipped: %s is not supported",
-                 all->path, r->in->line, k + 1, more, r->c.left_out);
-    }
 }
 
 int cli_contact(int argc, char **argv)
@@ -218,9 +167,47 @@ int cli_contact(int argc, char **argv)
     if (code == CLI_CONTINUE && !(all.run = calloc((size_t)all.n, sizeof *all.run)))
         code = cli_fail(CLI_INTERNAL, "out of memory");
     if (code == CLI_CONTINUE) {
-        const int ran = run_cases(&all, cases, &worst);
-        if (!o.quiet)
-            tell_left_out(&all);
+        for (int k = 0; k < all.n; k++) {
+            all.run[k].in = &cases[k];
+            rb_case_from_contact(&cases[k], &all.run[k].c);
+        }
+        /* each case from what the one before has left */
+        int ran = 0;
+        for (int k = 0; k < all.n; k++) {
+            contact_run *r = &all.run[k];
+            r->before = k > 0 ? &all.run[k - 1].s : NULL;
+            rb_case_contact_follow(k > 0 ? &all.run[k - 1].c : NULL, r->before, &r->c);
+            if (!r->c.runs)
+                continue;
+            ran++;
+            cli_wait_begin();
+            r->status = rb_case_contact_solve(&r->c, r->before, &r->s, &r->why);
+            cli_wait_end();
+            if (r->status == RB_OK)
+                continue;
+            const cli_exit one = r->status == RB_EINVAL ? CLI_DATA : cli_exit_of(r->status);
+            cli_fail(one, "%s:%d: case %d: %s", all.path, r->in->line, k + 1,
+                     rb_status_reason(r->status, &r->why));
+            worst = one > worst ? one : worst;
+        }
+        /* what is left out of the cases, each reason at its first case only */
+        for (int k = 0; k < all.n && !o.quiet; k++) {
+            const contact_run *r = &all.run[k];
+            int as_before = 0, alike = 0;
+            for (int j = 0; j < k; j++)
+                as_before |= is_left_out_alike(&all.run[j], r);
+            for (int j = k + 1; j < all.n; j++)
+                alike += is_left_out_alike(&all.run[j], r);
+            if (!r->c.left_out[0] || as_before)
+                continue;
+            char more[40] = "";
+            if (alike > 0)
+                snprintf(more, sizeof more, ", and %d more case%s", alike, alike > 1 ? "s" : "");
+            cli_fail(CLI_OK,
+                     r->c.runs ? "%s:%d: case %d%s solved without %s"
+                               : "%s:%d: case %d%s skipped: %s is not supported",
+                     all.path, r->in->line, k + 1, more, r->c.left_out);
+        }
         code = cli_write_file(all.o->output, print, &all);
         if (code != CLI_OK)
             worst = code;
