@@ -22,10 +22,6 @@ static const char *const bodies[][2] = {
     {"radius", "100"},          {"half-width", "1"},      {"mesh", "uniform"}, {"zone", "1.2"},
     {"contact-elements", "36"}, {"formulation", "steady"}};
 
-static const char *const rubber[] = {
-    "support", "halfplane",        "load", "5",           "poisson",
-    "0.45",    "contact-elements", "24",   "formulation", "steady"};
-
 static rb_case *case_of(rb_case_purpose purpose)
 {
     rb_message why = {""};
@@ -361,22 +357,54 @@ TEST(numbers_that_only_move_elements_are_told)
     rb_case_free(c);
 }
 
+static rb_case *rubber_case(rb_case_purpose purpose)
+{
+    static const char *const rubber[] = {
+        "support", "halfplane",        "load", "5",           "poisson",
+        "0.45",    "contact-elements", "24",   "formulation", "steady"};
+    rb_message why = {""};
+    rb_case *c = rb_case_create(purpose);
+    for (int i = 0; i < 10; i += 2)
+        CHECK_OK(rb_case_set(c, rubber[i], rubber[i + 1], RB_GIVEN_ARGUMENT, &why));
+    return c;
+}
+
+static double rubber_creep[] = {-0.05, -0.03, -0.01, 0.01, 0.03, 0.05},
+              rubber_share[] = {0.4012, 0.3474, 0.0821, -0.2452, -0.3841, -0.3991};
+static const rb_case_data of_rubber = {
+    6, 0, RB_CASE_FORCE_OVER_LOAD, rubber_creep, rubber_share, NULL, NULL, NULL, NULL};
+
+/* mu, from 0.4, and a modulus of at least `low`, from `young`. */
+static rb_case_fit fit_of_rubber(double young, double low)
+{
+    static const char *const names[] = {"mu", "young"};
+    rb_case_fit fit = fit_of(2, names);
+    rb_message why = {""};
+    rb_case *c = rubber_case(RB_CASE_CURVE);
+    fit.parameter[0].start = 0.4;
+    fit.parameter[1].start = young;
+    fit.parameter[1].low = low;
+    CHECK_OK(rb_case_resolve(c, &why));
+    if (rb_case_fit_solve(c, &of_rubber, NULL, &fit, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    rb_case_free(c);
+    return fit;
+}
+
 /* The sum of squares of cases that are solved anew, each on its own elements. */
-static double squares_at(const rb_case_data *data, double mu, double young)
+static double squares_at(double mu, double young)
 {
     double sum = 0.0;
-    for (int k = 0; k < data->n; k++) {
+    for (int k = 0; k < of_rubber.n; k++) {
         rb_message why = {""};
-        rb_case *c = rb_case_create(RB_CASE_SINGLE);
+        rb_case *c = rubber_case(RB_CASE_SINGLE);
         OWNED(rb_case_result) r;
-        for (int i = 0; i < 10; i += 2)
-            CHECK_OK(rb_case_set(c, rubber[i], rubber[i + 1], RB_GIVEN_ARGUMENT, &why));
         set_number(c, "mu", mu);
         set_number(c, "young", young);
-        set_number(c, "creep", data->creep[k]);
+        set_number(c, "creep", of_rubber.creep[k]);
         CHECK_OK(rb_case_resolve(c, &why));
         CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why));
-        sum += pow(r.solution.tangential_load / r.solution.normal_load - data->force[k], 2.0);
+        sum += pow(r.solution.tangential_load / r.solution.normal_load - of_rubber.force[k], 2.0);
         rb_case_free(c);
     }
     return sum;
@@ -385,37 +413,23 @@ static double squares_at(const rb_case_data *data, double mu, double young)
 /* A modulus moves the elements: the minima on elements that stay lead from one to the next. */
 TEST(elements_follow_the_numbers)
 {
-    static double xi[] = {-0.05, -0.03, -0.01, 0.01, 0.03, 0.05},
-                  share[] = {0.4012, 0.3474, 0.0821, -0.2452, -0.3841, -0.3991};
-    static const char *const names[] = {"mu", "young"};
     static const double starts[] = {10.0, 1.0, 1e3};
-    const rb_case_data data = {6, 0, RB_CASE_FORCE_OVER_LOAD, xi, share, NULL, NULL, NULL, NULL};
     double first = 0.0;
     for (int k = 0; k < 3; k++) {
-        OWNED(rb_case_fit) fit = fit_of(2, names);
-        rb_message why = {""};
-        rb_case *c = rb_case_create(RB_CASE_CURVE);
-        for (int i = 0; i < 10; i += 2)
-            CHECK_OK(rb_case_set(c, rubber[i], rubber[i + 1], RB_GIVEN_ARGUMENT, &why));
-        fit.parameter[0].start = 0.4;
-        fit.parameter[1].start = starts[k];
-        CHECK_OK(rb_case_resolve(c, &why));
-        if (rb_case_fit_solve(c, &data, NULL, &fit, &why) != RB_OK)
-            fail_msg("%s", why.text);
+        OWNED(rb_case_fit) fit = fit_of_rubber(starts[k], -INFINITY);
         const double mu = fit.parameter[0].value, young = fit.parameter[1].value,
-                     least = squares_at(&data, mu, young);
+                     least = squares_at(mu, young);
         CHECK_REL(fit.chi_square, least, 1e-9, "start %g", starts[k]);
         assert_true(fit.parameter[0].identified && fit.parameter[1].identified);
         CHECK_ABS(young, 10.0, 2.0 * fit.parameter[1].deviation, "start %g", starts[k]);
         for (int side = -1; side <= 1; side += 2) {
             const double off[2] = {0.2 * side * fit.parameter[0].deviation,
                                    0.2 * side * fit.parameter[1].deviation};
-            assert_true(squares_at(&data, mu + off[0], young) > least);
-            assert_true(squares_at(&data, mu, young + off[1]) > least);
+            assert_true(squares_at(mu + off[0], young) > least);
+            assert_true(squares_at(mu, young + off[1]) > least);
         }
         first = k ? first : young;
         CHECK_ABS(young, first, 0.05 * fit.parameter[1].deviation, "start %g", starts[k]);
-        rb_case_free(c);
     }
 }
 
@@ -423,30 +437,15 @@ TEST(elements_follow_the_numbers)
  * on a bound. */
 TEST(bounds_hold_where_elements_move)
 {
-    static double xi[] = {-0.05, -0.03, -0.01, 0.01, 0.03, 0.05},
-                  share[] = {0.4012, 0.3474, 0.0821, -0.2452, -0.3841, -0.3991};
-    static const char *const names[] = {"mu", "young"};
-    const rb_case_data data = {6, 0, RB_CASE_FORCE_OVER_LOAD, xi, share, NULL, NULL, NULL, NULL};
     for (int k = 0; k < 2; k++) {
-        OWNED(rb_case_fit) fit = fit_of(2, names);
-        rb_message why = {""};
-        rb_case *c = rb_case_create(RB_CASE_CURVE);
-        for (int i = 0; i < 10; i += 2)
-            CHECK_OK(rb_case_set(c, rubber[i], rubber[i + 1], RB_GIVEN_ARGUMENT, &why));
-        fit.parameter[0].start = 0.4;
-        fit.parameter[1].start = k ? 10.5 : 30.0;
-        fit.parameter[1].low = 10.5;
-        CHECK_OK(rb_case_resolve(c, &why));
-        if (rb_case_fit_solve(c, &data, NULL, &fit, &why) != RB_OK)
-            fail_msg("%s", why.text);
+        OWNED(rb_case_fit) fit = fit_of_rubber(k ? 10.5 : 30.0, 10.5);
         const double mu = fit.parameter[0].value, young = fit.parameter[1].value,
-                     least = squares_at(&data, mu, young), off = 0.2 * fit.parameter[0].deviation;
+                     least = squares_at(mu, young), off = 0.2 * fit.parameter[0].deviation;
         CHECK_ABS(young, 10.5, 1e-6, "start %d", k);
         assert_true(fit.parameter[1].at_bound);
         CHECK_REL(fit.chi_square, least, 1e-3, "start %d", k);
-        assert_true(squares_at(&data, mu - off, young) > least);
-        assert_true(squares_at(&data, mu + off, young) > least);
-        rb_case_free(c);
+        assert_true(squares_at(mu - off, young) > least);
+        assert_true(squares_at(mu + off, young) > least);
     }
 }
 
@@ -461,9 +460,7 @@ TEST(a_start_far_away_ends_at_the_same_numbers)
     for (int k = 0; k < 2; k++) {
         rb_case_fit fit = fit_of(2, names);
         rb_message why = {""};
-        rb_case *c = rb_case_create(RB_CASE_CURVE);
-        for (int i = 0; i < 10; i += 2)
-            CHECK_OK(rb_case_set(c, rubber[i], rubber[i + 1], RB_GIVEN_ARGUMENT, &why));
+        rb_case *c = rubber_case(RB_CASE_CURVE);
         set_number(c, "young", 10.0);
         set_number(c, "layer-thickness", 3.0);
         set_number(c, "contact-elements", 16.0);

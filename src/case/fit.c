@@ -302,20 +302,13 @@ static rb_status set_parameter(fit_problem *p, int j, rb_message *why)
     return RB_OK;
 }
 
-static int depends_on_speed(const rb_case *c)
-{
-    static const char *const names[] = {"relaxation-time", "relaxation-time-b", "conductivity",
-                                        "mu-fall"};
-    int found = 0;
-    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
-        found |= rb_case_given(c, names[k]) != 0;
-    return found;
-}
-
 rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_case_fit *fit,
                               rb_message *why)
 {
+    static const char *const of_speed[] = {"relaxation-time", "relaxation-time-b", "conductivity",
+                                           "mu-fall"};
     const int falls = is_fitted(fit, "mu-fall") || is_fitted(fit, "slip-scale");
+    int depends_on_speed = 0;
     rb_status s = RB_OK;
 
     if (falls && !rb_case_given(c, "friction-law"))
@@ -328,7 +321,9 @@ rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_cas
         s = rb_fail(why, RB_EINVAL,
                     "the data have a column temperature, but the case has no heat: give "
                     "--conductivity, --heat-capacity and --mu-heat, or leave the column out");
-    if (s == RB_OK && data->speed && !depends_on_speed(c))
+    for (size_t k = 0; k < sizeof of_speed / sizeof *of_speed; k++)
+        depends_on_speed |= rb_case_given(c, of_speed[k]) != 0;
+    if (s == RB_OK && data->speed && !depends_on_speed)
         s = rb_fail(why, RB_EINVAL,
                     "the data have a column speed, but nothing in the case depends on it: give "
                     "--relaxation-time, --conductivity or --mu-fall, or leave the column out");
@@ -342,10 +337,10 @@ rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_cas
 
 /* ---- Elements that do not come to rest --------------------------------------------- */
 
-/* Gauss's step d from theta to the least sum of squares, and by what part of the noise the curve
- * then moves, all points together.  Numbers that a bound holds stay. */
-static rb_status gauss_step(const fit_problem *p, const double *theta, double *d, double *moves,
-                            rb_message *why)
+/* The step d of Gauss and Newton from theta to the least sum of squares, and by what part of the
+ * noise the curve then moves, all points together.  Numbers that a bound holds stay. */
+static rb_status gauss_newton_step(const fit_problem *p, const double *theta, double *d,
+                                   double *moves, rb_message *why)
 {
     const size_t points = (size_t)p->points, n = (size_t)p->n;
     rb_arena scratch = {0};
@@ -378,11 +373,11 @@ static rb_status gauss_step(const fit_problem *p, const double *theta, double *d
                          info == 0 ? RB_OK : rb_fail(why, RB_SINGULAR, "fit: no step is found"));
 }
 
-/* Gauss's method on elements that move with the numbers, where the minima on elements that stay
- * lead from one to the next.  The points have their elements for theta and are tried there.
- * RB_MAXITER: no minimum is found. */
-static rb_status descend_with_elements(fit_problem *p, double *theta, double chi2,
-                                       const rb_case_fit_observer *observer, rb_message *why)
+/* Gauss and Newton's method on elements that move with the numbers, where the minima on elements
+ * that stay lead from one to the next.  The points have their elements for theta and are tried
+ * there. RB_MAXITER: no minimum is found. */
+static rb_status gauss_newton(fit_problem *p, double *theta, double chi2,
+                              const rb_case_fit_observer *observer, rb_message *why)
 {
     double d[RB_CASE_FIT_MAX], trial[RB_CASE_FIT_MAX], moves = INFINITY;
     rb_status s = RB_OK;
@@ -392,7 +387,7 @@ static rb_status descend_with_elements(fit_problem *p, double *theta, double chi
         p->fit->chi_square = chi2;
         s = rb_case_fit_move(p, theta, why);
         if (s == RB_OK)
-            s = gauss_step(p, theta, d, &moves, why);
+            s = gauss_newton_step(p, theta, d, &moves, why);
         if (s != RB_OK || moves <= AT_REST || k == MOVING_STEPS)
             break;
         for (int h = 0; h < HALVINGS && s == RB_OK && !(least < chi2); h++, part *= 0.5) {
@@ -494,7 +489,7 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
             moved = fabs(chi2 - fit->chi_square) > SAME * fit->chi_square + SAME_OF_ALL * squares;
     }
     if (s == RB_OK && moved) {
-        s = descend_with_elements(&p, theta, chi2, observer, why);
+        s = gauss_newton(&p, theta, chi2, observer, why);
         if (s == RB_MAXITER)
             s = rb_fail(
                 why, s,
