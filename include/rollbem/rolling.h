@@ -760,9 +760,12 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
  * as there is a state; with status and time.  Returns the status of both. */
 rb_status rb_rolling_end_solve(const rb_rolling_model *model, rb_status s, double begun,
                                rb_rolling_solution *solution, rb_message *why);
-/* The solution without the residuals, which stay 0. */
+/* The solution without the residuals and temperatures, which stay 0. */
 rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_solution *solution,
                                       rb_message *why);
+/* Its temperatures, if it has such columns, and the highest.  RB_ENOMEM, RB_SINGULAR. */
+rb_status rb_rolling_set_temperature(const rb_rolling_model *model, rb_rolling_solution *solution,
+                                     rb_message *why);
 
 /* Highest of the temperatures t of elements in contact, by a parabola through the warmest
  * one and its neighbours, and its place; NAN without contact.  x, zone, t: n. */
@@ -770,9 +773,13 @@ void rb_rolling_peak_temperature(int n, const double *x, const int *zone, const 
                                  double *value, double *at);
 
 /* Temperatures of steady rolling from x, h, zone, q, slip and shift of the solution, into
- * t_a and t_b, n each. */
+ * t_a and t_b, n each.  conduction: kept from call to call on the same elements, NULL at first;
+ * free it with rb_rolling_conduction_free in any case.  RB_ENOMEM, RB_SINGULAR. */
+struct rb_rolling_conduction;
+void rb_rolling_conduction_free(struct rb_rolling_conduction *conduction);
 rb_status rb_rolling_solution_heat(const rb_rolling_case *rc, const rb_rolling_solution *s,
-                                   double *t_a, double *t_b, rb_message *why);
+                                   struct rb_rolling_conduction **conduction, double *t_a,
+                                   double *t_b, rb_message *why);
 
 /* A variant of a solved model: a case that differs slightly from the model's in some
  * number, on the same elements, with the model's state and zones, to be completed.  If

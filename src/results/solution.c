@@ -183,42 +183,40 @@ static void set_counts(const rb_rolling_model *model, rb_rolling_solution *s)
 }
 
 rb_status rb_rolling_solution_heat(const rb_rolling_case *rc, const rb_rolling_solution *s,
-                                   double *t_a, double *t_b, rb_message *why)
+                                   struct rb_rolling_conduction **conduction, double *t_a,
+                                   double *t_b, rb_message *why)
 {
-    struct rb_rolling_conduction *conduction = NULL;
     double *power = rb_alloc((size_t)s->n, 1);
 
     if (!power)
         return RB_ENOMEM;
     rb_rolling_friction_power(s, power);
-    const rb_status status =
-        rb_rolling_steady_temperature(rc, s, power, &conduction, t_a, t_b, why);
-    rb_rolling_conduction_free(conduction);
+    const rb_status status = rb_rolling_steady_temperature(rc, s, power, conduction, t_a, t_b, why);
     free(power);
     return status;
 }
 
-/* Steady rolling heats by the current solution; of a transient the steps have followed
- * the heat. */
-static rb_status set_temperature(const rb_rolling_model *model, rb_rolling_solution *s,
-                                 rb_message *why)
+rb_status rb_rolling_set_temperature(const rb_rolling_model *model, rb_rolling_solution *s,
+                                     rb_message *why)
 {
     const rb_rolling_case *rc = model->rc;
     const size_t size = (size_t)s->n * sizeof(double);
     rb_status status = RB_OK;
 
-    s->max_temperature = s->max_temperature_at = s->peclet = NAN;
     if (!s->temperature)
         return RB_OK;
+    /* of a transient the steps have followed the heat */
     if (rc->formulation == RB_STEADY) {
-        status = rb_rolling_solution_heat(rc, s, s->temperature, s->temperature_b, why);
+        struct rb_rolling_conduction *conduction = NULL;
+        status =
+            rb_rolling_solution_heat(rc, s, &conduction, s->temperature, s->temperature_b, why);
+        rb_rolling_conduction_free(conduction);
     } else if (model->carried.temperature) {
         memcpy(s->temperature, model->carried.temperature, size);
         memcpy(s->temperature_b, model->carried.temperature, size);
     }
     rb_rolling_peak_temperature(s->n, s->x, s->zone, s->temperature, &s->max_temperature,
                                 &s->max_temperature_at);
-    s->peclet = rb_rolling_peclet(&rc->heat_a, rc->speed, s->half_width);
     return status;
 }
 
@@ -302,8 +300,10 @@ rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_
         s->dissipation =
             unless_tiny(s->dissipation, 1e-11 * rb_rolling_largest_mu(model->rc) * s->normal_load *
                                             s->half_width / rb_rolling_radius(model->rc));
-    if (status == RB_OK)
-        status = set_temperature(model, s, why);
+    s->max_temperature = s->max_temperature_at = NAN;
+    s->peclet = s->temperature
+                    ? rb_rolling_peclet(&model->rc->heat_a, model->rc->speed, s->half_width)
+                    : NAN;
     if (status != RB_OK)
         rb_rolling_solution_free(s);
     return status;
@@ -317,6 +317,11 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
 
     if (status != RB_OK)
         return status;
+    status = rb_rolling_set_temperature(model, s, why);
+    if (status != RB_OK) {
+        rb_rolling_solution_free(s);
+        return status;
+    }
     status = rb_contact_residual(&model->problem, &model->state, &violation);
     s->residual = violation.scaled;
     s->residual_gap = violation.gap;

@@ -244,7 +244,6 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_roll
                                         const double *power,
                                         struct rb_rolling_conduction **conduction, double *t_a,
                                         double *t_b, rb_message *why);
-void rb_rolling_conduction_free(struct rb_rolling_conduction *conduction);
 
 /* The heat of earlier steps, for the particles that are still in the mesh. */
 typedef struct rb_rolling_heat_track {

@@ -280,10 +280,12 @@ static rb_status results_of(const rb_contact_state *y, rb_rolling_model *v,
                             rb_rolling_solution *results, rb_message *why)
 {
     rb_rolling_variant_set(y, NULL, 0.0, &v->state);
-    const rb_status status = rb_rolling_variant_complete(v, NULL, NULL, why);
+    rb_status status = rb_rolling_variant_complete(v, NULL, NULL, why);
 
     memcpy(v->state.lambda, y->lambda, (size_t)y->n * sizeof *y->lambda);
-    return status == RB_OK ? rb_rolling_variant_solution(v, results, why) : status;
+    if (status == RB_OK)
+        status = rb_rolling_variant_solution(v, results, why);
+    return status == RB_OK ? rb_rolling_set_temperature(v, results, why) : status;
 }
 
 rb_status rb_sensitivity_add_jump(const rb_sensitivity *s, const rb_sensitivity_derivative *line,

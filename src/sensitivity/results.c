@@ -90,37 +90,46 @@ void rb_sensitivity_combine(const rb_sensitivity *s, const rb_sensitivity_stenci
     }
 }
 
-/* What place k of the stencil adds to the derivatives of both temperatures.  Only powers > 0 heat,
- * and small ones change their sign within the step: the case varies where the solution stays, and
- * the solution goes a small part of its way. */
-static rb_status add_heat(const rb_sensitivity *s, const rb_sensitivity_variants *v, int k,
-                          const rb_rolling_solution *moved, double *warmer, rb_message *why)
+/* Derivatives of both temperatures (2n), from the results moved to the places of the stencil.  Only
+ * powers > 0 heat, and small ones change their sign within the step: the case varies where the
+ * solution stays, and the solution goes a small part of its way. */
+static rb_status differentiate_heat(const rb_sensitivity *s, const rb_sensitivity_variants *v,
+                                    const rb_rolling_solution *moved, double *warmer,
+                                    rb_message *why)
 {
     const rb_rolling_solution *at = &s->solution;
     const size_t n = (size_t)s->n;
-    const double part = RB_STEP_OF_STATE * v->scale / v->step, weight = v->at.weight[k] / v->step;
-    const double *from[] = {at->x, at->h, at->q, at->slip, at->shift},
-                 *to[] = {moved->x, moved->h, moved->q, moved->slip, moved->shift};
-    double *near = rb_alloc(n, 7);
-    rb_rolling_solution small = *at;
+    const double part = RB_STEP_OF_STATE * v->scale / v->step;
+    rb_arena scratch = {0};
+    double *near[5], *t = rb_arena_doubles(&scratch, n, 2);
+    struct rb_rolling_conduction *conduction = NULL;
+    rb_status status = RB_OK;
 
-    if (!near)
-        return RB_ENOMEM;
-    double *t = near + 5 * n;
-    for (size_t i = 0; i < 5 * n; i++)
-        near[i] = from[i / n][i % n] + part * (to[i / n][i % n] - from[i / n][i % n]);
-    small.x = near;
-    small.h = near + n;
-    small.q = near + 2 * n;
-    small.slip = near + 3 * n;
-    small.shift = near + 4 * n;
-    rb_status status = rb_rolling_solution_heat(v->model[k].rc, at, t, t + n, why);
-    cblas_daxpy(2 * s->n, weight, t, 1, warmer, 1);
-    if (status == RB_OK)
-        status = rb_rolling_solution_heat(s->model->rc, &small, t, t + n, why);
-    cblas_daxpy(2 * s->n, weight / part, t, 1, warmer, 1);
-    free(near);
-    return status;
+    for (int j = 0; j < 5; j++)
+        near[j] = rb_arena_doubles(&scratch, n, 1);
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    for (int k = 0; k < v->at.n && status == RB_OK; k++) {
+        status = rb_rolling_solution_heat(v->model[k].rc, at, &conduction, t, t + n, why);
+        cblas_daxpy(2 * s->n, v->at.weight[k] / v->step, t, 1, warmer, 1);
+    }
+    rb_rolling_solution small = *at;
+    small.x = near[0];
+    small.h = near[1];
+    small.q = near[2];
+    small.slip = near[3];
+    small.shift = near[4];
+    for (int k = 0; k < v->at.n && status == RB_OK; k++) {
+        const double *from[] = {at->x, at->h, at->q, at->slip, at->shift},
+                     *to[] = {moved[k].x, moved[k].h, moved[k].q, moved[k].slip, moved[k].shift};
+        for (int j = 0; j < 5; j++)
+            for (size_t i = 0; i < n; i++)
+                near[j][i] = from[j][i] + part * (to[j][i] - from[j][i]);
+        status = rb_rolling_solution_heat(s->model->rc, &small, &conduction, t, t + n, why);
+        cblas_daxpy(2 * s->n, v->at.weight[k] / (part * v->step), t, 1, warmer, 1);
+    }
+    rb_rolling_conduction_free(conduction);
+    return rb_arena_done(&scratch, status);
 }
 
 /* (D4) the results at the places of the stencil, moved along the tangent. */
@@ -138,9 +147,9 @@ rb_status rb_sensitivity_results(const rb_sensitivity *s, rb_sensitivity_variant
         status = rb_rolling_variant_complete(&v->model[k], NULL, NULL, why);
         if (status == RB_OK)
             status = rb_rolling_variant_solution(&v->model[k], &moved[k], why);
-        if (status == RB_OK && warmer)
-            status = add_heat(s, v, k, &moved[k], warmer, why);
     }
+    if (status == RB_OK && warmer)
+        status = differentiate_heat(s, v, moved, warmer, why);
     if (status == RB_OK)
         rb_sensitivity_combine(s, &v->at, v->step, moved);
     if (status == RB_OK && warmer) {
