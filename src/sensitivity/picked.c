@@ -77,9 +77,9 @@ static void add_picked(double weight, rb_sensitivity_picked x, rb_sensitivity_pi
 static rb_sensitivity_picked pick_with_steps(const rb_rolling_model *model,
                                              const rb_contact_state *tangent,
                                              const rb_sensitivity_stencil *steps, double step,
-                                             rb_sensitivity_picked at, rb_contact_state *state)
+                                             rb_sensitivity_picked at, int aligned,
+                                             rb_contact_state *state)
 {
-    const int aligned = are_aligned(model);
     rb_sensitivity_picked d = {{0.0}};
 
     for (int k = 0; k < steps->n; k++) {
@@ -105,11 +105,12 @@ rb_sensitivity_picked rb_sensitivity_differentiate_picked(const rb_sensitivity *
     rb_rolling_variant_set(&model->state, NULL, 0.0, state);
     for (int k = 0; v && k < v->at.n; k++)
         add_picked(v->at.weight[k] / v->step, pick(&v->model[k], state, aligned), at, &d);
-    const rb_sensitivity_picked near = pick_with_steps(model, tangent, &rb_sensitivity_nearest,
-                                                       RB_STEP_OF_STATE * scale, at, state),
+    const rb_sensitivity_picked near =
+                                    pick_with_steps(model, tangent, &rb_sensitivity_nearest,
+                                                    RB_STEP_OF_STATE * scale, at, aligned, state),
                                 far = pick_with_steps(model, tangent, &rb_sensitivity_middle,
                                                       LONGER_STEP * RB_STEP_OF_STATE * scale, at,
-                                                      state);
+                                                      aligned, state);
     for (int k = 0; k < PICKED; k++) {
         const double off = fabs(far.of[k] - near.of[k]);
         d.of[k] +=
