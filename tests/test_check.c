@@ -1149,7 +1149,7 @@ TEST(every_edit_is_named)
         const char *given;
         struct {
             const char *path, *value, *part;
-        } edit[50];
+        } edit[51];
     } results[] = {
         {"--support halfplane --load 100 --mu 0.3 --creep-ratio 0.4 --mesh uniform "
          "--contact-elements 12" STEADY,
@@ -1158,6 +1158,7 @@ TEST(every_edit_is_named)
              {"summary/iterations", "-1", "summary.iterations is no count"},
              {"summary/seconds/total", "-1", "summary.seconds.total is no time"},
              {"summary/seconds", "", "summary.seconds is missing"},
+             {"summary/seconds", "-1", "summary.seconds is missing, or holds no times"},
              {"summary/openblas", "", "summary.integrals or summary.openblas is missing"},
              {"summary/free_creepage", "1", "which the friction at a creepage of"},
              {"summary/free_creepage", "\"x\"", "summary.free_creepage is no number"},

@@ -88,6 +88,8 @@ static const struct {
      "--smooth-derivatives: not together with --tolerance"},
     {"--smooth-derivatives max_temperature", 64,
      "--smooth-derivatives: this case has no max_temperature"},
+    {"--derivatives approach,tangential_load:mu", 64,
+     "--derivatives: expected RESULT without :OPTION, got 'tangential_load:mu'"},
     {"--derivatives p,temperature", 64, "--derivatives: this case has no temperature"},
     {"--smooth-derivatives solver", 64,
      "--smooth-derivatives: expected a result that has derivatives"},

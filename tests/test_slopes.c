@@ -107,6 +107,14 @@ TEST(one_step_is_told)
     assert_int_equal(rb_case_slopes_note(&of, &note), 1);
     assert_string_equal(note.text, "derivatives are those on elements that do not move; 1 of 7 "
                                    "points have no derivatives: reason");
+    /* a derivative that does not exist in the history of 7 steps, each with a pair */
+    double value[14] = {0.0};
+    value[4] = value[5] = NAN;
+    of = (rb_case_slopes){.table = &rb_rolling_history_columns, .n = 1, .rows = 7, .value = value};
+    assert_int_equal(rb_case_slopes_note(&of, &note), 1);
+    assert_non_null(strstr(note.text, "in 1 of 7 steps some derivatives do not exist (NaN)"));
+    value[5] = 1.0;
+    assert_int_equal(rb_case_slopes_note(&of, &note), 0);
 }
 
 /* A standard deviation of a number by which nobody has differentiated. */

@@ -139,9 +139,24 @@ void rb_case_slopes_convert(rb_case_slopes *s, rb_units units)
         s->value[i] = rb_case_slope_shown(&s->of[i / 2 % (size_t)s->n], units, s->value[i]);
 }
 
+/* Steps of a history after which a number has no derivative. */
+static int steps_without(const rb_case_slopes *s)
+{
+    int steps = 0;
+
+    for (int row = 0; s->table == &rb_rolling_history_columns && row < s->rows; row++) {
+        int n = 0;
+        while (n < s->n && !isnan(rb_case_slope_value(s, row, n)))
+            n++;
+        steps += n < s->n;
+    }
+    return steps;
+}
+
 int rb_case_slopes_note(const rb_case_slopes *s, rb_message *note)
 {
     const size_t size = sizeof note->text;
+    const int without = steps_without(s);
 
     note->text[0] = '\0';
     if (s->stay)
@@ -154,6 +169,11 @@ int rb_case_slopes_note(const rb_case_slopes *s, rb_message *note)
                   "%sin %d of %d steps an element stands between two zones: derivatives from "
                   "there on are those for growing numbers",
                   s->stay ? "; " : "", s->degenerate, s->rows);
+    if (without > 0)
+        rb_append(note->text, size,
+                  "%sin %d of %d steps some derivatives do not exist (NaN), for example by mu "
+                  "where surfaces without friction slide under a given force",
+                  note->text[0] ? "; " : "", without, s->rows);
     return note->text[0] != '\0';
 }
 

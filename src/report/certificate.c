@@ -558,7 +558,7 @@ static rb_status compare_results(rb_certificate *c)
             if (!json_is_integer(steps) || json_integer_value(steps) < 0)
                 rb_certificate_violated(c, "summary.iterations is no count");
             if (!json_is_object(seconds))
-                rb_certificate_violated(c, "summary.seconds is missing");
+                rb_certificate_violated(c, "summary.seconds is missing, or holds no times");
             json_object_foreach((json_t *)seconds, key, time)
             {
                 if (!(rb_certificate_number(time) >= 0.0))

@@ -36,6 +36,11 @@ rb_status rb_report_derivatives_of(const char *names, const rb_resolved_case *c,
         n = strcspn(names, ",");
         snprintf(name, sizeof name, "%.*s", (int)n, names);
         const rb_rolling_result *r = rb_case_derivative_result(name, &is_column);
+        if (!r && strchr(name, ':'))
+            return rb_fail(why, RB_EINVAL,
+                           "expected RESULT without :OPTION, got '%s': a case without steps has "
+                           "the derivatives with respect to all numbers",
+                           name);
         if (!r)
             return rb_case_refuse_result(name, all, NULL, why);
         if (!rb_rolling_has_result(r, &c->rc, c->program.mu != NULL))
