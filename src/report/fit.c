@@ -198,28 +198,6 @@ static int is_near(const double *column, int i, int k)
     return !column || fabs(column[i] - column[k]) <= 0.02 * fmax(fabs(column[i]), fabs(column[k]));
 }
 
-/* 0: no memory. */
-static int sort_points(view *v)
-{
-    const rb_case_data *d = v->fit->data;
-    int *first = calloc((size_t)d->n, sizeof *first);
-
-    v->point = calloc((size_t)d->n, sizeof *v->point);
-    for (int k = 0; first && v->point && k < d->n; k++) {
-        int t = 0;
-        while (t < v->tests && !(is_near(d->load, first[t], k) && is_near(d->speed, first[t], k) &&
-                                 is_near(d->temperature, first[t], k)))
-            t++;
-        if (t == v->tests)
-            first[v->tests++] = k;
-        v->point[k] = (point){t, k, d->creep[k]};
-    }
-    if (v->tests > 0)
-        qsort(v->point, (size_t)d->n, sizeof *v->point, by_test);
-    free(first);
-    return v->tests > 0;
-}
-
 /* "P = 500 N/mm": what tells this test from the others. */
 static void write_conditions(FILE *out, const view *v, int test)
 {
@@ -390,21 +368,32 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
 rb_status rb_report_fit_picture(FILE *out, rb_report_canvas canvas, const rb_report_fit *f,
                                 rb_message *why)
 {
-    view v = {.fit = f};
+    const rb_case_data *d = f->data;
+    const size_t n = (size_t)d->n;
+    rb_arena scratch = {0};
+    int *first = rb_arena_ints(&scratch, n); /* points of the tests */
+    view v = {.fit = f, .point = rb_arena_zeros(&scratch, n, sizeof *v.point)};
     double most = 0.0;
     int banded = 1;
 
-    for (int k = 0; k < f->data->n; k++) {
-        most = fmax(most, fabs(f->data->creep[k]));
+    if (scratch.failed)
+        return rb_fail(why, rb_arena_done(&scratch, RB_ENOMEM), "out of memory");
+    for (int k = 0; k < d->n; k++) {
+        int t = 0;
+        while (t < v.tests && !(is_near(d->load, first[t], k) && is_near(d->speed, first[t], k) &&
+                                is_near(d->temperature, first[t], k)))
+            t++;
+        if (t == v.tests)
+            first[v.tests++] = k;
+        v.point[k] = (point){t, k, d->creep[k]};
+        most = fmax(most, fabs(d->creep[k]));
         banded &= isfinite(f->fit->band[k]) != 0;
         v.widest = fmax(v.widest, f->fit->band[k]);
     }
     if (!banded)
         v.widest = NAN;
     v.exponent = rb_report_exponent(most);
-    const rb_status s =
-        sort_points(&v) ? rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why)
-                        : rb_fail(why, RB_ENOMEM, "out of memory");
-    free(v.point);
-    return s;
+    qsort(v.point, n, sizeof *v.point, by_test);
+    return rb_arena_done(&scratch,
+                         rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why));
 }
