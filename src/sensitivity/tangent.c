@@ -234,29 +234,21 @@ static rb_status tangent_at_border(const rb_sensitivity *s, const rb_sensitivity
                : status;
 }
 
-/* 1: nothing changes but coefficients of friction, from 0 on, of surfaces that do not slide. */
-static int stays_at_rest(const rb_sensitivity *s, const rb_sensitivity_rate *rate)
+rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_rate *rate, int side,
+                                 rb_contact_state *tangent, rb_message *why)
 {
     const rb_contact_problem *p = &s->model->problem;
     const size_t n = (size_t)s->n;
     const double least = NO_CHANGE_OF_DATA * rb_norm_inf(n, rate->bound);
-
-    /* tangential: 0 / 0 where a force is given, which is 0 without friction */
-    return s->at_rest == s->contact && fabs(rate->normal) <= least &&
-           !(fabs(rate->tangential) > least) &&
-           rb_norm_inf(n, rate->gap) <= least * p->gap_length &&
-           rb_norm_inf(n, rate->slip) <= least * p->slip_length;
-}
-
-rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_rate *rate, int side,
-                                 rb_contact_state *tangent, rb_message *why)
-{
-    const size_t n = (size_t)s->n;
     int rub = 0;
 
     for (size_t i = 0; i < n && s->at_rest > 0; i++)
         rub += begins_to_rub(s, rate, i);
-    if (rub > 0 && stays_at_rest(s, rate)) {
+    /* Nothing changes but coefficients of friction, from 0 on, of surfaces that do not slide.
+     * tangential: 0 / 0 where a force is given, which is 0 without friction. */
+    if (rub > 0 && s->at_rest == s->contact && fabs(rate->normal) <= least &&
+        !(fabs(rate->tangential) > least) && rb_norm_inf(n, rate->gap) <= least * p->gap_length &&
+        rb_norm_inf(n, rate->slip) <= least * p->slip_length) {
         memset(tangent->p, 0, n * sizeof *tangent->p);
         memset(tangent->q, 0, n * sizeof *tangent->q);
         memset(tangent->lambda, 0, n * sizeof *tangent->lambda);
