@@ -657,6 +657,8 @@ def solve(case: _CaseLike = None, *, progress: Progress = None,
     Raises :class:`Unsolved`, with what there is as its ``solution``, where the run ends
     without a full answer.
     """
+    for name in {"derivatives", "smooth_derivatives"} & options.keys():
+        raise InvalidInput(f"{name}=: solve() does not take them; every solution has them as solution.{name}")
     whole = _case(case, options)
     if tolerance is not None:
         _check(whole, None, tolerance)

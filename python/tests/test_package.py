@@ -340,6 +340,7 @@ EYE, TOO_LARGE = np.eye(3), "from 0 to 2147483647, got 2147483648"
     (lambda: rollbem.solve(mu=-1), "mu=: expected a number >= 0"),
     (lambda: rollbem.solve(load=5, approach=1), "approach= and load= exclude each other"),
     (lambda: rollbem.solve(nu=0.3), "unknown option 'nu'"),
+    (lambda: rollbem.solve(derivatives="max_pressure"), "derivatives=: .*solution.derivatives"),
     (lambda: rollbem.solve(mu="0.3\0"), "mu=: a NUL character"),
     (lambda: rollbem.solve("case.ini\0"), "case=: a NUL character"),
     (lambda: rollbem.Case(3), "case=: expected the name of a file, got 3"),
