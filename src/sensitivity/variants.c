@@ -4,7 +4,6 @@
 
 #include <cblas.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Of the input's scale, where no flexibility changes. */
@@ -171,31 +170,6 @@ rb_status rb_sensitivity_variants_create(const rb_rolling_model *base,
     return s;
 }
 
-/* Tables of gap and friction over x have kinks, which the step of a flexibility would span: of
- * elements that move, what these tables add is that of a short step. */
-static rb_status rates_of_tables(const rb_sensitivity_variants *v, const rb_sensitivity_move *m,
-                                 rb_sensitivity_rate *rate, rb_message *why)
-{
-    const int n = v->base->mesh.n, law = rb_rolling_law_depends_on_state(v->base->rc);
-    const double step = STEP * m->half;
-    double *gap = rb_alloc((size_t)n, 2), *bound = gap ? gap + n : NULL;
-    rb_status s = gap ? RB_OK : RB_ENOMEM;
-
-    for (int k = 0; k < v->at.n && s == RB_OK; k++) {
-        const double of_short = v->at.weight[k] / step, of_long = v->at.weight[k] / v->step;
-        double shift, scale;
-        motion_by(m, v->at.place[k] * step, &shift, &scale);
-        s = rb_rolling_variant_data(v->base, shift, scale, gap, bound, why);
-        for (int i = 0; i < n && s == RB_OK; i++) {
-            rate->gap[i] += of_short * gap[i] - of_long * v->model[k].mesh.gap[i];
-            if (!law)
-                rate->bound[i] += of_short * bound[i] - of_long * v->model[k].problem.bound[i];
-        }
-    }
-    free(gap);
-    return s;
-}
-
 /* D2: how the equations change while the unknowns stay.  A law asks for the size of slips, and
  * within the step small ones change their sign: the law is differentiated where they stay, and by
  * them as in J. */
@@ -221,8 +195,24 @@ rb_status rb_sensitivity_rates_at(const rb_sensitivity *s, const rb_sensitivity_
     for (size_t j = 0; j < n && status == RB_OK && s->law_slip; j++)
         if (state->zone[j] != RB_ZONE_STICK)
             cblas_daxpy(s->n, rate->slip[j], s->law_slip + j * n, 1, rate->bound, 1);
+    /* Tables of gap and friction over x have kinks, which the step of a flexibility would span: of
+     * elements that move, what these tables add is that of a short step. */
+    const rb_sensitivity_move *m = input->vary ? NULL : input->context;
+    for (int k = 0; k < v->at.n && m && status == RB_OK; k++) {
+        const rb_rolling_model *at = &v->model[k];
+        const double step = STEP * m->half, of_short = v->at.weight[k] / step,
+                     of_long = v->at.weight[k] / v->step;
+        double shift, scale;
+        motion_by(m, v->at.place[k] * step, &shift, &scale);
+        status = rb_rolling_variant_data(v->base, shift, scale, left.gap, left.bound, why);
+        for (size_t i = 0; i < n && status == RB_OK; i++) {
+            rate->gap[i] += of_short * left.gap[i] - of_long * at->mesh.gap[i];
+            if (!rb_rolling_law_depends_on_state(v->base->rc))
+                rate->bound[i] += of_short * left.bound[i] - of_long * at->problem.bound[i];
+        }
+    }
     rb_sensitivity_rate_free(&left);
-    return status == RB_OK && !input->vary ? rates_of_tables(v, input->context, rate, why) : status;
+    return status;
 }
 
 /* By what the varied case gives, where it differs in nothing else.  0: it does. */
