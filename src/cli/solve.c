@@ -44,8 +44,8 @@ static const rb_option options[] = {
     RB_TEXT_LINE("derivatives", PLACE(derivatives), "RESULT,...",
                  "derivatives of these results (without names: of all) with respect to "
                  "all numbers of the case: the table, or derivatives in JSON; p, q: of the "
-                 "tractions; of a case with steps: of columns of its history; RESULT:OPTION: with "
-                 "respect to one number",
+                 "tractions; of a case with steps: of columns of its history, also RESULT:OPTION, "
+                 "with respect to one number",
                  .unset = "none", .alone = "all"),
     RB_TEXT_LINE(
         "smooth-derivatives", PLACE(smooth), "RESULT,...",
