@@ -49,8 +49,7 @@ static const char notes[] =
 typedef struct {
     const rb_io_contact_case *in;
     rb_case_contact c;
-    const rb_rolling_solution *before; /* of the case before; NULL: none */
-    rb_rolling_solution s;             /* n = 0: not run */
+    rb_rolling_solution s; /* n = 0: not run */
     rb_status status;
     rb_message why;
 } contact_run;
@@ -82,7 +81,7 @@ static rb_status print(FILE *out, const void *context, rb_message *why)
             rb_report_comment(&rows.cells, "case %d leaves out %s", k + 1, all->run[k].c.left_out);
     for (int k = 0; k < all->n; k++) {
         const contact_run *r = &all->run[k];
-        const rb_rolling_solution *s = &r->s;
+        const rb_rolling_solution *s = &r->s, *before = k > 0 ? &all->run[k - 1].s : NULL;
         const double sign = r->c.sign;
         if (rows.is_json || !tractions) {
             const double known = s->n > 0 ? 0.0 : NAN, width = r->c.width;
@@ -97,7 +96,7 @@ static rb_status print(FILE *out, const void *context, rb_message *why)
                 NUMBER("CKSI", sign * (r->in->digit.T >= 2 ? s->creepage : s->tangential_shift)),
                 NUMBER("PEN", s->approach),
                 NUMBER("PMAX", s->max_pressure),
-                NUMBER("FRIC_POWER", rb_case_contact_power(r->in, &r->c, r->before, s)),
+                NUMBER("FRIC_POWER", rb_case_contact_power(r->in, &r->c, before, s)),
                 NUMBER("NPOT", s->n),
                 NUMBER("NCON", s->contact),
                 NUMBER("NADH", s->stick),
@@ -175,13 +174,14 @@ int cli_contact(int argc, char **argv)
         int ran = 0;
         for (int k = 0; k < all.n; k++) {
             contact_run *r = &all.run[k];
-            r->before = k > 0 ? &all.run[k - 1].s : NULL;
-            rb_case_contact_follow(k > 0 ? &all.run[k - 1].c : NULL, r->before, &r->c);
+            const contact_run *before = k > 0 ? &all.run[k - 1] : NULL;
+            const rb_rolling_solution *left = before ? &before->s : NULL;
+            rb_case_contact_follow(before ? &before->c : NULL, left, &r->c);
             if (!r->c.runs)
                 continue;
             ran++;
             cli_wait_begin();
-            r->status = rb_case_contact_solve(&r->c, r->before, &r->s, &r->why);
+            r->status = rb_case_contact_solve(&r->c, left, &r->s, &r->why);
             cli_wait_end();
             if (r->status == RB_OK)
                 continue;
