@@ -600,17 +600,6 @@ static double slope_of(const varied *v, const rb_rolling_result *r, int row)
     return fabs(sum) * v->number->input.scale < rb_sensitivity_rounding(rc, r, at) ? 0.0 : sum;
 }
 
-static void take_slopes(const varied *v, int n, rb_case_slopes *s)
-{
-    for (int k = 0; k < s->n; k++)
-        for (int j = 0; j < n; j++)
-            for (int row = 0; row < s->rows && strcmp(v[j].number->name, s->of[k].input) == 0;
-                 row++) {
-                double *both = s->value + 2 * ((size_t)row * (size_t)s->n + (size_t)k);
-                both[0] = both[1] = slope_of(&v[j], s->of[k].result, row);
-            }
-}
-
 /* Standard deviations of all columns that the history has; without memory it has none. */
 static rb_status take_deviations(const rb_case_tolerances *t, const varied *v, int n,
                                  rb_rolling_history *history)
@@ -697,8 +686,13 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
         status = all_steps(states, base, n, v, s, why);
     if (status == RB_OK && s->n > 0 && rb_case_slopes_alloc(states->steps, s) != RB_OK)
         status = rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
-    if (status == RB_OK)
-        take_slopes(v, n, s);
+    for (int k = 0; k < s->n && status == RB_OK; k++)
+        for (int j = 0; j < n; j++)
+            for (int row = 0; row < s->rows && strcmp(v[j].number->name, s->of[k].input) == 0;
+                 row++) {
+                double *both = s->value + 2 * ((size_t)row * (size_t)s->n + (size_t)k);
+                both[0] = both[1] = slope_of(&v[j], s->of[k].result, row);
+            }
     if (status == RB_OK && t && take_deviations(t, v, n, history) != RB_OK)
         status = rb_fail(why, RB_ENOMEM, "out of memory for deviations");
     for (int k = 0; k < n; k++)
