@@ -4,7 +4,6 @@
 #include "rollbem/io.h"
 
 #include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 

@@ -3,7 +3,6 @@
 #include "sensitivity/internal.h"
 
 #include <cblas.h>
-#include <math.h>
 #include <string.h>
 
 /* Of the input's scale, where no flexibility changes. */
