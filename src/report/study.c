@@ -232,9 +232,17 @@ static void write_title(FILE *out, const view *v, rb_report_place place)
     char shown[64];
     if (!place.titled)
         return;
-    fprintf(out, "set label 1 '{/:Bold %s}   %d cases%s%s%s' at screen 0.5, 0.972 center\n",
-            plain(s->shown.name, shown), s->n, s->is_sample ? " of a sample" : "",
-            s->half_width ? ",  band: ± " : "", s->half_width ? s->band : "");
+    fprintf(out, "set label 1 '{/:Bold %s}   %d cases%s", plain(s->shown.name, shown), s->n,
+            s->is_sample ? " of a sample" : "");
+    if (s->half_width) {
+        char unit[40];
+        double most = 0.0;
+        for (int k = 0; k < s->n; k++)
+            most = fmax(most, s->half_width[k]); /* fmax passes over NAN */
+        fprintf(out, ",  band: ± %s, at most %s%s%s", s->band, RB_REPORT_NUMBER(most, 2),
+                s->shown.unit[0] ? " " : "", rb_report_raised(s->shown.unit, unit));
+    }
+    fputs("' at screen 0.5, 0.972 center\n", out);
     if (s->rc)
         rb_report_label_bodies(out, s->rc, s->units, 0.5, 0.935);
 }
@@ -364,7 +372,10 @@ rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas, const rb_r
         return status;
     if (!at)
         return rb_fail(why, RB_ENOMEM, "out of memory for %d cases", s->n);
-    view v = {.study = s,
+    rb_report_study shown = *s;
+    if (map) /* draws no band */
+        shown.half_width = NULL;
+    view v = {.study = &shown,
               .at = at,
               .row = length_of_group(s, at, 0),
               .x = axis_of(s->n, &s->x, 1),
