@@ -972,7 +972,6 @@ TEST(a_stopped_run_is_interrupted)
     setitimer(ITIMER_REAL, &soon, NULL);
     const int s = rb_api_solve(stopped);
     setitimer(ITIMER_REAL, &never, NULL);
-    signal(SIGALRM, SIG_DFL);
     assert_int_equal(s, RB_INTERRUPTED);
     assert_string_equal(rb_api_word(stopped, "status"), "interrupted");
     int done, total, rows, columns;
@@ -980,6 +979,19 @@ TEST(a_stopped_run_is_interrupted)
     assert_non_null(rb_api_array(stopped, "history.distance", &rows, &columns));
     CHECK_ABS(done, rows, 0.0, "the steps that are done, of %d", total);
     assert_true(done >= 1 && total > 1000);
+    rb_api_free(stopped);
+    stopped = rb_api_create();
+    assert_int_equal(rb_api_set(stopped, "support", "halfplane"), RB_OK);
+    assert_int_equal(rb_api_set(stopped, "load", "500"), RB_OK);
+    setitimer(ITIMER_REAL, &soon, NULL);
+    const int passing =
+        rb_api_crack(stopped, 1, (const char *const[]){"passes"}, (const char *const[]){"1000"});
+    setitimer(ITIMER_REAL, &never, NULL);
+    signal(SIGALRM, SIG_DFL);
+    assert_int_equal(passing, RB_INTERRUPTED);
+    rb_api_progress(stopped, &done, &total);
+    CHECK_ABS(total, 1000.0 * 121.0, 0.0, "positions");
+    assert_null(rb_api_array(stopped, "crack.K_I", &rows, &columns));
     rb_api_free(stopped);
 }
 

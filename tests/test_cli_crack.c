@@ -421,6 +421,29 @@ TEST(studies)
                      64); /* known with its first solution only: the row says so */
 }
 
+/* The complete passes, or the complete lengths, are there. */
+TEST(an_interrupted_run_keeps_its_passes)
+{
+    static const char *const more[] = {"--passes 1000", "--paris 1e-9,3 --grow-steps 60"};
+    for (int k = 0; k < 2; k++) {
+        char line[500];
+        snprintf(line, sizeof line,
+                 "\"$R\" " HERTZ "--mu 0.3 --steps 600 %s --json --quiet --output long.json & "
+                 "p=$!; " WHEN_CAUGHT(INT_CAUGHT) "sleep 0.7; kill -INT $p; wait $p",
+                 more[k]);
+        assert_int_equal(shell(line), 1);
+        held_json *root = json_load_file("long.json", 0, NULL);
+        const json_t *grown = json_object_get(json_object_get(root, "growth"), "length");
+        const double n = k == 0 ? in_summary(root, "passes") : (double)json_array_size(grown);
+        snprintf(line, sizeof line, "interrupted after %s %.0f of %s", k == 0 ? "pass" : "length",
+                 n, k == 0 ? "1000" : "61");
+        assert_non_null(strstr(err, line));
+        assert_true(n >= 1.0);
+        CHECK_REL((double)json_array_size(json_object_get(json_object_get(root, "table"), "K_I")),
+                  k == 0 ? 601.0 * n : 601.0, 0.0, "whole passes");
+    }
+}
+
 TEST(refusals)
 {
     check_refused(HERTZ "--crack-angle 0", 64, "outside body B");

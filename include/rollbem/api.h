@@ -45,12 +45,12 @@ int rb_api_resolve(rb_api *a);
 /* Resolves and solves the case; of a sequence of steps every step is kept. */
 int rb_api_solve(rb_api *a);
 /* May be called from another thread or a signal handler.  The running call ends with
- * RB_INTERRUPTED after its current step, point of a curve, case of a sweep, step of a fit,
- * evaluation of a design or iterate of a friction solver. */
+ * RB_INTERRUPTED after its current step, position over a crack, point of a curve, case of a
+ * sweep, step of a fit, evaluation of a design or iterate of a friction solver. */
 void rb_api_stop(rb_api *a);
-/* Steps of a history or of wear, points of a curve, cases of a sweep, steps of a fit (of 0),
- * or evaluations of a design, that the running call has done, of so many; 0 of 0 where the call
- * does not count.  May be asked from another thread. */
+/* Steps of a history, of wear or of a pass over a crack, points of a curve, cases of a sweep, steps
+ * of a fit (of 0), or evaluations of a design, that the running call has done, of so many; 0 of 0
+ * where the call does not count.  May be asked from another thread. */
 void rb_api_progress(const rb_api *a, int *done, int *total);
 
 /* Status and message of the last call that returned a status. */

@@ -459,10 +459,13 @@ rb_status rb_case_crack_check(const rb_resolved_case *resolved, const rb_case_cr
                               rb_message *why);
 /* Solves the contact and moves it over the crack; if the case wants error bars, this is
  * repeated with twice as many elements.  In transient rolling the position of the contact
- * is `from` plus the rolled distance; in a static history it stays at `from`. Free the
+ * is `from` plus the rolled distance; in a static history it stays at `from`. The observer,
+ * or NULL, sees the steps of the contact and of the crack.  RB_INTERRUPTED: it ended them; if
+ * history.n > 0 the result is that of the passes, or lengths, that were complete.  Free the
  * result in any case. */
 rb_status rb_case_crack_solve(const rb_resolved_case *resolved, const rb_case_crack *crack,
-                              rb_case_crack_result *result, rb_message *why);
+                              const rb_crack_observer *observer, rb_case_crack_result *result,
+                              rb_message *why);
 
 /* Where the contact stands, and its tractions there. */
 typedef struct {

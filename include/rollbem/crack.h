@@ -113,6 +113,12 @@ typedef struct {
     double load, approach;
 } rb_crack_wheel;
 
+/* Called before each of so many steps of all passes; not 0 ends them. */
+typedef struct {
+    int (*stopped)(int step, int steps, void *context);
+    void *context;
+} rb_crack_observer;
+
 typedef struct {
     int steps;
     const double *x; /* steps: position of the load [length] */
@@ -126,6 +132,7 @@ typedef struct {
     double tension;
     const rb_crack_wheel *wheel; /* NULL: the tractions are those of `load`; otherwise they are
                                     computed together with the crack, and `load` gives the scale */
+    const rb_crack_observer *observer; /* or NULL */
 } rb_crack_passage;
 
 /* One entry per step of all passes; owned. */
@@ -144,6 +151,7 @@ typedef struct {
 } rb_crack_history;
 
 /* The history holds the finished steps also on a positive status; free it in any case.
+ * RB_INTERRUPTED: the observer ended it; the history holds the passes that were complete.
  * RB_EINVAL: no steps; RB_RAY, RB_INACCURATE: a step was not solved; why names it. */
 rb_status rb_crack_pass(rb_crack *crack, const rb_crack_passage *passage, rb_crack_history *history,
                         rb_message *why);

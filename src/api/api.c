@@ -1280,6 +1280,14 @@ static rb_status keep_faces(rb_api *a, const rb_case_crack_result *r)
     return s;
 }
 
+static int count_step(int step, int steps, void *context)
+{
+    rb_api *a = context;
+    a->total = steps;
+    a->done = step;
+    return a->stopped;
+}
+
 int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *values)
 {
     rb_case_crack crack = rb_case_crack_defaults();
@@ -1291,7 +1299,8 @@ int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *
         s = rb_api_set_crack(a, n, names, values, &crack, &a->why);
     rb_api_call_begins();
     if (s == RB_OK)
-        s = rb_case_crack_solve(rb_case_resolved(a->words), &crack, &result, &a->why);
+        s = rb_case_crack_solve(rb_case_resolved(a->words), &crack,
+                                &(rb_crack_observer){count_step, a}, &result, &a->why);
     rb_api_call_ends();
     /* Columns over the positions and over the lengths, and the numbers of the pass. */
     const struct {

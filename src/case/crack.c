@@ -101,11 +101,20 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
 
 /* ---- Load -------------------------------------------------------------------------- */
 
+typedef struct {
+    rb_rolling_states *states;
+    const rb_crack_observer *observer;
+    int failed; /* 1: a step could not be kept */
+} contact_steps;
+
 static int keep_step(const rb_rolling_model *model, const rb_rolling_history *history, int step,
                      int steps, void *context)
 {
     (void)history;
-    return rb_rolling_states_keep(model, step, steps, context) != RB_OK;
+    contact_steps *kept = context;
+    kept->failed = rb_rolling_states_keep(model, step, steps, kept->states) != RB_OK;
+    return kept->failed ||
+           (kept->observer && kept->observer->stopped(step + 1, steps, kept->observer->context));
 }
 
 void rb_case_crack_track_free(rb_case_crack_track *t)
@@ -233,8 +242,10 @@ rb_crack_passage rb_case_crack_passage(const rb_case_crack *k, const rb_case_cra
 
 /* One mesh: as many elements as times `finer` says, of crack and contact. */
 static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, int finer,
-                            rb_case_crack_result *r, rb_message *why)
+                            const rb_crack_observer *observer, rb_case_crack_result *r,
+                            rb_message *why)
 {
+    contact_steps kept = {&r->states, observer, 0};
     rb_resolved_case refined = *c;
     rb_case_crack_track t = {0};
     rb_crack *crack = NULL;
@@ -250,10 +261,9 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
         if (refined.rc.zone == 0.0)
             refined.rc.zone = ZONE * c->derived.half_width;
     }
-    rb_status s =
-        k->unloaded ? RB_OK : rb_case_solve(&refined, keep_step, &r->states, &r->contact, why);
-    if (s == RB_INTERRUPTED)
-        s = RB_ENOMEM; /* by keep_step alone */
+    rb_status s = k->unloaded ? RB_OK : rb_case_solve(&refined, keep_step, &kept, &r->contact, why);
+    if (s == RB_INTERRUPTED && kept.failed)
+        s = RB_ENOMEM;
     if (s == RB_OK)
         s = rb_case_crack_follow(c, k, r, &t, why);
     r->shape.elements *= finer;
@@ -272,11 +282,14 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
                                       .approach = r->contact.solution.approach};
         rb_crack_passage passage = rb_case_crack_passage(k, &t);
         passage.wheel = k->coupled ? &wheel : NULL;
+        passage.observer = observer;
         if (k->coupled && !model->bodies.F)
             s = rb_fail(why, RB_EINVAL, "--coupled: fewer than %d contact elements",
                         RB_ROLLING_LARGE);
         else
             s = rb_crack_pass(crack, &passage, &r->history, why);
+        if (s == RB_INTERRUPTED)
+            r->passes = r->history.n / passage.steps;
         if (r->history.n > 0)
             r->summary = rb_case_crack_summarise(&r->history, r->passes);
         if (s == RB_OK && !isnan(k->paris) && finer == 1)
@@ -297,15 +310,16 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
 }
 
 rb_status rb_case_crack_solve(const rb_resolved_case *c, const rb_case_crack *k,
-                              rb_case_crack_result *r, rb_message *why)
+                              const rb_crack_observer *observer, rb_case_crack_result *r,
+                              rb_message *why)
 {
     memset(r, 0, sizeof *r);
     rb_status s = rb_case_crack_check(c, k, why);
     if (s == RB_OK)
-        s = solve_once(c, k, 1, r, why);
+        s = solve_once(c, k, 1, observer, r, why);
     if (s == RB_OK && c->error) {
         rb_case_crack_result fine;
-        s = solve_once(c, k, 2, &fine, why);
+        s = solve_once(c, k, 2, observer, &fine, why);
         r->has_errors = s == RB_OK;
         if (s == RB_OK)
             rb_case_crack_set_errors(&fine.summary, r);
@@ -318,7 +332,7 @@ rb_status rb_case_crack_row(const rb_resolved_case *c, const rb_case_crack *k, r
                             rb_message *why)
 {
     rb_case_crack_result r;
-    const rb_status s = rb_case_crack_solve(c, k, &r, why);
+    const rb_status s = rb_case_crack_solve(c, k, NULL, &r, why);
 
     if (r.contact.solution.n > 0)
         row->solution = rb_rolling_scalars_of(&r.contact.solution);

@@ -115,7 +115,8 @@ rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *k,
             summary = rb_case_crack_summarise(&history, passage->passes);
             g->path = shape.path;
             add_length(c, k, &shape.path, first + (last - first) * i / k->grow_steps, &summary, g);
-        }
+        } else if (s == RB_INTERRUPTED)
+            rb_fail(why, s, "interrupted after length %d of %d", g->n, k->grow_steps + 1);
         rb_crack_history_free(&history);
         rb_crack_free(crack);
     }

@@ -1,5 +1,6 @@
 /* rollbem crack: stress intensities of a crack in body B under the passing contact. */
 #include "cli/case.h"
+#include "cli/interrupt.h"
 
 #include <jansson.h>
 #include <stddef.h>
@@ -60,14 +61,24 @@ static cli_exit check(cli_case_run *run)
                : CLI_CONTINUE;
 }
 
+static int is_interrupted(int step, int steps, void *context)
+{
+    (void)step, (void)steps, (void)context;
+    return cli_interrupted();
+}
+
 static rb_status solve(cli_case_run *run, rb_message *why)
 {
     crack_run *own = run->own;
     rb_case_crack_result *r = &own->result;
-    const rb_status s = rb_case_crack_solve(run->c, rb_case_crack_of(run->words), r, why);
+    const rb_crack_observer observer = {is_interrupted, NULL};
+    cli_interrupts_catch();
+    const rb_status s =
+        rb_case_crack_solve(run->c, rb_case_crack_of(run->words), &observer, r, why);
+    cli_interrupts_leave();
     rb_case_crack_convert(r, run->c->units);
     run->solution = r->contact.solution.n > 0 ? &r->contact.solution : NULL;
-    run->printable = s == RB_OK;
+    run->printable = s == RB_OK || (s == RB_INTERRUPTED && r->history.n > 0);
     return s;
 }
 

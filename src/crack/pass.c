@@ -149,6 +149,12 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
         const int step = k % p->steps;
         const double x = p->x[step];
         rb_message reason = {""};
+        if (p->observer && p->observer->stopped(k, n, p->observer->context)) {
+            h->n = k - step; /* the results are those of the last complete pass */
+            s = rb_fail(why, RB_INTERRUPTED, "interrupted after pass %d of %d", k / p->steps,
+                        p->passes);
+            break;
+        }
         if (p->locate_closing && p->fluid == RB_CRACK_TRAPPED && step > 0 &&
             state.zone[0] == RB_ZONE_SEPARATED && state.fluid_pressure == 0.0)
             s = approach_closing(c, p, step, scale, T, &state, &reason);
