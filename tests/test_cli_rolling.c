@@ -699,6 +699,36 @@ TEST(curves_of_a_picture_share_their_range)
     assert_int_equal(atoi(out), 2);
 }
 
+/* Of a map of mu and load, Q/(mu P) = -s (2 - s) with s = creep R/(mu a): each level has a
+ * number, inside the map, on its line as far as cases that are so far apart tell. */
+TEST(numbers_of_contour_lines_keep_off_the_border)
+{
+    static char text[60000];
+    double x, y, level, lowest = 0.0, last = 0.0;
+    assert_int_equal(
+        rollbem("sweep --restart --support halfplane --similar --formulation steady --load 500 "
+                "--contact-elements "
+                "20 --vary-1 'mu .1 .2 .3' --vary-2 'creep 1e-4 5e-4 1e-3' --show "
+                "force_ratio --quiet --output o.tsv --map v.svg --plot-script v.gp"),
+        0);
+    slurp("v.gp", text, sizeof text);
+    const char *at = strstr(text, "set cntrparam levels incremental ");
+    assert_non_null(at);
+    assert_int_equal(sscanf(at, "set cntrparam levels incremental %lf", &lowest), 1);
+    at = strstr(text, "$numbers << EOD\n");
+    assert_non_null(at);
+    int levels = 0;
+    while (at = strchr(at, '\n') + 1, sscanf(at, "%lf %lf %lf", &x, &y, &level) == 3) {
+        assert_true(x > 0.13 && x < 0.97 && y > 0.105 && y < 0.295);
+        const double s = fmin(x * 1e-3 / y * 50.0 / 0.8210669, 1.0);
+        CHECK_ABS(level, -s * (2.0 - s), 0.1, "a line at creep = %g, mu = %g", 1e-3 * x, y);
+        assert_true(levels == 0 || level >= last);
+        levels += levels == 0 || level > last;
+        last = level;
+    }
+    assert_true(lowest <= -0.8 && levels >= 7);
+}
+
 /* The upper end of the axis that the script sets. */
 static double top_of(const char *script)
 {

@@ -273,6 +273,15 @@ const char *rb_report_dashes(int k)
     return types[k % 6];
 }
 
+void rb_report_letters_in(rb_report_canvas canvas, rb_report_shape shape, double font,
+                          double letters[2])
+{
+    const extent e = extent_of(canvas, shape);
+    const double points = canvas.kind == RB_REPORT_PDF ? 72.0 : 1.0;
+    letters[0] = e.width * points / font;
+    letters[1] = e.height * points / font;
+}
+
 double rb_report_width_over_height(rb_report_canvas canvas, rb_report_shape shape)
 {
     const extent e = extent_of(canvas, shape);

@@ -147,6 +147,22 @@ double rb_report_labels_in(double height);
     "set palette defined (0 '#440154', 0.15 '#46327e', 0.3 '#365c8d', 0.45 '#277f8e', "            \
     "0.6 '#1fa187', 0.75 '#4ac16d', 0.9 '#a0da39', 1 '#fde725')\n"
 
+/* Contour lines of a field on nx x ny points, x first. */
+typedef struct {
+    int nx, ny;
+    const double (*points)[3]; /* x, y, value in units of the axes; NAN: none */
+    double from[2], to[2];     /* of the axes x and y */
+    int logarithmic[2];
+    double first, step, last; /* levels */
+    double letter[2];         /* font size of the numbers over width and height of the panel */
+    const double *mark;       /* x, y that no number may cover, or NULL */
+} rb_report_contours;
+
+/* Writes the block $numbers, x, y and level, a row for each number at the lines. */
+void rb_report_contour_numbers(FILE *script, const rb_report_contours *contours);
+/* As a part of splot. */
+#define RB_REPORT_NUMBERS "$numbers using 1:2:3:(sprintf('%%g',$3)) nocontour with labels boxed"
+
 typedef enum {
     RB_REPORT_FOUR_THIRDS,
     RB_REPORT_WIDE,   /* 12:5 */
@@ -161,6 +177,9 @@ typedef enum {
 rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double seconds, FILE *out,
                             rb_message *why);
 
+/* Width and height of the canvas in font sizes of so many points. */
+void rb_report_letters_in(rb_report_canvas canvas, rb_report_shape shape, double font,
+                          double letters[2]);
 double rb_report_width_over_height(rb_report_canvas canvas, rb_report_shape shape);
 
 /* Draws a picture from the commands that `script` writes after the settings of canvas,

@@ -2,6 +2,7 @@
 #include "report/internal.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 typedef struct {
     const rb_report_stress *s;
@@ -135,8 +136,42 @@ static void write_y_label(FILE *out, const view *v, panel at)
             at.left - (v->column ? 0.145 : 0.073), at.middle);
 }
 
-static void write_panel(FILE *out, const view *v, const char *name, int column,
-                        const rb_rolling_extremum *m, panel at)
+static double number_font(rb_report_canvas canvas)
+{
+    return 0.6 * rb_report_key_font(canvas);
+}
+
+static void write_numbers(FILE *out, rb_report_canvas canvas, const view *v, int column,
+                          const rb_rolling_extremum *m, panel at, double step)
+{
+    const rb_report_stress *s = v->s;
+    double letters[2], (*points)[3] = calloc((size_t)s->n, sizeof *points);
+    rb_report_letters_in(canvas, RB_REPORT_WIDE, number_font(canvas), letters);
+    for (int k = 0; points && k < s->n; k++) {
+        const rb_rolling_stress *of = &s->at[k];
+        points[k][0] = of->x / v->length.size;
+        points[k][1] = of->y / v->length.size;
+        points[k][2] = !rb_report_stress_is_inside(s, k)
+                           ? NAN
+                           : (column == 3 ? of->max_shear : of->von_mises) / v->stress_unit;
+    }
+    rb_report_contour_numbers(
+        out, &(rb_report_contours){
+                 .nx = points ? s->nx : 0,
+                 .ny = s->ny,
+                 .points = (const double(*)[3])points,
+                 .from = {v->from, 0.0},
+                 .to = {v->to, v->depth},
+                 .first = step,
+                 .step = step,
+                 .last = m->value / v->stress_unit,
+                 .letter = {1.0 / (letters[0] * at.width), 1.0 / (letters[1] * at.height)},
+                 .mark = (double[]){m->x / v->length.size, m->y / v->length.size}});
+    free(points);
+}
+
+static void write_panel(FILE *out, rb_report_canvas canvas, const view *v, const char *name,
+                        int column, const rb_rolling_extremum *m, panel at)
 {
     const double bottom = at.middle - at.height / 2, top = bottom + at.height;
     rb_report_room(out, at.left, at.left + at.width, bottom, top);
@@ -154,18 +189,15 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
             at.left + at.width + 0.012, bottom, at.height, name, v->stress_label,
             RB_REPORT_NUMBER(m->value / v->stress_unit, 4), at.left + at.width / 2,
             top + (v->column ? 0.03 : 0.05), m->x / v->length.size, m->y / v->length.size);
-    /* the line of the contact would cover half of a value at the surface: these contours
-     * are cut off there, and so both sorts need the same levels */
     const double step = rb_report_round_step(m->value / v->stress_unit /
                                              fmin(10.0, 2.0 * rb_report_labels_in(at.height)));
-    fprintf(out, "set cbrange [0:%.9g]\n", step * ceil(m->value / v->stress_unit / step));
+    fprintf(out, "set cbrange [0:%.9g]\nset cntrparam levels incremental %.9g, %.9g, %.9g\n",
+            step * ceil(m->value / v->stress_unit / step), step, step, m->value / v->stress_unit);
+    write_numbers(out, canvas, v, column, m, at, step);
     fprintf(out,
-            "set cntrparam levels incremental %.9g, %.9g, %.9g\n"
             "splot $grid using 1:2:%d with pm3d nocontour, $grid using 1:2:%d with lines nosurface "
-            "linecolor rgb '#ffffff' linewidth 0.6, $grid using 1:2:($2 > %.3g ? $%d : NaN) with "
-            "labels boxed nosurface\n",
-            step, step, m->value / v->stress_unit, column, column, 0.02 * v->depth / at.height,
-            column);
+            "linecolor rgb '#ffffff' linewidth 0.6, " RB_REPORT_NUMBERS " font ',%.3g'\n",
+            column, column, number_font(canvas));
 }
 
 static void write_contours(FILE *out, rb_report_canvas canvas, const void *context)
@@ -174,12 +206,7 @@ static void write_contours(FILE *out, rb_report_canvas canvas, const void *conte
     const panel first = panel_of(v, 0);
     write_grid(out, v);
     write_axes(out, v);
-    fprintf(
-        out,
-        "set contour base\nset cntrlabel onecolor format '%%g' start 40 interval -1 font ',%.3g'\n",
-        0.6 * rb_report_key_font(canvas));
-    fputs(RB_REPORT_PALETTE
-          "set multiplot\n"
+    fputs("set contour base\nset cntrlabel onecolor\n" RB_REPORT_PALETTE "set multiplot\n"
           "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
           out);
     write_subtitle(out, v, "Stress below the surface of A", first.middle + first.height / 2 + 0.18,
@@ -188,14 +215,14 @@ static void write_contours(FILE *out, rb_report_canvas canvas, const void *conte
         fputs("unset label 1\nunset label 9\nset xlabel\n", out);
     const panel second = panel_of(v, 1);
     write_y_label(out, v, first);
-    write_panel(out, v, "maximum shear", 3, &v->s->maxima->max_shear, first);
+    write_panel(out, canvas, v, "maximum shear", 3, &v->s->maxima->max_shear, first);
     fputs("unset label 1\nunset label 4\nunset label 9\n", out);
     if (v->column) {
         write_x_label(out, v);
         write_y_label(out, v, second);
     } else
         fputs("unset label 5\n", out);
-    write_panel(out, v, "von Mises", 4, &v->s->maxima->von_mises, second);
+    write_panel(out, canvas, v, "von Mises", 4, &v->s->maxima->von_mises, second);
     fputs("unset multiplot\n", out);
 }
 

@@ -307,6 +307,32 @@ static int steps_between(int values)
     return values > FINE ? 1 : (FINE + values - 1) / values;
 }
 
+/* room: width and height of the map, in parts of the canvas. */
+static void write_numbers(FILE *out, rb_report_canvas canvas, const view *v, const double room[2],
+                          double first, double step, double last)
+{
+    double letters[2], (*points)[3] = calloc((size_t)v->study->n, sizeof *points);
+    rb_report_letters_in(canvas, RB_REPORT_FOUR_THIRDS, rb_report_key_font(canvas), letters);
+    for (int k = 0; points && k < v->study->n; k++) {
+        points[k][0] = v->at[k].x / v->x.unit;
+        points[k][1] = v->at[k].y / v->y.unit;
+        points[k][2] = v->at[k].value / v->shown.unit;
+    }
+    rb_report_contour_numbers(
+        out, &(rb_report_contours){
+                 .nx = points ? v->row : 0,
+                 .ny = v->study->n / v->row,
+                 .points = (const double(*)[3])points,
+                 .from = {v->x.from, v->y.from},
+                 .to = {v->x.to, v->y.to},
+                 .logarithmic = {v->x.logarithmic, v->y.logarithmic},
+                 .first = first,
+                 .step = step,
+                 .last = last,
+                 .letter = {1.0 / (letters[0] * room[0]), 1.0 / (letters[1] * room[1])}});
+    free(points);
+}
+
 static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
@@ -344,21 +370,21 @@ static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
         const double least = v->shown.from, most = v->shown.to;
         const double step = rb_report_round_step((most - least) / rb_report_labels_in(height));
         const double first = step * (floor(least / step + 1e-6) + 1.0);
-        /* A contour has about as many points as it crosses lines of cases; its label
-         * stands near the middle. */
-        const int lines = v->row + v->study->n / v->row;
-        fprintf(out,
-                "set cbrange [%.9g:%.9g]\nset cbtics %.9g\nset contour base\n"
-                "set cntrlabel onecolor format '%%g' start %d interval -1 font ',%.3g'\n"
-                "set cntrparam levels incremental %.9g, %.9g, %.9g\n"
-                "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
-                least, most, step, (lines < 12 ? 3 : lines / 4), rb_report_key_font(canvas), first,
-                step, most - 1e-6 * (most - least));
+        fprintf(
+            out,
+            "set cbrange [%.9g:%.9g]\nset cbtics %.9g\nset contour base\nset cntrlabel onecolor\n"
+            "set cntrparam levels incremental %.9g, %.9g, %.9g\n"
+            "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
+            least, most, step, first, step, most - 1e-6 * (most - least));
+        write_numbers(out, canvas, v, (double[]){width, height}, first, step,
+                      most - 1e-6 * (most - least));
     }
-    fprintf(out, "splot $map using 1:2:3 with pm3d nocontour%s\n",
-            v->shown.flat ? ""
+    fprintf(out, "splot $map using 1:2:3 with pm3d nocontour%s",
+            v->shown.flat ? "\n"
                           : ", $map using 1:2:3 with lines nosurface linecolor rgb '#ffffff' "
-                            "linewidth 0.8, $map using 1:2:3 with labels boxed nosurface");
+                            "linewidth 0.8, ");
+    if (!v->shown.flat)
+        fprintf(out, RB_REPORT_NUMBERS " font ',%.3g'\n", rb_report_key_font(canvas));
 }
 
 /* ---- Draw -------------------------------------------------------------------------- */
