@@ -399,6 +399,7 @@ typedef struct {
     rb_rolling_model model;
     rb_rolling_history history;
     rb_rolling_states states;
+    rb_rolling_follower *on; /* where it is solved on given elements; or NULL */
 } difference_run;
 
 static int difference_keep(const rb_rolling_model *model, const rb_rolling_history *history,
@@ -420,38 +421,55 @@ static rb_status difference_history(const rb_resolved_case *c, const rb_rolling_
     return s;
 }
 
-/* Solves the history again on the elements that it has, if their boundary is compressed, as
- * closely as derivatives ask for: 1e-9 over a step would leave six digits of them. */
-static rb_status difference_closely(const rb_rolling_case *rc, difference_run *run, rb_message *why)
+/* Solves the history of rc on the elements of `of`, with whose states each step begins. */
+static rb_status difference_on(const rb_rolling_case *rc, const rb_rolling_states *found,
+                               const rb_rolling_follower *of, difference_run *run, rb_message *why)
 {
-    rb_rolling_follower *f = NULL;
-    if (!rb_rolling_is_compressed(&run->model))
-        return RB_OK;
-    rb_status s = rb_rolling_follower_create(rc, &run->states, NULL, 1.0, &f, why);
-    for (int k = 0; k < run->states.steps && s == RB_OK; k++) {
-        s = rb_rolling_follower_begin(f, why);
-        rb_rolling_states_get(&run->states, k, &rb_rolling_follower_model(f)->state);
+    rb_status s = rb_rolling_follower_create(rc, found, of, 1.0, &run->on, why);
+    for (int k = 0; k < found->steps && s == RB_OK; k++) {
+        rb_rolling_model *model = rb_rolling_follower_model(run->on);
+        s = rb_rolling_follower_begin(run->on, why);
+        rb_rolling_states_get(found, k, &model->state);
         if (s == RB_OK)
-            s = rb_rolling_model_control(rb_rolling_follower_model(f), why);
+            s = rb_rolling_follower_solve(run->on, why);
         if (s == RB_OK)
-            rb_rolling_follower_end(f);
+            s = rb_rolling_states_keep(model, k, found->steps, &run->states);
+        if (s == RB_OK)
+            rb_rolling_follower_end(run->on);
     }
-    for (int k = 0; k < rb_rolling_history_columns.n && s == RB_OK; k++) {
-        const rb_rolling_result *r = &rb_rolling_history_columns.row[k];
-        for (int row = 0; row < run->history.n && rb_sensitivity_has(r); row++)
-            if (rb_rolling_has_column(r, &run->history))
-                (*(double **)(void *)((char *)&run->history + r->offset))[row] =
-                    rb_rolling_entry(r, rb_rolling_follower_history(f), row);
-    }
-    rb_rolling_follower_free(f);
     return s;
 }
 
 static void difference_run_free(difference_run *run)
 {
+    rb_rolling_follower_free(run->on);
     rb_rolling_model_free(&run->model);
     rb_rolling_history_free(&run->history);
     rb_rolling_states_free(&run->states);
+}
+
+static double difference_entry(const rb_rolling_result *r, const difference_run *run, int row)
+{
+    return rb_rolling_entry(r, run->on ? rb_rolling_follower_history(run->on) : &run->history, row);
+}
+
+/* The history of rc nearby: on the elements of `stay` that rests on the states of `at`, or, where
+ * it is NULL, as it is found; if its boundary is compressed then, it is solved again as closely as
+ * derivatives ask for: 1e-9 over a step would leave six digits of them. */
+static rb_status difference_near(const rb_resolved_case *c, const rb_rolling_case *rc,
+                                 const difference_run *at, const rb_rolling_follower *stay,
+                                 difference_run *run, rb_message *why)
+{
+    if (stay)
+        return difference_on(rc, &at->states, stay, run, why);
+    rb_status s = difference_history(c, rc, run, why);
+    if (s == RB_OK && rb_rolling_is_compressed(&run->model)) {
+        difference_run closely = {.states = {0}};
+        s = difference_on(rc, &run->states, NULL, &closely, why);
+        difference_run_free(run);
+        *run = closely;
+    }
+    return s;
 }
 
 /* What is usual for a column: the largest of its values, or by its unit. */
@@ -466,8 +484,8 @@ static double difference_usual(const rb_rolling_result *r, const difference_run 
 }
 
 static void difference_of_steps(const rb_resolved_case *c, const rb_case_number *number,
-                                const difference_run *at, const rb_case_slopes *s, double part,
-                                differences *d)
+                                const difference_run *at, const rb_rolling_follower *stay,
+                                const rb_case_slopes *s, double part, differences *d)
 {
     const double step = part * number->input.scale;
     const size_t zones = (size_t)at->states.n * (size_t)at->states.steps;
@@ -480,8 +498,7 @@ static void difference_of_steps(const rb_resolved_case *c, const rb_case_number 
         same = number->input.vary(number->input.context,
                                   number->input.value + difference_place[j] * step, &rc,
                                   &why) == RB_OK &&
-               difference_history(c, &rc, &near[j], &why) == RB_OK &&
-               difference_closely(&rc, &near[j], &why) == RB_OK &&
+               difference_near(c, &rc, at, stay, &near[j], &why) == RB_OK &&
                near[j].states.n == at->states.n && near[j].states.steps == at->states.steps &&
                memcmp(near[j].states.zone, at->states.zone, zones * sizeof(int)) == 0;
     }
@@ -490,8 +507,8 @@ static void difference_of_steps(const rb_resolved_case *c, const rb_case_number 
         for (int row = 0; row < s->rows && strcmp(s->of[k].input, number->name) == 0; row++) {
             double want = 0.0;
             for (int j = 0; j < 4; j++)
-                want += difference_weight[j] / step *
-                        rb_rolling_entry(s->of[k].result, &near[j].history, row);
+                want +=
+                    difference_weight[j] / step * difference_entry(s->of[k].result, &near[j], row);
             difference_note(d, rb_case_slope_value(s, row, k), want,
                             difference_usual(s->of[k].result, at) / number->input.scale,
                             "%s by %s, step %d", s->of[k].result->name, number->name, row + 1);
@@ -507,6 +524,7 @@ static rb_status compare_steps(const rb_case *c, int first, int every, differenc
     const rb_resolved_case *resolved = rb_case_resolved(c);
     rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
     difference_run at = {.states = {0}};
+    rb_rolling_follower *stay = NULL;
     rb_case_slopes slopes = {0};
     int numbers = 0;
 
@@ -517,6 +535,8 @@ static rb_status compare_steps(const rb_case *c, int first, int every, differenc
                                   &slopes, why);
     if (s == RB_OK)
         s = rb_case_slopes_of_steps(c, &at.states, &slopes, NULL, NULL, why);
+    if (s == RB_OK && slopes.stay)
+        s = rb_rolling_follower_create(&resolved->rc, &at.states, NULL, 1.0, &stay, why);
     if (s == RB_OK)
         s = rb_case_numbers(c, number, &numbers, why);
     for (int k = first; k < numbers && s == RB_OK && slopes.degenerate == 0; k += every) {
@@ -524,12 +544,13 @@ static rb_status compare_steps(const rb_case *c, int first, int every, differenc
         for (const double *part = difference_parts(&resolved->rc);
              *part && !(best.off <= 1e-8) && number[k].input.value != 0.0; part++) {
             differences one = {0};
-            difference_of_steps(resolved, &number[k], &at, &slopes, *part, &one);
+            difference_of_steps(resolved, &number[k], &at, stay, &slopes, *part, &one);
             if (one.compared && one.off < best.off)
                 best = one;
         }
         difference_take(&best, d);
     }
+    rb_rolling_follower_free(stay);
     rb_case_slopes_free(&slopes);
     difference_run_free(&at);
     free(number);

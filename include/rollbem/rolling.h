@@ -1012,6 +1012,8 @@ rb_status rb_rolling_follower_create(const rb_rolling_case *rc, const rb_rolling
 rb_status rb_rolling_follower_begin(rb_rolling_follower *follower, rb_message *why);
 /* Whose state is to be set between begin and end; borrowed. */
 rb_rolling_model *rb_rolling_follower_model(rb_rolling_follower *follower);
+/* Solves the step, from the state that the model has, on the elements of the states. */
+rb_status rb_rolling_follower_solve(rb_rolling_follower *follower, rb_message *why);
 /* Takes the state that the model has, complete, as that of the step. */
 void rb_rolling_follower_end(rb_rolling_follower *follower);
 /* Of the steps so far; borrowed. */

@@ -572,7 +572,7 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
         rb_rolling_states_get(states, step, &model->state);
         /* the states were found with what is compressed less closely */
         if (status == RB_OK && rb_rolling_is_compressed(model))
-            status = rb_rolling_model_control(model, why);
+            status = rb_rolling_follower_solve(base, why);
         if (status == RB_OK)
             status = rb_sensitivity_create(model, 0, &s, why);
         if (status == RB_OK)

@@ -204,6 +204,12 @@ static void end_step(history_state *r, rb_status s)
     }
 }
 
+static rb_status solve_step(const history_state *r, rb_message *why)
+{
+    return is_at_rest(r) ? rb_rolling_model_resolve(r->model, 0, why)
+                         : rb_rolling_model_control(r->model, why);
+}
+
 static rb_status all_steps(history_state *r, rb_message *why)
 {
     rb_rolling_model *model = r->model;
@@ -226,8 +232,7 @@ static rb_status all_steps(history_state *r, rb_message *why)
             s = rb_contact_residual(&model->problem, state, &v);
             state->residual = v.scaled;
         } else
-            s = is_at_rest(r) ? rb_rolling_model_resolve(model, 0, &reason)
-                              : rb_rolling_model_control(model, &reason);
+            s = solve_step(r, &reason);
         s = assess(r, s, &reason, why);
         if (s >= 0)
             end_step(r, s);
@@ -488,6 +493,11 @@ const rb_rolling_history *rb_rolling_follower_history(const rb_rolling_follower 
 rb_status rb_rolling_follower_begin(rb_rolling_follower *f, rb_message *why)
 {
     return begin_step(&f->r, why);
+}
+
+rb_status rb_rolling_follower_solve(rb_rolling_follower *f, rb_message *why)
+{
+    return solve_step(&f->r, why);
 }
 
 void rb_rolling_follower_end(rb_rolling_follower *f)
