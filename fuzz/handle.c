@@ -207,7 +207,7 @@ static void call(rb_api *a, rb_api *other, fuzz_bytes *b)
             rb_api_curve_derivatives(a, "creep", fuzz_number(b), 1e-3, 2, NULL, inputs);
             break;
         case 4:
-            rb_api_step_derivatives(a, results);
+            rb_api_step_derivatives(a, results, NULL);
             break;
         case 5:
             rb_api_sweep_derivatives(a, fuzz_choice(b, 2), cases, results, "mu=1%", 1);

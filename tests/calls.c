@@ -160,7 +160,7 @@ static void ask_all(void)
         asked("stress at", rb_api_stress_at(handle, 1, (const double[]){0.1, 0.4}));
         asked("stress maxima", rb_api_stress_maxima(handle, 0.0));
     }
-    asked("derivatives of steps", rb_api_step_derivatives(handle, "tangential_load:mu"));
+    asked("derivatives of steps", rb_api_step_derivatives(handle, "tangential_load:mu", NULL));
     asked("pivots", rb_api_pivots(handle));
     asked("newton", rb_api_newton(handle));
     asked("guess", rb_api_guess(handle, n < MOST ? n : MOST, zone));

@@ -1391,9 +1391,9 @@ TEST(derivatives_of_steps)
     double before[400];
     assert_true(steps > 3 && steps <= 400);
     memcpy(before, Q, sizeof *before * (size_t)steps);
-    assert_int_equal(rb_api_step_derivatives(a, "tangential_load:moo"), RB_EINVAL);
-    assert_int_equal(rb_api_step_derivatives(a, "p0"), RB_EINVAL);
-    assert_int_equal(rb_api_step_derivatives(a, "tangential_load,normal_load:load"), RB_OK);
+    assert_int_equal(rb_api_step_derivatives(a, "tangential_load:moo", NULL), RB_EINVAL);
+    assert_int_equal(rb_api_step_derivatives(a, "p0", NULL), RB_EINVAL);
+    assert_int_equal(rb_api_step_derivatives(a, "tangential_load,normal_load:load", NULL), RB_OK);
     assert_string_equal(rb_api_derivative(a, "history", 0, "result", name, sizeof name),
                         "tangential_load");
     const double *d = array(a, "history.derivative.tangential_load:mu", steps, 1),
@@ -1410,12 +1410,20 @@ TEST(derivatives_of_steps)
     const double *deviation = array(a, "history.tolerance.tangential_load", steps, 1);
     for (int k = 0; k < steps; k++)
         CHECK_ABS(deviation[k], 0.02 * fabs(d[k]), 1e-12 * fabs(before[steps - 1]), "step %d", k);
+    /* both in one run over the steps */
+    assert_int_equal(rb_api_step_derivatives(a, "tangential_load:mu", "mu=0.04"), RB_OK);
+    d = array(a, "history.derivative.tangential_load:mu", steps, 1);
+    deviation = array(a, "history.tolerance.tangential_load", steps, 1);
+    for (int k = 0; k < steps; k++)
+        CHECK_ABS(deviation[k], 0.04 * fabs(d[k]), 1e-12 * fabs(before[steps - 1]), "step %d", k);
+    assert_int_equal(rb_api_step_derivatives(a, "tangential_load", "moo=1"), RB_EINVAL);
+    assert_non_null(strstr(rb_api_message(a), "--tolerance: 'moo' is not a number of this case"));
     assert_int_equal(rb_api_set(a, "mu", "0.2"), RB_OK);
-    assert_int_equal(rb_api_step_derivatives(a, "tangential_load"), RB_EINVAL);
+    assert_int_equal(rb_api_step_derivatives(a, "tangential_load", NULL), RB_EINVAL);
     assert_non_null(strstr(rb_api_message(a), "need a case with steps that has been solved"));
     assert_int_equal(rb_api_set(a, "error", "yes"), RB_OK);
     assert_int_equal(rb_api_solve(a), RB_OK);
-    assert_int_equal(rb_api_step_derivatives(a, "tangential_load"), RB_EINVAL);
+    assert_int_equal(rb_api_step_derivatives(a, "tangential_load", NULL), RB_EINVAL);
     assert_int_equal(rb_api_tolerances(a, "mu=0.02"), RB_EINVAL);
     assert_non_null(strstr(rb_api_message(a), "not together with error bars"));
 }

@@ -221,8 +221,10 @@ int rb_api_smooth_derivatives(rb_api *a);
 const char *rb_api_input(const rb_api *a, int k, const char *field, char *text, int size);
 /* Derivatives of the columns of the history of a solved case with steps, after every step;
  * `derivatives` as of rb_api_curve_derivatives, RESULT a column of the history.  Where the
- * two sides differ they are those for a growing input; then rb_api_note says so. */
-int rb_api_step_derivatives(rb_api *a, const char *derivatives);
+ * two sides differ they are those for a growing input; then rb_api_note says so.  tolerance:
+ * inputs as of rb_api_tolerances, for history.tolerance.NAME, computed in the same run over the
+ * steps.  NULL: none of them. */
+int rb_api_step_derivatives(rb_api *a, const char *derivatives, const char *tolerance);
 /* Resolves the case and checks, before it is solved, what rb_api_step_derivatives and
  * rb_api_tolerances would be asked (NULL: nothing). */
 int rb_api_check_derivatives(rb_api *a, const char *derivatives, const char *tolerance);

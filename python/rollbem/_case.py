@@ -69,7 +69,7 @@ class Case:
         self._take(state["options"])
 
     def _as_text(self, name: str, value: Value) -> str:
-        if not isinstance(value, Mapping):
+        if not isinstance(value, Mapping) and not (hasattr(value, "keys") and np.ndim(value) == 2):  # a DataFrame
             return _values.text(name, value)
         if name in OPTIONS and OPTIONS[name].kind in ("number", "integer", "flag"):
             raise InvalidInput(f"{name}=: expected {OPTIONS[name].expected}, got columns of a table")
@@ -242,11 +242,10 @@ def _words(derivatives: Any) -> bytes:
                         "names")
 
 
-def _check(case: "Case", derivatives: Any, tolerance: Any) -> None:
+def _check(case: "Case", words: Optional[bytes], inputs: Optional[bytes]) -> None:
     """Refuses before a case is solved what would be refused after it."""
     handle = case.handle("solve")
-    handle.check(handle.ask("rb_api_check_derivatives", None if derivatives is None else _words(derivatives),
-                            None if tolerance is None else _uncertain(tolerance)))
+    handle.check(handle.ask("rb_api_check_derivatives", words, inputs))
 
 
 class _Named:
@@ -661,7 +660,7 @@ def solve(case: _CaseLike = None, *, progress: Progress = None,
         raise InvalidInput(f"{name}=: solve() does not take them; every solution has them as solution.{name}")
     whole = _case(case, options)
     if tolerance is not None:
-        _check(whole, None, tolerance)
+        _check(whole, None, _uncertain(tolerance))
     solution = whole.solve(progress)
     if tolerance is not None:
         from ._inverse import tolerances
@@ -719,20 +718,22 @@ def history(program: Optional[Table] = None, case: _CaseLike = None, *,
     if "formulation" not in whole.options and whole.file is None:
         rolls = program is None or "distance" in program
         whole = whole.but(formulation="transient" if rolls else "static")
-    if derivatives is not None:
-        _check(whole, derivatives, tolerance)
+    words = None if derivatives is None else _words(derivatives)
+    inputs = None if tolerance is None else _uncertain(tolerance)
+    if words is not None or inputs is not None:
+        _check(whole, words, inputs)
     try:
-        found = solve(whole, progress=progress, tolerance=tolerance).history
+        found = solve(whole, progress=progress).history
     except Exception as error:  # the finished steps are kept
         if getattr(error, "solution", None) is not None:
             error.solution = error.solution.history
         raise
     if found is None:
         raise InvalidInput("history: the case has no steps")
-    if derivatives is not None:
+    if words is not None or inputs is not None:
         handle, before = found.solution._live(), found.notes
         with handle.lock:
-            handle.check(handle.run("rb_api_step_derivatives", _words(derivatives)))
+            handle.check(handle.run("rb_api_step_derivatives", words, inputs))
             found = History(found.solution)
         _warn([note for note in found.notes if note not in before])
     return found

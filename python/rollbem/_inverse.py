@@ -238,15 +238,20 @@ _MEASURED = ("creep", *_FORCES, "load", "speed", "temperature", "sigma")
 
 def _columns(data: Table) -> "dict[str, Array]":
     """Those that are numbers; others, such as the names of tests, are left out where nobody reads them."""
-    if not hasattr(data, "keys"):
+    if not hasattr(data, "keys") or np.ndim(data) == 1:  # a Series is one column without a name
         raise InvalidInput(f"data=: expected the name of a file, or columns by their names, got {_values.shown(data)}")
     found = {}
     for name in data:
         try:
-            found[str(name)] = np.asarray(data[name], dtype=float)
+            column = np.asarray(data[name])
+            if column.dtype.kind == "c":
+                raise TypeError
+            found[str(name)] = column.astype(float)
         except (TypeError, ValueError):
             if str(name).lower().startswith(_MEASURED):
                 raise InvalidInput(f"data: column {name!r}: expected numbers") from None
+    if len(data) > 0 and not found:
+        raise InvalidInput("data: no column is numeric; expected creep or creep_ratio, and a force")
     if all(column.size == 0 for column in found.values()):
         raise InvalidInput("data: expected at least one row")
     if len({column.shape for column in found.values()}) != 1 or any(column.ndim != 1 for column in found.values()):
@@ -268,8 +273,7 @@ def fit(data: Union[str, os.PathLike, Table], names: Union[str, Sequence[str]], 
     :class:`Unsolved`, whose ``solution`` has the numbers so far, for ``start=``.
     """
     whole = _case(case, options)
-    names = [names] if isinstance(names, str) else list(names)
-    names = [name.replace("_", "-") for text in names for name in str(text).split(",")]
+    names = [name.replace("_", "-") for text in _values.texts("names", names, "names of options") for name in text.split(",")]
     handle = whole.handle("solve")
     level = _values.number("level", level)
     words = (_values.word("names", ",".join(names), "names of options"), _assigned("start", start, 1),
@@ -328,11 +332,11 @@ def design(case: _CaseLike = None, *, minimise: Optional[str] = None, maximise: 
     if (minimise is None) == (maximise is None):
         raise InvalidInput("design: expected minimise= or maximise=, one of them")
     result = str(minimise if maximise is None else maximise)
-    subject = [subject] if isinstance(subject, str) else list(subject)
+    subject = _values.texts("subject", subject, "RESULT<=X")
     handle = whole.handle("solve")
     status = handle.run("rb_api_design", _values.word("minimise" if maximise is None else "maximise", result, "a result"),
                         int(maximise is not None), _assigned("over", over, 2) or b"",
-                        ",".join(map(str, subject)).encode() or None,
+                        ",".join(subject).encode() or None,
                         float("nan") if span is None else _values.number("span", span),
                         _values.whole("evaluations", evaluations, 1), progress=progress)
     if status != SOLVED and (status < SOLVED or handle.array("design.value") is None):

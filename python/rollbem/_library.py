@@ -57,7 +57,7 @@ FUNCTIONS = {
     "rb_api_derivatives": (_Int, _Handle),
     "rb_api_smooth_derivatives": (_Int, _Handle),
     "rb_api_curve_derivatives": (_Int, _Handle, _Text, _Double, _Double, _Int, _Text, _Text),
-    "rb_api_step_derivatives": (_Int, _Handle, _Text),
+    "rb_api_step_derivatives": (_Int, _Handle, _Text, _Text),
     "rb_api_check_derivatives": (_Int, _Handle, _Text, _Text),
     "rb_api_derivative": (_Text, _Handle, _Text, _Int, _Text, _Text, _Int),
     "rb_api_tolerances": (_Int, _Handle, _Text),

@@ -19,7 +19,7 @@ def _one(value: Any) -> Any:
 
 
 def shown(value: Any) -> str:
-    text = repr(value)
+    text = " ".join(repr(value).split())
     return text if len(text) < 60 else f"{text[:56]} ..."
 
 
@@ -45,6 +45,14 @@ def word(name: str, value: Any, expected: str) -> bytes:
     if isinstance(value, str) and "\0" not in value:
         return value.encode(errors="surrogateescape")
     raise InvalidInput(f"{name}=: expected {expected}, got {shown(value)}")
+
+
+def texts(name: str, value: Any, expected: str) -> "list[str]":
+    """One text or a list of them."""
+    found = [value] if isinstance(value, str) else list(value) if np.ndim(value) == 1 else [None]
+    if not all(isinstance(text, str) for text in found):
+        raise InvalidInput(f"{name}=: expected {expected}, got {shown(value)}")
+    return found
 
 
 def path(name: str, value: Any) -> str:
@@ -94,7 +102,7 @@ def matrix(name: str, value: Any, rows: int) -> NDArray[np.float64]:
 
 def columns(name: str, table: Mapping[str, Sequence[float]]) -> dict:
     """Columns of a table, of one length."""
-    found = {str(key): vector(f"{name}={{{key!r}", values) for key, values in table.items()}
+    found = {str(key): vector(f"{name}[{key!r}]", values) for key, values in table.items()}
     lengths = {key: len(values) for key, values in found.items()}
     if len(set(lengths.values())) != 1:
         raise InvalidInput(f"{name}=: expected columns of one length, got "

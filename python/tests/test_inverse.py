@@ -278,6 +278,9 @@ def test_tolerances_of_histories():
     d = rollbem.history_derivatives(**rolled, results="tangential_load")["tangential_load"]
     assert h.tolerances["tangential_load"] == pytest.approx(np.hypot(0.02 * d["mu"], 5 * d["load"]), rel=1e-6)
     assert h.tolerances["normal_load"] == pytest.approx(5 * np.ones_like(h.distance))
+    both = rollbem.history(**rolled, tolerance={"mu": 0.02, "load": "1%"}, derivatives="tangential_load")
+    assert (both.tolerances["tangential_load"] == h.tolerances["tangential_load"]).all()
+    assert (both.derivatives["tangential_load"]["mu"] == d["mu"]).all()
     assert rollbem.history(**rolled).tolerances == {}
     assert rollbem.solve(**rolled, tolerance="mu=0.02").tolerances == {}
     with pytest.raises(rollbem.InvalidInput, match="given approach"):
@@ -293,7 +296,7 @@ def test_tolerances_of_curves():
         assert values == pytest.approx(np.array(printed[column], dtype=float), rel=1e-7, abs=1e-12), name
     assert c.tolerances["tangential_load"][-1] == pytest.approx(0.02 * 500)  # it slides
     assert (pytest.importorskip("pandas") and c.to_pandas())["deviation_tangential_load"].iloc[-1] == pytest.approx(10)
-    with pytest.raises(rollbem.InvalidInput, match="'zone' is not a number"):
+    with pytest.raises(rollbem.InvalidInput, match="^tolerance=: 'zone' is not a number"):
         rollbem.curve(**SMALL, points=4, tolerance="zone=1")
     with pytest.raises(rollbem.InvalidInput, match="not together with error bars"):
         rollbem.curve(**SMALL, points=4, error=True, tolerance="mu=1%")
@@ -362,6 +365,10 @@ def test_data_of_fits():
     ([1, 2, 3], "mu", "data=: expected the name of a file, or columns by their names, got .1, 2, 3"),
     ({}, "mu", "data: expected at least one row"),
     ({"creep": [], "force": []}, "mu", "data: expected at least one row"),
+    ({"test": ["a", "b"], "who": ["c", "d"]}, "mu", "data: no column is numeric"),
+    ({"creep": [1e-3j], "force": [-1]}, "mu", "data: column 'creep': expected numbers"),
+    ({"creep": [1e-3], "force": [-1]}, 3, "names=: expected names of options, got 3"),
+    ({"creep": [1e-3], "force": [-1]}, None, "names=: expected names of options, got None"),
     ({"creep": [1e-3], "force": [-1]}, "mus", "^names=: 'mus' is not a number .*did you mean 'mu'")])
 def test_data_that_are_none(data, names, said):
     with pytest.raises(rollbem.InvalidInput, match=said):
@@ -383,6 +390,8 @@ def test_designs():
     table = rollbem.design(**PLANES, mu=0, gap={"x": x, "gap": 1e-2 * x**2}, minimise="max_pressure",
                            over={"gap": (-1e-3, 1e-3)}, evaluations=20)
     assert table.gap.shape == x.shape and table.value < table.start
+    with pytest.raises(rollbem.InvalidInput, match="subject=: expected RESULT<=X, got 3"):
+        rollbem.design(**PLANES, minimise="max_pressure", over={"radius": (20, 200)}, subject=3)
     with pytest.raises(rollbem.InvalidInput, match="one of them"):
         rollbem.design(**PLANES, over={"radius": (20, 200)})
     with pytest.raises(rollbem.Unsolved, match="satisfy all constraints"):

@@ -80,6 +80,8 @@ def test_cases_are_settled_and_varied(tmp_path):
 def test_tables_are_given_as_columns():
     x = np.linspace(-2, 2, 81)
     s = rollbem.solve(gap={"x": x, "gap": x**2 / 100}, **ROLLED)
+    frame = pytest.importorskip("pandas").DataFrame({"x": x, "gap": x**2 / 100})
+    assert rollbem.solve(gap=frame, **ROLLED).approach == s.approach
     want = rollbem.solve(gap="parabola", mesh="uniform", **ROLLED)
     assert s.status == "solved" and abs(s.max_pressure / want.max_pressure - 1) < 2e-3
 
@@ -353,6 +355,9 @@ EYE, TOO_LARGE = np.eye(3), "from 0 to 2147483647, got 2147483648"
     (lambda: rollbem.solve(mu={"x": [1]}), "mu=: .*got columns of a table"),
     (lambda: rollbem.solve(gap={"x": [1, 2], "gap": [1]}), "gap=: expected columns of one length, got 2 of x, 1 of gap"),
     (lambda: rollbem.solve(gap={}), "gap=: .*no column"),
+    (lambda: rollbem.solve(gap={"x": [1, 2], "gap": ["a", "b"]}), r"gap\['gap'\]=: expected numbers, got"),
+    (lambda: rollbem.solve(creep=[1.5, 2]), "creep=: expected a number, got '1.5,2.0'"),
+    (lambda: rollbem.crack(crack_angle="x"), "crack_angle=: expected a number, got 'x'"),
     (lambda: rollbem.solve(contact_elements=2**31), r"contact_elements=: expected a whole number in \[3, 16777216\], got '2147483648'"),
     (lambda: rollbem.solve(contact_elements=2**32 + 30), "contact_elements=: expected a whole number"),
     (lambda: rollbem.curve(points=2**31), f"points=: expected a whole number {TOO_LARGE}"),

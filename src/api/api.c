@@ -1126,23 +1126,38 @@ static rb_status states_of_steps(rb_api *a)
                : RB_OK;
 }
 
-int rb_api_step_derivatives(rb_api *a, const char *derivatives)
+int rb_api_step_derivatives(rb_api *a, const char *derivatives, const char *tolerance)
 {
-    rb_case_slopes *s = &a->slopes[API_SLOPES_HISTORY];
+    rb_case_slopes *s = derivatives ? &a->slopes[API_SLOPES_HISTORY] : NULL;
+    rb_rolling_history *h = &a->result.history;
+    rb_case_tolerances t;
 
     begin(a);
-    a->note.text[0] = '\0';
-    rb_api_forget_slopes(a, API_SLOPES_HISTORY);
+    if (derivatives) {
+        a->note.text[0] = '\0';
+        rb_api_forget_slopes(a, API_SLOPES_HISTORY);
+    }
+    if (tolerance) {
+        rb_api_forget_arrays(a, "history.tolerance.");
+        if (h->deviations)
+            rb_rolling_history_free(h->deviations);
+        free(h->deviations);
+        h->deviations = NULL;
+    }
     rb_status status = states_of_steps(a);
     rb_api_call_begins();
-    if (status == RB_OK)
+    if (status == RB_OK && derivatives)
         status = rb_case_slopes_choose(a->words, &rb_rolling_history_columns, derivatives,
                                        RB_CASE_SLOPES_MAX, s, &a->why);
+    if (status == RB_OK && tolerance)
+        status = rb_case_read_tolerances(a->words, tolerance, &t, &a->why);
     if (status == RB_OK)
-        status = rb_case_slopes_of_steps(a->words, &a->states, s, NULL, NULL, &a->why);
+        status =
+            rb_case_slopes_of_steps(a->words, &a->states, s, tolerance ? &t : NULL, h, &a->why);
     rb_api_call_ends();
-    rb_case_slopes_note(s, &a->note);
-    if (status != RB_OK)
+    if (derivatives)
+        rb_case_slopes_note(s, &a->note);
+    if (status != RB_OK && derivatives)
         rb_api_forget_slopes(a, API_SLOPES_HISTORY);
     return rb_api_ended(a, status);
 }
@@ -1169,34 +1184,12 @@ int rb_api_check_derivatives(rb_api *a, const char *derivatives, const char *tol
     return rb_api_ended(a, s);
 }
 
-/* Of every step. */
-static rb_status step_tolerances(rb_api *a, const char *inputs)
-{
-    rb_rolling_history *h = &a->result.history;
-    rb_case_tolerances t;
-
-    begin(a);
-    rb_api_forget_arrays(a, "history.tolerance.");
-    if (h->deviations)
-        rb_rolling_history_free(h->deviations);
-    free(h->deviations);
-    h->deviations = NULL;
-    rb_status s = states_of_steps(a);
-    rb_api_call_begins();
-    if (s == RB_OK)
-        s = rb_case_read_tolerances(a->words, inputs, &t, &a->why);
-    if (s == RB_OK)
-        s = rb_case_slopes_of_steps(a->words, &a->states, NULL, &t, h, &a->why);
-    rb_api_call_ends();
-    return s;
-}
-
 int rb_api_tolerances(rb_api *a, const char *inputs)
 {
     rb_case_tolerances t;
 
     if (a->result.history.n > 0)
-        return rb_api_ended(a, step_tolerances(a, inputs));
+        return rb_api_step_derivatives(a, NULL, inputs);
     rb_api_forget_arrays(a, "tolerance.");
     a->has_deviation = 0;
     if ((a->derivatives.n == 0 || a->derivatives.smooth) && rb_api_derivatives(a) != RB_OK)
@@ -1237,7 +1230,9 @@ rb_status rb_api_set_crack(rb_api *a, int n, const char *const *name, const char
         if (!rb_option_find(1, &set, name[i], strlen(name[i]), &k, &guess))
             return rb_fail(why, RB_EINVAL, "crack: unknown option '%.60s'%s", name[i],
                            rb_guess_text(&guess, ""));
-        const rb_status s = rb_option_assign(&set, k, RB_GIVEN_ARGUMENT, name[i], value[i], why);
+        char label[80];
+        snprintf(label, sizeof label, "--%.60s", name[i]);
+        const rb_status s = rb_option_assign(&set, k, RB_GIVEN_ARGUMENT, label, value[i], why);
         if (s != RB_OK)
             return s;
     }

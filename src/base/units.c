@@ -232,7 +232,9 @@ rb_status rb_unit_read(const char *text, const char *unit, double *value, int *p
     *plain = *end == '\0';
     if (*plain)
         return RB_OK;
-    if (*end == ',' && isdigit((unsigned char)end[1]))
+    /* one with a decimal comma; several numbers are a list */
+    if (*end == ',' && isdigit((unsigned char)end[1]) && !strpbrk(end + 1, ",.") &&
+        !memchr(text, '.', (size_t)(end - text)))
         return rb_fail(why, RB_EINVAL, "a number with a decimal point, %.*s.%.20s; got '%.60s'",
                        (int)(end - text < 20 ? end - text : 20), text, end + 1, text);
     const char *word = end + strspn(end, " ");

@@ -337,6 +337,14 @@ rb_status rb_case_refuse_result(const char *name, const rb_rolling_results *tabl
                    rb_guess_text(&guess, ""));
 }
 
+rb_status rb_case_name_option(const char *option, rb_status s, rb_message *why)
+{
+    rb_message refusal = {""};
+    if (why)
+        refusal = *why;
+    return rb_fail(why, s, "--%s: %.450s", option, refusal.text);
+}
+
 /* "mu = 0.02, radius = 1%" */
 static char *without_blanks(char *text)
 {
@@ -388,7 +396,7 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_to
     if (s == RB_OK)
         s = rb_case_numbers(c, number, &numbers, why);
     if (s == RB_OK && !*text)
-        s = rb_fail(why, RB_EINVAL, "expected a name, got ''");
+        s = rb_fail(why, RB_EINVAL, "expected NAME=X, got ''");
     for (size_t n; s == RB_OK && *text; text += n + (text[n] == ',')) {
         char word[100];
         n = strcspn(text, ",");
@@ -420,7 +428,7 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_to
         }
     }
     free(number);
-    return s;
+    return s == RB_EINVAL ? rb_case_name_option("tolerance", s, why) : s;
 }
 
 rb_status rb_case_propagate(const rb_case_tolerances *t, const rb_case_derivatives *all,

@@ -80,6 +80,11 @@ rb_status rb_case_read_history(rb_case *c, rb_message *why);
 /* Reads gap, irregularity, wear and friction of the resolved case. */
 rb_status rb_case_read_files(rb_case *c, rb_message *why);
 
+/* ---- derivatives.c ----------------------------------------------------------------- */
+
+/* Puts the option before a refusal of its text.  Returns s. */
+rb_status rb_case_name_option(const char *option, rb_status s, rb_message *why);
+
 /* ---- crack_results.c --------------------------------------------------------------- */
 
 /* Error bars from the summary on twice as many elements: of second order, a third of the

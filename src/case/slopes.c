@@ -77,7 +77,7 @@ rb_status rb_case_slopes_choose(const rb_case *c, const rb_rolling_results *tabl
         status = add_word(&c->resolved, s, word, numbers, number, most, why);
     }
     free(number);
-    return status;
+    return status == RB_EINVAL ? rb_case_name_option("derivatives", status, why) : status;
 }
 
 rb_status rb_case_slopes_add_deviations(const rb_case *c, const char *tolerance, int n,
@@ -93,7 +93,8 @@ rb_status rb_case_slopes_add_deviations(const rb_case *c, const char *tolerance,
             continue;
         if (s->n + s->deviations == RB_ROW_OWN)
             return rb_fail(why, RB_EINVAL,
-                           "more than %d columns with those of the derivatives; name fewer of them",
+                           "--tolerance: more than %d columns with those of the derivatives; name "
+                           "fewer of them",
                            RB_ROW_OWN);
         s->deviation[s->deviations++] = result[k];
     }

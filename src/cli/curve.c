@@ -268,17 +268,12 @@ static cli_exit check(cli_case_run *run)
     if ((r->derivatives || r->tolerance) && run->c->error)
         return cli_fail(CLI_USAGE, "--%s: not together with error bars",
                         r->derivatives ? "derivatives" : "tolerance");
-    for (int k = 0; k < 2; k++) {
-        const char *words = k ? NULL : r->derivatives, *tolerance = k ? r->tolerance : NULL;
-        if (!words && !tolerance)
-            continue;
-        const rb_status s =
-            rb_case_curve_choose(run->words, &range, words, tolerance, &slopes, &why);
-        rb_case_slopes_free(&slopes);
-        if (s != RB_OK)
-            return cli_fail(CLI_USAGE, "--%s: %s", k ? "tolerance" : "derivatives", why.text);
-    }
-    return CLI_CONTINUE;
+    if (!r->derivatives && !r->tolerance)
+        return CLI_CONTINUE;
+    const rb_status s =
+        rb_case_curve_choose(run->words, &range, r->derivatives, r->tolerance, &slopes, &why);
+    rb_case_slopes_free(&slopes);
+    return s != RB_OK ? cli_fail(CLI_USAGE, "%s", why.text) : CLI_CONTINUE;
 }
 
 static const cli_case_command command = {

@@ -312,13 +312,13 @@ static cli_exit check(cli_case_run *run)
     if (it->derivatives && has_steps &&
         rb_case_slopes_choose(run->words, &rb_rolling_history_columns, it->derivatives,
                               RB_CASE_SLOPES_MAX, &it->slopes_of_steps, &why) != RB_OK)
-        return cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
+        return cli_fail(CLI_USAGE, "%s", why.text);
     if (it->derivatives && !has_steps &&
         rb_report_derivatives_of(it->derivatives, c, &it->shown, &why) != RB_OK)
         return cli_fail(CLI_USAGE, "--%sderivatives: %s", it->smooth ? "smooth-" : "", why.text);
     if (it->tolerance &&
         rb_case_read_tolerances(run->words, it->tolerance, &it->tolerances, &why) != RB_OK)
-        return cli_fail(CLI_USAGE, "--tolerance: %s", why.text);
+        return cli_fail(CLI_USAGE, "%s", why.text);
     /* Where the states of the steps are printed, and in which units. */
     if (it->states && (run->o.style.format != RB_REPORT_JSON || c->units != RB_UNITS_MM))
         return cli_fail(CLI_USAGE, "--states: with --json and in mm, N, MPa only");

@@ -217,7 +217,7 @@ cli_exit cli_study_sample(study *st, const rb_case *c)
     if (!st->o->tolerance)
         return cli_fail(CLI_USAGE, "--sample needs --tolerance NAME=X,...");
     if (rb_case_read_tolerances(c, st->o->tolerance, &t, &why) != RB_OK)
-        return cli_fail(CLI_USAGE, "--tolerance: %s", why.text);
+        return cli_fail(CLI_USAGE, "%s", why.text);
     st->sampled = rb_alloc((size_t)n, (size_t)t.n);
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     if (!st->sampled || !rng) {

@@ -241,7 +241,7 @@ static cli_exit choose_results(study *st)
     if (code == CLI_CONTINUE && st->o->derivatives) {
         if (rb_case_slopes_choose(st->base, &rb_rolling_solution_scalars, st->o->derivatives,
                                   RB_ROW_OWN, &st->slopes, &why) != RB_OK)
-            code = cli_fail(CLI_USAGE, "--derivatives: %s", why.text);
+            code = cli_fail(CLI_USAGE, "%s", why.text);
     }
     const int deviates = st->o->tolerance && st->o->sample == 0;
     if (code == CLI_CONTINUE && deviates && st->has_crack)
@@ -255,7 +255,7 @@ static cli_exit choose_results(study *st)
                 of[n++] = st->result[k].r;
         if (rb_case_slopes_add_deviations(st->base, st->o->tolerance, n, of, &st->slopes, &why) !=
             RB_OK)
-            code = cli_fail(CLI_USAGE, "--tolerance: %s", why.text);
+            code = cli_fail(CLI_USAGE, "%s", why.text);
     }
     /* Not every body's stress is known; what else is wrong is known with the first case. */
     if (code != CLI_CONTINUE)
