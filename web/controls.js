@@ -11,6 +11,7 @@ import {
     held,
     hold,
     plain,
+    with_ground,
     with_point,
     with_support,
 } from "./state.js";
@@ -141,19 +142,7 @@ export function controls(host, words, page) {
             knob(now, (text) => page.change(hold(page.given, all, now, text))),
         );
     }
-    function ground(kind) {
-        const given = { ...page.given };
-        for (const name of Object.keys(given))
-            if (/-b$/.test(name) || name === "similar") if (name !== "radius-b") delete given[name];
-        if (kind === "similar") Object.assign(given, { "support-b": "halfplane", similar: "yes" });
-        if (kind === "other")
-            Object.assign(given, {
-                "support-b": "halfplane",
-                "young-b": page.given["young-b"] ?? "70000",
-                "poisson-b": page.given["poisson-b"] ?? "0.33",
-            });
-        page.change(given);
-    }
+    const ground = (kind) => page.change(with_ground(page.given, kind));
     function all_options() {
         const row = (o) => {
             const id = `option-${o.name}`;

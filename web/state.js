@@ -105,6 +105,22 @@ export const crack_of = (given) => only(given, of_crack);
 /* Which of three grounds is given: rigid, of the same material, another elastic one. */
 export const ground_of = (given) =>
     "similar" in given && given.similar !== "no" ? "similar" : "young-b" in given ? "other" : "rigid";
+/* Another ground, without what has no meaning there.  What has A's cover is a roll as A is. */
+export function with_ground(given, kind) {
+    const next = { ...given },
+        elastic = { "young-b": given["young-b"] ?? "70000", "poisson-b": given["poisson-b"] ?? "0.33" };
+    for (const name of Object.keys(given)) if (/-b$/.test(name) && name !== "radius-b") delete next[name];
+    delete next.similar;
+    if (kind === "rigid") {
+        for (const name of ["support-b", "radius-b"]) delete next[name];
+        return next;
+    }
+    next["support-b"] = "halfplane";
+    if (kind === "other") return Object.assign(next, elastic);
+    if ("cover-thickness" in given)
+        Object.assign(next, { "support-b": "hub", "radius-b": given["radius-b"] ?? given.radius });
+    return Object.assign(next, { similar: "yes" });
+}
 /* What of the approach the ground takes, for drawing only: as two half-planes share it. */
 export function share_of_ground(given, values) {
     const soft = (young, poisson) => (1 - Number(poisson) ** 2) / Number(young);

@@ -26,7 +26,7 @@ import { change_along, effects, kinks_of, told_change } from "./matters.js";
 import { LESSONS, PAGES } from "./take.js";
 import { headline_of, slip_share } from "./hero.js";
 import { fit_lens, offsets_of } from "./lens.js";
-import { PRESETS, ground_of, share_of_ground, with_mu, with_point, with_support } from "./state.js";
+import { PRESETS, ground_of, share_of_ground, with_ground, with_mu, with_point, with_support } from "./state.js";
 import { ticks, zone_colours } from "./draw.js";
 import { load_library } from "./library.js";
 import { read_case_file, read_link, table_of_drawn, write_link } from "./state.js";
@@ -418,6 +418,13 @@ await test("three grounds, and what of the approach each takes", () => {
         `${got.refused}`,
     );
     check_close(share_of_ground(other, got.values), 0.745, 2e-3, "the softer ground's share");
+    for (const [name, preset] of Object.entries(PRESETS))
+        for (const first of ["rigid", "similar", "other"])
+            for (const then of ["rigid", "similar", "other"]) {
+                const given = with_ground(with_ground({ ...preset, "contact-elements": "8" }, first), then),
+                    { refused } = solve(given);
+                check(!refused && ground_of(given) === then, `${name}, ${first}, ${then}: ${refused}`);
+            }
 });
 await test("numbers of German and French keyboards", () => {
     for (const [text, want] of [
