@@ -259,14 +259,44 @@ TEST(the_steepest_fall_is_that_of_the_formula)
                 of[term] = fmax(of[term], (rb_rolling_law_mu(&rc, 0.0, v, 0.0) -
                                            rb_rolling_law_mu(&rc, 0.0, v + 1e-4, 0.0)) /
                                               1e-4);
-            CHECK_REL(rb_rolling_law_steepest(&rc), of[term], 1e-3, "law %d, term %d", k, term);
+            CHECK_REL(rb_rolling_law_steepest(&rc, 0.1), of[term], 1e-3, "law %d, term %d", k,
+                      term);
         }
         const rb_rolling_case both = law(laws[k], 0.2, 0.1), rising = law(laws[k], 0.2, -0.1);
-        CHECK_REL(rb_rolling_law_steepest(&both), of[0] + of[1], 1e-3, "both");
-        CHECK_REL(rb_rolling_law_steepest(&rising), of[0], 1e-3, "what rises is not steep");
+        CHECK_REL(rb_rolling_law_steepest(&both, 0.1), of[0] + of[1], 1e-3, "both");
+        CHECK_REL(rb_rolling_law_steepest(&rising, 0.1), of[0], 1e-3, "what rises is not steep");
     }
     const rb_rolling_case constant = law(RB_FRICTION_constant, 0.0, 0.0);
-    CHECK_ABS(rb_rolling_law_steepest(&constant), 0.0, 0.0, "constant");
+    CHECK_ABS(rb_rolling_law_steepest(&constant, 0.1), 0.0, 0.0, "constant");
+}
+
+/* With a memory: of the coefficient that a particle has behind an element, when it had that at rest
+ * before.  A long memory reaches the bound, and no memory exceeds it by more than exp(-2). */
+TEST(the_steepest_fall_with_memory_is_that_of_the_formula)
+{
+    static const rb_rolling_friction_law laws[] = {RB_FRICTION_exponential, RB_FRICTION_rational,
+                                                   RB_FRICTION_linear};
+    static const double memory[] = {1e-6, 1e-3, 1e-2, 0.1, 1.0, 1e3}, h = 1e-3, length = 0.1;
+    for (int k = 0; k < 6; k++)
+        for (int term = 0; term < 6; term++) {
+            rb_rolling_case rc = law(laws[term / 2], term % 2 ? 0.0 : 0.2, term % 2 ? 0.1 : 0.0);
+            double steepest = 0.0, before = 0.0;
+            rc.speed = 100.0;
+            rc.friction.memory = memory[k];
+            rc.friction.memory_slip = 0.05;
+            for (double v = 0.0; v < 60.0; v += h) {
+                const double rest = rb_rolling_law_mu(&rc, 0.0, 0.0, 0.0),
+                             mu = rb_rolling_law_mu(&rc, 0.0, v, 0.0),
+                             slid = fmax(v, rc.friction.memory_slip) * length / rc.speed,
+                             now = mu + (rest - mu) * exp(-slid / memory[k]);
+                steepest = v > 0.0 ? fmax(steepest, (before - now) / h) : 0.0;
+                before = now;
+            }
+            const double bound = rb_rolling_law_steepest(&rc, length);
+            CHECK_MAX(steepest, (1.0 + exp(-2.0)) * bound * (1.0 + 1e-3), "%d, %d", k, term);
+            if (k == 0 || k == 5)
+                CHECK_REL(bound, steepest, 2e-2, "%d, %d", k, term);
+        }
 }
 
 /* ---- Iterations over laws ---------------------------------------------------------- */

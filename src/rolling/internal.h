@@ -210,8 +210,9 @@ int rb_rolling_law_depends_on_slip(const rb_rolling_friction *f);
 double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v, double temperature);
 /* The coefficient at rest and without heating. */
 double rb_rolling_law_at_rest(const rb_rolling_case *rc, double x);
-/* Largest -dmu/dv, or an upper bound if two terms have different slip scales. */
-double rb_rolling_law_steepest(const rb_rolling_case *rc);
+/* Largest -dmu/dv of a particle that passes an element of this length, or an upper bound if two
+ * terms have different slip scales or friction remembers (theory.md F3). */
+double rb_rolling_law_steepest(const rb_rolling_case *rc, double length);
 /* First bounds of the elements for the iteration: those at rest, or the given start. */
 void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_table *start,
                              const rb_rolling_bodies *bodies, rb_contact_problem *p);

@@ -51,16 +51,19 @@ static double linear_mu(const rb_rolling_case *rc, double x, double v)
 }
 
 /* steepest: largest -dmu/dv of either term with fall and slip scale 1; 0: the law does
- * not depend on the slip velocity. */
+ * not depend on the slip velocity.  with_memory: largest mu(0) - mu(v) - v dmu/dv of it. */
 static const struct {
     double (*mu)(const rb_rolling_case *rc, double x, double v);
-    double steepest[2];
+    double steepest[2], with_memory[2];
 } laws[RB_FRICTION_LAWS] = {
-    [RB_FRICTION_constant] = {constant_mu, {0.0, 0.0}},
-    [RB_FRICTION_exponential] = {exponential_mu, {0.6931471805599453, 0.6931471805599453}},
-    [RB_FRICTION_rational] = {rational_mu, {1.0, 0.6495190528383290}}, /* 1, 3 sqrt(3)/8 */
-    [RB_FRICTION_linear] = {linear_mu, {0.5, 0.5}},
-    [RB_FRICTION_table] = {table_mu, {0.0, 0.0}}};
+    [RB_FRICTION_constant] = {constant_mu, {0.0, 0.0}, {0.0, 0.0}},
+    [RB_FRICTION_exponential] = {exponential_mu,
+                                 {0.6931471805599453, 0.6931471805599453},
+                                 {1.1353352832366127, 1.1353352832366127}}, /* 1 + exp(-2) */
+    [RB_FRICTION_rational] = {rational_mu, {1.0, 0.6495190528383290}, {1.0, 1.125}},
+    /* 1, 3 sqrt(3)/8 */
+    [RB_FRICTION_linear] = {linear_mu, {0.5, 0.5}, {2.0, 2.0}},
+    [RB_FRICTION_table] = {table_mu, {0.0, 0.0}, {0.0, 0.0}}};
 
 #define NAME_OF_LAW(name, help) #name,
 static const char *const names[] = {RB_ROLLING_FRICTION_LAWS(NAME_OF_LAW) "table"};
@@ -180,15 +183,19 @@ double rb_rolling_law_at_rest(const rb_rolling_case *rc, double x)
     return rb_rolling_law_mu(rc, x, 0.0, rc->heat_a.temperature);
 }
 
-double rb_rolling_law_steepest(const rb_rolling_case *rc)
+double rb_rolling_law_steepest(const rb_rolling_case *rc, double length)
 {
     const rb_rolling_friction *f = &rc->friction;
-    double steepest = 0.0;
+    double steepest = 0.0, with_memory = 0.0;
 
     for (int k = 0; k < 2; k++)
-        if (f->fall[k] > 0.0)
+        if (f->fall[k] > 0.0) {
             steepest += f->fall[k] * laws[f->law].steepest[k] / f->slip_scale[k];
-    return steepest;
+            with_memory += f->fall[k] * laws[f->law].with_memory[k];
+        }
+    return f->memory > 0.0 ? fmin(steepest, length / (rc->speed * f->memory) *
+                                                fmax(with_memory, steepest * f->memory_slip))
+                           : steepest;
 }
 
 void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_table *start,

@@ -514,7 +514,6 @@ rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa)
     const rb_contact_problem *p = &model->problem;
     const double *pressure = model->state.p;
     const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
-    const double slope = model->rc->speed * rb_rolling_law_steepest(model->rc);
     const size_t n = (size_t)p->n;
     double largest = 0.0, *scratch = rb_alloc(n, 4);
 
@@ -523,11 +522,13 @@ rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa)
         return RB_ENOMEM;
     for (size_t i = 0; i < n && model->rc->formulation == RB_STEADY; i++) {
         const double own = K.F ? K.S[i + (n + i) * n] : rb_contact_operator_response(p->op).slip;
-        largest = fmax(largest, pressure[i] * own / p->e_T[i]);
+        largest = fmax(largest, pressure[i] * own / p->e_T[i] *
+                                    rb_rolling_law_steepest(model->rc, p->e_T[i]));
     }
     if (model->rc->formulation == RB_TRANSIENT)
-        largest = largest_answer(p, pressure, scratch) / p->e_T[0];
-    *kappa = slope * largest;
+        largest = largest_answer(p, pressure, scratch) / p->e_T[0] *
+                  rb_rolling_law_steepest(model->rc, p->e_T[0]);
+    *kappa = model->rc->speed * largest;
     free(scratch);
     return RB_OK;
 }
