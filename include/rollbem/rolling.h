@@ -849,6 +849,10 @@ rb_status rb_rolling_variant_complete(rb_rolling_model *variant, double *gap, do
  * single element, or a step, may have several solutions.  RB_ENOMEM. */
 rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa);
 
+/* What part of the coefficient that it had before it a particle keeps behind element i, of friction
+ * with a memory (theory.md F2). */
+double rb_rolling_law_kept(const rb_rolling_model *model, int i);
+
 /* Several solutions of one steady case, ordered by decreasing force. */
 typedef struct {
     int n;

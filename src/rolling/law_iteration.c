@@ -45,38 +45,52 @@ static rb_status temperatures_of(rb_rolling_model *model, double *t, rb_message 
     return s;
 }
 
-/* From the leading edge on, in the order in which particles pass (F2): each one forgets
- * its coefficient over the distance that it slides. */
+/* Of element i; of one that slips by the direction of its zone, so that derivatives exist at the
+ * end of the zone. */
+static double slip_velocity(const rb_rolling_model *model, int i)
+{
+    const int zone = model->state.zone[i];
+    const double lambda = model->state.lambda[i];
+
+    return (zone == RB_ZONE_SLIP_NEGATIVE   ? lambda
+            : zone == RB_ZONE_SLIP_POSITIVE ? -lambda
+                                            : fabs(lambda)) /
+           model->problem.e_T[i] * model->rc->speed;
+}
+
+double rb_rolling_law_kept(const rb_rolling_model *model, int i)
+{
+    const rb_rolling_friction *f = &model->rc->friction;
+    const double slid =
+        fmax(slip_velocity(model, i), f->memory_slip) * model->problem.e_T[i] / model->rc->speed;
+
+    return exp(-slid / f->memory);
+}
+
+/* From the leading edge on, in the order in which particles pass (F2). */
 static void set_coefficients(const rb_rolling_model *model, const double *temperature, double *mu)
 {
     const rb_rolling_case *rc = model->rc;
     const rb_rolling_friction *f = &rc->friction;
     const rb_contact_state *state = &model->state;
-    const double *x = model->bodies.f.x, *e_T = model->problem.e_T;
+    const double *x = model->bodies.f.x;
 
     for (int i = state->n - 1; i >= 0; i--) {
         const double at_rest = f->memory != 0.0 || state->zone[i] == RB_ZONE_SEPARATED
                                    ? rb_rolling_law_at_rest(rc, x[i])
                                    : NAN;
-        /* of a zone that slips: by its direction, so that derivatives exist at its end */
-        const int zone = state->zone[i], direction = zone == RB_ZONE_SLIP_NEGATIVE   ? 1
-                                                     : zone == RB_ZONE_SLIP_POSITIVE ? -1
-                                                                                     : 0;
-        const double slip = direction ? direction * state->lambda[i] : fabs(state->lambda[i]);
-        const double v = slip / e_T[i] * rc->speed;
         if (state->zone[i] == RB_ZONE_SEPARATED) {
             mu[i] = at_rest;
             continue;
         }
-        mu[i] =
-            rb_rolling_law_mu(rc, x[i], v, temperature ? temperature[i] : rc->heat_a.temperature);
+        mu[i] = rb_rolling_law_mu(rc, x[i], slip_velocity(model, i),
+                                  temperature ? temperature[i] : rc->heat_a.temperature);
         if (f->memory == 0.0)
             continue;
         const double before = rc->formulation == RB_STEADY
                                   ? (i + 1 < state->n ? mu[i + 1] : at_rest)
                                   : (model->carried.mu ? model->carried.mu[i] : at_rest);
-        const double slid = fmax(v, f->memory_slip) * e_T[i] / rc->speed;
-        mu[i] += (before - mu[i]) * exp(-slid / f->memory);
+        mu[i] += (before - mu[i]) * rb_rolling_law_kept(model, i);
     }
 }
 

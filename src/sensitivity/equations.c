@@ -120,6 +120,29 @@ static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_mod
     return s;
 }
 
+/* (F2) steadily: mu_i moves by its own slip, and by what is kept of mu_(i+1). */
+static rb_status fill_memory(rb_sensitivity *s, rb_rolling_model *v, double step, double *moved,
+                             rb_message *why)
+{
+    const rb_rolling_model *model = s->model;
+    const int *zone = model->state.zone;
+    const size_t n = (size_t)s->n;
+    const rb_status status = differentiate_law(model, v, 0, 0, step, -1, moved, why);
+
+    for (int i = 0; i < s->n && status == RB_OK; i++)
+        moved[i] *= step_at(model, 0, i, step);
+    for (int j = 0; j < s->n && status == RB_OK; j++) {
+        if (zone[j] <= RB_ZONE_STICK)
+            continue;
+        const double upstream = j + 1 < s->n ? moved[j + 1] * rb_rolling_law_kept(model, j) : 0.0;
+        double by = (moved[j] - upstream) / step_at(model, 0, j, step);
+        s->law_slip[(size_t)j + (size_t)j * n] = by;
+        for (int i = j - 1; i >= 0 && zone[i] != RB_ZONE_SEPARATED; i--)
+            s->law_slip[(size_t)i + (size_t)j * n] = by *= rb_rolling_law_kept(model, i);
+    }
+    return status;
+}
+
 /* Coefficients of one element follow from its own slip alone, but where friction
  * remembers or heats: then every element asks all others. */
 static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *scratch, rb_message *why)
@@ -142,6 +165,8 @@ static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *scratc
                 s->law_slip[i + i * n] = scratch[i];
         return status;
     }
+    if (f->heat == 0.0 && model->rc->formulation == RB_STEADY)
+        return fill_memory(s, v, slip, scratch, why);
     /* The friction of an element heats by the slips at both its ends: that of an element that
      * sticks by the one behind it, where the next element slips; and what opens behind the
      * contact heats its last element. */

@@ -99,20 +99,23 @@ static void dependence(const rb_sensitivity *s, const int *zone, int i, double *
     }
 }
 
-/* Adds to row r, which is J + r, `times` the slip of element j. */
-static void add_slip(const rb_sensitivity *s, const rb_sensitivity_factors *f, int j, double times,
-                     double *r)
+/* Adds to row r, which is J + r, the slips of the elements from..to-1 times `weight`. */
+static void add_slips(const rb_sensitivity *s, const rb_sensitivity_factors *f, int from, int to,
+                      const double *weight, double *r)
 {
     const rb_contact_problem *p = &s->model->problem;
     const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
     const size_t n = (size_t)s->n, ld = (size_t)f->size;
+    const int some = to - from;
 
     for (int c = 0; c < f->contacts; c++) {
-        const size_t at = (size_t)f->contact[c];
-        r[(size_t)c * ld] += times * K.S[(size_t)j + at * n];
-        r[(size_t)(f->contacts + 1 + c) * ld] += times * K.S[(size_t)j + (n + at) * n];
+        const double *by_p = K.S + from + (size_t)f->contact[c] * n, *by_q = by_p + n * n;
+        double *of_p = r + (size_t)c * ld, *of_q = r + (size_t)(f->contacts + 1 + c) * ld;
+        *of_p += some == 1 ? *weight * *by_p : cblas_ddot(some, weight, 1, by_p, 1);
+        *of_q += some == 1 ? *weight * *by_q : cblas_ddot(some, weight, 1, by_q, 1);
     }
-    r[(size_t)(f->size - 1) * ld] += times * p->e_T[j];
+    for (int k = 0; k < some; k++)
+        r[(size_t)(f->size - 1) * ld] += weight[k] * p->e_T[from + k];
 }
 
 /* (D1) stick, slip or yield of element contact[c]. */
@@ -125,16 +128,20 @@ static void fill_element(const rb_sensitivity *s, rb_sensitivity_factors *f, int
 
     f->row[m + 1 + c] = 1.0 / (zone == RB_ZONE_STICK ? p->slip_length : p->stress);
     if (zone == RB_ZONE_STICK) {
-        add_slip(s, f, i, 1.0, tangential);
+        add_slips(s, f, i, i + 1, &(double){1.0}, tangential);
         return;
     }
     tangential[(size_t)(m + 1 + c) * ld] = 1.0;
     if (slides(zone))
         tangential[(size_t)c * ld] = -sign_of(zone) * p->bound[i];
     dependence(s, f->zone, i, weight, force, pressure);
-    for (int j = 0; j < s->n; j++)
-        if (weight[j] != 0.0)
-            add_slip(s, f, j, weight[j], tangential);
+    int from = 0, to = s->n;
+    while (from < to && weight[from] == 0.0)
+        from++;
+    while (to > from && weight[to - 1] == 0.0)
+        to--;
+    if (from < to)
+        add_slips(s, f, from, to, weight + from, tangential);
     for (int k = 0; k < m; k++) {
         tangential[(size_t)k * ld] += pressure[f->contact[k]];
         tangential[(size_t)(m + 1 + k) * ld] += force[f->contact[k]];
