@@ -795,10 +795,11 @@ rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling
  * x. */
 rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
                                   rb_rolling_model *variant, rb_message *why);
-/* Gap and coefficients of friction on elements moved to shift + scale x, n values each; friction
- * that does not depend on the place alone stays that of the model.  RB_ENOMEM. */
+/* Gap and coefficients of friction on elements moved to shift + scale x, n values each, where the
+ * irregularity has come this much further; friction that does not depend on the place alone stays
+ * that of the model.  RB_ENOMEM. */
 rb_status rb_rolling_variant_data(const rb_rolling_model *of, double shift, double scale,
-                                  double *gap, double *bound, rb_message *why);
+                                  double further, double *gap, double *bound, rb_message *why);
 /* A variant with another case on elements whose ends x are moved to shift + scale x.  The
  * flexibility is computed again if they move or the bodies differ. */
 rb_status rb_rolling_variant_place(const rb_rolling_model *of, const rb_rolling_case *rc,

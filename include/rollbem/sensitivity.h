@@ -116,6 +116,18 @@ typedef struct {
 const rb_sensitivity_stencil *rb_sensitivity_stencil_of(const rb_sensitivity_input *input,
                                                         double step);
 
+/* Derivatives of what is found at single elements, which a step of the input may exchange for
+ * others. */
+typedef struct {
+    double contact_from, contact_to, max_pressure;
+} rb_sensitivity_at_elements;
+
+/* variant: the model at the places of the stencil, of which the first one's state is overwritten;
+ * tangent: of the state of the model by the input. */
+rb_sensitivity_at_elements rb_sensitivity_differentiate_at_elements(
+    const rb_sensitivity *s, const rb_sensitivity_input *input, const rb_sensitivity_stencil *at,
+    double step, rb_rolling_model *const variant[], const rb_contact_state *tangent);
+
 /* Computes the rate of the equations with respect to the input, for fits, from two values
  * of the input instead of four (seven digits); mu: derivative of the largest friction
  * coefficient.  rate: overwritten; free it in any case. */

@@ -2,6 +2,7 @@
  * every step of a history (theory.md, D2, D7). */
 #include "case/internal.h"
 
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -438,6 +439,7 @@ typedef struct {
     rb_rolling_follower *at[RB_SENSITIVITY_PLACES];
     rb_sensitivity_rate left, rate; /* what one of them leaves; by how much all differ */
     rb_contact_state tangent;
+    rb_sensitivity_at_elements *picked; /* a derivative for each step; owned */
 } varied;
 
 static double unit_of_way(const rb_rolling_case *rc, const rb_rolling_program *program)
@@ -503,6 +505,8 @@ static rb_status vary(const rb_case *c, const rb_rolling_states *states, rb_roll
         s = rb_sensitivity_rate_alloc(states->n, &v->left);
     if (s == RB_OK)
         s = rb_contact_state_alloc(states->n, &v->tangent);
+    if (s == RB_OK && !(v->picked = calloc((size_t)states->steps, sizeof *v->picked)))
+        s = RB_ENOMEM;
     if (s != RB_OK)
         return s;
     v->step = STEP * input->scale;
@@ -526,18 +530,50 @@ static void varied_free(varied *v)
     rb_sensitivity_rate_free(&v->left);
     rb_sensitivity_rate_free(&v->rate);
     rb_contact_state_free(&v->tangent);
+    free(v->picked);
+}
+
+/* Tables of the gap and of the friction over x have kinks, which the step of a flexibility would
+ * span: of elements and irregularities that move, what these tables add is that of a short step. */
+static rb_status shorten_tables(const rb_rolling_model *base, varied *v,
+                                rb_rolling_model *const variant[], rb_message *why)
+{
+    static const double part = 0.04, rounding = 1e-12;
+    const rb_rolling_mesh *at = &base->mesh, *last = &variant[v->of.n - 1]->mesh;
+    const int n = at->n;
+    const double width = at->ends[n] - at->ends[0];
+    rb_status status = RB_OK;
+
+    if (fabs(last->ends[n] - last->ends[0] - width) <= rounding * width &&
+        last->passed == at->passed)
+        return RB_OK;
+    for (int k = 0; k < 2 * v->of.n && status == RB_OK; k++) {
+        const rb_rolling_mesh *to = &variant[k / 2]->mesh;
+        const double grown = (to->ends[n] - to->ends[0]) / width - 1.0, by = k % 2 ? 1.0 : part,
+                     weight = v->of.weight[k / 2] / v->step / (k % 2 ? -1.0 : part);
+        status =
+            rb_rolling_variant_data(base, 0.0, 1.0 + by * grown, by * (to->passed - at->passed),
+                                    v->left.gap, v->left.bound, why);
+        for (int i = 0; i < n && status == RB_OK; i++) {
+            v->rate.gap[i] += weight * v->left.gap[i];
+            v->rate.bound[i] += weight * v->left.bound[i];
+        }
+    }
+    return status;
 }
 
 /* The equations of the step at the four values change at the state that is there also by
  * what the states before, which have moved, left to them; that gives the tangent along
  * which the state of this step moves. */
-static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *base, varied *v,
-                                    rb_message *why)
+static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *base, int step,
+                                    varied *v, rb_message *why)
 {
+    rb_rolling_model *variant[RB_SENSITIVITY_PLACES];
+
     memset(v->rate.gap, 0, 4 * (size_t)v->rate.n * sizeof *v->rate.gap);
     v->rate.normal = v->rate.tangential = 0.0;
     for (int k = 0; k < v->of.n; k++) {
-        rb_rolling_model *at = rb_rolling_follower_model(v->at[k]);
+        rb_rolling_model *at = variant[k] = rb_rolling_follower_model(v->at[k]);
         rb_status status = rb_rolling_follower_begin(v->at[k], why);
 
         if (status != RB_OK)
@@ -548,9 +584,14 @@ static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *b
             return status;
         rb_sensitivity_rate_add(&v->left, v->of.weight[k] / v->step, &v->rate);
     }
-    rb_status status = rb_sensitivity_tangent(s, &v->rate, 1, &v->tangent, why);
+    rb_status status = shorten_tables(base, v, variant, why);
+    if (status == RB_OK)
+        status = rb_sensitivity_tangent(s, &v->rate, 1, &v->tangent, why);
+    if (status == RB_OK)
+        v->picked[step] = rb_sensitivity_differentiate_at_elements(s, &v->number->input, &v->of,
+                                                                   v->step, variant, &v->tangent);
     for (int k = 0; k < v->of.n; k++) {
-        rb_rolling_model *at = rb_rolling_follower_model(v->at[k]);
+        rb_rolling_model *at = variant[k];
 
         if (status != RB_OK)
             return status;
@@ -579,7 +620,7 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
         if (status == RB_OK)
             slopes->degenerate += rb_sensitivity_degenerate(s) > 0;
         for (int k = 0; k < n && status == RB_OK; k++)
-            status = differentiate_step(s, model, &v[k], why);
+            status = differentiate_step(s, model, step, &v[k], why);
         rb_sensitivity_free(s);
         if (status != RB_OK)
             return status;
@@ -591,12 +632,17 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
 /* Of a column after a step, from the histories at the four values. */
 static double slope_of(const varied *v, const rb_rolling_result *r, int row)
 {
+    const rb_sensitivity_at_elements *picked = &v->picked[row];
     double sum = 0.0, at = 0.0;
 
     for (int i = 0; i < v->of.n; i++) {
         at = rb_rolling_entry(r, rb_rolling_follower_history(v->at[i]), row);
         sum += v->of.weight[i] / v->step * at;
     }
+    sum = r->offset == offsetof(rb_rolling_history, contact_from)   ? picked->contact_from
+          : r->offset == offsetof(rb_rolling_history, contact_to)   ? picked->contact_to
+          : r->offset == offsetof(rb_rolling_history, max_pressure) ? picked->max_pressure
+                                                                    : sum;
     const rb_rolling_case *rc = rb_rolling_follower_model(v->at[0])->rc;
     return fabs(sum) * v->number->input.scale < rb_sensitivity_rounding(rc, r, at) ? 0.0 : sum;
 }

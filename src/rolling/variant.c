@@ -302,10 +302,10 @@ rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, doub
 }
 
 rb_status rb_rolling_variant_data(const rb_rolling_model *of, double shift, double scale,
-                                  double *gap, double *bound, rb_message *why)
+                                  double further, double *gap, double *bound, rb_message *why)
 {
     const size_t n = (size_t)of->mesh.n;
-    rb_rolling_mesh mesh = {.passed = of->mesh.passed};
+    rb_rolling_mesh mesh = {.passed = of->mesh.passed + further};
     rb_contact_problem p = of->problem;
     rb_rolling_bodies bodies = of->bodies;
     rb_status s = copy_mesh(of->rc, &of->mesh, 0, (motion){shift, scale}, &mesh, why);

@@ -119,6 +119,19 @@ rb_sensitivity_picked rb_sensitivity_differentiate_picked(const rb_sensitivity *
     return d;
 }
 
+rb_sensitivity_at_elements rb_sensitivity_differentiate_at_elements(
+    const rb_sensitivity *s, const rb_sensitivity_input *input, const rb_sensitivity_stencil *at,
+    double step, rb_rolling_model *const variant[], const rb_contact_state *tangent)
+{
+    rb_sensitivity_variants v = {.at = *at, .step = step, .scale = input->scale};
+
+    for (int k = 0; k < at->n; k++)
+        v.model[k] = *variant[k];
+    const rb_sensitivity_picked x =
+        rb_sensitivity_differentiate_picked(s, &v, tangent, &variant[0]->state);
+    return (rb_sensitivity_at_elements){x.of[FROM], x.of[TO], x.of[PEAK]};
+}
+
 void rb_sensitivity_find_edges(rb_sensitivity_picked x, double edges[2])
 {
     edges[0] = 0.5 * (x.of[FOLLOWED_TO] - x.of[FOLLOWED_FROM]);

@@ -203,7 +203,7 @@ rb_status rb_sensitivity_rates_at(const rb_sensitivity *s, const rb_sensitivity_
                      of_long = v->at.weight[k] / v->step;
         double shift, scale;
         motion_by(m, v->at.place[k] * step, &shift, &scale);
-        status = rb_rolling_variant_data(v->base, shift, scale, left.gap, left.bound, why);
+        status = rb_rolling_variant_data(v->base, shift, scale, 0.0, left.gap, left.bound, why);
         for (size_t i = 0; i < n && status == RB_OK; i++) {
             rate->gap[i] += of_short * left.gap[i] - of_long * at->mesh.gap[i];
             if (!rb_rolling_law_depends_on_state(v->base->rc))
