@@ -1,6 +1,7 @@
 /* Tables of numbers, with or without named columns. */
 #include "rollbem/io.h"
 
+#include <ctype.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -109,7 +110,8 @@ static const char *about_commas(const char *line)
 {
     const size_t n = strcspn(line, "\n");
     const char *comma = memchr(line, ',', n);
-    return comma && (memchr(line, ';', n) || memchr(line, '\t', n))
+    const int decimal = comma && isdigit((unsigned char)comma[1]);
+    return memchr(line, ';', n) || (decimal && (memchr(line, '\t', n) || memchr(line, ' ', n)))
                ? "; decimals have a point, and columns are separated by tabs, blanks or commas"
                : "";
 }
