@@ -1,6 +1,6 @@
 /* Coverage of the intervals and time of a fit: sixty sets of 24 points with noise, 40
  * elements, a falling law, a third body and an offset of creepage (docs/derivatives.md).
- * bench_fit [SETS [SEED]]. */
+ * bench_fit [SETS [SEED [ELEMENTS [MEMORY]]]]: the memory of friction in mm. */
 #include "rollbem/blas.h"
 #include "rollbem/case.h"
 
@@ -14,6 +14,7 @@ enum { POINTS = 24, NUMBERS = 5 };
 static const char *const names[NUMBERS] = {"mu", "mu-fall", "slip-scale", "interlayer-tangential",
                                            "creep-offset"};
 static const double truth[NUMBERS] = {0.24, 0.16, 1.5, 0.1, 2e-5}, NOISE = 0.004;
+static const char *elements = "40", *memory;
 static rb_message why;
 
 static void must(rb_status s)
@@ -26,14 +27,23 @@ static void must(rb_status s)
 
 static rb_case *new_case(rb_case_purpose purpose)
 {
-    static const char *const words[][2] = {
-        {"support", "halfplane"},  {"similar", "yes"},  {"half-width", "1"},
-        {"radius", "500"},         {"poisson", "0.3"},  {"young", "1.82"},
-        {"gap", "parabola"},       {"mesh", "uniform"}, {"contact-elements", "40"},
-        {"formulation", "steady"}, {"speed", "1000"},   {"friction-law", "exponential"}};
+    static const char *const words[][2] = {{"support", "halfplane"},
+                                           {"similar", "yes"},
+                                           {"half-width", "1"},
+                                           {"radius", "500"},
+                                           {"poisson", "0.3"},
+                                           {"young", "1.82"},
+                                           {"gap", "parabola"},
+                                           {"mesh", "uniform"},
+                                           {"formulation", "steady"},
+                                           {"speed", "1000"},
+                                           {"friction-law", "exponential"}};
     rb_case *c = rb_case_create(purpose);
     for (size_t k = 0; c && k < sizeof words / sizeof *words; k++)
         must(rb_case_set(c, words[k][0], words[k][1], RB_GIVEN_ARGUMENT, &why));
+    must(rb_case_set(c, "contact-elements", elements, RB_GIVEN_ARGUMENT, &why));
+    if (memory)
+        must(rb_case_set(c, "memory", memory, RB_GIVEN_ARGUMENT, &why));
     return c;
 }
 
@@ -72,6 +82,8 @@ int main(int argc, char **argv)
     const int sets = argc > 1 ? atoi(argv[1]) : 60;
     double creep[POINTS], exact[POINTS], force[POINTS], least = INFINITY, all = 0.0;
     int covered[NUMBERS] = {0}, fitted = 0, steps = 0;
+    elements = argc > 3 ? argv[3] : elements;
+    memory = argc > 4 ? argv[4] : NULL;
     rb_blas_threads(1);
     if (argc > 2)
         state ^= strtoull(argv[2], NULL, 10) * 0x9E3779B97F4A7C15ULL;

@@ -549,7 +549,8 @@ typedef struct {
     double level; /* confidence level of the intervals, for example 0.95 */
     /* found: */
     rb_status status;
-    int iterations, degrees_of_freedom, unidentified;
+    int iterations; /* steps; on entry those of a fit that this one continues */
+    int degrees_of_freedom, unidentified;
     double chi_square, noise; /* noise: standard deviation of a force, as a multiple of
                                  sigma if sigma is given */
     double kappa;             /* the largest value; 0: friction does not depend on the state */
@@ -583,9 +584,9 @@ rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_cas
                               rb_message *why);
 /* Fits the parameters to the data, which give creepages and forces (RB_CASE_CURVE refuses
  * those of a case).
- * On entry fit has n, names, starts, bounds and level; free it in any case.  RB_EINVAL: a
- * name is not a number of the case, or there are too few points; RB_INACCURATE: kappa >
- * 1; RB_MAXITER, RB_INTERRUPTED: fit holds the last values. */
+ * On entry fit has n, names, starts, bounds, level and iterations; free it in any case.  RB_EINVAL:
+ * a name is not a number of the case, or there are too few points; RB_INACCURATE: kappa > 1;
+ * RB_MAXITER, RB_INTERRUPTED: fit holds the last values. */
 rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
                             const rb_case_fit_observer *observer, rb_case_fit *fit,
                             rb_message *why);

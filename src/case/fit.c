@@ -12,6 +12,8 @@
 /* A further round has the elements of the last one's result, if the sum of squares is another
  * one on them, by this part of itself or of the squares of the measured forces. */
 enum { ROUNDS = 2 };
+/* Elements with which a fit of more than twice as many starts. */
+enum { COARSE = 40 };
 static const double SAME = 1e-3, SAME_OF_ALL = 1e-8;
 /* Steps with elements that move; what moves the fitted curve less, as a part of its noise, is none;
  * and what a fit that finds no lesser sum may be off. */
@@ -425,12 +427,65 @@ static rb_status gauss_newton(fit_problem *p, double *theta, double chi2,
 
 /* ---- All together ------------------------------------------------------------------ */
 
-static int falls_unidentified(const rb_case_fit *fit)
+/* Whether the model has several solutions with the numbers found.  Where a fall is fitted that
+ * the data do not show, they do not tell kappa either. */
+static int has_several(const fit_problem *p)
 {
-    int found = 0;
-    for (int j = 0; j < fit->n; j++)
-        found |= is_of_fall(&fit->parameter[j]) && !fit->parameter[j].identified;
-    return found;
+    int falls = 0;
+    for (int j = 0; j < p->n; j++)
+        falls |= is_of_fall(&p->fit->parameter[j]);
+    return p->kappa > 1.0 && !(falls && falling_points(p) < 2);
+}
+
+/* RB_INACCURATE, with the sliding distance of a memory that makes kappa a half: kappa is
+ * inverse to a long one (theory.md F3). */
+static rb_status refuse_several(fit_problem *p, const double *theta, rb_message *why)
+{
+    const double length = 1e6 * p->c->resolved.derived.half_width;
+    double kappa;
+    const rb_status s = rb_case_fit_kappa(p, theta, length, &kappa, why);
+
+    return s != RB_OK
+               ? s
+               : rb_fail(why, RB_INACCURATE,
+                         "fit: kappa = %.3g at the best fit: above 1 the model itself has "
+                         "several solutions, and behind a third body kappa grows with the "
+                         "number of elements; give friction a memory (--memory %.1g), with "
+                         "which kappa stays below 1, or fewer elements",
+                         p->kappa, rb_unit_shown(p->c->resolved.units, "mm", 2.0 * kappa * length));
+}
+
+/* Moves theta to the fit with few elements, which is near that with all of them, and sets kappa of
+ * all elements there: if it is above 1, their sum of squares has jumps.  Where this fails, theta
+ * stays. */
+static rb_status start_coarsely(fit_problem *p, double *theta, const rb_case_fit_observer *observer,
+                                rb_message *why)
+{
+    const rb_case *fine = p->c;
+    rb_case *coarse = rb_case_copy(fine);
+    double coarsely[RB_CASE_FIT_MAX];
+    int moved;
+    rb_status s = coarse ? RB_OK : rb_fail(why, RB_ENOMEM, "out of memory for a case");
+
+    memcpy(coarsely, theta, (size_t)p->n * sizeof *theta);
+    if (s == RB_OK)
+        s = rb_case_set_number(coarse, "contact-elements", COARSE, why);
+    if (s == RB_OK)
+        s = rb_case_resolve(coarse, why);
+    p->c = coarse;
+    if (s == RB_OK)
+        s = rb_case_fit_place(p, coarsely, &moved, why);
+    if (s == RB_OK)
+        s = rb_case_fit_descend(p, coarsely, observer, why);
+    p->c = fine;
+    p->known_n = 0;
+    rb_case_free(coarse);
+    p->kappa = 0.0;
+    if (s == RB_OK)
+        s = rb_case_fit_kappa(p, coarsely, NAN, &p->kappa, why);
+    if (s == RB_OK)
+        memcpy(theta, coarsely, (size_t)p->n * sizeof *theta);
+    return s == RB_ENOMEM || s == RB_INTERRUPTED ? s : RB_OK;
 }
 
 rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
@@ -450,7 +505,7 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
                      .temperature = rb_case_option("temperature")};
     double theta[RB_CASE_FIT_MAX], squares = 0.0;
     double chi2 = INFINITY;
-    int moved = 1, round = 0, moves = 0;
+    int moved = 1, round = 0, moves = 0, several = 0;
     rb_status s = RB_OK;
 
     if (c->resolved.error)
@@ -474,12 +529,18 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
     if (s == RB_OK && p.offset >= 0 && data->is_ratio)
         s = rb_fail(why, RB_EINVAL,
                     "--fit creep-offset: needs creepages, a column creep and no ratios");
-    if (s == RB_OK)
+    if (s == RB_OK && c->resolved.rc.contact_elements > 2 * COARSE)
+        s = start_coarsely(&p, theta, observer, why);
+    several = s == RB_OK && has_several(&p);
+    if (s == RB_OK && !several)
         s = rb_case_fit_place(&p, theta, &moved, why);
     for (int k = 0; k < p.points; k++)
         squares += gsl_pow_2(rb_case_fit_residual(&p, k, 0.0));
-    for (; round < ROUNDS && s == RB_OK && moved; round++) {
+    for (; round < ROUNDS && s == RB_OK && moved && !several; round++) {
         s = rb_case_fit_descend(&p, theta, observer, why);
+        several = s == RB_OK && has_several(&p);
+        if (several)
+            break;
         if (s == RB_OK)
             s = rb_case_fit_place(&p, theta, &moved, why);
         moves |= moved;
@@ -488,7 +549,7 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
         if (s == RB_OK && moved)
             moved = fabs(chi2 - fit->chi_square) > SAME * fit->chi_square + SAME_OF_ALL * squares;
     }
-    if (s == RB_OK && moved) {
+    if (s == RB_OK && moved && !several) {
         s = gauss_newton(&p, theta, chi2, observer, why);
         if (s == RB_MAXITER)
             s = rb_fail(
@@ -502,16 +563,12 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
     if (s == RB_OK && moves && !moved) /* otherwise they are known */
         s = rb_case_fit_move(&p, theta, why);
     fit->kappa = p.kappa;
-    if (s == RB_OK) {
+    if (s == RB_OK && !several) {
         doubt_data(&p);
         set_intervals(&p, theta);
     }
-    /* a fall that the data do not tell has a kappa that they do not tell */
-    if (s == RB_OK && p.kappa > 1.0 && !falls_unidentified(fit))
-        s = rb_fail(why, RB_INACCURATE,
-                    "fit: kappa = %.3g at the best fit: above 1 the model itself has "
-                    "several solutions; give friction a memory (--memory), or fit that too",
-                    p.kappa);
+    if (s == RB_OK && has_several(&p))
+        s = refuse_several(&p, theta, why);
     fit->status = s;
     rb_case_fit_release(&p, p.accepted == 0);
     rb_case_fit_release(&p, p.accepted);

@@ -60,6 +60,10 @@ rb_status rb_case_fit_extend(fit_problem *p, const double *theta, int k, int ele
 /* Gives J the derivatives on elements that move with the numbers (theory.md, D6); columns of
  * numbers that change nothing then are 0.  And kappa of the elements for theta. */
 rb_status rb_case_fit_move(fit_problem *p, const double *theta, rb_message *why);
+/* The largest kappa (theory.md, F3) of the points for theta, without solving them: pressures hardly
+ * depend on friction.  memory: the sliding distance of friction with memory; NAN: the case's. */
+rb_status rb_case_fit_kappa(fit_problem *p, const double *theta, double memory, double *kappa,
+                            rb_message *why);
 /* Frees the solutions of all points with the accepted numbers, or those of a trial. */
 void rb_case_fit_release(fit_problem *p, int which);
 /* Of a force that the model gives point k. */

@@ -12,6 +12,9 @@
 enum { STEPS = 100 };
 /* A part of chi^2 that is not worth a step. */
 static const double CONVERGED = 1e-10;
+/* Where the model has several solutions, the sum of squares has jumps, and less than this part is
+ * not worth a search among them. */
+static const double CONVERGED_WITH_JUMPS = 1e-2;
 /* A part that an undamped step may be trusted with. */
 static const double NEAR = 0.6;
 
@@ -369,6 +372,7 @@ rb_status rb_case_fit_descend(fit_problem *p, double *theta, const rb_case_fit_o
                    at.promise <= CONVERGED;
             s = tell(&at);
         }
+        done |= p->kappa > 1.0 && chi2 - at.accepted_chi2 <= CONVERGED_WITH_JUMPS * chi2;
         if (s == RB_OK && !done && (at.clipped || ended == BEYOND_KINKS)) {
             /* goes on from the bound, or from the kinks */
             gsl_vector_memcpy(x, at.x);

@@ -336,6 +336,37 @@ rb_status rb_case_fit_place(fit_problem *p, const double *theta, int *moved, rb_
     return s;
 }
 
+rb_status rb_case_fit_kappa(fit_problem *p, const double *theta, double memory, double *kappa,
+                            rb_message *why)
+{
+    rb_status s = RB_OK;
+
+    *kappa = 0.0;
+    for (int k = 0; k < p->points && s == RB_OK; k++) {
+        place at = {p, theta, k, -1};
+        rb_rolling_case rc, even;
+        rb_rolling_model model = {.mesh = {.n = 0}};
+        double own = 0.0;
+        if (k > 0 && are_alike(p->data, k, k - 1))
+            continue;
+        s = case_at(&at, 0.0, &rc, why);
+        if (s != RB_OK)
+            break;
+        even = rc;
+        even.friction = (rb_rolling_friction){.law = RB_FRICTION_constant};
+        if (!isnan(memory))
+            rc.friction.memory = memory;
+        s = rb_rolling_model_create(&even, &model, why);
+        rb_rolling_model falling = model;
+        falling.rc = &rc;
+        if (s == RB_OK && rb_rolling_law_depends_on_state(&rc))
+            s = rb_rolling_law_kappa(&falling, &own);
+        *kappa = fmax(*kappa, own);
+        rb_rolling_model_free(&model);
+    }
+    return s;
+}
+
 rb_status rb_case_fit_move(fit_problem *p, const double *theta, rb_message *why)
 {
     const int ratio = p->data->measure == RB_CASE_FORCE_RATIO;

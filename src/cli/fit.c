@@ -24,7 +24,7 @@ typedef struct {
     int tells; /* 1: steps on standard error */
     rb_units units;
     uint64_t fingerprint;          /* of the case, what is fitted, and the data */
-    int steps;                     /* those before this run, and of it */
+    int steps;                     /* those of runs before, and of this one */
     double value[RB_CASE_FIT_MAX]; /* after so many steps, in mm, N, MPa */
     rb_status kept;                /* of writing them */
     rb_message why;
@@ -164,6 +164,7 @@ static cli_exit resume(cli_case_run *run)
         return cli_say(s, &why);
     const int known = read_numbers(text, f);
     free(text);
+    f->fit.iterations = f->steps;
     if (!known)
         return cli_fail(CLI_CANTWRITE,
                         "--resume: %s holds no numbers of this fit, and would be overwritten: "
@@ -181,7 +182,7 @@ static cli_exit resume(cli_case_run *run)
 static int tell(int iteration, double chi_square, int n, const double *value, void *context)
 {
     fitting *f = context;
-    f->steps++;
+    f->steps = iteration;
     if (f->resume && f->kept == RB_OK) {
         memcpy(f->value, value, (size_t)n * sizeof *value);
         f->kept = cli_write_to(f->resume, write_numbers, f, &f->why);
