@@ -699,6 +699,19 @@ TEST(threads_are_bounded)
     assert_string_equal(err, "");
 }
 
+/* An OpenBLAS that is older than the processor chooses kernels of 2004. */
+TEST(kernels_are_those_of_the_processor_or_of_the_user)
+{
+    assert_int_equal(shell("OPENBLAS_CORETYPE=Prescott \"$R\" --json --quiet"), 0);
+    if (!strstr(out, "\"openblas\": \"Prescott\""))
+        skip(); /* an OpenBLAS with kernels of one kind */
+    assert_int_equal(shell("env -u OPENBLAS_CORETYPE \"$R\" --json --quiet"), 0);
+#ifdef __x86_64__
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+        assert_null(strstr(out, "\"openblas\": \"Prescott\""));
+#endif
+}
+
 /* Under nohup it goes on when the terminal goes; without, it is interrupted. */
 TEST(a_terminal_that_goes_interrupts_unless_nohup)
 {

@@ -145,6 +145,15 @@ def test_versions_must_agree(tmp_path):
         assert words in got.stderr.splitlines()[-1]
 
 
+def test_kernels_are_chosen_before_openblas_is_loaded():
+    program = ("import rollbem; better = rollbem._library.lib.rb_blas_better_core;"
+               "print(better() or 'none is better')")
+    got = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, env={
+        **{name: text for name, text in os.environ.items() if name != "OPENBLAS_CORETYPE"},
+        "PYTHONPATH": str(ROOT / "python")})
+    assert got.stdout == "none is better\n"
+
+
 def test_friction_over_the_way():
     way = {"distance": [0, 1, 1.01, 2], "mu": [0.3, 0.3, 0.1, 0.1], "creep": [1e-3] * 4}
     case = {"support": "halfplane", "similar": True, "load": 500, "contact_elements": 30}
