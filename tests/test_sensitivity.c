@@ -187,9 +187,10 @@ TEST(a_model_without_a_matrix_is_given_one)
 
 /* ---- Forward and adjoint ----------------------------------------------------------- */
 
+/* Also by the rates that fits take, from fewer places. */
 TEST(forward_is_adjoint)
 {
-    static const size_t some[] = {1, 2, 6, 8, 12};
+    static const size_t some[] = {1, 2, 6, 8, 9, 12};
     for (size_t k = 0; k < sizeof some / sizeof *some; k++) {
         rb_message why = {""};
         rb_case_result r;
@@ -214,7 +215,10 @@ TEST(forward_is_adjoint)
             CHECK_STATUS(rb_sensitivity_differentiate(s, &number[j].input, &d, &why), RB_OK);
             const int side = d.has[0] ? 0 : 1;
             rb_contact_state y;
+            rb_sensitivity_rate rate;
+            double mu;
             CHECK_STATUS(rb_contact_state_alloc(p->n, &y), RB_OK);
+            CHECK_STATUS(rb_sensitivity_rates(s, &number[j].input, &rate, &mu, &why), RB_OK);
             CHECK_STATUS(rb_sensitivity_tangent(s, &d.rate, side ? 1 : -1, &y, &why), RB_OK);
             double want = 1e5 * y.xi + 1e3 * y.delta, size = fabs(want);
             for (int i = 0; i < p->n; i++) {
@@ -223,7 +227,10 @@ TEST(forward_is_adjoint)
             }
             CHECK_ABS(rb_sensitivity_dot(&adjoint, &d.rate), want, 1e-11 * size, "regime %d by %s",
                       (int)some[k], number[j].name);
+            CHECK_ABS(rb_sensitivity_dot(&adjoint, &rate), want, 1e-6 * size, "regime %d: rate by %s",
+                      (int)some[k], number[j].name);
             rb_contact_state_free(&y);
+            rb_sensitivity_rate_free(&rate);
             rb_sensitivity_derivative_free(&d);
         }
         rb_sensitivity_rate_free(&adjoint);

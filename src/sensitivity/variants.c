@@ -220,8 +220,7 @@ static int rates_of_given(const rb_sensitivity *s, const rb_sensitivity_input *i
                           rb_status *status, rb_message *why)
 {
     rb_sensitivity_rate left = {0};
-    /* what hardens with mu p moves what yields downstream */
-    int is_given = !v->own && !s->model->problem.yield;
+    int is_given = 1;
 
     *status = rb_sensitivity_rate_alloc(s->n, &left);
     /* the last place tells: the first one may be the value itself, where nothing differs */
