@@ -142,7 +142,7 @@ TEST(every_command_converts_the_same_numbers)
                 "--error --history-table h.tsv && cat h.tsv",
                 "out"},
                {"$R curve --radius $R1 --young $E1 --load $P1 --support halfplane --similar "
-                "--points 3",
+                "--points 3 --error",
                 "out"},
                {"$R stress --radius $R1 --young $E1 --load $P1 --support halfplane --similar "
                 "--depth $Z1 --grid 4x3",
