@@ -227,8 +227,8 @@ TEST(forward_is_adjoint)
             }
             CHECK_ABS(rb_sensitivity_dot(&adjoint, &d.rate), want, 1e-11 * size, "regime %d by %s",
                       (int)some[k], number[j].name);
-            CHECK_ABS(rb_sensitivity_dot(&adjoint, &rate), want, 1e-6 * size, "regime %d: rate by %s",
-                      (int)some[k], number[j].name);
+            CHECK_ABS(rb_sensitivity_dot(&adjoint, &rate), want, 1e-6 * size,
+                      "regime %d: rate by %s", (int)some[k], number[j].name);
             rb_contact_state_free(&y);
             rb_sensitivity_rate_free(&rate);
             rb_sensitivity_derivative_free(&d);
@@ -678,6 +678,22 @@ TEST(units_of_derivatives)
     rb_case_derivatives_free(&all);
     rb_case_result_free(&r);
     rb_case_free(c);
+}
+
+static rb_status factorise(void *model)
+{
+    rb_sensitivity *s;
+    const rb_status status = rb_sensitivity_create(model, 1, &s, &heard);
+    rb_sensitivity_free(s);
+    return status;
+}
+
+TEST(laws_without_memory)
+{
+    rb_case_result r;
+    held_case *c = solved(&regimes[7], NULL, 0.0, &r);
+    assert_true(alloc_fail_each(factorise, &r.model) > 10);
+    rb_case_result_free(&r);
 }
 
 TEST(steps_are_refused)
