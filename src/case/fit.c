@@ -488,6 +488,23 @@ static rb_status start_coarsely(fit_problem *p, double *theta, const rb_case_fit
     return s == RB_ENOMEM || s == RB_INTERRUPTED ? s : RB_OK;
 }
 
+/* The first round, from the coarse fit theta or, if a point has no solution there, from `start`. */
+static rb_status descend_first(fit_problem *p, double *theta, const double *start,
+                               const rb_case_fit_observer *observer, rb_message *why)
+{
+    const size_t bytes = (size_t)p->n * sizeof *theta;
+    int moved;
+    rb_status s = rb_case_fit_place(p, theta, &moved, why);
+
+    if (s == RB_OK)
+        s = rb_case_fit_descend(p, theta, observer, why);
+    if (s <= 0 || s == RB_INTERRUPTED || p->accepted >= 0 || memcmp(theta, start, bytes) == 0)
+        return s;
+    memcpy(theta, start, bytes);
+    s = rb_case_fit_place(p, theta, &moved, why);
+    return s == RB_OK ? rb_case_fit_descend(p, theta, observer, why) : s;
+}
+
 rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
                             const rb_case_fit_observer *observer, rb_case_fit *fit, rb_message *why)
 {
@@ -503,7 +520,7 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
                      .load = rb_case_option("load"),
                      .speed = rb_case_option("speed"),
                      .temperature = rb_case_option("temperature")};
-    double theta[RB_CASE_FIT_MAX], squares = 0.0;
+    double theta[RB_CASE_FIT_MAX] = {0.0}, start[RB_CASE_FIT_MAX], squares = 0.0;
     double chi2 = INFINITY;
     int moved = 1, round = 0, moves = 0, several = 0;
     rb_status s = RB_OK;
@@ -529,15 +546,15 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
     if (s == RB_OK && p.offset >= 0 && data->is_ratio)
         s = rb_fail(why, RB_EINVAL,
                     "--fit creep-offset: needs creepages, a column creep and no ratios");
+    memcpy(start, theta, sizeof start);
     if (s == RB_OK && c->resolved.rc.contact_elements > 2 * COARSE)
         s = start_coarsely(&p, theta, observer, why);
     several = s == RB_OK && has_several(&p);
-    if (s == RB_OK && !several)
-        s = rb_case_fit_place(&p, theta, &moved, why);
     for (int k = 0; k < p.points; k++)
         squares += gsl_pow_2(rb_case_fit_residual(&p, k, 0.0));
     for (; round < ROUNDS && s == RB_OK && moved && !several; round++) {
-        s = rb_case_fit_descend(&p, theta, observer, why);
+        s = round == 0 ? descend_first(&p, theta, start, observer, why)
+                       : rb_case_fit_descend(&p, theta, observer, why);
         several = s == RB_OK && has_several(&p);
         if (several)
             break;
