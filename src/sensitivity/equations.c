@@ -55,7 +55,8 @@ rb_status rb_sensitivity_residual(const rb_rolling_model *base, rb_rolling_model
     if (s != RB_OK)
         return s;
     if (p->yield) {
-        rb_contact_yielded(p, variant->state.plastic, left->yield);
+        /* by the zones: slips that are nearly 0 may change their sign within a step */
+        rb_contact_set_plastic(p, &variant->state, left->yield);
         for (int i = 0; i < left->n; i++)
             left->yield[i] = rb_contact_yield_stress(p, i, left->yield[i]);
     }
