@@ -31,8 +31,10 @@ export async function crawl({ stride, from, views, seconds }) {
                 wrong.push(
                     `${what}: shows ${odd} in ...${text.slice(Math.max(0, text.indexOf(odd) - 40), text.indexOf(odd) + 20)}`,
                 );
-        if (trouble && document.getElementById("message").hidden)
-            wrong.push(`${what}: not solved (${trouble}), and nobody says so`);
+        const message = document.getElementById("message"),
+            { top, bottom } = message.getBoundingClientRect();
+        if (trouble && (message.hidden || top < 0 || bottom > innerHeight))
+            wrong.push(`${what}: not solved (${trouble}), and nobody says so where one looks`);
         if (trouble && !document.querySelector(".contact").classList.contains("stale") && rollbem.near("bench"))
             wrong.push(`${what}: not solved, and not grey`);
         for (const fault of rollbem.faults.splice(0)) wrong.push(`${what}: ${fault}`);

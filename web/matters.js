@@ -94,7 +94,7 @@ export function matters_card(words, page) {
             },
         ),
     );
-    const name_of = (name) => words.names[name] ?? name,
+    const name_of = (name) => words.names[name] ?? name.replaceAll("-", " "),
         side_of = (falls) => (falls ? w.less : w.more);
     const percent = (x) =>
         !Number.isFinite(x)
@@ -237,7 +237,7 @@ export function matters_card(words, page) {
         deviations.classList.toggle("old", old);
         deviations.replaceChildren(
             ...(data.uncertain
-                ? [html("li", {}, say(w.uncertain_refused, { why: data.uncertain }))]
+                ? [html("li", {}, say(w.uncertain_refused, { why: data.uncertain.replace("--tolerance: ", "") }))]
                 : data.deviations
                   ? RESULTS.filter((name) => Number.isFinite(data.deviations[name])).map((name) =>
                         html(
