@@ -47,7 +47,10 @@ void fuzz_options(const uint8_t *data, size_t size)
         argv[argc++] = word;
     rb_case *c = cli_case_create(RB_CASE_SINGLE);
     fuzz_require(c != NULL, "there is memory");
-    const cli_spec spec = {"rollbem", "", NULL, {rb_case_options(c), cli_example_set()}, 2};
+    const cli_spec spec = {.synopsis = "rollbem",
+                           .about = "",
+                           .sets = {rb_case_options(c), cli_example_set()},
+                           .set_n = 2};
     cli_args args = {0};
     *(const char **)spec.sets[1].target = NULL; /* --example of the run before */
     fuzz_require(known(cli_case_parse(&spec, argc, argv, c, &args)),

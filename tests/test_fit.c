@@ -825,6 +825,23 @@ TEST(derivatives_stand_in_columns)
     }
 }
 
+/* Options that every fit refuses are in neither form of help, and their group is not either. */
+TEST(help_shows_what_a_fit_takes)
+{
+    static const char *const refused[2][4] = {
+        {"\n  --error", "\n  --accuracy", "\n  --history", "[accuracy]"},
+        {"[--error", "[--accuracy", "[--history", "[accuracy]"}};
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(rollbemf("fit --%s", k ? "usage" : "help"), 0);
+        assert_non_null(strstr(out, k ? "[--contact-elements" : "\n  --contact-elements"));
+        for (int j = 0; j < 4; j++)
+            if (strstr(out, refused[k][j]))
+                fail_msg("%s: %s", k ? "usage" : "help", refused[k][j]);
+    }
+    assert_int_equal(rollbemf("curve --help"), 0);
+    assert_non_null(strstr(out, "  --error  "));
+}
+
 /* Signs and units of other programs, misspelt columns, units of bounds. */
 TEST(doubtful_data_are_told)
 {

@@ -151,8 +151,12 @@ static cli_spec spec_of(cli_case_run *run)
     for (const cli_case_file *f = command->files; f && f->option; f++)
         draws |= strcmp(f->option, "plot") == 0;
     const rb_option_set output = cli_output_set(&run->o, draws);
-    cli_spec spec = {
-        command->synopsis, command->about, command->notes, {rb_case_options(run->words)}, 1};
+    cli_spec spec = {.synopsis = command->synopsis,
+                     .about = command->about,
+                     .notes = command->notes,
+                     .refused = command->refused,
+                     .sets = {rb_case_options(run->words)},
+                     .set_n = 1};
     if (command->takes_crack)
         spec.sets[spec.set_n++] = rb_case_crack_set(run->words);
     spec.sets[spec.set_n++] = command->options_last ? output : run->set;

@@ -80,7 +80,7 @@ enum { CLI_COMMAND_OPTIONS_MAX = 28 };
 
 /* What is the command's own.  Functions may be NULL, but for solve, table, json, summarise. */
 struct cli_case_command {
-    const char *synopsis, *about, *notes;
+    const char *synopsis, *about, *notes, *refused; /* of its cli_spec */
     rb_case_purpose purpose;
     const rb_option *options;
     int option_n;               /* CLI_COMMAND_OPTIONS_MAX at most */

@@ -119,6 +119,7 @@ typedef struct {
     const char *synopsis; /* "rollbem lcp [OPTION...] FILE..." */
     const char *about;    /* text of --help above the options */
     const char *notes;    /* text below them, or NULL */
+    const char *refused;  /* ",NAME,...,": options of the case that help does not show, or NULL */
     rb_option_set sets[CLI_MAX_SETS];
     int set_n;
 } cli_spec;

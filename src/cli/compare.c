@@ -273,11 +273,11 @@ int cli_compare(int argc, char **argv)
     compare_options o = {.tol = 1e-8, .limit = 1000.0};
     comparison c = {.o = &o};
     cli_args args = {0};
-    const cli_spec spec = {"rollbem compare [OPTION...] FILE...",
-                           about,
-                           notes,
-                           {{options, OPTIONS, &o, o.given, NULL}},
-                           1};
+    const cli_spec spec = {.synopsis = "rollbem compare [OPTION...] FILE...",
+                           .about = about,
+                           .notes = notes,
+                           .sets = {{options, OPTIONS, &o, o.given, NULL}},
+                           .set_n = 1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands < 1)
         code = cli_fail(CLI_USAGE, "compare: expected at least one FILE");

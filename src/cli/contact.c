@@ -145,11 +145,11 @@ int cli_contact(int argc, char **argv)
 {
     contact_options o = {0};
     cli_args args = {0};
-    const cli_spec spec = {"rollbem contact [OPTION...] FILE.inp",
-                           about,
-                           notes,
-                           {{options, OPTIONS, &o, NULL, NULL}},
-                           1};
+    const cli_spec spec = {.synopsis = "rollbem contact [OPTION...] FILE.inp",
+                           .about = about,
+                           .notes = notes,
+                           .sets = {{options, OPTIONS, &o, NULL, NULL}},
+                           .set_n = 1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands != 1)
         code = cli_fail(CLI_USAGE, "contact: expected one FILE.inp, got %d files", args.operands);

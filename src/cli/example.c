@@ -338,11 +338,10 @@ int cli_example(int argc, char **argv)
     example_options o = {
         .tol = 1e-10, .step = 1e-2, .nodes = 12, .mesh = MESH_FINE, .problems = 50};
     cli_args args = {0};
-    const cli_spec spec = {"rollbem example [OPTION...] bar|truss|wall",
-                           about,
-                           NULL,
-                           {{options, OPTIONS, &o, o.given, NULL}},
-                           1};
+    const cli_spec spec = {.synopsis = "rollbem example [OPTION...] bar|truss|wall",
+                           .about = about,
+                           .sets = {{options, OPTIONS, &o, o.given, NULL}},
+                           .set_n = 1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE)
         code = cli_check_files(&spec, &args);

@@ -255,6 +255,7 @@ static const cli_case_command command = {
     .synopsis = "rollbem fit DATA --fit NAME,... [OPTION...] [CASE.ini]",
     .about = about,
     .notes = notes,
+    .refused = ",error,accuracy,history,",
     .purpose = RB_CASE_CURVE,
     .options = options,
     .option_n = OPTIONS,

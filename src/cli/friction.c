@@ -356,11 +356,11 @@ int cli_friction(int argc, char **argv)
     char text[6000];
     const size_t n = (size_t)snprintf(text, sizeof text, "%s", notes);
     cli_friction_solver_lines(text + n, sizeof text - n);
-    const cli_spec spec = {"rollbem friction [OPTION...] FILE...",
-                           about,
-                           text,
-                           {{options, OPTIONS, &o, NULL, NULL}},
-                           1};
+    const cli_spec spec = {.synopsis = "rollbem friction [OPTION...] FILE...",
+                           .about = about,
+                           .notes = text,
+                           .sets = {{options, OPTIONS, &o, NULL, NULL}},
+                           .set_n = 1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (o.format >= KIND)
         o.kind = o.format - KIND;

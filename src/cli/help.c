@@ -66,14 +66,26 @@ static int is_abbreviated(const cli_spec *spec, int s)
     return s == 0 || strcmp(first->name, "output") == 0 || strcmp(first->name, "example") == 0;
 }
 
-/* All options of the set, or the common ones below one title. */
-static void print_set(const rb_option_set *set, int common)
+static int is_refused(const cli_spec *spec, const char *name)
 {
+    char word[80];
+    snprintf(word, sizeof word, ",%s,", name);
+    return spec->refused && strstr(spec->refused, word);
+}
+
+/* All options of a set of the spec, or the common ones below one title. */
+static void print_set(const cli_spec *spec, const rb_option_set *set, int common)
+{
+    const rb_option *group = NULL;
     for (const rb_option *o = set->options; o < set->options + set->n; o++) {
-        if (o->kind == RB_OPTION_GROUP && !common)
-            print_group_title(o);
-        else if (o->kind != RB_OPTION_GROUP && (o->common || !common))
+        if (o->kind == RB_OPTION_GROUP)
+            group = o;
+        else if ((o->common || !common) && !is_refused(spec, o->name)) {
+            if (group && !common)
+                print_group_title(group);
             print_option(o, set->target);
+            group = NULL;
+        }
     }
 }
 
@@ -107,11 +119,11 @@ int cli_print_help(const cli_spec *spec, const char *part)
         print_text(about);
         for (int s = 1; s < spec->set_n; s++)
             if (!is_abbreviated(spec, s))
-                print_set(&spec->sets[s], 0);
+                print_set(spec, &spec->sets[s], 0);
         puts("\nThe most used options");
         for (int s = 0; s < spec->set_n; s++)
             if (is_abbreviated(spec, s))
-                print_set(&spec->sets[s], 1);
+                print_set(spec, &spec->sets[s], 1);
         char text[1000] = "";
         for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
             for (const rb_option *o = set->options; o < set->options + set->n; o++)
@@ -127,7 +139,7 @@ int cli_print_help(const cli_spec *spec, const char *part)
         printf("Usage: %s\n\n", spec->synopsis);
         print_text(spec->about);
         for (int s = 0; s < spec->set_n; s++)
-            print_set(&spec->sets[s], 0);
+            print_set(spec, &spec->sets[s], 0);
         puts("\nCommon");
         cli_print_entry("--help[=all|GROUP]", "this text, or the options of a group");
         cli_print_entry("--usage", "the options on a few lines");
@@ -157,7 +169,7 @@ void cli_print_usage(const cli_spec *spec)
     printf("Usage: %s\n", spec->synopsis);
     for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
         for (const rb_option *o = set->options; o < set->options + set->n; o++) {
-            if (o->kind == RB_OPTION_GROUP)
+            if (o->kind == RB_OPTION_GROUP || is_refused(spec, o->name))
                 continue;
             cli_option_metavar(o, values, sizeof values);
             const int n = (int)(strlen(o->name) + strlen(values)) + 5;

@@ -482,8 +482,11 @@ int cli_lcp(int argc, char **argv)
 {
     lcp_options o = {.tol = 1e-10};
     cli_args args = {0};
-    const cli_spec spec = {
-        "rollbem lcp [OPTION...] FILE...", about, notes, {{options, OPTIONS, &o, NULL, NULL}}, 1};
+    const cli_spec spec = {.synopsis = "rollbem lcp [OPTION...] FILE...",
+                           .about = about,
+                           .notes = notes,
+                           .sets = {{options, OPTIONS, &o, NULL, NULL}},
+                           .set_n = 1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands < 1)
         code = cli_fail(CLI_USAGE, "lcp: expected at least one FILE");

@@ -136,11 +136,11 @@ int cli_page(int argc, char **argv)
     if (!c)
         return CLI_INTERNAL;
     const cli_spec spec = {
-        "rollbem page [OPTION...] [CASE.ini]",
-        about,
-        notes,
-        {rb_case_options(c), {options, OPTIONS, &o, o.given, NULL}, cli_example_set()},
-        3};
+        .synopsis = "rollbem page [OPTION...] [CASE.ini]",
+        .about = about,
+        .notes = notes,
+        .sets = {rb_case_options(c), {options, OPTIONS, &o, o.given, NULL}, cli_example_set()},
+        .set_n = 3};
     cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
     const rb_option_set set = rb_case_options(c);
     for (int k = 0; k < set.n && code == CLI_CONTINUE; k++)

@@ -795,14 +795,14 @@ int cli_sweep(int argc, char **argv)
     study st = {.base = c, .o = &o, .over = -1, .family = -1};
     if (!c)
         return CLI_INTERNAL;
-    const cli_spec spec = {"rollbem sweep [OPTION...] [STUDY.ini]",
-                           about,
-                           notes,
-                           {rb_case_options(c),
-                            {options, OPTIONS, &o, o.given, NULL},
-                            rb_case_crack_set(c),
-                            cli_example_set()},
-                           4};
+    const cli_spec spec = {.synopsis = "rollbem sweep [OPTION...] [STUDY.ini]",
+                           .about = about,
+                           .notes = notes,
+                           .sets = {rb_case_options(c),
+                                    {options, OPTIONS, &o, o.given, NULL},
+                                    rb_case_crack_set(c),
+                                    cli_example_set()},
+                           .set_n = 4};
     st.own = &spec.sets[1];
     st.cracks = &spec.sets[2];
     cli_exit code = cli_pool_begin(argc, argv);
