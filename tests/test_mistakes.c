@@ -455,6 +455,29 @@ TEST(terminals_get_a_short_table)
     assert_non_null(strstr(out, "# rollbem"));
 }
 
+/* Help on a terminal: the command's own options, then common ones without their groups. */
+TEST(terminals_get_short_help)
+{
+    static const struct {
+        const char *command, *group;
+    } all[] = {{"curve", "[curve]"}, {"sweep", "[sweep]"}, {"wear", "[wear]"}};
+    if (shell("command -v script") != 0)
+        skip();
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        assert_int_equal(
+            shellf("PAGER=cat script -qec \"'$R' %s --help\" typescript", all[k].command), 0);
+        const char *own = strstr(out, all[k].group), *common = strstr(out, "The most used options");
+        assert_non_null(own);
+        assert_non_null(common);
+        assert_true(own < common);
+        static const char *const shared[] = {"  --mu X", "  --example NAME"};
+        for (size_t j = 0; j < sizeof shared / sizeof *shared; j++)
+            assert_non_null(strstr(common, shared[j]));
+        assert_null(strstr(out, "[example]"));
+        assert_null(strstr(out, "[output]"));
+    }
+}
+
 /* Who waits is told after two seconds what for; the line is taken away, and neither
  * --quiet nor a pipe has one.  The program is stopped most of these seconds, for it is they
  * that count and not its work; a processor may still be too fast for it. */
