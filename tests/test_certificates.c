@@ -19,8 +19,8 @@ static int asked(const char *name, int otherwise)
     return getenv(name) ? atoi(getenv(name)) : otherwise;
 }
 
-/* What is printed of the k-th case: most of them results as JSON, some with derivatives,
- * some tables, stress. */
+/* What is printed of the k-th case: most of them results as JSON, some with derivatives
+ * (DERIVATIVES=1: all that can have them), some tables, stress. */
 static const char *command_of(random_case *c, int k)
 {
     random_case_make(c, k, 8);
@@ -31,9 +31,11 @@ static const char *command_of(random_case *c, int k)
     if (has_steps)
         random_add(c, " --states");
     random_add(c, " --json");
-    if (kind == 2 && !strstr(c->line, "--mu 0 "))
-        random_add(c, has_steps ? " --derivatives tangential_load"
-                                : " --derivatives --tolerance radius=1%%,mu=0.01");
+    if ((kind == 2 || (kind > 2 && getenv("DERIVATIVES"))) && !strstr(c->line, "--mu 0 "))
+        random_add(c, has_steps    ? " --derivatives --tolerance radius=1%%,mu=0.01"
+                      : k % 3 == 0 ? " --smooth-derivatives"
+                      : k % 3 == 1 ? " --derivatives p,q,slip --tolerance radius=1%%,mu=0.01"
+                                   : " --derivatives --tolerance radius=1%%,mu=0.01");
     if (kind == 1 && !has_steps && !strstr(c->line, "--conductivity")) {
         random_add(c, " --grid 4x3");
         return "stress";

@@ -768,34 +768,166 @@ TEST(tables_that_cannot_be_checked_are_refused)
     check_says("echo 1 2", 65, "expected the JSON of a result, or a table");
 }
 
-/* Derivatives are no reason to refuse the rest, which is judged as ever. */
-TEST(what_stands_beside_derivatives_is_judged)
-{
-    const char *const line = "--support halfplane --similar --load 500 --creep-ratio 0.4 "
-                             "--contact-elements 12 --json --quiet --output slopes.json";
-    char command[400];
+/* ---- Derivatives ------------------------------------------------------------------- */
 
-    snprintf(command, sizeof command,
-             "%s --formulation steady --derivatives tangential_load,p --tolerance mu=0.02", line);
-    assert_int_equal(rollbem(command), 0);
-    assert_int_equal(rollbem("check slopes.json"), 0);
-    assert_non_null(strstr(out, "slopes.json: derivatives and tolerances: not checked\n"));
-    assert_non_null(strstr(out, "slopes.json: valid"));
-    assert_int_equal(shell("sed 's/\"normal_load\": \\([0-9]\\)/\"normal_load\": 1\\1/' "
-                           "slopes.json >s2.json; "
-                           "\"$R\" check s2.json"),
-                     1);
-    assert_non_null(strstr(out, "violated: summary.normal_load"));
-    snprintf(command, sizeof command, "%s --formulation steady --smooth-derivatives", line);
-    assert_int_equal(rollbem(command), 0);
-    assert_int_equal(rollbem("check slopes.json"), 0);
-    assert_non_null(strstr(out, "slopes.json: derivatives: not checked\n"));
-    snprintf(command, sizeof command,
-             "%s --formulation transient --distance 0.5 --states --derivatives tangential_load",
-             line);
-    assert_int_equal(rollbem(command), 0);
-    assert_int_equal(rollbem("check slopes.json"), 0);
-    assert_non_null(strstr(out, "slopes.json: derivatives: not checked\n"));
+/* Of each control and operator, on elements that stay, grow and are fitted, of columns, by
+ * inputs at an end of their range, with standard deviations. */
+static const char *const slopes[] = {
+    TINY "--support halfplane --load 100 --creep-ratio 0.4 --derivatives --tolerance "
+         "mu=0.02,radius=1%" STEADY,
+    TINY "--support halfplane --approach 0.001 --creep-ratio 0.4 --mesh fitted --poisson 0.3 "
+         "--derivatives tangential_load,creepage,p,slip" STEADY,
+    TINY "--support hub --load 100 --force-ratio 0.4 --similar --derivatives "
+         "approach,contact_to,q --tolerance load=1%" STEADY,
+    TINY "--support halfplane --similar --layer-thickness 1 --base-young 3e5 --load 100 "
+         "--creep 1e-4 --derivatives approach,tangential_load,max_strain" STEADY,
+    "--contact-elements 24 --mu 0.3 --support halfplane --similar --load 100 --creep-ratio 0.4 "
+    "--smooth-derivatives tangential_load,approach" STEADY,
+    TINY STATES "--support halfplane --load 100 --young-b 210000 --increments 2 --shift 1e-4 "
+                "--derivatives tangential_load,approach --tolerance mu=0.02",
+    TINY STATES "--support halfplane --similar --load 100 --formulation transient --distance 0.5 "
+                "--force-ratio -0.5 --steps 3 --derivatives creepage:mu",
+};
+
+/* The names of an object, or the numbers of the entries of a list. */
+static json_t *members(const json_t *of)
+{
+    json_t *names = json_is_object(of) ? json_copy((json_t *)of) : json_object();
+    char number[20];
+
+    for (unsigned i = 0; i < (unsigned)json_array_size(of); i++) {
+        snprintf(number, sizeof number, "%u", i);
+        json_object_set(names, number, json_array_get(of, i));
+    }
+    return names;
+}
+
+/* What all numbers below change a result by when an input changes by its value. */
+static double largest_effect(const json_t *of, const json_t *inputs, double weight)
+{
+    double most = json_is_number(of) ? fabs(json_number_value(of)) * weight : 0.0;
+    json_t *names = members(of), *value;
+    const char *key;
+
+    json_object_foreach(names, key, value)
+    {
+        const json_t *input = json_object_get(inputs, key);
+        most = fmax(most,
+                    largest_effect(value, inputs, input ? fabs(json_number_value(input)) : weight));
+    }
+    json_decref(names);
+    return most;
+}
+
+/* Changes every text, every null and by `part` every number below, but those by inputs that are
+ * 0; returns how many.  Below a hundredth of the largest effect, a part of that. */
+static int change_slopes(json_t *of, const json_t *inputs, double part, double most, double weight)
+{
+    json_t *names = members(of), *value;
+    int changes = 0;
+    const char *key;
+
+    json_object_foreach(names, key, value)
+    {
+        const json_t *input = json_object_get(inputs, key);
+        const double by = input ? fabs(json_number_value(input)) : weight;
+        const double x = json_number_value(value), least = 1e-2 * most / by;
+        if (json_is_object(value) || json_is_array(value))
+            changes += change_slopes(value, inputs, part, most, by);
+        else if (!json_is_number(value) || (by > 0.0 && most > 0.0)) {
+            char place[40];
+            json_t *other = json_is_string(value) ? json_string("other")
+                            : json_is_null(value)
+                                ? json_real(1.0)
+                                : json_real(x + copysign(part * fmax(fabs(x), least), x));
+            snprintf(place, sizeof place, "%.39s", key);
+            changes++;
+            if (json_is_array(of))
+                json_array_set_new(of, strtoul(place, NULL, 10), other);
+            else
+                json_object_set_new(of, place, other);
+        }
+    }
+    json_decref(names);
+    return changes;
+}
+
+/* Each has its own line. */
+static int change_all_slopes(json_t *root, json_t *in, const char *name, double part)
+{
+    json_t *own = json_object_get(in, name), *kept = json_deep_copy(own), *one;
+    const json_t *inputs = json_object_get(root, "inputs");
+    const char *key;
+    int changes = 0;
+
+    json_object_foreach(own, key, one)
+    {
+        const double x = json_number_value(one), most = largest_effect(one, inputs, 1.0);
+        if (!json_is_number(one))
+            changes += change_slopes(one, inputs, part, most, 1.0);
+        else if (x != 0.0) {
+            json_real_set(one, x * (1.0 + part));
+            changes++;
+        }
+    }
+    expect_violations(root, changes);
+    json_object_set_new(in, name, kept);
+    return changes;
+}
+
+/* On wheels more is rounding. */
+TEST(every_changed_derivative_is_found)
+{
+    static const char *const names[] = {"derivatives", "smooth_derivatives", "tolerances"};
+    int changes = 0;
+    for (size_t k = 0; k < sizeof slopes / sizeof *slopes; k++) {
+        held_json *root = run_json(slopes[k]);
+        json_t *history = json_object_get(root, "history"), *in = history ? history : root;
+        expect_violations(root, 0);
+        for (size_t j = 0; j < sizeof names / sizeof *names; j++)
+            changes +=
+                change_all_slopes(root, in, names[j], strstr(slopes[k], "hub") ? 1e-3 : 1e-5);
+    }
+    assert_true(changes > 500);
+}
+
+/* Numbers of the elements, texts, what derivatives do not belong to, a number that B has of its
+ * own, and the command line. */
+TEST(derivatives_belong_to_the_result)
+{
+    static const struct {
+        const char *path, *value, *part;
+    } edits[] = {
+        {"derivatives/tangential_load", "", ""}, /* fewer may have been asked for */
+        {"derivatives/more", "1", "violated: derivatives.more is no result of this case"},
+        {"derivatives/approach/more", "1", "violated: derivatives.approach.more is no result"},
+        {"derivatives/approach/mu", "", "violated: derivatives.approach.mu is missing"},
+        {"derivatives/approach/interlayer-normal", "1", "interlayer-normal is not what it"},
+        {"derivatives_are", "\"x\"", "violated: derivatives_are is not what it should be"},
+        {"derivatives_over_x/tangential_load/gap/9", "1", "tangential_load.gap of element 10: "},
+        {"derivatives_over_x/approach/mu/9", "1", "derivatives_over_x.approach.mu of element 10"},
+        {"without_derivatives/mu", "\"x\"", "violated: without_derivatives.mu is no result of"},
+        {"smooth_derivatives", "{}", "violated: smooth derivatives: the zone of element 13"},
+        {"uncertain_inputs", "", "violated: uncertain_inputs: expected a name, got ''"},
+        {"uncertain_inputs/mu", "0.021", "violated: tolerances.tangential_load: printed"},
+        {"uncertain_inputs/mo", "0.021", "violated: uncertain_inputs: 'mo' is not a number of"},
+        {"tolerances/more", "1", "violated: tolerances.more is no result of this case"},
+    };
+    held_json *root = run_json(slopes[0]);
+    for (size_t k = 0; k < sizeof edits / sizeof *edits; k++)
+        if (!strstr(said_of(root, edits[k].path, edits[k].value), edits[k].part))
+            fail_msg("%s = %s: %s", edits[k].path, edits[k].value,
+                     said_of(root, edits[k].path, edits[k].value));
+    held_json *steps = run_json(histories[0]);
+    assert_non_null(strstr(said_of(steps, "derivatives", "{}"), "violated: derivatives is not"));
+    assert_non_null(strstr(said_of(steps, "history/tolerances", "{}"), "uncertain_inputs: "));
+    assert_int_equal(
+        shell("\"$R\" --contact-elements 8 --mu 0.3 --support halfplane --load 100 --young-b 1e5 "
+              "--poisson-b 0.1 --derivatives approach --tolerance mu=0.02 --json --quiet >r.json; "
+              "\"$R\" check r.json && sed 's/mu=0.02/mu=0.03/' r.json >r2.json; "
+              "\"$R\" check r2.json"),
+        1);
+    assert_non_null(strstr(out, "violated: command: uncertain_inputs are not those of"));
 }
 
 TEST(what_cannot_be_checked_is_refused)

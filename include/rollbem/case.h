@@ -344,6 +344,7 @@ enum { RB_CASE_TOLERANCES_MAX = 32 };
 typedef struct {
     int n;
     char name[RB_CASE_TOLERANCES_MAX][40];
+    const char *unit[RB_CASE_TOLERANCES_MAX];                                /* of the options */
     double value[RB_CASE_TOLERANCES_MAX], deviation[RB_CASE_TOLERANCES_MAX]; /* mm, N, MPa */
 } rb_case_tolerances;
 

@@ -451,6 +451,8 @@ rb_status rb_report_derivatives_of(const char *names, const rb_resolved_case *c,
 void rb_report_json_derivatives(struct json_t **root, const rb_report_derivatives *d);
 /* tolerances: {result: standard deviation}. */
 void rb_report_json_tolerances(struct json_t **root, const rb_report_derivatives *d);
+/* uncertain_inputs: {input: standard deviation}. */
+void rb_report_json_uncertain(struct json_t **root, const rb_case_tolerances *t, rb_units units);
 /* One row per result and input; the inputs of each result are ordered by the effect of
  * one per cent of the input. */
 rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,

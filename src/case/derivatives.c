@@ -423,6 +423,7 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_to
                         "%s: expected a standard deviation >= 0 or per cent, got '%s'", name,
                         value);
         else {
+            t->unit[t->n] = number[k].option->unit;
             t->value[t->n] = number[k].input.value;
             memcpy(t->name[t->n++], number[k].name, sizeof number[k].name);
         }

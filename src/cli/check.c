@@ -25,11 +25,13 @@ static const char about[] =
     "Cracks are checked position by position if they were written with --states: the\n"
     "contact, opening and slip of the faces under its tractions and their own, the\n"
     "laws of contact, friction and fluid, K_I and K_II, and the summary.\n"
-    "Not checked: derivatives, tolerances, iterations, seconds, the solver, and\n"
-    "free_creepage, of which only the direction is known. Refused: histories without\n"
-    "states, or with friction that depends on the slip or the temperature, or with an\n"
-    "interface that yields; cracks without states, or growing; curves, error bars,\n"
-    "units other than mm, N, MPa; CSV.\n"
+    "Derivatives and tolerances are computed again at the printed state by the\n"
+    "library's own formulas; those of free_creepage take a solution of free rolling.\n"
+    "A table of derivatives has no state and cannot be checked: take --json.\n"
+    "Not checked: iterations, seconds, the solver, and free_creepage, of which only\n"
+    "the direction is known. Refused: histories without states, or with friction that\n"
+    "depends on the slip or the temperature, or with an interface that yields; cracks\n"
+    "without states, or growing; curves, error bars, units other than mm, N, MPa; CSV.\n"
     "A result may come from an untrusted source: files that it names (a gap, a\n"
     "history) are read only if they are regular files of at most 64 MB in its folder\n"
     "or below, unless --any-folder is given, and no message quotes their content.\n"
@@ -67,6 +69,21 @@ static rb_case *confined(rb_case_purpose purpose, const char *folder)
     return words;
 }
 
+/* 1: what a result says of its uncertain inputs is what --tolerance says. */
+static int has_inputs_of(const char *tolerance, const rb_case *words, const json_t *root)
+{
+    rb_case_tolerances t = {.n = 0};
+    rb_message why;
+    json_t *given = json_object();
+    if (tolerance && rb_case_read_tolerances(words, tolerance, &t, &why) == RB_OK)
+        rb_report_json_uncertain(&given, &t, RB_UNITS_MM);
+    const json_t *printed = json_object_get(root, "uncertain_inputs"),
+                 *wanted = json_object_get(given, "uncertain_inputs");
+    const int same = (!printed && !wanted) || json_equal(printed, wanted);
+    json_decref(given);
+    return same;
+}
+
 /* *fault: what is wrong with the command line that a result quotes; NULL: nothing.
  * RB_ENOMEM. */
 static rb_status fault_of_command(const json_t *root, char **argv, int argc, const char *folder,
@@ -76,6 +93,7 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc, con
     const int is_stress = other && strcmp(other, "stress") == 0,
               is_crack = other && strcmp(other, "crack") == 0;
     double given = NAN; /* yield_shear as printed; NAN: nowhere */
+    const char *tolerance = NULL;
     int files = 0;
     *fault = NULL;
     if ((other && !is_stress && !is_crack) ||
@@ -93,7 +111,7 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc, con
         return RB_ENOMEM;
     const cli_exit code = is_crack    ? cli_crack_inputs(argc - 1, argv + 1, words, &files)
                           : is_stress ? cli_stress_inputs(argc - 1, argv + 1, words, &files, &given)
-                                      : cli_solve_inputs(argc, argv, words, &files);
+                                      : cli_solve_inputs(argc, argv, words, &files, &tolerance);
     json_t *inputs = code == CLI_CONTINUE ? rb_report_json_inputs(words) : NULL;
     const json_t *printed = json_object_get(root, "shakedown");
     const double yield = json_number_value(json_object_get(printed, "yield_shear"));
@@ -106,6 +124,8 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc, con
         *fault = "it has other inputs than `inputs`";
     else if (printed && (isnan(given) ? yield != 0.0 : fabs(yield - given) > 1e-9 * given))
         *fault = "yield_shear of shakedown is not --yield-shear";
+    else if (!is_stress && !is_crack && !has_inputs_of(tolerance, words, root))
+        *fault = "uncertain_inputs are not those of --tolerance";
     json_decref(inputs);
     rb_case_free(words);
     return no_memory ? RB_ENOMEM : RB_OK;
@@ -185,6 +205,7 @@ static cli_exit check_table(const char *path, const char *text, const char *fold
                         "table with its comments ('# rollbem ...')",
                         path);
     rb_case *words = confined(RB_CASE_SINGLE, folder);
+    const char *unused;
     int argc, files;
     char **argv = words ? cli_split_line(line, &argc) : NULL;
     cli_exit code = CLI_INTERNAL;
@@ -194,7 +215,7 @@ static cli_exit check_table(const char *path, const char *text, const char *fold
         /* The case is that of the command line that the table quotes. */
         const char *other = other_command(argv[1]);
         const int kept = cli_keep_failures(1);
-        code = other ? CLI_DATA : cli_solve_inputs(argc, argv, words, &files);
+        code = other ? CLI_DATA : cli_solve_inputs(argc, argv, words, &files, &unused);
         cli_keep_failures(kept);
         if (other)
             cli_fail(code,

@@ -119,6 +119,8 @@ static void add_json(const cli_case_run *run, json_t **root)
         rb_report_json_derivatives(root, &it->shown);
     if (it->tolerance && it->r.history.n == 0)
         rb_report_json_tolerances(root, &it->shown);
+    if (it->tolerance)
+        rb_report_json_uncertain(root, &it->tolerances, run->c->units);
 }
 
 static rb_status write_table(FILE *out, const cli_case_run *run)
@@ -342,10 +344,12 @@ static const cli_case_command command = {
     .summarise = summarise,
 };
 
-cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words, int *case_files)
+cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words, int *case_files,
+                          const char **tolerance)
 {
     solved it = {.steps.every = 1};
     const cli_exit code = cli_case_inputs(&command, &it, argc, argv, words, case_files);
+    *tolerance = it.tolerance;
     return code == CLI_CONTINUE && it.trace ? choose_pivots(words) : code;
 }
 

@@ -20,6 +20,7 @@ typedef struct {
     double tol;                /* of the scaled residual */
     double exact;              /* of the scaled gap and slip, as the result's own residual has it */
     double displacement;       /* rounding of displacements [length] */
+    struct rb_certificate_slopes *slopes; /* while derivatives are compared; certificate_slopes.c */
 } rb_certificate;
 
 #if defined(__GNUC__)
@@ -40,8 +41,8 @@ double rb_certificate_member(const json_t *object, const char *key);
  * versions, with error bars, or not solved. */
 rb_status rb_certificate_head(const char *name, const json_t *root, const char *const *known,
                               rb_message *why);
-/* Sets and resolves words by the inputs, and sees that the same inputs come out. */
-rb_status rb_certificate_rebuild_case(const char *name, const json_t *inputs, rb_case *words,
+/* Sets and resolves words by the inputs of a result, and sees that the same inputs come out. */
+rb_status rb_certificate_rebuild_case(const char *name, const json_t *root, rb_case *words,
                                       rb_message *why);
 
 /* A violation where the hash of the inputs and of the files that they name, which is taken over,
@@ -68,8 +69,10 @@ typedef struct {
 double rb_certificate_rounding(const rb_rolling_results *all, const char *name,
                                const rb_certificate_scales *scales, double otherwise);
 
-/* What the number of this key may differ by. */
-typedef double rb_certificate_slack(const rb_certificate *c, const char *key, double want);
+/* What the number of this path, names with points between, may differ by. */
+typedef double rb_certificate_slack(const rb_certificate *c, const char *path, double want);
+/* The last name of a path. */
+const char *rb_certificate_last(const char *path);
 /* All that `again` holds against what is printed in its place: objects in objects, lists.
  * name: the path of both, of which a violation tells; element: from 1 on, in a list. */
 void rb_certificate_compare(rb_certificate *c, const char *name, int element, const json_t *printed,
@@ -94,10 +97,10 @@ rb_status rb_certificate_end(rb_certificate *c, rb_status s, rb_message *why);
 /* ---- certificate_history.c --------------------------------------------------------- */
 
 /* Follows the steps of a history by its states, checks each of them and leaves the model
- * at the last one.  h: overwritten; free it in any case. */
+ * at the last one.  states, h: overwritten; free them in any case. */
 rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
-                                const rb_resolved_case *resolved, int n, rb_rolling_history *h,
-                                rb_message *why);
+                                const rb_resolved_case *resolved, int n, rb_rolling_states *states,
+                                rb_rolling_history *h, rb_message *why);
 /* Its columns against those that came out. */
 rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printed,
                                          const rb_rolling_history *h);
@@ -113,6 +116,17 @@ rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root, 
 /* Power per unit speed that the bodies lose in steady rolling, from the current state;
  * allowed: what elements of this size may make of it. */
 rb_status rb_certificate_hysteresis(const rb_certificate *c, double *power, double *allowed);
+
+/* ---- certificate_slopes.c ---------------------------------------------------------- */
+
+/* Derivatives and standard deviations of the result root of a case, against those that
+ * the library computes from the model. */
+rb_status rb_certificate_derivatives(rb_certificate *c, const json_t *root, const rb_case *words,
+                                     rb_message *why);
+/* The same of a history by its states, which it takes over into `again`. */
+rb_status rb_certificate_step_derivatives(rb_certificate *c, const json_t *root,
+                                          const rb_case *words, const rb_rolling_states *states,
+                                          rb_rolling_history *again, rb_message *why);
 
 /* ---- certificate_stress.c ---------------------------------------------------------- */
 

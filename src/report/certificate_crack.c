@@ -485,10 +485,10 @@ static void check_direction(assessment *j)
                           3e-6 * size);
 }
 
-static double slack_of_summary(const rb_certificate *c, const char *key, double want)
+static double slack_of_summary(const rb_certificate *c, const char *path, double want)
 {
     (void)c;
-    return strcmp(key, "residual") == 0 ? TOLERANCE : 1e-12 * fabs(want);
+    return strcmp(rb_certificate_last(path), "residual") == 0 ? TOLERANCE : 1e-12 * fabs(want);
 }
 
 /* What the program would print of the printed table, notes, places of the nodes. */
@@ -543,7 +543,7 @@ rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root, 
     rb_case_crack_set(words);
     rb_status s = check_kind(name, root, why);
     if (s == RB_OK)
-        s = rb_certificate_rebuild_case(name, json_object_get(root, "inputs"), words, why);
+        s = rb_certificate_rebuild_case(name, root, words, why);
     if (s == RB_OK) {
         j.resolved = rb_case_resolved(words);
         j.crack = *rb_case_crack_of(words);

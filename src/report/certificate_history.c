@@ -32,32 +32,31 @@ static int assess_step(const rb_rolling_model *model, const rb_rolling_history *
 }
 
 rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
-                                const rb_resolved_case *resolved, int n, rb_rolling_history *h,
-                                rb_message *why)
+                                const rb_resolved_case *resolved, int n, rb_rolling_states *to,
+                                rb_rolling_history *h, rb_message *why)
 {
     const int steps = (int)json_array_size(json_object_get(printed, "approach"));
     step_check j = {c, json_object_get(printed, "residual"), RB_OK};
     const rb_rolling_observer observer = {assess_step, &j};
     const json_t *states = json_object_get(printed, "states");
-    rb_rolling_states to = {0};
 
     if (steps < 1)
         return rb_fail(why, RB_EFORMAT, "%s: cannot be checked: no steps", c->name);
-    rb_status s = rb_rolling_states_alloc(n, steps, &to);
+    rb_status s = rb_rolling_states_alloc(n, steps, to);
     double *zone = rb_alloc((size_t)n, (size_t)steps);
     const struct {
         const json_t *table;
         const char *key;
         int n; /* 0: lists of all elements */
         double *to;
-    } parts[] = {{c->table, "x_mm", n, to.x},
-                 {c->table, "h_mm", n, to.h},
-                 {states, "p_MPa", 0, to.p},
-                 {states, "q_MPa", 0, to.q},
-                 {states, "shift_mm", 0, to.lambda},
+    } parts[] = {{c->table, "x_mm", n, to->x},
+                 {c->table, "h_mm", n, to->h},
+                 {states, "p_MPa", 0, to->p},
+                 {states, "q_MPa", 0, to->q},
+                 {states, "shift_mm", 0, to->lambda},
                  {states, "zone", 0, zone},
-                 {printed, "approach", steps, to.delta},
-                 {states, "motion", steps, to.xi}};
+                 {printed, "approach", steps, to->delta},
+                 {states, "motion", steps, to->xi}};
     if (s == RB_OK && !zone)
         s = RB_ENOMEM;
     for (size_t k = 0; k < sizeof parts / sizeof *parts && s == RB_OK; k++) {
@@ -71,13 +70,12 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
         if (!(zone[i] >= 0.0 && zone[i] <= 5.0) || zone[i] != floor(zone[i]))
             s = rb_fail(why, RB_EFORMAT, "%s: states: zone %g", c->name, zone[i]);
         else
-            to.zone[i] = (int)zone[i];
+            to->zone[i] = (int)zone[i];
     free(zone);
-    to.half_width = rb_certificate_member(printed, "half_width");
-    to.program = resolved->program.n > 0 ? &resolved->program : NULL;
+    to->half_width = rb_certificate_member(printed, "half_width");
+    to->program = resolved->program.n > 0 ? &resolved->program : NULL;
     if (s == RB_OK)
-        s = rb_rolling_history_follow(&resolved->rc, &to, &observer, &c->model, h, why);
-    rb_rolling_states_free(&to);
+        s = rb_rolling_history_follow(&resolved->rc, to, &observer, &c->model, h, why);
     return j.status != RB_OK ? j.status : s;
 }
 

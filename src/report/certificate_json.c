@@ -50,12 +50,30 @@ rb_status rb_certificate_head(const char *name, const json_t *root, const char *
 /* Results of `rollbem` itself. */
 static rb_status check_kind(const char *name, const json_t *root, rb_message *why)
 {
-    static const char *const known[] = {
-        "schema", "version", "command", "conventions", "notes", "units", "input_hash", "inputs",
-        "summary", "table", "history", "depth", "maxima", "grid", "points", "shakedown",
-        /* not checked; the result beside them is */
-        "derivatives", "smooth_derivatives", "without_derivatives", "derivatives_over_x",
-        "derivatives_are", "tolerances", NULL};
+    static const char *const known[] = {"schema",
+                                        "version",
+                                        "command",
+                                        "conventions",
+                                        "notes",
+                                        "units",
+                                        "input_hash",
+                                        "inputs",
+                                        "summary",
+                                        "table",
+                                        "history",
+                                        "depth",
+                                        "maxima",
+                                        "grid",
+                                        "points",
+                                        "shakedown",
+                                        "derivatives",
+                                        "smooth_derivatives",
+                                        "without_derivatives",
+                                        "derivatives_over_x",
+                                        "derivatives_are",
+                                        "tolerances",
+                                        "uncertain_inputs",
+                                        NULL};
     const json_t *history = json_object_get(root, "history");
     const json_t *inputs = json_object_get(root, "inputs");
     const rb_status s = rb_certificate_head(name, root, known, why);
@@ -102,25 +120,77 @@ static void option_text(const json_t *value, char *text, size_t size)
     }
 }
 
+/* What --similar copies to an option of B, from `inputs`; NULL: nothing. */
+static const json_t *copied_to_b(const json_t *inputs, const char *key)
+{
+    char of_a[80] = "";
+    if (!json_is_true(json_object_get(inputs, "similar")) || !rb_case_is_copied_to_b(key))
+        return NULL;
+    snprintf(of_a, sizeof of_a, "%.*s", (int)strlen(key) - 2, key);
+    return json_object_get(inputs, of_a);
+}
+
 /* What B has not although A has it: --similar would copy it. */
 static int is_own_of_b(const json_t *inputs, const char *key)
 {
-    char of_a[80] = "";
+    const json_t *of_a = copied_to_b(inputs, key);
     const char *below = strncmp(key, "base", 4) == 0   ? "layer-thickness-b"
                         : strncmp(key, "core", 4) == 0 ? "cover-thickness-b"
                                                        : key;
-    if (!json_is_true(json_object_get(inputs, "similar")) || !rb_case_is_copied_to_b(key))
+    return of_a && (below == key || json_is_number(json_object_get(inputs, below))) &&
+           !json_equal(json_object_get(inputs, key), of_a);
+}
+
+/* 1: the command line gives this number of B, or the result has derivatives by it, which by one
+ * that is unset where it is A's tells. */
+static int is_named(const json_t *root, const char *key, int is_unset)
+{
+    const json_t *const lists[] = {
+        json_object_get(root, "derivatives"), json_object_get(root, "smooth_derivatives"),
+        json_object_get(json_object_get(root, "history"), "derivatives")};
+    char option[80];
+    const char *result;
+    json_t *inputs;
+
+    snprintf(option, sizeof option, "--%.70s", key);
+    if (strstr(rb_certificate_word(root, "command"), option))
+        return 1;
+    for (size_t k = 0; k < sizeof lists / sizeof *lists && is_unset; k++)
+        json_object_foreach((json_t *)lists[k], result,
+                            inputs) if (json_object_get(inputs, key)) return 1;
+    return 0;
+}
+
+/* 1: B has the number from A, with which it varies, and not the same one of its own. */
+static int is_copied(const json_t *root, const char *key)
+{
+    const json_t *inputs = json_object_get(root, "inputs");
+    const int similar = json_is_true(json_object_get(inputs, "similar"));
+    const rb_option *o = rb_case_option(key);
+    const char *const memory[] = {"relaxation-time", "relaxation-ratio"};
+    const int is_memory =
+        strncmp(key, "relaxation-", 11) == 0 && strcmp(key + strlen(key) - 2, "-b") == 0;
+    char name[80];
+
+    if (!o || !(is_memory ? similar : o->of_a && (similar || !o->if_similar)) ||
+        is_named(root, key, is_memory || o->into))
         return 0;
-    if (below != key && !json_is_number(json_object_get(inputs, below)))
-        return 0;
-    snprintf(of_a, sizeof of_a, "%.*s", (int)strlen(key) - 2, key);
-    return !json_equal(json_object_get(inputs, key), json_object_get(inputs, of_a));
+    if (!is_memory) {
+        snprintf(name, sizeof name, "%.*s", (int)strlen(key) - 2, key);
+        return json_equal(json_object_get(inputs, key), json_object_get(inputs, name));
+    }
+    for (int k = 0; k < 2; k++) { /* one with the other */
+        snprintf(name, sizeof name, "%s-b", memory[k]);
+        if (!json_equal(json_object_get(inputs, memory[k]), json_object_get(inputs, name)))
+            return 0;
+    }
+    return 1;
 }
 
 /* Sets what differs from `now`. */
-static rb_status set_inputs(const json_t *inputs, const json_t *now, rb_case *words,
-                            rb_message *why)
+static rb_status set_inputs(const json_t *root, const json_t *now, rb_case *words, rb_message *why)
 {
+    const json_t *inputs = json_object_get(root, "inputs");
     rb_status s = RB_OK;
     const char *key;
     json_t *value;
@@ -128,10 +198,7 @@ static rb_status set_inputs(const json_t *inputs, const json_t *now, rb_case *wo
 
     json_object_foreach((json_t *)inputs, key, value)
     {
-        /* material of B that --similar copies from A */
-        const int is_copied = json_is_true(json_object_get(inputs, "similar")) &&
-                              (strcmp(key, "young-b") == 0 || strcmp(key, "poisson-b") == 0);
-        if (s != RB_OK || json_is_null(value) || is_copied ||
+        if (s != RB_OK || json_is_null(value) || is_copied(root, key) ||
             (json_equal(value, json_object_get(now, key)) && !is_own_of_b(inputs, key)))
             continue;
         option_text(value, text, sizeof text);
@@ -142,16 +209,17 @@ static rb_status set_inputs(const json_t *inputs, const json_t *now, rb_case *wo
 
 /* What follows from others, such as the mesh of
  * steady rolling, is given as well where it is another one: hence the second round. */
-rb_status rb_certificate_rebuild_case(const char *name, const json_t *inputs, rb_case *words,
+rb_status rb_certificate_rebuild_case(const char *name, const json_t *root, rb_case *words,
                                       rb_message *why)
 {
+    const json_t *inputs = json_object_get(root, "inputs");
     json_t *now = rb_report_json_inputs(words), *value;
     rb_status s = now ? RB_OK : RB_ENOMEM;
     const char *key;
     rb_message reason = {""};
 
     for (int round = 0; round < 2 && s == RB_OK && !json_equal(now, inputs); round++) {
-        s = set_inputs(inputs, now, words, &reason);
+        s = set_inputs(root, now, words, &reason);
         json_decref(now);
         now = rb_report_json_inputs(words);
         if (s == RB_OK && !now)
@@ -238,6 +306,7 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root, rb_
                         .table = json_object_get(root, "table")};
     const json_t *history = json_object_get(root, "history");
     const int n = (int)json_array_size(json_object_get(c.table, "x_mm"));
+    rb_rolling_states states = {0};
     rb_rolling_history again = {0};
 
     memset(found, 0, sizeof *found);
@@ -245,11 +314,11 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root, rb_
     if (s == RB_OK && n < 3)
         s = rb_certificate_refuse(name, "its table has no elements", why);
     if (s == RB_OK)
-        s = rb_certificate_rebuild_case(name, json_object_get(root, "inputs"), words, why);
+        s = rb_certificate_rebuild_case(name, root, words, why);
     if (s == RB_OK) /* also of what the answer does not depend on */
         s = rb_certificate_hash(&c, root, rb_report_json_input_hash(words));
     if (s == RB_OK && history)
-        s = rb_certificate_follow(&c, history, rb_case_resolved(words), n, &again, why);
+        s = rb_certificate_follow(&c, history, rb_case_resolved(words), n, &states, &again, why);
     else if (s == RB_OK)
         s = rb_certificate_rebuild(&c, rb_case_resolved(words), n, why);
     if (s == RB_OK)
@@ -260,18 +329,10 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root, rb_
         s = rb_certificate_compare_history(&c, history, &again);
     if (s == RB_OK && json_object_get(root, "maxima"))
         s = rb_certificate_stress(&c, root, why);
-    if (s == RB_OK) {
-        /* What the case and its state say nothing of without solving again. */
-        const int slopes = json_object_get(history, "derivatives") ||
-                           json_object_get(root, "derivatives") ||
-                           json_object_get(root, "smooth_derivatives"),
-                  deviations =
-                      json_object_get(history, "tolerances") || json_object_get(root, "tolerances");
-
-        if (slopes || deviations)
-            fprintf(c.out, "%s: %s%s%s: not checked\n", c.name, slopes ? "derivatives" : "",
-                    slopes && deviations ? " and " : "", deviations ? "tolerances" : "");
-    }
+    if (s == RB_OK)
+        s = history ? rb_certificate_step_derivatives(&c, root, words, &states, &again, why)
+                    : rb_certificate_derivatives(&c, root, words, why);
+    rb_rolling_states_free(&states);
     rb_rolling_history_free(&again);
     return rb_certificate_end(&c, s, why);
 }

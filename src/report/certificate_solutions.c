@@ -36,9 +36,11 @@ static json_t *result_with(const json_t *root, const json_t *from)
 {
     json_t *one = json_copy((json_t *)root);
 
+    static const char *const own[] = {"notes", "derivatives", "without_derivatives",
+                                      "derivatives_are", "tolerances"};
     json_object_del(one, "solutions");
-    if (from != root)
-        json_object_del(one, "notes"); /* they are on the result itself */
+    for (size_t k = 0; k < sizeof own / sizeof *own && from != root; k++)
+        json_object_del(one, own[k]); /* they are of the result itself */
     if (one && (json_object_set(one, "summary", json_object_get(from, "summary")) != 0 ||
                 json_object_set(one, "table", json_object_get(from, "table")) != 0)) {
         json_decref(one);

@@ -16,8 +16,9 @@ static double search_slack(const rb_certificate *c)
 
 /* A wheel's stress next to its surface magnifies the rounding of the ends of elements,
  * and an approximated matrix has other digits for other ends. */
-static double slack_of_stress(const rb_certificate *c, const char *key, double want)
+static double slack_of_stress(const rb_certificate *c, const char *path, double want)
 {
+    const char *key = rb_certificate_last(path);
     const double most = c->again.max_pressure;
     if (strcmp(key, "x_mm") == 0 || strcmp(key, "y_mm") == 0)
         return 1e-12 * c->again.half_width;

@@ -144,6 +144,16 @@ void rb_report_json_tolerances(json_t **root, const rb_report_derivatives *d)
     rb_report_json_set(root, "tolerances", results);
 }
 
+void rb_report_json_uncertain(json_t **root, const rb_case_tolerances *t, rb_units units)
+{
+    json_t *inputs = json_object();
+
+    for (int k = 0; k < t->n; k++)
+        rb_report_json_set(&inputs, t->name[k],
+                           json_real(rb_unit_shown(units, t->unit[k], t->deviation[k])));
+    rb_report_json_set(root, "uncertain_inputs", inputs);
+}
+
 /* ---- Tables ------------------------------------------------------------------------ */
 
 /* A derivative in its row; one: what one per cent of the input changes. */

@@ -174,6 +174,8 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(&of, "derivatives_are", typed("string", "what stays as it is"));
     rb_report_json_set(&of, "tolerances",
                        typed("object", "of --tolerance: standard deviations of results"));
+    rb_report_json_set(&of, "uncertain_inputs",
+                       typed("object", "of --tolerance: standard deviations of inputs"));
     rb_report_json_set(&of, "parameters",
                        typed("object", "of fit: value, interval and correlations of each"));
     rb_report_json_set(&of, "fit", typed("object", "points, fitted curve and its band"));

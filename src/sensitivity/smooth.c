@@ -9,6 +9,9 @@
 
 /* A pressure that changes by less than this part of its scale stays as it is. */
 static const double NO_CHANGE = 1e-9;
+/* A boundary stays where its conditions change by less than this part of their scales over that
+ * of an input: this is rounding.  What is not linear is taken within a part of the input. */
+static const double STAYS = 1e-6, NEAR = 0.1;
 
 /* How a boundary between stick and slip moves by one element. */
 enum { BEGINS_TO_SLIP, BEGINS_TO_STICK };
@@ -196,10 +199,12 @@ rb_status rb_sensitivity_jumps_create(const rb_sensitivity *s, rb_sensitivity_ju
 
 /* Adds to side k of d, of the same rolling as the jumps, what is between the sides of the next
  * change of each boundary. */
-static rb_status add_jumps(const rb_sensitivity_jumps *jumps, int k, rb_sensitivity_derivative *d,
-                           double *creepage, rb_message *why)
+static rb_status add_jumps(const rb_sensitivity_jumps *jumps, double scale, int k,
+                           rb_sensitivity_derivative *d, double *creepage, rb_message *why)
 {
     const rb_sensitivity *s = jumps->s;
+    const rb_contact_problem *p = &s->model->problem;
+    const double most = NEAR * scale, size[2] = {rb_contact_friction_scale(p), p->slip_length};
     rb_status status = RB_OK;
 
     for (int b = 0; b < jumps->n && status == RB_OK; b++) {
@@ -209,7 +214,8 @@ static rb_status add_jumps(const rb_sensitivity_jumps *jumps, int k, rb_sensitiv
             by[way] = condition_rate(s, way, it->element[way], &d->rate, d, k);
             at[way] = -condition(s, way, it->element[way]) / by[way];
         }
-        if (!isfinite(at[0]) || !isfinite(at[1]) || !(at[0] * at[1] < 0.0))
+        if (!isfinite(at[0]) || !isfinite(at[1]) || !(at[0] * at[1] < 0.0) ||
+            fmin(fabs(by[0]) / size[0], fabs(by[1]) / size[1]) * scale < STAYS)
             continue;
         const int next = fabs(at[1]) < fabs(at[0]);
         const double part = 0.5 - fabs(at[next] / (at[1] - at[0])),
@@ -217,7 +223,7 @@ static rb_status add_jumps(const rb_sensitivity_jumps *jumps, int k, rb_sensitiv
         *creepage += factor * rb_sensitivity_creepage(s, &it->line[next], 0);
         if (s->solution.n > 0 && factor != 0.0)
             status = rb_sensitivity_add_jump(s, &it->line[next], it->element[next], factor,
-                                             at[next], k, d, why);
+                                             fmax(-most, fmin(at[next], most)), k, d, why);
     }
     return status;
 }
@@ -245,6 +251,7 @@ static int edges_move(const rb_sensitivity *s, double scale, const rb_rolling_so
     for (int i = 0; i + 1 < s->n && s->moves != RB_SENSITIVITY_EDGES; i++) {
         const int in = kind_of(s, i) ? i : i + 1, out = kind_of(s, i) ? i + 1 : i;
         if (kind_of(s, in) && !kind_of(s, out) && fabs(d->p[in]) * scale > least &&
+            fabs(d->gap[out]) * scale > STAYS * s->model->problem.gap_length &&
             d->p[in] * d->gap[out] < 0.0)
             return 1;
     }
@@ -271,11 +278,11 @@ rb_status rb_sensitivity_smooth(const rb_sensitivity_jumps *jumps,
                                  "or --derivatives"
                                : "give --mesh aligned or fitted");
         set_stays(jumps->s, k, derivative);
-        status = add_jumps(jumps, k, derivative, &unused, why);
+        status = add_jumps(jumps, input->scale, k, derivative, &unused, why);
         if (status == RB_OK && derivative->free_rolling)
-            status = jumps->freely
-                         ? add_jumps(jumps->freely, k, derivative->free_rolling, &creepage, why)
-                         : RB_OK;
+            status = jumps->freely ? add_jumps(jumps->freely, input->scale, k,
+                                               derivative->free_rolling, &creepage, why)
+                                   : RB_OK;
         d->free_creepage = derivative->free_rolling && !jumps->freely ? NAN : creepage;
         rb_sensitivity_clean(jumps->s, input->scale, d);
     }
