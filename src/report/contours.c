@@ -46,7 +46,9 @@ static int cross(const rb_report_contours *c, const int corners[3], double level
     double at[2][2];
     int n = 0;
     for (int k = 0; k < 3 && n < 2; k++) {
-        const double *a = c->points[corners[k]], *b = c->points[corners[(k + 1) % 3]];
+        double a[3], b[3];
+        c->point(c->of, corners[k], a);
+        c->point(c->of, corners[(k + 1) % 3], b);
         const double t = (level - a[2]) / (b[2] - a[2]);
         if (t >= 0.0 && t < 1.0) { /* not NAN */
             for (int d = 0; d < 2; d++)

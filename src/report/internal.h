@@ -150,8 +150,10 @@ double rb_report_labels_in(double height);
 /* Contour lines of a field on nx x ny points, x first. */
 typedef struct {
     int nx, ny;
-    const double (*points)[3]; /* x, y, value in units of the axes; NAN: none */
-    double from[2], to[2];     /* of the axes x and y */
+    /* x, y, value of point k in units of the axes; NAN: none */
+    void (*point)(const void *of, int k, double at[3]);
+    const void *of;
+    double from[2], to[2]; /* of the axes x and y */
     int logarithmic[2];
     double first, step, last; /* levels */
     double letter[2];         /* font size of the numbers over width and height of the panel */

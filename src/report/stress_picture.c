@@ -2,7 +2,6 @@
 #include "report/internal.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 typedef struct {
     const rb_report_stress *s;
@@ -141,25 +140,33 @@ static double number_font(rb_report_canvas canvas)
     return 0.6 * rb_report_key_font(canvas);
 }
 
+typedef struct {
+    const view *v;
+    int column; /* of the block $grid */
+} field;
+
+static void point_of_grid(const void *of, int k, double at[3])
+{
+    const field *f = of;
+    const rb_rolling_stress *s = &f->v->s->at[k];
+    at[0] = s->x / f->v->length.size;
+    at[1] = s->y / f->v->length.size;
+    at[2] = !rb_report_stress_is_inside(f->v->s, k)
+                ? NAN
+                : (f->column == 3 ? s->max_shear : s->von_mises) / f->v->stress_unit;
+}
+
 static void write_numbers(FILE *out, rb_report_canvas canvas, const view *v, int column,
                           const rb_rolling_extremum *m, panel at, double step)
 {
-    const rb_report_stress *s = v->s;
-    double letters[2], (*points)[3] = calloc((size_t)s->n, sizeof *points);
+    double letters[2];
     rb_report_letters_in(canvas, RB_REPORT_WIDE, number_font(canvas), letters);
-    for (int k = 0; points && k < s->n; k++) {
-        const rb_rolling_stress *of = &s->at[k];
-        points[k][0] = of->x / v->length.size;
-        points[k][1] = of->y / v->length.size;
-        points[k][2] = !rb_report_stress_is_inside(s, k)
-                           ? NAN
-                           : (column == 3 ? of->max_shear : of->von_mises) / v->stress_unit;
-    }
     rb_report_contour_numbers(
         out, &(rb_report_contours){
-                 .nx = points ? s->nx : 0,
-                 .ny = s->ny,
-                 .points = (const double(*)[3])points,
+                 .nx = v->s->nx,
+                 .ny = v->s->ny,
+                 .point = point_of_grid,
+                 .of = &(field){v, column},
                  .from = {v->from, 0.0},
                  .to = {v->to, v->depth},
                  .first = step,
@@ -167,7 +174,6 @@ static void write_numbers(FILE *out, rb_report_canvas canvas, const view *v, int
                  .last = m->value / v->stress_unit,
                  .letter = {1.0 / (letters[0] * at.width), 1.0 / (letters[1] * at.height)},
                  .mark = (double[]){m->x / v->length.size, m->y / v->length.size}});
-    free(points);
 }
 
 static void write_panel(FILE *out, rb_report_canvas canvas, const view *v, const char *name,

@@ -307,22 +307,26 @@ static int steps_between(int values)
     return values > FINE ? 1 : (FINE + values - 1) / values;
 }
 
+static void point_of_map(const void *of, int k, double at[3])
+{
+    const view *v = of;
+    at[0] = v->at[k].x / v->x.unit;
+    at[1] = v->at[k].y / v->y.unit;
+    at[2] = v->at[k].value / v->shown.unit;
+}
+
 /* room: width and height of the map, in parts of the canvas. */
 static void write_numbers(FILE *out, rb_report_canvas canvas, const view *v, const double room[2],
                           double first, double step, double last)
 {
-    double letters[2], (*points)[3] = calloc((size_t)v->study->n, sizeof *points);
+    double letters[2];
     rb_report_letters_in(canvas, RB_REPORT_FOUR_THIRDS, rb_report_key_font(canvas), letters);
-    for (int k = 0; points && k < v->study->n; k++) {
-        points[k][0] = v->at[k].x / v->x.unit;
-        points[k][1] = v->at[k].y / v->y.unit;
-        points[k][2] = v->at[k].value / v->shown.unit;
-    }
     rb_report_contour_numbers(
         out, &(rb_report_contours){
-                 .nx = points ? v->row : 0,
+                 .nx = v->row,
                  .ny = v->study->n / v->row,
-                 .points = (const double(*)[3])points,
+                 .point = point_of_map,
+                 .of = v,
                  .from = {v->x.from, v->y.from},
                  .to = {v->x.to, v->y.to},
                  .logarithmic = {v->x.logarithmic, v->y.logarithmic},
@@ -330,7 +334,6 @@ static void write_numbers(FILE *out, rb_report_canvas canvas, const view *v, con
                  .step = step,
                  .last = last,
                  .letter = {1.0 / (letters[0] * room[0]), 1.0 / (letters[1] * room[1])}});
-    free(points);
 }
 
 static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
