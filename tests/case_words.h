@@ -5,7 +5,7 @@
 #include "check.h"
 #include "rollbem/case.h"
 
-enum { WORDS = 48 };
+enum { WORDS = 64 };
 
 typedef struct {
     const char *word[WORDS]; /* name, value, name, value, ..., NULL */

@@ -254,6 +254,86 @@ TEST(the_pressure_of_similar_bodies_does_not_depend_on_friction)
     rb_case_result_free(&r);
 }
 
+/* An element between two zones in free rolling, where those beside it are not found, leaves the
+ * other results as they are: forces that grow together make all forces grow as they do. */
+TEST(what_free_rolling_has_not_other_results_have)
+{
+    static const words w = {{PLANES,
+                             "formulation",
+                             "steady",
+                             "plane",
+                             "stress",
+                             "radius",
+                             "28.986355077556603",
+                             "young",
+                             "87276.939048569795",
+                             "poisson",
+                             "0.40571236782852915",
+                             "young-b",
+                             "69993.051422520657",
+                             "poisson-b",
+                             "0.24693157230221024",
+                             "radius-b",
+                             "-164.70091947493714",
+                             "contact-elements",
+                             "15",
+                             "mesh",
+                             "uniform",
+                             "zone",
+                             "1.0135058831246722",
+                             "load",
+                             "474.43679874774131",
+                             "mu",
+                             "0.303283812935981",
+                             "creep-ratio",
+                             "-1.1248225562948853",
+                             "interlayer-tangential",
+                             "1.5887741439552933e-06",
+                             "interlayer-normal",
+                             "2.78571852354534e-06",
+                             "conductivity",
+                             "50",
+                             "heat-capacity",
+                             "3.5",
+                             "speed",
+                             "3985.6112748102541",
+                             "temperature",
+                             "303.60907274736763",
+                             "mu-heat",
+                             "0.0606568,303.609,101.406"}};
+    static const struct {
+        const char *name;
+        double forces;
+    } of[] = {{"young", 1.0},
+              {"young-b", 1.0},
+              {"load", 1.0},
+              {"conductivity", 1.0},
+              {"heat-capacity", 1.0},
+              {"interlayer-normal", -1.0},
+              {"interlayer-tangential", -1.0}};
+    held_case *c = case_of(RB_CASE_SINGLE, &w, NULL, 0.0);
+    rb_case_derivatives all;
+    rb_case_result r;
+    double grown = 0.0;
+    int unknown = 0;
+
+    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
+    CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
+    for (int j = 0; j < all.n; j++)
+        for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
+            const rb_rolling_solution *d = &all.of[j].d.value[0];
+            if (strcmp(all.of[j].name, of[k].name) != 0)
+                continue;
+            CHECK_OK(all.of[j].status);
+            grown += of[k].forces * all.of[j].value * d->tangential_load;
+            unknown += isnan(d->free_creepage);
+        }
+    CHECK_REL(grown, r.solution.tangential_load, 1e-8, "Q");
+    assert_int_equal(unknown, 1);
+    rb_case_derivatives_free(&all);
+    rb_case_result_free(&r);
+}
+
 /* Elements fitted to the edges, aligned with them, of wheels, of a zone that is given. */
 TEST(single_cases_have_derivatives)
 {

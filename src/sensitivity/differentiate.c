@@ -196,6 +196,13 @@ static rb_status differentiate_free(const rb_sensitivity *s, const rb_sensitivit
         status = differentiate(freely, input, of, &v, f, why);
         rb_sensitivity_variants_free(&v);
     }
+    if (d->free_rolling && status != RB_OK && status != RB_ENOMEM) {
+        /* what free rolling has not, the other results have */
+        rb_sensitivity_derivative_free(d->free_rolling);
+        free(d->free_rolling);
+        d->free_rolling = NULL;
+        status = RB_OK;
+    }
     for (int k = 0; k < 2 && status == RB_OK; k++) /* between two zones its elements stay */
         d->value[k].free_creepage = rests ? 0.0
                                     : !d->free_rolling || !d->has[k] || freely->moves != s->moves
