@@ -938,8 +938,6 @@ TEST(what_cannot_be_checked_is_refused)
         const char *options, *part;
     } kinds[] = {{"--formulation transient --creep 1e-3 --distance 0.1", "take --states"},
                  {"--increments 3 --shift 1e-4", "take --states"},
-                 {"--formulation transient --creep 1e-3 --distance 0.1 --states --yield-stress 100",
-                  "an interface that yields"},
                  {"--formulation steady --creep 1e-3 --error", "error bars"},
                  {"--formulation steady --creep 1e-3 --units si", "units other than mm"}};
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {

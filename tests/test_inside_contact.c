@@ -162,7 +162,7 @@ TEST(zones_are_told_by_what_is_larger)
         CHECK_OK(rb_contact_state_alloc(of.n, &s));
         for (int i = 0; i < of.n; i++)
             s.lambda[i] = s.plastic[i] = yields_by[i] * SLIP;
-        rb_contact_yielded(&p, s.plastic, u);
+        rb_contact_yielded(&p, s.plastic, NULL, u);
         for (int i = 0; i < of.n; i++) {
             const double yield = p.yield[i] + p.hardening * u[i];
             CHECK_REL(rb_contact_yield_stress(&p, i, u[i]), yield, 1e-14, "stress %d", i);
@@ -217,7 +217,7 @@ TEST(residuals_and_forces_are_sums_over_elements)
         CHECK_REL(v.gap, gap, 1e-12, "gap");
         CHECK_ABS(v.slip, SLIP * friction_residual(&p, &s), 1e-12 * SLIP, "slip");
         double u[6];
-        rb_contact_yielded(&p, s.plastic, u);
+        rb_contact_yielded(&p, s.plastic, NULL, u);
         for (int i = 0; i < of.n && p.yield; i++)
             friction = fmax(friction, fabs(s.q[i]) - fmax(p.yield[i] + p.hardening * u[i], 0.0));
         CHECK_REL(v.friction, friction, 1e-12, "friction");

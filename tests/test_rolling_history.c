@@ -443,15 +443,50 @@ TEST(states_are_followed_to_the_same_history)
     CHECK_SAYS(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &heard), RB_EINVAL,
                "steps, the program has");
     release(&again, &followed);
-    rb_rolling_case yields = rc, falls = rc;
-    yields.yield_stress = 10.0;
-    CHECK_SAYS(rb_rolling_history_follow(&yields, &states, NULL, &again, &followed, &heard),
-               RB_EINVAL, "whose state variables are not stored");
-    falls.friction.law = RB_FRICTION_linear;
-    falls.friction.fall[0] = 0.1;
-    CHECK_SAYS(rb_rolling_history_follow(&falls, &states, NULL, &again, &followed, &heard),
-               RB_EINVAL, "whose state variables are not stored");
     release(&model, &h);
+}
+
+/* Interfaces that yield and laws with memory: what the particles carry follows from the states,
+ * and coefficients of another law or what yields elsewhere leave a residual. */
+TEST(states_bring_what_particles_carry)
+{
+    for (int k = 0; k < 2; k++) {
+        OWNED(rb_rolling_states) states = {0};
+        rb_rolling_case rc = steel_wheel(20);
+        rb_rolling_model model, again;
+        rb_rolling_history h, followed;
+        rc.formulation = RB_TRANSIENT;
+        rc.creep = 2e-3;
+        rc.distance = 1.0;
+        if (k == 0) {
+            rc.yield_stress = 8.0;
+            rc.hardening = 20000.0;
+            rc.interlayer_tangential = 3e-6;
+        } else {
+            rc.speed = 3000.0;
+            rc.friction.law = RB_FRICTION_rational;
+            rc.friction.fall[0] = 0.1;
+            rc.friction.slip_scale[0] = 20.0;
+            rc.friction.memory = 0.002;
+            rc.friction.memory_slip = 1.0;
+        }
+        run_recorded(&rc, &states, &model, &h);
+        states.half_width = h.half_width;
+        CHECK_OK(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &heard));
+        for (int step = 0; step < h.n; step++) {
+            CHECK_MAX(followed.residual[step], 1e-9, "residual of step %d", step);
+            CHECK_REL(followed.dissipation[step], h.dissipation[step], 1e-9, "power of %d", step);
+        }
+        release(&again, &followed);
+        if (k == 0)
+            rc.hardening *= 1.01;
+        else
+            rc.friction.memory *= 1.01;
+        CHECK_OK(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &heard));
+        CHECK_MAX(1e-6, followed.residual[h.n - 1], "another state variable");
+        release(&again, &followed);
+        release(&model, &h);
+    }
 }
 
 /* A ratio refers to the load, which a given approach finds: with the states' own loads

@@ -124,7 +124,7 @@ TEST(rolling_from_a_shift_is_met)
         memcpy(r + N, x.q, sizeof x.q[0] * N);
         rb_bem_flexibility_apply(&bodies.f, r, w);
         memcpy(w_T, w + N + 2, sizeof w_T);
-        rb_contact_yielded(&p, x.plastic, own);
+        rb_contact_yielded(&p, x.plastic, NULL, own);
         for (int i = 0; i < N; i++)
             yielded[i] = i + 1 < N ? yielded[i + 1] + own[i + 1] : 0.0;
     }

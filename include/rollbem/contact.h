@@ -142,8 +142,11 @@ void rb_contact_set_friction(rb_contact_problem *problem, double mu, const doubl
 /* Adds a plastic layer with the same yield stress everywhere; the caller sets recall and
  * own. RB_ENOMEM. */
 rb_status rb_contact_set_yield(rb_contact_problem *problem, double stress, double hardening);
-/* Accumulated plastic slip u (n values) from the plastic slips (n values). */
-void rb_contact_yielded(const rb_contact_problem *problem, const double *plastic, double *u);
+/* Accumulated plastic slip u (n values) from the plastic slips (n values).  zone: n zones, whose
+ * direction says which sign grows u, so that u is linear in the plastic slips; NULL: their sizes
+ * count. */
+void rb_contact_yielded(const rb_contact_problem *problem, const double *plastic, const int *zone,
+                        double *u);
 /* Yield stress of element i at the accumulated plastic slip u; INFINITY without a plastic
  * layer. */
 double rb_contact_yield_stress(const rb_contact_problem *problem, int i, double u);

@@ -976,8 +976,9 @@ typedef struct {
     const rb_rolling_program
         *program; /* the program of the history; NULL: the values of the case; borrowed */
     int n, steps;
-    double *x, *h;          /* n: midpoints and lengths [length]; owned, like all arrays here */
-    double *p, *q, *lambda; /* steps x n, one step after the other */
+    double *x, *h; /* n: midpoints and lengths [length]; owned, like all arrays here */
+    double *p, *q, *lambda, *plastic; /* steps x n, one step after the other; plastic: the part of
+                                         lambda that the interface yields */
     int *zone;
     double *delta;     /* steps: approach */
     double *xi;        /* steps: rigid shift of a static step [length], creepage of a rolled step */
@@ -990,15 +991,16 @@ rb_status rb_rolling_states_alloc(int n, int steps, rb_rolling_states *states);
  * new memory for all steps: a run that starts again may have other elements.  RB_ENOMEM. */
 rb_status rb_rolling_states_keep(const rb_rolling_model *model, int step, int steps,
                                  rb_rolling_states *states);
-/* Copies tractions, slip, zones, delta and xi of a step into a state of as many elements;
- * its status becomes RB_OK. */
+/* Copies tractions, slip and its plastic part, zones, delta and xi of a step into a state of as
+ * many elements; its status becomes RB_OK. */
 void rb_rolling_states_get(const rb_rolling_states *states, int step, rb_contact_state *state);
 void rb_rolling_states_free(rb_rolling_states *states);
 
 /* Goes through the program of the given states without solving.  After each step the
  * model has the contact problem of the step, which depends on the earlier states, and the
- * given state with its residual.  Otherwise like rb_rolling_history_run.  RB_EINVAL: the
- * number of steps differs, friction depends on the state, or an interface yields. */
+ * given state with its residual; friction that depends on the state has the coefficients of
+ * the given one.  Otherwise like rb_rolling_history_run.  RB_EINVAL: the number of steps
+ * differs. */
 rb_status rb_rolling_history_follow(const rb_rolling_case *rc, const rb_rolling_states *states,
                                     const rb_rolling_observer *observer, rb_rolling_model *model,
                                     rb_rolling_history *history, rb_message *why);

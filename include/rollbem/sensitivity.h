@@ -67,6 +67,16 @@ void rb_sensitivity_rate_add(const rb_sensitivity_rate *rate, double times,
  * from which a residual proper would subtract what the tractions ask for. */
 rb_status rb_sensitivity_residual(const rb_rolling_model *base, rb_rolling_model *variant,
                                   rb_sensitivity_rate *left, rb_message *why);
+/* Sets the coefficients of friction of a variant whose state is that of the model, or moved along
+ * a tangent, to first order in the changes of the slips and of the friction.  RB_ENOMEM. */
+rb_status rb_sensitivity_set_law(const rb_sensitivity *s, rb_rolling_model *variant,
+                                 rb_message *why);
+/* D2: rate += times what the equations of the model leave in the variant at the model's
+ * unknowns, with the bounds of rb_sensitivity_set_law; by the weights of a difference formula the
+ * sum over variants is a rate.  left: overwritten. */
+rb_status rb_sensitivity_add_variant(const rb_sensitivity *s, rb_rolling_model *variant,
+                                     double times, rb_sensitivity_rate *left,
+                                     rb_sensitivity_rate *rate, rb_message *why);
 
 /* D2: J y' = -R'.  y': derivatives of p, q, delta, xi for a growing (side 1) or falling
  * (-1) input; both are equal if no element is degenerate.  RB_MAXITER: the zones of a
@@ -116,17 +126,21 @@ typedef struct {
 const rb_sensitivity_stencil *rb_sensitivity_stencil_of(const rb_sensitivity_input *input,
                                                         double step);
 
-/* Derivatives of what is found at single elements, which a step of the input may exchange for
- * others. */
+/* Of a step of a history: derivatives of what is found at single elements, which a step of the
+ * input may exchange for others. */
 typedef struct {
     double contact_from, contact_to, max_pressure;
+    double max_temperature; /* 0: not computed */
 } rb_sensitivity_at_elements;
 
-/* variant: the model at the places of the stencil, of which the first one's state is overwritten;
- * tangent: of the state of the model by the input. */
-rb_sensitivity_at_elements rb_sensitivity_differentiate_at_elements(
-    const rb_sensitivity *s, const rb_sensitivity_input *input, const rb_sensitivity_stencil *at,
-    double step, rb_rolling_model *const variant[], const rb_contact_state *tangent);
+/* variant: the model at the places of the stencil, where the step has ended as it has in the
+ * model; tangent: of the state of the model by the input.  RB_ENOMEM. */
+rb_status rb_sensitivity_differentiate_at_elements(const rb_sensitivity *s,
+                                                   const rb_sensitivity_input *input,
+                                                   const rb_sensitivity_stencil *at, double step,
+                                                   rb_rolling_model *const variant[],
+                                                   const rb_contact_state *tangent,
+                                                   rb_sensitivity_at_elements *d);
 
 /* Computes the rate of the equations with respect to the input, for fits, from two values
  * of the input instead of four (seven digits); mu: derivative of the largest friction

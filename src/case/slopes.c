@@ -565,8 +565,8 @@ static rb_status shorten_tables(const rb_rolling_model *base, varied *v,
 /* The equations of the step at the four values change at the state that is there also by
  * what the states before, which have moved, left to them; that gives the tangent along
  * which the state of this step moves. */
-static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *base, int step,
-                                    varied *v, rb_message *why)
+static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *base, varied *v,
+                                    rb_message *why)
 {
     rb_rolling_model *variant[RB_SENSITIVITY_PLACES];
 
@@ -579,17 +579,14 @@ static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *b
         if (status != RB_OK)
             return status;
         rb_rolling_variant_set(&base->state, NULL, 0.0, &at->state);
-        status = rb_sensitivity_residual(base, at, &v->left, why);
+        status =
+            rb_sensitivity_add_variant(s, at, v->of.weight[k] / v->step, &v->left, &v->rate, why);
         if (status != RB_OK)
             return status;
-        rb_sensitivity_rate_add(&v->left, v->of.weight[k] / v->step, &v->rate);
     }
     rb_status status = shorten_tables(base, v, variant, why);
     if (status == RB_OK)
         status = rb_sensitivity_tangent(s, &v->rate, 1, &v->tangent, why);
-    if (status == RB_OK)
-        v->picked[step] = rb_sensitivity_differentiate_at_elements(s, &v->number->input, &v->of,
-                                                                   v->step, variant, &v->tangent);
     for (int k = 0; k < v->of.n; k++) {
         rb_rolling_model *at = variant[k];
 
@@ -598,9 +595,22 @@ static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *b
         rb_rolling_variant_set(&base->state, &v->tangent, v->of.place[k] * v->step, &at->state);
         status = rb_rolling_variant_complete(at, NULL, NULL, why);
         if (status == RB_OK)
+            status = rb_sensitivity_set_law(s, at, why);
+        if (status == RB_OK)
             rb_rolling_follower_end(v->at[k]);
     }
     return status;
+}
+
+/* After the step has ended at all four values. */
+static rb_status pick(const rb_sensitivity *s, varied *v, int step)
+{
+    rb_rolling_model *variant[RB_SENSITIVITY_PLACES];
+
+    for (int k = 0; k < v->of.n; k++)
+        variant[k] = rb_rolling_follower_model(v->at[k]);
+    return rb_sensitivity_differentiate_at_elements(s, &v->number->input, &v->of, v->step, variant,
+                                                    &v->tangent, &v->picked[step]);
 }
 
 static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower *base, int n,
@@ -613,18 +623,22 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
         rb_status status = rb_rolling_follower_begin(base, why);
         rb_rolling_states_get(states, step, &model->state);
         /* the states were found with what is compressed less closely */
-        if (status == RB_OK && rb_rolling_is_compressed(model))
-            status = rb_rolling_follower_solve(base, why);
+        if (status == RB_OK)
+            status = rb_rolling_is_compressed(model) ? rb_rolling_follower_solve(base, why)
+                                                     : rb_rolling_model_friction(model, why);
         if (status == RB_OK)
             status = rb_sensitivity_create(model, 0, &s, why);
         if (status == RB_OK)
             slopes->degenerate += rb_sensitivity_degenerate(s) > 0;
         for (int k = 0; k < n && status == RB_OK; k++)
-            status = differentiate_step(s, model, step, &v[k], why);
+            status = differentiate_step(s, model, &v[k], why);
+        if (status == RB_OK)
+            rb_rolling_follower_end(base);
+        for (int k = 0; k < n && status == RB_OK; k++)
+            status = pick(s, &v[k], step);
         rb_sensitivity_free(s);
         if (status != RB_OK)
             return status;
-        rb_rolling_follower_end(base);
     }
     return RB_OK;
 }
@@ -639,10 +653,11 @@ static double slope_of(const varied *v, const rb_rolling_result *r, int row)
         at = rb_rolling_entry(r, rb_rolling_follower_history(v->at[i]), row);
         sum += v->of.weight[i] / v->step * at;
     }
-    sum = r->offset == offsetof(rb_rolling_history, contact_from)   ? picked->contact_from
-          : r->offset == offsetof(rb_rolling_history, contact_to)   ? picked->contact_to
-          : r->offset == offsetof(rb_rolling_history, max_pressure) ? picked->max_pressure
-                                                                    : sum;
+    sum = r->offset == offsetof(rb_rolling_history, contact_from)      ? picked->contact_from
+          : r->offset == offsetof(rb_rolling_history, contact_to)      ? picked->contact_to
+          : r->offset == offsetof(rb_rolling_history, max_pressure)    ? picked->max_pressure
+          : r->offset == offsetof(rb_rolling_history, max_temperature) ? picked->max_temperature
+                                                                       : sum;
     const rb_rolling_case *rc = rb_rolling_follower_model(v->at[0])->rc;
     return fabs(sum) * v->number->input.scale < rb_sensitivity_rounding(rc, r, at) ? 0.0 : sum;
 }
@@ -678,14 +693,7 @@ static rb_status take_deviations(const rb_case_tolerances *t, const varied *v, i
 
 rb_status rb_case_slopes_check_steps(const rb_case *c, rb_message *why)
 {
-    const rb_rolling_case *rc = &c->resolved.rc;
-
-    if (rb_rolling_law_depends_on_state(rc) || rc->yield_stress > 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "derivatives of a history: not for friction that depends on the "
-                       "state or an interface that yields, whose state variables are "
-                       "not stored");
-    if (isnan(rb_rolling_derive(rc).load) &&
+    if (isnan(rb_rolling_derive(&c->resolved.rc).load) &&
         !(c->resolved.program.n > 0 && c->resolved.program.load))
         return rb_fail(why, RB_EINVAL,
                        "derivatives of a history: under a given approach the unit of "

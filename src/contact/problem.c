@@ -126,12 +126,17 @@ rb_status rb_contact_set_yield(rb_contact_problem *p, double stress, double hard
     return RB_OK;
 }
 
-void rb_contact_yielded(const rb_contact_problem *p, const double *plastic, double *u)
+void rb_contact_yielded(const rb_contact_problem *p, const double *plastic, const int *zone,
+                        double *u)
 {
     double next = 0.0, second = 0.0;
 
     for (int i = p->n - 1; i >= 0; i--) {
-        u[i] = p->recall[0] * next + p->recall[1] * second + p->own * fabs(plastic[i]);
+        const double size = !zone || zone[i] <= RB_ZONE_STICK ? fabs(plastic[i])
+                            : zone[i] == RB_ZONE_SLIP_POSITIVE || zone[i] == RB_ZONE_YIELD_POSITIVE
+                                ? -plastic[i]
+                                : plastic[i];
+        u[i] = p->recall[0] * next + p->recall[1] * second + p->own * size;
         second = next;
         next = u[i];
     }

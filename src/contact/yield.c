@@ -562,7 +562,7 @@ rb_status rb_contact_yield_polish(const rb_contact_problem *p, rb_contact_state 
     /* From tractions and slips: what exceeds rounding against its bound decides. */
     const double stress = rb_contact_friction_scale(p);
 
-    rb_contact_yielded(p, state->plastic, k.yielded);
+    rb_contact_yielded(p, state->plastic, NULL, k.yielded);
     for (int i = 0; i < p->n; i++) {
         const double yield = rb_contact_yield_stress(p, i, k.yielded[i]);
         const double plastic = fabs(state->plastic[i]) / p->slip_length,

@@ -35,6 +35,7 @@ typedef struct {
     const rb_rolling_model *like;        /* whose bodies may be borrowed; or NULL */
     double compression;                  /* of boundaries, where states are found */
     double scale;                        /* of the elements of `found` */
+    int is_variant;                      /* 1: of the history that has found them */
     rb_rolling_model *model;
     rb_rolling_history *history;
     int steps;    /* in all */
@@ -223,13 +224,15 @@ static rb_status all_steps(history_state *r, rb_message *why)
         if (r->found) {
             /* The given state of this step, with the residual that it leaves. */
             rb_contact_state *state = &model->state;
-            rb_contact_violation v;
+            rb_contact_violation v = {.scaled = NAN};
             rb_rolling_states_get(r->found, k, state);
             model->half_width =
                 rb_rolling_hertz_half_width(model->rc, fmax(0.0, rb_rolling_model_load(model)));
             if (!isnan(model->rc->creep_ratio) && model->rc->formulation == RB_TRANSIENT)
                 model->problem.xi = rb_rolling_creepage_of_ratio(model, model->rc->creep_ratio);
-            s = rb_contact_residual(&model->problem, state, &v);
+            s = rb_rolling_model_friction(model, &reason);
+            if (s == RB_OK)
+                s = rb_contact_residual(&model->problem, state, &v);
             state->residual = v.scaled;
         } else
             s = solve_step(r, &reason);
@@ -312,18 +315,19 @@ static rb_status prepare(history_state *r, double zone, rb_message *why)
         model->half_width = h->half_width;
     /* Step length and number.  Where the case does not say, a step is one element, or as
      * little less as brings the last one to the last row: a single short step would find a
-     * creepage that is mostly error. */
+     * creepage that is mostly error.  Of a variant of a history there are as many as there. */
     const int rows = rb_rolling_program_at_rest(r->program), n = r->program->n;
     const double way = rows < n ? r->program->distance[n - 1] * h->half_width : 0.0;
     const double elements = way / rb_rolling_middle_length(model);
-    const double count = way == 0.0         ? 0.0
-                         : r->rc->steps > 0 ? r->rc->steps
-                                            : ceil(elements * (1.0 - 1e-9));
-    const double step = way == 0.0 ? 0.0 : way / count;
-
     r->at_rest = 0;
     for (int row = 0; row < rows; row++)
         r->at_rest += rb_rolling_program_parts(r->program, r->rc, row);
+    const double count = way == 0.0         ? 0.0
+                         : r->rc->steps > 0 ? r->rc->steps
+                         : r->is_variant    ? fmax(1.0, r->found->steps - r->at_rest)
+                                            : ceil(elements * (1.0 - 1e-9));
+    const double step = way == 0.0 ? 0.0 : way / count;
+
     if (count > RB_ROLLING_MOST_STEPS)
         return rb_fail(why, RB_EINVAL,
                        "distance: %g half-widths are %.3g steps; expected at most %g",
@@ -417,16 +421,12 @@ rb_status rb_rolling_history_run(const rb_rolling_case *rc, const rb_rolling_pro
     return run_program(&r, rc, why);
 }
 
-static rb_status check_followed(const rb_rolling_case *rc, const rb_rolling_states *states,
-                                rb_message *why)
+static rb_status check_followed(const rb_rolling_states *states, rb_message *why)
 {
-    if (rb_rolling_law_depends_on_state(rc) || rc->yield_stress > 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "history: not for friction that depends on the state or an "
-                       "interface that yields, whose state variables are not stored");
-    if (!(states->half_width > 0.0))
-        return rb_fail(why, RB_EINVAL, "history: half-width %g: expected > 0", states->half_width);
-    return RB_OK;
+    return states->half_width > 0.0
+               ? RB_OK
+               : rb_fail(why, RB_EINVAL, "history: half-width %g: expected > 0",
+                         states->half_width);
 }
 
 rb_status rb_rolling_history_follow(const rb_rolling_case *rc, const rb_rolling_states *states,
@@ -444,7 +444,7 @@ rb_status rb_rolling_history_follow(const rb_rolling_case *rc, const rb_rolling_
     memset(history, 0, sizeof *history);
     memset(model, 0, sizeof *model);
     history->half_width = states->half_width;
-    const rb_status s = check_followed(rc, states, why);
+    const rb_status s = check_followed(states, why);
     return s == RB_OK ? run_program(&r, rc, why) : s;
 }
 
@@ -470,11 +470,12 @@ rb_status rb_rolling_follower_create(const rb_rolling_case *rc, const rb_rolling
                            .like = of && !rb_rolling_relaxes(rc) ? &of->model : NULL,
                            .compression = RB_ROLLING_CLOSE,
                            .scale = scale,
+                           .is_variant = of != NULL,
                            .model = &f->model,
                            .history = &f->history};
     f->of = f->r.like ? of : NULL;
     f->history.half_width = states->half_width;
-    rb_status s = check_followed(rc, states, why);
+    rb_status s = check_followed(states, why);
     if (s == RB_OK)
         s = begin_program(&f->r, rc, why);
     return s == RB_OK ? prepare(&f->r, f->r.base.zone, why) : s;

@@ -299,7 +299,7 @@ rb_status rb_certificate_laws(rb_certificate *c)
         return RB_ENOMEM;
     double *yielded = gap + 2 * n;
     rb_contact_kinematics(problem, x, gap, gap + n);
-    rb_contact_yielded(problem, x->plastic, yielded);
+    rb_contact_yielded(problem, x->plastic, NULL, yielded);
     for (int i = 0; i < n; i++) {
         const json_t *printed = json_array_get(json_object_get(c->table, "gap_mm"), (size_t)i);
         const double p = x->p[i], q = x->q[i], slip = x->lambda[i], bound = problem->bound[i] * p;

@@ -49,18 +49,17 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
         const char *key;
         int n; /* 0: lists of all elements */
         double *to;
-    } parts[] = {{c->table, "x_mm", n, to->x},
-                 {c->table, "h_mm", n, to->h},
-                 {states, "p_MPa", 0, to->p},
-                 {states, "q_MPa", 0, to->q},
-                 {states, "shift_mm", 0, to->lambda},
-                 {states, "zone", 0, zone},
-                 {printed, "approach", steps, to->delta},
+    } parts[] = {{c->table, "x_mm", n, to->x},        {c->table, "h_mm", n, to->h},
+                 {states, "p_MPa", 0, to->p},         {states, "q_MPa", 0, to->q},
+                 {states, "shift_mm", 0, to->lambda}, {states, "plastic_mm", 0, to->plastic},
+                 {states, "zone", 0, zone},           {printed, "approach", steps, to->delta},
                  {states, "motion", steps, to->xi}};
     if (s == RB_OK && !zone)
         s = RB_ENOMEM;
     for (size_t k = 0; k < sizeof parts / sizeof *parts && s == RB_OK; k++) {
         const char *key = parts[k].key;
+        if (parts[k].to == to->plastic && !json_object_get(states, key))
+            continue; /* nothing yields */
         s = parts[k].n > 0
                 ? rb_certificate_column(c->name, parts[k].table, key, parts[k].n, parts[k].to, why)
                 : rb_certificate_lists(c->name, "states: ", parts[k].table, key, steps, n,

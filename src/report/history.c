@@ -71,6 +71,9 @@ json_t *rb_report_json_states(const rb_rolling_states *s)
     rb_report_json_set(&states, "q_MPa", rb_report_json_lists(steps, n, apart, s->q, NULL, NULL));
     rb_report_json_set(&states, "shift_mm",
                        rb_report_json_lists(steps, n, apart, s->lambda, NULL, NULL));
+    if (rb_norm_inf((size_t)steps * apart, s->plastic) > 0.0) /* the interface yields */
+        rb_report_json_set(&states, "plastic_mm",
+                           rb_report_json_lists(steps, n, apart, s->plastic, NULL, NULL));
     rb_report_json_set(&states, "zone", rb_report_json_lists(steps, n, apart, NULL, s->zone, NULL));
     return states;
 }

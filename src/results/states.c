@@ -20,7 +20,7 @@ rb_status rb_rolling_states_alloc(int n, int steps, rb_rolling_states *s)
     *s = (rb_rolling_states){.n = n,
                              .steps = steps,
                              .x = rb_alloc(m, 2),
-                             .p = rb_alloc(all, 3),
+                             .p = rb_alloc(all, 4),
                              .delta = rb_alloc((size_t)steps, 2),
                              .zone = rb_alloc_int(all)};
     if (!s->x || !s->p || !s->delta || !s->zone) {
@@ -30,6 +30,7 @@ rb_status rb_rolling_states_alloc(int n, int steps, rb_rolling_states *s)
     s->h = s->x + m;
     s->q = s->p + all;
     s->lambda = s->q + all;
+    s->plastic = s->lambda + all;
     s->xi = s->delta + steps;
     return RB_OK;
 }
@@ -50,6 +51,7 @@ rb_status rb_rolling_states_keep(const rb_rolling_model *model, int step, int st
     memcpy(s->p + at, state->p, n * sizeof *s->p);
     memcpy(s->q + at, state->q, n * sizeof *s->q);
     memcpy(s->lambda + at, state->lambda, n * sizeof *s->lambda);
+    memcpy(s->plastic + at, state->plastic, n * sizeof *s->plastic);
     memcpy(s->zone + at, state->zone, n * sizeof *s->zone);
     s->delta[step] = state->delta;
     s->xi[step] = state->xi;
@@ -63,6 +65,7 @@ void rb_rolling_states_get(const rb_rolling_states *s, int step, rb_contact_stat
     memcpy(state->p, s->p + at, n * sizeof *state->p);
     memcpy(state->q, s->q + at, n * sizeof *state->q);
     memcpy(state->lambda, s->lambda + at, n * sizeof *state->lambda);
+    memcpy(state->plastic, s->plastic + at, n * sizeof *state->plastic);
     memcpy(state->zone, s->zone + at, n * sizeof *state->zone);
     state->delta = s->delta[step];
     state->xi = s->xi[step];

@@ -401,7 +401,7 @@ double rb_rolling_ratio_of_creepage(const rb_rolling_model *model, double creepa
 
 void rb_rolling_yielded(const rb_rolling_model *model, double *yielded)
 {
-    rb_contact_yielded(&model->problem, model->state.plastic, yielded);
+    rb_contact_yielded(&model->problem, model->state.plastic, model->state.zone, yielded);
     for (int i = 0; i < model->mesh.n && model->carried.yielded; i++)
         yielded[i] += model->carried.yielded[i];
 }

@@ -136,9 +136,8 @@ static rb_status differentiate_side(const rb_sensitivity *s, rb_sensitivity_vari
     if (!v->results)
         return RB_OK;
     status = rb_sensitivity_results(s, v, &d->state[k], &d->value[k], why);
-    if (status == RB_OK)
-        status = rb_sensitivity_set_picked(s, v, x, d->state[k].delta, d->strain[k], &d->value[k]);
     if (status == RB_OK) {
+        rb_sensitivity_set_picked(s, v, x, d->state[k].delta, d->strain[k], &d->value[k]);
         add_motions(s, d->by[k], d->strain[k], &d->value[k]);
         rb_sensitivity_set_strain(s, k, d);
     }
@@ -323,11 +322,9 @@ rb_status rb_sensitivity_add_jump(const rb_sensitivity *s, const rb_sensitivity_
     }
     if (status == RB_OK) {
         rb_sensitivity_combine(s, &onwards, step, moved);
-        status = rb_sensitivity_set_picked(
-            s, NULL, rb_sensitivity_differentiate_picked(s, NULL, &line->state[0], &y),
-            line->state[0].delta, strain, &moved[1]);
-    }
-    if (status == RB_OK) {
+        rb_sensitivity_set_picked(s, NULL,
+                                  rb_sensitivity_differentiate_picked(s, NULL, &line->state[0], &y),
+                                  line->state[0].delta, strain, &moved[1]);
         add_motions(s, line->by[0], strain, &moved[1]);
         rb_sensitivity_blend(&d->value[k], 1.0, &moved[1], factor, NULL);
         for (int j = 0; j < 4; j++)

@@ -2,6 +2,7 @@
  * of the friction law with respect to slips and tractions. */
 #include "sensitivity/internal.h"
 
+#include <cblas.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,6 +63,52 @@ rb_status rb_sensitivity_residual(const rb_rolling_model *base, rb_rolling_model
     }
     rb_sensitivity_given(base, p, &variant->state, left);
     return RB_OK;
+}
+
+/* A law asks for the size of slips, and within the step small ones change their sign: the
+ * coefficients are those of the slips and the friction of the model, and change by them as in J. */
+rb_status rb_sensitivity_set_law(const rb_sensitivity *s, rb_rolling_model *variant,
+                                 rb_message *why)
+{
+    const rb_contact_state *state = &s->model->state;
+    const size_t n = (size_t)s->n;
+    rb_contact_problem *p = &variant->problem;
+
+    if (!s->law_slip)
+        return RB_OK;
+    double *slip = rb_alloc(n, 2), *friction = slip + n;
+    if (!slip)
+        return rb_fail(why, RB_ENOMEM, "out of memory for %d coefficients", s->n);
+    memcpy(slip, variant->state.lambda, n * sizeof *slip);
+    memcpy(friction, variant->state.q, n * sizeof *friction);
+    memcpy(variant->state.lambda, state->lambda, n * sizeof *slip);
+    memcpy(variant->state.q, state->q, n * sizeof *friction);
+    const rb_status status = rb_rolling_model_friction(variant, why);
+    memcpy(variant->state.lambda, slip, n * sizeof *slip);
+    memcpy(variant->state.q, friction, n * sizeof *friction);
+    for (size_t j = 0; j < n; j++) {
+        if (state->zone[j] != RB_ZONE_STICK)
+            cblas_daxpy(s->n, slip[j] - state->lambda[j], s->law_slip + j * n, 1, p->bound, 1);
+        if (s->law_force)
+            cblas_daxpy(s->n, friction[j] - state->q[j], s->law_force + j * n, 1, p->bound, 1);
+    }
+    free(slip);
+    return status;
+}
+
+rb_status rb_sensitivity_add_variant(const rb_sensitivity *s, rb_rolling_model *variant,
+                                     double times, rb_sensitivity_rate *left,
+                                     rb_sensitivity_rate *rate, rb_message *why)
+{
+    rb_status status = rb_sensitivity_residual(s->model, variant, left, why);
+
+    if (status == RB_OK)
+        status = rb_sensitivity_set_law(s, variant, why);
+    if (status == RB_OK) {
+        memcpy(left->bound, variant->problem.bound, (size_t)s->n * sizeof *left->bound);
+        rb_sensitivity_rate_add(left, times, rate);
+    }
+    return status;
 }
 
 /* ---- The law ----------------------------------------------------------------------- */
@@ -200,6 +247,8 @@ rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why)
         status = rb_fail(why, RB_ENOMEM, "out of memory for %d coefficients", s->n);
     if (status == RB_OK)
         status = rb_rolling_variant_create(model, model->rc, 1, 0, &v, why);
+    v.carried.mu = model->carried.mu;
+    v.carried.heat = model->carried.heat;
     if (status == RB_OK)
         status = rb_rolling_variant_complete(&v, NULL, NULL, why);
     if (status == RB_OK)

@@ -129,10 +129,10 @@ void rb_sensitivity_edges_of(const rb_rolling_model *model, double edges[2]);
 void rb_sensitivity_set_edges(const rb_sensitivity *s, double from, double to,
                               rb_rolling_solution *d);
 /* Sets what is picked; strain: becomes the derivatives of what compresses the layers.  v: NULL: no
- * input changes them.  RB_ENOMEM. */
-rb_status rb_sensitivity_set_picked(const rb_sensitivity *s, const rb_sensitivity_variants *v,
-                                    rb_sensitivity_picked x, double approach, double strain[4],
-                                    rb_rolling_solution *d);
+ * input changes them. */
+void rb_sensitivity_set_picked(const rb_sensitivity *s, const rb_sensitivity_variants *v,
+                               rb_sensitivity_picked x, double approach, double strain[4],
+                               rb_rolling_solution *d);
 /* Sets the largest strain of side k from what compresses the layers. */
 void rb_sensitivity_set_strain(const rb_sensitivity *s, int k, rb_sensitivity_derivative *d);
 /* 1: two are compressed equally now, and not beside. */

@@ -119,19 +119,6 @@ rb_sensitivity_picked rb_sensitivity_differentiate_picked(const rb_sensitivity *
     return d;
 }
 
-rb_sensitivity_at_elements rb_sensitivity_differentiate_at_elements(
-    const rb_sensitivity *s, const rb_sensitivity_input *input, const rb_sensitivity_stencil *at,
-    double step, rb_rolling_model *const variant[], const rb_contact_state *tangent)
-{
-    rb_sensitivity_variants v = {.at = *at, .step = step, .scale = input->scale};
-
-    for (int k = 0; k < at->n; k++)
-        v.model[k] = *variant[k];
-    const rb_sensitivity_picked x =
-        rb_sensitivity_differentiate_picked(s, &v, tangent, &variant[0]->state);
-    return (rb_sensitivity_at_elements){x.of[FROM], x.of[TO], x.of[PEAK]};
-}
-
 void rb_sensitivity_find_edges(rb_sensitivity_picked x, double edges[2])
 {
     edges[0] = 0.5 * (x.of[FOLLOWED_TO] - x.of[FOLLOWED_FROM]);
@@ -159,28 +146,72 @@ void rb_sensitivity_set_edges(const rb_sensitivity *s, double from, double to,
 }
 
 /* The warmest element is that of the solution, though another one may be warmer at the
- * places of the stencil. */
-static rb_status set_peak_temperature(const rb_sensitivity *s, double step, rb_rolling_solution *d)
+ * places of the stencil.  The largest value of the parabola through it and its neighbours changes
+ * as the parabola does where it lies, and with the places of the elements.  t: temperatures, by:
+ * their derivatives; v: NULL: no input moves the elements. */
+static double differentiate_peak_temperature(const rb_sensitivity *s,
+                                             const rb_sensitivity_variants *v, const double *t,
+                                             const double *by)
 {
-    const rb_rolling_solution *at = &s->solution;
-    double peak[2], x;
+    const double *x = s->model->bodies.f.x;
+    const int *zone = s->model->state.zone;
+    double most, at, sum = 0.0;
+    int k = -1;
 
-    if (!at->temperature)
-        return RB_OK;
-    double *t = rb_alloc((size_t)s->n, 1);
-    for (int k = 0; k < 2 && t; k++) {
-        for (int i = 0; i < s->n; i++)
-            t[i] = at->temperature[i] + (k ? step : -step) * d->temperature[i];
-        rb_rolling_peak_temperature(s->n, at->x, at->zone, t, &peak[k], &x);
+    for (int i = 0; v && i < v->at.n; i++) {
+        rb_rolling_peak_temperature(s->n, v->model[i].bodies.f.x, zone, t, &most, &at);
+        sum += v->at.weight[i] / v->step * most;
     }
-    d->max_temperature = t ? (peak[1] - peak[0]) / (2.0 * step) : NAN;
-    free(t);
-    return t ? RB_OK : RB_ENOMEM;
+    rb_rolling_peak_temperature(s->n, x, zone, t, &most, &at);
+    for (int i = 0; i < s->n; i++)
+        if (zone[i] != RB_ZONE_SEPARATED && (k < 0 || t[i] > t[k]))
+            k = i;
+    if (k < 0 || at == x[k])
+        return k < 0 ? NAN : sum + by[k];
+    for (int i = k - 1; i <= k + 1; i++) {
+        double share = 1.0;
+        for (int j = k - 1; j <= k + 1; j++)
+            share *= j == i ? 1.0 : (at - x[j]) / (x[i] - x[j]);
+        sum += share * by[i];
+    }
+    return sum;
 }
 
-rb_status rb_sensitivity_set_picked(const rb_sensitivity *s, const rb_sensitivity_variants *v,
-                                    rb_sensitivity_picked x, double approach, double strain[4],
-                                    rb_rolling_solution *d)
+rb_status rb_sensitivity_differentiate_at_elements(const rb_sensitivity *s,
+                                                   const rb_sensitivity_input *input,
+                                                   const rb_sensitivity_stencil *at, double step,
+                                                   rb_rolling_model *const variant[],
+                                                   const rb_contact_state *tangent,
+                                                   rb_sensitivity_at_elements *d)
+{
+    const size_t n = (size_t)s->n;
+    rb_sensitivity_variants v = {.base = s->model, .at = *at, .step = step, .scale = input->scale};
+    rb_contact_state state;
+    double *t = rb_alloc(n, 1);
+    rb_status status = rb_contact_state_alloc(s->n, &state);
+
+    for (int k = 0; k < at->n; k++) {
+        v.model[k] = *variant[k]; /* borrows */
+        for (size_t i = 0; i < n && t && variant[k]->carried.temperature; i++)
+            t[i] += at->weight[k] / step * variant[k]->carried.temperature[i];
+    }
+    if (status == RB_OK && !t)
+        status = RB_ENOMEM;
+    if (status == RB_OK) {
+        const rb_sensitivity_picked x = rb_sensitivity_differentiate_picked(s, &v, tangent, &state);
+        *d = (rb_sensitivity_at_elements){x.of[FROM], x.of[TO], x.of[PEAK], 0.0};
+    }
+    if (status == RB_OK && s->model->carried.temperature)
+        d->max_temperature =
+            differentiate_peak_temperature(s, &v, s->model->carried.temperature, t);
+    rb_contact_state_free(&state);
+    free(t);
+    return status;
+}
+
+void rb_sensitivity_set_picked(const rb_sensitivity *s, const rb_sensitivity_variants *v,
+                               rb_sensitivity_picked x, double approach, double strain[4],
+                               rb_rolling_solution *d)
 {
     const rb_rolling_solution *at = &s->solution;
     double by[4];
@@ -194,7 +225,8 @@ rb_status rb_sensitivity_set_picked(const rb_sensitivity *s, const rb_sensitivit
         for (int j = 0; j < 4; j++)
             strain[j] += v->at.weight[k] / v->step * by[j];
     }
-    return set_peak_temperature(s, RB_STEP_OF_STATE * (v ? v->scale : 1.0), d);
+    if (at->temperature)
+        d->max_temperature = differentiate_peak_temperature(s, v, at->temperature, d->temperature);
 }
 
 /* 1: but for rounding, or none is there. */

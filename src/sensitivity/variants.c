@@ -2,7 +2,6 @@
  * equations (theory.md, D2, D4): built anew on the same elements, or on elements that are moved. */
 #include "sensitivity/internal.h"
 
-#include <cblas.h>
 #include <string.h>
 
 /* Of the input's scale, where no flexibility changes. */
@@ -169,31 +168,18 @@ rb_status rb_sensitivity_variants_create(const rb_rolling_model *base,
     return s;
 }
 
-/* D2: how the equations change while the unknowns stay.  A law asks for the size of slips, and
- * within the step small ones change their sign: the law is differentiated where they stay, and by
- * them as in J. */
+/* D2: how the equations change while the unknowns stay. */
 rb_status rb_sensitivity_rates_at(const rb_sensitivity *s, const rb_sensitivity_input *input,
                                   rb_sensitivity_variants *v, rb_sensitivity_rate *rate,
                                   rb_message *why)
 {
-    const rb_contact_state *state = &s->model->state;
     const size_t n = (size_t)s->n;
     rb_sensitivity_rate left;
     rb_status status = rb_sensitivity_rate_alloc(s->n, &left);
 
-    for (int k = 0; k < v->at.n && status == RB_OK; k++) {
-        rb_rolling_model *at = &v->model[k];
-        status = rb_sensitivity_residual(v->base, at, &left, why);
-        if (status == RB_OK && s->law_slip) {
-            memcpy(at->state.lambda, state->lambda, n * sizeof *state->lambda);
-            status = rb_rolling_model_friction(at, why);
-            memcpy(left.bound, at->problem.bound, n * sizeof *left.bound);
-        }
-        rb_sensitivity_rate_add(&left, v->at.weight[k] / v->step, rate);
-    }
-    for (size_t j = 0; j < n && status == RB_OK && s->law_slip; j++)
-        if (state->zone[j] != RB_ZONE_STICK)
-            cblas_daxpy(s->n, rate->slip[j], s->law_slip + j * n, 1, rate->bound, 1);
+    for (int k = 0; k < v->at.n && status == RB_OK; k++)
+        status = rb_sensitivity_add_variant(s, &v->model[k], v->at.weight[k] / v->step, &left, rate,
+                                            why);
     /* Tables of gap and friction over x have kinks, which the step of a flexibility would span: of
      * elements that move, what these tables add is that of a short step. */
     const rb_sensitivity_move *m = input->vary ? NULL : input->context;
