@@ -17,6 +17,10 @@
         "0.04", "force-ratio", "-0.4", "formulation", "steady", "mesh", "uniform", "plane",        \
         "stress"
 
+#define YIELDING_WHEEL                                                                             \
+    "support", "hub", "half-width", "1", "contact-elements", "30", "outer-elements", "60",         \
+        "formulation", "transient", "interlayer-tangential", "3e-6", "hardening", "20000"
+
 static const words histories[] = {
     {{PLANES, ROLLS, "similar", "yes", "creep", "1e-3"}},
     {{PLANES, ROLLS, "young-b", "70000", "creep", "-2e-3", "steps", "9"}},
@@ -37,26 +41,7 @@ static const words histories[] = {
     {{PLANES, ROLLS, "young-b", "70000", "creep", "2e-3", "mu", "0"}},
     /* state variables that the particles carry: the slip of what yields, laws by slip, by
      * temperature and with memory; under a force past slips shift all others */
-    {{"support",
-      "hub",
-      "half-width",
-      "1",
-      "contact-elements",
-      "30",
-      "outer-elements",
-      "60",
-      "formulation",
-      "transient",
-      "distance",
-      "0.2",
-      "creep",
-      "-2e-3",
-      "interlayer-tangential",
-      "3e-6",
-      "yield-stress",
-      "40",
-      "hardening",
-      "20000"}},
+    {{YIELDING_WHEEL, "distance", "0.2", "creep", "-2e-3", "yield-stress", "40"}},
     {{PLANES, "formulation", "transient", "distance", "0.4", "similar", "yes", "force-ratio",
       "-0.5", "speed", "3000", "friction-law", "rational", "mu-fall", "0.15", "slip-scale", "10"}},
     {{"support", "halfplane", "load",       "2000",         "contact-elements",
@@ -70,28 +55,8 @@ static const words histories[] = {
       "heat-capacity",  "3.7",  "mu-heat",     "-0.1,0,30"}},
     /* within a step what has yielded hardly at all may yield the other way, and another element
      * may become the warmest one */
-    {{"support",
-      "hub",
-      "half-width",
-      "1",
-      "contact-elements",
-      "30",
-      "outer-elements",
-      "60",
-      "formulation",
-      "transient",
-      "distance",
-      "0.74",
-      "steps",
-      "3",
-      "force-ratio",
-      "-0.5",
-      "interlayer-tangential",
-      "3e-6",
-      "yield-stress",
-      "100",
-      "hardening",
-      "20000"}},
+    {{YIELDING_WHEEL, "distance", "0.74", "steps", "3", "force-ratio", "-0.5", "yield-stress",
+      "100"}},
     {{"support",       "halfplane", "load",     "2000",     "contact-elements", "30",
       "formulation",   "transient", "distance", "0.7",      "increments",       "3",
       "force-ratio",   "-0.5",      "speed",    "3000",     "conductivity",     "50",

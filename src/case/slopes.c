@@ -437,6 +437,7 @@ typedef struct {
     double step;
     rb_sensitivity_stencil of;
     rb_rolling_follower *at[RB_SENSITIVITY_PLACES];
+    rb_rolling_model *model[RB_SENSITIVITY_PLACES]; /* theirs */
     rb_sensitivity_rate left, rate; /* what one of them leaves; by how much all differ */
     rb_contact_state tangent;
     rb_sensitivity_at_elements *picked; /* a derivative for each step; owned */
@@ -484,8 +485,8 @@ static rb_status follow_all(const rb_case *c, const rb_rolling_states *states,
                 &at, states, base,
                 grow ? unit_of_way(&at, states->program) / unit_of_way(rc, states->program) : 1.0,
                 &v->at[k], why);
-        if (s == RB_OK && !rb_rolling_same_sides(rb_rolling_follower_model(base),
-                                                 rb_rolling_follower_model(v->at[k])))
+        v->model[k] = s == RB_OK ? rb_rolling_follower_model(v->at[k]) : NULL;
+        if (s == RB_OK && !rb_rolling_same_sides(rb_rolling_follower_model(base), v->model[k]))
             s = rb_fail(why, RB_INACCURATE,
                         "derivatives: the elements outside the contact change with %s",
                         v->number->name);
@@ -535,11 +536,10 @@ static void varied_free(varied *v)
 
 /* Tables of the gap and of the friction over x have kinks, which the step of a flexibility would
  * span: of elements and irregularities that move, what these tables add is that of a short step. */
-static rb_status shorten_tables(const rb_rolling_model *base, varied *v,
-                                rb_rolling_model *const variant[], rb_message *why)
+static rb_status shorten_tables(const rb_rolling_model *base, varied *v, rb_message *why)
 {
     static const double part = 0.04, rounding = 1e-12;
-    const rb_rolling_mesh *at = &base->mesh, *last = &variant[v->of.n - 1]->mesh;
+    const rb_rolling_mesh *at = &base->mesh, *last = &v->model[v->of.n - 1]->mesh;
     const int n = at->n;
     const double width = at->ends[n] - at->ends[0];
     rb_status status = RB_OK;
@@ -548,7 +548,7 @@ static rb_status shorten_tables(const rb_rolling_model *base, varied *v,
         last->passed == at->passed)
         return RB_OK;
     for (int k = 0; k < 2 * v->of.n && status == RB_OK; k++) {
-        const rb_rolling_mesh *to = &variant[k / 2]->mesh;
+        const rb_rolling_mesh *to = &v->model[k / 2]->mesh;
         const double grown = (to->ends[n] - to->ends[0]) / width - 1.0, by = k % 2 ? 1.0 : part,
                      weight = v->of.weight[k / 2] / v->step / (k % 2 ? -1.0 : part);
         status =
@@ -568,12 +568,10 @@ static rb_status shorten_tables(const rb_rolling_model *base, varied *v,
 static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *base, varied *v,
                                     rb_message *why)
 {
-    rb_rolling_model *variant[RB_SENSITIVITY_PLACES];
-
     memset(v->rate.gap, 0, 4 * (size_t)v->rate.n * sizeof *v->rate.gap);
     v->rate.normal = v->rate.tangential = 0.0;
     for (int k = 0; k < v->of.n; k++) {
-        rb_rolling_model *at = variant[k] = rb_rolling_follower_model(v->at[k]);
+        rb_rolling_model *at = v->model[k];
         rb_status status = rb_rolling_follower_begin(v->at[k], why);
 
         if (status != RB_OK)
@@ -584,11 +582,11 @@ static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *b
         if (status != RB_OK)
             return status;
     }
-    rb_status status = shorten_tables(base, v, variant, why);
+    rb_status status = shorten_tables(base, v, why);
     if (status == RB_OK)
         status = rb_sensitivity_tangent(s, &v->rate, 1, &v->tangent, why);
     for (int k = 0; k < v->of.n; k++) {
-        rb_rolling_model *at = variant[k];
+        rb_rolling_model *at = v->model[k];
 
         if (status != RB_OK)
             return status;
@@ -600,17 +598,6 @@ static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *b
             rb_rolling_follower_end(v->at[k]);
     }
     return status;
-}
-
-/* After the step has ended at all four values. */
-static rb_status pick(const rb_sensitivity *s, varied *v, int step)
-{
-    rb_rolling_model *variant[RB_SENSITIVITY_PLACES];
-
-    for (int k = 0; k < v->of.n; k++)
-        variant[k] = rb_rolling_follower_model(v->at[k]);
-    return rb_sensitivity_differentiate_at_elements(s, &v->number->input, &v->of, v->step, variant,
-                                                    &v->tangent, &v->picked[step]);
 }
 
 static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower *base, int n,
@@ -635,7 +622,9 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
         if (status == RB_OK)
             rb_rolling_follower_end(base);
         for (int k = 0; k < n && status == RB_OK; k++)
-            status = pick(s, &v[k], step);
+            status = rb_sensitivity_differentiate_at_elements(s, &v[k].number->input, &v[k].of,
+                                                              v[k].step, v[k].model, &v[k].tangent,
+                                                              &v[k].picked[step]);
         rb_sensitivity_free(s);
         if (status != RB_OK)
             return status;
@@ -658,7 +647,7 @@ static double slope_of(const varied *v, const rb_rolling_result *r, int row)
           : r->offset == offsetof(rb_rolling_history, max_pressure)    ? picked->max_pressure
           : r->offset == offsetof(rb_rolling_history, max_temperature) ? picked->max_temperature
                                                                        : sum;
-    const rb_rolling_case *rc = rb_rolling_follower_model(v->at[0])->rc;
+    const rb_rolling_case *rc = v->model[0]->rc;
     return fabs(sum) * v->number->input.scale < rb_sensitivity_rounding(rc, r, at) ? 0.0 : sum;
 }
 

@@ -120,23 +120,18 @@ static void option_text(const json_t *value, char *text, size_t size)
     }
 }
 
-/* What --similar copies to an option of B, from `inputs`; NULL: nothing. */
-static const json_t *copied_to_b(const json_t *inputs, const char *key)
-{
-    char of_a[80] = "";
-    if (!json_is_true(json_object_get(inputs, "similar")) || !rb_case_is_copied_to_b(key))
-        return NULL;
-    snprintf(of_a, sizeof of_a, "%.*s", (int)strlen(key) - 2, key);
-    return json_object_get(inputs, of_a);
-}
-
 /* What B has not although A has it: --similar would copy it. */
 static int is_own_of_b(const json_t *inputs, const char *key)
 {
-    const json_t *of_a = copied_to_b(inputs, key);
+    char name[80];
     const char *below = strncmp(key, "base", 4) == 0   ? "layer-thickness-b"
                         : strncmp(key, "core", 4) == 0 ? "cover-thickness-b"
                                                        : key;
+
+    if (!json_is_true(json_object_get(inputs, "similar")) || !rb_case_is_copied_to_b(key))
+        return 0;
+    snprintf(name, sizeof name, "%.*s", (int)strlen(key) - 2, key);
+    const json_t *of_a = json_object_get(inputs, name);
     return of_a && (below == key || json_is_number(json_object_get(inputs, below))) &&
            !json_equal(json_object_get(inputs, key), of_a);
 }

@@ -76,9 +76,10 @@ rb_status rb_sensitivity_set_law(const rb_sensitivity *s, rb_rolling_model *vari
 
     if (!s->law_slip)
         return RB_OK;
-    double *slip = rb_alloc(n, 2), *friction = slip + n;
+    double *slip = rb_alloc(n, 2);
     if (!slip)
         return rb_fail(why, RB_ENOMEM, "out of memory for %d coefficients", s->n);
+    double *friction = slip + n;
     memcpy(slip, variant->state.lambda, n * sizeof *slip);
     memcpy(friction, variant->state.q, n * sizeof *friction);
     memcpy(variant->state.lambda, state->lambda, n * sizeof *slip);
