@@ -534,34 +534,6 @@ static void varied_free(varied *v)
     free(v->picked);
 }
 
-/* Tables of the gap and of the friction over x have kinks, which the step of a flexibility would
- * span: of elements and irregularities that move, what these tables add is that of a short step. */
-static rb_status shorten_tables(const rb_rolling_model *base, varied *v, rb_message *why)
-{
-    static const double part = 0.04, rounding = 1e-12;
-    const rb_rolling_mesh *at = &base->mesh, *last = &v->model[v->of.n - 1]->mesh;
-    const int n = at->n;
-    const double width = at->ends[n] - at->ends[0];
-    rb_status status = RB_OK;
-
-    if (fabs(last->ends[n] - last->ends[0] - width) <= rounding * width &&
-        last->passed == at->passed)
-        return RB_OK;
-    for (int k = 0; k < 2 * v->of.n && status == RB_OK; k++) {
-        const rb_rolling_mesh *to = &v->model[k / 2]->mesh;
-        const double grown = (to->ends[n] - to->ends[0]) / width - 1.0, by = k % 2 ? 1.0 : part,
-                     weight = v->of.weight[k / 2] / v->step / (k % 2 ? -1.0 : part);
-        status =
-            rb_rolling_variant_data(base, 0.0, 1.0 + by * grown, by * (to->passed - at->passed),
-                                    v->left.gap, v->left.bound, why);
-        for (int i = 0; i < n && status == RB_OK; i++) {
-            v->rate.gap[i] += weight * v->left.gap[i];
-            v->rate.bound[i] += weight * v->left.bound[i];
-        }
-    }
-    return status;
-}
-
 /* The equations of the step at the four values change at the state that is there also by
  * what the states before, which have moved, left to them; that gives the tangent along
  * which the state of this step moves. */
@@ -582,9 +554,7 @@ static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *b
         if (status != RB_OK)
             return status;
     }
-    rb_status status = shorten_tables(base, v, why);
-    if (status == RB_OK)
-        status = rb_sensitivity_tangent(s, &v->rate, 1, &v->tangent, why);
+    rb_status status = rb_sensitivity_tangent(s, &v->rate, 1, &v->tangent, why);
     for (int k = 0; k < v->of.n; k++) {
         rb_rolling_model *at = v->model[k];
 

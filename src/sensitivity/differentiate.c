@@ -156,7 +156,7 @@ static rb_status differentiate(const rb_sensitivity *s, const rb_sensitivity_inp
     if (status == RB_OK)
         status = rb_sensitivity_rate_alloc(s->n, &d->rate);
     if (status == RB_OK)
-        status = rb_sensitivity_rates_at(s, input, v, &d->rate, why);
+        status = rb_sensitivity_rates_at(s, v, &d->rate, why);
     /* over a friction of 0; surfaces that do not slide rest */
     if (status == RB_OK && !isfinite(d->rate.tangential) && s->at_rest < s->contact)
         status = rb_fail(why, RB_EINVAL,

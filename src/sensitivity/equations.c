@@ -101,13 +101,33 @@ rb_status rb_sensitivity_add_variant(const rb_sensitivity *s, rb_rolling_model *
                                      double times, rb_sensitivity_rate *left,
                                      rb_sensitivity_rate *rate, rb_message *why)
 {
-    rb_status status = rb_sensitivity_residual(s->model, variant, left, why);
+    static const double part = 0.04, rounding = 1e-12;
+    const rb_rolling_model *base = s->model;
+    const rb_rolling_mesh *from = &base->mesh, *to = &variant->mesh;
+    const double width = from->ends[s->n] - from->ends[0],
+                 scale = (to->ends[s->n] - to->ends[0]) / width,
+                 shift = to->ends[0] - scale * from->ends[0], further = to->passed - from->passed;
+    rb_status status = rb_sensitivity_residual(base, variant, left, why);
 
     if (status == RB_OK)
         status = rb_sensitivity_set_law(s, variant, why);
-    if (status == RB_OK) {
-        memcpy(left->bound, variant->problem.bound, (size_t)s->n * sizeof *left->bound);
-        rb_sensitivity_rate_add(left, times, rate);
+    if (status != RB_OK)
+        return status;
+    memcpy(left->bound, variant->problem.bound, (size_t)s->n * sizeof *left->bound);
+    rb_sensitivity_rate_add(left, times, rate);
+    if (fabs(scale - 1.0) <= rounding && fabs(shift) <= rounding * width &&
+        fabs(further) <= rounding * width)
+        return RB_OK;
+    /* Tables of gap and friction over x have kinks, which the step of a flexibility would span: of
+     * elements and irregularities that move, what these tables add is that of a short step. */
+    for (int k = 0; k < 2 && status == RB_OK; k++) {
+        const double by = k ? 1.0 : part, weight = k ? -times : times / part;
+        status = rb_rolling_variant_data(base, by * shift, 1.0 + by * (scale - 1.0), by * further,
+                                         left->gap, left->bound, why);
+        for (int i = 0; i < s->n && status == RB_OK; i++) {
+            rate->gap[i] += weight * (left->gap[i] - from->gap[i]);
+            rate->bound[i] += weight * (left->bound[i] - base->problem.bound[i]);
+        }
     }
     return status;
 }

@@ -84,9 +84,8 @@ rb_status rb_sensitivity_variants_create(const rb_rolling_model *base,
                                          rb_sensitivity_variants *v, rb_message *why);
 void rb_sensitivity_variants_free(rb_sensitivity_variants *v);
 /* D2: adds to rate how the equations change while the unknowns stay. */
-rb_status rb_sensitivity_rates_at(const rb_sensitivity *s, const rb_sensitivity_input *input,
-                                  rb_sensitivity_variants *v, rb_sensitivity_rate *rate,
-                                  rb_message *why);
+rb_status rb_sensitivity_rates_at(const rb_sensitivity *s, rb_sensitivity_variants *v,
+                                  rb_sensitivity_rate *rate, rb_message *why);
 
 /* ---- results.c --------------------------------------------------------------------- */
 

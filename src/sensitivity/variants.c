@@ -97,13 +97,6 @@ void rb_sensitivity_variants_free(rb_sensitivity_variants *v)
             rb_rolling_variant_free(v->of[k], &v->model[k]);
 }
 
-/* Elements move to shift + scale x. */
-static void motion_by(const rb_sensitivity_move *m, double by, double *shift, double *scale)
-{
-    *shift = m->kind == SHIFT ? by : -by * m->centre / m->half;
-    *scale = m->kind == SHIFT ? 1.0 : 1.0 + by / m->half;
-}
-
 static rb_status variants_at_places(const rb_rolling_model *base, const rb_sensitivity_input *input,
                                     const rb_sensitivity_variants *others, int freely,
                                     rb_sensitivity_variants *v, rb_message *why)
@@ -123,9 +116,10 @@ static rb_status variants_at_places(const rb_rolling_model *base, const rb_sensi
         const rb_rolling_model *of = v->of[k] = lends ? other : base;
         rb_rolling_case rc;
         if (!input->vary) {
-            double shift, scale;
-            motion_by(input->context, by, &shift, &scale);
-            s = rb_rolling_variant_move(base, shift, scale, &v->model[k], why);
+            const rb_sensitivity_move *m = input->context;
+            s = m->kind == SHIFT ? rb_rolling_variant_move(base, by, 1.0, &v->model[k], why)
+                                 : rb_rolling_variant_move(base, -by * m->centre / m->half,
+                                                           1.0 + by / m->half, &v->model[k], why);
         } else {
             s = input->vary(input->context, input->value + by, &rc, why);
             if (s != RB_OK)
@@ -169,33 +163,15 @@ rb_status rb_sensitivity_variants_create(const rb_rolling_model *base,
 }
 
 /* D2: how the equations change while the unknowns stay. */
-rb_status rb_sensitivity_rates_at(const rb_sensitivity *s, const rb_sensitivity_input *input,
-                                  rb_sensitivity_variants *v, rb_sensitivity_rate *rate,
-                                  rb_message *why)
+rb_status rb_sensitivity_rates_at(const rb_sensitivity *s, rb_sensitivity_variants *v,
+                                  rb_sensitivity_rate *rate, rb_message *why)
 {
-    const size_t n = (size_t)s->n;
     rb_sensitivity_rate left;
     rb_status status = rb_sensitivity_rate_alloc(s->n, &left);
 
     for (int k = 0; k < v->at.n && status == RB_OK; k++)
         status = rb_sensitivity_add_variant(s, &v->model[k], v->at.weight[k] / v->step, &left, rate,
                                             why);
-    /* Tables of gap and friction over x have kinks, which the step of a flexibility would span: of
-     * elements that move, what these tables add is that of a short step. */
-    const rb_sensitivity_move *m = input->vary ? NULL : input->context;
-    for (int k = 0; k < v->at.n && m && status == RB_OK; k++) {
-        const rb_rolling_model *at = &v->model[k];
-        const double step = STEP * m->half, of_short = v->at.weight[k] / step,
-                     of_long = v->at.weight[k] / v->step;
-        double shift, scale;
-        motion_by(m, v->at.place[k] * step, &shift, &scale);
-        status = rb_rolling_variant_data(v->base, shift, scale, 0.0, left.gap, left.bound, why);
-        for (size_t i = 0; i < n && status == RB_OK; i++) {
-            rate->gap[i] += of_short * left.gap[i] - of_long * at->mesh.gap[i];
-            if (!rb_rolling_law_depends_on_state(v->base->rc))
-                rate->bound[i] += of_short * left.bound[i] - of_long * at->problem.bound[i];
-        }
-    }
     rb_sensitivity_rate_free(&left);
     return status;
 }
@@ -246,7 +222,7 @@ rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_inp
     if (status == RB_OK)
         status = rb_sensitivity_variants_create(s->model, input, NULL, 0, &v, why);
     if (status == RB_OK)
-        status = rb_sensitivity_rates_at(s, input, &v, rate, why);
+        status = rb_sensitivity_rates_at(s, &v, rate, why);
     for (int k = 0; k < v.at.n && status == RB_OK; k++)
         *mu += v.at.weight[k] / v.step * v.model[k].problem.mu;
     rb_sensitivity_variants_free(&v);
