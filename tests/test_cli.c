@@ -418,6 +418,56 @@ TEST(completion_offers_every_command)
     assert_true(commands > 10);
 }
 
+/* What a command always refuses stands in none of its lists. */
+TEST(no_list_shows_an_option_that_is_refused)
+{
+    static const struct {
+        const char *command, *refused;
+    } rows[] = {
+        {"curve --points 2", "accuracy history distance steps irregularity increments time-step"},
+        {"stress --grid 3x3", "accuracy conductivity heat-capacity temperature temperature-b"},
+        {"wear --wear-coefficient 1e-9 --slide 1",
+         "error accuracy history increments distance steps irregularity relaxation-time "
+         "relaxation-ratio-b yield-stress hardening conductivity heat-capacity-b"},
+        {"crack --crack-length 1", "accuracy"},
+        {"sweep --vary-1 'mu .1 .2' --crack-length .1", "accuracy paris threshold grow-to"},
+        {"fit data --fit mu", "error accuracy history creep shift force-ratio distance"},
+        {"design --maximise force_ratio --over mu=.1:.2", "error accuracy history increments"}};
+    write_file("data", "creep_ratio force_ratio\n.2 -.3\n.4 -.6\n.6 -.8\n");
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        char names[300], command[24], said[80], *rest = names;
+        strcpy(names, rows[k].refused);
+        sscanf(rows[k].command, "%23s", command);
+        assert_int_equal(
+            shellf("for f in help usage describe=man describe=markdown; do \"$R\" %s --$f; done |"
+                   " sed 's/\\\\//g'; \"$R\" --completion=fish | grep \"from %s'\" | "
+                   "sed 's/ -l / --/'",
+                   command, command),
+            0);
+        char *lists = strdup(out);
+        for (const char *name; (name = strtok_r(rest, " ", &rest)) != NULL;) {
+            int found = 0;
+            snprintf(said, sizeof said, "--%s", name);
+            for (const char *at = lists; (at = strstr(at, said)) != NULL; at += strlen(said))
+                /* as an entry, not in a sentence about another one */
+                found += !strchr("-abcdefghijklmnopqrstuvwxyz", at[strlen(said)]) &&
+                         (strncmp(at - 2, "  ", 2) == 0 || strchr("[B`", at[-1]));
+            if (found)
+                fail_msg("%s shows %s", command, said);
+            char arguments[200];
+            const int flag = strcmp(name, "error") == 0;
+            snprintf(arguments, sizeof arguments, "%s %s%s", rows[k].command, said,
+                     flag                             ? ""
+                     : strcmp(name, "accuracy") == 0  ? " .1"
+                     : strcmp(name, "paris") == 0     ? " 1e-9,3"
+                     : strcmp(name, "threshold") == 0 ? " 3"
+                                                      : " 9");
+            check_refused(arguments, 64, said);
+        }
+        free(lists);
+    }
+}
+
 /* What the schema describes of a case is what a result holds, no more and no less. */
 TEST(the_schema_describes_every_input)
 {

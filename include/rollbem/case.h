@@ -85,8 +85,12 @@ typedef enum {
     RB_CASE_STRESS, /* the stress below the surface */
     RB_CASE_WEAR,   /* the wear of sliding, fretting or rolling */
     RB_CASE_CRACK,  /* the load of a crack */
-    RB_CASE_STUDY   /* the base of a parameter study */
+    RB_CASE_STUDY,  /* the base of a parameter study */
+    RB_CASE_DESIGN  /* the case whose numbers a design varies */
 } rb_case_purpose;
+
+/* 0: every case of that purpose refuses the option. */
+int rb_case_takes(rb_case_purpose purpose, const char *option);
 
 /* The words for the variables of a curve, rb_rolling_variable. */
 extern const rb_choice rb_case_curve_variables[];

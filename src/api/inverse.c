@@ -287,7 +287,7 @@ int rb_api_design(rb_api *a, const char *result, int largest, const char *over, 
                   double span, int evaluations)
 {
     static const rb_option most = RB_DESIGN_EVALUATIONS_LINE(0), width = RB_DESIGN_SPAN_LINE(0);
-    rb_case *c = begin(a, "design.", RB_CASE_SINGLE);
+    rb_case *c = begin(a, "design.", RB_CASE_DESIGN);
     rb_design d = {.largest = largest, .most = evaluations};
     const rb_design_observer observer = {see_evaluation, a};
     rb_status s = c ? rb_api_check_refusals(a, &a->why) : RB_ENOMEM;

@@ -558,46 +558,117 @@ static rb_status check_formulation(const rb_case *c, rb_message *why)
     return RB_OK;
 }
 
-/* Options that mean nothing to what the case is solved for. */
+/* ---- What depends on the purpose --------------------------------------------------- */
+
+static const char varies[] = "a curve varies it from --from to --to, a fit takes it from its data",
+                  steady_only[] = "a curve needs steady rolling, and so does a fit",
+                  no_steps[] = "a design takes cases of one step without error bars",
+                  curve_errors[] =
+                      "only for single cases; a curve has --error, and a fit has intervals",
+                  no_heat[] = "stress and wear have no temperatures";
+
+enum {
+    CURVE = 1 << RB_CASE_CURVE,
+    CURVES = CURVE | 1 << RB_CASE_SPEEDS,
+    STRESS = 1 << RB_CASE_STRESS,
+    WEAR = 1 << RB_CASE_WEAR,
+    CRACK = 1 << RB_CASE_CRACK,
+    STUDY = 1 << RB_CASE_STUDY,
+    DESIGN = 1 << RB_CASE_DESIGN
+};
+
+/* Options that no case of these purposes takes. */
+static const struct {
+    int purposes;
+    const char *option, *reason;
+} never_taken[] = {
+    {CURVE, "shift", varies},
+    {CURVE, "creep", varies},
+    {CURVE, "creep-ratio", varies},
+    {CURVE, "force", varies},
+    {CURVE, "force-ratio", varies},
+    {CURVE, "free-axle", varies},
+    {1 << RB_CASE_SPEEDS, "speed", varies},
+    {CURVE, "history", varies},
+    {CURVES, "history", steady_only},
+    {CURVES, "distance", steady_only},
+    {CURVES, "steps", steady_only},
+    {CURVES, "irregularity", steady_only},
+    {CURVES, "increments", steady_only},
+    {CURVES, "time-step", steady_only},
+    {CURVES, "accuracy", curve_errors},
+    {STRESS, "accuracy", "stress has error bars (--error), but no refinement"},
+    {CRACK, "accuracy", "a crack has error bars (--error), but no refinement"},
+    {STUDY, "accuracy", "a study has error bars (--error), but no refinement"},
+    {STUDY, "history", "a study has none"},
+    {WEAR, "error", "wear has no error bars"},
+    {WEAR, "accuracy", "wear does not refine"},
+    {WEAR, "history", "the cycles have their own"},
+    {WEAR, "increments", "the cycles have their own, --quarter"},
+    {WEAR, "distance", "wear is of sliding, fretting or steady rolling"},
+    {WEAR, "steps", "wear is of sliding, fretting or steady rolling; see --wear-steps"},
+    {WEAR, "irregularity", "wear is of sliding, fretting or steady rolling"},
+    {WEAR, "time-step", "wear is of elastic bodies only"},
+    {WEAR, "relaxation-time", "wear is of elastic bodies only"},
+    {WEAR, "relaxation-ratio", "wear is of elastic bodies only"},
+    {WEAR, "relaxation-time-b", "wear is of elastic bodies only"},
+    {WEAR, "relaxation-ratio-b", "wear is of elastic bodies only"},
+    {WEAR, "yield-stress", "wear has no third body that yields"},
+    {WEAR, "hardening", "wear has no third body that yields"},
+    {STRESS | WEAR, "conductivity", no_heat},
+    {STRESS | WEAR, "heat-capacity", no_heat},
+    {STRESS | WEAR, "temperature", no_heat},
+    {STRESS | WEAR, "conductivity-b", no_heat},
+    {STRESS | WEAR, "heat-capacity-b", no_heat},
+    {STRESS | WEAR, "temperature-b", no_heat},
+    {DESIGN, "error", no_steps},
+    {DESIGN, "accuracy", no_steps},
+    {DESIGN, "history", no_steps},
+    {DESIGN, "distance", no_steps},
+    {DESIGN, "steps", no_steps},
+    {DESIGN, "irregularity", no_steps},
+    {DESIGN, "increments", no_steps},
+    {DESIGN, "time-step", no_steps}};
+
+enum { NEVER_TAKEN = sizeof never_taken / sizeof *never_taken };
+
+int rb_case_takes(rb_case_purpose purpose, const char *option)
+{
+    for (size_t k = 0; k < NEVER_TAKEN; k++)
+        if (never_taken[k].purposes >> purpose & 1 && strcmp(never_taken[k].option, option) == 0)
+            return 0;
+    return 1;
+}
+
+static rb_status check_never_taken(const rb_case *c, rb_message *why)
+{
+    for (size_t k = 0; k < NEVER_TAKEN; k++) {
+        const rule one = {never_taken[k].purposes >> c->purpose & 1, never_taken[k].option,
+                          never_taken[k].reason};
+        const rb_status s = refuse_by(c, 1, &one, why);
+        if (s != RB_OK)
+            return s;
+    }
+    return RB_OK;
+}
+
+/* Values that mean nothing to what the case is solved for. */
 static rb_status check_purpose(const rb_case *c, rb_message *why)
 {
-    static const char varies[] =
-        "a curve varies it from --from to --to, a fit takes it from its data";
-    const rb_case_purpose purpose = c->purpose;
-    const int curve = purpose == RB_CASE_CURVE, speeds = purpose == RB_CASE_SPEEDS,
-              stress = purpose == RB_CASE_STRESS, wear = purpose == RB_CASE_WEAR,
-              crack = purpose == RB_CASE_CRACK, study = purpose == RB_CASE_STUDY;
+    const int curve = CURVES >> c->purpose & 1;
     const rb_rolling_formulation formulation = c->resolved.rc.formulation;
     const rb_numbers *mus = &c->resolved.mus;
     /* 0,3 is read as 0 and 3. */
     const int comma = mus->n == 2 && mus->value[0] == floor(mus->value[0]) &&
                       mus->value[1] == floor(mus->value[1]);
     const rule rules[] = {
-        {curve, "shift", varies},
-        {curve, "creep", varies},
-        {curve, "creep-ratio", varies},
-        {curve, "force", varies},
-        {curve, "force-ratio", varies},
-        {curve, "free-axle", varies},
-        {curve, "history", varies},
-        {curve, "accuracy", "only for single cases; a curve has --error, and a fit has intervals"},
-        {speeds, "speed", varies},
-        {speeds, "accuracy", "only for single cases; a curve has --error, and a fit has intervals"},
-        {stress, "conductivity", "stress has no temperatures"},
-        {stress, "accuracy", "stress has error bars (--error), but no refinement"},
-        {wear, "error", "wear has no error bars"},
-        {wear, "accuracy", "wear does not refine"},
-        {wear, "history", "the cycles have their own"},
-        {wear, "increments", "the cycles have their own, --quarter"},
-        {wear, "conductivity", "wear has no temperatures"},
-        {crack, "accuracy", "a crack has error bars (--error), but no refinement"},
-        {study, "accuracy", "a study has error bars (--error), but no refinement"},
-        {study, "history", "a study has none"},
-        {(curve || speeds) && formulation != RB_STEADY, "formulation",
-         "a curve needs steady rolling, and so does a fit"},
-        {study && formulation == RB_TRANSIENT, "formulation",
+        {curve && formulation != RB_STEADY, "formulation", steady_only},
+        {c->purpose == RB_CASE_STUDY && formulation == RB_TRANSIENT, "formulation",
          "a study needs static or steady cases"},
-        {!curve && !speeds && mus->n > 1, "mu",
+        {c->purpose == RB_CASE_WEAR && formulation == RB_TRANSIENT, "formulation",
+         "wear is of sliding, fretting or steady rolling"},
+        {c->purpose == RB_CASE_DESIGN && formulation == RB_TRANSIENT, "formulation", no_steps},
+        {!curve && mus->n > 1, "mu",
          comma ? "expected one number, with a decimal point; a curve takes several"
                : "expected one number; a curve takes several"},
         {rb_case_has_steps(&c->resolved), "accuracy",
@@ -611,6 +682,8 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     const rb_option_precedence how = rb_case_precedence(c);
     const rb_option_set set = rb_case_options(c);
     rb_status s = rb_option_resolve(&set, &how, why);
+    if (s == RB_OK)
+        s = check_never_taken(c, why);
     if (s == RB_OK)
         s = rb_case_read_history(c, why);
     c->resolved = c->words;

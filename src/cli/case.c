@@ -155,6 +155,8 @@ static cli_spec spec_of(cli_case_run *run)
                      .about = command->about,
                      .notes = command->notes,
                      .refused = command->refused,
+                     .purpose = command->purpose,
+                     .second = command->second ? command->second : command->purpose,
                      .sets = {rb_case_options(run->words)},
                      .set_n = 1};
     if (command->takes_crack)

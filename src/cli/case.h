@@ -81,7 +81,7 @@ enum { CLI_COMMAND_OPTIONS_MAX = 28 };
 /* What is the command's own.  Functions may be NULL, but for solve, table, json, summarise. */
 struct cli_case_command {
     const char *synopsis, *about, *notes, *refused; /* of its cli_spec */
-    rb_case_purpose purpose;
+    rb_case_purpose purpose, second; /* second: what it may become; RB_CASE_SINGLE: nothing else */
     const rb_option *options;
     int option_n;               /* CLI_COMMAND_OPTIONS_MAX at most */
     int options_last;           /* 1: they continue the section [output] */

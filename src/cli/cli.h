@@ -119,7 +119,8 @@ typedef struct {
     const char *synopsis; /* "rollbem lcp [OPTION...] FILE..." */
     const char *about;    /* text of --help above the options */
     const char *notes;    /* text below them, or NULL */
-    const char *refused;  /* ",NAME,...,": options of the case that help does not show, or NULL */
+    const char *refused;  /* ",NAME,...,": options that the command never takes, or NULL */
+    rb_case_purpose purpose, second; /* those that neither takes are not shown, either */
     rb_option_set sets[CLI_MAX_SETS];
     int set_n;
 } cli_spec;
@@ -141,6 +142,9 @@ const char *cli_case_file_of(const cli_args *args);
 
 /* "curve" of "rollbem curve [OPTION...]"; "" for the command without a name.  Returns name. */
 const char *cli_command_of(const cli_spec *spec, char name[24]);
+/* 1: it is no group, and the command takes it in some case: help, completions and manual pages
+ * show it. */
+int cli_takes(const cli_spec *spec, const rb_option *o);
 /* What every command but help says to --describe=FORM; the one without a name last, or first. */
 cli_exit cli_describe_all(const char *form, int nameless_first);
 

@@ -82,6 +82,14 @@ const char *cli_command_of(const cli_spec *spec, char name[24])
     return name;
 }
 
+int cli_takes(const cli_spec *spec, const rb_option *o)
+{
+    char word[80];
+    snprintf(word, sizeof word, ",%s,", o->name);
+    return o->kind != RB_OPTION_GROUP && !(spec->refused && strstr(spec->refused, word)) &&
+           (rb_case_takes(spec->purpose, o->name) || rb_case_takes(spec->second, o->name));
+}
+
 cli_exit cli_describe_all(const char *form, int nameless_first)
 {
     char describe[40];

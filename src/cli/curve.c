@@ -281,6 +281,7 @@ static const cli_case_command command = {
     .about = about,
     .notes = notes,
     .purpose = RB_CASE_CURVE,
+    .second = RB_CASE_SPEEDS,
     .options = options,
     .option_n = OPTIONS,
     .files = files,

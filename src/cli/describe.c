@@ -8,11 +8,6 @@
 #include <ctype.h>
 #include <string.h>
 
-static int is_option(const rb_option *o)
-{
-    return o->kind != RB_OPTION_GROUP;
-}
-
 static int takes_file(const rb_option *o)
 {
     return o->file != RB_FILE_NONE || (o->kind == RB_OPTION_CHOICE && o->path);
@@ -50,6 +45,26 @@ static void print_choices(const rb_option *o)
         printf("%s%s", c == o->choices ? "" : " ", c->name);
 }
 
+/* All that the command takes, and the groups that have one (NULL: only the options). */
+static void each_option(const cli_spec *spec, void (*print_group)(const rb_option *group),
+                        void (*print)(const rb_option *o, const void *target, const char *command))
+{
+    char command[24];
+    const rb_option *group = NULL;
+    cli_command_of(spec, command);
+    for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
+        for (const rb_option *o = set->options; o < set->options + set->n; o++) {
+            if (o->kind == RB_OPTION_GROUP)
+                group = o;
+            if (!cli_takes(spec, o))
+                continue;
+            if (group && print_group)
+                print_group(group);
+            group = NULL;
+            print(o, set->target, command);
+        }
+}
+
 /* ---- Manual pages ------------------------------------------------------------------ */
 
 /* Text for troff: a line that begins with blanks is an example and stays as it is. */
@@ -82,6 +97,27 @@ static void print_upper(const char *text)
         putchar(toupper((unsigned char)*text));
 }
 
+static void man_group(const rb_option *group)
+{
+    fputs(".SH OPTIONS: ", stdout);
+    print_upper(group->help);
+    printf("\nIn case files: section \\fB[%s]\\fR.\n", group->name);
+}
+
+static void man_option(const rb_option *o, const void *target, const char *command)
+{
+    char values[120], text[600];
+    (void)command;
+    cli_option_metavar(o, values, sizeof values);
+    cli_option_text(o, target, text, sizeof text);
+    fputs(".TP\n\\fB\\-\\-", stdout);
+    print_escaped(o->name, "-", "\\");
+    fputs("\\fR\\fI", stdout);
+    print_escaped(values, "-", "\\");
+    puts("\\fR");
+    print_troff(text);
+}
+
 static void print_man(const cli_spec *spec)
 {
     char command[24];
@@ -95,24 +131,7 @@ static void print_man(const cli_spec *spec)
     print_troff(spec->synopsis);
     puts(".SH DESCRIPTION");
     print_troff(spec->about);
-    for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
-        for (const rb_option *o = set->options; o < set->options + set->n; o++) {
-            if (is_option(o)) {
-                char values[120], text[600];
-                cli_option_metavar(o, values, sizeof values);
-                cli_option_text(o, set->target, text, sizeof text);
-                fputs(".TP\n\\fB\\-\\-", stdout);
-                print_escaped(o->name, "-", "\\");
-                fputs("\\fR\\fI", stdout);
-                print_escaped(values, "-", "\\");
-                puts("\\fR");
-                print_troff(text);
-                continue;
-            }
-            fputs(".SH OPTIONS: ", stdout);
-            print_upper(o->help);
-            printf("\nIn case files: section \\fB[%s]\\fR.\n", o->name);
-        }
+    each_option(spec, man_group, man_option);
     if (spec->notes) {
         puts(".SH NOTES");
         print_troff(spec->notes);
@@ -129,25 +148,30 @@ static void print_code_block(const char *text)
     printf("\n```text\n%s%s```\n", text, text[strlen(text) - 1] == '\n' ? "" : "\n");
 }
 
+static void markdown_group(const rb_option *group)
+{
+    printf("\n## %s `[%s]`\n\n| option | meaning |\n|---|---|\n", group->help, group->name);
+}
+
+static void markdown_option(const rb_option *o, const void *target, const char *command)
+{
+    char values[120], text[600];
+    (void)command;
+    cli_option_metavar(o, values, sizeof values);
+    cli_option_text(o, target, text, sizeof text);
+    printf("| `--%s%s` | ", o->name, values);
+    print_escaped(text, "|*_<", "\\");
+    puts(" |");
+}
+
 static void print_markdown(const cli_spec *spec)
 {
-    char command[24], values[120], text[600];
+    char command[24];
     cli_command_of(spec, command);
     printf("# rollbem%s%s\n\n%s\n", *command ? " " : "", command, cli_command_help(command));
     print_code_block(spec->synopsis);
     print_code_block(spec->about);
-    for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
-        for (const rb_option *o = set->options; o < set->options + set->n; o++) {
-            if (!is_option(o)) {
-                printf("\n## %s `[%s]`\n\n| option | meaning |\n|---|---|\n", o->help, o->name);
-                continue;
-            }
-            cli_option_metavar(o, values, sizeof values);
-            cli_option_text(o, set->target, text, sizeof text);
-            printf("| `--%s%s` | ", o->name, values);
-            print_escaped(text, "|*_<", "\\");
-            puts(" |");
-        }
+    each_option(spec, markdown_group, markdown_option);
     if (spec->notes)
         print_code_block(spec->notes);
 }
@@ -171,19 +195,9 @@ static void print_results(const cli_spec *spec)
 
 /* ---- Completions ------------------------------------------------------------------- */
 
-static void each_option(const cli_spec *spec,
-                        void (*print)(const rb_option *o, const char *command))
+static void bash_value(const rb_option *o, const void *target, const char *command)
 {
-    char command[24];
-    cli_command_of(spec, command);
-    for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
-        for (const rb_option *o = set->options; o < set->options + set->n; o++)
-            if (is_option(o))
-                print(o, command);
-}
-
-static void bash_value(const rb_option *o, const char *command)
-{
+    (void)target;
     (void)command;
     if (o->kind == RB_OPTION_FLAG)
         return;
@@ -192,8 +206,9 @@ static void bash_value(const rb_option *o, const char *command)
     printf("\" kind=%s ;;\n", takes_file(o) ? "file" : "word");
 }
 
-static void bash_name(const rb_option *o, const char *command)
+static void bash_name(const rb_option *o, const void *target, const char *command)
 {
+    (void)target;
     (void)command;
     printf(" --%s", o->name);
 }
@@ -202,14 +217,15 @@ static void bash_command(const cli_spec *spec)
 {
     char command[24];
     printf("    %s)\n        case $previous in\n", *cli_command_of(spec, command) ? command : "*");
-    each_option(spec, bash_value);
+    each_option(spec, NULL, bash_value);
     fputs("        esac\n        options=\"", stdout);
-    each_option(spec, bash_name);
+    each_option(spec, NULL, bash_name);
     puts("\"\n        ;;");
 }
 
-static void zsh_option(const rb_option *o, const char *command)
+static void zsh_option(const rb_option *o, const void *target, const char *command)
 {
+    (void)target;
     (void)command;
     printf("            '--%s%s[", o->name, o->kind == RB_OPTION_FLAG ? "" : "=");
     for (const char *c = o->help; *c; c++) {
@@ -232,13 +248,14 @@ static void zsh_command(const cli_spec *spec)
 {
     char command[24];
     printf("    %s)\n        _arguments \\\n", *cli_command_of(spec, command) ? command : "*");
-    each_option(spec, zsh_option);
+    each_option(spec, NULL, zsh_option);
     puts("            '--help[this text]' '--usage[the options on a few lines]' '--version' "
          "'*:file:_files'\n        ;;");
 }
 
-static void fish_option(const rb_option *o, const char *command)
+static void fish_option(const rb_option *o, const void *target, const char *command)
 {
+    (void)target;
     if (*command)
         printf("complete -c rollbem -n '__fish_seen_subcommand_from %s'", command);
     else
@@ -259,7 +276,7 @@ static void fish_option(const rb_option *o, const char *command)
 
 static void fish_command(const cli_spec *spec)
 {
-    each_option(spec, fish_option);
+    each_option(spec, NULL, fish_option);
 }
 
 /* ---- The schema of --json --------------------------------------------------------- */

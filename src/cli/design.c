@@ -122,7 +122,7 @@ static const cli_case_command command = {
     .synopsis = "rollbem design --minimise RESULT --over NAME=A:B [OPTION...] [CASE.ini]",
     .about = about,
     .notes = notes,
-    .purpose = RB_CASE_SINGLE,
+    .purpose = RB_CASE_DESIGN,
     .options = options,
     .option_n = OPTIONS,
     .check = check,

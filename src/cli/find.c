@@ -127,7 +127,7 @@ void cli_find_options(const cli_spec *spec)
         if (k < SETS_MAX)
             search.seen[search.seen_n++] = set->options;
         for (const rb_option *o = set->options; o < set->options + set->n; o++) {
-            if (o->kind == RB_OPTION_GROUP)
+            if (!cli_takes(spec, o))
                 continue;
             cli_option_metavar(o, values, sizeof values);
             snprintf(name, sizeof name, "--%s%s", o->name, values);
@@ -158,7 +158,7 @@ void cli_find_holder(const cli_spec *spec)
     cli_command_of(spec, command);
     for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
         for (const rb_option *o = set->options; o < set->options + set->n; o++)
-            if (o->kind != RB_OPTION_GROUP && strlen(o->name) == wanted.length &&
+            if (cli_takes(spec, o) && strlen(o->name) == wanted.length &&
                 strncmp(o->name, wanted.name, wanted.length) == 0 && wanted.n++ < SHOWN)
                 rb_append(wanted.commands, sizeof wanted.commands, "%srollbem%s%s",
                           wanted.n > 1 ? ", " : "", *command ? " " : "", command);

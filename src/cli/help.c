@@ -66,13 +66,6 @@ static int is_abbreviated(const cli_spec *spec, int s)
     return s == 0 || strcmp(first->name, "output") == 0 || strcmp(first->name, "example") == 0;
 }
 
-static int is_refused(const cli_spec *spec, const char *name)
-{
-    char word[80];
-    snprintf(word, sizeof word, ",%s,", name);
-    return spec->refused && strstr(spec->refused, word);
-}
-
 /* All options of a set of the spec, or the common ones below one title. */
 static void print_set(const cli_spec *spec, const rb_option_set *set, int common)
 {
@@ -80,7 +73,7 @@ static void print_set(const cli_spec *spec, const rb_option_set *set, int common
     for (const rb_option *o = set->options; o < set->options + set->n; o++) {
         if (o->kind == RB_OPTION_GROUP)
             group = o;
-        else if ((o->common || !common) && !is_refused(spec, o->name)) {
+        else if ((o->common || !common) && cli_takes(spec, o)) {
             if (group && !common)
                 print_group_title(group);
             print_option(o, set->target);
@@ -98,17 +91,22 @@ int cli_print_help(const cli_spec *spec, const char *part)
         common |= spec->sets[0].options[i].common;
     FILE *pager = cli_open_pager();
     int inside = 0;
+    const rb_option *group = NULL; /* whose title is still to be printed */
     for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n && is_part; set++)
         /* The groups that begin so, and the option of that name. */
-        for (const rb_option *o = set->options; o < set->options + set->n; o++)
+        for (const rb_option *o = set->options; o < set->options + set->n; o++) {
             if (o->kind == RB_OPTION_GROUP) {
                 inside = strncmp(o->name, part, strlen(part)) == 0;
-                if (inside)
-                    print_group_title(o);
-            } else if (inside || strcmp(o->name, part) == 0) {
-                print_option(o, set->target);
-                found = 1;
+                group = inside ? o : NULL;
             }
+            if (!cli_takes(spec, o) || (!inside && strcmp(o->name, part) != 0))
+                continue;
+            if (group)
+                print_group_title(group);
+            group = NULL;
+            print_option(o, set->target);
+            found = 1;
+        }
     if (!part && pager && common) {
         /* The command's own options, and the common ones of the case. */
         const char *paragraph = strstr(spec->about, "\n\n");
@@ -126,9 +124,14 @@ int cli_print_help(const cli_spec *spec, const char *part)
                 print_set(spec, &spec->sets[s], 1);
         char text[1000] = "";
         for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
-            for (const rb_option *o = set->options; o < set->options + set->n; o++)
+            for (const rb_option *o = set->options; o < set->options + set->n; o++) {
                 if (o->kind == RB_OPTION_GROUP)
-                    rb_append(text, sizeof text, "%s%s", *text ? ", " : "", o->name);
+                    group = o;
+                if (!group || !cli_takes(spec, o))
+                    continue;
+                rb_append(text, sizeof text, "%s%s", *text ? ", " : "", group->name);
+                group = NULL;
+            }
         puts("\nMore");
         cli_print_entry("--help=all", "every option");
         cli_print_entry("--help=GROUP", text);
@@ -169,7 +172,7 @@ void cli_print_usage(const cli_spec *spec)
     printf("Usage: %s\n", spec->synopsis);
     for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
         for (const rb_option *o = set->options; o < set->options + set->n; o++) {
-            if (o->kind == RB_OPTION_GROUP || is_refused(spec, o->name))
+            if (!cli_takes(spec, o))
                 continue;
             cli_option_metavar(o, values, sizeof values);
             const int n = (int)(strlen(o->name) + strlen(values)) + 5;

@@ -82,7 +82,7 @@ static const char *option_that_begins(const cli_spec *spec, const char *letters,
     for (int s = 0; s < spec->set_n; s++)
         for (int k = 0; k < spec->sets[s].n; k++) {
             const rb_option *o = &spec->sets[s].options[k];
-            if (o->kind == RB_OPTION_GROUP || strncmp(o->name, letters, n) != 0)
+            if (!cli_takes(spec, o) || strncmp(o->name, letters, n) != 0)
                 continue;
             found = o->name;
             if (!found[n])
