@@ -52,8 +52,16 @@ static void judge(int k, verdicts *v)
     static random_case c;
     char command[1700];
 
-    snprintf(command, sizeof command, "%s%s --quiet --output r", command_of(&c, k), c.line);
-    const int code = rollbem(command);
+    const char *name = command_of(&c, k);
+    snprintf(command, sizeof command, "%s%s --quiet --output r", name, c.line);
+    int code = rollbem(command);
+    char *last = strstr(c.line, " --derivatives");
+    last = last ? last : strstr(c.line, " --smooth-derivatives");
+    if (code != 0 && last && strstr(err, "derivatives")) { /* it has none: the result alone */
+        *last = '\0';
+        snprintf(command, sizeof command, "%s%s --quiet --output r", name, c.line);
+        code = rollbem(command);
+    }
     v->refused += code == 64;
     v->unsolved += code == 1;
     if (code != 0 && code != 64 && code != 1)
@@ -95,11 +103,11 @@ TEST(right_results_are_valid)
 
 /* Of 6000: thin layers whose displacements cancel, a base softer than its layer, coarse
  * contacts whose differences miss a part of the hysteresis, a contact that opens, three
- * elements in contact, heat beside the trailing edge; and an arc whose number of elements
- * rounding decided. */
+ * elements in contact, heat beside the trailing edge; an arc whose number of elements
+ * rounding decided; and (7593, with DERIVATIVES=1) two sides that differ by rounding. */
 TEST(results_that_were_once_rejected_are_valid)
 {
-    static const int once[] = {1290, 3511, 3563, 5224, 5401, 5896, 5968, 7500, 8273, 204570};
+    static const int once[] = {1290, 3511, 3563, 5224, 5401, 5896, 5968, 7500, 7593, 8273, 204570};
     const int n = (int)(sizeof once / sizeof *once);
     verdicts v = {0};
 

@@ -898,17 +898,23 @@ TEST(derivatives_belong_to_the_result)
     static const struct {
         const char *path, *value, *part;
     } edits[] = {
-        {"derivatives/tangential_load", "", ""}, /* fewer may have been asked for */
+        {"derivatives/tangential_load", "", "violated: derivatives.tangential_load.mu is missing"},
+        {"derivatives", "", "violated: derivatives.tangential_load.mu is missing"},
+        {"derivatives_of", "", "violated: derivatives is not what it should be"},
+        {"derivatives_of", "\"approach\"", "derivatives.tangential_load is no result of this case"},
         {"derivatives/more", "1", "violated: derivatives.more is no result of this case"},
         {"derivatives/approach/more", "1", "violated: derivatives.approach.more is no result"},
         {"derivatives/approach/mu", "", "violated: derivatives.approach.mu is missing"},
-        {"derivatives/approach/interlayer-normal", "1", "interlayer-normal is not what it"},
+        {"derivatives/approach/interlayer-normal", "1", "interlayer-normal is missing, or"},
         {"derivatives_are", "\"x\"", "violated: derivatives_are is not what it should be"},
         {"derivatives_over_x/tangential_load/gap/9", "1", "tangential_load.gap of element 10: "},
         {"derivatives_over_x/approach/mu/9", "1", "derivatives_over_x.approach.mu of element 10"},
         {"without_derivatives/mu", "\"x\"", "violated: without_derivatives.mu is no result of"},
         {"smooth_derivatives", "{}", "violated: smooth derivatives: the zone of element 13"},
-        {"uncertain_inputs", "", "violated: uncertain_inputs: "},
+        {"uncertain_inputs", "", "violated: tolerances is not what it should be"},
+        {"tolerances", "", "violated: tolerances.approach is missing"},
+        {"tolerances/approach", "", "violated: tolerances.approach is missing"},
+        {"own_of_b", "[1]", "violated: own_of_b is not what it should be"},
         {"uncertain_inputs/mu", "0.021", "violated: tolerances.tangential_load: printed"},
         {"uncertain_inputs/mo", "0.021", "'mo' is not a number of"},
         {"tolerances/more", "1", "violated: tolerances.more is no result of this case"},
@@ -920,7 +926,21 @@ TEST(derivatives_belong_to_the_result)
                      said_of(root, edits[k].path, edits[k].value));
     held_json *steps = run_json(histories[0]);
     assert_non_null(strstr(said_of(steps, "derivatives", "{}"), "violated: derivatives is not"));
-    assert_non_null(strstr(said_of(steps, "history/tolerances", "{}"), "uncertain_inputs: "));
+    static const char *const of_steps[] = {"derivatives",
+                                           "derivatives/approach",
+                                           "derivatives/approach/mu",
+                                           "derivatives/approach/mu/1",
+                                           "tolerances",
+                                           "tolerances/approach",
+                                           "tolerances/approach/1"};
+    held_json *sloped = run_json(slopes[5]);
+    assert_non_null(strstr(said_of(steps, "history/tolerances", "{}"), "tolerances is not"));
+    for (size_t k = 0; k < sizeof of_steps / sizeof *of_steps; k++) {
+        char path[80];
+        snprintf(path, sizeof path, "history/%s", of_steps[k]);
+        if (!strstr(said_of(sloped, path, ""), "violated: "))
+            fail_msg("%s was taken away", path);
+    }
     assert_int_equal(
         shell("\"$R\" --contact-elements 8 --mu 0.3 --support halfplane --load 100 --young-b 1e5 "
               "--poisson-b 0.1 --derivatives approach --tolerance mu=0.02 --json --quiet >r.json; "
@@ -928,6 +948,48 @@ TEST(derivatives_belong_to_the_result)
               "\"$R\" check r2.json"),
         1);
     assert_non_null(strstr(out, "violated: command: uncertain_inputs are not those of"));
+}
+
+/* Whether sides that differ by a rounding are printed as one number is decided by it. */
+TEST(two_equal_sides_are_one_number)
+{
+    static const char *const numbers[] = {"derivatives/approach/mu", "derivatives/p/mu",
+                                          "history/derivatives/approach/mu/1"};
+    static const int of[] = {0, 1, 5};
+    for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
+        held_json *root = run_json(slopes[of[k]]);
+        json_t *one = root;
+        char path[80], both[2000], *text;
+        snprintf(path, sizeof path, "%s", numbers[k]);
+        for (char *name = strtok(path, "/"); name; name = strtok(NULL, "/"))
+            one = member(one, name);
+        text = json_dumps(one, JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
+        snprintf(both, sizeof both, "[%s,%s]", text, text);
+        assert_string_equal(said_of(root, numbers[k], both), "");
+        snprintf(both, sizeof both, "[%s,1]", text);
+        assert_non_null(strstr(said_of(root, numbers[k], both), "violated: "));
+        free(text);
+    }
+}
+
+/* Where B has a number that it would have from A, derivatives are by A's alone. */
+TEST(numbers_that_b_has_by_itself_are_its_own)
+{
+    static const char *const of_b[] = {
+        "layer-thickness=1 layer-thickness-b=1",
+        "layer-thickness=1 base-young=3e5 base-poisson=0.3 base-young-b=3e5 base-poisson-b=0.3",
+        "speed=1000 relaxation-time=1e-3 relaxation-ratio=1 relaxation-time-b=1e-3 "
+        "relaxation-ratio-b=1",
+        "speed=1000 conductivity=50 heat-capacity=3.6 conductivity-b=50"};
+    for (size_t k = 0; k < sizeof of_b / sizeof *of_b; k++) {
+        const int code =
+            shellf("printf '%%s\n' similar=yes %s >b.ini; \"$R\" --support halfplane "
+                   "--load 100 --creep-ratio 0.4" TINY STEADY "--json --quiet --derivatives b.ini "
+                   ">r.json && \"$R\" check r.json",
+                   of_b[k]);
+        if (code != 0)
+            fail_msg("%s: %s%s", of_b[k], out, err);
+    }
 }
 
 TEST(what_cannot_be_checked_is_refused)

@@ -634,6 +634,9 @@ double rb_case_contact_power(const rb_io_contact_case *in, const rb_case_contact
 
 /* 1: an option of body B that --similar copies from A. */
 int rb_case_is_copied_to_b(const char *option);
+/* 1: an option of body B that is given and otherwise would have A's value, with which it
+ * would vary. */
+int rb_case_is_own_of_b(const rb_case *c, const char *option);
 /* Source of the value of the option `name`; 0: the default. */
 int rb_case_given(const rb_case *c, const char *name);
 /* Converts an error s of rollbem/rolling.h to an error of this case: if the wrong value

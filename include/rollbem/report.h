@@ -451,6 +451,9 @@ rb_status rb_report_derivatives_of(const char *names, const rb_resolved_case *c,
 void rb_report_json_derivatives(struct json_t **root, const rb_report_derivatives *d);
 /* tolerances: {result: standard deviation}. */
 void rb_report_json_tolerances(struct json_t **root, const rb_report_derivatives *d);
+/* derivatives_of: the names asked for (NULL: none); own_of_b: options of B that are given with the
+ * value of A, with which B's otherwise vary. */
+void rb_report_json_asked(struct json_t **root, const char *names, const rb_case *c);
 /* uncertain_inputs: {input: standard deviation}. */
 void rb_report_json_uncertain(struct json_t **root, const rb_case_tolerances *t, rb_units units);
 /* One row per result and input; the inputs of each result are ordered by the effect of

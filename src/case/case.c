@@ -337,6 +337,27 @@ int rb_case_is_copied_to_b(const char *option)
     return o && o->if_similar && !o->into;
 }
 
+/* 1: without a value of its own B has that of A. */
+static int would_follow(const rb_case *c, const rb_option *o)
+{
+    const rb_resolved_case *s = &c->resolved;
+    const int is_b = strcmp(rb_case_section(o), "body-b") == 0;
+    return o->of_a && (s->similar || !o->if_similar) &&
+           (!is_b || (s->rc.elastic_b && rb_option_applies(o, &s->rc.b)));
+}
+
+static int has_memory_of_b(const rb_case *c)
+{
+    return rb_case_given(c, "relaxation-time-b") || rb_case_given(c, "relaxation-ratio-b");
+}
+
+int rb_case_is_own_of_b(const rb_case *c, const char *option)
+{
+    const rb_option *o = rb_case_option(option);
+    return rb_case_given(c, option) != 0 &&
+           (strncmp(option, "relaxation-", 11) == 0 ? c->resolved.similar : would_follow(c, o));
+}
+
 static rb_status resolve_body_b(rb_case *c, rb_message *why)
 {
     rb_resolved_case *s = &c->resolved;
@@ -356,14 +377,12 @@ static rb_status resolve_body_b(rb_case *c, rb_message *why)
         const double *typed = (const double *)(const void *)((char *)s + o->offset);
         if (o->into && !isnan(*typed))
             *to = *typed;
-        else if (o->of_a && (s->similar || !o->if_similar) && !c->given[o - rb_case_table] &&
-                 (!is_b || rb_option_applies(o, &rc->b)))
+        else if (would_follow(c, o) && !c->given[o - rb_case_table])
             *to = *(const double *)(const void *)((char *)rc + o->of_a);
     }
     if (!rc->elastic_b)
         return RB_OK;
-    if (s->similar && !rb_case_given(c, "relaxation-time-b") &&
-        !rb_case_given(c, "relaxation-ratio-b"))
+    if (s->similar && !has_memory_of_b(c))
         s->memory_b = s->memory_a;
     s->young_b = rc->b.young;
     s->poisson_b = rc->b.poisson;

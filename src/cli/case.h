@@ -109,10 +109,10 @@ struct cli_case_command {
 cli_exit cli_case_run_command(const cli_case_command *command, void *own, int argc, char **argv);
 
 /* The resolved case of a command line of `rollbem` itself; what it would write is neither
- * looked at nor written; tolerance: what it was given, NULL: nothing.  CLI_CONTINUE, or the
- * exit code after the line of why. */
+ * looked at nor written; derivatives (or smooth ones), tolerance: what they were given, NULL:
+ * nothing.  CLI_CONTINUE, or the exit code after the line of why. */
 cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words, int *files,
-                          const char **tolerance);
+                          const char **derivatives, const char **tolerance);
 /* The same of `rollbem stress`; yield_shear: what it was given, NAN: nothing. */
 cli_exit cli_stress_inputs(int argc, char **argv, rb_case *words, int *files, double *yield_shear);
 /* The same of `rollbem crack`. */

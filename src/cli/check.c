@@ -68,19 +68,32 @@ static rb_case *confined(rb_case_purpose purpose, const char *folder)
     return words;
 }
 
-/* 1: what a result says of its uncertain inputs is what --tolerance says. */
-static int has_inputs_of(const char *tolerance, const rb_case *words, const json_t *root)
+/* What a result says of what was asked for and is not what --derivatives and --tolerance say;
+ * NULL: nothing. */
+static const char *other_than_asked(const char *derivatives, const char *tolerance,
+                                    const rb_case *words, const json_t *root)
 {
+    static const struct {
+        const char *key, *fault;
+    } rows[] = {{"derivatives_of", "derivatives_of are not those of --derivatives"},
+                {"own_of_b", "own_of_b are not the options that it gives B"},
+                {"uncertain_inputs", "uncertain_inputs are not those of --tolerance"}};
     rb_case_tolerances t = {.n = 0};
     rb_message why;
     json_t *given = json_object();
+    const char *fault = NULL;
+    if (derivatives || tolerance)
+        rb_report_json_asked(&given, derivatives, words);
     if (tolerance && rb_case_read_tolerances(words, tolerance, &t, &why) == RB_OK)
         rb_report_json_uncertain(&given, &t, RB_UNITS_MM);
-    const json_t *printed = json_object_get(root, "uncertain_inputs"),
-                 *wanted = json_object_get(given, "uncertain_inputs");
-    const int same = (!printed && !wanted) || json_equal(printed, wanted);
+    for (size_t k = 0; k < sizeof rows / sizeof *rows && !fault; k++) {
+        const json_t *printed = json_object_get(root, rows[k].key),
+                     *wanted = json_object_get(given, rows[k].key);
+        if ((printed || wanted) && !json_equal(printed, wanted))
+            fault = rows[k].fault;
+    }
     json_decref(given);
-    return same;
+    return fault;
 }
 
 /* *fault: what is wrong with the command line that a result quotes; NULL: nothing.
@@ -92,7 +105,7 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc, con
     const int is_stress = other && strcmp(other, "stress") == 0,
               is_crack = other && strcmp(other, "crack") == 0;
     double given = NAN; /* yield_shear as printed; NAN: nowhere */
-    const char *tolerance = NULL;
+    const char *derivatives = NULL, *tolerance = NULL;
     int files = 0;
     *fault = NULL;
     if ((other && !is_stress && !is_crack) ||
@@ -108,9 +121,10 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc, con
                               folder);
     if (!words)
         return RB_ENOMEM;
-    const cli_exit code = is_crack    ? cli_crack_inputs(argc - 1, argv + 1, words, &files)
-                          : is_stress ? cli_stress_inputs(argc - 1, argv + 1, words, &files, &given)
-                                      : cli_solve_inputs(argc, argv, words, &files, &tolerance);
+    const cli_exit code =
+        is_crack    ? cli_crack_inputs(argc - 1, argv + 1, words, &files)
+        : is_stress ? cli_stress_inputs(argc - 1, argv + 1, words, &files, &given)
+                    : cli_solve_inputs(argc, argv, words, &files, &derivatives, &tolerance);
     json_t *inputs = code == CLI_CONTINUE ? rb_report_json_inputs(words) : NULL;
     const json_t *printed = json_object_get(root, "shakedown");
     const double yield = json_number_value(json_object_get(printed, "yield_shear"));
@@ -123,8 +137,8 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc, con
         *fault = "it has other inputs than `inputs`";
     else if (printed && (isnan(given) ? yield != 0.0 : fabs(yield - given) > 1e-9 * given))
         *fault = "yield_shear of shakedown is not --yield-shear";
-    else if (!is_stress && !is_crack && !has_inputs_of(tolerance, words, root))
-        *fault = "uncertain_inputs are not those of --tolerance";
+    else if (!is_stress && !is_crack)
+        *fault = other_than_asked(derivatives, tolerance, words, root);
     json_decref(inputs);
     rb_case_free(words);
     return no_memory ? RB_ENOMEM : RB_OK;
@@ -214,7 +228,7 @@ static cli_exit check_table(const char *path, const char *text, const char *fold
         /* The case is that of the command line that the table quotes. */
         const char *other = other_command(argv[1]);
         const int kept = cli_keep_failures(1);
-        code = other ? CLI_DATA : cli_solve_inputs(argc, argv, words, &files, &unused);
+        code = other ? CLI_DATA : cli_solve_inputs(argc, argv, words, &files, &unused, &unused);
         cli_keep_failures(kept);
         if (other)
             cli_fail(code,

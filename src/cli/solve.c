@@ -119,6 +119,8 @@ static void add_json(const cli_case_run *run, json_t **root)
         rb_report_json_derivatives(root, &it->shown);
     if (it->tolerance && it->r.history.n == 0)
         rb_report_json_tolerances(root, &it->shown);
+    if (it->derivatives || it->tolerance)
+        rb_report_json_asked(root, it->derivatives, run->words);
     if (it->tolerance)
         rb_report_json_uncertain(root, &it->tolerances, run->c->units);
 }
@@ -345,10 +347,11 @@ static const cli_case_command command = {
 };
 
 cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words, int *case_files,
-                          const char **tolerance)
+                          const char **derivatives, const char **tolerance)
 {
     solved it = {.steps.every = 1};
     const cli_exit code = cli_case_inputs(&command, &it, argc, argv, words, case_files);
+    *derivatives = it.smooth ? it.smooth : it.derivatives;
     *tolerance = it.tolerance;
     return code == CLI_CONTINUE && it.trace ? choose_pivots(words) : code;
 }

@@ -412,7 +412,13 @@ void rb_certificate_compare(rb_certificate *c, const char *name, int element, co
                             const json_t *again, rb_certificate_slack *slack)
 {
     const size_t n = json_array_size(again);
-    if (json_is_object(again)) {
+    const int of_again = rb_certificate_are_sides(c, element, again, printed);
+    if (printed && (of_again || rb_certificate_are_sides(c, element, printed, again)))
+        for (size_t k = 0; k < 2; k++)
+            rb_certificate_compare(c, name, element,
+                                   of_again ? printed : json_array_get(printed, k),
+                                   of_again ? json_array_get(again, k) : again, slack);
+    else if (json_is_object(again)) {
         /* Its members, and that there are no others. */
         const char *key;
         json_t *value;

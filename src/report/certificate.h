@@ -123,6 +123,10 @@ rb_status rb_certificate_hysteresis(const rb_certificate *c, double *power, doub
  * the library computes from the model. */
 rb_status rb_certificate_derivatives(rb_certificate *c, const json_t *root, const rb_case *words,
                                      rb_message *why);
+/* 1: `one` has [left, right] of a derivative and `other` a value for both: a rounding decides
+ * which of them is printed.  element: the step of a history, 0 otherwise. */
+int rb_certificate_are_sides(const rb_certificate *c, int element, const json_t *one,
+                             const json_t *other);
 /* The same of a history by its states, which it takes over into `again`. */
 rb_status rb_certificate_step_derivatives(rb_certificate *c, const json_t *root,
                                           const rb_case *words, const rb_rolling_states *states,

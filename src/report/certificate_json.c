@@ -71,6 +71,8 @@ static rb_status check_kind(const char *name, const json_t *root, rb_message *wh
                                         "without_derivatives",
                                         "derivatives_over_x",
                                         "derivatives_are",
+                                        "derivatives_of",
+                                        "own_of_b",
                                         "tolerances",
                                         "uncertain_inputs",
                                         NULL};
@@ -120,40 +122,37 @@ static void option_text(const json_t *value, char *text, size_t size)
     }
 }
 
-/* What B has not although A has it: --similar would copy it. */
-static int is_own_of_b(const json_t *inputs, const char *key)
+/* 1: `own_of_b` says that B has this value of A by itself. */
+static int is_listed(const json_t *root, const char *key)
 {
+    const json_t *own = json_object_get(root, "own_of_b");
+    size_t k;
+    json_t *name;
+    json_array_foreach(own, k, name)
+    {
+        if (json_is_string(name) && strcmp(json_string_value(name), key) == 0)
+            return 1;
+    }
+    return 0;
+}
+
+/* What B has not although A has it: --similar would copy it. */
+static int is_own_of_b(const json_t *root, const char *key)
+{
+    const json_t *inputs = json_object_get(root, "inputs");
     char name[80];
     const char *below = strncmp(key, "base", 4) == 0   ? "layer-thickness-b"
                         : strncmp(key, "core", 4) == 0 ? "cover-thickness-b"
                                                        : key;
 
+    if (is_listed(root, key))
+        return 1;
     if (!json_is_true(json_object_get(inputs, "similar")) || !rb_case_is_copied_to_b(key))
         return 0;
     snprintf(name, sizeof name, "%.*s", (int)strlen(key) - 2, key);
     const json_t *of_a = json_object_get(inputs, name);
     return of_a && (below == key || json_is_number(json_object_get(inputs, below))) &&
            !json_equal(json_object_get(inputs, key), of_a);
-}
-
-/* 1: the command line gives this number of B, or the result has derivatives by it, which by one
- * that is unset where it is A's tells. */
-static int is_named(const json_t *root, const char *key, int is_unset)
-{
-    const json_t *const lists[] = {
-        json_object_get(root, "derivatives"), json_object_get(root, "smooth_derivatives"),
-        json_object_get(json_object_get(root, "history"), "derivatives")};
-    char option[80];
-    const char *result;
-    json_t *inputs;
-
-    snprintf(option, sizeof option, "--%.70s", key);
-    if (strstr(rb_certificate_word(root, "command"), option))
-        return 1;
-    for (size_t k = 0; k < sizeof lists / sizeof *lists && is_unset; k++)
-        json_object_foreach((json_t *)lists[k], result,
-                            inputs) if (json_object_get(inputs, key)) return 1;
-    return 0;
 }
 
 /* 1: B has the number from A, with which it varies, and not the same one of its own. */
@@ -168,7 +167,7 @@ static int is_copied(const json_t *root, const char *key)
     char name[80];
 
     if (!o || !(is_memory ? similar : o->of_a && (similar || !o->if_similar)) ||
-        is_named(root, key, is_memory || o->into))
+        is_listed(root, key))
         return 0;
     if (!is_memory) {
         snprintf(name, sizeof name, "%.*s", (int)strlen(key) - 2, key);
@@ -194,7 +193,7 @@ static rb_status set_inputs(const json_t *root, const json_t *now, rb_case *word
     json_object_foreach((json_t *)inputs, key, value)
     {
         if (s != RB_OK || json_is_null(value) || is_copied(root, key) ||
-            (json_equal(value, json_object_get(now, key)) && !is_own_of_b(inputs, key)))
+            (json_equal(value, json_object_get(now, key)) && !is_own_of_b(root, key)))
             continue;
         option_text(value, text, sizeof text);
         s = rb_case_set(words, key, text, RB_GIVEN_ARGUMENT, why);

@@ -95,6 +95,15 @@ static double slack_of_slope(const rb_certificate *c, const char *path, double w
 
 /* ---- What they are of -------------------------------------------------------------- */
 
+int rb_certificate_are_sides(const rb_certificate *c, int element, const json_t *one,
+                             const json_t *other)
+{
+    /* of a history there is a list of them, and of a column of a case they are lists */
+    return c->slopes && (c->slopes->history != NULL) == (element > 0) &&
+           json_array_size(one) == 2 &&
+           json_is_array(json_array_get(one, 0)) == json_is_array(other);
+}
+
 /* uncertain_inputs as the program takes them: "mu=0.02,radius=0.1". */
 static rb_status read_uncertain(const json_t *root, const rb_case *words, rb_case_tolerances *t,
                                 rb_message *why)
@@ -157,29 +166,6 @@ static rb_status end(rb_certificate *c, rb_status s, const rb_message *reason, j
 
 /* ---- Of a case --------------------------------------------------------------------- */
 
-/* Those that are printed, and those of which it is printed that there are none. */
-static void results_of(const json_t *printed, const json_t *without, const rb_case_derivatives *all,
-                       rb_report_derivatives *d)
-{
-    const json_t *const lists[] = {printed, without};
-    const char *name;
-    json_t *value;
-
-    d->named = 1;
-    for (int j = 0; j < 2; j++)
-        json_object_foreach((json_t *)lists[j], name, value)
-        {
-            int is_column, k = 0;
-            const rb_rolling_result *r = rb_case_derivative_result(name, &is_column);
-            while (j == 1 && k < all->n && strcmp(all->of[k].name, name) != 0)
-                k++;
-            if (r && d->n < RB_REPORT_RESULTS_MAX && (j == 0 || k == all->n)) {
-                d->is_column[d->n] = is_column;
-                d->result[d->n++] = r;
-            }
-        }
-}
-
 /* The creepage of free rolling is another solution, found as the solve has found it. */
 static rb_status roll_freely(rb_certificate *c, rb_message *why)
 {
@@ -191,7 +177,9 @@ static rb_status roll_freely(rb_certificate *c, rb_message *why)
 }
 
 /* Where they stand in a result. */
-static const char *const places[] = {"derivatives",
+static const char *const places[] = {"derivatives_of",
+                                     "own_of_b",
+                                     "derivatives",
                                      "smooth_derivatives",
                                      "without_derivatives",
                                      "derivatives_over_x",
@@ -202,9 +190,10 @@ static const char *const places[] = {"derivatives",
 rb_status rb_certificate_derivatives(rb_certificate *c, const json_t *root, const rb_case *words,
                                      rb_message *why)
 {
-    const json_t *smooth = json_object_get(root, "smooth_derivatives"),
-                 *printed = smooth ? smooth : json_object_get(root, "derivatives");
-    const int deviates = json_object_get(root, "tolerances") != NULL, asked = printed || deviates;
+    const char *names = json_string_value(json_object_get(root, "derivatives_of"));
+    const int smooth = json_object_get(root, "smooth_derivatives") != NULL,
+              deviates = json_object_get(root, "uncertain_inputs") != NULL,
+              asked = names || deviates;
     rb_case_derivatives all = {.n = 0};
     rb_report_derivatives shown = {.all = &all};
     rb_message reason = {""};
@@ -218,10 +207,12 @@ rb_status rb_certificate_derivatives(rb_certificate *c, const json_t *root, cons
                                                                               NULL, &all, &reason);
     if (s == RB_OK && deviates)
         s = rb_case_propagate(&c->slopes->uncertain, &all, &shown.deviation, &reason);
-    if (s == RB_OK && printed) {
-        results_of(printed, json_object_get(root, "without_derivatives"), &all, &shown);
+    if (s == RB_OK && names)
+        s = rb_report_derivatives_of(names, rb_case_resolved(words), &shown, &reason);
+    if (s == RB_OK && names)
         rb_report_json_derivatives(&again, &shown);
-    }
+    if (s == RB_OK && asked)
+        rb_report_json_asked(&again, names, words);
     if (s == RB_OK && deviates)
         rb_report_json_tolerances(&again, &shown);
     s = end(c, s, &reason, again, root, places, why);
@@ -231,45 +222,31 @@ rb_status rb_certificate_derivatives(rb_certificate *c, const json_t *root, cons
 
 /* ---- Of a history ------------------------------------------------------------------ */
 
-/* The columns that are printed, as words: "RESULT:INPUT,...".  NULL: no memory. */
-static char *columns_of(const json_t *printed)
-{
-    enum { LONGEST = 100 };
-    size_t columns = 0, n = 0;
-    const char *result, *input;
-    json_t *inputs, *list;
-
-    json_object_foreach((json_t *)printed, result, inputs) columns += json_object_size(inputs);
-    char *text = calloc(columns + 1, LONGEST);
-    json_object_foreach((json_t *)printed, result, inputs)
-        json_object_foreach(inputs, input, list) if (text) n +=
-        (size_t)snprintf(text + n, LONGEST, "%s%.40s:%.40s", n > 0 ? "," : "", result, input);
-    return text;
-}
-
 rb_status rb_certificate_step_derivatives(rb_certificate *c, const json_t *root,
                                           const rb_case *words, const rb_rolling_states *states,
                                           rb_rolling_history *again, rb_message *why)
 {
     static const char *const of_steps[] = {"derivatives", "derivatives_note", "tolerances", NULL};
-    const json_t *history = json_object_get(root, "history"),
-                 *printed = json_object_get(history, "derivatives");
-    const int deviates = json_object_get(history, "tolerances") != NULL,
-              asked = printed || deviates;
+    const json_t *history = json_object_get(root, "history");
+    const char *names = json_string_value(json_object_get(root, "derivatives_of"));
+    const int deviates = json_object_get(root, "uncertain_inputs") != NULL,
+              asked = names || deviates;
     rb_case_slopes slopes = {.n = 0};
     rb_message reason = {""};
-    char *text = columns_of(printed);
-    json_t *wanted = json_object();
+    json_t *wanted = json_object(), *outside = json_object();
 
-    compare_members(c, root, NULL, places); /* they are those of the history */
-    rb_status s = text ? begin(c, root, asked, deviates, words, again, &reason) : RB_ENOMEM;
-    if (s == RB_OK && printed)
-        s = rb_case_slopes_choose(words, &rb_rolling_history_columns, text, RB_CASE_SLOPES_MAX,
+    if (asked)
+        rb_report_json_asked(&outside, names, words);
+    compare_members(c, root, outside, places); /* the others are those of the history */
+    json_decref(outside);
+    rb_status s = begin(c, root, asked, deviates, words, again, &reason);
+    if (s == RB_OK && names)
+        s = rb_case_slopes_choose(words, &rb_rolling_history_columns, names, RB_CASE_SLOPES_MAX,
                                   &slopes, &reason);
     if (s == RB_OK && asked)
-        s = rb_case_slopes_of_steps(words, states, printed ? &slopes : NULL,
+        s = rb_case_slopes_of_steps(words, states, names ? &slopes : NULL,
                                     deviates ? &c->slopes->uncertain : NULL, again, &reason);
-    if (s == RB_OK && printed)
+    if (s == RB_OK && names)
         rb_report_json_slopes(&wanted, &slopes);
     if (s == RB_OK && deviates) {
         json_t *columns = rb_report_json_history(again);
@@ -278,7 +255,6 @@ rb_status rb_certificate_step_derivatives(rb_certificate *c, const json_t *root,
         json_decref(columns);
     }
     s = end(c, s, &reason, wanted, history, of_steps, why);
-    free(text);
     rb_case_slopes_free(&slopes);
     return s;
 }

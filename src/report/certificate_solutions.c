@@ -36,8 +36,9 @@ static json_t *result_with(const json_t *root, const json_t *from)
 {
     json_t *one = json_copy((json_t *)root);
 
-    static const char *const own[] = {"notes", "derivatives", "without_derivatives",
-                                      "derivatives_are", "tolerances"};
+    static const char *const own[] = {"notes",           "derivatives",     "without_derivatives",
+                                      "derivatives_are", "derivatives_of",  "tolerances",
+                                      "own_of_b",        "uncertain_inputs"};
     json_object_del(one, "solutions");
     for (size_t k = 0; k < sizeof own / sizeof *own && from != root; k++)
         json_object_del(one, own[k]); /* they are of the result itself */

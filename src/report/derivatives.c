@@ -144,6 +144,27 @@ void rb_report_json_tolerances(json_t **root, const rb_report_derivatives *d)
     rb_report_json_set(root, "tolerances", results);
 }
 
+void rb_report_json_asked(json_t **root, const char *names, const rb_case *c)
+{
+    json_t *inputs = rb_report_json_inputs(c), *own = json_array(), *value;
+    const char *key;
+
+    if (names)
+        rb_report_json_set(root, "derivatives_of", rb_report_json_text(names));
+    json_object_foreach(inputs, key, value)
+    {
+        char of_a[80];
+        snprintf(of_a, sizeof of_a, "%.*s", (int)strlen(key) - 2, key);
+        if (rb_case_is_own_of_b(c, key) && json_equal(value, json_object_get(inputs, of_a)))
+            rb_report_json_append(&own, json_string(key));
+    }
+    json_decref(inputs);
+    if (own && json_array_size(own) == 0)
+        json_decref(own);
+    else
+        rb_report_json_set(root, "own_of_b", own);
+}
+
 void rb_report_json_uncertain(json_t **root, const rb_case_tolerances *t, rb_units units)
 {
     json_t *inputs = json_object();
