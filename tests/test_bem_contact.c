@@ -554,6 +554,34 @@ TEST(the_wheel_shows_less_and_less)
 
 /* ---- Loads and approach ------------------------------------------------------------ */
 
+/* Another end of an element becomes the widest of the circle within these radii. */
+TEST(flexibilities_are_smooth_in_the_radius)
+{
+    enum { n = 30, radii = 12, order = 4 };
+    double *F[order] = {NULL}, largest = 0.0, third = 0.0;
+
+    for (int i = 0; i < radii; i++) {
+        const rb_bem_cylinder cylinder = {.radius = 50.6 + 0.025 * i,
+                                          .support = RB_BEM_ARC,
+                                          .arc = M_PI / 36.0,
+                                          .outer_elements = 40};
+        OWNED(rb_bem_flexibility) f = condensed(&cylinder, n, 0.25, RB_BEM_NORMALS_OBSTACLE);
+        const size_t size = 4 * (size_t)f.m * n;
+        double *now = F[i % order];
+        const double *a = F[(i + 1) % order], *b = F[(i + 2) % order], *c = F[(i + 3) % order];
+        if (!now)
+            now = F[i % order] = rb_alloc(size, 1);
+        memcpy(now, f.data, size * sizeof *now);
+        for (size_t j = 0; j < size && i >= order - 1; j++) {
+            largest = fmax(largest, fabs(now[j]));
+            third = fmax(third, fabs(now[j] - 3.0 * c[j] + 3.0 * b[j] - a[j]));
+        }
+    }
+    CHECK_MAX(third / largest, 1e-9, "third differences");
+    for (int i = 0; i < order; i++)
+        free(F[i]);
+}
+
 /* (reaction at the support + load)/load of a uniform pressure on the contact */
 static double balance(const rb_bem_cylinder *cylinder, int n_c, int outer)
 {

@@ -25,7 +25,7 @@ end
 
 % (B2) Kelvin: displacement and traction kernels at r = (rx, ry), outward normal n.
 % The logarithm's unit of length r0 is free (a rigid motion); the program takes the
-% diagonal of the box around the mesh.
+% diagonal of the square around a circle as long as the contour.
 function [U, T] = kelvin(rx, ry, n, shear, nu, r0)
   r2 = rx^2 + ry^2;
   r = sqrt(r2);
@@ -43,7 +43,7 @@ function [H, G] = influence(mesh, shear, nu)
   G = zeros(2*n);
   [s, w] = gauss(60);
   C = 1 / (8*pi*shear*(1 - nu));
-  r0 = norm(max(mesh(:, 1:2)) - min(mesh(:, 1:2)));
+  r0 = sqrt(2)/pi * sum(hypot(mesh(:, 3) - mesh(:, 1), mesh(:, 4) - mesh(:, 2)));
   for j = 1:n
     m = (mesh(j, 1:2) + mesh(j, 3:4))' / 2;
     h = (mesh(j, 3:4) - mesh(j, 1:2))' / 2;

@@ -16,7 +16,9 @@ rb_status rb_bem_ends_check(int n_c, const double *ends, rb_message *why);
 
 rb_status rb_bem_mesh_copy(const rb_bem_mesh *from, rb_bem_mesh *to);
 
-/* Diagonal of the box around all elements: the length that sets the scale. */
+/* The length that sets the scale, in logarithms too: the diagonal of the square around a circle
+ * as long as the longest contour.  A box around the elements would have kinks where they move and
+ * another one becomes the widest. */
 double rb_bem_mesh_size(const rb_bem_mesh *mesh);
 
 /* next[j]: the element that begins where j ends; the mesh is checked. */

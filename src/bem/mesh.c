@@ -1,6 +1,7 @@
 /* Meshes of closed polygons (B4): memory and checks. */
 #include "bem/internal.h"
 
+#include <gsl/gsl_math.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -59,23 +60,25 @@ double rb_bem_mesh_length(const rb_bem_mesh *mesh, int j)
     return hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
 }
 
-/* Diagonal of the box around all elements: the length that sets the scale. */
-double rb_bem_mesh_size(const rb_bem_mesh *mesh)
-{
-    double left = INFINITY, right = -INFINITY, low = INFINITY, high = -INFINITY;
-    for (int j = 0; j < mesh->n; j++) {
-        left = fmin(left, mesh->x0[j]);
-        right = fmax(right, mesh->x0[j]);
-        low = fmin(low, mesh->y0[j]);
-        high = fmax(high, mesh->y0[j]);
-    }
-    return hypot(right - left, high - low);
-}
-
 static int meets(const rb_bem_mesh *mesh, int j, int next)
 {
     const double gap = hypot(mesh->x0[next] - mesh->x1[j], mesh->y0[next] - mesh->y1[j]);
     return gap <= 1e-9 * fmin(rb_bem_mesh_length(mesh, j), rb_bem_mesh_length(mesh, next));
+}
+
+double rb_bem_mesh_size(const rb_bem_mesh *mesh)
+{
+    double longest = 0.0, length = 0.0;
+
+    for (int j = 0, start = 0; j < mesh->n; j++) {
+        length += rb_bem_mesh_length(mesh, j);
+        longest = fmax(longest, length);
+        if (meets(mesh, j, start)) {
+            start = j + 1;
+            length = 0.0;
+        }
+    }
+    return M_SQRT2 / M_PI * longest;
 }
 
 void rb_bem_mesh_next(const rb_bem_mesh *mesh, int *next)
