@@ -1007,6 +1007,14 @@ TEST(rounding_about_0_is_0)
                              "--formulation steady"),
                      0);
     assert_non_null(strstr(err, "; stick 0 ... 0.81"));
+    /* not of something small in small units */
+    assert_int_equal(rollbem("--support halfplane --load 1e-12 --radius 1e-15 --format brief"), 0);
+    assert_non_null(strstr(out, "e-17 "));
+    /* no study of rounding */
+    assert_int_equal(rollbem("sweep --support halfplane --load 3000 --vary-1 'mu .1 .2' --quiet "
+                             "--vary-2 'young 1e5 2e5' --show tangential_load --map a.png "
+                             "--plot-script a.gp && grep 'all 0 but for rounding' a.gp"),
+                     0);
 }
 
 TEST(commands_on_a_case_offer_the_same)

@@ -190,6 +190,12 @@ TEST(pictures)
                                    "c.svg --quiet"),
                      0);
     assert_int_equal(shell("for f in a b c; do grep -q '</svg>' $f.svg || exit 1; done"), 0);
+    /* one that grows: a mark for each of three lengths beyond the first */
+    assert_int_equal(rollbem(HERTZ "--mu 0 --plot-crack d.svg --plot-script d.gp --quiet "
+                                   "--paris 1e-12,3 --grow-steps 3 --growth tension"),
+                     0);
+    assert_int_equal(shell("sed -n '/^.tips/,/^EOD/p' d.gp | wc -l"), 0);
+    assert_int_equal(atoi(out), 5);
 }
 
 /* The face on the side of +x, to which K_II > 0 refers, lies above at 30 degrees and below at

@@ -40,6 +40,8 @@ TEST(columns_are_named_in_three_ways)
     check_history("distance load force\n0 10 -1.5\n1 20 2\n", 2);
     check_history("# a run\n# distance\tload\tforce\n0\t10\t-1.5\n\n1\t20\t2\n", 3);
     check_history("distance, load, force # names\n# more\n0, 10, -1.5\n1, 20, 2", 3);
+    /* as spreadsheets write them */
+    check_history("\"distance\",\"load\",\"force\"\r\n\"0\",\"10\",\"-1.5\"\r\n1,20,2\r\n", 2);
 }
 
 TEST(names_may_be_missing)

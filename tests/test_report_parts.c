@@ -399,6 +399,16 @@ TEST(maps_suit_the_number_of_cases)
             assert_true(!map || strstr(script, "splot $map using 1:2:3 with pm3d nocontour\n"));
         }
     }
+    for (int k = 0; k < s.n; k++)
+        room[2 * MOST + k] = 1e-16 * (k % 3);
+    s.rounding = 3e-16; /* about zero */
+    assert_non_null(strstr(drawn(&s, 1), "all 0 but for rounding"));
+    assert_non_null(strstr(drawn(&s, 1), "set cbrange [-1:1]"));
+    s.rounding = 1e-16;
+    assert_non_null(strstr(drawn(&s, 1), "contour base"));
+    s.rounding = 0.0;
+    for (int k = 0; k < s.n; k++)
+        room[2 * MOST + k] = 0.0;
     room[2 * MOST] = 1e-8; /* beside zero that is a difference */
     assert_non_null(strstr(drawn(&s, 1), "contour base"));
     assert_null(strstr(drawn(&s, 0), "set yrange"));

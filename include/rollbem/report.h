@@ -386,6 +386,7 @@ typedef struct {
     const double *half_width; /* of the band about the result, for every case; NULL: none */
     const char *band;         /* what it is: "estimated error" */
     int is_sample;            /* 1: the cases are points, not curves; without y */
+    double rounding;          /* results that are all smaller are drawn as 0 */
 } rb_report_study;
 
 /* Checks a picture before the cases are solved.  RB_EINVAL: two cases at the same x and

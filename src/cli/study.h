@@ -60,6 +60,7 @@ typedef struct {
     int over, family;              /* columns of the pictures; -1: none */
     int drawn_column, band_column; /* of the result and of its error or deviation; band 0: none */
     double *drawn, *band; /* of every case: what the pictures show; NULL: no picture, no band */
+    double largest;       /* result in the unit of the one that is drawn */
     uint64_t fingerprint; /* of all inputs */
     FILE *out;
     char *text; /* what it has, where it is memory for a terminal; owned */

@@ -17,6 +17,13 @@ const char *cli_study_shown(const study *st)
 
 void cli_study_keep(study *st, int j, int k, double x)
 {
+    const study_result *drawn = st->drawn ? &st->result[st->drawn_column - st->columns - 2] : NULL,
+                       *result = j >= st->columns + 2 && j < st->columns + 2 + st->results
+                                     ? &st->result[j - st->columns - 2]
+                                     : NULL;
+    if (drawn && result && drawn->r->unit && result->r->unit &&
+        strcmp(drawn->r->unit, result->r->unit) == 0)
+        st->largest = fmax(st->largest, fabs(x)); /* which passes over NAN */
     if (st->drawn && j == st->drawn_column)
         st->drawn[k] = x;
     if (st->band && j == st->band_column)
@@ -92,7 +99,10 @@ static rb_report_study picture_of(const study *st, double *value, char name[STUD
         .half_width = st->band,
         .band = st->band_column < st->columns + 2 + st->results ? "estimated error"
                                                                 : "standard deviation",
-        .is_sample = st->o->sample > 0};
+        .is_sample = st->o->sample > 0,
+        .rounding = shown->r->error_bar == RB_SCALE_NONE || shown->is_error ? 0.0
+                    : shown->r->unit && shown->r->unit[0]                   ? 1e-14 * st->largest
+                                                                            : 1e-14};
 }
 
 static cli_exit check_kind(const study *st, const char *option, int map)

@@ -48,10 +48,16 @@ const double *rb_io_table_column(const rb_io_table *t, const char *name)
 
 /* ---- Words ------------------------------------------------------------------------- */
 
-/* The next word from *at on, *at moves behind it; 0 at the end of the line. */
+/* The next word from *at on, without the double quotes of a spreadsheet; *at moves behind it; 0
+ * at the end of the line. */
 static size_t next_word(const char **at, const char **word)
 {
     *word = *at + strspn(*at, blanks);
+    const char *quote = **word == '"' ? strchr(*word + 1, '"') : NULL;
+    if (quote && quote > *word + 1 && (!quote[1] || strchr(blanks, quote[1]))) {
+        *at = quote + 1;
+        return (size_t)(quote - ++*word);
+    }
     const size_t n = strcspn(*word, blanks);
     *at = *word + n;
     return n;

@@ -440,6 +440,21 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
         to = fmax(to, path->x[i] / unit);
         deepest = fmax(deepest, -path->y[i] / unit);
     }
+    const rb_case_crack_growth *g = &r->growth;
+    for (int i = 0; i < g->n; i++) {
+        from = fmin(from, g->tip_x[i] / r->half_width);
+        to = fmax(to, g->tip_x[i] / r->half_width);
+        deepest = fmax(deepest, -g->tip_y[i] / r->half_width);
+    }
+    if (g->n > 1) { /* its way below the faces, which are those of the first length */
+        fputs("$way << EOD\n", out);
+        for (int i = 0; i <= g->path.pieces; i++)
+            fprintf(out, "%.9g %.9g\n", g->path.x[i] / unit, g->path.y[i] / unit);
+        fputs("EOD\n$tips << EOD\n", out);
+        for (int i = 1; i < g->n; i++)
+            fprintf(out, "%.9g %.9g\n", g->tip_x[i] / r->half_width, g->tip_y[i] / r->half_width);
+        fputs("EOD\n", out);
+    }
     for (int j = 0; j < n; j++)
         largest = fmax(largest, hypot(D[j], D[n + j]) / r->half_width);
     const double size = fmax(to - from, deepest);
@@ -503,6 +518,11 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
             "filledcurves closed linecolor rgb '#ffffff' notitle",
             fmin(fmax(h->x[k] / r->half_width - 1.0, from), to),
             fmin(fmax(h->x[k] / r->half_width + 1.0, from), to), 0.15 * margin);
+    if (g->n > 1)
+        fputs(", $way using 1:2 with lines linecolor rgb '#555555' linewidth 1.2 notitle, $tips "
+              "using 1:2 with points pointtype 6 pointsize 1.2 linecolor rgb '#555555' title "
+              "'grown'",
+              out);
     /* the dashed one above, or a closed crack would have one face; the zones on both */
     for (int side = 1; side >= 0; side--)
         fprintf(out,

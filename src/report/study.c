@@ -109,7 +109,8 @@ rb_status rb_report_study_check(const rb_report_study *s, int map, rb_message *w
 typedef struct {
     double from, to, unit;
     int exponent, logarithmic;
-    int flat; /* of a result: its values differ by rounding alone, or are one */
+    int flat;    /* of a result: its values differ by rounding alone, or are one */
+    int is_zero; /* they are rounding about 0 */
 } axis;
 
 typedef struct {
@@ -141,7 +142,7 @@ static int is_logarithmic(int n, const double *value)
 
 static axis axis_of(int n, const rb_report_quantity *q, int may_be_logarithmic)
 {
-    axis a = {INFINITY, -INFINITY, 1.0, 0, 0, 0};
+    axis a = {.from = INFINITY, .to = -INFINITY, .unit = 1.0};
     for (int k = 0; k < n && q->value; k++) {
         a.from = fmin(a.from, q->value[k]); /* fmin and fmax pass over NAN */
         a.to = fmax(a.to, q->value[k]);
@@ -234,6 +235,8 @@ static void write_title(FILE *out, const view *v, rb_report_place place)
         return;
     fprintf(out, "set label 1 '{/:Bold %s}   %d cases%s", plain(s->shown.name, shown), s->n,
             s->is_sample ? " of a sample" : "");
+    if (v->shown.is_zero)
+        fputs(",  all 0 but for rounding", out);
     if (s->half_width) {
         char unit[40];
         double most = 0.0;
@@ -413,8 +416,12 @@ rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas, const rb_r
     /* Where the result is the same in all cases, a range around it, or the picture would
      * show the rounding. */
     const double size = fmax(fabs(v.shown.from), fabs(v.shown.to));
-    v.shown.flat = v.shown.to - v.shown.from <= 1e-9 * size;
-    if (v.shown.flat) {
+    if (size * v.shown.unit <= s->rounding) {
+        for (int k = 0; k < s->n; k++)
+            at[k].value *= 0.0; /* what was not solved stays so */
+        v.shown = (axis){.from = -1.0, .to = 1.0, .unit = 1.0, .flat = 1, .is_zero = 1};
+    } else if (v.shown.to - v.shown.from <= 1e-9 * size) {
+        v.shown.flat = 1;
         const double margin = size > 0.0 ? 0.1 * size : 1.0;
         v.shown.from -= margin;
         v.shown.to += margin;

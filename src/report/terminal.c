@@ -67,7 +67,7 @@ static int read_number(const char *text, double *x)
 }
 
 /* A cell with five digits, 0 where it is rounding of the largest number of its column, of
- * its unit or of anything. */
+ * its unit or, without one, of 1. */
 static const char *shown(const grid *g, int i, int j, const column *c, char text[WIDTH])
 {
     double x;
@@ -76,7 +76,8 @@ static const char *shown(const grid *g, int i, int j, const column *c, char text
     else if (isnan(x))
         snprintf(text, WIDTH, "-");
     else {
-        const double rounding = fmax(fmax(1e-12 * c->scale, 1e-13 * c->units), 1e-15);
+        const double least = c->unit[0] ? 0.0 : 1e-15,
+                     rounding = fmax(fmax(1e-12 * c->scale, 1e-13 * c->units), least);
         snprintf(text, WIDTH, "%.5g", fabs(x) <= rounding ? 0.0 : x);
     }
     return text;
