@@ -12,7 +12,7 @@
 /* A wheel of which, within the usual step of some inputs, an element goes from one side to the
  * other. */
 #define SIDES_CHANGE                                                                               \
-    "support", "arc", "arc", "60", "outer-elements", "500", "contact-elements", "15", "zone", "2", \
+    "support", "arc", "arc", "60", "outer-elements", "300", "contact-elements", "15", "zone", "2", \
         "poisson", "0.4", "young-b", "200000", "poisson-b", "0.28", "datum-b", "60", "approach",   \
         "0.04", "force-ratio", "-0.4", "formulation", "steady", "mesh", "uniform", "plane",        \
         "stress"
