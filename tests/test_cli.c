@@ -80,6 +80,8 @@ static const struct {
     {"--force-ratio 1.5", 64, "friction carries at most 1"},
     {"--error --dump d", 64, "--dump, --fclib and --trace: not together with error bars"},
     {"--smooth-derivatives --error", 64, "--smooth-derivatives: not together with error bars"},
+    {"--increments 2 --approach 1 --derivatives all", 64, "under a given approach the unit of"},
+    {"--increments 2 --load 1 --contact-elements 20000 --tolerance mu=1%", 64, "fewer than 1500"},
     {"--smooth-derivatives --formulation static --increments 3", 64,
      "--smooth-derivatives: not for a case with steps"},
     {"--smooth-derivatives --derivatives", 64,

@@ -338,7 +338,8 @@ rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range, 
 rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, double mu,
                               rb_rolling_point *point, void *context, rb_rolling_curve *curve,
                               rb_case_slopes *slopes, rb_message *why);
-/* RB_EINVAL: histories of the resolved case have no derivatives: a given approach. */
+/* RB_EINVAL: histories of the resolved case have no derivatives: a given approach, or
+ * RB_ROLLING_LARGE elements and more (of bodies that relax only their solution tells). */
 rb_status rb_case_slopes_check_steps(const rb_case *c, rb_message *why);
 
 /* Uncertain inputs with their standard deviations, as in "mu=0.02,radius=1%"; the inputs

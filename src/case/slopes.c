@@ -650,14 +650,26 @@ static rb_status take_deviations(const rb_case_tolerances *t, const varied *v, i
     return RB_OK;
 }
 
+static rb_status check_elements(int n, rb_message *why)
+{
+    return n < RB_ROLLING_LARGE
+               ? RB_OK
+               : rb_fail(why, RB_EINVAL,
+                         "derivatives of a history need a matrix: expected fewer than %d elements",
+                         RB_ROLLING_LARGE);
+}
+
 rb_status rb_case_slopes_check_steps(const rb_case *c, rb_message *why)
 {
-    if (isnan(rb_rolling_derive(&c->resolved.rc).load) &&
+    const rb_rolling_case *rc = &c->resolved.rc;
+
+    if (isnan(rb_rolling_derive(rc).load) &&
         !(c->resolved.program.n > 0 && c->resolved.program.load))
         return rb_fail(why, RB_EINVAL,
                        "derivatives of a history: under a given approach the unit of "
                        "its distances depends on the solution; give a load");
-    return RB_OK;
+    /* those of bodies that relax are as long as a step */
+    return rb_rolling_relaxes(rc) ? RB_OK : check_elements(rc->contact_elements, why);
 }
 
 rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *states,
@@ -672,14 +684,12 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
     int numbers = 0, n = 0;
 
     rb_status status = rb_case_slopes_check_steps(c, why);
+    if (status == RB_OK)
+        status = check_elements(states->n, why);
     if (status != RB_OK)
         return status;
     s = s ? s : &none;
     s->stay = rc->zone == 0.0 && !elements_grow(rc);
-    if (states->n >= RB_ROLLING_LARGE)
-        return rb_fail(why, RB_EINVAL,
-                       "derivatives of a history need a matrix: expected fewer than %d elements",
-                       RB_ROLLING_LARGE);
     int asked = inputs_of(s, name);
     for (int i = 0; t && i < t->n; i++)
         asked = add_name(name, asked, t->name[i]);

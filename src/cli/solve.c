@@ -323,6 +323,9 @@ static cli_exit check(cli_case_run *run)
     if (it->tolerance &&
         rb_case_read_tolerances(run->words, it->tolerance, &it->tolerances, &why) != RB_OK)
         return cli_fail(CLI_USAGE, "%s", why.text);
+    if ((it->derivatives || it->tolerance) && has_steps &&
+        rb_case_slopes_check_steps(run->words, &why) != RB_OK)
+        return cli_fail(CLI_USAGE, "%s", why.text);
     /* Where the states of the steps are printed, and in which units. */
     if (it->states && (run->o.style.format != RB_REPORT_JSON || c->units != RB_UNITS_MM))
         return cli_fail(CLI_USAGE, "--states: with --json and in mm, N, MPa only");
