@@ -950,12 +950,17 @@ TEST(derivatives_belong_to_the_result)
     assert_non_null(strstr(out, "violated: command: uncertain_inputs are not those of"));
 }
 
-/* Whether sides that differ by a rounding are printed as one number is decided by it. */
+/* Of numbers and of columns, with one of them or both; and whether sides that differ by a rounding
+ * are printed as one number is decided by it. */
 TEST(two_equal_sides_are_one_number)
 {
     static const char *const numbers[] = {"derivatives/approach/mu", "derivatives/p/mu",
                                           "history/derivatives/approach/mu/1"};
     static const int of[] = {0, 1, 5};
+    held_json *ends =
+        run_json(TINY "--support halfplane --load 100 --creep-ratio 0.4 --poisson 0.5 "
+                      "--derivatives p,approach" STEADY);
+    assert_string_equal(said_of(ends, "derivatives_of", "\"p,approach\""), "");
     for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
         held_json *root = run_json(slopes[of[k]]);
         json_t *one = root;

@@ -455,6 +455,8 @@ TEST(an_interrupted_run_keeps_its_passes)
                  n, k == 0 ? "1000" : "61");
         assert_non_null(strstr(err, words));
         assert_true(n >= 1.0);
+        const json_t *said = json_object_get(json_object_get(root, "summary"), "status");
+        assert_string_equal(json_string_value(said), "interrupted");
         CHECK_REL((double)json_array_size(json_object_get(json_object_get(root, "table"), "K_I")),
                   k == 0 ? 601.0 * n : 601.0, 0.0, "whole passes");
     }

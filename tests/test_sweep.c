@@ -262,6 +262,23 @@ TEST(tolerances_of_a_study_are_those_of_its_cases)
         CHECK_REL(entry(json_object_get(in_si, "table"), "deviation_tangential_load_N/m", k),
                   1e3 * Q, 1e-9, "case %zu in SI", k);
     }
+    /* what is uncertain is said, also in a table and of a curve */
+    held_json *curve = run_json("curve --support halfplane --load 500 --points 3 " UNCERTAIN);
+    const json_t *const roots[] = {all, in_si, curve};
+    for (size_t k = 0; k < 3; k++) {
+        const json_t *inputs = json_object_get(roots[k], "uncertain_inputs");
+        assert_int_equal(json_object_size(inputs), 3);
+        CHECK_ABS(number_in(inputs, "mu"), 0.02, 0.0, "mu");
+        assert_string_equal(json_string_value(json_object_get(inputs, "creep-ratio")), "10%");
+    }
+    const char *const tables[] = {STUDY UNCERTAIN VARIED "--output u",
+                                  "curve --support halfplane --load 500 --points 3 " UNCERTAIN
+                                  "--output u"};
+    for (size_t k = 0; k < 2; k++) {
+        assert_int_equal(rollbem(tables[k]), 0);
+        assert_int_equal(
+            shell("grep -q 'standard deviations of.* mu=0.02,creep-ratio=10%,young=1%' u"), 0);
+    }
     /* with both the band is the error bar, and says so */
     for (int error = 0; error < 2; error++) {
         assert_int_equal(

@@ -446,6 +446,7 @@ enum { RB_CASE_CRACK_NOTES = 6 };
 typedef struct {
     rb_case_result contact; /* the contact; solution.n = 0: unloaded */
     double half_width;      /* [length] */
+    rb_status status;       /* RB_INTERRUPTED: some passes or lengths are missing */
     int passes;
     rb_crack_shape shape;
     rb_rolling_states states; /* of the contact, if it has steps; otherwise n = 0 */

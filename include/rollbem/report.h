@@ -457,6 +457,9 @@ void rb_report_json_tolerances(struct json_t **root, const rb_report_derivatives
 void rb_report_json_asked(struct json_t **root, const char *names, const rb_case *c);
 /* uncertain_inputs: {input: standard deviation}. */
 void rb_report_json_uncertain(struct json_t **root, const rb_case_tolerances *t, rb_units units);
+/* The same of --tolerance of a curve or a study: numbers in the units of the result; what is given
+ * in per cent of each value, or in other units, stays a text. */
+void rb_report_json_uncertain_text(struct json_t **root, const char *text);
 /* One row per result and input; the inputs of each result are ordered by the effect of
  * one per cent of the input. */
 rb_status rb_report_derivative_table(FILE *out, const rb_rolling_solution *s,

@@ -325,6 +325,7 @@ rb_status rb_case_crack_solve(const rb_resolved_case *c, const rb_case_crack *k,
             rb_case_crack_set_errors(&fine.summary, r);
         rb_case_crack_free(&fine);
     }
+    r->status = s;
     return s == RB_ENOMEM ? rb_fail(why, s, "crack: out of memory") : s;
 }
 

@@ -337,7 +337,9 @@ static void write_head(const study *st, FILE *out)
         rb_report_cell_text(&c, column_name(st, j, heading));
     rb_report_cells_end_row(&c);
     rb_report_comment_origin(&c, cli_command_line());
-    rb_report_comment(&c, "study %016" PRIx64 " of %d cases", st->fingerprint, st->cases);
+    rb_report_comment(&c, "study %016" PRIx64 " of %d cases%s%s", st->fingerprint, st->cases,
+                      st->o->tolerance ? ", standard deviations of inputs: " : "",
+                      st->o->tolerance ? st->o->tolerance : "");
     rb_report_comment(&c, "status 0: solved. xi > 0: A's surface slides towards +x, the friction "
                           "on A points to -x, Q < 0");
 }
@@ -567,6 +569,8 @@ static cli_exit close_output(study *st, cli_exit code)
                                    json_incref(json_array_get(st->list, (size_t)j)));
             rb_report_json_set(&root, "units", rb_report_json_units(units));
             rb_report_json_set(&root, "inputs", rb_report_json_inputs(st->base)); /* first case */
+            if (st->o->tolerance)
+                rb_report_json_uncertain_text(&root, st->o->tolerance);
             rb_report_json_set(&root, "table", table);
             s = rb_report_json_write(st->out, root);
         }

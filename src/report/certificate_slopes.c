@@ -95,13 +95,21 @@ static double slack_of_slope(const rb_certificate *c, const char *path, double w
 
 /* ---- What they are of -------------------------------------------------------------- */
 
+/* 0: no list; 1: a list; 2: lists in it. */
+static int depth(const json_t *value)
+{
+    int most = 0;
+    for (size_t k = 0; k < json_array_size(value); k++)
+        most = most || json_is_array(json_array_get(value, k));
+    return json_is_array(value) + most;
+}
+
 int rb_certificate_are_sides(const rb_certificate *c, int element, const json_t *one,
                              const json_t *other)
 {
     /* of a history there is a list of them, and of a column of a case they are lists */
     return c->slopes && (c->slopes->history != NULL) == (element > 0) &&
-           json_array_size(one) == 2 &&
-           json_is_array(json_array_get(one, 0)) == json_is_array(other);
+           json_array_size(one) == 2 && depth(one) == depth(other) + 1;
 }
 
 /* uncertain_inputs as the program takes them: "mu=0.02,radius=0.1". */

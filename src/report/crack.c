@@ -80,7 +80,7 @@ void rb_report_json_crack(json_t **root, const rb_case_crack_result *r)
     json_t *summary = numbers(&r->summary), *table = json_object();
     json_t *notes = json_array(), *known = json_object_get(*root, "notes");
 
-    rb_report_json_set(&summary, "status", json_string("solved"));
+    rb_report_json_set(&summary, "status", json_string(rb_status_text(r->status)));
     rb_report_json_set(&summary, "half_width", rb_report_json_number(r->half_width));
     rb_report_json_set(&summary, "passes", json_integer(r->passes));
     rb_report_json_set(&summary, "last_pass_from", json_integer(r->summary.from));

@@ -78,6 +78,8 @@ void rb_report_json_curves(json_t **root, const rb_report_curves *curves)
         }
         rb_report_json_append(&all, curve);
     }
+    if (curves->n > 0 && curves->slopes[0].tolerance)
+        rb_report_json_uncertain_text(root, curves->slopes[0].tolerance);
     rb_report_json_set(root, "curve", json_incref(json_array_get(all, 0)));
     if (curves->n > 1)
         rb_report_json_set(root, "curves", json_incref(all));

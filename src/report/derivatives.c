@@ -175,6 +175,23 @@ void rb_report_json_uncertain(json_t **root, const rb_case_tolerances *t, rb_uni
     rb_report_json_set(root, "uncertain_inputs", inputs);
 }
 
+void rb_report_json_uncertain_text(json_t **root, const char *text)
+{
+    json_t *inputs = json_object();
+
+    for (size_t n; *text; text += n + (text[n] == ',')) {
+        char name[40] = "", value[60] = "", *end;
+        n = strcspn(text, ",");
+        if (sscanf(text, " %39[^=, ] = %59[^,]", name, value) != 2)
+            continue;
+        const double x = rb_read_number(value, &end);
+        end += strspn(end, " ");
+        rb_report_json_set(&inputs, name,
+                           *end ? rb_report_json_text(value) : rb_report_json_number(x));
+    }
+    rb_report_json_set(root, "uncertain_inputs", inputs);
+}
+
 /* ---- Tables ------------------------------------------------------------------------ */
 
 /* A derivative in its row; one: what one per cent of the input changes. */
@@ -315,6 +332,8 @@ void rb_report_comment_slopes(const rb_report_cells *c, int n, const rb_case_slo
 {
     rb_message note;
 
+    if (s->tolerance)
+        rb_report_comment(c, "deviation_A: of A, from standard deviations of %s", s->tolerance);
     if (s->n > 0)
         rb_report_comment(c, "d_A_by_B: derivative of A with respect to B, for a growing "
                              "B where the two sides differ");

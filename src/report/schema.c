@@ -180,7 +180,9 @@ json_t *rb_report_json_schema(void)
                                "options of body B that are given with the value of A, with which "
                                "those that are not given vary"));
     rb_report_json_set(&of, "uncertain_inputs",
-                       typed("object", "of --tolerance: standard deviations of inputs"));
+                       typed("object",
+                             "of --tolerance: standard deviations of inputs; of curves and "
+                             "studies a text where they are per cent of each value"));
     rb_report_json_set(&of, "parameters",
                        typed("object", "of fit: value, interval and correlations of each"));
     rb_report_json_set(&of, "fit", typed("object", "points, fitted curve and its band"));
