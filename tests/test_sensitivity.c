@@ -36,40 +36,34 @@ static const rb_case_derivative *of(const rb_case_derivatives *all, const char *
 
 /* ---- Against differences of solutions ------------------------------------------------ */
 
-#define PLANES "support", "halfplane", "load", "500", "mesh", "uniform", "zone", "1.2"
-#define ROLLING "formulation", "steady"
+#define PLANES "support halfplane load 500 mesh uniform zone 1.2 "
+#define ROLLING "formulation steady "
 
 static const words regimes[] = {
-    {{PLANES, ROLLING, "similar", "yes", "creep-ratio", "0.5"}},
-    {{PLANES, ROLLING, "young-b", "70000", "poisson-b", "0.33", "creep", "-1e-3"}},
-    {{PLANES, ROLLING, "similar", "yes", "force-ratio", "-0.6", "interlayer-tangential", "1e-6",
-      "interlayer-normal", "1e-7"}},
-    {{PLANES, ROLLING, "similar", "yes", "force", "90", "slip-operator", "second"}},
-    {{"support", "halfplane", "mesh", "uniform", "zone", "1.2", ROLLING, "similar", "yes",
-      "approach", "0.015", "creep-ratio", "0.3"}},
-    {{"support", "halfplane", "mesh", "uniform", "zone", "1.2", ROLLING, "similar", "yes",
-      "half-width", "0.9", "creep", "5e-4"}},
-    {{PLANES, ROLLING, "young-b", "70000", "creep", "-2e-3", "friction-law", "exponential", "mu",
-      "0.2", "mu-fall", "0.2", "slip-scale", "5", "speed", "1000", "tol", "1e-13"}},
-    {{PLANES,     ROLLING, "similar", "yes",     "creep", "-1e-3",      "friction-law",
-      "rational", "mu",    "0.2",     "mu-fall", "0.2",   "slip-scale", "5",
-      "speed",    "1000",  "memory",  "0.1",     "tol",   "1e-13"}},
-    {{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "yield-stress", "30", "hardening", "100",
-      "interlayer-tangential", "1e-6"}},
+    {{PLANES ROLLING "similar yes creep-ratio 0.5"}},
+    {{PLANES ROLLING "young-b 70000 poisson-b 0.33 creep -1e-3"}},
+    {{PLANES ROLLING
+      "similar yes force-ratio -0.6 interlayer-tangential 1e-6 interlayer-normal 1e-7"}},
+    {{PLANES ROLLING "similar yes force 90 slip-operator second"}},
+    {{"support halfplane mesh uniform zone 1.2 " ROLLING
+      "similar yes approach 0.015 creep-ratio 0.3"}},
+    {{"support halfplane mesh uniform zone 1.2 " ROLLING "similar yes half-width 0.9 creep 5e-4"}},
+    {{PLANES ROLLING "young-b 70000 creep -2e-3 friction-law exponential mu 0.2 mu-fall 0.2 "
+                     "slip-scale 5 speed 1000 tol 1e-13"}},
+    {{PLANES ROLLING "similar yes creep -1e-3 friction-law rational mu 0.2 mu-fall 0.2 slip-scale "
+                     "5 speed 1000 memory 0.1 tol 1e-13"}},
+    {{PLANES ROLLING
+      "similar yes creep -1e-3 yield-stress 30 hardening 100 interlayer-tangential 1e-6"}},
     /* it yields where the surfaces slide, too */
-    {{PLANES, ROLLING, "similar", "yes", "creep", "-3e-3", "yield-stress", "5", "hardening", "1e5",
-      "interlayer-tangential", "1e-5", "slip-operator", "second"}},
-    {{PLANES, ROLLING, "young-b", "70000", "creep", "1.5e-3", "conductivity", "50", "heat-capacity",
-      "3.5", "speed", "1000"}},
-    {{PLANES, ROLLING, "similar", "yes", "creep", "1e-3", "conductivity", "50", "heat-capacity",
-      "3.8", "speed", "1000", "mu-heat", "-0.2,0,0.3", "tol", "1e-13"}},
-    {{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "relaxation-time", "1e-3",
-      "relaxation-ratio", "1", "speed", "1000"}},
-    {{PLANES, ROLLING, "creep", "1e-3", "layer-thickness", "2", "base-young", "200000",
-      "base-poisson", "0.3"}},
-    {{PLANES, "formulation", "static", "shift", "1e-3"}},
-    {{"support", "hub", "load", "500", "mesh", "uniform", "zone", "1.5", "contact-elements", "30",
-      ROLLING, "creep-ratio", "0.4"}},
+    {{PLANES ROLLING "similar yes creep -3e-3 yield-stress 5 hardening 1e5 interlayer-tangential "
+                     "1e-5 slip-operator second"}},
+    {{PLANES ROLLING "young-b 70000 creep 1.5e-3 conductivity 50 heat-capacity 3.5 speed 1000"}},
+    {{PLANES ROLLING "similar yes creep 1e-3 conductivity 50 heat-capacity 3.8 speed 1000 mu-heat "
+                     "-0.2,0,0.3 tol 1e-13"}},
+    {{PLANES ROLLING "similar yes creep -1e-3 relaxation-time 1e-3 relaxation-ratio 1 speed 1000"}},
+    {{PLANES ROLLING "creep 1e-3 layer-thickness 2 base-young 200000 base-poisson 0.3"}},
+    {{PLANES "formulation static shift 1e-3"}},
+    {{"support hub load 500 mesh uniform zone 1.5 contact-elements 30 " ROLLING "creep-ratio 0.4"}},
 };
 
 /* Five values around that of the case; 1: all have its zones. */
@@ -156,10 +150,10 @@ TEST(derivatives_are_those_of_solutions)
 /* A layer that yields needs the matrix that its solution has not. */
 TEST(a_model_without_a_matrix_is_given_one)
 {
-    static const words w[] = {{{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "yield-stress",
-                                "30", "contact-elements", "160"}},
-                              {{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "yield-stress",
-                                "30", "contact-elements", "160", "tol", "1e-13"}}};
+    static const words w[] = {
+        {{PLANES ROLLING "similar yes creep -1e-3 yield-stress 30 contact-elements 160"}},
+        {{PLANES ROLLING
+          "similar yes creep -1e-3 yield-stress 30 contact-elements 160 tol 1e-13"}}};
     rb_case_result r[2];
     rb_case_derivatives all[2];
     for (int k = 0; k < 2; k++) {
@@ -247,19 +241,15 @@ TEST(forward_is_adjoint)
 TEST(vectors_add_up)
 {
     static const words some[] = {
-        {{"support", "halfplane", "datum", "100", "datum-b", "100", "gap", "parabola", "load",
-          "500", "mesh", "uniform", "zone", "1.2", ROLLING, "similar", "yes", "creep", "1e-3"}},
-        {{"support", "halfplane", "datum", "100", "datum-b", "100", "gap", "parabola", "load",
-          "500", "mesh", "uniform", "zone", "1.2", ROLLING, "young-b", "70000", "force-ratio",
-          "-0.5"}},
-        {{"support", "halfplane", "datum", "100", "gap", "parabola", "approach", "0.03", "mesh",
-          "uniform", "zone", "1.2", ROLLING, "creep", "-5e-4"}},
+        {{"support halfplane datum 100 datum-b 100 gap parabola load 500 mesh uniform zone "
+          "1.2 " ROLLING "similar yes creep 1e-3"}},
+        {{"support halfplane datum 100 datum-b 100 gap parabola load 500 mesh uniform zone "
+          "1.2 " ROLLING "young-b 70000 force-ratio -0.5"}},
+        {{"support halfplane datum 100 gap parabola approach 0.03 mesh uniform zone 1.2 " ROLLING
+          "creep -5e-4"}},
         /* solved without a matrix */
-        {{"support", "halfplane", "datum",    "100",  "datum-b",
-          "100",     "gap",       "parabola", "load", "500",
-          "mesh",    "uniform",   "zone",     "1.2",  ROLLING,
-          "similar", "yes",       "creep",    "1e-3", "contact-elements",
-          "300"}}};
+        {{"support halfplane datum 100 datum-b 100 gap parabola load 500 mesh uniform zone "
+          "1.2 " ROLLING "similar yes creep 1e-3 contact-elements 300"}}};
     for (size_t k = 0; k < sizeof some / sizeof *some; k++) {
         rb_message why = {""};
         rb_case_result r;
@@ -298,11 +288,10 @@ TEST(vectors_add_up)
 TEST(strain_of_two_layers_has_two_sides)
 {
     static const words layers[] = {
-        {{PLANES, ROLLING, "similar", "yes", "creep", "1e-3", "layer-thickness", "2", "base-young",
-          "200000", "base-poisson", "0.3"}},
-        {{PLANES, ROLLING, "similar", "yes", "creep", "1e-3", "layer-thickness", "0.01",
-          "base-young", "200000", "base-poisson", "0.3", "contact-elements", "300", "gap",
-          "parabola"}}};
+        {{PLANES ROLLING
+          "similar yes creep 1e-3 layer-thickness 2 base-young 200000 base-poisson 0.3"}},
+        {{PLANES ROLLING "similar yes creep 1e-3 layer-thickness 0.01 base-young 200000 "
+                         "base-poisson 0.3 contact-elements 300 gap parabola"}}};
     static const char *const name = "layer-thickness-b";
     for (size_t k = 0; k < sizeof layers / sizeof *layers; k++) {
         rb_message why = {""};
@@ -332,7 +321,7 @@ TEST(strain_of_two_layers_has_two_sides)
 /* A force of 0 without friction is that of every creepage at which the surfaces slide. */
 TEST(a_force_without_friction_tells_no_creepage)
 {
-    static const words w = {{PLANES, ROLLING, "young-b", "70000", "mu", "0", "force", "0"}};
+    static const words w = {{PLANES ROLLING "young-b 70000 mu 0 force 0"}};
     static const char *const names[] = {"load", "mu"};
     rb_case_derivatives all;
     rb_case_result r;
@@ -355,8 +344,8 @@ static double carter_error(const char *elements, const char *mesh)
     for (int k = 0; k < 19; k++) {
         static const char *const names[] = {"creep-ratio"};
         const double s = 0.05 * (k + 1);
-        const words w = {{"support", "halfplane", "similar", "yes", "load", "20", ROLLING, "mesh",
-                          mesh, "contact-elements", elements}};
+        const words w = {{"support halfplane similar yes load 20 " ROLLING "mesh", mesh,
+                          "contact-elements", elements}};
         rb_message why = {""};
         rb_case_result r;
         rb_case_derivatives all;
@@ -385,12 +374,10 @@ TEST(carter_slopes)
 TEST(equal_elements_move_with_their_zone)
 {
     static const words moving[] = {
-        {{"support", "halfplane", "load", "500", "mesh", "uniform", ROLLING, "similar", "yes",
-          "creep-ratio", "0.5"}},
-        {{"support", "halfplane", "load", "500", "mesh", "uniform", ROLLING, "young-b", "70000",
-          "force", "60"}},
-        {{"support", "hub", "load", "500", "mesh", "uniform", "contact-elements", "30", ROLLING,
-          "creep-ratio", "0.4", "outer-elements", "60"}},
+        {{"support halfplane load 500 mesh uniform " ROLLING "similar yes creep-ratio 0.5"}},
+        {{"support halfplane load 500 mesh uniform " ROLLING "young-b 70000 force 60"}},
+        {{"support hub load 500 mesh uniform contact-elements 30 " ROLLING
+          "creep-ratio 0.4 outer-elements 60"}},
     };
     for (size_t k = 0; k < sizeof moving / sizeof *moving; k++) {
         rb_message why = {""};
@@ -413,10 +400,9 @@ TEST(fitted_elements_move_with_the_edges)
 {
     static const char *const meshes[] = {"uniform", "aligned", "fitted"};
     for (int k = 0; k < 6; k++) {
-        const words w = {{"support", "halfplane", "gap", "parabola", "load", "500", ROLLING, "mesh",
-                          meshes[k % 3], "creep-ratio", "0.5", "young", "94500",
-                          k < 3 ? "poisson-b" : "young-b", k < 3 ? "0.1" : "70000", "young-b",
-                          k < 3 ? "94500" : "70000"}};
+        const words w = {{"support halfplane gap parabola load 500 " ROLLING "mesh", meshes[k % 3],
+                          "creep-ratio 0.5 young 94500", k < 3 ? "poisson-b" : "young-b",
+                          k < 3 ? "0.1" : "70000", "young-b", k < 3 ? "94500" : "70000"}};
         rb_message why = {""};
         rb_case_result r;
         rb_case_derivatives all;
@@ -442,8 +428,8 @@ TEST(fitted_elements_move_with_the_edges)
 /* Where two elements have nearly the largest pressure: stresses scale with P and E. */
 TEST(peaks_stay_with_their_elements)
 {
-    const words w = {{"support", "halfplane", "gap", "parabola", "load", "500", ROLLING, "mesh",
-                      "fitted", "creep", "-0.0019", "contact-elements", "100"}};
+    const words w = {{"support halfplane gap parabola load 500 " ROLLING
+                      "mesh fitted creep -0.0019 contact-elements 100"}};
     static const char *const names[] = {"load", "young"};
     rb_message why = {""};
     rb_case_result r;
@@ -462,8 +448,8 @@ TEST(peaks_stay_with_their_elements)
 /* On fitted elements by mu, against solves that are fitted anew. */
 TEST(fitted_slopes_are_those_of_fitted_solves)
 {
-    const words w = {{"support", "halfplane", "load", "500", ROLLING, "mesh", "fitted",
-                      "contact-elements", "120", "young-b", "70000", "creep", "1e-3"}};
+    const words w = {{"support halfplane load 500 " ROLLING
+                      "mesh fitted contact-elements 120 young-b 70000 creep 1e-3"}};
     static const char *const names[] = {"mu", "creep", "load"};
     rb_message why = {""};
     rb_case_result r, left, right;
@@ -490,8 +476,8 @@ TEST(fitted_slopes_are_those_of_fitted_solves)
  * anew, whose edges rest to 1e-4 elements. */
 TEST(aligned_slopes_are_those_of_aligned_solves)
 {
-    const words w = {{"support", "halfplane", "load", "2000", "formulation", "steady", "mu", "0.5",
-                      "mesh", "aligned", "contact-elements", "24", "creep", "1e-3"}};
+    const words w = {{"support halfplane load 2000 formulation steady mu 0.5 mesh aligned "
+                      "contact-elements 24 creep 1e-3"}};
     static const char *const names[] = {"creep"};
     rb_message why = {""};
     rb_case_result r, left, right;
@@ -563,14 +549,14 @@ static void look_at_both_sides(const words *w, int has_matrix)
 
 TEST(both_sides_of_a_border)
 {
-    look_at_both_sides(&(words){{PLANES, ROLLING, "similar", "yes"}}, 1);
-    look_at_both_sides(&(words){{PLANES, ROLLING, "similar", "yes", "contact-elements", "160"}}, 0);
+    look_at_both_sides(&(words){{PLANES ROLLING "similar yes"}}, 1);
+    look_at_both_sides(&(words){{PLANES ROLLING "similar yes contact-elements 160"}}, 0);
 }
 
 /* Numbers at an end of their range have the other side alone. */
 TEST(ends_of_ranges)
 {
-    const words w = {{PLANES, ROLLING, "similar", "yes", "creep", "-5e-4"}};
+    const words w = {{PLANES ROLLING "similar yes creep -5e-4"}};
     rb_message why = {""};
     rb_case_result r, some;
     rb_case_derivatives all;
@@ -593,9 +579,8 @@ TEST(ends_of_ranges)
 /* Heat brings the coefficient to 0, but not below. */
 TEST(what_heat_takes_away)
 {
-    const words w = {{PLANES, ROLLING, "similar", "yes", "creep", "2e-3", "speed", "1000",
-                      "conductivity", "50", "heat-capacity", "3.8", "mu", "0.2", "mu-heat",
-                      "-0.2,0,1", "tol", "1e-13"}};
+    const words w = {{PLANES ROLLING "similar yes creep 2e-3 speed 1000 conductivity 50 "
+                                     "heat-capacity 3.8 mu 0.2 mu-heat -0.2,0,1 tol 1e-13"}};
     const double step = 1e-6;
     rb_message why = {""};
     rb_case_result r, some[2];
@@ -625,11 +610,11 @@ TEST(what_heat_takes_away)
 TEST(friction_begins_where_nothing_slides)
 {
     static const words cases[] = {
-        {{PLANES, ROLLING, "similar", "yes", "creep", "0"}},
-        {{PLANES, "similar", "yes"}},
-        {{PLANES, "similar", "yes", "contact-elements", "400"}}, /* transforms */
-        {{PLANES, "contact-elements", "61"}},                    /* one element in the middle */
-        {{PLANES, "contact-elements", "61", ROLLING, "creep", "0"}},
+        {{PLANES ROLLING "similar yes creep 0"}},
+        {{PLANES "similar yes"}},
+        {{PLANES "similar yes contact-elements 400"}}, /* transforms */
+        {{PLANES "contact-elements 61"}},              /* one element in the middle */
+        {{PLANES "contact-elements 61 " ROLLING "creep 0"}},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         rb_message why = {""};
@@ -675,8 +660,8 @@ TEST(units_of_derivatives)
     rb_case_result_free(&r);
     rb_case_free(c);
     /* of a number that was given in the units of the case: all slides, Q = -mu P */
-    static const words metres = {{"units", "si", "support", "halfplane", "load", "5e5", ROLLING,
-                                  "creep", "1e-2", "contact-elements", "20"}};
+    static const words metres = {
+        {"units si support halfplane load 5e5 " ROLLING "creep 1e-2 contact-elements 20"}};
     c = solved(&metres, NULL, 0.0, &r);
     CHECK_STATUS(rb_case_differentiate(c, &r.model, 1, names, &all, &why), RB_OK);
     CHECK_REL(all.of[0].value, 500.0, 1e-14, "load in N/mm");
@@ -704,7 +689,7 @@ TEST(laws_without_memory)
 
 TEST(steps_are_refused)
 {
-    const words w = {{PLANES, "formulation", "static", "increments", "3"}};
+    const words w = {{PLANES "formulation static increments 3"}};
     rb_message why = {""};
     rb_case_result r;
     rb_sensitivity *s;

@@ -7,65 +7,54 @@
 
 /* ---- Histories --------------------------------------------------------------------- */
 
-#define PLANES "support", "halfplane", "load", "500", "contact-elements", "30"
-#define ROLLS "formulation", "transient", "distance", "1"
+#define PLANES "support halfplane load 500 contact-elements 30 "
+#define ROLLS "formulation transient distance 1 "
 /* A wheel of which, within the usual step of some inputs, an element goes from one side to the
  * other. */
 #define SIDES_CHANGE                                                                               \
-    "support", "arc", "arc", "60", "outer-elements", "300", "contact-elements", "15", "zone", "2", \
-        "poisson", "0.4", "young-b", "200000", "poisson-b", "0.28", "datum-b", "60", "approach",   \
-        "0.04", "force-ratio", "-0.4", "formulation", "steady", "mesh", "uniform", "plane",        \
-        "stress"
+    "support arc arc 60 outer-elements 300 contact-elements 15 zone 2 poisson 0.4 young-b 200000 " \
+    "poisson-b 0.28 datum-b 60 approach 0.04 force-ratio -0.4 formulation steady mesh uniform "    \
+    "plane stress "
 
 #define YIELDING_WHEEL                                                                             \
-    "support", "hub", "half-width", "1", "contact-elements", "30", "outer-elements", "60",         \
-        "formulation", "transient", "interlayer-tangential", "3e-6", "hardening", "20000"
+    "support hub half-width 1 contact-elements 30 outer-elements 60 formulation transient "        \
+    "interlayer-tangential 3e-6 hardening 20000 "
 
 static const words histories[] = {
-    {{PLANES, ROLLS, "similar", "yes", "creep", "1e-3"}},
-    {{PLANES, ROLLS, "young-b", "70000", "creep", "-2e-3", "steps", "9"}},
-    {{PLANES, ROLLS, "similar", "yes", "force", "60", "interlayer-tangential", "1e-6", "zone",
-      "1.3"}},
-    {{PLANES, ROLLS, "young-b", "70000", "force-ratio", "-0.5"}},
-    {{PLANES, "formulation", "static", "young-b", "70000", "increments", "4", "shift", "1e-3"}},
-    {{PLANES, "formulation", "static", "similar", "yes", "increments", "5", "force-ratio", "0.6"}},
-    {{"support", "hub", "load", "500", "contact-elements", "20", "outer-elements", "60", ROLLS,
-      "creep-ratio", "0.5"}},
-    {{PLANES, ROLLS, "similar", "yes", "creep", "1e-3", "relaxation-time", "1e-3",
-      "relaxation-ratio", "1", "speed", "1000", "zone", "2"}},
-    {{PLANES, ROLLS, "similar", "yes", "creep", "1e-3", "conductivity", "50", "heat-capacity",
-      "3.5", "speed", "1000"}},
-    {{PLANES, ROLLS, "creep", "1e-3", "layer-thickness", "2", "base-young", "200000",
-      "base-poisson", "0.3"}},
+    {{PLANES ROLLS "similar yes creep 1e-3"}},
+    {{PLANES ROLLS "young-b 70000 creep -2e-3 steps 9"}},
+    {{PLANES ROLLS "similar yes force 60 interlayer-tangential 1e-6 zone 1.3"}},
+    {{PLANES ROLLS "young-b 70000 force-ratio -0.5"}},
+    {{PLANES "formulation static young-b 70000 increments 4 shift 1e-3"}},
+    {{PLANES "formulation static similar yes increments 5 force-ratio 0.6"}},
+    {{"support hub load 500 contact-elements 20 outer-elements 60 " ROLLS "creep-ratio 0.5"}},
+    {{PLANES ROLLS
+      "similar yes creep 1e-3 relaxation-time 1e-3 relaxation-ratio 1 speed 1000 zone 2"}},
+    {{PLANES ROLLS "similar yes creep 1e-3 conductivity 50 heat-capacity 3.5 speed 1000"}},
+    {{PLANES ROLLS "creep 1e-3 layer-thickness 2 base-young 200000 base-poisson 0.3"}},
     /* no force at rest without friction: none by mu, but all others */
-    {{PLANES, ROLLS, "young-b", "70000", "creep", "2e-3", "mu", "0"}},
+    {{PLANES ROLLS "young-b 70000 creep 2e-3 mu 0"}},
     /* state variables that the particles carry: the slip of what yields, laws by slip, by
      * temperature and with memory; under a force past slips shift all others */
-    {{YIELDING_WHEEL, "distance", "0.2", "creep", "-2e-3", "yield-stress", "40"}},
-    {{PLANES, "formulation", "transient", "distance", "0.4", "similar", "yes", "force-ratio",
-      "-0.5", "speed", "3000", "friction-law", "rational", "mu-fall", "0.15", "slip-scale", "10"}},
-    {{"support", "halfplane", "load",       "2000",         "contact-elements",
-      "30",      ROLLS,       "creep",      "1e-3",         "plane",
-      "stress",  "speed",     "3000",       "friction-law", "exponential",
-      "mu-fall", "0.1",       "slip-scale", "30",           "memory",
-      "0.001"}},
-    {{"support",        "hub",  "half-width",  "1",         "contact-elements", "20",
-      "outer-elements", "60",   "formulation", "transient", "distance",         "0.4",
-      "creep",          "6e-3", "speed",       "500",       "conductivity",     "50",
-      "heat-capacity",  "3.7",  "mu-heat",     "-0.1,0,30"}},
+    {{YIELDING_WHEEL "distance 0.2 creep -2e-3 yield-stress 40"}},
+    {{PLANES "formulation transient distance 0.4 similar yes force-ratio -0.5 speed 3000 "
+             "friction-law rational mu-fall 0.15 slip-scale 10"}},
+    {{"support halfplane load 2000 contact-elements 30 " ROLLS
+      "creep 1e-3 plane stress speed 3000 friction-law exponential mu-fall 0.1 slip-scale 30 "
+      "memory 0.001"}},
+    {{"support hub half-width 1 contact-elements 20 outer-elements 60 formulation transient "
+      "distance 0.4 creep 6e-3 speed 500 conductivity 50 heat-capacity 3.7 mu-heat -0.1,0,30"}},
     /* within a step what has yielded hardly at all may yield the other way, and another element
      * may become the warmest one */
-    {{YIELDING_WHEEL, "distance", "0.74", "steps", "3", "force-ratio", "-0.5", "yield-stress",
-      "100"}},
-    {{"support",       "halfplane", "load",     "2000",     "contact-elements", "30",
-      "formulation",   "transient", "distance", "0.7",      "increments",       "3",
-      "force-ratio",   "-0.5",      "speed",    "3000",     "conductivity",     "50",
-      "heat-capacity", "3.7",       "mu-heat",  "0.1,-5,60"}},
+    {{YIELDING_WHEEL "distance 0.74 steps 3 force-ratio -0.5 yield-stress 100"}},
+    {{"support halfplane load 2000 contact-elements 30 formulation transient distance 0.7 "
+      "increments 3 force-ratio -0.5 speed 3000 conductivity 50 heat-capacity 3.7 mu-heat "
+      "0.1,-5,60"}},
     /* steps of just an element, on elements that stay */
-    {{"support", "halfplane", "similar", "yes", "half-width", "1", "zone", "1.2",
-      "contact-elements", "36", ROLLS, "creep", "1e-3", "steps", "15"}},
-    {{"support", "halfplane", "contact-elements", "30", "formulation", "transient", "similar",
-      "yes", "history", "tests/data/slopes_history.tsv"}},
+    {{"support halfplane similar yes half-width 1 zone 1.2 contact-elements 36 " ROLLS
+      "creep 1e-3 steps 15"}},
+    {{"support halfplane contact-elements 30 formulation transient similar yes history "
+      "tests/data/slopes_history.tsv"}},
 };
 
 TEST(histories_have_derivatives)
@@ -86,8 +75,8 @@ TEST(histories_have_derivatives)
 /* Those of an automatic zone under a table of the gap stay, as those of a zone given like it. */
 TEST(elements_under_a_table_stay)
 {
-    static const words w = {{PLANES, ROLLS, "similar", "yes", "creep", "1e-3", "mesh", "uniform",
-                             "gap", "tests/data/slopes_gap.tsv"}};
+    static const words w = {
+        {PLANES ROLLS "similar yes creep 1e-3 mesh uniform gap tests/data/slopes_gap.tsv"}};
     rb_case_slopes of[2] = {{0}};
     double zone = 0.0;
 
@@ -118,16 +107,14 @@ TEST(elements_under_a_table_stay)
 }
 
 #define A_STEP_IS_AN_ELEMENT                                                                       \
-    "support", "halfplane", "similar", "yes", "young", "364", "poisson", "0.3", "radius", "100",   \
-        "half-width", "1", "mesh", "uniform", "zone", "1.2", "contact-elements", "36", ROLLS,      \
-        "creep", "1e-3"
+    "support halfplane similar yes young 364 poisson 0.3 radius 100 half-width 1 mesh uniform "    \
+    "zone 1.2 contact-elements 36 " ROLLS "creep 1e-3 "
 
 /* Where the way is a whole number of given elements, a larger half-width would bring one more
  * step: the number of steps stays, as if it were given. */
 TEST(the_number_of_steps_stays)
 {
-    static const words cases[] = {{{A_STEP_IS_AN_ELEMENT}},
-                                  {{A_STEP_IS_AN_ELEMENT, "steps", "15"}}};
+    static const words cases[] = {{{A_STEP_IS_AN_ELEMENT}}, {{A_STEP_IS_AN_ELEMENT "steps 15"}}};
     rb_case_slopes of[2] = {{0}};
 
     for (int given = 0; given < 2; given++) {
@@ -193,9 +180,8 @@ TEST(tolerances_need_derivatives)
 /* A boundary that is compressed: variants are so closely that steps do not show it. */
 TEST(compressed_boundaries_have_derivatives)
 {
-    static const words w = {{"support", "hub", "load", "500", "contact-elements", "16",
-                             "outer-elements", "1500", "formulation", "steady", "mesh", "uniform",
-                             "creep-ratio", "0.4", "poisson", "0.3"}};
+    static const words w = {{"support hub load 500 contact-elements 16 outer-elements 1500 "
+                             "formulation steady mesh uniform creep-ratio 0.4 poisson 0.3"}};
     rb_message why = {""};
     differences d;
     held_case *c = case_of(RB_CASE_SINGLE, &w, "tol", 1e-13);
@@ -298,8 +284,8 @@ TEST(rates_of_wheels_are_those_of_derivatives)
 /* Nor do the elements that follow its edges: not even by rounding. */
 TEST(the_pressure_of_similar_bodies_does_not_depend_on_friction)
 {
-    static const words w = {{PLANES, "similar", "yes", "formulation", "steady", "mesh", "fitted",
-                             "radius", "460", "creep-ratio", "0.5"}};
+    static const words w = {
+        {PLANES "similar yes formulation steady mesh fitted radius 460 creep-ratio 0.5"}};
     static const char *const name[] = {"mu"};
     held_case *c = case_of(RB_CASE_SINGLE, &w, NULL, 0.0);
     rb_case_derivatives all;
@@ -319,49 +305,15 @@ TEST(the_pressure_of_similar_bodies_does_not_depend_on_friction)
  * other results as they are: forces that grow together make all forces grow as they do. */
 TEST(what_free_rolling_has_not_other_results_have)
 {
-    static const words w = {{PLANES,
-                             "formulation",
-                             "steady",
-                             "plane",
-                             "stress",
-                             "radius",
-                             "28.986355077556603",
-                             "young",
-                             "87276.939048569795",
-                             "poisson",
-                             "0.40571236782852915",
-                             "young-b",
-                             "69993.051422520657",
-                             "poisson-b",
-                             "0.24693157230221024",
-                             "radius-b",
-                             "-164.70091947493714",
-                             "contact-elements",
-                             "15",
-                             "mesh",
-                             "uniform",
-                             "zone",
-                             "1.0135058831246722",
-                             "load",
-                             "474.43679874774131",
-                             "mu",
-                             "0.303283812935981",
-                             "creep-ratio",
-                             "-1.1248225562948853",
-                             "interlayer-tangential",
-                             "1.5887741439552933e-06",
-                             "interlayer-normal",
-                             "2.78571852354534e-06",
-                             "conductivity",
-                             "50",
-                             "heat-capacity",
-                             "3.5",
-                             "speed",
-                             "3985.6112748102541",
-                             "temperature",
-                             "303.60907274736763",
-                             "mu-heat",
-                             "0.0606568,303.609,101.406"}};
+    static const words w = {
+        {PLANES
+         "formulation steady plane stress radius 28.986355077556603 young 87276.939048569795 "
+         "poisson 0.40571236782852915 young-b 69993.051422520657 poisson-b 0.24693157230221024 "
+         "radius-b -164.70091947493714 contact-elements 15 mesh uniform zone 1.0135058831246722 "
+         "load 474.43679874774131 mu 0.303283812935981 creep-ratio -1.1248225562948853 "
+         "interlayer-tangential 1.5887741439552933e-06 interlayer-normal 2.78571852354534e-06 "
+         "conductivity 50 heat-capacity 3.5 speed 3985.6112748102541 temperature "
+         "303.60907274736763 mu-heat 0.0606568,303.609,101.406"}};
     static const struct {
         const char *name;
         double forces;
@@ -399,122 +351,33 @@ TEST(what_free_rolling_has_not_other_results_have)
 TEST(single_cases_have_derivatives)
 {
     static const words cases[] = {
-        {{PLANES, "formulation", "steady", "young-b", "70000", "creep", "1e-3", "mesh", "fitted"}},
-        {{PLANES, "formulation", "steady", "similar", "yes", "creep-ratio", "0.4", "mesh",
-          "aligned"}},
+        {{PLANES "formulation steady young-b 70000 creep 1e-3 mesh fitted"}},
+        {{PLANES "formulation steady similar yes creep-ratio 0.4 mesh aligned"}},
         /* edges that move with their elements: coupled strongly */
-        {{PLANES, "formulation", "steady", "mu", "0.5", "creep", "1.5e-3", "mesh", "aligned"}},
-        {{PLANES, "formulation", "steady", "creep-ratio", "0.4", "mesh", "fitted", "plane",
-          "stress", "layer-thickness", "2"}},
-        {{"support", "hub", "load", "500", "contact-elements", "24", "formulation", "steady",
-          "force-ratio", "0.4", "mesh", "fitted", "outer-elements", "60"}},
-        {{"support", "halfplane", "formulation", "steady", "similar", "yes", "creep-ratio", "-0.4",
-          "half-width", "1", "yield-stress", "200", "hardening", "-2000", "mu", "3",
-          "contact-elements", "20"}},
+        {{PLANES "formulation steady mu 0.5 creep 1.5e-3 mesh aligned"}},
+        {{PLANES "formulation steady creep-ratio 0.4 mesh fitted plane stress layer-thickness 2"}},
+        {{"support hub load 500 contact-elements 24 formulation steady force-ratio 0.4 mesh fitted "
+          "outer-elements 60"}},
+        {{"support halfplane formulation steady similar yes creep-ratio -0.4 half-width 1 "
+          "yield-stress 200 hardening -2000 mu 3 contact-elements 20"}},
         /* within the step an element that has yielded a little yields the other way */
-        {{"support",
-          "arc",
-          "radius",
-          "43.8288793752594",
-          "young",
-          "86031.693619636353",
-          "poisson",
-          "0.16526445309944826",
-          "contact-elements",
-          "24",
-          "outer-elements",
-          "80",
-          "mesh",
-          "uniform",
-          "zone",
-          "1.2480744201363148",
-          "load",
-          "469.02823832666422",
-          "mu",
-          "0.43314972785413369",
-          "force-ratio",
-          "0.28434611288455508",
-          "interlayer-tangential",
-          "2.2151411605529795e-06",
-          "interlayer-normal",
-          "1.3458442772155702e-06",
-          "yield-stress",
-          "58.638175546896569",
-          "hardening",
-          "28820.744971838809"}},
+        {{"support arc radius 43.8288793752594 young 86031.693619636353 poisson "
+          "0.16526445309944826 contact-elements 24 outer-elements 80 mesh uniform zone "
+          "1.2480744201363148 load 469.02823832666422 mu 0.43314972785413369 force-ratio "
+          "0.28434611288455508 interlayer-tangential 2.2151411605529795e-06 interlayer-normal "
+          "1.3458442772155702e-06 yield-stress 58.638175546896569 hardening 28820.744971838809"}},
         /* within the step another element becomes the warmest one */
-        {{"support",     "halfplane",     "load",   "800",     "contact-elements",
-          "15",          "formulation",   "steady", "similar", "yes",
-          "force-ratio", "-0.4",          "mesh",   "fitted",  "conductivity",
-          "50",          "heat-capacity", "3.5",    "speed",   "3000"}},
+        {{"support halfplane load 800 contact-elements 15 formulation steady similar yes "
+          "force-ratio -0.4 mesh fitted conductivity 50 heat-capacity 3.5 speed 3000"}},
         /* within the step the power of an element beside stick changes its sign */
-        {{"support",
-          "arc",
-          "arc",
-          "71",
-          "radius",
-          "14.9",
-          "young",
-          "171800",
-          "poisson",
-          "0.3",
-          "mu",
-          "0.132",
-          "speed",
-          "1000",
-          "conductivity",
-          "36.2",
-          "heat-capacity",
-          "10",
-          "formulation",
-          "steady",
-          "mesh",
-          "fitted",
-          "approach",
-          "0.00186",
-          "creep",
-          "-6.5e-6",
-          "contact-elements",
-          "39"}},
+        {{"support arc arc 71 radius 14.9 young 171800 poisson 0.3 mu 0.132 speed 1000 "
+          "conductivity 36.2 heat-capacity 10 formulation steady mesh fitted approach 0.00186 "
+          "creep -6.5e-6 contact-elements 39"}},
         /* a slip beside that at which memory has a kink */
-        {{"support",
-          "halfplane",
-          "radius",
-          "45",
-          "young",
-          "1.1",
-          "poisson",
-          "-0.3",
-          "young-b",
-          "0.83",
-          "poisson-b",
-          "0.45",
-          "layer-thickness-b",
-          "1.6",
-          "base-young-b",
-          "9.3",
-          "datum-b",
-          "16",
-          "mu",
-          "0.039",
-          "speed",
-          "1000",
-          "friction-law",
-          "exponential",
-          "mu-fall",
-          "0.0117",
-          "slip-scale",
-          "0.273",
-          "memory",
-          "7.7e-6,0.1476",
-          "formulation",
-          "steady",
-          "approach",
-          "0.00417",
-          "force-ratio",
-          "-0.43",
-          "contact-elements",
-          "19"}},
+        {{"support halfplane radius 45 young 1.1 poisson -0.3 young-b 0.83 poisson-b 0.45 "
+          "layer-thickness-b 1.6 base-young-b 9.3 datum-b 16 mu 0.039 speed 1000 friction-law "
+          "exponential mu-fall 0.0117 slip-scale 0.273 memory 7.7e-6,0.1476 formulation steady "
+          "approach 0.00417 force-ratio -0.43 contact-elements 19"}},
         {{SIDES_CHANGE}}};
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
@@ -533,28 +396,10 @@ TEST(single_cases_have_derivatives)
 /* The edge that is found may jump with the mesh; a/(2R) has the derivative that follows from a. */
 TEST(the_strain_without_a_layer_follows_the_half_width)
 {
-    static const words w = {{"support",
-                             "arc",
-                             "arc",
-                             "37.787495254254864",
-                             "radius",
-                             "293.2308540130111",
-                             "young",
-                             "461.47108588842997",
-                             "poisson",
-                             "-0.3",
-                             "similar",
-                             "yes",
-                             "mu",
-                             "0.3331272921451354",
-                             "formulation",
-                             "steady",
-                             "load",
-                             "117.86737277829526",
-                             "creep",
-                             "-0.002735447231628198",
-                             "contact-elements",
-                             "38"}};
+    static const words w = {
+        {"support arc arc 37.787495254254864 radius 293.2308540130111 young 461.47108588842997 "
+         "poisson -0.3 similar yes mu 0.3331272921451354 formulation steady load "
+         "117.86737277829526 creep -0.002735447231628198 contact-elements 38"}};
     static const char *const name[] = {"radius"};
     held_case *c = case_of(RB_CASE_SINGLE, &w, NULL, 0.0);
     const double radius = rb_rolling_derive(&rb_case_resolved(c)->rc).radius;
@@ -575,8 +420,8 @@ TEST(the_strain_without_a_layer_follows_the_half_width)
 
 TEST(refusals_of_histories)
 {
-    static const words by_approach = {{"support", "halfplane", ROLLS, "similar", "yes", "creep",
-                                       "1e-3", "approach", "0.01", "contact-elements", "30"}};
+    static const words by_approach = {
+        {"support halfplane " ROLLS "similar yes creep 1e-3 approach 0.01 contact-elements 30"}};
     held_case *c = case_of(RB_CASE_SINGLE, &by_approach, NULL, 0.0);
     differences d;
 
@@ -590,7 +435,7 @@ TEST(refusals_of_histories)
 TEST(samples_of_histories_scatter_as_tolerances)
 {
     enum { BITS = 6, N = 1 << BITS };
-    static const words w = {{PLANES, ROLLS, "similar", "yes", "creep", "1e-3"}};
+    static const words w = {{PLANES ROLLS "similar yes creep 1e-3"}};
     const double load = 500.0, mu = 0.3;
     held_case *c = case_of(RB_CASE_SINGLE, &w, NULL, 0.0);
     rb_case_tolerances t;
@@ -655,14 +500,14 @@ TEST(points_are_single_cases)
         rb_rolling_range range;
         const char *over;
     } curve[] = {
-        {{{PLANES, "mesh", "uniform", "similar", "yes", "zone", "1.2"}},
+        {{{PLANES "mesh uniform similar yes zone 1.2"}},
          {RB_OVER_CREEP_RATIO, 0.1, 0.9, 3},
          "creep-ratio"},
-        {{{PLANES, "mesh", "uniform", "young-b", "70000", "interlayer-tangential", "1e-6"}},
+        {{{PLANES "mesh uniform young-b 70000 interlayer-tangential 1e-6"}},
          {RB_OVER_CREEP, -2e-3, 1e-3, 4},
          "creep"},
-        {{{PLANES, "mesh", "uniform", "similar", "yes", "relaxation-time", "1e-3",
-           "relaxation-ratio", "1", "creep", "1e-3", "zone", "2"}},
+        {{{PLANES
+           "mesh uniform similar yes relaxation-time 1e-3 relaxation-ratio 1 creep 1e-3 zone 2"}},
          {RB_OVER_SPEED, 100, 10000, 3},
          "speed"}};
     for (size_t k = 0; k < sizeof curve / sizeof *curve; k++) {
@@ -682,9 +527,8 @@ TEST(points_are_single_cases)
             OWNED(rb_case_result) r;
             int at = 0;
             while (one.word[at])
-                at += 2;
-            one.word[at] = "formulation";
-            one.word[at + 1] = "steady";
+                at++;
+            one.word[at] = "formulation steady";
             const double value = curve[k].range.over == RB_OVER_SPEED   ? points.speed[row]
                                  : curve[k].range.over == RB_OVER_CREEP ? points.creepage[row]
                                                                         : points.creep_ratio[row];

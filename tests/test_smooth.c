@@ -7,9 +7,9 @@
 #include <gsl/gsl_math.h>
 #include <string.h>
 
-#define ROLLING "support", "halfplane", "formulation", "steady", "load", "500"
-#define FIXED ROLLING, "mesh", "uniform", "zone", "1.2", "contact-elements", "50"
-#define ALIGNED ROLLING, "gap", "parabola", "mesh", "aligned"
+#define ROLLING "support halfplane formulation steady load 500 "
+#define FIXED ROLLING "mesh uniform zone 1.2 contact-elements 50 "
+#define ALIGNED ROLLING "gap parabola mesh aligned "
 
 /* A solved case and its derivatives with respect to one input. */
 typedef struct {
@@ -80,8 +80,8 @@ static const char *const slope_name[SLOPES] = {"Q by s", "Q by mu", "D by s", "D
 static void carter_errors(const char *elements, const char *mesh, int smooth, double error[SLOPES])
 {
     enum { PLACES = 53 };
-    const words w = {{ROLLING, "similar", "yes", "gap", "parabola", "mu", "0.3", "mesh", mesh,
-                      "contact-elements", elements}};
+    const words w = {
+        {ROLLING "similar yes gap parabola mu 0.3 mesh", mesh, "contact-elements", elements}};
     const double mu = 0.3, P = 500.0, E = 94500.0 / (2.0 * (1.0 - 0.1 * 0.1)),
                  unit = mu * sqrt(4.0 * P / (M_PI * E * 50.0)); /* mu a/R */
     double sum[SLOPES] = {0.0};
@@ -149,15 +149,11 @@ TEST(jumps_are_those_of_solutions)
         const char *input;
         double value[3];
     } tests[] = {
-        {{{FIXED, "similar", "yes"}}, "creep", {-8e-4, -1.13e-3, -2.01e-3}},
-        {{{FIXED, "similar", "yes", "creep", "-1.1e-3"}}, "mu", {0.21, 0.3, 0.41}},
-        {{{FIXED, "similar", "yes", "interlayer-tangential", "1e-6"}},
-         "creep",
-         {-8e-4, -1.13e-3, -2.02e-3}},
-        {{{FIXED, "similar", "yes", "slip-operator", "second"}},
-         "creep",
-         {-8e-4, -1.13e-3, -2.01e-3}},
-        {{{FIXED, "similar", "yes", "slip-operator", "second"}}, "force-ratio", {0.23, 0.5, 0.71}},
+        {{{FIXED "similar yes"}}, "creep", {-8e-4, -1.13e-3, -2.01e-3}},
+        {{{FIXED "similar yes creep -1.1e-3"}}, "mu", {0.21, 0.3, 0.41}},
+        {{{FIXED "similar yes interlayer-tangential 1e-6"}}, "creep", {-8e-4, -1.13e-3, -2.02e-3}},
+        {{{FIXED "similar yes slip-operator second"}}, "creep", {-8e-4, -1.13e-3, -2.01e-3}},
+        {{{FIXED "similar yes slip-operator second"}}, "force-ratio", {0.23, 0.5, 0.71}},
     };
     int sides[2] = {0, 0};
     for (size_t t = 0; t < sizeof tests / sizeof *tests; t++)
@@ -212,49 +208,40 @@ TEST(smooth_derivatives_are_continuous)
         const char *result, *input;
         double value;
     } tests[] = {
-        {{{ALIGNED, "similar", "yes", "contact-elements", "80"}},
-         "tangential_load",
-         "creep",
-         -1.1e-3},
-        {{{ALIGNED, "similar", "yes", "contact-elements", "80"}}, "dissipation", "creep", -1.1e-3},
-        {{{ALIGNED, "young-b", "70000", "contact-elements", "80", "creep", "-1.1e-3"}},
+        {{{ALIGNED "similar yes contact-elements 80"}}, "tangential_load", "creep", -1.1e-3},
+        {{{ALIGNED "similar yes contact-elements 80"}}, "dissipation", "creep", -1.1e-3},
+        {{{ALIGNED "young-b 70000 contact-elements 80 creep -1.1e-3"}},
          "dissipation",
          "load",
          500.0},
-        {{{ALIGNED, "similar", "yes", "contact-elements", "80", "conductivity", "50",
-           "heat-capacity", "3.5", "speed", "1000"}},
+        {{{ALIGNED "similar yes contact-elements 80 conductivity 50 heat-capacity 3.5 speed 1000"}},
          "max_temperature",
          "creep",
          -1.1e-3},
-        {{{ALIGNED, "similar", "yes", "contact-elements", "80", "creep", "-1.1e-3"}},
-         "tangential_load",
-         "mu",
-         0.3},
-        {{{ALIGNED, "similar", "yes", "contact-elements", "80", "creep", "-1.1e-3"}},
+        {{{ALIGNED "similar yes contact-elements 80 creep -1.1e-3"}}, "tangential_load", "mu", 0.3},
+        {{{ALIGNED "similar yes contact-elements 80 creep -1.1e-3"}},
          "tangential_load",
          "load",
          500.0},
-        {{{ALIGNED, "young-b", "70000", "contact-elements", "80", "creep", "-1.1e-3"}},
+        {{{ALIGNED "young-b 70000 contact-elements 80 creep -1.1e-3"}},
          "tangential_load",
          "mu",
          0.3},
-        {{{ROLLING, "gap", "parabola", "mesh", "fitted", "young-b", "70000", "contact-elements",
-           "60"}},
+        {{{ROLLING "gap parabola mesh fitted young-b 70000 contact-elements 60"}},
          "tangential_load",
          "creep",
          -1.1e-3},
-        {{{FIXED, "similar", "yes", "friction-law", "exponential", "mu-fall", "0.3", "slip-scale",
-           "5", "speed", "1000"}},
+        {{{FIXED "similar yes friction-law exponential mu-fall 0.3 slip-scale 5 speed 1000"}},
          "tangential_load",
          "creep",
          -1.5e-3},
-        {{{ROLLING, "gap", "parabola", "mesh", "aligned", "similar", "yes", "layer-thickness", "1",
-           "base-young", "300000", "base-poisson", "0.3", "contact-elements", "60"}},
+        {{{ROLLING "gap parabola mesh aligned similar yes layer-thickness 1 base-young 300000 "
+                   "base-poisson 0.3 contact-elements 60"}},
          "tangential_load",
          "creep",
          -1.3e-3},
-        {{{"support", "halfplane", "load", "500", "similar", "yes", "gap", "parabola", "mesh",
-           "aligned", "formulation", "static", "contact-elements", "60"}},
+        {{{"support halfplane load 500 similar yes gap parabola mesh aligned formulation static "
+           "contact-elements 60"}},
          "tangential_load",
          "shift",
          1.5e-3},
@@ -289,8 +276,8 @@ TEST(smooth_derivatives_are_continuous)
 TEST(free_rolling_is_smooth_too)
 {
     enum { PLACES = 7 };
-    const words w = {{ROLLING, "poisson", "0.2", "gap", "parabola", "mesh", "aligned", "creep",
-                      "-3e-2", "contact-elements", "240"}};
+    const words w = {
+        {ROLLING "poisson 0.2 gap parabola mesh aligned creep -3e-2 contact-elements 240"}};
     const double step = 1e-3;
     double slope[2][PLACES], kink[2] = {0.0, 0.0}, sum = 0.0, xi[2] = {0.0, 0.0};
     for (int k = 0; k < PLACES; k++)
@@ -316,8 +303,7 @@ TEST(free_rolling_is_smooth_too)
  * creepage, so that in the middle between two changes of the other one nothing is added. */
 TEST(a_zone_at_an_edge_does_not_count)
 {
-    const words w = {
-        {ROLLING, "mesh", "uniform", "zone", "1.2", "contact-elements", "60", "similar", "yes"}};
+    const words w = {{ROLLING "mesh uniform zone 1.2 contact-elements 60 similar yes"}};
     rb_message why = {""};
     differentiated d;
     double value = -1.13e-3;
@@ -340,7 +326,7 @@ TEST(a_zone_at_an_edge_does_not_count)
 TEST(transforms_have_the_same_smooth_derivatives)
 {
     static const char *const inputs[] = {"mu", "load", "creep"};
-    const words w = {{ALIGNED, "similar", "yes", "creep", "-1.1e-3", "contact-elements", "400"}};
+    const words w = {{ALIGNED "similar yes creep -1.1e-3 contact-elements 400"}};
     rb_message why = {""};
     differentiated fast;
     rb_rolling_model dense;
@@ -368,23 +354,22 @@ TEST(what_has_no_smooth_derivatives)
         words w;
         const char *input, *reason;
     } tests[] = {
-        {{{FIXED, "similar", "yes", "creep", "-1e-3", "yield-stress", "30", "hardening", "100",
-           "interlayer-tangential", "1e-6"}},
+        {{{FIXED
+           "similar yes creep -1e-3 yield-stress 30 hardening 100 interlayer-tangential 1e-6"}},
          "creep",
          "an interface that yields"},
-        {{{FIXED, "similar", "yes", "creep", "-1e-3", "friction-law", "rational", "mu", "0.2",
-           "mu-fall", "0.2", "slip-scale", "5", "speed", "1000", "memory", "0.1"}},
+        {{{FIXED "similar yes creep -1e-3 friction-law rational mu 0.2 mu-fall 0.2 slip-scale 5 "
+                 "speed 1000 memory 0.1"}},
          "creep",
          "friction with memory"},
-        {{{FIXED, "similar", "yes", "creep", "-1e-3"}},
+        {{{FIXED "similar yes creep -1e-3"}},
          "load",
          "moves the edges of the contact over the elements; give --mesh aligned"},
-        {{{ROLLING, "similar", "yes", "creep", "-1e-3", "mesh", "aligned", "contact-elements", "13",
-           "zone", "2"}},
+        {{{ROLLING "similar yes creep -1e-3 mesh aligned contact-elements 13 zone 2"}},
          "load",
          "fitting the mesh to them did not converge: take more elements, or --derivatives"},
-        {{{"support", "hub", "load", "500", "mu", "0.3", "formulation", "steady", "mesh", "fitted",
-           "contact-elements", "20", "creep-ratio", "0.7", "outer-elements", "200"}},
+        {{{"support hub load 500 mu 0.3 formulation steady mesh fitted contact-elements 20 "
+           "creep-ratio 0.7 outer-elements 200"}},
          "creep-ratio",
          "too short"},
     };
@@ -400,7 +385,7 @@ TEST(what_has_no_smooth_derivatives)
 
 TEST(between_two_zones_there_are_none)
 {
-    const words w = {{FIXED, "similar", "yes"}};
+    const words w = {{FIXED "similar yes"}};
     rb_message why = {""};
     differentiated d;
     CHECK_STATUS(differentiate(&w, "creep", -1e-3, "creep", 1, &d, &why), RB_OK);
@@ -414,7 +399,7 @@ TEST(between_two_zones_there_are_none)
 /* What is rounding is 0, as of exact derivatives: free rolling does not know the creepage. */
 TEST(rounding_is_no_derivative)
 {
-    const words w = {{ALIGNED, "contact-elements", "200"}};
+    const words w = {{ALIGNED "contact-elements 200"}};
     rb_message why = {""};
     differentiated d;
     CHECK_STATUS(differentiate(&w, "creep", 5e-4, "creep", 1, &d, &why), RB_OK);
@@ -425,7 +410,7 @@ TEST(rounding_is_no_derivative)
 /* Where nothing changes its zone both derivatives are the same. */
 TEST(without_zones_to_change_they_are_exact)
 {
-    const words w = {{ALIGNED, "similar", "yes", "contact-elements", "60"}};
+    const words w = {{ALIGNED "similar yes contact-elements 60"}};
     CHECK_REL(slope_of_Q(&w, "creep", -9e-3, "mu", 1), 500.0, 1e-9, "full sliding");
     CHECK_REL(slope_of_Q(&w, "creep", -1e-6, "creep", 1),
               slope_of_Q(&w, "creep", -1e-6, "creep", 0), 1e-14, "full stick");
