@@ -1009,6 +1009,13 @@ TEST(rounding_about_0_is_0)
                              "--formulation steady"),
                      0);
     assert_non_null(strstr(err, "; stick 0 ... 0.81"));
+    /* where no element sticks, Q = 0 has a range of shifts */
+    assert_int_equal(rollbem("--support halfplane --load 100 --mu .01 --force 0 "
+                             "--contact-elements 40"),
+                     0);
+    assert_non_null(strstr(err, "slide towards both sides: the shift is not unique"));
+    assert_int_equal(rollbem("--support halfplane --load 100 --mu .01 --force-ratio 1"), 0);
+    assert_null(strstr(err, "not unique"));
     /* not of something small in small units */
     assert_int_equal(rollbem("--support halfplane --load 1e-12 --radius 1e-15 --format brief"), 0);
     assert_non_null(strstr(out, "e-17 "));

@@ -77,6 +77,9 @@ export function controls(host, words, page) {
         Number(page.answer?.given?.[name] === page.given[name] ? page.answer.values[name] : typed(name)) ||
         Number(typed(name)) ||
         0;
+    /* A cover on an elastic core has to be compressible: the library refuses more. */
+    const COMPRESSIBLE = 0.499;
+    const has_elastic_core = () => Number(typed("cover-thickness")) > 0 && Number(typed("core-young")) > 0;
     let knobs = [],
         made_for = null,
         open_all = false,
@@ -112,6 +115,7 @@ export function controls(host, words, page) {
         );
         knobs.push(() => {
             if (document.activeElement !== text) text.value = typed(name);
+            if (name === "poisson") slider.max = has_elastic_core() ? COMPRESSIBLE : to;
             if (document.activeElement !== slider || !store.holding) slider.value = up(read(name));
             slider.setAttribute("aria-valuetext", `${typed(name)} ${unit}`);
         });

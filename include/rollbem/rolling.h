@@ -685,6 +685,9 @@ typedef struct rb_rolling_model {
 /* 1 if the mesh has so many equal elements that it is solved by Fourier transforms,
  * without a matrix. */
 int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
+/* The same for a build that has Fourier transforms: the page has none, and takes the same
+ * elements. */
+int rb_rolling_suits_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
 
 /* Chooses the potential contact (or the fitted mesh), builds the bodies and solves.  On a
  * positive status the model holds the last iterate; RB_ZONE: the contact does not end

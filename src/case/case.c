@@ -731,7 +731,7 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     rb_rolling_case *rc = &c->resolved.rc;
     const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width);
     const rb_rolling_mesh equal = {.n = rc->contact_elements};
-    const int many = rc->contact_elements >= MANY || rb_rolling_is_large(rc, &equal);
+    const int many = rc->contact_elements >= MANY || rb_rolling_suits_large(rc, &equal);
     if (!rb_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper && rc->zone == 0.0 &&
         rc->gap != RB_GAP_TABLE && !c->resolved.worn_file)
         rc->mesh =

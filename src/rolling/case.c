@@ -198,23 +198,33 @@ static int is_transformed(const rb_rolling_case *rc, const rb_rolling_body *body
                       rb_rolling_body_can(body, RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC));
 }
 
-int rb_rolling_has_transforms(const rb_rolling_case *rc)
+static int suits_transforms(const rb_rolling_case *rc)
 {
     /* products know no more than one datum */
     const int two_datums =
         rc->a.datum_tangential > 0.0 || (rc->elastic_b && rc->b.datum_tangential > 0.0);
-    return RB_TRANSFORMS && !two_datums &&
+    return !two_datums &&
            (rc->contact.solver == RB_SOLVER_AUTO || rc->contact.solver == RB_SOLVER_NEWTON) &&
            rc->mesh != RB_MESH_FITTED && is_transformed(rc, &rc->a) &&
            (!rc->elastic_b || is_transformed(rc, &rc->b));
 }
 
-int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
+int rb_rolling_has_transforms(const rb_rolling_case *rc)
+{
+    return RB_TRANSFORMS && suits_transforms(rc);
+}
+
+int rb_rolling_suits_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
 {
     const int least =
         rc->formulation == RB_STEADY ? RB_ROLLING_TRANSFORMS : RB_ROLLING_TRANSFORMS_STEPS;
 
-    return mesh->n >= least && rb_rolling_has_transforms(rc);
+    return mesh->n >= least && suits_transforms(rc);
+}
+
+int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
+{
+    return RB_TRANSFORMS && rb_rolling_suits_large(rc, mesh);
 }
 
 int rb_rolling_carter_holds(const rb_rolling_case *rc)
