@@ -126,4 +126,9 @@ rb_status rb_option_resolve_against(const rb_option_set *set, const rb_option_pr
                                     const rb_option *option, int by, const char *reason,
                                     rb_message *why);
 
+/* Adds a name unless it is among the n; returns how many there are then. */
+int rb_case_add_name(const char *name[RB_CASE_NUMBERS_MAX], int n, const char *one);
+/* The inputs of the columns, each once; returns how many. */
+int rb_case_slope_inputs(const rb_case_slopes *s, const char *name[RB_CASE_NUMBERS_MAX]);
+
 #endif
