@@ -8,14 +8,23 @@
 #include <signal.h>
 #include <sys/time.h>
 
-static rb_api *solved(const char *const *words)
+/* Sets options, "name value name value ...", until one is refused. */
+static int give(rb_api *a, const char *options)
+{
+    char text[600], *rest = text;
+    int s = RB_OK;
+    assert_true(strlen(options) < sizeof text);
+    strcpy(text, options);
+    for (char *name; s == RB_OK && (name = strtok_r(rest, " ", &rest));)
+        s = rb_api_set(a, name, strtok_r(NULL, " ", &rest));
+    return s;
+}
+
+static rb_api *solved(const char *options)
 {
     rb_api *a = rb_api_create();
     assert_non_null(a);
-    for (; *words; words += 2)
-        if (rb_api_set(a, words[0], words[1]) != RB_OK)
-            fail_msg("%s", rb_api_message(a));
-    if (rb_api_solve(a) != RB_OK)
+    if (give(a, options) != RB_OK || rb_api_solve(a) != RB_OK)
         fail_msg("%s", rb_api_message(a));
     return a;
 }
@@ -30,13 +39,10 @@ static const double *array(rb_api *a, const char *name, int rows, int columns)
 }
 
 /* The wheel of the example on twelve elements: small enough to step through. */
-static const char *const wheel[] = {
-    "mu", "0.3",    "creep", "0.1", "contact-elements", "12", "outer-elements",
-    "24", "solver", "lemke", NULL};
-static const char *const steady[] = {
-    "formulation", "steady", "support", "halfplane", "support-b", "halfplane",
-    "similar",     "yes",    "load",    "500",       "mu",        "0.3",
-    "creep-ratio", "0.5",    "mesh",    "uniform",   NULL};
+static const char wheel[] = "mu 0.3 creep 0.1 contact-elements 12 outer-elements 24 solver lemke";
+#define STEADY                                                                                     \
+    "formulation steady support halfplane support-b halfplane similar yes load 500 mu 0.3 "
+static const char steady[] = STEADY "creep-ratio 0.5 mesh uniform";
 
 TEST(descriptions_are_complete)
 {
@@ -148,15 +154,11 @@ TEST(the_next_case_is_solved_as_the_first_one)
     static const char *const next[][2] = {
         {"mu", "0.4"}, {"creep", "0.05"}, {"mu", "0.2"}, {"approach", "20"}, {"young", "60000"},
         {"mu", "0.3"}, {"zone", "40"},    {"mu", "0.5"}, {"approach", "21"}};
-    const char *words[40];
-    int n = 0;
-    for (; wheel[n]; n++)
-        words[n] = wheel[n];
+    char words[600];
+    size_t n = (size_t)snprintf(words, sizeof words, "%s", wheel);
     held_api *a = solved(wheel);
     for (size_t k = 0; k < sizeof next / sizeof *next; k++) {
-        words[n++] = next[k][0];
-        words[n++] = next[k][1];
-        words[n] = NULL;
+        n += (size_t)snprintf(words + n, sizeof words - n, " %s %s", next[k][0], next[k][1]);
         assert_int_equal(rb_api_set(a, next[k][0], next[k][1]), RB_OK);
         assert_null(rb_api_array(a, "p", &(int){0}, &(int){0}));
         assert_true(isnan(rb_api_number(a, "normal_load")));
@@ -291,10 +293,8 @@ TEST(guesses_are_judged)
 
 TEST(steps_are_kept)
 {
-    static const char *const words[] = {
-        "support",  "halfplane", "similar",          "yes", "load",        "500",
-        "mu",       "0.3",       "creep-ratio",      "0.5", "formulation", "transient",
-        "distance", "1",         "contact-elements", "20",  NULL};
+    static const char words[] = "support halfplane similar yes load 500 mu 0.3 creep-ratio 0.5 "
+                                "formulation transient distance 1 contact-elements 20";
     held_api *a = solved(words);
     int n, steps;
     const double *p = rb_api_array(a, "step.p", &n, &steps);
@@ -314,11 +314,8 @@ TEST(steps_are_kept)
 /* Runs for error bars are steps that nobody sees. */
 TEST(steps_have_error_bars)
 {
-    static const char *const words[] = {
-        "support",     "halfplane", "similar",  "yes",         "load",
-        "500",         "mu",        "0.3",      "creep-ratio", "0.5",
-        "formulation", "transient", "distance", "0.5",         "contact-elements",
-        "16",          "error",     "yes",      NULL};
+    static const char words[] = "support halfplane similar yes load 500 mu 0.3 creep-ratio 0.5 "
+                                "formulation transient distance 0.5 contact-elements 16 error yes";
     held_api *a = solved(words);
     int n, steps;
     assert_non_null(rb_api_array(a, "step.p", &n, &steps));
@@ -334,11 +331,9 @@ TEST(notes_and_closed_forms)
     int rows, columns;
     held_api *a = rb_api_create();
     assert_null(rb_api_note(a, 0, text, sizeof text));
-    static const char *const words[][2] = {{"support", "halfplane"}, {"support-b", "halfplane"},
-                                           {"similar", "yes"},       {"formulation", "steady"},
-                                           {"load", "500"},          {"mu", "0.3"}};
-    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
-        assert_int_equal(rb_api_set(a, words[k][0], words[k][1]), RB_OK);
+    assert_int_equal(give(a, "support halfplane support-b halfplane similar yes formulation steady "
+                             "load 500 mu 0.3"),
+                     RB_OK);
     assert_int_equal(rb_api_solve(a), RB_OK);
     assert_non_null(strstr(rb_api_note(a, 0, text, sizeof text), "rolls at creepage 0"));
     assert_null(rb_api_note(a, 1, text, sizeof text));
@@ -365,8 +360,7 @@ TEST(results_of_every_table_are_there)
     held_api *a = rb_api_create_for("solve");
     assert_null(rb_api_create_for("nothing"));
     assert_string_equal(rb_version(), RB_VERSION);
-    for (const char *const *w = steady; *w; w += 2)
-        assert_int_equal(rb_api_set(a, w[0], w[1]), RB_OK);
+    assert_int_equal(give(a, steady), RB_OK);
     assert_int_equal(rb_api_set(a, "error", "yes"), RB_OK);
     assert_null(rb_api_word(a, "formulation"));
     assert_int_equal(rb_api_solve(a), RB_OK);
@@ -392,23 +386,10 @@ TEST(results_of_every_table_are_there)
  * goes on. */
 TEST(a_refused_curve_leaves_the_solution)
 {
-    static const char *const words[] = {"support",
-                                        "halfplane",
-                                        "similar",
-                                        "yes",
-                                        "load",
-                                        "500",
-                                        "formulation",
-                                        "steady",
-                                        "relaxation-time",
-                                        "1e-3",
-                                        "relaxation-ratio",
-                                        "1",
-                                        "speed",
-                                        "100"};
+    static const char words[] = "support halfplane similar yes load 500 formulation steady "
+                                "relaxation-time 1e-3 relaxation-ratio 1 speed 100";
     held_api *a = rb_api_create_for("curve");
-    for (size_t k = 0; k < sizeof words / sizeof *words; k += 2)
-        assert_int_equal(rb_api_set(a, words[k], words[k + 1]), RB_OK);
+    assert_int_equal(give(a, words), RB_OK);
     assert_int_equal(rb_api_solve(a), RB_OK);
     assert_true(rb_api_curve_over(a, "speed", 1.0, 1e3, 3) < 0);
     assert_int_equal(rb_api_derivatives(a), RB_OK);
@@ -423,8 +404,7 @@ TEST(a_refused_curve_leaves_the_solution)
 TEST(tolerances_take_exact_derivatives)
 {
     held_api *a = rb_api_create_for("solve");
-    for (const char *const *w = steady; *w; w += 2)
-        assert_int_equal(rb_api_set(a, w[0], w[1]), RB_OK);
+    assert_int_equal(give(a, steady), RB_OK);
     assert_int_equal(rb_api_set(a, "mesh", "aligned"), RB_OK);
     assert_int_equal(rb_api_solve(a), RB_OK);
     assert_int_equal(rb_api_tolerances(a, "mu=1%"), RB_OK);
@@ -451,23 +431,8 @@ TEST(tolerances_grow_with_the_deviation)
 /* What the models, the curve, the history and a problem alone are asked by name. */
 TEST(every_name_has_its_value)
 {
-    static const char *const rolls[] = {"support",
-                                        "halfplane",
-                                        "load",
-                                        "500",
-                                        "creep-ratio",
-                                        "0.5",
-                                        "formulation",
-                                        "transient",
-                                        "distance",
-                                        "0.5",
-                                        "contact-elements",
-                                        "12",
-                                        "lcp-form",
-                                        "kwak",
-                                        "solver",
-                                        "lemke",
-                                        NULL};
+    static const char rolls[] = "support halfplane load 500 creep-ratio 0.5 formulation transient "
+                                "distance 0.5 contact-elements 12 lcp-form kwak solver lemke";
     static const double M = 2.0, q = -4.0, W = 1.0, v = -1.0, mu = 0.3;
     held_api *a = solved(rolls);
     const double R = 50.0, E = 94500.0 / (1.0 - 0.1 * 0.1), P = 500.0;
@@ -500,21 +465,8 @@ TEST(every_name_has_its_value)
 
 TEST(zones_of_a_yielding_interface_are_no_guess)
 {
-    static const char *const words[] = {"support",
-                                        "halfplane",
-                                        "load",
-                                        "500",
-                                        "formulation",
-                                        "steady",
-                                        "creep-ratio",
-                                        "0.5",
-                                        "yield-stress",
-                                        "10",
-                                        "contact-elements",
-                                        "12",
-                                        "zone",
-                                        "2",
-                                        NULL};
+    static const char words[] = "support halfplane load 500 formulation steady creep-ratio 0.5 "
+                                "yield-stress 10 contact-elements 12 zone 2";
     held_api *a = solved(words);
     const int zone[12] = {0};
     assert_true(rb_api_guess(a, 12, zone) < 0);
@@ -572,8 +524,7 @@ TEST(a_sweep_is_its_cases)
     rb_api *study = rb_api_create_for("sweep"), *one[3];
     for (int k = 0; k < 3; k++) {
         one[k] = rb_api_create_for("sweep");
-        for (const char *const *w = steady; *w; w += 2)
-            assert_int_equal(rb_api_set(one[k], w[0], w[1]), RB_OK);
+        assert_int_equal(give(one[k], steady), RB_OK);
         assert_int_equal(rb_api_set(one[k], "mu", mu[k]), RB_OK);
     }
     assert_int_equal(rb_api_sweep(study, 3, one, 2), RB_OK);
@@ -638,12 +589,10 @@ TEST(fits_by_handle)
     enum { N = 12 };
     static const char *const columns[] = {"creep", "force_over_load", "test"};
     static const char *const wrong[] = {"creep", "forse", "test"};
-    static const char *const plane[] = {"support", "halfplane", "support-b", "halfplane", "similar",
-                                        "yes",     "load",      "500",       NULL};
+    static const char plane[] = "support halfplane support-b halfplane similar yes load 500";
     double data[3 * N] = {0};
     rb_api *a = rb_api_create();
-    for (const char *const *w = plane; *w; w += 2)
-        assert_int_equal(rb_api_set(a, w[0], w[1]), RB_OK);
+    assert_int_equal(give(a, plane), RB_OK);
     assert_int_equal(rb_api_solve(a), RB_OK);
     const double half = rb_api_number(a, "hertz_half_width");
     for (int k = 0; k < N; k++) {
@@ -722,9 +671,7 @@ TEST(fits_and_designs_without_memory)
     for (int of = 0; of < 2; of++)
         for (int count = 0;; count += count < 60 ? 1 : 37) {
             rb_api *a = rb_api_create();
-            for (const char *const *w = steady; *w && (of || strcmp(*w, "creep-ratio") != 0);
-                 w += 2)
-                assert_int_equal(rb_api_set(a, w[0], w[1]), RB_OK);
+            assert_int_equal(give(a, of ? steady : STEADY), RB_OK);
             assert_int_equal(rb_api_set(a, "contact-elements", "12"), RB_OK);
             alloc_fail_after(count);
             const int s =
@@ -750,8 +697,7 @@ TEST(designs_by_handle)
 {
     rb_api *a = rb_api_create();
     int rows, columns;
-    for (const char *const *w = steady; *w; w += 2)
-        assert_int_equal(rb_api_set(a, w[0], w[1]), RB_OK);
+    assert_int_equal(give(a, steady), RB_OK);
     const int found =
         rb_api_design(a, "max_pressure", 0, "radius=20:400", "half_width<=1.2", NAN, 100);
     if (found == RB_EINVAL && strstr(rb_api_message(a), "without NLopt")) {
@@ -878,8 +824,7 @@ TEST(what_is_not_there_is_none)
 /* The solver that `solver` names, of the cones' too, and what a friction problem leaves. */
 TEST(solvers_have_their_names)
 {
-    static const char *const cone[] = {"support", "halfplane", "load",   "500",    "mu", "0.3",
-                                       "zone",    "2",         "solver", "nsn-ac", NULL};
+    static const char cone[] = "support halfplane load 500 mu 0.3 zone 2 solver nsn-ac";
     static const double W[] = {2, 0, 0, 1}, v[] = {-1, 0.1}, mu = 0.3;
     held_api *a = solved(cone);
     assert_string_equal(rb_api_word(a, "solver"), "nsn-ac");
@@ -927,9 +872,8 @@ TEST(calls_leave_the_threads_alone)
 /* Bodies whose flexibility is no matrix, matrices that are asked for in another order. */
 TEST(matrices_are_at_hand_or_refused)
 {
-    static const char *const large[] = {
-        "support", "halfplane", "load", "500", "mesh", "uniform", "contact-elements",
-        "1500",    "zone",      "2",    "mu",  "0",    NULL};
+    static const char large[] =
+        "support halfplane load 500 mesh uniform contact-elements 1500 zone 2 mu 0";
     int r, c;
     rb_api *a = solved(large);
     assert_int_equal(rb_api_pivots(a), RB_EINVAL);
@@ -958,16 +902,13 @@ static void stop(int number)
 /* From a handler of signals, as docs say: the run ends after the step at hand. */
 TEST(a_stopped_run_is_interrupted)
 {
-    static const char *const words[] = {
-        "support",     "halfplane", "load",     "500",  "creep-ratio",      "0.5",
-        "formulation", "transient", "distance", "1000", "contact-elements", "8",
-        "zone",        "2",         NULL};
+    static const char words[] = "support halfplane load 500 creep-ratio 0.5 formulation transient "
+                                "distance 1000 contact-elements 8 zone 2";
     const struct itimerval soon = {{0, 1000}, {0, 1000}}, never = {{0, 0}, {0, 0}};
     /* stays when called; signal() may go back to the default, which ends the test */
     const struct sigaction stops = {.sa_handler = stop};
     stopped = rb_api_create();
-    for (const char *const *w = words; *w; w += 2)
-        assert_int_equal(rb_api_set(stopped, w[0], w[1]), RB_OK);
+    assert_int_equal(give(stopped, words), RB_OK);
     sigaction(SIGALRM, &stops, NULL);
     setitimer(ITIMER_REAL, &soon, NULL);
     const int s = rb_api_solve(stopped);
@@ -1068,7 +1009,7 @@ static rb_status solve_problems(rb_api *a)
 }
 
 typedef struct {
-    const char *const *words;
+    const char *options;
     rb_status (*then)(rb_api *a);
 } handle_job;
 
@@ -1077,8 +1018,8 @@ static rb_status by_handle(void *context)
     const handle_job *j = context;
     held_api *a = rb_api_create();
     int s = a ? RB_OK : RB_ENOMEM;
-    for (const char *const *w = j->words; s == RB_OK && *w; w += 2)
-        s = rb_api_set(a, w[0], w[1]);
+    if (s == RB_OK)
+        s = give(a, j->options);
     if (s == RB_OK)
         s = rb_api_solve(a);
     if (s == RB_OK)
@@ -1090,16 +1031,11 @@ static rb_status by_handle(void *context)
 
 TEST(short_memory_is_reported)
 {
-    static const char *const bars[] = {
-        "formulation", "steady",  "support", "halfplane", "load", "500", "creep-ratio",      "0.5",
-        "mesh",        "uniform", "error",   "yes",       "zone", "2",   "contact-elements", "12",
-        NULL};
-    static const char *const rolls[] = {
-        "support",     "halfplane", "load",     "500", "creep-ratio",      "0.5",
-        "formulation", "transient", "distance", "0.2", "contact-elements", "8",
-        "zone",        "2",         NULL};
-    static const char *const small[] = {"support", "halfplane", "load", "500", "contact-elements",
-                                        "8",       "zone",      "2",    NULL};
+    static const char bars[] = "formulation steady support halfplane load 500 creep-ratio 0.5 mesh "
+                               "uniform error yes zone 2 contact-elements 12";
+    static const char rolls[] = "support halfplane load 500 creep-ratio 0.5 formulation transient "
+                                "distance 0.2 contact-elements 8 zone 2";
+    static const char small[] = "support halfplane load 500 contact-elements 8 zone 2";
     const handle_job jobs[] = {
         {wheel, step_through}, {bars, look_around}, {rolls, look_below}, {small, solve_problems}};
     for (size_t k = 0; k < sizeof jobs / sizeof *jobs; k++) {
@@ -1192,9 +1128,8 @@ TEST(derivatives)
     assert_null(rb_api_array(a, "derivative.tangential_load", &rows, &columns));
 
     rb_api_free(a);
-    a = solved((const char *const[]){"support", "halfplane", "similar", "yes", "load", "500",
-                                     "formulation", "steady", "creep-ratio", "3",
-                                     "contact-elements", "30", NULL});
+    a = solved("support halfplane similar yes load 500 formulation steady creep-ratio 3 "
+               "contact-elements 30");
     assert_null(rb_api_input(a, 0, "name", name, sizeof name));
     assert_null(rb_api_word(a, "elements"));
     assert_int_equal(rb_api_derivatives(a), RB_OK);
@@ -1240,31 +1175,9 @@ TEST(derivatives)
 /* What the last of several steps began with, its heat too, is gone when they are solved. */
 TEST(derivatives_of_several_steps_are_refused)
 {
-    rb_api *a = solved((const char *const[]){"support",
-                                             "hub",
-                                             "similar",
-                                             "yes",
-                                             "load",
-                                             "500",
-                                             "formulation",
-                                             "transient",
-                                             "distance",
-                                             "0.6",
-                                             "steps",
-                                             "3",
-                                             "creep",
-                                             "1e-3",
-                                             "speed",
-                                             "1000",
-                                             "mu-heat",
-                                             "-0.1,0,300",
-                                             "conductivity",
-                                             "50",
-                                             "heat-capacity",
-                                             "3.8",
-                                             "contact-elements",
-                                             "20",
-                                             NULL});
+    rb_api *a = solved(
+        "support hub similar yes load 500 formulation transient distance 0.6 steps 3 creep 1e-3 "
+        "speed 1000 mu-heat -0.1,0,300 conductivity 50 heat-capacity 3.8 contact-elements 20");
 
     assert_int_equal(rb_api_derivatives(a), RB_EINVAL);
     assert_non_null(strstr(rb_api_message(a), "ask for those of its history, step by step"));
@@ -1290,16 +1203,13 @@ static int place_of(const rb_api *a, const char *input)
  * input; a refusal leaves nothing of the curve before, and the handle goes on. */
 TEST(derivatives_of_a_curve_are_those_of_its_points)
 {
-    static const char *const curve_words[] = {
-        "support", "halfplane", "support-b", "halfplane", "similar",          "yes", "load", "500",
-        "mesh",    "uniform",   "zone",      "1.2",       "contact-elements", "30",  NULL};
+    static const char curve_words[] = "support halfplane support-b halfplane similar yes load 500 "
+                                      "mesh uniform zone 1.2 contact-elements 30";
     held_api *a = rb_api_create_for("curve"), *point = rb_api_create();
     char name[120], result[60], input[60], column[140];
     int rows, columns, compared = 0, one_sided = 0;
-    for (const char *const *w = curve_words; *w; w += 2) {
-        assert_int_equal(rb_api_set(a, w[0], w[1]), RB_OK);
-        assert_int_equal(rb_api_set(point, w[0], w[1]), RB_OK);
-    }
+    assert_int_equal(give(a, curve_words), RB_OK);
+    assert_int_equal(give(point, curve_words), RB_OK);
     assert_int_equal(rb_api_resolve(a), RB_OK);
     assert_null(rb_api_derivative(a, "curve", 0, "name", name, sizeof name));
     assert_int_equal(rb_api_curve_derivatives(a, "creep-ratio", 0.25, 1.0, 4, "all", NULL), RB_OK);
@@ -1383,10 +1293,8 @@ TEST(derivatives_of_a_curve_are_those_of_its_points)
  * input gives its size; what is refused leaves the steps alone. */
 TEST(derivatives_of_steps)
 {
-    static const char *const words[] = {
-        "support",  "halfplane", "similar",          "yes", "load",        "500",
-        "mu",       "0.3",       "creep-ratio",      "0.5", "formulation", "transient",
-        "distance", "1",         "contact-elements", "16",  NULL};
+    static const char words[] = "support halfplane similar yes load 500 mu 0.3 creep-ratio 0.5 "
+                                "formulation transient distance 1 contact-elements 16";
     held_api *a = solved(words), *b = solved(words);
     char name[120];
     int steps, columns;
