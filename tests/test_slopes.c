@@ -4,6 +4,7 @@
 #include "differences.h"
 
 #include <gsl/gsl_cdf.h>
+#include <unistd.h>
 
 /* ---- Histories --------------------------------------------------------------------- */
 
@@ -426,6 +427,47 @@ TEST(refusals_of_histories)
     differences d;
 
     CHECK_SAYS(compare_steps(c, 0, 1, &d, &heard), RB_EINVAL, "give a load");
+}
+
+/* Elements that move with the contact would take the midpoint to either side of the row. */
+TEST(rows_of_tables_under_midpoints)
+{
+    static const words both[] = {
+        {{PLANES, "similar", "yes", "creep", "1e-3", "mesh", "uniform", "formulation", "steady"}},
+        {{PLANES, "similar", "yes", "creep", "1e-3", "mesh", "uniform", ROLLS}}};
+    enum { SLIPS = 4 }; /* counted from 0 */
+
+    for (int k = 0; k < 2; k++)
+        for (int beside = 0; beside < 2; beside++) {
+            char table[] = "/tmp/rollbem-slopes-XXXXXX";
+            rb_case_result r = {0};
+            rb_sensitivity *s = NULL;
+            differences d;
+            held_case *c = case_of(RB_CASE_SINGLE, &both[k], NULL, 0.0);
+            CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
+            const double *end = r.model.mesh.ends + SLIPS, h = end[1] - end[0];
+            FILE *file = fdopen(mkstemp(table), "w");
+            assert_non_null(file);
+            fprintf(file, "-1 0.4\n%.17g 0.3\n1 0.32\n",
+                    0.5 * (end[0] + end[1]) + (beside ? 0.3 * h : 0.0));
+            assert_int_equal(fclose(file), 0);
+            rb_case_result_free(&r);
+            CHECK_OK(rb_case_set(c, "friction-law", table, RB_GIVEN_ARGUMENT, &heard));
+            CHECK_OK(rb_case_resolve(c, &heard));
+            if (k == 1) {
+                CHECK_STATUS(compare_steps(c, 0, 1000, &d, &heard), beside ? RB_OK : RB_EINVAL);
+                assert_true(beside || strstr(heard.text, "under the midpoint of element 5"));
+            } else {
+                CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
+                assert_int_equal(r.model.state.zone[SLIPS], RB_ZONE_SLIP_NEGATIVE);
+                CHECK_OK(rb_sensitivity_create(&r.model, 1, &s, &heard));
+                assert_int_equal(rb_sensitivity_motion(s),
+                                 beside ? RB_SENSITIVITY_HERTZ : RB_SENSITIVITY_FIXED);
+                rb_sensitivity_free(s);
+                rb_case_result_free(&r);
+            }
+            unlink(table);
+        }
 }
 
 /* ---- Uncertain inputs of histories ------------------------------------------------- */

@@ -97,6 +97,46 @@ rb_status rb_sensitivity_set_law(const rb_sensitivity *s, rb_rolling_model *vari
     return status;
 }
 
+/* RB_EINVAL: an element in contact moves over a point of a table where this has two slopes. A
+ * kink is as large over half the step as its half, what is smooth as its quarter. */
+static rb_status check_knots(const rb_rolling_model *base, double shift, double stretch,
+                             double further, rb_message *why)
+{
+    static const double by[] = {1.0, -1.0, 0.5, -0.5}, least = 1e-4, rounding = 1e-12;
+    enum { PLACES = sizeof by / sizeof *by };
+    const rb_rolling_case *rc = base->rc;
+    const size_t n = (size_t)base->mesh.n;
+
+    if (rc->irregularity.n == 0 && rc->friction.law != RB_FRICTION_table)
+        return RB_OK;
+    double *at = rb_alloc(n, 2 * PLACES);
+    rb_status status = at ? RB_OK : RB_ENOMEM;
+    for (size_t k = 0; k < PLACES && status == RB_OK; k++)
+        status = rb_rolling_variant_data(base, by[k] * shift, 1.0 + by[k] * stretch,
+                                         by[k] * further, at + k * n, at + (PLACES + k) * n, why);
+    for (int of_bound = 0; of_bound < 2 && status == RB_OK; of_bound++) {
+        const double *from = of_bound ? base->problem.bound : base->mesh.gap,
+                     *x = at + (of_bound ? PLACES * n : 0);
+        double rise = 0.0, size = 0.0;
+        for (size_t i = 0; i < n; i++) {
+            rise = fmax(rise, fabs(x[i] - from[i]));
+            size = fmax(size, fabs(from[i]));
+        }
+        for (size_t i = 0; i < n && status == RB_OK; i++) {
+            const double bend = x[i] + x[n + i] - 2.0 * from[i],
+                         half = x[2 * n + i] + x[3 * n + i] - 2.0 * from[i];
+            if (base->state.zone[i] != RB_ZONE_SEPARATED && fabs(bend) < 3.0 * fabs(half) &&
+                fabs(bend) > least * rise + rounding * size)
+                status = rb_fail(why, RB_EINVAL,
+                                 "derivatives: a row of the table of the %s lies under the "
+                                 "midpoint of element %d, where both sides differ",
+                                 of_bound ? "friction" : "irregularity", (int)i + 1);
+        }
+    }
+    free(at);
+    return status;
+}
+
 rb_status rb_sensitivity_add_variant(const rb_sensitivity *s, rb_rolling_model *variant,
                                      double times, rb_sensitivity_rate *left,
                                      rb_sensitivity_rate *rate, rb_message *why)
@@ -120,6 +160,7 @@ rb_status rb_sensitivity_add_variant(const rb_sensitivity *s, rb_rolling_model *
         return RB_OK;
     /* Tables of gap and friction over x have kinks, which the step of a flexibility would span: of
      * elements and irregularities that move, what these tables add is that of a short step. */
+    status = check_knots(base, part * shift, part * (scale - 1.0), part * further, why);
     for (int k = 0; k < 2 && status == RB_OK; k++) {
         const double by = k ? 1.0 : part, weight = k ? -times : times / part;
         status = rb_rolling_variant_data(base, by * shift, 1.0 + by * (scale - 1.0), by * further,
