@@ -1,6 +1,5 @@
 /* Parts of reports by themselves: cells, studies, files of matrices and of ParaView. */
-#include "check.h"
-#include "rollbem/case.h"
+#include "case_words.h"
 #include "rollbem/io.h"
 #include "rollbem/report.h"
 
@@ -463,37 +462,16 @@ TEST(vtk_files_are_known_by_their_names)
     }
 }
 
-/* A case of "name value" pairs, solved. */
-static void solve(const char *const *words, rb_case_result *result)
+static void solve(const words *w, rb_case_result *result)
 {
-    held_case *c = rb_case_create(RB_CASE_SINGLE);
-    for (; *words; words += 2)
-        CHECK_OK(rb_case_set(c, words[0], words[1], RB_GIVEN_ARGUMENT, &heard));
-    if (rb_case_resolve(c, &heard) != RB_OK ||
-        rb_case_solve(rb_case_resolved(c), NULL, NULL, result, &heard) != RB_OK)
-        fail_msg("%s", heard.text);
+    held_case *c = case_of(RB_CASE_SINGLE, w, NULL, 0.0);
+    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, result, &heard));
 }
 
-static const char *const wheels[] = {"contact-elements",
-                                     "6",
-                                     "outer-elements",
-                                     "24",
-                                     "support",
-                                     "hub",
-                                     "support-b",
-                                     "hub",
-                                     "similar",
-                                     "yes",
-                                     "radius-b",
-                                     "60",
-                                     "load",
-                                     "100",
-                                     "solver",
-                                     "lemke",
-                                     NULL};
-static const char *const planes[] = {
-    "contact-elements", "6",   "support", "halfplane", "load", "100",
-    "similar",          "yes", "solver",  "lemke",     NULL};
+static const words wheels = {{"contact-elements 6 outer-elements 24 support hub support-b hub "
+                              "similar yes radius-b 60 load 100 solver lemke"}};
+static const words planes = {
+    {"contact-elements 6 support halfplane load 100 similar yes solver lemke"}};
 
 typedef struct {
     const char *folder;
@@ -533,8 +511,8 @@ TEST(matrices_are_written_all_or_none)
     char folder[] = "/tmp/rollbem-dump-XXXXXX", command[100];
     assert_non_null(mkdtemp(folder));
     OWNED(rb_case_result) two = {0}, flat = {0};
-    solve(wheels, &two);
-    solve(planes, &flat);
+    solve(&wheels, &two);
+    solve(&planes, &flat);
     dump_job j = {folder, &two.model};
     CHECK_OK(rb_report_dump(folder, &two.model, &heard));
     assert_int_equal(files_in(folder), 12); /* two meshes, H, G; contact, F; LCP: four */
