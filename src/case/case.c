@@ -584,7 +584,8 @@ static const char varies[] = "a curve varies it from --from to --to, a fit takes
                   no_steps[] = "a design takes cases of one step without error bars",
                   curve_errors[] =
                       "only for single cases; a curve has --error, and a fit has intervals",
-                  no_heat[] = "stress and wear have no temperatures";
+                  no_heat[] = "stress has no temperatures",
+                  no_wear_heat[] = "wear has no temperatures";
 
 enum {
     CURVE = 1 << RB_CASE_CURVE,
@@ -634,12 +635,18 @@ static const struct {
     {WEAR, "relaxation-ratio-b", "wear is of elastic bodies only"},
     {WEAR, "yield-stress", "wear has no third body that yields"},
     {WEAR, "hardening", "wear has no third body that yields"},
-    {STRESS | WEAR, "conductivity", no_heat},
-    {STRESS | WEAR, "heat-capacity", no_heat},
-    {STRESS | WEAR, "temperature", no_heat},
-    {STRESS | WEAR, "conductivity-b", no_heat},
-    {STRESS | WEAR, "heat-capacity-b", no_heat},
-    {STRESS | WEAR, "temperature-b", no_heat},
+    {STRESS, "conductivity", no_heat},
+    {WEAR, "conductivity", no_wear_heat},
+    {STRESS, "heat-capacity", no_heat},
+    {WEAR, "heat-capacity", no_wear_heat},
+    {STRESS, "temperature", no_heat},
+    {WEAR, "temperature", no_wear_heat},
+    {STRESS, "conductivity-b", no_heat},
+    {WEAR, "conductivity-b", no_wear_heat},
+    {STRESS, "heat-capacity-b", no_heat},
+    {WEAR, "heat-capacity-b", no_wear_heat},
+    {STRESS, "temperature-b", no_heat},
+    {WEAR, "temperature-b", no_wear_heat},
     {DESIGN, "error", no_steps},
     {DESIGN, "accuracy", no_steps},
     {DESIGN, "history", no_steps},
