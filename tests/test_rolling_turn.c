@@ -366,7 +366,7 @@ TEST(the_energy_balances)
 
 /* What the balance misses of what is lost, on n elements at a half-width of about a, the
  * way of fading being as long as that. */
-static double missed(rb_rolling_case rc, double a, double *per_radius)
+static double missed(rb_rolling_case rc, double a)
 {
     const double R = rc.a.radius;
     double fed = 0.0;
@@ -374,41 +374,30 @@ static double missed(rb_rolling_case rc, double a, double *per_radius)
     rc.a.memory.time[0] = a / rc.speed;
     OWNED(rb_rolling_solution) s = solved(&rc);
     if (rc.normals == RB_BEM_NORMALS_OBSTACLE)
-        fed = s.resistance_moment / R - s.creepage * s.tangential_load + levers(&s, R);
-    for (int i = 1; i + 1 < s.n && rc.normals == RB_BEM_NORMALS_SURFACE; i++)
-        fed += s.p[i] * s.h[i] * s.x[i] / R - s.creepage * s.q[i] * 0.5 * (s.x[i + 1] - s.x[i - 1]);
+        fed = levers(&s, R);
+    for (int i = 1; i + 1 < s.n; i++) /* gap and creepage are along x, tractions along the arc */
+        fed += (s.p[i] * s.x[i] / R - s.creepage * s.q[i]) * 0.5 * (s.x[i + 1] - s.x[i - 1]);
     const double lost = s.dissipation + s.hysteresis;
-    *per_radius = s.half_width / R;
     return fabs(fed - lost) / lost;
 }
 
-/* It misses nothing but what elements do, and arcs that stand on their chords: both are
- * of second order, whatever the wheel and its normals. */
+/* It misses nothing but what elements do, which is of second order, whatever the wheel, its
+ * normals and how far the contact goes round it. */
 TEST(the_balance_closes_to_second_order)
 {
-    for (int k = 0; k < 4; k++) {
-        double rest[2], per_radius[2];
-        for (int small = 0; small < 2; small++) {
-            const double a = small ? 2.0 : 4.0;
-            double by_n[3];
-            for (int i = 0; i < 3; i++) {
-                rb_rolling_case rc = wheel(20 << i);
+    for (int k = 0; k < 4; k++)
+        for (int small = 0; small < 2; small++)
+            for (int n = 20; n <= 80; n *= 2) {
+                const double a = small ? 2.0 : 4.0;
+                rb_rolling_case rc = wheel(n);
                 rc.a.cover = k == 1 || k == 2 ? 3.0 * a : 0.0;
                 rc.a.core_young = k == 2 ? 2000.0 : 0.0;
                 rc.normals = k == 3 ? RB_BEM_NORMALS_SURFACE : RB_BEM_NORMALS_OBSTACLE;
                 rc.force = NAN;
                 rc.force_ratio = k == 3 ? NAN : 0.6;
                 rc.creep_ratio = k == 3 ? -0.4 : NAN;
-                by_n[i] = missed(rc, a, &per_radius[small]);
+                CHECK_MAX(missed(rc, a), 0.45 / (n * n), "case %d, a = %g, %d elements", k, a, n);
             }
-            CHECK_ABS((by_n[0] - by_n[1]) / (by_n[1] - by_n[2]), 4.0, 0.9,
-                      "case %d, a = %g: second order in the elements", k, a);
-            rest[small] = (4.0 * by_n[2] - by_n[1]) / 3.0;
-        }
-        CHECK_ABS(log(rest[0] / rest[1]) / log(per_radius[0] / per_radius[1]), 2.0, 0.4,
-                  "case %d: the rest is of second order in a/R", k);
-        CHECK_MAX(rest[0], 0.15 * pow(per_radius[0], 2.0), "case %d: and little", k);
-    }
 }
 
 /* Slip and gap belong to the directions of the tractions: Q and M/R, along x and y, would
@@ -423,20 +412,20 @@ TEST(surface_normals_feed_by_their_own_tractions)
         rc.creep_ratio = -0.4;
         OWNED(rb_rolling_solution) s = solved(&rc);
         const double R = rc.a.radius, xi = s.creepage;
-        double fed = 0.0, load = 0.0, turned = 0.0;
+        double fed = 0.0, load = 0.0, along_x = 0.0, turned = 0.0;
         for (int i = 1; i + 1 < s.n; i++) {
             const double sine = s.x[i] / R, cosine = sqrt(1.0 - sine * sine);
             fed -= xi * s.q[i] * 0.5 * (s.x[i + 1] - s.x[i - 1]);
             load += s.p[i] * s.h[i] * sine;
+            along_x += s.p[i] * 0.5 * (s.x[i + 1] - s.x[i - 1]) * sine;
             turned += s.p[i] * s.h[i] * sine * (xi + cosine - 1.0) +
                       s.q[i] * s.h[i] * (sine * sine + xi * (1.0 - cosine));
         }
         const double lost = s.dissipation + s.hysteresis;
         const double forces = s.resistance_moment / R - xi * s.tangential_load;
-        /* as above: second order in the elements and in a/R */
-        CHECK_ABS(lost, fed + load,
-                  (2.3 / (k ? 60 * 60 : 15 * 15) + 0.15 * pow(s.half_width / R, 2.0)) * load,
-                  "%d elements", s.contact);
+        /* as above: second order in the elements */
+        CHECK_ABS(lost, fed + along_x, 2.3 / (k ? 60 * 60 : 15 * 15) * load, "%d elements",
+                  s.contact);
         CHECK_ABS(forces - fed - load, turned, (k ? 5e-4 : 2e-3) * load, "missed by forces");
         CHECK_MAX(0.05 * load, fabs(turned), "which is no small part");
     }

@@ -12,6 +12,7 @@
 
 static const double CONTROLS = 1e-9; /* a given value against the one that was met */
 static const double RATIO = 1e-13;   /* rounding of the creepage ratio of a table */
+static const double KELVIN = 1e-13;  /* temperatures of slip that is none but for rounding */
 enum { UNRESOLVED = 4 };             /* slip zones at the trailing edge of fewer elements */
 
 void rb_certificate_violated(rb_certificate *c, const char *format, ...)
@@ -368,6 +369,7 @@ double rb_certificate_rounding(const rb_rolling_results *all, const char *name,
            : strcmp(r->unit, "N") == 0    ? 1e-12 * s->load * s->half_width
            : strcmp(r->unit, "MPa") == 0  ? 1e-12 * s->pressure
            : strcmp(r->unit, "1") == 0    ? 1e-13 * s->number
+           : strcmp(r->unit, "K") == 0    ? KELVIN
                                           : 0.0;
 }
 
@@ -542,7 +544,8 @@ static rb_status compare_results(rb_certificate *c)
                                       1e-9 * fabs(want) + 1e-11 * most +
                                           (is_length ? c->displacement
                                            : is_slip ? c->displacement / c->again.h[i]
-                                                     : 0.0));
+                                           : strncmp(key, "temperature", 11) == 0 ? KELVIN
+                                                                                  : 0.0));
             }
         }
         if (json_object_size(c->table) != json_object_size(table))

@@ -246,7 +246,7 @@ static rb_status missed_by_differences(const rb_certificate *c, double *missed)
 
 /* Differences along the contact miss two squares of the longest element over half the
  * contact's width at most, and on equal elements, in one of which the contact ends, a
- * part of it; chords for arcs that of a/R; waves that the elements do not resolve up to
+ * part of it; waves that the elements do not resolve up to
  * two times what these lose (tests/test_certificates.c). */
 rb_status rb_certificate_hysteresis(const rb_certificate *c, double *power, double *allowed)
 {
@@ -267,8 +267,7 @@ rb_status rb_certificate_hysteresis(const rb_certificate *c, double *power, doub
     }
     const int fitted = rc->mesh == RB_MESH_FITTED && !c->model.equal_instead;
     const double share = longest / s->half_width;
-    const double turned = rb_rolling_can(rc, RB_BODY_FLAT) ? 0.0 : s->half_width / rc->a.radius;
-    const double missed = 2.0 * share * share + (fitted ? 0.0 : 0.06 * share) + turned * turned;
+    const double missed = 2.0 * share * share + (fitted ? 0.0 : 0.06 * share);
     double differences = 0.0;
     const rb_status status =
         rb_rolling_can(rc, RB_BODY_FLAT) ? missed_by_differences(c, &differences) : RB_OK;

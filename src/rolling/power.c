@@ -106,7 +106,8 @@ rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
         return RB_OK;
     rb_arena scratch = {0};
     double *w = rb_arena_doubles(&scratch, (size_t)rows, 1),
-           *r = rb_arena_doubles(&scratch, 2 * (size_t)n, 1);
+           *r = rb_arena_doubles(&scratch, 2 * (size_t)n, 1),
+           *along = rb_arena_doubles(&scratch, (size_t)n + 1, 1);
     if (scratch.failed)
         return rb_arena_done(&scratch, RB_ENOMEM);
     if (flat) {
@@ -124,8 +125,11 @@ rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
     for (int b = 0; b < 2 && !flat; b++) {
         if (!model->bodies.memory[b])
             continue;
-        const int turns = !(rb_rolling_kind_of(body[b])->can & RB_BODY_FLAT) &&
-                          model->rc->normals == RB_BEM_NORMALS_OBSTACLE;
+        const int round = !(rb_rolling_kind_of(body[b])->can & RB_BODY_FLAT),
+                  turns = round && model->rc->normals == RB_BEM_NORMALS_OBSTACLE;
+        const double radius = fabs(body[b]->radius);
+        for (int i = 0; i <= n; i++) /* the material runs along its arc */
+            along[i] = round ? radius * asin(f->x[i] / radius) : f->x[i];
         for (int i = 0; i < n; i++) {
             r[i] = state->p[i];
             r[n + i] = b ? -state->q[i] : state->q[i]; /* B's own frame */
@@ -140,7 +144,7 @@ rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
         double turned = 0.0;
         for (int i = 0; i < n; i++)
             turned += (r[i] * w_T[i] - q[i] * w_N[i]) * f->h[i];
-        *power += normal_work(n, f->x, w_N, r, f->h) + normal_work(n, f->x, w_T, q, f->h) +
+        *power += normal_work(n, along, w_N, r, f->h) + normal_work(n, along, w_T, q, f->h) +
                   (turns ? turned / body[b]->radius : 0.0);
     }
     return rb_arena_done(&scratch, RB_OK);
