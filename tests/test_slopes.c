@@ -470,6 +470,38 @@ TEST(rows_of_tables_under_midpoints)
         }
 }
 
+/* Within the step that a flexibility needs, the power of an element would begin to heat it. */
+TEST(inputs_that_leave_the_bodies_have_a_shorter_step)
+{
+    static const words w = {
+        {"formulation transient distance 1.36 contact-elements 30 outer-elements 60 support arc "
+         "arc 45 similar yes load 500 force-ratio -0.5 friction-law linear mu-fall 0.15,-0.05 "
+         "slip-scale 10,40 memory 0.001 speed 3000 conductivity 50 heat-capacity 3.7 mu-heat "
+         "-0.1,0,30 tol 1e-13"}};
+    enum { STEP = 16, PARTS = 2 };
+    const double by = 0.1;
+    difference_run at = {.states = {0}}, beside[PARTS] = {{.states = {0}}};
+    rb_case_slopes slopes;
+    held_case *c = case_of(RB_CASE_SINGLE, &w, NULL, 0.0);
+
+    CHECK_OK(difference_history(rb_case_resolved(c), &rb_case_resolved(c)->rc, &at, &heard));
+    CHECK_OK(rb_case_slopes_choose(c, &rb_rolling_history_columns, "creepage:speed", 1, &slopes,
+                                   &heard));
+    CHECK_OK(rb_case_slopes_of_steps(c, &at.states, &slopes, NULL, NULL, &heard));
+    for (int k = 0; k < PARTS; k++) {
+        held_case *other = case_of(RB_CASE_SINGLE, &w, "speed", 3000.0 + (k ? by : -by));
+        CHECK_OK(difference_history(rb_case_resolved(other), &rb_case_resolved(other)->rc,
+                                    &beside[k], &heard));
+    }
+    const double want =
+        (beside[1].history.creepage[STEP] - beside[0].history.creepage[STEP]) / (2.0 * by);
+    CHECK_ABS(rb_case_slope_value(&slopes, STEP, 0), want, 1e-5 * fabs(want), "step 17");
+    rb_case_slopes_free(&slopes);
+    for (int k = 0; k < PARTS; k++)
+        difference_run_free(&beside[k]);
+    difference_run_free(&at);
+}
+
 /* ---- Uncertain inputs of histories ------------------------------------------------- */
 
 /* A Latin hypercube of normal distributions, its second coordinate the first one with the

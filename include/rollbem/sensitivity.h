@@ -115,6 +115,11 @@ typedef struct {
     void *context;
 } rb_sensitivity_input;
 
+/* Difference steps, parts of an input's scale: where flexibilities change, which are known to fewer
+ * digits, and where they do not. */
+#define RB_SENSITIVITY_STEP_OF_BODIES 5e-4
+#define RB_SENSITIVITY_STEP 2e-5
+
 /* Difference formula of fourth order for a first derivative. */
 enum { RB_SENSITIVITY_PLACES = 5 };
 typedef struct {

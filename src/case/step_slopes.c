@@ -5,9 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A part of an input's scale, as for single solutions. */
-static const double STEP = 5e-4;
-
 /* A number, and the history at values of it nearby, whose states lie along the tangent. */
 typedef struct {
     const rb_case_number *number;
@@ -77,6 +74,8 @@ static rb_status vary(const rb_case *c, const rb_rolling_states *states, rb_roll
 {
     enum { TRIALS = 3 };
     const rb_sensitivity_input *input = &v->number->input;
+    const rb_rolling_case *rc = &c->resolved.rc;
+    rb_rolling_case at;
     rb_status s = rb_sensitivity_rate_alloc(states->n, &v->rate);
 
     if (s == RB_OK)
@@ -87,8 +86,20 @@ static rb_status vary(const rb_case *c, const rb_rolling_states *states, rb_roll
         s = RB_ENOMEM;
     if (s != RB_OK)
         return s;
-    v->step = STEP * input->scale;
+    v->step = RB_SENSITIVITY_STEP_OF_BODIES * input->scale;
     const rb_sensitivity_stencil *stencil = rb_sensitivity_stencil_of(input, v->step);
+    if (stencil)
+        s = input->vary(input->context, input->value + stencil->place[stencil->n - 1] * v->step,
+                        &at, why);
+    if (s != RB_OK)
+        return s;
+    /* powers and slips that are nearly 0 have kinks nearby */
+    if (stencil && rb_rolling_same_bodies(&at, rc) &&
+        (!elements_grow(rc) ||
+         unit_of_way(&at, states->program) == unit_of_way(rc, states->program))) {
+        v->step = RB_SENSITIVITY_STEP * input->scale;
+        stencil = rb_sensitivity_stencil_of(input, v->step);
+    }
     if (!stencil)
         return rb_fail(why, RB_EINVAL, "derivatives: %s cannot vary within its range",
                        v->number->name);

@@ -246,8 +246,8 @@ static rb_status missed_by_differences(const rb_certificate *c, double *missed)
 
 /* Differences along the contact miss two squares of the longest element over half the
  * contact's width at most, and on equal elements, in one of which the contact ends, a
- * part of it; waves that the elements do not resolve up to
- * two times what these lose (tests/test_certificates.c). */
+ * part of it; waves that the elements do not resolve up to two times what these lose
+ * (tests/test_certificates.c). */
 rb_status rb_certificate_hysteresis(const rb_certificate *c, double *power, double *allowed)
 {
     const rb_rolling_case *rc = c->model.rc;

@@ -300,7 +300,7 @@ rb_status rb_sensitivity_add_jump(const rb_sensitivity *s, const rb_sensitivity_
 {
     /* to the side on which friction heats, as it does on one side of the change */
     const double way = line->state[0].lambda[element] * s->model->state.q[element] > 0.0 ? -1 : 1,
-                 step = way * RB_STEP_OF_BODIES;
+                 step = way * RB_SENSITIVITY_STEP_OF_BODIES;
     rb_rolling_model v = {.mesh = {.n = 0}};
     rb_rolling_solution moved[3] = {{0}};
     rb_contact_state y = {0};
@@ -372,7 +372,7 @@ static rb_status differentiate_motions(rb_sensitivity *s, int moves)
             .at = rb_sensitivity_middle,
             .is_long = rb_sensitivity_has_wheels(s->model),
             .step = (rb_sensitivity_has_wheels(s->model) ? RB_STEP_OF_WHEELS : 1.0) *
-                    RB_STEP_OF_BODIES * m.half,
+                    RB_SENSITIVITY_STEP_OF_BODIES * m.half,
             .scale = m.half};
         rb_message why;
         m.kind = k ? SHIFT : STRETCH;

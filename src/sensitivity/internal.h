@@ -45,10 +45,9 @@ rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why);
 extern const rb_sensitivity_stencil rb_sensitivity_middle, rb_sensitivity_ahead,
     rb_sensitivity_nearest;
 
-/* Parts of the input's scale: where flexibilities change, which are known to fewer digits; those of
- * wheels have a step so much longer; and of a step along the tangent within which no other element
- * comes first, and the pressure beside an edge hardly changes. */
-#define RB_STEP_OF_BODIES 5e-4
+/* By how much the step of bodies is longer where they are wheels; and the part of an input's scale
+ * of a step along the tangent within which no other element comes first, and the pressure beside
+ * an edge hardly changes. */
 #define RB_STEP_OF_WHEELS 4.0
 #define RB_STEP_OF_STATE 5e-7
 

@@ -4,9 +4,6 @@
 
 #include <string.h>
 
-/* Of the input's scale, where no flexibility changes. */
-static const double STEP = 2e-5;
-
 /* Flexibilities of wheels have a longer step where steps even longer lead to no end of the
  * input's range. */
 static const double NEAR = 40.0;
@@ -44,7 +41,7 @@ int rb_sensitivity_has_wheels(const rb_rolling_model *model)
 rb_status rb_sensitivity_choose_places(const rb_sensitivity *s, const rb_sensitivity_input *input,
                                        rb_sensitivity_variants *v, rb_message *why)
 {
-    const double longest = RB_STEP_OF_BODIES * input->scale, x = input->value;
+    const double longest = RB_SENSITIVITY_STEP_OF_BODIES * input->scale, x = input->value;
     const int falls = x + longest > input->to;
     rb_rolling_case rc;
     const rb_status status =
@@ -59,7 +56,7 @@ rb_status rb_sensitivity_choose_places(const rb_sensitivity *s, const rb_sensiti
         rc.interlayer_tangential = s->model->rc->interlayer_tangential;
         v->own = !rb_rolling_same_bodies(&rc, s->model->rc) && rb_rolling_is_compressed(s->model);
     }
-    v->step = (v->bodies ? RB_STEP_OF_BODIES : STEP) * input->scale;
+    v->step = (v->bodies ? RB_SENSITIVITY_STEP_OF_BODIES : RB_SENSITIVITY_STEP) * input->scale;
     v->scale = input->scale;
     if (v->results && v->bodies && rb_sensitivity_has_wheels(s->model) &&
         rb_sensitivity_stencil_of(input, NEAR * v->step) == &rb_sensitivity_middle) {
