@@ -474,7 +474,7 @@ TEST(rows_of_tables_under_midpoints)
 TEST(inputs_that_leave_the_bodies_have_a_shorter_step)
 {
     static const words w = {
-        {"formulation transient distance 1.36 contact-elements 30 outer-elements 60 support arc "
+        {"formulation transient distance 2.2 contact-elements 30 outer-elements 60 support arc "
          "arc 45 similar yes load 500 force-ratio -0.5 friction-law linear mu-fall 0.15,-0.05 "
          "slip-scale 10,40 memory 0.001 speed 3000 conductivity 50 heat-capacity 3.7 mu-heat "
          "-0.1,0,30 tol 1e-13"}};
