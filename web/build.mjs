@@ -39,14 +39,16 @@ function picture(file) {
     return `<img alt="${title}" src="data:image/svg+xml;base64,${Buffer.from(svg).toString("base64")}">`;
 }
 
-/* Modules in one: their imports are of each other.  Lines without their indentation, which is a fifth of the page. */
+/* Modules in one: their imports are of each other.  Lines without their indentation, which is a fifth of the page,
+ * and without comments, which are for readers of the sources. */
 const joined = (files) =>
     files
         .map((file) =>
             readFileSync(`web/${file}`, "utf8")
                 .replace(/^import .*?;\n/gms, "")
                 .replace(/^export /gm, "")
-                .replace(/^ +/gm, ""),
+                .replace(/^ +/gm, "")
+                .replace(/^\/\*[^]*?\*\/\n/gm, ""),
         )
         .join("\n");
 
