@@ -105,7 +105,21 @@ static int same_rows(const rb_rolling_case *x, const rb_rolling_case *y)
     return memcmp(&like, y, sizeof like) == 0;
 }
 
-/* ---- Half-planes: how displacements change, by formula ----------------------------- */
+/* ---- How displacements change, by formula ------------------------------------------ */
+
+double rb_rolling_softening(const rb_rolling_case *x, const rb_rolling_case *y)
+{
+    const double factor = x->a.young / y->a.young;
+    rb_rolling_body a = x->a, b = x->b;
+
+    a.young = y->a.young;
+    b.young = y->b.young;
+    return rb_rolling_can(x, RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC) && same_body(&a, &y->a) &&
+                   x->elastic_b == y->elastic_b &&
+                   (!x->elastic_b || (same_body(&b, &y->b) && x->b.young / y->b.young == factor))
+               ? factor
+               : 0.0;
+}
 
 /* Of both bodies: 1/E*, beta/E* and what the depths of zero displacement add, which are
  * the factors of three matrices that the mesh alone makes (F1 of theory.md 3). */
@@ -154,8 +168,8 @@ static void sign_integral(const rb_bem_flexibility *f, const double *r, double *
 }
 
 /* What the present tractions of the model displace more than they do, 2m, where its
- * bodies are those of rc and its elements `scale` times as long, wherever they stand: w0
- * of the variant. */
+ * bodies are those of rc and its elements (of half-planes) `scale` times as long, wherever they
+ * stand: w0 of the variant. */
 static rb_status changed_displacement(const rb_rolling_model *of, const rb_rolling_case *rc,
                                       double scale, double *w0)
 {
@@ -175,6 +189,17 @@ static rb_status changed_displacement(const rb_rolling_model *of, const rb_rolli
     if (!w || rb_rolling_displacement(&of->bodies, state->p, state->q, w) != RB_OK) {
         free(w);
         return RB_ENOMEM;
+    }
+    if (!are_plain_halfplanes(rc)) {
+        const double more = rb_rolling_softening(of->rc, rc) - 1.0;
+        for (int i = 0; i < 2 * m; i++)
+            w0[i] += more * (w[i] - f->w0[i]);
+        for (int i = 0; i < n; i++) {
+            w0[i] -= more * layer[0] * state->p[i];
+            w0[m + i] -= more * layer[1] * state->q[i];
+        }
+        free(w);
+        return RB_OK;
     }
     const factors at = factors_of(of->rc), to = factors_of(rc);
     sign_integral(f, state->q, b);     /* of the normal displacement */
@@ -262,6 +287,7 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, i
     const int borrows = (rb_rolling_same_bodies(rc, of->rc) && !moves && !own) ||
                         (by_formula && rc->slip_operator == RB_SLIP_UPSTREAM &&
                          ((same_but_interlayer(rc, of->rc) && !moves && !own) ||
+                          (rb_rolling_softening(of->rc, rc) > 0.0 && !moves && !own) ||
                           (are_plain_halfplanes(of->rc) && are_plain_halfplanes(rc) &&
                            rc->elastic_b == of->rc->elastic_b)) &&
                          (by_formula == 1 || !rb_rolling_law_depends_on_state(rc)));

@@ -54,7 +54,9 @@ rb_status rb_sensitivity_choose_places(const rb_sensitivity *s, const rb_sensiti
     if (v->bodies && input->vary) {
         rc.interlayer_normal = s->model->rc->interlayer_normal;
         rc.interlayer_tangential = s->model->rc->interlayer_tangential;
-        v->own = !rb_rolling_same_bodies(&rc, s->model->rc) && rb_rolling_is_compressed(s->model);
+        v->own = !rb_rolling_same_bodies(&rc, s->model->rc) &&
+                 !(rb_rolling_softening(s->model->rc, &rc) > 0.0) &&
+                 rb_rolling_is_compressed(s->model);
     }
     v->step = (v->bodies ? RB_SENSITIVITY_STEP_OF_BODIES : RB_SENSITIVITY_STEP) * input->scale;
     v->scale = input->scale;
