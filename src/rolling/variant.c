@@ -18,9 +18,14 @@ static const motion at_rest = {0.0, 1.0};
 static rb_status copy_mesh(const rb_rolling_case *rc, const rb_rolling_mesh *of, int same_bodies,
                            motion moved, rb_rolling_mesh *mesh, rb_message *why)
 {
-    if (!same_bodies && rc->mesh == RB_MESH_UNIFORM && !rb_rolling_body_can(&rc->a, RB_BODY_FLAT))
-        return rb_rolling_mesh_uniform(rc, NULL, moved.shift + moved.scale * of->ends[0],
-                                       moved.shift + moved.scale * of->ends[of->n], mesh, why);
+    if (!same_bodies && rc->mesh == RB_MESH_UNIFORM && !rb_rolling_body_can(&rc->a, RB_BODY_FLAT)) {
+        const double passed = mesh->passed;
+        const rb_status s =
+            rb_rolling_mesh_uniform(rc, NULL, moved.shift + moved.scale * of->ends[0],
+                                    moved.shift + moved.scale * of->ends[of->n], mesh, why);
+        mesh->passed = passed;
+        return s == RB_OK && passed != 0.0 ? rb_rolling_mesh_set_gap(rc, mesh) : s;
+    }
     mesh->n = of->n;
     mesh->ends = rb_alloc((size_t)of->n + 2, 1);
     mesh->gap = rb_alloc((size_t)of->n, 1);
