@@ -346,11 +346,6 @@ static int would_follow(const rb_case *c, const rb_option *o)
            (!is_b || (s->rc.elastic_b && rb_option_applies(o, &s->rc.b)));
 }
 
-static int has_memory_of_b(const rb_case *c)
-{
-    return rb_case_given(c, "relaxation-time-b") || rb_case_given(c, "relaxation-ratio-b");
-}
-
 int rb_case_is_own_of_b(const rb_case *c, const char *option)
 {
     const rb_option *o = rb_case_option(option);
@@ -382,7 +377,8 @@ static rb_status resolve_body_b(rb_case *c, rb_message *why)
     }
     if (!rc->elastic_b)
         return RB_OK;
-    if (s->similar && !has_memory_of_b(c))
+    if (s->similar && !rb_case_given(c, "relaxation-time-b") &&
+        !rb_case_given(c, "relaxation-ratio-b"))
         s->memory_b = s->memory_a;
     s->young_b = rc->b.young;
     s->poisson_b = rc->b.poisson;

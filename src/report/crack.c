@@ -435,21 +435,17 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
     const double *D = h->D + (size_t)k * 2 * (size_t)n;
     double largest = 0.0, deepest = 0.0, from = INFINITY, to = -INFINITY;
 
-    for (int i = 0; i <= path->pieces; i++) {
-        from = fmin(from, path->x[i] / unit);
-        to = fmax(to, path->x[i] / unit);
-        deepest = fmax(deepest, -path->y[i] / unit);
-    }
     const rb_case_crack_growth *g = &r->growth;
-    for (int i = 0; i < g->n; i++) {
-        from = fmin(from, g->tip_x[i] / r->half_width);
-        to = fmax(to, g->tip_x[i] / r->half_width);
-        deepest = fmax(deepest, -g->tip_y[i] / r->half_width);
+    const rb_crack_path *whole = g->n > 1 ? &g->path : path;
+    for (int i = 0; i <= whole->pieces; i++) {
+        from = fmin(from, whole->x[i] / unit);
+        to = fmax(to, whole->x[i] / unit);
+        deepest = fmax(deepest, -whole->y[i] / unit);
     }
     if (g->n > 1) { /* its way below the faces, which are those of the first length */
         fputs("$way << EOD\n", out);
-        for (int i = 0; i <= g->path.pieces; i++)
-            fprintf(out, "%.9g %.9g\n", g->path.x[i] / unit, g->path.y[i] / unit);
+        for (int i = 0; i <= whole->pieces; i++)
+            fprintf(out, "%.9g %.9g\n", whole->x[i] / unit, whole->y[i] / unit);
         fputs("EOD\n$tips << EOD\n", out);
         for (int i = 1; i < g->n; i++)
             fprintf(out, "%.9g %.9g\n", g->tip_x[i] / r->half_width, g->tip_y[i] / r->half_width);

@@ -177,8 +177,8 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(&of, "derivatives_of", typed("string", "the results that were asked for"));
     rb_report_json_set(&of, "own_of_b",
                        list_of(typed("string", NULL),
-                               "options of body B that are given with the value of A, with which "
-                               "those that are not given vary"));
+                               "options of body B that were given A's value and do not vary "
+                               "with A"));
     rb_report_json_set(&of, "uncertain_inputs",
                        typed("object",
                              "of --tolerance: standard deviations of inputs; of curves and "
