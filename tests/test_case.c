@@ -675,7 +675,7 @@ TEST(files_are_blamed_by_line)
          RB_EFORMAT},
         {"load = 4\nforce = 10\n", "case.ini:2: force Q = 10", RB_EFORMAT},
         {"support = halfplane\nload = 4\nradius = 50\nsimilar = yes\nradius-b = -30\n",
-         "case.ini:5: radius of body B: a bore", RB_EFORMAT},
+         "case.ini:5: radius-b: a bore", RB_EFORMAT},
         {"load = 4\nrelaxation-time = 2\n", "case.ini:2: --relaxation-time and --relaxation-ratio",
          RB_EFORMAT},
         {"support = halfplane\nload = 4\nzone = 1e30\n", "case.ini:3: zone: 1e+30 mm", RB_EFORMAT},

@@ -121,7 +121,11 @@ static const struct {
      "half-width: expected less than the radius of either body, 2"},
     {"--support halfplane --load 100 --young 1 --layer-thickness 0.01 --poisson 0.495 "
      "--mesh uniform --contact-elements 20",
-     64, "layer thickness: with nu = 0.495 the elements"},
+     64, "--layer-thickness: with nu = 0.495 the elements"},
+    {"--layer-thickness 2", 64, "rollbem: --layer-thickness: for the support halfplane only"},
+    {"--slip-operator second", 64, "rollbem: --slip-operator second: only for steady rolling"},
+    {"stress --mu-heat 0.1,20,300", 64, "--mu-heat: needs temperatures, add --conductivity"},
+    {"--free-axle", 64, "rollbem: --free-axle: of steady rolling only"},
     {"--support halfplane --load 100 --young-b 1000 --layer-thickness-b 0.01 --poisson-b "
      "0.495 --mesh uniform --contact-elements 20",
      64, "layer thickness: with nu = 0.495 the elements"},
@@ -969,6 +973,8 @@ TEST(full_device_is_73)
     assert_int_equal(shell("\"$R\" " QUICK " --quiet >/dev/full"), 73);
     assert_non_null(strstr(err, "No space left"));
     assert_int_equal(shell("\"$R\" --help >/dev/full"), 73);
+    assert_int_equal(shell("\"$R\" --completion=bash >/dev/full"), 73); /* before the last flush */
+    assert_non_null(strstr(err, "No space left"));
     assert_int_equal(shell("\"$R\" " QUICK " --quiet --json >/dev/full"), 73);
     assert_int_equal(rollbem(QUICK " --quiet --output /dev/full"), 73);
 }

@@ -588,9 +588,9 @@ TEST(files_of_studies_are_blamed_by_line)
 {
     static const struct {
         const char *line, *part;
-    } wrong[] = {{"radius-b = -30", "f.ini:6: radius of body B: a bore must be larger"},
+    } wrong[] = {{"radius-b = -30", "f.ini:6: radius-b: a bore must be larger"},
                  {"hardening = -3", "f.ini:6: hardening: only for an interface that yields"},
-                 {"cover-thickness-b = 1", "f.ini:6: cover thickness of body B: its core"},
+                 {"cover-thickness-b = 1", "f.ini:6: cover-thickness-b: its core"},
                  {"shift = 1", "f.ini:6: shift: rolling is driven by"},
                  {"zone = 1e30", "f.ini:6: zone: 1e+30 mm is wider than"},
                  {"force-ratio = 3", "f.ini:6: force ratio Q/(mu P) = 3"}};

@@ -263,31 +263,41 @@ static rb_status refuse_by(const rb_case *c, size_t n, const rule *rules, rb_mes
     return RB_OK;
 }
 
-/* The line of the case file with the option that a refusal speaks of: "zone: ...",
- * "radius of body B: ...", or the first of its --options that stands there.  0: none
- * does. */
-static int line_of_blamed(const rb_case *c, const char *text)
+/* The given option that a refusal names by its first words, as "zone: ..." or "radius of body B:
+ * ..."; "force ratio Q" and "load begins at 3" only begin with them.  rest: what follows.  NULL:
+ * they name none. */
+static const rb_option *named_first(const rb_case *c, const char *text, const char **rest)
 {
     static const char of_a[] = " of body A", of_b[] = " of body B";
     char name[60];
-    size_t n = strcspn(text, ":(");
-    if (n < sizeof name - 2) {
-        snprintf(name, sizeof name, "%.*s", (int)n, text);
-        if (n > strlen(of_a) && strcmp(name + n - strlen(of_a), of_a) == 0)
-            name[n - strlen(of_a)] = '\0';
-        else if (n > strlen(of_b) && strcmp(name + n - strlen(of_b), of_b) == 0)
-            memcpy(name + n - strlen(of_b), "-b", 3);
-        for (char *at = name; *at; at++)
-            *at = *at == ' ' ? '-' : *at;
-        /* "force ratio Q", "load begins at 3": of the words that it begins with */
-        for (char *end = name + strlen(name); end; end = strrchr(name, '-')) {
-            *end = '\0';
-            if (rb_case_given(c, name) > 0)
-                return rb_case_given(c, name);
-        }
+    const size_t n = strcspn(text, ":(");
+    if (n >= sizeof name - 2)
+        return NULL;
+    snprintf(name, sizeof name, "%.*s", (int)n, text);
+    *rest = text + n;
+    if (n > strlen(of_a) && strcmp(name + n - strlen(of_a), of_a) == 0)
+        name[n - strlen(of_a)] = '\0';
+    else if (n > strlen(of_b) && strcmp(name + n - strlen(of_b), of_b) == 0)
+        memcpy(name + n - strlen(of_b), "-b", 3);
+    for (char *at = name; *at; at++)
+        *at = *at == ' ' ? '-' : *at;
+    for (char *end = name + strlen(name); end; end = strrchr(name, '-')) {
+        if (*end)
+            *rest = text + (end - name);
+        *end = '\0';
+        if (rb_case_given(c, name) != 0)
+            return rb_case_option(name);
     }
+    return NULL;
+}
+
+/* The line of the case file with the first of the --options of a refusal that stands there.  0:
+ * none does. */
+static int line_of_mentioned(const rb_case *c, const char *text)
+{
+    char name[60];
     for (const char *at = strstr(text, "--"); at; at = strstr(at + 2, "--")) {
-        n = strspn(at + 2, "abcdefghijklmnopqrstuvwxyz0123456789-");
+        const size_t n = strspn(at + 2, "abcdefghijklmnopqrstuvwxyz0123456789-");
         snprintf(name, sizeof name, "%.*s", (int)n, at + 2);
         if (rb_case_given(c, name) > 0)
             return rb_case_given(c, name);
@@ -318,9 +328,16 @@ rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why)
                            said.text + n + rest);
         return rb_fail(why, RB_EFORMAT, "%s: %s", t->path, said.text);
     }
+    const char *rest;
+    char source[400];
+    const rb_option *o = named_first(c, said.text, &rest);
+    const int by = o ? rb_case_given(c, o->name) : 0;
+    if (o && (*rest == ':' || o->kind == RB_OPTION_CHOICE))
+        return rb_fail(why, by > 0 ? RB_EFORMAT : s, "%s%s",
+                       rb_option_source(o, by, c->path, source, sizeof source), rest);
     if (!*c->path)
         return s;
-    const int line = line_of_blamed(c, said.text);
+    const int line = by > 0 ? by : line_of_mentioned(c, said.text);
     if (line > 0)
         return rb_fail(why, RB_EFORMAT, "%s:%d: %s", c->path, line, said.text);
     for (int i = 0; i < rb_case_table_n; i++)
@@ -458,7 +475,8 @@ static rb_status check_heat(const rb_case *c, rb_message *why)
     const rb_resolved_case *s = &c->resolved;
     const int cold = !(s->rc.heat_a.conductivity > 0.0),
               stands = cold && rb_rolling_can(&s->rc, RB_BODY_ELASTIC) && s->law.falls.n == 0;
-    const rule rules[] = {{cold, "heat-capacity", for_heat},
+    const rule rules[] = {{cold, "mu-heat", "needs temperatures, add --conductivity"},
+                          {cold, "heat-capacity", for_heat},
                           {cold, "temperature", for_heat},
                           {cold, "conductivity-b", for_heat},
                           {cold, "heat-capacity-b", for_heat},

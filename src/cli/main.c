@@ -77,9 +77,10 @@ int main(int argc, char **argv)
         code = cli_run(argv[1], argc - 1, argv + 1);
     else
         code = cli_run("", argc, argv);
-    /* A full disc or a closed pipe shows here at the latest.  Where standard output was
-     * closed from the beginning and nothing went there, nothing is lost. */
-    errno = 0;
+    /* A full disc or a closed pipe shows here at the latest; what failed before has left its
+     * reason.  Where standard output was closed from the beginning and nothing went there,
+     * nothing is lost. */
+    errno = ferror(stdout) ? errno : 0;
     int failed = fflush(stdout) != 0 || ferror(stdout);
     failed = (fclose(stdout) != 0 && errno != EBADF) || failed;
     if (failed && errno == EPIPE)
