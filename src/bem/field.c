@@ -16,16 +16,17 @@ typedef struct {
 } piece;
 
 struct rb_bem_field {
-    const rb_bem_system *system; /* borrowed */
     int pieces;
-    piece *piece;  /* owned */
-    double *u, *t; /* 2n: boundary values of the rest; owned, t behind u */
+    piece *piece;      /* owned */
+    double *u, *t;     /* 2n: boundary values of the rest; owned, t behind u */
+    rb_interior *rest; /* owned */
 };
 
 void rb_bem_field_free(rb_bem_field *field)
 {
     if (!field)
         return;
+    rb_interior_free(field->rest);
     free(field->piece);
     free(field->u);
     free(field);
@@ -104,7 +105,6 @@ rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_conta
     double *value = rb_alloc(dofs, 1);
     s = RB_ENOMEM;
     if (f && value) {
-        f->system = system;
         f->pieces = 2 * system->mesh.contact_n;
         f->piece = calloc((size_t)f->pieces + 1, sizeof *f->piece);
         f->u = rb_alloc(dofs, 2);
@@ -120,9 +120,9 @@ rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_conta
             const double complex to = mesh->x1[j] + mesh->y1[j] * I, middle = 0.5 * (from + to);
             const double complex own = own_traction(mesh, t_contact, c);
             f->piece[2 * c] = half_element(from, middle, end_traction(mesh, t_contact, c), own,
-                                           f->system->material, unit);
+                                           system->material, unit);
             f->piece[2 * c + 1] = half_element(
-                middle, to, own, end_traction(mesh, t_contact, c + 1), f->system->material, unit);
+                middle, to, own, end_traction(mesh, t_contact, c + 1), system->material, unit);
         }
         /* What the strips leave of the given values.  A contact element's own strips give
          * its traction exactly: computed at its midpoint, where their ends meet, they would
@@ -148,6 +148,9 @@ rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_conta
                          : RB_OK;
         if (s == RB_OK)
             s = rb_bem_system_solve_values(system, value, f->u, f->t);
+        if (s == RB_OK)
+            s = rb_interior_create(&(rb_bem_boundary){&system->mesh, system->material, f->u, f->t},
+                                   &f->rest);
     }
     free(value);
     if (s == RB_OK)
@@ -160,9 +163,7 @@ rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_conta
 rb_status rb_bem_field_stress(const rb_bem_field *field, rb_bem_points points, double *stress,
                               rb_message *why)
 {
-    const rb_bem_system *system = field->system;
-    const rb_bem_boundary rest = {&system->mesh, system->material, field->u, field->t};
-    const rb_status s = rb_bem_interior(&rest, points, NULL, stress, why);
+    const rb_status s = rb_interior_at(field->rest, points, NULL, stress, why);
 
     for (int k = 0; k < points.n && s == RB_OK; k++)
         add_strips(field, points.xy[2 * k] + points.xy[2 * k + 1] * I, -1, stress + 3 * k);

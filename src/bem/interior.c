@@ -23,6 +23,7 @@
 
 #include <complex.h>
 #include <gsl/gsl_math.h>
+#include <stdlib.h>
 
 typedef double complex cplx;
 
@@ -33,7 +34,7 @@ typedef struct {
     cplx a_t, a_s, alpha; /* alpha: at the first end */
 } rb_piece;
 
-typedef struct {
+struct rb_interior {
     const rb_bem_mesh *mesh;
     const double *u, *t; /* borrowed */
     int n;               /* pieces: 2 mesh.n */
@@ -41,7 +42,7 @@ typedef struct {
     int *next, *previous;
     rb_arena memory; /* of the three */
     double shear, nu, kap;
-} rb_interior;
+};
 
 static cplx pair_of(const double *values, int j)
 {
@@ -56,22 +57,36 @@ static cplx slope_after(const rb_interior *in, int j)
            (0.5 * (rb_bem_mesh_length(in->mesh, j) + rb_bem_mesh_length(in->mesh, k)));
 }
 
-static rb_status interior_make(const rb_bem_boundary *body, rb_interior *in)
+void rb_interior_free(rb_interior *interior)
+{
+    if (!interior)
+        return;
+    rb_arena_done(&interior->memory, RB_OK);
+    free(interior);
+}
+
+rb_status rb_interior_create(const rb_bem_boundary *body, rb_interior **interior)
 {
     const rb_bem_mesh *mesh = body->mesh;
     const size_t n = (size_t)mesh->n;
-    *in = (rb_interior){.mesh = mesh,
-                        .u = body->u,
-                        .t = body->t,
-                        .n = 2 * mesh->n,
-                        .shear = body->material.shear,
-                        .nu = body->material.poisson,
-                        .kap = 3.0 - 4.0 * body->material.poisson};
+    rb_interior *in = *interior = calloc(1, sizeof *in);
+    if (!in)
+        return RB_ENOMEM;
+    in->mesh = mesh;
+    in->u = body->u;
+    in->t = body->t;
+    in->n = 2 * mesh->n;
+    in->shear = body->material.shear;
+    in->nu = body->material.poisson;
+    in->kap = 3.0 - 4.0 * in->nu;
     in->piece = rb_arena_zeros(&in->memory, 2 * n, sizeof *in->piece);
     in->next = rb_arena_ints(&in->memory, n);
     in->previous = rb_arena_ints(&in->memory, n);
-    if (in->memory.failed)
-        return rb_arena_done(&in->memory, RB_ENOMEM);
+    if (in->memory.failed) {
+        rb_interior_free(in);
+        *interior = NULL;
+        return RB_ENOMEM;
+    }
     rb_bem_mesh_next(mesh, in->next);
     for (int j = 0; j < mesh->n; j++)
         in->previous[in->next[j]] = j;
@@ -200,10 +215,33 @@ static void evaluate_surface(const rb_interior *in, int j, double s, double *dis
     }
 }
 
+rb_status rb_interior_at(const rb_interior *in, rb_bem_points points, double *displacement,
+                         double *stress, rb_message *why)
+{
+    int outside = points.n; /* the first point there */
+#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(static)                      \
+    reduction(min                                                                                  \
+              : outside) if ((double)points.n * in->n > rb_pairs_for_threads)
+    for (int k = 0; k < points.n; k++) {
+        const double x = points.xy[2 * k], y = points.xy[2 * k + 1];
+        double *u = displacement ? displacement + 2 * k : NULL,
+               *sigma = stress ? stress + 3 * k : NULL, along;
+        const int j = element_at(in, x, y, &along);
+        if (j >= 0)
+            evaluate_surface(in, j, along, u, sigma);
+        else if (!evaluate_inside(in, x, y, u, sigma))
+            outside = k < outside ? k : outside;
+    }
+    return outside == points.n
+               ? RB_OK
+               : rb_fail(why, RB_EINVAL, "point %d at (%g, %g) lies outside the body", outside,
+                         points.xy[2 * outside], points.xy[2 * outside + 1]);
+}
+
 rb_status rb_bem_interior(const rb_bem_boundary *body, rb_bem_points points, double *displacement,
                           double *stress, rb_message *why)
 {
-    rb_interior in;
+    rb_interior *in;
     rb_status s = rb_bem_mesh_check(body->mesh, why);
     if (s == RB_OK)
         s = rb_bem_material_check(body->material, why);
@@ -211,25 +249,9 @@ rb_status rb_bem_interior(const rb_bem_boundary *body, rb_bem_points points, dou
         s = rb_fail(why, RB_EINVAL, "interior points: %d", points.n);
     if (s != RB_OK)
         return s;
-    s = interior_make(body, &in);
-    if (s != RB_OK)
-        return rb_fail(why, s, "interior: out of memory for %d elements", body->mesh->n);
-    int outside = points.n; /* the first point there */
-#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(static)                      \
-    reduction(min                                                                                  \
-              : outside) if ((double)points.n * in.n > rb_pairs_for_threads)
-    for (int k = 0; k < points.n; k++) {
-        const double x = points.xy[2 * k], y = points.xy[2 * k + 1];
-        double *u = displacement ? displacement + 2 * k : NULL,
-               *sigma = stress ? stress + 3 * k : NULL, along;
-        const int j = element_at(&in, x, y, &along);
-        if (j >= 0)
-            evaluate_surface(&in, j, along, u, sigma);
-        else if (!evaluate_inside(&in, x, y, u, sigma))
-            outside = k < outside ? k : outside;
-    }
-    if (outside < points.n)
-        s = rb_fail(why, RB_EINVAL, "point %d at (%g, %g) lies outside the body", outside,
-                    points.xy[2 * outside], points.xy[2 * outside + 1]);
-    return rb_arena_done(&in.memory, s);
+    if (rb_interior_create(body, &in) != RB_OK)
+        return rb_fail(why, RB_ENOMEM, "interior: out of memory for %d elements", body->mesh->n);
+    s = rb_interior_at(in, points, displacement, stress, why);
+    rb_interior_free(in);
+    return s;
 }

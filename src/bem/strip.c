@@ -4,6 +4,7 @@
  * integrated over the strip.  With a, b the distances of z from its two ends (complex),
  *   Lambda = int dz/(z - s) = ln a - ln b,  L = int ln(z - s) ds. */
 #include "bem/complex.h"
+#include "bem/kernels.h"
 #include "bem/strip.h"
 
 #include <gsl/gsl_math.h>
@@ -61,13 +62,32 @@ static double complex below(const rb_strip *strip, double complex z)
     return complex_of(creal(local), cimag(local) > 0.0 ? cimag(local) : 0.0);
 }
 
-/* Lambda without cancellation far away. */
+/* |z|^2: no square here is near overflow. */
+static double square(double complex z)
+{
+    return gsl_pow_2(creal(z)) + gsl_pow_2(cimag(z));
+}
+
+/* Lambda without cancellation far away, where it is a series. */
 static double complex log_ratio(double complex z, double h)
 {
-    if (cabs(z) > 2.0 * h)
-        return 2.0 * catanh(0.5 * h / z);
+    const double a = 0.5 * h, rho = square(z);
+    if (rho > gsl_pow_2(rb_far.reach * a)) {
+        rb_view_angles v = {.X = creal(z), .d = -cimag(z)};
+        rb_turn_far(a, rb_far.terms, h / rho, &v);
+        return complex_of(v.Lam, v.Th);
+    }
+    if (rho > gsl_pow_2(4.0 * a))
+        return 2.0 * catanh(a / z);
     return clog(complex_of(creal(z) + 0.5 * h, cimag(z))) -
            clog(complex_of(creal(z) - 0.5 * h, cimag(z)));
+}
+
+/* Lambda' = 1/a - 1/b; the compiler's own division guards against overflow, and is slow. */
+static double complex log_ratio_slope(double complex z, double h)
+{
+    const double complex ab = z * z - 0.25 * h * h;
+    return -h / square(ab) * conj(ab);
 }
 
 /* 2G u = -kappa F L + conj(F) (h + 2iy conj(Lambda)) - F conj(L), over 2 pi, in the
@@ -93,8 +113,7 @@ rb_strip_answer rb_strip_traction(const rb_strip *strip, double complex z, doubl
     const double h = strip->h, C = -0.5 / M_PI;
     const double complex at = below(strip, z), lambda = log_ratio(at, h);
     const double complex n = conj(strip->along) * normal;
-    const double complex curve = -h / (at * at - 0.25 * h * h); /* 1/a - 1/b */
-    const double complex bent = lambda + 2.0 * I * cimag(at) * curve;
+    const double complex bent = lambda + 2.0 * I * cimag(at) * log_ratio_slope(at, h);
 
     return (rb_strip_answer){C * (lambda * n + conj(n * lambda)),
                              C * strip->along * strip->along * (conj(lambda) * n + conj(n * bent))};
@@ -111,15 +130,15 @@ void rb_strip_linear_stress(const rb_strip *strip, double complex z, double comp
      * traction goes on from there, cancel it if they take the same distance.  It is that
      * of the unit, so large that the rounding of coordinates is not felt in it. */
     const double end = creal(at) < 0.0 ? -0.5 * h : 0.5 * h;
-    if (cabs(at - end) < close)
+    if (square(at - end) < close * close)
         at = complex_of(end, close);
     const double complex lambda = log_ratio(at, h);
     const double complex turn = conj(strip->along), middle = turn * f;
     /* far away the slope is not felt, and would cost digits */
-    const double complex rise = cabs(at) < 1e4 * h ? turn * slope : 0.0;
+    const double complex rise = square(at) < gsl_pow_2(1e4 * h) ? turn * slope : 0.0;
     const double complex f_z = middle + rise * at, g_z = conj(middle) + conj(rise) * at;
     const double complex first = f_z * lambda - rise * h;
-    const double complex second = f_z * h / (at * at - 0.25 * h * h) - rise * lambda;
+    const double complex second = -f_z * log_ratio_slope(at, h) - rise * lambda;
     const double mean = -2.0 * creal(first) / M_PI; /* sxx + syy */
     const double complex local =
         (first - 2.0 * I * cimag(at) * second + g_z * lambda - conj(rise) * h) / M_PI;
