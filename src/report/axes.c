@@ -100,6 +100,24 @@ const char *rb_report_number(double x, int digits, char text[40])
     return text;
 }
 
+const char *rb_report_counted_in(int exponent, const char *unit, char text[64])
+{
+    const char *name = strcmp(unit, "-") == 0 ? "" : unit;
+    if (exponent)
+        snprintf(text, 64, "  [10^{%d}%s%s]", exponent, *name ? " " : "", name);
+    else
+        snprintf(text, 64, *name ? "  [%s]" : "%s", name);
+    return text;
+}
+
+void rb_report_band_title(FILE *out, int is_error, double most, const char *unit, int titled)
+{
+    fprintf(out, "title '%s", is_error ? "estimated error" : "standard deviation");
+    if (titled)
+        fprintf(out, ", at most %s%s%s", RB_REPORT_NUMBER(most, 2), *unit ? " " : "", unit);
+    fputs("', ", out);
+}
+
 double rb_report_labels_in(double height)
 {
     return fmax(2.0, 12.0 * height);

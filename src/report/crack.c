@@ -330,8 +330,8 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
     fprintf(out,
             "set multiplot\nset lmargin at screen %g\nset rmargin at screen %g\n"
             "set tmargin at screen %g\nset bmargin at screen %g\n" RB_REPORT_GRID
-            "set format x ''\nset xrange [%.9g:%.9g]\nset offsets 0,0,graph 0.08,graph 0.08\nset "
-            "zeroaxis linecolor rgb '#999999' linewidth 0.6\n"
+            "set format x ''\nset xrange [%.9g:%.9g]\nset offsets 0,0,graph 0.08,graph "
+            "0.08\n" RB_REPORT_ZERO
             "set key at screen 0.965, %g right horizontal maxrows 1 samplen 2 font ',%.3g'\nset "
             "label 2 'K  [%s]' at screen 0.03, %g center rotate\n",
             0.14 + place.right,
@@ -397,9 +397,9 @@ static void write_orbit(FILE *out, rb_report_canvas canvas, const void *context)
     rb_report_room(out, 0.14 + place.right, place.titled ? 0.86 : 0.79, 0.14 + place.up,
                    0.92 + place.up);
     fprintf(out,
-            RB_REPORT_GRID
-            "set offsets graph 0.06,graph 0.06,graph 0.06,graph 0.06\nset zeroaxis linecolor rgb "
-            "'#999999' linewidth 0.6\nset xlabel 'K_{I}  [%s]'\nset ylabel 'K_{II}  [%s]'\nset "
+            RB_REPORT_GRID RB_REPORT_ZERO
+            "set offsets graph 0.06,graph 0.06,graph 0.06,graph 0.06\nset xlabel 'K_{I}  "
+            "[%s]'\nset ylabel 'K_{II}  [%s]'\nset "
             "cblabel 'position of the contact / a' offset 1,0\nunset key\n" RB_REPORT_PALETTE
             "plot $K using 2:3:1 with lines palette linewidth 2.2, $K using 2:3:1 with points "
             "palette pointtype 7 pointsize 0.6\n",

@@ -240,13 +240,6 @@ static int draws_carter(const view *v)
     return v->over != RB_OVER_SPEED && rb_rolling_carter_holds(v->rc);
 }
 
-/* "creepage ξ  [10^{-3}]" */
-static void write_label(FILE *out, const char *axis, const char *what, int exponent)
-{
-    fprintf(out, exponent ? "set %slabel '%s  [10^{%d}]'\n" : "set %slabel '%s'\n", axis, what,
-            exponent);
-}
-
 static void write_labels(FILE *out, const view *v, int titled)
 {
     const rb_rolling_curve *c = &v->curves->curve[0];
@@ -260,28 +253,27 @@ static void write_labels(FILE *out, const view *v, int titled)
                 rb_unit_name(c->units, "mm"));
         rb_report_label_bodies(out, v->rc, c->units, 0.54, 0.935);
     }
-    if (v->over == RB_OVER_SPEED) {
-        fputs("set logscale x\n", out);
-        write_label(out, "y", "resistance to rolling  M/(PR)", v->exponent);
-    } else
-        fprintf(out, "set ylabel 'braking force  −Q%s%s%s' offset 1,0\n",
-                v->y == FORCE             ? "  ["
+    if (v->over == RB_OVER_SPEED)
+        fprintf(out, "set logscale x\nset ylabel 'resistance to rolling  M/(PR)%s'\n",
+                RB_REPORT_COUNTED_IN(v->exponent, ""));
+    else
+        fprintf(out, "set ylabel 'braking force  −Q%s' offset 1,0\n",
+                v->y == FORCE             ? RB_REPORT_COUNTED_IN(0, rb_unit_name(c->units, "N/mm"))
                 : v->y == FORCE_OVER_LOAD ? "/P"
-                                          : "/(μP)",
-                v->y == FORCE ? rb_unit_name(c->units, "N/mm") : "", v->y == FORCE ? "]" : "");
+                                          : "/(μP)");
 }
 
 static void write_x_label(FILE *out, const view *v)
 {
-    char label[32];
+    const char *speed = rb_unit_name(v->curves->curve[0].units, "mm/s");
     if (v->over == RB_OVER_SPEED)
         rb_report_log_tics(out, 'x', v->from, v->to);
-    snprintf(label, sizeof label, "speed  [%s]", rb_unit_name(v->curves->curve[0].units, "mm/s"));
-    write_label(out, "x",
-                v->over == RB_OVER_SPEED   ? label
-                : v->over == RB_OVER_CREEP ? "creepage ξ"
-                                           : "creepage ratio  ξR/(μa)",
-                v->over == RB_OVER_CREEP ? v->exponent : 0);
+    fprintf(out, "set xlabel '%s%s'\n",
+            v->over == RB_OVER_SPEED   ? "speed"
+            : v->over == RB_OVER_CREEP ? "creepage ξ"
+                                       : "creepage ratio  ξR/(μa)",
+            RB_REPORT_COUNTED_IN(v->over == RB_OVER_CREEP ? v->exponent : 0,
+                                 v->over == RB_OVER_SPEED ? speed : ""));
 }
 
 /* The panel below: how hot the surfaces become at each point. */
@@ -329,7 +321,6 @@ static int comes_back_otherwise(const view *v)
     return 0;
 }
 
-/* With its size, because a narrow band is hidden by its curve. */
 static void write_band_title(FILE *out, const view *v, int titled)
 {
     const rb_rolling_curve *c = &v->curves->curve[0];
@@ -339,11 +330,8 @@ static void write_band_title(FILE *out, const view *v, int titled)
         for (int i = 0; i < v->curves->curve[k].n; i++)
             most = fmax(most, half_width(v, k, i));
     most *= v->y == RESISTANCE ? pow(10.0, v->exponent) : 1.0;
-    fprintf(out, "title '%s", v->curves->has_errors ? "estimated error" : "standard deviation");
-    if (titled)
-        fprintf(out, ", at most %s%s%s", RB_REPORT_NUMBER(most, 2), v->y == FORCE ? " " : "",
-                v->y == FORCE ? rb_unit_name(c->units, "N/mm") : "");
-    fputs("', ", out);
+    rb_report_band_title(out, v->curves->has_errors, most,
+                         v->y == FORCE ? rb_unit_name(c->units, "N/mm") : "", titled);
 }
 
 static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
@@ -379,9 +367,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     }
     rb_report_room(out, 0.13 + place.right, 0.965, (has_heat(v) ? 0.39 : 0.14) + place.up,
                    0.9 + place.up);
-    fputs(RB_REPORT_GRID "set offsets 0,0,graph 0.05,0\n"
-                         "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
-          out);
+    fputs(RB_REPORT_GRID "set offsets 0,0,graph 0.05,0\n" RB_REPORT_ZERO, out);
     if (has_heat(v))
         fputs("set multiplot\nset format x ''\n", out);
     fprintf(out, "set key %s samplen 2.2 font ',%.3g'\n",

@@ -346,22 +346,20 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     rb_report_room(out, 0.13 + place.right, 0.965, 0.14 + place.up, 0.9 + place.up);
     fprintf(out,
             RB_REPORT_GRID "set offsets %s,graph 0.03,graph 0.05,%s\n"
-                           "set xrange [*<0:0<*]\nset yrange [*<0:0<*]\n"
-                           "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
+                           "set xrange [*<0:0<*]\nset yrange [*<0:0<*]\n" RB_REPORT_ZERO,
             drives ? "graph 0.03" : "0", pushes ? "graph 0.05" : "0");
     fprintf(out, "set key %s samplen 2.2 font ',%.3g'\n",
             sum < 0.0 ? "left top Left reverse" : "right bottom", rb_report_key_font(canvas));
     if (place.titled)
         write_title(out, f, 0.54);
-    fprintf(out, "set xlabel 'creepage %s", f->data->is_ratio ? "ratio  ξR/(μa)" : "ξ");
-    if (v->exponent)
-        fprintf(out, "  [10^{%d}]", v->exponent);
-    fprintf(out, "'\nset ylabel 'braking force  −Q%s%s%s' offset 1,0\n",
-            f->data->measure == RB_CASE_FORCE         ? "  ["
+    fprintf(out,
+            "set xlabel 'creepage %s%s'\n"
+            "set ylabel 'braking force  −Q%s' offset 1,0\n",
+            f->data->is_ratio ? "ratio  ξR/(μa)" : "ξ", RB_REPORT_COUNTED_IN(v->exponent, ""),
+            f->data->measure == RB_CASE_FORCE
+                ? RB_REPORT_COUNTED_IN(0, rb_unit_name(f->units, unit))
             : f->data->measure == RB_CASE_FORCE_RATIO ? "/(μP)"
-                                                      : "/P",
-            f->data->measure == RB_CASE_FORCE ? rb_report_unit_name(f->units, unit) : "",
-            f->data->measure == RB_CASE_FORCE ? "]" : "");
+                                                      : "/P");
     write_curves(out, v, place.titled);
 }
 

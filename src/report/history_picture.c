@@ -114,16 +114,13 @@ static void write_panel(FILE *out, const view *v, const panel *p)
         fprintf(out, "$data using 1:($%d-$%d):($%d+$%d) " RB_REPORT_BAND " ", p->column, p->band,
                 p->column, p->band, p->colour);
         if (p->of == v->named) {
-            /* with its size, because a narrow band is hidden by its curve */
             const double most = widest(v, p->of) * (p->of == MOTION ? v->power : 1.0);
             const char *unit = p->of == FORCE || p->of == LOAD ? "N/mm" : "mm";
             const int pure = (p->of == MOTION && v->rolls) || (p->of == FORCE && !shows_Q(v));
-            fprintf(out, "title '%s", v->h->errors ? "estimated error" : "standard deviation");
-            if (v->place.titled)
-                fprintf(out, ", at most %s%s%s", RB_REPORT_NUMBER(most, 2), pure ? "" : " ",
-                        pure ? "" : rb_unit_name(v->h->units, unit));
-        }
-        fputs(p->of == v->named ? "', " : "notitle, ", out); /* a key for one panel */
+            rb_report_band_title(out, v->h->errors != NULL, most,
+                                 pure ? "" : rb_unit_name(v->h->units, unit), v->place.titled);
+        } else
+            fputs("notitle, ", out); /* a key for one panel */
     }
     fprintf(out,
             "$data using 1:%d with %s linecolor rgb '%s' linewidth 1.8 pointtype 7 "
@@ -158,14 +155,10 @@ static void write_last_axis(FILE *out, const char *label)
 
 static void write_way(FILE *out, const view *v)
 {
-    const char *mm = rb_unit_name(v->h->units, "mm");
     char label[80];
 
-    if (v->exponent)
-        snprintf(label, sizeof label, "%s  [10^{%d}%s%s]", v->rolls ? "ξ" : "shift", v->exponent,
-                 v->rolls ? "" : " ", v->rolls ? "" : mm);
-    else
-        snprintf(label, sizeof label, v->rolls ? "ξ" : "shift  [%s]", mm);
+    snprintf(label, sizeof label, "%s%s", v->rolls ? "ξ" : "shift",
+             RB_REPORT_COUNTED_IN(v->exponent, v->rolls ? "" : rb_unit_name(v->h->units, "mm")));
     write_range(out, v, MOTION, INFINITY, -INFINITY);
     write_panel(out, v, &(panel){0, MOTION, label, "#6c3483", 2, 5});
     fputs("unset label 1\nunset label 9\n", out);

@@ -102,6 +102,11 @@ void rb_report_label_bodies(FILE *script, const rb_rolling_case *rc, rb_units un
 /* A band about a curve, as a part of plot; its argument: the colour of the curve. */
 #define RB_REPORT_BAND                                                                             \
     "with filledcurves linecolor rgb '%s' fillstyle transparent solid 0.3 noborder"
+/* Its title in the key, with the largest half-width, because a narrow band is hidden by its
+ * curve; unit: "" of pure numbers. */
+void rb_report_band_title(FILE *script, int is_error, double most, const char *unit, int titled);
+/* Thin lines through 0. */
+#define RB_REPORT_ZERO "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n"
 /* The powers alone at the tics of a logarithmic axis, 'x' or 'y', where numbers would be
  * longer than their tics. */
 void rb_report_log_tics(FILE *script, char axis, double from, double to);
@@ -140,6 +145,10 @@ const char *rb_report_raised(const char *unit, char text[40]);
 const char *rb_report_number(double x, int digits, char text[40]);
 /* The same in a text of the block in which it stands. */
 #define RB_REPORT_NUMBER(x, digits) rb_report_number(x, digits, (char[40]){""})
+/* "  [10^{-3} mm]", what an axis counts in, behind its name; "" for pure numbers: no power
+ * of ten and no unit, which is "" or "-".  Returns text. */
+const char *rb_report_counted_in(int exponent, const char *unit, char text[64]);
+#define RB_REPORT_COUNTED_IN(exponent, unit) rb_report_counted_in(exponent, unit, (char[64]){""})
 /* Number of labels that fit into this part of the canvas without touching. */
 double rb_report_labels_in(double height);
 /* Colours of a field, from least to most, which are grey from dark to light in print. */

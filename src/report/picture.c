@@ -54,6 +54,13 @@ static double middle_of(const view *v, int which)
     return 0.5 * (at.top + at.bottom);
 }
 
+/* Of the y axis of a panel about this height of the screen. */
+static void write_name(FILE *out, const char *name, const char *counted_in, double middle)
+{
+    fprintf(out, "set label 3 '%s%s' at screen 0.028, %g center rotate\n", name, counted_in,
+            middle);
+}
+
 static int is_shown(const view *v, int i)
 {
     const double x = v->s->x[i] / v->length.size;
@@ -77,14 +84,6 @@ static axis axis_between(double least, double most)
     y.from = (least - margin) / y.unit;
     y.to = (most + margin) / y.unit;
     return y;
-}
-
-static void write_exponent(FILE *out, int exponent, const char *unit)
-{
-    if (exponent)
-        fprintf(out, "  [10^{%d}%s%s]", exponent, *unit ? " " : "", unit);
-    else if (*unit)
-        fprintf(out, "  [%s]", unit);
 }
 
 /* Without rounding errors, which are compared with the strains under the pressure: in
@@ -239,8 +238,7 @@ static void write_tractions(FILE *out, const view *v, double key_font, double ma
     const double above = (fmax(scale, bound) + below / 9.0) * 9.0 / 8.0;
     fprintf(out, "set yrange [%.9g:%.9g]\n", -below / v->stress_unit, above / v->stress_unit);
     open_panel(out, v, TRACTIONS, 0);
-    fprintf(out, "set label 3 'traction  [%s]' at screen 0.028, %g center rotate\n",
-            v->stress_label, middle_of(v, TRACTIONS));
+    write_name(out, "traction", RB_REPORT_COUNTED_IN(0, v->stress_label), middle_of(v, TRACTIONS));
     fprintf(out,
             "set key at screen 0.53, %g center horizontal maxrows 1 samplen 1.2 width %d font "
             "',%.3g'\n",
@@ -352,9 +350,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     if (lowest)
         write_x_label(out, v);
     /* in a static case (12) is a velocity that the elements in stick have as well */
-    fputs(v->s->formulation == RB_STATIC ? "set label 3 'velocity / V" : "set label 3 'slip", out);
-    write_exponent(out, v->slip.exponent, "");
-    fprintf(out, "' at screen 0.028, %g center rotate\n", middle_of(v, SLIP));
+    write_name(out, v->s->formulation == RB_STATIC ? "velocity / V" : "slip",
+               RB_REPORT_COUNTED_IN(v->slip.exponent, ""), middle_of(v, SLIP));
     write_zones(out, v, 0);
     fprintf(out,
             "plot 0 with lines linecolor rgb '#999999' linewidth 0.6, $data using 1:($5) with %s "
@@ -366,9 +363,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", v->heat.from, v->heat.to,
                 rb_report_round_step((v->heat.to - v->heat.from) / 3.0));
         write_x_label(out, v);
-        fputs("set label 3 'T", out);
-        write_exponent(out, v->heat.exponent, "K");
-        fprintf(out, "' at screen 0.028, %g center rotate\n", middle_of(v, TEMPERATURE));
+        write_name(out, "T", RB_REPORT_COUNTED_IN(v->heat.exponent, "K"),
+                   middle_of(v, TEMPERATURE));
         write_zones(out, v, 0);
         write_bodies(out, v);
         fputs("plot $data using 1:7 with lines dashtype (6,4) linecolor rgb '#7a7a7a' linewidth "

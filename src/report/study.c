@@ -181,12 +181,8 @@ static const char *plain(const char *name, char buffer[64])
 static void write_label(FILE *out, const char *label, const rb_report_quantity *q, const axis *a)
 {
     char name[64], unit[40];
-    fprintf(out, "set %s '%s", label, plain(q->name, name));
-    if (a->exponent || q->unit[0])
-        fputs("  [", out);
-    if (a->exponent)
-        fprintf(out, "10^{%d}%s", a->exponent, q->unit[0] ? " " : "");
-    fprintf(out, "%s%s'\n", rb_report_raised(q->unit, unit), a->exponent || q->unit[0] ? "]" : "");
+    fprintf(out, "set %s '%s%s'\n", label, plain(q->name, name),
+            RB_REPORT_COUNTED_IN(a->exponent, rb_report_raised(q->unit, unit)));
 }
 
 /* Digits that tell the numbers of an axis apart where gnuplot's own five do not; else 0. */
@@ -270,8 +266,7 @@ static void write_curves(FILE *out, rb_report_canvas canvas, const void *context
     }
     fprintf(out,
             "set bmargin at screen %g\nset tmargin at screen %g\n" RB_REPORT_GRID
-            "set offsets 0,0,graph 0.05,graph %g\n"
-            "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
+            "set offsets 0,0,graph 0.05,graph %g\n" RB_REPORT_ZERO,
             0.14 + place.up, 0.9 + place.up, v->shown.from < 0.0 ? 0.05 : 0.0);
     write_title(out, v, place);
     write_axis(out, 'x', &s->x, &v->x, labels_below(place));
