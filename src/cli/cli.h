@@ -145,6 +145,15 @@ const char *cli_command_of(const cli_spec *spec, char name[24]);
 /* 1: it is no group, and the command takes it in some case: help, completions and manual pages
  * show it. */
 int cli_takes(const cli_spec *spec, const rb_option *o);
+/* The options that a command takes, one after the other.  Begin with zeros. */
+typedef struct {
+    const rb_option *option, *group; /* group: its heading; NULL: none */
+    const void *target;              /* of its set */
+    int is_first;                    /* 1: the first one of its group */
+    int set, next;                   /* where the following one is looked for */
+} cli_option;
+/* 0: there are no more. */
+int cli_next_option(const cli_spec *spec, cli_option *at);
 /* What every command but help says to --describe=FORM; the one without a name last, or first. */
 cli_exit cli_describe_all(const char *form, int nameless_first);
 

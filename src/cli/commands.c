@@ -90,6 +90,24 @@ int cli_takes(const cli_spec *spec, const rb_option *o)
            (rb_case_takes(spec->purpose, o->name) || rb_case_takes(spec->second, o->name));
 }
 
+int cli_next_option(const cli_spec *spec, cli_option *at)
+{
+    at->is_first = 0;
+    for (; at->set < spec->set_n; at->set++, at->next = 0)
+        while (at->next < spec->sets[at->set].n) {
+            const rb_option *o = &spec->sets[at->set].options[at->next++];
+            if (o->kind == RB_OPTION_GROUP) {
+                at->group = o;
+                at->is_first = 1;
+            } else if (cli_takes(spec, o)) {
+                at->option = o;
+                at->target = spec->sets[at->set].target;
+                return 1;
+            }
+        }
+    return 0;
+}
+
 cli_exit cli_describe_all(const char *form, int nameless_first)
 {
     char describe[40];

@@ -45,26 +45,6 @@ static void print_choices(const rb_option *o)
         printf("%s%s", c == o->choices ? "" : " ", c->name);
 }
 
-/* All that the command takes, and the groups that have one (NULL: only the options). */
-static void each_option(const cli_spec *spec, void (*print_group)(const rb_option *group),
-                        void (*print)(const rb_option *o, const void *target, const char *command))
-{
-    char command[24];
-    const rb_option *group = NULL;
-    cli_command_of(spec, command);
-    for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
-        for (const rb_option *o = set->options; o < set->options + set->n; o++) {
-            if (o->kind == RB_OPTION_GROUP)
-                group = o;
-            if (!cli_takes(spec, o))
-                continue;
-            if (group && print_group)
-                print_group(group);
-            group = NULL;
-            print(o, set->target, command);
-        }
-}
-
 /* ---- Manual pages ------------------------------------------------------------------ */
 
 /* Text for troff: a line that begins with blanks is an example and stays as it is. */
@@ -97,30 +77,9 @@ static void print_upper(const char *text)
         putchar(toupper((unsigned char)*text));
 }
 
-static void man_group(const rb_option *group)
-{
-    fputs(".SH OPTIONS: ", stdout);
-    print_upper(group->help);
-    printf("\nIn case files: section \\fB[%s]\\fR.\n", group->name);
-}
-
-static void man_option(const rb_option *o, const void *target, const char *command)
-{
-    char values[120], text[600];
-    (void)command;
-    cli_option_metavar(o, values, sizeof values);
-    cli_option_text(o, target, text, sizeof text);
-    fputs(".TP\n\\fB\\-\\-", stdout);
-    print_escaped(o->name, "-", "\\");
-    fputs("\\fR\\fI", stdout);
-    print_escaped(values, "-", "\\");
-    puts("\\fR");
-    print_troff(text);
-}
-
 static void print_man(const cli_spec *spec)
 {
-    char command[24];
+    char command[24], values[120], text[600];
     const char *dash = *cli_command_of(spec, command) ? "-" : "";
     fputs(".TH ROLLBEM", stdout);
     fputs(dash, stdout);
@@ -131,7 +90,21 @@ static void print_man(const cli_spec *spec)
     print_troff(spec->synopsis);
     puts(".SH DESCRIPTION");
     print_troff(spec->about);
-    each_option(spec, man_group, man_option);
+    for (cli_option at = {0}; cli_next_option(spec, &at);) {
+        if (at.is_first) {
+            fputs(".SH OPTIONS: ", stdout);
+            print_upper(at.group->help);
+            printf("\nIn case files: section \\fB[%s]\\fR.\n", at.group->name);
+        }
+        cli_option_metavar(at.option, values, sizeof values);
+        cli_option_text(at.option, at.target, text, sizeof text);
+        fputs(".TP\n\\fB\\-\\-", stdout);
+        print_escaped(at.option->name, "-", "\\");
+        fputs("\\fR\\fI", stdout);
+        print_escaped(values, "-", "\\");
+        puts("\\fR");
+        print_troff(text);
+    }
     if (spec->notes) {
         puts(".SH NOTES");
         print_troff(spec->notes);
@@ -148,30 +121,23 @@ static void print_code_block(const char *text)
     printf("\n```text\n%s%s```\n", text, text[strlen(text) - 1] == '\n' ? "" : "\n");
 }
 
-static void markdown_group(const rb_option *group)
-{
-    printf("\n## %s `[%s]`\n\n| option | meaning |\n|---|---|\n", group->help, group->name);
-}
-
-static void markdown_option(const rb_option *o, const void *target, const char *command)
-{
-    char values[120], text[600];
-    (void)command;
-    cli_option_metavar(o, values, sizeof values);
-    cli_option_text(o, target, text, sizeof text);
-    printf("| `--%s%s` | ", o->name, values);
-    print_escaped(text, "|*_<", "\\");
-    puts(" |");
-}
-
 static void print_markdown(const cli_spec *spec)
 {
-    char command[24];
+    char command[24], values[120], text[600];
     cli_command_of(spec, command);
     printf("# rollbem%s%s\n\n%s\n", *command ? " " : "", command, cli_command_help(command));
     print_code_block(spec->synopsis);
     print_code_block(spec->about);
-    each_option(spec, markdown_group, markdown_option);
+    for (cli_option at = {0}; cli_next_option(spec, &at);) {
+        if (at.is_first)
+            printf("\n## %s `[%s]`\n\n| option | meaning |\n|---|---|\n", at.group->help,
+                   at.group->name);
+        cli_option_metavar(at.option, values, sizeof values);
+        cli_option_text(at.option, at.target, text, sizeof text);
+        printf("| `--%s%s` | ", at.option->name, values);
+        print_escaped(text, "|*_<", "\\");
+        puts(" |");
+    }
     if (spec->notes)
         print_code_block(spec->notes);
 }
@@ -195,88 +161,70 @@ static void print_results(const cli_spec *spec)
 
 /* ---- Completions ------------------------------------------------------------------- */
 
-static void bash_value(const rb_option *o, const void *target, const char *command)
-{
-    (void)target;
-    (void)command;
-    if (o->kind == RB_OPTION_FLAG)
-        return;
-    printf("        --%s) values=\"", o->name);
-    print_choices(o);
-    printf("\" kind=%s ;;\n", takes_file(o) ? "file" : "word");
-}
-
-static void bash_name(const rb_option *o, const void *target, const char *command)
-{
-    (void)target;
-    (void)command;
-    printf(" --%s", o->name);
-}
-
 static void bash_command(const cli_spec *spec)
 {
     char command[24];
     printf("    %s)\n        case $previous in\n", *cli_command_of(spec, command) ? command : "*");
-    each_option(spec, NULL, bash_value);
+    for (cli_option at = {0}; cli_next_option(spec, &at);) {
+        if (at.option->kind == RB_OPTION_FLAG)
+            continue;
+        printf("        --%s) values=\"", at.option->name);
+        print_choices(at.option);
+        printf("\" kind=%s ;;\n", takes_file(at.option) ? "file" : "word");
+    }
     fputs("        esac\n        options=\"", stdout);
-    each_option(spec, NULL, bash_name);
+    for (cli_option at = {0}; cli_next_option(spec, &at);)
+        printf(" --%s", at.option->name);
     puts("\"\n        ;;");
-}
-
-static void zsh_option(const rb_option *o, const void *target, const char *command)
-{
-    (void)target;
-    (void)command;
-    printf("            '--%s%s[", o->name, o->kind == RB_OPTION_FLAG ? "" : "=");
-    for (const char *c = o->help; *c; c++) {
-        if (strchr("[]:\\", *c))
-            putchar('\\');
-        print_character(*c, *c == '\'' ? "'\\''" : NULL);
-    }
-    fputs("]", stdout);
-    if (o->kind != RB_OPTION_FLAG) {
-        fputs(takes_file(o) ? ":file:_files" : o->choices ? ":value:(" : ":value:", stdout);
-        if (!takes_file(o) && o->choices) {
-            print_choices(o);
-            putchar(')');
-        }
-    }
-    puts("' \\");
 }
 
 static void zsh_command(const cli_spec *spec)
 {
     char command[24];
     printf("    %s)\n        _arguments \\\n", *cli_command_of(spec, command) ? command : "*");
-    each_option(spec, NULL, zsh_option);
+    for (cli_option at = {0}; cli_next_option(spec, &at);) {
+        const rb_option *o = at.option;
+        printf("            '--%s%s[", o->name, o->kind == RB_OPTION_FLAG ? "" : "=");
+        for (const char *c = o->help; *c; c++) {
+            if (strchr("[]:\\", *c))
+                putchar('\\');
+            print_character(*c, *c == '\'' ? "'\\''" : NULL);
+        }
+        fputs("]", stdout);
+        if (o->kind != RB_OPTION_FLAG)
+            fputs(takes_file(o) ? ":file:_files" : o->choices ? ":value:(" : ":value:", stdout);
+        if (o->kind != RB_OPTION_FLAG && !takes_file(o) && o->choices) {
+            print_choices(o);
+            putchar(')');
+        }
+        puts("' \\");
+    }
     puts("            '--help[this text]' '--usage[the options on a few lines]' '--version' "
          "'*:file:_files'\n        ;;");
 }
 
-static void fish_option(const rb_option *o, const void *target, const char *command)
+static void fish_command(const cli_spec *spec)
 {
-    (void)target;
-    if (*command)
-        printf("complete -c rollbem -n '__fish_seen_subcommand_from %s'", command);
-    else
-        fputs("complete -c rollbem -n __rollbem_solves", stdout);
-    printf(" -l %s", o->name);
-    if (o->kind != RB_OPTION_FLAG) {
-        fputs(takes_file(o) ? " -r" : " -x", stdout);
-        if (o->choices) {
+    char command[24];
+    cli_command_of(spec, command);
+    for (cli_option at = {0}; cli_next_option(spec, &at);) {
+        const rb_option *o = at.option;
+        if (*command)
+            printf("complete -c rollbem -n '__fish_seen_subcommand_from %s'", command);
+        else
+            fputs("complete -c rollbem -n __rollbem_solves", stdout);
+        printf(" -l %s", o->name);
+        if (o->kind != RB_OPTION_FLAG)
+            fputs(takes_file(o) ? " -r" : " -x", stdout);
+        if (o->kind != RB_OPTION_FLAG && o->choices) {
             fputs(" -a '", stdout);
             print_choices(o);
             putchar('\'');
         }
+        fputs(" -d '", stdout);
+        print_quoted(o->help);
+        puts("'");
     }
-    fputs(" -d '", stdout);
-    print_quoted(o->help);
-    puts("'");
-}
-
-static void fish_command(const cli_spec *spec)
-{
-    each_option(spec, NULL, fish_option);
 }
 
 /* ---- The schema of --json --------------------------------------------------------- */

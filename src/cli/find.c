@@ -156,12 +156,11 @@ void cli_find_holder(const cli_spec *spec)
 {
     char command[24];
     cli_command_of(spec, command);
-    for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
-        for (const rb_option *o = set->options; o < set->options + set->n; o++)
-            if (cli_takes(spec, o) && strlen(o->name) == wanted.length &&
-                strncmp(o->name, wanted.name, wanted.length) == 0 && wanted.n++ < SHOWN)
-                rb_append(wanted.commands, sizeof wanted.commands, "%srollbem%s%s",
-                          wanted.n > 1 ? ", " : "", *command ? " " : "", command);
+    for (cli_option at = {0}; cli_next_option(spec, &at);)
+        if (strlen(at.option->name) == wanted.length &&
+            strncmp(at.option->name, wanted.name, wanted.length) == 0 && wanted.n++ < SHOWN)
+            rb_append(wanted.commands, sizeof wanted.commands, "%srollbem%s%s",
+                      wanted.n > 1 ? ", " : "", *command ? " " : "", command);
 }
 
 const char *cli_commands_with(const char *name, size_t length)

@@ -90,23 +90,16 @@ int cli_print_help(const cli_spec *spec, const char *part)
     for (int i = 0; spec->set_n > 0 && i < spec->sets[0].n; i++)
         common |= spec->sets[0].options[i].common;
     FILE *pager = cli_open_pager();
-    int inside = 0;
-    const rb_option *group = NULL; /* whose title is still to be printed */
-    for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n && is_part; set++)
-        /* The groups that begin so, and the option of that name. */
-        for (const rb_option *o = set->options; o < set->options + set->n; o++) {
-            if (o->kind == RB_OPTION_GROUP) {
-                inside = strncmp(o->name, part, strlen(part)) == 0;
-                group = inside ? o : NULL;
-            }
-            if (!cli_takes(spec, o) || (!inside && strcmp(o->name, part) != 0))
-                continue;
-            if (group)
-                print_group_title(group);
-            group = NULL;
-            print_option(o, set->target);
+    /* The groups that begin so, and the option of that name. */
+    for (cli_option at = {0}; is_part && cli_next_option(spec, &at);) {
+        const int inside = at.group && strncmp(at.group->name, part, strlen(part)) == 0;
+        if (inside && at.is_first)
+            print_group_title(at.group);
+        if (inside || strcmp(at.option->name, part) == 0) {
+            print_option(at.option, at.target);
             found = 1;
         }
+    }
     if (!part && pager && common) {
         /* The command's own options, and the common ones of the case. */
         const char *paragraph = strstr(spec->about, "\n\n");
@@ -123,15 +116,9 @@ int cli_print_help(const cli_spec *spec, const char *part)
             if (is_abbreviated(spec, s))
                 print_set(spec, &spec->sets[s], 1);
         char text[1000] = "";
-        for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
-            for (const rb_option *o = set->options; o < set->options + set->n; o++) {
-                if (o->kind == RB_OPTION_GROUP)
-                    group = o;
-                if (!group || !cli_takes(spec, o))
-                    continue;
-                rb_append(text, sizeof text, "%s%s", *text ? ", " : "", group->name);
-                group = NULL;
-            }
+        for (cli_option at = {0}; cli_next_option(spec, &at);)
+            if (at.is_first)
+                rb_append(text, sizeof text, "%s%s", *text ? ", " : "", at.group->name);
         puts("\nMore");
         cli_print_entry("--help=all", "every option");
         cli_print_entry("--help=GROUP", text);
@@ -170,17 +157,14 @@ void cli_print_usage(const cli_spec *spec)
     char values[120];
     int at = 0;
     printf("Usage: %s\n", spec->synopsis);
-    for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++)
-        for (const rb_option *o = set->options; o < set->options + set->n; o++) {
-            if (!cli_takes(spec, o))
-                continue;
-            cli_option_metavar(o, values, sizeof values);
-            const int n = (int)(strlen(o->name) + strlen(values)) + 5;
-            if (at > 0 && at + n > WIDTH) {
-                putchar('\n');
-                at = 0;
-            }
-            at += printf("%s[--%s%s]", at ? " " : "  ", o->name, values);
+    for (cli_option of = {0}; cli_next_option(spec, &of);) {
+        cli_option_metavar(of.option, values, sizeof values);
+        const int n = (int)(strlen(of.option->name) + strlen(values)) + 5;
+        if (at > 0 && at + n > WIDTH) {
+            putchar('\n');
+            at = 0;
         }
+        at += printf("%s[--%s%s]", at ? " " : "  ", of.option->name, values);
+    }
     puts(at ? "\n  [--help] [--usage] [--version]" : "  [--help] [--usage] [--version]");
 }

@@ -79,15 +79,13 @@ static cli_exit unknown_option(const char *name, int length, rb_guess *guess)
 static const char *option_that_begins(const cli_spec *spec, const char *letters, size_t n)
 {
     const char *found = NULL;
-    for (int s = 0; s < spec->set_n; s++)
-        for (int k = 0; k < spec->sets[s].n; k++) {
-            const rb_option *o = &spec->sets[s].options[k];
-            if (!cli_takes(spec, o) || strncmp(o->name, letters, n) != 0)
-                continue;
-            found = o->name;
-            if (!found[n])
-                return found;
-        }
+    for (cli_option at = {0}; cli_next_option(spec, &at);) {
+        if (strncmp(at.option->name, letters, n) != 0)
+            continue;
+        found = at.option->name;
+        if (!found[n])
+            return found;
+    }
     return found;
 }
 
