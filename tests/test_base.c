@@ -126,6 +126,19 @@ TEST(what_went_wrong_has_its_words)
 
 /* Anything that is no printable character of UTF-8 is shown by its bytes, and no
  * character is cut in two. */
+TEST(the_words_of_a_list_stand_between_commas)
+{
+    static const char *const wanted[] = {"mu", "", "radiu"};
+    const char *rest = "mu,,radius,";
+    char word[6] = "?"; /* the last one is too long for it */
+    for (int k = 0; k < 3; k++) {
+        assert_non_null(rest = rb_next_word(rest, word, sizeof word));
+        assert_string_equal(word, wanted[k]);
+    }
+    assert_null(rb_next_word(rest, word, sizeof word));
+    assert_null(rb_next_word(NULL, word, sizeof word));
+}
+
 TEST(only_characters_are_printed)
 {
     static const struct {

@@ -75,6 +75,10 @@ __attribute__((format(printf, 3, 4)))
 void
 rb_append(char *text, size_t size, const char *format, ...);
 
+/* Copies the next word of a list with commas, as far as it fits.  Returns the rest of the list;
+ * NULL: it is empty, or NULL. */
+const char *rb_next_word(const char *list, char *word, size_t size);
+
 /* "solved", "secondary ray", ...: static text. */
 const char *rb_status_text(rb_status s);
 /* The text of why, or that of s if why is NULL or empty. */

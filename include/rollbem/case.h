@@ -151,6 +151,10 @@ const rb_resolved_case *rb_case_resolved(const rb_case *c);
 /* The units of numbers without a unit from the source `by`; the case file (by > 0) has
  * its own. */
 rb_units rb_case_units(const rb_case *c, int by);
+/* A number of the command line, alone or with a unit that `unit` may be counted in, as it is
+ * stored.  RB_EINVAL: it is none. */
+rb_status rb_case_read_number(const rb_case *c, const char *text, const char *unit, double *x,
+                              rb_message *why);
 /* Converts the given numbers of a set that have no unit to mm, N, MPa and stores them in
  * target, a struct of the same type as set->target. */
 void rb_case_store(const rb_case *c, const rb_option_set *set, void *target);

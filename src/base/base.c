@@ -34,6 +34,15 @@ void rb_append(char *text, size_t size, const char *format, ...)
     rb_locale_end(before);
 }
 
+const char *rb_next_word(const char *list, char *word, size_t size)
+{
+    if (!list || !*list)
+        return NULL;
+    const size_t n = strcspn(list, ",");
+    snprintf(word, size, "%.*s", (int)n, list);
+    return list + n + (list[n] == ',');
+}
+
 const char *rb_version(void)
 {
     return RB_VERSION;

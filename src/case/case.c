@@ -208,6 +208,16 @@ rb_units rb_case_units(const rb_case *c, int by)
     return by > 0 ? c->file_units : c->words.units;
 }
 
+rb_status rb_case_read_number(const rb_case *c, const char *text, const char *unit, double *x,
+                              rb_message *why)
+{
+    int plain;
+    const rb_status s = rb_unit_read(text, unit, x, &plain, why);
+    if (s == RB_OK && plain)
+        *x = rb_unit_stored(rb_case_units(c, RB_GIVEN_ARGUMENT), unit, *x);
+    return s;
+}
+
 void rb_case_store(const rb_case *c, const rb_option_set *set, void *target)
 {
     for (int k = 0; k < set->n; k++) {
@@ -593,17 +603,12 @@ static rb_status check_formulation(const rb_case *c, rb_message *why)
 
 /* ---- What depends on the purpose --------------------------------------------------- */
 
-static const char varies[] = "a curve varies it from --from to --to, a fit takes it from its data",
-                  steady_only[] = "a curve needs steady rolling, and so does a fit",
-                  no_steps[] = "a design takes cases of one step without error bars",
-                  curve_errors[] =
-                      "only for single cases; a curve has --error, and a fit has intervals",
-                  no_heat[] = "stress has no temperatures",
-                  no_wear_heat[] = "wear has no temperatures";
+static const char steady_only[] = "a curve needs steady rolling, and so does a fit",
+                  no_steps[] = "a design takes cases of one step without error bars";
 
 enum {
     CURVE = 1 << RB_CASE_CURVE,
-    CURVES = CURVE | 1 << RB_CASE_SPEEDS,
+    SPEEDS = 1 << RB_CASE_SPEEDS,
     STRESS = 1 << RB_CASE_STRESS,
     WEAR = 1 << RB_CASE_WEAR,
     CRACK = 1 << RB_CASE_CRACK,
@@ -611,91 +616,69 @@ enum {
     DESIGN = 1 << RB_CASE_DESIGN
 };
 
+#define KINDS_OF_WEAR "wear is of sliding, fretting or steady rolling"
+#define VARIES "a curve varies it from --from to --to, a fit takes it from its data"
+#define HEAT " conductivity heat-capacity temperature conductivity-b heat-capacity-b temperature-b "
+
 /* Options that no case of these purposes takes. */
 static const struct {
     int purposes;
-    const char *option, *reason;
+    const char *options, *reason; /* options: a blank before and behind each */
 } never_taken[] = {
-    {CURVE, "shift", varies},
-    {CURVE, "creep", varies},
-    {CURVE, "creep-ratio", varies},
-    {CURVE, "force", varies},
-    {CURVE, "force-ratio", varies},
-    {CURVE, "free-axle", varies},
-    {1 << RB_CASE_SPEEDS, "speed", varies},
-    {CURVE, "history", varies},
-    {CURVES, "history", steady_only},
-    {CURVES, "distance", steady_only},
-    {CURVES, "steps", steady_only},
-    {CURVES, "irregularity", steady_only},
-    {CURVES, "increments", steady_only},
-    {CURVES, "time-step", steady_only},
-    {CURVES, "accuracy", curve_errors},
-    {STRESS, "accuracy", "stress has error bars (--error), but no refinement"},
-    {CRACK, "accuracy", "a crack has error bars (--error), but no refinement"},
-    {STUDY, "accuracy", "a study has error bars (--error), but no refinement"},
-    {STUDY, "history", "a study has none"},
-    {WEAR, "error", "wear has no error bars"},
-    {WEAR, "accuracy", "wear does not refine"},
-    {WEAR, "history", "the cycles have their own"},
-    {WEAR, "increments", "the cycles have their own, --quarter"},
-    {WEAR, "distance", "wear is of sliding, fretting or steady rolling"},
-    {WEAR, "steps", "wear is of sliding, fretting or steady rolling; see --wear-steps"},
-    {WEAR, "irregularity", "wear is of sliding, fretting or steady rolling"},
-    {WEAR, "time-step", "wear is of elastic bodies only"},
-    {WEAR, "relaxation-time", "wear is of elastic bodies only"},
-    {WEAR, "relaxation-ratio", "wear is of elastic bodies only"},
-    {WEAR, "relaxation-time-b", "wear is of elastic bodies only"},
-    {WEAR, "relaxation-ratio-b", "wear is of elastic bodies only"},
-    {WEAR, "yield-stress", "wear has no third body that yields"},
-    {WEAR, "hardening", "wear has no third body that yields"},
-    {STRESS, "conductivity", no_heat},
-    {WEAR, "conductivity", no_wear_heat},
-    {STRESS, "heat-capacity", no_heat},
-    {WEAR, "heat-capacity", no_wear_heat},
-    {STRESS, "temperature", no_heat},
-    {WEAR, "temperature", no_wear_heat},
-    {STRESS, "conductivity-b", no_heat},
-    {WEAR, "conductivity-b", no_wear_heat},
-    {STRESS, "heat-capacity-b", no_heat},
-    {WEAR, "heat-capacity-b", no_wear_heat},
-    {STRESS, "temperature-b", no_heat},
-    {WEAR, "temperature-b", no_wear_heat},
-    {DESIGN, "error", no_steps},
-    {DESIGN, "accuracy", no_steps},
-    {DESIGN, "history", no_steps},
-    {DESIGN, "distance", no_steps},
-    {DESIGN, "steps", no_steps},
-    {DESIGN, "irregularity", no_steps},
-    {DESIGN, "increments", no_steps},
-    {DESIGN, "time-step", no_steps}};
+    {CURVE, " shift creep creep-ratio force force-ratio free-axle history ", VARIES},
+    {SPEEDS, " speed ", VARIES},
+    {CURVE | SPEEDS, " history distance steps irregularity increments time-step ", steady_only},
+    {CURVE | SPEEDS, " accuracy ",
+     "only for single cases; a curve has --error, and a fit has intervals"},
+    {STRESS, " accuracy ", "stress has error bars (--error), but no refinement"},
+    {CRACK, " accuracy ", "a crack has error bars (--error), but no refinement"},
+    {STUDY, " accuracy ", "a study has error bars (--error), but no refinement"},
+    {STUDY, " history ", "a study has none"},
+    {WEAR, " error ", "wear has no error bars"},
+    {WEAR, " accuracy ", "wear does not refine"},
+    {WEAR, " history ", "the cycles have their own"},
+    {WEAR, " increments ", "the cycles have their own, --quarter"},
+    {WEAR, " distance ", KINDS_OF_WEAR},
+    {WEAR, " steps ", KINDS_OF_WEAR "; see --wear-steps"},
+    {WEAR, " irregularity ", KINDS_OF_WEAR},
+    {WEAR, " time-step relaxation-time relaxation-ratio relaxation-time-b relaxation-ratio-b ",
+     "wear is of elastic bodies only"},
+    {WEAR, " yield-stress hardening ", "wear has no third body that yields"},
+    {STRESS, HEAT, "stress has no temperatures"},
+    {WEAR, HEAT, "wear has no temperatures"},
+    {DESIGN, " error accuracy history distance steps irregularity increments time-step ",
+     no_steps}};
 
 enum { NEVER_TAKEN = sizeof never_taken / sizeof *never_taken };
 
 int rb_case_takes(rb_case_purpose purpose, const char *option)
 {
+    char word[80];
+    snprintf(word, sizeof word, " %s ", option);
     for (size_t k = 0; k < NEVER_TAKEN; k++)
-        if (never_taken[k].purposes >> purpose & 1 && strcmp(never_taken[k].option, option) == 0)
+        if (never_taken[k].purposes >> purpose & 1 && strstr(never_taken[k].options, word))
             return 0;
     return 1;
 }
 
 static rb_status check_never_taken(const rb_case *c, rb_message *why)
 {
-    for (size_t k = 0; k < NEVER_TAKEN; k++) {
-        const rule one = {never_taken[k].purposes >> c->purpose & 1, never_taken[k].option,
-                          never_taken[k].reason};
-        const rb_status s = refuse_by(c, 1, &one, why);
-        if (s != RB_OK)
-            return s;
-    }
+    for (size_t k = 0; k < NEVER_TAKEN; k++)
+        for (const char *at = never_taken[k].options + 1;
+             *at && never_taken[k].purposes >> c->purpose & 1; at = strchr(at, ' ') + 1) {
+            char name[40];
+            snprintf(name, sizeof name, "%.*s", (int)strcspn(at, " "), at);
+            const rb_status s = rb_case_refuse_given(c, name, never_taken[k].reason, why);
+            if (s != RB_OK)
+                return s;
+        }
     return RB_OK;
 }
 
 /* Values that mean nothing to what the case is solved for. */
 static rb_status check_purpose(const rb_case *c, rb_message *why)
 {
-    const int curve = CURVES >> c->purpose & 1;
+    const int curve = (CURVE | SPEEDS) >> c->purpose & 1;
     const rb_rolling_formulation formulation = c->resolved.rc.formulation;
     const rb_numbers *mus = &c->resolved.mus;
     /* 0,3 is read as 0 and 3. */
@@ -705,8 +688,7 @@ static rb_status check_purpose(const rb_case *c, rb_message *why)
         {curve && formulation != RB_STEADY, "formulation", steady_only},
         {c->purpose == RB_CASE_STUDY && formulation == RB_TRANSIENT, "formulation",
          "a study needs static or steady cases"},
-        {c->purpose == RB_CASE_WEAR && formulation == RB_TRANSIENT, "formulation",
-         "wear is of sliding, fretting or steady rolling"},
+        {c->purpose == RB_CASE_WEAR && formulation == RB_TRANSIENT, "formulation", KINDS_OF_WEAR},
         {c->purpose == RB_CASE_DESIGN && formulation == RB_TRANSIENT, "formulation", no_steps},
         {!curve && mus->n > 1, "mu",
          comma ? "expected one number, with a decimal point; a curve takes several"

@@ -361,7 +361,6 @@ static rb_status read_deviation(const rb_case_number *number, const char *text, 
 {
     char digits[64];
     const size_t n = strlen(text);
-    int plain;
 
     if (n > 1 && n < sizeof digits && text[n - 1] == '%') {
         snprintf(digits, sizeof digits, "%.*s", (int)n - 1, text);
@@ -370,11 +369,7 @@ static rb_status read_deviation(const rb_case_number *number, const char *text, 
         *deviation *= 0.01 * fabs(number->input.value);
         return RB_OK;
     }
-    const rb_status s = rb_unit_read(text, number->option->unit, deviation, &plain, why);
-    if (s == RB_OK && plain)
-        *deviation = rb_unit_stored(rb_case_units(number->c, RB_GIVEN_ARGUMENT),
-                                    number->option->unit, *deviation);
-    return s;
+    return rb_case_read_number(number->c, text, number->option->unit, deviation, why);
 }
 
 static int is_among(const char *name, const rb_case_tolerances *t)
@@ -390,6 +385,7 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_to
 {
     rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
     rb_status s = number ? RB_OK : rb_fail(why, RB_ENOMEM, "out of memory for tolerances");
+    char word[100];
     int numbers = 0;
 
     t->n = 0;
@@ -397,10 +393,7 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_to
         s = rb_case_numbers(c, number, &numbers, why);
     if (s == RB_OK && !*text)
         s = rb_fail(why, RB_EINVAL, "expected NAME=X, got ''");
-    for (size_t n; s == RB_OK && *text; text += n + (text[n] == ',')) {
-        char word[100];
-        n = strcspn(text, ",");
-        snprintf(word, sizeof word, "%.*s", (int)n, text);
+    while (s == RB_OK && (text = rb_next_word(text, word, sizeof word))) {
         char *value = strchr(word, '=');
         int k = 0;
         if (value)

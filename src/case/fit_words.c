@@ -50,23 +50,21 @@ static rb_case_parameter *parameter_of(rb_case_fit *fit, const char *name)
 
 rb_status rb_case_fit_names(const char *text, rb_case_fit *fit, rb_message *why)
 {
+    char name[120];
+
     fit->n = 0;
-    for (const char *at = text; *at;) {
-        const size_t n = strcspn(at, ",");
-        char name[sizeof fit->parameter->name];
-        snprintf(name, sizeof name, "%.*s", (int)n, at);
-        if (n == 0 || n >= sizeof name || parameter_of(fit, name))
+    for (const char *at = text; (at = rb_next_word(at, name, sizeof name));) {
+        if (!*name || strlen(name) >= sizeof fit->parameter->name || parameter_of(fit, name))
             return rb_fail(why, RB_EINVAL, "--fit: expected different names, got '%.200s'", text);
         if (fit->n == RB_CASE_FIT_MAX)
             return rb_fail(why, RB_EINVAL, "--fit: expected at most %d names", RB_CASE_FIT_MAX);
         if (rb_case_fit_check_name(name, why) != RB_OK)
             return RB_EINVAL;
         rb_case_parameter *p = &fit->parameter[fit->n++];
-        memcpy(p->name, name, sizeof name);
+        strcpy(p->name, name);
         p->start = NAN;
         p->low = -INFINITY;
         p->high = INFINITY;
-        at += n + (at[n] == ',');
     }
     return fit->n > 0 ? RB_OK : rb_fail(why, RB_EINVAL, "--fit: expected a name, got ''");
 }
@@ -75,25 +73,18 @@ rb_status rb_case_fit_names(const char *text, rb_case_fit *fit, rb_message *why)
 static int read_number(const rb_case *c, const rb_case_parameter *p, const char *text, double *x)
 {
     const rb_option *o = rb_case_option(p->name);
-    const char *unit = o ? o->unit : "-";
-    int plain;
 
-    if (rb_unit_read(text, unit, x, &plain, NULL) != RB_OK)
-        return 0;
-    if (plain)
-        *x = rb_unit_stored(rb_case_units(c, RB_GIVEN_ARGUMENT), unit, *x);
-    return 1;
+    return rb_case_read_number(c, text, o ? o->unit : "-", x, NULL) == RB_OK;
 }
 
 rb_status rb_case_fit_values(const rb_case *c, const char *option, const char *text,
                              rb_case_fit *fit, rb_message *why)
 {
     const int ranges = strcmp(option, "bounds") == 0;
+    char word[120], whole[120];
 
-    for (size_t n; text && *text; text += n + (text[n] == ',')) {
-        char word[120];
-        n = strcspn(text, ",");
-        snprintf(word, sizeof word, "%.*s", (int)n, text);
+    while ((text = rb_next_word(text, word, sizeof word))) {
+        strcpy(whole, word);
         char *first = strchr(word, '='), *second = first ? strchr(first, ':') : NULL;
         double x = NAN, y = NAN;
         if (first)
@@ -103,9 +94,8 @@ rb_status rb_case_fit_values(const rb_case *c, const char *option, const char *t
         rb_case_parameter *p = first ? parameter_of(fit, word) : NULL;
         if (!p || !second != !ranges || !read_number(c, p, first, &x) ||
             (ranges && (!read_number(c, p, second, &y) || !(x < y))))
-            return rb_fail(why, RB_EINVAL, "--%s: expected %s of a fitted number, got '%.*s'",
-                           option, ranges ? "NAME=A:B, A < B," : "NAME=X", (int)(n < 119 ? n : 119),
-                           text);
+            return rb_fail(why, RB_EINVAL, "--%s: expected %s of a fitted number, got '%s'", option,
+                           ranges ? "NAME=A:B, A < B," : "NAME=X", whole);
         if (ranges) {
             p->low = x;
             p->high = y;

@@ -61,6 +61,7 @@ rb_status rb_case_slopes_choose(const rb_case *c, const rb_rolling_results *tabl
                                 const char *words, int most, rb_case_slopes *s, rb_message *why)
 {
     rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
+    char word[100];
     int numbers = 0;
     rb_status status;
 
@@ -69,12 +70,8 @@ rb_status rb_case_slopes_choose(const rb_case *c, const rb_rolling_results *tabl
                              : rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     if (status == RB_OK && !*words)
         status = rb_fail(why, RB_EINVAL, "expected a name, got ''");
-    for (size_t n; status == RB_OK && *words; words += n + (words[n] == ',')) {
-        char word[100];
-        n = strcspn(words, ",");
-        snprintf(word, sizeof word, "%.*s", (int)n, words);
+    while (status == RB_OK && (words = rb_next_word(words, word, sizeof word)))
         status = add_word(&c->resolved, s, word, numbers, number, most, why);
-    }
     free(number);
     return status == RB_EINVAL ? rb_case_name_option("derivatives", status, why) : status;
 }

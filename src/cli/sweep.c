@@ -216,14 +216,10 @@ static cli_exit choose_results(study *st)
         if (rb_rolling_has_result(r, &one->rc, 0) &&
             !is_given(st, rb_rolling_heading(r, one->units, heading)))
             choose(st, (study_result){r, OF_SOLUTION, 0});
-    for (const char *at = st->o->results; at && *at && code == CLI_CONTINUE;) {
-        /* The next of --results, whose name ends at *at. */
-        char name[STUDY_HEADING];
-        const size_t n = strcspn(at, ","), most = sizeof name - 1;
-        snprintf(name, sizeof name, "%.*s", (int)(n < most ? n : most), at);
-        at += n + (at[n] == ',');
+    char name[STUDY_HEADING];
+    for (const char *at = st->o->results;
+         code == CLI_CONTINUE && (at = rb_next_word(at, name, sizeof name));)
         code = choose_by_name(st, "results", name);
-    }
     if (code == CLI_CONTINUE && cli_study_has_pictures(st)) {
         const char *shown = cli_study_shown(st);
         code = is_given(st, shown)

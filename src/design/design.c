@@ -59,10 +59,9 @@ rb_status rb_design_objective(const char *name, rb_design *d, rb_message *why)
 
 rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d, rb_message *why)
 {
-    for (size_t n; text && *text; text += n + (text[n] == ',')) {
-        char word[120];
-        n = strcspn(text, ",");
-        snprintf(word, sizeof word, "%.*s", (int)n, text);
+    char word[120];
+
+    while ((text = rb_next_word(text, word, sizeof word))) {
         char *sign = strpbrk(word, "<>");
         if (!sign)
             return rb_fail(why, RB_EINVAL, "--subject: expected RESULT<=X or RESULT>=X, got '%s'",
@@ -73,16 +72,13 @@ rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d
         rb_design_constraint *k = &d->constraint[d->constraints++];
         *k = (rb_design_constraint){.at_least = *sign == '>'};
         const char *number = sign + 1 + (sign[1] == '=');
-        double x;
-        int plain;
         *sign = '\0';
         if (find_result(word, &k->result, why) != RB_OK)
             return RB_EINVAL;
         const char *unit = k->result && k->result->unit ? k->result->unit : "-";
-        if (rb_unit_read(number, unit, &x, &plain, why) != RB_OK)
+        if (rb_case_read_number(c, number, unit, &k->bound, why) != RB_OK)
             return rb_fail(why, RB_EINVAL, "--subject: %s: expected a number, got '%.40s'", word,
                            number);
-        k->bound = plain ? rb_unit_stored(rb_case_units(c, RB_GIVEN_ARGUMENT), unit, x) : x;
     }
     return RB_OK;
 }
@@ -91,16 +87,12 @@ static rb_status read_bounds(const rb_case *c, const char *name, const char *uni
                              double bound[2], rb_message *why)
 {
     char *colon = text ? strchr(text, ':') : NULL;
-    int plain;
 
     if (colon)
         *colon = '\0';
-    for (int k = 0; k < 2; k++) {
-        if (!colon || rb_unit_read(k ? colon + 1 : text, unit, &bound[k], &plain, why) != RB_OK)
+    for (int k = 0; k < 2; k++)
+        if (!colon || rb_case_read_number(c, k ? colon + 1 : text, unit, &bound[k], why) != RB_OK)
             return rb_fail(why, RB_EINVAL, "--over: expected %s=A:B", name);
-        if (plain)
-            bound[k] = rb_unit_stored(rb_case_units(c, RB_GIVEN_ARGUMENT), unit, bound[k]);
-    }
     return bound[0] < bound[1] ? RB_OK
                                : rb_fail(why, RB_EINVAL, "--over: %s: expected A < B", name);
 }
@@ -163,11 +155,9 @@ rb_status rb_design_variables(const rb_case *c, const char *text, rb_design *d, 
     int numbers = 0;
     rb_status s = number ? rb_case_numbers(c, number, &numbers, why)
                          : rb_fail(why, RB_ENOMEM, "out of memory for a design");
+    char word[120];
 
-    for (size_t n; text && *text && s == RB_OK; text += n + (text[n] == ',')) {
-        char word[120];
-        n = strcspn(text, ",");
-        snprintf(word, sizeof word, "%.*s", (int)n, text);
+    while (s == RB_OK && (text = rb_next_word(text, word, sizeof word))) {
         char *range = strchr(word, '=');
         if (range)
             *range++ = '\0';

@@ -30,11 +30,8 @@ rb_status rb_report_derivatives_of(const char *names, const rb_resolved_case *c,
             add_result(&all->row[k], 0, d);
     if (d->n > 0)
         return RB_OK;
-    for (size_t n; *names; names += n + (names[n] == ',')) {
-        char name[40];
+    for (char name[40]; (names = rb_next_word(names, name, sizeof name));) {
         int is_column;
-        n = strcspn(names, ",");
-        snprintf(name, sizeof name, "%.*s", (int)n, names);
         const rb_rolling_result *r = rb_case_derivative_result(name, &is_column);
         if (!r && strchr(name, ':'))
             return rb_fail(why, RB_EINVAL,
@@ -179,10 +176,9 @@ void rb_report_json_uncertain_text(json_t **root, const char *text)
 {
     json_t *inputs = json_object();
 
-    for (size_t n; *text; text += n + (text[n] == ',')) {
+    for (char word[100]; (text = rb_next_word(text, word, sizeof word));) {
         char name[40] = "", value[60] = "", *end;
-        n = strcspn(text, ",");
-        if (sscanf(text, " %39[^=, ] = %59[^,]", name, value) != 2)
+        if (sscanf(word, " %39[^=, ] = %59[^,]", name, value) != 2)
             continue;
         const double x = rb_read_number(value, &end);
         end += strspn(end, " ");
