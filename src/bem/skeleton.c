@@ -20,24 +20,48 @@ rb_status rb_skeleton_alloc(int rows, int columns, rb_skeleton *s)
     return s->memory.failed ? rb_arena_done(&s->memory, RB_ENOMEM) : RB_OK;
 }
 
-enum { WIDE = 96 };
+/* LAPACK's pivoted QR up to where the rank ends: `block` columns of the n that are left behind
+ * the first `offset`; F: n x block. */
+#define LAPACK_dlaqps LAPACK_GLOBAL(dlaqps, DLAQPS)
+void LAPACK_dlaqps(const lapack_int *m, const lapack_int *n, const lapack_int *offset,
+                   const lapack_int *block, lapack_int *done, double *A, const lapack_int *lda,
+                   lapack_int *pivot, double *scale, double *norm, double *first_norm,
+                   double *auxiliary, double *F, const lapack_int *ldf);
+
+enum { BLOCK = 16 };
+
+/* Until the diagonal falls below `tolerance` times its first entry; how many columns. */
+static int factor_pivoted(rb_skeleton *s, double tolerance, double *work)
+{
+    const lapack_int most = s->rows < s->columns ? s->rows : s->columns;
+    double *norm = work, *first_norm = norm + s->columns, *auxiliary = first_norm + s->columns,
+           *F = auxiliary + BLOCK;
+    lapack_int at = 0;
+
+    for (int j = 0; j < s->columns; j++) {
+        s->pivot[j] = j + 1;
+        norm[j] = first_norm[j] = cblas_dnrm2(s->rows, s->K + (size_t)j * (size_t)s->ld, 1);
+    }
+    while (at < most && (at == 0 || fabs(s->K[(size_t)(at - 1) * (size_t)(s->ld + 1)]) >
+                                        tolerance * fabs(s->K[0]))) {
+        const lapack_int left = s->columns - at, block = BLOCK < most - at ? BLOCK : most - at,
+                         rows = s->rows, ld = s->ld;
+        lapack_int done;
+        LAPACK_dlaqps(&rows, &left, &at, &block, &done, s->K + (size_t)at * (size_t)s->ld, &ld,
+                      s->pivot + at, s->scale + at, norm + at, first_norm + at, auxiliary, F,
+                      &left);
+        at += done;
+    }
+    return at;
+}
 
 rb_status rb_skeleton_factor(rb_skeleton *s, double tolerance)
 {
-    const int n = s->columns, most = s->rows < n ? s->rows : n, block = 64;
-    const lapack_int lwork = 2 * n + (n + 1) * block;
-    double *work = rb_alloc((size_t)lwork, 1);
+    double *work = rb_alloc((size_t)s->columns + 1, BLOCK + 2);
 
     if (!work)
         return RB_ENOMEM;
-    /* K = Q R first where there are many columns: pivoting cannot work on whole blocks,
-     * and then does so on fewer rows. */
-    if (!(n < WIDE || s->rows < n)) {
-        LAPACKE_dgeqrf_work(LAPACK_COL_MAJOR, s->rows, n, s->K, s->ld, s->scale, work, lwork);
-        s->rows = n;
-        LAPACKE_dlaset_work(LAPACK_COL_MAJOR, 'L', n - 1, n - 1, 0.0, 0.0, s->K + 1, s->ld);
-    }
-    LAPACKE_dgeqp3_work(LAPACK_COL_MAJOR, s->rows, n, s->K, s->ld, s->pivot, s->scale, work, lwork);
+    const int most = factor_pivoted(s, tolerance, work);
     free(work);
     const double least = tolerance * fabs(s->K[0]);
     while (s->rank < most && fabs(s->K[(size_t)s->rank * (size_t)(s->ld + 1)]) > least)

@@ -10,7 +10,7 @@
 typedef struct {
     int rows, columns, ld; /* ld: of K */
     int rank;              /* so many columns span the others, once factored */
-    double *K;             /* Q and R once factored */
+    double *K;             /* its first columns: Q and R, once factored */
     double *scale;         /* of the reflectors */
     lapack_int *pivot;
     rb_arena memory; /* of the arrays */
