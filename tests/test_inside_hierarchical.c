@@ -300,7 +300,7 @@ static rb_status solve_by_clusters(void *of)
 /* Eight clusters: one thread. */
 TEST(clusters_tell_of_missing_memory)
 {
-    solid b = {wheel(RB_BEM_HUB, 0.5, 150), steel};
+    solid b = {wheel(RB_BEM_HUB, 0.5, 90), steel};
     assert_in_range(b.mesh.n, 128, 250);
     assert_true(alloc_fail_each(solve_by_clusters, &b) > 20);
     b.material.poisson = 0.5;
