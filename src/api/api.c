@@ -6,6 +6,7 @@
 #include "rollbem/friction.h"
 
 #include <gsl/gsl_errno.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -77,6 +78,27 @@ static rb_status add_column(rb_api *a, const char *name, int rows, const double 
     return RB_OK;
 }
 
+/* Adds zones and tractions of a step to its arrays. */
+static rb_status add_state(rb_api *a, const char *beginning, const rb_contact_state *state)
+{
+    double *zone = rb_alloc((size_t)state->n, 1);
+    const struct {
+        const char *name;
+        const double *x;
+    } parts[] = {{"zone", zone}, {"p", state->p}, {"q", state->q}};
+    rb_status s = zone ? RB_OK : RB_ENOMEM;
+
+    for (int i = 0; zone && i < state->n; i++)
+        zone[i] = state->zone[i];
+    for (int k = 0; k < 3 && s == RB_OK; k++) {
+        char name[40];
+        snprintf(name, sizeof name, "%s.%s", beginning, parts[k].name);
+        s = add_column(a, name, state->n, parts[k].x);
+    }
+    free(zone);
+    return s;
+}
+
 /* ---- A case ------------------------------------------------------------------------ */
 
 int rb_api_ended(rb_api *a, rb_status s)
@@ -85,6 +107,15 @@ int rb_api_ended(rb_api *a, rb_status s)
     if (s == RB_OK || !a->why.text[0])
         snprintf(a->why.text, sizeof a->why.text, "%s", s == RB_OK ? "" : rb_status_text(s));
     return s;
+}
+
+int rb_api_refuse(rb_api *a, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vsnprintf(a->why.text, sizeof a->why.text, format, args);
+    va_end(args);
+    return rb_api_ended(a, RB_EINVAL);
 }
 
 /* Threads of BLAS cost small problems more than they bring, as in the program; whoever
@@ -238,28 +269,18 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
     a->done = step + 1;
     if (a->stopped || !model) /* no model: a run for error bars */
         return a->stopped;
-    const int n = model->mesh.n;
-    double *row = rb_alloc((size_t)n, 1);
-    rb_status s = row ? RB_OK : RB_ENOMEM;
-    if (step == 0) /* a run may start again on a wider zone */
+    if (step == 0) { /* a run may start again on a wider zone */
         rb_api_forget_arrays(a, "step.");
-    if (s == RB_OK)
-        s = rb_rolling_states_keep(model, step, steps, &a->states);
-    for (int i = 0; row && i < n; i++)
-        row[i] = model->state.zone[i];
-    if (s == RB_OK)
-        s = add_column(a, "step.zone", n, row);
-    for (int i = 0; row && i < n; i++)
-        row[i] = 0.5 * (model->mesh.ends[i] + model->mesh.ends[i + 1]);
-    if (s == RB_OK && !rb_api_find_array(a, "step.x"))
-        s = add_column(a, "step.x", n, row);
-    if (s == RB_OK)
-        s = add_column(a, "step.p", n, model->state.p);
-    if (s == RB_OK)
-        s = add_column(a, "step.q", n, model->state.q);
-    free(row);
-    a->status = s;
-    return s != RB_OK;
+        api_array *x = rb_api_make_array(a, "step.x", model->mesh.n, 1);
+        for (int i = 0; x && i < x->rows; i++)
+            x->at[i] = 0.5 * (model->mesh.ends[i] + model->mesh.ends[i + 1]);
+        a->status = x ? RB_OK : RB_ENOMEM;
+    }
+    if (a->status == RB_OK)
+        a->status = rb_rolling_states_keep(model, step, steps, &a->states);
+    if (a->status == RB_OK)
+        a->status = add_state(a, "step", &model->state);
+    return a->status != RB_OK;
 }
 
 int rb_api_solve(rb_api *a)
@@ -308,6 +329,20 @@ static const char *written(const char *what, char *text, int size)
     return text;
 }
 
+/* What is described, field by field. */
+typedef struct {
+    const char *field, *text; /* NULL: none, written as "" */
+} described;
+
+/* NULL: there is no such field. */
+static const char *field_of(size_t n, const described *of, const char *field, char *text, int size)
+{
+    for (size_t k = 0; k < n; k++)
+        if (strcmp(field, of[k].field) == 0)
+            return written(of[k].text, text, size);
+    return NULL;
+}
+
 /* Option k of n, whose defaults stand in `values`; NULL: those of a case. */
 static const char *describe_option(int n, const rb_option *all, const void *values, int k,
                                    const char *field, char *text, int size)
@@ -321,19 +356,17 @@ static const char *describe_option(int n, const rb_option *all, const void *valu
     const rb_option *o = &all[k];
     const int is_group = o->kind == RB_OPTION_GROUP;
 
-    const struct {
-        const char *field, *text;
-    } texts[] = {{"name", o->name},        {"section", is_group ? o->name : rb_case_section(o)},
-                 {"kind", kinds[o->kind]}, {"unit", o->unit},
-                 {"help", o->help},        {"word", o->word}};
+    const described texts[] = {
+        {"name", o->name},        {"section", is_group ? o->name : rb_case_section(o)},
+        {"kind", kinds[o->kind]}, {"unit", o->unit},
+        {"help", o->help},        {"word", o->word}};
     const struct {
         const char *field;
         double value;
     } numbers[] = {{"from", o->range.from}, {"to", o->range.to}, {"excludes", o->excludes}};
 
-    for (size_t j = 0; j < sizeof texts / sizeof *texts; j++)
-        if (strcmp(field, texts[j].field) == 0)
-            return written(texts[j].text, text, size);
+    if (field_of(sizeof texts / sizeof *texts, texts, field, text, size))
+        return text;
     for (size_t j = 0; j < sizeof numbers / sizeof *numbers; j++)
         if (strcmp(field, numbers[j].field) == 0) {
             rb_format(text, (size_t)size, "%.17g", numbers[j].value);
@@ -388,12 +421,11 @@ const char *rb_api_result(const char *table, int k, const char *field, char *tex
         if (strcmp(table, t->name) != 0 || k < 0 || k >= t->results->n)
             continue;
         const rb_rolling_result *r = &t->results->row[k];
-        const char *what = strcmp(field, "name") == 0      ? r->name
-                           : strcmp(field, "unit") == 0    ? (r->unit ? r->unit : "")
-                           : strcmp(field, "kind") == 0    ? kinds[r->kind]
-                           : strcmp(field, "meaning") == 0 ? r->meaning
-                                                           : NULL;
-        return what ? written(what, text, size) : NULL;
+        const described texts[] = {{"name", r->name},
+                                   {"unit", r->unit},
+                                   {"kind", kinds[r->kind]},
+                                   {"meaning", r->meaning}};
+        return field_of(4, texts, field, text, size);
     }
     return NULL;
 }
@@ -550,36 +582,55 @@ static api_array *closed_array(rb_api *a, const char *name)
     return made;
 }
 
+/* Entries of a table of results: of columns of the owner, or numbers of an array of structs. */
+typedef struct {
+    const char *beginning; /* of the names of the arrays */
+    const rb_rolling_results *table;
+    const void *owner; /* NULL: there is none */
+    int rows, columns;
+    size_t size; /* of each of the structs; 0: columns */
+} entries;
+
+static int has_entries(const entries *of, const rb_rolling_result *r)
+{
+    return of->owner && of->rows > 0 && (of->size || rb_rolling_has_column(r, of->owner));
+}
+
+/* NULL: there are none, or no memory. */
+static api_array *make_entries(rb_api *a, const entries *of, const rb_rolling_result *r)
+{
+    char name[120];
+    snprintf(name, sizeof name, "%s%s", of->beginning, r->name);
+    api_array *made = has_entries(of, r) ? rb_api_make_array(a, name, of->rows, of->columns) : NULL;
+    for (int i = 0; made && i < of->rows * of->columns; i++)
+        made->at[i] = of->size
+                          ? rb_rolling_number(r, (const char *)of->owner + (size_t)i * of->size)
+                          : rb_rolling_entry(r, of->owner, i);
+    return made;
+}
+
 /* An entry of the tables whose columns are arrays, by the beginning of its name: those of
  * the solution begin with nothing. */
 static api_array *series_array(rb_api *a, const char *name)
 {
     const rb_case_result *r = &a->result;
-    const struct {
-        const char *beginning;
-        const rb_rolling_results *table;
-        const void *owner;
-        int rows;
-    } series[] = {{"history.error.", &rb_rolling_history_columns, r->history.errors,
-                   r->history.errors ? r->history.errors->n : 0},
-                  {"history.tolerance.", &rb_rolling_history_columns, r->history.deviations,
-                   r->history.deviations ? r->history.deviations->n : 0},
-                  {"history.", &rb_rolling_history_columns, &r->history, r->history.n},
-                  {"curve.tolerance.", &rb_rolling_curve_columns, a->curve.deviations,
-                   a->curve.deviations ? a->curve.n : 0},
-                  {"curve.error.", &rb_rolling_curve_columns, &a->curve_errors, a->curve_errors.n},
-                  {"curve.", &rb_rolling_curve_columns, &a->curve, a->curve.n},
-                  {"wear.", &rb_rolling_wear_columns, &a->wear, a->wear.n},
-                  {"", &rb_rolling_solution_columns, &r->solution, r->solution.n}};
+    const rb_rolling_solution *s = &r->solution;
+    const entries series[] = {
+        {"history.error.", &rb_rolling_history_columns, r->history.errors, r->history.n, 1, 0},
+        {"history.tolerance.", &rb_rolling_history_columns, r->history.deviations, r->history.n, 1,
+         0},
+        {"history.", &rb_rolling_history_columns, &r->history, r->history.n, 1, 0},
+        {"curve.tolerance.", &rb_rolling_curve_columns, a->curve.deviations, a->curve.n, 1, 0},
+        {"curve.error.", &rb_rolling_curve_columns, &a->curve_errors, a->curve_errors.n, 1, 0},
+        {"curve.", &rb_rolling_curve_columns, &a->curve, a->curve.n, 1, 0},
+        {"wear.", &rb_rolling_wear_columns, &a->wear, a->wear.n, 1, 0},
+        {"patch.", &rb_rolling_patch_scalars, s->patch, s->patches, 1, sizeof *s->patch},
+        {"", &rb_rolling_solution_columns, s, s->n, 1, 0}};
     size_t n, k = 0;
     while (strncmp(name, series[k].beginning, n = strlen(series[k].beginning)) != 0)
         k++;
     const rb_rolling_result *row = rb_rolling_find_result(series[k].table, name + n);
-    const int is_there = row && series[k].rows > 0 && rb_rolling_has_column(row, series[k].owner);
-    api_array *made = is_there ? rb_api_make_array(a, name, series[k].rows, 1) : NULL;
-    for (int i = 0; made && i < series[k].rows; i++)
-        made->at[i] = rb_rolling_entry(row, series[k].owner, i);
-    return made;
+    return row ? make_entries(a, &series[k], row) : NULL;
 }
 
 /* Of result `name` with respect to all inputs, the two sides of each beside each other. */
@@ -650,12 +701,11 @@ const char *rb_api_derivative(const rb_api *a, const char *of, int k, const char
     if (j == API_SLOPES_N || k < 0 || k >= a->slopes[j].n || size < 1)
         return NULL;
     const rb_case_slope *slope = &a->slopes[j].of[k];
-    const char *what = strcmp(field, "name") == 0     ? slope_name(slope, name)
-                       : strcmp(field, "result") == 0 ? slope->result->name
-                       : strcmp(field, "input") == 0  ? slope->input
-                       : strcmp(field, "unit") == 0   ? slope->unit
-                                                      : NULL;
-    return what ? written(what, text, size) : NULL;
+    const described texts[] = {{"name", slope_name(slope, name)},
+                               {"result", slope->result->name},
+                               {"input", slope->input},
+                               {"unit", slope->unit}};
+    return field_of(4, texts, field, text, size);
 }
 
 /* Both sides of each point of a curve; otherwise the one number of each row. */
@@ -704,13 +754,6 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
         made = slope_array(a, name);
     if (!made)
         made = series_array(a, name);
-    if (!made && strncmp(name, "patch.", 6) == 0) {
-        const rb_rolling_solution *s = &a->result.solution;
-        const rb_rolling_result *r = rb_rolling_find_result(&rb_rolling_patch_scalars, name + 6);
-        made = r && s->patches > 0 ? rb_api_make_array(a, name, s->patches, 1) : NULL;
-        for (int k = 0; made && k < s->patches; k++)
-            made->at[k] = rb_rolling_number(r, &s->patch[k]);
-    }
     if (!made && strcmp(name, "friction_power") == 0) {
         const rb_rolling_solution *s = &a->result.solution;
         made = s->n > 0 ? rb_api_make_array(a, name, s->n, 1) : NULL;
@@ -821,16 +864,18 @@ int rb_api_curve(rb_api *a, double from, double to, int points)
     return rb_api_curve_over(a, "creep-ratio", from, to, points);
 }
 
+/* 1: the matrices are there; otherwise the call has ended. */
 static int has_model(rb_api *a)
 {
     rb_rolling_model *model = &a->result.model;
+    const rb_status s = model->state.p ? rb_rolling_model_add_matrix(model, &a->why) : RB_OK;
 
-    if (model->state.p && rb_rolling_model_add_matrix(model, &a->why) != RB_OK)
-        return 0;
-    if (model->state.p && model->bodies.F)
+    if (s != RB_OK)
+        rb_api_ended(a, s);
+    else if (!model->state.p || !model->bodies.F)
+        rb_api_refuse(a, "there is no solved case whose matrices are available");
+    else
         return 1;
-    rb_api_ended(
-        a, rb_fail(&a->why, RB_EINVAL, "there is no solved case whose matrices are available"));
     return 0;
 }
 
@@ -921,9 +966,9 @@ int rb_api_pivots(rb_api *a)
     options.trace_tableau = 1;
     s = z && a->tableau && a->nonbasis ? rb_lcp_lemke(&p, &options, z, &info) : RB_ENOMEM;
     if (s < 0)
-        rb_fail(&a->why, s, "%s", rb_status_reason(s, &info.msg));
-    if (s >= 0 && a->status != RB_OK)
-        s = rb_fail(&a->why, a->status, "out of memory");
+        a->why = info.msg;
+    else if (a->status != RB_OK)
+        s = a->status;
     free(z);
     free(a->tableau);
     free(a->nonbasis);
@@ -936,26 +981,15 @@ int rb_api_pivots(rb_api *a)
 static void keep_newton_step(const rb_contact_state *state, void *context)
 {
     rb_api *a = context;
-    const int n = a->result.model.mesh.n;
-    double *zone = rb_alloc((size_t)n, 1);
 
-    if (a->status == RB_OK && state->n == n) {
-        a->status = zone ? RB_OK : RB_ENOMEM;
-        for (int i = 0; zone && i < n; i++)
-            zone[i] = state->zone[i];
-        if (a->status == RB_OK)
-            a->status = add_column(a, "newton.zone", n, zone);
-        if (a->status == RB_OK)
-            a->status = add_column(a, "newton.p", n, state->p);
-        if (a->status == RB_OK)
-            a->status = add_column(a, "newton.q", n, state->q);
-    }
-    free(zone);
+    if (a->status == RB_OK && state->n == a->result.model.mesh.n)
+        a->status = add_state(a, "newton", state);
 }
 
 int rb_api_newton(rb_api *a)
 {
     rb_contact_state state = {0};
+    begin(a);
     if (!has_model(a))
         return a->status;
     rb_contact_problem problem = a->result.model.problem; /* arrays stay the model's */
@@ -968,8 +1002,6 @@ int rb_api_newton(rb_api *a)
     rb_status s = rb_contact_state_alloc(problem.n, &state);
     if (s == RB_OK)
         s = rb_rolling_problem_solve(&problem, &rc, 0, &state, &a->why);
-    else
-        rb_fail(&a->why, s, "out of memory");
     if (s >= 0 && a->status != RB_OK)
         s = rb_fail(&a->why, a->status, "out of memory");
     rb_contact_state_free(&state);
@@ -992,12 +1024,10 @@ int rb_api_guess(rb_api *a, int n, const int *zone)
     if (!has_model(a))
         return a->status;
     if (n != model->mesh.n)
-        return rb_api_ended(a,
-                            rb_fail(&a->why, RB_EINVAL, "%d zones: expected %d", n, model->mesh.n));
+        return rb_api_refuse(a, "%d zones: expected %d", n, model->mesh.n);
     if (model->problem.yield)
-        return rb_api_ended(a, rb_fail(&a->why, RB_EINVAL,
-                                       "zones do not determine the plastic slip of an "
-                                       "interface (--yield-stress)"));
+        return rb_api_refuse(
+            a, "zones do not determine the plastic slip of an interface (--yield-stress)");
     rb_contact_state state = {0};
     double *gap = rb_alloc((size_t)n, 1);
     rb_status s = gap ? rb_contact_state_alloc(n, &state) : RB_ENOMEM;
@@ -1011,8 +1041,6 @@ int rb_api_guess(rb_api *a, int n, const int *zone)
                         rb_api_copy_array(a, "guess.gap", n, 1, gap) &&
                         rb_api_copy_array(a, "guess.shift", n, 1, state.lambda)))
         s = RB_ENOMEM;
-    if (s < 0)
-        rb_fail(&a->why, s, "%s", rb_status_text(s));
     rb_contact_state_free(&state);
     free(gap);
     return rb_api_ended(a, s);
@@ -1023,15 +1051,10 @@ int rb_api_guess(rb_api *a, int n, const int *zone)
 static rb_status keep_stress(rb_api *a, int nx, int ny, const rb_rolling_stress *at)
 {
     const rb_rolling_results *table = &rb_rolling_stress_scalars;
-    char name[40];
-    for (int k = 0; k < table->n; k++) {
-        snprintf(name, sizeof name, "stress.%s", table->row[k].name);
-        api_array *made = rb_api_make_array(a, name, nx, ny);
-        if (!made)
-            return rb_fail(&a->why, RB_ENOMEM, "out of memory");
-        for (int i = 0; i < nx * ny; i++)
-            made->at[i] = rb_rolling_number(&table->row[k], &at[i]);
-    }
+    const entries all = {"stress.", table, at, nx, ny, sizeof *at};
+    for (int k = 0; k < table->n; k++)
+        if (!make_entries(a, &all, &table->row[k]))
+            return RB_ENOMEM;
     return RB_OK;
 }
 
@@ -1210,11 +1233,10 @@ const char *rb_api_input(const rb_api *a, int k, const char *field, char *text, 
     if (k < 0 || k >= all->n || size < 1)
         return NULL;
     const rb_case_derivative *of = &all->of[k];
-    const char *what = strcmp(field, "name") == 0      ? of->name
-                       : strcmp(field, "unit") == 0    ? of->unit
-                       : strcmp(field, "refusal") == 0 ? (of->status == RB_OK ? "" : of->why.text)
-                                                       : NULL;
-    return what ? written(what, text, size) : NULL;
+    const described texts[] = {{"name", of->name},
+                               {"unit", of->unit},
+                               {"refusal", of->status == RB_OK ? NULL : of->why.text}};
+    return field_of(3, texts, field, text, size);
 }
 
 /* ---- Cracks ------------------------------------------------------------------------ */
@@ -1298,28 +1320,15 @@ int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *
                                 &(rb_crack_observer){count_step, a}, &result, &a->why);
     rb_api_call_ends();
     /* Columns over the positions and over the lengths, and the numbers of the pass. */
-    const struct {
-        const char *beginning;
-        const rb_rolling_results *table;
-        const void *owner;
-        int rows; /* 0: numbers */
-    } kept[] = {{"crack.", &rb_case_crack_columns, &result.history, result.history.n},
-                {"crack.growth.", &rb_case_crack_growth_columns, &result.growth, result.growth.n},
-                {"crack.summary.", &rb_case_crack_scalars, &result.summary, 0}};
-    for (int t = 0; t < 3 && s == RB_OK; t++)
-        for (int k = 0; k < kept[t].table->n && s == RB_OK; k++) {
-            const rb_rolling_result *row = &kept[t].table->row[k];
-            const int is_number = kept[t].table == &rb_case_crack_scalars, rows = kept[t].rows;
-            char name[40];
-            if (!is_number && (rows == 0 || !rb_rolling_has_column(row, kept[t].owner)))
-                continue;
-            snprintf(name, sizeof name, "%s%s", kept[t].beginning, row->name);
-            api_array *made = rb_api_make_array(a, name, is_number ? 1 : rows, 1);
-            s = made ? RB_OK : RB_ENOMEM;
-            for (int i = 0; made && i < made->rows; i++)
-                made->at[i] = is_number ? rb_rolling_number(row, kept[t].owner)
-                                        : rb_rolling_entry(row, kept[t].owner, i);
-        }
+    const entries kept[] = {
+        {"crack.", &rb_case_crack_columns, &result.history, result.history.n, 1, 0},
+        {"crack.growth.", &rb_case_crack_growth_columns, &result.growth, result.growth.n, 1, 0},
+        {"crack.summary.", &rb_case_crack_scalars, &result.summary, 1, 1, sizeof result.summary}};
+    for (int t = 0; t < 3; t++)
+        for (int k = 0; k < kept[t].table->n && s == RB_OK; k++)
+            if (has_entries(&kept[t], &kept[t].table->row[k]) &&
+                !make_entries(a, &kept[t], &kept[t].table->row[k]))
+                s = RB_ENOMEM;
     if (s == RB_OK)
         s = keep_faces(a, &result);
     rb_case_crack_free(&result);

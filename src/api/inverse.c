@@ -183,11 +183,8 @@ int rb_api_fit(rb_api *a, int columns, const char *const *column, int rows, cons
     const fit_words w = {names, start, bounds, sigma, level};
     rb_io_table t = {.rows = rows, .columns = columns};
 
-    if (rows < 1 || columns < 1) {
-        a->why.text[0] = '\0';
-        return rb_api_ended(
-            a, rb_fail(&a->why, RB_EINVAL, "data: %d rows and %d columns", rows, columns));
-    }
+    if (rows < 1 || columns < 1)
+        return rb_api_refuse(a, "data: %d rows and %d columns", rows, columns);
     const size_t n = (size_t)rows * (size_t)columns;
     t.x = rb_alloc((size_t)rows, (size_t)columns);
     t.name = calloc((size_t)columns, sizeof *t.name);

@@ -35,12 +35,10 @@ int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *s
         known++;
     begin(a, "lcp.", known < count ? solvers[known].name : "");
     if (known == count)
-        return rb_api_ended(
-            a,
-            rb_fail(&a->why, RB_EINVAL,
-                    "--solver: expected auto, lemke, lemke-sparse or newton, got '%.60s'", solver));
+        return rb_api_refuse(
+            a, "--solver: expected auto, lemke, lemke-sparse or newton, got '%.60s'", solver);
     if (n < 1)
-        return rb_api_ended(a, rb_fail(&a->why, RB_EINVAL, "lcp: n = %d", n));
+        return rb_api_refuse(a, "lcp: n = %d", n);
     api_array *z = rb_api_make_array(a, "lcp.z", n, 1);
     api_array *w = z ? rb_api_make_array(a, "lcp.w", n, 1) : NULL;
     rb_status s = w ? rb_sparse_from_dense(n, n, M, n, &sparse) : RB_ENOMEM;
@@ -102,9 +100,7 @@ int rb_api_friction_measure(rb_api *a, const char *measure)
 {
     const int by_acary = strcmp(measure, "acary") == 0;
     if (!by_acary && strcmp(measure, "scaled") != 0)
-        return rb_api_ended(a,
-                            rb_fail(&a->why, RB_EINVAL,
-                                    "--measure: expected scaled or acary, got '%.60s'", measure));
+        return rb_api_refuse(a, "--measure: expected scaled or acary, got '%.60s'", measure);
     a->by_acary = by_acary;
     return rb_api_ended(a, RB_OK);
 }
@@ -114,9 +110,8 @@ int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W, con
 {
     begin(a, "friction.", solver);
     if (dimension < 2 || dimension > 3 || contacts < 1 || contacts > INT_MAX / dimension)
-        return rb_api_ended(a, rb_fail(&a->why, RB_EINVAL,
-                                       "friction: %d contacts of dimension %d, expected 2 or 3",
-                                       contacts, dimension));
+        return rb_api_refuse(a, "friction: %d contacts of dimension %d, expected 2 or 3", contacts,
+                             dimension);
     const size_t m = (size_t)dimension * (size_t)contacts;
     rb_friction_problem p = {.form = RB_FRICTION_LOCAL_DENSE,
                              .dimension = dimension,
