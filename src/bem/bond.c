@@ -7,7 +7,6 @@
 #include <cblas.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 void rb_bond_free(rb_bond *bond)
 {

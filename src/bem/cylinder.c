@@ -3,7 +3,6 @@
 
 #include <gsl/gsl_math.h>
 #include <math.h>
-#include <stdlib.h>
 
 /* Beside the contact lies one element on each side: the upstream one on the right and its
  * mirror image on the left.  From there to the top each side is graded: at the distance

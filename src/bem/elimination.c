@@ -1,7 +1,6 @@
 #include "bem/elimination.h"
 
 #include <cblas.h>
-#include <stdlib.h>
 
 rb_status rb_elimination_begin(int m, rb_elimination *e)
 {

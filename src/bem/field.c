@@ -5,9 +5,7 @@
 #include "bem/strip.h"
 #include "bem/system.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Half of a contact element; the traction in its middle and its change per length. */
 typedef struct {

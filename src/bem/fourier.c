@@ -2,7 +2,6 @@
 #include "rollbem/blas.h"
 
 #ifdef _OPENMP
-#include <omp.h>
 #endif
 #include <gsl/gsl_math.h>
 #include <math.h>

@@ -5,7 +5,6 @@
 
 #include <cblas.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Elements of the smallest clusters. */
 enum { LEAF = 32 };

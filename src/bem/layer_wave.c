@@ -1,8 +1,6 @@
 /* Waves in a layer bonded to a rigid or elastic base (L1), (L2). */
 #include "bem/layer.h"
 
-#include <math.h>
-
 /* 1 + sum f_k/(1 - i k L_k): compliance of the layer's material over its glassy one. */
 static double complex creep(const rb_bem_surface *body, double complex k)
 {

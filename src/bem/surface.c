@@ -4,7 +4,6 @@
 #include "bem/internal.h"
 #include "bem/layer.h"
 
-#include <float.h>
 #include <gsl/gsl_math.h>
 #include <math.h>
 

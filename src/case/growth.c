@@ -2,7 +2,6 @@
 #include "case/internal.h"
 
 #include <gsl/gsl_math.h>
-#include <stdlib.h>
 
 /* Elements that each new straight piece brings: the others stay as fine as they were. */
 enum { PIECE_ELEMENTS = 4 };

@@ -5,7 +5,6 @@
 #include <jansson.h>
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 /* --from and --to are texts because what they are values of is known from --over alone. */
 typedef struct {

@@ -5,7 +5,6 @@
 #include "rollbem/io.h"
 #include "rollbem/report.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <jansson.h>
 #include <math.h>

@@ -7,7 +7,6 @@
 #include "cli/wait.h"
 
 #include "rollbem/friction.h"
-#include "rollbem/io.h"
 #include "rollbem/report.h"
 
 #include <jansson.h>

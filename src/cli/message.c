@@ -2,7 +2,6 @@
 #include "cli/cli.h"
 
 #include <stdarg.h>
-#include <string.h>
 
 cli_exit cli_exit_of(rb_status s)
 {

@@ -1,7 +1,5 @@
 #include "cli/solvers.h"
 
-#include <stdio.h>
-
 const rb_choice cli_friction_measures[] = {
     {"scaled", RB_FRICTION_BY_SCALED}, {"acary", RB_FRICTION_BY_ACARY}, {NULL, 0}};
 

@@ -6,8 +6,6 @@
 
 #include <jansson.h>
 #include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
 
 typedef struct {
     /* options */

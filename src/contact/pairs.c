@@ -2,8 +2,6 @@
  * does not grow: the elements of the problem itself in pairs. */
 #include "contact/dense.h"
 
-#include <stdlib.h>
-
 /* y += sums over pairs; an odd last element stays alone. */
 static void add_pairs(int n, const double *x, double *y)
 {

@@ -1,7 +1,6 @@
 /* A load that passes over a crack, position by position. */
 #include "crack/internal.h"
 
-#include <gsl/gsl_math.h>
 #include <stdlib.h>
 #include <string.h>
 

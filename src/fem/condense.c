@@ -2,7 +2,6 @@
 #include "rollbem/fem.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 struct rb_fem_condensation {
     int dofs, nf;               /* all unknowns, eliminated ones */

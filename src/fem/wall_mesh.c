@@ -2,7 +2,6 @@
 #include "fem/wall.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 static const double block_size[3] = {0.2, 0.1, 0.1}; /* m */
 

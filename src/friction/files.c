@@ -5,7 +5,6 @@
 #include "rollbem/io_fclib.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 static rb_status read_fclib(const char *path, rb_friction_problem *problem, rb_message *why)
 {

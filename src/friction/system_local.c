@@ -6,7 +6,6 @@
 #include "friction/internal.h"
 
 #include <lapacke.h>
-#include <stdlib.h>
 
 /* y = B x for d x d column-major B */
 static void times(int d, const double *B, const double *x, double *y)

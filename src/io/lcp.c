@@ -4,7 +4,6 @@
 #include <ctype.h>
 #include <limits.h>
 #include <stdlib.h>
-#include <string.h>
 #include <strings.h>
 
 static int is_market(const io_tokens *t)

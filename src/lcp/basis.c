@@ -1,7 +1,6 @@
 /* The basis of Lemke's method on sparse matrices: LU and product form of the inverse. */
 #include "lcp/basis.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

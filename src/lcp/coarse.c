@@ -5,7 +5,6 @@
 #include "lcp/lemke.h"
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Two unknowns are strongly coupled from this part of the strongest coupling on. */
 static const double STRONG = 0.25;

@@ -4,7 +4,6 @@
 #include "lcp/lemke.h"
 
 #include <math.h>
-#include <string.h>
 
 /* A component counts as negative below this part of the largest. */
 static const double NEGATIVE = 1e-13;

@@ -8,7 +8,6 @@
 #include <mpi.h>
 #include <sched.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 enum { CASE, ROW }; /* tags; case number STOP: no more, and the last row */

@@ -2,7 +2,6 @@
 #include "report/certificate.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- What can be checked ----------------------------------------------------------- */

@@ -4,7 +4,6 @@
 #include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static rb_report_columns columns_of(const rb_case_crack_result *r)
 {

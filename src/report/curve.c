@@ -5,7 +5,6 @@
 
 #include <jansson.h>
 #include <math.h>
-#include <string.h>
 
 /* ---- Table and JSON ---------------------------------------------------------------- */
 

@@ -2,7 +2,6 @@
  * of the history is used instead. */
 #include "report/internal.h"
 #include "rollbem/case.h"
-#include "rollbem/io.h"
 
 #include <inttypes.h>
 #include <jansson.h>

@@ -2,7 +2,6 @@
 #include "report/internal.h"
 
 #include <jansson.h>
-#include <string.h>
 
 void rb_report_note(FILE *out, const char *text, int colour)
 {

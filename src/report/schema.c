@@ -3,7 +3,6 @@
 #include "rollbem/case.h"
 
 #include <jansson.h>
-#include <string.h>
 
 static json_t *typed(const char *type, const char *description)
 {

@@ -2,9 +2,6 @@
 #include "report/internal.h"
 #include "rollbem/case.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 rb_status rb_report_table(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s,
                           const char *command, const rb_report_style *style)
 {

@@ -1,6 +1,5 @@
 #include "results/internal.h"
 
-#include <cblas.h>
 #include <stdlib.h>
 #include <string.h>
 

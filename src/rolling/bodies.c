@@ -1,7 +1,6 @@
 #include "rolling/internal.h"
 
 #include <cblas.h>
-#include <gsl/gsl_math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,6 @@
 #include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>
-#include <string.h>
 
 rb_rolling_case rb_rolling_case_defaults(void)
 {

@@ -6,7 +6,6 @@
 #include <gsl/gsl_interp.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sort.h>
-#include <string.h>
 
 enum {
     /* That stand for the loaded elements, seen from afar.  Pressure falls like a root

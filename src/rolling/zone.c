@@ -2,9 +2,6 @@
  * (theory.md 5.1). */
 #include "rolling/internal.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 enum {
     ROUNDS = 24,
     SEPARATED_AT_END = 3, /* elements that a chosen potential contact ends with */

@@ -2,7 +2,6 @@
  * zones. */
 #include "sensitivity/internal.h"
 
-#include <cblas.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

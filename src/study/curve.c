@@ -2,7 +2,6 @@
  * the speed of viscoelastic bodies (V4). */
 #include "study/internal.h"
 
-#include <cblas.h>
 #include <stdlib.h>
 #include <string.h>
 

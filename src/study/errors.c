@@ -2,7 +2,6 @@
 #include "study/internal.h"
 
 #include <gsl/gsl_math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Where --accuracy gives up: contact elements, and how much finer than usual the boundary
