@@ -582,6 +582,79 @@ TEST(flexibilities_are_smooth_in_the_radius)
         free(F[i]);
 }
 
+/* w = F r of a wheel with 12 contact elements; of: the radius, the hub or arc, or Poisson's ratio
+ * is larger by this part of itself. */
+enum { LOADED = 12, LOADED_M = LOADED + 1 };
+
+static rb_bem_material loaded_wheel(int on_the_hub, int of, double part, rb_bem_mesh *mesh)
+{
+    rb_bem_cylinder wheel = on_the_hub ? on_hub : on_arc;
+    rb_bem_material m = material;
+    SCRATCH double *ends = equal_ends(LOADED, 4.0);
+
+    wheel.outer_elements = 40;
+    *(of == 0      ? &wheel.radius
+      : of == 2    ? &m.poisson
+      : on_the_hub ? &wheel.hub_ratio
+                   : &wheel.arc) *= 1.0 + part;
+    CHECK_OK(rb_bem_mesh_cylinder(&wheel, LOADED, ends, mesh, &heard));
+    return m;
+}
+
+static void loaded_displacement(const rb_bem_mesh *mesh, rb_bem_material m, int subtracted,
+                                rb_bem_normals normals, const double *r, double *w)
+{
+    held_system *system;
+    OWNED(rb_bem_flexibility) f = {0};
+
+    CHECK_OK(rb_bem_system_create(mesh, m, &system, NULL));
+    CHECK_OK(
+        (subtracted ? rb_bem_condense_subtracted : rb_bem_condense)(system, normals, &f, NULL));
+    rb_bem_flexibility_apply(&f, r, w);
+}
+
+/* (B13) against differences of flexibilities, whose fourth-order error is 1e-12. */
+TEST(displacements_change_as_flexibilities_do)
+{
+    static const int place[] = {-2, -1, 1, 2};
+    static const double weight[] = {1 / 12., -8 / 12., 8 / 12., -1 / 12.}, step = 1e-3;
+    double r[2 * LOADED];
+
+    for (int i = 0; i < LOADED; i++) {
+        r[i] = 1.0 + 0.1 * i;
+        r[LOADED + i] = 0.3 - 0.05 * i;
+    }
+    for (int k = 0; k < 12; k++) {
+        const int on_the_hub = k % 2, of = k / 2 % 3, subtracted = k / 6;
+        const rb_bem_normals normals = k % 4 ? RB_BEM_NORMALS_OBSTACLE : RB_BEM_NORMALS_SURFACE;
+        double got[2 * LOADED_M] = {0.0}, want[2 * LOADED_M] = {0.0}, w[2 * LOADED_M],
+                       largest = 0.0, off = 0.0;
+        held_system *system;
+        rb_bem_loaded *loaded;
+        OWNED(rb_bem_mesh) mesh = {0};
+        const rb_bem_material m = loaded_wheel(on_the_hub, of, 0.0, &mesh);
+
+        CHECK_OK(rb_bem_system_create(&mesh, m, &system, NULL));
+        CHECK_OK(rb_bem_loaded_create(system, normals, subtracted, r, &loaded, NULL));
+        for (int j = 0; j < 4; j++) {
+            OWNED(rb_bem_mesh) other = {0};
+            const rb_bem_material n = loaded_wheel(on_the_hub, of, place[j] * step, &other);
+            CHECK_OK(rb_bem_loaded_change(loaded, &other, n, w));
+            for (int i = 0; i < 2 * LOADED_M; i++)
+                got[i] += weight[j] / step * w[i];
+            loaded_displacement(&other, n, subtracted, normals, r, w);
+            for (int i = 0; i < 2 * LOADED_M; i++)
+                want[i] += weight[j] / step * w[i];
+        }
+        rb_bem_loaded_free(loaded);
+        for (int i = 0; i < 2 * LOADED_M; i++) {
+            largest = fmax(largest, fabs(want[i]));
+            off = fmax(off, fabs(got[i] - want[i]));
+        }
+        CHECK_MAX(off, 1e-9 * largest, "case %d", k);
+    }
+}
+
 /* (reaction at the support + load)/load of a uniform pressure on the contact */
 static double balance(const rb_bem_cylinder *cylinder, int n_c, int outer)
 {

@@ -203,6 +203,8 @@ static rb_status make_wheel(const void *of)
     OWNED(rb_bem_mesh) mesh = {0}, core = {0};
     held_system *system = NULL;
     rb_bem_field *field = NULL;
+    rb_bem_loaded *loaded = NULL;
+    double r[2 * N] = {1.0}, change[2 * M];
     OWNED(rb_bem_flexibility) f = {0}, g = {0}, waves = {0};
     const rb_bem_edge_load load = {1, ends, t_contact + 1, t_contact};
     const rb_bem_surface plane = rb_bem_halfplane(rubber, 1.0);
@@ -220,6 +222,11 @@ static rb_status make_wheel(const void *of)
         s = rb_bem_condense(system, RB_BEM_NORMALS_SURFACE, &f, NULL);
     if (s == RB_OK)
         s = rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &g, NULL);
+    if (s == RB_OK && !has_cover)
+        s = rb_bem_loaded_create(system, RB_BEM_NORMALS_SURFACE, 1, r, &loaded, NULL);
+    if (s == RB_OK && !has_cover)
+        s = rb_bem_loaded_change(loaded, &mesh, rubber, change);
+    rb_bem_loaded_free(loaded);
     if (s == RB_OK)
         s = rb_bem_flexibility_add_memory(&wheel, RB_BEM_NORMALS_OBSTACLE, ends, &g, NULL);
     if (s == RB_OK)

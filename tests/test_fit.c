@@ -220,7 +220,7 @@ TEST(solutions_are_followed)
     CHECK_STATUS(rb_sensitivity_create(&from, 0, &s, &why), RB_OK);
     const double traction = from.problem.mu * from.problem.stress;
     rb_rolling_model followed = {.mesh = {.n = 0}}, solved = {.mesh = {.n = 0}};
-    CHECK_STATUS(rb_rolling_variant_create(&from, &rc[1], 1, 0, &followed, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_variant_create(&from, &rc[1], 1, 0, NULL, &followed, &why), RB_OK);
     CHECK_STATUS(rb_sensitivity_follow(s, &followed, &why), RB_OK);
     CHECK_STATUS(rb_rolling_variant_solve(&from, &rc[1], &solved, &why), RB_OK);
     int others = 0, border = 0;

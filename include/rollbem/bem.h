@@ -24,6 +24,10 @@ rb_bem_material rb_bem_material_from_young(double young, double poisson);
  * those of the real material; in plane stress poisson is in (-0.5, 0.5]. */
 rb_bem_material rb_bem_material_in_plane(rb_bem_plane plane, double young, double poisson);
 
+/* 1: 1 - 2 nu is below 1e-9: then what is left of the term that the pressure of a hub works on
+ * drowns in the rounding of the others. */
+int rb_bem_is_incompressible(rb_bem_material material);
+
 /* ---- Meshes (B4) ----------------------------------------------------------------- */
 
 typedef enum {
@@ -209,6 +213,21 @@ rb_status rb_bem_condense(const rb_bem_system *system, rb_bem_normals normals,
  * contact element. */
 rb_status rb_bem_condense_subtracted(const rb_bem_system *system, rb_bem_normals normals,
                                      rb_bem_flexibility *f, rb_message *why);
+
+/* A body under given tractions r = (r_N, r_T) of its contact (2 contact_n), and what they displace
+ * more where it is a slightly different one. */
+typedef struct rb_bem_loaded rb_bem_loaded;
+/* system: borrowed; subtracted: as in rb_bem_condense_subtracted.  RB_EINVAL: it is bonded to an
+ * elastic core; RB_ENOMEM. */
+rb_status rb_bem_loaded_create(const rb_bem_system *system, rb_bem_normals normals, int subtracted,
+                               const double *r, rb_bem_loaded **loaded, rb_message *why);
+/* (B13) w of rb_bem_flexibility (2m) of the body with this boundary, which has the same elements at
+ * slightly different places, and of this material, less w of the system's body: exact to first
+ * order in the change of H and G, by the factors of the system alone.  One thread at a time.
+ * RB_ENOMEM. */
+rb_status rb_bem_loaded_change(rb_bem_loaded *loaded, const rb_bem_mesh *mesh,
+                               rb_bem_material material, double *change);
+void rb_bem_loaded_free(rb_bem_loaded *loaded);
 
 /* A body whose influence function depends on the distance alone (a wheel's does not).  It
  * is a half-plane (Flamant, theory.md 3), elastic or viscoelastic in steady rolling

@@ -784,20 +784,31 @@ rb_status rb_rolling_solution_heat(const rb_rolling_case *rc, const rb_rolling_s
                                    struct rb_rolling_conduction **conduction, double *t_a,
                                    double *t_b, rb_message *why);
 
+/* What the tractions of a solved model displace, kept for all variants of the model; of is
+ * borrowed. NULL without memory. */
+typedef struct rb_rolling_beside rb_rolling_beside;
+rb_rolling_beside *rb_rolling_beside_create(const rb_rolling_model *of);
+void rb_rolling_beside_free(rb_rolling_beside *beside);
+
 /* A variant of a solved model: a case that differs slightly from the model's in some
  * number, on the same elements, with the model's state and zones, to be completed.  If
  * the flexibility is the same, it is borrowed from the model.  RB_INACCURATE: the number
  * of elements outside the contact differs.  results: 0 if only the equations are needed.
  * own_bodies: 1: the variant has a compressed boundary of its own instead of the model's,
- * so that all variants have it compressed as closely.  variant: overwritten; free it in any case.
- */
+ * so that all variants have it compressed as closely.  beside: of the model: where bodies that
+ * change leave their flexibility to it, the variant has their change under the tractions of the
+ * model alone, which is exact to first order; NULL: they are built.  variant: overwritten; free it
+ * in any case. */
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
-                                    int results, int own_bodies, rb_rolling_model *variant,
-                                    rb_message *why);
+                                    int results, int own_bodies, rb_rolling_beside *beside,
+                                    rb_rolling_model *variant, rb_message *why);
+/* 1: such a variant is built with flexibilities of its own. */
+int rb_rolling_variant_builds(const rb_rolling_model *of, const rb_rolling_case *rc, int results);
 /* A variant with the model's case on elements whose ends x are moved to shift + scale
  * x. */
-rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
-                                  rb_rolling_model *variant, rb_message *why);
+rb_status rb_rolling_variant_move(const rb_rolling_model *of, rb_rolling_beside *beside,
+                                  double shift, double scale, rb_rolling_model *variant,
+                                  rb_message *why);
 /* Gap and coefficients of friction on elements moved to shift + scale x, n values each, where the
  * irregularity has come this much further; friction that does not depend on the place alone stays
  * that of the model.  RB_ENOMEM. */

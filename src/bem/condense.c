@@ -331,8 +331,7 @@ static rb_status subtracted_loads_long(const particular *p, double *X)
     return rb_arena_done(&parts.memory, status);
 }
 
-/* Normal into the body and tangent of element j, as rows: frame[0] = n, frame[1] = t. */
-static void contact_frame(const rb_bem_mesh *mesh, int j, rb_bem_normals normals,
+void rb_bem_contact_frame(const rb_bem_mesh *mesh, int j, rb_bem_normals normals,
                           double frame[2][2])
 {
     const double dx = mesh->x1[j] - mesh->x0[j], dy = mesh->y1[j] - mesh->y0[j], h = hypot(dx, dy);
@@ -407,14 +406,14 @@ static rb_status condense(const rb_bem_system *system, rb_bem_normals normals, i
         const double *U = X + system->dofs - 2 * m + 2 * i, *w0 = U + 2 * (size_t)n * ld;
         const int element = first + i;
         double to[2][2], from[2][2];
-        contact_frame(mesh, element, normals, to);
+        rb_bem_contact_frame(mesh, element, normals, to);
         f->x[i] = 0.5 * (mesh->x0[element] + mesh->x1[element]);
         f->h[i] = rb_bem_mesh_length(mesh, element);
         for (int a = 0; a < 2; a++)
             f->w0[a * m + i] = to[a][0] * w0[0] + to[a][1] * w0[1];
         for (int j = 0; j < n; j++) {
             const double *x = U + 2 * (size_t)j * ld, *y = x + ld;
-            contact_frame(mesh, first + j, normals, from);
+            rb_bem_contact_frame(mesh, first + j, normals, from);
             for (int a = 0; a < 2; a++)
                 for (int b = 0; b < 2; b++)
                     F[(size_t)(a * m + i) + (size_t)(b * n + j) * 2 * (size_t)m] =

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-int rb_is_incompressible(rb_bem_material material)
+int rb_bem_is_incompressible(rb_bem_material material)
 {
     return 1.0 - 2.0 * material.poisson <= 1e-9;
 }
@@ -22,7 +22,7 @@ rb_status rb_held_contours_find(const rb_bem_mesh *mesh, rb_bem_material materia
     const size_t n = (size_t)mesh->n;
 
     *held = (rb_held_contours){0};
-    if (!rb_is_incompressible(material))
+    if (!rb_bem_is_incompressible(material))
         return RB_OK;
     int *next = rb_alloc_int(n);
     held->contour = rb_alloc_int(n);

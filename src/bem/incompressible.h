@@ -13,10 +13,6 @@ typedef struct {
     double *normal; /* 2n, outward over the root of the contour's elements; owned */
 } rb_held_contours;
 
-/* Below a 1 - 2 nu of 1e-9, what is left of the term that the pressure of a hub works on
- * drowns in the rounding of the others. */
-int rb_is_incompressible(rb_bem_material material);
-
 rb_status rb_held_contours_find(const rb_bem_mesh *mesh, rb_bem_material material,
                                 rb_held_contours *held);
 void rb_held_contours_free(rb_held_contours *held);

@@ -257,7 +257,7 @@ static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int d
          * this has to stand out. */
         const double volume = 1.0 - 2.0 * material.poisson;
         s->tolerance =
-            rb_is_incompressible(material) ? 1e-9 : fmin(1e-9, fmax(1e-12, 1e-6 * volume));
+            rb_bem_is_incompressible(material) ? 1e-9 : fmin(1e-9, fmax(1e-12, 1e-6 * volume));
         s->tolerance = fmin(s->tolerance, compression);
         if (rb_bem_mesh_copy(mesh, &s->mesh) == RB_OK && (s->A || !dense) && s->Gc && s->b &&
             s->unit && s->pivot)
@@ -299,7 +299,7 @@ rb_status rb_bem_system_create_bonded(const rb_bem_mesh *cover, rb_bem_material 
     rb_bond *bond = NULL;
     *system = NULL;
     rb_status s = rb_bem_mesh_check(cover, why);
-    if (s == RB_OK && rb_is_incompressible(material))
+    if (s == RB_OK && rb_bem_is_incompressible(material))
         s = rb_fail(why, RB_EINVAL,
                     "cover on an elastic core: expected Poisson's ratio below 1/2, got %g",
                     material.poisson);

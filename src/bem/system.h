@@ -41,6 +41,10 @@ rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material mater
 rb_status rb_bem_system_solve_values(const rb_bem_system *system, const double *value, double *u,
                                      double *t);
 
+/* Normal into the body and tangent of contact element j, as rows: frame[0] = n, frame[1] = t. */
+void rb_bem_contact_frame(const rb_bem_mesh *mesh, int j, rb_bem_normals normals,
+                          double frame[2][2]);
+
 /* RB_EINVAL unless the body lies on the inner side of every contact element. */
 rb_status rb_bem_check_convex(const rb_bem_system *system, rb_message *why);
 

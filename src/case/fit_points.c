@@ -201,7 +201,7 @@ static rb_status solve_point(fit_problem *p, const double *theta, int k, int tri
 
     if (s == RB_OK)
         s = at->first == k ? rb_rolling_variant_place(of, &rc, 0.0, 1.0, v, why)
-                           : rb_rolling_variant_create(of, &rc, 0, 0, v, why);
+                           : rb_rolling_variant_create(of, &rc, 0, 0, NULL, v, why);
     if (s == RB_OK)
         s = rb_rolling_model_add_matrix(v, why);
     if (s != RB_OK)

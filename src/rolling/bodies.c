@@ -52,6 +52,29 @@ static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_pl
     return (transforms ? kind->transforms : kind->flexibility)(rc, plan, body, mesh, one_body, why);
 }
 
+rb_status rb_rolling_body_displacement(const rb_rolling_model *model, int of_b, const double *r,
+                                       double *w, double *x, double *h, rb_message *why)
+{
+    const rb_rolling_case *rc = model->rc;
+    rb_rolling_body_flexibility one_body = {.system = NULL};
+    rb_bem_flexibility *f = &one_body.f;
+    const rb_status s = body_flexibility(rc, &model->plan, of_b ? &rc->b : &rc->a, &model->mesh,
+                                         rb_rolling_is_large(rc, &model->mesh), &one_body, why);
+
+    if (s == RB_OK) {
+        rb_bem_flexibility_apply(f, r, w);
+        cblas_daxpy(2 * f->m, 1.0, f->w0, 1, w, 1);
+    }
+    for (int i = 0; s == RB_OK && i < f->m && x; i++) {
+        x[i] = f->x[i];
+        h[i] = f->h[i];
+    }
+    rb_bem_flexibility_free(f);
+    rb_bem_system_free(one_body.system);
+    free(one_body.memory);
+    return s;
+}
+
 /* f: that of both bodies together; one_body: what else they have made. */
 static rb_status join_bodies(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                              const rb_rolling_mesh *mesh, int transforms,

@@ -90,6 +90,13 @@ rb_bem_wheel rb_rolling_wheel_of(const rb_rolling_case *rc, const rb_rolling_bod
     return wheel;
 }
 
+int rb_rolling_subtracts(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                         const rb_rolling_body *body)
+{
+    return plan->near_field == RB_NEAR_FIELD_AUTO ? rc->mesh == RB_MESH_FITTED || body->cover > 0.0
+                                                  : plan->near_field == RB_NEAR_FIELD_EXACT;
+}
+
 static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                                    const rb_rolling_body *body, const rb_rolling_mesh *mesh,
                                    rb_rolling_body_flexibility *one_body, rb_message *why)
@@ -97,10 +104,7 @@ static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_p
     double length[RB_ROLLING_TERMS];
     const rb_bem_wheel wheel = rb_rolling_wheel_of(rc, body, length);
     const double start = rb_seconds();
-    const int by_waves = goes_by_waves(rc, body),
-              exact = plan->near_field == RB_NEAR_FIELD_AUTO
-                          ? rc->mesh == RB_MESH_FITTED || body->cover > 0.0
-                          : plan->near_field == RB_NEAR_FIELD_EXACT;
+    const int by_waves = goes_by_waves(rc, body);
     rb_status s = by_waves ? rb_bem_flexibility_wheel(mesh->n, mesh->ends, &wheel, rc->normals,
                                                       &one_body->f, why)
                            : wheel_system(rc, plan, body, mesh, &one_body->system, why);
@@ -108,8 +112,8 @@ static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_p
     if (s == RB_OK && !by_waves) {
         rb_bem_system_seconds(one_body->system, &one_body->seconds_assembly,
                               &one_body->seconds_factor);
-        s = (exact ? rb_bem_condense_subtracted : rb_bem_condense)(one_body->system, rc->normals,
-                                                                   &one_body->f, why);
+        s = (rb_rolling_subtracts(rc, plan, body) ? rb_bem_condense_subtracted : rb_bem_condense)(
+            one_body->system, rc->normals, &one_body->f, why);
     }
     if (s == RB_OK && body->memory.n > 0) {
         /* What memory adds to the glassy wheel in steady rolling, which is all that asks for the

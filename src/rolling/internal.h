@@ -44,9 +44,20 @@ rb_status rb_rolling_points_check(const char *what, int n, const double *x, cons
 /* Factorises the boundary elements of A, a wheel, again; owned by the caller. */
 rb_status rb_rolling_boundary_system(const rb_rolling_model *model, rb_bem_system **system,
                                      rb_message *why);
+/* 1: the flexibility of the wheel has its near field in closed form. */
+int rb_rolling_subtracts(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                         const rb_rolling_body *body);
 /* A wheel on a hub or a cover; borrows length and the body. */
 rb_bem_wheel rb_rolling_wheel_of(const rb_rolling_case *rc, const rb_rolling_body *body,
                                  double length[RB_ROLLING_TERMS]);
+
+/* ---- beside.c ---------------------------------------------------------------------- */
+
+/* Adds to w (2m) what the bodies of v, on its mesh, displace more than those of the model under the
+ * tractions of the model, to first order; x, h: m, of the elements of v, written where A changes.
+ * RB_INACCURATE: elements outside the contact come or go. */
+rb_status rb_rolling_beside_add(rb_rolling_beside *beside, const rb_rolling_model *v, double *w,
+                                double *x, double *h, rb_message *why);
 
 /* ---- Rows of the table of bodies (body.c) ------------------------------------------ */
 
@@ -59,6 +70,11 @@ typedef struct {
                               rolling; otherwise NULL; owned */
     double seconds_assembly, seconds_factor, seconds_condense;
 } rb_rolling_body_flexibility;
+
+/* Builds the flexibility of A or B anew: w = w0 + F r (2m) of that body in its own frame, and x and
+ * h of its elements (m; NULL: not wanted). */
+rb_status rb_rolling_body_displacement(const rb_rolling_model *model, int of_b, const double *r,
+                                       double *w, double *x, double *h, rb_message *why);
 
 struct rb_rolling_body_kind {
     const char *name; /* in pictures */

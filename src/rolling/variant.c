@@ -13,12 +13,12 @@ typedef struct {
 
 static const motion at_rest = {0.0, 1.0};
 
-/* The elements of `of`, moved, with the gap of rc.  Equal ones on a wheel are arcs of its
- * circle between ends that stay. */
-static rb_status copy_mesh(const rb_rolling_case *rc, const rb_rolling_mesh *of, int same_bodies,
+/* The elements of `of`, moved, with the gap of rc.  Equal ones on a wheel that is another one are
+ * arcs of its circle between ends that stay. */
+static rb_status copy_mesh(const rb_rolling_case *rc, const rb_rolling_mesh *of, int same_arcs,
                            motion moved, rb_rolling_mesh *mesh, rb_message *why)
 {
-    if (!same_bodies && rc->mesh == RB_MESH_UNIFORM && !rb_rolling_body_can(&rc->a, RB_BODY_FLAT)) {
+    if (!same_arcs && rc->mesh == RB_MESH_UNIFORM && !rb_rolling_body_can(&rc->a, RB_BODY_FLAT)) {
         const double passed = mesh->passed;
         const rb_status s =
             rb_rolling_mesh_uniform(rc, NULL, moved.shift + moved.scale * of->ends[0],
@@ -39,37 +39,6 @@ static rb_status copy_mesh(const rb_rolling_case *rc, const rb_rolling_mesh *of,
 static int have_same_boundary(const rb_bem_system *x, const rb_bem_system *y)
 {
     return !x || rb_bem_system_mesh(x)->n == rb_bem_system_mesh(y)->n;
-}
-
-/* 1: element j climbs, -1: it falls, 0: it is level but for rounding. */
-static int climbs(const rb_bem_mesh *m, int j)
-{
-    const double rise = m->y1[j] - m->y0[j];
-    return fabs(rise) < 1e-9 * rb_bem_mesh_length(m, j) ? 0 : rise > 0.0 ? 1 : -1;
-}
-
-/* All sides as well as all elements: those of a side climb on the upper half, those of the
- * next one fall; and those that are held. */
-static int have_same_sides(const rb_bem_system *x, const rb_bem_system *y)
-{
-    const rb_bem_mesh *a = x ? rb_bem_system_mesh(x) : NULL, *b = x ? rb_bem_system_mesh(y) : NULL;
-    double top = 0.0;
-
-    if (a && a->n != b->n)
-        return 0;
-    for (int j = 0; a && j < a->n; j++)
-        top = fmax(top, a->y0[j]);
-    for (int j = 0; a && j < a->n; j++)
-        if (a->condition[2 * j] != b->condition[2 * j] ||
-            (a->y0[j] + a->y1[j] > top && climbs(a, j) != climbs(b, j)))
-            return 0;
-    return 1;
-}
-
-int rb_rolling_same_sides(const rb_rolling_model *x, const rb_rolling_model *y)
-{
-    return have_same_sides(x->bodies.system_a, y->bodies.system_a) &&
-           have_same_sides(x->bodies.system_b, y->bodies.system_b);
 }
 
 static int same_body(const rb_rolling_body *x, const rb_rolling_body *y)
@@ -172,22 +141,30 @@ static void sign_integral(const rb_bem_flexibility *f, const double *r, double *
     }
 }
 
-/* What the present tractions of the model displace more than they do, 2m, where its
+/* w0 of the model, with what the present tractions displace more in the interlayer of rc. */
+static void set_interlayer(const rb_rolling_model *of, const rb_rolling_case *rc, double *w0)
+{
+    const rb_bem_flexibility *f = &of->bodies.f;
+
+    memcpy(w0, f->w0, 2 * (size_t)f->m * sizeof *w0);
+    for (int i = 0; i < f->n; i++) {
+        w0[i] += (rc->interlayer_normal - of->rc->interlayer_normal) * of->state.p[i];
+        w0[f->m + i] +=
+            (rc->interlayer_tangential - of->rc->interlayer_tangential) * of->state.q[i];
+    }
+}
+
+/* Adds what the present tractions of the model displace more than they do, 2m, where its
  * bodies are those of rc and its elements (of half-planes) `scale` times as long, wherever they
- * stand: w0 of the variant. */
-static rb_status changed_displacement(const rb_rolling_model *of, const rb_rolling_case *rc,
-                                      double scale, double *w0)
+ * stand. */
+static rb_status add_change(const rb_rolling_model *of, const rb_rolling_case *rc, double scale,
+                            double *w0)
 {
     const rb_bem_flexibility *f = &of->bodies.f;
     const rb_contact_state *state = &of->state;
     const int n = f->n, m = f->m;
-    const double layer[2] = {of->rc->interlayer_normal, of->rc->interlayer_tangential},
-                 changed[2] = {rc->interlayer_normal, rc->interlayer_tangential};
+    const double layer[2] = {of->rc->interlayer_normal, of->rc->interlayer_tangential};
 
-    for (int i = 0; i < m; i++) {
-        w0[i] = f->w0[i] + (i < n ? (changed[0] - layer[0]) * state->p[i] : 0.0);
-        w0[m + i] = f->w0[m + i] + (i < n ? (changed[1] - layer[1]) * state->q[i] : 0.0);
-    }
     if (scale == 1.0 && same_but_interlayer(rc, of->rc))
         return RB_OK;
     double *w = rb_alloc((size_t)m, 4), *b = w ? w + 2 * m : NULL;
@@ -238,9 +215,49 @@ int rb_rolling_is_compressed(const rb_rolling_model *model)
     return (a && isnan(rb_bem_system_rcond(a))) || (b && isnan(rb_bem_system_rcond(b)));
 }
 
+/* How a variant gets what its bodies displace: it builds them anew; or it borrows those of the
+ * model, and their change under the model's tractions is known by formula, or by products beside
+ * the model (beside.c). */
+typedef enum { ANEW, BY_FORMULA, BESIDE } change_kind;
+
+/* Of wheels that relax hysteresis asks for the matrix of their memory, an incompressible wheel does
+ * not tell the pressure on its hub. */
+static int knows_beside(const rb_rolling_model *of, const rb_rolling_case *rc)
+{
+    for (int k = 0; k < 1 + rc->elastic_b; k++) {
+        const rb_bem_material is = rb_rolling_material(of->rc, k ? &of->rc->b : &of->rc->a),
+                              was = rb_rolling_material(rc, k ? &rc->b : &rc->a);
+        if ((k ? of->bodies.system_b : of->bodies.system_a) && is.poisson != was.poisson &&
+            (rb_bem_is_incompressible(is) || rb_bem_is_incompressible(was)))
+            return 0;
+    }
+    return rc->elastic_b == of->rc->elastic_b &&
+           (rb_rolling_can(rc, RB_BODY_FLAT) ||
+            !(rb_rolling_relaxes(rc) || rb_rolling_relaxes(of->rc)));
+}
+
+/* results: 1: all are asked for, and kappa of a law asks for the matrix itself. */
+static change_kind change_of(const rb_rolling_model *of, const rb_rolling_case *rc, int results,
+                             int moves)
+{
+    const int by_formula =
+        (!moves && (same_but_interlayer(rc, of->rc) || rb_rolling_softening(of->rc, rc) > 0.0)) ||
+        (are_plain_halfplanes(of->rc) && are_plain_halfplanes(rc) &&
+         rc->elastic_b == of->rc->elastic_b);
+
+    if (rc->slip_operator != RB_SLIP_UPSTREAM || (results && rb_rolling_law_depends_on_state(rc)))
+        return !moves && rb_rolling_same_bodies(rc, of->rc) ? BY_FORMULA : ANEW;
+    return by_formula ? BY_FORMULA : knows_beside(of, rc) ? BESIDE : ANEW;
+}
+
+int rb_rolling_variant_builds(const rb_rolling_model *of, const rb_rolling_case *rc, int results)
+{
+    return change_of(of, rc, results, 0) == ANEW;
+}
+
 /* The bodies that the model has, with what their change displaces as w0. */
 static rb_status borrow_bodies(const rb_rolling_model *of, const rb_rolling_case *rc, motion moved,
-                               rb_rolling_model *v)
+                               rb_rolling_beside *beside, rb_rolling_model *v, rb_message *why)
 {
     const rb_bem_flexibility *f = &of->bodies.f;
     const int moves = moved.scale != 1.0 || moved.shift != 0.0;
@@ -249,17 +266,19 @@ static rb_status borrow_bodies(const rb_rolling_model *of, const rb_rolling_case
     if (rb_rolling_same_bodies(rc, of->rc) && !moves)
         return RB_OK;
     double *w0 = v->bodies.f.w0 = rb_alloc(2 * (size_t)f->m, 1);
-    if (moves) {
+    if (moves || beside) {
         v->bodies.f.x = rb_alloc((size_t)f->m, 1);
         v->bodies.f.h = rb_alloc((size_t)f->m, 1);
     }
     if (!w0 || !v->bodies.f.x || !v->bodies.f.h)
         return RB_ENOMEM;
-    for (int i = 0; i < f->m && moves; i++) {
+    for (int i = 0; i < f->m && (moves || beside); i++) {
         v->bodies.f.x[i] = moved.shift + moved.scale * f->x[i];
         v->bodies.f.h[i] = moved.scale * f->h[i];
     }
-    return changed_displacement(of, rc, moved.scale, w0);
+    set_interlayer(of, rc, w0);
+    return beside ? rb_rolling_beside_add(beside, v, w0, v->bodies.f.x, v->bodies.f.h, why)
+                  : add_change(of, rc, moved.scale, w0);
 }
 
 /* A variant that borrows all of the model but bounds, state and given values. */
@@ -278,24 +297,21 @@ static rb_status borrow_rows(const rb_rolling_model *of, rb_rolling_model *v)
     return s;
 }
 
-/* by_formula: 1: bodies that change, or elements that move, need no new flexibility; 2:
- * only where all results stay right. */
-static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, int by_formula,
-                        int own_bodies, motion moved, rb_rolling_model *v, rb_message *why)
+/* results: 0: the equations alone; 1: also all results; -1: what needs the flexibilities
+ * themselves. beside: of the model; NULL: bodies whose change no formula tells are built anew. */
+static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, int results,
+                        int own_bodies, rb_rolling_beside *beside, motion moved,
+                        rb_rolling_model *v, rb_message *why)
 {
     rb_rolling_plan plan = rb_rolling_plan_of(rc);
-    /* The formula must know how the flexibility changes.  kappa of a law asks for the
-     * matrix itself. */
     const int moves = moved.scale != 1.0 || moved.shift != 0.0,
               own = own_bodies && rb_rolling_is_compressed(of),
-              shares = by_formula && !own && !moves && same_rows(rc, of->rc);
-    const int borrows = (rb_rolling_same_bodies(rc, of->rc) && !moves && !own) ||
-                        (by_formula && rc->slip_operator == RB_SLIP_UPSTREAM &&
-                         ((same_but_interlayer(rc, of->rc) && !moves && !own) ||
-                          (rb_rolling_softening(of->rc, rc) > 0.0 && !moves && !own) ||
-                          (are_plain_halfplanes(of->rc) && are_plain_halfplanes(rc) &&
-                           rc->elastic_b == of->rc->elastic_b)) &&
-                         (by_formula == 1 || !rb_rolling_law_depends_on_state(rc)));
+              shares = results >= 0 && !own && !moves && same_rows(rc, of->rc),
+              is_same = rb_rolling_same_bodies(rc, of->rc) && !moves && !own;
+    const change_kind kind = is_same              ? BY_FORMULA
+                             : own || results < 0 ? ANEW
+                                                  : change_of(of, rc, results, moves);
+    const int borrows = kind == BY_FORMULA || (kind == BESIDE && beside);
 
     plan.compression = RB_ROLLING_CLOSE;
     rb_status s = rb_rolling_model_begin(rc, NULL, v, why);
@@ -304,9 +320,13 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, i
     if (s == RB_OK && shares)
         return borrow_rows(of, v);
     if (s == RB_OK)
-        s = copy_mesh(rc, &of->mesh, borrows, moved, &v->mesh, why);
+        s = copy_mesh(rc, &of->mesh,
+                      kind == BY_FORMULA || (!moves && rc->a.radius == of->rc->a.radius), moved,
+                      &v->mesh, why);
+    if (borrows)
+        v->plan = of->plan;
     if (s == RB_OK && borrows)
-        s = borrow_bodies(of, rc, moved, v);
+        s = borrow_bodies(of, rc, moved, kind == BESIDE ? beside : NULL, v, why);
     else if (s == RB_OK)
         s = rb_rolling_bodies_create(rc, &plan, &v->mesh, &v->bodies, why);
     if (s == RB_OK && !(have_same_boundary(of->bodies.system_a, v->bodies.system_a) &&
@@ -326,10 +346,10 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, i
     return s;
 }
 
-rb_status rb_rolling_variant_move(const rb_rolling_model *of, double shift, double scale,
-                                  rb_rolling_model *v, rb_message *why)
+rb_status rb_rolling_variant_move(const rb_rolling_model *of, rb_rolling_beside *beside,
+                                  double shift, double scale, rb_rolling_model *v, rb_message *why)
 {
-    return create(of, of->rc, 2, 0, (motion){shift, scale}, v, why);
+    return create(of, of->rc, 1, 0, beside, (motion){shift, scale}, v, why);
 }
 
 rb_status rb_rolling_variant_data(const rb_rolling_model *of, double shift, double scale,
@@ -360,21 +380,21 @@ rb_status rb_rolling_variant_data(const rb_rolling_model *of, double shift, doub
 rb_status rb_rolling_variant_place(const rb_rolling_model *of, const rb_rolling_case *rc,
                                    double shift, double scale, rb_rolling_model *v, rb_message *why)
 {
-    const rb_status s = create(of, rc, 0, 0, (motion){shift, scale}, v, why);
+    const rb_status s = create(of, rc, -1, 0, NULL, (motion){shift, scale}, v, why);
     return s == RB_OK ? rb_rolling_variant_complete(v, NULL, NULL, why) : s;
 }
 
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
-                                    int results, int own_bodies, rb_rolling_model *v,
-                                    rb_message *why)
+                                    int results, int own_bodies, rb_rolling_beside *beside,
+                                    rb_rolling_model *v, rb_message *why)
 {
-    return create(of, rc, results ? 2 : 1, own_bodies, at_rest, v, why);
+    return create(of, rc, results, own_bodies, beside, at_rest, v, why);
 }
 
 rb_status rb_rolling_variant_closely(const rb_rolling_model *of, rb_rolling_model *v,
                                      rb_message *why)
 {
-    rb_status s = create(of, of->rc, 0, 1, at_rest, v, why);
+    rb_status s = create(of, of->rc, -1, 1, NULL, at_rest, v, why);
 
     if (s == RB_OK)
         s = rb_rolling_variant_complete(v, NULL, NULL, why);

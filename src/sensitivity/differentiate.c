@@ -168,6 +168,23 @@ static rb_status differentiate(const rb_sensitivity *s, const rb_sensitivity_inp
     return status;
 }
 
+/* Of variants that borrow the operator of the model it does not tell whether they are coupled. */
+static int is_coupled(const rb_rolling_model *v)
+{
+    const rb_rolling_case *rc = v->rc;
+    rb_rolling_body a = rc->a;
+
+    if (rb_rolling_can(rc, RB_BODY_FLAT)) { /* the depth of zero displacement couples nothing */
+        a.radius = rc->b.radius;
+        a.datum = rc->b.datum;
+        a.datum_tangential = rc->b.datum_tangential;
+    }
+    return rb_contact_operator_response(v->problem.op).coupled ||
+           fabs(rb_rolling_derive(rc).dundurs) >= 1e-12 ||
+           (!rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC) &&
+            memcmp(&a, &rc->b, sizeof a) != 0);
+}
+
 /* Free rolling has its own equations. */
 static rb_status differentiate_free(const rb_sensitivity *s, const rb_sensitivity_input *input,
                                     const rb_sensitivity_variants *of, rb_sensitivity_derivative *d,
@@ -180,12 +197,12 @@ static rb_status differentiate_free(const rb_sensitivity *s, const rb_sensitivit
     rb_status status = RB_OK;
 
     for (int k = 0; k < of->at.n && of->bodies; k++)
-        rests &= !rb_contact_operator_response(of->model[k].problem.op).coupled &&
-                 fabs(rb_rolling_derive(of->model[k].rc).dundurs) < 1e-12;
+        rests &= !is_coupled(&of->model[k]);
     if (freely && input->vary) {
         rb_sensitivity_derivative *f = d->free_rolling = calloc(1, sizeof *f);
         rb_sensitivity_variants v = *of;
         v.base = freely->model;
+        v.beside = freely->beside;
         v.results = 0;
         memset(v.model, 0, sizeof v.model);
         memset(v.of, 0, sizeof v.of);
@@ -213,7 +230,7 @@ static rb_status differentiate_free(const rb_sensitivity *s, const rb_sensitivit
 rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensitivity_input *input,
                                        rb_sensitivity_derivative *d, rb_message *why)
 {
-    rb_sensitivity_variants v = {.base = s->model, .results = 1};
+    rb_sensitivity_variants v = {.base = s->model, .beside = s->beside, .results = 1};
 
     memset(d, 0, sizeof *d);
     if (s->solution.n == 0)
@@ -308,7 +325,7 @@ rb_status rb_sensitivity_add_jump(const rb_sensitivity *s, const rb_sensitivity_
     rb_status status = rb_contact_state_alloc(s->n, &y);
 
     if (status == RB_OK)
-        status = rb_rolling_variant_create(s->model, s->model->rc, 1, 0, &v, why);
+        status = rb_rolling_variant_create(s->model, s->model->rc, 1, 0, NULL, &v, why);
     for (int j = 0; j < onwards.n && status == RB_OK; j++) {
         rb_rolling_variant_set(&s->model->state, NULL, 0.0, &y);
         memcpy(y.lambda, s->model->state.lambda, (size_t)s->n * sizeof *y.lambda);
@@ -368,6 +385,7 @@ static rb_status differentiate_motions(rb_sensitivity *s, int moves)
     for (int k = 0; k < moves && status == RB_OK; k++) { /* as many motions */
         rb_sensitivity_variants v = {
             .base = s->model,
+            .beside = s->beside,
             .results = s->solution.n > 0,
             .at = rb_sensitivity_middle,
             .is_long = rb_sensitivity_has_wheels(s->model),

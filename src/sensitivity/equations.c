@@ -308,7 +308,7 @@ rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why)
     if (!s->law_slip || !scratch || (model->rc->friction.heat != 0.0 && !s->law_force))
         status = rb_fail(why, RB_ENOMEM, "out of memory for %d coefficients", s->n);
     if (status == RB_OK)
-        status = rb_rolling_variant_create(model, model->rc, 1, 0, &v, why);
+        status = rb_rolling_variant_create(model, model->rc, 1, 0, NULL, &v, why);
     v.carried.mu = model->carried.mu;
     v.carried.heat = model->carried.heat;
     if (status == RB_OK)

@@ -123,7 +123,7 @@ rb_status rb_sensitivity_extend(const rb_sensitivity *s, int element, int zone, 
                                 rb_sensitivity **extended, rb_message *why)
 {
     const rb_rolling_model *model = s->model;
-    rb_status status = s->factors ? rb_rolling_variant_create(model, model->rc, 1, 0, v, why)
+    rb_status status = s->factors ? rb_rolling_variant_create(model, model->rc, 1, 0, NULL, v, why)
                                   : rb_fail(why, RB_EINVAL, "derivatives: no matrices");
 
     if (status != RB_OK)

@@ -51,13 +51,8 @@ rb_status rb_sensitivity_choose_places(const rb_sensitivity *s, const rb_sensiti
     if (status != RB_OK)
         return status;
     v->bodies = !input->vary || !rb_rolling_same_bodies(&rc, s->model->rc);
-    if (v->bodies && input->vary) {
-        rc.interlayer_normal = s->model->rc->interlayer_normal;
-        rc.interlayer_tangential = s->model->rc->interlayer_tangential;
-        v->own = !rb_rolling_same_bodies(&rc, s->model->rc) &&
-                 !(rb_rolling_softening(s->model->rc, &rc) > 0.0) &&
-                 rb_rolling_is_compressed(s->model);
-    }
+    v->own = input->vary && rb_rolling_is_compressed(s->model) &&
+             rb_rolling_variant_builds(s->model, &rc, v->results);
     v->step = (v->bodies ? RB_SENSITIVITY_STEP_OF_BODIES : RB_SENSITIVITY_STEP) * input->scale;
     v->scale = input->scale;
     if (v->results && v->bodies && rb_sensitivity_has_wheels(s->model) &&
@@ -116,9 +111,10 @@ static rb_status variants_at_places(const rb_rolling_model *base, const rb_sensi
         rb_rolling_case rc;
         if (!input->vary) {
             const rb_sensitivity_move *m = input->context;
-            s = m->kind == SHIFT ? rb_rolling_variant_move(base, by, 1.0, &v->model[k], why)
-                                 : rb_rolling_variant_move(base, -by * m->centre / m->half,
-                                                           1.0 + by / m->half, &v->model[k], why);
+            s = m->kind == SHIFT
+                    ? rb_rolling_variant_move(base, v->beside, by, 1.0, &v->model[k], why)
+                    : rb_rolling_variant_move(base, v->beside, -by * m->centre / m->half,
+                                              1.0 + by / m->half, &v->model[k], why);
         } else {
             s = input->vary(input->context, input->value + by, &rc, why);
             if (s != RB_OK)
@@ -126,8 +122,8 @@ static rb_status variants_at_places(const rb_rolling_model *base, const rb_sensi
             rc = on_the_same_elements(&rc, base->rc, base->mesh.n);
             if (freely)
                 rc = rb_rolling_without_force(&rc);
-            s = rb_rolling_variant_create(of, &rc, v->results, of == base && v->own, &v->model[k],
-                                          why);
+            s = rb_rolling_variant_create(of, &rc, v->results, of == base && v->own,
+                                          of == base ? v->beside : NULL, &v->model[k], why);
             if (s == RB_OK && of != base)
                 rb_rolling_variant_set(&base->state, NULL, 0.0, &v->model[k].state);
         }
@@ -207,7 +203,7 @@ static int rates_of_given(const rb_sensitivity *s, const rb_sensitivity_input *i
 rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_input *input,
                                rb_sensitivity_rate *rate, double *mu, rb_message *why)
 {
-    rb_sensitivity_variants v = {.base = s->model};
+    rb_sensitivity_variants v = {.base = s->model, .beside = s->beside};
     rb_status status = rb_sensitivity_choose_places(s, input, &v, why);
 
     memset(rate, 0, sizeof *rate);
