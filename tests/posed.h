@@ -2,6 +2,7 @@
 #ifndef ROLLBEM_TESTS_POSED_H
 #define ROLLBEM_TESTS_POSED_H
 
+#include "cases.h"
 #include "check.h"
 #include "rollbem/rolling.h"
 
@@ -17,12 +18,9 @@ typedef struct {
 
 static inline rb_rolling_case posed_plane(rb_rolling_formulation formulation)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.a.poisson = 0.3;
+    rb_rolling_case rc =
+        rolling_case("support halfplane poisson 0.3 contact-elements %d load 500", N);
     rc.formulation = formulation;
-    rc.contact_elements = N;
-    rc.load = 500.0;
     return rc;
 }
 

@@ -12,6 +12,7 @@
  * the bars that do not hold of so many cases over all options, from the FROM-th random
  * one on.  Each case has a process of its own, which has 60 s of the processor: one that
  * takes longer with its finer mesh is left out, and counted as left out. */
+#include "cases.h"
 #include "check.h"
 #include "random_case.h"
 #include "rollbem/case.h"
@@ -140,8 +141,7 @@ static void draw_bodies(const class *c, rb_rolling_case *rc)
     rc->elastic_b = c->similar || rand() % 2;
     rc->b = rc->a;
     if (rand() % 2) {
-        rc->b.radius = INFINITY;
-        rc->b.support = RB_BEM_HALFPLANE;
+        set(rc, "radius-b plane support-b halfplane");
     }
     if (!c->similar) {
         rc->b.young *= logarithmic(0.4, 5.0);
@@ -461,12 +461,11 @@ static int study_of_all_options(int cases, int from)
     for (int k = from, n = 0; n < cases; k++) {
         random_case_make(&r, k, 24);
         /* the steps of an increment are the caller's, not of the mesh */
-        rb_case *c = r.regime == RANDOM_STEPS ? NULL : case_of(r.line);
+        held_case *c = r.regime == RANDOM_STEPS ? NULL : case_of(r.line);
         bars_of_case one;
         if (!c)
             continue;
         const int in_time = count_in_a_process(c, r.regime, &one);
-        rb_case_free(c);
         if (!in_time || one.unsolved || one.held < one.bars)
             printf("case %d%s: rollbem%s\n", k,
                    !in_time       ? ", left out for its time"
@@ -515,15 +514,10 @@ TEST(bars_hold)
  * Carter: its bar was 5e-15. */
 TEST(an_element_that_slides_may_stick)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_case rc = rolling_case("support halfplane formulation steady half-width 0.25 "
+                                      "creep-ratio 0.98 mesh uniform contact-elements 50");
     rb_rolling_solution s;
     rb_rolling_errors e;
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.formulation = RB_STEADY;
-    rc.half_width = 0.25;
-    rc.creep_ratio = 0.98;
-    rc.mesh = RB_MESH_UNIFORM;
-    rc.contact_elements = 50;
     rc.elastic_b = 1;
     rc.b = rc.a;
     rc.b.radius = INFINITY;
@@ -550,12 +544,8 @@ static rb_rolling_case thin_rim(void)
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.a = (rb_rolling_body){
         .young = 1000.0, .poisson = 0.5, .radius = 50.0, .support = RB_BEM_HUB, .hub_ratio = 0.9};
-    rc.formulation = RB_STEADY;
-    rc.mu = 0.3;
-    rc.half_width = 2.5;
-    rc.creep_ratio = 0.4;
-    rc.contact_elements = 40;
-    rc.mesh = RB_MESH_FITTED;
+    set(&rc,
+        "formulation steady mu 0.3 half-width 2.5 creep-ratio 0.4 contact-elements 40 mesh fitted");
     return rc;
 }
 
@@ -582,16 +572,10 @@ TEST(bars_hold_on_a_thin_rim)
  * and 0.0088 on 600, where the strip has 14. */
 TEST(a_narrow_stick_zone_widens_the_bars)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_case rc = rolling_case("support halfplane poisson 0.06 mu 0.19 half-width 1.34 "
+                                      "shift -2.26e-4 mesh fitted contact-elements 24");
     OWNED(rb_rolling_solution) s, truth;
     rb_rolling_errors e;
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.a.poisson = 0.06;
-    rc.mu = 0.19;
-    rc.half_width = 1.34;
-    rc.shift = -2.26e-4;
-    rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = 24;
     CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_OK);
     rc.contact_elements = 400;
     CHECK_STATUS(rb_rolling_solve(&rc, &truth, NULL), RB_OK);
@@ -604,10 +588,9 @@ TEST(a_narrow_stick_zone_widens_the_bars)
 /* Half the given outer elements are compared with as well. */
 TEST(given_outer_elements_have_bars)
 {
-    rb_rolling_case rc = thin_rim();
+    rb_rolling_case rc = with(thin_rim(), "outer-elements 100");
     rb_rolling_solution s;
     rb_rolling_errors e;
-    rc.outer_elements = 100;
     CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_OK);
     CHECK_ABS(s.force_ratio, thin_rim_force_ratio, e.scalar.force_ratio, "Q/(mu P)");
     assert_true(fabs(s.force_ratio - thin_rim_force_ratio) > 0.03);
@@ -623,11 +606,10 @@ TEST(given_outer_elements_have_bars)
 /* --accuracy refines what needs it, here the boundary. */
 TEST(accuracy_is_that_of_the_boundary_too)
 {
-    rb_rolling_case rc = thin_rim();
+    rb_rolling_case rc = with(thin_rim(), "contact-elements 24");
     OWNED(rb_rolling_solution) s;
     rb_rolling_errors e;
     int elements = 0;
-    rc.contact_elements = 24;
     CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1.5e-2, &s, &e, &elements, NULL), RB_OK);
     CHECK_ABS(s.force_ratio, thin_rim_force_ratio, 1.5e-2, "Q/(mu P), %d elements", elements);
     CHECK_MAX(e.scalar.force_ratio, 1.5e-2, "its bar");
@@ -638,13 +620,12 @@ static rb_rolling_solution to_accuracy(const char *line, rb_status wanted)
     rb_rolling_solution s;
     rb_rolling_errors e;
     int elements = 0;
-    rb_case *c = case_of(line);
+    held_case *c = case_of(line);
 
     assert_non_null(c);
     CHECK_STATUS(
         rb_rolling_solve_to_accuracy(&rb_case_resolved(c)->rc, 3e-3, &s, &e, &elements, &heard),
         wanted);
-    rb_case_free(c);
     return s;
 }
 
@@ -699,7 +680,7 @@ static void two_patches(const char *options, double centre, double width, double
     }
     fclose(file);
     snprintf(line, sizeof line, " --gap %s/gap.txt --radius 50 --half-width 1%s", folder, options);
-    rb_case *c = case_of(line);
+    held_case *c = case_of(line);
     assert_non_null(c);
     counts t;
     memset(&t, 0, sizeof t);
@@ -710,7 +691,6 @@ static void two_patches(const char *options, double centre, double width, double
     assert_int_equal(t.main.held, t.main.all);
     assert_int_equal(t.others.held, t.others.all);
     assert_true(t.others.all > 4);
-    rb_case_free(c);
     snprintf(line, sizeof line, "rm -r %s", folder);
     assert_int_equal(system(line), 0);
 }
@@ -756,11 +736,10 @@ TEST(a_refusal_sets_every_output)
 /* Where no mesh that can be solved will do, that is said at once, with the best there is. */
 TEST(an_accuracy_out_of_reach_is_said_to_be)
 {
-    rb_rolling_case rc = thin_rim();
+    rb_rolling_case rc = with(thin_rim(), "mesh uniform");
     OWNED(rb_rolling_solution) s;
     rb_rolling_errors e;
     int elements = 0;
-    rc.mesh = RB_MESH_UNIFORM;
     CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1e-7, &s, &e, &elements, &heard), RB_INACCURATE);
     assert_int_equal(elements, 40);
     CHECK_ABS(s.force_ratio, thin_rim_force_ratio, e.scalar.force_ratio, "Q/(mu P)");
@@ -774,11 +753,8 @@ TEST(a_failed_coarser_run_leaves_the_solution)
     rb_rolling_case rc = rb_rolling_case_defaults();
     OWNED(rb_rolling_solution) s;
     rb_rolling_errors e;
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.a.poisson = 0.5;
-    rc.half_width = 0.1;
+    set(&rc, "support halfplane poisson 0.5 half-width 0.1 contact-elements 40");
     rc.zone = 1.05 * rc.half_width;
-    rc.contact_elements = 40;
     CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, &heard), RB_ZONE);
     CHECK_STATUS(s.status, RB_OK);
     CHECK_REL(s.normal_load, 0.25 * M_PI * 94500.0 / 0.75 * 0.01 / 50.0, 1e-10, "load");

@@ -1,6 +1,7 @@
 /* Error bars are what theory.md 5.1 says of the coarser runs: three times the spread over
  * n/2, 0.7 n and n contact elements, and one and a half times the difference that half of
  * the boundary makes; here these runs are made one by one. */
+#include "cases.h"
 #include "check.h"
 #include "rollbem/rolling.h"
 
@@ -10,21 +11,16 @@ static const struct {
 
 static rb_rolling_case plain_case(rb_bem_support support)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_case rc = rolling_case("hub-ratio 0.5");
     rc.a.support = support;
-    rc.a.hub_ratio = 0.5;
     rc.elastic_b = 1;
     rc.b = rc.a;
-    rc.b.support = RB_BEM_HALFPLANE;
-    rc.b.radius = INFINITY;
+    set(&rc, "support-b halfplane radius-b plane");
     rc.b.young *= 2.0;
-    rc.half_width = 0.01 * rc.a.radius;
-    rc.formulation = RB_STEADY;
-    rc.mu = 0.3;
-    rc.creep_ratio = 0.4;
-    rc.contact_elements = 40;
-    rc.outer_elements = support == RB_BEM_HALFPLANE ? 0 : 80;
-    rc.mesh = RB_MESH_UNIFORM;
+    set(&rc,
+        "half-width %g formulation steady mu 0.3 creep-ratio 0.4 contact-elements 40 "
+        "outer-elements %d mesh uniform",
+        0.01 * rc.a.radius, support == RB_BEM_HALFPLANE ? 0 : 80);
     return rc;
 }
 
@@ -215,13 +211,9 @@ static void bars_of_a_history(int force_is_given)
 {
     enum { STEPS = 10 };
     rb_rolling_case rc = plain_case(RB_BEM_HALFPLANE);
-    rc.formulation = RB_TRANSIENT;
-    rc.zone = 1.5 * rc.half_width;
-    rc.distance = 0.8;
-    rc.steps = STEPS;
+    set(&rc, "formulation transient zone %g distance 0.8 steps %d", 1.5 * rc.half_width, STEPS);
     if (force_is_given) {
-        rc.creep_ratio = NAN;
-        rc.force_ratio = 0.5;
+        set(&rc, "creep-ratio nan force-ratio 0.5");
     }
     rb_rolling_model model, others[2];
     rb_rolling_history own, run[2];

@@ -17,9 +17,7 @@ TEST(a_step_begins_with_its_past)
         before[i] = 1e-4 * i * i;
         u[i] = 1e-3 * i;
     }
-    rb_rolling_case rc = posed_plane(RB_TRANSIENT);
-    rc.yield_stress = 50.0;
-    rc.hardening = 100.0;
+    rb_rolling_case rc = with(posed_plane(RB_TRANSIENT), "yield-stress 50 hardening 100");
     const rb_rolling_past past = {before, u, 0.07}, smooth = {before, NULL, 0.07};
     posed d = pose(&rc, &past);
     for (int i = 0; i < N; i++) {
@@ -53,18 +51,15 @@ TEST(each_control_gives_its_unknown)
     rc.creep_ratio = 0.5;
     rb_rolling_set_control(&rc, p);
     CHECK_REL(p->xi, 0.5 * scale, 1e-14, "xi R/(mu a)");
-    rc.creep_ratio = NAN;
-    rc.creep = 0.01;
+    set(&rc, "creep-ratio nan creep 0.01");
     rb_rolling_set_control(&rc, p);
     CHECK_ABS(p->xi, 0.01, 0.0, "xi");
-    rc.creep = NAN;
-    rc.force_ratio = -0.4;
+    set(&rc, "creep nan force-ratio -0.4");
     rb_rolling_set_control(&rc, p);
     assert_int_equal(p->force_given, 1);
     CHECK_ABS(p->force_ratio, -0.4, 0.0, "Q/(mu P)");
     CHECK_ABS(p->xi, 0.0, 0.0, "an unknown");
-    rc.force_ratio = NAN;
-    rc.force = 60.0;
+    set(&rc, "force-ratio nan force 60");
     rb_rolling_set_control(&rc, p);
     CHECK_REL(p->force_ratio, 0.4, 1e-14, "of the known load");
     CHECK_ABS(p->force, 0.0, 0.0, "of the known load");
@@ -76,15 +71,12 @@ TEST(each_control_gives_its_unknown)
     rc.friction.law = RB_FRICTION_linear;
     rb_rolling_set_control(&rc, p);
     CHECK_ABS(p->force, 60.0, 0.0, "mu is not known");
-    rc.friction.law = RB_FRICTION_constant;
-    rc.load = NAN;
-    rc.approach = 0.02;
+    set(&rc, "friction-law constant load nan approach 0.02");
     rb_rolling_set_control(&rc, p);
     assert_int_equal(p->load_given, 0);
     CHECK_ABS(p->delta, 0.02, 0.0, "the approach");
     CHECK_ABS(p->force, 60.0, 0.0, "the load is not known");
-    rc.force = NAN;
-    rc.free_axle = 1;
+    set(&rc, "force nan free-axle");
     rb_rolling_set_control(&rc, p);
     assert_int_equal(p->force_given, 1);
     CHECK_REL(p->axle, 1.0 / 50.0, 1e-15, "1/R");
@@ -101,19 +93,15 @@ TEST(each_control_gives_its_unknown)
     rb_rolling_set_control(&rc, p);
     assert_int_equal(p->force_given, 0);
     CHECK_ABS(p->xi, 0.003, 0.0, "the shift");
-    rc.shift = NAN;
-    rc.approach = NAN;
-    rc.load = 500.0;
+    set(&rc, "shift nan approach nan load 500");
     CHECK_ABS(rb_rolling_wanted_shift(&rc), 0.0, 0.0, "under a load");
     release(&d);
 }
 
 TEST(ratios_come_from_load_and_friction)
 {
-    rb_rolling_case rc = posed_plane(RB_STEADY);
-    OWNED(rb_rolling_model) model;
-    rc.creep_ratio = 0.5;
-    CHECK_OK(rb_rolling_model_create(&rc, &model, NULL));
+    rb_rolling_case rc = with(posed_plane(RB_STEADY), "creep-ratio 0.5");
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     const double P = rb_rolling_model_load(&model), Q = rb_rolling_model_force(&model);
     CHECK_REL(P, 500.0, 1e-9, "P");
     CHECK_REL(rb_rolling_force_ratio(&model), Q / (0.3 * P), 1e-12, "Q/(mu P)");
@@ -133,14 +121,11 @@ TEST(everything_slides_at_the_sliding_creepage)
 {
     static const double mu[] = {0.05, 0.3, 1.0};
     for (int k = 0; k < 3; k++) {
-        rb_rolling_case rc = posed_plane(RB_STEADY);
-        OWNED(rb_rolling_model) model;
-        rc.mu = mu[k];
-        rc.contact_elements = 30;
+        rb_rolling_case rc = with(posed_plane(RB_STEADY), "mu %g contact-elements 30", mu[k]);
         posed d = pose(&rc, NULL);
         rc.creep = rb_rolling_sliding_creepage(&rc, &d.p);
         release(&d);
-        CHECK_OK(rb_rolling_model_create(&rc, &model, NULL));
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         CHECK_REL(rb_rolling_force_ratio(&model), -1.0, 1e-9, "mu = %g", mu[k]);
     }
 }
@@ -149,8 +134,7 @@ TEST(everything_slides_at_the_sliding_creepage)
 
 static rb_rolling_case law(rb_rolling_friction_law which, double m1, double m2)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.formulation = RB_STEADY;
+    rb_rolling_case rc = rolling_case("formulation steady");
     rc.friction = (rb_rolling_friction){.law = which, .fall = {m1, m2}, .slip_scale = {3.0, 7.0}};
     return rc;
 }
@@ -342,8 +326,7 @@ TEST(coefficients_forget_from_the_leading_edge_on)
 
 TEST(starts_slide_up_to_their_place)
 {
-    rb_rolling_case rc = falling_case(RB_STEADY, 0.2, 20.0);
-    rc.creep_ratio = 0.5;
+    rb_rolling_case rc = with(falling_case(RB_STEADY, 0.2, 20.0), "creep-ratio 0.5");
     OWNED(rb_rolling_model) model = solved_model(&rc);
     const double *x = model.bodies.f.x;
     CHECK_OK(rb_rolling_law_start(&model, x[10], NULL));
@@ -362,8 +345,7 @@ TEST(bounds_start_where_they_are_told)
 {
     const double x[] = {-0.1, 0.1}, y[] = {0.21, 0.31};
     const rb_rolling_table start = {2, x, y};
-    rb_rolling_case rc = falling_case(RB_STEADY, 0.2, 20.0);
-    rc.creep_ratio = 0.5;
+    rb_rolling_case rc = with(falling_case(RB_STEADY, 0.2, 20.0), "creep-ratio 0.5");
     OWNED(rb_rolling_model) model = solved_model(&rc);
     for (int k = 0; k < 2; k++) {
         case_of_model(&model)->formulation = k ? RB_STATIC : RB_TRANSIENT;
@@ -380,8 +362,7 @@ TEST(bounds_start_where_they_are_told)
 static rb_rolling_model steep_model(void)
 {
     rb_rolling_case rc = falling_case(RB_STEADY, 0.2, 1.0);
-    rc.contact_elements = 10;
-    rc.creep_ratio = 0.6;
+    set(&rc, "contact-elements 10 creep-ratio 0.6");
     return solved_model(&rc);
 }
 

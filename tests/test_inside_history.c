@@ -3,6 +3,7 @@
 #include "cases.h"
 #include "check.h"
 #include "history/internal.h"
+#include "solved.h"
 
 #include <gsl/gsl_math.h>
 
@@ -112,9 +113,7 @@ TEST(places_beyond_the_mesh_are_those_of_a_longer_one)
 /* A wheel differs from its half-plane by what is smooth along the surface. */
 TEST(a_wheel_is_nearly_on_the_line_of_its_midpoints)
 {
-    rb_rolling_case rc = plane_ahead(0, ELEMENTS);
-    rc.a.support = RB_BEM_HUB;
-    rc.outer_elements = 60;
+    rb_rolling_case rc = with(plane_ahead(0, ELEMENTS), "support hub outer-elements 60");
     pressed d = press(&rc, -0.6, 0.6);
     OWNED(rb_arena) memory = {0};
     rb_rolling_former_place ahead;
@@ -202,10 +201,7 @@ TEST(memory_for_what_is_ahead_may_be_refused)
 TEST(large_contacts_know_what_is_ahead)
 {
     rb_rolling_case rc = half_plane(RB_STATIC, RB_ROLLING_LARGE);
-    rc.a.young = 209920.0;
-    rc.a.poisson = 0.3;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.load = 100.0;
+    set(&rc, "young 209920 poisson 0.3 gap parabola load 100");
     OWNED(rb_rolling_mesh) mesh;
     OWNED(rb_rolling_bodies) bodies;
     OWNED(rb_arena) memory = {0};
@@ -238,16 +234,12 @@ TEST(an_interface_moves_with_the_steps)
     for (int i = 0; i < n - 1; i++)
         q[i] = 100.0 * rand() / RAND_MAX;
     for (int large = 0; large < 2; large++) {
-        rb_rolling_case rc = plane_ahead(0, n);
-        rc.a.young = 210000.0;
-        rc.a.poisson = 0.28;
-        rc.a.radius = 500.0;
+        rb_rolling_case rc = with(plane_ahead(0, n), "young 210000 poisson 0.28 radius 500");
         OWNED(rb_rolling_mesh) mesh;
         OWNED(rb_rolling_bodies) bodies;
         OWNED(rb_arena) memory = {0};
         rb_rolling_former_place ahead;
-        rc.contact.solver = large ? RB_SOLVER_NEWTON : RB_SOLVER_LEMKE;
-        rc.interlayer_tangential = 1e-2;
+        set(&rc, "solver %s interlayer-tangential 1e-2", large ? "newton" : "lemke");
         CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -1.3, 1.3, &mesh, NULL));
         CHECK_OK(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, NULL));
         assert_int_equal(bodies.F == NULL, large);
@@ -266,19 +258,12 @@ TEST(an_interface_moves_with_the_steps)
 
 static rb_rolling_case relaxing_press(void)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.a.memory = (rb_rolling_memory){1, {2.0}, {0.5}};
-    rc.load = 10.0;
-    return rc;
+    return rolling_case("support halfplane relaxation-time 2 relaxation-ratio 0.5 load 10");
 }
 
 static rb_rolling_case rolling_press(void)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.formulation = RB_TRANSIENT;
-    rc.load = 10.0;
-    return rc;
+    return rolling_case("formulation transient load 10");
 }
 
 TEST(no_part_of_a_row_is_longer_than_the_time_step)
@@ -419,11 +404,8 @@ static void check_rows(const double *got, const double *wanted, int n, const cha
 
 TEST(increments_press_first_and_load_then)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_case rc = rolling_case("increments 2 approach 0.1 shift 0.02");
     rb_rolling_program program;
-    rc.increments = 2;
-    rc.approach = 0.1;
-    rc.shift = 0.02;
     OWNED(rb_arena) memory = {0};
     CHECK_OK(rb_rolling_program_of_case(&rc, &memory, &program));
     static const double approach[] = {0.05, 0.1, 0.1, 0.1}, shift[] = {0.0, 0.0, 0.01, 0.02};
@@ -433,8 +415,7 @@ TEST(increments_press_first_and_load_then)
     check_rows(program.approach, approach, 4, "approach");
     check_rows(program.shift, shift, 4, "shift");
 
-    rc.approach = rc.shift = NAN;
-    rc.load = 10.0;
+    set(&rc, "approach nan shift nan load 10");
     CHECK_OK(rb_rolling_program_of_case(&rc, &memory, &program));
     assert_int_equal(program.n, 2); /* a shift of 0 loads nothing */
     CHECK_ABS(program.load[0], 5.0, 0.0, "half the load");
@@ -449,11 +430,8 @@ TEST(increments_press_first_and_load_then)
 
 TEST(a_transient_rolls_under_its_loads)
 {
-    rb_rolling_case rc = rolling_press();
+    rb_rolling_case rc = with(rolling_press(), "distance 3 increments 2 force-ratio 0.5");
     rb_rolling_program program;
-    rc.distance = 3.0;
-    rc.increments = 2;
-    rc.force_ratio = 0.5;
     OWNED(rb_arena) memory = {0};
     CHECK_OK(rb_rolling_program_of_case(&rc, &memory, &program));
     static const double load[] = {5.0, 10.0, 10.0, 10.0, 10.0},
@@ -464,9 +442,7 @@ TEST(a_transient_rolls_under_its_loads)
     check_rows(program.force_ratio, ratio, 5, "Q/(mu P)");
     check_rows(program.distance, distance, 5, "distance");
 
-    rc.force_ratio = NAN;
-    rc.creep = 0.001;
-    rc.increments = 1;
+    set(&rc, "force-ratio nan creep 0.001 increments 1");
     CHECK_OK(rb_rolling_program_of_case(&rc, &memory, &program));
     assert_int_equal(program.n, 2); /* driven by its creepage: no force at rest */
     assert_null(program.force);
@@ -481,8 +457,7 @@ TEST(whole_elements_ahead_are_known)
 {
     for (int hub = 0; hub < 2; hub++) {
         const rb_rolling_case rc = wheel_on_rail(hub ? RB_BEM_HUB : RB_BEM_ARC, 20);
-        OWNED(rb_rolling_model) model;
-        CHECK_OK(rb_rolling_model_create(&rc, &model, NULL));
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         const int n = model.mesh.n, m = n + 1;
         const double *F = model.bodies.F, size = fabs(F[0]);
         for (int k = 0; k <= 3; k++) {
@@ -503,12 +478,10 @@ TEST(whole_elements_ahead_are_known)
 TEST(a_quarter_ahead_is_a_midpoint_of_halves)
 {
     rb_rolling_case rc = wheel_on_rail(RB_BEM_HUB, 20);
-    OWNED(rb_rolling_model) coarse, fine;
-    rc.a.datum = rc.b.datum = 100.0;
-    rc.outer_elements = 200;
-    CHECK_OK(rb_rolling_model_create(&rc, &coarse, NULL));
+    set(&rc, "datum 100 datum-b 100 outer-elements 200");
+    OWNED(rb_rolling_model) coarse = solved_model(&rc);
     rc.contact_elements *= 2;
-    CHECK_OK(rb_rolling_model_create(&rc, &fine, NULL));
+    OWNED(rb_rolling_model) fine = solved_model(&rc);
     const int n = coarse.mesh.n, m = 2 * n + 1;
     OWNED(rb_arena) memory = {0};
     rb_rolling_former_place ahead;
@@ -555,11 +528,7 @@ TEST(what_has_yielded_rides_along)
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_history) h;
     const rb_rolling_observer observer = {check_yielded, &most};
-    rc.formulation = RB_TRANSIENT;
-    rc.creep_ratio = 1.5;
-    rc.distance = 1.0;
-    rc.steps = 5;
-    rc.interlayer_tangential = 1e-6;
+    set(&rc, "formulation transient creep-ratio 1.5 distance 1 steps 5 interlayer-tangential 1e-6");
     rc.yield_stress = 0.05 * rb_rolling_derive(&rc).stress;
     CHECK_OK(rb_rolling_history_run(&rc, NULL, &observer, &model, &h, &heard));
     assert_true(most > 0.0);
@@ -579,9 +548,7 @@ TEST(the_past_moves_with_the_material)
     OWNED(rb_arena) memory = {0};
     OWNED(rb_rolling_memory_track) track;
     double w0[2 * (N + 1)], past[2 * ALL], own[2 * ALL], sum[2 * ALL], w[2 * (ALL + 1)];
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.a.memory = (rb_rolling_memory){1, {2.0}, {0.5}};
-    rc.contact_elements = N;
+    set(&rc, "support halfplane relaxation-time 2 relaxation-ratio 0.5 contact-elements %d", N);
     CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -0.3, 0.3, &mesh, NULL));
     CHECK_OK(rb_rolling_memory_track_create(&rc, &mesh, TAIL, &memory, &track, NULL));
     for (int rolls = 0; rolls < 2; rolls++) {
@@ -626,11 +593,9 @@ TEST(a_step_loses_what_its_dashpot_does)
 {
     enum { N = 6 };
     static const double steps[] = {1e-4, 0.0099, 0.0101, 1.0, 9.0};
-    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_case rc = rolling_case(
+        "support halfplane relaxation-time %g relaxation-ratio %g contact-elements %d", TAU, F, N);
     OWNED(rb_rolling_mesh) mesh;
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.a.memory = (rb_rolling_memory){1, {TAU}, {F}};
-    rc.contact_elements = N;
     CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -0.3, 0.3, &mesh, NULL));
     for (int j = 0; j < 15; j++) {
         const double step = steps[j / 3];

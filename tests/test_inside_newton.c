@@ -1,5 +1,6 @@
 /* Newton with a matrix: the problem on pairs of elements, the cold start from it, and the
  * answers beside Lemke's. */
+#include "cases.h"
 #include "contact/dense.h"
 #include "study/internal.h"
 #include "solved.h"
@@ -15,13 +16,11 @@ static rb_rolling_case steady(rb_bem_support support, int elements)
         .young = 210000.0, .poisson = 0.28, .radius = 500.0, .support = support, .hub_ratio = 0.5};
     rc.b = rc.a;
     rc.b.young = 70000.0;
-    rc.b.radius = INFINITY;
+    set(&rc,
+        "radius-b plane formulation steady half-width 10 mu 0.1 creep-ratio 0.4 "
+        "contact-elements %d",
+        elements);
     rc.elastic_b = support == RB_BEM_HALFPLANE;
-    rc.formulation = RB_STEADY;
-    rc.half_width = 10.0;
-    rc.mu = 0.1;
-    rc.creep_ratio = 0.4;
-    rc.contact_elements = elements;
     return rc;
 }
 
@@ -97,9 +96,7 @@ TEST(pairs_answer_as_their_elements_do)
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 40 + k / 2);
         if (k % 2) {
-            rc.formulation = RB_STATIC;
-            rc.creep_ratio = NAN;
-            rc.shift = 0.01;
+            set(&rc, "formulation static creep-ratio nan shift 0.01");
         }
         OWNED(rb_rolling_model) model = solved_model(&rc);
         check_half(&model);
@@ -137,8 +134,7 @@ TEST(cold_starts_end_where_lemke_does)
     for (int k = 0; k < 7; k++) {
         rb_rolling_case rc = steady(k == 1 ? RB_BEM_HUB : RB_BEM_HALFPLANE, elements[k]);
         if (k % 2) {
-            rc.creep_ratio = NAN;
-            rc.force_ratio = -0.6;
+            set(&rc, "creep-ratio nan force-ratio -0.6");
         }
         if (k == 3)
             rc.mesh = RB_MESH_FITTED;
@@ -159,11 +155,9 @@ TEST(circles_are_left_on_a_path)
 
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         rb_rolling_case rc = steady(RB_BEM_HALFPLANE, cases[k].elements);
+        set(&rc, "poisson 0.3 mu 3 zone %g force-ratio %g", 1.7 * rc.half_width,
+            cases[k].force_ratio);
         rc.elastic_b = 0;
-        rc.a.poisson = 0.3;
-        rc.mu = 3.0;
-        rc.zone = 1.7 * rc.half_width;
-        rc.force_ratio = cases[k].force_ratio;
         if (!isnan(rc.force_ratio))
             rc.creep_ratio = NAN;
         OWNED(rb_rolling_model) model = solved_model(&rc);
@@ -180,8 +174,7 @@ TEST(full_sliding_needs_no_other_solver)
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
         const double sign = k % 2 ? -1.0 : 1.0;
-        rc.creep_ratio = 4.0 * sign;
-        rc.contact.solver = RB_SOLVER_NEWTON;
+        set(&rc, "creep-ratio %g solver newton", 4.0 * sign);
         if (k < 2)
             rc.b.young = rc.a.young;
         OWNED(rb_rolling_solution) s = solved(&rc);

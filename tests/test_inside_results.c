@@ -66,13 +66,12 @@ TEST(steps_warm_what_passes_them)
     static const double lengths[] = {1.0, 2.0, 0.5, 0.7};
     for (int j = 0; j < 4; j++) {
         const double h = 0.1, c = lengths[j] * h, V = 500.0;
-        rb_rolling_case rc = rb_rolling_case_defaults();
+        rb_rolling_case rc = rolling_case("speed %g conductivity 40 heat-capacity 4 temperature 20 "
+                                          "conductivity-b 10 heat-capacity-b 1 temperature-b 20",
+                                          V);
         OWNED(rb_arena) memory = {0};
         rb_rolling_heat_track track = {.n = N, .h = h, .step = c};
         double q[N], lambda[N], t[N], heat[STEPS][N];
-        rc.speed = V;
-        rc.heat_a = (rb_rolling_heat){40.0, 4.0, 20.0};
-        rc.heat_b = (rb_rolling_heat){10.0, 1.0, 20.0};
         CHECK_OK(rb_rolling_heat_track_create(&rc, 5.0, &memory, &track, NULL));
         assert_int_equal(track.rows, (int)ceil(N / lengths[j]) + 1);
         const double unit = 2.0 * sqrt(c / (M_PI * V)) / (sqrt(160.0) + sqrt(10.0));
@@ -103,10 +102,9 @@ TEST(steps_warm_what_passes_them)
 /* Where nothing rolls no heat is kept; along the depth only where heat is slow. */
 TEST(a_track_is_refused_where_heat_runs_along)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_case rc = rolling_case("speed 500");
     OWNED(rb_arena) memory = {0};
     rb_rolling_heat_track track = {.n = 8, .h = 0.1, .step = 0.0};
-    rc.speed = 500.0;
     rc.heat_a = (rb_rolling_heat){40.0, 4.0, 20.0}; /* V a/(2 k) = 25 a */
     CHECK_OK(rb_rolling_heat_track_create(&rc, 0.4, &memory, &track, &heard));
     assert_int_equal(track.rows, 1);
@@ -168,8 +166,7 @@ TEST(unlike_bodies_share_by_temperature)
 TEST(shares_of_equal_elements_are_those_of_any)
 {
     rb_rolling_case rc = warm_sliding(RB_STEADY);
-    rc.contact_elements = 60;
-    rc.heat_b = (rb_rolling_heat){.conductivity = 7.0, .heat_capacity = 2.0, .temperature = 30.0};
+    set(&rc, "contact-elements 60 conductivity-b 7 heat-capacity-b 2 temperature-b 30");
     OWNED(rb_rolling_solution) s = solved(&rc);
     double power[200], t[4][200];
     assert_true(s.n <= 200 && s.contact > 20);
@@ -197,10 +194,9 @@ TEST(shares_of_equal_elements_are_those_of_any)
 
 TEST(tracks_longer_than_memory_are_refused)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_case rc = rolling_case("speed 1e6");
     OWNED(rb_arena) memory = {0};
     rb_rolling_heat_track track = {.n = 1000, .h = 1.0, .step = 1e-15};
-    rc.speed = 1e6;
     rc.heat_a = rc.heat_b = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
     CHECK_SAYS(rb_rolling_heat_track_create(&rc, 1.0, &memory, &track, &heard), RB_EINVAL,
                "the heat of steps");
@@ -265,11 +261,9 @@ TEST(columns_are_those_of_the_state)
 /* The support of a wheel holds the load; both wheels' elements are counted. */
 TEST(a_support_holds_the_load)
 {
-    rb_rolling_case rc = rolled_plane(RB_STATIC);
-    rc.a.support = RB_BEM_HUB;
+    rb_rolling_case rc = with(rolled_plane(RB_STATIC), "support hub");
     rc.a.core_young = 1e3; /* not read: there is no cover */
-    rc.outer_elements = 60;
-    rc.contact_elements = 16;
+    set(&rc, "outer-elements 60 contact-elements 16");
     OWNED(rb_rolling_model) model = solved_model(&rc);
     rb_rolling_solution s = solution_of(&model);
     CHECK_ABS(s.support_balance, 0.0, 2e-2, "reaction");
@@ -293,11 +287,9 @@ TEST(a_support_holds_the_load)
 /* Along normals that turn with the surface pressure and friction have both components. */
 TEST(tilted_tractions_add_up_to_both_forces)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.normals = RB_BEM_NORMALS_SURFACE;
+    rb_rolling_case rc = rolling_case("normals surface");
     rc.approach = 2.0; /* a wide contact */
-    rc.mu = 0.5;
-    rc.contact_elements = 16;
+    set(&rc, "mu 0.5 contact-elements 16");
     OWNED(rb_rolling_model) model = solved_model(&rc);
     OWNED(rb_rolling_solution) s = solution_of(&model);
     double t[2 * 64], down = 0.0, along = 0.0;
@@ -625,9 +617,8 @@ TEST(steady_slip_lies_between_two_midpoints)
 {
     const rb_rolling_solution s = {
         .n = FIVE, .shift = shift, .q = q, .h = h, .slip = slip, .formulation = RB_STEADY};
-    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_case rc = rolling_case("formulation steady");
     double power[FIVE], sum = 0.0;
-    rc.formulation = RB_STEADY;
     rb_rolling_friction_power(&s, power);
     for (int i = 0; i < FIVE; i++) {
         const double before = i > 0 ? shift[i - 1] : 0.0;
@@ -646,9 +637,8 @@ TEST(what_sticks_dissipates_nothing)
     double opens[FIVE] = {0.3, 0.0, 0.0, 0.0, -0.1}, sticks[FIVE] = {0.0, -2.0, 3.0, 0.5, 0.0};
     const rb_rolling_solution s = {
         .n = FIVE, .shift = opens, .q = sticks, .h = h, .slip = slip, .formulation = RB_STEADY};
-    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_case rc = rolling_case("formulation steady");
     double power[FIVE];
-    rc.formulation = RB_STEADY;
     rb_rolling_friction_power(&s, power);
     for (int i = 0; i < FIVE; i++)
         CHECK_ABS(power[i], 0.0, 0.0, "%d", i);

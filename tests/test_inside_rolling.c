@@ -334,8 +334,7 @@ TEST(a_wheel_sinks_as_its_elements_tell)
         rb_rolling_overlap o;
         double w[2 * M], height[] = {0.0, 0.5};
         table *t = bumps(2, x, height);
-        t->rc.a.support = k < 2 ? RB_BEM_HUB : RB_BEM_ARC;
-        t->rc.contact_elements = WIDE;
+        set(&t->rc, "support %s contact-elements %d", k < 2 ? "hub" : "arc", WIDE);
         rb_rolling_model model = solved_between(&t->rc, -0.5, 6.5);
         CHECK_OK(rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w));
         const int at = (int)(6.5 / 7.0 * WIDE);

@@ -141,9 +141,8 @@ TEST(every_scalar_has_its_bar)
 {
     rb_rolling_case rc = carter_case(40);
     check_bars(&rc);
+    set(&rc, "creep-ratio nan force-ratio -0.5");
     rc.elastic_b = 0;
-    rc.creep_ratio = NAN;
-    rc.force_ratio = -0.5;
     check_bars(&rc);
 }
 
@@ -152,12 +151,9 @@ TEST(a_history_has_bars_of_its_steps)
     const double distance[] = {0.0, 0.0, 0.6}, load[] = {300.0, 500.0, 500.0},
                  force[] = {0.0, -50.0, -60.0};
     const rb_rolling_program program = {.n = 3, .distance = distance, .load = load, .force = force};
-    rb_rolling_case rc = carter_case(24);
+    rb_rolling_case rc = with(carter_case(24), "formulation transient creep-ratio nan load nan");
     rb_rolling_model model;
     rb_rolling_history h, run[2];
-    rc.formulation = RB_TRANSIENT;
-    rc.creep_ratio = NAN;
-    rc.load = NAN;
     CHECK_OK(rb_rolling_history_with_errors(&rc, &program, NULL, &model, &h, &heard));
     rb_rolling_model_free(&model);
     assert_non_null(h.errors);
@@ -187,9 +183,7 @@ TEST(a_history_has_bars_of_its_steps)
 
     rb_rolling_case memory = carter_case(24);
     const rb_rolling_program timed = {.n = 2, .time = distance, .load = load};
-    memory.formulation = RB_STATIC;
-    memory.creep_ratio = NAN;
-    memory.a.memory = (rb_rolling_memory){1, {1.0}, {0.5}};
+    set(&memory, "formulation static creep-ratio nan relaxation-time 1 relaxation-ratio 0.5");
     CHECK_SAYS(rb_rolling_history_with_errors(&memory, &timed, NULL, &model, &h, &heard), RB_EINVAL,
                "a history in time has none");
     rb_rolling_history_free(&h);
@@ -210,8 +204,7 @@ TEST(nothing_is_halved_below_its_least)
     CHECK_STATUS(rb_rolling_curve_with_errors(&rc, &(rb_rolling_range){0, 0.0, 1.0, 2}, NULL, NULL,
                                               &curve, &bars, &heard),
                  RB_EINVAL);
-    rc.formulation = RB_TRANSIENT;
-    rc.distance = 1.0;
+    set(&rc, "formulation transient distance 1");
     CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &h, &heard), RB_EINVAL);
 }
 

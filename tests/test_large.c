@@ -1,4 +1,5 @@
 /* Large contacts on half-planes: no matrix, the same answers. */
+#include "cases.h"
 #include "rollbem/rolling.h"
 #include "solved.h"
 
@@ -20,11 +21,8 @@ static rb_rolling_case steady(pairing pair, int elements)
         rc.b.young = 60000.0;
         rc.b.poisson = 0.1;
     }
-    rc.gap = RB_GAP_PARABOLA;
-    rc.formulation = RB_STEADY;
-    rc.half_width = 1.0;
-    rc.creep_ratio = 0.4;
-    rc.contact_elements = elements;
+    set(&rc, "gap parabola formulation steady half-width 1 creep-ratio 0.4 contact-elements %d",
+        elements);
     return rc;
 }
 
@@ -37,13 +35,9 @@ TEST(a_law_that_is_followed_equals_one_begun_at_rest)
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = steady(k % 2 ? SIMILAR : DISSIMILAR, 200);
         OWNED(rb_rolling_solution) followed = {0}, begun = {0};
-        rc.friction.law = RB_FRICTION_exponential;
-        rc.friction.fall[0] = 0.1;
-        rc.friction.slip_scale[0] = 2.0;
-        rc.speed = 1000.0;
+        set(&rc, "friction-law exponential mu-fall 0.1 slip-scale 2 speed 1000");
         if (k > 1) {
-            rc.creep_ratio = NAN;
-            rc.force_ratio = -0.5;
+            set(&rc, "creep-ratio nan force-ratio -0.5");
         }
         CHECK_OK(rb_rolling_solve(&rc, &followed, &heard));
         rc.contact.solver = RB_SOLVER_LEMKE;
@@ -101,31 +95,24 @@ TEST(equals_the_matrix_in_steady_rolling)
     rb_rolling_case rc = steady(DISSIMILAR, RB_ROLLING_LARGE);
     compare_with_matrix(&rc);
     rc = steady(SIMILAR, RB_ROLLING_LARGE);
-    rc.creep_ratio = NAN;
-    rc.force_ratio = -0.5;
+    set(&rc, "creep-ratio nan force-ratio -0.5");
     compare_with_matrix(&rc);
 }
 
 TEST(equals_the_matrix_in_static_contact)
 {
     rb_rolling_case rc = steady(RIGID, RB_ROLLING_LARGE);
-    rc.formulation = RB_STATIC;
-    rc.half_width = rc.creep_ratio = NAN;
-    rc.approach = 0.01;
-    rc.shift = 0.0007;
+    set(&rc, "formulation static half-width nan creep-ratio nan approach 0.01 shift 0.0007");
     compare_with_matrix(&rc);
 }
 
 TEST(equals_the_matrix_that_it_helps)
 {
-    rb_rolling_case rc = steady(DISSIMILAR, 300);
-    rc.mesh = RB_MESH_UNIFORM;
+    rb_rolling_case rc = with(steady(DISSIMILAR, 300), "mesh uniform");
     compare_with_matrix(&rc);
     rc = steady(RIGID, 300);
-    rc.mesh = RB_MESH_UNIFORM;
-    rc.slip_operator = RB_SLIP_UPSTREAM;
-    rc.interlayer_normal = 1e-6;
-    rc.interlayer_tangential = 2e-6;
+    set(&rc,
+        "mesh uniform slip-operator upstream interlayer-normal 1e-6 interlayer-tangential 2e-6");
     compare_with_matrix(&rc);
 }
 
@@ -138,20 +125,16 @@ TEST(equals_the_matrix_where_a_layer_yields)
 
     for (int k = 0; k < 24; k++) {
         const int is_static = k % 3 == 2, given_force = (k / 4) % 2;
-        rb_rolling_case rc = steady((pairing)(k % 3), is_static ? 260 : 200);
-        rc.mesh = RB_MESH_UNIFORM;
+        rb_rolling_case rc = with(steady((pairing)(k % 3), is_static ? 260 : 200), "mesh uniform");
         rc.slip_operator = k % 2 ? RB_SLIP_SECOND : RB_SLIP_UPSTREAM;
-        rc.interlayer_normal = k % 5 ? 0.0 : 1e-6;
-        rc.interlayer_tangential = k % 5 == 1 ? 2e-6 : 0.0;
+        set(&rc, "interlayer-normal %g interlayer-tangential %g force-ratio %g", k % 5 ? 0.0 : 1e-6,
+            k % 5 == 1 ? 2e-6 : 0.0, given_force ? -0.35 : NAN);
         rc.creep_ratio = given_force || is_static ? NAN : k % 2 ? 0.7 : -0.7;
-        rc.force_ratio = given_force ? -0.35 : NAN;
         if (is_static) {
-            rc.formulation = RB_STATIC;
-            rc.slip_operator = RB_SLIP_UPSTREAM;
-            rc.shift = given_force ? NAN : 1e-3;
-            rc.half_width = NAN;
-            rc.approach = given_force ? NAN : 2e-3;
-            rc.load = given_force ? 200.0 : NAN;
+            set(&rc,
+                "formulation static slip-operator upstream shift %g half-width nan "
+                "approach %g load %g",
+                given_force ? NAN : 1e-3, given_force ? NAN : 2e-3, given_force ? 200.0 : NAN);
         }
         rc.hardening = hardening[k % 4];
         rc.yield_stress = 0.5 * rc.mu * rb_rolling_derive(&rc).stress;
@@ -169,10 +152,7 @@ TEST(equals_the_matrix_where_a_layer_yields)
 TEST(the_matrix_can_be_added)
 {
     rb_rolling_case rc = steady(DISSIMILAR, RB_ROLLING_TRANSFORMS);
-    rc.mesh = RB_MESH_ALIGNED;
-    rc.slip_operator = RB_SLIP_SECOND;
-    rc.interlayer_normal = 1e-6;
-    rc.interlayer_tangential = 2e-6;
+    set(&rc, "mesh aligned slip-operator second interlayer-normal 1e-6 interlayer-tangential 2e-6");
     OWNED(rb_rolling_model) model = solved_model(&rc);
     rb_contact_violation with, without;
     assert_null(model.bodies.F);
@@ -192,12 +172,9 @@ TEST(the_matrix_can_be_added)
 TEST(a_small_tolerance_is_met_by_the_matrix)
 {
     for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = steady(DISSIMILAR, 400);
-        rc.mesh = RB_MESH_UNIFORM;
-        rc.contact.tol = 5e-13;
+        rb_rolling_case rc = with(steady(DISSIMILAR, 400), "mesh uniform tol 5e-13");
         if (k) {
-            rc.creep_ratio = NAN;
-            rc.force_ratio = 0.5;
+            set(&rc, "creep-ratio nan force-ratio 0.5");
         }
         OWNED(rb_rolling_model) model = solved_model(&rc);
         assert_int_equal(model.state.solver, RB_SOLVER_NEWTON);
@@ -257,8 +234,7 @@ static void watch(rb_contact_problem *p, watched *by)
 TEST(the_matrix_stands_in_for_products)
 {
     for (int k = 0; k < 3; k++) {
-        rb_rolling_case rc = steady(DISSIMILAR, k == 2 ? 60 : 240);
-        rc.mesh = RB_MESH_UNIFORM;
+        rb_rolling_case rc = with(steady(DISSIMILAR, k == 2 ? 60 : 240), "mesh uniform");
         rc.contact.solver = RB_SOLVER_LEMKE; /* which keeps the matrix */
         OWNED(rb_rolling_model) model = solved_model(&rc);
         const int n = model.mesh.n;
@@ -329,8 +305,7 @@ TEST(residual_is_true)
 {
     for (int pair = SIMILAR; pair <= RIGID; pair++) {
         const rb_rolling_case rc = steady((pairing)pair, 4000);
-        OWNED(rb_rolling_solution) s;
-        CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+        OWNED(rb_rolling_solution) s = solved(&rc);
         assert_int_equal(s.large, 1);
         CHECK_MAX(s.residual, 1e-10, "pair %d", pair);
         CHECK_MAX(s.load_error, 1e-12, "pair %d", pair);
@@ -342,12 +317,9 @@ TEST(residual_is_true)
  * reached by way of smaller ones. */
 TEST(much_friction_is_reached_step_by_step)
 {
-    rb_rolling_case rc = steady(RIGID, RB_ROLLING_LARGE);
-    OWNED(rb_rolling_solution) s;
+    rb_rolling_case rc = with(steady(RIGID, RB_ROLLING_LARGE), "mu 2 creep-ratio 0.5");
 
-    rc.mu = 2.0;
-    rc.creep_ratio = 0.5;
-    CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+    OWNED(rb_rolling_solution) s = solved(&rc);
     assert_int_equal(s.large, 1);
     assert_true(s.stick > 100);
     CHECK_MAX(s.residual, 1e-10, "residual");
@@ -361,8 +333,7 @@ TEST(carter)
 {
     for (int n = 5000; n <= 80000; n *= 4) {
         const rb_rolling_case rc = steady(SIMILAR, n);
-        OWNED(rb_rolling_solution) s;
-        CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_REL(-s.force_ratio, 0.64, 1.5 / n, "n = %d", n);
         CHECK_REL(s.half_width, 1.0, 0.5 / n, "n = %d", n);
         CHECK_REL(s.max_pressure, 210000.0 / (1 - 0.28 * 0.28) / 2 / 1000.0, 0.5 / n, "n = %d", n);
@@ -377,11 +348,8 @@ TEST(carter)
 TEST(cattaneo)
 {
     rb_rolling_case rc = steady(SIMILAR, 20000);
-    OWNED(rb_rolling_solution) s;
-    rc.formulation = RB_STATIC;
-    rc.creep_ratio = NAN;
-    rc.force_ratio = 0.6;
-    CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+    set(&rc, "formulation static creep-ratio nan force-ratio 0.6");
+    OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_REL(s.force_ratio, 0.6, 1e-10, "Q/(mu P)");
     CHECK_REL(s.stick_to, sqrt(0.4), 5e-4, "stick");
     CHECK_REL(s.stick_from, -sqrt(0.4), 5e-4, "stick");
@@ -390,11 +358,8 @@ TEST(cattaneo)
 /* The same elements find free rolling too: beta = 0.3, mu = beta/2. */
 TEST(driven_contacts_know_how_they_roll_freely)
 {
-    rb_rolling_case rc = steady(RIGID, RB_ROLLING_LARGE);
-    OWNED(rb_rolling_solution) s;
-    rc.a.poisson = 2.0 / 7.0;
-    rc.mu = 0.15;
-    CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+    rb_rolling_case rc = with(steady(RIGID, RB_ROLLING_LARGE), "poisson %g mu 0.15", 2.0 / 7.0);
+    OWNED(rb_rolling_solution) s = solved(&rc);
     assert_int_equal(s.large, 1);
     CHECK_REL(s.free_creepage * rc.a.radius / 0.3, -0.715826, 1e-3, "free creepage");
     OWNED(rb_rolling_model) model = solved_model(&rc);
@@ -408,12 +373,8 @@ TEST(driven_contacts_know_how_they_roll_freely)
 /* Free rolling of dissimilar cylinders at very small friction (Bentall and Johnson). */
 TEST(bentall_johnson)
 {
-    rb_rolling_case rc = steady(RIGID, 6000);
-    rc.mu = 1e-3;
-    rc.creep_ratio = NAN;
-    rc.force = 0.0;
-    OWNED(rb_rolling_solution) s;
-    CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+    rb_rolling_case rc = with(steady(RIGID, 6000), "mu 1e-3 creep-ratio nan force 0");
+    OWNED(rb_rolling_solution) s = solved(&rc);
     const double beta = (1 - 2 * 0.28) / (2 * (1 - 0.28));
     CHECK_REL(fabs(s.creepage), 2 * beta * s.half_width / 500.0 * 0.457386, 5e-3, "xi");
     CHECK_ABS(s.tangential_load / (rc.mu * s.normal_load), 0.0, 1e-9, "Q");
@@ -421,17 +382,13 @@ TEST(bentall_johnson)
 
 TEST(frictionless_and_sliding)
 {
-    rb_rolling_case rc = steady(RIGID, 2000);
+    rb_rolling_case rc = with(steady(RIGID, 2000), "mu 0 creep-ratio nan creep 1e-3");
     rb_rolling_solution s;
-    rc.mu = 0.0;
-    rc.creep_ratio = NAN;
-    rc.creep = 1e-3;
     CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
     CHECK_ABS(s.tangential_load, 0.0, 0.0, "Q");
     rb_rolling_solution_free(&s);
     rc = steady(SIMILAR, 2000);
-    rc.creep_ratio = NAN;
-    rc.force_ratio = -1.0;
+    set(&rc, "creep-ratio nan force-ratio -1");
     CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
     CHECK_REL(s.force_ratio, -1.0, 1e-10, "Q/(mu P)");
     assert_int_equal(s.stick, 0);

@@ -1,4 +1,5 @@
 /* Stress in a layer and in its base (L5). */
+#include "cases.h"
 #include "check.h"
 #include "rollbem/bem.h"
 #include "solved.h"
@@ -225,15 +226,11 @@ TEST(what_relaxes_everywhere_alike_has_the_elastic_stress)
 {
     static const double xy[] = {0.2, 0.3, -0.4, 0.8, 0.9, 0.1};
     for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = rb_rolling_case_defaults();
+        rb_rolling_case rc = rolling_case("support halfplane layer-thickness %g "
+                                          "relaxation-time 0.01 relaxation-ratio 2 half-width 1 "
+                                          "formulation steady creep-ratio 0.4 speed 100",
+                                          k ? 1.5 : 0.0);
         rb_rolling_stress relaxing[3], elastic[3];
-        rc.a.support = RB_BEM_HALFPLANE;
-        rc.a.layer = k ? 1.5 : 0.0;
-        rc.a.memory = (rb_rolling_memory){1, {0.01}, {2.0}};
-        rc.half_width = 1.0;
-        rc.formulation = RB_STEADY;
-        rc.creep_ratio = 0.4;
-        rc.speed = 100.0;
         OWNED(rb_rolling_model) model = solved_model(&rc);
         CHECK_OK(rb_rolling_stress_at(&model, 3, xy, relaxing, NULL));
         case_of_model(&model)->a.memory.n = 0; /* the same tractions */

@@ -1,4 +1,5 @@
 /* Reports of a solution made by hand: Carter's closed form on 20 elements. */
+#include "cases.h"
 #include "check.h"
 #include "rollbem/closed_forms.h"
 #include "rollbem/io.h"
@@ -321,10 +322,7 @@ TEST(a_terminal_gets_other_text_as_it_is)
 TEST(notes_warn_where_due)
 {
     rb_rolling_solution s = carter();
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.formulation = RB_STEADY;
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.creep = 1e-3;
+    rb_rolling_case rc = rolling_case("formulation steady support halfplane creep 1e-3");
     FILE *file = tmpfile();
     rb_report_notes(file, &rc, &s, 0);
     assert_string_equal(content(file), "");

@@ -1,4 +1,5 @@
 /* Parts of reports by themselves: cells, studies, files of matrices and of ParaView. */
+#include "cases.h"
 #include "case_words.h"
 #include "rollbem/io.h"
 #include "rollbem/report.h"
@@ -52,11 +53,8 @@ typedef struct {
 static void quiet(noted *n)
 {
     memset(n, 0, sizeof *n);
-    n->rc = rb_rolling_case_defaults();
+    n->rc = rolling_case("support halfplane radius 50 creep 1e-3");
     n->rc.formulation = n->s.formulation = RB_STEADY;
-    n->rc.a.support = RB_BEM_HALFPLANE;
-    n->rc.a.radius = 50.0;
-    n->rc.creep = 1e-3;
     n->s.creep_ratio = 0.5;
     n->s.creepage = 1e-3;
     n->s.contact = 6;
@@ -86,8 +84,7 @@ TEST(notes_begin_where_they_should)
         rb_rolling_case *rc = &n.rc;
         rb_rolling_solution *s = &n.s;
         if (k > 20 && k < 28) { /* full sliding under a given force */
-            rc->creep = NAN;
-            rc->force_ratio = 1.0;
+            set(rc, "creep nan force-ratio 1");
             s->stick = 0;
         }
         switch (k) {
@@ -150,24 +147,20 @@ TEST(notes_begin_where_they_should)
             want = still;
             break;
         case 12:
-            rc->creep = NAN;
-            rc->creep_ratio = 0.5;
+            set(rc, "creep nan creep-ratio 0.5");
             break;
         case 13:
-            rc->creep = NAN;
-            rc->force = 1.0;
+            set(rc, "creep nan force 1");
             break;
         case 14:
-            rc->creep = NAN;
-            rc->free_axle = 1;
+            set(rc, "creep nan free-axle");
             break;
         case 15:
             rc->formulation = RB_STATIC;
             want = enters;
             break;
         case 16:
-            rc->formulation = RB_STATIC;
-            rc->creep = NAN;
+            set(rc, "formulation static creep nan");
             break;
         case 17:
             s->creep_ratio = 20.0;
@@ -178,8 +171,7 @@ TEST(notes_begin_where_they_should)
             break;
         case 19:
             s->creep_ratio = 21.0;
-            rc->creep = NAN;
-            rc->creep_ratio = 21.0;
+            set(rc, "creep nan creep-ratio 21");
             break;
         case 20:
             s->yielding = 1;
@@ -201,13 +193,10 @@ TEST(notes_begin_where_they_should)
             s->formulation = RB_STATIC;
             break;
         case 26:
-            rc->friction.law = RB_FRICTION_exponential;
-            rc->friction.fall[0] = 0.1;
-            rc->friction.slip_scale[0] = 1.0;
+            set(rc, "friction-law exponential mu-fall 0.1 slip-scale 1");
             break;
         case 27:
-            rc->force_ratio = NAN;
-            rc->force = 30.0;
+            set(rc, "force-ratio nan force 30");
             want = sliding;
             break;
         case 28:
@@ -234,20 +223,16 @@ TEST(notes_begin_where_they_should)
             break; /* of rolling nothing is said */
         case 34:
         case 35:
-            rc->formulation = RB_STATIC;
-            rc->creep = NAN;
+            set(rc, "formulation static creep nan");
             s->slip_violations = k == 34 ? 2 : 0;
             want = k == 34 ? opposes : NULL;
             break;
         case 36:
-            rc->formulation = RB_STATIC;
-            rc->creep = NAN;
-            rc->mu = 0.0;
+            set(rc, "formulation static creep nan mu 0");
             s->slip_violations = 2;
             break;
         case 37:
-            rc->a.support = RB_BEM_ARC;
-            rc->a.arc = 30.0;
+            set(rc, "support arc arc 30");
             want = angle;
             break;
         case 38:
@@ -275,10 +260,7 @@ TEST(notes_begin_where_they_should)
             break;
         case 39:
         case 40:
-            rc->formulation = RB_STATIC;
-            rc->creep = NAN;
-            rc->a.support = RB_BEM_ARC;
-            rc->a.arc = k == 39 ? 1.99 : 2.0;
+            set(rc, "formulation static creep nan support arc arc %g", k == 39 ? 1.99 : 2.0);
             want = k == 39 ? radians : NULL;
             break;
         }

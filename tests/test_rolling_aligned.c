@@ -10,11 +10,7 @@
 static rb_rolling_case carter(int n)
 {
     rb_rolling_case rc = half_plane(RB_STEADY, n);
-    rc.a.poisson = 0.5;
-    rc.half_width = 0.05;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.mesh = RB_MESH_ALIGNED;
-    rc.slip_operator = RB_SLIP_SECOND;
+    set(&rc, "poisson 0.5 half-width 0.05 gap parabola mesh aligned slip-operator second");
     return rc;
 }
 
@@ -28,8 +24,7 @@ TEST(carters_law_has_second_order)
     for (int k = 0; k < 3; k++)
         for (int j = 0; j < 4; j++) {
             const int n = 50 << j;
-            rb_rolling_case rc = carter(n);
-            rc.creep_ratio = ratio[k];
+            rb_rolling_case rc = with(carter(n), "creep-ratio %g", ratio[k]);
             OWNED(rb_rolling_solution) s = solved(&rc);
             CHECK_ABS(s.force_ratio, rb_closed_carter_force_ratio(ratio[k]), 1.2 * error[k][j],
                       "s = %g, n = %d", ratio[k], n);
@@ -43,9 +38,7 @@ TEST(the_upstream_difference_has_first_order)
 {
     double error[2];
     for (int j = 0; j < 2; j++) {
-        rb_rolling_case rc = carter(100 << j);
-        rc.creep_ratio = 0.5;
-        rc.slip_operator = RB_SLIP_UPSTREAM;
+        rb_rolling_case rc = with(carter(100 << j), "creep-ratio 0.5 slip-operator upstream");
         OWNED(rb_rolling_solution) s = solved(&rc);
         error[j] = fabs(s.force_ratio + 0.75);
     }
@@ -57,8 +50,7 @@ TEST(a_given_force_finds_its_creepage)
 {
     static const double error[3] = {1.3e-4, 2.7e-5, 1.1e-5};
     for (int j = 0; j < 3; j++) {
-        rb_rolling_case rc = carter(50 << j);
-        rc.force_ratio = -0.6;
+        rb_rolling_case rc = with(carter(50 << j), "force-ratio -0.6");
         OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_ABS(s.creep_ratio, 1.0 - sqrt(0.4), 1.2 * error[j], "n = %d", 50 << j);
         CHECK_ABS(s.force_ratio, -0.6, 1e-12, "the force itself");
@@ -70,8 +62,7 @@ TEST(dissipation_balances_the_creepage)
 {
     static const double error[3] = {1.3e-3, 2.7e-4, 9e-5};
     for (int j = 0; j < 3; j++) {
-        rb_rolling_case rc = carter(50 << j);
-        rc.creep_ratio = 0.5;
+        rb_rolling_case rc = with(carter(50 << j), "creep-ratio 0.5");
         OWNED(rb_rolling_solution) s = solved(&rc);
         double power[400], sum = 0.0;
         assert_true(s.n <= 400);
@@ -86,8 +77,7 @@ TEST(dissipation_balances_the_creepage)
 TEST(transforms_reach_seven_digits)
 {
     const int n = getenv("ROLLBEM_TEST_ALL") ? 100000 : 20000;
-    rb_rolling_case rc = carter(n);
-    rc.creep_ratio = 0.5;
+    rb_rolling_case rc = with(carter(n), "creep-ratio 0.5");
     OWNED(rb_rolling_solution) s = solved(&rc);
     assert_true(s.large);
     CHECK_ABS(s.force_ratio, -0.75, 1e-8, "n = %d", n);
@@ -101,9 +91,7 @@ TEST(bodies_with_memory_converge_too)
     static const double error[3] = {2e-3, 4e-4, 6e-5};
     for (int j = 0; j < 3; j++) {
         rb_rolling_case rc = carter(100 << j);
-        rc.a.memory = (rb_rolling_memory){1, {0.05}, {4.0}};
-        rc.speed = 1.0;
-        rc.creep_ratio = 0.5;
+        set(&rc, "relaxation-time 0.05 relaxation-ratio 4 speed 1 creep-ratio 0.5");
         OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_ABS(s.force_ratio, -0.390667, error[j], "n = %d", 100 << j);
     }
@@ -114,8 +102,7 @@ TEST(dissimilar_bodies_roll_freely)
 {
     rb_rolling_case rc = carter(100);
     rc.a.poisson = 2.0 / 7.0; /* (1-2nu)/(2(1-nu)) = 0.3 */
-    rc.mu = 0.15;
-    rc.force = 0.0;
+    set(&rc, "mu 0.15 force 0");
     OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_REL(s.creepage * rc.a.radius / (0.3 * 0.05), -0.715826, 2e-4, "n = 100");
 }
@@ -126,12 +113,9 @@ TEST(wheels_take_aligned_elements_too)
     double ratio[3];
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = carter(k < 2 ? 100 << k : 200);
-        rc.a.support = RB_BEM_HUB;
-        rc.near_field = RB_NEAR_FIELD_EXACT;
-        rc.creep_ratio = 0.5;
+        set(&rc, "support hub near-field exact creep-ratio 0.5");
         if (k == 2) {
-            rc.mesh = RB_MESH_FITTED;
-            rc.slip_operator = RB_SLIP_UPSTREAM;
+            set(&rc, "mesh fitted slip-operator upstream");
         }
         OWNED(rb_rolling_solution) s = solved(&rc);
         ratio[k] = s.force_ratio;
@@ -142,8 +126,7 @@ TEST(wheels_take_aligned_elements_too)
 
 TEST(what_cannot_be_aligned_is_refused)
 {
-    rb_rolling_case rc = carter(60);
-    rc.contact_elements = 8;
+    rb_rolling_case rc = with(carter(60), "contact-elements 8");
     CHECK_SAYS(rb_rolling_case_check(&rc, &heard), RB_EINVAL, "aligned");
     rc = carter(60);
     rc.formulation = RB_STATIC;
@@ -157,17 +140,9 @@ TEST(what_cannot_be_aligned_is_refused)
  * that is told still lies before the midpoint of the first open element. */
 TEST(edge_lies_before_the_first_open_midpoint)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    OWNED(rb_rolling_solution) s;
-    rc.a.support = RB_BEM_HUB;
-    rc.mesh = RB_MESH_ALIGNED;
-    rc.normals = RB_BEM_NORMALS_SURFACE;
-    rc.near_field = RB_NEAR_FIELD_PLAIN;
-    rc.contact_elements = 25;
-    rc.zone = 2.0;
-    rc.mu = 3.0;
-    rc.approach = 0.04;
-    CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
+    rb_rolling_case rc = rolling_case("support hub mesh aligned normals surface near-field plain "
+                                      "contact-elements 25 zone 2 mu 3 approach 0.04");
+    OWNED(rb_rolling_solution) s = solved(&rc);
     for (int i = 1; i + 1 < s.n; i++) {
         const int open = s.zone[i] == RB_ZONE_SEPARATED;
         if (open && s.zone[i + 1] != RB_ZONE_SEPARATED)
@@ -186,10 +161,8 @@ TEST(nine_elements_tell_the_edges)
         rb_rolling_case rc = carter(13);
         const double a = rb_rolling_derive(&rc).half_width;
         int touch = 0;
-        rc.creep_ratio = 0.5;
-        rc.slip_operator = RB_SLIP_UPSTREAM;
-        rc.zone = (1.2 + 0.05 * k) * a;
-        rc.mesh = RB_MESH_UNIFORM;
+        set(&rc, "creep-ratio 0.5 slip-operator upstream zone %g mesh uniform",
+            (1.2 + 0.05 * k) * a);
         OWNED(rb_rolling_solution) first = solved(&rc);
         for (int i = 0; i < first.n; i++)
             touch += first.zone[i] != RB_ZONE_SEPARATED;
@@ -206,8 +179,7 @@ TEST(nine_elements_tell_the_edges)
  * once and corrected in a few steps. */
 TEST(many_elements_are_solved_once)
 {
-    rb_rolling_case rc = carter(30000);
-    rc.creep_ratio = 0.4;
+    rb_rolling_case rc = with(carter(30000), "creep-ratio 0.4");
     rb_rolling_case equal = rc;
     equal.mesh = RB_MESH_UNIFORM;
     rb_rolling_model model = solved_model(&equal);
@@ -227,14 +199,8 @@ TEST(many_elements_are_solved_once)
 TEST(an_edge_that_drifts_ends_the_rounds)
 {
     rb_rolling_case rc = carter(6400);
-    OWNED(rb_rolling_model) model;
-    rc.elastic_b = 1;
-    rc.b.support = RB_BEM_HALFPLANE;
-    rc.b.radius = INFINITY;
-    rc.b.young = 70000.0;
-    rc.b.poisson = 0.3;
-    rc.force_ratio = 0.0;
-    CHECK_OK(rb_rolling_model_create(&rc, &model, &heard));
+    set(&rc, "support-b halfplane radius-b plane young-b 70000 poisson-b 0.3 force-ratio 0");
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     assert_false(model.equal_instead);
     assert_true(model.iterations <= 9);
     CHECK_REL(model.state.xi, 1.137795e-4, 1e-6, "free creepage");

@@ -1,18 +1,15 @@
 /* Two elastic bodies (4.5), each with its own support. */
+#include "cases.h"
 #include "rollbem/rolling.h"
 #include "solved.h"
 #include "numbers.h"
 
 static rb_rolling_case steady_wheel(rb_bem_support support, double poisson)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.poisson = poisson;
+    rb_rolling_case rc = rolling_case("poisson %g gap parabola formulation steady mesh fitted "
+                                      "contact-elements 50 half-width 0.005",
+                                      poisson);
     rc.a.support = support;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.formulation = RB_STEADY;
-    rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = 50;
-    rc.half_width = 1e-4 * rc.a.radius;
     return rc;
 }
 
@@ -42,9 +39,8 @@ TEST(equal_wheels_lose_their_coupling)
 {
     rb_rolling_case rc = steady_wheel(RB_BEM_HUB, 0.28);
     rc.b = rc.a;
+    set(&rc, "half-width %g creep-ratio 0.4", 0.02 * rc.a.radius);
     rc.elastic_b = 1;
-    rc.half_width = 0.02 * rc.a.radius;
-    rc.creep_ratio = 0.4;
     OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_ABS(s.free_creepage, 0.0, 1e-9 * s.creepage, "free rolling of equal wheels");
     CHECK_ABS(s.force_ratio, -0.64, 2e-2, "Carter, a/R = 0.02");
@@ -55,14 +51,9 @@ TEST(exchanging_the_bodies_mirrors_the_result)
 {
     rb_rolling_case rc = steady_wheel(RB_BEM_HUB, 0.1);
     rc.b = rc.a;
-    rc.b.poisson = 0.4;
-    rc.b.young = 3.0 * rc.a.young;
-    rc.b.support = RB_BEM_ARC;
-    rc.elastic_b = 1;
-    rc.mesh = RB_MESH_UNIFORM;
-    rc.half_width = 0.01 * rc.a.radius;
+    set(&rc, "poisson-b 0.4 young-b %g support-b arc mesh uniform half-width %g creep-ratio 0.3",
+        3.0 * rc.a.young, 0.01 * rc.a.radius);
     rc.zone = 1.3 * rc.half_width;
-    rc.creep_ratio = 0.3;
     OWNED(rb_rolling_solution) ab = solved(&rc);
     const rb_rolling_body a = rc.a;
     rc.a = rc.b;
@@ -78,16 +69,10 @@ TEST(exchanging_the_bodies_mirrors_the_result)
 /* Aluminium on steel (theory.md 6), free rolling, both wheels with hubs. */
 static double finite_free_creepage(double ratio, double mu)
 {
-    rb_rolling_case rc = steady_wheel(RB_BEM_HUB, 0.31);
-    rc.a.young = 2.0 * 23000.0 * 1.31;
+    rb_rolling_case rc = with(steady_wheel(RB_BEM_HUB, 0.31), "young %g", 2.0 * 23000.0 * 1.31);
     rc.b = rc.a;
-    rc.b.poisson = 0.28;
-    rc.b.young = 2.0 * 82000.0 * 1.28;
-    rc.elastic_b = 1;
-    rc.mu = mu;
-    rc.contact_elements = 60;
-    rc.half_width = ratio * rc.a.radius;
-    rc.force = 0.0;
+    set(&rc, "poisson-b 0.28 young-b %g mu %g contact-elements 60 half-width %g force 0",
+        2.0 * 82000.0 * 1.28, mu, ratio * rc.a.radius);
     OWNED(rb_rolling_solution) s = solved(&rc);
     return s.creepage * rb_rolling_radius(&rc) / rc.half_width;
 }
@@ -117,10 +102,8 @@ TEST(force_control_never_fails_on_wheels)
         rc.b = rc.a;
         rc.b.young *= log_uniform(0.1, 10.0);
         rc.b.poisson = between(0.0, 0.5);
+        set(&rc, "hub-ratio %g gap exact contact-elements 20", between(0.2, 0.9));
         rc.elastic_b = k % 3 > 0;
-        rc.a.hub_ratio = between(0.2, 0.9);
-        rc.gap = RB_GAP_EXACT;
-        rc.contact_elements = 20;
         rc.half_width = ratio * rb_rolling_radius(&rc);
         rc.mu = fmin(10.0, log_uniform(1e-6, 0.1) / ratio);
         rc.force_ratio = k % 4 ? between(-0.999, 0.999) : 0.999;
@@ -150,17 +133,15 @@ TEST(at_rest_relaxing_bodies_need_steps_in_time)
 TEST(absurd_sizes_are_refused)
 {
     enum { n = 1000000 };
-    rb_rolling_case rc = steady_wheel(RB_BEM_HALFPLANE, 0.3);
+    rb_rolling_case rc = with(steady_wheel(RB_BEM_HALFPLANE, 0.3), "mesh uniform");
     rb_rolling_mesh mesh = {.n = n};
     rb_rolling_bodies bodies;
 
-    rc.mesh = RB_MESH_UNIFORM;
     CHECK_MAX(rb_rolling_bytes(&rc, n, 0, 2 * n), 1e9, "no matrix");
     rc.contact.solver = RB_SOLVER_LEMKE;
     CHECK_SAYS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, &heard), RB_EINVAL,
                "a contact of 1000000 elements would need 1.92e+05");
-    rc.a.support = RB_BEM_HUB;
-    rc.contact.solver = RB_SOLVER_NEWTON;
+    set(&rc, "support hub solver newton");
     CHECK_MAX(rb_bem_system_bytes(600, 200), rb_rolling_bytes(&rc, 200, 600, 300), "a wheel");
 }
 

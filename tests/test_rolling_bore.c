@@ -13,10 +13,9 @@ static rb_rolling_case in_bore(double wider, rb_rolling_gap gap)
     rb_rolling_case rc = half_plane(RB_STATIC, 100);
     rc.a.poisson = 0.3;
     rc.b = rc.a;
-    rc.b.radius = -(1.0 + wider) * rc.a.radius;
+    set(&rc, "radius-b %g mesh fitted", -(1.0 + wider) * rc.a.radius);
     rc.elastic_b = 1;
     rc.gap = gap;
-    rc.mesh = RB_MESH_FITTED;
     return rc;
 }
 
@@ -30,9 +29,8 @@ TEST(parabolas_are_one_of_the_difference_of_curvatures)
 {
     rb_rolling_case rc = in_bore(0.1, RB_GAP_PARABOLA);
     const double R = 1.1 * rc.a.radius / 0.1, a = 0.05;
-    rc.load = rb_closed_hertz_load(a, R, modulus_of(&rc));
-    rc.formulation = RB_STEADY;
-    rc.creep_ratio = 0.4;
+    set(&rc, "load %g formulation steady creep-ratio 0.4",
+        rb_closed_hertz_load(a, R, modulus_of(&rc)));
     OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_REL(rb_rolling_radius(&rc), R, 1e-13, "combined radius");
     CHECK_REL(s.half_width, a, 2e-4, "half-width");
@@ -92,12 +90,9 @@ TEST(free_rolling_knows_the_combined_radius_alone)
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = in_bore(0.25, RB_GAP_PARABOLA);
         rc.b.young *= 3.0;
-        rc.half_width = 0.02;
-        rc.formulation = RB_STEADY;
-        rc.force = 0.0;
+        set(&rc, "half-width 0.02 formulation steady force 0");
         if (k == 1) { /* outside, with the same combined radius, 250 mm */
-            rc.a.radius = 300.0;
-            rc.b.radius = 1500.0;
+            set(&rc, "radius 300 radius-b 1500");
         }
         OWNED(rb_rolling_solution) s = solved(&rc);
         creepage[k] = s.creepage;

@@ -3,15 +3,13 @@
 #include "check.h"
 #include "rollbem/friction.h"
 #include "rollbem/rolling.h"
+#include "solved.h"
 
 /* Steady rolling of dissimilar bodies: W is not symmetric. */
 static rb_rolling_case dissimilar_rolling(void)
 {
     rb_rolling_case rc = half_plane(RB_STEADY, 40);
-    rc.a.poisson = 0.28;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.half_width = 1e-3 * rc.a.radius;
-    rc.creep_ratio = 0.5;
+    set(&rc, "poisson 0.28 gap parabola half-width %g creep-ratio 0.5", 1e-3 * rc.a.radius);
     return rc;
 }
 
@@ -19,8 +17,7 @@ TEST(cone_solvers_agree_with_lemke)
 {
     static const char *const names[] = {"auto", "nsn-ac", "nsgs-ac", "lemke"};
     rb_rolling_case rc = dissimilar_rolling();
-    OWNED(rb_rolling_model) model;
-    CHECK_OK(rb_rolling_model_create(&rc, &model, NULL));
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         OWNED(rb_contact_state) cone;
         CHECK_OK(rb_contact_state_alloc(model.mesh.n, &cone));
@@ -44,8 +41,8 @@ TEST(cone_solvers_agree_with_lemke)
 TEST(a_case_may_name_a_cone_solver)
 {
     rb_rolling_case rc = dissimilar_rolling();
-    OWNED(rb_rolling_solution) lemke, cone;
-    CHECK_OK(rb_rolling_solve(&rc, &lemke, NULL));
+    OWNED(rb_rolling_solution) cone;
+    OWNED(rb_rolling_solution) lemke = solved(&rc);
     rc.contact.solver = RB_SOLVER_CONE;
     CHECK_STATUS(rb_rolling_solve(&rc, &cone, &heard), RB_EINVAL);
     rc.contact.cone_solver.name = "nsn-ac"; /* nobody has handed it in */
@@ -78,15 +75,13 @@ static rb_status solve_roughly(const char *name, const rb_contact_cone *cone, do
 TEST(separated_elements_carry_nothing)
 {
     rb_rolling_case rc = dissimilar_rolling();
-    OWNED(rb_rolling_model) model;
-    OWNED(rb_rolling_solution) s;
     int separated = 0;
-    CHECK_OK(rb_rolling_model_create(&rc, &model, NULL));
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     known = &model.state;
     known_stress = model.problem.stress;
     rc.contact.solver = RB_SOLVER_CONE;
     rc.contact.cone_solver = (rb_contact_cone_solver){"rough", solve_roughly};
-    CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+    OWNED(rb_rolling_solution) s = solved(&rc);
     assert_string_equal(s.cone_solver, "rough");
     CHECK_MAX(s.residual, 1e-10, "residual");
     for (int i = 0; i < s.n; i++)

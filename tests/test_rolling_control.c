@@ -1,7 +1,9 @@
 /* Given loads and forces up to full sliding, and the two solvers against each other. */
+#include "cases.h"
 #include "check.h"
 #include "rollbem/rolling.h"
 #include "numbers.h"
+#include "solved.h"
 
 static double log_uniform(double a, double b)
 {
@@ -11,17 +13,13 @@ static double log_uniform(double a, double b)
 /* Half-planes of any materials in steady or static contact, creepage or force given. */
 static rb_rolling_case random_case(double mu_from, double mu_to)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-
-    rc.a.young = log_uniform(1e3, 1e6);
+    rb_rolling_case rc = rolling_case("young %g", log_uniform(1e3, 1e6));
     rc.a.poisson = between(-0.3, 0.5);
     rc.b.young = log_uniform(1e3, 1e6);
     rc.b.poisson = between(0.0, 0.5);
     rc.elastic_b = rand() % 2;
     rc.b.radius = rand() % 2 ? INFINITY : log_uniform(10.0, 1000.0);
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.formulation = rand() % 4 ? RB_STEADY : RB_STATIC;
+    set(&rc, "support halfplane gap parabola formulation %s", rand() % 4 ? "steady" : "static");
     rc.half_width = log_uniform(1e-6, 1e-2) * rc.a.radius;
     rc.mu = log_uniform(mu_from, mu_to);
     if (rand() % 2)
@@ -38,10 +36,9 @@ TEST(lemke_and_newton_agree_on_500_cases)
 {
     srand(11);
     for (int k = 0; k < 500; k++) {
-        rb_rolling_case rc = random_case(1e-4, 1.0);
+        rb_rolling_case rc = with(random_case(1e-4, 1.0), "solver lemke");
         OWNED(rb_rolling_model) model;
         OWNED(rb_contact_state) newton;
-        rc.contact.solver = RB_SOLVER_LEMKE;
         if (rb_rolling_model_create(&rc, &model, &heard) != RB_OK)
             fail_msg("case %d: %s", k, heard.text);
         CHECK_OK(rb_contact_state_alloc(model.mesh.n, &newton));
@@ -62,8 +59,7 @@ TEST(force_control_never_fails_on_the_halfplane)
     for (int k = 0; k < 400; k++) {
         rb_rolling_case rc = random_case(1e-6, 10.0);
         OWNED(rb_rolling_solution) s;
-        rc.formulation = RB_STEADY;
-        rc.creep_ratio = rc.shift = NAN;
+        set(&rc, "formulation steady creep-ratio nan shift nan");
         rc.force_ratio = k % 4 ? between(-0.999, 0.999) : k % 8 ? 0.999 : -0.999;
         if (rb_rolling_solve(&rc, &s, &heard) != RB_OK)
             fail_msg("case %d, mu = %g, Q/(mu P) = %g: %s", k, rc.mu, rc.force_ratio, heard.text);
@@ -76,12 +72,9 @@ TEST(force_control_never_fails_on_the_halfplane)
 TEST(full_sliding_gives_the_least_creepage)
 {
     for (int sign = -1; sign <= 1; sign += 2) {
-        rb_rolling_case rc = rb_rolling_case_defaults();
+        rb_rolling_case rc = rolling_case(
+            "support halfplane formulation steady half-width 0.05 force-ratio %g", (double)sign);
         rb_rolling_solution s;
-        rc.a.support = RB_BEM_HALFPLANE;
-        rc.formulation = RB_STEADY;
-        rc.half_width = 1e-3 * rc.a.radius;
-        rc.force_ratio = sign;
         CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
         CHECK_ABS(s.force_ratio, sign, 1e-10, "force");
         assert_int_equal(s.stick, 0);
@@ -107,11 +100,8 @@ TEST(full_sliding_of_tilted_elements_is_checked)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
-    rc.formulation = RB_STEADY;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.normals = RB_BEM_NORMALS_SURFACE;
-    rc.force_ratio = 1.0;
-    rc.half_width = 1e-3 * rc.a.radius;
+    set(&rc, "formulation steady gap parabola normals surface force-ratio 1 half-width %g",
+        1e-3 * rc.a.radius);
     CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
     CHECK_ABS(s.force_ratio, 1.0, 1e-10, "force");
     CHECK_MAX(s.residual, 1e-10, "residual");
@@ -127,17 +117,13 @@ TEST(approach_control_finds_the_force_too_large)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_solution s;
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.formulation = RB_STEADY;
-    rc.approach = 1e-4;
-    rc.force_ratio = -0.5;
+    set(&rc, "support halfplane formulation steady approach 1e-4 force-ratio -0.5");
     CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
     CHECK_ABS(s.force_ratio, -0.5, 1e-10, "force ratio under approach control");
     const double bound = rc.mu * s.normal_load;
     rb_rolling_solution_free(&s);
 
-    rc.force_ratio = NAN;
-    rc.force = 0.7 * bound;
+    set(&rc, "force-ratio nan force %g", 0.7 * bound);
     CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
     CHECK_REL(s.tangential_load, 0.7 * bound, 1e-10, "force under approach control");
     rb_rolling_solution_free(&s);
@@ -149,13 +135,9 @@ TEST(approach_control_finds_the_force_too_large)
 
 TEST(the_creepage_ratio_is_met_under_approach_control)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    OWNED(rb_rolling_solution) s;
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.formulation = RB_STEADY;
-    rc.approach = 1e-3;
-    rc.creep_ratio = 0.4;
-    CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+    rb_rolling_case rc =
+        rolling_case("support halfplane formulation steady approach 1e-3 creep-ratio 0.4");
+    OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_REL(s.creep_ratio, 0.4, 1e-10, "xi R/(mu a)");
 }
 
@@ -165,11 +147,7 @@ TEST(a_failed_force_leaves_its_iterate)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     OWNED(rb_rolling_solution) s;
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.formulation = RB_STEADY;
-    rc.approach = 1e-4;
-    rc.force = 1e-3;
-    rc.contact.tol = 1e-300;
+    set(&rc, "support halfplane formulation steady approach 1e-4 force 1e-3 tol 1e-300");
     CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_INACCURATE);
     CHECK_REL(s.tangential_load, 1e-3, 1e-9, "force");
     CHECK_MAX(s.residual, 1e-10, "residual");
@@ -180,16 +158,9 @@ TEST(a_failed_force_leaves_its_iterate)
  * rounds and called that solved. */
 TEST(the_creepage_ratio_is_met_where_the_load_depends_on_it)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    OWNED(rb_rolling_solution) s;
-    rc.a.poisson = 0.38;
-    rc.mu = 1.616;
-    rc.approach = 1.898;
-    rc.formulation = RB_STEADY;
-    rc.creep_ratio = 1.36;
-    rc.contact_elements = 13;
-    rc.mesh = RB_MESH_FITTED;
-    CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+    rb_rolling_case rc = rolling_case("poisson 0.38 mu 1.616 approach 1.898 formulation steady "
+                                      "creep-ratio 1.36 contact-elements 13 mesh fitted");
+    OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_REL(s.creep_ratio, 1.36, 1e-12, "xi R/(mu a)");
 }
 
@@ -199,14 +170,11 @@ TEST(a_failed_free_creepage_leaves_the_case_solved)
 {
     int unknown = 0;
     for (int n = 20; n < 32; n++) {
-        rb_rolling_case rc = rb_rolling_case_defaults();
+        rb_rolling_case rc = rolling_case("support halfplane formulation steady half-width 0.1 "
+                                          "creep-ratio 0.4 contact-elements %d",
+                                          n);
         rb_rolling_solution s;
         OWNED(rb_rolling_curve) c;
-        rc.a.support = RB_BEM_HALFPLANE;
-        rc.formulation = RB_STEADY;
-        rc.half_width = 0.1;
-        rc.creep_ratio = 0.4;
-        rc.contact_elements = n;
         CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
         rc.contact.tol = s.residual * (1.0 + 1e-6);
         rb_rolling_solution_free(&s);

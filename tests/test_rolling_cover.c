@@ -1,5 +1,6 @@
 /* Wheels with covers: boundary elements of two bonded regions (B11) against a homogeneous
  * wheel, a rigid core and the layer on a half-plane. */
+#include "cases.h"
 #include "check.h"
 #include "rollbem/rolling.h"
 
@@ -172,13 +173,10 @@ TEST(a_core_needs_its_cover)
 {
     double approach[2];
     for (int core = 0; core < 2; core++) {
-        rb_rolling_case rc = rb_rolling_case_defaults();
+        rb_rolling_case rc =
+            rolling_case("support hub core-young %g core-poisson 0.3 contact-elements 12 load 1000",
+                         core ? 10.0 : 0.0);
         OWNED(rb_rolling_solution) s;
-        rc.a.support = RB_BEM_HUB;
-        rc.a.core_young = core ? 10.0 : 0.0;
-        rc.a.core_poisson = 0.3;
-        rc.contact_elements = 12;
-        rc.load = 1000.0;
         CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
         approach[core] = s.approach;
     }
@@ -214,32 +212,22 @@ TEST(what_does_not_fit_is_refused)
 /* A roll of R = 100 with a soft cover of thickness d on a rigid plane, a_Hertz = d. */
 static rb_rolling_case roll(double d, double nu, double core_young)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.radius = 100.0;
-    rc.a.young = 10.0;
+    rb_rolling_case rc =
+        rolling_case("radius 100 young 10 support hub hub-ratio 0.2 core-poisson 0.3 gap parabola "
+                     "formulation steady force-ratio -0.5 mesh fitted contact-elements 36");
     rc.a.poisson = nu;
-    rc.a.support = RB_BEM_HUB;
-    rc.a.hub_ratio = 0.2;
     rc.a.cover = d;
     rc.a.core_young = core_young;
-    rc.a.core_poisson = 0.3;
     rc.half_width = d;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.formulation = RB_STEADY;
-    rc.force_ratio = -0.5;
-    rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = 36;
     return rc;
 }
 
 /* The layer on the half-plane of the core. */
 static rb_rolling_case flat(rb_rolling_case rc)
 {
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.a.layer = rc.a.cover;
-    rc.a.cover = 0.0;
-    rc.a.base_young = rc.a.core_young;
-    rc.a.base_poisson = rc.a.core_poisson;
+    set(&rc,
+        "support halfplane layer-thickness %g cover-thickness none base-young %g base-poisson %g",
+        rc.a.cover, rc.a.core_young, rc.a.core_poisson);
     return rc;
 }
 
@@ -285,23 +273,9 @@ TEST(sixty_points_take_three_seconds)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     double best = INFINITY;
-    rc.a.radius = 150.0;
-    rc.a.young = 8.0;
-    rc.a.poisson = 0.48;
-    rc.a.support = RB_BEM_HUB;
-    rc.a.cover = 12.0;
-    rc.a.core_young = 210000.0;
-    rc.a.core_poisson = 0.3;
-    rc.a.hub_ratio = 0.6;
-    rc.elastic_b = 1;
-    rc.b.young = 210000.0;
-    rc.b.poisson = 0.3;
-    rc.b.radius = 100.0;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.mu = 0.25;
-    rc.load = 25.0;
-    rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = 50;
+    set(&rc, "radius 150 young 8 poisson 0.48 support hub cover-thickness 12 core-young 210000 "
+             "core-poisson 0.3 hub-ratio 0.6 young-b 210000 poisson-b 0.3 radius-b 100 "
+             "gap parabola mu 0.25 load 25 mesh fitted contact-elements 50");
     for (int try = 0; try < 3 && best > 3.0; try++) {
         OWNED(rb_rolling_curve) c;
         const clock_t start = clock();
@@ -321,13 +295,7 @@ TEST(either_body_may_be_covered)
 {
     rb_rolling_case rc = roll(10.0, 0.4, 1000.0);
     rb_rolling_solution s[2];
-    rc.half_width = 1.0;
-    rc.elastic_b = 1;
-    rc.b.radius = 150.0;
-    rc.b.support = RB_BEM_HUB;
-    rc.b.young = 5000.0;
-    rc.b.poisson = 0.3;
-    rc.b.hub_ratio = 0.5;
+    set(&rc, "half-width 1 radius-b 150 support-b hub young-b 5000 poisson-b 0.3 hub-ratio-b 0.5");
     solved(&rc, &s[0]);
     const rb_rolling_body a = rc.a;
     rc.a = rc.b;
@@ -349,10 +317,9 @@ TEST(the_bond_carries_the_load)
     enum { POINTS = 5 };
     rb_rolling_stress at[2][POINTS];
     for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = roll(k ? 0.0 : 5.0, 0.3, k ? 0.0 : 10.0);
+        rb_rolling_case rc = with(roll(k ? 0.0 : 5.0, 0.3, k ? 0.0 : 10.0), "half-width 2");
         OWNED(rb_rolling_model) model;
         OWNED(rb_rolling_solution) s;
-        rc.half_width = 2.0;
         rc.outer_refinement = 2.0;
         CHECK_OK(rb_rolling_solve_model(&rc, &model, &s, &heard));
         if (k)
@@ -397,9 +364,7 @@ TEST(a_cover_that_nothing_holds_is_singular)
     OWNED(rb_rolling_model) model = {0};
     rb_rolling_solution s;
     OWNED(rb_rolling_curve) curve;
-    rc.half_width = 1.0;
-    rc.contact_elements = 8;
-    rc.mesh = RB_MESH_UNIFORM;
+    set(&rc, "half-width 1 contact-elements 8 mesh uniform");
     for (int k = 0; k < 2; k++) {
         CHECK_SAYS(rb_rolling_solve_model_reuse(&rc, &model, &s, &heard), RB_SINGULAR, "singular");
         assert_null(s.p);
@@ -407,9 +372,7 @@ TEST(a_cover_that_nothing_holds_is_singular)
         rb_rolling_solution_free(&s);
     }
     rb_rolling_case relaxing = rc;
-    relaxing.formulation = RB_STEADY;
-    relaxing.speed = 1.0;
-    relaxing.a.memory = (rb_rolling_memory){1, {1.0}, {1.0}};
+    set(&relaxing, "formulation steady speed 1 relaxation-time 1 relaxation-ratio 1");
     CHECK_STATUS(rb_rolling_curve_solve(&relaxing, &(rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 2},
                                         &curve, &heard),
                  RB_SINGULAR);
@@ -422,10 +385,8 @@ TEST(a_cover_that_nothing_holds_is_singular)
 /* A cover of nu = 1/2 carries by waves as short as it is thick. */
 TEST(elements_longer_than_the_cover_are_refused)
 {
-    rb_rolling_case rc = roll(0.2, 0.5, 0.0);
+    rb_rolling_case rc = with(roll(0.2, 0.5, 0.0), "half-width 1 contact-elements 6");
     OWNED(rb_rolling_solution) s;
-    rc.half_width = 1.0;
-    rc.contact_elements = 6;
     CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL,
                "cover thickness: with nu = 0.5 the elements");
     assert_non_null(strstr(heard.text, "may not be longer than the thickness, 0.2 mm"));

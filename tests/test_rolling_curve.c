@@ -6,18 +6,13 @@
 static rb_rolling_case carter(int elements)
 {
     rb_rolling_case rc = half_plane(RB_STATIC, elements);
-    on_its_like(&rc);
-    rc.load = 500.0;
-    rc.speed = 1000.0;
+    set(&rc, "similar load 500 speed 1000");
     return rc;
 }
 
 static rb_rolling_case relaxing(void)
 {
-    rb_rolling_case rc = carter(24);
-    rc.a.memory = (rb_rolling_memory){1, {1e-3}, {1.0}};
-    rc.creep = 0.0;
-    return rc;
+    return with(carter(24), "relaxation-time 1e-3 relaxation-ratio 1 creep 0");
 }
 
 static rb_rolling_curve run(const rb_rolling_case *rc, rb_rolling_variable over, double from,
@@ -62,8 +57,7 @@ TEST(every_point_is_its_case)
         const double scale = over == RB_OVER_CREEP_RATIO ? 1.0 : 0.01;
         rc.force_ratio = 0.3; /* not read */
         rb_rolling_curve c = run(&rc, (rb_rolling_variable)over, -0.5 * scale, 1.5 * scale, 5);
-        rc.force_ratio = NAN;
-        rc.formulation = RB_STEADY;
+        set(&rc, "force-ratio nan formulation steady");
         assert_int_equal(c.n, 5);
         assert_int_equal(c.rising, 5);
         assert_null(c.branch);
@@ -113,13 +107,9 @@ TEST(speeds_have_their_own_bodies)
 /* Between midpoints of four elements nothing touches. */
 TEST(a_curve_without_contact_says_so)
 {
-    rb_rolling_case rc = relaxing();
+    rb_rolling_case rc = with(relaxing(), "load nan approach 1e-9 zone 1 contact-elements 4");
     OWNED(rb_rolling_curve) c;
     const rb_rolling_range range = {.over = RB_OVER_SPEED, .from = 1.0, .to = 2.0, .points = 2};
-    rc.load = NAN;
-    rc.approach = 1e-9;
-    rc.zone = 1.0;
-    rc.contact_elements = 4;
     CHECK_SAYS(rb_rolling_curve_solve(&rc, &range, &c, &heard), RB_NO_CONTACT, "no contact");
     assert_int_equal(c.n, 1);
     CHECK_ABS(c.stick_ratio[0], 0.0, 0.0, "nothing sticks");
@@ -132,10 +122,8 @@ TEST(meshes_follow_the_contact)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = carter(40);
+        set(&rc, "poisson 0 mu 1 mesh %s", k ? "aligned" : "fitted");
         rc.elastic_b = 0;
-        rc.a.poisson = 0.0;
-        rc.mu = 1.0;
-        rc.mesh = k ? RB_MESH_ALIGNED : RB_MESH_FITTED;
         OWNED(rb_rolling_curve) c = run(&rc, RB_OVER_CREEP_RATIO, -2.0, 2.0, 3);
         rc.formulation = RB_STEADY;
         for (int i = 0; i < 3; i += 2) {
@@ -150,10 +138,7 @@ TEST(meshes_follow_the_contact)
 /* A friction law that falls: there and back, each point from the one before it. */
 TEST(falling_friction_goes_there_and_back)
 {
-    rb_rolling_case rc = carter(24);
-    rc.friction.law = RB_FRICTION_exponential;
-    rc.friction.fall[0] = 0.2;
-    rc.friction.slip_scale[0] = 2.0;
+    rb_rolling_case rc = with(carter(24), "friction-law exponential mu-fall 0.2 slip-scale 2");
     for (int k = 0; k < 2; k++) {
         rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
         OWNED(rb_rolling_curve) c = run(&rc, RB_OVER_CREEP_RATIO, 0.2, 1.2, 3);
@@ -199,8 +184,7 @@ static void refused(rb_rolling_case rc, rb_rolling_range range, const char *word
 
 TEST(ranges_that_make_no_sense_are_refused)
 {
-    rb_rolling_case smooth = carter(20);
-    smooth.mu = 0.0;
+    rb_rolling_case smooth = with(carter(20), "mu 0");
     refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, NAN, 1.0, 3}, "finite numbers");
     refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, 0.0, INFINITY, 3}, "finite numbers");
     refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, 0.0, 0.1, 0}, "points: exp");
@@ -224,14 +208,11 @@ TEST(a_hundredth_of_the_half_width_is_followed)
     int stay = 0, follow = 0;
     for (int k = 0; k < 6; k++) {
         const double last = -0.99 + 0.01 * k;
-        rb_rolling_case rc = carter(16);
+        rb_rolling_case rc = with(carter(16), "mesh fitted formulation steady");
         double from[2], to[2];
-        rc.mesh = RB_MESH_FITTED;
-        rc.formulation = RB_STEADY;
         rc.contact.solver = RB_SOLVER_NEWTON; /* a step or two from the solution at hand */
+        set(&rc, "poisson 0.2 creep-ratio -1");
         rc.elastic_b = 0;
-        rc.a.poisson = 0.2;
-        rc.creep_ratio = -1.0;
         OWNED(rb_rolling_model) model = solved_model(&rc);
         for (int i = 0; i < 2; i++) {
             rb_rolling_contact_edges(model.rc, &model.mesh, &model.state, &from[i], &to[i]);

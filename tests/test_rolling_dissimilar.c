@@ -3,6 +3,7 @@
  * between nodes, and Panagiotopoulos' alternation of a normal contact under given
  * friction and a rolling one under given pressure, each by changing zones until all hold.
  * P = R = 1. */
+#include "cases.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>
@@ -228,21 +229,10 @@ static void alternate(contact *c)
 
 static rb_rolling_case the_same(const pair *b)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.formulation = RB_STEADY;
-    rc.a.support = rc.b.support = RB_BEM_HALFPLANE;
-    rc.a.radius = rc.load = 1.0;
-    rc.a.young = b->E_a;
-    rc.a.poisson = b->nu_a;
-    rc.elastic_b = 1;
-    rc.b.young = b->E_b;
-    rc.b.poisson = b->nu_b;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.mu = b->mu;
-    rc.force_ratio = b->force_ratio;
-    rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = 120;
-    return rc;
+    return rolling_case("formulation steady support halfplane support-b halfplane radius 1 load 1 "
+                        "young %g poisson %g young-b %g poisson-b %g gap parabola mu %g "
+                        "force-ratio %g mesh fitted contact-elements 120",
+                        b->E_a, b->nu_a, b->E_b, b->nu_b, b->mu, b->force_ratio);
 }
 
 static void compare(const pair *b, int k)
@@ -307,10 +297,7 @@ TEST(dissimilar_bodies_roll_from_rest)
         OWNED(rb_rolling_model) model;
         OWNED(rb_rolling_history) h;
         double distance = 0.0;
-        rc.formulation = RB_TRANSIENT;
-        rc.mesh = RB_MESH_UNIFORM;
-        rc.contact_elements = 240;
-        rc.distance = 1.2;
+        set(&rc, "formulation transient mesh uniform contact-elements 240 distance 1.2");
         CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, NULL));
         set_up(&c, b, 121);
         shift_from_rest(&c);

@@ -38,9 +38,7 @@ TEST(little_friction_asks_for_no_more_elements)
     rb_rolling_errors e;
     int elements;
     rc.b.young = rc.a.young / 40.0;
-    rc.creep_ratio = NAN;
-    rc.force = 0.0;
-    rc.mu = 1e-4;
+    set(&rc, "creep-ratio nan force 0 mu 1e-4");
     CHECK_OK(rb_rolling_solve_to_accuracy(&rc, 0.2, &s, &e, &elements, &heard));
     const double unit = rc.mu * s.hertz_half_width / rc.a.radius;
     const double exact = rb_closed_bentall_johnson_slip(fabs(rb_rolling_derive(&rc).dundurs),
@@ -115,9 +113,7 @@ TEST(a_given_force_has_an_accurate_creepage)
         OWNED(rb_rolling_solution) s;
         rb_rolling_errors e;
         int elements;
-        rc.creep_ratio = NAN;
-        rc.force_ratio = -0.9;
-        rc.mesh = k < 3 ? RB_MESH_UNIFORM : RB_MESH_FITTED;
+        set(&rc, "creep-ratio nan force-ratio -0.9 mesh %s", k < 3 ? "uniform" : "fitted");
         CHECK_OK(rb_rolling_solve_to_accuracy(&rc, accuracy[k % 3], &s, &e, &elements, &heard));
         CHECK_MAX(e.scalar.creepage * rb_rolling_radius(&rc) / (rc.mu * s.half_width),
                   accuracy[k % 3], "case %d", k);
@@ -127,17 +123,13 @@ TEST(a_given_force_has_an_accurate_creepage)
 /* Twice the elements make twice the steps: what is told is the solution of that case. */
 TEST(accuracy_takes_more_steps_too)
 {
-    rb_rolling_case rc = carter_case(12);
+    rb_rolling_case rc = with(carter_case(12), "formulation transient distance 1 steps 4");
     OWNED(rb_rolling_solution) s;
     rb_rolling_errors errors;
     int elements;
-    rc.formulation = RB_TRANSIENT;
-    rc.distance = 1.0;
-    rc.steps = 4;
     CHECK_OK(rb_rolling_solve_to_accuracy(&rc, 0.3, &s, &errors, &elements, NULL));
     assert_true(elements > 12 && elements % 12 == 0);
-    rc.contact_elements = elements;
-    rc.steps = 4 * elements / 12;
+    set(&rc, "contact-elements %d steps %d", elements, 4 * elements / 12);
     OWNED(rb_rolling_solution) same = solved(&rc);
     CHECK_REL(s.tangential_load, same.tangential_load, 1e-12, "Q");
 }

@@ -9,9 +9,7 @@
 static rb_rolling_case plane(int elements)
 {
     rb_rolling_case rc = half_plane(RB_STEADY, elements);
-    rc.half_width = 1.0;
-    rc.creep_ratio = 0.5;
-    rc.speed = 1000.0;
+    set(&rc, "half-width 1 creep-ratio 0.5 speed 1000");
     return rc;
 }
 
@@ -91,15 +89,11 @@ static void refuse(const char *what, rb_status (*work)(void *), rb_rolling_case 
 
 TEST(laws_and_heat)
 {
-    rb_rolling_case rc = plane(6);
-    rc.friction.law = RB_FRICTION_exponential;
-    rc.friction.fall[0] = 0.2;
-    rc.friction.slip_scale[0] = 0.2;
+    rb_rolling_case rc = with(plane(6), "friction-law exponential mu-fall 0.2 slip-scale 0.2");
     refuse("a steep law", solve, &rc);
     rc.friction.slip_scale[0] = 200.0;
     refuse("all solutions", find_all, &rc);
-    rc.creep_ratio = NAN;
-    rc.force_ratio = 0.2;
+    set(&rc, "creep-ratio nan force-ratio 0.2");
     refuse("a force", solve, &rc);
     rc = plane(6);
     rc.heat_a = rc.heat_b = warm;
@@ -108,11 +102,9 @@ TEST(laws_and_heat)
     rc.friction.heat_from = 1.0;
     rc.friction.heat_range = 100.0;
     refuse("warm friction", solve, &rc);
+    set(&rc, "formulation transient distance 0.5 steps 2");
     rc.friction.heat = 0.0;
     rc.heat_b = rc.heat_a;
-    rc.formulation = RB_TRANSIENT;
-    rc.distance = 0.5;
-    rc.steps = 2;
     refuse("warm steps", solve, &rc);
 }
 
@@ -123,20 +115,15 @@ TEST(stress_wear_and_curves)
     refuse("a wheel that wears", wear, &rc);
     rc.contact_elements = 12;
     refuse("curves and their bars", draw, &rc);
-    rc.formulation = RB_STATIC;
-    rc.creep_ratio = NAN;
-    rc.force_ratio = 0.5;
+    set(&rc, "formulation static creep-ratio nan force-ratio 0.5");
     refuse("fretting", wear, &rc);
 }
 
 TEST(steps_that_yield)
 {
-    rb_rolling_case rc = plane(6);
-    rc.formulation = RB_TRANSIENT;
-    rc.distance = 0.5;
-    rc.steps = 2;
-    rc.interlayer_tangential = 1e-5;
-    rc.yield_stress = 10.0;
+    rb_rolling_case rc = with(
+        plane(6),
+        "formulation transient distance 0.5 steps 2 interlayer-tangential 1e-5 yield-stress 10");
     refuse("yielding", solve, &rc);
 }
 
@@ -153,13 +140,10 @@ TEST(patches_of_wheels)
     CHECK_OK(rb_rolling_profile_create(ROWS, x, gap, 0.0, &profile, NULL));
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = plane(10);
-        rc.a.support = RB_BEM_HUB;
-        rc.outer_elements = 24;
+        set(&rc, "support hub outer-elements 24 half-width nan load 20 mesh %s",
+            k ? "fitted" : "uniform");
         rc.gap = RB_GAP_TABLE;
         rc.profile = profile;
-        rc.half_width = NAN;
-        rc.load = 20.0;
-        rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
         rc.elastic_b = k;
         refuse("patches", solve, &rc);
     }

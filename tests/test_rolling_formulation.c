@@ -1,4 +1,5 @@
 /* A case as a contact problem (theory.md 4.2): operator, weights, controls, scales. */
+#include "cases.h"
 #include "check.h"
 #include "posed.h"
 
@@ -45,8 +46,7 @@ TEST(the_second_order_operator_has_four_points)
 {
     const double t = 0.0740956,
                  a[4] = {(1 - t) / 4, (3 + 3 * t) / 4, -(5 + 3 * t) / 4, (1 + t) / 4};
-    rb_rolling_case rc = posed_plane(RB_STEADY);
-    rc.slip_operator = RB_SLIP_SECOND;
+    rb_rolling_case rc = with(posed_plane(RB_STEADY), "slip-operator second");
     posed d = pose(&rc, NULL);
     for (int j = 0; j < 2 * N; j++)
         for (int i = 1; i + 1 < N; i++)
@@ -82,8 +82,7 @@ TEST(displacement_outside_continues_the_wheel)
 {
     const double t = 0.0740956, first = (1 - t) / 4, last = (1 + t) / 4,
                  middle[2] = {(3 + 3 * t) / 4, -(5 + 3 * t) / 4};
-    rb_rolling_case rc = posed_plane(RB_STEADY);
-    rc.slip_operator = RB_SLIP_SECOND;
+    rb_rolling_case rc = with(posed_plane(RB_STEADY), "slip-operator second");
     posed flat = pose(&rc, NULL);
     rc.a.support = RB_BEM_ARC;
     rc.a.radius = 5000.0; /* arcs are as long as their chords */
@@ -124,8 +123,7 @@ TEST(products_move_with_the_tractions)
     static double here[2 * n], there[2 * n];
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = posed_plane(RB_STEADY);
-        rc.contact_elements = n;
-        rc.slip_operator = k ? RB_SLIP_SECOND : RB_SLIP_UPSTREAM;
+        set(&rc, "contact-elements %d slip-operator %s", n, k ? "second" : "upstream");
         posed d = pose(&rc, NULL);
         assert_null(d.K.S);
         for (int side = 0; side < 2; side++)
@@ -151,8 +149,7 @@ TEST(what_yields_follows_the_material)
         rb_rolling_case rc = posed_plane(k == 2 ? RB_TRANSIENT : RB_STEADY);
         static const double want[3][3] = {
             {1.0, 0.0, 1.0}, {4.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0}, {0.0, 0.0, 1.0}};
-        rc.slip_operator = k == 1 ? RB_SLIP_SECOND : RB_SLIP_UPSTREAM;
-        rc.yield_stress = 50.0;
+        set(&rc, "slip-operator %s yield-stress 50", k == 1 ? "second" : "upstream");
         posed d = pose(&rc, NULL);
         CHECK_ABS(d.p.recall[0], want[k][0], 1e-15, "case %d", k);
         CHECK_ABS(d.p.recall[1], want[k][1], 1e-15, "case %d", k);
@@ -165,8 +162,7 @@ TEST(what_yields_follows_the_material)
 /* An element softens by less than its slip sets free: the limit is 1/(own S_ii). */
 TEST(softening_has_a_limit)
 {
-    rb_rolling_case rc = posed_plane(RB_STEADY);
-    rc.yield_stress = 50.0;
+    rb_rolling_case rc = with(posed_plane(RB_STEADY), "yield-stress 50");
     posed d = pose(&rc, NULL);
     double most = 0.0;
     for (int i = 0; i < N; i++)
@@ -195,10 +191,7 @@ TEST(normals_of_the_surface_turn_with_it)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = posed_plane(RB_STATIC);
-        rc.a.support = RB_BEM_ARC;
-        rc.outer_elements = 30;
-        rc.a.radius = 2.0;
-        rc.normals = k ? RB_BEM_NORMALS_SURFACE : RB_BEM_NORMALS_OBSTACLE;
+        set(&rc, "support arc outer-elements 30 radius 2 normals %s", k ? "surface" : "obstacle");
         posed d = pose(&rc, NULL);
         for (int i = 0; i < N; i++) {
             const double x = d.bodies.f.x[i], h = d.bodies.f.h[i];

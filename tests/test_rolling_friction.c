@@ -1,5 +1,6 @@
 /* What lies between the bodies: a coefficient of friction that depends on the place, and
  * an interface that yields. */
+#include "cases.h"
 #include "refused.h"
 #include "rollbem/friction.h"
 #include "rollbem/rolling.h"
@@ -14,12 +15,8 @@ static rb_rolling_case steady(void)
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.a = (rb_rolling_body){
         .young = 210000.0, .poisson = 0.28, .radius = 500.0, .support = RB_BEM_HALFPLANE};
-    rc.gap = RB_GAP_PARABOLA;
-    rc.formulation = RB_STEADY;
-    rc.half_width = 1.0;
-    rc.creep_ratio = 0.5;
-    rc.contact_elements = 41;
-    rc.mu = 0.4;
+    set(&rc,
+        "gap parabola formulation steady half-width 1 creep-ratio 0.5 contact-elements 41 mu 0.4");
     rc.friction = (rb_rolling_friction){.law = RB_FRICTION_table, .table = sand};
     return rc;
 }
@@ -99,8 +96,7 @@ TEST(each_element_has_its_bound)
 /* Matrices and transforms, transient steps, a curve: the same law everywhere. */
 TEST(large_contacts_and_steps_too)
 {
-    rb_rolling_case rc = steady();
-    rc.contact_elements = 1501;
+    rb_rolling_case rc = with(steady(), "contact-elements 1501");
     rb_rolling_model model = solved_model(&rc);
     assert_null(rb_contact_operator_matrix(model.problem.op).F);
     check_laws(&model);
@@ -108,8 +104,7 @@ TEST(large_contacts_and_steps_too)
 
     OWNED(rb_rolling_history) history;
     rc = steady();
-    rc.formulation = RB_TRANSIENT;
-    rc.distance = 1.0;
+    set(&rc, "formulation transient distance 1");
     CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, NULL));
     check_laws(&model);
     rb_rolling_model_free(&model);
@@ -142,14 +137,12 @@ TEST(an_even_table_is_one_coefficient)
 TEST(an_interface_yields_by_itself)
 {
     for (int large = 0; large < 2; large++) {
-        rb_rolling_case rc = steady();
+        rb_rolling_case rc = with(steady(), "contact-elements %d", large ? 1501 : 31);
         OWNED(rb_rolling_mesh) mesh;
         OWNED(rb_rolling_bodies) with, without;
-        rc.contact_elements = large ? 1501 : 31;
         CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -1.3, 1.3, &mesh, NULL));
         CHECK_OK(rb_rolling_bodies_create(&rc, NULL, &mesh, &without, NULL));
-        rc.interlayer_normal = 2e-5;
-        rc.interlayer_tangential = 3e-5;
+        set(&rc, "interlayer-normal 2e-5 interlayer-tangential 3e-5");
         CHECK_OK(rb_rolling_bodies_create(&rc, NULL, &mesh, &with, NULL));
         const int n = mesh.n, m = n + 1;
         SCRATCH double *r = rb_alloc(2 * (size_t)n, 1), *w = rb_alloc(2 * (size_t)m, 2);
@@ -170,13 +163,10 @@ TEST(a_soft_interface_is_a_brush)
 {
     const double c = 1e-2;
     for (int large = 0; large < 2; large++) {
-        rb_rolling_case rc = steady();
-        rc.friction.law = RB_FRICTION_constant;
-        rc.interlayer_tangential = c;
-        rc.creep_ratio = NAN;
-        rc.creep = 0.4;
-        rc.contact_elements = large ? 1501 : 201;
-        rc.mesh = RB_MESH_UNIFORM;
+        rb_rolling_case rc = with(steady(),
+                                  "friction-law constant interlayer-tangential %g creep-ratio nan "
+                                  "creep 0.4 contact-elements %d mesh uniform",
+                                  c, large ? 1501 : 201);
         OWNED(rb_rolling_model) model = solved_model(&rc);
         check_residual(&model);
         const double slope = rc.creep / c, scale = model.problem.stress;
@@ -219,8 +209,7 @@ TEST(the_largest_of_a_table_is_that_of_any_row)
     const double x[] = {-1.0, 0.0, 3.0};
     for (int at = 0; at < 3; at++) {
         const double y[] = {at == 0 ? 0.2 : 0.15, at == 1 ? 0.2 : 0.1, at == 2 ? 0.2 : 0.05};
-        rb_rolling_case rc = rb_rolling_case_defaults();
-        rc.formulation = RB_STEADY;
+        rb_rolling_case rc = rolling_case("formulation steady");
         rc.friction =
             (rb_rolling_friction){.law = RB_FRICTION_table, .table = (rb_rolling_table){3, x, y}};
         CHECK_ABS(rb_rolling_largest_mu(&rc), 0.2, 0.0, "row %d", at);

@@ -10,9 +10,7 @@
 static rb_rolling_case incompressible_wheel(void)
 {
     rb_rolling_case rc = half_plane(RB_STATIC, 200);
-    rc.a.poisson = 0.5;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.half_width = 1e-4 * rc.a.radius;
+    set(&rc, "poisson 0.5 gap parabola half-width %g", 1e-4 * rc.a.radius);
     return rc;
 }
 
@@ -42,8 +40,7 @@ static void check_honest(const rb_rolling_case *rc, const rb_rolling_solution *s
 TEST(hertz_at_any_alignment)
 {
     for (int k = 0; k <= 4; k++) {
-        rb_rolling_case rc = incompressible_wheel();
-        rc.mu = 0.0;
+        rb_rolling_case rc = with(incompressible_wheel(), "mu 0");
         align(&rc, 200, 0.25 * k);
         OWNED(rb_rolling_solution) s = solved(&rc);
         const double a = rc.half_width, P = rb_rolling_hertz_load(&rc, a);
@@ -66,9 +63,8 @@ TEST(hertz_by_approach)
     rb_rolling_case rc = incompressible_wheel();
     const double a = rc.half_width, R = rc.a.radius;
     align(&rc, 200, 0.5);
-    rc.half_width = NAN;
+    set(&rc, "half-width nan mu 0");
     rc.approach = a * a / (4.0 * R) * (2.0 * log(4.0 * R / a) - 1.0);
-    rc.mu = 0.0;
     OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_REL(s.normal_load, rb_rolling_hertz_load(&rc, a), 1e-3, "load of an approach");
 }
@@ -80,8 +76,7 @@ static double carter(double s)
 
 static rb_rolling_solution rolling_at(rb_rolling_case rc, double ratio)
 {
-    rc.formulation = RB_STEADY;
-    rc.creep_ratio = ratio;
+    set(&rc, "formulation steady creep-ratio %g", ratio);
     return solved(&rc);
 }
 
@@ -133,8 +128,7 @@ TEST(carter_on_a_fitted_mesh)
         for (int k = 1; k <= 10; k++) {
             const double ratio = k == 10 ? 0.95 : 0.1 * k;
             rb_rolling_case rc = incompressible_wheel();
-            rc.mesh = RB_MESH_FITTED;
-            rc.contact_elements = n[mesh];
+            set(&rc, "mesh fitted contact-elements %d", n[mesh]);
             OWNED(rb_rolling_solution) s = rolling_at(rc, ratio);
             check_honest(&rc, &s);
             CHECK_ABS(-s.force_ratio, carter(ratio), bound[mesh], "n = %d, s = %g", n[mesh], ratio);
@@ -146,9 +140,7 @@ TEST(carter_under_force_control)
     for (int k = 1; k <= 10; k++) {
         const double ratio = k == 10 ? 0.99 : 0.1 * k;
         rb_rolling_case rc = incompressible_wheel();
-        rc.formulation = RB_STEADY;
-        rc.mesh = RB_MESH_FITTED;
-        rc.force_ratio = -ratio;
+        set(&rc, "formulation steady mesh fitted force-ratio %g", -ratio);
         OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_ABS(s.force_ratio, -ratio, 1e-10, "given force");
         CHECK_REL(s.creep_ratio, 1.0 - sqrt(1.0 - ratio), 2e-4, "Q/(mu P) = %g", ratio);
@@ -159,9 +151,7 @@ TEST(both_forms_agree)
 {
     for (int dissimilar = 0; dissimilar < 2; dissimilar++) {
         rb_rolling_case rc = incompressible_wheel();
-        rc.a.poisson = dissimilar ? 0.28 : 0.5;
-        rc.contact.solver = RB_SOLVER_LEMKE;
-        rc.contact_elements = 100;
+        set(&rc, "poisson %g solver lemke contact-elements 100", dissimilar ? 0.28 : 0.5);
         OWNED(rb_rolling_solution) pivoted = rolling_at(rc, 0.4);
         rc.contact.lcp_form = RB_LCP_KWAK;
         OWNED(rb_rolling_solution) kwak = rolling_at(rc, 0.4);
@@ -187,22 +177,10 @@ TEST(the_signs_of_creepage_mirror_for_similar_bodies)
 /* Aluminium on steel (theory.md 6). */
 static rb_rolling_case aluminium_on_steel(double mu)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.poisson = 0.31;
-    rc.a.young = 2.0 * 23000.0 * 1.31;
-    rc.b.poisson = 0.28;
-    rc.b.young = 2.0 * 82000.0 * 1.28;
-    rc.elastic_b = 1;
-    rc.b.radius = 50.0;
-    rc.a.support = rc.b.support = RB_BEM_HALFPLANE;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.formulation = RB_STEADY;
-    rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = 200;
-    rc.half_width = 0.1;
-    rc.force = 0.0;
-    rc.mu = mu;
-    return rc;
+    return rolling_case("poisson 0.31 young %g poisson-b 0.28 young-b %g radius-b 50 "
+                        "support halfplane support-b halfplane gap parabola formulation steady "
+                        "mesh fitted contact-elements 200 half-width 0.1 force 0 mu %g",
+                        2.0 * 23000.0 * 1.31, 2.0 * 82000.0 * 1.28, mu);
 }
 
 TEST(bentall_johnson_free_rolling)
@@ -267,10 +245,9 @@ TEST(a_gap_that_never_closes_is_no_contact)
     OWNED(rb_rolling_solution) s;
     rb_rolling_profile *profile;
     CHECK_OK(rb_rolling_profile_create(3, x, gap, 0.0, &profile, NULL));
+    set(&rc, "half-width nan approach 0.5");
     rc.gap = RB_GAP_TABLE;
     rc.profile = profile;
-    rc.half_width = NAN;
-    rc.approach = 0.5;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_NO_CONTACT);
     rb_rolling_profile_free(profile);
 }
@@ -299,9 +276,7 @@ TEST(a_table_gap_is_the_gap_it_tabulates)
 TEST(every_failed_allocation_is_reported)
 {
     rb_rolling_case rc = incompressible_wheel();
-    rc.contact_elements = 12;
-    rc.formulation = RB_STEADY;
-    rc.creep_ratio = 0.4;
+    set(&rc, "contact-elements 12 formulation steady creep-ratio 0.4");
     for (int count = 0, refused = 1; refused; count++) {
         OWNED(rb_rolling_solution) s;
         refused = REFUSED_FROM(count, rb_rolling_solve(&rc, &s, NULL));

@@ -65,15 +65,9 @@ TEST(strip_meets_quadrature)
 static rb_rolling_case sliding(double peclet, int n)
 {
     rb_rolling_case rc = half_plane(RB_STEADY, n);
-    rc.a.poisson = 0.3;
-    on_its_like(&rc);
-    rc.gap = RB_GAP_PARABOLA;
-    rc.half_width = 5e-3;
-    rc.mu = 1e-3;
-    rc.creep = 0.1;
-    rc.mesh = RB_MESH_ALIGNED;
-    rc.slip_operator = RB_SLIP_SECOND;
-    rc.heat_a = rc.heat_b = (rb_rolling_heat){50.0, 3.5, 0.0};
+    set(&rc, "poisson 0.3 similar gap parabola half-width 5e-3 mu 1e-3 creep 0.1 mesh aligned "
+             "slip-operator second conductivity 50 heat-capacity 3.5 temperature 0 "
+             "conductivity-b 50 heat-capacity-b 3.5 temperature-b 0");
     rc.speed = peclet * 2.0 * 50.0 / 3.5 / rc.half_width;
     return rc;
 }
@@ -185,10 +179,7 @@ TEST(surfaces_in_contact_are_equally_warm)
 TEST(conduction_between_bodies)
 {
     rb_rolling_case rc = sliding(1e4, 200);
-    rc.mu = 0.0;
-    rc.creep = 0.0;
-    rc.heat_a.temperature = 100.0;
-    rc.heat_b = (rb_rolling_heat){20.0, 2.0, 20.0};
+    set(&rc, "mu 0 creep 0 temperature 100 conductivity-b 20 heat-capacity-b 2 temperature-b 20");
     OWNED(rb_rolling_solution) s = solved(&rc);
     const double e1 = sqrt(50.0 * 3.5), e2 = sqrt(20.0 * 2.0), a = s.half_width;
     const double middle = (e1 * 100.0 + e2 * 20.0) / (e1 + e2);
@@ -213,12 +204,9 @@ TEST(conduction_between_bodies)
 TEST(steps_tend_to_the_steady_state)
 {
     static const int steps[] = {0, 300};
-    rb_rolling_case rc = sliding(1e4, 120);
-    rc.mesh = RB_MESH_UNIFORM;
-    rc.slip_operator = RB_SLIP_UPSTREAM;
+    rb_rolling_case rc = with(sliding(1e4, 120), "mesh uniform slip-operator upstream");
     OWNED(rb_rolling_solution) steady = solved(&rc);
-    rc.formulation = RB_TRANSIENT;
-    rc.distance = 3.0;
+    set(&rc, "formulation transient distance 3");
     for (int k = 0; k < 2; k++) {
         OWNED(rb_rolling_history) h;
         OWNED(rb_rolling_model) model;
@@ -245,11 +233,8 @@ TEST(curve_has_the_temperature_of_its_cases)
 TEST(power_below_zero_heats_nothing)
 {
     rb_rolling_case rc = half_plane(RB_STEADY, 20);
-    rc.half_width = 1.0;
-    rc.mu = 1.0;
-    rc.speed = 1000.0;
-    rc.heat_a = rc.heat_b = (rb_rolling_heat){50.0, 3.5, 0.0};
-    rc.creep = -0.005;
+    set(&rc, "half-width 1 mu 1 speed 1000 conductivity 50 heat-capacity 3.5 temperature 0 "
+             "conductivity-b 50 heat-capacity-b 3.5 temperature-b 0 creep -0.005");
     OWNED(rb_rolling_solution) far = solved(&rc);
     rc.creep = far.free_creepage * 0.99999;
     OWNED(rb_rolling_solution) above = solved(&rc);
@@ -264,8 +249,7 @@ TEST(power_below_zero_heats_nothing)
 
 TEST(other_cases_have_no_temperature)
 {
-    rb_rolling_case rc = sliding(500.0, 60);
-    rc.heat_a.conductivity = 0.0;
+    rb_rolling_case rc = with(sliding(500.0, 60), "conductivity none");
     OWNED(rb_rolling_solution) s = solved(&rc);
     assert_null(s.temperature);
     assert_null(s.temperature_b);
@@ -280,13 +264,11 @@ TEST(meaningless_cases_are_refused)
         bad[k] = good;
     bad[0].speed = 0.0;
     bad[1].heat_a.heat_capacity = 0.0;
-    bad[2].formulation = RB_STATIC;
-    bad[2].slip_operator = RB_SLIP_UPSTREAM;
+    set(&bad[2], "formulation static slip-operator upstream");
     bad[3].a.layer = 1.0;
     bad[4].heat_b.conductivity = -1.0;
     bad[5].heat_b.temperature = NAN;
-    bad[6].contact_elements = 5000;
-    bad[6].heat_b.conductivity = 40.0;
+    set(&bad[6], "contact-elements 5000 conductivity-b 40");
     static const char *const words[] = {"--speed",     "heat capacity",  "bodies that roll",
                                         "homogeneous", "conductivity-b", "temperature-b",
                                         "4000"};
@@ -300,10 +282,7 @@ TEST(slow_steps_are_refused)
 {
     rb_rolling_case rc = sliding(5.0, 60);
     OWNED(rb_rolling_solution) s;
-    rc.mesh = RB_MESH_UNIFORM;
-    rc.slip_operator = RB_SLIP_UPSTREAM;
-    rc.formulation = RB_TRANSIENT;
-    rc.distance = 1.0;
+    set(&rc, "mesh uniform slip-operator upstream formulation transient distance 1");
     CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL, "diffusivity");
 }
 
@@ -312,9 +291,8 @@ TEST(slow_steps_are_refused)
 /* A case of steps that is solved without them has no heat behind it. */
 TEST(without_steps_no_heat_is_known)
 {
-    rb_rolling_case rc = warm_sliding(RB_TRANSIENT);
+    rb_rolling_case rc = with(warm_sliding(RB_TRANSIENT), "distance 1");
     OWNED(rb_rolling_solution) s;
-    rc.distance = 1.0;
     CHECK_OK(rb_rolling_solve_between(&rc, -1.3, 1.3, &s, NULL));
     CHECK_ABS(s.max_temperature, 0.0, 0.0, "nothing is warm");
 }

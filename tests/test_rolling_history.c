@@ -1,6 +1,7 @@
 /* Sequences: Cattaneo to Carter, loading histories, bad programs, interruption. */
 #include "check.h"
 #include "cases.h"
+#include "solved.h"
 
 #include <gsl/gsl_math.h>
 
@@ -26,9 +27,7 @@ TEST(from_cattaneo_to_carter)
     rb_rolling_case rc = steel_wheel(200);
     rb_rolling_model model;
     rb_rolling_history h;
-    rc.formulation = RB_TRANSIENT;
-    rc.force_ratio = -0.64;
-    rc.distance = 3.0;
+    set(&rc, "formulation transient force-ratio -0.64 distance 3");
     run(&rc, NULL, &model, &h);
     CHECK_REL(h.step / model.half_width, 0.01, 1e-9, "c = h");
     for (size_t j = 0; j < sizeof contact_says / sizeof *contact_says; j++) {
@@ -51,9 +50,7 @@ TEST(other_steps_tell_the_same_story)
     rb_rolling_case rc = steel_wheel(100);
     rb_rolling_model model[2];
     rb_rolling_history h[2];
-    rc.formulation = RB_TRANSIENT;
-    rc.force_ratio = -0.64;
-    rc.distance = 0.4;
+    set(&rc, "formulation transient force-ratio -0.64 distance 0.4");
     run(&rc, NULL, &model[0], &h[0]);
     rc.steps = 53;
     run(&rc, NULL, &model[1], &h[1]);
@@ -69,9 +66,7 @@ TEST(other_steps_on_a_wheel)
     rb_rolling_model model;
     rb_rolling_history h;
     double end[3];
-    rc.formulation = RB_TRANSIENT;
-    rc.force_ratio = -0.64;
-    rc.distance = 1.0;
+    set(&rc, "formulation transient force-ratio -0.64 distance 1");
     for (int k = 0; k < 3; k++) {
         rc.steps = k == 0 ? 0 : 17 * (2 * k - 1) + 2; /* h, 1.6 h, 0.57 h */
         run(&rc, NULL, &model, &h);
@@ -87,17 +82,13 @@ TEST(other_steps_on_a_wheel)
 TEST(the_limit_is_the_steady_state)
 {
     for (int dissimilar = 0; dissimilar < 2; dissimilar++) {
-        rb_rolling_case rc = steel_wheel(40);
+        rb_rolling_case rc = with(steel_wheel(40), "formulation transient creep 2e-4 distance 40");
         rb_rolling_model model;
         rb_rolling_history h;
-        OWNED(rb_rolling_solution) steady;
         rc.elastic_b = !dissimilar;
-        rc.formulation = RB_TRANSIENT;
-        rc.creep = 2e-4;
-        rc.distance = 40.0;
         run(&rc, NULL, &model, &h);
         rc.formulation = RB_STEADY;
-        CHECK_OK(rb_rolling_solve(&rc, &steady, NULL));
+        OWNED(rb_rolling_solution) steady = solved(&rc);
         for (int i = 0; i < steady.n; i++)
             CHECK_ABS(model.state.q[i], steady.q[i], 1e-3 * rc.mu * steady.max_pressure,
                       "q, element %d", i);
@@ -111,12 +102,9 @@ TEST(the_limit_is_the_steady_state)
  * rest. */
 TEST(without_friction_all_of_it_is_steady)
 {
-    rb_rolling_case rc = steel_wheel(10);
+    rb_rolling_case rc = with(steel_wheel(10), "formulation transient mu 0 distance 0.5");
     rb_rolling_model model;
     rb_rolling_history h;
-    rc.formulation = RB_TRANSIENT;
-    rc.mu = 0.0;
-    rc.distance = 0.5;
     run(&rc, NULL, &model, &h);
     assert_true(h.n > 2);
     assert_int_equal(h.steady_from, 1);
@@ -156,13 +144,10 @@ TEST(unloading_follows_mindlin_and_deresiewicz)
 TEST(shift_and_force_are_two_sides_of_one_history)
 {
     const double force[] = {0.2, 0.5, 0.3}, load[] = {150.0, 178.0, 160.0};
-    rb_rolling_case rc = steel_wheel(60);
+    rb_rolling_case rc = with(steel_wheel(60), "load nan approach nan zone auto");
     rb_rolling_program program = {.n = 3, .force_ratio = force, .load = load};
     rb_rolling_model model;
     rb_rolling_history by_force, by_shift;
-    rc.load = NAN;
-    rc.approach = NAN;
-    rc.zone = 0.0;
     run(&rc, &program, &model, &by_force);
     rb_rolling_model_free(&model);
     program.force_ratio = NULL;
@@ -181,13 +166,10 @@ TEST(loads_vary_along_the_way)
 {
     const double distance[] = {0.0, 1.0, 2.0}, load[] = {100.0, 178.0, 120.0},
                  creep[] = {1e-4, 2e-4, 1e-4};
-    rb_rolling_case rc = steel_wheel(40);
+    rb_rolling_case rc = with(steel_wheel(40), "formulation transient load nan zone auto");
     const rb_rolling_program program = {.n = 3, .distance = distance, .load = load, .creep = creep};
     rb_rolling_model model;
     rb_rolling_history h;
-    rc.formulation = RB_TRANSIENT;
-    rc.load = NAN;
-    rc.zone = 0.0;
     run(&rc, &program, &model, &h);
     for (int k = 0; k < h.n; k++) {
         const double d = fmin(h.distance[k], 2.0);
@@ -243,13 +225,10 @@ static int stop_at_five(const rb_rolling_model *model, const rb_rolling_history 
 
 TEST(an_interrupted_run_keeps_its_steps)
 {
-    rb_rolling_case rc = steel_wheel(20);
+    rb_rolling_case rc = with(steel_wheel(20), "formulation transient creep 1e-4 distance 2");
     rb_rolling_model model;
     rb_rolling_history h;
     int seen = 0;
-    rc.formulation = RB_TRANSIENT;
-    rc.creep = 1e-4;
-    rc.distance = 2.0;
     CHECK_STATUS(rb_rolling_history_run(&rc, NULL, &(rb_rolling_observer){stop_at_five, &seen},
                                         &model, &h, &heard),
                  RB_INTERRUPTED);
@@ -269,10 +248,9 @@ static void count_history(double creep, double force_ratio, double zone, tally *
     rb_rolling_history h, truth;
     rc.zone = finer.zone = zone * rb_rolling_hertz_half_width(&rc, rc.load);
     finer.contact_elements = 4 * rc.contact_elements;
+    set(&rc, "creep %g force-ratio %g distance 2", creep, force_ratio);
+    set(&finer, "creep %g force-ratio %g distance 2", creep, force_ratio);
     rc.formulation = finer.formulation = RB_TRANSIENT;
-    rc.creep = finer.creep = creep;
-    rc.force_ratio = finer.force_ratio = force_ratio;
-    rc.distance = finer.distance = 2.0;
     CHECK_OK(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &h, NULL));
     rb_rolling_model_free(&model);
     assert_int_equal(h.errors->n, h.n);
@@ -337,12 +315,9 @@ static int stop_in_companion(const rb_rolling_model *model, const rb_rolling_his
 
 TEST(companions_can_be_interrupted)
 {
-    rb_rolling_case rc = steel_wheel(20);
+    rb_rolling_case rc = with(steel_wheel(20), "formulation transient creep 1e-4 distance 1");
     rb_rolling_model model;
     rb_rolling_history h;
-    rc.formulation = RB_TRANSIENT;
-    rc.creep = 1e-4;
-    rc.distance = 1.0;
     CHECK_STATUS(rb_rolling_history_with_errors(
                      &rc, NULL, &(rb_rolling_observer){stop_in_companion, NULL}, &model, &h, NULL),
                  RB_INTERRUPTED);
@@ -354,10 +329,7 @@ TEST(companions_can_be_interrupted)
 TEST(every_failed_allocation_is_reported)
 {
     rb_rolling_case rc = steel_wheel(12);
-    rc.formulation = RB_TRANSIENT;
-    rc.creep = 1e-4;
-    rc.distance = 0.5;
-    rc.steps = 2;
+    set(&rc, "formulation transient creep 1e-4 distance 0.5 steps 2");
     for (int count = 0, refused = 1; refused; count++) {
         rb_rolling_model model;
         rb_rolling_history h;
@@ -376,8 +348,7 @@ TEST(ways_that_lead_nowhere_are_refused)
         rb_rolling_case rc = steel_wheel(20);
         rb_rolling_model model;
         rb_rolling_history h;
-        rc.formulation = RB_TRANSIENT;
-        rc.creep = 1e-4;
+        set(&rc, "formulation transient creep 1e-4");
         rc.distance = distance[k];
         CHECK_SAYS(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &heard), RB_EINVAL,
                    k == 0  ? "distance: expected > 0, got 0"
@@ -412,10 +383,7 @@ TEST(states_are_followed_to_the_same_history)
     OWNED(rb_rolling_states) states = {0};
     rb_rolling_model model, again;
     rb_rolling_history h, followed;
-    rc.formulation = RB_TRANSIENT;
-    rc.creep = 1e-4;
-    rc.distance = 0.5;
-    rc.increments = 2;
+    set(&rc, "formulation transient creep 1e-4 distance 0.5 increments 2");
     run_recorded(&rc, &states, &model, &h);
     CHECK_SAYS(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &heard), RB_EINVAL,
                "half-width 0: expected > 0");
@@ -452,21 +420,13 @@ TEST(states_bring_what_particles_carry)
 {
     for (int k = 0; k < 2; k++) {
         OWNED(rb_rolling_states) states = {0};
-        rb_rolling_case rc = steel_wheel(20);
+        rb_rolling_case rc = with(steel_wheel(20), "formulation transient creep 2e-3 distance 1");
         rb_rolling_model model, again;
         rb_rolling_history h, followed;
-        rc.formulation = RB_TRANSIENT;
-        rc.creep = 2e-3;
-        rc.distance = 1.0;
         if (k == 0) {
-            rc.yield_stress = 8.0;
-            rc.hardening = 20000.0;
-            rc.interlayer_tangential = 3e-6;
+            set(&rc, "yield-stress 8 hardening 20000 interlayer-tangential 3e-6");
         } else {
-            rc.speed = 3000.0;
-            rc.friction.law = RB_FRICTION_rational;
-            rc.friction.fall[0] = 0.1;
-            rc.friction.slip_scale[0] = 20.0;
+            set(&rc, "speed 3000 friction-law rational mu-fall 0.1 slip-scale 20");
             rc.friction.memory = 0.002;
             rc.friction.memory_slip = 1.0;
         }
@@ -493,16 +453,12 @@ TEST(states_bring_what_particles_carry)
  * they follow it, and a creepage that is another one is seen. */
 TEST(states_of_a_ratio_are_followed)
 {
-    rb_rolling_case rc = steel_wheel(20);
+    rb_rolling_case rc = with(steel_wheel(20), "formulation transient load nan approach 6e-3");
     OWNED(rb_rolling_states) states = {0};
     rb_rolling_model model, again;
     rb_rolling_history h, followed;
-    rc.formulation = RB_TRANSIENT;
-    rc.load = NAN;
-    rc.approach = 6e-3;
     rc.b.young *= 0.5; /* dissimilar: the load changes on the way */
-    rc.creep_ratio = 0.5;
-    rc.distance = 0.5;
+    set(&rc, "creep-ratio 0.5 distance 0.5");
     rc.zone *= 2.0;
     run_recorded(&rc, &states, &model, &h);
     states.half_width = h.half_width;
@@ -544,9 +500,7 @@ TEST(friction_between_rows_bounds_the_force)
                  force[] = {0.009 * P, 0.8 * P}, time[] = {0.0, 1.0};
     const rb_rolling_program program = {
         .n = 2, .time = time, .mu = mu, .load = load, .force = force};
-    rc.formulation = RB_STATIC;
-    rc.time_step = 0.25;
-    rc.a.memory = (rb_rolling_memory){1, {1.0}, {1.0}};
+    set(&rc, "formulation static time-step 0.25 relaxation-time 1 relaxation-ratio 1");
     CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &heard), RB_EINVAL);
     print_message("%s\n", heard.text);
     assert_true(h.n > 0);

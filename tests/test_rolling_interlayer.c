@@ -8,19 +8,13 @@
 /* Bodies so stiff that the layer alone gives way: P = 2 a^3/(3 R L_N) with a = 1. */
 static rb_rolling_case brushes(int n, double s)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.a.young = 1e13;
-    rc.a.poisson = 0.5;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.interlayer_normal = 1e-6;
-    rc.interlayer_tangential = 2e-6;
+    rb_rolling_case rc =
+        rolling_case("support halfplane young 1e13 poisson 0.5 gap parabola interlayer-normal 1e-6 "
+                     "interlayer-tangential 2e-6 formulation steady mesh aligned "
+                     "slip-operator second contact-elements %d",
+                     n);
     rc.load = 2.0 / (3.0 * rc.a.radius * rc.interlayer_normal);
     rc.creep = s * rc.mu * rc.interlayer_tangential / (rc.a.radius * rc.interlayer_normal);
-    rc.formulation = RB_STEADY;
-    rc.mesh = RB_MESH_ALIGNED;
-    rc.slip_operator = RB_SLIP_SECOND;
-    rc.contact_elements = n;
     return rc;
 }
 
@@ -52,15 +46,9 @@ TEST(brushes_meet_their_law)
 static rb_rolling_case layered(double lam, int n, double ratio)
 {
     rb_rolling_case rc = half_plane(RB_STEADY, n);
-    rc.a.young = 200000.0;
-    rc.a.poisson = 0.3;
-    on_its_like(&rc);
-    rc.gap = RB_GAP_PARABOLA;
-    rc.half_width = 0.05;
+    set(&rc, "young 200000 poisson 0.3 similar gap parabola half-width 0.05");
     rc.interlayer_tangential = lam * rc.half_width / rb_rolling_derive(&rc).modulus;
-    rc.creep_ratio = ratio;
-    rc.mesh = RB_MESH_ALIGNED;
-    rc.slip_operator = RB_SLIP_SECOND;
+    set(&rc, "creep-ratio %g mesh aligned slip-operator second", ratio);
     return rc;
 }
 
@@ -93,21 +81,16 @@ TEST(formulations_agree)
     rb_rolling_case rc = layered(1.0, 100, 0.5);
     rc.interlayer_normal = 0.5 * rc.interlayer_tangential;
     OWNED(rb_rolling_solution) aligned = solved(&rc);
-    rc.slip_operator = RB_SLIP_UPSTREAM;
-    rc.mesh = RB_MESH_FITTED;
+    set(&rc, "slip-operator upstream mesh fitted");
     OWNED(rb_rolling_solution) fitted = solved(&rc);
     rc.contact.solver = RB_SOLVER_LEMKE;
     OWNED(rb_rolling_solution) lemke = solved(&rc);
     CHECK_REL(fitted.force_ratio, aligned.force_ratio, 2e-3, "fitted");
     CHECK_REL(fitted.max_pressure, aligned.max_pressure, 1e-3, "fitted: p0");
     CHECK_REL(lemke.force_ratio, fitted.force_ratio, 1e-9, "Lemke");
-    rc.contact.solver = RB_SOLVER_NEWTON;
-    rc.mesh = RB_MESH_UNIFORM;
-    rc.creep_ratio = NAN;
-    rc.force_ratio = fitted.force_ratio;
+    set(&rc, "solver newton mesh uniform creep-ratio nan force-ratio %g", fitted.force_ratio);
     OWNED(rb_rolling_solution) uniform = solved(&rc);
-    rc.formulation = RB_TRANSIENT;
-    rc.distance = 4.0;
+    set(&rc, "formulation transient distance 4");
     OWNED(rb_rolling_solution) rolled = solved(&rc);
     CHECK_REL(uniform.creep_ratio, fitted.creep_ratio, 3e-2, "equal elements");
     CHECK_REL(rolled.creep_ratio, uniform.creep_ratio, 5e-3, "a transient's end");

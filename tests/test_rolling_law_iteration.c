@@ -8,8 +8,7 @@
 
 TEST(each_element_has_the_coefficient_of_its_slip)
 {
-    rb_rolling_case rc = falling_case(RB_STEADY, 0.2, 20.0);
-    rc.creep_ratio = 0.7;
+    rb_rolling_case rc = with(falling_case(RB_STEADY, 0.2, 20.0), "creep-ratio 0.7");
     OWNED(rb_rolling_model) model = solved_model(&rc);
     const rb_contact_state *s = &model.state;
     int slides = 0;
@@ -36,8 +35,7 @@ TEST(the_residual_is_that_of_the_law)
     double largest = 0.0;
     for (int k = 0; k < 6; k++) {
         rb_rolling_case rc = falling_case(RB_STEADY, 0.2, 20.0);
-        rc.creep_ratio = 0.2 + 0.15 * k;
-        rc.contact.tol = 1e-3;
+        set(&rc, "creep-ratio %g tol 1e-3", 0.2 + 0.15 * k);
         OWNED(rb_rolling_model) model = solved_model(&rc);
         rb_contact_violation v;
         CHECK_OK(rb_contact_residual(&model.problem, &model.state, &v));
@@ -52,9 +50,7 @@ TEST(the_residual_is_that_of_the_law)
 TEST(warm_elements_have_another_coefficient)
 {
     rb_rolling_case rc = falling_case(RB_STEADY, 0.0, 1.0);
-    rc.creep_ratio = 2.0;
-    rc.heat_a = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5, .temperature = 20.0};
-    rc.heat_b.temperature = 20.0;
+    set(&rc, "creep-ratio 2 conductivity 40 heat-capacity 3.5 temperature 20 temperature-b 20");
     rc.friction.heat = -0.1;
     rc.friction.heat_from = 20.5;
     rc.friction.heat_range = 200.0;
@@ -76,11 +72,8 @@ TEST(after_a_history_its_heat_is_unknown)
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_history) history;
     rb_sensitivity *s;
-    rc.distance = 0.5;
-    rc.steps = 3;
-    rc.creep_ratio = 2.0;
-    rc.heat_a = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5, .temperature = 20.0};
-    rc.heat_b.temperature = 20.0;
+    set(&rc, "distance 0.5 steps 3 creep-ratio 2 conductivity 40 heat-capacity 3.5 temperature 20 "
+             "temperature-b 20");
     rc.friction.heat = -0.1;
     rc.friction.heat_range = 200.0;
     CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &heard));
@@ -129,8 +122,7 @@ TEST(kappa_is_slope_times_answer)
 
 static double force_at(rb_rolling_case rc, double creepage)
 {
-    rc.force = rc.force_ratio = NAN;
-    rc.creep = creepage;
+    set(&rc, "force nan force-ratio nan creep %g", creepage);
     OWNED(rb_rolling_solution) s = solved(&rc);
     return s.tangential_load;
 }
@@ -165,8 +157,7 @@ TEST(forces_are_met_to_a_tenth_of_the_tolerance)
     double worst = 0.0;
     for (int k = 0; k < 25; k++) {
         rb_rolling_case rc = falling_case(RB_STEADY, 0.1, 40.0);
-        rc.contact.tol = 1e-2;
-        rc.force = -5.0 * (k + 0.5);
+        set(&rc, "tol 1e-2 force %g", -5.0 * (k + 0.5));
         OWNED(rb_rolling_model) model = solved_model(&rc);
         const double capacity = rb_contact_capacity(&model.problem, &model.state);
         const double off = fabs(rb_rolling_model_force(&model) - rc.force);
@@ -209,8 +200,7 @@ TEST(the_largest_force_is_that_of_a_scan)
 TEST(a_free_axle_has_no_moment)
 {
     rb_rolling_case rc = falling_case(RB_STEADY, 0.1, 40.0);
-    rc.a.memory = (rb_rolling_memory){1, {2e-4}, {1.0}};
-    rc.free_axle = 1;
+    set(&rc, "relaxation-time 2e-4 relaxation-ratio 1 free-axle");
     OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_ABS(s.tangential_load, -s.resistance_moment / 50.0, 1e-7, "Q = -M/R");
     assert_true(s.resistance_moment > 0.0);
@@ -226,8 +216,7 @@ TEST(steep_laws_are_solved_in_few_steps)
     for (int k = 0; k < 4; k++)
         for (int steady = 0; steady < 2; steady++) {
             rb_rolling_case rc = falling_case(steady ? RB_STEADY : RB_TRANSIENT, 0.2, scale[k]);
-            rc.creep_ratio = 0.6;
-            rc.steps = steady ? 0 : 3;
+            set(&rc, "creep-ratio 0.6 steps %d", steady ? 0 : 3);
             OWNED(rb_rolling_solution) s = solved(&rc);
             print_message("# kappa %g: %d iterations\n", s.kappa, s.iterations);
             CHECK_MAX(s.residual, 1e-10, "scale %g", scale[k]);
@@ -240,17 +229,11 @@ TEST(steep_laws_are_solved_in_few_steps)
 TEST(newtons_method_needs_few_contact_problems)
 {
     for (int k = 1; k <= 3; k += 2) {
-        rb_rolling_case rc = falling_case(RB_STEADY, 0.12, 4.8 / k);
-        rc.a.young = 2.0 * 82000.0 * 1.28;
-        rc.a.poisson = 0.28;
-        rc.a.radius = 460.0;
+        rb_rolling_case rc = with(falling_case(RB_STEADY, 0.12, 4.8 / k),
+                                  "young %g poisson 0.28 radius 460 mu 0.18 load 3111.08 speed "
+                                  "45000 creep -0.002 contact-elements 60 mesh fitted",
+                                  2.0 * 82000.0 * 1.28);
         rc.elastic_b = 0;
-        rc.mu = 0.18;
-        rc.load = 3111.08;
-        rc.speed = 45000.0;
-        rc.creep = -0.002;
-        rc.contact_elements = 60;
-        rc.mesh = RB_MESH_FITTED;
         OWNED(rb_rolling_model) model = solved_model(&rc);
         double kappa;
         CHECK_OK(rb_rolling_law_kappa(&model, &kappa));
@@ -267,8 +250,7 @@ TEST(all_solutions_of_one_are_one)
 {
     rb_rolling_case rc = falling_case(RB_STEADY, 0.1, 200.0);
     rb_rolling_solutions all;
-    rc.contact_elements = 12;
-    rc.creep_ratio = 0.5;
+    set(&rc, "contact-elements 12 creep-ratio 0.5");
     OWNED(rb_rolling_model) model = solved_model(&rc);
     int touch = 0;
     for (int i = 0; i < model.state.n; i++)
@@ -295,8 +277,7 @@ TEST(starts_that_fail_are_counted)
 {
     rb_rolling_case rc = falling_case(RB_STEADY, 0.1, 200.0);
     OWNED(rb_rolling_solutions) all;
-    rc.contact_elements = 6;
-    rc.creep_ratio = 0.5;
+    set(&rc, "contact-elements 6 creep-ratio 0.5");
     OWNED(rb_rolling_model) model = solved_model(&rc);
     case_of_model(&model)->contact.tol = 1e-300; /* rounding leaves more */
     model.problem.rounding = 0.0;
@@ -309,9 +290,8 @@ TEST(starts_that_fail_are_counted)
 /* Each differs from the others, the largest force first, and is proven. */
 TEST(several_solutions_are_told_apart)
 {
-    rb_rolling_case rc = falling_case(RB_STEADY, 0.2, 0.2);
+    rb_rolling_case rc = with(falling_case(RB_STEADY, 0.2, 0.2), "creep-ratio 0.3");
     OWNED(rb_rolling_solutions) all;
-    rc.creep_ratio = 0.3;
     OWNED(rb_rolling_model) model = solved_model(&rc);
     CHECK_OK(rb_rolling_find_solutions(&model, &all, NULL));
     assert_true(all.n >= 2);
@@ -335,8 +315,7 @@ TEST(forces_that_only_great_speed_reaches_are_refused)
     rb_rolling_case rc = falling_case(RB_STEADY, -0.1, 40.0);
     OWNED(rb_rolling_solution) s;
     double told = 0.0, at = 0.0;
-    rc.friction.law = RB_FRICTION_rational;
-    rc.force = -100.0 * (1.0 - 1e-12);
+    set(&rc, "friction-law rational force %g", -100.0 * (1.0 - 1e-12));
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL);
     const char *from = strstr(heard.text, "the largest is ");
     assert_non_null(from);
@@ -355,8 +334,7 @@ TEST(the_way_to_a_force_may_have_no_memory)
     for (int count = 40; count < 8000; count = count * 6 / 5) {
         rb_rolling_case rc = falling_case(RB_STEADY, 0.2, 4.0);
         OWNED(rb_rolling_solution) s;
-        rc.contact_elements = 8;
-        rc.force = -199.0;
+        set(&rc, "contact-elements 8 force -199");
         alloc_fail_after(count);
         const rb_status status = rb_rolling_solve(&rc, &s, NULL);
         const int failed = alloc_failed();
@@ -369,11 +347,10 @@ TEST(the_way_to_a_force_may_have_no_memory)
 
 TEST(kappa_of_no_pressure_is_nothing)
 {
-    rb_rolling_case rc = falling_case(RB_TRANSIENT, 0.2, 20.0);
+    rb_rolling_case rc = with(falling_case(RB_TRANSIENT, 0.2, 20.0), "creep-ratio 0.5");
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_solution) s;
     double kappa;
-    rc.creep_ratio = 0.5;
     CHECK_OK(rb_rolling_solve_model(&rc, &model, &s, NULL));
     memset(model.state.p, 0, (size_t)model.state.n * sizeof *model.state.p);
     CHECK_OK(rb_rolling_law_kappa(&model, &kappa));
@@ -397,8 +374,7 @@ TEST(steps_may_start_elsewhere)
 {
     const double x[] = {-1.0, 1.0}, y[] = {0.2, 0.3};
     const rb_rolling_table start = {2, x, y};
-    rb_rolling_case rc = falling_case(RB_TRANSIENT, 0.1, 200.0);
-    rc.creep_ratio = 0.5;
+    rb_rolling_case rc = with(falling_case(RB_TRANSIENT, 0.1, 200.0), "creep-ratio 0.5");
     OWNED(rb_rolling_solution) s = first_step(&rc, NULL), t = first_step(&rc, &start);
     CHECK_REL(t.tangential_load, s.tangential_load, 1e-8, "Q");
 }
@@ -408,8 +384,7 @@ TEST(a_step_finds_the_solution_of_its_start)
 {
     const double x[] = {-1.0, 1.0}, y[] = {0.2, 0.2};
     const rb_rolling_table start = {2, x, y};
-    rb_rolling_case rc = falling_case(RB_TRANSIENT, 0.2, 0.05);
-    rc.creep_ratio = 2.0;
+    rb_rolling_case rc = with(falling_case(RB_TRANSIENT, 0.2, 0.05), "creep-ratio 2");
     OWNED(rb_rolling_solution) s = first_step(&rc, NULL), t = first_step(&rc, &start);
     CHECK_MAX(s.residual, 1e-10, "from rest");
     CHECK_MAX(t.residual, 1e-10, "from little friction");

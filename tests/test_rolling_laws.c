@@ -12,14 +12,8 @@ static rb_rolling_case rail(double slip_scale)
                              .poisson = 0.28,
                              .radius = 460.0,
                              .support = RB_BEM_HALFPLANE};
-    on_its_like(&rc);
-    rc.load = 3111.08;
-    rc.formulation = RB_STEADY;
-    rc.creep = 0.0009999;
-    rc.speed = 45000.0;
-    rc.contact_elements = 93;
-    rc.zone = 4.65;
-    rc.mu = 0.18;
+    set(&rc, "similar load 3111.08 formulation steady creep 0.0009999 speed 45000 "
+             "contact-elements 93 zone 4.65 mu 0.18");
     rc.friction = (rb_rolling_friction){.law = RB_FRICTION_exponential,
                                         .fall = {0.12, 0.0},
                                         .slip_scale = {slip_scale, slip_scale}};
@@ -90,17 +84,16 @@ TEST(coefficients_follow_from_the_slip)
             for (int memory = 0; memory < 2; memory++) {
                 char what[80];
                 rb_rolling_case rc = rail(100.0);
+                set(&rc, "zone %g slip-operator %s contact-elements %d", mesh == 0 ? 4.65 : 0.0,
+                    mesh == 2 ? "second" : "upstream", mesh == 3 ? 1501 : 60);
                 rc.friction.law = laws[k];
                 rc.friction.fall[1] = 0.05;
                 rc.friction.slip_scale[1] = 60.0;
                 rc.friction.memory = memory ? 0.002 : 0.0;
                 rc.friction.memory_slip = memory ? 1.0 : 0.0;
-                rc.zone = mesh == 0 ? 4.65 : 0.0;
                 rc.mesh = mesh == 1   ? RB_MESH_FITTED
                           : mesh == 2 ? RB_MESH_ALIGNED
                                       : RB_MESH_UNIFORM;
-                rc.slip_operator = mesh == 2 ? RB_SLIP_SECOND : RB_SLIP_UPSTREAM;
-                rc.contact_elements = mesh == 3 ? 1501 : 60;
                 if (mesh == 3 && (k > 0 || memory))
                     continue;
                 OWNED(rb_rolling_model) model = solved_model(&rc);
@@ -113,8 +106,7 @@ TEST(coefficients_follow_from_the_slip)
 TEST(ratios_refer_to_the_largest_coefficient)
 {
     rb_rolling_case rc = rail(100.0);
-    OWNED(rb_rolling_solution) s;
-    CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+    OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_REL(s.force_ratio, s.tangential_load / (0.3 * s.normal_load), 1e-12, "ratio");
     CHECK_REL(s.creep_ratio, rc.creep * 460.0 / (0.3 * s.hertz_half_width), 1e-12, "creep ratio");
     CHECK_REL(s.mu[s.n - 1], 0.3, 1e-14, "mu at rest");
@@ -131,10 +123,9 @@ TEST(the_rail_case_is_met)
                         want[] = {0.59433, 0.59814, 0.60199, 0.61158, 0.61996};
     for (int k = 0; k < 5; k++) {
         rb_rolling_case rc = rail(100.0);
-        OWNED(rb_rolling_solution) s;
         rc.friction.memory = memory[k];
         rc.friction.memory_slip = 1.0;
-        CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_ABS(-s.force_ratio, want[k], 1e-5, "memory %g", memory[k]);
         CHECK_MAX(s.residual, 1e-10, "memory %g", memory[k]);
         if (k == 0) {
@@ -183,9 +174,7 @@ TEST(curves_have_two_branches)
         OWNED(rb_rolling_curve) c;
         double widest = 0.0;
         if (k >= 6) {
-            rc.zone = 0.0;
-            rc.mesh = RB_MESH_FITTED;
-            rc.contact_elements = 60;
+            set(&rc, "zone auto mesh fitted contact-elements 60");
         }
         rc.creep = NAN;
         CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_CREEP, 0.0, 0.003, POINTS},
@@ -216,9 +205,7 @@ TEST(one_element_more_may_stick)
     for (int k = 0; k < (getenv("ROLLBEM_TEST_ALL") ? 2 : 1); k++) {
         rb_rolling_case rc = rail(17.6); /* kappa = 0.97 */
         OWNED(rb_rolling_solutions) found;
-        rc.contact_elements = 93 * (k + 1);
-        rc.creep = creep[k];
-        rc.contact.tol = 1e-12;
+        set(&rc, "contact-elements %d creep %g tol 1e-12", 93 * (k + 1), creep[k]);
         OWNED(rb_rolling_model) model = solved_model(&rc);
         rb_contact_violation middle;
         CHECK_OK(rb_rolling_find_solutions(&model, &found, &heard));
@@ -247,12 +234,9 @@ TEST(steep_laws_are_solved)
         rb_rolling_case rc = rail(4.8 / (1 + k % 3)); /* kappa = 2.5 ... 7.5 */
         double kappa;
         char what[40];
+        set(&rc, "zone auto mesh fitted contact-elements 60 creep -0.002");
         rc.friction.law = laws[k / 3];
         rc.elastic_b = 0;
-        rc.zone = 0.0;
-        rc.mesh = RB_MESH_FITTED;
-        rc.contact_elements = 60;
-        rc.creep = -0.002;
         OWNED(rb_rolling_model) model = solved_model(&rc);
         CHECK_OK(rb_rolling_law_kappa(&model, &kappa));
         assert_true(kappa > 1.5);
@@ -265,19 +249,14 @@ TEST(steep_laws_are_solved)
  * step 19 here ended after 2000 rounds. */
 TEST(short_steps_are_solved)
 {
-    rb_rolling_case rc = rail(500.0);
+    rb_rolling_case rc = with(rail(500.0), "load 12500");
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_history) h;
-    rc.load = 12500.0;
     rc.a.young = rc.b.young = 210000.0;
-    rc.a.poisson = rc.b.poisson = 0.3;
-    rc.formulation = RB_TRANSIENT;
-    rc.creep = NAN;
-    rc.force_ratio = -0.5;
-    rc.zone = 0.0;
-    rc.contact_elements = 1500;
-    rc.distance = 19.0 * 0.2 / 116.0;
-    rc.steps = 19;
+    set(&rc,
+        "poisson 0.3 poisson-b 0.3 formulation transient creep nan force-ratio -0.5 zone auto "
+        "contact-elements 1500 distance %g steps 19",
+        19.0 * 0.2 / 116.0);
     CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &heard));
     assert_int_equal(h.n, 20);
     check_state(&model, NULL, "the last step");
@@ -291,14 +270,10 @@ TEST(short_steps_are_solved)
  * the branch goes on from the coefficients before. */
 TEST(branches_outlive_their_mesh)
 {
-    rb_rolling_case rc = rail(2.0);
+    rb_rolling_case rc = with(rail(2.0), "zone auto mesh fitted contact-elements 60 creep nan");
     OWNED(rb_rolling_curve) c;
     double widest = 0.0;
     rc.elastic_b = 0;
-    rc.zone = 0.0;
-    rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = 60;
-    rc.creep = NAN;
     CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_CREEP, -0.003, 0.003, 13}, &c,
                                     &heard));
     for (int i = 0; i < c.n; i++) {
@@ -339,10 +314,8 @@ TEST(all_solutions_are_found)
             check_state(&model, NULL, "one of all");
         }
     }
-    rb_rolling_case rc = rail(10.0);
+    rb_rolling_case rc = with(rail(10.0), "creep nan force-ratio -0.2");
     OWNED(rb_rolling_solutions) none;
-    rc.creep = NAN;
-    rc.force_ratio = -0.2;
     OWNED(rb_rolling_model) model = solved_model(&rc);
     CHECK_SAYS(rb_rolling_find_solutions(&model, &none, &heard), RB_EINVAL, "at a given creepage");
 }
@@ -352,17 +325,13 @@ TEST(all_solutions_are_found)
 TEST(a_force_is_met_on_the_rising_branch)
 {
     for (int k = 0; k < 5; k++) {
-        rb_rolling_case rc = rail(100.0);
-        OWNED(rb_rolling_solution) s;
-        rc.creep = NAN;
-        rc.force_ratio = k < 2 ? -0.7 : NAN;
+        rb_rolling_case rc = with(rail(100.0), "creep nan force-ratio %g", k < 2 ? -0.7 : NAN);
         rc.force = k == 2 ? 600.0 : k == 3 ? -750.0 : NAN;
         rc.free_axle = k == 4;
         if (k == 1) { /* P is not known beforehand */
-            rc.load = NAN;
-            rc.approach = 0.09;
+            set(&rc, "load nan approach 0.09");
         }
-        CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_MAX(s.residual, 1e-10, "case %d", k);
         if (k < 2)
             CHECK_ABS(s.force_ratio, -0.7, 1e-9, "ratio, case %d", k);
@@ -372,9 +341,8 @@ TEST(a_force_is_met_on_the_rising_branch)
             CHECK_ABS(s.tangential_load, -s.resistance_moment / 460.0, 1e-7, "axle");
         assert_true(s.creepage * s.tangential_load <= 0.0);
         assert_true(fabs(s.creepage) < 0.0021); /* where the force is the largest */
-        rc.force = rc.force_ratio = NAN;
+        set(&rc, "force nan force-ratio nan creep %g", s.creepage);
         rc.free_axle = 0;
-        rc.creep = s.creepage;
         CHECK_ABS(ratio_of(&rc), s.force_ratio, 1e-8, "the same by its creepage, %d", k);
     }
 }
@@ -384,26 +352,14 @@ TEST(a_force_is_met_on_the_rising_branch)
 static rb_rolling_case wheel_on_layer(void)
 {
     static const double worn_x[] = {-0.9, -0.3, 0.2, 0.8}, worn_depth[] = {0.0, 2e-4, 3e-4, 0.0};
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HUB;
-    rc.b.support = RB_BEM_HALFPLANE;
-    rc.b.young = 200000.0;
-    rc.b.poisson = 0.28;
-    rc.b.radius = 80.0;
-    rc.b.layer = 2.0;
-    rc.elastic_b = 1;
-    rc.formulation = RB_STEADY;
-    rc.gap = RB_GAP_PARABOLA;
+    rb_rolling_case rc =
+        rolling_case("support hub support-b halfplane young-b 200000 poisson-b 0.28 radius-b 80 "
+                     "layer-thickness-b 2 formulation steady gap parabola");
     rc.worn.n = 4;
     rc.worn.x = worn_x;
     rc.worn.y = worn_depth;
-    rc.normals = RB_BEM_NORMALS_OBSTACLE;
-    rc.near_field = RB_NEAR_FIELD_PLAIN;
-    rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = 40;
-    rc.half_width = 1.0;
-    rc.speed = 3000.0;
-    rc.mu = 3.0;
+    set(&rc, "normals obstacle near-field plain mesh fitted contact-elements 40 half-width 1 "
+             "speed 3000 mu 3");
     rc.friction = (rb_rolling_friction){
         .law = RB_FRICTION_rational, .fall = {0.1, 0.05}, .slip_scale = {20.0, 5.0}};
     return rc;
@@ -414,12 +370,9 @@ TEST(a_force_is_met_between_states_of_one_creepage)
 {
     for (int k = 0; k < 4; k++) {
         double Q = 0.0, kappa;
-        rb_rolling_case rc = wheel_on_layer();
-        rc.force = k < 3 ? 160.0 + 20.0 * k : NAN;
+        rb_rolling_case rc = with(wheel_on_layer(), "force %g", k < 3 ? 160.0 + 20.0 * k : NAN);
         if (k == 3) {
-            rc.half_width = NAN;
-            rc.approach = 0.0588;
-            rc.force_ratio = 0.034;
+            set(&rc, "half-width nan approach 0.0588 force-ratio 0.034");
         }
         rb_rolling_model model = solved_model(&rc);
         const double xi = model.state.xi;
@@ -436,8 +389,7 @@ TEST(a_force_is_met_between_states_of_one_creepage)
         rb_rolling_model_free(&model);
         for (int side = -1; side <= 1; side += 2) { /* it grows there */
             rb_rolling_case near = rc;
-            near.force = near.force_ratio = NAN;
-            near.creep = (1.0 + 0.01 * side) * xi;
+            set(&near, "force nan force-ratio nan creep %g", (1.0 + 0.01 * side) * xi);
             model = solved_model(&near);
             assert_true(side * (rb_rolling_model_force(&model) - Q) > 0.0);
             rb_rolling_model_free(&model);
@@ -447,11 +399,9 @@ TEST(a_force_is_met_between_states_of_one_creepage)
 
 TEST(the_largest_force_is_told)
 {
-    rb_rolling_case rc = rail(100.0);
+    rb_rolling_case rc = with(rail(100.0), "creep nan force -800");
     OWNED(rb_rolling_model) model;
     double force, at;
-    rc.creep = NAN;
-    rc.force = -800.0;
     CHECK_STATUS(rb_rolling_model_create(&rc, &model, &heard), RB_EINVAL);
     const char *largest = strstr(heard.text, "the largest is ");
     assert_non_null(largest);
@@ -472,26 +422,19 @@ TEST(the_largest_force_is_told)
  * the falling branch of the other direction, where the search for a force begins. */
 TEST(a_force_is_met_from_beyond_free_rolling)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.poisson = 0.0;
+    rb_rolling_case rc = rolling_case("poisson 0");
     rc.b = (rb_rolling_body){
         .young = 900000.0, .poisson = -0.5, .radius = INFINITY, .support = RB_BEM_HALFPLANE};
+    set(&rc, "approach 0.01 formulation steady mesh fitted slip-operator upstream "
+             "contact-elements 100 speed 1000 force-ratio 0.9");
     rc.elastic_b = 1;
-    rc.approach = 0.01;
-    rc.formulation = RB_STEADY;
-    rc.mesh = RB_MESH_FITTED;
-    rc.slip_operator = RB_SLIP_UPSTREAM;
-    rc.contact_elements = 100;
-    rc.speed = 1000.0;
     rc.friction = (rb_rolling_friction){
         .law = RB_FRICTION_exponential, .fall = {0.2, 0.0}, .slip_scale = {5.0, 5.0}};
-    rc.force_ratio = 0.9;
     rb_rolling_model model = solved_model(&rc);
     CHECK_REL(rb_rolling_force_ratio(&model), 0.9, 1e-9, "force");
     const double creepage = model.state.xi, Q = rb_rolling_model_force(&model);
     rb_rolling_model_free(&model);
-    rc.force_ratio = NAN;
-    rc.creep = creepage;
+    set(&rc, "force-ratio nan creep %g", creepage);
     model = solved_model(&rc);
     CHECK_REL(rb_rolling_model_force(&model), Q, 1e-3, "at that creepage");
     rb_rolling_model_free(&model);
@@ -533,8 +476,7 @@ TEST(steps_remember_their_friction)
         rc.friction.memory = memory ? 0.003 : 0.0;
         rc.friction.memory_slip = 1.0;
         const double steady = ratio_of(&rc);
-        rc.formulation = RB_TRANSIENT;
-        rc.distance = 6.0;
+        set(&rc, "formulation transient distance 6");
         rc.a.datum = rc.b.datum = 10.0; /* stiff, so that it is steady soon */
         CHECK_OK(rb_rolling_history_run(&rc, NULL, &(rb_rolling_observer){see_step, &seen}, &model,
                                         &history, &heard));
@@ -549,14 +491,10 @@ TEST(steps_remember_their_friction)
 static rb_rolling_case on_its_way(int coupled, rb_rolling_formulation formulation)
 {
     rb_rolling_case rc = rail(100.0);
+    set(&rc, "creep nan zone auto contact-elements 40 mu 0.2 datum 10 datum-b 10");
     rc.friction = (rb_rolling_friction){.law = RB_FRICTION_constant};
     rc.formulation = formulation;
     rc.elastic_b = !coupled;
-    rc.creep = NAN;
-    rc.zone = 0.0;
-    rc.contact_elements = 40;
-    rc.mu = 0.2;
-    rc.a.datum = rc.b.datum = 10.0;
     return rc;
 }
 
@@ -703,10 +641,9 @@ TEST(friction_that_has_changed_becomes_steady)
 {
     static const double mu[] = {0.3, 0.3, 0.15, 0.15}, distance[] = {0.0, 1.0, 1.01, 12.0};
     for (int falls = 0; falls < 2; falls++) {
-        rb_rolling_case rc = on_its_way(0, RB_TRANSIENT);
+        rb_rolling_case rc = with(on_its_way(0, RB_TRANSIENT), "creep 0.0008");
         const rb_rolling_program program = {.n = 4, .distance = distance, .mu = mu};
         OWNED(rb_rolling_model) model;
-        rc.creep = 0.0008;
         if (falls)
             rc.friction = (rb_rolling_friction){.law = RB_FRICTION_exponential,
                                                 .fall = {0.05, 0.0},
@@ -714,11 +651,8 @@ TEST(friction_that_has_changed_becomes_steady)
                                                 .memory = 0.003,
                                                 .memory_slip = 1.0};
         OWNED(rb_rolling_history) h = run_of(&rc, &program, NULL, NULL, &model);
-        rc.mu = 0.15;
-        rc.formulation = RB_STEADY;
-        rc.mesh = RB_MESH_UNIFORM;
-        rc.zone = model.mesh.ends[model.mesh.n];
-        rc.contact_elements = model.mesh.n;
+        set(&rc, "mu 0.15 formulation steady mesh uniform zone %g contact-elements %d",
+            model.mesh.ends[model.mesh.n], model.mesh.n);
         OWNED(rb_rolling_solution) steady = solved(&rc);
         CHECK_REL(h.tangential_load[h.n - 1], steady.tangential_load, 1e-3, "force");
         CHECK_REL(h.force_ratio[h.n - 1], steady.force_ratio, 1e-3, "ratio");
@@ -798,16 +732,12 @@ TEST(a_step_has_two_starts)
 
 static rb_rolling_case warm(double creep_ratio)
 {
-    rb_rolling_case rc = rail(100.0);
+    rb_rolling_case rc = with(rail(100.0),
+                              "load nan creep nan half-width 6 zone auto mesh fitted "
+                              "contact-elements 60 creep-ratio %g mu 0.3",
+                              creep_ratio);
     const rb_rolling_heat steel = {50.0, 3.5, 20.0};
-    rc.load = rc.creep = NAN;
-    rc.half_width = 6.0;
-    rc.zone = 0.0;
-    rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = 60;
-    rc.creep_ratio = creep_ratio;
     rc.heat_a = rc.heat_b = steel;
-    rc.mu = 0.3;
     rc.friction = (rb_rolling_friction){
         .law = RB_FRICTION_constant, .heat = -0.18, .heat_from = 20.0, .heat_range = 400.0};
     return rc;
@@ -819,10 +749,9 @@ TEST(warm_surfaces_have_another_friction)
     static const double ratio[] = {0.5, 2.0, 8.0};
     for (int k = 0; k < 6; k++) {
         rb_rolling_case rc = warm(ratio[k % 3]);
-        OWNED(rb_rolling_solution) s;
         if (k >= 3)
             rc.friction.heat = 0.2;
-        CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_MAX(s.residual, 1e-10, "case %d", k);
         assert_true(s.max_temperature > 25.0);
         for (int i = 0; i < s.n; i++) {
@@ -839,14 +768,12 @@ TEST(warm_surfaces_have_another_friction)
 /* Far along the way the steps are as warm as steady rolling. */
 TEST(steps_become_warm)
 {
-    rb_rolling_case rc = warm(2.0);
+    rb_rolling_case rc = with(warm(2.0), "mesh uniform");
     rb_rolling_solution s;
-    rc.mesh = RB_MESH_UNIFORM;
     CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
     const double steady = s.force_ratio;
     rb_rolling_solution_free(&s);
-    rc.formulation = RB_TRANSIENT;
-    rc.distance = 4.0;
+    set(&rc, "formulation transient distance 4");
     CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
     CHECK_ABS(s.force_ratio, steady, 2e-3, "transient");
     for (int i = 0; i < s.n; i++) {
@@ -862,15 +789,12 @@ TEST(steps_become_warm)
 TEST(heat_changes_no_force_at_rest)
 {
     for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = warm(NAN);
-        OWNED(rb_rolling_solution) s;
-        rc.formulation = RB_STATIC;
-        rc.mesh = RB_MESH_UNIFORM;
-        rc.heat_a.conductivity = rc.heat_b.conductivity = 0.0;
+        rb_rolling_case rc = with(warm(NAN),
+                                  "formulation static mesh uniform conductivity none "
+                                  "conductivity-b 0 force %g force-ratio %g",
+                                  k == 0 ? 500.0 : NAN, k == 0 ? NAN : 0.4);
         rc.friction.heat = 0.2;
-        rc.force = k == 0 ? 500.0 : NAN;
-        rc.force_ratio = k == 0 ? NAN : 0.4;
-        CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_REL(s.tangential_load, k == 0 ? 500.0 : 0.4 * 0.3 * s.normal_load, 1e-9,
                   "force, case %d", k);
     }
@@ -885,8 +809,7 @@ static void refused(const rb_rolling_case *rc, const char *says)
 
 TEST(bad_laws_are_refused)
 {
-    rb_rolling_case rc = rail(100.0);
-    rc.friction.fall[0] = -0.2;
+    rb_rolling_case rc = with(rail(100.0), "mu-fall -0.2");
     refused(&rc, "expected mu >= 0 everywhere, got -0.02");
     rc = rail(-1.0);
     refused(&rc, "slip-scale: expected a number > 0");

@@ -1,6 +1,7 @@
 /* The matrices of (K4), (K5) and (K6) against the equations they stand for: for any z, Mz
  * + b must be the gap, the slip, the friction margins and the missing forces of the
  * tractions that z means. */
+#include "cases.h"
 #include "check.h"
 #include "rollbem/rolling.h"
 
@@ -9,10 +10,7 @@ static rb_rolling_model dissimilar_model(int load_given, int force_given)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rb_rolling_model model;
-    rc.a.poisson = 0.2;
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.formulation = RB_STEADY;
-    rc.contact_elements = 14;
+    set(&rc, "poisson 0.2 support halfplane formulation steady contact-elements 14");
     if (load_given)
         rc.half_width = 1e-2 * rc.a.radius;
     else
@@ -129,8 +127,7 @@ TEST(pivots_tell_their_attempt)
         OWNED(rb_rolling_model) model = dissimilar_model(0, 0);
         rb_rolling_case rc = *model.rc;
         int attempt = -1;
-        rc.contact.solver = RB_SOLVER_LEMKE;
-        rc.contact.lcp_form = kwak ? RB_LCP_KWAK : RB_LCP_PIVOTED;
+        set(&rc, "solver lemke lcp-form %s", kwak ? "kwak" : "pivoted");
         model.problem.pivot_trace = keep_attempt;
         model.problem.trace_context = &attempt;
         CHECK_OK(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, NULL));

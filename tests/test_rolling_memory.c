@@ -3,6 +3,7 @@
 #include "cases.h"
 #include "check.h"
 #include "rollbem/rolling.h"
+#include "solved.h"
 
 #include <gsl/gsl_math.h>
 
@@ -28,17 +29,12 @@ static void check_energy(const rb_rolling_case *rc, const rb_rolling_solution *s
 /* A frictionless cylinder R = 100 with a_g = 1 on a rigid plane, one relaxation time. */
 static rb_rolling_case hunter(double f, double length, int n)
 {
-    rb_rolling_case rc = half_plane(RB_STEADY, n);
-    rc.a.radius = 100.0;
-    rc.a.young = 1000.0;
-    rc.a.poisson = 0.3;
+    rb_rolling_case rc =
+        rolling_case("support halfplane formulation steady contact-elements %d radius 100 "
+                     "young 1000 poisson 0.3 speed 1 half-width 1 gap parabola mu 0 creep 0 "
+                     "mesh fitted",
+                     n);
     rc.a.memory = (rb_rolling_memory){1, {length}, {f}};
-    rc.speed = 1.0;
-    rc.half_width = 1.0;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.mu = 0.0;
-    rc.creep = 0.0;
-    rc.mesh = RB_MESH_FITTED;
     return rc;
 }
 
@@ -60,9 +56,8 @@ TEST(hunters_solution_is_met)
 {
     for (int k = 0; k < 8; k++) {
         const double *row = rows[k];
-        OWNED(rb_rolling_solution) s;
         rb_rolling_case rc = hunter(row[0], row[1], 200);
-        CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
+        OWNED(rb_rolling_solution) s = solved(&rc);
         const double E = rc.a.young / (1.0 - gsl_pow_2(rc.a.poisson));
         const double a = 0.5 * (row[2] - row[3]);
         CHECK_ABS(s.contact_to, row[2], 1e-3 * a, "row %d: leading edge", k);
@@ -84,10 +79,9 @@ TEST(the_moment_is_of_second_order)
         const double *want = rows[k / 2];
         double error[2];
         for (int j = 0; j < 2; j++) {
-            OWNED(rb_rolling_solution) s;
             rb_rolling_case rc = hunter(want[0], want[1], coarse[k / 2] << 2 * j);
             rc.mesh = k % 2 ? RB_MESH_ALIGNED : RB_MESH_FITTED;
-            CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+            OWNED(rb_rolling_solution) s = solved(&rc);
             error[j] = fabs(s.resistance_moment / s.normal_load - want[5]);
         }
         CHECK_ABS(error[1], 0.0, error[0] / 16.0 + 6e-8, "row %d, mesh %d", k / 2, k % 2);
@@ -100,10 +94,8 @@ static void choose_solver(int k, rb_rolling_case *rc)
 {
     if (k == 4)
         return;
-    rc->mesh = RB_MESH_UNIFORM;
-    rc->zone = 2.5;
-    rc->contact.solver = k < 2 ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON;
-    rc->contact.lcp_form = k == 1 ? RB_LCP_KWAK : RB_LCP_PIVOTED;
+    set(rc, "mesh uniform zone 2.5 solver %s lcp-form %s", k < 2 ? "lemke" : "newton",
+        k == 1 ? "kwak" : "pivoted");
     if (k == 3)
         rc->contact_elements = 1600;
 }
@@ -113,13 +105,9 @@ TEST(a_free_axle_is_turned_by_friction)
 {
     double xi[5];
     for (int k = 0; k < 5; k++) {
-        OWNED(rb_rolling_solution) s;
-        rb_rolling_case rc = hunter(2.0, 0.8, 60);
-        rc.mu = 0.3;
-        rc.creep = NAN;
-        rc.free_axle = 1;
+        rb_rolling_case rc = with(hunter(2.0, 0.8, 60), "mu 0.3 creep nan free-axle");
         choose_solver(k, &rc);
-        CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_ABS(s.tangential_load, -moment_of(&s) / rc.a.radius, 1e-10 * rc.mu * s.normal_load,
                   "solver %d: Q = -M/R", k);
         if (k > 2)
@@ -137,18 +125,12 @@ TEST(a_free_axle_is_turned_by_friction)
 TEST(only_the_axle_of_a_is_free)
 {
     for (int k = 0; k < 4; k++) {
-        OWNED(rb_rolling_solution) s;
         OWNED(rb_rolling_curve) c;
         rb_rolling_case rc = hunter(2.0, 0.8, 60);
         const double R = k % 2 ? 20.0 : 500.0;
         const rb_rolling_range range = {RB_OVER_SPEED, 1.0, 2.0, 2};
-        rc.mu = 0.3;
-        rc.creep = NAN;
-        rc.free_axle = 1;
-        rc.elastic_b = 1;
-        rc.b.young = k < 2 ? 1e5 : 1000.0;
-        rc.b.radius = R;
-        CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
+        set(&rc, "mu 0.3 creep nan free-axle young-b %g radius-b %g", k < 2 ? 1e5 : 1000.0, R);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         const double M = moment_of(&s), Q = s.tangential_load;
         CHECK_MAX(-M, 0.0, "case %d: it resists", k);
         CHECK_ABS(s.torque_a, 0.0, 1e-10 * s.normal_load * rc.a.radius, "case %d: A", k);
@@ -196,9 +178,8 @@ TEST(speed_has_its_limits)
 {
     const double f = 3.0;
     for (int fast = 0; fast < 2; fast++) {
-        OWNED(rb_rolling_solution) s;
         rb_rolling_case rc = hunter(f, fast ? 1e5 : 1e-5, 100);
-        CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+        OWNED(rb_rolling_solution) s = solved(&rc);
         const double wide = fast ? 1.0 : sqrt(1.0 + f);
         CHECK_REL(s.half_width, wide, 1e-3, "fast %d", fast);
         CHECK_REL(s.max_pressure, 2.0 * s.normal_load / (M_PI * wide), 2e-3, "fast %d", fast);
@@ -218,20 +199,13 @@ typedef struct {
 
 static rb_rolling_case two_cylinders(double tau)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = rc.b.support = RB_BEM_HALFPLANE;
-    rc.a.radius = rc.b.radius = 100.0;
-    rc.a.young = 2.0 * 1143.0 * 1.4;
-    rc.a.poisson = 0.4;
-    rc.a.datum = 1000.0;
+    rb_rolling_case rc = rolling_case("support halfplane radius 100 young %g poisson 0.4 "
+                                      "datum 1000 speed 1000 load 600 force-ratio -0.6 "
+                                      "gap parabola formulation steady",
+                                      2.0 * 1143.0 * 1.4);
     rc.a.memory = (rb_rolling_memory){1, {tau}, {1.0}};
     rc.b = rc.a;
     rc.elastic_b = 1;
-    rc.speed = 1000.0;
-    rc.load = 600.0;
-    rc.force_ratio = -0.6;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.formulation = RB_STEADY;
     return rc;
 }
 
@@ -283,8 +257,7 @@ static rb_rolling_case layered(double thickness, double nu, int n)
 {
     rb_rolling_case rc = hunter(0.0, 1.0, n);
     rc.a.memory.n = 0;
-    rc.a.poisson = nu;
-    rc.a.layer = thickness;
+    set(&rc, "poisson %g layer-thickness %g", nu, thickness);
     return rc;
 }
 
@@ -295,9 +268,8 @@ TEST(thick_layers_have_their_series)
     for (int k = 0; k < 2; k++)
         for (int j = 1; j <= 2; j++) {
             const double ratio = 0.1 * j;
-            OWNED(rb_rolling_solution) s;
             rb_rolling_case rc = layered(1.0 / ratio, nu[k], 200);
-            CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+            OWNED(rb_rolling_solution) s = solved(&rc);
             const double a = s.half_width, d = rc.a.layer, E = rc.a.young / (1.0 - nu[k] * nu[k]),
                          hertz = M_PI * E * a * a / (4.0 * rc.a.radius);
             CHECK_REL(s.normal_load * (1.0 - c1[k] * a * a / (d * d)), hertz,
@@ -311,11 +283,9 @@ TEST(thin_layers_are_mattresses)
     static const double want[3] = {0.99701, 0.99910, 0.99973};
     for (int k = 0; k < 3; k++) {
         const double nu = 0.3, d = 1.0 / (5 << k);
-        OWNED(rb_rolling_solution) s;
         rb_rolling_case rc = layered(d, nu, 200);
-        rc.half_width = NAN;
-        rc.approach = 1.0 / (2.0 * rc.a.radius);
-        CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+        set(&rc, "half-width nan approach %g", 1.0 / (2.0 * rc.a.radius));
+        OWNED(rb_rolling_solution) s = solved(&rc);
         const double M = rc.a.young * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
         const double ratio = s.normal_load / (2.0 * M / (3.0 * rc.a.radius * d));
         CHECK_REL(ratio, want[k], 1e-3, "a/d = %d", 5 << k);
@@ -332,11 +302,9 @@ TEST(thin_incompressible_layers_have_their_limit)
     double before = INFINITY;
     for (int k = 0; k < 4; k++) {
         const double d = 1.0 / (5 << k);
-        OWNED(rb_rolling_solution) s;
         rb_rolling_case rc = layered(d, 0.5, 200);
-        rc.half_width = NAN;
-        rc.approach = 1.0 / (6.0 * rc.a.radius);
-        CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+        set(&rc, "half-width nan approach %g", 1.0 / (6.0 * rc.a.radius));
+        OWNED(rb_rolling_solution) s = solved(&rc);
         const double limit = 2.0 * rc.a.young / 3.0 / (15.0 * rc.a.radius * d * d * d),
                      off = fabs(s.normal_load / limit - 1.0);
         CHECK_MAX(off, 1.5 * deviation[k], "a/d = %d", 5 << k);
@@ -354,12 +322,9 @@ TEST(layers_must_be_resolved)
         rb_rolling_case rc = layered(0.05, 0.5, 24);
         rb_rolling_solution s[2];
         int enough = 0;
-        rc.half_width = NAN;
-        rc.approach = 1.0 / (6.0 * rc.a.radius);
-        rc.mesh = RB_MESH_UNIFORM;
-        rc.formulation = steps == 1 ? RB_STATIC : RB_STEADY;
-        rc.increments = steps == 1 ? 3 : 1;
-        rc.creep = steps == 1 ? NAN : 0.0;
+        set(&rc, "half-width nan approach %g mesh uniform formulation %s increments %d creep %g",
+            1.0 / (6.0 * rc.a.radius), steps == 1 ? "static" : "steady", steps == 1 ? 3 : 1,
+            steps == 1 ? NAN : 0.0);
         rb_rolling_curve curve;
         CHECK_STATUS(
             steps == 2 ? rb_rolling_curve_solve(
@@ -378,8 +343,7 @@ TEST(layers_must_be_resolved)
         CHECK_REL(s[0].normal_load, s[1].normal_load, 0.03, "%d elements", enough);
         rb_rolling_solution_free(&s[0]);
         rb_rolling_solution_free(&s[1]);
-        rc.a.poisson = 0.3;
-        rc.contact_elements = 24;
+        set(&rc, "poisson 0.3 contact-elements 24");
         CHECK_OK(rb_rolling_solve(&rc, &s[0], &heard));
         rb_rolling_solution_free(&s[0]);
     }
@@ -390,15 +354,8 @@ TEST(hopeless_layers_are_refused)
 {
     rb_rolling_case rc = layered(3e-4, 0.5, 20);
     OWNED(rb_rolling_solution) s;
-    rc.a.radius = 50.0;
-    rc.a.young = 94500.0;
-    rc.half_width = NAN;
-    rc.approach = 1e-4;
-    rc.gap = RB_GAP_EXACT;
-    rc.mu = 0.3;
-    rc.creep = 1e-3;
-    rc.mesh = RB_MESH_UNIFORM;
-    rc.zone = 0.4;
+    set(&rc, "radius 50 young 94500 half-width nan approach 1e-4 gap exact mu 0.3 creep 1e-3 "
+             "mesh uniform zone 0.4");
     CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL,
                "may not be longer than the thickness");
 }
@@ -408,13 +365,9 @@ TEST(incompressible_covers_stretch_in_the_nip)
 {
     static const double mu[2] = {0.1, 0.3}, want[2] = {0.16692, 0.16488};
     for (int k = 0; k < 2; k++) {
-        OWNED(rb_rolling_solution) s;
         rb_rolling_case rc = layered(2.0, 0.5, 100);
-        rc.half_width = 2.0;
-        rc.mu = mu[k];
-        rc.creep = NAN;
-        rc.force = 0.0;
-        CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+        set(&rc, "half-width 2 mu %g creep nan force 0", mu[k]);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_ABS(s.creepage * rc.a.radius / 2.0, want[k], 4e-3 * want[k] + 4e-4, "mu = %g", mu[k]);
     }
 }
@@ -423,14 +376,9 @@ TEST(incompressible_covers_stretch_in_the_nip)
 TEST(a_layer_of_the_same_material_is_none)
 {
     rb_rolling_solution s[2];
-    rb_rolling_case rc = layered(0.0, 0.3, 60);
-    rc.mu = 0.3;
-    rc.creep = NAN;
-    rc.creep_ratio = 0.5;
+    rb_rolling_case rc = with(layered(0.0, 0.3, 60), "mu 0.3 creep nan creep-ratio 0.5");
     CHECK_OK(rb_rolling_solve(&rc, &s[0], NULL));
-    rc.a.layer = 0.7;
-    rc.a.base_young = rc.a.young;
-    rc.a.base_poisson = rc.a.poisson;
+    set(&rc, "layer-thickness 0.7 base-young %g base-poisson %g", rc.a.young, rc.a.poisson);
     CHECK_OK(rb_rolling_solve(&rc, &s[1], NULL));
     CHECK_REL(s[1].tangential_load, s[0].tangential_load, 1e-8, "Q");
     CHECK_REL(s[1].approach, s[0].approach, 1e-8, "approach");
@@ -448,13 +396,10 @@ TEST(all_solvers_agree)
     for (int kind = 0; kind < 2; kind++) {
         double Q[5], M[5];
         for (int k = 0; k < 5; k++) {
-            OWNED(rb_rolling_solution) s;
             rb_rolling_case rc = kind ? layered(1.5, 0.45, 60) : hunter(2.0, 0.8, 60);
-            rc.mu = 0.3;
-            rc.creep = NAN;
-            rc.creep_ratio = 0.7;
+            set(&rc, "mu 0.3 creep nan creep-ratio 0.7");
             choose_solver(k, &rc);
-            CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
+            OWNED(rb_rolling_solution) s = solved(&rc);
             assert_int_equal(s.large, k == 3);
             Q[k] = s.tangential_load;
             M[k] = moment_of(&s);
@@ -474,9 +419,8 @@ TEST(bad_axles_are_refused)
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = hunter(2.0, 0.8, 40);
         OWNED(rb_rolling_solution) s = {0};
+        set(&rc, "creep %g free-axle", k == 3 ? 0.001 : NAN);
         rc.mu = k == 2 ? 0.0 : k == 0 ? 1e-3 : 0.3;
-        rc.creep = k == 3 ? 0.001 : NAN;
-        rc.free_axle = 1;
         if (k == 1) {
             rc.formulation = RB_STATIC;
             rc.a.memory.n = 0;

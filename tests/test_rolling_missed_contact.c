@@ -13,8 +13,7 @@ TEST(elements_are_fitted_to_every_patch)
 {
     static const double x[] = {-6.0, 0.0, 6.0}, height[] = {0.0, 1e-4, 5e-4};
     table *t = bumps(3, x, height);
-    t->rc.mesh = RB_MESH_FITTED;
-    t->rc.mu = 0.0;
+    set(&t->rc, "mesh fitted mu 0");
     OWNED(rb_rolling_solution) s = solved(&t->rc);
     assert_int_equal(s.patches, 3);
     assert_int_equal(s.equal_instead, 0);
@@ -36,9 +35,7 @@ TEST(too_many_patches_have_equal_elements)
     for (int k = 0; k < 17; k++)
         x[k] = 1.0 * (k - 8);
     table *t = bumps(17, x, height);
-    t->rc.mesh = RB_MESH_FITTED;
-    t->rc.load = 60.0;
-    t->rc.contact_elements = 100;
+    set(&t->rc, "mesh fitted load 60 contact-elements 100");
     OWNED(rb_rolling_solution) s = solved(&t->rc);
     assert_int_equal(s.patches, 17);
     assert_int_equal(s.equal_instead, 1);
@@ -64,12 +61,9 @@ TEST(patches_side_by_side_are_fitted_as_one)
     table *t = bumps(2, x, height);
     t->rc.mu = 0.0;
     for (int k = 0; k < 12; k++) {
-        t->rc.load = 1300.0 + 80.0 * k;
-        t->rc.mesh = RB_MESH_FITTED;
-        t->rc.contact_elements = 40;
+        set(&t->rc, "load %g mesh fitted contact-elements 40", 1300.0 + 80.0 * k);
         OWNED(rb_rolling_solution) s = solved(&t->rc);
-        t->rc.mesh = RB_MESH_UNIFORM;
-        t->rc.contact_elements = 200;
+        set(&t->rc, "mesh uniform contact-elements 200");
         OWNED(rb_rolling_solution) fine = solved(&t->rc);
         CHECK_REL(s.normal_load, t->rc.load, 1e-9, "load %d", k);
         CHECK_MAX(s.residual, 1e-10, "residual %d", k);
@@ -94,14 +88,10 @@ TEST(a_narrow_groove_is_fitted_over)
         gap[i] = x[i] * x[i] / 100.0 + 0.01 * exp(-pow((x[i] - 0.3) / 0.004, 2.0));
     }
     CHECK_OK(rb_rolling_profile_create(ROWS, x, gap, 0.0, &profile, NULL));
-    rc.a.support = RB_BEM_HALFPLANE;
+    set(&rc,
+        "support halfplane mu 0 formulation static mesh fitted contact-elements 200 load 1800");
     rc.gap = RB_GAP_TABLE;
     rc.profile = profile;
-    rc.mu = 0.0;
-    rc.formulation = RB_STATIC;
-    rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = 200;
-    rc.load = 1800.0;
     OWNED(rb_rolling_solution) s = solved(&rc);
     const double a = sqrt(4.0 * 1800.0 * 50.0 * 0.99 / (M_PI * 94500.0));
     assert_int_equal(s.patches, 2);
@@ -133,13 +123,10 @@ TEST(mirrored_tables_have_mirrored_contacts)
                     height[i] = tables[k].height[side ? n - 1 - i : i];
                 }
                 table *t = bumps(n, x, height);
-                t->rc.mesh = fitted ? RB_MESH_FITTED : RB_MESH_UNIFORM;
-                t->rc.load = tables[k].load;
-                t->rc.a.poisson = 0.2;
-                t->rc.formulation = RB_STATIC;
-                t->rc.creep = t->rc.creep_ratio = NAN;
-                t->rc.shift = side ? -2e-4 : 2e-4;
-                t->rc.contact_elements = 48;
+                set(&t->rc,
+                    "mesh %s load %g poisson 0.2 formulation static creep nan "
+                    "creep-ratio nan shift %g contact-elements 48",
+                    fitted ? "fitted" : "uniform", tables[k].load, side ? -2e-4 : 2e-4);
                 s[side] = solved(&t->rc);
                 bumps_free(t);
             }
@@ -172,12 +159,9 @@ TEST(mirrored_tables_have_mirrored_contacts)
 /* A zone that is too narrow is refused with the width that would do. */
 TEST(a_narrow_zone_is_told_its_width)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_case rc = rolling_case("support halfplane half-width 1 zone 0.8");
     rb_rolling_solution s;
     double wide = 0.0, given = 0.0;
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.half_width = 1.0;
-    rc.zone = 0.8;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_ZONE);
     rb_rolling_solution_free(&s);
     const char *at = strstr(heard.text, "half-width ");
@@ -222,9 +206,7 @@ TEST(patches_too_far_apart_need_fitted_elements)
     static const double x[] = {-30.0, 30.0}, height[] = {0.0, 0.0};
     table *t = bumps(2, x, height);
     OWNED(rb_rolling_solution) s;
-    t->rc.load = 1.0;
-    t->rc.formulation = RB_STEADY;
-    t->rc.creep_ratio = 0.5;
+    set(&t->rc, "load 1 formulation steady creep-ratio 0.5");
     t->rc.contact.solver = RB_SOLVER_LEMKE; /* not without a matrix */
     CHECK_SAYS(rb_rolling_solve(&t->rc, &s, &heard), RB_ZONE, "equal elements would be needed");
     bumps_free(t);
@@ -236,11 +218,7 @@ TEST(a_contact_as_wide_as_the_wheel_is_refused)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     OWNED(rb_rolling_solution) s;
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.mu = 0.0;
-    rc.load = 100.0;
-    rc.interlayer_normal = 1e4;
-    rc.contact_elements = 20;
+    set(&rc, "support halfplane mu 0 load 100 interlayer-normal 1e4 contact-elements 20");
     CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_ZONE, "the contact does not end within");
 }
 
@@ -250,8 +228,7 @@ TEST(a_zone_without_an_end_is_told_a_third_more)
     static const double x[] = {0.0}, height[] = {0.0};
     table *t = bumps(1, x, height);
     OWNED(rb_rolling_solution) s;
-    t->rc.load = 1e6;
-    t->rc.zone = 0.5;
+    set(&t->rc, "load 1e6 zone 0.5");
     CHECK_SAYS(rb_rolling_solve(&t->rc, &s, &heard), RB_ZONE,
                "half-width 0.5 mm; widen it to 0.65 mm");
     bumps_free(t);
@@ -266,11 +243,7 @@ TEST(places_beyond_the_wheel_are_not_looked_at)
         x[i] = 10.0 * (i - 30);
     y[1] = y[ROWS - 2] = -1.0;
     rb_rolling_case rc = half_plane(RB_TRANSIENT, 16);
-    rc.half_width = 0.5;
-    rc.mu = 0.0;
-    rc.creep = 1e-3;
-    rc.distance = 0.5;
-    rc.zone = 0.8;
+    set(&rc, "half-width 0.5 mu 0 creep 1e-3 distance 0.5 zone 0.8");
     OWNED(rb_rolling_solution) even = solved(&rc);
     rc.irregularity = (rb_rolling_table){ROWS, x, y};
     OWNED(rb_rolling_solution) s = solved(&rc);
@@ -284,8 +257,7 @@ TEST(half_planes_have_elements_for_patches_far_apart)
 {
     static const double x[] = {-30.0, 30.0}, height[] = {0.0, 0.0};
     table *t = bumps(2, x, height);
-    t->rc.load = 1.0;
-    t->rc.mu = 0.0;
+    set(&t->rc, "load 1 mu 0");
     OWNED(rb_rolling_solution) s = solved(&t->rc);
     assert_int_equal(s.patches, 2);
     assert_int_equal(s.large, 1);

@@ -1,5 +1,6 @@
 /* Plane stress: the formulas of plane strain with nu/(1 + nu) and the same shear modulus
  * (theory.md B2), in every kind of body. */
+#include "cases.h"
 #include "refused.h"
 #include "solved.h"
 
@@ -22,18 +23,10 @@ static rb_rolling_case in_plane_strain(rb_rolling_case rc)
 
 static rb_rolling_case thin_disc(rb_bem_support support)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.plane = RB_PLANE_STRESS;
+    rb_rolling_case rc =
+        rolling_case("plane stress poisson 0.35 young-b 200000 poisson-b 0.28 half-width 0.5 "
+                     "contact-elements 30 mesh fitted formulation steady creep-ratio 0.4");
     rc.a.support = support;
-    rc.a.poisson = 0.35;
-    rc.b.young = 200000.0;
-    rc.b.poisson = 0.28;
-    rc.elastic_b = 1;
-    rc.half_width = 0.5;
-    rc.contact_elements = 30;
-    rc.mesh = RB_MESH_FITTED;
-    rc.formulation = RB_STEADY;
-    rc.creep_ratio = 0.4;
     return rc;
 }
 
@@ -59,8 +52,7 @@ TEST(every_body_has_the_constants_of_plane_stress)
     check_equivalent(&rc, "half-plane");
     rc.a.layer = 0.7;
     check_equivalent(&rc, "layer");
-    rc.a.base_young = 20000.0;
-    rc.a.base_poisson = 0.2;
+    set(&rc, "base-young 20000 base-poisson 0.2");
     check_equivalent(&rc, "layer on an elastic base");
     rc = thin_disc(RB_BEM_ARC);
     check_equivalent(&rc, "arc");
@@ -68,12 +60,10 @@ TEST(every_body_has_the_constants_of_plane_stress)
     check_equivalent(&rc, "hub");
     rc.a.cover = 5.0;
     check_equivalent(&rc, "cover");
-    rc.a.core_young = 210000.0;
-    rc.a.core_poisson = 0.3;
+    set(&rc, "core-young 210000 core-poisson 0.3");
     check_equivalent(&rc, "cover on an elastic core");
     rc = thin_disc(RB_BEM_HUB);
-    rc.a.memory = (rb_rolling_memory){1, {0.01}, {2.0}};
-    rc.speed = 100.0;
+    set(&rc, "relaxation-time 0.01 relaxation-ratio 2 speed 100");
     check_equivalent(&rc, "relaxing hub");
 }
 
@@ -120,9 +110,7 @@ TEST(a_thin_disc_shakes_down_below_two_k)
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = thin_disc(RB_BEM_HALFPLANE);
         rb_rolling_shakedown limit[2];
-        rc.mu = k ? 0.3 : 0.0;
-        rc.creep_ratio = NAN;
-        rc.creep = k ? -1.0 : 0.0;
+        set(&rc, "mu %g creep-ratio nan creep %g", k ? 0.3 : 0.0, k ? -1.0 : 0.0);
         for (int plane = 0; plane < 2; plane++) {
             rc.plane = plane ? RB_PLANE_STRESS : RB_PLANE_STRAIN;
             OWNED(rb_rolling_model) model = solved_model(&rc);

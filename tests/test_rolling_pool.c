@@ -1,5 +1,6 @@
 /* The processes of a study, as the one sees them that hands out cases. */
 #define _GNU_SOURCE
+#include "cases.h"
 #include "rollbem/rolling.h"
 #include "solved.h"
 
@@ -22,12 +23,11 @@ static rb_status make(int k, rb_rolling_case *rc, void *context)
         raise(SIGKILL);
     if (k == 7)
         nanosleep(&(struct timespec){.tv_nsec = 60000000}, NULL);
-    *rc = rb_rolling_case_defaults();
-    rc->a.support = RB_BEM_HALFPLANE;
-    rc->load = 100.0 * (k + 1);
-    rc->contact_elements = k == 4 ? 1 : 16;
-    rc->formulation = RB_STEADY;
-    rc->creep_ratio = 0.5;
+    *rc = rolling_case("support halfplane load %g contact-elements 16 formulation steady "
+                       "creep-ratio 0.5",
+                       100.0 * (k + 1));
+    if (k == 4)
+        rc->contact_elements = 1;
     return k == 3 ? RB_INACCURATE : RB_OK;
 }
 
@@ -332,11 +332,10 @@ static rb_status make_covered(int k, rb_rolling_case *rc, void *context)
     (void)context;
     make(k, rc, NULL);
     rc->a.support = RB_BEM_HUB; /* whose stress is not known */
-    rc->a.cover = 0.1 * rc->a.radius;
-    rc->a.core_young = 2.0 * rc->a.young;
-    rc->a.memory = (rb_rolling_memory){1, {1e-3}, {1.0}};
-    rc->formulation = RB_STEADY;
-    rc->speed = 1.0;
+    set(rc,
+        "cover-thickness %g core-young %g relaxation-time 1e-3 relaxation-ratio 1 "
+        "formulation steady speed 1",
+        0.1 * rc->a.radius, 2.0 * rc->a.young);
     return RB_OK;
 }
 

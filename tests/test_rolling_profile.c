@@ -2,21 +2,20 @@
 #include "cases.h"
 #include "check.h"
 #include "profiles.h"
+#include "solved.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
+
+HELD_TYPE(rb_rolling_profile, rb_rolling_profile_free)
+#define held_profile HELD(rb_rolling_profile)
 
 /* A wheel of 460 mm under p0 = 1 GPa, a = 8 mm (examples/rail). */
 static rb_rolling_case rail(void)
 {
     rb_rolling_case rc = half_plane(RB_STEADY, 100);
-    rc.a.young = rc.b.young = 210000.0;
-    rc.a.poisson = rc.b.poisson = 0.3;
-    rc.a.radius = 460.0;
-    rc.elastic_b = 1;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.load = 12500.0;
-    rc.creep_ratio = 0.4;
+    set(&rc, "young 210000 young-b 210000 poisson 0.3 poisson-b 0.3 radius 460 gap parabola "
+             "load 12500 creep-ratio 0.4");
     return rc;
 }
 
@@ -39,8 +38,7 @@ static int tabulate(double from, double to, double step, double noise, unsigned 
 
 static double peak(const rb_rolling_case *rc)
 {
-    OWNED(rb_rolling_solution) s;
-    CHECK_OK(rb_rolling_solve(rc, &s, &heard));
+    OWNED(rb_rolling_solution) s = solved(rc);
     return s.max_pressure;
 }
 
@@ -77,15 +75,13 @@ TEST(a_table_of_a_parabola_has_its_zone)
 {
     double ends[2][2];
     for (int k = 0; k < 2; k++) {
-        OWNED(rb_rolling_solution) s;
         rb_rolling_case rc = rail();
         rb_rolling_profile *profile =
             profile_of(tabulate(-30.0, 30.0, 0.5, 0.0, 1, x, gap), x, gap, 0.0);
-        rc.mesh = RB_MESH_UNIFORM;
-        rc.contact_elements = 40;
+        set(&rc, "mesh uniform contact-elements 40");
         rc.gap = k ? RB_GAP_TABLE : RB_GAP_PARABOLA;
         rc.profile = profile;
-        CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+        OWNED(rb_rolling_solution) s = solved(&rc);
         ends[k][0] = s.x[0] - 0.5 * s.h[0];
         ends[k][1] = s.x[s.n - 1] + 0.5 * s.h[s.n - 1];
         CHECK_REL(ends[k][1], 1.3 * rb_rolling_derive(&rc).half_width, 1e-3, "zone");
@@ -117,7 +113,7 @@ TEST(smoothing_keeps_the_shape)
     double sum = 0.0, worst = 0.0;
     for (int i = 0; i < n; i++)
         gap[i] += 0.02 * exp(-0.5 * x[i] * x[i] / 9.0);
-    rb_rolling_profile *profile = profile_of(n, x, gap, noise);
+    held_profile *profile = profile_of(n, x, gap, noise);
     for (int i = 0; i < n; i++) {
         const double shape = x[i] * x[i] / 920.0 + 0.02 * exp(-0.5 * x[i] * x[i] / 9.0);
         const double got = rb_rolling_profile_gap(profile, x[i]);
@@ -126,7 +122,6 @@ TEST(smoothing_keeps_the_shape)
     }
     CHECK_REL(sqrt(sum / n), noise, 0.1, "distance from the points");
     CHECK_MAX(worst, 2.0 * noise, "distance from the shape");
-    rb_rolling_profile_free(profile);
 }
 
 /* A curve of mirrored points is the mirrored curve: the splines stand alike at both
@@ -142,15 +137,13 @@ TEST(smoothing_does_not_know_left_from_right)
         u[1][N - 1 - i] = -u[0][i];
         g[1][N - 1 - i] = g[0][i];
     }
-    rb_rolling_profile *one = profile_of(N, u[0], g[0], 0.015);
-    rb_rolling_profile *other = profile_of(N, u[1], g[1], 0.015);
+    held_profile *one = profile_of(N, u[0], g[0], 0.015);
+    held_profile *other = profile_of(N, u[1], g[1], 0.015);
     for (int i = 0; i < 3 * N; i++) {
         const double at = -8.0 + 0.12 * i;
         CHECK_REL(rb_rolling_profile_gap(other, -at), rb_rolling_profile_gap(one, at), 1e-8,
                   "x = %g", at);
     }
-    rb_rolling_profile_free(one);
-    rb_rolling_profile_free(other);
     gsl_rng_free(rng);
 }
 
@@ -159,7 +152,7 @@ TEST(the_spline_passes_through_its_points)
 {
     const double u[] = {-3.0, -2.9, -1.0, 0.5, 4.0}, g[] = {2.0, 1.9, 0.3, 0.1, 3.0};
     double from, to;
-    rb_rolling_profile *profile = profile_of(5, u, g, 0.0);
+    held_profile *profile = profile_of(5, u, g, 0.0);
     for (int i = 0; i < 5; i++)
         CHECK_ABS(rb_rolling_profile_gap(profile, u[i]), g[i], 1e-14, "point %d", i);
     rb_rolling_profile_range(profile, &from, &to);
@@ -173,7 +166,6 @@ TEST(the_spline_passes_through_its_points)
                   "straight");
         CHECK_REL(one, -1e6 * step, 1e-4, "slope at the end");
     }
-    rb_rolling_profile_free(profile);
 }
 
 static void check_refused(int n, const double *u, const double *g, double noise, const char *text)
@@ -226,12 +218,10 @@ TEST(contact_beyond_the_table_is_no_result)
         rc.profile = profile;
         rc.contact_elements = 50;
         if (k & 1) {
-            rc.load = NAN;
-            rc.approach = 0.34;
+            set(&rc, "load nan approach 0.34");
         }
         if (k & 2) {
-            rc.formulation = RB_STATIC;
-            rc.creep_ratio = NAN;
+            set(&rc, "formulation static creep-ratio nan");
         }
         if (k & 4)
             rc.mesh = RB_MESH_FITTED;

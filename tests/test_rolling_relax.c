@@ -12,16 +12,10 @@ static const double F = 3.0, TAU = 1.0; /* of the bodies with one term */
 
 static rb_rolling_case relaxing(int n)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = rc.b.support = RB_BEM_HALFPLANE;
-    rc.a.radius = 50.0;
-    rc.a.young = 1000.0;
-    rc.a.poisson = 0.3;
-    rc.a.memory = (rb_rolling_memory){1, {TAU}, {F}};
-    rc.gap = RB_GAP_PARABOLA;
-    rc.mu = 0.0;
-    rc.contact_elements = n;
-    return rc;
+    return rolling_case("support halfplane support-b halfplane radius 50 young 1000 poisson 0.3 "
+                        "relaxation-time %g relaxation-ratio %g gap parabola mu 0 "
+                        "contact-elements %d",
+                        TAU, F, n);
 }
 
 static double modulus(const rb_rolling_case *rc)
@@ -106,14 +100,12 @@ TEST(a_held_approach_relaxes)
         for (int j = 0; j < 2; j++) {
             OWNED(rb_rolling_history) h;
             rb_rolling_case rc = relaxing(24);
+            set(&rc, "layer-thickness %g cover-thickness %g", held[c].layer, held[c].cover);
             rc.a.support = held[c].support;
-            rc.a.layer = held[c].layer;
-            rc.a.cover = held[c].cover;
             if (held[c].terms == 2)
                 rc.a.memory = (rb_rolling_memory){2, {0.3, 2.0}, {0.5, 1.5}};
-            rc.mu = 0.3;
-            rc.outer_elements = held[c].support == RB_BEM_HALFPLANE ? 0 : 60;
-            rc.time_step = 1.5 / (20 << j);
+            set(&rc, "mu 0.3 outer-elements %d time-step %g",
+                held[c].support == RB_BEM_HALFPLANE ? 0 : 60, 1.5 / (20 << j));
             if (held[c].similar) {
                 rc.elastic_b = 1;
                 rc.b = rc.a;
@@ -175,8 +167,7 @@ TEST(a_held_load_creeps)
     for (int j = 0; j < 2; j++) {
         const int n = 60 << j;
         OWNED(rb_rolling_history) h;
-        rb_rolling_case rc = relaxing(n);
-        rc.time_step = 0.05;
+        rb_rolling_case rc = with(relaxing(n), "time-step 0.05");
         const double element = run(&rc, &program, &h);
         for (int k = 0; k < h.n; k++) {
             const double want = held_width(modulus(&rc), 100.0, h.time[k]);
@@ -283,8 +274,7 @@ TEST(limits_are_elastic)
     for (int kind = 0; kind < 3; kind++) {
         rb_rolling_history h[2];
         rb_rolling_program program = {.n = 5, .time = time, .load = load, .shift = shift};
-        rb_rolling_case rc = relaxing(40);
-        rc.mu = 0.3;
+        rb_rolling_case rc = with(relaxing(40), "mu 0.3");
         rc.a.poisson = kind == 1 ? 0.5 : 0.3; /* friction remembers its way */
         rc.zone = 12.0;
         rc.a.memory.time[0] = kind == 0 ? 1e12 : 1e-12;
@@ -315,12 +305,9 @@ TEST(bodies_may_change_places)
 {
     static const double time[4] = {0.0, 0.5, 1.0, 2.0}, load[4] = {50.0, 100.0, 100.0, 30.0};
     const rb_rolling_program program = {.n = 4, .time = time, .load = load};
-    rb_rolling_case rc = relaxing(40);
+    rb_rolling_case rc = with(relaxing(40), "mu 0.2 time-step 0.25 zone 12");
     rb_rolling_model model[2];
     rb_rolling_history h[2];
-    rc.mu = 0.2;
-    rc.time_step = 0.25;
-    rc.zone = 12.0;
     rc.elastic_b = 1;
     rc.b = rc.a;
     rc.b.memory.n = 0;
@@ -351,14 +338,8 @@ TEST(bodies_may_change_places)
 static rb_rolling_case roller(int n)
 {
     rb_rolling_case rc = relaxing(n);
-    rc.a.memory = (rb_rolling_memory){2, {0.01, 0.03}, {3.0, 0.5}};
-    on_its_like(&rc);
-    rc.speed = 200.0;
-    rc.load = 100.0;
-    rc.mu = 0.3;
-    rc.formulation = RB_TRANSIENT;
-    rc.distance = 25.0;
-    rc.zone = 10.4;
+    set(&rc, "relaxation-time 0.01,0.03 relaxation-ratio 3,0.5 similar speed 200 load 100 mu 0.3 "
+             "formulation transient distance 25 zone 10.4");
     return rc;
 }
 
@@ -382,8 +363,7 @@ TEST(rolling_becomes_steady)
             CHECK_REL(h.step, model.bodies.f.h[0], 1e-9, "a step is an element");
             CHECK_REL(h.distance[h.n - 1], 25.0, 1e-12, "the way");
             CHECK_REL(h.time[h.n - 1], 25.0 * h.half_width / rc.speed, 1e-12, "time");
-            rc.formulation = RB_STEADY;
-            rc.contact_elements = model.mesh.n;
+            set(&rc, "formulation steady contact-elements %d", model.mesh.n);
             CHECK_OK(rb_rolling_solve_between(&rc, model.mesh.ends[0],
                                               model.mesh.ends[model.mesh.n], &s, &heard));
             const int last = h.n - 1;
@@ -404,13 +384,9 @@ TEST(rolling_becomes_steady)
 /* Hunter's exact M: f = 1, V tau = a_g (theory.md V3). */
 TEST(rolling_from_rest_ends_at_hunters_moment)
 {
-    rb_rolling_case rc = relaxing(100);
+    rb_rolling_case rc = with(relaxing(100), "relaxation-time 1 relaxation-ratio 1 half-width 1 "
+                                             "speed 1 formulation transient creep 0 distance 16");
     OWNED(rb_rolling_history) h;
-    rc.a.memory = (rb_rolling_memory){1, {1.0}, {1.0}};
-    rc.half_width = rc.speed = 1.0;
-    rc.formulation = RB_TRANSIENT;
-    rc.creep = 0.0;
-    rc.distance = 16.0;
     run(&rc, NULL, &h);
     CHECK_ABS(h.moment[0] / h.normal_load[0], 0.0, 1e-9, "pressed at once");
     CHECK_ABS(h.moment[h.n - 1] / h.normal_load[h.n - 1], 0.2621595, 1e-4, "M/(P a_g)");
@@ -445,8 +421,7 @@ TEST(many_elements_tell_the_same)
     const rb_rolling_program program = {.n = 2, .time = time, .load = load};
     rb_rolling_history h[2];
     for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = relaxing(k ? 1500 : 300);
-        rc.time_step = 0.1;
+        rb_rolling_case rc = with(relaxing(k ? 1500 : 300), "time-step 0.1");
         run(&rc, &program, &h[k]);
     }
     for (int k = 0; k < h[0].n; k++) {
@@ -491,8 +466,7 @@ TEST(bad_programs_are_refused)
         if (bad[k].elastic)
             rc.a.memory.n = 0;
         if (bad[k].base) {
-            rc.a.layer = 1.0;
-            rc.a.base_young = 2e5;
+            set(&rc, "layer-thickness 1 base-young 2e5");
         }
         if (bad[k].hub)
             rc.a.support = RB_BEM_HUB;
@@ -504,10 +478,9 @@ TEST(bad_programs_are_refused)
 /* Solved at once, without steps, it would be an elastic body. */
 TEST(one_static_solve_is_refused)
 {
-    rb_rolling_case rc = relaxing(24);
+    rb_rolling_case rc = with(relaxing(24), "load 100");
     rb_rolling_solution s;
     OWNED(rb_rolling_model) model;
-    rc.load = 100.0;
     CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL, "history");
     CHECK_STATUS(rb_rolling_model_create(&rc, &model, &heard), RB_EINVAL);
     CHECK_STATUS(rb_rolling_solve_between(&rc, -5.0, 5.0, &s, &heard), RB_EINVAL);
@@ -521,12 +494,9 @@ TEST(every_failing_allocation_is_noticed)
     static const double time[3] = {0.0, 0.5, 0.5}, load[3] = {50.0, 100.0, 80.0};
     const rb_rolling_program program = {.n = 3, .time = time, .load = load};
     for (int rolls = 0; rolls < 2; rolls++) {
-        rb_rolling_case rc = roller(12);
-        rc.distance = 2.0;
-        rc.creep = 1e-3;
+        rb_rolling_case rc = with(roller(12), "distance 2 creep 1e-3");
         if (!rolls) {
-            rc.formulation = RB_STATIC;
-            rc.load = rc.creep = NAN;
+            set(&rc, "formulation static load nan creep nan");
         }
         for (int count = 0, refused = 1; refused; count++) {
             OWNED(rb_rolling_model) model;
@@ -580,12 +550,8 @@ TEST(a_step_that_relaxes_too_much_is_said)
         OWNED(rb_rolling_history) h;
         OWNED(rb_rolling_solution) s;
         const int rolls = steps[k].formulation == RB_TRANSIENT;
+        set(&rc, "approach 0.5 distance 1 creep 0 speed 1 time-step 0.1");
         rc.formulation = steps[k].formulation;
-        rc.approach = 0.5;
-        rc.distance = 1.0;
-        rc.creep = 0.0;
-        rc.speed = 1.0;
-        rc.time_step = 0.1;
         const double step = rolls ? 2.0 * rb_rolling_derive(&rc).half_width / 20.0 : 0.1;
         rc.a.memory = (rb_rolling_memory){1, {steps[k].tau * step}, {10.0}};
         CHECK_OK(rb_rolling_history_run(&rc, rolls ? NULL : &at_rest, NULL, &model, &h, NULL));

@@ -3,18 +3,14 @@
 #include "check.h"
 #include "rollbem/rolling.h"
 #include "numbers.h"
+#include "solved.h"
 
 #include <gsl/gsl_math.h>
 
 static rb_rolling_case wheel_on_plane(double poisson)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.poisson = poisson;
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.half_width = 1e-4 * rc.a.radius;
-    rc.mesh = RB_MESH_FITTED;
-    return rc;
+    return rolling_case("poisson %g support halfplane gap parabola half-width 0.005 mesh fitted",
+                        poisson);
 }
 
 static double carter(double s)
@@ -24,9 +20,8 @@ static double carter(double s)
 
 TEST(a_creep_curve_is_carters)
 {
-    rb_rolling_case rc = wheel_on_plane(0.5);
+    rb_rolling_case rc = with(wheel_on_plane(0.5), "contact-elements 100");
     OWNED(rb_rolling_curve) c;
-    rc.contact_elements = 100;
     CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, -1.2, 1.2, 49}, &c, NULL));
     assert_int_equal(c.n, 49);
     for (int k = 0; k < c.n; k++) {
@@ -43,14 +38,12 @@ TEST(a_creep_curve_is_carters)
  * contact and 0.80 of the elements. */
 TEST(the_stick_ratio_is_one_of_lengths)
 {
-    rb_rolling_case rc = wheel_on_plane(0.5);
+    rb_rolling_case rc = with(wheel_on_plane(0.5), "contact-elements 100");
     OWNED(rb_rolling_curve) c;
     OWNED(rb_rolling_solution) s;
-    rc.contact_elements = 100;
     CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.1, 0.1, 1}, &c, NULL));
     CHECK_ABS(c.stick_ratio[0], 0.9, 0.01, "s = 0.1");
-    rc.formulation = RB_STEADY;
-    rc.creep_ratio = 0.1;
+    set(&rc, "formulation steady creep-ratio 0.1");
     CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
     double stuck = 0.0;
     for (int i = 0; i < s.n; i++)
@@ -64,14 +57,11 @@ TEST(a_curve_agrees_with_single_solves)
 {
     rb_rolling_case rc = wheel_on_plane(0.3);
     OWNED(rb_rolling_curve) c;
-    rc.mesh = RB_MESH_UNIFORM;
-    rc.zone = 1.6 * rc.half_width;
+    set(&rc, "mesh uniform zone %g", 1.6 * rc.half_width);
     CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){1, -2e-4, 2e-4, 9}, &c, NULL));
     for (int k = 0; k < c.n; k++) {
-        OWNED(rb_rolling_solution) s;
-        rc.formulation = RB_STEADY;
-        rc.creep = c.creepage[k];
-        CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+        set(&rc, "formulation steady creep %g", c.creepage[k]);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         CHECK_ABS(c.force_ratio[k], s.force_ratio, 1e-10, "xi = %g", c.creepage[k]);
         CHECK_ABS(c.dissipation[k], s.dissipation, 1e-10 * s.normal_load, "xi = %g", c.creepage[k]);
     }
@@ -102,11 +92,9 @@ static void check_extremum(const char *name, rb_rolling_extremum got, double val
 
 TEST(hertz_below_the_surface)
 {
-    rb_rolling_case rc = wheel_on_plane(0.3);
-    OWNED(rb_rolling_model) model;
+    rb_rolling_case rc = with(wheel_on_plane(0.3), "mu 0");
     rb_rolling_stress_maxima m;
-    rc.mu = 0.0;
-    CHECK_OK(rb_rolling_model_create(&rc, &model, NULL));
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &m, NULL));
     const double a = rc.half_width, p0 = 2.0 * model.problem.load / (M_PI * a);
     check_extremum("max shear", m.max_shear, 0.30028, 0.0, 0.78615, p0, a);
@@ -118,13 +106,9 @@ TEST(hertz_below_the_surface)
 TEST(full_sliding_below_the_surface)
 {
     rb_rolling_case rc = wheel_on_plane(0.3);
-    OWNED(rb_rolling_model) model;
     rb_rolling_stress_maxima m;
-    on_its_like(&rc);
-    rc.mu = 0.2;
-    rc.formulation = RB_STEADY;
-    rc.creep_ratio = -1.5;
-    CHECK_OK(rb_rolling_model_create(&rc, &model, NULL));
+    set(&rc, "similar mu 0.2 formulation steady creep-ratio -1.5");
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &m, NULL));
     const double a = rc.half_width, p0 = 2.0 * model.problem.load / (M_PI * a);
     check_extremum("max shear", m.max_shear, 0.31899, 0.625, 0.601, p0, a);
@@ -135,12 +119,9 @@ TEST(full_sliding_below_the_surface)
 TEST(a_wheel_has_the_stress_of_the_half_plane)
 {
     rb_rolling_case rc = wheel_on_plane(0.3);
-    OWNED(rb_rolling_model) model;
     rb_rolling_stress_maxima m;
-    rc.a.support = RB_BEM_HUB;
-    rc.half_width = 1e-3 * rc.a.radius;
-    rc.mu = 0.0;
-    CHECK_OK(rb_rolling_model_create(&rc, &model, NULL));
+    set(&rc, "support hub half-width %g mu 0", 1e-3 * rc.a.radius);
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &m, NULL));
     const double a = rc.half_width, p0 = 2.0 * model.problem.load / (M_PI * a);
     check_extremum("max shear", m.max_shear, 0.30028, 0.0, 0.78615, p0, a);
@@ -154,16 +135,12 @@ TEST(the_pulled_edge_of_a_wheel_is_that_of_the_half_plane)
     double tension[2];
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel_on_plane(0.3);
-        OWNED(rb_rolling_model) model;
         rb_rolling_stress_maxima m;
         rc.a.support = k ? RB_BEM_HUB : RB_BEM_HALFPLANE;
         rc.b = rc.a;
+        set(&rc, "half-width %g mu 0.2 formulation steady creep-ratio -2", 1e-3 * rc.a.radius);
         rc.elastic_b = 1;
-        rc.half_width = 1e-3 * rc.a.radius;
-        rc.mu = 0.2;
-        rc.formulation = RB_STEADY;
-        rc.creep_ratio = -2.0;
-        CHECK_OK(rb_rolling_model_create(&rc, &model, NULL));
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &m, NULL));
         tension[k] = m.tension.value;
     }
@@ -173,11 +150,8 @@ TEST(the_pulled_edge_of_a_wheel_is_that_of_the_half_plane)
 /* On y = 0 inside the contact: syy = -p, sxy = -q (A lies above its surface). */
 TEST(the_surface_carries_the_tractions)
 {
-    rb_rolling_case rc = wheel_on_plane(0.3);
-    OWNED(rb_rolling_model) model;
-    rc.formulation = RB_STEADY;
-    rc.creep_ratio = 0.5;
-    CHECK_OK(rb_rolling_model_create(&rc, &model, NULL));
+    rb_rolling_case rc = with(wheel_on_plane(0.3), "formulation steady creep-ratio 0.5");
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     for (int i = 0; i < model.mesh.n; i += 3) {
         const double xy[] = {model.bodies.f.x[i], 0.0};
         rb_rolling_stress s;
@@ -199,11 +173,10 @@ TEST(a_point_outside_has_its_index)
     const double xy[] = {0.0, 1.0, 0.1, 1.0, 0.0, -1.0, 0.0, -2.0};
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = wheel_on_plane(0.3);
-        OWNED(rb_rolling_model) model;
         rb_rolling_stress s[4];
         rc.a.support = supports[k];
         rc.contact_elements = 12;
-        CHECK_OK(rb_rolling_model_create(&rc, &model, NULL));
+        OWNED(rb_rolling_model) model = solved_model(&rc);
         CHECK_STATUS(rb_rolling_stress_at(&model, 4, xy, s, &heard), RB_EINVAL);
         if (!strstr(heard.text, "point 2 at (0, -1) lies outside the body"))
             fail_msg("support %d: '%s'", k, heard.text);
@@ -217,11 +190,8 @@ TEST(dissipation_is_the_work_of_the_forces)
 {
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = wheel_on_plane(k & 1 ? 0.3 : 0.5);
-        OWNED(rb_rolling_solution) s;
-        rc.contact_elements = 200;
-        rc.formulation = RB_STEADY;
-        rc.creep_ratio = k & 2 ? -0.6 : 0.6;
-        CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+        set(&rc, "contact-elements 200 formulation steady creep-ratio %g", k & 2 ? -0.6 : 0.6);
+        OWNED(rb_rolling_solution) s = solved(&rc);
         double moment = 0.0;
         for (int i = 0; i < s.n; i++)
             moment += s.x[i] * s.p[i] * s.h[i];
@@ -241,8 +211,7 @@ static void count_random_case(int fitted, tally *t)
     OWNED(rb_rolling_solution) so;
     rb_rolling_errors e;
 
-    rc.mesh = fitted ? RB_MESH_FITTED : RB_MESH_UNIFORM;
-    rc.contact_elements = 40 + rand() % 60;
+    set(&rc, "mesh %s contact-elements %d", fitted ? "fitted" : "uniform", 40 + rand() % 60);
     if (!fitted)
         rc.zone = rc.half_width * between(1.1, 1.4);
     rc.formulation = kind == 2 ? RB_STATIC : RB_STEADY;
@@ -281,8 +250,7 @@ TEST(error_bars_of_curves_hold_the_truth)
         rb_rolling_case rc = wheel_on_plane(0.5);
         OWNED(rb_rolling_curve) c, e;
         tally t = {.wide = fitted ? 20.0 : 10.0};
-        rc.mesh = fitted ? RB_MESH_FITTED : RB_MESH_UNIFORM;
-        rc.contact_elements = 80;
+        set(&rc, "mesh %s contact-elements 80", fitted ? "fitted" : "uniform");
         CHECK_OK(rb_rolling_curve_with_errors(&rc, &(rb_rolling_range){0, 0.03, 0.97, 100}, NULL,
                                               NULL, &c, &e, NULL));
         assert_int_equal(e.n, 100);
@@ -297,12 +265,10 @@ TEST(error_bars_of_curves_hold_the_truth)
 
 TEST(refinement_reaches_the_accuracy)
 {
-    rb_rolling_case rc = wheel_on_plane(0.5);
+    rb_rolling_case rc = with(wheel_on_plane(0.5), "formulation steady creep-ratio 0.4");
     rb_rolling_solution s;
     rb_rolling_errors e;
     int elements = 0;
-    rc.formulation = RB_STEADY;
-    rc.creep_ratio = 0.4;
     CHECK_OK(rb_rolling_solve_to_accuracy(&rc, 1e-3, &s, &e, &elements, NULL));
     CHECK_ABS(s.force_ratio, -0.64, 1e-3, "Q with %d elements", elements);
     CHECK_MAX(e.scalar.force_ratio, 1e-3, "its estimate");
@@ -345,11 +311,9 @@ TEST(every_result_stands_once)
 
 TEST(every_failed_allocation_is_reported)
 {
-    rb_rolling_case rc = wheel_on_plane(0.5);
-    OWNED(rb_rolling_model) model;
+    rb_rolling_case rc = with(wheel_on_plane(0.5), "contact-elements 12");
     rb_rolling_stress_maxima maxima;
-    rc.contact_elements = 12;
-    CHECK_OK(rb_rolling_model_create(&rc, &model, NULL));
+    OWNED(rb_rolling_model) model = solved_model(&rc);
     for (int count = 0, refused = 1; refused && count < 100; count++) {
         refused = REFUSED_FROM(count, rb_rolling_stress_maxima_find(&model, 0.0, &maxima, NULL));
     }
@@ -369,28 +333,21 @@ static rb_rolling_case case_of_any_kind(int k)
     rc.a.support = k == 1 ? RB_BEM_ARC : k % 2 ? RB_BEM_HALFPLANE : RB_BEM_HUB;
     rc.elastic_b = k % 3 == 0;
     rc.b.young = 70000.0;
-    rc.contact_elements = 18;
-    rc.outer_elements = 40;
-    rc.load = 300.0;
-    rc.speed = 1000.0;
+    set(&rc, "contact-elements 18 outer-elements 40 load 300 speed 1000");
     rc.formulation = k == 1 ? RB_STATIC : k == 3 ? RB_TRANSIENT : RB_STEADY;
     rc.mesh = k == 4 ? RB_MESH_FITTED : k == 5 ? RB_MESH_ALIGNED : RB_MESH_UNIFORM;
     if (k == 1) {
-        rc.load = NAN;
-        rc.approach = 0.05;
+        set(&rc, "load nan approach 0.05");
     } else if (k == 2) {
         rc.force_ratio = -0.4;
     } else {
         rc.creep_ratio = 0.6;
     }
     if (k == 3) {
-        rc.distance = 0.5;
-        rc.steps = 4;
+        set(&rc, "distance 0.5 steps 4");
     }
     if (k == 6) {
-        rc.friction.law = RB_FRICTION_exponential;
-        rc.friction.fall[0] = 0.1;
-        rc.friction.slip_scale[0] = 20.0;
+        set(&rc, "friction-law exponential mu-fall 0.1 slip-scale 20");
     }
     return rc;
 }

@@ -39,14 +39,8 @@ static double needed_at(double mu, double z)
 static rb_rolling_case sliding(double mu)
 {
     rb_rolling_case rc = half_plane(RB_STEADY, 60);
-    rc.a.poisson = 0.3;
-    rc.a.radius = 1e4;
-    on_its_like(&rc);
-    rc.gap = RB_GAP_PARABOLA;
-    rc.half_width = 1.0;
-    rc.mu = mu;
-    rc.creep = -1.0;
-    rc.mesh = RB_MESH_FITTED;
+    set(&rc, "poisson 0.3 radius 1e4 similar gap parabola half-width 1 mu %g creep -1 mesh fitted",
+        mu);
     return rc;
 }
 

@@ -11,42 +11,21 @@ typedef struct {
     rb_message why;
 } task;
 
-/* A wheel R = 50 of similar half-planes, of few elements. */
-static rb_rolling_case few(rb_rolling_formulation formulation, int elements)
+/* A wheel R = 50 of similar half-planes, of few elements, with these words besides. */
+static rb_rolling_case few(rb_rolling_formulation formulation, int elements, const char *words)
 {
     rb_rolling_case rc = half_plane(formulation, elements);
-    rc.load = 500.0;
-    rc.zone = elements < 12 ? 1.0 : 0.0;
     if (formulation != RB_STATIC)
         rc.creep_ratio = 0.5;
-    rc.speed = 1000.0;
-    rc.distance = 0.3;
-    return rc;
+    set(&rc, "load 500 zone %g speed 1000 distance 0.3", elements < 12 ? 1.0 : 0.0);
+    return with(rc, "%s", words);
 }
 
-static rb_rolling_case falling(rb_rolling_formulation formulation, int elements)
-{
-    rb_rolling_case rc = few(formulation, elements);
-    rc.friction.law = RB_FRICTION_exponential;
-    rc.friction.fall[0] = 0.1;
-    rc.friction.slip_scale[0] = 1.0;
-    return rc;
-}
-
-static rb_rolling_case warm(rb_rolling_case rc)
-{
-    rc.heat_a = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
-    rc.heat_b = (rb_rolling_heat){.conductivity = 20.0, .heat_capacity = 3.5};
-    return rc;
-}
-
-static rb_rolling_case relaxing(rb_rolling_formulation formulation)
-{
-    rb_rolling_case rc = few(formulation, 8);
-    rc.a.memory = (rb_rolling_memory){2, {1e-4, 1e-3}, {0.5, 0.5}};
-    rc.zone = 3.0;
-    return rc;
-}
+#define FALLING "friction-law exponential mu-fall 0.1 slip-scale 1 "
+#define WARM "conductivity 40 heat-capacity 3.5 conductivity-b 20 heat-capacity-b 3.5 "
+#define RELAXING "relaxation-time 1e-4,1e-3 relaxation-ratio 0.5,0.5 zone 3 "
+#define YIELDING "interlayer-tangential 1e-5 yield-stress 50 "
+#define WHEEL "support hub outer-elements 24 "
 
 /* ---- Tasks ------------------------------------------------------------------------- */
 
@@ -246,10 +225,11 @@ static rb_status study(void *context)
 
 /* ---- All of them ------------------------------------------------------------------- */
 
-static void fail_all(const char *name, rb_status (*work)(void *), rb_rolling_case rc)
+static void fail_all(const char *name, rb_status (*work)(void *),
+                     rb_rolling_formulation formulation, int elements, const char *words)
 {
     static task t; /* it outlives a failure */
-    t = (task){.rc = rc};
+    t = (task){.rc = few(formulation, elements, words)};
     if (work(&t) != RB_OK)
         fail_msg("%s: %s", name, t.why.text);
     print_message("# %s: %d more failures of memory\n", name, alloc_fail_every_call(work, &t));
@@ -257,87 +237,48 @@ static void fail_all(const char *name, rb_status (*work)(void *), rb_rolling_cas
 
 #define FAIL(work, ...) fail_all(#work ", " #__VA_ARGS__, work, __VA_ARGS__)
 
-static rb_rolling_case on(rb_rolling_mesh_kind mesh, rb_rolling_case rc)
-{
-    rc.mesh = mesh;
-    return rc;
-}
-
-static rb_rolling_case second(rb_rolling_case rc)
-{
-    rc.slip_operator = RB_SLIP_SECOND;
-    return rc;
-}
-
-static rb_rolling_case yielding(rb_rolling_case rc)
-{
-    rc.interlayer_tangential = 1e-5;
-    rc.yield_stress = 50.0;
-    return rc;
-}
-
-static rb_rolling_case dissimilar(rb_rolling_case rc)
-{
-    rc.a.poisson = 0.3;
-    return rc;
-}
-
-static rb_rolling_case forced(rb_rolling_case rc, double ratio)
-{
-    rc.creep_ratio = NAN;
-    rc.force_ratio = ratio;
-    return rc;
-}
-
-static rb_rolling_case wheel(rb_rolling_case rc)
-{
-    rc.a.support = RB_BEM_HUB;
-    rc.outer_elements = 24;
-    return rc;
-}
-
 TEST(solutions_are_short_of_memory)
 {
-    FAIL(solve, dissimilar(few(RB_STEADY, 8)));
-    FAIL(solve, second(few(RB_STEADY, 8)));
-    FAIL(solve, yielding(few(RB_STEADY, 8)));
-    FAIL(solve, on(RB_MESH_FITTED, dissimilar(few(RB_STEADY, 8))));
-    FAIL(solve, on(RB_MESH_ALIGNED, few(RB_STEADY, 12)));
-    FAIL(solve, warm(few(RB_STEADY, 8)));
-    FAIL(solve, relaxing(RB_STEADY));
-    FAIL(solve, wheel(few(RB_STEADY, 8)));
-    FAIL(again, few(RB_STEADY, 8));
-    FAIL(again, warm(falling(RB_STEADY, 8)));
+    FAIL(solve, RB_STEADY, 8, "poisson 0.3");
+    FAIL(solve, RB_STEADY, 8, "slip-operator second");
+    FAIL(solve, RB_STEADY, 8, YIELDING);
+    FAIL(solve, RB_STEADY, 8, "mesh fitted poisson 0.3");
+    FAIL(solve, RB_STEADY, 12, "mesh aligned");
+    FAIL(solve, RB_STEADY, 8, WARM);
+    FAIL(solve, RB_STEADY, 8, RELAXING);
+    FAIL(solve, RB_STEADY, 8, WHEEL);
+    FAIL(again, RB_STEADY, 8, "");
+    FAIL(again, RB_STEADY, 8, FALLING WARM);
 }
 
 TEST(friction_laws_are_short_of_memory)
 {
-    FAIL(solve, falling(RB_STEADY, 8));
-    FAIL(solve, falling(RB_TRANSIENT, 8));
-    FAIL(solve, forced(falling(RB_STEADY, 8), -0.4));
-    FAIL(solve, warm(falling(RB_STEADY, 8)));
-    FAIL(curve, falling(RB_STEADY, 8));
-    FAIL(solutions, falling(RB_STEADY, 6));
+    FAIL(solve, RB_STEADY, 8, FALLING);
+    FAIL(solve, RB_TRANSIENT, 8, FALLING);
+    FAIL(solve, RB_STEADY, 8, FALLING "creep-ratio nan force-ratio -0.4");
+    FAIL(solve, RB_STEADY, 8, FALLING WARM);
+    FAIL(curve, RB_STEADY, 8, FALLING);
+    FAIL(solutions, RB_STEADY, 6, FALLING);
 }
 
 TEST(tasks_are_short_of_memory)
 {
-    FAIL(curve, dissimilar(few(RB_STEADY, 12)));
-    FAIL(curve, warm(few(RB_STEADY, 8)));
-    FAIL(curve, on(RB_MESH_ALIGNED, few(RB_STEADY, 24)));
-    FAIL(curve_of_speeds, relaxing(RB_STEADY));
-    FAIL(history, few(RB_TRANSIENT, 12));
-    FAIL(solve, yielding(few(RB_TRANSIENT, 8)));
-    FAIL(solve, warm(few(RB_TRANSIENT, 8)));
-    FAIL(solve, relaxing(RB_TRANSIENT));
-    FAIL(history_in_time, relaxing(RB_STATIC));
-    FAIL(slide, few(RB_STATIC, 8));
-    FAIL(fret, forced(few(RB_STATIC, 8), 0.5));
-    FAIL(turn, few(RB_STEADY, 8));
-    FAIL(stress, few(RB_STATIC, 8));
-    FAIL(stress, wheel(few(RB_STATIC, 8)));
-    FAIL(to_accuracy, few(RB_STATIC, 12));
-    FAIL(study, few(RB_STATIC, 12));
+    FAIL(curve, RB_STEADY, 12, "poisson 0.3");
+    FAIL(curve, RB_STEADY, 8, WARM);
+    FAIL(curve, RB_STEADY, 24, "mesh aligned");
+    FAIL(curve_of_speeds, RB_STEADY, 8, RELAXING);
+    FAIL(history, RB_TRANSIENT, 12, "");
+    FAIL(solve, RB_TRANSIENT, 8, YIELDING);
+    FAIL(solve, RB_TRANSIENT, 8, WARM);
+    FAIL(solve, RB_TRANSIENT, 8, RELAXING);
+    FAIL(history_in_time, RB_STATIC, 8, RELAXING);
+    FAIL(slide, RB_STATIC, 8, "");
+    FAIL(fret, RB_STATIC, 8, "creep-ratio nan force-ratio 0.5");
+    FAIL(turn, RB_STEADY, 8, "");
+    FAIL(stress, RB_STATIC, 8, "");
+    FAIL(stress, RB_STATIC, 8, WHEEL);
+    FAIL(to_accuracy, RB_STATIC, 12, "");
+    FAIL(study, RB_STATIC, 12, "");
 }
 
 /* ---- How much it will be ----------------------------------------------------------- */
@@ -345,7 +286,7 @@ TEST(tasks_are_short_of_memory)
 /* The table of docs/performance.md, "Memory"; c + s = 60 unknowns of 40 elements. */
 TEST(bytes_are_those_of_the_documentation)
 {
-    rb_rolling_case rc = few(RB_STEADY, 40);
+    rb_rolling_case rc = few(RB_STEADY, 40, "");
     const double n = 40.0;
     CHECK_REL(rb_rolling_bytes(&rc, 40, 0, 60), 8.0 * (6.0 * n * n + 3600.0 + 12.0 * n), 1e-15,
               "Newton, all tractions");
@@ -354,7 +295,7 @@ TEST(bytes_are_those_of_the_documentation)
     rc.elastic_b = 1;
     CHECK_REL(rb_rolling_bytes(&rc, 40, 0, 0), 64.0 * n * n, 1e-15,
               "two bodies while they are added");
-    rb_rolling_case rolls = wheel(rc);
+    rb_rolling_case rolls = with(rc, WHEEL);
     const double before = rb_rolling_bytes(&rolls, 40, 90, 60);
     rolls.a.memory = (rb_rolling_memory){1, {1.0}, {1.0}};
     CHECK_REL(rb_rolling_bytes(&rolls, 40, 90, 60) - before, 32.0 * n * n, 1e-12,
@@ -365,15 +306,14 @@ TEST(bytes_are_those_of_the_documentation)
     CHECK_REL(rb_rolling_bytes(&rc, 40, 0, 60), 8.0 * 24.0 * n * n, 1e-15, "Lemke");
     rc.contact.lcp_form = RB_LCP_KWAK;
     CHECK_REL(rb_rolling_bytes(&rc, 40, 0, 60), 8.0 * 31.0 * n * n, 1e-15, "Kwak");
-    rc.contact.solver = RB_SOLVER_AUTO;
-    rc.a.poisson = 0.3;
+    set(&rc, "solver auto poisson 0.3");
     CHECK_REL(rb_rolling_bytes(&rc, RB_ROLLING_LARGE, 0, 0), 816.0 * RB_ROLLING_LARGE, 1e-15,
               "unlike bodies without a matrix");
     rc.b = rc.a;
     rc.b.radius = INFINITY;
     CHECK_REL(rb_rolling_bytes(&rc, RB_ROLLING_LARGE, 0, 0), 616.0 * RB_ROLLING_LARGE, 1e-15,
               "similar ones");
-    rc = few(RB_STATIC, 40);
+    rc = few(RB_STATIC, 40, "");
     rc.a.support = RB_BEM_HUB;
     const double both = rb_bem_system_bytes(200, 40);
     CHECK_REL(rb_rolling_bytes(&rc, 40, 200, 0), both, 1e-15, "a wheel");

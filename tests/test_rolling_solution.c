@@ -5,9 +5,7 @@
 /* Every part of the work of a wheel takes some of its time. */
 TEST(the_parts_of_the_time_are_within_the_whole)
 {
-    rb_rolling_case rc = rolled_plane(RB_STATIC);
-    rc.a.support = RB_BEM_HUB;
-    rc.outer_elements = 40;
+    rb_rolling_case rc = with(rolled_plane(RB_STATIC), "support hub outer-elements 40");
     rb_rolling_solution s = solved(&rc);
     const double part[] = {s.seconds_assembly, s.seconds_factor, s.seconds_condense, s.seconds_lcp};
     double sum = 0.0;
@@ -65,8 +63,7 @@ TEST(sums_are_those_of_the_tractions)
  * one, or its ratio. */
 TEST(shift_and_creepage_at_rest)
 {
-    rb_rolling_case rc = rolled_plane(RB_STATIC);
-    rc.shift = 0.001;
+    rb_rolling_case rc = with(rolled_plane(RB_STATIC), "shift 0.001");
     OWNED(rb_rolling_model) model = solved_model(&rc);
     for (int k = 0; k < 3; k++) {
         model.shift = 0.01 * k;
@@ -115,9 +112,7 @@ TEST(slip_that_pushes_is_a_violation)
 TEST(many_boundary_elements_are_called_hierarchical)
 {
     rb_rolling_case rc = rolled_plane(RB_STATIC);
-    rc.a.support = RB_BEM_HUB;
-    rc.outer_elements = 1500;
-    rc.contact_elements = 12;
+    set(&rc, "support hub outer-elements 1500 contact-elements 12");
     OWNED(rb_rolling_model) model = solved_model(&rc);
     OWNED(rb_rolling_solution) s = solution_of(&model);
     assert_true(s.boundary_elements > 2000);
@@ -151,9 +146,7 @@ TEST(a_model_solves_the_next_case_as_the_first)
 /* A given ratio of the creepage refers to the load that an approach leads to. */
 TEST(a_ratio_is_met_under_an_approach)
 {
-    rb_rolling_case rc = rolled_plane(RB_STEADY);
-    rc.load = NAN;
-    rc.approach = 0.05;
+    rb_rolling_case rc = with(rolled_plane(RB_STEADY), "load nan approach 0.05");
     OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_REL(s.creep_ratio, 0.5, 1e-10, "xi R/(mu a)");
     CHECK_REL(s.creepage, 0.5 * 0.3 * rb_rolling_hertz_half_width(&rc, s.normal_load) / 50.0, 1e-10,
@@ -187,8 +180,7 @@ TEST(elements_may_stand_where_they_are_told)
 TEST(few_elements_do_not_tell_the_edges)
 {
     for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = rolled_plane(RB_STEADY);
-        rc.contact_elements = k ? 40 : 5;
+        rb_rolling_case rc = with(rolled_plane(RB_STEADY), "contact-elements %d", k ? 40 : 5);
         OWNED(rb_rolling_solution) s = solved(&rc);
         assert_int_equal(s.edges_bounded, !k);
     }
@@ -198,9 +190,7 @@ TEST(few_elements_do_not_tell_the_edges)
  * relaxes or yields has no such energy. */
 TEST(strain_energy_is_the_work_of_pressing)
 {
-    rb_rolling_case rc = rolled_plane(RB_STATIC);
-    rc.mu = 0.0;
-    rc.contact_elements = 400;
+    rb_rolling_case rc = with(rolled_plane(RB_STATIC), "mu 0 contact-elements 400");
     rb_rolling_solution s = solved(&rc);
     const double a = s.hertz_half_width;
     CHECK_REL(s.strain_energy, 0.5 * s.normal_load * (s.approach - a * a / (8.0 * rc.a.radius)),
@@ -214,11 +204,8 @@ TEST(strain_energy_is_the_work_of_pressing)
         double energy[3], load = 0.0;
         for (int j = 0; j < 3; j++) {
             rb_rolling_case pressed = rolled_plane(RB_STATIC);
+            set(&pressed, "mu 0 zone 4 load nan approach %g", 0.1 * (1.0 + 0.01 * (j - 1)));
             pressed.a.support = supports[k];
-            pressed.mu = 0.0;
-            pressed.zone = 4.0;
-            pressed.load = NAN;
-            pressed.approach = 0.1 * (1.0 + 0.01 * (j - 1));
             s = solved(&pressed);
             energy[j] = s.strain_energy;
             load = j == 1 ? s.normal_load : load;

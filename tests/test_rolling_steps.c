@@ -10,15 +10,11 @@ enum { KINDS = 12 };
 /* Support, body B and normal control of the k-th kind of case. */
 static rb_rolling_case kind_of_case(int k)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-
+    rb_rolling_case rc = rolling_case("gap parabola");
     rc.a.support = supports[k % 3];
-    rc.gap = RB_GAP_PARABOLA;
     rc.elastic_b = k / 3 % 2;
     rc.b.young = 70000.0;
-    rc.b.poisson = 0.33;
-    rc.contact_elements = 30;
-    rc.zone = 2.0;
+    set(&rc, "poisson-b 0.33 contact-elements 30 zone 2");
     if (k < KINDS / 2)
         rc.load = 1000.0;
     else
@@ -68,11 +64,10 @@ TEST(one_step_at_rest_is_a_static_case)
     static const double start[] = {0.0}, force[] = {0.4};
     for (int k = 0; k < KINDS; k++)
         for (int by_force = 0; by_force < 2; by_force++) {
-            rb_rolling_case rc = kind_of_case(k);
+            rb_rolling_case rc = with(kind_of_case(k), "creep-ratio 0.5");
             rb_rolling_model model;
             rb_rolling_history h;
             rb_rolling_solution single, step;
-            rc.creep_ratio = 0.5;
             rb_rolling_case one = rc;
             if (by_force)
                 one.force_ratio = 0.4;
@@ -132,10 +127,7 @@ static rb_rolling_case spence(int elements)
 {
     rb_rolling_case rc = half_plane(RB_STATIC, elements);
 
-    rc.a.young = 209920.0;
-    rc.a.poisson = 0.3;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.load = 100.0;
+    set(&rc, "young 209920 poisson 0.3 gap parabola load 100");
     return rc;
 }
 
@@ -226,10 +218,8 @@ TEST(increments_end_where_the_case_says)
         for (int by_force = 0; by_force < 2; by_force++) {
             rb_rolling_case rc = kind_of_case(k);
             OWNED(rb_rolling_solution) s;
-            rc.increments = 4;
-            rc.zone = 0.0;
-            rc.shift = by_force ? NAN : 2e-3;
-            rc.force_ratio = by_force ? -0.3 : NAN;
+            set(&rc, "increments 4 zone auto shift %g force-ratio %g", by_force ? NAN : 2e-3,
+                by_force ? -0.3 : NAN);
             solve(&rc, &s);
             if (k < KINDS / 2)
                 CHECK_REL(s.normal_load, rc.load, 1e-9, "kind %d: P", k);
@@ -265,15 +255,13 @@ TEST(similar_bodies_press_at_once)
 
     rc.elastic_b = 1;
     rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.force_ratio = 0.5;
+    set(&rc, "radius-b plane force-ratio 0.5");
     solve(&rc, &one);
     rc.increments = 5;
     solve(&rc, &many);
     for (int i = 0; i < one.n; i++)
         CHECK_ABS(many.q[i], one.q[i], 1e-9 * one.max_pressure, "q, element %d", i);
-    rc.formulation = RB_TRANSIENT;
-    rc.distance = 0.5;
+    set(&rc, "formulation transient distance 0.5");
     CHECK_OK(rb_rolling_history_run(&rc, NULL, &(rb_rolling_observer){count_steps, &at_rest},
                                     &model, &h, NULL));
     assert_int_equal(at_rest, 10);
@@ -296,10 +284,7 @@ TEST(histories_end_on_their_last_row)
             rb_rolling_case rc = kind_of_case(k);
             rb_rolling_model model;
             rb_rolling_history h;
-            rc.formulation = RB_TRANSIENT;
-            rc.load = NAN;
-            rc.zone = 0.0;
-            rc.contact_elements = 60;
+            set(&rc, "formulation transient load nan zone auto contact-elements 60");
             run(&rc, &programs[j], &model, &h);
             const int last = h.n - 1, row = programs[j].n - 1;
             assert_true(h.distance[last] == 2.0);
@@ -322,9 +307,8 @@ TEST(the_last_creepage_is_one_of_many)
     rc.elastic_b = 1;
     rc.b = rc.a;
     rc.b.radius = INFINITY;
-    rc.zone = 1.25 * rb_rolling_hertz_half_width(&rc, rc.load);
-    rc.formulation = RB_TRANSIENT;
-    rc.force_ratio = -0.64;
+    set(&rc, "zone %g formulation transient force-ratio -0.64",
+        1.25 * rb_rolling_hertz_half_width(&rc, rc.load));
     for (int k = 0; k < 5; k++) {
         rb_rolling_model model;
         rb_rolling_history h;
@@ -345,9 +329,7 @@ TEST(ratios_refer_to_the_load_of_the_step)
         rb_rolling_model model;
         rb_rolling_history h;
         OWNED(rb_rolling_solution) s;
-        rc.formulation = RB_TRANSIENT;
-        rc.creep_ratio = 0.4;
-        rc.distance = 0.3;
+        set(&rc, "formulation transient creep-ratio 0.4 distance 0.3");
         run(&rc, NULL, &model, &h);
         CHECK_OK(rb_rolling_model_solution(&model, &s, NULL));
         CHECK_REL(s.creep_ratio, 0.4, 1e-9, "kind %d", k);
@@ -360,14 +342,11 @@ TEST(ratios_refer_to_the_load_of_the_step)
 TEST(columns_are_those_of_the_solution)
 {
     for (int k = 0; k < KINDS; k++) {
-        rb_rolling_case rc = kind_of_case(k);
+        rb_rolling_case rc = with(kind_of_case(k), "formulation transient creep 2e-3 distance 0.7");
         rb_rolling_model model;
         rb_rolling_history h;
         OWNED(rb_rolling_solution) s;
         double moment = 0.0;
-        rc.formulation = RB_TRANSIENT;
-        rc.creep = 2e-3;
-        rc.distance = 0.7;
         run(&rc, NULL, &model, &h);
         CHECK_OK(rb_rolling_model_solution(&model, &s, NULL));
         const int last = h.n - 1;
@@ -386,13 +365,10 @@ TEST(columns_are_those_of_the_solution)
 /* In a steady state D = -xi Q + (1/R) int x p dx (theory.md 6). */
 TEST(power_and_moment_balance_when_steady)
 {
-    rb_rolling_case rc = spence(160);
+    rb_rolling_case rc = with(spence(160), "formulation transient creep 1e-3 distance 12");
     rb_rolling_model model;
     rb_rolling_history h;
 
-    rc.formulation = RB_TRANSIENT;
-    rc.creep = 1e-3;
-    rc.distance = 12.0;
     run(&rc, NULL, &model, &h);
     const int last = h.n - 1;
     assert_true(h.steady_from > 0);
@@ -438,9 +414,7 @@ TEST(nothing_passes_unnoticed)
         rb_rolling_case rc = kind_of_case(k);
         rb_rolling_model model[2];
         rb_rolling_history h[2];
-        rc.formulation = RB_TRANSIENT;
-        rc.creep = 3e-3;
-        rc.distance = k == 2 ? 8.0 : 1.0;
+        set(&rc, "formulation transient creep 3e-3 distance %g", k == 2 ? 8.0 : 1.0);
         const rb_rolling_case moving = with_spot(&rc, &flat);
         run(&rc, NULL, &model[0], &h[0]);
         run(&moving, NULL, &model[1], &h[1]);
@@ -490,10 +464,7 @@ TEST(a_bump_passes_from_front_to_back)
         rb_rolling_model model[2];
         rb_rolling_history h[2];
         int inside = 0;
-        rc.contact_elements = 80;
-        rc.formulation = RB_TRANSIENT;
-        rc.creep = 2e-3;
-        rc.distance = 6.0;
+        set(&rc, "contact-elements 80 formulation transient creep 2e-3 distance 6");
         rb_rolling_case moving = with_spot(&rc, &bump);
         CHECK_OK(rb_rolling_history_run(&rc, NULL, &(rb_rolling_observer){take, &smooth}, &model[0],
                                         &h[0], NULL));
@@ -530,10 +501,7 @@ TEST(contact_may_be_lost_and_found)
         rb_rolling_model model;
         rb_rolling_history h;
         int lost = 0;
-        rc.formulation = RB_TRANSIENT;
-        rc.creep = 1e-3;
-        rc.distance = 28.0;
-        rc.steps = 80;
+        set(&rc, "formulation transient creep 1e-3 distance 28 steps 80");
         const rb_rolling_case moving = with_spot(&rc, &hole);
         run(&moving, NULL, &model, &h);
         for (int i = 0; i < h.n; i++) {
@@ -568,15 +536,12 @@ static int find_widest(const rb_rolling_model *model, const rb_rolling_history *
  * grows, a given one is refused with a line. */
 TEST(zones_grow_with_what_passes)
 {
-    rb_rolling_case rc = spence(60);
+    rb_rolling_case rc = with(spence(60), "formulation transient force-ratio 0 distance 12");
     const spot flat = make_spot(0.9, 0.45, 3e-3);
     rb_rolling_model model;
     rb_rolling_history h;
     double widest = 0.0;
 
-    rc.formulation = RB_TRANSIENT;
-    rc.force_ratio = 0.0;
-    rc.distance = 12.0;
     rb_rolling_case moving = with_spot(&rc, &flat);
     CHECK_OK(rb_rolling_history_run(&moving, NULL, &(rb_rolling_observer){find_widest, &widest},
                                     &model, &h, NULL));
@@ -620,11 +585,7 @@ TEST(every_failed_allocation_is_reported)
     const spot bump = make_spot(0.3, 0.2, -1e-4);
     rb_rolling_case rc = kind_of_case(2);
 
-    rc.contact_elements = 12;
-    rc.formulation = RB_TRANSIENT;
-    rc.increments = 2;
-    rc.force_ratio = 0.3;
-    rc.distance = 0.4;
+    set(&rc, "contact-elements 12 formulation transient increments 2 force-ratio 0.3 distance 0.4");
     const rb_rolling_case moving = with_spot(&rc, &bump);
     for (int count = 0, refused = 1; refused; count++) {
         rb_rolling_model model;
@@ -643,11 +604,7 @@ TEST(lost_contact_has_error_bars)
     rb_rolling_model model;
     rb_rolling_history h;
     int lost = 0;
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.formulation = RB_TRANSIENT;
-    rc.creep = 1e-3;
-    rc.distance = 14.0;
-    rc.steps = 20;
+    set(&rc, "support halfplane formulation transient creep 1e-3 distance 14 steps 20");
     const rb_rolling_case moving = with_spot(&rc, &hole);
     CHECK_OK(rb_rolling_history_with_errors(&moving, NULL, NULL, &model, &h, NULL));
     for (int i = 0; i < h.n; i++) {

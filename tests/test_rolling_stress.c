@@ -9,10 +9,7 @@
 static rb_rolling_case hertz(int elements)
 {
     rb_rolling_case rc = half_plane(RB_STATIC, elements);
-    rc.a.poisson = 0.3;
-    rc.mu = 0.0;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.half_width = 1.0;
+    set(&rc, "poisson 0.3 mu 0 gap parabola half-width 1");
     return rc;
 }
 
@@ -132,12 +129,8 @@ TEST(maxima_are_hertzs)
 static rb_rolling_case stuck(void)
 {
     rb_rolling_case rc = hertz(31);
-    rc.mu = 3.0;
-    rc.elastic_b = 1;
-    rc.b.support = RB_BEM_HALFPLANE;
-    rc.b.radius = 0.5 * rc.a.radius;
-    rc.b.young = 0.05 * rc.a.young;
-    rc.mesh = RB_MESH_FITTED;
+    set(&rc, "mu 3 support-b halfplane radius-b %g young-b %g mesh fitted", 0.5 * rc.a.radius,
+        0.05 * rc.a.young);
     return rc;
 }
 
@@ -172,12 +165,7 @@ TEST(the_highest_of_several_peaks_is_found)
 TEST(ends_of_elements_are_not_seen)
 {
     rb_rolling_case rc = hertz(24);
-    rc.a.support = RB_BEM_HUB;
-    rc.outer_elements = 40;
-    rc.mesh = RB_MESH_FITTED;
-    rc.mu = 0.3;
-    rc.formulation = RB_STEADY;
-    rc.creep = 2e-3;
+    set(&rc, "support hub outer-elements 40 mesh fitted mu 0.3 formulation steady creep 2e-3");
     OWNED(rb_rolling_model) model = solved_model(&rc);
     const rb_bem_mesh *mesh = rb_bem_system_mesh(model.bodies.system_a);
     const double p0 = rb_rolling_derive(&rc).stress;
@@ -234,9 +222,7 @@ TEST(a_grid_lies_under_the_contact)
  * and in the hub there is none. */
 TEST(a_wheel_has_stress_up_to_its_circle)
 {
-    rb_rolling_case rc = hertz(16);
-    rc.a.support = RB_BEM_HUB;
-    rc.outer_elements = 40;
+    rb_rolling_case rc = with(hertz(16), "support hub outer-elements 40");
     OWNED(rb_rolling_model) model = solved_model(&rc);
     const rb_bem_mesh *mesh = rb_bem_system_mesh(model.bodies.system_a);
     rb_rolling_stress s;
@@ -270,11 +256,7 @@ TEST(a_wheel_has_stress_up_to_its_circle)
 /* A grid that reaches beyond the wheel and into its hub: what is outside is no number. */
 TEST(a_wide_grid_stays_on_the_lower_half)
 {
-    rb_rolling_case rc = hertz(16);
-    rc.a.support = RB_BEM_HUB;
-    rc.outer_elements = 40;
-    rc.half_width = 25.0;
-    rc.gap = RB_GAP_EXACT;
+    rb_rolling_case rc = with(hertz(16), "support hub outer-elements 40 half-width 25 gap exact");
     OWNED(rb_rolling_model) model = solved_model(&rc);
     OWNED(rb_rolling_stress_grid) grid;
     int outside = 0;
@@ -315,9 +297,7 @@ TEST(shakedown_of_a_frictionless_contact_is_sxy)
     CHECK_STATUS(rb_rolling_shakedown_at(&model, &again, NULL), RB_EINVAL);
     rb_rolling_model_free(&model);
 
-    rb_rolling_case wheel = hertz(16);
-    wheel.a.support = RB_BEM_HUB;
-    wheel.outer_elements = 40;
+    rb_rolling_case wheel = with(hertz(16), "support hub outer-elements 40");
     model = solved_model(&wheel);
     CHECK_SAYS(rb_rolling_shakedown_find(&model, &limit, &heard), RB_EINVAL,
                "shakedown: of a half-plane");
@@ -354,9 +334,8 @@ TEST(a_rigid_base_has_no_stress)
 TEST(a_cover_that_relaxes_on_an_elastic_core_is_refused)
 {
     rb_rolling_case rc = hertz(16);
-    rc.a.support = RB_BEM_HUB;
-    rc.a.cover = 0.1 * rc.a.radius;
-    rc.a.memory = (rb_rolling_memory){1, {0.01}, {1.0}};
+    set(&rc, "support hub cover-thickness %g relaxation-time 0.01 relaxation-ratio 1",
+        0.1 * rc.a.radius);
     CHECK_OK(rb_rolling_stress_check(&rc, &heard));
     rc.a.core_young = 2e5;
     CHECK_SAYS(rb_rolling_stress_check(&rc, &heard), RB_EINVAL, "it depends on the past");

@@ -1,5 +1,6 @@
 /* Wheels and covers with memory that roll steadily (V8): the kernel against the sum of
  * its waves, and the roll against half-planes, layers and elastic wheels. */
+#include "cases.h"
 #include "check.h"
 #include "michell.h"
 #include "rollbem/rolling.h"
@@ -163,22 +164,11 @@ TEST(memory_is_added_to_any_flexibility)
 /* A wheel R = 50 with a_g = 1 on a rigid plane, f = 2, V tau = 1. */
 static rb_rolling_case wheel(int n)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HUB;
-    rc.a.hub_ratio = 0.4;
-    rc.a.radius = 50.0;
-    rc.a.young = 1000.0;
-    rc.a.poisson = 0.3;
-    rc.a.memory = (rb_rolling_memory){1, {1e-3}, {2.0}};
-    rc.speed = 1000.0;
-    rc.half_width = 1.0;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.mu = 0.3;
-    rc.force = 0.0;
-    rc.formulation = RB_STEADY;
-    rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = n;
-    return rc;
+    return rolling_case("support hub hub-ratio 0.4 radius 50 young 1000 poisson 0.3 "
+                        "relaxation-time 1e-3 relaxation-ratio 2 speed 1000 half-width 1 "
+                        "gap parabola mu 0.3 force 0 formulation steady mesh fitted "
+                        "contact-elements %d",
+                        n);
 }
 
 /* M/(P a), p0 a/P and xi R/a of the case. */
@@ -195,8 +185,7 @@ static void figures(const rb_rolling_case *rc, double value[3])
 TEST(a_large_wheel_is_a_halfplane)
 {
     double plane[3], before[3] = {0.0}, value[3];
-    rb_rolling_case rc = wheel(40);
-    rc.a.support = RB_BEM_HALFPLANE;
+    rb_rolling_case rc = with(wheel(40), "support halfplane");
     figures(&rc, plane);
     rc.a.support = RB_BEM_HUB;
     for (int k = 0; k < 3; k++) {
@@ -221,17 +210,13 @@ TEST(a_thin_cover_is_the_layer)
         for (int k = 0; k < 2; k++) {
             double value[3], flat[3];
             rb_rolling_case rc = wheel(20);
-            rc.a.radius = 50.0 * (1 << k);
-            rc.a.poisson = 0.45;
-            rc.a.cover = 2.0;
-            rc.a.core_young = core ? 2000.0 : 0.0;
-            rc.a.core_poisson = 0.3;
+            set(&rc, "radius %g poisson 0.45 cover-thickness 2 core-young %g core-poisson 0.3",
+                50.0 * (1 << k), core ? 2000.0 : 0.0);
             figures(&rc, value);
-            rc.a.support = RB_BEM_HALFPLANE;
-            rc.a.layer = rc.a.cover;
-            rc.a.cover = 0.0;
-            rc.a.base_young = rc.a.core_young;
-            rc.a.base_poisson = rc.a.core_poisson;
+            set(&rc,
+                "support halfplane layer-thickness %g cover-thickness none base-young %g "
+                "base-poisson %g",
+                rc.a.cover, rc.a.core_young, rc.a.core_poisson);
             figures(&rc, flat);
             CHECK_REL(value[0], flat[0], 2.0 / rc.a.radius, "core %d: M", core);
             CHECK_REL(value[1], flat[1], 0.3 / rc.a.radius, "core %d: p0", core);
@@ -252,9 +237,7 @@ TEST(a_cover_to_the_hub_is_the_wheel)
 {
     double value[2][3];
     for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = wheel(20);
-        rc.a.cover = k ? 30.0 : 0.0;
-        rc.near_field = RB_NEAR_FIELD_EXACT;
+        rb_rolling_case rc = with(wheel(20), "cover-thickness %g near-field exact", k ? 30.0 : 0.0);
         figures(&rc, value[k]);
     }
     for (int i = 0; i < 3; i++)
@@ -268,13 +251,11 @@ TEST(speed_has_its_limits)
 {
     for (int kind = 0; kind < 3; kind++)
         for (int fast = 0; fast < 2; fast++) {
-            rb_rolling_case rc = wheel(30);
+            rb_rolling_case rc =
+                with(wheel(30), "cover-thickness %g core-young %g core-poisson 0.3",
+                     kind ? 4.0 : 0.0, kind == 2 ? 3000.0 : 0.0);
             double value[3], limit[3];
-            rc.a.cover = kind ? 4.0 : 0.0;
-            rc.a.core_young = kind == 2 ? 3000.0 : 0.0;
-            rc.a.core_poisson = 0.3;
-            rc.load = rb_rolling_derive(&rc).load;
-            rc.half_width = NAN;
+            set(&rc, "load %g half-width nan", rb_rolling_derive(&rc).load);
             rc.a.memory.time[0] = fast ? 1e4 : 1e-9;
             figures(&rc, value);
             rc.a.memory.n = 0;
@@ -303,10 +284,8 @@ TEST(what_does_not_relax_loses_nothing)
         rb_rolling_case rc = wheel(20);
         const int of_b = k >= 12, driven = k % 2, kind = k / 2 % 3, pair = k >= 6;
         rb_rolling_solution s[2];
-        rc.a.cover = kind ? 3.0 : 0.0;
-        rc.a.core_young = kind == 2 ? 2000.0 : 0.0;
-        rc.force = NAN;
-        rc.force_ratio = driven ? 0.9 : -0.9;
+        set(&rc, "cover-thickness %g core-young %g force nan force-ratio %g", kind ? 3.0 : 0.0,
+            kind == 2 ? 2000.0 : 0.0, driven ? 0.9 : -0.9);
         if (pair) {
             rc.elastic_b = 1;
             rc.b = rc.a;
@@ -334,10 +313,9 @@ TEST(the_energy_balances)
         rb_rolling_case rc = wheel(k == 7 ? 60 : 20);
         rc.a.cover = k % 4 == 0 ? 0.0 : 3.0;
         rc.a.core_young = k % 4 == 2 ? 2000.0 : 0.0;
-        rc.force = k == 5 ? NAN : 0.1 * k;
+        set(&rc, "force %g mesh %s slip-operator %s", k == 5 ? NAN : 0.1 * k,
+            k == 7 ? "aligned" : "fitted", k == 7 ? "second" : "upstream");
         rc.free_axle = k == 5;
-        rc.mesh = k == 7 ? RB_MESH_ALIGNED : RB_MESH_FITTED;
-        rc.slip_operator = k == 7 ? RB_SLIP_SECOND : RB_SLIP_UPSTREAM;
         if (k % 4 == 3)
             rc.a.memory = (rb_rolling_memory){2, {3e-4, 1e-2}, {1.0, 2.0}};
         if (k > 3) {
@@ -392,10 +370,8 @@ TEST(the_balance_closes_to_second_order)
                 rb_rolling_case rc = wheel(n);
                 rc.a.cover = k == 1 || k == 2 ? 3.0 * a : 0.0;
                 rc.a.core_young = k == 2 ? 2000.0 : 0.0;
-                rc.normals = k == 3 ? RB_BEM_NORMALS_SURFACE : RB_BEM_NORMALS_OBSTACLE;
-                rc.force = NAN;
-                rc.force_ratio = k == 3 ? NAN : 0.6;
-                rc.creep_ratio = k == 3 ? -0.4 : NAN;
+                set(&rc, "normals %s force nan force-ratio %g creep-ratio %g",
+                    k == 3 ? "surface" : "obstacle", k == 3 ? NAN : 0.6, k == 3 ? -0.4 : NAN);
                 CHECK_MAX(missed(rc, a), 0.45 / (n * n), "case %d, a = %g, %d elements", k, a, n);
             }
 }
@@ -406,10 +382,7 @@ TEST(surface_normals_feed_by_their_own_tractions)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(k ? 60 : 15);
-        rc.normals = RB_BEM_NORMALS_SURFACE;
-        rc.half_width = 4.0;
-        rc.force = NAN;
-        rc.creep_ratio = -0.4;
+        set(&rc, "normals surface half-width 4 force nan creep-ratio -0.4");
         OWNED(rb_rolling_solution) s = solved(&rc);
         const double R = rc.a.radius, xi = s.creepage;
         double fed = 0.0, load = 0.0, along_x = 0.0, turned = 0.0;
@@ -440,9 +413,7 @@ TEST(either_body_may_relax)
     rc.b = rc.a;
     rc.b.memory.n = 0;
     rc.b.young = 3000.0;
-    rc.b.radius = 70.0;
-    rc.force = NAN;
-    rc.force_ratio = -0.4;
+    set(&rc, "radius-b 70 force nan force-ratio -0.4");
     s[0] = solved(&rc);
     const rb_rolling_body a = rc.a;
     rc.a = rc.b;
@@ -460,12 +431,9 @@ TEST(either_body_may_relax)
 TEST(resistance_has_a_maximum_over_the_speed)
 {
     OWNED(rb_rolling_curve) c;
-    rb_rolling_case rc = wheel(24);
+    rb_rolling_case rc = with(wheel(24), "cover-thickness 3 force nan free-axle");
     double value[3];
     int turns = 0;
-    rc.a.cover = 3.0;
-    rc.force = NAN;
-    rc.free_axle = 1;
     CHECK_OK(
         rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_SPEED, 1e1, 1e5, 5}, &c, &heard));
     for (int k = 1; k < 4; k++)

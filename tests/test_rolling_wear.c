@@ -11,10 +11,7 @@
 static rb_rolling_case cylinder(int elements, double zone)
 {
     rb_rolling_case rc = half_plane(RB_STATIC, elements);
-    rc.a.young = 200000.0;
-    rc.a.poisson = 0.3;
-    on_its_like(&rc);
-    rc.gap = RB_GAP_PARABOLA;
+    set(&rc, "young 200000 poisson 0.3 similar gap parabola");
     rc.load = rb_rolling_derive(&rc).modulus * M_PI / (4.0 * rc.a.radius);
     rc.zone = zone;
     return rc;
@@ -180,10 +177,7 @@ TEST(gross_slip_wears_four_strokes)
 /* A round wheel stays round: dz = K D per turn. */
 TEST(wheel_loses_its_radius)
 {
-    rb_rolling_case rc = cylinder(60, 0.0);
-    rc.formulation = RB_STEADY;
-    rc.mesh = RB_MESH_FITTED;
-    rc.creep_ratio = 0.5;
+    rb_rolling_case rc = with(cylinder(60, 0.0), "formulation steady mesh fitted creep-ratio 0.5");
     const rb_rolling_wear wear = {
         .law = RB_WEAR_DISSIPATION, .coefficient = 1e-7, .way = 1000.0, .steps = 4};
     worn w = run(&rc, &wear);
@@ -205,9 +199,7 @@ TEST(archard_s_wheel_loses_what_creepage_feeds)
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = cylinder(50, 0.0);
         const double s = k % 2 ? 2.0 : 0.5;
-        rc.formulation = RB_STEADY;
-        rc.mesh = k < 2 ? RB_MESH_FITTED : RB_MESH_UNIFORM;
-        rc.creep_ratio = s;
+        set(&rc, "formulation steady mesh %s creep-ratio %g", k < 2 ? "fitted" : "uniform", s);
         const rb_rolling_wear wear = {
             .law = RB_WEAR_ARCHARD, .coefficient = 1e-9, .way = 1.0, .steps = 1};
         worn w = run(&rc, &wear);
@@ -263,8 +255,7 @@ TEST(volumes_are_as_the_shares)
         if (k == 1)
             rc.force_ratio = 0.6;
         if (k > 1) {
-            rc.formulation = RB_STEADY;
-            rc.creep_ratio = 0.5;
+            set(&rc, "formulation steady creep-ratio 0.5");
         }
         const rb_rolling_wear both = shared(wear, 0.3), none = shared(wear, 0.0);
         worn w = run(&rc, &both), alone = run(&rc, &none);
@@ -339,20 +330,17 @@ TEST(meaningless_wear_is_refused)
                                         "equal elements", "one elastic", "one elastic"};
     for (int k = 0; k < BAD; k++)
         wear[k] = sliding(&good, 1.0, 2);
-    bad[0].formulation = RB_TRANSIENT;
-    bad[0].distance = 1.0;
+    set(&bad[0], "formulation transient distance 1");
     wear[1].coefficient = 0.0;
     bad[2].mu = 0.0;
     wear[2].law = RB_WEAR_DISSIPATION;
     bad[3].mesh = RB_MESH_FITTED;
     for (int k = 4; k < BAD; k++) { /* a radius that shrinks means no layer or cover */
-        bad[k].formulation = RB_STEADY;
-        bad[k].creep = 1e-3;
+        set(&bad[k], "formulation steady creep 1e-3");
         wear[k].slides = 0;
     }
     bad[4].a.layer = 1.0;
-    bad[5].a.support = RB_BEM_HUB;
-    bad[5].a.cover = 1.0;
+    set(&bad[5], "support hub cover-thickness 1");
     for (int k = 0; k < BAD; k++) {
         worn w;
         CHECK_SAYS(rb_rolling_wear_run(&bad[k], &wear[k], NULL, &w.h, &w.last, &heard), RB_EINVAL,
@@ -367,8 +355,7 @@ TEST(strokes_may_be_forces)
     double depth[2];
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = cylinder(24, 1.5);
-        rc.force = k ? NAN : 0.5 * rc.mu * rc.load;
-        rc.force_ratio = k ? 0.5 : NAN;
+        set(&rc, "force %g force-ratio %g", k ? NAN : 0.5 * rc.mu * rc.load, k ? 0.5 : NAN);
         const rb_rolling_wear wear = {
             .law = RB_WEAR_ARCHARD, .coefficient = 1e-9, .way = 1e3, .steps = 1, .increments = 4};
         worn w = run(&rc, &wear);
@@ -391,14 +378,9 @@ TEST(friction_laws_wear_where_they_can)
                                 .way = 1.0,
                                 .steps = 1,
                                 .slides = k < 2};
-        rc.friction.law = RB_FRICTION_exponential;
-        rc.friction.fall[0] = 0.1;
-        rc.friction.slip_scale[0] = 100.0;
-        rc.speed = 1.0;
+        set(&rc, "friction-law exponential mu-fall 0.1 slip-scale 100 speed 1");
         if (k == 2) {
-            rc.formulation = RB_STEADY;
-            rc.creep = 1e-3;
-            rc.zone = 0.0;
+            set(&rc, "formulation steady creep 1e-3 zone auto");
         }
         CHECK_STATUS(rb_rolling_wear_run(&rc, &wear, NULL, &w.h, &w.last, &heard),
                      k == 1 ? RB_EINVAL : RB_OK);

@@ -1,6 +1,7 @@
 /* Finite cylinders by boundary elements: they tend to the half-plane as a/R falls, in
  * both supports; where they differ from it; the case of *Addi* (theory.md 4.3, 6, 7).
  * The measured figures stand in docs/rolling.md. */
+#include "cases.h"
 #include "rollbem/closed_forms.h"
 #include "rollbem/rolling.h"
 #include "solved.h"
@@ -17,12 +18,9 @@ static const char *name_of(rb_bem_support support)
 /* nu = 1/2 on a rigid plane, steady, s = 0.4: Carter's case on a wheel. */
 static rb_rolling_case wheel(rb_bem_support support, double ratio)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.poisson = 0.5;
+    rb_rolling_case rc =
+        rolling_case("poisson 0.5 half-width %g formulation steady creep-ratio 0.4", 50.0 * ratio);
     rc.a.support = support;
-    rc.half_width = ratio * rc.a.radius;
-    rc.formulation = RB_STEADY;
-    rc.creep_ratio = 0.4;
     return rc;
 }
 
@@ -91,10 +89,9 @@ TEST(compressible_wheels_need_small_elements_too)
         double last = 0.0;
         for (int fine = 1; fine <= 4; fine *= 2) {
             rb_rolling_case rc = wheel(wheels[k], 1e-5);
-            rc.a.poisson = rc.b.poisson = 0.3;
+            set(&rc, "poisson 0.3 poisson-b 0.3 contact-elements %d outer-elements %d", 39 * fine,
+                75 * fine);
             rc.elastic_b = 1;
-            rc.contact_elements = 39 * fine;
-            rc.outer_elements = 75 * fine;
             const distance d = from_halfplane(rc);
             CHECK_MAX(d.q, 1e-2, "q, %s", name_of(wheels[k]));
             if (fine > 1)
@@ -107,19 +104,12 @@ TEST(compressible_wheels_need_small_elements_too)
 /* Aluminium on steel (theory.md 6), both of them wheels, mu -> infinity. */
 static double bentall_johnson_error(rb_bem_support support, int elements)
 {
-    rb_rolling_case rc = wheel(support, 2e-5);
-    rc.a.young = 60260.0;
-    rc.a.poisson = 0.31;
+    rb_rolling_case rc = with(wheel(support, 2e-5), "young 60260 poisson 0.31");
     rc.b = rc.a;
-    rc.b.young = 209920.0;
-    rc.b.poisson = 0.28;
-    rc.elastic_b = 1;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = elements;
-    rc.mu = 10.0;
-    rc.creep_ratio = NAN;
-    rc.force = 0.0;
+    set(&rc,
+        "young-b 209920 poisson-b 0.28 gap parabola mesh fitted contact-elements %d mu 10 "
+        "creep-ratio nan force 0",
+        elements);
     OWNED(rb_rolling_solution) s = valid(&rc);
     const double modulus = rb_rolling_derive(&rc).modulus, R = rb_rolling_radius(&rc);
     const rb_closed_bentall_johnson want =
@@ -143,9 +133,8 @@ TEST(the_exact_near_field_spares_the_small_elements)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(wheels[k], 1e-5);
-        rc.a.poisson = rc.b.poisson = 0.3;
+        set(&rc, "poisson 0.3 poisson-b 0.3 near-field exact");
         rc.elastic_b = 1;
-        rc.near_field = RB_NEAR_FIELD_EXACT;
         CHECK_MAX(from_halfplane(rc).q, 1e-4, "q, %s", name_of(wheels[k]));
     }
 }
@@ -163,9 +152,7 @@ static double support_constant(const rb_rolling_case *rc)
 TEST(approach_differs_by_a_constant_of_the_support)
 {
     for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = wheel(wheels[k], 1e-4);
-        rc.mesh = RB_MESH_FITTED;
-        rc.contact_elements = 40;
+        rb_rolling_case rc = with(wheel(wheels[k], 1e-4), "mesh fitted contact-elements 40");
         const double want = support_constant(&rc);
         for (double ratio = 1e-6; ratio > 1e-9; ratio *= 0.01) {
             rc.half_width = ratio * rc.a.radius;
@@ -178,9 +165,7 @@ TEST(approach_differs_by_a_constant_of_the_support)
 TEST(a_contact_of_1e_8_of_the_radius_keeps_its_digits)
 {
     for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = wheel(wheels[k], 1e-8);
-        rc.mesh = RB_MESH_FITTED;
-        rc.contact_elements = 50;
+        rb_rolling_case rc = with(wheel(wheels[k], 1e-8), "mesh fitted contact-elements 50");
         OWNED(rb_rolling_solution) s = valid(&rc);
         CHECK_ABS(s.force_ratio, rb_closed_carter_force_ratio(0.4), 3e-4, "Carter, %s",
                   name_of(wheels[k]));
@@ -193,8 +178,7 @@ TEST(a_contact_of_1e_8_of_the_radius_keeps_its_digits)
 
 static double creepage_of_force(rb_rolling_case rc, double ratio, double *approach)
 {
-    rc.creep_ratio = NAN;
-    rc.force_ratio = ratio;
+    set(&rc, "creep-ratio nan force-ratio %g", ratio);
     OWNED(rb_rolling_solution) s = valid(&rc);
     const double creepage = s.creepage;
     CHECK_ABS(s.force_ratio, ratio, 1e-10, "given force");
@@ -209,10 +193,8 @@ TEST(the_two_signs_mirror_up_to_delta_over_R)
     for (int k = 0; k < 2; k++) {
         double last_sum = 0.0, last_approach = 0.0;
         for (double ratio = 1e-1; ratio > 5e-4; ratio *= 0.1) {
-            rb_rolling_case rc = wheel(wheels[k], ratio);
+            rb_rolling_case rc = with(wheel(wheels[k], ratio), "mesh fitted contact-elements 50");
             double approach;
-            rc.mesh = RB_MESH_FITTED;
-            rc.contact_elements = 50;
             const double sum =
                 creepage_of_force(rc, -0.64, &approach) + creepage_of_force(rc, 0.64, &approach);
             const double slope = sum / (approach / rc.a.radius);
@@ -247,10 +229,8 @@ TEST(free_rolling_of_an_incompressible_wheel)
 TEST(normals_of_the_surface_cost_a_creepage_of_delta_over_R)
 {
     for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = wheel(wheels[k], 1e-3);
+        rb_rolling_case rc = with(wheel(wheels[k], 1e-3), "contact-elements 100 mu 0.4");
         OWNED(rb_rolling_solution) flat, round;
-        rc.contact_elements = 100;
-        rc.mu = 0.4;
         flat = valid(&rc);
         rc.normals = RB_BEM_NORMALS_SURFACE;
         round = valid(&rc);
@@ -264,8 +244,7 @@ TEST(normals_of_the_surface_cost_a_creepage_of_delta_over_R)
 /* They turn pressure into a part of Q and friction into a part of P. */
 TEST(normals_of_the_surface_share_the_forces)
 {
-    rb_rolling_case rc = wheel(RB_BEM_HUB, 0.1);
-    rc.normals = RB_BEM_NORMALS_SURFACE;
+    rb_rolling_case rc = with(wheel(RB_BEM_HUB, 0.1), "normals surface");
     OWNED(rb_rolling_solution) s = solved(&rc);
     double p = 0.0;
     for (int i = 0; i < s.n; i++)
@@ -278,8 +257,7 @@ TEST(normals_of_the_surface_share_the_forces)
 
 static double support_balance(rb_rolling_case rc, int outer, int fine)
 {
-    rc.contact_elements = 30 * fine;
-    rc.outer_elements = outer * fine;
+    set(&rc, "contact-elements %d outer-elements %d", 30 * fine, outer * fine);
     OWNED(rb_rolling_solution) s = valid(&rc);
     return fabs(s.support_balance);
 }
@@ -289,8 +267,7 @@ static double support_balance(rb_rolling_case rc, int outer, int fine)
 TEST(the_support_carries_the_load)
 {
     for (int k = 0; k < 4; k++) {
-        rb_rolling_case rc = wheel(wheels[k % 2], 0.02);
-        rc.a.poisson = 0.3;
+        rb_rolling_case rc = with(wheel(wheels[k % 2], 0.02), "poisson 0.3");
         if (k > 1) {
             rc = rb_rolling_case_defaults();
             rc.a.support = wheels[k % 2];
@@ -327,11 +304,9 @@ TEST(the_case_of_addi)
     };
 
     for (size_t k = 0; k < sizeof want / sizeof *want; k++) {
-        rb_rolling_case rc = rb_rolling_case_defaults();
+        rb_rolling_case rc = rolling_case("mu %g contact-elements 120", want[k].mu);
         rc.a.support = want[k].support;
-        rc.mu = want[k].mu;
         rc.normals = want[k].normals;
-        rc.contact_elements = 120;
         OWNED(rb_rolling_solution) s = valid(&rc);
         const double R = rc.a.radius, element = 1.5 * s.h[0] / R;
         CHECK_ABS(s.contact_from / R, want[k].contact_from, element, "case %zu", k);
@@ -354,17 +329,13 @@ TEST(a_symmetric_case_has_a_symmetric_answer)
                             [RB_ZONE_SLIP_NEGATIVE] = RB_ZONE_SLIP_POSITIVE,
                             [RB_ZONE_SLIP_POSITIVE] = RB_ZONE_SLIP_NEGATIVE};
     for (int k = 0; k < 16; k++) {
-        rb_rolling_case rc = rb_rolling_case_defaults();
+        rb_rolling_case rc = rolling_case("mesh %s", k & 2 ? "fitted" : "uniform");
         rc.a.support = wheels[k % 2];
-        rc.mesh = k & 2 ? RB_MESH_FITTED : RB_MESH_UNIFORM;
         if (k & 4) {
-            rc.elastic_b = 1;
-            rc.b.young = 2.0 * rc.a.young;
-            rc.b.radius = 80.0;
+            set(&rc, "young-b %g radius-b 80", 2.0 * rc.a.young);
             rc.b.support = wheels[k / 2 % 2];
         }
-        rc.approach = k & 8 ? 0.02 : 5.0;
-        rc.shift = 0.0;
+        set(&rc, "approach %g shift 0", k & 8 ? 0.02 : 5.0);
         OWNED(rb_rolling_solution) s = valid(&rc);
         const double bound = 1e-9 * s.max_pressure;
         for (int i = 0, j = s.n - 1; i < s.n; i++, j--) {
@@ -379,16 +350,14 @@ TEST(a_symmetric_case_has_a_symmetric_answer)
  * does not. */
 TEST(slip_afterwards_contradicts_stick)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.creep = 0.1;
+    rb_rolling_case rc = rolling_case("creep 0.1");
     rb_rolling_solution s = valid(&rc);
     assert_true(s.slip_violations >= s.stick);
     for (int i = 0; i + 1 < s.n; i++)
         if (s.zone[i] == RB_ZONE_STICK && s.zone[i + 1] == RB_ZONE_STICK)
             CHECK_ABS(s.slip[i], rc.creep, 1e-12, "element %d", i);
     rb_rolling_solution_free(&s);
-    rc.formulation = RB_STEADY;
-    rc.creep = 0.01;
+    set(&rc, "formulation steady creep 0.01");
     s = valid(&rc);
     assert_true(s.stick > 0 && s.slipping > 0);
     assert_int_equal(s.slip_violations, 0);
@@ -413,9 +382,7 @@ TEST(an_incompressible_wheel_on_a_hub)
 TEST(every_failed_allocation_is_reported)
 {
     rb_rolling_case rc = wheel(RB_BEM_HUB, 0.05);
-    rc.contact_elements = 10;
-    rc.outer_elements = 16;
-    rc.zone = 1.5 * rc.half_width;
+    set(&rc, "contact-elements 10 outer-elements 16 zone %g", 1.5 * rc.half_width);
     for (int count = 0, refused = 1; refused; count++) {
         OWNED(rb_rolling_solution) s;
         refused = REFUSED_FROM(count, rb_rolling_solve(&rc, &s, NULL));
@@ -429,10 +396,7 @@ TEST(many_outer_elements_fit_their_own_contact)
     rb_rolling_case rc = wheel(RB_BEM_HUB, 0.02);
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_solution) s;
-    rc.a.poisson = 0.28;
-    rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = 40;
-    rc.outer_elements = 610;
+    set(&rc, "poisson 0.28 mesh fitted contact-elements 40 outer-elements 610");
     CHECK_OK(rb_rolling_solve_model(&rc, &model, &s, NULL));
     const double *ends = model.mesh.ends + (model.mesh.n - rc.contact_elements) / 2;
     const double h = ends[1] - ends[0];

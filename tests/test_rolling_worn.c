@@ -8,10 +8,7 @@
 static rb_rolling_case plane(int elements)
 {
     rb_rolling_case rc = half_plane(RB_STATIC, elements);
-    on_its_like(&rc);
-    rc.gap = RB_GAP_PARABOLA;
-    rc.load = 500.0;
-    rc.zone = 1.6;
+    set(&rc, "similar gap parabola load 500 zone 1.6");
     return rc;
 }
 
@@ -153,10 +150,8 @@ TEST(many_elements_wear_without_a_matrix)
 TEST(smooth_surfaces_wear_by_archard)
 {
     run r = {.stop_at = -1};
-    rb_rolling_case rc = plane(40);
+    rb_rolling_case rc = with(plane(40), "mu 0 load nan");
     const rb_rolling_wear wear = {.slides = 1, .coefficient = 1e-8, .way = 1000.0, .steps = 1};
-    rc.mu = 0.0;
-    rc.load = NAN;
     rc.half_width = rb_rolling_hertz_half_width(&rc, 500.0); /* means this load */
     start(&r, &rc, &wear);
     CHECK_OK(r.status);
@@ -233,9 +228,8 @@ TEST(a_scar_that_outgrows_its_zone)
     CHECK_REL(r.last.h[0], 3.2 / 40.0, 1e-12, "of the same length");
     finish(&r);
     rc = plane(16);
+    set(&rc, "support hub outer-elements 30");
     rc.elastic_b = 0;
-    rc.a.support = RB_BEM_HUB;
-    rc.outer_elements = 30;
     start(&r, &rc, &wear);
     CHECK_STATUS(r.status, RB_ZONE);
     assert_non_null(strstr(r.why.text, "which cannot grow on wheels"));
@@ -304,11 +298,9 @@ TEST(corners_have_no_largest_pressure)
     static const double x[] = {-0.2, -0.1, 0.0, 0.1, 0.2}, depth[] = {0.0, 1e-4, 0.0, 1e-4, 0.0};
     double p[3];
     for (int k = 0; k < 3; k++) {
-        rb_rolling_case rc = plane(k == 0 ? 61 : k == 1 ? 183 : 549);
+        rb_rolling_case rc = with(plane(k == 0 ? 61 : k == 1 ? 183 : 549), "mu 0 mesh uniform");
         OWNED(rb_rolling_solution) s;
         rb_rolling_errors e;
-        rc.mu = 0.0;
-        rc.mesh = RB_MESH_UNIFORM;
         rc.worn = (rb_rolling_table){5, x, depth};
         CHECK_OK(rb_rolling_solve_with_errors(&rc, &s, &e, NULL));
         const rb_rolling_note_list list = rb_rolling_find_notes(&rc, &s);
@@ -337,12 +329,10 @@ TEST(corners_that_elements_do_not_see_are_not_noted)
     }
     for (int soft = 0; soft < 2; soft++) {
         rb_rolling_case rc = plane(60);
-        OWNED(rb_rolling_solution) s;
         static const double rows[] = {-0.2, 0.0, 0.2}, kink[] = {1e-4, 0.0, 1e-4};
-        rc.mu = 0.0;
+        set(&rc, "mu 0 interlayer-normal %g", soft ? 1e-6 : 0.0);
         rc.worn = soft ? (rb_rolling_table){3, rows, kink} : (rb_rolling_table){401, x, depth};
-        rc.interlayer_normal = soft ? 1e-6 : 0.0;
-        CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
+        OWNED(rb_rolling_solution) s = solved(&rc);
         const rb_rolling_note_list list = rb_rolling_find_notes(&rc, &s);
         for (int i = 0; i < list.n; i++)
             assert_null(strstr(list.text[i], "corners"));

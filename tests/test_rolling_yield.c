@@ -19,23 +19,10 @@ static rb_rolling_solution valid(const rb_rolling_case *rc)
  * 2B exp(nu/(1-nu)): Cerruti's solution integrated over the width. */
 static rb_rolling_case plastic_example(double hardening)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.a.young = 2.0 * 82000.0 * 1.28;
-    rc.a.poisson = 0.28;
-    rc.a.datum = 200.0 * exp(0.28 / 0.72);
-    on_its_like(&rc);
-    rc.a.radius = 500.0;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.mu = 0.5;
-    rc.load = 178.9;
-    rc.creep = -0.0004;
-    rc.formulation = RB_STEADY;
-    rc.mesh = RB_MESH_UNIFORM;
-    rc.slip_operator = RB_SLIP_UPSTREAM;
-    rc.yield_stress = 35.0;
-    rc.hardening = hardening;
-    return rc;
+    return rolling_case("support halfplane young %g poisson 0.28 datum %g similar radius 500 "
+                        "gap parabola mu 0.5 load 178.9 creep -0.0004 formulation steady "
+                        "mesh uniform slip-operator upstream yield-stress 35 hardening %g",
+                        2.0 * 82000.0 * 1.28, 200.0 * exp(0.28 / 0.72), hardening);
 }
 
 /* FX/(FSTAT FN) and the elements that stick, slip and yield, as CONTACT prints them for
@@ -107,9 +94,8 @@ TEST(rolling_from_a_shift_is_met)
         const rb_rolling_past past = {w_T, yielded, 0.08};
         OWNED(rb_contact_problem) p;
         int stick, slip, yield;
-        rc.formulation = step ? RB_TRANSIENT : RB_STATIC;
-        rc.creep = step ? -0.0004 : NAN;
-        rc.force_ratio = step ? NAN : 0.6;
+        set(&rc, "formulation %s creep %g force-ratio %g", step ? "transient" : "static",
+            step ? -0.0004 : NAN, step ? NAN : 0.6);
         CHECK_OK(rb_rolling_problem_create(&rc, &mesh, &bodies, step ? &past : NULL, &p, &heard));
         CHECK_OK(rb_rolling_problem_solve(&p, &rc, step > 0, &x, &heard));
         double Q = 0.0;
@@ -155,22 +141,15 @@ TEST(brushes_converge_to_second_order)
     for (int k = 0; k < 3; k++) {
         double error[3];
         for (int j = 0; j < 3; j++) {
-            rb_rolling_case rc = rb_rolling_case_defaults();
-            rc.a.support = RB_BEM_HALFPLANE;
-            rc.a.young = 1e13;
-            rc.a.poisson = 0.5;
-            rc.gap = RB_GAP_PARABOLA;
-            rc.interlayer_normal = 1e-6;
-            rc.interlayer_tangential = 2e-6;
+            rb_rolling_case rc = rolling_case("support halfplane young 1e13 poisson 0.5 "
+                                              "gap parabola interlayer-normal 1e-6 "
+                                              "interlayer-tangential 2e-6 yield-stress 900 "
+                                              "hardening %g formulation steady mesh aligned "
+                                              "slip-operator second contact-elements %d",
+                                              hardening[k], n[j]);
             rc.load = 2.0 / (3.0 * rc.a.radius * rc.interlayer_normal);
             rc.creep =
                 0.4 * rc.mu * rc.interlayer_tangential / (rc.a.radius * rc.interlayer_normal);
-            rc.yield_stress = 900.0;
-            rc.hardening = hardening[k];
-            rc.formulation = RB_STEADY;
-            rc.mesh = RB_MESH_ALIGNED;
-            rc.slip_operator = RB_SLIP_SECOND;
-            rc.contact_elements = n[j];
             OWNED(rb_rolling_solution) s = valid(&rc);
             assert_true(s.stick > 0 && s.yielding > 0 && s.slipping > s.yielding);
             const double want = brush_force(&rc, s.half_width);
@@ -242,15 +221,11 @@ TEST(law_holds_by_the_columns)
     for (int k = 0; k < 40; k++) {
         rb_rolling_case rc = rb_rolling_case_defaults();
         const double E[] = {2e5, 7e4, 5e3};
-        rc.a.radius = 100.0;
-        rc.a.support = draw(&seed, 5) ? RB_BEM_HALFPLANE : RB_BEM_HUB;
-        rc.a.young = 2e5;
-        rc.a.poisson = 0.3;
+        set(&rc, "radius 100 support %s young 2e5 poisson 0.3",
+            draw(&seed, 5) ? "halfplane" : "hub");
         rc.elastic_b = draw(&seed, 3) > 0;
         rc.b.young = E[draw(&seed, 3)];
-        rc.b.poisson = 0.3;
-        rc.mu = draw(&seed, 2) ? 0.3 : 0.8;
-        rc.load = 200.0;
+        set(&rc, "poisson-b 0.3 mu %g load 200", draw(&seed, 2) ? 0.3 : 0.8);
         rc.formulation = draw(&seed, 4) ? RB_STEADY : RB_STATIC;
         if (rc.formulation == RB_STATIC)
             rc.shift = (draw(&seed, 2) ? 1.0 : -1.0) * 1e-4 * (1 + draw(&seed, 20));
@@ -263,16 +238,14 @@ TEST(law_holds_by_the_columns)
         rc.yield_stress = rc.mu * rb_rolling_derive(&rc).stress * (0.05 + 0.1 * draw(&seed, 10));
         const rb_rolling_derived d = rb_rolling_derive(&rc);
         const double of[] = {0.0, 0.01, 0.3, 10.0, 1000.0, -0.01, -0.05};
-        rc.hardening = of[draw(&seed, 7)] * d.modulus / d.half_width;
-        rc.contact.solver = RB_SOLVER_NEWTON;
+        set(&rc, "hardening %g solver newton", of[draw(&seed, 7)] * d.modulus / d.half_width);
         OWNED(rb_rolling_solution) newton = valid(&rc), lemke;
         CHECK_MAX(law_violation(&rc, &newton), 1e-7, "case %d", k);
         yielding += newton.yielding > 0;
         for (int i = 1; i < newton.n - 2; i++)
             both_bounds += newton.zone[i] == RB_ZONE_SLIP_NEGATIVE &&
                            plastic_of(&rc, &newton, i) > 1e-3 * fabs(newton.shift[i]);
-        rc.contact.solver = RB_SOLVER_LEMKE;
-        rc.contact.lcp_form = draw(&seed, 2) ? RB_LCP_KWAK : RB_LCP_PIVOTED;
+        set(&rc, "solver lemke lcp-form %s", draw(&seed, 2) ? "kwak" : "pivoted");
         if (rc.hardening >= 0.0) {
             lemke = valid(&rc);
             CHECK_ABS(lemke.tangential_load, newton.tangential_load, 1e-9 * rc.load, "case %d", k);
@@ -290,16 +263,12 @@ TEST(large_yield_stress_is_elastic)
 
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = plastic_example(0.0);
-        rc.yield_stress = 0.0;
-        rc.interlayer_tangential = 1e-6;
+        set(&rc, "yield-stress none interlayer-tangential 1e-6 mesh %s shift %g creep %g",
+            k == 1 ? "fitted" : "uniform", k == 0 ? 1e-3 : NAN, k == 0 ? NAN : rc.creep);
         rc.formulation = of[k];
-        rc.mesh = k == 1 ? RB_MESH_FITTED : RB_MESH_UNIFORM;
-        rc.shift = k == 0 ? 1e-3 : NAN;
-        rc.creep = k == 0 ? NAN : rc.creep;
         rc.distance = k == 2 ? 1.0 : 0.0;
         OWNED(rb_rolling_solution) elastic = valid(&rc);
-        rc.yield_stress = 1e4;
-        rc.hardening = 1e5;
+        set(&rc, "yield-stress 1e4 hardening 1e5");
         OWNED(rb_rolling_solution) layer = valid(&rc);
         assert_int_equal(layer.yielding, 0);
         for (int i = 0; i < elastic.n; i++) {
@@ -315,10 +284,7 @@ TEST(large_yield_stress_is_elastic)
 TEST(small_yield_stress_is_a_bound)
 {
     rb_rolling_case rc = plastic_example(0.0);
-    rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = 60;
-    rc.creep = -0.01;
-    rc.yield_stress = 0.5;
+    set(&rc, "mesh fitted contact-elements 60 creep -0.01 yield-stress 0.5");
     OWNED(rb_rolling_solution) s = valid(&rc);
     for (int i = 0; i < s.n; i++)
         CHECK_ABS(s.q[i], fmin(rc.mu * s.p[i], rc.yield_stress), 1e-9, "element %d", i);
@@ -374,9 +340,7 @@ TEST(shift_to_and_fro_hardens)
     OWNED(rb_rolling_history) history;
     seen c = {0};
 
-    rc.formulation = RB_STATIC;
-    rc.creep = NAN;
-    rc.contact_elements = 40;
+    set(&rc, "formulation static creep nan contact-elements 40");
     CHECK_OK(rb_rolling_history_run(&rc, &program, &(rb_rolling_observer){see_step, &c}, &model,
                                     &history, &heard));
     assert_int_equal(c.steps, 8);
@@ -388,13 +352,9 @@ TEST(shift_to_and_fro_hardens)
 TEST(a_transient_becomes_steady)
 {
     rb_rolling_case rc = plastic_example(123000.0);
-    rc.contact_elements = 60;
-    rc.zone = 1.25;
-    rc.creep = NAN;
-    rc.force_ratio = 0.6;
+    set(&rc, "contact-elements 60 zone 1.25 creep nan force-ratio 0.6");
     OWNED(rb_rolling_solution) steady = valid(&rc);
-    rc.formulation = RB_TRANSIENT;
-    rc.distance = 5.0;
+    set(&rc, "formulation transient distance 5");
     OWNED(rb_rolling_solution) end = valid(&rc);
     CHECK_REL(end.creepage, steady.creepage, 5e-3, "xi");
     assert_true(abs(end.yielding - steady.yielding) <= 1);
@@ -415,14 +375,10 @@ TEST(forces_find_their_creepage)
     for (int k = 0; k < 4; k++)
         for (int j = 0; j < 2; j++) {
             rb_rolling_case rc = plastic_example(hardening[k]);
-            rc.contact_elements = 60;
-            rc.zone = 1.25;
-            rc.creep = NAN;
-            rc.force_ratio = j ? 0.5 : 0.2;
+            set(&rc, "contact-elements 60 zone 1.25 creep nan force-ratio %g", j ? 0.5 : 0.2);
             OWNED(rb_rolling_solution) s = valid(&rc);
             CHECK_ABS(s.force_ratio, rc.force_ratio, 1e-10, "k = %g", hardening[k]);
-            rc.creep = s.creepage;
-            rc.force_ratio = NAN;
+            set(&rc, "creep %g force-ratio nan", s.creepage);
             OWNED(rb_rolling_solution) again = valid(&rc);
             CHECK_ABS(again.force_ratio, s.force_ratio, 1e-10, "k = %g", hardening[k]);
         }
@@ -447,13 +403,9 @@ TEST(bad_layers_are_refused)
     rc = plastic_example(-1e8);
     refused(rc, "softening by 1e+08 MPa/mm has no unique solution");
     rc = plastic_example(0.0);
-    rc.contact_elements = 30;
-    rc.zone = 1.25;
-    rc.creep = NAN;
-    rc.force = 80.0;
+    set(&rc, "contact-elements 30 zone 1.25 creep nan force 80");
     refused(rc, "force Q = 80");
-    rc.hardening = -20500.0;
-    rc.force = -55.0;
+    set(&rc, "hardening -20500 force -55");
     refused(rc, "force Q = -55");
 }
 

@@ -10,10 +10,7 @@ static rb_rolling_case halfplane(double poisson, double mu, int elements)
 {
     rb_rolling_case rc = half_plane(RB_STEADY, elements);
 
-    rc.a.young = 1000.0;
-    rc.a.poisson = poisson;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.mu = mu;
+    set(&rc, "young 1000 poisson %g gap parabola mu %g", poisson, mu);
     return rc;
 }
 
@@ -46,9 +43,7 @@ TEST(edges_of_sliding_contacts_are_those_of_fine_meshes)
         double edge[2] = {0.0, 0.0};
         for (int n = 400; n >= 25; n /= 2) {
             rb_rolling_case rc = halfplane(poisson[k], mu[k], n);
-            rc.half_width = 2.0;
-            rc.creep_ratio = 4.0;
-            rc.contact.solver = RB_SOLVER_NEWTON;
+            set(&rc, "half-width 2 creep-ratio 4 solver newton");
             OWNED(rb_rolling_solution) s = solved(&rc);
             check_ends(&s, "sliding");
             assert_int_equal(s.stick, 0);
@@ -69,9 +64,8 @@ TEST(few_elements_see_the_contact)
     for (int n = 3; n <= 12; n++)
         for (int k = 0; k < 3; k++) {
             rb_rolling_case rc = halfplane(0.3, 0.3, n);
-            rc.mesh = RB_MESH_UNIFORM;
-            rc.formulation = k == 0 ? RB_STATIC : RB_STEADY;
-            rc.creep_ratio = k == 0 ? NAN : 0.5;
+            set(&rc, "mesh uniform formulation %s creep-ratio %g", k == 0 ? "static" : "steady",
+                k == 0 ? NAN : 0.5);
             if (k == 2)
                 rc.approach = 1e-16 * rc.a.radius;
             else
@@ -107,9 +101,7 @@ TEST(fitted_elements_hold_the_contact)
                  {-0.2, 2.0, -0.3, 12.0, 60, NAN, 0.0}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         rb_rolling_case rc = halfplane(cases[k].poisson, cases[k].mu, cases[k].elements);
-        rc.mesh = RB_MESH_FITTED;
-        rc.load = cases[k].load;
-        rc.creep_ratio = cases[k].creep_ratio;
+        set(&rc, "mesh fitted load %g creep-ratio %g", cases[k].load, cases[k].creep_ratio);
         OWNED(rb_rolling_solution) s = solved(&rc);
         check_ends(&s, "fitted");
         assert_int_equal(s.equal_instead, 0);
@@ -117,8 +109,7 @@ TEST(fitted_elements_hold_the_contact)
         double p0 = cases[k].p0, force_ratio = cases[k].force_ratio;
         if (isnan(p0)) { /* equal elements converge to the same */
             rb_rolling_case fine = rc;
-            fine.mesh = RB_MESH_UNIFORM;
-            fine.contact_elements = 400;
+            set(&fine, "mesh uniform contact-elements 400");
             OWNED(rb_rolling_solution) f = solved(&fine);
             p0 = f.max_pressure;
             force_ratio = f.force_ratio;
@@ -160,9 +151,8 @@ TEST(exchanged_bodies_have_the_same_pressure)
     srand(10);
     for (int k = 0; k < 20; k++) {
         rb_rolling_case rc = halfplane(between(-0.3, 0.5), between(0.05, 2.0), 40);
-        rc.mesh = k % 2 ? RB_MESH_FITTED : RB_MESH_UNIFORM;
-        rc.half_width = 1e-3 * rc.a.radius;
-        rc.creep_ratio = between(-1.2, 1.2);
+        set(&rc, "mesh %s half-width %g creep-ratio %g", k % 2 ? "fitted" : "uniform",
+            1e-3 * rc.a.radius, between(-1.2, 1.2));
         rc.elastic_b = 1;
         rc.b.radius = exp(between(2.0, 6.0));
         rc.b.poisson = between(-0.3, 0.5);
@@ -215,10 +205,8 @@ TEST(a_worn_flat_is_held_by_the_potential_contact)
 {
     for (int k = 0; k < 3; k++) {
         rb_rolling_case rc = halfplane(0.5, 0.3, 80);
-        rc.half_width = 0.02;
-        rc.creep_ratio = 0.4;
-        rc.mesh = k == 0 ? RB_MESH_UNIFORM : RB_MESH_FITTED;
-        rc.formulation = k == 2 ? RB_STATIC : RB_STEADY;
+        set(&rc, "half-width 0.02 creep-ratio 0.4 mesh %s formulation %s",
+            k == 0 ? "uniform" : "fitted", k == 2 ? "static" : "steady");
         set_table(&rc, 10.0, 2.0);
         OWNED(rb_rolling_solution) s = solved(&rc);
         check_ends(&s, "flat");
@@ -251,11 +239,8 @@ TEST(every_patch_is_found)
     for (int k = 0; k < 6; k++) {
         const double c = k % 2 ? 4.0 : 3.0;
         rb_rolling_case rc = halfplane(0.3, 0.3, 40);
+        set(&rc, "near-field exact mesh %s load 4 creep 0.001", k % 2 ? "fitted" : "uniform");
         rc.a.support = supports[k / 2];
-        rc.near_field = RB_NEAR_FIELD_EXACT;
-        rc.mesh = k % 2 ? RB_MESH_FITTED : RB_MESH_UNIFORM;
-        rc.load = 4.0;
-        rc.creep = 0.001;
         set_lobes(&rc, c, 0.004, 1);
         OWNED(rb_rolling_solution) s = solved(&rc);
         check_ends(&s, "lobes");
@@ -284,11 +269,7 @@ TEST(every_patch_is_found)
 
 TEST(a_mirrored_profile_has_mirrored_patches)
 {
-    rb_rolling_case rc = halfplane(0.3, 0.3, 40);
-    rc.formulation = RB_STATIC;
-    rc.shift = 0.0;
-    rc.mu = 0.0;
-    rc.load = 4.0;
+    rb_rolling_case rc = with(halfplane(0.3, 0.3, 40), "formulation static shift 0 mu 0 load 4");
     for (int k = 0; k < 2; k++) {
         rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
         set_lobes(&rc, 3.0, 0.004, 1);
@@ -307,10 +288,7 @@ TEST(a_mirrored_profile_has_mirrored_patches)
 /* More patches than elements are fitted to. */
 TEST(a_wavy_surface_gets_equal_elements)
 {
-    rb_rolling_case rc = halfplane(0.3, 0.3, 400);
-    rc.mesh = RB_MESH_FITTED;
-    rc.load = 40.0;
-    rc.creep = 0.001;
+    rb_rolling_case rc = with(halfplane(0.3, 0.3, 400), "mesh fitted load 40 creep 0.001");
     set_table(&rc, 8.0, 0.0);
     for (int i = 0; i < POINTS; i++)
         table_gap[i] += 0.01 * (1.0 - cos(2.0 * M_PI * table_x[i] / 0.2));
@@ -326,12 +304,10 @@ TEST(a_wavy_surface_gets_equal_elements)
 /* Below patches that lie far apart in comparison with their widths. */
 TEST(stress_is_looked_for_below_every_patch)
 {
-    rb_rolling_case rc = halfplane(0.3, 0.0, 80);
+    rb_rolling_case rc = with(halfplane(0.3, 0.0, 80), "mesh fitted load 4");
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_solution) s;
     rb_rolling_stress_maxima maxima;
-    rc.mesh = RB_MESH_FITTED;
-    rc.load = 4.0;
     set_lobes(&rc, 25.0, 0.004, 1);
     if (rb_rolling_solve_model(&rc, &model, &s, &heard) != RB_OK ||
         rb_rolling_stress_maxima_find(&model, 0.0, &maxima, &heard) != RB_OK)
@@ -346,10 +322,8 @@ TEST(stress_is_looked_for_below_every_patch)
 
 TEST(a_given_zone_must_hold_every_patch)
 {
-    rb_rolling_case rc = halfplane(0.3, 0.3, 40);
+    rb_rolling_case rc = with(halfplane(0.3, 0.3, 40), "load 4 creep 0.001");
     OWNED(rb_rolling_solution) s;
-    rc.load = 4.0;
-    rc.creep = 0.001;
     set_lobes(&rc, 3.0, 0.004, 1);
     for (int i = 0; i < POINTS; i++) /* the first lobe to the middle */
         table_x[i] += 3.0;
@@ -362,10 +336,8 @@ TEST(a_given_zone_must_hold_every_patch)
 
 TEST(a_contact_without_an_end_is_refused)
 {
-    rb_rolling_case rc = halfplane(0.5, 0.3, 60);
+    rb_rolling_case rc = with(halfplane(0.5, 0.3, 60), "half-width 1 creep-ratio 0.4");
     rb_rolling_solution s;
-    rc.half_width = 1.0;
-    rc.creep_ratio = 0.4;
     set_table(&rc, 0.6, 0.0);
     for (int k = 0; k < 2; k++) {
         rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
@@ -377,18 +349,15 @@ TEST(a_contact_without_an_end_is_refused)
 
 TEST(a_curve_and_a_history_find_the_end_of_their_mesh)
 {
-    rb_rolling_case rc = halfplane(0.0, 1.0, 40);
+    rb_rolling_case rc = with(halfplane(0.0, 1.0, 40), "half-width 1");
     rb_rolling_curve curve;
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_history) history;
-    rc.half_width = 1.0;
     rc.zone = 1.2; /* sliding moves the contact beyond it */
     CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 3.0, 7}, &curve, &heard),
                  RB_ZONE);
     rb_rolling_curve_free(&curve);
-    rc.formulation = RB_TRANSIENT;
-    rc.creep_ratio = 3.0;
-    rc.distance = 3.0;
+    set(&rc, "formulation transient creep-ratio 3 distance 3");
     CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &heard), RB_ZONE);
     assert_int_equal(model.state.status, RB_ZONE);
     rc.zone = 0.0;
@@ -402,10 +371,8 @@ TEST(a_zone_ends_with_three_separated_elements)
 {
     int kept = 0, grown = 0;
     for (int n = 20; n <= 44; n += 2) {
-        rb_rolling_case rc = halfplane(0.3, 0.0, n);
-        rc.mu = 0.0;
-        rc.load = rb_rolling_hertz_load(&rc, 1.0);
-        rc.half_width = NAN;
+        rb_rolling_case rc = with(halfplane(0.3, 0.0, n), "mu 0");
+        set(&rc, "load %g half-width nan", rb_rolling_hertz_load(&rc, 1.0));
         OWNED(rb_rolling_solution) first, s = solved(&rc);
         CHECK_OK(rb_rolling_solve_between(&rc, -1.3, 1.3, &first, NULL));
         int left = 0, right = 0;
@@ -450,13 +417,10 @@ TEST(a_contact_has_the_same_zone_in_every_unit)
     double ends[2], width[2];
     for (int k = 0; k < 2; k++) {
         const double unit = k ? 1e-3 : 1e3;
-        rb_rolling_case rc = halfplane(0.3, 0.3, 40);
-        rc.a.young = 94500.0;
+        rb_rolling_case rc = with(halfplane(0.3, 0.3, 40), "young 94500");
         rc.a.radius *= unit;
-        rc.a.layer = 0.2 * unit;
-        rc.load = 300.0 * unit;
-        rc.half_width = NAN;
-        rc.creep_ratio = 0.4;
+        set(&rc, "layer-thickness %g load %g half-width nan creep-ratio 0.4", 0.2 * unit,
+            300.0 * unit);
         OWNED(rb_rolling_solution) s = solved(&rc);
         ends[k] = (s.x[s.n - 1] + 0.5 * s.h[s.n - 1]) / unit;
         width[k] = s.half_width / unit;
@@ -470,10 +434,8 @@ TEST(a_contact_has_the_same_zone_in_every_unit)
  * d_T everywhere, which -d_T/e_T undoes. */
 TEST(free_rolling_undoes_what_displaces)
 {
-    rb_rolling_case rc = halfplane(0.5, 0.3, 20);
+    rb_rolling_case rc = with(halfplane(0.5, 0.3, 20), "half-width 1 creep-ratio 0.4");
     double creepage;
-    rc.half_width = 1.0;
-    rc.creep_ratio = 0.4;
     OWNED(rb_rolling_model) model = solved_model(&rc);
     CHECK_OK(rb_rolling_free_creepage(&model, &creepage, NULL));
     CHECK_ABS(creepage, 0.0, 0.0, "nothing displaces");
@@ -487,15 +449,12 @@ TEST(free_rolling_undoes_what_displaces)
  * rolls freely does: that one is looked for on elements of its own. */
 TEST(free_rolling_may_need_other_elements)
 {
-    rb_rolling_case rc = halfplane(0.0, 1.0, 80);
+    rb_rolling_case rc = with(halfplane(0.0, 1.0, 80), "half-width 1 force-ratio 0");
     OWNED(rb_rolling_model) model;
     rb_rolling_mesh mesh;
     double creepage;
-    rc.half_width = 1.0;
-    rc.force_ratio = 0.0;
     OWNED(rb_rolling_solution) freely = solved(&rc);
-    rc.force_ratio = NAN;
-    rc.creep_ratio = 3.0;
+    set(&rc, "force-ratio nan creep-ratio 3");
     CHECK_OK(rb_rolling_model_begin(&rc, NULL, &model, &heard));
     CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -0.85, 1.6, &mesh, &heard));
     CHECK_OK(rb_rolling_model_build(&model, &mesh, &heard));
@@ -509,9 +468,7 @@ TEST(every_failed_allocation_is_reported)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = halfplane(0.3, 0.3, 8);
-        rc.load = 4.0;
-        rc.creep = 0.001;
-        rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
+        set(&rc, "load 4 creep 0.001 mesh %s", k ? "fitted" : "uniform");
         set_lobes(&rc, 1.0, 0.004, 1);
         for (int count = 0, refused = 1; refused; count += k ? 61 : 11) {
             OWNED(rb_rolling_solution) s;
@@ -527,10 +484,7 @@ TEST(a_history_grows_its_zone_to_the_end_of_the_table)
     rb_rolling_case rc = halfplane(0.0, 1.0, 40);
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_history) history;
-    rc.half_width = 1.0;
-    rc.formulation = RB_TRANSIENT;
-    rc.creep_ratio = 3.0;
-    rc.distance = 3.0;
+    set(&rc, "half-width 1 formulation transient creep-ratio 3 distance 3");
     set_table(&rc, 1.25, 0.0);
     CHECK_SAYS(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &heard), RB_ZONE, "table");
     CHECK_ABS(model.mesh.ends[model.mesh.n], 1.25, 1e-2, "the widest zone");
@@ -541,10 +495,8 @@ TEST(a_history_grows_its_zone_to_the_end_of_the_table)
 TEST(elements_are_as_long_as_the_layer_at_most)
 {
     for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = halfplane(0.5, 0.0, 20);
+        rb_rolling_case rc = with(halfplane(0.5, 0.0, 20), "mu 0 half-width 0.5");
         OWNED(rb_rolling_solution) s;
-        rc.mu = 0.0;
-        rc.half_width = 0.5;
         rc.zone = 1.0; /* elements of 0.1 */
         rc.a.layer = k ? 0.1 * (1.0 - 1e-6) : 0.1;
         CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), k ? RB_EINVAL : RB_OK);

@@ -1,4 +1,5 @@
 /* The stress on a grid, what it leaves out, and its files. */
+#include "cases.h"
 #include "check.h"
 #include "rollbem/report.h"
 
@@ -6,11 +7,8 @@
 
 static rb_rolling_case pressed(rb_bem_support support)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_case rc = rolling_case("half-width 5 contact-elements 24 outer-elements 40");
     rc.a.support = support;
-    rc.half_width = 5.0;
-    rc.contact_elements = 24;
-    rc.outer_elements = 40;
     return rc;
 }
 

@@ -1,5 +1,6 @@
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 /* Parameter studies: the library's processes and the program. */
+#include "cases.h"
 #include "cli_run.h"
 #include "rollbem/io.h"
 #include "rollbem/rolling.h"
@@ -22,11 +23,8 @@ static rb_status make(int k, rb_rolling_case *rc, void *context)
     const record *r = context;
     if (k == r->kill_at && (!r->deaths || ++*r->deaths == 1))
         raise(SIGKILL);
-    *rc = rb_rolling_case_defaults();
-    rc->a.support = RB_BEM_HALFPLANE;
-    rc->formulation = RB_STEADY;
-    rc->half_width = 1.0;
-    rc->creep_ratio = 0.05 * k;
+    *rc =
+        rolling_case("support halfplane formulation steady half-width 1 creep-ratio %g", 0.05 * k);
     rc->contact_elements = k == 5 ? 1 : 40; /* too few: a case that fails */
     return RB_OK;
 }
