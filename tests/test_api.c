@@ -591,7 +591,7 @@ TEST(fits_by_handle)
     static const char *const wrong[] = {"creep", "forse", "test"};
     static const char plane[] = "support halfplane support-b halfplane similar yes load 500";
     double data[3 * N] = {0};
-    rb_api *a = rb_api_create();
+    held_api *a = rb_api_create();
     assert_int_equal(give(a, plane), RB_OK);
     assert_int_equal(rb_api_solve(a), RB_OK);
     const double half = rb_api_number(a, "hertz_half_width");
@@ -635,7 +635,7 @@ TEST(fits_by_handle)
     /* twice the standard deviation of each force, twice that of the number, in any unit */
     double deviation[3];
     for (int k = 0; k < 3; k++) {
-        rb_api *of = rb_api_create();
+        held_api *of = rb_api_create();
         const char *const words[] = {"units",     k == 2 ? "si" : "mm",
                                      "support",   "halfplane",
                                      "similar",   "yes",
@@ -655,11 +655,9 @@ TEST(fits_by_handle)
                                     k == 2 ? "load=300000:700000" : "load=300:700", sigma, 0.95),
                          RB_OK);
         deviation[k] = array(of, "fit.deviation", 1, 1)[0];
-        rb_api_free(of);
     }
     CHECK_REL(deviation[1], 2.0 * deviation[0], 1e-9, "sigma");
     CHECK_REL(deviation[2], 1000.0 * deviation[0], 1e-6, "in SI");
-    rb_api_free(a);
 }
 
 /* Whatever allocation fails, the call says so and the handle goes on. */
@@ -1175,7 +1173,7 @@ TEST(derivatives)
 /* What the last of several steps began with, its heat too, is gone when they are solved. */
 TEST(derivatives_of_several_steps_are_refused)
 {
-    rb_api *a = solved(
+    held_api *a = solved(
         "support hub similar yes load 500 formulation transient distance 0.6 steps 3 creep 1e-3 "
         "speed 1000 mu-heat -0.1,0,300 conductivity 50 heat-capacity 3.8 contact-elements 20");
 
@@ -1186,7 +1184,6 @@ TEST(derivatives_of_several_steps_are_refused)
     int rows, columns;
     assert_int_equal(rb_api_tolerances(a, "mu=0.02"), RB_OK);
     assert_non_null(rb_api_array(a, "history.tolerance.max_temperature", &rows, &columns));
-    rb_api_free(a);
 }
 
 /* Place of an input among those of rb_api_derivatives. */

@@ -450,7 +450,7 @@ TEST(no_list_shows_an_option_that_is_refused)
                    "sed 's/ -l / --/'",
                    command, command),
             0);
-        char *lists = strdup(out);
+        SCRATCH char *lists = strdup(out);
         for (const char *name; (name = strtok_r(rest, " ", &rest)) != NULL;) {
             int found = 0;
             snprintf(said, sizeof said, "--%s", name);
@@ -470,7 +470,6 @@ TEST(no_list_shows_an_option_that_is_refused)
                                                       : " 9");
             check_refused(arguments, 64, said);
         }
-        free(lists);
     }
 }
 

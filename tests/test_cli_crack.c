@@ -212,9 +212,8 @@ TEST(faces_are_named_as_they_lie)
                  HERTZ "--mu 0 --crack-friction 0 --quiet --units si --plot-crack f.svg "
                        "--plot-script f.gp --json --crack-angle %s",
                  cracks[k].angle);
-        json_t *root = run_json(line);
+        held_json *root = run_json(line);
         K[k] = in_summary(root, k == 2 ? "K_II_min" : "K_II_max");
-        json_decref(root);
         snprintf(line, sizeof line,
                  "grep -q 'solid title .%s face' f.gp && grep -q ') title .%s face' f.gp && "
                  "grep -q '■ %s face slips to the tip' f.gp && grep -q 'MPa·m' f.gp",
@@ -311,12 +310,11 @@ TEST(coupled)
     /* steady contacts of so many elements are solved without a matrix */
     double largest[2];
     for (int k = 0; k < 2; k++) {
-        json_t *one =
+        held_json *one =
             run_json(k ? HERTZ "--mu 0 --contact-elements 200 --crack-elements 10 --coupled "
                                "--formulation steady"
                        : HERTZ "--mu 0 --contact-elements 200 --crack-elements 10 --coupled");
         largest[k] = in_summary(one, "K_II_max");
-        json_decref(one);
     }
     CHECK_REL(largest[1], largest[0], 1e-9, "K_II max");
     check_refused("crack --support halfplane --half-width 1 --mu 0 --coupled", 64, "rigid");

@@ -403,7 +403,7 @@ TEST(bad_rows_are_named_by_their_line)
 /* The friction power along the contact adds up to the dissipation, which is -xi Q. */
 TEST(friction_power_adds_up)
 {
-    json_t *root =
+    held_json *root =
         run_json(SIMILAR "--formulation steady --creep-ratio 0.5 --contact-elements 100");
     const json_t *table = json_object_get(root, "table"),
                  *summary = json_object_get(root, "summary");
@@ -415,7 +415,6 @@ TEST(friction_power_adds_up)
     CHECK_REL(power, number_in(summary, "dissipation"), 1e-12, "sum");
     CHECK_REL(power, -number_in(summary, "creepage") * number_in(summary, "tangential_load"), 1e-3,
               "balance");
-    json_decref(root);
 }
 
 /* Where hardly anything is dissipated, the mean of the tractions on both sides of a slip

@@ -50,7 +50,7 @@ TEST(a_case_is_the_one_of_our_options)
                {1, 0, "-0.0004", "--formulation static"}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         char line[500];
-        json_t *got =
+        held_json *got =
             run_file("", all[k].t, all[k].f, all[k].force, all[k].t == 3 ? ROLLS : "", GRID, GAP);
         snprintf(line, sizeof line,
                  "--support halfplane --similar --radius 300 --young 213200 --poisson 0.3 "
@@ -71,7 +71,6 @@ TEST(a_case_is_the_one_of_our_options)
                   "FX is Q DY: %s", line);
         CHECK_ABS(number_in(got, "NADH"), number_in(s, "stick"), 0.0, "%s", line);
         json_decref(wanted);
-        json_decref(got);
     }
 }
 

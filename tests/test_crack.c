@@ -11,6 +11,9 @@
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_math.h>
 
+HELD_TYPE(rb_crack, rb_crack_free)
+#define held_crack HELD(rb_crack)
+
 enum { STRIPS = 100, STEPS = 121 };
 
 static rb_crack *create(rb_crack_shape shape)
@@ -41,14 +44,13 @@ static rb_crack_shape closed_crack(int n, double friction)
 
 static void in_tension(double angle, int n, double K[2])
 {
-    rb_crack *c = create(edge_crack(angle, n, 0.1));
+    held_crack *c = create(edge_crack(angle, n, 0.1));
     const double x = 0.0;
     const rb_crack_passage passage = {.steps = 1, .x = &x, .passes = 1, .tension = 2.0};
     OWNED(rb_crack_history) h;
     CHECK_OK(rb_crack_pass(c, &passage, &h, NULL));
     K[0] = h.K_I[0] / (2.0 * sqrt(M_PI));
     K[1] = h.K_II[0] / (2.0 * sqrt(M_PI));
-    rb_crack_free(c);
 }
 
 TEST(edge_cracks_in_tension)
@@ -85,11 +87,10 @@ TEST(length_is_the_only_scale)
         rb_crack_shape shape = edge_crack(60.0, 20, 0.1);
         OWNED(rb_crack_history) h;
         shape.path = rb_crack_straight(0.0, 0.0, length, 60.0);
-        rb_crack *c = create(shape);
+        held_crack *c = create(shape);
         CHECK_OK(rb_crack_pass(c, &passage, &h, NULL));
         K[k][0] = h.K_I[0] / sqrt(length);
         K[k][1] = h.K_II[0] / sqrt(length);
-        rb_crack_free(c);
     }
     for (int mode = 0; mode < 2; mode++) {
         CHECK_REL(K[0][mode], K[1][mode], 1e-11, "short, K %d", mode);
@@ -117,7 +118,7 @@ TEST(cracks_below_the_surface)
         rb_crack_shape shape = edge_crack(60.0, 20, 0.0);
         OWNED(rb_crack_history) h;
         shape.path = rb_crack_straight(0.0, k ? 0.1 : 1e4, 2.0, 60.0);
-        rb_crack *c = create(shape);
+        held_crack *c = create(shape);
         CHECK_OK(rb_crack_pass(c, &passage, &h, NULL));
         if (k == 0) {
             const double K_I = sin(angle) * sin(angle) * sqrt(M_PI),
@@ -129,7 +130,6 @@ TEST(cracks_below_the_surface)
         } else {
             CHECK_MAX(1.1 * h.K_I[0], h.K_I_upper[0], "the end near the surface");
         }
-        rb_crack_free(c);
     }
 }
 
@@ -141,7 +141,7 @@ TEST(history_of_a_closed_crack)
     static const double tau[] = {.2, .5, .8, .6, .4, .1, -.3, -.5, 0, .2, .8},
                         want[] = {0, .2, .5, .5, .5, .4, 0, -.2, -.2, -.1, .5};
     double T[2 * 19], hat[19];
-    rb_crack *c = create(closed_crack(20, 0.3));
+    held_crack *c = create(closed_crack(20, 0.3));
     OWNED(rb_crack_state) s;
     assert_int_equal(rb_crack_nodes(c), 19);
     rb_crack_places(c, NULL, NULL, hat, NULL, NULL);
@@ -157,7 +157,6 @@ TEST(history_of_a_closed_crack)
         CHECK_ABS(s.K_I, 0.0, 1e-15, "step %zu", k);
         CHECK_MAX(s.residual, 1e-12, "step %zu", k);
     }
-    rb_crack_free(c);
 }
 
 /* Strips of Hertz's pressure p0 = a = 1 whose mean pressures are exact; q = ratio p. */
@@ -189,14 +188,13 @@ TEST(sliding_under_a_contact)
     hertz load;
     set_hertz(0.0, &load);
     for (int k = 0; k < 3; k++) {
-        rb_crack *c = create(closed_crack(20 << k, 0.1));
+        held_crack *c = create(closed_crack(20 << k, 0.1));
         const double x = 0.0;
         const rb_crack_passage passage = {
             .steps = 1, .x = &x, .loads = 1, .load = &load.load, .passes = 1};
         OWNED(rb_crack_history) h;
         CHECK_OK(rb_crack_pass(c, &passage, &h, NULL));
         error[k] = fabs(h.K_II[0]) - 0.15965661352;
-        rb_crack_free(c);
     }
     CHECK_MAX(fabs(error[2]), 3e-5, "n = 80");
     CHECK_MAX(fabs(error[2]), 0.5 * fabs(error[1]), "n = 40, 80");
@@ -208,7 +206,7 @@ TEST(trapped_in_the_full_plane)
     const double sigma = 0.7, volume = 0.02, a = 0.5, kappa = 3.0 - 4.0 * 0.3;
     const double want = sigma + 4.0 * volume / (M_PI * (kappa + 1.0) * a * a);
     double T[2 * 39] = {0}, hat[39];
-    rb_crack *c = create(closed_crack(40, 0.3));
+    held_crack *c = create(closed_crack(40, 0.3));
     OWNED(rb_crack_state) s;
     rb_crack_places(c, NULL, NULL, hat, NULL, NULL);
     CHECK_OK(rb_crack_state_alloc(c, &s));
@@ -223,7 +221,6 @@ TEST(trapped_in_the_full_plane)
     for (int j = 0; j < 39; j++)
         held += s.D[j] * hat[j];
     CHECK_REL(held, volume, 1e-12, "volume");
-    rb_crack_free(c);
 }
 
 /* ---- Load -------------------------------------------------------------------------- */
@@ -242,7 +239,7 @@ TEST(stress_of_strips)
     for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
         rb_crack_shape shape = edge_crack(0.0, N, 0.0);
         shape.path = rb_crack_straight(0.0, 0.5, 1e-6, 0.0); /* short: stress is constant */
-        rb_crack *c = create(shape);
+        held_crack *c = create(shape);
         double T[2 * (N - 1)], hat[N - 1], places[2 * (N - 1)], stress[3 * (N - 1)];
         rb_crack_places(c, places, NULL, hat, NULL, NULL);
         for (int j = N - 2; j >= 0; j--) {
@@ -257,7 +254,6 @@ TEST(stress_of_strips)
             /* along t = +x: sigma_ns is sxy, which the mirror turns */
             CHECK_ABS(T[N - 1 + j] / hat[j], -stress[3 * j + 2], 1e-7, "sxy, x = %g", at[k]);
         }
-        rb_crack_free(c);
     }
 }
 
@@ -293,7 +289,7 @@ TEST(betti)
     double px[N], py[N], tx[N], ty[N], T[2][2 * N], work = 0.0, lift = 0.0;
     double complex z[N + 1], D[N + 1];
     OWNED(rb_crack_history) h;
-    rb_crack *c = create(edge_crack(60.0, N, 0.1));
+    held_crack *c = create(edge_crack(60.0, N, 0.1));
     CHECK_OK(rb_crack_pass(c, &passage, &h, NULL));
     rb_crack_places(c, px, py, NULL, tx, ty);
     CHECK_OK(rb_crack_load(c, &strip, left, 0.0, T[0]));
@@ -317,7 +313,6 @@ TEST(betti)
     gsl_integration_glfixed_table_free(rule);
     CHECK_MAX(1e-2, fabs(work), "there is some");
     CHECK_REL(work, -lift, 1e-12, "Betti");
-    rb_crack_free(c);
 }
 
 /* ---- Passes ------------------------------------------------------------------------ */
@@ -338,7 +333,7 @@ static void run(int n, double friction, double ratio, rb_crack_fluid fluid, int 
     set_hertz(ratio, &load);
     for (int k = 0; k < steps; k++)
         x[k] = -6.0 + 12.0 * k / (steps - 1);
-    rb_crack *c = create(edge_crack(30.0, n, friction));
+    held_crack *c = create(edge_crack(30.0, n, friction));
     const rb_crack_passage passage = {.steps = steps,
                                       .x = x,
                                       .loads = 1,
@@ -348,7 +343,6 @@ static void run(int n, double friction, double ratio, rb_crack_fluid fluid, int 
                                       .locate_closing = located};
     CHECK_OK(rb_crack_pass(c, &passage, &p->h, NULL));
     p->s = rb_case_crack_summarise(&p->h, passes);
-    rb_crack_free(c);
 }
 
 /* The table was made with 40 elements of the same kind, and is met to its digits and
@@ -418,7 +412,7 @@ TEST(below_the_surface_under_carter)
         rb_crack_shape shape = edge_crack(30.0, n, 0.2);
         shape.path = rb_crack_straight(0.0, 0.4, 2.0, 30.0);
         shape.poisson = 0.1;
-        rb_crack *c = create(shape);
+        held_crack *c = create(shape);
         const rb_crack_passage passage = {
             .steps = STEPS, .x = x, .loads = 1, .load = &load.load, .passes = 1};
         OWNED(rb_crack_history) h;
@@ -430,7 +424,6 @@ TEST(below_the_surface_under_carter)
             for (int m = 0; m < 3; m++)
                 most[n / 40 - 1] = fmax(most[n / 40 - 1], fabs(off[m]));
         }
-        rb_crack_free(c);
     }
     CHECK_MAX(most[0], 8e-4, "40 elements");
     CHECK_MAX(most[1], 0.3 * most[0], "80 elements: order 2");
@@ -443,7 +436,7 @@ static double by_steps(int n, int positions, const double *x, double *pressure)
     double T[2 * 80], most = 0.0;
     hertz load;
     OWNED(rb_crack_state) s;
-    rb_crack *c = create(edge_crack(30.0, n, 0.1));
+    held_crack *c = create(edge_crack(30.0, n, 0.1));
     set_hertz(0.3, &load);
     CHECK_OK(rb_crack_state_alloc(c, &s));
     *pressure = 0.0;
@@ -453,7 +446,6 @@ static double by_steps(int n, int positions, const double *x, double *pressure)
         most = fmax(most, s.K_I);
         *pressure = fmax(*pressure, s.fluid_pressure);
     }
-    rb_crack_free(c);
     return most / sqrt(M_PI);
 }
 
@@ -543,11 +535,10 @@ TEST(a_kink_of_no_angle)
             shape.path.x[1] *= 0.5;
             shape.path.y[1] *= 0.5;
         }
-        rb_crack *c = create(shape);
+        held_crack *c = create(shape);
         CHECK_OK(rb_crack_pass(c, &passage, &h, NULL));
         K[k][0] = h.K_I[0];
         K[k][1] = h.K_II[0];
-        rb_crack_free(c);
     }
     CHECK_REL(K[1][0], K[0][0], 1e-5, "K_I");
     CHECK_REL(K[1][1], K[0][1], 1e-5, "K_II");
@@ -600,7 +591,7 @@ static void kinked(double degrees, double length, double *K_I, double *K_II)
     shape.full_plane = 1;
     shape.path = (rb_crack_path){
         .pieces = 2, .x = {-2.0, 0.0, length * cos(w)}, .y = {0.0, 0.0, -length * sin(w)}};
-    rb_crack *c = create(shape);
+    held_crack *c = create(shape);
     CHECK_OK(rb_crack_state_alloc(c, &s));
     rb_crack_places(c, x + 1, y + 1, NULL, t_x, t_y);
     x[0] = -2.0;
@@ -619,7 +610,6 @@ static void kinked(double degrees, double length, double *K_I, double *K_II)
     CHECK_OK(rb_crack_step(c, T, RB_CRACK_DRY, 0.0, 1.0, &s, NULL));
     *K_I = s.K_I / sqrt(M_PI);
     *K_II = fabs(s.K_II) / sqrt(M_PI);
-    rb_crack_free(c);
 }
 
 TEST(kinks)
@@ -697,7 +687,7 @@ TEST(bad_input)
 
     const double x = 0.0;
     OWNED(rb_crack_history) h;
-    rb_crack *c = create(closed_crack(10, 0.1));
+    held_crack *c = create(closed_crack(10, 0.1));
     const rb_crack_passage none = {.steps = 0, .x = &x, .passes = 1},
                            wet = {.steps = 1, .x = &x, .passes = 1, .fluid = RB_CRACK_TRAPPED};
     CHECK_STATUS(rb_crack_pass(c, &none, &h, &heard), RB_EINVAL);
@@ -711,7 +701,6 @@ TEST(bad_input)
         .steps = 1, .x = &x, .loads = 1, .load = &load, .passes = 1, .wheel = &wheel};
     CHECK_SAYS(rb_crack_pass(c, &pressed, &h, &heard), RB_ZONE,
                "crack: step 1, contact at x = 0: the contact fills its elements");
-    rb_crack_free(c);
 }
 
 TEST(no_memory)

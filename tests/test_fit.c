@@ -44,8 +44,8 @@ static void set_number(rb_case *c, const char *name, double x)
 static double force_at(double creep)
 {
     rb_message why = {""};
-    rb_case *c = case_of(RB_CASE_SINGLE);
-    rb_case_result r;
+    held_case *c = case_of(RB_CASE_SINGLE);
+    OWNED(rb_case_result) r;
     CHECK_STATUS(rb_case_set(c, "friction-law", "exponential", RB_GIVEN_ARGUMENT, &why), RB_OK);
     set_number(c, "mu", MU);
     set_number(c, "mu-fall", FALL);
@@ -57,8 +57,6 @@ static double force_at(double creep)
     if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why) != RB_OK)
         fail_msg("%s", why.text);
     const double f = r.solution.tangential_load / r.solution.normal_load;
-    rb_case_result_free(&r);
-    rb_case_free(c);
     return f;
 }
 
@@ -91,7 +89,7 @@ static rb_case_fit fit_of(int n, const char *const *names)
 
 static rb_status solve(const rb_case_data *data, double speed, rb_case_fit *fit, rb_message *why)
 {
-    rb_case *c = case_of(RB_CASE_CURVE);
+    held_case *c = case_of(RB_CASE_CURVE);
     if (speed > 0.0)
         set_number(c, "speed", speed);
     rb_status s = rb_case_prepare_fit(c, data, fit, why);
@@ -99,7 +97,6 @@ static rb_status solve(const rb_case_data *data, double speed, rb_case_fit *fit,
         s = rb_case_resolve(c, why);
     if (s == RB_OK)
         s = rb_case_fit_solve(c, data, NULL, fit, why);
-    rb_case_free(c);
     return s;
 }
 
@@ -156,7 +153,7 @@ TEST(units_do_not_matter)
                                NULL,   NULL};
     OWNED(rb_case_fit) fit = fit_of(3, all + 2);
     rb_message why = {""};
-    rb_case *c = case_of(RB_CASE_CURVE);
+    held_case *c = case_of(RB_CASE_CURVE);
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
         CHECK_STATUS(rb_case_set(c, words[k][0], words[k][1], RB_GIVEN_ARGUMENT, &why), RB_OK);
     CHECK_STATUS(rb_case_prepare_fit(c, &data, &fit, &why), RB_OK);
@@ -165,7 +162,6 @@ TEST(units_do_not_matter)
         fail_msg("%s", why.text);
     for (int j = 0; j < 3; j++)
         CHECK_REL(fit.parameter[j].value, *truth[2 + j], 1e-6, "%s", all[2 + j]);
-    rb_case_free(c);
 }
 
 TEST(noise_leaves_it_in_the_intervals)
@@ -205,7 +201,7 @@ TEST(solutions_are_followed)
     OWNED(rb_rolling_model) from = {.mesh = {.n = 0}};
     rb_sensitivity *s = NULL;
     for (int k = 0; k < 2; k++) {
-        rb_case *c = case_of(RB_CASE_SINGLE);
+        held_case *c = case_of(RB_CASE_SINGLE);
         CHECK_STATUS(rb_case_set(c, "friction-law", "exponential", RB_GIVEN_ARGUMENT, &why), RB_OK);
         set_number(c, "mu", k ? 1.1 * MU : MU);
         set_number(c, "mu-fall", FALL);
@@ -214,7 +210,6 @@ TEST(solutions_are_followed)
         set_number(c, "creep", k ? -1.8e-3 : -1e-3);
         CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
         rc[k] = rb_case_resolved(c)->rc;
-        rb_case_free(c);
     }
     CHECK_STATUS(rb_rolling_model_create(&rc[0], &from, &why), RB_OK);
     CHECK_STATUS(rb_sensitivity_create(&from, 0, &s, &why), RB_OK);
@@ -236,7 +231,7 @@ TEST(solutions_are_followed)
 
     rb_rolling_model beyond = {.mesh = {.n = 0}};
     rb_sensitivity *extended = NULL;
-    rb_sensitivity_rate left = {0};
+    OWNED(rb_sensitivity_rate) left = {0};
     const int zone = from.state.zone[border - 1];
     assert_true(border > 0);
     CHECK_STATUS(rb_sensitivity_extend(s, border, zone, &beyond, &extended, &why), RB_OK);
@@ -251,7 +246,6 @@ TEST(solutions_are_followed)
         else if (x->zone[i] != RB_ZONE_SEPARATED)
             CHECK_ABS(x->q[i], sign * left.bound[i] * x->p[i], 1e-10 * traction, "slides: %d", i);
     }
-    rb_sensitivity_rate_free(&left);
     rb_sensitivity_free(extended);
     rb_rolling_variant_free(&from, &beyond);
     rb_rolling_variant_free(&from, &solved);
@@ -292,10 +286,9 @@ TEST(forces_and_ratios_agree)
     double ratio[7], force[7], P;
     rb_case_fit fits[2];
     {
-        rb_case *c = case_of(RB_CASE_CURVE);
+        held_case *c = case_of(RB_CASE_CURVE);
         CHECK_STATUS(rb_case_resolve(c, NULL), RB_OK);
         P = rb_case_resolved(c)->derived.load;
-        rb_case_free(c);
     }
     for (int k = 0; k < 7; k++) {
         ratio[k] = noisy[k];
@@ -347,14 +340,13 @@ TEST(numbers_that_only_move_elements_are_told)
     const rb_case_data data = {3, 1, RB_CASE_FORCE_RATIO, ratio, share, NULL, NULL, NULL, NULL};
     OWNED(rb_case_fit) fit = fit_of(1, names);
     rb_message why = {""};
-    rb_case *c = rb_case_create(RB_CASE_CURVE);
+    held_case *c = rb_case_create(RB_CASE_CURVE);
     for (int k = 0; k < 8; k += 2)
         CHECK_STATUS(rb_case_set(c, words[k], words[k + 1], RB_GIVEN_ARGUMENT, &why), RB_OK);
     CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
     CHECK_STATUS(rb_case_fit_solve(c, &data, NULL, &fit, &why), RB_OK);
     assert_false(fit.parameter[0].identified);
     assert_non_null(strstr(fit.sentences, "the data do not determine load"));
-    rb_case_free(c);
 }
 
 static rb_case *rubber_case(rb_case_purpose purpose)
@@ -380,14 +372,13 @@ static rb_case_fit fit_of_rubber(double young, double low)
     static const char *const names[] = {"mu", "young"};
     rb_case_fit fit = fit_of(2, names);
     rb_message why = {""};
-    rb_case *c = rubber_case(RB_CASE_CURVE);
+    held_case *c = rubber_case(RB_CASE_CURVE);
     fit.parameter[0].start = 0.4;
     fit.parameter[1].start = young;
     fit.parameter[1].low = low;
     CHECK_OK(rb_case_resolve(c, &why));
     if (rb_case_fit_solve(c, &of_rubber, NULL, &fit, &why) != RB_OK)
         fail_msg("%s", why.text);
-    rb_case_free(c);
     return fit;
 }
 
@@ -397,7 +388,7 @@ static double squares_at(double mu, double young)
     double sum = 0.0;
     for (int k = 0; k < of_rubber.n; k++) {
         rb_message why = {""};
-        rb_case *c = rubber_case(RB_CASE_SINGLE);
+        held_case *c = rubber_case(RB_CASE_SINGLE);
         OWNED(rb_case_result) r;
         set_number(c, "mu", mu);
         set_number(c, "young", young);
@@ -405,7 +396,6 @@ static double squares_at(double mu, double young)
         CHECK_OK(rb_case_resolve(c, &why));
         CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why));
         sum += pow(r.solution.tangential_load / r.solution.normal_load - of_rubber.force[k], 2.0);
-        rb_case_free(c);
     }
     return sum;
 }
@@ -458,9 +448,9 @@ TEST(a_start_far_away_ends_at_the_same_numbers)
     const rb_case_data data = {6, 0, RB_CASE_FORCE_OVER_LOAD, xi, share, NULL, NULL, NULL, NULL};
     rb_case_parameter near = {.value = 0.0};
     for (int k = 0; k < 2; k++) {
-        rb_case_fit fit = fit_of(2, names);
+        OWNED(rb_case_fit) fit = fit_of(2, names);
         rb_message why = {""};
-        rb_case *c = rubber_case(RB_CASE_CURVE);
+        held_case *c = rubber_case(RB_CASE_CURVE);
         set_number(c, "young", 10.0);
         set_number(c, "layer-thickness", 3.0);
         set_number(c, "contact-elements", 16.0);
@@ -472,8 +462,6 @@ TEST(a_start_far_away_ends_at_the_same_numbers)
         near = k ? near : fit.parameter[1];
         CHECK_ABS(fit.parameter[1].value, near.value, 0.1 * near.deviation, "thickness");
         CHECK_REL(fit.parameter[1].deviation, near.deviation, 0.02, "its deviation");
-        rb_case_fit_free(&fit);
-        rb_case_free(c);
     }
 }
 
@@ -541,7 +529,7 @@ static void write_data(const char *path, const char *names)
 TEST(command_prints_parameters)
 {
     write_data("creep.tsv", "creep\tforce_over_load");
-    json_t *root = run_json("fit creep.tsv --fit mu,interlayer-tangential" BODIES);
+    held_json *root = run_json("fit creep.tsv --fit mu,interlayer-tangential" BODIES);
     json_t *mu = json_object_get(json_object_get(root, "parameters"), "mu");
     const double value = json_number_value(json_object_get(mu, "value"));
     json_t *interval = json_object_get(mu, "interval");
@@ -551,7 +539,6 @@ TEST(command_prints_parameters)
     assert_true(json_is_number(
         json_object_get(json_object_get(mu, "correlation"), "interlayer-tangential")));
     assert_int_equal(json_array_size(json_object_get(root, "residuals")), 7);
-    json_decref(root);
     write_data("wrong.tsv", "slip\tforce_over_load");
     assert_int_equal(rollbem("fit wrong.tsv --fit mu" BODIES), 65);
     assert_non_null(strstr(err, "expected a column creep"));
@@ -766,8 +753,8 @@ static double slope_of(json_t *owner, const char *result, const char *input, siz
 /* The same numbers in the columns of curves, studies and histories, and in JSON. */
 TEST(derivatives_stand_in_columns)
 {
-    json_t *one = run_json("--derivatives tangential_load,max_pressure" BODIES
-                           " --formulation steady --creep-ratio 0.6");
+    held_json *one = run_json("--derivatives tangential_load,max_pressure" BODIES
+                              " --formulation steady --creep-ratio 0.6");
     json_t *all_of = json_object_get(one, "derivatives");
     const double by_mu = json_number_value(
                      json_object_get(json_object_get(all_of, "tangential_load"), "mu")),
@@ -789,7 +776,6 @@ TEST(derivatives_stand_in_columns)
     CHECK_REL(entry(table, "d_tangential_load_N/mm_by_mu", 1), by_mu, 1e-9, "sweep");
     CHECK_REL(entry(table, "d_max_pressure_MPa_by_radius_mm", 1), by_radius, 1e-9, "sweep");
     json_decref(root);
-    json_decref(one);
     root = run_json("--formulation transient --distance 0.5 --creep -1e-3 "
                     "--derivatives tangential_load:creep" BODIES);
     json_t *history = json_object_get(root, "history");
@@ -1019,14 +1005,13 @@ TEST(samples_scatter_as_tolerances)
     assert_int_equal(sscanf(at, "tangential_load_N/mm %lf +- %lf", &mean, &deviation), 2);
     assert_int_equal(rollbem(line), 0);
     assert_string_equal(out, first);
-    json_t *root = run_json("--tolerance mu=0.01,load=1% --similar --support halfplane "
-                            "--load 500 --formulation steady --mesh uniform --zone 1.2 "
-                            "--contact-elements 36 --creep -2e-3");
+    held_json *root = run_json("--tolerance mu=0.01,load=1% --similar --support halfplane "
+                               "--load 500 --formulation steady --mesh uniform --zone 1.2 "
+                               "--contact-elements 36 --creep -2e-3");
     CHECK_REL(
         deviation,
         json_number_value(json_object_get(json_object_get(root, "tolerances"), "tangential_load")),
         0.1, "standard deviation");
-    json_decref(root);
     /* samples that are no case fail by themselves */
     assert_int_equal(rollbem("sweep --sample 8 --tolerance mu=0.3 --jobs 1" BODIES
                              " --formulation steady --creep -2e-3"),

@@ -128,9 +128,9 @@ TEST(derivatives_are_those_of_solutions)
 {
     for (size_t k = 0; k < sizeof regimes / sizeof *regimes; k++) {
         rb_message why = {""};
-        rb_case_result r;
-        rb_case_derivatives all;
-        rb_case *c = solved(&regimes[k], NULL, 0.0, &r);
+        OWNED(rb_case_result) r;
+        OWNED(rb_case_derivatives) all;
+        held_case *c = solved(&regimes[k], NULL, 0.0, &r);
         int compared = 0;
         if (rb_case_differentiate(c, &r.model, 0, NULL, &all, &why) != RB_OK)
             fail_msg("regime %d: %s", (int)k, why.text);
@@ -141,9 +141,6 @@ TEST(derivatives_are_those_of_solutions)
         }
         if (compared < 4)
             fail_msg("regime %d: only %d inputs compared", (int)k, compared);
-        rb_case_derivatives_free(&all);
-        rb_case_result_free(&r);
-        rb_case_free(c);
     }
 }
 
@@ -158,12 +155,11 @@ TEST(a_model_without_a_matrix_is_given_one)
     rb_case_derivatives all[2];
     for (int k = 0; k < 2; k++) {
         rb_message why = {""};
-        rb_case *c = solved(&w[k], NULL, 0.0, &r[k]);
+        held_case *c = solved(&w[k], NULL, 0.0, &r[k]);
         assert_int_equal(r[k].model.bodies.F != NULL, k);
         if (rb_case_differentiate(c, &r[k].model, 0, NULL, &all[k], &why) != RB_OK)
             fail_msg("%s", why.text);
         assert_int_equal(r[k].model.bodies.F != NULL, k);
-        rb_case_free(c);
     }
     assert_int_equal(all[0].n, all[1].n);
     for (int j = 0; j < all[0].n; j++) {
@@ -187,12 +183,12 @@ TEST(forward_is_adjoint)
     static const size_t some[] = {1, 2, 6, 8, 9, 12};
     for (size_t k = 0; k < sizeof some / sizeof *some; k++) {
         rb_message why = {""};
-        rb_case_result r;
+        OWNED(rb_case_result) r;
         rb_sensitivity *s;
-        rb_contact_state weight;
-        rb_sensitivity_rate adjoint;
+        OWNED(rb_contact_state) weight;
+        OWNED(rb_sensitivity_rate) adjoint;
         rb_case_number number[RB_CASE_NUMBERS_MAX];
-        rb_case *c = solved(&regimes[some[k]], NULL, 0.0, &r);
+        held_case *c = solved(&regimes[some[k]], NULL, 0.0, &r);
         const rb_contact_problem *p = &r.model.problem;
         int n;
         CHECK_STATUS(rb_sensitivity_create(&r.model, 1, &s, &why), RB_OK);
@@ -205,11 +201,11 @@ TEST(forward_is_adjoint)
         weight.delta = 1e3;
         CHECK_STATUS(rb_sensitivity_adjoint(s, &weight, &adjoint, &why), RB_OK);
         for (int j = 0; j < n; j++) {
-            rb_sensitivity_derivative d;
+            OWNED(rb_sensitivity_derivative) d;
             CHECK_STATUS(rb_sensitivity_differentiate(s, &number[j].input, &d, &why), RB_OK);
             const int side = d.has[0] ? 0 : 1;
-            rb_contact_state y;
-            rb_sensitivity_rate rate;
+            OWNED(rb_contact_state) y;
+            OWNED(rb_sensitivity_rate) rate;
             double mu;
             CHECK_STATUS(rb_contact_state_alloc(p->n, &y), RB_OK);
             CHECK_STATUS(rb_sensitivity_rates(s, &number[j].input, &rate, &mu, &why), RB_OK);
@@ -223,15 +219,8 @@ TEST(forward_is_adjoint)
                       (int)some[k], number[j].name);
             CHECK_ABS(rb_sensitivity_dot(&adjoint, &rate), want, 1e-6 * size,
                       "regime %d: rate by %s", (int)some[k], number[j].name);
-            rb_contact_state_free(&y);
-            rb_sensitivity_rate_free(&rate);
-            rb_sensitivity_derivative_free(&d);
         }
-        rb_sensitivity_rate_free(&adjoint);
-        rb_contact_state_free(&weight);
         rb_sensitivity_free(s);
-        rb_case_result_free(&r);
-        rb_case_free(c);
     }
 }
 
@@ -252,9 +241,9 @@ TEST(vectors_add_up)
           "1.2 " ROLLING "similar yes creep 1e-3 contact-elements 300"}}};
     for (size_t k = 0; k < sizeof some / sizeof *some; k++) {
         rb_message why = {""};
-        rb_case_result r;
-        rb_case_derivatives all;
-        rb_case *c = solved(&some[k], NULL, 0.0, &r);
+        OWNED(rb_case_result) r;
+        OWNED(rb_case_derivatives) all;
+        held_case *c = solved(&some[k], NULL, 0.0, &r);
         CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
         const int n = all.n_x;
         assert_int_equal(n, r.solution.n);
@@ -275,9 +264,6 @@ TEST(vectors_add_up)
                       1e-8 * fabs(by_mu) + 1e-9 * fabs(value_of(&r.solution, name)), "%s by mu",
                       name);
         }
-        rb_case_derivatives_free(&all);
-        rb_case_result_free(&r);
-        rb_case_free(c);
     }
 }
 
@@ -296,8 +282,8 @@ TEST(strain_of_two_layers_has_two_sides)
     for (size_t k = 0; k < sizeof layers / sizeof *layers; k++) {
         rb_message why = {""};
         rb_case_result r, near[2];
-        rb_case_derivatives all;
-        rb_case *c = solved(&layers[k], NULL, 0.0, &r);
+        OWNED(rb_case_derivatives) all;
+        held_case *c = solved(&layers[k], NULL, 0.0, &r);
         CHECK_STATUS(rb_case_differentiate(c, &r.model, 1, &name, &all, &why), RB_OK);
         const rb_case_derivative *d = &all.of[0];
         assert_int_equal(d->status, RB_OK);
@@ -312,9 +298,7 @@ TEST(strain_of_two_layers_has_two_sides)
         assert_int_equal(d->d.sides, k == 0 ? 2 : 1);
         if (k == 0) /* of that result alone */
             CHECK_ABS(d->d.value[1].max_pressure, d->d.value[0].max_pressure, 0.0, "both sides");
-        rb_case_derivatives_free(&all);
         rb_case_result_free(&r);
-        rb_case_free(c);
     }
 }
 
@@ -323,16 +307,14 @@ TEST(a_force_without_friction_tells_no_creepage)
 {
     static const words w = {{PLANES ROLLING "young-b 70000 mu 0 force 0"}};
     static const char *const names[] = {"load", "mu"};
-    rb_case_derivatives all;
-    rb_case_result r;
+    OWNED(rb_case_derivatives) all;
+    OWNED(rb_case_result) r;
     held_case *c = solved(&w, NULL, 0.0, &r);
 
     CHECK_OK(rb_case_differentiate(c, &r.model, 2, names, &all, &heard));
     assert_int_equal(of(&all, "load")->status, RB_OK);
     assert_int_equal(of(&all, "mu")->status, RB_EINVAL);
     assert_non_null(strstr(of(&all, "mu")->why.text, "does not tell the creepage"));
-    rb_case_derivatives_free(&all);
-    rb_case_result_free(&r);
 }
 
 /* ---- Carter ------------------------------------------------------------------------ */
@@ -347,15 +329,12 @@ static double carter_error(const char *elements, const char *mesh)
         const words w = {{"support halfplane similar yes load 20 " ROLLING "mesh", mesh,
                           "contact-elements", elements}};
         rb_message why = {""};
-        rb_case_result r;
-        rb_case_derivatives all;
-        rb_case *c = solved(&w, "creep-ratio", -s, &r);
+        OWNED(rb_case_result) r;
+        OWNED(rb_case_derivatives) all;
+        held_case *c = solved(&w, "creep-ratio", -s, &r);
         CHECK_STATUS(rb_case_differentiate(c, &r.model, 1, names, &all, &why), RB_OK);
         const rb_case_derivative *d = of(&all, "creep-ratio");
         sum += pow(-value_of(&d->d.value[0], "force_ratio") - 2.0 * (1.0 - s), 2.0);
-        rb_case_derivatives_free(&all);
-        rb_case_result_free(&r);
-        rb_case_free(c);
     }
     return sqrt(sum / 19.0);
 }
@@ -381,16 +360,13 @@ TEST(equal_elements_move_with_their_zone)
     };
     for (size_t k = 0; k < sizeof moving / sizeof *moving; k++) {
         rb_message why = {""};
-        rb_case_result r;
-        rb_case_derivatives all;
-        rb_case *c = solved(&moving[k], NULL, 0.0, &r);
+        OWNED(rb_case_result) r;
+        OWNED(rb_case_derivatives) all;
+        held_case *c = solved(&moving[k], NULL, 0.0, &r);
         CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
         assert_int_equal(all.elements, RB_SENSITIVITY_HERTZ);
         assert_true(compare_input(&moving[k], of(&all, "load"), &r.solution));
         assert_true(compare_input(&moving[k], of(&all, "young"), &r.solution));
-        rb_case_derivatives_free(&all);
-        rb_case_result_free(&r);
-        rb_case_free(c);
     }
 }
 
@@ -404,9 +380,9 @@ TEST(fitted_elements_move_with_the_edges)
                           "creep-ratio 0.5 young 94500", k < 3 ? "poisson-b" : "young-b",
                           k < 3 ? "0.1" : "70000", "young-b", k < 3 ? "94500" : "70000"}};
         rb_message why = {""};
-        rb_case_result r;
-        rb_case_derivatives all;
-        rb_case *c = solved(&w, NULL, 0.0, &r);
+        OWNED(rb_case_result) r;
+        OWNED(rb_case_derivatives) all;
+        held_case *c = solved(&w, NULL, 0.0, &r);
         const rb_rolling_solution *s = &r.solution;
         CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
         assert_int_equal(all.elements, k % 3 ? RB_SENSITIVITY_EDGES : RB_SENSITIVITY_HERTZ);
@@ -419,9 +395,6 @@ TEST(fitted_elements_move_with_the_edges)
         if (k >= 3)
             CHECK_REL(by_P->free_creepage, 0.5 * s->free_creepage / 500.0, 5e-3,
                       "free rolling by P");
-        rb_case_derivatives_free(&all);
-        rb_case_result_free(&r);
-        rb_case_free(c);
     }
 }
 
@@ -432,17 +405,14 @@ TEST(peaks_stay_with_their_elements)
                       "mesh fitted creep -0.0019 contact-elements 100"}};
     static const char *const names[] = {"load", "young"};
     rb_message why = {""};
-    rb_case_result r;
-    rb_case_derivatives all;
-    rb_case *c = solved(&w, NULL, 0.0, &r);
+    OWNED(rb_case_result) r;
+    OWNED(rb_case_derivatives) all;
+    held_case *c = solved(&w, NULL, 0.0, &r);
     CHECK_STATUS(rb_case_differentiate(c, &r.model, 2, names, &all, &why), RB_OK);
     const rb_case_derivative *by_P = of(&all, "load"), *by_E = of(&all, "young");
     CHECK_REL(by_P->value * by_P->d.value[0].max_pressure +
                   by_E->value * by_E->d.value[0].max_pressure,
               r.solution.max_pressure, 1e-6, "p0");
-    rb_case_derivatives_free(&all);
-    rb_case_result_free(&r);
-    rb_case_free(c);
 }
 
 /* On fitted elements by mu, against solves that are fitted anew. */
@@ -453,8 +423,8 @@ TEST(fitted_slopes_are_those_of_fitted_solves)
     static const char *const names[] = {"mu", "creep", "load"};
     rb_message why = {""};
     rb_case_result r, left, right;
-    rb_case_derivatives all;
-    rb_case *c = solved(&w, NULL, 0.0, &r);
+    OWNED(rb_case_derivatives) all;
+    held_case *c = solved(&w, NULL, 0.0, &r);
     CHECK_STATUS(rb_case_differentiate(c, &r.model, 3, names, &all, &why), RB_OK);
     for (int k = 0; k < 3; k++) {
         const rb_case_derivative *d = of(&all, names[k]);
@@ -467,9 +437,7 @@ TEST(fitted_slopes_are_those_of_fitted_solves)
         rb_case_result_free(&left);
         rb_case_result_free(&right);
     }
-    rb_case_derivatives_free(&all);
     rb_case_result_free(&r);
-    rb_case_free(c);
 }
 
 /* On aligned elements under strong coupling by the creepage, against solves that are aligned
@@ -480,20 +448,15 @@ TEST(aligned_slopes_are_those_of_aligned_solves)
                       "contact-elements 24 creep 1e-3"}};
     static const char *const names[] = {"creep"};
     rb_message why = {""};
-    rb_case_result r, left, right;
-    rb_case_derivatives all;
-    rb_case *c = solved(&w, NULL, 0.0, &r);
+    OWNED(rb_case_result) r, left, right;
+    OWNED(rb_case_derivatives) all;
+    held_case *c = solved(&w, NULL, 0.0, &r);
     CHECK_STATUS(rb_case_differentiate(c, &r.model, 1, names, &all, &why), RB_OK);
     rb_case_free(solved(&w, "creep", 0.9999e-3, &left));
     rb_case_free(solved(&w, "creep", 1.0001e-3, &right));
     CHECK_REL(of(&all, "creep")->d.value[0].tangential_load,
               (right.solution.tangential_load - left.solution.tangential_load) / 2e-7, 1e-3,
               "Q by creep");
-    rb_case_result_free(&left);
-    rb_case_result_free(&right);
-    rb_case_derivatives_free(&all);
-    rb_case_result_free(&r);
-    rb_case_free(c);
 }
 
 /* ---- Borders and ends of ranges ---------------------------------------------------- */
@@ -526,8 +489,8 @@ static void look_at_both_sides(const words *w, int has_matrix)
     assert_int_equal(all.degenerate, 1);
     const rb_case_derivative *d = of(&all, "creep");
     assert_int_equal(d->d.sides, 2);
-    rb_case *a = solved(w, "creep", low * (1.0 - 1e-6), &left),
-            *b = solved(w, "creep", low * (1.0 + 1e-6), &right);
+    held_case *a = solved(w, "creep", low * (1.0 - 1e-6), &left),
+              *b = solved(w, "creep", low * (1.0 + 1e-6), &right);
     CHECK_STATUS(rb_case_differentiate(a, &left.model, 1, names, &one, &why), RB_OK);
     CHECK_REL(d->d.value[0].tangential_load, of(&one, "creep")->d.value[0].tangential_load, 1e-9,
               "left");
@@ -542,8 +505,6 @@ static void look_at_both_sides(const words *w, int has_matrix)
     rb_case_result_free(&r);
     rb_case_result_free(&left);
     rb_case_result_free(&right);
-    rb_case_free(a);
-    rb_case_free(b);
     rb_case_free(c);
 }
 
@@ -558,9 +519,9 @@ TEST(ends_of_ranges)
 {
     const words w = {{PLANES ROLLING "similar yes creep -5e-4"}};
     rb_message why = {""};
-    rb_case_result r, some;
-    rb_case_derivatives all;
-    rb_case *c = solved(&w, NULL, 0.0, &r);
+    OWNED(rb_case_result) r, some;
+    OWNED(rb_case_derivatives) all;
+    held_case *c = solved(&w, NULL, 0.0, &r);
     CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
     const rb_case_derivative *d = of(&all, "interlayer-tangential");
     assert_int_equal(d->d.sides, 2);
@@ -570,10 +531,6 @@ TEST(ends_of_ranges)
     CHECK_REL(d->d.value[1].tangential_load,
               (some.solution.tangential_load - r.solution.tangential_load) / 1e-11, 1e-4,
               "interlayer");
-    rb_case_result_free(&some);
-    rb_case_derivatives_free(&all);
-    rb_case_result_free(&r);
-    rb_case_free(c);
 }
 
 /* Heat brings the coefficient to 0, but not below. */
@@ -584,8 +541,8 @@ TEST(what_heat_takes_away)
     const double step = 1e-6;
     rb_message why = {""};
     rb_case_result r, some[2];
-    rb_case_derivatives all;
-    rb_case *c = solved(&w, NULL, 0.0, &r);
+    OWNED(rb_case_derivatives) all;
+    held_case *c = solved(&w, NULL, 0.0, &r);
     CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
     CHECK_STATUS(of(&all, "mu-heat")->status, RB_OK);
     const rb_case_derivative *d = of(&all, "mu");
@@ -600,9 +557,7 @@ TEST(what_heat_takes_away)
               1e-6, "Q by mu");
     for (int j = 0; j < 2; j++)
         rb_case_result_free(&some[j]);
-    rb_case_derivatives_free(&all);
     rb_case_result_free(&r);
-    rb_case_free(c);
 }
 
 /* Without friction an element that does not slide has no direction: a coefficient that begins to
@@ -618,9 +573,9 @@ TEST(friction_begins_where_nothing_slides)
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         rb_message why = {""};
-        rb_case_result r, some;
-        rb_case_derivatives all;
-        rb_case *c = solved(&cases[k], "mu", 0.0, &r);
+        OWNED(rb_case_result) r, some;
+        OWNED(rb_case_derivatives) all;
+        held_case *c = solved(&cases[k], "mu", 0.0, &r);
         CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
         const rb_case_derivative *d = of(&all, "mu");
         assert_int_equal(d->status, RB_OK);
@@ -633,10 +588,6 @@ TEST(friction_begins_where_nothing_slides)
             sum += fabs(all.over_x[(2 * RB_CASE_OVER_X_FORCE + 1) * all.n_x + i]) *
                    (r.model.problem.bound[i] == 0.0 && fabs(r.model.state.lambda[i]) < 1e-15);
         CHECK_ABS(sum, 0.0, 1e-12, "one element with friction, case %zu", k);
-        rb_case_result_free(&some);
-        rb_case_derivatives_free(&all);
-        rb_case_result_free(&r);
-        rb_case_free(c);
     }
 }
 
@@ -691,14 +642,12 @@ TEST(steps_are_refused)
 {
     const words w = {{PLANES "formulation static increments 3"}};
     rb_message why = {""};
-    rb_case_result r;
+    OWNED(rb_case_result) r;
     rb_sensitivity *s;
-    rb_case *c = solved(&w, NULL, 0.0, &r);
+    held_case *c = solved(&w, NULL, 0.0, &r);
     CHECK_STATUS(rb_sensitivity_create(&r.model, 1, &s, &why), RB_EINVAL);
     assert_null(s);
     assert_non_null(strstr(why.text, "this case has several"));
-    rb_case_result_free(&r);
-    rb_case_free(c);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -329,8 +329,8 @@ TEST(transforms_have_the_same_smooth_derivatives)
     const words w = {{ALIGNED "similar yes creep -1.1e-3 contact-elements 400"}};
     rb_message why = {""};
     differentiated fast;
-    rb_rolling_model dense;
-    rb_case_derivatives all;
+    OWNED(rb_rolling_model) dense;
+    OWNED(rb_case_derivatives) all;
     CHECK_STATUS(differentiate_by(&w, NULL, 0.0, 3, inputs, 1, &fast, &why), RB_OK);
     assert_null(fast.r.model.bodies.F);
     CHECK_STATUS(rb_rolling_variant_with_matrix(&fast.r.model, &dense, &why), RB_OK);
@@ -343,8 +343,6 @@ TEST(transforms_have_the_same_smooth_derivatives)
         CHECK_REL(fast.by[k].d.value[0].dissipation, all.of[k].d.value[0].dissipation, 1e-6,
                   "dissipation by %s", all.of[k].name);
     }
-    rb_case_derivatives_free(&all);
-    rb_rolling_model_free(&dense);
     differentiated_free(&fast);
 }
 

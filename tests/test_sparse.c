@@ -247,7 +247,7 @@ TEST(a_sparse_congruence_takes_little_memory)
     enum { N = 6000 };
     struct rlimit before, tight;
     unsigned long pages = 0;
-    rb_sparse one, w;
+    OWNED(rb_sparse) one, w;
     rb_sparse_cholesky *f;
     OWNED(rb_triplets) t = {.rows = N, .cols = N};
     FILE *statm = fopen("/proc/self/statm", "r");
@@ -267,8 +267,6 @@ TEST(a_sparse_congruence_takes_little_memory)
     CHECK_OK(s);
     assert_int_equal(w.p[N], N);
     CHECK_ABS(w.x[N - 1], 1.0, 1e-15, "identity");
-    rb_sparse_free(&w);
-    rb_sparse_free(&one);
     rb_sparse_cholesky_free(f);
 #endif
 }

@@ -331,10 +331,11 @@ TEST(derivatives_by_numbers_of_lists_are_converted)
 #define FALLS                                                                                      \
     "--support halfplane --similar --formulation steady --contact-elements 20 "                    \
     "--mesh uniform --friction-law exponential --mu-fall 0.1 --derivatives=tangential_load "
-    json_t *mm = run_json(FALLS "--load 100 --creep 0.002 --speed 1000 --slip-scale 2 "
-                                "--memory 1e-3,3"),
-           *si = run_json(FALLS "--units si --load 1e5 --creep 0.002 --speed 1 --slip-scale 2e-3 "
-                                "--memory 1e-6,3e-3 --radius 0.05 --young 94500e6");
+    held_json *mm = run_json(FALLS "--load 100 --creep 0.002 --speed 1000 --slip-scale 2 "
+                                   "--memory 1e-3,3"),
+              *si =
+                  run_json(FALLS "--units si --load 1e5 --creep 0.002 --speed 1 --slip-scale 2e-3 "
+                                 "--memory 1e-6,3e-3 --radius 0.05 --young 94500e6");
     static const char *const names[] = {"slip-scale", "memory", "memory-2", "radius"};
     const json_t *a = json_object_get(json_object_get(mm, "derivatives"), "tangential_load"),
                  *b = json_object_get(json_object_get(si, "derivatives"), "tangential_load");
@@ -342,7 +343,6 @@ TEST(derivatives_by_numbers_of_lists_are_converted)
         assert_true(fabs(number_in(a, names[k])) > 1e-9);
         CHECK_REL(number_in(b, names[k]), 1e6 * number_in(a, names[k]), 1e-6, "%s", names[k]);
     }
-    json_decref(mm);
     json_decref(si);
 }
 
