@@ -11,8 +11,7 @@
 
 RB_PUBLIC_BEGIN
 
-/* ---- Output files, written completely or not at all
- * ------------------------------------------ */
+/* ---- Output files, written completely or not at all ----------------------------- */
 
 /* Output goes to an unnamed file in the folder of the target; commit gives it the
  * target's name.  If the program ends before, no partial file is left. */

@@ -174,8 +174,7 @@ rb_status rb_report_table_command(const char *text, char **line);
 /* Writes json with a final newline and frees it.  RB_ENOMEM: json is NULL; RB_EWRITE. */
 rb_status rb_report_json_write(FILE *out, struct json_t *json);
 
-/* ---- Summaries for readers
- * ------------------------------------------------------------------- */
+/* ---- Summaries for readers --------------------------------------------------------- */
 
 /* Writes the zones of the elements as characters, from just before the contact to just
  * after it, at most width characters: o separated, * stick, S slip, . elsewhere.  strip:
@@ -293,10 +292,6 @@ typedef struct {
     rb_case_slopes slopes[RB_REPORT_CURVES]; /* derivatives of each point; n = 0: not computed */
 } rb_report_curves;
 
-/* Writes the model's problem, at its approach and creepage, and its tractions as an FCLib
- * file. RB_EINVAL: too large for a dense W; RB_EWRITE. */
-rb_status rb_report_fclib(const char *path, const rb_rolling_model *model, rb_message *why);
-
 /* One row per mu and creepage; errors are in additional columns.  RB_EWRITE: see
  * errno. */
 rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const char *command,
@@ -413,8 +408,7 @@ typedef struct {
 rb_status rb_report_profiles_picture(FILE *out, rb_report_canvas canvas,
                                      const rb_report_profiles *profiles, rb_message *why);
 
-/* ---- Data behind the solution
- * ----------------------------------------------------------- */
+/* ---- Data behind the solution ------------------------------------------------------ */
 
 /* Writes all data from which a solution was computed as Matrix Market files into a
  * folder: contact, mesh, H, G (of body A; with _b of body B; none for half-planes), F, M,
@@ -423,6 +417,10 @@ rb_status rb_report_profiles_picture(FILE *out, rb_report_canvas canvas,
  * removed, and either all files are written or none.  docs/report.md describes each file.
  * RB_EWRITE, RB_ENOMEM. */
 rb_status rb_report_dump(const char *folder, const rb_rolling_model *model, rb_message *why);
+
+/* Writes the model's problem, at its approach and creepage, and its tractions as an FCLib
+ * file. RB_EINVAL: too large for a dense W; RB_EWRITE. */
+rb_status rb_report_fclib(const char *path, const rb_rolling_model *model, rb_message *why);
 
 /* Repeats Lemke's method and writes one line per pivot; with a folder also the tableau
  * after each pivot as tableau_1.mtx, ...  If another method found the solution, the LCP
@@ -485,13 +483,6 @@ typedef struct {
     rb_units units; /* that are shown */
 } rb_report_fit;
 
-/* ---- Designs ----------------------------------------------------------------------- */
-
-/* A row per variable, below comments with the result and the constraints. */
-rb_status rb_report_design_table(FILE *out, const rb_design *d, rb_units units, const char *command,
-                                 const rb_report_style *style);
-void rb_report_json_design(struct json_t **root, const rb_design *d, rb_units units);
-
 /* parameters, residuals, fit (the curve and its band) and what belongs to them. */
 void rb_report_json_fit(struct json_t **root, const rb_report_fit *f);
 /* The fitted curve, a row per point, below comments with the parameters. */
@@ -502,6 +493,13 @@ void rb_report_fit_summary(FILE *out, const rb_report_fit *f);
  * which is left out where some number is not identified. */
 rb_status rb_report_fit_picture(FILE *out, rb_report_canvas canvas, const rb_report_fit *f,
                                 rb_message *why);
+
+/* ---- Designs ----------------------------------------------------------------------- */
+
+/* A row per variable, below comments with the result and the constraints. */
+rb_status rb_report_design_table(FILE *out, const rb_design *d, rb_units units, const char *command,
+                                 const rb_report_style *style);
+void rb_report_json_design(struct json_t **root, const rb_design *d, rb_units units);
 
 RB_PUBLIC_END
 

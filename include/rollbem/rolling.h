@@ -636,8 +636,7 @@ const char *rb_rolling_below_zero(const rb_rolling_case *rc);
  * number; conductivity > 0. */
 double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, double from, double to);
 
-/* ---- The model of a case
- * ---------------------------------------------------------------- */
+/* ---- The model of a case -------------------------------------------------------- */
 
 /* State variables of the friction law and of the interface that a step of a history takes
  * over from the step before, besides the displacements. */

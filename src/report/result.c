@@ -1,4 +1,4 @@
-/* The JSON of a solved case. */
+/* The JSON of a solved case, and of solutions of one case that differ. */
 #include "report/internal.h"
 #include "rollbem/case.h"
 
@@ -20,4 +20,16 @@ void rb_report_json_result(json_t **root, const rb_case_result *r, const rb_roll
     if (slopes && slopes->n > 0)
         rb_report_json_slopes(&history, slopes);
     rb_report_json_set(root, "history", history);
+}
+
+json_t *rb_report_json_solutions(const rb_rolling_solutions *all)
+{
+    json_t *list = json_array();
+    for (int k = 0; k < all->n; k++) {
+        json_t *one = json_object();
+        rb_report_json_set(&one, "summary", rb_report_json_summary(&all->solution[k]));
+        rb_report_json_set(&one, "table", rb_report_json_table(&all->solution[k]));
+        rb_report_json_append(&list, one);
+    }
+    return list;
 }

@@ -147,3 +147,17 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
     fprintf(out, "; BLAS %s\n", rb_blas_core());
     rb_locale_end(before);
 }
+
+void rb_report_solutions(FILE *out, const rb_rolling_solutions *all)
+{
+    fprintf(out, "%d solution%s from %d starts, %d of which did not converge\n", all->n,
+            all->n == 1 ? "" : "s that differ", all->starts, all->failed);
+    for (int k = 0; k < all->n; k++) {
+        const rb_rolling_solution *s = &all->solution[k];
+        fprintf(out,
+                "  %-3d Q/(mu P) = %.6g, %d stick, %d slip, stick %.5g ... %.5g %s, "
+                "residual %.2g\n",
+                k + 1, s->force_ratio, s->stick, s->slipping, s->stick_from, s->stick_to,
+                rb_unit_name(s->units, "mm"), s->residual);
+    }
+}
