@@ -23,6 +23,14 @@
 #define RB_PUBLIC_END RB_EXTERN_C_END
 #endif
 
+/* Behind a declaration: argument f is a format of printf, those from number a on are what it
+ * formats. */
+#ifdef __GNUC__
+#define RB_PRINTF(f, a) __attribute__((format(printf, f, a)))
+#else
+#define RB_PRINTF(f, a)
+#endif
+
 RB_PUBLIC_BEGIN
 
 #define RB_VERSION "0.1.0"
@@ -62,18 +70,10 @@ typedef struct {
 
 /* Writes the formatted line into why (unless it is NULL) and returns s.  An error return
  * is then one statement: return rb_fail(why, RB_EINVAL, "mu = %g: expected >= 0", mu); */
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
-rb_status
-rb_fail(rb_message *why, rb_status s, const char *format, ...);
+rb_status rb_fail(rb_message *why, rb_status s, const char *format, ...) RB_PRINTF(3, 4);
 
 /* Appends to text, a buffer of size bytes in all; whatever does not fit is cut off. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
-void
-rb_append(char *text, size_t size, const char *format, ...);
+void rb_append(char *text, size_t size, const char *format, ...) RB_PRINTF(3, 4);
 
 /* Copies the next word of a list with commas, as far as it fits.  Returns the rest of the list;
  * NULL: it is empty, or NULL. */
@@ -116,11 +116,7 @@ void *rb_locale_begin(void);
 void rb_locale_end(void *before);
 /* strtod and snprintf in the C locale. */
 double rb_read_number(const char *text, char **end);
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
-int
-rb_format(char *text, size_t size, const char *format, ...);
+int rb_format(char *text, size_t size, const char *format, ...) RB_PRINTF(3, 4);
 
 /* For progress displays: rb_phase records the name of the computation that now runs
  * (static text), rb_phase_now returns the name recorded last by any thread of the

@@ -51,10 +51,7 @@ void rb_report_cell_number(rb_report_cells *c, double x);
 void rb_report_cell_whole(rb_report_cells *c, int n);
 void rb_report_cells_end_row(rb_report_cells *c);
 /* Writes a # line if the style has such lines. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-void rb_report_comment(const rb_report_cells *c, const char *format, ...);
+void rb_report_comment(const rb_report_cells *c, const char *format, ...) RB_PRINTF(2, 3);
 /* Writes # lines with version and command. */
 void rb_report_comment_origin(const rb_report_cells *c, const char *command);
 /* RB_EWRITE: see errno. */

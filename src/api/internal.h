@@ -81,11 +81,7 @@ void rb_api_forget_slopes(rb_api *a, api_slopes of);
 /* Keeps the status of a call, with a line that says it where the call has left none. */
 int rb_api_ended(rb_api *a, rb_status s);
 /* Ends a call with RB_EINVAL and this line. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-int
-rb_api_refuse(rb_api *a, const char *format, ...);
+int rb_api_refuse(rb_api *a, const char *format, ...) RB_PRINTF(2, 3);
 
 /* RB_EINVAL: an option was refused and has not been set since. */
 rb_status rb_api_check_refusals(const rb_api *a, rb_message *why);

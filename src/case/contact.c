@@ -7,11 +7,8 @@
 #include <string.h>
 
 /* Adds a clause to what is left out. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-static void
-leave_out(rb_case_contact *c, const char *format, ...)
+RB_PRINTF(2, 3)
+static void leave_out(rb_case_contact *c, const char *format, ...)
 {
     char clause[160];
     va_list args;

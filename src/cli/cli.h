@@ -84,11 +84,7 @@ typedef enum {
 cli_exit cli_exit_of(rb_status s);
 
 /* Prints the line "rollbem: ..." on stderr and returns code. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-cli_exit
-cli_fail(cli_exit code, const char *format, ...);
+cli_exit cli_fail(cli_exit code, const char *format, ...) RB_PRINTF(2, 3);
 
 /* CLI_CONTINUE where s is RB_OK, or the exit code after printing the line of why. */
 cli_exit cli_say(rb_status s, const rb_message *why);

@@ -30,11 +30,7 @@ void rb_io_tokens_open(const char *path, io_tokens *t, rb_message *why);
 void rb_io_tokens_close(io_tokens *t);
 
 /* A failure at this place: "path:line: " and the text. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-void
-rb_io_tokens_fail(io_tokens *t, const char *format, ...);
+void rb_io_tokens_fail(io_tokens *t, const char *format, ...) RB_PRINTF(2, 3);
 
 /* `what` names the number in messages: "M", "q".  An integer may have a comma behind it. */
 int rb_io_tokens_int(io_tokens *t, int low, int high, const char *what);

@@ -131,7 +131,8 @@ typedef struct {
     size_t n;
 } words;
 
-__attribute__((format(printf, 2, 3))) static void add_words(words *w, const char *format, ...)
+RB_PRINTF(2, 3)
+static void add_words(words *w, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);

@@ -23,10 +23,7 @@ typedef struct {
     struct rb_certificate_slopes *slopes; /* while derivatives are compared; certificate_slopes.c */
 } rb_certificate;
 
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-void rb_certificate_violated(rb_certificate *c, const char *format, ...);
+void rb_certificate_violated(rb_certificate *c, const char *format, ...) RB_PRINTF(2, 3);
 /* NAN is equal to NAN alone. */
 void rb_certificate_expect(rb_certificate *c, const char *what, int element, double printed,
                            double want, double allowed);

@@ -13,11 +13,8 @@ static const double inaccurate_approach = 0.02, inaccurate_width = 0.1;
 static const double not_unique = 0.95;
 static const double broken_approach = 0.1, broken_width = 0.3;
 
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-static void
-add(rb_rolling_note_list *list, const char *format, ...)
+RB_PRINTF(2, 3)
+static void add(rb_rolling_note_list *list, const char *format, ...)
 {
     va_list args;
     if (list->n == RB_ROLLING_NOTES)

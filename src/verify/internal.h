@@ -17,16 +17,10 @@ typedef struct {
 
 /* Hands on one line, whose bound is of the difference or of that over `wanted`; what:
  * printf format. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 5, 6)))
-#endif
-void rb_verify_absolute(rb_verify *v, double got, double wanted, double bound,
-                        const char *what, ...);
-#if defined(__GNUC__)
-__attribute__((format(printf, 5, 6)))
-#endif
-void rb_verify_relative(rb_verify *v, double got, double wanted, double bound,
-                        const char *what, ...);
+void rb_verify_absolute(rb_verify *v, double got, double wanted, double bound, const char *what,
+                        ...) RB_PRINTF(5, 6);
+void rb_verify_relative(rb_verify *v, double got, double wanted, double bound, const char *what,
+                        ...) RB_PRINTF(5, 6);
 
 /* Keeps the reason of a failure for the next lines. */
 void rb_verify_note(rb_verify *v, rb_status s, const rb_message *why);
