@@ -600,6 +600,13 @@ rb_rolling_solution rb_rolling_scalars_of(const rb_rolling_solution *solution);
  * describes. */
 double rb_rolling_number(const rb_rolling_result *r, const void *owner);
 double rb_rolling_entry(const rb_rolling_result *r, const void *owner, int i);
+/* The column itself, of numbers; NULL: the owner has none. */
+double *rb_rolling_column(const rb_rolling_result *r, const void *owner);
+void rb_rolling_set_number(const rb_rolling_result *r, void *owner, double value);
+/* From mm, N, MPa to other units: the numbers, or the columns of so many rows, that have one. */
+void rb_rolling_numbers_convert(const rb_rolling_results *table, void *owner, rb_units units);
+void rb_rolling_columns_convert(const rb_rolling_results *table, int rows, void *owner,
+                                rb_units units);
 
 /* Writes the name with its unit, as in the heads of columns: "max_pressure_MPa".  Returns
  * heading. */

@@ -95,16 +95,12 @@ const rb_rolling_result_table *rb_case_result_table(int k)
     return t->name ? t : k < (int)(sizeof of_cracks / sizeof *of_cracks) ? &of_cracks[k] : NULL;
 }
 
-static double *number_of(rb_case_crack_summary *s, int k)
-{
-    return (double *)(void *)((char *)s + scalars[k].offset);
-}
-
 void rb_case_crack_set_errors(const rb_case_crack_summary *finer, rb_case_crack_result *r)
 {
-    rb_case_crack_summary fine = *finer;
-    for (int k = 0; k < rb_case_crack_scalars.n; k++)
-        *number_of(&r->errors, k) = 2.0 * fabs(*number_of(&fine, k) - *number_of(&r->summary, k));
+    for (const rb_rolling_result *row = scalars; row < scalars + rb_case_crack_scalars.n; row++)
+        rb_rolling_set_number(
+            row, &r->errors,
+            2.0 * fabs(rb_rolling_number(row, finer) - rb_rolling_number(row, &r->summary)));
 }
 
 int rb_case_crack_has_result(const rb_rolling_result *r, const rb_case_crack *k)
@@ -123,23 +119,12 @@ void rb_case_crack_convert(rb_case_crack_result *r, rb_units units)
     if (units == RB_UNITS_MM)
         return;
     r->half_width = rb_unit_shown(units, "mm", r->half_width);
-    for (int k = 0; k < rb_case_crack_scalars.n; k++)
-        for (int errors = 0; errors < 2 && scalars[k].unit; errors++) {
-            double *x = number_of(errors ? &r->errors : &r->summary, k);
-            *x = rb_unit_shown(units, scalars[k].unit, *x);
-        }
-    for (int k = 0; k < rb_case_crack_columns.n; k++) {
-        double *const *column = (void *)((char *)&r->history + columns[k].offset);
-        for (int i = 0; *column && i < r->history.n; i++)
-            (*column)[i] = rb_unit_shown(units, columns[k].unit, (*column)[i]);
-    }
+    rb_rolling_numbers_convert(&rb_case_crack_scalars, &r->summary, units);
+    rb_rolling_numbers_convert(&rb_case_crack_scalars, &r->errors, units);
+    rb_rolling_columns_convert(&rb_case_crack_columns, r->history.n, &r->history, units);
+    rb_rolling_columns_convert(&rb_case_crack_growth_columns, r->growth.n, &r->growth, units);
     for (int i = 0; i < 2 * r->history.n * r->history.nodes; i++)
         r->history.D[i] = rb_unit_shown(units, "mm", r->history.D[i]);
-    for (int k = 0; k < rb_case_crack_growth_columns.n && r->growth.n > 0; k++) {
-        double *const *column = (void *)((char *)&r->growth + growth_columns[k].offset);
-        for (int i = 0; i < r->growth.n && growth_columns[k].unit; i++)
-            (*column)[i] = rb_unit_shown(units, growth_columns[k].unit, (*column)[i]);
-    }
 }
 
 void rb_case_crack_free(rb_case_crack_result *r)
@@ -218,8 +203,8 @@ _Static_assert(2 * NUMBERS <= RB_ROW_OWN, "numbers and their error bars");
 void rb_case_crack_set_row(rb_case_crack_result *r, rb_rolling_row *row)
 {
     for (int i = 0; i < NUMBERS; i++) {
-        row->own[i] = *number_of(&r->summary, i);
-        row->own[NUMBERS + i] = r->has_errors ? *number_of(&r->errors, i) : NAN;
+        row->own[i] = rb_rolling_number(&scalars[i], &r->summary);
+        row->own[NUMBERS + i] = r->has_errors ? rb_rolling_number(&scalars[i], &r->errors) : NAN;
     }
 }
 

@@ -449,8 +449,7 @@ rb_status rb_case_propagate(const rb_case_tolerances *t, const rb_case_derivativ
             deviates = hypot(deviates, slope * t->deviation[i]); /* a square may overflow */
         }
         if (r->kind != RB_RESULT_WHOLE)
-            *(double *)(void *)((char *)deviation + r->offset) =
-                rb_sensitivity_has(r) ? deviates : NAN;
+            rb_rolling_set_number(r, deviation, rb_sensitivity_has(r) ? deviates : NAN);
     }
     return RB_OK;
 }

@@ -383,7 +383,7 @@ static rb_status see_point(const rb_rolling_model *model, int k, void *context, 
         const rb_rolling_result *column = &rb_rolling_curve_columns.row[j],
                                 *of_case = rb_rolling_find_result(&rb_rolling_solution_scalars,
                                                                   column->name);
-        double *to = *(double **)(void *)((char *)of->deviations + column->offset);
+        double *to = rb_rolling_column(column, of->deviations);
         if (to && of_case)
             to[k] = rb_rolling_number(of_case, &deviation);
     }

@@ -172,7 +172,7 @@ static rb_status read_history(assessment *j, rb_message *why)
                                   why);
     for (int k = 0; k < rb_case_crack_columns.n && s == RB_OK; k++) {
         const rb_rolling_result *row = &rb_case_crack_columns.row[k];
-        double *column = *(double *const *)(void *)((char *)h + row->offset);
+        double *column = rb_rolling_column(row, h);
         if (column)
             s = rb_certificate_column(j->c.name, table, row->name, steps, column, why);
     }

@@ -14,8 +14,6 @@ rb_rolling_row rb_rolling_no_row(rb_status status);
 rb_status rb_rolling_columns_alloc(const rb_rolling_results *table, const rb_rolling_case *rc,
                                    int mu_varies, int rows, void *owner);
 void rb_rolling_columns_free(const rb_rolling_results *table, void *owner);
-/* A column of numbers. */
-double *rb_rolling_column(const rb_rolling_result *r, const void *owner);
 
 /* ---- solution.c -------------------------------------------------------------------- */
 

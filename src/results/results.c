@@ -323,6 +323,11 @@ double rb_rolling_number(const rb_rolling_result *r, const void *owner)
     return count < 0 ? (double)NAN : count; /* NAN is a float */
 }
 
+void rb_rolling_set_number(const rb_rolling_result *r, void *owner, double value)
+{
+    memcpy(place(r, owner), &value, sizeof value);
+}
+
 double *rb_rolling_column(const rb_rolling_result *r, const void *owner)
 {
     double *column;
@@ -386,17 +391,17 @@ const rb_rolling_result *rb_rolling_study_column(int k)
 /* ---- Units ------------------------------------------------------------------------- */
 
 /* What the table has no row for stands in no unit, or is named by the caller. */
-static void convert_scalars(const rb_rolling_results *t, void *owner, rb_units units)
+void rb_rolling_numbers_convert(const rb_rolling_results *t, void *owner, rb_units units)
 {
     for (int k = 0; k < t->n; k++) {
         const rb_rolling_result *r = &t->row[k];
-        double *x = place(r, owner);
         if (r->unit && r->kind == RB_RESULT_NUMBER)
-            *x = rb_unit_shown(units, r->unit, *x);
+            rb_rolling_set_number(r, owner,
+                                  rb_unit_shown(units, r->unit, rb_rolling_number(r, owner)));
     }
 }
 
-static void convert_columns(const rb_rolling_results *t, int rows, void *owner, rb_units units)
+void rb_rolling_columns_convert(const rb_rolling_results *t, int rows, void *owner, rb_units units)
 {
     for (int k = 0; k < t->n; k++) {
         const rb_rolling_result *r = &t->row[k];
@@ -411,10 +416,10 @@ void rb_rolling_solution_convert(rb_rolling_solution *s, rb_units units)
     s->units = units;
     if (units == RB_UNITS_MM)
         return;
-    convert_scalars(&rb_rolling_solution_scalars, s, units);
-    convert_columns(&rb_rolling_solution_columns, s->n, s, units);
+    rb_rolling_numbers_convert(&rb_rolling_solution_scalars, s, units);
+    rb_rolling_columns_convert(&rb_rolling_solution_columns, s->n, s, units);
     for (int k = 0; k < s->patches; k++)
-        convert_scalars(&rb_rolling_patch_scalars, &s->patch[k], units);
+        rb_rolling_numbers_convert(&rb_rolling_patch_scalars, &s->patch[k], units);
 }
 
 void rb_rolling_history_convert(rb_rolling_history *h, rb_units units)
@@ -426,7 +431,7 @@ void rb_rolling_history_convert(rb_rolling_history *h, rb_units units)
     h->units = units;
     if (units == RB_UNITS_MM)
         return;
-    convert_columns(&rb_rolling_history_columns, h->n, h, units);
+    rb_rolling_columns_convert(&rb_rolling_history_columns, h->n, h, units);
     h->half_width = rb_unit_shown(units, "mm", h->half_width);
     h->step = rb_unit_shown(units, "mm", h->step);
 }
@@ -438,7 +443,7 @@ void rb_rolling_wear_history_convert(rb_rolling_wear_history *h, rb_units units)
     h->units = units;
     if (units == RB_UNITS_MM)
         return;
-    convert_columns(&rb_rolling_wear_columns, h->n, h, units);
+    rb_rolling_columns_convert(&rb_rolling_wear_columns, h->n, h, units);
     for (int k = 0; k < h->n; k++) {
         h->work[k] = rb_unit_shown(units, work, h->work[k]);
         if (h->slides)
@@ -456,7 +461,7 @@ void rb_rolling_curve_convert(rb_rolling_curve *c, rb_units units)
     c->units = units;
     if (units == RB_UNITS_MM)
         return;
-    convert_columns(&rb_rolling_curve_columns, c->n, c, units);
+    rb_rolling_columns_convert(&rb_rolling_curve_columns, c->n, c, units);
     c->half_width = rb_unit_shown(units, "mm", c->half_width);
 }
 
@@ -464,8 +469,8 @@ void rb_rolling_stress_convert(int n, rb_rolling_stress *at, rb_rolling_stress_m
                                rb_units units)
 {
     for (int k = 0; k < n && units != RB_UNITS_MM; k++)
-        convert_scalars(&rb_rolling_stress_scalars, &at[k], units);
-    convert_scalars(&rb_rolling_maxima_scalars, largest, units);
+        rb_rolling_numbers_convert(&rb_rolling_stress_scalars, &at[k], units);
+    rb_rolling_numbers_convert(&rb_rolling_maxima_scalars, largest, units);
 }
 
 void rb_rolling_row_convert(rb_rolling_row *row, rb_units units)

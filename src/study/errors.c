@@ -88,11 +88,6 @@ double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepag
 
 /* ---- Results of a solution --------------------------------------------------------- */
 
-static void put(const rb_rolling_result *r, void *owner, double value)
-{
-    memcpy((char *)owner + r->offset, &value, sizeof value);
-}
-
 /* The largest pressure [stress] of the stick zones of fewer than four elements over which
  * slip turns round: no mesh tells then where in them friction changes its sign.  0: there
  * are none. */
@@ -305,7 +300,8 @@ static void add_parts(error_parts *parts, rb_rolling_errors *errors)
         for (int k = 0; k < tables[t]->n; k++) {
             const rb_rolling_result *r = &tables[t]->row[k];
             if (r->error_bar != RB_SCALE_NONE)
-                put(r, part_of_errors(errors, t),
+                rb_rolling_set_number(
+                    r, part_of_errors(errors, t),
                     rb_rolling_number(r, part_of_errors(&parts->contact, t)) +
                         rb_rolling_number(r, part_of_errors(&parts->boundary, t)));
         }
@@ -381,11 +377,12 @@ static rb_status find_parts(const rb_rolling_case *rc, int with_stress, const sa
                                           : 0.0;
                 const double other =
                     has_another ? rb_rolling_number(r, part_of_sample(&another, t)) : NAN;
-                put(r, part_of_errors(&parts->contact, t),
-                    contact_error_with(coarser, value, other, of_own > 1.0) +
-                        least_error(rc, &own->solution, t, r->error_bar) + unseen);
-                put(r, part_of_errors(&parts->boundary, t),
-                    rb_rolling_boundary_error(runs, coarser, value));
+                rb_rolling_set_number(r, part_of_errors(&parts->contact, t),
+                                      contact_error_with(coarser, value, other, of_own > 1.0) +
+                                          least_error(rc, &own->solution, t, r->error_bar) +
+                                          unseen);
+                rb_rolling_set_number(r, part_of_errors(&parts->boundary, t),
+                                      rb_rolling_boundary_error(runs, coarser, value));
             }
     }
     for (int k = 0; k < runs; k++)
