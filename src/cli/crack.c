@@ -16,15 +16,11 @@ typedef struct {
 
 /* Behind those of the crack. */
 static const rb_option options[] = {
-    RB_TEXT_LINE(
-        "plot-crack", PLACE(open), "FILE",
-        "picture of the crack with its faces moved apart, magnified; one that grows has the "
-        "faces of its first length and the way of its tip: .png, .svg or .pdf",
-        .unset = "none", .file = RB_FILE_PICTURE),
+    CLI_PICTURE_LINE("plot-crack", PLACE(open),
+                     "picture of the crack with its faces moved apart, magnified; one that grows "
+                     "has the faces of its first length and the way of its tip"),
     RB_NUMBER_LINE("at", PLACE(at), "a", RB_ANY, "position of the contact in that picture"),
-    RB_TEXT_LINE("orbit", PLACE(orbit), "FILE",
-                 "picture of K_II over K_I in the last pass: .png, .svg or .pdf", .unset = "none",
-                 .file = RB_FILE_PICTURE),
+    CLI_PICTURE_LINE("orbit", PLACE(orbit), "picture of K_II over K_I in the last pass"),
     RB_FLAG_LINE("states", PLACE(states),
                  "with --json: opening, sliding, tractions and zone of every node of the faces at "
                  "every position, and the contact, which rollbem check needs"),

@@ -62,10 +62,8 @@ static const rb_option options[] = {
     RB_TEXT_LINE("history-table", PLACE(history_table), "FILE",
                  "one row per step; standard output has the tractions of the last one",
                  .unset = "none", .file = RB_FILE_WRITTEN),
-    RB_TEXT_LINE("history-plot", PLACE(history_plot), "FILE",
-                 "picture of creepage or shift, force and stick over the distance: .png, "
-                 ".svg or .pdf",
-                 .unset = "none", .file = RB_FILE_PICTURE),
+    CLI_PICTURE_LINE("history-plot", PLACE(history_plot),
+                     "picture of creepage or shift, force and stick over the distance"),
     RB_TEXT_LINE("snapshots", PLACE(steps.snapshots), "DIR",
                  "tractions of steps as step_000001.tsv (or .csv), ...", .unset = "none",
                  .file = RB_FILE_FOLDER),

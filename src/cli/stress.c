@@ -41,9 +41,7 @@ static const rb_option options[] = {
                  .file = RB_FILE_READ),
     RB_TEXT_LINE("vtk", PLACE(vtk), "FILE", "for ParaView: .vtu, or .vti (half-planes only)",
                  .unset = "none", .file = RB_FILE_WRITTEN),
-    RB_TEXT_LINE("fringes", PLACE(fringes), "FILE",
-                 "picture of photoelastic fringes: .png, .svg or .pdf", .unset = "none",
-                 .file = RB_FILE_PICTURE),
+    CLI_PICTURE_LINE("fringes", PLACE(fringes), "picture of photoelastic fringes"),
     RB_NUMBER_LINE("fringe", PLACE(fringe), "MPa", RB_ABOVE(0),
                    "difference of the principal stresses from one fringe to the next; "
                    "auto: about ten fringes",
@@ -53,9 +51,7 @@ static const rb_option options[] = {
                  "rolling (Melan, Tresca)"),
     RB_NUMBER_LINE("yield-shear", PLACE(yield_shear), "MPa", RB_ABOVE(0),
                    "yield stress k of A in shear; shows the case in the map", .unset = "not given"),
-    RB_TEXT_LINE("shakedown-map", PLACE(map), "FILE",
-                 "picture of p0/k over Q/P with the case: .png, .svg or .pdf", .unset = "none",
-                 .file = RB_FILE_PICTURE),
+    CLI_PICTURE_LINE("shakedown-map", PLACE(map), "picture of p0/k over Q/P with the case"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };

@@ -52,9 +52,7 @@ static const rb_option options[] = {
                  "columns with the derivatives of these results in every case, with respect to all "
                  "numbers, or RESULT:OPTION to one",
                  .unset = "none", .alone = "all"),
-    RB_TEXT_LINE("plot", PLACE(plot), "FILE",
-                 "picture of a result over an option that varies: .png, .svg or .pdf",
-                 .unset = "none", .file = RB_FILE_PICTURE),
+    CLI_PICTURE_LINE("plot", PLACE(plot), "picture of a result over an option that varies"),
     RB_TEXT_LINE("map", PLACE(map), "FILE",
                  "picture of a result over two options; every pair of their values must be a case",
                  .unset = "none", .file = RB_FILE_PICTURE),
