@@ -37,7 +37,6 @@ void rb_api_forget_arrays(rb_api *a, const char *beginning)
     }
 }
 
-/* A new array of zeros.  NULL: no memory. */
 api_array *rb_api_make_array(rb_api *a, const char *name, int rows, int columns)
 {
     api_array **more = realloc(a->made, ((size_t)a->arrays + 1) * sizeof *more);
@@ -784,8 +783,8 @@ static rb_status count_point(const rb_rolling_model *model, int k, void *context
     return a->stopped ? rb_fail(why, RB_INTERRUPTED, "interrupted") : RB_OK;
 }
 
-static int curve(rb_api *a, const char *over, double from, double to, int points,
-                 const char *derivatives, const char *tolerance)
+int rb_api_curve_derivatives(rb_api *a, const char *over, double from, double to, int points,
+                             const char *derivatives, const char *tolerance)
 {
     const rb_resolved_case *c = rb_case_resolved(a->words);
     const rb_choice *variable = rb_case_curve_variables;
@@ -850,13 +849,7 @@ static int curve(rb_api *a, const char *over, double from, double to, int points
 
 int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points)
 {
-    return curve(a, over, from, to, points, NULL, NULL);
-}
-
-int rb_api_curve_derivatives(rb_api *a, const char *over, double from, double to, int points,
-                             const char *derivatives, const char *tolerance)
-{
-    return curve(a, over, from, to, points, derivatives, tolerance);
+    return rb_api_curve_derivatives(a, over, from, to, points, NULL, NULL);
 }
 
 int rb_api_curve(rb_api *a, double from, double to, int points)

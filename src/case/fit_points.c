@@ -166,7 +166,6 @@ double rb_case_fit_residual(const fit_problem *p, int k, double model)
     return (model - p->data->force[k]) / sigma_of(p, k);
 }
 
-/* Frees the solutions of all points with the accepted numbers, or those of a trial. */
 void rb_case_fit_release(fit_problem *p, int which)
 {
     for (int k = p->points - 1; p->at && k >= 0 && which >= 0; k--) {
@@ -218,7 +217,6 @@ static rb_status solve_point(fit_problem *p, const double *theta, int k, int tri
     return s;
 }
 
-/* All residuals for a trial, and chi^2. */
 rb_status rb_case_fit_try(fit_problem *p, const double *theta, double *chi2, rb_message *why)
 {
     const int trial = p->accepted == 0;
@@ -234,7 +232,6 @@ rb_status rb_case_fit_try(fit_problem *p, const double *theta, double *chi2, rb_
     return s;
 }
 
-/* Accepts the numbers of the last trial: their factors and rows of derivatives. */
 rb_status rb_case_fit_accept(fit_problem *p, const double *theta, rb_message *why)
 {
     const int trial = p->accepted == 0;
@@ -295,8 +292,6 @@ static int shares_elements(const fit_problem *p, int k, int with)
            rb_norm_inf((size_t)q->n, q->load_T) == 0.0;
 }
 
-/* Makes the elements of all points for the numbers theta.  *moved: 1: some are others
- * than before. */
 rb_status rb_case_fit_place(fit_problem *p, const double *theta, int *moved, rb_message *why)
 {
     rb_status s = RB_OK;

@@ -70,6 +70,8 @@ rb_status rb_case_without_content(const rb_case *c, const char *path, rb_status 
 rb_status rb_case_differentiate_by_numbers(const rb_case *c, const rb_rolling_model *model, int n,
                                            const char *const *names, rb_case_derivatives *all,
                                            rb_message *why);
+/* Puts the option before a refusal of its text.  Returns s. */
+rb_status rb_case_name_option(const char *option, rb_status s, rb_message *why);
 
 /* ---- files.c: the tables that a case names ----------------------------------------- */
 
@@ -79,11 +81,6 @@ void rb_case_free_files(rb_case *c);
 rb_status rb_case_read_history(rb_case *c, rb_message *why);
 /* Reads gap, irregularity, wear and friction of the resolved case. */
 rb_status rb_case_read_files(rb_case *c, rb_message *why);
-
-/* ---- derivatives.c ----------------------------------------------------------------- */
-
-/* Puts the option before a refusal of its text.  Returns s. */
-rb_status rb_case_name_option(const char *option, rb_status s, rb_message *why);
 
 /* ---- crack_results.c --------------------------------------------------------------- */
 

@@ -416,6 +416,16 @@ rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas, const rb_cas
 
 /* ---- Picture: the crack open and torn ------------------------------------------------ */
 
+/* A block of data; x and y in units of `unit`. */
+static void write_points(FILE *out, const char *block, int n, const double *x, const double *y,
+                         double unit)
+{
+    fprintf(out, "$%s << EOD\n", block);
+    for (int i = 0; i < n; i++)
+        fprintf(out, "%.9g %.9g\n", x[i] / unit, y[i] / unit);
+    fputs("EOD\n", out);
+}
+
 /* Both faces, displaced by half of D each, times a round magnification. */
 static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
 {
@@ -430,8 +440,10 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
         if (fabs(h->x[i] - v->at * r->half_width) < fabs(h->x[k] - v->at * r->half_width))
             k = i;
     const double unit = rb_unit_stored(r->units, "mm", r->half_width); /* a in mm */
+    const double at = h->x[k] / r->half_width;
     char name[40];
-    const double *D = h->D + (size_t)k * 2 * (size_t)n;
+    const double *D_N = h->D + (size_t)k * 2 * (size_t)n, *D_T = D_N + n;
+    const int *zone = h->zone + (size_t)k * (size_t)n;
     double largest = 0.0, deepest = 0.0, from = INFINITY, to = -INFINITY;
 
     const rb_case_crack_growth *g = &r->growth;
@@ -442,16 +454,11 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
         deepest = fmax(deepest, -whole->y[i] / unit);
     }
     if (g->n > 1) { /* its way below the faces, which are those of the first length */
-        fputs("$way << EOD\n", out);
-        for (int i = 0; i <= whole->pieces; i++)
-            fprintf(out, "%.9g %.9g\n", whole->x[i] / unit, whole->y[i] / unit);
-        fputs("EOD\n$tips << EOD\n", out);
-        for (int i = 1; i < g->n; i++)
-            fprintf(out, "%.9g %.9g\n", g->tip_x[i] / r->half_width, g->tip_y[i] / r->half_width);
-        fputs("EOD\n", out);
+        write_points(out, "way", whole->pieces + 1, whole->x, whole->y, unit);
+        write_points(out, "tips", g->n - 1, g->tip_x + 1, g->tip_y + 1, r->half_width);
     }
     for (int j = 0; j < n; j++)
-        largest = fmax(largest, hypot(D[j], D[n + j]) / r->half_width);
+        largest = fmax(largest, hypot(D_N[j], D_T[j]) / r->half_width);
     const double size = fmax(to - from, deepest);
     const double times = largest > 0.0 ? rb_report_round_step(0.03 * size / largest) : 1.0;
     for (int side = -1; side <= 1; side += 2) {
@@ -460,12 +467,11 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
         if (path->y[0] < 0.0)
             fprintf(out, "%.9g %.9g 0 0\n", path->x[0] / unit, path->y[0] / unit);
         for (int j = 0; j < n; j++) {
-            const double dx = -v->t_y[j] * D[j] + v->t_x[j] * D[n + j],
-                         dy = v->t_x[j] * D[j] + v->t_y[j] * D[n + j];
-            const int zone = h->zone[(size_t)k * (size_t)n + (size_t)j];
+            const double dx = -v->t_y[j] * D_N[j] + v->t_x[j] * D_T[j],
+                         dy = v->t_x[j] * D_N[j] + v->t_y[j] * D_T[j];
             fprintf(out, "%.9g %.9g %ld %d\n", v->x[j] / unit + factor * dx,
-                    v->y[j] / unit + factor * dy, strtol(colour_of(zone) + 1, NULL, 16),
-                    zone != RB_ZONE_SEPARATED);
+                    v->y[j] / unit + factor * dy, strtol(colour_of(zone[j]) + 1, NULL, 16),
+                    zone[j] != RB_ZONE_SEPARATED);
         }
         fprintf(out, "%.9g %.9g 0 0\nEOD\n", path->x[path->pieces] / unit,
                 path->y[path->pieces] / unit);
@@ -476,9 +482,9 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
                 "set label 1 '{/:Bold Crack}   contact at x = %s a,  displacements of the faces × "
                 "%s' at screen 0.54, 0.972 center\n"
                 "set label 2 'K_{I} = %s,  K_{II} = %s %s' at screen 0.54, 0.935 center\n",
-                RB_REPORT_NUMBER(rb_report_tidy(h->x[k] / r->half_width, 1.0), 4),
-                RB_REPORT_NUMBER(times, 3), RB_REPORT_NUMBER(h->K_I[k] / K.size, 4),
-                RB_REPORT_NUMBER(h->K_II[k] / K.size, 4), rb_report_raised(K.name, name));
+                RB_REPORT_NUMBER(rb_report_tidy(at, 1.0), 4), RB_REPORT_NUMBER(times, 3),
+                RB_REPORT_NUMBER(h->K_I[k] / K.size, 4), RB_REPORT_NUMBER(h->K_II[k] / K.size, 4),
+                rb_report_raised(K.name, name));
     const faces face = faces_of(r);
     write_zone_key(out, canvas, face.plus, 0);
     const double margin = 0.25 * size, step = rb_report_round_step(0.2 * size);
@@ -511,8 +517,7 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
             "plot 0 with lines linecolor rgb '#333333' linewidth 1.5 notitle, $face0 using 1:2 "
             "with filledcurves closed linecolor rgb '#ffffff' notitle, $face1 using 1:2 with "
             "filledcurves closed linecolor rgb '#ffffff' notitle",
-            fmin(fmax(h->x[k] / r->half_width - 1.0, from), to),
-            fmin(fmax(h->x[k] / r->half_width + 1.0, from), to), 0.15 * margin);
+            fmin(fmax(at - 1.0, from), to), fmin(fmax(at + 1.0, from), to), 0.15 * margin);
     if (g->n > 1)
         fputs(", $way using 1:2 with lines linecolor rgb '#555555' linewidth 1.2 notitle, $tips "
               "using 1:2 with points pointtype 6 pointsize 1.2 linecolor rgb '#555555' title "
