@@ -574,19 +574,22 @@ typedef struct {
     void *context;
 } rb_case_fit_observer;
 
-/* Reads the names of the parameters, "mu,creep-offset".  RB_EINVAL: none, too many, one
- * twice, or not a number that can be fitted. */
-rb_status rb_case_fit_names(const char *text, rb_case_fit *fit, rb_message *why);
-/* Reads values of these parameters: option "start", "mu=0.3,load=2kN/m", or "bounds",
- * "mu=0.1:0.6"; text NULL: none.  Numbers without a unit are in the units of the case. */
-rb_status rb_case_fit_values(const rb_case *c, const char *option, const char *text,
-                             rb_case_fit *fit, rb_message *why);
-/* The data of a table with named columns, which is converted to mm, N, MPa; data borrows from
- * it.  path: what it is called in messages; without table->line they name rows.  sigma: of all
- * points, added to a table that has no such column; NAN: unknown.  RB_EFORMAT: a column is missing
- * or misspelt, or a value is not finite. */
-rb_status rb_case_fit_data(const rb_case *c, const char *path, rb_io_table *table, double sigma,
-                           rb_case_data *data, rb_message *why);
+/* What is fitted, in words. */
+typedef struct {
+    const char *names;          /* "mu,creep-offset" */
+    const char *start, *bounds; /* "mu=0.3,load=2kN/m"; "mu=0.1:0.6"; NULL: none.  Numbers without
+                                   a unit are in the units of the case */
+    double sigma;               /* standard deviation of all forces; NAN: unknown, or a column */
+} rb_case_fit_words;
+
+/* Reads these words into fit and the data of a table with named columns, and prepares the case
+ * (rb_case_prepare_fit).  The table is that of the file path unless it has rows; then path is what
+ * it is called in messages, and without table->line they name rows.  It is converted to mm, N, MPa,
+ * and data borrows from it.  RB_EINVAL: names or values of other numbers than can be fitted;
+ * RB_EFORMAT: a column is missing or misspelt, or a value is not finite. */
+rb_status rb_case_fit_read(rb_case *c, const rb_case_fit_words *words, const char *path,
+                           rb_io_table *table, rb_case_data *data, rb_case_fit *fit,
+                           rb_message *why);
 
 /* Sets options that a fit needs and the case does not give: a velocity-dependent friction
  * law, a speed and related options.  Call it before rb_case_resolve. */

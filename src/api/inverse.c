@@ -128,38 +128,23 @@ static rb_status keep_fit(rb_api *a, const rb_case_data *d, const rb_case_fit *f
     return s == RB_OK ? keep_text(&a->said[API_FIT_SENTENCES], fit->sentences) : s;
 }
 
-/* What a fit is asked for, as of rb_api_fit. */
-typedef struct {
-    const char *names, *start, *bounds;
-    double sigma, level;
-} fit_words;
-
 /* Reads the table from path unless it has rows; frees it. */
-static int fit_table(rb_api *a, const char *path, rb_io_table *t, const fit_words *w)
+static int fit_table(rb_api *a, const char *path, rb_io_table *t, const rb_case_fit_words *w,
+                     double level)
 {
-    static const rb_option level = RB_FIT_LEVEL_LINE(0), sigma = RB_FIT_SIGMA_LINE(0);
+    static const rb_option of_level = RB_FIT_LEVEL_LINE(0), of_sigma = RB_FIT_SIGMA_LINE(0);
     rb_case *c = begin(a, "fit.", RB_CASE_CURVE);
     rb_case_data data = {0};
-    rb_case_fit fit = {.level = w->level};
+    rb_case_fit fit = {.level = level};
     const rb_case_fit_observer observer = {see_step, a};
     rb_status s = c ? rb_api_check_refusals(a, &a->why) : RB_ENOMEM;
 
     if (s == RB_OK)
-        s = check(&level, w->level, &a->why);
+        s = check(&of_level, level, &a->why);
     if (s == RB_OK && !isnan(w->sigma))
-        s = check(&sigma, w->sigma, &a->why);
+        s = check(&of_sigma, w->sigma, &a->why);
     if (s == RB_OK)
-        s = rb_case_fit_names(w->names, &fit, &a->why);
-    if (s == RB_OK)
-        s = rb_case_fit_values(c, "start", w->start, &fit, &a->why);
-    if (s == RB_OK)
-        s = rb_case_fit_values(c, "bounds", w->bounds, &fit, &a->why);
-    if (s == RB_OK && t->rows == 0)
-        s = rb_io_table_read(path, t, &a->why);
-    if (s == RB_OK)
-        s = rb_case_fit_data(c, path, t, w->sigma, &data, &a->why);
-    if (s == RB_OK)
-        s = rb_case_prepare_fit(c, &data, &fit, &a->why);
+        s = rb_case_fit_read(c, w, path, t, &data, &fit, &a->why);
     if (s == RB_OK)
         s = rb_case_resolve(c, &a->why);
     if (s == RB_OK) {
@@ -180,7 +165,7 @@ static int fit_table(rb_api *a, const char *path, rb_io_table *t, const fit_word
 int rb_api_fit(rb_api *a, int columns, const char *const *column, int rows, const double *data,
                const char *names, const char *start, const char *bounds, double sigma, double level)
 {
-    const fit_words w = {names, start, bounds, sigma, level};
+    const rb_case_fit_words w = {names, start, bounds, sigma};
     rb_io_table t = {.rows = rows, .columns = columns};
 
     if (rows < 1 || columns < 1)
@@ -197,16 +182,16 @@ int rb_api_fit(rb_api *a, int columns, const char *const *column, int rows, cons
         return rb_api_ended(a, RB_ENOMEM);
     }
     memcpy(t.x, data, n * sizeof *data);
-    return fit_table(a, "data", &t, &w);
+    return fit_table(a, "data", &t, &w, level);
 }
 
 int rb_api_fit_file(rb_api *a, const char *path, const char *names, const char *start,
                     const char *bounds, double sigma, double level)
 {
-    const fit_words w = {names, start, bounds, sigma, level};
+    const rb_case_fit_words w = {names, start, bounds, sigma};
     rb_io_table t = {0};
 
-    return fit_table(a, path, &t, &w);
+    return fit_table(a, path, &t, &w, level);
 }
 
 /* ---- Designs ----------------------------------------------------------------------- */

@@ -372,14 +372,6 @@ static rb_status read_deviation(const rb_case_number *number, const char *text, 
     return rb_case_read_number(number->c, text, number->option->unit, deviation, why);
 }
 
-static int is_among(const char *name, const rb_case_tolerances *t)
-{
-    int k = 0;
-    while (k < t->n && strcmp(t->name[k], name) != 0)
-        k++;
-    return k < t->n;
-}
-
 rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_tolerances *t,
                                   rb_message *why)
 {
@@ -400,13 +392,16 @@ rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_to
             *value++ = '\0';
         char *name = without_blanks(word);
         rb_guess guess = {.word = name};
+        int twice = 0;
         value = value ? without_blanks(value) : NULL;
+        for (int i = 0; i < t->n; i++)
+            twice |= strcmp(t->name[i], name) == 0;
         for (; k < numbers && strcmp(number[k].name, name) != 0; k++)
             rb_guess_try(&guess, number[k].name);
         if (k == numbers || t->n == RB_CASE_TOLERANCES_MAX)
             s = rb_fail(why, RB_EINVAL, "'%s' is not a number of this case%s", name,
                         rb_guess_text(&guess, ""));
-        else if (is_among(name, t))
+        else if (twice)
             s = rb_fail(why, RB_EINVAL, "%s: given twice", name);
         else if (!value)
             s = rb_fail(why, RB_EINVAL, "%s: expected %s=X, X its standard deviation", name, name);

@@ -48,7 +48,7 @@ static rb_case_parameter *parameter_of(rb_case_fit *fit, const char *name)
     return NULL;
 }
 
-rb_status rb_case_fit_names(const char *text, rb_case_fit *fit, rb_message *why)
+static rb_status read_names(const char *text, rb_case_fit *fit, rb_message *why)
 {
     char name[120];
 
@@ -77,7 +77,7 @@ static int read_number(const rb_case *c, const rb_case_parameter *p, const char 
     return rb_case_read_number(c, text, o ? o->unit : "-", x, NULL) == RB_OK;
 }
 
-rb_status rb_case_fit_values(const rb_case *c, const char *option, const char *text,
+static rb_status read_values(const rb_case *c, const char *option, const char *text,
                              rb_case_fit *fit, rb_message *why)
 {
     const int ranges = strcmp(option, "bounds") == 0;
@@ -175,7 +175,7 @@ static rb_status add_column(rb_io_table *t, const char *name, double value)
     return RB_OK;
 }
 
-rb_status rb_case_fit_data(const rb_case *c, const char *path, rb_io_table *t, double sigma,
+static rb_status read_data(const rb_case *c, const char *path, rb_io_table *t, double sigma,
                            rb_case_data *d, rb_message *why)
 {
     const rb_units units = rb_case_units(c, RB_GIVEN_ARGUMENT);
@@ -226,4 +226,21 @@ rb_status rb_case_fit_data(const rb_case *c, const char *path, rb_io_table *t, d
                                place_of(t, path, k, place), used[j].name,
                                used[j].positive ? "> 0" : "a finite number", used[j].x[k]);
     return RB_OK;
+}
+
+rb_status rb_case_fit_read(rb_case *c, const rb_case_fit_words *words, const char *path,
+                           rb_io_table *table, rb_case_data *data, rb_case_fit *fit,
+                           rb_message *why)
+{
+    rb_status s = read_names(words->names, fit, why);
+
+    if (s == RB_OK)
+        s = read_values(c, "start", words->start, fit, why);
+    if (s == RB_OK)
+        s = read_values(c, "bounds", words->bounds, fit, why);
+    if (s == RB_OK && table->rows == 0)
+        s = rb_io_table_read(path, table, why);
+    if (s == RB_OK)
+        s = read_data(c, path, table, words->sigma, data, why);
+    return s == RB_OK ? rb_case_prepare_fit(c, data, fit, why) : s;
 }

@@ -234,20 +234,11 @@ static cli_exit prepare(cli_case_run *run)
         return cli_fail(CLI_USAGE, "fit needs DATA, and at most one case file");
     if (!f->names)
         return cli_fail(CLI_USAGE, "fit needs --fit NAME,...");
-    const char *path = run->args.operand[0];
-    rb_status s = rb_case_fit_names(f->names, &f->fit, &why);
-    if (s == RB_OK)
-        s = rb_case_fit_values(run->words, "start", f->start, &f->fit, &why);
-    if (s == RB_OK)
-        s = rb_case_fit_values(run->words, "bounds", f->bounds, &f->fit, &why);
-    if (s == RB_OK)
-        s = rb_io_table_read(path, &f->table, &why);
-    if (s == RB_OK)
-        s = rb_case_fit_data(run->words, path, &f->table, f->sigma, &f->data, &why);
+    const rb_case_fit_words words = {f->names, f->start, f->bounds, f->sigma};
     f->fit.level = f->level;
-    if (s == RB_OK)
-        s = rb_case_prepare_fit(run->words, &f->data, &f->fit, &why);
-    return cli_say(s, &why);
+    return cli_say(rb_case_fit_read(run->words, &words, run->args.operand[0], &f->table, &f->data,
+                                    &f->fit, &why),
+                   &why);
 }
 
 static const cli_case_command command = {

@@ -174,16 +174,6 @@ static rb_status end(rb_certificate *c, rb_status s, const rb_message *reason, j
 
 /* ---- Of a case --------------------------------------------------------------------- */
 
-/* The creepage of free rolling is another solution, found as the solve has found it. */
-static rb_status roll_freely(rb_certificate *c, rb_message *why)
-{
-    double creepage;
-    const rb_status s = rb_rolling_largest_mu(c->model.rc) > 0.0
-                            ? rb_rolling_free_creepage(&c->model, &creepage, why)
-                            : RB_OK;
-    return s == RB_ENOMEM ? s : RB_OK; /* otherwise it has no derivatives */
-}
-
 /* Where they stand in a result. */
 static const char *const places[] = {"derivatives_of",
                                      "own_of_b",
@@ -208,8 +198,13 @@ rb_status rb_certificate_derivatives(rb_certificate *c, const json_t *root, cons
     json_t *again = json_object();
 
     rb_status s = begin(c, root, asked, deviates, words, NULL, &reason);
-    if (s == RB_OK && asked && c->model.rc->formulation == RB_STEADY)
-        s = roll_freely(c, &reason);
+    /* The creepage of free rolling is another solution, found as the solve has found it; where it
+     * is not found it has no derivatives. */
+    double creepage;
+    if (s == RB_OK && asked && c->model.rc->formulation == RB_STEADY &&
+        rb_rolling_largest_mu(c->model.rc) > 0.0 &&
+        rb_rolling_free_creepage(&c->model, &creepage, &reason) == RB_ENOMEM)
+        s = RB_ENOMEM;
     if (s == RB_OK && asked)
         s = (smooth ? rb_case_differentiate_smoothly : rb_case_differentiate)(words, &c->model, 0,
                                                                               NULL, &all, &reason);
