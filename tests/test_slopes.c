@@ -358,7 +358,7 @@ TEST(single_cases_have_derivatives)
         {{PLANES "formulation steady mu 0.5 creep 1.5e-3 mesh aligned"}},
         {{PLANES "formulation steady creep-ratio 0.4 mesh fitted plane stress layer-thickness 2"}},
         {{"support hub load 500 contact-elements 24 formulation steady force-ratio 0.4 mesh fitted "
-          "outer-elements 60"}},
+          "outer-elements 40"}},
         {{"support halfplane formulation steady similar yes creep-ratio -0.4 half-width 1 "
           "yield-stress 200 hardening -2000 mu 3 contact-elements 20"}},
         /* within the step an element that has yielded a little yields the other way */

@@ -769,7 +769,8 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
  * as there is a state; with status and time.  Returns the status of both. */
 rb_status rb_rolling_end_solve(const rb_rolling_model *model, rb_status s, double begun,
                                rb_rolling_solution *solution, rb_message *why);
-/* The solution without the residuals and temperatures, which stay 0. */
+/* The solution without the residuals and temperatures, which stay 0, and the balance of the
+ * support, which is NAN. */
 rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_solution *solution,
                                       rb_message *why);
 /* Its temperatures, if it has such columns, and the highest.  RB_ENOMEM, RB_SINGULAR. */

@@ -251,8 +251,7 @@ rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_
             status = rb_rolling_hysteresis(model, &s->hysteresis);
         }
     }
-    if (status == RB_OK)
-        status = support_balance(model, s->normal_load, &s->support_balance);
+    s->support_balance = NAN;
     if (status == RB_OK)
         status = rb_rolling_set_patches(model, s);
     if (status != RB_OK) {
@@ -322,6 +321,8 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
         return status;
     }
     status = rb_contact_residual(&model->problem, &model->state, &violation);
+    if (status == RB_OK)
+        status = support_balance(model, s->normal_load, &s->support_balance);
     s->residual = violation.scaled;
     s->residual_gap = violation.gap;
     s->residual_slip = violation.slip;
