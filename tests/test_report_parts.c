@@ -64,215 +64,127 @@ static void quiet(noted *n)
     n->s.half_width = 1.0;
 }
 
+/* The first patch ends at `to`, the second one lies between from and last. */
+static void two_patches(noted *n, double half_width, double to, double from, double last)
+{
+    n->s.patches = 2;
+    n->s.half_width = half_width;
+    n->patch[0].to = to;
+    n->patch[1] = (rb_rolling_patch){.from = from, .to = last};
+}
+
+static void slide_by_force(noted *n)
+{
+    set(&n->rc, "creep nan force-ratio 1");
+    n->s.stick = 0;
+}
+
+static void dissipate(noted *n, double power)
+{
+    n->s.normal_load = 100.0;
+    n->s.dissipation = power;
+}
+
+static void check_note(noted *n, const char *want, const char *changes)
+{
+    if (n->s.patches == 1)
+        n->patch[0] = (rb_rolling_patch){.from = -n->s.half_width, .to = n->s.half_width};
+    const rb_rolling_note_list list = rb_rolling_find_notes(&n->rc, &n->s);
+    if (list.n != (want != NULL) || (want && !strstr(list.text[0], want)))
+        fail_msg("%s: %d notes: %s; wanted: %s", changes, list.n, list.n ? list.text[0] : "",
+                 want ? want : "none");
+}
+
+/* The note (NULL: none) of the quiet case with these changes. */
+#define NOTED(want, ...)                                                                           \
+    do {                                                                                           \
+        noted n;                                                                                   \
+        rb_rolling_case *rc = &n.rc;                                                               \
+        rb_rolling_solution *s = &n.s;                                                             \
+        quiet(&n);                                                                                 \
+        (void)rc, (void)s;                                                                         \
+        __VA_ARGS__;                                                                               \
+        check_note(&n, want, #__VA_ARGS__);                                                        \
+    } while (0)
+
 /* Each note on both sides of its condition. */
-TEST(notes_begin_where_they_should)
+TEST(notes_of_large_strains_begin_where_they_should)
 {
     static const char inaccurate[] = "large for linear elasticity",
-                      broken[] = "far beyond linear elasticity",
-                      percent[] = "meant in per cent, write --creep 0.001%",
-                      radians[] = "in radians, write --arc 1.99rad",
-                      sliding[] = "The whole contact slides: the creepage is not unique",
-                      equal[] = "equal elements were used", edge[] = "uncertain by one element",
-                      yields[] = "The interface yields", falls[] = "(kappa = 0.96) that",
-                      still[] = "rolls at creepage 0", enters[] = "does not change the tractions",
-                      opposes[] = "points along the friction, not against it",
+                      broken[] = "far beyond linear elasticity";
+    NOTED(NULL, );
+    NOTED(NULL, s->approach = 50.0 * 0.0199);
+    NOTED(inaccurate, s->approach = 50.0 * 0.0201);
+    NOTED(inaccurate, s->approach = 50.0 * 0.0999);
+    NOTED(broken, s->approach = 50.0 * 0.1001);
+    NOTED(NULL, s->half_width = 50.0 * 0.0999);
+    NOTED(inaccurate, s->half_width = 50.0 * 0.1001);
+    NOTED(inaccurate, s->half_width = 50.0 * 0.2999);
+    NOTED(broken, s->half_width = 50.0 * 0.3001);
+    /* two narrow patches far apart, the second of them wide, the first, and of a small cylinder */
+    NOTED(NULL, two_patches(&n, 40.0, 1.0, 30.0, 31.0));
+    NOTED(inaccurate, two_patches(&n, 40.0, 1.0, 20.0, 31.0));
+    NOTED(inaccurate, two_patches(&n, 1.0, 11.0, 30.0, 31.0));
+    NOTED(NULL, two_patches(&n, 4.0, 0.1, 3.0, 3.1); rc->a.radius = 5.0);
+}
+
+TEST(notes_of_what_is_given_begin_where_they_should)
+{
+    static const char percent[] = "meant in per cent, write --creep 0.001%",
+                      enters[] = "does not change the tractions",
                       angle[] = "depends on the angle of the wheel";
-    noted n;
-    for (int k = 0; k < 50; k++) {
-        const char *want = NULL;
-        quiet(&n);
-        rb_rolling_case *rc = &n.rc;
-        rb_rolling_solution *s = &n.s;
-        if (k > 20 && k < 28) { /* full sliding under a given force */
-            set(rc, "creep nan force-ratio 1");
-            s->stick = 0;
-        }
-        switch (k) {
-        case 1:
-            s->approach = 50.0 * 0.0199;
-            break;
-        case 2:
-            s->approach = 50.0 * 0.0201;
-            want = inaccurate;
-            break;
-        case 3:
-            s->approach = 50.0 * 0.0999;
-            want = inaccurate;
-            break;
-        case 4:
-            s->approach = 50.0 * 0.1001;
-            want = broken;
-            break;
-        case 5:
-            s->half_width = 50.0 * 0.0999;
-            break;
-        case 6:
-            s->half_width = 50.0 * 0.1001;
-            want = inaccurate;
-            break;
-        case 7:
-            s->half_width = 50.0 * 0.2999;
-            want = inaccurate;
-            break;
-        case 8:
-            s->half_width = 50.0 * 0.3001;
-            want = broken;
-            break;
-        case 9:  /* two narrow patches far apart */
-        case 10: /* one of them wide */
-            s->patches = 2;
-            s->half_width = 40.0;
-            n.patch[0].to = 1.0;
-            n.patch[1].from = k == 9 ? 30.0 : 20.0;
-            n.patch[1].to = 31.0;
-            want = k == 9 ? NULL : inaccurate;
-            break;
-        case 44: /* the first of two is wide */
-            s->patches = 2;
-            n.patch[0].to = 11.0;
-            n.patch[1].from = 30.0;
-            n.patch[1].to = 31.0;
-            want = inaccurate;
-            break;
-        case 43: /* two narrow patches of a small cylinder */
-            s->patches = 2;
-            s->half_width = 4.0;
-            rc->a.radius = 5.0;
-            n.patch[0].to = 0.1;
-            n.patch[1].from = 3.0;
-            n.patch[1].to = 3.1;
-            break;
-        case 11:
-            rc->creep = NAN;
-            want = still;
-            break;
-        case 12:
-            set(rc, "creep nan creep-ratio 0.5");
-            break;
-        case 13:
-            set(rc, "creep nan force 1");
-            break;
-        case 14:
-            set(rc, "creep nan free-axle");
-            break;
-        case 15:
-            rc->formulation = RB_STATIC;
-            want = enters;
-            break;
-        case 16:
-            set(rc, "formulation static creep nan");
-            break;
-        case 17:
-            s->creep_ratio = 20.0;
-            break;
-        case 18:
-            s->creep_ratio = -20.1;
-            want = percent;
-            break;
-        case 19:
-            s->creep_ratio = 21.0;
-            set(rc, "creep nan creep-ratio 21");
-            break;
-        case 20:
-            s->yielding = 1;
-            want = yields;
-            break;
-        case 21:
-            want = sliding;
-            break;
-        case 22:
-            s->stick = 1;
-            break;
-        case 23:
-            s->contact = 0;
-            break;
-        case 24:
-            rc->mu = 0.0;
-            break;
-        case 25:
-            s->formulation = RB_STATIC;
-            break;
-        case 26:
-            set(rc, "friction-law exponential mu-fall 0.1 slip-scale 1");
-            break;
-        case 27:
-            set(rc, "force-ratio nan force 30");
-            want = sliding;
-            break;
-        case 28:
-            s->equal_instead = 1;
-            want = equal;
-            break;
-        case 29:
-            s->edges_bounded = 1;
-            want = edge;
-            break;
-        case 30:
-            s->edges_bounded = 1;
-            s->contact = 0;
-            break;
-        case 31:
-            s->kappa = 0.95;
-            break;
-        case 32:
-            s->kappa = 0.96;
-            want = falls;
-            break;
-        case 33:
-            s->slip_violations = 2;
-            break; /* of rolling nothing is said */
-        case 34:
-        case 35:
-            set(rc, "formulation static creep nan");
-            s->slip_violations = k == 34 ? 2 : 0;
-            want = k == 34 ? opposes : NULL;
-            break;
-        case 36:
-            set(rc, "formulation static creep nan mu 0");
-            s->slip_violations = 2;
-            break;
-        case 37:
-            set(rc, "support arc arc 30");
-            want = angle;
-            break;
-        case 38:
-            rc->a.support = RB_BEM_HUB;
-            break;
-        case 41:
-        case 42: /* below zero, by more than rounding */
-            s->normal_load = 100.0;
-            s->dissipation = k == 41 ? -1e-9 : -1e-11;
-            want = k == 41 ? "The dissipation, -1e-09 N/mm, is below zero" : NULL;
-            break;
-        case 45: /* where they are aligned, or cannot be */
-        case 46:
-            s->normal_load = 100.0;
-            s->dissipation = -1e-9;
-            rc->mesh = k == 45 ? RB_MESH_UNIFORM : RB_MESH_ALIGNED;
-            want = k == 45 ? "take more of them or --mesh aligned." : "take more of them.";
-            break;
-        case 47: /* where the force drives nothing, or something slips, it is right */
-        case 48:
-        case 49:
-            s->force_ratio = k == 48 ? 0.0009 : -0.0011;
-            s->slipping = k == 49;
-            want = k == 47 ? "which the force drives, is shorter than an element" : NULL;
-            break;
-        case 39:
-        case 40:
-            set(rc, "formulation static creep nan support arc arc %g", k == 39 ? 1.99 : 2.0);
-            want = k == 39 ? radians : NULL;
-            break;
-        }
-        if (s->patches == 1) {
-            n.patch[0].from = -s->half_width;
-            n.patch[0].to = s->half_width;
-        }
-        const rb_rolling_note_list list = rb_rolling_find_notes(rc, s);
-        if (list.n != (want != NULL) || (want && !strstr(list.text[0], want)))
-            fail_msg("%d: %d notes: %s; wanted: %s", k, list.n, list.n ? list.text[0] : "",
-                     want ? want : "none");
-    }
+    NOTED("rolls at creepage 0", rc->creep = NAN);
+    NOTED(NULL, set(rc, "creep nan creep-ratio 0.5"));
+    NOTED(NULL, set(rc, "creep nan force 1"));
+    NOTED(NULL, set(rc, "creep nan free-axle"));
+    NOTED(enters, set(rc, "formulation static"));
+    NOTED(NULL, set(rc, "formulation static creep nan"));
+    NOTED(NULL, s->creep_ratio = 20.0);
+    NOTED(percent, s->creep_ratio = -20.1);
+    NOTED(NULL, s->creep_ratio = 21.0; set(rc, "creep nan creep-ratio 21"));
+    NOTED(angle, set(rc, "support arc arc 30"));
+    NOTED(NULL, set(rc, "support hub"));
+    NOTED("in radians, write --arc 1.99rad",
+          set(rc, "formulation static creep nan support arc arc 1.99"));
+    NOTED(NULL, set(rc, "formulation static creep nan support arc arc 2"));
+}
+
+TEST(notes_of_friction_begin_where_they_should)
+{
+    static const char sliding[] = "The whole contact slides: the creepage is not unique",
+                      opposes[] = "points along the friction, not against it";
+    NOTED("The interface yields", s->yielding = 1);
+    NOTED(sliding, slide_by_force(&n));
+    NOTED(NULL, slide_by_force(&n); s->stick = 1);
+    NOTED(NULL, slide_by_force(&n); s->contact = 0);
+    NOTED(NULL, slide_by_force(&n); rc->mu = 0.0);
+    NOTED(NULL, slide_by_force(&n); s->formulation = RB_STATIC);
+    NOTED(NULL, slide_by_force(&n); set(rc, "friction-law exponential mu-fall 0.1 slip-scale 1"));
+    NOTED(sliding, slide_by_force(&n); set(rc, "force-ratio nan force 30"));
+    NOTED(NULL, s->kappa = 0.95);
+    NOTED("(kappa = 0.96) that", s->kappa = 0.96);
+    NOTED(NULL, s->slip_violations = 2); /* of rolling nothing is said */
+    NOTED(opposes, set(rc, "formulation static creep nan"); s->slip_violations = 2);
+    NOTED(NULL, set(rc, "formulation static creep nan"));
+    NOTED(NULL, set(rc, "formulation static creep nan mu 0"); s->slip_violations = 2);
+}
+
+TEST(notes_of_elements_begin_where_they_should)
+{
+    static const char shorter[] = "which the force drives, is shorter than an element";
+    NOTED("equal elements were used", s->equal_instead = 1);
+    NOTED("uncertain by one element", s->edges_bounded = 1);
+    NOTED(NULL, s->edges_bounded = 1; s->contact = 0);
+    /* below zero, by more than rounding */
+    NOTED("The dissipation, -1e-09 N/mm, is below zero", dissipate(&n, -1e-9));
+    NOTED(NULL, dissipate(&n, -1e-11));
+    /* where elements are aligned, or cannot be */
+    NOTED("take more of them or --mesh aligned.", dissipate(&n, -1e-9); set(rc, "mesh uniform"));
+    NOTED("take more of them.", dissipate(&n, -1e-9); set(rc, "mesh aligned"));
+    /* where the force drives nothing, or something slips, it is right */
+    NOTED(shorter, s->force_ratio = -0.0011);
+    NOTED(NULL, s->force_ratio = 0.0009);
+    NOTED(NULL, s->force_ratio = -0.0011; s->slipping = 1);
 }
 
 /* ---- Studies ----------------------------------------------------------------------- */
