@@ -2,8 +2,7 @@
 #ifndef ROLLBEM_TESTS_BUMPS_H
 #define ROLLBEM_TESTS_BUMPS_H
 
-#include "check.h"
-#include "rollbem/rolling.h"
+#include "cases.h"
 
 #include <gsl/gsl_math.h>
 
@@ -18,8 +17,7 @@ typedef struct {
 /* Bumps of radius 10 at places x, so much higher than the lowest. */
 static inline table *bumps(int n, const double *x, const double *height)
 {
-    table *t = calloc(1, sizeof *t);
-    assert_non_null(t);
+    table *t = NOT_NULL(calloc(1, sizeof *t));
     const double half = fmax(fabs(x[0]), fabs(x[n - 1])) + 1.5;
     for (int i = 0; i < POINTS; i++) {
         t->x[i] = half * (2.0 * i / (POINTS - 1) - 1.0);
@@ -28,12 +26,9 @@ static inline table *bumps(int n, const double *x, const double *height)
             t->gap[i] = fmin(t->gap[i], gsl_pow_2(t->x[i] - x[k]) / 20.0 + height[k]);
     }
     CHECK_OK(rb_rolling_profile_create(POINTS, t->x, t->gap, 0.0, &t->profile, &heard));
-    t->rc = rb_rolling_case_defaults();
-    t->rc.a.support = RB_BEM_HALFPLANE;
+    t->rc = rolling_case("support halfplane contact-elements 40 load 30");
     t->rc.gap = RB_GAP_TABLE;
     t->rc.profile = t->profile;
-    t->rc.contact_elements = 40;
-    t->rc.load = 30.0;
     return t;
 }
 
@@ -42,5 +37,7 @@ static inline void bumps_free(table *t)
     rb_rolling_profile_free(t->profile);
     free(t);
 }
+HELD_TYPE(table, bumps_free)
+#define held_table HELD(table)
 
 #endif

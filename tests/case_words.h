@@ -19,13 +19,11 @@ static inline rb_case *case_of(rb_case_purpose purpose, const words *w, const ch
 {
     char text[2000], *rest = text;
     size_t length = 0;
-    rb_case *c = rb_case_create(purpose);
-    assert_non_null(c);
+    rb_case *c = NOT_NULL(rb_case_create(purpose));
     for (int k = 0; w->word[k]; k++)
         length += (size_t)snprintf(text + length, sizeof text - length, "%s ", w->word[k]);
     for (char *option; (option = strtok_r(rest, " ", &rest));) {
-        const char *given = strtok_r(NULL, " ", &rest);
-        assert_non_null(given);
+        const char *given = NOT_NULL(strtok_r(NULL, " ", &rest));
         CHECK_OK(rb_case_set(c, option, given, RB_GIVEN_ARGUMENT, &heard));
     }
     if (name && rb_case_set_number(c, name, value, &heard) != RB_OK)

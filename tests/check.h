@@ -92,6 +92,18 @@ static inline void free_scratch_(void *address)
     free(memory);
 }
 
+/* The pointer, which must not be NULL. */
+#define NOT_NULL(pointer) ((__typeof__(pointer))not_null_((pointer), #pointer, __FILE__, __LINE__))
+
+static inline void *not_null_(const void *pointer, const char *text, const char *file, int line)
+{
+    if (!pointer) {
+        print_error("%s is NULL\n", text);
+        _fail(file, line);
+    }
+    return (void *)pointer;
+}
+
 /* |got - want| <= tol; the rest is a printf format naming the case. */
 #define CHECK_ABS(got, want, tol, ...) check_close_(got, want, tol, __FILE__, __LINE__, __VA_ARGS__)
 /* |got - want| <= tol |want| */

@@ -18,16 +18,14 @@ static char out[1000000], err[20000];
 
 static inline void slurp(const char *name, char *text, size_t size)
 {
-    FILE *file = fopen(name, "r");
-    assert_non_null(file);
+    FILE *file = NOT_NULL(fopen(name, "r"));
     text[fread(text, 1, size - 1, file)] = '\0';
     fclose(file);
 }
 
 static inline void write_file(const char *name, const char *text)
 {
-    FILE *file = fopen(name, "w");
-    assert_non_null(file);
+    FILE *file = NOT_NULL(fopen(name, "w"));
     fputs(text, file);
     assert_int_equal(fclose(file), 0);
 }
@@ -64,6 +62,15 @@ __attribute__((format(printf, 1, 2))) static inline int shellf(const char *forma
 }
 #define rollbemf(...) shellf("\"$R\" " __VA_ARGS__)
 
+/* The exit code of a run, and words in what it printed:
+ * CHECK_RUN(rollbem("friction no"), 1, err, "no solution exists"). */
+#define CHECK_RUN(run, code, printed, words)                                                       \
+    do {                                                                                           \
+        assert_int_equal(run, code);                                                               \
+        if (!strstr(printed, words))                                                               \
+            fail_msg("no '%s' in: %s", words, printed);                                            \
+    } while (0)
+
 /* Nothing on stdout, exactly one line on stderr, containing `part`. */
 static inline void check_refused(const char *arguments, int code, const char *part)
 {
@@ -98,8 +105,7 @@ static inline json_t *run_json(const char *arguments)
     const int code = rollbem(line);
     if (code)
         fail_msg("rollbem %s: %s", line, err);
-    json_t *root = json_loads(out, 0, NULL);
-    assert_non_null(root);
+    json_t *root = NOT_NULL(json_loads(out, 0, NULL));
     return root;
 }
 

@@ -58,8 +58,7 @@ static inline int next_part(const char **at, int *line, part *p)
     p->text = s;
     p->line = *line;
     while (*s && strncmp(s, "```", 3) != 0) {
-        const char *end = strchr(s, '\n');
-        assert_non_null(end);
+        const char *end = NOT_NULL(strchr(s, '\n'));
         s = end + 1;
         ++*line;
     }
@@ -236,8 +235,7 @@ static inline int run_python(const char *folder, const char *names)
         "sys.exit(wrong)\n";
     char path[100];
     snprintf(path, sizeof path, "%s/blocks.py", folder);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
+    FILE *file = NOT_NULL(fopen(path, "w"));
     fputs(program, file);
     assert_int_equal(fclose(file), 0);
     return run("cd %s && PYTHONPATH=python ROLLBEM_LIBRARY=build/librollbem.so "
@@ -267,8 +265,7 @@ static inline int run_blocks(const char *page, int k, const char *folder, char p
             continue;
         blocks++;
         snprintf(path, sizeof path, "%s/block-%d-%d", folder, k, p.line);
-        FILE *file = fopen(path, "w");
-        assert_non_null(file);
+        FILE *file = NOT_NULL(fopen(path, "w"));
         fwrite(p.text, 1, p.length, file);
         assert_int_equal(fclose(file), 0);
         int code = 0;

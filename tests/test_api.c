@@ -22,8 +22,7 @@ static int give(rb_api *a, const char *options)
 
 static rb_api *solved(const char *options)
 {
-    rb_api *a = rb_api_create();
-    assert_non_null(a);
+    rb_api *a = NOT_NULL(rb_api_create());
     if (give(a, options) != RB_OK || rb_api_solve(a) != RB_OK)
         fail_msg("%s", rb_api_message(a));
     return a;
@@ -180,8 +179,7 @@ TEST(pivots_keep_the_ratio_test)
     int size, pivots, r;
     char name[32];
     assert_int_equal(rb_api_pivots(a), RB_OK);
-    const double *value = rb_api_array(a, "pivot.value", &size, &pivots);
-    assert_non_null(value);
+    const double *value = NOT_NULL(rb_api_array(a, "pivot.value", &size, &pivots));
     const double *before = array(a, "pivot.before", size, pivots),
                  *column = array(a, "pivot.column", size, pivots),
                  *row = array(a, "pivot.row", 1, pivots),
@@ -220,8 +218,7 @@ TEST(newton_ends_in_the_solution)
     held_api *a = solved(wheel);
     int rows, steps;
     assert_int_equal(rb_api_newton(a), RB_OK);
-    const double *zone = rb_api_array(a, "newton.zone", &rows, &steps);
-    assert_non_null(zone);
+    const double *zone = NOT_NULL(rb_api_array(a, "newton.zone", &rows, &steps));
     assert_int_equal(rows, 12);
     assert_true(steps > 2);
     const double *p = array(a, "newton.p", 12, steps), *q = array(a, "newton.q", 12, steps);
@@ -240,8 +237,7 @@ TEST(matrices_satisfy_their_equations)
 {
     held_api *a = solved(wheel);
     int m, columns;
-    const double *H = rb_api_array(a, "H", &m, &columns);
-    assert_non_null(H);
+    const double *H = NOT_NULL(rb_api_array(a, "H", &m, &columns));
     assert_int_equal(m, columns);
     assert_non_null(array(a, "G", m, m));
     assert_non_null(array(a, "mesh.x0", m / 2, 1));
@@ -297,8 +293,7 @@ TEST(steps_are_kept)
                                 "formulation transient distance 1 contact-elements 20";
     held_api *a = solved(words);
     int n, steps;
-    const double *p = rb_api_array(a, "step.p", &n, &steps);
-    assert_non_null(p);
+    const double *p = NOT_NULL(rb_api_array(a, "step.p", &n, &steps));
     const double *load = array(a, "history.normal_load", steps, 1), *h = array(a, "h", n, 1),
                  *x = array(a, "step.x", n, 1), *last = array(a, "x", n, 1);
     for (int i = 0; i < n; i++)
@@ -1079,8 +1074,7 @@ TEST(cracks)
     held_api *a = rb_api_create_for("crack");
     rb_api_set(a, "half-width", "1");
     assert_int_equal(rb_api_crack(a, 3, names, values), RB_OK);
-    const double *K = rb_api_array(a, "crack.summary.K_I_max", &rows, &columns);
-    assert_non_null(K);
+    const double *K = NOT_NULL(rb_api_array(a, "crack.summary.K_I_max", &rows, &columns));
     CHECK_ABS(*K / (2.0 * sqrt(3.14159265358979)), 0.70491, 2e-4, "45 degrees");
     assert_non_null(rb_api_array(a, "crack.K_II", &rows, &columns));
     assert_int_equal(rows, 1);
@@ -1141,8 +1135,7 @@ TEST(derivatives)
         assert_non_null(rb_api_input(a, k, "unit", unit, sizeof unit));
     }
     assert_true(mu >= 0 && layer >= 0);
-    const double *x = rb_api_array(a, "derivative.tangential_load", &rows, &columns);
-    assert_non_null(x);
+    const double *x = NOT_NULL(rb_api_array(a, "derivative.tangential_load", &rows, &columns));
     assert_int_equal(rows, 1);
     CHECK_REL(x[2 * mu], -500.0, 1e-10, "it slides: Q = -mu P");
     CHECK_REL(x[2 * mu + 1], -500.0, 1e-10, "on both sides");
@@ -1156,8 +1149,7 @@ TEST(derivatives)
     assert_null(rb_api_array(a, "tolerance.tangential_load", &rows, &columns));
     assert_int_equal(rb_api_tolerances(a, "zone=1"), RB_EINVAL);
     assert_int_equal(rb_api_tolerances(a, "mu=0.02"), RB_OK);
-    x = rb_api_array(a, "tolerance.tangential_load", &rows, &columns);
-    assert_non_null(x);
+    x = NOT_NULL(rb_api_array(a, "tolerance.tangential_load", &rows, &columns));
     CHECK_REL(*x, 10.0, 1e-10, "of Q = -mu P");
     assert_null(rb_api_array(a, "tolerance.contact", &rows, &columns));
     assert_int_equal(rb_api_smooth_derivatives(a), RB_OK);
@@ -1224,8 +1216,7 @@ TEST(derivatives_of_a_curve_are_those_of_its_points)
             snprintf(column, sizeof column, "curve.derivative.%s", name);
             const double *d = array(a, column, 4, 2);
             snprintf(column, sizeof column, "derivative.%s", result);
-            const double *all = rb_api_array(point, column, &rows, &columns);
-            assert_non_null(all);
+            const double *all = NOT_NULL(rb_api_array(point, column, &rows, &columns));
             for (int side = 0; side < 2; side++) {
                 const double x = d[k + 4 * side], y = all[2 * place_of(point, input) + side],
                              scale = array(point, "derivative.value", 1,

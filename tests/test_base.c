@@ -10,8 +10,7 @@ TEST(refusals_write_their_line)
 
 TEST(arrays_are_zeroed_and_overflow_is_refused)
 {
-    SCRATCH double *a = rb_alloc(3, 5);
-    assert_non_null(a);
+    SCRATCH double *a = NOT_NULL(rb_alloc(3, 5));
     for (int i = 0; i < 15; i++)
         CHECK_ABS(a[i], 0.0, 0.0, "entry %d", i);
     assert_null(rb_alloc(SIZE_MAX / 2, 3));

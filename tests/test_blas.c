@@ -34,8 +34,7 @@ TEST(the_caller_sets_the_number_of_threads)
 static rlim_t in_use(void)
 {
     unsigned long pages = 0;
-    FILE *f = fopen("/proc/self/statm", "r");
-    assert_non_null(f);
+    FILE *f = NOT_NULL(fopen("/proc/self/statm", "r"));
     assert_int_equal(fscanf(f, "%lu", &pages), 1);
     fclose(f);
     return (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE);

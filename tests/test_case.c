@@ -33,8 +33,7 @@ static rb_status set_words(rb_case *c, const char *words, rb_message *why)
 
 static rb_case *case_of(const char *words)
 {
-    rb_case *c = rb_case_create(RB_CASE_SINGLE);
-    assert_non_null(c);
+    rb_case *c = NOT_NULL(rb_case_create(RB_CASE_SINGLE));
     if (set_words(c, words, &heard) != RB_OK || rb_case_resolve(c, &heard) != RB_OK)
         fail_msg("%s: %s", words, heard.text);
     return c;
@@ -82,8 +81,7 @@ static void compare(const char *file, const char *words)
         fail_msg("%s %s: %s", file, words, heard.text);
 
     run_program(file, words);
-    held_json *root = json_loads(out, 0, NULL);
-    assert_non_null(root);
+    held_json *root = NOT_NULL(json_loads(out, 0, NULL));
     const json_t *table = json_object_get(root, "table");
     const rb_rolling_solution *got = &r.solution;
     assert_int_equal(json_array_size(json_object_get(table, "p_MPa")), got->n);

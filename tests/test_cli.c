@@ -302,18 +302,15 @@ TEST(the_mesh_asked_for_is_used)
 
 TEST(header_names_the_command)
 {
-    assert_int_equal(rollbem(QUICK " --gap exact --quiet -- "), 0);
-    assert_non_null(strstr(out, "# rollbem " RB_VERSION "\n"));
+    CHECK_RUN(rollbem(QUICK " --gap exact --quiet -- "), 0, out, "# rollbem " RB_VERSION "\n");
     assert_non_null(strstr(out, "--contact-elements 24 --gap exact --quiet --\n"));
     write_file("it's.ini", "support = halfplane\nload = 100\ncontact-elements = 24\n");
-    assert_int_equal(rollbem("\"it's.ini\""), 0);
-    assert_non_null(strstr(out, "# rollbem 'it'\\''s.ini'\n"));
+    CHECK_RUN(rollbem("\"it's.ini\""), 0, out, "# rollbem 'it'\\''s.ini'\n");
 }
 
 TEST(readme_case_is_solved)
 {
-    assert_int_equal(rollbem("--mu 0.3 --creep 0.1"), 0);
-    assert_non_null(strstr(err, "static: solved"));
+    CHECK_RUN(rollbem("--mu 0.3 --creep 0.1"), 0, err, "static: solved");
     assert_non_null(strstr(err, "S*"));
     assert_non_null(strstr(err, "--formulation steady")); /* the note */
 }
@@ -322,14 +319,11 @@ TEST(version_help_and_usage)
 {
     assert_int_equal(rollbem("--version"), 0);
     assert_string_equal(out, "rollbem " RB_VERSION "\n");
-    assert_int_equal(rollbem("--help"), 0);
-    assert_non_null(strstr(out, "--creep-ratio X"));
+    CHECK_RUN(rollbem("--help"), 0, out, "--creep-ratio X");
     assert_non_null(strstr(out, "braked"));
     assert_non_null(strstr(out, "[MPa], > 0 (94500)"));
-    assert_int_equal(rollbem("--usage"), 0);
-    assert_non_null(strstr(out, "[--mu X]"));
-    assert_int_equal(rollbem("help"), 0);
-    assert_non_null(strstr(out, "rollbem verify"));
+    CHECK_RUN(rollbem("--usage"), 0, out, "[--mu X]");
+    CHECK_RUN(rollbem("help"), 0, out, "rollbem verify");
     for (char *line = strtok(out, "\n"); line; line = strtok(NULL, "\n"))
         CHECK_MAX((double)strlen(line), 100.0, "%s", line);
 }
@@ -491,12 +485,10 @@ TEST(the_schema_describes_every_input)
 
 TEST(not_solved_is_1)
 {
-    assert_int_equal(rollbem("--approach 1e-9 --zone 5"), 1);
-    assert_non_null(strstr(err, "no contact"));
+    CHECK_RUN(rollbem("--approach 1e-9 --zone 5"), 1, err, "no contact");
     assert_null(strstr(err, "nan"));
     assert_non_null(strstr(out, "x_mm")); /* what there is, is printed */
-    assert_int_equal(rollbem("--approach 25 --zone 5"), 1);
-    assert_non_null(strstr(err, "zone"));
+    CHECK_RUN(rollbem("--approach 25 --zone 5"), 1, err, "zone");
     /* a solver that ends without a contact under a load does not widen the zone to nan */
     assert_int_equal(rollbem("--support halfplane --radius 69.4903 --young-b 210000 "
                              "--poisson-b .5 --radius-b 5 --support-b arc --gap parabola "
@@ -713,8 +705,7 @@ TEST(interrupted_run_keeps_its_steps)
                            "p=$!; " WHEN_CAUGHT(INT_CAUGHT) "sleep 0.5; kill -INT $p; wait $p"),
                      1);
     assert_non_null(strstr(err, "interrupted after step"));
-    held_json *root = json_load_file("long.json", 0, NULL);
-    assert_non_null(root);
+    held_json *root = NOT_NULL(json_load_file("long.json", 0, NULL));
     assert_true(history_length(root, "creepage") >= 1);
 }
 
@@ -778,8 +769,7 @@ TEST(a_terminal_that_goes_interrupts_unless_nohup)
                      "%s") "kill -HUP $p; %s wait $p",
                  nohup ? "trap '' HUP;" : "", nohup ? INT_CAUGHT : HUP_CAUGHT,
                  nohup ? "sleep 0.3; kill -INT $p || exit 9;" : "");
-        assert_int_equal(shell(line), 1);
-        assert_non_null(strstr(err, "interrupted after step"));
+        CHECK_RUN(shell(line), 1, err, "interrupted after step");
     }
 }
 
@@ -800,8 +790,7 @@ TEST(error_bars_hold_the_truth)
                     "--formulation steady --creep-ratio 0.4 --mesh fitted --accuracy 1e-3");
     CHECK_REL(member(root, "summary", "force_ratio"), -0.64, 1e-3, "force ratio");
     json_decref(root);
-    assert_int_equal(rollbem(QUICK " --error"), 0);
-    assert_non_null(strstr(err, "max_pressure"));
+    CHECK_RUN(rollbem(QUICK " --error"), 0, err, "max_pressure");
     check_refused("--accuracy 2", 64, "--accuracy: expected a number in (0, 1) or off");
     check_refused("--formulation transient --distance 1 --creep 0 --accuracy 1e-3", 64,
                   "--accuracy: only for static and steady cases");
@@ -916,10 +905,8 @@ TEST(dump_that_cannot_be_written)
 {
     assert_int_equal(rollbem(QUICK " --dump /nonexistent/d"), 73);
     write_file("file", "");
-    assert_int_equal(rollbem(QUICK " --dump file"), 73);
-    assert_non_null(strstr(err, "file: cannot write: Not a directory"));
-    assert_int_equal(rollbem(QUICK " --solver newton --trace"), 64);
-    assert_non_null(strstr(err, "--solver lemke pivots"));
+    CHECK_RUN(rollbem(QUICK " --dump file"), 73, err, "file: cannot write: Not a directory");
+    CHECK_RUN(rollbem(QUICK " --solver newton --trace"), 64, err, "--solver lemke pivots");
 }
 
 /* The solution is Newton's, of a start with the zones of the mesh before: Lemke's pivots
@@ -969,8 +956,7 @@ TEST(full_device_is_73)
 {
     if (access("/dev/full", W_OK) != 0)
         skip();
-    assert_int_equal(shell("\"$R\" " QUICK " --quiet >/dev/full"), 73);
-    assert_non_null(strstr(err, "No space left"));
+    CHECK_RUN(shell("\"$R\" " QUICK " --quiet >/dev/full"), 73, err, "No space left");
     assert_int_equal(shell("\"$R\" --help >/dev/full"), 73);
     assert_int_equal(shell("\"$R\" --completion=bash >/dev/full"), 73); /* before the last flush */
     assert_non_null(strstr(err, "No space left"));

@@ -37,8 +37,7 @@ TEST(a_line_per_file)
     double residual;
     assert_int_equal(lcp("good"), 0);
     assert_string_equal(err, "");
-    const char *line = strstr(out, "\ngood\t");
-    assert_non_null(line);
+    const char *line = NOT_NULL(strstr(out, "\ngood\t"));
     assert_int_equal(sscanf(line, "\ngood\t%39s\t%d\t%d\t%lf", status, &n, &pivots, &residual), 4);
     assert_string_equal(status, "solved");
     assert_int_equal(n, 2);
@@ -48,20 +47,16 @@ TEST(a_line_per_file)
 
 TEST(the_largest_exit_code_wins_and_all_files_run)
 {
-    assert_int_equal(lcp("good ray"), 1);
-    assert_non_null(strstr(err, "ray: lcp: secondary ray"));
-    assert_int_equal(lcp("bad ray good"), 65);
-    assert_non_null(strstr(out, "\ngood\tsolved"));
+    CHECK_RUN(lcp("good ray"), 1, err, "ray: lcp: secondary ray");
+    CHECK_RUN(lcp("bad ray good"), 65, out, "\ngood\tsolved");
     assert_non_null(strstr(err, "bad:1: matrix, number 2"));
-    assert_int_equal(lcp("missing bad good"), 66);
-    assert_non_null(strstr(out, "\ngood\tsolved"));
+    CHECK_RUN(lcp("missing bad good"), 66, out, "\ngood\tsolved");
     assert_non_null(strstr(err, "missing"));
     assert_int_equal(lcp("good --output /nowhere/at/all"), 73);
     assert_int_equal(lcp(""), 64);
     assert_int_equal(lcp("--tol -1 good"), 64);
     assert_int_equal(lcp("--rule bland good"), 64);
-    assert_int_equal(lcp("--trase good"), 64);
-    assert_non_null(strstr(err, "--trace"));
+    CHECK_RUN(lcp("--trase good"), 64, err, "--trace");
 }
 
 TEST(the_tie_rule_can_be_chosen)
@@ -74,14 +69,12 @@ TEST(the_tie_rule_can_be_chosen)
 TEST(trace_and_solution_are_tables)
 {
     double z = 0.0, w = 1.0;
-    assert_int_equal(lcp("--trace good"), 0);
-    assert_non_null(strstr(out, "file\tpivot\tentering\tleaving\trow\tratio\tz0\n"));
+    CHECK_RUN(lcp("--trace good"), 0, out, "file\tpivot\tentering\tleaving\trow\tratio\tz0\n");
     assert_non_null(strstr(out, "\ngood\t1\tz0\tw(2)\t2\t6\t6\n"));
     assert_non_null(strstr(out, "\ngood\t2\tz(2)\tw(1)\t1\t1\t4\n"));
     assert_int_equal(lcp("--solution good"), 0);
     assert_ptr_equal(strstr(out, "file\ti\tz\tw\n"), out);
-    const char *line = strstr(out, "\ngood\t1\t");
-    assert_non_null(line);
+    const char *line = NOT_NULL(strstr(out, "\ngood\t1\t"));
     assert_int_equal(sscanf(line, "\ngood\t1\t%lf\t%lf", &z, &w), 2);
     CHECK_REL(z, 4.0 / 3.0, 1e-15, "z(1)");
     CHECK_ABS(w, 0.0, 1e-15, "w(1)");
@@ -91,8 +84,7 @@ TEST(trace_and_solution_are_tables)
 /* z(1) and z(2) of the only problem that was printed. */
 static void solution(double z[2])
 {
-    const char *line = strstr(out, "\t1\t");
-    assert_non_null(line);
+    const char *line = NOT_NULL(strstr(out, "\t1\t"));
     assert_int_equal(sscanf(line, "\t1\t%lf\t%*f\n%*s\t2\t%lf", &z[0], &z[1]), 2);
 }
 
@@ -109,8 +101,7 @@ TEST(plain_text_is_read)
         solution(z);
         const double w1 = z[0] + 2.0 * z[1] - 1.0, w2 = 2.0 * z[0] + z[1] - 2.0;
         CHECK_ABS(fmax(fabs(fmin(z[0], w1)), fabs(fmin(z[1], w2))), 0.0, 1e-15, "file %d", k);
-        assert_int_equal(lcp("--solution - <p"), 0);
-        assert_non_null(strstr(out, "\n# -: solved by lemke, n = 2, "));
+        CHECK_RUN(lcp("--solution - <p"), 0, out, "\n# -: solved by lemke, n = 2, ");
     }
 }
 
@@ -170,25 +161,21 @@ TEST(a_cover_may_hold_zeros_where_q_is_not_negative)
     write_file("x", "1 -1");
     assert_int_equal(lcp("--cover x p"), 65);
     write_file("x", "1 1 1");
-    assert_int_equal(lcp("--cover x p"), 65);
-    assert_non_null(strstr(err, "cover: expected 2 numbers, got 3"));
+    CHECK_RUN(lcp("--cover x p"), 65, err, "cover: expected 2 numbers, got 3");
 }
 
 /* Murty's example of order 11 takes 2^11 pivots, more than 50 n + 1000. */
 TEST(the_cap_is_named)
 {
-    FILE *f = fopen("p", "w");
-    assert_non_null(f);
+    FILE *f = NOT_NULL(fopen("p", "w"));
     fprintf(f, "11\n");
     for (int k = 0; k < 121; k++)
         fprintf(f, "%d ", k / 11 > k % 11 ? 2 : k / 11 == k % 11);
     for (int k = 0; k < 11; k++)
         fprintf(f, "-1 ");
     fclose(f);
-    assert_int_equal(lcp("--solver lemke p"), 1);
-    assert_non_null(strstr(err, "no solution after --max-pivots 1550"));
-    assert_int_equal(lcp("--solver lemke --max-pivots 2048 p"), 0);
-    assert_non_null(strstr(out, "solved\t11\t2048\t0\t"));
+    CHECK_RUN(lcp("--solver lemke p"), 1, err, "no solution after --max-pivots 1550");
+    CHECK_RUN(lcp("--solver lemke --max-pivots 2048 p"), 0, out, "solved\t11\t2048\t0\t");
     assert_int_equal(lcp("p"), 0); /* another covering vector, or Newton */
 }
 
@@ -219,8 +206,7 @@ TEST(lemke_on_a_large_sparse_problem_needs_no_tableau)
     assert_int_equal(lcp("--solver lemke --q x p"), 0);
     assert_int_equal(sscanf(strstr(out, "\np\t"), "\np\tsolved\t2500\t%*d\t%lf", &residual), 1);
     CHECK_MAX(residual, 1e-15, "residual");
-    assert_int_equal(lcp("--json --solver lemke --q x p"), 0);
-    assert_non_null(strstr(out, "\"lemke-sparse\""));
+    CHECK_RUN(lcp("--json --solver lemke --q x p"), 0, out, "\"lemke-sparse\"");
 }
 
 TEST(the_solver_can_be_chosen)
@@ -232,8 +218,7 @@ TEST(the_solver_can_be_chosen)
     assert_int_equal(lcp("--solver newton ray"), 1);
     assert_int_equal(lcp("--solver newton --trace good"), 64);
     assert_int_equal(lcp("--solver simplex good"), 64);
-    assert_int_equal(lcp("--json --solver newton good"), 0);
-    assert_non_null(strstr(out, "newton"));
+    CHECK_RUN(lcp("--json --solver newton good"), 0, out, "newton");
 }
 
 /* w(1) < 0 at the upper end, w(2) = 0 in between. */
@@ -246,8 +231,7 @@ TEST(boxes_are_solved)
     CHECK_REL(z[0], 1.0, 1e-15, "z(1)");
     CHECK_REL(z[1], 2.5, 1e-15, "z(2)");
     assert_non_null(strstr(out, "\ngood\t1\t1\t-0.5\n"));
-    assert_int_equal(lcp("--trace --upper x good"), 0);
-    assert_non_null(strstr(out, "\tz0\n"));
+    CHECK_RUN(lcp("--trace --upper x good"), 0, out, "\tz0\n");
     assert_non_null(strstr(out, "\ngood\t1\tz0\t"));
     write_file("y", "-inf 3");
     assert_int_equal(lcp("--solution --lower y good"), 0);
@@ -258,14 +242,11 @@ TEST(boxes_are_solved)
     assert_non_null(strstr(err, "--lower and --upper need Lemke's"));
     write_file("y", "-inf inf");
     write_file("x", "1 -inf");
-    assert_int_equal(lcp("--lower y --upper x good"), 65);
-    assert_non_null(strstr(err, "good: lcp: bounds 2 are [inf, -inf]"));
+    CHECK_RUN(lcp("--lower y --upper x good"), 65, err, "good: lcp: bounds 2 are [inf, -inf]");
     write_file("x", "0 1 2");
-    assert_int_equal(lcp("--upper x good"), 65);
-    assert_non_null(strstr(err, "x:1: upper: expected 2 numbers, got 3"));
+    CHECK_RUN(lcp("--upper x good"), 65, err, "x:1: upper: expected 2 numbers, got 3");
     write_file("x", "1 nan");
-    assert_int_equal(lcp("--upper x good"), 65);
-    assert_non_null(strstr(err, "expected a number, inf or -inf, got 'nan'"));
+    CHECK_RUN(lcp("--upper x good"), 65, err, "expected a number, inf or -inf, got 'nan'");
     write_file("x", "1 inf");
     assert_int_equal(lcp("--cover x good"), 65);
 }
@@ -274,8 +255,7 @@ static int pivots_of(const char *file)
 {
     char format[40];
     int pivots = -1;
-    const char *line = strstr(out, file);
-    assert_non_null(line);
+    const char *line = NOT_NULL(strstr(out, file));
     snprintf(format, sizeof format, "%s\t%%*s\t%%*d\t%%d", file);
     assert_int_equal(sscanf(line, format, &pivots), 1);
     return pivots;
@@ -296,20 +276,16 @@ TEST(a_start_saves_the_pivots)
 TEST(all_solutions_are_listed)
 {
     write_file("p", "1 -1 1"); /* w = 1 - z: 0 and 1 */
-    assert_int_equal(lcp("--all p"), 0);
-    assert_non_null(strstr(out, "by enumeration, n = 1, 2 bases"));
+    CHECK_RUN(lcp("--all p"), 0, out, "by enumeration, n = 1, 2 bases");
     assert_non_null(strstr(out, "\np\t1\t1\t0\t1\n"));
     assert_non_null(strstr(out, "\np\t2\t1\t1\t0\n"));
-    assert_int_equal(lcp("--all ray"), 1);
-    assert_non_null(strstr(err, "no solution in 2 complementary bases"));
+    CHECK_RUN(lcp("--all ray"), 1, err, "no solution in 2 complementary bases");
     assert_non_null(strstr(out, "# ray: no solution by enumeration, n = 1, 2 bases, "));
     assert_null(strstr(out, "nan"));
     assert_int_equal(lcp("--all --trace p"), 64);
     write_file("p", "1 0 0");
-    assert_int_equal(lcp("--all p"), 0);
-    assert_non_null(strstr(err, "1 of 2 complementary bases are singular"));
-    assert_int_equal(lcp("--all --json p"), 0);
-    assert_non_null(strstr(out, "\"solutions\""));
+    CHECK_RUN(lcp("--all p"), 0, err, "1 of 2 complementary bases are singular");
+    CHECK_RUN(lcp("--all --json p"), 0, out, "\"solutions\"");
 }
 
 TEST(games_are_solved)
@@ -319,21 +295,17 @@ TEST(games_are_solved)
     assert_non_null(strstr(out, "p\t1\t1\t0\np\t2\t0\t2\np\t3\t1\t0\np\t4\t0\t1\n"));
     assert_int_equal(lcp("--game --solution --label 2 p"), 0);
     assert_non_null(strstr(out, "p\t1\t0\t1\np\t2\t1\t0\np\t3\t0\t2\np\t4\t1\t0\n"));
-    assert_int_equal(lcp("--game --trace --json p"), 0);
-    assert_non_null(strstr(out, "\"payoffs\""));
+    CHECK_RUN(lcp("--game --trace --json p"), 0, out, "\"payoffs\"");
     assert_non_null(strstr(out, "lemke-howson"));
-    assert_int_equal(lcp("--game --all p"), 0);
-    assert_non_null(strstr(out, "\np\t3\t4\t"));
+    CHECK_RUN(lcp("--game --all p"), 0, out, "\np\t3\t4\t");
     assert_null(strstr(out, "\np\t4\t"));
     assert_int_equal(lcp("--game --label 5 p"), 64);
     assert_non_null(strstr(err, "--label: expected one of the 4 strategies of p, got 5"));
-    assert_int_equal(lcp("--game --max-pivots 1 p"), 1);
-    assert_non_null(strstr(err, "no solution after --max-pivots 1"));
+    CHECK_RUN(lcp("--game --max-pivots 1 p"), 1, err, "no solution after --max-pivots 1");
     assert_int_equal(lcp("--label 1 good"), 64);
     assert_int_equal(lcp("--game --upper x p"), 64);
     write_file("p", "2 2  2 0 0 1  1 0 0 2  7");
-    assert_int_equal(lcp("--game p"), 65);
-    assert_non_null(strstr(err, "expected the end of the file after m, n, A and B"));
+    CHECK_RUN(lcp("--game p"), 65, err, "expected the end of the file after m, n, A and B");
     write_file("p", "2 2  2 0 0 1  1 0 0");
     assert_int_equal(lcp("--game p"), 65);
 }
@@ -346,8 +318,7 @@ static const char *text_of(const json_t *p, const char *key)
 TEST(json_holds_every_file)
 {
     assert_int_equal(lcp("--json --trace --solution good ray bad"), 65);
-    held_json *root = json_loads(out, 0, NULL);
-    assert_non_null(root);
+    held_json *root = NOT_NULL(json_loads(out, 0, NULL));
     assert_string_equal(text_of(root, "schema"), "rollbem/1");
     const json_t *list = json_object_get(root, "problems");
     assert_int_equal(json_array_size(list), 3);

@@ -19,15 +19,13 @@ TEST(the_page_carries_the_case)
     assert_memory_equal(out, "<p>before</p>", 13);
     assert_string_equal(to, strstr(page, "</script><p>after</p>"));
     *to = '\0';
-    held_json *all = json_loads(from + 13, 0, NULL);
-    assert_non_null(all);
+    held_json *all = NOT_NULL(json_loads(from + 13, 0, NULL));
     assert_int_equal(json_object_size(all), 3);
     assert_string_equal(json_string_value(json_object_get(all, "mu")), "0.25");
     assert_string_equal(json_string_value(json_object_get(all, "load")), "500");
     assert_string_equal(json_string_value(json_object_get(all, "support")), "halfplane");
 
-    assert_int_equal(rollbem("page --page page.html"), 0);
-    assert_non_null(strstr(out, "id=\"carried\">{}</script>"));
+    CHECK_RUN(rollbem("page --page page.html"), 0, out, "id=\"carried\">{}</script>");
 }
 
 /* Neither beside the program nor where make install puts it; then there. */
@@ -42,8 +40,7 @@ TEST(an_installed_program_finds_its_page)
     assert_int_equal(shell("mkdir -p tree/share/rollbem && cp page.html "
                            "tree/share/rollbem/rollbem.html"),
                      0);
-    assert_int_equal(shell("tree/bin/rollbem page --mu 0.2"), 0);
-    assert_non_null(strstr(out, "{\"mu\":\"0.2"));
+    CHECK_RUN(shell("tree/bin/rollbem page --mu 0.2"), 0, out, "{\"mu\":\"0.2");
     assert_int_equal(shell("sed s/before/beside/ page.html > tree/bin/rollbem.html"), 0);
     assert_int_equal(shell("tree/bin/rollbem page"), 0);
     assert_non_null(strstr(out, "beside")); /* the nearer one */

@@ -224,8 +224,7 @@ static size_t read_array(const char *name, double *x, size_t size)
     unsigned char head[12];
     uint64_t bytes;
     snprintf(mark, sizeof mark, "Name=\"%s\"", name);
-    const char *at = strstr(out, mark);
-    assert_non_null(at);
+    const char *at = NOT_NULL(strstr(out, mark));
     at = strchr(at, '>') + 1;
     decode(at, head, sizeof head);
     memcpy(&bytes, head, sizeof bytes);
@@ -325,8 +324,7 @@ static double last_of(const char *path, const char *column)
 {
     OWNED(rb_io_table) t;
     assert_int_equal(rb_io_table_read(path, &t, NULL), RB_OK);
-    const double *x = rb_io_table_column(&t, column);
-    assert_non_null(x);
+    const double *x = NOT_NULL(rb_io_table_column(&t, column));
     return x[t.rows - 1];
 }
 
@@ -474,8 +472,7 @@ TEST(curves_have_notes)
     json_t *notes = json_object_get(root, "notes");
     assert_true(json_array_size(notes) >= 1);
     assert_int_equal(strncmp(json_string_value(json_array_get(notes, 0)), note + 6, 26), 0);
-    assert_int_equal(rollbem("curve --support hub --contact-elements 12 --points 3"), 0);
-    assert_non_null(strstr(err, note));
+    CHECK_RUN(rollbem("curve --support hub --contact-elements 12 --points 3"), 0, err, note);
     assert_non_null(strstr(out, note));
 }
 
@@ -677,8 +674,7 @@ static double last_x_of(const char *script, const char *name)
     char head[40];
     slurp(script, text, sizeof text);
     snprintf(head, sizeof head, "$%s << EOD\n", name);
-    const char *at = strstr(text, head);
-    assert_non_null(at);
+    const char *at = NOT_NULL(strstr(text, head));
     const char *line = strchr(at, '\n') + 1, *next = line;
     for (; strncmp(next, "EOD", 3) != 0; next = strchr(next, '\n') + 1)
         line = next;
@@ -711,11 +707,9 @@ TEST(numbers_of_contour_lines_keep_off_the_border)
                 "force_ratio --quiet --output o.tsv --map v.svg --plot-script v.gp"),
         0);
     slurp("v.gp", text, sizeof text);
-    const char *at = strstr(text, "set cntrparam levels incremental ");
-    assert_non_null(at);
+    const char *at = NOT_NULL(strstr(text, "set cntrparam levels incremental "));
     assert_int_equal(sscanf(at, "set cntrparam levels incremental %lf", &lowest), 1);
-    at = strstr(text, "$numbers << EOD\n");
-    assert_non_null(at);
+    at = NOT_NULL(strstr(text, "$numbers << EOD\n"));
     int levels = 0;
     while (at = strchr(at, '\n') + 1, sscanf(at, "%lf %lf %lf", &x, &y, &level) == 3) {
         assert_true(x > 0.13 && x < 0.97 && y > 0.105 && y < 0.295);
@@ -733,8 +727,7 @@ static double top_of(const char *script)
 {
     double from, to;
     slurp(script, out, sizeof out);
-    const char *range = strstr(out, "set yrange [");
-    assert_non_null(range);
+    const char *range = NOT_NULL(strstr(out, "set yrange ["));
     assert_int_equal(sscanf(range, "set yrange [%lf:%lf]", &from, &to), 2);
     return to;
 }
@@ -864,8 +857,7 @@ TEST(friction_laws_by_words)
     CHECK_REL(json_number_value(json_array_get(scales, 1)), 0.05, 1e-12, "shown");
 
     assert_int_equal(rollbem(RAIL FALLS "--creep 0.001 --json --quiet --output r.json"), 0);
-    assert_int_equal(rollbem("check r.json"), 0);
-    assert_non_null(strstr(out, "r.json: valid: "));
+    CHECK_RUN(rollbem("check r.json"), 0, out, "r.json: valid: ");
 
     assert_int_equal(rollbem(RAIL FALLS "--mesh uniform --zone 4.65 --contact-elements 93 "
                                         "--creep 0.0009999 --all-solutions --json"),
@@ -926,8 +918,7 @@ TEST(relaxation_beyond_the_datum_is_told)
     assert_non_null(strstr(err, "other solutions exist for the same approach"));
     assert_int_equal(rollbem(SLOW "30 --mesh aligned --approach .05 --datum 10000"), 0);
     assert_null(strstr(err, "--datum."));
-    assert_int_equal(rollbem(SLOW "100 --load 50"), 0);
-    assert_non_null(strstr(err, "The approach is negative: the datum"));
+    CHECK_RUN(rollbem(SLOW "100 --load 50"), 0, err, "The approach is negative: the datum");
     assert_int_equal(rollbem(SLOW "10 --load 50"), 0);
     assert_null(strstr(err, "The approach is negative"));
 }

@@ -151,11 +151,9 @@ static void check_link_to_the_page(const char *page, const char *fragment)
     int viewed = 0;
     snprintf(path, sizeof path, "%s/link.ini", folder);
     snprintf(pairs, sizeof pairs, "%s", fragment);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
+    FILE *file = NOT_NULL(fopen(path, "w"));
     for (char *pair = strtok(pairs, "&"); pair; pair = strtok(NULL, "&")) {
-        char *value = strchr(pair, '=');
-        assert_non_null(value);
+        char *value = NOT_NULL(strchr(pair, '='));
         *value++ = '\0';
         if (strcmp(pair, "view") != 0)
             fprintf(file, "%s = %s\n", pair, value);

@@ -5,29 +5,37 @@
 
 #include <gsl/gsl_math.h>
 
-static rb_api *contact(const char *units, const char *half_width, const char *radius,
-                       const char *young)
+/* Similar half-planes without friction, with these words besides. */
+static rb_api *contact(const char *words)
 {
-    rb_api *a = rb_api_create_for("crack");
-    const char *const words[] = {"units",  units,  "support", "halfplane",  "similar",
-                                 "yes",    "mu",   "0",       "half-width", half_width,
-                                 "radius", radius, "young",   young,        NULL};
-    assert_non_null(a);
-    for (int k = 0; words[k]; k += 2)
-        if (rb_api_set(a, words[k], words[k + 1]) != RB_OK)
+    rb_api *a = NOT_NULL(rb_api_create_for("crack"));
+    char text[200], *rest = text;
+    snprintf(text, sizeof text, "support halfplane similar yes mu 0 %s", words);
+    for (char *name; (name = strtok_r(rest, " ", &rest));)
+        if (rb_api_set(a, name, strtok_r(NULL, " ", &rest)) != RB_OK)
             fail_msg("%s", rb_api_message(a));
     return a;
 }
 
-static void pass(rb_api *a, const char *const *words)
+static rb_api *steel(void)
 {
-    const char *names[20], *values[20];
+    return contact("half-width 1 radius 1000 young 94500");
+}
+
+static int try(rb_api *a, const char *words)
+{
+    const char *names[10], *values[10];
+    char text[200], *rest = text;
     int n = 0;
-    for (; words[2 * n]; n++) {
-        names[n] = words[2 * n];
-        values[n] = words[2 * n + 1];
-    }
-    if (rb_api_crack(a, n, names, values) != RB_OK)
+    snprintf(text, sizeof text, "%s", words);
+    for (; (names[n] = strtok_r(rest, " ", &rest)); n++)
+        values[n] = strtok_r(NULL, " ", &rest);
+    return rb_api_crack(a, n, names, values);
+}
+
+static void pass(rb_api *a, const char *words)
+{
+    if (try(a, words) != RB_OK)
         fail_msg("%s", rb_api_message(a));
 }
 
@@ -35,21 +43,16 @@ static void pass(rb_api *a, const char *const *words)
 static double last(rb_api *a, const char *name)
 {
     int rows, columns;
-    const double *x = rb_api_array(a, name, &rows, &columns);
-    assert_non_null(x);
+    const double *x = NOT_NULL(rb_api_array(a, name, &rows, &columns));
     return x[rows - 1];
 }
 
 TEST(straight_growth)
 {
-    static const char *const grown[] = {"paris", "1e-12,2",        "grow-steps", "2", "grow-to",
-                                        "1.6",   "crack-friction", "0.2",        NULL},
-                             *const longer[] = {"crack-length", "1.6", "crack-friction", "0.2",
-                                                NULL};
     int rows, columns;
-    held_api *a = contact("mm", "1", "1000", "94500"), *b = contact("mm", "1", "1000", "94500");
-    pass(a, grown);
-    pass(b, longer);
+    held_api *a = steel(), *b = steel();
+    pass(a, "paris 1e-12,2 grow-steps 2 grow-to 1.6 crack-friction 0.2");
+    pass(b, "crack-length 1.6 crack-friction 0.2");
     const double K = last(b, "crack.summary.delta_K_II");
     CHECK_REL(last(a, "crack.growth.delta_K_II"), K, 1e-9, "as if it had been so long");
     CHECK_REL(last(a, "crack.growth.length"), 1.6, 1e-14, "length");
@@ -67,13 +70,12 @@ TEST(straight_growth)
 /* Cycles over the number of increments: second order. */
 TEST(cycles_converge)
 {
-    static const char *const steps[] = {"3", "6", "12"};
     double N[3];
-    held_api *a = contact("mm", "1", "1000", "94500");
+    held_api *a = steel();
     for (int k = 0; k < 3; k++) {
-        const char *const words[] = {"paris",          "1e-12,3",    "paris-range",
-                                     "mode-II",        "grow-steps", steps[k],
-                                     "crack-elements", "20",         NULL};
+        char words[100];
+        snprintf(words, sizeof words,
+                 "paris 1e-12,3 paris-range mode-II grow-steps %d crack-elements 20", 3 << k);
         pass(a, words);
         N[k] = last(a, "crack.growth.cycles");
     }
@@ -85,14 +87,11 @@ TEST(cycles_converge)
 /* C in m and Pa m^0.5 gives the same passes. */
 TEST(growth_in_other_units)
 {
-    char law[60];
-    snprintf(law, sizeof law, "%.17g,3", 1e-12 * 1e-3 / gsl_pow_3(1e6 * sqrt(1e-3)));
-    const char *const mm[] = {"paris", "1e-12,3", "grow-steps", "1", NULL}, *const si[] = {
-                                                                                "paris", law,
-                                                                                "grow-steps", "1",
-                                                                                NULL};
-    held_api *a = contact("mm", "1", "1000", "94500"), *b = contact("si", "0.001", "1", "94500e6");
-    pass(a, mm);
+    char si[100];
+    snprintf(si, sizeof si, "paris %.17g,3 grow-steps 1",
+             1e-12 * 1e-3 / gsl_pow_3(1e6 * sqrt(1e-3)));
+    held_api *a = steel(), *b = contact("units si half-width 0.001 radius 1 young 94500e6");
+    pass(a, "paris 1e-12,3 grow-steps 1");
     pass(b, si);
     CHECK_REL(last(b, "crack.growth.cycles"), last(a, "crack.growth.cycles"), 1e-9, "SI");
     CHECK_REL(last(b, "crack.growth.rate"), last(a, "crack.growth.rate"), 1e-9, "mm");
@@ -101,11 +100,9 @@ TEST(growth_in_other_units)
 /* Across the largest tension the first turn is the kink angle of the first pass. */
 TEST(turns)
 {
-    static const char *const words[] = {"paris",      "1e-12,3", "growth", "tension",
-                                        "grow-steps", "2",       NULL};
     int rows, columns;
-    held_api *a = contact("mm", "1", "1000", "94500");
-    pass(a, words);
+    held_api *a = steel();
+    pass(a, "paris 1e-12,3 growth tension grow-steps 2");
     const double kink = last(a, "crack.summary.kink_angle");
     const double *angle = rb_api_array(a, "crack.growth.angle", &rows, &columns);
     CHECK_REL(angle[1], 30.0 - kink, 1e-9, "first turn");
@@ -117,11 +114,9 @@ TEST(turns)
  * of many turns comes to its end. */
 TEST(turns_many_times)
 {
-    static const char *const words[] = {"paris", "1e-12,3",     "growth", "tension", "grow-steps",
-                                        "24",    "crack-angle", "15",     NULL};
     int rows, columns;
-    held_api *a = contact("mm", "1", "1000", "94500");
-    pass(a, words);
+    held_api *a = steel();
+    pass(a, "paris 1e-12,3 growth tension grow-steps 24 crack-angle 15");
     const double *angle = rb_api_array(a, "crack.growth.angle", &rows, &columns);
     assert_int_equal(rows, 25);
     for (int i = 1; i < rows; i++)
@@ -130,10 +125,9 @@ TEST(turns_many_times)
 
 TEST(rests_below_the_threshold)
 {
-    static const char *const words[] = {"paris", "1e-12,3", "threshold", "100", NULL};
     int rows, columns;
-    held_api *a = contact("mm", "1", "1000", "94500");
-    pass(a, words);
+    held_api *a = steel();
+    pass(a, "paris 1e-12,3 threshold 100");
     assert_non_null(rb_api_array(a, "crack.growth.rate", &rows, &columns));
     assert_int_equal(rows, 1);
     CHECK_ABS(last(a, "crack.growth.rate"), 0.0, 0.0, "rests");
@@ -142,16 +136,14 @@ TEST(rests_below_the_threshold)
 TEST(bad_growth)
 {
     static const struct {
-        const char *name[2], *value[2], *says;
-    } bad[] = {{{"paris", "grow-steps"}, {"1e-12", "3"}, "two numbers"},
-               {{"paris", "grow-steps"}, {"1e-12,-3", "3"}, "paris"},
-               {{"paris", "grow-to"}, {"1e-12,3", "0.5"}, "grow-to"},
-               {{"threshold", "grow-steps"}, {"3", "3"}, "--paris"},
-               {{"growth", "grow-steps"}, {"tension", "3"}, "--paris"},
-               {{"paris", "unloaded"}, {"1e-12,3", "yes"}, "load"}};
-    held_api *a = contact("mm", "1", "1000", "94500");
+        const char *words, *says;
+    } bad[] = {
+        {"paris 1e-12 grow-steps 3", "two numbers"}, {"paris 1e-12,-3 grow-steps 3", "paris"},
+        {"paris 1e-12,3 grow-to 0.5", "grow-to"},    {"threshold 3 grow-steps 3", "--paris"},
+        {"growth tension grow-steps 3", "--paris"},  {"paris 1e-12,3 unloaded yes", "load"}};
+    held_api *a = steel();
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
-        assert_true(rb_api_crack(a, 2, bad[k].name, bad[k].value) < 0);
+        assert_true(try(a, bad[k].words) < 0);
         if (!strstr(rb_api_message(a), bad[k].says))
             fail_msg("%s", rb_api_message(a));
     }

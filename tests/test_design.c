@@ -8,8 +8,7 @@
 
 static rb_case *case_of(const char *const *word)
 {
-    rb_case *c = rb_case_create(RB_CASE_SINGLE);
-    assert_non_null(c);
+    rb_case *c = NOT_NULL(rb_case_create(RB_CASE_SINGLE));
     for (int k = 0; word[k]; k += 2)
         CHECK_OK(rb_case_set(c, word[k], word[k + 1], RB_GIVEN_ARGUMENT, &heard));
     CHECK_OK(rb_case_resolve(c, &heard));

@@ -386,8 +386,7 @@ static rb_case *case_of(const char *line)
     char text[1500], *word[200];
     int n = 0, fits = 1;
     rb_message why = {""};
-    rb_case *c = rb_case_create(RB_CASE_SINGLE);
-    assert_non_null(c);
+    rb_case *c = NOT_NULL(rb_case_create(RB_CASE_SINGLE));
     snprintf(text, sizeof text, "%s", line);
     for (char *next = strtok(text, " "); next && n < 199; next = strtok(NULL, " "))
         word[n++] = next;
@@ -521,19 +520,19 @@ TEST(an_element_that_slides_may_stick)
     rc.elastic_b = 1;
     rc.b = rc.a;
     rc.b.radius = INFINITY;
-    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_OK);
+    CHECK_OK(rb_rolling_solve_with_errors(&rc, &s, &e, NULL));
     assert_int_equal(s.stick, 0);
     CHECK_ABS(s.force_ratio, -(1.0 - 0.02 * 0.02), e.scalar.force_ratio, "Q/(mu P)");
     CHECK_MAX(e.scalar.force_ratio, 0.02, "not absurdly wide");
     rb_rolling_solution_free(&s);
     rc.creep_ratio = 0.96; /* an element sticks, how much of the next? */
-    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_OK);
+    CHECK_OK(rb_rolling_solve_with_errors(&rc, &s, &e, NULL));
     assert_int_equal(s.stick, 1);
     CHECK_ABS(s.force_ratio, -(1.0 - 0.04 * 0.04), e.scalar.force_ratio, "Q/(mu P)");
     CHECK_MAX(e.scalar.force_ratio, 0.01, "not absurdly wide");
     rb_rolling_solution_free(&s);
     rc.creep_ratio = 3.0; /* no mesh sticks */
-    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_OK);
+    CHECK_OK(rb_rolling_solve_with_errors(&rc, &s, &e, NULL));
     CHECK_MAX(e.scalar.force_ratio, 1e-9, "full sliding");
     rb_rolling_solution_free(&s);
 }
@@ -558,7 +557,7 @@ TEST(bars_hold_on_a_thin_rim)
     const rb_rolling_case rc = thin_rim();
     OWNED(rb_rolling_solution) s;
     rb_rolling_errors e;
-    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_OK);
+    CHECK_OK(rb_rolling_solve_with_errors(&rc, &s, &e, NULL));
     CHECK_ABS(s.force_ratio, thin_rim_force_ratio, e.scalar.force_ratio, "Q/(mu P)");
     CHECK_ABS(s.approach, 0.068824, e.scalar.approach, "approach");
     CHECK_ABS(s.max_pressure, 36.7829, e.scalar.max_pressure, "p0");
@@ -576,9 +575,9 @@ TEST(a_narrow_stick_zone_widens_the_bars)
                                       "shift -2.26e-4 mesh fitted contact-elements 24");
     OWNED(rb_rolling_solution) s, truth;
     rb_rolling_errors e;
-    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_OK);
+    CHECK_OK(rb_rolling_solve_with_errors(&rc, &s, &e, NULL));
     rc.contact_elements = 400;
-    CHECK_STATUS(rb_rolling_solve(&rc, &truth, NULL), RB_OK);
+    CHECK_OK(rb_rolling_solve(&rc, &truth, NULL));
     CHECK_ABS(s.force_ratio, truth.force_ratio, e.scalar.force_ratio, "Q/(mu P)");
     CHECK_ABS(s.tangential_load, truth.tangential_load, e.scalar.tangential_load, "Q");
     CHECK_ABS(s.max_pressure, truth.max_pressure, e.scalar.max_pressure, "p0");
@@ -591,7 +590,7 @@ TEST(given_outer_elements_have_bars)
     rb_rolling_case rc = with(thin_rim(), "outer-elements 100");
     rb_rolling_solution s;
     rb_rolling_errors e;
-    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_OK);
+    CHECK_OK(rb_rolling_solve_with_errors(&rc, &s, &e, NULL));
     CHECK_ABS(s.force_ratio, thin_rim_force_ratio, e.scalar.force_ratio, "Q/(mu P)");
     assert_true(fabs(s.force_ratio - thin_rim_force_ratio) > 0.03);
     rb_rolling_solution_free(&s);
@@ -610,7 +609,7 @@ TEST(accuracy_is_that_of_the_boundary_too)
     OWNED(rb_rolling_solution) s;
     rb_rolling_errors e;
     int elements = 0;
-    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1.5e-2, &s, &e, &elements, NULL), RB_OK);
+    CHECK_OK(rb_rolling_solve_to_accuracy(&rc, 1.5e-2, &s, &e, &elements, NULL));
     CHECK_ABS(s.force_ratio, thin_rim_force_ratio, 1.5e-2, "Q/(mu P), %d elements", elements);
     CHECK_MAX(e.scalar.force_ratio, 1.5e-2, "its bar");
 }
@@ -620,9 +619,8 @@ static rb_rolling_solution to_accuracy(const char *line, rb_status wanted)
     rb_rolling_solution s;
     rb_rolling_errors e;
     int elements = 0;
-    held_case *c = case_of(line);
+    held_case *c = NOT_NULL(case_of(line));
 
-    assert_non_null(c);
     CHECK_STATUS(
         rb_rolling_solve_to_accuracy(&rb_case_resolved(c)->rc, 3e-3, &s, &e, &elements, &heard),
         wanted);
@@ -649,8 +647,7 @@ TEST(an_accuracy_that_does_not_come_nearer_is_given_up)
     char folder[] = "/tmp/rollbem-bars-XXXXXX", line[600];
     assert_non_null(mkdtemp(folder));
     snprintf(line, sizeof line, "%s/worn.txt", folder);
-    FILE *file = fopen(line, "w");
-    assert_non_null(file);
+    FILE *file = NOT_NULL(fopen(line, "w"));
     fputs("-0.9 0\n-0.3 0.0005\n0.2 0.00075\n0.8 0\n", file);
     fclose(file);
     snprintf(line, sizeof line,
@@ -671,8 +668,7 @@ static void two_patches(const char *options, double centre, double width, double
     char folder[] = "/tmp/rollbem-bars-XXXXXX", line[600];
     assert_non_null(mkdtemp(folder));
     snprintf(line, sizeof line, "%s/gap.txt", folder);
-    FILE *file = fopen(line, "w");
-    assert_non_null(file);
+    FILE *file = NOT_NULL(fopen(line, "w"));
     for (int k = -100; k <= 100; k++) {
         const double x = 0.04 * k;
         fprintf(file, "%.10g %.10g\n", x,
@@ -680,8 +676,7 @@ static void two_patches(const char *options, double centre, double width, double
     }
     fclose(file);
     snprintf(line, sizeof line, " --gap %s/gap.txt --radius 50 --half-width 1%s", folder, options);
-    held_case *c = case_of(line);
-    assert_non_null(c);
+    held_case *c = NOT_NULL(case_of(line));
     counts t;
     memset(&t, 0, sizeof t);
     is_shown = "of two patches";
@@ -756,7 +751,7 @@ TEST(a_failed_coarser_run_leaves_the_solution)
     set(&rc, "support halfplane poisson 0.5 half-width 0.1 contact-elements 40");
     rc.zone = 1.05 * rc.half_width;
     CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, &heard), RB_ZONE);
-    CHECK_STATUS(s.status, RB_OK);
+    CHECK_OK(s.status);
     CHECK_REL(s.normal_load, 0.25 * M_PI * 94500.0 / 0.75 * 0.01 / 50.0, 1e-10, "load");
     assert_true(isnan(e.scalar.max_pressure));
     assert_non_null(strstr(heard.text, "error bars: 20 contact elements: "));

@@ -334,8 +334,7 @@ TEST(test_library)
     for (int k = 0; k < 3; k++) {
         char line[300];
         OWNED(rb_rolling_solution) s;
-        held_case *c = rb_case_create(RB_CASE_SINGLE);
-        assert_non_null(c);
+        held_case *c = NOT_NULL(rb_case_create(RB_CASE_SINGLE));
         CHECK_OK(rb_case_set(c, "support", held[k], RB_GIVEN_ARGUMENT, &heard));
         for (int j = 0; j < 5; j++)
             CHECK_OK(rb_case_set(c, words[j][0], words[j][1], RB_GIVEN_ARGUMENT, &heard));

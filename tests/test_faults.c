@@ -177,10 +177,9 @@ typedef void each_file(const char *path, void *context);
 /* All files of the folder and of the folders in it that a job has made. */
 static void for_files(const char *in, each_file *each, void *context)
 {
-    DIR *d = opendir(in);
+    DIR *d = NOT_NULL(opendir(in));
     struct stat st;
     char path[1200];
-    assert_non_null(d);
     for (const struct dirent *e; (e = readdir(d)) != NULL;) {
         snprintf(path, sizeof path, "%.600s%s%.300s", strcmp(in, ".") ? in : "",
                  strcmp(in, ".") ? "/" : "", e->d_name);

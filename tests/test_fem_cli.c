@@ -122,9 +122,8 @@ TEST(json_and_picture_are_written)
                          stick[k]);
     char picture[300];
     snprintf(picture, sizeof picture, "%s.png", folder);
-    FILE *file = fopen(picture, "rb");
+    FILE *file = NOT_NULL(fopen(picture, "rb"));
     char head[5] = "";
-    assert_non_null(file);
     assert_int_equal(fread(head, 1, 4, file), 4);
     fclose(file);
     remove(picture);

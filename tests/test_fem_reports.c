@@ -227,8 +227,7 @@ TEST(panels_lie_beside_or_below_each_other)
         double at[3][4]; /* left, right, bottom, top */
         const char *s = script;
         for (int k = 0; k < 3; k++) {
-            s = strstr(s, "set lmargin at screen");
-            assert_non_null(s);
+            s = NOT_NULL(strstr(s, "set lmargin at screen"));
             assert_int_equal(sscanf(s,
                                     "set lmargin at screen %lf\nset rmargin at screen "
                                     "%lf\nset bmargin at screen %lf\nset tmargin at "

@@ -17,9 +17,8 @@ static int is_there(const char *name)
 /* Files in the folder, hidden ones too, apart from out and err. */
 static int files(void)
 {
-    DIR *d = opendir(".");
+    DIR *d = NOT_NULL(opendir("."));
     int n = -4; /* ., .., out, err */
-    assert_non_null(d);
     while (readdir(d))
         n++;
     closedir(d);
@@ -223,14 +222,12 @@ TEST(names_of_any_bytes_are_printed)
     assert_int_equal(shell("n=$(printf 'a\\377b\\033.ini'); printf 'load = 1\\n' >\"$n\"; "
                            "\"$R\" \"$n\" " CASE "--json --output a.json"),
                      0);
-    held_json *root = json_load_file("a.json", 0, NULL);
-    assert_non_null(root);
+    held_json *root = NOT_NULL(json_load_file("a.json", 0, NULL));
     assert_non_null(
         strstr(json_string_value(json_object_get(root, "command")), "a\\xffb\\x1b.ini"));
     assert_int_equal(shell("\"$R\" \"$(printf 'none\\377\\033')\""), 66);
     assert_non_null(strstr(err, "none\\xff\\x1b: No such file"));
-    assert_int_equal(shell("\"$R\" lcp --json \"$(printf 'none\\377')\""), 66);
-    assert_non_null(strstr(out, "\"none\\\\xff\""));
+    CHECK_RUN(shell("\"$R\" lcp --json \"$(printf 'none\\377')\""), 66, out, "\"none\\\\xff\"");
     clear();
 }
 
@@ -248,8 +245,7 @@ TEST(files_that_are_no_text_are_named)
         assert_int_equal(shell("printf '\\377\\376l\\0o\\0' >case"), 0);
         check_refused(commands[k], 65, "case: UTF-16 text");
     }
-    assert_int_equal(rollbem("lcp case"), 65);
-    assert_non_null(strstr(err, "case: UTF-16 text"));
+    CHECK_RUN(rollbem("lcp case"), 65, err, "case: UTF-16 text");
     assert_int_equal(shell("printf '\\357\\273\\277load = 100\\n' >case"), 0);
     assert_int_equal(rollbem("case " CASE), 0); /* the mark of some editors */
     clear();

@@ -33,10 +33,8 @@ static int set_up(void **state)
 TEST(the_answer_can_be_checked)
 {
     assert_int_equal(rollbem("friction --json --solution slides"), 0);
-    held_json *root = json_loads(out, 0, NULL);
-    assert_non_null(root);
-    const json_t *p = json_array_get(json_object_get(root, "problems"), 0);
-    assert_non_null(p);
+    held_json *root = NOT_NULL(json_loads(out, 0, NULL));
+    const json_t *p = NOT_NULL(json_array_get(json_object_get(root, "problems"), 0));
     assert_string_equal(json_string_value(json_object_get(p, "status")), "solved");
     assert_string_equal(json_string_value(json_object_get(p, "file")), "slides");
     CHECK_ABS(entry(p, "r", 0), 2.0, 1e-7, "r_N");
@@ -60,8 +58,7 @@ TEST(compare_writes_its_file)
                      0);
     assert_string_equal(out, "5\n");
     assert_int_equal(rollbem("compare --solvers nsn-ac slides --output runs.json --json"), 0);
-    held_json *root = json_load_file("runs.json", 0, NULL);
-    assert_non_null(root);
+    held_json *root = NOT_NULL(json_load_file("runs.json", 0, NULL));
 }
 
 TEST(every_solver_is_there_by_name)
@@ -117,20 +114,17 @@ TEST(bad_files_get_a_line_each_and_the_others_run)
 
 TEST(what_is_not_solved_says_so)
 {
-    assert_int_equal(rollbem("friction no slides"), 1);
-    assert_non_null(strstr(err, "rollbem: no: "));
+    CHECK_RUN(rollbem("friction no slides"), 1, err, "rollbem: no: ");
     assert_non_null(strstr(err, "rollbem: no: note: no solution exists"));
     assert_non_null(strstr(out, "\tinfeasible\t"));
     assert_int_equal(rollbem("friction --max-iters 1 --solver fixed-point slides"), 1);
     assert_null(strstr(err, "no solution exists"));
     assert_null(strstr(out, "\tinfeasible\t"));
     assert_non_null(strstr(out, "slides\t"));
-    assert_int_equal(rollbem("friction --facts odd zero"), 0);
-    assert_non_null(strstr(err, "not symmetric"));
+    CHECK_RUN(rollbem("friction --facts odd zero"), 0, err, "not symmetric");
     assert_non_null(strstr(err, "indefinite"));
     assert_non_null(strstr(out, "\trank\thyperstaticity\t"));
-    assert_int_equal(rollbem("friction --facts --solution odd"), 0);
-    assert_non_null(strstr(out, "asymmetry 0.2, indefinite\n"));
+    CHECK_RUN(rollbem("friction --facts --solution odd"), 0, out, "asymmetry 0.2, indefinite\n");
 }
 
 /* One row more than are looked at unasked.  W is the identity but for its last entries,
@@ -219,8 +213,7 @@ TEST(the_command_line_is_checked)
 TEST(profiles_are_printed)
 {
     assert_int_equal(rollbem("compare --solvers nsn-ac,nsgs-ac,lemke --json slides zero no"), 0);
-    held_json *root = json_loads(out, 0, NULL);
-    assert_non_null(root);
+    held_json *root = NOT_NULL(json_loads(out, 0, NULL));
     assert_int_equal(json_array_size(json_object_get(root, "runs")), 9);
     const json_t *profiles = json_object_get(root, "profiles");
     const size_t last = json_array_size(json_object_get(root, "tau")) - 1;

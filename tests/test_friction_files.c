@@ -7,8 +7,7 @@
 
 static void put(const char *text)
 {
-    FILE *f = fopen(path, "w");
-    assert_non_null(f);
+    FILE *f = NOT_NULL(fopen(path, "w"));
     fputs(text, f);
     assert_int_equal(fclose(f), 0);
 }

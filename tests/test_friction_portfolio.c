@@ -327,8 +327,7 @@ TEST(a_heap_that_nothing_solves_has_a_solution)
     rb_friction_errors error;
     CHECK_OK(rb_friction_read(outside_data("packings/disks2d_1000_mu0.5.dat"), &p, NULL));
     SCRATCH double *r = rb_alloc((size_t)(2 * p.contacts), 1);
-    FILE *file = fopen("tests/data/discs-1141.txt", "r");
-    assert_non_null(file);
+    FILE *file = NOT_NULL(fopen("tests/data/discs-1141.txt", "r"));
     for (int i = 0; i < 2 * p.contacts; i++)
         assert_int_equal(fscanf(file, "%lf", r + i), 1);
     fclose(file);

@@ -72,8 +72,7 @@ static void replay(const fuzz_target *t, const char *path)
 {
     static uint8_t data[SIZE_MAX_BYTES];
     int status;
-    FILE *file = fopen(path, "rb");
-    assert_non_null(file);
+    FILE *file = NOT_NULL(fopen(path, "rb"));
     const size_t size = fread(data, 1, sizeof data, file);
     fclose(file);
     *at_hand = 0;

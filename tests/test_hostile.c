@@ -110,8 +110,7 @@ static void add_gap(double radius, double a)
     }
     const double height = a * a / (2.0 * radius), noise = height * power_of_ten(-6.0, -2.0);
     const double step = choice(2) ? height * power_of_ten(-4.0, -1.0) : 0.0;
-    FILE *file = fopen("gap.txt", "w");
-    assert_non_null(file);
+    FILE *file = NOT_NULL(fopen("gap.txt", "w"));
     for (int k = -40; k <= 40; k++) {
         const double x = 0.1 * k * a;
         fprintf(file, "%.17g %.17g\n", x,

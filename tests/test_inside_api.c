@@ -29,8 +29,7 @@ TEST(any_number_of_arrays_fits)
     api_array *first = NULL;
     for (int k = 0; k < 1500; k++) {
         snprintf(name, sizeof name, "a%d", k);
-        api_array *made = rb_api_make_array(a, name, 1, 1);
-        assert_non_null(made);
+        api_array *made = NOT_NULL(rb_api_make_array(a, name, 1, 1));
         first = first ? first : made;
     }
     assert_ptr_equal(rb_api_find_array(a, "a0"), first); /* none has moved */

@@ -169,8 +169,7 @@ TEST(a_convolution_is_its_sum)
             t[k] = cos(k * k);
         for (int i = 0; i < n; i++)
             r[i] = sin(i * i + 1.0);
-        rb_bem_convolution *c = rb_bem_convolution_create(n, t);
-        assert_non_null(c);
+        rb_bem_convolution *c = NOT_NULL(rb_bem_convolution_create(n, t));
         rb_bem_convolution_apply(c, r, w);
         for (int i = 0; i < n; i++) {
             double want = 0.0;
@@ -428,9 +427,8 @@ TEST(kernels_are_integrals_over_waves)
         for (int trial = 0; trial < 6; trial++) {
             const double X = pow(10.0, between(&seed, -2.0, 2.0)) * (trial % 2 ? -1 : 1),
                          b = pow(10.0, between(&seed, -5.0, 1.0));
-            const rb_bem_layer_table *table = rb_bem_layer_table_of(&l.body, fabs(X) + b);
+            const rb_bem_layer_table *table = NOT_NULL(rb_bem_layer_table_of(&l.body, fabs(X) + b));
             double want[3];
-            assert_non_null(table);
             const rb_bem_layer_kernel got = rb_bem_layer_mean(table, X, b);
             rb_bem_layer_table_release(table);
             integral_over_waves(&l.body, X, b, want);

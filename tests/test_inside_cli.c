@@ -41,8 +41,7 @@ TEST(every_status_has_its_exit_code)
 static const char *printed(cli_exit (*say)(void), cli_exit wanted)
 {
     static char text[10000];
-    FILE *file = tmpfile();
-    assert_non_null(file);
+    FILE *file = NOT_NULL(tmpfile());
     fflush(stderr);
     FILE *old = stderr;
     stderr = file;
@@ -200,9 +199,8 @@ TEST(long_work_is_said_by_the_seconds_of_the_processor)
 {
     static const int ticks[] = {2, 19, 20, 39, 41, 79, 170, 171, 320};
     char text[400] = "";
-    FILE *file = tmpfile();
+    FILE *file = NOT_NULL(tmpfile());
     const int old = dup(STDERR_FILENO);
-    assert_non_null(file);
     dup2(fileno(file), STDERR_FILENO);
     rb_phase("matrices");
     cli_wait_begin();

@@ -63,8 +63,7 @@ static rb_bem_mesh plate(double second_x)
 
 static double *units(const rb_bem_mesh *mesh, rb_bem_material material)
 {
-    double *unit = rb_alloc((size_t)mesh->n, 1);
-    assert_non_null(unit);
+    double *unit = NOT_NULL(rb_alloc((size_t)mesh->n, 1));
     for (int j = 0; j < mesh->n; j++)
         unit[j] = material.shear / hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
     return unit;

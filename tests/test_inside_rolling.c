@@ -274,7 +274,7 @@ static rb_rolling_model solved_between(const rb_rolling_case *rc, double from, d
 TEST(every_bump_that_overlaps_is_found)
 {
     static const double x[] = {-5.0, -2.5, 0.0, 3.0, 6.0}, height[5] = {0.0};
-    table *t = bumps(5, x, height);
+    held_table *t = bumps(5, x, height);
     rb_rolling_model model = solved_between(&t->rc, -0.4, 0.4);
     rb_rolling_overlap o;
     assert_int_equal(model.state.status, RB_ZONE);
@@ -293,7 +293,6 @@ TEST(every_bump_that_overlaps_is_found)
     CHECK_OK(rb_rolling_find_overlap(&model, &model.state, &o));
     assert_int_equal(o.count, 2);
     rb_rolling_model_free(&model);
-    bumps_free(t);
 }
 
 /* The surface sinks by what the pressed half-plane gives way there: a bump that is just
@@ -357,13 +356,12 @@ TEST(more_overlaps_than_there_is_room_end_in_one)
     double x[MOST], height[MOST] = {0.0};
     for (int k = 0; k < MOST; k++)
         x[k] = 1.5 * (k - MOST / 2);
-    table *t = bumps(MOST, x, height);
+    held_table *t = bumps(MOST, x, height);
     OWNED(rb_rolling_model) model = solved_between(&t->rc, -0.5, 0.5);
     rb_rolling_overlap o;
     CHECK_OK(rb_rolling_find_overlap(&model, &model.state, &o));
     assert_int_equal(o.count, RB_MOST_OVERLAPS);
     CHECK_ABS(o.to[RB_MOST_OVERLAPS - 1], x[MOST - 1], 0.3, "up to the last one");
-    bumps_free(t);
 }
 
 /* The surface of a wheel sinks by what its boundary elements say: known from elements

@@ -24,10 +24,8 @@ static void check_history(const char *text, int first_line)
         fail_msg("%s", heard.text);
     assert_int_equal(t.rows, 2);
     assert_int_equal(t.columns, 3);
-    const double *load = rb_io_table_column(&t, "load");
-    const double *force = rb_io_table_column(&t, "force");
-    assert_non_null(load);
-    assert_non_null(force);
+    const double *load = NOT_NULL(rb_io_table_column(&t, "load"));
+    const double *force = NOT_NULL(rb_io_table_column(&t, "force"));
     CHECK_ABS(load[1], 20.0, 0.0, "load");
     CHECK_ABS(force[0], -1.5, 0.0, "force");
     assert_null(rb_io_table_column(&t, "creep"));

@@ -37,8 +37,7 @@ static int entries(void)
 static const char *content(void)
 {
     static char text[64];
-    FILE *f = fopen(path, "r");
-    assert_non_null(f);
+    FILE *f = NOT_NULL(fopen(path, "r"));
     text[fread(text, 1, sizeof text - 1, f)] = 0;
     fclose(f);
     return text;

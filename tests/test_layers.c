@@ -62,8 +62,7 @@ static int check_file(const char *path, const char *own, const char *headers)
 {
     char line[400];
     int lines = 0;
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
+    FILE *file = NOT_NULL(fopen(path, "r"));
     while (fgets(line, sizeof line, file))
         check_line(path, ++lines, line, own, headers);
     fclose(file);
@@ -76,8 +75,7 @@ TEST(folders_look_down_only)
         char folder[80];
         int lines = 0;
         snprintf(folder, sizeof folder, "src/%s", layers[k].folder);
-        DIR *d = opendir(folder);
-        assert_non_null(d);
+        DIR *d = NOT_NULL(opendir(folder));
         for (const struct dirent *e = readdir(d); e; e = readdir(d)) {
             const char *dot = strrchr(e->d_name, '.');
             char path[400];
@@ -94,8 +92,7 @@ TEST(folders_look_down_only)
 TEST(marked_programs_alone_look_inside)
 {
     int marked = 0;
-    DIR *d = opendir("tests");
-    assert_non_null(d);
+    DIR *d = NOT_NULL(opendir("tests"));
     for (const struct dirent *e = readdir(d); e; e = readdir(d)) {
         const char *dot = strrchr(e->d_name, '.');
         char path[300], line[400], folder[40], name[40];
@@ -106,8 +103,7 @@ TEST(marked_programs_alone_look_inside)
             continue;
         }
         snprintf(path, sizeof path, "tests/%s", e->d_name);
-        FILE *file = fopen(path, "r");
-        assert_non_null(file);
+        FILE *file = NOT_NULL(fopen(path, "r"));
         while (fgets(line, sizeof line, file))
             if (included(line, folder, name)) {
                 char header[100];
@@ -164,8 +160,7 @@ static void read_symbols(int round)
     char command[200], line[600], object[WORD], symbol[WORD], kind;
     const char *build = getenv("B");
     snprintf(command, sizeof command, "nm -A -P %s/src/*/*.o", build ? build : "build");
-    FILE *nm = popen(command, "r");
-    assert_non_null(nm);
+    FILE *nm = NOT_NULL(popen(command, "r"));
     while (fgets(line, sizeof line, nm)) {
         if (sscanf(line, "%119[^:]: %119s %c", object, symbol, &kind) != 3)
             continue;

@@ -50,8 +50,7 @@ static void write_all(char *text, size_t size)
     held_case *words = rb_case_create(RB_CASE_SINGLE);
     OWNED(rb_case_result) result = {0};
     char value[64];
-    FILE *out = fmemopen(text, size, "w");
-    assert_non_null(out);
+    FILE *out = NOT_NULL(fmemopen(text, size, "w"));
     FILE *gap = fopen("gap.txt", "w");
     fputs("-3 0.09\n0.5 0.0025\n3 0.09\n", gap);
     fclose(gap);

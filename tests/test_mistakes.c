@@ -420,8 +420,7 @@ TEST(found_creepage_is_not_doubted)
 
 TEST(examples_are_at_hand)
 {
-    assert_int_equal(rollbem("examples"), 0);
-    assert_non_null(strstr(out, "--example rail "));
+    CHECK_RUN(rollbem("examples"), 0, out, "--example rail ");
     assert_non_null(strstr(out, "--example paper "));
     json_t *root = run_json("--example rail --creep-ratio 0.4");
     CHECK_REL(number_in(json_object_get(root, "summary"), "force_ratio"), -0.64, 1e-4, "Carter");

@@ -37,8 +37,7 @@ static const char *block_of(const char *language, int k)
     const char *at = docs;
     snprintf(fence, sizeof fence, "```%s\n", language);
     for (; k >= 0; k--) {
-        at = strstr(at, fence);
-        assert_non_null(at);
+        at = NOT_NULL(strstr(at, fence));
         at += strlen(fence);
     }
     snprintf(text, sizeof text, "%.*s", (int)(strstr(at, "```") - at), at);

@@ -138,8 +138,7 @@ TEST(json_holds_the_same_numbers)
     FILE *file = tmpfile();
     assert_int_equal(rb_report_json_write(file, root), RB_OK);
     rewind(file);
-    root = json_loadf(file, 0, NULL);
-    assert_non_null(root);
+    root = NOT_NULL(json_loadf(file, 0, NULL));
     assert_string_equal(json_string_value(json_object_get(root, "schema")), "rollbem/1");
     assert_string_equal(json_string_value(json_object_get(root, "command")), "rollbem 'a b'");
     const json_t *table = json_object_get(root, "table");
@@ -387,7 +386,7 @@ TEST(curves_say_what_has_no_derivatives)
                                             .without = k != 1};
         rb_fail(&curves.slopes[k].reason, RB_EINVAL, "reason %d", k);
     }
-    CHECK_STATUS(rb_report_curve_table(out, &curves, "curve", &style), RB_OK);
+    CHECK_OK(rb_report_curve_table(out, &curves, "curve", &style));
     fclose(out);
     assert_non_null(strstr(text, "# mu = 0.1: 1 of 2 points have no derivatives: reason 0\n"));
     assert_non_null(strstr(text, "# mu = 0.3: 1 of 2 points have no derivatives: reason 2\n"));
@@ -402,7 +401,7 @@ TEST(curves_say_what_has_no_derivatives)
     }
     out = fmemopen(text, sizeof text, "w");
     curves.n = 1;
-    CHECK_STATUS(rb_report_curve_table(out, &curves, "curve", &style), RB_OK);
+    CHECK_OK(rb_report_curve_table(out, &curves, "curve", &style));
     fclose(out);
     assert_non_null(strstr(text, "# 1 of 2 points have no derivatives: reason 0\n"));
 }
@@ -734,8 +733,7 @@ TEST(columns_without_memory)
 static const char *literature(void)
 {
     static char text[20000];
-    FILE *file = fopen("docs/theory.md", "r");
-    assert_non_null(file);
+    FILE *file = NOT_NULL(fopen("docs/theory.md", "r"));
     char *all = content(file), *from = strstr(all, "## 9 Literature"), *to = text;
     fclose(file);
     assert_non_null(from);

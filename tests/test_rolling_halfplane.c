@@ -229,8 +229,7 @@ TEST(a_zone_that_fills_says_how_wide_it_should_be)
     rb_rolling_solution s;
     rc.zone = 0.8 * rc.half_width;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_ZONE);
-    const char *to = strstr(heard.text, " to ");
-    assert_non_null(to);
+    const char *to = NOT_NULL(strstr(heard.text, " to "));
     rc.zone = atof(to + 4);
     rb_rolling_solution_free(&s);
     s = solved(&rc);

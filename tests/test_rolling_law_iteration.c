@@ -184,8 +184,7 @@ TEST(the_largest_force_is_that_of_a_scan)
     rc.force = -199.0;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL);
     rb_rolling_solution_free(&s);
-    const char *from = strstr(heard.text, "the largest is ");
-    assert_non_null(from);
+    const char *from = NOT_NULL(strstr(heard.text, "the largest is "));
     assert_int_equal(sscanf(from, "the largest is %lg N/mm, at creepage %lg", &told, &at), 2);
     CHECK_REL(told, -largest, 5e-3, "largest force");
     CHECK_ABS(at, place, 1.5e-4, "its creepage");
@@ -317,8 +316,7 @@ TEST(forces_that_only_great_speed_reaches_are_refused)
     double told = 0.0, at = 0.0;
     set(&rc, "friction-law rational force %g", -100.0 * (1.0 - 1e-12));
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL);
-    const char *from = strstr(heard.text, "the largest is ");
-    assert_non_null(from);
+    const char *from = NOT_NULL(strstr(heard.text, "the largest is "));
     assert_int_equal(sscanf(from, "the largest is %lg N/mm, at creepage %lg", &told, &at), 2);
     CHECK_MAX(1e3, at, "creepage");
     CHECK_REL(told, -500.0 * (0.2 - 0.1 / (1.0 + at * rc.speed / 40.0)), 1e-6,

@@ -403,8 +403,7 @@ TEST(the_largest_force_is_told)
     OWNED(rb_rolling_model) model;
     double force, at;
     CHECK_STATUS(rb_rolling_model_create(&rc, &model, &heard), RB_EINVAL);
-    const char *largest = strstr(heard.text, "the largest is ");
-    assert_non_null(largest);
+    const char *largest = NOT_NULL(strstr(heard.text, "the largest is "));
     assert_int_equal(sscanf(largest, "the largest is %lf N/mm, at creepage %lf", &force, &at), 2);
     CHECK_REL(force, -754.453, 1e-5, "largest force");
     rc.force = NAN;

@@ -333,8 +333,7 @@ TEST(layers_must_be_resolved)
             RB_EINVAL);
         if (steps == 2)
             rb_rolling_curve_free(&curve);
-        const char *take = strstr(heard.text, "take ");
-        assert_non_null(take);
+        const char *take = NOT_NULL(strstr(heard.text, "take "));
         assert_int_equal(sscanf(take, "take %d contact elements", &enough), 1);
         for (int j = 0; j < 2; j++) {
             rc.contact_elements = enough << 2 * j;

@@ -12,7 +12,7 @@
 TEST(elements_are_fitted_to_every_patch)
 {
     static const double x[] = {-6.0, 0.0, 6.0}, height[] = {0.0, 1e-4, 5e-4};
-    table *t = bumps(3, x, height);
+    held_table *t = bumps(3, x, height);
     set(&t->rc, "mesh fitted mu 0");
     OWNED(rb_rolling_solution) s = solved(&t->rc);
     assert_int_equal(s.patches, 3);
@@ -25,7 +25,6 @@ TEST(elements_are_fitted_to_every_patch)
     }
     assert_true(s.patch[0].normal_load > s.patch[1].normal_load &&
                 s.patch[1].normal_load > s.patch[2].normal_load);
-    bumps_free(t);
 }
 
 /* More patches than elements are fitted to: equal ones instead, and it is said. */
@@ -34,31 +33,29 @@ TEST(too_many_patches_have_equal_elements)
     double x[17], height[17] = {0.0};
     for (int k = 0; k < 17; k++)
         x[k] = 1.0 * (k - 8);
-    table *t = bumps(17, x, height);
+    held_table *t = bumps(17, x, height);
     set(&t->rc, "mesh fitted load 60 contact-elements 100");
     OWNED(rb_rolling_solution) s = solved(&t->rc);
     assert_int_equal(s.patches, 17);
     assert_int_equal(s.equal_instead, 1);
     CHECK_REL(s.h[0], s.h[s.n - 1], 1e-9, "equal elements");
-    bumps_free(t);
 }
 
 /* Aligned elements have two edges: of one patch. */
 TEST(several_patches_cannot_be_aligned)
 {
     static const double x[] = {-2.0, 2.0}, height[] = {0.0, 0.0};
-    table *t = bumps(2, x, height);
+    held_table *t = bumps(2, x, height);
     OWNED(rb_rolling_solution) s;
     t->rc.mesh = RB_MESH_ALIGNED;
     CHECK_SAYS(rb_rolling_solve(&t->rc, &s, &heard), RB_EINVAL, "the contact has several patches");
-    bumps_free(t);
 }
 
 /* Patches that nearly touch are fitted as one; with equal elements they are the same. */
 TEST(patches_side_by_side_are_fitted_as_one)
 {
     static const double x[] = {-0.35, 0.35}, height[] = {0.0, 0.0};
-    table *t = bumps(2, x, height);
+    held_table *t = bumps(2, x, height);
     t->rc.mu = 0.0;
     for (int k = 0; k < 12; k++) {
         set(&t->rc, "load %g mesh fitted contact-elements 40", 1300.0 + 80.0 * k);
@@ -72,7 +69,6 @@ TEST(patches_side_by_side_are_fitted_as_one)
         CHECK_REL(s.approach, fine.approach, 2e-3, "approach %d", k);
         assert_int_equal(s.equal_instead, 0);
     }
-    bumps_free(t);
 }
 
 /* A groove of a hundredth of the contact does not divide the fitted elements: they reach
@@ -122,13 +118,12 @@ TEST(mirrored_tables_have_mirrored_contacts)
                     x[i] = side ? -tables[k].x[n - 1 - i] : tables[k].x[i];
                     height[i] = tables[k].height[side ? n - 1 - i : i];
                 }
-                table *t = bumps(n, x, height);
+                held_table *t = bumps(n, x, height);
                 set(&t->rc,
                     "mesh %s load %g poisson 0.2 formulation static creep nan "
                     "creep-ratio nan shift %g contact-elements 48",
                     fitted ? "fitted" : "uniform", tables[k].load, side ? -2e-4 : 2e-4);
                 s[side] = solved(&t->rc);
-                bumps_free(t);
             }
             const double p0 = s[0].max_pressure;
             const int n = s[0].n, patches = s[0].patches;
@@ -164,8 +159,7 @@ TEST(a_narrow_zone_is_told_its_width)
     double wide = 0.0, given = 0.0;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_ZONE);
     rb_rolling_solution_free(&s);
-    const char *at = strstr(heard.text, "half-width ");
-    assert_non_null(at);
+    const char *at = NOT_NULL(strstr(heard.text, "half-width "));
     assert_int_equal(sscanf(at, "half-width %lg mm; widen it to %lg", &given, &wide), 2);
     CHECK_ABS(given, 0.8, 1e-12, "the given one");
     assert_true(wide > 1.05 && wide < 2.0);
@@ -182,7 +176,7 @@ TEST(a_zone_is_as_wide_as_its_longer_side)
     for (int side = -1; side < 2; side += 2) {
         const double near = -1.0 * side, far = 3.0 * side;
         const double x[] = {fmin(near, far), fmax(near, far)};
-        table *t = bumps(2, x, height);
+        held_table *t = bumps(2, x, height);
         double given = 0.0, wide = 0.0;
         rb_rolling_solution s = solved(&t->rc);
         const double from = s.x[0] - 0.5 * s.h[0];
@@ -191,12 +185,10 @@ TEST(a_zone_is_as_wide_as_its_longer_side)
         t->rc.zone = 0.5;
         CHECK_STATUS(rb_rolling_solve(&t->rc, &s, &heard), RB_ZONE);
         rb_rolling_solution_free(&s);
-        const char *at = strstr(heard.text, "half-width ");
-        assert_non_null(at);
+        const char *at = NOT_NULL(strstr(heard.text, "half-width "));
         assert_int_equal(sscanf(at, "half-width %lg mm; widen it to %lg", &given, &wide), 2);
         CHECK_REL(wide, side < 0 ? -from : to, 1e-3, "side %d", side);
         assert_true(wide > 3.0);
-        bumps_free(t);
     }
 }
 
@@ -204,12 +196,11 @@ TEST(a_zone_is_as_wide_as_its_longer_side)
 TEST(patches_too_far_apart_need_fitted_elements)
 {
     static const double x[] = {-30.0, 30.0}, height[] = {0.0, 0.0};
-    table *t = bumps(2, x, height);
+    held_table *t = bumps(2, x, height);
     OWNED(rb_rolling_solution) s;
     set(&t->rc, "load 1 formulation steady creep-ratio 0.5");
     t->rc.contact.solver = RB_SOLVER_LEMKE; /* not without a matrix */
     CHECK_SAYS(rb_rolling_solve(&t->rc, &s, &heard), RB_ZONE, "equal elements would be needed");
-    bumps_free(t);
 }
 
 /* Without a table there is nothing beyond the radius: a soft interface spreads the
@@ -226,12 +217,11 @@ TEST(a_contact_as_wide_as_the_wheel_is_refused)
 TEST(a_zone_without_an_end_is_told_a_third_more)
 {
     static const double x[] = {0.0}, height[] = {0.0};
-    table *t = bumps(1, x, height);
+    held_table *t = bumps(1, x, height);
     OWNED(rb_rolling_solution) s;
     set(&t->rc, "load 1e6 zone 0.5");
     CHECK_SAYS(rb_rolling_solve(&t->rc, &s, &heard), RB_ZONE,
                "half-width 0.5 mm; widen it to 0.65 mm");
-    bumps_free(t);
 }
 
 /* What is irregular beyond the wheel is never met. */
@@ -256,14 +246,13 @@ TEST(places_beyond_the_wheel_are_not_looked_at)
 TEST(half_planes_have_elements_for_patches_far_apart)
 {
     static const double x[] = {-30.0, 30.0}, height[] = {0.0, 0.0};
-    table *t = bumps(2, x, height);
+    held_table *t = bumps(2, x, height);
     set(&t->rc, "load 1 mu 0");
     OWNED(rb_rolling_solution) s = solved(&t->rc);
     assert_int_equal(s.patches, 2);
     assert_int_equal(s.large, 1);
     CHECK_MAX(3000, s.n, "elements");
     CHECK_REL(s.patch[0].normal_load, 0.5, 1e-3, "half of the load");
-    bumps_free(t);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -9,10 +9,9 @@
 
 static rb_case *solved(const words *w, const char *name, double value, rb_case_result *r)
 {
-    rb_message why = {""};
     rb_case *c = case_of(RB_CASE_SINGLE, w, name, value);
-    if (rb_case_solve(rb_case_resolved(c), NULL, NULL, r, &why) != RB_OK)
-        fail_msg("%s", why.text);
+    if (rb_case_solve(rb_case_resolved(c), NULL, NULL, r, &heard) != RB_OK)
+        fail_msg("%s", heard.text);
     return c;
 }
 
@@ -127,13 +126,12 @@ static int compare_input(const words *w, const rb_case_derivative *d, const rb_r
 TEST(derivatives_are_those_of_solutions)
 {
     for (size_t k = 0; k < sizeof regimes / sizeof *regimes; k++) {
-        rb_message why = {""};
         OWNED(rb_case_result) r;
         OWNED(rb_case_derivatives) all;
         held_case *c = solved(&regimes[k], NULL, 0.0, &r);
         int compared = 0;
-        if (rb_case_differentiate(c, &r.model, 0, NULL, &all, &why) != RB_OK)
-            fail_msg("regime %d: %s", (int)k, why.text);
+        if (rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard) != RB_OK)
+            fail_msg("regime %d: %s", (int)k, heard.text);
         for (int j = 0; j < all.n; j++) {
             if (all.of[j].status != RB_OK)
                 fail_msg("regime %d, %s: %s", (int)k, all.of[j].name, all.of[j].why.text);
@@ -154,18 +152,17 @@ TEST(a_model_without_a_matrix_is_given_one)
     rb_case_result r[2];
     rb_case_derivatives all[2];
     for (int k = 0; k < 2; k++) {
-        rb_message why = {""};
         held_case *c = solved(&w[k], NULL, 0.0, &r[k]);
         assert_int_equal(r[k].model.bodies.F != NULL, k);
-        if (rb_case_differentiate(c, &r[k].model, 0, NULL, &all[k], &why) != RB_OK)
-            fail_msg("%s", why.text);
+        if (rb_case_differentiate(c, &r[k].model, 0, NULL, &all[k], &heard) != RB_OK)
+            fail_msg("%s", heard.text);
         assert_int_equal(r[k].model.bodies.F != NULL, k);
     }
     assert_int_equal(all[0].n, all[1].n);
     for (int j = 0; j < all[0].n; j++) {
         const rb_rolling_solution *a = all[0].of[j].d.value, *b = all[1].of[j].d.value;
         assert_string_equal(all[0].of[j].name, all[1].of[j].name);
-        CHECK_STATUS(all[0].of[j].status, RB_OK);
+        CHECK_OK(all[0].of[j].status);
         CHECK_ABS(a->tangential_load, b->tangential_load, 1e-6 * fabs(b->tangential_load) + 1e-12,
                   "Q by %s", all[0].of[j].name);
     }
@@ -182,7 +179,6 @@ TEST(forward_is_adjoint)
 {
     static const size_t some[] = {1, 2, 6, 8, 9, 12};
     for (size_t k = 0; k < sizeof some / sizeof *some; k++) {
-        rb_message why = {""};
         OWNED(rb_case_result) r;
         rb_sensitivity *s;
         OWNED(rb_contact_state) weight;
@@ -191,25 +187,25 @@ TEST(forward_is_adjoint)
         held_case *c = solved(&regimes[some[k]], NULL, 0.0, &r);
         const rb_contact_problem *p = &r.model.problem;
         int n;
-        CHECK_STATUS(rb_sensitivity_create(&r.model, 1, &s, &why), RB_OK);
-        CHECK_STATUS(rb_case_numbers(c, number, &n, &why), RB_OK);
-        CHECK_STATUS(rb_contact_state_alloc(p->n, &weight), RB_OK);
-        CHECK_STATUS(rb_sensitivity_rate_alloc(p->n, &adjoint), RB_OK);
+        CHECK_OK(rb_sensitivity_create(&r.model, 1, &s, &heard));
+        CHECK_OK(rb_case_numbers(c, number, &n, &heard));
+        CHECK_OK(rb_contact_state_alloc(p->n, &weight));
+        CHECK_OK(rb_sensitivity_rate_alloc(p->n, &adjoint));
         memcpy(weight.p, p->force_N, (size_t)p->n * sizeof(double));
         memcpy(weight.q, p->force_T, (size_t)p->n * sizeof(double));
         weight.xi = 1e5; /* Q + 1e5 xi + 1e3 delta: all that there is */
         weight.delta = 1e3;
-        CHECK_STATUS(rb_sensitivity_adjoint(s, &weight, &adjoint, &why), RB_OK);
+        CHECK_OK(rb_sensitivity_adjoint(s, &weight, &adjoint, &heard));
         for (int j = 0; j < n; j++) {
             OWNED(rb_sensitivity_derivative) d;
-            CHECK_STATUS(rb_sensitivity_differentiate(s, &number[j].input, &d, &why), RB_OK);
+            CHECK_OK(rb_sensitivity_differentiate(s, &number[j].input, &d, &heard));
             const int side = d.has[0] ? 0 : 1;
             OWNED(rb_contact_state) y;
             OWNED(rb_sensitivity_rate) rate;
             double mu;
-            CHECK_STATUS(rb_contact_state_alloc(p->n, &y), RB_OK);
-            CHECK_STATUS(rb_sensitivity_rates(s, &number[j].input, &rate, &mu, &why), RB_OK);
-            CHECK_STATUS(rb_sensitivity_tangent(s, &d.rate, side ? 1 : -1, &y, &why), RB_OK);
+            CHECK_OK(rb_contact_state_alloc(p->n, &y));
+            CHECK_OK(rb_sensitivity_rates(s, &number[j].input, &rate, &mu, &heard));
+            CHECK_OK(rb_sensitivity_tangent(s, &d.rate, side ? 1 : -1, &y, &heard));
             double want = 1e5 * y.xi + 1e3 * y.delta, size = fabs(want);
             for (int i = 0; i < p->n; i++) {
                 want += p->force_N[i] * y.p[i] + p->force_T[i] * y.q[i];
@@ -240,11 +236,10 @@ TEST(vectors_add_up)
         {{"support halfplane datum 100 datum-b 100 gap parabola load 500 mesh uniform zone "
           "1.2 " ROLLING "similar yes creep 1e-3 contact-elements 300"}}};
     for (size_t k = 0; k < sizeof some / sizeof *some; k++) {
-        rb_message why = {""};
         OWNED(rb_case_result) r;
         OWNED(rb_case_derivatives) all;
         held_case *c = solved(&some[k], NULL, 0.0, &r);
-        CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
+        CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
         const int n = all.n_x;
         assert_int_equal(n, r.solution.n);
         for (int f = 0; f < RB_CASE_OVER_X_N; f++) {
@@ -280,11 +275,10 @@ TEST(strain_of_two_layers_has_two_sides)
                          "base-poisson 0.3 contact-elements 300 gap parabola"}}};
     static const char *const name = "layer-thickness-b";
     for (size_t k = 0; k < sizeof layers / sizeof *layers; k++) {
-        rb_message why = {""};
         rb_case_result r, near[2];
         OWNED(rb_case_derivatives) all;
         held_case *c = solved(&layers[k], NULL, 0.0, &r);
-        CHECK_STATUS(rb_case_differentiate(c, &r.model, 1, &name, &all, &why), RB_OK);
+        CHECK_OK(rb_case_differentiate(c, &r.model, 1, &name, &all, &heard));
         const rb_case_derivative *d = &all.of[0];
         assert_int_equal(d->status, RB_OK);
         const double h = 1e-6 * d->value, at = r.solution.max_strain, size = at / d->value;
@@ -328,11 +322,10 @@ static double carter_error(const char *elements, const char *mesh)
         const double s = 0.05 * (k + 1);
         const words w = {{"support halfplane similar yes load 20 " ROLLING "mesh", mesh,
                           "contact-elements", elements}};
-        rb_message why = {""};
         OWNED(rb_case_result) r;
         OWNED(rb_case_derivatives) all;
         held_case *c = solved(&w, "creep-ratio", -s, &r);
-        CHECK_STATUS(rb_case_differentiate(c, &r.model, 1, names, &all, &why), RB_OK);
+        CHECK_OK(rb_case_differentiate(c, &r.model, 1, names, &all, &heard));
         const rb_case_derivative *d = of(&all, "creep-ratio");
         sum += pow(-value_of(&d->d.value[0], "force_ratio") - 2.0 * (1.0 - s), 2.0);
     }
@@ -359,11 +352,10 @@ TEST(equal_elements_move_with_their_zone)
           "creep-ratio 0.4 outer-elements 60"}},
     };
     for (size_t k = 0; k < sizeof moving / sizeof *moving; k++) {
-        rb_message why = {""};
         OWNED(rb_case_result) r;
         OWNED(rb_case_derivatives) all;
         held_case *c = solved(&moving[k], NULL, 0.0, &r);
-        CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
+        CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
         assert_int_equal(all.elements, RB_SENSITIVITY_HERTZ);
         assert_true(compare_input(&moving[k], of(&all, "load"), &r.solution));
         assert_true(compare_input(&moving[k], of(&all, "young"), &r.solution));
@@ -379,12 +371,11 @@ TEST(fitted_elements_move_with_the_edges)
         const words w = {{"support halfplane gap parabola load 500 " ROLLING "mesh", meshes[k % 3],
                           "creep-ratio 0.5 young 94500", k < 3 ? "poisson-b" : "young-b",
                           k < 3 ? "0.1" : "70000", "young-b", k < 3 ? "94500" : "70000"}};
-        rb_message why = {""};
         OWNED(rb_case_result) r;
         OWNED(rb_case_derivatives) all;
         held_case *c = solved(&w, NULL, 0.0, &r);
         const rb_rolling_solution *s = &r.solution;
-        CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
+        CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
         assert_int_equal(all.elements, k % 3 ? RB_SENSITIVITY_EDGES : RB_SENSITIVITY_HERTZ);
         const rb_rolling_solution *by_P = &of(&all, "load")->d.value[0],
                                   *by_R = &of(&all, "radius")->d.value[0];
@@ -404,11 +395,10 @@ TEST(peaks_stay_with_their_elements)
     const words w = {{"support halfplane gap parabola load 500 " ROLLING
                       "mesh fitted creep -0.0019 contact-elements 100"}};
     static const char *const names[] = {"load", "young"};
-    rb_message why = {""};
     OWNED(rb_case_result) r;
     OWNED(rb_case_derivatives) all;
     held_case *c = solved(&w, NULL, 0.0, &r);
-    CHECK_STATUS(rb_case_differentiate(c, &r.model, 2, names, &all, &why), RB_OK);
+    CHECK_OK(rb_case_differentiate(c, &r.model, 2, names, &all, &heard));
     const rb_case_derivative *by_P = of(&all, "load"), *by_E = of(&all, "young");
     CHECK_REL(by_P->value * by_P->d.value[0].max_pressure +
                   by_E->value * by_E->d.value[0].max_pressure,
@@ -421,11 +411,10 @@ TEST(fitted_slopes_are_those_of_fitted_solves)
     const words w = {{"support halfplane load 500 " ROLLING
                       "mesh fitted contact-elements 120 young-b 70000 creep 1e-3"}};
     static const char *const names[] = {"mu", "creep", "load"};
-    rb_message why = {""};
     rb_case_result r, left, right;
     OWNED(rb_case_derivatives) all;
     held_case *c = solved(&w, NULL, 0.0, &r);
-    CHECK_STATUS(rb_case_differentiate(c, &r.model, 3, names, &all, &why), RB_OK);
+    CHECK_OK(rb_case_differentiate(c, &r.model, 3, names, &all, &heard));
     for (int k = 0; k < 3; k++) {
         const rb_case_derivative *d = of(&all, names[k]);
         const double step = 0.03 * d->value;
@@ -447,11 +436,10 @@ TEST(aligned_slopes_are_those_of_aligned_solves)
     const words w = {{"support halfplane load 2000 formulation steady mu 0.5 mesh aligned "
                       "contact-elements 24 creep 1e-3"}};
     static const char *const names[] = {"creep"};
-    rb_message why = {""};
     OWNED(rb_case_result) r, left, right;
     OWNED(rb_case_derivatives) all;
     held_case *c = solved(&w, NULL, 0.0, &r);
-    CHECK_STATUS(rb_case_differentiate(c, &r.model, 1, names, &all, &why), RB_OK);
+    CHECK_OK(rb_case_differentiate(c, &r.model, 1, names, &all, &heard));
     rb_case_free(solved(&w, "creep", 0.9999e-3, &left));
     rb_case_free(solved(&w, "creep", 1.0001e-3, &right));
     CHECK_REL(of(&all, "creep")->d.value[0].tangential_load,
@@ -465,7 +453,6 @@ TEST(aligned_slopes_are_those_of_aligned_solves)
  * more in stick. */
 static void look_at_both_sides(const words *w, int has_matrix)
 {
-    rb_message why = {""};
     double low = 4e-4, high = 5e-4;
     rb_case_result r, left, right;
     rb_case_derivatives all, one;
@@ -485,17 +472,17 @@ static void look_at_both_sides(const words *w, int has_matrix)
     static const char *const names[] = {"creep"};
     c = solved(w, "creep", low, &r);
     assert_int_equal(r.model.bodies.F != NULL, has_matrix);
-    CHECK_STATUS(rb_case_differentiate(c, &r.model, 1, names, &all, &why), RB_OK);
+    CHECK_OK(rb_case_differentiate(c, &r.model, 1, names, &all, &heard));
     assert_int_equal(all.degenerate, 1);
     const rb_case_derivative *d = of(&all, "creep");
     assert_int_equal(d->d.sides, 2);
     held_case *a = solved(w, "creep", low * (1.0 - 1e-6), &left),
               *b = solved(w, "creep", low * (1.0 + 1e-6), &right);
-    CHECK_STATUS(rb_case_differentiate(a, &left.model, 1, names, &one, &why), RB_OK);
+    CHECK_OK(rb_case_differentiate(a, &left.model, 1, names, &one, &heard));
     CHECK_REL(d->d.value[0].tangential_load, of(&one, "creep")->d.value[0].tangential_load, 1e-9,
               "left");
     rb_case_derivatives_free(&one);
-    CHECK_STATUS(rb_case_differentiate(b, &right.model, 1, names, &one, &why), RB_OK);
+    CHECK_OK(rb_case_differentiate(b, &right.model, 1, names, &one, &heard));
     CHECK_REL(d->d.value[1].tangential_load, of(&one, "creep")->d.value[0].tangential_load, 1e-9,
               "right");
     assert_true(fabs(d->d.value[1].tangential_load - d->d.value[0].tangential_load) >
@@ -518,11 +505,10 @@ TEST(both_sides_of_a_border)
 TEST(ends_of_ranges)
 {
     const words w = {{PLANES ROLLING "similar yes creep -5e-4"}};
-    rb_message why = {""};
     OWNED(rb_case_result) r, some;
     OWNED(rb_case_derivatives) all;
     held_case *c = solved(&w, NULL, 0.0, &r);
-    CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
+    CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
     const rb_case_derivative *d = of(&all, "interlayer-tangential");
     assert_int_equal(d->d.sides, 2);
     assert_false(d->d.has[0]);
@@ -539,14 +525,13 @@ TEST(what_heat_takes_away)
     const words w = {{PLANES ROLLING "similar yes creep 2e-3 speed 1000 conductivity 50 "
                                      "heat-capacity 3.8 mu 0.2 mu-heat -0.2,0,1 tol 1e-13"}};
     const double step = 1e-6;
-    rb_message why = {""};
     rb_case_result r, some[2];
     OWNED(rb_case_derivatives) all;
     held_case *c = solved(&w, NULL, 0.0, &r);
-    CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
-    CHECK_STATUS(of(&all, "mu-heat")->status, RB_OK);
+    CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
+    CHECK_OK(of(&all, "mu-heat")->status);
     const rb_case_derivative *d = of(&all, "mu");
-    CHECK_STATUS(d->status, RB_OK);
+    CHECK_OK(d->status);
     assert_false(d->d.has[0]);
     for (int j = 0; j < 2; j++)
         rb_case_free(solved(&w, "mu", 0.2 + (j + 1) * step, &some[j]));
@@ -572,11 +557,10 @@ TEST(friction_begins_where_nothing_slides)
         {{PLANES "contact-elements 61 " ROLLING "creep 0"}},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        rb_message why = {""};
         OWNED(rb_case_result) r, some;
         OWNED(rb_case_derivatives) all;
         held_case *c = solved(&cases[k], "mu", 0.0, &r);
-        CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
+        CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
         const rb_case_derivative *d = of(&all, "mu");
         assert_int_equal(d->status, RB_OK);
         assert_false(d->d.has[0]);
@@ -596,11 +580,10 @@ TEST(friction_begins_where_nothing_slides)
 TEST(units_of_derivatives)
 {
     static const char *const names[] = {"load"};
-    rb_message why = {""};
     rb_case_result r;
     rb_case_derivatives all;
     rb_case *c = solved(&regimes[0], NULL, 0.0, &r);
-    CHECK_STATUS(rb_case_differentiate(c, &r.model, 1, names, &all, &why), RB_OK);
+    CHECK_OK(rb_case_differentiate(c, &r.model, 1, names, &all, &heard));
     assert_int_equal(all.n, 1);
     const double p0 = all.of[0].d.value[0].max_pressure;
     rb_case_derivatives_convert(&all, RB_UNITS_SI);
@@ -614,7 +597,7 @@ TEST(units_of_derivatives)
     static const words metres = {
         {"units si support halfplane load 5e5 " ROLLING "creep 1e-2 contact-elements 20"}};
     c = solved(&metres, NULL, 0.0, &r);
-    CHECK_STATUS(rb_case_differentiate(c, &r.model, 1, names, &all, &why), RB_OK);
+    CHECK_OK(rb_case_differentiate(c, &r.model, 1, names, &all, &heard));
     CHECK_REL(all.of[0].value, 500.0, 1e-14, "load in N/mm");
     CHECK_REL(all.of[0].d.value[0].tangential_load, -0.3, 1e-10, "Q by P");
     rb_case_derivatives_free(&all);
@@ -641,13 +624,12 @@ TEST(laws_without_memory)
 TEST(steps_are_refused)
 {
     const words w = {{PLANES "formulation static increments 3"}};
-    rb_message why = {""};
     OWNED(rb_case_result) r;
     rb_sensitivity *s;
     held_case *c = solved(&w, NULL, 0.0, &r);
-    CHECK_STATUS(rb_sensitivity_create(&r.model, 1, &s, &why), RB_EINVAL);
+    CHECK_STATUS(rb_sensitivity_create(&r.model, 1, &s, &heard), RB_EINVAL);
     assert_null(s);
-    assert_non_null(strstr(why.text, "this case has several"));
+    assert_non_null(strstr(heard.text, "this case has several"));
 }
 
 RUN_TESTS(NULL, NULL)

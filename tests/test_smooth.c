@@ -53,10 +53,9 @@ static rb_status differentiate(const words *w, const char *name, double value, c
 static double slope_of(const char *result, const words *w, const char *name, double value,
                        const char *input, int smooth)
 {
-    rb_message why = {""};
     differentiated d;
-    if (differentiate(w, name, value, input, smooth, &d, &why) != RB_OK)
-        fail_msg("%s", why.text);
+    if (differentiate(w, name, value, input, smooth, &d, &heard) != RB_OK)
+        fail_msg("%s", heard.text);
     const double slope =
         rb_rolling_number(rb_rolling_find_result(&rb_rolling_solution_scalars, result),
                           &d.by->d.value[!d.by->d.has[0]]);
@@ -88,9 +87,8 @@ static void carter_errors(const char *elements, const char *mesh, int smooth, do
     for (int k = 0; k < PLACES; k++) {
         const double s = 0.05 + 0.9 * k / (PLACES - 1) + 1e-3 * sin(k);
         static const char *const inputs[] = {"mu", "creep"};
-        rb_message why = {""};
         differentiated d;
-        CHECK_STATUS(differentiate_by(&w, "creep", -s * unit, 2, inputs, smooth, &d, &why), RB_OK);
+        CHECK_OK(differentiate_by(&w, "creep", -s * unit, 2, inputs, smooth, &d, &heard));
         const rb_rolling_solution *by_mu = &d.by[0].d.value[0], *by_xi = &d.by[1].d.value[0];
         const double got[SLOPES] = {by_xi->tangential_load * -unit / (mu * P),
                                     by_mu->tangential_load / P,
@@ -162,21 +160,18 @@ TEST(jumps_are_those_of_solutions)
             const char *input = tests[t].input;
             const double value = tests[t].value[k];
             const int by_force = strcmp(input, "force-ratio") == 0;
-            rb_message why = {""};
             differentiated smooth, exact, before, behind;
-            CHECK_STATUS(differentiate(w, input, value, input, 1, &smooth, &why), RB_OK);
-            CHECK_STATUS(differentiate(w, input, value, input, 0, &exact, &why), RB_OK);
+            CHECK_OK(differentiate(w, input, value, input, 1, &smooth, &heard));
+            CHECK_OK(differentiate(w, input, value, input, 0, &exact, &heard));
             const double *at = smooth.by->d.stays;
             assert_true(at[0] < 0.0 && at[1] > 0.0);
             const int next = at[1] < -at[0];
             const double part = 0.5 - fabs(at[next]) / (at[1] - at[0]);
             sides[next]++;
-            CHECK_STATUS(
-                differentiate(w, input, value + 0.999999 * at[next], input, 0, &before, &why),
-                RB_OK);
-            CHECK_STATUS(
-                differentiate(w, input, value + 1.000001 * at[next], input, 0, &behind, &why),
-                RB_OK);
+            CHECK_OK(
+                differentiate(w, input, value + 0.999999 * at[next], input, 0, &before, &heard));
+            CHECK_OK(
+                differentiate(w, input, value + 1.000001 * at[next], input, 0, &behind, &heard));
             assert_int_equal(zones_that_differ(&before.r.solution, &smooth.r.solution), 0);
             assert_int_equal(zones_that_differ(&behind.r.solution, &smooth.r.solution), 1);
             const rb_rolling_solution *a = &smooth.by->d.value[0], *b = &exact.by->d.value[0],
@@ -250,10 +245,9 @@ TEST(smooth_derivatives_are_continuous)
         const words *w = &tests[t].w;
         const char *input = tests[t].input;
         double value = tests[t].value, step = 0.0, slope[2][2];
-        rb_message why = {""};
         differentiated d;
         for (double to = INFINITY; fabs(to) > 0.1 * step;) { /* to first order each time */
-            CHECK_STATUS(differentiate(w, input, value, input, 1, &d, &why), RB_OK);
+            CHECK_OK(differentiate(w, input, value, input, 1, &d, &heard));
             const double *at = d.by->d.stays;
             to = at[at[1] < -at[0]];
             value += 0.999 * to;
@@ -282,9 +276,8 @@ TEST(free_rolling_is_smooth_too)
     double slope[2][PLACES], kink[2] = {0.0, 0.0}, sum = 0.0, xi[2] = {0.0, 0.0};
     for (int k = 0; k < PLACES; k++)
         for (int smooth = 0; smooth < 2; smooth++) {
-            rb_message why = {""};
             differentiated d;
-            CHECK_STATUS(differentiate(&w, "mu", 0.06 + k * step, "mu", smooth, &d, &why), RB_OK);
+            CHECK_OK(differentiate(&w, "mu", 0.06 + k * step, "mu", smooth, &d, &heard));
             slope[smooth][k] = d.by->d.value[0].free_creepage;
             xi[k > 0] = d.r.solution.free_creepage;
             differentiated_free(&d);
@@ -304,10 +297,9 @@ TEST(free_rolling_is_smooth_too)
 TEST(a_zone_at_an_edge_does_not_count)
 {
     const words w = {{ROLLING "mesh uniform zone 1.2 contact-elements 60 similar yes"}};
-    rb_message why = {""};
     differentiated d;
     double value = -1.13e-3;
-    CHECK_STATUS(differentiate(&w, "creep", value, "creep", 1, &d, &why), RB_OK);
+    CHECK_OK(differentiate(&w, "creep", value, "creep", 1, &d, &heard));
     value += 0.5 * (d.by->d.stays[0] + d.by->d.stays[1]);
     const int *zone = d.r.solution.zone;
     int last = d.r.solution.n - 1;
@@ -327,14 +319,13 @@ TEST(transforms_have_the_same_smooth_derivatives)
 {
     static const char *const inputs[] = {"mu", "load", "creep"};
     const words w = {{ALIGNED "similar yes creep -1.1e-3 contact-elements 400"}};
-    rb_message why = {""};
     differentiated fast;
     OWNED(rb_rolling_model) dense;
     OWNED(rb_case_derivatives) all;
-    CHECK_STATUS(differentiate_by(&w, NULL, 0.0, 3, inputs, 1, &fast, &why), RB_OK);
+    CHECK_OK(differentiate_by(&w, NULL, 0.0, 3, inputs, 1, &fast, &heard));
     assert_null(fast.r.model.bodies.F);
-    CHECK_STATUS(rb_rolling_variant_with_matrix(&fast.r.model, &dense, &why), RB_OK);
-    CHECK_STATUS(rb_case_differentiate_smoothly(fast.c, &dense, 3, inputs, &all, &why), RB_OK);
+    CHECK_OK(rb_rolling_variant_with_matrix(&fast.r.model, &dense, &heard));
+    CHECK_OK(rb_case_differentiate_smoothly(fast.c, &dense, 3, inputs, &all, &heard));
     for (int k = 0; k < 3; k++) {
         CHECK_REL(fast.by[k].d.value[0].tangential_load, all.of[k].d.value[0].tangential_load, 1e-7,
                   "Q by %s", all.of[k].name);
@@ -372,11 +363,11 @@ TEST(what_has_no_smooth_derivatives)
          "too short"},
     };
     for (size_t t = 0; t < sizeof tests / sizeof *tests; t++) {
-        rb_message why = {""};
         differentiated d;
-        CHECK_STATUS(differentiate(&tests[t].w, NULL, 0.0, tests[t].input, 1, &d, &why), RB_EINVAL);
-        if (!strstr(why.text, tests[t].reason))
-            fail_msg("%s: %s", tests[t].reason, why.text);
+        CHECK_STATUS(differentiate(&tests[t].w, NULL, 0.0, tests[t].input, 1, &d, &heard),
+                     RB_EINVAL);
+        if (!strstr(heard.text, tests[t].reason))
+            fail_msg("%s: %s", tests[t].reason, heard.text);
         differentiated_free(&d);
     }
 }
@@ -384,13 +375,12 @@ TEST(what_has_no_smooth_derivatives)
 TEST(between_two_zones_there_are_none)
 {
     const words w = {{FIXED "similar yes"}};
-    rb_message why = {""};
     differentiated d;
-    CHECK_STATUS(differentiate(&w, "creep", -1e-3, "creep", 1, &d, &why), RB_OK);
+    CHECK_OK(differentiate(&w, "creep", -1e-3, "creep", 1, &d, &heard));
     const double there = -1e-3 + d.by->d.stays[1];
     differentiated_free(&d);
-    CHECK_STATUS(differentiate(&w, "creep", there, "creep", 1, &d, &why), RB_EINVAL);
-    assert_non_null(strstr(why.text, "1 element stands exactly between two zones"));
+    CHECK_STATUS(differentiate(&w, "creep", there, "creep", 1, &d, &heard), RB_EINVAL);
+    assert_non_null(strstr(heard.text, "1 element stands exactly between two zones"));
     differentiated_free(&d);
 }
 
@@ -398,9 +388,8 @@ TEST(between_two_zones_there_are_none)
 TEST(rounding_is_no_derivative)
 {
     const words w = {{ALIGNED "contact-elements 200"}};
-    rb_message why = {""};
     differentiated d;
-    CHECK_STATUS(differentiate(&w, "creep", 5e-4, "creep", 1, &d, &why), RB_OK);
+    CHECK_OK(differentiate(&w, "creep", 5e-4, "creep", 1, &d, &heard));
     assert_true(d.by->d.value[0].free_creepage == 0.0);
     differentiated_free(&d);
 }

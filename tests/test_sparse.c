@@ -250,8 +250,7 @@ TEST(a_sparse_congruence_takes_little_memory)
     OWNED(rb_sparse) one, w;
     rb_sparse_cholesky *f;
     OWNED(rb_triplets) t = {.rows = N, .cols = N};
-    FILE *statm = fopen("/proc/self/statm", "r");
-    assert_non_null(statm);
+    FILE *statm = NOT_NULL(fopen("/proc/self/statm", "r"));
     assert_int_equal(fscanf(statm, "%lu", &pages), 1);
     fclose(statm);
     for (int i = 0; i < N; i++)

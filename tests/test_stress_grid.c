@@ -146,8 +146,7 @@ TEST(stress_without_memory)
     assert_int_equal(rb_rolling_solve_model(&rc, &model, &solution, NULL), RB_OK);
     for (int k = 0; refused; k++) {
         OWNED(rb_rolling_stress_grid) grid = {0};
-        FILE *file = fopen("/dev/null", "w");
-        assert_non_null(file);
+        FILE *file = NOT_NULL(fopen("/dev/null", "w"));
         alloc_fail_after(k);
         rb_status s = rb_rolling_stress_on_grid(&model, 6, 4, 0.0, &grid, NULL);
         const rb_report_stress stress = {.nx = 6,

@@ -234,8 +234,7 @@ TEST(tables_are_in_the_units_of_the_file_that_names_them)
                              "--contact-elements 12 --cases mm.txt --header bare --quiet"),
                      0);
     assert_non_null(strstr(out, "\n1\t100\t"));
-    assert_int_equal(rollbem("sweep si.ini --units mm --header bare --quiet"), 0);
-    assert_non_null(strstr(out, "\n1\t100\t"));
+    CHECK_RUN(rollbem("sweep si.ini --units mm --header bare --quiet"), 0, out, "\n1\t100\t");
     assert_non_null(strstr(out, "\n2\t200\t"));
 }
 
@@ -365,8 +364,7 @@ TEST(a_full_disk_leaves_whole_rows)
                  "bash -c \"(ulimit -f %d; exec '$R' %s --output full.tsv 2>&1) | cat; exit "
                  "\\${PIPESTATUS[0]}\"",
                  blocks, study);
-        assert_int_equal(shell(line), 73);
-        assert_non_null(strstr(out, "rollbem: full.tsv: cannot write: File too large"));
+        CHECK_RUN(shell(line), 73, out, "rollbem: full.tsv: cannot write: File too large");
         if (blocks == 0) {
             assert_int_not_equal(access("full.tsv", F_OK), 0);
             continue;
@@ -464,8 +462,7 @@ static int read_block(const char *script, const char *name, int columns, double 
     int rows = 0;
     slurp(script, text, sizeof text);
     snprintf(head, sizeof head, "$%s << EOD\n", name);
-    char *line = strstr(text, head);
-    assert_non_null(line);
+    char *line = NOT_NULL(strstr(text, head));
     line = strchr(line, '\n') + 1;
     for (char *end; strncmp(line, "EOD", 3) != 0; line = end + 1) {
         end = strchr(line, '\n');
@@ -717,8 +714,7 @@ TEST(two_programs_on_one_file_are_refused)
         "\"$R\" " STUDY "--contact-elements 200 --vary-1 'creep-ratio 0:1:4000' --output "
         "both.tsv; code=$?; \"$R\" " STUDY "--contact-elements 200 --vary-1 'creep-ratio 0:1:4000' "
         "--output both.tsv --restart; again=$?; kill $p; wait $p; [ $again = 73 ] && exit $code";
-    assert_int_equal(shell(line), 73);
-    assert_non_null(strstr(err, "both.tsv: another process is writing it"));
+    CHECK_RUN(shell(line), 73, err, "both.tsv: another process is writing it");
 }
 
 TEST(a_finished_study_keeps_its_exit_code)
@@ -726,8 +722,7 @@ TEST(a_finished_study_keeps_its_exit_code)
     static const char study[] = "sweep --support halfplane --mu 0 --vary-1 'load 1 2' "
                                 "--zone 0.001 --contact-elements 10 --output f.tsv";
     assert_int_equal(rollbem(study), 1);
-    assert_int_equal(rollbem(study), 1);
-    assert_non_null(strstr(err, "holds 2 of 2 cases"));
+    CHECK_RUN(rollbem(study), 1, err, "holds 2 of 2 cases");
     assert_non_null(strstr(err, "not solved: 2 of 2"));
 }
 

@@ -62,8 +62,7 @@ TEST(says_once_what_is_wrong)
     need_mpi();
     solve_alone();
     assert_int_equal(shell(MPIRUN "-quiet \"$R\" sweep study.ini --load -1"), 64);
-    const char *line = strstr(err, "rollbem: --load: expected");
-    assert_non_null(line);
+    const char *line = NOT_NULL(strstr(err, "rollbem: --load: expected"));
     assert_null(strstr(line + 1, "rollbem: "));
     assert_string_equal(out, "");
 }
@@ -74,8 +73,7 @@ TEST(another_study_on_one_of_them_is_refused)
     solve_alone();
     write_file("rank", "exec \"$1\" sweep study.ini --output other.tsv "
                        "--mu 0.1$OMPI_COMM_WORLD_RANK\n");
-    assert_int_equal(shell(MPIRUN "-quiet sh rank \"$R\""), 65);
-    assert_non_null(strstr(err, "rollbem: process 1 on "));
+    CHECK_RUN(shell(MPIRUN "-quiet sh rank \"$R\""), 65, err, "rollbem: process 1 on ");
     assert_non_null(strstr(err, "reads another study"));
 }
 

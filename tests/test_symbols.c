@@ -33,14 +33,12 @@ static void add(names *all, const char *name)
 static char *header_text(const char *path)
 {
     static char text[200000];
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
+    FILE *file = NOT_NULL(fopen(path, "r"));
     const size_t size = fread(text, 1, sizeof text - 1, file);
     fclose(file);
     text[size] = '\0';
     for (char *open = strstr(text, "/*"); open; open = strstr(open, "/*")) {
-        char *close = strstr(open, "*/");
-        assert_non_null(close);
+        char *close = NOT_NULL(strstr(open, "*/"));
         memset(open, ' ', (size_t)(close + 2 - open));
     }
     return text;
@@ -74,10 +72,9 @@ static void add_declared(const char *path, names *all)
 
 static void declared(names *all)
 {
-    DIR *folder = opendir("include/rollbem");
+    DIR *folder = NOT_NULL(opendir("include/rollbem"));
     char path[300];
 
-    assert_non_null(folder);
     for (const struct dirent *e = readdir(folder); e; e = readdir(folder)) {
         const char *dot = strrchr(e->d_name, '.');
         snprintf(path, sizeof path, "include/rollbem/%.200s", e->d_name);
@@ -98,8 +95,7 @@ static void exported(names *all)
     char command[300], line[400], name[WORD], kind;
 
     snprintf(command, sizeof command, "nm -D --defined-only %s/librollbem.so", build_folder());
-    FILE *nm = popen(command, "r");
-    assert_non_null(nm);
+    FILE *nm = NOT_NULL(popen(command, "r"));
     while (fgets(line, sizeof line, nm))
         if (sscanf(line, "%*x %c %79s", &kind, name) == 2 && name[0] != '.') /* OpenMP's */
             add(all, name);

@@ -10,8 +10,7 @@ typedef rb_status make(int, const double *, const rb_bem_surface *, rb_bem_flexi
 
 static double *equal_ends(int n, double from, double to)
 {
-    double *ends = rb_alloc((size_t)n + 2, 1);
-    assert_non_null(ends);
+    double *ends = NOT_NULL(rb_alloc((size_t)n + 2, 1));
     for (int i = 0; i <= n + 1; i++)
         ends[i] = (from * (n - i) + to * i) / n;
     return ends;
@@ -299,29 +298,28 @@ TEST(bad_discs_are_refused)
 {
     const double equal[] = {-1.5, -0.5, 0.5, 1.5};
     rb_bem_flexibility f;
-    rb_message why;
     CHECK_STATUS(rb_bem_flexibility_disc(2, equal, &(rb_bem_disc){2.0, steel},
-                                         RB_BEM_NORMALS_SURFACE, &f, &why),
+                                         RB_BEM_NORMALS_SURFACE, &f, &heard),
                  RB_EINVAL);
-    assert_non_null(strstr(why.text, "another length"));
+    assert_non_null(strstr(heard.text, "another length"));
     CHECK_STATUS(rb_bem_flexibility_disc(2, equal, &(rb_bem_disc){1.5, steel},
-                                         RB_BEM_NORMALS_SURFACE, &f, &why),
+                                         RB_BEM_NORMALS_SURFACE, &f, &heard),
                  RB_EINVAL);
-    assert_non_null(strstr(why.text, "radius 1.5: contact from -1.5 to 1.5 is wider"));
+    assert_non_null(strstr(heard.text, "radius 1.5: contact from -1.5 to 1.5 is wider"));
     const double tilted[] = {-1.0, 0.0, 1.0, 2.0};
     for (int k = 0; k < 2; k++) {
         double ends[4];
         for (int i = 0; i < 4; i++)
             ends[i] = k ? -tilted[3 - i] : tilted[i];
         CHECK_STATUS(rb_bem_flexibility_disc(2, ends, &(rb_bem_disc){1.9, steel},
-                                             RB_BEM_NORMALS_SURFACE, &f, &why),
+                                             RB_BEM_NORMALS_SURFACE, &f, &heard),
                      RB_EINVAL);
-        assert_non_null(strstr(why.text, k ? "from -2 to 1 is" : "from -1 to 2 is"));
+        assert_non_null(strstr(heard.text, k ? "from -2 to 1 is" : "from -1 to 2 is"));
     }
     SCRATCH double *ends = equal_arcs(6, 3.0, -0.5, 0.5);
     for (int k = 0, refused = 1; refused; k++) {
         refused = REFUSED_FROM(k, rb_bem_flexibility_disc(6, ends, &(rb_bem_disc){3.0, steel},
-                                                          RB_BEM_NORMALS_OBSTACLE, &f, &why));
+                                                          RB_BEM_NORMALS_OBSTACLE, &f, &heard));
         rb_bem_flexibility_free(&f);
         assert_true(k < 40);
     }

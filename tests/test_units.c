@@ -254,8 +254,7 @@ TEST(studies_and_curves_of_files_have_the_units_of_the_file)
     const char *line = out;
     for (int k = 0; k < 2; k++) {
         double load, status, P;
-        line = strstr(line, "\n1\t");
-        assert_non_null(line);
+        line = NOT_NULL(strstr(line, "\n1\t"));
         assert_int_equal(sscanf(line, " 1 %lf %lf %lf", &load, &status, &P), 3);
         /* 1000 lbf/in */
         CHECK_REL(load, 1000.0 * 4.4482216152605 / 25.4, 1e-14, "load varied");
