@@ -2,7 +2,7 @@
 #include "check.h"
 #include "rollbem/friction.h"
 #include "numbers.h"
-#include "sparse_friction.h"
+#include "friction_problems.h"
 
 /* Equation (13), written down a second time: by the disjunction of *Acary* (2) for the
  * projection instead of the library's formula. */
@@ -41,12 +41,7 @@ static double measure_again(int d, int nc, const double *mu, const double *r, co
 static void plant(int d, int nc, unsigned seed, rb_friction_problem *p, double *r)
 {
     const int m = d * nc;
-    *p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_DENSE,
-                               .dimension = d,
-                               .contacts = nc,
-                               .mu = rb_alloc((size_t)nc, 1),
-                               .W = rb_alloc((size_t)m, (size_t)m),
-                               .q = rb_alloc((size_t)m, 1)};
+    *p = zero_local(d, nc);
     SCRATCH double *B = rb_alloc((size_t)m, (size_t)m);
     for (int k = 0; k < m * m; k++)
         B[k] = uniform_from(&seed) / sqrt(m);
@@ -138,13 +133,7 @@ static void series_of_springs(int d, int nc, double held, rb_friction_problem *p
 {
     const int m = d * nc, n = 2 * m;
     OWNED(rb_triplets) K = {.rows = n, .cols = n}, H = {.rows = n, .cols = m};
-    *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
-                               .dimension = d,
-                               .contacts = nc,
-                               .dofs = n,
-                               .mu = rb_alloc((size_t)nc, 1),
-                               .f = rb_alloc((size_t)n, 1),
-                               .w = rb_alloc((size_t)m, 1)};
+    *p = zero_global(d, nc, n);
     for (int k = 0; k < m; k++) {
         const int i = 2 * k, j = 2 * k + 1;
         rb_triplets_add(&K, i, i, 1.0 + held);
@@ -201,13 +190,7 @@ static void chains(int size, int nc, rb_friction_problem *p)
 {
     const int m = 2 * nc, n = m * size;
     OWNED(rb_triplets) K = {.rows = n, .cols = n}, H = {.rows = n, .cols = m};
-    *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
-                               .dimension = 2,
-                               .contacts = nc,
-                               .dofs = n,
-                               .mu = rb_alloc((size_t)nc, 1),
-                               .f = rb_alloc((size_t)n, 1),
-                               .w = rb_alloc((size_t)m, 1)};
+    *p = zero_global(2, nc, n);
     for (int k = 0; k < m; k++) {
         const int last = (k + 1) * size - 1;
         for (int at = k * size; at <= last; at++) {
@@ -452,12 +435,7 @@ TEST(a_frictionless_contact_does_not_pull)
         double W[9] = {0.0}, q[3] = {1.0}, mu[1] = {0.0}, pulls[3] = {-1.0}, r[3], u[3];
         for (int a = 0; a < d; a++)
             W[a * (d + 1)] = 1.0;
-        const rb_friction_problem p = {.form = RB_FRICTION_LOCAL_DENSE,
-                                       .dimension = d,
-                                       .contacts = 1,
-                                       .mu = mu,
-                                       .W = W,
-                                       .q = q};
+        const rb_friction_problem p = local_with(d, 1, mu, W, q);
         rb_friction_errors error;
         CHECK_OK(rb_friction_error(&p, pulls, NULL, NULL, &error));
         CHECK_ABS(error.residual, 1.0, 1e-15, "it pulls");

@@ -2,6 +2,7 @@
  * point system says. */
 #define _XOPEN_SOURCE 700
 #include "check.h"
+#include "friction_problems.h"
 #include "rollbem/friction.h"
 #include "rollbem/io_fclib.h"
 #include "numbers.h"
@@ -204,6 +205,17 @@ static void make_local(const structure *s, rb_io_fclib *file)
     CHECK_OK(rb_sparse_from_dense(JOINTS, JOINTS, R, JOINTS, &file->R));
 }
 
+/* With the arrays of the file. */
+static rb_friction_problem local_of(const rb_io_fclib *file)
+{
+    return (rb_friction_problem){.form = RB_FRICTION_LOCAL_SPARSE,
+                                 .dimension = 3,
+                                 .contacts = CONTACTS,
+                                 .mu = file->mu,
+                                 .q = file->q,
+                                 .Ws = file->W};
+}
+
 TEST(both_forms_come_from_files)
 {
     char path[] = "/tmp/rollbem-bilateral-XXXXXX";
@@ -277,13 +289,7 @@ TEST(a_rod_slides_or_sticks_as_a_whole)
         rb_friction_info info;
         double r[4], u[4];
         OWNED(rb_friction_problem)
-        p = {.form = RB_FRICTION_GLOBAL,
-             .dimension = 2,
-             .contacts = 2,
-             .dofs = 4,
-             .mu = rb_alloc(2, 1),
-             .f = rb_alloc(4, 1),
-             .w = rb_alloc(4, 1)};
+        p = zero_global(2, 2, 4);
         CHECK_OK(rb_sparse_from_triplets(
             &(rb_triplets){.rows = 4, .cols = 4, .nz = 4, .row = at, .col = at, .x = one}, &p.K));
         CHECK_OK(rb_sparse_from_triplets(
@@ -345,12 +351,7 @@ TEST(what_cannot_be_is_refused)
     /* R = 0 leaves l undetermined and constrains r */
     OWNED(rb_io_fclib) file;
     make_local(&s, &file);
-    p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_SPARSE,
-                              .dimension = 3,
-                              .contacts = CONTACTS,
-                              .mu = file.mu,
-                              .q = file.q,
-                              .Ws = file.W};
+    p = local_of(&file);
     for (int k = 0; k < file.R.p[JOINTS]; k++)
         file.R.x[k] = 0.0;
     CHECK_SAYS(rb_friction_eliminate_local(&p, &file.V, &file.R, file.s, &heard), RB_EINVAL,
@@ -381,12 +382,7 @@ TEST(dense_problems_lose_their_constraints_alike)
         OWNED(rb_io_fclib) file;
         make_structure(9, 0, &s);
         make_local(&s, &file);
-        p[k] = (rb_friction_problem){.form = RB_FRICTION_LOCAL_SPARSE,
-                                     .dimension = 3,
-                                     .contacts = CONTACTS,
-                                     .mu = file.mu,
-                                     .q = file.q,
-                                     .Ws = file.W};
+        p[k] = local_of(&file);
         if (k == 1) {
             p[k].form = RB_FRICTION_LOCAL_DENSE;
             p[k].W = calloc(M * M, sizeof(double));
@@ -422,12 +418,7 @@ TEST(failing_allocations_leave_the_problem)
                 rb_sparse_free(&file.V);
                 as_problem(&s, &p, &file.V);
             } else {
-                p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_SPARSE,
-                                          .dimension = 3,
-                                          .contacts = CONTACTS,
-                                          .mu = file.mu,
-                                          .q = file.q,
-                                          .Ws = file.W};
+                p = local_of(&file);
                 file.mu = file.q = NULL, file.W = (rb_sparse){0};
             }
             alloc_fail_after(count);

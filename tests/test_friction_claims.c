@@ -4,6 +4,7 @@
  * in long double and without a call of the library.  5000 runs, with
  * ROLLBEM_TEST_ALL 200 000. */
 #include "check.h"
+#include "friction_problems.h"
 #include "rollbem/friction.h"
 #include "numbers.h"
 
@@ -192,12 +193,7 @@ static void ask(const challenge *c, const rb_friction_solver *solver, double tol
     memcpy(W, c->W, m * m * sizeof *W);
     memcpy(q, c->q, m * sizeof *q);
     memcpy(mu, c->mu, (size_t)c->contacts * sizeof *mu);
-    const rb_friction_problem p = {.form = RB_FRICTION_LOCAL_DENSE,
-                                   .dimension = c->d,
-                                   .contacts = c->contacts,
-                                   .mu = mu,
-                                   .W = W,
-                                   .q = q};
+    const rb_friction_problem p = local_with(c->d, c->contacts, mu, W, q);
     rb_friction_options opt = rb_friction_defaults();
     rb_friction_info info;
     opt.tol = tol;
@@ -244,12 +240,7 @@ TEST(the_judge_sees_small_errors)
     challenge c;
     double r[MOST], u[MOST], error, floor;
     pose(0, &c);
-    const rb_friction_problem p = {.form = RB_FRICTION_LOCAL_DENSE,
-                                   .dimension = c.d,
-                                   .contacts = c.contacts,
-                                   .mu = c.mu,
-                                   .W = c.W,
-                                   .q = c.q};
+    const rb_friction_problem p = local_with(c.d, c.contacts, c.mu, c.W, c.q);
     CHECK_OK(rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, NULL));
     assess(&c, r, &error, &floor);
     CHECK_MAX(error, 1e-8, "a solution");

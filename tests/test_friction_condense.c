@@ -2,6 +2,7 @@
  * diagonal and with full matrices, inverted densely and by CHOLMOD, of which any two meet
  * at several contacts. */
 #include "check.h"
+#include "friction_problems.h"
 #include "rollbem/friction.h"
 #include "numbers.h"
 
@@ -34,13 +35,7 @@ static int dof_of(int body, int k)
 static void make_bodies(rb_friction_problem *p)
 {
     OWNED(rb_triplets) K = {.rows = DOFS, .cols = DOFS}, H = {.rows = DOFS, .cols = M};
-    *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
-                               .dimension = 3,
-                               .contacts = NC,
-                               .dofs = DOFS,
-                               .mu = rb_alloc(NC, 1),
-                               .f = rb_alloc(DOFS, 1),
-                               .w = rb_alloc(M, 1)};
+    *p = zero_global(3, NC, DOFS);
     for (int b = 0; b < BODIES; b++)
         for (int i = 0; i < sizes[b]; i++)
             for (int j = 0; j <= i; j++) {

@@ -1,6 +1,7 @@
 /* What every friction solver does at its limits: with no time, with numbers beyond the
  * largest, with arguments that are none, and without memory. */
 #include "check.h"
+#include "friction_problems.h"
 #include "rollbem/friction.h"
 #include "numbers.h"
 
@@ -19,12 +20,7 @@ static double uniform(void)
 static void make_local(int d, double unit, rb_friction_problem *p)
 {
     const int m = d * NC;
-    *p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_DENSE,
-                               .dimension = d,
-                               .contacts = NC,
-                               .mu = rb_alloc(NC, 1),
-                               .W = rb_alloc((size_t)m, (size_t)m),
-                               .q = rb_alloc((size_t)m, 1)};
+    *p = zero_local(d, NC);
     for (int j = 0; j < m; j++)
         for (int i = 0; i <= j; i++)
             p->W[i + j * m] = p->W[j + i * m] = unit * (i == j ? 3.0 : 0.4 * uniform());
@@ -34,15 +30,6 @@ static void make_local(int d, double unit, rb_friction_problem *p)
         p->mu[c] = 0.3;
 }
 
-static void make_sparse(rb_friction_problem *p)
-{
-    const int m = p->dimension * p->contacts;
-    CHECK_OK(rb_sparse_from_dense(m, m, p->W, m, &p->Ws));
-    free(p->W);
-    p->W = NULL;
-    p->form = RB_FRICTION_LOCAL_SPARSE;
-}
-
 /* The same W as that of a structure: K is its inverse's place, H = 1, so that W = K^-1. */
 static void make_global(int d, rb_friction_problem *p)
 {
@@ -50,13 +37,9 @@ static void make_global(int d, rb_friction_problem *p)
     OWNED(rb_friction_problem) local;
     OWNED(rb_triplets) H = {.rows = m, .cols = m};
     make_local(d, 1.0, &local);
-    *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
-                               .dimension = d,
-                               .contacts = NC,
-                               .dofs = m,
-                               .mu = rb_copy(NC, local.mu),
-                               .f = rb_alloc((size_t)m, 1),
-                               .w = rb_copy((size_t)m, local.q)};
+    *p = zero_global(d, NC, m);
+    memcpy(p->mu, local.mu, NC * sizeof *p->mu);
+    memcpy(p->w, local.q, (size_t)m * sizeof *p->w);
     for (int i = 0; i < m; i++)
         rb_triplets_add(&H, i, i, 1.0);
     CHECK_OK(rb_sparse_from_triplets(&H, &p->H));
@@ -226,7 +209,7 @@ TEST(facts_do_not_depend_on_the_form)
         make_local(3, 1.0, &p);
         p.W[1] += 0.3; /* not symmetric any more */
         CHECK_OK(rb_friction_examine(&p, with_rank, &dense));
-        make_sparse(&p);
+        make_only_sparse(&p);
         CHECK_OK(rb_friction_examine(&p, with_rank, &sparse));
         CHECK_REL(dense.asymmetry, 0.3 / 3.0, 1e-14, "asymmetry");
         CHECK_ABS(sparse.asymmetry, dense.asymmetry, 0.0, "asymmetry");
@@ -469,13 +452,7 @@ enum { WHEELS = 2, MOTIONS = 10 };
 static void make_wheels(rb_friction_problem *p)
 {
     OWNED(rb_triplets) K = {.rows = MOTIONS, .cols = MOTIONS}, H = K;
-    *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
-                               .dimension = 5,
-                               .contacts = WHEELS,
-                               .dofs = MOTIONS,
-                               .mu = rb_alloc(WHEELS, 1),
-                               .f = rb_alloc(MOTIONS, 1),
-                               .w = rb_alloc(5 * WHEELS, 1)};
+    *p = zero_global(5, WHEELS, MOTIONS);
     for (int i = 0; i < MOTIONS; i++) {
         rb_triplets_add(&K, i, i, 2.0 + 0.1 * i);
         rb_triplets_add(&H, i, i, 1.0);
@@ -616,7 +593,7 @@ TEST(short_memory_is_reported)
         else
             make_local(3, 1.0, &p);
         if (k == 1)
-            make_sparse(&p);
+            make_only_sparse(&p);
         assert_true(alloc_fail_each(use_handle, &p) > 3);
         assert_true(alloc_fail_each(examine, &p) > (k == 2 ? -1 : 3));
         assert_true(alloc_fail_each(measure, &p) > 2);

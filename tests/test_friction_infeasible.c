@@ -1,5 +1,6 @@
 /* Proofs that a friction problem has no solution: each is checked from W and q alone. */
 #include "check.h"
+#include "friction_problems.h"
 #include "rollbem/friction.h"
 #include "numbers.h"
 
@@ -16,12 +17,7 @@ static double uniform(void)
 
 static rb_friction_problem problem(int d, int contacts)
 {
-    return (rb_friction_problem){.form = RB_FRICTION_LOCAL_DENSE,
-                                 .dimension = d,
-                                 .contacts = contacts,
-                                 .mu = mu,
-                                 .W = W,
-                                 .q = q};
+    return local_with(d, contacts, mu, W, q);
 }
 
 /* What y proves, from the definition: 0 <= y'(W r + q)_N <= y'q_N + miss sum W_NN r_N. */

@@ -1,5 +1,6 @@
 /* Every solver of the registry, the canonical SOCLCP, and the files of other projects. */
 #include "check.h"
+#include "friction_problems.h"
 #include "rollbem/friction.h"
 #include "numbers.h"
 
@@ -9,12 +10,7 @@ static void chain(int d, int nc, rb_friction_problem *p)
 {
     const int m = d * nc;
     unsigned seed = 11u * (unsigned)nc + (unsigned)d;
-    *p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_DENSE,
-                               .dimension = d,
-                               .contacts = nc,
-                               .mu = rb_alloc((size_t)nc, 1),
-                               .W = rb_alloc((size_t)m, (size_t)m),
-                               .q = rb_alloc((size_t)m, 1)};
+    *p = zero_local(d, nc);
     for (int i = 0; i < m; i++)
         for (int j = i; j < m; j++) {
             const int apart = j / d - i / d;
@@ -62,11 +58,8 @@ TEST(every_solver_obeys_coulomb)
             chain(d, 60, &p);
             CHECK_OK(rb_friction_solve("nsgs-ac", &p, NULL,
                                        &(rb_friction_solution){reference, u, NULL}, &info));
-            if (k % 2) {
-                const int m = 60 * d;
-                CHECK_OK(rb_sparse_from_dense(m, m, p.W, m, &p.Ws));
-                p.form = RB_FRICTION_LOCAL_SPARSE;
-            }
+            if (k % 2)
+                make_sparse(&p);
             const rb_status s = rb_friction_solve(all[k].name, &p, NULL,
                                                   &(rb_friction_solution){r, u, NULL}, &info);
             if (s != RB_OK)
@@ -84,13 +77,7 @@ static void a_loose_block(rb_friction_problem *p)
 {
     int at[] = {0, 1};
     double zero[] = {0.0, 0.0}, one[] = {1.0, 1.0};
-    *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
-                               .dimension = 2,
-                               .contacts = 1,
-                               .dofs = 2,
-                               .mu = rb_alloc(1, 1),
-                               .f = rb_alloc(2, 1),
-                               .w = rb_alloc(2, 1)};
+    *p = zero_global(2, 1, 2);
     CHECK_OK(rb_sparse_from_triplets(
         &(rb_triplets){.rows = 2, .cols = 2, .nz = 2, .row = at, .col = at, .x = zero}, &p->K));
     CHECK_OK(rb_sparse_from_triplets(
@@ -385,8 +372,7 @@ TEST(the_documentation_lists_every_solver)
         skip(); /* not run from the project's folder */
     text[fread(text, 1, sizeof text - 1, doc)] = '\0';
     fclose(doc);
-    const char *at = strstr(text, "| name | family | method |");
-    assert_non_null(at);
+    const char *at = NOT_NULL(strstr(text, "| name | family | method |"));
     for (int k = 0; k < count; k++) {
         char line[300];
         snprintf(line, sizeof line, "\n| `%s` | %s | %s%s |\n", all[k].name, all[k].method,

@@ -1,5 +1,6 @@
 /* What is solved does not depend on units: the scaled measure, and every solver. */
 #include "check.h"
+#include "friction_problems.h"
 #include "rollbem/friction.h"
 #include "numbers.h"
 
@@ -8,12 +9,7 @@ static void random_problem(int d, int nc, unsigned seed, rb_friction_problem *p)
 {
     const int m = d * nc;
     SCRATCH double *B = rb_alloc((size_t)m, (size_t)m);
-    *p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_DENSE,
-                               .dimension = d,
-                               .contacts = nc,
-                               .mu = rb_alloc((size_t)nc, 1),
-                               .W = rb_alloc((size_t)m, (size_t)m),
-                               .q = rb_alloc((size_t)m, 1)};
+    *p = zero_local(d, nc);
     for (int k = 0; k < m * m; k++)
         B[k] = uniform_from(&seed) / sqrt(m);
     for (int i = 0; i < m; i++)

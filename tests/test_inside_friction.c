@@ -5,7 +5,7 @@
 #include "friction/smoothing.h"
 #include "packing.h"
 #include "numbers.h"
-#include "sparse_friction.h"
+#include "friction_problems.h"
 
 /* A A' + shift, with a part that is not symmetric */
 static void positive_definite(int d, double unsymmetric, unsigned *seed, double *W)
@@ -286,12 +286,7 @@ TEST(acceleration_goes_back_where_it_was_led_astray)
 static void pile(int nc, double coupling, rb_friction_problem *p)
 {
     const int m = 2 * nc;
-    *p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_DENSE,
-                               .dimension = 2,
-                               .contacts = nc,
-                               .mu = rb_alloc((size_t)nc, 1),
-                               .W = rb_alloc((size_t)m, (size_t)m),
-                               .q = rb_alloc((size_t)m, 1)};
+    *p = zero_local(2, nc);
     for (int i = 0; i < m; i++) {
         p->W[i + i * m] = 2.0;
         if (i + 2 < m)

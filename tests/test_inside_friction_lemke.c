@@ -1,6 +1,7 @@
 /* Each attempt of Lemke's method on plane problems by itself: what one of them fails at
  * is made good by the next, so that a solve tells nothing of them. */
 #include "check.h"
+#include "friction_problems.h"
 #include "friction/internal.h"
 #include "numbers.h"
 
@@ -33,12 +34,7 @@ static void plant(rb_friction_problem *p, double *r, double *u)
 static void local_problem(kind k, rb_friction_problem *p)
 {
     double r[M], u[M];
-    *p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_DENSE,
-                               .dimension = 2,
-                               .contacts = NC,
-                               .mu = rb_alloc(NC, 1),
-                               .q = rb_alloc(M, 1),
-                               .W = rb_alloc(M, M)};
+    *p = zero_local(2, NC);
     for (int j = 0; j < M; j++)
         for (int i = 0; i <= j; i++)
             p->W[i + j * M] = p->W[j + i * M] = i == j ? 3000.0 + 1000.0 * uniform()
@@ -52,10 +48,7 @@ static void local_problem(kind k, rb_friction_problem *p)
     }
     if (k == DENSE)
         return;
-    CHECK_OK(rb_sparse_from_dense(M, M, p->W, M, &p->Ws));
-    free(p->W);
-    p->W = NULL;
-    p->form = RB_FRICTION_LOCAL_SPARSE;
+    make_only_sparse(p);
 }
 
 /* A chain of springs, each of its ends a contact's displacement; LOOSE: held by nothing
@@ -64,13 +57,7 @@ static void global_problem(kind k, rb_friction_problem *p)
 {
     double r[M], u[M], v[DOFS];
     rb_triplets K = {.rows = DOFS, .cols = DOFS}, H = {.rows = DOFS, .cols = M};
-    *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
-                               .dimension = 2,
-                               .contacts = NC,
-                               .dofs = DOFS,
-                               .mu = rb_alloc(NC, 1),
-                               .f = rb_alloc(DOFS, 1),
-                               .w = rb_alloc(M, 1)};
+    *p = zero_global(2, NC, DOFS);
     plant(p, r, u);
     for (int i = 0; i < DOFS; i++) {
         v[i] = uniform();
