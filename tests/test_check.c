@@ -1,6 +1,7 @@
 /* Results verified without the solver: valid ones of every kind are, any number that is
  * changed is found, what cannot be checked is refused. */
 #include "cli_run.h"
+#include "rollbem/certificate.h"
 #include "rollbem/report.h"
 
 #define SMALL " --contact-elements 16 --mu 0.3 "
@@ -50,14 +51,14 @@ static void write_points(void)
                      0);
 }
 
-static rb_status certify(const json_t *root, rb_report_certificate *found, rb_message *why)
+static rb_status certify(const json_t *root, rb_certificate_outcome *found, rb_message *why)
 {
     FILE *lines = tmpfile();
     rb_case *words =
         rb_case_create(json_object_get(root, "crack") ? RB_CASE_CRACK : RB_CASE_SINGLE);
     assert_non_null(lines);
     assert_non_null(words);
-    const rb_status s = rb_report_certify_solutions(lines, "result", root, words, found, why);
+    const rb_status s = rb_certificate_check_solutions(lines, "result", root, words, found, why);
     rb_case_free(words);
     fclose(lines);
     return s;
@@ -194,7 +195,7 @@ static int missed;
 
 static void expect_found(const json_t *root, const char *given, const char *key, int i)
 {
-    rb_report_certificate found;
+    rb_certificate_outcome found;
     rb_message why = {""};
     if (certify(root, &found, &why) == RB_OK && found.violations == 0) {
         print_error("%s: a change of %s[%d] was not found\n", given, key, i);
@@ -237,7 +238,7 @@ TEST(every_changed_number_of_a_history_is_found)
         json_t *history = json_object_get(root, "history");
         json_t *states = json_object_get(history, "states"), *names;
         const char *key;
-        rb_report_certificate found;
+        rb_certificate_outcome found;
         CHECK_STATUS(certify(root, &found, &heard), RB_OK);
         assert_int_equal(found.violations, 0);
         json_object_foreach(history, key, list) changes +=
@@ -270,7 +271,7 @@ TEST(every_changed_number_is_found)
         json_t *summary = json_object_get(root, "summary");
         json_t *table = json_object_get(root, "table");
         const char *key;
-        rb_report_certificate found;
+        rb_certificate_outcome found;
         CHECK_STATUS(certify(root, &found, &heard), RB_OK);
         assert_int_equal(found.violations, 0);
         json_t *names = json_copy(summary);
@@ -328,7 +329,7 @@ static int change_reals(const char *key, json_t *list)
 
 static void expect_violations(const json_t *root, int wanted)
 {
-    rb_report_certificate found;
+    rb_certificate_outcome found;
     CHECK_STATUS(certify(root, &found, &heard), RB_OK);
     assert_int_equal(found.violations, wanted);
 }
@@ -442,7 +443,7 @@ TEST(inputs_belong_to_the_result)
         json_t *all = json_object_get(root, "inputs");
         const double x = json_number_value(json_object_get(all, inputs[k].key)) * (1.0 + 1e-5);
         char value[40];
-        rb_report_certificate found;
+        rb_certificate_outcome found;
         json_object_set_new(all, inputs[k].key, json_real(x));
         rb_case *words = case_of(cases[inputs[k].which]);
         snprintf(value, sizeof value, "%.17g", x);
@@ -513,10 +514,10 @@ static const char *said_of(const json_t *root, const char *path, const char *val
     FILE *lines = tmpfile();
     rb_case *words = rb_case_create(RB_CASE_SINGLE);
     json_t *other = json_deep_copy(root);
-    rb_report_certificate found;
+    rb_certificate_outcome found;
     rb_message why = {""};
     edit(other, path, value);
-    const rb_status s = rb_report_certify_solutions(lines, "r", other, words, &found, &why);
+    const rb_status s = rb_certificate_check_solutions(lines, "r", other, words, &found, &why);
     rewind(lines);
     text[fread(text, 1, sizeof text - 1, lines)] = '\0';
     assert_int_equal(found.violations > 0, text[0] != '\0');
@@ -549,7 +550,7 @@ TEST(all_solutions_are_judged)
 
     json_t *root = run_json(given), *all = json_object_get(root, "solutions");
     held_case *words = rb_case_create(RB_CASE_SINGLE);
-    rb_report_certificate found;
+    rb_certificate_outcome found;
     assert_int_equal(json_array_size(all), 3);
     for (int change = 0; change < 4; change++) {
         FILE *lines = tmpfile();
@@ -564,7 +565,8 @@ TEST(all_solutions_are_judged)
             json_array_set(list, 2, json_array_get(list, 1));
         if (change == 3)
             json_array_remove(list, 0), json_array_remove(list, 0);
-        CHECK_STATUS(rb_report_certify_solutions(lines, "r", wrong, words, &found, &heard), RB_OK);
+        CHECK_STATUS(rb_certificate_check_solutions(lines, "r", wrong, words, &found, &heard),
+                     RB_OK);
         rewind(lines);
         if (change == 0)
             assert_int_equal(found.violations, 0);
@@ -622,11 +624,11 @@ TEST(all_solutions_are_judged)
 
 static int violations_of(const char *text, const rb_case *words)
 {
-    rb_report_certificate found;
+    rb_certificate_outcome found;
     rb_message why = {""};
     FILE *lines = tmpfile();
     assert_non_null(lines);
-    const rb_status s = rb_report_certify_table(lines, "table", text, words, &found, &why);
+    const rb_status s = rb_certificate_check_table(lines, "table", text, words, &found, &why);
     fclose(lines);
     return s == RB_OK ? found.violations : -1;
 }
@@ -1058,7 +1060,7 @@ static void expect_noticed(tampering *t, const char *path)
 {
     const int is_program = strstr(path, "/command") || strstr(path, "yield_shear") ||
                            json_object_get(t->root, "solutions");
-    rb_report_certificate found;
+    rb_certificate_outcome found;
     rb_message why = {""};
     t->changes++;
     if (is_program) {

@@ -2,6 +2,7 @@
  * looked at, what cannot be checked is refused in one line.  That any number which is
  * changed is found: tests/test_check.c. */
 #include "cli_run.h"
+#include "rollbem/certificate.h"
 #include "rollbem/report.h"
 
 #define CONTACT                                                                                    \
@@ -156,12 +157,12 @@ TEST(what_cannot_be_checked_is_refused)
 
 static rb_status certify(void *context)
 {
-    rb_report_certificate found;
+    rb_certificate_outcome found;
     FILE *lines = tmpfile();
     held_case *words = rb_case_create(RB_CASE_CRACK);
-    const rb_status s =
-        words ? rb_report_certify_solutions(lines, "r", context, words, &found, &(rb_message){""})
-              : RB_ENOMEM;
+    const rb_status s = words ? rb_certificate_check_solutions(lines, "r", context, words, &found,
+                                                               &(rb_message){""})
+                              : RB_ENOMEM;
     fclose(lines);
     return s;
 }

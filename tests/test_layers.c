@@ -31,6 +31,7 @@ static const struct {
     {"report", " base blas sparse units bem lcp contact crack io friction fem rolling "
                "closed_forms sensitivity case design report "
                "report_fem "},
+    {"certificate", " contact crack io case report certificate "},
 };
 
 /* Each may include the internal.h of the one before it, which includes that below it. */

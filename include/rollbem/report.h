@@ -142,29 +142,6 @@ struct json_t *rb_report_json_states(const rb_rolling_states *s);
 void rb_report_json_result(struct json_t **root, const rb_case_result *result,
                            const rb_rolling_states *states, const rb_case_slopes *slopes);
 
-/* The outcome of the check of a result. */
-typedef struct {
-    int violations, numbers; /* numbers: how many were compared with recomputed values */
-    double residual;         /* of the printed state */
-} rb_report_certificate;
-
-/* Checks the JSON of a case, of a history with its states, or of the stress below a case,
- * without solving.  It builds the problem again from the inputs in the JSON (words: a
- * case with default values, which receives them) and computes all printed results again
- * from pressures, friction, approach and creepage.  Each violation is written to out in
- * one line. RB_EFORMAT: this kind of result cannot be checked; RB_ENOMEM. */
-rb_status rb_report_certify(FILE *out, const char *name, const struct json_t *root, rb_case *words,
-                            rb_report_certificate *found, rb_message *why);
-/* The same for a result of --all-solutions: checks each solution, and that the solutions
- * differ.  For any other result it calls rb_report_certify. */
-rb_status rb_report_certify_solutions(FILE *out, const char *name, const struct json_t *root,
-                                      rb_case *words, rb_report_certificate *found,
-                                      rb_message *why);
-/* The same for a table of rb_report_table.  words: the resolved inputs of the command
- * line in the comments of the table (rb_report_table_command). */
-rb_status rb_report_certify_table(FILE *out, const char *name, const char *text,
-                                  const rb_case *words, rb_report_certificate *found,
-                                  rb_message *why);
 /* The command line, without `rollbem`, in the comments of a table of any command; owned
  * by the caller.  RB_EFORMAT: the table has none. */
 rb_status rb_report_table_command(const char *text, char **line);

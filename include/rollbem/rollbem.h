@@ -7,6 +7,7 @@
 #include "rollbem/bem.h"
 #include "rollbem/blas.h"
 #include "rollbem/case.h"
+#include "rollbem/certificate.h"
 #include "rollbem/closed_forms.h"
 #include "rollbem/contact.h"
 #include "rollbem/crack.h"

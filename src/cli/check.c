@@ -2,6 +2,7 @@
 #include "cli/case.h"
 #include "cli/wait.h"
 #include "rollbem/io.h"
+#include "rollbem/certificate.h"
 #include "rollbem/report.h"
 
 #include <jansson.h>
@@ -37,7 +38,7 @@ static const char about[] =
     "\n"
     "Exit codes: 0 valid; 1 violated; 65 cannot be checked; 66 no such file.";
 
-static cli_exit tell(const char *path, rb_status s, const rb_report_certificate *found,
+static cli_exit tell(const char *path, rb_status s, const rb_certificate_outcome *found,
                      const rb_message *why)
 {
     if (s != RB_OK)
@@ -156,7 +157,7 @@ static void *noting_malloc(size_t size)
 
 static cli_exit check_json(const char *path, const char *text, size_t size, const char *folder)
 {
-    rb_report_certificate found = {0};
+    rb_certificate_outcome found = {0};
     rb_message why = {""};
     json_error_t error;
     memory_was_refused = 0;
@@ -175,7 +176,7 @@ static cli_exit check_json(const char *path, const char *text, size_t size, cons
     rb_case *words =
         confined(json_object_get(root, "crack") ? RB_CASE_CRACK : RB_CASE_SINGLE, folder);
     rb_status s =
-        words ? rb_report_certify_solutions(stdout, path, root, words, &found, &why) : RB_ENOMEM;
+        words ? rb_certificate_check_solutions(stdout, path, root, words, &found, &why) : RB_ENOMEM;
     if (s == RB_OK) {
         /* The command line that the result quotes against its inputs. */
         const char *quoted = json_string_value(json_object_get(root, "command"));
@@ -206,7 +207,7 @@ static cli_exit check_json(const char *path, const char *text, size_t size, cons
 
 static cli_exit check_table(const char *path, const char *text, const char *folder)
 {
-    rb_report_certificate found;
+    rb_certificate_outcome found;
     rb_message why = {""};
     char *line = NULL;
     const rb_status found_line = rb_report_table_command(text, &line);
@@ -243,8 +244,8 @@ static cli_exit check_table(const char *path, const char *text, const char *fold
     free(argv);
     free(line);
     if (code == CLI_CONTINUE)
-        code = tell(path, rb_report_certify_table(stdout, path, text, words, &found, &why), &found,
-                    &why);
+        code = tell(path, rb_certificate_check_table(stdout, path, text, words, &found, &why),
+                    &found, &why);
     rb_case_free(words);
     return code;
 }

@@ -1,6 +1,6 @@
 /* A certificate of a history: each step is checked with the past that follows from the
  * earlier states, so that the slip is relative to the step before. */
-#include "report/certificate.h"
+#include "certificate/internal.h"
 
 #include <math.h>
 #include <stdlib.h>

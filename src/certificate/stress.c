@@ -1,6 +1,6 @@
 /* The certificate of the stress below the surface: from the tractions that the result
  * prints, at the same points. */
-#include "report/certificate.h"
+#include "certificate/internal.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* The certificate of a table: its inputs are those of the command line in its comments,
  * its approach and its motion those that fit its gaps and shifts best. */
-#include "report/certificate.h"
+#include "certificate/internal.h"
 #include "rollbem/io.h"
 
 #include <math.h>
@@ -66,9 +66,9 @@ static void compare_patches(rb_certificate *c, const char *text)
 
 /* ---- All together ------------------------------------------------------------------ */
 
-rb_status rb_report_certify_table(FILE *out, const char *name, const char *text,
-                                  const rb_case *words, rb_report_certificate *found,
-                                  rb_message *why)
+rb_status rb_certificate_check_table(FILE *out, const char *name, const char *text,
+                                     const rb_case *words, rb_certificate_outcome *found,
+                                     rb_message *why)
 {
     const rb_resolved_case *resolved = rb_case_resolved(words);
     rb_io_table t = {0};

@@ -2,7 +2,7 @@
  * tractions and those of the faces that are printed the openings and the slips are
  * computed again at every position, then the laws of the faces and of the fluid, the
  * stress intensities and what the pass comes to.  Nothing is solved. */
-#include "report/certificate.h"
+#include "certificate/internal.h"
 #include "rollbem/contact.h"
 #include "rollbem/crack.h"
 
@@ -60,7 +60,7 @@ static rb_status check_contact(assessment *j, rb_case *words, rb_message *why)
                                             {"units", "units"},     {"conventions", "conventions"},
                                             {"contact", "summary"}, {"contact_table", "table"},
                                             {"history", "history"}};
-    rb_report_certificate own = {0};
+    rb_certificate_outcome own = {0};
     const json_t *printed = json_object_get(j->root, "notes");
     json_t *one = json_object(), *notes = json_array();
     rb_status s = RB_OK;
@@ -86,7 +86,7 @@ static rb_status check_contact(assessment *j, rb_case *words, rb_message *why)
     rb_report_json_set(&one, "inputs", rb_report_json_inputs(words));
     rb_report_json_set(&one, "input_hash", rb_report_json_input_hash(words));
     if (s == RB_OK)
-        s = one ? rb_report_certify(j->c.out, j->c.name, one, words, &own, why) : RB_ENOMEM;
+        s = one ? rb_certificate_check(j->c.out, j->c.name, one, words, &own, why) : RB_ENOMEM;
     json_decref(one);
     j->c.found->violations += own.violations;
     j->c.found->numbers += own.numbers;
@@ -534,7 +534,7 @@ static rb_status compare_rest(assessment *j)
 /* ---- The whole --------------------------------------------------------------------- */
 
 rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root, rb_case *words,
-                               rb_report_certificate *found, rb_message *why)
+                               rb_certificate_outcome *found, rb_message *why)
 {
     assessment j = {.c = {.out = out, .name = name, .found = found}, .root = root};
     rb_message reason = {""};

@@ -1,16 +1,16 @@
 /* What the files of the certificate share; not installed. */
-#ifndef ROLLBEM_REPORT_CERTIFICATE_H
-#define ROLLBEM_REPORT_CERTIFICATE_H
+#ifndef ROLLBEM_CERTIFICATE_INTERNAL_H
+#define ROLLBEM_CERTIFICATE_INTERNAL_H
 
-#include "report/internal.h"
-#include "rollbem/case.h"
+#include "rollbem/certificate.h"
+#include "rollbem/report.h"
 
 #include <jansson.h>
 
 typedef struct {
     FILE *out;
     const char *name; /* of the file */
-    rb_report_certificate *found;
+    rb_certificate_outcome *found;
     const json_t *summary; /* NULL: of a table, which has none */
     const json_t *table;
     int step; /* step of a history that is checked, from 1 on; 0: the result */
@@ -106,7 +106,7 @@ rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printe
 
 /* A crack under the passing contact, with its faces. */
 rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root, rb_case *words,
-                               rb_report_certificate *found, rb_message *why);
+                               rb_certificate_outcome *found, rb_message *why);
 
 /* ---- certificate_power.c ----------------------------------------------------------- */
 

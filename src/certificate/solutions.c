@@ -1,6 +1,6 @@
 /* The certificate of a result of --all-solutions: each solution is checked separately, as
  * the result of a case with the same inputs, and the solutions must differ. */
-#include "report/certificate.h"
+#include "certificate/internal.h"
 
 #include "rollbem/case.h"
 
@@ -52,10 +52,10 @@ static json_t *result_with(const json_t *root, const json_t *from)
 
 /* one: taken over; NULL: no memory. */
 static rb_status certify_one(FILE *out, const char *name, json_t *one, rb_case *words,
-                             rb_report_certificate *found, rb_message *why)
+                             rb_certificate_outcome *found, rb_message *why)
 {
-    rb_report_certificate own;
-    const rb_status s = one ? rb_report_certify(out, name, one, words, &own, why)
+    rb_certificate_outcome own;
+    const rb_status s = one ? rb_certificate_check(out, name, one, words, &own, why)
                             : rb_fail(why, RB_ENOMEM, "%s: out of memory", name);
 
     json_decref(one);
@@ -67,8 +67,9 @@ static rb_status certify_one(FILE *out, const char *name, json_t *one, rb_case *
     return s;
 }
 
-rb_status rb_report_certify_solutions(FILE *out, const char *name, const json_t *root,
-                                      rb_case *words, rb_report_certificate *found, rb_message *why)
+rb_status rb_certificate_check_solutions(FILE *out, const char *name, const json_t *root,
+                                         rb_case *words, rb_certificate_outcome *found,
+                                         rb_message *why)
 {
     const json_t *all = json_object_get(root, "solutions");
     char label[400];
@@ -77,7 +78,7 @@ rb_status rb_report_certify_solutions(FILE *out, const char *name, const json_t 
     if (json_object_get(root, "crack"))
         return rb_certificate_crack(out, name, root, words, found, why);
     if (!all)
-        return rb_report_certify(out, name, root, words, found, why);
+        return rb_certificate_check(out, name, root, words, found, why);
     if (!json_is_array(all) || json_array_size(all) == 0)
         return rb_fail(why, RB_EFORMAT, "%s: cannot be checked: no list of solutions", name);
     rb_status s = certify_one(out, name, result_with(root, root), words, found, why);

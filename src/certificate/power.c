@@ -2,7 +2,7 @@
  * waves, and the loss of each wave follows from the imaginary part of its compliance.
  * The library computes the loss from matrices and from differences along the contact,
  * which are not used here. */
-#include "report/certificate.h"
+#include "certificate/internal.h"
 
 #include <complex.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* The certificate of derivatives and of the standard deviations that follow from them: the
  * library differentiates the model that was built again, at the printed state.  So what is
  * printed belongs to this state; the formulas of the derivatives are the library's own. */
-#include "report/certificate.h"
+#include "certificate/internal.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
  * again from its pressures, friction, approach and creepage.  Nothing is solved.
  * What a file holds is read in certificate_json.c and certificate_table.c; a history is
  * followed by the states of its steps in certificate_history.c. */
-#include "report/certificate.h"
+#include "certificate/internal.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 /* The certificate of a result in JSON. */
-#include "report/certificate.h"
+#include "certificate/internal.h"
 
 #include <math.h>
 #include <string.h>
@@ -289,8 +289,8 @@ static rb_status compare_texts(rb_certificate *c, const json_t *root,
     return s;
 }
 
-rb_status rb_report_certify(FILE *out, const char *name, const json_t *root, rb_case *words,
-                            rb_report_certificate *found, rb_message *why)
+rb_status rb_certificate_check(FILE *out, const char *name, const json_t *root, rb_case *words,
+                               rb_certificate_outcome *found, rb_message *why)
 {
     rb_certificate c = {.out = out,
                         .name = name,

@@ -1,0 +1,39 @@
+/* `rollbem check`: verifies results of which nothing but their file is known, without solving. */
+#ifndef ROLLBEM_CERTIFICATE_H
+#define ROLLBEM_CERTIFICATE_H
+
+#include "rollbem/case.h"
+
+#include <stdio.h>
+
+RB_PUBLIC_BEGIN
+
+struct json_t; /* jansson's */
+
+/* The outcome of the check of a result. */
+typedef struct {
+    int violations, numbers; /* numbers: how many were compared with recomputed values */
+    double residual;         /* of the printed state */
+} rb_certificate_outcome;
+
+/* Checks the JSON of a case, of a history with its states, or of the stress below a case,
+ * without solving.  It builds the problem again from the inputs in the JSON (words: a
+ * case with default values, which receives them) and computes all printed results again
+ * from pressures, friction, approach and creepage.  Each violation is written to out in
+ * one line. RB_EFORMAT: this kind of result cannot be checked; RB_ENOMEM. */
+rb_status rb_certificate_check(FILE *out, const char *name, const struct json_t *root,
+                               rb_case *words, rb_certificate_outcome *found, rb_message *why);
+/* The same for a result of --all-solutions: checks each solution, and that the solutions
+ * differ.  For any other result it calls rb_certificate_check. */
+rb_status rb_certificate_check_solutions(FILE *out, const char *name, const struct json_t *root,
+                                         rb_case *words, rb_certificate_outcome *found,
+                                         rb_message *why);
+/* The same for a table of rb_report_table.  words: the resolved inputs of the command
+ * line in the comments of the table (rb_report_table_command). */
+rb_status rb_certificate_check_table(FILE *out, const char *name, const char *text,
+                                     const rb_case *words, rb_certificate_outcome *found,
+                                     rb_message *why);
+
+RB_PUBLIC_END
+
+#endif
