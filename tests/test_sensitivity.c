@@ -37,6 +37,7 @@ static const rb_case_derivative *of(const rb_case_derivatives *all, const char *
 
 #define PLANES "support halfplane load 500 mesh uniform zone 1.2 "
 #define ROLLING "formulation steady "
+#define NARROW "support halfplane mu 0.2 contact-elements 40 formulation static "
 
 static const words regimes[] = {
     {{PLANES ROLLING "similar yes creep-ratio 0.5"}},
@@ -62,6 +63,10 @@ static const words regimes[] = {
     {{PLANES ROLLING "similar yes creep -1e-3 relaxation-time 1e-3 relaxation-ratio 1 speed 1000"}},
     {{PLANES ROLLING "creep 1e-3 layer-thickness 2 base-young 200000 base-poisson 0.3"}},
     {{PLANES "formulation static shift 1e-3"}},
+    /* automatic zones that follow a soft third body, or are tightened around narrow contacts */
+    {{NARROW "load 20 young-b 1e4 interlayer-normal 1e-4 force-ratio 0.3"}},
+    {{NARROW "load 20 layer-thickness 0.02 force-ratio 0.3"}},
+    {{NARROW "approach 0.01 young-b 1e4 interlayer-normal 1e-4 shift 1e-4"}},
     {{"support hub load 500 mesh uniform zone 1.5 contact-elements 30 " ROLLING "creep-ratio 0.4"}},
 };
 

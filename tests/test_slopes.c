@@ -33,6 +33,8 @@ static const words histories[] = {
       "similar yes creep 1e-3 relaxation-time 1e-3 relaxation-ratio 1 speed 1000 zone 2"}},
     {{PLANES ROLLS "similar yes creep 1e-3 conductivity 50 heat-capacity 3.5 speed 1000"}},
     {{PLANES ROLLS "creep 1e-3 layer-thickness 2 base-young 200000 base-poisson 0.3"}},
+    {{"support halfplane load 20 young-b 1e4 contact-elements 30 " ROLLS
+      "creep 1e-3 interlayer-normal 1e-3"}}, /* elements that follow a soft third body */
     /* no force at rest without friction: none by mu, but all others */
     {{PLANES ROLLS "young-b 70000 creep 2e-3 mu 0"}},
     /* state variables that the particles carry: the slip of what yields, laws by slip, by

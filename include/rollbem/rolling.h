@@ -283,6 +283,11 @@ rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc);
 /* 1/R = 1/R_A + 1/R_B; Hertz's half-width of a load, and the load of a half-width. */
 double rb_rolling_radius(const rb_rolling_case *rc);
 double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load);
+
+/* The half-width that an automatic zone follows [length]: Hertz's, or, where it is larger, that
+ * between rigid bodies with the normal compliance L_N of the third body, P = 2 a^3/(3 R L_N).
+ * load: NaN: those of the given approach. */
+double rb_rolling_zone_half_width(const rb_rolling_case *rc, double load);
 double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width);
 /* 1: a body has a finite thickness: a layer, a cover or a wheel on a hub. */
 int rb_rolling_has_thickness(const rb_rolling_case *rc);

@@ -17,13 +17,16 @@ typedef struct {
     rb_sensitivity_at_elements *picked; /* a derivative for each step; owned */
 } varied;
 
-static double unit_of_way(const rb_rolling_case *rc, const rb_rolling_program *program)
+/* What the elements grow with, under the largest load: of bodies that relax, which roll by
+ * elements, the unit of the way. */
+static double unit_of_elements(const rb_rolling_case *rc, const rb_rolling_program *program)
 {
     double load = rb_rolling_derive(rc).load;
 
     for (int k = 0; program && program->load && k < program->n; k++)
         load = k > 0 ? fmax(load, program->load[k]) : program->load[k];
-    return rb_rolling_hertz_half_width(rc, load);
+    return rb_rolling_relaxes(rc) ? rb_rolling_hertz_half_width(rc, load)
+                                  : rb_rolling_zone_half_width(rc, load);
 }
 
 static void followers_free(varied *v)
@@ -34,7 +37,7 @@ static void followers_free(varied *v)
     }
 }
 
-/* 1: elements grow with the unit of the way; those of an automatic zone under a table of the gap,
+/* 1: elements grow with their unit; those of an automatic zone under a table of the gap,
  * whose search no closed form tells, stay as those of a given zone do. */
 static int elements_grow(const rb_rolling_case *rc)
 {
@@ -55,10 +58,11 @@ static rb_status follow_all(const rb_case *c, const rb_rolling_states *states,
         rb_rolling_case at;
         s = input->vary(input->context, input->value + v->of.place[k] * v->step, &at, why);
         if (s == RB_OK)
-            s = rb_rolling_follower_create(
-                &at, states, base,
-                grow ? unit_of_way(&at, states->program) / unit_of_way(rc, states->program) : 1.0,
-                &v->at[k], why);
+            s = rb_rolling_follower_create(&at, states, base,
+                                           grow ? unit_of_elements(&at, states->program) /
+                                                      unit_of_elements(rc, states->program)
+                                                : 1.0,
+                                           &v->at[k], why);
         v->model[k] = s == RB_OK ? rb_rolling_follower_model(v->at[k]) : NULL;
         if (s == RB_OK && !rb_rolling_same_sides(rb_rolling_follower_model(base), v->model[k]))
             s = rb_fail(why, RB_INACCURATE,
@@ -96,7 +100,7 @@ static rb_status vary(const rb_case *c, const rb_rolling_states *states, rb_roll
     /* powers and slips that are nearly 0 have kinks nearby */
     if (stencil && rb_rolling_same_bodies(&at, rc) &&
         (!elements_grow(rc) ||
-         unit_of_way(&at, states->program) == unit_of_way(rc, states->program))) {
+         unit_of_elements(&at, states->program) == unit_of_elements(rc, states->program))) {
         v->step = RB_SENSITIVITY_STEP * input->scale;
         stencil = rb_sensitivity_stencil_of(input, v->step);
     }

@@ -176,6 +176,15 @@ rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc)
     return d;
 }
 
+double rb_rolling_zone_half_width(const rb_rolling_case *rc, double load)
+{
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+    const double hertz = isnan(load) ? d.half_width : rb_rolling_hertz_half_width(rc, load),
+                 soft = isnan(load) ? sqrt(2.0 * d.radius * d.approach)
+                                    : cbrt(1.5 * d.radius * rc->interlayer_normal * load);
+    return rc->interlayer_normal > 0.0 ? fmax(hertz, soft) : hertz;
+}
+
 int rb_rolling_force_is_given(const rb_rolling_case *rc)
 {
     return !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;

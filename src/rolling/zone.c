@@ -182,12 +182,8 @@ static double crossing(const rb_rolling_case *rc, double x, double step, double 
 static interval first_zone(const rb_rolling_case *rc)
 {
     enum { POINTS = 4096 };
-    /* a: Hertz's half-width, or what a soft third body alone would have: P = 2 a^3/(3 R
-     * L_N). */
     const rb_rolling_derived d = rb_rolling_derive(rc);
-    const double soft = isnan(d.load) ? sqrt(2.0 * d.radius * d.approach)
-                                      : cbrt(1.5 * d.radius * rc->interlayer_normal * d.load);
-    const double a = rc->interlayer_normal > 0.0 ? fmax(d.half_width, soft) : d.half_width;
+    const double a = rb_rolling_zone_half_width(rc, d.load);
     const interval limit = extent(rc);
     const double step = width(limit) / POINTS;
     int lowest = 0, first = 0, last = POINTS;
@@ -249,6 +245,19 @@ static rb_status grown(const rb_rolling_model *model, interval zone, interval *w
     }
     *wider = within(*wider, extent(model->rc));
     return s;
+}
+
+/* A zone that is wide enough.  Where the first one is symmetric and follows a load it is a
+ * multiple of that one, so that it grows with a formula and not with the elements that were
+ * found in contact (theory.md D6); under a given approach the first one is an estimate. */
+static interval tightened(const rb_rolling_case *rc, interval wanted)
+{
+    static const double steps = 16.0; /* to a factor of two */
+    const interval first = first_zone(rc);
+
+    return is_symmetric(rc) && !isnan(rb_rolling_derive(rc).load)
+               ? scaled(first, exp2(ceil(steps * log2(width(wanted) / width(first))) / steps))
+               : wanted;
 }
 
 /* ---- A given one ------------------------------------------------------------------- */
@@ -353,7 +362,7 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
             width(zone) < 1.25 * width(wanted) || width(wanted) <= 1.05 * too_narrow;
         if (keeps_zone && more <= 1.25 * elements)
             break;
-        zone = keeps_zone ? zone : wanted;
+        zone = keeps_zone ? zone : tightened(model->rc, wanted);
         elements = coarse ? elements : elements_for(model, zone);
         if (elements > model->plan.elements && elements > MOST_EQUAL &&
             !rb_rolling_is_large(model->rc, &(rb_rolling_mesh){.n = elements}))

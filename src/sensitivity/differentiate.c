@@ -54,15 +54,21 @@ static rb_sensitivity_move stretch_of(const rb_rolling_model *model)
     return (rb_sensitivity_move){STRETCH, edges[1], edges[0]};
 }
 
-/* How much the elements are stretched and shifted: as Hertz's half-width grows, or as the
- * contact that is found on them grows and shifts, e' = found' + found_e e'.  v: NULL: no
- * input, which leaves Hertz's half-width as it is. */
+/* The half-width that equal elements of an automatic zone follow. */
+static double half_of_zone(const rb_rolling_case *rc)
+{
+    return rb_rolling_zone_half_width(rc, rb_rolling_derive(rc).load);
+}
+
+/* How much the elements are stretched and shifted: as the half-width of the zone grows, or as
+ * the contact that is found on them grows and shifts, e' = found' + found_e e'.  v: NULL: no
+ * input, which leaves the half-width of the zone as it is. */
 static void set_motions(const rb_sensitivity *s, const rb_sensitivity_variants *v,
                         const double edges[2], double by[2])
 {
     by[0] = by[1] = 0.0;
     for (int k = 0; s->moves == RB_SENSITIVITY_HERTZ && v && k < v->at.n; k++)
-        by[0] += v->at.weight[k] / v->step * rb_rolling_derive(v->model[k].rc).half_width;
+        by[0] += v->at.weight[k] / v->step * half_of_zone(v->model[k].rc);
     if (s->moves != RB_SENSITIVITY_EDGES)
         return;
     by[0] = s->gain[0] * edges[0] + s->gain[1] * edges[1];
@@ -375,10 +381,9 @@ static int motion_of(const rb_sensitivity *s)
 
 static rb_status differentiate_motions(rb_sensitivity *s, int moves)
 {
-    rb_sensitivity_move m =
-        moves == RB_SENSITIVITY_EDGES
-            ? stretch_of(s->model)
-            : (rb_sensitivity_move){STRETCH, 0.0, rb_rolling_derive(s->model->rc).half_width};
+    rb_sensitivity_move m = moves == RB_SENSITIVITY_EDGES
+                                ? stretch_of(s->model)
+                                : (rb_sensitivity_move){STRETCH, 0.0, half_of_zone(s->model->rc)};
     const rb_sensitivity_input input = {0.0, m.half, -INFINITY, INFINITY, NULL, &m};
     rb_status status = RB_OK;
 
