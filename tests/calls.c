@@ -85,44 +85,21 @@ static void compare(const results *before, double bound, const char *call)
 /* Every result by name that the calls have left, and the notes. */
 static void look(void)
 {
-    static const char *const more[] = {"derivative.tangential_load",
-                                       "derivative.p",
-                                       "derivative.q",
-                                       "derivative.value",
-                                       "derivative.approach.gap",
-                                       "derivative.creepage.mu",
-                                       "tolerance.tangential_load",
-                                       "history.derivative.tangential_load:mu",
-                                       "history.derivative.approach:load",
-                                       "history.tolerance.tangential_load",
-                                       "curve.creepage",
-                                       "curve.tangential_load",
-                                       "curve.derivative.tangential_load:mu",
-                                       "curve.tolerance.tangential_load",
-                                       "step.p",
-                                       "step.x",
-                                       "step.zone",
-                                       "patch.from",
-                                       "friction_power",
-                                       "closed.q",
-                                       "ends",
-                                       "gap0",
-                                       "F",
-                                       "mesh.x0",
-                                       "lcp.M",
-                                       "lcp.q",
-                                       "pivot.value",
-                                       "pivot.before",
-                                       "newton.p",
-                                       "guess.gap",
-                                       "stress.max_shear",
-                                       "maxima.von_mises"};
+    char more[] = "derivative.tangential_load derivative.p derivative.q derivative.value "
+                  "derivative.approach.gap derivative.creepage.mu tolerance.tangential_load "
+                  "history.derivative.tangential_load:mu history.derivative.approach:load "
+                  "history.tolerance.tangential_load curve.creepage curve.tangential_load "
+                  "curve.derivative.tangential_load:mu curve.tolerance.tangential_load step.p "
+                  "step.x step.zone patch.from friction_power closed.q ends gap0 F mesh.x0 lcp.M "
+                  "lcp.q pivot.value pivot.before newton.p guess.gap stress.max_shear "
+                  "maxima.von_mises",
+         *rest = more;
     const rb_rolling_results *const tables[] = {&rb_rolling_solution_columns,
                                                 &rb_rolling_history_columns};
     char text[700];
 
-    for (size_t k = 0; k < sizeof more / sizeof *more; k++)
-        sum_of(more[k]);
+    for (const char *name; (name = strtok_r(rest, " ", &rest));)
+        sum_of(name);
     for (int t = 0; t < 2; t++)
         for (int k = 0; k < tables[t]->n; k++) {
             snprintf(text, sizeof text, "%s%s", t ? "history." : "", tables[t]->row[k].name);

@@ -199,50 +199,31 @@ TEST(jumps_are_those_of_solutions)
 TEST(smooth_derivatives_are_continuous)
 {
     static const struct {
-        words w;
         const char *result, *input;
         double value;
+        const char *w;
     } tests[] = {
-        {{{ALIGNED "similar yes contact-elements 80"}}, "tangential_load", "creep", -1.1e-3},
-        {{{ALIGNED "similar yes contact-elements 80"}}, "dissipation", "creep", -1.1e-3},
-        {{{ALIGNED "young-b 70000 contact-elements 80 creep -1.1e-3"}},
-         "dissipation",
-         "load",
-         500.0},
-        {{{ALIGNED "similar yes contact-elements 80 conductivity 50 heat-capacity 3.5 speed 1000"}},
-         "max_temperature",
-         "creep",
-         -1.1e-3},
-        {{{ALIGNED "similar yes contact-elements 80 creep -1.1e-3"}}, "tangential_load", "mu", 0.3},
-        {{{ALIGNED "similar yes contact-elements 80 creep -1.1e-3"}},
-         "tangential_load",
-         "load",
-         500.0},
-        {{{ALIGNED "young-b 70000 contact-elements 80 creep -1.1e-3"}},
-         "tangential_load",
-         "mu",
-         0.3},
-        {{{ROLLING "gap parabola mesh fitted young-b 70000 contact-elements 60"}},
-         "tangential_load",
-         "creep",
-         -1.1e-3},
-        {{{FIXED "similar yes friction-law exponential mu-fall 0.3 slip-scale 5 speed 1000"}},
-         "tangential_load",
-         "creep",
-         -1.5e-3},
-        {{{ROLLING "gap parabola mesh aligned similar yes layer-thickness 1 base-young 300000 "
-                   "base-poisson 0.3 contact-elements 60"}},
-         "tangential_load",
-         "creep",
-         -1.3e-3},
-        {{{"support halfplane load 500 similar yes gap parabola mesh aligned formulation static "
-           "contact-elements 60"}},
-         "tangential_load",
-         "shift",
-         1.5e-3},
+        {"tangential_load", "creep", -1.1e-3, ALIGNED "similar yes contact-elements 80"},
+        {"dissipation", "creep", -1.1e-3, ALIGNED "similar yes contact-elements 80"},
+        {"dissipation", "load", 500.0, ALIGNED "young-b 70000 contact-elements 80 creep -1.1e-3"},
+        {"max_temperature", "creep", -1.1e-3,
+         ALIGNED "similar yes contact-elements 80 conductivity 50 heat-capacity 3.5 speed 1000"},
+        {"tangential_load", "mu", 0.3, ALIGNED "similar yes contact-elements 80 creep -1.1e-3"},
+        {"tangential_load", "load", 500.0, ALIGNED "similar yes contact-elements 80 creep -1.1e-3"},
+        {"tangential_load", "mu", 0.3, ALIGNED "young-b 70000 contact-elements 80 creep -1.1e-3"},
+        {"tangential_load", "creep", -1.1e-3,
+         ROLLING "gap parabola mesh fitted young-b 70000 contact-elements 60"},
+        {"tangential_load", "creep", -1.5e-3,
+         FIXED "similar yes friction-law exponential mu-fall 0.3 slip-scale 5 speed 1000"},
+        {"tangential_load", "creep", -1.3e-3,
+         ROLLING "gap parabola mesh aligned similar yes layer-thickness 1 base-young 300000 "
+                 "base-poisson 0.3 contact-elements 60"},
+        {"tangential_load", "shift", 1.5e-3,
+         "support halfplane load 500 similar yes gap parabola mesh aligned formulation static "
+         "contact-elements 60"},
     };
     for (size_t t = 0; t < sizeof tests / sizeof *tests; t++) {
-        const words *w = &tests[t].w;
+        const words *w = &(const words){{tests[t].w}};
         const char *input = tests[t].input;
         double value = tests[t].value, step = 0.0, slope[2][2];
         differentiated d;
@@ -340,32 +321,26 @@ TEST(transforms_have_the_same_smooth_derivatives)
 TEST(what_has_no_smooth_derivatives)
 {
     static const struct {
-        words w;
-        const char *input, *reason;
+        const char *input, *reason, *w;
     } tests[] = {
-        {{{FIXED
-           "similar yes creep -1e-3 yield-stress 30 hardening 100 interlayer-tangential 1e-6"}},
-         "creep",
-         "an interface that yields"},
-        {{{FIXED "similar yes creep -1e-3 friction-law rational mu 0.2 mu-fall 0.2 slip-scale 5 "
-                 "speed 1000 memory 0.1"}},
-         "creep",
-         "friction with memory"},
-        {{{FIXED "similar yes creep -1e-3"}},
-         "load",
-         "moves the edges of the contact over the elements; give --mesh aligned"},
-        {{{ROLLING "similar yes creep -1e-3 mesh aligned contact-elements 13 zone 2"}},
-         "load",
-         "fitting the mesh to them did not converge: take more elements, or --derivatives"},
-        {{{"support hub load 500 mu 0.3 formulation steady mesh fitted contact-elements 20 "
-           "creep-ratio 0.7 outer-elements 200"}},
-         "creep-ratio",
-         "too short"},
+        {"creep", "an interface that yields",
+         FIXED "similar yes creep -1e-3 yield-stress 30 hardening 100 interlayer-tangential 1e-6"},
+        {"creep", "friction with memory",
+         FIXED "similar yes creep -1e-3 friction-law rational mu 0.2 mu-fall 0.2 slip-scale 5 "
+               "speed 1000 memory 0.1"},
+        {"load", "moves the edges of the contact over the elements; give --mesh aligned",
+         FIXED "similar yes creep -1e-3"},
+        {"load", "fitting the mesh to them did not converge: take more elements, or --derivatives",
+         ROLLING "similar yes creep -1e-3 mesh aligned contact-elements 13 zone 2"},
+        {"creep-ratio", "too short",
+         "support hub load 500 mu 0.3 formulation steady mesh fitted contact-elements 20 "
+         "creep-ratio 0.7 outer-elements 200"},
     };
     for (size_t t = 0; t < sizeof tests / sizeof *tests; t++) {
         differentiated d;
-        CHECK_STATUS(differentiate(&tests[t].w, NULL, 0.0, tests[t].input, 1, &d, &heard),
-                     RB_EINVAL);
+        CHECK_STATUS(
+            differentiate(&(const words){{tests[t].w}}, NULL, 0.0, tests[t].input, 1, &d, &heard),
+            RB_EINVAL);
         if (!strstr(heard.text, tests[t].reason))
             fail_msg("%s: %s", tests[t].reason, heard.text);
         differentiated_free(&d);
