@@ -20,7 +20,8 @@ typedef struct {
     double tol;                /* of the scaled residual */
     double exact;              /* of the scaled gap and slip, as the result's own residual has it */
     double displacement;       /* rounding of displacements [length] */
-    struct rb_certificate_slopes *slopes; /* while derivatives are compared; certificate_slopes.c */
+    struct rb_certificate_slopes *slopes; /* while derivatives are compared; slopes.c */
+    enum { RB_NO_SIDES, RB_SIDES_OF_CASE, RB_SIDES_OF_STEPS } sides; /* which may be printed */
 } rb_certificate;
 
 void rb_certificate_violated(rb_certificate *c, const char *format, ...) RB_PRINTF(2, 3);
@@ -91,7 +92,7 @@ rb_status rb_certificate_assess(rb_certificate *c, double residual, rb_message *
 /* Frees, and returns s with its reason in words. */
 rb_status rb_certificate_end(rb_certificate *c, rb_status s, rb_message *why);
 
-/* ---- certificate_history.c --------------------------------------------------------- */
+/* ---- history.c ------------------------------------------------------------------ */
 
 /* Follows the steps of a history by its states, checks each of them and leaves the model
  * at the last one.  states, h: overwritten; free them in any case. */
@@ -102,34 +103,30 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
 rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printed,
                                          const rb_rolling_history *h);
 
-/* ---- certificate_crack.c ----------------------------------------------------------- */
+/* ---- crack.c -------------------------------------------------------------------- */
 
 /* A crack under the passing contact, with its faces. */
 rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root, rb_case *words,
                                rb_certificate_outcome *found, rb_message *why);
 
-/* ---- certificate_power.c ----------------------------------------------------------- */
+/* ---- power.c -------------------------------------------------------------------- */
 
 /* Power per unit speed that the bodies lose in steady rolling, from the current state;
  * allowed: what elements of this size may make of it. */
 rb_status rb_certificate_hysteresis(const rb_certificate *c, double *power, double *allowed);
 
-/* ---- certificate_slopes.c ---------------------------------------------------------- */
+/* ---- slopes.c ------------------------------------------------------------------- */
 
 /* Derivatives and standard deviations of the result root of a case, against those that
  * the library computes from the model. */
 rb_status rb_certificate_derivatives(rb_certificate *c, const json_t *root, const rb_case *words,
                                      rb_message *why);
-/* 1: `one` has [left, right] of a derivative and `other` a value for both: a rounding decides
- * which of them is printed.  element: the step of a history, 0 otherwise. */
-int rb_certificate_are_sides(const rb_certificate *c, int element, const json_t *one,
-                             const json_t *other);
 /* The same of a history by its states, which it takes over into `again`. */
 rb_status rb_certificate_step_derivatives(rb_certificate *c, const json_t *root,
                                           const rb_case *words, const rb_rolling_states *states,
                                           rb_rolling_history *again, rb_message *why);
 
-/* ---- certificate_stress.c ---------------------------------------------------------- */
+/* ---- stress.c ------------------------------------------------------------------- */
 
 /* Grid or points, maxima and shakedown, computed from the model's tractions. */
 rb_status rb_certificate_stress(rb_certificate *c, const json_t *root, rb_message *why);

@@ -95,23 +95,6 @@ static double slack_of_slope(const rb_certificate *c, const char *path, double w
 
 /* ---- What they are of -------------------------------------------------------------- */
 
-/* 0: no list; 1: a list; 2: lists in it. */
-static int depth(const json_t *value)
-{
-    int most = 0;
-    for (size_t k = 0; k < json_array_size(value); k++)
-        most = most || json_is_array(json_array_get(value, k));
-    return json_is_array(value) + most;
-}
-
-int rb_certificate_are_sides(const rb_certificate *c, int element, const json_t *one,
-                             const json_t *other)
-{
-    /* of a history there is a list of them, and of a column of a case they are lists */
-    return c->slopes && (c->slopes->history != NULL) == (element > 0) &&
-           json_array_size(one) == 2 && depth(one) == depth(other) + 1;
-}
-
 /* uncertain_inputs as the program takes them: "mu=0.02,radius=0.1". */
 static rb_status read_uncertain(const json_t *root, const rb_case *words, rb_case_tolerances *t,
                                 rb_message *why)
@@ -141,6 +124,7 @@ static rb_status begin(rb_certificate *c, const json_t *root, int asked, int dev
     if (!c->slopes)
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     c->slopes->history = history;
+    c->sides = history ? RB_SIDES_OF_STEPS : RB_SIDES_OF_CASE;
     c->slopes->roundings = roundings_of(c);
     const rb_status s = rb_case_numbers(words, c->slopes->number, &c->slopes->numbers, why);
     return s == RB_OK && deviates ? read_uncertain(root, words, &c->slopes->uncertain, why) : s;
@@ -169,6 +153,7 @@ static rb_status end(rb_certificate *c, rb_status s, const rb_message *reason, j
     json_decref(again);
     free(c->slopes);
     c->slopes = NULL;
+    c->sides = RB_NO_SIDES;
     return s == RB_ENOMEM ? rb_fail(why, s, "%s", reason->text) : RB_OK;
 }
 

@@ -40,11 +40,13 @@ void rb_sensitivity_given(const rb_rolling_model *base, const rb_contact_problem
 /* Computes law_slip and law_force.  RB_ENOMEM. */
 rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why);
 
-/* ---- variants.c -------------------------------------------------------------------- */
+/* ---- stencil.c --------------------------------------------------------------------- */
 
 /* Fourth-order differences: around a value, and from it on; of second order around it. */
 extern const rb_sensitivity_stencil rb_sensitivity_middle, rb_sensitivity_ahead,
     rb_sensitivity_nearest;
+
+/* ---- variants.c -------------------------------------------------------------------- */
 
 /* By how much the step of bodies is longer where they are wheels; and the part of an input's scale
  * of a step along the tangent within which no other element comes first, and the pressure beside
