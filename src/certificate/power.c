@@ -116,17 +116,20 @@ static body body_of(const rb_rolling_case *rc, const rb_rolling_body *of, double
     return b;
 }
 
+/* Waves computed at once, each the next one of its own: one alone would wait for every product. */
+enum { WAVES = 5 };
+
 /* Per length of wave number k = m/R: Im of conj(p, q) times m/R (w_N, w_T), over pi.  On what
  * is flat, an element as wide as the one before has that one's wave, turned on. */
-static double loss(const rb_certificate *c, const body *b, int is_b, double m)
+static void losses(const rb_certificate *c, const body *b, int is_b, const double m[WAVES],
+                   double loss[WAVES])
 {
     const rb_rolling_model *model = &c->model;
-    const double *x = c->again.x, *h = c->again.h, k = m / b->radius;
-    const double mirror = is_b ? -1.0 : 1.0;
+    const double *x = c->again.x, *h = c->again.h, mirror = is_b ? -1.0 : 1.0;
     const int turns = (is_b ? model->rc->b : model->rc->a).support == RB_BEM_HUB;
     enum { AFRESH = 32 }; /* elements, behind which roundings no longer add up */
-    cplx p = 0.0, q = 0.0, wave = 0.0, turn = 0.0;
-    int run = 0; /* elements since the wave was computed; 0: the one before carries nothing */
+    double wave[2][WAVES], turn[2][WAVES], p[2][WAVES] = {{0}}, q[2][WAVES] = {{0}};
+    int run = 0; /* elements since the waves were computed; 0: the one before carries nothing */
 
     for (int i = 0; i < c->again.n; i++) {
         const double P = model->state.p[i], Q = mirror * model->state.q[i];
@@ -134,24 +137,43 @@ static double loss(const rb_certificate *c, const body *b, int is_b, double m)
             run = 0;
             continue;
         }
-        const double sine = turns ? x[i] / b->radius : 0.0, half = 0.5 * k * h[i];
+        const double sine = turns ? x[i] / b->radius : 0.0;
         const double at = turns ? b->radius * asin(sine) : x[i];
         const int given = model->rc->normals == RB_BEM_NORMALS_SURFACE;
         const double cosine = given ? 1.0 : sqrt(1.0 - sine * sine), turned = given ? 0.0 : sine;
-        if (!turns && run > 0 && run < AFRESH && fabs(h[i] - h[i - 1]) < 1e-12 * h[i]) {
-            turn = run++ == 1 ? cexp(-I * k * h[i]) : turn;
-            wave *= turn;
-        } else {
-            run = 1;
-            wave = h[i] * (half > 1e-8 ? sin(half) / half : 1.0) * cexp(-I * k * at);
+        const double radial = P * cosine - Q * turned, tangential = Q * cosine + P * turned;
+        const int turns_on =
+            !turns && run > 0 && run < AFRESH && fabs(h[i] - h[i - 1]) < 1e-12 * h[i];
+        for (int j = 0; j < WAVES && !(turns_on && run > 1); j++) {
+            const double k = m[j] / b->radius, half = 0.5 * k * h[i],
+                         mean = h[i] * (half > 1e-8 ? sin(half) / half : 1.0);
+            if (turns_on) {
+                turn[0][j] = cos(k * h[i]);
+                turn[1][j] = -sin(k * h[i]);
+            } else {
+                wave[0][j] = mean * cos(k * at);
+                wave[1][j] = -mean * sin(k * at);
+            }
         }
-        p += (P * cosine - Q * turned) * wave;
-        q += (Q * cosine + P * turned) * wave;
+        for (int j = 0; j < WAVES && turns_on; j++) {
+            const double re = wave[0][j];
+            wave[0][j] = re * turn[0][j] - wave[1][j] * turn[1][j];
+            wave[1][j] = re * turn[1][j] + wave[1][j] * turn[0][j];
+        }
+        run = turns_on ? run + 1 : 1;
+        for (int part = 0; part < 2; part++)
+            for (int j = 0; j < WAVES; j++) {
+                p[part][j] += radial * wave[part][j];
+                q[part][j] += tangential * wave[part][j];
+            }
     }
-    const compliance K = answer(b, m);
-    return m / (2.0 * acos(-1.0) * b->material.shear) *
-           (cimag(K.N) * creal(p * conj(p)) + cimag(K.T) * creal(q * conj(q)) +
-            2.0 * cimag(K.C) * cimag(conj(p) * q));
+    for (int j = 0; j < WAVES; j++) {
+        const compliance K = answer(b, m[j]);
+        loss[j] = m[j] / (2.0 * acos(-1.0) * b->material.shear) *
+                  (cimag(K.N) * (p[0][j] * p[0][j] + p[1][j] * p[1][j]) +
+                   cimag(K.T) * (q[0][j] * q[0][j] + q[1][j] * q[1][j]) +
+                   2.0 * cimag(K.C) * (p[0][j] * q[1][j] - p[1][j] * q[0][j]));
+    }
 }
 
 /* unresolved: the part of the waves that are shorter than four elements, where a traction
@@ -167,21 +189,28 @@ static double lost_in(const rb_certificate *c, const body *b, int is_b, double l
     const double last = 16.0 * acos(-1.0) * n / width;
     const int is_wheel = (is_b ? c->model.rc->b : c->model.rc->a).support == RB_BEM_HUB;
     const double shortest = 0.5 * acos(-1.0) / longest;
-    double sum = 0.0, from = 1e-6 / width;
+    double sum = 0.0, from = 1e-6 / width, m[WAVES], loss[WAVES];
 
     if (is_wheel) { /* long waves one by one, short ones as a whole */
-        enum { LONG = 40 };
-        for (int m = 1; m <= LONG; m++)
-            sum += loss(c, b, is_b, m) / b->radius;
+        enum { LONG = 8 * WAVES };
+        for (int first = 1; first <= LONG; first += WAVES) {
+            for (int j = 0; j < WAVES; j++)
+                m[j] = first + j;
+            losses(c, b, is_b, m, loss);
+            for (int j = 0; j < WAVES; j++)
+                sum += loss[j] / b->radius;
+        }
         from = (LONG + 0.5) / b->radius;
     }
     while (from < last) {
         const double step = fmin(widest, from), middle = from + 0.5 * step;
+        for (int i = -2; i <= 2; i++)
+            m[i + 2] = b->radius * (middle + copysign(at[abs(i)], i) * 0.5 * step);
+        losses(c, b, is_b, m, loss);
         for (int i = -2; i <= 2; i++) {
-            const double k = middle + copysign(at[abs(i)], i) * 0.5 * step;
-            const double one = 0.5 * step * weight[abs(i)] * loss(c, b, is_b, k * b->radius);
+            const double one = 0.5 * step * weight[abs(i)] * loss[i + 2];
             sum += one;
-            *unresolved += k > shortest ? fabs(one) : 0.0;
+            *unresolved += m[i + 2] / b->radius > shortest ? fabs(one) : 0.0;
         }
         from += step;
     }
