@@ -21,7 +21,7 @@ struct rb_certificate_slopes {
 /* A share of the derivative, and of the result's size over the input's so many times what the
  * library takes for rounding.  That of wheels comes from the system of the boundary, which
  * incompressible bodies make singular and thin rings, which bend, nearly so. */
-static const double SHARE = 1e-7, OF_PLANES = 100.0, OF_WHEELS = 1e4, COMPRESSIBLE = 1e-2;
+static const double SHARE = 1e-7, OF_PLANES = 100.0, OF_WHEELS = 100.0, COMPRESSIBLE = 1e-2;
 /* An edge follows from the few pressures beside it. */
 static const double OF_EDGES = 10.0;
 
