@@ -798,27 +798,28 @@ rb_status rb_rolling_solution_heat(const rb_rolling_case *rc, const rb_rolling_s
 
 /* What the tractions of a solved model displace, kept for all variants of the model; of is
  * borrowed. NULL without memory. */
-typedef struct rb_rolling_beside rb_rolling_beside;
-rb_rolling_beside *rb_rolling_beside_create(const rb_rolling_model *of);
-void rb_rolling_beside_free(rb_rolling_beside *beside);
+typedef struct rb_rolling_perturbation rb_rolling_perturbation;
+rb_rolling_perturbation *rb_rolling_perturbation_create(const rb_rolling_model *of);
+void rb_rolling_perturbation_free(rb_rolling_perturbation *perturbation);
 
 /* A variant of a solved model: a case that differs slightly from the model's in some
  * number, on the same elements, with the model's state and zones, to be completed.  If
  * the flexibility is the same, it is borrowed from the model.  RB_INACCURATE: the number
  * of elements outside the contact differs.  results: 0 if only the equations are needed.
  * own_bodies: 1: the variant has a compressed boundary of its own instead of the model's,
- * so that all variants have it compressed as closely.  beside: of the model: where bodies that
- * change leave their flexibility to it, the variant has their change under the tractions of the
- * model alone, which is exact to first order; NULL: they are built.  variant: overwritten; free it
- * in any case. */
+ * so that all variants have it compressed as closely.  perturbation: of the model: where bodies
+ * that change leave their flexibility to it, the variant has their change under the tractions of
+ * the model alone, which is exact to first order; NULL: they are built.  variant: overwritten; free
+ * it in any case. */
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
-                                    int results, int own_bodies, rb_rolling_beside *beside,
+                                    int results, int own_bodies,
+                                    rb_rolling_perturbation *perturbation,
                                     rb_rolling_model *variant, rb_message *why);
 /* 1: such a variant is built with flexibilities of its own. */
 int rb_rolling_variant_builds(const rb_rolling_model *of, const rb_rolling_case *rc, int results);
 /* A variant with the model's case on elements whose ends x are moved to shift + scale
  * x. */
-rb_status rb_rolling_variant_move(const rb_rolling_model *of, rb_rolling_beside *beside,
+rb_status rb_rolling_variant_move(const rb_rolling_model *of, rb_rolling_perturbation *perturbation,
                                   double shift, double scale, rb_rolling_model *variant,
                                   rb_message *why);
 /* Gap and coefficients of friction on elements moved to shift + scale x, n values each, where the

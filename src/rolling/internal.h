@@ -51,13 +51,14 @@ int rb_rolling_subtracts(const rb_rolling_case *rc, const rb_rolling_plan *plan,
 rb_bem_wheel rb_rolling_wheel_of(const rb_rolling_case *rc, const rb_rolling_body *body,
                                  double length[RB_ROLLING_TERMS]);
 
-/* ---- beside.c ---------------------------------------------------------------------- */
+/* ---- perturbation.c ---------------------------------------------------------------- */
 
 /* Adds to w (2m) what the bodies of v, on its mesh, displace more than those of the model under the
  * tractions of the model, to first order; x, h: m, of the elements of v, written where A changes.
  * RB_INACCURATE: elements outside the contact come or go. */
-rb_status rb_rolling_beside_add(rb_rolling_beside *beside, const rb_rolling_model *v, double *w,
-                                double *x, double *h, rb_message *why);
+rb_status rb_rolling_perturbation_add(rb_rolling_perturbation *perturbation,
+                                      const rb_rolling_model *v, double *w, double *x, double *h,
+                                      rb_message *why);
 
 /* ---- Rows of the table of bodies (body.c) ------------------------------------------ */
 

@@ -216,13 +216,13 @@ int rb_rolling_is_compressed(const rb_rolling_model *model)
 }
 
 /* How a variant gets what its bodies displace: it builds them anew; or it borrows those of the
- * model, and their change under the model's tractions is known by formula, or by products beside
- * the model (beside.c). */
-typedef enum { ANEW, BY_FORMULA, BESIDE } change_kind;
+ * model, and their change under the model's tractions is known by formula, or to first order by
+ * the model's factors (perturbation.c). */
+typedef enum { ANEW, BY_FORMULA, PERTURBED } change_kind;
 
 /* Of wheels that relax hysteresis asks for the matrix of their memory, an incompressible wheel does
  * not tell the pressure on its hub. */
-static int knows_beside(const rb_rolling_model *of, const rb_rolling_case *rc)
+static int can_perturb(const rb_rolling_model *of, const rb_rolling_case *rc)
 {
     for (int k = 0; k < 1 + rc->elastic_b; k++) {
         const rb_bem_material is = rb_rolling_material(of->rc, k ? &of->rc->b : &of->rc->a),
@@ -247,7 +247,7 @@ static change_kind change_of(const rb_rolling_model *of, const rb_rolling_case *
 
     if (rc->slip_operator != RB_SLIP_UPSTREAM || (results && rb_rolling_law_depends_on_state(rc)))
         return !moves && rb_rolling_same_bodies(rc, of->rc) ? BY_FORMULA : ANEW;
-    return by_formula ? BY_FORMULA : knows_beside(of, rc) ? BESIDE : ANEW;
+    return by_formula ? BY_FORMULA : can_perturb(of, rc) ? PERTURBED : ANEW;
 }
 
 int rb_rolling_variant_builds(const rb_rolling_model *of, const rb_rolling_case *rc, int results)
@@ -257,7 +257,8 @@ int rb_rolling_variant_builds(const rb_rolling_model *of, const rb_rolling_case 
 
 /* The bodies that the model has, with what their change displaces as w0. */
 static rb_status borrow_bodies(const rb_rolling_model *of, const rb_rolling_case *rc, motion moved,
-                               rb_rolling_beside *beside, rb_rolling_model *v, rb_message *why)
+                               rb_rolling_perturbation *perturbation, rb_rolling_model *v,
+                               rb_message *why)
 {
     const rb_bem_flexibility *f = &of->bodies.f;
     const int moves = moved.scale != 1.0 || moved.shift != 0.0;
@@ -266,19 +267,20 @@ static rb_status borrow_bodies(const rb_rolling_model *of, const rb_rolling_case
     if (rb_rolling_same_bodies(rc, of->rc) && !moves)
         return RB_OK;
     double *w0 = v->bodies.f.w0 = rb_alloc(2 * (size_t)f->m, 1);
-    if (moves || beside) {
+    if (moves || perturbation) {
         v->bodies.f.x = rb_alloc((size_t)f->m, 1);
         v->bodies.f.h = rb_alloc((size_t)f->m, 1);
     }
     if (!w0 || !v->bodies.f.x || !v->bodies.f.h)
         return RB_ENOMEM;
-    for (int i = 0; i < f->m && (moves || beside); i++) {
+    for (int i = 0; i < f->m && (moves || perturbation); i++) {
         v->bodies.f.x[i] = moved.shift + moved.scale * f->x[i];
         v->bodies.f.h[i] = moved.scale * f->h[i];
     }
     set_interlayer(of, rc, w0);
-    return beside ? rb_rolling_beside_add(beside, v, w0, v->bodies.f.x, v->bodies.f.h, why)
-                  : add_change(of, rc, moved.scale, w0);
+    return perturbation
+               ? rb_rolling_perturbation_add(perturbation, v, w0, v->bodies.f.x, v->bodies.f.h, why)
+               : add_change(of, rc, moved.scale, w0);
 }
 
 /* A variant that borrows all of the model but bounds, state and given values. */
@@ -298,9 +300,10 @@ static rb_status borrow_rows(const rb_rolling_model *of, rb_rolling_model *v)
 }
 
 /* results: 0: the equations alone; 1: also all results; -1: what needs the flexibilities
- * themselves. beside: of the model; NULL: bodies whose change no formula tells are built anew. */
+ * themselves. perturbation: of the model; NULL: bodies whose change no formula tells are built
+ * anew. */
 static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, int results,
-                        int own_bodies, rb_rolling_beside *beside, motion moved,
+                        int own_bodies, rb_rolling_perturbation *perturbation, motion moved,
                         rb_rolling_model *v, rb_message *why)
 {
     rb_rolling_plan plan = rb_rolling_plan_of(rc);
@@ -311,7 +314,7 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, i
     const change_kind kind = is_same              ? BY_FORMULA
                              : own || results < 0 ? ANEW
                                                   : change_of(of, rc, results, moves);
-    const int borrows = kind == BY_FORMULA || (kind == BESIDE && beside);
+    const int borrows = kind == BY_FORMULA || (kind == PERTURBED && perturbation);
 
     plan.compression = RB_ROLLING_CLOSE;
     rb_status s = rb_rolling_model_begin(rc, NULL, v, why);
@@ -326,7 +329,7 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, i
     if (borrows)
         v->plan = of->plan;
     if (s == RB_OK && borrows)
-        s = borrow_bodies(of, rc, moved, kind == BESIDE ? beside : NULL, v, why);
+        s = borrow_bodies(of, rc, moved, kind == PERTURBED ? perturbation : NULL, v, why);
     else if (s == RB_OK)
         s = rb_rolling_bodies_create(rc, &plan, &v->mesh, &v->bodies, why);
     if (s == RB_OK && !(have_same_boundary(of->bodies.system_a, v->bodies.system_a) &&
@@ -346,10 +349,10 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, i
     return s;
 }
 
-rb_status rb_rolling_variant_move(const rb_rolling_model *of, rb_rolling_beside *beside,
+rb_status rb_rolling_variant_move(const rb_rolling_model *of, rb_rolling_perturbation *perturbation,
                                   double shift, double scale, rb_rolling_model *v, rb_message *why)
 {
-    return create(of, of->rc, 1, 0, beside, (motion){shift, scale}, v, why);
+    return create(of, of->rc, 1, 0, perturbation, (motion){shift, scale}, v, why);
 }
 
 rb_status rb_rolling_variant_data(const rb_rolling_model *of, double shift, double scale,
@@ -385,10 +388,11 @@ rb_status rb_rolling_variant_place(const rb_rolling_model *of, const rb_rolling_
 }
 
 rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
-                                    int results, int own_bodies, rb_rolling_beside *beside,
-                                    rb_rolling_model *v, rb_message *why)
+                                    int results, int own_bodies,
+                                    rb_rolling_perturbation *perturbation, rb_rolling_model *v,
+                                    rb_message *why)
 {
-    return create(of, rc, results, own_bodies, beside, at_rest, v, why);
+    return create(of, rc, results, own_bodies, perturbation, at_rest, v, why);
 }
 
 rb_status rb_rolling_variant_closely(const rb_rolling_model *of, rb_rolling_model *v,

@@ -110,7 +110,7 @@ static rb_status create(const rb_rolling_model *model, const rb_sensitivity *lik
     }
     if (status == RB_OK && (s->degenerate || s->at_rest < s->contact) && s->degenerate + s->at_rest)
         status = take_matrix(s, why);
-    if (status == RB_OK && !(s->beside = rb_rolling_beside_create(s->model)))
+    if (status == RB_OK && !(s->perturbation = rb_rolling_perturbation_create(s->model)))
         status = RB_ENOMEM;
     if (status == RB_OK)
         status = rb_sensitivity_law(s, why);
@@ -210,7 +210,7 @@ void rb_sensitivity_free(rb_sensitivity *s)
     free(s->law_slip);
     free(s->law_force);
     rb_sensitivity_factors_free(s->factors);
-    rb_rolling_beside_free(s->beside);
+    rb_rolling_perturbation_free(s->perturbation);
     if (s->own)
         rb_rolling_model_free(s->own);
     free(s->own);

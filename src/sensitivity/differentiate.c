@@ -208,7 +208,7 @@ static rb_status differentiate_free(const rb_sensitivity *s, const rb_sensitivit
         rb_sensitivity_derivative *f = d->free_rolling = calloc(1, sizeof *f);
         rb_sensitivity_variants v = *of;
         v.base = freely->model;
-        v.beside = freely->beside;
+        v.perturbation = freely->perturbation;
         v.results = 0;
         memset(v.model, 0, sizeof v.model);
         memset(v.of, 0, sizeof v.of);
@@ -236,7 +236,7 @@ static rb_status differentiate_free(const rb_sensitivity *s, const rb_sensitivit
 rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensitivity_input *input,
                                        rb_sensitivity_derivative *d, rb_message *why)
 {
-    rb_sensitivity_variants v = {.base = s->model, .beside = s->beside, .results = 1};
+    rb_sensitivity_variants v = {.base = s->model, .perturbation = s->perturbation, .results = 1};
 
     memset(d, 0, sizeof *d);
     if (s->solution.n == 0)
@@ -390,7 +390,7 @@ static rb_status differentiate_motions(rb_sensitivity *s, int moves)
     for (int k = 0; k < moves && status == RB_OK; k++) { /* as many motions */
         rb_sensitivity_variants v = {
             .base = s->model,
-            .beside = s->beside,
+            .perturbation = s->perturbation,
             .results = s->solution.n > 0,
             .at = rb_sensitivity_middle,
             .is_long = rb_sensitivity_has_wheels(s->model),

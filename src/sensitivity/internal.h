@@ -21,7 +21,7 @@ struct rb_sensitivity {
     rb_rolling_model *own;                  /* a copy of the model with what derivatives need and it
                                                has not: a matrix, or boundaries compressed as closely as
                                                those of variants; NULL: it has all; owned */
-    rb_rolling_beside *beside;              /* of the model; owned */
+    rb_rolling_perturbation *perturbation;  /* of the model; owned */
     int moves;                              /* rb_sensitivity_elements, fixed at first */
     rb_sensitivity_derivative motion[2];    /* by elements that are stretched or shifted by 1 mm */
     double gain[4]; /* derivatives of the computed half-width and centre for these motions */
@@ -63,9 +63,9 @@ typedef struct {
 /* The model at the values of an input nearby. */
 typedef struct {
     const rb_rolling_model *base;
-    rb_rolling_beside *beside; /* of the base */
-    int results;               /* 0: rates alone */
-    int bodies;                /* 1: they or the interlayer change with the input */
+    rb_rolling_perturbation *perturbation; /* of the base */
+    int results;                           /* 0: rates alone */
+    int bodies;                            /* 1: they or the interlayer change with the input */
     int own; /* 1: the bodies do; where they are compressed, each place has its own */
     rb_sensitivity_stencil at;
     int is_long; /* 1: the step is the longer one of wheels */

@@ -90,8 +90,8 @@ static rb_status variants_at_places(const rb_rolling_model *base, const rb_sensi
         if (!input->vary) {
             const rb_sensitivity_move *m = input->context;
             s = m->kind == SHIFT
-                    ? rb_rolling_variant_move(base, v->beside, by, 1.0, &v->model[k], why)
-                    : rb_rolling_variant_move(base, v->beside, -by * m->centre / m->half,
+                    ? rb_rolling_variant_move(base, v->perturbation, by, 1.0, &v->model[k], why)
+                    : rb_rolling_variant_move(base, v->perturbation, -by * m->centre / m->half,
                                               1.0 + by / m->half, &v->model[k], why);
         } else {
             s = input->vary(input->context, input->value + by, &rc, why);
@@ -101,7 +101,7 @@ static rb_status variants_at_places(const rb_rolling_model *base, const rb_sensi
             if (freely)
                 rc = rb_rolling_without_force(&rc);
             s = rb_rolling_variant_create(of, &rc, v->results, of == base && v->own,
-                                          of == base ? v->beside : NULL, &v->model[k], why);
+                                          of == base ? v->perturbation : NULL, &v->model[k], why);
             if (s == RB_OK && of != base)
                 rb_rolling_variant_set(&base->state, NULL, 0.0, &v->model[k].state);
         }
@@ -181,7 +181,7 @@ static int rates_of_given(const rb_sensitivity *s, const rb_sensitivity_input *i
 rb_status rb_sensitivity_rates(const rb_sensitivity *s, const rb_sensitivity_input *input,
                                rb_sensitivity_rate *rate, double *mu, rb_message *why)
 {
-    rb_sensitivity_variants v = {.base = s->model, .beside = s->beside};
+    rb_sensitivity_variants v = {.base = s->model, .perturbation = s->perturbation};
     rb_status status = rb_sensitivity_choose_places(s, input, &v, why);
 
     memset(rate, 0, sizeof *rate);

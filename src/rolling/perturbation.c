@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct rb_rolling_beside {
+struct rb_rolling_perturbation {
     const rb_rolling_model *of; /* borrowed */
     struct {
         rb_bem_loaded *loaded; /* of a body with boundary elements; NULL: not made yet; owned */
@@ -15,22 +15,22 @@ struct rb_rolling_beside {
     } body[2];
 };
 
-rb_rolling_beside *rb_rolling_beside_create(const rb_rolling_model *of)
+rb_rolling_perturbation *rb_rolling_perturbation_create(const rb_rolling_model *of)
 {
-    rb_rolling_beside *beside = calloc(1, sizeof *beside);
+    rb_rolling_perturbation *perturbation = calloc(1, sizeof *perturbation);
 
-    if (beside)
-        beside->of = of;
-    return beside;
+    if (perturbation)
+        perturbation->of = of;
+    return perturbation;
 }
 
-void rb_rolling_beside_free(rb_rolling_beside *beside)
+void rb_rolling_perturbation_free(rb_rolling_perturbation *perturbation)
 {
-    for (int k = 0; beside && k < 2; k++) {
-        rb_bem_loaded_free(beside->body[k].loaded);
-        free(beside->body[k].w);
+    for (int k = 0; perturbation && k < 2; k++) {
+        rb_bem_loaded_free(perturbation->body[k].loaded);
+        free(perturbation->body[k].w);
     }
-    free(beside);
+    free(perturbation);
 }
 
 /* 1: element j climbs, -1: it falls, 0: it is level but for rounding. */
@@ -82,16 +82,16 @@ static int changes(const rb_rolling_case *rc, const rb_rolling_case *other, int 
 
 /* The body of v less that of the model, both under r: 2m; and, x not NULL, the elements of v, m
  * each. */
-static rb_status change_of_body(rb_rolling_beside *beside, const rb_rolling_model *v, int k,
-                                const double *r, double *change, double *x, double *h,
+static rb_status change_of_body(rb_rolling_perturbation *perturbation, const rb_rolling_model *v,
+                                int k, const double *r, double *change, double *x, double *h,
                                 rb_message *why)
 {
-    const rb_rolling_model *of = beside->of;
+    const rb_rolling_model *of = perturbation->of;
     const rb_rolling_body *body = k ? &of->rc->b : &of->rc->a;
     const rb_bem_system *system = k ? of->bodies.system_b : of->bodies.system_a;
     const int m = of->mesh.n + 1;
-    rb_bem_loaded **loaded = &beside->body[k].loaded;
-    double **w = &beside->body[k].w;
+    rb_bem_loaded **loaded = &perturbation->body[k].loaded;
+    double **w = &perturbation->body[k].w;
     rb_bem_mesh boundary = {0};
     rb_status s = RB_OK;
 
@@ -127,10 +127,11 @@ static rb_status change_of_body(rb_rolling_beside *beside, const rb_rolling_mode
     return s;
 }
 
-rb_status rb_rolling_beside_add(rb_rolling_beside *beside, const rb_rolling_model *v, double *w,
-                                double *x, double *h, rb_message *why)
+rb_status rb_rolling_perturbation_add(rb_rolling_perturbation *perturbation,
+                                      const rb_rolling_model *v, double *w, double *x, double *h,
+                                      rb_message *why)
 {
-    const rb_rolling_model *of = beside->of;
+    const rb_rolling_model *of = perturbation->of;
     const int n = of->mesh.n, m = n + 1,
               moves = memcmp(of->mesh.ends, v->mesh.ends, ((size_t)n + 2) * sizeof *x) != 0;
     rb_arena scratch = {0};
@@ -146,7 +147,7 @@ rb_status rb_rolling_beside_add(rb_rolling_beside *beside, const rb_rolling_mode
             r[i] = of->state.p[i];
             r[n + i] = mirror * of->state.q[i];
         }
-        s = change_of_body(beside, v, k, r, change, k ? NULL : x, k ? NULL : h, why);
+        s = change_of_body(perturbation, v, k, r, change, k ? NULL : x, k ? NULL : h, why);
         cblas_daxpy(m, 1.0, change, 1, w, 1);
         cblas_daxpy(m, mirror, change + m, 1, w + m, 1);
     }
