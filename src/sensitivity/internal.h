@@ -19,8 +19,9 @@ struct rb_sensitivity {
     struct rb_sensitivity *free_rolling;    /* for free rolling of the same model; NULL: none */
     rb_rolling_model *freely;               /* the model in free rolling; owned */
     rb_rolling_model *own;                  /* a copy of the model with what derivatives need and it
-                                               has not: a matrix, or boundaries compressed as closely as
-                                               those of variants; NULL: it has all; owned */
+                                               has not: a matrix, or boundaries compressed as
+                                               closely as those of variants; NULL: it has all;
+                                               owned */
     rb_rolling_perturbation *perturbation;  /* of the model; owned */
     int moves;                              /* rb_sensitivity_elements, fixed at first */
     rb_sensitivity_derivative motion[2];    /* by elements that are stretched or shifted by 1 mm */
