@@ -521,28 +521,34 @@ static double largest_answer(const rb_contact_problem *p, const double *pressure
     return norm;
 }
 
+double rb_rolling_law_kappa_of(const rb_rolling_model *model, int element)
+{
+    const rb_contact_problem *p = &model->problem;
+    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
+    const size_t n = (size_t)p->n, i = (size_t)element;
+    const double own = K.F ? K.S[i + (n + i) * n] : rb_contact_operator_response(p->op).slip;
+
+    return model->rc->speed * model->state.p[i] * own / p->e_T[i] *
+           rb_rolling_law_steepest(model->rc, p->e_T[i]);
+}
+
 /* (F3) In steady rolling an element has neighbours that differ: what counts is its own
  * slip per traction.  In a step all elements may answer together. */
 rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa)
 {
     const rb_contact_problem *p = &model->problem;
-    const double *pressure = model->state.p;
-    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
-    const size_t n = (size_t)p->n;
-    double largest = 0.0, *scratch = rb_alloc(n, 4);
+    double *scratch;
 
+    *kappa = 0.0;
+    for (int i = 0; i < p->n && model->rc->formulation == RB_STEADY; i++)
+        *kappa = fmax(*kappa, rb_rolling_law_kappa_of(model, i));
+    if (model->rc->formulation != RB_TRANSIENT)
+        return RB_OK;
     *kappa = NAN;
-    if (!scratch)
+    if (!(scratch = rb_alloc((size_t)p->n, 4)))
         return RB_ENOMEM;
-    for (size_t i = 0; i < n && model->rc->formulation == RB_STEADY; i++) {
-        const double own = K.F ? K.S[i + (n + i) * n] : rb_contact_operator_response(p->op).slip;
-        largest = fmax(largest, pressure[i] * own / p->e_T[i] *
-                                    rb_rolling_law_steepest(model->rc, p->e_T[i]));
-    }
-    if (model->rc->formulation == RB_TRANSIENT)
-        largest = largest_answer(p, pressure, scratch) / p->e_T[0] *
-                  rb_rolling_law_steepest(model->rc, p->e_T[0]);
-    *kappa = model->rc->speed * largest;
+    *kappa = model->rc->speed * largest_answer(p, model->state.p, scratch) / p->e_T[0] *
+             rb_rolling_law_steepest(model->rc, p->e_T[0]);
     free(scratch);
     return RB_OK;
 }
