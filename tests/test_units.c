@@ -342,7 +342,6 @@ TEST(derivatives_by_numbers_of_lists_are_converted)
         assert_true(fabs(number_in(a, names[k])) > 1e-9);
         CHECK_REL(number_in(b, names[k]), 1e6 * number_in(a, names[k]), 1e-6, "%s", names[k]);
     }
-    json_decref(si);
 }
 
 TEST(ends_of_a_curve_may_have_units)
