@@ -224,18 +224,25 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_r
     if (arcs && rc->a.arc < 2.0)
         add(&list, "The arc is %g degrees. If it is meant in radians, write --arc %grad.",
             rc->a.arc, rc->a.arc);
-    /* Beyond full sliding the force does not change: it does not tell the creepage. */
-    const int slides = force && s->stick == 0 && rb_rolling_largest_mu(rc) > 0.0 &&
-                       s->contact > 0 && !rb_rolling_law_depends_on_state(rc);
+    /* Beyond full sliding the force does not change: it does not tell the creepage.  At the end of
+     * a range of solutions an element sticks whose friction is at its bound. */
+    const double at_bound = 1.0 - 1e-9;
+    int slides = force && rb_rolling_largest_mu(rc) > 0.0 && s->contact > 0 &&
+                 !rb_rolling_law_depends_on_state(rc);
     int sides = 0;
-    for (int i = 0; i < s->n; i++)
+    for (int i = 0; i < s->n; i++) {
+        slides &= s->zone[i] != RB_ZONE_STICK ||
+                  fabs(s->q[i]) >= at_bound * (s->mu ? s->mu[i] : rc->mu) * s->p[i];
         sides |= s->zone[i] == RB_ZONE_SLIP_NEGATIVE   ? 1
                  : s->zone[i] == RB_ZONE_SLIP_POSITIVE ? 2
                                                        : 0;
+    }
     if (slides && sides == 3)
         add(&list,
-            "No element sticks, and they slide towards both sides: the %s is not unique, a "
-            "range of it gives the same tractions.",
+            "%s slide towards both sides: the %s is not unique, a range of it gives the same "
+            "tractions.",
+            s->stick == 0 ? "No element sticks, and they"
+                          : "What sticks is at the bound of its friction, and the others",
             s->formulation == RB_STATIC ? "shift" : "creepage");
     else if (slides && s->formulation != RB_STATIC)
         add(&list, "The whole contact slides: the creepage is not unique, every larger one gives "
