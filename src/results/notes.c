@@ -227,16 +227,16 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_r
     /* Beyond full sliding the force does not change: it does not tell the creepage.  At the end of
      * a range of solutions an element sticks whose friction is at its bound. */
     const double at_bound = 1.0 - 1e-9;
-    int slides = force && rb_rolling_largest_mu(rc) > 0.0 && s->contact > 0 &&
-                 !rb_rolling_law_depends_on_state(rc);
-    int sides = 0;
+    int held = s->stick, sides = 0;
     for (int i = 0; i < s->n; i++) {
-        slides &= s->zone[i] != RB_ZONE_STICK ||
-                  fabs(s->q[i]) >= at_bound * (s->mu ? s->mu[i] : rc->mu) * s->p[i];
+        held -= s->zone[i] == RB_ZONE_STICK &&
+                fabs(s->q[i]) >= at_bound * (s->mu ? s->mu[i] : rc->mu) * s->p[i];
         sides |= s->zone[i] == RB_ZONE_SLIP_NEGATIVE   ? 1
                  : s->zone[i] == RB_ZONE_SLIP_POSITIVE ? 2
                                                        : 0;
     }
+    const int slides = force && held == 0 && rb_rolling_largest_mu(rc) > 0.0 && s->contact > 0 &&
+                       !rb_rolling_law_depends_on_state(rc);
     if (slides && sides == 3)
         add(&list,
             "%s slide towards both sides: the %s is not unique, a range of it gives the same "
