@@ -133,6 +133,12 @@ static rb_status difference_solve(const difference_frame *f, const rb_rolling_ca
     return s;
 }
 
+/* The half-width that an automatic zone follows. */
+static double difference_zone(const rb_rolling_case *rc)
+{
+    return rb_rolling_zone_half_width(rc, rb_rolling_derive(rc).load);
+}
+
 static rb_status difference_begin(const rb_rolling_model *base, rb_sensitivity_elements elements,
                                   difference_frame *f, rb_message *why)
 {
@@ -142,7 +148,7 @@ static rb_status difference_begin(const rb_rolling_model *base, rb_sensitivity_e
                             elements,
                             base->rc->mesh == RB_MESH_ALIGNED && difference_is_end(base, from) &&
                                 difference_is_end(base, to),
-                            rb_rolling_derive(base->rc).half_width,
+                            difference_zone(base->rc),
                             0.0,
                             {0}};
     if (elements != RB_SENSITIVITY_EDGES)
@@ -186,9 +192,7 @@ static rb_status difference_at(const difference_frame *f, const rb_rolling_case 
                                rb_message *why)
 {
     const double strain = 0.5 * at->half_width / rb_rolling_derive(f->base->rc).radius;
-    double by[2] = {f->elements == RB_SENSITIVITY_HERTZ ? rb_rolling_derive(rc).half_width - f->half
-                                                        : 0.0,
-                    0.0},
+    double by[2] = {f->elements == RB_SENSITIVITY_ZONE ? difference_zone(rc) - f->half : 0.0, 0.0},
            found[2];
     rb_rolling_model v;
     rb_status s;

@@ -361,7 +361,7 @@ TEST(equal_elements_move_with_their_zone)
         OWNED(rb_case_derivatives) all;
         held_case *c = solved(&moving[k], NULL, 0.0, &r);
         CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
-        assert_int_equal(all.elements, RB_SENSITIVITY_HERTZ);
+        assert_int_equal(all.elements, RB_SENSITIVITY_ZONE);
         assert_true(compare_input(&moving[k], of(&all, "load"), &r.solution));
         assert_true(compare_input(&moving[k], of(&all, "young"), &r.solution));
     }
@@ -381,7 +381,7 @@ TEST(fitted_elements_move_with_the_edges)
         held_case *c = solved(&w, NULL, 0.0, &r);
         const rb_rolling_solution *s = &r.solution;
         CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
-        assert_int_equal(all.elements, k % 3 ? RB_SENSITIVITY_EDGES : RB_SENSITIVITY_HERTZ);
+        assert_int_equal(all.elements, k % 3 ? RB_SENSITIVITY_EDGES : RB_SENSITIVITY_ZONE);
         const rb_rolling_solution *by_P = &of(&all, "load")->d.value[0],
                                   *by_R = &of(&all, "radius")->d.value[0];
         CHECK_REL(by_P->tangential_load, s->tangential_load / 500.0, 1e-6, "Q by P");

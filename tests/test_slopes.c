@@ -465,7 +465,7 @@ TEST(rows_of_tables_under_midpoints)
                 assert_int_equal(r.model.state.zone[SLIPS], RB_ZONE_SLIP_NEGATIVE);
                 CHECK_OK(rb_sensitivity_create(&r.model, 1, &s, &heard));
                 assert_int_equal(rb_sensitivity_motion(s),
-                                 beside ? RB_SENSITIVITY_HERTZ : RB_SENSITIVITY_FIXED);
+                                 beside ? RB_SENSITIVITY_ZONE : RB_SENSITIVITY_FIXED);
                 rb_sensitivity_free(s);
                 rb_case_result_free(&r);
             }

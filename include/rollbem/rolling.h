@@ -879,8 +879,10 @@ rb_status rb_rolling_variant_complete(rb_rolling_model *variant, double *gap, do
 /* kappa (theory.md F3) of the state, for friction that depends on the state.  Above 1 a
  * single element, or a step, may have several solutions.  RB_ENOMEM. */
 rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa);
-/* That of one element of steady rolling, of which kappa is the largest. */
+/* In steady rolling kappa is the largest of those of the elements: that of one, and the element
+ * that has the largest; -1: none, or not steady. */
 double rb_rolling_law_kappa_of(const rb_rolling_model *model, int element);
+int rb_rolling_law_kappa_element(const rb_rolling_model *model);
 
 /* What part of the coefficient that it had before it a particle keeps behind element i, of friction
  * with a memory (theory.md F2). */

@@ -38,8 +38,8 @@ void rb_sensitivity_free(rb_sensitivity *s);
 typedef enum {
     RB_SENSITIVITY_FIXED, /* not at all: given zone, several patches, or an element at the
                              border of two zones */
-    RB_SENSITIVITY_HERTZ, /* equal elements of an automatic zone: with Hertz's half-width
-                           */
+    RB_SENSITIVITY_ZONE,  /* equal elements of an automatic zone: with the half-width that it
+                             follows (rb_rolling_zone_half_width) */
     RB_SENSITIVITY_EDGES  /* fitted elements: with the edges of the contact */
 } rb_sensitivity_elements;
 

@@ -1,8 +1,6 @@
 #include "bem/fourier.h"
 #include "rollbem/blas.h"
 
-#ifdef _OPENMP
-#endif
 #include <gsl/gsl_math.h>
 #include <math.h>
 #include <pthread.h>

@@ -301,20 +301,6 @@ static const rb_option *named_first(const rb_case *c, const char *text, const ch
     return NULL;
 }
 
-/* The line of the case file with the first of the --options of a refusal that stands there.  0:
- * none does. */
-static int line_of_mentioned(const rb_case *c, const char *text)
-{
-    char name[60];
-    for (const char *at = strstr(text, "--"); at; at = strstr(at + 2, "--")) {
-        const size_t n = strspn(at + 2, "abcdefghijklmnopqrstuvwxyz0123456789-");
-        snprintf(name, sizeof name, "%.*s", (int)n, at + 2);
-        if (rb_case_given(c, name) > 0)
-            return rb_case_given(c, name);
-    }
-    return 0;
-}
-
 rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why)
 {
     if (s != RB_EINVAL || !why)
@@ -347,7 +333,14 @@ rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why)
                        rb_option_source(o, by, c->path, source, sizeof source), rest);
     if (!*c->path)
         return s;
-    const int line = by > 0 ? by : line_of_mentioned(c, said.text);
+    /* of the option, or of the first of the --options in the text that stands in the file */
+    int line = by > 0 ? by : 0;
+    for (const char *at = said.text; line == 0 && (at = strstr(at, "--")); at += 2) {
+        char name[60];
+        const size_t n = strspn(at + 2, "abcdefghijklmnopqrstuvwxyz0123456789-");
+        snprintf(name, sizeof name, "%.*s", (int)n, at + 2);
+        line = rb_case_given(c, name) > 0 ? rb_case_given(c, name) : 0;
+    }
     if (line > 0)
         return rb_fail(why, RB_EFORMAT, "%s:%d: %s", c->path, line, said.text);
     for (int i = 0; i < rb_case_table_n; i++)

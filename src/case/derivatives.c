@@ -303,7 +303,7 @@ const char *rb_case_derivatives_are(const rb_case_derivatives *all)
 {
     static const char *const text[] = {
         [RB_SENSITIVITY_FIXED] = "on the elements of the solution, which do not move",
-        [RB_SENSITIVITY_HERTZ] = "on elements that grow as the automatic zone does",
+        [RB_SENSITIVITY_ZONE] = "on elements that grow as the automatic zone does",
         [RB_SENSITIVITY_EDGES] = ("on elements that move with the edges of the contact, "
                                   "to which they are fitted")};
     return text[all->elements];

@@ -1,8 +1,8 @@
 /* A certificate of a result: the problem is built again from the inputs that the result
  * prints, on the elements of its table, and everything else that it prints is computed
  * again from its pressures, friction, approach and creepage.  Nothing is solved.
- * What a file holds is read in certificate_json.c and certificate_table.c; a history is
- * followed by the states of its steps in certificate_history.c. */
+ * What a file holds is read in json.c and table.c; a history is followed by the states of its
+ * steps in history.c. */
 #include "certificate/internal.h"
 
 #include <math.h>

@@ -532,16 +532,25 @@ double rb_rolling_law_kappa_of(const rb_rolling_model *model, int element)
            rb_rolling_law_steepest(model->rc, p->e_T[i]);
 }
 
+int rb_rolling_law_kappa_element(const rb_rolling_model *model)
+{
+    int most = -1;
+
+    for (int i = 0; i < model->problem.n && model->rc->formulation == RB_STEADY; i++)
+        if (most < 0 || rb_rolling_law_kappa_of(model, i) > rb_rolling_law_kappa_of(model, most))
+            most = i;
+    return most;
+}
+
 /* (F3) In steady rolling an element has neighbours that differ: what counts is its own
  * slip per traction.  In a step all elements may answer together. */
 rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa)
 {
     const rb_contact_problem *p = &model->problem;
+    const int most = rb_rolling_law_kappa_element(model);
     double *scratch;
 
-    *kappa = 0.0;
-    for (int i = 0; i < p->n && model->rc->formulation == RB_STEADY; i++)
-        *kappa = fmax(*kappa, rb_rolling_law_kappa_of(model, i));
+    *kappa = most < 0 ? 0.0 : fmax(0.0, rb_rolling_law_kappa_of(model, most));
     if (model->rc->formulation != RB_TRANSIENT)
         return RB_OK;
     *kappa = NAN;

@@ -68,18 +68,6 @@ int rb_rolling_same_sides(const rb_rolling_model *x, const rb_rolling_model *y)
     return 1;
 }
 
-/* Moves: the elements do.  The depth of zero displacement below a flat body is of the radius of A.
- */
-static int changes(const rb_rolling_case *rc, const rb_rolling_case *other, int k, int moves)
-{
-    const rb_rolling_body *is = k ? &rc->b : &rc->a, *was = k ? &other->b : &other->a;
-    const double depth[] = {rb_rolling_datum(rc, is), rb_rolling_datum(other, was)};
-
-    return moves || memcmp(is, was, sizeof *is) != 0 ||
-           memcmp(&depth[0], &depth[1], sizeof *depth) != 0 ||
-           (is->memory.n > 0 && rc->speed != other->speed);
-}
-
 /* The body of v less that of the model, both under r: 2m; and, x not NULL, the elements of v, m
  * each. */
 static rb_status change_of_body(rb_rolling_perturbation *perturbation, const rb_rolling_model *v,
@@ -141,7 +129,12 @@ rb_status rb_rolling_perturbation_add(rb_rolling_perturbation *perturbation,
 
     for (int k = 0; k <= of->rc->elastic_b && s == RB_OK; k++) {
         const double mirror = k ? -1.0 : 1.0; /* B's own frame */
-        if (!changes(v->rc, of->rc, k, moves))
+        const rb_rolling_body *is = k ? &v->rc->b : &v->rc->a, *was = k ? &of->rc->b : &of->rc->a;
+        /* of zero displacement below a flat body: of the radius of A, too */
+        const double depth[] = {rb_rolling_datum(v->rc, is), rb_rolling_datum(of->rc, was)};
+        if (!moves && memcmp(is, was, sizeof *is) == 0 &&
+            memcmp(&depth[0], &depth[1], sizeof *depth) == 0 &&
+            (is->memory.n == 0 || v->rc->speed == of->rc->speed))
             continue;
         for (int i = 0; i < n; i++) {
             r[i] = of->state.p[i];

@@ -141,19 +141,6 @@ static void sign_integral(const rb_bem_flexibility *f, const double *r, double *
     }
 }
 
-/* w0 of the model, with what the present tractions displace more in the interlayer of rc. */
-static void set_interlayer(const rb_rolling_model *of, const rb_rolling_case *rc, double *w0)
-{
-    const rb_bem_flexibility *f = &of->bodies.f;
-
-    memcpy(w0, f->w0, 2 * (size_t)f->m * sizeof *w0);
-    for (int i = 0; i < f->n; i++) {
-        w0[i] += (rc->interlayer_normal - of->rc->interlayer_normal) * of->state.p[i];
-        w0[f->m + i] +=
-            (rc->interlayer_tangential - of->rc->interlayer_tangential) * of->state.q[i];
-    }
-}
-
 /* Adds what the present tractions of the model displace more than they do, 2m, where its
  * bodies are those of rc and its elements (of half-planes) `scale` times as long, wherever they
  * stand. */
@@ -220,22 +207,6 @@ int rb_rolling_is_compressed(const rb_rolling_model *model)
  * the model's factors (perturbation.c). */
 typedef enum { ANEW, BY_FORMULA, PERTURBED } change_kind;
 
-/* Of wheels that relax hysteresis asks for the matrix of their memory, an incompressible wheel does
- * not tell the pressure on its hub. */
-static int can_perturb(const rb_rolling_model *of, const rb_rolling_case *rc)
-{
-    for (int k = 0; k < 1 + rc->elastic_b; k++) {
-        const rb_bem_material is = rb_rolling_material(of->rc, k ? &of->rc->b : &of->rc->a),
-                              was = rb_rolling_material(rc, k ? &rc->b : &rc->a);
-        if ((k ? of->bodies.system_b : of->bodies.system_a) && is.poisson != was.poisson &&
-            (rb_bem_is_incompressible(is) || rb_bem_is_incompressible(was)))
-            return 0;
-    }
-    return rc->elastic_b == of->rc->elastic_b &&
-           (rb_rolling_can(rc, RB_BODY_FLAT) ||
-            !(rb_rolling_relaxes(rc) || rb_rolling_relaxes(of->rc)));
-}
-
 /* results: 1: all are asked for, and kappa of a law asks for the matrix itself. */
 static change_kind change_of(const rb_rolling_model *of, const rb_rolling_case *rc, int results,
                              int moves)
@@ -247,7 +218,20 @@ static change_kind change_of(const rb_rolling_model *of, const rb_rolling_case *
 
     if (rc->slip_operator != RB_SLIP_UPSTREAM || (results && rb_rolling_law_depends_on_state(rc)))
         return !moves && rb_rolling_same_bodies(rc, of->rc) ? BY_FORMULA : ANEW;
-    return by_formula ? BY_FORMULA : can_perturb(of, rc) ? PERTURBED : ANEW;
+    if (by_formula)
+        return BY_FORMULA;
+    /* Of wheels that relax hysteresis asks for the matrix of their memory, an incompressible wheel
+     * does not tell the pressure on its hub. */
+    int tells = rc->elastic_b == of->rc->elastic_b &&
+                (rb_rolling_can(rc, RB_BODY_FLAT) ||
+                 !(rb_rolling_relaxes(rc) || rb_rolling_relaxes(of->rc)));
+    for (int k = 0; k < 1 + rc->elastic_b; k++) {
+        const rb_bem_material is = rb_rolling_material(of->rc, k ? &of->rc->b : &of->rc->a),
+                              was = rb_rolling_material(rc, k ? &rc->b : &rc->a);
+        tells &= !((k ? of->bodies.system_b : of->bodies.system_a) && is.poisson != was.poisson &&
+                   (rb_bem_is_incompressible(is) || rb_bem_is_incompressible(was)));
+    }
+    return tells ? PERTURBED : ANEW;
 }
 
 int rb_rolling_variant_builds(const rb_rolling_model *of, const rb_rolling_case *rc, int results)
@@ -277,7 +261,12 @@ static rb_status borrow_bodies(const rb_rolling_model *of, const rb_rolling_case
         v->bodies.f.x[i] = moved.shift + moved.scale * f->x[i];
         v->bodies.f.h[i] = moved.scale * f->h[i];
     }
-    set_interlayer(of, rc, w0);
+    memcpy(w0, f->w0, 2 * (size_t)f->m * sizeof *w0);
+    for (int i = 0; i < f->n; i++) { /* the interlayer */
+        w0[i] += (rc->interlayer_normal - of->rc->interlayer_normal) * of->state.p[i];
+        w0[f->m + i] +=
+            (rc->interlayer_tangential - of->rc->interlayer_tangential) * of->state.q[i];
+    }
     return perturbation
                ? rb_rolling_perturbation_add(perturbation, v, w0, v->bodies.f.x, v->bodies.f.h, why)
                : add_change(of, rc, moved.scale, w0);

@@ -67,7 +67,7 @@ static void set_motions(const rb_sensitivity *s, const rb_sensitivity_variants *
                         const double edges[2], double by[2])
 {
     by[0] = by[1] = 0.0;
-    for (int k = 0; s->moves == RB_SENSITIVITY_HERTZ && v && k < v->at.n; k++)
+    for (int k = 0; s->moves == RB_SENSITIVITY_ZONE && v && k < v->at.n; k++)
         by[0] += v->at.weight[k] / v->step * half_of_zone(v->model[k].rc);
     if (s->moves != RB_SENSITIVITY_EDGES)
         return;
@@ -376,7 +376,7 @@ static int motion_of(const rb_sensitivity *s)
         return RB_SENSITIVITY_FIXED;
     return !equal                                      ? RB_SENSITIVITY_EDGES
            : rc->gap == RB_GAP_TABLE || rc->worn.n > 0 ? RB_SENSITIVITY_FIXED
-                                                       : RB_SENSITIVITY_HERTZ;
+                                                       : RB_SENSITIVITY_ZONE;
 }
 
 static rb_status differentiate_motions(rb_sensitivity *s, int moves)

@@ -132,20 +132,6 @@ static rb_status differentiate_heat(const rb_sensitivity *s, const rb_sensitivit
     return rb_arena_done(&scratch, status);
 }
 
-/* The element that kappa of steady rolling is of (F3), in the solution and beside it, though
- * another one may come first at the places of the stencil; -1: kappa is no element's. */
-static int element_of_kappa(const rb_rolling_model *model)
-{
-    int most = -1;
-
-    for (int i = 0; i < model->problem.n && model->rc->formulation == RB_STEADY &&
-                    rb_rolling_law_depends_on_state(model->rc);
-         i++)
-        if (most < 0 || rb_rolling_law_kappa_of(model, i) > rb_rolling_law_kappa_of(model, most))
-            most = i;
-    return most;
-}
-
 /* (D4) the results at the places of the stencil, moved along the tangent. */
 rb_status rb_sensitivity_results(const rb_sensitivity *s, rb_sensitivity_variants *v,
                                  const rb_contact_state *tangent, rb_rolling_solution *d,
@@ -154,7 +140,9 @@ rb_status rb_sensitivity_results(const rb_sensitivity *s, rb_sensitivity_variant
     rb_rolling_solution moved[PLACES] = {{0}};
     double *warmer = s->solution.temperature ? rb_alloc((size_t)s->n, 2) : NULL;
     rb_status status = warmer || !s->solution.temperature ? RB_OK : RB_ENOMEM;
-    const int steepest = element_of_kappa(v->base);
+    /* though another element may come first at the places of the stencil */
+    const int steepest =
+        rb_rolling_law_depends_on_state(v->base->rc) ? rb_rolling_law_kappa_element(v->base) : -1;
 
     for (int k = 0; k < v->at.n && status == RB_OK; k++) {
         rb_rolling_variant_set(&v->base->state, tangent, v->at.place[k] * v->step,
