@@ -124,7 +124,8 @@ static const struct {
      64, "--layer-thickness: with nu = 0.495 the elements"},
     {"--layer-thickness 2", 64, "rollbem: --layer-thickness: for the support halfplane only"},
     {"--slip-operator second", 64, "rollbem: --slip-operator second: only for steady rolling"},
-    {"stress --mu-heat 0.1,20,300", 64, "--mu-heat: needs temperatures, add --conductivity"},
+    {"stress --mu-heat 0.1,20,300", 64, "--mu-heat: stress has no temperatures"},
+    {"--mu-heat 0.1,20,300", 64, "--mu-heat: needs temperatures, add --conductivity"},
     {"--free-axle", 64, "rollbem: --free-axle: of steady rolling only"},
     {"--support halfplane --load 100 --young-b 1000 --layer-thickness-b 0.01 --poisson-b "
      "0.495 --mesh uniform --contact-elements 20",

@@ -291,7 +291,7 @@ static const conflict conflicts[] = {
     {{"law=file", "mu=3"}, "the table of --friction-law has the coefficients"},
     {{"law=file", "mu=way", "regime=static-history|transient-history"},
      "a column mu cannot be combined"},
-    {{"law=heat|both", "heat=none"}, "needs temperatures"},
+    {{"law=heat|both", "heat=none", NULL, "output=json"}, "needs temperatures"},
     /* what falls is more than so little friction */
     {{"law!constant", "mu=0|1e-3"}, NULL},
     {{"law!constant", RELAXING}, NULL}, /* two speeds */

@@ -611,7 +611,9 @@ enum {
 
 #define KINDS_OF_WEAR "wear is of sliding, fretting or steady rolling"
 #define VARIES "a curve varies it from --from to --to, a fit takes it from its data"
-#define HEAT " conductivity heat-capacity temperature conductivity-b heat-capacity-b temperature-b "
+#define HEAT                                                                                       \
+    " mu-heat conductivity heat-capacity temperature conductivity-b heat-capacity-b "              \
+    "temperature-b "
 
 /* Options that no case of these purposes takes. */
 static const struct {
