@@ -206,6 +206,13 @@ $(B)/packings: examples/packings/packings.c
 	$(Q)$(CC) $(STD) $(CFLAGS) -o $@ $< -lm
 $(B)/tests/test_friction_portfolio $(B)/tests/test_inside_friction $(B)/tests/test_recorded $(B)/tests/test_course $(B)/bench/bench_condense $(B)/bench/bench_portfolio: | $(B)/packings
 
+# the method in one file, for the tests
+$(B)/steps: examples/steps/steps.c
+	@mkdir -p $(@D)
+	@echo "  CC  $<"
+	$(Q)$(CC) $(STD) $(CFLAGS) -o $@ $< $(LDFLAGS) $(LDLIBS)
+$(B)/tests/test_steps: | $(B)/steps $(B)/rollbem
+
 # the generator of the obstacle problem, for the tests
 $(B)/obstacle: examples/lcp/obstacle.c
 	@mkdir -p $(@D)
