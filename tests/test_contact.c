@@ -695,6 +695,47 @@ TEST(plastic_examples_are_met)
     json_decref(root);
 }
 
+/* Figures of examples/visc_cylindr.ref_out: two cylinders of PA6 with four times of
+ * relaxation, and two that are elastic.  A memory of 2000 mm is longer than the strip of
+ * 1000 mm is wide, whose three-dimensional kernel CKSI there feels (1.3e-3); the approach
+ * feels it in full. */
+TEST(viscoelastic_cylinders_are_met)
+{
+    static const struct {
+        double shear, tau, creep, approach, pressure, power;
+        int contact, stick;
+    } want[] = {{1143.0, 0.0, 1.378e-2, 2.508, 60.32, -1438.0, 80, 51},
+                {1143.0, 0.009, 1.365e-2, 2.367, 78.74, -913.7, 62, 37},
+                {1143.0, 0.045, 1.152e-2, 2.063, 84.72, -952.0, 57, 36},
+                {1143.0, 2.0, 9.932e-3, 1.455, 85.31, -1010.0, 56, 35},
+                {571.5, -1.0, 1.378e-2, 2.508, 60.32, -1438.0, 80, 51},
+                {1143.0, -1.0, 9.792e-3, 1.324, 85.31, -1007.0, 56, 36}};
+    enum { CASES = sizeof want / sizeof *want };
+    char text[600 * CASES] = "", memory[60];
+    for (size_t k = 0; k < CASES; k++) {
+        const int relaxes = want[k].tau >= 0.0;
+        snprintf(memory, sizeof memory, " 1. 1. %g %g\n", want[k].tau, want[k].tau);
+        snprintf(text + strlen(text), sizeof text - strlen(text),
+                 " 3 MODULE\n 203120\n 022%d20\n 0001341\n 100 100 30 1 1e-5\n"
+                 " 600000. -0.6 0. 0.\n 0.3 0.3\n 0. 0.16 1000.\n 0.4 0.4 %g %g\n%s"
+                 " 3\n 99 1 -7.92 0. 0.16 1000.\n 1 1\n 0.01 0. 0. 0. 0. 0.\n",
+                 relaxes, want[k].shear, want[k].shear, relaxes ? memory : "");
+    }
+    write_file("polymer.inp", text);
+    json_t *root = run_json("contact polymer.inp"), *cases = json_object_get(root, "cases");
+    assert_int_equal(json_array_size(cases), CASES);
+    for (size_t k = 0; k < CASES; k++) {
+        const json_t *one = json_array_get(cases, k);
+        CHECK_ABS(number_in(one, "PEN"), want[k].approach, 0.5e-3, "case %zu", k + 1);
+        CHECK_REL(number_in(one, "CKSI"), want[k].creep, k == 3 ? 1.4e-3 : 4e-4, "case %zu", k + 1);
+        CHECK_REL(number_in(one, "PMAX"), want[k].pressure, 2e-4, "case %zu", k + 1);
+        CHECK_REL(number_in(one, "FRIC_POWER"), want[k].power, 5e-4, "case %zu", k + 1);
+        CHECK_ABS(number_in(one, "NCON"), want[k].contact, 0.0, "case %zu", k + 1);
+        CHECK_ABS(number_in(one, "NADH"), want[k].stick, 0.0, "case %zu", k + 1);
+    }
+    json_decref(root);
+}
+
 TEST(other_examples_are_run_or_named)
 {
     static const struct {

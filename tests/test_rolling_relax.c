@@ -381,6 +381,34 @@ TEST(rolling_becomes_steady)
     }
 }
 
+/* Memories that are long beside the datum: the approach becomes the steady one, which the
+ * loads that have moved on raise, and the bodies never give work back. */
+TEST(a_long_memory_has_the_steady_approach)
+{
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc =
+            with(roller(30),
+                 "relaxation-time %g relaxation-ratio 2 similar datum %g datum-b %g "
+                 "distance 60 force-ratio 0.3",
+                 k ? 0.05 : 0.02, k ? 6.0 : 3.0, k ? 2.0 : 3.0);
+        OWNED(rb_rolling_model) model;
+        OWNED(rb_rolling_history) h;
+        OWNED(rb_rolling_solution) s;
+        CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &heard));
+        set(&rc, "formulation steady contact-elements %d", model.mesh.n);
+        CHECK_OK(rb_rolling_solve_between(&rc, model.mesh.ends[0], model.mesh.ends[model.mesh.n],
+                                          &s, &heard));
+        CHECK_ABS(h.approach[h.n - 1], s.approach, 2e-3 * (s.approach - h.approach[0]),
+                  "case %d: approach", k);
+        CHECK_REL((h.lost_work[h.n - 1] - h.lost_work[h.n - 2]) / h.step, s.hysteresis, 2e-2,
+                  "case %d: hysteresis", k);
+        for (int i = 1; i < h.n; i++) {
+            CHECK_MAX(h.approach[i - 1] - h.approach[i], 1e-4 * s.approach, "approach, step %d", i);
+            CHECK_MAX(h.lost_work[i - 1] - h.lost_work[i], 0.0, "lost, step %d", i);
+        }
+    }
+}
+
 /* Hunter's exact M: f = 1, V tau = a_g (theory.md V3). */
 TEST(rolling_from_rest_ends_at_hunters_moment)
 {

@@ -239,6 +239,9 @@ typedef struct {
     double datum;             /* depth of zero displacement of the half-plane or elastic base */
     double datum_tangential;  /* the same for tangential displacement; only for a
                                  homogeneous half-plane stored as a matrix; 0: datum */
+    double datum_memory;      /* of a homogeneous half-plane in steady rolling: sum f_k G(d/L_k), by
+                                 which the memory of loads that have passed differs from that of
+                                 ln(d/|x|) (V2), see rb_bem_memory_of_datum; 0 for a wheel's */
     int terms;                /* number of relaxation times of the creep compliance 1 + sum f_k (1 -
                                  exp(-t/tau_k)) */
     const double *ratio;      /* terms: f_k >= 0 */
@@ -251,6 +254,15 @@ typedef struct {
 /* An elastic half-plane with zero displacement at the depth datum > 0 below the loaded
  * point. */
 rb_bem_surface rb_bem_halfplane(rb_bem_material material, double datum);
+
+/* (V2) The memory of a half-plane keeps ln(sqrt(r^2 + d^2)/r) of a load that has moved on by r,
+ * where the elastic displacement is ln(d/|x|): what the first has over the second, as a
+ * function of r/d >= 0, and its mean G over exp(-u) du at r = u L, as a function of d/L > 0. */
+double rb_bem_memory_beyond_datum(double ratio);
+double rb_bem_memory_of_datum(double datum_over_length);
+/* The same mean for a strip of width d of a half-space that rests far away (CONTACT), whose
+ * displacement is asinh(d/(2|x|)). */
+double rb_bem_memory_of_strip(double width_over_length);
 
 /* ends as in rb_bem_mesh_cylinder, but without the bound R. */
 rb_status rb_bem_flexibility_surface(int n_c, const double *ends, const rb_bem_surface *body,

@@ -74,13 +74,13 @@ typedef struct {
                               (instantaneous) modulus */
     double radius;         /* [length]; of body B also INFINITY: a plane; < 0: a bore around A */
     rb_bem_support support;
-    double arc;              /* half-angle of the clamped arc [degrees] */
-    double hub_ratio;        /* radius of the rigid hub / radius */
-    double datum;            /* half-plane: depth of zero displacement; 0: 2R/e */
-    double datum_tangential; /* homogeneous half-plane: the same for tangential
-                                displacements, as for the strips of CONTACT; 0: datum */
-    double layer;            /* half-plane: thickness of a layer of this material, bonded to a
-                                base [length]; 0: no layer */
+    double arc;       /* half-angle of the clamped arc [degrees] */
+    double hub_ratio; /* radius of the rigid hub / radius */
+    double datum;     /* half-plane: depth of zero displacement; 0: 2R/e */
+    double strip;     /* homogeneous half-plane: in place of a datum, the width of a strip
+                         of a half-space that rests far away, as in CONTACT; 0: a datum */
+    double layer;     /* half-plane: thickness of a layer of this material, bonded to a
+                         base [length]; 0: no layer */
     double base_young, base_poisson; /* of the base; young 0: rigid */
     double cover;                    /* hub: thickness of a cover of this material, bonded to a core
                                         [length]; 0: none */

@@ -47,6 +47,44 @@ static double sign_average(double y, double L)
     return y >= 0.0 ? 0.0 : 2.0 * L * expm1(y / L);
 }
 
+/* ---- Its datum ---------------------------------------------------------------------- */
+
+double rb_bem_memory_beyond_datum(double ratio)
+{
+    return 0.5 * log1p(ratio * ratio);
+}
+
+/* int_0^inf exp(-u) fall(u/z) du with u = exp(s): on the whole line the trapezoidal rule of a
+ * function that is analytic for |Im s| < pi/2 errs by exp(-pi^2/STEP), which is below rounding. */
+static double mean_of(double fall(double), double z)
+{
+    static const double STEP = 0.25, FROM = -40.0, TO = 4.5;
+    double sum = 0.0;
+
+    for (double s = FROM; s < TO; s += STEP)
+        sum += STEP * exp(s - exp(s)) * fall(exp(s) / z);
+    return sum;
+}
+
+double rb_bem_memory_of_datum(double datum_over_length)
+{
+    return mean_of(rb_bem_memory_beyond_datum, datum_over_length);
+}
+
+/* asinh(1/(2x)) + ln x, x > 0 */
+static double beyond_strip(double ratio)
+{
+    const double square = 4.0 * ratio * ratio;
+    return log1p(0.5 * square / (1.0 + sqrt(1.0 + square)));
+}
+
+double rb_bem_memory_of_strip(double width_over_length)
+{
+    return mean_of(beyond_strip, width_over_length);
+}
+
+/* ---- Steps ---------------------------------------------------------------------------- */
+
 rb_bem_fading rb_bem_fading_over(double time, double step)
 {
     const double r = step / time;

@@ -70,6 +70,7 @@ static double strip_log(double X, double b, double d)
 typedef struct {
     const rb_bem_surface *body;
     double K, c, depth, slow; /* slow: 1 + sum f_k */
+    double raised;            /* what the memory of the datum adds to w per force p or q */
     double sheared;           /* what the tangential datum adds to w_T per force q */
 } strip_kernel;
 
@@ -81,7 +82,9 @@ static strip_kernel kernel_of(const rb_bem_surface *body)
                       (1.0 - 2.0 * m.poisson) / (4.0 * m.shear),
                       body->thickness > 0.0 ? body->thickness : body->datum,
                       1.0,
+                      0.0,
                       0.0};
+    k.raised = body->thickness > 0.0 ? 0.0 : k.K * body->datum_memory;
     for (int j = 0; j < body->terms; j++)
         k.slow += body->ratio[j];
     if (body->datum_tangential > 0.0)
@@ -105,7 +108,7 @@ static inline normal_entry entry_of(const strip_kernel *k, double X, double b)
         log += log_memory;
         sign += sign_memory;
     }
-    return (normal_entry){-k->K * log, k->c * sign};
+    return (normal_entry){2.0 * b * k->raised - k->K * log, k->c * sign};
 }
 
 /* ---- Many -------------------------------------------------------------------------- */

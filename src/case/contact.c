@@ -82,9 +82,7 @@ static int falls(const rb_io_contact_case *in)
     return in->law >= 2 && in->law <= 4;
 }
 
-/* A strip as wide as DY, whose ends the half-space holds: w_N = 0 at the depth DY, as in
- * the plane, but w_T at DY exp(nu/(1 - nu)), because Cerruti's displacement
- * (1 - nu)/r + nu x^2/r^3 has a second part. */
+/* A strip as wide as DY of a half-space. */
 static rb_rolling_body body_of(const rb_io_contact_case *in, double width, int k)
 {
     const double nu = in->poisson[k];
@@ -92,8 +90,7 @@ static rb_rolling_body body_of(const rb_io_contact_case *in, double width, int k
                             .poisson = nu,
                             .radius = INFINITY,
                             .support = RB_BEM_HALFPLANE,
-                            .datum = width,
-                            .datum_tangential = width * exp(nu / (1.0 - nu))};
+                            .strip = width};
     if (in->digit.M != 1 || in->ratio[k] == 0.0)
         return body;
     if (in->time[k] > 0.0)

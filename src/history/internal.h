@@ -13,6 +13,9 @@ typedef struct {
     double sign;                     /* 1: body A, -1: B, whose tangent is mirrored */
     rb_bem_flexibility f;            /* of the glassy body under all elements; owned */
     double *past;                    /* terms x 2 all */
+    /* Of a half-plane that rolls: depth of its datum, displacement per force (0: none), and by
+     * how much loads that have moved on raise it in both directions, now and one step ago (V2). */
+    double datum, raises, raised[2], raised_before[2];
 } rb_rolling_relaxing;
 
 /* Stored tractions of both bodies: on the n elements of the mesh, and on `tail` elements
@@ -20,7 +23,10 @@ typedef struct {
 typedef struct {
     int n, tail, all, bodies;
     rb_rolling_relaxing body[2];
+    double h;         /* of the elements */
     double *traction; /* 2 all: on A at the end of the last step */
+    double *force;    /* 2 x (tail + 1): P and Q of the steps before, the last one first */
+    int rolled;       /* steps so far that have moved the material */
     double *scratch;  /* (2 all + 2) x 4 */
     double lost;      /* energy that the bodies have dissipated so far [force] */
 } rb_rolling_memory_track;

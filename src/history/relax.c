@@ -6,6 +6,7 @@
 #include "history/internal.h"
 
 #include <cblas.h>
+#include <gsl/gsl_math.h>
 #include <string.h>
 
 /* ---- One term over one step (V6) --------------------------------------------------- */
@@ -52,8 +53,9 @@ rb_rolling_case rb_rolling_memory_case(const rb_rolling_case *rc, double step)
 
 void rb_rolling_memory_track_free(rb_rolling_memory_track *r)
 {
-    for (int b = 0; b < 2; b++)
+    for (int b = 0; b < 2; b++) {
         rb_bem_flexibility_free(&r->body[b].f);
+    }
     memset(r, 0, sizeof *r);
 }
 
@@ -79,6 +81,10 @@ static rb_status add_body(const rb_rolling_case *rc, const rb_rolling_body *body
     glassy.memory.n = 0;
     if (r->tail > 0) {
         const rb_bem_surface surface = rb_rolling_surface_of(rc, &glassy, NULL);
+        own->datum = surface.datum;
+        own->raises = surface.thickness > 0.0
+                          ? 0.0
+                          : (1.0 - surface.material.poisson) / (M_PI * surface.material.shear);
         return rb_bem_flexibility_toeplitz(mesh->n, mesh->ends, &surface, &own->f, why);
     }
     const rb_status s =
@@ -94,18 +100,19 @@ rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc, const rb_rol
 {
     /* The mesh with a tail of elements behind it, where particles are that have left it. */
     const size_t all = (size_t)(mesh->n + tail);
-    const double h = mesh->ends[1] - mesh->ends[0];
     const rb_rolling_mesh longer = {.n = (int)all, .ends = rb_arena_doubles(memory, all + 2, 1)};
 
     *r = (rb_rolling_memory_track){.n = mesh->n,
                                    .tail = tail,
                                    .all = (int)all,
+                                   .h = mesh->ends[1] - mesh->ends[0],
                                    .traction = rb_arena_doubles(memory, 2 * all, 1),
+                                   .force = rb_arena_doubles(memory, (size_t)tail + 1, 2),
                                    .scratch = rb_arena_doubles(memory, 2 * all + 2, 4)};
     rb_status s = memory->failed ? RB_ENOMEM : RB_OK;
     if (s == RB_OK) {
         for (int i = 0; i < tail; i++)
-            longer.ends[i] = mesh->ends[0] - (tail - i) * h;
+            longer.ends[i] = mesh->ends[0] - (tail - i) * r->h;
         memcpy(longer.ends + tail, mesh->ends, ((size_t)mesh->n + 2) * sizeof(double));
         s = add_body(rc, &rc->a, 1.0, &longer, memory, r, why);
     }
@@ -131,6 +138,28 @@ static void mirror(const rb_rolling_relaxing *body, int n, const double *on_a, d
         own[i] = body->sign * on_a[i];
 }
 
+/* Loads that have moved on raise the whole contact alike (V2): sum over the steps before of
+ * their forces, faded as in (V6).  The state at rest has no interval of its own. */
+static void raise(const rb_rolling_memory_track *r, rb_rolling_relaxing *body, double step)
+{
+    const int known = r->rolled < r->tail ? r->rolled + 1 : r->tail + 1;
+
+    for (int way = 0; way < 2; way++) {
+        body->raised_before[way] = body->raised[way];
+        body->raised[way] = 0.0;
+    }
+    for (int k = 0; k < body->memory->n; k++) {
+        const rb_bem_fading f = rb_bem_fading_over(body->memory->time[k], step);
+        double kept = body->raises * body->memory->ratio[k];
+        for (int j = 1; j <= known; j++, kept *= f.kept) {
+            const double part = f.before + (j <= r->rolled ? f.after * f.kept : 0.0),
+                         weight = kept * part * rb_bem_memory_beyond_datum(j * r->h / body->datum);
+            for (int way = 0; way < 2; way++)
+                body->raised[way] += weight * r->force[2 * (j - 1) + way];
+        }
+    }
+}
+
 void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int rolls, double *w0)
 {
     const int all = r->all, m = r->n + 1;
@@ -140,7 +169,7 @@ void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int 
         move(all, r->traction);
     memset(w0, 0, 2 * (size_t)m * sizeof *w0);
     for (int b = 0; b < r->bodies; b++) {
-        const rb_rolling_relaxing *body = &r->body[b];
+        rb_rolling_relaxing *body = &r->body[b];
         mirror(body, all, r->traction, own);
         memset(sum, 0, 2 * (size_t)all * sizeof *sum);
         for (int k = 0; k < body->memory->n; k++) {
@@ -154,6 +183,11 @@ void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int 
         rb_bem_flexibility_apply(&body->f, sum, w);
         cblas_daxpy(m, 1.0, w + r->tail, 1, w0, 1);
         cblas_daxpy(m, body->sign, w + all + 1 + r->tail, 1, w0 + m, 1);
+        if (!rolls || body->raises == 0.0)
+            continue;
+        raise(r, body, step);
+        for (int i = 0; i < 2 * m; i++)
+            w0[i] += body->raised[i >= m];
     }
 }
 
@@ -174,7 +208,12 @@ void rb_rolling_memory_track_end(rb_rolling_memory_track *r, double step, const 
     const int n = r->n, all = r->all;
     const size_t scratch = 2 * (size_t)all + 2;
     double *before = r->scratch, *after = before + scratch;
+    double force[2] = {0.0, 0.0};
 
+    for (int i = 0; i < n; i++) {
+        force[0] += r->h * p[i];
+        force[1] += r->h * q[i];
+    }
     for (int b = 0; b < r->bodies; b++) {
         mirror(&r->body[b], all, r->traction, before);
         memset(after, 0, scratch * sizeof *after);
@@ -207,8 +246,15 @@ void rb_rolling_memory_track_end(rb_rolling_memory_track *r, double step, const 
             e[i] = after[i] - before[i];
         rb_bem_flexibility_apply(&body->f, e, w);
         r->lost += lost + of_change * work(body, e, w);
+        /* what the forces give where loads that have moved on raise the contact */
+        for (int way = 0; way < 2; way++)
+            r->lost +=
+                0.5 * (force[way] + r->force[way]) * (body->raised[way] - body->raised_before[way]);
     }
     memset(r->traction, 0, 2 * (size_t)all * sizeof *r->traction);
     memcpy(r->traction + r->tail, p, (size_t)n * sizeof *p);
     memcpy(r->traction + all + r->tail, q, (size_t)n * sizeof *q);
+    memmove(r->force + 2, r->force, 2 * (size_t)r->tail * sizeof *r->force);
+    memcpy(r->force, force, sizeof force);
+    r->rolled += step > 0.0;
 }

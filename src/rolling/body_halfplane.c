@@ -4,8 +4,13 @@
 
 #include <gsl/gsl_math.h>
 
+/* The ends of a strip are held by the half-space: w_N = 0 at the depth of its width, as in the
+ * plane, but w_T at width exp(nu/(1 - nu)), because Cerruti's displacement
+ * (1 - nu)/r + nu x^2/r^3 has a second part. */
 static double depth_of_datum(const rb_rolling_case *rc, const rb_rolling_body *body)
 {
+    if (body->strip > 0.0)
+        return body->strip;
     const double radius = isfinite(body->radius) ? fabs(body->radius) : rc->a.radius;
     return body->datum > 0.0 ? body->datum : 2.0 * radius / M_E;
 }
@@ -20,18 +25,27 @@ void rb_rolling_memory_lengths(const rb_rolling_case *rc, const rb_rolling_body 
 rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc, const rb_rolling_body *body,
                                             double length[RB_ROLLING_TERMS])
 {
-    rb_rolling_memory_lengths(rc, body, length);
     const int elastic_base = body->layer > 0.0 && body->base_young > 0.0;
-    return (rb_bem_surface){.material = rb_rolling_material(rc, body),
-                            .datum = depth_of_datum(rc, body),
-                            .datum_tangential = body->datum_tangential,
-                            .terms = body->memory.n,
-                            .ratio = body->memory.ratio,
-                            .length = length,
-                            .thickness = body->layer,
-                            .elastic_base = elastic_base,
-                            .base = elastic_base ? rb_rolling_base_material(rc, body)
-                                                 : (rb_bem_material){0}};
+    const double datum = depth_of_datum(rc, body), nu = body->poisson;
+    double datum_memory = 0.0;
+
+    rb_rolling_memory_lengths(rc, body, length);
+    for (int k = 0; k < body->memory.n && body->layer == 0.0; k++)
+        if (length[k] > 0.0)
+            datum_memory += body->memory.ratio[k] *
+                            (body->strip > 0.0 ? rb_bem_memory_of_strip(datum / length[k])
+                                               : rb_bem_memory_of_datum(datum / length[k]));
+    return (rb_bem_surface){
+        .material = rb_rolling_material(rc, body),
+        .datum = datum,
+        .datum_tangential = body->strip > 0.0 ? datum * exp(nu / (1.0 - nu)) : 0.0,
+        .datum_memory = datum_memory,
+        .terms = body->memory.n,
+        .ratio = body->memory.ratio,
+        .length = length,
+        .thickness = body->layer,
+        .elastic_base = elastic_base,
+        .base = elastic_base ? rb_rolling_base_material(rc, body) : (rb_bem_material){0}};
 }
 
 typedef rb_status maker(int n, const double *ends, const rb_bem_surface *surface,

@@ -208,10 +208,9 @@ static int is_transformed(const rb_rolling_case *rc, const rb_rolling_body *body
 
 static int suits_transforms(const rb_rolling_case *rc)
 {
-    /* products know no more than one datum */
-    const int two_datums =
-        rc->a.datum_tangential > 0.0 || (rc->elastic_b && rc->b.datum_tangential > 0.0);
-    return !two_datums &&
+    /* products know no more than one datum, strips have two */
+    const int strips = rc->a.strip > 0.0 || (rc->elastic_b && rc->b.strip > 0.0);
+    return !strips &&
            (rc->contact.solver == RB_SOLVER_AUTO || rc->contact.solver == RB_SOLVER_NEWTON) &&
            rc->mesh != RB_MESH_FITTED && is_transformed(rc, &rc->a) &&
            (!rc->elastic_b || is_transformed(rc, &rc->b));

@@ -183,7 +183,7 @@ static int is_coupled(const rb_rolling_model *v)
     if (rb_rolling_can(rc, RB_BODY_FLAT)) { /* the depth of zero displacement couples nothing */
         a.radius = rc->b.radius;
         a.datum = rc->b.datum;
-        a.datum_tangential = rc->b.datum_tangential;
+        a.strip = rc->b.strip;
     }
     return rb_contact_operator_response(v->problem.op).coupled ||
            fabs(rb_rolling_derive(rc).dundurs) >= 1e-12 ||
