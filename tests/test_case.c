@@ -382,7 +382,7 @@ TEST(cases_of_contact_are_our_own)
     CHECK_REL(c.rc.a.radius, 300.0, 1e-15, "1/(2 B1)");
     CHECK_REL(c.rc.a.young, 2.0 * 82000.0 * 1.3, 1e-15, "E of A");
     CHECK_REL(c.rc.b.young, 2.0 * 81000.0 * 1.28, 1e-15, "E of B");
-    CHECK_REL(c.rc.a.datum, 100.0, 1e-15, "DY");
+    CHECK_REL(c.rc.a.strip, 100.0, 1e-15, "DY");
     CHECK_REL(c.from, -1.0, 1e-15, "XL");
     CHECK_REL(c.to, 2.0, 1e-15, "XL + MX DX");
     CHECK_REL(c.rc.zone, 1.5, 1e-15, "half of it");
