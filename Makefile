@@ -45,12 +45,12 @@ endif
 Q := $(if $(filter 1,$(V)),,@)
 VERSION := $(shell sed -n 's/.*RB_VERSION "\(.*\)"/\1/p' include/rollbem/base.h)
 
-LIB_SRC := $(filter-out src/cli/% src/mpi/%,$(wildcard src/*/*.c))
-CLI_SRC := $(wildcard src/cli/*.c)
+LIB_SRC := $(filter-out src/program/cli/% src/program/mpi/%,$(wildcard src/*/*.c src/*/*/*.c))
+CLI_SRC := $(wildcard src/program/cli/*.c)
 LIB_OBJ := $(LIB_SRC:%.c=$(B)/%.o)
 CLI_OBJ := $(CLI_SRC:%.c=$(B)/%.o)
 # the same program with another worker pool
-MPI_OBJ := $(filter-out %/cli/pool.o,$(CLI_OBJ)) $(B)/src/mpi/pool.o
+MPI_OBJ := $(filter-out %/cli/pool.o,$(CLI_OBJ)) $(B)/src/program/mpi/pool.o
 PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
@@ -220,7 +220,7 @@ $(B)/obstacle: examples/lcp/obstacle.c
 	$(Q)$(CC) $(STD) $(CFLAGS) -o $@ $<
 $(B)/tests/test_cli_lcp: | $(B)/obstacle
 
-$(B)/src/mpi/%.o: CPPFLAGS += $(subst -I,-isystem ,$(shell pkg-config --cflags $(MPI)))
+$(B)/src/program/mpi/%.o: CPPFLAGS += $(subst -I,-isystem ,$(shell pkg-config --cflags $(MPI)))
 
 # fused multiply-adds where the instruction set has them: -std=c11 takes them off
 $(B)/src/bem/column.o $(B)/bench/bench_bem: private STD += -ffp-contract=fast
@@ -229,14 +229,14 @@ $(B)/src/bem/column.o $(B)/bench/bench_bem: private STD += -ffp-contract=fast
 $(B)/examples.inc: $(wildcard examples/*/case.ini)
 	@mkdir -p $(@D)
 	$(Q)for f in $^; do echo "{\"$$(basename $$(dirname $$f))\","; sed 's/\\/\\\\/g; s/"/\\"/g; s/.*/"&\\n"/' $$f; echo "},"; done > $@
-$(B)/src/cli/examples.o: $(B)/examples.inc
+$(B)/src/program/cli/examples.o: $(B)/examples.inc
 # what `rollbem help WORD` finds in the docs
 $(B)/words.inc: scripts/words.awk docs/glossary.md docs/faq.md
 	@mkdir -p $(@D)
 	$(Q)awk -f $^ > $@
-$(B)/src/cli/find.o: $(B)/words.inc
-$(B)/src/cli/find.o: CPPFLAGS += -I$(B)
-$(B)/src/cli/examples.o: CPPFLAGS += -I$(B)
+$(B)/src/program/cli/find.o: $(B)/words.inc
+$(B)/src/program/cli/find.o: CPPFLAGS += -I$(B)
+$(B)/src/program/cli/examples.o: CPPFLAGS += -I$(B)
 
 $(B)/%.o: %.c
 	@mkdir -p $(@D)
@@ -253,7 +253,7 @@ $(B)/tests/%: tests/%.c tests/check.h $(B)/tests/failing_alloc.o $(B)/librollbem
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Itests -MMD -MP -MF $@.d -o $@ $< $(filter %.o,$^) $(B)/librollbem.a $(LDFLAGS) $(WRAP) $(LDLIBS) -lcmocka
 
 # the core by itself, with the libraries that it needs and no others
-CORE := $(foreach folder,base lcp bem contact crack rolling results history study case,$(B)/src/$(folder)/%) $(B)/src/io/table.o $(B)/src/io/text.o $(B)/src/io/tokens.o
+CORE := $(patsubst %.c,$(B)/%.o,$(wildcard src/base/*.c src/bem/*.c $(foreach folder,lemke portfolio contact,src/lcp/$(folder)/*.c) src/rolling/*/*.c src/analysis/crack/*.c)) $(B)/src/base/io/table.o $(B)/src/base/io/text.o $(B)/src/base/io/tokens.o
 CORE_LIBS = $(filter-out -lgslcblas,$(shell pkg-config --libs openblas lapacke gsl fftw3)) -lfftw3_threads -lm $(OPENMP)
 $(B)/librollbem-core.a: $(filter $(CORE),$(LIB_OBJ))
 	@rm -f $@

@@ -150,7 +150,7 @@ static int see_row(int k, const rb_rolling_row *found, void *context)
     return 0;
 }
 
-/* Rows that may wait, src/study/sweep.c. */
+/* Rows that may wait, src/rolling/study/sweep.c. */
 enum { WINDOW = 1 << 14 };
 
 static double sweep(const rb_rolling_case *rc, int count)

@@ -1,6 +1,6 @@
 #include "fuzz.h"
 
-#include "io/child.h"
+#include "base/io/child.h"
 
 #include <hdf5.h>
 

@@ -1,8 +1,8 @@
 /* What the program reads beyond the library: its command line, the rows of a study, the
- * file that a study goes on from, and results of anybody that it checks.  src/cli is
+ * file that a study goes on from, and results of anybody that it checks.  src/program/cli is
  * linked, but for main. */
-#include "cli/case.h"
-#include "cli/cli.h"
+#include "program/cli/case.h"
+#include "program/cli/cli.h"
 #include "fuzz.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
-/* What src/api and src/case keep to themselves: the calls that run, the names of arrays,
- * values from elsewhere against a table. */
-#include "api/internal.h"
-#include "case/internal.h"
+/* What src/program/api and src/rolling/case keep to themselves: the calls that run, the names of
+ * arrays, values from elsewhere against a table. */
+#include "program/api/internal.h"
+#include "rolling/case/words.h"
 #include "check.h"
 #include "two_threads.h"
 

@@ -1,8 +1,8 @@
 /* The line in which every refusal of the program ends, and its exit codes. */
 #define _GNU_SOURCE /* RTLD_NEXT */
 #include "check.h"
-#include "cli/cli.h"
-#include "cli/wait.h"
+#include "program/cli/cli.h"
+#include "program/cli/wait.h"
 
 #include <dlfcn.h>
 #include <signal.h>

@@ -1,6 +1,6 @@
-/* What src/contact keeps to itself, on random problems: Newton's search, pairs of
+/* What src/lcp/contact keeps to itself, on random problems: Newton's search, pairs of
  * elements, paths, zones of tractions and slips, residuals, cones, layers that yield. */
-#include "contact/internal.h"
+#include "lcp/contact/internal.h"
 #include "contact_random.h"
 
 /* Where pressure and friction do not meet, Newton's method solves for one after the

@@ -1,8 +1,8 @@
 /* What the friction solvers are made of: one contact alone, W in blocks, one Newton step,
  * pauses, smoothed projections. */
 #include "check.h"
-#include "friction/internal.h"
-#include "friction/smoothing.h"
+#include "lcp/friction/internal.h"
+#include "lcp/friction/smoothing.h"
 #include "packing.h"
 #include "numbers.h"
 #include "friction_problems.h"

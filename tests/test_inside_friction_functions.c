@@ -1,7 +1,7 @@
 /* What the friction solvers are made of, each from its definition: cones and norms, the
  * functions whose roots are solutions and their derivatives, the units of a contact. */
 #include "check.h"
-#include "friction/internal.h"
+#include "lcp/friction/internal.h"
 #include "numbers.h"
 
 static unsigned long long seed = 21;

@@ -2,7 +2,7 @@
  * is made good by the next, so that a solve tells nothing of them. */
 #include "check.h"
 #include "friction_problems.h"
-#include "friction/internal.h"
+#include "lcp/friction/internal.h"
 #include "numbers.h"
 
 enum { NC = 7, M = 2 * NC, DOFS = M + 3 };

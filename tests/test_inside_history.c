@@ -1,8 +1,8 @@
-/* What src/history keeps to itself: displacements where particles were a step ago, the
+/* What src/rolling/history keeps to itself: displacements where particles were a step ago, the
  * program of its steps, what the material carries along. */
 #include "cases.h"
 #include "check.h"
-#include "history/internal.h"
+#include "rolling/history/internal.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

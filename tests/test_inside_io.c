@@ -2,7 +2,7 @@
 #define _GNU_SOURCE
 #include "check.h"
 #include "failing_call.h"
-#include "io/child.h"
+#include "base/io/child.h"
 #include "scratch.h"
 
 #include <signal.h>

@@ -3,7 +3,7 @@
  * planted in the tableau's constants and in its driving column are seen, and taken out in
  * the cheaper way that will do. */
 #include "check.h"
-#include "lcp/lemke.h"
+#include "lcp/lemke/lemke.h"
 #include "numbers.h"
 
 /* A multiple of the columns that go through the blocks together. */

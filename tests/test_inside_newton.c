@@ -1,8 +1,8 @@
 /* Newton with a matrix: the problem on pairs of elements, the cold start from it, and the
  * answers beside Lemke's. */
 #include "cases.h"
-#include "contact/dense.h"
-#include "study/internal.h"
+#include "lcp/contact/dense.h"
+#include "rolling/study/internal.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

@@ -1,7 +1,7 @@
-/* What src/report keeps to itself: units and steps of axes, dashes, and gnuplot, whatever
+/* What src/program/report keeps to itself: units and steps of axes, dashes, and gnuplot, whatever
  * becomes of it. */
 #include "check.h"
-#include "report/internal.h"
+#include "program/report/internal.h"
 
 #include <fcntl.h>
 #include <signal.h>

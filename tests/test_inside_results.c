@@ -1,7 +1,7 @@
-/* What src/results keeps to itself, from states that are made up: edges and peaks, of
+/* What src/rolling/solve keeps to itself, from states that are made up: edges and peaks, of
  * which a power law or a parabola gives the exact ones, powers, columns, temperatures. */
 #include "cases.h"
-#include "history/internal.h"
+#include "rolling/history/internal.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

@@ -1,8 +1,8 @@
-/* What src/study keeps to itself: error bars from runs that are made up or solved here,
+/* What src/rolling/study keeps to itself: error bars from runs that are made up or solved here,
  * and the start of a fine solution from a coarse one. */
 #include "cases.h"
 #include "solved.h"
-#include "study/internal.h"
+#include "rolling/study/internal.h"
 
 #include <float.h>
 

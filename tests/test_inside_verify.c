@@ -1,7 +1,7 @@
 /* What `verify` says of references that are not met: a bound that is missed, a solution
  * that failed. */
 #include "check.h"
-#include "verify/internal.h"
+#include "program/verify/internal.h"
 
 static void keep(const rb_verify_check *check, void *context)
 {

@@ -11,36 +11,56 @@ static const struct {
     const char *folder, *headers;
 } layers[] = {
     {"base", " base blas sparse units "},
-    {"lcp", " base blas lcp "},
+    {"base/io", " base sparse io io_fclib io_contact "},
     {"bem", " base blas sparse bem "},
-    {"io", " base sparse io io_fclib io_contact "},
-    {"contact", " base lcp contact "},
-    {"crack", " base lcp bem contact crack "},
-    {"friction", " base blas sparse io io_fclib lcp contact friction "},
+    {"lcp/lemke", " base blas lcp "},
+    {"lcp/portfolio", " base blas lcp "},
+    {"lcp/contact", " base lcp contact "},
+    {"lcp/friction", " base blas sparse io io_fclib lcp contact friction "},
+    {"rolling/case", " base units io contact crack rolling options closed_forms case "},
+    {"rolling/body", " base blas units bem lcp contact rolling options closed_forms "},
+    {"rolling/solve", " base blas units bem lcp contact rolling options closed_forms "},
+    {"rolling/history", " base blas units bem lcp contact rolling options closed_forms "},
+    {"rolling/study", " base blas units bem lcp contact rolling options closed_forms "},
+    {"analysis/crack", " base lcp bem contact crack rolling case "},
+    {"analysis/sensitivity", " base blas contact rolling options sensitivity case "},
+    {"analysis/fit", " base io contact rolling options sensitivity case "},
+    {"analysis/design", " base rolling sensitivity case design "},
+    {"program/api", " base blas sparse io lcp contact crack friction rolling closed_forms "
+                    "sensitivity case design api "},
+    {"program/verify", " base bem crack rolling closed_forms verify "},
+    {"program/report", " base blas sparse units bem lcp contact crack io friction fem rolling "
+                       "closed_forms sensitivity case design report report_fem "},
+    {"program/certificate", " contact crack io case report certificate "},
     {"fem", " base blas sparse friction fem "},
-    {"rolling", " base blas units bem lcp contact rolling options closed_forms "},
-    {"results", " base blas units bem lcp contact rolling options closed_forms "},
-    {"history", " base blas units bem lcp contact rolling options closed_forms "},
-    {"study", " base blas units bem lcp contact rolling options closed_forms "},
-    {"sensitivity", " base blas contact rolling sensitivity "},
-    {"case", " base units io contact crack rolling options sensitivity case "},
-    {"design", " base rolling sensitivity case design "},
-    {"api", " base blas sparse io lcp contact crack friction rolling closed_forms "
-            "sensitivity case design api "},
-    {"verify", " base bem crack rolling closed_forms verify "},
-    {"report", " base blas sparse units bem lcp contact crack io friction fem rolling "
-               "closed_forms sensitivity case design report "
-               "report_fem "},
-    {"certificate", " contact crack io case report certificate "},
 };
 
-/* Each may include the internal.h of the one before it, which includes that below it. */
-static const char *const rooms[] = {"rolling", "results", "history", "study"};
+/* What rooms show each other besides: a folder, and a private header of another that it may
+ * include. */
+static const struct {
+    const char *folder, *header;
+} shared[] = {
+    {"lcp/portfolio", "lcp/lemke/lemke"},         {"rolling/case", "rolling/rolling"},
+    {"rolling/body", "rolling/rolling"},          {"rolling/solve", "rolling/rolling"},
+    {"rolling/history", "rolling/solve/results"}, {"rolling/study", "rolling/history/internal"},
+    {"analysis/crack", "rolling/case/words"},     {"analysis/sensitivity", "rolling/case/words"},
+    {"analysis/fit", "rolling/case/words"},
+};
 
-/* The name between the quotes of an #include "FOLDER/NAME.h", split in two. */
+/* The name between the quotes of an #include "FOLDER/NAME.h", split in two; FOLDER may be one
+ * inside another. */
 static int included(const char *line, char folder[40], char name[40])
 {
-    return sscanf(line, "#include \"%39[^/\"]/%39[^.\"].h\"", folder, name) == 2;
+    char path[80];
+    if (sscanf(line, "#include \"%79[^.\"].h\"", path) != 1)
+        return 0;
+    char *slash = strrchr(path, '/');
+    if (!slash || slash - path > 39 || strlen(slash) > 39)
+        return 0;
+    *slash = '\0';
+    strcpy(folder, path);
+    strcpy(name, slash + 1);
+    return 1;
 }
 
 static void check_line(const char *path, int number, const char *line, const char *own,
@@ -49,11 +69,12 @@ static void check_line(const char *path, int number, const char *line, const cha
     char folder[40], name[40], word[44];
     if (!included(line, folder, name) || strcmp(folder, own) == 0)
         return;
-    /* the rooms above rolling share what rolling's files share */
-    if (strcmp(name, "internal") == 0)
-        for (size_t k = 1; k < sizeof rooms / sizeof *rooms; k++)
-            if (strcmp(own, rooms[k]) == 0 && strcmp(folder, rooms[k - 1]) == 0)
-                return;
+    for (size_t k = 0; k < sizeof shared / sizeof *shared; k++) {
+        char header[84];
+        snprintf(header, sizeof header, "%s/%s", folder, name);
+        if (strcmp(own, shared[k].folder) == 0 && strcmp(header, shared[k].header) == 0)
+            return;
+    }
     snprintf(word, sizeof word, " %s ", name);
     if (strcmp(folder, "rollbem") != 0 || !strstr(headers, word))
         fail_msg("%s:%d: %s may not include %s/%s.h", path, number, own, folder, name);
@@ -134,7 +155,7 @@ static int file_number(const char *object)
 {
     char source[WORD];
     const char *at = strstr(object, "src/");
-    if (!at || strstr(at, "src/mpi/"))
+    if (!at || strstr(at, "src/program/mpi/"))
         return -1;
     snprintf(source, sizeof source, "%.*sc", (int)strlen(at) - 1, at);
     for (int k = all.files - 1; k >= 0; k--)
@@ -160,7 +181,8 @@ static void read_symbols(int round)
 {
     char command[200], line[600], object[WORD], symbol[WORD], kind;
     const char *build = getenv("B");
-    snprintf(command, sizeof command, "nm -A -P %s/src/*/*.o", build ? build : "build");
+    snprintf(command, sizeof command, "cd %s && nm -A -P src/*/*.o src/*/*/*.o",
+             build ? build : "build");
     FILE *nm = NOT_NULL(popen(command, "r"));
     while (fgets(line, sizeof line, nm)) {
         if (sscanf(line, "%119[^:]: %119s %c", object, symbol, &kind) != 3)
@@ -179,6 +201,35 @@ static void read_symbols(int round)
     assert_int_equal(pclose(nm), 0);
 }
 
+/* Of a file src/ROOM/...: base 0, bem and lcp 1, rolling 2, analysis 3, program 4. */
+static int height_of(const char *file)
+{
+    static const char *const rooms[] = {"base", "bem lcp", "rolling", "analysis", "program"};
+    char room[WORD];
+    sscanf(file, "src/%119[^/]", room);
+    for (int k = 0; k < 5; k++)
+        if (strstr(rooms[k], room))
+            return k;
+    return -1;
+}
+
+/* What the objects call, whatever they include. */
+TEST(rooms_call_down_only)
+{
+    read_symbols(0);
+    read_symbols(1);
+    assert_true(all.files > 100 && all.symbols > 500);
+    for (int i = 0; i < all.files; i++)
+        for (int j = 0; j < all.files; j++) {
+            const int from = height_of(all.file[i]), to = height_of(all.file[j]);
+            if (!all.calls[i][j] || from < 0 || to < 0 || from > to)
+                continue;
+            const size_t room = strcspn(all.file[i] + 4, "/") + 4;
+            if (from < to || strncmp(all.file[i], all.file[j], room + 1) != 0)
+                fail_msg("%s calls %s", all.file[i], all.file[j]);
+        }
+}
+
 static void close_calls(void)
 {
     for (int k = 0; k < all.files; k++)
@@ -191,9 +242,6 @@ static void close_calls(void)
 TEST(files_call_each_other_in_no_circle)
 {
     int longest = 0;
-    read_symbols(0);
-    read_symbols(1);
-    assert_true(all.files > 100 && all.symbols > 500);
     close_calls();
     for (int i = 0; i < all.files; i++) {
         int others = 0;

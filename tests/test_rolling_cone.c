@@ -1,4 +1,4 @@
-/* The rolling problems through the cone solvers of src/friction: a third opinion. */
+/* The rolling problems through the cone solvers of src/lcp/friction: a third opinion. */
 #include "cases.h"
 #include "check.h"
 #include "rollbem/friction.h"

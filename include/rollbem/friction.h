@@ -69,7 +69,7 @@ rb_status rb_friction_eliminate_local(rb_friction_problem *local, const rb_spars
 /* Rolling friction, global form, dimension 5: [N, T1, T2, M1, M2] per contact, ||r_T|| <=
  * mu r_N and ||m|| <= mu_r r_N, the slip is opposite to r_T and the relative angular
  * velocity opposite to m.  The problem is transformed into one with 2 n_c contacts in
- * three dimensions and n + n_c unknowns v (see src/friction/rolling.c), which every
+ * three dimensions and n + n_c unknowns v (see src/lcp/friction/rolling.c), which every
  * solver accepts.  mu_r: n_c, [length].  RB_EINVAL: mu_r < 0, or an error of
  * rb_friction_problem_check; RB_ENOMEM. */
 rb_status rb_friction_split_rolling(rb_friction_problem *problem, const double *mu_r,

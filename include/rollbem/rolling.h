@@ -142,7 +142,7 @@ double rb_rolling_profile_gap(const rb_rolling_profile *profile, double x);
 
 /* A law gives the coefficient of an element from its state: place x, slip velocity v,
  * temperature.  Each row of this table has the name of a law and one line about it.  The
- * function of the law is in src/rolling/law.c; option, help, JSON and messages are made
+ * function of the law is in src/rolling/solve/law.c; option, help, JSON and messages are made
  * from the row.  mu: the coefficient of the case; m and s: fall and slip_scale below. */
 #define RB_ROLLING_FRICTION_LAWS(LAW)                                                              \
     LAW(constant, "mu everywhere")                                                                 \
@@ -372,7 +372,7 @@ void rb_rolling_bodies_free(rb_rolling_bodies *bodies);
 rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p, const double *q,
                                   double *w);
 
-/* A row of the table of bodies (src/rolling/body.c).  A body has the row of its support
+/* A row of the table of bodies (src/rolling/body/body.c).  A body has the row of its support
  * and one row for each addition (layer, cover, viscoelasticity).  It has those properties
  * that all its rows have. */
 typedef struct rb_rolling_body_kind rb_rolling_body_kind;

@@ -1,12 +1,12 @@
 /* What the page does not hold: transforms for long lines, hierarchical matrices, cone
  * solvers. The page's ranges stay below the sizes that would need
  * them; asked for all the same, they refuse. */
-#include "api/internal.h"
+#include "program/api/internal.h"
 #include "bem/given.h"
 #include "bem/hierarchical.h"
 #include "bem/large.h"
 #include "bem/skeleton.h"
-#include "study/internal.h"
+#include "rolling/study/internal.h"
 #include "rollbem/blas.h"
 #include "rollbem/friction.h"
 

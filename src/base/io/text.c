@@ -1,0 +1,128 @@
+#define _XOPEN_SOURCE 700 /* realpath */
+/* Input files as text. */
+#include "base/io/tokens.h"
+#include "rollbem/io.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* A pipe does not say how much there is to come. */
+static const size_t largest_file = (size_t)1 << 31, largest_from_pipe = (size_t)1 << 28,
+                    largest_harmless = (size_t)1 << 26;
+
+char *rb_io_read_all(FILE *file, size_t most, size_t *size)
+{
+    size_t capacity = 0, got;
+    char *text = NULL;
+    *size = 0;
+    do {
+        if (*size + 1 >= capacity) {
+            capacity = capacity ? 2 * capacity : 1 << 12;
+            char *larger = realloc(text, capacity);
+            if (!larger) {
+                free(text);
+                return NULL;
+            }
+            text = larger;
+        }
+        got = fread(text + *size, 1, capacity - *size - 1, file);
+        *size += got;
+    } while (got && *size <= most);
+    if (ferror(file) || *size > most) {
+        if (*size > most)
+            errno = EFBIG;
+        free(text);
+        return NULL;
+    }
+    text[*size] = '\0';
+    return text;
+}
+
+static rb_status too_large(const char *path, size_t most, rb_message *why)
+{
+    return rb_fail(why, RB_EFORMAT, "%s: more than %zu MB, expected a text", path, most >> 20);
+}
+
+static rb_status cannot_read(const char *path, rb_message *why)
+{
+    return errno == ENOMEM ? rb_fail(why, RB_ENOMEM, "%s: out of memory", path)
+                           : rb_fail(why, RB_ENOENT, "%s: %s", path, strerror(errno));
+}
+
+rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_message *why)
+{
+    struct stat st, null;
+    *text = NULL;
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return cannot_read(path, why);
+    const int known = fstat(fileno(file), &st) == 0;
+    /* Of the devices terminals end, and /dev/null is empty. */
+    if (known &&
+        (S_ISBLK(st.st_mode) || (S_ISCHR(st.st_mode) && !isatty(fileno(file)) &&
+                                 !(stat("/dev/null", &null) == 0 && null.st_rdev == st.st_rdev)))) {
+        fclose(file);
+        return rb_fail(why, RB_EFORMAT, "%s: a device, expected a file or a pipe", path);
+    }
+    const size_t most = known && !S_ISREG(st.st_mode) ? largest_from_pipe : largest_file;
+    errno = 0;
+    if (known && S_ISDIR(st.st_mode))
+        errno = EISDIR;
+    else
+        *text = rb_io_read_all(file, most, size);
+    if (!*text && errno == EFBIG) {
+        fclose(file);
+        return too_large(path, most, why);
+    }
+    rb_status s = *text ? RB_OK : cannot_read(path, why);
+    fclose(file);
+    /* What is no text is said to be none, before anything takes it for malformed numbers. */
+    const char *zero = s == RB_OK ? memchr(*text, '\0', *size) : NULL;
+    if (s == RB_OK && *size >= 2 &&
+        (memcmp(*text, "\xff\xfe", 2) == 0 || memcmp(*text, "\xfe\xff", 2) == 0))
+        s = rb_fail(why, RB_EFORMAT, "%s: UTF-16 text, expected ASCII or UTF-8", path);
+    else if (zero) {
+        int line = 1;
+        for (const char *c = *text; c < zero; c++)
+            line += *c == '\n';
+        s = rb_fail(why, RB_EFORMAT, "%s:%d: a zero byte, expected text", path, line);
+    }
+    if (s == RB_OK && strncmp(*text, "\xef\xbb\xbf", 3) == 0) /* some editors' mark */
+        memset(*text, ' ', 3);
+    if (s != RB_OK) {
+        free(*text);
+        *text = NULL;
+    }
+    return s;
+}
+
+rb_status rb_io_check_harmless(const char *path, const char *folder, rb_message *why)
+{
+    struct stat st;
+    if (stat(path, &st) != 0)
+        return cannot_read(path, why);
+    if (!S_ISREG(st.st_mode))
+        return rb_fail(why, RB_EFORMAT, "%s: expected a regular file", path);
+    if ((unsigned long long)st.st_size > largest_harmless)
+        return too_large(path, largest_harmless, why);
+    if (!folder)
+        return RB_OK;
+    /* The canonical path of the folder is the beginning of that of the file. */
+    char *file = realpath(path, NULL), *above = realpath(folder, NULL);
+    rb_status s = RB_OK;
+    if (!file || !above)
+        s = cannot_read(file ? folder : path, why);
+    else {
+        size_t n = strlen(above);
+        while (n > 0 && above[n - 1] == '/')
+            n--;
+        if (strncmp(file, above, n) != 0 || file[n] != '/')
+            s = rb_fail(why, RB_EFORMAT, "%s: not in the folder %s", path, folder);
+    }
+    free(file);
+    free(above);
+    return s;
+}

@@ -1,0 +1,35 @@
+/* The operator that has its matrices, and the LU that Newton keeps of them. */
+#ifndef ROLLBEM_CONTACT_DENSE_H
+#define ROLLBEM_CONTACT_DENSE_H
+
+#include "lcp/contact/internal.h"
+
+/* The LU for the zones of earlier solves, one for each of rb_contact_unknowns. */
+typedef struct rb_contact_factors rb_contact_factors;
+
+typedef struct {
+    rb_contact_operator base;
+    double *S;                     /* owned, as the factors */
+    rb_contact_factors *factors;   /* empty at first and when cleared */
+    rb_contact_operator *products; /* NULL: none; owned */
+} rb_contact_dense;
+
+rb_status rb_contact_factors_create(rb_contact_factors **factors);
+void rb_contact_factors_clear(rb_contact_factors *factors);
+void rb_contact_factors_free(rb_contact_factors *factors);
+
+/* Which LU: of the tractions for earlier zones where these have not changed too much, or
+ * else, or at once, for the present ones; or of all unknowns together, which is not kept:
+ * the tractions alone may have no inverse where the load or the force is given. */
+typedef enum { RB_LU_KEPT, RB_LU_NEW, RB_LU_WHOLE, RB_LU_KINDS } rb_contact_lu;
+
+/* One solve of the reduced problem.  RB_SINGULAR, RB_ENOMEM. */
+rb_status rb_contact_reduced_direct(const rb_contact_problem *problem, const int *zone,
+                                    rb_contact_lu lu, rb_contact_reduced *r);
+
+/* pairs.c: F and S of the elements in pairs; a pair has one traction, the mean gap and
+ * slip. */
+rb_status rb_contact_dense_halve(const rb_contact_operator *fine, int differences,
+                                 rb_contact_operator **half);
+
+#endif

@@ -1,0 +1,340 @@
+/* The reduced problem with a matrix: the LU of the tractions' block A is kept from solve
+ * to solve.  What has changed since then, and delta and xi, stand at its border:
+ *     [A V; W T] (x, y) = (f, g),  (T - W A^-1 V) y = g - W A^-1 f,
+ * so that a Newton step costs some products instead of an LU. */
+#include "lcp/contact/dense.h"
+
+#include <cblas.h>
+#include <float.h>
+#include <lapacke.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Tractions at an element per unit of an unknown. */
+typedef struct {
+    int at;
+    double N, T;
+} traction;
+
+/* The LU for the zones of an earlier solve: unknowns (and their equations, gap or slip at
+ * the same element) in the order of rb_contact_reduced. */
+typedef struct {
+    int contacts, size, capacity;
+    traction *unknown;
+    double *LU;
+    lapack_int *pivots;
+} kept_lu;
+
+/* A change of friction per pressure that the LU need not know: solved again, what it
+ * leaves falls by about as much each time.  Coefficients that depend on the state change
+ * at every element from round to round, ever less. */
+static const double SLIGHT = 0.01;
+
+/* One for each of RB_NORMAL, RB_TANGENTIAL, RB_BOTH. */
+struct rb_contact_factors {
+    kept_lu kept[3];
+};
+
+/* One equation and one unknown at the border of A. */
+typedef struct {
+    enum {
+        LAPSED,      /* unknown `place` of A is zero; its equation has slack */
+        TURNED,      /* friction of unknown `place` follows its pressure otherwise */
+        NEW_CONTACT, /* gap zero; tractions */
+        NEW_STICK,   /* slip zero; traction */
+        APPROACH,    /* given load; delta */
+        CREEPAGE     /* given force; xi */
+    } kind;
+    int place;
+    traction unknown;
+} border;
+
+typedef struct {
+    traction *unknown; /* present ones, without delta and xi; in scratch memory, as all here */
+    int *source;       /* of r->x among (x, y) */
+    border *border;
+    int count, changes; /* borders; those that stand for zones */
+    int slight;         /* unknowns that have turned, and so little that none stands for it */
+} plan;
+
+void rb_contact_factors_clear(rb_contact_factors *factors)
+{
+    for (int k = 0; k < 3; k++) {
+        free(factors->kept[k].unknown);
+        free(factors->kept[k].LU);
+        free(factors->kept[k].pivots);
+        factors->kept[k] = (kept_lu){0};
+    }
+}
+
+void rb_contact_factors_free(rb_contact_factors *factors)
+{
+    rb_contact_factors_clear(factors);
+    free(factors);
+}
+
+rb_status rb_contact_factors_create(rb_contact_factors **factors)
+{
+    *factors = calloc(1, sizeof **factors);
+    return *factors ? RB_OK : RB_ENOMEM;
+}
+
+/* ---- Entries, scaled to numbers of order one --------------------------------------- */
+
+static double gap_of(const rb_contact_problem *p, int i, traction t)
+{
+    const rb_contact_matrix *K = &p->op->matrix;
+    const double *F = K->F + i + (size_t)t.at * (size_t)K->ldf;
+    const double N = t.N != 0.0 ? t.N * F[0] : 0.0;
+    const double T = t.T != 0.0 ? t.T * F[(size_t)p->n * (size_t)K->ldf] : 0.0;
+    return (N + T) * (p->stress / p->gap_length);
+}
+
+static double slip_of(const rb_contact_problem *p, int i, traction t)
+{
+    const size_t n = (size_t)p->n;
+    const double *S = p->op->matrix.S + i + (size_t)t.at * n;
+    const double N = t.N != 0.0 ? t.N * S[0] : 0.0;
+    const double T = t.T != 0.0 ? t.T * S[n * n] : 0.0;
+    return (N + T) * (p->stress / p->slip_length);
+}
+
+/* Answer of a border's equation to tractions. */
+static double border_row(const rb_contact_problem *p, const rb_contact_reduced *r, const border *b,
+                         traction t)
+{
+    switch (b->kind) {
+    case NEW_CONTACT:
+        return gap_of(p, b->unknown.at, t);
+    case NEW_STICK:
+        return slip_of(p, b->unknown.at, t);
+    case APPROACH:
+        return (t.N * p->load_N[t.at] + t.T * p->load_T[t.at]) * (p->stress / p->load);
+    case CREEPAGE:
+        return (t.N * r->control_N[t.at] + t.T * r->control_T[t.at]) * (p->stress / r->force_scale);
+    default:
+        return 0.0;
+    }
+}
+
+/* Answer of one border's equation to another one's unknown, or to its own. */
+static double corner(const rb_contact_problem *p, const rb_contact_reduced *r, const border *row,
+                     const border *column)
+{
+    switch (column->kind) {
+    case LAPSED:
+        return 0.0;
+    case APPROACH:
+        return row->kind == NEW_CONTACT ? -1.0 : 0.0;
+    case CREEPAGE:
+        return row->kind == NEW_STICK ? p->e_T[row->unknown.at] / p->e_T[0] : 0.0;
+    default:
+        return row->kind != TURNED ? border_row(p, r, row, column->unknown)
+               : row == column     ? -1.0
+                                   : 0.0;
+    }
+}
+
+/* ---- What has changed since the LU ------------------------------------------------- */
+
+static int add_border(plan *pl, border b)
+{
+    pl->border[pl->count] = b;
+    return pl->count++;
+}
+
+/* Compares kept unknowns from ... to - 1 with the present ones now ... end - 1, both in
+ * the order of their elements. */
+static void compare(const kept_lu *k, int from, int to, int now, int end, plan *pl)
+{
+    while (from < to || now < end) {
+        const int was = from < to ? k->unknown[from].at : INT_MAX;
+        const int is = now < end ? pl->unknown[now].at : INT_MAX;
+        if (was < is) {
+            add_border(pl, (border){LAPSED, from++, {0}});
+        } else if (is < was) {
+            const traction t = pl->unknown[now];
+            const border b = {t.N == 0.0 ? NEW_STICK : NEW_CONTACT, 0, t};
+            pl->source[now++] = k->size + add_border(pl, b);
+        } else {
+            const double turn = pl->unknown[now].T - k->unknown[from].T;
+            if (fabs(turn) > SLIGHT)
+                add_border(pl, (border){TURNED, from, {is, 0.0, turn}});
+            else
+                pl->slight += turn != 0.0;
+            pl->source[now++] = from++;
+        }
+    }
+}
+
+static void make_plan(const rb_contact_problem *p, const int *zone, const rb_contact_reduced *r,
+                      const kept_lu *k, plan *pl)
+{
+    const int tractions = r->contacts + r->sticks;
+
+    /* Where both groups are unknown, friction of a slipping element follows its pressure. */
+    traction *unknown = pl->unknown;
+    for (int c = 0; c < r->contacts; c++) {
+        const int i = r->contact[c];
+        *unknown++ = (traction){i, 1.0, rb_contact_reduced_friction(p, r, zone, i)};
+    }
+    for (int c = 0; c < r->sticks; c++)
+        *unknown++ = (traction){r->stick[c], 0.0, 1.0};
+    pl->count = pl->slight = 0;
+    compare(k, 0, k->contacts, 0, r->contacts, pl);
+    compare(k, k->contacts, k->size, r->contacts, tractions, pl);
+    pl->changes = pl->count;
+    if (r->load)
+        pl->source[tractions] = k->size + add_border(pl, (border){APPROACH, 0, {0}});
+    if (r->force)
+        pl->source[tractions + r->load] = k->size + add_border(pl, (border){CREEPAGE, 0, {0}});
+}
+
+/* ---- The LU ------------------------------------------------------------------------ */
+
+static rb_status make_room(int size, kept_lu *k)
+{
+    if (size <= k->capacity)
+        return RB_OK;
+    free(k->unknown);
+    free(k->LU);
+    free(k->pivots);
+    k->unknown = calloc((size_t)size, sizeof *k->unknown);
+    k->LU = rb_alloc((size_t)size, (size_t)size);
+    k->pivots = calloc((size_t)size, sizeof *k->pivots);
+    k->capacity = k->unknown && k->LU && k->pivots ? size : 0;
+    return k->capacity ? RB_OK : RB_ENOMEM;
+}
+
+static rb_status factor(const rb_contact_problem *p, const rb_contact_reduced *r,
+                        const traction *unknown, kept_lu *k)
+{
+    const int size = r->contacts + r->sticks;
+
+    k->size = k->contacts = 0; /* nothing is kept where this fails */
+    const rb_status s = make_room(size, k);
+    if (s != RB_OK || size == 0)
+        return s;
+    memcpy(k->unknown, unknown, (size_t)size * sizeof *unknown);
+    for (int j = 0; j < size; j++) {
+        double *column = k->LU + (size_t)j * (size_t)size;
+        for (int i = 0; i < r->contacts; i++)
+            column[i] = gap_of(p, unknown[i].at, unknown[j]);
+        for (int i = r->contacts; i < size; i++)
+            column[i] = slip_of(p, unknown[i].at, unknown[j]);
+    }
+    if (LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, size, size, k->LU, size, k->pivots) != 0)
+        return RB_SINGULAR;
+    k->size = size;
+    k->contacts = r->contacts;
+    return RB_OK;
+}
+
+/* ---- Solving ----------------------------------------------------------------------- */
+
+/* Columns V and f, rows W, T and g. */
+typedef struct {
+    double *V, *f, *W, *T, *g;
+} bordered;
+
+static void fill_border(const rb_contact_problem *p, const rb_contact_reduced *r, const kept_lu *k,
+                        const plan *pl, const bordered *m)
+{
+    const int n = k->size, count = pl->count;
+
+    for (int b = 0; b < count; b++) {
+        const border *row = &pl->border[b];
+        /* Answer of A's equations to a border's unknown. */
+        double *column = m->V + (size_t)b * (size_t)n;
+        const int is_traction =
+            row->kind == TURNED || row->kind == NEW_CONTACT || row->kind == NEW_STICK;
+
+        for (int i = 0; i < k->contacts; i++)
+            column[i] = is_traction             ? gap_of(p, k->unknown[i].at, row->unknown)
+                        : row->kind == APPROACH ? -1.0
+                                                : 0.0;
+        for (int i = k->contacts; i < k->size; i++)
+            column[i] = is_traction             ? slip_of(p, k->unknown[i].at, row->unknown)
+                        : row->kind == CREEPAGE ? p->e_T[k->unknown[i].at] / p->e_T[0]
+                                                : 0.0;
+        if (row->kind == LAPSED)
+            column[row->place] = 1.0;
+        for (int j = 0; j < n; j++)
+            m->W[b + (size_t)j * (size_t)count] = border_row(p, r, row, k->unknown[j]);
+        if (row->kind == LAPSED || row->kind == TURNED)
+            m->W[b + (size_t)row->place * (size_t)count] = 1.0;
+        for (int c = 0; c < count; c++)
+            m->T[b + (size_t)c * (size_t)count] = corner(p, r, row, &pl->border[c]);
+    }
+}
+
+/* (f, g) into (x, y); growth: |A^-1 f| / |x|, the digits that cancel.  pivots: count. */
+static rb_status eliminate(const kept_lu *k, int count, const bordered *m, lapack_int *pivots,
+                           double *growth)
+{
+    const int n = k->size;
+
+    if (n > 0)
+        LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, count + 1, k->LU, n, k->pivots, m->V, n);
+    *growth = rb_norm_inf((size_t)n, m->f);
+    if (n > 0 && count > 0) {
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, count, count, n, -1.0, m->W, count,
+                    m->V, n, 1.0, m->T, count);
+        cblas_dgemv(CblasColMajor, CblasNoTrans, count, n, -1.0, m->W, count, m->f, 1, 1.0, m->g,
+                    1);
+    }
+    const lapack_int fault = count == 0 ? 0
+                                        : LAPACKE_dgesv_work(LAPACK_COL_MAJOR, count, 1, m->T,
+                                                             count, pivots, m->g, count);
+    if (n > 0 && count > 0)
+        cblas_dgemv(CblasColMajor, CblasNoTrans, n, count, -1.0, m->V, n, m->g, 1, 1.0, m->f, 1);
+    *growth /= fmax(rb_norm_inf((size_t)n, m->f), DBL_MIN);
+    return fault == 0 ? RB_OK : RB_SINGULAR;
+}
+
+rb_status rb_contact_reduced_direct(const rb_contact_problem *p, const int *zone, rb_contact_lu lu,
+                                    rb_contact_reduced *r)
+{
+    kept_lu none = {0}; /* all unknowns are borders then */
+    rb_contact_factors *factors = ((const rb_contact_dense *)p->op)->factors;
+    kept_lu *k = lu == RB_LU_WHOLE ? &none : &factors->kept[r->unknowns - 1];
+    rb_arena scratch = {0};
+    /* All arrays at their largest: every kept unknown lapsed, every present one new. */
+    const size_t size = (size_t)r->size + 1;
+    plan pl = {.unknown = rb_arena_zeros(&scratch, size, sizeof *pl.unknown),
+               .source = rb_arena_ints(&scratch, size),
+               .border = rb_arena_zeros(&scratch, size + (size_t)k->size, sizeof *pl.border)};
+
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    make_plan(p, zone, r, k, &pl);
+    /* A border of b costs 2 b size^2 operations per step and an LU 2/3 size^3 once in a few
+     * steps: least in sum where b is about the root of twice the size. */
+    if (lu == RB_LU_NEW ||
+        (lu == RB_LU_KEPT && !((double)pl.changes * pl.changes <= 2.0 * k->size))) {
+        const rb_status s = factor(p, r, pl.unknown, k);
+        if (s != RB_OK)
+            return rb_arena_done(&scratch, s);
+        make_plan(p, zone, r, k, &pl);
+    }
+    r->changes = k->size > 0 ? pl.changes : 0;
+    r->slight = k->size > 0 ? pl.slight : 0;
+    const size_t n = (size_t)k->size, count = (size_t)pl.count;
+    bordered m = {.V = rb_arena_doubles(&scratch, n * (count + 1) + count, 1),
+                  .W = rb_arena_doubles(&scratch, count, n),
+                  .T = rb_arena_doubles(&scratch, count, count)};
+    lapack_int *pivots = rb_arena_zeros(&scratch, count, sizeof *pivots);
+
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    m.f = m.V + n * count; /* with g behind it */
+    m.g = m.f + n;
+    for (int i = 0; i < r->size; i++)
+        m.f[pl.source[i]] = r->x[i];
+    fill_border(p, r, k, &pl, &m);
+    const rb_status s = eliminate(k, pl.count, &m, pivots, &r->growth);
+    for (int i = 0; i < r->size; i++)
+        r->x[i] = m.f[pl.source[i]];
+    return rb_arena_done(&scratch, s);
+}

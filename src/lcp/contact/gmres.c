@@ -1,0 +1,210 @@
+/* GMRES (Saad and Schultz), preconditioned from the right, for linear problems that are
+ * known by products: unknowns inside, and delta and xi at the border.  The preconditioner
+ * of all is P = [A~ B; C 0], A~ that of the inner unknowns. */
+#include "lcp/contact/internal.h"
+
+#include <cblas.h>
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BASIS = RB_CONTACT_BASIS, CYCLES = 6, BORDERS = 2 };
+/* 2-norm of the scaled residual at which a solve ends. */
+static const double TOLERANCE = 2e-11;
+
+/* ---- The preconditioner ------------------------------------------------------------ */
+
+typedef struct {
+    const rb_contact_linear *l;
+    int size;
+    double *image[BORDERS];          /* A~^-1 B; owned */
+    double schur[BORDERS * BORDERS]; /* -C A~^-1 B */
+    double **basis;                  /* in the scratch memory, as work */
+    double *work;
+    size_t length; /* of a vector */
+} solver;
+
+static rb_status make_solver(const rb_contact_linear *l, rb_contact_gmres_scratch *scratch,
+                             solver *s)
+{
+    if (!scratch->work)
+        scratch->work = rb_alloc(scratch->size, 1);
+    *s = (solver){.l = l,
+                  .size = l->inner + l->borders,
+                  .basis = scratch->basis,
+                  .work = scratch->work,
+                  .length = scratch->size};
+    if (!scratch->work)
+        return RB_ENOMEM;
+    for (int k = 0; k < l->borders; k++) {
+        s->image[k] = rb_alloc((size_t)s->size, 1);
+        if (!s->image[k])
+            return RB_ENOMEM;
+        l->border_column(l->of, k, s->work);
+        l->precondition(l->of, s->work, s->image[k]);
+        l->border_rows(l->of, s->image[k], s->schur + BORDERS * k);
+    }
+    for (int k = 0; k < BORDERS * BORDERS; k++)
+        s->schur[k] = -s->schur[k];
+    return RB_OK;
+}
+
+static void precondition(const solver *s, const double *b, double *x)
+{
+    const rb_contact_linear *l = s->l;
+    double g[BORDERS], z[BORDERS];
+
+    l->precondition(l->of, b, x);
+    if (l->borders == 0)
+        return;
+    l->border_rows(l->of, x, g);
+    for (int k = 0; k < l->borders; k++)
+        g[k] = b[l->inner + k] - g[k];
+    const double *S = s->schur;
+    if (l->borders == 1) {
+        z[0] = g[0] / S[0];
+    } else { /* by Cramer's rule */
+        const double det = S[0] * S[3] - S[1] * S[2];
+        z[0] = (S[3] * g[0] - S[2] * g[1]) / det;
+        z[1] = (S[0] * g[1] - S[1] * g[0]) / det;
+    }
+    for (int k = 0; k < l->borders; k++) {
+        cblas_daxpy(l->inner, -z[k], s->image[k], 1, x, 1);
+        x[l->inner + k] = z[k];
+    }
+}
+
+/* ---- Cycles ------------------------------------------------------------------------ */
+
+typedef struct {
+    double H[BASIS][BASIS + 1]; /* columns of the Hessenberg matrix, rotated */
+    double c[BASIS], s[BASIS];  /* rotations */
+    double g[BASIS + 1];
+} least_squares;
+
+static double *basis_vector(const solver *s, int j)
+{
+    double **v = &s->basis[j];
+    if (!*v)
+        *v = malloc(s->length * sizeof **v);
+    return *v;
+}
+
+/* Column j: orthogonalised, its length in the last row; 0 where the space is exhausted. */
+static int orthogonalise(const solver *s, int j, double *column)
+{
+    double *const *v = s->basis, *last = v[j + 1];
+    const int size = s->size;
+
+    for (int i = 0; i <= j; i++) {
+        column[i] = cblas_ddot(size, last, 1, v[i], 1);
+        cblas_daxpy(size, -column[i], v[i], 1, last, 1);
+    }
+    column[j + 1] = cblas_dnrm2(size, last, 1);
+    if (!(column[j + 1] > 0.0))
+        return 0;
+    cblas_dscal(size, 1.0 / column[j + 1], last, 1);
+    return 1;
+}
+
+/* Rotates column j into upper triangular form; returns the new residual. */
+static double rotate(least_squares *q, int j)
+{
+    double *column = q->H[j];
+
+    for (int i = 0; i < j; i++) {
+        const double a = column[i], b = column[i + 1];
+        column[i] = q->c[i] * a + q->s[i] * b;
+        column[i + 1] = -q->s[i] * a + q->c[i] * b;
+    }
+    const double length = hypot(column[j], column[j + 1]);
+    q->c[j] = column[j] / length;
+    q->s[j] = column[j + 1] / length;
+    column[j] = length;
+    q->g[j + 1] = -q->s[j] * q->g[j];
+    q->g[j] *= q->c[j];
+    return fabs(q->g[j + 1]);
+}
+
+/* One cycle from x, none where the residual is `enough`; *residual: of x before it;
+ * *estimate: of x afterwards, but for rounding. */
+static rb_status cycle(const solver *s, const double *b, double tolerance, double enough,
+                       least_squares *q, double *x, double *residual, double *estimate)
+{
+    double *v = basis_vector(s, 0);
+    int count = 0;
+
+    if (!v)
+        return RB_ENOMEM;
+    /* v_0 = b - A x, normalised. */
+    const int size = s->size;
+
+    s->l->multiply(s->l->of, x, v);
+    for (int i = 0; i < size; i++)
+        v[i] = b[i] - v[i];
+    const double length = cblas_dnrm2(size, v, 1);
+    if (length > 0.0)
+        cblas_dscal(size, 1.0 / length, v, 1);
+    q->g[0] = *residual = *estimate = length;
+    const int iterates = length > enough;
+    for (; iterates && *estimate > tolerance && count < BASIS; count++) {
+        double *next = basis_vector(s, count + 1);
+        if (!next)
+            return RB_ENOMEM;
+        precondition(s, s->basis[count], s->work);
+        s->l->multiply(s->l->of, s->work, next);
+        const int goes_on = orthogonalise(s, count, q->H[count]);
+        *estimate = goes_on ? rotate(q, count) : (rotate(q, count), 0.0);
+    }
+    if (count > 0) {
+        /* x += P^-1 V y; the vector behind the basis is scratch. */
+        double *sum = s->basis[count];
+
+        for (int i = count - 1; i >= 0; i--) {
+            for (int l = i + 1; l < count; l++)
+                q->g[i] -= q->H[l][i] * q->g[l];
+            q->g[i] /= q->H[i][i];
+        }
+        memset(sum, 0, (size_t)s->size * sizeof *sum);
+        for (int i = 0; i < count; i++)
+            cblas_daxpy(s->size, q->g[i], s->basis[i], 1, sum, 1);
+        precondition(s, sum, s->work);
+        cblas_daxpy(s->size, 1.0, s->work, 1, x, 1);
+    }
+    return RB_OK;
+}
+
+rb_status rb_contact_gmres(const rb_contact_linear *linear, rb_contact_gmres_scratch *scratch,
+                           const double *b, double *x)
+{
+    solver s;
+    least_squares *q = malloc(sizeof *q);
+    rb_status status = make_solver(linear, scratch, &s);
+    const double rounding = 2.0 * DBL_EPSILON * cblas_dnrm2(s.size, b, 1);
+    const double tolerance = fmax(TOLERANCE, rounding);
+    /* what the rounding of products leaves, in a 2-norm */
+    const double floor = fmax(tolerance, DBL_EPSILON * s.size * sqrt(s.size));
+    double enough = tolerance, before = INFINITY, residual = INFINITY, estimate = INFINITY;
+
+    if (!q)
+        status = RB_ENOMEM;
+    for (int k = 0; k < CYCLES && status == RB_OK; k++) {
+        status = cycle(&s, b, tolerance, enough, q, x, &residual, &estimate);
+        if (!(residual > enough) || residual > 0.1 * before)
+            break;
+        /* more than the estimate is rounding, which no cycle lessens */
+        enough = estimate <= tolerance ? fmax(floor, 0.1 * residual) : tolerance;
+        before = residual;
+    }
+    for (int k = 0; k < BORDERS; k++)
+        free(s.image[k]);
+    free(q);
+    return status;
+}
+
+void rb_contact_gmres_free(rb_contact_gmres_scratch *scratch)
+{
+    for (int j = 0; j <= BASIS; j++)
+        free(scratch->basis[j]);
+    free(scratch->work);
+}

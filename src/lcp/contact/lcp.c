@@ -1,0 +1,366 @@
+/* The LCP of the contact problem: the pivoted form (K5), with the rows and columns that a
+ * given load and a given force (K6) and a layer that yields (Y1) add to it, and Kwak's
+ * (K4), which is a principal pivot of all that. */
+#include "lcp/contact/internal.h"
+
+#include <cblas.h>
+#include <lapacke.h>
+#include <stdio.h>
+#include <string.h>
+
+void rb_contact_lcp_free(rb_contact_lcp *lcp)
+{
+    rb_arena_free(&lcp->memory);
+    *lcp = (rb_contact_lcp){0};
+}
+
+/* Columns of the two bordered unknowns, delta' and xi', behind those of the contact: 3n,
+ * or 5n where a layer yields. */
+static int delta_column(const rb_contact_problem *p)
+{
+    return (p->yield ? 5 : 3) * p->n;
+}
+
+static int xi_column(const rb_contact_problem *p)
+{
+    return delta_column(p) + p->load_given;
+}
+
+/* n x n, column-major. */
+typedef struct {
+    const double *x;
+    int ld;
+} operand;
+
+static void add_block(int n, double factor, operand A, double *M, int ldm)
+{
+    for (int j = 0; j < n; j++)
+        cblas_daxpy(n, factor, A.x + (size_t)j * A.ld, 1, M + (size_t)j * ldm, 1);
+}
+
+/* The same with column j times bound_j. */
+static void add_bounded(int n, double factor, const double *bound, operand A, double *M, int ldm)
+{
+    for (int j = 0; j < n; j++)
+        cblas_daxpy(n, factor * bound[j], A.x + (size_t)j * A.ld, 1, M + (size_t)j * ldm, 1);
+}
+
+static void add_diagonal(int n, double value, double *M, int ldm)
+{
+    for (int i = 0; i < n; i++)
+        M[i + (size_t)i * ldm] += value;
+}
+
+/* +1 in its own direction of sliding, -1 mirrored. */
+static double orientation(const rb_contact_lcp *lcp)
+{
+    return lcp->mirrored ? -1.0 : 1.0;
+}
+
+/* xi = xi0 + s xi', s = -sgn xi0: from full sliding back towards the given force. */
+static double xi_direction(const rb_contact_lcp *lcp)
+{
+    return lcp->xi0 > 0.0 ? -1.0 : 1.0;
+}
+
+/* An equation of the border (K6): sign (a_N'r_N + a_T'r_T - value) = 0. */
+typedef struct {
+    int row;
+    double sign;
+    const double *a_N, *a_T;
+    double value;
+} border_row;
+
+/* ---- Pivoted form (K5) ------------------------------------------------------------- */
+
+static void pivoted_border(const rb_contact_problem *p, border_row e, rb_contact_lcp *lcp)
+{
+    const double o = orientation(lcp);
+
+    for (int j = 0; j < p->n; j++) {
+        lcp->M[e.row + (size_t)j * lcp->size] = e.sign * (e.a_N[j] - o * p->bound[j] * e.a_T[j]);
+        lcp->M[e.row + (size_t)(p->n + j) * lcp->size] = e.sign * o * e.a_T[j];
+    }
+    lcp->b[e.row] = -e.sign * e.value;
+}
+
+/* z = (r_N, gamma, nu), w = (y_N, l, mu r_N - o r_T), o the orientation:
+ * gamma = mu r_N + o r_T, l - nu = o T_T lambda.  force_N, force_T (n): row of the given
+ * force. */
+static void pivoted_form(const rb_contact_problem *p, const double *force_N, const double *force_T,
+                         rb_contact_lcp *lcp)
+{
+    const int n = p->n, ld = lcp->size;
+    const double o = orientation(lcp);
+    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
+    const operand F_NN = {K.F, K.ldf}, F_NT = {K.F + (size_t)n * K.ldf, K.ldf}, S_N = {K.S, n},
+                  S_T = {K.S + (size_t)n * n, n};
+    double *r_N = lcp->M, *gamma = lcp->M + (size_t)n * ld, *nu = gamma + (size_t)n * ld;
+
+    add_block(n, 1.0, F_NN, r_N, ld);
+    add_bounded(n, -o, p->bound, F_NT, r_N, ld);
+    add_block(n, o, F_NT, gamma, ld);
+    add_block(n, o, S_N, r_N + n, ld);
+    add_bounded(n, -1.0, p->bound, S_T, r_N + n, ld);
+    add_block(n, 1.0, S_T, gamma + n, ld);
+    add_diagonal(n, 1.0, nu + n, ld);
+    for (int i = 0; i < n; i++)
+        r_N[2 * n + i + (size_t)i * ld] += 2.0 * p->bound[i];
+    add_diagonal(n, -1.0, gamma + 2 * n, ld);
+    for (int i = 0; i < n; i++) {
+        lcp->b[i] = p->d_N[i];
+        lcp->b[n + i] = o * (p->d_T[i] + (p->force_given ? lcp->xi0 : p->xi) * p->e_T[i]);
+    }
+    if (p->force_given)
+        cblas_daxpy(n, o * xi_direction(lcp), p->e_T, 1, lcp->M + (size_t)xi_column(p) * ld + n, 1);
+    if (p->load_given)
+        pivoted_border(p, (border_row){delta_column(p), 1.0, p->load_N, p->load_T, p->load}, lcp);
+    if (p->force_given)
+        pivoted_border(
+            p, (border_row){xi_column(p), -xi_direction(lcp), force_N, force_T, p->force}, lcp);
+}
+
+/* ---- A layer that yields (Y1) ------------------------------------------------------ */
+
+/* Plastic slips s+ and s- (z), against sigma+- = yield + hardening u +- r_T (w), stand
+ * behind the 3n, block by block. */
+static int yield_index(const rb_contact_problem *p, int i, int sign)
+{
+    return (3 + sign) * p->n + i;
+}
+
+/* s+ and s- take their parts of o T_T lambda, o r_T = gamma - mu r_N; and yield +
+ * hardening u, u from the unit plastic slips of each element j. */
+static void add_yield(const rb_contact_problem *p, rb_contact_lcp *lcp)
+{
+    const size_t n = (size_t)p->n, ld = (size_t)lcp->size;
+
+    for (size_t i = 0; i < n; i++)
+        for (int sign = 0; sign < 2; sign++) {
+            const double o = sign ? -1.0 : 1.0;
+            const size_t k = (size_t)yield_index(p, (int)i, sign);
+            lcp->M[n + i + k * ld] = -o;
+            lcp->M[k + (n + i) * ld] = o;
+            lcp->M[k + i * ld] = -o * p->bound[i];
+        }
+    for (int j = 0; j < p->n; j++) {
+        double u = p->own, next = 0.0;
+        for (int i = j; i >= 0 && u != 0.0; i--) {
+            for (int k = 0; k < 4; k++)
+                lcp->M[yield_index(p, i, k % 2) + (size_t)yield_index(p, j, k / 2) * ld] +=
+                    p->hardening * u;
+            const double before = p->recall[0] * u + p->recall[1] * next;
+            next = u;
+            u = before;
+        }
+        for (int sign = 0; sign < 2; sign++)
+            lcp->b[yield_index(p, j, sign)] += p->yield[j];
+    }
+}
+
+/* ---- Kwak's form (K4) -------------------------------------------------------------- */
+
+/* Where unknown k of the pivoted form stands in Kwak's: lambda+- and s+- in pairs. */
+static int kwak_place(const rb_contact_problem *p, int k)
+{
+    const int n = p->n, block = (k - n) / n;
+    return k < n || k >= delta_column(p) ? k
+                                         : n + 2 * n * (block / 2) + 2 * ((k - n) % n) + block % 2;
+}
+
+/* The principal pivot of the pivoted form on S_T: lambda+ is given and gamma+ follows
+ * from it, gamma = S_T^-1 (lambda+ - the other columns - b), in the rows of lambda+ and
+ * in all others. */
+static rb_status kwak_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
+{
+    const int n = p->n, size = lcp->size;
+    const size_t length = (size_t)n, ld = (size_t)size;
+    double *own = lcp->M + length * ld;
+    rb_arena scratch = {0};
+    /* the columns of gamma; and gamma by the other unknowns and 1 */
+    double *gamma = rb_arena_doubles(&scratch, ld, length),
+           *solved = rb_arena_doubles(&scratch, length, ld + 1),
+           *S_T = rb_arena_doubles(&scratch, length, length),
+           *M = rb_arena_doubles(&scratch, ld, ld), *b = rb_arena_doubles(&scratch, ld, 1);
+    lapack_int *pivots = rb_arena_zeros(&scratch, length, sizeof *pivots);
+
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    memcpy(gamma, own, length * ld * sizeof *own);
+    for (int j = 0; j <= size; j++)
+        for (int i = 0; i < n; i++)
+            solved[(size_t)i + (size_t)j * length] = j >= n && j < 2 * n ? i == j - n
+                                                     : j < size ? -lcp->M[n + i + (size_t)j * ld]
+                                                                : -lcp->b[n + i];
+    for (size_t j = 0; j < length; j++)
+        memcpy(S_T + j * length, gamma + j * ld + n, length * sizeof *S_T);
+    memset(own, 0, length * ld * sizeof *own);
+    const int fault = LAPACKE_dgesv_work(LAPACK_COL_MAJOR, n, size + 1, S_T, n, pivots, solved, n);
+    if (fault != 0)
+        return rb_arena_done(&scratch, rb_lapack_status(fault));
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, size, size, n, 1.0, gamma, size, solved,
+                n, 1.0, lcp->M, size);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, size, n, 1.0, gamma, size, solved + length * ld, 1,
+                1.0, lcp->b, 1);
+    for (int i = 0; i < size; i++) {
+        const int row = kwak_place(p, i), is_gamma = i >= n && i < 2 * n;
+        const double *from = is_gamma ? solved + i - n : lcp->M + i;
+        const size_t step = is_gamma ? length : ld;
+        for (int j = 0; j < size; j++)
+            M[row + (size_t)kwak_place(p, j) * ld] = from[(size_t)j * step];
+        b[row] = is_gamma ? from[ld * step] : lcp->b[i];
+    }
+    memcpy(lcp->M, M, ld * ld * sizeof *M);
+    memcpy(lcp->b, b, ld * sizeof *b);
+    return rb_arena_done(&scratch, RB_OK);
+}
+
+/* ---- Both -------------------------------------------------------------------------- */
+
+static void fill(int n, double value, double *x)
+{
+    for (int i = 0; i < n; i++)
+        x[i] = value;
+}
+
+/* Dimensionless unknowns: stress, mu stress and two lengths (4.4). */
+static void make_dimensionless(const rb_contact_problem *p, rb_contact_lcp *lcp)
+{
+    const int n = p->n, delta = delta_column(p), xi = xi_column(p);
+    const size_t length = (size_t)n, ld = (size_t)lcp->size;
+    const double bound = rb_contact_friction_scale(p);
+
+    fill(n, p->stress, lcp->z_scale);
+    fill(delta - n, p->slip_length, lcp->z_scale + n);
+    fill(n, p->gap_length, lcp->w_scale);
+    fill(delta - n, bound, lcp->w_scale + n);
+    if (lcp->form == RB_LCP_PIVOTED) {
+        fill(n, bound, lcp->z_scale + n);
+        fill(n, p->slip_length, lcp->w_scale + n);
+    }
+    if (p->load_given) {
+        lcp->z_scale[delta] = p->gap_length;
+        lcp->w_scale[delta] = p->stress * rb_norm_1(length, p->load_N, 1);
+    }
+    if (p->force_given) {
+        lcp->z_scale[xi] = p->slip_length / (rb_norm_1(length, p->e_T, 1) / n);
+        lcp->w_scale[xi] = bound * rb_norm_1(length, p->force_T, 1);
+    }
+    for (size_t j = 0; j < ld; j++)
+        for (size_t i = 0; i < ld; i++)
+            lcp->M[i + j * ld] *= lcp->z_scale[j] / lcp->w_scale[i];
+    for (size_t i = 0; i < ld; i++)
+        lcp->b[i] /= lcp->w_scale[i];
+}
+
+rb_status rb_contact_lcp_create(const rb_contact_problem *p, rb_contact_lcp_form form, int mirrored,
+                                double xi0, rb_contact_lcp *lcp, rb_message *why)
+{
+    const size_t n = (size_t)p->n,
+                 size = (size_t)(delta_column(p) + p->load_given + p->force_given);
+    rb_arena scratch = {0};
+
+    *lcp = (rb_contact_lcp){.size = (int)size,
+                            .form = form,
+                            .yields = p->yield != NULL,
+                            .mirrored = form == RB_LCP_PIVOTED && mirrored,
+                            .xi0 = xi0};
+    if (!rb_contact_operator_matrix(p->op).F)
+        return rb_fail(why, RB_EINVAL, "%d contact elements are too many for an LCP", p->n);
+    lcp->M = rb_arena_doubles(&lcp->memory, size, size);
+    lcp->b = rb_arena_doubles(&lcp->memory, size, 1);
+    lcp->z_scale = rb_arena_doubles(&lcp->memory, size, 1);
+    lcp->w_scale = rb_arena_doubles(&lcp->memory, size, 1);
+    double *force_N = rb_arena_doubles(&scratch, n, 1), *force_T = rb_arena_doubles(&scratch, n, 1);
+    rb_status s = lcp->memory.failed || scratch.failed ? RB_ENOMEM : RB_OK;
+    if (s == RB_OK) {
+        rb_contact_force_row(p, force_N, force_T);
+        pivoted_form(p, force_N, force_T, lcp);
+    }
+    if (s == RB_OK && p->yield)
+        add_yield(p, lcp);
+    if (s == RB_OK && form == RB_LCP_KWAK)
+        s = kwak_form(p, lcp);
+    rb_arena_free(&scratch);
+    if (s != RB_OK) {
+        rb_contact_lcp_free(lcp);
+        return rb_fail(why, s, "LCP of %d contact elements: %s", p->n, rb_status_text(s));
+    }
+    /* The approach enters every gap; where it is unknown, delta = delta0 + delta' starts below the
+     * first touch, also for a half-plane whose datum is close to the surface. */
+    double lowest = p->d_N[0];
+    for (size_t i = 1; i < n; i++)
+        lowest = fmin(lowest, p->d_N[i]);
+    lcp->delta0 = p->load_given ? lowest - 10.0 * p->gap_length : p->delta;
+    for (size_t i = 0; i < n; i++) {
+        lcp->b[i] -= lcp->delta0;
+        if (p->load_given)
+            lcp->M[i + (size_t)delta_column(p) * size] = -1.0;
+    }
+    make_dimensionless(p, lcp);
+    return RB_OK;
+}
+
+void rb_contact_lcp_recover(const rb_contact_problem *p, const rb_contact_lcp *lcp, const double *z,
+                            rb_contact_state *state)
+{
+    const int n = p->n;
+
+    state->delta = lcp->delta0;
+    if (p->load_given)
+        state->delta += lcp->z_scale[delta_column(p)] * z[delta_column(p)];
+    state->xi = p->xi;
+    if (p->force_given)
+        state->xi = lcp->xi0 + xi_direction(lcp) * lcp->z_scale[xi_column(p)] * z[xi_column(p)];
+    for (int i = 0; i < n; i++) {
+        /* gamma: an unknown of the pivoted form, a row w = M z + b of Kwak's */
+        int plus = yield_index(p, i, 0), minus = yield_index(p, i, 1);
+        double gamma = lcp->z_scale[n + i] * z[n + i];
+        if (lcp->form == RB_LCP_KWAK) {
+            const int row = kwak_place(p, n + i);
+            gamma = lcp->w_scale[row] *
+                    (cblas_ddot(lcp->size, lcp->M + row, lcp->size, z, 1) + lcp->b[row]);
+            plus = kwak_place(p, plus);
+            minus = kwak_place(p, minus);
+        }
+        state->p[i] = lcp->z_scale[i] * z[i];
+        state->plastic[i] =
+            p->yield ? orientation(lcp) * p->slip_length * (z[plus] - z[minus]) : 0.0;
+        state->q[i] = orientation(lcp) * (gamma - p->bound[i] * state->p[i]);
+    }
+    state->lcp_form = lcp->form;
+}
+
+/* ---- Names ------------------------------------------------------------------------- */
+
+const char *rb_contact_lcp_variable(const rb_contact_lcp *lcp, int n, int variable,
+                                    char name[RB_CONTACT_VARIABLE])
+{
+    /* Blocks of n (pivoted form) after r_N; w then z.  Mirrored, the signs change places. */
+    static const char *const pivoted[2][2][2] = {{{"lambda+", "gamma-"}, {"gamma+", "lambda-"}},
+                                                 {{"lambda-", "gamma+"}, {"gamma-", "lambda+"}}};
+    const int size = lcp->size, is_z = variable >= size, k = variable - is_z * size;
+    const int contact = (lcp->yields ? 5 : 3) * n;
+    if (variable == 2 * size)
+        snprintf(name, RB_CONTACT_VARIABLE, "z0");
+    else if (k < contact) {
+        if (k < n) {
+            snprintf(name, RB_CONTACT_VARIABLE, "%s[%d]", is_z ? "p" : "gap", k + 1);
+        } else if (k >= 3 * n) {
+            const int kwak = lcp->form == RB_LCP_KWAK, place = k - 3 * n;
+            const int minus = kwak ? place % 2 : place / n != lcp->mirrored;
+            snprintf(name, RB_CONTACT_VARIABLE, "%s%c[%d]", is_z ? "plastic" : "yield",
+                     minus ? '-' : '+', (kwak ? place / 2 : place % n) + 1);
+        } else if (lcp->form == RB_LCP_KWAK) {
+            const int i = (k - n) / 2, minus = (k - n) % 2;
+            snprintf(name, RB_CONTACT_VARIABLE, "%s%c[%d]", is_z ? "lambda" : "gamma",
+                     minus ? '-' : '+', i + 1);
+        } else {
+            const int block = (k - n) / n;
+            snprintf(name, RB_CONTACT_VARIABLE, "%s[%d]", pivoted[lcp->mirrored][is_z][block],
+                     (k - n) % n + 1);
+        }
+    } else
+        snprintf(name, RB_CONTACT_VARIABLE, "%s[%d]", is_z ? "motion" : "force", k - contact + 1);
+    return name;
+}

@@ -1,0 +1,229 @@
+/* Active sets: with every element's zone known the contact problem is linear.  Newton's
+ * method for the piecewise linear problem is to solve, to correct the zones and to solve
+ * again; the same solve polishes what Lemke found. */
+#include "lcp/contact/internal.h"
+
+#include <limits.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_STEPS = 60, STAGGERED_ROUNDS = 3 };
+/* Steps without fewer zones to correct than before, after which the path is followed. */
+enum { STALL_SWEEPS = 20 };
+/* From so many elements on a cold start solves for pairs of them first. */
+enum { HALVED = 100 };
+
+static int corrected_zone(const rb_contact_problem *p, rb_contact_unknowns unknowns,
+                          const rb_contact_state *state, const double *gap, int i)
+{
+    const double limit = p->bound[i] * state->p[i], q = state->q[i], slip = state->lambda[i];
+    const int zone = state->zone[i];
+
+    if ((unknowns & RB_NORMAL) && zone != RB_ZONE_SEPARATED && state->p[i] < 0.0)
+        return RB_ZONE_SEPARATED;
+    if (zone == RB_ZONE_SEPARATED) {
+        if (!(unknowns & RB_NORMAL) || gap[i] >= 0.0)
+            return zone;
+        return rb_contact_sliding_zone(slip);
+    }
+    if (!(unknowns & RB_TANGENTIAL))
+        return zone;
+    if (zone == RB_ZONE_STICK)
+        return q < -limit ? RB_ZONE_SLIP_NEGATIVE : q > limit ? RB_ZONE_SLIP_POSITIVE : zone;
+    if (p->bound[i] == 0.0)
+        return rb_contact_sliding_zone(slip);
+    return rb_contact_slope(zone) * slip > 0.0 ? RB_ZONE_STICK : zone;
+}
+
+static int stick_count(int n, const int *zone)
+{
+    int sticks = 0;
+    for (int i = 0; i < n; i++)
+        sticks += zone[i] == RB_ZONE_STICK;
+    return sticks;
+}
+
+/* A given force fixes xi only while something sticks. */
+static void hold_one(const rb_contact_problem *p, const rb_contact_state *state, int *zone)
+{
+    if (stick_count(p->n, zone) > 0)
+        return;
+    /* Of several stuck elements that all want to slide, the one that wants it least. */
+    int held = -1;
+    double least = INFINITY;
+
+    for (int i = 0; i < p->n; i++) {
+        const double excess = fabs(state->q[i]) - p->bound[i] * state->p[i];
+        if (state->zone[i] == RB_ZONE_STICK && state->p[i] > 0.0 && excess < least) {
+            least = excess;
+            held = i;
+        }
+    }
+    if (held >= 0 && stick_count(p->n, state->zone) == 1) {
+        /* A single stuck element that must carry too much friction of sign o: the
+         * creepage has to move until the next element that slides against o comes to
+         * rest. */
+        const double o = state->q[held] > 0.0 ? 1.0 : -1.0;
+        int next = held;
+        double slowest = INFINITY;
+
+        for (int i = 0; i < p->n; i++)
+            if (state->p[i] > 0.0 && rb_contact_slope(state->zone[i]) * o < 0.0 &&
+                fabs(state->lambda[i] / p->e_T[i]) < slowest) {
+                slowest = fabs(state->lambda[i] / p->e_T[i]);
+                next = i;
+            }
+        held = next;
+    }
+    if (held >= 0)
+        zone[held] = RB_ZONE_STICK;
+}
+
+typedef struct {
+    double *gap;
+    int *zone, *best; /* corrected ones; those with the fewest corrections so far */
+} workspace;
+
+/* Solves and corrects until the zones stay: RB_OK; RB_MAXITER when a set of zones comes
+ * back, which ends every cycle, or the corrections no longer become fewer, and no path
+ * leads on. */
+static rb_status iterate(rb_contact_problem *p, rb_contact_unknowns unknowns, workspace *ws,
+                         rb_contact_state *state)
+{
+    const size_t bytes = (size_t)p->n * sizeof(int);
+    uint64_t seen[MAX_STEPS];
+    int least = INT_MAX, waited = 0;
+
+    for (int step = 0; step < MAX_STEPS && waited < STALL_SWEEPS; step++) {
+        int first = 0;
+        seen[step] = rb_hash(RB_HASH_START, state->zone, bytes);
+        while (seen[first] != seen[step])
+            first++;
+        if (first < step) /* seen before */
+            break;
+        const rb_status s = rb_contact_solve_zones(p, unknowns, state);
+        if (s != RB_OK)
+            return s;
+        state->iterations++;
+        rb_contact_kinematics(p, state, ws->gap, state->lambda);
+        if (p->trace)
+            p->trace(state, p->trace_context);
+        int changes = 0;
+
+        for (int i = 0; i < p->n; i++)
+            ws->zone[i] = corrected_zone(p, unknowns, state, ws->gap, i);
+        if (p->force_given && (unknowns & RB_TANGENTIAL))
+            hold_one(p, state, ws->zone);
+        for (int i = 0; i < p->n; i++)
+            changes += ws->zone[i] != state->zone[i];
+        if (changes == 0)
+            return RB_OK;
+        waited = unknowns == RB_BOTH && changes >= least ? waited + 1 : 0;
+        if (changes < least) {
+            least = changes;
+            memcpy(ws->best, state->zone, bytes);
+        }
+        memcpy(state->zone, ws->zone, bytes);
+    }
+    /* After steps that went round in circles: from the nearest zones found the path leads
+     * on where both groups are unknown, unless the state of the last step lacks no more
+     * than rounding. */
+    rb_contact_violation violation;
+
+    if (unknowns != RB_BOTH)
+        return RB_MAXITER;
+    const rb_status s = rb_contact_residual(p, state, &violation);
+    if (s != RB_OK || violation.scaled <= p->rounding)
+        return s == RB_OK ? RB_MAXITER : s;
+    memcpy(state->zone, ws->best, (size_t)p->n * sizeof(int));
+    return rb_contact_follow_path(p, state);
+}
+
+/* Normal problem with the friction held, tangential problem with the pressure held, in
+ * turn: exact after one round where the two are not coupled. */
+static rb_status alternate(rb_contact_problem *p, int rounds, workspace *ws,
+                           rb_contact_state *state)
+{
+    rb_status s = RB_OK;
+
+    for (int round = 0; round < rounds && s >= 0 && s != RB_SINGULAR; round++) {
+        s = iterate(p, RB_NORMAL, ws, state);
+        if (s >= 0 && s != RB_SINGULAR)
+            s = iterate(p, RB_TANGENTIAL, ws, state);
+    }
+    return s;
+}
+
+/* Whether friction moves the normal problem or pressure the tangential one: by what they
+ * do to gaps and slips, or by friction's part of a given load. */
+static int is_coupled(const rb_contact_problem *p)
+{
+    return p->op->response.coupled ||
+           (p->load_given && rb_norm_1((size_t)p->n, p->load_T, 1) > 0.0);
+}
+
+/* From the zones of the state. */
+static rb_status from_zones(rb_contact_problem *p, workspace *ws, rb_contact_state *state)
+{
+    return is_coupled(p) ? iterate(p, RB_BOTH, ws, state) : alternate(p, 1, ws, state);
+}
+
+static void forget(const rb_contact_problem *p)
+{
+    if (p->op->kind->forget)
+        p->op->kind->forget(p->op);
+}
+
+rb_status rb_contact_newton(rb_contact_problem *problem, int warm, rb_contact_state *state)
+{
+    workspace ws = {rb_alloc((size_t)problem->n, 1), rb_alloc_int(2 * (size_t)problem->n), NULL};
+    rb_status s = ws.gap && ws.zone ? RB_OK : RB_ENOMEM;
+
+    if (s == RB_OK)
+        ws.best = ws.zone + problem->n;
+    if (s == RB_OK && warm)
+        s = from_zones(problem, &ws, state);
+    else if (s == RB_OK) {
+        s = RB_MAXITER;
+        if (problem->n >= HALVED) {
+            /* From the zones and tractions of the same problem on half as many elements; its
+             * steps count. */
+            rb_contact_problem half = {0};
+            rb_contact_state coarse = {0};
+            s = rb_contact_halve(problem, &half);
+            if (s == RB_OK)
+                s = rb_contact_state_alloc(half.n, &coarse);
+            if (s == RB_OK)
+                s = rb_contact_newton(&half, 0, &coarse);
+            if (s == RB_OK)
+                rb_contact_start_from_half(&coarse, state);
+            state->iterations += coarse.iterations;
+            rb_contact_state_free(&coarse);
+            rb_contact_problem_free(&half);
+            if (s == RB_OK)
+                s = from_zones(problem, &ws, state);
+        }
+        if (s > 0) {
+            /* From nothing: everything in frictionless contact, to begin with.  An LU of all
+             * tractions and those of one group each never take memory together: no later
+             * solve would use both (memory.c). */
+            memset(state->p, 0, (size_t)problem->n * sizeof(double));
+            memset(state->q, 0, (size_t)problem->n * sizeof(double));
+            state->delta = problem->delta;
+            state->xi = problem->force_given ? 0.0 : problem->xi;
+            for (int i = 0; i < problem->n; i++)
+                state->zone[i] = RB_ZONE_STICK;
+            forget(problem);
+            const int coupled = is_coupled(problem);
+            s = alternate(problem, coupled ? STAGGERED_ROUNDS : 1, &ws, state);
+            if (s >= 0 && coupled) {
+                forget(problem);
+                s = iterate(problem, RB_BOTH, &ws, state);
+            }
+        }
+    }
+    free(ws.gap);
+    free(ws.zone);
+    return s;
+}

@@ -1,0 +1,176 @@
+#include "lcp/contact/internal.h"
+
+#include <cblas.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ROWS = 10 };
+
+/* The arrays of a problem, n numbers each. */
+static void list_rows(rb_contact_problem *p, double **row[ROWS])
+{
+    double **const rows[ROWS] = {&p->bound,  &p->d_N,     &p->d_T,     &p->e_T,      &p->load_N,
+                                 &p->load_T, &p->force_N, &p->force_T, &p->moment_N, &p->moment_T};
+    memcpy(row, rows, sizeof rows);
+}
+
+void rb_contact_problem_free(rb_contact_problem *p)
+{
+    double **row[ROWS];
+
+    list_rows(p, row);
+    for (int k = 0; k < ROWS; k++)
+        free(*row[k]);
+    rb_contact_operator_free(p->op);
+    free(p->yield);
+    memset(p, 0, sizeof *p);
+}
+
+rb_status rb_contact_problem_alloc_rows(rb_contact_problem *p)
+{
+    double **row[ROWS];
+    int complete = 1;
+
+    list_rows(p, row);
+    for (int k = 0; k < ROWS; k++) {
+        *row[k] = rb_alloc((size_t)p->n, 1);
+        complete = complete && *row[k];
+    }
+    if (complete)
+        return RB_OK;
+    rb_contact_problem_free(p);
+    return RB_ENOMEM;
+}
+
+rb_status rb_contact_problem_alloc(rb_contact_operator *op, rb_contact_problem *p)
+{
+    *p = (rb_contact_problem){.op = op, .n = op->n};
+    return rb_contact_problem_alloc_rows(p);
+}
+
+rb_status rb_contact_problem_borrow(rb_contact_operator *op, rb_contact_problem *p)
+{
+    *p = (rb_contact_problem){.n = op->n};
+    const rb_status s = rb_contact_problem_alloc_rows(p);
+    p->op = s == RB_OK ? op : NULL;
+    return s;
+}
+
+void rb_contact_set_friction(rb_contact_problem *p, double mu, const double *bound)
+{
+    p->mu = mu;
+    for (int i = 0; i < p->n; i++)
+        p->bound[i] = bound ? bound[i] : mu;
+}
+
+double rb_contact_friction_scale(const rb_contact_problem *p)
+{
+    return p->mu > 0.0 ? p->mu * p->stress : p->stress;
+}
+
+double rb_contact_force_scale(const rb_contact_problem *p)
+{
+    return p->mu * p->stress * rb_norm_1((size_t)p->n, p->load_N, 1);
+}
+
+static double weighted(const rb_contact_state *state, const double *a_N, const double *a_T)
+{
+    return cblas_ddot(state->n, a_N, 1, state->p, 1) + cblas_ddot(state->n, a_T, 1, state->q, 1);
+}
+
+double rb_contact_load(const rb_contact_problem *p, const rb_contact_state *state)
+{
+    return weighted(state, p->load_N, p->load_T);
+}
+
+double rb_contact_force(const rb_contact_problem *p, const rb_contact_state *state)
+{
+    return weighted(state, p->force_N, p->force_T);
+}
+
+double rb_contact_moment(const rb_contact_problem *p, const rb_contact_state *state)
+{
+    return weighted(state, p->moment_N, p->moment_T);
+}
+
+/* From mu P what elements with a smaller bound carry less: exactly mu P where there are
+ * none. */
+double rb_contact_capacity(const rb_contact_problem *p, const rb_contact_state *state)
+{
+    const double P = rb_contact_load(p, state);
+    double less = 0.0;
+
+    for (int i = 0; i < p->n; i++)
+        less += (p->mu - p->bound[i]) * (p->load_N[i] * state->p[i] + p->load_T[i] * state->q[i]);
+    return p->mu * P - less;
+}
+
+void rb_contact_force_row(const rb_contact_problem *p, double *control_N, double *control_T)
+{
+    for (int i = 0; i < p->n; i++) {
+        const double share = p->force_ratio * p->bound[i];
+        control_N[i] = p->force_N[i] - share * p->load_N[i] + p->axle * p->moment_N[i];
+        control_T[i] = p->force_T[i] - share * p->load_T[i] + p->axle * p->moment_T[i];
+    }
+}
+
+rb_status rb_contact_set_yield(rb_contact_problem *p, double stress, double hardening)
+{
+    if (!p->yield)
+        p->yield = rb_alloc((size_t)p->n, 1);
+    if (!p->yield)
+        return RB_ENOMEM;
+    for (int i = 0; i < p->n; i++)
+        p->yield[i] = stress;
+    p->hardening = hardening;
+    return RB_OK;
+}
+
+void rb_contact_yielded(const rb_contact_problem *p, const double *plastic, const int *zone,
+                        double *u)
+{
+    double next = 0.0, second = 0.0;
+
+    for (int i = p->n - 1; i >= 0; i--) {
+        const double size = !zone || zone[i] <= RB_ZONE_STICK ? fabs(plastic[i])
+                            : zone[i] == RB_ZONE_SLIP_POSITIVE || zone[i] == RB_ZONE_YIELD_POSITIVE
+                                ? -plastic[i]
+                                : plastic[i];
+        u[i] = p->recall[0] * next + p->recall[1] * second + p->own * size;
+        second = next;
+        next = u[i];
+    }
+}
+
+int rb_contact_slips_and_yields(const rb_contact_problem *p, const rb_contact_state *state, int i)
+{
+    return p->yield && state->plastic[i] != 0.0 &&
+           (state->zone[i] == RB_ZONE_SLIP_NEGATIVE || state->zone[i] == RB_ZONE_SLIP_POSITIVE);
+}
+
+void rb_contact_set_plastic(const rb_contact_problem *p, rb_contact_state *state, double *u)
+{
+    double next = 0.0, second = 0.0;
+
+    for (int i = p->n - 1; i >= 0; i--) { /* upstream first */
+        const int zone = state->zone[i],
+                  positive = zone == RB_ZONE_SLIP_POSITIVE || zone == RB_ZONE_YIELD_POSITIVE;
+        const double before = p->recall[0] * next + p->recall[1] * second,
+                     against = positive ? -1.0 : 1.0;
+        double own = 0.0;
+        if (zone > RB_ZONE_SLIP_POSITIVE)
+            own = against * state->lambda[i];
+        else if (p->hardening != 0.0 && rb_contact_slips_and_yields(p, state, i))
+            own = ((p->bound[i] * state->p[i] - p->yield[i]) / p->hardening - before) / p->own;
+        state->plastic[i] = against * own;
+        second = next;
+        next = before + p->own * own;
+        if (u)
+            u[i] = next;
+    }
+}
+
+double rb_contact_yield_stress(const rb_contact_problem *p, int i, double u)
+{
+    return p->yield ? fmax(p->yield[i] + p->hardening * u, 0.0) : INFINITY;
+}

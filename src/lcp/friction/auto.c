@@ -1,0 +1,334 @@
+/* The portfolio: methods that run in turns until one satisfies the tolerance.
+ *
+ * The first member runs first, and the operations that it used are the first allowance L.
+ * Then the members continue in turns, each from its last iterate, until its own
+ * operations reach its share of L; L grows by the factor GROWTH from round to round.
+ * When a member succeeds after T operations, L < GROWTH T / share, and the other members
+ * have used at most their shares of this L, which bounds the total (docs/friction.md).
+ * Operations are counted by formulas, so that the same problem always takes the same
+ * path. */
+#include "lcp/friction/internal.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define GROWTH 1.1
+/* Nobody goes on beyond this. */
+#define MOST_OPERATIONS 1e11
+
+typedef enum { FROM_START, FROM_BEST } stage_origin;
+
+/* What a member does: one stage after the other. */
+typedef struct {
+    const rb_friction_method *method; /* NULL: the end */
+    int variant, limit;               /* limit: iterations; 0: the solver's own */
+    stage_origin from;
+} stage;
+
+#define AC RB_FRICTION_ALART_CURNIER
+#define JM RB_FRICTION_JEAN_MOREAU
+#define NM RB_FRICTION_NATURAL_MAP
+#define FB RB_FRICTION_FISCHER_BURMEISTER
+#define SEARCH RB_FRICTION_LINE_SEARCH
+
+static const stage sweeps[] = {{&rb_friction_sweeps, RB_FRICTION_SWEEP_ANDERSON, 0, FROM_START},
+                               {&rb_friction_projections, RB_FRICTION_EXTRAGRADIENT, 0, FROM_BEST},
+                               {NULL, 0, 0, FROM_START}};
+static const stage alternating[] = {{&rb_friction_admm, 0, 0, FROM_START},
+                                    {NULL, 0, 0, FROM_START}};
+static const stage plain_sweeps[] = {
+    {&rb_friction_sweeps, 0, 300000, FROM_START},
+    {&rb_friction_sweeps, RB_FRICTION_SWEEP_PROJECTION, 5000, FROM_START},
+    {NULL, 0, 0, FROM_START}};
+/* From sweeps Jean-Moreau's function is the one that cycles least. */
+static const stage newton_after_sweeps[] = {{&rb_friction_newton, JM, 16, FROM_BEST},
+                                            {&rb_friction_newton, AC, 12, FROM_BEST},
+                                            {&rb_friction_newton, FB | SEARCH, 15, FROM_START},
+                                            {&rb_friction_newton, AC | SEARCH, 25, FROM_START},
+                                            {&rb_friction_newton, NM | SEARCH, 60, FROM_START},
+                                            {&rb_friction_newton, FB | SEARCH, 60, FROM_BEST},
+                                            {&rb_friction_newton, JM | SEARCH, 100, FROM_START},
+                                            {&rb_friction_smoothing_method, 0, 150, FROM_START},
+                                            {&rb_friction_lemke_method, 0, 0, FROM_START},
+                                            {&rb_friction_newton, AC | SEARCH, 60, FROM_BEST},
+                                            {&rb_friction_newton, NM | SEARCH, 60, FROM_BEST},
+                                            {&rb_friction_newton, JM | SEARCH, 60, FROM_BEST},
+                                            {&rb_friction_newton, AC | SEARCH, 400, FROM_START},
+                                            {&rb_friction_newton, NM | SEARCH, 500, FROM_BEST},
+                                            {NULL, 0, 0, FROM_START}};
+/* Where Newton from zero converges at all, it takes some ten steps; smoothing takes about
+ * twenty, also where Newton cycles. */
+static const stage newton_first[] = {{&rb_friction_newton, AC | SEARCH, 15, FROM_START},
+                                     {&rb_friction_smoothing_method, 0, 60, FROM_START},
+                                     {&rb_friction_newton, FB | SEARCH, 60, FROM_START},
+                                     {&rb_friction_newton, AC, 30, FROM_BEST},
+                                     {&rb_friction_newton, NM | SEARCH, 60, FROM_START},
+                                     {&rb_friction_newton, JM | SEARCH, 100, FROM_START},
+                                     {&rb_friction_lemke_method, 0, 0, FROM_START},
+                                     {&rb_friction_newton, AC | SEARCH, 60, FROM_BEST},
+                                     {&rb_friction_newton, FB | SEARCH, 60, FROM_BEST},
+                                     {&rb_friction_newton, NM | SEARCH, 60, FROM_BEST},
+                                     {&rb_friction_newton, AC | SEARCH, 400, FROM_START},
+                                     {&rb_friction_newton, NM | SEARCH, 500, FROM_BEST},
+                                     {NULL, 0, 0, FROM_START}};
+
+/* The first member's turn alone: so many of its stages, of so many iterations (0: their
+ * own). */
+typedef struct {
+    int stages, iterations;
+} first_turn;
+
+typedef struct {
+    const stage *stages;
+    double share;
+    first_turn first; /* 0: it is not the first */
+} plan;
+
+enum { MEMBERS = 4 };
+
+/* Some sweeps are cheap where W is there and solve most problems.  The global form has to
+ * be condensed for them, which costs little for rigid bodies and for few contacts on a
+ * large structure. */
+static const plan local_plan[MEMBERS] = {{sweeps, 1.0, {1, 100}},
+                                         {newton_after_sweeps, 0.7, {0, 0}},
+                                         {alternating, 1.0, {0, 0}},
+                                         {plain_sweeps, 0.1, {0, 0}}};
+static const plan global_plan[MEMBERS] = {{newton_first, 1.0, {2, 0}},
+                                          {sweeps, 0.7, {0, 0}},
+                                          {alternating, 1.0, {0, 0}},
+                                          {plain_sweeps, 0.1, {0, 0}}};
+
+typedef struct {
+    const plan *plan;
+    int stage;
+    const rb_friction_solver *solver; /* of the stage; NULL: not begun */
+    void *state;                      /* of its method, where that goes in parts */
+    int stage_end;                    /* iterations of the member; 0: no limit */
+    int over;                         /* no stage is left */
+    rb_friction_task task;
+    rb_friction_info info; /* the member's own */
+} member;
+
+/* Most calls end in the first turn, before there is more than one member. */
+typedef struct {
+    const rb_friction_task *task; /* the call's, on whose r, u, v the first one works */
+    int members;
+    member member[MEMBERS];
+    double *memory; /* r, u, v of the others */
+} portfolio;
+
+/* Condensing takes no more operations than this many factorisations of K, of which a step
+ * of Newton on the global form takes several, or so many per entry of the problem. */
+#define CHEAP_FACTORS 3.0
+#define CHEAP_ENTRY 30.0
+
+static rb_status choose_plan(const rb_friction_task *task, const plan **plans)
+{
+    const rb_friction_problem *g = task->problem;
+    double flops;
+    *plans = task->n ? global_plan : local_plan;
+    if (!task->n || task->measure->spring > 0.0)
+        return RB_OK;
+    const double factor = rb_sparse_cholesky_flops(task->measure->factor);
+    const rb_status s = rb_friction_condense_estimate(g, task->measure->factor, &flops);
+    if (s == RB_OK &&
+        flops <= CHEAP_FACTORS * factor + CHEAP_ENTRY * (g->K.p[g->dofs] + g->H.p[task->m]))
+        *plans = local_plan;
+    return s;
+}
+
+static member *add_member(portfolio *p, const plan *its)
+{
+    member *a = &p->member[p->members++];
+    a->plan = its;
+    a->stage = a->stage_end = a->over = 0;
+    a->solver = NULL;
+    a->state = NULL;
+    a->task = *p->task;
+    a->task.info = &a->info;
+    rb_friction_info_clear(&a->info, NULL);
+    return a;
+}
+
+static void end_stage(member *a)
+{
+    if (a->state)
+        a->solver->run->finish(a->state);
+    free(a->state);
+    a->state = NULL;
+    a->solver = NULL;
+    a->stage++;
+}
+
+/* ---- Stages ------------------------------------------------------------------------ */
+
+/* Dense tableaus beyond this take longer than what comes after. */
+#define MOST_FOR_LEMKE 1000
+
+/* The next stage that fits the problem, ready to go on; none is left: over.  W is
+ * condensed when the first stage asks for it. */
+static rb_status begin_stage(member *a)
+{
+    rb_friction_task *t = &a->task;
+    for (const stage *s; (s = &a->plan->stages[a->stage])->method; a->stage++) {
+        const rb_friction_solver *solver = rb_friction_solver_of(s->method, s->variant);
+        const int flat = solver->needs & RB_FRICTION_ONLY_2D;
+        const int condensed = !(solver->needs & RB_FRICTION_NEEDS_W) || t->shared->local;
+        if (!(flat && (t->d != 2 || t->contacts > MOST_FOR_LEMKE)) &&
+            (condensed || (t->measure->spring == 0.0 && rb_friction_task_condense(t) == RB_OK))) {
+            a->solver = solver;
+            break;
+        }
+    }
+    a->over = !a->solver;
+    if (a->over)
+        return RB_OK;
+    const stage *s = &a->plan->stages[a->stage];
+    a->info.solver = a->solver->name;
+    a->stage_end = s->limit ? a->info.iters + s->limit : 0;
+    a->task.opt.max_iters = a->stage_end;
+    if (s->from == FROM_BEST && isfinite(a->task.best->error)) {
+        memcpy(a->task.r, a->task.best->r, (size_t)a->task.m * sizeof(double));
+        memcpy(a->task.v, a->task.best->r + a->task.m, (size_t)a->task.n * sizeof(double));
+    } else
+        rb_friction_task_start(&a->task);
+    const rb_friction_method *method = a->solver->run;
+    if (method->run)
+        return RB_OK;
+    a->state = malloc(method->size);
+    if (!a->state)
+        return RB_ENOMEM;
+    const int yields = method == &rb_friction_sweeps ? RB_FRICTION_SWEEP_YIELD : 0;
+    return method->start(&a->task, a->solver->variant | yields, a->state);
+}
+
+/* ---- Turns ------------------------------------------------------------------------- */
+
+static int iterations_left(const portfolio *p)
+{
+    int sum = 0;
+    for (int k = 0; k < p->members; k++)
+        sum += p->member[k].info.iters;
+    const int most = p->task->opt.max_iters;
+    return !most ? INT_MAX : most > sum ? most - sum : 0;
+}
+
+/* Stages until one solves the problem, or the allowance or the iterations of the turn are
+ * used.  first: of the first turn, else NULL.  RB_MAXITER: the member has used its
+ * allowance, or has no stage left.  What a stage stumbles on is not the reason why the
+ * problem is not solved. */
+static rb_status take_turn(const portfolio *p, member *a, double allowance, const first_turn *first)
+{
+    int paused = 0;
+    for (int stages = 0; !paused && iterations_left(p); stages++) {
+        if (first && stages == first->stages)
+            break;
+        rb_status s = a->solver ? RB_OK : begin_stage(a);
+        if (a->over)
+            break;
+        if (s == RB_OK) {
+            const rb_friction_method *method = a->solver->run;
+            rb_friction_task *t = &a->task;
+            const int turn = first ? first->iterations : 0, left = iterations_left(p);
+            const int most = turn && turn < left ? turn : left;
+            const int end = most < INT_MAX ? a->info.iters + most : 0;
+            t->opt.max_iters = !end || (a->stage_end && a->stage_end < end) ? a->stage_end : end;
+            t->budget = method->run ? INFINITY : allowance;
+            if (method->run) {
+                /* It cannot pause.  Its operations, roughly: as many pivots as unknowns,
+                 * on a tableau of order 3 n_c where there is no W, or twenty
+                 * factorisations. */
+                const double m = t->m, tableau = 3.0 * t->contacts, order = m + t->n;
+                const double cost = !(a->solver->needs & RB_FRICTION_ONLY_2D)
+                                        ? 20.0 * order * fmin(order * order, 1e4)
+                                    : t->shared->local ? rb_friction_lemke_pairs_flops(t, 2.0 * m)
+                                                       : 5.0 * tableau * tableau * tableau;
+                paused = a->info.flops + cost > allowance;
+                s = paused ? RB_MAXITER : method->run(t, a->solver->variant);
+            } else {
+                s = method->go_on(a->state);
+                paused = s == RB_MAXITER &&
+                         (a->info.flops >= t->budget ||
+                          (end && a->info.iters >= end && a->info.iters != a->stage_end));
+            }
+        }
+        if (s == RB_OK && rb_friction_prove(&a->task))
+            return RB_OK;
+        if (s == RB_ENOMEM || s == RB_INTERRUPTED)
+            return s;
+        if (!paused)
+            end_stage(a);
+    }
+    return RB_MAXITER;
+}
+
+static rb_status run_auto(rb_friction_task *task, int variant)
+{
+    (void)variant;
+    portfolio p;
+    const plan *plans;
+    rb_status s = choose_plan(task, &plans);
+    if (s != RB_OK)
+        return s;
+    p.task = task;
+    p.members = 0;
+    p.memory = NULL;
+    member *first = add_member(&p, plans), *winner = first;
+    s = take_turn(&p, first, INFINITY, &plans->first);
+    if (s == RB_MAXITER) {
+        const size_t m = (size_t)task->m, n = (size_t)task->n;
+        p.memory = rb_alloc(2 * m + n, MEMBERS - 1);
+        for (int k = 1; p.memory && k < MEMBERS; k++) {
+            rb_friction_task *t = &add_member(&p, &plans[k])->task;
+            t->r = p.memory + (size_t)(k - 1) * (2 * m + n);
+            t->u = t->r + m;
+            t->v = t->u + m;
+        }
+        if (!p.memory)
+            s = RB_ENOMEM;
+    }
+    double allowance = fmax(first->info.flops, 1.0);
+    for (int left = MEMBERS; s == RB_MAXITER && left && iterations_left(&p);) {
+        left = 0;
+        for (int k = 0; s == RB_MAXITER && k < MEMBERS; k++) {
+            member *a = winner = &p.member[k];
+            if (!a->over)
+                s = take_turn(&p, a, allowance * a->plan->share, NULL);
+            left += !a->over;
+        }
+        if (allowance > MOST_OPERATIONS)
+            break;
+        allowance *= GROWTH;
+    }
+    /* The answer is the winner's; operations and iterations are those of all. */
+    rb_friction_info *info = task->info;
+    const rb_friction_info *proof = &winner->info;
+    const rb_friction_task *from = &winner->task;
+    for (int k = 0; k < p.members; k++) {
+        info->iters += p.member[k].info.iters;
+        info->flops += p.member[k].info.flops;
+    }
+    task->proved = from->proved;
+    if (!task->proved)
+        rb_friction_task_start(task);
+    else {
+        if (from->r != task->r) {
+            memcpy(task->r, from->r, (size_t)task->m * sizeof(double));
+            memcpy(task->u, from->u, (size_t)task->m * sizeof(double));
+            memcpy(task->v, from->v, (size_t)task->n * sizeof(double));
+        }
+        info->solver = proof->solver;
+        info->residual = proof->residual;
+        info->scaled = proof->scaled;
+        info->floor = proof->floor;
+        info->measure = proof->measure;
+    }
+    for (int k = 0; k < p.members; k++)
+        end_stage(&p.member[k]);
+    free(p.memory);
+    return s;
+}
+
+const rb_friction_method rb_friction_auto_method = {.run = run_auto};

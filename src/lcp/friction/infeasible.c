@@ -1,0 +1,166 @@
+/* A proof that a problem has no solution: no reactions of any size prevent penetration at
+ * all contacts. */
+#include "lcp/friction/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Steps of the search at most, operations at most, and the relative change at which it
+ * has ended. */
+enum { STEPS = 5000 };
+static const double OPERATIONS = 2e9, SMALL = 1e-15;
+
+/* A solution needs r in K with u_N = (W r + q)_N >= 0.  With forces in units of velocity,
+ * r = x / W_NN, and A = (W / W_NN)_N, the least of |min(0, A x + q_N)|^2 over x in K is
+ * positive where there is none, and y = -min(0, A x + q_N) >= 0 then proves it: -A'y is
+ * in K*, so that y'(A x + q_N) <= y'q_N = -|y|^2 < 0 for every x in K (a theorem of the
+ * alternative). */
+typedef struct {
+    const rb_friction_problem *local;
+    rb_friction_blocks blocks;
+    double *rho;                /* 2 per contact: the first is 1/W_NN */
+    double *x, *z, *before, *w; /* m each: iterate, extrapolated, last one, velocity */
+    double *gradient;           /* m */
+    double length;              /* of a gradient step */
+} search;
+
+/* gradient = -A'y: block (c, e) of W takes the forces of e to the velocities of c. */
+static void transposed(search *s, const double *y)
+{
+    const rb_friction_blocks *b = &s->blocks;
+    const int d = b->d;
+    for (int e = 0; e < b->contacts; e++) {
+        double *g = s->gradient + e * d;
+        memset(g, 0, (size_t)d * sizeof *g);
+        for (int k = b->p[e]; k < b->p[e + 1]; k++)
+            for (int a = 0; a < d; a++)
+                g[a] -= s->rho[2 * e] * y[b->i[k]] *
+                        b->x[(size_t)k * (size_t)(d * d) + (size_t)(a * d)];
+    }
+}
+
+/* 1 / |A|^2 by the power method, a little shorter to be safe; 0: A is zero. */
+static double step_length(search *s, double *y)
+{
+    const size_t n = (size_t)s->local->contacts;
+    double most = 0.0;
+    for (size_t c = 0; c < n; c++)
+        y[c] = 1.0 + 0.1 * (double)(c % 7);
+    for (int k = 0; k < 30; k++) {
+        const double size = rb_friction_norm(n, y);
+        if (!(size > 0.0))
+            return 0.0;
+        for (size_t c = 0; c < n; c++)
+            y[c] /= size;
+        transposed(s, y);
+        most = 0.0;
+        for (int i = 0; i < s->blocks.d * (int)n; i++)
+            most += s->gradient[i] * s->gradient[i];
+        for (int i = 0; i < s->blocks.d * (int)n; i++)
+            s->z[i] = s->rho[2 * (i / s->blocks.d)] * s->gradient[i];
+        rb_friction_blocks_apply(&s->blocks, s->z, s->w);
+        for (size_t c = 0; c < n; c++)
+            y[c] = s->w[c * (size_t)s->blocks.d];
+    }
+    return most > 0.0 ? 0.8 / most : 0.0;
+}
+
+rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y, double *least)
+{
+    const size_t m = (size_t)(local->dimension * local->contacts);
+    search s = {.local = local};
+    *least = 0.0;
+    if (local->form == RB_FRICTION_GLOBAL)
+        return RB_EINVAL;
+    rb_status st = rb_friction_blocks_init(local, &s.blocks);
+    s.x = rb_alloc(m, 5);
+    s.rho = rb_alloc(2 * (size_t)local->contacts, 1);
+    if (st == RB_OK)
+        st = s.x && s.rho ? rb_friction_rho(local, s.rho) : RB_ENOMEM;
+    if (st == RB_OK) {
+        s.z = s.x + m;
+        s.before = s.z + m;
+        s.w = s.before + m;
+        s.gradient = s.w + m;
+        s.length = step_length(&s, y);
+        memset(s.z, 0, m * sizeof *s.z);
+        const int d = local->dimension, nc = local->contacts;
+        const double work = 4.0 * s.blocks.p[nc] * d * d;
+        double t = 1.0, last = INFINITY;
+        /* Projected gradients with Nesterov's extrapolation (Beck and Teboulle), restarted
+         * where |y| grows. */
+        for (int k = 0; k < STEPS && k * work < OPERATIONS; k++) {
+            /* y and half of |y|^2 at x. */
+            double value = 0.0;
+            for (int c = 0; c < nc; c++)
+                for (int a = 0; a < d; a++)
+                    s.gradient[c * d + a] = s.rho[2 * c] * s.z[c * d + a];
+            rb_friction_blocks_apply(&s.blocks, s.gradient, s.w);
+            for (int c = 0; c < nc; c++) {
+                y[c] = fmax(0.0, -(s.w[c * d] + local->q[c * d]));
+                value += 0.5 * y[c] * y[c];
+            }
+            const double next = 0.5 * (1.0 + sqrt(1.0 + 4.0 * t * t));
+            const int grows = value > last;
+            double change = 0.0, size = 0.0;
+            transposed(&s, y);
+            for (int c = 0; c < nc; c++) {
+                double *x = s.x + c * d;
+                for (int a = 0; a < d; a++)
+                    x[a] = s.z[c * d + a] - s.length * s.gradient[c * d + a];
+                rb_friction_project(d, local->mu[c], x, x);
+            }
+            for (size_t i = 0; i < m; i++) {
+                const double step = s.x[i] - s.before[i];
+                change = fmax(change, fabs(s.x[i] - s.z[i]));
+                size = fmax(size, fabs(s.x[i]));
+                s.z[i] = s.x[i] + (grows ? 0.0 : (t - 1.0) / next * step);
+                s.before[i] = s.x[i];
+            }
+            t = grows ? 1.0 : next;
+            last = value;
+            if (value == 0.0 || change <= SMALL * size)
+                break;
+        }
+        /* What any solution must have of sum W_NN r_N, proved by y: -A'y misses K* by at
+         * most `miss`, so that 0 <= y'(A x + q_N) <= y'q_N + miss sum x_N.  0: y proves
+         * nothing. */
+        double load = 0.0, miss = 0.0;
+        transposed(&s, y);
+        for (int c = 0; c < nc; c++) {
+            const double *h = s.gradient + c * d;
+            load += y[c] * local->q[c * d];
+            miss = fmax(miss, local->mu[c] * rb_friction_tangential(d, h) - h[0]);
+        }
+        if (!(load < 0.0))
+            *least = 0.0;
+        else
+            *least = miss > 0.0 ? -load / miss : INFINITY;
+    }
+    rb_friction_blocks_free(&s.blocks);
+    free(s.x);
+    free(s.rho);
+    return st;
+}
+
+int rb_friction_has_no_solution(const rb_friction_problem *problem, double *least, double *given)
+{
+    static const double beyond_all = 1e8; /* of the velocities that are given */
+    rb_friction_problem condensed = {0};
+    const int global = problem->form == RB_FRICTION_GLOBAL;
+    const rb_friction_problem *local = global ? &condensed : problem;
+    double *y = rb_alloc((size_t)problem->contacts, 1);
+    rb_status s = y ? RB_OK : RB_ENOMEM;
+
+    *least = *given = 0.0;
+    if (s == RB_OK && global)
+        s = rb_friction_condense(problem, &condensed, NULL);
+    if (s == RB_OK)
+        s = rb_friction_infeasible(local, y, least);
+    for (int i = 0; s == RB_OK && i < problem->dimension * problem->contacts; i++)
+        *given += fabs(local->q[i]);
+    rb_friction_problem_free(&condensed);
+    free(y);
+    return s == RB_OK && *least > beyond_all * *given;
+}

@@ -1,0 +1,289 @@
+/* One call for all methods by name, and the portfolio: the structure of M determines the
+ * first method; if it does not finish soon, all methods run in turns.
+ *
+ * In its first turn the first method may use as many operations as it needs on suitable
+ * problems.  Then the methods continue in turns, each from its last iterate, until its
+ * own operations reach its share of an allowance, which grows from round to round.
+ * Operations are counted by formulas, so that the same problem is always solved in the
+ * same way. */
+#include "lcp/lemke/lemke.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Structure --------------------------------------------------------------------- */
+
+/* Largest order of a tableau in a portfolio, which takes 8 n^2 bytes twice. */
+enum { LARGEST_TABLEAU = 5000 };
+
+/* From this order on, and with fewer entries than this part of all, a pivot by sparse
+ * factors is cheaper than one on a tableau. */
+enum { SPARSE_FROM = 300 };
+static const double FEW = 0.02;
+
+/* --solver lemke is a tableau below this order or above this part of all entries. */
+enum { LARGE = 500 };
+static const double MANY = 0.1;
+
+/* Newton's method goes first on sparse matrices whose diagonal is positive: from the
+ * first order on where they are those of discretised inequalities, which it solves
+ * always, from the second one on elsewhere; so many systems are its first turn. */
+enum { SURE_FROM = 200, HOPE_FROM = 60, SURE_SYSTEMS = 40, HOPE_SYSTEMS = 3 };
+
+typedef struct {
+    int n, positive; /* order; 1: all diagonal entries are positive */
+    double part;     /* entries that are not zero, as a part of all */
+} structure;
+
+static structure read_structure(const rb_sparse *M)
+{
+    const int n = M->cols;
+    structure s = {n, 1, M->p[n] / ((double)n * n)};
+    for (int j = 0; s.positive && j < n; j++)
+        s.positive = rb_sparse_diagonal(M, j) > 0.0;
+    return s;
+}
+
+/* ---- Members ------------------------------------------------------------------------- */
+
+enum { TABLEAU, SPARSE, NEWTON, MEMBERS };
+
+static const lcp_method *const methods[MEMBERS] = {&rb_lcp_tableau_method, &rb_lcp_sparse_method,
+                                                   &rb_lcp_newton_method};
+
+typedef struct {
+    const lcp_method *method;
+    double share;
+    int systems; /* of its first turn alone; 0: by operations */
+    lcp_task task;
+    lcp_work *work;             /* its state, which begins with it; owned */
+    int open, balance_q, ended; /* open: the state is that of a path that goes on */
+    rb_lcp_info info;
+} member;
+
+typedef struct {
+    int count;
+    member member[MEMBERS];
+    double *dense; /* n x n: M for the tableau; owned */
+    double *z;     /* n: of the method that has just ended; owned */
+} portfolio;
+
+static void add(portfolio *p, int kind, double share, int systems, const lcp_task *task)
+{
+    p->member[p->count++] = (member){.method = methods[kind],
+                                     .share = share,
+                                     .systems = systems,
+                                     .task = *task,
+                                     .info = RB_LCP_INFO_NONE};
+}
+
+/* The order and the shares. */
+static void choose(const lcp_task *task, portfolio *p)
+{
+    const rb_sparse *M = task->M.sparse;
+    const structure s = read_structure(M);
+    const int sparse_pivots = s.n >= SPARSE_FROM && s.part < FEW;
+    const int first = sparse_pivots || s.n > LARGEST_TABLEAU ? SPARSE : TABLEAU;
+    const int sparse = s.positive && s.part <= MANY;
+    const int discretised = sparse && s.n >= HOPE_FROM && rb_lcp_coarse_fits(M);
+    const int sure = discretised && s.n >= SURE_FROM;
+    const int newton_first =
+        sure || (sparse && !discretised && s.n >= HOPE_FROM) || task->opt->start;
+    if (newton_first)
+        add(p, NEWTON, 1.0, sure ? SURE_SYSTEMS : HOPE_SYSTEMS, task);
+    add(p, first, 1.0, 0, task);
+    if (!newton_first)
+        add(p, NEWTON, s.positive ? 0.5 : 0.1, 0, task);
+    if (first == TABLEAU || s.n <= LARGEST_TABLEAU)
+        add(p, first == TABLEAU ? SPARSE : TABLEAU, 0.5, 0, task);
+}
+
+static rb_status make_dense(const rb_sparse *M, double **dense)
+{
+    const size_t n = (size_t)M->cols;
+    *dense = rb_alloc(n, n);
+    for (size_t j = 0; *dense && j < n; j++)
+        for (int k = M->p[j]; k < M->p[j + 1]; k++)
+            (*dense)[(size_t)M->i[k] + j * n] = M->x[k];
+    return *dense ? RB_OK : RB_ENOMEM;
+}
+
+static double used_by(const member *a)
+{
+    return a->work ? a->work->used : 0.0;
+}
+
+/* Goes on until its operations reach the allowance, or it ends, with p->z then. */
+static rb_status take_turn(portfolio *p, member *a, double allowance)
+{
+    for (;;) {
+        rb_status s = RB_OK;
+        if (!a->open) {
+            const int tableau = a->method == &rb_lcp_tableau_method, iters = a->info.iters;
+            const double used = used_by(a);
+            if (tableau && !p->dense)
+                s = make_dense(a->task.M.sparse, &p->dense);
+            if (tableau) {
+                a->task.M.dense = p->dense;
+                a->task.M.ld = a->task.M.n;
+                a->task.generic = 1;
+            }
+            a->work = a->work ? a->work : malloc(a->method->size);
+            a->open = s == RB_OK && a->work;
+            if (a->open) {
+                a->info = RB_LCP_INFO_NONE;
+                s = a->method->begin(&a->task, a->balance_q, &a->info, a->work);
+                a->work->used += used;
+                a->info.iters = iters;
+            } else
+                s = RB_ENOMEM;
+        }
+        if (s == RB_OK) {
+            a->work->allowed = allowance;
+            s = a->method->go_on(a->work);
+            if (s == RB_OK && a->work->paused)
+                return RB_OK;
+        }
+        if (a->open)
+            s = a->method->end(a->work, s, p->z);
+        a->open = 0;
+        a->ended = s != RB_INACCURATE || a->balance_q;
+        if (a->ended)
+            return s;
+        a->balance_q = 1;
+    }
+}
+
+/* ---- Turns ------------------------------------------------------------------------- */
+
+/* From round to round. */
+static const double GROWTH = 1.25;
+
+/* Operations that Newton's method may always take after the pivots have failed. */
+static const double LAST_CHANCE = 1e6;
+
+static rb_status run_portfolio(const lcp_task *task, double *z, rb_lcp_info *info)
+{
+    portfolio p = {.z = rb_alloc((size_t)task->M.n, 1)};
+    member *first = &p.member[0];
+    rb_status s = RB_OK, said = p.z ? RB_MAXITER : RB_ENOMEM;
+    *info = RB_LCP_INFO_NONE;
+    choose(task, &p);
+    /* The first method that pivots: how it has ended is what is said of a problem that none
+     * has solved. */
+    const member *spokesman = &p.member[first->method == &rb_lcp_newton_method];
+    double allowance = 0.0;
+    int over = !p.z;
+    for (int round = 0, open = p.count, last = 0; !over && open && !last; round++) {
+        /* Where no pivots are left, but Newton's method has not ended: what it may use. */
+        double sum = LAST_CHANCE;
+        last = round > 0;
+        for (int k = 0; k < p.count; k++) {
+            sum += used_by(&p.member[k]);
+            last &= (p.member[k].method == &rb_lcp_newton_method) != p.member[k].ended;
+        }
+        open = 0;
+        for (int k = 0; !over && k < (round ? p.count : 1); k++) {
+            member *a = &p.member[k];
+            if (a->ended)
+                continue;
+            if (round)
+                s = take_turn(&p, a, last ? sum : allowance * a->share);
+            else if (!a->systems) {
+                /* As many pivots as a path that is not one of the long ones takes. */
+                const double n = task->M.n, pivots = 2.0 * n + 50.0;
+                s = take_turn(&p, a,
+                              a->method == &rb_lcp_tableau_method
+                                  ? pivots * rb_lcp_work_of_pivot(task->M.n)
+                                  : pivots * (2000.0 + 40.0 * n));
+            } else
+                for (s = RB_OK; s == RB_OK && !a->ended && a->info.iters < a->systems;)
+                    s = take_turn(&p, a, used_by(a) + 1.0);
+            over = a->ended && (s == RB_OK || s < 0 || s == RB_INTERRUPTED);
+            if (over || (a->ended && a == spokesman)) {
+                memcpy(z, p.z, (size_t)task->M.n * sizeof *z);
+                *info = a->info;
+                info->solver = a->method->name;
+                said = s;
+            }
+        }
+        for (int k = 0; k < p.count; k++)
+            open += !p.member[k].ended;
+        allowance = round ? allowance * GROWTH : fmax(used_by(first), 1.0);
+    }
+    int iters = 0;
+    for (int k = 0; k < p.count; k++) {
+        member *a = &p.member[k];
+        if (a->open)
+            a->method->end(a->work, RB_MAXITER, p.z);
+        iters += a->info.iters;
+        free(a->work);
+    }
+    info->iters = iters;
+    free(p.z);
+    free(p.dense);
+    if (said == RB_ENOMEM && !*info->msg.text)
+        rb_fail(&info->msg, said, "lcp: out of memory for order %d", task->M.n);
+    return said;
+}
+
+/* ---- By name ------------------------------------------------------------------------- */
+
+static const rb_lcp_solver solvers[] = {
+    {"auto", "the methods below in turns, first the one that suits the structure of M"},
+    {"lemke", "Lemke's method on a tableau; large sparse problems as lemke-sparse"},
+    {"lemke-sparse", "Lemke's method with a sparse LU, also for bounds"},
+    {"newton", "block principal pivoting with a sparse LU, finite for P-matrices"}};
+enum { AUTO, LEMKE, LEMKE_SPARSE, BLOCKS, SOLVERS };
+
+const rb_lcp_solver *rb_lcp_solvers(int *count)
+{
+    *count = SOLVERS;
+    return solvers;
+}
+
+rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
+                       double *z, rb_lcp_info *info)
+{
+    const rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
+    rb_lcp_info unread;
+    info = info ? info : &unread;
+    *info = RB_LCP_INFO_NONE;
+    int kind = AUTO;
+    while (solver && kind < SOLVERS && strcmp(solver, solvers[kind].name) != 0)
+        kind++;
+    if (kind == SOLVERS)
+        return rb_fail(&info->msg, RB_EINVAL,
+                       "lcp: unknown solver '%.60s': expected auto, lemke, lemke-sparse "
+                       "or newton",
+                       solver);
+    const int boxes = p->lower || p->upper;
+    if (kind == BLOCKS && boxes)
+        return rb_fail(&info->msg, RB_EINVAL,
+                       "lcp: newton does not accept bounds; use lemke-sparse");
+    const rb_status s = rb_lcp_check_mixed(p, &o, &info->msg);
+    if (s != RB_OK)
+        return s;
+    const int path = o.trace || o.cover || o.rule != RB_LCP_LEXICOGRAPHIC;
+    if (kind == AUTO && !path && !boxes) {
+        const lcp_task task = {
+            .M = {.n = p->M->cols, .sparse = p->M}, .q = p->q, .opt = &o, .began = rb_seconds()};
+        const rb_status game = rb_lcp_game_solve(p->M, p->q, &o, z, info);
+        return game == RB_OK || game < 0 ? game : run_portfolio(&task, z, info);
+    }
+    if (kind == BLOCKS)
+        return rb_lcp_newton(p->M, p->q, &o, z, info);
+    const int large = p->M->cols >= LARGE && read_structure(p->M).part < MANY;
+    if (kind == LEMKE_SPARSE || boxes || o.start || large)
+        return rb_lcp_mixed(p, &o, z, info);
+    const int n = p->M->cols;
+    double *dense;
+    rb_status status = make_dense(p->M, &dense);
+    if (status == RB_OK)
+        status = rb_lcp_lemke(&(rb_lcp_problem){n, dense, n, p->q}, &o, z, info);
+    else
+        rb_fail(&info->msg, status, "lcp: out of memory for a dense matrix of order %d", n);
+    free(dense);
+    return status;
+}

@@ -1,0 +1,335 @@
+/* Problems that the caller passes as arrays: complementarity problems, friction problems,
+ * sweeps of cases. */
+#include "program/api/internal.h"
+
+#include "rollbem/friction.h"
+#include "rollbem/lcp.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void begin(rb_api *a, const char *arrays, const char *solver)
+{
+    rb_api_forget_arrays(a, arrays);
+    a->why.text[0] = a->note.text[0] = '\0';
+    a->stopped = a->done = a->total = 0;
+    a->iterations = 0;
+    a->residual = a->scaled_residual = NAN;
+    a->solver = solver;
+}
+
+/* ---- Complementarity --------------------------------------------------------------- */
+
+int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *solver,
+               int max_pivots)
+{
+    rb_lcp_options options = rb_lcp_defaults();
+    rb_lcp_info info = {0};
+    rb_sparse sparse = {0};
+    options.max_iters = max_pivots;
+    int count, known = 0;
+    const rb_lcp_solver *solvers = rb_lcp_solvers(&count);
+    while (known < count && strcmp(solver, solvers[known].name) != 0)
+        known++;
+    begin(a, "lcp.", known < count ? solvers[known].name : "");
+    if (known == count)
+        return rb_api_refuse(
+            a, "--solver: expected auto, lemke, lemke-sparse or newton, got '%.60s'", solver);
+    if (n < 1)
+        return rb_api_refuse(a, "lcp: n = %d", n);
+    api_array *z = rb_api_make_array(a, "lcp.z", n, 1);
+    api_array *w = z ? rb_api_make_array(a, "lcp.w", n, 1) : NULL;
+    rb_status s = w ? rb_sparse_from_dense(n, n, M, n, &sparse) : RB_ENOMEM;
+    if (s == RB_OK) {
+        const rb_lcp_mixed_problem p = {.M = &sparse, .q = q};
+        rb_api_call_begins();
+        s = rb_lcp_solve(solver, &p, &options, z->at, &info);
+        if (s >= 0)
+            a->residual = rb_lcp_residual_mixed(&p, z->at, w->at);
+        rb_api_call_ends();
+        a->scaled_residual = info.scaled;
+        a->iterations = info.iters;
+        a->solver = info.solver ? info.solver : a->solver;
+        a->why = info.msg;
+    }
+    rb_sparse_free(&sparse);
+    return rb_api_ended(a, s);
+}
+
+/* ---- Friction ---------------------------------------------------------------------- */
+
+static int goes_on(const rb_friction_progress *at, void *context)
+{
+    const rb_api *a = context;
+    (void)at;
+    return a->stopped;
+}
+
+static rb_status solve_friction(rb_api *a, const rb_friction_problem *p, const char *solver,
+                                double tol, int max_iters)
+{
+    rb_friction_options options = rb_friction_defaults();
+    rb_friction_info info = {0};
+    options.tol = tol;
+    options.max_iters = max_iters;
+    options.measure = a->by_acary ? RB_FRICTION_BY_ACARY : RB_FRICTION_BY_SCALED;
+    options.progress = goes_on;
+    options.context = a;
+    api_array *r = rb_api_make_array(a, "friction.r", p->dimension, p->contacts);
+    api_array *u = r ? rb_api_make_array(a, "friction.u", p->dimension, p->contacts) : NULL;
+    api_array *mu = u ? rb_api_copy_array(a, "friction.mu", p->contacts, 1, p->mu) : NULL;
+    if (!mu)
+        return RB_ENOMEM;
+    const rb_friction_solution solution = {r->at, u->at, NULL};
+    rb_api_call_begins();
+    const rb_status s = rb_friction_solve(solver, p, &options, &solution, &info);
+    rb_api_call_ends();
+    a->solver = info.solver;
+    a->iterations = info.iters;
+    a->residual = info.residual;
+    a->scaled_residual = info.scaled;
+    a->why = info.msg;
+    if (s == RB_OK)
+        rb_friction_note(tol, &info, &a->note);
+    return s;
+}
+
+int rb_api_friction_measure(rb_api *a, const char *measure)
+{
+    const int by_acary = strcmp(measure, "acary") == 0;
+    if (!by_acary && strcmp(measure, "scaled") != 0)
+        return rb_api_refuse(a, "--measure: expected scaled or acary, got '%.60s'", measure);
+    a->by_acary = by_acary;
+    return rb_api_ended(a, RB_OK);
+}
+
+int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W, const double *q,
+                    const double *mu, const char *solver, double tol, int max_iters)
+{
+    begin(a, "friction.", solver);
+    if (dimension < 2 || dimension > 3 || contacts < 1 || contacts > INT_MAX / dimension)
+        return rb_api_refuse(a, "friction: %d contacts of dimension %d, expected 2 or 3", contacts,
+                             dimension);
+    const size_t m = (size_t)dimension * (size_t)contacts;
+    rb_friction_problem p = {.form = RB_FRICTION_LOCAL_DENSE,
+                             .dimension = dimension,
+                             .contacts = contacts,
+                             .W = rb_alloc(m, m),
+                             .q = rb_alloc(m, 1),
+                             .mu = rb_alloc((size_t)contacts, 1)};
+    rb_status s = p.W && p.q && p.mu ? RB_OK : RB_ENOMEM;
+    if (s == RB_OK) {
+        memcpy(p.W, W, sizeof *W * m * m);
+        memcpy(p.q, q, sizeof *q * m);
+        memcpy(p.mu, mu, sizeof *mu * (size_t)contacts);
+        s = rb_friction_problem_check(&p, &a->why);
+    }
+    if (s == RB_OK)
+        s = solve_friction(a, &p, solver, tol, max_iters);
+    rb_friction_problem_free(&p);
+    return rb_api_ended(a, s);
+}
+
+int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double tol, int max_iters)
+{
+    rb_friction_problem p = {0};
+    begin(a, "friction.", solver);
+    rb_status s = rb_friction_read(path, &p, &a->why);
+    if (s == RB_OK)
+        s = solve_friction(a, &p, solver, tol, max_iters);
+    rb_friction_problem_free(&p);
+    return rb_api_ended(a, s);
+}
+
+/* ---- Many cases -------------------------------------------------------------------- */
+
+typedef struct {
+    rb_api *a;
+    rb_api *const *cases;
+    rb_case_crack *crack;   /* of each case; NULL: there is none; owned */
+    rb_case_slopes *slopes; /* derivatives of each case, of the handle; n = 0: none */
+    int now;                /* the case that this process solves */
+} study;
+
+static rb_status make_case(int k, rb_rolling_case *rc, void *context)
+{
+    study *st = context;
+    st->now = k;
+    *rc = rb_case_resolved(st->cases[k]->words)->rc;
+    return RB_OK;
+}
+
+static rb_status solve_crack(int k, rb_rolling_row *row, void *context, rb_message *why)
+{
+    const study *st = context;
+    return rb_case_crack_row(rb_case_resolved(st->cases[k]->words), &st->crack[k], row, why);
+}
+
+/* A case without derivatives has its results. */
+static rb_status measure_slopes(const rb_rolling_model *model, double *own, void *context,
+                                rb_message *why)
+{
+    const study *st = context;
+    return rb_case_slopes_row(st->cases[st->now]->words, model, st->slopes, own, why);
+}
+
+static api_array *column_of(rb_api *a, const char *name)
+{
+    char text[120];
+    snprintf(text, sizeof text, "sweep.%s", name);
+    return rb_api_find_array(a, text);
+}
+
+/* 1: a contact has a result of that name, so that a crack's shares its column. */
+static int is_of_contact(const char *name)
+{
+    return rb_rolling_find_result(&rb_rolling_solution_scalars, name) != NULL;
+}
+
+static int see_row(int k, const rb_rolling_row *row, void *context)
+{
+    const study *st = context;
+    const rb_rolling_results *table = &rb_rolling_solution_scalars;
+    for (int j = 0; j < st->slopes->n; j++)
+        for (int side = 0; side < 2; side++)
+            st->slopes->value[2 * (k * st->slopes->n + j) + side] = row->own[j];
+    for (int j = 0; j < st->slopes->deviations; j++) {
+        char name[60];
+        snprintf(name, sizeof name, "tolerance.%s", st->slopes->deviation[j]->name);
+        column_of(st->a, name)->at[k] = row->own[st->slopes->n + j];
+    }
+    column_of(st->a, "status")->at[k] = row->solution.status;
+    for (int j = 0; j < table->n; j++)
+        column_of(st->a, table->row[j].name)->at[k] =
+            rb_rolling_number(&table->row[j], &row->solution);
+    for (int j = 0; j < rb_case_crack_scalars.n && st->crack; j++) {
+        const rb_rolling_result *r = &rb_case_crack_scalars.row[j];
+        if (rb_case_crack_has_result(r, &st->crack[k]) || !is_of_contact(r->name))
+            column_of(st->a, r->name)->at[k] = rb_case_crack_of_row(r, 0, row);
+    }
+    return 0;
+}
+
+static int tick(int seen, void *context)
+{
+    const study *st = context;
+    st->a->done = seen;
+    return st->a->stopped;
+}
+
+/* The columns of derivatives and of standard deviations; NULL: none. */
+static rb_status choose_slopes(rb_api *a, int n, rb_api *const *cases, const char *derivatives,
+                               const char *tolerance, rb_case_slopes *s)
+{
+    const rb_rolling_results *table = &rb_rolling_solution_scalars;
+    const rb_rolling_result *result[RB_ROW_OWN];
+    rb_status status = RB_OK;
+    int known = 0;
+    if (derivatives)
+        status = rb_case_slopes_choose(cases[0]->words, table, derivatives, RB_ROW_OWN, s, &a->why);
+    if (status == RB_OK)
+        status = rb_case_slopes_alloc(n, s);
+    for (; known < table->n && known < RB_ROW_OWN; known++)
+        result[known] = &table->row[known];
+    if (status == RB_OK && tolerance)
+        status =
+            rb_case_slopes_add_deviations(cases[0]->words, tolerance, known, result, s, &a->why);
+    for (int k = 0; k < s->deviations && status == RB_OK; k++) {
+        char name[60];
+        snprintf(name, sizeof name, "sweep.tolerance.%s", s->deviation[k]->name);
+        status = rb_api_make_array(a, name, n, 1) ? RB_OK : RB_ENOMEM;
+    }
+    return status;
+}
+
+/* names NULL: without cracks; derivatives, tolerance NULL: without them. */
+static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,
+                 const char *const *values, const char *derivatives, const char *tolerance,
+                 int workers)
+{
+    rb_case_slopes *own = &a->slopes[API_SLOPES_SWEEP];
+    study st = {.a = a, .cases = cases, .slopes = own};
+    rb_rolling_sweep of_cases = {.count = n,
+                                 .workers = workers,
+                                 .make = make_case,
+                                 .solve = names ? solve_crack : NULL,
+                                 .see = see_row,
+                                 .tick = tick,
+                                 .context = &st};
+    rb_status s = RB_OK;
+    begin(a, "sweep.", NULL);
+    rb_api_forget_slopes(a, API_SLOPES_SWEEP);
+    if (names && n > 0) {
+        st.crack = calloc((size_t)n, sizeof *st.crack);
+        s = st.crack ? RB_OK : RB_ENOMEM;
+    }
+    for (int k = 0; k < n && s == RB_OK; k++)
+        if ((s = (rb_status)rb_api_resolve(cases[k])) != RB_OK)
+            rb_fail(&a->why, s, "case %d: %.580s", k + 1, rb_api_message(cases[k]));
+        else if (rb_case_resolved(cases[k]->words)->error && !names)
+            s = rb_fail(&a->why, RB_EINVAL,
+                        "case %d: error: these studies have no error bars; rollbem sweep has",
+                        k + 1);
+        else if (names) {
+            /* The crack of case k, with its m options. */
+            rb_api *of = st.cases[k];
+            rb_message why = {""};
+            st.crack[k] = rb_case_crack_defaults();
+            rb_status u =
+                rb_api_set_crack(of, m, names, values + (size_t)k * (size_t)m, &st.crack[k], &why);
+            if (u == RB_OK)
+                u = rb_case_crack_check(rb_case_resolved(of->words), &st.crack[k], &why);
+            if (u == RB_OK && !isnan(st.crack[k].paris))
+                u = rb_fail(&why, RB_EINVAL,
+                            "--paris: a study has the K of cracks of given lengths");
+            s = u == RB_OK ? u : rb_fail(&st.a->why, u, "case %d: %.580s", k + 1, why.text);
+        }
+    if (s == RB_OK && (derivatives || tolerance) && n > 0) {
+        s = choose_slopes(a, n, cases, derivatives, tolerance, own);
+        of_cases.measure = measure_slopes;
+    }
+    if (s == RB_OK && n > 0) {
+        const int cracks = names != NULL;
+        const rb_rolling_results *tables[] = {&rb_rolling_solution_scalars, &rb_case_crack_scalars};
+        char text[120];
+        api_array *made = rb_api_make_array(a, "sweep.status", n, 1);
+        for (int t = 0; t <= cracks; t++)
+            for (int j = 0; made && j < tables[t]->n; j++) {
+                if (t > 0 && is_of_contact(tables[t]->row[j].name))
+                    continue;
+                snprintf(text, sizeof text, "sweep.%s", tables[t]->row[j].name);
+                made = rb_api_make_array(a, text, n, 1);
+            }
+        s = made ? RB_OK : RB_ENOMEM;
+    }
+    a->total = n;
+    if (s == RB_OK) {
+        rb_api_call_begins();
+        s = rb_rolling_sweep_run(&of_cases, &a->why);
+        rb_api_call_ends();
+    }
+    free(st.crack);
+    own->tolerance = NULL; /* the caller's */
+    if (s != RB_OK)
+        rb_api_forget_slopes(a, API_SLOPES_SWEEP);
+    return rb_api_ended(a, s);
+}
+
+int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers)
+{
+    return sweep(a, n, cases, 0, NULL, NULL, NULL, NULL, workers);
+}
+
+int rb_api_sweep_derivatives(rb_api *a, int n, rb_api *const *cases, const char *derivatives,
+                             const char *tolerance, int workers)
+{
+    return sweep(a, n, cases, 0, NULL, NULL, derivatives, tolerance, workers);
+}
+
+int rb_api_sweep_cracks(rb_api *a, int n, rb_api *const *cases, int m, const char *const *names,
+                        const char *const *values, int workers)
+{
+    return sweep(a, n, cases, m, names, values, NULL, NULL, workers);
+}

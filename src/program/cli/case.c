@@ -1,0 +1,255 @@
+#include "program/cli/case.h"
+#include "program/cli/wait.h"
+
+#include "rollbem/friction.h"
+
+#include <jansson.h>
+#include <string.h>
+#include <unistd.h>
+
+/* ---- A case from words ------------------------------------------------------------ */
+
+rb_case *cli_case_create(rb_case_purpose purpose)
+{
+    rb_case *c = rb_case_create(purpose);
+    if (c)
+        rb_case_use_cone_solvers(c, rb_friction_cone_solver);
+    else
+        cli_fail(CLI_INTERNAL, "out of memory");
+    return c;
+}
+
+/* A misspelt command looks like a case file that is not there. */
+static cli_exit read_case_file(const cli_spec *spec, const char *path, rb_case *c)
+{
+    rb_message why = {""};
+    rb_guess guess = {.word = path};
+    double number;
+    int plain;
+    if (rb_unit_read(path, "-", &number, &plain, &why) == RB_OK)
+        return cli_fail(CLI_USAGE,
+                        "%s: expected a case file, got a number; separate several values "
+                        "of an option by commas, as --mu 0.1,0.2",
+                        path);
+    if (strcmp(path, "solve") == 0 || strcmp(path, "run") == 0)
+        return cli_fail(CLI_USAGE,
+                        "there is no command '%s': rollbem [OPTION...] [CASE.ini] solves", path);
+    const rb_status s = rb_case_read(c, path, spec->set_n - 2, spec->sets + 1, &why);
+    if (s != RB_ENOENT)
+        return cli_say(s, &why);
+    cli_guess_command(&guess);
+    return cli_fail(cli_exit_of(s), "%s%s", why.text, rb_guess_text(&guess, ""));
+}
+
+cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c, cli_args *args)
+{
+    cli_exit code = cli_parse(spec, argc, argv, args);
+    const char *file = code == CLI_CONTINUE ? cli_case_file_of(args) : NULL;
+    const char *second = file ? args->operand[args->own + 1] : NULL;
+    if (second && (strcmp(file, "solve") == 0 || strcmp(file, "run") == 0))
+        code = read_case_file(spec, file, c);
+    if (code == CLI_CONTINUE && second)
+        code = cli_fail(CLI_USAGE, "one case file at a time, got '%s' and '%s'", file, second);
+    if (code == CLI_CONTINUE && file)
+        code = read_case_file(spec, file, c);
+    return code == CLI_CONTINUE ? cli_example_read(c, file) : code;
+}
+
+cli_exit cli_case_resolve(const cli_spec *spec, rb_case *c, const cli_args *args)
+{
+    rb_message why = {""};
+    const cli_exit code = cli_say(rb_case_resolve(c, &why), &why);
+    return code == CLI_CONTINUE ? cli_check_files(spec, args) : code;
+}
+
+cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c, cli_args *args)
+{
+    const cli_exit code = cli_case_read(spec, argc, argv, c, args);
+    return code == CLI_CONTINUE ? cli_case_resolve(spec, c, args) : code;
+}
+
+cli_exit cli_check_units(const rb_case *c, const rb_option_set *set, const cli_args *args)
+{
+    char what[300];
+    for (int k = 0; k < set->n; k++) {
+        const rb_option *o = &set->options[k];
+        if (o->kind == RB_OPTION_TEXT && set->given[k] > 0 && strchr(o->unit, '=') &&
+            rb_case_units(c, set->given[k]) != rb_case_units(c, RB_GIVEN_ARGUMENT))
+            return cli_fail(
+                CLI_DATA,
+                "%s: its numbers are in the units of the file, but --units gives "
+                "others; give --%s too",
+                rb_option_source(o, set->given[k], cli_case_file_of(args), what, sizeof what),
+                o->name);
+    }
+    return CLI_CONTINUE;
+}
+
+cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why)
+{
+    return cli_say(rb_case_locate(c, s, why), why);
+}
+
+/* ---- Commands that solve one ------------------------------------------------------ */
+
+static rb_status write_results(FILE *out, const void *context, rb_message *why)
+{
+    const cli_case_run *run = context;
+    (void)why;
+    if (run->o.style.format != RB_REPORT_JSON)
+        return run->command->table(out, run);
+    json_t *inputs = rb_report_json_inputs(run->words);
+    if (run->command->inputs)
+        run->command->inputs(run, &inputs);
+    json_t *root = rb_report_json_start(cli_command_line());
+    if (run->solution)
+        rb_report_json_set(
+            &root, "notes",
+            rb_report_json_notes(run->noted ? run->noted : &run->c->rc, run->solution));
+    rb_report_json_set(&root, "units", rb_report_json_units(run->c->units));
+    rb_report_json_set(&root, "input_hash", rb_report_json_input_hash(run->words));
+    rb_report_json_set(&root, "inputs", inputs);
+    run->command->json(run, &root);
+    return rb_report_json_write(out, root);
+}
+
+/* The files of one kind that are asked for: pictures, or all others. */
+static cli_exit write_files(const cli_spec *spec, const cli_case_run *run, int pictures)
+{
+    cli_exit code = CLI_OK;
+    const cli_case_file *f = run->command->files;
+    for (; f && f->option && code == CLI_OK; f++) {
+        const char *path = cli_option_path(spec, f->option);
+        if (path && pictures && f->draw)
+            code = cli_draw_file(&run->o.pictures, f->option, path, f->draw, run);
+        else if (path && !pictures && f->write)
+            code = cli_write_file(path, f->write, run);
+    }
+    return code;
+}
+
+static void print_summary(FILE *out, const void *context)
+{
+    const cli_case_run *run = context;
+    if (run->solution)
+        rb_report_notes(out, run->noted ? run->noted : &run->c->rc, run->solution,
+                        cli_is_coloured(stderr));
+    run->command->summarise(out, run);
+}
+
+static void summarise(const cli_case_run *run)
+{
+    if (!run->o.quiet)
+        cli_print_lines(print_summary, run);
+}
+
+/* The sets of options of a command: the case's, the command's and those of its output. */
+static cli_spec spec_of(cli_case_run *run)
+{
+    const cli_case_command *command = run->command;
+    int draws = 0;
+    for (const cli_case_file *f = command->files; f && f->option; f++)
+        draws |= strcmp(f->option, "plot") == 0;
+    const rb_option_set output = cli_output_set(&run->o, draws);
+    cli_spec spec = {.synopsis = command->synopsis,
+                     .about = command->about,
+                     .notes = command->notes,
+                     .refused = command->refused,
+                     .purpose = command->purpose,
+                     .second = command->second ? command->second : command->purpose,
+                     .sets = {rb_case_options(run->words)},
+                     .set_n = 1};
+    if (command->takes_crack)
+        spec.sets[spec.set_n++] = rb_case_crack_set(run->words);
+    spec.sets[spec.set_n++] = command->options_last ? output : run->set;
+    spec.sets[spec.set_n++] = command->options_last ? run->set : output;
+    spec.sets[spec.set_n++] = cli_example_set();
+    return spec;
+}
+
+static cli_exit read_words(const cli_spec *spec, cli_case_run *run, int argc, char **argv)
+{
+    run->args.own = run->command->operands;
+    const cli_exit code = cli_case_read(spec, argc, argv, run->words, &run->args);
+    return code == CLI_CONTINUE && run->command->prepare ? run->command->prepare(run) : code;
+}
+
+/* given, plain: CLI_COMMAND_OPTIONS_MAX zeros each, which the run borrows. */
+static cli_case_run run_of(const cli_case_command *command, void *own, int *given, int *plain,
+                           rb_case *words)
+{
+    return (cli_case_run){.command = command,
+                          .own = own,
+                          .set = {command->options, command->option_n, own, given, plain},
+                          .words = words};
+}
+
+cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc, char **argv,
+                         rb_case *words, int *files)
+{
+    int given[CLI_COMMAND_OPTIONS_MAX] = {0}, plain[CLI_COMMAND_OPTIONS_MAX] = {0};
+    cli_case_run run = run_of(command, own, given, plain, words);
+    const cli_spec spec = spec_of(&run);
+    rb_message why = {""};
+    cli_exit code = read_words(&spec, &run, argc, argv);
+    if (code == CLI_CONTINUE)
+        code = cli_say(rb_case_resolve(words, &why), &why);
+    if (code == CLI_CONTINUE)
+        rb_case_store(words, &run.set, own);
+    *files = run.args.operands;
+    cli_args_free(&run.args);
+    return code;
+}
+
+cli_exit cli_case_run_command(const cli_case_command *command, void *own, int argc, char **argv)
+{
+    int given[CLI_COMMAND_OPTIONS_MAX] = {0}, plain[CLI_COMMAND_OPTIONS_MAX] = {0};
+    cli_case_run run = run_of(command, own, given, plain, cli_case_create(command->purpose));
+    if (!run.words)
+        return CLI_INTERNAL;
+    const cli_spec spec = spec_of(&run);
+    cli_exit code = read_words(&spec, &run, argc, argv);
+    if (code == CLI_CONTINUE)
+        code = cli_case_resolve(&spec, run.words, &run.args);
+    if (code == CLI_CONTINUE)
+        code = cli_check_units(run.words, &run.set, &run.args);
+    if (code == CLI_CONTINUE) {
+        run.c = rb_case_resolved(run.words);
+        rb_case_store(run.words, &run.set, own);
+        code = command->check ? command->check(&run) : code;
+    }
+    if (code == CLI_CONTINUE) {
+        rb_message why = {""};
+        if (!run.o.quiet)
+            cli_wait_begin();
+        const rb_status s = command->solve(&run, &why);
+        if (!run.o.quiet)
+            cli_wait_end();
+        if (run.printable) {
+            /* a person reads the notes first */
+            const int first = !run.o.output && cli_reader_is_person();
+            cli_page_begin();
+            code = run.command->before_table ? run.command->before_table(&run) : CLI_OK;
+            if (code == CLI_OK && first)
+                summarise(&run);
+            if (code == CLI_OK)
+                code = cli_write_file(run.o.output, write_results, &run);
+            if (code == CLI_OK)
+                code = write_files(&spec, &run, 0);
+            if (code == CLI_OK && !first)
+                summarise(&run);
+            if (code == CLI_OK && run.o.cite)
+                cli_print_citations(&run.c->rc, run.solution);
+            cli_page_end();
+            code = code == CLI_OK ? write_files(&spec, &run, 1) : code;
+        } else
+            code = CLI_OK;
+        if (code == CLI_OK && s != RB_OK)
+            code = cli_case_refused(run.words, s, &why);
+        else if (code == CLI_OK && run.incomplete)
+            code = CLI_UNSOLVED;
+    }
+    cli_args_free(&run.args);
+    rb_case_free(run.words);
+    return code;
+}

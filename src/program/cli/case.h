@@ -1,0 +1,124 @@
+/* Cases as the commands that solve take them: from the command line and a case file. */
+#ifndef ROLLBEM_CLI_CASE_H
+#define ROLLBEM_CLI_CASE_H
+
+#include "program/cli/output.h"
+
+/* For --help of every command that takes a case. */
+#define CLI_CASE_SIGNS                                                                             \
+    "Signs: x to the right, y up; A is above and rolls towards +x, so the leading\n"               \
+    "edge is at +x. Creepage xi = (V_A - V_B)/|V| > 0: A's surface slides towards +x\n"            \
+    "over the ground (a braked wheel) and the friction q on A points to -x, Q < 0.\n"              \
+    "Pressure p >= 0. Loads per unit length. Units: mm, N, MPa, unless --units says\n"             \
+    "others or a value its own (--young 210GPa); columns name theirs.\n"                           \
+    "\n"                                                                                           \
+    "    y, n                   .---.         P, approach: A moves down\n"                         \
+    "     |                   /       \\\n"                                                        \
+    "     |                  |    A    |  -->  rolls towards +x\n"                                 \
+    "     +--- x, t           \\       /\n"                                                        \
+    "                           '-^-'         p >= 0 pushes A up\n"                                \
+    "    ==============================================================\n"                         \
+    "     B                      -->          q > 0, Q > 0: friction on A"
+
+#define CLI_CASE_NOTES                                                                             \
+    "A case file holds the same names as keys, in the sections named in brackets or\n"             \
+    "in none; the command line wins over the file.\n"
+
+/* ---- A case from words ------------------------------------------------------------ */
+
+/* A case of defaults, or NULL after saying that there is no memory. */
+rb_case *cli_case_create(rb_case_purpose purpose);
+
+/* Parses the arguments, reads the case file (the only operand allowed), resolves the
+ * case, which is the first set of spec, and checks the files that the options name.
+ * CLI_CONTINUE or an exit code, its line printed. */
+cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c, cli_args *args);
+/* The same in two parts: what is given, and what it means. */
+cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c, cli_args *args);
+cli_exit cli_case_resolve(const cli_spec *spec, rb_case *c, const cli_args *args);
+
+/* --example NAME, the last set of every spec of a case, and what it asks for; file: the case
+ * file, which excludes it. */
+rb_option_set cli_example_set(void);
+cli_exit cli_example_read(rb_case *c, const char *file);
+
+/* Refuses a text with numbers, such as NAME=X, that a case file has in other units than the
+ * case. */
+cli_exit cli_check_units(const rb_case *c, const rb_option_set *set, const cli_args *args);
+
+/* Prints why the library refused the case; the exit code tells command line from file. */
+cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why);
+
+/* ---- Commands that solve one ------------------------------------------------------ */
+
+typedef struct cli_case_command cli_case_command;
+
+/* A run of such a command, which all its functions see. */
+typedef struct {
+    const cli_case_command *command;
+    void *own;         /* the command's struct: its options and its results */
+    rb_option_set set; /* of its options */
+    rb_case *words;
+    const rb_resolved_case *c; /* what they mean */
+    cli_output o;
+    cli_args args;
+    const rb_rolling_solution *solution; /* for notes, citations, JSON; NULL: none */
+    const rb_rolling_case *noted;        /* whose solution it is; NULL: that of c */
+    int printable;                       /* 1: there are results, if not all that were asked for */
+    int incomplete;                      /* 1: not all of them, although nothing has failed */
+} cli_case_run;
+
+/* A file that an option of the command asks for, written or drawn by one of the two
+ * functions; their context is the cli_case_run. */
+typedef struct {
+    const char *option;
+    cli_write *write;
+    cli_draw *draw;
+} cli_case_file;
+
+enum { CLI_COMMAND_OPTIONS_MAX = 28 };
+
+/* What is the command's own.  Functions may be NULL, but for solve, table, json, summarise. */
+struct cli_case_command {
+    const char *synopsis, *about, *notes, *refused; /* of its cli_spec */
+    rb_case_purpose purpose, second; /* second: what it may become; RB_CASE_SINGLE: nothing else */
+    const rb_option *options;
+    int option_n;               /* CLI_COMMAND_OPTIONS_MAX at most */
+    int options_last;           /* 1: they continue the section [output] */
+    int takes_crack;            /* 1: the case takes the options of a crack */
+    int operands;               /* its own, in front of the case file */
+    const cli_case_file *files; /* the last row has no option; NULL: none */
+
+    /* before the case is resolved, and before it is solved: CLI_CONTINUE, or an exit code after
+     * saying what is wrong */
+    cli_exit (*prepare)(cli_case_run *run);
+    cli_exit (*check)(cli_case_run *run);
+    /* sets solution and printable, in the units that are shown */
+    rb_status (*solve)(cli_case_run *run, rb_message *why);
+    /* what may still refuse before the table is written */
+    cli_exit (*before_table)(const cli_case_run *run);
+    rb_status (*table)(FILE *out, const cli_case_run *run);
+    /* adds to `inputs`, and to what stands beside it */
+    void (*inputs)(const cli_case_run *run, struct json_t **inputs);
+    void (*json)(const cli_case_run *run, struct json_t **root);
+    /* the summary */
+    void (*summarise)(FILE *out, const cli_case_run *run);
+};
+
+/* Reads, resolves, solves and prints: the whole command.  Its exit code. */
+cli_exit cli_case_run_command(const cli_case_command *command, void *own, int argc, char **argv);
+
+/* The resolved case of a command line of `rollbem` itself; what it would write is neither
+ * looked at nor written; derivatives (or smooth ones), tolerance: what they were given, NULL:
+ * nothing.  CLI_CONTINUE, or the exit code after the line of why. */
+cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words, int *files,
+                          const char **derivatives, const char **tolerance);
+/* The same of `rollbem stress`; yield_shear: what it was given, NAN: nothing. */
+cli_exit cli_stress_inputs(int argc, char **argv, rb_case *words, int *files, double *yield_shear);
+/* The same of `rollbem crack`. */
+cli_exit cli_crack_inputs(int argc, char **argv, rb_case *words, int *files);
+/* The same of any such command; files: written, how many case files it names. */
+cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc, char **argv,
+                         rb_case *words, int *files);
+
+#endif

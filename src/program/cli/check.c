@@ -1,0 +1,313 @@
+/* rollbem check: results verified without the solver. */
+#include "program/cli/case.h"
+#include "program/cli/wait.h"
+#include "rollbem/io.h"
+#include "rollbem/certificate.h"
+#include "rollbem/report.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char about[] =
+    "Checks results of `rollbem` in JSON or as a table without solving. It builds\n"
+    "the problem again on the printed elements, from `inputs` or from the command\n"
+    "line in the comments of the table. From the printed pressures, friction,\n"
+    "approach and creepage it computes gaps, slip, bounds, load, force and all other\n"
+    "numbers again, and prints valid, or what is violated and by how much. A table\n"
+    "has no approach and creepage; the values that fit its gaps and slips best are\n"
+    "used.\n"
+    "Histories are checked step by step if they were written with --states: gaps,\n"
+    "bounds, and the slip from the step before. Stress (rollbem stress --json) is\n"
+    "computed again from the tractions, and hysteresis also from a decomposition of\n"
+    "the tractions into waves, which is independent of the library's formula.\n"
+    "Cracks are checked position by position if they were written with --states: the\n"
+    "contact, opening and slip of the faces under its tractions and their own, the\n"
+    "laws of contact, friction and fluid, K_I and K_II, and the summary.\n"
+    "Derivatives and tolerances are computed again at the printed state by the\n"
+    "library's own formulas; those of free_creepage take a solution of free rolling.\n"
+    "A table of derivatives has no state and cannot be checked: take --json.\n"
+    "Not checked: iterations, seconds, the solver, and free_creepage, of which only\n"
+    "the direction is known. Refused: histories without states; cracks without states,\n"
+    "or growing; curves, error bars, units other than mm, N, MPa; CSV.\n"
+    "A result may come from an untrusted source: files that it names (a gap, a\n"
+    "history) are read only if they are regular files of at most 64 MB in its folder\n"
+    "or below, unless --any-folder is given, and no message quotes their content.\n"
+    "\n"
+    "Exit codes: 0 valid; 1 violated; 65 cannot be checked; 66 no such file.";
+
+static cli_exit tell(const char *path, rb_status s, const rb_certificate_outcome *found,
+                     const rb_message *why)
+{
+    if (s != RB_OK)
+        return cli_fail(s == RB_ENOMEM ? CLI_INTERNAL : CLI_DATA, "%s", why->text);
+    if (found->violations == 0)
+        printf("%s: valid: %d numbers computed again, residual %.2g\n", path, found->numbers,
+               found->residual);
+    return found->violations ? CLI_UNSOLVED : CLI_OK;
+}
+
+/* The command that a result is of, where it is not `rollbem` itself; or NULL. */
+static const char *other_command(const char *word)
+{
+    const char *name;
+    for (int k = 0; word && (name = cli_command_name(k)); k++)
+        if (strcmp(name, word) == 0)
+            return name;
+    return NULL;
+}
+
+/* A case that reads regular files of bounded size alone, in the folder or below it; NULL:
+ * in any.  NULL: no memory. */
+static rb_case *confined(rb_case_purpose purpose, const char *folder)
+{
+    rb_case *words = cli_case_create(purpose);
+    if (words)
+        rb_case_confine(words, folder);
+    return words;
+}
+
+/* What a result says of what was asked for and is not what --derivatives and --tolerance say;
+ * NULL: nothing. */
+static const char *other_than_asked(const char *derivatives, const char *tolerance,
+                                    const rb_case *words, const json_t *root)
+{
+    static const struct {
+        const char *key, *fault;
+    } rows[] = {{"derivatives_of", "derivatives_of are not those of --derivatives"},
+                {"own_of_b", "own_of_b are not the options that it gives B"},
+                {"uncertain_inputs", "uncertain_inputs are not those of --tolerance"}};
+    rb_case_tolerances t = {.n = 0};
+    rb_message why;
+    json_t *given = json_object();
+    const char *fault = NULL;
+    if (derivatives || tolerance)
+        rb_report_json_asked(&given, derivatives, words);
+    if (tolerance && rb_case_read_tolerances(words, tolerance, &t, &why) == RB_OK)
+        rb_report_json_uncertain(&given, &t, RB_UNITS_MM);
+    for (size_t k = 0; k < sizeof rows / sizeof *rows && !fault; k++) {
+        const json_t *printed = json_object_get(root, rows[k].key),
+                     *wanted = json_object_get(given, rows[k].key);
+        if ((printed || wanted) && !json_equal(printed, wanted))
+            fault = rows[k].fault;
+    }
+    json_decref(given);
+    return fault;
+}
+
+/* *fault: what is wrong with the command line that a result quotes; NULL: nothing.
+ * RB_ENOMEM. */
+static rb_status fault_of_command(const json_t *root, char **argv, int argc, const char *folder,
+                                  const char **fault)
+{
+    const char *other = other_command(argv[1]);
+    const int is_stress = other && strcmp(other, "stress") == 0,
+              is_crack = other && strcmp(other, "crack") == 0;
+    double given = NAN; /* yield_shear as printed; NAN: nowhere */
+    const char *derivatives = NULL, *tolerance = NULL;
+    int files = 0;
+    *fault = NULL;
+    if ((other && !is_stress && !is_crack) ||
+        is_stress != (json_object_get(root, "maxima") != NULL) ||
+        is_crack != (json_object_get(root, "crack") != NULL)) {
+        *fault = "it is another command's";
+        return RB_OK;
+    }
+    /* Of a case whose JSON this is. */
+    rb_case *words = confined(is_crack    ? RB_CASE_CRACK
+                              : is_stress ? RB_CASE_STRESS
+                                          : RB_CASE_SINGLE,
+                              folder);
+    if (!words)
+        return RB_ENOMEM;
+    const cli_exit code =
+        is_crack    ? cli_crack_inputs(argc - 1, argv + 1, words, &files)
+        : is_stress ? cli_stress_inputs(argc - 1, argv + 1, words, &files, &given)
+                    : cli_solve_inputs(argc, argv, words, &files, &derivatives, &tolerance);
+    json_t *inputs = code == CLI_CONTINUE ? rb_report_json_inputs(words) : NULL;
+    const json_t *printed = json_object_get(root, "shakedown");
+    const double yield = json_number_value(json_object_get(printed, "yield_shear"));
+    const int no_memory = code == CLI_INTERNAL || (code == CLI_CONTINUE && !inputs);
+    if (files > 0 || no_memory)
+        ; /* a case file may have changed since, or be elsewhere */
+    else if (code != CLI_CONTINUE)
+        *fault = "it is not a command line of rollbem";
+    else if (!json_equal(inputs, json_object_get(root, "inputs")))
+        *fault = "it has other inputs than `inputs`";
+    else if (printed && (isnan(given) ? yield != 0.0 : fabs(yield - given) > 1e-9 * given))
+        *fault = "yield_shear of shakedown is not --yield-shear";
+    else if (!is_stress && !is_crack)
+        *fault = other_than_asked(derivatives, tolerance, words, root);
+    json_decref(inputs);
+    rb_case_free(words);
+    return no_memory ? RB_ENOMEM : RB_OK;
+}
+
+/* Jansson 2.14 cuts a text that it has no memory for and reads on. */
+static int memory_was_refused;
+
+static void *noting_malloc(size_t size)
+{
+    void *memory = malloc(size);
+    memory_was_refused |= !memory;
+    return memory;
+}
+
+static cli_exit check_json(const char *path, const char *text, size_t size, const char *folder)
+{
+    rb_certificate_outcome found = {0};
+    rb_message why = {""};
+    json_error_t error;
+    memory_was_refused = 0;
+    json_set_alloc_funcs(noting_malloc, free);
+    json_t *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
+    json_set_alloc_funcs(malloc, free);
+    if (memory_was_refused) {
+        json_decref(root);
+        return cli_say(RB_ENOMEM, &why);
+    }
+    if (!json_is_object(root)) {
+        json_decref(root);
+        return cli_fail(CLI_DATA, "%s:%d: expected the JSON of a result: %s", path,
+                        root ? 1 : error.line, root ? "no object" : error.text);
+    }
+    rb_case *words =
+        confined(json_object_get(root, "crack") ? RB_CASE_CRACK : RB_CASE_SINGLE, folder);
+    rb_status s =
+        words ? rb_certificate_check_solutions(stdout, path, root, words, &found, &why) : RB_ENOMEM;
+    if (s == RB_OK) {
+        /* The command line that the result quotes against its inputs. */
+        const char *quoted = json_string_value(json_object_get(root, "command"));
+        const char *fault = "it is not a command line of rollbem";
+        if (quoted && strncmp(quoted, "rollbem", 7) == 0 && strchr(" ", quoted[7])) {
+            char *line = strdup(quoted + 7);
+            int argc;
+            char **argv = line ? cli_split_line(line, &argc) : NULL;
+            const int kept = cli_keep_failures(1);
+            s = argv ? fault_of_command(root, argv, argc, folder, &fault) : RB_ENOMEM;
+            cli_keep_failures(kept);
+            free(argv);
+            free(line);
+        }
+        if (s != RB_OK)
+            rb_fail(&why, s, "%s: out of memory", path);
+        else if (fault) {
+            printf("%s: violated: command: %s\n", path, fault);
+            found.violations++;
+        }
+    }
+    rb_case_free(words);
+    json_decref(root);
+    return tell(path, s, &found, &why);
+}
+
+/* ---- Tables ------------------------------------------------------------------------ */
+
+static cli_exit check_table(const char *path, const char *text, const char *folder)
+{
+    rb_certificate_outcome found;
+    rb_message why = {""};
+    char *line = NULL;
+    const rb_status found_line = rb_report_table_command(text, &line);
+    if (found_line == RB_ENOMEM)
+        return cli_say(found_line, &why);
+    if (found_line != RB_OK)
+        return cli_fail(CLI_DATA,
+                        "%s: cannot be checked: expected the JSON of a result, or a "
+                        "table with its comments ('# rollbem ...')",
+                        path);
+    rb_case *words = confined(RB_CASE_SINGLE, folder);
+    const char *unused;
+    int argc, files;
+    char **argv = words ? cli_split_line(line, &argc) : NULL;
+    cli_exit code = CLI_INTERNAL;
+    if (words && !argv)
+        cli_fail(code, "%s: out of memory", path);
+    if (argv) {
+        /* The case is that of the command line that the table quotes. */
+        const char *other = other_command(argv[1]);
+        const int kept = cli_keep_failures(1);
+        code = other ? CLI_DATA : cli_solve_inputs(argc, argv, words, &files, &unused, &unused);
+        cli_keep_failures(kept);
+        if (other)
+            cli_fail(code,
+                     "%s: cannot be checked: a table of rollbem %s (only tables of "
+                     "single cases can)",
+                     path, other);
+        else if (code != CLI_CONTINUE)
+            code = cli_fail(code == CLI_INTERNAL ? code : CLI_DATA,
+                            "%s: cannot be checked: the command line in its comments: %s", path,
+                            cli_kept_failure());
+    }
+    free(argv);
+    free(line);
+    if (code == CLI_CONTINUE)
+        code = tell(path, rb_certificate_check_table(stdout, path, text, words, &found, &why),
+                    &found, &why);
+    rb_case_free(words);
+    return code;
+}
+
+/* ---- Command ----------------------------------------------------------------------- */
+
+typedef struct {
+    int any_folder;
+} check_options;
+
+static const rb_option options[] = {
+    RB_FLAG_LINE("any-folder", offsetof(check_options, any_folder),
+                 "also read files that a result names outside its folder"),
+};
+
+enum { OPTIONS = sizeof options / sizeof options[0] };
+
+static cli_exit check_file(const char *path, const check_options *o)
+{
+    char *text = NULL;
+    size_t size;
+    rb_message why = {""};
+    const rb_status s = rb_io_read_text(path, &text, &size, &why);
+    if (s != RB_OK)
+        return cli_say(s, &why);
+    /* The folder of the file. */
+    const char *slash = strrchr(path, '/');
+    char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
+    const char first = text[strspn(text, " \t\r\n")];
+    cli_exit code = CLI_INTERNAL;
+    const char *within = o->any_folder ? NULL : folder;
+    cli_wait_begin();
+    if (!folder)
+        code = cli_fail(code, "%s: out of memory", path);
+    else
+        code = first == '{' || first == '[' ? check_json(path, text, size, within)
+                                            : check_table(path, text, within);
+    cli_wait_end();
+    free(folder);
+    free(text);
+    return code;
+}
+
+int cli_check(int argc, char **argv)
+{
+    check_options o = {0};
+    int given[OPTIONS] = {0};
+    const cli_spec spec = {.synopsis = "rollbem check [OPTION...] RESULT.json|TABLE...",
+                           .about = about,
+                           .sets = {{options, OPTIONS, &o, given, NULL}},
+                           .set_n = 1};
+    cli_args args = {0};
+    cli_exit code = cli_parse(&spec, argc, argv, &args);
+    if (code == CLI_CONTINUE && args.operands == 0)
+        code = cli_fail(CLI_USAGE, "check: expected a file that `rollbem` wrote");
+    else if (code == CLI_CONTINUE) {
+        code = CLI_OK;
+        for (int k = 0; k < args.operands; k++) {
+            const cli_exit one = check_file(args.operand[k], &o);
+            code = one > code ? one : code;
+        }
+    }
+    cli_args_free(&args);
+    return code;
+}

@@ -1,0 +1,392 @@
+/* rollbem friction FILE...: frictional contact problems, and problems on second-order
+ * cones, from files. */
+#include "program/cli/cli.h"
+#include "program/cli/output.h"
+#include "program/cli/rows.h"
+#include "program/cli/solvers.h"
+#include "program/cli/wait.h"
+
+#include "rollbem/friction.h"
+#include "rollbem/report.h"
+
+#include <jansson.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    const char *solver;
+    double tol, seconds;
+    int max_iters, measure, kind, format, facts, solution, trace;
+    rb_report_style style;
+    const char *output;
+} friction_options;
+
+static const rb_choice kinds[] = {{"any", RB_FRICTION_FILE_ANY},
+                                  {"fclib", RB_FRICTION_FILE_FCLIB},
+                                  {"siconos", RB_FRICTION_FILE_SICONOS},
+                                  {"siconos-global", RB_FRICTION_FILE_SICONOS_GLOBAL},
+                                  {"siconos-soclcp", RB_FRICTION_FILE_SICONOS_SOCLCP},
+                                  {NULL, 0}};
+
+/* --format once named the kind of the files; both meanings are taken. */
+enum { KIND = 16 };
+
+static const rb_choice formats[] = {{"tsv", RB_REPORT_TSV},
+                                    {"csv", RB_REPORT_CSV},
+                                    {"json", RB_REPORT_JSON},
+                                    {"any", KIND + RB_FRICTION_FILE_ANY},
+                                    {"fclib", KIND + RB_FRICTION_FILE_FCLIB},
+                                    {"siconos", KIND + RB_FRICTION_FILE_SICONOS},
+                                    {"siconos-soclcp", KIND + RB_FRICTION_FILE_SICONOS_SOCLCP},
+                                    {NULL, 0}};
+
+#define PLACE(member) offsetof(friction_options, member)
+
+static const rb_option options[] = {
+    RB_GROUP_LINE("solver", "Solver"),
+    RB_TEXT_LINE("solver", PLACE(solver), "NAME", "which solver; names below"),
+    RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0), "tolerance of the error: see below"),
+    RB_CHOICE_LINE(
+        "measure", PLACE(measure), cli_friction_measures,
+        "which error decides: scaled, or acary: (13), which depends on the units of the file"),
+    RB_INTEGER_LINE("max-iters", PLACE(max_iters), RB_FROM_TO(1, 1e9), "iteration limit",
+                    .unset = "the solver's own"),
+    RB_NUMBER_LINE("seconds", PLACE(seconds), "s", RB_ABOVE(0.0), "time limit per file",
+                   .unset = "none"),
+    RB_CHOICE_LINE("kind", PLACE(kind), kinds, "format of the files, if it is not recognised"),
+    RB_GROUP_LINE("output", "Output"),
+    RB_FLAG_LINE("facts", PLACE(facts), "rank, degree of hyperstaticity, nullity of K, asymmetry"),
+    RB_FLAG_LINE("solution", PLACE(solution),
+                 "a row per component of reactions r and velocities u instead of one per file"),
+    RB_FLAG_LINE("trace", PLACE(trace),
+                 "every iterate with its error, also of the members of auto"),
+    CLI_JSON_LINE(PLACE(style)),
+    RB_CHOICE_LINE(
+        "format", PLACE(format), formats,
+        "of the results: a table with tabs, with commas, or JSON; or, as --kind, of the files"),
+    CLI_HEADER_LINE(PLACE(style)),
+    CLI_OUTPUT_LINE(PLACE(output)),
+};
+
+enum { OPTIONS = sizeof options / sizeof options[0] };
+
+static const char about[] =
+    "Solves frictional contact problems u = W r + q (or K v = H r + f, u = H' v + w) with "
+    "Coulomb's\n"
+    "law in two and three dimensions, [N, T...] per contact, N first.\n"
+    "FILE: FCLib (HDF5) or text format of Siconos; also Siconos' problems on second-order cones.";
+
+static const char notes[] =
+    "Prints one row per file (with --solution a # line): name, solver that found the\n"
+    "solution, status, contacts, dimension, iterations, residual (*Acary* (13), ||r\n"
+    "- P_K(r - uhat)|| / ||q||, recomputed from r), floor (the residual that\n"
+    "rounding errors of the data can cause), seconds, scaled residual. The scaled\n"
+    "residual decides: it is (13) with rho = 1/W_NN of each contact, in units of\n"
+    "velocity, and does not depend on the units of the file; with --measure acary\n"
+    "(13) decides. A note says if a problem is solved in the scaled measure only.\n"
+    "Status solved-to-rounding: residual above the tolerance but not above the\n"
+    "floor; infeasible: not solved, and proved to have no solution.\n"
+    "--trace prints every iterate with the solver, its iterations and operations so\n"
+    "far, and the scaled residual; members of auto run in turns.\n"
+    "If a file fails, the others are still solved.\n"
+    "Exit codes, the largest of all files: 0 solved; 1 not solved; 64 wrong command line; 65\n"
+    "malformed file, or one the solver does not take; 66 no such file; 70 internal; 73 cannot "
+    "write.\n"
+    "Solvers:\n";
+
+typedef struct {
+    cli_problems files;
+    const friction_options *o;
+    json_t *steps; /* --trace with --json: of the present file */
+} friction_run;
+
+typedef struct {
+    const char *file, *status, *measure;
+    int contacts, dimension, m; /* m: 0 when not read */
+    rb_friction_info info;
+    rb_friction_facts facts;
+    rb_message note; /* on how the result is to be read; empty: none */
+    double *r, *u;   /* m; owned */
+} friction_result;
+
+/* ---- One file --------------------------------------------------------------------- */
+
+static cli_exit failed(friction_result *r, rb_status s, const char *text)
+{
+    r->status = rb_status_text(s);
+    r->m = 0;
+    r->info.residual = r->info.scaled = r->info.floor = r->info.flops = r->info.seconds = NAN;
+    return cli_fail(s == RB_EINVAL ? CLI_DATA : cli_exit_of(s), "%s: %s", r->file,
+                    text[0] ? text : rb_status_text(s));
+}
+
+static cli_exit unreadable(friction_result *r, rb_status s, const rb_message *why)
+{
+    r->status = rb_status_text(s);
+    r->info.residual = r->info.scaled = r->info.floor = r->info.flops = r->info.seconds =
+        r->facts.asymmetry = NAN;
+    return cli_say(s, why);
+}
+
+/* Beyond this many rows only --facts looks at W's shape: it costs a factorisation. */
+#define MOST_ROWS 3000
+
+static cli_exit assess(friction_run *run, friction_result *r, rb_status s)
+{
+    r->status = rb_friction_status_text(s, run->o->tol, &r->info);
+    if (s < 0 || (s == RB_SINGULAR && r->info.msg.text[0]))
+        return failed(r, s, r->info.msg.text);
+    if (s == RB_OK && rb_friction_note(run->o->tol, &r->info, &r->note))
+        fprintf(stderr, "rollbem: %s: note: %s\n", r->file, r->note.text);
+    if (s == RB_OK)
+        return CLI_OK;
+    return cli_fail(CLI_UNSOLVED, "%s: %s: %s after %d iterations, %s %.2g", r->file,
+                    r->info.solver, r->status, r->info.iters,
+                    run->o->measure == RB_FRICTION_BY_ACARY ? "residual (13)" : "scaled residual",
+                    rb_friction_deciding(&r->info));
+}
+
+static int trace(const rb_friction_progress *at, void *context)
+{
+    friction_run *run = context;
+    if (run->files.rows.is_json)
+        rb_report_json_append(&run->steps,
+                              json_pack("{s:s, s:i, s:o, s:o}", "solver", at->solver, "iterations",
+                                        at->iters, "flops", rb_report_json_number(at->flops),
+                                        "scaled_residual", rb_report_json_number(at->error)));
+    else
+        rb_report_comment(&run->files.rows.cells, "%s\t%d\t%.4g\t%.3g", at->solver, at->iters,
+                          at->flops, at->error);
+    return 0;
+}
+
+static rb_friction_options solver_options(friction_run *run)
+{
+    const friction_options *o = run->o;
+    rb_friction_options opt = rb_friction_defaults();
+    opt.tol = o->tol;
+    opt.measure = (rb_friction_measure_name)o->measure;
+    opt.max_iters = o->max_iters;
+    opt.seconds = o->seconds;
+    opt.progress = o->trace ? trace : NULL;
+    opt.context = run;
+    return opt;
+}
+
+static cli_exit solve_friction(friction_run *run, friction_result *r)
+{
+    rb_friction_problem p;
+    rb_message why = {""};
+    rb_status s = rb_friction_read_as(r->file, (rb_friction_file)run->o->kind, &p, &why);
+    if (s != RB_OK)
+        return unreadable(r, s, &why);
+    r->contacts = p.contacts;
+    r->dimension = p.dimension;
+    r->m = p.dimension * p.contacts;
+    r->r = rb_alloc((size_t)r->m, 1);
+    r->u = rb_alloc((size_t)r->m, 1);
+    cli_exit code = r->r && r->u ? CLI_OK : failed(r, RB_ENOMEM, "out of memory");
+    /* Ranks on request; unsymmetric and indefinite W in any case. */
+    if (code == CLI_OK && (run->o->facts || r->m <= MOST_ROWS)) {
+        s = rb_friction_examine(&p, run->o->facts, &r->facts);
+        if (s != RB_OK)
+            code = failed(r, s, rb_status_text(s));
+        else if (r->facts.asymmetry > 1e-12)
+            fprintf(stderr, "rollbem: %s: note: W is not symmetric (|W - W'| is %.2g of |W|)\n",
+                    r->file, r->facts.asymmetry);
+        if (s == RB_OK && r->facts.indefinite)
+            fprintf(stderr,
+                    "rollbem: %s: note: W is indefinite: a solution may not exist or may not be "
+                    "unique\n",
+                    r->file);
+    }
+    if (code == CLI_OK) {
+        const rb_friction_options opt = solver_options(run);
+        const rb_friction_solution solution = {r->r, r->u, NULL};
+        if (!run->o->trace)
+            cli_wait_begin();
+        s = rb_friction_solve(run->o->solver, &p, &opt, &solution, &r->info);
+        if (!run->o->trace)
+            cli_wait_end();
+        code = assess(run, r, s);
+        double least, given;
+        if (code == CLI_UNSOLVED && rb_friction_has_no_solution(&p, &least, &given)) {
+            r->status = "infeasible";
+            fprintf(
+                stderr,
+                "rollbem: %s: note: no solution exists: reactions that prevent penetration at all "
+                "contacts would need a sum W_NN r_N of at least %.2g, but |q| adds up to %.2g\n",
+                r->file, least, given);
+        }
+        if (p.lengths) {
+            /* Rolling contacts are solved as two contacts each and told as one of five
+             * entries. */
+            rb_friction_unite_rolling(&p, r->r, r->u, r->r, r->u);
+            r->contacts = p.contacts / 2;
+            r->dimension = 5;
+            r->m = r->dimension * r->contacts;
+        }
+    }
+    rb_friction_problem_free(&p);
+    return code;
+}
+
+static cli_exit solve_cones(friction_run *run, friction_result *r)
+{
+    rb_friction_soclcp_data d;
+    rb_message why = {""};
+    rb_status s = rb_friction_soclcp_read(r->file, &d, &why);
+    if (s != RB_OK)
+        return unreadable(r, s, &why);
+    r->contacts = d.problem.cones;
+    r->m = d.problem.n;
+    r->r = rb_alloc((size_t)r->m, 1);
+    r->u = rb_alloc((size_t)r->m, 1);
+    cli_exit code = CLI_OK;
+    if (!r->r || !r->u)
+        code = failed(r, RB_ENOMEM, "out of memory");
+    if (strcmp(run->o->solver, "auto") && strcmp(run->o->solver, "soclcp-smoothing"))
+        code = failed(r, RB_EINVAL, "only soclcp-smoothing solves problems on cones");
+    if (code == CLI_OK) {
+        const rb_friction_options opt = solver_options(run);
+        s = rb_friction_soclcp(&d.problem, &opt, r->r, r->u, &r->info);
+        /* Back from slope 1 to the slopes of the file. */
+        for (int c = 0, at = 0; c < d.problem.cones; at += d.size[c++]) {
+            r->r[at] /= d.tau[c];
+            r->u[at] *= d.tau[c];
+        }
+        code = assess(run, r, s);
+    }
+    rb_friction_soclcp_data_free(&d);
+    return code;
+}
+
+static cli_exit solve_file(void *context, const char *path)
+{
+    friction_run *run = context;
+    friction_result r = {
+        .file = path,
+        .measure = cli_friction_measures[run->o->measure].name,
+        .info = {.solver = run->o->solver, .residual = NAN, .scaled = NAN, .floor = NAN}};
+    rb_friction_file kind = (rb_friction_file)run->o->kind;
+    rb_message why = {""};
+    rb_status s = RB_OK;
+    if (kind == RB_FRICTION_FILE_ANY)
+        s = rb_friction_file_kind(path, &kind, &why);
+    run->steps = json_array();
+    cli_exit code;
+    if (s != RB_OK)
+        code = unreadable(&r, s, &why);
+    else if (kind == RB_FRICTION_FILE_SICONOS_SOCLCP)
+        code = solve_cones(run, &r);
+    else
+        code = solve_friction(run, &r);
+    const int known = r.m > 0;
+    const rb_friction_info *info = &r.info;
+    const rb_friction_facts *facts = &r.facts;
+    const cli_value values[] = {
+        CLI_TEXT("file", "file", r.file),
+        CLI_TEXT("solver", "solver", info->solver),
+        CLI_WORDS("status", "status", r.status),
+        CLI_KNOWN("contacts", "contacts", r.contacts, known),
+        CLI_KNOWN("dimension", "dimension", r.dimension, r.dimension > 0),
+        CLI_KNOWN("iterations", "iterations", info->iters, known),
+        CLI_NUMBER("residual", "residual", info->residual),
+        CLI_NUMBER("scaled_residual", "scaled", info->scaled),
+        CLI_TEXT("measure", NULL, r.measure),
+        CLI_TEXT("note", NULL, r.note.text[0] ? r.note.text : NULL),
+        CLI_NUMBER("floor", "floor", info->floor),
+        CLI_NUMBER("flops", NULL, info->flops),
+        CLI_NUMBER("seconds", "seconds", info->seconds),
+        CLI_KNOWN("rank", "rank", facts->rank, known),
+        CLI_KNOWN("hyperstaticity", "hyperstaticity", facts->hyperstaticity, known),
+        CLI_KNOWN("nullity", "nullity", facts->nullity, known),
+        CLI_NUMBER("asymmetry", "asymmetry", facts->asymmetry),
+        CLI_KNOWN("indefinite", "indefinite", facts->indefinite, known)};
+    enum { VALUES = sizeof values / sizeof *values, FACTS = 5 };
+    cli_rows *rows = &run->files.rows;
+    if (rows->is_json) {
+        cli_rows_add(rows, run->o->facts ? VALUES : VALUES - FACTS, values);
+        if (run->o->solution) {
+            cli_rows_set(rows, "r", r.r ? rb_report_json_numbers(r.m, r.r) : json_null());
+            cli_rows_set(rows, "u", r.u ? rb_report_json_numbers(r.m, r.u) : json_null());
+        }
+        if (run->o->trace)
+            cli_rows_set(rows, "trace", json_incref(run->steps));
+    } else if (known) {
+        if (r.note.text[0])
+            rb_report_comment(&rows->cells, "note: %s: %s", r.file, r.note.text);
+        if (!run->o->solution)
+            cli_rows_add(rows, VALUES, values);
+        else
+            rb_report_comment(&rows->cells,
+                              "%s: %s by %s, %d contacts, %d iterations, residual %.3g, %.3g s",
+                              r.file, r.status, info->solver, r.contacts, info->iters,
+                              info->residual, info->seconds);
+        if (run->o->solution && run->o->facts)
+            rb_report_comment(&rows->cells,
+                              "rank %d, hyperstaticity %d, nullity %d, asymmetry %.3g%s",
+                              facts->rank, facts->hyperstaticity, facts->nullity, facts->asymmetry,
+                              facts->indefinite ? ", indefinite" : "");
+        for (int i = 0; i < r.m && run->o->solution; i++) {
+            const cli_value component[] = {
+                CLI_TEXT(NULL, "file", r.file), CLI_WHOLE(NULL, "i", i + 1),
+                CLI_NUMBER(NULL, "r", r.r[i]), CLI_NUMBER(NULL, "u", r.u[i])};
+            cli_rows_add(rows, sizeof component / sizeof *component, component);
+        }
+    }
+    json_decref(run->steps);
+    free(r.r);
+    free(r.u);
+    return code;
+}
+
+/* ---- Command ---------------------------------------------------------------------- */
+
+static const char conventions[] = "[N, T...] per contact, u = W r + q, uhat = u + mu ||u_T|| N, K* "
+                                  "contains uhat, complementary to r in K";
+
+int cli_friction(int argc, char **argv)
+{
+    friction_options o = {.solver = "auto", .tol = 1e-8};
+    cli_args args = {0};
+    const rb_friction_solver *solver;
+    char text[6000];
+    const size_t n = (size_t)snprintf(text, sizeof text, "%s", notes);
+    cli_friction_solver_lines(text + n, sizeof text - n);
+    const cli_spec spec = {.synopsis = "rollbem friction [OPTION...] FILE...",
+                           .about = about,
+                           .notes = text,
+                           .sets = {{options, OPTIONS, &o, NULL, NULL}},
+                           .set_n = 1};
+    cli_exit code = cli_parse(&spec, argc, argv, &args);
+    if (o.format >= KIND)
+        o.kind = o.format - KIND;
+    else if (o.format != RB_REPORT_TSV)
+        o.style.format = (rb_report_format)o.format;
+    if (code == CLI_CONTINUE && args.operands < 1)
+        code = cli_fail(CLI_USAGE, "friction: expected at least one FILE");
+    if (code == CLI_CONTINUE)
+        code = cli_friction_solver("solver", o.solver, &solver);
+    if (code == CLI_CONTINUE)
+        code = cli_check_files(&spec, &args);
+    if (code == CLI_CONTINUE) {
+        friction_run run = {
+            .files = {.style = &o.style,
+                      .columns =
+                          o.solution ? "file i r u"
+                          : o.facts
+                              ? "file solver status contacts dimension iterations residual floor "
+                                "seconds scaled rank hyperstaticity nullity asymmetry indefinite"
+                              : "file solver status contacts dimension iterations residual floor "
+                                "seconds scaled",
+                      .conventions = conventions,
+                      .solve = solve_file,
+                      .context = &run},
+            .o = &o};
+        code = cli_solve_problems(&run.files, &args, o.output);
+    }
+    cli_args_free(&args);
+    return code;
+}

@@ -1,0 +1,515 @@
+/* rollbem lcp FILE...: complementarity problems and bimatrix games from files. */
+#include "program/cli/cli.h"
+#include "program/cli/output.h"
+#include "program/cli/rows.h"
+#include "program/cli/wait.h"
+
+#include "rollbem/io.h"
+#include "rollbem/lcp.h"
+#include "rollbem/report.h"
+
+#include <jansson.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+typedef struct {
+    double tol;
+    int game, solver, all, label, max_pivots, rule, trace, solution;
+    rb_report_style style;
+    const char *q, *lower, *upper, *cover, *start, *output;
+} lcp_options;
+
+enum { AUTO, LEMKE, LEMKE_SPARSE, NEWTON };
+
+static const rb_choice solvers[] = {{"auto", AUTO},
+                                    {"lemke", LEMKE},
+                                    {"lemke-sparse", LEMKE_SPARSE},
+                                    {"newton", NEWTON},
+                                    {NULL, 0}};
+
+static const rb_choice rules[] = {
+    {"lexicographic", RB_LCP_LEXICOGRAPHIC}, {"first-index", RB_LCP_FIRST_INDEX}, {NULL, 0}};
+
+#define PLACE(member) offsetof(lcp_options, member)
+
+static const rb_option options[] = {
+    RB_GROUP_LINE("problem", "Problem"),
+    RB_TEXT_LINE("q", PLACE(q), "FILE",
+                 "q of a Matrix Market file: n numbers, plain or Matrix Market",
+                 .file = RB_FILE_READ),
+    RB_TEXT_LINE("lower", PLACE(lower), "FILE", "lower bounds of z: n numbers, as --q; -inf: none",
+                 .unset = "zeros", .file = RB_FILE_READ),
+    RB_TEXT_LINE("upper", PLACE(upper), "FILE",
+                 "upper bounds of z, where w <= 0: n numbers, as --q; inf: none", .unset = "none",
+                 .file = RB_FILE_READ),
+    RB_FLAG_LINE("game", PLACE(game),
+                 "FILE holds a bimatrix game: m, n, the m rows of A, the m rows of B"),
+    RB_GROUP_LINE("solver", "Solver"),
+    RB_CHOICE_LINE(
+        "solver", PLACE(solver), solvers,
+        "auto: all methods in turns, first the one that suits the structure of M; lemke: with a "
+        "tableau; lemke-sparse: with a sparse LU, also for bounds; newton: see above"),
+    RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
+                   "tolerance of the scaled residual: see below"),
+    RB_INTEGER_LINE("max-pivots", PLACE(max_pivots), RB_FROM_TO(1, 1e9),
+                    "iteration limit of each method",
+                    .unset = "lemke 50 n + 1000, newton 10 n + 100"),
+    RB_TEXT_LINE("start", PLACE(start), "FILE",
+                 "z of a similar problem to start from: n numbers, as --q", .unset = "the bounds",
+                 .file = RB_FILE_READ),
+    RB_FLAG_LINE("all", PLACE(all),
+                 "all solutions, by trying every complementary basis (order 22 at most)"),
+    RB_INTEGER_LINE("label", PLACE(label), RB_FROM_TO(1, 1e9),
+                    "--game: the strategy dropped first, rows then columns", .unset = "1"),
+    RB_TEXT_LINE("cover", PLACE(cover), "FILE",
+                 "covering vector d >= 0, d > 0 where q < 0: n numbers, as --q", .unset = "ones",
+                 .file = RB_FILE_READ),
+    RB_CHOICE_LINE("rule", PLACE(rule), rules,
+                   "which row leaves when ratios tie; first-index can cycle"),
+    RB_GROUP_LINE("output", "Output"),
+    RB_FLAG_LINE("trace", PLACE(trace), "a row per pivot instead of one per file"),
+    RB_FLAG_LINE("solution", PLACE(solution),
+                 "a row per unknown, z and w = M z + q, instead of one per file"),
+    CLI_STYLE_LINES(PLACE(style)),
+    CLI_OUTPUT_LINE(PLACE(output)),
+};
+
+enum { OPTIONS = sizeof options / sizeof options[0] };
+
+static const char about[] =
+    "Solves linear complementarity problems z >= 0, w = M z + q >= 0, z'w = 0 by Lemke's method\n"
+    "(any matrix) and block principal pivoting (newton: sparse, sure for P-matrices).\n"
+    "FILE: plain text: n, the n rows of M, q (# starts a comment), such as\n"
+    "    2\n"
+    "    2 1   1 2   -5 -6\n"
+    "or the text format of Siconos, or M in Matrix Market with q in --q FILE; - is standard "
+    "input.\n"
+    "With --lower and --upper z lies in a box, w >= 0 at its lower end, <= 0 at its upper one,\n"
+    "0 in between. --game: an equilibrium of a bimatrix game by Lemke and Howson's method.";
+
+static const char notes[] =
+    "One row per file: its name, status, n, pivots, residual max |min(z, w)| recomputed from z,\n"
+    "seconds, scaled residual, the solver that gave the answer. The scaled residual decides: each "
+    "row's residual\n"
+    "as a part of its own terms |M| |z| + |q|, so that no units of rows and columns change it. "
+    "With --trace,\n"
+    "--solution or --all these stand in # lines. newton counts linear systems, auto sums those of "
+    "all methods that\n"
+    "had a turn, --all counts bases. Pivots name the variables w(1) ... w(n), z(1) ... z(n) and "
+    "the\n"
+    "artificial z0. Of a game z holds the probabilities of the row and then of the column\n"
+    "strategies, w what each loses against the best reply.\n"
+    "After a file that fails the others are still solved.\n"
+    "Exit codes, the largest of all files: 0 solved; 1 secondary ray, iteration limit, no "
+    "solution\n"
+    "or residual above the tolerance; 64 wrong command line; 65 malformed file; 66 no such file;\n"
+    "70 internal; 73 cannot write.\n";
+
+typedef struct {
+    cli_problems files;
+    const lcp_options *o;
+    const char *file; /* the current file */
+    cli_rows pivots;  /* of it, for JSON alone */
+} lcp_run;
+
+typedef struct {
+    const char *file, *status, *solver;
+    int n; /* 0: not read */
+    rb_lcp_info info;
+    double floor, seconds;
+    rb_sparse M;                           /* owned, as the vectors */
+    rb_lcp_mixed_problem boxed;            /* borrows M, lower, upper, and q of the file */
+    double *lower, *upper, *cover, *start; /* n each, or NULL */
+    double *z, *w;                         /* n x solutions */
+    int solutions;                         /* 1 but for --all */
+    double payoff[2];                      /* --game, the first solution */
+} lcp_result;
+
+/* ---- Trace ------------------------------------------------------------------------ */
+
+static const char *variable(int n, int v, char buffer[24])
+{
+    if (v == 2 * n)
+        return "z0";
+    snprintf(buffer, 24, "%c(%d)", v < n ? 'w' : 'z', v % n + 1);
+    return buffer;
+}
+
+static void trace(const rb_lcp_pivot *p, void *context)
+{
+    lcp_run *run = context;
+    char in[24], out[24];
+    const cli_value values[] = {CLI_TEXT(NULL, "file", run->file),
+                                CLI_WHOLE(NULL, "pivot", p->pivot + 1),
+                                CLI_TEXT("entering", "entering", variable(p->n, p->entering, in)),
+                                CLI_TEXT("leaving", "leaving", variable(p->n, p->leaving, out)),
+                                CLI_WHOLE("row", "row", p->row + 1),
+                                CLI_NUMBER("ratio", "ratio", p->ratio),
+                                CLI_NUMBER("z0", "z0", p->z0)};
+    cli_rows_add(run->files.rows.is_json ? &run->pivots : &run->files.rows,
+                 sizeof values / sizeof *values, values);
+}
+
+static json_t *vector(int n, const double *x)
+{
+    return x ? rb_report_json_numbers(n, x) : json_null();
+}
+
+/* ---- A problem --------------------------------------------------------------------- */
+
+/* A scaled residual that rounding leaves. */
+static const double ROUNDING = 1e-14;
+
+static cli_exit failed(lcp_result *r, rb_status s, const rb_message *why)
+{
+    r->status = rb_status_text(s);
+    r->n = 0;
+    return cli_fail(cli_exit_of(s), "%s", rb_status_reason(s, why));
+}
+
+static rb_lcp_options solver_options(lcp_run *run, const lcp_result *r)
+{
+    rb_lcp_options opt = rb_lcp_defaults();
+    opt.max_iters = run->o->max_pivots;
+    opt.rule = (rb_lcp_rule)run->o->rule;
+    opt.cover = r->cover;
+    opt.start = r->start;
+    opt.trace = run->o->trace ? trace : NULL;
+    opt.trace_context = run;
+    return opt;
+}
+
+/* The numbers are of a file: RB_EINVAL is its fault. */
+static cli_exit invalid(lcp_result *r, rb_status s, const rb_message *msg)
+{
+    rb_message why = {""};
+    rb_fail(&why, s, "%s: %s", r->file, msg->text);
+    return failed(r, s == RB_EINVAL ? RB_EFORMAT : s, &why);
+}
+
+/* "solved" is what the recomputed residual says, not the method. */
+static cli_exit say_end(const lcp_options *o, lcp_result *r, rb_status s)
+{
+    cli_exit code = s == RB_OK ? CLI_OK : CLI_UNSOLVED;
+    r->status = rb_status_text(s);
+    if (s == RB_OK && r->info.scaled > o->tol && r->info.scaled <= ROUNDING)
+        r->status = "solved-to-rounding";
+    else if (s == RB_OK && !(r->info.scaled <= o->tol)) {
+        code = CLI_UNSOLVED;
+        r->status = rb_status_text(RB_INACCURATE);
+        rb_fail(&r->info.msg, RB_INACCURATE,
+                "the residual of row %d is %.2g of its terms, above --tol %g", r->info.row + 1,
+                r->info.scaled, o->tol);
+    }
+    if (s == RB_MAXITER)
+        cli_fail(code, "%s: no solution after --max-pivots %d", r->file, r->info.iters);
+    else if (code != CLI_OK)
+        cli_fail(code, "%s: %s", r->file, r->info.msg.text);
+    return code;
+}
+
+/* ---- All solutions ----------------------------------------------------------------- */
+
+/* What the enumeration has left out, and whether it has found anything. */
+static cli_exit say_all(const lcp_options *o, lcp_result *r, const rb_lcp_solutions *all)
+{
+    r->info.iters = all->bases;
+    if (all->singular)
+        fprintf(stderr,
+                "rollbem: %s: note: %d of %d complementary bases are singular: solutions that "
+                "belong to these only are not listed\n",
+                r->file, all->singular, all->bases);
+    if (all->count)
+        return say_end(o, r, RB_OK);
+    r->status = "no solution";
+    r->info.res = r->info.scaled = r->floor = NAN;
+    return cli_fail(CLI_UNSOLVED, "%s: no solution in %d complementary bases", r->file, all->bases);
+}
+
+/* r->z, the solutions, is taken over from all, and r->w made as large. */
+static rb_status take_all(lcp_result *r, rb_lcp_solutions *all)
+{
+    free(r->z);
+    free(r->w);
+    r->z = all->z;
+    r->w = rb_alloc((size_t)all->n, (size_t)all->count);
+    r->solutions = all->count;
+    r->solver = "enumeration";
+    all->z = NULL;
+    return r->w ? RB_OK : rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
+}
+
+static cli_exit run_all(lcp_run *run, rb_io_matrix *M, lcp_result *r)
+{
+    rb_lcp_solutions all = {0};
+    const double start = rb_seconds();
+    rb_status s = rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
+    if (rb_io_matrix_to_dense(M) == RB_OK)
+        s = rb_lcp_enumerate(&(rb_lcp_problem){r->n, M->dense, r->n, r->boxed.q}, r->lower,
+                             r->upper, &all, &r->info.msg);
+    r->seconds = rb_seconds() - start;
+    if (s == RB_OK)
+        s = take_all(r, &all);
+    if (s != RB_OK)
+        return invalid(r, s, &r->info.msg);
+    r->floor = all.count ? rb_lcp_rounding_floor(&r->boxed, r->z, r->w) : NAN;
+    r->info.res = r->info.scaled = 0.0;
+    for (int k = 0; k < all.count; k++) {
+        const double *z = r->z + (size_t)k * (size_t)r->n;
+        double *w = r->w + (size_t)k * (size_t)r->n, scaled;
+        const double res = rb_lcp_residual_mixed(&r->boxed, z, w);
+        int row;
+        if (rb_lcp_scaled_residual(&r->boxed, z, &scaled, &row) != RB_OK)
+            return invalid(r, RB_ENOMEM, &(rb_message){"out of memory"});
+        r->info.res = fmax(r->info.res, res);
+        if (!(scaled <= r->info.scaled)) {
+            r->info.scaled = scaled;
+            r->info.row = row;
+        }
+    }
+    return say_all(run->o, r, &all);
+}
+
+static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
+{
+    const lcp_options *o = run->o;
+    rb_io_lcp p;
+    rb_message why = {""};
+    rb_status s = rb_io_lcp_read(r->file, o->q, &p, &why);
+    /* The vectors of the options, each of n numbers. */
+    if (s == RB_OK && o->lower)
+        s = rb_io_bounds_read(o->lower, p.n, "lower", &r->lower, &why);
+    if (s == RB_OK && o->upper)
+        s = rb_io_bounds_read(o->upper, p.n, "upper", &r->upper, &why);
+    if (s == RB_OK && o->cover)
+        s = rb_io_vector_read(o->cover, p.n, "cover", &r->cover, &why);
+    if (s == RB_OK && o->start)
+        s = rb_io_vector_read(o->start, p.n, "start", &r->start, &why);
+    if (s == RB_OK) {
+        r->n = p.n;
+        r->z = rb_alloc((size_t)p.n, 1);
+        r->w = rb_alloc((size_t)p.n, 1);
+        if (!r->z || !r->w || rb_io_matrix_to_sparse(&p.M, &r->M) != RB_OK)
+            s = rb_fail(&why, RB_ENOMEM, "out of memory");
+        r->boxed = (rb_lcp_mixed_problem){&r->M, p.q, r->lower, r->upper};
+    }
+    cli_exit code = CLI_CONTINUE;
+    if (s != RB_OK)
+        code = failed(r, s, &why);
+    else if (o->all)
+        code = run_all(run, &p.M, r);
+    if (code == CLI_CONTINUE) {
+        const rb_lcp_options opt = solver_options(run, r);
+        const double start = rb_seconds();
+        s = rb_lcp_solve(solvers[o->solver].name, &r->boxed, &opt, r->z, &r->info);
+        r->seconds = rb_seconds() - start;
+        if (s >= 0) {
+            r->solver = r->info.solver;
+            r->floor = rb_lcp_rounding_floor(&r->boxed, r->z, r->w);
+            r->info.res = rb_lcp_residual_mixed(&r->boxed, r->z, r->w);
+            if (rb_lcp_scaled_residual(&r->boxed, r->z, &r->info.scaled, &r->info.row) != RB_OK)
+                s = rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
+        }
+        code = s < 0 ? invalid(r, s, &r->info.msg) : say_end(o, r, s);
+    }
+    rb_io_lcp_free(&p);
+    return code;
+}
+
+/* ---- Games ------------------------------------------------------------------------- */
+
+static cli_exit solve_game(lcp_run *run, lcp_result *r)
+{
+    rb_io_bimatrix g;
+    rb_message why = {""};
+    rb_status s = rb_io_bimatrix_read(r->file, &g, &why);
+    if (s == RB_OK && run->o->label > g.m + g.n)
+        s = rb_fail(&why, RB_EINVAL, "--label: expected one of the %d strategies of %.200s, got %d",
+                    g.m + g.n, r->file, run->o->label);
+    if (s != RB_OK) {
+        rb_io_bimatrix_free(&g);
+        return failed(r, s, &why);
+    }
+    const rb_lcp_options opt = solver_options(run, r);
+    const rb_lcp_game game = {g.m, g.n, g.A, g.B, g.m};
+    const double start = rb_seconds();
+    rb_lcp_solutions all = {0};
+    s = rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
+    r->n = g.m + g.n;
+    r->solver = "lemke-howson";
+    r->z = rb_alloc((size_t)r->n, 1);
+    r->w = rb_alloc((size_t)r->n, 1);
+    if (run->o->all)
+        s = rb_lcp_bimatrix_enumerate(&game, &all, &r->info.msg);
+    else if (r->z && r->w)
+        s = rb_lcp_bimatrix(&game, (run->o->label ? run->o->label : 1) - 1, &opt, r->z, &r->info);
+    r->seconds = rb_seconds() - start;
+    if (run->o->all && s == RB_OK)
+        s = take_all(r, &all);
+    if (s >= 0) {
+        /* z = (x, y), w = what each strategy loses, of all solutions; the residual is the
+         * worst, the payoffs are those of the first. */
+        const size_t entries = (size_t)game.m * (size_t)game.n, n = (size_t)r->n;
+        r->info.res = 0.0;
+        for (int k = r->solutions - 1; k >= 0; k--)
+            r->info.res =
+                fmax(r->info.res, rb_lcp_bimatrix_regret(&game, r->z + (size_t)k * n,
+                                                         r->w + (size_t)k * n, r->payoff));
+        const double size = fmax(rb_norm_inf(entries, game.A), rb_norm_inf(entries, game.B));
+        r->floor = 1e-14 * size;
+        r->info.scaled = size > 0.0 ? r->info.res / size : r->info.res;
+    }
+    rb_io_bimatrix_free(&g);
+    return s < 0         ? invalid(r, s, &r->info.msg)
+           : run->o->all ? say_all(run->o, r, &all)
+                         : say_end(run->o, r, s);
+}
+
+/* ---- One file ---------------------------------------------------------------------- */
+
+static cli_exit solve_file(void *context, const char *path)
+{
+    lcp_run *run = context;
+    lcp_result r = {.file = path,
+                    .solver = run->o->game ? "lemke-howson" : "lemke",
+                    .info = {.res = NAN, .scaled = NAN, .row = -1},
+                    .floor = NAN,
+                    .seconds = NAN,
+                    .solutions = 1};
+    run->file = path;
+    run->pivots = (cli_rows){.is_json = 1, .list = json_array()};
+    if (!run->o->trace)
+        cli_wait_begin();
+    const cli_exit code = run->o->game ? solve_game(run, &r) : solve_lcp(run, &r);
+    if (!run->o->trace)
+        cli_wait_end();
+    const int known = r.n > 0;
+    const cli_value values[] = {CLI_TEXT("file", "file", r.file),
+                                CLI_TEXT("solver", "solver", r.solver),
+                                CLI_WORDS("status", "status", r.status),
+                                CLI_KNOWN("contacts", NULL, 0, 0), /* as of `friction` */
+                                CLI_KNOWN("dimension", "n", r.n, known),
+                                CLI_KNOWN("iterations", "pivots", r.info.iters, known),
+                                CLI_NUMBER("residual", "residual", r.info.res),
+                                CLI_NUMBER("scaled_residual", "scaled", r.info.scaled),
+                                CLI_NUMBER("floor", NULL, r.floor),
+                                CLI_NUMBER("seconds", "seconds", r.seconds)};
+    enum { VALUES = sizeof values / sizeof *values };
+    cli_rows *rows = &run->files.rows;
+    if (rows->is_json) {
+        cli_rows_add(rows, VALUES, values);
+        if (run->o->game)
+            cli_rows_set(rows, "payoffs",
+                         known ? rb_report_json_numbers(2, r.payoff) : json_null());
+        if (run->o->all) {
+            json_t *list = json_array();
+            for (int k = 0; k < r.solutions; k++)
+                rb_report_json_append(&list, json_pack("{s:o, s:o}", "z",
+                                                       vector(r.n, r.z + (size_t)k * r.n), "w",
+                                                       vector(r.n, r.w + (size_t)k * r.n)));
+            cli_rows_set(rows, "solutions", list);
+        } else if (run->o->solution) {
+            cli_rows_set(rows, "z", vector(r.n, r.z));
+            cli_rows_set(rows, "w", vector(r.n, r.w));
+        }
+        if (run->o->trace)
+            cli_rows_set(rows, "pivots", json_incref(run->pivots.list));
+    } else if (known && (run->o->trace || run->o->solution || run->o->all)) {
+        /* A # line of the file, and a row per unknown, of each solution. */
+        char residual[40] = ""; /* without a solution there is none */
+        if (isfinite(r.info.res))
+            snprintf(residual, sizeof residual, ", scaled residual %.3g", r.info.scaled);
+        rb_report_comment(&rows->cells, "%s: %s by %s, n = %d, %d %s%s, %.3g s", r.file, r.status,
+                          r.solver, r.n, r.info.iters, run->o->all ? "bases" : "pivots", residual,
+                          r.seconds);
+        for (int k = 0; k < r.solutions && !run->o->trace && r.z; k++)
+            for (int i = 0; i < r.n; i++) {
+                const size_t at = (size_t)k * (size_t)r.n + (size_t)i;
+                const cli_value unknown[] = {
+                    CLI_TEXT(NULL, "file", r.file), CLI_WHOLE(NULL, "solution", k + 1),
+                    CLI_WHOLE(NULL, "i", i + 1), CLI_NUMBER(NULL, "z", r.z[at]),
+                    CLI_NUMBER(NULL, "w", r.w[at])};
+                cli_rows_add(rows, sizeof unknown / sizeof *unknown, unknown);
+            }
+    } else if (known)
+        cli_rows_add(rows, VALUES, values);
+    json_decref(run->pivots.list);
+    rb_sparse_free(&r.M);
+    free(r.lower);
+    free(r.upper);
+    free(r.cover);
+    free(r.start);
+    free(r.z);
+    free(r.w);
+    return code;
+}
+
+/* ---- Command ---------------------------------------------------------------------- */
+
+static const char conventions[] =
+    "z >= 0, w = M z + q >= 0, z'w = 0; bounds: w >= 0 at the lower, <= 0 at the upper one; games: "
+    "z probabilities, w the loss of a strategy";
+
+/* Options that ask for what the other method does. */
+static cli_exit check_options(const lcp_options *o)
+{
+    const int path = o->trace || o->cover || o->rule;
+    const int vectors = o->lower || o->upper || o->start || o->cover;
+    if (o->solver == NEWTON && path)
+        return cli_fail(
+            CLI_USAGE,
+            "lcp: --trace, --cover and --rule belong to Lemke's method: not with --solver newton");
+    if (o->solver == NEWTON && (o->lower || o->upper))
+        return cli_fail(CLI_USAGE,
+                        "lcp: --lower and --upper need Lemke's method: not with --solver newton");
+    if (o->trace && o->solution && o->style.format != RB_REPORT_JSON)
+        return cli_fail(
+            CLI_USAGE,
+            "lcp: --trace and --solution are two tables: one of them, or both with --json");
+    if (o->all && (path || o->start || o->solver || o->max_pivots))
+        return cli_fail(CLI_USAGE, "lcp: --all tries every basis: not with --solver, --start, "
+                                   "--cover, --rule, --trace or --max-pivots");
+    if (o->game && (vectors || o->q || o->solver || o->rule))
+        return cli_fail(CLI_USAGE, "lcp: --game reads A and B alone: not with --q, --lower, "
+                                   "--upper, --start, --cover, --solver or --rule");
+    if (o->label && (!o->game || o->all))
+        return cli_fail(CLI_USAGE, "lcp: --label belongs to Lemke and Howson's method: only with "
+                                   "--game and without --all");
+    return CLI_CONTINUE;
+}
+
+int cli_lcp(int argc, char **argv)
+{
+    lcp_options o = {.tol = 1e-10};
+    cli_args args = {0};
+    const cli_spec spec = {.synopsis = "rollbem lcp [OPTION...] FILE...",
+                           .about = about,
+                           .notes = notes,
+                           .sets = {{options, OPTIONS, &o, NULL, NULL}},
+                           .set_n = 1};
+    cli_exit code = cli_parse(&spec, argc, argv, &args);
+    if (code == CLI_CONTINUE && args.operands < 1)
+        code = cli_fail(CLI_USAGE, "lcp: expected at least one FILE");
+    if (code == CLI_CONTINUE)
+        code = check_options(&o);
+    if (code == CLI_CONTINUE && o.q && args.operands > 1)
+        code = cli_fail(CLI_USAGE, "lcp: --q goes with one FILE, got %d", args.operands);
+    if (code == CLI_CONTINUE)
+        code = cli_check_files(&spec, &args);
+    if (code == CLI_CONTINUE) {
+        lcp_run run = {
+            .files = {.style = &o.style,
+                      .columns = o.trace ? "file pivot entering leaving row ratio z0"
+                                 : o.all ? "file solution i z w"
+                                 : o.solution
+                                     ? "file i z w"
+                                     : "file status n pivots residual seconds scaled solver",
+                      .conventions = conventions,
+                      .solve = solve_file,
+                      .context = &run},
+            .o = &o};
+        code = cli_solve_problems(&run.files, &args, o.output);
+    }
+    cli_args_free(&args);
+    return code;
+}

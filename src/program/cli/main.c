@@ -1,0 +1,96 @@
+/* rollbem: finds the command, and checks that its output was written. */
+#include "program/cli/cli.h"
+#include "rollbem/blas.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <gsl/gsl_errno.h>
+
+static const cli_command commands[] = {
+    {"curve", cli_curve, "creep curve: the tangential force over the creepage"},
+    {"sweep", cli_sweep, "parameter studies over all processors and, under mpirun, machines"},
+    {"stress", cli_stress, "the stress below the surface: table, pictures, ParaView"},
+    {"design", cli_design, "minimum or maximum of a result over numbers of a case"},
+    {"fit", cli_fit, "numbers of a case fitted to a measured creep curve"},
+    {"wear", cli_wear, "wear by sliding, fretting or rolling"},
+    {"crack", cli_crack, "stress intensities of a crack below the passing contact"},
+    {"verify", cli_verify, "compares the program with closed-form and published results"},
+    {"check", cli_check, "checks results without solving: valid, or what is wrong"},
+    {"lcp", cli_lcp, "solves complementarity problems and bimatrix games from files"},
+    {"friction", cli_friction, "solves frictional contact problems from files"},
+    {"compare", cli_compare, "performance profiles of friction solvers over files"},
+    {"contact", cli_contact, "runs two-dimensional input files of CONTACT"},
+    {"examples", cli_examples, "the built-in examples: --example NAME"},
+    {"example", cli_example, "finite elements: bar, truss, wall"},
+    {"page", cli_page, "writes the page for browsers, which opens with a given case"},
+    {"help", cli_help, "this list, or the options of one command"},
+    {"", cli_solve, "solves one case of rolling contact with friction, prints its table"},
+};
+
+/* OpenBLAS reads its environment only while it is loaded: hence a second start. */
+static void start_again_with(const char *name, const char *value, char **argv)
+{
+    if (!getenv(name) && setenv(name, value, 1) == 0)
+        execv("/proc/self/exe", argv);
+}
+
+/* Some libraries end the program where memory is short (OpenMP, with exit code 1). */
+static int came_to_the_end;
+
+static void say_who_ended_it(void)
+{
+    if (!came_to_the_end)
+        _exit(cli_fail(CLI_INTERNAL, "out of memory"));
+}
+
+int main(int argc, char **argv)
+{
+    atexit(say_who_ended_it);
+    /* Files must not get the numbers of standard input, output and error: a closed one is
+     * opened the wrong way round, so that using it is the error that it was. */
+    for (int fd = 0; fd <= 2; fd++)
+        if (fcntl(fd, F_GETFD) < 0)
+            open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
+    /* Where the second start fails, the kernels that OpenBLAS chose do as well. */
+    const char *core = rb_blas_better_core();
+    if (core)
+        start_again_with("OPENBLAS_CORETYPE", core, argv);
+    if (!rb_blas_has_room()) {
+        start_again_with("OPENBLAS_NUM_THREADS", "1", argv);
+        cli_fail(CLI_INTERNAL, "out of memory: no address space for OpenBLAS's buffers");
+        _exit(CLI_INTERNAL); /* its threads would never end */
+    }
+    if (!getenv("OPENBLAS_NUM_THREADS"))
+        rb_blas_threads(1);
+    gsl_set_error_handler_off();
+    signal(SIGPIPE, SIG_IGN); /* a closed pipe becomes a write error, */
+    signal(SIGXFSZ, SIG_IGN); /* and so does a limit of file sizes */
+    int code;
+    if (!cli_begin(commands, argc, argv))
+        code = cli_fail(CLI_INTERNAL, "out of memory");
+    else if (argc > 1 && argv[1][0] && cli_command_help(argv[1]))
+        code = cli_run(argv[1], argc - 1, argv + 1);
+    else
+        code = cli_run("", argc, argv);
+    /* A full disc or a closed pipe shows here at the latest; what failed before has left its
+     * reason.  Where standard output was closed from the beginning and nothing went there,
+     * nothing is lost. */
+    errno = ferror(stdout) ? errno : 0;
+    int failed = fflush(stdout) != 0 || ferror(stdout);
+    failed = (fclose(stdout) != 0 && errno != EBADF) || failed;
+    if (failed && errno == EPIPE)
+        code = code == CLI_OK ? CLI_CANTWRITE : code;
+    else {
+        if (failed && code != CLI_CANTWRITE)
+            code = cli_fail(CLI_CANTWRITE, "standard output: cannot write: %s",
+                            errno ? strerror(errno) : "write error");
+    }
+    cli_end();
+    came_to_the_end = 1;
+    return code;
+}

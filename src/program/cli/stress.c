@@ -1,0 +1,343 @@
+/* rollbem stress: the stress below the surface of body A. */
+#include "program/cli/case.h"
+#include "program/cli/run.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+typedef struct {
+    /* options */
+    const char *grid, *points, *vtk, *fringes, *map;
+    double depth, fringe, yield_shear;
+    int shakedown;
+    /* where the stress is asked for */
+    int nx, ny;        /* of the grid */
+    rb_io_table place; /* the file of points; rows = 0: the grid */
+    double *xy;        /* place.rows pairs; owned */
+    /* results */
+    rb_case_result run;
+    rb_rolling_stress_maxima maxima;
+    rb_rolling_shakedown found;
+    rb_rolling_errors errors;        /* with --error */
+    rb_rolling_stress_grid at, fine; /* fine: of the pictures */
+    rb_rolling_stress *at_points;    /* of the points */
+    rb_report_stress table, picture;
+} stress;
+
+#define PLACE(member) offsetof(stress, member)
+
+static const rb_option options[] = {
+    RB_GROUP_LINE("stress", "Stress"),
+    RB_TEXT_LINE("grid", PLACE(grid), "NXxNY", "points along the surface and into the depth",
+                 .unset = "61x41"),
+    RB_NUMBER_LINE("depth", PLACE(depth), "mm", RB_ABOVE(0),
+                   "of the grid and of the search for maxima; auto: 2.5 half-widths",
+                   .word = "auto", .word_value = 0.0),
+    RB_TEXT_LINE("points", PLACE(points), "FILE",
+                 "instead of a grid: rows x, y [mm], y > 0 inside A", .unset = "none",
+                 .file = RB_FILE_READ),
+    RB_TEXT_LINE("vtk", PLACE(vtk), "FILE", "for ParaView: .vtu, or .vti (half-planes only)",
+                 .unset = "none", .file = RB_FILE_WRITTEN),
+    CLI_PICTURE_LINE("fringes", PLACE(fringes), "picture of photoelastic fringes"),
+    RB_NUMBER_LINE("fringe", PLACE(fringe), "MPa", RB_ABOVE(0),
+                   "difference of the principal stresses from one fringe to the next; "
+                   "auto: about ten fringes",
+                   .word = "auto", .word_value = 0.0),
+    RB_FLAG_LINE("shakedown", PLACE(shakedown),
+                 "largest p0 at which residual stresses keep A elastic under repeated "
+                 "rolling (Melan, Tresca)"),
+    RB_NUMBER_LINE("yield-shear", PLACE(yield_shear), "MPa", RB_ABOVE(0),
+                   "yield stress k of A in shear; shows the case in the map", .unset = "not given"),
+    CLI_PICTURE_LINE("shakedown-map", PLACE(map), "picture of p0/k over Q/P with the case"),
+};
+
+enum { OPTIONS = sizeof options / sizeof options[0] };
+
+_Static_assert((int)OPTIONS <= (int)CLI_COMMAND_OPTIONS_MAX, "given");
+
+/* Pictures are finer than tables, and fringes finer than contours. */
+enum { CONTOURS_X = 161, CONTOURS_Y = 101, FRINGES_X = 241, FRINGES_Y = 151 };
+
+static const char about[] =
+    "Solves a case and prints the stress in body A below the contact: the tensor\n"
+    "(tension positive), principal stresses, maximum shear, von Mises, hydrostatic\n"
+    "stress; in the header, the values and places of the maxima. --plot draws contours\n"
+    "of maximum shear and von Mises. The grid reaches a half-width beyond the contact\n"
+    "and follows the surface of a wheel.\n"
+    "\n" CLI_CASE_SIGNS;
+
+static const char notes[] = CLI_CASE_NOTES "Example: rollbem stress --support halfplane "
+                                           "--similar --load 500 --plot stress.png\n";
+
+/* ---- What is asked for ------------------------------------------------------------ */
+
+static cli_exit check(cli_case_run *run)
+{
+    stress *st = run->own;
+    rb_report_vtk_kind kind;
+    rb_message why = {""};
+    const rb_report_stress asked = {.nx = st->points ? 0 : 1, .rc = &run->c->rc};
+    const rb_status s = rb_rolling_stress_check(&run->c->rc, &why);
+    if (s != RB_OK)
+        return cli_case_refused(run->words, s, &why);
+    if (st->vtk && (rb_report_vtk_kind_of(st->vtk, &kind, &why) != RB_OK ||
+                    rb_report_vtk_check(kind, &asked, &why) != RB_OK))
+        return cli_fail(CLI_USAGE, "--vtk: %s", why.text);
+    if (st->map && run->c->rc.plane == RB_PLANE_STRESS)
+        return cli_fail(CLI_USAGE, "--shakedown-map: its limits are those of plane "
+                                   "strain; in plane stress take --shakedown");
+    int end = 0;
+    st->nx = 61;
+    st->ny = 41;
+    if (st->grid && (sscanf(st->grid, "%5dx%5d%n", &st->nx, &st->ny, &end) != 2 || st->grid[end] ||
+                     st->nx < 2 || st->ny < 2))
+        return cli_fail(CLI_USAGE, "--grid: expected two numbers >= 2 such as 61x41, got '%s'",
+                        st->grid);
+    if (st->grid && st->points)
+        return cli_fail(CLI_USAGE, "--grid and --points exclude each other");
+    if (!st->points)
+        return CLI_CONTINUE;
+    const rb_units units = rb_case_units(run->words, rb_option_given(&run->set, "points"));
+    const rb_status read = rb_io_table_read_columns(st->points, 2, &st->place, &why);
+    if (read != RB_OK)
+        return cli_say(read, &why);
+    const int n = st->place.rows;
+    st->xy = rb_alloc((size_t)n, 2);
+    if (!st->xy)
+        return cli_fail(CLI_INTERNAL, "out of memory");
+    for (int j = 0; j < 2; j++)
+        rb_io_table_convert(&st->place, j, "mm", units);
+    for (int k = 0; k < n; k++) {
+        st->xy[2 * k] = st->place.x[k];
+        st->xy[2 * k + 1] = st->place.x[k + n];
+    }
+    return CLI_CONTINUE;
+}
+
+/* ---- Stress ------------------------------------------------------------------------ */
+
+static int wants_shakedown(const stress *st)
+{
+    return st->shakedown || st->map || !isnan(st->yield_shear);
+}
+
+static rb_report_stress of_grid(const cli_case_run *run, const rb_rolling_stress_grid *grid)
+{
+    const stress *st = run->own;
+    return (rb_report_stress){.nx = grid->nx,
+                              .ny = grid->ny,
+                              .n = grid->nx * grid->ny,
+                              .depth = rb_unit_shown(run->c->units, "mm", st->depth),
+                              .at = grid->at,
+                              .inside = grid->inside,
+                              .maxima = &st->maxima,
+                              .errors = run->c->error ? &st->errors.stress : NULL,
+                              .shakedown = wants_shakedown(st) ? &st->found : NULL,
+                              .yield_shear = rb_unit_shown(run->c->units, "MPa", st->yield_shear),
+                              .rc = &run->c->rc,
+                              .s = &st->run.solution};
+}
+
+static rb_status solve(cli_case_run *run, rb_message *why)
+{
+    stress *st = run->own;
+    /* The model belongs to a plain solution, whose error bars follow. */
+    rb_resolved_case plain = *run->c;
+    rb_rolling_stress_maxima maxima;
+    plain.error = 0;
+    rb_status s = cli_run_case(&plain, NULL, &st->run, why);
+    if (s == RB_OK && run->c->error)
+        s = rb_rolling_stress_maxima_find(&st->run.model, 0.0, &maxima, why);
+    if (s == RB_OK && run->c->error)
+        s = rb_rolling_estimate_errors(&run->c->rc, &st->run.solution, &maxima, &st->errors, why);
+    if (s == RB_OK) {
+        const rb_rolling_model *model = &st->run.model;
+        s = rb_rolling_stress_maxima_find(model, st->depth, &st->maxima, why);
+        if (s == RB_OK && wants_shakedown(st))
+            s = rb_rolling_shakedown_find(model, &st->found, why);
+        if (s == RB_OK && st->place.rows > 0) {
+            /* The first point that is not in the body is named by its line. */
+            const int n = st->place.rows;
+            int *inside = rb_alloc_int((size_t)n);
+            st->at_points = calloc((size_t)n, sizeof *st->at_points);
+            s = inside && st->at_points ? RB_OK : RB_ENOMEM;
+            if (s == RB_OK)
+                s = rb_rolling_inside(&st->run.model, n, st->xy, inside);
+            for (int k = 0; k < n && s == RB_OK; k++)
+                if (!inside[k])
+                    s = rb_fail(why, RB_EFORMAT,
+                                "%.200s:%d: the point (%g, %g) mm lies outside body A", st->points,
+                                st->place.line[k], st->place.x[k], st->place.x[k + n]);
+            if (s == RB_OK)
+                s = rb_rolling_stress_at(&st->run.model, n, st->xy, st->at_points, why);
+            free(inside);
+        } else if (s == RB_OK)
+            s = rb_rolling_stress_on_grid(model, st->nx, st->ny, st->depth, &st->at, why);
+        if (s == RB_OK && st->fringes)
+            s = rb_rolling_stress_on_grid(model, FRINGES_X, FRINGES_Y, st->depth, &st->fine, why);
+        else if (s == RB_OK && run->o.plot)
+            s = rb_rolling_stress_on_grid(model, CONTOURS_X, CONTOURS_Y, st->depth, &st->fine, why);
+    }
+    rb_rolling_stress_maxima none = st->maxima;
+    rb_rolling_shakedown *found = &st->found;
+    rb_case_result_convert(&st->run, run->c->units);
+    rb_rolling_solution_convert(&st->errors.scalar, run->c->units);
+    rb_rolling_stress_convert(0, NULL, &st->errors.stress, run->c->units);
+    rb_rolling_stress_convert(st->at_points ? st->place.rows : 0, st->at_points, &none,
+                              run->c->units);
+    rb_rolling_stress_convert(st->at.nx * st->at.ny, st->at.at, &st->maxima, run->c->units);
+    rb_rolling_stress_convert(st->fine.nx * st->fine.ny, st->fine.at, &none, run->c->units);
+    found->x = rb_unit_shown(run->c->units, "mm", found->x);
+    found->y = rb_unit_shown(run->c->units, "mm", found->y);
+    found->residual = rb_unit_shown(run->c->units, "MPa", found->residual);
+    found->shear_yield = rb_unit_shown(run->c->units, "MPa", found->shear_yield);
+    st->table = of_grid(run, &st->at);
+    st->picture = of_grid(run, &st->fine);
+    if (st->place.rows > 0) {
+        st->table.n = st->place.rows;
+        st->table.at = st->at_points;
+    }
+    run->solution = &st->run.solution;
+    run->printable = s == RB_OK;
+    return s;
+}
+
+/* ---- Print ------------------------------------------------------------------------- */
+
+static void add_json(const cli_case_run *run, json_t **root)
+{
+    const stress *st = run->own;
+    rb_report_json_result(root, &st->run, NULL, NULL);
+    rb_report_json_stress(root, &st->table);
+}
+
+/* The points of the grid below the largest von Mises stress, which a person is shown. */
+static int column_shown(const stress *st)
+{
+    int nearest = 0;
+    for (int i = 0; i < st->at.nx; i++)
+        if (fabs(st->at.at[i].x - st->maxima.von_mises.x) <
+            fabs(st->at.at[nearest].x - st->maxima.von_mises.x))
+            nearest = i;
+    return nearest;
+}
+
+static int shows_column(const cli_case_run *run)
+{
+    const stress *st = run->own;
+    return !run->o.output && cli_reader_is_person() && st->table.nx > 1 && st->table.ny > 1;
+}
+
+static rb_status write_table(FILE *out, const cli_case_run *run)
+{
+    const stress *st = run->own;
+    if (shows_column(run)) {
+        rb_report_stress below = st->table;
+        rb_rolling_stress *at = calloc((size_t)below.ny, sizeof *at);
+        int *inside = below.inside ? rb_alloc_int((size_t)below.ny) : NULL;
+        rb_status s = at && (inside || !below.inside) ? RB_OK : RB_ENOMEM;
+        for (int j = 0; j < below.ny && s == RB_OK; j++) {
+            const int k = j * below.nx + column_shown(st);
+            at[j] = below.at[k];
+            if (inside)
+                inside[j] = below.inside[k];
+        }
+        below.n = below.ny;
+        below.at = at;
+        below.inside = inside;
+        if (s == RB_OK)
+            s = rb_report_stress_table(out, &below, cli_command_line(), &run->o.style);
+        free(inside);
+        free(at);
+        return s;
+    }
+    return rb_report_stress_table(out, &st->table, cli_command_line(), &run->o.style);
+}
+
+static rb_status write_vtk(FILE *out, const void *context, rb_message *why)
+{
+    const stress *st = ((const cli_case_run *)context)->own;
+    rb_report_vtk_kind kind;
+    const rb_status s = rb_report_vtk_kind_of(st->vtk, &kind, why);
+    return s == RB_OK ? rb_report_vtk(out, kind, &st->table) : s;
+}
+
+static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
+{
+    const stress *st = ((const cli_case_run *)context)->own;
+    return rb_report_stress_picture(out, canvas, &st->picture, why);
+}
+
+static rb_status draw_fringes(FILE *out, rb_report_canvas canvas, const void *context,
+                              rb_message *why)
+{
+    const cli_case_run *run = context;
+    const stress *st = run->own;
+    return rb_report_fringes(out, canvas, &st->picture,
+                             rb_unit_shown(run->c->units, "MPa", st->fringe), why);
+}
+
+static rb_status draw_map(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
+{
+    const stress *st = ((const cli_case_run *)context)->own;
+    return rb_report_shakedown_map(out, canvas, &st->table, why);
+}
+
+static const cli_case_file files[] = {{"vtk", .write = write_vtk},
+                                      {"plot", .draw = draw},
+                                      {"fringes", .draw = draw_fringes},
+                                      {"shakedown-map", .draw = draw_map},
+                                      {NULL, NULL, NULL}};
+
+static void summarise(FILE *out, const cli_case_run *run)
+{
+    rb_report_summary(out, run->solution, cli_terminal_width(STDERR_FILENO));
+    rb_report_stress_summary(out, &((const stress *)run->own)->table);
+    if (shows_column(run)) {
+        const stress *st = run->own;
+        const double x = st->at.at[column_shown(st)].x;
+        fprintf(out, "  table     below x = %.4g %s; a file gets all %d points\n",
+                fabs(x) < 1e-9 * run->solution->half_width ? 0.0 : x,
+                rb_unit_name(run->c->units, "mm"), st->table.n);
+    }
+}
+
+static const cli_case_command command = {
+    .synopsis = "rollbem stress [OPTION...] [CASE.ini]",
+    .about = about,
+    .notes = notes,
+    .purpose = RB_CASE_STRESS,
+    .options = options,
+    .option_n = OPTIONS,
+    .files = files,
+    .check = check,
+    .solve = solve,
+    .table = write_table,
+    .json = add_json,
+    .summarise = summarise,
+};
+
+cli_exit cli_stress_inputs(int argc, char **argv, rb_case *words, int *case_files,
+                           double *yield_shear)
+{
+    stress st = {.yield_shear = NAN};
+    const cli_exit code = cli_case_inputs(&command, &st, argc, argv, words, case_files);
+    *yield_shear = st.yield_shear;
+    return code;
+}
+
+int cli_stress(int argc, char **argv)
+{
+    stress st = {.yield_shear = NAN};
+    const cli_exit code = cli_case_run_command(&command, &st, argc, argv);
+    rb_case_result_free(&st.run);
+    rb_rolling_stress_grid_free(&st.at);
+    rb_rolling_stress_grid_free(&st.fine);
+    free(st.at_points);
+    rb_io_table_free(&st.place);
+    free(st.xy);
+    return code;
+}

@@ -1,0 +1,110 @@
+/* A parameter study: what varies in it (study_vary.c), its table (sweep.c) and its
+ * pictures (study_picture.c). */
+#ifndef ROLLBEM_CLI_STUDY_H
+#define ROLLBEM_CLI_STUDY_H
+
+#include "program/cli/output.h"
+#include "rollbem/case.h"
+#include "rollbem/io.h"
+
+#include <inttypes.h>
+
+enum { VARIED_MAX = 4, COLUMNS_MAX = 64, RESULTS_MAX = 128 };
+enum { STUDY_HEADING = RB_CASE_SLOPE_HEADING };
+
+typedef struct {
+    const char *vary[VARIED_MAX], *cases, *output, *results;
+    const char *tolerance, *derivatives;
+    int sample, seed;
+    const char *plot, *map, *over, *family, *show;
+    cli_pictures pictures;
+    rb_report_style style;
+    int jobs, restart, progress, quiet, cite;
+    int given[32];
+} study_options;
+
+/* Columns of one factor vary together: one option of a --vary, or those of the cases. */
+typedef struct {
+    char name[40], heading[40]; /* creep-ratio, creep_ratio */
+    cli_exit bad;               /* of a value that is refused */
+    int factor;
+    const double *value; /* one per row of the factor */
+} study_column;
+
+/* A column behind the status: a number, or its error bar. */
+typedef struct {
+    const rb_rolling_result *r;
+    enum { OF_SOLUTION, OF_STRESS, OF_CRACK } of;
+    int is_error;
+} study_result;
+
+typedef struct {
+    const rb_case *base;
+    rb_case *one; /* the current case: a copy of base with other numbers */
+    const study_options *o;
+    const rb_option_set *own;    /* the options of a study, whose values are in o */
+    const rb_option_set *cracks; /* those of a crack of base */
+    int has_crack; /* 1: one of them is given or varies, the contact passes over a crack */
+    study_column column[COLUMNS_MAX];
+    int columns, factors, cases;
+    int rows[VARIED_MAX + 2]; /* of each factor */
+    double *owned[VARIED_MAX];
+    double *sampled;                              /* of --sample: columns of cases each; owned */
+    double sum[RESULTS_MAX], square[RESULTS_MAX]; /* of their results, less the first */
+    double first_result[RESULTS_MAX];
+    int summed;
+    rb_io_table table;
+    study_result result[RESULTS_MAX];
+    int results;
+    rb_case_slopes slopes;         /* columns behind those of the results; n = 0: none */
+    int over, family;              /* columns of the pictures; -1: none */
+    int drawn_column, band_column; /* of the result and of its error or deviation; band 0: none */
+    double *drawn, *band; /* of every case: what the pictures show; NULL: no picture, no band */
+    double largest;       /* result in the unit of the one that is drawn */
+    uint64_t fingerprint; /* of all inputs */
+    FILE *out;
+    char *text; /* what it has, where it is memory for a terminal; owned */
+    size_t size;
+    int lost;            /* 1: no memory for a number of JSON */
+    int complete;        /* 1: every row has come */
+    struct json_t *list; /* of each column's list; with --format json alone */
+    rb_io_writer w;      /* out is its file: CSV and JSON */
+    const char *path;    /* of the file that keeps the rows; NULL: stdout, a device */
+    long whole;          /* its length up to the last row that reached it whole */
+    int created;         /* 1: there was no such file */
+    int worst;           /* exit code so far */
+    int unsolved, no_memory, first;
+    int unsolved_case;              /* the first that may be solved again to say why; 0: none */
+    double start, shown, told_next; /* seconds; of the last one from the start */
+} study;
+
+/* What varies: reads --cases and --vary-1 ...; 0 columns are refused. */
+cli_exit cli_study_read(study *st);
+/* The same of --sample: a Latin hypercube over the tolerances of the resolved case c. */
+cli_exit cli_study_sample(study *st, const rb_case *c);
+/* Of case k = 0, 1, ... */
+double cli_study_value(const study *st, const study_column *c, int k);
+/* The values of case k in c; resolve afterwards. */
+cli_exit cli_study_set_values(const study *st, rb_case *c, int k);
+/* The option of a case or of a crack; NULL: there is none. */
+const rb_option *cli_study_option(const char *name);
+/* Sets st->one to that case; says nothing of what is wrong with it. */
+rb_status cli_study_try_one(study *st, int k, rb_message *why);
+/* The first case that is one: of a sample not every case may be. */
+int cli_study_first(study *st, const rb_case *c);
+/* Refuses what any of the cases would be refused for, before anything is solved; of a
+ * sample each case stands for itself. */
+cli_exit cli_study_check(study *st);
+
+/* 1: --plot or --map. */
+int cli_study_has_pictures(const study *st);
+/* The name of the result that they show. */
+const char *cli_study_shown(const study *st);
+/* Keeps what the pictures show of a number of the table: column j of case k. */
+void cli_study_keep(study *st, int j, int k, double x);
+/* Refuses, before anything is solved, what cannot be drawn. */
+cli_exit cli_study_prepare_pictures(study *st);
+/* Behind the table, whose exit code is `code`. */
+cli_exit cli_study_draw(const study *st, cli_exit code);
+
+#endif

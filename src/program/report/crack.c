@@ -1,0 +1,550 @@
+/* Cracks: table over the positions, JSON, lines for people, pictures. */
+#include "program/report/internal.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+
+static rb_report_columns columns_of(const rb_case_crack_result *r)
+{
+    return (rb_report_columns){&rb_case_crack_columns, &r->history, 0, r->units, 0};
+}
+
+static const char sign_of_K[] =
+    "crack in B: K_I >= 0 opens it, K_II > 0: the face on the side of +x, the upper one below 90 "
+    "degrees, slides towards the tip; x: where the contact stands";
+
+static const char about_growth[] =
+    "growth: a row per length of the crack; cycles: passes until it has that length; sharp tip, "
+    "linear elasticity, no wear of the mouth";
+
+/* A crack that grows: its lengths; otherwise the positions of the contact. */
+rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r, const char *command,
+                                const rb_report_style *style)
+{
+    const int grows = r->growth.n > 0;
+    const rb_report_columns columns =
+        grows ? (rb_report_columns){&rb_case_crack_growth_columns, &r->growth, 0, r->units, 0}
+              : columns_of(r);
+    rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
+    rb_report_comment(&c, "%s", grows ? about_growth : sign_of_K);
+    for (int k = 0; k < r->notes; k++)
+        rb_report_comment(&c, "note: %s", r->note[k]);
+    return rb_report_end_columns(&c, grows ? r->growth.n : r->history.n, 1, &columns);
+}
+
+/* ---- Nodes ------------------------------------------------------------------------- */
+
+typedef struct {
+    const rb_case_crack_result *r;
+    double *hat, *x, *y, *t_x, *t_y; /* of the nodes; hat owns them all */
+    double at;                       /* where the contact shall stand, half-widths */
+} view;
+
+static rb_status see(const rb_case_crack_result *r, view *v, rb_message *why)
+{
+    rb_crack *crack = NULL;
+    const size_t n = (size_t)r->history.nodes;
+    rb_status s = rb_crack_create(&r->shape, &crack, why);
+    v->r = r;
+    v->hat = rb_alloc(n, 5);
+    if (s == RB_OK && !v->hat)
+        s = RB_ENOMEM;
+    if (s == RB_OK) {
+        v->x = v->hat + n;
+        v->y = v->x + n;
+        v->t_x = v->y + n;
+        v->t_y = v->t_x + n;
+        rb_crack_places(crack, v->x, v->y, v->hat, v->t_x, v->t_y);
+    }
+    rb_crack_free(crack);
+    return s;
+}
+
+/* ---- JSON -------------------------------------------------------------------------- */
+
+static json_t *numbers(const rb_case_crack_summary *s)
+{
+    json_t *object = json_object();
+    for (int k = 0; k < rb_case_crack_scalars.n; k++)
+        rb_report_json_set(
+            &object, rb_case_crack_scalars.row[k].name,
+            rb_report_json_number(rb_rolling_number(&rb_case_crack_scalars.row[k], s)));
+    return object;
+}
+
+void rb_report_json_crack(json_t **root, const rb_case_crack_result *r)
+{
+    const rb_report_columns columns = columns_of(r);
+    json_t *summary = numbers(&r->summary), *table = json_object();
+    json_t *notes = json_array(), *known = json_object_get(*root, "notes");
+
+    rb_report_json_set(&summary, "status", json_string(rb_status_text(r->status)));
+    rb_report_json_set(&summary, "half_width", rb_report_json_number(r->half_width));
+    rb_report_json_set(&summary, "passes", json_integer(r->passes));
+    rb_report_json_set(&summary, "last_pass_from", json_integer(r->summary.from));
+    if (r->has_errors)
+        rb_report_json_set(&summary, "errors", numbers(&r->errors));
+    rb_report_json_columns(&table, r->history.n, &columns, 0);
+    for (size_t k = 0; known && k < json_array_size(known); k++)
+        rb_report_json_append(&notes, json_incref(json_array_get(known, k)));
+    for (int k = 0; k < r->notes; k++)
+        rb_report_json_append(&notes, json_string(r->note[k]));
+    rb_report_json_set(root, "notes", notes);
+    rb_report_json_set(root, "crack", json_string(sign_of_K));
+    if (r->contact.solution.n > 0)
+        rb_report_json_set(root, "contact", rb_report_json_summary(&r->contact.solution));
+    rb_report_json_set(root, "summary", summary);
+    rb_report_json_set(root, "table", table);
+    if (r->growth.n > 0) {
+        const rb_report_columns growth = {&rb_case_crack_growth_columns, &r->growth, 0, r->units,
+                                          0};
+        json_t *grown = json_object();
+        rb_report_json_columns(&grown, r->growth.n, &growth, 0);
+        rb_report_json_set(&grown, "rests", json_boolean(r->growth.rests));
+        rb_report_json_set(&grown, "surfaced", json_boolean(r->growth.surfaced));
+        rb_report_json_set(root, "growth", grown);
+    }
+}
+
+void rb_report_json_crack_faces(json_t **root, const rb_case_crack_result *r)
+{
+    const rb_crack_history *h = &r->history;
+    const int n = h->nodes;
+    json_t *faces = NULL; /* without memory */
+    view v = {0};
+
+    if (see(r, &v, NULL) == RB_OK) {
+        faces = json_object();
+        rb_report_json_set(&faces, "x_mm", rb_report_json_numbers(n, v.x));
+        rb_report_json_set(&faces, "y_mm", rb_report_json_numbers(n, v.y));
+        rb_report_json_set(&faces, "length_mm", rb_report_json_numbers(n, v.hat));
+        const size_t both = 2 * (size_t)n; /* halves N and T in each step */
+        json_t *zones = rb_report_json_lists(h->n, n, (size_t)n, NULL, h->zone, NULL);
+        json_t *D_N = rb_report_json_lists(h->n, n, both, h->D, NULL, NULL);
+        json_t *D_T = rb_report_json_lists(h->n, n, both, h->D + n, NULL, NULL);
+        json_t *p = rb_report_json_lists(h->n, n, both, h->r, NULL, v.hat);
+        json_t *q = rb_report_json_lists(h->n, n, both, h->r + n, NULL, v.hat);
+        rb_report_json_set(&faces, "opening_mm", D_N);
+        rb_report_json_set(&faces, "sliding_mm", D_T);
+        rb_report_json_set(&faces, "p_MPa", p);
+        rb_report_json_set(&faces, "q_MPa", q);
+        rb_report_json_set(&faces, "zone", zones);
+        rb_report_json_set(&faces, "fluid_volume_mm2",
+                           rb_report_json_numbers(h->n, h->fluid_volume));
+        if (h->wheel)
+            rb_report_json_set(
+                &faces, "contact_p_MPa",
+                rb_report_json_lists(h->n, h->elements, (size_t)h->elements, h->wheel, NULL, NULL));
+    }
+    rb_report_json_set(root, "faces", faces);
+    if (r->contact.solution.n > 0)
+        rb_report_json_set(root, "contact_table", rb_report_json_table(&r->contact.solution));
+    if (r->contact.history.n > 0) {
+        json_t *history = rb_report_json_history(&r->contact.history);
+        rb_report_json_set(&history, "states", rb_report_json_states(&r->states));
+        rb_report_json_set(root, "history", history);
+    }
+    free(v.hat);
+}
+
+/* ---- For people -------------------------------------------------------------------- */
+
+static void print_bar(FILE *out, const rb_case_crack_result *r, double error)
+{
+    if (r->has_errors)
+        fprintf(out, " (+- %.2g)", error);
+}
+
+void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r, int colour)
+{
+    const rb_case_crack_summary *s = &r->summary, *e = &r->errors;
+    const char *K = rb_unit_name(r->units, "MPa.mm^0.5"), *mm = rb_unit_name(r->units, "mm");
+
+    for (int k = 0; k < r->notes; k++)
+        rb_report_note(out, r->note[k], colour);
+    fprintf(out, "crack: %d positions, %d pass%s, half-width %.5g %s\n", r->history.n / r->passes,
+            r->passes, r->passes > 1 ? "es" : "", r->half_width, mm);
+    fprintf(out, "  K_I       %.5g ... %.5g", s->K_I_min, s->K_I_max);
+    print_bar(out, r, e->K_I_max);
+    fprintf(out, " %s, largest with the contact at x = %.4g %s, K_II = %.4g there\n", K,
+            s->K_I_max_at, mm, s->K_II_at_K_I_max);
+    fprintf(out, "  K_II      %.5g ... %.5g, range %.5g", s->K_II_min, s->K_II_max, s->delta_K_II);
+    print_bar(out, r, e->delta_K_II);
+    fprintf(out, " %s, at x = %.4g and %.4g %s\n", K, s->K_II_min_at, s->K_II_max_at, mm);
+    if (!isnan(s->K_I_max_upper))
+        fprintf(out, "  upper end K_I %.5g ... %.5g, K_II %.5g ... %.5g %s\n", s->K_I_min_upper,
+                s->K_I_max_upper, s->K_II_min_upper, s->K_II_max_upper, K);
+    if (s->fluid_pressure_max > 0.0)
+        fprintf(out, "  fluid     at most %.5g %s\n", s->fluid_pressure_max,
+                rb_unit_name(r->units, "MPa"));
+    if (!isnan(s->pass_change))
+        fprintf(out, "  passes    the last one changed K by at most %.2g %s\n", s->pass_change, K);
+    if (r->growth.n > 0) {
+        const int last = r->growth.n - 1;
+        fprintf(out, "  growth    from %.4g to %.4g %s in %.4g passes%s\n", r->growth.length[0],
+                r->growth.length[last], mm, r->growth.cycles[last],
+                r->growth.rests      ? ", where it rests"
+                : r->growth.surfaced ? ", then to the surface"
+                                     : "");
+    }
+    fprintf(out, "  residual  %.2g\n", s->residual);
+}
+
+/* ---- Picture: K over the position, zones below --------------------------------------- */
+
+/* Where the crack is open: pale, beside the strong colours of faces that touch. */
+static const char *colour_of(int zone)
+{
+    return rb_report_zone_colour(zone, zone == RB_ZONE_SEPARATED);
+}
+
+/* The faces on the + side, which is that of +x, and on the other one, as they lie. */
+typedef struct {
+    const char *plus, *minus;
+} faces;
+
+static faces faces_of(const rb_case_crack_result *r)
+{
+    const rb_crack_path *path = &r->shape.path;
+    const double dx = path->x[path->pieces] - path->x[0], dy = path->y[path->pieces] - path->y[0];
+    const double steep = 0.2 * hypot(dx, dy);
+    return dx > steep    ? (faces){"upper", "lower"}
+           : dx < -steep ? (faces){"lower", "upper"}
+                         : (faces){"right", "left"};
+}
+
+/* What the colours mean, at the bottom of the picture; open: 1, where there is something to
+ * be seen of it.  A column, whose letters are larger, takes two lines. */
+static void write_zone_key(FILE *out, rb_report_canvas canvas, const char *slips, int open)
+{
+    static const struct {
+        int zone, line;
+        double in_column, x;
+        const char *box, *name;
+    } zones[] = {{RB_ZONE_SEPARATED, 0, 0.03, 0.14, "□", "open"},
+                 {RB_ZONE_STICK, 0, 0.2, 0.24, "■", "stick"},
+                 {RB_ZONE_SLIP_NEGATIVE, 1, 0.03, 0.34, "■", "face slips to the tip"},
+                 {RB_ZONE_SLIP_POSITIVE, 1, 0.66, 0.66, "■", "away from the tip"}};
+    const int titled = rb_report_place_of(canvas).titled;
+    for (size_t k = open ? 0 : 1; k < sizeof zones / sizeof *zones; k++) {
+        const int slip = zones[k].zone == RB_ZONE_SLIP_NEGATIVE;
+        fprintf(out,
+                "set label %d '%s %s%s%s' at screen %g, %g left textcolor rgb '%s' font ',%.3g'\n",
+                (int)k + 3, zones[k].box, slip ? slips : "", slip ? " " : "",
+                titled || zones[k].zone != RB_ZONE_SLIP_POSITIVE ? zones[k].name : "away from it",
+                titled ? zones[k].x : zones[k].in_column, titled || zones[k].line ? 0.025 : 0.065,
+                zones[k].zone == RB_ZONE_SEPARATED ? "#666666"
+                                                   : rb_report_zone_colour(zones[k].zone, 0),
+                rb_report_key_font(canvas));
+    }
+}
+
+/* Steps of the last pass. */
+static int first_of(const rb_case_crack_result *r)
+{
+    return r->summary.from;
+}
+
+/* Of the axes of K and of the pressure in the crack. */
+typedef struct {
+    rb_report_unit K, fluid;
+} axes;
+
+static axes axes_of(const rb_case_crack_result *r)
+{
+    const rb_case_crack_summary *s = &r->summary;
+    const double K = fmax(fmax(s->K_I_max, s->K_II_max), -s->K_II_min);
+    return (axes){rb_report_axis_unit(r->units, "MPa.mm^0.5", K),
+                  rb_report_axis_unit(r->units, "MPa", s->fluid_pressure_max)};
+}
+
+static void write_steps(FILE *out, const rb_case_crack_result *r, double length)
+{
+    const rb_crack_history *h = &r->history;
+    const axes unit = axes_of(r);
+    fputs("$K << EOD\n", out);
+    for (int k = first_of(r); k < h->n; k++)
+        fprintf(out, "%.9g %.9g %.9g %.9g\n", h->x[k] / length, h->K_I[k] / unit.K.size,
+                h->K_II[k] / unit.K.size, h->fluid_pressure[k] / unit.fluid.size);
+    fputs("EOD\n", out);
+}
+
+/* A box for each run of nodes in one zone at one position: x, s, half-sizes, colour. */
+static void write_zones(FILE *out, const rb_case_crack_result *r, const double *hat, double length)
+{
+    const rb_crack_history *h = &r->history;
+    const double unit = rb_unit_shown(r->units, "mm", 1.0) / length;
+    fputs("$zones << EOD\n", out);
+    for (int k = first_of(r); k < h->n; k++) {
+        const int *zone = h->zone + (size_t)k * h->nodes;
+        const double left = k > first_of(r) ? h->x[k] - h->x[k - 1] : 0.0;
+        const double right = k + 1 < h->n ? h->x[k + 1] - h->x[k] : 0.0;
+        double from = 0.0, to = 0.0;
+        for (int j = 0; j < h->nodes; j++) {
+            to += hat[j] * unit;
+            if (j + 1 < h->nodes && zone[j + 1] == zone[j])
+                continue;
+            fprintf(out, "%.9g %.9g %.9g %.9g %d\n", (h->x[k] + 0.25 * (right - left)) / length,
+                    0.5 * (from + to), 0.26 * (left + right) / length, 0.5 * (to - from),
+                    (int)strtol(colour_of(zone[j]) + 1, NULL, 16));
+            from = to;
+        }
+    }
+    fputs("EOD\n", out);
+}
+
+static void write_title(FILE *out, const view *v, rb_report_place place)
+{
+    const rb_case_crack_result *r = v->r;
+    const rb_crack_path *path = &r->shape.path;
+    const double dx = path->x[path->pieces] - path->x[0], dy = path->y[0] - path->y[path->pieces];
+    if (place.titled)
+        fprintf(
+            out,
+            "set label 1 '{/:Bold Crack}   length %.4g a at %.4g° to the surface,  μ of the faces "
+            "%.3g,  a = %s %s' at screen 0.54, 0.972 center\n",
+            hypot(dx, dy) / rb_unit_stored(r->units, "mm", r->half_width),
+            atan2(dy, dx) * 180.0 / 3.14159265358979, r->shape.friction,
+            RB_REPORT_NUMBER(r->half_width, 4), rb_unit_name(r->units, "mm"));
+}
+
+static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
+{
+    const view *v = context;
+    const rb_case_crack_result *r = v->r;
+    const rb_crack_history *h = &r->history;
+    const rb_report_place place = rb_report_place_of(canvas);
+    const double a = r->half_width;
+    char unit[40];
+    const axes shown = axes_of(r);
+    const int wet = r->summary.fluid_pressure_max > 0.0;
+    double along = 0.0; /* the whole crack, in half-widths */
+
+    for (int j = 0; j < h->nodes; j++)
+        along += v->hat[j] / rb_unit_stored(r->units, "mm", a);
+    write_steps(out, r, a);
+    write_zones(out, r, v->hat, a);
+    write_title(out, v, place);
+    fprintf(out,
+            "set multiplot\nset lmargin at screen %g\nset rmargin at screen %g\n"
+            "set tmargin at screen %g\nset bmargin at screen %g\n" RB_REPORT_GRID
+            "set format x ''\nset xrange [%.9g:%.9g]\nset offsets 0,0,graph 0.08,graph "
+            "0.08\n" RB_REPORT_ZERO
+            "set key at screen 0.965, %g right horizontal maxrows 1 samplen 2 font ',%.3g'\nset "
+            "label 2 'K  [%s]' at screen 0.03, %g center rotate\n",
+            0.14 + place.right,
+            !wet           ? 0.965
+            : place.titled ? 0.89
+                           : 0.83,
+            0.88 + place.up, 0.48, h->x[first_of(r)] / a, h->x[h->n - 1] / a,
+            0.925 + 1.4 * place.up, rb_report_key_font(canvas),
+            rb_report_raised(shown.K.name, unit), 0.68);
+    if (wet)
+        fprintf(out,
+                "set y2tics\nset y2label 'fluid  [%s]' offset -0.5,0\nset ytics nomirror\nset "
+                "y2range [0:%.9g]\n",
+                shown.fluid.name, 1.15 * r->summary.fluid_pressure_max / shown.fluid.size);
+    fputs(
+        "plot $K using 1:2 with lines linecolor rgb '#c0392b' linewidth 2.4 title 'K_{I}', $K "
+        "using 1:3 with lines linecolor rgb '#1f4e79' dashtype (10,3) linewidth 2.4 title 'K_{II}'",
+        out);
+    if (wet)
+        fputs(", $K using 1:4 axes x1y2 with lines linecolor rgb '#117864' dashtype (3,3) "
+              "linewidth 1.6 title 'fluid'",
+              out);
+    fprintf(out,
+            "\nunset label 1\nunset label 2\nunset y2tics\nunset y2label\nunset key\n"
+            "set ytics nomirror\nset tmargin at screen 0.44\nset bmargin at screen %g\n"
+            "set format x '%%g'\nset xlabel 'position of the contact / a' offset 0,0.3\n"
+            "set offsets 0,0,0,0\nset yrange [*:*] reverse\nset autoscale yfix\n"
+            "set ytics %g\n"
+            "set label 2 '%salong the crack / a%s' at screen 0.03, %g center rotate\n",
+            0.16 + place.up, rb_report_round_step(along / 4.0), place.titled ? "" : "{/*0.85 ",
+            place.titled ? "" : "}", 0.3 + 0.5 * place.up);
+    write_zone_key(out, canvas, faces_of(r).plus, 1);
+    fputs("plot $zones using 1:2:3:4:5 with boxxyerror fillstyle solid noborder linecolor rgb "
+          "variable notitle",
+          out);
+    fputs("\nunset multiplot\n", out);
+}
+
+rb_status rb_report_crack_picture(FILE *out, rb_report_canvas canvas, const rb_case_crack_result *r,
+                                  rb_message *why)
+{
+    view v = {0};
+    rb_status s = see(r, &v, why);
+    if (s == RB_OK && r->history.n - first_of(r) < 2)
+        s = rb_fail(why, RB_EINVAL, "one position alone is no picture over positions");
+    if (s == RB_OK)
+        s = rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_K, &v, why);
+    free(v.hat);
+    return s;
+}
+
+/* ---- Picture: K_II over K_I ---------------------------------------------------------- */
+
+static void write_orbit(FILE *out, rb_report_canvas canvas, const void *context)
+{
+    const view *v = context;
+    const rb_report_place place = rb_report_place_of(canvas);
+    char unit[40];
+    const char *K = rb_report_raised(axes_of(v->r).K.name, unit);
+
+    write_steps(out, v->r, v->r->half_width);
+    write_title(out, v, place);
+    rb_report_room(out, 0.14 + place.right, place.titled ? 0.86 : 0.79, 0.14 + place.up,
+                   0.92 + place.up);
+    fprintf(out,
+            RB_REPORT_GRID RB_REPORT_ZERO
+            "set offsets graph 0.06,graph 0.06,graph 0.06,graph 0.06\nset xlabel 'K_{I}  "
+            "[%s]'\nset ylabel 'K_{II}  [%s]'\nset "
+            "cblabel 'position of the contact / a' offset 1,0\nunset key\n" RB_REPORT_PALETTE
+            "plot $K using 2:3:1 with lines palette linewidth 2.2, $K using 2:3:1 with points "
+            "palette pointtype 7 pointsize 0.6\n",
+            K, K);
+}
+
+rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas, const rb_case_crack_result *r,
+                                rb_message *why)
+{
+    view v = {.r = r};
+    if (r->history.n - first_of(r) < 2)
+        return rb_fail(why, RB_EINVAL, "one position alone is no orbit");
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_orbit, &v, why);
+}
+
+/* ---- Picture: the crack open and torn ------------------------------------------------ */
+
+/* A block of data; x and y in units of `unit`. */
+static void write_points(FILE *out, const char *block, int n, const double *x, const double *y,
+                         double unit)
+{
+    fprintf(out, "$%s << EOD\n", block);
+    for (int i = 0; i < n; i++)
+        fprintf(out, "%.9g %.9g\n", x[i] / unit, y[i] / unit);
+    fputs("EOD\n", out);
+}
+
+/* Both faces, displaced by half of D each, times a round magnification. */
+static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
+{
+    const view *v = context;
+    const rb_case_crack_result *r = v->r;
+    const rb_crack_history *h = &r->history;
+    const rb_report_place place = rb_report_place_of(canvas);
+    const rb_crack_path *path = &r->shape.path;
+    const int n = h->nodes;
+    int k = first_of(r); /* the position nearest to the one asked for */
+    for (int i = k; i < h->n; i++)
+        if (fabs(h->x[i] - v->at * r->half_width) < fabs(h->x[k] - v->at * r->half_width))
+            k = i;
+    const double unit = rb_unit_stored(r->units, "mm", r->half_width); /* a in mm */
+    const double at = h->x[k] / r->half_width;
+    char name[40];
+    const double *D_N = h->D + (size_t)k * 2 * (size_t)n, *D_T = D_N + n;
+    const int *zone = h->zone + (size_t)k * (size_t)n;
+    double largest = 0.0, deepest = 0.0, from = INFINITY, to = -INFINITY;
+
+    const rb_case_crack_growth *g = &r->growth;
+    const rb_crack_path *whole = g->n > 1 ? &g->path : path;
+    for (int i = 0; i <= whole->pieces; i++) {
+        from = fmin(from, whole->x[i] / unit);
+        to = fmax(to, whole->x[i] / unit);
+        deepest = fmax(deepest, -whole->y[i] / unit);
+    }
+    if (g->n > 1) { /* its way below the faces, which are those of the first length */
+        write_points(out, "way", whole->pieces + 1, whole->x, whole->y, unit);
+        write_points(out, "tips", g->n - 1, g->tip_x + 1, g->tip_y + 1, r->half_width);
+    }
+    for (int j = 0; j < n; j++)
+        largest = fmax(largest, hypot(D_N[j], D_T[j]) / r->half_width);
+    const double size = fmax(to - from, deepest);
+    const double times = largest > 0.0 ? rb_report_round_step(0.03 * size / largest) : 1.0;
+    for (int side = -1; side <= 1; side += 2) {
+        const double factor = 0.5 * side * times / r->half_width;
+        fprintf(out, "$face%d << EOD\n", (side + 1) / 2);
+        if (path->y[0] < 0.0)
+            fprintf(out, "%.9g %.9g 0 0\n", path->x[0] / unit, path->y[0] / unit);
+        for (int j = 0; j < n; j++) {
+            const double dx = -v->t_y[j] * D_N[j] + v->t_x[j] * D_T[j],
+                         dy = v->t_x[j] * D_N[j] + v->t_y[j] * D_T[j];
+            fprintf(out, "%.9g %.9g %ld %d\n", v->x[j] / unit + factor * dx,
+                    v->y[j] / unit + factor * dy, strtol(colour_of(zone[j]) + 1, NULL, 16),
+                    zone[j] != RB_ZONE_SEPARATED);
+        }
+        fprintf(out, "%.9g %.9g 0 0\nEOD\n", path->x[path->pieces] / unit,
+                path->y[path->pieces] / unit);
+    }
+    const rb_report_unit K = axes_of(r).K;
+    if (place.titled)
+        fprintf(out,
+                "set label 1 '{/:Bold Crack}   contact at x = %s a,  displacements of the faces × "
+                "%s' at screen 0.54, 0.972 center\n"
+                "set label 2 'K_{I} = %s,  K_{II} = %s %s' at screen 0.54, 0.935 center\n",
+                RB_REPORT_NUMBER(rb_report_tidy(at, 1.0), 4), RB_REPORT_NUMBER(times, 3),
+                RB_REPORT_NUMBER(h->K_I[k] / K.size, 4), RB_REPORT_NUMBER(h->K_II[k] / K.size, 4),
+                rb_report_raised(K.name, name));
+    const faces face = faces_of(r);
+    write_zone_key(out, canvas, face.plus, 0);
+    const double margin = 0.25 * size, step = rb_report_round_step(0.2 * size);
+    /* more of the body, until the panel is filled at equal scales */
+    const double left = 0.12 + place.right, high = 0.68,
+                 aspect = rb_report_width_over_height(canvas, RB_REPORT_FOUR_THIRDS) *
+                          (0.965 - left) / high,
+                 width = to - from + 2.0 * margin, height = deepest + 1.6 * margin,
+                 beside = fmax(aspect * height - width, 0.0);
+    const double bottom = -deepest - margin - fmax(width / aspect - height, 0.0);
+    from -= 0.5 * beside + margin;
+    to += 0.5 * beside + margin;
+    if (!place.titled)
+        fprintf(out, "set label 9 'faces × %s' at graph 0.03, 0.06 font ',%.3g' front\n",
+                RB_REPORT_NUMBER(times, 3), rb_report_key_font(canvas));
+    fputs("set size ratio -1\n", out);
+    rb_report_room(out, left, 0.965, 0.21 + place.up, 0.21 + high + place.up);
+    fprintf(out,
+            "set xrange [%.9g:%.9g]\n"
+            "set yrange [%.9g:%.9g]\nset xlabel 'x / a'\nset ylabel 'y / a'\nset xtics %g\n"
+            "set ytics %g\n"
+            "set key inside right top horizontal maxrows 1 samplen 2 font ',%.3g'\n"
+            "set object 1 rectangle from graph 0, first %.9g to graph 1, first 0 fillcolor rgb "
+            "'#eeeeee' fillstyle solid noborder behind\n",
+            from, to, bottom, 0.6 * margin, step, step, rb_report_key_font(canvas), bottom);
+    /* the contact above, where it is within the picture */
+    fprintf(out,
+            "set object 2 rectangle from %.9g, 0 to %.9g, %.9g fillcolor rgb '#bbbbbb' fillstyle "
+            "solid noborder\n"
+            "plot 0 with lines linecolor rgb '#333333' linewidth 1.5 notitle, $face0 using 1:2 "
+            "with filledcurves closed linecolor rgb '#ffffff' notitle, $face1 using 1:2 with "
+            "filledcurves closed linecolor rgb '#ffffff' notitle",
+            fmin(fmax(at - 1.0, from), to), fmin(fmax(at + 1.0, from), to), 0.15 * margin);
+    if (g->n > 1)
+        fputs(", $way using 1:2 with lines linecolor rgb '#555555' linewidth 1.2 notitle, $tips "
+              "using 1:2 with points pointtype 6 pointsize 1.2 linecolor rgb '#555555' title "
+              "'grown'",
+              out);
+    /* the dashed one above, or a closed crack would have one face; the zones on both */
+    for (int side = 1; side >= 0; side--)
+        fprintf(out,
+                ", $face%d using 1:2 with lines linecolor rgb '%s' linewidth 2 dashtype %s title "
+                "'%s face'",
+                side, side ? "#111111" : "#8aa4bd", side ? "solid" : "(6,6)",
+                side ? face.plus : face.minus);
+    for (int side = 0; side < 2; side++)
+        fprintf(out,
+                ", $face%d using ($4 > 0 ? $1 : NaN):2:3 with points pointtype 7 pointsize 1 "
+                "linecolor rgb variable notitle",
+                side);
+    fputc('\n', out);
+}
+
+rb_status rb_report_crack_open(FILE *out, rb_report_canvas canvas, const rb_case_crack_result *r,
+                               double at, rb_message *why)
+{
+    view v = {.at = at};
+    rb_status s = see(r, &v, why);
+    if (s == RB_OK)
+        s = rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_open, &v, why);
+    free(v.hat);
+    return s;
+}

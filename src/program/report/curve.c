@@ -1,0 +1,472 @@
+/* Creep curves: table, JSON, lines for people, picture with Carter's law. */
+#include "program/report/internal.h"
+
+#include "rollbem/closed_forms.h"
+
+#include <jansson.h>
+#include <math.h>
+
+/* ---- Table and JSON ---------------------------------------------------------------- */
+
+static rb_report_columns columns_of(const rb_rolling_curve *c, int kind)
+{
+    return (rb_report_columns){&rb_rolling_curve_columns, c, kind, c->units, 0};
+}
+
+rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const char *command,
+                                const rb_report_style *style)
+{
+    rb_report_cells c = rb_report_cells_begin(out, style, "");
+    for (int k = 0; k < curves->n; k++) {
+        /* The coefficient of friction stands before the columns of its curve. */
+        const rb_rolling_curve *d = curves->curve[k].deviations;
+        const rb_report_columns part[2] = {columns_of(&curves->curve[k], RB_REPORT_VALUES),
+                                           d ? columns_of(d, RB_REPORT_DEVIATIONS)
+                                             : columns_of(&curves->error[k], RB_REPORT_ERRORS)};
+        const int parts = curves->has_errors || d ? 2 : 1;
+
+        if (k == 0) {
+            rb_report_cell_text(&c, "mu");
+            rb_report_cell_headings(&c, parts, part);
+            rb_report_cell_slope_headings(&c, &curves->slopes[k]);
+            rb_report_cells_end_row(&c);
+            rb_report_comment_head(&c, command);
+            rb_report_comment_slopes(&c, curves->n, curves->slopes, curves->mu);
+            if (curves->rc)
+                rb_report_comment_notes(&c, curves->rc, &curves->curve[curves->n - 1].last);
+        }
+        for (int i = 0; i < curves->curve[k].n; i++) {
+            rb_report_cell_number(&c, curves->mu[k]);
+            rb_report_cell_entries(&c, i, parts, part);
+            rb_report_cell_slopes(&c, &curves->slopes[k], i);
+            rb_report_cells_end_row(&c);
+        }
+    }
+    return rb_report_flush(out);
+}
+
+void rb_report_json_curves(json_t **root, const rb_report_curves *curves)
+{
+    json_t *all = json_array();
+    for (int k = 0; k < curves->n; k++) {
+        const rb_rolling_curve *c = &curves->curve[k];
+        const rb_report_columns columns = columns_of(c, 0);
+        json_t *curve = json_object();
+
+        rb_report_json_set(&curve, "mu", rb_report_json_number(curves->mu[k]));
+        rb_report_json_columns(&curve, c->n, &columns, 0);
+        rb_report_json_slopes(&curve, &curves->slopes[k]);
+        if (c->deviations) {
+            const rb_report_columns of = columns_of(c->deviations, RB_REPORT_DEVIATIONS);
+            json_t *tolerances = json_object();
+            rb_report_json_columns(&tolerances, c->n, &of, 0);
+            rb_report_json_set(&curve, "tolerances", tolerances);
+        }
+        rb_report_json_set(&curve, "free_creepage", rb_report_json_number(c->free_creepage));
+        rb_report_json_set(&curve, "hertz_half_width", rb_report_json_number(c->half_width));
+        rb_report_json_set(&curve, "iterations", json_integer(c->iterations));
+        rb_report_json_set(&curve, "seconds", rb_report_json_number(c->seconds));
+        if (curves->has_errors) {
+            const rb_rolling_curve *error = &curves->error[k];
+            const rb_report_columns bars = columns_of(error, 1);
+            json_t *errors = json_object();
+            rb_report_json_columns(&errors, error->n, &bars, 0);
+            rb_report_json_set(&errors, "free_creepage",
+                               rb_report_json_number(error->free_creepage));
+            rb_report_json_set(&curve, "errors", errors);
+        }
+        rb_report_json_append(&all, curve);
+    }
+    if (curves->n > 0 && curves->slopes[0].tolerance)
+        rb_report_json_uncertain_text(root, curves->slopes[0].tolerance);
+    rb_report_json_set(root, "curve", json_incref(json_array_get(all, 0)));
+    if (curves->n > 1)
+        rb_report_json_set(root, "curves", json_incref(all));
+    json_decref(all);
+}
+
+/* ---- For people -------------------------------------------------------------------- */
+
+static double largest(int n, const double *x)
+{
+    double most = 0.0;
+    for (int i = 0; i < n; i++)
+        most = fmax(most, x[i]);
+    return most;
+}
+
+void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
+{
+    void *before = rb_locale_begin();
+    for (int k = 0; k < curves->n; k++) {
+        const rb_rolling_curve *c = &curves->curve[k];
+        const int speeds = c->n > 1 && c->speed[0] != c->speed[1];
+        /* The first of the points at the end of the curve at which nothing sticks. */
+        const int rising = c->n < c->rising ? c->n : c->rising;
+        int sliding = rising;
+        while (sliding > 0 && c->stick_ratio[sliding - 1] == 0.0)
+            sliding--;
+        fprintf(out, "curve, mu = %g: %d points in %.2g s, residual <= %.2g\n", curves->mu[k], c->n,
+                c->seconds, largest(c->n, c->residual));
+        if (isfinite(c->free_creepage))
+            fprintf(out, "  free rolling (Q = 0) at xi = %.5g\n",
+                    c->free_creepage + 0.0); /* -0 is 0 */
+        if (speeds) {
+            int most = 0;
+            for (int i = 1; i < c->n; i++)
+                if (c->resistance_ratio[i] > c->resistance_ratio[most])
+                    most = i;
+            fprintf(out, "  largest resistance to rolling M/(P R) = %.5g at %.5g %s\n",
+                    c->resistance_ratio[most], c->speed[most], rb_unit_name(c->units, "mm/s"));
+        } else if (c->branch) {
+            /* How far apart rising and falling creepage are. */
+            int most = 0;
+            double widest = 0.0;
+            for (int i = 0; i < c->rising && c->n == 2 * c->rising; i++) {
+                const double width = fabs(c->force_ratio[i] - c->force_ratio[c->n - 1 - i]);
+                if (width > widest) {
+                    widest = width;
+                    most = i;
+                }
+            }
+            if (c->n == 2 * c->rising)
+                fprintf(out,
+                        "  there and back Q/(mu P) differs by %.2g at most, at xi = %.5g; kappa = "
+                        "%.3g\n",
+                        widest, c->creepage[most], largest(c->n, c->kappa));
+        }
+        if (curves->has_errors && speeds)
+            fprintf(out, "  error of M/(P R) <= %.1g (estimated from coarser meshes)\n",
+                    largest(c->n, curves->error[k].resistance_ratio));
+        else if (curves->has_errors)
+            fprintf(
+                out,
+                "  error of Q/(mu P) <= %.1g, of P <= %.1g %s (estimated from coarser meshes)\n",
+                largest(c->n, curves->error[k].force_ratio),
+                largest(c->n, curves->error[k].normal_load), rb_unit_name(c->units, "N/mm"));
+        if (c->deviations && speeds)
+            fprintf(out,
+                    "  standard deviation of M/(P R) at most %.2g, from those of --tolerance\n",
+                    largest(c->n, c->deviations->resistance_ratio));
+        else if (c->deviations)
+            fprintf(out, "  standard deviation of Q at most %.2g %s, from those of --tolerance\n",
+                    largest(c->n, c->deviations->tangential_load), rb_unit_name(c->units, "N/mm"));
+        int points = 0, least = 0;
+        for (int i = 0; i < c->n; i++) {
+            points += rb_rolling_is_below_zero(c->dissipation[i], c->normal_load[i]);
+            if (c->dissipation[i] < c->dissipation[least])
+                least = i;
+        }
+        if (points > 0)
+            fprintf(out, "  dissipation below zero at %d point%s, %.2g %s at xi = %.5g: %s\n",
+                    points, points > 1 ? "s" : "", c->dissipation[least],
+                    rb_unit_name(c->units, "N/mm"), c->creepage[least],
+                    rb_rolling_below_zero(curves->rc));
+        const int slides = !speeds && sliding < rising && curves->mu[k] > 0.0;
+        if (slides && sliding > 0)
+            fprintf(
+                out,
+                "  full sliding begins between xi = %.5g and %.5g, xi R/(mu a) = %.4g and %.4g\n",
+                c->creepage[sliding - 1], c->creepage[sliding], c->creep_ratio[sliding - 1],
+                c->creep_ratio[sliding]);
+        else if (slides)
+            fprintf(out, "  full sliding at every point\n");
+    }
+    rb_locale_end(before);
+}
+
+/* ---- Picture ----------------------------------------------------------------------- */
+
+/* y: those of several mu are compared by Q/P; standard deviations are those of Q, because
+ * mu and P may be uncertain, too. */
+typedef enum { FORCE_RATIO, FORCE_OVER_LOAD, FORCE, RESISTANCE } ordinate;
+
+typedef struct {
+    const rb_rolling_case *rc;
+    const rb_report_curves *curves;
+    rb_rolling_variable over; /* x */
+    ordinate y;
+    int exponent; /* of the axis of xi, or of M/(P R) */
+    double from, to;
+    int corner;  /* of the key: 1 left top, 0 right bottom */
+    int above_0; /* nothing is below 0 but a sliver of a band */
+} view;
+
+/* The coefficient that Q/(mu P) refers to. */
+static double scale_of(const view *v, int k)
+{
+    rb_rolling_case rc = *v->rc;
+    rc.mu = v->curves->mu[k];
+    return rb_rolling_largest_mu(&rc);
+}
+
+static double x_of(const view *v, const rb_rolling_curve *c, int i)
+{
+    return v->over == RB_OVER_SPEED   ? c->speed[i]
+           : v->over == RB_OVER_CREEP ? c->creepage[i] / pow(10.0, v->exponent)
+                                      : c->creep_ratio[i];
+}
+
+static double y_of(const view *v, const rb_rolling_curve *c, int i, double mu)
+{
+    return v->y == RESISTANCE        ? c->resistance_ratio[i] / pow(10.0, v->exponent)
+           : v->y == FORCE           ? -c->tangential_load[i]
+           : v->y == FORCE_OVER_LOAD ? -c->force_ratio[i] * mu
+                                     : -c->force_ratio[i];
+}
+
+/* The curve of half-widths of a band; NULL: none. */
+static const rb_rolling_curve *band_of(const view *v, int k)
+{
+    return v->curves->has_errors ? &v->curves->error[k] : v->curves->curve[k].deviations;
+}
+
+static double half_width(const view *v, int k, int i)
+{
+    const rb_rolling_curve *band = band_of(v, k);
+    return band ? fabs(y_of(v, band, i, scale_of(v, k))) : 0.0;
+}
+
+static int has_heat(const view *v)
+{
+    return v->curves->curve[0].max_temperature != NULL;
+}
+
+enum { FEW = 16 }; /* points: markers show where the curve was computed */
+
+static int draws_carter(const view *v)
+{
+    return v->over != RB_OVER_SPEED && rb_rolling_carter_holds(v->rc);
+}
+
+static void write_labels(FILE *out, const view *v, int titled)
+{
+    const rb_rolling_curve *c = &v->curves->curve[0];
+    const int thick = rb_rolling_has_thickness(v->rc);
+    if (titled) {
+        fprintf(out,
+                "set label 1 '{/:Bold %s}   P = %s %s,  %s = %s %s' at screen 0.54, 0.972 center\n",
+                v->over == RB_OVER_SPEED ? "Rolling resistance" : "Creep curve",
+                RB_REPORT_NUMBER(c->normal_load[c->n - 1], 5), rb_unit_name(c->units, "N/mm"),
+                thick ? "Hertz’s a of solid bodies" : "a", RB_REPORT_NUMBER(c->half_width, 4),
+                rb_unit_name(c->units, "mm"));
+        rb_report_label_bodies(out, v->rc, c->units, 0.54, 0.935);
+    }
+    if (v->over == RB_OVER_SPEED)
+        fprintf(out, "set logscale x\nset ylabel 'resistance to rolling  M/(PR)%s'\n",
+                RB_REPORT_COUNTED_IN(v->exponent, ""));
+    else
+        fprintf(out, "set ylabel 'braking force  −Q%s' offset 1,0\n",
+                v->y == FORCE             ? RB_REPORT_COUNTED_IN(0, rb_unit_name(c->units, "N/mm"))
+                : v->y == FORCE_OVER_LOAD ? "/P"
+                                          : "/(μP)");
+}
+
+static void write_x_label(FILE *out, const view *v)
+{
+    const char *speed = rb_unit_name(v->curves->curve[0].units, "mm/s");
+    if (v->over == RB_OVER_SPEED)
+        rb_report_log_tics(out, 'x', v->from, v->to);
+    fprintf(out, "set xlabel '%s%s'\n",
+            v->over == RB_OVER_SPEED   ? "speed"
+            : v->over == RB_OVER_CREEP ? "creepage ξ"
+                                       : "creepage ratio  ξR/(μa)",
+            RB_REPORT_COUNTED_IN(v->over == RB_OVER_CREEP ? v->exponent : 0,
+                                 v->over == RB_OVER_SPEED ? speed : ""));
+}
+
+/* The panel below: how hot the surfaces become at each point. */
+static void write_heat(FILE *out, const view *v, rb_report_place place)
+{
+    double least = INFINITY, most = -INFINITY;
+    for (int k = 0; k < v->curves->n; k++)
+        for (int i = 0; i < v->curves->curve[k].n; i++) {
+            least = fmin(least, v->curves->curve[k].max_temperature[i]);
+            most = fmax(most, v->curves->curve[k].max_temperature[i]);
+        }
+    fprintf(out,
+            "unset label\nunset key\nset tmargin at screen %g\nset bmargin at screen %g\nset "
+            "format x '%%g'\nset ylabel 'hottest  [K]' offset 1,0\n"
+            "set offsets 0,0,graph 0.08,graph 0.08\nset yrange [*:*]\n",
+            0.345 + place.up, 0.14 + place.up);
+    if (most > least)
+        fprintf(out, "set ytics %.9g\n", rb_report_round_step((most - least) / 4.0));
+    write_x_label(out, v);
+    fputs("plot ", out);
+    for (int k = 0; k < v->curves->n; k++)
+        fprintf(out, "%s$curve%d using 1:4 with %s linecolor rgb '%s' dashtype %s linewidth 2.6",
+                k > 0 ? ", " : "", k,
+                v->curves->curve[k].n <= FEW ? "linespoints pointtype 7 pointsize 0.7" : "lines",
+                rb_report_colour(k), rb_report_dashes(k));
+    fputs("\nunset multiplot\n", out);
+}
+
+/* The way back, where it is another one to the eye. */
+static int comes_back_otherwise(const view *v)
+{
+    for (int k = 0; k < v->curves->n; k++) {
+        const rb_rolling_curve *c = &v->curves->curve[k];
+        for (int i = c->rising; c->branch && i < c->n; i++) {
+            double nearest = INFINITY, there = NAN;
+            for (int j = 0; j < c->rising; j++)
+                if (fabs(c->creepage[j] - c->creepage[i]) < nearest) {
+                    nearest = fabs(c->creepage[j] - c->creepage[i]);
+                    there = c->force_ratio[j];
+                }
+            if (nearest <= 1e-9 * fabs(c->creepage[i]) && fabs(there - c->force_ratio[i]) > 2e-3)
+                return 1;
+        }
+    }
+    return 0;
+}
+
+static void write_band_title(FILE *out, const view *v, int titled)
+{
+    const rb_rolling_curve *c = &v->curves->curve[0];
+    double most = 0.0;
+
+    for (int k = 0; k < v->curves->n; k++)
+        for (int i = 0; i < v->curves->curve[k].n; i++)
+            most = fmax(most, half_width(v, k, i));
+    most *= v->y == RESISTANCE ? pow(10.0, v->exponent) : 1.0;
+    rb_report_band_title(out, v->curves->has_errors, most,
+                         v->y == FORCE ? rb_unit_name(c->units, "N/mm") : "", titled);
+}
+
+static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
+{
+    const view *v = context;
+    const rb_report_place place = rb_report_place_of(canvas);
+    for (int k = 0; k < v->curves->n; k++) {
+        const rb_rolling_curve *c = &v->curves->curve[k];
+        fprintf(out, "$curve%d << EOD\n", k);
+        /* In units of y; 0 where it was not asked for. */
+        for (int i = 0; i < c->n; i++)
+            fprintf(out, "%.9g %.9g %.9g %.9g\n", x_of(v, c, i), y_of(v, c, i, scale_of(v, k)),
+                    half_width(v, k, i), has_heat(v) ? c->max_temperature[i] : 0.0);
+        fputs("EOD\n", out);
+    }
+    if (draws_carter(v)) {
+        /* Carter's law as markers; ratio and creepage are proportional. */
+        enum { POINTS = 24 };
+        for (int k = 0; k < v->curves->n; k++) {
+            const rb_rolling_curve *c = &v->curves->curve[k];
+            const int last = c->n - 1;
+            fprintf(out, "$carter%d << EOD\n", k);
+            for (int i = 0; i <= POINTS; i++) {
+                const double t = (double)i / POINTS;
+                const double s = (1.0 - t) * c->creep_ratio[0] + t * c->creep_ratio[last];
+                fprintf(out, "%.9g %.9g\n", (1.0 - t) * x_of(v, c, 0) + t * x_of(v, c, last),
+                        -rb_closed_carter_force_ratio(s) *
+                            (v->y == FORCE_RATIO ? 1.0 : v->curves->mu[k]) *
+                            (v->y == FORCE ? c->normal_load[last] : 1.0));
+            }
+            fputs("EOD\n", out);
+        }
+    }
+    rb_report_room(out, 0.13 + place.right, 0.965, (has_heat(v) ? 0.39 : 0.14) + place.up,
+                   0.9 + place.up);
+    fputs(RB_REPORT_GRID "set offsets 0,0,graph 0.05,0\n" RB_REPORT_ZERO, out);
+    if (has_heat(v))
+        fputs("set multiplot\nset format x ''\n", out);
+    fprintf(out, "set key %s samplen 2.2 font ',%.3g'\n",
+            v->corner ? "left top Left reverse" : "right bottom", rb_report_key_font(canvas));
+    fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
+    if (v->above_0)
+        fputs("set yrange [0:*]\n", out);
+    write_labels(out, v, place.titled);
+    if (!has_heat(v))
+        write_x_label(out, v);
+    fputs("plot ", out);
+    for (int k = 0; k < v->curves->n && band_of(v, 0); k++) {
+        fprintf(out, "$curve%d using 1:($2-$3):($2+$3) every ::0::%d " RB_REPORT_BAND " ", k,
+                v->curves->curve[k].rising - 1, rb_report_colour(k));
+        if (k == 0)
+            write_band_title(out, v, place.titled);
+        else
+            fputs("notitle, ", out);
+    }
+    for (int k = 0; k < v->curves->n; k++)
+        fprintf(out,
+                "%s$curve%d using 1:2 every ::0::%d with %s linecolor rgb '%s' dashtype %s "
+                "linewidth 2.6 title 'μ %s %g'",
+                k > 0 ? ", " : "", k, v->curves->curve[k].rising - 1,
+                v->curves->curve[k].rising <= FEW ? "linespoints pointtype 7 pointsize 0.7"
+                                                  : "lines",
+                rb_report_colour(k), rb_report_dashes(k), v->curves->curve[k].branch ? "≤" : "=",
+                scale_of(v, k));
+    const int back = v->over != RB_OVER_SPEED && comes_back_otherwise(v);
+    for (int k = 0; k < v->curves->n && back; k++) {
+        const int first = v->curves->curve[k].rising;
+        const char *colour = rb_report_colour(v->curves->n + k);
+        if (v->curves->curve[k].branch && band_of(v, k))
+            fprintf(out, ", $curve%d using 1:($2-$3):($2+$3) every ::%d " RB_REPORT_BAND " notitle",
+                    k, first, colour);
+        if (v->curves->curve[k].branch)
+            fprintf(out,
+                    ", $curve%d using 1:2 every ::%d with lines linecolor rgb '%s' dashtype (2,3) "
+                    "linewidth 2.2 %s",
+                    k, first, colour, k == 0 ? "title 'on the way back'" : "notitle");
+    }
+    for (int k = 0; k < v->curves->n && draws_carter(v); k++)
+        fprintf(out,
+                ", $carter%d using 1:2 with points pointtype 6 pointsize %g linecolor rgb "
+                "'#111111' linewidth 1.1 %s",
+                k, 1.7 * rb_report_marker_scale(canvas), k == 0 ? "title 'Carter'" : "notitle");
+    fputs("\n", out);
+    if (has_heat(v))
+        write_heat(out, v, place);
+}
+
+rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas, const rb_rolling_case *rc,
+                                  const rb_report_curves *curves, rb_rolling_variable over,
+                                  rb_message *why)
+{
+    const int uncertain = curves->n > 0 && curves->curve[0].deviations;
+    view v = {.rc = rc,
+              .curves = curves,
+              .over = over == RB_OVER_CREEP_RATIO && curves->n > 1 ? RB_OVER_CREEP : over,
+              .y = over == RB_OVER_SPEED ? RESISTANCE
+                   : uncertain           ? FORCE
+                   : curves->n > 1       ? FORCE_OVER_LOAD
+                                         : FORCE_RATIO};
+    for (int k = 0; k < curves->n; k++)
+        if (curves->curve[k].n < 2 || (scale_of(&v, k) == 0.0 && over != RB_OVER_SPEED))
+            return rb_fail(why, RB_EINVAL, "no curve to draw at mu = %g", curves->mu[k]);
+    double largest = 0.0;
+    for (int k = 0; k < v.curves->n; k++) {
+        const rb_rolling_curve *c = &v.curves->curve[k];
+        for (int i = 0; i < c->n; i++)
+            largest = fmax(largest,
+                           fabs(v.over == RB_OVER_SPEED ? c->resistance_ratio[i] : c->creepage[i]));
+    }
+    v.exponent = rb_report_exponent(largest);
+    v.from = INFINITY;
+    v.to = -INFINITY;
+    double least = 0.0, most = -INFINITY, lowest = 0.0;
+    for (int k = 0; k < v.curves->n; k++)
+        for (int i = 0; i < v.curves->curve[k].n; i++) {
+            const double x = x_of(&v, &v.curves->curve[k], i);
+            const double y = y_of(&v, &v.curves->curve[k], i, scale_of(&v, k));
+            v.from = fmin(v.from, x);
+            v.to = fmax(v.to, x);
+            least = fmin(least, y);
+            most = fmax(most, y);
+            lowest = fmin(lowest, y - half_width(&v, k, i));
+        }
+    v.above_0 = lowest < 0.0 && lowest > -0.02 * most;
+    /* The key stands right below, left above if the curves leave it no room there. */
+    const double line = (canvas.size == RB_REPORT_85MM ? 0.05 : 0.035) * (has_heat(&v) ? 1.6 : 1.0);
+    const double wide = 0.5, high = 0.08 + line * (curves->n + 1.0);
+    int taken[2] = {0, 0};
+    for (int k = 0; k < curves->n; k++)
+        for (int i = 0; i < curves->curve[k].n; i++) {
+            const rb_rolling_curve *c = &curves->curve[k];
+            const double x = (x_of(&v, c, i) - v.from) / (v.to - v.from);
+            const double y = (y_of(&v, c, i, scale_of(&v, k)) - least) / (most - least);
+            taken[0] += x > 1.0 - wide && y < high;
+            taken[1] += x < wide && y > 1.0 - high;
+        }
+    v.corner = taken[0] > taken[1];
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why);
+}

@@ -1,0 +1,328 @@
+/* Pictures by gnuplot: script on its stdin, picture from its stdout, so that no file name
+ * ever enters a script or a shell. */
+#include "program/report/internal.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+extern char **environ;
+
+/* ---- The program ------------------------------------------------------------------- */
+
+/* A file without a name that gnuplot does not inherit. */
+static FILE *temporary(void)
+{
+    FILE *file = tmpfile();
+    if (file)
+        fcntl(fileno(file), F_SETFD, FD_CLOEXEC);
+    return file;
+}
+
+static rb_status no_temporary(rb_message *why)
+{
+    return errno == ENOMEM ? rb_fail(why, RB_ENOMEM, "out of memory")
+                           : rb_fail(why, RB_EWRITE, "temporary file: %s", strerror(errno));
+}
+
+/* -d: without the start-up files of the machine and of the user.  From its standard input
+ * gnuplot reads byte by byte, a system call for each; from a file of any name it reads in
+ * blocks. */
+static int spawn(FILE *script, FILE *picture, FILE *errors, pid_t *pid)
+{
+    char *const argv[] = {"gnuplot", "-d", "/dev/stdin", NULL};
+    posix_spawn_file_actions_t actions;
+    int e = posix_spawn_file_actions_init(&actions);
+    if (e)
+        return e;
+    e = posix_spawn_file_actions_adddup2(&actions, fileno(script), 0);
+    if (!e)
+        e = posix_spawn_file_actions_adddup2(&actions, fileno(picture), 1);
+    if (!e)
+        e = posix_spawn_file_actions_adddup2(&actions, fileno(errors), 2);
+    if (!e) {
+        /* Whatever else is open, by the caller of the library too, is none of gnuplot's
+         * business. */
+        enum { MOST = 4096 }; /* a limit of a thousand million is not unheard of */
+        const long limit = sysconf(_SC_OPEN_MAX);
+        e = 0;
+        for (int fd = 3; !e && fd < MOST && (limit < 0 || fd < limit); fd++)
+            if (fcntl(fd, F_GETFD) >= 0)
+                e = posix_spawn_file_actions_addclose(&actions, fd);
+    }
+    if (!e)
+        e = posix_spawnp(pid, argv[0], &actions, NULL, argv, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    return e;
+}
+
+static rb_status missing(int e, rb_message *why)
+{
+    if (e == ENOENT)
+        return rb_fail(why, RB_EHELPER,
+                       "gnuplot is not installed; pictures need it (package gnuplot-nox)");
+    if (e == ENOMEM)
+        return rb_fail(why, RB_ENOMEM, "gnuplot does not start: out of memory");
+    return rb_fail(why, RB_EHELPER, "gnuplot does not start: %s", strerror(e));
+}
+
+static rb_status wait_for(pid_t pid, double seconds, FILE *errors, rb_message *why)
+{
+    const struct timespec pause = {.tv_nsec = 2000000};
+    const double end = rb_seconds() + seconds;
+    int status;
+    pid_t ended;
+    while ((ended = waitpid(pid, &status, WNOHANG)) == 0 && rb_seconds() < end)
+        nanosleep(&pause, NULL);
+    if (ended == 0) {
+        kill(pid, SIGKILL);
+        waitpid(pid, &status, 0);
+        return rb_fail(why, RB_EHELPER, "gnuplot took longer than %g s", seconds);
+    }
+    if (ended < 0)
+        return rb_fail(why, RB_EHELPER, "gnuplot: %s", strerror(errno));
+    /* posix_spawn may report a missing program only by this exit status */
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
+        return missing(ENOENT, why);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+        /* The line that says what was wrong comes last, after the lines it points at. */
+        char line[200], last[200] = "no message";
+        rewind(errors);
+        while (fgets(line, sizeof line, errors)) {
+            line[strcspn(line, "\n")] = '\0';
+            if (line[strspn(line, " ^")])
+                memcpy(last, line, sizeof last);
+        }
+        return rb_fail(why, RB_EHELPER, "gnuplot failed: %s", last);
+    }
+    return RB_OK;
+}
+
+/* ---- The picture ------------------------------------------------------------------- */
+
+/* How a whole picture begins and ends, line ends apart. */
+static const struct {
+    const char *begin, *end;
+    size_t end_size;
+} whole[] = {{"\x89PNG\r\n\x1a\n", "IEND\xae\x42\x60\x82", 8},
+             {"<?xml", "</svg>", 6},
+             {"%PDF-", "%%EOF", 5}};
+
+/* gnuplot does not say that its output could not be written. */
+static int is_whole(FILE *picture, rb_report_picture_kind kind)
+{
+    char head[16] = "", tail[16];
+    rewind(picture);
+    if (fread(head, 1, strlen(whole[kind].begin), picture) == 0 ||
+        strcmp(head, whole[kind].begin) != 0 || fseek(picture, -(long)sizeof tail, SEEK_END) != 0 ||
+        fread(tail, 1, sizeof tail, picture) != sizeof tail)
+        return 0;
+    size_t n = sizeof tail;
+    while (kind != RB_REPORT_PNG && n > 0 && strchr("\r\n", tail[n - 1]))
+        n--;
+    const size_t size = whole[kind].end_size;
+    return n >= size && memcmp(tail + n - size, whole[kind].end, size) == 0;
+}
+
+rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double seconds, FILE *out,
+                            rb_message *why)
+{
+    FILE *picture = temporary(), *errors = picture ? temporary() : NULL;
+    rb_status s = RB_OK;
+    if (!errors || fflush(script) != 0 || ferror(script))
+        s = no_temporary(why);
+    else {
+        pid_t pid;
+        rewind(script);
+        const int e = spawn(script, picture, errors, &pid);
+        s = e ? missing(e, why) : wait_for(pid, seconds, errors, why);
+        if (s == RB_OK && !is_whole(picture, kind))
+            s = rb_fail(why, RB_EWRITE,
+                        "gnuplot wrote a part of the picture only (is the disk full?)");
+    }
+    if (s == RB_OK) {
+        char buffer[1 << 14];
+        size_t n;
+        rewind(picture);
+        while ((n = fread(buffer, 1, sizeof buffer, picture)) > 0 && fwrite(buffer, 1, n, out) == n)
+            ;
+        if (ferror(picture) || ferror(out))
+            s = rb_fail(why, RB_EWRITE, "cannot write: %s", strerror(errno));
+    }
+    if (errors)
+        fclose(errors);
+    if (picture)
+        fclose(picture);
+    return s;
+}
+
+/* ---- Kinds and shapes -------------------------------------------------------------- */
+
+rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *kind, rb_message *why)
+{
+    static const char *const ends[] = {".png", ".svg", ".pdf"};
+    const size_t n = strlen(path);
+    for (int k = 0; k < 3; k++)
+        if (n > 4 && strcmp(path + n - 4, ends[k]) == 0) {
+            *kind = (rb_report_picture_kind)k;
+            return RB_OK;
+        }
+    return rb_fail(why, RB_EINVAL, "expected a name ending in .png, .svg or .pdf, got '%s'", path);
+}
+
+enum { SHAPES = 4 };
+
+/* Each shape in its own size: width and height in `unit`, of which an inch has so many.
+ * The key needs its font named: svg would take a larger one. */
+static const struct {
+    const char *terminal, *unit;
+    double inch, width[SHAPES], height[SHAPES], font[SHAPES], line[SHAPES], key_font;
+} looks[] = {{"pngcairo",
+              "",
+              300,
+              {1600, 1800, 1920, 1920},
+              {1200, 750, 1080, 1080},
+              {24, 20, 24, 24},
+              {2.2, 2.2, 2.0, 2.0},
+              24},
+             {"svg",
+              "",
+              96,
+              {1000, 1200, 1280, 1280},
+              {750, 500, 720, 720},
+              {18, 14, 18, 18},
+              {1.5, 1.5, 1.4, 1.4},
+              15},
+             {"pdfcairo",
+              "in",
+              1,
+              {10, 12, 13.33, 13.33},
+              {7.5, 5, 7.5, 7.5},
+              {21, 19, 20, 20},
+              {1.6, 1.6, 1.5, 1.5},
+              21}};
+
+/* Sizes that are asked for: width, 0: that of a screen; letters are so much larger, as a
+ * part of the width, than in the shape's own size (alike: in four thirds, so that they
+ * are as large in every picture); width over height, 0: the shape's.  In a column panels
+ * that are side by side elsewhere lie below each other. */
+static const struct {
+    double inches, letters, ratio[SHAPES];
+    int alike;
+} sizes[] = {[RB_REPORT_85MM] = {85 / 25.4, 1.65, {1.0, 0.82, 1.0, 0.6}, 1},
+             [RB_REPORT_170MM] = {170 / 25.4, 1.0, {0.0}, 0},
+             [RB_REPORT_SLIDE] = {0.0, 0.85, {16.0 / 9.0, 16.0 / 9.0, 16.0 / 9.0, 16.0 / 9.0}, 1}};
+
+typedef struct {
+    double width, height, letters; /* letters: against those of the shape's own size */
+} extent;
+
+static extent extent_of(rb_report_canvas canvas, rb_report_shape shape)
+{
+    const double width = looks[canvas.kind].width[shape];
+    const double height = looks[canvas.kind].height[shape];
+    if (canvas.size == RB_REPORT_OWN_SIZE)
+        return (extent){width, height, 1.0};
+    const double inches = sizes[canvas.size].inches;
+    const double wanted = inches > 0.0 ? inches * looks[canvas.kind].inch
+                                       : looks[canvas.kind].width[RB_REPORT_SCREEN];
+    const double ratio = sizes[canvas.size].ratio[shape];
+    const int like = sizes[canvas.size].alike ? RB_REPORT_FOUR_THIRDS : (int)shape;
+    return (extent){wanted, ratio > 0.0 ? wanted / ratio : wanted * height / width,
+                    sizes[canvas.size].letters * wanted / looks[canvas.kind].width[like] *
+                        looks[canvas.kind].font[like] / looks[canvas.kind].font[shape]};
+}
+
+double rb_report_key_font(rb_report_canvas canvas)
+{
+    return looks[canvas.kind].key_font * extent_of(canvas, RB_REPORT_FOUR_THIRDS).letters;
+}
+
+const char *rb_report_colour(int k)
+{
+    static const char *const colours[] = {"#1f4e79", "#c0392b", "#b9770e", "#6c3483",
+                                          "#117864", "#5d6d7e", "#7b241c", "#2e86c1"};
+    return colours[k % 8];
+}
+
+double rb_report_marker_scale(rb_report_canvas canvas)
+{
+    return canvas.kind == RB_REPORT_SVG ? 0.45 : 1.0;
+}
+
+const char *rb_report_zone_colour(int zone, int pale)
+{
+    static const char *const colours[][2] = {[RB_ZONE_SEPARATED] = {"#9a9a9a", "#f3f3f3"},
+                                             [RB_ZONE_STICK] = {"#2c7a57", "#d9ebe2"},
+                                             [RB_ZONE_SLIP_NEGATIVE] = {"#c4501b", "#fae3d6"},
+                                             [RB_ZONE_SLIP_POSITIVE] = {"#8a3fa0", "#ecdff1"},
+                                             [RB_ZONE_YIELD_NEGATIVE] = {"#8c6a00", "#f3ecd0"},
+                                             [RB_ZONE_YIELD_POSITIVE] = {"#b0305c", "#f6dde6"}};
+    return colours[zone][pale != 0];
+}
+
+const char *rb_report_dashes(int k)
+{
+    static const char *const types[] = {"solid",     "(9,4)",  "(3,3)",
+                                        "(9,3,3,3)", "(14,3)", "(6,2,2,2,2,2)"};
+    return types[k % 6];
+}
+
+void rb_report_letters_in(rb_report_canvas canvas, rb_report_shape shape, double font,
+                          double letters[2])
+{
+    const extent e = extent_of(canvas, shape);
+    const double points = canvas.kind == RB_REPORT_PDF ? 72.0 : 1.0;
+    letters[0] = e.width * points / font;
+    letters[1] = e.height * points / font;
+}
+
+double rb_report_width_over_height(rb_report_canvas canvas, rb_report_shape shape)
+{
+    const extent e = extent_of(canvas, shape);
+    return e.width / e.height;
+}
+
+rb_report_place rb_report_place_of(rb_report_canvas canvas)
+{
+    return canvas.size == RB_REPORT_85MM ? (rb_report_place){0, 0.065, 0.045}
+                                         : (rb_report_place){1, 0.0, 0.0};
+}
+
+void rb_report_room(FILE *script, double left, double right, double bottom, double top)
+{
+    fprintf(script,
+            "set lmargin at screen %g\nset rmargin at screen %g\n"
+            "set bmargin at screen %g\nset tmargin at screen %g\n",
+            left, right, bottom, top);
+}
+
+rb_status rb_report_draw(FILE *out, rb_report_canvas canvas, rb_report_shape shape,
+                         rb_report_script *script, const void *view, rb_message *why)
+{
+    enum { SECONDS = 120 }; /* the largest picture takes one or two */
+    const extent e = extent_of(canvas, shape);
+    const int k = canvas.kind;
+    FILE *file = canvas.script ? out : temporary();
+    if (!file)
+        return no_temporary(why);
+    void *before = rb_locale_begin();
+    fprintf(file,
+            "set encoding utf8\nset terminal %s size %.4g%s,%.4g%s font 'DejaVu "
+            "Sans,%.3g' linewidth %.3g background '#ffffff' enhanced\nset tics out "
+            "nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n",
+            looks[k].terminal, e.width, looks[k].unit, e.height, looks[k].unit,
+            looks[k].font[shape] * e.letters, looks[k].line[shape] * e.letters);
+    script(file, canvas, view);
+    rb_locale_end(before);
+    if (canvas.script)
+        return rb_report_flush(out);
+    const rb_status s = rb_report_gnuplot(file, canvas.kind, SECONDS, out, why);
+    fclose(file);
+    return s;
+}

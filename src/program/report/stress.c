@@ -1,0 +1,147 @@
+/* Subsurface stress: table, JSON, summary. */
+#include "program/report/internal.h"
+
+#include <jansson.h>
+#include <math.h>
+
+int rb_report_stress_is_inside(const rb_report_stress *s, int k)
+{
+    return !s->inside || s->inside[k];
+}
+
+/* ---- Maxima ------------------------------------------------------------------------ */
+
+/* The k-th of the largest values, in the first of its three rows; NULL: no more. */
+static const rb_rolling_result *maximum(int k)
+{
+    return 3 * k < rb_rolling_maxima_scalars.n ? &rb_rolling_maxima_scalars.row[3 * k] : NULL;
+}
+
+static rb_rolling_extremum extremum(const rb_rolling_stress_maxima *all, int k)
+{
+    const rb_rolling_result *r = maximum(k);
+    return (rb_rolling_extremum){rb_rolling_number(r, all), rb_rolling_number(r + 1, all),
+                                 rb_rolling_number(r + 2, all)};
+}
+
+/* "value +- error" with so many digits; 0 where it is below rounding. */
+static const char *quantity(double value, double rounding, int digits, const double *error,
+                            char text[48])
+{
+    const int known = error && isfinite(*error);
+    const int n = snprintf(text, 48, "%.*g", digits, fabs(value) < rounding ? 0.0 : value);
+    if (known)
+        snprintf(text + n, 48 - (size_t)n, " +- %.2g", *error);
+    return text;
+}
+
+static const char *maximum_text(const rb_report_stress *s, int k, char *line, size_t size)
+{
+    const rb_rolling_extremum of = extremum(s->maxima, k), *m = &of;
+    const rb_rolling_extremum bar = s->errors ? extremum(s->errors, k) : of;
+    const rb_rolling_extremum *e = s->errors ? &bar : NULL;
+    /* a place is searched for until it is known to about a millionth of the half-width */
+    const double place = 1e-6 * s->s->half_width, p0 = s->s->max_pressure;
+    char value[48], x[48], y[48];
+    snprintf(line, size, "%-24s %s %s at x = %s, y = %s %s; %.5g p0", maximum(k)->meaning,
+             quantity(m->value, 1e-12 * p0, 6, e ? &e->value : NULL, value),
+             rb_unit_name(s->s->units, "MPa"), quantity(m->x, place, 4, e ? &e->x : NULL, x),
+             quantity(m->y, place, 4, e ? &e->y : NULL, y), rb_unit_name(s->s->units, "mm"),
+             fabs(m->value) < 1e-12 * p0 ? 0.0 : m->value / p0);
+    return line;
+}
+
+/* The largest p0 that shakes down, and where the case stands against it. */
+static const char *shakedown_text(const rb_report_stress *s, char *line, size_t size)
+{
+    const rb_rolling_shakedown *d = s->shakedown;
+    const double limit = s->s->max_pressure / d->shear_yield;
+    const double own = s->s->max_pressure / s->yield_shear;
+    const int n = snprintf(line, size, "%-24s p0 <= %.5g k, decided at x = %.4g %s, y = %.4g %s",
+                           "shakedown", limit, d->x, rb_unit_name(s->s->units, "mm"), d->y,
+                           rb_unit_name(s->s->units, "mm"));
+    if (isfinite(own))
+        snprintf(line + n, size - (size_t)n, "; here p0 = %.5g k: %s", own,
+                 own <= limit ? "shakes down" : "does not shake down");
+    return line;
+}
+
+void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
+{
+    void *before = rb_locale_begin();
+    char line[400];
+    fprintf(out, "stress in A under p0 = %.6g %s, a = %.5g %s\n", s->s->max_pressure,
+            rb_unit_name(s->s->units, "MPa"), s->s->half_width, rb_unit_name(s->s->units, "mm"));
+    for (int k = 0; maximum(k); k++)
+        fprintf(out, "  %s\n", maximum_text(s, k, line, sizeof line));
+    if (s->shakedown)
+        fprintf(out, "  %s\n", shakedown_text(s, line, sizeof line));
+    rb_locale_end(before);
+}
+
+/* ---- Table ------------------------------------------------------------------------- */
+
+static rb_report_columns columns_of(const rb_report_stress *s)
+{
+    return (rb_report_columns){&rb_rolling_stress_scalars, s->at, 0, s->s->units, sizeof *s->at};
+}
+
+rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s, const char *command,
+                                 const rb_report_style *style)
+{
+    const rb_report_columns columns = columns_of(s);
+    char line[400];
+    rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
+
+    rb_report_comment_notes(&c, s->rc, s->s);
+    rb_report_comment(&c, "tension positive; y > 0 inside A; the grid follows A's surface");
+    for (int k = 0; maximum(k); k++)
+        rb_report_comment(&c, "%s", maximum_text(s, k, line, sizeof line));
+    if (s->shakedown)
+        rb_report_comment(&c, "%s", shakedown_text(s, line, sizeof line));
+    for (int k = 0; k < s->n; k++) {
+        if (!rb_report_stress_is_inside(s, k))
+            continue;
+        rb_report_cell_entries(&c, k, 1, &columns);
+        rb_report_cells_end_row(&c);
+    }
+    return rb_report_flush(out);
+}
+
+/* ---- JSON -------------------------------------------------------------------------- */
+
+static json_t *json_extremum(rb_rolling_extremum m)
+{
+    return rb_report_json_named(3, (rb_report_named[]){{"value", m.value}, {"x", m.x}, {"y", m.y}});
+}
+
+void rb_report_json_stress(json_t **root, const rb_report_stress *s)
+{
+    const rb_report_columns columns = columns_of(s);
+    json_t *points = json_object();
+    rb_report_json_set(root, "depth", rb_report_json_number(s->depth > 0.0 ? s->depth : NAN));
+    json_t *all = json_object();
+    for (int k = 0; maximum(k); k++) {
+        json_t *one = json_extremum(extremum(s->maxima, k));
+        if (s->errors)
+            rb_report_json_set(&one, "errors", json_extremum(extremum(s->errors, k)));
+        rb_report_json_set(&all, maximum(k)->name, one);
+    }
+    rb_report_json_set(root, "maxima", all);
+    if (s->shakedown) {
+        const rb_rolling_shakedown *d = s->shakedown;
+        const rb_report_named numbers[] = {{"limit", s->s->max_pressure / d->shear_yield},
+                                           {"shear_yield", d->shear_yield},
+                                           {"x", d->x},
+                                           {"y", d->y},
+                                           {"residual", d->residual},
+                                           {"yield_shear", s->yield_shear}};
+        rb_report_json_set(root, "shakedown", rb_report_json_named(6, numbers));
+    }
+    if (s->nx > 0) {
+        rb_report_json_set(&points, "nx", json_integer(s->nx));
+        rb_report_json_set(&points, "ny", json_integer(s->ny));
+    }
+    rb_report_json_columns(&points, s->n, &columns, 1);
+    rb_report_json_set(root, s->nx > 0 ? "grid" : "points", points);
+}

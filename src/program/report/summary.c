@@ -1,0 +1,163 @@
+/* Summary of a solution in a few lines, and the notes on how to read it. */
+#include "program/report/internal.h"
+#include "rollbem/case.h"
+#include "rollbem/blas.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- Strip ------------------------------------------------------------------------ */
+
+enum { MARGIN = 3 }; /* separated elements shown beside the contact */
+
+static int is_contact(const rb_rolling_solution *s, int i)
+{
+    return s->zone[i] != RB_ZONE_SEPARATED;
+}
+
+void rb_report_strip(const rb_rolling_solution *s, int width, char *strip)
+{
+    static const char marks[] = "oS|*", mark[] = "o*SS||"; /* mark: of each zone */
+    /* Elements first .. last - 1: the contact and a margin, or all without contact. */
+    int first = 0, last = s->n, at = 0;
+    while (first < s->n && !is_contact(s, first))
+        first++;
+    if (first == s->n)
+        first = 0;
+    else {
+        while (!is_contact(s, last - 1))
+            last--;
+        first = first > MARGIN ? first - MARGIN : 0;
+        last = last + MARGIN < s->n ? last + MARGIN : s->n;
+    }
+    const int shown = last - first;
+    const int room = width - 2;
+    const int n = shown < room ? shown : room;
+    strip[at++] = '.';
+    for (int k = 0; k < n; k++) {
+        const int from = first + (int)((long)shown * k / n);
+        const int to = first + (int)((long)shown * (k + 1) / n);
+        /* The commonest mark of these elements. */
+        int count[4] = {0}, best = 0;
+        for (int i = from; i < to; i++)
+            count[strchr(marks, mark[s->zone[i]]) - marks]++;
+        for (int j = 1; j < 4; j++)
+            if (count[j] >= count[best])
+                best = j;
+        strip[at++] = marks[best];
+    }
+    strip[at++] = '.';
+    strip[at] = '\0';
+}
+
+/* ---- Summary ---------------------------------------------------------------------- */
+
+double rb_report_tidy(double x, double size)
+{
+    return fabs(x) <= 1e-12 * fabs(size) ? 0.0 : x;
+}
+
+void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
+{
+    void *before = rb_locale_begin();
+    const int newton = s->solver == RB_SOLVER_NEWTON;
+    fprintf(out, "%s: %s by ", rb_case_word("formulation", (int)s->formulation),
+            rb_status_text(s->status));
+    if (s->solver == RB_SOLVER_CONE)
+        fprintf(out, "%s, %d iterations", rb_report_solver(s), s->iterations);
+    else if (newton)
+        fprintf(out, "Newton%s, %d steps", s->large ? " with Fourier transforms" : "",
+                s->iterations);
+    else
+        fprintf(out, "Lemke (%s form), %d pivots", rb_case_word("lcp-form", (int)s->lcp_form),
+                s->iterations);
+    fprintf(out, ", residual %.2g\n", s->residual);
+    const char *load = rb_unit_name(s->units, "N/mm"), *mm = rb_unit_name(s->units, "mm"),
+               *stress = rb_unit_name(s->units, "MPa");
+    fprintf(out, "  load      P = %.6g %s, Q = %.6g %s", s->normal_load, load,
+            rb_report_tidy(s->tangential_load, s->normal_load), load);
+    if (!isnan(s->force_ratio))
+        fprintf(out, ", Q/(mu P) = %.5g", rb_report_tidy(s->force_ratio, 1.0));
+    fputc('\n', out);
+    if (s->contact > 0)
+        fprintf(out, "  contact   %.5g ... %.5g %s, p0 = %.6g %s, approach %.5g %s\n",
+                s->contact_from, s->contact_to, mm, s->max_pressure, stress, s->approach, mm);
+    for (int k = 0; k < s->patches && s->patches > 1; k++)
+        fprintf(out, "  patch %-3d %.5g ... %.5g %s, p0 = %.6g %s, P = %.6g %s\n", k + 1,
+                s->patch[k].from, s->patch[k].to, mm, s->patch[k].max_pressure, stress,
+                s->patch[k].normal_load, load);
+    const int moves = !isnan(s->creepage) && (s->formulation != RB_STATIC || s->creepage != 0.0);
+    if (s->formulation == RB_STATIC && !isnan(s->tangential_shift))
+        fprintf(out, "  shift     %.6g %s\n", s->tangential_shift, rb_unit_name(s->units, "mm"));
+    if (moves) {
+        fprintf(out, "  creepage  xi = %.6g", s->creepage);
+        if (!isnan(s->creep_ratio))
+            fprintf(out, ", xi R/(mu a) = %.5g", s->creep_ratio);
+        if (!isnan(s->free_creepage)) {
+            const int zero = fabs(s->free_creepage) <= 1e-12 + 1e-9 * fabs(s->creepage);
+            fprintf(out, ", free rolling at %.5g", zero ? 0.0 : s->free_creepage);
+        } else if (s->formulation == RB_STEADY && !isnan(s->creep_ratio)) {
+            fputs(", free rolling not found", out);
+        }
+        fputc('\n', out);
+        if (!isnan(s->dissipation))
+            fprintf(out, "  power     %.5g %s dissipated, per unit speed\n",
+                    rb_report_tidy(s->dissipation, s->normal_load), load);
+        if (s->hysteresis > 0.0)
+            fprintf(out,
+                    "  resists   M = %.5g %s, M/(P R) = %.5g, hysteresis %.5g %s per unit speed\n",
+                    s->resistance_moment, rb_unit_name(s->units, "N"), s->resistance_ratio,
+                    s->hysteresis, load);
+        if (s->hysteresis > 0.0) {
+            const double lever = s->normal_load * s->half_width;
+            fprintf(out, "  torque    %.5g %s on A's axle", rb_report_tidy(s->torque_a, lever),
+                    rb_unit_name(s->units, "N"));
+            if (!isnan(s->torque_b))
+                fprintf(out, ", %.5g %s on B's", rb_report_tidy(s->torque_b, lever),
+                        rb_unit_name(s->units, "N"));
+            fputs(", > 0: it drives\n", out);
+        }
+    }
+    if (!isnan(s->max_temperature))
+        fprintf(out, "  heat      %.5g K at x = %.4g %s at most, Peclet number %.3g\n",
+                s->max_temperature, s->max_temperature_at, rb_unit_name(s->units, "mm"), s->peclet);
+    enum { LONGEST = 200 };
+    char strip[LONGEST + 1];
+    const int room = width - 13 < LONGEST ? width - 13 : LONGEST;
+    fprintf(out, "  elements  %d: %d stick, %d slip, ", s->n, s->stick, s->slipping);
+    if (s->yielding >= 0)
+        fprintf(out, "%d of them yield, ", s->yielding);
+    fprintf(out, "%d separated", s->n - s->contact);
+    if (s->stick > 0) {
+        const double between = s->stick_to - s->stick_from;
+
+        const double least = 1e-12 * between; /* below it an end is rounding about 0 */
+        fprintf(out, "; stick %.5g ... %.5g %s", fabs(s->stick_from) > least ? s->stick_from : 0.0,
+                fabs(s->stick_to) > least ? s->stick_to : 0.0, mm);
+        if (s->stick_length < (1.0 - 1e-9) * between)
+            fprintf(out, ", %.5g of these %.5g %s", s->stick_length, between, mm);
+    }
+    rb_report_strip(s, room < 8 ? 8 : room, strip);
+    fprintf(out, "\n            %s\n", strip);
+    /* What it ran on: where it was slow, this says why. */
+    fprintf(out, "  computed  in %.3g s", s->seconds_total);
+    if (s->boundary_elements > 0)
+        fprintf(out, "; %d boundary elements (%s, %s)", s->boundary_elements,
+                s->hierarchical ? "hierarchical" : "dense", rb_bem_vector_name());
+    fprintf(out, "; BLAS %s\n", rb_blas_core());
+    rb_locale_end(before);
+}
+
+void rb_report_solutions(FILE *out, const rb_rolling_solutions *all)
+{
+    fprintf(out, "%d solution%s from %d starts, %d of which did not converge\n", all->n,
+            all->n == 1 ? "" : "s that differ", all->starts, all->failed);
+    for (int k = 0; k < all->n; k++) {
+        const rb_rolling_solution *s = &all->solution[k];
+        fprintf(out,
+                "  %-3d Q/(mu P) = %.6g, %d stick, %d slip, stick %.5g ... %.5g %s, "
+                "residual %.2g\n",
+                k + 1, s->force_ratio, s->stick, s->slipping, s->stick_from, s->stick_to,
+                rb_unit_name(s->units, "mm"), s->residual);
+    }
+}

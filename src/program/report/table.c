@@ -1,0 +1,22 @@
+/* The traction table. */
+#include "program/report/internal.h"
+#include "rollbem/case.h"
+
+rb_status rb_report_table(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s,
+                          const char *command, const rb_report_style *style)
+{
+    const rb_report_columns columns = {&rb_rolling_solution_columns, s, 0, s->units, 0};
+    rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
+
+    rb_report_comment(&c, "%s, %s; residual %.3g", rb_case_word("formulation", (int)s->formulation),
+                      rb_status_text(s->status), s->residual);
+    for (int k = 0; k < s->patches && s->patches > 1; k++)
+        rb_report_comment(&c, "patch %d: from %.9g to %.9g %s, p0 = %.9g %s, P = %.9g, Q = %.9g %s",
+                          k + 1, s->patch[k].from, s->patch[k].to, rb_unit_name(s->units, "mm"),
+                          s->patch[k].max_pressure, rb_unit_name(s->units, "MPa"),
+                          s->patch[k].normal_load, s->patch[k].tangential_load,
+                          rb_unit_name(s->units, "N/mm"));
+    if (rc)
+        rb_report_comment_notes(&c, rc, s);
+    return rb_report_end_columns(&c, s->n, 1, &columns);
+}

@@ -1,0 +1,189 @@
+/* Wear: table of the steps, JSON, summary, picture of pressure and depth. */
+#include "program/report/internal.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static rb_report_columns columns_of(const rb_rolling_wear_history *h)
+{
+    return (rb_report_columns){&rb_rolling_wear_columns, h, 0, h->units, 0};
+}
+
+/* What the way counts, and what the work of friction is per. */
+typedef struct {
+    char way[20], work[20];
+} wear_words;
+
+static wear_words words_of(const rb_rolling_wear_history *h)
+{
+    const char *mm = rb_unit_name(h->units, "mm");
+    wear_words words = {"cycles", "cycle"};
+
+    if (h->slides) {
+        snprintf(words.way, sizeof words.way, "%s slid", mm);
+        memcpy(words.work, words.way, sizeof words.work);
+    } else if (h->rolls) {
+        snprintf(words.way, sizeof words.way, "turns");
+        snprintf(words.work, sizeof words.work, "rolled %s", mm);
+    }
+    return words;
+}
+
+rb_status rb_report_wear_table(FILE *out, const rb_report_wear *w, const char *command,
+                               const rb_report_style *style)
+{
+    const rb_report_columns columns = columns_of(w->history);
+    const wear_words words = words_of(w->history);
+    rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
+
+    rb_report_comment(&c, "way: %s; work: of friction per %s", words.way, words.work);
+    return rb_report_end_columns(&c, w->history->n, 1, &columns);
+}
+
+json_t *rb_report_json_wear(const rb_report_wear *w)
+{
+    const rb_report_columns columns = columns_of(w->history);
+    json_t *wear = json_object();
+
+    rb_report_json_columns(&wear, w->history->n, &columns, 0);
+    return wear;
+}
+
+void rb_report_wear_summary(FILE *out, const rb_report_wear *w)
+{
+    void *before = rb_locale_begin();
+    const rb_rolling_wear_history *h = w->history;
+    const int last = h->n - 1;
+    const char *mm = rb_unit_name(h->units, "mm"), *MPa = rb_unit_name(h->units, "MPa");
+
+    fprintf(out, "wear: %d steps, %.5g %s\n", last, h->way[last], words_of(h).way);
+    fprintf(out, "  worn      %.6g %s3 per %s of width, at most %.5g %s deep\n", h->worn[last], mm,
+            mm, h->max_depth[last], mm);
+    if (h->worn_b)
+        fprintf(out, "  worn of B %.6g %s3 per %s of width, %s %.5g %s deep\n", h->worn_b[last], mm,
+                mm, h->slides || (h->rolls && !h->radius_b) ? "in one passage" : "at most",
+                h->max_depth_b[last], mm);
+    fprintf(out, "  contact   %.5g ... %.5g %s, before %.5g ... %.5g %s\n", h->contact_from[last],
+            h->contact_to[last], mm, h->contact_from[0], h->contact_to[0], mm);
+    fprintf(out, "  p0        %.6g %s, before %.6g %s; residual %.2g\n", h->max_pressure[last], MPa,
+            h->max_pressure[0], MPa, h->residual[last]);
+    rb_locale_end(before);
+}
+
+/* ---- What a picture keeps ---------------------------------------------------------- */
+
+void rb_report_wear_free(rb_report_wear *w)
+{
+    for (int k = 0; k < w->profiles; k++)
+        free(w->profile[k].x);
+    w->profiles = 0;
+}
+
+/* The first step, the last one, and in between those nearest to equal parts of the way. */
+rb_status rb_report_wear_keep(rb_report_wear *w, const rb_rolling_solution *s,
+                              const rb_rolling_wear_history *h, int step, int steps)
+{
+    const long parts = RB_REPORT_WEAR_PROFILES - 1;
+
+    if ((step > 0 && step * parts / steps == (step - 1) * parts / steps) ||
+        w->profiles == RB_REPORT_WEAR_PROFILES)
+        return RB_OK;
+    const double way = h->slides ? rb_unit_shown(s->units, "mm", h->way[step]) : h->way[step];
+    const double depth = rb_unit_shown(s->units, "mm", h->max_depth[step]);
+    rb_report_wear_profile *p = &w->profile[w->profiles++];
+    const size_t n = (size_t)s->n;
+
+    *p = (rb_report_wear_profile){.n = s->n, .way = way, .x = rb_alloc(n, 3)};
+    if (!p->x)
+        return RB_ENOMEM;
+    p->p = p->x + n;
+    p->depth = p->p + n;
+    memcpy(p->x, s->x, n * sizeof *p->x);
+    memcpy(p->p, s->p, n * sizeof *p->p);
+    for (size_t i = 0; i < n; i++)
+        p->depth[i] = s->worn ? s->worn[i] : depth;
+    return RB_OK;
+}
+
+/* ---- Picture ----------------------------------------------------------------------- */
+
+static void write_panel(FILE *out, const rb_report_wear *w, int column)
+{
+    fputs("plot ", out);
+    for (int k = 0; k < w->profiles; k++)
+        fprintf(out,
+                "%s$profile%d using 1:%d with lines linecolor rgb '%s' dashtype %s linewidth 1.8 "
+                "title '%s'",
+                k > 0 ? ", " : "", k, column, rb_report_colour(k), rb_report_dashes(k),
+                RB_REPORT_NUMBER(w->profile[k].way, 5));
+    fputc('\n', out);
+}
+
+static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
+{
+    const rb_report_wear *w = context;
+    const rb_report_place place = rb_report_place_of(canvas);
+    const rb_rolling_wear_history *h = w->history;
+    const int last = h->n - 1;
+    const double half = 0.5 * (h->contact_to[last] - h->contact_from[last]);
+    const rb_report_unit length = rb_report_axis_unit(h->units, "mm", half);
+    const rb_report_unit stress =
+        rb_report_axis_unit(h->units, "MPa", fmax(h->max_pressure[0], 0.0));
+    /* Depths are shown in a small unit. */
+    static const rb_report_unit all[] = {[RB_UNITS_MM] = {1e-3, "µm"},
+                                         [RB_UNITS_SI] = {1e-6, "µm"},
+                                         [RB_UNITS_INCH] = {1e-3, "mil"}};
+    const rb_report_unit depth = all[h->units];
+    const double from = fmin(h->contact_from[0], h->contact_from[last]) / length.size;
+    const double to = fmax(h->contact_to[0], h->contact_to[last]) / length.size;
+    const char *mm = rb_unit_name(h->units, "mm");
+    const wear_words words = words_of(h);
+
+    for (int k = 0; k < w->profiles; k++) {
+        const rb_report_wear_profile *p = &w->profile[k];
+        fprintf(out, "$profile%d << EOD\n", k);
+        for (int i = 0; i < p->n; i++)
+            fprintf(out, "%.9g %.9g %.9g\n", p->x[i] / length.size, p->p[i] / stress.size,
+                    -p->depth[i] / depth.size);
+        fputs("EOD\n", out);
+    }
+    fprintf(out,
+            "set multiplot\nset lmargin at screen %g\nset rmargin at screen 0.965\n" RB_REPORT_GRID
+            "set format x ''\n",
+            0.14 + place.right);
+    fprintf(out,
+            "set xrange [%.9g:%.9g]\nset key at screen 0.965, %g right horizontal maxrows 1 "
+            "samplen 1.5 font ',%.3g'\nset label 2 '%s:' at screen %g, %g left\n",
+            from - 0.1 * (to - from), to + 0.1 * (to - from), 0.91 + 1.6 * place.up,
+            rb_report_key_font(canvas), words.way, 0.14 - place.right, 0.897 + place.up);
+    if (place.titled)
+        fprintf(out,
+                "set label 1 '{/:Bold Wear}   P = %s %s,  %s %s^3/%s worn after %s %s' at "
+                "screen 0.54, 0.955 center\n",
+                RB_REPORT_NUMBER(h->normal_load[last], 5), rb_unit_name(h->units, "N/mm"),
+                RB_REPORT_NUMBER(h->worn[last], 4), mm, mm, RB_REPORT_NUMBER(h->way[last], 5),
+                words.way);
+    fprintf(out,
+            "set tmargin at screen 0.87\nset bmargin at screen 0.54\n"
+            "set yrange [0:*]\nset label 3 'pressure  [%s]' at screen 0.03, 0.705 center rotate\n",
+            stress.name);
+    write_panel(out, w, 2);
+    fprintf(out,
+            "unset label\nunset key\nset tmargin at screen 0.50\nset bmargin at screen 0.13\nset "
+            "format x '%%g'\nset yrange [*:*]\nset offsets 0,0,0,graph 0.05\n"
+            "set label 3 'worn off  [%s]' at screen 0.03, 0.315 center rotate\n"
+            "set xlabel 'x [%s]' offset 0,0.3\n",
+            depth.name, length.name);
+    write_panel(out, w, 3);
+    fputs("unset multiplot\n", out);
+}
+
+rb_status rb_report_wear_picture(FILE *out, rb_report_canvas canvas, const rb_report_wear *w,
+                                 rb_message *why)
+{
+    if (w->profiles < 1)
+        return rb_fail(why, RB_EINVAL, "nothing to draw");
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, w, why);
+}

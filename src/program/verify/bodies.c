@@ -1,0 +1,227 @@
+/* References for the elastic body alone and for the stress below a contact. */
+#include "program/verify/internal.h"
+
+#include "rollbem/closed_forms.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* ---- A thick ring ------------------------------------------------------------------ */
+
+enum { RING = 240 };
+
+static const double inner = 1.0, outer = 2.0, pressure = 1.0;
+
+/* Lame: u = A r + B/r with u(outer) = 0 and s_rr(inner) = -pressure. */
+static void ring(rb_verify *v, rb_bem_plane plane)
+{
+    const double E = 2.6, nu = 0.3, c = E / (1.0 + nu);
+    const double k =
+        (1.0 + nu) / (plane == RB_PLANE_STRESS ? 1.0 - nu : (1.0 + nu) * (1.0 - 2.0 * nu));
+    const char *name = plane == RB_PLANE_STRESS ? ", plane stress" : "";
+    /* s_rr = c (A k - B/r^2), A = -B/outer^2 */
+    const double B = pressure / c / (k / (outer * outer) + 1.0 / (inner * inner));
+    const double u_inner = B / inner - B * inner / (outer * outer);
+    const double s_outer = -c * B * (k + 1.0) / (outer * outer);
+    /* constant elements on a polygon are of first order: 0.43/n was measured */
+    const double bound = 0.6 / RING;
+    double u[4 * RING], t[4 * RING];
+    rb_message why = {""};
+    const rb_bem_material material = rb_bem_material_in_plane(plane, E, nu);
+    rb_bem_mesh mesh;
+    rb_bem_system *system = NULL;
+    rb_status s = rb_bem_mesh_alloc(2 * RING, &mesh);
+    for (int j = 0; j < 2 * RING && s == RB_OK; j++) {
+        /* The outer contour counter-clockwise and held, the inner one clockwise under
+         * pressure. */
+        const int is_outer = j < RING;
+        const double R = is_outer ? outer : inner, turn = is_outer ? 1.0 : -1.0;
+        const double a0 = turn * 2.0 * PI * (j % RING) / RING;
+        const double a1 = turn * 2.0 * PI * ((j + 1) % RING) / RING;
+        mesh.x0[j] = R * cos(a0);
+        mesh.y0[j] = R * sin(a0);
+        mesh.x1[j] = R * cos(a1);
+        mesh.y1[j] = R * sin(a1);
+        for (int d = 0; d < 2; d++)
+            mesh.condition[2 * j + d] = is_outer ? RB_BEM_DISPLACEMENT : RB_BEM_TRACTION;
+        if (!is_outer) {
+            const double middle = turn * 2.0 * PI * (j % RING + 0.5) / RING;
+            mesh.value[2 * j] = pressure * cos(middle);
+            mesh.value[2 * j + 1] = pressure * sin(middle);
+        }
+    }
+    if (s == RB_OK)
+        s = rb_bem_system_create(&mesh, material, &system, &why);
+    if (s == RB_OK)
+        s = rb_bem_system_solve(system, NULL, u, t);
+    rb_bem_system_free(system);
+    rb_bem_mesh_free(&mesh);
+    rb_verify_note(v, s, &why);
+    /* the first elements of both contours lie around the x axis, half an element off */
+    const double u_got = s == RB_OK ? hypot(u[2 * RING], u[2 * RING + 1]) : NAN;
+    const double s_got = s == RB_OK ? -hypot(t[0], t[1]) : NAN;
+    rb_verify_relative(v, u_got, u_inner, bound,
+                       "ring under inner pressure (Lame)%s: displacement of the hole", name);
+    rb_verify_relative(v, s_got, s_outer, bound,
+                       "ring under inner pressure (Lame)%s: stress at the held rim", name);
+}
+
+/* ---- Below the surface ------------------------------------------------------------- */
+
+/* Half-width and largest pressure of Hertz, the units of what is found below. */
+typedef struct {
+    double a, p0;
+    rb_rolling_stress_maxima max;
+} subsurface;
+
+static subsurface below(rb_verify *v, const rb_rolling_case *rc)
+{
+    rb_message why = {""};
+    rb_rolling_model model;
+    rb_rolling_solution s = {0};
+    const rb_rolling_extremum nothing = {NAN, NAN, NAN};
+    subsurface b = {.p0 = NAN, .max = {nothing, nothing, nothing, nothing}};
+    rb_status status = rb_rolling_solve_model(rc, &model, &s, &why);
+    b.a = s.hertz_half_width;
+    if (status == RB_OK) {
+        b.p0 = rb_closed_hertz_max_pressure(s.normal_load, b.a);
+        status = rb_rolling_stress_maxima_find(&model, 0.0, &b.max, &why);
+    }
+    rb_verify_note(v, status, &why);
+    rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
+    return b;
+}
+
+/* wanted: over p0 and a. */
+static void extremum(rb_verify *v, const subsurface *b, const rb_rolling_extremum *e,
+                     rb_rolling_extremum wanted, const char *name)
+{
+    rb_verify_relative(v, e->value / b->p0, wanted.value, 3e-3, "%s / p0", name);
+    rb_verify_absolute(v, hypot(fabs(e->x) / b->a - wanted.x, e->y / b->a - wanted.y), 0.0, 1e-2,
+                       "%s: distance from its place / a", name);
+}
+
+/* Johnson, Contact Mechanics, 4.2 and 7.1; nu = 0.3. */
+static void below_hertz(rb_verify *v)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.a.poisson = 0.3;
+    rc.mu = 0.0;
+    const subsurface b = below(v, &rc);
+    extremum(v, &b, &b.max.max_shear, (rb_rolling_extremum){0.30028, 0.0, 0.78615},
+             "Hertz: largest shear");
+    extremum(v, &b, &b.max.von_mises, (rb_rolling_extremum){0.55752, 0.0, 0.70429},
+             "Hertz: von Mises");
+    extremum(v, &b, &b.max.orthogonal_shear, (rb_rolling_extremum){0.25, 0.866, 0.5},
+             "Hertz: orthogonal shear");
+}
+
+/* A thick layer has the stress of its own half-plane, below a thin one lies that of the
+ * base: a/d and d/a away from it, because a line load is felt like 1/distance. */
+static void below_layers(rb_verify *v)
+{
+    static const double thickness[] = {1e4, 0.01}, bound[] = {3e-3, 1e-2};
+    static const char *const name[] = {"layer of 10 000 a", "base below a layer of a/100"};
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = rb_verify_uncoupled();
+        const double a = rc.half_width, stiffer = 3.0,
+                     modulus = rc.a.young * (k == 0 ? 1.0 : stiffer) / (1.0 - 0.3 * 0.3);
+        rc.a.poisson = rc.a.base_poisson = 0.3;
+        rc.mu = 0.0;
+        rc.a.layer = thickness[k] * a;
+        rc.a.base_young = stiffer * rc.a.young;
+        rc.half_width = NAN;
+        rc.load = rb_closed_hertz_load(a, rc.a.radius, modulus);
+        const subsurface b = below(v, &rc);
+        const rb_rolling_extremum *e = &b.max.max_shear;
+        rb_verify_relative(v, e->value / rb_closed_hertz_max_pressure(rc.load, a), 0.30028,
+                           bound[k], "%s: largest shear / p0 of Hertz", name[k]);
+        rb_verify_absolute(v, hypot(e->x, e->y - 0.78615 * a) / a, 0.0, 1e-2,
+                           "%s: distance from its place / a", name[k]);
+    }
+}
+
+/* A thin disc: szz = 0, and nowhere is von Mises' stress larger than the p0 of both
+ * directions at the surface. */
+static void below_hertz_disc(rb_verify *v)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.a.poisson = 0.3;
+    rc.plane = RB_PLANE_STRESS;
+    rc.mu = 0.0;
+    const subsurface b = below(v, &rc);
+    extremum(v, &b, &b.max.max_shear, (rb_rolling_extremum){0.30028, 0.0, 0.78615},
+             "Hertz, plane stress: largest shear");
+    rb_verify_relative(v, b.max.von_mises.value / b.p0, 1.0, 3e-3,
+                       "Hertz, plane stress: von Mises / p0");
+    rb_verify_absolute(v, b.max.von_mises.y / b.a, 0.0, 1e-6,
+                       "Hertz, plane stress: von Mises: depth / a");
+}
+
+/* Similar bodies sliding fully, mu = 0.2; friction on A towards +x for xi < 0. */
+static void below_sliding(rb_verify *v)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.a.poisson = 0.3;
+    rb_verify_on_same(&rc);
+    rc.mu = 0.2;
+    rc.formulation = RB_STEADY;
+    rc.creep_ratio = -2.0;
+    const subsurface b = below(v, &rc);
+    extremum(v, &b, &b.max.max_shear, (rb_rolling_extremum){0.31899, 0.625, 0.601},
+             "full sliding: largest shear");
+    rb_verify_absolute(v, b.max.max_shear.x / b.a, 0.625, 1e-2, "full sliding: its side");
+}
+
+/* p0/k at the shakedown limit of a case; no finite number where there is none. */
+static double shakedown_limit(rb_verify *v, const rb_rolling_case *rc)
+{
+    rb_rolling_model model = {0};
+    rb_rolling_solution s = {0};
+    rb_rolling_shakedown limit = {0};
+    rb_message why = {""};
+    rb_status status = rb_rolling_solve_model(rc, &model, &s, &why);
+    if (status == RB_OK)
+        status = rb_rolling_shakedown_find(&model, &limit, &why);
+    rb_verify_note(v, status, &why);
+    const double p0 = rb_closed_hertz_max_pressure(s.normal_load, s.hertz_half_width);
+    rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
+    return p0 / limit.shear_yield;
+}
+
+void rb_verify_bodies(rb_verify *v)
+{
+    /* Johnson's shakedown map (S1): k/p0 without friction, and at full sliding with
+     * friction on A towards +x, by McEwen's stresses on a grid of 1e-3 a; from mu = 0.367
+     * on the surface, 1/mu. */
+    static const double mu[] = {0.0, 0.1, 0.2, 0.3, 0.5},
+                        wanted[] = {4.0, 3.564233, 3.202365, 2.899578, 2.0};
+    for (int k = 0; k < 5; k++) {
+        rb_rolling_case rc = rb_verify_uncoupled();
+        rc.a.poisson = 0.3;
+        rb_verify_on_same(&rc);
+        rc.mu = mu[k];
+        rc.formulation = RB_STEADY;
+        rc.creep = -1.0;
+        rb_verify_relative(v, shakedown_limit(v, &rc), wanted[k], 0.01,
+                           "shakedown: p0/k at full sliding, mu = %g", mu[k]);
+    }
+    /* Of a thin disc without friction: no residual stress changes syy = -p0 at the
+     * surface, and none acts across the disc. */
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.a.poisson = 0.3;
+    rc.plane = RB_PLANE_STRESS;
+    rc.mu = 0.0;
+    rb_verify_relative(v, shakedown_limit(v, &rc), 2.0, 0.01,
+                       "shakedown, plane stress: p0/k, mu = 0");
+    ring(v, RB_PLANE_STRAIN);
+    ring(v, RB_PLANE_STRESS);
+    below_hertz(v);
+    below_hertz_disc(v);
+    below_layers(v);
+    below_sliding(v);
+}

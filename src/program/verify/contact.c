@@ -1,0 +1,214 @@
+/* Closed forms of contact on half-planes. */
+#include "program/verify/internal.h"
+
+#include "rollbem/closed_forms.h"
+
+#include <math.h>
+
+static rb_rolling_case rolling_at(double s)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.formulation = RB_STEADY;
+    rc.creep_ratio = s;
+    return rc;
+}
+
+/* rms of f(x) - wanted over the contact elements, divided by scale */
+static double rms_error(const rb_rolling_solution *s, const double *f, double scale,
+                        double (*wanted)(double x, const void *context), const void *context)
+{
+    double sum = 0.0, length = 0.0;
+    for (int i = 0; i < s->n; i++) {
+        const double e = (f[i] - wanted(s->x[i], context)) / scale;
+        sum += e * e * s->h[i];
+        length += s->h[i];
+    }
+    return sqrt(sum / length);
+}
+
+typedef struct {
+    double mu, p0, a, s;
+} curve;
+
+static double hertz_at(double x, const void *context)
+{
+    const curve *c = context;
+    return rb_closed_hertz_pressure(c->p0, c->a, x);
+}
+
+static double carter_at(double x, const void *context)
+{
+    const curve *c = context;
+    return rb_closed_carter_traction(c->mu, c->p0, c->a, c->s, x);
+}
+
+/* ---- Normal contact --------------------------------------------------------------- */
+
+static void hertz(rb_verify *v, rb_rolling_mesh_kind mesh, int elements, const char *name,
+                  const double bound[4])
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.mesh = mesh;
+    rc.contact_elements = elements;
+    const double modulus = rc.a.young / 0.75, a = rc.half_width;
+    const double P = rb_closed_hertz_load(a, rc.a.radius, modulus);
+    const curve c = {.p0 = rb_closed_hertz_max_pressure(P, a), .a = a};
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->normal_load, P, 1e-9, "Hertz, %s: load", name);
+    rb_verify_absolute(v, s->max_pressure / c.p0, 1.0, bound[0], "Hertz, %s: p0", name);
+    rb_verify_absolute(v, s->half_width / a, 1.0, bound[1], "Hertz, %s: half-width", name);
+    rb_verify_absolute(v, rms_error(s, s->p, c.p0, hertz_at, &c), 0.0, bound[2],
+                       "Hertz, %s: rms of p / p0", name);
+    rb_verify_absolute(v,
+                       s->approach / rb_closed_half_cylinder_approach(P, rc.a.radius, modulus, a),
+                       1.0, bound[3], "half-cylinder compression, %s", name);
+}
+
+/* ---- Similar bodies --------------------------------------------------------------- */
+
+/* A cylinder with a boundary on a half-plane of its material: a/R = 1e-3, so half-plane
+ * theory holds to the order of approach/R (theory.md 4.3). */
+static void carter_on(rb_verify *v, rb_bem_support support, const char *name)
+{
+    rb_rolling_case rc = rolling_at(0.4);
+    rc.a.support = support;
+    rc.a.poisson = rc.b.poisson = 0.3;
+    rc.elastic_b = 1;
+    rc.half_width = rc.a.radius * 1e-3;
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.contact_elements = 100;
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_absolute(v, s->force_ratio, rb_closed_carter_force_ratio(0.4), 0.02,
+                       "Carter on a cylinder held by its %s", name);
+}
+
+/* The matrix of Addi et al. and its pivoted form are one problem. */
+static void two_forms(rb_verify *v)
+{
+    rb_rolling_case rc = rolling_at(0.4);
+    rc.contact.solver = RB_SOLVER_LEMKE;
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rc.contact.lcp_form = RB_LCP_KWAK;
+    const rb_rolling_solution *t = rb_verify_solve(v, &rc);
+    double difference = s->n == t->n ? 0.0 : NAN;
+    for (int i = 0; i < s->n && s->n == t->n; i++)
+        difference = fmax(difference, fabs(s->q[i] - t->q[i]) + fabs(s->p[i] - t->p[i]));
+    rb_verify_absolute(v, difference / s->max_pressure, 0.0, 1e-9,
+                       "LCP of Kwak against the pivoted form: tractions / p0");
+}
+
+/* ---- Dissimilar bodies ------------------------------------------------------------ */
+
+/* Pressed in increments; beta is small, as the closed form wants. */
+static void spence(rb_verify *v, double stick)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_history h;
+    rb_rolling_model model;
+    static rb_message why;
+    rc.a.poisson = 0.499;
+    rc.mu = rb_closed_spence_friction(rb_rolling_derive(&rc).dundurs, stick);
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.contact_elements = 200;
+    rc.increments = 40;
+    const rb_status s = rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &why);
+    rb_verify_note(v, s, &why);
+    const int last = h.n - 1;
+    const double part = h.n > 0 ? (double)h.stick[last] / (h.stick[last] + h.slipping[last]) : NAN;
+    rb_verify_absolute(v, part, stick, 0.01, "Spence, growing load: part that sticks");
+    rb_rolling_history_free(&h);
+    rb_rolling_model_free(&model);
+}
+
+/* Thin discs: E* and beta by the constants themselves (theory.md B2). */
+static void thin_discs(rb_verify *v)
+{
+    rb_rolling_case rc = rb_verify_aluminium_on_steel(20.0);
+    rc.plane = RB_PLANE_STRESS;
+    const double E_a = rc.a.young, E_b = rc.b.young, a = rc.half_width, R = 25.0;
+    const double modulus = 1.0 / (1.0 / E_a + 1.0 / E_b);
+    const double beta = 0.5 * modulus * ((1.0 - rc.a.poisson) / E_a - (1.0 - rc.b.poisson) / E_b);
+    const rb_closed_bentall_johnson rough = rb_closed_bentall_johnson_stick(beta, a, R, modulus);
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->creepage, -rough.creepage, 1e-3,
+                       "plane stress, Bentall-Johnson, mu = 20: creepage of mu -> inf");
+    rc = rb_verify_aluminium_on_steel(1e-4);
+    rc.plane = RB_PLANE_STRESS;
+    rc.contact_elements = 200; /* one of them is all that the creepage of mu -> 0 knows */
+    s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->normal_load, rb_closed_hertz_load(a, R, modulus), 1e-9,
+                       "plane stress, Hertz: load");
+    rb_verify_relative(v, s->creepage, -rb_closed_bentall_johnson_slip(beta, a, R), 2e-3,
+                       "plane stress, Bentall-Johnson, mu = 1e-4: creepage of mu -> 0");
+}
+
+static void bentall_johnson(rb_verify *v)
+{
+    const double beta = 0.143834, modulus = 51572.3, a = 0.1, R = 25.0;
+    const rb_closed_bentall_johnson rough = rb_closed_bentall_johnson_stick(beta, a, R, modulus);
+    rb_rolling_case rc = rb_verify_aluminium_on_steel(20.0);
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->creepage, -rough.creepage, 1e-3,
+                       "Bentall-Johnson, mu = 20: creepage of mu -> inf");
+    rb_verify_relative(v, s->half_width, rough.half_width, 1e-3,
+                       "Bentall-Johnson, mu = 20: half-width of mu -> inf");
+    rc = rb_verify_aluminium_on_steel(1e-4);
+    s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->creepage, -rb_closed_bentall_johnson_slip(beta, a, R), 2e-3,
+                       "Bentall-Johnson, mu = 1e-4: creepage of mu -> 0");
+}
+
+/* ---- All -------------------------------------------------------------------------- */
+
+void rb_verify_contact(rb_verify *v)
+{
+    static const double ratios[] = {0.1, 0.4, 0.7, -0.7, 0.95, 1.5};
+    static const double arcs[] = {0.01, 0.3, 0.8};
+    static const double sticking[] = {0.2, 0.5, 0.9};
+    static const double equal[] = {1e-3, 2e-3, 3e-3, 1e-3}, fitted[] = {3e-4, 2e-4, 1e-3, 1e-4};
+    hertz(v, RB_MESH_UNIFORM, 240, "equal elements", equal);
+    hertz(v, RB_MESH_FITTED, 100, "fitted elements", fitted);
+    for (int k = 0; k < 3; k++) {
+        /* A journal in its bearing, the gap of both circles, half-planes up to any arc. */
+        const double part = arcs[k];
+        rb_rolling_case rc = rb_verify_uncoupled();
+        rc.gap = RB_GAP_EXACT;
+        rb_verify_on_same(&rc);
+        rc.b.radius = -1.02 * rc.a.radius;
+        const double modulus = rc.a.young / 1.5, a = part * rc.a.radius;
+        rc.half_width = NAN;
+        rc.load = rb_closed_circle_load(a, rc.a.radius, modulus) +
+                  rb_closed_circle_load(a, rc.b.radius, modulus);
+        const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+        rb_verify_relative(v, s->half_width, a, 2e-4,
+                           "journal in a bore 2 %% wider, a/R = %g: half-width", part);
+    }
+    for (size_t k = 0; k < sizeof ratios / sizeof ratios[0]; k++) {
+        const double ratio = ratios[k];
+        const rb_rolling_case rc = rolling_at(ratio);
+        const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+        const double a = rc.half_width, P = s->normal_load;
+        const curve c = {rc.mu, rb_closed_hertz_max_pressure(P, a), a, ratio};
+        rb_verify_absolute(v, s->force_ratio, rb_closed_carter_force_ratio(ratio), 5e-4,
+                           "Carter, s = %g: Q/(mu P)", ratio);
+        if (fabs(ratio) < 1.0)
+            rb_verify_absolute(v, s->stick_from / a, 1.0 - 2.0 * (1.0 - fabs(ratio)), 0.04,
+                               "Carter, s = %g: start of stick / a", ratio);
+        rb_verify_absolute(v, rms_error(s, s->q, rc.mu * c.p0, carter_at, &c), 0.0, 1e-2,
+                           "Carter, s = %g: rms of q / (mu p0)", ratio);
+    }
+    carter_on(v, RB_BEM_ARC, "arc");
+    carter_on(v, RB_BEM_HUB, "hub");
+    two_forms(v);
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.force_ratio = 0.64;
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->force_ratio, 0.64, 1e-9, "Cattaneo-Mindlin: Q/(mu P) as asked");
+    rb_verify_absolute(v, (s->stick_to - s->stick_from) / (2.0 * rc.half_width),
+                       rb_closed_cattaneo_stick(0.64), 0.02,
+                       "Cattaneo-Mindlin, Q = %g mu P: stick half-width / a", 0.64);
+    for (size_t k = 0; k < sizeof sticking / sizeof *sticking; k++)
+        spence(v, sticking[k]);
+    bentall_johnson(v);
+    thin_discs(v);
+}

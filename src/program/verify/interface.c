@@ -1,0 +1,166 @@
+/* References for the interface between the bodies: falling friction, a third body, heat,
+ * wear. */
+#include "program/verify/internal.h"
+
+#include "rollbem/closed_forms.h"
+
+#include <math.h>
+
+/* Similar bodies that slide so fast that the heat is that of Hertz's pressure. */
+static void flash_temperature(rb_verify *v, int elements, double bound)
+{
+    const rb_rolling_heat steel = {50.0, 3.5, 0.0};
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_ALIGNED;
+    rc.slip_operator = RB_SLIP_SECOND;
+    rc.contact_elements = elements;
+    rc.mu = 1e-3;
+    rc.creep = 0.1;
+    rc.heat_a = rc.heat_b = steel;
+    rc.speed = 1e6 * 2.0 * steel.conductivity / steel.heat_capacity / rc.half_width;
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    const double p0 = rb_closed_hertz_max_pressure(s->normal_load, rc.half_width);
+    rb_verify_relative(
+        v, s->max_temperature,
+        rb_closed_flash_temperature(rc.mu * p0 * rc.creep * rc.speed, rc.half_width, rc.speed,
+                                    2.0 * sqrt(steel.conductivity * steel.heat_capacity)),
+        bound, "flash temperature, %d elements", elements);
+}
+
+/* A cylinder that slides until it has lost 400 times the gap at the edge of Hertz's
+ * contact: V = K P S, and p = P/(2b) with V = 2 b^3/(3R). */
+static void wear(rb_verify *v, int steps)
+{
+    static rb_message why;
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_wear_history h;
+    rb_rolling_solution last;
+    const double R = rc.a.radius, a = rc.half_width;
+    const double P = rb_closed_hertz_load(a, R, rb_rolling_derive(&rc).modulus);
+    rb_rolling_wear w = {.slides = 1, .coefficient = 1e-9, .steps = steps};
+    w.way = 200.0 * a * a / R / (w.coefficient * rb_closed_hertz_max_pressure(P, a));
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.contact_elements = 60;
+    why.text[0] = '\0';
+    const rb_status s = rb_rolling_wear_run(&rc, &w, NULL, &h, &last, &why);
+    rb_verify_note(v, s, &why);
+    const double volume = w.coefficient * P * w.way;
+    rb_verify_relative(v, s == RB_OK ? h.worn[h.n - 1] : NAN, volume, 1e-12,
+                       "wear of a cylinder, %d steps: volume K P S", steps);
+    rb_verify_relative(v, s == RB_OK ? last.half_width : NAN, cbrt(1.5 * R * volume), 0.03,
+                       "wear of a cylinder, %d steps: uniform pressure, b", steps);
+    rb_rolling_wear_history_free(&h);
+    rb_rolling_solution_free(&last);
+}
+
+/* Bodies so stiff that only the third body deforms. */
+static rb_rolling_case stiff_bodies(int elements)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.a.young = 1e13;
+    rc.interlayer_normal = 1e-6;
+    rc.interlayer_tangential = 2e-6;
+    rc.half_width = NAN; /* P = 2 a^3/(3 R L_N), a = 1 */
+    rc.load = 2.0 / (3.0 * rc.a.radius * rc.interlayer_normal);
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_ALIGNED;
+    rc.slip_operator = RB_SLIP_SECOND;
+    rc.contact_elements = elements;
+    return rc;
+}
+
+static void brushes(rb_verify *v, int elements, double bound)
+{
+    const double s = 0.5;
+    rb_rolling_case rc = stiff_bodies(elements);
+    rc.creep = s * rc.mu * rc.interlayer_tangential / (rc.a.radius * rc.interlayer_normal);
+    const rb_rolling_solution *it = rb_verify_solve(v, &rc);
+    rb_verify_absolute(v, it->force_ratio, -(1.0 - (1.0 - s) * (1.0 - s) * (1.0 - s)), bound,
+                       "brushes, %d elements: Q/(mu P)", elements);
+}
+
+/* Wheel and rail of CONTACT's veldep_fric, whose friction falls with the slip. */
+static void falling_friction(rb_verify *v)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a = (rb_rolling_body){.young = 2.0 * 82000.0 * 1.28,
+                             .poisson = 0.28,
+                             .radius = 460.0,
+                             .support = RB_BEM_HALFPLANE};
+    rb_verify_on_same(&rc);
+    rc.load = 3111.08;
+    rc.formulation = RB_STEADY;
+    rc.creep = 0.0009999;
+    rc.speed = 45000.0;
+    rc.contact_elements = 93;
+    rc.zone = 4.65;
+    rc.mu = 0.18;
+    rc.friction = (rb_rolling_friction){
+        .law = RB_FRICTION_exponential, .fall = {0.12, 0.0}, .slip_scale = {100.0, 100.0}};
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_absolute(v, s->force_ratio, -0.5941, 5e-4,
+                       "falling friction, %d elements: Q/(mu P) of CONTACT", 93);
+    rb_verify_absolute(v, s->stick, 45, 0.0, "falling friction, %d elements: elements that stick",
+                       93);
+}
+
+/* Brushes that yield: q grows by xi/L_T per length from the leading edge to the yield
+ * stress, by xi/(L_T + 1/k) to mu p, and is mu p then (theory.md Y2). */
+static void yielding_brushes(rb_verify *v, int elements, double bound)
+{
+    rb_rolling_case rc = stiff_bodies(elements);
+    const double most = rc.mu / (2.0 * rc.a.radius * rc.interlayer_normal);
+    const double elastic = 0.8 * most;
+    rc.creep = elastic * rc.interlayer_tangential;
+    rc.yield_stress = 0.3 * most;
+    rc.hardening = 1.0 / rc.interlayer_tangential;
+    const rb_rolling_solution *it = rb_verify_solve(v, &rc);
+    /* in units of most, s from the leading edge: 0.8 s up to 3/8, then 0.15 + 0.4 s up
+     * to where it meets 2 s - s^2 */
+    const double s1 = 0.375, s2 = 0.8 + sqrt(0.49);
+    const double Q = 0.4 * s1 * s1 + 0.15 * (s2 - s1) + 0.2 * (s2 * s2 - s1 * s1) + 4.0 / 3.0 -
+                     s2 * s2 + s2 * s2 * s2 / 3.0;
+    rb_verify_absolute(v, it->force_ratio, -0.75 * Q, bound,
+                       "yielding brushes, %d elements: Q/(mu P)", elements);
+}
+
+/* CONTACT, testbank/examples_plast/carter_plast, DX = 0.04. */
+static void yielding_half_planes(rb_verify *v, double hardening, double want)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.young = 209920.0;
+    rc.a.poisson = 0.28;
+    rb_verify_on_same(&rc);
+    rc.a.radius = 500.0;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.mu = 0.5;
+    rc.load = 178.9;
+    rc.creep = -4e-4;
+    rc.yield_stress = 35.0;
+    rc.hardening = hardening;
+    rc.formulation = RB_STEADY;
+    rc.contact_elements = 55;
+    rc.zone = 1.1;
+    const rb_rolling_solution *it = rb_verify_solve(v, &rc);
+    rb_verify_absolute(v, it->force_ratio, want, 1e-4,
+                       "yielding interface, hardening %g: Q/(mu P) of CONTACT", hardening);
+}
+
+void rb_verify_interface(rb_verify *v)
+{
+    falling_friction(v);
+    brushes(v, 50, 3e-4);
+    brushes(v, 200, 1.9e-5);
+    yielding_brushes(v, 50, 8e-4);
+    yielding_brushes(v, 200, 5e-5);
+    yielding_half_planes(v, 4018000.0, 0.6478);
+    yielding_half_planes(v, 123000.0, 0.6340);
+    yielding_half_planes(v, 0.0, 0.5896);
+    yielding_half_planes(v, -20500.0, 0.5457);
+    flash_temperature(v, 50, 5e-4);
+    flash_temperature(v, 200, 6.3e-5);
+    wear(v, 1);
+    wear(v, 20);
+}

@@ -1,0 +1,185 @@
+#include "rolling/rolling.h"
+
+#include <cblas.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void rb_rolling_bodies_free(rb_rolling_bodies *bodies)
+{
+    rb_bem_flexibility_free(&bodies->f);
+    rb_bem_flexibility_free(&bodies->transforms);
+    rb_bem_system_free(bodies->system_a);
+    rb_bem_system_free(bodies->system_b);
+    free(bodies->memory[0]);
+    free(bodies->memory[1]);
+    memset(bodies, 0, sizeof *bodies);
+}
+
+/* Without the boundaries of wheels, which rb_bem_system_create looks at. */
+static rb_status check_memory(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                              rb_message *why)
+{
+    char what[80];
+
+    snprintf(what, sizeof what, "a contact of %d elements", mesh->n);
+    return rb_memory_check(rb_rolling_bytes(rc, mesh->n, 0, 2 * mesh->n), what, why);
+}
+
+static rb_status add_interlayer(const rb_rolling_case *rc, rb_bem_flexibility *f)
+{
+    const int n = f->n;
+
+    if (rc->interlayer_normal == 0.0 && rc->interlayer_tangential == 0.0)
+        return RB_OK;
+    double *compliance = rb_alloc((size_t)n, 2);
+    for (int i = 0; compliance && i < n; i++) {
+        compliance[i] = rc->interlayer_normal;
+        compliance[n + i] = rc->interlayer_tangential;
+    }
+    const rb_status s =
+        compliance ? rb_bem_flexibility_add_compliance(f, compliance, compliance + n) : RB_ENOMEM;
+    free(compliance);
+    return s;
+}
+
+static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                  const rb_rolling_body *body, const rb_rolling_mesh *mesh,
+                                  int transforms, rb_rolling_body_flexibility *one_body,
+                                  rb_message *why)
+{
+    const rb_rolling_body_kind *kind = rb_rolling_kind_of(body);
+    return (transforms ? kind->transforms : kind->flexibility)(rc, plan, body, mesh, one_body, why);
+}
+
+rb_status rb_rolling_body_displacement(const rb_rolling_model *model, int of_b, const double *r,
+                                       double *w, double *x, double *h, rb_message *why)
+{
+    const rb_rolling_case *rc = model->rc;
+    rb_rolling_body_flexibility one_body = {.system = NULL};
+    rb_bem_flexibility *f = &one_body.f;
+    const rb_status s = body_flexibility(rc, &model->plan, of_b ? &rc->b : &rc->a, &model->mesh,
+                                         rb_rolling_is_large(rc, &model->mesh), &one_body, why);
+
+    if (s == RB_OK) {
+        rb_bem_flexibility_apply(f, r, w);
+        cblas_daxpy(2 * f->m, 1.0, f->w0, 1, w, 1);
+    }
+    for (int i = 0; s == RB_OK && i < f->m && x; i++) {
+        x[i] = f->x[i];
+        h[i] = f->h[i];
+    }
+    rb_bem_flexibility_free(f);
+    rb_bem_system_free(one_body.system);
+    free(one_body.memory);
+    return s;
+}
+
+/* f: that of both bodies together; one_body: what else they have made. */
+static rb_status join_bodies(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                             const rb_rolling_mesh *mesh, int transforms,
+                             rb_rolling_body_flexibility one_body[2], rb_bem_flexibility *f,
+                             rb_message *why)
+{
+    /* hysteresis is made of it, because what turns with a wheel costs nothing;
+     * half-planes move straight on (theory.md V4) */
+    one_body[0].keeps_memory = one_body[1].keeps_memory =
+        rc->formulation == RB_STEADY && !rb_rolling_can(rc, RB_BODY_FLAT);
+    rb_status s = body_flexibility(rc, plan, &rc->a, mesh, transforms, &one_body[0], why);
+
+    if (s == RB_OK && rc->elastic_b) {
+        s = body_flexibility(rc, plan, &rc->b, mesh, transforms, &one_body[1], why);
+        if (s == RB_OK)
+            s = rb_bem_flexibility_pair(&one_body[0].f, &one_body[1].f, f, why);
+    } else if (s == RB_OK) {
+        *f = one_body[0].f;
+        memset(&one_body[0].f, 0, sizeof one_body[0].f);
+    }
+    rb_bem_flexibility_free(&one_body[0].f);
+    rb_bem_flexibility_free(&one_body[1].f);
+    return s;
+}
+
+/* Fewer elements are solved sooner by an LU (docs/performance.md). */
+enum { LEAST_TRANSFORMED = 250 };
+
+static rb_status add_transforms(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                rb_rolling_bodies *bodies, rb_message *why)
+{
+    rb_rolling_body_flexibility one_body[2] = {{.system = NULL}, {.system = NULL}};
+
+    if (mesh->n < LEAST_TRANSFORMED || !rb_rolling_has_transforms(rc))
+        return RB_OK;
+    const rb_status s = join_bodies(rc, NULL, mesh, 1, one_body, &bodies->transforms, why);
+    return s == RB_OK ? add_interlayer(rc, &bodies->transforms) : s;
+}
+
+rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                   const rb_rolling_mesh *mesh, rb_rolling_bodies *bodies,
+                                   rb_message *why)
+{
+    const rb_rolling_plan own = rb_rolling_plan_of(rc);
+    memset(bodies, 0, sizeof *bodies);
+    rb_rolling_body_flexibility one_body[2] = {{.system = NULL}, {.system = NULL}};
+    const int large = rb_rolling_is_large(rc, mesh);
+    rb_status s = check_memory(rc, mesh, why);
+
+    if (s == RB_OK && rb_rolling_relaxes(rc) && rc->formulation != RB_STEADY)
+        s = rb_fail(why, RB_EINVAL,
+                    "relaxation: bodies that relax and do not roll steadily need a history "
+                    "of steps in time");
+    if (s == RB_OK)
+        s = join_bodies(rc, plan ? plan : &own, mesh, large, one_body, &bodies->f, why);
+    bodies->system_a = one_body[0].system;
+    bodies->system_b = one_body[1].system;
+    bodies->memory[0] = one_body[0].memory;
+    bodies->memory[1] = one_body[1].memory;
+    bodies->seconds_assembly = one_body[0].seconds_assembly + one_body[1].seconds_assembly;
+    bodies->seconds_factor = one_body[0].seconds_factor + one_body[1].seconds_factor;
+    bodies->seconds_condense = one_body[0].seconds_condense + one_body[1].seconds_condense;
+    if (s == RB_OK && !large)
+        s = rb_bem_flexibility_store(&bodies->f);
+    if (s == RB_OK)
+        s = add_interlayer(rc, &bodies->f);
+    if (s == RB_OK)
+        bodies->F = rb_bem_flexibility_stored(&bodies->f);
+    if (s == RB_OK && !large)
+        s = add_transforms(rc, mesh, bodies, why);
+    if (s != RB_OK)
+        rb_rolling_bodies_free(bodies);
+    return s == RB_ENOMEM
+               ? rb_fail(why, s, "out of memory for the flexibility of %d elements", mesh->n)
+               : s;
+}
+
+rb_status rb_rolling_bodies_add_matrix(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                       rb_rolling_bodies *bodies, rb_message *why)
+{
+    rb_status s = check_memory(rc, mesh, why);
+
+    if (s == RB_OK)
+        s = rb_bem_flexibility_store(&bodies->f);
+    if (s == RB_OK) {
+        bodies->F = rb_bem_flexibility_stored(&bodies->f);
+        s = add_transforms(rc, mesh, bodies, why);
+    }
+    return s == RB_ENOMEM
+               ? rb_fail(why, s, "out of memory for the flexibility of %d elements", mesh->n)
+               : s;
+}
+
+rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p, const double *q,
+                                  double *w)
+{
+    const int n = bodies->f.n;
+    double *r = rb_alloc(2 * (size_t)n, 1);
+
+    if (!r)
+        return RB_ENOMEM;
+    memcpy(r, p, (size_t)n * sizeof *r);
+    memcpy(r + n, q, (size_t)n * sizeof *r);
+    rb_bem_flexibility_apply(&bodies->f, r, w);
+    cblas_daxpy(2 * bodies->f.m, 1.0, bodies->f.w0, 1, w, 1);
+    free(r);
+    return RB_OK;
+}

@@ -1,0 +1,108 @@
+/* The table of bodies, and functions for all bodies. */
+#include "rolling/rolling.h"
+
+const rb_choice rb_rolling_supports[] = {
+    {"arc", RB_BEM_ARC}, {"hub", RB_BEM_HUB}, {"halfplane", RB_BEM_HALFPLANE}, {NULL, 0}};
+
+const rb_rolling_body_kind *const rb_rolling_body_kinds[] = {&rb_rolling_arc,
+                                                             &rb_rolling_hub,
+                                                             &rb_rolling_halfplane,
+                                                             &rb_rolling_layer,
+                                                             &rb_rolling_relaxation,
+                                                             &rb_rolling_cover,
+                                                             NULL};
+
+int rb_rolling_body_is(const rb_rolling_body *body, const rb_rolling_body_kind *kind)
+{
+    return kind->holds ? kind->holds(body) : kind->support == body->support;
+}
+
+const rb_rolling_body_kind *rb_rolling_kind_of(const rb_rolling_body *body)
+{
+    const rb_rolling_body_kind *const *kind = rb_rolling_body_kinds;
+    while (*kind && ((*kind)->holds || (*kind)->support != body->support))
+        kind++;
+    return *kind;
+}
+
+const rb_rolling_body_kind *rb_rolling_body_kind_get(int k)
+{
+    for (int i = 0; i < k; i++)
+        if (!rb_rolling_body_kinds[i])
+            return NULL;
+    return rb_rolling_body_kinds[k];
+}
+
+const char *rb_rolling_kind_name(const rb_rolling_body_kind *kind)
+{
+    return kind->name;
+}
+
+rb_bem_support rb_rolling_kind_support(const rb_rolling_body_kind *kind)
+{
+    return kind->support;
+}
+
+const rb_rolling_parameter *rb_rolling_kind_parameters(const rb_rolling_body_kind *kind)
+{
+    return kind->parameters;
+}
+
+int rb_rolling_body_can(const rb_rolling_body *body, int abilities)
+{
+    int can = abilities;
+    for (const rb_rolling_body_kind *const *kind = rb_rolling_body_kinds; *kind; kind++)
+        if (rb_rolling_body_is(body, *kind))
+            can &= (*kind)->can;
+    return can == abilities;
+}
+
+int rb_rolling_can(const rb_rolling_case *rc, int abilities)
+{
+    return rb_rolling_body_can(&rc->a, abilities) &&
+           (!rc->elastic_b || rb_rolling_body_can(&rc->b, abilities));
+}
+
+int rb_rolling_relaxes(const rb_rolling_case *rc)
+{
+    return !rb_rolling_can(rc, RB_BODY_ELASTIC);
+}
+
+double rb_rolling_datum(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    const rb_rolling_body_kind *kind = rb_rolling_kind_of(body);
+    return kind->datum ? kind->datum(rc, body) : NAN;
+}
+
+rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc, const rb_rolling_body *body,
+                                     double length[RB_ROLLING_TERMS])
+{
+    return rb_rolling_kind_of(body)->surface(rc, body, length);
+}
+
+rb_status rb_rolling_body_check(const rb_rolling_case *rc, const rb_rolling_body *b,
+                                const char *which, int plane_allowed, rb_message *why)
+{
+    const int plane = plane_allowed && b->radius == INFINITY,
+              bore = plane_allowed && b->radius < 0.0;
+
+    if (b->radius == 0.0)
+        return rb_fail(why, RB_EINVAL, "radius%s: expected > 0, or < 0 of a bore, got 0", which);
+    if (!rb_rolling_kind_of(b))
+        return rb_fail(why, RB_EINVAL, "support%s: there is no number %d", which, (int)b->support);
+    if (bore && !(rb_rolling_kind_of(b)->can & RB_BODY_FLAT))
+        return rb_fail(why, RB_EINVAL,
+                       "support%s: a bore has no wheel's boundary, only the support "
+                       "halfplane",
+                       which);
+    if (plane && !(rb_rolling_kind_of(b)->can & RB_BODY_FLAT))
+        return rb_fail(why, RB_EINVAL, "support%s: a plane has the support halfplane only", which);
+    rb_status s = rb_rolling_check_poisson(rc, NULL, b->poisson, which, why);
+    for (const rb_rolling_body_kind *const *kind = rb_rolling_body_kinds; *kind; kind++) {
+        if (s != RB_OK)
+            return s;
+        if ((*kind)->check && ((*kind)->holds || (*kind)->support == b->support))
+            s = (*kind)->check(rc, b, which, why);
+    }
+    return s;
+}

@@ -1,0 +1,176 @@
+/* Half-planes, which have translation symmetry: of one material, as a layer on a base,
+ * and viscoelastic. */
+#include "rolling/rolling.h"
+
+#include <gsl/gsl_math.h>
+
+/* The ends of a strip are held by the half-space: w_N = 0 at the depth of its width, as in the
+ * plane, but w_T at width exp(nu/(1 - nu)), because Cerruti's displacement
+ * (1 - nu)/r + nu x^2/r^3 has a second part. */
+static double depth_of_datum(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    if (body->strip > 0.0)
+        return body->strip;
+    const double radius = isfinite(body->radius) ? fabs(body->radius) : rc->a.radius;
+    return body->datum > 0.0 ? body->datum : 2.0 * radius / M_E;
+}
+
+void rb_rolling_memory_lengths(const rb_rolling_case *rc, const rb_rolling_body *body,
+                               double length[RB_ROLLING_TERMS])
+{
+    for (int k = 0; k < body->memory.n; k++)
+        length[k] = rc->speed * body->memory.time[k];
+}
+
+rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc, const rb_rolling_body *body,
+                                            double length[RB_ROLLING_TERMS])
+{
+    const int elastic_base = body->layer > 0.0 && body->base_young > 0.0;
+    const double datum = depth_of_datum(rc, body), nu = body->poisson;
+    double datum_memory = 0.0;
+
+    rb_rolling_memory_lengths(rc, body, length);
+    for (int k = 0; k < body->memory.n && body->layer == 0.0; k++)
+        if (length[k] > 0.0)
+            datum_memory += body->memory.ratio[k] *
+                            (body->strip > 0.0 ? rb_bem_memory_of_strip(datum / length[k])
+                                               : rb_bem_memory_of_datum(datum / length[k]));
+    return (rb_bem_surface){
+        .material = rb_rolling_material(rc, body),
+        .datum = datum,
+        .datum_tangential = body->strip > 0.0 ? datum * exp(nu / (1.0 - nu)) : 0.0,
+        .datum_memory = datum_memory,
+        .terms = body->memory.n,
+        .ratio = body->memory.ratio,
+        .length = length,
+        .thickness = body->layer,
+        .elastic_base = elastic_base,
+        .base = elastic_base ? rb_rolling_base_material(rc, body) : (rb_bem_material){0}};
+}
+
+typedef rb_status maker(int n, const double *ends, const rb_bem_surface *surface,
+                        rb_bem_flexibility *f, rb_message *why);
+
+static rb_status make(maker *how, const rb_rolling_case *rc, const rb_rolling_body *body,
+                      const rb_rolling_mesh *mesh, rb_rolling_body_flexibility *one_body,
+                      rb_message *why)
+{
+    double length[RB_ROLLING_TERMS];
+    const double start = rb_seconds();
+    const rb_bem_surface surface = rb_rolling_halfplane_surface(rc, body, length);
+    rb_status s = how(mesh->n, mesh->ends, &surface, &one_body->f, why);
+    if (s == RB_OK && one_body->keeps_memory && body->memory.n > 0) {
+        rb_bem_surface glassy = surface;
+        rb_bem_flexibility f = {0};
+        glassy.terms = 0;
+        s = how(mesh->n, mesh->ends, &glassy, &f, why);
+        if (s == RB_OK)
+            s = rb_rolling_memory_before(&f, &one_body->memory);
+        if (s == RB_OK)
+            s = rb_bem_flexibility_store(&one_body->f);
+        if (s == RB_OK)
+            rb_rolling_memory_after(&one_body->f, one_body->memory);
+        rb_bem_flexibility_free(&f);
+    }
+    one_body->seconds_condense = rb_seconds() - start;
+    return s;
+}
+
+static rb_status halfplane_flexibility(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                       const rb_rolling_body *body, const rb_rolling_mesh *mesh,
+                                       rb_rolling_body_flexibility *one_body, rb_message *why)
+{
+    (void)plan; /* nothing lies outside the contact */
+    return make(rb_bem_flexibility_surface, rc, body, mesh, one_body, why);
+}
+
+/* Equal elements beside a wheel A are equal arcs of the wheel. */
+static rb_status halfplane_transforms(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                      const rb_rolling_body *body, const rb_rolling_mesh *mesh,
+                                      rb_rolling_body_flexibility *one_body, rb_message *why)
+{
+    (void)plan; /* nothing lies outside the contact */
+    return make(rc->a.support == RB_BEM_HALFPLANE ? rb_bem_flexibility_toeplitz
+                                                  : rb_bem_flexibility_plane_products,
+                rc, body, mesh, one_body, why);
+}
+
+enum { HALFPLANE = RB_BODY_FLAT | RB_BODY_TURNS };
+
+/* ---- Of one material --------------------------------------------------------------- */
+
+static int on_rigid_base(const rb_rolling_body *body)
+{
+    return body->layer > 0.0 && body->base_young == 0.0;
+}
+
+static int not_on_rigid_base(const rb_rolling_body *body)
+{
+    return !on_rigid_base(body);
+}
+
+static double datum(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    return on_rigid_base(body) ? NAN : depth_of_datum(rc, body);
+}
+
+static const rb_rolling_parameter halfplane_parameters[] = {
+    {.option = "datum"},
+    {"datum", not_on_rigid_base, "on a rigid base the displacement is absolute"},
+    {.option = NULL}};
+
+const rb_rolling_body_kind rb_rolling_halfplane = {.name = "half-plane",
+                                                   .support = RB_BEM_HALFPLANE,
+                                                   .can = HALFPLANE | RB_BODY_HOMOGENEOUS |
+                                                          RB_BODY_ELASTIC | RB_BODY_STRESS,
+                                                   .parameters = halfplane_parameters,
+                                                   .flexibility = halfplane_flexibility,
+                                                   .transforms = halfplane_transforms,
+                                                   .surface = rb_rolling_halfplane_surface,
+                                                   .datum = datum};
+
+/* ---- With a layer ------------------------------------------------------------------ */
+
+static int has_layer(const rb_rolling_body *body)
+{
+    return body->layer > 0.0;
+}
+
+static rb_status check_layer(const rb_rolling_case *rc, const rb_rolling_body *b, const char *which,
+                             rb_message *why)
+{
+    if (has_layer(b) && b->support != RB_BEM_HALFPLANE)
+        return rb_fail(why, RB_EINVAL,
+                       "layer thickness%s: for the support halfplane only, got a wheel", which);
+    return has_layer(b) && b->base_young > 0.0
+               ? rb_rolling_check_poisson(rc, "base", b->base_poisson, which, why)
+               : RB_OK;
+}
+
+static const rb_rolling_parameter layer_parameters[] = {
+    {"base-young", has_layer, "a base has its layer on it, see --layer-thickness"},
+    {"base-poisson", has_layer, "a base has its layer on it, see --layer-thickness"},
+    {.option = NULL}};
+
+const rb_rolling_body_kind rb_rolling_layer = {.name = "layer",
+                                               .support = RB_BEM_HALFPLANE,
+                                               .holds = has_layer,
+                                               .can = HALFPLANE | RB_BODY_ELASTIC | RB_BODY_STRESS,
+                                               .parameters = layer_parameters,
+                                               .check = check_layer};
+
+/* ---- With memory ------------------------------------------------------------------- */
+
+static int has_memory(const rb_rolling_body *body)
+{
+    return body->memory.n > 0;
+}
+
+static const rb_rolling_parameter relaxation_parameters[] = {{.option = NULL}};
+
+const rb_rolling_body_kind rb_rolling_relaxation = {.name = "relaxation",
+                                                    .support = RB_BEM_HALFPLANE,
+                                                    .holds = has_memory,
+                                                    .can = RB_BODY_FLAT | RB_BODY_TURNS |
+                                                           RB_BODY_BOUNDARY | RB_BODY_STRESS,
+                                                    .parameters = relaxation_parameters};

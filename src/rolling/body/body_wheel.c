@@ -1,0 +1,223 @@
+/* Wheels, whose boundary has elements all around: on a clamped arc, on a rigid hub, and
+ * with a cover on a core. */
+#include "rolling/rolling.h"
+
+#include <gsl/gsl_math.h>
+
+int rb_rolling_has_elastic_core(const rb_rolling_body *body)
+{
+    return body->cover > 0.0 && body->core_young > 0.0;
+}
+
+/* Around a cover nothing changes with the angle: without boundary elements, unless they
+ * are asked for. */
+static int goes_by_waves(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    return body->cover > 0.0 && rc->near_field == RB_NEAR_FIELD_AUTO;
+}
+
+static rb_status boundary_mesh(const rb_rolling_plan *plan, const rb_rolling_body *body,
+                               const rb_rolling_mesh *mesh, rb_bem_cylinder *cylinder,
+                               rb_bem_mesh *boundary, rb_message *why)
+{
+    *cylinder = (rb_bem_cylinder){.radius = body->radius,
+                                  .support = body->support,
+                                  .arc = body->arc * M_PI / 180.0,
+                                  .hub_ratio = body->hub_ratio,
+                                  .cover = body->cover,
+                                  .outer_elements = plan->outer_elements,
+                                  .refinement = plan->outer_refinement};
+    return rb_bem_mesh_cylinder(cylinder, mesh->n, mesh->ends, boundary, why);
+}
+
+/* The boundary elements of a wheel, of its cover alone where the core is rigid, of both
+ * where it is elastic. */
+static rb_status wheel_system(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                              const rb_rolling_body *body, const rb_rolling_mesh *mesh,
+                              rb_bem_system **system, rb_message *why)
+{
+    const rb_bem_material material = rb_rolling_material(rc, body);
+    rb_bem_cylinder cylinder;
+    rb_bem_mesh boundary = {0}, core = {0};
+    rb_status s = boundary_mesh(plan, body, mesh, &cylinder, &boundary, why);
+
+    if (s == RB_OK && rb_rolling_has_elastic_core(body)) {
+        s = rb_bem_mesh_core(&cylinder, &boundary, &core, why);
+        if (s == RB_OK)
+            s = rb_bem_system_create_bonded(&boundary, material, &core,
+                                            rb_rolling_base_material(rc, body), system, why);
+    } else if (s == RB_OK) {
+        s = rb_bem_system_create_within(&boundary, material, plan->compression, system, why);
+    }
+    rb_bem_mesh_free(&core);
+    rb_bem_mesh_free(&boundary);
+    return s;
+}
+
+rb_status rb_rolling_boundary_mesh(const rb_rolling_model *model, int of_b, rb_bem_mesh *boundary,
+                                   rb_message *why)
+{
+    rb_bem_cylinder cylinder;
+    const rb_rolling_body *body = of_b ? &model->rc->b : &model->rc->a;
+    *boundary = (rb_bem_mesh){0};
+    return body->support == RB_BEM_HALFPLANE || (of_b && !model->rc->elastic_b)
+               ? RB_OK
+               : boundary_mesh(&model->plan, body, &model->mesh, &cylinder, boundary, why);
+}
+
+rb_status rb_rolling_boundary_system(const rb_rolling_model *model, rb_bem_system **system,
+                                     rb_message *why)
+{
+    return wheel_system(model->rc, &model->plan, &model->rc->a, &model->mesh, system, why);
+}
+
+rb_bem_wheel rb_rolling_wheel_of(const rb_rolling_case *rc, const rb_rolling_body *body,
+                                 double length[RB_ROLLING_TERMS])
+{
+    const double hub = body->hub_ratio * body->radius;
+    rb_bem_wheel wheel = {.radius = body->radius,
+                          .inner = body->cover > 0.0 ? body->radius - body->cover : hub,
+                          .material = rb_rolling_material(rc, body),
+                          .terms = body->memory.n,
+                          .ratio = body->memory.ratio,
+                          .length = length};
+
+    rb_rolling_memory_lengths(rc, body, length);
+    if (rb_rolling_has_elastic_core(body)) {
+        wheel.hub = hub;
+        wheel.core = rb_rolling_base_material(rc, body);
+    }
+    return wheel;
+}
+
+int rb_rolling_subtracts(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                         const rb_rolling_body *body)
+{
+    return plan->near_field == RB_NEAR_FIELD_AUTO ? rc->mesh == RB_MESH_FITTED || body->cover > 0.0
+                                                  : plan->near_field == RB_NEAR_FIELD_EXACT;
+}
+
+static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                   const rb_rolling_body *body, const rb_rolling_mesh *mesh,
+                                   rb_rolling_body_flexibility *one_body, rb_message *why)
+{
+    double length[RB_ROLLING_TERMS];
+    const rb_bem_wheel wheel = rb_rolling_wheel_of(rc, body, length);
+    const double start = rb_seconds();
+    const int by_waves = goes_by_waves(rc, body);
+    rb_status s = by_waves ? rb_bem_flexibility_wheel(mesh->n, mesh->ends, &wheel, rc->normals,
+                                                      &one_body->f, why)
+                           : wheel_system(rc, plan, body, mesh, &one_body->system, why);
+
+    if (s == RB_OK && !by_waves) {
+        rb_bem_system_seconds(one_body->system, &one_body->seconds_assembly,
+                              &one_body->seconds_factor);
+        s = (rb_rolling_subtracts(rc, plan, body) ? rb_bem_condense_subtracted : rb_bem_condense)(
+            one_body->system, rc->normals, &one_body->f, why);
+    }
+    if (s == RB_OK && body->memory.n > 0) {
+        /* What memory adds to the glassy wheel in steady rolling, which is all that asks for the
+         * flexibility of a body with memory. */
+        s = rb_rolling_memory_before(&one_body->f, &one_body->memory);
+        if (s == RB_OK)
+            s = rb_bem_flexibility_add_memory(&wheel, rc->normals, mesh->ends, &one_body->f, why);
+        if (s == RB_OK)
+            rb_rolling_memory_after(&one_body->f, one_body->memory);
+    }
+    one_body->seconds_condense =
+        rb_seconds() - start - one_body->seconds_assembly - one_body->seconds_factor;
+    return s;
+}
+
+/* Hysteresis of pairs with a wheel is made of the matrix. */
+static int wheel_transformed(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    return goes_by_waves(rc, body) && rc->formulation == RB_STEADY && rc->a.memory.n == 0 &&
+           !(rc->elastic_b && rc->b.memory.n > 0);
+}
+
+static rb_status wheel_transforms(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                  const rb_rolling_body *body, const rb_rolling_mesh *mesh,
+                                  rb_rolling_body_flexibility *one_body, rb_message *why)
+{
+    double length[RB_ROLLING_TERMS];
+    const rb_bem_wheel wheel = rb_rolling_wheel_of(rc, body, length);
+    (void)plan;
+    return rb_bem_flexibility_wheel_products(mesh->n, mesh->ends, &wheel, rc->normals, &one_body->f,
+                                             why);
+}
+
+enum { WHEEL = RB_BODY_BOUNDARY | RB_BODY_ELASTIC | RB_BODY_STRESS };
+
+/* ---- A clamped arc ----------------------------------------------------------------- */
+
+static const rb_rolling_parameter arc_parameters[] = {{.option = "arc"}, {.option = NULL}};
+
+const rb_rolling_body_kind rb_rolling_arc = {.name = "arc",
+                                             .support = RB_BEM_ARC,
+                                             .can = WHEEL | RB_BODY_HOMOGENEOUS,
+                                             .parameters = arc_parameters,
+                                             .flexibility = wheel_flexibility,
+                                             .surface = rb_rolling_halfplane_surface};
+
+/* ---- A rigid hub ------------------------------------------------------------------- */
+
+static int shows_its_hub(const rb_rolling_body *body)
+{
+    return body->cover == 0.0 || rb_rolling_has_elastic_core(body);
+}
+
+static const rb_rolling_parameter hub_parameters[] = {
+    {.option = "hub-ratio"},
+    {"hub-ratio", shows_its_hub, "all below the cover is rigid without --core-young"},
+    {.option = NULL}};
+
+const rb_rolling_body_kind rb_rolling_hub = {.name = "hub",
+                                             .support = RB_BEM_HUB,
+                                             .can = WHEEL | RB_BODY_HOMOGENEOUS | RB_BODY_TURNS,
+                                             .parameters = hub_parameters,
+                                             .flexibility = wheel_flexibility,
+                                             .transformed = wheel_transformed,
+                                             .transforms = wheel_transforms,
+                                             .surface = rb_rolling_halfplane_surface};
+
+/* ---- A cover on a core ------------------------------------------------------------- */
+
+static int has_cover(const rb_rolling_body *body)
+{
+    return body->cover > 0.0;
+}
+
+static rb_status check_cover(const rb_rolling_case *rc, const rb_rolling_body *b, const char *which,
+                             rb_message *why)
+{
+    if (b->cover != 0.0 && b->support != RB_BEM_HUB)
+        return rb_fail(why, RB_EINVAL,
+                       "cover thickness%s: its core holds the wheel, add --support%s hub", which,
+                       which[0] ? "-b" : "");
+    if (!(b->cover < fabs(b->radius)))
+        return rb_fail(why, RB_EINVAL,
+                       "cover thickness%s: expected less than the radius, %g mm, got %g "
+                       "mm",
+                       which, b->radius, b->cover);
+    if (rb_rolling_has_elastic_core(b) && rb_rolling_material(rc, b).poisson > 0.499)
+        return rb_fail(why, RB_EINVAL,
+                       "Poisson's ratio%s: a cover on an elastic core has to be "
+                       "compressible, expected 0.499 at most, got %g",
+                       which, b->poisson);
+    return rb_rolling_has_elastic_core(b)
+               ? rb_rolling_check_poisson(rc, "core", b->core_poisson, which, why)
+               : RB_OK;
+}
+
+static const rb_rolling_parameter cover_parameters[] = {
+    {"core-young", has_cover, "a core has its cover on it, see --cover-thickness"},
+    {"core-poisson", has_cover, "a core has its cover on it, see --cover-thickness"},
+    {.option = NULL}};
+
+const rb_rolling_body_kind rb_rolling_cover = {.name = "cover",
+                                               .support = RB_BEM_HUB,
+                                               .holds = has_cover,
+                                               .can = WHEEL | RB_BODY_TURNS,
+                                               .parameters = cover_parameters,
+                                               .check = check_cover};

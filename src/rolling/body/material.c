@@ -1,0 +1,26 @@
+/* Elastic constants of the bodies for the plane problem of the case. */
+#include "rolling/rolling.h"
+
+rb_bem_material rb_rolling_material(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    return rb_bem_material_in_plane(rc->plane, body->young, body->poisson);
+}
+
+rb_bem_material rb_rolling_base_material(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    return body->cover > 0.0
+               ? rb_bem_material_in_plane(rc->plane, body->core_young, body->core_poisson)
+               : rb_bem_material_in_plane(rc->plane, body->base_young, body->base_poisson);
+}
+
+/* At -1/2 and below, nu/(1 + nu) is no Poisson's ratio of plane strain. */
+rb_status rb_rolling_check_poisson(const rb_rolling_case *rc, const char *what, double poisson,
+                                   const char *which, rb_message *why)
+{
+    if (rc->plane != RB_PLANE_STRESS || poisson > -0.5)
+        return RB_OK;
+    return rb_fail(why, RB_EINVAL,
+                   "Poisson's ratio%s%s%s: expected in (-0.5, 0.5] in plane stress, got "
+                   "%g",
+                   what ? " of the " : "", what ? what : "", which, poisson);
+}

@@ -1,0 +1,598 @@
+#include "rolling/rolling.h"
+
+#include <gsl/gsl_math.h>
+
+rb_rolling_case rb_rolling_case_defaults(void)
+{
+    const rb_rolling_body body = {.young = 94500.0,
+                                  .poisson = 0.1,
+                                  .radius = 50.0,
+                                  .support = RB_BEM_ARC,
+                                  .arc = 30.0,
+                                  .hub_ratio = 0.3,
+                                  .base_poisson = 0.1,
+                                  .core_poisson = 0.1};
+    rb_rolling_case rc = {.a = body,
+                          .b = body,
+                          .gap = RB_GAP_EXACT,
+                          .mu = 0.3,
+                          .approach = NAN,
+                          .load = NAN,
+                          .half_width = NAN,
+                          .shift = NAN,
+                          .creep = NAN,
+                          .creep_ratio = NAN,
+                          .force = NAN,
+                          .force_ratio = NAN,
+                          .formulation = RB_STATIC,
+                          .increments = 1,
+                          .mesh = RB_MESH_UNIFORM,
+                          .contact_elements = 60,
+                          .normals = RB_BEM_NORMALS_OBSTACLE,
+                          .contact = rb_contact_defaults()};
+
+    rc.b.radius = INFINITY;
+    rc.b.support = RB_BEM_HALFPLANE;
+    return rc;
+}
+
+/* ---- Derived quantities ------------------------------------------------------------ */
+
+/* (1 - nu^2)/E, in plane stress 1/E: what a half-plane adds to 1/E*. */
+static double compliance(rb_bem_material m)
+{
+    return (1.0 - m.poisson) / (2.0 * m.shear);
+}
+
+/* c of kernels (Flamant): the coupling compliance of a half-plane. */
+static double coupling(rb_bem_material m)
+{
+    return (1.0 - 2.0 * m.poisson) / (4.0 * m.shear);
+}
+
+/* Solves a^2/(4R) (2 ln(4R/a) - 1) = delta for a, the compression of a half-cylinder
+ * (theory.md 6).  Newton's method starts where the contact is never wider: at the overlap
+ * of the rigid shapes, or at 0.7 R.  It ends at rounding, because the width of the
+ * automatic zone, and with it every result, follows from a. */
+static double half_width_of_approach(double radius, double approach)
+{
+    enum { ROUNDS = 60 };
+    double a = fmin(sqrt(2.0 * radius * approach), 0.7 * radius);
+
+    for (int k = 0; k < ROUNDS; k++) {
+        const double l = log(4.0 * radius / a);
+        const double excess = a * a / (4.0 * radius) * (2.0 * l - 1.0) - approach;
+        if (k == 0 && excess < 0.0)
+            return a;
+        const double step = excess / (a / radius * (l - 1.0));
+        a -= step;
+        if (fabs(step) <= 1e-15 * a)
+            break;
+    }
+    return a;
+}
+
+static double modulus(const rb_rolling_case *rc)
+{
+    return 1.0 / (compliance(rb_rolling_material(rc, &rc->a)) +
+                  (rc->elastic_b ? compliance(rb_rolling_material(rc, &rc->b)) : 0.0));
+}
+
+/* In a bore the difference of the radii, not that of their inverses, which may agree in
+ * most of their digits. */
+double rb_rolling_radius(const rb_rolling_case *rc)
+{
+    const double a = rc->a.radius, b = rc->b.radius;
+    return b < 0.0 && isfinite(b) ? a * b / (a + b) : 1.0 / (1.0 / a + 1.0 / b);
+}
+
+static double thickness_of(const rb_rolling_body *body, const char **what)
+{
+    const int layer = body->layer > 0.0, cover = body->cover > 0.0;
+
+    *what = layer ? "layer" : cover ? "cover" : "rim";
+    return layer                         ? body->layer
+           : cover                       ? body->cover
+           : body->support == RB_BEM_HUB ? (1.0 - body->hub_ratio) * body->radius
+                                         : INFINITY;
+}
+
+void rb_rolling_strains(const rb_rolling_case *rc, double approach, double pressure,
+                        double strain[4])
+{
+    const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
+
+    for (int b = 0; b < 2; b++) {
+        const char *what;
+        const double thickness = thickness_of(bodies[b], &what);
+        double slow = 1.0;
+        strain[2 * b] = strain[2 * b + 1] = NAN;
+        if (isinf(thickness) || (b == 1 && !rc->elastic_b))
+            continue;
+        for (int k = 0; k < bodies[b]->memory.n; k++)
+            slow += bodies[b]->memory.ratio[k];
+        strain[2 * b] =
+            approach * compliance(rb_rolling_material(rc, bodies[b])) * modulus(rc) / thickness;
+        strain[2 * b + 1] = 2.0 * pressure * slow / bodies[b]->young;
+    }
+}
+
+double rb_rolling_strain(const rb_rolling_case *rc, double approach, double pressure,
+                         const char **what)
+{
+    double all[4], most = NAN;
+
+    rb_rolling_strains(rc, approach, pressure, all);
+    for (int b = 0; b < 2; b++) {
+        const double strain = fmin(all[2 * b], all[2 * b + 1]);
+        const char *of_body;
+        if (isnan(strain) || strain <= most)
+            continue;
+        most = strain;
+        thickness_of(b ? &rc->b : &rc->a, &of_body);
+        if (what)
+            *what = of_body;
+    }
+    return most;
+}
+
+int rb_rolling_has_thickness(const rb_rolling_case *rc)
+{
+    return !isnan(rb_rolling_strain(rc, 0.0, 0.0, NULL));
+}
+
+double rb_rolling_larger_radius(const rb_rolling_case *rc)
+{
+    return fmax(rc->a.radius, isfinite(rc->b.radius) ? fabs(rc->b.radius) : 0.0);
+}
+
+double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load)
+{
+    return sqrt(4.0 * load * rb_rolling_radius(rc) / (M_PI * modulus(rc)));
+}
+
+double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width)
+{
+    return M_PI * modulus(rc) * gsl_pow_2(half_width) / (4.0 * rb_rolling_radius(rc));
+}
+
+rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc)
+{
+    const rb_rolling_body *a = &rc->a;
+    rb_rolling_derived d = {.radius = rb_rolling_radius(rc), .modulus = modulus(rc)};
+
+    d.dundurs = (coupling(rb_rolling_material(rc, a)) -
+                 (rc->elastic_b ? coupling(rb_rolling_material(rc, &rc->b)) : 0.0)) *
+                d.modulus;
+    d.load = isnan(rc->half_width) ? rc->load : rb_rolling_hertz_load(rc, rc->half_width);
+    if (!isnan(d.load)) {
+        d.approach = NAN;
+        d.half_width = rb_rolling_hertz_half_width(rc, d.load);
+    } else {
+        d.approach = isnan(rc->approach) ? a->radius / 2.0 : rc->approach;
+        d.half_width = half_width_of_approach(d.radius, d.approach);
+    }
+    d.stress = d.modulus * d.half_width / (2.0 * d.radius);
+    return d;
+}
+
+double rb_rolling_zone_half_width(const rb_rolling_case *rc, double load)
+{
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+    const double hertz = isnan(load) ? d.half_width : rb_rolling_hertz_half_width(rc, load),
+                 soft = isnan(load) ? sqrt(2.0 * d.radius * d.approach)
+                                    : cbrt(1.5 * d.radius * rc->interlayer_normal * load);
+    return rc->interlayer_normal > 0.0 ? fmax(hertz, soft) : hertz;
+}
+
+int rb_rolling_force_is_given(const rb_rolling_case *rc)
+{
+    return !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
+}
+
+/* The page has none: its rule of the Makefile says 0. */
+#ifndef RB_TRANSFORMS
+#define RB_TRANSFORMS 1
+#endif
+
+/* Beside a wheel, a half-plane of one elastic material only. */
+static int is_transformed(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    const rb_rolling_body_kind *kind = rb_rolling_kind_of(body);
+    return kind->transforms &&
+           (kind->transformed
+                ? kind->transformed(rc, body)
+                : rb_rolling_can(rc, RB_BODY_FLAT) ||
+                      rb_rolling_body_can(body, RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC));
+}
+
+static int suits_transforms(const rb_rolling_case *rc)
+{
+    /* products know no more than one datum, strips have two */
+    const int strips = rc->a.strip > 0.0 || (rc->elastic_b && rc->b.strip > 0.0);
+    return !strips &&
+           (rc->contact.solver == RB_SOLVER_AUTO || rc->contact.solver == RB_SOLVER_NEWTON) &&
+           rc->mesh != RB_MESH_FITTED && is_transformed(rc, &rc->a) &&
+           (!rc->elastic_b || is_transformed(rc, &rc->b));
+}
+
+int rb_rolling_has_transforms(const rb_rolling_case *rc)
+{
+    return RB_TRANSFORMS && suits_transforms(rc);
+}
+
+int rb_rolling_suits_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
+{
+    const int least =
+        rc->formulation == RB_STEADY ? RB_ROLLING_TRANSFORMS : RB_ROLLING_TRANSFORMS_STEPS;
+
+    return mesh->n >= least && suits_transforms(rc);
+}
+
+int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
+{
+    return RB_TRANSFORMS && rb_rolling_suits_large(rc, mesh);
+}
+
+int rb_rolling_carter_holds(const rb_rolling_case *rc)
+{
+    return rc->formulation == RB_STEADY && rb_rolling_largest_mu(rc) > 0.0 &&
+           rc->friction.law == RB_FRICTION_constant && !rb_rolling_law_depends_on_state(rc) &&
+           rc->interlayer_normal == 0.0 && rc->interlayer_tangential == 0.0 &&
+           rc->yield_stress == 0.0 && rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS) &&
+           rc->gap != RB_GAP_TABLE && rc->worn.n == 0 && fabs(rb_rolling_derive(rc).dundurs) < 1e-9;
+}
+
+rb_rolling_plan rb_rolling_plan_of(const rb_rolling_case *rc)
+{
+    return (rb_rolling_plan){rc->contact_elements, rc->near_field, rc->outer_elements,
+                             rc->outer_refinement, NULL,           INFINITY};
+}
+
+int rb_rolling_has_fine_boundary(const rb_rolling_plan *plan)
+{
+    enum { MANY = 600 };
+
+    return plan->outer_refinement > 1.0 || plan->outer_elements > MANY;
+}
+
+void rb_rolling_coarsen_boundary(rb_rolling_plan *plan)
+{
+    plan->outer_elements = 0;
+    plan->outer_refinement = 0.0;
+}
+
+/* ---- Checks ------------------------------------------------------------------------ */
+
+/* Squares and products of what is given must be numbers too. */
+static rb_status check_size(const char *what, double value, rb_message *why)
+{
+    static const double least = 1e-100, most = 1e100;
+    const double size = fabs(value);
+
+    if (isfinite(size) && (size < least || size > most))
+        return rb_fail(why, RB_EINVAL, "%s: expected a size of %g to %g, got %g", what, least, most,
+                       value);
+    return RB_OK;
+}
+
+/* Steady rolling averages over what a particle has passed, which must be alike everywhere
+ * for that.  Step by step a body has one compliance, so that nothing may be under it that
+ * does not relax. */
+static rb_status check_relaxing_body(const rb_rolling_case *rc, const rb_rolling_body *body,
+                                     rb_message *why)
+{
+    const int steps = rc->formulation != RB_STEADY;
+
+    if (body->memory.n == 0)
+        return RB_OK;
+    if (rc->formulation == RB_STEADY && !rb_rolling_body_can(body, RB_BODY_TURNS))
+        return rb_fail(
+            why, RB_EINVAL,
+            "relaxation: steady rolling of a viscoelastic wheel needs whole turns, and a "
+            "clamped arc cannot turn; expected --support hub or halfplane");
+    if (rc->formulation == RB_TRANSIENT && !rb_rolling_can(rc, RB_BODY_FLAT))
+        return rb_fail(why, RB_EINVAL,
+                       "relaxation: in transient rolling for the support halfplane only, "
+                       "because the state of a wheel or cover extends over its whole "
+                       "circumference; use --formulation steady");
+    if (steps &&
+        ((body->layer > 0.0 && body->base_young > 0.0) || rb_rolling_has_elastic_core(body)))
+        return rb_fail(why, RB_EINVAL,
+                       "relaxation: in a computation with steps the base or core of a "
+                       "viscoelastic body must be rigid, got an elastic one");
+    return RB_OK;
+}
+
+static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
+{
+    const rb_rolling_memory *const memory[2] = {&rc->a.memory, &rc->b.memory};
+    rb_status s;
+    int terms = 0;
+
+    for (int b = 0; b < 1 + rc->elastic_b; b++) {
+        if (memory[b]->n < 0 || memory[b]->n > RB_ROLLING_TERMS)
+            return rb_fail(why, RB_EINVAL, "relaxation: expected 0 ... %d terms, got %d",
+                           RB_ROLLING_TERMS, memory[b]->n);
+        for (int k = 0; k < memory[b]->n; k++) {
+            s = rb_rolling_check_number(b ? "relaxation-time-b" : "relaxation-time",
+                                        memory[b]->time[k], why);
+            if (s == RB_OK)
+                s = rb_rolling_check_number(b ? "relaxation-ratio-b" : "relaxation-ratio",
+                                            memory[b]->ratio[k], why);
+            if (s == RB_OK)
+                s = check_size("relaxation time", memory[b]->time[k], why);
+            if (s != RB_OK)
+                return s;
+        }
+        terms += memory[b]->n;
+    }
+    if (terms > 0 && rc->formulation == RB_TRANSIENT && rc->steps > 0)
+        return rb_fail(why, RB_EINVAL,
+                       "steps: viscoelastic bodies roll by one element in each step; "
+                       "choose --contact-elements instead");
+    s = check_relaxing_body(rc, &rc->a, why);
+    if (s == RB_OK && rc->elastic_b)
+        s = check_relaxing_body(rc, &rc->b, why);
+    if (s != RB_OK || terms == 0)
+        return s;
+    if (rc->formulation != RB_STATIC && rc->speed == 0.0)
+        return rb_fail(why, RB_EINVAL, "relaxation: needs the speed of rolling, add --speed");
+    if (rc->formulation != RB_STEADY &&
+        (rc->gap == RB_GAP_TABLE || rc->irregularity.n > 0 || rc->worn.n > 0))
+        return rb_fail(why, RB_EINVAL,
+                       "relaxation: a computation with steps needs a parabola or circle "
+                       "as gap, got a table");
+    return RB_OK;
+}
+
+/* Friction heats what rolls; steps follow it where both bodies start equally warm. */
+static rb_status check_heat(const rb_rolling_case *rc, rb_message *why)
+{
+    enum { MOST = 100000, MOST_UNLIKE = 4000 };
+    const rb_rolling_heat *a = &rc->heat_a, *b = &rc->heat_b;
+
+    if (a->conductivity == 0.0)
+        return RB_OK;
+    if (a->heat_capacity == 0.0 || (b->conductivity > 0.0 && b->heat_capacity == 0.0))
+        return rb_fail(why, RB_EINVAL,
+                       "conductivity: needs the heat capacity, add --heat-capacity");
+    if (rc->formulation == RB_STATIC)
+        return rb_fail(why, RB_EINVAL,
+                       "conductivity: friction heats bodies that roll, add --formulation "
+                       "steady or transient");
+    if (rc->speed == 0.0)
+        return rb_fail(why, RB_EINVAL, "conductivity: needs the speed of rolling, add --speed");
+    /* A layer or a cover. */
+    if (!rb_rolling_can(rc, RB_BODY_HOMOGENEOUS))
+        return rb_fail(why, RB_EINVAL, "conductivity: of homogeneous elastic bodies; %s",
+                       (rc->a.layer > 0.0 || rc->a.cover > 0.0 ||
+                        (rc->elastic_b && (rc->b.layer > 0.0 || rc->b.cover > 0.0)))
+                           ? "the flash temperature is computed for homogeneous bodies only, and a "
+                             "layer or cover conducts differently"
+                           : "a viscoelastic body is also heated inside, which is not computed");
+    if (rc->formulation == RB_TRANSIENT && a->temperature != b->temperature)
+        return rb_fail(why, RB_EINVAL,
+                       "temperature-b: in transient rolling both bodies must have the "
+                       "same temperature");
+    const int unlike = b->conductivity > 0.0 &&
+                       (a->conductivity != b->conductivity ||
+                        a->heat_capacity != b->heat_capacity || a->temperature != b->temperature);
+    const int most = unlike ? MOST_UNLIKE : MOST;
+    if (rc->contact_elements > most)
+        return rb_fail(why, RB_EINVAL,
+                       "conductivity: expected at most %d contact elements%s, got %d", most,
+                       unlike ? " of bodies that conduct differently" : "", rc->contact_elements);
+    return RB_OK;
+}
+
+static int count_given(int n, const double *value)
+{
+    int given = 0;
+    for (int i = 0; i < n; i++)
+        given += !isnan(value[i]);
+    return given;
+}
+
+static rb_status check_normal(const rb_rolling_case *rc, rb_message *why)
+{
+    const double normal[] = {rc->approach, rc->load, rc->half_width};
+
+    if (count_given(3, normal) > 1)
+        return rb_fail(why, RB_EINVAL, "approach, load and half-width exclude each other");
+    const double reach = fmin(fabs(rc->a.radius), fabs(rc->b.radius));
+    if (rc->half_width >= reach)
+        return rb_fail(why, RB_EINVAL,
+                       "half-width: expected less than the radius of either body, %g mm, "
+                       "got %g",
+                       reach, rc->half_width);
+    return RB_OK;
+}
+
+static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
+{
+    const double all[] = {rc->shift, rc->creep, rc->creep_ratio, rc->force, rc->force_ratio};
+    const double load[] = {rc->shift, rc->force, rc->force_ratio};
+
+    if (!isnan(rc->creep) && !isnan(rc->creep_ratio))
+        return rb_fail(why, RB_EINVAL, "creep and creep-ratio exclude each other");
+    if (rb_rolling_largest_mu(rc) == 0.0 && !isnan(rc->creep_ratio))
+        return rb_fail(why, RB_EINVAL, "creep-ratio: xi R/(mu a) has no meaning at mu = 0");
+    if (rc->formulation == RB_STATIC && count_given(3, load) > 1)
+        return rb_fail(why, RB_EINVAL, "shift, force and force-ratio exclude each other");
+    if (rc->formulation != RB_STATIC && !isnan(rc->shift))
+        return rb_fail(why, RB_EINVAL,
+                       "shift: rolling is driven by creep, creep-ratio, force or force-ratio");
+    if (rc->formulation != RB_STATIC && count_given(4, all + 1) > 1)
+        return rb_fail(why, RB_EINVAL,
+                       "creep, creep-ratio, force and force-ratio exclude each other");
+    if (rc->free_axle && count_given(5, all) > 0)
+        return rb_fail(why, RB_EINVAL,
+                       "free axle: it excludes shift, creep, creep-ratio, force and "
+                       "force-ratio");
+    if (rc->free_axle && rc->formulation != RB_STEADY)
+        return rb_fail(why, RB_EINVAL, "free axle: of steady rolling only");
+    if (rc->free_axle && rb_rolling_largest_mu(rc) == 0.0)
+        return rb_fail(why, RB_EINVAL, "free axle: only friction turns it, expected mu > 0");
+    /* Beyond full sliding there is no equilibrium; without friction no force but zero. */
+    if (!isnan(rc->force_ratio) && fabs(rc->force_ratio) > 1.0)
+        return rb_fail(why, RB_EINVAL, "force ratio Q/(mu P) = %g: friction carries at most 1",
+                       rc->force_ratio);
+    if (!isnan(rc->force_ratio) && rb_rolling_largest_mu(rc) == 0.0 && rc->force_ratio != 0.0)
+        return rb_fail(why, RB_EINVAL, "force ratio %g: Q/(mu P) has no meaning at mu = 0",
+                       rc->force_ratio);
+    const double P = rb_rolling_derive(rc).load, mu = rb_rolling_largest_mu(rc);
+    if (!isnan(rc->force) && !isnan(P) && fabs(rc->force) > mu * P * (1.0 + 1e-12))
+        return rb_fail(why, RB_EINVAL, "force Q = %g N/mm: friction carries at most mu P = %g N/mm",
+                       rc->force, mu * P);
+    return RB_OK;
+}
+
+static rb_status check_interlayer(const rb_rolling_case *rc, rb_message *why)
+{
+    if (rc->hardening != 0.0 && rc->yield_stress == 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "hardening: only for an interface that yields, add --yield-stress");
+    if (rc->yield_stress > 0.0 &&
+        (rb_rolling_law_depends_on_slip(&rc->friction) || rc->friction.heat != 0.0))
+        return rb_fail(why, RB_EINVAL,
+                       "yield stress: with one coefficient of friction or a table over "
+                       "x, not with a law that follows slip or heat: such a law does not "
+                       "apply where the interface yields instead of sliding");
+    if (rc->yield_stress > 0.0 && rc->contact.solver == RB_SOLVER_CONE)
+        return rb_fail(why, RB_EINVAL,
+                       "solver %s: solves Coulomb's law only, expected lemke, newton or "
+                       "auto with --yield-stress",
+                       rc->contact.cone_solver.name);
+    return RB_OK;
+}
+
+/* What lies in a bore is smaller than it, or they touch at the ends first. */
+static rb_status check_bore(const rb_rolling_case *rc, rb_message *why)
+{
+    if (!rc->elastic_b || rc->b.radius > 0.0 || rc->b.radius < -rc->a.radius)
+        return RB_OK;
+    return rb_fail(why, RB_EINVAL,
+                   "radius of body B: a bore must be larger than body A; expected less "
+                   "than -%g mm, got %g mm",
+                   rc->a.radius, rc->b.radius);
+}
+
+static rb_status check_gap(const rb_rolling_case *rc, rb_message *why)
+{
+    return rc->gap == RB_GAP_TABLE && !rc->profile
+               ? rb_fail(why, RB_EINVAL, "gap: expected a table, and none is given")
+               : RB_OK;
+}
+
+/* The surface is smooth again where the points end; steady rolling sees nothing pass. */
+static rb_status check_irregularity(const rb_rolling_case *rc, rb_message *why)
+{
+    const int n = rc->irregularity.n;
+
+    if (n == 0)
+        return RB_OK;
+    if (rc->formulation == RB_STEADY)
+        return rb_fail(why, RB_EINVAL,
+                       "irregularity: only for transient rolling, in which it moves "
+                       "through the contact");
+    const rb_status s =
+        rb_rolling_points_check("irregularity", n, rc->irregularity.x, rc->irregularity.y, why);
+    for (int i = 0; s == RB_OK && i < n; i += n - 1)
+        if (rc->irregularity.y[i] != 0.0)
+            return rb_fail(why, RB_EINVAL,
+                           "irregularity: row %d: expected gap 0 where it ends, got %g", i + 1,
+                           rc->irregularity.y[i]);
+    return s;
+}
+
+static rb_status check_worn(const rb_rolling_case *rc, rb_message *why)
+{
+    for (int i = 0; i < rc->worn.n; i++)
+        if (!isfinite(rc->worn.x[i]) || !isfinite(rc->worn.y[i]) ||
+            (i > 0 && !(rc->worn.x[i] > rc->worn.x[i - 1])))
+            return rb_fail(why, RB_EINVAL, "worn: row %d: expected finite numbers, x increasing",
+                           i + 1);
+    return RB_OK;
+}
+
+static rb_status check_increments(const rb_rolling_case *rc, rb_message *why)
+{
+    if (rc->increments > 1 && rc->formulation == RB_STEADY)
+        return rb_fail(why, RB_EINVAL,
+                       "increments: of static contact and of the start of a transient; "
+                       "steady rolling does not depend on its beginning");
+    return RB_OK;
+}
+
+static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
+{
+    if (rc->slip_operator == RB_SLIP_SECOND && rc->formulation != RB_STEADY)
+        return rb_fail(why, RB_EINVAL, "slip operator second: only for steady rolling");
+    if (rc->slip_operator == RB_SLIP_SECOND && rc->mesh == RB_MESH_FITTED)
+        return rb_fail(why, RB_EINVAL, "slip operator second: only for equal elements");
+    if (rc->mesh == RB_MESH_ALIGNED && rc->contact_elements < 12)
+        return rb_fail(why, RB_EINVAL, "mesh aligned: expected 12 contact elements or more, got %d",
+                       rc->contact_elements);
+    if (!(rc->outer_refinement >= 0.0 && rc->outer_refinement <= 1000.0))
+        return rb_fail(why, RB_EINVAL, "outer refinement: expected 0 ... 1000, got %g",
+                       rc->outer_refinement);
+    if (rc->zone >= rc->a.radius || rc->zone >= fabs(rc->b.radius))
+        return rb_fail(why, RB_EINVAL, "zone: %g mm is wider than the radius, %g mm", rc->zone,
+                       fmin(rc->a.radius, fabs(rc->b.radius)));
+    if (rc->normals == RB_BEM_NORMALS_SURFACE && rb_rolling_body_can(&rc->a, RB_BODY_FLAT))
+        return rb_fail(why, RB_EINVAL, "normals surface: a half-plane has the obstacle's");
+    if (rc->normals == RB_BEM_NORMALS_SURFACE && rc->elastic_b)
+        return rb_fail(why, RB_EINVAL, "normals surface: with a rigid plane only");
+    if (rc->contact.solver == RB_SOLVER_CONE && !rc->contact.cone_solver.solve)
+        return rb_fail(why, RB_EINVAL,
+                       "solver: expected auto, lemke, newton or a cone solver, got '%.60s'",
+                       rc->contact.cone_solver.name ? rc->contact.cone_solver.name : "");
+    return RB_OK;
+}
+
+static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
+{
+    const struct {
+        const char *what;
+        double value;
+    } sizes[] = {{"Young's modulus", rc->a.young},
+                 {"radius", rc->a.radius},
+                 {"Young's modulus of body B", rc->elastic_b ? rc->b.young : 1.0},
+                 {"radius of body B", rc->elastic_b ? rc->b.radius : INFINITY},
+                 {"load", rc->load},
+                 {"approach", rc->approach},
+                 {"half-width", rc->half_width},
+                 {"speed", rc->speed != 0.0 ? rc->speed : NAN}};
+
+    for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
+        const rb_status s = check_size(sizes[k].what, sizes[k].value, why);
+        if (s != RB_OK)
+            return s;
+    }
+    return RB_OK;
+}
+
+rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
+{
+    static rb_status (*const checks[])(const rb_rolling_case *, rb_message *) = {
+        check_memory,       check_heat,       rb_rolling_law_check, check_interlayer,
+        check_normal,       check_tangential, check_bore,           check_gap,
+        check_irregularity, check_worn,       check_increments,     check_sizes,
+        check_mesh};
+    const rb_rolling_case defaults = rb_rolling_case_defaults();
+    rb_status s = rb_rolling_check_ranges(rc, &defaults, why);
+
+    if (s == RB_OK)
+        s = rb_rolling_body_check(rc, &rc->a, "", 0, why);
+    if (s == RB_OK && rc->elastic_b)
+        s = rb_rolling_body_check(rc, &rc->b, " of body B", 1, why);
+    for (size_t k = 0; k < sizeof checks / sizeof *checks && s == RB_OK; k++)
+        s = checks[k](rc, why);
+    return s;
+}
+
+int rb_rolling_has_steps(const rb_rolling_case *rc)
+{
+    return rc->formulation == RB_TRANSIENT || (rc->formulation == RB_STATIC && rc->increments > 1);
+}

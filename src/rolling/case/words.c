@@ -1,0 +1,758 @@
+/* A case made from options: set by name, resolved, checked. */
+#include "rolling/case/words.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Making one -------------------------------------------------------------------- */
+
+static rb_resolved_case default_words(rb_case_purpose purpose)
+{
+    rb_resolved_case words = {.rc = rb_rolling_case_defaults(),
+                              .young_b = NAN,
+                              .poisson_b = NAN,
+                              .radius_b = INFINITY,
+                              .conductivity_b = NAN,
+                              .heat_capacity_b = NAN,
+                              .temperature_b = NAN,
+                              .memory_a = {.time = NAN, .ratio = NAN},
+                              .memory_b = {.time = NAN, .ratio = NAN},
+                              .law = {NAN, NAN, NAN, NAN, {0}, {0}, {0}, {0}}};
+    if (purpose == RB_CASE_CURVE || purpose == RB_CASE_SPEEDS)
+        words.rc.formulation = RB_STEADY;
+    return words;
+}
+
+rb_case *rb_case_create(rb_case_purpose purpose)
+{
+    rb_case *c = calloc(1, sizeof *c);
+    if (!c)
+        return NULL;
+    c->purpose = purpose;
+    c->words = c->defaults = default_words(purpose);
+    rb_case_resolve(c, NULL);
+    return c;
+}
+
+void rb_case_set_purpose(rb_case *c, rb_case_purpose purpose)
+{
+    c->purpose = purpose;
+    c->defaults = default_words(purpose);
+    if (!rb_case_given(c, "formulation"))
+        c->words.rc.formulation = c->defaults.rc.formulation;
+}
+
+void rb_case_use_cone_solvers(rb_case *c, rb_contact_cone_finder *find)
+{
+    c->find_cone_solver = find;
+}
+
+rb_case *rb_case_copy(const rb_case *c)
+{
+    rb_case *copy = malloc(sizeof *copy);
+    if (!copy)
+        return NULL;
+    *copy = *c;
+    for (int k = 0; k < CASE_TABLES; k++)
+        copy->table[k].borrowed = 1;
+    copy->profile.borrowed = 1;
+    copy->text = NULL;
+    copy->texts = 0;
+    return copy;
+}
+
+void rb_case_free(rb_case *c)
+{
+    if (!c)
+        return;
+    rb_case_free_files(c);
+    for (int i = 0; i < c->texts; i++)
+        free(c->text[i]);
+    free(c->text);
+    free(c);
+}
+
+const char *rb_case_keep(rb_case *c, const char *text)
+{
+    char **kept = realloc(c->text, sizeof *kept * (size_t)(c->texts + 1));
+    char *copy = malloc(strlen(text) + 1);
+    if (kept)
+        c->text = kept;
+    if (!kept || !copy) {
+        free(copy);
+        return NULL;
+    }
+    strcpy(copy, text);
+    return c->text[c->texts++] = copy;
+}
+
+const rb_choice rb_case_curve_variables[] = {{"creep-ratio", RB_OVER_CREEP_RATIO},
+                                             {"creep", RB_OVER_CREEP},
+                                             {"speed", RB_OVER_SPEED},
+                                             {NULL, 0}};
+
+/* ---- The table --------------------------------------------------------------------- */
+
+const rb_option_set *rb_option_find(int n, const rb_option_set *sets, const char *name,
+                                    size_t length, int *index, rb_guess *guess)
+{
+    for (int k = 0; k < n; k++)
+        for (int i = 0; i < sets[k].n; i++) {
+            const rb_option *o = &sets[k].options[i];
+            if (o->kind != RB_OPTION_GROUP && /* headings share names with options */
+                strncmp(o->name, name, length) == 0 && !o->name[length]) {
+                *index = i;
+                return &sets[k];
+            }
+        }
+    for (int k = 0; k < n; k++)
+        for (int i = 0; i < sets[k].n; i++)
+            if (sets[k].options[i].kind != RB_OPTION_GROUP)
+                rb_guess_try(guess, sets[k].options[i].name);
+    return NULL;
+}
+
+int rb_option_given(const rb_option_set *set, const char *name)
+{
+    for (int i = 0; i < set->n; i++)
+        if (set->options[i].kind != RB_OPTION_GROUP && strcmp(set->options[i].name, name) == 0)
+            return set->given[i];
+    return 0;
+}
+
+rb_option_set rb_case_options(rb_case *c)
+{
+    return (rb_option_set){rb_case_table, rb_case_table_n, &c->words, c->given, c->plain};
+}
+
+const rb_option *rb_case_describe(int *n)
+{
+    *n = rb_case_table_n;
+    return rb_case_table;
+}
+
+const rb_option *rb_case_option(const char *name)
+{
+    /* asked thousands of times per case: most names differ in their first letter */
+    for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++)
+        if (o->name[0] == name[0] && o->kind != RB_OPTION_GROUP && strcmp(o->name, name) == 0)
+            return o;
+    return NULL;
+}
+
+const char *rb_case_word(const char *name, int value)
+{
+    for (const rb_choice *c = rb_case_option(name)->choices; c->name; c++)
+        if (c->value == value)
+            return c->name;
+    return NULL;
+}
+
+const char *rb_case_section(const rb_option *option)
+{
+    while (option->kind != RB_OPTION_GROUP)
+        option--;
+    return option->name;
+}
+
+/* ---- Setting ----------------------------------------------------------------------- */
+
+/* The set that has the option, its place in *k; n = 0, with a line in why: none has. */
+static rb_option_set find(rb_case *c, const char *name, int *k, rb_message *why)
+{
+    rb_guess guess = {.word = name};
+    const rb_option_set sets[] = {rb_case_options(c),
+                                  c->crack.is_taken ? rb_case_crack_set(c) : (rb_option_set){0}};
+    const rb_option_set *set = rb_option_find(2, sets, name, strlen(name), k, &guess);
+    if (set)
+        return *set;
+    rb_fail(why, RB_EINVAL, "unknown option '%s'%s", name, rb_guess_text(&guess, ""));
+    return (rb_option_set){0};
+}
+
+static rb_status set(const rb_case *c, const rb_option_set *all, int k, const char *text, int by,
+                     rb_message *why)
+{
+    char what[400];
+    rb_option_source(&all->options[k], by, c->path, what, sizeof what);
+    const rb_status s = rb_option_assign(all, k, by, what, text, why);
+    return s != RB_OK && by > 0 ? RB_EFORMAT : s;
+}
+
+rb_status rb_case_set(rb_case *c, const char *name, const char *text, int by, rb_message *why)
+{
+    int k;
+    const rb_option_set all = find(c, name, &k, why);
+    if (all.n == 0)
+        return RB_EINVAL;
+    const char *kept = rb_case_keep(c, text);
+    return kept ? set(c, &all, k, kept, by, why) : rb_fail(why, RB_ENOMEM, "out of memory");
+}
+
+rb_status rb_case_set_number(rb_case *c, const char *name, double value, rb_message *why)
+{
+    char text[32];
+    int k;
+    const rb_option_set all = find(c, name, &k, why);
+    if (all.n == 0)
+        return RB_EINVAL;
+    if (all.options[k].kind != RB_OPTION_NUMBER && all.options[k].kind != RB_OPTION_INTEGER)
+        return rb_fail(why, RB_EINVAL, "%s: takes no number", name);
+    rb_format(text, sizeof text, "%.17g", value);
+    return set(c, &all, k, text, RB_GIVEN_NUMBER, why);
+}
+
+rb_units rb_case_units(const rb_case *c, int by)
+{
+    return by > 0 ? c->file_units : c->words.units;
+}
+
+rb_status rb_case_read_number(const rb_case *c, const char *text, const char *unit, double *x,
+                              rb_message *why)
+{
+    int plain;
+    const rb_status s = rb_unit_read(text, unit, x, &plain, why);
+    if (s == RB_OK && plain)
+        *x = rb_unit_stored(rb_case_units(c, RB_GIVEN_ARGUMENT), unit, *x);
+    return s;
+}
+
+void rb_case_store(const rb_case *c, const rb_option_set *set, void *target)
+{
+    for (int k = 0; k < set->n; k++) {
+        const rb_option *o = &set->options[k];
+        double *place = (double *)(void *)((char *)target + o->offset);
+        rb_numbers *list = (rb_numbers *)(void *)((char *)target + o->list);
+        const rb_units units = rb_case_units(c, set->given[k]);
+        if (o->kind != RB_OPTION_NUMBER || !set->given[k] || !set->plain[k])
+            continue;
+        *place = rb_unit_stored(units, o->unit, *place);
+        for (int i = 0; o->list && i < list->n; i++)
+            list->value[i] = rb_unit_stored(units, o->unit, list->value[i]);
+    }
+}
+
+/* ---- Where an error stands --------------------------------------------------------- */
+
+int rb_case_given(const rb_case *c, const char *name)
+{
+    const rb_option *o = rb_case_option(name);
+    return o ? c->given[o - rb_case_table] : 0;
+}
+
+static rb_status refuse(const rb_case *c, const rb_option *o, const char *reason, rb_message *why)
+{
+    char buffer[400];
+    const int by = c->given[o - rb_case_table];
+    return rb_fail(why, by > 0 ? RB_EFORMAT : RB_EINVAL, "%s: %s",
+                   rb_option_source(o, by, c->path, buffer, sizeof buffer), reason);
+}
+
+rb_status rb_case_refuse_given(const rb_case *c, const char *name, const char *reason,
+                               rb_message *why)
+{
+    return rb_case_given(c, name) ? refuse(c, rb_case_option(name), reason, why) : RB_OK;
+}
+
+/* An option that means nothing to a case, where that is so. */
+typedef struct {
+    int has_no_meaning;
+    const char *option, *reason;
+} rule;
+
+static rb_status refuse_by(const rb_case *c, size_t n, const rule *rules, rb_message *why)
+{
+    for (size_t k = 0; k < n; k++) {
+        const rb_status s = rules[k].has_no_meaning
+                                ? rb_case_refuse_given(c, rules[k].option, rules[k].reason, why)
+                                : RB_OK;
+        if (s != RB_OK)
+            return s;
+    }
+    return RB_OK;
+}
+
+/* The given option that a refusal names by its first words, as "zone: ..." or "radius of body B:
+ * ..."; "force ratio Q" and "load begins at 3" only begin with them.  rest: what follows.  NULL:
+ * they name none. */
+static const rb_option *named_first(const rb_case *c, const char *text, const char **rest)
+{
+    static const char of_a[] = " of body A", of_b[] = " of body B";
+    char name[60];
+    const size_t n = strcspn(text, ":(");
+    if (n >= sizeof name - 2)
+        return NULL;
+    snprintf(name, sizeof name, "%.*s", (int)n, text);
+    *rest = text + n;
+    if (n > strlen(of_a) && strcmp(name + n - strlen(of_a), of_a) == 0)
+        name[n - strlen(of_a)] = '\0';
+    else if (n > strlen(of_b) && strcmp(name + n - strlen(of_b), of_b) == 0)
+        memcpy(name + n - strlen(of_b), "-b", 3);
+    for (char *at = name; *at; at++)
+        *at = *at == ' ' ? '-' : *at;
+    for (char *end = name + strlen(name); end; end = strrchr(name, '-')) {
+        if (*end)
+            *rest = text + (end - name);
+        *end = '\0';
+        if (rb_case_given(c, name) != 0)
+            return rb_case_option(name);
+    }
+    return NULL;
+}
+
+rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why)
+{
+    if (s != RB_EINVAL || !why)
+        return s;
+    static const char *const names[CASE_TABLES] = {[CASE_HISTORY] = "history",
+                                                   [CASE_GAP] = "gap",
+                                                   [CASE_IRREGULARITY] = "irregularity",
+                                                   [CASE_WORN] = "worn",
+                                                   [CASE_FRICTION] = "friction table"};
+    const rb_message said = *why;
+    for (int k = 0; k < CASE_TABLES; k++) {
+        /* "history: row 3: ..." of the library, by the file and its line. */
+        const case_table *t = &c->table[k];
+        const size_t n = strlen(names[k]);
+        int row = 0, rest = 0;
+        if (!t->path || strncmp(said.text, names[k], n) != 0)
+            continue;
+        if (sscanf(said.text + n, ": row %d: %n", &row, &rest) == 1 && row >= 1 &&
+            row <= t->table.rows)
+            return rb_fail(why, RB_EFORMAT, "%s:%d: %s", t->path, t->table.line[row - 1],
+                           said.text + n + rest);
+        return rb_fail(why, RB_EFORMAT, "%s: %s", t->path, said.text);
+    }
+    const char *rest;
+    char source[400];
+    const rb_option *o = named_first(c, said.text, &rest);
+    const int by = o ? rb_case_given(c, o->name) : 0;
+    if (o && (*rest == ':' || o->kind == RB_OPTION_CHOICE))
+        return rb_fail(why, by > 0 ? RB_EFORMAT : s, "%s%s",
+                       rb_option_source(o, by, c->path, source, sizeof source), rest);
+    if (!*c->path)
+        return s;
+    /* of the option, or of the first of the --options in the text that stands in the file */
+    int line = by > 0 ? by : 0;
+    for (const char *at = said.text; line == 0 && (at = strstr(at, "--")); at += 2) {
+        char name[60];
+        const size_t n = strspn(at + 2, "abcdefghijklmnopqrstuvwxyz0123456789-");
+        snprintf(name, sizeof name, "%.*s", (int)n, at + 2);
+        line = rb_case_given(c, name) > 0 ? rb_case_given(c, name) : 0;
+    }
+    if (line > 0)
+        return rb_fail(why, RB_EFORMAT, "%s:%d: %s", c->path, line, said.text);
+    for (int i = 0; i < rb_case_table_n; i++)
+        if (c->given[i] < 0) /* of the command line: the error need not stand in the file */
+            return s;
+    return rb_fail(why, RB_EFORMAT, "%s: %s", c->path, said.text);
+}
+
+/* ---- Body B ------------------------------------------------------------------------ */
+
+int rb_case_is_copied_to_b(const char *option)
+{
+    const rb_option *o = rb_case_option(option);
+    return o && o->if_similar && !o->into;
+}
+
+/* 1: without a value of its own B has that of A. */
+static int would_follow(const rb_case *c, const rb_option *o)
+{
+    const rb_resolved_case *s = &c->resolved;
+    const int is_b = strcmp(rb_case_section(o), "body-b") == 0;
+    return o->of_a && (s->similar || !o->if_similar) &&
+           (!is_b || (s->rc.elastic_b && rb_option_applies(o, &s->rc.b)));
+}
+
+int rb_case_is_own_of_b(const rb_case *c, const char *option)
+{
+    const rb_option *o = rb_case_option(option);
+    return rb_case_given(c, option) != 0 &&
+           (strncmp(option, "relaxation-", 11) == 0 ? c->resolved.similar : would_follow(c, o));
+}
+
+static rb_status resolve_body_b(rb_case *c, rb_message *why)
+{
+    rb_resolved_case *s = &c->resolved;
+    rb_rolling_case *rc = &s->rc;
+    rc->elastic_b = s->similar || !isnan(s->young_b);
+    if (!rc->elastic_b)
+        s->young_b = s->poisson_b = NAN;
+    for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++) {
+        const int is_b = strcmp(rb_case_section(o), "body-b") == 0;
+        /* Options of the second body mean nothing to a rigid plane. */
+        if (is_b && !rc->elastic_b && c->given[o - rb_case_table])
+            return refuse(c, o, "body B is rigid without --similar or --young-b", why);
+        if ((is_b && !rc->elastic_b) || (!o->into && !o->of_a))
+            continue;
+        /* What is given of B lies in its place; the rest is A's, as the table says. */
+        double *to = (double *)(void *)((char *)rc + (o->into ? o->into : o->offset));
+        const double *typed = (const double *)(const void *)((char *)s + o->offset);
+        if (o->into && !isnan(*typed))
+            *to = *typed;
+        else if (would_follow(c, o) && !c->given[o - rb_case_table])
+            *to = *(const double *)(const void *)((char *)rc + o->of_a);
+    }
+    if (!rc->elastic_b)
+        return RB_OK;
+    if (s->similar && !rb_case_given(c, "relaxation-time-b") &&
+        !rb_case_given(c, "relaxation-ratio-b"))
+        s->memory_b = s->memory_a;
+    s->young_b = rc->b.young;
+    s->poisson_b = rc->b.poisson;
+    return RB_OK;
+}
+
+/* ---- Layers and memory ------------------------------------------------------------- */
+
+/* As many times as ratios. */
+static rb_status resolve_memory(const rb_case_memory *typed, const char *which,
+                                rb_rolling_memory *memory, rb_message *why)
+{
+    if (typed->times.n != typed->ratios.n)
+        return rb_fail(why, RB_EINVAL,
+                       "--relaxation-time%s and --relaxation-ratio%s: expected equally "
+                       "many numbers, got %d and %d",
+                       which, which, typed->times.n, typed->ratios.n);
+    memory->n = typed->times.n;
+    for (int k = 0; k < memory->n; k++) {
+        memory->time[k] = typed->times.value[k];
+        memory->ratio[k] = typed->ratios.value[k];
+    }
+    return RB_OK;
+}
+
+/* An option of one support or addition has no effect on other bodies.  In a file it may
+ * stand beside a support that the command line replaces. */
+static rb_status check_parameter(const rb_case *c, int is_b, const rb_rolling_body_kind *kind,
+                                 const rb_rolling_parameter *parameter, rb_message *why)
+{
+    const rb_rolling_body *body = is_b ? &c->resolved.rc.b : &c->resolved.rc.a;
+    const int support_by = rb_case_given(c, is_b ? "support-b" : "support");
+    char name[40], reason[80];
+    const char *word = NULL;
+
+    if (parameter->has_meaning ? parameter->has_meaning(body) : rb_rolling_body_is(body, kind))
+        return RB_OK;
+    strcpy(name, parameter->option);
+    if (is_b)
+        strcat(name, "-b");
+    if (!rb_case_given(c, name)) /* before any words: derivatives resolve a case often */
+        return RB_OK;
+    if (parameter->reason)
+        return rb_case_refuse_given(c, name, parameter->reason, why);
+    for (const rb_choice *support = rb_rolling_supports; support->name; support++)
+        if (support->value == (int)rb_rolling_kind_support(kind))
+            word = support->name;
+    snprintf(reason, sizeof reason, "of the support %s only", word);
+    return rb_case_given(c, name) > 0 && support_by == RB_GIVEN_ARGUMENT
+               ? RB_OK
+               : rb_case_refuse_given(c, name, reason, why);
+}
+
+static rb_status resolve_bodies(rb_case *c, rb_message *why)
+{
+    rb_resolved_case *s = &c->resolved;
+    rb_status status = resolve_body_b(c, why);
+    if (status == RB_OK)
+        status = resolve_memory(&s->memory_a, "", &s->rc.a.memory, why);
+    if (status == RB_OK)
+        status = resolve_memory(&s->memory_b, "-b", &s->rc.b.memory, why);
+    for (int body = 0; body < 2; body++) {
+        const rb_rolling_body_kind *kind;
+        for (int k = 0; (kind = rb_rolling_body_kind_get(k)); k++)
+            for (const rb_rolling_parameter *p = rb_rolling_kind_parameters(kind); p->option; p++) {
+                if (status != RB_OK)
+                    return status;
+                status = check_parameter(c, body, kind, p, why);
+            }
+    }
+    return status;
+}
+
+static rb_status check_heat(const rb_case *c, rb_message *why)
+{
+    static const char for_heat[] = "only where friction heats the bodies: give --conductivity, too";
+    const rb_resolved_case *s = &c->resolved;
+    const int cold = !(s->rc.heat_a.conductivity > 0.0),
+              stands = cold && rb_rolling_can(&s->rc, RB_BODY_ELASTIC) && s->law.falls.n == 0;
+    const rule rules[] = {{cold, "mu-heat", "needs temperatures, add --conductivity"},
+                          {cold, "heat-capacity", for_heat},
+                          {cold, "temperature", for_heat},
+                          {cold, "conductivity-b", for_heat},
+                          {cold, "heat-capacity-b", for_heat},
+                          {cold, "temperature-b", for_heat},
+                          {stands, "speed",
+                           "only for viscoelastic bodies, temperatures and velocity-dependent "
+                           "friction; see --relaxation-time, --conductivity and --mu-fall"}};
+
+    return refuse_by(c, sizeof rules / sizeof *rules, rules, why);
+}
+
+/* ---- Friction laws ----------------------------------------------------------------- */
+
+/* As many numbers as the option takes. */
+static rb_status count_numbers(const rb_case *c, const char *name, const rb_numbers *list,
+                               int least, int most, rb_message *why)
+{
+    char reason[80];
+    if (!rb_case_given(c, name) || (list->n >= least && list->n <= most))
+        return RB_OK;
+    if (most > least)
+        snprintf(reason, sizeof reason, "expected %d or %d numbers, got %d", least, most, list->n);
+    else
+        snprintf(reason, sizeof reason, "expected %d numbers, got %d", least, list->n);
+    return rb_case_refuse_given(c, name, reason, why);
+}
+
+static rb_status resolve_law(rb_case *c, rb_message *why)
+{
+    const rb_case_law *typed = &c->resolved.law;
+    rb_rolling_friction *f = &c->resolved.rc.friction;
+    const int falls = f->law != RB_FRICTION_constant && f->law != RB_FRICTION_table;
+    static const char for_falls[] = "only for velocity-dependent friction, see --friction-law";
+    const rule rules[] = {
+        {falls && typed->falls.n == 0, "friction-law", "needs --mu-fall and --slip-scale"},
+        {!falls, "mu-fall", for_falls},
+        {!falls, "slip-scale", for_falls},
+        {!falls && typed->heats.n == 0, "memory",
+         "only for friction that changes, see --mu-fall and --mu-heat"}};
+    rb_status s = count_numbers(c, "mu-fall", &typed->falls, 1, 2, why);
+
+    if (s == RB_OK && falls && typed->falls.n != typed->slip_scales.n)
+        s = rb_fail(why, RB_EINVAL,
+                    "--mu-fall and --slip-scale: expected equally many numbers, got %d and %d",
+                    typed->falls.n, typed->slip_scales.n);
+    if (s == RB_OK)
+        s = count_numbers(c, "memory", &typed->memories, 1, 2, why);
+    if (s == RB_OK)
+        s = count_numbers(c, "mu-heat", &typed->heats, 3, 3, why);
+    if (s == RB_OK)
+        s = refuse_by(c, sizeof rules / sizeof *rules, rules, why);
+    if (s != RB_OK)
+        return s;
+    for (int k = 0; k < 2; k++) {
+        f->fall[k] = k < typed->falls.n ? typed->falls.value[k] : 0.0;
+        f->slip_scale[k] = k < typed->slip_scales.n ? typed->slip_scales.value[k] : 0.0;
+    }
+    if (typed->memories.n > 0) {
+        f->memory = typed->memory;
+        f->memory_slip = typed->memories.n > 1 ? typed->memories.value[1] : 1.0;
+    }
+    if (typed->heats.n == 3) {
+        f->heat = typed->heat;
+        f->heat_from = typed->heats.value[1];
+        f->heat_range = typed->heats.value[2];
+    }
+    return RB_OK;
+}
+
+/* ---- What depends on other options ------------------------------------------------- */
+
+/* From so many elements on they are not graded to the edges, on any support. */
+enum { MANY = 1500 };
+
+int rb_case_has_steps(const rb_resolved_case *resolved)
+{
+    return resolved->program.n > 0 || rb_rolling_has_steps(&resolved->rc);
+}
+
+/* Options of one formulation mean nothing to the others. */
+static rb_status check_formulation(const rb_case *c, rb_message *why)
+{
+    const rb_resolved_case *resolved = &c->resolved;
+    const rb_rolling_case *rc = &resolved->rc;
+    const int transient = rc->formulation == RB_TRANSIENT, steady = rc->formulation == RB_STEADY,
+              history = resolved->history_file != NULL;
+    const int relaxes_at_rest = rc->formulation == RB_STATIC && rb_rolling_relaxes(rc);
+    const rule rules[] = {
+        {!transient, "distance", "of transient rolling only"},
+        {transient && history, "distance", "the history says how far"},
+        /* of a crack: positions of the contact */
+        {!transient && c->purpose != RB_CASE_CRACK, "steps", "of transient rolling only"},
+        {!transient, "irregularity",
+         "only for transient rolling, in which it moves through the contact"},
+        {steady, "history", "steady rolling has no history"},
+        {steady && rc->increments > 1, "increments",
+         "steady rolling does not depend on how the bodies were pressed"},
+        {!relaxes_at_rest, "time-step", "only for static contact of viscoelastic bodies"},
+        {relaxes_at_rest && history, "speed", "static contact does not roll"},
+        {history, "increments", "the history says them row by row"},
+        {rb_case_has_steps(resolved) && rc->mesh != RB_MESH_UNIFORM, "mesh",
+         "a computation with steps needs equal elements"}};
+    const rb_status s = refuse_by(c, sizeof rules / sizeof *rules, rules, why);
+    if (s != RB_OK)
+        return s;
+    if (relaxes_at_rest && !history)
+        return rb_fail(why, RB_EINVAL,
+                       "static contact of viscoelastic bodies needs --history, a table with "
+                       "a column time");
+    if (transient && !history && !(rc->distance > 0.0))
+        return rb_fail(why, RB_EINVAL, "transient rolling needs --distance or --history");
+    return RB_OK;
+}
+
+/* ---- What depends on the purpose --------------------------------------------------- */
+
+static const char steady_only[] = "a curve needs steady rolling, and so does a fit",
+                  no_steps[] = "a design takes cases of one step without error bars";
+
+enum {
+    CURVE = 1 << RB_CASE_CURVE,
+    SPEEDS = 1 << RB_CASE_SPEEDS,
+    STRESS = 1 << RB_CASE_STRESS,
+    WEAR = 1 << RB_CASE_WEAR,
+    CRACK = 1 << RB_CASE_CRACK,
+    STUDY = 1 << RB_CASE_STUDY,
+    DESIGN = 1 << RB_CASE_DESIGN
+};
+
+#define KINDS_OF_WEAR "wear is of sliding, fretting or steady rolling"
+#define VARIES "a curve varies it from --from to --to, a fit takes it from its data"
+#define HEAT                                                                                       \
+    " mu-heat conductivity heat-capacity temperature conductivity-b heat-capacity-b "              \
+    "temperature-b "
+
+/* Options that no case of these purposes takes. */
+static const struct {
+    int purposes;
+    const char *options, *reason; /* options: a blank before and behind each */
+} never_taken[] = {
+    {CURVE, " shift creep creep-ratio force force-ratio free-axle history ", VARIES},
+    {SPEEDS, " speed ", VARIES},
+    {CURVE | SPEEDS, " history distance steps irregularity increments time-step ", steady_only},
+    {CURVE | SPEEDS, " accuracy ",
+     "only for single cases; a curve has --error, and a fit has intervals"},
+    {STRESS, " accuracy ", "stress has error bars (--error), but no refinement"},
+    {CRACK, " accuracy ", "a crack has error bars (--error), but no refinement"},
+    {STUDY, " accuracy ", "a study has error bars (--error), but no refinement"},
+    {STUDY, " history ", "a study has none"},
+    {WEAR, " error ", "wear has no error bars"},
+    {WEAR, " accuracy ", "wear does not refine"},
+    {WEAR, " history ", "the cycles have their own"},
+    {WEAR, " increments ", "the cycles have their own, --quarter"},
+    {WEAR, " distance ", KINDS_OF_WEAR},
+    {WEAR, " steps ", KINDS_OF_WEAR "; see --wear-steps"},
+    {WEAR, " irregularity ", KINDS_OF_WEAR},
+    {WEAR, " time-step relaxation-time relaxation-ratio relaxation-time-b relaxation-ratio-b ",
+     "wear is of elastic bodies only"},
+    {WEAR, " yield-stress hardening ", "wear has no third body that yields"},
+    {STRESS, HEAT, "stress has no temperatures"},
+    {WEAR, HEAT, "wear has no temperatures"},
+    {DESIGN, " error accuracy history distance steps irregularity increments time-step ",
+     no_steps}};
+
+enum { NEVER_TAKEN = sizeof never_taken / sizeof *never_taken };
+
+int rb_case_takes(rb_case_purpose purpose, const char *option)
+{
+    char word[80];
+    snprintf(word, sizeof word, " %s ", option);
+    for (size_t k = 0; k < NEVER_TAKEN; k++)
+        if (never_taken[k].purposes >> purpose & 1 && strstr(never_taken[k].options, word))
+            return 0;
+    return 1;
+}
+
+static rb_status check_never_taken(const rb_case *c, rb_message *why)
+{
+    for (size_t k = 0; k < NEVER_TAKEN; k++)
+        for (const char *at = never_taken[k].options + 1;
+             *at && never_taken[k].purposes >> c->purpose & 1; at = strchr(at, ' ') + 1) {
+            char name[40];
+            snprintf(name, sizeof name, "%.*s", (int)strcspn(at, " "), at);
+            const rb_status s = rb_case_refuse_given(c, name, never_taken[k].reason, why);
+            if (s != RB_OK)
+                return s;
+        }
+    return RB_OK;
+}
+
+/* Values that mean nothing to what the case is solved for. */
+static rb_status check_purpose(const rb_case *c, rb_message *why)
+{
+    const int curve = (CURVE | SPEEDS) >> c->purpose & 1;
+    const rb_rolling_formulation formulation = c->resolved.rc.formulation;
+    const rb_numbers *mus = &c->resolved.mus;
+    /* 0,3 is read as 0 and 3. */
+    const int comma = mus->n == 2 && mus->value[0] == floor(mus->value[0]) &&
+                      mus->value[1] == floor(mus->value[1]);
+    const rule rules[] = {
+        {curve && formulation != RB_STEADY, "formulation", steady_only},
+        {c->purpose == RB_CASE_STUDY && formulation == RB_TRANSIENT, "formulation",
+         "a study needs static or steady cases"},
+        {c->purpose == RB_CASE_WEAR && formulation == RB_TRANSIENT, "formulation", KINDS_OF_WEAR},
+        {c->purpose == RB_CASE_DESIGN && formulation == RB_TRANSIENT, "formulation", no_steps},
+        {!curve && mus->n > 1, "mu",
+         comma ? "expected one number, with a decimal point; a curve takes several"
+               : "expected one number; a curve takes several"},
+        {rb_case_has_steps(&c->resolved), "accuracy",
+         "only for static and steady cases without steps"}};
+
+    return refuse_by(c, sizeof rules / sizeof *rules, rules, why);
+}
+
+rb_status rb_case_resolve(rb_case *c, rb_message *why)
+{
+    const rb_option_precedence how = rb_case_precedence(c);
+    const rb_option_set set = rb_case_options(c);
+    rb_status s = rb_option_resolve(&set, &how, why);
+    if (s == RB_OK)
+        s = check_never_taken(c, why);
+    if (s == RB_OK)
+        s = rb_case_read_history(c, why);
+    c->resolved = c->words;
+    rb_case_store(c, &set, &c->resolved);
+    if (c->crack.is_taken) {
+        const rb_option_set crack = rb_case_crack_set(c);
+        c->crack.resolved = c->crack.words;
+        rb_case_store(c, &crack, &c->crack.resolved);
+    }
+    if (s == RB_OK)
+        s = resolve_bodies(c, why);
+    if (s == RB_OK)
+        s = resolve_law(c, why);
+    if (s == RB_OK)
+        s = check_heat(c, why);
+    if (s == RB_OK)
+        s = check_formulation(c, why);
+    if (s == RB_OK)
+        s = rb_case_read_files(c, why);
+    if (s == RB_OK)
+        s = check_purpose(c, why);
+    if (s != RB_OK)
+        return rb_case_locate(c, s, why);
+    /* The paper's own example stays on its equal elements, as do large contacts, which
+     * need them. */
+    rb_rolling_case *rc = &c->resolved.rc;
+    const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width);
+    const rb_rolling_mesh equal = {.n = rc->contact_elements};
+    const int many = rc->contact_elements >= MANY || rb_rolling_suits_large(rc, &equal);
+    if (!rb_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper && rc->zone == 0.0 &&
+        rc->gap != RB_GAP_TABLE && !c->resolved.worn_file)
+        rc->mesh =
+            !many && rc->slip_operator == RB_SLIP_UPSTREAM ? RB_MESH_FITTED : RB_MESH_ALIGNED;
+    if (!rb_case_given(c, "slip-operator") && rc->formulation == RB_STEADY &&
+        rc->mesh == RB_MESH_ALIGNED)
+        rc->slip_operator = RB_SLIP_SECOND;
+    if (!rb_case_given(c, "contact-elements") && rc->mesh == RB_MESH_FITTED)
+        rc->contact_elements = 100;
+    if (c->resolved.program.n > 0)
+        c->resolved.rc = rb_rolling_program_base(&c->resolved.program, &c->resolved.rc);
+    if (rc->contact.solver == RB_SOLVER_CONE && c->find_cone_solver)
+        rc->contact.cone_solver = c->find_cone_solver(rc->contact.cone_solver.name);
+    rb_rolling_case checked = c->resolved.rc;
+    if (c->purpose == RB_CASE_SPEEDS)
+        checked.speed = 1.0; /* the curve has its own */
+    s = rb_rolling_case_check(&checked, why);
+    if (s == RB_OK)
+        c->resolved.derived = rb_rolling_derive(&c->resolved.rc);
+    return rb_case_locate(c, s, why);
+}
+
+const rb_resolved_case *rb_case_resolved(const rb_case *c)
+{
+    return &c->resolved;
+}

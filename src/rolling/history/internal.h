@@ -1,0 +1,110 @@
+/* Declarations shared by the files of this folder; includes those of rolling and
+ * results. */
+#ifndef ROLLBEM_HISTORY_INTERNAL_H
+#define ROLLBEM_HISTORY_INTERNAL_H
+
+#include "rolling/solve/results.h"
+
+/* ---- relax.c ----------------------------------------------------------------------- */
+
+/* A viscoelastic body and the filtered tractions of each of its relaxation terms (V6). */
+typedef struct {
+    const rb_rolling_memory *memory; /* borrowed from the case */
+    double sign;                     /* 1: body A, -1: B, whose tangent is mirrored */
+    rb_bem_flexibility f;            /* of the glassy body under all elements; owned */
+    double *past;                    /* terms x 2 all */
+    /* Of a half-plane that rolls: depth of its datum, displacement per force (0: none), and by
+     * how much loads that have moved on raise it in both directions, now and one step ago (V2). */
+    double datum, raises, raised[2], raised_before[2];
+} rb_rolling_relaxing;
+
+/* Stored tractions of both bodies: on the n elements of the mesh, and on `tail` elements
+ * behind them, for the material that has left the mesh. */
+typedef struct {
+    int n, tail, all, bodies;
+    rb_rolling_relaxing body[2];
+    double h;         /* of the elements */
+    double *traction; /* 2 all: on A at the end of the last step */
+    double *force;    /* 2 x (tail + 1): P and Q of the steps before, the last one first */
+    int rolled;       /* steps so far that have moved the material */
+    double *scratch;  /* (2 all + 2) x 4 */
+    double lost;      /* energy that the bodies have dissipated so far [force] */
+} rb_rolling_memory_track;
+
+/* The equivalent elastic bodies for a step of this length in seconds.  INFINITY:
+ * rubbery. */
+rb_rolling_case rb_rolling_memory_case(const rb_rolling_case *rc, double step);
+/* Creates a track for bodies at rest without earlier loads; its arrays are memory's.  tail >
+ * 0: equal elements. */
+rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                         int tail, rb_arena *memory, rb_rolling_memory_track *r,
+                                         rb_message *why);
+/* Before a step is solved: the displacement w0 (2m) that its bodies bring along.  rolls:
+ * 1: the material moves by one element towards -x. */
+void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int rolls, double *w0);
+/* After it, with the tractions on A that were found. */
+void rb_rolling_memory_track_end(rb_rolling_memory_track *r, double step, const double *p,
+                                 const double *q);
+void rb_rolling_memory_track_free(rb_rolling_memory_track *r);
+
+/* ---- carried.c --------------------------------------------------------------------- */
+
+/* State variables that the particles bring into a step of a history.  The caller sets the
+ * first five members. */
+typedef struct {
+    const rb_rolling_case *rc;     /* of the history; borrowed */
+    rb_rolling_model *model;       /* after the last step; borrowed */
+    double step;                   /* length of a rolled step; 0: no rolling */
+    int steps;                     /* in all */
+    int keeps_elements;            /* 1: keep the elements of the given states */
+    rb_arena memory;               /* of all arrays that follow */
+    double *w_T;                   /* n: tangential displacement that the next step starts from */
+    double *mu;                    /* n: coefficients before the step */
+    double *yielded;               /* n + 1: plastic slip of the interface, to be moved with the
+                                      particles */
+    double *w;                     /* 2 (n + 1): displacements of the last step */
+    rb_rolling_former_place ahead; /* for steps whose length is not that of an element */
+    rb_rolling_heat_track heat;
+    rb_rolling_memory_track past; /* of viscoelastic bodies */
+    double interval; /* step length [s] for which the present bodies were built; -1: none */
+} rb_rolling_particles;
+
+/* A step: rolled distance c (0: at rest) and duration in seconds. */
+typedef struct {
+    double c, interval;
+    int is_first; /* 1: at rest, the first step */
+} rb_rolling_stride;
+
+/* Length of the middle element; all elements have the same length. */
+double rb_rolling_middle_length(const rb_rolling_model *model);
+/* This call may change the mesh of the model. */
+rb_status rb_rolling_particles_create(rb_rolling_particles *r, rb_message *why);
+/* Before a step is solved: moves the state variables to the places of the particles. */
+rb_status rb_rolling_particles_bring(rb_rolling_particles *r, const rb_rolling_stride *stride,
+                                     rb_message *why);
+/* After a step: stores the state variables. */
+void rb_rolling_particles_leave(rb_rolling_particles *r, const rb_rolling_stride *stride);
+void rb_rolling_particles_free(rb_rolling_particles *r);
+
+/* ---- program.c --------------------------------------------------------------------- */
+
+/* Number of rows at rest at the beginning of the program. */
+int rb_rolling_program_at_rest(const rb_rolling_program *program);
+/* Number of steps at rest from row r - 1 to row r. */
+int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling_case *rc, int r);
+/* The case of row r at rest, or at the fraction part/parts between row r - 1 and row
+ * r. */
+rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program, const rb_rolling_case *rc,
+                                       int r, int part, int parts);
+/* The case of a step rolled from one distance to another. */
+rb_rolling_case rb_rolling_program_step(const rb_rolling_program *program,
+                                        const rb_rolling_case *rc, double from, double to);
+/* Checks that each row is a valid case. */
+rb_status rb_rolling_program_check(const rb_rolling_program *program, const rb_rolling_case *rc,
+                                   rb_message *why);
+/* The program of a case without a history: increments of pressing and of loading, then
+ * rolling.  Its columns are memory's.  RB_ENOMEM. */
+rb_status rb_rolling_program_of_case(const rb_rolling_case *rc, rb_arena *memory,
+                                     rb_rolling_program *program);
+
+#endif

@@ -1,0 +1,258 @@
+/* The program of a history: its columns, and the case of each of its steps. */
+#include "rolling/history/internal.h"
+
+#include <gsl/gsl_interp.h>
+#include <stdint.h>
+#include <string.h>
+
+#define COLUMN(name, is_mean)                                                                      \
+    {                                                                                              \
+#name, offsetof(rb_rolling_program, name), offsetof(rb_rolling_case, name), is_mean        \
+    }
+
+const rb_rolling_program_column rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS] = {
+    {"distance", offsetof(rb_rolling_program, distance), SIZE_MAX, 0},
+    {"time", offsetof(rb_rolling_program, time), SIZE_MAX, 0},
+    COLUMN(mu, 0),
+    COLUMN(load, 0),
+    COLUMN(approach, 0),
+    COLUMN(shift, 0),
+    COLUMN(force, 0),
+    COLUMN(force_ratio, 0),
+    COLUMN(creep, 1),
+    COLUMN(creep_ratio, 1),
+};
+
+static const double *column_of(const rb_rolling_program *program, int c)
+{
+    const double *column;
+    memcpy(&column, (const char *)program + rb_rolling_program_columns[c].column, sizeof column);
+    return column;
+}
+
+static void replace(rb_rolling_case *rc, int c, double value)
+{
+    if (rb_rolling_program_columns[c].value == SIZE_MAX)
+        return;
+    memcpy((char *)rc + rb_rolling_program_columns[c].value, &value, sizeof value);
+}
+
+/* ---- The case of a step ------------------------------------------------------------ */
+
+int rb_rolling_program_at_rest(const rb_rolling_program *program)
+{
+    int rows = 0;
+    while (rows < program->n && (!program->distance || program->distance[rows] == 0.0))
+        rows++;
+    return rows;
+}
+
+int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling_case *rc, int r)
+{
+    if (!program->time || r == 0 || !(rc->time_step > 0.0))
+        return 1;
+    const double steps = (program->time[r] - program->time[r - 1]) / rc->time_step;
+    return (int)fmin(fmax(ceil(steps * (1.0 - 1e-9)), 1.0), RB_ROLLING_MOST_STEPS);
+}
+
+rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program, const rb_rolling_case *rc,
+                                       int r, int part, int parts)
+{
+    rb_rolling_case at = *rc;
+
+    for (int c = 0; c < RB_ROLLING_PROGRAM_COLUMNS; c++) {
+        const double *x = column_of(program, c);
+        if (x)
+            replace(&at, c, part == parts ? x[r] : x[r - 1] + (x[r] - x[r - 1]) * part / parts);
+    }
+    return at;
+}
+
+/* The last row at or before distance x that has a row behind it; of rows at the same
+ * distance, which are at rest, the last one. */
+static int row_before(const rb_rolling_program *program, double x)
+{
+    return (int)gsl_interp_bsearch(program->distance, x, 0, (size_t)program->n - 1);
+}
+
+/* Linear between the rows; behind the last one its own. */
+static double value_at(const rb_rolling_program *program, const double *column, double x)
+{
+    const double *d = program->distance;
+    const int i = row_before(program, x);
+
+    if (x >= d[program->n - 1])
+        return column[program->n - 1];
+    if (column[i] == column[i + 1]) /* to the last digit */
+        return column[i];
+    const double t = (x - d[i]) / (d[i + 1] - d[i]);
+    return (1.0 - t) * column[i] + t * column[i + 1];
+}
+
+/* Mean between two distances, exact across the rows. */
+static double mean_between(const rb_rolling_program *program, const double *column, double from,
+                           double to)
+{
+    double sum = 0.0, x = from;
+
+    while (x < to) {
+        const double end = fmin(to, program->distance[row_before(program, x) + 1]);
+        sum += 0.5 * (end - x) * (value_at(program, column, x) + value_at(program, column, end));
+        x = end;
+    }
+    return sum / (to - from);
+}
+
+rb_rolling_case rb_rolling_program_step(const rb_rolling_program *program,
+                                        const rb_rolling_case *rc, double from, double to)
+{
+    rb_rolling_case at = *rc;
+
+    for (int c = 0; c < RB_ROLLING_PROGRAM_COLUMNS; c++) {
+        const double *column = column_of(program, c);
+        if (column)
+            replace(&at, c,
+                    rb_rolling_program_columns[c].is_mean ? mean_between(program, column, from, to)
+                                                          : value_at(program, column, to));
+    }
+    return at;
+}
+
+rb_rolling_case rb_rolling_program_base(const rb_rolling_program *program,
+                                        const rb_rolling_case *rc)
+{
+    rb_rolling_case base = *rc;
+
+    if (program->n > 0 && program->mu)
+        base.mu = 0.0;
+    for (int r = 0; r < program->n && program->mu; r++)
+        base.mu = fmax(base.mu, program->mu[r]);
+    return base;
+}
+
+/* ---- Checks ------------------------------------------------------------------------ */
+
+rb_status rb_rolling_program_check(const rb_rolling_program *program, const rb_rolling_case *rc,
+                                   rb_message *why)
+{
+    const rb_rolling_formulation formulation = rc->formulation;
+    const double *d = program->distance;
+
+    if (program->n < 1)
+        return rb_fail(why, RB_EINVAL, "history: expected 1 row or more");
+    if (formulation == RB_STEADY)
+        return rb_fail(why, RB_EINVAL, "history: steady rolling has none");
+    if (formulation == RB_TRANSIENT && !program->distance)
+        return rb_fail(why, RB_EINVAL, "history: transient rolling needs a column distance");
+    if (formulation == RB_STATIC && program->distance)
+        return rb_fail(why, RB_EINVAL,
+                       "history: a column distance is for transient rolling; static "
+                       "contact does not roll");
+    if (program->time && formulation == RB_TRANSIENT)
+        return rb_fail(why, RB_EINVAL,
+                       "history: a column time is for static contact; rolling needs a "
+                       "column distance and a speed");
+    if (program->time && !rb_rolling_relaxes(rc))
+        return rb_fail(why, RB_EINVAL,
+                       "history: a column time is for viscoelastic bodies, see --relaxation-time");
+    if (program->mu && rc->friction.law == RB_FRICTION_table)
+        return rb_fail(why, RB_EINVAL,
+                       "history: a column mu cannot be combined with a table of friction over x");
+    for (int c = 0; c < RB_ROLLING_PROGRAM_COLUMNS; c++)
+        for (int r = 0; column_of(program, c) && r < program->n; r++)
+            if (!isfinite(column_of(program, c)[r]))
+                return rb_fail(why, RB_EINVAL, "history: row %d: %s is not a number", r + 1,
+                               rb_rolling_program_columns[c].name);
+    if (formulation == RB_STATIC && rb_rolling_relaxes(rc)) {
+        const double *t = program->time;
+        double steps = 0.0;
+
+        if (!t)
+            return rb_fail(why, RB_EINVAL,
+                           "history: static contact of viscoelastic bodies needs a column time");
+        if (t[0] != 0.0)
+            return rb_fail(why, RB_EINVAL,
+                           "history: row 1: expected time 0, when the bodies are pressed "
+                           "together, got %g",
+                           t[0]);
+        for (int r = 1; r < program->n; r++) {
+            if (t[r] < t[r - 1])
+                return rb_fail(why, RB_EINVAL,
+                               "history: row %d: time %g is before that of the row before", r + 1,
+                               t[r]);
+            steps += rb_rolling_program_parts(program, rc, r);
+        }
+        if (!(steps <= RB_ROLLING_MOST_STEPS))
+            return rb_fail(why, RB_EINVAL, "time step: %g s makes %.3g steps; expected at most %g",
+                           rc->time_step, steps, (double)RB_ROLLING_MOST_STEPS);
+    }
+    if (d && d[0] != 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "history: row 1: expected distance 0, where the contact starts "
+                       "from rest, got %g",
+                       d[0]);
+    for (int r = 1; r < program->n && d; r++) {
+        if (d[r] < d[r - 1])
+            return rb_fail(why, RB_EINVAL,
+                           "history: row %d: distance %g is less than in the row before", r + 1,
+                           d[r]);
+        if (d[r] > 0.0 && d[r] == d[r - 1])
+            return rb_fail(why, RB_EINVAL,
+                           "history: row %d: distance %g twice; a jump needs two rows a "
+                           "little apart",
+                           r + 1, d[r]);
+    }
+    for (int r = 0; r < program->n; r++) {
+        const rb_rolling_case at = rb_rolling_program_row(program, rc, r, 1, 1);
+        rb_message reason = {""};
+        const rb_status s = rb_rolling_case_check(&at, &reason);
+        if (s != RB_OK)
+            return rb_fail(why, s, "history: row %d: %.200s", r + 1, reason.text);
+    }
+    return RB_OK;
+}
+
+/* ---- The case's own program -------------------------------------------------------- */
+
+rb_status rb_rolling_program_of_case(const rb_rolling_case *rc, rb_arena *memory,
+                                     rb_rolling_program *program)
+{
+    const int rolls = rc->formulation == RB_TRANSIENT;
+    const int count = rc->increments > 1 ? rc->increments : 1;
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+    const double most = isnan(d.load) ? d.approach : d.load;
+    const size_t rows = 2 * (size_t)count + 1; /* at most */
+    double *distance = rb_arena_doubles(memory, rows, 1),
+           *normal = rb_arena_doubles(memory, rows, 1),
+           *loading = rb_arena_doubles(memory, rows, 1), last;
+
+    if (memory->failed)
+        return RB_ENOMEM;
+    *program = (rb_rolling_program){.distance = rolls ? distance : NULL};
+    *(isnan(d.load) ? &program->approach : &program->load) = normal;
+    /* The tangential control that loads the contact at rest: its column and last value. A
+     * transient that is driven by its creepage starts without a force. */
+    if (!isnan(rc->force_ratio)) {
+        program->force_ratio = loading;
+        last = rc->force_ratio;
+    } else {
+        if (!isnan(rc->force) || rc->formulation == RB_TRANSIENT) {
+            program->force = isnan(rc->force) ? NULL : loading;
+            last = isnan(rc->force) ? 0.0 : rc->force;
+        } else {
+            program->shift = loading;
+            last = rb_rolling_wanted_shift(rc);
+        }
+    }
+    const int loaded = last != 0.0 && count > 1;
+    program->n = count + (loaded ? count : 0) + rolls;
+    for (int r = 0; r < program->n; r++) {
+        normal[r] = r < count ? most * (r + 1) / count : most;
+        loading[r] = !loaded || r >= 2 * count ? last
+                     : r < count               ? 0.0
+                                               : last * (r + 1 - count) / count;
+    }
+    if (rolls)
+        distance[program->n - 1] = rc->distance;
+    return RB_OK;
+}

@@ -1,0 +1,147 @@
+/* From case to solution in one call. */
+#include "rolling/history/internal.h"
+
+#include <string.h>
+
+rb_status rb_rolling_end_solve(const rb_rolling_model *model, rb_status s, double begun,
+                               rb_rolling_solution *solution, rb_message *why)
+{
+    memset(solution, 0, sizeof *solution);
+    if (s >= 0 && model->state.p) {
+        const rb_status t = rb_rolling_model_solution(model, solution, why);
+        s = t == RB_OK ? s : t;
+    }
+    if (s >= 0)
+        solution->status = s;
+    solution->seconds_total = rb_seconds() - begun;
+    return s;
+}
+
+rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
+                                 rb_rolling_solution *solution, rb_message *why)
+{
+    memset(model, 0, sizeof *model);
+    return rb_rolling_solve_model_reuse(rc, model, solution, why);
+}
+
+rb_status rb_rolling_solve_model_reuse(const rb_rolling_case *rc, rb_rolling_model *model,
+                                       rb_rolling_solution *solution, rb_message *why)
+{
+    const double start = rb_seconds();
+    rb_rolling_history history = {0};
+    rb_status s;
+
+    if (rb_rolling_has_steps(rc)) {
+        rb_rolling_model_free(model);
+        s = rb_rolling_history_run(rc, NULL, NULL, model, &history, why);
+    } else {
+        s = rb_rolling_check_layer_resolved(model, rb_rolling_model_reuse(rc, NULL, model, why),
+                                            why);
+    }
+    rb_rolling_history_free(&history);
+    s = rb_rolling_end_solve(model, s, start, solution, why);
+    if (s == RB_OK && rc->formulation == RB_STEADY && rb_rolling_largest_mu(rc) > 0.0) {
+        s = rb_rolling_free_creepage_if_any(model, &solution->free_creepage, why);
+        solution->seconds_total = rb_seconds() - start;
+    }
+    return s;
+}
+
+rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solution,
+                           rb_message *why)
+{
+    rb_rolling_model model;
+    const rb_status s = rb_rolling_solve_model(rc, &model, solution, why);
+
+    rb_rolling_model_free(&model);
+    return s;
+}
+
+rb_status rb_rolling_solve_between(const rb_rolling_case *rc, double from, double to,
+                                   rb_rolling_solution *solution, rb_message *why)
+{
+    const double start = rb_seconds();
+    rb_rolling_model model = {0};
+    rb_rolling_mesh mesh = {0};
+    rb_status s = rb_rolling_case_check(rc, why);
+
+    if (s == RB_OK)
+        s = rb_rolling_model_begin(rc, NULL, &model, why);
+    if (s == RB_OK)
+        s = rb_rolling_mesh_uniform(rc, NULL, from, to, &mesh, why);
+    if (s == RB_OK)
+        s = rb_rolling_model_build(&model, &mesh, why);
+    s = rb_rolling_end_solve(&model, s, start, solution, why);
+    rb_rolling_mesh_free(&mesh);
+    rb_rolling_model_free(&model);
+    return s;
+}
+
+/* ---- One step alone ----------------------------------------------------------------- */
+
+rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double to,
+                                  const rb_rolling_solution *before, const rb_rolling_table *start,
+                                  double step, rb_rolling_solution *solution, rb_message *why)
+{
+    const double begun = rb_seconds();
+    rb_rolling_model model = {0};
+    rb_rolling_particles particles = {
+        .rc = rc, .model = &model, .step = step, .steps = 1, .keeps_elements = 1};
+    const rb_rolling_stride stride = {.c = step};
+    rb_status s = rb_rolling_case_check(rc, why);
+
+    memset(solution, 0, sizeof *solution);
+    if (s == RB_OK &&
+        (rc->formulation == RB_STEADY || rb_rolling_relaxes(rc) || rb_rolling_has_heat(rc)))
+        s = rb_fail(why, RB_EINVAL,
+                    "a step: not for steady rolling, viscoelastic bodies or temperatures");
+    if (s == RB_OK && !(rc->formulation == RB_STATIC ? step == 0.0 : step > 0.0))
+        s = rb_fail(why, RB_EINVAL, "a step: its length %g: expected > 0 where it rolls, 0 at rest",
+                    step);
+    if (s == RB_OK) {
+        /* Equal elements between from and to, with nothing solved on them. */
+        const int n = rc->contact_elements;
+        double *x = rb_arena_doubles(&particles.memory, (size_t)n, 1),
+               *h = rb_arena_doubles(&particles.memory, (size_t)n, 1);
+        const rb_rolling_elements elements = {.n = n, .x = x, .h = h, .are_equal = 1};
+        for (int i = 0; i < n && h; i++) {
+            h[i] = (to - from) / n;
+            x[i] = from + (i + 0.5) * h[i];
+        }
+        s = h ? rb_rolling_model_of_result(rc, NULL, &elements, &model, why)
+              : rb_fail(why, RB_ENOMEM, "out of memory for %d elements", n);
+    }
+    if (s == RB_OK)
+        s = rb_rolling_particles_create(&particles, why);
+    if (s == RB_OK && before) {
+        /* The state of the solution before, as far as a step looks at it. */
+        const size_t n = (size_t)model.mesh.n, bytes = n * sizeof(double);
+        const double *x = model.bodies.f.x, h = model.bodies.f.h[0];
+
+        if (before->n != model.mesh.n || fabs(before->x[0] - x[0]) > 1e-6 * h ||
+            fabs(before->x[n - 1] - x[n - 1]) > 1e-6 * h)
+            s = rb_fail(why, RB_EINVAL, "a step: the state before has other elements");
+        else {
+            memcpy(model.state.p, before->p, bytes);
+            memcpy(model.state.q, before->q, bytes);
+            if (before->mu)
+                memcpy(model.problem.bound, before->mu, bytes);
+            if (before->plastic && model.carried.yielded)
+                memcpy(model.carried.yielded, before->plastic, bytes);
+        }
+    }
+    if (s == RB_OK)
+        s = rb_rolling_particles_bring(&particles, &stride, why);
+    if (s == RB_OK) {
+        const rb_rolling_past past = {particles.w_T, model.carried.yielded, step};
+        if (!before || start)
+            rb_rolling_start_bounds(rc, start, &model.bodies, &model.problem);
+        rb_rolling_set_past(rc, &model.bodies, &past, &model.problem);
+        rb_rolling_set_control(rc, &model.problem);
+        s = rb_rolling_model_resolve(&model, 0, why);
+    }
+    s = rb_rolling_end_solve(&model, s, begun, solution, why);
+    rb_rolling_particles_free(&particles);
+    rb_rolling_model_free(&model);
+    return s;
+}

@@ -1,0 +1,439 @@
+/* Wear: a sequence of contact problems, each of which includes the wear of its own step
+ * implicitly (theory.md 4.9). */
+#include "rolling/history/internal.h"
+
+#include <gsl/gsl_math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void rb_rolling_wear_history_free(rb_rolling_wear_history *h)
+{
+    rb_rolling_columns_free(&rb_rolling_wear_columns, h);
+    memset(h, 0, sizeof *h);
+}
+
+/* ---- What is at work --------------------------------------------------------------- */
+
+typedef struct {
+    const rb_rolling_wear *wear;
+    rb_rolling_case rc;     /* on the present mesh, with the worn depth so far */
+    rb_rolling_model model; /* mesh, bodies and the contact after the last step */
+    int n;
+    rb_arena memory;    /* of the arrays */
+    double *x, *depth;  /* n: midpoints, and what is worn off there [length] */
+    double *compliance; /* n: depth that a step wears per pressure [length/stress] */
+    double *path;       /* n: way that the surfaces slide in a cycle [length] */
+    double *softer;     /* flexibility with the compliance on its diagonal, or, where there
+                           is no matrix, 2n: the interface's with it */
+    double work;        /* of friction in a cycle [force] */
+    double track;       /* volume per unit width that B has lost where A slides or rolls on a
+                           plane [length^2] */
+    double passage;     /* depth of that track in one passage of A [length] */
+    rb_rolling_wear_history *history;
+    rb_rolling_solution *last;
+    const rb_rolling_wear_observer *observer; /* or NULL */
+} wear_state;
+
+static void run_free(wear_state *r)
+{
+    rb_rolling_model_free(&r->model);
+    rb_arena_free(&r->memory);
+}
+
+static rb_rolling_table worn_of(const wear_state *r)
+{
+    return (rb_rolling_table){r->n, r->x, r->depth};
+}
+
+/* The contact at rest, on equal elements that stay: those of an automatic zone, with
+ * x = 0 in their middle, as a given one has. */
+static rb_status press(wear_state *r, rb_message *why)
+{
+    rb_rolling_case at_rest = r->rc;
+    const rb_rolling_mesh *mesh = &r->model.mesh;
+
+    at_rest.formulation = RB_STATIC;
+    at_rest.increments = 1;
+    at_rest.shift = at_rest.force = at_rest.force_ratio = NAN;
+    at_rest.creep = at_rest.creep_ratio = NAN;
+    if (r->wear->slides && rb_rolling_largest_mu(&at_rest) > 0.0)
+        at_rest.force_ratio = -1.0; /* A slides towards +x */
+    else
+        at_rest.shift = 0.0;
+    rb_status s = rb_rolling_model_create(&at_rest, &r->model, why);
+    if (s == RB_OK && at_rest.zone == 0.0) {
+        at_rest.zone = fmax(-mesh->ends[0], mesh->ends[mesh->n]);
+        at_rest.contact_elements = mesh->n;
+        rb_rolling_model_free(&r->model);
+        s = rb_rolling_model_create(&at_rest, &r->model, why);
+    }
+    r->rc.zone = at_rest.zone;
+    r->rc.contact_elements = mesh->n;
+    /* Arrays for the mesh of the model. */
+    if (s != RB_OK)
+        return s;
+    const size_t n = (size_t)r->model.mesh.n, m = n + 1;
+
+    r->n = (int)n;
+    r->x = rb_arena_doubles(&r->memory, n, 1);
+    r->depth = rb_arena_doubles(&r->memory, n, 1);
+    r->compliance = rb_arena_doubles(&r->memory, n, 1);
+    r->path = rb_arena_doubles(&r->memory, n, 1);
+    r->softer = r->model.bodies.F ? rb_arena_doubles(&r->memory, 2 * m, 2 * n)
+                                  : rb_arena_doubles(&r->memory, n, 2);
+    if (r->memory.failed)
+        return RB_ENOMEM;
+    memcpy(r->x, r->model.bodies.f.x, n * sizeof *r->x);
+    for (size_t i = 0; i < n; i++)
+        r->depth[i] = rb_rolling_worn_depth(&r->rc, r->x[i]);
+    return RB_OK;
+}
+
+/* As many more elements of the same length on either side; what is worn stays where it
+ * is. */
+static rb_status widen(wear_state *r, rb_message *why)
+{
+    const int n = r->n, more = n / 4 + 2;
+    wear_state wider = *r;
+
+    if (!rb_rolling_can(&r->rc, RB_BODY_FLAT))
+        return rb_fail(why, RB_ZONE,
+                       "the contact becomes wider than the zone, which cannot grow on "
+                       "wheels; give a wider one (--zone)");
+    wider.rc.contact_elements = n + 2 * more;
+    wider.rc.zone = r->rc.zone * (n + 2 * more) / n;
+    memset(&wider.model, 0, sizeof wider.model);
+    wider.memory = (rb_arena){0};
+    const rb_status s = press(&wider, why);
+    if (s != RB_OK) {
+        run_free(&wider);
+        return s;
+    }
+    memcpy(wider.depth + more, r->depth, (size_t)n * sizeof *r->depth);
+    run_free(r);
+    *r = wider;
+    r->rc.worn = worn_of(r);
+    return RB_OK;
+}
+
+/* ---- One implicit step ------------------------------------------------------------- */
+
+/* The contact of these bodies with what is worn off so far. */
+static rb_status pose(wear_state *r, const rb_rolling_bodies *bodies, rb_message *why)
+{
+    rb_rolling_model *model = &r->model;
+
+    rb_contact_problem_free(&model->problem);
+    rb_rolling_case worn = *model->rc;
+    worn.worn = worn_of(r);
+    rb_status s = rb_rolling_model_set_case(model, &worn, why);
+    if (s == RB_OK)
+        s = rb_rolling_mesh_set_gap(model->rc, &model->mesh);
+    if (s == RB_OK)
+        s = rb_rolling_problem_create(model->rc, &model->mesh, bodies, NULL, &model->problem, why);
+    return s;
+}
+
+/* (W1) y = g + k ds p - delta + F_NN p: the pressure wears its own step off, so that the
+ * worn gap and the pressure belong together at its end, however long it is. */
+static rb_status wear_off(wear_state *r, rb_message *why)
+{
+    /* The bodies, whose arrays are borrowed, softer under each element by what a step
+     * wears. */
+    const size_t n = (size_t)r->n, m = n + 1;
+    rb_rolling_bodies softer = r->model.bodies;
+
+    if (softer.F) {
+        memcpy(r->softer, softer.F, 4 * m * n * sizeof *r->softer);
+        for (size_t i = 0; i < n; i++)
+            r->softer[i + 2 * m * i] += r->compliance[i];
+        softer.F = r->softer;
+    } else {
+        for (size_t i = 0; i < 2 * n; i++)
+            r->softer[i] = (softer.f.compliance ? softer.f.compliance[i] : 0.0) +
+                           (i < n ? r->compliance[i] : 0.0);
+        softer.f.compliance = r->softer;
+    }
+    rb_status s = pose(r, &softer, why);
+
+    if (s == RB_OK)
+        s = rb_rolling_model_resolve(&r->model, 1, why);
+    if (s != RB_OK)
+        return s;
+    for (int i = 0; i < r->n; i++)
+        r->depth[i] += r->compliance[i] * r->model.state.p[i];
+    return pose(r, &r->model.bodies, why);
+}
+
+/* ---- Sliding, fretting, rolling ---------------------------------------------------- */
+
+/* Adds the slip of an increment of the cycle that counts, the second one. */
+static int see_increment(const rb_rolling_model *model, const rb_rolling_history *h, int step,
+                         int steps, void *context)
+{
+    wear_state *r = context;
+    const int quarter = r->wear->increments;
+
+    (void)h;
+    (void)steps;
+    for (int i = 0; i < r->n && step >= quarter; i++) {
+        const double slip = fabs(model->state.lambda[i]);
+        r->path[i] += slip;
+        r->work += slip * fabs(model->state.q[i]) * model->bodies.f.h[i];
+    }
+    return 0;
+}
+
+/* (W3) A round wheel stays round: R = R_before - turns dz(R); B turns R/|R_B| times as
+ * often, a bore grows. */
+static rb_status roll(wear_state *r, double turns, rb_message *why)
+{
+    enum { ROUNDS = 30 };
+    const double before = r->rc.a.radius, before_b = r->rc.b.radius;
+    const double share = r->wear->share;
+    const int turns_b = r->rc.elastic_b && isfinite(before_b) && share > 0.0;
+    double depth = 0.0;
+    rb_status s = RB_OK;
+
+    for (int k = 0; k < ROUNDS; k++) {
+        rb_rolling_model_free(&r->model);
+        s = rb_rolling_model_create(&r->rc, &r->model, why);
+        if (s != RB_OK)
+            return s;
+        /* Depth per turn: every point of the circumference passes the contact once. */
+        const rb_rolling_model *model = &r->model;
+        const rb_contact_state *state = &model->state;
+        const double *h = model->bodies.f.h, *e_T = model->problem.e_T;
+
+        depth =
+            r->wear->coefficient *
+            (r->wear->law == RB_WEAR_ARCHARD
+                 ? rb_rolling_slid_pressure(model->rc, state->n, state->lambda, state->p, h, e_T)
+                 : rb_rolling_dissipated_power(model->rc, state->n, state->lambda, state->q, h,
+                                               e_T));
+        const double radius = before - turns * (1.0 - share) * depth, moved = r->rc.a.radius;
+        if (turns_b)
+            r->rc.b.radius = before_b - turns * share * depth * moved / fabs(r->rc.b.radius);
+        if (!(radius > 0.5 * before) || !(r->rc.b.radius / before_b > 0.5 || !turns_b))
+            return rb_fail(
+                why, RB_EINVAL, "wear: a step takes %g of the radius %g; take more steps",
+                fmax(before - radius, turns_b ? before_b - r->rc.b.radius : 0.0), before);
+        r->rc.a.radius = radius;
+        if (fabs(radius - moved) <= 1e-14 * before)
+            break;
+    }
+    r->passage = share * depth;
+    r->track += turns_b ? 0.0 : r->passage * turns * 2.0 * M_PI * before;
+    r->work =
+        rb_rolling_dissipated_power(r->model.rc, r->model.state.n, r->model.state.lambda,
+                                    r->model.state.q, r->model.bodies.f.h, r->model.problem.e_T);
+    return s;
+}
+
+/* ---- Records ----------------------------------------------------------------------- */
+
+static rb_status record(wear_state *r, double way, rb_message *why)
+{
+    rb_rolling_wear_history *h = r->history;
+    const int k = h->n, rolls = h->rolls;
+    rb_rolling_solution s;
+    rb_status status = rb_rolling_model_solution(&r->model, &s, why);
+
+    if (status != RB_OK)
+        return status;
+    h->way[k] = way;
+    h->radius[k] = r->rc.a.radius;
+    h->max_depth[k] = rolls ? h->radius_before - r->rc.a.radius : 0.0;
+    h->worn[k] = rolls ? M_PI * (gsl_pow_2(h->radius_before) - gsl_pow_2(h->radius[k])) : 0.0;
+    const int both = !rolls && !r->wear->slides; /* wear where they touch */
+    double volume = 0.0, deepest = 0.0;
+    for (int i = 0; i < r->n; i++) { /* none where it rolls */
+        volume += r->depth[i] * s.h[i];
+        deepest = fmax(deepest, r->depth[i]);
+    }
+    const double share = r->wear->share, of_a = both ? 1.0 - share : 1.0;
+    h->worn[k] += of_a * volume;
+    h->max_depth[k] = fmax(h->max_depth[k], of_a * deepest);
+    if (h->worn_b) {
+        h->worn_b[k] = both ? share * volume : r->track;
+        h->max_depth_b[k] = both ? share * deepest : r->passage;
+    }
+    if (h->radius_b) {
+        h->radius_b[k] = r->rc.b.radius;
+        if (rolls) {
+            h->worn_b[k] = M_PI * fabs(gsl_pow_2(h->radius_b_before) - gsl_pow_2(h->radius_b[k]));
+            h->max_depth_b[k] = h->radius_b_before - h->radius_b[k];
+        }
+    }
+    h->work[k] = r->wear->slides ? fabs(s.tangential_load) : r->work;
+    h->approach[k] = s.approach;
+    h->normal_load[k] = s.normal_load;
+    h->max_pressure[k] = s.max_pressure;
+    h->contact_from[k] = s.contact_from;
+    h->contact_to[k] = s.contact_to;
+    h->residual[k] = s.residual;
+    h->n++;
+    rb_rolling_solution_free(r->last);
+    *r->last = s;
+    return r->observer && r->observer->step(r->last, h, k, r->wear->steps, r->observer->context)
+               ? rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k, r->wear->steps)
+               : RB_OK;
+}
+
+static rb_status one_step(wear_state *r, double part, rb_message *why)
+{
+    enum { WIDER = 12 };
+    const double share = r->wear->share;
+    const double depth = /* per pressure and slid length */
+        r->wear->coefficient *
+        (r->wear->law == RB_WEAR_ARCHARD ? 1.0 : rb_rolling_largest_mu(&r->rc));
+    rb_message reason = {""};
+    rb_status s = RB_ZONE;
+
+    if (r->rc.formulation == RB_STEADY)
+        return roll(r, part, why);
+    for (int k = 0; k < WIDER && s == RB_ZONE; k++) {
+        reason.text[0] = '\0';
+        s = k > 0 ? widen(r, &reason) : RB_OK;
+        if (s == RB_OK && !r->wear->slides) {
+            /* Loading, and one closed cycle to the other side and back, in static
+             * increments. */
+            const int quarter = r->wear->increments, rows = 5 * quarter;
+            const rb_rolling_case *rc = &r->rc;
+            const double last = !isnan(rc->force)         ? rc->force
+                                : !isnan(rc->force_ratio) ? rc->force_ratio
+                                                          : rb_rolling_wanted_shift(rc);
+            rb_arena scratch = {0};
+            double *column = rb_arena_doubles(&scratch, (size_t)rows, 1);
+            rb_rolling_program program = {.n = rows};
+            rb_rolling_history history = {0};
+            rb_rolling_model model = {0};
+
+            *(!isnan(rc->force)         ? &program.force
+              : !isnan(rc->force_ratio) ? &program.force_ratio
+                                        : &program.shift) = column;
+            for (int j = 0; j < rows && column; j++) {
+                const double t = (j + 1.0) / quarter; /* quarters of a cycle */
+                column[j] = last * (t <= 1.0 ? t : t <= 3.0 ? 2.0 - t : t - 4.0);
+            }
+            r->work = 0.0;
+            memset(r->path, 0, (size_t)r->n * sizeof *r->path);
+            s = column
+                    ? rb_rolling_history_run(rc, &program, &(rb_rolling_observer){see_increment, r},
+                                             &model, &history, &reason)
+                    : RB_ENOMEM;
+            rb_rolling_model_free(&model);
+            rb_rolling_history_free(&history);
+            rb_arena_free(&scratch);
+        }
+        if (s != RB_OK)
+            continue;
+        for (int i = 0; i < r->n; i++)
+            r->compliance[i] =
+                r->wear->slides ? (1.0 - share) * depth * part : depth * part * r->path[i];
+        s = wear_off(r, &reason);
+    }
+    if (s == RB_OK && r->wear->slides) {
+        double carried = 0.0;
+        for (int i = 0; i < r->n; i++)
+            carried += r->model.state.p[i] * r->model.bodies.f.h[i];
+        r->passage = share * depth * carried;
+        r->track += r->passage * part;
+    }
+    return s == RB_OK ? s : rb_fail(why, s, "%.300s", rb_status_reason(s, &reason));
+}
+
+#define PLACE(member) offsetof(rb_rolling_wear, member)
+static const rb_option rows[] = {RB_WEAR_LINES(PLACE, way, way)};
+
+static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear, rb_message *why)
+{
+    const int rolls = rc->formulation == RB_STEADY;
+
+    if (rc->formulation == RB_TRANSIENT)
+        return rb_fail(why, RB_EINVAL,
+                       "wear: only by sliding, by fretting cycles (static) or by rolling "
+                       "(steady), not in a transient");
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        const void *at = (const char *)wear + rows[k].offset;
+        const double value =
+            rows[k].kind == RB_OPTION_INTEGER ? *(const int *)at : *(const double *)at;
+        const char *elsewhere = wear->slides ? "cycles" : "slide";
+        const int frets = !rolls && !wear->slides,
+                  counts = strcmp(rows[k].name, elsewhere) != 0 &&
+                           (frets || strcmp(rows[k].name, "quarter") != 0);
+        const rb_status s = counts ? rb_rolling_check_option(&rows[k], value, why) : RB_OK;
+        if (s != RB_OK)
+            return s;
+    }
+    if (rb_rolling_largest_mu(rc) == 0.0 && (wear->law == RB_WEAR_DISSIPATION || !wear->slides))
+        return rb_fail(why, RB_EINVAL, "wear: at mu = 0 friction dissipates nothing");
+    if (rc->friction.law != RB_FRICTION_constant && !rolls && wear->law == RB_WEAR_DISSIPATION)
+        return rb_fail(why, RB_EINVAL,
+                       "wear: the law of dissipation takes one coefficient of friction, "
+                       "not a friction law");
+    if (!rolls && rc->mesh != RB_MESH_UNIFORM)
+        return rb_fail(why, RB_EINVAL, "wear: the worn gap needs equal elements (--mesh uniform)");
+    if (rolls && wear->slides)
+        return rb_fail(why, RB_EINVAL,
+                       "wear: --slide needs --formulation static; for a rolling wheel give "
+                       "--cycles N (turns)");
+    if (rolls && !rb_rolling_body_can(&rc->a, RB_BODY_HOMOGENEOUS))
+        return rb_fail(why, RB_EINVAL,
+                       "wear: a rolling wheel of one elastic material only, got a layer, "
+                       "a cover or relaxation");
+    if (rc->yield_stress > 0.0)
+        return rb_fail(
+            why, RB_EINVAL,
+            "wear: not with --yield-stress, because a third body separates the surfaces");
+    return rb_rolling_case_check(rc, why);
+}
+
+rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *wear,
+                              const rb_rolling_wear_observer *observer,
+                              rb_rolling_wear_history *history, rb_rolling_solution *last,
+                              rb_message *why)
+{
+    wear_state r = {
+        .wear = wear, .rc = *rc, .history = history, .last = last, .observer = observer};
+    const double part = wear->way / wear->steps;
+
+    memset(history, 0, sizeof *history);
+    memset(last, 0, sizeof *last);
+    r.rc.load = rb_rolling_derive(rc).load; /* a given half-width means this load */
+    r.rc.half_width = NAN;
+    rb_status s = check(rc, wear, why);
+    if (s == RB_OK)
+        s = rb_rolling_columns_alloc(&rb_rolling_wear_columns, rc, 0, wear->steps + 1, history);
+    if (s == RB_OK) {
+        if (wear->share == 0.0) {
+            free(history->worn_b);
+            free(history->max_depth_b);
+            history->worn_b = history->max_depth_b = NULL;
+        }
+        if (wear->share == 0.0 || !rc->elastic_b || !isfinite(rc->b.radius)) {
+            free(history->radius_b);
+            history->radius_b = NULL;
+        }
+    }
+    history->radius_before = rc->a.radius;
+    history->radius_b_before = rc->b.radius;
+    history->slides = wear->slides;
+    history->rolls = rc->formulation == RB_STEADY;
+    if (s == RB_OK)
+        s = rc->formulation == RB_STEADY ? rb_rolling_model_create(rc, &r.model, why)
+                                         : press(&r, why);
+    if (s == RB_OK && rc->formulation != RB_STEADY) {
+        r.rc.worn = worn_of(&r);
+        s = pose(&r, &r.model.bodies, why);
+    }
+    if (s == RB_OK)
+        s = record(&r, 0.0, why);
+    for (int k = 1; k <= wear->steps && s == RB_OK; k++) {
+        s = one_step(&r, part, why);
+        if (s == RB_OK)
+            s = record(&r, k == wear->steps ? wear->way : k * part, why);
+    }
+    run_free(&r);
+    return s;
+}

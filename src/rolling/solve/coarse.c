@@ -1,0 +1,88 @@
+/* A solution on a coarser mesh is the start on a finer one, so that the number of Newton
+ * steps does not grow. */
+#include "rolling/rolling.h"
+
+/* Elements of the coarsest mesh, which starts cold: fewer than any that starts from
+ * another one. */
+enum { COARSEST = 40 };
+
+int rb_rolling_coarse_elements(int n)
+{
+    return n / 4 >= RB_ROLLING_TRANSFORMS ? n / 4 : COARSEST;
+}
+
+/* Value at x of tractions at the coarse midpoints, linear in between. */
+static double interpolated(const rb_rolling_mesh *mesh, const double *value, double x, int j)
+{
+    const double here = 0.5 * (mesh->ends[j] + mesh->ends[j + 1]);
+    const int other = x < here ? j - 1 : j + 1;
+
+    if (other < 0 || other >= mesh->n)
+        return value[j];
+    const double there = 0.5 * (mesh->ends[other] + mesh->ends[other + 1]);
+    return value[j] + (value[other] - value[j]) * (x - here) / (there - here);
+}
+
+double *rb_rolling_friction_of(const rb_rolling_model *model)
+{
+    const rb_rolling_case *rc = model->rc;
+    double kappa;
+
+    /* kappa < 1: only one state is possible with the friction law */
+    return rb_rolling_law_depends_on_state(rc) && model->state.status == RB_OK &&
+                   rc->formulation == RB_STEADY && rc->friction.heat <= 0.0 &&
+                   rb_rolling_law_kappa(model, &kappa) == RB_OK && kappa < 1.0
+               ? rb_copy((size_t)model->problem.n, model->problem.bound)
+               : NULL;
+}
+
+void rb_rolling_follow_friction(const rb_rolling_mesh *mesh, const double *bound,
+                                rb_rolling_model *fine)
+{
+    rb_contact_problem *p = &fine->problem;
+    const double *ends = fine->mesh.ends;
+
+    for (int i = 0, j = 0; i < p->n && bound; i++) {
+        const double x = 0.5 * (ends[i] + ends[i + 1]);
+        while (j < mesh->n - 1 && mesh->ends[j + 1] < x)
+            j++;
+        p->bound[i] = interpolated(mesh, bound, x, j);
+    }
+    if (bound)
+        rb_contact_set_friction(p, p->mu, p->bound);
+    fine->follows = bound != NULL;
+}
+
+void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                           const rb_contact_state *coarse, const rb_rolling_mesh *fine_mesh,
+                           rb_contact_state *fine)
+{
+    double from, to;
+    int j = 0;
+
+    rb_rolling_contact_edges(rc, mesh, coarse, &from, &to);
+    for (int i = 0; i < fine_mesh->n; i++) {
+        const double x = 0.5 * (fine_mesh->ends[i] + fine_mesh->ends[i + 1]);
+        while (j < mesh->n - 1 && mesh->ends[j + 1] < x)
+            j++;
+        fine->p[i] = interpolated(mesh, coarse->p, x, j);
+        fine->q[i] = interpolated(mesh, coarse->q, x, j);
+        /* The coarse edges are known to less than an element: the outermost zones follow
+         * them. */
+        const int zone = coarse->zone[j];
+
+        if (x < from || x > to)
+            fine->zone[i] = RB_ZONE_SEPARATED;
+        else {
+            if (zone != RB_ZONE_SEPARATED)
+                fine->zone[i] = zone;
+            else {
+                const int left = j > 0 ? coarse->zone[j - 1] : RB_ZONE_SEPARATED;
+                const int right = j + 1 < coarse->n ? coarse->zone[j + 1] : RB_ZONE_SEPARATED;
+                fine->zone[i] = left != RB_ZONE_SEPARATED ? left : right;
+            }
+        }
+    }
+    fine->delta = coarse->delta;
+    fine->xi = coarse->xi;
+}

@@ -1,0 +1,151 @@
+/* From a case to its solved contact problem on the given kind of mesh, and the
+ * free-rolling creepage. */
+#include "rolling/rolling.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *model,
+                                  rb_message *why)
+{
+    memset(model, 0, sizeof *model);
+    return rb_rolling_model_reuse(rc, NULL, model, why);
+}
+
+rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                 rb_rolling_model *model, rb_message *why)
+{
+    rb_rolling_model kept = {.plan = plan ? *plan : rb_rolling_plan_of(rc)};
+    const int equal = model->rc && model->rc->mesh == RB_MESH_UNIFORM;
+
+    if (equal && rc->mesh == RB_MESH_UNIFORM && model->mesh.ends && model->bodies.f.m) {
+        kept.mesh = model->mesh;
+        kept.bodies = model->bodies;
+        kept.same_bodies = 1;
+        model->mesh = (rb_rolling_mesh){.ends = NULL};
+        model->bodies = (rb_rolling_bodies){.F = NULL};
+    }
+    rb_rolling_model_free(model);
+    *model = kept;
+    rb_status s = rb_rolling_model_set_case(model, rc, why);
+    if (s == RB_OK)
+        s = rb_rolling_case_check(rc, why);
+    if (s == RB_OK && rc->mesh == RB_MESH_FITTED)
+        s = rb_rolling_solve_fitted(model, why);
+    else if (s == RB_OK && rc->mesh == RB_MESH_ALIGNED)
+        s = rb_rolling_solve_aligned(model, why);
+    else if (s == RB_OK)
+        s = rb_rolling_solve_zone(model, 0, why);
+    model->same_bodies = 0;
+    return s;
+}
+
+rb_rolling_case rb_rolling_without_force(const rb_rolling_case *rc)
+{
+    rb_rolling_case freely = *rc;
+
+    freely.creep = freely.creep_ratio = freely.force = NAN;
+    freely.free_axle = 0;
+    freely.force_ratio = 0.0;
+    return freely;
+}
+
+/* On a mesh of its own: a fitted one belongs to the contact that rolls freely.  The model
+ * is kept for derivatives. */
+static rb_status roll_freely_anew(rb_rolling_model *model, double *creepage, rb_message *why)
+{
+    const rb_rolling_case rc = rb_rolling_without_force(model->rc);
+
+    rb_rolling_forget_free_rolling(model);
+    model->freely = calloc(1, sizeof *model->freely);
+    if (!model->freely)
+        return RB_ENOMEM;
+    const rb_status s = rb_rolling_model_create(&rc, model->freely, why);
+    if (s == RB_OK)
+        *creepage = model->freely->state.xi;
+    else
+        rb_rolling_forget_free_rolling(model);
+    return s;
+}
+
+/* On the same equal elements and with the same bodies, without a matrix unless it comes to
+ * ask for one: starts on fewer elements. */
+static rb_status roll_freely_large(rb_rolling_model *model, double *creepage, rb_message *why)
+{
+    const double from = model->mesh.ends[0], to = model->mesh.ends[model->mesh.n];
+    const rb_rolling_case rc = rb_rolling_without_force(model->rc);
+    rb_rolling_plan plan = model->plan;
+    rb_rolling_model freely;
+    rb_rolling_mesh mesh;
+
+    plan.elements = model->mesh.n;
+    rb_status s = rb_rolling_model_begin(&rc, &plan, &freely, why);
+    if (s == RB_OK)
+        s = rb_rolling_mesh_uniform(&rc, &plan, from, to, &freely.mesh, why);
+    if (s == RB_OK)
+        s = rb_rolling_mesh_uniform(&rc, &plan, from, to, &mesh, why);
+    if (s == RB_OK) {
+        freely.same_bodies = 1;
+        freely.bodies = model->bodies;
+        s = rb_rolling_model_build(&freely, &mesh, why);
+        model->bodies = freely.bodies;
+        freely.bodies = (rb_rolling_bodies){.F = NULL};
+        if (model->bodies.F) {
+            const rb_status t =
+                rb_rolling_problem_renew_operator(model->rc, &model->bodies, &model->problem, why);
+            s = t == RB_OK ? s : t;
+        }
+    }
+    if (s == RB_OK)
+        *creepage = freely.state.xi;
+    rb_rolling_model_free(&freely);
+    return s;
+}
+
+/* On the same elements with the model's matrix, from its zones. */
+static rb_status roll_freely_dense(rb_rolling_model *model, double *creepage, rb_message *why)
+{
+    rb_contact_problem problem = model->problem; /* arrays stay the model's */
+    rb_contact_state state;
+    rb_status s = rb_contact_state_alloc(problem.n, &state);
+
+    if (s != RB_OK)
+        return s;
+    problem.force_given = 1;
+    problem.force = problem.force_ratio = problem.axle = 0.0;
+    memcpy(state.zone, model->state.zone, (size_t)problem.n * sizeof(int));
+    s = rb_rolling_problem_solve(&problem, model->rc, 1, &state, why);
+    if (s == RB_OK)
+        s = rb_rolling_check_enclosed(model, &state, why);
+    if (s == RB_OK)
+        *creepage = state.xi;
+    rb_contact_state_free(&state);
+    return s;
+}
+
+rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage, rb_message *why)
+{
+    /* Similar bodies without a history roll freely at no creepage. */
+    *creepage = (!rb_contact_operator_response(model->problem.op).coupled &&
+                 rb_norm_inf((size_t)model->problem.n, model->problem.d_T) == 0.0)
+                    ? 0.0
+                    : NAN;
+    if (*creepage == 0.0)
+        return RB_OK;
+    if (model->rc->mesh != RB_MESH_UNIFORM || rb_rolling_law_depends_on_state(model->rc))
+        return roll_freely_anew(model, creepage, why);
+    const rb_status s = model->bodies.F ? roll_freely_dense(model, creepage, why)
+                                        : roll_freely_large(model, creepage, why);
+    return s == RB_ZONE && model->rc->zone == 0.0 ? roll_freely_anew(model, creepage, why) : s;
+}
+
+rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creepage,
+                                          rb_message *why)
+{
+    rb_message reason = {""};
+    const rb_status s = rb_rolling_free_creepage(model, creepage, &reason);
+
+    if (s != RB_OK)
+        *creepage = NAN;
+    return s == RB_ENOMEM ? rb_fail(why, s, "%s", reason.text) : RB_OK;
+}

@@ -1,0 +1,244 @@
+/* Elements fitted to the patches of the contact, whose edges are known only from a
+ * solution (theory.md 5.1). */
+#include "rolling/rolling.h"
+
+#include <string.h>
+
+enum {
+    FIRST = 30, /* elements at least that the first edges are found with */
+    ROUNDS = 10,
+    MOST_PATCHES = 16
+};
+/* Edges that have come to rest, or near enough after all rounds: in lengths of the
+ * outermost elements, which are the smallest of the mesh. */
+static const double AT_REST = 0.1, NEAR_REST = 3.0;
+/* Patches nearer than this part of the wider one are fitted as one. */
+static const double NARROW = 0.02;
+
+/* Patches to fit elements to. */
+typedef struct {
+    int count;
+    rb_rolling_span span[MOST_PATCHES];
+} patches;
+
+static double length_of(const rb_rolling_mesh *mesh, int i)
+{
+    return mesh->ends[i + 1] - mesh->ends[i];
+}
+
+/* An edge is known to the distance of the two midpoints around it; where no open element
+ * stands beyond it, to a part of the patch. */
+static double margin_beyond(const rb_rolling_mesh *mesh, const rb_rolling_run *run, int outer,
+                            int open)
+{
+    if (open < 0 || open >= mesh->n)
+        return 0.1 * (run->to - run->from);
+    return 0.5 * (length_of(mesh, outer) + length_of(mesh, open));
+}
+
+/* Into the order of x, together with those that it touches.  0: there is no room. */
+static int add_patch(const rb_rolling_span *span, patches *found)
+{
+    if (found->count == MOST_PATCHES)
+        return 0;
+    int k = found->count++;
+    for (; k > 0 && found->span[k - 1].from > span->from; k--)
+        found->span[k] = found->span[k - 1];
+    found->span[k] = *span;
+    for (k = found->count - 1; k > 0; k--) {
+        /* Elements between the patches k - 1 and k may be of no use. */
+        const rb_rolling_span *a = &found->span[k - 1], *b = &found->span[k];
+        const double wider = fmax(a->to - a->from, b->to - b->from);
+
+        if (b->from - a->to < NARROW * wider) {
+            const size_t behind = (size_t)(--found->count - k);
+
+            found->span[k - 1].to = fmax(found->span[k - 1].to, found->span[k].to);
+            found->span[k - 1].margin_right = found->span[k].margin_right;
+            found->span[k - 1].h_right = found->span[k].h_right;
+            memmove(found->span + k, found->span + k + 1, behind * sizeof *found->span);
+        }
+    }
+    return 1;
+}
+
+/* The patches of the model's state and, where its mesh does not hold the contact, the
+ * places where it should; none where they are more than elements are fitted to. */
+static rb_status find_patches(const rb_rolling_model *model, patches *found)
+{
+    const rb_rolling_mesh *mesh = &model->mesh;
+    rb_rolling_run run = {.last = -1};
+    rb_rolling_overlap overlap = {0};
+    rb_status s = RB_OK;
+    int complete = 1;
+
+    found->count = 0;
+    while (complete &&
+           rb_rolling_next_merged_patch(model->rc, mesh, &model->state, run.last + 1, &run)) {
+        const rb_rolling_span span = {
+            .from = run.from,
+            .to = run.to,
+            .margin_left = margin_beyond(mesh, &run, run.first, run.first - 1),
+            .margin_right = margin_beyond(mesh, &run, run.last, run.last + 1),
+            .h_left = length_of(mesh, run.first),
+            .h_right = length_of(mesh, run.last)};
+        complete = add_patch(&span, found);
+    }
+    if (model->state.status == RB_ZONE)
+        s = rb_rolling_find_overlap(model, &model->state, &overlap);
+    for (int k = 0; complete && k < overlap.count; k++) {
+        const double room = 0.1 * (overlap.to[k] - overlap.from[k]);
+        const rb_rolling_span span = {overlap.from[k], overlap.to[k], room, room, room, room};
+        complete = add_patch(&span, found);
+    }
+    found->count = complete ? found->count : 0;
+    return s;
+}
+
+/* ---- One edge ---------------------------------------------------------------------- */
+
+/* Outward positions of fitted edges beyond which the contact was found to go, and those
+ * that it was found not to reach. */
+typedef struct {
+    double inner, outer;
+} bracket;
+
+/* The edge that a mesh should be fitted to, as a function of the one that it was fitted
+ * to, jumps where another element becomes the last in contact, and mostly it crosses the
+ * identity there: so the fixed point is bracketed.  Results are best on the outer side of
+ * the jump.  fitted, found: outward positions; h: element beside the edge.  Returns how
+ * far from rest the edge is, in elements, and where to fit next. */
+static double refine(double found, double h, double *fitted, bracket *b)
+{
+    const double moved = fabs(found - *fitted) / h;
+
+    if (moved > 2.0)
+        *b = (bracket){-INFINITY, INFINITY};
+    if (found > *fitted)
+        b->inner = fmax(b->inner, *fitted);
+    else
+        b->outer = fmin(b->outer, *fitted);
+    if (moved < AT_REST)
+        return moved;
+    if (b->outer - b->inner < AT_REST * h) {
+        const int rests = *fitted == b->outer;
+        *fitted = b->outer;
+        return rests ? 0.0 : moved;
+    }
+    const int is_inside = found > b->inner && found < b->outer;
+    *fitted = is_inside ? found : 0.5 * (b->inner + b->outer);
+    return moved;
+}
+
+typedef struct {
+    bracket left, right;
+} brackets;
+
+static void forget(brackets *known)
+{
+    const bracket open = {-INFINITY, INFINITY};
+
+    for (int k = 0; k < MOST_PATCHES; k++)
+        known[k] = (brackets){open, open};
+}
+
+/* ---- All of them ------------------------------------------------------------------- */
+
+rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *why)
+{
+    const int wanted = model->plan.elements;
+
+    model->plan.elements = (int)ceil(1.3 * wanted);
+    const rb_status s = rb_rolling_solve_zone(model, 0, why);
+    model->plan.elements = wanted;
+    return s;
+}
+
+/* From a solution to elements fitted to its edges, until these rest; where they do not, or
+ * where no solution is found on them, to equal ones. */
+rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why)
+{
+    patches fitted, found;
+    brackets known[MOST_PATCHES];
+    rb_status s = find_patches(model, &fitted);
+    int rest = 0;
+
+    forget(known);
+    for (int round = 0; round < ROUNDS && !rest && fitted.count > 0 && (s == RB_OK || s == RB_ZONE);
+         round++) {
+        /* On a mesh that ends somewhere a corner of a punch can be a solution as well.
+         * Where the solver finds that one, the zones of the solution that the mesh was
+         * fitted to lead to the other one. */
+        rb_rolling_mesh mesh, old_mesh = model->mesh;
+        rb_contact_state old = model->state;
+        const int was_enclosed = old.status == RB_OK;
+        s = rb_rolling_mesh_spans(model->rc, model->plan.elements, fitted.count, fitted.span, &mesh,
+                                  why);
+
+        if (s == RB_OK) {
+            memset(&model->mesh, 0, sizeof model->mesh);
+            memset(&model->state, 0, sizeof model->state);
+            s = rb_rolling_model_build(model, &mesh, why);
+            if (s == RB_ZONE && was_enclosed) {
+                rb_rolling_start_from(model->rc, &old_mesh, &old, &model->mesh, &model->state);
+                s = rb_rolling_model_resolve(model, 1, why);
+            }
+            rb_rolling_mesh_free(&old_mesh);
+            rb_contact_state_free(&old);
+        }
+        const rb_status t = s < 0 ? s : find_patches(model, &found);
+        if (t != RB_OK) {
+            model->equal_instead = 0;
+            return t;
+        }
+        if (s == RB_OK && found.count == fitted.count) {
+            /* The next edges to fit to. */
+            double moved = 0.0;
+
+            for (int k = 0; k < fitted.count; k++) {
+                const rb_rolling_span *now = &found.span[k];
+                rb_rolling_span *span = &fitted.span[k];
+                double left = -span->from;
+                moved = fmax(moved, refine(-now->from, now->h_left, &left, &known[k].left));
+                moved = fmax(moved, refine(now->to, now->h_right, &span->to, &known[k].right));
+                span->from = -left;
+                span->margin_left = now->margin_left;
+                span->margin_right = now->margin_right;
+            }
+            rest = moved < (round + 1 < ROUNDS ? AT_REST : NEAR_REST);
+        } else {
+            forget(known);
+            fitted = found;
+        }
+    }
+    model->equal_instead = s >= 0 && !rest;
+    return model->equal_instead ? rb_rolling_solve_equal_instead(model, why)
+           : s == RB_ZONE       ? RB_OK
+                                : s;
+}
+
+rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
+{
+    const rb_rolling_plan asked = model->plan;
+    const int fine = rb_rolling_has_fine_boundary(&asked);
+
+    /* A coarse solution to fit to: where the rest of a wheel has many elements, with few
+     * of them. */
+    if (model->rc->zone == 0.0) {
+        model->plan.elements = (int)fmax(FIRST, asked.elements / 2);
+        model->plan.near_field = RB_NEAR_FIELD_PLAIN;
+    }
+    if (fine)
+        rb_rolling_coarsen_boundary(&model->plan);
+    rb_status s = rb_rolling_solve_zone(model, 1, why);
+    model->plan.elements = asked.elements;
+    model->plan.near_field = asked.near_field;
+    if (s == RB_OK)
+        s = rb_rolling_model_refit(model, why);
+    if (s == RB_OK && fine) {
+        model->plan = asked;
+        s = model->equal_instead ? rb_rolling_solve_equal_instead(model, why)
+                                 : rb_rolling_model_refit(model, why);
+    }
+    return s;
+}

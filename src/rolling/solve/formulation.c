@@ -1,0 +1,434 @@
+/* The formulation of a case as a contact problem (theory.md 4.2): the kinematic operator
+ * A, the motion of the surfaces, the given quantities.  The solvers are the same for all
+ * formulations. */
+#include "rolling/rolling.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- The kinematic operator A ------------------------------------------------------ */
+
+/* (A w)_i = sum over k of stencil_k w_{i-1+k}, w the tangential displacement of the n
+ * elements and of one downstream and two upstream of them. */
+typedef struct {
+    int n, differences; /* 0: A = I */
+    double stencil[4];
+    double local[4]; /* the stencil on what the interlayer adds to w */
+    double *outside; /* 2 x 2n: displacement one element downstream and two upstream; NULL
+                        where A does not ask for it; owned */
+} kinematic;
+
+/* The member t of the family of second-order differences whose leading edge is not
+ * shifted (theory.md 4.7): ((1-t)/4, (3+3t)/4, -(5+3t)/4, (1+t)/4).  The local part of
+ * F_TT takes another member of the family: t = 1, whose leading edge is not shifted there
+ * (theory.md 4.10). */
+static rb_status set_kinematic(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                               kinematic *A)
+{
+    static const double backward[4] = {0.0, 1.5, -2.0, 0.5};
+    const double t = 0.0740956;
+
+    *A = (kinematic){.n = bodies->f.n, .differences = rc->formulation == RB_STEADY};
+    if (!A->differences || rc->slip_operator == RB_SLIP_UPSTREAM) {
+        A->stencil[1] = 1.0;
+        A->stencil[2] = A->differences ? -1.0 : 0.0;
+        memcpy(A->local, A->stencil, sizeof A->local);
+        return RB_OK;
+    }
+    A->stencil[0] = (1.0 - t) / 4.0;
+    A->stencil[1] = (3.0 + 3.0 * t) / 4.0;
+    A->stencil[2] = -(5.0 + 3.0 * t) / 4.0;
+    A->stencil[3] = (1.0 + t) / 4.0;
+    memcpy(A->local, backward, sizeof A->local);
+    A->outside = rb_alloc(2, 2 * (size_t)A->n);
+    return A->outside ? rb_rolling_displacement_outside(rc, bodies, A->outside) : RB_ENOMEM;
+}
+
+/* Row i of A w for the displacement w of the n elements and the one upstream; outside: of
+ * one element downstream and the second one upstream. */
+static double row_of(const kinematic *A, const double *w, const double outside[2], int i)
+{
+    const double *a = A->stencil;
+    if (!A->outside)
+        return A->differences ? w[i] - w[i + 1] : w[i];
+    const double before = i > 0 ? w[i - 1] : outside[0],
+                 second = i + 1 < A->n ? w[i + 2] : outside[1];
+    return a[0] * before + a[1] * w[i] + a[2] * w[i + 1] + a[3] * second;
+}
+
+/* ---- Its two operators ------------------------------------------------------------- */
+
+/* Products by Fourier transforms. */
+typedef struct {
+    rb_bem_flexibility f; /* its arrays borrowed from the bodies */
+    kinematic A;          /* owned, as the rest */
+    double local[4];      /* what is added to A q for the interlayer: zeros where there is none
+                           */
+    rb_bem_circulant *inverse;
+    double *w;    /* 2m: displacements of one product */
+    double *slip; /* n: A w_T */
+} transforms;
+
+static void transforms_free(void *context)
+{
+    transforms *t = context;
+
+    rb_bem_circulant_free(t->inverse);
+    free(t->A.outside);
+    free(t->w);
+    free(t->slip);
+    free(t);
+}
+
+static void transforms_apply(void *context, const double *r, const double **gap,
+                             const double **slip)
+{
+    const transforms *t = context;
+    const kinematic A = t->A; /* no store to slip changes it: the loop has no branches */
+    const double *w_T = t->w + A.n + 1;
+    double outside[2] = {0.0, 0.0};
+
+    rb_bem_flexibility_apply(&t->f, r, t->w);
+    for (int j = 0; A.outside && j < 2 * A.n; j++)
+        for (int k = 0; k < 2; k++)
+            outside[k] += A.outside[2 * (size_t)j + (size_t)k] * r[j];
+    for (int i = 0; i < A.n; i++)
+        t->slip[i] = row_of(&A, w_T, outside, i);
+    for (int k = 0; k < 4; k++)
+        for (int i = k < 1; t->local[k] != 0.0 && i < A.n && i - 1 + k < A.n; i++)
+            t->slip[i] += t->local[k] * r[A.n + i - 1 + k];
+    *gap = t->w;
+    *slip = t->slip;
+}
+
+static void transforms_precondition(void *context, int tangential, double *line)
+{
+    const transforms *t = context;
+
+    if (tangential && t->A.differences)
+        rb_bem_circulant_apply_difference(t->inverse, line, line);
+    else
+        rb_bem_circulant_apply(t->inverse, line, line);
+}
+
+static void transforms_precondition_yielding(void *context, double hardening, double *line)
+{
+    const transforms *t = context;
+
+    rb_bem_circulant_apply_yielding(t->inverse, hardening, line, line);
+}
+
+/* A: taken over, also on failure. */
+static rb_status transform_operator(const rb_bem_flexibility *f, double compliance, kinematic *A,
+                                    rb_contact_operator **op)
+{
+    transforms *t = calloc(1, sizeof *t);
+
+    if (!t)
+        return RB_ENOMEM;
+    t->f = *f;
+    t->A = *A;
+    A->outside = NULL;
+    for (int k = 0; k < 4; k++)
+        t->local[k] = compliance * (A->local[k] - A->stencil[k]);
+    t->w = rb_alloc(2 * (size_t)f->m, 1);
+    t->slip = rb_alloc((size_t)A->n, 1);
+    const rb_status s = t->w && t->slip
+                            ? rb_bem_circulant_create(&t->f, t->A.stencil, t->A.local, &t->inverse)
+                            : RB_ENOMEM;
+    if (s != RB_OK) {
+        transforms_free(t);
+        return s;
+    }
+    const rb_contact_products by = {transforms_apply, transforms_precondition, transforms_free, t,
+                                    transforms_precondition_yielding};
+    return rb_contact_operator_products(A->n, &by, op);
+}
+
+/* The matrix, with the products at its side where these solve sooner. */
+static rb_status make_operator(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                               kinematic *A, rb_contact_operator **op)
+{
+    rb_contact_operator *products = NULL;
+
+    if (!bodies->F)
+        return transform_operator(&bodies->f, rc->interlayer_tangential, A, op);
+    /* S = A [F_TN F_TT] (K2). */
+    const int n = A->n, m = n + 1;
+    const double none[2] = {0.0, 0.0};
+    double *S = rb_alloc((size_t)n, 2 * (size_t)n);
+
+    if (!S)
+        return RB_ENOMEM;
+    for (int j = 0; j < 2 * n; j++) {
+        const double *w_T = bodies->F + (size_t)j * 2 * (size_t)m + m;
+        const double *outside = A->outside ? A->outside + 2 * (size_t)j : none;
+        for (int i = 0; i < n; i++)
+            S[i + (size_t)j * n] = row_of(A, w_T, outside, i);
+    }
+    /* S has A on all of F_TT so far. */
+    for (int i = 0; i < n && A->outside; i++)
+        for (int k = 0; k < 4; k++) {
+            const int j = i - 1 + k;
+            if (j >= 0 && j < n)
+                S[i + (size_t)(n + j) * (size_t)n] +=
+                    rc->interlayer_tangential * (A->local[k] - A->stencil[k]);
+        }
+    rb_status s = rb_contact_operator_dense(n, bodies->F, 2 * m, S, op);
+    /* another matrix than that of the bodies, as of a worn surface, has no products */
+    if (s == RB_OK && bodies->transforms.n > 0 &&
+        bodies->F == rb_bem_flexibility_stored(&bodies->f)) {
+        s = transform_operator(&bodies->transforms, rc->interlayer_tangential, A, &products);
+        if (s == RB_OK)
+            rb_contact_operator_add_products(*op, products);
+    }
+    return s;
+}
+
+/* ---- What moves the surfaces ------------------------------------------------------- */
+
+/* d_T and e_T (K2), and the yield stress of what has yielded before (Y1). */
+void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                         const rb_rolling_past *past, rb_contact_problem *p)
+{
+    const int n = p->n, m = n + 1;
+    const double *x = bodies->f.x, *w0_T = bodies->f.w0 + m;
+
+    for (int i = 0; i < n; i++) {
+        p->d_T[i] = p->differences ? w0_T[i] - w0_T[i + 1] : w0_T[i];
+        if (past)
+            p->d_T[i] -= past->w_T[i];
+        if (p->yield)
+            p->yield[i] =
+                rc->yield_stress + rc->hardening * (past && past->yielded ? past->yielded[i] : 0.0);
+        p->e_T[i] = rc->formulation == RB_STEADY      ? x[i + 1] - x[i]
+                    : rc->formulation == RB_TRANSIENT ? past ? past->step : 0.0
+                                                      : 1.0;
+    }
+}
+
+void rb_rolling_set_gap(const rb_rolling_mesh *mesh, const rb_rolling_bodies *bodies,
+                        rb_contact_problem *p)
+{
+    for (int i = 0; i < p->n; i++)
+        p->d_N[i] = mesh->gap[i] + bodies->f.w0[i];
+}
+
+double rb_rolling_wanted_shift(const rb_rolling_case *rc)
+{
+    if (!isnan(rc->shift))
+        return rc->shift;
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+    return isnan(d.load) ? 0.1 * d.approach : 0.0;
+}
+
+/* Given values of theory.md 4.6.  The creepage ratio refers to the Hertz half-width of
+ * the load: under approach control an estimate, which model.c corrects after a solve. */
+void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p)
+{
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+
+    p->load_given = !isnan(d.load);
+    p->load = d.load;
+    p->delta = d.approach;
+    p->force = p->force_ratio = p->xi = 0.0;
+    p->force_given = p->mu > 0.0 && rb_rolling_force_is_given(rc);
+    p->axle = rc->free_axle ? 1.0 / rc->a.radius : 0.0;
+    if (p->axle > 0.0)
+        return;
+    if (p->force_given && !isnan(rc->force_ratio))
+        p->force_ratio = rc->force_ratio;
+    else if (p->force_given && p->load_given && rc->friction.law == RB_FRICTION_constant &&
+             rc->friction.heat == 0.0)
+        p->force_ratio = rc->force / (p->mu * d.load);
+    else if (p->force_given)
+        p->force = rc->force;
+    else if (rc->formulation == RB_STATIC)
+        p->xi = rb_rolling_wanted_shift(rc);
+    else if (!isnan(rc->creep_ratio))
+        p->xi = rc->creep_ratio * p->mu * d.half_width / d.radius;
+    else
+        p->xi = isnan(rc->creep) ? 0.0 : rc->creep;
+}
+
+/* Scales: stress by Hertz, lengths so that the diagonals of F_NN and of A F_TT become
+ * about 1; where mu is small, the slip of dissimilar bodies comes from the pressure. */
+void rb_rolling_set_given(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                          rb_contact_problem *p)
+{
+    const rb_contact_response unit = rb_contact_operator_response(p->op);
+
+    rb_rolling_start_bounds(rc, NULL, bodies, p);
+    rb_rolling_set_control(rc, p);
+    const double friction = (p->mu > 0.0 ? p->mu : 1.0) * unit.slip;
+    p->stress = rb_rolling_derive(rc).stress;
+    p->gap_length = p->stress * unit.gap;
+    p->slip_length = p->stress * fmax(friction, unit.coupled_slip);
+    p->rounding = 64.0 * DBL_EPSILON * unit.reach;
+}
+
+/* p: allocated. */
+static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                              const rb_rolling_bodies *bodies, const rb_rolling_past *past,
+                              rb_contact_problem *p, rb_message *why)
+{
+    const int rolls = rc->formulation == RB_STEADY,
+              second = rolls && rc->slip_operator == RB_SLIP_SECOND;
+
+    if (rc->yield_stress > 0.0) {
+        /* How far the interface has yielded where the material comes from (Y1): steadily
+         * rolled u follows the slip by the difference that the local part of F_TT has
+         * (theory.md 4.10); in a step it begins with what the past has left. */
+        p->recall[0] = second ? 4.0 / 3.0 : rolls ? 1.0 : 0.0;
+        p->recall[1] = second ? -1.0 / 3.0 : 0.0;
+        p->own = second ? 2.0 / 3.0 : 1.0;
+        if (rb_contact_set_yield(p, rc->yield_stress, rc->hardening) != RB_OK)
+            return rb_fail(why, RB_ENOMEM, "out of memory for a contact problem of %d elements",
+                           mesh->n);
+    }
+    rb_rolling_set_given(rc, bodies, p);
+    p->differences = rolls;
+    p->force_unit = " N/mm";
+    rb_rolling_set_gap(mesh, bodies, p);
+    rb_rolling_set_past(rc, bodies, past, p);
+    /* Vertical and horizontal force of unit tractions along n and t. */
+    for (int i = 0; i < p->n; i++) {
+        const double h = bodies->f.h[i];
+        const double sine =
+            rc->normals == RB_BEM_NORMALS_SURFACE ? bodies->f.x[i] / rc->a.radius : 0.0;
+        const double cosine = sqrt(1.0 - sine * sine);
+        p->load_N[i] = h * cosine;
+        p->load_T[i] = h * sine;
+        p->force_N[i] = -h * sine;
+        p->force_T[i] = h * cosine;
+        p->moment_N[i] = bodies->f.x[i] * p->load_N[i];
+        p->moment_T[i] = bodies->f.x[i] * p->load_T[i];
+    }
+    /* A layer that softens has one answer to a slip only where its stress falls by less
+     * than the friction that the slip sets free. */
+    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
+    double most = rb_contact_operator_response(p->op).slip;
+
+    for (int i = 0; K.S && i < p->n; i++)
+        most = fmax(most, K.S[i + (size_t)(p->n + i) * (size_t)p->n]);
+    const double least = 1.0 / (p->own * most);
+    return !p->yield || rc->hardening > -least
+               ? RB_OK
+               : rb_fail(why, RB_EINVAL,
+                         "hardening: softening by %g MPa/mm has no unique solution, "
+                         "expected less than %g MPa/mm on this mesh",
+                         -rc->hardening, least);
+}
+
+rb_status rb_rolling_problem_share(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                   const rb_rolling_bodies *bodies, rb_contact_operator *op,
+                                   rb_contact_problem *p, rb_message *why)
+{
+    const rb_status s = rb_contact_problem_borrow(op, p);
+
+    return s == RB_OK
+               ? fill_problem(rc, mesh, bodies, NULL, p, why)
+               : rb_fail(why, s, "out of memory for a contact problem of %d elements", mesh->n);
+}
+
+rb_status rb_rolling_problem_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                    const rb_rolling_bodies *bodies, const rb_rolling_past *past,
+                                    rb_contact_problem *p, rb_message *why)
+{
+    kinematic A;
+    rb_contact_operator *op = NULL;
+    rb_status s = set_kinematic(rc, bodies, &A);
+
+    memset(p, 0, sizeof *p);
+    if (s == RB_OK)
+        s = make_operator(rc, bodies, &A, &op);
+    free(A.outside);
+    if (s == RB_OK)
+        s = rb_contact_problem_alloc(op, p);
+    if (s != RB_OK)
+        return rb_fail(why, s, "out of memory for a contact problem of %d elements", mesh->n);
+    return fill_problem(rc, mesh, bodies, past, p, why);
+}
+
+rb_status rb_rolling_problem_renew_operator(const rb_rolling_case *rc,
+                                            const rb_rolling_bodies *bodies, rb_contact_problem *p,
+                                            rb_message *why)
+{
+    kinematic A;
+    rb_status s = set_kinematic(rc, bodies, &A);
+
+    rb_contact_operator_free(p->op);
+    p->op = NULL;
+    if (s == RB_OK)
+        s = make_operator(rc, bodies, &A, &p->op);
+    free(A.outside);
+    p->rounding = 0.0; /* of products */
+    return s == RB_OK ? s
+                      : rb_fail(why, s, "out of memory for a contact problem of %d elements", p->n);
+}
+
+/* ---- What a state carries ---------------------------------------------------------- */
+
+double rb_rolling_model_load(const rb_rolling_model *model)
+{
+    return rb_contact_load(&model->problem, &model->state);
+}
+
+double rb_rolling_model_force(const rb_rolling_model *model)
+{
+    return rb_contact_force(&model->problem, &model->state);
+}
+
+double rb_rolling_force_ratio(const rb_rolling_model *model)
+{
+    const double most = rb_rolling_law_depends_on_state(model->rc)
+                            ? model->problem.mu * rb_rolling_model_load(model)
+                            : rb_contact_capacity(&model->problem, &model->state);
+    return most > 0.0 ? rb_rolling_model_force(model) / most : NAN;
+}
+
+double rb_rolling_creepage_of_ratio(const rb_rolling_model *model, double ratio)
+{
+    return ratio * model->problem.mu * model->half_width / rb_rolling_radius(model->rc);
+}
+
+double rb_rolling_ratio_of_creepage(const rb_rolling_model *model, double creepage)
+{
+    const double mu = model->problem.mu, a = model->half_width;
+    return mu > 0.0 && a > 0.0 ? creepage * rb_rolling_radius(model->rc) / (mu * a) : NAN;
+}
+
+void rb_rolling_yielded(const rb_rolling_model *model, double *yielded)
+{
+    rb_contact_yielded(&model->problem, model->state.plastic, model->state.zone, yielded);
+    for (int i = 0; i < model->mesh.n && model->carried.yielded; i++)
+        yielded[i] += model->carried.yielded[i];
+}
+
+/* ---- How it is solved -------------------------------------------------------------- */
+
+double rb_rolling_sliding_creepage(const rb_rolling_case *rc, const rb_contact_problem *p)
+{
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+    const double a = d.half_width, beta = fabs(d.dundurs);
+    const double mu = p->mu;
+    const double ratio = (mu + 2.0 * beta * (1.0 + mu * mu)) * a / d.radius;
+
+    return rc->formulation == RB_STEADY ? 2.0 * ratio : 4.0 * ratio * a / p->e_T[0];
+}
+
+rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling_case *rc, int warm,
+                                   rb_contact_state *state, rb_message *why)
+{
+    problem->sliding = rb_rolling_sliding_creepage(rc, problem);
+    return rb_contact_solve(problem, &rc->contact, warm, state, why);
+}
+
+rb_status rb_rolling_model_lcp(const rb_rolling_model *model, rb_contact_lcp *lcp, rb_message *why)
+{
+    rb_contact_problem problem = model->problem; /* arrays stay the model's */
+
+    problem.sliding = rb_rolling_sliding_creepage(model->rc, &problem);
+    return rb_contact_lcp_first(&problem, &model->rc->contact, &model->state, lcp, why);
+}

@@ -1,0 +1,209 @@
+/* Friction laws (theory.md 4.11): the coefficient of an element from its state. */
+#include "rolling/rolling.h"
+
+#include <gsl/gsl_interp.h>
+
+/* ---- The laws --------------------------------------------------------------------- */
+
+static double constant_mu(const rb_rolling_case *rc, double x, double v)
+{
+    (void)x;
+    (void)v;
+    return rc->mu;
+}
+
+static double table_mu(const rb_rolling_case *rc, double x, double v)
+{
+    (void)v;
+    return rb_rolling_friction_at(&rc->friction.table, x);
+}
+
+/* v in units of the slip scale of term k; without a fall the scale means nothing. */
+static double scaled(const rb_rolling_friction *f, int k, double v)
+{
+    return f->fall[k] != 0.0 ? v / f->slip_scale[k] : 0.0;
+}
+
+static double exponential_mu(const rb_rolling_case *rc, double x, double v)
+{
+    const rb_rolling_friction *f = &rc->friction;
+    double mu = rc->mu;
+    (void)x;
+    for (int k = 0; k < 2; k++)
+        mu += f->fall[k] != 0.0 ? f->fall[k] * exp2(-v / f->slip_scale[k]) : 0.0;
+    return mu;
+}
+
+static double rational_mu(const rb_rolling_case *rc, double x, double v)
+{
+    const rb_rolling_friction *f = &rc->friction;
+    const double first = scaled(f, 0, v), second = scaled(f, 1, v);
+    (void)x;
+    return rc->mu + f->fall[0] / (1.0 + first) + f->fall[1] / (1.0 + second * second);
+}
+
+static double linear_mu(const rb_rolling_case *rc, double x, double v)
+{
+    const rb_rolling_friction *f = &rc->friction;
+    (void)x;
+    return rc->mu + f->fall[0] * fmax(0.0, 1.0 - 0.5 * scaled(f, 0, v)) +
+           f->fall[1] * fmax(0.0, 1.0 - 0.5 * scaled(f, 1, v));
+}
+
+/* steepest: largest -dmu/dv of either term with fall and slip scale 1; 0: the law does
+ * not depend on the slip velocity.  with_memory: largest mu(0) - mu(v) - v dmu/dv of it. */
+static const struct {
+    double (*mu)(const rb_rolling_case *rc, double x, double v);
+    double steepest[2], with_memory[2];
+} laws[RB_FRICTION_LAWS] = {
+    [RB_FRICTION_constant] = {constant_mu, {0.0, 0.0}, {0.0, 0.0}},
+    [RB_FRICTION_exponential] = {exponential_mu,
+                                 {0.6931471805599453, 0.6931471805599453},
+                                 {1.1353352832366127, 1.1353352832366127}}, /* 1 + exp(-2) */
+    [RB_FRICTION_rational] = {rational_mu, {1.0, 0.6495190528383290}, {1.0, 1.125}},
+    /* 1, 3 sqrt(3)/8 */
+    [RB_FRICTION_linear] = {linear_mu, {0.5, 0.5}, {2.0, 2.0}},
+    [RB_FRICTION_table] = {table_mu, {0.0, 0.0}, {0.0, 0.0}}};
+
+#define NAME_OF_LAW(name, help) #name,
+static const char *const names[] = {RB_ROLLING_FRICTION_LAWS(NAME_OF_LAW) "table"};
+
+double rb_rolling_friction_at(const rb_rolling_table *table, double x)
+{
+    const int last = table->n - 1;
+
+    if (x <= table->x[0])
+        return table->y[0];
+    if (x >= table->x[last])
+        return table->y[last];
+    const size_t k = gsl_interp_bsearch(table->x, x, 0, (size_t)last);
+    const double share = (x - table->x[k]) / (table->x[k + 1] - table->x[k]);
+    return table->y[k] + share * (table->y[k + 1] - table->y[k]);
+}
+
+/* ---- What is known of a law beforehand --------------------------------------------- */
+
+int rb_rolling_law_depends_on_slip(const rb_rolling_friction *f)
+{
+    return laws[f->law].steepest[0] > 0.0 && (f->fall[0] != 0.0 || f->fall[1] != 0.0);
+}
+
+int rb_rolling_law_depends_on_state(const rb_rolling_case *rc)
+{
+    return rc->formulation != RB_STATIC &&
+           (rb_rolling_law_depends_on_slip(&rc->friction) || rc->friction.heat != 0.0);
+}
+
+/* The end of the coefficients' range on that side: 1 the largest, -1 the least. */
+static double end_of_range(const rb_rolling_case *rc, double side)
+{
+    const rb_rolling_friction *f = &rc->friction;
+    double most = side * rc->mu;
+
+    for (int k = 0; k < f->table.n && f->law == RB_FRICTION_table; k++)
+        most = k == 0 ? side * f->table.y[0] : fmax(most, side * f->table.y[k]);
+    for (int k = 0; k < 2 && rb_rolling_law_depends_on_slip(f); k++)
+        most += fmax(0.0, side * f->fall[k]);
+    return side * (most + fmax(0.0, side * f->heat));
+}
+
+double rb_rolling_largest_mu(const rb_rolling_case *rc)
+{
+    return end_of_range(rc, 1.0);
+}
+
+rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
+{
+    const rb_rolling_friction *f = &rc->friction;
+
+    if (f->law == RB_FRICTION_table) {
+        const rb_rolling_table *t = &f->table;
+        if (t->n < 1)
+            return rb_fail(why, RB_EINVAL, "friction table: expected a row or more");
+        for (int k = 0; k < t->n; k++) {
+            if (!isfinite(t->x[k]) || (k > 0 && !(t->x[k] > t->x[k - 1])))
+                return rb_fail(why, RB_EINVAL,
+                               "friction table: row %d: expected x to increase, got %g", k + 1,
+                               t->x[k]);
+            if (!(isfinite(t->y[k]) && t->y[k] >= 0.0))
+                return rb_fail(why, RB_EINVAL, "friction table: row %d: expected mu >= 0, got %g",
+                               k + 1, t->y[k]);
+        }
+    }
+    const int slips = rb_rolling_law_depends_on_slip(f), rolls = rc->formulation != RB_STATIC,
+              heats = f->heat != 0.0, remembers = f->memory != 0.0;
+    const struct {
+        int counts;
+        const char *option;
+        double value;
+    } numbers[] = {{slips, "mu-fall", f->fall[0]},
+                   {slips && f->fall[0] != 0.0, "slip-scale", f->slip_scale[0]},
+                   {slips, "mu-fall", f->fall[1]},
+                   {slips && f->fall[1] != 0.0, "slip-scale", f->slip_scale[1]},
+                   {heats, "mu-heat", f->heat},
+                   {heats, "mu-heat", f->heat_from},
+                   {remembers, "memory", f->memory},
+                   {remembers, "memory", f->memory_slip}};
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
+        const rb_status s = numbers[k].counts
+                                ? rb_rolling_check_number(numbers[k].option, numbers[k].value, why)
+                                : RB_OK;
+        if (s != RB_OK)
+            return s;
+    }
+    if (heats && !(isfinite(f->heat_range) && f->heat_range > 0.0))
+        return rb_fail(why, RB_EINVAL, "mu-heat: expected a number > 0 as the third, got %g",
+                       f->heat_range);
+    if (slips && rolls && rc->speed == 0.0)
+        return rb_fail(why, RB_EINVAL, "friction law %s: needs the speed of rolling, add --speed",
+                       names[f->law]);
+    if (heats && rolls && !rb_rolling_has_heat(rc))
+        return rb_fail(why, RB_EINVAL, "mu-heat: needs temperatures, add --conductivity");
+    const double least = end_of_range(rc, -1.0);
+    if (least < 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "friction law %s: expected mu >= 0 everywhere, got %g at least",
+                       names[f->law], least);
+    return RB_OK;
+}
+
+/* ---- The coefficients of a state --------------------------------------------------- */
+
+double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v, double temperature)
+{
+    return laws[rc->friction.law].mu(rc, x, v) +
+           (rc->friction.heat != 0.0
+                ? rc->friction.heat * fmin(1.0, fmax(0.0, (temperature - rc->friction.heat_from) /
+                                                              rc->friction.heat_range))
+                : 0.0);
+}
+
+double rb_rolling_law_at_rest(const rb_rolling_case *rc, double x)
+{
+    return rb_rolling_law_mu(rc, x, 0.0, rc->heat_a.temperature);
+}
+
+double rb_rolling_law_steepest(const rb_rolling_case *rc, double length)
+{
+    const rb_rolling_friction *f = &rc->friction;
+    double steepest = 0.0, with_memory = 0.0;
+
+    for (int k = 0; k < 2; k++)
+        if (f->fall[k] > 0.0) {
+            steepest += f->fall[k] * laws[f->law].steepest[k] / f->slip_scale[k];
+            with_memory += f->fall[k] * laws[f->law].with_memory[k];
+        }
+    return f->memory > 0.0 ? fmin(steepest, length / (rc->speed * f->memory) *
+                                                fmax(with_memory, steepest * f->memory_slip))
+                           : steepest;
+}
+
+void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_table *start,
+                             const rb_rolling_bodies *bodies, rb_contact_problem *p)
+{
+    for (int i = 0; i < p->n; i++)
+        p->bound[i] = start && rc->formulation != RB_STATIC
+                          ? rb_rolling_friction_at(start, bodies->f.x[i])
+                          : rb_rolling_law_at_rest(rc, bodies->f.x[i]);
+    rb_contact_set_friction(p, rb_rolling_largest_mu(rc), p->bound);
+}

@@ -1,0 +1,215 @@
+/* A solved contact problem on a given mesh, and its given ratio. */
+#include "rolling/rolling.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { RATIO_ROUNDS = 40 };
+
+void rb_rolling_forget_free_rolling(rb_rolling_model *model)
+{
+    if (model->freely)
+        rb_rolling_model_free(model->freely);
+    free(model->freely);
+    model->freely = NULL;
+}
+
+rb_status rb_rolling_model_set_case(rb_rolling_model *model, const rb_rolling_case *rc,
+                                    rb_message *why)
+{
+    rb_rolling_case *copy = malloc(sizeof *copy);
+
+    if (!copy)
+        return rb_fail(why, RB_ENOMEM, "out of memory for a case");
+    *copy = *rc;
+    free((void *)model->rc);
+    model->rc = copy;
+    rb_rolling_forget_free_rolling(model);
+    return RB_OK;
+}
+
+rb_status rb_rolling_model_begin(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                 rb_rolling_model *model, rb_message *why)
+{
+    *model = (rb_rolling_model){.plan = plan ? *plan : rb_rolling_plan_of(rc)};
+    return rb_rolling_model_set_case(model, rc, why);
+}
+
+void rb_rolling_model_free(rb_rolling_model *model)
+{
+    free((void *)model->rc);
+    rb_contact_state_free(&model->state);
+    rb_contact_problem_free(&model->problem);
+    rb_rolling_bodies_free(&model->bodies);
+    rb_rolling_mesh_free(&model->mesh);
+    free(model->carried.temperature);
+    free(model->carried.yielded);
+    rb_rolling_conduction_free(model->conduction);
+    rb_rolling_forget_free_rolling(model);
+    memset(model, 0, sizeof *model);
+}
+
+rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why)
+{
+    const double start = rb_seconds();
+    const int iterates = rb_rolling_law_depends_on_state(model->rc);
+    rb_status s =
+        iterates ? rb_rolling_law_solve(model, warm, why)
+                 : rb_rolling_problem_solve(&model->problem, model->rc, warm, &model->state, why);
+
+    if (!iterates)
+        model->iterations += model->state.iterations;
+    model->seconds_lcp += rb_seconds() - start;
+    if (s >= 0)
+        model->half_width =
+            rb_rolling_hertz_half_width(model->rc, fmax(0.0, rb_rolling_model_load(model)));
+    if (s == RB_OK)
+        s = model->state.status = rb_rolling_check_enclosed(model, &model->state, why);
+    return s;
+}
+
+/* The end of a solve with status s.  A given creepage ratio refers to the load, which
+ * approach control only finds: secants to the creepage that is the one of the load found
+ * with it, as nearly as rounding lets them. */
+static rb_status meet_ratio(rb_rolling_model *model, rb_status s, rb_message *why)
+{
+    const rb_rolling_case *rc = model->rc;
+    double step = NAN, excess_before = NAN, missing = INFINITY;
+
+    if (isnan(rc->creep_ratio) || rc->formulation == RB_STATIC || model->problem.load_given)
+        return s;
+    for (int k = 0; s == RB_OK; k++) {
+        const double xi = rb_rolling_creepage_of_ratio(model, rc->creep_ratio);
+        const double excess = model->problem.xi - xi;
+        missing = fabs(excess / xi);
+        if (!(missing > 1e-13) || k == RATIO_ROUNDS)
+            break;
+        const double slope = k > 0 ? (excess - excess_before) / step : 1.0;
+        step = -excess / (slope > 0.1 && slope < 10.0 ? slope : 1.0);
+        excess_before = excess;
+        model->problem.xi += step;
+        s = rb_rolling_model_resolve(model, 1, why);
+    }
+    if (s == RB_OK && missing > fmax(rc->contact.tol, model->problem.rounding))
+        s = model->state.status =
+            rb_fail(why, RB_MAXITER,
+                    "creep-ratio: the load changes with the creepage; after %d rounds "
+                    "the two differ by %.2g of the creepage",
+                    RATIO_ROUNDS, missing);
+    return s;
+}
+
+rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why)
+{
+    rb_rolling_set_control(model->rc, &model->problem);
+    return meet_ratio(model, rb_rolling_model_resolve(model, 1, why), why);
+}
+
+/* Zones and tractions of a large contact, from fewer elements over the same line. */
+static rb_status start_from_coarse(rb_rolling_model *model, rb_message *why)
+{
+    const double *ends = model->mesh.ends;
+    rb_rolling_plan fewer = model->plan;
+    rb_rolling_model coarse;
+    rb_rolling_mesh mesh;
+
+    fewer.elements = rb_rolling_coarse_elements(model->mesh.n);
+    rb_status s = rb_rolling_model_begin(model->rc, &fewer, &coarse, why);
+    if (s == RB_OK)
+        s = rb_rolling_mesh_uniform(model->rc, &fewer, ends[0], ends[model->mesh.n], &mesh, why);
+    if (s == RB_OK)
+        s = rb_rolling_model_build(&coarse, &mesh, why);
+    if (s >= 0)
+        rb_rolling_start_from(coarse.rc, &coarse.mesh, &coarse.state, &model->mesh, &model->state);
+    if (s == RB_OK) {
+        double *bound = rb_rolling_friction_of(&coarse);
+        rb_rolling_follow_friction(&coarse.mesh, bound, model);
+        free(bound);
+    }
+    model->iterations += coarse.iterations;
+    rb_rolling_model_free(&coarse);
+    return s < 0 ? s : RB_OK;
+}
+
+/* Bodies, where they are not kept, contact problem and a state of zeros on the model's
+ * mesh. */
+static rb_status set_up(rb_rolling_model *model, int kept, rb_message *why)
+{
+    rb_status s =
+        kept ? RB_OK
+             : rb_rolling_bodies_create(model->rc, &model->plan, &model->mesh, &model->bodies, why);
+    if (s == RB_OK)
+        s = rb_rolling_problem_create(model->rc, &model->mesh, &model->bodies, NULL,
+                                      &model->problem, why);
+    if (s == RB_OK && model->plan.start)
+        rb_rolling_start_bounds(model->rc, model->plan.start, &model->bodies, &model->problem);
+    return s == RB_OK ? rb_contact_state_alloc(model->mesh.n, &model->state) : s;
+}
+
+rb_status rb_rolling_model_add_matrix(rb_rolling_model *model, rb_message *why)
+{
+    if (model->bodies.F || model->mesh.n >= RB_ROLLING_LARGE)
+        return RB_OK;
+    const rb_status s = rb_rolling_bodies_add_matrix(model->rc, &model->mesh, &model->bodies, why);
+    return s == RB_OK
+               ? rb_rolling_problem_renew_operator(model->rc, &model->bodies, &model->problem, why)
+               : s;
+}
+
+rb_status rb_rolling_model_of_result(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                     const rb_rolling_elements *elements, rb_rolling_model *model,
+                                     rb_message *why)
+{
+    rb_status s = rb_rolling_model_set_case(model, rc, why);
+
+    model->plan = plan ? *plan : rb_rolling_plan_of(rc);
+    if (s == RB_OK)
+        s = rb_rolling_mesh_of_result(rc, elements, &model->mesh, why);
+    return s == RB_OK ? set_up(model, 0, why) : s;
+}
+
+rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh, rb_message *why)
+{
+    const int kept = model->same_bodies && model->mesh.n == mesh->n &&
+                     memcmp(model->mesh.ends, mesh->ends,
+                            ((size_t)model->mesh.n + 2) * sizeof *model->mesh.ends) == 0;
+    /* the edges have been followed from another line to this one */
+    const int near =
+        model->state.p && model->state.status == RB_OK && model->rc->mesh == RB_MESH_ALIGNED;
+    rb_rolling_mesh old_mesh = model->mesh;
+    rb_contact_state old = model->state;
+    double *bound = near ? rb_rolling_friction_of(model) : NULL;
+
+    memset(&model->state, 0, sizeof model->state);
+    rb_contact_problem_free(&model->problem);
+    if (!kept)
+        rb_rolling_bodies_free(&model->bodies);
+    model->mesh = *mesh;
+    memset(mesh, 0, sizeof *mesh);
+    rb_status s = set_up(model, kept, why);
+    const int large = s == RB_OK && !model->bodies.F;
+    if (large && near) {
+        rb_rolling_start_from(model->rc, &old_mesh, &old, &model->mesh, &model->state);
+        rb_rolling_follow_friction(&old_mesh, bound, model);
+    } else if (large)
+        s = start_from_coarse(model, why);
+    free(bound);
+    rb_contact_state_free(&old);
+    rb_rolling_mesh_free(&old_mesh);
+    if (s == RB_OK)
+        s = meet_ratio(model, rb_rolling_model_resolve(model, large, why), why);
+    if (large && near && (s == RB_MAXITER || s == RB_SINGULAR)) {
+        s = start_from_coarse(model, why);
+        if (s == RB_OK)
+            s = meet_ratio(model, rb_rolling_model_resolve(model, 1, why), why);
+    }
+    /* Lemke's method asks for the matrix, and so does a tolerance below GMRES's own */
+    const int inaccurate = s == RB_OK && model->state.residual > model->rc->contact.tol;
+    if (s < 0 || s == RB_ZONE || s == RB_INTERRUPTED || (s == RB_OK && !inaccurate) || !large ||
+        model->mesh.n >= RB_ROLLING_LARGE)
+        return s;
+    s = rb_rolling_model_add_matrix(model, why);
+    if (s == RB_OK)
+        s = rb_rolling_model_resolve(model, inaccurate, why);
+    return meet_ratio(model, s, why);
+}

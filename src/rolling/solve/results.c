@@ -1,0 +1,540 @@
+/* The results, each once: JSON, tables, studies and error bars are made from these. */
+#include "rolling/solve/results.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define OF(owner, name_, member, ...)                                                              \
+    {                                                                                              \
+        .name = name_, .offset = offsetof(owner, member), __VA_ARGS__                              \
+    }
+#define RESULT(name, member, ...) OF(rb_rolling_solution, name, member, __VA_ARGS__)
+#define PATCH(name, member, ...) OF(rb_rolling_patch, name, member, __VA_ARGS__)
+#define STEP(name, member, ...) OF(rb_rolling_history, name, member, __VA_ARGS__)
+#define STRESS(name, member, ...) OF(rb_rolling_stress, name, member, __VA_ARGS__)
+#define WEAR(name, member, ...) OF(rb_rolling_wear_history, name, member, __VA_ARGS__)
+#define POINT(name, member, ...) OF(rb_rolling_curve, name, member, __VA_ARGS__)
+
+static const rb_rolling_result scalars[] = {
+    RESULT("iterations", iterations, .kind = RB_RESULT_WHOLE, .study = 15,
+           .meaning = "pivots or Newton steps, of all solves"),
+    RESULT("residual", residual, .no_derivative = 1, .study = 14,
+           .meaning = "natural residual of the scaled problem, from the solution alone"),
+    RESULT("residual_gap", residual_gap, .no_derivative = 1, .unit = "mm",
+           .meaning = "largest violation of the contact conditions"),
+    RESULT("residual_slip", residual_slip, .no_derivative = 1, .unit = "mm",
+           .meaning = "largest violation of the slip conditions"),
+    RESULT("residual_friction", residual_friction, .no_derivative = 1, .unit = "MPa",
+           .meaning = "largest violation of Coulomb's law"),
+    RESULT("load_error", load_error, .no_derivative = 1,
+           .meaning = "|P - given|/given; under a given load"),
+    RESULT("support_balance", support_balance, .no_derivative = 1,
+           .meaning = "(reaction at the support + P)/P; not of half-planes and "
+                      "covers"),
+    RESULT("normal_load", normal_load, .unit = "N/mm", .error_bar = RB_SCALE_LOAD, .study = 1,
+           .meaning = "P, the sum of the pressure"),
+    RESULT("tangential_load", tangential_load, .unit = "N/mm", .error_bar = RB_SCALE_FRICTION,
+           .study = 2, .meaning = "Q, the sum of the friction on A"),
+    RESULT("force_ratio", force_ratio, .error_bar = RB_SCALE_ONE, .study = 3,
+           .meaning = "Q/(mu P)"),
+    RESULT("approach", approach, .unit = "mm", .error_bar = RB_SCALE_APPROACH, .study = 4,
+           .meaning = "delta: how far A moved towards B"),
+    RESULT("tangential_shift", tangential_shift, .unit = "mm", .error_bar = RB_SCALE_SHIFT,
+           .meaning = "rigid shift of A; static contact"),
+    RESULT("creepage", creepage, .error_bar = RB_SCALE_CREEPAGE, .study = 5, .meaning = "xi"),
+    RESULT("creep_ratio", creep_ratio, .study = 6,
+           .meaning = "xi R/(mu a), a the Hertz half-width"),
+    RESULT("free_creepage", free_creepage, .error_bar = RB_SCALE_CREEPAGE, .study = 7,
+           .meaning = "xi where Q = 0; steady rolling"),
+    RESULT("hertz_half_width", hertz_half_width, .unit = "mm",
+           .meaning = "a of P and the combined radius: scale of the ratios"),
+    RESULT("half_width", half_width, .unit = "mm", .error_bar = RB_SCALE_WIDTH, .study = 8,
+           .meaning = "of the contact, where p^2 extrapolates to zero"),
+    RESULT("contact_from", contact_from, .unit = "mm", .meaning = "its trailing edge"),
+    RESULT("contact_to", contact_to, .unit = "mm", .meaning = "its leading edge"),
+    RESULT("nip_width", nip_width, .unit = "mm",
+           .meaning = "from the trailing edge to the leading one, 2a of a single contact"),
+    RESULT("max_pressure", max_pressure, .unit = "MPa", .error_bar = RB_SCALE_PRESSURE, .study = 9,
+           .meaning = "p0"),
+    RESULT("contact", contact, .kind = RB_RESULT_WHOLE, .study = 10,
+           .meaning = "elements in contact"),
+    RESULT("stick", stick, .kind = RB_RESULT_WHOLE, .study = 11, .meaning = "elements that stick"),
+    RESULT("slip", slipping, .kind = RB_RESULT_WHOLE, .study = 12, .meaning = "elements that slip"),
+    RESULT("yield", yielding, .kind = RB_RESULT_WHOLE, .study = 22, .condition = RB_FOR_YIELD,
+           .meaning = "elements whose interface yields, part of those that slip"),
+    RESULT("stick_from", stick_from, .no_derivative = 1, .unit = "mm",
+           .error_bar = RB_SCALE_ELEMENT, .meaning = "first end of the elements that stick"),
+    RESULT("stick_to", stick_to, .no_derivative = 1, .unit = "mm", .error_bar = RB_SCALE_ELEMENT,
+           .meaning = "last end of the elements that stick"),
+    RESULT("stick_length", stick_length, .no_derivative = 1, .unit = "mm",
+           .error_bar = RB_SCALE_ELEMENT, .meaning = "length of all elements that stick"),
+    RESULT("slip_violations", slip_violations, .kind = RB_RESULT_WHOLE,
+           .meaning = "elements whose slip does not oppose the friction"),
+    RESULT("dissipation", dissipation, .unit = "N/mm", .error_bar = RB_SCALE_POWER, .study = 13,
+           .meaning = "friction power per unit speed"),
+    RESULT("resistance_moment", resistance_moment, .unit = "N", .error_bar = RB_SCALE_MOMENT,
+           .study = 16, .meaning = "M = int x p dx; > 0: the load acts ahead of x = 0"),
+    RESULT("resistance_ratio", resistance_ratio, .error_bar = RB_SCALE_STRAIN, .study = 17,
+           .meaning = "M/(P R), the coefficient of rolling resistance"),
+    RESULT("hysteresis", hysteresis, .unit = "N/mm", .error_bar = RB_SCALE_WORK, .study = 18,
+           .meaning = "power per unit speed that bodies which relax lose; steady"),
+    RESULT("torque_a", torque_a, .unit = "N", .error_bar = RB_SCALE_TORQUE, .study = 24,
+           .meaning = "M + Q R_A: torque that turns A's axle the way A rolls; < 0 "
+                      "brakes it"),
+    RESULT("torque_b", torque_b, .unit = "N", .error_bar = RB_SCALE_TORQUE, .study = 25,
+           .condition = RB_FOR_CYLINDER_B, .meaning = "M - Q R_B: the same of B's axle"),
+    RESULT("strain_energy", strain_energy, .no_derivative = 1, .unit = "N",
+           .meaning = "elastic energy of both bodies per width, half the work of p and q on "
+                      "un and ut; of half-planes it depends on datum"),
+    RESULT("max_strain", max_strain, .study = 26,
+           .meaning = "largest compression of a layer, cover or rim over its thickness; "
+                      "without one a/(2R)"),
+    RESULT("max_temperature", max_temperature, .unit = "K", .error_bar = RB_SCALE_HEAT, .study = 19,
+           .condition = RB_FOR_HEAT, .meaning = "highest temperature of the surfaces in contact"),
+    RESULT("max_temperature_at", max_temperature_at, .no_derivative = 1, .unit = "mm",
+           .error_bar = RB_SCALE_ELEMENT, .study = 20, .condition = RB_FOR_HEAT,
+           .meaning = "its place"),
+    RESULT("peclet", peclet, .study = 21, .condition = RB_FOR_HEAT,
+           .meaning = "V a/(2 diffusivity of A), a the half-width"),
+    RESULT("kappa", kappa, .study = 23, .condition = RB_FOR_MOVING_LAW,
+           .meaning = "uniqueness of friction that falls: above 1 there may be several "
+                      "solutions"),
+    RESULT("datum", datum, .unit = "mm", .meaning = "depth of zero displacement in A; half-planes"),
+    RESULT("boundary_elements", boundary_elements, .kind = RB_RESULT_WHOLE,
+           .meaning = "of both bodies"),
+    RESULT("assembly", seconds_assembly, .kind = RB_RESULT_SECONDS,
+           .meaning = "boundary-element matrices"),
+    RESULT("factor", seconds_factor, .kind = RB_RESULT_SECONDS, .meaning = "their factorisation"),
+    RESULT("condense", seconds_condense, .kind = RB_RESULT_SECONDS,
+           .meaning = "flexibility of the contact"),
+    RESULT("lcp", seconds_lcp, .kind = RB_RESULT_SECONDS, .meaning = "complementarity problem"),
+    RESULT("total", seconds_total, .kind = RB_RESULT_SECONDS, .meaning = "everything"),
+};
+
+static const rb_rolling_result columns[] = {
+    RESULT("x", x, .no_derivative = 1, .unit = "mm", .meaning = "midpoint"),
+    RESULT("h", h, .no_derivative = 1, .unit = "mm", .meaning = "length"),
+    RESULT("gap", gap, .unit = "mm", .meaning = "gap"),
+    RESULT("p", p, .unit = "MPa", .meaning = "pressure"),
+    RESULT("q", q, .unit = "MPa", .meaning = "friction on A, towards +x"),
+    RESULT("un", un, .unit = "mm", .meaning = "displacement along the normal"),
+    RESULT("ut", ut, .unit = "mm", .meaning = "displacement along the tangent"),
+    RESULT("shift", shift, .unit = "mm", .meaning = "slip displacement; 0 in stick"),
+    RESULT("slip", slip, .unit = "1", .meaning = "relative slip velocity"),
+    RESULT("zone", zone, .kind = RB_RESULT_WHOLE,
+           .meaning = "0 separated, 1 stick, 2 slip with q = -mu p, 3 with q = +mu p; 4, 5 "
+                      "the interface yields, q < 0, q > 0"),
+    RESULT("temperature", temperature, .unit = "K", .condition = RB_FOR_HEAT,
+           .meaning = "of A's surface"),
+    RESULT("temperature_b", temperature_b, .unit = "K", .condition = RB_FOR_HEAT,
+           .meaning = "of B's surface; in contact A's"),
+    RESULT("worn", worn, .unit = "mm", .condition = RB_FOR_WORN,
+           .meaning = "depth that is worn off"),
+    RESULT("mu", mu, .unit = "1", .condition = RB_FOR_LAW,
+           .meaning = "coefficient of friction by the law"),
+    RESULT("plastic", plastic, .unit = "mm", .condition = RB_FOR_YIELD,
+           .meaning = "what the interface has yielded, of either direction"),
+};
+
+/* New ones at the end: scripts count columns. */
+static const rb_rolling_result steps[] = {
+    STEP("distance", distance, .no_derivative = 1, .unit = "a",
+         .meaning = "rolled so far, in half-widths"),
+    STEP("creepage", creepage, .unit = "1", .error_bar = RB_SCALE_ONE, .is_mean = 1,
+         .meaning = "xi; 0 at rest"),
+    STEP("shift", shift, .unit = "mm", .error_bar = RB_SCALE_ONE,
+         .meaning = "rigid shift of A so far, in static steps"),
+    STEP("approach", approach, .unit = "mm", .error_bar = RB_SCALE_ONE, .meaning = "delta"),
+    STEP("normal_load", normal_load, .unit = "N/mm", .error_bar = RB_SCALE_ONE, .meaning = "P"),
+    STEP("tangential_load", tangential_load, .unit = "N/mm", .error_bar = RB_SCALE_ONE,
+         .meaning = "Q"),
+    STEP("force_ratio", force_ratio, .unit = "1", .error_bar = RB_SCALE_ONE, .meaning = "Q/(mu P)"),
+    STEP("stick", stick, .unit = "elements", .kind = RB_RESULT_WHOLE,
+         .meaning = "elements that stick"),
+    STEP("slip", slipping, .unit = "elements", .kind = RB_RESULT_WHOLE,
+         .meaning = "elements that slip"),
+    STEP("residual", residual, .no_derivative = 1, .unit = "1",
+         .meaning = "natural residual of the scaled problem"),
+    STEP("max_pressure", max_pressure, .unit = "MPa", .error_bar = RB_SCALE_ONE,
+         .meaning = "p0; 0 without contact"),
+    STEP("contact_from", contact_from, .unit = "mm", .error_bar = RB_SCALE_ONE,
+         .meaning = "trailing edge"),
+    STEP("contact_to", contact_to, .unit = "mm", .error_bar = RB_SCALE_ONE,
+         .meaning = "leading edge"),
+    STEP("dissipation", dissipation, .unit = "N/mm", .error_bar = RB_SCALE_ONE, .is_mean = 1,
+         .meaning = "friction power per unit speed; 0 at rest"),
+    STEP("moment", moment, .unit = "N", .error_bar = RB_SCALE_ONE,
+         .meaning = "int x p dx; > 0: the load acts ahead of x = 0"),
+    STEP("max_temperature", max_temperature, .unit = "K", .error_bar = RB_SCALE_ONE,
+         .condition = RB_FOR_HEAT, .meaning = "highest temperature of the surfaces in contact"),
+    STEP("time", time, .no_derivative = 1, .unit = "s", .condition = RB_FOR_MEMORY,
+         .meaning = "at the end of the step, of bodies that relax"),
+    STEP("lost_work", lost_work, .unit = "N", .error_bar = RB_SCALE_ONE, .condition = RB_FOR_MEMORY,
+         .meaning = "work that bodies which relax have lost so far"),
+    STEP("mu", mu, .unit = "1", .condition = RB_FOR_WAY,
+         .meaning = "coefficient of friction at the end of the step"),
+    STEP("torque_a", torque_a, .unit = "N", .error_bar = RB_SCALE_ONE,
+         .meaning = "on A's axle, > 0 the way A rolls"),
+    STEP("torque_b", torque_b, .unit = "N", .error_bar = RB_SCALE_ONE,
+         .condition = RB_FOR_CYLINDER_B, .meaning = "on B's axle, > 0 the way B rolls"),
+};
+
+static const rb_rolling_result points[] = {
+    POINT("creepage", creepage, .unit = "1", .meaning = "xi"),
+    POINT("creep_ratio", creep_ratio, .unit = "1", .meaning = "xi R/(mu a)"),
+    POINT("force_ratio", force_ratio, .unit = "1", .error_bar = RB_SCALE_ONE,
+          .meaning = "Q/(mu P)"),
+    POINT("tangential_load", tangential_load, .symbol = "Q", .unit = "N/mm",
+          .error_bar = RB_SCALE_ONE, .meaning = "Q"),
+    POINT("normal_load", normal_load, .symbol = "P", .unit = "N/mm", .error_bar = RB_SCALE_ONE,
+          .meaning = "P"),
+    POINT("stick_ratio", stick_ratio, .unit = "1", .error_bar = RB_SCALE_ONE,
+          .meaning = "length that sticks / length in contact"),
+    POINT("dissipation", dissipation, .unit = "N/mm", .error_bar = RB_SCALE_ONE,
+          .meaning = "friction power per unit speed"),
+    POINT("residual", residual, .unit = "1", .meaning = "natural residual of the scaled problem"),
+    POINT("speed", speed, .unit = "mm/s", .meaning = "of rolling, of bodies that relax"),
+    POINT("resistance_moment", resistance_moment, .unit = "N", .error_bar = RB_SCALE_ONE,
+          .meaning = "M = int x p dx"),
+    POINT("resistance_ratio", resistance_ratio, .unit = "1", .error_bar = RB_SCALE_ONE,
+          .meaning = "M/(P R)"),
+    POINT("hysteresis", hysteresis, .unit = "N/mm", .error_bar = RB_SCALE_ONE,
+          .meaning = "power per unit speed that bodies which relax lose"),
+    POINT("max_temperature", max_temperature, .unit = "K", .error_bar = RB_SCALE_ONE,
+          .condition = RB_FOR_HEAT, .meaning = "highest temperature of the surfaces in contact"),
+    POINT("branch", branch, .kind = RB_RESULT_WHOLE, .condition = RB_FOR_MOVING_LAW,
+          .meaning = "1: on the way from --from to --to, 2: on the way back"),
+    POINT("kappa", kappa, .unit = "1", .condition = RB_FOR_MOVING_LAW,
+          .meaning = "uniqueness of friction that falls: above 1 the branches may differ"),
+    POINT("torque_a", torque_a, .unit = "N", .error_bar = RB_SCALE_ONE,
+          .meaning = "M + Q R_A, on A's axle, > 0 the way A rolls"),
+    POINT("torque_b", torque_b, .unit = "N", .error_bar = RB_SCALE_ONE,
+          .condition = RB_FOR_CYLINDER_B, .meaning = "M - Q R_B, on B's axle, > 0 the way B rolls"),
+};
+
+static const rb_rolling_result wears[] = {
+    WEAR("way", way, .meaning = "slid so far [mm]; cycles or turns so far"),
+    WEAR("worn", worn, .unit = "mm2", .meaning = "worn volume per mm of width"),
+    WEAR("max_depth", max_depth, .unit = "mm", .meaning = "largest worn depth"),
+    WEAR("radius", radius, .unit = "mm", .meaning = "of A"),
+    WEAR("worn_b", worn_b, .unit = "mm2", .meaning = "worn volume of B, with a share"),
+    WEAR("max_depth_b", max_depth_b, .unit = "mm",
+         .meaning = "largest worn depth of B; of a track, in one passage"),
+    WEAR("radius_b", radius_b, .unit = "mm", .meaning = "of B; < 0 of a bore"),
+    WEAR("work", work, .meaning = "of friction, per slid or rolled mm [N/mm] or cycle [N]"),
+    WEAR("approach", approach, .unit = "mm", .meaning = "delta"),
+    WEAR("normal_load", normal_load, .unit = "N/mm", .meaning = "P"),
+    WEAR("max_pressure", max_pressure, .unit = "MPa", .meaning = "p0"),
+    WEAR("contact_from", contact_from, .unit = "mm", .meaning = "trailing edge"),
+    WEAR("contact_to", contact_to, .unit = "mm", .meaning = "leading edge"),
+    WEAR("residual", residual, .meaning = "natural residual under the worn gap"),
+};
+
+static const rb_rolling_result patch[] = {
+    PATCH("from", from, .unit = "mm", .meaning = "trailing edge"),
+    PATCH("to", to, .unit = "mm", .meaning = "leading edge"),
+    PATCH("normal_load", normal_load, .unit = "N/mm", .meaning = "its part of P"),
+    PATCH("tangential_load", tangential_load, .unit = "N/mm", .meaning = "its part of Q"),
+    PATCH("max_pressure", max_pressure, .unit = "MPa", .meaning = "p0"),
+    PATCH("peak", peak, .unit = "mm", .meaning = "where p0 is"),
+    PATCH("contact", contact, .kind = RB_RESULT_WHOLE, .meaning = "elements in contact"),
+    PATCH("stick", stick, .kind = RB_RESULT_WHOLE, .meaning = "elements that stick"),
+};
+
+static const rb_rolling_result stresses[] = {
+    STRESS("x", x, .unit = "mm", .meaning = "along the surface"),
+    STRESS("y", y, .unit = "mm", .meaning = "depth; > 0 inside A"),
+    STRESS("sxx", sxx, .unit = "MPa", .meaning = "stress, tension positive"),
+    STRESS("syy", syy, .unit = "MPa", .meaning = "stress"),
+    STRESS("szz", szz, .unit = "MPa", .meaning = "stress along the axis"),
+    STRESS("sxy", sxy, .unit = "MPa", .meaning = "shear stress"),
+    STRESS("principal_1", principal_1, .unit = "MPa",
+           .meaning = "principal stress in the plane, the larger one"),
+    STRESS("principal_2", principal_2, .unit = "MPa",
+           .meaning = "principal stress in the plane, the smaller one"),
+    STRESS("max_shear", max_shear, .unit = "MPa",
+           .meaning = "half the difference of the principal stresses"),
+    STRESS("von_mises", von_mises, .unit = "MPa", .meaning = "stress of von Mises"),
+    STRESS("hydrostatic", hydrostatic, .unit = "MPa", .meaning = "a third of the trace"),
+};
+
+#define LARGEST(name, member, words)                                                               \
+    OF(rb_rolling_stress_maxima, name, member.value, .unit = "MPa",                                \
+       .error_bar = RB_SCALE_PRESSURE, .meaning = words),                                          \
+        OF(rb_rolling_stress_maxima, name "_x", member.x, .unit = "mm",                            \
+           .error_bar = RB_SCALE_WIDTH, .meaning = "its place along the surface"),                 \
+        OF(rb_rolling_stress_maxima, name "_y", member.y, .unit = "mm",                            \
+           .error_bar = RB_SCALE_WIDTH, .meaning = "its depth")
+
+static const rb_rolling_result maxima[] = {
+    LARGEST("max_shear", max_shear, "maximum shear"),
+    LARGEST("von_mises", von_mises, "von Mises"),
+    LARGEST("orthogonal_shear", orthogonal_shear, "orthogonal shear |sxy|"),
+    LARGEST("tension", tension, "largest principal stress"),
+};
+
+#define TABLE(rows)                                                                                \
+    {                                                                                              \
+        sizeof(rows) / sizeof *(rows), rows                                                        \
+    }
+const rb_rolling_results rb_rolling_solution_scalars = TABLE(scalars);
+const rb_rolling_results rb_rolling_solution_columns = TABLE(columns);
+const rb_rolling_results rb_rolling_patch_scalars = TABLE(patch);
+const rb_rolling_results rb_rolling_history_columns = TABLE(steps);
+const rb_rolling_results rb_rolling_curve_columns = TABLE(points);
+const rb_rolling_results rb_rolling_wear_columns = TABLE(wears);
+const rb_rolling_results rb_rolling_stress_scalars = TABLE(stresses);
+const rb_rolling_results rb_rolling_maxima_scalars = TABLE(maxima);
+
+const rb_rolling_result_table rb_rolling_result_tables[] = {
+    {"number", "Numbers of a solution", &rb_rolling_solution_scalars},
+    {"column", "Columns of the table of tractions", &rb_rolling_solution_columns},
+    {"patch", "Patches of a contact", &rb_rolling_patch_scalars},
+    {"step", "Steps of a history", &rb_rolling_history_columns},
+    {"point", "Points of a creep curve", &rb_rolling_curve_columns},
+    {"wear", "Steps of wear", &rb_rolling_wear_columns},
+    {"stress", "Stress at a point", &rb_rolling_stress_scalars},
+    {"maximum", "Largest stresses", &rb_rolling_maxima_scalars},
+    {NULL, NULL, NULL}};
+
+/* ---- Values ------------------------------------------------------------------------ */
+
+static void *place(const rb_rolling_result *r, const void *owner)
+{
+    return (char *)owner + r->offset;
+}
+
+const rb_rolling_result *rb_rolling_find_result(const rb_rolling_results *table, const char *name)
+{
+    for (int k = 0; k < table->n; k++)
+        if (strcmp(table->row[k].name, name) == 0)
+            return &table->row[k];
+    return NULL;
+}
+
+/* Counts that the case has not are -1. */
+double rb_rolling_number(const rb_rolling_result *r, const void *owner)
+{
+    const void *at = place(r, owner);
+    if (r->kind != RB_RESULT_WHOLE)
+        return *(const double *)at;
+    const int count = *(const int *)at;
+    return count < 0 ? (double)NAN : count; /* NAN is a float */
+}
+
+void rb_rolling_set_number(const rb_rolling_result *r, void *owner, double value)
+{
+    memcpy(place(r, owner), &value, sizeof value);
+}
+
+double *rb_rolling_column(const rb_rolling_result *r, const void *owner)
+{
+    double *column;
+    memcpy(&column, place(r, owner), sizeof column);
+    return column;
+}
+
+int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc, int mu_varies)
+{
+    switch (r->condition) {
+    case RB_FOR_HEAT:
+        return rb_rolling_has_heat(rc);
+    case RB_FOR_WORN:
+        return rc->worn.n > 0;
+    case RB_FOR_LAW:
+        return rc->friction.law != RB_FRICTION_constant || rc->friction.heat != 0.0 || mu_varies;
+    case RB_FOR_MOVING_LAW:
+        return rb_rolling_law_depends_on_state(rc);
+    case RB_FOR_WAY:
+        return mu_varies;
+    case RB_FOR_MEMORY:
+        return rb_rolling_relaxes(rc);
+    case RB_FOR_YIELD:
+        return rc->yield_stress > 0.0;
+    case RB_FOR_CYLINDER_B:
+        return isfinite(rc->b.radius);
+    case RB_FOR_ALL:
+        break;
+    }
+    return 1;
+}
+
+int rb_rolling_has_column(const rb_rolling_result *r, const void *owner)
+{
+    return rb_rolling_column(r, owner) != NULL;
+}
+
+double rb_rolling_entry(const rb_rolling_result *r, const void *owner, int i)
+{
+    const void *column = rb_rolling_column(r, owner);
+    return r->kind == RB_RESULT_WHOLE ? ((const int *)column)[i] : ((const double *)column)[i];
+}
+
+const char *rb_rolling_heading(const rb_rolling_result *r, rb_units units,
+                               char heading[RB_ROLLING_HEADING])
+{
+    const int has_unit = r->unit && strcmp(r->unit, "1") != 0;
+    snprintf(heading, RB_ROLLING_HEADING, "%s%s%s", r->symbol ? r->symbol : r->name,
+             has_unit ? "_" : "", has_unit ? rb_unit_name(units, r->unit) : "");
+    return heading;
+}
+
+const rb_rolling_result *rb_rolling_study_column(int k)
+{
+    for (int i = 0; i < rb_rolling_solution_scalars.n; i++)
+        if (scalars[i].study == k)
+            return &scalars[i];
+    return NULL;
+}
+
+/* ---- Units ------------------------------------------------------------------------- */
+
+/* What the table has no row for stands in no unit, or is named by the caller. */
+void rb_rolling_numbers_convert(const rb_rolling_results *t, void *owner, rb_units units)
+{
+    for (int k = 0; k < t->n; k++) {
+        const rb_rolling_result *r = &t->row[k];
+        if (r->unit && r->kind == RB_RESULT_NUMBER)
+            rb_rolling_set_number(r, owner,
+                                  rb_unit_shown(units, r->unit, rb_rolling_number(r, owner)));
+    }
+}
+
+void rb_rolling_columns_convert(const rb_rolling_results *t, int rows, void *owner, rb_units units)
+{
+    for (int k = 0; k < t->n; k++) {
+        const rb_rolling_result *r = &t->row[k];
+        double *x = rb_rolling_column(r, owner);
+        for (int i = 0; i < rows && x && r->unit && r->kind == RB_RESULT_NUMBER; i++)
+            x[i] = rb_unit_shown(units, r->unit, x[i]);
+    }
+}
+
+void rb_rolling_solution_convert(rb_rolling_solution *s, rb_units units)
+{
+    s->units = units;
+    if (units == RB_UNITS_MM)
+        return;
+    rb_rolling_numbers_convert(&rb_rolling_solution_scalars, s, units);
+    rb_rolling_columns_convert(&rb_rolling_solution_columns, s->n, s, units);
+    for (int k = 0; k < s->patches; k++)
+        rb_rolling_numbers_convert(&rb_rolling_patch_scalars, &s->patch[k], units);
+}
+
+void rb_rolling_history_convert(rb_rolling_history *h, rb_units units)
+{
+    if (h->errors)
+        rb_rolling_history_convert(h->errors, units);
+    if (h->deviations)
+        rb_rolling_history_convert(h->deviations, units);
+    h->units = units;
+    if (units == RB_UNITS_MM)
+        return;
+    rb_rolling_columns_convert(&rb_rolling_history_columns, h->n, h, units);
+    h->half_width = rb_unit_shown(units, "mm", h->half_width);
+    h->step = rb_unit_shown(units, "mm", h->step);
+}
+
+void rb_rolling_wear_history_convert(rb_rolling_wear_history *h, rb_units units)
+{
+    const char *work = h->slides || h->rolls ? "N/mm" : "N";
+
+    h->units = units;
+    if (units == RB_UNITS_MM)
+        return;
+    rb_rolling_columns_convert(&rb_rolling_wear_columns, h->n, h, units);
+    for (int k = 0; k < h->n; k++) {
+        h->work[k] = rb_unit_shown(units, work, h->work[k]);
+        if (h->slides)
+            h->way[k] = rb_unit_shown(units, "mm", h->way[k]);
+    }
+    h->radius_before = rb_unit_shown(units, "mm", h->radius_before);
+    h->radius_b_before = rb_unit_shown(units, "mm", h->radius_b_before);
+}
+
+void rb_rolling_curve_convert(rb_rolling_curve *c, rb_units units)
+{
+    if (c->deviations)
+        rb_rolling_curve_convert(c->deviations, units);
+    rb_rolling_solution_convert(&c->last, units);
+    c->units = units;
+    if (units == RB_UNITS_MM)
+        return;
+    rb_rolling_columns_convert(&rb_rolling_curve_columns, c->n, c, units);
+    c->half_width = rb_unit_shown(units, "mm", c->half_width);
+}
+
+void rb_rolling_stress_convert(int n, rb_rolling_stress *at, rb_rolling_stress_maxima *largest,
+                               rb_units units)
+{
+    for (int k = 0; k < n && units != RB_UNITS_MM; k++)
+        rb_rolling_numbers_convert(&rb_rolling_stress_scalars, &at[k], units);
+    rb_rolling_numbers_convert(&rb_rolling_maxima_scalars, largest, units);
+}
+
+void rb_rolling_row_convert(rb_rolling_row *row, rb_units units)
+{
+    rb_rolling_solution_convert(&row->solution, units);
+    rb_rolling_solution_convert(&row->errors.scalar, units);
+    rb_rolling_stress_convert(0, NULL, &row->errors.stress, units);
+    rb_rolling_stress_convert(0, NULL, &row->stress, units);
+}
+
+/* ---- Owners ------------------------------------------------------------------------ */
+
+static rb_rolling_solution no_scalars(rb_status status)
+{
+    rb_rolling_solution s = {.status = status};
+    for (int i = 0; i < rb_rolling_solution_scalars.n; i++)
+        if (scalars[i].kind != RB_RESULT_WHOLE)
+            *(double *)place(&scalars[i], &s) = NAN;
+    return s;
+}
+
+rb_rolling_row rb_rolling_no_row(rb_status status)
+{
+    rb_rolling_row row = {.solution = no_scalars(status), .errors.scalar = no_scalars(RB_OK)};
+    for (int i = 0; i < rb_rolling_maxima_scalars.n; i++)
+        *(double *)place(&maxima[i], &row.stress) =
+            *(double *)place(&maxima[i], &row.errors.stress) = NAN;
+    for (int i = 0; i < RB_ROW_OWN; i++)
+        row.own[i] = NAN;
+    return row;
+}
+
+rb_rolling_solution rb_rolling_scalars_of(const rb_rolling_solution *from)
+{
+    static const void *const nothing = NULL;
+    rb_rolling_solution s = *from;
+    s.n = 0;
+    s.cone_solver = NULL;
+    s.patches = 0;
+    s.patch = NULL;
+    for (int i = 0; i < rb_rolling_solution_columns.n; i++)
+        memcpy(place(&columns[i], &s), &nothing, sizeof nothing);
+    return s;
+}
+
+rb_status rb_rolling_columns_alloc(const rb_rolling_results *table, const rb_rolling_case *rc,
+                                   int mu_varies, int rows, void *owner)
+{
+    rb_status s = RB_OK;
+    for (int k = 0; k < table->n; k++) {
+        const rb_rolling_result *r = &table->row[k];
+        if (!rb_rolling_has_result(r, rc, mu_varies))
+            continue;
+        void *column = r->kind == RB_RESULT_WHOLE ? (void *)rb_alloc_int((size_t)rows)
+                                                  : rb_alloc((size_t)rows, 1);
+        memcpy(place(r, owner), &column, sizeof column);
+        if (!column)
+            s = RB_ENOMEM;
+    }
+    return s;
+}
+
+void rb_rolling_columns_free(const rb_rolling_results *table, void *owner)
+{
+    for (int k = 0; k < table->n; k++)
+        free(rb_rolling_column(&table->row[k], owner));
+}

@@ -1,0 +1,27 @@
+/* What the files of this folder share, with those of rolling. */
+#ifndef ROLLBEM_RESULTS_INTERNAL_H
+#define ROLLBEM_RESULTS_INTERNAL_H
+
+#include "rolling/rolling.h"
+
+/* ---- results.c --------------------------------------------------------------------- */
+
+/* A row without columns, of numbers that are not there (NAN). */
+rb_rolling_row rb_rolling_no_row(rb_status status);
+
+/* Zeros for every column of the table that the case has; the owner's others stay NULL.
+ * What there is on RB_ENOMEM is freed as if it were complete. */
+rb_status rb_rolling_columns_alloc(const rb_rolling_results *table, const rb_rolling_case *rc,
+                                   int mu_varies, int rows, void *owner);
+void rb_rolling_columns_free(const rb_rolling_results *table, void *owner);
+
+/* ---- solution.c -------------------------------------------------------------------- */
+
+/* Tractions of the state on A in global x, y: 2 per contact element. */
+void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t);
+
+/* Lengths of the elements in contact and of those among them that stick. */
+void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,
+                             double *stick);
+
+#endif

@@ -1,0 +1,379 @@
+/* The potential contact: the interval with elements, which must enclose the whole contact
+ * (theory.md 5.1). */
+#include "rolling/rolling.h"
+
+enum {
+    ROUNDS = 24,
+    SEPARATED_AT_END = 3, /* elements that a chosen potential contact ends with */
+    IN_CONTACT = 3,       /* elements that they leave to the contact */
+    MANY = 1500,          /* elements whose line is first searched for with few */
+    FEW = 150,            /* elements that tell how wide the line of many should be */
+    MOST_EQUAL = 3000     /* with a dense matrix, to resolve patches far apart */
+};
+
+typedef struct {
+    double from, to;
+} interval;
+
+static double width(interval zone)
+{
+    return zone.to - zone.from;
+}
+
+/* Measured profiles have no axis of symmetry; the others have one at x = 0, and so has
+ * the potential contact. */
+static int is_symmetric(const rb_rolling_case *rc)
+{
+    return rc->gap != RB_GAP_TABLE && rc->worn.n == 0;
+}
+
+static interval extent(const rb_rolling_case *rc)
+{
+    interval all;
+
+    rb_rolling_extent(rc, &all.from, &all.to);
+    return all;
+}
+
+/* About its middle. */
+static interval scaled(interval zone, double factor)
+{
+    const double middle = 0.5 * (zone.from + zone.to), half = 0.5 * width(zone);
+    return (interval){middle - factor * half, middle + factor * half};
+}
+
+static interval within(interval zone, interval limit)
+{
+    return (interval){fmax(zone.from, limit.from), fmin(zone.to, limit.to)};
+}
+
+/* ---- Where the elements end -------------------------------------------------------- */
+
+static int is_loaded(const rb_contact_state *state, int i)
+{
+    return state->zone[i] != RB_ZONE_SEPARATED;
+}
+
+/* A layer or cover that is nearly incompressible carries by waves as short as it is
+ * thick: longer elements make the load of nu = 1/2 wrong by 2 % and more.  Others are
+ * mattresses when they are thin, which any element resolves (theory.md L4). */
+static rb_status check_resolved(const rb_rolling_model *model, rb_message *why)
+{
+    static const double nearly_incompressible = 0.49;
+    const rb_rolling_case *rc = model->rc;
+    const rb_rolling_body *const bodies[2] = {&rc->a, &rc->b};
+
+    for (int b = 0; b < 1 + rc->elastic_b; b++) {
+        const double thickness = fmax(bodies[b]->layer, bodies[b]->cover);
+        const int n = model->mesh.n;
+        const double longest = rb_rolling_longest_element(n, model->state.zone, model->bodies.f.h);
+        const double h = longest > 0.0 ? longest : model->bodies.f.h[n / 2];
+        if (thickness > 0.0 && rb_rolling_material(rc, bodies[b]).poisson > nearly_incompressible &&
+            h > thickness * (1.0 + 1e-9))
+            return rb_fail(why, RB_EINVAL,
+                           "%s thickness: with nu = %g the elements, %.3g mm, may not be "
+                           "longer than the thickness, %g mm; take %.0f contact elements "
+                           "or more, twice as many with error bars",
+                           bodies[b]->layer > 0.0 ? "layer" : "cover", bodies[b]->poisson, h,
+                           thickness, ceil(rc->contact_elements * h / thickness));
+    }
+    return RB_OK;
+}
+
+/* Nothing is left of what is compressed by its whole thickness. */
+rb_status rb_rolling_check_crushed(const rb_rolling_model *model, rb_message *why)
+{
+    const char *what = "";
+    const double strain =
+        rb_rolling_strain(model->rc, model->state.delta, rb_rolling_peak_pressure(model), &what);
+
+    return strain >= 1.0
+               ? rb_fail(why, RB_EINVAL,
+                         "the %s is compressed by %.0f %% of its thickness (approach %.3g "
+                         "mm): expected less than 100 %%",
+                         what, 100.0 * strain, model->state.delta)
+               : RB_OK;
+}
+
+rb_status rb_rolling_check_layer_resolved(const rb_rolling_model *model, rb_status s,
+                                          rb_message *why)
+{
+    rb_message reason = {""};
+
+    if (s == RB_OK) {
+        s = check_resolved(model, why);
+        return s == RB_OK ? rb_rolling_check_crushed(model, why) : s;
+    }
+    if (s < 0 || s == RB_ZONE || s == RB_INTERRUPTED || !model->state.zone)
+        return s;
+    const rb_status unresolved = check_resolved(model, &reason);
+    return unresolved == RB_OK ? s : rb_fail(why, unresolved, "%s", reason.text);
+}
+
+/* Elements without contact at either end; n of them if there is no contact. */
+static void separated_at_ends(const rb_contact_state *state, int *left, int *right)
+{
+    *left = *right = 0;
+    while (*left < state->n && !is_loaded(state, *left))
+        ++*left;
+    while (*right < state->n && !is_loaded(state, state->n - 1 - *right))
+        ++*right;
+}
+
+static int is_open(const rb_rolling_model *model)
+{
+    int left, right;
+
+    separated_at_ends(&model->state, &left, &right);
+    return left == model->state.n;
+}
+
+/* s, or that a solution has no contact. */
+static rb_status unless_open(const rb_rolling_model *model, rb_status s, rb_message *why)
+{
+    return s == RB_OK && is_open(model)
+               ? rb_fail(why, RB_NO_CONTACT, "no contact: the bodies do not touch")
+               : s;
+}
+
+/* ---- Equal elements ---------------------------------------------------------------- */
+
+/* Patches with separated elements between them get elements as short as if they lay side
+ * by side. */
+static int elements_for(const rb_rolling_model *model, interval zone)
+{
+    const int n = model->plan.elements;
+    rb_rolling_run run = {.last = -1};
+    double covered = 0.0;
+    int patches = 0;
+
+    for (; rb_rolling_next_merged_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run);
+         patches++)
+        covered += run.to - run.from;
+    return patches < 2 ? n
+                       : (int)fmin(RB_ROLLING_MOST_ELEMENTS,
+                                   fmax(n, ceil(n * width(zone) / (1.5 * covered))));
+}
+
+static rb_status equal_elements(const rb_rolling_model *model, interval zone, int elements,
+                                rb_rolling_mesh *mesh, rb_message *why)
+{
+    rb_rolling_plan plan = model->plan;
+
+    plan.elements = elements;
+    return rb_rolling_mesh_uniform(model->rc, &plan, zone.from, zone.to, mesh, why);
+}
+
+/* ---- The first potential contact --------------------------------------------------- */
+
+/* Where the gap reaches `level` between x, where it is less, and x + step. */
+static double crossing(const rb_rolling_case *rc, double x, double step, double level)
+{
+    for (int k = 0; k < 50; k++) {
+        step *= 0.5;
+        if (rb_rolling_initial_gap(rc, x + step) <= level)
+            x += step;
+    }
+    return x;
+}
+
+/* Where the undeformed gap is less than at the edge of Hertz's contact, a^2/(2R): this is
+ * 2P/(pi E*) and does not depend on the radius. */
+static interval first_zone(const rb_rolling_case *rc)
+{
+    enum { POINTS = 4096 };
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+    const double a = rb_rolling_zone_half_width(rc, d.load);
+    const interval limit = extent(rc);
+    const double step = width(limit) / POINTS;
+    int lowest = 0, first = 0, last = POINTS;
+    double least = INFINITY;
+
+    if (is_symmetric(rc))
+        return within(scaled((interval){-a, a}, 1.3), limit);
+    for (int k = 0; k <= POINTS; k++)
+        if (rb_rolling_initial_gap(rc, limit.from + k * step) < least) {
+            least = rb_rolling_initial_gap(rc, limit.from + k * step);
+            lowest = k;
+        }
+    double level = least + 0.5 * a * a / d.radius;
+    if (!isnan(d.approach)) /* beyond it not even rigid bodies touch */
+        level = fmin(level, d.approach);
+    while (first < lowest && rb_rolling_initial_gap(rc, limit.from + first * step) > level)
+        first++;
+    while (last > lowest && rb_rolling_initial_gap(rc, limit.from + last * step) > level)
+        last--;
+    interval zone = {crossing(rc, limit.from + first * step, -step, level),
+                     crossing(rc, limit.from + last * step, step, level)};
+    if (!(width(zone) > 0.0))
+        zone = (interval){zone.from - step, zone.to + step};
+    return within(scaled(within(zone, limit), 1.3), limit);
+}
+
+/* ---- The automatic one ------------------------------------------------------------- */
+
+/* The same, and over all places where the bodies overlap outside it; the state of a
+ * solution says that they do so nowhere. */
+static rb_status grown(const rb_rolling_model *model, interval zone, interval *wider)
+{
+    rb_rolling_overlap overlap = {0};
+    const rb_status s = model->state.status == RB_OK
+                            ? RB_OK
+                            : rb_rolling_find_overlap(model, &model->state, &overlap);
+
+    /* The zone grows where fewer separated elements than wanted stand at its end: three,
+     * or what few elements have beside three in contact: a potential contact that
+     * is grown until all elements are separated no longer sees the contact between their
+     * midpoints. */
+    const int spare = (model->state.n - IN_CONTACT) / 2;
+    const int wanted = spare > SEPARATED_AT_END ? SEPARATED_AT_END : spare > 1 ? spare : 1;
+    int left, right;
+
+    separated_at_ends(&model->state, &left, &right);
+    const int at_left = left < wanted, at_right = right < wanted;
+    const int both = is_symmetric(model->rc) && (at_left || at_right);
+    const interval more = within(scaled(zone, 1.3), extent(model->rc));
+    if (at_left || both)
+        zone.from = fmin(zone.from, more.from);
+    if (at_right || both)
+        zone.to = fmax(zone.to, more.to);
+    *wider = zone;
+    for (int k = 0; k < overlap.count; k++) {
+        const interval there = scaled((interval){overlap.from[k], overlap.to[k]}, 1.3);
+        wider->from = fmin(wider->from, there.from);
+        wider->to = fmax(wider->to, there.to);
+    }
+    *wider = within(*wider, extent(model->rc));
+    return s;
+}
+
+/* A zone that is wide enough.  Where the first one is symmetric and follows a load it is a
+ * multiple of that one, so that it grows with a formula and not with the elements that were
+ * found in contact (theory.md D6); under a given approach the first one is an estimate. */
+static interval tightened(const rb_rolling_case *rc, interval wanted)
+{
+    static const double steps = 16.0; /* to a factor of two */
+    const interval first = first_zone(rc);
+
+    return is_symmetric(rc) && !isnan(rb_rolling_derive(rc).load)
+               ? scaled(first, exp2(ceil(steps * log2(width(wanted) / width(first))) / steps))
+               : wanted;
+}
+
+/* ---- A given one ------------------------------------------------------------------- */
+
+/* A potential contact that does not hold the contact: says how wide it should be. */
+static rb_status solve_given(rb_rolling_model *model, rb_message *why)
+{
+    const double zone = model->rc->zone;
+    const interval limit = extent(model->rc);
+    rb_rolling_mesh mesh;
+    rb_status s = equal_elements(model, within((interval){-zone, zone}, limit),
+                                 model->plan.elements, &mesh, why);
+
+    if (s == RB_OK)
+        s = rb_rolling_model_build(model, &mesh, why);
+    if (s != RB_ZONE)
+        return s;
+    rb_rolling_case automatic = *model->rc;
+    rb_rolling_model wider;
+    double wanted = 1.3 * zone;
+    automatic.zone = 0.0;
+    if (rb_rolling_model_begin(&automatic, &model->plan, &wider, NULL) == RB_OK &&
+        rb_rolling_solve_zone(&wider, 0, NULL) == RB_OK)
+        wanted = fmax(fabs(wider.mesh.ends[0]), wider.mesh.ends[wider.mesh.n]);
+    rb_rolling_model_free(&wider);
+    return rb_fail(why, RB_ZONE,
+                   "zone: the contact is not within the potential contact of half-width "
+                   "%g mm; widen it to %.4g mm or leave it out",
+                   zone, wanted);
+}
+
+/* ---- The search -------------------------------------------------------------------- */
+
+/* Grows the potential contact until enough separated elements stand at each end, or no
+ * material is left; tightens it when the contact turns out to fill less than two thirds
+ * of it; and takes more elements where they are too long for separate patches, unless a
+ * coarse solution will do. */
+rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message *why)
+{
+    const interval before = {model->first_from, model->first_to};
+    interval zone = before;
+    int elements = model->plan.elements;
+    double too_narrow = 0.0;
+    rb_status s;
+
+    if (model->rc->zone > 0.0)
+        return unless_open(model, solve_given(model, why), why);
+    if (coarse || !(width(before) > 0.0)) {
+        rb_rolling_plan few = model->plan;
+        zone = first_zone(model->rc);
+        if (few.elements >= MANY || rb_rolling_has_fine_boundary(&few)) {
+            /* Few elements tell as well how wide the line should be. */
+            rb_rolling_case equal = *model->rc;
+            rb_rolling_model first;
+            few.elements = few.elements >= MANY ? FEW : few.elements;
+            rb_rolling_coarsen_boundary(&few);
+            equal.mesh = RB_MESH_UNIFORM;
+            if (rb_rolling_model_begin(&equal, &few, &first, NULL) == RB_OK &&
+                rb_rolling_solve_zone(&first, 0, NULL) == RB_OK) {
+                zone = (interval){first.mesh.ends[0], first.mesh.ends[first.mesh.n]};
+                /* As many have tried what is tighter.  A zone between edges that were found
+                 * would not grow like Hertz's half-width. */
+                too_narrow = few.elements == elements ? width(zone) : 0.0;
+            }
+            rb_rolling_model_free(&first);
+        }
+    }
+    for (int round = 0;; round++) {
+        rb_rolling_mesh mesh;
+        interval wider;
+        if (round == ROUNDS)
+            return rb_fail(why, RB_ZONE,
+                           "no potential contact was found that encloses the contact: "
+                           "the last one tried reaches from %g to %g mm",
+                           zone.from, zone.to);
+        s = equal_elements(model, zone, elements, &mesh, why);
+        if (s == RB_OK)
+            s = rb_rolling_model_build(model, &mesh, why);
+        if (s < 0 || !model->state.p)
+            return s;
+        const rb_status t = grown(model, zone, &wider);
+        if (t != RB_OK)
+            return t;
+        if (wider.from < zone.from || wider.to > zone.to) {
+            too_narrow = fmax(too_narrow, width(zone));
+            zone = wider;
+            continue;
+        }
+        if (is_open(model))
+            break;
+        /* What would do: a quarter of the half-width beyond either edge. */
+        interval edge;
+
+        rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge.from, &edge.to);
+        if (is_symmetric(model->rc)) {
+            edge.to = fmax(fabs(edge.from), fabs(edge.to));
+            edge.from = -edge.to;
+        }
+        const interval wanted = within(scaled(edge, 1.25), extent(model->rc));
+        const int more = coarse ? elements : elements_for(model, zone);
+        const int keeps_zone =
+            width(zone) < 1.25 * width(wanted) || width(wanted) <= 1.05 * too_narrow;
+        if (keeps_zone && more <= 1.25 * elements)
+            break;
+        zone = keeps_zone ? zone : tightened(model->rc, wanted);
+        elements = coarse ? elements : elements_for(model, zone);
+        if (elements > model->plan.elements && elements > MOST_EQUAL &&
+            !rb_rolling_is_large(model->rc, &(rb_rolling_mesh){.n = elements}))
+            return rb_fail(why, RB_ZONE,
+                           "the patches of the contact are so far apart that %d equal "
+                           "elements would be needed; use mesh fitted, or fewer elements",
+                           elements);
+    }
+    if (s == RB_OK && coarse) {
+        model->first_from = model->mesh.ends[0];
+        model->first_to = model->mesh.ends[model->mesh.n];
+    }
+    return unless_open(model, s, why);
+}

@@ -1,0 +1,253 @@
+/* Curves over the creepage, with one mesh and one factorisation (theory.md 4.6), and over
+ * the speed of viscoelastic bodies (V4). */
+#include "rolling/study/internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Shift of a contact edge, in half-widths, beyond which a fitted mesh is fitted again. */
+static const double REFIT = 0.01;
+
+void rb_rolling_curve_free(rb_rolling_curve *c)
+{
+    if (c->deviations)
+        rb_rolling_curve_free(c->deviations);
+    free(c->deviations);
+    rb_rolling_columns_free(&rb_rolling_curve_columns, c);
+    rb_rolling_solution_free(&c->last);
+    memset(c, 0, sizeof *c);
+}
+
+/* Function called for each point; point NULL: none. */
+typedef struct {
+    rb_rolling_point *point;
+    void *context;
+} watcher;
+
+static rb_status record(const rb_rolling_model *model, const watcher *w, rb_rolling_curve *c,
+                        rb_message *why)
+{
+    const rb_contact_problem *p = &model->problem;
+    const rb_contact_state *state = &model->state;
+    const double P = rb_rolling_model_load(model), Q = rb_rolling_model_force(model);
+    const int k = c->n++;
+    double contact, stick;
+    const double longest = rb_rolling_longest_element(p->n, state->zone, model->bodies.f.h);
+
+    rb_rolling_zone_lengths(p->n, state->zone, model->bodies.f.h, &contact, &stick);
+    c->creepage[k] = state->xi;
+    c->creep_ratio[k] = rb_rolling_ratio_of_creepage(model, state->xi);
+    c->normal_load[k] = P;
+    c->tangential_load[k] = Q;
+    c->force_ratio[k] = rb_rolling_force_ratio(model);
+    c->stick_ratio[k] = contact > 0.0 ? stick / contact : 0.0;
+    if (contact > 0.0)
+        c->stick_step = fmax(c->stick_step, longest / contact);
+    c->dissipation[k] = rb_rolling_dissipated_power(model->rc, p->n, state->lambda, state->q,
+                                                    model->bodies.f.h, p->e_T);
+    c->residual[k] = state->residual;
+    c->half_width = model->half_width;
+    c->speed[k] = model->rc->speed;
+    if (c->branch) {
+        c->branch[k] = k < c->rising ? 1 : 2;
+        const rb_status s = rb_rolling_law_kappa(model, &c->kappa[k]);
+        if (s != RB_OK)
+            return s;
+    }
+    c->resistance_moment[k] = rb_contact_moment(p, state);
+    c->resistance_ratio[k] = c->resistance_moment[k] / (P * rb_rolling_radius(model->rc));
+    double torque_b;
+    rb_rolling_torques(model->rc, c->resistance_moment[k], Q, &c->torque_a[k], &torque_b);
+    if (c->torque_b)
+        c->torque_b[k] = torque_b;
+    rb_status s = rb_rolling_hysteresis(model, &c->hysteresis[k]);
+    if (s == RB_OK && c->max_temperature) {
+        rb_rolling_solution warm;
+        s = rb_rolling_model_solution(model, &warm, why);
+        c->max_temperature[k] = s == RB_OK ? warm.max_temperature : 0.0;
+        rb_rolling_solution_free(&warm);
+    }
+    if (s == RB_OK && w->point)
+        s = w->point(model, k, w->context, why);
+    if (s != RB_OK || c->n != (c->branch ? 2 * c->rising : c->rising))
+        return s;
+    const rb_status status = rb_rolling_model_solution(model, &c->last, why);
+
+    for (int i = 0; i < c->n && status == RB_OK; i++) {
+        c->last.dissipation = fmin(c->last.dissipation, c->dissipation[i]);
+        if (c->kappa)
+            c->last.kappa = fmax(c->last.kappa, c->kappa[i]);
+    }
+    return status;
+}
+
+static void set_creepage(rb_rolling_variable over, double value, rb_rolling_case *rc)
+{
+    rc->creep = over == RB_OVER_CREEP ? value : NAN;
+    rc->creep_ratio = over == RB_OVER_CREEP_RATIO ? value : NAN;
+}
+
+static double value_at(const rb_rolling_range *r, int k)
+{
+    const double t = r->points > 1 ? (double)k / (r->points - 1) : 0.0;
+    return r->over == RB_OVER_SPEED ? r->from * pow(r->to / r->from, t)
+                                    : r->from + t * (r->to - r->from);
+}
+
+/* The coefficients of the last point, from which a solve on another mesh starts. */
+typedef struct {
+    rb_rolling_table table;
+    double *scratch;
+} branch_start;
+
+static rb_status remember_branch(const rb_rolling_model *model, branch_start *start)
+{
+    const size_t n = (size_t)model->mesh.n;
+    double *scratch = rb_alloc(n, 2);
+
+    if (!scratch)
+        return RB_ENOMEM;
+    memcpy(scratch, model->bodies.f.x, n * sizeof *scratch);
+    memcpy(scratch + n, model->problem.bound, n * sizeof *scratch);
+    free(start->scratch);
+    start->scratch = scratch;
+    start->table = (rb_rolling_table){model->mesh.n, scratch, scratch + n};
+    return RB_OK;
+}
+
+static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_range *r,
+                                const watcher *w, rb_rolling_model *model, rb_rolling_curve *c,
+                                rb_message *why)
+{
+    rb_rolling_case steady = *rc;
+    double edge[2];
+
+    steady.shift = steady.force = steady.force_ratio = NAN;
+    steady.free_axle = 0;
+    set_creepage(r->over, r->from, &steady);
+    rb_status s = rb_rolling_model_create(&steady, model, why);
+    if (s != RB_OK)
+        return s;
+    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge[0], &edge[1]);
+    const int moves = rb_rolling_law_depends_on_state(&steady), points = r->points;
+    branch_start start = {.scratch = NULL};
+    for (int k = 0; k < (moves ? 2 * points : points) && s == RB_OK; k++) {
+        set_creepage(r->over, value_at(r, k < points ? k : 2 * points - 1 - k), &steady);
+        s = rb_rolling_model_set_case(model, &steady, why);
+        if (s == RB_OK)
+            s = rb_rolling_model_control(model, why);
+        if (moves && s >= 0) {
+            const rb_status t = remember_branch(model, &start);
+            model->plan.start = &start.table;
+            s = t == RB_OK ? s : t;
+        }
+        /* A fitted mesh whose contact has moved is fitted again; a potential contact that is
+         * full is chosen again. */
+        double from = NAN, to = NAN;
+        if (s == RB_OK)
+            rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
+        const double moved =
+            fmax(fabs(from - edge[0]), fabs(to - edge[1])) / (0.5 * (edge[1] - edge[0]));
+        if (s == RB_ZONE || (s == RB_OK && steady.mesh != RB_MESH_UNIFORM && moved > REFIT)) {
+            if (s == RB_ZONE) { /* the whole search for the contact again */
+                const int iterations = model->iterations;
+                rb_rolling_plan plan = rb_rolling_plan_of(&steady);
+                plan.start = model->plan.start;
+                rb_rolling_model_free(model);
+                s = rb_rolling_model_reuse(&steady, &plan, model, why);
+                model->iterations += iterations;
+            } else
+                s = steady.mesh == RB_MESH_ALIGNED ? rb_rolling_model_realign(model, why)
+                                                   : rb_rolling_model_refit(model, why);
+            if (s == RB_OK)
+                rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge[0],
+                                         &edge[1]);
+        }
+        if (s >= 0) {
+            const rb_status t = record(model, w, c, why);
+            s = t < 0 ? t : s;
+        }
+    }
+    model->plan.start = NULL;
+    free(start.scratch);
+    if (s == RB_OK && rb_rolling_largest_mu(rc) > 0.0)
+        s = rb_rolling_free_creepage_if_any(model, &c->free_creepage, why);
+    return s;
+}
+
+/* The flexibility itself depends on the speed. */
+static rb_status over_speeds(const rb_rolling_case *rc, const rb_rolling_range *r, const watcher *w,
+                             rb_rolling_model *model, rb_rolling_curve *c, rb_message *why)
+{
+    rb_rolling_case steady = *rc;
+    rb_status s = RB_OK;
+
+    for (int k = 0; k < r->points && s == RB_OK; k++) {
+        const int iterations = model->iterations;
+        steady.speed = value_at(r, k);
+        rb_rolling_model_free(model);
+        s = rb_rolling_model_create(&steady, model, why);
+        model->iterations += iterations;
+        if (s >= 0 && model->state.p) {
+            const rb_status t = record(model, w, c, why);
+            s = t < 0 ? t : s;
+        }
+    }
+    return s;
+}
+
+static rb_status check_curve(const rb_rolling_case *rc, const rb_rolling_range *r, rb_message *why)
+{
+    if (!isfinite(r->from) || !isfinite(r->to))
+        return rb_fail(why, RB_EINVAL, "curve: from %g to %g: expected finite numbers", r->from,
+                       r->to);
+    if (r->points < 1 || r->points > RB_ROLLING_MOST_POINTS)
+        return rb_fail(why, RB_EINVAL, "points: expected 1 ... %d, got %d", RB_ROLLING_MOST_POINTS,
+                       r->points);
+    if (r->over == RB_OVER_CREEP_RATIO && rb_rolling_largest_mu(rc) == 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "curve: xi R/(mu a) has no meaning at mu = 0; give creepages");
+    if (r->over == RB_OVER_SPEED && !(r->from > 0.0 && r->to > 0.0))
+        return rb_fail(why, RB_EINVAL, "curve over speed: expected from and to > 0, got %g and %g",
+                       r->from, r->to);
+    if (r->over == RB_OVER_SPEED && !rb_rolling_relaxes(rc) && !rb_rolling_has_heat(rc))
+        return rb_fail(why, RB_EINVAL,
+                       "curve over speed: no body is viscoelastic, so that nothing "
+                       "depends on the speed; "
+                       "add --relaxation-time and --relaxation-ratio, or --conductivity");
+    return RB_OK;
+}
+
+rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, const rb_rolling_range *range,
+                                 rb_rolling_curve *curve, rb_message *why)
+{
+    return rb_rolling_curve_observe(rc, range, NULL, NULL, curve, why);
+}
+
+rb_status rb_rolling_curve_observe(const rb_rolling_case *rc, const rb_rolling_range *range,
+                                   rb_rolling_point *point, void *context, rb_rolling_curve *curve,
+                                   rb_message *why)
+{
+    const watcher w = {point, context};
+    const double start = rb_seconds();
+    rb_rolling_case steady = *rc;
+    rb_rolling_model model = {0};
+    rb_status s = check_curve(rc, range, why);
+
+    memset(curve, 0, sizeof *curve);
+    curve->free_creepage = NAN;
+    steady.formulation = RB_STEADY;
+    const int returns = range->over != RB_OVER_SPEED && rb_rolling_law_depends_on_state(&steady);
+    if (s == RB_OK)
+        s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, &steady, 0,
+                                     returns ? 2 * range->points : range->points, curve);
+    curve->rising = range->points;
+    if (s == RB_OK)
+        s = (range->over == RB_OVER_SPEED ? over_speeds : over_creepages)(&steady, range, &w,
+                                                                          &model, curve, why);
+    s = rb_rolling_check_layer_resolved(&model, s, why);
+    curve->iterations = model.iterations;
+    curve->seconds = rb_seconds() - start;
+    rb_rolling_model_free(&model);
+    return s;
+}

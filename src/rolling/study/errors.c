@@ -1,0 +1,529 @@
+/* Discretisation errors from coarser runs (theory.md 5.1). */
+#include "rolling/study/internal.h"
+
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+/* Where --accuracy gives up: contact elements, and how much finer than usual the boundary
+ * of a wheel is. */
+enum { MOST_ELEMENTS = 6400, MOST_ON_WHEELS = 1600 };
+static const double finest_boundary = 32.0;
+
+/* ---- The coarser runs -------------------------------------------------------------- */
+
+/* The contact elements, with the steps of a transient, and the elements of the wheels
+ * outside the contact are made coarser in turn: errors of different signs would cancel in
+ * runs that make both coarser together. */
+static const struct {
+    double contact, boundary;
+} part[RB_ERROR_RUNS] = {{0.5, 1.0}, {0.7, 1.0}, {1.0, 0.5}};
+
+int rb_rolling_error_runs(const rb_rolling_case *rc)
+{
+    const int boundary = rb_rolling_body_can(&rc->a, RB_BODY_BOUNDARY) ||
+                         (rc->elastic_b && rb_rolling_body_can(&rc->b, RB_BODY_BOUNDARY));
+    return boundary ? 3 : 2;
+}
+
+rb_rolling_case rb_rolling_error_run(const rb_rolling_case *rc, int k)
+{
+    rb_rolling_case coarser = *rc;
+
+    coarser.contact_elements = (int)(part[k].contact * rc->contact_elements);
+    if (rc->steps > 0)
+        coarser.steps = (int)ceil(part[k].contact * rc->steps);
+    coarser.outer_refinement =
+        part[k].boundary * (rc->outer_refinement > 0.0 ? rc->outer_refinement : 1.0);
+    return coarser;
+}
+
+rb_status rb_rolling_error_check(const rb_rolling_case *rc, rb_message *why)
+{
+    if (rc->contact_elements < 12)
+        return rb_fail(why, RB_EINVAL,
+                       "error bars compare with half the elements: expected 12 contact "
+                       "elements or more, got %d",
+                       rc->contact_elements);
+    if (rb_rolling_error_runs(rc) > 2 && rc->outer_elements > 0 && rc->outer_elements < 16)
+        return rb_fail(why, RB_EINVAL,
+                       "error bars compare with half the elements: expected 16 outer "
+                       "elements or more, got %d",
+                       rc->outer_elements);
+    return RB_OK;
+}
+
+/* ---- From their values to a bar ---------------------------------------------------- */
+
+/* Three times the spread over the contact meshes: three errors where they are of first
+ * order, nine where of second.  Five times the spread where the meshes go to and fro, as
+ * the edges pass elements: finer ones have not come nearer yet. */
+double rb_rolling_contact_error(const double coarser[], double own)
+{
+    const double most = fmax(own, fmax(coarser[0], coarser[1]));
+    const double least = fmin(own, fmin(coarser[0], coarser[1]));
+    const double first = coarser[1] - coarser[0], second = own - coarser[1];
+    /* equal values differ by rounding, which turns one way or the other */
+    const int turns = first * second < -1e-6 * gsl_pow_2(most - least);
+
+    return (turns ? 5.0 : 3.0) * (most - least) +
+           0.0 * (own + coarser[0] + coarser[1]); /* NAN stays */
+}
+
+/* The boundary outside the contact is smooth and its error of second order: half the
+ * elements differ by three errors, of which this is twice as much.  Thin rims and clamped
+ * arcs are of first order at first. */
+double rb_rolling_boundary_error(int runs, const double coarser[], double own)
+{
+    return runs > 2 ? 2.0 * fabs(own - coarser[2]) : 0.0;
+}
+
+double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepage, double a,
+                             double share)
+{
+    const double slip =
+        fabs(creepage) + fabs(rb_rolling_derive(rc).dundurs) * a / rb_rolling_radius(rc);
+
+    return rb_rolling_largest_mu(rc) * P * slip * pow(share, 1.5);
+}
+
+/* ---- Results of a solution --------------------------------------------------------- */
+
+/* The largest pressure [stress] of the stick zones of fewer than four elements over which
+ * slip turns round: no mesh tells then where in them friction changes its sign.  0: there
+ * are none. */
+static double pressure_of_unresolved_stick(const rb_rolling_solution *s)
+{
+    int before = RB_ZONE_SEPARATED, stuck = 0;
+    double most = 0.0;
+
+    for (int i = 0; i < s->n; i++) {
+        if (s->zone[i] == RB_ZONE_STICK) {
+            stuck++;
+            continue;
+        }
+        if (before > RB_ZONE_STICK && s->zone[i] > RB_ZONE_STICK && s->zone[i] != before &&
+            stuck < 4)
+            for (int j = i - stuck - 1; j <= i; j++)
+                most = fmax(most, s->p[j]);
+        before = s->zone[i];
+        stuck = 0;
+    }
+    return most;
+}
+
+/* Whether an element slips by no more than the slip changes from there to the next one: a
+ * finer mesh may find that some of it sticks. */
+static int may_stick(const rb_rolling_case *rc, const rb_rolling_solution *s, int i)
+{
+    const int rolls = rc->formulation == RB_STEADY; /* slip over an element */
+    const double own = s->shift[i] / (rolls ? s->h[i] : 1.0);
+
+    for (int j = i - 1; j <= i + 1; j += 2) {
+        if (j < 0 || j >= s->n || s->zone[j] == RB_ZONE_SEPARATED)
+            continue;
+        const double next = s->shift[j] / (rolls ? s->h[j] : 1.0);
+        if (s->zone[i] > RB_ZONE_STICK && fabs(own) <= fabs(own - next))
+            return 1;
+    }
+    return 0;
+}
+
+static int touches_stick(const rb_rolling_solution *s, int i)
+{
+    return (i > 0 && s->zone[i - 1] == RB_ZONE_STICK) ||
+           (i + 1 < s->n && s->zone[i + 1] == RB_ZONE_STICK);
+}
+
+/* What a stick zone of fewer than four elements may be off by in friction [load]:
+ * Carter's falls short of mu P by the square of the part of the contact that sticks,
+ * whose length is known to an element beside it. */
+static double friction_of_short_stick(const rb_rolling_case *rc, const rb_rolling_solution *s)
+{
+    const double width = 2.0 * s->half_width, stick = s->stick_length;
+    double element = 0.0;
+
+    if (rc->formulation != RB_STEADY || s->stick < 1 || s->stick >= 4)
+        return 0.0;
+    for (int i = 0; i < s->n; i++)
+        if (s->zone[i] == RB_ZONE_STICK || touches_stick(s, i))
+            element = fmax(element, s->h[i]);
+    return rb_rolling_largest_mu(rc) * s->normal_load * element * (2.0 * stick + element) /
+           (width * width);
+}
+
+/* What zones of stick that the mesh does not show may change: the friction of an element
+ * of each of them [load], and how far from those that it shows they are [length]. */
+typedef struct {
+    double friction, length;
+} hidden_stick;
+
+static hidden_stick find_hidden_stick(const rb_rolling_case *rc, const rb_rolling_solution *s)
+{
+    hidden_stick hidden = {0.0, rb_rolling_longest_element(s->n, s->zone, s->h)};
+    double farthest = 0.0;
+
+    for (int i = 0; i < s->n; i++) {
+        if (!may_stick(rc, s, i) || touches_stick(s, i))
+            continue;
+        const double left = s->x[i] - 0.5 * s->h[i], right = s->x[i] + 0.5 * s->h[i];
+        hidden.friction = fmax(hidden.friction, fabs(s->q[i]) * s->h[i]);
+        if (s->stick > 0)
+            farthest = fmax(farthest, fmax(s->stick_from - left, right - s->stick_to));
+    }
+    hidden.length += farthest;
+    return hidden;
+}
+
+/* What no mesh tells apart: rounding and the tolerance of the solver, in units of what
+ * the scalar is made of; the length of an element, where it is the place where stick
+ * begins; slip over an element; the friction of an element that may stick; the pressure
+ * at a corner, which is infinite, on elements ten times shorter; and with an unresolved
+ * stick zone the friction of an element, and the pressure that a jump of friction brings
+ * about there between dissimilar bodies.  of_stress: 0 for the pressure, 1 for stresses. */
+static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *s, int of_stress,
+                          rb_rolling_error_scale scale)
+{
+    const hidden_stick hidden = find_hidden_stick(rc, s);
+    const double rounding = fmax(s->residual, rc->contact.tol), a = s->hertz_half_width;
+    const double strain = rb_rolling_largest_mu(rc) * a / rb_rolling_radius(rc);
+    const double unresolved = pressure_of_unresolved_stick(s);
+    const int force_given = rb_rolling_force_is_given(rc);
+    const double friction = force_given ? 0.0
+                            : unresolved > 0.0
+                                ? rb_rolling_largest_mu(rc) * s->max_pressure *
+                                      rb_rolling_longest_element(s->n, s->zone, s->h)
+                                : fmax(hidden.friction, friction_of_short_stick(rc, s));
+
+    switch (scale) {
+    case RB_SCALE_ONE:
+        return rounding +
+               (friction > 0.0 ? friction / (rb_rolling_largest_mu(rc) * s->normal_load) : 0.0);
+    case RB_SCALE_LOAD:
+        return rounding * s->normal_load;
+    case RB_SCALE_FRICTION:
+        return rounding * rb_rolling_largest_mu(rc) * s->normal_load + friction;
+    case RB_SCALE_APPROACH:
+        return rounding * fabs(s->approach);
+    case RB_SCALE_SHIFT:
+        return rounding * fmax(strain * a, fabs(s->tangential_shift));
+    case RB_SCALE_CREEPAGE:
+        return rounding * fmax(strain, fabs(s->creepage));
+    case RB_SCALE_WIDTH:
+        /* found within an element: where bodies relax the pressure is no power there */
+        return rounding * a + (rb_rolling_relaxes(rc) || s->edges_bounded
+                                   ? 0.5 * rb_rolling_longest_element(s->n, s->zone, s->h)
+                                   : 0.0);
+    case RB_SCALE_PRESSURE: {
+        /* friction jumps by 2 mu p, and between unlike bodies the pressure has a logarithm
+         * there; on elements ten times shorter it rises by so much */
+        const double rise = M_LN10 * M_2_PI * rb_rolling_largest_mu(rc) *
+                            fabs(rb_rolling_derive(rc).dundurs) * unresolved;
+        return rounding * s->max_pressure +
+               (of_stress ? rise : fmax(0.0, unresolved + rise - s->max_pressure)) +
+               rb_rolling_rise_at_corners(rc, s->contact_from, s->contact_to,
+                                          rb_rolling_longest_element(s->n, s->zone, s->h), 10.0);
+    }
+    case RB_SCALE_POWER: {
+        /* where no element slips, all of what the force does beside free rolling */
+        const double driven =
+            s->slipping == 0 ? fabs((s->creepage - s->free_creepage) * s->tangential_load) : 0.0;
+        return (driven > 0.0 ? driven : 0.0) +
+               rb_rolling_edge_power(rc, s->normal_load, s->creepage, a,
+                                     rb_rolling_longest_element(s->n, s->zone, s->h) /
+                                         (2.0 * s->half_width));
+    }
+    case RB_SCALE_MOMENT:
+        return rounding * s->normal_load * a;
+    case RB_SCALE_TORQUE:
+        return rounding * s->normal_load *
+                   (a + rb_rolling_largest_mu(rc) * rb_rolling_larger_radius(rc)) +
+               friction * rb_rolling_larger_radius(rc);
+    case RB_SCALE_STRAIN:
+        return rounding * a / rb_rolling_radius(rc);
+    case RB_SCALE_WORK:
+        return rounding * s->normal_load * a / rb_rolling_radius(rc);
+    case RB_SCALE_HEAT:
+        return rounding *
+               fabs(s->max_temperature - fmin(rc->heat_a.temperature, rc->heat_b.temperature));
+    case RB_SCALE_ELEMENT:
+    case RB_SCALE_NONE:
+        break;
+    }
+    return hidden.length;
+}
+
+/* One run: what it says. */
+typedef struct {
+    rb_rolling_solution solution;
+    rb_rolling_stress_maxima stress;
+} sample;
+
+/* The parts of the errors, kept apart because --accuracy refines the larger one. */
+typedef struct {
+    rb_rolling_errors contact, boundary;
+} error_parts;
+
+/* The tables of what has error bars: of a solution, and of its largest stresses. */
+static const rb_rolling_results *const tables[] = {&rb_rolling_solution_scalars,
+                                                   &rb_rolling_maxima_scalars};
+enum { TABLES = 2 };
+
+static const void *part_of_sample(const sample *s, int table)
+{
+    return table ? (const void *)&s->stress : &s->solution;
+}
+
+static void *part_of_errors(rb_rolling_errors *e, int table)
+{
+    return table ? (void *)&e->stress : &e->scalar;
+}
+
+/* Where a coarser run has no stick at all: the zone is shorter than its elements, of
+ * which one is added to the bar. */
+static double take_unseen(const rb_rolling_solution *s, int runs, double value, double coarser[])
+{
+    const double element = rb_rolling_longest_element(s->n, s->zone, s->h);
+    double longest = 0.0;
+
+    for (int j = 0; j < runs && !isnan(value); j++)
+        if (isnan(coarser[j])) {
+            coarser[j] = value;
+            longest = fmax(longest, element / part[j].contact);
+        }
+    return longest;
+}
+
+static void add_parts(error_parts *parts, rb_rolling_errors *errors)
+{
+    *errors = rb_rolling_no_row(RB_OK).errors;
+    for (int t = 0; t < TABLES; t++)
+        for (int k = 0; k < tables[t]->n; k++) {
+            const rb_rolling_result *r = &tables[t]->row[k];
+            if (r->error_bar != RB_SCALE_NONE)
+                rb_rolling_set_number(
+                    r, part_of_errors(errors, t),
+                    rb_rolling_number(r, part_of_errors(&parts->contact, t)) +
+                        rb_rolling_number(r, part_of_errors(&parts->boundary, t)));
+        }
+}
+
+/* ---- One case and its error bars --------------------------------------------------- */
+
+static rb_status take_sample(const rb_rolling_case *rc, int with_stress, sample *s, rb_message *why)
+{
+    rb_rolling_model model = {0};
+    rb_status status = rb_rolling_solve_model(rc, &model, &s->solution, why);
+    if (status == RB_OK && with_stress)
+        status = rb_rolling_stress_maxima_find(&model, 0.0, &s->stress, why);
+    rb_rolling_model_free(&model);
+    return status;
+}
+
+/* The error by the spread over the coarser runs and over another one, NAN where it does
+ * not have the value. */
+static double contact_error_with(const double coarser[], double own, double another, int is_finer)
+{
+    const double error = rb_rolling_contact_error(coarser, own);
+    const double first[] = {coarser[0], another}, second[] = {coarser[1], another};
+
+    if (isnan(error) || isnan(another))
+        return error;
+    return fmax(error, is_finer ? 3.0 * fabs(own - another)
+                                : fmax(rb_rolling_contact_error(first, own),
+                                       rb_rolling_contact_error(second, own)));
+}
+
+/* From the case's own results and those of its coarser runs. */
+static rb_status find_parts(const rb_rolling_case *rc, int with_stress, const sample *own,
+                            error_parts *parts, rb_message *why)
+{
+    sample run[RB_ERROR_RUNS] = {0}, another = {0};
+    rb_message reason = {""};
+    const int runs = rb_rolling_error_runs(rc), patches = own->solution.patches;
+    rb_status status = RB_OK;
+
+    for (int k = 0; k < runs && status == RB_OK; k++) {
+        const rb_rolling_case coarser = rb_rolling_error_run(rc, k);
+        status = take_sample(&coarser, with_stress, &run[k], &reason);
+        if (status != RB_OK)
+            rb_fail(why, status, "error bars: %d contact elements: %.200s",
+                    coarser.contact_elements, rb_status_reason(status, &reason));
+    }
+    /* Another mesh where there are several patches.  The edges of each pass elements on
+     * their own, and three meshes agree by chance: a fourth one between them.  A fitted patch
+     * has 12 elements at least, which half of fewer than 24 still are: a finer one. */
+    int fewest = 24;
+    for (int k = 0; k < patches; k++)
+        fewest = own->solution.patch[k].contact < fewest ? own->solution.patch[k].contact : fewest;
+    const double of_own = rc->mesh == RB_MESH_FITTED && fewest < 24 ? 2.0 : 0.85;
+    rb_rolling_case other_mesh = *rc;
+    other_mesh.contact_elements = (int)(of_own * rc->contact_elements);
+    const int has_another = status == RB_OK && patches > 1 &&
+                            take_sample(&other_mesh, with_stress, &another, NULL) == RB_OK;
+    if (status == RB_OK) {
+        double coarser[RB_ERROR_RUNS];
+
+        parts->contact = parts->boundary = rb_rolling_no_row(RB_OK).errors;
+        for (int t = 0; t <= with_stress; t++)
+            for (int k = 0; k < tables[t]->n; k++) {
+                const rb_rolling_result *r = &tables[t]->row[k];
+                if (r->error_bar == RB_SCALE_NONE)
+                    continue;
+                const double value = rb_rolling_number(r, part_of_sample(own, t));
+                for (int j = 0; j < runs; j++)
+                    coarser[j] = rb_rolling_number(r, part_of_sample(&run[j], t));
+                const double unseen = r->error_bar == RB_SCALE_ELEMENT
+                                          ? take_unseen(&own->solution, runs, value, coarser)
+                                          : 0.0;
+                const double other =
+                    has_another ? rb_rolling_number(r, part_of_sample(&another, t)) : NAN;
+                rb_rolling_set_number(r, part_of_errors(&parts->contact, t),
+                                      contact_error_with(coarser, value, other, of_own > 1.0) +
+                                          least_error(rc, &own->solution, t, r->error_bar) +
+                                          unseen);
+                rb_rolling_set_number(r, part_of_errors(&parts->boundary, t),
+                                      rb_rolling_boundary_error(runs, coarser, value));
+            }
+    }
+    for (int k = 0; k < runs; k++)
+        rb_rolling_solution_free(&run[k].solution);
+    rb_rolling_solution_free(&another.solution);
+    return status;
+}
+
+rb_status rb_rolling_estimate_errors(const rb_rolling_case *rc, const rb_rolling_solution *solution,
+                                     const rb_rolling_stress_maxima *stress,
+                                     rb_rolling_errors *errors, rb_message *why)
+{
+    sample own = {.solution = *solution};
+    error_parts parts;
+    rb_status status = rb_rolling_error_check(rc, why);
+
+    if (stress)
+        own.stress = *stress;
+    *errors = rb_rolling_no_row(RB_OK).errors;
+    if (status == RB_OK)
+        status = find_parts(rc, stress != NULL, &own, &parts, why);
+    if (status == RB_OK)
+        add_parts(&parts, errors);
+    return status;
+}
+
+/* The solution stays where a coarser run fails. */
+static rb_status solve_parts(const rb_rolling_case *rc, rb_rolling_solution *solution,
+                             error_parts *parts, rb_message *why)
+{
+    sample own = {0};
+    const rb_status status = take_sample(rc, 0, &own, why);
+
+    *solution = own.solution;
+    return status == RB_OK ? find_parts(rc, 0, &own, parts, why) : status;
+}
+
+rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, rb_rolling_solution *solution,
+                                       rb_rolling_errors *errors, rb_message *why)
+{
+    error_parts parts;
+    rb_status status = rb_rolling_error_check(rc, why);
+
+    memset(solution, 0, sizeof *solution);
+    *errors = rb_rolling_no_row(RB_OK).errors;
+    if (status == RB_OK)
+        status = solve_parts(rc, solution, &parts, why);
+    if (status == RB_OK)
+        add_parts(&parts, errors);
+    return status;
+}
+
+/* ---- To a given accuracy ----------------------------------------------------------- */
+
+/* Largest of the relative estimates that --accuracy asks for: forces in units of their
+ * bound, creepage in units of itself, or of mu a/R where it is less.  The creepage of
+ * free rolling, of wheels or of unlike bodies, does not vanish with mu: in units of mu
+ * a/R alone no mesh would do for a small one. */
+static double worst_relative(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                             const rb_rolling_solution *e)
+{
+    const double strain = rb_rolling_largest_mu(rc) * s->hertz_half_width / rb_rolling_radius(rc);
+    double worst = fmax(e->normal_load / s->normal_load, e->max_pressure / s->max_pressure);
+
+    worst = fmax(worst, e->half_width / s->half_width);
+    if (rb_rolling_largest_mu(rc) > 0.0)
+        worst = fmax(worst, e->force_ratio);
+    if (rb_rolling_largest_mu(rc) > 0.0 && rc->formulation != RB_STATIC)
+        worst = fmax(worst, e->creepage / fmax(strain, fabs(s->creepage)));
+    return worst;
+}
+
+/* Makes the elements of the contact and those of the boundary finer: each until its part of
+ * the error is what the other one leaves of the accuracy, half of it at least, and by at
+ * most two because an error may fall faster than its order says.  0: the limit of a part
+ * is reached, or twice that would not do. */
+static int refine(double accuracy, double contact, double boundary, int fitted, rb_rolling_case *rc)
+{
+    const int wheels = rb_rolling_error_runs(rc) > 2;
+    const double most = wheels ? MOST_ON_WHEELS : MOST_ELEMENTS;
+    const double order = fitted ? 2.0 : 1.0;
+    const double n = rc->contact_elements, outer = fmax(rc->outer_refinement, 1.0);
+    const double for_contact = fmax(0.5 * accuracy, accuracy - boundary);
+    const double for_boundary = fmax(0.5 * accuracy, accuracy - contact);
+    const double n_factor = fmax(1.0, pow(contact / for_contact, 1.0 / order));
+    const double outer_factor = fmax(1.0, sqrt(boundary / for_boundary));
+
+    if (n * n_factor > 2.0 * most || outer * outer_factor > 2.0 * finest_boundary)
+        return 0;
+    const double finer = fmin(most / n, fmin(2.0, n_factor > 1.0 ? 1.1 * n_factor : 1.0));
+    rc->contact_elements = (int)(finer * n + 0.5);
+    rc->steps = (int)ceil(finer * rc->steps);
+    rc->outer_refinement =
+        fmin(finest_boundary, outer * fmin(2.0, outer_factor > 1.0 ? 1.1 * outer_factor : 1.0));
+    return rc->contact_elements > n || rc->outer_refinement > outer;
+}
+
+rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accuracy,
+                                       rb_rolling_solution *solution, rb_rolling_errors *errors,
+                                       int *elements, rb_message *why)
+{
+    rb_rolling_case refined = *rc;
+    error_parts parts;
+    double worst = INFINITY, before;
+    int round = 0, stood = 0; /* rounds in which the bars did not fall */
+    rb_status status = rb_rolling_error_check(rc, why);
+
+    memset(solution, 0, sizeof *solution);
+    *errors = rb_rolling_no_row(RB_OK).errors;
+    *elements = 0;
+    if (status == RB_OK)
+        status = rb_rolling_check_number("accuracy", accuracy, why);
+    if (status != RB_OK)
+        return status;
+    do {
+        rb_rolling_solution finer;
+        status = solve_parts(&refined, &finer, &parts, why);
+        if (status != RB_OK && round > 0) {
+            rb_rolling_solution_free(&finer); /* the best one so far stays */
+            break;
+        }
+        rb_rolling_solution_free(solution);
+        *solution = finer;
+        *elements = status >= 0 ? refined.contact_elements : 0;
+        round++;
+        if (status != RB_OK)
+            return status;
+        add_parts(&parts, errors);
+        before = worst;
+        worst = worst_relative(rc, solution, &errors->scalar);
+        stood = fabs(worst - before) < 0.05 * worst ? stood + 1 : 0;
+        if (worst <= accuracy)
+            return RB_OK;
+    } while (stood < 2 && refine(accuracy, worst_relative(rc, solution, &parts.contact.scalar),
+                                 worst_relative(rc, solution, &parts.boundary.scalar),
+                                 rc->mesh == RB_MESH_FITTED && !solution->equal_instead, &refined));
+    if (status == RB_OK || status == RB_ENOMEM)
+        status = rb_fail(why, RB_INACCURATE,
+                         "accuracy %g not reached with %d elements: estimated error "
+                         "%.2g%s",
+                         accuracy, *elements, worst,
+                         rc->mesh == RB_MESH_UNIFORM ? "; a fitted mesh needs fewer" : "");
+    return status;
+}

@@ -1,0 +1,26 @@
+/* What the files of this folder share, with those of the folders below. */
+#ifndef ROLLBEM_STUDY_INTERNAL_H
+#define ROLLBEM_STUDY_INTERNAL_H
+
+#include "rolling/history/internal.h"
+
+/* ---- errors.c ---------------------------------------------------------------------- */
+
+/* The largest number of rb_rolling_error_runs. */
+enum { RB_ERROR_RUNS = 3 };
+/* The case of the k-th coarser run. */
+rb_rolling_case rb_rolling_error_run(const rb_rolling_case *rc, int k);
+/* RB_EINVAL where the case has too few elements to be halved. */
+rb_status rb_rolling_error_check(const rb_rolling_case *rc, rb_message *why);
+/* The two parts of the error of a value, from what the coarser runs have for it: of the
+ * contact's mesh and steps, and of the boundary outside (0 without wheels). */
+double rb_rolling_contact_error(const double coarser[], double own);
+double rb_rolling_boundary_error(int runs, const double coarser[], double own);
+
+/* Power that slip at an edge dissipates over one element, the part `share` of a contact
+ * of half-width a under the load P, and that a mesh may not see: the pressure is like a
+ * square root there, and the slip that of the creepage and of dissimilar bodies. */
+double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepage, double a,
+                             double share);
+
+#endif

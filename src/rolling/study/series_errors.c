@@ -1,0 +1,241 @@
+/* Error bars of curves and histories: every entry of a column has one, as a scalar of a
+ * solution has (theory.md 5.1). */
+#include "rolling/study/internal.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Of what the coarser runs found and of the series itself, over the same points. */
+static void error_columns(const rb_rolling_results *columns, int rows, int runs,
+                          const void *const run[], const void *own, void *errors)
+{
+    double coarser[RB_ERROR_RUNS];
+
+    for (int k = 0; k < columns->n; k++) {
+        const rb_rolling_result *column = &columns->row[k];
+        if (column->error_bar == RB_SCALE_NONE || !rb_rolling_has_column(column, own))
+            continue;
+        const double *value = rb_rolling_column(column, own);
+        double *e = rb_rolling_column(column, errors), largest = 0.0;
+        for (int i = 0; i < rows; i++)
+            largest = fmax(largest, fabs(value[i]));
+        for (int i = 0; i < rows; i++) {
+            for (int r = 0; r < runs; r++)
+                coarser[r] = rb_rolling_column(column, run[r])[i];
+            e[i] = rb_rolling_contact_error(coarser, value[i]) +
+                   rb_rolling_boundary_error(runs, coarser, value[i]) + DBL_EPSILON * largest;
+        }
+    }
+}
+
+/* ---- Curves ------------------------------------------------------------------------ */
+
+rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc, const rb_rolling_range *range,
+                                       rb_rolling_point *point, void *context,
+                                       rb_rolling_curve *curve, rb_rolling_curve *errors,
+                                       rb_message *why)
+{
+    rb_rolling_curve run[RB_ERROR_RUNS] = {0};
+    const int runs = rb_rolling_error_runs(rc);
+    rb_status s = rb_rolling_error_check(rc, why);
+
+    memset(curve, 0, sizeof *curve);
+    memset(errors, 0, sizeof *errors);
+    if (s == RB_OK)
+        s = rb_rolling_curve_observe(rc, range, point, context, curve, why);
+    for (int k = 0; k < runs && s == RB_OK; k++) {
+        const rb_rolling_case coarser = rb_rolling_error_run(rc, k);
+        s = rb_rolling_curve_observe(&coarser, range, point, context, &run[k], why);
+    }
+    if (s == RB_OK)
+        s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, rc, 0, curve->n, errors);
+    if (s == RB_OK) {
+        const void *found[RB_ERROR_RUNS];
+        double free_creepage[RB_ERROR_RUNS];
+
+        for (int k = 0; k < runs; k++) {
+            found[k] = &run[k];
+            free_creepage[k] = run[k].free_creepage;
+        }
+        errors->n = curve->n;
+        errors->free_creepage =
+            rb_rolling_contact_error(free_creepage, curve->free_creepage) +
+            rb_rolling_boundary_error(runs, free_creepage, curve->free_creepage) +
+            DBL_EPSILON * rb_rolling_largest_mu(rc) * curve->half_width / rb_rolling_radius(rc);
+        error_columns(&rb_rolling_curve_columns, curve->n, runs, found, curve, errors);
+        for (int i = 0; i < curve->n; i++) {
+            errors->stick_ratio[i] += curve->stick_step;
+            errors->dissipation[i] +=
+                rb_rolling_edge_power(rc, curve->normal_load[i], curve->creepage[i],
+                                      curve->half_width, curve->stick_step);
+        }
+    }
+    for (int k = 0; k < runs; k++) {
+        curve->seconds += run[k].seconds;
+        rb_rolling_curve_free(&run[k]);
+    }
+    return s;
+}
+
+/* ---- Histories --------------------------------------------------------------------- */
+
+static int steps_at_rest(const rb_rolling_history *h)
+{
+    int k = 0;
+    while (k < h->n && h->distance[k] == 0.0)
+        k++;
+    return k;
+}
+
+/* Where the entry of a rolled step belongs. */
+static double place(const rb_rolling_history *h, int is_mean, int k, int rest)
+{
+    const double before = k > rest ? h->distance[k - 1] : 0.0;
+
+    return is_mean ? 0.5 * (before + h->distance[k]) : h->distance[k];
+}
+
+/* A column at the steps of another history.  Rolling starts from the last state at rest,
+ * but not a mean over a rolled step. */
+static void place_column(const rb_rolling_history *from, const double *column, int is_mean,
+                         const rb_rolling_history *to, double *out)
+{
+    const int rest = steps_at_rest(from);
+    int k = is_mean ? rest : rest - 1;
+
+    for (int i = 0; i < to->n; i++) {
+        if (to->distance[i] == 0.0) {
+            out[i] = column[i];
+            continue;
+        }
+        const double x = place(to, is_mean, i, rest);
+        while (k + 2 < from->n && place(from, is_mean, k + 1, rest) < x)
+            k++;
+        /* Linear between entries k and k + 1 of a column; beyond the last one that. */
+        if (k + 1 >= from->n)
+            out[i] = column[from->n - 1];
+        else {
+            const double x0 = place(from, is_mean, k, rest), x1 = place(from, is_mean, k + 1, rest);
+            out[i] = column[k] + (column[k + 1] - column[k]) * (x - x0) / (x1 - x0);
+        }
+    }
+}
+
+/* An error changes its sign wherever an edge passes an element: each rolled step takes
+ * the largest of its own and its neighbours'. */
+static rb_status widen(const rb_rolling_history *h, double *error)
+{
+    const int rest = steps_at_rest(h), rolled = h->n - rest;
+    double *own = rb_alloc((size_t)h->n, 1);
+
+    if (!own)
+        return RB_ENOMEM;
+    memcpy(own, error, (size_t)h->n * sizeof *own);
+    for (int i = 0; i < rolled; i++)
+        for (int k = i > 0 ? i - 1 : 0; k <= i + 1 && k < rolled; k++)
+            error[rest + i] = fmax(error[rest + i], own[rest + k]);
+    free(own);
+    return RB_OK;
+}
+
+static rb_status history_errors(const rb_rolling_case *rc, const rb_rolling_history placed[],
+                                const rb_rolling_history *own, rb_rolling_history *errors)
+{
+    const int runs = rb_rolling_error_runs(rc);
+    const rb_rolling_results *columns = &rb_rolling_history_columns;
+    const void *run[RB_ERROR_RUNS];
+    rb_status s = rb_rolling_columns_alloc(columns, rc, 0, own->n, errors);
+
+    if (s != RB_OK)
+        return s;
+    errors->n = own->n;
+    for (int k = 0; k < runs; k++)
+        run[k] = &placed[k];
+    error_columns(columns, own->n, runs, run, own, errors);
+    /* Slip over less than an element of each rolled step. */
+    for (int i = steps_at_rest(own); i < own->n; i++) {
+        const int contact = own->stick[i] + own->slipping[i];
+        if (contact > 0)
+            errors->dissipation[i] += rb_rolling_edge_power(
+                rc, own->normal_load[i], own->creepage[i],
+                0.5 * (own->contact_to[i] - own->contact_from[i]), 1.0 / contact);
+    }
+    for (int k = 0; k < columns->n && s == RB_OK; k++)
+        if (columns->row[k].error_bar && rb_rolling_has_column(&columns->row[k], errors))
+            s = widen(own, rb_rolling_column(&columns->row[k], errors));
+    return s;
+}
+
+/* context: the observer of the run itself. */
+static int see_coarser(const rb_rolling_model *model, const rb_rolling_history *history, int step,
+                       int steps, void *context)
+{
+    const rb_rolling_observer *of_run = context;
+
+    (void)model;
+    (void)history;
+    return of_run->step(NULL, NULL, step, steps, of_run->context);
+}
+
+/* Coarser runs of the same way, at its steps. */
+static rb_status run_coarser(const rb_rolling_case *rc, const rb_rolling_program *program,
+                             const rb_rolling_observer *observer, const rb_rolling_history *own,
+                             rb_rolling_history placed[], rb_message *why)
+{
+    rb_rolling_observer passed = observer ? *observer : (rb_rolling_observer){0};
+    const rb_rolling_observer through = {passed.step ? see_coarser : NULL, &passed};
+    const int runs = rb_rolling_error_runs(rc);
+    rb_status s = RB_OK;
+
+    for (int k = 0; k < runs && s == RB_OK; k++) {
+        const rb_rolling_case coarser = rb_rolling_error_run(rc, k);
+        rb_rolling_model model = {0};
+        rb_rolling_history history = {0};
+        s = rb_rolling_history_run(&coarser, program, &through, &model, &history, why);
+        if (s == RB_OK) {
+            /* What of the history has error bars, at the steps of another one. */
+            rb_rolling_history *out = &placed[k];
+            const rb_rolling_results *columns = &rb_rolling_history_columns;
+            s = rb_rolling_columns_alloc(columns, rc, 0, own->n, out);
+
+            for (int i = 0; i < columns->n && s == RB_OK; i++) {
+                const rb_rolling_result *r = &columns->row[i];
+                if (r->error_bar && rb_rolling_has_column(r, &history))
+                    place_column(&history, rb_rolling_column(r, &history), r->is_mean, own,
+                                 rb_rolling_column(r, out));
+            }
+        }
+        rb_rolling_model_free(&model);
+        rb_rolling_history_free(&history);
+    }
+    return s;
+}
+
+rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
+                                         const rb_rolling_program *program,
+                                         const rb_rolling_observer *observer,
+                                         rb_rolling_model *model, rb_rolling_history *history,
+                                         rb_message *why)
+{
+    rb_rolling_history placed[RB_ERROR_RUNS] = {0};
+    rb_status s = rb_rolling_error_check(rc, why);
+
+    memset(model, 0, sizeof *model);
+    memset(history, 0, sizeof *history);
+    if (s == RB_OK && program && program->time)
+        s = rb_fail(why, RB_EINVAL,
+                    "error bars: a history in time has none; compare with half the time "
+                    "step and twice the contact elements");
+    if (s == RB_OK)
+        s = rb_rolling_history_run(rc, program, observer, model, history, why);
+    if (s == RB_OK)
+        s = run_coarser(rc, program, observer, history, placed, why);
+    if (s == RB_OK)
+        s = (history->errors = calloc(1, sizeof *history->errors))
+                ? history_errors(rc, placed, history, history->errors)
+                : RB_ENOMEM;
+    for (int k = 0; k < RB_ERROR_RUNS; k++)
+        rb_rolling_history_free(&placed[k]);
+    return s;
+}
