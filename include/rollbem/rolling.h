@@ -260,6 +260,9 @@ int rb_rolling_can(const rb_rolling_case *rc, int abilities);
 /* 1 if Carter's law applies: steady rolling of similar homogeneous half-planes whose gap
  * is not a table. */
 int rb_rolling_carter_holds(const rb_rolling_case *rc);
+/* 1: pressure displaces the surfaces along each other, and friction apart: the bodies are unlike,
+ * and tractions have other exponents at the edges than the square root (E1). */
+int rb_rolling_couples(const rb_rolling_case *rc);
 /* 1: a body of the case is viscoelastic. */
 int rb_rolling_relaxes(const rb_rolling_case *rc);
 

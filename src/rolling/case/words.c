@@ -551,8 +551,10 @@ static rb_status resolve_law(rb_case *c, rb_message *why)
 
 /* ---- What depends on other options ------------------------------------------------- */
 
-/* From so many elements on they are not graded to the edges, on any support. */
-enum { MANY = 1500 };
+/* From so many elements on they are not graded to the edges, on any support.  Where pressure and
+ * friction are coupled, on layers and in bodies that relax equal elements are of first order: up to
+ * so many graded ones are worth their time. */
+enum { MANY = 1500, MOST_GRADED = 400 };
 
 int rb_case_has_steps(const rb_resolved_case *resolved)
 {
@@ -729,7 +731,10 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     rb_rolling_case *rc = &c->resolved.rc;
     const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width);
     const rb_rolling_mesh equal = {.n = rc->contact_elements};
-    const int many = rc->contact_elements >= MANY || rb_rolling_suits_large(rc, &equal);
+    const int graded = rb_rolling_couples(rc) || !rb_rolling_can(rc, RB_BODY_HOMOGENEOUS);
+    const int many =
+        rc->contact_elements >= MANY ||
+        (rb_rolling_suits_large(rc, &equal) && (!graded || rc->contact_elements > MOST_GRADED));
     if (!rb_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper && rc->zone == 0.0 &&
         rc->gap != RB_GAP_TABLE && !c->resolved.worn_file)
         rc->mesh =
