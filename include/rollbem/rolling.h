@@ -423,7 +423,10 @@ typedef struct {
         tangential_load;       /* the part of P and Q that this patch carries [force/length] */
     double max_pressure, peak; /* largest pressure [stress] and its place [length] */
     int contact, stick;        /* elements */
+    int bounded; /* RB_LEFT_BOUNDED, RB_RIGHT_BOUNDED: this edge is only known to lie within
+                    one element, because p does not fall to zero there like (E1) of theory.md */
 } rb_rolling_patch;
+enum { RB_LEFT_BOUNDED = 1, RB_RIGHT_BOUNDED = 2 };
 
 typedef struct {
     int n;           /* contact elements, in the order of increasing x */
@@ -475,8 +478,7 @@ typedef struct {
     double datum;                        /* of A; NAN where it has none [length] */
     double contact_from, contact_to;     /* outermost edges (theory.md 5.1) */
     double nip_width;                    /* contact_to - contact_from [length] */
-    int edges_bounded;            /* 1: at some edge p does not fall to zero like (E1) of theory.md;
-                                     this edge is only known to lie within one element */
+    int edges_bounded;            /* 1: some edge of some patch is only known to an element */
     int equal_instead;            /* 1: equal elements were used, because fitting the mesh to the
                                      contact edges did not converge */
     double max_pressure;          /* p0 [stress] */
@@ -631,20 +633,21 @@ const rb_rolling_result *rb_rolling_study_column(int k);
  * static. */
 void rb_rolling_friction_power(const rb_rolling_solution *s, double *power);
 
-/* Notes on results that must be read with care, one line each: linear elasticity far
- * exceeded, `static` with a creepage, steady rolling without one, full sliding, an arc
- * support that rolls, slip that does not oppose the friction, a layer that is computed as
- * flat. */
-enum { RB_ROLLING_NOTES = 12 };
+/* Notes on results that must be read with care, one line each, every one of which the state
+ * as solved bears out (src/rolling/solve/notes.c). */
+enum { RB_ROLLING_NOTES = 32, RB_ROLLING_NOTE_LENGTH = 256 };
 typedef struct {
     int n;
-    char text[RB_ROLLING_NOTES][200];
+    int kind[RB_ROLLING_NOTES]; /* which note, see rb_rolling_note_name */
+    char text[RB_ROLLING_NOTES][RB_ROLLING_NOTE_LENGTH];
 } rb_rolling_note_list;
 rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_rolling_solution *s);
+/* "static-creepage", ... of kind k = 0, 1, ...; NULL after the last one. */
+const char *rb_rolling_note_name(int k);
 /* 1: the friction power is negative by more than rounding errors, which is an error of
  * the mesh; the text of the note about it. */
 int rb_rolling_is_below_zero(double dissipation, double load);
-const char *rb_rolling_below_zero(const rb_rolling_case *rc);
+const char *rb_rolling_below_zero(const rb_rolling_case *rc, const rb_rolling_solution *s);
 
 /* Temperature rise at a point of the surface caused by a unit heat flux that enters the
  * body between the distances `from` < `to` upstream of the point (T1), at any Peclet

@@ -437,12 +437,14 @@ rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power);
 typedef struct {
     int first, last;
     double from, to;
-    int bounded; /* 1: an edge is only known to lie within one element */
+    int bounded; /* edges that are only known to lie within one element, as in rb_rolling_patch */
 } rb_rolling_run;
 
 /* Smallest number of equal elements of a patch whose edges can be computed from the
  * pressure (theory.md 4.7). */
 enum { RB_ROLLING_ALIGNED_LEAST = 9 };
+/* And of any elements. */
+enum { RB_ROLLING_PATCH_LEAST = 5 };
 
 /* Vertex of the parabola through (0, 0) and two neighbours (d, f): its height and place.
  * 0: the parabola has no maximum. */

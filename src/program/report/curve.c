@@ -161,7 +161,7 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
             fprintf(out, "  dissipation below zero at %d point%s, %.2g %s at xi = %.5g: %s\n",
                     points, points > 1 ? "s" : "", c->dissipation[least],
                     rb_unit_name(c->units, "N/mm"), c->creepage[least],
-                    rb_rolling_below_zero(curves->rc));
+                    rb_rolling_below_zero(curves->rc, &c->last));
         const int slides = !speeds && sliding < rising && curves->mu[k] > 0.0;
         if (slides && sliding > 0)
             fprintf(

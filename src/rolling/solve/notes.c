@@ -1,4 +1,7 @@
-/* Notes on how to read a result; notes that change its meaning come first. */
+/* Notes on how to read a result.  Each is a function that computes from the case and the
+ * state as solved whether its sentence holds, and writes it; the table at the end has all of
+ * them, those that change the meaning of the result first.  tests/test_sentences.c has a case
+ * that must say it, and a near one that must not, for each. */
 #include "rolling/solve/results.h"
 
 #include <math.h>
@@ -13,23 +16,23 @@ static const double inaccurate_approach = 0.02, inaccurate_width = 0.1;
 static const double not_unique = 0.95;
 static const double broken_approach = 0.1, broken_width = 0.3;
 
+/* Writes the sentence, and says that it was. */
 RB_PRINTF(2, 3)
-static void add(rb_rolling_note_list *list, const char *format, ...)
+static int say(char *text, const char *format, ...)
 {
     va_list args;
-    if (list->n == RB_ROLLING_NOTES)
-        return;
     void *before = rb_locale_begin();
     va_start(args, format);
-    vsnprintf(list->text[list->n++], sizeof list->text[0], format, args);
+    vsnprintf(text, RB_ROLLING_NOTE_LENGTH, format, args);
     va_end(args);
     rb_locale_end(before);
+    return 1;
 }
 
-const char *rb_rolling_below_zero(const rb_rolling_case *rc)
+const char *rb_rolling_below_zero(const rb_rolling_case *rc, const rb_rolling_solution *s)
 {
-    /* steps need equal elements */
-    return rc && (rc->mesh == RB_MESH_ALIGNED || rb_rolling_has_steps(rc))
+    /* steps need equal elements, and these cannot end at the edges of several patches */
+    return rc && (rc->mesh == RB_MESH_ALIGNED || rb_rolling_has_steps(rc) || s->patches > 1)
                ? "smaller than its error on these elements; take more of them"
                : "smaller than its error on these elements; take more of them or --mesh aligned";
 }
@@ -39,47 +42,108 @@ int rb_rolling_is_below_zero(double dissipation, double load)
     return dissipation < -1e-12 * load;
 }
 
-static void note_strain(rb_rolling_note_list *list, const rb_rolling_case *rc,
-                        const rb_rolling_solution *s)
+/* ---- Strains ----------------------------------------------------------------------- */
+
+static double widest_patch(const rb_rolling_solution *s)
 {
     double widest = s->patches > 0 ? 0.0 : s->half_width;
+
     for (int k = 0; k < s->patches; k++)
         widest = fmax(widest, 0.5 * (s->patch[k].to - s->patch[k].from));
-    const double radius = rb_unit_shown(s->units, "mm", rc->a.radius);
-    const double approach = s->approach / radius;
-    /* in a bore a wide arc is little strain, and a part of a circle instead of a plane */
-    const int bore = rc->b.radius < 0.0;
-    const double width =
-        widest / (bore ? rb_unit_shown(s->units, "mm", rb_rolling_derive(rc).radius) : radius);
-    if (bore && widest > inaccurate_width * radius)
-        add(list,
-            "The contact spans %.3g degrees of the journal. Half-planes hold for small arcs: "
-            "expect errors of the order (a/R)^2 = %.2g.",
-            360.0 / acos(-1.0) * asin(fmin(widest / radius, 1.0)),
-            widest / radius * (widest / radius));
-    if (approach > broken_approach || width > broken_width)
-        add(list,
-            "The strains are far beyond linear elasticity (approach = %.2g R, a = %.2g R): treat "
-            "the numbers as a test problem.",
-            approach, width);
-    else if (approach > inaccurate_approach || width > inaccurate_width)
-        add(list,
-            "The strains are large for linear elasticity (approach = %.2g R, a = %.2g R): expect "
-            "errors of that order.",
-            approach, width);
+    return widest;
 }
+
+static int wide_arc(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    const double radius = rb_unit_shown(s->units, "mm", rc->a.radius), a = widest_patch(s);
+    const int bore = rc->b.radius < 0.0;
+
+    if (!((bore || rc->interlayer_normal > 0.0) && a > inaccurate_width * radius))
+        return 0;
+    return say(text,
+               "The contact spans %.3g degrees of %s. Half-planes hold for small arcs: "
+               "expect errors of the order (a/R)^2 = %.2g.",
+               360.0 / acos(-1.0) * asin(fmin(a / radius, 1.0)), bore ? "the journal" : "body A",
+               a / radius * (a / radius));
+}
+
+/* Of Hertz's contact a = 2 R p0/E*; what a third body gives way strains neither body, and a
+ * wide arc in a bore is little strain. */
+static int strains(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    const double radius = rb_unit_shown(s->units, "mm", rc->a.radius);
+    const double p0 = rb_unit_stored(s->units, "MPa", s->max_pressure);
+    const double third = rb_unit_shown(s->units, "mm", rc->interlayer_normal * p0);
+    const double approach = (s->approach - third) / radius;
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+    double width =
+        widest_patch(s) / (rc->b.radius < 0.0 ? rb_unit_shown(s->units, "mm", d.radius) : radius);
+    if (third > 0.0)
+        width = fmin(width, 2.0 * p0 / d.modulus);
+
+    if (approach > broken_approach || width > broken_width)
+        return say(text,
+                   "The strains are far beyond linear elasticity (approach = %.2g R, a = %.2g R): "
+                   "treat the numbers as a test problem.",
+                   s->approach / radius, width);
+    if (approach > inaccurate_approach || width > inaccurate_width)
+        return say(text,
+                   "The strains are large for linear elasticity (approach = %.2g R, a = %.2g R): "
+                   "expect errors of that order.",
+                   s->approach / radius, width);
+    return 0;
+}
+
+/* What a layer, cover or rim bears is a matter of its own thickness. */
+static int thin_and_strained(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    static const double large = 0.1;
+
+    if (!(rb_rolling_has_thickness(rc) && s->max_strain >= large))
+        return 0;
+    return say(text,
+               "The thinnest layer, cover or rim is compressed by %.0f %% of its thickness: linear "
+               "elasticity is inaccurate there.",
+               100.0 * s->max_strain);
+}
+
+/* A cover of radius R under P rolls freely at a creepage above that of the flat layer by
+ * k P/(E R): k follows nu, and friction that lets the surface slide everywhere makes it
+ * twice as large as one that holds it.  Measured on covers of t/R = 0.01 to 0.2 with a/t =
+ * 0.6 to 3.5 (docs/rolls.md). */
+static int flat_layer(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    static const double thick = 0.01, held = 0.45, free_to_slide = 1.25;
+    const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
+    const double P = rb_unit_stored(s->units, "N/mm", s->normal_load);
+
+    for (int b = 0; b < 1 + rc->elastic_b; b++) {
+        const double R = fabs(bodies[b]->radius), t = bodies[b]->layer;
+        if (rc->formulation == RB_STATIC || !(t > 0.0) || !isfinite(R) || t < thick * R)
+            continue;
+        const double shift = (0.075 + 0.45 * bodies[b]->poisson) * P / (bodies[b]->young * R);
+        return say(text,
+                   "The layer%s is computed as flat at thickness/R = %.2g. A round cover rolls "
+                   "freely at a creepage that is %s by about %.1g (much friction) to %.1g "
+                   "(little); see --cover-thickness%s.",
+                   b ? " of B" : "", t / R, b ? "lower" : "higher", held * shift,
+                   free_to_slide * shift, b ? "-b" : "");
+    }
+    return 0;
+}
+
+/* ---- Bodies that relax, tables, the datum ------------------------------------------ */
 
 /* Bodies that relax roll by an element in a step.  Overshoot: what the displacement by the
  * pressure before a step grows in it, as a part of the glassy one (V6); beyond 1 the
  * pressure behind it would have to pull under a given approach. */
-static void note_short_memory(rb_rolling_note_list *list, const rb_rolling_case *rc,
-                              const rb_rolling_solution *s)
+static int short_memory(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
     static const double much = 0.8;
     const int rolls = rc->formulation == RB_TRANSIENT;
 
     if (rc->formulation == RB_STEADY || !isnan(s->load_error) || s->n == 0)
-        return;
+        return 0;
     const double step = rolls ? rb_unit_stored(s->units, "mm", s->h[0]) / rc->speed : rc->time_step;
     const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
     double glassy = 0.0, left = 0.0;
@@ -93,17 +157,17 @@ static void note_short_memory(rb_rolling_note_list *list, const rb_rolling_case 
                     rb_bem_fading_over(bodies[b]->memory.time[k], step).before;
     }
     const double overshoot = left / glassy;
-    if (overshoot > much)
-        add(list,
-            "In one step (%s%.2g s) the bodies relax so much that under the given approach the "
-            "pressure may fall too far, to zero even, and come back: take %.2g %s.",
-            rolls ? "one element, " : "", step,
-            rolls ? ceil(2.0 * overshoot) : 0.5 * step / overshoot,
-            rolls ? "times as many --contact-elements" : "s as --time-step");
+    if (!(overshoot > much))
+        return 0;
+    return say(text,
+               "In one step (%s%.2g s) the bodies relax so much that under the given approach the "
+               "pressure may fall too far, to zero even, and come back: take %.2g %s.",
+               rolls ? "one element, " : "", step,
+               rolls ? ceil(2.0 * overshoot) : 0.5 * step / overshoot,
+               rolls ? "times as many --contact-elements" : "s as --time-step");
 }
 
-static void note_corners(rb_rolling_note_list *list, const rb_rolling_case *rc,
-                         const rb_rolling_solution *s)
+static int worn_corners(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
     static const double much = 0.02;
     double longest = 0.0;
@@ -112,16 +176,17 @@ static void note_corners(rb_rolling_note_list *list, const rb_rolling_case *rc,
         if (s->p[i] > 0.0)
             longest = fmax(longest, rb_unit_stored(s->units, "mm", s->h[i]));
     if (!(longest > 0.0))
-        return;
+        return 0;
     const double rise = rb_unit_shown(
         s->units, "MPa",
         rb_rolling_rise_at_corners(rc, rb_unit_stored(s->units, "mm", s->contact_from),
                                    rb_unit_stored(s->units, "mm", s->contact_to), longest, 2.0));
-    if (rise > much * s->max_pressure)
-        add(list,
-            "The worn table has corners in the contact, where the pressure is infinite: p0 rises "
-            "by %.2g %s each time the elements are halved. Give the table more rows.",
-            rise, rb_unit_name(s->units, "MPa"));
+    if (!(rise > much * s->max_pressure))
+        return 0;
+    return say(text,
+               "The worn table has corners in the contact, where the pressure is infinite: p0 "
+               "rises by %.2g %s each time the elements are halved. Give the table more rows.",
+               rise, rb_unit_name(s->units, "MPa"));
 }
 
 /* How far a uniform traction of one on a strip of half-width a moves it on average, times pi:
@@ -156,8 +221,7 @@ static double mean_compliance(const rb_rolling_case *rc, const rb_rolling_body *
 
 /* Then the flexibility is indefinite; rolling steadily under a load takes differences of
  * displacements alone. */
-static void note_datum(rb_rolling_note_list *list, const rb_rolling_case *rc,
-                       const rb_rolling_solution *s)
+static int near_datum(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
     const double a = rb_unit_stored(s->units, "mm", s->half_width);
     const int shifted = rc->formulation == RB_STATIC && rb_rolling_largest_mu(rc) > 0.0 &&
@@ -166,68 +230,87 @@ static void note_datum(rb_rolling_note_list *list, const rb_rolling_case *rc,
     const int rises = !shifted && isnan(rc->approach);
 
     if (!(a > 0.0) || (rises && !(s->approach < 0.0)))
-        return;
+        return 0;
     if (mean_compliance(rc, &rc->a, a, shifted) +
             (rc->elastic_b ? mean_compliance(rc, &rc->b, a, shifted) : 0.0) >=
         0.0)
-        return;
+        return 0;
     if (rises)
-        add(list, "The approach is negative: the datum, the depth of zero displacement from which "
-                  "it is measured, is too near. Give a larger --datum.");
-    else
-        add(list,
-            "The datum, the depth of zero displacement, is so near that uniform tractions move the "
-            "surface against themselves: other solutions exist for the same %s. Give a larger "
-            "--datum.",
-            shifted ? "shift" : "approach");
+        return say(text, "The approach is negative: the datum, the depth of zero displacement from "
+                         "which it is measured, is too near. Give a larger --datum.");
+    return say(text,
+               "The datum, the depth of zero displacement, is so near that uniform tractions move "
+               "the surface against themselves: other solutions exist for the same %s. Give a "
+               "larger --datum.",
+               shifted ? "shift" : "approach");
 }
 
-rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_rolling_solution *s)
-{
-    rb_rolling_note_list list = {.n = 0};
-    note_strain(&list, rc, s);
-    /* What a layer, cover or rim bears is a matter of its own thickness. */
-    static const double large = 0.1, thick = 0.01;
-    const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
+/* ---- What is given, perhaps in other units ----------------------------------------- */
 
-    if (rb_rolling_has_thickness(rc) && s->max_strain >= large)
-        add(&list,
-            "the thinnest layer, cover or rim is compressed by %.0f %% of its thickness: linear "
-            "elasticity is inaccurate there",
-            100.0 * s->max_strain);
-    for (int b = 0; b < 1 + rc->elastic_b; b++)
-        if (rc->formulation != RB_STATIC && bodies[b]->layer > 0.0 && isfinite(bodies[b]->radius) &&
-            bodies[b]->layer >= thick * fabs(bodies[b]->radius))
-            add(&list,
-                "layer%s: computed as flat at thickness/R = %.2g; the free creepage of a round "
-                "cover differs by about %.0f %%, see --cover-thickness%s",
-                b ? " of B" : "", bodies[b]->layer / fabs(bodies[b]->radius),
-                280.0 * bodies[b]->layer / fabs(bodies[b]->radius), b ? "-b" : "");
-    note_datum(&list, rc, s);
-    note_short_memory(&list, rc, s);
-    note_corners(&list, rc, s);
-    const int creeps = !isnan(rc->creep) || !isnan(rc->creep_ratio);
-    const int force = rb_rolling_force_is_given(rc);
-    if (rc->formulation == RB_STATIC && creeps)
-        add(&list, "In a static case --creep does not change the tractions; use --formulation "
-                   "steady to roll.");
-    if (rc->formulation == RB_STEADY && !creeps && !force)
-        add(&list, "No --creep, --creep-ratio, --force or --force-ratio is given: the wheel rolls "
-                   "at creepage 0.");
-    /* Given values that look as if they were meant in other units. */
-    const int arcs = rc->a.support == RB_BEM_ARC;
-    if (rc->formulation == RB_STEADY && !isnan(rc->creep) && fabs(s->creep_ratio) > 20.0)
-        add(&list,
-            "xi R/(mu a) = %.3g is far beyond full sliding, which begins near 1. If the creepage "
-            "is meant in per cent, write --creep %g%%.",
-            s->creep_ratio, s->creepage);
-    if (arcs && rc->a.arc < 2.0)
-        add(&list, "The arc is %g degrees. If it is meant in radians, write --arc %grad.",
-            rc->a.arc, rc->a.arc);
-    /* Beyond full sliding the force does not change: it does not tell the creepage.  At the end of
-     * a range of solutions an element sticks whose friction is at its bound. */
+static int is_creepage_given(const rb_rolling_case *rc)
+{
+    return !isnan(rc->creep) || !isnan(rc->creep_ratio);
+}
+
+static int static_creepage(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    (void)s;
+    return rc->formulation == RB_STATIC && is_creepage_given(rc) &&
+           say(text, "In a static case --creep does not change the tractions; use --formulation "
+                     "steady to roll.");
+}
+
+static int no_creepage(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    (void)s;
+    return rc->formulation == RB_STEADY && !is_creepage_given(rc) &&
+           !rb_rolling_force_is_given(rc) &&
+           say(text, "No --creep, --creep-ratio, --force or --force-ratio is given: the wheel "
+                     "rolls at creepage 0.");
+}
+
+/* The slowest element tells where full sliding begins: its slip is what the creepage may
+ * be less, because Coulomb's friction does not change with it. */
+static int percent(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    static const double far = 20.0;
+    const double side = s->creepage > 0.0 ? 1.0 : -1.0;
+    double slowest = INFINITY;
+
+    if (rc->formulation != RB_STEADY || isnan(rc->creep) || s->contact == 0 || s->stick > 0 ||
+        s->yielding > 0 || !(rb_rolling_largest_mu(rc) > 0.0) ||
+        rb_rolling_law_depends_on_state(rc))
+        return 0;
+    for (int i = 0; i < s->n; i++)
+        if (s->zone[i] != RB_ZONE_SEPARATED)
+            slowest = fmin(slowest, side * s->slip[i]);
+    const double begins = s->creepage - side * slowest;
+    if (!(fabs(s->creepage) > far * fabs(begins)))
+        return 0;
+    return say(text,
+               "xi = %.3g is far beyond full sliding, which begins at %.3g. If the creepage is "
+               "meant in per cent, write --creep %g%%.",
+               s->creepage, begins, s->creepage);
+}
+
+static int radians(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    (void)s;
+    return rc->a.support == RB_BEM_ARC && rc->a.arc < 2.0 &&
+           say(text, "The arc is %g degrees. If it is meant in radians, write --arc %grad.",
+               rc->a.arc, rc->a.arc);
+}
+
+/* ---- What is not unique ------------------------------------------------------------ */
+
+/* Beyond full sliding the force does not change: it does not tell the creepage.  At the end
+ * of a range of solutions an element sticks whose friction is at its bound.  An interface that
+ * hardens carries more with more slip. */
+static int not_unique_motion(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
     const double at_bound = 1.0 - 1e-9;
     int held = s->stick, sides = 0;
+
     for (int i = 0; i < s->n; i++) {
         held -= s->zone[i] == RB_ZONE_STICK &&
                 fabs(s->q[i]) >= at_bound * (s->mu ? s->mu[i] : rc->mu) * s->p[i];
@@ -235,49 +318,171 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_r
                  : s->zone[i] == RB_ZONE_SLIP_POSITIVE ? 2
                                                        : 0;
     }
-    const int slides = force && held == 0 && rb_rolling_largest_mu(rc) > 0.0 && s->contact > 0 &&
-                       !rb_rolling_law_depends_on_state(rc);
-    if (slides && sides == 3)
-        add(&list,
-            "%s slide towards both sides: the %s is not unique, a range of it gives the same "
-            "tractions.",
-            s->stick == 0 ? "No element sticks, and they"
-                          : "What sticks is at the bound of its friction, and the others",
-            s->formulation == RB_STATIC ? "shift" : "creepage");
-    else if (slides && s->formulation != RB_STATIC)
-        add(&list, "The whole contact slides: the creepage is not unique, every larger one gives "
-                   "the same force.");
-    if (s->kappa > not_unique)
-        add(&list,
-            "Friction falls so steeply with the slip velocity (kappa = %.3g) that other solutions "
-            "may exist; the start decides which one is found.",
-            s->kappa);
-    if (rc->formulation != RB_STATIC && !rb_rolling_body_can(&rc->a, RB_BODY_TURNS))
-        add(&list, "On an arc support the answer depends on the angle of the wheel; --support hub "
-                   "and halfplane do not have this.");
-    if (s->yielding > 0)
-        add(&list, "The interface yields: zone 4 with q < 0, zone 5 with q > 0. The column shift "
-                   "is slip and yielding together, plastic is the yielded part.");
-    if (s->equal_instead)
-        add(&list,
-            "Fitting the mesh to the contact edges did not converge; equal elements were used.");
-    if (s->edges_bounded && s->contact > 0)
-        add(&list,
-            "The pressure ends abruptly at one edge; its position is uncertain by one element.");
-    /* Slip between two midpoints that the mean of their tractions does not oppose. */
-    if (rb_rolling_is_below_zero(s->dissipation, s->normal_load))
-        add(&list, "The dissipation, %.2g %s, is below zero: it is %s.", s->dissipation,
-            rb_unit_name(s->units, "N/mm"), rb_rolling_below_zero(rc));
-    /* What the force does beside free rolling goes into slip at the trailing edge; the least is no
-     * number that is given, which rounding would put on either side. */
-    if (rc->formulation == RB_STEADY && s->slipping == 0 && s->stick > 0 &&
-        fabs(s->force_ratio) > 1.0001e-3)
-        add(&list, "No element slips, and the dissipation is 0: the slip at the trailing edge, "
-                   "which the force drives, is shorter than an element; take more of them.");
-    if (rc->formulation == RB_STATIC && rb_rolling_largest_mu(rc) > 0.0 && s->slip_violations > 0)
-        add(&list,
-            "In %d of %d elements the slip computed afterwards points along the friction, not "
-            "against it; for rolling use --formulation steady.",
-            s->slip_violations, s->n);
+    if (!rb_rolling_force_is_given(rc) || held > 0 || s->contact == 0 || s->yielding > 0 ||
+        !(rb_rolling_largest_mu(rc) > 0.0) || rb_rolling_law_depends_on_state(rc))
+        return 0;
+    if (sides == 3)
+        return say(text,
+                   "%s slide towards both sides: the %s is not unique, a range of it gives the "
+                   "same tractions.",
+                   s->stick == 0 ? "No element sticks, and they"
+                                 : "What sticks is at the bound of its friction, and the others",
+                   s->formulation == RB_STATIC ? "shift" : "creepage");
+    return s->formulation != RB_STATIC &&
+           say(text,
+               "The whole contact slides: the creepage is not unique, every one beyond it gives "
+               "the same force.");
+}
+
+static int steep_fall(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    (void)rc;
+    return s->kappa > not_unique &&
+           say(text,
+               "Friction falls so steeply with the slip velocity (kappa = %.3g) that other "
+               "solutions may exist; the start decides which one is found.",
+               s->kappa);
+}
+
+static int angle_of_arc(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    (void)s;
+    return rc->formulation != RB_STATIC && !rb_rolling_can(rc, RB_BODY_TURNS) &&
+           say(text, "On an arc support the answer depends on the angle of the wheel; --support "
+                     "hub and halfplane do not have this.");
+}
+
+/* ---- Zones, edges, slip ------------------------------------------------------------ */
+
+static int yields(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    (void)rc;
+    return s->yielding > 0 &&
+           say(text, "The interface yields: zone 4 with q < 0, zone 5 with q > 0. The column shift "
+                     "is slip and yielding together, plastic is the yielded part.");
+}
+
+static int equal_elements(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    (void)rc;
+    return s->equal_instead &&
+           say(text, "Elements could not be fitted to the contact edges; equal ones were used.");
+}
+
+/* Whether the pressure stops falling towards this edge of the patch, as at a corner. */
+static int is_abrupt(const rb_rolling_solution *s, const rb_rolling_patch *patch, int side)
+{
+    int outer = side > 0 ? s->n - 1 : 0;
+
+    while (outer >= 0 && outer < s->n &&
+           (s->zone[outer] == RB_ZONE_SEPARATED ||
+            side * s->x[outer] > side * (side > 0 ? patch->to : patch->from)))
+        outer -= side;
+    const int next = outer - side, further = next - side;
+    return further >= 0 && further < s->n && s->p[next] >= s->p[further];
+}
+
+/* The first edge that is only known to an element, and why. */
+static int uncertain_edge(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    (void)rc;
+    for (int k = 0; k < s->patches; k++)
+        for (int side = -1; side <= 1; side += 2) {
+            const rb_rolling_patch *patch = &s->patch[k];
+            if (!(patch->bounded & (side < 0 ? RB_LEFT_BOUNDED : RB_RIGHT_BOUNDED)))
+                continue;
+            const double x = side < 0 ? patch->from : patch->to;
+            const char *mm = rb_unit_name(s->units, "mm");
+            if (patch->contact < RB_ROLLING_PATCH_LEAST)
+                return say(text,
+                           "Only %d element%s the contact that begins at x = %.4g %s: its edges "
+                           "are uncertain by one element.",
+                           patch->contact, patch->contact == 1 ? " carries" : "s carry",
+                           patch->from, mm);
+            return is_abrupt(s, patch, side)
+                       ? say(text,
+                             "The pressure ends abruptly at the edge x = %.4g %s, the position of "
+                             "which is uncertain by one element.",
+                             x, mm)
+                       : say(text,
+                             "The edge at x = %.4g %s is uncertain by one element: the pressure "
+                             "beside it does not follow the power law of a smooth edge.",
+                             x, mm);
+        }
+    return 0;
+}
+
+/* Slip between two midpoints that the mean of their tractions does not oppose. */
+static int negative_power(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    return rb_rolling_is_below_zero(s->dissipation, s->normal_load) &&
+           say(text, "The dissipation, %.2g %s, is below zero: it is %s.", s->dissipation,
+               rb_unit_name(s->units, "N/mm"), rb_rolling_below_zero(rc, s));
+}
+
+/* What the force does beside free rolling goes into slip at the trailing edge; the least is
+ * no number that is given, which rounding would put on either side. */
+static int short_slip(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    return rc->formulation == RB_STEADY && s->slipping == 0 && s->stick > 0 &&
+           fabs(s->force_ratio) > 1.0001e-3 &&
+           say(text, "No element slips, and the dissipation is 0: the slip at the trailing edge, "
+                     "which the force drives, is shorter than an element; take more of them.");
+}
+
+/* Where no creepage is given nobody asks for the slip of (12), which is one of rolling. */
+static int slip_violations(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    return rc->formulation == RB_STATIC && is_creepage_given(rc) &&
+           rb_rolling_largest_mu(rc) > 0.0 && s->slip_violations > 0 &&
+           say(text,
+               "In %d of %d elements the slip computed afterwards points along the friction, not "
+               "against it; for rolling use --formulation steady.",
+               s->slip_violations, s->n);
+}
+
+/* ---- All of them ------------------------------------------------------------------- */
+
+static const struct {
+    const char *name;
+    int (*says)(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text);
+} notes[] = {
+    {"wide-arc", wide_arc},
+    {"strains", strains},
+    {"thin-and-strained", thin_and_strained},
+    {"flat-layer", flat_layer},
+    {"near-datum", near_datum},
+    {"short-memory", short_memory},
+    {"worn-corners", worn_corners},
+    {"static-creepage", static_creepage},
+    {"no-creepage", no_creepage},
+    {"percent", percent},
+    {"radians", radians},
+    {"not-unique", not_unique_motion},
+    {"steep-fall", steep_fall},
+    {"angle-of-arc", angle_of_arc},
+    {"yields", yields},
+    {"equal-elements", equal_elements},
+    {"uncertain-edge", uncertain_edge},
+    {"negative-power", negative_power},
+    {"short-slip", short_slip},
+    {"slip-violations", slip_violations},
+};
+
+enum { NOTES = sizeof notes / sizeof *notes };
+_Static_assert((int)NOTES <= (int)RB_ROLLING_NOTES, "room for all notes of one result");
+
+const char *rb_rolling_note_name(int k)
+{
+    return k >= 0 && k < NOTES ? notes[k].name : NULL;
+}
+
+rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_rolling_solution *s)
+{
+    rb_rolling_note_list list = {.n = 0};
+
+    for (int k = 0; k < NOTES; k++)
+        if (notes[k].says(rc, s, list.text[list.n]))
+            list.kind[list.n++] = k;
     return list;
 }

@@ -12,37 +12,48 @@ static double midpoint(const rb_rolling_mesh *mesh, int i)
     return 0.5 * (mesh->ends[i] + mesh->ends[i + 1]);
 }
 
+/* Whether a third body is softer than the half-planes under such a length: then the pressure
+ * itself is smooth up to the edge, otherwise its square is. */
+static int is_soft(const rb_rolling_case *rc, double length)
+{
+    return rc->interlayer_normal * rb_rolling_derive(rc).modulus > 4.0 * length;
+}
+
 /* The edge of the run whose outermost element on that side is `outer`.  This element is
  * only partly in contact, so the power law goes through the next two, or where it is
  * steep through the two behind its neighbour, which then is disturbed too.  Contact is
  * decided at midpoints: the edge lies between those of the last loaded and of the first
  * open element.  run->bounded: set where this interval is all that is known, because p
  * does not fall or the power law misses the interval by more than its length. */
-static double edge(double beta, const rb_rolling_mesh *mesh, const rb_contact_state *state,
-                   int side, rb_rolling_run *run)
+static double edge(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                   const rb_contact_state *state, int side, rb_rolling_run *run)
 {
+    const int bounded = side < 0 ? RB_LEFT_BOUNDED : RB_RIGHT_BOUNDED;
+    const double beta = rb_rolling_derive(rc).dundurs;
     const int outer = side > 0 ? run->last : run->first, open = outer + side;
     const double end = mesh->ends[side > 0 ? outer + 1 : outer];
     const double nearest = midpoint(mesh, outer);
     const double farthest = open >= 0 && open < mesh->n ? midpoint(mesh, open) : end;
     int j = outer - side;
 
-    if (run->last - run->first + 1 < 5) {
-        run->bounded = 1;
+    if (run->last - run->first + 1 < RB_ROLLING_PATCH_LEAST) {
+        run->bounded |= bounded;
         return end;
     }
     /* (E1) Where A slides with q = -+mu p up to the edge on the side `side` (-1 left, +1
      * right), p falls there like the distance to the power 1/2 + side atan(beta q/p)/pi;
      * without friction, without coupling and in stick like a square root.  i, j: elements
-     * near the edge, a slip zone that is shorter than they are does not count. */
+     * near the edge, a slip zone that is shorter than they are does not count.  On a soft third
+     * body the pressure is the overlap over its compliance, which falls in proportion. */
     const int slides = state->zone[j] != RB_ZONE_STICK && state->zone[(j - side)] == state->zone[j];
 
-    const double exponent =
-        slides ? 0.5 + side * atan(beta * state->q[j] / state->p[j]) / M_PI : 0.5;
+    const double exponent = is_soft(rc, mesh->ends[j + 1] - mesh->ends[j]) ? 1.0
+                            : slides ? 0.5 + side * atan(beta * state->q[j] / state->p[j]) / M_PI
+                                     : 0.5;
     if (exponent < STEEP)
         j -= side;
     if (!(state->p[j] < state->p[j - side])) {
-        run->bounded = 1;
+        run->bounded |= bounded;
         return end;
     }
     /* Where the power law through elements i and j, the outer one, reaches zero. */
@@ -52,7 +63,8 @@ static double edge(double beta, const rb_rolling_mesh *mesh, const rb_contact_st
     const double x =
         midpoint(mesh, j) + (midpoint(mesh, j) - midpoint(mesh, i)) * fall / (1.0 - fall);
     const double off = fmax(side * (nearest - x), side * (x - farthest));
-    run->bounded |= off > fabs(farthest - nearest);
+    if (off > fabs(farthest - nearest))
+        run->bounded |= bounded;
     return side > 0 ? fmin(fmax(x, nearest), farthest) : fmax(fmin(x, nearest), farthest);
 }
 
@@ -80,11 +92,8 @@ static double aligned_edge(const rb_rolling_case *rc, const rb_rolling_mesh *mes
     const int third = outer - 2 * side;
     const double *end = mesh->ends + third, h = end[1] - end[0];
     const double y[3] = {p[third], p[third - side], p[third - 2 * side]};
-    /* Where a third body is softer than the half-planes under an element, the pressure
-     * itself is smooth up to the edge; otherwise its square is. */
-    const double root = (rc->interlayer_normal * rb_rolling_derive(rc).modulus > 4.0 * h)
-                            ? root_beyond(y[0], y[1], y[2])
-                            : root_beyond(y[0] * y[0], y[1] * y[1], y[2] * y[2]) + BIAS;
+    const double root = is_soft(rc, h) ? root_beyond(y[0], y[1], y[2])
+                                       : root_beyond(y[0] * y[0], y[1] * y[1], y[2] * y[2]) + BIAS;
 
     const double x = 0.5 * (end[0] + end[1]) + side * h * root;
     const int open = outer + side;
@@ -97,8 +106,6 @@ static double aligned_edge(const rb_rolling_case *rc, const rb_rolling_mesh *mes
 int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                           const rb_contact_state *state, int at, rb_rolling_run *run)
 {
-    const double beta = rb_rolling_derive(rc).dundurs;
-
     while (at < state->n && state->zone[at] == RB_ZONE_SEPARATED)
         at++;
     if (at >= state->n)
@@ -113,8 +120,8 @@ int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh
         run->to = aligned_edge(rc, mesh, state->p, run->last, 1);
         return 1;
     }
-    run->from = edge(beta, mesh, state, -1, run);
-    run->to = edge(beta, mesh, state, 1, run);
+    run->from = edge(rc, mesh, state, -1, run);
+    run->to = edge(rc, mesh, state, 1, run);
     return 1;
 }
 
@@ -216,11 +223,12 @@ rb_status rb_rolling_set_patches(const rb_rolling_model *model, rb_rolling_solut
             patch.stick += state->zone[i] == RB_ZONE_STICK;
         }
         patch.contact = run.last - run.first + 1;
+        patch.bounded = run.bounded;
         set_peak(&model->mesh, state->p, &run, &patch);
         s->contact_from = s->patches ? s->contact_from : patch.from;
         s->contact_to = patch.to;
         s->max_pressure = fmax(s->max_pressure, patch.max_pressure);
-        s->edges_bounded |= run.bounded;
+        s->edges_bounded |= run.bounded != 0;
         s->patch[s->patches++] = patch;
     }
     s->half_width = 0.5 * (s->contact_to - s->contact_from);

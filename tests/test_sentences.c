@@ -1,0 +1,167 @@
+/* Whatever the program says in words is true of the state as solved: each sentence has a case
+ * that must say it and a near one that must not. */
+#include "cli_run.h"
+#include "rollbem/rolling.h"
+
+#define STEEL "--similar --support halfplane --gap parabola --young 210000 --poisson 0.3 "
+#define CARTER STEEL "--radius 100 --half-width 1 --mu 0.3 --contact-elements 24 "
+#define ROLLS CARTER "--formulation steady "
+#define FRETS CARTER "--formulation static "
+#define PLANE "--support halfplane --gap parabola --young 210000 --poisson 0.3 --radius 100 "
+#define ROLL "--formulation steady --creep 0 --contact-elements 40 "
+#define LAYER                                                                                      \
+    "--support halfplane --gap parabola --young 8 --poisson 0.48 --radius 60 --mu 0.3 "            \
+    "--load 2 --formulation steady --force 0 --contact-elements 24 "
+#define SOFT                                                                                       \
+    "--support halfplane --gap parabola --young 1e8 --poisson 0.3 --radius 100 --load 10 "         \
+    "--mu 0.3 --contact-elements 40 "
+#define FALLS                                                                                      \
+    ROLLS "--creep-ratio 0.5 --friction-law exponential --mu-fall 0.2 --speed 1000 --slip-scale "
+
+/* `says` prints the words to standard error, `silent` is solved without them.  Of notes `name`
+ * is that of rb_rolling_note_name; others are named here. */
+static const struct {
+    const char *name, *words, *says, *silent;
+} sentences[] = {
+    /* ---- notes on a solution: src/rolling/solve/notes.c */
+    {"wide-arc", "The contact spans 21.1 degrees of the journal",
+     STEEL "--radius 100 --radius-b -101 --load 3000 --mu 0.3 " ROLL,
+     STEEL "--radius 100 --radius-b -101 --load 500 --mu 0.3 " ROLL},
+    {"wide-arc", "The contact spans 25.9 degrees of body A",
+     PLANE "--mu 0 --approach 2.5 --interlayer-normal 0.1",
+     PLANE "--mu 0 --approach 0.3 --interlayer-normal 0.1"},
+    {"strains", "The strains are far beyond linear elasticity", "--mu 0.3 --contact-elements 20",
+     STEEL "--radius 100 --half-width 1 --mu 0.3"},
+    {"strains", "The strains are large for linear elasticity",
+     STEEL "--radius 100 --half-width 11 --mu 0.3", STEEL "--radius 100 --half-width 9 --mu 0.3"},
+    /* what gives way is a third body, and no strain of the bodies */
+    {"strains", "The strains are large", PLANE "--mu 0 --approach 2.5",
+     PLANE "--mu 0 --approach 2.5 --interlayer-normal 0.1"},
+    {"thin-and-strained", "is compressed by 10 % of its thickness",
+     LAYER "--layer-thickness 0.5 --load 20", LAYER "--layer-thickness 0.5"},
+    {"flat-layer",
+     "rolls freely at a creepage that is higher by about 0.0005 (much friction) to 0.002 (little)",
+     LAYER "--layer-thickness 1.2", LAYER "--layer-thickness 0.5"},
+    {"flat-layer",
+     "The layer of B is computed as flat at thickness/R = 0.02. A round cover rolls "
+     "freely at a creepage that is lower by about",
+     LAYER "--young-b 8 --poisson-b 0.48 --radius-b 60 --layer-thickness-b 1.2",
+     LAYER "--support hub --cover-thickness 1.2"},
+    {"near-datum", "other solutions exist for the same shift",
+     FRETS "--datum 0.1 --datum-b 0.1 --shift 0.001", FRETS "--shift 0.001"},
+    {"near-datum", "The approach is negative", FRETS "--datum 0.1 --datum-b 0.1 --force 1",
+     FRETS "--datum 1 --datum-b 1 --force 1"},
+    {"short-memory", "the bodies relax so much that under the given approach",
+     "--support halfplane --gap parabola --young 1 --poisson 0.4 --radius 50 --mu 0 "
+     "--approach 0.5 --relaxation-time 0.5 --relaxation-ratio 10 --formulation transient "
+     "--speed 1 --creep 0 --contact-elements 16 --distance 0.5",
+     "--support halfplane --gap parabola --young 1 --poisson 0.4 --radius 50 --mu 0 "
+     "--approach 0.5 --relaxation-time 100 --relaxation-ratio 10 --formulation transient "
+     "--speed 1 --creep 0 --contact-elements 16 --distance 0.5"},
+    {"worn-corners", "The worn table has corners in the contact",
+     FRETS "--mu 0 --mesh uniform --worn corners.txt",
+     FRETS "--mu 0 --mesh uniform --worn flat.txt"},
+    {"static-creepage", "In a static case --creep does not change the tractions",
+     FRETS "--creep 0.001", FRETS "--shift 0.001"},
+    {"no-creepage", "the wheel rolls at creepage 0", ROLLS, ROLLS "--force 0"},
+    {"percent",
+     "xi = 0.1 is far beyond full sliding, which begins at 0.00296. If the creepage is "
+     "meant in per cent, write --creep 0.1%",
+     ROLLS "--creep 0.1", ROLLS "--creep 0.05"},
+    {"percent", "begins at -0.00296.", ROLLS "--creep -0.1", ROLLS "--creep-ratio 30"},
+    /* the third body holds most of the contact */
+    {"percent", "far beyond full sliding", ROLLS "--creep 0.1",
+     SOFT "--interlayer-normal 0.2 --interlayer-tangential 0.4 --formulation steady --creep 0.01"},
+    {"percent", "far beyond full sliding", ROLLS "--creep 0.1",
+     ROLLS "--creep 0.1 --yield-stress 1"},
+    {"radians", "The arc is 1.5 degrees. If it is meant in radians, write --arc 1.5rad",
+     "--mu 0 --approach 0.01 --arc 1.5 --contact-elements 20",
+     "--mu 0 --approach 0.01 --arc 2 --contact-elements 20"},
+    {"not-unique", "The whole contact slides: the creepage is not unique", ROLLS "--force-ratio 1",
+     ROLLS "--force-ratio 0.99"},
+    {"not-unique", "slide towards both sides: the shift is not unique",
+     "--support halfplane --load 100 --mu .01 --force 0 --contact-elements 40",
+     "--support halfplane --load 100 --mu .01 --force-ratio 1 --contact-elements 40"},
+    {"not-unique", "The whole contact slides", ROLLS "--force-ratio -1",
+     ROLLS "--force 40 --yield-stress 10 --hardening 1e5"},
+    {"steep-fall", "other solutions may exist", FALLS "0.1", FALLS "100"},
+    {"angle-of-arc", "depends on the angle of the wheel",
+     "--mu 0.1 --approach 0.01 --formulation steady --creep 0 --contact-elements 20",
+     "--mu 0.1 --approach 0.01 --shift 0.001 --contact-elements 20"},
+    {"angle-of-arc", "depends on the angle of the wheel",
+     STEEL "--support-b arc --radius-b 60 --half-width 1 --mu 0.3 " ROLL,
+     STEEL "--support-b hub --radius-b 60 --half-width 1 --mu 0.3 " ROLL},
+    {"yields", "The interface yields", ROLLS "--creep-ratio 0.5 --yield-stress 10",
+     ROLLS "--creep-ratio 0.5 --yield-stress 1000"},
+    {"equal-elements", "Elements could not be fitted to the contact edges",
+     ROLLS "--creep 0 --mesh aligned --contact-elements 12 --slip-operator upstream --zone 1.85",
+     ROLLS "--creep 0 --mesh aligned --contact-elements 12"},
+    /* a flat punch, and where the pressure falls to zero */
+    {"uncertain-edge", "The pressure ends abruptly at the edge x = -",
+     PLANE "--mu 0 --gap punch.txt --load 1000",
+     PLANE "--mu 0 --gap round.txt --load 1000 --contact-elements 40"},
+    {"uncertain-edge", "Only 3 elements carry the contact that begins at x = -",
+     CARTER "--mesh uniform --contact-elements 9 --zone 3", CARTER},
+    {"uncertain-edge", "edge", PLANE "--mu 0 --gap punch.txt --load 1000",
+     SOFT "--interlayer-normal 0.2 --interlayer-tangential 0.4 --formulation steady --creep 0.01"},
+    {"negative-power",
+     "is below zero: it is smaller than its error on these elements; take more "
+     "of them or --mesh aligned",
+     "--support halfplane --layer-thickness 2 --young-b 2e5 --interlayer-normal 2e-6 "
+     "--interlayer-tangential 1e-6 --half-width 1 --contact-elements 24 --formulation steady "
+     "--creep 0 --mesh uniform",
+     "--support halfplane --layer-thickness 2 --young-b 2e5 --interlayer-normal 2e-6 "
+     "--interlayer-tangential 1e-6 --half-width 1 --contact-elements 24 --formulation steady "
+     "--creep 0 --mesh aligned"},
+    {"short-slip", "which the force drives, is shorter than an element",
+     ROLLS "--force-ratio 0.0011 --mesh uniform", ROLLS "--force-ratio 0.0009 --mesh uniform"},
+    {"slip-violations", "the slip computed afterwards points along the friction",
+     FRETS "--force-ratio -0.5 --creep 0.001", FRETS "--force-ratio -0.5"},
+};
+
+enum { SENTENCES = sizeof sentences / sizeof *sentences };
+
+static int write_gaps(void)
+{
+    FILE *punch = NOT_NULL(fopen("punch.txt", "w")), *round = NOT_NULL(fopen("round.txt", "w"));
+    for (int k = -100; k <= 100; k++) {
+        const double x = 0.05 * k, beyond = fmax(fabs(x) - 2.0, 0.0);
+        fprintf(punch, "%g %g\n", x, 10.0 * beyond);
+        fprintf(round, "%g %g\n", x, x * x / 200.0);
+    }
+    fclose(punch);
+    fclose(round);
+    write_file("corners.txt", "-0.2 0\n-0.1 1e-4\n0 0\n0.1 1e-4\n0.2 0\n");
+    write_file("flat.txt", "-0.2 0\n-0.1 1e-9\n0 0\n0.1 1e-9\n0.2 0\n");
+    return 0;
+}
+
+TEST(each_sentence_is_said_where_it_is_true_alone)
+{
+    int wrong = 0;
+    write_gaps();
+    for (int k = 0; k < SENTENCES; k++)
+        for (int says = 1; says >= 0; says--) {
+            const char *arguments = says ? sentences[k].says : sentences[k].silent;
+            const int code = rollbem(arguments);
+            if (code == 0 && (strstr(err, sentences[k].words) != NULL) == says)
+                continue;
+            print_error("%s: %s '%s'\nrollbem %s\nexit %d: %s\n", sentences[k].name,
+                        says ? "does not say" : "says", sentences[k].words, arguments, code, err);
+            wrong++;
+        }
+    assert_int_equal(wrong, 0);
+}
+
+TEST(each_note_has_its_two_cases)
+{
+    for (int k = 0; rb_rolling_note_name(k); k++) {
+        int rows = 0;
+        for (int j = 0; j < SENTENCES; j++)
+            rows += strcmp(sentences[j].name, rb_rolling_note_name(k)) == 0;
+        if (rows == 0)
+            fail_msg("%s has no case in tests/test_sentences.c", rb_rolling_note_name(k));
+    }
+}
+
+RUN_TESTS(enter_folder, leave_folder)
