@@ -124,9 +124,7 @@ struct json_t *rb_report_json_input_hash(const rb_case *c);
  * rolling. */
 struct json_t *rb_report_json_table_columns(const rb_rolling_solution *s);
 struct json_t *rb_report_json_table(const rb_rolling_solution *s);
-/* An object with summary and table for each solution; the second function prints one line
- * for each. */
-struct json_t *rb_report_json_solutions(const rb_rolling_solutions *all);
+/* One line for each solution. */
 void rb_report_solutions(FILE *out, const rb_rolling_solutions *all);
 /* The JSON Schema of all results, rollbem/1. */
 struct json_t *rb_report_json_schema(void);
@@ -135,12 +133,6 @@ struct json_t *rb_report_json_history(const rb_rolling_history *h);
 /* The states of all steps in mm and MPa as lists of lists; `motion` is the rigid shift
  * [mm] of a static step and the creepage of a rolled step. */
 struct json_t *rb_report_json_states(const rb_rolling_states *s);
-
-/* Sets "summary", with its error bars, "table" and, of a sequence of steps, "history",
- * with what its steps found where states are kept, and its derivatives; NULL: there are
- * none. */
-void rb_report_json_result(struct json_t **root, const rb_case_result *result,
-                           const rb_rolling_states *states, const rb_case_slopes *slopes);
 
 /* The command line, without `rollbem`, in the comments of a table of any command; owned
  * by the caller.  RB_EFORMAT: the table has none. */
@@ -467,6 +459,30 @@ void rb_report_fit_summary(FILE *out, const rb_report_fit *f);
  * which is left out where some number is not identified. */
 rb_status rb_report_fit_picture(FILE *out, rb_report_canvas canvas, const rb_report_fit *f,
                                 rb_message *why);
+
+/* ---- The JSON of a case, whole ------------------------------------------------------ */
+
+/* What the JSON of a case shows beside its command line, inputs and units: a part that is NULL is
+ * left out.  All is borrowed, in the units of the case. */
+typedef struct {
+    const char *command;
+    const rb_case *words;                /* resolved */
+    const rb_rolling_solution *solution; /* of the notes */
+    const rb_rolling_case *noted;        /* whose solution it is; NULL: that of words */
+    const rb_case_result *result;        /* summary, table and, of a sequence of steps, history */
+    const rb_rolling_states *states;     /* what its steps found; n = 0: not kept */
+    const rb_case_slopes *slopes;        /* derivatives of its steps */
+    const rb_report_stress *stress;
+    const rb_case_crack_result *crack;
+    int faces; /* 1: and its faces, with the contact that loads them */
+    const rb_rolling_solutions *solutions;
+    const rb_report_derivatives *derivatives; /* of the result */
+    const rb_report_derivatives *deviations;  /* its standard deviations */
+    const char *derivatives_of;               /* the names that were asked for */
+    const rb_case_tolerances *uncertain;      /* the standard deviations that were given */
+} rb_report_document;
+
+struct json_t *rb_report_json_document(const rb_report_document *document);
 
 /* ---- Designs ----------------------------------------------------------------------- */
 

@@ -98,18 +98,20 @@ static rb_status write_results(FILE *out, const void *context, rb_message *why)
     (void)why;
     if (run->o.style.format != RB_REPORT_JSON)
         return run->command->table(out, run);
-    json_t *inputs = rb_report_json_inputs(run->words);
-    if (run->command->inputs)
+    rb_report_document document = {.command = cli_command_line(),
+                                   .words = run->words,
+                                   .noted = run->noted,
+                                   .solution = run->solution};
+    if (run->command->document)
+        run->command->document(run, &document);
+    json_t *root = rb_report_json_document(&document);
+    if (run->command->inputs) {
+        json_t *inputs = json_incref(json_object_get(root, "inputs"));
         run->command->inputs(run, &inputs);
-    json_t *root = rb_report_json_start(cli_command_line());
-    if (run->solution)
-        rb_report_json_set(
-            &root, "notes",
-            rb_report_json_notes(run->noted ? run->noted : &run->c->rc, run->solution));
-    rb_report_json_set(&root, "units", rb_report_json_units(run->c->units));
-    rb_report_json_set(&root, "input_hash", rb_report_json_input_hash(run->words));
-    rb_report_json_set(&root, "inputs", inputs);
-    run->command->json(run, &root);
+        rb_report_json_set(&root, "inputs", inputs);
+    }
+    if (run->command->json)
+        run->command->json(run, &root);
     return rb_report_json_write(out, root);
 }
 

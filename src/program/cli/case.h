@@ -78,7 +78,7 @@ typedef struct {
 
 enum { CLI_COMMAND_OPTIONS_MAX = 28 };
 
-/* What is the command's own.  Functions may be NULL, but for solve, table, json, summarise. */
+/* What is the command's own.  Functions may be NULL, but for solve, table, summarise. */
 struct cli_case_command {
     const char *synopsis, *about, *notes, *refused; /* of its cli_spec */
     rb_case_purpose purpose, second; /* second: what it may become; RB_CASE_SINGLE: nothing else */
@@ -98,7 +98,8 @@ struct cli_case_command {
     /* what may still refuse before the table is written */
     cli_exit (*before_table)(const cli_case_run *run);
     rb_status (*table)(FILE *out, const cli_case_run *run);
-    /* adds to `inputs`, and to what stands beside it */
+    /* the JSON: what it shows of a case; what it adds to `inputs`, and beside them */
+    void (*document)(const cli_case_run *run, rb_report_document *document);
     void (*inputs)(const cli_case_run *run, struct json_t **inputs);
     void (*json)(const cli_case_run *run, struct json_t **root);
     /* the summary */

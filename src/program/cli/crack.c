@@ -2,7 +2,6 @@
 #include "program/cli/case.h"
 #include "program/cli/interrupt.h"
 
-#include <jansson.h>
 #include <stddef.h>
 
 typedef struct {
@@ -82,12 +81,11 @@ static rb_status solve(cli_case_run *run, rb_message *why)
 
 /* ---- Print ------------------------------------------------------------------------- */
 
-static void add_json(const cli_case_run *run, json_t **root)
+static void fill_in(const cli_case_run *run, rb_report_document *d)
 {
     const crack_run *own = run->own;
-    rb_report_json_crack(root, &own->result);
-    if (own->states)
-        rb_report_json_crack_faces(root, &own->result);
+    d->crack = &own->result;
+    d->faces = own->states;
 }
 
 static rb_status write_table(FILE *out, const cli_case_run *run)
@@ -137,7 +135,7 @@ static const cli_case_command command = {
     .check = check,
     .solve = solve,
     .table = write_table,
-    .json = add_json,
+    .document = fill_in,
     .summarise = summarise,
 };
 

@@ -2,7 +2,6 @@
 #include "program/cli/case.h"
 #include "program/cli/run.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -107,20 +106,17 @@ static const char notes[] = CLI_CASE_NOTES
 
 /* ---- Output ----------------------------------------------------------------------- */
 
-static void add_json(const cli_case_run *run, json_t **root)
+static void fill_in(const cli_case_run *run, rb_report_document *d)
 {
     const solved *it = run->own;
-    rb_report_json_result(root, &it->r, it->states ? &it->kept : NULL, &it->slopes_of_steps);
-    if (it->all.n > 0)
-        rb_report_json_set(root, "solutions", rb_report_json_solutions(&it->all));
-    if (it->derivatives && it->slopes_of_steps.n == 0)
-        rb_report_json_derivatives(root, &it->shown);
-    if (it->tolerance && it->r.history.n == 0)
-        rb_report_json_tolerances(root, &it->shown);
-    if (it->derivatives || it->tolerance)
-        rb_report_json_asked(root, it->derivatives, run->words);
-    if (it->tolerance)
-        rb_report_json_uncertain(root, &it->tolerances, run->c->units);
+    d->result = &it->r;
+    d->states = it->states ? &it->kept : NULL;
+    d->slopes = &it->slopes_of_steps;
+    d->solutions = it->all.n > 0 ? &it->all : NULL;
+    d->derivatives = it->derivatives && it->slopes_of_steps.n == 0 ? &it->shown : NULL;
+    d->deviations = it->tolerance && it->r.history.n == 0 ? &it->shown : NULL;
+    d->derivatives_of = it->derivatives;
+    d->uncertain = it->tolerance ? &it->tolerances : NULL;
 }
 
 static rb_status write_table(FILE *out, const cli_case_run *run)
@@ -343,7 +339,7 @@ static const cli_case_command command = {
     .solve = solve,
     .before_table = show_behind,
     .table = write_table,
-    .json = add_json,
+    .document = fill_in,
     .summarise = summarise,
 };
 

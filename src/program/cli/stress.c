@@ -2,7 +2,6 @@
 #include "program/cli/case.h"
 #include "program/cli/run.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -207,11 +206,11 @@ static rb_status solve(cli_case_run *run, rb_message *why)
 
 /* ---- Print ------------------------------------------------------------------------- */
 
-static void add_json(const cli_case_run *run, json_t **root)
+static void fill_in(const cli_case_run *run, rb_report_document *d)
 {
     const stress *st = run->own;
-    rb_report_json_result(root, &st->run, NULL, NULL);
-    rb_report_json_stress(root, &st->table);
+    d->result = &st->run;
+    d->stress = &st->table;
 }
 
 /* The points of the grid below the largest von Mises stress, which a person is shown. */
@@ -316,7 +315,7 @@ static const cli_case_command command = {
     .check = check,
     .solve = solve,
     .table = write_table,
-    .json = add_json,
+    .document = fill_in,
     .summarise = summarise,
 };
 
