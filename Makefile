@@ -53,7 +53,7 @@ CLI_OBJ := $(CLI_SRC:%.c=$(B)/%.o)
 MPI_OBJ := $(filter-out %/cli/pool.o,$(CLI_OBJ)) $(B)/src/program/mpi/pool.o
 PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
-BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
+BENCHES := $(patsubst tools/bench/%.c,$(B)/bench/%,$(wildcard tools/bench/bench_*.c))
 
 .PHONY: journeys dist deb release site course page page-where-possible page-test page-format page-lint python-test install-python all run test test-all check-tests kernels covered-tests asan asan-short short-tests fuzz mutants coverage hostile endurance platforms analyse check-format bench install uninstall help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
@@ -65,7 +65,7 @@ help:
 	@echo "make test-all   the same without leaving out any case of the long tests, then the campaigns of docs/reliability.md"
 	@echo "make asan       the tests under the address and undefined-behaviour sanitizers"
 	@echo "make asan-short some of them"
-	@echo "make fuzz       libFuzzer on every target of fuzz/, FUZZ_TIME=60 seconds each (wants clang)"
+	@echo "make fuzz       libFuzzer on every target of tools/fuzz/, FUZZ_TIME=60 seconds each (wants clang)"
 	@echo "make mutants    do the tests notice MUTANTS=300 changes of the source? score and survivors"
 	@echo "make coverage   lines and branches of src/ that the tests go through, and what is left"
 	@echo "make hostile    N=20000 cases at the ends of what is accepted, judged independently"
@@ -75,7 +75,7 @@ help:
 	@echo "make analyse    gcc -fanalyzer and -Wconversion, clang-tidy, cppcheck on src/"
 	@echo "make check-format  names sources that clang-format would change"
 	@echo "make study      the friction solvers on published files and on packings: tables, false successes;"
-	@echo "                PARTS=\"packings portfolio\": some of them, scripts/friction-study says which"
+	@echo "                PARTS=\"packings portfolio\": some of them, tools/scripts/friction-study says which"
 	@echo "make bench      the benchmarks (ratios measured in one run)"
 	@echo "make page       the page for browsers, $(B)/rollbem.html; make page-test tests it"
 	@echo "make python-test   tests of the Python package, python/"
@@ -88,8 +88,8 @@ help:
 	@echo "make install    to PREFIX=$(PREFIX), below DESTDIR; make uninstall takes it away"
 	@echo "make clean      remove $(B)"
 
-packages: ; @scripts/packages --install
-check-packages: ; @scripts/packages
+packages: ; @tools/scripts/packages --install
+check-packages: ; @tools/scripts/packages
 
 run: packages
 	@$(MAKE) --no-print-directory B=$(B) all >&2
@@ -121,7 +121,7 @@ check-tests: all page-where-possible $(if $(shell command -v gnuplot),$(B)/cours
 
 # the tests that compare digits and what is printed, under each kernel of OpenBLAS that the processor
 # can run; make test-all: all but those that compute nothing or build by themselves
-KERNELS ?= $(shell scripts/kernels)
+KERNELS ?= $(shell tools/scripts/kernels)
 KERNEL_TESTS ?= $(patsubst %,$(B)/tests/test_%,recorded course facts certificates lcp lcp_scale inside_lcp lcp_mixed friction inside_newton bem_system fem crack rolling_plane rolling_shakedown api)
 KERNEL_BLIND = tests/page tests/site tests/install tests/release tests/octave tests/python tests/journeys/% $(B)/tests/test_symbols $(B)/tests/test_hardening $(B)/tests/test_fuzz
 kernels: all $(TESTS) $(B)/packings $(B)/bench/bench_large
@@ -133,17 +133,17 @@ SANITIZED = B=build/asan PAGE=$(B)/page CFLAGS="-O1 -g -fno-omit-frame-pointer -
 asan:
 	@$(MAKE) --no-print-directory $(SANITIZED) test
 
-# every target of fuzz/ in turn, or FUZZ_TARGET, for FUZZ_TIME seconds each; wants clang
+# every target of tools/fuzz/ in turn, or FUZZ_TARGET, for FUZZ_TIME seconds each; wants clang
 FUZZ_TIME ?= 60
-FUZZ_CFLAGS = -O2 -g -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -fsanitize-coverage-ignorelist=fuzz/untraced
+FUZZ_CFLAGS = -O2 -g -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -fsanitize-coverage-ignorelist=tools/fuzz/untraced
 fuzz:
 	@$(MAKE) --no-print-directory B=$(B)/fuzzing CC="$(FUZZ_CC)" CFLAGS="$(FUZZ_CFLAGS)" $(B)/fuzzing/fuzzer
-	@fuzz/run $(B)/fuzzing $(FUZZ_TIME) $(FUZZ_TARGET)
+	@tools/fuzz/run $(B)/fuzzing $(FUZZ_TIME) $(FUZZ_TARGET)
 FUZZ_CC ?= clang
 
 # do the tests notice changes of the source?  MUTANTS_ARGS: --folder rolling --seed 2 ...
 MUTANTS ?= 300
-mutants: packages ; @scripts/mutants $(B) --mutants $(MUTANTS) --jobs $(shell nproc) $(MUTANTS_ARGS)
+mutants: packages ; @tools/scripts/mutants $(B) --mutants $(MUTANTS) --jobs $(shell nproc) $(MUTANTS_ARGS)
 
 # lines and branches that the tests go through, per folder; what is left in $(B)/coverage/coverage.txt.
 # Left out are the tests that look at how the libraries are linked, and those that build by themselves
@@ -156,7 +156,7 @@ coverage: packages
 	@mkdir -p $(B)/coverage
 	@$(CC) -O1 -fPIC -c -o $(B)/coverage/exit.o tests/coverage.c
 	-@$(MAKE) --no-print-directory B=$(B)/coverage PAGE=$(B)/page CFLAGS="-O0 -g --coverage -fprofile-abs-path -fprofile-update=atomic -DRB_INLINE=static -Wno-unused-function" LDFLAGS="$(CURDIR)/$(B)/coverage/exit.o -Wl,--wrap=_exit,--wrap=kill" $(COVERED)
-	@scripts/coverage $(B)/coverage
+	@tools/scripts/coverage $(B)/coverage
 
 # what touches most of the library's memory in a minute or two
 SHORT = base lcp io_table case api rolling_lcp inside_newton rolling_control rolling_cone rolling_friction threads
@@ -172,7 +172,7 @@ check-format:
 # friction solvers on published files and on packings of our own
 study: packages
 	@$(MAKE) --no-print-directory B=$(B) all $(B)/packings $(B)/bench/bench_portfolio $(B)/bench/bench_condense $(B)/bench/bench_friction
-	@B=$(B) scripts/friction-study $(PARTS)
+	@B=$(B) tools/scripts/friction-study $(PARTS)
 
 bench: packages
 	@$(MAKE) --no-print-directory B=$(B) all $(BENCHES)
@@ -231,7 +231,7 @@ $(B)/examples.inc: $(wildcard examples/*/case.ini)
 	$(Q)for f in $^; do echo "{\"$$(basename $$(dirname $$f))\","; sed 's/\\/\\\\/g; s/"/\\"/g; s/.*/"&\\n"/' $$f; echo "},"; done > $@
 $(B)/src/program/cli/examples.o: $(B)/examples.inc
 # what `rollbem help WORD` finds in the docs
-$(B)/words.inc: scripts/words.awk docs/glossary.md docs/faq.md
+$(B)/words.inc: tools/scripts/words.awk docs/glossary.md docs/faq.md
 	@mkdir -p $(@D)
 	$(Q)awk -f $^ > $@
 $(B)/src/program/cli/find.o: $(B)/words.inc
@@ -288,12 +288,12 @@ $(B)/tests/checker: tests/checker.c
 # fuzz targets: replayed by a test, and given to libFuzzer by make fuzz; they call commands too,
 # files that are only read are kept in memory, and HDF5 may work in the same process
 FUZZ_WRAP = -Wl,--wrap=fopen,--wrap=rb_io_in_child
-FUZZ_OBJ = $(patsubst %.c,$(B)/%.o,$(filter-out fuzz/libfuzzer.c,$(wildcard fuzz/*.c))) $(filter-out %/cli/main.o,$(CLI_OBJ))
+FUZZ_OBJ = $(patsubst %.c,$(B)/%.o,$(filter-out tools/fuzz/libfuzzer.c,$(wildcard tools/fuzz/*.c))) $(filter-out %/cli/main.o,$(CLI_OBJ))
 $(B)/tests/test_fuzz $(B)/tests/test_inside_cli: $(B)/tests/%: tests/%.c tests/check.h $(FUZZ_OBJ) $(B)/librollbem.a
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -I. -Itests -MMD -MP -MF $@.d -o $@ $< $(FUZZ_OBJ) $(B)/librollbem.a $(LDFLAGS) $(FUZZ_WRAP) $(LDLIBS) -lcmocka
-$(B)/fuzzer: $(FUZZ_OBJ) $(B)/fuzz/libfuzzer.o $(B)/librollbem.a
+$(B)/fuzzer: $(FUZZ_OBJ) $(B)/tools/fuzz/libfuzzer.o $(B)/librollbem.a
 	@echo "  LD  $@"
 	$(Q)$(CC) $(CFLAGS) -fsanitize=fuzzer -o $@ $^ $(LDFLAGS) $(FUZZ_WRAP) $(LDLIBS)
 
@@ -309,14 +309,14 @@ CASES ?= 100000
 SOLVES ?= 10000
 endurance: packages
 	@$(MAKE) --no-print-directory B=$(B) all $(B)/tests/endurance
-	@scripts/endurance $(B) --kills $(KILLS) --cases $(CASES) --solves $(SOLVES)
+	@tools/scripts/endurance $(B) --kills $(KILLS) --cases $(CASES) --solves $(SOLVES)
 
 # compilers, optimisation, BLAS, threads: the list in docs/reliability.md
-platforms: packages ; @scripts/platforms $(B) $(PLATFORMS)
+platforms: packages ; @tools/scripts/platforms $(B) $(PLATFORMS)
 
 # static analysis of src/
 analyse: all
-	@scripts/analyse $(B)
+	@tools/scripts/analyse $(B)
 
 # compared with where it is installed, never needed
 ifneq ($(wildcard /usr/include/siconos/SiconosConfig.h),)
@@ -324,7 +324,7 @@ $(B)/bench/bench_lemke $(B)/bench/bench_friction: CPPFLAGS += -DHAVE_SICONOS -is
 $(B)/bench/bench_lemke $(B)/bench/bench_friction: LDLIBS += -lsiconos_numerics
 endif
 
-$(B)/bench/%: bench/%.c $(B)/librollbem.a
+$(B)/bench/%: tools/bench/%.c $(B)/librollbem.a
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -MMD -MP -MF $@.d -o $@ $< $(B)/librollbem.a $(LDFLAGS) $(LDLIBS)
@@ -344,14 +344,14 @@ install: all
 	install -m 644 include/rollbem/*.h "$(PREFIXED)/include/rollbem"
 	@for i in rollbem.pc:pkgconfig rollbemConfig.cmake:cmake/rollbem rollbemConfigVersion.cmake:cmake/rollbem; do \
 	    to="$(LIBDIR)/$${i#*:}"; up=$$(realpath -m --relative-to="$$to" "$(PREFIX)"); install -d "$(DESTDIR)$$to"; \
-	    sed -e "s|@UP@|$$up|" -e 's|@VERSION@|$(VERSION)|' -e 's|@LIBS@|$(LDLIBS)|' scripts/$${i%%:*}.in > "$(DESTDIR)$$to/$${i%%:*}" || exit 1; done
-	@B=$(B) scripts/install-shared "$(PREFIXED)/share"
+	    sed -e "s|@UP@|$$up|" -e 's|@VERSION@|$(VERSION)|' -e 's|@LIBS@|$(LDLIBS)|' tools/scripts/$${i%%:*}.in > "$(DESTDIR)$$to/$${i%%:*}" || exit 1; done
+	@B=$(B) tools/scripts/install-shared "$(PREFIXED)/share"
 
 # what install and install-python have put there, and folders of ours that this leaves empty
 uninstall:
 	rm -f "$(PREFIXED)/bin/rollbem" "$(PREFIXED)/bin/rollbem-mpi" "$(LIBRARIES)"/librollbem.a "$(LIBRARIES)"/librollbem.so*
 	rm -f "$(LIBRARIES)/pkgconfig/rollbem.pc" "$(LIBRARIES)"/cmake/rollbem/rollbemConfig*.cmake "$(PREFIXED)"/include/rollbem/*.h
-	@scripts/install-shared --remove "$(PREFIXED)/share"
+	@tools/scripts/install-shared --remove "$(PREFIXED)/share"
 	rm -f "$(PREFIXED)/share/rollbem/rollbem.html" "$(PACKAGES_OF_PYTHON)"/*.py "$(PACKAGES_OF_PYTHON)"/*.pyi "$(PACKAGES_OF_PYTHON)/py.typed" "$(PACKAGES_OF_PYTHON)"/__pycache__/*.pyc
 	@for i in "$(LIBRARIES)/cmake/rollbem" "$(PREFIXED)/include/rollbem" "$(PREFIXED)/share/rollbem/octave" "$(PREFIXED)/share/rollbem" \
 	    "$(PACKAGES_OF_PYTHON)/__pycache__" "$(PACKAGES_OF_PYTHON)"; do [ ! -d "$$i" ] || rmdir "$$i" 2>/dev/null || true; done
@@ -374,15 +374,15 @@ dist:
 	git archive --prefix=rollbem-$(VERSION)/ HEAD | gzip -n9 > $(DIST)
 	@echo "  DIST $(DIST)"
 
-# a release is these: scripts/release
-release: ; @scripts/packages --install deb && scripts/release $(B)
+# a release is these: tools/scripts/release
+release: ; @tools/scripts/packages --install deb && tools/scripts/release $(B)
 
 # Debian packages in $(B)/deb, from what make dist packs
 deb: dist
-	@scripts/packages --install deb
+	@tools/scripts/packages --install deb
 	rm -rf $(B)/deb && mkdir $(B)/deb && tar -xzf $(DIST) -C $(B)/deb
 	# without what this make was told: its B is another folder there, and the rules clean it
-	cd $(B)/deb/rollbem-$(VERSION) && env -u MAKEFLAGS -u B dpkg-buildpackage -us -uc -b >&2
+	cd $(B)/deb/rollbem-$(VERSION) && cp -r packaging/debian . && env -u MAKEFLAGS -u B dpkg-buildpackage -us -uc -b >&2
 	@ls $(B)/deb/*.deb
 
 # the pictures of docs/course
@@ -395,7 +395,7 @@ $(B)/course/.drawn: docs/course/pictures $(B)/rollbem
 
 # the documentation as a site
 site:
-	@scripts/packages --install site && $(MAKE) --no-print-directory B=$(B) all && scripts/site $(B)
+	@tools/scripts/packages --install site && $(MAKE) --no-print-directory B=$(B) all && tools/scripts/site $(B)
 
 # the page in a browser: one file with the library as WebAssembly, of the sources that web/sources
 # names.  No CC and no CFLAGS change it: other builds (make asan) take it from the same PAGE.
@@ -419,10 +419,10 @@ $(B)/rollbem.html: $(PAGE)/rollbem.wasm $(wildcard web/*.*) docs/signs.svg inclu
 	@node web/build.mjs $@ $<
 -include $(WASM_OBJ:.o=.d)
 
-page: ; @scripts/packages --install page && $(MAKE) --no-print-directory B=$(B) $(B)/rollbem.html
+page: ; @tools/scripts/packages --install page && $(MAKE) --no-print-directory B=$(B) $(B)/rollbem.html
 # for the suite, which skips its tests where the tools are absent
 page-where-possible:
-	@if missing=$$(scripts/packages page 2>&1); then $(MAKE) --no-print-directory $(if $(Q),-s) B=$(B) $(B)/rollbem.html; \
+	@if missing=$$(tools/scripts/packages page 2>&1); then $(MAKE) --no-print-directory $(if $(Q),-s) B=$(B) $(B)/rollbem.html; \
 	else echo "the page is not built: $$missing" | head -1; fi
 
 # what people of several kinds do on their first day; pictures stay in $(B)/journeys
@@ -430,7 +430,7 @@ journeys: all
 	@B=$(B) tests/run $(wildcard tests/journeys/*)
 
 # with what the tests of the package need
-python-test: ; @scripts/packages --install python && $(MAKE) --no-print-directory B=$(B) all && B=$(B) tests/run tests/python
+python-test: ; @tools/scripts/packages --install python && $(MAKE) --no-print-directory B=$(B) all && B=$(B) tests/run tests/python
 
 # the page's scripts and styles as web/biome.json has them; biome comes from the npm registry
 page-format: ; @web/lint $(B) format --write

@@ -320,7 +320,7 @@ TEST(the_caller_hears_and_may_stop)
     free(r);
 }
 
-/* No solver ends on this heap, but it has a solution: scripts/follow-path found this one. */
+/* No solver ends on this heap, but it has a solution: tools/scripts/follow-path found this one. */
 TEST(a_heap_that_nothing_solves_has_a_solution)
 {
     OWNED(rb_friction_problem) p;

@@ -1,8 +1,8 @@
 /* The files of tests/fuzz, and some changed copies of each, by every fuzz target of
- * fuzz/, each in a process of its own.  make fuzz looks for more. */
+ * tools/fuzz/, each in a process of its own.  make fuzz looks for more. */
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include "check.h"
-#include "fuzz/fuzz.h"
+#include "tools/fuzz/fuzz.h"
 
 #include <dirent.h>
 #include <signal.h>

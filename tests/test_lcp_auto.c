@@ -3,7 +3,7 @@
  * solution. */
 #include "check.h"
 
-#include "../bench/lcp_families.h"
+#include "../tools/bench/lcp_families.h"
 #include "rollbem/lcp.h"
 
 #define CHECK_TRUE(condition, ...)                                                                 \

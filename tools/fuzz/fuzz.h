@@ -1,5 +1,5 @@
 /* Fuzz targets: each takes any bytes and ends the process where a property of the library
- * does not hold.  fuzz/libfuzzer.c gives them to libFuzzer (make fuzz), tests/test_fuzz.c
+ * does not hold.  tools/fuzz/libfuzzer.c gives them to libFuzzer (make fuzz), tests/test_fuzz.c
  * replays the files of tests/fuzz (make test). */
 #ifndef ROLLBEM_FUZZ_H
 #define ROLLBEM_FUZZ_H

@@ -1,5 +1,5 @@
 /* Typesets the ```math blocks of Markdown files by Debian's KaTeX: no script runs in the browser.
- *  usage: node scripts/site-math.mjs FILE.md... */
+ *  usage: node tools/scripts/site-math.mjs FILE.md... */
 import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 
