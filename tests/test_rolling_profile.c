@@ -4,6 +4,7 @@
 #include "profiles.h"
 #include "solved.h"
 
+#include <gsl/gsl_math.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 
@@ -166,6 +167,166 @@ TEST(the_spline_passes_through_its_points)
                   "straight");
         CHECK_REL(one, -1e6 * step, 1e-4, "slope at the end");
     }
+}
+
+/* ---- Corners ----------------------------------------------------------------------- */
+
+static double chamfered(double at)
+{
+    return 0.2 * fmax(0.0, fabs(at) - 2.0);
+}
+
+static double grooved(double at) /* walls of 0.1 mm */
+{
+    return at * at / 100.0 + 0.05 * fmin(fmax(5.0 - 10.0 * fabs(at), 0.0), 1.0);
+}
+
+static double cliff(double at)
+{
+    return at * at / 100.0 + 5.0 * fmin(fmax((at - 1.0) / 1e-3, 0.0), 1.0);
+}
+
+static double roof(double at)
+{
+    return 0.1 * fabs(at) + at * at / 100.0;
+}
+
+static double dented(double at)
+{
+    return at * at / 100.0 + 0.02 * exp(-0.5 * at * at / 0.04);
+}
+
+static double wavy(double at)
+{
+    return at * at / 100.0 + 0.01 * cos(2.0 * M_PI * (at + 0.037));
+}
+
+/* How much steeper the curve is behind a point. */
+static double bend(const rb_rolling_profile *p, double at)
+{
+    const double e = 1e-6, g = rb_rolling_profile_gap(p, at);
+    return (rb_rolling_profile_gap(p, at + e) - 2.0 * g + rb_rolling_profile_gap(p, at - e)) / e;
+}
+
+/* Rows wherever there is a multiple of the step, and at the ends of a steep wall. */
+static int rows_of(double (*shape)(double), double step)
+{
+    int n = 0;
+    for (double at = -4.0; at < 4.0 + 0.5 * step; at += step) {
+        x[n] = at;
+        gap[n] = shape(at);
+        n++;
+        if (shape == cliff && at <= 1.0 && at + step > 1.001) {
+            x[n] = 1.001;
+            gap[n] = shape(1.001);
+            n++;
+        }
+    }
+    return n;
+}
+
+/* Straight and smooth stretches stay what they are up to their corners, and what is smooth has
+ * none: its slope changes from one side of a row to the other by what 1e-6 mm make of it. */
+TEST(the_curve_breaks_at_corners_alone)
+{
+    static const struct {
+        double (*shape)(double), step, error; /* error: of the smooth stretches between rows */
+        double corner[2], bend[2];            /* NAN: none */
+    } rows[] = {{chamfered, 2.0, 1e-12, {-2.0, 2.0}, {0.2, 0.2}},
+                {chamfered, 0.5, 1e-12, {-2.0, 2.0}, {0.2, 0.2}},
+                {chamfered, 0.1, 1e-12, {-2.0, 2.0}, {0.2, 0.2}},
+                {grooved, 0.1, 3e-5, {-0.4, 0.5}, {-0.5, 0.5}},
+                {grooved, 0.05, 1e-5, {0.4, -0.5}, {-0.5, 0.5}},
+                {cliff, 0.25, 1e-4, {1.0, 1.001}, {5e3, -5e3}},
+                {cliff, 0.01, 1e-6, {1.0, 1.001}, {5e3, -5e3}},
+                {roof, 1.0, 1e-3, {0.0, NAN}, {0.2, NAN}},
+                {roof, 0.1, 1e-5, {0.0, NAN}, {0.2, NAN}},
+                {dented, 0.1, 2e-5, {NAN, NAN}, {NAN, NAN}},
+                {wavy, 0.1, 2e-4, {NAN, NAN}, {NAN, NAN}},
+                {wavy, 0.05, 5e-5, {NAN, NAN}, {NAN, NAN}}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        const int n = rows_of(rows[k].shape, rows[k].step);
+        held_profile *p = profile_of(n, x, gap, 0.0);
+        int corners = 0;
+        for (int i = 0; i + 1 < n; i++)
+            for (double t = 0.01; t < 1.0; t += 0.07) {
+                const double at = x[i] + t * (x[i + 1] - x[i]);
+                CHECK_ABS(rb_rolling_profile_gap(p, at), rows[k].shape(at), rows[k].error,
+                          "row %zu, x = %g", k + 1, at);
+            }
+        for (int i = 1; i + 1 < n; i++)
+            corners += fabs(bend(p, x[i])) > 1e-4;
+        for (int j = 0; j < 2 && !isnan(rows[k].corner[j]); j++)
+            CHECK_REL(bend(p, rows[k].corner[j]), rows[k].bend[j], 0.05, "row %zu, corner", k + 1);
+        assert_int_equal(corners, isnan(rows[k].corner[0])   ? 0
+                                  : isnan(rows[k].corner[1]) ? 1
+                                  : rows[k].shape == grooved ? 4
+                                                             : 2);
+    }
+}
+
+/* Coarse rows do not tell a corner from a bend: the curve keeps between them. */
+TEST(what_is_flat_or_rises_stays_so)
+{
+    for (double step = 0.15; step < 1.9; step += 0.05) {
+        const int n = rows_of(chamfered, step);
+        held_profile *p = profile_of(n, x, gap, 0.0);
+        for (int i = 1; i + 2 < n; i++)
+            for (double t = 0.0; t <= 1.0; t += 0.05) {
+                if (gap[i] < gap[i - 1] && gap[i + 1] < gap[i + 2]) /* a minimum in between */
+                    continue;
+                const double at = x[i] + t * (x[i + 1] - x[i]);
+                const double g = rb_rolling_profile_gap(p, at);
+                if (!(g >= fmin(gap[i], gap[i + 1]) - 1e-13 &&
+                      g <= fmax(gap[i], gap[i + 1]) + 1e-13))
+                    fail_msg("rows every %g mm: %g at x = %g, between %g and %g", step, g, at,
+                             gap[i], gap[i + 1]);
+            }
+    }
+}
+
+/* Of a grooved roller, six rows of it and 81: it touches beside the groove only. */
+TEST(a_groove_stays_open)
+{
+    static const double u[] = {-4.0, -0.51, -0.5, 0.5, 0.51, 4.0},
+                        g[] = {0.16, 0.0026, 0.0525, 0.0525, 0.0026, 0.16};
+    const double reach[] = {0.64, 0.9};
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = half_plane(RB_STATIC, 120);
+        set(&rc, "young 210000 poisson 0.3 similar mu 0 load 1000");
+        const int n = k ? rows_of(grooved, 0.1) : 6;
+        held_profile *p = profile_of(n, k ? x : u, k ? gap : g, 0.0);
+        rc.gap = RB_GAP_TABLE;
+        rc.profile = p;
+        OWNED(rb_rolling_solution) s = solved(&rc);
+        assert_int_equal(s.patches, 2);
+        CHECK_ABS(s.patch[1].from, 0.505, 0.01, "beside the groove");
+        CHECK_REL(s.patch[1].to, reach[k], 0.01, "table %d", k + 1);
+        CHECK_REL(s.patch[0].to, -s.patch[1].from, 1e-3, "both sides alike");
+        const rb_rolling_note_list notes = rb_rolling_find_notes(&rc, &s);
+        assert_non_null(strstr(notes.text[0], "has 4 corners, at x = -0.5"));
+    }
+}
+
+/* Steep walls of an irregularity do not swing, and are no higher than in its table. */
+TEST(an_irregularity_stays_within_its_table)
+{
+    static const double u[] = {-1.0, -0.5, -0.49, 0.49, 0.5, 1.0},
+                        rise[] = {0.0, 0.0, 0.02, 0.02, 0.0, 0.0};
+    rb_rolling_case rc = half_plane(RB_TRANSIENT, 1000);
+    set(&rc, "gap parabola");
+    rb_rolling_case smooth = rc;
+    rc.irregularity = (rb_rolling_table){6, u, rise};
+    rb_rolling_mesh mesh, without;
+    CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -1.2, 1.2, &mesh, &heard));
+    CHECK_OK(rb_rolling_mesh_uniform(&smooth, NULL, -1.2, 1.2, &without, &heard));
+    for (int i = 0; i < mesh.n; i++) {
+        const double at = 0.5 * (mesh.ends[i] + mesh.ends[i + 1]),
+                     high = mesh.gap[i] - without.gap[i];
+        CHECK_ABS(high, 0.02 * fmin(fmax((0.5 - fabs(at)) / 0.01, 0.0), 1.0), 1e-12, "x = %g", at);
+    }
+    rb_rolling_mesh_free(&mesh);
+    rb_rolling_mesh_free(&without);
 }
 
 static void check_refused(int n, const double *u, const double *g, double noise, const char *text)

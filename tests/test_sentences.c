@@ -15,6 +15,10 @@
 #define SOFT                                                                                       \
     "--support halfplane --gap parabola --young 1e8 --poisson 0.3 --radius 100 --load 10 "         \
     "--mu 0.3 --contact-elements 40 "
+#define ROOF                                                                                       \
+    "--similar --support halfplane --young 210000 --poisson 0.3 --radius 100 --mu 0 "              \
+    "--gap roof.txt "
+#define PASSES CARTER "--formulation transient --creep-ratio 0.3 --distance 0.1 "
 #define FALLS                                                                                      \
     ROLLS "--creep-ratio 0.5 --friction-law exponential --mu-fall 0.2 --speed 1000 --slip-scale "
 
@@ -58,9 +62,16 @@ static const struct {
      "--support halfplane --gap parabola --young 1 --poisson 0.4 --radius 50 --mu 0 "
      "--approach 0.5 --relaxation-time 100 --relaxation-ratio 10 --formulation transient "
      "--speed 1 --creep 0 --contact-elements 16 --distance 0.5"},
-    {"worn-corners", "The worn table has corners in the contact",
+    {"pressed-corners", "The worn table has corners in the contact",
      FRETS "--mu 0 --mesh uniform --worn corners.txt",
      FRETS "--mu 0 --mesh uniform --worn flat.txt"},
+    {"pressed-corners", "The gap has corners in the contact, where the pressure is infinite",
+     ROOF "--load 100", ROOF "--load 100 --gap parabola.txt"},
+    {"gap-corners", "The table of --gap has 1 corner, at x = 0 mm: the slope", ROOF "--load 100",
+     ROOF "--load 100 --gap parabola.txt"},
+    {"irregularity-corners",
+     "The table of --irregularity has 3 corners, at x = 0.5, 0.6 and 0.9 mm",
+     PASSES "--irregularity step.txt", PASSES "--irregularity bump.txt"},
     {"static-creepage", "In a static case --creep does not change the tractions",
      FRETS "--creep 0.001", FRETS "--shift 0.001"},
     {"no-creepage", "the wheel rolls at creepage 0", ROLLS, ROLLS "--force 0"},
@@ -132,6 +143,15 @@ static int write_gaps(void)
     fclose(punch);
     fclose(round);
     write_file("corners.txt", "-0.2 0\n-0.1 1e-4\n0 0\n0.1 1e-4\n0.2 0\n");
+    write_file("roof.txt", "-2 .002\n-1.5 .0015\n-1 .001\n-.5 .0005\n0 0\n.5 .0005\n1 .001\n"
+                           "1.5 .0015\n2 .002\n");
+    write_file("parabola.txt", "-2 .02\n-1.5 .01125\n-1 .005\n-.5 .00125\n0 0\n.5 .00125\n1 .005\n"
+                               "1.5 .01125\n2 .02\n");
+    write_file("step.txt",
+               "0 0\n.1 0\n.2 0\n.3 0\n.4 0\n.5 0\n.6 .001\n.7 .001\n.8 .001\n.9 .001\n1 0\n");
+    write_file("bump.txt",
+               "0 0\n.25 .0001464\n.5 .0005\n.75 .0008536\n1 .001\n1.25 .0008536\n1.5 .0005\n"
+               "1.75 .0001464\n2 0\n");
     write_file("flat.txt", "-0.2 0\n-0.1 1e-9\n0 0\n0.1 1e-9\n0.2 0\n");
     return 0;
 }

@@ -121,15 +121,19 @@ typedef struct {
     const double *x, *y;
 } rb_rolling_table;
 
-/* A measured gap g_0(x) [length]: n points with increasing x, interpolated by a cubic
- * spline; the pressure follows the curvature of the gap, and that of a spline is
- * continuous.  noise 0: the spline passes through the points.  noise > 0: standard
+/* A measured gap g_0(x) [length]: n points with increasing x, interpolated by cubic
+ * splines between the corners of the data; the pressure follows the curvature of the gap,
+ * and that of a spline is continuous.  noise 0: the curve passes through the points.  noise > 0: standard
  * deviation of the noise of the points [length]; the spline is the smoothest curve whose
  * root mean square distance to the points is that small.  RB_EINVAL: too few points, x
  * does not increase, or the smallest gap is at an end, so that the table does not enclose
  * a contact; why names the row.  RB_ENOMEM. */
 typedef struct rb_rolling_profile rb_rolling_profile;
 rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, double noise,
+                                    rb_rolling_profile **profile, rb_message *why);
+/* The same as one cubic spline without corners, which changes smoothly with its points: of a gap
+ * that is searched for. */
+rb_status rb_rolling_profile_smooth(int n, const double *x, const double *gap,
                                     rb_rolling_profile **profile, rb_message *why);
 void rb_rolling_profile_free(rb_rolling_profile *profile);
 /* The first and the last x of the profile. */

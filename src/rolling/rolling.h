@@ -30,7 +30,27 @@ rb_status rb_rolling_check_ranges(const rb_rolling_case *rc, const rb_rolling_ca
 rb_status rb_rolling_check_option(const rb_option *option, double value, rb_message *why);
 rb_status rb_rolling_check_number(const char *option, double value, rb_message *why);
 
+/* ---- interpolant.c ----------------------------------------------------------------- */
+
+/* A curve through n >= 3 points with increasing x: a cubic spline, with zero curvature at both
+ * ends, that breaks off at the corners of the data and where it would leave them.  Beyond the ends
+ * it goes straight on.  is_smooth: 1: one spline in any case.  RB_ENOMEM. */
+typedef struct rb_rolling_interpolant rb_rolling_interpolant;
+rb_status rb_rolling_interpolant_create(int n, const double *x, const double *y, int is_smooth,
+                                        rb_rolling_interpolant **interpolant);
+void rb_rolling_interpolant_free(rb_rolling_interpolant *interpolant);
+double rb_rolling_interpolant_at(const rb_rolling_interpolant *interpolant, double x);
+/* Number and abscissae of its points; of its corners, and by how much the slope is larger behind
+ * each; borrowed. */
+int rb_rolling_interpolant_rows(const rb_rolling_interpolant *interpolant, const double **x);
+int rb_rolling_interpolant_corners(const rb_rolling_interpolant *interpolant, const double **x,
+                                   const double **bend);
+
 /* ---- profile.c --------------------------------------------------------------------- */
+
+/* Corners of the profile, as of its interpolant. */
+int rb_rolling_profile_corners(const rb_rolling_profile *profile, const double **x,
+                               const double **bend);
 
 /* Number and abscissae of the points of the spline; borrowed. */
 int rb_rolling_profile_rows(const rb_rolling_profile *profile, const double **x);
@@ -380,9 +400,13 @@ rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *wh
 /* The worn depth at x. */
 double rb_rolling_worn_depth(const rb_rolling_case *rc, double x);
 /* How much the largest pressure rises where elements get so many times shorter, because
- * the slope of the worn table turns by s at a row between `from` and `to`: there the
- * pressure is infinite, p = -E* s ln|x| / (2 pi) + ..., up to the next row. */
+ * the slope of the worn table, or of the gap's, turns by s at a corner between `from` and
+ * `to`: there the pressure is infinite, p = -E* s ln|x| / (2 pi) + ..., up to the next one. */
 double rb_rolling_rise_at_corners(const rb_rolling_case *rc, double from, double to, double element,
+                                  double times);
+/* The same in the patches of a solution, in mm, N, MPa, but for corners so near an edge that the
+ * surface is pressed on one side of them only. */
+double rb_rolling_rise_in_patches(const rb_rolling_case *rc, const rb_rolling_solution *s,
                                   double times);
 /* The undeformed gap at n places, with the irregularity moved by `passed`.  RB_ENOMEM. */
 rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n, const double *x,

@@ -211,7 +211,7 @@ static rb_status set_profile(problem *p, const double *x, int varied, double val
     for (int k = 0; k < d->gap_n && s == RB_OK; k++)
         gap[k] = k == varied ? value : x[d->gap_from + k];
     if (s == RB_OK)
-        s = rb_rolling_profile_create(d->gap_n, d->gap_x, gap, 0.0, &p->profile[p->profiles], why);
+        s = rb_rolling_profile_smooth(d->gap_n, d->gap_x, gap, &p->profile[p->profiles], why);
     if (s == RB_OK)
         rc->profile = p->profile[p->profiles++];
     free(gap);

@@ -1,7 +1,7 @@
 #include "rolling/rolling.h"
 
 #include <gsl/gsl_math.h>
-#include <gsl/gsl_spline.h>
+#include <gsl/gsl_interp.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -31,10 +31,18 @@ double rb_rolling_worn_depth(const rb_rolling_case *rc, double x)
     return t > 0.0 ? (1.0 - t) * rc->worn.y[i] + t * rc->worn.y[i + 1] : rc->worn.y[i];
 }
 
+/* How much steeper a corner makes the surface, times the logarithm of what shorter elements see of
+ * it more; before, behind: how far the surface is straight or smooth on either side. */
+static double rise_at(double turn, double before, double behind, double element, double times)
+{
+    const double shorter = times * fmin(before, behind) / element;
+    return turn > 0.0 && shorter > 1.0 ? turn * log(fmin(times, shorter)) : 0.0;
+}
+
 double rb_rolling_rise_at_corners(const rb_rolling_case *rc, double from, double to, double element,
                                   double times)
 {
-    const double *x = rc->worn.x, *y = rc->worn.y;
+    const double *x = rc->worn.x, *y = rc->worn.y, *bend;
     double most = 0.0;
 
     if (rc->interlayer_normal > 0.0) /* which rounds the corner off */
@@ -44,10 +52,16 @@ double rb_rolling_rise_at_corners(const rb_rolling_case *rc, double from, double
         const double behind = i + 1 < rc->worn.n ? x[i + 1] - x[i] : INFINITY;
         const double turn = (i + 1 < rc->worn.n ? (y[i + 1] - y[i]) / behind : 0.0) -
                             (i > 0 ? (y[i] - y[i - 1]) / before : 0.0);
-        const double shorter = times * fmin(before, behind) / element;
-        if (x[i] > from && x[i] < to && turn > 0.0 && shorter > 1.0)
-            most = fmax(most, turn * log(fmin(times, shorter)));
+        if (x[i] > from && x[i] < to)
+            most = fmax(most, rise_at(turn, before, behind, element, times));
     }
+    const int corners =
+        rc->gap == RB_GAP_TABLE ? rb_rolling_profile_corners(rc->profile, &x, &bend) : 0;
+    for (int i = 0; i < corners; i++)
+        if (x[i] > from && x[i] < to)
+            most =
+                fmax(most, rise_at(bend[i], i > 0 ? x[i] - x[i - 1] : INFINITY,
+                                   i + 1 < corners ? x[i + 1] - x[i] : INFINITY, element, times));
     return rb_rolling_derive(rc).modulus * most / (2.0 * M_PI);
 }
 
@@ -86,22 +100,21 @@ rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n, 
 {
     for (int i = 0; i < n; i++)
         gap[i] = rb_rolling_initial_gap(rc, x[i]);
-    /* A cubic spline: the pressure follows the curvature, which it keeps continuous. */
     if (!(rc->irregularity.n > 0))
         return RB_OK;
-    const size_t rows = (size_t)rc->irregularity.n;
+    const int rows = rc->irregularity.n;
     const double *row = rc->irregularity.x;
-    gsl_spline *spline = gsl_spline_alloc(gsl_interp_cspline, rows);
+    rb_rolling_interpolant *curve;
+    const rb_status s = rb_rolling_interpolant_create(rows, row, rc->irregularity.y, 0, &curve);
 
-    if (!spline)
-        return RB_ENOMEM;
-    gsl_spline_init(spline, row, rc->irregularity.y, rows);
+    if (s != RB_OK)
+        return s;
     for (int i = 0; i < n; i++) {
         const double place = x[i] + passed;
         if (place > row[0] && place < row[rows - 1])
-            gap[i] += gsl_spline_eval(spline, place, NULL);
+            gap[i] += rb_rolling_interpolant_at(curve, place);
     }
-    gsl_spline_free(spline);
+    rb_rolling_interpolant_free(curve);
     return RB_OK;
 }
 

@@ -1,10 +1,9 @@
-/* A measured gap as a curve: the cubic spline through its points or, where they carry
- * noise, through the smoothest curve that stays as close to them as the noise is large.
- * The pressure follows the curvature of the gap, which a cubic spline keeps continuous. */
+/* A measured gap as a curve: through its points or, where they carry noise, the smoothest curve
+ * that stays as close to them as the noise is large.  The pressure follows the curvature of the
+ * gap, which a cubic spline keeps continuous. */
 #include "rolling/rolling.h"
 
 #include <gsl/gsl_math.h>
-#include <gsl/gsl_spline.h>
 #include <lapacke.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +18,7 @@ enum {
 static const double WEAKEST = 1e-6, STRONGEST = 1e12;
 
 struct rb_rolling_profile {
-    gsl_spline *spline;
+    rb_rolling_interpolant *curve;
     double from, to;
 };
 
@@ -182,8 +181,9 @@ static rb_status smooth(int n, const double *x, const double *gap, double noise,
     return RB_OK;
 }
 
-rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, double noise,
-                                    rb_rolling_profile **profile, rb_message *why)
+/* is_smooth: 1: without corners. */
+static rb_status create(int n, const double *x, const double *gap, double noise, int is_smooth,
+                        rb_rolling_profile **profile, rb_message *why)
 {
     *profile = NULL;
     rb_status s = rb_rolling_points_check("gap", n, x, gap, why);
@@ -213,8 +213,7 @@ rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, d
         const double *at = noise > 0.0 ? smoothed.x : x, *y = noise > 0.0 ? smoothed.gap : gap;
         p->from = at[0];
         p->to = at[rows - 1];
-        p->spline = gsl_spline_alloc(gsl_interp_cspline, rows);
-        s = p->spline && gsl_spline_init(p->spline, at, y, rows) == 0 ? RB_OK : RB_ENOMEM;
+        s = rb_rolling_interpolant_create((int)rows, at, y, is_smooth, &p->curve);
     }
     rb_arena_free(&scratch);
     if (s != RB_OK) {
@@ -225,10 +224,22 @@ rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, d
     return RB_OK;
 }
 
+rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, double noise,
+                                    rb_rolling_profile **profile, rb_message *why)
+{
+    return create(n, x, gap, noise, noise > 0.0, profile, why);
+}
+
+rb_status rb_rolling_profile_smooth(int n, const double *x, const double *gap,
+                                    rb_rolling_profile **profile, rb_message *why)
+{
+    return create(n, x, gap, 0.0, 1, profile, why);
+}
+
 void rb_rolling_profile_free(rb_rolling_profile *profile)
 {
-    if (profile && profile->spline)
-        gsl_spline_free(profile->spline);
+    if (profile)
+        rb_rolling_interpolant_free(profile->curve);
     free(profile);
 }
 
@@ -240,14 +251,16 @@ void rb_rolling_profile_range(const rb_rolling_profile *profile, double *from, d
 
 int rb_rolling_profile_rows(const rb_rolling_profile *profile, const double **x)
 {
-    *x = profile->spline->x;
-    return (int)profile->spline->size;
+    return rb_rolling_interpolant_rows(profile->curve, x);
+}
+
+int rb_rolling_profile_corners(const rb_rolling_profile *profile, const double **x,
+                               const double **bend)
+{
+    return rb_rolling_interpolant_corners(profile->curve, x, bend);
 }
 
 double rb_rolling_profile_gap(const rb_rolling_profile *profile, double x)
 {
-    const double inside = fmin(fmax(x, profile->from), profile->to);
-
-    return gsl_spline_eval(profile->spline, inside, NULL) +
-           (x - inside) * gsl_spline_eval_deriv(profile->spline, inside, NULL);
+    return rb_rolling_interpolant_at(profile->curve, x);
 }

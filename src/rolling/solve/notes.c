@@ -167,26 +167,62 @@ static int short_memory(const rb_rolling_case *rc, const rb_rolling_solution *s,
                rolls ? "times as many --contact-elements" : "s as --time-step");
 }
 
-static int worn_corners(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+/* A number of corners, at most MOST of them with their places. */
+static int list_corners(char *text, const char *option, rb_units units, int corners,
+                        const double *x)
+{
+    enum { MOST = 4 };
+    char places[120] = "";
+
+    for (int k = 0; k < corners && k < MOST; k++)
+        rb_append(places, sizeof places, "%s%.5g",
+                  k == 0                              ? ""
+                  : k + 1 == corners || k + 1 == MOST ? " and "
+                                                      : ", ",
+                  rb_unit_shown(units, "mm", x[k]));
+    return corners > 0 &&
+           say(text,
+               "The table of --%s has %d corner%s, at x = %s %s%s: the slope of the curve through "
+               "its points jumps there.",
+               option, corners, corners > 1 ? "s" : "", places, rb_unit_name(units, "mm"),
+               corners > MOST ? " and so on" : "");
+}
+
+static int gap_corners(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    const double *x = NULL, *bend;
+    const int corners =
+        rc->gap == RB_GAP_TABLE ? rb_rolling_profile_corners(rc->profile, &x, &bend) : 0;
+
+    return list_corners(text, "gap", s->units, corners, x);
+}
+
+static int irregularity_corners(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    const rb_rolling_table *table = &rc->irregularity;
+    const double *x, *bend;
+    rb_rolling_interpolant *curve = NULL;
+
+    if (table->n == 0 ||
+        rb_rolling_interpolant_create(table->n, table->x, table->y, 0, &curve) != RB_OK)
+        return 0;
+    const int corners = rb_rolling_interpolant_corners(curve, &x, &bend);
+    const int said = list_corners(text, "irregularity", s->units, corners, x);
+    rb_rolling_interpolant_free(curve);
+    return said;
+}
+
+static int pressed_corners(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
     static const double much = 0.02;
-    double longest = 0.0;
+    const double rise = rb_unit_shown(s->units, "MPa", rb_rolling_rise_in_patches(rc, s, 2.0));
 
-    for (int i = 0; i < s->n; i++)
-        if (s->p[i] > 0.0)
-            longest = fmax(longest, rb_unit_stored(s->units, "mm", s->h[i]));
-    if (!(longest > 0.0))
-        return 0;
-    const double rise = rb_unit_shown(
-        s->units, "MPa",
-        rb_rolling_rise_at_corners(rc, rb_unit_stored(s->units, "mm", s->contact_from),
-                                   rb_unit_stored(s->units, "mm", s->contact_to), longest, 2.0));
-    if (!(rise > much * s->max_pressure))
-        return 0;
-    return say(text,
-               "The worn table has corners in the contact, where the pressure is infinite: p0 "
-               "rises by %.2g %s each time the elements are halved. Give the table more rows.",
-               rise, rb_unit_name(s->units, "MPa"));
+    return rise > much * s->max_pressure &&
+           say(text,
+               "The %s has corners in the contact, where the pressure is infinite: p0 rises by "
+               "%.2g %s each time the elements are halved.%s",
+               rc->worn.n > 0 ? "worn table" : "gap", rise, rb_unit_name(s->units, "MPa"),
+               rc->worn.n > 0 ? " Give the table more rows." : "");
 }
 
 /* How far a uniform traction of one on a strip of half-width a moves it on average, times pi:
@@ -453,7 +489,9 @@ static const struct {
     {"flat-layer", flat_layer},
     {"near-datum", near_datum},
     {"short-memory", short_memory},
-    {"worn-corners", worn_corners},
+    {"gap-corners", gap_corners},
+    {"irregularity-corners", irregularity_corners},
+    {"pressed-corners", pressed_corners},
     {"static-creepage", static_creepage},
     {"no-creepage", no_creepage},
     {"percent", percent},

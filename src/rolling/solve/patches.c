@@ -244,3 +244,19 @@ double rb_rolling_longest_element(int n, const int *zone, const double *h)
             longest = fmax(longest, h[i]);
     return longest;
 }
+
+double rb_rolling_rise_in_patches(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                                  double times)
+{
+    double element = 0.0, most = 0.0;
+
+    for (int i = 0; i < s->n; i++)
+        if (s->zone[i] != RB_ZONE_SEPARATED)
+            element = fmax(element, rb_unit_stored(s->units, "mm", s->h[i]));
+    for (int k = 0; k < s->patches && element > 0.0; k++)
+        most = fmax(most,
+                    rb_rolling_rise_at_corners(
+                        rc, rb_unit_stored(s->units, "mm", s->patch[k].from) + element,
+                        rb_unit_stored(s->units, "mm", s->patch[k].to) - element, element, times));
+    return most;
+}

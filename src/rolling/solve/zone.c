@@ -142,6 +142,7 @@ static rb_status unless_open(const rb_rolling_model *model, rb_status s, rb_mess
  * by side. */
 static int elements_for(const rb_rolling_model *model, interval zone)
 {
+    static const double a_little_less = 1.0 - 1e-9; /* rounding makes 512 of 512.0000001 */
     const int n = model->plan.elements;
     rb_rolling_run run = {.last = -1};
     double covered = 0.0;
@@ -150,9 +151,10 @@ static int elements_for(const rb_rolling_model *model, interval zone)
     for (; rb_rolling_next_merged_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run);
          patches++)
         covered += run.to - run.from;
-    return patches < 2 ? n
-                       : (int)fmin(RB_ROLLING_MOST_ELEMENTS,
-                                   fmax(n, ceil(n * width(zone) / (1.5 * covered))));
+    return patches < 2
+               ? n
+               : (int)fmin(RB_ROLLING_MOST_ELEMENTS,
+                           fmax(n, ceil(a_little_less * n * width(zone) / (1.5 * covered))));
 }
 
 static rb_status equal_elements(const rb_rolling_model *model, interval zone, int elements,

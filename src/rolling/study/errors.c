@@ -220,8 +220,7 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
                             fabs(rb_rolling_derive(rc).dundurs) * unresolved;
         return rounding * s->max_pressure +
                (of_stress ? rise : fmax(0.0, unresolved + rise - s->max_pressure)) +
-               rb_rolling_rise_at_corners(rc, s->contact_from, s->contact_to,
-                                          rb_rolling_longest_element(s->n, s->zone, s->h), 10.0);
+               rb_rolling_rise_in_patches(rc, s, 10.0);
     }
     case RB_SCALE_POWER: {
         /* where no element slips, all of what the force does beside free rolling */
