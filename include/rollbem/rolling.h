@@ -123,8 +123,8 @@ typedef struct {
 
 /* A measured gap g_0(x) [length]: n points with increasing x, interpolated by cubic
  * splines between the corners of the data; the pressure follows the curvature of the gap,
- * and that of a spline is continuous.  noise 0: the curve passes through the points.  noise > 0: standard
- * deviation of the noise of the points [length]; the spline is the smoothest curve whose
+ * and that of a spline is continuous.  noise 0: the curve passes through the points.  noise > 0:
+ * standard deviation of the noise of the points [length]; the spline is the smoothest curve whose
  * root mean square distance to the points is that small.  RB_EINVAL: too few points, x
  * does not increase, or the smallest gap is at an end, so that the table does not enclose
  * a contact; why names the row.  RB_ENOMEM. */
