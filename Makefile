@@ -55,13 +55,14 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst tools/bench/%.c,$(B)/bench/%,$(wildcard tools/bench/bench_*.c))
 
-.PHONY: journeys dist deb release site course page page-where-possible page-test page-format page-lint python-test install-python all run test test-all check-tests kernels covered-tests asan asan-short short-tests fuzz mutants coverage hostile endurance platforms analyse check-format bench install uninstall help clean packages check-packages study
+.PHONY: some-tests journeys dist deb release site course page page-where-possible page-test page-format page-lint python-test install-python all run test test-all check-tests kernels covered-tests asan asan-short short-tests fuzz mutants coverage hostile endurance platforms analyse check-format bench install uninstall help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
 	@echo "make            build $(B)/rollbem and the libraries (installs nothing)"
 	@echo "make run        install missing packages, build, solve and print a wheel on a rail"
-	@echo "make test       install missing packages, build, run all tests"
+	@echo "make test       install missing packages, build, run all tests; T=rolling_wheel: that one"
+	@echo "                T=rolling_wheel NAME=a_test: that function; ROLLBEM_TEST_TURN=N: which rows of long tests"
 	@echo "make test-all   the same without leaving out any case of the long tests, then the campaigns of docs/reliability.md"
 	@echo "make asan       the tests under the address and undefined-behaviour sanitizers"
 	@echo "make asan-short some of them"
@@ -97,8 +98,14 @@ run: packages
 	@$(B)/rollbem --example rail --creep-ratio 0.4 --format brief
 	@echo "Next: $(B)/rollbem help, $(B)/rollbem examples, --plot rail.png for a picture, make test"
 
+# make test T=rolling_wheel builds and runs one program, tests/test_rolling_wheel.c; T="rolling_heat
+# rolling_wear" those two; NAME=a_test, or a pattern, picks functions of one
+T ?=
+NAME ?=
 test: packages
-	@$(MAKE) --no-print-directory B=$(B) check-tests
+	@$(MAKE) --no-print-directory B=$(B) $(if $(T),some-tests,check-tests)
+some-tests: all $(T:%=$(B)/tests/test_%)
+	@$(if $(NAME),B=$(B) CMOCKA_MESSAGE_OUTPUT=STDOUT $(T:%=$(B)/tests/test_%) '$(NAME)',B=$(B) ROLLBEM_TEST_VERBOSE=1 tests/run $(T:%=$(B)/tests/test_%))
 
 # tests with more cases than a minute allows run a part of them unless this variable is set; then
 # the campaigns of docs/reliability.md in sizes that fit into an hour

@@ -29,10 +29,13 @@
         add_test_(__LINE__, &test);                                                                \
     }                                                                                              \
     static void name(void **state)
-/* At the end of the file: main, with what is done before all of them and behind them. */
+/* At the end of the file: main, with what is done before all of them and behind them.  The program
+ * takes the name of a test, or a pattern with * and ?, and then runs that alone. */
 #define RUN_TESTS(before, behind)                                                                  \
-    int main(void)                                                                                 \
+    int main(int argc, char **argv)                                                                \
     {                                                                                              \
+        if (argc > 1)                                                                              \
+            cmocka_set_test_filter(argv[1]);                                                       \
         return run_all_tests(before, behind);                                                      \
     }
 
@@ -241,6 +244,15 @@ static inline const char *outside_data(const char *name)
         skip();
     snprintf(path, sizeof path, "%s/%s", root, name);
     return path;
+}
+
+/* A test that is too long for every run takes its items in turn: 1 where item k belongs to this
+ * run, one of `parts`.  The turn is ROLLBEM_TEST_TURN (tests/run takes the day of the year and
+ * prints it), 0 where it is not set; ROLLBEM_TEST_ALL runs all. */
+static inline int is_in_turn(int k, int parts)
+{
+    const char *turn = getenv("ROLLBEM_TEST_TURN");
+    return getenv("ROLLBEM_TEST_ALL") || (k + (turn ? atoi(turn) : 0)) % parts == 0;
 }
 
 /* 1 under the address sanitizer, which reserves terabytes and replaces malloc. */
