@@ -1,8 +1,10 @@
 /* The mesh that the program chooses: who asks for more elements gets no larger error, whatever the
- * bodies are. */
+ * bodies are, and elements are as short as the tables of a case. */
 #include "case_words.h"
+#include "cli_run.h"
 #include "rollbem/case.h"
 
+#include <gsl/gsl_math.h>
 #include <math.h>
 
 /* Differences of a solution from a finer one: Q/(mu P), or the creepage of a given force in units
@@ -68,4 +70,134 @@ TEST(more_elements_never_give_a_larger_error)
     }
 }
 
-RUN_TESTS(NULL, NULL)
+/* ---- Tables ------------------------------------------------------------------------ */
+
+/* A file of rows x, shape(x) from -to to to. */
+static void write_rows(const char *path, double to, double step, double (*shape)(double))
+{
+    FILE *f = NOT_NULL(fopen(path, "w"));
+    const int n = (int)lround(2.0 * to / step);
+    for (int i = 0; i <= n; i++)
+        fprintf(f, "%.10g %.17g\n", -to + i * step, shape(-to + i * step));
+    fclose(f);
+}
+
+static const double radius = 5305.164769729845;
+
+static double waves(double x)
+{
+    return x * x / (2.0 * radius) + 0.001 * (1.0 - cos(2.0 * M_PI * x));
+}
+
+static double parabola(double x)
+{
+    return x * x / 200.0;
+}
+
+static double friction(double x)
+{
+    return 0.3 + 0.1 * cos(2.0 * M_PI * x / 0.03333);
+}
+
+static double scratched(double x)
+{
+    return fabs(x) < 1.0 ? 1e-4 * (1.0 + cos(2.0 * M_PI * x / 0.05)) * (1.0 - x * x) : 0.0;
+}
+
+static double burr(double x)
+{
+    return 5e-4 * (1.0 - cos(2.0 * M_PI * x / 0.2)) * gsl_pow_2(1.0 - x * x / 4.0);
+}
+
+static const char *const steel =
+    "similar yes support halfplane young 210000 poisson 0.3 radius 100 "
+    "half-width 1";
+
+/* Words of a case, and what is solved of it without more of them. */
+static rb_case *solve_words(const char *const part[], rb_case_result *r)
+{
+    words w = {{NULL}};
+    for (int k = 0; part[k]; k++)
+        w.word[k] = part[k];
+    rb_case *c = case_of(RB_CASE_SINGLE, &w, NULL, 0.0);
+    if (rb_case_solve(rb_case_resolved(c), NULL, NULL, r, &heard) != RB_OK)
+        fail_msg("%s: %s", part[0], heard.text);
+    return c;
+}
+
+/* Westergaard's waves of p0 = 485.7 (theory.md 6), 50 rows each: 60 elements see every other
+ * half of them and find 235.5; and the bar holds there, too. */
+TEST(elements_follow_the_waves_of_a_gap)
+{
+    static const char base[] = "gap waves.txt support halfplane young 1e5 poisson 0 mu 0 load "
+                               "5921.762640653615 radius 5305.164769729845 error yes";
+    static const double p0 = 485.69;
+    write_rows("waves.txt", 30.0, 0.02, waves);
+    for (int given = 0; given < 2; given++) {
+        OWNED(rb_case_result) r;
+        held_case *c = solve_words(
+            (const char *const[]){base, given ? "contact-elements 60" : NULL, NULL}, &r);
+        const rb_rolling_note_list notes =
+            rb_rolling_find_notes(&rb_case_resolved(c)->rc, &r.solution);
+        int told = 0;
+        for (int k = 0; k < notes.n; k++)
+            told |= strstr(notes.text[k], "shorter waves than the elements show") != NULL;
+        assert_int_equal(told, given);
+        CHECK_ABS(r.solution.max_pressure, p0, r.errors.scalar.max_pressure, "bar of p0");
+        if (!given) {
+            CHECK_REL(r.solution.max_pressure, p0, 1e-3, "p0");
+            assert_int_equal(r.solution.patches, 41);
+        }
+    }
+}
+
+/* Of friction, wear and what passes: the default elements are as good as many, bars of too few
+ * hold, and smooth tables ask for no more than usual. */
+TEST(elements_follow_every_table)
+{
+    static const struct {
+        const char *words;
+        int more; /* elements than usual: 1 */
+    } rows[] = {{"gap parabola.txt mu 0.3 contact-elements 60", 0},
+                {"gap parabola.txt mu 0.3", 0},
+                {"gap parabola formulation steady creep-ratio 0.5 friction-law friction.txt", 1},
+                {"gap parabola mu 0.3 worn scratches.txt", 1},
+                {"gap parabola mu 0.3 formulation transient creep-ratio 0.3 distance 0.02 "
+                 "irregularity burrs.txt",
+                 1}};
+    write_rows("parabola.txt", 2.0, 0.002, parabola);
+    write_rows("friction.txt", 2.0, 0.005, friction);
+    write_rows("scratches.txt", 1.0, 0.005, scratched);
+    write_rows("burrs.txt", 2.0, 0.01, burr);
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        OWNED(rb_case_result) r;
+        held_case *c = solve_words((const char *const[]){steel, rows[k].words, NULL}, &r);
+        const rb_rolling_case *rc = &rb_case_resolved(c)->rc;
+        assert_int_equal(rc->contact_elements > 100, rows[k].more);
+        if (!rows[k].more)
+            continue;
+        OWNED(rb_case_result) many, few;
+        held_case *of_many = solve_words(
+            (const char *const[]){steel, rows[k].words, "contact-elements 1500", NULL}, &many);
+        held_case *of_few = solve_words(
+            (const char *const[]){steel, rows[k].words, "error yes contact-elements 60", NULL},
+            &few);
+        assert_non_null(of_many);
+        assert_non_null(of_few);
+        CHECK_REL(r.solution.max_pressure, many.solution.max_pressure, 0.1, "row %zu: p0", k + 1);
+        CHECK_ABS(r.solution.tangential_load, many.solution.tangential_load,
+                  0.01 * rc->mu * r.solution.normal_load, "row %zu: Q", k + 1);
+        if (rc->formulation == RB_TRANSIENT) {
+            const rb_rolling_history *h = &few.history;
+            CHECK_ABS(h->max_pressure[h->n - 1], many.solution.max_pressure,
+                      h->errors->max_pressure[h->n - 1], "row %zu: bar of p0", k + 1);
+        } else {
+            CHECK_ABS(few.solution.max_pressure, many.solution.max_pressure,
+                      few.errors.scalar.max_pressure, "row %zu: bar of p0", k + 1);
+            CHECK_ABS(few.solution.tangential_load, many.solution.tangential_load,
+                      few.errors.scalar.tangential_load, "row %zu: bar of Q", k + 1);
+        }
+    }
+}
+
+RUN_TESTS(enter_folder, leave_folder)

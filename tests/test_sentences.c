@@ -67,6 +67,9 @@ static const struct {
      FRETS "--mu 0 --mesh uniform --worn flat.txt"},
     {"pressed-corners", "The gap has corners in the contact, where the pressure is infinite",
      ROOF "--load 100", ROOF "--load 100 --gap parabola.txt"},
+    {"coarse-elements", "give 340 --contact-elements for 60",
+     FRETS "--mu 0 --mesh uniform --worn saw.txt --contact-elements 60",
+     FRETS "--mu 0 --mesh uniform --worn saw.txt --contact-elements 250"},
     {"gap-corners", "The table of --gap has 1 corner, at x = 0 mm: the slope", ROOF "--load 100",
      ROOF "--load 100 --gap parabola.txt"},
     {"irregularity-corners",
@@ -143,6 +146,10 @@ static int write_gaps(void)
     fclose(punch);
     fclose(round);
     write_file("corners.txt", "-0.2 0\n-0.1 1e-4\n0 0\n0.1 1e-4\n0.2 0\n");
+    FILE *saw = NOT_NULL(fopen("saw.txt", "w"));
+    for (int k = -80; k <= 80; k++)
+        fprintf(saw, "%g %g\n", 0.01 * k, k % 4 ? 1e-4 : 0.0);
+    fclose(saw);
     write_file("roof.txt", "-2 .002\n-1.5 .0015\n-1 .001\n-.5 .0005\n0 0\n.5 .0005\n1 .001\n"
                            "1.5 .0015\n2 .002\n");
     write_file("parabola.txt", "-2 .02\n-1.5 .01125\n-1 .005\n-.5 .00125\n0 0\n.5 .00125\n1 .005\n"

@@ -374,6 +374,20 @@ rb_status rb_rolling_check_layer_resolved(const rb_rolling_model *model, rb_stat
  * was found; RB_NO_CONTACT. */
 rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message *why);
 
+/* The first potential contact, from the undeformed gap: its ends, the smallest gap and that at the
+ * edges of the contact. */
+void rb_rolling_first_zone(const rb_rolling_case *rc, double *from, double *to, double *least,
+                           double *level);
+
+/* ---- resolution.c ------------------------------------------------------------------ */
+
+/* The number of elements, `least` or more, whose midpoints show what the tables of gap,
+ * irregularity, worn depth and friction say, on the mesh of the case.  RB_ENOMEM. */
+rb_status rb_rolling_elements_for_tables(const rb_rolling_case *rc, int least, int *elements);
+/* What those of the case miss of the tables, 0 if they are enough: amplitude of the pressure
+ * [stress], mean error of the coefficient of friction.  RB_ENOMEM. */
+rb_status rb_rolling_missed_by_elements(const rb_rolling_case *rc, double *pressure, double *mu);
+
 /* ---- align.c ----------------------------------------------------------------------- */
 
 /* Solves on equal elements whose ends coincide with both edges, after a first solution.

@@ -282,7 +282,7 @@ const rb_option rb_case_table[] = {
                     RB_FROM_TO(3, RB_ROLLING_MOST_ELEMENTS),
                     "number of elements: in the potential contact (uniform) or across "
                     "the contact (fitted, aligned)",
-                    .unset = "60, fitted 100", .common = 1),
+                    .unset = "60, fitted 100; more where a table is finer", .common = 1),
     RB_NUMBER_LINE("zone", RC(zone), "mm", RB_ABOVE(0),
                    "half-width of the potential contact; auto: enlarged until each end "
                    "has three separated elements",

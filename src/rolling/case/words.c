@@ -1,5 +1,6 @@
 /* A case made from options: set by name, resolved, checked. */
 #include "rolling/case/words.h"
+#include "rolling/rolling.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -555,10 +556,36 @@ static rb_status resolve_law(rb_case *c, rb_message *why)
  * friction are coupled, on layers and in bodies that relax equal elements are of first order: up to
  * so many graded ones are worth their time. */
 enum { MANY = 1500, MOST_GRADED = 400 };
-
 int rb_case_has_steps(const rb_resolved_case *resolved)
 {
     return resolved->program.n > 0 || rb_rolling_has_steps(&resolved->rc);
+}
+
+/* Elements at most that are taken for tables by themselves: by transforms in one step, and with a
+ * matrix or in many steps.  A note says where a table needs more. */
+enum { MOST_FOLLOWING = 20000, MOST_FOLLOWING_DEARLY = 1000 };
+
+/* The elements follow tables that are finer than the usual ones. */
+static rb_status follow_tables(rb_case *c, rb_message *why)
+{
+    rb_rolling_case *rc = &c->resolved.rc;
+    int n = rc->contact_elements;
+
+    if (rb_case_given(c, "contact-elements"))
+        return RB_OK;
+    rb_status s = rb_rolling_elements_for_tables(rc, n, &n);
+    rb_rolling_case equal = *rc;
+    equal.mesh = RB_MESH_ALIGNED;
+    if (s == RB_OK && rc->mesh == RB_MESH_FITTED && !rb_case_given(c, "mesh") && n > MOST_GRADED &&
+        rb_rolling_suits_large(&equal, &(rb_rolling_mesh){.n = n})) {
+        rc->mesh = RB_MESH_ALIGNED;
+        s = rb_rolling_elements_for_tables(rc, rc->contact_elements, &n);
+    }
+    const int cheap = rb_rolling_suits_large(rc, &(rb_rolling_mesh){.n = n}) &&
+                      !rb_case_has_steps(&c->resolved) && c->purpose != RB_CASE_WEAR;
+    const int most = cheap ? MOST_FOLLOWING : MOST_FOLLOWING_DEARLY;
+    rc->contact_elements = n < most ? n : most;
+    return s == RB_OK ? s : rb_fail(why, s, "out of memory for the tables of a case");
 }
 
 /* Options of one formulation mean nothing to the others. */
@@ -739,9 +766,6 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
         rc->gap != RB_GAP_TABLE && !c->resolved.worn_file)
         rc->mesh =
             !many && rc->slip_operator == RB_SLIP_UPSTREAM ? RB_MESH_FITTED : RB_MESH_ALIGNED;
-    if (!rb_case_given(c, "slip-operator") && rc->formulation == RB_STEADY &&
-        rc->mesh == RB_MESH_ALIGNED)
-        rc->slip_operator = RB_SLIP_SECOND;
     if (!rb_case_given(c, "contact-elements") && rc->mesh == RB_MESH_FITTED)
         rc->contact_elements = 100;
     if (c->resolved.program.n > 0)
@@ -752,6 +776,11 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     if (c->purpose == RB_CASE_SPEEDS)
         checked.speed = 1.0; /* the curve has its own */
     s = rb_rolling_case_check(&checked, why);
+    if (s == RB_OK)
+        s = follow_tables(c, why);
+    if (!rb_case_given(c, "slip-operator") && rc->formulation == RB_STEADY &&
+        rc->mesh == RB_MESH_ALIGNED)
+        rc->slip_operator = RB_SLIP_SECOND;
     if (s == RB_OK)
         c->resolved.derived = rb_rolling_derive(&c->resolved.rc);
     return rb_case_locate(c, s, why);

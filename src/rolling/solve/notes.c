@@ -212,6 +212,21 @@ static int irregularity_corners(const rb_rolling_case *rc, const rb_rolling_solu
     return said;
 }
 
+/* The elements are too long for the tables of the case. */
+static int coarse_elements(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    static const double much = 1.5;
+    int wanted;
+
+    if (rb_rolling_elements_for_tables(rc, rc->contact_elements, &wanted) != RB_OK ||
+        !(wanted > much * rc->contact_elements) || s->n >= wanted)
+        return 0;
+    return say(text,
+               "The tables of the case have shorter waves than the elements show, which see them "
+               "at their midpoints alone: give %d --contact-elements for %d.",
+               wanted, rc->contact_elements);
+}
+
 static int pressed_corners(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
     static const double much = 0.02;
@@ -491,6 +506,7 @@ static const struct {
     {"short-memory", short_memory},
     {"gap-corners", gap_corners},
     {"irregularity-corners", irregularity_corners},
+    {"coarse-elements", coarse_elements},
     {"pressed-corners", pressed_corners},
     {"static-creepage", static_creepage},
     {"no-creepage", no_creepage},

@@ -181,7 +181,8 @@ static double crossing(const rb_rolling_case *rc, double x, double step, double 
 
 /* Where the undeformed gap is less than at the edge of Hertz's contact, a^2/(2R): this is
  * 2P/(pi E*) and does not depend on the radius. */
-static interval first_zone(const rb_rolling_case *rc)
+void rb_rolling_first_zone(const rb_rolling_case *rc, double *from, double *to, double *least,
+                           double *level)
 {
     enum { POINTS = 4096 };
     const rb_rolling_derived d = rb_rolling_derive(rc);
@@ -189,27 +190,41 @@ static interval first_zone(const rb_rolling_case *rc)
     const interval limit = extent(rc);
     const double step = width(limit) / POINTS;
     int lowest = 0, first = 0, last = POINTS;
-    double least = INFINITY;
 
-    if (is_symmetric(rc))
-        return within(scaled((interval){-a, a}, 1.3), limit);
-    for (int k = 0; k <= POINTS; k++)
-        if (rb_rolling_initial_gap(rc, limit.from + k * step) < least) {
-            least = rb_rolling_initial_gap(rc, limit.from + k * step);
-            lowest = k;
-        }
-    double level = least + 0.5 * a * a / d.radius;
-    if (!isnan(d.approach)) /* beyond it not even rigid bodies touch */
-        level = fmin(level, d.approach);
-    while (first < lowest && rb_rolling_initial_gap(rc, limit.from + first * step) > level)
-        first++;
-    while (last > lowest && rb_rolling_initial_gap(rc, limit.from + last * step) > level)
-        last--;
-    interval zone = {crossing(rc, limit.from + first * step, -step, level),
-                     crossing(rc, limit.from + last * step, step, level)};
-    if (!(width(zone) > 0.0))
-        zone = (interval){zone.from - step, zone.to + step};
-    return within(scaled(within(zone, limit), 1.3), limit);
+    *least = is_symmetric(rc) ? 0.0 : INFINITY;
+    *level = *least + 0.5 * a * a / d.radius;
+    interval zone = scaled((interval){-a, a}, 1.3);
+    if (!is_symmetric(rc)) {
+        for (int k = 0; k <= POINTS; k++)
+            if (rb_rolling_initial_gap(rc, limit.from + k * step) < *least) {
+                *least = rb_rolling_initial_gap(rc, limit.from + k * step);
+                lowest = k;
+            }
+        *level = *least + 0.5 * a * a / d.radius;
+        if (!isnan(d.approach)) /* beyond it not even rigid bodies touch */
+            *level = fmin(*level, d.approach);
+        while (first < lowest && rb_rolling_initial_gap(rc, limit.from + first * step) > *level)
+            first++;
+        while (last > lowest && rb_rolling_initial_gap(rc, limit.from + last * step) > *level)
+            last--;
+        zone = (interval){crossing(rc, limit.from + first * step, -step, *level),
+                          crossing(rc, limit.from + last * step, step, *level)};
+        if (!(width(zone) > 0.0))
+            zone = (interval){zone.from - step, zone.to + step};
+        zone = scaled(within(zone, limit), 1.3);
+    }
+    zone = within(zone, limit);
+    *from = zone.from;
+    *to = zone.to;
+}
+
+static interval first_zone(const rb_rolling_case *rc)
+{
+    double least, level;
+    interval zone;
+
+    rb_rolling_first_zone(rc, &zone.from, &zone.to, &least, &level);
+    return zone;
 }
 
 /* ---- The automatic one ------------------------------------------------------------- */

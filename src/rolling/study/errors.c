@@ -187,12 +187,16 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
     const double rounding = fmax(s->residual, rc->contact.tol), a = s->hertz_half_width;
     const double strain = rb_rolling_largest_mu(rc) * a / rb_rolling_radius(rc);
     const double unresolved = pressure_of_unresolved_stick(s);
+    double missed, missed_mu; /* of tables that are finer than the elements */
+    if (rb_rolling_missed_by_elements(rc, &missed, &missed_mu) != RB_OK)
+        return NAN;
     const int force_given = rb_rolling_force_is_given(rc);
-    const double friction = force_given ? 0.0
-                            : unresolved > 0.0
-                                ? rb_rolling_largest_mu(rc) * s->max_pressure *
-                                      rb_rolling_longest_element(s->n, s->zone, s->h)
-                                : fmax(hidden.friction, friction_of_short_stick(rc, s));
+    const double friction =
+        force_given ? 0.0
+        : unresolved > 0.0
+            ? rb_rolling_largest_mu(rc) * s->max_pressure *
+                  rb_rolling_longest_element(s->n, s->zone, s->h)
+            : fmax(hidden.friction, friction_of_short_stick(rc, s)) + missed_mu * s->normal_load;
 
     switch (scale) {
     case RB_SCALE_ONE:
@@ -220,7 +224,7 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
                             fabs(rb_rolling_derive(rc).dundurs) * unresolved;
         return rounding * s->max_pressure +
                (of_stress ? rise : fmax(0.0, unresolved + rise - s->max_pressure)) +
-               rb_rolling_rise_in_patches(rc, s, 10.0);
+               rb_rolling_rise_in_patches(rc, s, 10.0) + missed;
     }
     case RB_SCALE_POWER: {
         /* where no element slips, all of what the force does beside free rolling */

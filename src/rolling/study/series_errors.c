@@ -64,7 +64,11 @@ rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc, const rb_rolli
             rb_rolling_boundary_error(runs, free_creepage, curve->free_creepage) +
             DBL_EPSILON * rb_rolling_largest_mu(rc) * curve->half_width / rb_rolling_radius(rc);
         error_columns(&rb_rolling_curve_columns, curve->n, runs, found, curve, errors);
+        double pressure, mu = 0.0; /* of tables that are finer than the elements */
+        s = rb_rolling_missed_by_elements(rc, &pressure, &mu);
         for (int i = 0; i < curve->n; i++) {
+            if (mu > 0.0)
+                errors->force_ratio[i] += mu / rb_rolling_largest_mu(rc);
             errors->stick_ratio[i] += curve->stick_step;
             errors->dissipation[i] +=
                 rb_rolling_edge_power(rc, curve->normal_load[i], curve->creepage[i],
@@ -153,6 +157,14 @@ static rb_status history_errors(const rb_rolling_case *rc, const rb_rolling_hist
     for (int k = 0; k < runs; k++)
         run[k] = &placed[k];
     error_columns(columns, own->n, runs, run, own, errors);
+    double pressure, mu; /* of tables that are finer than the elements */
+    s = rb_rolling_missed_by_elements(rc, &pressure, &mu);
+    for (int i = 0; i < own->n && s == RB_OK; i++) {
+        errors->max_pressure[i] += pressure;
+        errors->tangential_load[i] += mu * own->normal_load[i];
+        if (mu > 0.0)
+            errors->force_ratio[i] += mu / rb_rolling_largest_mu(rc);
+    }
     /* Slip over less than an element of each rolled step. */
     for (int i = steps_at_rest(own); i < own->n; i++) {
         const int contact = own->stick[i] + own->slipping[i];
