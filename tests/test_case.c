@@ -3,7 +3,7 @@
 #include "cli_run.h"
 #include "rollbem/blas.h"
 #include "rollbem/case.h"
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 
 #include <gsl/gsl_math.h>
 

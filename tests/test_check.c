@@ -1,8 +1,8 @@
 /* Results verified without the solver: valid ones of every kind are, any number that is
  * changed is found, what cannot be checked is refused. */
 #include "cli_run.h"
-#include "rollbem/certificate.h"
-#include "rollbem/report.h"
+#include "program/certificate/certificate.h"
+#include "program/report/report.h"
 
 #define SMALL " --contact-elements 16 --mu 0.3 "
 #define TINY " --contact-elements 8 --mu 0.3 "

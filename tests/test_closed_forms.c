@@ -1,6 +1,6 @@
 /* Closed forms: forces as integrals of the tractions, published numbers, limits. */
 #include "check.h"
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_math.h>

@@ -2,8 +2,8 @@
  * looked at, what cannot be checked is refused in one line.  That any number which is
  * changed is found: tests/test_check.c. */
 #include "cli_run.h"
-#include "rollbem/certificate.h"
-#include "rollbem/report.h"
+#include "program/certificate/certificate.h"
+#include "program/report/report.h"
 
 #define CONTACT                                                                                    \
     "crack --similar --support halfplane --half-width 1 --radius 1000 --crack-elements "           \

@@ -1,7 +1,7 @@
 /* Pictures and JSON of the finite-element examples: what gnuplot would read of a small
  * wall, bar and truss, against their meshes, displacements and steps. */
 #include "check.h"
-#include "rollbem/report_fem.h"
+#include "program/report/report_fem.h"
 #include "small_wall.h"
 
 static const rb_report_canvas page = {.kind = RB_REPORT_SVG, .script = 1};

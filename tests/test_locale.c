@@ -5,7 +5,7 @@
 #include "rollbem/api.h"
 #include "rollbem/case.h"
 #include "rollbem/io.h"
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 #include <jansson.h>
 #include <locale.h>

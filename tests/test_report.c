@@ -1,9 +1,9 @@
 /* Reports of a solution made by hand: Carter's closed form on 20 elements. */
 #include "cases.h"
 #include "check.h"
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 #include "rollbem/io.h"
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 #include <jansson.h>
 #include <fcntl.h>

@@ -2,7 +2,7 @@
 #include "cases.h"
 #include "case_words.h"
 #include "rollbem/io.h"
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 #include <dirent.h>
 

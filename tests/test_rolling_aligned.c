@@ -1,7 +1,7 @@
 /* Equal elements aligned with the contact and the second-order slip operator: Carter's
  * law, its dissipation, many elements, bodies with memory, what is refused. */
 #include "cases.h"
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

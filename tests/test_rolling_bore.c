@@ -1,7 +1,7 @@
 /* A cylinder in a bore: outer race, journal, internal gear. */
 #include "cases.h"
 #include "refused.h"
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 #include "rollbem/rolling.h"
 #include "solved.h"
 

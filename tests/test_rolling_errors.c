@@ -1,5 +1,5 @@
 /* Error bars from runs that are made up or solved here, and the way to an accuracy. */
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 #include "cases.h"
 #include "solved.h"
 

@@ -1,6 +1,6 @@
 /* Flash temperature: the moving strip against quadrature, the closed form of an elliptic
  * source, two bodies, low and high speed, steps against the steady state, refusals. */
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 #include "cases.h"
 #include "solved.h"
 

@@ -2,7 +2,7 @@
  * punch wear to, fretting with a zone that sticks, turns of a wheel, going on. */
 #include "cases.h"
 #include "check.h"
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 #include "rollbem/rolling.h"
 
 #include <gsl/gsl_math.h>

@@ -2,7 +2,7 @@
  * both supports; where they differ from it; the case of *Addi* (theory.md 4.3, 6, 7).
  * The measured figures stand in docs/rolling.md. */
 #include "cases.h"
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 #include "rollbem/rolling.h"
 #include "solved.h"
 

@@ -1,7 +1,7 @@
 /* The stress on a grid, what it leaves out, and its files. */
 #include "cases.h"
 #include "check.h"
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 #include <gsl/gsl_math.h>
 

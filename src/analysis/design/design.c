@@ -1,5 +1,5 @@
 /* Designs: a case as a function of some of its numbers, with its gradient, for NLopt. */
-#include "rollbem/design.h"
+#include "analysis/design/design.h"
 
 #include <math.h>
 #include <stdio.h>

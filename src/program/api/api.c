@@ -2,7 +2,7 @@
 #include "program/api/internal.h"
 
 #include "rollbem/blas.h"
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 #include "rollbem/friction.h"
 
 #include <gsl/gsl_errno.h>

@@ -1,7 +1,7 @@
 /* What is asked of a case backwards: numbers fitted to measurements, designs. */
 #include "program/api/internal.h"
 
-#include "rollbem/design.h"
+#include "analysis/design/design.h"
 #include "rollbem/io.h"
 
 #include <math.h>

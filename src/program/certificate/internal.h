@@ -2,8 +2,8 @@
 #ifndef ROLLBEM_CERTIFICATE_INTERNAL_H
 #define ROLLBEM_CERTIFICATE_INTERNAL_H
 
-#include "rollbem/certificate.h"
-#include "rollbem/report.h"
+#include "program/certificate/certificate.h"
+#include "program/report/report.h"
 
 #include <jansson.h>
 

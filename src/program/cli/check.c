@@ -2,8 +2,8 @@
 #include "program/cli/case.h"
 #include "program/cli/wait.h"
 #include "rollbem/io.h"
-#include "rollbem/certificate.h"
-#include "rollbem/report.h"
+#include "program/certificate/certificate.h"
+#include "program/report/report.h"
 
 #include <jansson.h>
 #include <math.h>

@@ -3,7 +3,7 @@
 #include "program/cli/describe.h"
 #include "program/cli/find.h"
 
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 #include <ctype.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #include "program/cli/case.h"
 #include "program/cli/interrupt.h"
 #include "program/cli/wait.h"
-#include "rollbem/design.h"
+#include "analysis/design/design.h"
 
 #include <jansson.h>
 #include <math.h>

@@ -6,7 +6,7 @@
 #include "program/cli/wait.h"
 
 #include "rollbem/io.h"
-#include "rollbem/report_fem.h"
+#include "program/report/report_fem.h"
 
 #include <jansson.h>
 #include <math.h>

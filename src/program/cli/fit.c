@@ -3,7 +3,7 @@
 #include "program/cli/interrupt.h"
 #include "program/cli/wait.h"
 #include "rollbem/io.h"
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 #include <inttypes.h>
 #include <jansson.h>

@@ -7,7 +7,7 @@
 #include "program/cli/wait.h"
 
 #include "rollbem/friction.h"
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 #include <jansson.h>
 #include <stddef.h>

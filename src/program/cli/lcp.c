@@ -6,7 +6,7 @@
 
 #include "rollbem/io.h"
 #include "rollbem/lcp.h"
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 #include <jansson.h>
 #include <stddef.h>

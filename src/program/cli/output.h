@@ -4,7 +4,7 @@
 
 #include "program/cli/cli.h"
 #include "program/cli/rows.h"
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 enum { CLI_OUTPUT_OPTIONS_MAX = 10 };
 

@@ -2,7 +2,7 @@
 #include "program/cli/case.h"
 #include "program/cli/output.h"
 #include "rollbem/io.h"
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 #include <jansson.h>
 #include <stddef.h>

@@ -3,7 +3,7 @@
 #ifndef ROLLBEM_CLI_ROWS_H
 #define ROLLBEM_CLI_ROWS_H
 
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 #include <jansson.h>
 

@@ -4,7 +4,7 @@
 #include "program/cli/output.h"
 #include "program/cli/wait.h"
 #include "rollbem/io.h"
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 #include <stdlib.h>
 #include <string.h>

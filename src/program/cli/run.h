@@ -3,7 +3,7 @@
 #define ROLLBEM_CLI_RUN_H
 
 #include "rollbem/case.h"
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 /* What a sequence of steps leaves on its way. */
 typedef struct {

@@ -3,7 +3,7 @@
 #include "program/cli/interrupt.h"
 #include "program/cli/pool.h"
 #include "program/cli/study.h"
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 #include <errno.h>
 #include <fcntl.h>

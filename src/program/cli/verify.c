@@ -1,7 +1,7 @@
 /* rollbem verify: reference values and computed values. */
 #include "program/cli/cli.h"
 #include "program/cli/output.h"
-#include "rollbem/verify.h"
+#include "program/verify/verify.h"
 
 #include <jansson.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* Tables of any kind, cell by cell, in the formats that other programs open. */
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 #include <math.h>
 #include <stdarg.h>

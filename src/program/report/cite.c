@@ -1,5 +1,5 @@
 /* The papers that a run rests on, as docs/theory.md 9 has them. */
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 /* What a run is, as far as papers care. */
 enum {

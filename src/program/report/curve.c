@@ -1,7 +1,7 @@
 /* Creep curves: table, JSON, lines for people, picture with Carter's law. */
 #include "program/report/internal.h"
 
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 
 #include <jansson.h>
 #include <math.h>

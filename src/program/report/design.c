@@ -1,6 +1,6 @@
 /* A design: its variables, its result and its constraints. */
 #include "program/report/internal.h"
-#include "rollbem/design.h"
+#include "analysis/design/design.h"
 
 #include <jansson.h>
 #include <math.h>

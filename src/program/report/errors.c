@@ -1,5 +1,5 @@
 /* Error bars. */
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 #include <jansson.h>
 #include <math.h>

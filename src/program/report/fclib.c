@@ -1,5 +1,5 @@
 #include "rollbem/friction.h"
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 /* The bar's picture: deformed mesh above, reactions below. */
 #include "program/report/internal.h"
-#include "rollbem/report_fem.h"
+#include "program/report/report_fem.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 /* Sums over the contacts of a step of an example. */
-#include "rollbem/report_fem.h"
+#include "program/report/report_fem.h"
 
 #include <math.h>
 

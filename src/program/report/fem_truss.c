@@ -2,7 +2,7 @@
  * displacements of its contact nodes at the end, and the quarter seen from the side, at
  * rest and at the end. */
 #include "program/report/internal.h"
-#include "rollbem/report_fem.h"
+#include "program/report/report_fem.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* The wall's picture: its deformed front on the left, forces and contacts over time on
  * the right. */
 #include "program/report/internal.h"
-#include "rollbem/report_fem.h"
+#include "program/report/report_fem.h"
 
 #include <math.h>
 #include <stdlib.h>

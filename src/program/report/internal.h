@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_REPORT_INTERNAL_H
 #define ROLLBEM_REPORT_INTERNAL_H
 
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
 /* Name of the solver that found the solution, as in the option `solver`. */
 const char *rb_report_solver(const rb_rolling_solution *s);

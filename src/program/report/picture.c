@@ -1,7 +1,7 @@
 /* The traction picture: pressure, friction and its bounds, slip, zones. */
 #include "program/report/internal.h"
 
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Pictures of the stress below the surface: contours, photoelastic fringes, shakedown. */
 #include "program/report/internal.h"
 
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 /* A table with tabs, abbreviated for a terminal: few digits, few rows, few columns. */
-#include "rollbem/report.h"
+#include "program/report/report.h"
 #include "rollbem/units.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* References for the elastic body alone and for the stress below a contact. */
 #include "program/verify/internal.h"
 
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* Closed forms of contact on half-planes. */
 #include "program/verify/internal.h"
 
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
  * wear. */
 #include "program/verify/internal.h"
 
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 
 #include <math.h>
 

@@ -3,7 +3,7 @@
 #define ROLLBEM_VERIFY_INTERNAL_H
 
 #include "rollbem/rolling.h"
-#include "rollbem/verify.h"
+#include "program/verify/verify.h"
 
 typedef struct {
     rb_verify_each_check *each;

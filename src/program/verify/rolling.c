@@ -1,7 +1,7 @@
 /* References for transient rolling and for rolling resistance. */
 #include "program/verify/internal.h"
 
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 
 #include <gsl/gsl_math.h>
 #include <math.h>

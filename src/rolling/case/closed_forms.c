@@ -1,5 +1,5 @@
 /* Closed forms of theory.md 6. */
-#include "rollbem/closed_forms.h"
+#include "rolling/case/closed_forms.h"
 
 #include <math.h>
 

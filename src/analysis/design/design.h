@@ -6,8 +6,6 @@
 
 #include "rollbem/case.h"
 
-RB_PUBLIC_BEGIN
-
 enum { RB_DESIGN_CONSTRAINTS = 16 };
 
 /* 1: this library was built with NLopt. */
@@ -69,7 +67,5 @@ typedef struct {
 rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer, rb_design *d,
                           rb_message *why);
 void rb_design_free(rb_design *d);
-
-RB_PUBLIC_END
 
 #endif

@@ -3,11 +3,9 @@
 #define ROLLBEM_REPORT_FEM_H
 
 #include "rollbem/fem.h"
-#include "rollbem/report.h"
+#include "program/report/report.h"
 
-RB_PUBLIC_BEGIN
-
-/* ---- Pictures: statuses as in rollbem/report.h ---------- */
+/* ---- Pictures: statuses as in program/report/report.h ---------- */
 
 /* The deformed mesh and the reactions after the last increment (*Kanno*, figures 5, 6). */
 rb_status rb_report_picture_bar(FILE *out, rb_report_canvas canvas, const rb_fem_model *model,
@@ -30,7 +28,5 @@ typedef struct {
 } rb_report_fem_sums;
 
 rb_report_fem_sums rb_report_fem_sum(const rb_fem_model *model, const rb_fem_step *step);
-
-RB_PUBLIC_END
 
 #endif

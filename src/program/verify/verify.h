@@ -5,8 +5,6 @@
 
 #include "rollbem/base.h"
 
-RB_PUBLIC_BEGIN
-
 /* One reference value and the value that the program computes. */
 typedef struct {
     char what[80];
@@ -22,7 +20,5 @@ typedef void rb_verify_each_check(const rb_verify_check *check, void *context);
 /* Computes all references and calls `each` once per value.  Returns the number of checks
  * that do not hold. */
 int rb_verify_run(rb_verify_each_check *each, void *context);
-
-RB_PUBLIC_END
 
 #endif

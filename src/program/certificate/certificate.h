@@ -6,8 +6,6 @@
 
 #include <stdio.h>
 
-RB_PUBLIC_BEGIN
-
 struct json_t; /* jansson's */
 
 /* The outcome of the check of a result. */
@@ -33,7 +31,5 @@ rb_status rb_certificate_check_solutions(FILE *out, const char *name, const stru
 rb_status rb_certificate_check_table(FILE *out, const char *name, const char *text,
                                      const rb_case *words, rb_certificate_outcome *found,
                                      rb_message *why);
-
-RB_PUBLIC_END
 
 #endif

@@ -5,12 +5,10 @@
 #define ROLLBEM_REPORT_H
 
 #include "rollbem/case.h"
-#include "rollbem/design.h"
+#include "analysis/design/design.h"
 #include "rollbem/rolling.h"
 
 #include <stdio.h>
-
-RB_PUBLIC_BEGIN
 
 struct json_t; /* jansson's */
 
@@ -490,7 +488,5 @@ struct json_t *rb_report_json_document(const rb_report_document *document);
 rb_status rb_report_design_table(FILE *out, const rb_design *d, rb_units units, const char *command,
                                  const rb_report_style *style);
 void rb_report_json_design(struct json_t **root, const rb_design *d, rb_units units);
-
-RB_PUBLIC_END
 
 #endif

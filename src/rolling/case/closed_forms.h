@@ -7,8 +7,6 @@
 
 #include "rollbem/base.h"
 
-RB_PUBLIC_BEGIN
-
 /* ---- Hertz ------------------------------------------------------------------------ */
 
 /* Half-width a of Hertz's contact, from P = pi E* a^2/(4R) [length]. */
@@ -77,7 +75,5 @@ typedef struct {
 
 rb_closed_bentall_johnson rb_closed_bentall_johnson_stick(double beta, double hertz_half_width,
                                                           double radius, double modulus);
-
-RB_PUBLIC_END
 
 #endif
