@@ -47,7 +47,7 @@ TEST(a_line_per_file)
 
 TEST(the_largest_exit_code_wins_and_all_files_run)
 {
-    CHECK_RUN(lcp("good ray"), 1, err, "ray: lcp: secondary ray");
+    CHECK_RUN(lcp("good ray"), 1, err, "ray: lcp: no solution");
     CHECK_RUN(lcp("bad ray good"), 65, out, "\ngood\tsolved");
     assert_non_null(strstr(err, "bad:1: matrix, number 2"));
     CHECK_RUN(lcp("missing bad good"), 66, out, "\ngood\tsolved");
@@ -332,7 +332,7 @@ TEST(json_holds_every_file)
     CHECK_MAX(json_number_value(json_object_get(p, "residual")), 1e-14, "residual");
     CHECK_REL(json_number_value(json_array_get(json_object_get(p, "z"), 1)), 7.0 / 3.0, 1e-15,
               "z(2)");
-    assert_string_equal(text_of(json_array_get(list, 1), "status"), "secondary ray");
+    assert_string_equal(text_of(json_array_get(list, 1), "status"), "no solution");
     p = json_array_get(list, 2);
     assert_string_equal(text_of(p, "status"), "malformed file");
     assert_true(json_is_null(json_object_get(p, "residual")));

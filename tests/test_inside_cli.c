@@ -27,7 +27,11 @@ TEST(every_status_has_its_exit_code)
                {RB_NO_CONTACT, CLI_UNSOLVED},
                {RB_ZONE, CLI_UNSOLVED},
                {RB_INACCURATE, CLI_UNSOLVED},
-               {RB_INTERRUPTED, CLI_UNSOLVED}};
+               {RB_INTERRUPTED, CLI_UNSOLVED},
+               {RB_NO_SOLUTION, CLI_UNSOLVED},
+               {RB_UNDECIDED, CLI_UNSOLVED},
+               {RB_NUMERICAL, CLI_UNSOLVED},
+               {RB_TIME_LIMIT, CLI_UNSOLVED}};
     static const int numbers[] = {0, 64, 65, 66, 73, 70};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
         assert_int_equal(cli_exit_of(all[k].status), all[k].code);

@@ -65,17 +65,32 @@ TEST(two_by_two)
     CHECK_OK(rb_lcp_lemke(&(rb_lcp_problem){2, M, 3, q}, NULL, z, NULL));
 }
 
-/* w = -z - 1 has no solution: z enters and nothing stops it. */
+/* w = -z - 1 has no solution: z enters, nothing stops it, and that proves it. */
 TEST(a_secondary_ray_names_its_variable)
 {
     const double M[] = {-1.0}, q[] = {-1.0};
     double z[1];
     rb_lcp_info info;
-    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){1, M, 1, q}, NULL, z, &info), RB_RAY);
+    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){1, M, 1, q}, NULL, z, &info), RB_NO_SOLUTION);
     assert_int_equal(info.ray_variable, 1);
     assert_int_equal(info.iters, 1);
     assert_non_null(strstr(info.msg.text, "z(1)"));
     CHECK_ABS(info.res, 1.0, 0.0, "residual of the last basic point");
+}
+
+/* w = (2 - z1, z1 - z2 - 1): z = (2, 0) and (2, 1) are solutions, which the ray of z2 does
+ * not see. */
+TEST(a_ray_that_proves_nothing)
+{
+    const double M[] = {-1.0, 1.0, 0.0, -1.0}, q[] = {2.0, -1.0};
+    double z[2];
+    rb_lcp_info info;
+    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){2, M, 2, q}, NULL, z, &info), RB_RAY);
+    assert_int_equal(info.ray_variable, 3);
+    assert_non_null(strstr(info.msg.text, "does not prove"));
+    z[0] = 2.0;
+    for (z[1] = 0.0; z[1] <= 1.0; z[1] += 1.0)
+        CHECK_ABS(natural_residual(2, M, 2, q, z), 0.0, 0.0, "a solution");
 }
 
 /* ---- Planted problems ------------------------------------------------------------- */
@@ -260,9 +275,9 @@ TEST(integer_problems_do_not_cycle)
         for (int i = 0; i < n; i++)
             q_[i] = uniform() > 0.6 ? 0.0 : -1.0;
         const rb_status s = rb_lcp_lemke(&(rb_lcp_problem){n, M_, n, q_}, NULL, z_, &info);
-        assert_true(s == RB_OK || s == RB_RAY);
+        assert_true(s == RB_OK || s == RB_RAY || s == RB_NO_SOLUTION);
         solved += s == RB_OK;
-        rays += s == RB_RAY;
+        rays += s == RB_RAY || s == RB_NO_SOLUTION;
         if (s == RB_OK)
             CHECK_MAX(natural_residual(n, M_, n, q_, z_), 1e-12, "problem %d, n = %d", k, n);
     }

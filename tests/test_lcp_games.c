@@ -76,12 +76,128 @@ TEST(games_of_small_integers_do_not_cycle)
     double z[2 * N];
     rb_lcp_info info;
     for (int k = 0; k < 400; k++) {
-        const int m = 1 + k % 13, n = 1 + k % 11;
+        const int few = k % 50 == 0, m = few ? 30 : 1 + k % 13, n = few ? 30 : 1 + k % 11;
         const rb_lcp_game game = {m, n, A, B, LD};
         random_game(m, n, 1);
-        CHECK_OK(rb_lcp_bimatrix(&game, k % (m + n), NULL, z, &info));
+        CHECK_OK(rb_lcp_bimatrix(&game, k % (m + n + 1) - 1, NULL, z, &info));
         CHECK_MAX(gain(m, n, z), 1e-12, "game %d", k);
     }
+}
+
+/* ---- Long paths -------------------------------------------------------------------- */
+
+/* r = -R / (1 - sum R) with R = others times the inverse of first, d x d by rows: the facets of
+ * the polar of the polytope, in the coordinates of those at first. */
+static void facets(int d, const double *first, const double *others, double *r)
+{
+    double T[20][40];
+    for (int i = 0; i < d; i++)
+        for (int j = 0; j < 2 * d; j++)
+            T[i][j] = j < d ? first[i * d + j] : i == j - d;
+    for (int c = 0; c < d; c++) {
+        int p = c;
+        for (int i = c; i < d; i++)
+            if (fabs(T[i][c]) > fabs(T[p][c]))
+                p = i;
+        for (int j = 0; j < 2 * d; j++) {
+            const double x = T[p][j];
+            T[p][j] = T[c][j];
+            T[c][j] = x;
+        }
+        const double pivot = T[c][c];
+        for (int j = 0; j < 2 * d; j++)
+            T[c][j] /= pivot;
+        for (int i = 0; i < d; i++) {
+            const double factor = i == c ? 0.0 : T[i][c];
+            for (int j = 0; factor != 0.0 && j < 2 * d; j++)
+                T[i][j] -= factor * T[c][j];
+        }
+    }
+    for (int i = 0; i < d; i++) {
+        double sum = 0.0;
+        for (int j = 0; j < d; j++) {
+            r[i * d + j] = 0.0;
+            for (int k = 0; k < d; k++)
+                r[i * d + j] += others[i * d + k] * T[k][d + j];
+            sum += r[i * d + j];
+        }
+        for (int j = 0; j < d; j++)
+            r[i * d + j] /= sum - 1.0;
+    }
+}
+
+/* The game of dual cyclic polytopes (Savani and von Stengel, Econometrica 74, 2006). */
+static void polytope_game(int d)
+{
+    double curve[40][20], mean[20] = {0}, first[400], others[400], R[400], most[2] = {0.0, 0.0};
+    const double pi = acos(-1.0);
+    int at[41];
+    for (int k = 0; k < 2 * d; k++) {
+        const int l = k + 1, even = l % 2 == 0;
+        for (int c = 0; c < d; c++) {
+            const double angle = (c / 2 + 1) * pi * k / d;
+            curve[k][c] = c % 2 ? sin(angle) : cos(angle);
+            mean[c] += curve[k][c] / (2 * d);
+        }
+        at[l == 1 || l == d ? l : l < d ? (even ? l + 1 : l - 1) : (even ? l - 1 : l + 1)] = k;
+    }
+    for (int player = 0; player < 2; player++) {
+        for (int i = 0; i < d; i++)
+            for (int c = 0; c < d; c++) {
+                const int from = player ? i : at[d + 1 + i], to = player ? d + i : at[1 + i];
+                first[i * d + c] = curve[from][c] - mean[c];
+                others[i * d + c] = curve[to][c] - mean[c];
+            }
+        facets(d, first, others, R);
+        for (int k = 0; k < d * d; k++)
+            most[player] = fmax(most[player], fabs(R[k]));
+        for (int i = 0; i < d; i++)
+            for (int j = 0; j < d; j++)
+                *(player ? &B[j + i * LD] : &A[i + j * LD]) = R[i * d + j] / most[player];
+    }
+}
+
+/* Numbers of pivots by Gale's evenness condition, in integers: Fibonacci's numbers less 1 from
+ * the first label.  With a threshold for pivots of 1e-11 of the column, paths from d = 16 on
+ * were lost. */
+TEST(long_paths_have_the_pivots_that_they_should)
+{
+    static const struct {
+        int d, label, pivots;
+    } paths[] = {{12, 1, 6764}, {12, 7, 176}, {12, 9, 396},    {14, 1, 28656}, {14, 8, 464},
+                 {14, 9, 464},  {16, 9, 752}, {16, 1, 121392}, {18, 9, 1972},  {18, 10, 1972}};
+    double z[2 * N];
+    for (size_t k = 0; k < sizeof paths / sizeof *paths; k++) {
+        const int d = paths[k].d;
+        rb_lcp_info info;
+        polytope_game(d);
+        CHECK_OK(
+            rb_lcp_bimatrix(&(rb_lcp_game){d, d, A, B, LD}, paths[k].label - 1, NULL, z, &info));
+        CHECK_MAX(gain(d, d, z), 1e-12, "d = %d", d);
+        assert_int_equal(info.iters, paths[k].pivots);
+        assert_int_equal(info.label, paths[k].label - 1);
+    }
+}
+
+/* Without a label, one whose path is short is found in a fraction of the pivots. */
+TEST(labels_take_turns_on_long_paths)
+{
+    double z[2 * N];
+    rb_lcp_info info;
+    rb_lcp_options opt = rb_lcp_defaults();
+    polytope_game(18);
+    const rb_lcp_game game = {18, 18, A, B, LD};
+    CHECK_OK(rb_lcp_bimatrix(&game, -1, NULL, z, &info));
+    CHECK_MAX(gain(18, 18, z), 1e-12, "gain");
+    CHECK_MAX(info.iters, 60000, "pivots");
+    assert_true(info.label > 0);
+    opt.max_iters = 500;
+    CHECK_STATUS(rb_lcp_bimatrix(&game, -1, &opt, z, &info), RB_MAXITER);
+    CHECK_STATUS(rb_lcp_bimatrix(&game, 0, &opt, z, &info), RB_MAXITER);
+    opt.max_iters = 0;
+    opt.seconds = 1e-3;
+    CHECK_STATUS(rb_lcp_bimatrix(&game, 0, &opt, z, &info), RB_TIME_LIMIT);
+    CHECK_STATUS(rb_lcp_bimatrix(&game, -2, &opt, z, &info), RB_EINVAL);
 }
 
 /* Battle of the sexes: two pure equilibria and a mixed one, (2/3, 1/3) and (1/3, 2/3). */
@@ -351,7 +467,7 @@ TEST(bad_input_is_named)
     CHECK_STATUS(rb_lcp_bimatrix(&(rb_lcp_game){2, 2, A, B, 1}, 0, NULL, z, &info), RB_EINVAL);
     CHECK_STATUS(rb_lcp_bimatrix(&two, 4, NULL, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "label 5: expected 1 to 4"));
-    CHECK_STATUS(rb_lcp_bimatrix(&two, -1, NULL, z, &info), RB_EINVAL);
+    CHECK_STATUS(rb_lcp_bimatrix(&two, -2, NULL, z, &info), RB_EINVAL);
     CHECK_STATUS(rb_lcp_bimatrix(&(rb_lcp_game){2, 0, A, B, LD}, 0, NULL, z, &info), RB_EINVAL);
     CHECK_SAYS(rb_lcp_bimatrix_enumerate(&(rb_lcp_game){2, 0, A, B, LD}, &all, &heard), RB_EINVAL,
                "a game of 2 by 0");

@@ -49,12 +49,16 @@ typedef enum {
     RB_EWRITE = -5,  /* an output that cannot be written */
     RB_EHELPER = -6, /* another program is missing or has failed */
     RB_MAXITER = 1,  /* iteration limit */
-    RB_RAY = 2,      /* Lemke: secondary ray */
+    RB_RAY = 2,      /* Lemke: secondary ray, which proves nothing */
     RB_SINGULAR = 3, /* the matrix is singular */
     RB_NO_CONTACT = 4,
     RB_ZONE = 5,       /* potential contact too small: it fills completely */
     RB_INACCURATE = 6, /* residual above the tolerance */
-    RB_INTERRUPTED = 7
+    RB_INTERRUPTED = 7,
+    RB_NO_SOLUTION = 8, /* proved: there is none */
+    RB_UNDECIDED = 9,   /* none was found, and none is excluded */
+    RB_NUMERICAL = 10,  /* rounding errors: there is a solution, or may be one */
+    RB_TIME_LIMIT = 11  /* the time that the caller allows is over */
 } rb_status;
 
 /* One line for people: what, where, what was wanted.  Callers may pass NULL. */

@@ -65,7 +65,7 @@ typedef struct {
 typedef void rb_lcp_trace(const rb_lcp_pivot *pivot, void *context);
 
 typedef struct {
-    int max_iters;       /* 0: 50 n + 1000 pivots; newton: 10 n + 100 steps */
+    int max_iters;       /* 0: 50 n + 1000 pivots; newton: 10 n + 100 steps; games: by work */
     double seconds;      /* time limit; 0: none */
     const double *cover; /* n: covering vector d >= 0, > 0 where q < 0; NULL: ones;
                             borrowed */
@@ -88,6 +88,7 @@ typedef struct {
     double scaled;      /* rb_lcp_scaled_residual; decides whether the problem is solved */
     int row;            /* the row of `scaled`; -1: none */
     int ray_variable;   /* RB_RAY: the entering variable that no row blocks; else -1 */
+    int label;          /* games: the strategy with which the path begins; else -1 */
     rb_message msg;
 } rb_lcp_info;
 
@@ -98,7 +99,9 @@ rb_lcp_options rb_lcp_defaults(void);
  * than 1024, this and the other solvers work on the equilibrated R M C and R q, with
  * diagonal R and C of powers of two (Ruiz).  The default covering vector of ones is then
  * used for the equilibrated problem.  The trace receives values in the caller's units.
- * RB_OK, RB_RAY, RB_MAXITER, RB_INTERRUPTED (time limit); RB_INACCURATE: info->scaled is
+ * RB_OK; RB_NO_SOLUTION: the ray at the end of the path proves that M z + q >= 0 has no z
+ * >= 0; RB_RAY: a ray that proves nothing; RB_MAXITER, RB_TIME_LIMIT; RB_NUMERICAL:
+ * rounding errors have led the path back to its beginning; RB_INACCURATE: info->scaled is
  * above 1e-10 because of rounding errors; RB_EINVAL: n < 1, ldm < n, NaN or infinity, an
  * invalid covering vector; RB_ENOMEM. */
 rb_status rb_lcp_lemke(const rb_lcp_problem *p, const rb_lcp_options *opt, double *z,
@@ -113,8 +116,10 @@ rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_option
 
 /* Lemke's method with a sparse LU factorisation, for the mixed problem.  Ties are broken
  * by a generic perturbation, with RB_LCP_FIRST_INDEX by the row number; trace_tableau has
- * no effect.  A variable without bounds is split into a difference of two; the second one
- * of the k-th split variable has number n + k in the trace, whose n is then larger.  With
+ * no effect.  Variables without bounds are basic from the beginning.  If their matrix is
+ * singular, or the path does not lead to a solution, a second path begins in which each
+ * of them is a difference of two; the second one of the k-th split variable has number n
+ * + k in the trace, whose n is then larger.  With
  * opt->start the path begins at the basis of that point; if it does not lead to a
  * solution, a second path begins at the bounds. Statuses as rb_lcp_lemke, and
  * RB_SINGULAR: a basis is singular up to rounding; RB_EINVAL: crossed bounds, too. */
@@ -132,8 +137,9 @@ const rb_lcp_solver *rb_lcp_solvers(int *count);
  * in turns.  info->solver names the method that found z, info->iters is the sum over all
  * methods, and max_iters limits each of them.  If all fail, z is the last point of
  * Lemke's method.  With a trace, a covering vector, a rule or bounds "auto" uses Lemke's
- * method.  Statuses as for the single solvers; RB_EINVAL also for an unknown solver and
- * for newton with bounds. */
+ * method.  Statuses as for the single solvers; RB_NUMERICAL also where M is definite or
+ * diagonally dominant, so that there is a solution, but no path has found it; RB_EINVAL
+ * also for an unknown solver and for newton with bounds. */
 rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
                        double *z, rb_lcp_info *info);
 
@@ -153,9 +159,13 @@ void rb_lcp_solutions_free(rb_lcp_solutions *all);
 
 /* An equilibrium of a game by the method of Lemke and Howson with a lexicographic rule.
  * label, 0 ... m + n - 1: the strategy dropped first (rows, then columns); other labels
- * may lead to other equilibria.  It uses the options max_iters, seconds and trace; in the
- * trace z_k is the probability and w_k the regret of strategy k.  z = (x, y): m + n,
- * written.  RB_OK, RB_MAXITER, RB_INACCURATE, RB_EINVAL, RB_ENOMEM. */
+ * may lead to other equilibria.  -1: the paths of up to 16 labels in rounds, with limits
+ * that double from round to round, until one has ended (info->label); paths can be longer
+ * than 1.6^m.  It uses the options max_iters (0: as many as take about half a minute),
+ * seconds and trace; in the trace z_k is the probability and w_k the regret of strategy
+ * k.  z = (x, y): m + n, written.  RB_OK, RB_MAXITER, RB_TIME_LIMIT, RB_INACCURATE,
+ * RB_NUMERICAL: rounding errors have ended the path (every game has an equilibrium);
+ * RB_EINVAL, RB_ENOMEM. */
 rb_status rb_lcp_bimatrix(const rb_lcp_game *game, int label, const rb_lcp_options *opt, double *z,
                           rb_lcp_info *info);
 /* All equilibria that belong to complementary bases, as in rb_lcp_enumerate; m + n is at

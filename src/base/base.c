@@ -79,6 +79,14 @@ const char *rb_status_text(rb_status s)
         return "residual above tolerance";
     case RB_INTERRUPTED:
         return "interrupted";
+    case RB_NO_SOLUTION:
+        return "no solution";
+    case RB_UNDECIDED:
+        return "undecided";
+    case RB_NUMERICAL:
+        return "numerical failure";
+    case RB_TIME_LIMIT:
+        return "time limit";
     }
     return "unknown status";
 }

@@ -51,8 +51,9 @@ rb_status rb_sparse_rank(const rb_sparse *a, int *rank)
 
 struct rb_sparse_lu {
     void *symbolic, *numeric;
-    const rb_sparse *a; /* borrowed: UMFPACK refines with the matrix itself */
-    double entries;     /* of both factors */
+    const rb_sparse *a;        /* borrowed: UMFPACK refines with the matrix itself */
+    const rb_sparse *analysed; /* whose pattern the analysis has seen; borrowed */
+    double entries;            /* of both factors */
     double control[UMFPACK_CONTROL];
 };
 
@@ -79,6 +80,7 @@ rb_status rb_sparse_lu_create(const rb_sparse *a, rb_sparse_lu **lu)
     f->control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
     const rb_status s = umfpack_status(
         umfpack_di_symbolic(a->rows, a->cols, a->p, a->i, NULL, &f->symbolic, f->control, NULL));
+    f->analysed = a;
     if (s == RB_OK)
         *lu = f;
     else
@@ -96,6 +98,9 @@ rb_status rb_sparse_lu_factor(rb_sparse_lu *lu, const rb_sparse *a, double *flop
     lu->entries = info[UMFPACK_LNZ] + info[UMFPACK_UNZ];
     if (flops && info[UMFPACK_FLOPS] > 0)
         *flops += info[UMFPACK_FLOPS];
+    /* UMFPACK says so, too, of some patterns that are singular whatever the numbers are. */
+    if (code == UMFPACK_ERROR_different_pattern && a == lu->analysed)
+        return RB_SINGULAR;
     return umfpack_status(code);
 }
 

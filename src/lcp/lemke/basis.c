@@ -94,7 +94,7 @@ rb_status rb_lcp_basis_factor(lcp_basis *b)
     if (s == RB_OK)
         b->work += 150.0 * rb_sparse_lu_entries(b->lu);
     b->operations += b->work;
-    return s == RB_EINVAL ? RB_SINGULAR : s;
+    return s;
 }
 
 int rb_lcp_basis_is_long(const lcp_basis *b)

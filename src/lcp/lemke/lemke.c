@@ -151,12 +151,27 @@ static int pivot(lemke *l, int row, int entering)
     return leaving;
 }
 
-rb_status rb_lcp_fail_ray(rb_lcp_info *info, int n, int entering, double z0)
+rb_status rb_lcp_fail_ray(rb_lcp_info *info, const lcp_posed *posed, int entering, double z0,
+                          double *direction)
 {
+    const int n = posed->M.n;
+    const char letter = entering < n ? 'w' : 'z';
+    if (rb_norm_inf((size_t)n, direction) == 0.0)
+        return rb_fail(&info->msg, RB_NUMERICAL,
+                       "lcp: rounding errors have led the path back to its beginning after %d "
+                       "pivots",
+                       info->iters);
     info->ray_variable = entering;
+    if (rb_lcp_excludes(&posed->M, posed->q, posed->lower, posed->upper, NULL, direction))
+        return rb_fail(&info->msg, RB_NO_SOLUTION,
+                       "lcp: no solution: the path ends after pivot %d on a ray of %c(%d) which "
+                       "proves that no z "
+                       "within its bounds has the signs of w",
+                       info->iters, letter, entering % n + 1);
     return rb_fail(&info->msg, RB_RAY,
-                   "lcp: secondary ray after %d pivots: no row blocks %c(%d); z0 = %g", info->iters,
-                   entering < n ? 'w' : 'z', entering % n + 1, z0);
+                   "lcp: secondary ray after %d pivots: no row blocks %c(%d); z0 = %g; this does "
+                   "not prove that there is no solution",
+                   info->iters, letter, entering % n + 1, z0);
 }
 
 rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int n, double start)
@@ -166,7 +181,7 @@ rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int 
         return rb_fail(&info->msg, RB_MAXITER, "lcp: no solution after max_iters = %d pivots",
                        most);
     if (opt->seconds > 0.0 && rb_seconds() - start > opt->seconds)
-        return rb_fail(&info->msg, RB_INTERRUPTED, "lcp: no solution after %d pivots in %g s",
+        return rb_fail(&info->msg, RB_TIME_LIMIT, "lcp: no solution after %d pivots in %g s",
                        info->iters, opt->seconds);
     return RB_OK;
 }
@@ -230,8 +245,13 @@ static rb_status follow_path(void *state)
             if (s != RB_ENOMEM) /* a basis that is singular leaves the tableau as it was */
                 s = RB_OK;
         }
-        if (s == RB_OK && row < 0)
-            s = rb_lcp_fail_ray(l->info, l->n, entering, lemke_z0(l));
+        if (s == RB_OK && row < 0) {
+            for (int i = 0; i < l->n; i++) {
+                const int at = l->t.place[l->n + i];
+                l->other[i] = at >= 0 ? l->a[at] : (double)(entering == l->n + i);
+            }
+            s = rb_lcp_fail_ray(l->info, &l->posed, entering, lemke_z0(l), l->other);
+        }
         if (s != RB_OK)
             return s;
         l->leaving = pivot(l, row, entering);

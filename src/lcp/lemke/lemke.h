@@ -3,6 +3,7 @@
 #ifndef LCP_LEMKE_H
 #define LCP_LEMKE_H
 
+#include "lcp/lemke/farkas.h"
 #include "lcp/lemke/method.h"
 #include "lcp/lemke/tableau.h"
 
@@ -49,13 +50,19 @@ static inline double lemke_z0(const lemke *l)
 }
 
 /* Nothing is known yet. */
-#define RB_LCP_INFO_NONE ((rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1})
+#define RB_LCP_INFO_NONE                                                                           \
+    ((rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1, .label = -1})
 
 /* ---- The ends that the methods share (lemke.c, newton.c) --------------------------- */
 
-/* RB_RAY with its message. */
-rb_status rb_lcp_fail_ray(rb_lcp_info *info, int n, int entering, double z0);
-/* RB_OK: the path of a problem of order n may go on.  RB_MAXITER, RB_INTERRUPTED with
+/* How a path ends on which nothing blocks the entering variable, with its message.
+ * direction: n, of z per unit of the entering variable in the problem that is solved; it
+ * is changed.  RB_NUMERICAL: no z moves, so that it is the ray on which the path has
+ * begun, and to which no exact path comes back; RB_NO_SOLUTION: the ray proves it;
+ * RB_RAY. */
+rb_status rb_lcp_fail_ray(rb_lcp_info *info, const lcp_posed *posed, int entering, double z0,
+                          double *direction);
+/* RB_OK: the path of a problem of order n may go on.  RB_MAXITER, RB_TIME_LIMIT with
  * their messages; start: on rb_seconds(). */
 rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int n, double start);
 /* RB_INACCURATE where info->scaled is not below 1e-10, with a message that names the row. */
@@ -82,6 +89,13 @@ static inline double rb_lcp_upper(const double *upper, int i)
 {
     return upper ? upper[i] : INFINITY;
 }
+
+/* ---- bimatrix.c ---------------------------------------------------------------------- */
+
+/* rb_lcp_bimatrix without a label, of a game that has been checked; began: on
+ * rb_seconds(). */
+rb_status rb_lcp_bimatrix_rounds(const rb_lcp_game *g, const rb_lcp_options *opt, double began,
+                                 double *z, rb_lcp_info *info);
 
 /* ---- game.c: problems that are bimatrix games ---------------------------------------- */
 

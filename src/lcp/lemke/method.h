@@ -12,6 +12,7 @@ typedef struct {
     const rb_lcp_options *opt;
     int generic;  /* 1: where opt has no covering vector, one on which ties and the long
                      paths of Murty and Fathi do not depend (tableau) */
+    int split;    /* 1: free variables as differences of two (mixed) */
     double began; /* on rb_seconds() */
 } lcp_task;
 

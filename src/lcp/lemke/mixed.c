@@ -18,8 +18,10 @@ static const double AWAY = 1.0 + 1e-9;
 
 enum { NONE = -1, OPPOSITE = -2 }; /* in place of a slot: no block; the other bound */
 
-/* A free z(i) is the difference of two that are not negative: its own and one more, whose
- * w is minus w(i).  Then all z can start at a bound, whatever M is. */
+/* A free z(i) is basic from the beginning and never leaves.  Where the matrix of the free
+ * z is singular, or such a path has not led to a solution, it is the difference of two
+ * that are not negative: its own and one more, whose w is minus w(i).  Then all z can
+ * start at a bound, whatever M is; but the rows of the two tie in every step. */
 typedef struct {
     int n, *of;  /* order; n - rows of M: the i that each more belongs to; owned */
     rb_sparse M; /* owned when there are any */
@@ -34,8 +36,7 @@ typedef struct {
     lcp_posed posed; /* the problem that is solved */
     int underway;    /* 0: the path has not begun */
     int leaving;     /* what left last */
-    int n, given;    /* order; that of the caller's problem, before free variables are split */
-    const int *of;   /* n - given: whose other half each more is */
+    int n;           /* order; it is larger than the caller's where free variables are split */
     const rb_sparse *M;
     const double *q, *lower, *upper; /* n; no box without a finite end */
     rb_lcp_options opt;
@@ -137,13 +138,14 @@ static rb_status refresh(mixed *p)
 
 /* ---- Where the path begins --------------------------------------------------------- */
 
-/* All z at a bound; with a start, those between their bounds basic. */
+/* All z with bounds at one; with a start, those between their bounds basic. */
 static rb_status first_basis(mixed *p, const double *start)
 {
     const int n = p->n;
     for (int i = 0; i < n; i++) {
         const double z = start ? start[i] : -INFINITY;
-        const int inside = p->lower[i] < z && z < p->upper[i];
+        const int inside =
+            (isinf(p->lower[i]) && isinf(p->upper[i])) || (p->lower[i] < z && z < p->upper[i]);
         p->at_upper[i] = !isfinite(p->lower[i]) || (start && z >= p->upper[i]);
         p->b.slot[i] = inside ? -1 : i;
         p->b.slot[n + i] = inside ? i : -1;
@@ -199,14 +201,11 @@ static rb_status choose_cover(mixed *p)
         p->y[s] = cover;
         if (violation(p, s) <= 0.0)
             continue;
-        if (cover == 0.0) {
-            /* Of the other half of a free variable the caller knows the first one. */
-            const int i = v < p->given ? v : p->of[v - p->given];
+        if (cover == 0.0)
             return rb_fail(&p->info->msg, RB_EINVAL,
                            "lcp: cover(%d) = 0: expected a number > 0, because w(%d) = %g "
                            "at the start has the wrong sign",
-                           i + 1, i + 1, v < p->given ? p->value[s] : -p->value[s]);
-        }
+                           v + 1, v + 1, p->value[s]);
         worst = fmax(worst, violation(p, s) / cover);
     }
     for (int s = 0; s < p->n; s++) {
@@ -425,8 +424,14 @@ static rb_status follow_path(mixed *p)
             s = refresh(p);
         if (s == RB_OK)
             s = find_slot(p, entering, sign, &slot, &step, &count);
-        if (s == RB_OK && slot == NONE)
-            s = rb_lcp_fail_ray(p->info, n, entering, value_of_t(p));
+        if (s == RB_OK && slot == NONE) {
+            double *direction = p->g;
+            for (int i = 0; i < n; i++) {
+                const int at = p->b.slot[n + i];
+                direction[i] = at >= 0 ? -sign * p->y[at] : entering == n + i ? sign : 0.0;
+            }
+            s = rb_lcp_fail_ray(p->info, &p->posed, entering, value_of_t(p), direction);
+        }
         if (s != RB_OK)
             return s;
         p->leaving = slot == OPPOSITE ? entering : p->b.variable[slot];
@@ -449,7 +454,7 @@ static rb_status go_on(void *state)
     rb_status s = p->underway ? RB_OK : set_out(p, p->opt.start);
     if (s == RB_OK)
         s = follow_path(p);
-    if (p->opt.start && (s == RB_RAY || s == RB_SINGULAR)) {
+    if (p->opt.start && (s == RB_RAY || s == RB_SINGULAR || s == RB_NUMERICAL)) {
         p->opt.start = NULL;
         s = set_out(p, NULL);
         if (s == RB_OK)
@@ -460,7 +465,8 @@ static rb_status go_on(void *state)
 
 /* ---- The problem without free variables -------------------------------------------- */
 
-static rb_status split_create(const rb_lcp_mixed_problem *p, const double *start,
+/* With `splits` 0 a copy of the vectors. */
+static rb_status split_create(const rb_lcp_mixed_problem *p, int splits, const double *start,
                               const double *cover, split *f)
 {
     const int n = p->M->rows;
@@ -475,15 +481,15 @@ static rb_status split_create(const rb_lcp_mixed_problem *p, const double *start
     }
     for (int i = 0; s == RB_OK && i < n; i++) {
         const double low = rb_lcp_lower(p->lower, i), high = rb_lcp_upper(p->upper, i);
-        const int free_one = isinf(low) && isinf(high);
+        const int free_one = splits && isinf(low) && isinf(high);
         f->q[i] = p->q[i];
         f->lower[i] = free_one ? 0.0 : low;
         f->upper[i] = high;
         number[i] = free_one ? f->n : -1;
         if (start)
             f->start[i] = start[i];
-        if (cover)
-            f->cover[i] = cover[i];
+        if (cover) /* of one half w has the wrong sign */
+            f->cover[i] = free_one && cover[i] == 0.0 ? 1.0 : cover[i];
         if (!free_one)
             continue;
         f->q[f->n] = -p->q[i];
@@ -491,7 +497,7 @@ static rb_status split_create(const rb_lcp_mixed_problem *p, const double *start
         if (start)
             f->start[f->n] = -start[i];
         if (cover)
-            f->cover[f->n] = cover[i];
+            f->cover[f->n] = f->cover[i];
         f->of[f->n++ - n] = i;
     }
     if (s == RB_OK && f->n > n) { /* [M, -M_:F; -M_F:, M_FF] */
@@ -545,10 +551,9 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, v
     mixed *p = state;
     const rb_lcp_mixed_problem given = {task->M.sparse, task->q, task->lower, task->upper};
     const int n = task->M.n;
-    *p = (mixed){
-        .work.allowed = INFINITY, .task = task, .given = n, .info = info, .opt = *task->opt};
+    *p = (mixed){.work.allowed = INFINITY, .task = task, .info = info, .opt = *task->opt};
     split *f = &p->f;
-    rb_status s = split_create(&given, p->opt.start, p->opt.cover, f);
+    rb_status s = split_create(&given, task->split, p->opt.start, p->opt.cover, f);
     const lcp_matrix all = {.n = f->n, .sparse = f->n > n ? &f->M : given.M};
     p->opt.start = f->start;
     p->opt.cover = f->cover;
@@ -558,7 +563,6 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, v
         return rb_fail(&info->msg, s, "lcp: out of memory for order %d", n);
     const size_t order = (size_t)f->n;
     p->n = f->n;
-    p->of = f->of;
     p->opt = p->posed.opt;
     p->M = p->posed.M.sparse;
     p->q = p->posed.q;
@@ -623,12 +627,23 @@ rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
     const rb_status s = rb_lcp_check_mixed(p, &o, &info->msg);
     if (s != RB_OK)
         return s;
-    const lcp_task task = {.M = {.n = p->M->rows, .sparse = p->M},
-                           .q = p->q,
-                           .lower = p->lower,
-                           .upper = p->upper,
-                           .opt = &o,
-                           .began = rb_seconds()};
+    lcp_task task = {.M = {.n = p->M->rows, .sparse = p->M},
+                     .q = p->q,
+                     .lower = p->lower,
+                     .upper = p->upper,
+                     .opt = &o,
+                     .began = rb_seconds()};
+    int has_free = 0;
+    for (int i = 0; i < p->M->rows; i++)
+        has_free |= isinf(rb_lcp_lower(p->lower, i)) && isinf(rb_lcp_upper(p->upper, i));
     mixed state;
-    return rb_lcp_run(&rb_lcp_sparse_method, &task, &state, z, info);
+    rb_status end = rb_lcp_run(&rb_lcp_sparse_method, &task, &state, z, info);
+    if (has_free &&
+        (end == RB_SINGULAR || end == RB_RAY || end == RB_NUMERICAL || end == RB_INACCURATE)) {
+        const int pivots = info->iters;
+        task.split = 1;
+        end = rb_lcp_run(&rb_lcp_sparse_method, &task, &state, z, info);
+        info->iters += pivots;
+    }
+    return end;
 }

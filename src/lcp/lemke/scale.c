@@ -29,22 +29,6 @@ static const double PLAIN = 1e-6;
 /* A residual that needs no closer look. */
 static const double EXACT = 1e-13;
 
-/* ---- Columns of M ------------------------------------------------------------------ */
-
-typedef struct {
-    int count;
-    const int *row; /* NULL: 0, 1, ... */
-    const double *x;
-} column;
-
-static column column_of(const lcp_matrix *M, int j)
-{
-    if (M->dense)
-        return (column){M->n, NULL, M->dense + (size_t)j * (size_t)M->ld};
-    const rb_sparse *a = M->sparse;
-    return (column){a->p[j + 1] - a->p[j], a->i + a->p[j], a->x + a->p[j]};
-}
-
 /* ---- Scales ------------------------------------------------------------------------ */
 
 /* The largest |r_i M_ij c_j| of each row and column; r, c NULL: ones. */
@@ -53,7 +37,7 @@ static void largest_entries(const lcp_matrix *M, const double *r, const double *
 {
     memset(row, 0, (size_t)M->n * sizeof *row);
     for (int j = 0; j < M->n; j++) {
-        const column a = column_of(M, j);
+        const lcp_column a = rb_lcp_column(M, j);
         double most = 0.0;
         for (int k = 0; k < a.count; k++) {
             const int i = a.row ? a.row[k] : k;
@@ -100,7 +84,7 @@ static void balance_exponents(const lcp_matrix *M, const double *q, double *r, d
             sum[i] = q[i] != 0.0 ? ilogb(q[i]) + of_q : 0.0;
         }
         for (int j = 0; j < n; j++) {
-            const column a = column_of(M, j);
+            const lcp_column a = rb_lcp_column(M, j);
             double own = 0.0, entries = 0.0;
             for (int k = 0; k < a.count; k++)
                 if (a.x[k] != 0.0) {
@@ -248,7 +232,7 @@ static rb_status pose_scaled(lcp_posed *s)
         (!given.dense && rb_sparse_copy(given.sparse, &s->sparse) != RB_OK))
         return RB_ENOMEM;
     for (int j = 0; j < n; j++) {
-        const column a = column_of(&given, j);
+        const lcp_column a = rb_lcp_column(&given, j);
         double *to = s->dense ? s->dense + (size_t)j * order : s->sparse.x + s->sparse.p[j];
         for (int k = 0; k < a.count; k++)
             to[k] = a.x[k] * row[a.row ? a.row[k] : k] * col[j];
@@ -312,7 +296,7 @@ static void largest_neighbours(const lcp_matrix *M, const lcp_scale *s, const do
     memset(most, 0, (size_t)M->n * sizeof *most);
     memset(felt, 0, (size_t)M->n * sizeof *felt);
     for (int j = 0; j < M->n; j++) {
-        const column a = column_of(M, j);
+        const lcp_column a = rb_lcp_column(M, j);
         double largest = 0.0;
         for (int k = 0; k < a.count; k++) {
             const int i = a.row ? a.row[k] : k;
@@ -346,7 +330,7 @@ rb_status rb_lcp_measure(const lcp_matrix *M, const lcp_scale *scale, const doub
         terms[i] = fabs(q[i]);
     }
     for (int j = 0; j < M->n; j++) {
-        const column a = column_of(M, j);
+        const lcp_column a = rb_lcp_column(M, j);
         const double x = z[j];
         for (int k = 0; x != 0.0 && k < a.count; k++) {
             const int i = a.row ? a.row[k] : k;

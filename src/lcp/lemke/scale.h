@@ -12,6 +12,20 @@ typedef struct {
     const rb_sparse *sparse; /* where dense is NULL */
 } lcp_matrix;
 
+typedef struct {
+    int count;
+    const int *row; /* NULL: 0, 1, ... */
+    const double *x;
+} lcp_column;
+
+static inline lcp_column rb_lcp_column(const lcp_matrix *M, int j)
+{
+    if (M->dense)
+        return (lcp_column){M->n, NULL, M->dense + (size_t)j * (size_t)M->ld};
+    const rb_sparse *a = M->sparse;
+    return (lcp_column){a->p[j + 1] - a->p[j], a->i + a->p[j], a->x + a->p[j]};
+}
+
 /* R M C with the largest entry of each row and column near 1: z = C z', w = R^-1 w'. */
 typedef struct {
     double *row, *col; /* n each, powers of two; row owns both */

@@ -167,7 +167,8 @@ static rb_status run_portfolio(const lcp_task *task, double *z, rb_lcp_info *inf
 {
     portfolio p = {.z = rb_alloc((size_t)task->M.n, 1)};
     member *first = &p.member[0];
-    rb_status s = RB_OK, said = p.z ? RB_MAXITER : RB_ENOMEM;
+    /* Memory that one member lacks may be enough for the others. */
+    rb_status s = RB_OK, said = RB_ENOMEM;
     *info = RB_LCP_INFO_NONE;
     choose(task, &p);
     /* The first method that pivots: how it has ended is what is said of a problem that none
@@ -200,8 +201,8 @@ static rb_status run_portfolio(const lcp_task *task, double *z, rb_lcp_info *inf
             } else
                 for (s = RB_OK; s == RB_OK && !a->ended && a->info.iters < a->systems;)
                     s = take_turn(&p, a, used_by(a) + 1.0);
-            over = a->ended && (s == RB_OK || s < 0 || s == RB_INTERRUPTED);
-            if (over || (a->ended && a == spokesman)) {
+            over = a->ended && (s == RB_OK || s == RB_NO_SOLUTION || s == RB_TIME_LIMIT);
+            if (a->ended && s != RB_ENOMEM && (over || a == spokesman || said == RB_ENOMEM)) {
                 memcpy(z, p.z, (size_t)task->M.n * sizeof *z);
                 *info = a->info;
                 info->solver = a->method->name;
@@ -243,6 +244,42 @@ const rb_lcp_solver *rb_lcp_solvers(int *count)
     return solvers;
 }
 
+/* Paths that are tried in place of one that has ended where no exact path ends. */
+enum { OTHER_COVERS = 3 };
+
+/* s: how a path has ended that has not found the solution.  Where M is such that there is
+ * one for every q, rounding errors have ended it: paths with other covering vectors are
+ * tried if the caller has asked for none. */
+static rb_status retry_definite(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt, double *z,
+                                rb_lcp_info *info, rb_status s)
+{
+    const int own = opt->cover || opt->trace || opt->rule != RB_LCP_LEXICOGRAPHIC;
+    if ((s != RB_RAY && s != RB_NUMERICAL && s != RB_SINGULAR) || !rb_lcp_is_definite(p->M))
+        return s;
+    const size_t n = (size_t)p->M->cols;
+    double *cover = rb_alloc(n, 1);
+    rb_lcp_options o = *opt;
+    unsigned long long seed = 20260101;
+    int iters = info->iters;
+    s = cover ? RB_NUMERICAL : RB_ENOMEM;
+    o.cover = cover;
+    for (int k = 0; s == RB_NUMERICAL && !own && k < OTHER_COVERS; k++) {
+        for (size_t i = 0; i < n; i++)
+            cover[i] = rb_lcp_random(&seed);
+        s = rb_lcp_mixed(p, &o, z, info);
+        iters = info->iters += iters;
+        if (s == RB_RAY || s == RB_SINGULAR || s == RB_INACCURATE)
+            s = RB_NUMERICAL;
+    }
+    free(cover);
+    if (s == RB_NUMERICAL)
+        rb_fail(&info->msg, s,
+                "lcp: numerical failure after %d pivots: M is definite, so that there is a "
+                "solution, but rounding errors hide it",
+                info->iters);
+    return s;
+}
+
 rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
                        double *z, rb_lcp_info *info)
 {
@@ -266,24 +303,27 @@ rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const 
     if (s != RB_OK)
         return s;
     const int path = o.trace || o.cover || o.rule != RB_LCP_LEXICOGRAPHIC;
+    rb_status status;
     if (kind == AUTO && !path && !boxes) {
         const lcp_task task = {
             .M = {.n = p->M->cols, .sparse = p->M}, .q = p->q, .opt = &o, .began = rb_seconds()};
-        const rb_status game = rb_lcp_game_solve(p->M, p->q, &o, z, info);
-        return game == RB_OK || game < 0 ? game : run_portfolio(&task, z, info);
+        status = rb_lcp_game_solve(p->M, p->q, &o, z, info);
+        if (status != RB_OK && status >= 0)
+            status = run_portfolio(&task, z, info);
+        return retry_definite(p, &o, z, info, status);
     }
     if (kind == BLOCKS)
         return rb_lcp_newton(p->M, p->q, &o, z, info);
     const int large = p->M->cols >= LARGE && read_structure(p->M).part < MANY;
     if (kind == LEMKE_SPARSE || boxes || o.start || large)
-        return rb_lcp_mixed(p, &o, z, info);
+        return retry_definite(p, &o, z, info, rb_lcp_mixed(p, &o, z, info));
     const int n = p->M->cols;
     double *dense;
-    rb_status status = make_dense(p->M, &dense);
+    status = make_dense(p->M, &dense);
     if (status == RB_OK)
         status = rb_lcp_lemke(&(rb_lcp_problem){n, dense, n, p->q}, &o, z, info);
     else
         rb_fail(&info->msg, status, "lcp: out of memory for a dense matrix of order %d", n);
     free(dense);
-    return status;
+    return retry_definite(p, &o, z, info, status);
 }

@@ -3,106 +3,14 @@
 #include "lcp/lemke/lemke.h"
 
 #include <cblas.h>
-#include <math.h>
+#include <limits.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <tgmath.h>
 
-/* Parts of the largest entry below which ratios tie, and entries are no pivots. */
-static const double SAME = 1e-11, SMALL = 1e-11;
-
-/* s = 1 - P v >= 0, v >= 0: the best replies of one player, P the other player's payoffs
- * made positive.  A column per label: a label belongs to a strategy, that is to one v
- * and, in the other tableau, to one s.  Row-major: rows of labels + 1 numbers, the last
- * one the right-hand side. */
-typedef struct {
-    int rows, width;
-    double *T;  /* rows x width */
-    int *basis; /* rows: labels */
-    int first;  /* label of the s of row 0 */
-} tableau;
-
-static double *row_of(const tableau *t, int row)
-{
-    return t->T + (size_t)row * (size_t)t->width;
-}
-
-/* In an arena that may have failed. */
-static void tableau_create(int rows, int labels, int first, rb_arena *memory, tableau *t)
-{
-    *t = (tableau){.rows = rows, .width = labels + 1, .first = first};
-    t->T = rb_arena_doubles(memory, (size_t)rows, (size_t)labels + 1);
-    t->basis = rb_arena_ints(memory, (size_t)rows);
-    for (int r = 0; r < rows && !memory->failed; r++) {
-        row_of(t, r)[first + r] = 1.0;
-        row_of(t, r)[labels] = 1.0;
-        t->basis[r] = first + r;
-    }
-}
-
-/* The row that blocks the entering label: least ratio of the right-hand side, then of the
- * columns of s, which are the basis inverse, one after the other (lexicographic). */
-static int blocking_row(const tableau *t, int entering, int *tied)
-{
-    double most = 0.0;
-    int count = 0;
-    for (int r = 0; r < t->rows; r++)
-        most = fmax(most, fabs(row_of(t, r)[entering]));
-    for (int r = 0; r < t->rows; r++)
-        if (row_of(t, r)[entering] > SMALL * most)
-            tied[count++] = r;
-    for (int k = -1; k < t->rows && count > 1; k++) {
-        const int column = k < 0 ? t->width - 1 : t->first + k;
-        double least = INFINITY, size = 0.0;
-        int kept = 0;
-        for (int i = 0; i < count; i++) {
-            const double ratio = row_of(t, tied[i])[column] / row_of(t, tied[i])[entering];
-            least = fmin(least, ratio);
-            size = fmax(size, fabs(ratio));
-        }
-        for (int i = 0; i < count; i++) {
-            const double *row = row_of(t, tied[i]);
-            if (row[column] / row[entering] - least <= SAME * fmax(fabs(least), SAME * size))
-                tied[kept++] = tied[i];
-        }
-        count = kept;
-    }
-    return count ? tied[0] : -1;
-}
-
-static void pivot(tableau *t, int row, int entering)
-{
-    double *own = row_of(t, row);
-    cblas_dscal(t->width, 1.0 / own[entering], own, 1);
-    own[entering] = 1.0;
-    for (int r = 0; r < t->rows; r++) {
-        double *other = row_of(t, r);
-        const double factor = other[entering];
-        if (r == row || factor == 0.0)
-            continue;
-        cblas_daxpy(t->width, -factor, own, 1, other, 1);
-        other[entering] = 0.0;
-        if (other[t->width - 1] < 0.0) /* rounding of a tie */
-            other[t->width - 1] = 0.0;
-    }
-    t->basis[row] = entering;
-}
-
-/* x = the v of the tableau, which add up to 1. */
-static void strategy(const tableau *t, int first, int count, double *x)
-{
-    double sum = 0.0;
-    memset(x, 0, (size_t)count * sizeof *x);
-    for (int r = 0; r < t->rows; r++) {
-        const int k = t->basis[r] - first;
-        if (k >= 0 && k < count)
-            sum += x[k] = fmax(row_of(t, r)[t->width - 1], 0.0);
-    }
-    if (sum > 0.0)
-        cblas_dscal(count, 1.0 / sum, x, 1);
-}
-
-/* The least of a player's payoffs, and how far the largest is above it (1 where all are
- * equal). */
+/* The least of a player's payoffs, and a power of two by which the largest is at most above
+ * it (1 where all are equal): integers stay exact, and what ties in them. */
 typedef struct {
     double low, wide;
 } payoffs;
@@ -115,7 +23,7 @@ static payoffs payoffs_of(const rb_lcp_game *g, const double *P)
             low = fmin(low, P[(size_t)i + (size_t)j * (size_t)g->ld]);
             high = fmax(high, P[(size_t)i + (size_t)j * (size_t)g->ld]);
         }
-    return (payoffs){low, high > low ? high - low : 1.0};
+    return (payoffs){low, high > low ? exp2(ceil(log2(high - low))) : 1.0};
 }
 
 /* In [0, 1]: adding to payoffs and multiplying them changes no equilibrium. */
@@ -124,55 +32,41 @@ static double scaled(payoffs p, const rb_lcp_game *g, const double *P, int i, in
     return (P[(size_t)i + (size_t)j * (size_t)g->ld] - p.low) / p.wide;
 }
 
-/* Labels 0 ... m - 1 are the rows of the game, the others its columns. */
+/* Payoffs in [0, 1]: adding to them and multiplying them changes no equilibrium. */
 typedef struct {
-    int m, labels;
-    tableau of_x, of_y;
-    int *tied; /* labels: scratch */
-    const rb_lcp_options *opt;
-    rb_lcp_info *info;
-} lemke_howson;
+    int m, n;
+    const double *a, *b; /* m x n, column-major */
+} howson_game;
 
-/* Number of a label's variable for the trace: z in its own tableau, w in the other. */
-static int variable(const lemke_howson *l, const tableau *t, int label)
+/* ---- The path, in one precision and then in another -------------------------------- */
+
+/* Ratios tie within this part of them. */
+static const double SAME = 1e-11;
+
+/* A number of a basic variable that looks random: a basis is the sum of those of its own
+ * (splitmix64). */
+static uint64_t hash_of(int variable)
 {
-    const int is_z = (label < l->m) == (t == &l->of_x);
-    return is_z ? l->labels + label : label;
+    uint64_t x = 0x9e3779b97f4a7c15ULL * (uint64_t)(variable + 1);
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+    return x ^ (x >> 31);
 }
 
-/* Drops the label, and then in turn every label that the last pivot has doubled, from the
- * tableau where it can enter, until the dropped one is back. */
-static rb_status follow_path(lemke_howson *l, int dropped)
-{
-    tableau *t = dropped < l->m ? &l->of_x : &l->of_y;
-    int entering = dropped, leaving = -1;
-    const double start = rb_seconds();
-    while (leaving != dropped) {
-        const rb_status s = rb_lcp_check_limits(l->info, l->opt, l->labels, start);
-        if (s != RB_OK)
-            return s;
-        const int row = blocking_row(t, entering, l->tied);
-        if (row < 0)
-            return rb_fail(&l->info->msg, RB_INACCURATE,
-                           "lcp: rounding errors are too large after %d pivots", l->info->iters);
-        leaving = t->basis[row];
-        pivot(t, row, entering);
-        /* After the pivot on that row of t. */
-        const rb_lcp_pivot seen = {.pivot = l->info->iters,
-                                   .entering = variable(l, t, entering),
-                                   .leaving = variable(l, t, leaving),
-                                   .row = t == &l->of_x ? l->m + row : row,
-                                   .ratio = row_of(t, row)[t->width - 1],
-                                   .attempt = l->opt->attempt,
-                                   .n = l->labels};
-        if (l->opt->trace)
-            l->opt->trace(&seen, l->opt->trace_context);
-        l->info->iters++;
-        entering = leaving;
-        t = t == &l->of_x ? &l->of_y : &l->of_x;
-    }
-    return RB_OK;
-}
+#define REAL double
+#define IN(name) name##_in_double
+/* Differences below this part of their terms are zero: on long paths the entries of a
+ * tableau differ by 1e12 and more, so that no part of the largest one tells a pivot from
+ * rounding. */
+#define CANCELLED 1e-13
+#include "lcp/portfolio/howson.h"
+#undef REAL
+#undef IN
+#undef CANCELLED
+#define REAL long double
+#define IN(name) name##_in_long_double
+#define CANCELLED 1e-13L
+#include "lcp/portfolio/howson.h"
 
 double rb_lcp_bimatrix_regret(const rb_lcp_game *g, const double *z, double *regret,
                               double payoff[2])
@@ -219,41 +113,98 @@ static rb_status out_of_memory(const rb_lcp_game *g, rb_message *why)
     return rb_fail(why, RB_ENOMEM, "lcp: out of memory for a game of %d by %d", g->m, g->n);
 }
 
+/* The path of one label, of a game that has been checked; began: on rb_seconds(). */
+static rb_status solve_by_label(const rb_lcp_game *g, int label, const rb_lcp_options *opt,
+                                double began, double *z, rb_lcp_info *info)
+{
+    const size_t entries = (size_t)g->m * (size_t)g->n;
+    rb_arena memory = {0};
+    *info = RB_LCP_INFO_NONE;
+    double *a = rb_arena_doubles(&memory, entries, 1), *b = rb_arena_doubles(&memory, entries, 1),
+           *regret = rb_arena_doubles(&memory, (size_t)g->m + (size_t)g->n, 1), payoff[2];
+    if (memory.failed)
+        return rb_arena_done(&memory, out_of_memory(g, &info->msg));
+    const payoffs of_a = payoffs_of(g, g->A), of_b = payoffs_of(g, g->B);
+    const double size = fmax(of_a.wide, of_b.wide);
+    for (int j = 0; j < g->n; j++)
+        for (int i = 0; i < g->m; i++) {
+            a[i + j * g->m] = scaled(of_a, g, g->A, i, j);
+            b[i + j * g->m] = scaled(of_b, g, g->B, i, j);
+        }
+    const howson_game positive = {g->m, g->n, a, b};
+    rb_status s = RB_NUMERICAL;
+    for (int more = 0; more < 2 && (s == RB_NUMERICAL || s == RB_INACCURATE); more++) {
+        s = more ? follow_path_in_long_double(&positive, label, opt, began, z, info)
+                 : follow_path_in_double(&positive, label, opt, began, z, info);
+        if (s == RB_ENOMEM)
+            break;
+        info->res = rb_lcp_bimatrix_regret(g, z, regret, payoff);
+        info->scaled = size > 0.0 ? info->res / size : info->res;
+        if (s == RB_OK)
+            s = rb_lcp_assess(info);
+    }
+    if (s == RB_ENOMEM)
+        out_of_memory(g, &info->msg);
+    info->solver = "lemke-howson";
+    info->label = label;
+    return rb_arena_done(&memory, s);
+}
+
+/* Operations of all paths together, about half a minute, and labels that they begin with
+ * where the caller has not chosen one. */
+static const double ALL_WORK = 2e10;
+enum { LABELS = 16 };
+
+rb_status rb_lcp_bimatrix_rounds(const rb_lcp_game *g, const rb_lcp_options *opt, double began,
+                                 double *z, rb_lcp_info *info)
+{
+    const int order = g->m + g->n, apart = order / LABELS > 0 ? order / LABELS : 1;
+    const double per_pivot = (double)order * order;
+    const int most = opt->max_iters ? opt->max_iters : INT_MAX;
+    rb_lcp_options o = *opt;
+    double left = opt->max_iters ? INFINITY : ALL_WORK;
+    int iters = 0, unfinished = 1;
+    rb_status s = RB_MAXITER;
+    for (double limit = 2.0 * order + 20.0; unfinished && left > 0.0; limit *= 2.0) {
+        o.max_iters = (int)fmin(limit, most);
+        unfinished = 0;
+        for (int k = 0; k < LABELS && k < order; k++) {
+            s = solve_by_label(g, k * apart, &o, began, z, info);
+            iters = info->iters += iters;
+            left -= per_pivot * o.max_iters;
+            unfinished |= s == RB_MAXITER;
+            /* where rounding errors have ended this path others may do without them */
+            if (s != RB_MAXITER && s != RB_NUMERICAL && s != RB_INACCURATE)
+                return s;
+        }
+        if (o.max_iters >= most)
+            break;
+    }
+    return opt->max_iters && unfinished
+               ? RB_MAXITER
+               : rb_fail(&info->msg, RB_NUMERICAL,
+                         "lcp: every game has an equilibrium, but the paths of %d labels have not "
+                         "found one in %d pivots",
+                         order < LABELS ? order : LABELS, iters);
+}
+
 rb_status rb_lcp_bimatrix(const rb_lcp_game *g, int label, const rb_lcp_options *opt, double *z,
                           rb_lcp_info *info)
 {
+    rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
     rb_lcp_info unread;
-    const rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
-    lemke_howson l = {.opt = &o, .info = info ? info : &unread};
-    *l.info = (rb_lcp_info){.res = NAN, .scaled = NAN, .row = -1, .ray_variable = -1};
-    rb_status s = check_input(g, label, &l.info->msg);
+    const double began = rb_seconds();
+    info = info ? info : &unread;
+    *info = RB_LCP_INFO_NONE;
+    rb_status s = check_input(g, label == -1 ? 0 : label, &info->msg);
     if (s != RB_OK)
         return s;
-    rb_arena memory = {0};
-    double *regret = rb_arena_doubles(&memory, (size_t)g->m + (size_t)g->n, 1), payoff[2];
-    l.m = g->m;
-    l.labels = g->m + g->n;
-    l.tied = rb_arena_ints(&memory, (size_t)l.labels);
-    tableau_create(g->n, l.labels, g->m, &memory, &l.of_x);
-    tableau_create(g->m, l.labels, 0, &memory, &l.of_y);
-    if (memory.failed)
-        return rb_arena_done(&memory, out_of_memory(g, &l.info->msg));
-    const payoffs of_a = payoffs_of(g, g->A), of_b = payoffs_of(g, g->B);
-    for (int j = 0; j < g->n; j++)
-        for (int i = 0; i < g->m; i++) {
-            row_of(&l.of_x, j)[i] = 1.0 + scaled(of_b, g, g->B, i, j);
-            row_of(&l.of_y, i)[g->m + j] = 1.0 + scaled(of_a, g, g->A, i, j);
-        }
-    s = follow_path(&l, label);
-    strategy(&l.of_x, 0, g->m, z);
-    strategy(&l.of_y, g->m, g->n, z + g->m);
-    l.info->res = rb_lcp_bimatrix_regret(g, z, regret, payoff);
-    if (s == RB_OK) {
-        const double size = fmax(of_a.wide, of_b.wide);
-        l.info->scaled = size > 0.0 ? l.info->res / size : l.info->res;
-        s = rb_lcp_assess(l.info);
-    }
-    return rb_arena_done(&memory, s);
+    if (label == -1)
+        return rb_lcp_bimatrix_rounds(g, &o, began, z, info);
+    const double rows = fmax(g->m, g->n), labels = g->m + g->n + 1.0;
+    if (!o.max_iters)
+        o.max_iters = (int)fmin(ALL_WORK / (2.0 * rows * labels), 1e9);
+    return solve_by_label(g, label, &o, began, z, info);
 }
 
 /* ---- All equilibria ---------------------------------------------------------------- */

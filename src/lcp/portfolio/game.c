@@ -6,9 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Strategies that paths begin with. */
-enum { LABELS = 16 };
-
 /* side[i]: 0 for the row player's unknowns, 1 for the column player's; *m: how many 0.
  * Returns 0 where it is no game. */
 static int read_sides(const rb_sparse *M, const double *q, int *side, int *m)
@@ -62,23 +59,7 @@ rb_status rb_lcp_game_solve(const rb_sparse *M, const double *q, const rb_lcp_op
                 (side[j] ? A : B)[(size_t)row + (size_t)col * rows] = M->x[k] / q[i] * unit[j];
             }
         }
-        /* Paths that begin with one strategy can be long where others are short: one
-         * after the other, with a limit that grows. */
-        const int order = M->cols, apart = order / LABELS > 0 ? order / LABELS : 1,
-                  own = opt->max_iters;
-        const double began = rb_seconds();
-        rb_lcp_options o = *opt;
-        int iters = 0;
-        s = RB_MAXITER;
-        for (int limit = 2 * order + 20; s == RB_MAXITER && limit < 50 * order + 1000; limit *= 2)
-            for (int k = 0; s == RB_MAXITER && k < LABELS && k < order; k++) {
-                o.max_iters = own && own < limit ? own : limit;
-                s = rb_lcp_bimatrix(&game, k * apart, &o, mixed, info);
-                iters += info->iters;
-                if (opt->seconds > 0.0 && rb_seconds() - began > opt->seconds)
-                    s = s == RB_MAXITER ? RB_INTERRUPTED : s;
-            }
-        info->iters = iters;
+        s = rb_lcp_bimatrix_rounds(&game, opt, rb_seconds(), mixed, info);
         rb_lcp_bimatrix_regret(&game, mixed, regret, payoff);
         /* y over the row player's costs, x over the column player's */
         for (size_t i = 0; i < n; i++)

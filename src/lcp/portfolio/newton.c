@@ -75,8 +75,8 @@ static rb_status solve_basic(newton *s)
                        "%d steps",
                        s->A.rows, s->info->iters);
     return status == RB_OK ? status
-                           : rb_fail(&s->info->msg, RB_ENOMEM,
-                                     "lcp: newton: out of memory for a factorisation");
+                           : rb_fail(&s->info->msg, status, "lcp: newton: no factorisation: %s",
+                                     rb_status_text(status));
 }
 
 /* Exchanges z_i and w_i of the negative components from the first on. */
@@ -99,7 +99,7 @@ static rb_status iterate(void *state)
             return rb_fail(&s->info->msg, RB_MAXITER,
                            "lcp: newton: no solution after max_iters = %d steps", most);
         if (opt->seconds > 0.0 && rb_seconds() - s->task->began > opt->seconds)
-            return rb_fail(&s->info->msg, RB_INTERRUPTED,
+            return rb_fail(&s->info->msg, RB_TIME_LIMIT,
                            "lcp: newton: no solution after %d steps in %g s", s->info->iters,
                            opt->seconds);
         const rb_status status = solve_basic(s);

@@ -53,14 +53,15 @@ static const rb_option options[] = {
                    "tolerance of the scaled residual: see below"),
     RB_INTEGER_LINE("max-pivots", PLACE(max_pivots), RB_FROM_TO(1, 1e9),
                     "iteration limit of each method",
-                    .unset = "lemke 50 n + 1000, newton 10 n + 100"),
+                    .unset = "lemke 50 n + 1000, newton 10 n + 100, games half a minute"),
     RB_TEXT_LINE("start", PLACE(start), "FILE",
                  "z of a similar problem to start from: n numbers, as --q", .unset = "the bounds",
                  .file = RB_FILE_READ),
     RB_FLAG_LINE("all", PLACE(all),
                  "all solutions, by trying every complementary basis (order 22 at most)"),
     RB_INTEGER_LINE("label", PLACE(label), RB_FROM_TO(1, 1e9),
-                    "--game: the strategy dropped first, rows then columns", .unset = "1"),
+                    "--game: the strategy that the path begins with, rows then columns",
+                    .unset = "several in turns; 1 with --trace"),
     RB_TEXT_LINE("cover", PLACE(cover), "FILE",
                  "covering vector d >= 0, d > 0 where q < 0: n numbers, as --q", .unset = "ones",
                  .file = RB_FILE_READ),
@@ -98,7 +99,9 @@ static const char notes[] =
     "had a turn, --all counts bases. Pivots name the variables w(1) ... w(n), z(1) ... z(n) and "
     "the\n"
     "artificial z0. Of a game z holds the probabilities of the row and then of the column\n"
-    "strategies, w what each loses against the best reply.\n"
+    "strategies, w what each loses against the best reply; a last column has the label, the "
+    "strategy\n"
+    "that the path begins with.\n"
     "After a file that fails the others are still solved.\n"
     "Exit codes, the largest of all files: 0 solved; 1 secondary ray, iteration limit, no "
     "solution\n"
@@ -202,7 +205,8 @@ static cli_exit say_end(const lcp_options *o, lcp_result *r, rb_status s)
                 r->info.scaled, o->tol);
     }
     if (s == RB_MAXITER)
-        cli_fail(code, "%s: no solution after --max-pivots %d", r->file, r->info.iters);
+        cli_fail(code, "%s: no solution after --max-pivots %d", r->file,
+                 o->max_pivots ? o->max_pivots : r->info.iters);
     else if (code != CLI_OK)
         cli_fail(code, "%s: %s", r->file, r->info.msg.text);
     return code;
@@ -342,7 +346,8 @@ static cli_exit solve_game(lcp_run *run, lcp_result *r)
     if (run->o->all)
         s = rb_lcp_bimatrix_enumerate(&game, &all, &r->info.msg);
     else if (r->z && r->w)
-        s = rb_lcp_bimatrix(&game, (run->o->label ? run->o->label : 1) - 1, &opt, r->z, &r->info);
+        s = rb_lcp_bimatrix(&game, run->o->trace && !run->o->label ? 0 : run->o->label - 1, &opt,
+                            r->z, &r->info);
     r->seconds = rb_seconds() - start;
     if (run->o->all && s == RB_OK)
         s = take_all(r, &all);
@@ -372,7 +377,7 @@ static cli_exit solve_file(void *context, const char *path)
     lcp_run *run = context;
     lcp_result r = {.file = path,
                     .solver = run->o->game ? "lemke-howson" : "lemke",
-                    .info = {.res = NAN, .scaled = NAN, .row = -1},
+                    .info = {.res = NAN, .scaled = NAN, .row = -1, .label = -1},
                     .floor = NAN,
                     .seconds = NAN,
                     .solutions = 1};
@@ -393,14 +398,18 @@ static cli_exit solve_file(void *context, const char *path)
                                 CLI_NUMBER("residual", "residual", r.info.res),
                                 CLI_NUMBER("scaled_residual", "scaled", r.info.scaled),
                                 CLI_NUMBER("floor", NULL, r.floor),
-                                CLI_NUMBER("seconds", "seconds", r.seconds)};
+                                CLI_NUMBER("seconds", "seconds", r.seconds),
+                                CLI_KNOWN(NULL, "label", r.info.label + 1, r.info.label >= 0)};
     enum { VALUES = sizeof values / sizeof *values };
     cli_rows *rows = &run->files.rows;
     if (rows->is_json) {
         cli_rows_add(rows, VALUES, values);
-        if (run->o->game)
+        if (run->o->game) {
             cli_rows_set(rows, "payoffs",
                          known ? rb_report_json_numbers(2, r.payoff) : json_null());
+            cli_rows_set(rows, "label",
+                         r.info.label >= 0 ? json_integer(r.info.label + 1) : json_null());
+        }
         if (run->o->all) {
             json_t *list = json_array();
             for (int k = 0; k < r.solutions; k++)
@@ -416,12 +425,14 @@ static cli_exit solve_file(void *context, const char *path)
             cli_rows_set(rows, "pivots", json_incref(run->pivots.list));
     } else if (known && (run->o->trace || run->o->solution || run->o->all)) {
         /* A # line of the file, and a row per unknown, of each solution. */
-        char residual[40] = ""; /* without a solution there is none */
+        char residual[40] = "", label[40] = ""; /* without a solution there is none */
         if (isfinite(r.info.res))
             snprintf(residual, sizeof residual, ", scaled residual %.3g", r.info.scaled);
-        rb_report_comment(&rows->cells, "%s: %s by %s, n = %d, %d %s%s, %.3g s", r.file, r.status,
-                          r.solver, r.n, r.info.iters, run->o->all ? "bases" : "pivots", residual,
-                          r.seconds);
+        if (r.info.label >= 0)
+            snprintf(label, sizeof label, " from label %d", r.info.label + 1);
+        rb_report_comment(&rows->cells, "%s: %s by %s%s, n = %d, %d %s%s, %.3g s", r.file, r.status,
+                          r.solver, label, r.n, r.info.iters, run->o->all ? "bases" : "pivots",
+                          residual, r.seconds);
         for (int k = 0; k < r.solutions && !run->o->trace && r.z; k++)
             for (int i = 0; i < r.n; i++) {
                 const size_t at = (size_t)k * (size_t)r.n + (size_t)i;
@@ -499,10 +510,11 @@ int cli_lcp(int argc, char **argv)
     if (code == CLI_CONTINUE) {
         lcp_run run = {
             .files = {.style = &o.style,
-                      .columns = o.trace ? "file pivot entering leaving row ratio z0"
-                                 : o.all ? "file solution i z w"
-                                 : o.solution
-                                     ? "file i z w"
+                      .columns = o.trace      ? "file pivot entering leaving row ratio z0"
+                                 : o.all      ? "file solution i z w"
+                                 : o.solution ? "file i z w"
+                                 : o.game
+                                     ? "file status n pivots residual seconds scaled solver label"
                                      : "file status n pivots residual seconds scaled solver",
                       .conventions = conventions,
                       .solve = solve_file,

@@ -1,0 +1,118 @@
+/* Proofs that there is a solution, or that there is none. */
+#include "lcp/lemke/farkas.h"
+#include "lcp/lemke/lemke.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What has a wrong sign below this part of its terms is looked at as rounding; and what is
+ * left of it must not let in any z below so many times the largest |q|. */
+static const double ROUNDING = 1e-9, FAR = 1e8;
+
+typedef struct {
+    double least, most;
+} interval;
+
+/* Where y_i may lie: y_i w_i >= 0 for every w_i that side and bounds allow. */
+static interval of_multiplier(lcp_side side, double low, double high)
+{
+    if (low == high)
+        return (interval){0.0, 0.0};
+    if (side == LCP_BETWEEN)
+        return (interval){-INFINITY, INFINITY};
+    const int at_lower = side == LCP_AT_LOWER || (side == LCP_OPEN && isfinite(low));
+    const int at_upper = side == LCP_AT_UPPER || (side == LCP_OPEN && isfinite(high));
+    return (interval){at_upper && !at_lower ? -INFINITY
+                      : at_lower            ? 0.0
+                                            : -INFINITY,
+                      at_lower && !at_upper ? INFINITY
+                      : at_upper            ? 0.0
+                                            : INFINITY};
+}
+
+int rb_lcp_excludes(const lcp_matrix *M, const double *q, const double *lower, const double *upper,
+                    const lcp_side *side, double *y)
+{
+    const int n = M->n;
+    const double most = rb_norm_inf((size_t)n, y);
+    double value = 0.0, terms = 0.0, wrong = 0.0;
+    for (int i = 0; i < n; i++) {
+        const interval own = of_multiplier(side ? side[i] : LCP_OPEN, rb_lcp_lower(lower, i),
+                                           rb_lcp_upper(upper, i));
+        const double x = fmin(fmax(y[i], own.least), own.most);
+        if (!(fabs(x - y[i]) <= ROUNDING * most))
+            return 0;
+        y[i] = x;
+        value += q[i] * x;
+        terms += fabs(q[i] * x);
+    }
+    /* y'w = y'q + c'z with c = M'y: the largest that it comes to within the bounds. */
+    for (int j = 0; j < n; j++) {
+        const lcp_column a = rb_lcp_column(M, j);
+        const lcp_side at = side ? side[j] : LCP_OPEN;
+        const double low = rb_lcp_lower(lower, j), high = rb_lcp_upper(upper, j);
+        double c = 0.0, size = 0.0;
+        for (int k = 0; k < a.count; k++) {
+            c += a.x[k] * y[a.row ? a.row[k] : k];
+            size += fabs(a.x[k]);
+        }
+        const double z = at == LCP_AT_LOWER   ? low
+                         : at == LCP_AT_UPPER ? high
+                         : c > 0.0            ? high
+                                              : low;
+        if (c == 0.0 || z == 0.0)
+            continue;
+        if (!isinf(z)) {
+            value += c * z;
+            terms += fabs(c * z);
+        } else if (fabs(c) <= ROUNDING * most * size)
+            wrong = fmax(wrong, fabs(c));
+        else
+            return 0;
+    }
+    return value < -(4.0 + n) * DBL_EPSILON * terms &&
+           -value >= FAR * wrong * rb_norm_inf((size_t)n, q);
+}
+
+/* 1: the diagonal is positive and larger than the others of every column, or of every
+ * row; rows: n, zero. */
+static int is_dominant(const rb_sparse *M, double *rows)
+{
+    int by_columns = 1, by_rows = 1;
+    for (int j = 0; j < M->cols; j++) {
+        double rest = 0.0, own = 0.0;
+        for (int k = M->p[j]; k < M->p[j + 1]; k++) {
+            const int i = M->i[k];
+            if (i == j)
+                own = M->x[k];
+            else
+                rest += fabs(M->x[k]);
+            rows[i] += i == j ? M->x[k] : -fabs(M->x[k]);
+        }
+        by_columns &= own > rest * (1.0 + 1e-9);
+    }
+    for (int i = 0; i < M->cols; i++)
+        by_rows &= rows[i] > 0.0;
+    return by_columns || by_rows;
+}
+
+int rb_lcp_is_definite(const rb_sparse *M)
+{
+    rb_sparse T = {0};
+    rb_sparse_cholesky *factor = NULL;
+    double *rows = rb_alloc((size_t)M->cols, 1);
+    int yes = rows && is_dominant(M, rows);
+    if (rows && !yes && rb_sparse_transpose(M, &T) == RB_OK) {
+        const size_t nz = (size_t)M->p[M->cols];
+        yes = memcmp(M->p, T.p, ((size_t)M->cols + 1) * sizeof *M->p) == 0 &&
+              memcmp(M->i, T.i, nz * sizeof *M->i) == 0 &&
+              memcmp(M->x, T.x, nz * sizeof *M->x) == 0 &&
+              rb_sparse_cholesky_create(M, &factor) == RB_OK;
+    }
+    rb_sparse_cholesky_free(factor);
+    rb_sparse_free(&T);
+    free(rows);
+    return yes;
+}

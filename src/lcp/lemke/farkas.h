@@ -1,0 +1,27 @@
+/* Proofs that there is a solution, or that there is none.  Private to src/lcp. */
+#ifndef LCP_FARKAS_H
+#define LCP_FARKAS_H
+
+#include "lcp/lemke/scale.h"
+
+/* What is fixed of a pair z_i, w_i. */
+typedef enum {
+    LCP_OPEN,     /* nothing: z_i within its bounds, w_i with the sign that all of them allow */
+    LCP_AT_LOWER, /* z_i = lower_i, w_i >= 0 */
+    LCP_AT_UPPER, /* z_i = upper_i, w_i <= 0 */
+    LCP_BETWEEN   /* w_i = 0 */
+} lcp_side;
+
+/* 1: y proves that no z within its bounds has the signs of w = M z + q that `side` (n;
+ * NULL: all open) asks for: y'w < 0 for all of them, and >= 0 for the signs (Farkas).
+ * Products within 1e-9 of their terms count as zero.  y: n, changed: what has a wrong
+ * sign by rounding becomes 0. */
+int rb_lcp_excludes(const lcp_matrix *M, const double *q, const double *lower, const double *upper,
+                    const lcp_side *side, double *y);
+
+/* 1: M is symmetric with a Cholesky factor, or strictly dominated by a positive diagonal,
+ * by rows or by columns: then there is one solution for every q and all bounds, and no
+ * path of Lemke's method ends on a ray but by rounding errors. */
+int rb_lcp_is_definite(const rb_sparse *M);
+
+#endif
