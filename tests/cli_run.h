@@ -109,6 +109,17 @@ static inline json_t *run_json(const char *arguments)
     return root;
 }
 
+/* The same, with a format. */
+__attribute__((format(printf, 1, 2))) static inline json_t *run_jsonf(const char *format, ...)
+{
+    char line[900];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(line, sizeof line, format, args);
+    va_end(args);
+    return run_json(line);
+}
+
 static inline double number_in(const json_t *object, const char *name)
 {
     const json_t *value = json_object_get(object, name);

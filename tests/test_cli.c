@@ -563,7 +563,8 @@ TEST(transient_rolls_step_by_step)
         json_string_value(json_object_get(json_object_get(root, "summary"), "formulation")),
         "transient");
     OWNED(rb_io_table) t;
-    assert_int_equal(rb_io_table_read_columns("steps.tsv", 16, &t, NULL), RB_OK);
+    CHECK_OK(rb_io_table_read("steps.tsv", &t, &heard));
+    assert_int_equal(t.columns, 16);
     assert_int_equal(t.rows, steps);
     CHECK_ABS(t.x[steps - 1 + 5 * steps], member(root, "summary", "tangential_load"), 1e-9,
               "Q of the last step");
@@ -1032,6 +1033,47 @@ TEST(commands_on_a_case_offer_the_same)
         assert_true(json_is_array(json_object_get(root, "notes")));
         assert_non_null(strstr(err, "This run rests on"));
     }
+}
+
+/* A table of --history-table is a history: it gives the same steps again. */
+TEST(history_tables_are_histories)
+{
+#define STEPS "--similar --support halfplane --contact-elements 30 --quiet "
+    static const struct {
+        const char *first, *again;
+    } runs[] = {
+        {"--formulation transient --load 100 --creep-ratio 0.4 --distance 1",
+         "--formulation transient"},
+        {"--formulation transient --load 100 --creep-ratio 1.5 --distance 3",
+         "--formulation transient"},
+        {"--formulation transient --load 100 --force-ratio -0.5 --distance 1 --increments 3",
+         "--formulation transient"},
+        {"--load 100 --shift 0.001 --increments 4", ""},
+        {"--load 100 --force-ratio 0.4 --increments 4 --units si --radius 0.05 --young 9.45e10",
+         "--units mm"},
+        {"--formulation transient --load 100 --creep-ratio 0.4 --distance 1 --error",
+         "--formulation transient"}};
+    for (size_t k = 0; k < sizeof runs / sizeof *runs; k++) {
+        OWNED(rb_io_table) a, b;
+        const double *q[2];
+        static const rb_io_column of_Q[] = {{"tangential_load", NULL, "N/mm", RB_IO_COLUMN_NEEDED},
+                                            {NULL, NULL, "-", RB_IO_COLUMN_UNUSED}};
+        assert_int_equal(rollbemf(STEPS "%s --history-table a.tsv && \"$R\" " STEPS
+                                        "%s --history a.tsv --history-table b.tsv",
+                                  runs[k].first, runs[k].again),
+                         0);
+        CHECK_OK(rb_io_table_read("a.tsv", &a, &heard));
+        CHECK_OK(rb_io_table_read("b.tsv", &b, &heard));
+        assert_int_equal(a.rows, b.rows);
+        CHECK_OK(rb_io_table_assign("a", &a, 2, of_Q, RB_UNITS_MM, &q[0], &heard));
+        const double *first = q[0];
+        CHECK_OK(rb_io_table_assign("b", &b, 2, of_Q, RB_UNITS_MM, &q[0], &heard));
+        for (int i = 0; i < a.rows; i++)
+            CHECK_ABS(q[0][i], first[i], 1e-8 * fabs(first[a.rows - 1]), "%s, Q of row %d",
+                      runs[k].first, i + 1);
+    }
+    CHECK_RUN(rollbem(STEPS "--formulation transient --history a.tsv --creep 0.1"), 64, err,
+              "--creep: the history has a column force");
 }
 
 RUN_TESTS(enter_folder, leave_folder)

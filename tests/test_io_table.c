@@ -4,16 +4,21 @@
 
 #include <unistd.h>
 
-static rb_status read_text(const char *text, rb_io_table *t, rb_message *why)
+static rb_status read_bytes(const char *text, size_t n, rb_io_table *t, rb_message *why)
 {
     char name[] = "/tmp/rollbem-table-XXXXXX";
     const int fd = mkstemp(name);
     assert_true(fd >= 0);
-    assert_int_equal(write(fd, text, strlen(text)), (int)strlen(text));
+    assert_int_equal(write(fd, text, n), (int)n);
     close(fd);
     const rb_status s = rb_io_table_read(name, t, why);
     unlink(name);
     return s;
+}
+
+static rb_status read_text(const char *text, rb_io_table *t, rb_message *why)
+{
+    return read_bytes(text, strlen(text), t, why);
 }
 
 static void check_history(const char *text, int first_line)
@@ -66,6 +71,11 @@ TEST(bad_tables_are_named_with_their_line)
         {"1 2\n3 4x\n", ":2: expected a number, got '4x'"},
         {"one 2\n", ":1: expected a number, got 'one'"},
         {"load load\n1 2\n", ":1: column 'load' is named twice"},
+        {"0,5;1,5\n1.5;2\n", ":2: expected a number, got '1.5'; decimals have a comma in line 1"},
+        {"x;y\n1.234,5;2\n", ":2: expected a number, got '1.234,5' in column 'x'"},
+        {"load;force\n1;\n", ":2: expected 2 numbers (load, force), got 1"},
+        {"load;force\n;1\n", ":2: expected a number, got '' in column 'load'"},
+        {"load;force\n1;2%\n", ":2: expected a number, got '2%' in column 'force'"},
         {"load force\n", ": no numbers"},
         {"# load force\n\n", ": no numbers"},
         {"", ": no numbers"},
@@ -86,7 +96,8 @@ TEST(bad_tables_are_named_with_their_line)
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
         rb_io_table t;
         rb_message why = {""};
-        assert_int_equal(read_text(bad[k].text, &t, &why), RB_EFORMAT);
+        if (read_text(bad[k].text, &t, &why) != RB_EFORMAT)
+            fail_msg("not refused: %s", bad[k].text);
         if (!strstr(why.text, bad[k].part))
             fail_msg("got '%s', want '%s'", why.text, bad[k].part);
         assert_null(t.x);
@@ -131,46 +142,144 @@ TEST(long_tables_keep_every_row)
     }
 }
 
-TEST(columns_are_counted_where_they_are_known)
+static const rb_io_column gap[] = {{"x", "position", "mm", RB_IO_COLUMN_NEEDED},
+                                   {"gap", "clearance", "mm", RB_IO_COLUMN_NEEDED}};
+
+/* As people and spreadsheets write one table: x = -5 mm and 5 mm, gap = 2.5 um and 54 um. */
+TEST(headings_say_names_and_units)
 {
-    rb_io_table t;
-    char name[] = "/tmp/rollbem-table-XXXXXX";
-    static const char text[] = "# two\n\n1 2\n";
-    const int fd = mkstemp(name);
-    assert_int_equal(write(fd, text, sizeof text - 1), (int)sizeof text - 1);
-    close(fd);
-    CHECK_OK(rb_io_table_read_columns(name, 2, &t, &heard));
-    assert_true(t.columns == 2 && t.x[1] == 2.0);
-    rb_io_table_free(&t);
-    CHECK_SAYS(rb_io_table_read_columns(name, 3, &t, &heard), RB_EFORMAT,
-               ":3: expected 3 numbers, got 2");
-    assert_null(t.x);
-    unlink(name);
-    CHECK_STATUS(rb_io_table_read_columns(name, 2, &t, &heard), RB_ENOENT);
+    static const char *const text[] = {"x_mm,gap_um\n-5,2.5\n5,54\n",
+                                       "\"x [mm]\",\"gap [um]\"\n-5,2.5\n5,54\n",
+                                       "x (mm), gap (um)\n-5, 2.5\n5, 54\n",
+                                       "x/mm,gap/um\n-5,2.5\n5,54\n",
+                                       "x / mm, gap / um\n-5,2.5\n5,54\n",
+                                       "x [mm] gap [um]\n-5 2.5\n5 54\n",
+                                       "# x [mm]  gap [um]\n-5 2.5\n5 54\n",
+                                       "# x in mm gap in um\n-5 2.5\n5 54\n",
+                                       "x in mm,gap in um\n-5,2.5\n5,54\n",
+                                       "x mm\tgap um\n-5\t2.5\n5\t54\n",
+                                       "x_mm,gap_micron\n-5,2.5\n5,54\n",
+                                       "x_MM,gap_UM\n-5,2.5\n5,54\n",
+                                       "X_mm,Gap_microns\n-5,2.5\n5,54\n",
+                                       "x..mm.,gap..um.\n-5,2.5\n5,54\n",
+                                       "x,gap\nmm,um\n-5,2.5\n5,54\n",
+                                       "x;gap\n[mm];[µm]\n-5;2,5\n5;54\n",
+                                       "x_m,gap_nm\n-0.005,2500\n0.005,54e3\n",
+                                       "x_cm,gap_m\n-0.5,2.5e-6\n0.5,54e-6\n",
+                                       "gap_um,x_mm\n2.5,-5\n54,5\n",
+                                       "position_mm,clearance_um\n-5,2.5\n5,54\n",
+                                       "\xef\xbb\xbfx [mm];gap [µm]\r\n-5,0;2,5\r\n5,0;54,0\r\n",
+                                       "x (mm)\tgap (\xb5m)\n-5,0\t2,5\n5,0\t54\n", /* Latin-1 */
+                                       "x mm, gap um\n-5,0 2,5\n5,0 54,0\n",
+                                       "sep=;\nx_mm;gap_um\n-5;2,5\n5;54\n",
+                                       "x_mm;gap_um;;\n-5;2.5;;\n5;54;;\n;;;\n",
+                                       "\xff\xfex\0_\0m\0m\0;\0g\0a\0p\0_\0u\0m\0\n\0-\0005\0;"
+                                       "\0002\0,\0005\0\n\0005\0;\0005\0004\0\n\0",
+                                       "\xfe\xff\0x\0_\0m\0m\0;\0g\0a\0p\0_\0u\0m\0\n\0-\0005\0;"
+                                       "\0002\0,\0005\0\n\0005\0;\0005\0004\0\n"};
+    enum { TEXTS = sizeof text / sizeof *text };
+    for (int k = 0; k < TEXTS; k++) {
+        OWNED(rb_io_table) t;
+        const double *x[2];
+        const size_t n = k < TEXTS - 2 ? strlen(text[k]) : 2 * 24 + 2;
+        rb_message why = {""};
+        if (read_bytes(text[k], n, &t, &why) != RB_OK ||
+            rb_io_table_assign("g", &t, 2, gap, RB_UNITS_MM, x, &why) != RB_OK)
+            fail_msg("%d: %s", k, why.text);
+        assert_int_equal(t.rows, 2);
+        CHECK_REL(x[0][0], -5.0, 1e-15, "x, %d", k);
+        CHECK_REL(x[0][1], 5.0, 1e-15, "x, %d", k);
+        CHECK_REL(x[1][0], 0.0025, 1e-15, "gap, %d", k);
+        CHECK_REL(x[1][1], 0.054, 1e-15, "gap, %d", k);
+    }
 }
 
-/* A unit at the end of a name counts and is dropped; else the column has that of the
- * system. */
+TEST(headings_that_are_not_understood_are_named)
+{
+    static const struct {
+        const char *text, *part;
+    } bad[] = {
+        {"x_mm,gap_furlong\n1,2\n", "column 'gap_furlong': expected gap in one of mm, m, cm, um,"},
+        {"x_mm,gap_MPa\n1,2\n", "column 'gap_MPa': expected gap in one of mm,"},
+        {"x_mm,banana\n1,2\n", "unknown column 'banana'; expected x_mm, gap_mm"},
+        {"x_mm,gpa\n1,2\n", "unknown column 'gpa' (did you mean 'gap'?)"},
+        {"x_mm,gap_um,note\n1,2,3\n", "unknown column 'note'"},
+        {"gap_um,gap_mm\n1,2\n", "columns 'gap_um' and 'gap_mm' are both gap"},
+        {"x_mm\n1\n", "expected a column gap_mm"},
+        {"# x [mm], gap [furlong]\n1 2\n", "column 'gap [furlong]'"},
+        {"# width [mm], gap [um]\n1 2\n", "unknown column 'width [mm]'"},
+        {"1 2 3\n", "g:1: expected 2 numbers, got 3"}};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        OWNED(rb_io_table) t;
+        const double *x[2];
+        CHECK_OK(read_text(bad[k].text, &t, &heard));
+        CHECK_SAYS(rb_io_table_assign("g", &t, 2, gap, RB_UNITS_MM, x, &heard), RB_EFORMAT,
+                   bad[k].part);
+    }
+    /* of as many words as there are columns, but about something else */
+    OWNED(rb_io_table) t;
+    const double *x[2];
+    CHECK_OK(read_text("# steel wheel\n1 2\n", &t, &heard));
+    CHECK_OK(rb_io_table_assign("g", &t, 2, gap, RB_UNITS_SI, x, &heard));
+    assert_null(t.name);
+    CHECK_REL(x[1][0], 2000.0, 1e-15, "gap in m by the system");
+}
+
+/* A unit in a heading counts; else the column has that of the system. */
 TEST(units_of_columns_are_those_of_their_names)
 {
-    rb_io_table t;
-    CHECK_OK(read_text("x_m gap\n1 2\n3 4\n", &t, NULL));
-    rb_io_table_convert(&t, 0, "mm", RB_UNITS_SI);
-    rb_io_table_convert(&t, 1, "mm", RB_UNITS_SI);
-    CHECK_REL(t.x[1], 3000.0, 1e-15, "x in m by its name");
-    CHECK_REL(t.x[3], 4000.0, 1e-15, "gap in m by the system");
-    assert_string_equal(t.name[0], "x");
-    assert_string_equal(t.name[1], "gap");
-    rb_io_table_free(&t);
-    CHECK_OK(read_text("x_mm gap\n1 2\n", &t, NULL));
-    rb_io_table_convert(&t, 0, "mm", RB_UNITS_SI);
-    CHECK_ABS(t.x[0], 1.0, 0.0, "x in mm by its name");
-    rb_io_table_free(&t);
-    CHECK_OK(read_text("1 2\n", &t, NULL));
-    rb_io_table_convert(&t, 1, "mm", RB_UNITS_SI);
-    CHECK_ABS(t.x[0], 1.0, 0.0, "another column");
-    CHECK_REL(t.x[1], 2000.0, 1e-15, "without names");
-    rb_io_table_free(&t);
+    OWNED(rb_io_table) t;
+    const double *x[2];
+    CHECK_OK(read_text("x_mm gap\n1 2\n3 4\n", &t, NULL));
+    CHECK_OK(rb_io_table_assign("g", &t, 2, gap, RB_UNITS_SI, x, &heard));
+    CHECK_ABS(x[0][1], 3.0, 0.0, "x in mm by its name");
+    CHECK_REL(x[1][1], 4000.0, 1e-15, "gap in m by the system");
+}
+
+/* "0,5" between tabs is a half; between nothing else than commas it is two numbers. */
+TEST(commas_are_decimal_or_separate)
+{
+    static const struct {
+        const char *text;
+        int columns;
+        double first;
+    } all[] = {{"0,5\t1,25\n2\t3\n", 2, 0.5}, {"0,5 -1,25\n", 2, 0.5},   {"0,5;1,25\n", 2, 0.5},
+               {"0,5,1,25\n", 4, 0.0},        {"0, 5, 1, 25\n", 4, 0.0}, {"0.5;1.25\n", 2, 0.5},
+               {"2\t3\n0,5\t1,25\n", 2, 2.0}, {"0;5;1\n", 3, 0.0}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        OWNED(rb_io_table) t;
+        CHECK_OK(read_text(all[k].text, &t, &heard));
+        assert_int_equal(t.columns, all[k].columns);
+        CHECK_ABS(t.x[0], all[k].first, 0.0, "%s", all[k].text);
+    }
+}
+
+TEST(cells_may_be_words)
+{
+    char name[] = "/tmp/rollbem-table-XXXXXX";
+    static const char *const text[] = {"name,support,load\nold rail,halfplane,5\n,hub,7.5\n",
+                                       "name\tsupport\tload\nold rail\thalfplane\t5\n\thub\t7,5\n",
+                                       "name;support;load\n\"old rail\";halfplane;5\n;hub;7,5\n"};
+    for (size_t k = 0; k < sizeof text / sizeof *text; k++) {
+        OWNED(rb_io_table) t;
+        strcpy(strrchr(name, '-'), "-XXXXXX");
+        const int fd = mkstemp(name);
+        assert_int_equal(write(fd, text[k], strlen(text[k])), (int)strlen(text[k]));
+        close(fd);
+        CHECK_OK(rb_io_table_read_words(name, &t, &heard));
+        assert_int_equal(t.rows, 2);
+        assert_string_equal(t.word[0], "old rail");
+        assert_string_equal(t.word[1], "");
+        assert_string_equal(t.word[3], "hub");
+        assert_null(t.word[4]);
+        CHECK_ABS(t.x[5], 7.5, 0.0, "load");
+        assert_true(isnan(t.x[2]));
+        for (int i = 0, refused = 1; refused; i++) {
+            OWNED(rb_io_table) again;
+            refused = REFUSED_FROM(i, rb_io_table_read_words(name, &again, NULL));
+        }
+        unlink(name);
+    }
 }
 
 TEST(lines_of_any_length_are_read)

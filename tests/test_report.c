@@ -675,58 +675,6 @@ TEST(start_up_files_are_off)
     CHECK_OK(status);
 }
 
-/* ---- Tables of numbers ------------------------------------------------------------- */
-
-static rb_status read_text(const char *text, rb_io_table *t, rb_message *why)
-{
-    char name[] = "/tmp/rollbem-columns-XXXXXX";
-    const int fd = mkstemp(name);
-    assert_true(fd >= 0);
-    assert_int_equal(write(fd, text, strlen(text)), (int)strlen(text));
-    close(fd);
-    const rb_status s = rb_io_table_read_columns(name, 2, t, why);
-    unlink(name);
-    return s;
-}
-
-TEST(columns_are_read)
-{
-    OWNED(rb_io_table) t;
-    assert_int_equal(read_text("# x, gap\n1 2\n\n3,\t4 # end\n -5e-1  6", &t, &heard), RB_OK);
-    assert_int_equal(t.rows, 3);
-    CHECK_ABS(t.x[2], -0.5, 0.0, "x");
-    CHECK_ABS(t.x[3 + 1], 4.0, 0.0, "gap");
-}
-
-TEST(bad_columns_are_named)
-{
-    static const char *const bad[] = {"1 2\n3\n", "1 2\n3 4 5\n", "1 2\n3 x\n", "1 2\n3 nan\n",
-                                      "1 2\n3 4x\n"};
-    rb_io_table t;
-    for (int k = 0; k < 5; k++) {
-        rb_message why = {""};
-        assert_int_equal(read_text(bad[k], &t, &why), RB_EFORMAT);
-        assert_non_null(strstr(why.text, ":2: expected"));
-        assert_null(t.x);
-    }
-    assert_int_equal(read_text("# nothing\n", &t, NULL), RB_EFORMAT);
-    assert_int_equal(rb_io_table_read_columns("/nonexistent", 2, &t, NULL), RB_ENOENT);
-}
-
-TEST(columns_without_memory)
-{
-    OWNED(rb_io_table) t;
-    char name[] = "/tmp/rollbem-columns-XXXXXX";
-    const int fd = mkstemp(name);
-    for (int i = 0; i < 200; i++)
-        assert_int_equal(write(fd, "1 2\n", 4), 4);
-    close(fd);
-    for (int k = 0, refused = 1; refused; k++) {
-        refused = REFUSED_FROM(k, rb_io_table_read_columns(name, 2, &t, NULL));
-    }
-    unlink(name);
-}
-
 /* ---- Citations -------------------------------------------------------------------- */
 
 /* docs/theory.md 9 with single blanks. */

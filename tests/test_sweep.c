@@ -726,4 +726,85 @@ TEST(a_finished_study_keeps_its_exit_code)
     assert_non_null(strstr(err, "not solved: 2 of 2"));
 }
 
+/* Words, labels and units of a table: each row is the case that the command line says. */
+TEST(rows_of_a_table_have_words_and_labels)
+{
+    static const char *const cases[] = {
+        "--support halfplane --mesh uniform --plane strain --load 500 --young 210GPa",
+        "--support hub --mesh aligned --plane strain --load 600 --young 190GPa",
+        "--support halfplane --mesh fitted --plane stress --load 700 --young 190GPa --similar"};
+    write_file("words.csv", "name;support;mesh;plane;load [kN/m];young_GPa;similar;yield-stress\n"
+                            "old rail;halfplane;uniform;strain;500,0;210;no;none\n"
+                            "\"hub, worn\";hub;aligned;strain;600,0;190;no;none\n"
+                            "disc;halfplane;fitted;stress;700000N/m;190GPa;yes;none\n");
+#define ROLLS "--poisson 0.3 --formulation steady --creep-ratio 0.4 --contact-elements 20"
+    assert_int_equal(rollbem("sweep " ROLLS " --cases words.csv --json --quiet"), 0);
+    held_json *root = NOT_NULL(json_loads(out, 0, NULL));
+    const json_t *table = json_object_get(root, "table");
+    const json_t *names = json_object_get(table, "name");
+    assert_string_equal(json_string_value(json_array_get(names, 1)), "hub, worn");
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        held_json *one = run_jsonf(ROLLS " %s", cases[k]);
+        CHECK_REL(entry(table, "tangential_load_N/mm", k),
+                  number_in(json_object_get(one, "summary"), "tangential_load"), 1e-12,
+                  "Q of row %zu", k + 1);
+    }
+    CHECK_ABS(entry(table, "load", 2), 700.0, 1e-9, "a unit in a cell");
+    /* the same rows again, to the digit, where they are resumed */
+    assert_int_equal(rollbem("sweep " ROLLS " --cases words.csv --output w.tsv --quiet"), 0);
+    assert_int_equal(shell("head -6 w.tsv >x.tsv && cp w.tsv all.tsv && mv x.tsv w.tsv && "
+                           "\"$R\" sweep " ROLLS " --cases words.csv --output w.tsv --quiet && "
+                           "grep -v rollbem w.tsv >a && grep -v rollbem all.tsv >b && cmp a b && "
+                           "grep -q '\"old rail\"' w.tsv"),
+                     0);
+    assert_int_equal(rollbem("sweep --support halfplane --load 100 --vary-1 'plane strain stress' "
+                             "--vary-2 'mu 0.1 0.2' --header=bare --quiet"),
+                     0);
+    assert_non_null(strstr(out, "\n4\tstress\t0.2\t0\t"));
+    static const struct {
+        const char *table, *part;
+    } wrong[] = {{"support,load\nhalfplan,1\n", ":2: support: expected arc, hub or halfplane, got"},
+                 {"support,load\n3,1\n", ":2: support: expected arc, hub or halfplane, got '3'"},
+                 {"load\nmuch\n", ":2: load: expected a number > 0, got 'much'"},
+                 {"load\n5MPa\n", ":2: load: expected a number in one of N/mm"},
+                 {"suport,load\nhub,1\n", "'suport' is not an option of a case"},
+                 {"amount,load\n3,1\n", "'amount' is not an option of a case"},
+                 {"units,load\nsi,1\n", "'units' is not an option of a case"},
+                 {"similar,load\nmaybe,1\n", ":2: similar: expected yes or no, got 'maybe'"}};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        write_file("wrong.csv", wrong[k].table);
+        check_refused("sweep --cases wrong.csv --quiet", 65, wrong[k].part);
+    }
+}
+
+/* Pictures of a table of cases are drawn whatever its grid; words stand at their places. */
+TEST(tables_of_cases_are_drawn)
+{
+    write_file("cases.csv", "name,support,load,mu\na,halfplane,100,0.1\nb,hub,200,0.2\n"
+                            "c,halfplane,200,0.3\nd,hub,300,0.1\n");
+    static const struct {
+        const char *options, *drawn;
+    } all[] = {{"", "with points"},
+               {"--family support", "title 'hub'"},
+               {"--over support", "set xtics ('halfplane' 0, 'hub' 1)"},
+               {"--over name --show max_pressure", "set xtics ('a' 0, 'b' 1, 'c' 2, 'd' 3)"}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        assert_int_equal(rollbemf("sweep " ROLLS " --cases cases.csv --plot p.svg --plot-script "
+                                  "p.gp --quiet %s",
+                                  all[k].options),
+                         0);
+        if (shellf("grep -qF \"%s\" p.gp", all[k].drawn) != 0)
+            fail_msg("no %s", all[k].drawn);
+    }
+    assert_int_equal(rollbem("sweep --poisson 0.3 --support halfplane --formulation steady "
+                             "--creep-ratio 0.4 --contact-elements 20 --load 100 --vary-1 'plane "
+                             "strain stress' --vary-2 'mu 0.1 0.2' --plot p.svg --plot-script p.gp "
+                             "--quiet"),
+                     0);
+    assert_int_equal(shell("grep -q \"title 'stress'\" p.gp"), 0);
+    check_refused("sweep --support halfplane --formulation steady --load 100 --vary-1 'plane "
+                  "strain stress' --vary-2 'creep-ratio 0.1 0.2' --map p.svg",
+                  64, "--map: a map needs two options with numbers, plane has words");
+}
+
 RUN_TESTS(enter_folder, leave_folder)

@@ -40,7 +40,55 @@ TEST(units_are_as_defined)
                {"1 1/psi", "1/MPa", 145.03773773020923},
                {"5ms", "s", 0.005},
                {"0.1%", "-", 0.001},
-               {"3.14159265358979323846rad", "degrees", 180.0}};
+               {"3.14159265358979323846rad", "degrees", 180.0},
+               /* of the trades */
+               {"1N/m2", "MPa", 1e-6},
+               {"2GN/m2", "MPa", 2000.0},
+               {"30Mpsi", "MPa", 206842.71879505088},
+               {"30Msi", "MPa", 206842.71879505088},
+               {"1kgf/mm2", "MPa", 9.80665},
+               {"1bar", "MPa", 0.1},
+               {"1kip/in", "N/mm", 175.12683524647636},
+               {"1lb/in", "N/mm", 0.17512683524647636},
+               {"5N/cm", "N/mm", 0.5},
+               {"1kgf/mm", "N/mm", 9.80665},
+               {"100kN/12mm", "N/mm", 1e5 / 12.0},
+               {"22480 lbf / 0.5in", "N/mm", 22480.0 * 4.4482216152605 / 12.7},
+               {"60m/min", "mm/s", 1000.0},
+               {"100ft/min", "mm/s", 508.0},
+               {"1e-3mm3/Nm", "1/MPa", 1e-6},
+               {"1 mm3/(N m)", "1/MPa", 1e-3},
+               {"1mm3/N/m", "1/MPa", 1e-3},
+               {"1 mm^3/(N·m)", "1/MPa", 1e-3},
+               {"1mm3/N m", "1/MPa", 1e-3},
+               {"1mm3/J", "1/MPa", 1e-3},
+               {"1e-15 m2/N", "1/MPa", 1e-9},
+               {"1e-15 m3/(N m)", "1/MPa", 1e-9},
+               {"1cm3/(N m)", "1/MPa", 1.0},
+               {"1um3/J", "1/MPa", 1e-12},
+               {"1um3/(N mm)", "1/MPa", 1e-9},
+               {"1/GPa", "1/MPa", 1e-3},
+               {"1e-10/MPa", "1/MPa", 1e-10},
+               {"1e-10 1/MPa", "1/MPa", 1e-10},
+               {"1in2/lbf", "1/MPa", 145.03773773020923},
+               {"2mm2/N", "1/MPa", 2.0},
+               {"0.002km", "mm", 2000.0},
+               {"3thou", "mm", 0.0762},
+               {"3 microns", "mm", 0.003},
+               {"1.5 millimetres", "mm", 1.5},
+               {"8inches", "mm", 203.2},
+               {"1ksi√in", "MPa.mm^0.5", 34.748482334414788},
+               {"1MPa√m", "MPa.mm^0.5", 31.622776601683793},
+               {"1 MPa m^(1/2)", "MPa.mm^0.5", 31.622776601683793},
+               {"1MPa*sqrt(m)", "MPa.mm^0.5", 31.622776601683793},
+               {"1 MPa m1/2", "MPa.mm^0.5", 31.622776601683793},
+               {"1 N mm^-3/2", "MPa.mm^0.5", 1.0},
+               {"2mm/m", "-", 2e-3},
+               {"5‰", "-", 5e-3},
+               {"3 per cent", "-", 0.03},
+               {"50 N s^-1 K^-1", "W/(m K)", 50.0},
+               {"2 N m/mm", "N", 2000.0},
+               {"12 h", "s", 43200.0}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         CHECK_REL(read_unit(all[k].text, all[k].unit), all[k].wanted, 1e-15, "%s", all[k].text);
 }
@@ -52,12 +100,11 @@ TEST(units_of_no_kind_are_their_own)
     int plain;
     CHECK_ABS(rb_unit_stored(RB_UNITS_SI, "furlong", 2.5), 2.5, 0.0, "stored");
     CHECK_ABS(rb_unit_shown(RB_UNITS_SI, "furlong", 2.5), 2.5, 0.0, "shown");
-    CHECK_ABS(rb_unit_of("furlong", "mm", 2.5), 2.5, 0.0, "of a name");
     CHECK_OK(rb_unit_read("2.5 furlong", "furlong", &value, &plain, NULL));
     CHECK_ABS(value, 2.5, 0.0, "read");
     assert_int_equal(plain, 0);
     /* seventeen digits stay */
-    CHECK_ABS(rb_unit_of("m", "mm", 0.30000000000000004), 300.00000000000004, 0.0, "of m");
+    CHECK_ABS(read_unit("0.30000000000000004m", "mm"), 300.00000000000004, 0.0, "of m");
     CHECK_ABS(rb_unit_shown(RB_UNITS_SI, "mm", 300.00000000000006), 0.30000000000000006, 0.0,
               "in m");
     CHECK_STATUS(rb_unit_read("2.5 -", "-", &value, &plain, NULL), RB_EINVAL);
@@ -200,6 +247,14 @@ TEST(files_take_units)
     write_file("points.ini", "load = 100\nsupport = halfplane\n[stress]\n"
                              "points = points3.txt\n");
     write_file("points3.txt", "0 0.5\n");
+    write_file("points4.txt", "Depth [µm];x / mm\n500,0;0,0\n");
+    write_file("worn2.txt", "\"x [mm]\",\"depth (um)\"\n-.2,0\n-.1,.8\n0,1\n.1,.8\n.2,0\n");
+    write_file("mu.txt", "-.2 .2\n0 .3\n.2 .2\n");
+    write_file("mu2.txt", "friction coefficient (%);x (um)\n20;-200\n30;0\n20;200\n");
+    write_file("flat.txt", "-.3 0\n0 .001\n.3 0\n");
+    write_file("flat2.txt", "x_um,gap_nm\n-300,0\n0,1000\n300,0\n");
+    write_file("ways.txt", "distance,force\n0,0\n0.2,10\n");
+    write_file("ways2.txt", "Distance (a);Tangential force [kN/m]\n0;0\n0,2;10,0\n");
     assert_int_equal(
         shell("S='--support halfplane --similar --quiet --header=bare'; \"$R\" $S --history a.txt "
               ">a && \"$R\" $S --history b.txt >b && cmp a b && \"$R\" $S --units si "
@@ -211,6 +266,16 @@ TEST(files_take_units)
     assert_int_equal(shell("S='--support halfplane --load 100 --quiet --header=bare'; "
                            "\"$R\" stress $S --points points3.txt >p && "
                            "\"$R\" stress $S --points points2.txt >q && cmp p q && "
+                           "\"$R\" stress $S --points points4.txt >q && cmp p q && "
+                           "\"$R\" $S --worn worn.txt >p && "
+                           "\"$R\" $S --worn worn2.txt --units mm >q && cmp p q && "
+                           "\"$R\" $S --friction-law mu.txt >p && "
+                           "\"$R\" $S --friction-law mu2.txt >q && cmp p q && "
+                           "T='--formulation transient --similar --contact-elements 20'; "
+                           "\"$R\" $S $T --distance .2 --force 9 --irregularity flat.txt >p && "
+                           "\"$R\" $S $T --distance .2 --force 9 --irregularity flat2.txt >q && "
+                           "cmp p q && \"$R\" $S $T --history ways.txt >p && "
+                           "\"$R\" $S $T --history ways2.txt >q && cmp p q && "
                            "\"$R\" stress points.ini --units si --quiet --header=bare >r && "
                            "\"$R\" stress points.ini --units si --points points2.txt --quiet "
                            "--header=bare >s && cmp r s && grep -q '0.0005' r"),
@@ -415,6 +480,57 @@ TEST(what_people_see_says_the_units)
     assert_int_equal(shell("grep -q 'N/m' p.svg && ! grep -q 'N/mm' p.svg"), 0);
 }
 
+/* No table takes a column in silence. */
+TEST(headings_of_every_table_are_read_or_refused)
+{
+    static const struct {
+        const char *options, *good, *bad;
+    } all[] = {
+        {"--load 10 --gap t.txt", "x_mm,gap_um", "x,gap_furlong"},
+        {"--load 10 --gap t.txt", "X [mm],Gap [um]", "x,height"},
+        {"--load 10 --worn t.txt", "x_mm,worn depth (um)", "x,depth_MPa"},
+        {"--load 10 --friction-law t.txt", "x_mm,mu_%", "x,my"},
+        {"--load 10 --friction-law t.txt", "x/mm,mu", "x_s,mu"},
+        {"stress --load 10 --points t.txt", "x_mm,y_um", "x,y_K"},
+        {"--formulation transient --distance .1 --load 10 --contact-elements 20 --irregularity "
+         "t.txt",
+         "x_mm,gap_um", "x,bump"},
+        {"--formulation static --contact-elements 20 --history t.txt", "shift_um,load_N/m",
+         "shift,lood"},
+        {"--formulation static --contact-elements 20 --history t.txt", "Shift [um],Load [kN/m]",
+         "shift,load_N"},
+        {"sweep --contact-elements 20 --cases t.txt", "shift_nm,load_kN/m", "shift,load [N]"},
+        {"sweep --contact-elements 20 --cases t.txt", "shift [um],Load / kN/m", "shift,radios"},
+        {"fit t.txt --fit mu --load 10 --contact-elements 20", "creep_%,Q [N/mm]", "creep,Q [N]"},
+        {"fit t.txt --fit mu --load 10 --contact-elements 20", "Creepage (%),Q/P", "creep,R"}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        const int fits = strncmp(all[k].options, "fit", 3) == 0;
+        for (int bad = 0; bad < 2; bad++) {
+            char text[200], line[300], heading[60];
+            const char *names = bad ? all[k].bad : all[k].good;
+            snprintf(text, sizeof text,
+                     fits ? "%s\n0.01,-0.1\n0.02,-0.2\n0.03,-0.25\n"
+                          : "%s\n-0.4,0.4\n-0.1,0.1\n0,0.05\n0.1,0.1\n0.4,0.4\n",
+                     names);
+            if (strstr(all[k].options, "irregularity") || strstr(all[k].options, "worn"))
+                snprintf(text, sizeof text, "%s\n-0.4,0\n0,0.001\n0.4,0\n", names);
+            if (strstr(all[k].options, "points"))
+                snprintf(text, sizeof text, "%s\n0,0.1\n", names);
+            if (strstr(all[k].options, "history") || strstr(all[k].options, "cases"))
+                snprintf(text, sizeof text, "%s\n0,10\n0.1,20\n", names);
+            write_file("t.txt", text);
+            snprintf(line, sizeof line, "%s --similar --support halfplane --quiet", all[k].options);
+            snprintf(heading, sizeof heading, "%s", strrchr(names, ',') + 1);
+            if (strstr(names, "x_s"))
+                strcpy(heading, "x_s");
+            if (bad)
+                check_refused(line, 65, heading);
+            else if (rollbem(line) > 1)
+                fail_msg("%s: %s", names, err);
+        }
+    }
+}
+
 TEST(wrong_units_are_named)
 {
     check_refused("--young 210GPA", 64, "did you mean 'GPa'?");
@@ -434,6 +550,64 @@ TEST(wrong_units_are_named)
     check_refused("--units si --support halfplane --load 1e5 --formulation steady "
                   "--force 25000 --yield-stress 1e6",
                   64, "force Q = 25 N/mm: the interface yields, and carries at most 0.510304 N/mm");
+}
+
+/* Whatever a refusal lists is read, and is of the quantity. */
+TEST(listed_units_are_read)
+{
+    static const char *const kinds[] = {"mm",         "mm2",     "MPa",       "N/mm",    "N",
+                                        "mm/s",       "mm/MPa",  "MPa/mm",    "1/MPa",   "s",
+                                        "MPa.mm^0.5", "W/(m K)", "MJ/(m3 K)", "degrees", "K"};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        for (const char *at = NOT_NULL(rb_unit_list(kinds[k])); at; at = strchr(at, ',')) {
+            char text[60];
+            double value;
+            int plain = 1;
+            at += strspn(at, ", ");
+            if (strncmp(at, "or over", 7) == 0)
+                break;
+            snprintf(text, sizeof text, "2%s%.*s", strncmp(at, "1/", 2) == 0 ? " " : "",
+                     (int)strcspn(at, ","), at);
+            if (rb_unit_read(text, kinds[k], &value, &plain, &heard) != RB_OK || plain)
+                fail_msg("%s: %s", text, heard.text);
+            rb_message why = {""};
+            const char *other = kinds[(k + 1) % (sizeof kinds / sizeof *kinds)];
+            assert_int_equal(rb_unit_read(text, other, &value, &plain, &why), RB_EINVAL);
+        }
+    /* every system's own unit is one of its quantity */
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        for (rb_units system = RB_UNITS_MM; system <= RB_UNITS_INCH; system++) {
+            rb_unit_factor f;
+            double value;
+            int plain = 1;
+            char text[60];
+            snprintf(text, sizeof text, "3 %s", rb_unit_name(system, kinds[k]));
+            CHECK_OK(rb_unit_read(text, kinds[k], &value, &plain, &heard));
+            rb_unit_of_system(system, kinds[k], &f);
+            CHECK_REL(value, rb_unit_times(&f, 3.0), 1e-15, "%s", text);
+            CHECK_REL(value, rb_unit_stored(system, kinds[k], 3.0), 1e-15, "%s", text);
+        }
+}
+
+TEST(what_is_no_unit_of_the_quantity_is_refused)
+{
+    static const char *const bad[][2] = {
+        {"5mm", "mm2"},    {"5Nm", "N/mm"},     {"5mPa", "MPa"},    {"5 2mm", "mm"},
+        {"5g/J", "1/MPa"}, {"5mg/Nm", "1/MPa"}, {"5//mm", "1/MPa"}, {"5mm)", "mm"},
+        {"5(mm", "mm"},    {"5m^0.3", "mm"},    {"5m^", "mm"},      {"5rad", "-"},
+        {"1/2", "-"},      {"5 kN m", "N/mm"},  {"5MN", "N/mm"},    {"5lightyears", "mm"},
+        {"5inchs", "mm"},  {"5mm in", "mm"},    {"1e400mm", "mm"},  {"5°C", "K"}};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        double value;
+        int plain;
+        rb_message why = {""};
+        if (rb_unit_read(bad[k][0], bad[k][1], &value, &plain, &why) == RB_OK)
+            fail_msg("%s is %g %s", bad[k][0], value, bad[k][1]);
+    }
+    double value;
+    int plain;
+    CHECK_SAYS(rb_unit_read("5g/J", "1/MPa", &value, &plain, &heard), RB_EINVAL,
+               "mm3/(N m), mm3/Nm, m3/(N m), mm3/J, um3/J, 1/psi, in2/lbf; got '5g/J', whose mass");
 }
 
 /* As people type them. */

@@ -39,7 +39,8 @@ typedef struct {
 } rb_option_set;
 
 /* Source of a value: 0: the default; k > 0: line k of the case file; RB_GIVEN_ARGUMENT:
- * an argument, which has priority over the file; RB_GIVEN_NUMBER: rb_case_set_number. */
+ * an argument, which has priority over the file; RB_GIVEN_NUMBER: rb_case_set_number and
+ * rb_case_set_word. */
 enum { RB_GIVEN_ARGUMENT = -1, RB_GIVEN_NUMBER = -2 };
 
 /* Finds the option whose name is the first `length` characters of `name` in n sets.
@@ -132,6 +133,8 @@ const char *rb_case_section(const rb_option *option);
 rb_status rb_case_set(rb_case *c, const char *name, const char *text, int by, rb_message *why);
 /* The same for options whose value is a number. */
 rb_status rb_case_set_number(rb_case *c, const char *name, double value, rb_message *why);
+/* The same for a word, which is borrowed: many cases may be set one after the other. */
+rb_status rb_case_set_word(rb_case *c, const char *name, const char *word, rb_message *why);
 
 /* Reads a case file.  Values that were set by an argument are kept.  also: n further
  * tables whose keys the file may contain.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */

@@ -46,8 +46,9 @@ rb_status rb_io_make_folder(const char *path, rb_message *why);
 rb_status rb_io_folder_check(const char *path, rb_message *why);
 
 /* Reads an input file into a text that ends with a zero byte; owned by the caller.
- * RB_ENOENT; RB_EFORMAT: UTF-16, a zero byte in the file, a device other than a terminal
- * or /dev/null, more than 2 GB (of a pipe 256 MB); RB_ENOMEM. */
+ * UTF-16 with a byte-order mark becomes UTF-8.  RB_ENOENT; RB_EFORMAT: a zero byte in the
+ * file, a device other than a terminal or /dev/null, more than 2 GB (of a pipe 256 MB);
+ * RB_ENOMEM. */
 rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_message *why);
 
 /* Checks a path that comes from an untrusted file.  RB_EFORMAT unless path is a regular
@@ -58,34 +59,57 @@ rb_status rb_io_check_harmless(const char *path, const char *folder, rb_message 
 
 /* ---- Tables of numbers ------------------------------------------------------------- */
 
-/* Numbers between blanks or commas, a row per line; # starts a comment.  A first line of
- * words, or the last comment before the first row, names the columns. */
+/* A row per line, of numbers between blanks, tabs or commas, or as spreadsheets write them:
+ * between semicolons, with decimal commas where semicolons, tabs or blanks separate the
+ * numbers, in double quotes, with a byte-order mark, in UTF-16.  # starts a comment.  A
+ * first line of words names the columns, and a second one may have their units; or the last
+ * comment before the first row names them, if it has as many words. */
 typedef struct {
     int rows, columns;
-    char **name; /* columns; NULL: the file does not name them; owned, like all arrays
-                    here */
-    double *x;   /* rows x columns, column-major */
-    int *line;   /* rows: line number of each row in the file */
+    char **name;          /* columns; NULL: the file does not name them; owned, like all arrays
+                             here */
+    int named_by_comment; /* 1: name is the last comment, which may be any comment */
+    double *x;            /* rows x columns, column-major */
+    char **word;          /* the same of cells that are words, whose number is NAN; NULL where a
+                             cell is a number; NULL: all are */
+    int *line;            /* rows: line number of each row in the file */
 } rb_io_table;
 
 /* RB_ENOENT; RB_EFORMAT: the count of numbers differs from the first row or from the
- * names, something is not a number, a name occurs twice, or there is no row; why names
- * file, line and what was expected.  RB_ENOMEM.  t is overwritten and is empty after an
- * error. */
+ * names, something is not a number, decimals have commas and points, a name occurs twice,
+ * or there is no row; why names file, line and what was expected.  RB_ENOMEM.  t is
+ * overwritten and is empty after an error. */
 rb_status rb_io_table_read(const char *path, rb_io_table *t, rb_message *why);
 /* The same for a text that has already been read from path; the function changes the
  * text. */
 rb_status rb_io_table_parse(const char *path, char *text, rb_io_table *t, rb_message *why);
-/* The same for a table that must have exactly `columns` columns. */
-rb_status rb_io_table_expect_columns(const char *path, int columns, rb_io_table *t,
-                                     rb_message *why);
-rb_status rb_io_table_read_columns(const char *path, int columns, rb_io_table *t, rb_message *why);
-/* The `rows` numbers of a column; NULL if there is no such column. */
+/* The same for a table whose cells may be words.  Blanks are then part of a cell where
+ * tabs, commas or semicolons separate the cells. */
+rb_status rb_io_table_read_words(const char *path, rb_io_table *t, rb_message *why);
+/* The `rows` numbers of a column of exactly this name; NULL if there is none. */
 const double *rb_io_table_column(const rb_io_table *t, const char *name);
-/* Converts column j, whose unit is `unit` in mm, N, MPa (rollbem/units.h), to this unit.
- * If the column's name ends with a unit, the values are in that unit, and it is removed
- * from the name; otherwise they are in the units of the system. */
-void rb_io_table_convert(rb_io_table *t, int j, const char *unit, rb_units system);
+
+/* A column that a reader knows. */
+typedef struct {
+    const char *name; /* NULL: any other column; then it is the last one, and unused */
+    const char *also; /* other names that people give it, "clearance|separation"; NULL */
+    const char *unit; /* in mm, N, MPa (rollbem/units.h) */
+    enum {
+        RB_IO_COLUMN_NEEDED,
+        RB_IO_COLUMN_OPTIONAL,
+        RB_IO_COLUMN_UNUSED /* known, and not read */
+    } need;
+} rb_io_column;
+
+/* 1: a heading is this column, with whatever unit. */
+int rb_io_table_has(const rb_io_table *t, const rb_io_column *known);
+/* Finds n known columns by their headings (rb_unit_of_heading) and converts them from the
+ * unit in the heading, else from that of the system, to `unit`; without names the columns
+ * are the n known ones in their order.  x[k]: rows numbers in t, or NULL.  RB_EFORMAT: a
+ * heading that is none of them, or has no unit of its quantity; one is missing, or two are
+ * the same; why names it. */
+rb_status rb_io_table_assign(const char *path, rb_io_table *t, int n, const rb_io_column *known,
+                             rb_units system, const double **x, rb_message *why);
 void rb_io_table_free(rb_io_table *t);
 
 /* ---- Matrices ---------------------------------------------------------------------- */

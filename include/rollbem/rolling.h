@@ -940,11 +940,13 @@ typedef struct {
 /* The columns of a program and their names in tables. */
 typedef struct {
     const char *name;
-    size_t column; /* offset of its pointer in rb_rolling_program */
-    size_t value;  /* offset in rb_rolling_case of the value that it replaces; distance and
-                      time: SIZE_MAX */
-    int is_mean;   /* 1: a rolled step uses the mean over the step, 0: the value at its end
-                    */
+    const char *also; /* other names that people give it, "normal load|P"; NULL: none */
+    const char *unit; /* in mm, N, MPa (rollbem/units.h) */
+    size_t column;    /* offset of its pointer in rb_rolling_program */
+    size_t value;     /* offset in rb_rolling_case of the value that it replaces; distance and
+                         time: SIZE_MAX */
+    int is_mean;      /* 1: a rolled step uses the mean over the step, 0: the value at its end
+                       */
 } rb_rolling_program_column;
 
 enum { RB_ROLLING_PROGRAM_COLUMNS = 10 };

@@ -26,21 +26,43 @@ const char *rb_unit_name(rb_units system, const char *unit);
 double rb_unit_shown(rb_units system, const char *unit, double x);
 double rb_unit_stored(rb_units system, const char *unit, double x);
 
-/* Returns 1 if the table has a unit of this name, for example "MPa" or "kN/m". */
+/* The factor of a unit: one of it is 10^power up/down of the unit that it is converted
+ * to. */
+typedef struct {
+    int power;
+    double up, down;
+} rb_unit_factor;
+
+/* x times the factor, and x over it. */
+double rb_unit_times(const rb_unit_factor *f, double x);
+double rb_unit_over(const rb_unit_factor *f, double x);
+/* The factor of the system's unit for `unit` to mm, N, MPa, for many numbers: rb_unit_shown
+ * divides by it.  Returns 0, and a factor of 1, if nothing is to be converted. */
+int rb_unit_of_system(rb_units system, const char *unit, rb_unit_factor *f);
+
+/* Units are products of powers of words with prefixes, as people type them: "MPa",
+ * "kN/m", "N/mm^2", "mm3/(N m)", "mm3/Nm", "W/mK", "MPa.m^0.5", "ft/min".  Returns 1 if
+ * `name` is one. */
 int rb_unit_is_known(const char *name);
 
-/* Reads a number with or without a unit: "210GPa", "0.3", "18 in".  With a unit *plain is
- * 0 and *value is in mm, N, MPa.  Without one *plain is 1 and *value is the number as
- * written.  RB_EINVAL: no finite number, or (with a line in why) an unknown unit or a
- * unit of another quantity. */
+/* The units of a quantity that messages list: "mm, m, cm, ..."; NULL: it has none but its
+ * own. */
+const char *rb_unit_list(const char *unit);
+
+/* Reads a number with or without a unit: "210GPa", "0.3", "18 in", "100kN/12mm",
+ * "1e-10/MPa".  With a unit *plain is 0 and *value is in mm, N, MPa.  Without one *plain is
+ * 1 and *value is the number as written.  RB_EINVAL: no finite number, or (with a line in
+ * why that lists known ones) an unknown unit or a unit of another quantity. */
 rb_status rb_unit_read(const char *text, const char *unit, double *value, int *plain,
                        rb_message *why);
-/* Finds the unit at the end of a column's name, for example "kN/m" of "load_kN/m".
- * Returns the length of the name without the unit and sets *name to the unit.  Returns 0
- * if the name does not end with a unit of the same quantity as `unit`. */
-size_t rb_unit_of_column(const char *column, const char *unit, const char **name);
-/* Converts x, given in the unit `name` of the table, to mm, N, MPa. */
-double rb_unit_of(const char *name, const char *unit, double x);
+/* Compares the heading of a column with a name, and reads the unit behind it: "load",
+ * "load_kN/m", "Load [kN/m]", "load (kN/m)", "load / kN/m", "load in kN/m".  Capitals,
+ * blanks, points, "_" and "-" in the name do not matter; nor do capitals in a unit that is
+ * written in letters of one size and clear.  RB_OK: it is this name; *plain is 1 if it has
+ * no unit, else *factor is that of its unit to `unit`.  RB_EFORMAT: it is this name, with
+ * what is no unit of the quantity.  RB_EINVAL: it is another name. */
+rb_status rb_unit_of_heading(const char *heading, const char *name, const char *unit,
+                             rb_unit_factor *factor, int *plain);
 
 RB_PUBLIC_END
 

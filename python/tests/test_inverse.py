@@ -342,7 +342,7 @@ def test_data_of_fits():
     assert loads[0] == pytest.approx(475, rel=0.1) and loads[1] == pytest.approx(1e3 * loads[0], rel=1e-6)
     with pytest.warns(rollbem.Note, match="do not determine young"):
         assert np.isnan(rollbem.fit(frame, "young", **PLANES, mu=0.05)["young"].value)
-    for columns, said in (({"creep": xi, "Force": force}, "unknown column 'Force' .did you mean 'force'"),
+    for columns, said in (({"creep": xi, "force": force, "lode": force}, "unknown column 'lode' .did you mean 'load'"),
                           ({"creep": xi, "force": np.where(xi < -5e-3, np.nan, force)}, "data, row 11: force: expected a finite"),
                           ({"creep": xi[:1], "force": force[:1]}, "expected at least 2 points for 1 number, got 1"),
                           ({"creep": xi, "force": ["1,5"] * 12}, "column 'force': expected numbers"),

@@ -404,3 +404,14 @@ def test_messages_in_keywords():
                        ("--mu 0.3 is", "mu=0.3 is"), ("'a-creep-ratio.txt': creep-ratio", "'a-creep-ratio.txt': creep_ratio"),
                        ("rate-free --young, --mu", "rate-free young=, mu="), ("give --load or less", "give load= or less")):
         assert _library.in_keywords(said) == want
+
+
+def test_headings_of_tables_have_units():
+    """A column says its unit as in a file; what is not understood is refused with its name."""
+    x, gap = [-5.0, -2.0, 0.0, 2.0, 5.0], [54.0, 8.7, 0.0, 8.7, 54.0]
+    case = dict(similar=True, support="halfplane", young=210000, poisson=0.3, load=1000)
+    for columns in ({"x_mm": x, "gap_um": gap}, {"x [mm]": x, "gap [um]": gap}, {"gap (µm)": gap, "x / mm": x}):
+        assert rollbem.solve(gap=columns, **case).max_pressure == pytest.approx(384.221, abs=1e-3)
+    for columns, said in (({"x": x, "gap_foo": gap}, "column 'gap_foo'"), ({"a": x, "b": gap}, "unknown column 'a'")):
+        with pytest.raises(rollbem.InvalidInput, match=said):
+            rollbem.solve(gap=columns, **case)

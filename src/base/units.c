@@ -1,4 +1,4 @@
-/* The table of units with their factors to mm, N, MPa, s. */
+/* Units as products of powers of a few words, and their factors to mm, N, MPa, s. */
 #include "rollbem/units.h"
 
 #include <ctype.h>
@@ -7,169 +7,472 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Exact by definition: the inch is 25.4 mm, the pound-force 4.4482216152605 N. */
-#define INCH 25.4
-#define POUND 4.4482216152605
-/* Of a millimetre per metre and per inch, in stress intensities. */
-#define ROOT_OF_1000 31.622776601683793
-#define ROOT_OF_INCH 5.0398412673416611
+/* ---- Words ------------------------------------------------------------------------- */
 
-/* One of it is factor 10^power of the unit that it is a kind of. */
+enum { LENGTH, FORCE, TIME, TEMPERATURE, ANGLE, MASS, DIMENSIONS };
+
+/* Exponents are counted in halves, for stress intensities in MPa m^0.5.  Powers of ten stay
+ * apart, so that they only move the point of a number. */
 typedef struct {
-    const char *name, *kind;
-    int power;
-    double factor;
-} unit_row;
+    int dimension[DIMENSIONS]; /* twice the exponents of mm, N, s, K, degrees, g */
+    int ten;                   /* twice the exponent of ten */
+    double up, down;           /* the rest of the factor is up / down */
+} product;
 
-static const unit_row table[] = {
-    {"mm", "mm", 0, 1.0},
-    {"m", "mm", 3, 1.0},
-    {"cm", "mm", 1, 1.0},
-    {"um", "mm", -3, 1.0},
-    {"nm", "mm", -6, 1.0},
-    {"in", "mm", 0, INCH},
-    {"inch", "mm", 0, INCH},
-    {"ft", "mm", 0, 12.0 * INCH},
-    {"mil", "mm", -3, INCH},
-    {"mm2", "mm2", 0, 1.0},
-    {"m2", "mm2", 6, 1.0},
-    {"in2", "mm2", 0, INCH *INCH},
-    {"MPa", "MPa", 0, 1.0},
-    {"Pa", "MPa", -6, 1.0},
-    {"kPa", "MPa", -3, 1.0},
-    {"GPa", "MPa", 3, 1.0},
-    {"bar", "MPa", -1, 1.0},
-    {"N/mm2", "MPa", 0, 1.0},
-    {"psi", "MPa", 0, POUND / (INCH * INCH)},
-    {"ksi", "MPa", 3, POUND / (INCH * INCH)},
-    {"N/mm", "N/mm", 0, 1.0},
-    {"N/m", "N/mm", -3, 1.0},
-    {"kN/m", "N/mm", 0, 1.0},
-    {"kN/mm", "N/mm", 3, 1.0},
-    {"MN/m", "N/mm", 3, 1.0},
-    {"lbf/in", "N/mm", 0, POUND / INCH},
-    {"lbf/ft", "N/mm", 0, POUND / (12.0 * INCH)},
-    {"N", "N", 0, 1.0},
-    {"kN", "N", 3, 1.0},
-    {"lbf", "N", 0, POUND},
-    {"mm/s", "mm/s", 0, 1.0},
-    {"m/s", "mm/s", 3, 1.0},
-    {"km/h", "mm/s", 6, 1.0 / 3600.0},
-    {"in/s", "mm/s", 0, INCH},
-    {"ft/s", "mm/s", 0, 12.0 * INCH},
-    {"mph", "mm/s", 0, 447.04},
-    {"mm/MPa", "mm/MPa", 0, 1.0},
-    {"um/MPa", "mm/MPa", -3, 1.0},
-    {"m/Pa", "mm/MPa", 9, 1.0},
-    {"in/psi", "mm/MPa", 0, INCH *INCH *INCH / POUND},
-    {"MPa/mm", "MPa/mm", 0, 1.0},
-    {"N/mm3", "MPa/mm", 0, 1.0},
-    {"MPa/um", "MPa/mm", 3, 1.0},
-    {"GPa/mm", "MPa/mm", 3, 1.0},
-    {"Pa/m", "MPa/mm", -9, 1.0},
-    {"GPa/m", "MPa/mm", 0, 1.0},
-    {"psi/in", "MPa/mm", 0, POUND / (INCH * INCH * INCH)},
-    {"1/MPa", "1/MPa", 0, 1.0},
-    {"1/Pa", "1/MPa", 6, 1.0},
-    {"1/psi", "1/MPa", 0, INCH *INCH / POUND},
-    {"MPa.mm^0.5", "MPa.mm^0.5", 0, 1.0},
-    {"N/mm^1.5", "MPa.mm^0.5", 0, 1.0},
-    {"MPa.m^0.5", "MPa.mm^0.5", 0, ROOT_OF_1000},
-    {"Pa.m^0.5", "MPa.mm^0.5", -6, ROOT_OF_1000},
-    {"psi.in^0.5", "MPa.mm^0.5", 0, POUND / (INCH * INCH) * ROOT_OF_INCH},
-    {"ksi.in^0.5", "MPa.mm^0.5", 3, POUND / (INCH * INCH) * ROOT_OF_INCH},
-    {"s", "s", 0, 1.0},
-    {"ms", "s", -3, 1.0},
-    {"us", "s", -6, 1.0},
-    {"min", "s", 0, 60.0},
-    {"h", "s", 0, 3600.0},
-    {"degrees", "degrees", 0, 1.0},
-    {"deg", "degrees", 0, 1.0},
-    {"rad", "degrees", 0, 180.0 / 3.14159265358979323846},
-    {"%", "-", -2, 1.0},
-    {"W/(m K)", "W/(m K)", 0, 1.0},
-    {"kW/(m K)", "W/(m K)", 3, 1.0},
-    {"W/(mm K)", "W/(m K)", 3, 1.0},
-    {"W/(cm K)", "W/(m K)", 2, 1.0},
-    {"N/(s K)", "W/(m K)", 0, 1.0},
-    {"MJ/(m3 K)", "MJ/(m3 K)", 0, 1.0},
-    {"kJ/(m3 K)", "MJ/(m3 K)", -3, 1.0},
-    {"J/(m3 K)", "MJ/(m3 K)", -6, 1.0},
-    {"J/(cm3 K)", "MJ/(m3 K)", 0, 1.0},
-    {"MPa/K", "MJ/(m3 K)", 0, 1.0},
-    {"K", "K", 0, 1.0},
+/* A word is 10^ten of a dimension (mm, N, s, K, degrees, g), or means a product of other words.
+ * prefixes: letters it takes; '+': it also takes their names and a plural s. */
+typedef struct {
+    const char *name, *means, *prefixes;
+    int dimension, ten;
+} word;
+
+static const word words[] = {
+    {"m", NULL, "numcdk", LENGTH, 3},
+    {"metre", "m", "numcdk+", 0, 0},
+    {"meter", "m", "numcdk+", 0, 0},
+    {"micron", "um", "+", 0, 0},
+    {"in", "25.4 mm", "u", 0, 0},
+    {"inch", "in", "u", 0, 0},
+    {"inches", "in", "u", 0, 0},
+    {"ft", "12 in", "", 0, 0},
+    {"foot", "ft", "", 0, 0},
+    {"feet", "ft", "", 0, 0},
+    {"yd", "36 in", "", 0, 0},
+    {"mil", "1e-3 in", "+", 0, 0},
+    {"thou", "mil", "", 0, 0},
+    {"mile", "1609.344 m", "+", 0, 0},
+    {"N", NULL, "numkMG", FORCE, 0},
+    {"newton", "N", "numkMG+", 0, 0},
+    {"dyn", "1e-5 N", "", 0, 0},
+    {"kgf", "9.80665 N", "", 0, 0},
+    {"kp", "kgf", "", 0, 0},
+    {"gf", "1e-3 kgf", "", 0, 0},
+    {"tf", "1e3 kgf", "", 0, 0},
+    {"lbf", "4.4482216152605 N", "kM", 0, 0},
+    {"lb", "lbf", "+", 0, 0},
+    {"kip", "1e3 lbf", "+", 0, 0},
+    {"Pa", "N/m2", "hkMGT", 0, 0},
+    {"pascal", "Pa", "hkMGT+", 0, 0},
+    {"bar", "1e5 Pa", "mk", 0, 0},
+    {"atm", "101325 Pa", "", 0, 0},
+    {"psi", "lbf/in2", "kM", 0, 0},
+    {"ksi", "1e3 psi", "", 0, 0},
+    {"Msi", "1e6 psi", "", 0, 0},
+    {"J", "N m", "numkMG", 0, 0},
+    {"joule", "J", "numkMG+", 0, 0},
+    {"W", "N m/s", "numkM", 0, 0},
+    {"watt", "W", "numkM+", 0, 0},
+    {"s", NULL, "num", TIME, 0},
+    {"sec", "s", "num+", 0, 0},
+    {"second", "s", "num+", 0, 0},
+    {"min", "60 s", "", 0, 0},
+    {"minute", "min", "+", 0, 0},
+    {"h", "60 min", "", 0, 0},
+    {"hr", "h", "+", 0, 0},
+    {"hour", "h", "+", 0, 0},
+    {"mph", "mile/h", "", 0, 0},
+    {"kph", "km/h", "", 0, 0},
+    {"fpm", "ft/min", "", 0, 0},
+    {"K", NULL, "", TEMPERATURE, 0},
+    {"kelvin", "K", "+", 0, 0},
+    {"deg", NULL, "", ANGLE, 0},
+    {"degree", "deg", "+", 0, 0},
+    {"rad", "57.29577951308232 deg", "mu", 0, 0}, /* 180/pi */
+    {"radian", "rad", "+", 0, 0},
+    {"g", NULL, "numk", MASS, 0},
+    {"gram", "g", "numk+", 0, 0},
+    {"%", "1e-2", "", 0, 0},
+    {"percent", "1e-2", "", 0, 0},
+    {"pct", "1e-2", "", 0, 0},
+    {"permille", "1e-3", "", 0, 0},
+    {"ppm", "1e-6", "", 0, 0},
 };
 
-enum { ROWS = sizeof table / sizeof table[0] };
+enum { WORDS = sizeof words / sizeof *words };
 
-/* The units of a system, by what they stand for. */
 static const struct {
-    const char *kind, *name[3];
-} systems[] = {{"mm", {"mm", "m", "in"}},
-               {"mm2", {"mm2", "m2", "in2"}},
-               {"MPa", {"MPa", "Pa", "psi"}},
-               {"N/mm", {"N/mm", "N/m", "lbf/in"}},
-               {"N", {"N", "N", "lbf"}},
-               {"mm/s", {"mm/s", "m/s", "in/s"}},
-               {"mm/MPa", {"mm/MPa", "m/Pa", "in/psi"}},
-               {"MPa/mm", {"MPa/mm", "Pa/m", "psi/in"}},
-               {"1/MPa", {"1/MPa", "1/Pa", "1/psi"}},
-               {"MPa.mm^0.5", {"MPa.mm^0.5", "Pa.m^0.5", "psi.in^0.5"}}};
+    char letter;
+    const char *name;
+    int ten;
+} prefixes[] = {{'n', "nano", -9}, {'u', "micro", -6}, {'m', "milli", -3}, {'c', "centi", -2},
+                {'d', "deci", -1}, {'h', "hecto", 2},  {'k', "kilo", 3},   {'M', "mega", 6},
+                {'G', "giga", 9},  {'T', "tera", 12}};
 
-enum { KINDS = sizeof systems / sizeof systems[0] };
+enum { PREFIXES = sizeof prefixes / sizeof *prefixes };
 
-/* One spelling of those that people type: N/mm^2 and N/mm² are N/mm2; W/mK, W/m/K and
- * W/(m*K) are W/(m K). */
-static void respell(const char *name, size_t length, char *to, size_t size)
+/* ---- Products ---------------------------------------------------------------------- */
+
+static const product one = {{0}, 0, 1.0, 1.0};
+
+static int same_dimensions(const product *u, const product *v)
 {
-    static const char *const powers[][2] = {
-        {"²", "2"}, {"³", "3"}, {"·", ""}, {"μ", "u"}, {"µ", "u"}};
+    return memcmp(u->dimension, v->dimension, sizeof u->dimension) == 0;
+}
+
+/* u times v, or over it. */
+static void multiply(product *u, const product *v, int over)
+{
+    for (int k = 0; k < DIMENSIONS; k++)
+        u->dimension[k] += over ? -v->dimension[k] : v->dimension[k];
+    u->ten += over ? -v->ten : v->ten;
+    u->up *= over ? v->down : v->up;
+    u->down *= over ? v->up : v->down;
+}
+
+/* u to the power of halves/2; 0: an exponent is then no half. */
+static int raise(product *u, int halves)
+{
+    product power = one, root = *u;
+    int *of[DIMENSIONS + 1] = {&root.ten};
+    if (halves % 2 != 0) {
+        for (int k = 0; k < DIMENSIONS; k++)
+            of[k + 1] = &root.dimension[k];
+        for (int k = 0; k <= DIMENSIONS; k++) {
+            if (*of[k] % 2 != 0)
+                return 0;
+            *of[k] /= 2;
+        }
+        root.up = sqrt(u->up);
+        root.down = sqrt(u->down);
+        multiply(&power, &root, halves < 0);
+    }
+    for (int k = 0; k < abs(halves) / 2; k++)
+        multiply(&power, u, halves < 0);
+    *u = power;
+    return 1;
+}
+
+/* A text that is read; folds: capitals do not matter; below: all behind a / stands under it, so
+ * that N/mm K is N/(mm K); named: a word has been read; joined: two that are written as one. */
+typedef struct {
+    const char *at;
+    int folds, below, trusted, named, joined;
+} reader;
+
+static int read_product(reader *r, int inside, product *u);
+
+/* What the words mean themselves is read as it stands. */
+static int meaning(const word *w, product *u)
+{
+    if (w->means) {
+        reader r = {.at = w->means, .trusted = 1};
+        return read_product(&r, 0, u);
+    }
+    *u = one;
+    u->dimension[w->dimension] = 2;
+    u->ten = 2 * w->ten;
+    return 1;
+}
+
+static int same_text(const char *a, const char *b, size_t n, int folds)
+{
+    for (size_t k = 0; k < n; k++)
+        if (a[k] != b[k] &&
+            !(folds && tolower((unsigned char)a[k]) == tolower((unsigned char)b[k])))
+            return 0;
+    return 1;
+}
+
+/* The power of ten of the n letters before a word, if it takes them: "", k, kilo. */
+static int read_prefix(const word *w, const char *text, size_t n, int folds, int *ten)
+{
+    int found = n == 0;
+    *ten = 0;
+    for (int p = 0; p < PREFIXES && n > 0; p++) {
+        const char letter[] = {prefixes[p].letter, '\0'};
+        const char *as = n == 1 ? letter : prefixes[p].name;
+        if (strchr(w->prefixes, letter[0]) && (n == 1 || strchr(w->prefixes, '+')) &&
+            strlen(as) == n && same_text(text, as, n, folds)) {
+            *ten = prefixes[p].ten;
+            found++;
+        }
+    }
+    return found;
+}
+
+/* 1: the n letters are one word.  Letters that are several words, such as mn for mN and MN where
+ * capitals do not matter, are none. */
+static int find_word(const char *text, size_t n, int folds, product *u)
+{
+    const word *found = NULL;
+    int ten = 0, ways = 0, shift;
+    for (const word *w = words; w < words + WORDS; w++)
+        for (size_t plural = 0; plural < (strchr(w->prefixes, '+') ? 2 : 1); plural++) {
+            const size_t length = strlen(w->name) + plural, at = n - length;
+            if (length > n || !same_text(text + at, w->name, length - plural, folds) ||
+                (plural && !same_text(text + n - 1, "s", 1, folds)))
+                continue;
+            const int all = read_prefix(w, text, at, folds, &shift);
+            ways += all;
+            found = all ? w : found;
+            ten = all ? shift : ten;
+        }
+    if (ways != 1 || !meaning(found, u))
+        return 0;
+    u->ten += 2 * ten;
+    return 1;
+}
+
+/* As find_word, or two of them without anything between: Nm, mK. */
+static int find_words(reader *r, const char *text, size_t n, product *u)
+{
+    product second;
+    if (find_word(text, n, r->folds, u))
+        return 1;
+    for (size_t k = 1; k < n && !r->folds; k++)
+        if (find_word(text, k, 0, u) && find_word(text + k, n - k, 0, &second)) {
+            multiply(u, &second, 0);
+            r->joined = 1;
+            return 1;
+        }
+    return 0;
+}
+
+/* Twice the exponent behind a word or a bracket: 2, -1, ^2, ^0.5, ^(1/2), ^-1; without one 2. 0: it
+ * is none. */
+static int read_exponent(reader *r)
+{
+    const char *at = r->at;
+    const int caret = *at == '^', bracket = caret && at[1] == '(';
+    at += caret + bracket;
+    if (!isdigit((unsigned char)at[*at == '-']) && !(caret && *at == '.'))
+        return caret ? 0 : 2;
+    char *end;
+    double exponent = caret ? rb_read_number(at, &end) : (double)strtol(at, &end, 10);
+    /* a half, as 3/2 */
+    if ((caret || exponent == 1.0) && end[0] == '/' && end[1] == '2' &&
+        !isalnum((unsigned char)end[2])) {
+        exponent /= 2.0;
+        end += 2;
+    }
+    if (bracket && *end++ != ')')
+        return 0;
+    r->at = end;
+    const double halves = 2.0 * exponent;
+    return halves == floor(halves) && fabs(halves) < 20.0 ? (int)halves : 0;
+}
+
+/* A number: of people 1 or a power of ten, or any below the line: kN/12mm. */
+static int read_factor_number(reader *r, int over, product *u)
+{
+    char *end;
+    const double x = rb_read_number(r->at, &end);
+    const char *power = memchr(r->at, 'e', (size_t)(end - r->at));
+    const int is_power = r->at[0] == '1' && (end == r->at + 1 || power == r->at + 1);
+    if (!(x > 0.0) || !isfinite(x) || !(is_power || over || r->trusted))
+        return 0;
+    *u = one;
+    if (is_power)
+        u->ten = power ? 2 * atoi(power + 1) : 0;
+    else
+        u->up = x;
+    r->at = end;
+    return abs(u->ten) < 200;
+}
+
+static int read_factor(reader *r, int over, product *u)
+{
+    const char *from = r->at;
+    if (*from == '(') {
+        r->at++;
+        if (!read_product(r, 1, u) || *r->at++ != ')')
+            return 0;
+    } else if (*from == '\1' || strncmp(from, "sqrt(", 5) == 0) { /* a root */
+        r->at += *from == '\1' ? 1 : 4;
+        return read_factor(r, over, u) && raise(u, 1);
+    } else if (isdigit((unsigned char)*from)) {
+        return read_factor_number(r, over, u);
+    } else {
+        while (isalpha((unsigned char)*r->at) || *r->at == '%')
+            r->at++;
+        r->named = 1;
+        if (r->at == from || !find_words(r, from, (size_t)(r->at - from), u))
+            return 0;
+    }
+    const int halves = read_exponent(r);
+    return halves != 0 && raise(u, halves);
+}
+
+/* Factors with blanks, points, stars, hyphens or slashes between; inside: up to a bracket. */
+static int read_product(reader *r, int inside, product *u)
+{
+    int factors = 0, over = 0, line = 0;
+    *u = one;
+    while (*r->at && !(inside && *r->at == ')')) {
+        if (*r->at == '/') {
+            if (line)
+                return 0;
+            over = line = 1;
+            r->at++;
+        } else if (strchr(" .*-", *r->at)) {
+            r->at++;
+        } else {
+            product factor;
+            if (!read_factor(r, over, &factor))
+                return 0;
+            multiply(u, &factor, over);
+            over = r->below && over;
+            line = 0;
+            factors++;
+        }
+    }
+    return factors > 0 && !line;
+}
+
+/* One spelling of those that people type; 0: too long. */
+static int respell(const char *name, size_t length, char *to, size_t size)
+{
+    static const char *const spelling[][2] = {{"²", "^2"},
+                                              {"³", "^3"},
+                                              {"⁻¹", "^-1"},
+                                              {"⁻²", "^-2"},
+                                              {"·", " "},
+                                              {"×", " "},
+                                              {"μ", "u"},
+                                              {"µ", "u"},
+                                              {"√", "\1"},
+                                              {"°", "deg"},
+                                              {"‰", "permille"},
+                                              {"**", "^"},
+                                              {"−", "-"},
+                                              {" per ", "/"},
+                                              {"per cent", "%"},
+                                              /* Latin-1 */ {"\xb2", "^2"},
+                                              {"\xb3", "^3"},
+                                              {"\xb5", "u"},
+                                              {"\xb0", "deg"}};
     const char *end = name + length;
     size_t n = 0;
-    int over = 0;
-    while (name < end && n + 1 < size) {
-        size_t k = 0;
-        while (k < 5 && strncmp(name, powers[k][0], strlen(powers[k][0])) != 0)
-            k++;
-        if (k < 5 && name + strlen(powers[k][0]) <= end) {
-            if (powers[k][1][0])
-                to[n++] = powers[k][1][0];
-            name += strlen(powers[k][0]);
-            continue;
+    while (name < end) {
+        size_t from = 1, many = 1;
+        const char *as = name;
+        for (size_t k = 0; k < sizeof spelling / sizeof *spelling; k++) {
+            const size_t bytes = strlen(spelling[k][0]);
+            if (bytes > (size_t)(end - name) || memcmp(name, spelling[k][0], bytes) != 0)
+                continue;
+            from = bytes;
+            as = spelling[k][1];
+            many = strlen(as);
+            break;
         }
-        if (!strchr(" ()^*", *name) && !(*name == '/' && over))
-            to[n++] = *name;
-        over |= *name++ == '/';
+        if (n + many + 1 > size)
+            return 0;
+        memcpy(to + n, as, many);
+        n += many;
+        name += from;
     }
     to[n] = '\0';
+    return 1;
 }
 
-static const unit_row *find(const char *name, size_t length, const char *kind)
+/* Reads a unit; with `like` it must have its dimensions, and without, letters that are two words
+ * are none.  folds: letters that are all large or all small may stand for others. */
+static int read_unit(const char *name, size_t length, const product *like, int folds, product *u)
 {
-    char wanted[40], own[40];
-    if (length == 0 || length >= sizeof wanted)
-        return NULL;
-    respell(name, length, wanted, sizeof wanted);
-    for (int k = 0; k < ROWS; k++) {
-        respell(table[k].name, strlen(table[k].name), own, sizeof own);
-        if (strcmp(own, wanted) == 0 && (!kind || strcmp(table[k].kind, kind) == 0))
-            return &table[k];
+    char text[120];
+    if (!respell(name, length, text, sizeof text))
+        return 0;
+    int large = 0, small = 0;
+    for (const char *c = text; *c; c++) {
+        large |= isupper((unsigned char)*c) != 0;
+        small |= islower((unsigned char)*c) != 0;
     }
-    return NULL;
+    /* as it stands before letters of any size; N/mm K is N/(mm K) before (N/mm) K */
+    for (int way = 0; way < (folds && large != small ? 4 : 2); way++) {
+        reader r = {.at = text, .folds = way >= 2, .below = way % 2 == 0};
+        if (read_product(&r, 0, u) && r.named && (like ? same_dimensions(u, like) : !r.joined))
+            return 1;
+    }
+    return 0;
 }
 
-int rb_unit_is_known(const char *name)
+/* ---- Kinds and systems ------------------------------------------------------------- */
+
+/* The units of a system, by what they stand for; and what a refusal lists. */
+static const struct {
+    const char *kind, *name[3], *known;
+} kinds[] = {
+    {"mm", {"mm", "m", "in"}, "mm, m, cm, um, nm, km, in, ft, mil, thou"},
+    {"mm2", {"mm2", "m2", "in2"}, "mm2, m2, um2, in2"},
+    {"MPa",
+     {"MPa", "Pa", "psi"},
+     "MPa, Pa, kPa, GPa, bar, N/mm2, N/m2, GN/m2, kgf/mm2, psi, ksi, Mpsi"},
+    {"N/mm",
+     {"N/mm", "N/m", "lbf/in"},
+     "N/mm, N/m, N/cm, kN/m, kN/mm, MN/m, kgf/mm, lbf/in, lbf/ft, kip/in, or over a width as "
+     "100kN/12mm"},
+    {"N", {"N", "N", "lbf"}, "N, kN, MN, kgf, lbf, kip, N mm/mm"},
+    {"mm/s", {"mm/s", "m/s", "in/s"}, "mm/s, m/s, m/min, km/h, in/s, ft/s, ft/min, mph"},
+    {"mm/MPa", {"mm/MPa", "m/Pa", "in/psi"}, "mm/MPa, um/MPa, mm3/N, m/Pa, in/psi"},
+    {"MPa/mm", {"MPa/mm", "Pa/m", "psi/in"}, "MPa/mm, N/mm3, MPa/um, GPa/mm, Pa/m, GPa/m, psi/in"},
+    {"1/MPa",
+     {"1/MPa", "1/Pa", "1/psi"},
+     "1/MPa, 1/Pa, 1/GPa, mm2/N, m2/N, mm3/(N m), mm3/Nm, m3/(N m), mm3/J, um3/J, 1/psi, in2/lbf"},
+    {"MPa.mm^0.5",
+     {"MPa.mm^0.5", "Pa.m^0.5", "psi.in^0.5"},
+     "MPa.mm^0.5, N/mm^1.5, MPa.m^0.5, Pa.m^0.5, psi.in^0.5, ksi.in^0.5"},
+    {"s", {"s", "s", "s"}, "s, ms, us, min, h"},
+    {"degrees", {"degrees", "degrees", "degrees"}, "degrees, deg, rad"},
+    {"W/(m K)",
+     {"W/(m K)", "W/(m K)", "W/(m K)"},
+     "W/(m K), kW/(m K), W/(mm K), W/(cm K), N/(s K)"},
+    {"MJ/(m3 K)",
+     {"MJ/(m3 K)", "MJ/(m3 K)", "MJ/(m3 K)"},
+     "MJ/(m3 K), kJ/(m3 K), J/(m3 K), J/(cm3 K), MPa/K"},
+    {"K", {"K", "K", "K"}, "K"},
+};
+
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+/* The place of a kind in the table; KINDS: it is none. */
+static int kind_of(const char *unit)
 {
-    return find(name, strlen(name), NULL) != NULL;
+    int k = 0;
+    while (k < KINDS && strcmp(kinds[k].kind, unit) != 0)
+        k++;
+    return k;
 }
 
 const char *rb_unit_name(rb_units system, const char *unit)
 {
-    for (int k = 0; k < KINDS; k++)
-        if (strcmp(systems[k].kind, unit) == 0)
-            return systems[k].name[system];
-    return unit;
+    const int k = kind_of(unit);
+    return k < KINDS ? kinds[k].name[system] : unit;
 }
+
+const char *rb_unit_list(const char *unit)
+{
+    const int k = kind_of(unit);
+    return k < KINDS ? kinds[k].known : NULL;
+}
+
+/* What a kind is a product of; 0: its numbers have no unit that others could stand for. */
+static int product_of(const char *kind, product *u)
+{
+    *u = one;
+    return strcmp(kind, "-") == 0 || strcmp(kind, "1") == 0 ||
+           (kind_of(kind) < KINDS && read_unit(kind, strlen(kind), NULL, 0, u));
+}
+
+/* The factor of the unit `name` to a kind. */
+static int find(const char *name, size_t length, const char *kind, int folds, rb_unit_factor *to)
+{
+    product like, u;
+    if (!product_of(kind, &like) || !read_unit(name, length, &like, folds, &u))
+        return 0;
+    multiply(&u, &like, 1);
+    /* half a power of ten is a root of 1000 */
+    const int odd = u.ten % 2 != 0;
+    *to = (rb_unit_factor){(u.ten - (odd ? 3 : 0)) / 2, u.up * (odd ? sqrt(1000.0) : 1.0), u.down};
+    return 1;
+}
+
+int rb_unit_is_known(const char *name)
+{
+    product u;
+    return read_unit(name, strlen(name), NULL, 0, &u);
+}
+
+/* ---- Numbers ----------------------------------------------------------------------- */
 
 /* x 10^power as if x had been typed with the point elsewhere. */
 static double move_point(double x, int power)
@@ -186,42 +489,72 @@ static double move_point(double x, int power)
     return rb_read_number(moved, NULL);
 }
 
-static double to_stored(const unit_row *u, double x)
+double rb_unit_times(const rb_unit_factor *f, double x)
 {
-    return move_point(x, u->power) * u->factor;
+    return move_point(x, f->power) * f->up / f->down;
 }
 
-/* NULL: nothing is to be converted. */
-static const unit_row *row_of(rb_units system, const char *unit)
+double rb_unit_over(const rb_unit_factor *f, double x)
 {
-    if (system == RB_UNITS_MM || !unit)
-        return NULL;
-    const char *name = rb_unit_name(system, unit);
-    return find(name, strlen(name), unit);
+    return move_point(x * f->down / f->up, -f->power);
+}
+
+int rb_unit_of_system(rb_units system, const char *unit, rb_unit_factor *f)
+{
+    *f = (rb_unit_factor){0, 1.0, 1.0};
+    const int k = system == RB_UNITS_MM || !unit ? KINDS : kind_of(unit);
+    return k < KINDS && strcmp(kinds[k].name[system], unit) != 0 &&
+           find(kinds[k].name[system], strlen(kinds[k].name[system]), unit, 0, f);
 }
 
 double rb_unit_shown(rb_units system, const char *unit, double x)
 {
-    const unit_row *u = row_of(system, unit);
-    return u ? move_point(x / u->factor, -u->power) : x;
+    rb_unit_factor f;
+    return rb_unit_of_system(system, unit, &f) ? rb_unit_over(&f, x) : x;
 }
 
 double rb_unit_stored(rb_units system, const char *unit, double x)
 {
-    const unit_row *u = row_of(system, unit);
-    return u ? to_stored(u, x) : x;
+    rb_unit_factor f;
+    return rb_unit_of_system(system, unit, &f) ? rb_unit_times(&f, x) : x;
 }
 
-double rb_unit_of(const char *name, const char *unit, double x)
+/* Why the text, whose unit is not one of the kind, is refused. */
+static rb_status refuse(const char *text, const char *name, const char *kind, rb_message *why)
 {
-    const unit_row *u = find(name, strlen(name), unit);
-    return u ? to_stored(u, x) : x;
+    product u, like;
+    char list[200];
+    const int k = kind_of(kind), known = read_unit(name, strlen(name), NULL, 0, &u),
+              mass = known && u.dimension[MASS] != 0;
+    rb_guess guess = {.word = name};
+    if (k == KINDS)
+        return known ? rb_fail(why, RB_EINVAL, "a number without a unit, got '%.60s'", text)
+                     : RB_EINVAL;
+    snprintf(list, sizeof list, "%s", kinds[k].known);
+    for (char *at = list, *comma; at; at = comma) {
+        comma = strchr(at, ',');
+        if (comma) {
+            *comma = '\0';
+            comma += 2;
+        }
+        rb_guess_try(&guess, at);
+    }
+    for (const word *w = words; w < words + WORDS; w++)
+        if (product_of(kind, &like) && meaning(w, &u) && same_dimensions(&u, &like))
+            rb_guess_try(&guess, w->name);
+    if (mass)
+        return rb_fail(why, RB_EINVAL,
+                       "a number in one of %s; got '%.60s', whose mass needs a density",
+                       kinds[k].known, text);
+    return rb_fail(why, RB_EINVAL, "a number in one of %s; got '%.60s'%s", kinds[k].known, text,
+                   known ? "" : rb_guess_text(&guess, ""));
 }
 
 rb_status rb_unit_read(const char *text, const char *unit, double *value, int *plain,
                        rb_message *why)
 {
     char *end;
+    rb_unit_factor to;
     if (why)
         why->text[0] = '\0';
     if (*text == '\0' || strchr(" \t\n", *text))
@@ -237,41 +570,68 @@ rb_status rb_unit_read(const char *text, const char *unit, double *value, int *p
         !memchr(text, '.', (size_t)(end - text)))
         return rb_fail(why, RB_EINVAL, "a number with a decimal point, %.*s.%.20s; got '%.60s'",
                        (int)(end - text < 20 ? end - text : 20), text, end + 1, text);
-    const char *word = end + strspn(end, " ");
-    const unit_row *u = find(word, strlen(word), unit);
-    if (!u && strcmp(word, unit) == 0 && strcmp(unit, "-") != 0)
+    const char *name = end + strspn(end, " ");
+    if (find(name, strlen(name), unit, 0, &to)) {
+        *value = rb_unit_times(&to, *value);
+        return isfinite(*value) ? RB_OK : RB_EINVAL;
+    }
+    if (strcmp(name, unit) == 0 && strcmp(unit, "-") != 0)
         return RB_OK;
     /* what does not begin like a unit is no number at all */
-    if (!u && !find(word, strlen(word), NULL) && strpbrk(word, "0123456789+-., ()"))
+    if (!rb_unit_is_known(name) && strpbrk(name, "0123456789+-., ()"))
         return RB_EINVAL;
-    if (!u) {
-        /* Why the unit `word` of `text` is none of that kind. */
-        const int known = find(word, strlen(word), NULL) != NULL;
-        rb_guess guess = {.word = word};
-        char names[200] = "";
-        size_t used = 0;
-        for (int k = 0; k < ROWS && strcmp(unit, "-") != 0; k++)
-            if (strcmp(table[k].kind, unit) == 0 && used < sizeof names) {
-                used += (size_t)snprintf(names + used, sizeof names - used, "%s%s",
-                                         used ? ", " : "", table[k].name);
-                rb_guess_try(&guess, table[k].name);
-            }
-        if (names[0])
-            return rb_fail(why, RB_EINVAL, "a number in one of %s; got '%.60s'%s", names, text,
-                           known ? "" : rb_guess_text(&guess, ""));
-        return known ? rb_fail(why, RB_EINVAL, "a number without a unit, got '%.60s'", text)
-                     : RB_EINVAL;
-    }
-    *value = to_stored(u, *value);
-    return RB_OK;
+    return refuse(text, name, unit, why);
 }
 
-size_t rb_unit_of_column(const char *column, const char *unit, const char **name)
+/* ---- Headings ---------------------------------------------------------------------- */
+
+/* The number of bytes of the heading that spell the name: letters of any size, and blanks, points,
+ * _ and - alike; 0: it begins otherwise. */
+static size_t spelt(const char *heading, const char *name)
 {
-    const char *end = strrchr(column, '_');
-    const unit_row *u = end ? find(end + 1, strlen(end + 1), unit) : NULL;
-    if (!u)
-        return 0;
-    *name = u->name;
-    return (size_t)(end - column);
+    static const char between[] = " _-.";
+    const char *at = heading;
+    while (*name) {
+        if (strchr(between, *name)) {
+            name++;
+            at += strspn(at, between);
+            continue;
+        }
+        if (tolower((unsigned char)*at) != tolower((unsigned char)*name))
+            return 0;
+        at++;
+        name++;
+    }
+    return (size_t)(at - heading);
+}
+
+rb_status rb_unit_of_heading(const char *heading, const char *name, const char *unit,
+                             rb_unit_factor *factor, int *plain)
+{
+    heading += strspn(heading, " ");
+    const size_t n = spelt(heading, name);
+    const char *rest = heading + n;
+    *plain = 1;
+    *factor = (rb_unit_factor){0, 1.0, 1.0};
+    if (n == 0 || isalnum((unsigned char)*rest))
+        return RB_EINVAL;
+    /* the unit between blanks and brackets, behind "in" or a slash */
+    static const char before[] = " _-.,:;/([{<", after[] = " _-.,:;)]}>";
+    rest += strspn(rest, before);
+    if (strncmp(rest, "in ", 3) == 0 && rest[3 + strspn(rest + 3, " ")] != '\0')
+        rest += 3 + strspn(rest + 3, " ([");
+    size_t length = strlen(rest);
+    int open = 0; /* brackets of the unit itself, as in mm3/(N m), stay */
+    for (size_t k = 0; k < length; k++)
+        open += (rest[k] == '(') - (rest[k] == ')');
+    while (length > 0 && strchr(after, rest[length - 1]) && (rest[length - 1] != ')' || open < 0))
+        open += rest[--length] == ')';
+    if (length == 0 || (length == 1 && strchr("-1", *rest)))
+        return RB_OK;
+    if (length == strlen(unit) && strncmp(rest, unit, length) == 0) {
+        *plain = 0;
+        return RB_OK;
+    }
+    *plain = 0;
+    return find(rest, length, unit, 1, factor) ? RB_OK : RB_EFORMAT;
 }

@@ -99,14 +99,19 @@ void fuzz_table(const uint8_t *data, size_t size)
         for (int j = 0; t.name && j < t.columns; j++)
             fuzz_require(rb_io_table_column(&t, t.name[j]) == t.x + (size_t)j * (size_t)t.rows,
                          "a column is found by its name");
-        for (int j = 0; j < t.columns; j++)
-            rb_io_table_convert(&t, j, "mm", RB_UNITS_SI);
+        static const rb_io_column known[] = {{"x", "a", "mm", RB_IO_COLUMN_NEEDED},
+                                             {"gap", "b|g", "mm", RB_IO_COLUMN_NEEDED}};
+        const double *x[2];
+        rb_message why_not = {""};
+        s = rb_io_table_assign("table", &t, 2, known, RB_UNITS_SI, x, &why_not);
+        fuzz_require_reason(s, &why_not);
+        fuzz_require(s != RB_OK || (x[0] && x[1]), "needed columns are there");
     }
     rb_io_table_free(&t);
-    for (int columns = 1; columns <= 3; columns++) {
-        rb_message why_not = {""};
-        s = rb_io_table_read_columns("table", columns, &t, &why_not);
-        fuzz_require_reason(s, &why_not);
-        rb_io_table_free(&t);
-    }
+    rb_message why_words = {""};
+    s = rb_io_table_read_words("table", &t, &why_words);
+    fuzz_require_reason(s, &why_words);
+    for (int k = 0; s == RB_OK && k < t.rows * t.columns; k++)
+        fuzz_require(isfinite(t.x[k]) == !t.word[k], "a cell is a number or a word");
+    rb_io_table_free(&t);
 }

@@ -2,6 +2,7 @@
 #include "analysis/fit/fit.h"
 #include "rollbem/io.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -108,11 +109,42 @@ static rb_status read_values(const rb_case *c, const char *option, const char *t
 
 /* ---- Data -------------------------------------------------------------------------- */
 
-static const char *const columns[] = {"creep",           "creep_ratio", "force",
-                                      "force_ratio",     "load",        "speed",
-                                      "force_over_load", "temperature", "sigma"};
+enum { CREEP, CREEP_RATIO, FORCE, FORCE_RATIO, FORCE_OVER_LOAD, LOAD, SPEED, TEMPERATURE, SIGMA };
 
-enum { COLUMNS = sizeof columns / sizeof *columns };
+#define OPTIONAL RB_IO_COLUMN_OPTIONAL
+/* Of a measurement, by the names that people give them. */
+static const rb_io_column measured[] = {
+    [CREEP] = {"creep", "creepage|longitudinal creepage|longitudinal creep|xi|slip ratio|schlupf",
+               "-", OPTIONAL},
+    [CREEP_RATIO] = {"creep_ratio", NULL, "-", OPTIONAL},
+    [FORCE] = {"force",
+               "tangential force|tangential load|longitudinal force|creep force|traction force|"
+               "Q|Fx|kraft|tangentialkraft",
+               "N/mm", OPTIONAL},
+    [FORCE_RATIO] = {"force_ratio", "Q/(mu P)", "-", OPTIONAL},
+    [FORCE_OVER_LOAD] = {"force_over_load",
+                         "Q/P|Q/N|T/N|T/P|F/N|F/P|traction coefficient|adhesion coefficient|"
+                         "coefficient of traction|coefficient of adhesion",
+                         "-", OPTIONAL},
+    [LOAD] = {"load", "normal load|normal force|P|Fn|Fz|last|normalkraft", "N/mm", OPTIONAL},
+    [SPEED] = {"speed", "velocity|rolling speed|V|geschwindigkeit", "mm/s", OPTIONAL},
+    [TEMPERATURE] = {"temperature", NULL, "K", OPTIONAL},
+    [SIGMA] = {"sigma", "standard deviation|std", "-", OPTIONAL}};
+
+enum { COLUMNS = sizeof measured / sizeof *measured };
+
+/* Of a table of rollbem curve or sweep, which has other columns as well. */
+static const rb_io_column computed[] = {
+    [CREEP] = {"creepage", NULL, "-", OPTIONAL},
+    [CREEP_RATIO] = {"xi R/(mu a)", NULL, "-", OPTIONAL},
+    [FORCE] = {"Q", "tangential_load", "N/mm", OPTIONAL},
+    [FORCE_RATIO] = {"Q/(mu P)", NULL, "-", OPTIONAL},
+    [FORCE_OVER_LOAD] = {"Q/P", NULL, "-", OPTIONAL},
+    [LOAD] = {"P", "normal_load", "N/mm", OPTIONAL},
+    [SPEED] = {"speed", NULL, "mm/s", OPTIONAL},
+    [TEMPERATURE] = {"surface temperature", NULL, "K", OPTIONAL},
+    [SIGMA] = {"sigma", NULL, "N/mm", OPTIONAL},
+    {NULL, NULL, "-", RB_IO_COLUMN_UNUSED}};
 
 /* "creep.tsv:7", or of arrays "data, row 7". */
 static const char *place_of(const rb_io_table *t, const char *path, int row, char text[300])
@@ -124,37 +156,46 @@ static const char *place_of(const rb_io_table *t, const char *path, int row, cha
     return text;
 }
 
-/* The column of that name, or of that name with a unit, in mm, N, MPa; NULL: there is none. */
-static const double *column(rb_io_table *t, const char *name, const char *unit, rb_units units)
+/* The columns of a curve or of a study; what varies in them besides creepage, load and speed would
+ * be another case in every row.  Solved again, one load differs by rounding. */
+static rb_status read_computed(const rb_case *c, const char *path, rb_io_table *t, rb_units units,
+                               const double **x, rb_message *why)
 {
-    for (int j = 0; j < t->columns && t->name; j++) {
-        const char *known;
-        const size_t n = strlen(name);
-        if (strncmp(t->name[j], name, n) != 0 ||
-            (t->name[j][n] && rb_unit_of_column(t->name[j], unit, &known) != n))
-            continue;
-        rb_io_table_convert(t, j, unit, units);
-        return t->x + (size_t)j * (size_t)t->rows;
+    const int has_load =
+        rb_case_given(c, "load") || rb_case_given(c, "half-width") || rb_case_given(c, "approach");
+    static const char followed[] = " case creep_ratio creep force force_ratio load half_width "
+                                   "approach speed branch ";
+    const int study = strcmp(t->name[0], "case") == 0;
+    char word[80];
+    for (int j = 0; j < t->columns && strcmp(t->name[j], study ? "status" : "creepage") != 0; j++) {
+        const double *column = t->x + (size_t)j * (size_t)t->rows;
+        const size_t n = strcspn(t->name[j], " ");
+        snprintf(word, sizeof word, " %.*s", (int)n, t->name[j]);
+        for (char *unit = strrchr(word, '_'); unit && rb_unit_is_known(unit + 1); unit = NULL)
+            *unit = '\0';
+        strcat(word, " ");
+        for (int i = 1; i < t->rows; i++)
+            if (column[i] != column[0] && !strstr(followed, word))
+                return rb_fail(why, RB_EFORMAT,
+                               "%.250s: column '%.60s' varies: expected the points of one case",
+                               path, t->name[j]);
     }
-    return NULL;
-}
-
-/* A column that nobody reads is no matter unless it is a misspelt one. */
-static rb_status check_names(const rb_io_table *t, const char *path, rb_message *why)
-{
-    for (int j = 0; j < t->columns && t->name; j++) {
-        rb_guess guess = {.word = t->name[j]};
-        int known = 0;
-        for (int k = 0; k < COLUMNS; k++) {
-            known |= strcmp(t->name[j], columns[k]) == 0;
-            rb_guess_try(&guess, columns[k]);
-        }
-        const char *meant = rb_guess_text(&guess, "");
-        if (!known && *meant)
-            return rb_fail(why, RB_EFORMAT, "%.250s: unknown column '%.60s'%s", path, t->name[j],
-                           meant);
-    }
-    return RB_OK;
+    rb_status s =
+        rb_io_table_assign(path, t, sizeof computed / sizeof *computed, computed, units, x, why);
+    double *load = s == RB_OK && x[LOAD] ? t->x + (x[LOAD] - t->x) : NULL;
+    int same = 1, rolls = 0;
+    for (int i = 0; load && i < t->rows; i++)
+        same &= fabs(load[i] - load[0]) <= 1e-9 * fabs(load[0]);
+    for (int i = 0; load && same && i < t->rows; i++)
+        load[i] = load[0];
+    if (same && has_load)
+        x[LOAD] = NULL;
+    /* one speed in all rows is that of the case, 0 of a case without */
+    for (int i = 0; s == RB_OK && x[SPEED] && i < t->rows; i++)
+        rolls |= x[SPEED][i] != x[SPEED][0];
+    if (!rolls)
+        x[SPEED] = NULL;
+    return s;
 }
 
 /* The same number in every row. */
@@ -175,6 +216,17 @@ static rb_status add_column(rb_io_table *t, const char *name, double value)
     return RB_OK;
 }
 
+static rb_status missing(const rb_io_table *t, const char *path, rb_message *why)
+{
+    char seen[200] = "";
+    for (int j = 0; t->name && j < t->columns; j++)
+        rb_append(seen, sizeof seen, "%s%.60s", j ? ", " : "; got ", t->name[j]);
+    return rb_fail(why, RB_EFORMAT,
+                   "%.250s: expected a column creep or creep_ratio, and one of force, "
+                   "force_ratio, force_over_load%s",
+                   path, seen);
+}
+
 static rb_status read_data(const rb_case *c, const char *path, rb_io_table *t, double sigma,
                            rb_case_data *d, rb_message *why)
 {
@@ -182,32 +234,38 @@ static rb_status read_data(const rb_case *c, const char *path, rb_io_table *t, d
     char place[300];
 
     *d = (rb_case_data){.n = t->rows};
-    if (t->name && !isnan(sigma) && !rb_io_table_column(t, "sigma") &&
+    rb_io_column known[COLUMNS];
+    const double *x[COLUMNS + 1];
+    const int has_creep =
+        rb_io_table_has(t, &measured[CREEP]) || rb_io_table_has(t, &measured[CREEP_RATIO]);
+    const int has_force = rb_io_table_has(t, &measured[FORCE]) ||
+                          rb_io_table_has(t, &measured[FORCE_RATIO]) ||
+                          rb_io_table_has(t, &measured[FORCE_OVER_LOAD]);
+    if (!has_creep || !has_force)
+        return missing(t, path, why);
+    const int is_computed = rb_io_table_column(t, "residual") && rb_io_table_column(t, "creepage");
+    memcpy(known, measured, sizeof known);
+    if (rb_io_table_has(t, &measured[FORCE]))
+        known[SIGMA].unit = "N/mm";
+    if (!isnan(sigma) && !rb_io_table_has(t, &measured[SIGMA]) &&
         add_column(t, "sigma", sigma) != RB_OK)
         return rb_fail(why, RB_ENOMEM, "out of memory for %d points", d->n);
-    d->creep = column(t, "creep", "-", units);
-    d->is_ratio = !d->creep;
-    if (!d->creep)
-        d->creep = column(t, "creep_ratio", "-", units);
-    d->force = column(t, "force", "N/mm", units);
-    d->measure = RB_CASE_FORCE;
-    if (!d->force && (d->force = column(t, "force_ratio", "-", units)) != NULL)
-        d->measure = RB_CASE_FORCE_RATIO;
-    if (!d->force && (d->force = column(t, "force_over_load", "-", units)) != NULL)
-        d->measure = RB_CASE_FORCE_OVER_LOAD;
-    const char *unit = d->measure == RB_CASE_FORCE ? "N/mm" : "-";
-    d->load = column(t, "load", "N/mm", units);
-    d->speed = column(t, "speed", "mm/s", units);
-    d->temperature = column(t, "temperature", "K", units);
-    d->sigma = column(t, "sigma", unit, units);
-    const rb_status s = check_names(t, path, why);
+    const rb_status s = is_computed ? read_computed(c, path, t, units, x, why)
+                                    : rb_io_table_assign(path, t, COLUMNS, known, units, x, why);
     if (s != RB_OK)
         return s;
+    d->creep = x[CREEP] ? x[CREEP] : x[CREEP_RATIO];
+    d->is_ratio = !x[CREEP];
+    d->force = x[FORCE] ? x[FORCE] : x[FORCE_RATIO] ? x[FORCE_RATIO] : x[FORCE_OVER_LOAD];
+    d->measure = x[FORCE]         ? RB_CASE_FORCE
+                 : x[FORCE_RATIO] ? RB_CASE_FORCE_RATIO
+                                  : RB_CASE_FORCE_OVER_LOAD;
+    d->load = x[LOAD];
+    d->speed = x[SPEED];
+    d->temperature = x[TEMPERATURE];
+    d->sigma = x[SIGMA];
     if (!d->creep || !d->force)
-        return rb_fail(why, RB_EFORMAT,
-                       "%.250s: expected a column creep or creep_ratio, and one of force, "
-                       "force_ratio, force_over_load",
-                       path);
+        return missing(t, path, why);
     const struct {
         const char *name;
         const double *x;

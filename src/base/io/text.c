@@ -52,6 +52,41 @@ static rb_status cannot_read(const char *path, rb_message *why)
                            : rb_fail(why, RB_ENOENT, "%s: %s", path, strerror(errno));
 }
 
+/* UTF-16 behind its byte-order mark, as UTF-8.  RB_EFORMAT: half a character. */
+static rb_status from_utf16(const char *path, char **text, size_t *size, rb_message *why)
+{
+    const unsigned char *from = (const unsigned char *)*text;
+    const int high = from[0] == 0xfe ? 0 : 1; /* place of the high byte */
+    char *to = malloc(*size / 2 * 3 + 1);     /* at most three bytes for two */
+    size_t n = 0;
+    unsigned long half = 0; /* of a pair; 0: none is open */
+    int broken = *size % 2 != 0;
+    if (!to)
+        return rb_fail(why, RB_ENOMEM, "%s: out of memory", path);
+    for (size_t k = 2; k + 1 < *size && !broken; k += 2) {
+        unsigned long c = (unsigned long)from[k + (size_t)high] << 8 | from[k + (size_t)!high];
+        const int opens = c >= 0xd800 && c < 0xdc00, closes = c >= 0xdc00 && c < 0xe000;
+        broken = (half != 0) != closes;
+        if (opens) {
+            half = c;
+            continue;
+        }
+        c = closes ? 0x10000 + ((half - 0xd800) << 10) + (c - 0xdc00) : c;
+        half = 0;
+        const int bytes = c < 0x80 ? 1 : c < 0x800 ? 2 : c < 0x10000 ? 3 : 4;
+        static const unsigned char lead[] = {0, 0, 0xc0, 0xe0, 0xf0};
+        to[n++] = (char)(lead[bytes] | c >> 6 * (bytes - 1));
+        for (int b = bytes - 2; b >= 0; b--)
+            to[n++] = (char)(0x80 | (c >> 6 * b & 0x3f));
+    }
+    to[n] = '\0';
+    free(*text);
+    *text = to;
+    *size = n;
+    return broken || half ? rb_fail(why, RB_EFORMAT, "%s: half a character of UTF-16", path)
+                          : RB_OK;
+}
+
 rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_message *why)
 {
     struct stat st, null;
@@ -79,12 +114,12 @@ rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_messag
     }
     rb_status s = *text ? RB_OK : cannot_read(path, why);
     fclose(file);
-    /* What is no text is said to be none, before anything takes it for malformed numbers. */
-    const char *zero = s == RB_OK ? memchr(*text, '\0', *size) : NULL;
     if (s == RB_OK && *size >= 2 &&
         (memcmp(*text, "\xff\xfe", 2) == 0 || memcmp(*text, "\xfe\xff", 2) == 0))
-        s = rb_fail(why, RB_EFORMAT, "%s: UTF-16 text, expected ASCII or UTF-8", path);
-    else if (zero) {
+        s = from_utf16(path, text, size, why);
+    /* What is no text is said to be none, before anything takes it for malformed numbers. */
+    const char *zero = s == RB_OK ? memchr(*text, '\0', *size) : NULL;
+    if (zero) {
         int line = 1;
         for (const char *c = *text; c < zero; c++)
             line += *c == '\n';

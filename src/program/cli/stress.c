@@ -99,19 +99,21 @@ static cli_exit check(cli_case_run *run)
         return cli_fail(CLI_USAGE, "--grid and --points exclude each other");
     if (!st->points)
         return CLI_CONTINUE;
+    static const rb_io_column places[] = {{"x", "position|pos", "mm", RB_IO_COLUMN_NEEDED},
+                                          {"y", "depth|z", "mm", RB_IO_COLUMN_NEEDED}};
     const rb_units units = rb_case_units(run->words, rb_option_given(&run->set, "points"));
-    const rb_status read = rb_io_table_read_columns(st->points, 2, &st->place, &why);
+    const double *x[2];
+    rb_status read = rb_io_table_read(st->points, &st->place, &why);
+    if (read == RB_OK)
+        read = rb_io_table_assign(st->points, &st->place, 2, places, units, x, &why);
     if (read != RB_OK)
         return cli_say(read, &why);
-    const int n = st->place.rows;
-    st->xy = rb_alloc((size_t)n, 2);
+    st->xy = rb_alloc((size_t)st->place.rows, 2);
     if (!st->xy)
         return cli_fail(CLI_INTERNAL, "out of memory");
-    for (int j = 0; j < 2; j++)
-        rb_io_table_convert(&st->place, j, "mm", units);
-    for (int k = 0; k < n; k++) {
-        st->xy[2 * k] = st->place.x[k];
-        st->xy[2 * k + 1] = st->place.x[k + n];
+    for (int k = 0; k < st->place.rows; k++) {
+        st->xy[2 * k] = x[0][k];
+        st->xy[2 * k + 1] = x[1][k];
     }
     return CLI_CONTINUE;
 }
@@ -169,7 +171,7 @@ static rb_status solve(cli_case_run *run, rb_message *why)
                 if (!inside[k])
                     s = rb_fail(why, RB_EFORMAT,
                                 "%.200s:%d: the point (%g, %g) mm lies outside body A", st->points,
-                                st->place.line[k], st->place.x[k], st->place.x[k + n]);
+                                st->place.line[k], st->xy[2 * k], st->xy[2 * k + 1]);
             if (s == RB_OK)
                 s = rb_rolling_stress_at(&st->run.model, n, st->xy, st->at_points, why);
             free(inside);

@@ -26,9 +26,12 @@ typedef struct {
 /* Columns of one factor vary together: one option of a --vary, or those of the cases. */
 typedef struct {
     char name[40], heading[40]; /* creep-ratio, creep_ratio */
+    const rb_option *option;    /* of a case or of a crack; NULL: a label, which the table keeps */
     cli_exit bad;               /* of a value that is refused */
     int factor;
-    const double *value; /* one per row of the factor */
+    const double *value; /* one per row of the factor; NAN of a word */
+    char *const *word;   /* the same: halfplane, none, a label; NULL of a number; NULL: all are
+                            numbers */
 } study_column;
 
 /* A column behind the status: a number, or its error bar. */
@@ -49,6 +52,8 @@ typedef struct {
     int columns, factors, cases;
     int rows[VARIED_MAX + 2]; /* of each factor */
     double *owned[VARIED_MAX];
+    char **owned_words[VARIED_MAX]; /* owned_n each; NULL: none */
+    size_t owned_n[VARIED_MAX];
     double *sampled;                              /* of --sample: columns of cases each; owned */
     double sum[RESULTS_MAX], square[RESULTS_MAX]; /* of their results, less the first */
     double first_result[RESULTS_MAX];
@@ -58,6 +63,7 @@ typedef struct {
     int results;
     rb_case_slopes slopes;         /* columns behind those of the results; n = 0: none */
     int over, family;              /* columns of the pictures; -1: none */
+    int points;                    /* 1: the cases of the picture are on no grid */
     int drawn_column, band_column; /* of the result and of its error or deviation; band 0: none */
     double *drawn, *band; /* of every case: what the pictures show; NULL: no picture, no band */
     double largest;       /* result in the unit of the one that is drawn */
@@ -82,12 +88,16 @@ typedef struct {
 cli_exit cli_study_read(study *st);
 /* The same of --sample: a Latin hypercube over the tolerances of the resolved case c. */
 cli_exit cli_study_sample(study *st, const rb_case *c);
-/* Of case k = 0, 1, ... */
+/* The row of its factor that case k = 0, 1, ... has. */
+int cli_study_row(const study *st, const study_column *c, int k);
+/* Of case k = 0, 1, ...: its number, or its word; NULL: it is a number. */
 double cli_study_value(const study *st, const study_column *c, int k);
+const char *cli_study_word(const study *st, const study_column *c, int k);
 /* The values of case k in c; resolve afterwards. */
 cli_exit cli_study_set_values(const study *st, rb_case *c, int k);
 /* The option of a case or of a crack; NULL: there is none. */
 const rb_option *cli_study_option(const char *name);
+void cli_study_free_columns(study *st);
 /* Sets st->one to that case; says nothing of what is wrong with it. */
 rb_status cli_study_try_one(study *st, int k, rb_message *why);
 /* The first case that is one: of a sample not every case may be. */

@@ -30,44 +30,90 @@ void cli_study_keep(study *st, int j, int k, double x)
         st->band[k] = x;
 }
 
+static int same_row(const study_column *c, int i, int k)
+{
+    const char *a = c->word ? c->word[i] : NULL, *b = c->word ? c->word[k] : NULL;
+    return a && b ? strcmp(a, b) == 0 : !a && !b && c->value[i] == c->value[k];
+}
+
 static int varies(const study *st, const study_column *c)
 {
-    const double *value = c->value;
     for (int k = 1; k < st->rows[c->factor]; k++)
-        if (value[k] != value[0])
+        if (!same_row(c, k, 0))
             return 1;
     return 0;
 }
 
-/* The column of the option that --over or --family names; NULL: the last one that varies,
- * other than `but`, or -1. */
+static int has_words(const study *st, const study_column *c)
+{
+    int some = 0;
+    for (int k = 0; c->word && k < st->rows[c->factor]; k++)
+        some |= c->word[k] != NULL;
+    return some;
+}
+
+/* The column that --over or --family names; NULL: the last one that varies, other than `but`: of
+ * numbers before words, and these before labels; or -1. */
 static cli_exit choose_axis(const study *st, const char *option, const char *name, int but,
                             int *found)
 {
     rb_guess guess = {.word = name};
-    for (*found = st->columns - 1; *found >= 0; --*found) {
-        const study_column *c = &st->column[*found];
-        if (name)
-            rb_guess_try(&guess, c->name);
-        if (*found != but && (name ? strcmp(c->name, name) == 0 : varies(st, c)))
-            break;
-    }
+    *found = -1;
+    for (int rank = 0; rank < 3 && *found < 0; rank++)
+        for (int k = st->columns - 1; k >= 0 && *found < 0; k--) {
+            const study_column *c = &st->column[k];
+            const int own = !c->option ? 2 : has_words(st, c) ? 1 : 0;
+            if (name)
+                rb_guess_try(&guess, c->name);
+            if (k != but && (name ? strcmp(c->name, name) == 0 || strcmp(c->heading, name) == 0
+                                  : own == rank && varies(st, c)))
+                *found = k;
+        }
     return *found >= 0 || !name
                ? CLI_CONTINUE
                : cli_fail(CLI_USAGE, "--%s: expected %s option that varies, got '%s'%s", option,
                           but < 0 ? "an" : "another", name, rb_guess_text(&guess, ""));
 }
 
-static rb_report_quantity axis_of(const study *st, int k, double *value)
+/* The word of a row of a column; numbers between words as they are read. */
+static const char *text_of(const study_column *c, int i, rb_arena *memory)
+{
+    if (c->word && c->word[i])
+        return c->word[i];
+    char *text = rb_arena_zeros(memory, RB_NUMBER_TEXT, 1);
+    return text ? rb_number_text(c->value[i], text) : "";
+}
+
+/* The values of all cases along an axis.  Words, and labels, stand in the order in which they
+ * come. */
+static rb_report_quantity axis_of(const study *st, int k, rb_arena *memory)
 {
     if (k < 0)
         return (rb_report_quantity){0};
     const study_column *c = &st->column[k];
     const char *unit =
-        rb_unit_name(rb_case_resolved(st->base)->units, cli_study_option(c->name)->unit);
-    for (int i = 0; i < st->cases; i++)
-        value[i] = cli_study_value(st, c, i);
-    return (rb_report_quantity){c->name, strcmp(unit, "-") == 0 ? "" : unit, value};
+        c->option ? rb_unit_name(rb_case_resolved(st->base)->units, c->option->unit) : "";
+    const int words = has_words(st, c) || !c->option, rows = st->rows[c->factor];
+    double *value = rb_arena_doubles(memory, (size_t)st->cases, 1),
+           *place = rb_arena_doubles(memory, (size_t)rows, 1);
+    const char **text = rb_arena_zeros(memory, (size_t)rows, sizeof *text),
+               **word = rb_arena_zeros(memory, (size_t)st->cases, sizeof *word);
+    if (memory->failed)
+        return (rb_report_quantity){0};
+    for (int i = 0, different = 0; i < rows && words; i++) {
+        int same = 0;
+        while (!same_row(c, i, same))
+            same++;
+        place[i] = same < i ? place[same] : different++;
+        text[i] = same < i ? text[same] : text_of(c, i, memory);
+    }
+    for (int i = 0; i < st->cases; i++) {
+        const int row = cli_study_row(st, c, i);
+        value[i] = words ? place[row] : c->value[row];
+        word[i] = text[row];
+    }
+    return (rb_report_quantity){c->name, strcmp(unit, "-") == 0 || words ? "" : unit, value,
+                                words ? word : NULL};
 }
 
 /* "error_max_pressure" of an error bar. */
@@ -77,9 +123,8 @@ static const char *name_of(const study_result *result, char buffer[STUDY_HEADING
     return buffer;
 }
 
-/* The study as a picture, which keeps its coordinates in `value` (2 per case) and its name in
- * `name`. */
-static rb_report_study picture_of(const study *st, double *value, char name[STUDY_HEADING])
+/* The study as a picture, which keeps its coordinates in `memory` and its name in `name`. */
+static rb_report_study picture_of(const study *st, rb_arena *memory, char name[STUDY_HEADING])
 {
     const rb_resolved_case *c = rb_case_resolved(st->base);
     const study_result *shown = &st->result[st->drawn_column - st->columns - 2];
@@ -90,33 +135,44 @@ static rb_report_study picture_of(const study *st, double *value, char name[STUD
     }
     return (rb_report_study){
         .n = st->cases,
-        .x = axis_of(st, st->over, value),
-        .y = axis_of(st, st->family, value + st->cases),
+        .x = axis_of(st, st->over, memory),
+        .y = axis_of(st, st->family, memory),
         .shown = {name_of(shown, name),
-                  shown->r->unit ? rb_unit_name(c->units, shown->r->unit) : "", st->drawn},
+                  shown->r->unit ? rb_unit_name(c->units, shown->r->unit) : "", st->drawn, NULL},
         .rc = bodies_vary ? NULL : &c->rc,
         .units = c->units,
         .half_width = st->band,
         .band = st->band_column < st->columns + 2 + st->results ? "estimated error"
                                                                 : "standard deviation",
         .is_sample = st->o->sample > 0,
+        .points = st->points,
         .rounding = shown->r->error_bar == RB_SCALE_NONE || shown->is_error ? 0.0
                     : shown->r->unit && shown->r->unit[0]                   ? 1e-14 * st->largest
                                                                             : 1e-14};
 }
 
-static cli_exit check_kind(const study *st, const char *option, int map)
+static rb_status check(const study *st, int map, rb_message *why)
 {
     char name[STUDY_HEADING];
+    rb_arena memory = {0};
+    const rb_report_study picture = picture_of(st, &memory, name);
+    if (memory.failed)
+        return rb_arena_done(&memory, rb_fail(why, RB_ENOMEM, "out of memory"));
+    return rb_arena_done(&memory, rb_report_study_check(&picture, map, why));
+}
+
+/* Cases of a table need not stand on a grid: they are then drawn as points, all in one colour
+ * unless --family names a column. */
+static cli_exit check_curves(study *st)
+{
     rb_message why = {""};
-    double *value = rb_alloc((size_t)st->cases, 2);
-    rb_status s = rb_fail(&why, RB_ENOMEM, "out of memory");
-    if (value) {
-        const rb_report_study picture = picture_of(st, value, name);
-        s = rb_report_study_check(&picture, map, &why);
+    rb_status s = check(st, 0, &why);
+    if (s == RB_EINVAL && st->o->cases && !st->o->map) {
+        st->points = 1;
+        st->family = st->o->family ? st->family : -1;
+        s = check(st, 0, &why);
     }
-    free(value);
-    return s == RB_OK ? CLI_CONTINUE : cli_say_of(option, s, &why);
+    return s == RB_OK ? CLI_CONTINUE : cli_say_of("plot", s, &why);
 }
 
 cli_exit cli_study_prepare_pictures(study *st)
@@ -142,10 +198,13 @@ cli_exit cli_study_prepare_pictures(study *st)
         code = cli_fail(CLI_USAGE, "--family: the cases of --sample are points, not curves");
     if (code == CLI_CONTINUE && o->sample == 0)
         code = choose_axis(st, "family", o->family, st->over, &st->family);
+    if (code == CLI_CONTINUE && o->map) {
+        rb_message why = {""};
+        const rb_status s = check(st, 1, &why);
+        code = s == RB_OK ? code : cli_say_of("map", s, &why);
+    }
     if (code == CLI_CONTINUE && o->plot)
-        code = check_kind(st, "plot", 0);
-    if (code == CLI_CONTINUE && o->map)
-        code = check_kind(st, "map", 1);
+        code = check_curves(st);
     if (code != CLI_CONTINUE)
         return code;
     /* The band is the error bar of the result that is shown, or its standard deviation. */
@@ -168,13 +227,11 @@ cli_exit cli_study_prepare_pictures(study *st)
 static rb_status draw(FILE *out, rb_report_canvas canvas, const study *st, int map, rb_message *why)
 {
     char name[STUDY_HEADING];
-    double *value = rb_alloc((size_t)st->cases, 2);
-    if (!value)
-        return rb_fail(why, RB_ENOMEM, "out of memory");
-    const rb_report_study picture = picture_of(st, value, name);
-    const rb_status s = rb_report_study_picture(out, canvas, &picture, map, why);
-    free(value);
-    return s;
+    rb_arena memory = {0};
+    const rb_report_study picture = picture_of(st, &memory, name);
+    if (memory.failed)
+        return rb_arena_done(&memory, rb_fail(why, RB_ENOMEM, "out of memory"));
+    return rb_arena_done(&memory, rb_report_study_picture(out, canvas, &picture, map, why));
 }
 
 static rb_status draw_curves(FILE *out, rb_report_canvas canvas, const void *st, rb_message *why)

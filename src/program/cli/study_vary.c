@@ -22,31 +22,44 @@ const rb_option *cli_study_option(const char *name)
     return o;
 }
 
+/* Options that differ from case to case: numbers, and words, but those that all rows of a table
+ * have in common. */
+static int may_vary(const rb_option *o)
+{
+    static const char *const common[] = {"units", "error", "solver", "lcp-form"};
+    int may = o->kind != RB_OPTION_GROUP && o->kind != RB_OPTION_TEXT;
+    for (size_t k = 0; k < sizeof common / sizeof *common; k++)
+        may &= strcmp(o->name, common[k]) != 0;
+    return may;
+}
+
 /* Columns that vary together: one of --vary, or those of --cases; bad: the exit code of
- * what is wrong with one. */
+ * what is wrong with one; o NULL: a label. */
 static cli_exit add_column(study *st, const char *source, cli_exit bad, const char *name,
-                           const double *value)
+                           const rb_option *o)
 {
     study_column *c = &st->column[st->columns];
     c->bad = bad;
-    if (st->columns == COLUMNS_MAX || strlen(name) >= sizeof c->name)
-        return cli_fail(bad, "%s: '%.60s' is not an option of a case", source, name);
+    c->option = o;
+    if (st->columns == COLUMNS_MAX || strlen(name) >= sizeof c->name || (o && !may_vary(o)))
+        return cli_fail(bad,
+                        "%s: '%.60s' is not an option of a case with a number as value, or "
+                        "with words that vary",
+                        source, name);
     for (size_t k = 0; k <= strlen(name); k++) {
-        c->name[k] = name[k] == '_' ? '-' : name[k];
-        c->heading[k] = name[k] == '-' ? '_' : name[k];
+        c->name[k] = o && name[k] == '_' ? '-' : name[k];
+        c->heading[k] = o && name[k] == '-' ? '_' : name[k];
     }
+    if (!o && (strcmp(name, "case") == 0 || strcmp(name, "status") == 0))
+        strcpy(c->heading, "label"); /* the table has columns of these names */
     for (int k = 0; k < st->columns; k++)
-        if (strcmp(st->column[k].name, c->name) == 0)
+        if (strcmp(st->column[k].name, c->name) == 0 ||
+            strcmp(st->column[k].heading, c->heading) == 0)
             return cli_fail(bad, "%s: '%s' varies already", source, c->name);
     c->factor = st->factors;
-    c->value = value;
     st->columns++;
-    const rb_option *o = cli_study_option(c->name);
     st->has_crack |= o && o != rb_case_option(c->name);
-    return o && (o->kind == RB_OPTION_NUMBER || o->kind == RB_OPTION_INTEGER)
-               ? CLI_CONTINUE
-               : cli_fail(bad, "%s: '%s' is not an option of a case with a number as value", source,
-                          name);
+    return CLI_CONTINUE;
 }
 
 static cli_exit add_factor(study *st, const char *source, cli_exit bad, int rows)
@@ -67,13 +80,13 @@ typedef struct {
     rb_message why;    /* of a unit; "" otherwise */
 } typed;
 
-static typed typed_of(const study *st, const char *source, const char *name)
+static typed typed_of(const study *st, const char *source, const rb_option *option)
 {
     int at;
     rb_guess none = {.word = source};
     rb_option_find(1, st->own, source, strlen(source), &at, &none);
     return (typed){.source = &st->own->options[at],
-                   .option = cli_study_option(name),
+                   .option = option,
                    .from = rb_case_units(st->base, st->own->given[at]),
                    .to = rb_case_units(st->base, RB_GIVEN_ARGUMENT)};
 }
@@ -87,52 +100,108 @@ static double converted(const typed *t, double value)
                             : rb_unit_shown(t->to, unit, rb_unit_stored(t->from, unit, value));
 }
 
-/* 1: it is one; a unit may stand behind it. */
+static int is_choice(const rb_option *o, const char *word)
+{
+    static const rb_choice flags[] = {{"yes", 1}, {"no", 0}, {"true", 1}, {"false", 0}, {NULL, 0}};
+    const rb_choice *c = o->kind == RB_OPTION_CHOICE ? o->choices
+                         : o->kind == RB_OPTION_FLAG ? flags
+                                                     : NULL;
+    for (; c && c->name; c++)
+        if (strcmp(c->name, word) == 0)
+            return 1;
+    return (o->word && strcmp(o->word, word) == 0) || (o->path && *word);
+}
+
+/* 1: it is a value of the option: a number, behind which a unit may stand, or a word, with the
+ * number NAN. */
 static int read_value(typed *t, const char *word, double *value)
 {
     int plain;
+    *value = NAN;
+    if (is_choice(t->option, word))
+        return 1;
     if (t->option->kind == RB_OPTION_INTEGER)
         return rb_option_number(word, value);
-    if (rb_unit_read(word, t->option->unit, value, &plain, &t->why) != RB_OK)
+    if (t->option->kind != RB_OPTION_NUMBER ||
+        rb_unit_read(word, t->option->unit, value, &plain, &t->why) != RB_OK)
         return 0;
     *value = plain ? converted(t, *value) : rb_unit_shown(t->to, t->option->unit, *value);
     return 1;
 }
 
-/* How many numbers the text has: a list, or "from:to:count", or "from:to:count:log"; 0: it is
- * none of the forms; NO_MEMORY. */
-static int read_values(typed *t, char *text, double **value)
+/* A list "from:to:count", or "from:to:count:log": how many values; 0: it is none; NO_MEMORY. */
+static int read_range(typed *t, const char *word, double **value)
 {
-    int n = 0;
+    double from, to, count;
+    char a[64], b[64], how_many[64], kind[8] = "";
+    const int parts = sscanf(word, "%63[^:]:%63[^:]:%63[^:]:%7s", a, b, how_many, kind);
+    const int logarithmic = parts == 4 && strcmp(kind, "log") == 0;
+
+    if (parts < 3 || (parts == 4 && !logarithmic) || !read_value(t, a, &from) ||
+        !read_value(t, b, &to) || isnan(from) || isnan(to) || !rb_option_number(how_many, &count) ||
+        !rb_option_in_range(t->source, count) || count != floor(count) ||
+        (logarithmic && !(from > 0.0 && to > 0.0)))
+        return 0;
+    *value = rb_alloc((size_t)count, 1);
+    if (!*value)
+        return NO_MEMORY;
+    for (int k = 0; k < count; k++) {
+        const double part = k / (count - 1.0);
+        (*value)[k] = logarithmic ? from * pow(to / from, part) : from + (to - from) * part;
+    }
+    (*value)[(int)count - 1] = to;
+    return (int)count;
+}
+
+/* How many values the text has: a list, or a range; 0: it is none of the forms; NO_MEMORY.
+ * words: of values that are words; NULL: none is. */
+static int read_values(typed *t, char *text, double **value, char ***words)
+{
+    int n = 0, some = 0, bad = 0;
     const size_t most = strlen(text) + 1;
     char *rest, *word = strtok_r(text, " \t,", &rest);
     if (!word)
         return 0;
-    if (strchr(word, ':')) {
-        double from, to, count;
-        char a[64], b[64], how_many[64], kind[8] = "";
-        const int parts = sscanf(word, "%63[^:]:%63[^:]:%63[^:]:%7s", a, b, how_many, kind);
-        const int logarithmic = parts == 4 && strcmp(kind, "log") == 0;
-
-        if (strtok_r(NULL, " \t,", &rest) || parts < 3 || (parts == 4 && !logarithmic) ||
-            !read_value(t, a, &from) || !read_value(t, b, &to) ||
-            !rb_option_number(how_many, &count) || !rb_option_in_range(t->source, count) ||
-            count != floor(count) || (logarithmic && !(from > 0.0 && to > 0.0)))
-            return 0;
-        *value = rb_alloc((size_t)count, 1);
-        for (int k = 0; *value && k < count; k++) {
-            const double part = k / (count - 1.0);
-            (*value)[k] = logarithmic ? from * pow(to / from, part) : from + (to - from) * part;
-        }
-        if (*value)
-            (*value)[(int)count - 1] = to;
-        return *value ? (int)count : NO_MEMORY;
-    }
+    if (strchr(word, ':'))
+        return strtok_r(NULL, " \t,", &rest) ? 0 : read_range(t, word, value);
     *value = rb_alloc(most, 1);
-    for (; *value && word; word = strtok_r(NULL, " \t,", &rest))
-        if (!read_value(t, word, &(*value)[n++]))
-            return 0;
-    return *value ? n : NO_MEMORY;
+    *words = calloc(most, sizeof **words);
+    if (!*value || !*words)
+        return NO_MEMORY;
+    for (; word && !bad; word = strtok_r(NULL, " \t,", &rest), n++) {
+        bad = !read_value(t, word, &(*value)[n]);
+        if (bad || !isnan((*value)[n]))
+            continue;
+        some = 1;
+        if (((*words)[n] = strdup(word)) == NULL)
+            return NO_MEMORY;
+    }
+    if (!some) {
+        free(*words);
+        *words = NULL;
+    }
+    return bad ? 0 : n;
+}
+
+/* An option by its name, with _ for - or not. */
+static const rb_option *option_of(const char *name)
+{
+    char own[64];
+    snprintf(own, sizeof own, "%s", name);
+    for (char *c = own; *c; c++)
+        *c = *c == '_' ? '-' : *c;
+    return cli_study_option(own);
+}
+
+static cli_exit unknown(cli_exit bad, const char *source, const char *name)
+{
+    rb_guess guess = {.word = name};
+    for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++)
+        if (o->kind != RB_OPTION_GROUP)
+            rb_guess_try(&guess, o->name);
+    return cli_fail(
+        bad, "%s: '%.60s' is not an option of a case with a number as value, or with words%s",
+        source, name, rb_guess_text(&guess, ""));
 }
 
 static cli_exit add_varied(study *st, int k)
@@ -146,48 +215,145 @@ static cli_exit add_varied(study *st, int k)
     if (sscanf(st->o->vary[k], "%63s%n", name, &at) != 1)
         return cli_fail(bad, "%s: expected an option and numbers, got '%s'", source,
                         st->o->vary[k]);
-    const cli_exit code = add_column(st, source, bad, name, NULL);
+    const rb_option *o = option_of(name);
+    if (!o)
+        return unknown(bad, source, name);
+    const cli_exit code = add_column(st, source, bad, name, o);
     if (code != CLI_CONTINUE)
         return code;
     /* The values behind the name of the column that has just been added. */
     study_column *c = &st->column[st->columns - 1];
-    typed t = typed_of(st, source + 2, c->name);
+    typed t = typed_of(st, source + 2, o);
     char *copy = strdup(st->o->vary[k] + at);
-    const int rows = copy ? read_values(&t, copy, &st->owned[k]) : NO_MEMORY;
+    st->owned_n[k] = strlen(st->o->vary[k] + at) + 1;
+    const int rows = copy ? read_values(&t, copy, &st->owned[k], &st->owned_words[k]) : NO_MEMORY;
     free(copy);
     if (rows == NO_MEMORY)
         return cli_fail(CLI_INTERNAL, "%s: out of memory", source);
     if (rows == 0 && t.why.text[0])
         return cli_fail(c->bad, "%s: %s: expected %s", source, c->name, t.why.text);
+    char expected[200] = "numbers, or first:last:count";
+    if (rows == 0 && o->kind == RB_OPTION_CHOICE)
+        rb_option_expected(o, expected, sizeof expected);
     if (rows == 0)
-        return cli_fail(c->bad, "%s: expected an option and numbers, or first:last:count, got '%s'",
-                        source, st->o->vary[k]);
+        return cli_fail(c->bad, "%s: expected an option and %s, got '%s'", source,
+                        o->kind == RB_OPTION_FLAG ? "yes or no" : expected, st->o->vary[k]);
     c->value = st->owned[k];
+    c->word = st->owned_words[k];
     return add_factor(st, source, c->bad, rows);
+}
+
+/* The option of a heading, with the factor of the unit in it; NULL: none.  *is_unit: what stands
+ * behind the name of an option is no unit. */
+static const rb_option *option_of_heading(const char *heading, const typed *t,
+                                          rb_unit_factor *factor, const rb_option **not_unit)
+{
+    const rb_option *const tables[] = {rb_case_table, rb_case_crack_options};
+    const int n[] = {rb_case_table_n, rb_case_crack_options_n};
+    int plain;
+    *not_unit = NULL;
+    for (int k = 0; k < 2; k++)
+        for (const rb_option *o = tables[k]; o < tables[k] + n[k]; o++) {
+            const char *unit = o->kind == RB_OPTION_NUMBER ? o->unit : "-";
+            const rb_status s = o->kind == RB_OPTION_GROUP || o->kind == RB_OPTION_TEXT
+                                    ? RB_EINVAL
+                                    : rb_unit_of_heading(heading, o->name, unit, factor, &plain);
+            if (s == RB_OK && plain)
+                rb_unit_of_system(t->from, unit, factor);
+            if (s == RB_OK)
+                return o;
+            *not_unit = s == RB_EFORMAT && !*not_unit ? o : *not_unit;
+        }
+    return NULL;
+}
+
+/* 1: a column of labels, such as names of the cases. */
+static int is_label(const char *heading, int has_words)
+{
+    static const char *const names[] = {"label", "name", "case", "id", "run", "comment", "note"};
+    rb_guess guess = {.word = heading};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+        if (strcmp(heading, names[k]) == 0)
+            return 1;
+    for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++)
+        if (o->kind != RB_OPTION_GROUP)
+            rb_guess_try(&guess, o->name);
+    return has_words && !*rb_guess_text(&guess, "");
+}
+
+/* The numbers of a column in the units that the study shows. */
+static cli_exit read_column(study *st, int j, const rb_unit_factor *factor, typed *t)
+{
+    const rb_io_table *table = &st->table;
+    study_column *c = &st->column[st->columns - 1];
+    char expected[200];
+    double *value = table->x + (size_t)j * (size_t)table->rows;
+    char **word = table->word + (size_t)j * (size_t)table->rows;
+    rb_unit_factor shown;
+    const char *unit = c->option->kind == RB_OPTION_NUMBER ? c->option->unit : "-";
+    rb_unit_of_system(t->to, unit, &shown);
+    const int same =
+        factor->power == shown.power && factor->up == shown.up && factor->down == shown.down;
+    for (int i = 0; i < table->rows; i++) {
+        const int is_number =
+            c->option->kind == RB_OPTION_NUMBER || c->option->kind == RB_OPTION_INTEGER;
+        if (!word[i] && !same)
+            value[i] = rb_unit_over(&shown, rb_unit_times(factor, value[i]));
+        if ((!word[i] && is_number) || (word[i] && read_value(t, word[i], &value[i]))) {
+            if (word[i] && !isnan(value[i])) {
+                free(word[i]); /* a number with a unit */
+                word[i] = NULL;
+            }
+            continue;
+        }
+        char number[RB_NUMBER_TEXT];
+        return cli_fail(CLI_DATA, "%s:%d: %s: expected %s, got '%.60s'", st->o->cases,
+                        table->line[i], c->option->name,
+                        t->why.text[0] ? t->why.text
+                                       : rb_option_expected(c->option, expected, sizeof expected),
+                        word[i] ? word[i] : rb_number_text(value[i], number));
+    }
+    c->value = value;
+    c->word = word;
+    return CLI_CONTINUE;
 }
 
 static cli_exit add_table(study *st)
 {
     const char *path = st->o->cases;
+    rb_io_table *table = &st->table;
     rb_message why = {""};
-    const rb_status s = rb_io_table_read(path, &st->table, &why);
+    const rb_status s = rb_io_table_read_words(path, table, &why);
     cli_exit code = CLI_CONTINUE;
 
     if (s != RB_OK)
         return cli_say(s, &why);
-    if (!st->table.name)
+    if (!table->name)
         return cli_fail(CLI_DATA, "%s: expected a line that names the columns", path);
-    for (int j = 0; j < st->table.columns && code == CLI_CONTINUE; j++) {
-        double *value = st->table.x + (size_t)j * (size_t)st->table.rows;
-        code = add_column(st, path, CLI_DATA, st->table.name[j], value);
-        if (code == CLI_CONTINUE) {
-            /* The numbers of the table, as typed numbers. */
-            const typed t = typed_of(st, "cases", st->column[st->columns - 1].name);
-            for (int k = 0; k < st->table.rows; k++)
-                value[k] = converted(&t, value[k]);
+    for (int j = 0; j < table->columns && code == CLI_CONTINUE; j++) {
+        const char *heading = table->name[j];
+        rb_unit_factor factor;
+        const rb_option *not_unit;
+        typed t = typed_of(st, "cases", NULL);
+        t.option = option_of_heading(heading, &t, &factor, &not_unit);
+        int has_words = 0;
+        for (int i = 0; i < table->rows; i++)
+            has_words |= table->word[i + (size_t)j * (size_t)table->rows] != NULL;
+        if (!t.option && not_unit)
+            return cli_fail(CLI_DATA, "%s: column '%.60s': expected %s in one of %s", path, heading,
+                            not_unit->name,
+                            rb_unit_list(not_unit->unit) ? rb_unit_list(not_unit->unit) : "-");
+        if (!t.option && !is_label(heading, has_words))
+            return unknown(CLI_DATA, path, heading);
+        code = add_column(st, path, CLI_DATA, t.option ? t.option->name : heading, t.option);
+        if (code == CLI_CONTINUE && t.option)
+            code = read_column(st, j, &factor, &t);
+        else if (code == CLI_CONTINUE) {
+            st->column[st->columns - 1].value = table->x + (size_t)j * (size_t)table->rows;
+            st->column[st->columns - 1].word = table->word + (size_t)j * (size_t)table->rows;
         }
     }
-    return code == CLI_CONTINUE ? add_factor(st, path, CLI_DATA, st->table.rows) : code;
+    return code == CLI_CONTINUE ? add_factor(st, path, CLI_DATA, table->rows) : code;
 }
 
 cli_exit cli_study_read(study *st)
@@ -236,14 +402,16 @@ cli_exit cli_study_sample(study *st, const rb_case *c)
         for (int k = 0; k < n && o; k++)
             value[k] = rb_unit_shown(rb_case_resolved(c)->units, o->unit,
                                      t.value[j] + t.deviation[j] * value[k]);
-        code = add_column(st, "--tolerance", CLI_USAGE, t.name[j], value);
+        code = o ? add_column(st, "--tolerance", CLI_USAGE, t.name[j], o)
+                 : unknown(CLI_USAGE, "--tolerance", t.name[j]);
+        if (code == CLI_CONTINUE)
+            st->column[st->columns - 1].value = value;
     }
     gsl_rng_free(rng);
     return code == CLI_CONTINUE ? add_factor(st, "--sample", CLI_USAGE, n) : code;
 }
 
-/* The row of its factor that case k has. */
-static int row_of(const study *st, const study_column *c, int k)
+int cli_study_row(const study *st, const study_column *c, int k)
 {
     for (int f = st->factors - 1; f > c->factor; f--)
         k /= st->rows[f];
@@ -252,7 +420,24 @@ static int row_of(const study *st, const study_column *c, int k)
 
 double cli_study_value(const study *st, const study_column *c, int k)
 {
-    return c->value[row_of(st, c, k)];
+    return c->value[cli_study_row(st, c, k)];
+}
+
+const char *cli_study_word(const study *st, const study_column *c, int k)
+{
+    return c->word ? c->word[cli_study_row(st, c, k)] : NULL;
+}
+
+void cli_study_free_columns(study *st)
+{
+    for (int k = 0; k < VARIED_MAX; k++) {
+        for (size_t i = 0; st->owned_words[k] && i < st->owned_n[k]; i++)
+            free(st->owned_words[k][i]);
+        free(st->owned_words[k]);
+        free(st->owned[k]);
+    }
+    rb_io_table_free(&st->table);
+    free(st->sampled);
 }
 
 /* *bad: the column whose value is no value of its option; NULL: none. */
@@ -262,8 +447,11 @@ static rb_status try_values(const study *st, rb_case *c, int k, const study_colu
     *bad = NULL;
     for (int j = 0; j < st->columns; j++) {
         const study_column *column = &st->column[j];
+        const char *word = cli_study_word(st, column, k);
         const rb_status s =
-            rb_case_set_number(c, column->name, cli_study_value(st, column, k), why);
+            !column->option ? RB_OK
+            : word          ? rb_case_set_word(c, column->name, word, why)
+                   : rb_case_set_number(c, column->name, cli_study_value(st, column, k), why);
         if (s != RB_OK) {
             *bad = column;
             return s;
@@ -280,9 +468,10 @@ cli_exit cli_study_set_values(const study *st, rb_case *c, int k)
     if (try_values(st, c, k, &bad, &why) == RB_OK)
         return CLI_CONTINUE;
     /* The table of cases is the first factor, and is located by its line. */
-    return st->o->cases && bad->factor == 0 ? cli_fail(bad->bad, "%s:%d: %s", st->o->cases,
-                                                       st->table.line[row_of(st, bad, k)], why.text)
-                                            : cli_fail(bad->bad, "case %d: %s", k + 1, why.text);
+    return st->o->cases && bad->factor == 0
+               ? cli_fail(bad->bad, "%s:%d: %s", st->o->cases,
+                          st->table.line[cli_study_row(st, bad, k)], why.text)
+               : cli_fail(bad->bad, "case %d: %s", k + 1, why.text);
 }
 
 /* The crack of the current case. */

@@ -23,14 +23,15 @@
 static const rb_option options[] = {
     RB_GROUP_LINE("sweep", "Study"),
     VARY_LINE("vary-1", PLACE(vary[0]),
-              "an option of numbers and its values: 'mu 0.1 0.2 0.3', 'creep-ratio 0:1.5:31' "
-              "(first, last, how many), 'load 1:1e4:9:log'"),
+              "an option and its values: 'mu 0.1 0.2 0.3', 'creep-ratio 0:1.5:31' (first, last, "
+              "how many), 'load 1:1e4:9:log', 'support halfplane arc'"),
     VARY_LINE("vary-2", PLACE(vary[1]), "a second one: every combination is a case"),
     VARY_LINE("vary-3", PLACE(vary[2]), "a third one"),
     VARY_LINE("vary-4", PLACE(vary[3]), "a fourth one"),
     RB_TEXT_LINE("cases", PLACE(cases), "FILE",
-                 "a case per row; the columns are named like the options", .unset = "none",
-                 .file = RB_FILE_READ),
+                 "a case per row; the columns are named like the options, as 'load' or 'load "
+                 "[kN/m]'; columns of other words are labels",
+                 .unset = "none", .file = RB_FILE_READ),
     RB_INTEGER_LINE("sample", PLACE(sample), RB_FROM_TO(0, 1000000),
                     "number of random cases whose inputs scatter by --tolerance (a Latin hypercube "
                     "of normal distributions); prints mean and standard deviation of each result "
@@ -121,6 +122,8 @@ static cli_exit find_fingerprint(study *st)
         const study_column *c = &st->column[k];
         hash = rb_hash(hash, c->name, strlen(c->name));
         hash = rb_hash(hash, c->value, (size_t)st->rows[c->factor] * sizeof(double));
+        for (int i = 0; c->word && i < st->rows[c->factor]; i++)
+            hash = c->word[i] ? rb_hash(hash, c->word[i], strlen(c->word[i]) + 1) : hash;
     }
     st->fingerprint = hash;
     return CLI_CONTINUE;
@@ -321,6 +324,12 @@ static double cell_value(const study *st, int j, int k, const rb_rolling_row *ro
     return rb_rolling_number(result->r, owner);
 }
 
+/* NULL: the cell has a number. */
+static const char *cell_word(const study *st, int j, int k)
+{
+    return j > 0 && j <= st->columns ? cli_study_word(st, &st->column[j - 1], k) : NULL;
+}
+
 enum { HEAD_LINES = 5, COMMAND_LINE = 2 };
 
 static void write_head(const study *st, FILE *out)
@@ -359,10 +368,14 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
     rb_rolling_row_convert(&shown, rb_case_resolved(st->base)->units);
     for (int j = 0; j < column_count(st); j++) {
         const double x = cell_value(st, j, k, &shown);
+        const char *word = cell_word(st, j, k);
         cli_study_keep(st, j, k, x);
         if (st->o->style.format == RB_REPORT_JSON)
             st->lost |= json_array_append_new(json_array_get(st->list, (size_t)j),
-                                              rb_report_json_number(x)) != 0;
+                                              word ? rb_report_json_text(word)
+                                                   : rb_report_json_number(x)) != 0;
+        else if (word)
+            rb_report_cell_text(&c, word);
         else
             rb_report_cell_number(&c, x);
     }
@@ -478,8 +491,12 @@ static int is_row(study *st, int k, const char *line, size_t length)
     if (memory) {
         /* Its first cells alone, as far as they are known before the case is solved. */
         rb_report_cells c = {.out = memory, .style = st->o->style};
-        for (int j = 0; j <= st->columns; j++)
-            rb_report_cell_number(&c, cell_value(st, j, k, NULL));
+        for (int j = 0; j <= st->columns; j++) {
+            if (cell_word(st, j, k))
+                rb_report_cell_text(&c, cell_word(st, j, k));
+            else
+                rb_report_cell_number(&c, cell_value(st, j, k, NULL));
+        }
         fclose(memory);
     }
     int good = wanted && length == strlen(line) && strncmp(line, wanted, size) == 0;
@@ -828,12 +845,9 @@ int cli_sweep(int argc, char **argv)
             code = cli_study_draw(&st, code);
     }
     cli_pool_end();
-    for (int k = 0; k < VARIED_MAX; k++)
-        free(st.owned[k]);
-    rb_io_table_free(&st.table);
+    cli_study_free_columns(&st);
     free(st.drawn);
     free(st.band);
-    free(st.sampled);
     rb_case_slopes_free(&st.slopes);
     json_decref(st.list);
     rb_case_free(st.one);

@@ -333,6 +333,7 @@ rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas, const rb
 typedef struct {
     const char *name, *unit; /* unit in which it is shown; "": none */
     const double *value;     /* value for every case; NAN: not solved; NULL: no such quantity */
+    const char *const *word; /* of x and y: words that stand for the values; NULL: none do */
 } rb_report_quantity;
 
 typedef struct {
@@ -344,13 +345,14 @@ typedef struct {
     rb_units units;
     const double *half_width; /* of the band about the result, for every case; NULL: none */
     const char *band;         /* what it is: "estimated error" */
-    int is_sample;            /* 1: the cases are points, not curves; without y */
+    int is_sample;            /* 1: the cases are points of a sample; without y */
+    int points;               /* 1: the cases are on no grid: points, not curves */
     double rounding;          /* results that are all smaller are drawn as 0 */
 } rb_report_study;
 
 /* Checks a picture before the cases are solved.  RB_EINVAL: two cases at the same x and
- * y, more than RB_REPORT_CURVES curves, or a curve with a single point; for a map also if
- * a combination of x and y is missing. */
+ * y or a curve with a single point, unless they are points; more than RB_REPORT_CURVES curves;
+ * for a map also words, or if a combination of x and y is missing. */
 rb_status rb_report_study_check(const rb_report_study *study, int map, rb_message *why);
 /* Curves of the result over x, one for each y, or the points of a sample; or a map of it over x
  * and y. */

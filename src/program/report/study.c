@@ -56,9 +56,12 @@ static rb_status check_curves(const rb_report_study *s, const spot *at, rb_messa
     if (groups > RB_REPORT_CURVES)
         return rb_fail(why, RB_EINVAL, "%d values of %s: at most %d curves are drawn", groups,
                        s->y.name, RB_REPORT_CURVES);
-    for (int i = 0; i < s->n; i += length_of_group(s, at, i))
+    for (int i = 0; i < s->n && !s->points; i += length_of_group(s, at, i))
         if (length_of_group(s, at, i) < 2)
-            return s->y.value
+            return s->y.word
+                       ? rb_fail(why, RB_EINVAL, "a curve needs two values of %s; %s = %s has one",
+                                 s->x.name, s->y.name, s->y.word[at[i].k])
+                   : s->y.value
                        ? rb_fail(why, RB_EINVAL, "a curve needs two values of %s; %s = %g has one",
                                  s->x.name, s->y.name, at[i].y)
                        : rb_fail(why, RB_EINVAL, "a curve needs two values of %s", s->x.name);
@@ -69,6 +72,9 @@ static rb_status check_curves(const rb_report_study *s, const spot *at, rb_messa
 static rb_status check_map(const rb_report_study *s, const spot *at, rb_message *why)
 {
     const int n = s->n > 0 ? length_of_group(s, at, 0) : 0;
+    if (s->x.word || s->y.word)
+        return rb_fail(why, RB_EINVAL, "a map needs two options with numbers, %s has words",
+                       s->x.word ? s->x.name : s->y.name);
     if (!s->y.value || n < 2 || n == s->n)
         return rb_fail(why, RB_EINVAL, "a map needs two options with two values or more");
     for (int i = n; i < s->n; i += n)
@@ -90,7 +96,7 @@ rb_status rb_report_study_check(const rb_report_study *s, int map, rb_message *w
     rb_status status = RB_OK;
     if (s->is_sample && map)
         status = rb_fail(why, RB_EINVAL, "the cases of a sample are on no grid; --plot draws them");
-    for (int i = 1; i < s->n && status == RB_OK && !s->is_sample; i++)
+    for (int i = 1; i < s->n && status == RB_OK && !s->is_sample && (map || !s->points); i++)
         if (at[i].x == at[i - 1].x && at[i].y == at[i - 1].y)
             status = rb_fail(why, RB_EINVAL,
                              "cases %d and %d have the same %s%s%s: more options vary than "
@@ -217,6 +223,34 @@ static void write_axis(FILE *out, char letter, const rb_report_quantity *q, cons
         fprintf(out, "set %ctics %.9g\n", letter, rb_report_round_step((a->to - a->from) / labels));
 }
 
+/* Words of users in gnuplot's quotes, without what it takes for commands. */
+static const char *as_title(const char *word, char text[64])
+{
+    size_t n = 0;
+    for (; *word && n < 60; word++)
+        text[n++] = strchr("'\\{}_^@&~\n", *word) ? ' ' : *word;
+    text[n] = '\0';
+    return text;
+}
+
+/* Words below the picture, each at its place. */
+static void write_words(FILE *out, const view *v)
+{
+    const rb_report_study *s = v->study;
+    char name[64], text[64];
+    fprintf(out, "set xlabel '%s'\nset xrange [%.9g:%.9g]\nset xtics (", plain(s->x.name, name),
+            v->x.from - 0.5, v->x.to + 0.5);
+    double last = -1.0; /* cases with one y stand in the order of x */
+    for (double place = v->x.from; place <= v->x.to; place += 1.0)
+        for (int k = 0; k < s->n && last < place; k++)
+            if (s->x.value[k] == place) {
+                fprintf(out, "%s'%s' %g", place > v->x.from ? ", " : "",
+                        as_title(s->x.word[k], text), place);
+                last = place;
+            }
+    fputs(")\n", out);
+}
+
 /* As many numbers below the picture as a column and a page of print take. */
 static int labels_below(rb_report_place place)
 {
@@ -255,7 +289,7 @@ static void write_curves(FILE *out, rb_report_canvas canvas, const void *context
     const view *v = context;
     const rb_report_study *s = v->study;
     const rb_report_place place = rb_report_place_of(canvas);
-    char name[64];
+    char name[64], value[64];
     int curves = 0;
     for (int i = 0; i < s->n; curves++) {
         fprintf(out, "$curve%d << EOD\n", curves);
@@ -269,7 +303,10 @@ static void write_curves(FILE *out, rb_report_canvas canvas, const void *context
             "set offsets 0,0,graph 0.05,graph %g\n" RB_REPORT_ZERO,
             0.14 + place.up, 0.9 + place.up, v->shown.from < 0.0 ? 0.05 : 0.0);
     write_title(out, v, place);
-    write_axis(out, 'x', &s->x, &v->x, labels_below(place));
+    if (s->x.word)
+        write_words(out, v);
+    else
+        write_axis(out, 'x', &s->x, &v->x, labels_below(place));
     write_label(out, "ylabel", &s->shown, &v->shown);
     write_format(out, "y", &v->shown);
     if (v->shown.flat)
@@ -284,15 +321,18 @@ static void write_curves(FILE *out, rb_report_canvas canvas, const void *context
     for (int k = 0; k < curves && s->half_width; k++)
         fprintf(out, "$curve%d using 1:($2-$3):($2+$3) " RB_REPORT_BAND " notitle, ", k,
                 rb_report_colour(k));
-    for (int k = 0, i = 0; k < curves; i += length_of_group(s, v->at, i), k++)
+    for (int k = 0, i = 0; k < curves; i += length_of_group(s, v->at, i), k++) {
+        snprintf(value, sizeof value, "%g", v->at[i].y);
         fprintf(out,
                 "%s$curve%d using 1:2 with %s linecolor rgb '%s' dashtype %s "
-                "pointtype 7 pointsize 0.7 linewidth 2.2 title '%g'",
+                "pointtype 7 pointsize 0.7 linewidth 2.2 title '%s'",
                 k ? ", " : "", k,
-                s->is_sample                                  ? "points"
+                s->is_sample || s->points || s->x.word        ? "points"
                 : length_of_group(s, v->at, i) > POINTS_UP_TO ? "lines"
                                                               : "linespoints",
-                rb_report_colour(k), rb_report_dashes(k), v->at[i].y);
+                rb_report_colour(k), rb_report_dashes(k),
+                s->y.word ? as_title(s->y.word[v->at[i].k], value) : value);
+    }
     fputc('\n', out);
 }
 
@@ -405,7 +445,7 @@ rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas, const rb_r
     view v = {.study = &shown,
               .at = at,
               .row = length_of_group(s, at, 0),
-              .x = axis_of(s->n, &s->x, 1),
+              .x = axis_of(s->n, &s->x, !s->x.word),
               .y = axis_of(s->n, &s->y, 1),
               .shown = axis_of(s->n, &s->shown, 0)};
     /* Where the result is the same in all cases, a range around it, or the picture would

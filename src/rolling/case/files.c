@@ -1,7 +1,9 @@
 /* The tables that a case names: gap, irregularity, wear, friction over x, history. */
 #include "rolling/case/words.h"
 
+#include <math.h>
 #include <stdio.h>
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,9 +28,7 @@ rb_status rb_case_read_input(const rb_case *c, const char *path, char **text, si
     return s == RB_OK ? rb_io_read_text(path, text, size, why) : s;
 }
 
-/* columns: how many there must be; 0: any. */
-static rb_status read_table(const rb_case *c, const char *path, int columns, rb_io_table *t,
-                            rb_message *why)
+static rb_status read_table(const rb_case *c, const char *path, rb_io_table *t, rb_message *why)
 {
     char *text;
     size_t size;
@@ -36,8 +36,6 @@ static rb_status read_table(const rb_case *c, const char *path, int columns, rb_
     if (s != RB_OK)
         return s;
     s = rb_io_table_parse(path, text, t, why);
-    if (s == RB_OK && columns > 0)
-        s = rb_io_table_expect_columns(path, columns, t, why);
     free(text);
     return rb_case_without_content(c, path, s, why);
 }
@@ -67,33 +65,53 @@ static rb_units units_of_file(const rb_case *c, const char *option)
     return rb_case_units(c, rb_case_given(c, option));
 }
 
-/* Two columns, of which the first `lengths` are in mm: the second over the first. */
+#define OF_X(name, also, unit)                                                                     \
+    {                                                                                              \
+        {"x", "position|pos|coordinate", "mm", RB_IO_COLUMN_NEEDED},                               \
+        {                                                                                          \
+            name, also, unit, RB_IO_COLUMN_NEEDED                                                  \
+        }                                                                                          \
+    }
+
+/* What stands over x in each of the tables.  A height is none of the gap's names: of a profile it
+ * grows where the gap falls. */
+static const rb_io_column over_x[CASE_TABLES][2] = {
+    [CASE_GAP] = OF_X("gap", "gap0|g|g0|y|z|clearance|separation|initial gap", "mm"),
+    [CASE_IRREGULARITY] = OF_X("gap", "depth|irregularity", "mm"),
+    [CASE_WORN] = OF_X("depth", "worn|worn depth|wear depth|gap", "mm"),
+    [CASE_FRICTION] =
+        OF_X("mu", "friction|friction coefficient|coefficient of friction|cof|f", "-")};
+
 static rb_status read_over_x(const rb_case *c, case_table *t, const char *path, rb_units units,
-                             int lengths, rb_rolling_table *over_x, rb_message *why)
+                             rb_rolling_table *over, rb_message *why)
 {
     if (!is_read(t, path, units)) {
+        const double *x[2];
         free_table(t);
-        const rb_status s = read_table(c, path, 2, &t->table, why);
-        if (s != RB_OK)
+        rb_status s = read_table(c, path, &t->table, why);
+        if (s == RB_OK)
+            s = rb_case_without_content(
+                c, path,
+                rb_io_table_assign(path, &t->table, 2, over_x[t - c->table], units, x, why), why);
+        if (s != RB_OK) {
+            free_table(t);
             return s;
-        t->path = path;
-        t->units = units;
-        for (int j = 0; j < lengths; j++)
-            rb_io_table_convert(&t->table, j, "mm", units);
+        }
+        *t = (case_table){.table = t->table, .path = path, .units = units, .x = x[0], .y = x[1]};
     }
-    *over_x = (rb_rolling_table){t->table.rows, t->table.x, t->table.x + t->table.rows};
+    *over = (rb_rolling_table){t->table.rows, t->x, t->y};
     return RB_OK;
 }
 
 int rb_case_gap_rows(const rb_case *c, const double **x, const double **gap)
 {
-    const rb_io_table *t = &c->table[CASE_GAP].table;
+    const case_table *t = &c->table[CASE_GAP];
 
     if (c->resolved.rc.gap != RB_GAP_TABLE || !t->x)
         return 0;
     *x = t->x;
-    *gap = t->x + t->rows;
-    return t->rows;
+    *gap = t->y;
+    return t->table.rows;
 }
 
 static rb_status read_profile(rb_case *c, rb_message *why)
@@ -106,7 +124,7 @@ static rb_status read_profile(rb_case *c, rb_message *why)
         return rb_case_refuse_given(c, "gap-smoothing", "of a gap from a file only", why);
     if (!is_read(&c->table[CASE_GAP], resolved->gap_file, units) || c->profile.noise != noise)
         free_profile(&c->profile);
-    rb_status s = read_over_x(c, &c->table[CASE_GAP], resolved->gap_file, units, 2, &gap, why);
+    rb_status s = read_over_x(c, &c->table[CASE_GAP], resolved->gap_file, units, &gap, why);
     if (s == RB_OK && !c->profile.curve) {
         c->profile = (case_profile){.noise = noise};
         s = rb_rolling_profile_create(gap.n, gap.x, gap.y, noise, &c->profile.curve, why);
@@ -123,7 +141,7 @@ static rb_status read_friction(rb_case *c, rb_message *why)
         return RB_OK;
     const rb_status s =
         read_over_x(c, &c->table[CASE_FRICTION], resolved->friction_file,
-                    units_of_file(c, "friction-law"), 1, &resolved->rc.friction.table, why);
+                    units_of_file(c, "friction-law"), &resolved->rc.friction.table, why);
     if (s != RB_OK)
         return s;
     /* The table stands in the place of --mu: on the command line it wins over mu of the
@@ -139,100 +157,114 @@ static rb_status read_friction(rb_case *c, rb_message *why)
 
 /* ---- The history ------------------------------------------------------------------- */
 
-static rb_status set_program(const rb_io_table *t, const char *path, rb_rolling_program *program,
-                             rb_message *why)
-{
-    *program = (rb_rolling_program){.n = t->rows};
-    for (int j = 0; j < t->columns; j++) {
-        rb_guess guess = {.word = t->name[j]};
-        int k = 0;
-        while (k < RB_ROLLING_PROGRAM_COLUMNS &&
-               strcmp(t->name[j], rb_rolling_program_columns[k].name) != 0)
-            rb_guess_try(&guess, rb_rolling_program_columns[k++].name);
-        if (k == RB_ROLLING_PROGRAM_COLUMNS)
-            return rb_fail(why, RB_EFORMAT, "%s: unknown column '%s'%s", path, t->name[j],
-                           rb_guess_text(&guess, ""));
-        const double *column = t->x + (size_t)j * (size_t)t->rows;
-        memcpy((char *)program + rb_rolling_program_columns[k].column, &column, sizeof column);
-    }
-    return RB_OK;
-}
-
 /* The option whose value a column replaces: creep-ratio by creep_ratio; NULL: none. */
 static const rb_option *replaced_option(const char *column)
 {
     char name[32];
-    const rb_option *option = NULL;
-    for (size_t n = strlen(column); n > 0 && !option; n--) {
-        if (column[n] != '\0' && column[n] != '_') /* perhaps its unit stands behind */
-            continue;
-        snprintf(name, sizeof name, "%.*s", (int)n, column);
-        for (char *c = name; *c; c++)
-            *c = *c == '_' ? '-' : *c;
-        option = rb_case_option(name);
-    }
-    return option && strcmp(option->name, "distance") != 0 ? option : NULL;
+    snprintf(name, sizeof name, "%s", column);
+    for (char *c = name; *c; c++)
+        *c = *c == '_' ? '-' : *c;
+    return strcmp(column, "distance") == 0 ? NULL : rb_case_option(name);
 }
 
-int rb_case_is_replaced(const rb_case *c, const rb_option *option)
+/* The columns that a table of a program may have.  One that --history-table has written has all
+ * states of its steps: its controls are the load, and the shift at rest, or the force of rolling,
+ * or the creepage where a step slides fully.  Returns how many. */
+static int known_columns(const rb_io_table *t, int rolls, rb_io_column *known)
 {
-    const rb_io_table *t = &c->table[CASE_HISTORY].table;
-    for (int j = 0; j < t->columns && c->resolved.program.n > 0; j++)
-        if (replaced_option(t->name[j]) == option)
-            return 1;
-    return 0;
+    const double *ratio = rb_io_table_column(t, "force_ratio");
+    const int has_states = ratio && rb_io_table_column(t, "residual");
+    int slides = 0, n = 0;
+    for (int i = 0; has_states && i < t->rows; i++)
+        slides |= !(fabs(ratio[i]) < 1.0 - 1e-9);
+    const char *loads = !rolls ? "shift" : slides ? "creep" : "force";
+    for (int k = 0; k < RB_ROLLING_PROGRAM_COLUMNS; k++) {
+        const rb_rolling_program_column *c = &rb_rolling_program_columns[k];
+        const int is_control = strcmp(c->name, rolls ? "distance" : "time") == 0 ||
+                               strcmp(c->name, "load") == 0 || strcmp(c->name, loads) == 0;
+        known[n++] =
+            (rb_io_column){c->name, c->also, c->unit,
+                           has_states && !is_control ? RB_IO_COLUMN_UNUSED : RB_IO_COLUMN_OPTIONAL};
+    }
+    if (has_states)
+        known[n++] = (rb_io_column){NULL, NULL, "-", RB_IO_COLUMN_UNUSED};
+    return n;
 }
 
 /* Columns named like options, in the units of those or in their own: load_kN/m. */
 static rb_status read_program_table(const rb_case *c, case_table *t, const char *path,
                                     rb_units units, rb_message *why)
 {
+    rb_io_column known[RB_ROLLING_PROGRAM_COLUMNS + 1];
+    const double *x[RB_ROLLING_PROGRAM_COLUMNS + 1];
     if (is_read(t, path, units))
         return RB_OK;
     free_table(t);
-    const rb_status s = read_table(c, path, 0, &t->table, why);
+    rb_io_table *table = &t->table;
+    rb_status s = read_table(c, path, table, why);
     if (s != RB_OK)
         return s;
-    if (!t->table.name)
-        return rb_fail(why, RB_EFORMAT, "%s: expected a line that names the columns", path);
-    t->path = path;
-    t->units = units;
-    for (int j = 0; j < t->table.columns; j++) {
-        const rb_option *option = replaced_option(t->table.name[j]);
-        if (option)
-            rb_io_table_convert(&t->table, j, option->unit, units);
+    const int n = known_columns(table, c->words.rc.formulation == RB_TRANSIENT, known);
+    s = table->name ? rb_io_table_assign(path, table, n, known, units, x, why)
+                    : rb_fail(why, RB_EFORMAT, "%s: expected a line that names the columns", path);
+    if (s != RB_OK) {
+        free_table(t);
+        return rb_case_without_content(c, path, s, why);
+    }
+    *t = (case_table){.table = *table, .path = path, .units = units, .program = {.n = table->rows}};
+    for (int k = 0; k < RB_ROLLING_PROGRAM_COLUMNS; k++)
+        memcpy((char *)&t->program + rb_rolling_program_columns[k].column, &x[k], sizeof x[k]);
+    /* The creepage of states is the mean of the step that ends there; none is of those at rest. */
+    if (n > RB_ROLLING_PROGRAM_COLUMNS && t->program.creep) {
+        double *creep = t->table.x + (t->program.creep - t->table.x);
+        for (int i = t->table.rows - 2; i >= 0; i--)
+            if (t->program.distance && t->program.distance[i] == 0.0)
+                creep[i] = creep[i + 1];
     }
     return RB_OK;
 }
 
+static int has_column(const rb_rolling_program *program, int k)
+{
+    const double *column;
+    memcpy(&column, (const char *)program + rb_rolling_program_columns[k].column, sizeof column);
+    return program->n > 0 && column;
+}
+
+int rb_case_is_replaced(const rb_case *c, const rb_option *option)
+{
+    for (int k = 0; k < RB_ROLLING_PROGRAM_COLUMNS; k++)
+        if (has_column(&c->resolved.program, k) &&
+            replaced_option(rb_rolling_program_columns[k].name) == option)
+            return 1;
+    return 0;
+}
+
 rb_status rb_case_read_history(rb_case *c, rb_message *why)
 {
-    const rb_io_table *t = &c->table[CASE_HISTORY].table;
+    case_table *t = &c->table[CASE_HISTORY];
     const char *path = c->words.history_file;
     if (!path || c->words.rc.formulation == RB_STEADY) /* check_formulation refuses it */
         return RB_OK;
-    rb_status s =
-        read_program_table(c, &c->table[CASE_HISTORY], path, units_of_file(c, "history"), why);
-    if (s == RB_OK)
-        s = rb_case_without_content(c, path, set_program(t, path, &c->words.program, why), why);
+    rb_status s = read_program_table(c, t, path, units_of_file(c, "history"), why);
     if (s != RB_OK)
         return s;
+    c->words.program = t->program;
     /* A column stands in the place of an option: as between two options the command line
      * wins over the file, and otherwise both at once are refused. */
     const rb_option_precedence how = rb_case_precedence(c);
     const rb_option_set set = rb_case_options(c);
 
-    for (int j = 0; j < t->columns; j++) {
+    for (int k = 0; k < RB_ROLLING_PROGRAM_COLUMNS && s == RB_OK; k++) {
+        const char *name = rb_rolling_program_columns[k].name;
+        const rb_option *option = replaced_option(name);
         char reason[80];
-        const rb_option *option = replaced_option(t->name[j]);
-        snprintf(reason, sizeof reason, "the history has a column %s", t->name[j]);
-        s = option ? rb_option_resolve_against(&set, &how, option, rb_case_given(c, "history"),
-                                               reason, why)
-                   : RB_OK;
-        if (s != RB_OK)
-            return s;
+        snprintf(reason, sizeof reason, "the history has a column %s", name);
+        if (option && has_column(&t->program, k))
+            s = rb_option_resolve_against(&set, &how, option, rb_case_given(c, "history"), reason,
+                                          why);
     }
-    return RB_OK;
+    return s;
 }
 
 /* ---- All others -------------------------------------------------------------------- */
@@ -246,10 +278,10 @@ rb_status rb_case_read_files(rb_case *c, rb_message *why)
 
         if (resolved->irregularity_file)
             s = read_over_x(c, &c->table[CASE_IRREGULARITY], resolved->irregularity_file,
-                            units_of_file(c, "irregularity"), 2, &resolved->rc.irregularity, why);
+                            units_of_file(c, "irregularity"), &resolved->rc.irregularity, why);
         if (s == RB_OK && resolved->worn_file)
             s = read_over_x(c, &c->table[CASE_WORN], resolved->worn_file, units_of_file(c, "worn"),
-                            2, &resolved->rc.worn, why);
+                            &resolved->rc.worn, why);
     }
     return s == RB_OK ? read_friction(c, why) : s;
 }

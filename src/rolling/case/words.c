@@ -204,6 +204,13 @@ rb_status rb_case_set_number(rb_case *c, const char *name, double value, rb_mess
     return set(c, &all, k, text, RB_GIVEN_NUMBER, why);
 }
 
+rb_status rb_case_set_word(rb_case *c, const char *name, const char *word, rb_message *why)
+{
+    int k;
+    const rb_option_set all = find(c, name, &k, why);
+    return all.n == 0 ? RB_EINVAL : set(c, &all, k, word, RB_GIVEN_NUMBER, why);
+}
+
 rb_units rb_case_units(const rb_case *c, int by)
 {
     return by > 0 ? c->file_units : c->words.units;
@@ -384,7 +391,8 @@ static rb_status resolve_body_b(rb_case *c, rb_message *why)
     for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++) {
         const int is_b = strcmp(rb_case_section(o), "body-b") == 0;
         /* Options of the second body mean nothing to a rigid plane. */
-        if (is_b && !rc->elastic_b && c->given[o - rb_case_table])
+        if (is_b && !rc->elastic_b && c->given[o - rb_case_table] &&
+            o->kind != RB_OPTION_FLAG) /* "similar = no" says so */
             return refuse(c, o, "body B is rigid without --similar or --young-b", why);
         if ((is_b && !rc->elastic_b) || (!o->into && !o->of_a))
             continue;

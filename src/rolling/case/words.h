@@ -8,9 +8,11 @@
 /* A table read from a file that an option names. */
 typedef struct {
     rb_io_table table;
-    const char *path; /* file from which it was read; NULL: not read yet */
-    rb_units units;   /* units in which it was read */
-    int borrowed;     /* 1: owned by the case of which this one is a copy */
+    const char *path;    /* file from which it was read; NULL: not read yet */
+    rb_units units;      /* units in which it was read */
+    int borrowed;        /* 1: owned by the case of which this one is a copy */
+    const double *x, *y; /* the columns of a table over x; those of a history in program */
+    rb_rolling_program program;
 } case_table;
 
 /* The gap computed from a table; kept as long as table and noise are the same. */

@@ -5,22 +5,23 @@
 #include <stdint.h>
 #include <string.h>
 
-#define COLUMN(name, is_mean)                                                                      \
+#define COLUMN(name, also, unit, is_mean)                                                          \
     {                                                                                              \
-#name, offsetof(rb_rolling_program, name), offsetof(rb_rolling_case, name), is_mean        \
+#name, also, unit, offsetof(rb_rolling_program, name), offsetof(rb_rolling_case, name),    \
+            is_mean                                                                                \
     }
 
 const rb_rolling_program_column rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS] = {
-    {"distance", offsetof(rb_rolling_program, distance), SIZE_MAX, 0},
-    {"time", offsetof(rb_rolling_program, time), SIZE_MAX, 0},
-    COLUMN(mu, 0),
-    COLUMN(load, 0),
-    COLUMN(approach, 0),
-    COLUMN(shift, 0),
-    COLUMN(force, 0),
-    COLUMN(force_ratio, 0),
-    COLUMN(creep, 1),
-    COLUMN(creep_ratio, 1),
+    {"distance", NULL, "a", offsetof(rb_rolling_program, distance), SIZE_MAX, 0},
+    {"time", "t", "s", offsetof(rb_rolling_program, time), SIZE_MAX, 0},
+    COLUMN(mu, "friction coefficient|coefficient of friction|cof", "-", 0),
+    COLUMN(load, "normal load|normal force|P", "N/mm", 0),
+    COLUMN(approach, "delta", "mm", 0),
+    COLUMN(shift, NULL, "mm", 0),
+    COLUMN(force, "tangential load|tangential force|Q", "N/mm", 0),
+    COLUMN(force_ratio, NULL, "-", 0),
+    COLUMN(creep, "creepage|xi", "-", 1),
+    COLUMN(creep_ratio, NULL, "-", 1),
 };
 
 static const double *column_of(const rb_rolling_program *program, int c)
