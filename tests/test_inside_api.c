@@ -7,11 +7,12 @@
 
 static void end_calls(int forced)
 {
-    rb_api_call_begins();
-    rb_api_call_begins();
-    rb_api_call_ends();
+    rb_api first = {0}, second = {0};
+    rb_api_call_begins(&first);
+    rb_api_call_begins(&second);
+    assert_int_equal(rb_api_call_ends(&second, RB_OK), RB_OK);
     assert_int_equal(rb_blas_threads(forced ? 2 : 1), forced ? 2 : 1);
-    rb_api_call_ends();
+    assert_int_equal(rb_api_call_ends(&first, RB_RAY), RB_RAY);
     assert_int_equal(rb_blas_threads(1), 2);
 }
 

@@ -44,10 +44,15 @@ int rb_api_set(rb_api *a, const char *name, const char *text);
 int rb_api_resolve(rb_api *a);
 /* Resolves and solves the case; of a sequence of steps every step is kept. */
 int rb_api_solve(rb_api *a);
-/* May be called from another thread or a signal handler.  The running call ends with
- * RB_INTERRUPTED after its current step, position over a crack, point of a curve, case of a
- * sweep, step of a fit, evaluation of a design or iterate of a friction solver. */
+/* May be called from another thread or a signal handler.  Whatever takes long, a call or an
+ * array that rb_api_array computes, ends within parts of a second with RB_INTERRUPTED (an
+ * array: NULL); only an LU of thousands of unknowns is finished first.  Steps and passes that
+ * were complete are kept.  The handle may be used and freed once the call has returned, not
+ * before.  A stop that comes before a call begins is forgotten. */
 void rb_api_stop(rb_api *a);
+/* Stops the call of another thread, again and again, until that thread has stored a number other
+ * than 0 in *over, behind the call. */
+void rb_api_stop_until(rb_api *a, const volatile int *over);
 /* Steps of a history, of wear or of a pass over a crack, points of a curve, cases of a sweep, steps
  * of a fit (of 0), or evaluations of a design, that the running call has done, of so many; 0 of 0
  * where the call does not count.  May be asked from another thread. */

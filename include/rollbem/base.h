@@ -128,6 +128,22 @@ int rb_format(char *text, size_t size, const char *format, ...) RB_PRINTF(3, 4);
 void rb_phase(const char *what);
 const char *rb_phase_now(void);
 
+/* What long computations ask every few milliseconds; once it does not return 0 they end with
+ * RB_INTERRUPTED.  It must be quick.  asked NULL: nothing is asked. */
+typedef struct {
+    int (*asked)(void *context);
+    void *context;
+} rb_interrupt;
+/* From now on the computations of this thread ask `next`.  Returns what they have asked so
+ * far; at first that is nothing. */
+rb_interrupt rb_interrupt_by(rb_interrupt next);
+/* The answer; 0 where nothing is asked.  A loop that may take long asks in every turn, on the
+ * thread of its caller. */
+int rb_interrupted(void);
+/* The same in a parallel loop, whose threads share `stop`, 0 at first: 1 for all of them once
+ * the caller's thread has got the answer. */
+int rb_interrupted_in_loop(int *stop);
+
 /* rows x cols doubles, or n ints, all zero; NULL when memory is short or the product
  * overflows.  Released with free(). */
 double *rb_alloc(size_t rows, size_t cols);

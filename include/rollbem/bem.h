@@ -379,6 +379,8 @@ void rb_bem_flexibility_apply(const rb_bem_flexibility *f, const double *r, doub
 rb_status rb_bem_flexibility_matrix(const rb_bem_flexibility *f, double *F, int ldf);
 /* The dense matrix of f, ld = 2m, borrowed; NULL if f does not store one. */
 const double *rb_bem_flexibility_stored(const rb_bem_flexibility *f);
+/* The same flexibility as a dense matrix. */
+rb_status rb_bem_flexibility_as_matrix(const rb_bem_flexibility *f, rb_bem_flexibility *dense);
 /* Converts f to a dense matrix.  RB_ENOMEM leaves f unchanged. */
 rb_status rb_bem_flexibility_store(rb_bem_flexibility *f);
 void rb_bem_flexibility_free(rb_bem_flexibility *f);

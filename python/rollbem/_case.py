@@ -433,17 +433,17 @@ class Solution(_Named):
     @property
     def F(self) -> Optional[Array]:
         """Displacements (w_N, w_T) by tractions (r_N, r_T); None where no matrix was formed."""
-        return self._live().array("F")
+        return self._live().matrix("F")
 
     @property
     def H(self) -> Optional[Array]:
         """H u = G t on the boundary of a wheel; None of a half-plane."""
-        return self._live().array("H")
+        return self._live().matrix("H")
 
     @property
     def G(self) -> Optional[Array]:
         """See H."""
-        return self._live().array("G")
+        return self._live().matrix("G")
 
     @property
     def mesh(self) -> Optional[Array]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import _thread
 import os
 import re
 import threading
@@ -38,7 +39,7 @@ FUNCTIONS = {
     "rb_api_read": (_Int, _Handle, _Text),
     "rb_api_resolve": (_Int, _Handle),
     "rb_api_solve": (_Int, _Handle),
-    "rb_api_stop": (None, _Handle),
+    "rb_api_stop_until": (None, _Handle, _Ints),
     "rb_api_progress": (None, _Handle, ctypes.POINTER(_Int), ctypes.POINTER(_Int)),
     "rb_api_message": (_Text, _Handle),
     "rb_api_option": (_Text, _Int, _Text, _Text, _Int),
@@ -366,25 +367,32 @@ class Handle(_Answers):
             return call(self.at, *arguments)
         status: list = []
         handle = self  # held until the call is over, also where nobody waits for it
+        ended, over = threading.Event(), ctypes.c_int(0)
 
         def work() -> None:
-            status.append(call(handle.at, *arguments))
+            try:
+                status.append(call(handle.at, *arguments))
+            finally:
+                over.value = 1
+                ended.set()
 
-        thread = threading.Thread(target=work, daemon=True)
-        thread.start()
         try:
-            seen, runs = (0, 0), progress is not None
-            while runs:
-                thread.join(_LOOK)
-                runs = thread.is_alive()
+            try:
+                _thread.start_new_thread(work, ())  # one call of C: there is a thread, or none
+            except RuntimeError:
+                over.value = 1
+                raise
+            seen = (0, 0)
+            while not ended.wait(None if progress is None else _LOOK) or progress is not None:
                 now = self.progress()
                 if now != seen and any(now):
                     seen = now
                     progress(*now)
-            thread.join()
-        except BaseException:
-            lib.rb_api_stop(self.at)
-            raise
+                if ended.is_set():
+                    break
+        finally:
+            # until its end the call uses the handle; nothing breaks in on C, also no second Control-C
+            lib.rb_api_stop_until(self.at, over)
         return status[0]
 
     @staticmethod
@@ -423,6 +431,14 @@ class Handle(_Answers):
         rows, columns = ctypes.c_int(), ctypes.c_int()
         with self.lock:
             at = lib.rb_api_array(self.at, name.encode(), rows, columns)
+        return self._look_into(at, rows, columns)
+
+    def matrix(self, name: str) -> Optional[NDArray[np.float64]]:
+        """The same of an array that takes long to make."""
+        rows, columns = ctypes.c_int(), ctypes.c_int()
+        return self._look_into(self.run("rb_api_array", name.encode(), rows, columns), rows, columns)
+
+    def _look_into(self, at: Optional[int], rows: ctypes.c_int, columns: ctypes.c_int) -> Optional[NDArray[np.float64]]:
         if not at:
             return None
         memory = (ctypes.c_double * (rows.value * columns.value)).from_address(at)
@@ -473,4 +489,7 @@ def texts(of: "list[str]") -> Any:
 
 
 def handles(of: "list[Handle]") -> Any:
-    return (_Handle * len(of))(*(handle.at for handle in of))
+    """Their addresses; the handles live as long as these."""
+    addresses = (_Handle * len(of))(*(handle.at for handle in of))
+    addresses.of = of
+    return addresses

@@ -112,6 +112,51 @@ def test_long_runs_end_by_control_c(call):
     assert out == "ended\n" and worked < 5, f"{out!r}, {worked:.1f} s of work"
 
 
+@pytest.mark.parametrize("asked, call", [
+    ("rollbem.solve(support='halfplane', load=500., contact_elements=300, mesh='uniform', solver='newton')", "s.lcp()"),
+    ("rollbem.solve(support='arc', contact_elements=20, outer_elements=3000)", "s.H"),
+    ("rollbem.solve(support='hub', load=500., contact_elements=60)", "rollbem.stress(s, grid=(600, 600))"),
+    ("rollbem.solve(support='hub', load=500., contact_elements=200, outer_elements=600)", "rollbem.derivatives(s)"),
+    ("chain(1500)", "rollbem.lcp(s, -np.ones(1500), solver='lemke-sparse')"),
+    ("0", "rollbem.sweep(crack_angle=[20 + k / 50 for k in range(2000)], support='halfplane', load=500., similar=True,"
+     " contact_elements=200)"),
+    ("0", "rollbem.crack(support='halfplane', load=500., similar=True, passes=1000, contact_elements=400)"),
+])
+def test_interrupted_calls_leave_their_object_whole(asked, call):
+    """Memory that such a call uses is not freed or used again before it has ended: six times one after the other."""
+    program = f"""
+import signal, threading, time
+import rollbem
+import numpy as np
+
+def chain(n):
+    return 2 * np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1)
+
+s, interrupted = {asked}, 0
+for k in range(6):
+    signal.setitimer(signal.ITIMER_REAL, .02 + .02 * k, .005)  # and again while the call ends
+    try:
+        {call}
+    except KeyboardInterrupt:
+        interrupted += 1
+    finally:
+        while True:
+            try:
+                signal.setitimer(signal.ITIMER_REAL, 0)
+                break
+            except KeyboardInterrupt:
+                pass
+time.sleep(.1)
+print(interrupted, threading.active_count())
+"""
+    program = "import signal\nsignal.signal(signal.SIGALRM, signal.default_int_handler)\n" + program
+    child = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120, env={
+        **os.environ, "PYTHONPATH": str(ROOT / "python"), "OPENBLAS_NUM_THREADS": "1", "MALLOC_CHECK_": "3"})
+    assert child.returncode == 0, child.stderr
+    interrupted, threads = map(int, child.stdout.split())
+    assert interrupted >= 3 and threads == 1
+
+
 def cpu_seconds_of_children():
     """Of those that have ended, and of theirs."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)

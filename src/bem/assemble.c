@@ -69,15 +69,17 @@ rb_status rb_bem_assemble(const rb_bem_mesh *mesh, rb_bem_material material, dou
     s = rb_assembly_begin(mesh, material, &assembly);
     if (s != RB_OK)
         return rb_fail(why, s, "influence: out of memory for %d points", mesh->n);
+    int stop = 0;
 #pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
     schedule(static) if ((double)mesh->n * mesh->n > rb_pairs_for_threads)
     for (int j = 0; j < mesh->n; j++) {
         const size_t at = 2 * (size_t)j * (size_t)ld, next = at + (size_t)ld;
         double *const out[4] = {H + at, H + next, G ? G + at : NULL, G ? G + next : NULL};
-        rb_assembly_columns(&assembly, j, 1.0, out);
+        if (!rb_interrupted_in_loop(&stop))
+            rb_assembly_columns(&assembly, j, 1.0, out);
     }
     rb_assembly_end(&assembly);
-    return RB_OK;
+    return stop ? RB_INTERRUPTED : RB_OK;
 }
 
 const char *rb_bem_vector_name(void)

@@ -68,7 +68,7 @@ void rb_cluster_order(int n, const rb_element *element, int levels, int *order)
 
 rb_status rb_cluster_run(const void *tree, int level, rb_cluster_stage *run)
 {
-    rb_status s = RB_OK;
+    rb_status s = rb_interrupted() ? RB_INTERRUPTED : RB_OK;
 
 #pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(dynamic) if (level > 3)
     for (int k = 0; k < 1 << level; k++) {

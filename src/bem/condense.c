@@ -399,7 +399,9 @@ static rb_status condense(const rb_bem_system *system, rb_bem_normals normals, i
     free(p.bonded);
     if (s == RB_OK)
         s = rb_bem_flexibility_dense(n, f, &F);
-    if (s != RB_OK)
+    if (s == RB_INTERRUPTED)
+        rb_fail(why, s, "condensation: interrupted");
+    else if (s != RB_OK)
         rb_fail(why, s, "condensation: out of memory for %d contact elements", n);
     /* F_ab(i, j) = e_a(i)' U(i, j) e_b(j), a, b in {N, T}; the last column of X gives w0. */
     for (int i = 0; s == RB_OK && i < m; i++) {

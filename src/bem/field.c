@@ -161,9 +161,12 @@ rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_conta
 rb_status rb_bem_field_stress(const rb_bem_field *field, rb_bem_points points, double *stress,
                               rb_message *why)
 {
-    const rb_status s = rb_interior_at(field->rest, points, NULL, stress, why);
+    rb_status s = rb_interior_at(field->rest, points, NULL, stress, why);
 
-    for (int k = 0; k < points.n && s == RB_OK; k++)
+    for (int k = 0; k < points.n && s == RB_OK; k++) {
+        if (rb_interrupted())
+            s = RB_INTERRUPTED;
         add_strips(field, points.xy[2 * k] + points.xy[2 * k + 1] * I, -1, stress + 3 * k);
+    }
     return s;
 }

@@ -54,7 +54,9 @@ rb_status rb_bem_flexibility_end(const char *what, int n_c, rb_status s, rb_bem_
     if (s == RB_OK)
         return s;
     rb_bem_flexibility_free(f);
-    return rb_fail(why, s, "%s: out of memory for %d contact elements", what, n_c);
+    return s == RB_INTERRUPTED
+               ? rb_fail(why, s, "%s: interrupted", what)
+               : rb_fail(why, s, "%s: out of memory for %d contact elements", what, n_c);
 }
 
 rb_status rb_bem_flexibility_points(int n, rb_bem_flexibility *f)
@@ -143,24 +145,32 @@ const double *rb_bem_flexibility_stored(const rb_bem_flexibility *f)
     return f->apply == dense_apply ? f->data : NULL;
 }
 
+rb_status rb_bem_flexibility_as_matrix(const rb_bem_flexibility *f, rb_bem_flexibility *dense)
+{
+    double *F;
+    rb_status s = rb_bem_flexibility_dense(f->n, dense, &F);
+
+    if (s == RB_OK)
+        s = rb_bem_flexibility_matrix(f, F, 2 * f->m);
+    if (s == RB_OK)
+        copy_points(f, dense);
+    else
+        rb_bem_flexibility_free(dense);
+    return s;
+}
+
 rb_status rb_bem_flexibility_store(rb_bem_flexibility *f)
 {
     rb_bem_flexibility dense;
-    double *F;
 
     if (f->apply == dense_apply)
         return RB_OK;
-    rb_status s = rb_bem_flexibility_dense(f->n, &dense, &F);
-    if (s == RB_OK)
-        s = rb_bem_flexibility_matrix(f, F, 2 * f->m);
-    if (s != RB_OK) {
-        rb_bem_flexibility_free(&dense);
-        return s;
+    const rb_status s = rb_bem_flexibility_as_matrix(f, &dense);
+    if (s == RB_OK) {
+        rb_bem_flexibility_free(f);
+        *f = dense;
     }
-    copy_points(f, &dense);
-    rb_bem_flexibility_free(f);
-    *f = dense;
-    return RB_OK;
+    return s;
 }
 
 rb_status rb_bem_flexibility_add_compliance(rb_bem_flexibility *f, const double *normal,

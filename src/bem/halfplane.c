@@ -102,9 +102,12 @@ rb_status rb_bem_halfplane_stress(const rb_bem_edge_load *load, rb_bem_points po
             far.moment[m] += to - at;
         }
     }
+    int stop = 0;
 #pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
     schedule(static) if ((double)points.n * n > rb_pairs_for_threads)
     for (int k = 0; k < points.n; k++) {
+        if (rb_interrupted_in_loop(&stop))
+            continue;
         const double x = points.xy[2 * k], y = points.xy[2 * k + 1];
         double sum[3] = {0.0, 0.0, 0.0};
         if (is_series && hypot(x - far.middle, y) >= FAR * far.half)
@@ -116,7 +119,7 @@ rb_status rb_bem_halfplane_stress(const rb_bem_edge_load *load, rb_bem_points po
             stress[3 * k + c] = sum[c];
     }
     free(strip);
-    return RB_OK;
+    return stop ? RB_INTERRUPTED : RB_OK;
 }
 
 /* ---- Tractions that are linear between nodes --------------------------------------- */
@@ -147,9 +150,12 @@ rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_po
         k[j] = before - after;
         before = after;
     }
+    int stop = 0;
 #pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
     schedule(static) if ((double)points.n * n > rb_pairs_for_threads)
     for (int i = 0; i < points.n; i++) {
+        if (rb_interrupted_in_loop(&stop))
+            continue;
         const double x = points.xy[2 * i], y = points.xy[2 * i + 1];
         double complex above = 0.0, below = 0.0, slope = 0.0;
         for (int j = 0; j < n; j++) {
@@ -168,5 +174,5 @@ rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_po
         stress[3 * i + 2] = -cimag(normal);
     }
     free(k);
-    return RB_OK;
+    return stop ? RB_INTERRUPTED : RB_OK;
 }

@@ -218,12 +218,14 @@ static void evaluate_surface(const rb_interior *in, int j, double s, double *dis
 rb_status rb_interior_at(const rb_interior *in, rb_bem_points points, double *displacement,
                          double *stress, rb_message *why)
 {
-    int outside = points.n; /* the first point there */
+    int outside = points.n, stop = 0; /* outside: the first point there */
 #pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(static)                      \
     reduction(min                                                                                  \
               : outside) if ((double)points.n * in->n > rb_pairs_for_threads)
     for (int k = 0; k < points.n; k++) {
         const double x = points.xy[2 * k], y = points.xy[2 * k + 1];
+        if (rb_interrupted_in_loop(&stop))
+            continue;
         double *u = displacement ? displacement + 2 * k : NULL,
                *sigma = stress ? stress + 3 * k : NULL, along;
         const int j = element_at(in, x, y, &along);
@@ -232,7 +234,8 @@ rb_status rb_interior_at(const rb_interior *in, rb_bem_points points, double *di
         else if (!evaluate_inside(in, x, y, u, sigma))
             outside = k < outside ? k : outside;
     }
-    return outside == points.n
+    return stop ? RB_INTERRUPTED
+           : outside == points.n
                ? RB_OK
                : rb_fail(why, RB_EINVAL, "point %d at (%g, %g) lies outside the body", outside,
                          points.xy[2 * outside], points.xy[2 * outside + 1]);

@@ -140,9 +140,11 @@ static rb_status make_waves(rb_bem_layer_field *f, double reach, rb_message *why
     const int n = GAUSS * ((int)panels - 1 + HALVINGS);
     gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(GAUSS);
     wave *w = malloc((size_t)n * sizeof *w);
-    const rb_status s = rule && w ? RB_OK : RB_ENOMEM;
+    rb_status s = rule && w ? RB_OK : RB_ENOMEM;
 
     for (int k = 0; k < n && s == RB_OK; k++) {
+        if (rb_interrupted())
+            s = RB_INTERRUPTED;
         const int panel = k / GAUSS, whole = panel - HALVINGS + 1;
         const double to = whole > 0 ? (whole + 1) * width : ldexp(width, whole);
         const double from = whole > 0 ? whole * width : panel > 0 ? 0.5 * to : 0.0;
@@ -202,12 +204,15 @@ rb_status rb_bem_layer_field_add(rb_bem_layer_field *field, rb_bem_points points
     const rb_status s = high - low > field->reach ? make_waves(field, high - low, why) : RB_OK;
     if (s != RB_OK)
         return s;
+    int stop = 0;
 #pragma omp parallel for schedule(static) if ((double)points.n * field->n > rb_pairs_for_threads)
     for (int k = 0; k < points.n; k++) {
         const double *xy = points.xy + 2 * k;
+        if (rb_interrupted_in_loop(&stop))
+            continue;
         for (int c = 0; c < 3 && xy[1] > d; c++)
             stress[3 * k + c] = 0.0;
         add_waves(field, xy, stress + 3 * k);
     }
-    return RB_OK;
+    return stop ? RB_INTERRUPTED : RB_OK;
 }

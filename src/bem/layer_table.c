@@ -159,6 +159,8 @@ static rb_status fill_side(const rb_bem_layer_table *table, int side, int from)
             waves_free(&w);
             s = make_waves(&body, unit, &w);
         }
+        if (s == RB_OK && rb_interrupted())
+            s = RB_INTERRUPTED;
         for (int j = 0; j < SAMPLES && s == RB_OK; j++) {
             const double X = low + width * rb_panel_point(SAMPLES, j);
             double *of = value[j];

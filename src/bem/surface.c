@@ -125,6 +125,8 @@ static rb_status displacements(const rb_bem_surface *body, int n, const double *
     for (size_t j = 0; j < (size_t)n; j++) {
         double *N = W + j * 2 * m, *T = W + (j + (size_t)n) * 2 * m;
         const double b = 0.5 * (ends[j + 1] - ends[j]);
+        if (rb_interrupted())
+            return RB_INTERRUPTED;
         for (size_t i = 0; i < m; i++) {
             const normal_entry e =
                 entry_of(&k, 0.5 * ((ends[j] - low[i]) + (ends[j + 1] - high[i])), b);

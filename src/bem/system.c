@@ -126,13 +126,14 @@ static rb_status assemble(rb_bem_system *s)
         return status;
     for (int j = 0; j < mesh->n; j++)
         s->unit[j] = s->material.shear / rb_bem_mesh_length(mesh, j);
+    int stop = 0;
 #pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
     schedule(static) if ((double)mesh->n * mesh->n > rb_pairs_for_threads)
     for (int j = 0; j < mesh->n; j++) {
         /* The unknowns' columns into A, a contact element's loads into Gc. */
         const rb_bem_condition *condition = mesh->condition + 2 * j;
         double *H[2] = {NULL, NULL}, *G[2] = {NULL, NULL}, G_factor = 1.0;
-        if (!s->A && condition[0] != RB_BEM_CONTACT)
+        if ((!s->A && condition[0] != RB_BEM_CONTACT) || rb_interrupted_in_loop(&stop))
             continue;
         for (int k = 0; k < 2; k++) {
             if (s->A && condition[k] == RB_BEM_DISPLACEMENT) {
@@ -146,7 +147,7 @@ static rb_status assemble(rb_bem_system *s)
         }
         rb_assembly_columns(&assembly, j, G_factor, (double *const[4]){H[0], H[1], G[0], G[1]});
     }
-    status = s->bond ? add_bond(s, &assembly) : RB_OK;
+    status = stop ? RB_INTERRUPTED : s->bond ? add_bond(s, &assembly) : RB_OK;
     if (status == RB_OK)
         status = add_given(s, &assembly, s->mesh.value, s->b);
     rb_assembly_end(&assembly);

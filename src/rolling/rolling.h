@@ -170,9 +170,11 @@ void rb_rolling_memory_after(const rb_bem_flexibility *whole, double *memory);
 
 /* ---- bodies.c ---------------------------------------------------------------------- */
 
-/* Computes and stores the matrix of bodies that have none yet. */
-rb_status rb_rolling_bodies_add_matrix(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                                       rb_rolling_bodies *bodies, rb_message *why);
+/* The same bodies with their matrix, where they have none: f and transforms are new, also after
+ * a failure, the rest is borrowed. */
+rb_status rb_rolling_bodies_with_matrix(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                        const rb_rolling_bodies *bodies, rb_rolling_bodies *stored,
+                                        rb_message *why);
 
 /* ---- mesh.c ------------------------------------------------------------------------ */
 
@@ -218,8 +220,8 @@ void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p);
  * scales. */
 void rb_rolling_set_given(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                           rb_contact_problem *p);
-/* Another operator of the same bodies, after these have got a matrix.  RB_ENOMEM: the
- * problem has none. */
+/* Another operator of the same bodies, after these have got a matrix.  The problem keeps its
+ * own where there is no memory. */
 rb_status rb_rolling_problem_renew_operator(const rb_rolling_case *rc,
                                             const rb_rolling_bodies *bodies, rb_contact_problem *p,
                                             rb_message *why);

@@ -148,13 +148,9 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
         const int step = k % p->steps;
         const double x = p->x[step];
         rb_message reason = {""};
-        if (p->observer && p->observer->stopped(k, n, p->observer->context)) {
-            h->n = k - step; /* the results are those of the last complete pass */
-            s = rb_fail(why, RB_INTERRUPTED, "interrupted after pass %d of %d", k / p->steps,
-                        p->passes);
-            break;
-        }
-        if (p->locate_closing && p->fluid == RB_CRACK_TRAPPED && step > 0 &&
+        if (p->observer && p->observer->stopped(k, n, p->observer->context))
+            s = RB_INTERRUPTED;
+        if (s == RB_OK && p->locate_closing && p->fluid == RB_CRACK_TRAPPED && step > 0 &&
             state.zone[0] == RB_ZONE_SEPARATED && state.fluid_pressure == 0.0)
             s = approach_closing(c, p, step, scale, T, &state, &reason);
         const rb_bem_edge_load *load = load_of(p, step);
@@ -169,7 +165,10 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
                     ? rb_crack_step_coupled(c, p->wheel, x, T, scale, &state,
                                             h->wheel + (size_t)k * (size_t)h->elements, &reason)
                     : rb_crack_step(c, T, p->fluid, at_mouth, scale, &state, &reason);
-        if (s == RB_OK)
+        if (s == RB_INTERRUPTED) {
+            h->n = k - step; /* the results are those of the last complete pass */
+            rb_fail(why, s, "interrupted after pass %d of %d", k / p->steps, p->passes);
+        } else if (s == RB_OK)
             record(&state, x, (size_t)n, h);
         else if (s > 0)
             rb_fail(why, s, "crack: step %d, contact at x = %g: %.300s", k + 1, x,

@@ -231,6 +231,8 @@ static rb_status differentiate(const rb_case *c, const rb_rolling_model *model,
             it->status = rb_sensitivity_smooth(jumps, &number[k].input, &it->d, &it->why);
         if (it->status == RB_ENOMEM)
             status = rb_fail(why, RB_ENOMEM, "%s", it->why.text);
+        if (status == RB_OK && rb_interrupted())
+            status = rb_fail(why, RB_INTERRUPTED, "derivatives: interrupted at %s", it->name);
     }
     if (s) {
         all->degenerate = rb_sensitivity_degenerate(s);

@@ -180,7 +180,10 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
         if (status == RB_OK)
             slopes->degenerate += rb_sensitivity_degenerate(s) > 0;
         for (int k = 0; k < n && status == RB_OK; k++)
-            status = differentiate_step(s, model, &v[k], why);
+            status = rb_interrupted() ? rb_fail(why, RB_INTERRUPTED,
+                                                "derivatives: interrupted after step %d of %d",
+                                                step, states->steps)
+                                      : differentiate_step(s, model, &v[k], why);
         if (status == RB_OK)
             rb_rolling_follower_end(base);
         for (int k = 0; k < n && status == RB_OK; k++)

@@ -151,6 +151,8 @@ static rb_status cycle(const solver *s, const double *b, double tolerance, doubl
         double *next = basis_vector(s, count + 1);
         if (!next)
             return RB_ENOMEM;
+        if (rb_interrupted())
+            return RB_INTERRUPTED;
         precondition(s, s->basis[count], s->work);
         s->l->multiply(s->l->of, s->work, next);
         const int goes_on = orthogonalise(s, count, q->H[count]);

@@ -181,7 +181,7 @@ static rb_status follow(path *k)
         if (at.element < 0)
             return RB_RAY;
         const int begins = cross(k, &at);
-        s = solve_both(k);
+        s = rb_interrupted() ? RB_INTERRUPTED : solve_both(k);
         /* Where the margin that begins at the bend grows, the path goes on. */
         double whole[MARGINS], none[MARGINS];
 

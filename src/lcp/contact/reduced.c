@@ -116,7 +116,11 @@ rb_status rb_contact_solve_zones(rb_contact_problem *problem, rb_contact_unknown
                                  rb_contact_state *state)
 {
     rb_contact_reduced r;
-    rb_status s = rb_contact_reduced_alloc(problem, unknowns, state, &r);
+    rb_status s = rb_interrupted() ? RB_INTERRUPTED : RB_OK;
+
+    if (s != RB_OK)
+        return s;
+    s = rb_contact_reduced_alloc(problem, unknowns, state, &r);
 
     if (s == RB_OK)
         s = problem->op->kind->solve(problem, state, &r);

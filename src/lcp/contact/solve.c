@@ -161,6 +161,8 @@ static rb_status solve_lemke(rb_contact_problem *problem, const rb_contact_optio
         if (!(order_of_attempts[k].form >= first && (round == 0 || unfinished[k]) &&
               (round + 1 < ROUNDS || order_of_attempts[k].cover == EVEN)))
             continue;
+        if (rb_interrupted())
+            return RB_INTERRUPTED;
         s = rb_contact_lcp_create(problem, at->form, at->mirrored, at->xi0, &lcp, why);
         double *z = s == RB_OK ? rb_alloc((size_t)lcp.size, 1) : NULL;
         const int uneven = s == RB_OK && order_of_attempts[k].cover == UNEVEN;

@@ -448,7 +448,7 @@ static rb_status iterate(laws *k, rb_contact_state *state)
         single = single || round >= ROUNDS;
         if (!single)
             seen[round] = now;
-        const rb_status s = solve_laws(k, state);
+        const rb_status s = rb_interrupted() ? RB_INTERRUPTED : solve_laws(k, state);
         if (s != RB_OK)
             return s;
         state->iterations++;

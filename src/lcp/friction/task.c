@@ -186,7 +186,8 @@ int rb_friction_task_goes_on(const rb_friction_task *task)
 
 int rb_friction_task_late(const rb_friction_task *task)
 {
-    return task->shared->stop || (task->deadline > 0.0 && rb_seconds() > task->deadline);
+    return task->shared->stop || rb_interrupted() ||
+           (task->deadline > 0.0 && rb_seconds() > task->deadline);
 }
 
 int rb_friction_task_affords(rb_friction_task *task, double flops)

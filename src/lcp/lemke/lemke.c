@@ -183,6 +183,8 @@ rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int 
     if (opt->seconds > 0.0 && rb_seconds() - start > opt->seconds)
         return rb_fail(&info->msg, RB_TIME_LIMIT, "lcp: no solution after %d pivots in %g s",
                        info->iters, opt->seconds);
+    if (rb_interrupted())
+        return rb_fail(&info->msg, RB_INTERRUPTED, "lcp: interrupted after %d pivots", info->iters);
     return RB_OK;
 }
 

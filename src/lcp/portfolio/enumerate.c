@@ -194,6 +194,8 @@ rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const d
         all->singular += !regular;
         if (regular && is_solution(&s))
             status = keep(&s, all);
+        if (status == RB_OK && rb_interrupted())
+            status = rb_fail(why, RB_INTERRUPTED, "lcp: interrupted after %d bases", all->bases);
         /* The next basis, the places being the digits of a number. */
         for (digit = 0; digit < n && !place_from(&s, digit, (int)s.at[digit] + 1); digit++)
             place_from(&s, digit, AT_LOWER);
@@ -202,5 +204,7 @@ rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const d
     if (status == RB_OK)
         return RB_OK;
     rb_lcp_solutions_free(all);
-    return rb_fail(why, status, "lcp: out of memory for all solutions of order %d", n);
+    return status == RB_INTERRUPTED
+               ? status
+               : rb_fail(why, status, "lcp: out of memory for all solutions of order %d", n);
 }

@@ -102,6 +102,9 @@ static rb_status iterate(void *state)
             return rb_fail(&s->info->msg, RB_TIME_LIMIT,
                            "lcp: newton: no solution after %d steps in %g s", s->info->iters,
                            opt->seconds);
+        if (rb_interrupted())
+            return rb_fail(&s->info->msg, RB_INTERRUPTED, "lcp: newton: interrupted after %d steps",
+                           s->info->iters);
         const rb_status status = solve_basic(s);
         if (status != RB_OK)
             return status;

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 /* ---- Arrays ------------------------------------------------------------------------ */
 
@@ -122,22 +123,34 @@ int rb_api_refuse(rb_api *a, const char *format, ...)
 static _Atomic int calls;
 static int threads_outside;
 
-void rb_api_call_begins(void)
+static int is_stopped(void *context)
+{
+    rb_api *a = context;
+    const rb_interrupt *outside = &a->outside;
+    a->heard = a->heard || a->stopped || (outside->asked && outside->asked(outside->context));
+    return a->heard;
+}
+
+void rb_api_call_begins(rb_api *a)
 {
     if (calls++ == 0)
         threads_outside = getenv("OPENBLAS_NUM_THREADS") ? 0 : rb_blas_threads(1);
+    a->outside = rb_interrupt_by((rb_interrupt){is_stopped, a});
 }
 
-void rb_api_call_ends(void)
+/* Whatever made of a step that was stopped, or went on without it. */
+rb_status rb_api_call_ends(rb_api *a, rb_status s)
 {
+    rb_interrupt_by(a->outside);
     if (--calls == 0)
         rb_blas_threads(threads_outside); /* 0: as the variable says */
+    return !a->heard || s == RB_INTERRUPTED ? s : rb_fail(&a->why, RB_INTERRUPTED, "interrupted");
 }
 
-static void begin(rb_api *a)
+void rb_api_forget_call(rb_api *a)
 {
     a->why.text[0] = '\0';
-    a->stopped = a->done = a->total = 0;
+    a->stopped = a->heard = a->done = a->total = 0;
 }
 
 /* All results; the model stays aside where its bodies remain those of the case. */
@@ -167,7 +180,7 @@ static void forget(rb_api *a, int same_bodies)
     rb_case_result_free(&a->result);
     memset(&a->lcp, 0, sizeof a->lcp);
     memset(&a->result, 0, sizeof a->result);
-    begin(a);
+    rb_api_forget_call(a);
 }
 
 rb_api *rb_api_create_for(const char *purpose)
@@ -290,10 +303,10 @@ int rb_api_solve(rb_api *a)
         return a->status;
     a->result.model = a->kept;
     memset(&a->kept, 0, sizeof a->kept);
-    rb_api_call_begins();
+    rb_api_call_begins(a);
     rb_status s =
         rb_case_solve_again(rb_case_resolved(a->words), keep_step, a, &a->result, &a->why);
-    rb_api_call_ends();
+    s = rb_api_call_ends(a, s);
     if (s == RB_INTERRUPTED && a->status == RB_ENOMEM) /* a step could not be kept */
         s = rb_fail(&a->why, RB_ENOMEM, "out of memory");
     return rb_api_ended(a, s != RB_OK ? rb_case_locate(a->words, s, &a->why) : s);
@@ -302,6 +315,16 @@ int rb_api_solve(rb_api *a)
 void rb_api_stop(rb_api *a)
 {
     a->stopped = 1;
+}
+
+void rb_api_stop_until(rb_api *a, const volatile int *over)
+{
+    const struct timespec little = {0, 1000000};
+
+    while (!__atomic_load_n(over, __ATOMIC_ACQUIRE)) {
+        rb_api_stop(a);
+        nanosleep(&little, NULL);
+    }
 }
 
 void rb_api_progress(const rb_api *a, int *done, int *total)
@@ -765,8 +788,12 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
         made = derivative_array(a, name, name + 11);
     if (!made && strncmp(name, "tolerance.", 10) == 0)
         made = tolerance_array(a, name, name + 10);
-    if (!made && a->result.model.mesh.n > 0)
+    if (!made && a->result.model.mesh.n > 0) {
+        a->stopped = a->heard = 0;
+        rb_api_call_begins(a);
         made = model_array(a, name);
+        rb_api_call_ends(a, RB_OK);
+    }
     *rows = made ? made->rows : 0;
     *columns = made ? made->columns : 0;
     return made ? made->at : NULL;
@@ -790,14 +817,14 @@ int rb_api_curve_derivatives(rb_api *a, const char *over, double from, double to
     const rb_choice *variable = rb_case_curve_variables;
     while (variable->name && strcmp(variable->name, over) != 0)
         variable++;
-    begin(a);
+    rb_api_forget_call(a);
     a->note.text[0] = '\0';
     rb_api_forget_slopes(a, API_SLOPES_CURVE);
     rb_api_forget_arrays(a, "curve.");
     rb_rolling_curve_free(&a->curve);
     rb_rolling_curve_free(&a->curve_errors);
     const rb_rolling_range range = {(rb_rolling_variable)variable->value, from, to, points};
-    rb_api_call_begins();
+    rb_api_call_begins(a);
     rb_status s = rb_api_check_refusals(a, &a->why);
     if (s == RB_OK) {
         /* Variables differ in the options that they refuse. */
@@ -810,8 +837,7 @@ int rb_api_curve_derivatives(rb_api *a, const char *over, double from, double to
             rb_message known;
             s = rb_case_locate(a->words, s, &a->why);
             rb_case_resolve(a->words, &known);
-            rb_api_call_ends();
-            return rb_api_ended(a, s);
+            return rb_api_ended(a, rb_api_call_ends(a, s));
         }
     }
     a->total = (c->error ? 1 + rb_rolling_error_runs(&c->rc) : 1) *
@@ -837,7 +863,7 @@ int rb_api_curve_derivatives(rb_api *a, const char *over, double from, double to
                 ? rb_rolling_curve_with_errors(&c->rc, &range, count_point, a, &a->curve,
                                                &a->curve_errors, &a->why)
                 : rb_rolling_curve_observe(&c->rc, &range, count_point, a, &a->curve, &a->why);
-    rb_api_call_ends();
+    s = rb_api_call_ends(a, s);
     rb_case_slopes_note(slopes, &a->note);
     slopes->tolerance = NULL; /* the caller's */
     if (s != RB_OK) {
@@ -861,7 +887,9 @@ int rb_api_curve(rb_api *a, double from, double to, int points)
 static int has_model(rb_api *a)
 {
     rb_rolling_model *model = &a->result.model;
-    const rb_status s = model->state.p ? rb_rolling_model_add_matrix(model, &a->why) : RB_OK;
+    rb_api_call_begins(a);
+    rb_status s = model->state.p ? rb_rolling_model_add_matrix(model, &a->why) : RB_OK;
+    s = rb_api_call_ends(a, s);
 
     if (s != RB_OK)
         rb_api_ended(a, s);
@@ -935,7 +963,7 @@ static void each_pivot(const rb_lcp_pivot *p, void *context)
 int rb_api_pivots(rb_api *a)
 {
     const rb_rolling_model *model = &a->result.model;
-    begin(a);
+    rb_api_forget_call(a);
     if (!has_model(a))
         return a->status;
     rb_api_forget_arrays(a, "pivot.");
@@ -957,11 +985,13 @@ int rb_api_pivots(rb_api *a)
     options.trace = each_pivot;
     options.trace_context = a;
     options.trace_tableau = 1;
+    rb_api_call_begins(a);
     s = z && a->tableau && a->nonbasis ? rb_lcp_lemke(&p, &options, z, &info) : RB_ENOMEM;
     if (s < 0)
         a->why = info.msg;
     else if (a->status != RB_OK)
         s = a->status;
+    s = rb_api_call_ends(a, s);
     free(z);
     free(a->tableau);
     free(a->nonbasis);
@@ -982,7 +1012,7 @@ static void keep_newton_step(const rb_contact_state *state, void *context)
 int rb_api_newton(rb_api *a)
 {
     rb_contact_state state = {0};
-    begin(a);
+    rb_api_forget_call(a);
     if (!has_model(a))
         return a->status;
     rb_contact_problem problem = a->result.model.problem; /* arrays stay the model's */
@@ -992,11 +1022,13 @@ int rb_api_newton(rb_api *a)
     problem.trace_context = a;
     rb_api_forget_arrays(a, "newton.");
     a->status = RB_OK;
+    rb_api_call_begins(a);
     rb_status s = rb_contact_state_alloc(problem.n, &state);
     if (s == RB_OK)
         s = rb_rolling_problem_solve(&problem, &rc, 0, &state, &a->why);
     if (s >= 0 && a->status != RB_OK)
         s = rb_fail(&a->why, a->status, "out of memory");
+    s = rb_api_call_ends(a, s);
     rb_contact_state_free(&state);
     return rb_api_ended(a, s);
 }
@@ -1013,7 +1045,7 @@ const char *rb_api_variable(const rb_api *a, int variable, char *text, int size)
 int rb_api_guess(rb_api *a, int n, const int *zone)
 {
     rb_rolling_model *model = &a->result.model;
-    begin(a);
+    rb_api_forget_call(a);
     if (!has_model(a))
         return a->status;
     if (n != model->mesh.n)
@@ -1025,10 +1057,12 @@ int rb_api_guess(rb_api *a, int n, const int *zone)
     double *gap = rb_alloc((size_t)n, 1);
     rb_status s = gap ? rb_contact_state_alloc(n, &state) : RB_ENOMEM;
     rb_api_forget_arrays(a, "guess.");
+    rb_api_call_begins(a);
     if (s == RB_OK) {
         memcpy(state.zone, zone, (size_t)n * sizeof *zone);
         s = rb_contact_try_zones(&model->problem, &state, gap);
     }
+    s = rb_api_call_ends(a, s);
     if (s == RB_OK && !(rb_api_copy_array(a, "guess.p", n, 1, state.p) &&
                         rb_api_copy_array(a, "guess.q", n, 1, state.q) &&
                         rb_api_copy_array(a, "guess.gap", n, 1, gap) &&
@@ -1053,7 +1087,7 @@ static rb_status keep_stress(rb_api *a, int nx, int ny, const rb_rolling_stress 
 
 static rb_status begin_stress(rb_api *a, const char *arrays)
 {
-    begin(a);
+    rb_api_forget_call(a);
     rb_api_forget_arrays(a, arrays);
     if (!a->result.model.state.p)
         return rb_fail(&a->why, RB_EINVAL, "%s",
@@ -1067,10 +1101,10 @@ int rb_api_stress(rb_api *a, int nx, int ny, double depth)
 {
     rb_rolling_stress_grid grid = {0};
     rb_status s = begin_stress(a, "stress.");
-    rb_api_call_begins();
+    rb_api_call_begins(a);
     if (s == RB_OK)
         s = rb_rolling_stress_on_grid(&a->result.model, nx, ny, depth, &grid, &a->why);
-    rb_api_call_ends();
+    s = rb_api_call_ends(a, s);
     if (s == RB_OK)
         s = keep_stress(a, nx, ny, grid.at);
     rb_rolling_stress_grid_free(&grid);
@@ -1085,10 +1119,10 @@ int rb_api_stress_at(rb_api *a, int n, const double *xy)
         s = rb_fail(&a->why, RB_EINVAL, "stress: expected at least one point, got %d", n);
     if (s == RB_OK && !(at = calloc((size_t)n, sizeof *at)))
         s = RB_ENOMEM;
-    rb_api_call_begins();
+    rb_api_call_begins(a);
     if (s == RB_OK)
         s = rb_rolling_stress_at(&a->result.model, n, xy, at, &a->why);
-    rb_api_call_ends();
+    s = rb_api_call_ends(a, s);
     if (s == RB_OK)
         s = keep_stress(a, n, 1, at);
     free(at);
@@ -1097,32 +1131,32 @@ int rb_api_stress_at(rb_api *a, int n, const double *xy)
 
 /* ---- Derivatives ------------------------------------------------------------------- */
 
-static int differentiate(rb_api *a, int smooth)
+static rb_status differentiate(rb_api *a, int smooth)
 {
-    begin(a);
     rb_api_forget_arrays(a, "derivative.");
     rb_case_derivatives_free(&a->derivatives);
-    rb_api_call_begins();
-    const rb_status s =
-        a->result.solution.n > 0 && a->result.model.state.p
-            ? (smooth ? rb_case_differentiate_smoothly : rb_case_differentiate)(
-                  a->words, &a->result.model, 0, NULL, &a->derivatives, &a->why)
-            : rb_fail(&a->why, RB_EINVAL,
-                      "derivatives: of a solved case of one step, without error bars");
-    rb_api_call_ends();
+    rb_api_call_begins(a);
+    rb_status s = a->result.solution.n > 0 && a->result.model.state.p
+                      ? (smooth ? rb_case_differentiate_smoothly : rb_case_differentiate)(
+                            a->words, &a->result.model, 0, NULL, &a->derivatives, &a->why)
+                      : rb_fail(&a->why, RB_EINVAL,
+                                "derivatives: of a solved case of one step, without error bars");
+    s = rb_api_call_ends(a, s);
     if (s != RB_OK)
         rb_case_derivatives_free(&a->derivatives);
-    return rb_api_ended(a, s);
+    return s;
 }
 
 int rb_api_derivatives(rb_api *a)
 {
-    return differentiate(a, 0);
+    rb_api_forget_call(a);
+    return rb_api_ended(a, differentiate(a, 0));
 }
 
 int rb_api_smooth_derivatives(rb_api *a)
 {
-    return differentiate(a, 1);
+    rb_api_forget_call(a);
+    return rb_api_ended(a, differentiate(a, 1));
 }
 
 /* What the derivatives of steps are computed from. */
@@ -1148,7 +1182,7 @@ int rb_api_step_derivatives(rb_api *a, const char *derivatives, const char *tole
     rb_rolling_history *h = &a->result.history;
     rb_case_tolerances t;
 
-    begin(a);
+    rb_api_forget_call(a);
     if (derivatives) {
         a->note.text[0] = '\0';
         rb_api_forget_slopes(a, API_SLOPES_HISTORY);
@@ -1161,7 +1195,7 @@ int rb_api_step_derivatives(rb_api *a, const char *derivatives, const char *tole
         h->deviations = NULL;
     }
     rb_status status = states_of_steps(a);
-    rb_api_call_begins();
+    rb_api_call_begins(a);
     if (status == RB_OK && derivatives)
         status = rb_case_slopes_choose(a->words, &rb_rolling_history_columns, derivatives,
                                        RB_CASE_SLOPES_MAX, s, &a->why);
@@ -1170,7 +1204,7 @@ int rb_api_step_derivatives(rb_api *a, const char *derivatives, const char *tole
     if (status == RB_OK)
         status =
             rb_case_slopes_of_steps(a->words, &a->states, s, tolerance ? &t : NULL, h, &a->why);
-    rb_api_call_ends();
+    status = rb_api_call_ends(a, status);
     if (derivatives)
         rb_case_slopes_note(s, &a->note);
     if (status != RB_OK && derivatives)
@@ -1208,14 +1242,12 @@ int rb_api_tolerances(rb_api *a, const char *inputs)
         return rb_api_step_derivatives(a, NULL, inputs);
     rb_api_forget_arrays(a, "tolerance.");
     a->has_deviation = 0;
-    if ((a->derivatives.n == 0 || a->derivatives.smooth) && rb_api_derivatives(a) != RB_OK)
-        return a->status;
-    begin(a);
-    rb_api_call_begins();
-    rb_status s = rb_case_read_tolerances(a->words, inputs, &t, &a->why);
+    rb_api_forget_call(a);
+    rb_status s = a->derivatives.n == 0 || a->derivatives.smooth ? differentiate(a, 0) : RB_OK;
+    if (s == RB_OK)
+        s = rb_case_read_tolerances(a->words, inputs, &t, &a->why);
     if (s == RB_OK)
         s = rb_case_propagate(&t, &a->derivatives, &a->deviation, &a->why);
-    rb_api_call_ends();
     a->has_deviation = s == RB_OK;
     return rb_api_ended(a, s);
 }
@@ -1302,16 +1334,16 @@ int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *
 {
     rb_case_crack crack = rb_case_crack_defaults();
     rb_case_crack_result result = {0};
-    begin(a);
+    rb_api_forget_call(a);
     rb_api_forget_arrays(a, "crack.");
     rb_status s = rb_case_resolve(a->words, &a->why);
     if (s == RB_OK)
         s = rb_api_set_crack(a, n, names, values, &crack, &a->why);
-    rb_api_call_begins();
+    rb_api_call_begins(a);
     if (s == RB_OK)
         s = rb_case_crack_solve(rb_case_resolved(a->words), &crack,
                                 &(rb_crack_observer){count_step, a}, &result, &a->why);
-    rb_api_call_ends();
+    s = rb_api_call_ends(a, s);
     /* Columns over the positions and over the lengths, and the numbers of the pass. */
     const entries kept[] = {
         {"crack.", &rb_case_crack_columns, &result.history, result.history.n, 1, 0},
@@ -1351,7 +1383,7 @@ int rb_api_wear(rb_api *a, const char *law, double coefficient, double share, do
                                  .steps = steps,
                                  .increments = quarter};
     rb_rolling_solution last = {0};
-    begin(a);
+    rb_api_forget_call(a);
     rb_api_forget_arrays(a, "wear.");
     rb_rolling_wear_history_free(&a->wear);
     rb_status s = rb_api_check_refusals(a, &a->why);
@@ -1362,12 +1394,12 @@ int rb_api_wear(rb_api *a, const char *law, double coefficient, double share, do
         s = rb_fail(&a->why, RB_EINVAL, "slide and cycles exclude each other");
     if (s == RB_OK)
         s = rb_case_resolve(a->words, &a->why);
-    rb_api_call_begins();
+    rb_api_call_begins(a);
     if (s == RB_OK)
         s = rb_rolling_wear_run(&rb_case_resolved(a->words)->rc, &how,
                                 &(rb_rolling_wear_observer){stop_wear, a}, &a->wear, &last,
                                 &a->why);
-    rb_api_call_ends();
+    s = rb_api_call_ends(a, s);
     if (s >= 0 && last.worn &&
         (!rb_api_copy_array(a, "wear.profile.x", last.n, 1, last.x) ||
          !rb_api_copy_array(a, "wear.profile.depth", last.n, 1, last.worn)))
@@ -1387,10 +1419,10 @@ int rb_api_stress_maxima(rb_api *a, double depth)
                 {"maxima.orthogonal_shear", &m.orthogonal_shear},
                 {"maxima.tension", &m.tension}};
     rb_status s = begin_stress(a, "maxima.");
-    rb_api_call_begins();
+    rb_api_call_begins(a);
     if (s == RB_OK)
         s = rb_rolling_stress_maxima_find(&a->result.model, depth, &m, &a->why);
-    rb_api_call_ends();
+    s = rb_api_call_ends(a, s);
     for (size_t k = 0; s == RB_OK && k < sizeof kept / sizeof *kept; k++) {
         const double x[] = {kept[k].at->value, kept[k].at->x, kept[k].at->y};
         if (!rb_api_copy_array(a, kept[k].name, 3, 1, x))

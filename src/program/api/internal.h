@@ -59,6 +59,8 @@ struct rb_api {
     rb_message note;         /* on the last problem that was handed over; empty: none */
     const char *solver;      /* of the last problem that was handed over; static text */
     _Atomic int stopped;     /* by another thread, or a signal handler */
+    int heard;               /* 1: the running call has seen that */
+    rb_interrupt outside;    /* what the thread of the running call asked before */
     _Atomic int done, total; /* of the running call, for another thread */
     rb_status status;
     rb_message why;
@@ -78,6 +80,8 @@ api_array *rb_api_copy_array(rb_api *a, const char *name, int rows, int columns,
 void rb_api_forget_arrays(rb_api *a, const char *beginning);
 /* Forgets the derivatives of this kind, with their arrays. */
 void rb_api_forget_slopes(rb_api *a, api_slopes of);
+/* What the last call left: its message, how far it came, and whether it was stopped. */
+void rb_api_forget_call(rb_api *a);
 /* Keeps the status of a call, with a line that says it where the call has left none. */
 int rb_api_ended(rb_api *a, rb_status s);
 /* Ends a call with RB_EINVAL and this line. */
@@ -86,8 +90,9 @@ int rb_api_refuse(rb_api *a, const char *format, ...) RB_PRINTF(2, 3);
 /* RB_EINVAL: an option was refused and has not been set since. */
 rb_status rb_api_check_refusals(const rb_api *a, rb_message *why);
 
-/* Around what may use BLAS. */
-void rb_api_call_begins(void);
-void rb_api_call_ends(void);
+/* Around what may take long: it uses one thread of BLAS, and ends where rb_api_stop says so. */
+void rb_api_call_begins(rb_api *a);
+/* s, or RB_INTERRUPTED where that has ended it. */
+rb_status rb_api_call_ends(rb_api *a, rb_status s);
 
 #endif

@@ -14,8 +14,8 @@ static rb_case *begin(rb_api *a, const char *arrays, rb_case_purpose purpose)
     rb_case *c = rb_case_copy(a->words);
 
     rb_api_forget_arrays(a, arrays);
-    a->why.text[0] = a->note.text[0] = '\0';
-    a->stopped = a->done = a->total = 0;
+    a->note.text[0] = '\0';
+    rb_api_forget_call(a);
     if (c)
         rb_case_set_purpose(c, purpose);
     return c;
@@ -148,9 +148,9 @@ static int fit_table(rb_api *a, const char *path, rb_io_table *t, const rb_case_
     if (s == RB_OK)
         s = rb_case_resolve(c, &a->why);
     if (s == RB_OK) {
-        rb_api_call_begins();
+        rb_api_call_begins(a);
         s = rb_case_fit_solve(c, &data, &observer, &fit, &a->why);
-        rb_api_call_ends();
+        s = rb_api_call_ends(a, s);
         if (s >= 0 && keep_fit(a, &data, &fit, rb_case_resolved(c)->units) != RB_OK)
             s = RB_ENOMEM;
     }
@@ -290,9 +290,9 @@ int rb_api_design(rb_api *a, const char *result, int largest, const char *over, 
         s = rb_design_constraints(c, subject, &d, &a->why);
     a->total = evaluations;
     if (s == RB_OK) {
-        rb_api_call_begins();
+        rb_api_call_begins(a);
         s = rb_design_solve(c, &observer, &d, &a->why);
-        rb_api_call_ends();
+        s = rb_api_call_ends(a, s);
         if (s >= 0 && !isnan(d.value) && keep_design(a, &d, rb_case_resolved(c)->units) != RB_OK)
             s = RB_ENOMEM;
     }

@@ -13,8 +13,8 @@
 static void begin(rb_api *a, const char *arrays, const char *solver)
 {
     rb_api_forget_arrays(a, arrays);
-    a->why.text[0] = a->note.text[0] = '\0';
-    a->stopped = a->done = a->total = 0;
+    a->note.text[0] = '\0';
+    rb_api_forget_call(a);
     a->iterations = 0;
     a->residual = a->scaled_residual = NAN;
     a->solver = solver;
@@ -44,28 +44,21 @@ int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *s
     rb_status s = w ? rb_sparse_from_dense(n, n, M, n, &sparse) : RB_ENOMEM;
     if (s == RB_OK) {
         const rb_lcp_mixed_problem p = {.M = &sparse, .q = q};
-        rb_api_call_begins();
+        rb_api_call_begins(a);
         s = rb_lcp_solve(solver, &p, &options, z->at, &info);
         if (s >= 0)
             a->residual = rb_lcp_residual_mixed(&p, z->at, w->at);
-        rb_api_call_ends();
+        a->why = info.msg;
+        s = rb_api_call_ends(a, s);
         a->scaled_residual = info.scaled;
         a->iterations = info.iters;
         a->solver = info.solver ? info.solver : a->solver;
-        a->why = info.msg;
     }
     rb_sparse_free(&sparse);
     return rb_api_ended(a, s);
 }
 
 /* ---- Friction ---------------------------------------------------------------------- */
-
-static int goes_on(const rb_friction_progress *at, void *context)
-{
-    const rb_api *a = context;
-    (void)at;
-    return a->stopped;
-}
 
 static rb_status solve_friction(rb_api *a, const rb_friction_problem *p, const char *solver,
                                 double tol, int max_iters)
@@ -75,22 +68,20 @@ static rb_status solve_friction(rb_api *a, const rb_friction_problem *p, const c
     options.tol = tol;
     options.max_iters = max_iters;
     options.measure = a->by_acary ? RB_FRICTION_BY_ACARY : RB_FRICTION_BY_SCALED;
-    options.progress = goes_on;
-    options.context = a;
     api_array *r = rb_api_make_array(a, "friction.r", p->dimension, p->contacts);
     api_array *u = r ? rb_api_make_array(a, "friction.u", p->dimension, p->contacts) : NULL;
     api_array *mu = u ? rb_api_copy_array(a, "friction.mu", p->contacts, 1, p->mu) : NULL;
     if (!mu)
         return RB_ENOMEM;
     const rb_friction_solution solution = {r->at, u->at, NULL};
-    rb_api_call_begins();
-    const rb_status s = rb_friction_solve(solver, p, &options, &solution, &info);
-    rb_api_call_ends();
+    rb_api_call_begins(a);
+    rb_status s = rb_friction_solve(solver, p, &options, &solution, &info);
+    a->why = info.msg;
+    s = rb_api_call_ends(a, s);
     a->solver = info.solver;
     a->iterations = info.iters;
     a->residual = info.residual;
     a->scaled_residual = info.scaled;
-    a->why = info.msg;
     if (s == RB_OK)
         rb_friction_note(tol, &info, &a->note);
     return s;
@@ -306,9 +297,9 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
     }
     a->total = n;
     if (s == RB_OK) {
-        rb_api_call_begins();
+        rb_api_call_begins(a);
         s = rb_rolling_sweep_run(&of_cases, &a->why);
-        rb_api_call_ends();
+        s = rb_api_call_ends(a, s);
     }
     free(st.crack);
     own->tolerance = NULL; /* the caller's */

@@ -1,5 +1,7 @@
-/* Control-C and similar signals end a long run after the current case or step. */
+/* Control-C and similar signals end a long run; what its finished steps or cases gave is kept. */
 #include "program/cli/interrupt.h"
+
+#include "rollbem/base.h"
 
 #include <signal.h>
 #include <stddef.h>
@@ -17,6 +19,12 @@ static void note_interrupt(int signal_number)
     interrupted = 1;
 }
 
+static int is_interrupted(void *context)
+{
+    (void)context;
+    return interrupted;
+}
+
 void cli_interrupts_catch(void)
 {
     /* the second one ends the program at once */
@@ -27,10 +35,12 @@ void cli_interrupts_catch(void)
         if (signals[k] != SIGHUP || before[k].sa_handler != SIG_IGN) /* nohup */
             sigaction(signals[k], &act, NULL);
     }
+    rb_interrupt_by((rb_interrupt){is_interrupted, NULL});
 }
 
 void cli_interrupts_leave(void)
 {
+    rb_interrupt_by((rb_interrupt){NULL, NULL});
     for (int k = 0; k < SIGNALS; k++)
         sigaction(signals[k], &before[k], NULL);
 }

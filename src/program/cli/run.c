@@ -119,6 +119,7 @@ rb_status cli_run_case(const rb_resolved_case *c, const cli_steps *steps, rb_cas
     if (s == RB_OK) {
         /* An interrupt ends the run after the current step. */
         cli_interrupts_catch();
+        rb_interrupt_by((rb_interrupt){NULL, NULL}); /* what is printed ends with a whole step */
         s = rb_case_solve(c, after_step, &w, r, why);
         cli_interrupts_leave();
     }

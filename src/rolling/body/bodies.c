@@ -152,16 +152,19 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_p
                : s;
 }
 
-rb_status rb_rolling_bodies_add_matrix(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                                       rb_rolling_bodies *bodies, rb_message *why)
+rb_status rb_rolling_bodies_with_matrix(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                        const rb_rolling_bodies *bodies, rb_rolling_bodies *stored,
+                                        rb_message *why)
 {
     rb_status s = check_memory(rc, mesh, why);
 
+    *stored = *bodies;
+    stored->f = stored->transforms = (rb_bem_flexibility){0};
     if (s == RB_OK)
-        s = rb_bem_flexibility_store(&bodies->f);
+        s = rb_bem_flexibility_as_matrix(&bodies->f, &stored->f);
     if (s == RB_OK) {
-        bodies->F = rb_bem_flexibility_stored(&bodies->f);
-        s = add_transforms(rc, mesh, bodies, why);
+        stored->F = rb_bem_flexibility_stored(&stored->f);
+        s = add_transforms(rc, mesh, stored, why);
     }
     return s == RB_ENOMEM
                ? rb_fail(why, s, "out of memory for the flexibility of %d elements", mesh->n)

@@ -236,6 +236,8 @@ static rb_status all_steps(history_state *r, rb_message *why)
             state->residual = v.scaled;
         } else
             s = solve_step(r, &reason);
+        if (s == RB_INTERRUPTED)
+            return rb_fail(why, s, "interrupted after step %d of %d", k, r->steps);
         s = assess(r, s, &reason, why);
         if (s >= 0)
             end_step(r, s);

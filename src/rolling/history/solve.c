@@ -3,11 +3,19 @@
 
 #include <string.h>
 
+/* 1: it has all its parts, of one mesh; 0: it was interrupted while it was built. */
+static int is_whole(const rb_rolling_model *model)
+{
+    const int n = model->mesh.n;
+    return model->state.p && model->problem.op && model->state.n == n && model->problem.n == n &&
+           model->bodies.f.n == n;
+}
+
 rb_status rb_rolling_end_solve(const rb_rolling_model *model, rb_status s, double begun,
                                rb_rolling_solution *solution, rb_message *why)
 {
     memset(solution, 0, sizeof *solution);
-    if (s >= 0 && model->state.p) {
+    if (s >= 0 && is_whole(model)) {
         const rb_status t = rb_rolling_model_solution(model, solution, why);
         s = t == RB_OK ? s : t;
     }

@@ -433,6 +433,8 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
         s = one_step(&r, part, why);
         if (s == RB_OK)
             s = record(&r, k == wear->steps ? wear->way : k * part, why);
+        else if (s == RB_INTERRUPTED)
+            rb_fail(why, s, "interrupted after step %d of %d", k - 1, wear->steps);
     }
     run_free(&r);
     return s;

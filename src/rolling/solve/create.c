@@ -93,6 +93,9 @@ static rb_status roll_freely_large(rb_rolling_model *model, double *creepage, rb
         if (model->bodies.F) {
             const rb_status t =
                 rb_rolling_problem_renew_operator(model->rc, &model->bodies, &model->problem, why);
+            /* the operator would use bodies that are gone */
+            if (t != RB_OK)
+                rb_contact_state_free(&model->state);
             s = t == RB_OK ? s : t;
         }
     }

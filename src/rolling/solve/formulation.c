@@ -321,15 +321,20 @@ static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *
                          -rc->hardening, least);
 }
 
+static rb_status not_made(rb_status s, int n, rb_message *why)
+{
+    return s == RB_INTERRUPTED
+               ? rb_fail(why, s, "interrupted")
+               : rb_fail(why, s, "out of memory for a contact problem of %d elements", n);
+}
+
 rb_status rb_rolling_problem_share(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                    const rb_rolling_bodies *bodies, rb_contact_operator *op,
                                    rb_contact_problem *p, rb_message *why)
 {
     const rb_status s = rb_contact_problem_borrow(op, p);
 
-    return s == RB_OK
-               ? fill_problem(rc, mesh, bodies, NULL, p, why)
-               : rb_fail(why, s, "out of memory for a contact problem of %d elements", mesh->n);
+    return s == RB_OK ? fill_problem(rc, mesh, bodies, NULL, p, why) : not_made(s, mesh->n, why);
 }
 
 rb_status rb_rolling_problem_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
@@ -347,7 +352,7 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc, const rb_rolling_
     if (s == RB_OK)
         s = rb_contact_problem_alloc(op, p);
     if (s != RB_OK)
-        return rb_fail(why, s, "out of memory for a contact problem of %d elements", mesh->n);
+        return not_made(s, mesh->n, why);
     return fill_problem(rc, mesh, bodies, past, p, why);
 }
 
@@ -358,14 +363,16 @@ rb_status rb_rolling_problem_renew_operator(const rb_rolling_case *rc,
     kinematic A;
     rb_status s = set_kinematic(rc, bodies, &A);
 
-    rb_contact_operator_free(p->op);
-    p->op = NULL;
+    rb_contact_operator *op = NULL;
     if (s == RB_OK)
-        s = make_operator(rc, bodies, &A, &p->op);
+        s = make_operator(rc, bodies, &A, &op);
     free(A.outside);
+    if (s != RB_OK)
+        return not_made(s, p->n, why);
+    rb_contact_operator_free(p->op);
+    p->op = op;
     p->rounding = 0.0; /* of products */
-    return s == RB_OK ? s
-                      : rb_fail(why, s, "out of memory for a contact problem of %d elements", p->n);
+    return s;
 }
 
 /* ---- What a state carries ---------------------------------------------------------- */

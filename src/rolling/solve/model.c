@@ -119,7 +119,7 @@ static rb_status start_from_coarse(rb_rolling_model *model, rb_message *why)
         s = rb_rolling_mesh_uniform(model->rc, &fewer, ends[0], ends[model->mesh.n], &mesh, why);
     if (s == RB_OK)
         s = rb_rolling_model_build(&coarse, &mesh, why);
-    if (s >= 0)
+    if (s >= 0 && coarse.state.p)
         rb_rolling_start_from(coarse.rc, &coarse.mesh, &coarse.state, &model->mesh, &model->state);
     if (s == RB_OK) {
         double *bound = rb_rolling_friction_of(&coarse);
@@ -146,14 +146,24 @@ static rb_status set_up(rb_rolling_model *model, int kept, rb_message *why)
     return s == RB_OK ? rb_contact_state_alloc(model->mesh.n, &model->state) : s;
 }
 
+/* All of it, or nothing: the operator of the problem uses what the bodies have. */
 rb_status rb_rolling_model_add_matrix(rb_rolling_model *model, rb_message *why)
 {
+    rb_rolling_bodies stored;
+
     if (model->bodies.F || model->mesh.n >= RB_ROLLING_LARGE)
         return RB_OK;
-    const rb_status s = rb_rolling_bodies_add_matrix(model->rc, &model->mesh, &model->bodies, why);
-    return s == RB_OK
-               ? rb_rolling_problem_renew_operator(model->rc, &model->bodies, &model->problem, why)
-               : s;
+    rb_status s =
+        rb_rolling_bodies_with_matrix(model->rc, &model->mesh, &model->bodies, &stored, why);
+    if (s == RB_OK)
+        s = rb_rolling_problem_renew_operator(model->rc, &stored, &model->problem, why);
+    rb_bem_flexibility *left = s == RB_OK ? &model->bodies.f : &stored.f;
+    rb_bem_flexibility_free(left);
+    if (s == RB_OK)
+        model->bodies = stored;
+    else
+        rb_bem_flexibility_free(&stored.transforms);
+    return s;
 }
 
 rb_status rb_rolling_model_of_result(const rb_rolling_case *rc, const rb_rolling_plan *plan,
