@@ -22,12 +22,19 @@
 #define FALLS                                                                                      \
     ROLLS "--creep-ratio 0.5 --friction-law exponential --mu-fall 0.2 --speed 1000 --slip-scale "
 
-/* `says` prints the words to standard error, `silent` is solved without them.  Of notes `name`
- * is that of rb_rolling_note_name; others are named here. */
-static const struct {
+#define CAPPED CARTER "--contact-elements 60 --mu 100 --yield-stress 100 "
+#define FALLING                                                                                    \
+    CARTER "--friction-law exponential --mu-fall 0.2 --slip-scale 1 --speed 1000 "                 \
+           "--formulation steady "
+#define PLACES STEEL "--radius 100 --load 1000 --contact-elements 24 --friction-law places.txt "
+
+/* `says` prints the words to standard error, and `silent` is solved without them.  Of notes
+ * `name` is that of rb_rolling_note_name; others are named here. */
+typedef struct {
     const char *name, *words, *says, *silent;
-} sentences[] = {
-    /* ---- notes on a solution: src/rolling/solve/notes.c */
+} sentence;
+
+static const sentence notes[] = {
     {"wide-arc", "The contact spans 21.1 degrees of the journal",
      STEEL "--radius 100 --radius-b -101 --load 3000 --mu 0.3 " ROLL,
      STEEL "--radius 100 --radius-b -101 --load 500 --mu 0.3 " ROLL},
@@ -133,7 +140,30 @@ static const struct {
      FRETS "--force-ratio -0.5 --creep 0.001", FRETS "--force-ratio -0.5"},
 };
 
-enum { SENTENCES = sizeof sentences / sizeof *sentences };
+/* Bounds in refusals, exit code 64, are those of the case as it is meshed: what they name is
+ * solved. */
+static const sentence bounds[] = {
+    {"largest force", "carries at most mu P = 271.868 N/mm\n", ROLLS "--force 271.87",
+     ROLLS "--force 271.868"},
+    {"largest force", "carries at most mu P = 299.707 N/mm at this approach",
+     STEEL
+     "--radius 100 --mu 0.3 --contact-elements 24 --formulation steady --approach 0.03 --force 310",
+     STEEL "--radius 100 --mu 0.3 --contact-elements 24 --formulation steady --approach 0.03 "
+           "--force 299.707"},
+    {"largest force", "the interface yields, and carries at most 199.944 N/mm",
+     CAPPED "--formulation steady --force -201", CAPPED "--formulation steady --force -199.944"},
+    {"largest force", "the interface yields, and carries at most",
+     CAPPED "--formulation steady --force -200.1 --mesh aligned",
+     CAPPED "--formulation steady --force -199 --mesh aligned"},
+    {"largest force", "carries at most 199.333 N/mm", CAPPED "--force -201",
+     CAPPED "--force -199.333"},
+    {"largest force", "with this friction law the largest is", FALLING "--force 400",
+     FALLING "--force 300"},
+    /* mu is 0.5 beside the contact, and 0.1 under most of it */
+    {"largest force", "carries at most mu P = ", PLACES "--force 400", PLACES "--force 200"},
+};
+
+enum { NOTES = sizeof notes / sizeof *notes, BOUNDS = sizeof bounds / sizeof *bounds };
 
 static int write_gaps(void)
 {
@@ -159,33 +189,44 @@ static int write_gaps(void)
     write_file("bump.txt",
                "0 0\n.25 .0001464\n.5 .0005\n.75 .0008536\n1 .001\n1.25 .0008536\n1.5 .0005\n"
                "1.75 .0001464\n2 0\n");
+    write_file("places.txt", "-10 0.1\n0 0.1\n0.5 0.5\n10 0.5\n");
     write_file("flat.txt", "-0.2 0\n-0.1 1e-9\n0 0\n0.1 1e-9\n0.2 0\n");
     return 0;
 }
 
-TEST(each_sentence_is_said_where_it_is_true_alone)
+static void check_sentences(int n, const sentence *all, int code)
 {
     int wrong = 0;
-    write_gaps();
-    for (int k = 0; k < SENTENCES; k++)
+    for (int k = 0; k < n; k++)
         for (int says = 1; says >= 0; says--) {
-            const char *arguments = says ? sentences[k].says : sentences[k].silent;
-            const int code = rollbem(arguments);
-            if (code == 0 && (strstr(err, sentences[k].words) != NULL) == says)
+            const char *arguments = says ? all[k].says : all[k].silent;
+            const int got = rollbem(arguments);
+            if (got == (says ? code : 0) && (strstr(err, all[k].words) != NULL) == says)
                 continue;
-            print_error("%s: %s '%s'\nrollbem %s\nexit %d: %s\n", sentences[k].name,
-                        says ? "does not say" : "says", sentences[k].words, arguments, code, err);
+            print_error("%s: %s '%s'\nrollbem %s\nexit %d: %s\n", all[k].name,
+                        says ? "does not say" : "says", all[k].words, arguments, got, err);
             wrong++;
         }
     assert_int_equal(wrong, 0);
+}
+
+TEST(each_note_is_said_where_it_is_true_alone)
+{
+    write_gaps();
+    check_sentences(NOTES, notes, 0);
+}
+
+TEST(each_bound_is_that_of_the_mesh)
+{
+    check_sentences(BOUNDS, bounds, 64);
 }
 
 TEST(each_note_has_its_two_cases)
 {
     for (int k = 0; rb_rolling_note_name(k); k++) {
         int rows = 0;
-        for (int j = 0; j < SENTENCES; j++)
-            rows += strcmp(sentences[j].name, rb_rolling_note_name(k)) == 0;
+        for (int j = 0; j < NOTES; j++)
+            rows += strcmp(notes[j].name, rb_rolling_note_name(k)) == 0;
         if (rows == 0)
             fail_msg("%s has no case in tests/test_sentences.c", rb_rolling_note_name(k));
     }

@@ -75,6 +75,9 @@ typedef struct {
 /* Writes the formatted line into why (unless it is NULL) and returns s.  An error return
  * is then one statement: return rb_fail(why, RB_EINVAL, "mu = %g: expected >= 0", mu); */
 rb_status rb_fail(rb_message *why, rb_status s, const char *format, ...) RB_PRINTF(3, 4);
+/* x with six digits, towards zero: of the largest value that is accepted a message must not
+ * print more. */
+double rb_largest_shown(double x);
 
 /* Appends to text, a buffer of size bytes in all; whatever does not fit is cut off. */
 void rb_append(char *text, size_t size, const char *format, ...) RB_PRINTF(3, 4);

@@ -184,6 +184,8 @@ typedef struct rb_contact_state {
     double xi0;
     int iterations;
     double residual;
+    double refused_at; /* creepage, or shift, of the largest force where the given one is more
+                          than that; otherwise 0 */
 } rb_contact_state;
 
 rb_status rb_contact_state_alloc(int n, rb_contact_state *state);

@@ -23,6 +23,15 @@ rb_status rb_fail(rb_message *why, rb_status s, const char *format, ...)
     return s;
 }
 
+double rb_largest_shown(double x)
+{
+    if (x == 0.0 || !isfinite(x))
+        return x;
+    const double unit = pow(10.0, floor(log10(fabs(x))) - 5.0);
+    /* what differs from a number of six digits by rounding is that number */
+    return copysign(floor(fabs(x) / unit * (1.0 + 1e-14)) * unit, x);
+}
+
 void rb_append(char *text, size_t size, const char *format, ...)
 {
     const size_t used = strlen(text);

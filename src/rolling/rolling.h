@@ -404,6 +404,9 @@ rb_status rb_rolling_model_realign(rb_rolling_model *model, rb_message *why);
 /* Solves on elements fitted to the contact edges; if these do not converge, on equal
  * elements, and model->equal_instead is set. */
 rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why);
+/* Shift of a contact edge, in half-widths, beyond which a mesh is fitted or aligned again where
+ * a solution follows another one. */
+#define RB_ROLLING_REFIT 0.01
 /* Builds a fitted mesh and bodies again for the present edges of the model, and
  * solves. */
 rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why);

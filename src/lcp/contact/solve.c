@@ -408,7 +408,7 @@ static rb_status solve_from_coulomb(rb_contact_problem *problem, const rb_contac
 }
 
 static rb_status check_capacity(rb_contact_problem *problem, const rb_contact_options *options,
-                                rb_message *why);
+                                rb_contact_state *refused, rb_message *why);
 
 /* Newton's method in a few steps nearly always; a force that cannot be carried is found
  * before the long ways. */
@@ -427,7 +427,7 @@ static rb_status solve_yielding(rb_contact_problem *problem, const rb_contact_op
     if (s > 0)
         s = solve_from_coulomb(problem, options, 0, state, why);
     if (s > 0 && problem->force_given) {
-        const rb_status t = check_capacity(problem, options, why);
+        const rb_status t = check_capacity(problem, options, state, why);
         s = t < 0 ? t : s;
     }
     if (s > 0)
@@ -496,40 +496,61 @@ static rb_status solve_full_sliding(rb_contact_problem *problem, const rb_contac
  * most is that of full sliding, or, where the layer softens, the largest along the creep
  * curve: beyond it more slip carries less. */
 static rb_status check_layer(rb_contact_problem *problem, const rb_contact_options *options,
-                             rb_contact_state *state, rb_message *why)
+                             rb_contact_state *state, rb_contact_state *refused, rb_message *why)
 {
-    enum { POINTS = 40 };
+    enum { POINTS = 40, SECTIONS = 30 };
+    static const double GOLDEN = 0.381966011250105;
     const char *unit = problem->force_unit ? problem->force_unit : "";
     const int backwards = problem->force + problem->force_ratio > 0.0;
     rb_contact_problem given = *problem; /* arrays stay the problem's */
-    double most = 0.0;
+    double most = 0.0, at = 0.0;
     rb_status s = RB_OK;
 
     given.force_given = 0;
-    if (problem->hardening < 0.0)
-        for (int k = 1; k <= POINTS && s == RB_OK; k++) {
-            given.xi = (backwards ? -1.0 : 1.0) * problem->sliding * k / POINTS;
+    if (problem->hardening < 0.0) {
+        /* the best of equally distant creepages, then golden sections beside it */
+        const double step = (backwards ? -1.0 : 1.0) * problem->sliding / POINTS;
+        double inner = 0.0, outer = step * POINTS;
+        for (int k = 1; k <= POINTS + SECTIONS && s == RB_OK; k++) {
+            const int right = fabs(outer - at) > fabs(at - inner);
+            given.xi = k <= POINTS ? step * k : at + GOLDEN * (right ? outer - at : inner - at);
             s = solve_given(&given, options, k > 1, state, NULL);
-            most = fmax(most, fabs(rb_contact_force(problem, state)));
+            const double force = fabs(rb_contact_force(problem, state));
+            const int better = s == RB_OK && force > most;
+            if (k > POINTS && better)
+                *(right ? &inner : &outer) = at;
+            else if (k > POINTS)
+                *(right ? &outer : &inner) = given.xi;
+            if (better) {
+                most = force;
+                at = given.xi;
+            }
+            if (k == POINTS) {
+                inner = at - step;
+                outer = at + step;
+            }
         }
-    else
+    } else {
         s = solve_sliding(problem, options, backwards, state, NULL);
-    most = fmax(most, fabs(rb_contact_force(problem, state)));
+        most = fabs(rb_contact_force(problem, state));
+        at = state->xi;
+    }
     const double Q = problem->force + problem->force_ratio * rb_contact_capacity(problem, state);
-    return s != RB_OK || fabs(Q) <= most
-               ? s
-               : rb_fail(why, RB_EINVAL,
-                         "force Q = %g%s: the interface yields, and carries at most %g%s", Q, unit,
-                         most, unit);
+    if (s != RB_OK || fabs(Q) <= most)
+        return s;
+    refused->refused_at = at;
+    return rb_fail(why, RB_EINVAL,
+                   "force Q = %.10g%s: the interface yields, and carries at most %g%s", Q, unit,
+                   rb_largest_shown(most), unit);
 }
 
 /* Whether a given force is more than friction carries under the load that the approach
- * brings, or the resistance to rolling more than friction can turn: RB_EINVAL.  A layer
- * that hardens carries with more slip all that the friction of the surfaces does.  Full
- * sliding, which has that load, is solved in a state of its own, because the state that
- * failed is what the caller prints. */
+ * brings, or the resistance to rolling more than friction can turn: RB_EINVAL, and the refused
+ * state says at which creepage friction carries most.  A layer that hardens carries with more
+ * slip all that the friction of the surfaces does.  Full sliding, which has that load, is
+ * solved in a state of its own, because the state that failed is what the caller prints. */
 static rb_status check_capacity(rb_contact_problem *problem, const rb_contact_options *options,
-                                rb_message *why)
+                                rb_contact_state *refused, rb_message *why)
 {
     const char *unit = problem->force_unit ? problem->force_unit : "";
     rb_contact_state sliding;
@@ -537,7 +558,7 @@ static rb_status check_capacity(rb_contact_problem *problem, const rb_contact_op
     rb_status s = rb_contact_state_alloc(problem->n, &sliding);
 
     if (s == RB_OK && problem->yield && problem->hardening <= 0.0 && problem->axle == 0.0) {
-        s = check_layer(problem, options, &sliding, why);
+        s = check_layer(problem, options, &sliding, refused, why);
         rb_contact_state_free(&sliding);
         return s < 0 ? s : RB_OK;
     }
@@ -547,6 +568,8 @@ static rb_status check_capacity(rb_contact_problem *problem, const rb_contact_op
         most = rb_contact_capacity(problem, &sliding);
         resistance = problem->axle * rb_contact_moment(problem, &sliding);
     }
+    if (s == RB_OK && fmax(resistance, fabs(problem->force)) > most)
+        refused->refused_at = sliding.xi;
     rb_contact_state_free(&sliding);
     if (s == RB_OK && resistance > most)
         return rb_fail(why, RB_EINVAL,
@@ -554,9 +577,9 @@ static rb_status check_capacity(rb_contact_problem *problem, const rb_contact_op
                        "friction carries, mu P = %g%s",
                        resistance, unit, most, unit);
     if (s == RB_OK && fabs(problem->force) > most)
-        return rb_fail(why, RB_EINVAL,
-                       "force Q = %g%s: friction carries at most mu P = %g%s at this approach",
-                       problem->force, unit, most, unit);
+        return rb_fail(why, RB_EINVAL, "force Q = %.10g%s: friction carries at most mu P = %g%s%s",
+                       problem->force, unit, rb_largest_shown(most), unit,
+                       problem->load_given ? "" : " at this approach");
     return s < 0 ? s : RB_OK;
 }
 
@@ -590,12 +613,13 @@ rb_status rb_contact_solve(rb_contact_problem *problem, const rb_contact_options
                            rb_contact_state *state, rb_message *why)
 {
     state->iterations = 0;
+    state->refused_at = 0.0;
     rb_status s = options->solver == RB_SOLVER_CONE ? solve_cone(problem, options, state, why)
                   : slides_fully(problem) ? solve_full_sliding(problem, options, state, why)
                                           : solve_given(problem, options, warm, state, why);
 
     if (s > 0 && problem->force_given && (problem->force != 0.0 || problem->axle > 0.0)) {
-        const rb_status t = check_capacity(problem, options, why);
+        const rb_status t = check_capacity(problem, options, state, why);
         if (t < 0)
             return t;
     }

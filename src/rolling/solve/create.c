@@ -2,6 +2,7 @@
  * free-rolling creepage. */
 #include "rolling/rolling.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,6 +11,50 @@ rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *m
 {
     memset(model, 0, sizeof *model);
     return rb_rolling_model_reuse(rc, NULL, model, why);
+}
+
+static rb_status solve_on_mesh(rb_rolling_model *model, rb_message *why)
+{
+    switch (model->rc->mesh) {
+    case RB_MESH_FITTED:
+        return rb_rolling_solve_fitted(model, why);
+    case RB_MESH_ALIGNED:
+        return rb_rolling_solve_aligned(model, why);
+    default:
+        return rb_rolling_solve_zone(model, 0, why);
+    }
+}
+
+/* A force that is too much on the way to the mesh of the case may not be too much on it, and
+ * the largest force that a refusal names is that on it.  So the contact that slides as it does
+ * under the largest force gets its mesh, on which the force is tried again; edges that lie
+ * elsewhere under this force get theirs. */
+static rb_status solve_beside_sliding(rb_rolling_model *model, const rb_rolling_case *rc,
+                                      rb_message *why)
+{
+    const rb_rolling_case wanted = *rc; /* rc may be the model's */
+    rb_rolling_case sliding = rb_rolling_without_force(rc);
+    double edge[4];
+
+    sliding.force_ratio = NAN;
+    *(rc->formulation == RB_STATIC ? &sliding.shift : &sliding.creep) = model->state.refused_at;
+    rb_status s = rb_rolling_model_set_case(model, &sliding, why);
+    if (s == RB_OK)
+        s = solve_on_mesh(model, why);
+    if (s == RB_OK) {
+        rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge[0], &edge[1]);
+        s = rb_rolling_model_set_case(model, &wanted, why);
+    }
+    if (s == RB_OK)
+        s = rb_rolling_model_control(model, why);
+    if (s != RB_OK || model->equal_instead || wanted.mesh == RB_MESH_UNIFORM)
+        return s;
+    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge[2], &edge[3]);
+    const double moved = fmax(fabs(edge[2] - edge[0]), fabs(edge[3] - edge[1]));
+    if (moved <= 0.5 * RB_ROLLING_REFIT * (edge[1] - edge[0]))
+        return s;
+    return wanted.mesh == RB_MESH_FITTED ? rb_rolling_model_refit(model, why)
+                                         : rb_rolling_model_realign(model, why);
 }
 
 rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, const rb_rolling_plan *plan,
@@ -30,12 +75,10 @@ rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, const rb_rolling_pla
     rb_status s = rb_rolling_model_set_case(model, rc, why);
     if (s == RB_OK)
         s = rb_rolling_case_check(rc, why);
-    if (s == RB_OK && rc->mesh == RB_MESH_FITTED)
-        s = rb_rolling_solve_fitted(model, why);
-    else if (s == RB_OK && rc->mesh == RB_MESH_ALIGNED)
-        s = rb_rolling_solve_aligned(model, why);
-    else if (s == RB_OK)
-        s = rb_rolling_solve_zone(model, 0, why);
+    if (s == RB_OK)
+        s = solve_on_mesh(model, why);
+    if (s == RB_EINVAL && model->state.refused_at != 0.0 && rc->formulation != RB_TRANSIENT)
+        s = solve_beside_sliding(model, rc, why);
     model->same_bodies = 0;
     return s;
 }

@@ -436,12 +436,13 @@ static rb_status solve_force(rb_rolling_model *model, rb_message *why)
         by.side = f[0] > 0.0 ? 1.0 : -1.0;
         f[0] = fabs(f[0]);
         s = go_on(&by, x, f);
-        if (s == RB_OK && f[1] > 0.0)
+        if (s == RB_OK && f[1] > 0.0) {
+            model->state.refused_at = by.side * x[1];
             s = rb_fail(why, RB_EINVAL,
-                        "force Q = %g N/mm: with this friction law the largest is %g N/mm, "
+                        "force Q = %.10g N/mm: with this friction law the largest is %g N/mm, "
                         "at creepage %g",
-                        p->force, p->force + by.side * f[1], by.side * x[1]);
-        else if (s == RB_OK) {
+                        p->force, rb_largest_shown(p->force + by.side * f[1]), by.side * x[1]);
+        } else if (s == RB_OK) {
             /* The force is lacking at x[0] and reached at x[1].  Where a creepage has
              * several states and the search falls on one or another of them, the force
              * tells them apart. */

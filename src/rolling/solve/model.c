@@ -127,6 +127,7 @@ static rb_status start_from_coarse(rb_rolling_model *model, rb_message *why)
         free(bound);
     }
     model->iterations += coarse.iterations;
+    model->state.refused_at = coarse.state.refused_at;
     rb_rolling_model_free(&coarse);
     return s < 0 ? s : RB_OK;
 }

@@ -254,11 +254,12 @@ static double mean_compliance(const rb_rolling_case *rc, const rb_rolling_body *
     const double of_own = (1.0 - own.poisson) / own.shear;
 
     if (!(body->layer > 0.0)) {
-        /* what relaxes does so within V tau */
+        /* what relaxes does so within V tau, with ln(sqrt(x^2 + d^2)/x), which is positive */
         double all = of_own * log(datum / mean);
-        for (int k = 0; k < body->memory.n && rc->formulation == RB_STEADY; k++)
-            all += of_own * body->memory.ratio[k] *
-                   log(datum / fmax(mean, rc->speed * body->memory.time[k]));
+        for (int k = 0; k < body->memory.n && rc->formulation == RB_STEADY; k++) {
+            const double reach = fmax(mean, rc->speed * body->memory.time[k]);
+            all += of_own * body->memory.ratio[k] * log(hypot(1.0, datum / reach));
+        }
         return all;
     }
     const double thickness = fmax(body->layer, mean), of_layer = of_own * log(thickness / mean);

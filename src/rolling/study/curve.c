@@ -5,9 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Shift of a contact edge, in half-widths, beyond which a fitted mesh is fitted again. */
-static const double REFIT = 0.01;
-
 void rb_rolling_curve_free(rb_rolling_curve *c)
 {
     if (c->deviations)
@@ -148,7 +145,7 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
             rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
         const double moved =
             fmax(fabs(from - edge[0]), fabs(to - edge[1])) / (0.5 * (edge[1] - edge[0]));
-        if (s == RB_ZONE || (s == RB_OK && steady.mesh != RB_MESH_UNIFORM && moved > REFIT)) {
+        if (s == RB_ZONE || (s == RB_OK && steady.mesh != RB_MESH_UNIFORM && moved > RB_ROLLING_REFIT)) {
             if (s == RB_ZONE) { /* the whole search for the contact again */
                 const int iterations = model->iterations;
                 rb_rolling_plan plan = rb_rolling_plan_of(&steady);
