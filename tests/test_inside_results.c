@@ -433,7 +433,8 @@ TEST(an_edge_stays_between_its_elements)
         m.zone[i] = 0, m.p[i] = 0.0;
     check_edges(&m, 6.5, 28.5, 1e-12, "cut off");
     assert_true(rb_rolling_next_patch(&m.rc, &m.mesh, &m.state, 0, &run));
-    assert_int_equal(run.bounded, 1); /* misses the elements by more than one */
+    assert_int_equal(run.bounded,
+                     RB_LEFT_BOUNDED | RB_RIGHT_BOUNDED); /* misses the elements by more than one */
 }
 
 TEST(few_elements_end_at_their_ends)
@@ -444,7 +445,7 @@ TEST(few_elements_end_at_their_ends)
         rb_rolling_run run;
         press(&m, 10.0, 10.0 + n, 0.5, 0.5, RB_ZONE_STICK);
         assert_true(rb_rolling_next_patch(&m.rc, &m.mesh, &m.state, 0, &run));
-        assert_int_equal(run.bounded, n < 5);
+        assert_int_equal(run.bounded, n < 5 ? RB_LEFT_BOUNDED | RB_RIGHT_BOUNDED : 0);
         if (n < 5)
             check_edges(&m, 10.0, 14.0, 0.0, "four elements");
     }
@@ -457,7 +458,7 @@ TEST(few_elements_end_at_their_ends)
     }
     check_edges(&m, 10.0, 20.0, 0.0, "a flat pressure");
     assert_true(rb_rolling_next_patch(&m.rc, &m.mesh, &m.state, 0, &run));
-    assert_int_equal(run.bounded, 1);
+    assert_int_equal(run.bounded, RB_LEFT_BOUNDED | RB_RIGHT_BOUNDED);
 }
 
 TEST(the_outer_edges_are_those_of_all_patches)

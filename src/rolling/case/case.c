@@ -468,8 +468,9 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
     const double P = rb_rolling_derive(rc).load, mu = rb_rolling_largest_mu(rc);
     /* a coefficient that differs from place to place or falls, or an interface that yields,
      * carries less: the solver knows */
-    if (!isnan(rc->force) && !isnan(P) && !(rc->yield_stress > 0.0) && rc->friction.law != RB_FRICTION_table &&
-        !rb_rolling_law_depends_on_state(rc) && fabs(rc->force) > mu * P * (1.0 + 1e-12))
+    if (!isnan(rc->force) && !isnan(P) && !(rc->yield_stress > 0.0) &&
+        rc->friction.law != RB_FRICTION_table && !rb_rolling_law_depends_on_state(rc) &&
+        fabs(rc->force) > mu * P * (1.0 + 1e-12))
         return rb_fail(why, RB_EINVAL,
                        "force Q = %.10g N/mm: friction carries at most mu P = %g N/mm", rc->force,
                        rb_largest_shown(mu * P));

@@ -369,6 +369,13 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
         interval edge;
 
         rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge.from, &edge.to);
+        if (isnan(rb_rolling_derive(model->rc).load)) {
+            /* those of elements, which move with the first zone alone and not with the
+             * pressure: derivatives know how (theory.md D6) */
+            int left, right;
+            separated_at_ends(&model->state, &left, &right);
+            edge = (interval){model->mesh.ends[left], model->mesh.ends[model->mesh.n - right]};
+        }
         if (is_symmetric(model->rc)) {
             edge.to = fmax(fabs(edge.from), fabs(edge.to));
             edge.from = -edge.to;

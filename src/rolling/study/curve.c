@@ -145,7 +145,8 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
             rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
         const double moved =
             fmax(fabs(from - edge[0]), fabs(to - edge[1])) / (0.5 * (edge[1] - edge[0]));
-        if (s == RB_ZONE || (s == RB_OK && steady.mesh != RB_MESH_UNIFORM && moved > RB_ROLLING_REFIT)) {
+        if (s == RB_ZONE ||
+            (s == RB_OK && steady.mesh != RB_MESH_UNIFORM && moved > RB_ROLLING_REFIT)) {
             if (s == RB_ZONE) { /* the whole search for the contact again */
                 const int iterations = model->iterations;
                 rb_rolling_plan plan = rb_rolling_plan_of(&steady);
