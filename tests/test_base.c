@@ -95,6 +95,40 @@ TEST(the_sum_does_not_depend_on_the_address)
     }
 }
 
+/* 1e16 + 1 - 1e16 and such: signs that rounded sums do not see. */
+TEST(signs_of_sums_are_exact)
+{
+    const double a[] = {1e16, 1.0, -1e16, 0.1}, ones[] = {1.0, 1.0, 1.0, 1.0};
+    assert_int_equal(rb_exact_sign(3, a, ones), 1);
+    const double thirds[] = {1.0 / 3.0, -1.0 / 3.0 - 0x1p-54}, half[] = {3.0, 3.0};
+    assert_int_equal(rb_exact_sign(1, thirds, half), 1);
+    assert_int_equal(rb_exact_sign(2, thirds, half), thirds[0] + thirds[1] == 0.0 ? 0 : -1);
+    /* x y - fl(x y) is the rounding of the product */
+    const double x[] = {0.1, -0.1 * 0.3}, y[] = {0.3, 1.0};
+    assert_int_equal(rb_exact_sign(2, x, y),
+                     (fma(0.1, 0.3, -0.1 * 0.3) > 0.0) - (fma(0.1, 0.3, -0.1 * 0.3) < 0.0));
+    unsigned long long seed = 5;
+    for (int k = 0; k < 300; k++) { /* numbers and their opposites, in another order */
+        enum { N = 24 };
+        double p[N], q[N];
+        for (int i = 0; i < N; i++) {
+            seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+            p[i] = ldexp((double)(seed >> 20), (int)(seed % 90) - 70);
+            q[i] = ldexp((double)(seed % 1000003), 3);
+        }
+        for (int i = 0; i < N / 2; i++) {
+            p[N / 2 + i] = -p[(7 * i + 3) % (N / 2)];
+            q[N / 2 + i] = q[(7 * i + 3) % (N / 2)];
+        }
+        assert_int_equal(rb_exact_sign(N, p, q), 0);
+        p[k % N] = nextafter(p[k % N], INFINITY);
+        assert_int_equal(rb_exact_sign(N, p, q), q[k % N] > 0.0 ? 1 : 0);
+    }
+    const double tiny[] = {1e-300}, less[] = {1e-200};
+    assert_int_equal(rb_exact_sign(1, tiny, less), RB_SIGN_UNKNOWN);
+    assert_int_equal(rb_exact_sign(0, tiny, less), 0);
+}
+
 TEST(every_status_has_its_own_words)
 {
     for (int i = RB_EHELPER; i <= RB_TIME_LIMIT; i++)

@@ -137,6 +137,95 @@ TEST(planted_proofs_are_found)
     }
 }
 
+/* A body of mass 1 between walls that close by `closing`, each contact in a unit of its own. */
+static rb_friction_problem walls(int d, double closing, double first, double second)
+{
+    const int m = 2 * d;
+    memset(W, 0, sizeof W);
+    for (int a = 0; a < d; a++) {
+        W[a * (m + 1)] = first * first;
+        W[(d + a) * (m + 1)] = second * second;
+        W[a + (d + a) * m] = W[d + a + a * m] = (a ? 1.0 : -1.0) * first * second;
+    }
+    for (int k = 0; k < m; k++)
+        q[k] = 0.3 * k;
+    q[0] = -1.0 * first, q[d] = (1.0 - closing) * second, mu[0] = mu[1] = 0.7;
+    return problem(d, 2);
+}
+
+/* "infeasible" is said where no rounding is in the proof, and not a hair beside it. */
+TEST(what_is_proved_is_proved_without_rounding)
+{
+    double least, given_load;
+    for (int d = 2; d <= 3; d++)
+        for (int unit = -1; unit <= 1; unit++) {
+            const double first = exp2(20.0 * unit), second = exp2(-13.0 * unit);
+            rb_friction_problem p = walls(d, 1e-9, first, second);
+            assert_int_equal(rb_friction_has_no_solution(&p, &least, &given_load), 1);
+            p = walls(d, 0.0, first, second); /* they just do not close */
+            assert_int_equal(rb_friction_has_no_solution(&p, &least, &given_load), 0);
+            p = walls(d, 1e-9, first, second);
+            W[0] *= 1.0 + 0x1p-52; /* and a little of the push is left */
+            assert_int_equal(rb_friction_has_no_solution(&p, &least, &given_load), 0);
+        }
+    /* W_N, 3 bodies in a row between walls: y = 1 everywhere; and one wall pushed twice as far
+     * as y = (1, 2): a lever */
+    static const double lever[] = {4.0, -2.0, -2.0, 1.0};
+    memset(W, 0, sizeof W);
+    for (int k = 0; k < 4; k++)
+        W[(k / 2 * 2) * 4 + k % 2 * 2] = lever[k] / 3.0;
+    mu[0] = mu[1] = 0.0;
+    q[0] = 0.9, q[2] = -0.5, q[1] = q[3] = 0.0;
+    rb_friction_problem p = problem(2, 2);
+    assert_int_equal(rb_friction_has_no_solution(&p, &least, &given_load), 1);
+    q[0] = 1.1;
+    assert_int_equal(rb_friction_has_no_solution(&p, &least, &given_load), 0);
+}
+
+/* Masses of 1e10 on 1: a load of 1e11 holds, which the bound of a proof with rounding lies
+ * below. */
+TEST(a_heavy_body_on_a_light_one_is_not_hopeless)
+{
+    double least, given_load;
+    for (int d = 2; d <= 3; d++)
+        for (int k = 6; k <= 13; k++) {
+            const int m = 2 * d;
+            rb_friction_problem p = walls(d, 0.0, 1.0, 1.0);
+            for (int a = 0; a < d; a++) {
+                W[a + (d + a) * m] = W[d + a + a * m] = -1.0;
+                W[(d + a) * (m + 1)] = 1.0 + pow(10.0, -k);
+            }
+            memset(q, 0, sizeof q);
+            q[0] = -9.81;
+            assert_int_equal(rb_friction_has_no_solution(&p, &least, &given_load), 0);
+            CHECK_MAX(least, 2.01 * 9.81 * pow(10.0, k), "the solution obeys the bound");
+        }
+}
+
+/* The same walls around a body that is free in the plane: H' = [1 0; 0 1; -1 0; 0 1]. */
+TEST(a_global_problem_without_solution)
+{
+    for (int closes = 0; closes < 2; closes++) {
+        OWNED(rb_friction_problem) p = zero_global(2, 2, 2);
+        rb_triplets K = {.rows = 2, .cols = 2}, H = {.rows = 2, .cols = 4};
+        double least, given_load;
+        for (int i = 0; i < 2; i++) {
+            rb_triplets_add(&K, i, i, 0.7);
+            rb_triplets_add(&H, i, i, 0.3);
+            rb_triplets_add(&H, i, 2 + i, i ? 0.3 : -0.3);
+            p.mu[i] = 0.4;
+        }
+        CHECK_OK(rb_sparse_from_triplets(&K, &p.K));
+        CHECK_OK(rb_sparse_from_triplets(&H, &p.H));
+        rb_triplets_free(&K);
+        rb_triplets_free(&H);
+        p.w[0] = -0.2;
+        p.w[2] = closes ? 0.1 : 0.3;
+        p.f[0] = 0.123;
+        assert_int_equal(rb_friction_has_no_solution(&p, &least, &given_load), closes);
+    }
+}
+
 TEST(global_problems_are_condensed_first)
 {
     double y[1], least;

@@ -111,7 +111,7 @@ TEST(auto_condenses_rigid_bodies_first)
     CHECK_OK(run("auto", &global, r, &of_global));
     CHECK_OK(run("auto", &local, r, &of_local));
     assert_string_equal(of_global.solver, of_local.solver);
-    CHECK_MAX(of_global.flops, 1.2 * of_local.flops, "operations");
+    CHECK_MAX(of_global.flops, 1.5 * of_local.flops, "operations");
 }
 
 /* 24 s and 18.7 s where plain sweeps took 0.03 and 0.13. */
@@ -235,7 +235,7 @@ TEST(the_winner_hands_over_all_it_has)
     } cases[] = {{"boxes 100 2 4", "admm"},
                  {"discs 60 2 3", "nsn-jm-nls"},
                  {"boxes 30 2 3 global 5", "nsgs-aa"},
-                 {"bricks 8 2 3 global 5", "nsn-jm-nls"}};
+                 {"bricks 8 2 3 global 5", "nsgs-aa"}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         OWNED(rb_friction_problem) p, condensed = {0};
         rb_friction_info info;

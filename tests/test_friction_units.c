@@ -44,34 +44,49 @@ static void rescale(rb_friction_problem *p, double a, double b)
         p->w[k] *= b;
 }
 
-/* The scaled measure written down a second time, from the disjunction of cases. */
+/* The scaled measure written down a second time: a search over the points of the law.  In
+ * the plane slip has two directions, in space a circle of them. */
 static double measure_again(const rb_friction_problem *p, const double *r)
 {
-    const int d = p->dimension, m = d * p->contacts;
+    const int d = p->dimension, m = d * p->contacts, directions = d == 2 ? 2 : 100000;
     double sum = 0.0, norm = 0.0;
     for (int c = 0; c < p->contacts; c++) {
-        double z[3] = {0.0}, u[3] = {0.0}, t = 0.0, s = 0.0;
-        const double k = 1.0 / p->W[(size_t)(c * d) * (size_t)(m + 1)], mu = p->mu[c];
+        const double own = p->W[(size_t)(c * d) * (size_t)(m + 1)], mu = p->mu[c];
+        const double first = p->W[0], D = exp2(-floor(0.5 * (ilogb(own / first) + 1)));
+        double s[3] = {0.0}, u[3] = {0.0}, least, stick = 0.0, open = 0.0;
         for (int a = 0; a < d; a++) {
+            s[a] = r[c * d + a] * own;
             u[a] = p->q[c * d + a];
-            norm += u[a] * u[a];
+            norm += D * D * u[a] * u[a];
             for (int j = 0; j < m; j++)
                 u[a] += p->W[c * d + a + j * m] * r[j];
-            s += a ? u[a] * u[a] : 0.0;
+            open += s[a] * s[a];
+            stick += u[a] * u[a];
         }
-        u[0] += mu * sqrt(s);
-        for (int a = 0; a < d; a++) {
-            z[a] = r[c * d + a] - k * u[a];
-            t += a ? z[a] * z[a] : 0.0;
+        least = open + (u[0] < 0.0 ? u[0] * u[0] : 0.0);
+        const double t = d == 2 ? fabs(s[1]) : hypot(s[1], s[2]);
+        if (s[0] >= 0.0 && t <= mu * s[0])
+            least = fmin(least, stick);
+        for (int k = 0; k < directions; k++) {
+            const double angle = 2.0 * acos(-1.0) * k / directions;
+            const double v[3] = {0.0, d == 2 ? 1.0 - 2.0 * k : cos(angle), sin(angle)};
+            /* (s, u) on the rays (1, -mu v) and v, or stick on the first of them */
+            double a0 = s[0], b0 = 0.0, far = u[0] * u[0], stuck = stick;
+            for (int a = 1; a < d; a++) {
+                a0 -= mu * v[a] * s[a];
+                b0 += v[a] * u[a];
+            }
+            a0 = fmax(a0 / (1.0 + mu * mu), 0.0);
+            b0 = fmax(b0, 0.0);
+            for (int a = 0; a < d; a++) {
+                const double ds = s[a] - (a ? -mu * v[a] * a0 : a0),
+                             du = a ? u[a] - b0 * v[a] : 0.0;
+                far += ds * ds + du * du;
+                stuck += ds * ds;
+            }
+            least = fmin(least, fmin(far, stuck));
         }
-        t = sqrt(t);
-        const double along = (z[0] + mu * t) / (1.0 + mu * mu);
-        const int inside = z[0] >= 0.0 && t <= mu * z[0], apex = !inside && along <= 0.0;
-        for (int a = 0; a < d; a++) {
-            const double face = a ? along * mu * z[a] / t : along;
-            const double e = r[c * d + a] - (inside ? z[a] : apex ? 0.0 : face);
-            sum += e / k * (e / k);
-        }
+        sum += D * D * least;
     }
     return sqrt(sum / norm);
 }
@@ -88,13 +103,187 @@ TEST(the_scaled_measure_sees_no_units)
         for (int i = 0; i < d * NC; i++)
             r[i] = uniform_from(&seed);
         CHECK_OK(rb_friction_error(&p, r, NULL, NULL, &first));
-        CHECK_REL(first.scaled, measure_again(&p, r), 1e-12, "by hand, d = %d", d);
+        /* in space the direction of slip is not the very best one */
+        const double best = measure_again(&p, r);
+        CHECK_MAX(best, first.scaled * (1.0 + 1e-12), "by hand, d = %d", d);
+        CHECK_MAX(first.scaled, best * (d == 2 ? 1.0 + 1e-12 : 1.1), "by hand, d = %d", d);
         rescale(&p, 1e-6, 1e3);
         for (int i = 0; i < d * NC; i++)
             r[i] *= 1e9;
         CHECK_OK(rb_friction_error(&p, r, NULL, NULL, &again));
         CHECK_REL(again.scaled, first.scaled, 1e-12, "in other units");
         assert_true(again.residual > 10.0 * first.scaled); /* (13) adds forces to velocities */
+    }
+}
+
+/* Powers of two as the unit of each contact by itself: what a solver finds is the same, bit
+ * by bit, and so is the measure. */
+TEST(units_of_single_contacts_change_nothing)
+{
+    enum { NC = 7 };
+    int count;
+    const rb_friction_solver *all = rb_friction_solvers(&count);
+    for (int trial = 0; trial < 4; trial++) {
+        const int d = 2 + trial % 2, m = d * NC, global = trial > 1;
+        OWNED(rb_friction_problem) p;
+        double r[2][3 * NC], u[2][3 * NC], unit[NC];
+        random_problem(d, NC, 31u + (unsigned)trial, &p);
+        unsigned seed = 5u + (unsigned)trial;
+        for (int c = 0; c < NC; c++)
+            unit[c] = exp2(floor(20.0 * uniform_from(&seed)));
+        if (global) { /* K = 1, H = W's factor is not needed: any H will do */
+            p.form = RB_FRICTION_GLOBAL;
+            p.dofs = m;
+            p.f = rb_copy((size_t)m, p.q);
+            p.w = rb_alloc((size_t)m, 1);
+            rb_triplets t = {.rows = m, .cols = m};
+            for (int i = 0; i < m; i++) {
+                rb_triplets_add(&t, i, i, 2.0);
+                p.w[i] = 0.1 * p.q[i];
+            }
+            CHECK_OK(rb_sparse_from_triplets(&t, &p.K));
+            rb_triplets_free(&t);
+            CHECK_OK(rb_sparse_from_dense(m, m, p.W, m, &p.H));
+        }
+        for (int k = 0; k < count; k++) {
+            rb_friction_info info[2];
+            rb_status got[2];
+            if (d == 3 && (all[k].needs & RB_FRICTION_ONLY_2D))
+                continue;
+            for (int with = 0; with < 2; with++) {
+                for (int i = 0; with && i < m; i++) {
+                    const double D = unit[i / d];
+                    for (int j = 0; !global && j < m; j++)
+                        p.W[i + j * m] *= D * unit[j / d];
+                    for (int l = global ? p.H.p[i] : 0; global && l < p.H.p[i + 1]; l++)
+                        p.H.x[l] *= D;
+                    *(global ? &p.w[i] : &p.q[i]) *= D;
+                }
+                got[with] =
+                    rb_friction_solve(all[k].name, &p, NULL,
+                                      &(rb_friction_solution){r[with], u[with], NULL}, &info[with]);
+            }
+            for (int i = 0; i < m; i++) { /* back */
+                const double D = 1.0 / unit[i / d];
+                for (int j = 0; !global && j < m; j++)
+                    p.W[i + j * m] *= D / unit[j / d];
+                for (int l = global ? p.H.p[i] : 0; global && l < p.H.p[i + 1]; l++)
+                    p.H.x[l] *= D;
+                *(global ? &p.w[i] : &p.q[i]) *= D;
+            }
+            assert_int_equal(got[0], got[1]);
+            /* Lemke's path begins with one speed for all, which is another one in other units, and
+             * smoothing knows u and the balance of forces apart. */
+            const int same = strcmp(all[k].name, "lemke") != 0 &&
+                             !(global && strcmp(all[k].name, "soclcp-smoothing") == 0);
+            for (int i = 0; i < m && !same && got[0] == RB_OK; i++)
+                CHECK_ABS(r[1][i] * unit[i / d], r[0][i], 1e-7, "%s: r", all[k].name);
+            if (!same)
+                continue;
+            assert_int_equal(info[0].iters, info[1].iters);
+            CHECK_ABS(info[1].scaled, info[0].scaled, 0.0, "%s: scaled", all[k].name);
+            CHECK_ABS(info[1].worst, info[0].worst, 0.0, "%s: worst", all[k].name);
+            for (int i = 0; i < m; i++) {
+                CHECK_ABS(r[1][i] * unit[i / d], r[0][i], 0.0, "%s: r", all[k].name);
+                CHECK_ABS(u[1][i] / unit[i / d], u[0][i], 0.0, "%s: u", all[k].name);
+            }
+        }
+    }
+}
+
+/* Contacts in units of 10^-6 to 10^6: the same forces and velocities. */
+TEST(contacts_in_any_units_are_solved)
+{
+    enum { NC = 8 };
+    for (int trial = 0; trial < 50; trial++) {
+        const int d = 2 + trial % 2, m = d * NC;
+        OWNED(rb_friction_problem) p;
+        double r[2][3 * NC], u[2][3 * NC], unit[NC];
+        unsigned seed = 100u + (unsigned)trial;
+        random_problem(d, NC, 900u + (unsigned)trial, &p);
+        rb_friction_options opt = rb_friction_defaults();
+        opt.tol = 1e-10;
+        for (int with = 0; with < 2; with++) {
+            rb_friction_info info;
+            for (int i = 0; i < m && with; i++) {
+                unit[i / d] = i % d ? unit[i / d] : pow(10.0, 6.0 * uniform_from(&seed));
+                p.q[i] *= unit[i / d];
+            }
+            for (int k = 0; k < m * m && with; k++)
+                p.W[k] *= unit[k % m / d] * unit[k / m / d];
+            CHECK_OK(rb_friction_solve(NULL, &p, &opt,
+                                       &(rb_friction_solution){r[with], u[with], NULL}, &info));
+        }
+        for (int i = 0; i < m; i++) {
+            CHECK_ABS(r[1][i] * unit[i / d], r[0][i], 1e-7, "problem %d, r", trial);
+            CHECK_ABS(u[1][i] / unit[i / d], u[0][i], 1e-7, "problem %d, u", trial);
+        }
+    }
+}
+
+/* Bodies that stick, W = 1 + 0.1, q = -1 in every row: nothing falls through the floor.  (13)
+ * divides by mu the velocities with which it does. */
+TEST(no_mu_hides_a_penetration)
+{
+    static const double all[] = {1.0, 1e4, 1e8, 1e9, 1e10, 1e12, 1e14, 1e100, 1e300};
+    int count, solved = 0;
+    const rb_friction_solver *solvers = rb_friction_solvers(&count);
+    for (int trial = 0; trial < 18; trial++) {
+        const int d = 2 + trial % 2, m = 2 * d;
+        const double mu = all[trial / 2];
+        OWNED(rb_friction_problem) p = zero_local(d, 2);
+        double r[6], u[6];
+        for (int i = 0; i < m; i++) {
+            p.q[i] = -1.0;
+            for (int j = 0; j < m; j++)
+                p.W[i + j * m] = 0.1 + (i == j);
+        }
+        p.mu[0] = p.mu[1] = mu;
+        for (int k = 0; k < count; k++) {
+            rb_friction_info info;
+            if (d == 3 && (solvers[k].needs & RB_FRICTION_ONLY_2D))
+                continue;
+            const rb_status s = rb_friction_solve(solvers[k].name, &p, NULL,
+                                                  &(rb_friction_solution){r, u, NULL}, &info);
+            if (k == 0)
+                CHECK_OK(s);
+            if (s != RB_OK)
+                continue;
+            solved++;
+            /* at mu = 1 the tangents slip in space */
+            for (int i = 0; i < m; i++)
+                CHECK_MAX(-u[i - i % d], 1e-7, "%s at mu = %g: u_N", solvers[k].name, mu);
+            for (int i = 0; i < m && mu > 1.5; i++) {
+                CHECK_ABS(u[i], 0.0, 1e-7, "%s at mu = %g: u", solvers[k].name, mu);
+                CHECK_REL(r[i], 1.0 / (1.0 + 0.1 * m), 1e-6, "%s at mu = %g", solvers[k].name, mu);
+            }
+        }
+    }
+    assert_true(solved > 120);
+}
+
+/* A contact that is a million times lighter than its neighbours, and penetrates by two
+ * tolerances of its own velocities: not seen in the norm over all. */
+TEST(a_small_contact_counts_as_well)
+{
+    static const double all[] = {0.0, 1.0, 1e9};
+    for (int k = 0; k < 3; k++) {
+        OWNED(rb_friction_problem) p = zero_local(2, 3);
+        double r[6], u[6];
+        rb_friction_errors error;
+        for (int c = 0; c < 3; c++) {
+            p.W[(2 * c) * 7] = p.W[(2 * c + 1) * 7] = 1.0;
+            p.q[2 * c] = c == 1 ? -1e-3 : -1.0;
+            p.mu[c] = all[k];
+        }
+        rb_friction_info info;
+        CHECK_OK(rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, &info));
+        CHECK_MAX(info.worst, 1e-8, "solved, mu %g", all[k]);
+        r[2] *= 1.0 - 2e-8;
+        CHECK_OK(rb_friction_error(&p, r, NULL, u, &error));
+        CHECK_MAX(error.scaled, 1e-10, "the norm, mu %g", all[k]);
+        assert_int_equal(error.contact, 1);
+        CHECK_REL(error.worst, 1e-8, 0.02, "its own, mu %g", all[k]);
     }
 }
 

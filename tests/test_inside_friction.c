@@ -404,7 +404,7 @@ TEST(sweeps_that_stall_yield)
     pile(4, 3.0, &p);
     CHECK_OK(rb_friction_shared_init(&p, &shared, NULL));
     rb_friction_task task = {.shared = &shared,
-                             .problem = &p,
+                             .problem = shared.problem,
                              .measure = &shared.measure,
                              .best = &record,
                              .budget = INFINITY,
@@ -449,7 +449,7 @@ TEST(pauses_change_nothing)
         CHECK_OK(rb_friction_shared_init(&p, &shared, NULL));
         memset(r, 0, (size_t)m * sizeof *r);
         rb_friction_task task = {.shared = &shared,
-                                 .problem = &p,
+                                 .problem = shared.problem,
                                  .measure = &shared.measure,
                                  .best = &record,
                                  .opt = rb_friction_defaults(),
@@ -473,6 +473,7 @@ TEST(pauses_change_nothing)
         solver->run->finish(state_of);
         free(state_of);
         CHECK_OK(s);
+        rb_friction_scale_back(&shared.scaling, r, u);
         assert_true(pauses >= 1);
         assert_int_equal(parts.iters, info.iters);
         assert_int_equal(memcmp(r, whole, (size_t)m * sizeof *r), 0);

@@ -380,17 +380,18 @@ TEST(velocities_and_imbalance_are_those_of_the_structure)
     rb_sparse_free(&p.H);
 }
 
-/* || r - P(r - rho uhat) || / rho over the contacts, and the size of r in those units. */
-TEST(the_natural_norm_is_that_of_the_contacts)
+/* || r - P(r - uhat) || over the contacts in units of their own, and the size of r. */
+TEST(acarys_norm_is_that_of_the_contacts)
 {
     for (int d = 2; d <= 3; d++) {
-        double mu[NC], rho[2 * NC], r[3 * NC], u[3 * NC], work[3 * NC], one = 0.0;
-        double sum = 0.0, size = 0.0, with_rho_1;
+        double mu[NC], rho[2 * NC], unit[NC], r[3 * NC], u[3 * NC], work[3 * NC];
+        double sum[2] = {0.0, 0.0}, size = 0.0;
         const rb_friction_problem p = {.dimension = d, .contacts = NC, .mu = mu};
         for (int c = 0; c < NC; c++) {
             mu[c] = 0.2 * c;
             rho[2 * c] = 1.5 + uniform();
             rho[2 * c + 1] = NAN; /* of no use here */
+            unit[c] = c % 2 ? 0.25 : 8.0;
             for (int a = 0; a < d; a++) {
                 r[c * d + a] = c == 1 ? 0.0 : uniform();
                 u[c * d + a] = c == 1 && a == 0 ? 0.5 : uniform();
@@ -400,26 +401,102 @@ TEST(the_natural_norm_is_that_of_the_contacts)
                 for (int a = 1; a < d; a++)
                     r[c * d + a] = 0.0;
             }
-            for (int unit = 0; unit < 2; unit++) {
-                const double by = unit ? 1.0 : rho[2 * c], *uc = u + c * d;
-                double z[3], F[3];
+            for (int with = 0; with < 2; with++) {
+                const double by = with ? unit[c] : 1.0;
+                double z[3], F[3], uc[3];
                 for (int a = 0; a < d; a++)
-                    z[a] = r[c * d + a] - by * (uc[a] + (a ? 0.0 : mu[c] * tangential(d, uc)));
+                    uc[a] = u[c * d + a] / by;
+                for (int a = 0; a < d; a++)
+                    z[a] = by * r[c * d + a] - (uc[a] + (a ? 0.0 : mu[c] * tangential(d, uc)));
                 rb_friction_project(d, mu[c], z, z);
                 for (int a = 0; a < d; a++)
-                    F[a] = (r[c * d + a] - z[a]) / by;
-                *(unit ? &one : &sum) += dot(d, F, F);
+                    F[a] = by * r[c * d + a] - z[a];
+                sum[with] += dot(d, F, F);
             }
             size += dot(d, r + c * d, r + c * d) / (rho[2 * c] * rho[2 * c]);
         }
-        CHECK_REL(rb_friction_natural_norm(&p, rho, r, u, &with_rho_1), sqrt(sum), 1e-14, "norm");
-        CHECK_REL(with_rho_1, sqrt(one), 1e-14, "norm with rho = 1");
-        CHECK_REL(rb_friction_natural_norm(&p, rho, r, u, NULL), sqrt(sum), 1e-14, "norm");
+        CHECK_REL(rb_friction_acary_norm(&p, NULL, r, u), sqrt(sum[0]), 1e-14, "norm");
+        CHECK_REL(rb_friction_acary_norm(&p, unit, r, u), sqrt(sum[1]), 1e-14, "in other units");
         CHECK_REL(rb_friction_size(&p, rho, r, work), sqrt(size), 1e-14, "size");
         for (int k = 0; k < d * NC; k++)
             r[k] *= 1e200;
         CHECK_REL(rb_friction_size(&p, rho, r, work), 1e200 * sqrt(size), 1e-14,
                   "size beyond squares");
+    }
+}
+
+/* Points of the law are at distance zero, exactly where no rounding is in them, at every mu;
+ * away from it by eps in one direction, at eps. */
+TEST(the_distance_from_the_law)
+{
+    static const double all[] = {0.0, 0.3, 1.0, 4.0, 1e4, 1e9, 1e300};
+    for (int k = 0; k < 400; k++) {
+        const int d = 2 + k % 2;
+        const double mu = all[k % 7], rho = exp2(k % 9 - 4.0), eps = 1e-6 * (2.0 + uniform());
+        double r[3] = {0.0}, u[3] = {0.0}, v[3] = {0.0}, length = 0.0;
+        for (int a = 1; a < d; a++)
+            v[a] = uniform();
+        length = tangential(d, v);
+        for (int a = 1; a < d; a++)
+            v[a] /= length;
+
+        /* open */
+        for (int a = 1; a < d; a++)
+            u[a] = v[a];
+        u[0] = 0.5 + uniform();
+        u[0] = fabs(u[0]);
+        CHECK_ABS(rb_friction_law_distance(d, mu, rho, r, u), 0.0, 0.0, "open, mu %g", mu);
+        /* pulled at, on the slip's side of zero too */
+        r[0] = -eps * rho;
+        CHECK_REL(rb_friction_law_distance(d, mu, rho, r, u), eps, 1e-12, "pulled, mu %g", mu);
+        /* a velocity into the other body, whatever mu is: here all states are eps away */
+        for (int a = 0; a < d; a++)
+            r[a] = u[a] = 0.0;
+        u[0] = -eps;
+        CHECK_REL(rb_friction_law_distance(d, mu, rho, r, u), eps, 1e-15, "into, mu %g", mu);
+
+        /* stick, well within the cone */
+        for (int a = 0; a < d; a++)
+            u[a] = 0.0;
+        r[0] = rho * (1.0 + 0.5 * uniform());
+        for (int a = 1; a < d; a++)
+            r[a] = 0.5 * fmin(mu, 1.0) * r[0] * v[a];
+        CHECK_ABS(rb_friction_law_distance(d, mu, rho, r, u), 0.0, 0.0, "stick, mu %g", mu);
+        u[0] = -eps;
+        CHECK_REL(rb_friction_law_distance(d, mu, rho, r, u), eps, 1e-12, "stick, into");
+        u[0] = 0.0;
+        for (int a = 1; a < d && mu > 0.0; a++)
+            u[a] = eps * v[a];
+        if (mu > 0.0)
+            CHECK_REL(rb_friction_law_distance(d, mu, rho, r, u), eps, 1e-12, "stick, dragged");
+
+        /* slip, r_T opposite to u_T; mu beyond 1e9 leaves no r_N beside r_T */
+        if (mu > 1e4)
+            continue;
+        for (int a = 1; a < d; a++) {
+            u[a] = 2.0 * v[a];
+            r[a] = -mu * r[0] * v[a];
+        }
+        u[0] = 0.0;
+        const double L = hypot(1.0, mu);
+        CHECK_MAX(rb_friction_law_distance(d, mu, rho, r, u), 1e-15 * L * r[0] / rho, "slip");
+        u[0] = eps;
+        CHECK_REL(rb_friction_law_distance(d, mu, rho, r, u), eps, 1e-8, "slip, leaving");
+        u[0] = 0.0;
+        for (int a = 1; a < d; a++)
+            r[a] -= eps * rho * v[a];                                 /* out of the cone */
+        const double exact = 1e-15 * L * r[0] / rho + 1e-8 * eps / L; /* of rounding r */
+        CHECK_ABS(rb_friction_law_distance(d, mu, rho, r, u), eps / L, exact, "slip, mu %g", mu);
+        for (int a = 1; a < d; a++)
+            r[a] += 2.0 * eps * rho * v[a]; /* too little */
+        if (mu > 0.0)
+            CHECK_ABS(rb_friction_law_distance(d, mu, rho, r, u), eps / L, exact, "too little");
+        for (int a = 1; a < d; a++) {
+            r[a] = mu * r[0] * v[a]; /* along the slip instead of opposite to it */
+            u[a] = eps * v[a];
+        }
+        if (mu > 1e-6)
+            CHECK_REL(rb_friction_law_distance(d, mu, rho, r, u), eps, 1e-8, "along, mu %g", mu);
     }
 }
 

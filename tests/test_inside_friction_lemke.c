@@ -137,7 +137,7 @@ static void prepare(const rb_friction_problem *p, bench *b)
     *b = (bench){.record = {.r = b->best, .error = INFINITY}};
     CHECK_OK(rb_friction_shared_init(p, &b->shared, NULL));
     b->task = (rb_friction_task){.shared = &b->shared,
-                                 .problem = p,
+                                 .problem = b->shared.problem,
                                  .measure = &b->shared.measure,
                                  .best = &b->record,
                                  .opt = rb_friction_defaults(),
@@ -190,6 +190,7 @@ TEST(every_attempt_solves_by_itself)
                 CHECK_STATUS(s, RB_SINGULAR);
             else if (s != RB_OK && s != RB_RAY)
                 fail_msg("kind %d, attempt %d: %s", (int)k, a, rb_status_text(s));
+            rb_friction_scale_back(&b.shared.scaling, b.r, NULL);
             if (s == RB_OK) {
                 CHECK_MAX(violation(&p, b.r, b.v), 1e-9, "kind %d, attempt %d", (int)k, a);
                 CHECK_REL(b.info.flops, operations(k, a, &p, b.info.iters), 1e-12,

@@ -154,6 +154,11 @@ int *rb_alloc_int(size_t n);
 /* n doubles with the values of x; NULL when memory is short.  Released with free(). */
 double *rb_copy(size_t n, const double *x);
 
+/* The sign -1, 0 or 1 of sum a_i b_i, without rounding; RB_SIGN_UNKNOWN: a product is too
+ * small or too large for that, or memory is short. */
+enum { RB_SIGN_UNKNOWN = 2 };
+int rb_exact_sign(size_t n, const double *a, const double *b);
+
 /* Scratch memory: arrays that a function needs for itself.  It allocates all of them, asks
  * once whether there was memory, and returns rb_arena_done(...) at each exit, which frees
  * them and returns the status:

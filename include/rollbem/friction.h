@@ -125,15 +125,22 @@ rb_status rb_friction_write(const char *path, const rb_friction_problem *problem
 
 /* ---- Measure of error -------------------------------------------------------------- */
 
-/* residual: equation (13) of *Acary*, rho = 1: ||r - P_K(r - uhat)|| / ||q|| (||F||
- * itself where q = 0), which adds forces to velocities and therefore depends on units.
- * scaled: the measure that decides whether a problem is solved; (13) with rho_c = 1/W_NN
- * of the diagonal block of each contact, in units of velocity: || (r - P_K(r - rho_c
- * uhat)) / rho_c || / ||q||.  Multiplying W, q, lengths or masses by constants does not
- * change it.  Global form: W_NN is estimated from diag(K). floor: the size that both can
- * have because of rounding errors of the data. */
+/* scaled: the measure that decides whether a problem is solved.  With rho_c = 1/W_NN of
+ * the diagonal block of each contact, (r_c / rho_c, u_c) is a point whose coordinates are
+ * velocities; Coulomb's law allows those with r = 0 and u_N >= 0, with u = 0 and r in K,
+ * or with u_N = 0 and r on the face of K opposite to u_T.  scaled is the norm over all
+ * contacts of the distances from these points, over ||q||.  Before, contacts are scaled
+ * by powers of two such that no W_NN is more than twice or less than half of the first
+ * one: units of single contacts do not change it.  Global form: W_NN is estimated from diag(K).
+ * worst: the largest distance of one contact, its number in `contact` (-1: none), as a
+ * part of its own velocities |W| |r| + |q| and |r| / rho, but at least of 1e-4 ||q||;
+ * "solved" needs both.  residual: equation (13) of *Acary*, ||r - P_K(r - uhat)|| / ||q||
+ * (||F|| itself where q = 0), which adds forces to velocities and therefore depends on
+ * units, and divides penetrations by mu.  floor: the size that the measures can have
+ * because of rounding errors of the data. */
 typedef struct {
-    double residual, scaled, floor;
+    double residual, scaled, floor, worst;
+    int contact;
 } rb_friction_errors;
 
 /* Computes the errors of a solution.  u is recomputed from r (in the global form by K v =
@@ -148,13 +155,12 @@ rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,
 typedef struct {
     const char *solver;
     int iters;           /* of this solver so far; in "auto" of the method that runs */
-    double flops, error; /* operations so far; error in the scaled measure */
-    const double *r;     /* m */
+    double flops, error; /* operations so far; error in the chosen measure */
 } rb_friction_progress;
 
 /* Which of the two residuals decides. */
 typedef enum {
-    RB_FRICTION_BY_SCALED, /* rho = 1/W_NN of each contact */
+    RB_FRICTION_BY_SCALED, /* the distance from Coulomb's law */
     RB_FRICTION_BY_ACARY   /* (13), rho = 1 */
 } rb_friction_measure_name;
 
@@ -177,6 +183,8 @@ typedef struct {
     int iters;          /* Newton steps, sweeps, pivots */
     double residual;    /* as in rb_friction_errors, recomputed from r (and v) alone */
     double scaled;      /* likewise; decides unless RB_FRICTION_BY_ACARY was chosen */
+    double worst;       /* likewise, with scaled */
+    int contact;        /* of `worst`, or -1 */
     rb_friction_measure_name measure; /* which of them decides */
     double floor;
     double flops; /* floating-point operations, counted as in docs/friction.md */
@@ -212,7 +220,8 @@ int rb_friction_note(double tol, const rb_friction_info *info, rb_message *note)
 
 /* solver NULL: "auto".  opt NULL: defaults.  solution: r, u and (unless NULL) v are
  * written; if the problem is not solved, they are the best iterate.  RB_OK: the residual
- * in the chosen measure is at most max(tol, floor). RB_MAXITER, RB_RAY, RB_SINGULAR,
+ * in the chosen measure is at most max(tol, floor), and below tol, in the scaled measure,
+ * so is that of every contact. RB_MAXITER, RB_RAY, RB_SINGULAR,
  * RB_INACCURATE, RB_INTERRUPTED (time limit): not solved. RB_EINVAL: unknown solver, or
  * the problem is refused by rb_friction_problem_check or by the solver; info->msg has the
  * reason. info: written, or NULL. */
@@ -235,8 +244,10 @@ rb_friction_problem rb_friction_of_cone(const rb_contact_cone *cone);
  * *least is INFINITY if there is no solution and 0 if y proves nothing. RB_EINVAL: global
  * form; RB_ENOMEM. */
 rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y, double *least);
-/* Returns 1 if a problem of either form is proved to have no solution: the bound *least
- * is out of all proportion to *given, the sum of the given velocities. */
+/* Returns 1 if a problem of either form is proved to have no solution: such a y was found,
+ * and neither the sums that must vanish nor the signs of the others owe anything to
+ * rounding.  Otherwise every solution has a sum W_NN r_N of at least *least, which may be
+ * 0; *given: the sum of the moduli of q. */
 int rb_friction_has_no_solution(const rb_friction_problem *problem, double *least, double *given);
 
 /* ---- One structure, many loads ----------------------------------------------------- */

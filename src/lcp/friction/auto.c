@@ -323,6 +323,8 @@ static rb_status run_auto(rb_friction_task *task, int variant)
         info->residual = proof->residual;
         info->scaled = proof->scaled;
         info->floor = proof->floor;
+        info->worst = proof->worst;
+        info->contact = proof->contact;
         info->measure = proof->measure;
     }
     for (int k = 0; k < p.members; k++)

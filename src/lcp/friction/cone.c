@@ -93,27 +93,93 @@ static inline double natural_square(int d, double mu, double rho, const double *
     return square / (rho * rho);
 }
 
-static inline double natural_norm(int d, const rb_friction_problem *problem, const double *rho,
-                                  const double *r, const double *u, double *with_rho_1)
+double rb_friction_acary_norm(const rb_friction_problem *problem, const double *unit,
+                              const double *r, const double *u)
 {
-    double sum = 0.0, sum_1 = 0.0;
+    const int d = problem->dimension;
+    double sum = 0.0;
     for (int c = 0; c < problem->contacts; c++, r += d, u += d) {
         if (r[0] == 0.0 && r[1] == 0.0 && r[d - 1] == 0.0 && u[0] >= 0.0)
             continue; /* open: F = 0 */
-        sum += natural_square(d, problem->mu[c], rho[2 * c], r, u);
-        if (with_rho_1)
-            sum_1 += natural_square(d, problem->mu[c], 1.0, r, u);
+        /* D r and u / D with rho = 1 */
+        const double own = unit ? unit[c] : 1.0, rho = 1.0 / (own * own);
+        sum += natural_square(d, problem->mu[c], rho, r, u) * rho;
     }
-    if (with_rho_1)
-        *with_rho_1 = sqrt(sum_1);
     return sqrt(sum);
 }
 
-double rb_friction_natural_norm(const rb_friction_problem *problem, const double *rho,
-                                const double *r, const double *u, double *with_rho_1)
+/* ---- The law of one contact ---------------------------------------------------------- */
+
+/* Squared distance of (s, u), s = r / rho, to the graph of the law, which is the union of
+ *     open   s = 0, u_N >= 0
+ *     stick  u = 0, s in K
+ *     slip   u_N = 0, s = a (1, -mu v), u_T = b v;  a, b >= 0, |v| = 1.
+ * Of slip the direction v is that of u_T or of -s_T, whichever is nearer: in 2D that is
+ * exact, in 3D within sqrt 2.  Unlike the natural map, which is the distance of uhat to
+ * the dual cone, this neither divides u_N by mu nor multiplies u_T by it. */
+static inline double law_square(int d, double mu, double rho, const double *r, const double *u)
 {
-    return problem->dimension == 2 ? natural_norm(2, problem, rho, r, u, with_rho_1)
-                                   : natural_norm(3, problem, rho, r, u, with_rho_1);
+    double s[3], closed = 0.0, force = 0.0;
+    for (int a = 0; a < d; a++) {
+        s[a] = r[a] / rho;
+        force += s[a] * s[a];
+        closed += u[a] * u[a];
+    }
+    const double un = u[0], into = un < 0.0 ? un * un : 0.0;
+    double least = force + into; /* open */
+    if (un * un >= least)
+        return least; /* closed is further away */
+
+    /* Stick: out is how far s lies outside of the face of K, along the face's normal. */
+    const double length = hypot(1.0, mu), wn = 1.0 / length, wt = mu / length;
+    const double st = tangential(d, s), ut = tangential(d, u), out = wn * st - wt * s[0];
+    if (out <= 0.0 && s[0] >= 0.0)
+        least = fmin(least, closed);
+    else
+        least = fmin(least, closed + (wn * s[0] + wt * st > 0.0 ? out * out : force));
+
+    /* Slip: the parts of s and u beside the two half-lines. */
+    for (int which = 0; which < 2; which++) {
+        const double *along = which ? s : u, size = which ? -st : ut;
+        double v[3] = {0.0, 0.0, 0.0}, sv = 0.0, uv = 0.0, sum = un * un;
+        if (size == 0.0)
+            continue;
+        for (int a = 1; a < d; a++) {
+            v[a] = along[a] / size;
+            sv += v[a] * s[a];
+            uv += v[a] * u[a];
+        }
+        const double a0 = fmax(wn * s[0] - wt * sv, 0.0), b0 = fmax(uv, 0.0);
+        sum += (s[0] - a0 * wn) * (s[0] - a0 * wn);
+        for (int a = 1; a < d; a++) {
+            const double ds = s[a] + a0 * wt * v[a], du = u[a] - b0 * v[a];
+            sum += ds * ds + du * du;
+        }
+        least = fmin(least, sum);
+    }
+    return least;
+}
+
+double rb_friction_law_distance(int d, double mu, double rho, const double *r, const double *u)
+{
+    return sqrt(law_square(d, mu, rho, r, u));
+}
+
+static inline double law_norm(int d, const rb_friction_problem *problem, const double *rho,
+                              const double *r, const double *u)
+{
+    double sum = 0.0;
+    for (int c = 0; c < problem->contacts; c++, r += d, u += d)
+        if (!(r[0] == 0.0 && r[1] == 0.0 && r[d - 1] == 0.0 && u[0] >= 0.0))
+            sum += law_square(d, problem->mu[c], rho[2 * c], r, u);
+    return sqrt(sum);
+}
+
+double rb_friction_law_norm(const rb_friction_problem *problem, const double *rho, const double *r,
+                            const double *u)
+{
+    return problem->dimension == 2 ? law_norm(2, problem, rho, r, u)
+                                   : law_norm(3, problem, rho, r, u);
 }
 
 double rb_friction_size(const rb_friction_problem *problem, const double *rho, const double *r,

@@ -142,9 +142,7 @@ static double look(sweeper *s, int refresh)
 {
     rb_friction_task *t = s->task;
     const double tol = t->opt.tol;
-    const double error =
-        rb_friction_natural_norm(t->problem, t->measure->deciding, t->r, t->u, NULL) /
-        t->measure->scale;
+    const double error = rb_friction_measure_of(t->measure, t->r, t->u);
     t->info->flops += 25.0 * t->m;
     const int clear = error > tol || (error <= 0.5 * tol && tol >= SAFE_TOLERANCE);
     if (!clear || refresh)

@@ -144,23 +144,124 @@ rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y, do
     return st;
 }
 
+/* ---- Whether it is one without rounding --------------------------------------------- */
+
+/* The sign of y' of the column `row` of W_N, the rows of the normal velocities (global:
+ * of the row of H'_N): a and b have room for the entries; *size: the sum of their
+ * moduli. */
+static int sign_of_column(const rb_friction_problem *p, const double *y, int row, double *a,
+                          double *b, double *value, double *size)
+{
+    const int d = p->dimension, nc = p->contacts;
+    int count = 0;
+    *value = *size = 0.0;
+    if (p->form == RB_FRICTION_LOCAL_SPARSE) {
+        for (int k = p->Ws.p[row]; k < p->Ws.p[row + 1]; k++)
+            if (p->Ws.i[k] % d == 0) {
+                a[count] = p->Ws.x[k];
+                b[count++] = y[p->Ws.i[k] / d];
+            }
+    } else
+        for (int c = 0; c < nc; c++) {
+            a[count] = p->W[(size_t)(c * d) + (size_t)row * (size_t)(d * nc)];
+            b[count++] = y[c];
+        }
+    for (int k = 0; k < count; k++) {
+        *value += a[k] * b[k];
+        *size += fabs(a[k] * b[k]);
+    }
+    return rb_exact_sign((size_t)count, a, b);
+}
+
+/* 1: y >= 0 proves that the problem as it is given has no solution.  Local form: -W_N'y in
+ * K* and y'q_N < 0; global form: H_N y = 0 and y'w_N < 0.  Sums that are zero have no
+ * rounding; others decide where they are far above it. */
+static int proves(const rb_friction_problem *p, const double *y)
+{
+    const int d = p->dimension, nc = p->contacts, global = p->form == RB_FRICTION_GLOBAL;
+    rb_sparse rows = {0}; /* H': a column per degree of freedom */
+    double *a = rb_alloc((size_t)nc, 2), *b = a + nc;
+    int yes = a && (!global || rb_sparse_transpose(&p->H, &rows) == RB_OK);
+    for (int i = 0; yes && global && i < p->dofs; i++) {
+        int count = 0;
+        for (int k = rows.p[i]; k < rows.p[i + 1]; k++)
+            if (rows.i[k] % d == 0) {
+                a[count] = rows.x[k];
+                b[count++] = y[rows.i[k] / d];
+            }
+        yes = rb_exact_sign((size_t)count, a, b) == 0;
+    }
+    for (int c = 0; yes && !global && c < nc; c++) {
+        double h[3] = {0.0}, size, sum = 0.0;
+        int zero = 1;
+        for (int k = d - 1; k >= 0; k--) {
+            const int sign = sign_of_column(p, y, c * d + k, a, b, &h[k], &size);
+            sum += size;
+            zero &= k == 0 ? sign == 0 || sign == -1 : sign == 0 || p->mu[c] == 0.0;
+        }
+        const double rounding = 1e-14 * (nc + 4.0) * (1.0 + p->mu[c]) * sum;
+        yes = zero || -h[0] - p->mu[c] * rb_friction_tangential(d, h) > rounding;
+    }
+    for (int c = 0; yes && c < nc; c++) {
+        a[c] = (global ? p->w : p->q)[c * d];
+        b[c] = y[c];
+    }
+    yes = yes && rb_exact_sign((size_t)nc, a, b) == -1;
+    rb_sparse_free(&rows);
+    free(a);
+    return yes;
+}
+
+/* The same of y as the search has left it, and of the multiples of it that are nearly whole
+ * numbers: walls and stacks that cannot all hold leave sums of the same few normals. */
+static int proves_nearly(const rb_friction_problem *p, const double *unit, const double *y,
+                         double *rounded)
+{
+    enum { MULTIPLES = 64 };
+    const double most = rb_norm_inf((size_t)p->contacts, y);
+    for (int by = 0; by <= MULTIPLES && most > 0.0; by++) {
+        double off = 0.0;
+        for (int c = 0; c < p->contacts; c++) {
+            const double x = y[c] / most * (by ? by : 1.0), whole = by ? round(x) : x;
+            off = fmax(off, fabs(x - whole));
+            rounded[c] = whole * (unit ? unit[c] : 1.0);
+        }
+        if (off <= 1e-5 && proves(p, rounded))
+            return 1;
+    }
+    return 0;
+}
+
 int rb_friction_has_no_solution(const rb_friction_problem *problem, double *least, double *given)
 {
-    static const double beyond_all = 1e8; /* of the velocities that are given */
-    rb_friction_problem condensed = {0};
     const int global = problem->form == RB_FRICTION_GLOBAL;
-    const rb_friction_problem *local = global ? &condensed : problem;
-    double *y = rb_alloc((size_t)problem->contacts, 1);
-    rb_status s = y ? RB_OK : RB_ENOMEM;
+    rb_friction_scaling scaling;
+    double *y = rb_alloc((size_t)problem->contacts, 2);
+    rb_status s = rb_friction_scaling_init(problem, &scaling);
+    int yes = 0;
 
     *least = *given = 0.0;
-    if (s == RB_OK && global)
-        s = rb_friction_condense(problem, &condensed, NULL);
-    if (s == RB_OK)
-        s = rb_friction_infeasible(local, y, least);
-    for (int i = 0; s == RB_OK && i < problem->dimension * problem->contacts; i++)
-        *given += fabs(local->q[i]);
-    rb_friction_problem_free(&condensed);
+    s = y ? s : RB_ENOMEM;
+    /* As it is given, and with contacts in units of their own. */
+    for (int own = 0; s == RB_OK && !yes && own < (scaling.unit ? 2 : 1); own++) {
+        rb_friction_problem condensed = {0};
+        const rb_friction_problem *p = own ? &scaling.problem : problem;
+        const rb_friction_problem *local = global ? &condensed : p;
+        double bound = 0.0;
+        if (global)
+            s = rb_friction_condense(p, &condensed, NULL);
+        if (s == RB_OK)
+            s = rb_friction_infeasible(local, y, &bound);
+        for (int i = 0; s == RB_OK && !own && i < p->dimension * p->contacts; i++)
+            *given += fabs(local->q[i]);
+        if (!own)
+            *least = bound;
+        /* u = D u of the problem with units of its own: y'u = (D y)'u. */
+        yes = s == RB_OK &&
+              proves_nearly(problem, own ? scaling.unit : NULL, y, y + problem->contacts);
+        rb_friction_problem_free(&condensed);
+    }
+    rb_friction_scaling_free(&scaling);
     free(y);
-    return s == RB_OK && *least > beyond_all * *given;
+    return yes;
 }

@@ -21,12 +21,17 @@ void rb_friction_project(int d, double mu, const double *z, double *p);
 void rb_friction_project_derivative(int d, double mu, const double *z, double *D);
 /* ||x_T|| of the d entries of one contact */
 double rb_friction_tangential(int d, const double *x);
-/* F = (r - P_K(r - rho (u + mu ||u_T|| e_N))) / rho over all contacts; its 2-norm.  rho:
- * every second entry, as rb_friction_rho writes it.  with_rho_1: the norm of F with
- * rho = 1, written, or NULL. */
-double rb_friction_natural_norm(const rb_friction_problem *problem, const double *rho,
-                                const double *r, const double *u, double *with_rho_1);
-/* ||r_c / rho_c|| over all contacts, rho as before; work: m, written where squares could
+/* (13) of *Acary*: || r - P_K(r - u - mu ||u_T|| e_N) || over all contacts, of the forces
+ * D r and the velocities u / D; unit: contacts, D, or NULL: ones. */
+double rb_friction_acary_norm(const rb_friction_problem *problem, const double *unit,
+                              const double *r, const double *u);
+/* How far (r / rho, u) of a contact is away from what Coulomb's law allows, a velocity;
+ * and the norm of these distances.  rho: every second entry, as rb_friction_rho writes
+ * it. */
+double rb_friction_law_distance(int d, double mu, double rho, const double *r, const double *u);
+double rb_friction_law_norm(const rb_friction_problem *problem, const double *rho, const double *r,
+                            const double *u);
+/* ||r_c / rho_c|| over all contacts; work: m, written where squares could
  * overflow or underflow. */
 double rb_friction_size(const rb_friction_problem *problem, const double *rho, const double *r,
                         double *work);
@@ -34,25 +39,47 @@ double rb_friction_norm(size_t n, const double *x);
 
 /* ---- Units (rho.c) ----------------------------------------------------------------- */
 
-/* 2 per contact: rho_n = 1/W_NN, rho_t = 1/(largest eigenvalue of W_TT) of the block of
- * the contact; if the block is zero, of the mean of all.  Global form: estimated from
- * diag(K). */
+/* 2 per contact, of its own block: W_NN and the largest eigenvalue of W_TT.  Global form:
+ * estimated from diag(K). */
+rb_status rb_friction_compliances(const rb_friction_problem *problem, double *own_block);
+/* Their inverses, rho_n and rho_t; where the block is zero, that of the mean of all. */
 rb_status rb_friction_rho(const rb_friction_problem *problem, double *rho);
+
+/* ---- Contacts in units of their own (scaling.c) ------------------------------------- */
+
+/* The problem that is solved: force D r and velocity u / D of each contact, D a power of
+ * two that brings W_NN over that of the first contact into [1/2, 2).  Where all D are the
+ * same it is the given problem. */
+typedef struct {
+    rb_friction_problem problem; /* borrows all but W, q, H and w where unit is not NULL */
+    double *unit;                /* contacts: D, owned; NULL: the given problem */
+} rb_friction_scaling;
+
+rb_status rb_friction_scaling_init(const rb_friction_problem *given, rb_friction_scaling *scaling);
+/* After q, or f and w, have changed. */
+void rb_friction_scaling_reload(const rb_friction_problem *given, rb_friction_scaling *scaling);
+void rb_friction_scaling_free(rb_friction_scaling *scaling);
+/* r and u (m each, u NULL: none) of the given problem become those of the one that is
+ * solved, and back. */
+void rb_friction_scale(const rb_friction_scaling *scaling, double *r, double *u);
+void rb_friction_scale_back(const rb_friction_scaling *scaling, double *r, double *u);
 
 /* ---- Measure (measure.c) ----------------------------------------------------------- */
 
 typedef struct {
     const rb_friction_problem *problem;
+    const double *unit;         /* of its scaling, or NULL; borrowed */
     double scale;               /* ||q||, or 1 if q = 0 */
+    double given_scale;         /* the same in the given units */
     rb_sparse_cholesky *factor; /* GLOBAL: factorisation of K, or of K + k H H' if K is singular */
-    double spring;              /* k; 0 if K is regular */
-    double *y;                  /* m, workspace; its memory also contains e, dv, rho and ones */
+    double spring;              /* k in the given units; 0 if K is regular */
+    double *y;                  /* m, workspace; its memory also contains e, dv and rho */
     double *e, *dv;             /* n each, workspace */
-    double *rho, *ones;         /* 2 per contact; ones: (13) */
-    const double *deciding;     /* one of them */
+    double *rho;                /* 2 per contact */
+    int acary;                  /* 1: (13) decides */
 } rb_friction_measure;
 
-rb_status rb_friction_measure_init(const rb_friction_problem *problem,
+rb_status rb_friction_measure_init(const rb_friction_scaling *scaling,
                                    rb_friction_measure *measure);
 /* Call it after q, or f and w, have changed. */
 rb_status rb_friction_measure_reload(rb_friction_measure *measure);
@@ -61,11 +88,20 @@ rb_status rb_friction_measure_reload(rb_friction_measure *measure);
  * measures, the second being (13). */
 rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *r, double *v,
                                     double *u, double *scaled, double *paper);
+/* The chosen measure of forces and velocities that belong together. */
+double rb_friction_measure_of(const rb_friction_measure *measure, const double *r, const double *u);
 /* The resolution of the measure for forces of the size of r: smaller values are
  * meaningless (for very large r the measure is exactly 0). */
 double rb_friction_measure_resolution(const rb_friction_measure *measure, const double *r);
 double rb_friction_measure_floor(const rb_friction_measure *measure, const double *r,
                                  const double *v);
+/* The largest distance of one contact from its law, as a part of its own velocities: the
+ * terms of its rows |W| |r| + |q| (global: |H'| |v| + |w|), its own |r| / rho, and at
+ * least 1e-4 of ||q||.  contact: its number, or -1; may be NULL. */
+double rb_friction_measure_worst(const rb_friction_measure *measure, const double *r,
+                                 const double *u, const double *v, int *contact);
+/* Global form.  k of a row in the units of the problem that is solved. */
+double rb_friction_measure_spring(const rb_friction_measure *measure, int row);
 /* Global form.  v = K_k^-1 (H (r + k (u - w)) + f): the displacements that go with r and
  * u. */
 rb_status rb_friction_measure_displacement(rb_friction_measure *measure, const double *r,
@@ -127,7 +163,9 @@ int rb_friction_contact_fixed_point(const rb_friction_contact *contact, double *
 
 /* Data shared by all methods that solve one problem. */
 typedef struct {
-    const rb_friction_problem *problem; /* as given; borrowed */
+    const rb_friction_problem *given; /* borrowed */
+    rb_friction_scaling scaling;
+    const rb_friction_problem *problem; /* the one that is solved: of scaling */
     const rb_friction_problem *local;   /* its local form; NULL: not condensed */
     rb_friction_problem condensed;      /* `local` points to it if W was not given */
     rb_friction_blocks blocks;          /* of local, computed at first use */

@@ -198,6 +198,7 @@ static rb_status run_attempt(lemke *s, const attempt *a)
         t->u[2 * c] = displacement[c] / s->unit;
         t->u[2 * c + 1] = sign * (displacement[nc + c] - u_minus[2 * nc + c]) / s->unit;
     }
+    rb_friction_scale(&t->shared->scaling, t->r, t->u);
     if (t->n)
         st = rb_friction_measure_displacement(t->measure, t->r, t->u, t->v);
     if (st == RB_OK && !rb_friction_task_accepts(t, rb_friction_task_error(t)))
@@ -247,8 +248,19 @@ static rb_status try(lemke *s, const attempt *a)
             if (st == RB_OK)
                 scatter(&held, s->W);
             for (size_t k = 0; st == RB_OK && k < m * m; k++)
-                s->E[k] = (k % (m + 1) == 0) - t->measure->spring * s->W[k];
+                s->E[k] = (k % (m + 1) == 0) -
+                          rb_friction_measure_spring(t->measure, (int)(k / m)) * s->W[k];
             rb_sparse_free(&held);
+        }
+        /* In the given units: where ones are the cover, all contacts open at one speed. */
+        const double *unit = t->shared->scaling.unit;
+        for (size_t j = 0; st == RB_OK && unit && j < m; j++) {
+            for (size_t i = 0; i < m; i++) {
+                s->W[i + j * m] /= unit[i / 2] * unit[j / 2];
+                if (s->E)
+                    s->E[i + j * m] *= unit[j / 2] / unit[i / 2];
+            }
+            s->q[j] /= unit[j / 2];
         }
         double trace = 0.0;
         for (size_t k = 0; st == RB_OK && k < m; k++)

@@ -41,22 +41,26 @@ rb_status rb_friction_lemke_pairs(rb_friction_task *task)
     if (s != RB_OK || !left)
         return s != RB_OK ? s : RB_MAXITER;
     double *q = rb_alloc(4 * (size_t)nc, 2), *z = q ? q + 4 * (size_t)nc : NULL;
-    /* W's mean diagonal: with W and q divided by it all unknowns but lambda are forces. */
+    /* W in the given units, in which the cover of ones opens all contacts at one speed, and
+     * its mean diagonal: with W and q divided by it all unknowns but lambda are forces. */
+    const double *D = task->shared->scaling.unit;
     double sum = 0.0;
     for (int c = 0; c < w->contacts; c++) {
         const double *x = w->x + 4 * (size_t)w->diag[c];
-        sum += fabs(x[0]) + fabs(x[3]);
+        sum += (fabs(x[0]) + fabs(x[3])) / (D ? D[c] * D[c] : 1.0);
     }
     const double unit = sum > 0.0 ? sum / (2.0 * w->contacts) : 1.0;
     static const double sign[] = {1.0, 1.0, -1.0};
     rb_triplets t = {.rows = 4 * nc, .cols = 4 * nc};
     for (int c = 0; c < nc; c++) {
-        for (int k = w->p[c]; k < w->p[c + 1]; k++)
+        for (int k = w->p[c]; k < w->p[c + 1]; k++) {
+            const double by = unit * (D ? D[c] * D[w->i[k]] : 1.0);
             for (int a = 0; a < 3; a++)
                 for (int b = 0; b < 3; b++) {
                     const double x = w->x[4 * (size_t)k + (a > 0) + 2 * (b > 0)];
-                    put(&t, a * nc + w->i[k], b * nc + c, sign[a] * sign[b] * x / unit);
+                    put(&t, a * nc + w->i[k], b * nc + c, sign[a] * sign[b] * x / by);
                 }
+        }
         put(&t, nc + c, 3 * nc + c, 1.0);
         put(&t, 2 * nc + c, 3 * nc + c, 1.0);
         put(&t, 3 * nc + c, c, local->mu[c]);
@@ -66,8 +70,9 @@ rb_status rb_friction_lemke_pairs(rb_friction_task *task)
     s = q ? rb_sparse_from_triplets(&t, &M) : RB_ENOMEM;
     rb_triplets_free(&t);
     for (int c = 0; s == RB_OK && c < nc; c++) {
-        q[c] = local->q[2 * c] / unit;
-        q[nc + c] = local->q[2 * c + 1] / unit;
+        const double by = unit * (D ? D[c] : 1.0);
+        q[c] = local->q[2 * c] / by;
+        q[nc + c] = local->q[2 * c + 1] / by;
         q[2 * nc + c] = -q[nc + c];
         q[3 * nc + c] = 0.0;
     }
@@ -84,6 +89,7 @@ rb_status rb_friction_lemke_pairs(rb_friction_task *task)
             task->r[2 * c] = z[c];
             task->r[2 * c + 1] = fmin(fmax(z[nc + c] - z[2 * nc + c], -limit), limit);
         }
+        rb_friction_scale(&task->shared->scaling, task->r, NULL);
         if (!rb_friction_task_accepts(task, rb_friction_task_error(task)))
             s = RB_INACCURATE;
     }

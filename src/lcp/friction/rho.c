@@ -8,13 +8,11 @@
 /* Of finite-element structures diag(K)^-1 is about a tenth of a node's compliance. */
 #define DIAGONAL_SHARE 0.1
 
-rb_status rb_friction_rho(const rb_friction_problem *p, double *rho)
+rb_status rb_friction_compliances(const rb_friction_problem *p, double *own_block)
 {
-    const int both = 2 * p->contacts;
-    double sum = 0.0, w[9];
-    int count = 0;
-    for (int k = 0; k < both; k++)
-        rho[k] = 0.0;
+    double w[9];
+    for (int k = 0; k < 2 * p->contacts; k++)
+        own_block[k] = 0.0;
     if (p->form == RB_FRICTION_GLOBAL) { /* from the diagonal of H' diag(K)^-1 H */
         const rb_sparse *h = &p->H;
         const int d = p->dimension;
@@ -24,7 +22,7 @@ rb_status rb_friction_rho(const rb_friction_problem *p, double *rho)
         for (int j = 0; j < p->dofs; j++)
             diagonal[j] = rb_sparse_diagonal(&p->K, j);
         for (int j = 0; j < h->cols; j++) {
-            double own = 0.0, *at = &rho[2 * (j / d) + (j % d > 0)];
+            double own = 0.0, *at = &own_block[2 * (j / d) + (j % d > 0)];
             for (int k = h->p[j]; k < h->p[j + 1]; k++)
                 if (diagonal[h->i[k]] > 0.0)
                     own += h->x[k] * h->x[k] / (DIAGONAL_SHARE * diagonal[h->i[k]]);
@@ -48,12 +46,23 @@ rb_status rb_friction_rho(const rb_friction_problem *p, double *rho)
                 if (p->Ws.i[k] >= top && p->Ws.i[k] < top + d)
                     w[p->Ws.i[k] - top + b * d] = p->Ws.x[k];
         }
-        rho[2 * c] = fabs(w[0]);
+        own_block[2 * c] = fabs(w[0]);
         /* the largest eigenvalue of the tangential part */
-        rho[2 * c + 1] =
+        own_block[2 * c + 1] =
             d == 2 ? fabs(w[3])
                    : fabs(0.5 * (w[4] + w[8])) + hypot(0.5 * (w[4] - w[8]), 0.5 * (w[5] + w[7]));
     }
+    return RB_OK;
+}
+
+rb_status rb_friction_rho(const rb_friction_problem *p, double *rho)
+{
+    const int both = 2 * p->contacts;
+    double sum = 0.0;
+    int count = 0;
+    const rb_status s = rb_friction_compliances(p, rho);
+    if (s != RB_OK)
+        return s;
     for (int k = 0; k < both; k++)
         if (rho[k] > 0.0)
             sum += rho[k], count++;

@@ -171,8 +171,7 @@ static rb_status solve(rb_friction_shared *shared, const call *c)
                              .v = c->at.v ? c->at.v : shared->memory + m + n};
     c->info->solver = c->solver->name;
     shared->stop = 0;
-    shared->measure.deciding =
-        c->opt.measure == RB_FRICTION_BY_ACARY ? shared->measure.ones : shared->measure.rho;
+    shared->measure.acary = c->opt.measure == RB_FRICTION_BY_ACARY;
     rb_status s = c->solver->needs & WANTS_W ? rb_friction_task_condense(&task) : RB_OK;
     if (s == RB_OK) {
         /* A start at zero is no guess that might be the solution already. */
@@ -196,6 +195,8 @@ static rb_status solve(rb_friction_shared *shared, const call *c)
                 s = RB_INACCURATE;
         }
     }
+    if (s >= 0)
+        rb_friction_scale_back(&shared->scaling, c->at.r, c->at.u);
     if (c->timed)
         c->info->seconds = rb_seconds() - c->start;
     return s;
@@ -236,7 +237,7 @@ rb_status rb_friction_setup(const rb_friction_problem *problem, rb_friction_hand
 
 rb_status rb_friction_update(rb_friction_handle *handle, rb_message *why)
 {
-    const rb_status s = rb_friction_problem_check(handle->shared.problem, why);
+    const rb_status s = rb_friction_problem_check(handle->shared.given, why);
     return s == RB_OK ? rb_friction_shared_reload(&handle->shared) : s;
 }
 
@@ -244,7 +245,7 @@ rb_status rb_friction_handle_solve(rb_friction_handle *handle, const char *name,
                                    const rb_friction_options *opt,
                                    const rb_friction_solution *solution, rb_friction_info *info)
 {
-    const rb_friction_problem *p = handle->shared.problem;
+    const rb_friction_problem *p = handle->shared.given;
     const size_t m = (size_t)(p->dimension * p->contacts);
     const size_t n = p->form == RB_FRICTION_GLOBAL ? (size_t)p->dofs : 0;
     call c;

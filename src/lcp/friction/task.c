@@ -11,15 +11,18 @@
 rb_status rb_friction_shared_init(const rb_friction_problem *problem, rb_friction_shared *shared,
                                   rb_message *why)
 {
-    *shared = (rb_friction_shared){.problem = problem};
+    *shared = (rb_friction_shared){.given = problem};
+    if (rb_friction_scaling_init(problem, &shared->scaling) != RB_OK)
+        return RB_ENOMEM;
+    shared->problem = &shared->scaling.problem;
     if (problem->form != RB_FRICTION_GLOBAL)
-        shared->local = problem;
+        shared->local = shared->problem;
     const size_t m = (size_t)(problem->dimension * problem->contacts);
     const size_t n = problem->form == RB_FRICTION_GLOBAL ? (size_t)problem->dofs : 0;
     shared->memory = malloc((m + 2 * n) * sizeof(double));
     if (!shared->memory)
         return RB_ENOMEM;
-    const rb_status s = rb_friction_measure_init(problem, &shared->measure);
+    const rb_status s = rb_friction_measure_init(&shared->scaling, &shared->measure);
     if (s == RB_SINGULAR)
         return rb_fail(why, s,
                        "K is singular even with every contact held: the structure has "
@@ -30,6 +33,7 @@ rb_status rb_friction_shared_init(const rb_friction_problem *problem, rb_frictio
 rb_status rb_friction_shared_reload(rb_friction_shared *shared)
 {
     const rb_friction_problem *p = shared->problem;
+    rb_friction_scaling_reload(shared->given, &shared->scaling);
     rb_status s = rb_friction_measure_reload(&shared->measure);
     for (int c = 0; shared->contact && c < p->contacts; c++)
         shared->contact[c].mu = p->mu[c];
@@ -43,6 +47,7 @@ rb_status rb_friction_shared_reload(rb_friction_shared *shared)
 void rb_friction_shared_free(rb_friction_shared *shared)
 {
     rb_friction_measure_free(&shared->measure);
+    rb_friction_scaling_free(&shared->scaling);
     rb_friction_blocks_free(&shared->blocks);
     free(shared->contact);
     free(shared->memory);
@@ -82,7 +87,8 @@ void rb_friction_info_clear(rb_friction_info *info, const char *solver)
 {
     info->solver = solver;
     info->iters = 0;
-    info->residual = info->scaled = INFINITY;
+    info->residual = info->scaled = info->worst = INFINITY;
+    info->contact = -1;
     info->measure = RB_FRICTION_BY_SCALED;
     info->floor = info->flops = info->seconds = 0.0;
     info->msg.text[0] = '\0';
@@ -91,8 +97,9 @@ void rb_friction_info_clear(rb_friction_info *info, const char *solver)
 void rb_friction_task_start(rb_friction_task *task)
 {
     const rb_friction_options *opt = &task->opt;
+    const double *unit = task->shared->scaling.unit;
     for (int k = 0; k < task->m; k++)
-        task->r[k] = opt->r0 ? opt->r0[k] : 0.0;
+        task->r[k] = !opt->r0 ? 0.0 : unit ? opt->r0[k] / unit[k / task->d] : opt->r0[k];
     for (int i = 0; i < task->n; i++)
         task->v[i] = opt->v0 ? opt->v0[i] : 0.0;
 }
@@ -112,17 +119,19 @@ static void count_measure(rb_friction_task *task)
         task->info->flops += 4.0 * p->H.p[task->m] + 2.0 * p->K.p[task->n];
 }
 
-/* An iterate at or below the tolerance that was not accepted is so large that the measure
- * does not see it: it is no candidate. */
+/* An iterate at or below the tolerance that is so large that the measure does not see it
+ * is no candidate. */
 void rb_friction_task_seen(rb_friction_task *task, double error)
 {
     rb_friction_record *best = task->best;
     if (task->opt.progress) {
         const rb_friction_progress at = {task->info->solver, task->info->iters, task->info->flops,
-                                         error, task->r};
+                                         error};
         task->shared->stop |= task->opt.progress(&at, task->opt.context) != 0;
     }
-    if (!(error < best->error) || error <= task->opt.tol)
+    if (!(error < best->error) ||
+        (error <= task->opt.tol &&
+         !(rb_friction_measure_resolution(task->measure, task->r) <= task->opt.tol)))
         return;
     best->error = error;
     best->solver = task->info->solver;
@@ -153,7 +162,13 @@ int rb_friction_task_accepts(const rb_friction_task *task, double error)
     if (error > allowed || least > allowed)
         allowed = fmax(allowed, fmin(LARGEST_FLOOR,
                                      rb_friction_measure_floor(task->measure, task->r, task->v)));
-    return error <= allowed && least <= allowed;
+    if (!(error <= allowed && least <= allowed))
+        return 0;
+    /* A contact that is small beside the others is not seen in the norm over all.  Asked
+     * last, because it costs a product. */
+    return task->measure->acary || allowed > task->opt.tol ||
+           rb_friction_measure_worst(task->measure, task->r, task->u, task->v, NULL) <=
+               task->opt.tol;
 }
 
 int rb_friction_prove(rb_friction_task *task)
@@ -162,6 +177,8 @@ int rb_friction_prove(rb_friction_task *task)
     task->measured = rb_friction_measure_error(task->measure, task->r, task->v, task->u,
                                                &info->scaled, &info->residual);
     info->floor = rb_friction_measure_floor(task->measure, task->r, task->v);
+    info->worst =
+        rb_friction_measure_worst(task->measure, task->r, task->u, task->v, &info->contact);
     count_measure(task);
     info->measure = task->opt.measure;
     task->proved = rb_friction_task_accepts(task, rb_friction_deciding(info));

@@ -82,9 +82,10 @@ static const char notes[] =
     "solution, status, contacts, dimension, iterations, residual (*Acary* (13), ||r\n"
     "- P_K(r - uhat)|| / ||q||, recomputed from r), floor (the residual that\n"
     "rounding errors of the data can cause), seconds, scaled residual. The scaled\n"
-    "residual decides: it is (13) with rho = 1/W_NN of each contact, in units of\n"
-    "velocity, and does not depend on the units of the file; with --measure acary\n"
-    "(13) decides. A note says if a problem is solved in the scaled measure only.\n"
+    "residual decides: the distance of r W_NN and u from Coulomb's law over ||q||, in\n"
+    "units of velocity, which does not depend on the units of the file; and no contact\n"
+    "may miss the law by more than the tolerance of its own velocities. With --measure\n"
+    "acary (13) decides. A note says if a problem is solved in the scaled measure only.\n"
     "Status solved-to-rounding: residual above the tolerance but not above the\n"
     "floor; infeasible: not solved, and proved to have no solution.\n"
     "--trace prints every iterate with the solver, its iterations and operations so\n"
@@ -141,6 +142,12 @@ static cli_exit assess(friction_run *run, friction_result *r, rb_status s)
         fprintf(stderr, "rollbem: %s: note: %s\n", r->file, r->note.text);
     if (s == RB_OK)
         return CLI_OK;
+    if (run->o->measure != RB_FRICTION_BY_ACARY && r->info.scaled <= run->o->tol)
+        return cli_fail(
+            CLI_UNSOLVED,
+            "%s: %s: %s after %d iterations: contact %d misses Coulomb's law by %.2g of "
+            "its own velocities",
+            r->file, r->info.solver, r->status, r->info.iters, r->info.contact + 1, r->info.worst);
     return cli_fail(CLI_UNSOLVED, "%s: %s: %s after %d iterations, %s %.2g", r->file,
                     r->info.solver, r->status, r->info.iters,
                     run->o->measure == RB_FRICTION_BY_ACARY ? "residual (13)" : "scaled residual",
@@ -173,6 +180,9 @@ static rb_friction_options solver_options(friction_run *run)
     opt.context = run;
     return opt;
 }
+
+/* A least load that is so many times what is given is worth a note. */
+static const double MUCH = 1e3;
 
 static cli_exit solve_friction(friction_run *run, friction_result *r)
 {
@@ -213,12 +223,15 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
         double least, given;
         if (code == CLI_UNSOLVED && rb_friction_has_no_solution(&p, &least, &given)) {
             r->status = "infeasible";
-            fprintf(
-                stderr,
-                "rollbem: %s: note: no solution exists: reactions that prevent penetration at all "
-                "contacts would need a sum W_NN r_N of at least %.2g, but |q| adds up to %.2g\n",
-                r->file, least, given);
-        }
+            fprintf(stderr,
+                    "rollbem: %s: note: no solution exists: whatever the reactions are, they "
+                    "cannot prevent penetration at all contacts\n",
+                    r->file);
+        } else if (code == CLI_UNSOLVED && least > MUCH * given)
+            fprintf(stderr,
+                    "rollbem: %s: note: there is no solution with a sum W_NN r_N below %.2g; |q| "
+                    "adds up to %.2g\n",
+                    r->file, least, given);
         if (p.lengths) {
             /* Rolling contacts are solved as two contacts each and told as one of five
              * entries. */
@@ -294,6 +307,8 @@ static cli_exit solve_file(void *context, const char *path)
         CLI_KNOWN("iterations", "iterations", info->iters, known),
         CLI_NUMBER("residual", "residual", info->residual),
         CLI_NUMBER("scaled_residual", "scaled", info->scaled),
+        CLI_NUMBER("worst_residual", NULL, known ? info->worst : NAN),
+        CLI_KNOWN("worst_contact", NULL, info->contact + 1, known && info->contact >= 0),
         CLI_TEXT("measure", NULL, r.measure),
         CLI_TEXT("note", NULL, r.note.text[0] ? r.note.text : NULL),
         CLI_NUMBER("floor", "floor", info->floor),
