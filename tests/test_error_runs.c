@@ -143,7 +143,7 @@ TEST(a_curve_s_bars_are_of_its_coarser_curves)
 {
     enum { POINTS = 5 };
     const rb_rolling_case rc = plain_case(RB_BEM_HALFPLANE);
-    const rb_rolling_range range = {RB_OVER_CREEP_RATIO, 0.2, 1.0, POINTS};
+    const rb_rolling_range range = {RB_OVER_CREEP_RATIO, 0.2, 1.0, POINTS, RB_UNITS_MM};
     rb_rolling_curve own, errors, run[2];
     CHECK_OK(rb_rolling_curve_with_errors(&rc, &range, NULL, NULL, &own, &errors, &heard));
     for (int k = 0; k < 2; k++) {

@@ -201,8 +201,8 @@ TEST(nothing_is_halved_below_its_least)
     CHECK_STATUS(rb_rolling_error_check(&rc, &heard), RB_EINVAL);
     CHECK_STATUS(rb_rolling_estimate_errors(&rc, &s, NULL, &errors, &heard), RB_EINVAL);
     assert_true(isnan(errors.scalar.normal_load));
-    CHECK_STATUS(rb_rolling_curve_with_errors(&rc, &(rb_rolling_range){0, 0.0, 1.0, 2}, NULL, NULL,
-                                              &curve, &bars, &heard),
+    CHECK_STATUS(rb_rolling_curve_with_errors(&rc, &(rb_rolling_range){0, 0.0, 1.0, 2, RB_UNITS_MM},
+                                              NULL, NULL, &curve, &bars, &heard),
                  RB_EINVAL);
     set(&rc, "formulation transient distance 1");
     CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &h, &heard), RB_EINVAL);

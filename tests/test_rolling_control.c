@@ -182,7 +182,8 @@ TEST(a_failed_free_creepage_leaves_the_case_solved)
         CHECK_OK(s.status);
         unknown += isnan(s.free_creepage);
         rb_rolling_solution_free(&s);
-        CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.4, 0.4, 1}, &c, NULL));
+        CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.4, 0.4, 1, RB_UNITS_MM}, &c,
+                                        NULL));
     }
     assert_true(unknown > 0);
 }

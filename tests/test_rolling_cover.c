@@ -279,8 +279,8 @@ TEST(sixty_points_take_three_seconds)
     for (int try = 0; try < 3 && best > 3.0; try++) {
         OWNED(rb_rolling_curve) c;
         const clock_t start = clock();
-        CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_CREEP_RATIO, 0.0, 1.5, 60},
-                                        &c, NULL));
+        CHECK_OK(rb_rolling_curve_solve(
+            &rc, &(rb_rolling_range){RB_OVER_CREEP_RATIO, 0.0, 1.5, 60, RB_UNITS_MM}, &c, NULL));
         best = fmin(best, (double)(clock() - start) / CLOCKS_PER_SEC);
         assert_int_equal(c.n, 60);
         CHECK_ABS(c.force_ratio[59], -1.0, 1e-9, "full sliding");
@@ -373,8 +373,9 @@ TEST(a_cover_that_nothing_holds_is_singular)
     }
     rb_rolling_case relaxing = rc;
     set(&relaxing, "formulation steady speed 1 relaxation-time 1 relaxation-ratio 1");
-    CHECK_STATUS(rb_rolling_curve_solve(&relaxing, &(rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 2},
-                                        &curve, &heard),
+    CHECK_STATUS(rb_rolling_curve_solve(
+                     &relaxing, &(rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 2, RB_UNITS_MM},
+                     &curve, &heard),
                  RB_SINGULAR);
     assert_int_equal(curve.n, 0);
     rc.a.core_young = 1e5;

@@ -185,17 +185,21 @@ static void refused(rb_rolling_case rc, rb_rolling_range range, const char *word
 TEST(ranges_that_make_no_sense_are_refused)
 {
     rb_rolling_case smooth = with(carter(20), "mu 0");
-    refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, NAN, 1.0, 3}, "finite numbers");
-    refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, 0.0, INFINITY, 3}, "finite numbers");
-    refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, 0.0, 0.1, 0}, "points: exp");
-    refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, 0.0, 0.1, 1000001},
+    refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, NAN, 1.0, 3, RB_UNITS_MM},
+            "finite numbers");
+    refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, 0.0, INFINITY, 3, RB_UNITS_MM},
+            "finite numbers");
+    refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, 0.0, 0.1, 0, RB_UNITS_MM}, "points: exp");
+    refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, 0.0, 0.1, 1000001, RB_UNITS_MM},
             "points: expected 1 ... 1000000");
-    refused(smooth, (rb_rolling_range){RB_OVER_CREEP_RATIO, 0.0, 1.0, 3},
+    refused(smooth, (rb_rolling_range){RB_OVER_CREEP_RATIO, 0.0, 1.0, 3, RB_UNITS_MM},
             "has no meaning at mu = 0");
-    refused(relaxing(), (rb_rolling_range){RB_OVER_SPEED, 0.0, 1.0, 3}, "expected from and to > 0");
-    refused(relaxing(), (rb_rolling_range){RB_OVER_SPEED, 1.0, -1.0, 3},
+    refused(relaxing(), (rb_rolling_range){RB_OVER_SPEED, 0.0, 1.0, 3, RB_UNITS_MM},
             "expected from and to > 0");
-    refused(carter(20), (rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 3}, "no body is viscoelastic");
+    refused(relaxing(), (rb_rolling_range){RB_OVER_SPEED, 1.0, -1.0, 3, RB_UNITS_MM},
+            "expected from and to > 0");
+    refused(carter(20), (rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 3, RB_UNITS_MM},
+            "no body is viscoelastic");
     OWNED(rb_rolling_curve) c = run(&smooth, RB_OVER_CREEP, 0.0, 0.01, 2);
     assert_true(isnan(c.free_creepage));
     assert_true(isnan(c.creep_ratio[1]));

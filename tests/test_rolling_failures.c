@@ -59,8 +59,9 @@ static rb_status wear(void *context)
 static rb_status draw(void *context)
 {
     OWNED(rb_rolling_curve) curve, errors;
-    const rb_status s = rb_rolling_curve_with_errors(context, &(rb_rolling_range){0, 0.1, 0.2, 2},
-                                                     NULL, NULL, &curve, &errors, NULL);
+    const rb_status s =
+        rb_rolling_curve_with_errors(context, &(rb_rolling_range){0, 0.1, 0.2, 2, RB_UNITS_MM},
+                                     NULL, NULL, &curve, &errors, NULL);
     return s;
 }
 

@@ -111,8 +111,8 @@ TEST(large_contacts_and_steps_too)
 
     OWNED(rb_rolling_curve) curve;
     rc = steady();
-    CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_CREEP_RATIO, 0.5, 3.0, 6},
-                                    &curve, NULL));
+    CHECK_OK(rb_rolling_curve_solve(
+        &rc, &(rb_rolling_range){RB_OVER_CREEP_RATIO, 0.5, 3.0, 6, RB_UNITS_MM}, &curve, NULL));
     CHECK_ABS(curve.force_ratio[5], -1.0, 1e-9, "full sliding");
 }
 

@@ -224,7 +224,8 @@ TEST(curve_has_the_temperature_of_its_cases)
 {
     rb_rolling_case rc = sliding(500.0, 60);
     OWNED(rb_rolling_curve) curve;
-    CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){1, 0.05, 0.1, 2}, &curve, &heard));
+    CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){1, 0.05, 0.1, 2, RB_UNITS_MM}, &curve,
+                                    &heard));
     OWNED(rb_rolling_solution) s = solved(&rc);
     CHECK_REL(curve.max_temperature[1], s.max_temperature, 1e-9, "last point");
 }

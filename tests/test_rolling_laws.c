@@ -177,8 +177,8 @@ TEST(curves_have_two_branches)
             set(&rc, "zone auto mesh fitted contact-elements 60");
         }
         rc.creep = NAN;
-        CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_CREEP, 0.0, 0.003, POINTS},
-                                        &c, &heard));
+        CHECK_OK(rb_rolling_curve_solve(
+            &rc, &(rb_rolling_range){RB_OVER_CREEP, 0.0, 0.003, POINTS, RB_UNITS_MM}, &c, &heard));
         assert_int_equal(c.n, 2 * POINTS);
         assert_int_equal(c.rising, POINTS);
         for (int i = 0; i < c.n; i++) {
@@ -274,8 +274,8 @@ TEST(branches_outlive_their_mesh)
     OWNED(rb_rolling_curve) c;
     double widest = 0.0;
     rc.elastic_b = 0;
-    CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_CREEP, -0.003, 0.003, 13}, &c,
-                                    &heard));
+    CHECK_OK(rb_rolling_curve_solve(
+        &rc, &(rb_rolling_range){RB_OVER_CREEP, -0.003, 0.003, 13, RB_UNITS_MM}, &c, &heard));
     for (int i = 0; i < c.n; i++) {
         CHECK_MAX(c.residual[i], 1e-10, "point %d", i);
         widest = fmax(widest, fabs(c.force_ratio[i] - c.force_ratio[c.n - 1 - i]));

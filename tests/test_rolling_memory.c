@@ -129,7 +129,7 @@ TEST(only_the_axle_of_a_is_free)
         OWNED(rb_rolling_curve) c;
         rb_rolling_case rc = hunter(2.0, 0.8, 60);
         const double R = k % 2 ? 20.0 : 500.0;
-        const rb_rolling_range range = {RB_OVER_SPEED, 1.0, 2.0, 2};
+        const rb_rolling_range range = {RB_OVER_SPEED, 1.0, 2.0, 2, RB_UNITS_MM};
         set(&rc, "mu 0.3 creep nan free-axle young-b %g radius-b %g", k < 2 ? 1e5 : 1000.0, R);
         OWNED(rb_rolling_solution) s = solved(&rc);
         const double M = moment_of(&s), Q = s.tangential_load;
@@ -153,8 +153,8 @@ TEST(resistance_has_a_maximum_over_the_speed)
     rb_rolling_curve c;
     rb_rolling_case rc = hunter(1.0, 1.0, 40);
     int turns = 0;
-    CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_SPEED, 1e-2, 1e2, POINTS}, &c,
-                                    &heard));
+    CHECK_OK(rb_rolling_curve_solve(
+        &rc, &(rb_rolling_range){RB_OVER_SPEED, 1e-2, 1e2, POINTS, RB_UNITS_MM}, &c, &heard));
     assert_int_equal(c.n, POINTS);
     for (int k = 1; k + 1 < POINTS; k++) {
         CHECK_REL(c.speed[k] / c.speed[k - 1], sqrt(10.0), 1e-12, "point %d", k);
@@ -165,13 +165,13 @@ TEST(resistance_has_a_maximum_over_the_speed)
     CHECK_REL(c.resistance_moment[4], 0.2621595 * c.normal_load[4], 1e-5, "Hunter");
     CHECK_REL(c.hysteresis[4], c.resistance_moment[4] / rc.a.radius, 1e-3, "energy");
     rb_rolling_curve_free(&c);
-    CHECK_STATUS(
-        rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_SPEED, 0.0, 1.0, 3}, &c, &heard),
-        RB_EINVAL);
+    CHECK_STATUS(rb_rolling_curve_solve(
+                     &rc, &(rb_rolling_range){RB_OVER_SPEED, 0.0, 1.0, 3, RB_UNITS_MM}, &c, &heard),
+                 RB_EINVAL);
     rc.a.memory.n = 0;
-    CHECK_STATUS(
-        rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 3}, &c, &heard),
-        RB_EINVAL);
+    CHECK_STATUS(rb_rolling_curve_solve(
+                     &rc, &(rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 3, RB_UNITS_MM}, &c, &heard),
+                 RB_EINVAL);
 }
 
 /* Slow: Hertz with the rubbery modulus; fast: with the glassy one. */
@@ -380,11 +380,12 @@ TEST(layers_must_be_resolved)
             1.0 / (6.0 * rc.a.radius), steps == 1 ? "static" : "steady", steps == 1 ? 3 : 1,
             steps == 1 ? NAN : 0.0);
         rb_rolling_curve curve;
-        CHECK_STATUS(
-            steps == 2 ? rb_rolling_curve_solve(
-                             &rc, &(rb_rolling_range){RB_OVER_CREEP, 0.0, 1e-3, 2}, &curve, &heard)
-                       : rb_rolling_solve(&rc, &s[0], &heard),
-            RB_EINVAL);
+        CHECK_STATUS(steps == 2
+                         ? rb_rolling_curve_solve(
+                               &rc, &(rb_rolling_range){RB_OVER_CREEP, 0.0, 1e-3, 2, RB_UNITS_MM},
+                               &curve, &heard)
+                         : rb_rolling_solve(&rc, &s[0], &heard),
+                     RB_EINVAL);
         if (steps == 2)
             rb_rolling_curve_free(&curve);
         const char *take = NOT_NULL(strstr(heard.text, "take "));

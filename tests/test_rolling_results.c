@@ -22,7 +22,8 @@ TEST(a_creep_curve_is_carters)
 {
     rb_rolling_case rc = with(wheel_on_plane(0.5), "contact-elements 100");
     OWNED(rb_rolling_curve) c;
-    CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, -1.2, 1.2, 49}, &c, NULL));
+    CHECK_OK(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, -1.2, 1.2, 49, RB_UNITS_MM}, &c, NULL));
     assert_int_equal(c.n, 49);
     for (int k = 0; k < c.n; k++) {
         const double s = c.creep_ratio[k];
@@ -41,7 +42,8 @@ TEST(the_stick_ratio_is_one_of_lengths)
     rb_rolling_case rc = with(wheel_on_plane(0.5), "contact-elements 100");
     OWNED(rb_rolling_curve) c;
     OWNED(rb_rolling_solution) s;
-    CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.1, 0.1, 1}, &c, NULL));
+    CHECK_OK(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.1, 0.1, 1, RB_UNITS_MM}, &c, NULL));
     CHECK_ABS(c.stick_ratio[0], 0.9, 0.01, "s = 0.1");
     set(&rc, "formulation steady creep-ratio 0.1");
     CHECK_OK(rb_rolling_solve(&rc, &s, NULL));
@@ -58,7 +60,8 @@ TEST(a_curve_agrees_with_single_solves)
     rb_rolling_case rc = wheel_on_plane(0.3);
     OWNED(rb_rolling_curve) c;
     set(&rc, "mesh uniform zone %g", 1.6 * rc.half_width);
-    CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){1, -2e-4, 2e-4, 9}, &c, NULL));
+    CHECK_OK(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){1, -2e-4, 2e-4, 9, RB_UNITS_MM}, &c, NULL));
     for (int k = 0; k < c.n; k++) {
         set(&rc, "formulation steady creep %g", c.creepage[k]);
         OWNED(rb_rolling_solution) s = solved(&rc);
@@ -71,13 +74,16 @@ TEST(bad_curves_are_refused)
 {
     rb_rolling_case rc = wheel_on_plane(0.5);
     rb_rolling_curve c;
-    CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, NAN, 5}, &c, NULL),
-                 RB_EINVAL);
-    CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 1.0, 0}, &c, NULL),
-                 RB_EINVAL);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, NAN, 5, RB_UNITS_MM}, &c, NULL),
+        RB_EINVAL);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 1.0, 0, RB_UNITS_MM}, &c, NULL),
+        RB_EINVAL);
     rc.mu = 0.0;
-    CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 1.0, 5}, &c, NULL),
-                 RB_EINVAL);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 1.0, 5, RB_UNITS_MM}, &c, NULL),
+        RB_EINVAL);
 }
 
 /* ---- Stress ------------------------------------------------------------------------ */
@@ -251,8 +257,8 @@ TEST(error_bars_of_curves_hold_the_truth)
         OWNED(rb_rolling_curve) c, e;
         tally t = {.wide = fitted ? 20.0 : 10.0};
         set(&rc, "mesh %s contact-elements 80", fitted ? "fitted" : "uniform");
-        CHECK_OK(rb_rolling_curve_with_errors(&rc, &(rb_rolling_range){0, 0.03, 0.97, 100}, NULL,
-                                              NULL, &c, &e, NULL));
+        CHECK_OK(rb_rolling_curve_with_errors(
+            &rc, &(rb_rolling_range){0, 0.03, 0.97, 100, RB_UNITS_MM}, NULL, NULL, &c, &e, NULL));
         assert_int_equal(e.n, 100);
         for (int k = 0; k < c.n; k++)
             tally_count(&t, c.force_ratio[k] + carter(c.creep_ratio[k]), e.force_ratio[k]);
@@ -319,9 +325,9 @@ TEST(every_failed_allocation_is_reported)
     }
     for (int count = 0, refused = 1; refused; count++) {
         OWNED(rb_rolling_curve) c, e;
-        refused = REFUSED_FROM(
-            count, rb_rolling_curve_with_errors(&rc, &(rb_rolling_range){0, 0.1, 0.5, 3}, NULL,
-                                                NULL, &c, &e, NULL));
+        refused = REFUSED_FROM(count, rb_rolling_curve_with_errors(
+                                          &rc, &(rb_rolling_range){0, 0.1, 0.5, 3, RB_UNITS_MM},
+                                          NULL, NULL, &c, &e, NULL));
     }
 }
 

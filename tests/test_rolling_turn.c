@@ -434,8 +434,8 @@ TEST(resistance_has_a_maximum_over_the_speed)
     rb_rolling_case rc = with(wheel(24), "cover-thickness 3 force nan free-axle");
     double value[3];
     int turns = 0;
-    CHECK_OK(
-        rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_SPEED, 1e1, 1e5, 5}, &c, &heard));
+    CHECK_OK(rb_rolling_curve_solve(
+        &rc, &(rb_rolling_range){RB_OVER_SPEED, 1e1, 1e5, 5, RB_UNITS_MM}, &c, &heard));
     for (int k = 1; k < 4; k++)
         turns += c.resistance_ratio[k] > c.resistance_ratio[k - 1] &&
                  c.resistance_ratio[k] > c.resistance_ratio[k + 1];

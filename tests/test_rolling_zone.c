@@ -354,14 +354,16 @@ TEST(a_curve_and_a_history_find_the_end_of_their_mesh)
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_history) history;
     rc.zone = 1.2; /* sliding moves the contact beyond it */
-    CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 3.0, 7}, &curve, &heard),
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 3.0, 7, RB_UNITS_MM},
+                                        &curve, &heard),
                  RB_ZONE);
     rb_rolling_curve_free(&curve);
     set(&rc, "formulation transient creep-ratio 3 distance 3");
     CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &heard), RB_ZONE);
     assert_int_equal(model.state.status, RB_ZONE);
     rc.zone = 0.0;
-    CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 3.0, 7}, &curve, &heard));
+    CHECK_OK(rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 3.0, 7, RB_UNITS_MM}, &curve,
+                                    &heard));
     rb_rolling_curve_free(&curve);
 }
 

@@ -140,6 +140,37 @@ static const sentence notes[] = {
      FRETS "--force-ratio -0.5 --creep 0.001", FRETS "--force-ratio -0.5"},
 };
 
+/* Studies say what each of their rows would say, once, and of how many rows it is true. */
+static const sentence studies[] = {
+    {"static-creepage", "use --formulation steady to roll. (all 3 cases)\n",
+     "sweep " FRETS "--vary-1 'creep-ratio 0.1 0.2 0.3'", "sweep " FRETS "--vary-1 'mu 0.1 0.2'"},
+    {"percent", "write --creep 0.1%. (case 2 and 1 other of 3)\n",
+     "sweep " ROLLS "--vary-1 'creep 0.001 0.1 0.2'", "sweep " ROLLS "--vary-1 'creep 0 0.001'"},
+    {"strains", "expect errors of that order. (case 3 of 3)\n",
+     "sweep " STEEL "--radius 100 --vary-1 'half-width 1 2 11'",
+     "sweep " STEEL "--radius 100 --vary-1 'half-width 1 2 3'"},
+    {"strains", "expect errors of that order. (all 4 points)\n",
+     "curve " STEEL "--radius 100 --half-width 11 --mu 0.1,0.2 --points 2 --contact-elements 20",
+     "curve " CARTER "--points 2"},
+    /* of the first point, not of the last */
+    {"short-slip", "take more of them. (point 1 of 3)\n",
+     "curve " CARTER "--from 0.001 --to 1 --points 3", "curve " CARTER "--points 3"},
+    {"Body B is rigid",
+     "Body B is rigid for the contact: K are the limits of a body that is much "
+     "stiffer than A. (all 2 cases)\n",
+     "sweep " PLANE "--half-width 1 --mu 0 --contact-elements 20 --crack-elements 4 "
+     "--vary-1 'crack-length 0.5 1'",
+     "sweep " CARTER "--mu 0 --crack-elements 4 --vary-1 'crack-length 0.5 1'"},
+    /* of the curve: where a third body yields nothing slides */
+    {"full sliding", "full sliding begins between", "curve " CARTER "--points 3",
+     "curve " CARTER "--mu 100 --yield-stress 10 --over creep --to 0.1 --points 3"},
+    {"full sliding",
+     "nothing sticks from a creepage between xi = 0 and 0.05 on: up to 100 % of the "
+     "interface yields",
+     "curve " CARTER "--mu 100 --yield-stress 10 --over creep --to 0.1 --points 3",
+     "curve " CARTER "--yield-stress 1e4 --points 3"},
+};
+
 /* Bounds in refusals, exit code 64, are those of the case as it is meshed: what they name is
  * solved. */
 static const sentence bounds[] = {
@@ -163,7 +194,11 @@ static const sentence bounds[] = {
     {"largest force", "carries at most mu P = ", PLACES "--force 400", PLACES "--force 200"},
 };
 
-enum { NOTES = sizeof notes / sizeof *notes, BOUNDS = sizeof bounds / sizeof *bounds };
+enum {
+    NOTES = sizeof notes / sizeof *notes,
+    STUDIES = sizeof studies / sizeof *studies,
+    BOUNDS = sizeof bounds / sizeof *bounds
+};
 
 static int write_gaps(void)
 {
@@ -214,6 +249,28 @@ TEST(each_note_is_said_where_it_is_true_alone)
 {
     write_gaps();
     check_sentences(NOTES, notes, 0);
+}
+
+TEST(studies_say_what_their_rows_would_say)
+{
+    check_sentences(STUDIES, studies, 0);
+    /* in the table before the first such row, also where the study continues from there */
+    const char *const study =
+        "sweep " ROLLS "--vary-1 'creep 0.001 0.1 0.2' --output t.tsv --quiet --jobs 1";
+    char whole[sizeof out], cut[200];
+    assert_int_equal(rollbem(study), 0);
+    slurp("t.tsv", whole, sizeof whole);
+    const char *note = NOT_NULL(strstr(whole, "\n# note, case 2, percent: xi = 0.1 is far"));
+    assert_int_equal(strncmp(strchr(note + 1, '\n'), "\n2\t", 3), 0);
+    for (int lines = 6; lines <= 9; lines++) { /* up to case 1, the note, case 2, case 3 */
+        snprintf(cut, sizeof cut, "head -n %d t.tsv >c.tsv; mv c.tsv t.tsv", lines);
+        assert_int_equal(shell(cut), 0);
+        assert_int_equal(rollbem(study), 0);
+        slurp("t.tsv", out, sizeof out);
+        assert_string_equal(out, whole);
+    }
+    held_json *root = run_json("sweep " FRETS "--vary-1 'creep-ratio 0.1 0.2' --format json");
+    assert_int_equal(json_array_size(json_object_get(root, "notes")), 1);
 }
 
 TEST(each_bound_is_that_of_the_mesh)

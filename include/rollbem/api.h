@@ -96,7 +96,8 @@ double rb_api_number(const rb_api *a, const char *name);
  * that stays until the next call, or NULL. */
 const char *rb_api_word(const rb_api *a, const char *name);
 /* Note k = 0, 1, ... on how the solution must be read; writes at most `size` bytes and
- * returns text.  NULL: there is no such note, or no solution. */
+ * returns text.  After a curve or a sweep they are those on its points or cases, each with the
+ * points or cases that it is true of.  NULL: there is no such note, or no solution. */
 const char *rb_api_note(const rb_api *a, int k, char *text, int size);
 
 /* An array by name, rows x columns, column by column; borrowed until the case changes or

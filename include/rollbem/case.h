@@ -464,6 +464,8 @@ typedef struct {
     rb_case_crack_growth growth;
     int notes;
     char note[RB_CASE_CRACK_NOTES][200]; /* notes on how to read the result */
+    int note_kind[RB_CASE_CRACK_NOTES];  /* which of those that there may be: 0, 1, ... */
+    int note_kinds;                      /* how many were thought of so far */
     rb_units units;                      /* of all values except shape and contact.model */
 } rb_case_crack_result;
 

@@ -639,7 +639,7 @@ void rb_rolling_friction_power(const rb_rolling_solution *s, double *power);
 
 /* Notes on results that must be read with care, one line each, every one of which the state
  * as solved bears out (src/rolling/solve/notes.c). */
-enum { RB_ROLLING_NOTES = 32, RB_ROLLING_NOTE_LENGTH = 256 };
+enum { RB_ROLLING_NOTES = 48, RB_ROLLING_NOTE_LENGTH = 320 };
 typedef struct {
     int n;
     int kind[RB_ROLLING_NOTES]; /* which note, see rb_rolling_note_name */
@@ -648,6 +648,32 @@ typedef struct {
 rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_rolling_solution *s);
 /* "static-creepage", ... of kind k = 0, 1, ...; NULL after the last one. */
 const char *rb_rolling_note_name(int k);
+
+/* The notes on one row of a curve or a study: the first few of them. */
+enum { RB_ROLLING_ROW_NOTES = 6 };
+typedef struct {
+    int n, kind[RB_ROLLING_ROW_NOTES];
+    char text[RB_ROLLING_ROW_NOTES][RB_ROLLING_NOTE_LENGTH];
+} rb_rolling_row_notes;
+/* Those of a solved case in the units of the solution, but for those on columns of its table. */
+rb_rolling_row_notes rb_rolling_find_row_notes(const rb_rolling_case *rc,
+                                               const rb_rolling_solution *s);
+/* One more, of a kind of the caller's from RB_ROLLING_OWN_NOTES on. */
+enum { RB_ROLLING_OWN_NOTES = 36 };
+void rb_rolling_add_note(rb_rolling_row_notes *notes, int kind, const char *text);
+/* The notes on all rows: how many have a note of each kind, the first of them from 0, and what it
+ * says of that one. */
+typedef struct {
+    int rows, count[RB_ROLLING_NOTES], first[RB_ROLLING_NOTES];
+    char text[RB_ROLLING_NOTES][RB_ROLLING_NOTE_LENGTH];
+} rb_rolling_study_notes;
+void rb_rolling_add_row_notes(rb_rolling_study_notes *all, int row,
+                              const rb_rolling_row_notes *notes);
+/* Further rows behind those of `all`. */
+void rb_rolling_join_study_notes(rb_rolling_study_notes *all, const rb_rolling_study_notes *more);
+/* One line for each kind, with the rows that it is true of; row: "case", "point". */
+rb_rolling_note_list rb_rolling_list_study_notes(const rb_rolling_study_notes *all,
+                                                 const char *row);
 /* 1: the friction power is negative by more than rounding errors, which is an error of
  * the mesh; the text of the note about it. */
 int rb_rolling_is_below_zero(double dissipation, double load);
@@ -1152,6 +1178,7 @@ typedef struct {
     rb_rolling_variable over;
     double from, to;
     int points;
+    rb_units units; /* of what notes say; from and to are in mm */
 } rb_rolling_range;
 
 /* One entry per creepage or speed; owned. */
@@ -1160,7 +1187,8 @@ typedef struct rb_rolling_curve {
     double *creepage, *creep_ratio, *force_ratio;
     double *tangential_load, *normal_load;
     double *stick_ratio; /* stuck length / length in contact */
-    double stick_step;   /* largest change of stick_ratio by one element */
+    double *yield_ratio; /* the same of the interface that yields; NULL if it cannot */
+    double stick_step;   /* largest change of these ratios by one element */
     double *dissipation; /* power per unit speed */
     double *residual;
     double *speed; /* [length/s]; 0 if no speed is given, because no body is viscoelastic */
@@ -1175,6 +1203,7 @@ typedef struct rb_rolling_curve {
     int iterations;
     rb_rolling_solution last; /* solution at the last point, for notes, but with the largest kappa
                                  and the smallest dissipation of all points; n = 0: none */
+    rb_rolling_study_notes notes;        /* on the points */
     struct rb_rolling_curve *deviations; /* standard deviation of every entry that has
                                             derivatives (rb_case_curve_solve); NULL: not
                                             computed; owned */
@@ -1389,6 +1418,7 @@ typedef struct {
     rb_rolling_errors errors;        /* NAN without RB_ROW_ERRORS */
     rb_rolling_stress_maxima stress; /* NAN without RB_ROW_STRESS */
     double own[RB_ROW_OWN];          /* values computed by `measure` of the sweep; otherwise NAN */
+    rb_rolling_row_notes notes;      /* in the units of the sweep */
 } rb_rolling_row;
 
 enum { RB_ROW_ERRORS = 1, RB_ROW_STRESS = 2 }; /* bits of rb_rolling_sweep.also */
@@ -1405,7 +1435,8 @@ void rb_rolling_row_convert(rb_rolling_row *row, rb_units units);
  * the case gets RB_ENOMEM. */
 typedef struct {
     int first, count, workers;
-    unsigned also; /* what to compute besides the solution: bits RB_ROW_... */
+    unsigned also;  /* what to compute besides the solution: bits RB_ROW_... */
+    rb_units units; /* of what notes say */
     rb_status (*make)(int k, rb_rolling_case *rc, void *context);
     /* own: row->own of the case that `make` made last; model: its solved model; may be
      * NULL */

@@ -613,6 +613,7 @@ class Sweep(_Named):
 
     axes: "dict[str, Array]"
     status: Array
+    notes: "list[str]"  # on how the results must be read, each with the cases that it is true of
     derivatives: Derivatives  # of sweep(derivatives=...)
     tolerances: dict  # standard deviations, of sweep(tolerance=...)
 
@@ -623,6 +624,7 @@ class Sweep(_Named):
                  **handle.arrays("number", "sweep.")}
         self._arrays = {name: array.reshape(shape) for name, array in found.items()}
         self._numbers = {}
+        self.notes = handle.notes()
         self.derivatives = Derivatives(handle, "sweep", shape)
         self.tolerances = {name: array.reshape(shape) for name, array in handle.arrays("number", "sweep.tolerance.").items()
                            if np.isfinite(array).any()}
@@ -835,7 +837,9 @@ def sweep(case: _CaseLike = None, workers: int = 0, progress: Progress = None,
     else:
         status = study.run("rb_api_sweep", len(cases), handles(cases), workers, progress=progress)
     study.check(status)
-    return Sweep(axes, study)
+    found = Sweep(axes, study)
+    _warn(found.notes)
+    return found
 
 
 def crack_option(name: str) -> Optional[str]:

@@ -268,6 +268,17 @@ def test_notes_are_those_of_the_program():
     assert rollbem.solve(support="halfplane", formulation="steady", load=10, creep_ratio=0.5).notes == []
 
 
+def test_studies_have_notes():
+    base = dict(similar=True, support="halfplane", half_width=1, contact_elements=12)
+    with pytest.warns(rollbem.Note):
+        s = rollbem.sweep(creep_ratio=[0.1, 0.2], **base)
+    assert len(s.notes) == 1 and "(all 2 cases)" in s.notes[0] and "formulation=" in s.notes[0]
+    assert rollbem.sweep(mu=[0.1, 0.2], **base).notes == []
+    with pytest.warns(rollbem.Note):
+        c = rollbem.curve(start=0.001, stop=1, points=3, **base)
+    assert len(c.notes) == 1 and "shorter than an element" in c.notes[0] and "(point 1 of 3)" in c.notes[0]
+
+
 def test_notes_warn_where_the_package_is_called():
     base = {k: v for k, v in ROLLED.items() if k != "creep_ratio"}
     calls = (lambda: rollbem.solve(**base), lambda: rollbem.Case(**base).solve(),

@@ -38,8 +38,8 @@ static double curve_seconds(const rb_rolling_case *rc, double *force)
         rb_rolling_curve curve;
         rb_message why;
         const double start = processor_seconds();
-        if (rb_rolling_curve_solve(rc, &(rb_rolling_range){0, 0.0015, 1.5, POINTS}, &curve, &why) !=
-            RB_OK)
+        if (rb_rolling_curve_solve(rc, &(rb_rolling_range){0, 0.0015, 1.5, POINTS, RB_UNITS_MM},
+                                   &curve, &why) != RB_OK)
             stop(&why);
         best = fmin(best, processor_seconds() - start);
         for (int i = 0; i < SAMPLES; i++)

@@ -113,7 +113,8 @@ static double curve(const rb_rolling_case *rc)
     rb_rolling_curve c;
     rb_message why;
 
-    if (rb_rolling_curve_solve(rc, &(rb_rolling_range){0, 0.1, 1.2, 4}, &c, &why) != RB_OK)
+    if (rb_rolling_curve_solve(rc, &(rb_rolling_range){0, 0.1, 1.2, 4, RB_UNITS_MM}, &c, &why) !=
+        RB_OK)
         stop(why.text);
     rb_rolling_curve_free(&c);
     return rb_rolling_bytes(rc, rc->contact_elements, 0, 2 * rc->contact_elements);

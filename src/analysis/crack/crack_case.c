@@ -141,8 +141,12 @@ static rb_status set_loads(int n, const double *x, const double *h, const double
 /* A note where it applies; its text may show the value. */
 static void note(rb_case_crack_result *r, int applies, const char *text, double value)
 {
-    if (applies && r->notes < RB_CASE_CRACK_NOTES)
-        snprintf(r->note[r->notes++], sizeof r->note[0], text, value);
+    const int kind = r->note_kinds++;
+
+    if (!applies || r->notes == RB_CASE_CRACK_NOTES)
+        return;
+    r->note_kind[r->notes] = kind;
+    snprintf(r->note[r->notes++], sizeof r->note[0], text, value);
 }
 
 static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
@@ -335,8 +339,13 @@ rb_status rb_case_crack_row(const rb_resolved_case *c, const rb_case_crack *k, r
     rb_case_crack_result r;
     const rb_status s = rb_case_crack_solve(c, k, NULL, &r, why);
 
-    if (r.contact.solution.n > 0)
+    if (r.contact.solution.n > 0) {
         row->solution = rb_rolling_scalars_of(&r.contact.solution);
+        rb_rolling_solution_convert(&r.contact.solution, c->units);
+        row->notes = rb_rolling_find_row_notes(&c->rc, &r.contact.solution);
+    }
+    for (int i = 0; i < r.notes; i++)
+        rb_rolling_add_note(&row->notes, RB_ROLLING_OWN_NOTES + r.note_kind[i], r.note[i]);
     if (s == RB_OK)
         rb_case_crack_set_row(&r, row);
     rb_case_crack_free(&r);

@@ -295,9 +295,15 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
     return a->status != RB_OK;
 }
 
-int rb_api_solve(rb_api *a)
+void rb_api_forget_notes(rb_api *a)
 {
     a->note.text[0] = '\0';
+    memset(&a->rows, 0, sizeof a->rows);
+}
+
+int rb_api_solve(rb_api *a)
+{
+    rb_api_forget_notes(a);
     a->done = a->total = 0;
     if (rb_api_resolve(a) < 0)
         return a->status;
@@ -496,9 +502,11 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size)
         return text;
     }
     k -= own;
-    if (s->n == 0 || k < 0)
+    if ((s->n == 0 && a->rows.rows == 0) || k < 0)
         return NULL;
-    const rb_rolling_note_list list = rb_rolling_find_notes(&rb_case_resolved(a->words)->rc, s);
+    const rb_rolling_note_list list =
+        a->rows.rows > 0 ? rb_rolling_list_study_notes(&a->rows, a->row)
+                         : rb_rolling_find_notes(&rb_case_resolved(a->words)->rc, s);
     if (k >= list.n)
         return NULL;
     snprintf(text, (size_t)size, "%s", list.text[k]);
@@ -818,12 +826,13 @@ int rb_api_curve_derivatives(rb_api *a, const char *over, double from, double to
     while (variable->name && strcmp(variable->name, over) != 0)
         variable++;
     rb_api_forget_call(a);
-    a->note.text[0] = '\0';
+    rb_api_forget_notes(a);
     rb_api_forget_slopes(a, API_SLOPES_CURVE);
     rb_api_forget_arrays(a, "curve.");
     rb_rolling_curve_free(&a->curve);
     rb_rolling_curve_free(&a->curve_errors);
-    const rb_rolling_range range = {(rb_rolling_variable)variable->value, from, to, points};
+    const rb_rolling_range range = {(rb_rolling_variable)variable->value, from, to, points,
+                                    c->units};
     rb_api_call_begins(a);
     rb_status s = rb_api_check_refusals(a, &a->why);
     if (s == RB_OK) {
@@ -864,6 +873,8 @@ int rb_api_curve_derivatives(rb_api *a, const char *over, double from, double to
                                                &a->curve_errors, &a->why)
                 : rb_rolling_curve_observe(&c->rc, &range, count_point, a, &a->curve, &a->why);
     s = rb_api_call_ends(a, s);
+    a->rows = a->curve.notes;
+    a->row = "point";
     rb_case_slopes_note(slopes, &a->note);
     slopes->tolerance = NULL; /* the caller's */
     if (s != RB_OK) {
@@ -1184,7 +1195,7 @@ int rb_api_step_derivatives(rb_api *a, const char *derivatives, const char *tole
 
     rb_api_forget_call(a);
     if (derivatives) {
-        a->note.text[0] = '\0';
+        rb_api_forget_notes(a);
         rb_api_forget_slopes(a, API_SLOPES_HISTORY);
     }
     if (tolerance) {

@@ -55,13 +55,16 @@ struct rb_api {
     int *nonbasis; /* the last pivot's, both owned */
     int iterations;
     double residual, scaled_residual;
-    int by_acary;            /* (13) decides whether friction problems are solved */
-    rb_message note;         /* on the last problem that was handed over; empty: none */
-    const char *solver;      /* of the last problem that was handed over; static text */
-    _Atomic int stopped;     /* by another thread, or a signal handler */
-    int heard;               /* 1: the running call has seen that */
-    rb_interrupt outside;    /* what the thread of the running call asked before */
-    _Atomic int done, total; /* of the running call, for another thread */
+    int by_acary;                /* (13) decides whether friction problems are solved */
+    rb_message note;             /* on the last problem that was handed over; empty: none */
+    rb_rolling_study_notes rows; /* on the points or cases of the last curve or sweep; rows = 0: it
+                                    was neither */
+    const char *row;             /* "point" or "case"; static text */
+    const char *solver;          /* of the last problem that was handed over; static text */
+    _Atomic int stopped;         /* by another thread, or a signal handler */
+    int heard;                   /* 1: the running call has seen that */
+    rb_interrupt outside;        /* what the thread of the running call asked before */
+    _Atomic int done, total;     /* of the running call, for another thread */
     rb_status status;
     rb_message why;
     api_refusal refused[API_REFUSALS];
@@ -71,6 +74,7 @@ struct rb_api {
     int arrays;
 };
 
+void rb_api_forget_notes(rb_api *a);
 /* NULL: there is none of this name. */
 api_array *rb_api_find_array(rb_api *a, const char *name);
 /* A new array of zeros.  NULL: no memory. */

@@ -14,7 +14,7 @@ static rb_case *begin(rb_api *a, const char *arrays, rb_case_purpose purpose)
     rb_case *c = rb_case_copy(a->words);
 
     rb_api_forget_arrays(a, arrays);
-    a->note.text[0] = '\0';
+    rb_api_forget_notes(a);
     rb_api_forget_call(a);
     if (c)
         rb_case_set_purpose(c, purpose);

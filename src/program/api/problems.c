@@ -13,7 +13,7 @@
 static void begin(rb_api *a, const char *arrays, const char *solver)
 {
     rb_api_forget_arrays(a, arrays);
-    a->note.text[0] = '\0';
+    rb_api_forget_notes(a);
     rb_api_forget_call(a);
     a->iterations = 0;
     a->residual = a->scaled_residual = NAN;
@@ -191,6 +191,7 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
         snprintf(name, sizeof name, "tolerance.%s", st->slopes->deviation[j]->name);
         column_of(st->a, name)->at[k] = row->own[st->slopes->n + j];
     }
+    rb_rolling_add_row_notes(&st->a->rows, k, &row->notes);
     column_of(st->a, "status")->at[k] = row->solution.status;
     for (int j = 0; j < table->n; j++)
         column_of(st->a, table->row[j].name)->at[k] =
@@ -296,6 +297,8 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
         s = made ? RB_OK : RB_ENOMEM;
     }
     a->total = n;
+    a->row = "case";
+    of_cases.units = n > 0 ? rb_case_resolved(cases[0]->words)->units : RB_UNITS_MM;
     if (s == RB_OK) {
         rb_api_call_begins(a);
         s = rb_rolling_sweep_run(&of_cases, &a->why);

@@ -266,7 +266,8 @@ static rb_status compare_texts(rb_certificate *c, const json_t *root,
                                const rb_resolved_case *resolved)
 {
     json_t *again = rb_report_json_start(""), *units = rb_report_json_units(RB_UNITS_MM);
-    json_t *notes = rb_report_json_notes(&resolved->rc, &c->again);
+    const rb_rolling_note_list found = rb_rolling_find_notes(&resolved->rc, &c->again);
+    json_t *notes = rb_report_json_notes(&found);
     const json_t *printed = json_object_get(root, "notes");
     const rb_status s = again && units && notes ? RB_OK : RB_ENOMEM;
     size_t same = 0;

@@ -92,16 +92,24 @@ cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why)
 
 /* ---- Commands that solve one ------------------------------------------------------ */
 
+/* Those on the rows of a curve, or on the solution; n = 0: none. */
+static rb_rolling_note_list notes_of(const cli_case_run *run)
+{
+    return run->notes      ? *run->notes
+           : run->solution ? rb_rolling_find_notes(&run->c->rc, run->solution)
+                           : (rb_rolling_note_list){.n = 0};
+}
+
 static rb_status write_results(FILE *out, const void *context, rb_message *why)
 {
     const cli_case_run *run = context;
     (void)why;
     if (run->o.style.format != RB_REPORT_JSON)
         return run->command->table(out, run);
+    const rb_rolling_note_list notes = notes_of(run);
     rb_report_document document = {.command = cli_command_line(),
                                    .words = run->words,
-                                   .noted = run->noted,
-                                   .solution = run->solution};
+                                   .notes = run->notes || run->solution ? &notes : NULL};
     if (run->command->document)
         run->command->document(run, &document);
     json_t *root = rb_report_json_document(&document);
@@ -133,9 +141,8 @@ static cli_exit write_files(const cli_spec *spec, const cli_case_run *run, int p
 static void print_summary(FILE *out, const void *context)
 {
     const cli_case_run *run = context;
-    if (run->solution)
-        rb_report_notes(out, run->noted ? run->noted : &run->c->rc, run->solution,
-                        cli_is_coloured(stderr));
+    const rb_rolling_note_list notes = notes_of(run);
+    rb_report_notes(out, &notes, cli_is_coloured(stderr));
     run->command->summarise(out, run);
 }
 

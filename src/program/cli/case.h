@@ -63,7 +63,7 @@ typedef struct {
     cli_output o;
     cli_args args;
     const rb_rolling_solution *solution; /* for notes, citations, JSON; NULL: none */
-    const rb_rolling_case *noted;        /* whose solution it is; NULL: that of c */
+    const rb_rolling_note_list *notes;   /* on the rows of a curve; NULL: on the solution */
     int printable;                       /* 1: there are results, if not all that were asked for */
     int incomplete;                      /* 1: not all of them, although nothing has failed */
 } cli_case_run;

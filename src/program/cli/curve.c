@@ -18,7 +18,6 @@ typedef struct {
     range_options range;
     rb_report_curves curves;
     rb_report_curves drawn; /* as many where the picture has its own */
-    rb_rolling_case last;   /* the case of the last point of the last curve */
 } curve;
 
 enum { FROM = 1, TO = 2 }; /* places in the table */
@@ -99,17 +98,19 @@ static cli_exit read_end(cli_case_run *run, int place, double *end)
 
 static rb_rolling_range range_of(const range_options *r)
 {
-    return (rb_rolling_range){(rb_rolling_variable)r->over, r->from, r->to, r->points};
+    return (rb_rolling_range){(rb_rolling_variable)r->over, r->from, r->to, r->points, RB_UNITS_MM};
 }
 
 static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
                               const range_options *range, rb_report_curves *curves, rb_message *why)
 {
-    const rb_rolling_range all = range_of(range);
+    rb_rolling_range all = range_of(range);
     const rb_numbers one = {1, {c->rc.mu}};
     const rb_numbers *mus = c->mus.n > 0 ? &c->mus : &one;
     rb_rolling_case rc = c->rc;
+    rb_rolling_study_notes found = {.rows = 0};
     rb_status s = RB_OK;
+    all.units = c->units;
     for (int k = 0; k < mus->n && s == RB_OK; k++) {
         rb_message reason = {""};
         rc.mu = curves->mu[k] = mus->value[k];
@@ -125,12 +126,16 @@ static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
         else
             s = rb_rolling_curve_solve(&rc, &all, &curves->curve[k], &reason);
         curves->n += s >= 0;
+        if (s >= 0)
+            rb_rolling_join_study_notes(&found, &curves->curve[k].notes);
         if (s != RB_OK && mus->n > 1)
             rb_fail(why, s, "mu = %g: %.280s", rc.mu, rb_status_reason(s, &reason));
         else if (s != RB_OK)
             *why = reason;
     }
     curves->has_errors = c->error && s == RB_OK; /* an unfinished curve has none */
+    curves->rc = &c->rc;
+    curves->notes = rb_rolling_list_study_notes(&found, "point");
     return s;
 }
 
@@ -176,18 +181,9 @@ static rb_status solve(cli_case_run *run, rb_message *why)
     }
     convert(&r->curves, run->c->units);
     const int k = r->curves.n - 1;
-    if (k >= 0 && r->curves.curve[k].last.n > 0) {
-        /* Notes are on the last point. */
-        r->last = run->c->rc;
-        r->last.formulation = RB_STEADY;
-        r->last.mu = r->curves.mu[k];
-        if (r->range.over == RB_OVER_CREEP)
-            r->last.creep = r->range.to;
-        if (r->range.over == RB_OVER_CREEP_RATIO)
-            r->last.creep_ratio = r->range.to;
-        r->curves.rc = run->noted = &r->last;
-        run->solution = &r->curves.curve[k].last;
-    }
+    run->notes = &r->curves.notes;
+    if (k >= 0 && r->curves.curve[k].last.n > 0)
+        run->solution = &r->curves.curve[k].last; /* cited */
     convert(&r->drawn, run->c->units);
     run->printable = s >= 0 && r->curves.n > 0 && r->curves.curve[0].n > 0;
     return s;

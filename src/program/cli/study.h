@@ -81,6 +81,9 @@ typedef struct {
     int worst;           /* exit code so far */
     int unsolved, no_memory, first;
     int unsolved_case;              /* the first that may be solved again to say why; 0: none */
+    rb_rolling_study_notes notes;   /* on the cases that came in this run */
+    uint64_t noted, found;          /* kinds of notes that the file has; those before a row of it
+                                       that is still to come */
     double start, shown, told_next; /* seconds; of the last one from the start */
 } study;
 

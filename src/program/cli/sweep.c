@@ -359,6 +359,51 @@ static void count_status(study *st, int k, rb_status status)
         st->unsolved_case = k + 1;
 }
 
+/* The first case of a kind of notes has its line in the table before it, so that a study that
+ * continues knows which kinds its file has. */
+static const char note_before[] = "note, case ";
+
+static const char *name_of_note(int kind, char text[24])
+{
+    const char *name = rb_rolling_note_name(kind);
+    snprintf(text, 24, "crack-%d", kind - RB_ROLLING_OWN_NOTES + 1);
+    return name ? name : text;
+}
+
+static void write_notes(study *st, int k, const rb_rolling_row_notes *said)
+{
+    const rb_report_cells c = {.out = st->out, .style = st->o->style};
+    char name[24];
+
+    for (int i = 0; i < said->n; i++) {
+        const uint64_t bit = UINT64_C(1) << said->kind[i];
+        if (!(st->noted & bit) && !st->list)
+            rb_report_comment(&c, "%s%d, %s: %s", note_before, k + 1,
+                              name_of_note(said->kind[i], name), said->text[i]);
+        st->noted |= bit;
+    }
+    rb_rolling_add_row_notes(&st->notes, k, said);
+}
+
+/* 1: the line is such a note, of a row that follows. */
+static int is_note(study *st, const char *line)
+{
+    char name[24];
+    int from = 0;
+
+    if (strncmp(line, "# ", 2) != 0 || strncmp(line + 2, note_before, strlen(note_before)) != 0 ||
+        sscanf(line + 2 + strlen(note_before), "%*d, %n", &from) != 0 || from == 0)
+        return 0;
+    line += 2 + strlen(note_before) + from;
+    for (int kind = 0; kind < RB_ROLLING_NOTES; kind++) {
+        const char *known = name_of_note(kind, name);
+        const size_t n = strlen(known);
+        if (strncmp(line, known, n) == 0 && line[n] == ':')
+            st->found |= UINT64_C(1) << kind;
+    }
+    return 1;
+}
+
 static int see_row(int k, const rb_rolling_row *row, void *context)
 {
     study *st = context;
@@ -366,6 +411,7 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
     rb_rolling_row shown = *row;
 
     rb_rolling_row_convert(&shown, rb_case_resolved(st->base)->units);
+    write_notes(st, k, &row->notes);
     for (int j = 0; j < column_count(st); j++) {
         const double x = cell_value(st, j, k, &shown);
         const char *word = cell_word(st, j, k);
@@ -543,14 +589,18 @@ static cli_exit resume(study *st)
     st->whole = ftell(st->out);
     while (code == CLI_CONTINUE && (n = getline(&line, &capacity, st->out)) > 0 &&
            line[n - 1] == '\n') {
+        if (is_note(st, line))
+            continue;
         if (st->first == st->cases || !is_row(st, st->first, line, (size_t)n))
             code = cli_fail(
                 CLI_CANTWRITE,
                 "%s:%d: not the row of case %d of this study; --restart would overwrite the file",
                 st->path, HEAD_LINES + st->first + 1, st->first + 1);
         st->first++;
+        st->noted = st->found;
         st->whole = ftell(st->out);
     }
+    st->found = 0;
     free(line);
     if (code != CLI_CONTINUE)
         st->path = NULL; /* it is another's: nothing of it is taken back */
@@ -575,6 +625,8 @@ static cli_exit close_output(study *st, cli_exit code)
             const rb_units units = rb_case_resolved(st->base)->units;
             char heading[STUDY_HEADING];
             json_t *root = rb_report_json_start(cli_command_line()), *table = json_object();
+            const rb_rolling_note_list said = rb_rolling_list_study_notes(&st->notes, "case");
+            rb_report_json_set(&root, "notes", rb_report_json_notes(&said));
             for (int j = 0; j < column_count(st); j++)
                 rb_report_json_set(&table, column_name(st, j, heading),
                                    json_incref(json_array_get(st->list, (size_t)j)));
@@ -701,6 +753,7 @@ static rb_rolling_sweep sweep_of(study *st)
             also |= RB_ROW_STRESS;
     return (rb_rolling_sweep){.first = st->first,
                               .also = also,
+                              .units = rb_case_resolved(st->base)->units,
                               .count = st->cases - st->first,
                               .workers = st->o->jobs,
                               .make = make_case,
@@ -730,6 +783,8 @@ static cli_exit run(study *st)
                         st->path ? "; the same command continues from there" : "");
     st->complete = 1;
     if (!st->o->quiet) {
+        const rb_rolling_note_list said = rb_rolling_list_study_notes(&st->notes, "case");
+        rb_report_notes(stderr, &said, cli_is_coloured(stderr));
         char heading[STUDY_HEADING];
         const double n = st->summed;
 

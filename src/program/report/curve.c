@@ -32,8 +32,7 @@ rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const
             rb_report_cells_end_row(&c);
             rb_report_comment_head(&c, command);
             rb_report_comment_slopes(&c, curves->n, curves->slopes, curves->mu);
-            if (curves->rc)
-                rb_report_comment_notes(&c, curves->rc, &curves->curve[curves->n - 1].last);
+            rb_report_comment_notes(&c, &curves->notes);
         }
         for (int i = 0; i < curves->curve[k].n; i++) {
             rb_report_cell_number(&c, curves->mu[k]);
@@ -163,7 +162,20 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                     rb_unit_name(c->units, "N/mm"), c->creepage[least],
                     rb_rolling_below_zero(curves->rc, &c->last));
         const int slides = !speeds && sliding < rising && curves->mu[k] > 0.0;
-        if (slides && sliding > 0)
+        /* where it yields it need not slide */
+        double yields = 0.0;
+        for (int i = sliding; i < rising && c->yield_ratio; i++)
+            yields = fmax(yields, c->yield_ratio[i]);
+        if (slides && yields > 0.0 && sliding > 0)
+            fprintf(
+                out,
+                "  nothing sticks from a creepage between xi = %.5g and %.5g on: up to %.3g %% of "
+                "the interface yields\n",
+                c->creepage[sliding - 1], c->creepage[sliding], 100.0 * yields);
+        else if (slides && yields > 0.0)
+            fprintf(out, "  nothing sticks at any point: up to %.3g %% of the interface yields\n",
+                    100.0 * yields);
+        else if (slides && sliding > 0)
             fprintf(
                 out,
                 "  full sliding begins between xi = %.5g and %.5g, xi R/(mu a) = %.4g and %.4g\n",

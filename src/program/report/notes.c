@@ -9,26 +9,22 @@ void rb_report_note(FILE *out, const char *text, int colour)
             text);
 }
 
-void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s, int colour)
+void rb_report_notes(FILE *out, const rb_rolling_note_list *notes, int colour)
 {
-    const rb_rolling_note_list list = rb_rolling_find_notes(rc, s);
-    for (int k = 0; k < list.n; k++)
-        rb_report_note(out, list.text[k], colour);
+    for (int k = 0; k < notes->n; k++)
+        rb_report_note(out, notes->text[k], colour);
 }
 
-void rb_report_comment_notes(const rb_report_cells *c, const rb_rolling_case *rc,
-                             const rb_rolling_solution *s)
+void rb_report_comment_notes(const rb_report_cells *c, const rb_rolling_note_list *notes)
 {
-    const rb_rolling_note_list list = rb_rolling_find_notes(rc, s);
-    for (int k = 0; k < list.n; k++)
-        rb_report_comment(c, "note: %s", list.text[k]);
+    for (int k = 0; k < notes->n; k++)
+        rb_report_comment(c, "note: %s", notes->text[k]);
 }
 
-json_t *rb_report_json_notes(const rb_rolling_case *rc, const rb_rolling_solution *s)
+json_t *rb_report_json_notes(const rb_rolling_note_list *notes)
 {
-    const rb_rolling_note_list found = rb_rolling_find_notes(rc, s);
     json_t *list = json_array();
-    for (int k = 0; k < found.n; k++)
-        rb_report_json_append(&list, json_string(found.text[k]));
+    for (int k = 0; k < notes->n; k++)
+        rb_report_json_append(&list, json_string(notes->text[k]));
     return list;
 }

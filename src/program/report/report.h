@@ -150,10 +150,9 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width);
 void rb_report_errors(FILE *out, const rb_rolling_solution *s, const rb_rolling_errors *e,
                       int width);
 void rb_report_history_summary(FILE *out, const rb_rolling_case *rc, const rb_rolling_history *h);
-/* The notes of rb_rolling_find_notes as an array of JSON, or as lines of text. */
-struct json_t *rb_report_json_notes(const rb_rolling_case *rc, const rb_rolling_solution *s);
-void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s,
-                     int colour);
+/* Notes as an array of JSON, or as lines of text. */
+struct json_t *rb_report_json_notes(const rb_rolling_note_list *notes);
+void rb_report_notes(FILE *out, const rb_rolling_note_list *notes, int colour);
 
 /* References to the methods used; s NULL: the solver is not known. */
 void rb_report_citations(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s);
@@ -252,8 +251,9 @@ typedef struct {
     rb_rolling_curve curve[RB_REPORT_CURVES];
     int has_errors;
     rb_rolling_curve error[RB_REPORT_CURVES]; /* with has_errors */
-    const rb_rolling_case *rc; /* case of `last` of the last curve, for notes; NULL: none */
-    rb_case_slopes slopes[RB_REPORT_CURVES]; /* derivatives of each point; n = 0: not computed */
+    const rb_rolling_case *rc;                /* of the curves */
+    rb_rolling_note_list notes;               /* on the points of all curves */
+    rb_case_slopes slopes[RB_REPORT_CURVES];  /* derivatives of each point; n = 0: not computed */
 } rb_report_curves;
 
 /* One row per mu and creepage; errors are in additional columns.  RB_EWRITE: see
@@ -466,12 +466,11 @@ rb_status rb_report_fit_picture(FILE *out, rb_report_canvas canvas, const rb_rep
  * left out.  All is borrowed, in the units of the case. */
 typedef struct {
     const char *command;
-    const rb_case *words;                /* resolved */
-    const rb_rolling_solution *solution; /* of the notes */
-    const rb_rolling_case *noted;        /* whose solution it is; NULL: that of words */
-    const rb_case_result *result;        /* summary, table and, of a sequence of steps, history */
-    const rb_rolling_states *states;     /* what its steps found; n = 0: not kept */
-    const rb_case_slopes *slopes;        /* derivatives of its steps */
+    const rb_case *words; /* resolved */
+    const rb_rolling_note_list *notes;
+    const rb_case_result *result;    /* summary, table and, of a sequence of steps, history */
+    const rb_rolling_states *states; /* what its steps found; n = 0: not kept */
+    const rb_case_slopes *slopes;    /* derivatives of its steps */
     const rb_report_stress *stress;
     const rb_case_crack_result *crack;
     int faces; /* 1: and its faces, with the contact that loads them */

@@ -39,9 +39,8 @@ json_t *rb_report_json_document(const rb_report_document *d)
     const rb_resolved_case *c = rb_case_resolved(d->words);
     json_t *root = rb_report_json_start(d->command);
 
-    if (d->solution)
-        rb_report_json_set(&root, "notes",
-                           rb_report_json_notes(d->noted ? d->noted : &c->rc, d->solution));
+    if (d->notes)
+        rb_report_json_set(&root, "notes", rb_report_json_notes(d->notes));
     rb_report_json_set(&root, "units", rb_report_json_units(c->units));
     rb_report_json_set(&root, "input_hash", rb_report_json_input_hash(d->words));
     rb_report_json_set(&root, "inputs", rb_report_json_inputs(d->words));

@@ -93,7 +93,8 @@ rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s, const cha
     char line[400];
     rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
 
-    rb_report_comment_notes(&c, s->rc, s->s);
+    const rb_rolling_note_list notes = rb_rolling_find_notes(s->rc, s->s);
+    rb_report_comment_notes(&c, &notes);
     rb_report_comment(&c, "tension positive; y > 0 inside A; the grid follows A's surface");
     for (int k = 0; maximum(k); k++)
         rb_report_comment(&c, "%s", maximum_text(s, k, line, sizeof line));

@@ -16,7 +16,9 @@ rb_status rb_report_table(FILE *out, const rb_rolling_case *rc, const rb_rolling
                           s->patch[k].max_pressure, rb_unit_name(s->units, "MPa"),
                           s->patch[k].normal_load, s->patch[k].tangential_load,
                           rb_unit_name(s->units, "N/mm"));
-    if (rc)
-        rb_report_comment_notes(&c, rc, s);
+    if (rc) {
+        const rb_rolling_note_list notes = rb_rolling_find_notes(rc, s);
+        rb_report_comment_notes(&c, &notes);
+    }
     return rb_report_end_columns(&c, s->n, 1, &columns);
 }

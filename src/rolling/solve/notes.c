@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Strains are of the order of approach/R and a/R: from these on linear elasticity is
  * inaccurate, from those below it does not hold at all. */
@@ -116,20 +117,28 @@ static int flat_layer(const rb_rolling_case *rc, const rb_rolling_solution *s, c
     static const double thick = 0.01, held = 0.45, free_to_slide = 1.25;
     const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
     const double P = rb_unit_stored(s->units, "N/mm", s->normal_load);
+    double shift = 0.0, thickest[2] = {0.0, 0.0};
 
     for (int b = 0; b < 1 + rc->elastic_b; b++) {
         const double R = fabs(bodies[b]->radius), t = bodies[b]->layer;
         if (rc->formulation == RB_STATIC || !(t > 0.0) || !isfinite(R) || t < thick * R)
             continue;
-        const double shift = (0.075 + 0.45 * bodies[b]->poisson) * P / (bodies[b]->young * R);
-        return say(text,
-                   "The layer%s is computed as flat at thickness/R = %.2g. A round cover rolls "
-                   "freely at a creepage that is %s by about %.1g (much friction) to %.1g "
-                   "(little); see --cover-thickness%s.",
-                   b ? " of B" : "", t / R, b ? "lower" : "higher", held * shift,
-                   free_to_slide * shift, b ? "-b" : "");
+        thickest[b] = t / R;
+        shift +=
+            (b ? -1.0 : 1.0) * (0.075 + 0.45 * bodies[b]->poisson) * P / (bodies[b]->young * R);
     }
-    return 0;
+    const int both = thickest[0] > 0.0 && thickest[1] > 0.0, b = !(thickest[0] > 0.0);
+    if (thickest[b] == 0.0)
+        return 0;
+    return say(text,
+               "The layer%s computed as flat at thickness/R = %.2g. %s at a creepage that is %s by "
+               "about %.1g (much friction) to %.1g (little); see --cover-thickness%s.",
+               both ? "s are"
+               : b  ? " of B is"
+                    : " is",
+               thickest[b], both ? "Round covers roll freely" : "A round cover rolls freely",
+               shift < 0.0 ? "lower" : "higher", held * fabs(shift), free_to_slide * fabs(shift),
+               b ? "-b" : "");
 }
 
 /* ---- Bodies that relax, tables, the datum ------------------------------------------ */
@@ -498,38 +507,39 @@ static int slip_violations(const rb_rolling_case *rc, const rb_rolling_solution 
 static const struct {
     const char *name;
     int (*says)(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text);
-} notes[] = {
-    {"wide-arc", wide_arc},
-    {"strains", strains},
-    {"thin-and-strained", thin_and_strained},
-    {"flat-layer", flat_layer},
-    {"near-datum", near_datum},
-    {"short-memory", short_memory},
-    {"gap-corners", gap_corners},
-    {"irregularity-corners", irregularity_corners},
-    {"coarse-elements", coarse_elements},
-    {"pressed-corners", pressed_corners},
-    {"static-creepage", static_creepage},
-    {"no-creepage", no_creepage},
-    {"percent", percent},
-    {"radians", radians},
-    {"not-unique", not_unique_motion},
-    {"steep-fall", steep_fall},
-    {"angle-of-arc", angle_of_arc},
-    {"yields", yields},
-    {"equal-elements", equal_elements},
-    {"uncertain-edge", uncertain_edge},
-    {"negative-power", negative_power},
-    {"short-slip", short_slip},
-    {"slip-violations", slip_violations},
+    int of_columns; /* 1: how the columns of the table of tractions must be read */
+} all_notes[] = {
+    {"wide-arc", wide_arc, 0},
+    {"strains", strains, 0},
+    {"thin-and-strained", thin_and_strained, 0},
+    {"flat-layer", flat_layer, 0},
+    {"near-datum", near_datum, 0},
+    {"short-memory", short_memory, 0},
+    {"gap-corners", gap_corners, 0},
+    {"irregularity-corners", irregularity_corners, 0},
+    {"coarse-elements", coarse_elements, 0},
+    {"pressed-corners", pressed_corners, 0},
+    {"static-creepage", static_creepage, 0},
+    {"no-creepage", no_creepage, 0},
+    {"percent", percent, 0},
+    {"radians", radians, 0},
+    {"not-unique", not_unique_motion, 0},
+    {"steep-fall", steep_fall, 0},
+    {"angle-of-arc", angle_of_arc, 0},
+    {"yields", yields, 1},
+    {"equal-elements", equal_elements, 0},
+    {"uncertain-edge", uncertain_edge, 0},
+    {"negative-power", negative_power, 0},
+    {"short-slip", short_slip, 0},
+    {"slip-violations", slip_violations, 1},
 };
 
-enum { NOTES = sizeof notes / sizeof *notes };
-_Static_assert((int)NOTES <= (int)RB_ROLLING_NOTES, "room for all notes of one result");
+enum { NOTES = sizeof all_notes / sizeof *all_notes };
+_Static_assert((int)NOTES <= (int)RB_ROLLING_OWN_NOTES, "kinds of the callers come behind");
 
 const char *rb_rolling_note_name(int k)
 {
-    return k >= 0 && k < NOTES ? notes[k].name : NULL;
+    return k >= 0 && k < NOTES ? all_notes[k].name : NULL;
 }
 
 rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_rolling_solution *s)
@@ -537,7 +547,79 @@ rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_r
     rb_rolling_note_list list = {.n = 0};
 
     for (int k = 0; k < NOTES; k++)
-        if (notes[k].says(rc, s, list.text[list.n]))
+        if (all_notes[k].says(rc, s, list.text[list.n]))
             list.kind[list.n++] = k;
+    return list;
+}
+
+/* ---- Rows of a curve or a study ---------------------------------------------------- */
+
+rb_rolling_row_notes rb_rolling_find_row_notes(const rb_rolling_case *rc,
+                                               const rb_rolling_solution *s)
+{
+    const rb_rolling_note_list found = rb_rolling_find_notes(rc, s);
+    rb_rolling_row_notes row = {.n = 0};
+
+    for (int k = 0; k < found.n; k++)
+        if (!all_notes[found.kind[k]].of_columns)
+            rb_rolling_add_note(&row, found.kind[k], found.text[k]);
+    return row;
+}
+
+void rb_rolling_add_note(rb_rolling_row_notes *notes, int kind, const char *text)
+{
+    if (notes->n == RB_ROLLING_ROW_NOTES)
+        return;
+    notes->kind[notes->n] = kind;
+    snprintf(notes->text[notes->n++], sizeof notes->text[0], "%s", text);
+}
+
+static void add_rows(rb_rolling_study_notes *all, int kind, int first, int count, const char *text)
+{
+    if (kind < 0 || kind >= RB_ROLLING_NOTES || count == 0)
+        return;
+    if (all->count[kind] == 0) {
+        all->first[kind] = first;
+        snprintf(all->text[kind], sizeof all->text[0], "%s", text);
+    }
+    all->count[kind] += count;
+}
+
+void rb_rolling_add_row_notes(rb_rolling_study_notes *all, int row,
+                              const rb_rolling_row_notes *notes)
+{
+    all->rows++;
+    for (int k = 0; k < notes->n; k++)
+        add_rows(all, notes->kind[k], row, 1, notes->text[k]);
+}
+
+void rb_rolling_join_study_notes(rb_rolling_study_notes *all, const rb_rolling_study_notes *more)
+{
+    for (int k = 0; k < RB_ROLLING_NOTES; k++)
+        add_rows(all, k, all->rows + more->first[k], more->count[k], more->text[k]);
+    all->rows += more->rows;
+}
+
+rb_rolling_note_list rb_rolling_list_study_notes(const rb_rolling_study_notes *all, const char *row)
+{
+    rb_rolling_note_list list = {.n = 0};
+
+    for (int k = 0; k < RB_ROLLING_NOTES; k++) {
+        if (all->count[k] == 0)
+            continue;
+        const int others = all->count[k] - 1;
+        char *text = list.text[list.n];
+        snprintf(text, RB_ROLLING_NOTE_LENGTH, "%s", all->text[k]);
+        if (all->count[k] == all->rows && others > 0)
+            rb_append(text, RB_ROLLING_NOTE_LENGTH, " (all %d %ss)", all->rows, row);
+        else if (all->rows > 1)
+            rb_append(text, RB_ROLLING_NOTE_LENGTH, " (%s %d", row, all->first[k] + 1);
+        if (all->count[k] != all->rows && others > 0)
+            rb_append(text, RB_ROLLING_NOTE_LENGTH, " and %d other%s", others,
+                      others > 1 ? "s" : "");
+        if (all->count[k] != all->rows)
+            rb_append(text, RB_ROLLING_NOTE_LENGTH, " of %d)", all->rows);
+        list.kind[list.n++] = k;
+    }
     return list;
 }

@@ -191,6 +191,8 @@ static const rb_rolling_result points[] = {
           .meaning = "P"),
     POINT("stick_ratio", stick_ratio, .unit = "1", .error_bar = RB_SCALE_ONE,
           .meaning = "length that sticks / length in contact"),
+    POINT("yield_ratio", yield_ratio, .unit = "1", .error_bar = RB_SCALE_ONE,
+          .condition = RB_FOR_YIELD, .meaning = "length that yields / length in contact"),
     POINT("dissipation", dissipation, .unit = "N/mm", .error_bar = RB_SCALE_ONE,
           .meaning = "friction power per unit speed"),
     POINT("residual", residual, .unit = "1", .meaning = "natural residual of the scaled problem"),

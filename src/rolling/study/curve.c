@@ -19,7 +19,29 @@ void rb_rolling_curve_free(rb_rolling_curve *c)
 typedef struct {
     rb_rolling_point *point;
     void *context;
+    rb_units units; /* of notes */
 } watcher;
+
+/* The creepage of a point was not given like that of a case. */
+static rb_status note_point(const rb_rolling_model *model, rb_units units, rb_rolling_curve *c,
+                            rb_message *why)
+{
+    rb_rolling_case rc = *model->rc;
+    rb_rolling_solution at;
+    const rb_status s = rb_rolling_variant_solution(model, &at, why);
+
+    if (s != RB_OK)
+        return s;
+    if (!isnan(rc.creep)) {
+        rc.creep = NAN;
+        rc.creep_ratio = at.creep_ratio;
+    }
+    rb_rolling_solution_convert(&at, units);
+    const rb_rolling_row_notes notes = rb_rolling_find_row_notes(&rc, &at);
+    rb_rolling_add_row_notes(&c->notes, c->notes.rows, &notes);
+    rb_rolling_solution_free(&at);
+    return RB_OK;
+}
 
 static rb_status record(const rb_rolling_model *model, const watcher *w, rb_rolling_curve *c,
                         rb_message *why)
@@ -28,7 +50,7 @@ static rb_status record(const rb_rolling_model *model, const watcher *w, rb_roll
     const rb_contact_state *state = &model->state;
     const double P = rb_rolling_model_load(model), Q = rb_rolling_model_force(model);
     const int k = c->n++;
-    double contact, stick;
+    double contact, stick, yields = 0.0;
     const double longest = rb_rolling_longest_element(p->n, state->zone, model->bodies.f.h);
 
     rb_rolling_zone_lengths(p->n, state->zone, model->bodies.f.h, &contact, &stick);
@@ -38,6 +60,10 @@ static rb_status record(const rb_rolling_model *model, const watcher *w, rb_roll
     c->tangential_load[k] = Q;
     c->force_ratio[k] = rb_rolling_force_ratio(model);
     c->stick_ratio[k] = contact > 0.0 ? stick / contact : 0.0;
+    for (int i = 0; i < p->n && c->yield_ratio; i++)
+        yields += state->zone[i] > RB_ZONE_SLIP_POSITIVE ? model->bodies.f.h[i] : 0.0;
+    if (c->yield_ratio)
+        c->yield_ratio[k] = contact > 0.0 ? yields / contact : 0.0;
     if (contact > 0.0)
         c->stick_step = fmax(c->stick_step, longest / contact);
     c->dissipation[k] = rb_rolling_dissipated_power(model->rc, p->n, state->lambda, state->q,
@@ -64,6 +90,8 @@ static rb_status record(const rb_rolling_model *model, const watcher *w, rb_roll
         c->max_temperature[k] = s == RB_OK ? warm.max_temperature : 0.0;
         rb_rolling_solution_free(&warm);
     }
+    if (s == RB_OK)
+        s = note_point(model, w->units, c, why);
     if (s == RB_OK && w->point)
         s = w->point(model, k, w->context, why);
     if (s != RB_OK || c->n != (c->branch ? 2 * c->rising : c->rising))
@@ -226,7 +254,7 @@ rb_status rb_rolling_curve_observe(const rb_rolling_case *rc, const rb_rolling_r
                                    rb_rolling_point *point, void *context, rb_rolling_curve *curve,
                                    rb_message *why)
 {
-    const watcher w = {point, context};
+    const watcher w = {point, context, range->units};
     const double start = rb_seconds();
     rb_rolling_case steady = *rc;
     rb_rolling_model model = {0};

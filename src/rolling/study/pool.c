@@ -64,6 +64,10 @@ void rb_rolling_sweep_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row 
         s = rb_rolling_estimate_errors(&rc, &solution, with_stress ? &row->stress : NULL,
                                        &row->errors, why);
     row->solution.status = s;
+    if (s >= 0 && solution.p) {
+        rb_rolling_solution_convert(&solution, sweep->units);
+        row->notes = rb_rolling_find_row_notes(&rc, &solution);
+    }
     rb_rolling_solution_free(&solution);
     rb_rolling_model_free(&model);
 }

@@ -70,6 +70,8 @@ rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc, const rb_rolli
             if (mu > 0.0)
                 errors->force_ratio[i] += mu / rb_rolling_largest_mu(rc);
             errors->stick_ratio[i] += curve->stick_step;
+            if (errors->yield_ratio)
+                errors->yield_ratio[i] += curve->stick_step;
             errors->dissipation[i] +=
                 rb_rolling_edge_power(rc, curve->normal_load[i], curve->creepage[i],
                                       curve->half_width, curve->stick_step);
