@@ -206,7 +206,8 @@ static rb_status make_wheel(const void *of)
     rb_bem_loaded *loaded = NULL;
     double r[2 * N] = {1.0}, change[2 * M];
     OWNED(rb_bem_flexibility) f = {0}, g = {0}, waves = {0};
-    const rb_bem_edge_load load = {1, ends, t_contact + 1, t_contact};
+    const rb_bem_edge_load load = {1, ends, t_contact + 1, t_contact},
+                           nodes = {2, ends, t_contact + 1, t_contact};
     const rb_bem_surface plane = rb_bem_halfplane(rubber, 1.0);
     double w[2];
 
@@ -234,7 +235,7 @@ static rb_status make_wheel(const void *of)
     if (s == RB_OK)
         s = rb_bem_wheel_normal(&wheel, &load, 2, xy, w);
     if (s == RB_OK)
-        s = rb_bem_field_create(system, t_contact, &field, NULL);
+        s = rb_bem_field_create(system, &nodes, &field, NULL);
     if (s == RB_OK)
         s = rb_bem_field_stress(field, (rb_bem_points){2, xy}, stress, NULL);
     assert_true(mesh.n <= 300);

@@ -147,18 +147,27 @@ TEST(fields_have_their_mirror_images)
         held_system *system;
         CHECK_OK(rb_bem_mesh_cylinder(&cylinder, n, ends, &mesh, NULL));
         CHECK_OK(rb_bem_system_create(&mesh, steel, &system, NULL));
+        /* the midpoints, along the contour, and beyond them nothing */
+        double nodes[n + 2] = {0.0};
+        for (int c = 0; c < n; c++) {
+            const double h = hypot(mesh.x1[c] - mesh.x0[c], mesh.y1[c] - mesh.y0[c]);
+            nodes[c + 1] = nodes[n + 1] + 0.5 * h;
+            nodes[n + 1] += h;
+        }
         for (int load = 0; load < 2 * n; load++) {
             double s[2][3 * P];
             const double sign = load % 2 ? 1.0 : -1.0; /* of friction the mirror's */
             for (int side = 0; side < 2; side++) {
-                double t[2 * n] = {0.0}, xy[2 * P];
+                double p[n + 2] = {0.0}, q[n + 2] = {0.0}, xy[2 * P];
                 rb_bem_field *field;
-                t[side ? 2 * (n - 1 - load / 2) + load % 2 : load] = side ? sign : 1.0;
+                const int at = 1 + (side ? n - 1 - load / 2 : load / 2);
+                *(load % 2 ? p + at : q + at) = side ? sign : 1.0;
                 for (int k = 0; k < P; k++) {
                     xy[2 * k] = side ? -aside[k] : aside[k];
                     xy[2 * k + 1] = depth[k];
                 }
-                CHECK_OK(rb_bem_field_create(system, t, &field, NULL));
+                CHECK_OK(rb_bem_field_create(system, &(rb_bem_edge_load){n + 2, nodes, p, q},
+                                             &field, NULL));
                 CHECK_OK(rb_bem_field_stress(field, (rb_bem_points){P, xy}, s[side], NULL));
                 rb_bem_field_free(field);
             }
@@ -177,10 +186,11 @@ TEST(every_failed_allocation_is_reported)
         refused = REFUSED_FROM(
             count, rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL));
     }
-    const double t[8] = {0.0, 1.0, 0.1, 2.0, 0.1, 2.0, 0.0, 1.0};
+    const double x[] = {0.0, 0.1, 1.0}, p[] = {0.0, 2.0, 0.0}, q[] = {0.0, 0.1, 0.0};
+    const rb_bem_edge_load load = {3, x, p, q};
     for (int count = 0, refused = 1; refused; count++) {
         rb_bem_field *field;
-        refused = REFUSED_FROM(count, rb_bem_field_create(system, t, &field, NULL));
+        refused = REFUSED_FROM(count, rb_bem_field_create(system, &load, &field, NULL));
         rb_bem_field_free(field);
     }
 }

@@ -361,7 +361,7 @@ static void change_maxima(json_t *root, const char *key)
         const double x = json_real_value(json_object_get(one, key));
         json_object_set_new(one, key, changed_stress(key, x));
     }
-    expect_violations(root, 4);
+    expect_violations(root, 6);
     json_object_set_new(root, "maxima", own);
 }
 

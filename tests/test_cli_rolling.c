@@ -178,7 +178,7 @@ TEST(table_of_points)
     OWNED(rb_io_table) t;
     write_file("points", "# x y\n0 0.39308\n0.1, 0\n");
     assert_int_equal(rollbem("stress " SIMILAR "--shift 0 --mesh fitted --points points"), 0);
-    assert_non_null(strstr(out, "# maximum shear "));
+    assert_non_null(strstr(out, "# in-plane shear "));
     assert_non_null(strstr(err, "von Mises"));
     assert_int_equal(rb_io_table_read("out", &t, NULL), RB_OK);
     assert_int_equal(t.rows, 2);
@@ -759,7 +759,7 @@ TEST(the_largest_stress_covers_no_contour)
                                "--plot-script s.gp");
     const json_t *maxima = json_object_get(root, "maxima");
     char title[80];
-    snprintf(title, sizeof title, "maximum shear  [MPa],  largest %.4g at +'",
+    snprintf(title, sizeof title, "in-plane shear  [MPa],  largest %.4g at +'",
              number_in(json_object_get(maxima, "max_shear"), "value"));
     slurp("s.gp", out, sizeof out);
     assert_non_null(strstr(out, title));

@@ -270,7 +270,7 @@ export const words = {
     first: "To the start",
     last: "To the end",
     below_title: "Stress below the surface of A",
-    below_kinds: { max_shear: "shear stress", von_mises: "von Mises", fringes: "photoelastic fringes" },
+    below_kinds: { max_shear: "in-plane shear", von_mises: "von Mises", fringes: "photoelastic fringes" },
     press: {
         question:
             "A steel wheel of 92 cm stands on steel and carries 12.5 kN per millimetre of its width. How wide is the strip on which it stands?",

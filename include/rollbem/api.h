@@ -133,8 +133,10 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *   guess.p guess.q guess.gap guess.shift   after rb_api_guess, an entry per element
  *   stress.x stress.y stress.max_shear ...  after rb_api_stress, nx x ny, or
  *                                rb_api_stress_at, an entry per point
- *   maxima.max_shear ...         after rb_api_stress_maxima: value, x, y; also von_mises,
- *                                orthogonal_shear, tension
+ *   maxima.max_shear ...         after rb_api_stress_maxima: value, x, y, material (0: A is
+ *                                of one, 1: its layer or cover, 2: the base below); also
+ *                                tresca_shear, von_mises, orthogonal_shear, tension,
+ *                                compression
  *   crack.x crack.K_I crack.K_II ...        after rb_api_crack, an entry per position
  *   crack.summary.K_I_max ...    one number each
  *   crack.growth.length crack.growth.cycles ...   with "paris", an entry per length

@@ -431,12 +431,14 @@ typedef struct {
 rb_status rb_bem_interior(const rb_bem_boundary *body, rb_bem_points points, double *displacement,
                           double *stress, rb_message *why);
 
-/* Stress of a body under contact tractions, accurate up to the loaded surface: the
- * tractions are linear between the midpoints, and their near field is in closed form
- * (B10). t_contact: 2 contact_n, global.  The field borrows the system.  RB_EINVAL: the
- * body does not lie on the inner side of every contact element. */
+/* Stress of a body under contact tractions, accurate up to the loaded surface: the near
+ * field of the tractions is in closed form (B10).  load: linear between n nodes x, which
+ * are measured along the contour from the start of the first contact element; p into the
+ * body, q along each element; what lies beyond the contact elements is left out.  The
+ * field borrows the system.  RB_EINVAL: the body does not lie on the inner side of every
+ * contact element. */
 typedef struct rb_bem_field rb_bem_field;
-rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_contact,
+rb_status rb_bem_field_create(const rb_bem_system *system, const rb_bem_edge_load *load,
                               rb_bem_field **field, rb_message *why);
 rb_status rb_bem_field_stress(const rb_bem_field *field, rb_bem_points points, double *stress,
                               rb_message *why);

@@ -1243,7 +1243,9 @@ typedef struct {
     double x, y;                     /* [length] */
     double sxx, syy, szz, sxy;       /* [stress] */
     double principal_1, principal_2; /* in the plane, the larger first */
-    double max_shear;                /* (principal_1 - principal_2)/2 */
+    double max_shear;                /* in the plane: (principal_1 - principal_2)/2 */
+    double tresca_shear;             /* half the largest difference of all three principal
+                                        stresses, szz being one of them */
     double von_mises, hydrostatic;   /* hydrostatic = trace/3 */
 } rb_rolling_stress;
 
@@ -1260,28 +1262,44 @@ rb_status rb_rolling_stress_at(const rb_rolling_model *model, int n, const doubl
 /* Height of A's surface at x: 0 for a half-plane. */
 double rb_rolling_surface(const rb_rolling_case *rc, double x);
 
-/* Value and place of a maximum, found by a simplex search that starts at the largest
- * value on a grid. */
+/* The material of A that a place lies in: on a bond the stress along it jumps. */
+typedef enum {
+    RB_MATERIAL_BODY,  /* A is of one material */
+    RB_MATERIAL_LAYER, /* a layer on a half-plane, the cover of a wheel */
+    RB_MATERIAL_BASE   /* the half-plane below the layer */
+} rb_rolling_place;
+
+/* "body", "layer", "base". */
+const char *rb_rolling_place_name(rb_rolling_place place);
+
+/* Value and place of a maximum. */
 typedef struct {
     double value, x, y;
+    rb_rolling_place material;
 } rb_rolling_extremum;
 
 typedef struct {
-    rb_rolling_extremum max_shear, von_mises;
-    rb_rolling_extremum orthogonal_shear; /* largest |sxy| below the surface */
+    rb_rolling_extremum max_shear, tresca_shear, von_mises;
+    rb_rolling_extremum orthogonal_shear; /* largest |sxy| */
     rb_rolling_extremum tension;          /* largest principal stress */
+    rb_rolling_extremum compression;      /* the smallest principal stress, with the other sign */
 } rb_rolling_stress_maxima;
+
+/* The k-th of them, of which rb_rolling_maxima_scalars has the rows 3k, 3k + 1 and 3k + 2;
+ * NULL: there are no more. */
+rb_rolling_extremum *rb_rolling_maximum(rb_rolling_stress_maxima *maxima, int k);
 
 /* From mm, N, MPa to other units. */
 void rb_rolling_stress_convert(int n, rb_rolling_stress *at, rb_rolling_stress_maxima *maxima,
                                rb_units units);
 
-/* Finds the maxima below the contact and half a width on either side of it, to the given
- * depth (0: 2.5 half-widths). */
+/* Finds the maxima in all of A: on its surface, along a bond on both sides of it, and
+ * inside; or not deeper than `depth` [length], if that is not 0.  At the ends of a clamped
+ * arc the stress is infinite: what lies within one element of them is left out. */
 rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double depth,
                                         rb_rolling_stress_maxima *maxima, rb_message *why);
-/* Computes the values again at the places given in maxima.  RB_EINVAL: a place lies
- * outside A. */
+/* Computes the values again at the places and in the materials given in maxima.  RB_EINVAL:
+ * a place lies outside A. */
 rb_status rb_rolling_stress_maxima_at(const rb_rolling_model *model,
                                       rb_rolling_stress_maxima *maxima, rb_message *why);
 
@@ -1309,7 +1327,8 @@ typedef struct {
 /* RB_EINVAL: a wheel, a layer; RB_NO_CONTACT, RB_ENOMEM. */
 rb_status rb_rolling_shakedown_find(const rb_rolling_model *model, rb_rolling_shakedown *shakedown,
                                     rb_message *why);
-/* Computes shear_yield again from the stress at x, y and the given residual stress. */
+/* Computes shear_yield and x again from the stress at the depth y and the given residual
+ * stress. */
 rb_status rb_rolling_shakedown_at(const rb_rolling_model *model, rb_rolling_shakedown *shakedown,
                                   rb_message *why);
 

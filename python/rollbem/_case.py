@@ -548,17 +548,28 @@ class Curve(_Named):
 
 
 class Extremum(tuple):
-    """Value and place (x, y) of a largest stress."""
+    """Value and place (x, y) of a largest stress.
+
+    ``material`` says what lies there: ``body``, or of two materials ``layer`` (also the
+    cover of a wheel) or ``base``; on a bond the stress along it differs in both.
+    """
 
     value, x, y = (property(lambda self, k=k: self[k]) for k in range(3))
+    material: str
+
+    def __new__(cls, numbers: Sequence[float]) -> "Extremum":
+        extremum = super().__new__(cls, numbers[:3])
+        extremum.material = ("body", "layer", "base")[int(numbers[3])] if len(numbers) > 3 else "body"
+        return extremum
 
 
 class Stress(_Named):
     """Stress in body A: arrays of ny x nx (a row per depth), or with an entry per point.
 
     Tension positive; ``szz`` is that of plane strain, 0 in plane stress.  ``maxima``
-    holds value and place of the largest ``max_shear``, ``von_mises``,
-    ``orthogonal_shear`` and ``tension``.
+    holds value and place of the largest ``max_shear`` (in the plane), ``tresca_shear``
+    (of all planes), ``von_mises``, ``orthogonal_shear``, ``tension`` (the largest principal
+    stress) and ``compression``.
     """
 
     solution: Solution
@@ -758,7 +769,7 @@ def stress(case: Union[Solution, _CaseLike] = None, grid: "tuple[int, int]" = (6
     depth = 0.0 if depth is None else _values.number("depth", depth)
     with handle.lock:  # what the call has made is read before another thread calls
         handle.check(handle.run("rb_api_stress_maxima", depth))
-        names = ("max_shear", "von_mises", "orthogonal_shear", "tension")
+        names = ("max_shear", "tresca_shear", "von_mises", "orthogonal_shear", "tension", "compression")
         maxima = {name: Extremum(handle.array(f"maxima.{name}").tolist()) for name in names}
         if points is None:
             if np.ndim(grid) != 1 or len(grid) != 2:

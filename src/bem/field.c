@@ -1,16 +1,18 @@
-/* Stress inside a loaded body (B8, B10): strips under the contact tractions, taken linear
- * between the midpoints, in closed form, and Somigliana's identity for the smooth
+/* Stress inside a loaded body (B8, B10): strips under the contact tractions, linear
+ * between nodes, in closed form, and Somigliana's identity for the smooth
  * remainder. */
 #include "bem/internal.h"
 #include "bem/strip.h"
 #include "bem/system.h"
 
+#include <math.h>
 #include <stdlib.h>
 
-/* Half of a contact element; the traction in its middle and its change per length. */
+/* A part of a contact element; the traction in its middle and its change per length. */
 typedef struct {
     rb_strip strip;
     double complex traction, slope;
+    int contact; /* the contact element */
 } piece;
 
 struct rb_bem_field {
@@ -30,48 +32,68 @@ void rb_bem_field_free(rb_bem_field *field)
     free(field);
 }
 
-/* Traction of contact element c in its own frame, along it and into the body: 0 beyond
- * the contact elements. */
-static double complex own_traction(const rb_bem_mesh *mesh, const double *t_contact, int c)
+/* The part from `from` to `to`, measured from its start, of contact element c, between the
+ * tractions at both, along the element and into the body: linear in its own frame, if the
+ * vector went on around a corner, the friction would jump by the pressure times the angle
+ * between the elements, and the stress would be infinite there, which on the circle it is
+ * not. */
+static piece part_of_element(const rb_bem_system *system, int c, double from, double to,
+                             double complex f_from, double complex f_to, double unit)
 {
-    if (c < 0 || c >= mesh->contact_n)
-        return 0.0;
+    const rb_bem_mesh *mesh = &system->mesh;
     const int j = mesh->contact_first + c;
-    const double complex along = I * rb_strip_outward(mesh, j);
-    return conj(along) * (t_contact[2 * c] + t_contact[2 * c + 1] * I);
-}
-
-/* Traction at the end between contact elements c - 1 and c, linear between midpoints.
- * Pressure and friction go on there, each along its own element: if the vector did, the
- * friction would jump by the pressure times the angle between the elements, and the
- * stress would be infinite at their end, which on the circle it is not. */
-static double complex end_traction(const rb_bem_mesh *mesh, const double *t_contact, int c)
-{
-    const int n = mesh->contact_n, j = mesh->contact_first + c;
-    const double before = c > 0 ? rb_bem_mesh_length(mesh, j - 1) : rb_bem_mesh_length(mesh, j);
-    const double after = c < n ? rb_bem_mesh_length(mesh, j) : before;
-
-    return (before * own_traction(mesh, t_contact, c) +
-            after * own_traction(mesh, t_contact, c - 1)) /
-           (before + after);
-}
-
-/* The tractions at its two ends in its own frame. */
-static piece half_element(double complex from, double complex to, double complex f_from,
-                          double complex f_to, rb_bem_material material, double unit)
-{
-    const rb_strip strip = rb_strip_between(from, to, material, unit);
+    const double h = rb_bem_mesh_length(mesh, j);
+    const double complex start = mesh->x0[j] + mesh->y0[j] * I, end = mesh->x1[j] + mesh->y1[j] * I;
+    const rb_strip strip =
+        rb_strip_between(from > 0.0 ? start + from / h * (end - start) : start,
+                         to < h ? start + to / h * (end - start) : end, system->material, unit);
     return (piece){strip, strip.along * 0.5 * (f_from + f_to),
-                   strip.along * (f_to - f_from) / strip.h};
+                   strip.along * (f_to - f_from) / strip.h, c};
 }
 
-/* Of all strips but the two halves of contact element `without`; -1: of all. */
+/* The load between its nodes, cut at the ends of the contact elements.  Returns the number
+ * of parts; part: NULL, or room for them. */
+static int cut(const rb_bem_system *system, const rb_bem_edge_load *load, double unit, piece *part)
+{
+    const rb_bem_mesh *mesh = &system->mesh;
+    double start = 0.0, h = rb_bem_mesh_length(mesh, mesh->contact_first); /* of element c */
+    int parts = 0;
+
+    for (int k = 0, c = 0; k + 1 < load->n; k++) {
+        const double length = load->x[k + 1] - load->x[k];
+        double from = fmax(load->x[k], start);
+        while (c < mesh->contact_n && from < load->x[k + 1]) {
+            const double end = start + h, to = fmin(load->x[k + 1], end);
+            /* what is shorter is the rounding of the sum of lengths */
+            if (to - from > 1e-14 * end) {
+                double complex f[2];
+                for (int i = 0; part && i < 2; i++) {
+                    const double w = ((i ? to : from) - load->x[k]) / length;
+                    f[i] = (1.0 - w) * (load->q[k] + load->p[k] * I) +
+                           w * (load->q[k + 1] + load->p[k + 1] * I);
+                }
+                if (part)
+                    part[parts] = part_of_element(system, c, from - start,
+                                                  to < end ? to - start : h, f[0], f[1], unit);
+                parts++;
+            }
+            from = fmax(from, to);
+            if (from >= end && ++c < mesh->contact_n) {
+                start = end;
+                h = rb_bem_mesh_length(mesh, mesh->contact_first + c);
+            }
+        }
+    }
+    return parts;
+}
+
+/* Of all strips but the parts of contact element `without`; -1: of all. */
 static void add_strips(const rb_bem_field *f, double complex z, int without, double stress[3])
 {
     for (int k = 0; k < f->pieces; k++) {
         const piece *p = &f->piece[k];
         double own[3];
-        if (k / 2 == without || (p->traction == 0.0 && p->slope == 0.0))
+        if (p->contact == without || (p->traction == 0.0 && p->slope == 0.0))
             continue;
         rb_strip_linear_stress(&p->strip, z, p->traction, p->slope, own);
         for (int i = 0; i < 3; i++)
@@ -91,10 +113,11 @@ static double complex strips_field(rb_bem_material material, double complex z, c
     return u;
 }
 
-rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_contact,
+rb_status rb_bem_field_create(const rb_bem_system *system, const rb_bem_edge_load *load,
                               rb_bem_field **field, rb_message *why)
 {
     const size_t dofs = (size_t)system->dofs;
+    const double unit = rb_bem_mesh_size(&system->mesh);
     *field = NULL;
     rb_status s = rb_bem_check_convex(system, why);
     if (s != RB_OK)
@@ -103,25 +126,14 @@ rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_conta
     double *value = rb_alloc(dofs, 1);
     s = RB_ENOMEM;
     if (f && value) {
-        f->pieces = 2 * system->mesh.contact_n;
+        f->pieces = cut(system, load, unit, NULL);
         f->piece = calloc((size_t)f->pieces + 1, sizeof *f->piece);
         f->u = rb_alloc(dofs, 2);
     }
     if (f && value && f->piece && f->u) {
         f->t = f->u + dofs;
         const rb_bem_mesh *mesh = &system->mesh;
-        const double unit = rb_bem_mesh_size(mesh);
-
-        for (int c = 0; c < mesh->contact_n; c++) {
-            const int j = mesh->contact_first + c;
-            const double complex from = mesh->x0[j] + mesh->y0[j] * I;
-            const double complex to = mesh->x1[j] + mesh->y1[j] * I, middle = 0.5 * (from + to);
-            const double complex own = own_traction(mesh, t_contact, c);
-            f->piece[2 * c] = half_element(from, middle, end_traction(mesh, t_contact, c), own,
-                                           system->material, unit);
-            f->piece[2 * c + 1] = half_element(
-                middle, to, own, end_traction(mesh, t_contact, c + 1), system->material, unit);
-        }
+        cut(system, load, unit, f->piece);
         /* What the strips leave of the given values.  A contact element's own strips give
          * its traction exactly: computed at its midpoint, where their ends meet, they would
          * give it but for the rounding of coordinates over a part in 1e9 of a short element. */
@@ -161,7 +173,7 @@ rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_conta
 rb_status rb_bem_field_stress(const rb_bem_field *field, rb_bem_points points, double *stress,
                               rb_message *why)
 {
-    rb_status s = rb_interior_at(field->rest, points, NULL, stress, why);
+    rb_status s = rb_interior_at(field->rest, 1, points, NULL, stress, why);
 
     for (int k = 0; k < points.n && s == RB_OK; k++) {
         if (rb_interrupted())

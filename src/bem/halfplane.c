@@ -129,9 +129,9 @@ rb_status rb_bem_halfplane_stress(const rb_bem_edge_load *load, rb_bem_points po
  * With g = -p + i q on y = 0 and Phi = (1/2 pi i) int g(t)/(t - z) dt (Muskhelishvili):
  *     sxx + syy = 4 Re Phi(z),
  *     syy - i sxy = Phi(z) - Phi(z*) + (z - z*) Phi'(z)*.
- * For g linear between nodes t_j and 0 at both ends, integration leaves one term for each
- * node, with the change of slope k_j there:
- *     2 pi i Phi = sum k_j (z - t_j) ln(t_j - z),   2 pi i Phi' = sum k_j ln(t_j - z). */
+ * An interval between nodes t and t + h, on which g has the slope g', adds
+ *     g(z) L + g' h to 2 pi i Phi,   g' L to 2 pi i Phi',   L = ln(t + h - z) - ln(t - z),
+ * g(z) being g continued; L is computed to its own digits, also where it is small. */
 rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_points points,
                                          double *stress)
 {
@@ -139,33 +139,28 @@ rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_po
     const double *nodes = load->x, *p = load->p, *q = load->q;
     if (n < 2 || !rb_bem_edge_load_is_valid(load, n, points))
         return RB_EINVAL;
-    double complex *k = malloc((size_t)n * sizeof *k);
-    if (!k)
-        return RB_ENOMEM;
-    double complex before = 0.0;
-    for (int j = 0; j < n; j++) {
-        const double complex after =
-            j + 1 < n ? complex_of(p[j] - p[j + 1], q[j + 1] - q[j]) / (nodes[j + 1] - nodes[j])
-                      : 0.0;
-        k[j] = before - after;
-        before = after;
-    }
+    const double tiny = 1e-20 * (nodes[n - 1] - nodes[0]);
     int stop = 0;
 #pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
     schedule(static) if ((double)points.n * n > rb_pairs_for_threads)
     for (int i = 0; i < points.n; i++) {
         if (rb_interrupted_in_loop(&stop))
             continue;
-        const double x = points.xy[2 * i], y = points.xy[2 * i + 1];
+        /* The logarithms at a node itself cancel, if both intervals see it from as near. */
+        const double x = points.xy[2 * i], y = fmax(points.xy[2 * i + 1], tiny);
         double complex above = 0.0, below = 0.0, slope = 0.0;
-        for (int j = 0; j < n; j++) {
-            const double dx = x - nodes[j];
-            if (dx == 0.0 && y == 0.0)
-                continue;                                       /* w ln w -> 0 */
-            const double complex l = clog(complex_of(-dx, -y)); /* -0: the limit from inside */
-            above += k[j] * complex_of(dx, y) * l;
-            below += k[j] * complex_of(dx, -y) * conj(l);
-            slope += k[j] * l;
+        for (int j = 0; j + 1 < n; j++) {
+            const double h = nodes[j + 1] - nodes[j], from = nodes[j] - x, to = nodes[j + 1] - x;
+            const double complex g = complex_of(-p[j], q[j]),
+                                 rise = complex_of((p[j] - p[j + 1]) / h, (q[j + 1] - q[j]) / h);
+            /* the logarithm of the farther end's distance over the nearer one's */
+            const double sum = from + to, near = sum < 0.0 ? to : from,
+                         apart = 0.5 * log1p(h * fabs(sum) / (near * near + y * y)),
+                         re = sum < 0.0 ? -apart : apart, im = atan2(y * h, from * to + y * y);
+            const double complex at = g - rise * from, up = rise * complex_of(0.0, y);
+            above += (at + up) * complex_of(re, im) + rise * h;
+            below += (at - up) * complex_of(re, -im) + rise * h;
+            slope += rise * complex_of(re, im);
         }
         const double complex c = 1.0 / (2.0 * M_PI * I);
         const double complex normal = c * above - c * below + 2.0 * I * y * conj(c * slope);
@@ -173,6 +168,5 @@ rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_po
         stress[3 * i + 1] = creal(normal);
         stress[3 * i + 2] = -cimag(normal);
     }
-    free(k);
     return stop ? RB_INTERRUPTED : RB_OK;
 }

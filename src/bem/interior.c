@@ -168,33 +168,60 @@ static int evaluate_inside(const rb_interior *in, double x, double y, double *di
 
 /* ---- On the surface ---------------------------------------------------------------- */
 
-/* The element on which (x, y) lies, or -1; *s: from its midpoint along it. */
-static int element_at(const rb_interior *in, double x, double y, double *s)
+/* The element nearest to (x, y); *s: of its nearest point from its midpoint along it; *depth:
+ * how far (x, y) lies from there, inwards. */
+static int nearest_element(const rb_interior *in, double x, double y, double *s, double *depth)
 {
+    double least = INFINITY;
+    int nearest = 0;
+    *s = 0.0;
+    *depth = -INFINITY;
     for (int j = 0; j < in->mesh->n; j++) {
         const rb_element *first = &in->piece[2 * j].e;
         const double mx = 0.5 * (in->mesh->x0[j] + in->mesh->x1[j]),
-                     my = 0.5 * (in->mesh->y0[j] + in->mesh->y1[j]), h = 4.0 * first->a;
+                     my = 0.5 * (in->mesh->y0[j] + in->mesh->y1[j]), half = 2.0 * first->a;
         const double dx = x - mx, dy = y - my;
-        *s = dx * first->tx + dy * first->ty;
-        if (fabs(dy * first->tx - dx * first->ty) <= 1e-9 * h && fabs(*s) <= 0.5 * h * (1 + 1e-9))
-            return j;
+        const double along = dx * first->tx + dy * first->ty,
+                     inwards = dy * first->tx - dx * first->ty;
+        const double beyond = fmax(fabs(along) - half, 0.0),
+                     square = gsl_pow_2(beyond) + gsl_pow_2(inwards);
+        if (square < least) {
+            least = square;
+            nearest = j;
+            *s = fmin(fmax(along, -half), half);
+            *depth = copysign(sqrt(square), inwards);
+        }
     }
-    return -1;
+    return nearest;
+}
+
+/* A vector of element j, of the element k beside it, or at their common end, in the frame
+ * that turns from one to the other between their midpoints; part: 0 at that of j, 1 at the
+ * end.  *along: the frame's direction. */
+static cplx between(const rb_interior *in, const double *values, int j, int k, double part,
+                    cplx *along)
+{
+    const cplx e = in->piece[2 * j].direction, f = in->piece[2 * k].direction;
+    const double h = rb_bem_mesh_length(in->mesh, j), hk = rb_bem_mesh_length(in->mesh, k);
+    const cplx own = pair_of(values, j) * conj(e), other = pair_of(values, k) * conj(f);
+    const cplx turned = e + part * h / (h + hk) * (f - e);
+
+    *along = turned / cabs(turned);
+    return own + part * h / (h + hk) * (other - own);
 }
 
 static void evaluate_surface(const rb_interior *in, int j, double s, double *displacement,
                              double *stress)
 {
-    const cplx u = pair_of(in->u, j) + s * slope_after(in, s < 0.0 ? in->previous[j] : j);
+    const int i = in->previous[j], k = in->next[j];
     if (displacement) {
+        const cplx u = pair_of(in->u, j) + s * slope_after(in, s < 0.0 ? i : j);
         displacement[0] = creal(u);
         displacement[1] = cimag(u);
     }
     if (stress) {
         /* u_s: the quotients hold at the element's ends, the parabola's slope at its
          * midpoint; linear between them. */
-        const int i = in->previous[j], k = in->next[j];
         const double h = rb_bem_mesh_length(in->mesh, j), hi = rb_bem_mesh_length(in->mesh, i),
                      hk = rb_bem_mesh_length(in->mesh, k), part = fabs(s) / (0.5 * h);
         const cplx before = slope_after(in, i), after = slope_after(in, j);
@@ -202,7 +229,8 @@ static void evaluate_surface(const rb_interior *in, int j, double s, double *dis
         const cplx slope = middle + part * ((s < 0.0 ? before : after) - middle);
         /* sigma_nn, sigma_ns from t, and sigma_ss from the plane-strain Hooke law
          * 2G eps_ss = (1-nu) sigma_ss - nu sigma_nn; turned back to x, y. */
-        const cplx e = in->piece[2 * j].direction, t = pair_of(in->t, j) * conj(e);
+        cplx e;
+        const cplx t = between(in, in->t, j, s < 0.0 ? i : k, part, &e);
         const double ns = creal(t), nn = -cimag(t); /* outward normal = -i e */
         const double strain = creal(slope * conj(e));
         const double ss = (2.0 * in->shear * strain + in->nu * nn) / (1.0 - in->nu);
@@ -215,8 +243,67 @@ static void evaluate_surface(const rb_interior *in, int j, double s, double *dis
     }
 }
 
-rb_status rb_interior_at(const rb_interior *in, rb_bem_points points, double *displacement,
-                         double *stress, rb_message *why)
+/* The element behind the point at `x, y` of the boundary, seen inwards along the unit vector
+ * dx, dy; *s: of the point that is met, along it; *far: how far away.  -1: there is none. */
+static int element_behind(const rb_interior *in, int from, double x, double y, double dx, double dy,
+                          double *s, double *far)
+{
+    int behind = -1;
+    *far = INFINITY;
+    for (int j = 0; j < in->mesh->n; j++) {
+        const rb_element *e = &in->piece[2 * j].e;
+        const double ax = 0.5 * (in->mesh->x0[j] + in->mesh->x1[j]) - x,
+                     ay = 0.5 * (in->mesh->y0[j] + in->mesh->y1[j]) - y;
+        const double across = dx * e->ty - dy * e->tx;
+        if (j == from || across == 0.0)
+            continue;
+        const double away = (ax * e->ty - ay * e->tx) / across,
+                     along = (ax * dy - ay * dx) / across;
+        /* not the neighbour that begins there */
+        if (away > 1e-3 * e->a && away < *far && fabs(along) <= 2.0 * e->a * (1.0 + 1e-9)) {
+            behind = j;
+            *s = along;
+            *far = away;
+        }
+    }
+    return behind;
+}
+
+/* Nearer to the surface than an element is long, the polygon's corners and the midpoints,
+ * where u_s jumps, make logarithms: there the stress is the parabola through that on the
+ * surface and one and two lengths below it, or, in a wall that is thinner, linear between
+ * its surfaces.  0: no such place is in the body. */
+static int evaluate_near(const rb_interior *in, int j, double s, double depth, double x, double y,
+                         double *stress)
+{
+    const rb_element *first = &in->piece[2 * j].e;
+    const double h = 4.0 * first->a, part = depth / h;
+    const double mx = 0.5 * (in->mesh->x0[j] + in->mesh->x1[j]) + s * first->tx,
+                 my = 0.5 * (in->mesh->y0[j] + in->mesh->y1[j]) + s * first->ty;
+    const double dx = (x - mx) / depth, dy = (y - my) / depth;
+    double below[2][3], there, far;
+
+    evaluate_surface(in, j, s, NULL, stress);
+    const int behind = element_behind(in, j, mx, my, dx, dy, &there, &far);
+    if (behind < 0)
+        return 0;
+    if (far < 2.5 * h) {
+        evaluate_surface(in, behind, there, NULL, below[0]);
+        for (int c = 0; c < 3; c++)
+            stress[c] += depth / far * (below[0][c] - stress[c]);
+        return 1;
+    }
+    for (int k = 0; k < 2; k++)
+        if (!evaluate_inside(in, mx + (k + 1) * h * dx, my + (k + 1) * h * dy, NULL, below[k]))
+            return 0;
+    for (int c = 0; c < 3; c++)
+        stress[c] = 0.5 * (1.0 - part) * (2.0 - part) * stress[c] +
+                    part * (2.0 - part) * below[0][c] - 0.5 * part * (1.0 - part) * below[1][c];
+    return 1;
+}
+
+rb_status rb_interior_at(const rb_interior *in, int is_round, rb_bem_points points,
+                         double *displacement, double *stress, rb_message *why)
 {
     int outside = points.n, stop = 0; /* outside: the first point there */
 #pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(static)                      \
@@ -227,11 +314,17 @@ rb_status rb_interior_at(const rb_interior *in, rb_bem_points points, double *di
         if (rb_interrupted_in_loop(&stop))
             continue;
         double *u = displacement ? displacement + 2 * k : NULL,
-               *sigma = stress ? stress + 3 * k : NULL, along;
-        const int j = element_at(in, x, y, &along);
-        if (j >= 0)
+               *sigma = stress ? stress + 3 * k : NULL, along, depth;
+        const int j = nearest_element(in, x, y, &along, &depth);
+        const double h = rb_bem_mesh_length(in->mesh, j);
+
+        if (fabs(depth) <= 1e-9 * h) {
             evaluate_surface(in, j, along, u, sigma);
-        else if (!evaluate_inside(in, x, y, u, sigma))
+            continue;
+        }
+        const int is_near = is_round && sigma && depth > 0.0 && depth < h &&
+                            evaluate_near(in, j, along, depth, x, y, sigma);
+        if ((u || !is_near) && !evaluate_inside(in, x, y, u, is_near ? NULL : sigma))
             outside = k < outside ? k : outside;
     }
     return stop ? RB_INTERRUPTED
@@ -254,7 +347,7 @@ rb_status rb_bem_interior(const rb_bem_boundary *body, rb_bem_points points, dou
         return s;
     if (rb_interior_create(body, &in) != RB_OK)
         return rb_fail(why, RB_ENOMEM, "interior: out of memory for %d elements", body->mesh->n);
-    s = rb_interior_at(in, points, displacement, stress, why);
+    s = rb_interior_at(in, 0, points, displacement, stress, why);
     rb_interior_free(in);
     return s;
 }

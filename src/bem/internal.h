@@ -29,11 +29,12 @@ void rb_bem_mesh_next(const rb_bem_mesh *mesh, int *next);
 rb_status rb_bem_support_check(const rb_bem_mesh *mesh, rb_message *why);
 
 /* rb_bem_interior on a mesh and of a material that are checked, for one point after the other:
- * body's pointers are borrowed.  RB_ENOMEM leaves NULL. */
+ * body's pointers are borrowed.  RB_ENOMEM leaves NULL.  is_round: the polygon stands for
+ * smooth contours, at whose corners there is nothing special. */
 typedef struct rb_interior rb_interior;
 rb_status rb_interior_create(const rb_bem_boundary *body, rb_interior **interior);
-rb_status rb_interior_at(const rb_interior *interior, rb_bem_points points, double *displacement,
-                         double *stress, rb_message *why);
+rb_status rb_interior_at(const rb_interior *interior, int is_round, rb_bem_points points,
+                         double *displacement, double *stress, rb_message *why);
 void rb_interior_free(rb_interior *interior);
 
 /* Points at y >= 0 under a load whose xs abscissae increase. */

@@ -3,6 +3,7 @@
  * numbers; below the bond the whole stress is computed in this way. */
 #include "bem/internal.h"
 #include "bem/layer.h"
+#include "rollbem/blas.h"
 
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_math.h>
@@ -11,39 +12,45 @@
 
 /* Beyond this product of wave number and thickness exp(-al), by which the bond feels the
  * surface, is below rounding. */
-static const double LAST = 40.0;
+static const double LAST = 36.0;
 /* Waves are Gauss points of panels of one width, but the first panel, which is halved
  * towards long waves. */
-enum { GAUSS = 16, HALVINGS = 12, MOST_WAVES = 1 << 16 };
+enum { GAUSS = 16, HALVINGS = 12, MOST_WAVES = 1 << 20 };
 
-/* A wave exp(i k x): Airy's function over k^2 is, with eta = k y,
+/* Waves exp(i k x), a panel of Gauss points: Airy's function over k^2 is, with eta = k y,
  *     layer: half-plane's + c eta sinh eta + d (eta cosh eta - sinh eta)
  *     base:  (a + b (eta - al)) exp(al - eta)
- * times the tractions that load it. */
+ * times the tractions that load it; real and imaginary parts apart. */
 typedef struct {
-    double k;
-    double complex c, d, a, b;
-} wave;
+    double k[GAUSS], c[2][GAUSS], d[2][GAUSS], a[2][GAUSS], b[2][GAUSS];
+} panel;
 
+static void keep(double complex value, double of[2][GAUSS], int g)
+{
+    of[0][g] = creal(value);
+    of[1][g] = cimag(value);
+}
+
+/* Wave g of the panel, of length al = k d and with the weight of its Gauss point. */
 static void set_wave(const rb_bem_surface *body, const rb_bem_edge_load *load, double al,
-                     double weight, wave *w)
+                     double weight, panel *w, int g)
 {
     const double sh = sinh(al), ch = cosh(al), decay = exp(-al);
     double complex p_s[2];
     rb_bem_layer_wave bond;
 
-    w->k = al / body->thickness;
+    const double wave_number = w->k[g] = al / body->thickness;
     rb_bem_layer_wave_at(body, al, &bond);
     /* Transforms of the tractions, which are linear between the nodes, times the weight. */
     const double share = weight / (M_PI * body->thickness);
     double complex p = 0.0, q = 0.0;
     for (int j = 0; j + 1 < load->n; j++) {
-        const double h = load->x[j + 1] - load->x[j], t = 0.5 * w->k * h;
+        const double h = load->x[j + 1] - load->x[j], t = 0.5 * wave_number * h;
         /* int of 1 and of x/h exp(-i k x) over the element */
         const double even = t > 0.0 ? sin(t) / t : 1.0,
                      odd = t > 0.1 ? (even - cos(t)) / (2.0 * t)
                                    : t / 6.0 * (1.0 - t * t / 10.0 * (1.0 - t * t / 28.0));
-        const double kx = w->k * 0.5 * (load->x[j] + load->x[j + 1]);
+        const double kx = wave_number * 0.5 * (load->x[j] + load->x[j + 1]);
         const double complex shift = h * (cos(kx) - I * sin(kx));
         p += shift *
              (even * 0.5 * (load->p[j] + load->p[j + 1]) - I * odd * (load->p[j + 1] - load->p[j]));
@@ -52,13 +59,16 @@ static void set_wave(const rb_bem_surface *body, const rb_bem_edge_load *load, d
     }
     p_s[0] = share * p;      /* f(0): -s_yy of the surface */
     p_s[1] = -I * share * q; /* f'(0): s_xy = -i f' is -q there */
-    w->c = p_s[0] * bond.c[0] + p_s[1] * bond.c[1];
-    w->d = p_s[0] * bond.d[0] + p_s[1] * bond.d[1];
+    const double complex c = p_s[0] * bond.c[0] + p_s[1] * bond.c[1],
+                         d = p_s[0] * bond.d[0] + p_s[1] * bond.d[1];
     /* f and f' of the layer go on in the base */
-    w->a =
-        p_s[0] * (1.0 + al) * decay + p_s[1] * al * decay + w->c * al * sh + w->d * (al * ch - sh);
-    w->b = w->a - p_s[0] * al * decay + p_s[1] * (1.0 - al) * decay + w->c * (sh + al * ch) +
-           w->d * al * sh;
+    const double complex a =
+        p_s[0] * (1.0 + al) * decay + p_s[1] * al * decay + c * al * sh + d * (al * ch - sh);
+    keep(c, w->c, g);
+    keep(d, w->d, g);
+    keep(a, w->a, g);
+    keep(a - p_s[0] * al * decay + p_s[1] * (1.0 - al) * decay + c * (sh + al * ch) + d * al * sh,
+         w->b, g);
 }
 
 struct rb_bem_layer_field {
@@ -66,54 +76,92 @@ struct rb_bem_layer_field {
     rb_bem_edge_load load; /* of nodes */
     double reach;          /* of the present waves */
     int n;
-    wave *wave; /* n, k increasing; owned */
+    panel *panel; /* n, k increasing; owned */
 };
 
-/* s_xx = f'', s_yy = -f, s_xy = -i f', each times exp(i k x).  Waves that fade on their
- * way down, and up again from the bond, are left out.  From panel to panel exp(i k x) and
- * exp(k y) change by a factor, by which they are multiplied ANEW times at the most. */
-static void add_waves(const rb_bem_layer_field *field, const double xy[2], double *stress)
+/* f and its derivatives in the layer, at eta = k y: of the waves of a panel. */
+static void in_layer(const panel *w, const double *eta, const double *sh, const double *ch,
+                     double f[3][2][GAUSS])
 {
-    enum { EQUAL = GAUSS * HALVINGS, ANEW = 32 };
-    const wave *w = field->wave;
+    for (int i = 0; i < 2; i++)
+        for (int g = 0; g < GAUSS; g++) {
+            const double c = w->c[i][g], d = w->d[i][g];
+            f[0][i][g] = c * eta[g] * sh[g] + d * (eta[g] * ch[g] - sh[g]);
+            f[1][i][g] = c * (sh[g] + eta[g] * ch[g]) + d * eta[g] * sh[g];
+            f[2][i][g] = c * (2.0 * ch[g] + eta[g] * sh[g]) + d * (sh[g] + eta[g] * ch[g]);
+        }
+}
+
+static void in_base(const panel *w, const double *eta, const double *decay, double f[3][2][GAUSS])
+{
+    for (int i = 0; i < 2; i++)
+        for (int g = 0; g < GAUSS; g++) {
+            const double a = w->a[i][g], b = w->b[i][g];
+            f[0][i][g] = (a + b * eta[g]) * decay[g];
+            f[1][i][g] = (b - a - b * eta[g]) * decay[g];
+            f[2][i][g] = (a - 2.0 * b + b * eta[g]) * decay[g];
+        }
+}
+
+/* Panels after whose first exp(i k x) and exp(k y) are computed anew: from panel to panel
+ * they change by a factor.  Their waves stay in the cache for all points. */
+enum { ANEW = 32 };
+
+/* s_xx = f'', s_yy = -f, s_xy = -i f', each times exp(i k x), of the panels first ... last - 1.
+ * Waves that fade on their way down, and up again from the bond, are left out. */
+static void add_panels(const rb_bem_layer_field *field, int first, int last, const double xy[2],
+                       double *stress)
+{
     const double thickness = field->body.thickness,
                  fades = LAST / fmax(2.0 * thickness - xy[1], xy[1]);
-    const int in_layer = xy[1] <= thickness;
-    const double rate = in_layer ? xy[1] : thickness - xy[1],
-                 width = w[EQUAL + GAUSS].k - w[EQUAL].k, factor = exp(width * rate);
-    const double complex turn = cos(width * xy[0]) + I * sin(width * xy[0]);
-    double complex along[GAUSS];
-    double into[GAUSS];
+    const int is_layer = xy[1] <= thickness;
+    const double rate = is_layer ? xy[1] : thickness - xy[1];
+    double re[GAUSS], im[GAUSS], up[GAUSS], sum[3] = {0.0, 0.0, 0.0};
 
-    for (int k = 0; k < field->n && w[k].k <= fades; k++) {
-        double complex *e = &along[k % GAUSS];
-        double *up = &into[k % GAUSS];
-        if (k < EQUAL || (k - EQUAL) / GAUSS % ANEW == 0) {
-            *e = cos(w[k].k * xy[0]) + I * sin(w[k].k * xy[0]);
-            *up = exp(w[k].k * rate);
+    for (int j = first; j < last && field->panel[j].k[0] <= fades; j++) {
+        const panel *w = &field->panel[j];
+        double eta[GAUSS], sh[GAUSS], ch[GAUSS], f[3][2][GAUSS];
+        if (j == first || j <= HALVINGS) {
+            for (int g = 0; g < GAUSS; g++) {
+                re[g] = cos(w->k[g] * xy[0]);
+                im[g] = sin(w->k[g] * xy[0]);
+                up[g] = exp(w->k[g] * rate);
+            }
         } else {
-            *e *= turn;
-            *up *= factor;
+            const double width = w->k[0] - w[-1].k[0], factor = exp(width * rate),
+                         turn = cos(width * xy[0]), around = sin(width * xy[0]);
+            for (int g = 0; g < GAUSS; g++) {
+                const double x = re[g];
+                re[g] = x * turn - im[g] * around;
+                im[g] = x * around + im[g] * turn;
+                up[g] *= factor;
+            }
         }
-        double complex f[3]; /* f, f' and f'' */
-        const double eta = fabs(w[k].k * rate);
-        if (in_layer) {
-            const double complex c = w[k].c, d = w[k].d;
-            const double sh = eta < 1e-3 ? sinh(eta) : 0.5 * (*up - 1.0 / *up),
-                         ch = 0.5 * (*up + 1.0 / *up);
-            f[0] = c * eta * sh + d * (eta * ch - sh);
-            f[1] = c * (sh + eta * ch) + d * eta * sh;
-            f[2] = c * (2.0 * ch + eta * sh) + d * (sh + eta * ch);
-        } else {
-            const double complex a = w[k].a, b = w[k].b;
-            f[0] = (a + b * eta) * *up;
-            f[1] = (b - a - b * eta) * *up;
-            f[2] = (a - 2.0 * b + b * eta) * *up;
+        if (is_layer && rate == 0.0) { /* on the surface only sxx is not given */
+            for (int g = 0; g < GAUSS; g++)
+                sum[0] += 2.0 * (re[g] * w->c[0][g] - im[g] * w->c[1][g]);
+            continue;
         }
-        stress[0] += creal(*e) * creal(f[2]) - cimag(*e) * cimag(f[2]);
-        stress[1] -= creal(*e) * creal(f[0]) - cimag(*e) * cimag(f[0]);
-        stress[2] += creal(*e) * cimag(f[1]) + cimag(*e) * creal(f[1]);
+        for (int g = 0; g < GAUSS; g++)
+            eta[g] = fabs(w->k[g] * rate);
+        if (is_layer) {
+            for (int g = 0; g < GAUSS; g++) {
+                sh[g] = 0.5 * (up[g] - 1.0 / up[g]);
+                ch[g] = 0.5 * (up[g] + 1.0 / up[g]);
+            }
+            for (int g = 0; g < GAUSS && eta[g] < 1e-3; g++)
+                sh[g] = sinh(eta[g]);
+            in_layer(w, eta, sh, ch, f);
+        } else
+            in_base(w, eta, up, f);
+        for (int g = 0; g < GAUSS; g++) {
+            sum[0] += re[g] * f[2][0][g] - im[g] * f[2][1][g];
+            sum[1] -= re[g] * f[0][0][g] - im[g] * f[0][1][g];
+            sum[2] += re[g] * f[1][1][g] + im[g] * f[1][0][g];
+        }
     }
+    for (int c = 0; c < 3; c++)
+        stress[c] += sum[c];
 }
 
 /* ---- The field --------------------------------------------------------------------- */
@@ -122,7 +170,7 @@ void rb_bem_layer_field_free(rb_bem_layer_field *field)
 {
     if (!field)
         return;
-    free(field->wave);
+    free(field->panel);
     free(field);
 }
 
@@ -134,29 +182,36 @@ static rb_status make_waves(rb_bem_layer_field *f, double reach, rb_message *why
     const double panels = ceil(LAST * fmax(1.0, 0.1 * reach / d)), width = LAST / panels;
     if (!(GAUSS * (panels + HALVINGS) < MOST_WAVES))
         return rb_fail(why, RB_EINVAL,
-                       "stress: the layer, %.3g mm, is too thin for points that are %.3g "
-                       "mm apart; choose points closer together, or leave out the layer",
-                       d, reach);
-    const int n = GAUSS * ((int)panels - 1 + HALVINGS);
+                       "stress: contact and points extend over %.3g mm, for which the layer "
+                       "needs a thickness of %.3g mm at least, got %.3g mm",
+                       reach, 0.1 * LAST * GAUSS * reach / (MOST_WAVES - GAUSS * HALVINGS), d);
+    const int n = (int)panels - 1 + HALVINGS;
     gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(GAUSS);
-    wave *w = malloc((size_t)n * sizeof *w);
+    panel *w = malloc((size_t)n * sizeof *w);
     rb_status s = rule && w ? RB_OK : RB_ENOMEM;
+    int stop = 0;
 
-    for (int k = 0; k < n && s == RB_OK; k++) {
-        if (rb_interrupted())
-            s = RB_INTERRUPTED;
-        const int panel = k / GAUSS, whole = panel - HALVINGS + 1;
+#pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
+    schedule(static) if (s == RB_OK && (double)n * GAUSS * f->load.n > rb_pairs_for_threads)
+    for (int k = 0; k < (s == RB_OK ? n : 0); k++) {
+        if (rb_interrupted_in_loop(&stop))
+            continue;
+        const int whole = k - HALVINGS + 1;
         const double to = whole > 0 ? (whole + 1) * width : ldexp(width, whole);
-        const double from = whole > 0 ? whole * width : panel > 0 ? 0.5 * to : 0.0;
-        double al, weight;
-        gsl_integration_glfixed_point(from, to, (size_t)(k % GAUSS), &al, &weight, rule);
-        set_wave(&f->body, &f->load, al, weight, &w[k]);
+        const double from = whole > 0 ? whole * width : k > 0 ? 0.5 * to : 0.0;
+        for (int g = 0; g < GAUSS; g++) {
+            double al, weight;
+            gsl_integration_glfixed_point(from, to, (size_t)g, &al, &weight, rule);
+            set_wave(&f->body, &f->load, al, weight, &w[k], g);
+        }
     }
+    if (stop)
+        s = RB_INTERRUPTED;
     if (rule)
         gsl_integration_glfixed_table_free(rule);
     if (s == RB_OK) {
-        free(f->wave);
-        f->wave = w;
+        free(f->panel);
+        f->panel = w;
         f->n = n;
         f->reach = reach;
     } else {
@@ -179,7 +234,7 @@ rb_status rb_bem_layer_field_create(const rb_bem_surface *body, const rb_bem_edg
         return RB_ENOMEM;
     f->body = *body;
     f->load = *load;
-    const rb_status s = make_waves(f, 3.0 * (load->x[load->n - 1] - load->x[0]), why);
+    const rb_status s = make_waves(f, 2.0 * (load->x[load->n - 1] - load->x[0]), why);
     if (s == RB_OK)
         *field = f;
     else
@@ -204,15 +259,17 @@ rb_status rb_bem_layer_field_add(rb_bem_layer_field *field, rb_bem_points points
     const rb_status s = high - low > field->reach ? make_waves(field, high - low, why) : RB_OK;
     if (s != RB_OK)
         return s;
-    int stop = 0;
-#pragma omp parallel for schedule(static) if ((double)points.n * field->n > rb_pairs_for_threads)
-    for (int k = 0; k < points.n; k++) {
-        const double *xy = points.xy + 2 * k;
-        if (rb_interrupted_in_loop(&stop))
-            continue;
-        for (int c = 0; c < 3 && xy[1] > d; c++)
+    for (int k = 0; k < points.n; k++)
+        for (int c = 0; c < 3 && points.xy[2 * k + 1] > d; c++)
             stress[3 * k + c] = 0.0;
-        add_waves(field, xy, stress + 3 * k);
+    for (int first = 0; first < field->n; first += ANEW) {
+        const int last = first + ANEW < field->n ? first + ANEW : field->n;
+        if (rb_interrupted())
+            return RB_INTERRUPTED;
+#pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
+    schedule(static) if ((double)points.n * GAUSS * ANEW > rb_pairs_for_threads)
+        for (int k = 0; k < points.n; k++)
+            add_panels(field, first, last, points.xy + 2 * k, stress + 3 * k);
     }
-    return stop ? RB_INTERRUPTED : RB_OK;
+    return RB_OK;
 }

@@ -483,6 +483,14 @@ typedef struct {
     int bounded; /* edges that are only known to lie within one element, as in rb_rolling_patch */
 } rb_rolling_run;
 
+/* (E1) The power of the distance from the edge on that side (-1 left, +1 right) with which
+ * the pressure starts there.  Where A slides with q = -+mu p up to the edge, it is
+ * 1/2 + side atan(beta q/p)/pi; without friction, without coupling and in stick 1/2; on a
+ * third body that is softer than the half-planes under an element of such a length 1.  j: an
+ * element near the edge; a slip zone that does not hold its inner neighbour is too short. */
+double rb_rolling_edge_exponent(const rb_rolling_case *rc, double length,
+                                const rb_contact_state *state, int j, int side);
+
 /* Smallest number of equal elements of a patch whose edges can be computed from the
  * pressure (theory.md 4.7). */
 enum { RB_ROLLING_ALIGNED_LEAST = 9 };

@@ -1422,21 +1422,17 @@ int rb_api_wear(rb_api *a, const char *law, double coefficient, double share, do
 int rb_api_stress_maxima(rb_api *a, double depth)
 {
     rb_rolling_stress_maxima m;
-    const struct {
-        const char *name;
-        const rb_rolling_extremum *at;
-    } kept[] = {{"maxima.max_shear", &m.max_shear},
-                {"maxima.von_mises", &m.von_mises},
-                {"maxima.orthogonal_shear", &m.orthogonal_shear},
-                {"maxima.tension", &m.tension}};
     rb_status s = begin_stress(a, "maxima.");
     rb_api_call_begins(a);
     if (s == RB_OK)
         s = rb_rolling_stress_maxima_find(&a->result.model, depth, &m, &a->why);
     s = rb_api_call_ends(a, s);
-    for (size_t k = 0; s == RB_OK && k < sizeof kept / sizeof *kept; k++) {
-        const double x[] = {kept[k].at->value, kept[k].at->x, kept[k].at->y};
-        if (!rb_api_copy_array(a, kept[k].name, 3, 1, x))
+    for (int k = 0; s == RB_OK && rb_rolling_maximum(&m, k); k++) {
+        const rb_rolling_extremum *at = rb_rolling_maximum(&m, k);
+        const double x[] = {at->value, at->x, at->y, at->material};
+        char name[64];
+        snprintf(name, sizeof name, "maxima.%s", rb_rolling_maxima_scalars.row[3 * k].name);
+        if (!rb_api_copy_array(a, name, 4, 1, x))
             s = RB_ENOMEM;
     }
     return rb_api_ended(a, s);

@@ -62,29 +62,28 @@ static rb_status maxima_again(rb_certificate *c, const json_t *printed, double d
     rb_rolling_stress_maxima found;
     rb_status s = rb_rolling_stress_maxima_find(&c->model, depth, &found, why);
 
-    const struct {
-        const char *name;
-        rb_rolling_extremum *there, *found;
-    } kinds[] = {{"max_shear", &there->max_shear, &found.max_shear},
-                 {"von_mises", &there->von_mises, &found.von_mises},
-                 {"orthogonal_shear", &there->orthogonal_shear, &found.orthogonal_shear},
-                 {"tension", &there->tension, &found.tension}};
-    for (int k = 0; k < 4; k++) {
-        const json_t *one = json_object_get(printed, kinds[k].name);
-        *kinds[k].there =
-            (rb_rolling_extremum){rb_certificate_member(one, "value"),
-                                  rb_certificate_member(one, "x"), rb_certificate_member(one, "y")};
+    for (int k = 0; rb_rolling_maximum(there, k); k++) {
+        const char *name = rb_rolling_maxima_scalars.row[3 * k].name;
+        const json_t *one = json_object_get(printed, name);
+        const char *material = json_string_value(json_object_get(one, "material"));
+        rb_rolling_extremum *at = rb_rolling_maximum(there, k);
+        *at = (rb_rolling_extremum){rb_certificate_member(one, "value"),
+                                    rb_certificate_member(one, "x"),
+                                    rb_certificate_member(one, "y"), RB_MATERIAL_BODY};
+        while (material && at->material < RB_MATERIAL_BASE &&
+               strcmp(material, rb_rolling_place_name(at->material)) != 0)
+            at->material++;
         if (s != RB_OK)
             continue;
         /* Its place has to lie in the depth that was given, and no other may have more. */
-        const rb_rolling_extremum *at = kinds[k].there, *more = kinds[k].found;
+        const rb_rolling_extremum *more = rb_rolling_maximum(&found, k);
         const double below = at->y - rb_rolling_surface(c->model.rc, at->x);
         if (depth > 0.0 && !(below <= depth * (1.0 + 1e-9)))
-            rb_certificate_violated(c, "maxima.%s: %g below the surface, searched down to %g",
-                                    kinds[k].name, below, depth);
+            rb_certificate_violated(c, "maxima.%s: %g below the surface, searched down to %g", name,
+                                    below, depth);
         if (!(more->value <= at->value + search_slack(c)))
-            rb_certificate_violated(c, "maxima.%s: printed %.17g, but %.17g at (%g, %g)",
-                                    kinds[k].name, at->value, more->value, more->x, more->y);
+            rb_certificate_violated(c, "maxima.%s: printed %.17g, but %.17g at (%g, %g)", name,
+                                    at->value, more->value, more->x, more->y);
     }
     if (s != RB_OK)
         return s;

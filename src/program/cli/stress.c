@@ -33,7 +33,8 @@ static const rb_option options[] = {
     RB_TEXT_LINE("grid", PLACE(grid), "NXxNY", "points along the surface and into the depth",
                  .unset = "61x41"),
     RB_NUMBER_LINE("depth", PLACE(depth), "mm", RB_ABOVE(0),
-                   "of the grid and of the search for maxima; auto: 2.5 half-widths",
+                   "of the grid and of the search for maxima; auto: a grid of 2.5 half-widths, "
+                   "maxima in all of A",
                    .word = "auto", .word_value = 0.0),
     RB_TEXT_LINE("points", PLACE(points), "FILE",
                  "instead of a grid: rows x, y [mm], y > 0 inside A", .unset = "none",
@@ -62,10 +63,11 @@ enum { CONTOURS_X = 161, CONTOURS_Y = 101, FRINGES_X = 241, FRINGES_Y = 151 };
 
 static const char about[] =
     "Solves a case and prints the stress in body A below the contact: the tensor\n"
-    "(tension positive), principal stresses, maximum shear, von Mises, hydrostatic\n"
-    "stress; in the header, the values and places of the maxima. --plot draws contours\n"
-    "of maximum shear and von Mises. The grid reaches a half-width beyond the contact\n"
-    "and follows the surface of a wheel.\n"
+    "(tension positive), principal stresses in the plane, the largest shear in the plane\n"
+    "and of all planes (Tresca), von Mises, hydrostatic stress; in the header, the values\n"
+    "and places of the maxima in all of A, of two materials also which one. --plot draws\n"
+    "contours of the in-plane shear and von Mises. The grid reaches a half-width beyond\n"
+    "the contact and follows the surface of a wheel.\n"
     "\n" CLI_CASE_SIGNS;
 
 static const char notes[] = CLI_CASE_NOTES "Example: rollbem stress --support halfplane "

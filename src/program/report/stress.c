@@ -19,9 +19,8 @@ static const rb_rolling_result *maximum(int k)
 
 static rb_rolling_extremum extremum(const rb_rolling_stress_maxima *all, int k)
 {
-    const rb_rolling_result *r = maximum(k);
-    return (rb_rolling_extremum){rb_rolling_number(r, all), rb_rolling_number(r + 1, all),
-                                 rb_rolling_number(r + 2, all)};
+    rb_rolling_stress_maxima copy = *all;
+    return *rb_rolling_maximum(&copy, k);
 }
 
 /* "value +- error" with so many digits; 0 where it is below rounding. */
@@ -43,11 +42,12 @@ static const char *maximum_text(const rb_report_stress *s, int k, char *line, si
     /* a place is searched for until it is known to about a millionth of the half-width */
     const double place = 1e-6 * s->s->half_width, p0 = s->s->max_pressure;
     char value[48], x[48], y[48];
-    snprintf(line, size, "%-24s %s %s at x = %s, y = %s %s; %.5g p0", maximum(k)->meaning,
+    const char *where = m->material == RB_MATERIAL_BODY ? "" : rb_rolling_place_name(m->material);
+    snprintf(line, size, "%-24s %s %s at x = %s, y = %s %s%s%s; %.5g p0", maximum(k)->meaning,
              quantity(m->value, 1e-12 * p0, 6, e ? &e->value : NULL, value),
              rb_unit_name(s->s->units, "MPa"), quantity(m->x, place, 4, e ? &e->x : NULL, x),
              quantity(m->y, place, 4, e ? &e->y : NULL, y), rb_unit_name(s->s->units, "mm"),
-             fabs(m->value) < 1e-12 * p0 ? 0.0 : m->value / p0);
+             where[0] ? ", in the " : "", where, fabs(m->value) < 1e-12 * p0 ? 0.0 : m->value / p0);
     return line;
 }
 
@@ -124,6 +124,8 @@ void rb_report_json_stress(json_t **root, const rb_report_stress *s)
     json_t *all = json_object();
     for (int k = 0; maximum(k); k++) {
         json_t *one = json_extremum(extremum(s->maxima, k));
+        rb_report_json_set(&one, "material",
+                           json_string(rb_rolling_place_name(extremum(s->maxima, k).material)));
         if (s->errors)
             rb_report_json_set(&one, "errors", json_extremum(extremum(s->errors, k)));
         rb_report_json_set(&all, maximum(k)->name, one);

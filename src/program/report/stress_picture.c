@@ -32,7 +32,7 @@ static view make_view(const rb_report_stress *s)
     return v;
 }
 
-/* x, y, maximum shear, von Mises, order of the fringe; rows apart, as splot wants. */
+/* x, y, in-plane shear, von Mises, order of the fringe; rows apart, as splot wants. */
 static void write_grid(FILE *out, const view *v)
 {
     const rb_report_stress *s = v->s;
@@ -223,7 +223,7 @@ static void write_contours(FILE *out, rb_report_canvas canvas, const void *conte
         fputs("unset label 1\nunset label 9\nset xlabel\n", out);
     const panel second = panel_of(v, 1);
     write_y_label(out, v, first);
-    write_panel(out, canvas, v, "maximum shear", 3, &v->s->maxima->max_shear, first);
+    write_panel(out, canvas, v, "in-plane shear", 3, &v->s->maxima->max_shear, first);
     fputs("unset label 1\nunset label 4\nunset label 9\n", out);
     if (v->column) {
         write_x_label(out, v);

@@ -81,7 +81,7 @@ static subsurface below(rb_verify *v, const rb_rolling_case *rc)
     rb_message why = {""};
     rb_rolling_model model;
     rb_rolling_solution s = {0};
-    const rb_rolling_extremum nothing = {NAN, NAN, NAN};
+    const rb_rolling_extremum nothing = {NAN, NAN, NAN, RB_MATERIAL_BODY};
     subsurface b = {.p0 = NAN, .max = {nothing, nothing, nothing, nothing}};
     rb_status status = rb_rolling_solve_model(rc, &model, &s, &why);
     b.a = s.hertz_half_width;
@@ -111,12 +111,13 @@ static void below_hertz(rb_verify *v)
     rc.a.poisson = 0.3;
     rc.mu = 0.0;
     const subsurface b = below(v, &rc);
-    extremum(v, &b, &b.max.max_shear, (rb_rolling_extremum){0.30028, 0.0, 0.78615},
+    extremum(v, &b, &b.max.max_shear,
+             (rb_rolling_extremum){0.30028, 0.0, 0.78615, RB_MATERIAL_BODY},
              "Hertz: largest shear");
-    extremum(v, &b, &b.max.von_mises, (rb_rolling_extremum){0.55752, 0.0, 0.70429},
-             "Hertz: von Mises");
-    extremum(v, &b, &b.max.orthogonal_shear, (rb_rolling_extremum){0.25, 0.866, 0.5},
-             "Hertz: orthogonal shear");
+    extremum(v, &b, &b.max.von_mises,
+             (rb_rolling_extremum){0.55752, 0.0, 0.70429, RB_MATERIAL_BODY}, "Hertz: von Mises");
+    extremum(v, &b, &b.max.orthogonal_shear,
+             (rb_rolling_extremum){0.25, 0.866, 0.5, RB_MATERIAL_BODY}, "Hertz: orthogonal shear");
 }
 
 /* A thick layer has the stress of its own half-plane, below a thin one lies that of the
@@ -153,7 +154,8 @@ static void below_hertz_disc(rb_verify *v)
     rc.plane = RB_PLANE_STRESS;
     rc.mu = 0.0;
     const subsurface b = below(v, &rc);
-    extremum(v, &b, &b.max.max_shear, (rb_rolling_extremum){0.30028, 0.0, 0.78615},
+    extremum(v, &b, &b.max.max_shear,
+             (rb_rolling_extremum){0.30028, 0.0, 0.78615, RB_MATERIAL_BODY},
              "Hertz, plane stress: largest shear");
     rb_verify_relative(v, b.max.von_mises.value / b.p0, 1.0, 3e-3,
                        "Hertz, plane stress: von Mises / p0");
@@ -171,7 +173,8 @@ static void below_sliding(rb_verify *v)
     rc.formulation = RB_STEADY;
     rc.creep_ratio = -2.0;
     const subsurface b = below(v, &rc);
-    extremum(v, &b, &b.max.max_shear, (rb_rolling_extremum){0.31899, 0.625, 0.601},
+    extremum(v, &b, &b.max.max_shear,
+             (rb_rolling_extremum){0.31899, 0.625, 0.601, RB_MATERIAL_BODY},
              "full sliding: largest shear");
     rb_verify_absolute(v, b.max.max_shear.x / b.a, 0.625, 1e-2, "full sliding: its side");
 }

@@ -19,6 +19,17 @@ static int is_soft(const rb_rolling_case *rc, double length)
     return rc->interlayer_normal * rb_rolling_derive(rc).modulus > 4.0 * length;
 }
 
+double rb_rolling_edge_exponent(const rb_rolling_case *rc, double length,
+                                const rb_contact_state *state, int j, int side)
+{
+    const int slides = state->zone[j] != RB_ZONE_STICK && state->zone[j - side] == state->zone[j];
+    const double beta = rb_rolling_derive(rc).dundurs;
+
+    return is_soft(rc, length) ? 1.0
+           : slides            ? 0.5 + side * atan(beta * state->q[j] / state->p[j]) / M_PI
+                               : 0.5;
+}
+
 /* The edge of the run whose outermost element on that side is `outer`.  This element is
  * only partly in contact, so the power law goes through the next two, or where it is
  * steep through the two behind its neighbour, which then is disturbed too.  Contact is
@@ -29,7 +40,6 @@ static double edge(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                    const rb_contact_state *state, int side, rb_rolling_run *run)
 {
     const int bounded = side < 0 ? RB_LEFT_BOUNDED : RB_RIGHT_BOUNDED;
-    const double beta = rb_rolling_derive(rc).dundurs;
     const int outer = side > 0 ? run->last : run->first, open = outer + side;
     const double end = mesh->ends[side > 0 ? outer + 1 : outer];
     const double nearest = midpoint(mesh, outer);
@@ -40,16 +50,9 @@ static double edge(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
         run->bounded |= bounded;
         return end;
     }
-    /* (E1) Where A slides with q = -+mu p up to the edge on the side `side` (-1 left, +1
-     * right), p falls there like the distance to the power 1/2 + side atan(beta q/p)/pi;
-     * without friction, without coupling and in stick like a square root.  i, j: elements
-     * near the edge, a slip zone that is shorter than they are does not count.  On a soft third
-     * body the pressure is the overlap over its compliance, which falls in proportion. */
-    const int slides = state->zone[j] != RB_ZONE_STICK && state->zone[(j - side)] == state->zone[j];
-
-    const double exponent = is_soft(rc, mesh->ends[j + 1] - mesh->ends[j]) ? 1.0
-                            : slides ? 0.5 + side * atan(beta * state->q[j] / state->p[j]) / M_PI
-                                     : 0.5;
+    /* i, j: elements near the edge. */
+    const double exponent =
+        rb_rolling_edge_exponent(rc, mesh->ends[j + 1] - mesh->ends[j], state, j, side);
     if (exponent < STEEP)
         j -= side;
     if (!(state->p[j] < state->p[j - side])) {

@@ -255,8 +255,9 @@ static const rb_rolling_result stresses[] = {
            .meaning = "principal stress in the plane, the larger one"),
     STRESS("principal_2", principal_2, .unit = "MPa",
            .meaning = "principal stress in the plane, the smaller one"),
-    STRESS("max_shear", max_shear, .unit = "MPa",
-           .meaning = "half the difference of the principal stresses"),
+    STRESS("max_shear", max_shear, .unit = "MPa", .meaning = "largest shear in the plane"),
+    STRESS("tresca_shear", tresca_shear, .unit = "MPa",
+           .meaning = "largest shear of all planes, after Tresca"),
     STRESS("von_mises", von_mises, .unit = "MPa", .meaning = "stress of von Mises"),
     STRESS("hydrostatic", hydrostatic, .unit = "MPa", .meaning = "a third of the trace"),
 };
@@ -270,10 +271,12 @@ static const rb_rolling_result stresses[] = {
            .error_bar = RB_SCALE_WIDTH, .meaning = "its depth")
 
 static const rb_rolling_result maxima[] = {
-    LARGEST("max_shear", max_shear, "maximum shear"),
+    LARGEST("max_shear", max_shear, "in-plane shear"),
+    LARGEST("tresca_shear", tresca_shear, "largest (Tresca) shear"),
     LARGEST("von_mises", von_mises, "von Mises"),
     LARGEST("orthogonal_shear", orthogonal_shear, "orthogonal shear |sxy|"),
     LARGEST("tension", tension, "largest principal stress"),
+    LARGEST("compression", compression, "largest compression"),
 };
 
 #define TABLE(rows)                                                                                \

@@ -20,6 +20,31 @@ void rb_rolling_columns_free(const rb_rolling_results *table, void *owner);
 /* Tractions of the state on A in global x, y: 2 per contact element. */
 void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t);
 
+/* ---- stress.c ---------------------------------------------------------------------- */
+
+/* The stress in A below the tractions of a solved model, which it borrows. */
+typedef struct rb_rolling_field rb_rolling_field;
+rb_status rb_rolling_field_create(const rb_rolling_model *model, rb_rolling_field **field,
+                                  rb_message *why);
+void rb_rolling_field_free(rb_rolling_field *field);
+/* As rb_rolling_stress_at. */
+rb_status rb_rolling_field_at(const rb_rolling_field *field, int n, const double *xy,
+                              rb_rolling_stress *stress, rb_message *why);
+/* The n abscissae between which the tractions are linear. */
+const double *rb_rolling_field_nodes(const rb_rolling_field *field, int *n);
+/* Below it there is nothing to stress: the thickness of a layer on a rigid base. */
+double rb_rolling_deepest(const rb_rolling_case *rc);
+
+/* ---- tractions.c ------------------------------------------------------------------- */
+
+/* The tractions p and q of n elements with n + 1 ends along the contact, as nodes between
+ * which they are linear (B14): the midpoints, and close to the edges of patches more of
+ * them, where the tractions fall like a power of the distance.  The first and the last node
+ * carry nothing.  load: in `memory`.  RB_ENOMEM. */
+rb_status rb_rolling_traction_nodes(const rb_rolling_model *model, const double *ends,
+                                    const double *p, const double *q, rb_arena *memory,
+                                    rb_bem_edge_load *load);
+
 /* Lengths of the elements in contact and of those among them that stick. */
 void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,
                              double *stick);

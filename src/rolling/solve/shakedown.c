@@ -9,15 +9,15 @@ static const double golden = 0.6180339887498949; /* (sqrt(5) - 1)/2 */
 
 /* Places of one depth, from a half-width before the contact to one behind it. */
 typedef struct {
-    const rb_rolling_model *model;
+    const rb_rolling_field *field;
+    rb_bem_plane plane;
     double from, to;
     double xy[2 * ACROSS];
     rb_rolling_stress at[ACROSS];
 } row;
 
-/* Tresca's shear with the residual stress 2 c: the radius of Mohr's circle in the plane.
- * Across it a thin disc has no stress, where in plane strain a residual one keeps the
- * third principal stress between the other two. */
+/* The shear at a place with the residual stress 2 c along x: the radius of Mohr's circle in
+ * the plane.  A thin disc has no stress along its axis, and none is left there. */
 static double shear_with(const rb_rolling_stress *s, double c, rb_bem_plane plane)
 {
     const double radius = hypot(0.5 * (s->sxx - s->syy) + c, s->sxy),
@@ -25,18 +25,48 @@ static double shear_with(const rb_rolling_stress *s, double c, rb_bem_plane plan
     return plane == RB_PLANE_STRESS ? fmax(radius, 0.5 * (fabs(mean) + radius)) : radius;
 }
 
-/* What Tresca's body needs with it: the largest of them. */
+/* What Tresca's body needs at this depth with it, and the place that decides.  Along the axis
+ * a residual stress of any size may be left too, but the same at all places of the depth: it
+ * has to keep the stress there less than 2 k below the largest principal stress of one place
+ * and less than 2 k above the smallest of another. */
 static double needed_with(const row *r, double c, double *x)
 {
-    double most = 0.0;
+    /* far away the load has no stress */
+    double most = fabs(c), above = c + fabs(c), below = c - fabs(c);
+    double x_above = r->from, x_below = r->from;
+
+    *x = r->from;
     for (int i = 0; i < ACROSS; i++) {
-        const double shear = shear_with(&r->at[i], c, r->model->rc->plane);
+        const rb_rolling_stress *s = &r->at[i];
+        const double shear = shear_with(s, c, r->plane), radius = shear_with(s, c, RB_PLANE_STRAIN),
+                     mean = 0.5 * (s->sxx + s->syy) + c;
         if (shear > most) {
             most = shear;
-            *x = r->at[i].x;
+            *x = s->x;
+        }
+        if (mean + radius - s->szz > above) {
+            above = mean + radius - s->szz;
+            x_above = s->x;
+        }
+        if (mean - radius - s->szz < below) {
+            below = mean - radius - s->szz;
+            x_below = s->x;
         }
     }
-    return most;
+    if (r->plane == RB_PLANE_STRESS || 0.25 * (above - below) <= most)
+        return most;
+    /* of the two places the one with the larger part */
+    *x = above > -below ? x_above : x_below;
+    return 0.25 * (above - below);
+}
+
+static rb_status look_at(row *r, double y)
+{
+    for (int i = 0; i < ACROSS; i++) {
+        r->xy[2 * i] = r->from + (r->to - r->from) * i / (ACROSS - 1);
+        r->xy[2 * i + 1] = y;
+    }
+    return rb_rolling_field_at(r->field, ACROSS, r->xy, r->at, NULL);
 }
 
 /* The yield stress in shear that the depth y needs, with the residual stress that makes
@@ -44,11 +74,7 @@ static double needed_with(const row *r, double c, double *x)
 static rb_status needed_at(row *r, double y, rb_rolling_shakedown *k)
 {
     double largest = 0.0;
-    for (int i = 0; i < ACROSS; i++) {
-        r->xy[2 * i] = r->from + (r->to - r->from) * i / (ACROSS - 1);
-        r->xy[2 * i + 1] = y;
-    }
-    const rb_status s = rb_rolling_stress_at(r->model, ACROSS, r->xy, r->at, NULL);
+    const rb_status s = look_at(r, y);
     if (s != RB_OK)
         return s;
     for (int i = 0; i < ACROSS; i++)
@@ -67,13 +93,13 @@ static rb_status needed_at(row *r, double y, rb_rolling_shakedown *k)
     return RB_OK;
 }
 
-rb_status rb_rolling_shakedown_find(const rb_rolling_model *model, rb_rolling_shakedown *shakedown,
-                                    rb_message *why)
+/* The row of a model; its field is the caller's. */
+static rb_status row_of(const rb_rolling_model *model, rb_arena *scratch, rb_rolling_field **field,
+                        row **r, rb_message *why)
 {
-    rb_arena scratch = {0};
     double from, to;
 
-    *shakedown = (rb_rolling_shakedown){0};
+    *field = NULL;
     rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
     rb_status s = rb_rolling_stress_check(model->rc, why);
     if (s != RB_OK)
@@ -86,11 +112,30 @@ rb_status rb_rolling_shakedown_find(const rb_rolling_model *model, rb_rolling_sh
                        "shakedown: of one material; a layer and its base yield differently");
     if (!(from < to))
         return rb_fail(why, RB_NO_CONTACT, "no contact, no stress");
-    const double a = 0.5 * (to - from), step = 2.0 * a / DEPTHS;
-    row *r = rb_arena_zeros(&scratch, 1, sizeof *r);
-    if (r)
-        *r = (row){.model = model, .from = from - a, .to = to + a};
-    s = r ? RB_OK : RB_ENOMEM;
+    s = rb_rolling_field_create(model, field, why);
+    if (s != RB_OK)
+        return s;
+    const double a = 0.5 * (to - from);
+    *r = rb_arena_zeros(scratch, 1, sizeof **r);
+    if (!*r)
+        return RB_ENOMEM;
+    (*r)->field = *field;
+    (*r)->plane = model->rc->plane;
+    (*r)->from = from - a;
+    (*r)->to = to + a;
+    return RB_OK;
+}
+
+rb_status rb_rolling_shakedown_find(const rb_rolling_model *model, rb_rolling_shakedown *shakedown,
+                                    rb_message *why)
+{
+    rb_arena scratch = {0};
+    rb_rolling_field *field;
+    row *r = NULL;
+
+    *shakedown = (rb_rolling_shakedown){0};
+    rb_status s = row_of(model, &scratch, &field, &r, why);
+    const double step = s == RB_OK ? 0.25 * (r->to - r->from) * 2.0 / DEPTHS : 0.0;
     for (int k = 0; k <= DEPTHS && s == RB_OK; k++) {
         rb_rolling_shakedown here;
         s = needed_at(r, k * step, &here);
@@ -114,6 +159,7 @@ rb_status rb_rolling_shakedown_find(const rb_rolling_model *model, rb_rolling_sh
         if (here->shear_yield > (1.0 + 8.0 * DBL_EPSILON) * shakedown->shear_yield)
             *shakedown = *here;
     }
+    rb_rolling_field_free(field);
     rb_arena_free(&scratch);
     return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the shakedown limit") : s;
 }
@@ -121,10 +167,27 @@ rb_status rb_rolling_shakedown_find(const rb_rolling_model *model, rb_rolling_sh
 rb_status rb_rolling_shakedown_at(const rb_rolling_model *model, rb_rolling_shakedown *shakedown,
                                   rb_message *why)
 {
-    const double xy[] = {shakedown->x, shakedown->y};
-    rb_rolling_stress at;
-    const rb_status s = rb_rolling_stress_at(model, 1, xy, &at, why);
+    rb_arena scratch = {0};
+    rb_rolling_field *field;
+    row *r = NULL;
+    rb_status s = row_of(model, &scratch, &field, &r, why);
+
+    if (s == RB_OK && !(shakedown->y >= 0.0))
+        s = rb_fail(why, RB_EINVAL, "shakedown: y = %g lies outside the body", shakedown->y);
     if (s == RB_OK)
-        shakedown->shear_yield = shear_with(&at, 0.5 * shakedown->residual, model->rc->plane);
+        s = look_at(r, shakedown->y);
+    if (s == RB_OK) {
+        const double c = 0.5 * shakedown->residual;
+        double x = shakedown->x;
+        shakedown->shear_yield = needed_with(r, c, &x);
+        /* the residual stress that makes the largest least lets several places decide */
+        for (int i = 0; i < ACROSS; i++)
+            if (fabs(r->at[i].x - shakedown->x) <= 1e-9 * (r->to - r->from) &&
+                shear_with(&r->at[i], c, r->plane) >= shakedown->shear_yield * (1.0 - 1e-9))
+                x = shakedown->x;
+        shakedown->x = x;
+    }
+    rb_rolling_field_free(field);
+    rb_arena_free(&scratch);
     return s;
 }

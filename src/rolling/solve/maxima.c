@@ -1,0 +1,505 @@
+/* The largest stresses of body A (B8): looked for on its surface, along its bond on both
+ * sides of it, and inside. */
+#include "rolling/solve/results.h"
+
+#include <gsl/gsl_math.h>
+#include <stdlib.h>
+
+/* Places are (s, depth): along the surface and below it, the arc of a wheel's circle; each
+ * material is then a strip between two depths. */
+typedef struct {
+    rb_rolling_place material;
+    double top, bottom; /* depths */
+} strip;
+
+/* Points at one depth, s increasing. */
+typedef struct {
+    const strip *in;
+    double depth;
+    int first, n;
+} row;
+
+typedef struct {
+    const rb_rolling_model *model;
+    rb_rolling_field *field;
+    double radius;      /* 0: flat */
+    double low, high;   /* s of the outermost nodes of the tractions */
+    double reach;       /* how far on either side of them */
+    double left_out[3]; /* s of the two ends of a clamped arc, and how far around them */
+    int strips, rows, n;
+    strip strip[2];
+    row *row;
+    double *s, *at_s; /* candidates for s; of the points */
+    int candidates;
+    rb_rolling_stress *at;
+} search;
+
+const char *rb_rolling_place_name(rb_rolling_place place)
+{
+    static const char *const names[] = {"body", "layer", "base"};
+    return names[place];
+}
+
+/* ---- Places ------------------------------------------------------------------------ */
+
+static void to_xy(const search *f, const strip *in, double s, double depth, double xy[2])
+{
+    if (f->radius == 0.0) {
+        xy[0] = s;
+        /* the base begins behind the bond, which is the layer's */
+        xy[1] =
+            in->material == RB_MATERIAL_BASE ? fmax(depth, nextafter(in->top, INFINITY)) : depth;
+        return;
+    }
+    const double angle = s / f->radius;
+    xy[0] = (f->radius - depth) * sin(angle);
+    xy[1] = depth * cos(angle) + 2.0 * f->radius * gsl_pow_2(sin(0.5 * angle));
+}
+
+static int is_left_out(const search *f, double s, double depth)
+{
+    return hypot(s - f->left_out[0], depth) < f->left_out[2] ||
+           hypot(s - f->left_out[1], depth) < f->left_out[2];
+}
+
+/* Stress at n places of a strip. */
+static rb_status stress_at(const search *f, const strip *in, int n, const double *s,
+                           const double *depth, rb_rolling_stress *at, rb_message *why)
+{
+    rb_arena scratch = {0};
+    double *xy = rb_arena_doubles(&scratch, (size_t)n, 2);
+    if (!xy)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    for (int k = 0; k < n; k++)
+        to_xy(f, in, s[k], depth[k], xy + 2 * k);
+    return rb_arena_done(&scratch, rb_rolling_field_at(f->field, n, xy, at, why));
+}
+
+/* ---- The points that are looked at first ------------------------------------------- */
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Along the surface: the nodes of the tractions, which crowd at the edges of contacts, and
+ * the middles between them; where these are far apart, more; and outwards, in growing steps,
+ * as far as the stress may have another peak. */
+static rb_status set_candidates(search *f, rb_arena *memory)
+{
+    enum { FILLED = 100, STEPS = 400 };
+    int n;
+    const double *x = rb_rolling_field_nodes(f->field, &n);
+    const double radius = f->radius;
+    f->low = radius > 0.0 ? radius * asin(x[0] / radius) : x[0];
+    f->high = radius > 0.0 ? radius * asin(x[n - 1] / radius) : x[n - 1];
+    const double width = f->high - f->low, widest = width / FILLED;
+    const double most = f->reach > 0.0 ? f->reach : width;
+    double *s = f->s =
+        rb_arena_doubles(memory, 2 * (size_t)n + 2 * FILLED + 2 + 2 * (size_t)STEPS, 1);
+    if (!s)
+        return RB_ENOMEM;
+    int m = 0;
+    for (int k = 0; k < n; k++) {
+        const double here = radius > 0.0 ? radius * asin(x[k] / radius) : x[k],
+                     last = m ? s[m - 1] : here;
+        const int parts = k ? (int)fmax(2.0, ceil((here - last) / widest)) : 1;
+        for (int i = 1; i < parts; i++)
+            s[m++] = last + (here - last) * i / parts;
+        s[m++] = here;
+    }
+    double step = widest, away = 0.0;
+    for (int k = 0; k < STEPS && away < most; k++) {
+        away = fmin(away + step, most);
+        s[m++] = f->low - away;
+        s[m++] = f->high + away;
+        step = fmin(1.2 * step, most / 40.0 + widest);
+    }
+    qsort(s, (size_t)m, sizeof *s, ascending);
+    f->candidates = m;
+    f->reach = most;
+    return RB_OK;
+}
+
+/* Adds the points of one depth: the candidates, but as far from each other as fits what
+ * changes there. */
+static void add_row(search *f, const strip *in, double depth)
+{
+    row *r = &f->row[f->rows++];
+    *r = (row){in, depth, f->n, 0};
+    double last = -INFINITY;
+    for (int k = 0; k < f->candidates; k++)
+        if (f->s[k] - last >= 0.3 * depth && f->s[k] > last) {
+            if (f->at_s)
+                f->at_s[f->n] = f->s[k];
+            last = f->s[k];
+            f->n++;
+            r->n++;
+        }
+}
+
+/* From both boundaries of the strip into it, in steps that grow with the distance from the
+ * boundary; there are so many. */
+enum { MOST_ROWS = 256 };
+
+static void add_rows(search *f, const strip *in, double first)
+{
+    const double height = in->bottom - in->top, half = 0.5 * height;
+    const int ends = isfinite(height);
+    double depth[MOST_ROWS / 2];
+    int n = 0;
+
+    for (double below = 0.0; n < MOST_ROWS / 4 && below < (ends ? half : in->bottom);) {
+        depth[n++] = below;
+        /* across a film the stress is nearly linear */
+        below = height < 2.0 * first ? below + height / 3.0
+                : below > 0.0        ? fmin(1.35 * below, below + height / 14.0)
+                                     : fmin(first, height / 6.0);
+    }
+    for (int k = 0; k < n; k++)
+        add_row(f, in, in->top + depth[k]);
+    for (int k = n - 1; k >= 0; k--)
+        add_row(f, in, in->bottom - depth[k]);
+}
+
+/* The strips of A down to the depth, and the rows in them. */
+static rb_status set_rows(search *f, double depth, rb_arena *memory)
+{
+    const rb_rolling_body *a = &f->model->rc->a;
+    const int is_flat = rb_rolling_body_can(a, RB_BODY_FLAT);
+    f->row = rb_arena_zeros(memory, 2 * MOST_ROWS, sizeof *f->row);
+    if (!f->row)
+        return RB_ENOMEM;
+
+    /* A layer bends over a softer base as a plate does: over a length like this. */
+    const double layer = a->layer, plate = layer > 0.0 && a->base_young > 0.0
+                                               ? layer * cbrt(fmax(a->young / a->base_young, 1.0))
+                                               : layer;
+    f->radius = is_flat ? 0.0 : a->radius;
+    f->reach = is_flat ? 0.0 : M_PI * a->radius;
+    int n;
+    const double *x = rb_rolling_field_nodes(f->field, &n), width = x[n - 1] - x[0];
+    if (layer > 0.0)
+        f->reach = fmax(0.5 * width, 8.0 * plate);
+    rb_status s = set_candidates(f, memory);
+    if (s != RB_OK)
+        return s;
+    if (!is_flat) {
+        const double inner = a->cover > 0.0             ? a->radius - a->cover
+                             : a->support == RB_BEM_HUB ? a->hub_ratio * a->radius
+                                                        : 0.0;
+        f->strip[f->strips++] =
+            (strip){a->cover > 0.0 ? RB_MATERIAL_LAYER : RB_MATERIAL_BODY, 0.0, a->radius - inner};
+    } else {
+        const double deep = 2.5 * width + 3.0 * plate;
+        f->strip[f->strips++] = (strip){layer > 0.0 ? RB_MATERIAL_LAYER : RB_MATERIAL_BODY, 0.0,
+                                        layer > 0.0 ? layer : deep};
+        if (layer > 0.0 && a->base_young > 0.0)
+            f->strip[f->strips++] = (strip){RB_MATERIAL_BASE, layer, layer + deep};
+    }
+    for (int k = f->strips - 1; k >= 0 && depth > 0.0; k--) {
+        f->strip[k].bottom = fmin(f->strip[k].bottom, depth);
+        /* the base may begin deeper */
+        if (!(f->strip[k].bottom > f->strip[k].top))
+            f->strips = k;
+    }
+    /* The first row is as deep as a part of the narrowest patch. */
+    double narrowest = width;
+    rb_rolling_run run = {.last = -1};
+    while (
+        rb_rolling_next_patch(f->model->rc, &f->model->mesh, &f->model->state, run.last + 1, &run))
+        narrowest = run.to > run.from ? fmin(narrowest, run.to - run.from) : narrowest;
+    for (int k = 0; k < f->strips; k++)
+        add_rows(f, &f->strip[k], fmax(0.02 * narrowest, 1e-3 * width));
+    /* The same again, with memory for the points. */
+    f->at_s = rb_arena_doubles(memory, (size_t)f->n, 1);
+    f->at = rb_arena_zeros(memory, (size_t)f->n, sizeof *f->at);
+    if (memory->failed)
+        return RB_ENOMEM;
+    f->n = f->rows = 0;
+    for (int k = 0; k < f->strips; k++)
+        add_rows(f, &f->strip[k], fmax(0.02 * narrowest, 1e-3 * width));
+    return RB_OK;
+}
+
+/* A clamped arc has two ends, where the stress is infinite like a power of the distance. */
+static rb_status leave_out_ends(search *f)
+{
+    const rb_rolling_body *a = &f->model->rc->a;
+    f->left_out[2] = 0.0;
+    if (a->support != RB_BEM_ARC)
+        return RB_OK;
+    rb_bem_mesh mesh = {0};
+    const rb_status s = rb_rolling_boundary_mesh(f->model, 0, &mesh, NULL);
+    const double half = a->arc * M_PI / 180.0;
+    for (int j = 0; j < mesh.n && s == RB_OK; j++) {
+        const int next = j + 1 < mesh.n ? j + 1 : 0;
+        if (mesh.condition[2 * j] != mesh.condition[2 * next] &&
+            (mesh.condition[2 * j] == RB_BEM_DISPLACEMENT ||
+             mesh.condition[2 * next] == RB_BEM_DISPLACEMENT))
+            for (int k = 0; k < 2; k++) {
+                const int i = k ? next : j;
+                f->left_out[2] =
+                    fmax(f->left_out[2], hypot(mesh.x1[i] - mesh.x0[i], mesh.y1[i] - mesh.y0[i]));
+            }
+    }
+    f->left_out[0] = -(M_PI - half) * a->radius;
+    f->left_out[1] = (M_PI - half) * a->radius;
+    rb_bem_mesh_free(&mesh);
+    return s;
+}
+
+static rb_status look(search *f, rb_message *why)
+{
+    rb_arena scratch = {0};
+    double *depth = rb_arena_doubles(&scratch, (size_t)f->n, 1);
+    rb_status s = depth ? RB_OK : RB_ENOMEM;
+    for (int k = 0; k < f->rows && s == RB_OK; k++) {
+        const row *r = &f->row[k];
+        for (int i = 0; i < r->n; i++)
+            depth[i] = r->depth;
+        s = stress_at(f, r->in, r->n, f->at_s + r->first, depth, f->at + r->first, why);
+    }
+    return rb_arena_done(&scratch, s);
+}
+
+/* ---- Maxima ------------------------------------------------------------------------ */
+
+typedef double measure(const rb_rolling_stress *s);
+
+static double max_shear(const rb_rolling_stress *s)
+{
+    return s->max_shear;
+}
+
+static double tresca_shear(const rb_rolling_stress *s)
+{
+    return s->tresca_shear;
+}
+
+static double von_mises(const rb_rolling_stress *s)
+{
+    return s->von_mises;
+}
+
+static double orthogonal_shear(const rb_rolling_stress *s)
+{
+    return fabs(s->sxy);
+}
+
+static double tension(const rb_rolling_stress *s)
+{
+    return s->principal_1;
+}
+
+static double compression(const rb_rolling_stress *s)
+{
+    return -s->principal_2;
+}
+
+enum { MEASURES = 6 };
+static measure *const measures[MEASURES] = {max_shear,        tresca_shear, von_mises,
+                                            orthogonal_shear, tension,      compression};
+
+rb_rolling_extremum *rb_rolling_maximum(rb_rolling_stress_maxima *m, int k)
+{
+    rb_rolling_extremum *const all[MEASURES] = {&m->max_shear, &m->tresca_shear,
+                                                &m->von_mises, &m->orthogonal_shear,
+                                                &m->tension,   &m->compression};
+    return k < MEASURES ? all[k] : NULL;
+}
+
+/* The value at point i of a row; nothing where it is left out. */
+static double value(const search *f, measure *of, const row *r, int i)
+{
+    return i < 0 || i >= r->n || is_left_out(f, f->at_s[r->first + i], r->depth)
+               ? -INFINITY
+               : of(&f->at[r->first + i]);
+}
+
+/* The point of the row that is nearest to s. */
+static int nearest(const search *f, const row *r, double s)
+{
+    const double *at = f->at_s + r->first;
+    int low = 0, high = r->n - 1;
+    while (high - low > 1) {
+        const int middle = (low + high) / 2;
+        *(at[middle] > s ? &high : &low) = middle;
+    }
+    return s - at[low] < at[high] - s ? low : high;
+}
+
+/* 1: neither the neighbours in the row nor those in the rows beside it have more. */
+static int is_peak(const search *f, measure *of, int k, int i)
+{
+    const row *r = &f->row[k];
+    const double here = value(f, of, r, i), s = f->at_s[r->first + i];
+    if (!(here > -INFINITY && value(f, of, r, i - 1) <= here && value(f, of, r, i + 1) <= here))
+        return 0;
+    for (int side = -1; side <= 1; side += 2) {
+        const row *beside = r + side;
+        if (k + side >= 0 && k + side < f->rows && beside->in == r->in &&
+            value(f, of, beside, nearest(f, beside, s)) > here)
+            return 0;
+    }
+    return 1;
+}
+
+/* From a place to the top: to the best of eight neighbours, or nearer ones where none is
+ * better.  It stays in the strip, on whose boundary it may end.  A peak that is `less` than
+ * enough for the best one when the steps have become small is given up. */
+static rb_status climb(const search *f, measure *of, const strip *in, double step_s,
+                       double step_depth, double enough, double place[2], double *top,
+                       rb_message *why)
+{
+    enum { TRIES = 400, AROUND = 8 };
+    static const double way[AROUND][2] = {{1, 0},  {-1, 0}, {0, 1}, {0, -1},
+                                          {1, -1}, {-1, 1}, {1, 1}, {-1, -1}};
+    const double least = 1e-10 * (f->high - f->low);
+    const double given_up = 0.1 * step_s;
+
+    for (int k = 0; k < TRIES && fmax(step_s, step_depth) > least; k++) {
+        double s[AROUND], depth[AROUND];
+        rb_rolling_stress at[AROUND];
+        int best = -1;
+        for (int i = 0; i < AROUND; i++) {
+            s[i] = fmin(fmax(place[0] + way[i][0] * step_s, f->low - f->reach), f->high + f->reach);
+            depth[i] = fmin(fmax(place[1] + way[i][1] * step_depth, in->top), in->bottom);
+        }
+        const rb_status status = stress_at(f, in, AROUND, s, depth, at, why);
+        if (status != RB_OK)
+            return status;
+        for (int i = 0; i < AROUND; i++)
+            if (!is_left_out(f, s[i], depth[i]) && of(&at[i]) > *top) {
+                *top = of(&at[i]);
+                best = i;
+            }
+        if (best >= 0) {
+            place[0] = s[best];
+            place[1] = depth[best];
+        } else {
+            step_s *= 0.5;
+            step_depth *= 0.5;
+            if (step_s < given_up && *top < enough)
+                break;
+        }
+    }
+    return RB_OK;
+}
+
+/* Several peaks may be nearly as high, and the highest point that was looked at need not
+ * have the highest top near it. */
+static rb_status maximum(const search *f, measure *of, rb_rolling_extremum *best, rb_message *why)
+{
+    enum { STARTS = 6 };
+    int row_of = -1, point = -1;
+    double limit = INFINITY;
+
+    for (int k = 0; k < STARTS; k++) {
+        /* The highest peak that is lower than the last one, or behind it. */
+        int next_row = -1, next = -1;
+        double most = -INFINITY;
+        for (int j = 0; j < f->rows; j++)
+            for (int i = 0; i < f->row[j].n; i++) {
+                const double here = value(f, of, &f->row[j], i);
+                const int behind = j > row_of || (j == row_of && i > point);
+                if ((here < limit || (here == limit && behind)) && here > most &&
+                    is_peak(f, of, j, i)) {
+                    next_row = j;
+                    next = i;
+                    most = here;
+                }
+            }
+        if (next < 0 || most < best->value - 0.1 * fabs(best->value))
+            break;
+        row_of = next_row;
+        point = next;
+        limit = most;
+        const row *r = &f->row[row_of];
+        const double *s = f->at_s + r->first;
+        double place[2] = {s[point], r->depth}, top = most;
+        const double step_s = fmax(point > 0 ? s[point] - s[point - 1] : 0.0,
+                                   point + 1 < r->n ? s[point + 1] - s[point] : 0.0);
+        double step_depth = 0.0;
+        for (int side = -1; side <= 1; side += 2)
+            if (row_of + side >= 0 && row_of + side < f->rows && r[side].in == r->in)
+                step_depth = fmax(step_depth, fabs(r[side].depth - r->depth));
+        const rb_status status = climb(f, of, r->in, 0.5 * step_s, 0.5 * step_depth,
+                                       best->value - 1e-3 * fabs(best->value), place, &top, why);
+        if (status != RB_OK)
+            return status;
+        /* What is on a boundary to rounding is there. */
+        for (int end = 0; end < 2; end++) {
+            const double boundary = end ? r->in->bottom : r->in->top;
+            rb_rolling_stress at;
+            if (place[1] == boundary || fabs(place[1] - boundary) > 1e-6 * (f->high - f->low))
+                continue;
+            const rb_status there = stress_at(f, r->in, 1, place, &boundary, &at, why);
+            if (there != RB_OK)
+                return there;
+            if (of(&at) >= top - 1e-9 * fabs(top)) {
+                place[1] = boundary;
+                top = of(&at);
+            }
+        }
+        if (top > best->value) {
+            double xy[2];
+            to_xy(f, r->in, place[0], place[1], xy);
+            *best = (rb_rolling_extremum){top, xy[0], xy[1], r->in->material};
+        }
+    }
+    return RB_OK;
+}
+
+rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double depth,
+                                        rb_rolling_stress_maxima *maxima, rb_message *why)
+{
+    const rb_rolling_extremum none = {-INFINITY, NAN, NAN, RB_MATERIAL_BODY};
+    rb_rolling_run run = {.last = -1};
+    rb_arena memory = {0};
+    search f = {.model = model};
+
+    *maxima = (rb_rolling_stress_maxima){none, none, none, none, none, none};
+    rb_status s = rb_rolling_stress_check(model->rc, why);
+    if (s != RB_OK)
+        return s;
+    if (!rb_rolling_next_patch(model->rc, &model->mesh, &model->state, 0, &run))
+        return rb_fail(why, RB_NO_CONTACT, "no contact, no stress");
+    rb_phase("the largest stresses");
+    s = rb_rolling_field_create(model, &f.field, why);
+    if (s == RB_OK)
+        s = set_rows(&f, depth, &memory);
+    if (s == RB_OK)
+        s = leave_out_ends(&f);
+    if (s == RB_OK)
+        s = look(&f, why);
+    for (int i = 0; i < MEASURES && s == RB_OK; i++)
+        s = maximum(&f, measures[i], rb_rolling_maximum(maxima, i), why);
+    rb_rolling_field_free(f.field);
+    rb_arena_free(&memory);
+    return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the largest stresses") : s;
+}
+
+rb_status rb_rolling_stress_maxima_at(const rb_rolling_model *model,
+                                      rb_rolling_stress_maxima *maxima, rb_message *why)
+{
+    double xy[2 * MEASURES];
+    rb_rolling_stress at[MEASURES];
+
+    for (int k = 0; k < MEASURES; k++) {
+        const rb_rolling_extremum *m = rb_rolling_maximum(maxima, k);
+        xy[2 * k] = m->x;
+        xy[2 * k + 1] = m->y;
+        /* digits that are lost in other units must not lead to the other side of the bond */
+        const double bond = model->rc->a.layer;
+        if (bond > 0.0 && fabs(m->y - bond) < 1e-12 * bond)
+            xy[2 * k + 1] = m->material == RB_MATERIAL_BASE ? nextafter(bond, INFINITY) : bond;
+    }
+    const rb_status s = rb_rolling_stress_at(model, MEASURES, xy, at, why);
+    if (s != RB_OK)
+        return s;
+    for (int k = 0; k < MEASURES; k++)
+        rb_rolling_maximum(maxima, k)->value = measures[k](&at[k]);
+    return RB_OK;
+}

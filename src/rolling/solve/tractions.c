@@ -1,0 +1,203 @@
+/* Tractions between the midpoints of the contact elements, for the stress below them (B14). */
+#include "rolling/solve/results.h"
+
+#include <gsl/gsl_math.h>
+
+/* Nodes between the outermost midpoint that is trusted and the edge, at distances that grow
+ * with the fourth power from it; parts of the interval between the next midpoints; and how
+ * many elements at an edge are replaced. */
+enum { EDGE_NODES = 32, PARTS = 4, LEAST_REPLACED = 2, MOST_REPLACED = 5 };
+
+/* One run of elements in contact.  x: midpoints. */
+typedef struct {
+    const rb_rolling_model *model;
+    const double *x, *ends, *p, *q;
+    int first, last;
+} patch;
+
+/* Where the pressure goes near an edge: t being the distance outwards from the outermost
+ * trusted midpoint `from`, p(t) = p(0) (1 + b t + c t^2)^exponent, zero at t = reach.  With
+ * reach = 0 nothing is known, and the tractions stay linear between the midpoints. */
+typedef struct {
+    int from, side;
+    double exponent, b, c, reach;
+} edge;
+
+static double pressure_beyond(const edge *e, double t)
+{
+    return pow(fmax(1.0 + t * (e->b + e->c * t), 0.0), e->exponent);
+}
+
+/* With so many elements replaced, by the parabola through three that lie so many apart. */
+static edge edge_with(const patch *r, int side, int replaced, int apart)
+{
+    const rb_rolling_model *model = r->model;
+    const double beta = rb_rolling_derive(model->rc).dundurs;
+    const int *zone = model->state.zone, outer = side > 0 ? r->last : r->first, n = model->mesh.n;
+    edge e = {.from = outer - side * replaced, .side = side};
+    double d[3], y[3];
+
+    e.exponent = rb_rolling_edge_exponent(model->rc, r->ends[e.from + 1] - r->ends[e.from],
+                                          &model->state, e.from, side);
+    for (int i = 0; i < 3; i++) {
+        const int j = e.from - side * i * apart;
+        /* Where the friction feeds back on it, the pressure bends at the end of a slip zone. */
+        if (beta != 0.0 && zone[j] != zone[e.from])
+            return e;
+        d[i] = side * (r->x[j] - r->x[e.from]);
+        y[i] = pow(r->p[j] / r->p[e.from], 1.0 / e.exponent);
+    }
+    const double slope = (y[1] - y[0]) / d[1], next = (y[2] - y[1]) / (d[2] - d[1]);
+    e.c = (next - slope) / d[2];
+    e.b = slope - e.c * d[1];
+    const double square = e.b * e.b - 4.0 * e.c;
+    if (!(e.b < 0.0 && square >= 0.0))
+        return e;
+    const double reach = 2.0 / (sqrt(square) - e.b);
+    /* An edge lies in the last loaded or in the first open element, not beyond the middle
+     * of one that stands between two patches, and the elements that are replaced have about
+     * the pressure that is put in their place. */
+    const int open = outer + side, beyond = open + side;
+    const double inner_end = r->ends[side > 0 ? outer : outer + 1];
+    const double outer_end = open < 0 || open >= n ? r->ends[side > 0 ? n : 0]
+                             : beyond < 0 || beyond >= n || zone[beyond] == RB_ZONE_SEPARATED
+                                 ? r->ends[side > 0 ? open + 1 : open]
+                                 : r->x[open];
+    for (int j = e.from + side; j != outer; j += side) {
+        const double there = pressure_beyond(&e, side * (r->x[j] - r->x[e.from]));
+        if (!(fabs(r->p[j] / r->p[e.from] - there) < 0.2 * there))
+            return e;
+    }
+    if (reach > side * (inner_end - r->x[e.from]) && reach < side * (outer_end - r->x[e.from]))
+        e.reach = reach;
+    return e;
+}
+
+/* The outermost elements carry the error of constant tractions where the true ones start
+ * like a root, and the last one may be only partly in contact: those inside of them lead
+ * to the edge. */
+static edge edge_of(const patch *r, int side)
+{
+    const int length = r->last - r->first + 1;
+    edge e = {.reach = 0.0};
+
+    for (int replaced = (int)fmin(fmax(length / 8, LEAST_REPLACED), MOST_REPLACED);
+         replaced >= LEAST_REPLACED && e.reach == 0.0; replaced--)
+        for (int apart = 2; apart >= 1 && e.reach == 0.0; apart--)
+            if (length >= 2 * (replaced + 2 * apart))
+                e = edge_with(r, side, replaced, apart);
+    return e;
+}
+
+/* The friction over the pressure: in slip that of the friction law, which the elements meet
+ * exactly, linear between the midpoints. */
+static double ratio_at(const patch *r, int j, double x)
+{
+    const int side = x < r->x[j] ? -1 : 1, k = j + side;
+    const double here = r->q[j] / r->p[j];
+    if (k < r->first || k > r->last)
+        return here;
+    return here + (r->q[k] / r->p[k] - here) * (x - r->x[j]) / (r->x[k] - r->x[j]);
+}
+
+static void add_node(rb_bem_edge_load *load, double *x, double *p, double *q, double at,
+                     double pressure, double friction)
+{
+    x[load->n] = at;
+    p[load->n] = pressure;
+    q[load->n++] = friction;
+}
+
+/* The nodes from an edge to its trusted midpoint, or back. */
+static void add_edge(const patch *r, const edge *e, rb_bem_edge_load *load, double *x, double *p,
+                     double *q)
+{
+    const int outer = e->side > 0 ? r->last : r->first;
+    for (int i = 0; i < EDGE_NODES; i++) {
+        const int k = e->side < 0 ? i : EDGE_NODES - 1 - i;
+        const double d = e->reach * gsl_pow_4((double)k / EDGE_NODES), t = e->reach - d,
+                     at = r->x[e->from] + e->side * t;
+        /* Chords of a function that starts like a root hold less than it does; with so much
+         * more at the nodes they hold the same. */
+        const double power = e->exponent,
+                     more = k > 0 ? 1.0 + power * (1.0 - power) * 4.0 / 3.0 / (k * k) : 0.0;
+        int j = e->from;
+        while (j != outer && e->side * (at - r->x[j + e->side]) >= 0.0)
+            j += e->side;
+        const double pressure = more * r->p[e->from] * pressure_beyond(e, t);
+        add_node(load, x, p, q, at, pressure, pressure * ratio_at(r, j, at));
+    }
+}
+
+/* From one midpoint up to the next, in parts where one of the edges is near: what is linear
+ * there is the pressure to the power of 1/exponent. */
+static void add_interval(const patch *r, int j, int parts, double exponent, rb_bem_edge_load *load,
+                         double *x, double *p, double *q)
+{
+    for (int i = 0; i < parts; i++) {
+        const double w = (double)i / parts, at = r->x[j] + w * (r->x[j + 1] - r->x[j]);
+        const double rise = i ? pow(r->p[j + 1] / r->p[j], 1.0 / exponent) : 1.0;
+        const double pressure = r->p[j] * pow(1.0 + w * (rise - 1.0), exponent);
+        add_node(load, x, p, q, at, i ? pressure : r->p[j],
+                 i ? pressure * ratio_at(r, j, at) : r->q[j]);
+    }
+}
+
+static void add_patch(const patch *r, rb_bem_edge_load *load, double *x, double *p, double *q)
+{
+    const int n = r->model->mesh.n;
+    const edge left = edge_of(r, -1), right = edge_of(r, 1);
+    const int from = left.reach > 0.0 ? left.from : r->first,
+              to = right.reach > 0.0 ? right.from : r->last;
+
+    if (left.reach > 0.0)
+        add_edge(r, &left, load, x, p, q);
+    else {
+        /* Open elements carry nothing, at their midpoints too. */
+        const double open = from > 0 ? r->x[from - 1] : r->ends[0];
+        if (load->n == 0 || open > x[load->n - 1])
+            add_node(load, x, p, q, open, 0.0, 0.0);
+    }
+    for (int j = from; j < to; j++) {
+        const int is_left = j - from < to - 1 - j;
+        const edge *near = is_left ? &left : &right;
+        const int away = is_left ? j - from : to - 1 - j;
+        const int parts = near->reach > 0.0 ? (PARTS + away) / (1 + away) : 1;
+        add_interval(r, j, parts, near->exponent, load, x, p, q);
+    }
+    add_node(load, x, p, q, r->x[to], r->p[to], r->q[to]);
+    if (right.reach > 0.0)
+        add_edge(r, &right, load, x, p, q);
+    else
+        add_node(load, x, p, q, to + 1 < n ? r->x[to + 1] : r->ends[n], 0.0, 0.0);
+}
+
+rb_status rb_rolling_traction_nodes(const rb_rolling_model *model, const double *ends,
+                                    const double *p, const double *q, rb_arena *memory,
+                                    rb_bem_edge_load *load)
+{
+    const int n = model->mesh.n;
+    rb_rolling_run run = {.last = -1};
+    size_t patches = 0;
+    while (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run))
+        patches++;
+    const size_t most = (size_t)n + 2 + patches * 2 * (EDGE_NODES + 3 * PARTS);
+    double *middle = rb_arena_doubles(memory, (size_t)n, 1);
+    double *nodes = rb_arena_doubles(memory, most, 3);
+
+    if (memory->failed)
+        return RB_ENOMEM;
+    double *at_p = nodes + most, *at_q = at_p + most;
+    for (int i = 0; i < n; i++)
+        middle[i] = 0.5 * (ends[i] + ends[i + 1]);
+    *load = (rb_bem_edge_load){0, nodes, at_p, at_q};
+    for (run.last = -1;
+         rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run);)
+        add_patch(&(patch){model, middle, ends, p, q, run.first, run.last}, load, nodes, at_p,
+                  at_q);
+    if (patches == 0) {
+        add_node(load, nodes, at_p, at_q, ends[0], 0.0, 0.0);
+        add_node(load, nodes, at_p, at_q, ends[n], 0.0, 0.0);
+    }
+    return RB_OK;
+}
