@@ -157,7 +157,9 @@ json_t *rb_report_json_schema(void)
                        columns(&rb_rolling_stress_scalars, 1, "stress, an entry per point"));
     rb_report_json_set(&of, "points",
                        columns(&rb_rolling_stress_scalars, 1, "the same at given points"));
-    rb_report_json_set(&of, "depth", number("of grid and maxima; null: a grid of 2.5 half-widths, maxima in all of A"));
+    rb_report_json_set(
+        &of, "depth",
+        number("of grid and maxima; null: a grid of 2.5 half-widths, maxima in all of A"));
     rb_report_json_set(&of, "maxima", typed("object", "largest stresses, their places"));
     rb_report_json_set(&of, "derivatives",
                        typed("object", "of --derivatives: of each result with respect to each "
