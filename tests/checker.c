@@ -623,13 +623,28 @@ static void check_sums(const contact *c, const table *t)
     check_edges(c, t, &s);
 }
 
+static int has_memory(const json_t *inputs, const char *suffix)
+{
+    char key[40];
+    snprintf(key, sizeof key, "relaxation-time%s", suffix);
+    const json_t *time = json_object_get(inputs, key);
+    return json_is_number(time) || json_is_array(time);
+}
+
 /* The force ratio is that to mu P, of elements that differ at rest to all they carry. */
 static void check_ratios(const contact *c, const table *t)
 {
     const double P_ = number(c->summary, "normal_load");
     const double Q_ = number(c->summary, "tangential_load");
-    const double a = sqrt(4.0 * P_ * c->radius / (pi * c->modulus));
-    expect_same(c, "hertz_half_width", a, 1e-9 * a);
+    double a = sqrt(4.0 * P_ * c->radius / (pi * c->modulus));
+    const int relaxes = c->moves && (has_memory(c->inputs, "") || has_memory(c->inputs, "-b"));
+    if (number(c->inputs, "interlayer-normal") > 0.0 || relaxes) {
+        /* theirs by formula, to a few per cent of what carries */
+        a = number(c->summary, "hertz_half_width");
+        if (P_ > 0.0 && !(a > 0.0))
+            violated("hertz_half_width", "%g", a);
+    } else
+        expect_same(c, "hertz_half_width", a, 1e-9 * a);
     if (c->mu > 0.0) {
         const double ratio = number(c->summary, "creepage") * c->radius / (c->mu * a);
         double most = c->moves ? c->mu * P_ : 0.0;
@@ -903,14 +918,6 @@ static void check_power(const contact *c, const table *t, const json_t *list)
     /* where nearly all sticks, all of it is lost between the midpoints, whose slip is
      * zero: then it is the rounding of the sum that counts */
     expect("dissipation", D, sum, 1e-11 * size + 1e-14 * (p0 + summed));
-}
-
-static int has_memory(const json_t *inputs, const char *suffix)
-{
-    char key[40];
-    snprintf(key, sizeof key, "relaxation-time%s", suffix);
-    const json_t *time = json_object_get(inputs, key);
-    return json_is_number(time) || json_is_array(time);
 }
 
 /* The work per rolled way of the pressure on the slope of the worn profile, which stays

@@ -382,7 +382,8 @@ TEST(surface_normals_feed_by_their_own_tractions)
 {
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(k ? 60 : 15);
-        set(&rc, "normals surface half-width 4 force nan creep-ratio -0.4");
+        set(&rc, "normals surface half-width 4 force nan");
+        rc.creep = -0.4 * rc.mu * 4.0 / rb_rolling_radius(&rc);
         OWNED(rb_rolling_solution) s = solved(&rc);
         const double R = rc.a.radius, xi = s.creepage;
         double fed = 0.0, load = 0.0, along_x = 0.0, turned = 0.0;

@@ -136,6 +136,9 @@ rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, d
 rb_status rb_rolling_profile_smooth(int n, const double *x, const double *gap,
                                     rb_rolling_profile **profile, rb_message *why);
 void rb_rolling_profile_free(rb_rolling_profile *profile);
+/* The radius of the parabola that is nearest to the gap around its smallest value, in the lowest
+ * tenth of its range [length]; NAN: the gap has none: it is flat, a roof or hollow there. */
+double rb_rolling_profile_radius(const rb_rolling_profile *profile);
 /* The first and the last x of the profile. */
 void rb_rolling_profile_range(const rb_rolling_profile *profile, double *from, double *to);
 /* The gap at any x.  Beyond the ends it is extrapolated by straight lines; a contact
@@ -281,15 +284,26 @@ typedef struct {
     double load;       /* given, or computed from the given half-width; NAN: the approach is
                           given */
     double approach;   /* given, or R/2; NAN: the load is given */
-    double half_width; /* a: Hertz's half-width of the load, or an estimate from the
+    double half_width; /* a: rb_rolling_contact_half_width of the load, or an estimate from the
                           approach */
-    double stress;     /* E* a/(2R), Hertz's p0: the scale of the tractions */
+    double stress;     /* the scale of the tractions: E* a/(2R), Hertz's p0, or 2P/(pi a) */
+    double strain;     /* the scale of strains and creepages: a/R, or 2 stress/E* of a gap without
+                          a radius */
 } rb_rolling_derived;
 
 rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc);
-/* 1/R = 1/R_A + 1/R_B; Hertz's half-width of a load, and the load of a half-width. */
+/* 1/R = 1/R_A + 1/R_B; Hertz's half-width of a load, and the load of a half-width.  INFINITY: the
+ * gap is a table that has no radius, and none was given; what refers to one is NAN then. */
 double rb_rolling_radius(const rb_rolling_case *rc);
+int rb_rolling_has_radius(const rb_rolling_case *rc);
 double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load);
+/* The half-width a of the contact under a load by formula, the unit of distances and of xi R/(mu
+ * a): Hertz's; with a third body that gives way and in steady rolling of bodies that relax theirs
+ * (theory.md A1), to one or two per cent; of a gap without a radius half of where it is low. */
+double rb_rolling_contact_half_width(const rb_rolling_case *rc, double load);
+/* The unit of the distances of a history under this largest load: the same of the bodies at rest,
+ * where nothing has relaxed yet. */
+double rb_rolling_unit_of_distance(const rb_rolling_case *rc, double load);
 
 /* The half-width that an automatic zone follows [length]: Hertz's, or, where it is larger, that
  * between rigid bodies with the normal compliance L_N of the third body, P = 2 a^3/(3 R L_N).
@@ -475,8 +489,8 @@ typedef struct {
     double approach, tangential_shift;   /* delta; rigid shift (static) [length] */
     double creepage, free_creepage;      /* xi; xi at Q = 0 (steady); NAN otherwise, or if no
                                             such xi was found */
-    double hertz_half_width;             /* a of the load P and the combined radius; used in
-                                            creep_ratio */
+    double hertz_half_width;             /* rb_rolling_contact_half_width of the load P; used in
+                                            creep_ratio; NAN: the gap has no radius */
     double creep_ratio, force_ratio;     /* xi R/(mu a), Q/(mu P); NAN at mu = 0 */
     double half_width;                   /* of the contact, from edge to edge [length] */
     double datum;                        /* of A; NAN where it has none [length] */

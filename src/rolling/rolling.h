@@ -46,7 +46,12 @@ int rb_rolling_interpolant_rows(const rb_rolling_interpolant *interpolant, const
 int rb_rolling_interpolant_corners(const rb_rolling_interpolant *interpolant, const double **x,
                                    const double **bend);
 
-/* ---- profile.c --------------------------------------------------------------------- */
+/* ---- profile.c, profile_points.c --------------------------------------------------- */
+
+struct rb_rolling_profile {
+    rb_rolling_interpolant *curve; /* owned */
+    double from, to, radius;
+};
 
 /* Corners of the profile, as of its interpolant. */
 int rb_rolling_profile_corners(const rb_rolling_profile *profile, const double **x,

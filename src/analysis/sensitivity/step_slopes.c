@@ -25,7 +25,7 @@ static double unit_of_elements(const rb_rolling_case *rc, const rb_rolling_progr
 
     for (int k = 0; program && program->load && k < program->n; k++)
         load = k > 0 ? fmax(load, program->load[k]) : program->load[k];
-    return rb_rolling_relaxes(rc) ? rb_rolling_hertz_half_width(rc, load)
+    return rb_rolling_relaxes(rc) ? rb_rolling_unit_of_distance(rc, load)
                                   : rb_rolling_zone_half_width(rc, load);
 }
 

@@ -648,7 +648,6 @@ rb_status rb_certificate_assess(rb_certificate *c, double residual, rb_message *
     const rb_contact_state *x = &c->model.state;
     const double P = weighted(p->n, p->load_N, x->p, p->load_T, x->q);
     const double Q = weighted(p->n, p->force_N, x->p, p->force_T, x->q);
-    const rb_rolling_derived d = rb_rolling_derive(c->model.rc);
 
     if (c->summary) {
         rb_certificate_expect(c, "normal_load", 0, rb_certificate_member(c->summary, "normal_load"),
@@ -658,7 +657,7 @@ rb_status rb_certificate_assess(rb_certificate *c, double residual, rb_message *
                               1e-13 * fabs(P));
     }
     /* which ratios of the creepage take */
-    c->model.half_width = P > 0.0 ? sqrt(4.0 * P * d.radius / (acos(-1.0) * d.modulus)) : 0.0;
+    c->model.half_width = P > 0.0 ? rb_rolling_contact_half_width(c->model.rc, P) : 0.0;
     if (c->model.rc->formulation == RB_STEADY && !p->load_given && !p->force_given &&
         !isnan(c->model.rc->creep_ratio))
         c->model.problem.xi = x->xi; /* as solving would have left it; its ratio is compared */

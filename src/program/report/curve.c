@@ -175,13 +175,14 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
         else if (slides && yields > 0.0)
             fprintf(out, "  nothing sticks at any point: up to %.3g %% of the interface yields\n",
                     100.0 * yields);
-        else if (slides && sliding > 0)
-            fprintf(
-                out,
-                "  full sliding begins between xi = %.5g and %.5g, xi R/(mu a) = %.4g and %.4g\n",
-                c->creepage[sliding - 1], c->creepage[sliding], c->creep_ratio[sliding - 1],
-                c->creep_ratio[sliding]);
-        else if (slides)
+        else if (slides && sliding > 0) {
+            fprintf(out, "  full sliding begins between xi = %.5g and %.5g",
+                    c->creepage[sliding - 1], c->creepage[sliding]);
+            if (!isnan(c->creep_ratio[sliding]))
+                fprintf(out, ", xi R/(mu a) = %.4g and %.4g", c->creep_ratio[sliding - 1],
+                        c->creep_ratio[sliding]);
+            fputc('\n', out);
+        } else if (slides)
             fprintf(out, "  full sliding at every point\n");
     }
     rb_locale_end(before);
@@ -254,14 +255,29 @@ static int draws_carter(const view *v)
 static void write_labels(FILE *out, const view *v, int titled)
 {
     const rb_rolling_curve *c = &v->curves->curve[0];
-    const int thick = rb_rolling_has_thickness(v->rc);
     if (titled) {
-        fprintf(out,
-                "set label 1 '{/:Bold %s}   P = %s %s,  %s = %s %s' at screen 0.54, 0.972 center\n",
-                v->over == RB_OVER_SPEED ? "Rolling resistance" : "Creep curve",
-                RB_REPORT_NUMBER(c->normal_load[c->n - 1], 5), rb_unit_name(c->units, "N/mm"),
-                thick ? "Hertz’s a of solid bodies" : "a", RB_REPORT_NUMBER(c->half_width, 4),
-                rb_unit_name(c->units, "mm"));
+        /* Where Hertz's half-width is not that of the contact, that of the last point; of bodies
+         * that relax those at the first and the last speed. */
+        const int is_own = rb_rolling_has_thickness(v->rc) || !rb_rolling_has_radius(v->rc);
+        const double half = is_own ? c->last.half_width : c->half_width;
+        char at_first[40] = "";
+        if (v->over == RB_OVER_SPEED && rb_rolling_relaxes(v->rc) && !is_own) {
+            rb_rolling_case first = *v->rc;
+            first.speed = c->speed[0];
+            rb_format(
+                at_first, sizeof at_first, "%s ... ",
+                RB_REPORT_NUMBER(
+                    rb_unit_shown(c->units, "mm",
+                                  rb_rolling_contact_half_width(
+                                      &first, rb_unit_stored(c->units, "N/mm", c->normal_load[0]))),
+                    4));
+        }
+        fprintf(
+            out,
+            "set label 1 '{/:Bold %s}   P = %s %s,  a = %s%s %s' at screen 0.54, 0.972 center\n",
+            v->over == RB_OVER_SPEED ? "Rolling resistance" : "Creep curve",
+            RB_REPORT_NUMBER(c->normal_load[c->n - 1], 5), rb_unit_name(c->units, "N/mm"), at_first,
+            RB_REPORT_NUMBER(half, 4), rb_unit_name(c->units, "mm"));
         rb_report_label_bodies(out, v->rc, c->units, 0.54, 0.935);
     }
     if (v->over == RB_OVER_SPEED)

@@ -83,7 +83,12 @@ static double modulus(const rb_rolling_case *rc)
 double rb_rolling_radius(const rb_rolling_case *rc)
 {
     const double a = rc->a.radius, b = rc->b.radius;
-    return b < 0.0 && isfinite(b) ? a * b / (a + b) : 1.0 / (1.0 / a + 1.0 / b);
+    return b < 0.0 && isfinite(b) && isfinite(a) ? a * b / (a + b) : 1.0 / (1.0 / a + 1.0 / b);
+}
+
+int rb_rolling_has_radius(const rb_rolling_case *rc)
+{
+    return isfinite(rb_rolling_radius(rc));
 }
 
 static double thickness_of(const rb_rolling_body *body, const char **what)
@@ -156,10 +161,93 @@ double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width)
     return M_PI * modulus(rc) * gsl_pow_2(half_width) / (4.0 * rb_rolling_radius(rc));
 }
 
+/* What terms of relaxation add to the compliance of a body under a contact of half-width a that
+ * rolls steadily, as a part of the glassy one (A1): the whole of f_k where it rolls slowly, nothing
+ * where it passes before anything relaxes. */
+static double relaxed_part(const rb_rolling_case *rc, const rb_rolling_memory *memory, double a)
+{
+    double all = 0.0, sum = 0.0;
+
+    for (int k = 0; k < memory->n; k++)
+        all += memory->ratio[k];
+    for (int k = 0; k < memory->n; k++) {
+        const double z = rc->speed * memory->time[k] / a;
+        sum += memory->ratio[k] / (1.0 + z + 1.15 * z * z / pow(1.0 + all, 0.6));
+    }
+    return sum;
+}
+
+/* Half of where a table without a radius is no higher than 2P/(pi E*) above its lowest place, as
+ * Hertz's gap at the edge of the contact.  NAN: there is no table. */
+static double half_of_low_part(const rb_rolling_case *rc, double load)
+{
+    const double *x;
+    if (!rc->profile) /* which is refused */
+        return NAN;
+    const int rows = rb_rolling_profile_rows(rc->profile, &x);
+    int lowest = 0, first, last;
+
+    for (int i = 1; i < rows; i++)
+        if (rb_rolling_profile_gap(rc->profile, x[i]) <
+            rb_rolling_profile_gap(rc->profile, x[lowest]))
+            lowest = i;
+    const double level =
+        rb_rolling_profile_gap(rc->profile, x[lowest]) + 2.0 * load / (M_PI * modulus(rc));
+    for (first = lowest; first > 0 && rb_rolling_profile_gap(rc->profile, x[first - 1]) <= level;)
+        first--;
+    for (last = lowest;
+         last + 1 < rows && rb_rolling_profile_gap(rc->profile, x[last + 1]) <= level;)
+        last++;
+    /* between two rows by the chord */
+    double from = x[first], to = x[last];
+    if (first > 0) {
+        const double low = rb_rolling_profile_gap(rc->profile, x[first]),
+                     high = rb_rolling_profile_gap(rc->profile, x[first - 1]);
+        from -= (x[first] - x[first - 1]) * (level - low) / (high - low);
+    }
+    if (last + 1 < rows) {
+        const double low = rb_rolling_profile_gap(rc->profile, x[last]),
+                     high = rb_rolling_profile_gap(rc->profile, x[last + 1]);
+        to += (x[last + 1] - x[last]) * (level - low) / (high - low);
+    }
+    return 0.5 * (to - from);
+}
+
+double rb_rolling_contact_half_width(const rb_rolling_case *rc, double load)
+{
+    enum { ROUNDS = 100 };
+    const int relaxes = rc->formulation != RB_STATIC && rb_rolling_relaxes(rc);
+    const double soft = 1.5 * rb_rolling_radius(rc) * rc->interlayer_normal * load;
+
+    if (!rb_rolling_has_radius(rc))
+        return half_of_low_part(rc, load);
+    const double hertz = rb_rolling_hertz_half_width(rc, load);
+    if ((!(soft > 0.0) && !relaxes) || !(hertz > 0.0))
+        return hertz;
+    /* a^3 = A(a) a + B, with the pressure of A flatter the more B gives way: the right side grows
+     * like a at most, so that iterates come nearer by a third or more. */
+    const double rigid = modulus(rc) * compliance(rb_rolling_material(rc, &rc->a)),
+                 other = 1.0 - rigid;
+    double a = fmax(hertz, cbrt(soft));
+    for (int k = 0; k < ROUNDS; k++) {
+        const double relaxed = relaxes ? rigid * relaxed_part(rc, &rc->a.memory, a) +
+                                             other * relaxed_part(rc, &rc->b.memory, a)
+                                       : 0.0;
+        const double flatter = soft > 0.0 ? 1.0 + 0.13 * pow(soft / (a * a * a), 0.4) : 1.0;
+        const double next = cbrt(hertz * hertz * (1.0 + relaxed) * a * flatter + soft);
+        const double step = next - a;
+        a = next;
+        if (fabs(step) <= 1e-15 * a)
+            break;
+    }
+    return a;
+}
+
 rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc)
 {
     const rb_rolling_body *a = &rc->a;
     rb_rolling_derived d = {.radius = rb_rolling_radius(rc), .modulus = modulus(rc)};
+    const int has_radius = rb_rolling_has_radius(rc);
 
     d.dundurs = (coupling(rb_rolling_material(rc, a)) -
                  (rc->elastic_b ? coupling(rb_rolling_material(rc, &rc->b)) : 0.0)) *
@@ -167,21 +255,32 @@ rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc)
     d.load = isnan(rc->half_width) ? rc->load : rb_rolling_hertz_load(rc, rc->half_width);
     if (!isnan(d.load)) {
         d.approach = NAN;
-        d.half_width = rb_rolling_hertz_half_width(rc, d.load);
+        d.half_width = rb_rolling_contact_half_width(rc, d.load);
     } else {
         d.approach = isnan(rc->approach) ? a->radius / 2.0 : rc->approach;
-        d.half_width = half_width_of_approach(d.radius, d.approach);
+        /* 2P/(pi E*) of the load that flattens the lower half of the approach */
+        d.half_width = has_radius ? half_width_of_approach(d.radius, d.approach)
+                                  : half_of_low_part(rc, 0.25 * M_PI * d.modulus * d.approach);
     }
-    d.stress = d.modulus * d.half_width / (2.0 * d.radius);
+    const int hertz = has_radius && !(rc->interlayer_normal > 0.0) &&
+                      !(rc->formulation != RB_STATIC && rb_rolling_relaxes(rc));
+    const double P = isnan(d.load) ? 0.25 * M_PI * d.modulus * d.approach : d.load;
+    d.stress = hertz || (isnan(d.load) && has_radius) ? d.modulus * d.half_width / (2.0 * d.radius)
+                                                      : 2.0 * P / (M_PI * d.half_width);
+    d.strain = has_radius ? d.half_width / d.radius : 2.0 * d.stress / d.modulus;
     return d;
 }
 
 double rb_rolling_zone_half_width(const rb_rolling_case *rc, double load)
 {
     const rb_rolling_derived d = rb_rolling_derive(rc);
-    const double hertz = isnan(load) ? d.half_width : rb_rolling_hertz_half_width(rc, load),
-                 soft = isnan(load) ? sqrt(2.0 * d.radius * d.approach)
-                                    : cbrt(1.5 * d.radius * rc->interlayer_normal * load);
+    const double P = isnan(load) ? d.load : load;
+
+    if (!rb_rolling_has_radius(rc))
+        return isnan(P) ? d.half_width : rb_rolling_contact_half_width(rc, P);
+    const double hertz = isnan(P) ? d.half_width : rb_rolling_hertz_half_width(rc, P),
+                 soft = isnan(P) ? sqrt(2.0 * d.radius * d.approach)
+                                 : cbrt(1.5 * d.radius * rc->interlayer_normal * P);
     return rc->interlayer_normal > 0.0 ? fmax(hertz, soft) : hertz;
 }
 
@@ -507,11 +606,30 @@ static rb_status check_bore(const rb_rolling_case *rc, rb_message *why)
                    rc->a.radius, rc->b.radius);
 }
 
+/* Without a radius nothing is known of what refers to one. */
 static rb_status check_gap(const rb_rolling_case *rc, rb_message *why)
 {
-    return rc->gap == RB_GAP_TABLE && !rc->profile
-               ? rb_fail(why, RB_EINVAL, "gap: expected a table, and none is given")
-               : RB_OK;
+    static const char no_radius[] =
+        "the gap has no radius, because its table is no parabola where it is low; give --radius";
+
+    if (rc->gap == RB_GAP_TABLE && !rc->profile)
+        return rb_fail(why, RB_EINVAL, "gap: expected a table, and none is given");
+    if (rb_rolling_has_radius(rc))
+        return RB_OK;
+    if (rc->gap != RB_GAP_TABLE || !rb_rolling_can(rc, RB_BODY_FLAT))
+        return rb_fail(why, RB_EINVAL,
+                       "radius: expected a finite one; only half-planes under a gap from a file "
+                       "may have none");
+    if (isnan(rc->load) && isnan(rc->approach) && isnan(rc->half_width))
+        return rb_fail(why, RB_EINVAL, "approach: R/2 unless it is given, and %s, or --load",
+                       no_radius);
+    if (!isnan(rc->half_width))
+        return rb_fail(why, RB_EINVAL, "half-width: Hertz's, and %s, or --load", no_radius);
+    if (!isnan(rc->creep_ratio))
+        return rb_fail(why, RB_EINVAL, "creep-ratio: xi R/(mu a), and %s, or --creep", no_radius);
+    if (rc->free_axle)
+        return rb_fail(why, RB_EINVAL, "free axle: Q = -M/R, and %s", no_radius);
+    return RB_OK;
 }
 
 /* The surface is smooth again where the points end; steady rolling sees nothing pass. */

@@ -43,7 +43,8 @@ static const rb_choice systems[] = {
 
 const rb_option rb_case_table[] = {
     RB_GROUP_LINE("body-a", "Body A: the cylinder that rolls"),
-    RB_NUMBER_LINE("radius", RC(a.radius), "mm", RB_ABOVE(0), "radius R", .common = 1),
+    RB_NUMBER_LINE("radius", RC(a.radius), "mm", RB_ABOVE(0), "radius R",
+                   .unset = "50; of half-planes under a gap from a file the gap's", .common = 1),
     RB_NUMBER_LINE("young", RC(a.young), "MPa", RB_ABOVE(0), "Young's modulus E", .common = 1),
     RB_NUMBER_LINE("poisson", RC(a.poisson), "-", RB_ABOVE_UPTO(-1, 0.5), "Poisson's ratio nu",
                    .common = 1),
@@ -443,6 +444,8 @@ rb_status rb_rolling_check_ranges(const rb_rolling_case *rc, const rb_rolling_ca
             ((of_a || of_b) && !rb_option_applies(o, of_b ? &rc->b : &rc->a)))
             continue;
         const double x = number_at(rc, o, at), unset = number_at(defaults, o, at);
+        if (at == RC(a.radius) && isinf(x) && rc->gap == RB_GAP_TABLE) /* a gap may have none */
+            continue;
         if (!rb_option_in_range(o, x) && !(o->word && x == o->word_value) && x != unset &&
             !(isnan(x) && isnan(unset)))
             return refuse(o, x, why);

@@ -573,6 +573,17 @@ int rb_case_has_steps(const rb_resolved_case *resolved)
  * matrix or in many steps.  A note says where a table needs more. */
 enum { MOST_FOLLOWING = 20000, MOST_FOLLOWING_DEARLY = 1000 };
 
+/* Half-planes under a gap from a file have the radius of the gap, or none. */
+static void set_radius(rb_case *c)
+{
+    rb_rolling_case *rc = &c->resolved.rc;
+
+    if (rc->gap != RB_GAP_TABLE || rb_case_given(c, "radius") || !rb_rolling_can(rc, RB_BODY_FLAT))
+        return;
+    const double own = 1.0 / rb_rolling_profile_radius(rc->profile) - 1.0 / rc->b.radius;
+    rc->a.radius = own > 0.0 ? 1.0 / own : INFINITY;
+}
+
 /* The elements follow tables that are finer than the usual ones. */
 static rb_status follow_tables(rb_case *c, rb_message *why)
 {
@@ -761,6 +772,7 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
         s = check_purpose(c, why);
     if (s != RB_OK)
         return rb_case_locate(c, s, why);
+    set_radius(c);
     /* The paper's own example stays on its equal elements, as do large contacts, which
      * need them. */
     rb_rolling_case *rc = &c->resolved.rc;

@@ -227,7 +227,7 @@ static rb_status all_steps(history_state *r, rb_message *why)
             rb_contact_violation v = {.scaled = NAN};
             rb_rolling_states_get(r->found, k, state);
             model->half_width =
-                rb_rolling_hertz_half_width(model->rc, fmax(0.0, rb_rolling_model_load(model)));
+                rb_rolling_contact_half_width(model->rc, fmax(0.0, rb_rolling_model_load(model)));
             if (!isnan(model->rc->creep_ratio) && model->rc->formulation == RB_TRANSIENT)
                 model->problem.xi = rb_rolling_creepage_of_ratio(model, model->rc->creep_ratio);
             s = rb_rolling_model_friction(model, &reason);
@@ -296,6 +296,14 @@ static rb_status widest_contact(const history_state *r, double zone, rb_message 
                          rb_rolling_model_of_result(&widest, &plan, &elements, r->model, why));
 }
 
+double rb_rolling_unit_of_distance(const rb_rolling_case *rc, double load)
+{
+    rb_rolling_case at_rest = *rc;
+
+    at_rest.formulation = RB_STATIC;
+    return rb_rolling_contact_half_width(&at_rest, load);
+}
+
 static rb_status prepare(history_state *r, double zone, rb_message *why)
 {
     rb_rolling_model *model = r->model;
@@ -306,11 +314,16 @@ static rb_status prepare(history_state *r, double zone, rb_message *why)
         return s;
     r->shift = 0.0;
     model->mu_varies = r->program->mu != NULL;
-    /* The unit of distances: Hertz's half-width of the largest load, of bodies that relax
-     * with the glassy modulus; under a given approach of the load that the largest one
-     * brings at rest. */
-    if (model->problem.load_given && (r->found || rb_rolling_relaxes(r->rc)))
-        h->half_width = rb_rolling_hertz_half_width(r->rc, model->problem.load);
+    /* The unit of distances: the half-width of the largest load, of bodies that relax with
+     * the glassy modulus; under a given approach of the load that the largest one
+     * brings at rest.  Of a gap without a radius that of the contact at rest itself. */
+    if (!rb_rolling_has_radius(r->rc)) {
+        double from, to;
+        rb_rolling_contact_edges(r->rc, &model->mesh, &model->state, &from, &to);
+        if (!r->found)
+            h->half_width = 0.5 * (to - from);
+    } else if (model->problem.load_given && (r->found || rb_rolling_relaxes(r->rc)))
+        h->half_width = rb_rolling_unit_of_distance(r->rc, model->problem.load);
     else if (!r->found)
         h->half_width = model->half_width;
     if (r->found) /* as solving would have left it */
@@ -390,7 +403,7 @@ static rb_status run_program(history_state *r, const rb_rolling_case *rc, rb_mes
             s = rb_rolling_check_layer_resolved(model, all_steps(r, why), why);
             if (s == RB_OK && r->history->step == 0.0 && !model->problem.load_given)
                 /* nothing rolls, no distance is measured by a: it is that of the largest load */
-                r->history->half_width = rb_rolling_hertz_half_width(
+                r->history->half_width = rb_rolling_contact_half_width(
                     r->rc, fmax(0.0, largest(r->history->normal_load, r->history->n, 0.0)));
             if (s == RB_ZONE && r->rc->zone == 0.0) {
                 const double now = fmax(-model->mesh.ends[0], model->mesh.ends[model->mesh.n]);

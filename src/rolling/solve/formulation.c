@@ -403,7 +403,9 @@ double rb_rolling_creepage_of_ratio(const rb_rolling_model *model, double ratio)
 double rb_rolling_ratio_of_creepage(const rb_rolling_model *model, double creepage)
 {
     const double mu = model->problem.mu, a = model->half_width;
-    return mu > 0.0 && a > 0.0 ? creepage * rb_rolling_radius(model->rc) / (mu * a) : NAN;
+    return mu > 0.0 && a > 0.0 && rb_rolling_has_radius(model->rc)
+               ? creepage * rb_rolling_radius(model->rc) / (mu * a)
+               : NAN;
 }
 
 void rb_rolling_yielded(const rb_rolling_model *model, double *yielded)
@@ -420,7 +422,7 @@ double rb_rolling_sliding_creepage(const rb_rolling_case *rc, const rb_contact_p
     const rb_rolling_derived d = rb_rolling_derive(rc);
     const double a = d.half_width, beta = fabs(d.dundurs);
     const double mu = p->mu;
-    const double ratio = (mu + 2.0 * beta * (1.0 + mu * mu)) * a / d.radius;
+    const double ratio = (mu + 2.0 * beta * (1.0 + mu * mu)) * d.strain;
 
     return rc->formulation == RB_STEADY ? 2.0 * ratio : 4.0 * ratio * a / p->e_T[0];
 }

@@ -62,7 +62,7 @@ rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message
     model->seconds_lcp += rb_seconds() - start;
     if (s >= 0)
         model->half_width =
-            rb_rolling_hertz_half_width(model->rc, fmax(0.0, rb_rolling_model_load(model)));
+            rb_rolling_contact_half_width(model->rc, fmax(0.0, rb_rolling_model_load(model)));
     if (s == RB_OK)
         s = model->state.status = rb_rolling_check_enclosed(model, &model->state, why);
     return s;

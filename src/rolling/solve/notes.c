@@ -79,19 +79,27 @@ static int strains(const rb_rolling_case *rc, const rb_rolling_solution *s, char
     const rb_rolling_derived d = rb_rolling_derive(rc);
     double width =
         widest_patch(s) / (rc->b.radius < 0.0 ? rb_unit_shown(s->units, "mm", d.radius) : radius);
-    if (third > 0.0)
-        width = fmin(width, 2.0 * p0 / d.modulus);
+    if (third > 0.0 || !isfinite(radius))
+        width = third > 0.0 ? fmin(width, 2.0 * p0 / d.modulus) : 2.0 * p0 / d.modulus;
 
-    if (approach > broken_approach || width > broken_width)
-        return say(text,
-                   "The strains are far beyond linear elasticity (approach = %.2g R, a = %.2g R): "
-                   "treat the numbers as a test problem.",
-                   s->approach / radius, width);
-    if (approach > inaccurate_approach || width > inaccurate_width)
-        return say(text,
-                   "The strains are large for linear elasticity (approach = %.2g R, a = %.2g R): "
-                   "expect errors of that order.",
-                   s->approach / radius, width);
+    if (approach > inaccurate_approach || width > inaccurate_width) {
+        const int broken = approach > broken_approach || width > broken_width;
+        char how_large[80];
+        if (isfinite(radius))
+            rb_format(how_large, sizeof how_large, "approach = %.2g R, a = %.2g R",
+                      s->approach / radius, width);
+        else
+            rb_format(how_large, sizeof how_large, "2 p0/E* = %.2g", width);
+        return broken
+                   ? say(text,
+                         "The strains are far beyond linear elasticity (%s): treat the numbers as "
+                         "a test problem.",
+                         how_large)
+                   : say(text,
+                         "The strains are large for linear elasticity (%s): expect errors of that "
+                         "order.",
+                         how_large);
+    }
     return 0;
 }
 

@@ -86,7 +86,7 @@ static double normal_work(int n, const double *x, const double *w, const double 
 void rb_rolling_torques(const rb_rolling_case *rc, double moment, double force, double *torque_a,
                         double *torque_b)
 {
-    *torque_a = moment + force * rc->a.radius;
+    *torque_a = isfinite(rc->a.radius) ? moment + force * rc->a.radius : NAN;
     /* a bore turns about the other side, the way A does */
     *torque_b = isfinite(rc->b.radius)
                     ? copysign(1.0, rc->b.radius) * (moment - force * rc->b.radius)

@@ -92,7 +92,7 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
     s->normal_load = rb_rolling_model_load(model);
     s->tangential_load = rb_rolling_model_force(model);
     s->load_error = p->load_given ? fabs(s->normal_load - p->load) / p->load : NAN;
-    s->hertz_half_width = model->half_width;
+    s->hertz_half_width = rb_rolling_has_radius(model->rc) ? model->half_width : NAN;
     s->datum = rb_rolling_datum(model->rc, &model->rc->a);
     s->approach = model->state.delta;
     if (s->formulation == RB_STATIC) {
@@ -243,7 +243,7 @@ rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_
             s->resistance_moment = unless_tiny(rb_contact_moment(&model->problem, &model->state),
                                                1e-14 * s->normal_load * model->half_width);
             s->resistance_ratio =
-                s->normal_load > 0.0
+                s->normal_load > 0.0 && rb_rolling_has_radius(model->rc)
                     ? s->resistance_moment / (s->normal_load * rb_rolling_radius(model->rc))
                     : NAN;
             rb_rolling_torques(model->rc, s->resistance_moment, s->tangential_load, &s->torque_a,
@@ -271,8 +271,12 @@ rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_
         s->strain_energy = 0.5 * twice;
     }
     s->max_strain = rb_rolling_strain(model->rc, s->approach, s->max_pressure, NULL);
+    /* Hertz's strains are a/(2R) = p0/E*; a third body that gives way strains neither body, and
+     * a gap without a radius has no a/R. */
     if (isnan(s->max_strain))
-        s->max_strain = 0.5 * s->half_width / rb_rolling_radius(model->rc);
+        s->max_strain = model->rc->interlayer_normal > 0.0 || !rb_rolling_has_radius(model->rc)
+                            ? s->max_pressure / rb_rolling_derive(model->rc).modulus
+                            : 0.5 * s->half_width / rb_rolling_radius(model->rc);
     s->equal_instead = model->equal_instead;
     s->slip_operator = model->rc->slip_operator;
     s->kappa = NAN;
@@ -297,7 +301,7 @@ rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_
     if (s->formulation != RB_STATIC)
         s->dissipation =
             unless_tiny(s->dissipation, 1e-11 * rb_rolling_largest_mu(model->rc) * s->normal_load *
-                                            s->half_width / rb_rolling_radius(model->rc));
+                                            rb_rolling_derive(model->rc).strain);
     s->max_temperature = s->max_temperature_at = NAN;
     s->peclet = s->temperature
                     ? rb_rolling_peclet(&model->rc->heat_a, model->rc->speed, s->half_width)

@@ -466,7 +466,7 @@ static rb_status follow_state(rb_rolling_model *v, rb_message *why)
     const rb_rolling_case *rc = v->rc;
     rb_contact_problem *p = &v->problem;
 
-    v->half_width = rb_rolling_hertz_half_width(rc, fmax(0.0, rb_rolling_model_load(v)));
+    v->half_width = rb_rolling_contact_half_width(rc, fmax(0.0, rb_rolling_model_load(v)));
     if (!p->force_given && !p->load_given && rc->formulation != RB_STATIC &&
         !isnan(rc->creep_ratio))
         p->xi = rb_rolling_creepage_of_ratio(v, rc->creep_ratio);

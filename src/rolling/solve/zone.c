@@ -2,6 +2,8 @@
  * (theory.md 5.1). */
 #include "rolling/rolling.h"
 
+#include <gsl/gsl_math.h>
+
 enum {
     ROUNDS = 24,
     SEPARATED_AT_END = 3, /* elements that a chosen potential contact ends with */
@@ -192,7 +194,12 @@ void rb_rolling_first_zone(const rb_rolling_case *rc, double *from, double *to, 
     int lowest = 0, first = 0, last = POINTS;
 
     *least = is_symmetric(rc) ? 0.0 : INFINITY;
-    *level = *least + 0.5 * a * a / d.radius;
+    /* without a radius: what Hertz's gap at the edge would be */
+    const double rise = rb_rolling_has_radius(rc) ? 0.5 * a * a / d.radius
+                        : isnan(d.load)
+                            ? d.approach
+                            : 2.0 * d.load / (M_PI * d.modulus) + rc->interlayer_normal * d.stress;
+    *level = *least + rise;
     interval zone = scaled((interval){-a, a}, 1.3);
     if (!is_symmetric(rc)) {
         for (int k = 0; k <= POINTS; k++)
@@ -200,7 +207,7 @@ void rb_rolling_first_zone(const rb_rolling_case *rc, double *from, double *to, 
                 *least = rb_rolling_initial_gap(rc, limit.from + k * step);
                 lowest = k;
             }
-        *level = *least + 0.5 * a * a / d.radius;
+        *level = *least + rise;
         if (!isnan(d.approach)) /* beyond it not even rigid bodies touch */
             *level = fmin(*level, d.approach);
         while (first < lowest && rb_rolling_initial_gap(rc, limit.from + first * step) > *level)

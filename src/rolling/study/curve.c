@@ -78,7 +78,9 @@ static rb_status record(const rb_rolling_model *model, const watcher *w, rb_roll
             return s;
     }
     c->resistance_moment[k] = rb_contact_moment(p, state);
-    c->resistance_ratio[k] = c->resistance_moment[k] / (P * rb_rolling_radius(model->rc));
+    c->resistance_ratio[k] = rb_rolling_has_radius(model->rc)
+                                 ? c->resistance_moment[k] / (P * rb_rolling_radius(model->rc))
+                                 : NAN;
     double torque_b;
     rb_rolling_torques(model->rc, c->resistance_moment[k], Q, &c->torque_a[k], &torque_b);
     if (c->torque_b)

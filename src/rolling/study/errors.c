@@ -77,11 +77,16 @@ double rb_rolling_boundary_error(int runs, const double coarser[], double own)
     return runs > 2 ? 2.0 * fabs(own - coarser[2]) : 0.0;
 }
 
+/* a/R, the scale of strains under a contact of half-width a. */
+static double strain_of(const rb_rolling_case *rc, double a)
+{
+    return rb_rolling_has_radius(rc) ? a / rb_rolling_radius(rc) : rb_rolling_derive(rc).strain;
+}
+
 double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepage, double a,
                              double share)
 {
-    const double slip =
-        fabs(creepage) + fabs(rb_rolling_derive(rc).dundurs) * a / rb_rolling_radius(rc);
+    const double slip = fabs(creepage) + fabs(rb_rolling_derive(rc).dundurs) * strain_of(rc, a);
 
     return rb_rolling_largest_mu(rc) * P * slip * pow(share, 1.5);
 }
@@ -184,8 +189,9 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
                           rb_rolling_error_scale scale)
 {
     const hidden_stick hidden = find_hidden_stick(rc, s);
-    const double rounding = fmax(s->residual, rc->contact.tol), a = s->hertz_half_width;
-    const double strain = rb_rolling_largest_mu(rc) * a / rb_rolling_radius(rc);
+    const double rounding = fmax(s->residual, rc->contact.tol);
+    const double a = isnan(s->hertz_half_width) ? s->half_width : s->hertz_half_width;
+    const double strain = rb_rolling_largest_mu(rc) * strain_of(rc, s->hertz_half_width);
     const double unresolved = pressure_of_unresolved_stick(s);
     double missed, missed_mu; /* of tables that are finer than the elements */
     if (rb_rolling_missed_by_elements(rc, &missed, &missed_mu) != RB_OK)
@@ -242,9 +248,9 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
                    (a + rb_rolling_largest_mu(rc) * rb_rolling_larger_radius(rc)) +
                friction * rb_rolling_larger_radius(rc);
     case RB_SCALE_STRAIN:
-        return rounding * a / rb_rolling_radius(rc);
+        return rounding * strain_of(rc, a);
     case RB_SCALE_WORK:
-        return rounding * s->normal_load * a / rb_rolling_radius(rc);
+        return rounding * s->normal_load * strain_of(rc, a);
     case RB_SCALE_HEAT:
         return rounding *
                fabs(s->max_temperature - fmin(rc->heat_a.temperature, rc->heat_b.temperature));
@@ -447,7 +453,7 @@ rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, rb_rolling_sol
 static double worst_relative(const rb_rolling_case *rc, const rb_rolling_solution *s,
                              const rb_rolling_solution *e)
 {
-    const double strain = rb_rolling_largest_mu(rc) * s->hertz_half_width / rb_rolling_radius(rc);
+    const double strain = rb_rolling_largest_mu(rc) * strain_of(rc, s->hertz_half_width);
     double worst = fmax(e->normal_load / s->normal_load, e->max_pressure / s->max_pressure);
 
     worst = fmax(worst, e->half_width / s->half_width);

@@ -62,7 +62,7 @@ rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc, const rb_rolli
         errors->free_creepage =
             rb_rolling_contact_error(free_creepage, curve->free_creepage) +
             rb_rolling_boundary_error(runs, free_creepage, curve->free_creepage) +
-            DBL_EPSILON * rb_rolling_largest_mu(rc) * curve->half_width / rb_rolling_radius(rc);
+            DBL_EPSILON * rb_rolling_largest_mu(rc) * rb_rolling_derive(rc).strain;
         error_columns(&rb_rolling_curve_columns, curve->n, runs, found, curve, errors);
         double pressure, mu = 0.0; /* of tables that are finer than the elements */
         s = rb_rolling_missed_by_elements(rc, &pressure, &mu);
