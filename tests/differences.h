@@ -409,8 +409,7 @@ typedef struct {
 static int difference_keep(const rb_rolling_model *model, const rb_rolling_history *history,
                            int step, int steps, void *context)
 {
-    (void)history;
-    return rb_rolling_states_keep(model, step, steps, context) != RB_OK;
+    return rb_rolling_states_keep(model, history, step, steps, context) != RB_OK;
 }
 
 static rb_status difference_history(const rb_resolved_case *c, const rb_rolling_case *rc,
@@ -430,16 +429,20 @@ static rb_status difference_on(const rb_rolling_case *rc, const rb_rolling_state
                                const rb_rolling_follower *of, difference_run *run, rb_message *why)
 {
     rb_status s = rb_rolling_follower_create(rc, found, of, 1.0, &run->on, why);
-    for (int k = 0; k < found->steps && s == RB_OK; k++) {
+    for (int k = 0; k < found->steps && s == RB_OK;) {
         rb_rolling_model *model = rb_rolling_follower_model(run->on);
         s = rb_rolling_follower_begin(run->on, why);
-        rb_rolling_states_get(found, k, &model->state);
+        const int ends_row = rb_rolling_follower_ends_row(run->on);
+        if (ends_row)
+            rb_rolling_states_get(found, k, &model->state);
         if (s == RB_OK)
             s = rb_rolling_follower_solve(run->on, why);
         if (s == RB_OK)
-            s = rb_rolling_states_keep(model, k, found->steps, &run->states);
-        if (s == RB_OK)
             rb_rolling_follower_end(run->on);
+        if (s == RB_OK && ends_row)
+            s = rb_rolling_states_keep(model, rb_rolling_follower_history(run->on), k, found->steps,
+                                       &run->states);
+        k += ends_row;
     }
     return s;
 }

@@ -701,7 +701,7 @@ TEST(rows_are_blamed_by_file_and_line)
         const char *words, *text, *part;
     } bad[] = {
         {"formulation=transient creep=0.1 history=", "# way\ndistance load\n0 3\n1 -2\n",
-         "rows.txt:4: load: expected a number > 0, got -2"},
+         "rows.txt:4: load: expected a number >= 0, got -2"},
         {"load=3 gap=", "-1 1\n0 0\n0 0.5\n1 1\n",
          "rows.txt:3: expected an x larger than in the row before"},
         {"load=3 gap=", "-1 1\n1 1\n", "rows.txt: "},

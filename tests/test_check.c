@@ -82,14 +82,16 @@ static rb_case *case_of(const char *given)
 
 static void write_controls(void)
 {
-    assert_int_equal(shell("printf 'time load shift\\n0 10 0\\n0.1 100 1e-4\\n0.3 100 "
-                           "2e-4\\n0.4 20 0\\n' > rest.txt; printf 'distance load "
-                           "force\\n0 50 0\\n0 100 10\\n0.2 80 20\\n0.4 100 -10\\n' > "
-                           "way.txt; printf 'distance mu creep_ratio\\n0 0.3 0.5\\n"
-                           "0.4 0.3 0.5\\n0.8 0.1 0.5\\n' > wet.txt; printf 'mu load "
-                           "shift\\n0.2 100 0\\n0.4 120 1e-4\\n' > dry.txt; printf 'time "
-                           "load\\n0 100\\n1e-3 100\\n3e-3 50\\n' > calm.txt"),
-                     0);
+    assert_int_equal(
+        shell("printf 'time load shift\\n0 10 0\\n0.1 100 1e-4\\n0.3 100 "
+              "2e-4\\n0.4 20 0\\n' > rest.txt; printf 'distance load "
+              "force\\n0 50 0\\n0 100 10\\n0.2 80 20\\n0.4 100 -10\\n' > "
+              "way.txt; printf 'distance mu creep_ratio\\n0 0.3 0.5\\n"
+              "0.4 0.3 0.5\\n0.8 0.1 0.5\\n' > wet.txt; printf 'mu load "
+              "shift\\n0.2 100 0\\n0.4 120 1e-4\\n' > dry.txt; printf 'time "
+              "load\\n0 100\\n1e-3 100\\n3e-3 50\\n' > calm.txt; printf 'load shift\\n100 0\\n60 "
+              "1e-4\\n0 2e-4\\n100 1e-4\\n' > lift.txt"),
+        0);
 }
 
 TEST(results_are_valid)
@@ -134,6 +136,11 @@ TEST(results_are_valid)
         "--layer-thickness 1 --young-b 3000 --increments 3",
         "--support hub --cover-thickness 5 --history rest.txt --formulation static "
         "--time-step 0.05 --mu 0.3 --states --relaxation-time 0.1 --relaxation-ratio 2",
+        "--support halfplane --history lift.txt --mu 0.3 --states --young-b 3000 "
+        "--contact-elements 20",
+        "--support halfplane --history lift.txt --mu 0.3 --states --similar --increments 3",
+        "--support halfplane --load 100 --mu 0.3 --states --similar --formulation transient "
+        "--creep 1e-3 --distance 3 --steps 2",
         "--support halfplane --history way.txt --formulation transient --mu 0.3 "
         "--states --gap parabola",
         "--support halfplane --similar --load 100 --history wet.txt --formulation "

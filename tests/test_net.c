@@ -267,7 +267,6 @@ static const conflict conflicts[] = {
     {{RELAXING, "body-b=hub|arc", "regime=transient*"}, HALFPLANE_ONLY},
     {{RELAXING, "body-b=arc", "regime=steady"}, "cannot turn"},
     {{RELAXING, "regime=static|increments"}, "needs --history"},
-    {{RELAXING, "regime=steps"}, "by one element in each step"},
     {{RELAXING, "regime=transient*|static-history", "gap=file|smoothed"}, SMOOTH_GAP},
     {{RELAXING, "regime=transient*|static-history", "worn=scar"}, SMOOTH_GAP},
     {{RELAXING, "irregularity=flat"}, SMOOTH_GAP},

@@ -364,8 +364,7 @@ TEST(ways_that_lead_nowhere_are_refused)
 static int keep_state(const rb_rolling_model *model, const rb_rolling_history *history, int step,
                       int steps, void *context)
 {
-    (void)history;
-    CHECK_OK(rb_rolling_states_keep(model, step, steps, context));
+    CHECK_OK(rb_rolling_states_keep(model, history, step, steps, context));
     return 0;
 }
 

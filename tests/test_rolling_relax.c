@@ -479,7 +479,7 @@ TEST(bad_programs_are_refused)
                {RB_STATIC, back, NULL, 0, 0, 0, 0, "row 3: time 1 is before"},
                {RB_STATIC, time, NULL, 1, 0, 0, 0, "for viscoelastic bodies"},
                {RB_TRANSIENT, time, way, 0, 0, 0, 0, "for static contact"},
-               {RB_TRANSIENT, NULL, way, 0, 9, 0, 0, "by one element in each step"},
+               {RB_TRANSIENT, NULL, way, 0, 900, 0, 0, "by one element in each step"},
                {RB_STATIC, time, NULL, 0, 0, 1, 0, "base or core"},
                {RB_TRANSIENT, NULL, way, 0, 0, 0, 1, "halfplane only"}};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {

@@ -64,7 +64,7 @@ TEST(one_step_at_rest_is_a_static_case)
     static const double start[] = {0.0}, force[] = {0.4};
     for (int k = 0; k < KINDS; k++)
         for (int by_force = 0; by_force < 2; by_force++) {
-            rb_rolling_case rc = with(kind_of_case(k), "creep-ratio 0.5");
+            rb_rolling_case rc = with(kind_of_case(k), "creep-ratio 0.5 increments 1");
             rb_rolling_model model;
             rb_rolling_history h;
             rb_rolling_solution single, step;

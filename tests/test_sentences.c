@@ -82,6 +82,11 @@ static const sentence notes[] = {
     {"irregularity-corners",
      "The table of --irregularity has 3 corners, at x = 0.5, 0.6 and 0.9 mm",
      PASSES "--irregularity step.txt", PASSES "--irregularity bump.txt"},
+    /* from hardly any contact to one of 150 elements within a row */
+    {"row-of-steps", "Row 2 of the history is not certain: twice the steps still change",
+     STEEL "--radius 100 --mu 0.5 --formulation static --contact-elements 200 --history sudden.txt",
+     STEEL
+     "--radius 100 --mu 0.5 --formulation static --contact-elements 40 --history gradual.txt"},
     {"static-creepage", "In a static case --creep does not change the tractions",
      FRETS "--creep 0.001", FRETS "--shift 0.001"},
     {"no-creepage", "the wheel rolls at creepage 0", ROLLS, ROLLS "--force 0"},
@@ -225,6 +230,8 @@ static int write_gaps(void)
                "0 0\n.25 .0001464\n.5 .0005\n.75 .0008536\n1 .001\n1.25 .0008536\n1.5 .0005\n"
                "1.75 .0001464\n2 0\n");
     write_file("places.txt", "-10 0.1\n0 0.1\n0.5 0.5\n10 0.5\n");
+    write_file("sudden.txt", "load force\n0.01 0\n100 15\n");
+    write_file("gradual.txt", "load force\n50 0\n100 15\n");
     write_file("flat.txt", "-0.2 0\n-0.1 1e-9\n0 0\n0.1 1e-9\n0.2 0\n");
     return 0;
 }

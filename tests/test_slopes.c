@@ -49,7 +49,7 @@ static const words histories[] = {
       "distance 0.4 creep 6e-3 speed 500 conductivity 50 heat-capacity 3.7 mu-heat -0.1,0,30"}},
     /* within a step what has yielded hardly at all may yield the other way, and another element
      * may become the warmest one */
-    {{YIELDING_WHEEL "distance 0.74 steps 3 force-ratio -0.5 yield-stress 100"}},
+    {{YIELDING_WHEEL "distance 0.74 steps 10 force-ratio -0.5 yield-stress 100"}},
     {{"support halfplane load 2000 contact-elements 30 formulation transient distance 0.7 "
       "increments 3 force-ratio -0.5 speed 3000 conductivity 50 heat-capacity 3.7 mu-heat "
       "0.1,-5,60"}},

@@ -86,7 +86,8 @@ const char *rb_api_value(const rb_api *a, const char *name, char *text, int size
  *
  * A number of the solution by name, its error bar as "error.NAME"; or "carter" (1:
  * Carter's law holds), "radius", "modulus", "hertz_load"; "curve.free_creepage",
- * "curve.half_width", "history.half_width"; "task.iterations", "task.residual",
+ * "curve.half_width", "history.half_width", "history.steady_from" (counted from 0),
+ * "history.cycle_work", "history.cycle_rows"; "task.iterations", "task.residual",
  * "task.scaled_residual" of rb_api_lcp and rb_api_friction.  NAN: there is none. */
 double rb_api_number(const rb_api *a, const char *name);
 /* "status", in words; of a solution "formulation", "solver", "lcp-form"; "task.solver";

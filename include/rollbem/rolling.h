@@ -496,9 +496,11 @@ typedef struct {
     double datum;                        /* of A; NAN where it has none [length] */
     double contact_from, contact_to;     /* outermost edges (theory.md 5.1) */
     double nip_width;                    /* contact_to - contact_from [length] */
-    int edges_bounded;            /* 1: some edge of some patch is only known to an element */
-    int equal_instead;            /* 1: equal elements were used, because fitting the mesh to the
-                                     contact edges did not converge */
+    int edges_bounded;  /* 1: some edge of some patch is only known to an element */
+    int equal_instead;  /* 1: equal elements were used, because fitting the mesh to the
+                           contact edges did not converge */
+    double row_changes; /* as in rb_rolling_history, like row_changed */
+    int row_changed;
     double max_pressure;          /* p0 [stress] */
     int contact, stick, slipping; /* numbers of elements; slipping includes yielding */
     int yielding; /* number of elements whose interface yields; -1: no yield stress */
@@ -720,11 +722,13 @@ typedef struct rb_rolling_model {
     rb_rolling_bodies bodies;
     rb_contact_problem problem;
     rb_contact_state state;
-    double shift;      /* in a history: rigid shift of the earlier steps, to be added to the
-                          state's [length] */
-    int mu_varies;     /* in a history: 1: the program has a column mu */
-    int equal_instead; /* 1: equal elements were used, because fitting the mesh to the
-                          contact edges did not converge */
+    double shift;       /* in a history: rigid shift of the earlier steps, to be added to the
+                           state's [length] */
+    int mu_varies;      /* in a history: 1: the program has a column mu */
+    int equal_instead;  /* 1: equal elements were used, because fitting the mesh to the
+                           contact edges did not converge */
+    double row_changes; /* as in rb_rolling_history, like row_changed */
+    int row_changed;
     double first_from, first_to; /* ends of the equal elements with which the search for the edges
                                     began; the same value twice: none [length] */
     double half_width;           /* Hertz's half-width of the last computed load; used in the creep
@@ -1012,6 +1016,9 @@ typedef struct rb_rolling_history {
     double *moment;          /* int x p dx [force]; > 0: the pressure is shifted towards the
                                 leading edge */
     int *stick, *slipping;   /* elements */
+    int *substeps;           /* in how many steps the row was computed */
+    double *step_work;       /* work that friction dissipates in the row [force] */
+    double *friction_work;   /* the same so far */
     double *max_temperature; /* at the end of the step; NULL if the case has no heat
                                 conduction */
     double *time;            /* at the end of the step [s]; NULL if no body is viscoelastic */
@@ -1020,11 +1027,17 @@ typedef struct rb_rolling_history {
     double *mu;              /* mu of the case at the end of the step; NULL if it is the same in all
                                 steps */
     double *torque_a,
-        *torque_b;     /* M + Q R_A and M - Q R_B [force]; torque_b: NULL if B is a plane */
-    double half_width; /* unit of the distances [length] */
-    double step;       /* c [length]; 0 in a static history */
-    int steady_from;   /* first step from which the state is steady until the end, or -1 */
-    rb_units units;    /* of all values here */
+        *torque_b;      /* M + Q R_A and M - Q R_B [force]; torque_b: NULL if B is a plane */
+    double half_width;  /* unit of the distances [length] */
+    double step;        /* of a rolled row [length]; 0 in a static history */
+    double row_changes; /* by how much the tractions of a row at rest still depend on its steps,
+                           as a part of what the load makes; 0: by no more than 1e-3 */
+    int row_changed;    /* that row, counted from 1; 0: none */
+    double cycle_work;  /* work of friction in the last cycle [force]; NAN: the rows do not end with
+                           a whole cycle */
+    int cycle_rows;     /* its rows; 0: likewise */
+    int steady_from;    /* first step from which the state is steady until the end, or -1 */
+    rb_units units;     /* of all values here */
     struct rb_rolling_history *errors;     /* error bar of every entry; NULL: not computed; owned */
     struct rb_rolling_history *deviations; /* standard deviation of every entry that has
                                               derivatives (rb_case_slopes_of_steps); NULL: not
@@ -1066,17 +1079,20 @@ typedef struct {
     double *p, *q, *lambda, *plastic; /* steps x n, one step after the other; plastic: the part of
                                          lambda that the interface yields */
     int *zone;
+    int *substeps;     /* steps: in how many steps the row was computed */
     double *delta;     /* steps: approach */
     double *xi;        /* steps: rigid shift of a static step [length], creepage of a rolled step */
     double half_width; /* unit of the distances [length] */
+    double row_changes; /* as in rb_rolling_history, like row_changed */
+    int row_changed;
 } rb_rolling_states;
 
 /* On RB_ENOMEM states is empty. */
 rb_status rb_rolling_states_alloc(int n, int steps, rb_rolling_states *states);
 /* Copies the state and the elements of the model after a step into states.  Step 0 begins with
  * new memory for all steps: a run that starts again may have other elements.  RB_ENOMEM. */
-rb_status rb_rolling_states_keep(const rb_rolling_model *model, int step, int steps,
-                                 rb_rolling_states *states);
+rb_status rb_rolling_states_keep(const rb_rolling_model *model, const rb_rolling_history *history,
+                                 int step, int steps, rb_rolling_states *states);
 /* Copies tractions, slip and its plastic part, zones, delta and xi of a step into a state of as
  * many elements; its status becomes RB_OK. */
 void rb_rolling_states_get(const rb_rolling_states *states, int step, rb_contact_state *state);
@@ -1103,6 +1119,9 @@ rb_status rb_rolling_follower_create(const rb_rolling_case *rc, const rb_rolling
 /* The model has the problem of the next step, with the past that the states before it
  * left. */
 rb_status rb_rolling_follower_begin(rb_rolling_follower *follower, rb_message *why);
+/* 1: the step that has begun is the last one of a row, whose state is among the given ones;
+ * 0: it ends inside the row. */
+int rb_rolling_follower_ends_row(const rb_rolling_follower *follower);
 /* Whose state is to be set between begin and end; borrowed. */
 rb_rolling_model *rb_rolling_follower_model(rb_rolling_follower *follower);
 /* Solves the step, from the state that the model has, on the elements of the states. */

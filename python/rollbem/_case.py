@@ -482,6 +482,9 @@ class History(_Named):
     derivatives: Derivatives  # of derivatives=..., an entry per step
     notes: "list[str]"  # on how the history and its derivatives must be read
     half_width: float
+    steady_from: float  # the first step from which on nothing changes, counted from 0; nan: none
+    cycle_work: float  # of friction in the last cycle [N]; nan: the rows do not end with a whole one
+    cycle_rows: float  # its rows; 0: likewise
     x: Array
     p: Array
     q: Array
@@ -491,7 +494,8 @@ class History(_Named):
         handle = solution._handle
         self.solution = solution
         self._arrays = handle.arrays("step", "history.")
-        self._numbers = {"half_width": handle.number("history.half_width")}
+        self._numbers = {name: handle.number(f"history.{name}")
+                         for name in ("half_width", "steady_from", "cycle_work", "cycle_rows")}
         self.errors = handle.arrays("step", "history.error.")
         self.tolerances = handle.arrays("step", "history.tolerance.", copied=True)
         self.derivatives = Derivatives(handle, "history")

@@ -277,7 +277,8 @@ class _Answers:
 
 # what a solution answers, besides the options: the names in include/rollbem/api.h
 _NUMBERS = ([prefix + name for prefix in ("", "error.") for name in RESULTS["number"]]
-            + ["carter", "radius", "modulus", "hertz_load", "history.half_width"])
+            + ["carter", "radius", "modulus", "hertz_load"]
+            + [f"history.{name}" for name in ("half_width", "steady_from", "cycle_work", "cycle_rows")])
 _WORDS = ("status", "formulation", "solver", "lcp-form")
 _ARRAYS = (list(RESULTS["column"]) + [f"patch.{name}" for name in RESULTS["patch"]]
            + [prefix + name for prefix in ("history.", "history.error.", "history.tolerance.")

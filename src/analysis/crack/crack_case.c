@@ -110,9 +110,8 @@ typedef struct {
 static int keep_step(const rb_rolling_model *model, const rb_rolling_history *history, int step,
                      int steps, void *context)
 {
-    (void)history;
     contact_steps *kept = context;
-    kept->failed = rb_rolling_states_keep(model, step, steps, kept->states) != RB_OK;
+    kept->failed = rb_rolling_states_keep(model, history, step, steps, kept->states) != RB_OK;
     return kept->failed ||
            (kept->observer && kept->observer->stopped(step + 1, steps, kept->observer->context));
 }

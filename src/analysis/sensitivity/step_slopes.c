@@ -167,18 +167,22 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
 {
     rb_rolling_model *model = rb_rolling_follower_model(base);
 
-    for (int step = 0; step < states->steps; step++) {
+    for (int step = 0; step < states->steps;) {
         rb_sensitivity *s = NULL;
         rb_status status = rb_rolling_follower_begin(base, why);
-        rb_rolling_states_get(states, step, &model->state);
-        /* the states were found with what is compressed less closely */
+        const int ends_row = rb_rolling_follower_ends_row(base);
+        if (ends_row)
+            rb_rolling_states_get(states, step, &model->state);
+        /* the states were found with what is compressed less closely; inside a row there are
+         * none */
         if (status == RB_OK)
-            status = rb_rolling_is_compressed(model) ? rb_rolling_follower_solve(base, why)
-                                                     : rb_rolling_model_friction(model, why);
+            status = !ends_row || rb_rolling_is_compressed(model)
+                         ? rb_rolling_follower_solve(base, why)
+                         : rb_rolling_model_friction(model, why);
         if (status == RB_OK)
             status = rb_sensitivity_create(model, 0, &s, why);
         if (status == RB_OK)
-            slopes->degenerate += rb_sensitivity_degenerate(s) > 0;
+            slopes->degenerate += ends_row && rb_sensitivity_degenerate(s) > 0;
         for (int k = 0; k < n && status == RB_OK; k++)
             status = rb_interrupted() ? rb_fail(why, RB_INTERRUPTED,
                                                 "derivatives: interrupted after step %d of %d",
@@ -191,6 +195,7 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
                                                               v[k].step, v[k].model, &v[k].tangent,
                                                               &v[k].picked[step]);
         rb_sensitivity_free(s);
+        step += ends_row;
         if (status != RB_OK)
             return status;
     }

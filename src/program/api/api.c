@@ -275,7 +275,6 @@ int rb_api_resolve(rb_api *a)
 static int keep_step(const rb_rolling_model *model, const rb_rolling_history *history, int step,
                      int steps, void *context)
 {
-    (void)history;
     rb_api *a = context;
     a->total = steps;
     a->done = step + 1;
@@ -289,7 +288,7 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
         a->status = x ? RB_OK : RB_ENOMEM;
     }
     if (a->status == RB_OK)
-        a->status = rb_rolling_states_keep(model, step, steps, &a->states);
+        a->status = rb_rolling_states_keep(model, history, step, steps, &a->states);
     if (a->status == RB_OK)
         a->status = add_state(a, "step", &model->state);
     return a->status != RB_OK;
@@ -531,6 +530,10 @@ double rb_api_number(const rb_api *a, const char *name)
                    {"curve.free_creepage", a->curve.free_creepage, a->curve.n > 0},
                    {"curve.half_width", a->curve.half_width, a->curve.n > 0},
                    {"history.half_width", result->history.half_width, result->history.n > 0},
+                   {"history.steady_from", result->history.steady_from,
+                    result->history.n > 0 && result->history.steady_from >= 0},
+                   {"history.cycle_work", result->history.cycle_work, result->history.n > 0},
+                   {"history.cycle_rows", result->history.cycle_rows, result->history.n > 0},
                    {"task.iterations", a->iterations, 1},
                    {"task.residual", a->residual, 1},
                    {"task.scaled_residual", a->scaled_residual, 1}};

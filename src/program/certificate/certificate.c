@@ -362,6 +362,8 @@ double rb_certificate_rounding(const rb_rolling_results *all, const char *name,
 
     if (strncmp(name, "torque", 6) == 0)
         return 1e-13 * s->load * s->radius;
+    if (strstr(name, "_work")) /* of friction on a slip */
+        return 1e-15 * s->load * s->half_width;
     if (!r || !r->unit)
         return otherwise;
     return strcmp(r->unit, "mm") == 0     ? 1e-12 * s->half_width

@@ -43,18 +43,23 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
     if (steps < 1)
         return rb_fail(why, RB_EFORMAT, "%s: cannot be checked: no steps", c->name);
     rb_status s = rb_rolling_states_alloc(n, steps, to);
-    double *zone = rb_alloc((size_t)n, (size_t)steps);
+    double *zone = rb_alloc((size_t)n, (size_t)steps), *substeps = rb_alloc((size_t)steps, 1);
     const struct {
         const json_t *table;
         const char *key;
         int n; /* 0: lists of all elements */
         double *to;
-    } parts[] = {{c->table, "x_mm", n, to->x},        {c->table, "h_mm", n, to->h},
-                 {states, "p_MPa", 0, to->p},         {states, "q_MPa", 0, to->q},
-                 {states, "shift_mm", 0, to->lambda}, {states, "plastic_mm", 0, to->plastic},
-                 {states, "zone", 0, zone},           {printed, "approach", steps, to->delta},
+    } parts[] = {{c->table, "x_mm", n, to->x},
+                 {c->table, "h_mm", n, to->h},
+                 {states, "p_MPa", 0, to->p},
+                 {states, "q_MPa", 0, to->q},
+                 {states, "shift_mm", 0, to->lambda},
+                 {states, "plastic_mm", 0, to->plastic},
+                 {states, "zone", 0, zone},
+                 {printed, "approach", steps, to->delta},
+                 {printed, "substeps", steps, substeps},
                  {states, "motion", steps, to->xi}};
-    if (s == RB_OK && !zone)
+    if (s == RB_OK && (!zone || !substeps))
         s = RB_ENOMEM;
     for (size_t k = 0; k < sizeof parts / sizeof *parts && s == RB_OK; k++) {
         const char *key = parts[k].key;
@@ -70,8 +75,19 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
             s = rb_fail(why, RB_EFORMAT, "%s: states: zone %g", c->name, zone[i]);
         else
             to->zone[i] = (int)zone[i];
+    for (int k = 0; k < steps && s == RB_OK; k++)
+        if (!(substeps[k] >= 1.0 && substeps[k] <= RB_ROLLING_MOST_STEPS) ||
+            substeps[k] != floor(substeps[k]))
+            s = rb_fail(why, RB_EFORMAT, "%s: history: %g substeps", c->name, substeps[k]);
+        else
+            to->substeps[k] = (int)substeps[k];
     free(zone);
+    free(substeps);
     to->half_width = rb_certificate_member(printed, "half_width");
+    if (json_object_get(printed, "row_changed")) { /* what more steps would change is not known */
+        to->row_changes = rb_certificate_member(printed, "row_changes");
+        to->row_changed = (int)json_integer_value(json_object_get(printed, "row_changed"));
+    }
     to->program = resolved->program.n > 0 ? &resolved->program : NULL;
     if (s == RB_OK)
         s = rb_rolling_history_follow(&resolved->rc, to, &observer, &c->model, h, why);

@@ -98,7 +98,7 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
         w->failed = s;
     }
     if (asked->states && w->failed == RB_OK &&
-        rb_rolling_states_keep(model, step, steps, asked->states) != RB_OK)
+        rb_rolling_states_keep(model, history, step, steps, asked->states) != RB_OK)
         w->failed = rb_fail(w->why, RB_ENOMEM, "states: out of memory for %d steps", steps);
     return cli_interrupted() || w->failed != RB_OK;
 }

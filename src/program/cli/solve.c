@@ -93,7 +93,7 @@ static const char notes[] = CLI_CASE_NOTES
     "A static case is one step from no contact to the last state. For dissimilar bodies\n"
     "with friction one step is not the same as pressing gradually, because points that\n"
     "touch late have already moved: use --increments N. --history takes any other\n"
-    "sequence.\n"
+    "sequence, in which each row is computed in as many steps as its answer needs.\n"
     "\n"
     "The unit of distances, in --distance and in a history, is the half-width a of\n"
     "Hertz for the load; in a history for its largest load (under a given approach,\n"

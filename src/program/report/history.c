@@ -51,6 +51,12 @@ json_t *rb_report_json_history(const rb_rolling_history *h)
     rb_report_json_set(&history, "step", rb_report_json_number(h->step));
     rb_report_json_set(&history, "steady_from",
                        h->steady_from < 0 ? json_null() : json_integer(h->steady_from));
+    rb_report_json_set(&history, "cycle_work", rb_report_json_number(h->cycle_work));
+    rb_report_json_set(&history, "cycle_rows", json_integer(h->cycle_rows));
+    if (h->row_changed > 0) {
+        rb_report_json_set(&history, "row_changes", rb_report_json_number(h->row_changes));
+        rb_report_json_set(&history, "row_changed", json_integer(h->row_changed));
+    }
     for (int k = 1; k < parts; k++) {
         json_t *object = json_object();
         rb_report_json_columns(&object, h->n, &part[k], 0);
@@ -125,6 +131,14 @@ void rb_report_history_summary(FILE *out, const rb_rolling_case *rc, const rb_ro
         fprintf(out, "; steady from step %d, %.4g a, on", h->steady_from + 1,
                 h->distance[h->steady_from]);
     fputc('\n', out);
+    if (h->step == 0.0 && h->friction_work[last] > 0.0) {
+        fprintf(out, "  friction  %.5g %s of work", h->friction_work[last],
+                rb_unit_name(h->units, "N"));
+        if (h->cycle_rows > 0)
+            fprintf(out, ", %.5g %s in the last cycle of %d rows", h->cycle_work,
+                    rb_unit_name(h->units, "N"), h->cycle_rows);
+        fputc('\n', out);
+    }
     if (h->time && h->step == 0.0) {
         double time = unresolved(&rc->a.memory, h);
         if (isnan(time) && rc->elastic_b)

@@ -145,7 +145,10 @@ json_t *rb_report_json_schema(void)
                        columns(&rb_rolling_history_columns, 0,
                                "an entry per step; states: of --states, a list per step; "
                                "tolerances: standard deviations; derivatives_note: how the "
-                               "derivatives must be read"));
+                               "derivatives must be read; steady_from: the first step from which "
+                               "nothing changes to the end of the way; cycle_work [N]: of friction "
+                               "in the last cycle, of cycle_rows rows; row_changes: by how much "
+                               "row_changed still depends on its steps"));
     json_t *curve = columns(&rb_rolling_curve_columns, 0,
                             "an entry per creepage; tolerances: standard deviations; "
                             "derivatives_note: how many points have none, and why");

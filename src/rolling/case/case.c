@@ -25,7 +25,6 @@ rb_rolling_case rb_rolling_case_defaults(void)
                           .force = NAN,
                           .force_ratio = NAN,
                           .formulation = RB_STATIC,
-                          .increments = 1,
                           .mesh = RB_MESH_UNIFORM,
                           .contact_elements = 60,
                           .normals = RB_BEM_NORMALS_OBSTACLE,
@@ -258,15 +257,20 @@ rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc)
         d.half_width = rb_rolling_contact_half_width(rc, d.load);
     } else {
         d.approach = isnan(rc->approach) ? a->radius / 2.0 : rc->approach;
-        /* 2P/(pi E*) of the load that flattens the lower half of the approach */
-        d.half_width = has_radius ? half_width_of_approach(d.radius, d.approach)
-                                  : half_of_low_part(rc, 0.25 * M_PI * d.modulus * d.approach);
     }
+    /* in a history the bodies may be apart */
+    const double down = fmax(0.0, d.approach);
+    if (isnan(d.load))
+        /* 2P/(pi E*) of the load that flattens the lower half of the approach */
+        d.half_width = has_radius ? half_width_of_approach(d.radius, down)
+                                  : half_of_low_part(rc, 0.25 * M_PI * d.modulus * down);
     const int hertz = has_radius && !(rc->interlayer_normal > 0.0) &&
                       !(rc->formulation != RB_STATIC && rb_rolling_relaxes(rc));
-    const double P = isnan(d.load) ? 0.25 * M_PI * d.modulus * d.approach : d.load;
-    d.stress = hertz || (isnan(d.load) && has_radius) ? d.modulus * d.half_width / (2.0 * d.radius)
-                                                      : 2.0 * P / (M_PI * d.half_width);
+    const double P = isnan(d.load) ? 0.25 * M_PI * d.modulus * down : d.load;
+    d.stress = P == 0.0 ? 0.0
+               : hertz || (isnan(d.load) && has_radius)
+                   ? d.modulus * d.half_width / (2.0 * d.radius)
+                   : 2.0 * P / (M_PI * d.half_width);
     d.strain = has_radius ? d.half_width / d.radius : 2.0 * d.stress / d.modulus;
     return d;
 }
@@ -450,10 +454,6 @@ static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
         }
         terms += memory[b]->n;
     }
-    if (terms > 0 && rc->formulation == RB_TRANSIENT && rc->steps > 0)
-        return rb_fail(why, RB_EINVAL,
-                       "steps: viscoelastic bodies roll by one element in each step; "
-                       "choose --contact-elements instead");
     s = check_relaxing_body(rc, &rc->a, why);
     if (s == RB_OK && rc->elastic_b)
         s = check_relaxing_body(rc, &rc->b, why);

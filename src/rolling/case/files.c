@@ -28,13 +28,26 @@ rb_status rb_case_read_input(const rb_case *c, const char *path, char **text, si
     return s == RB_OK ? rb_io_read_text(path, text, size, why) : s;
 }
 
-static rb_status read_table(const rb_case *c, const char *path, rb_io_table *t, rb_message *why)
+/* Where the bodies are apart, a table that --history-table has written has no ratio of forces and
+ * no edges of the contact: they are not read, and 0 stands for them. */
+static void fill_apart(char *text)
+{
+    if (!strstr(text, "force_ratio") || !strstr(text, "residual"))
+        return;
+    for (char *at = text; (at = strstr(at, "NaN")); at += 3)
+        memcpy(at, "0  ", 3);
+}
+
+static rb_status read_table(const rb_case *c, const char *path, int is_history, rb_io_table *t,
+                            rb_message *why)
 {
     char *text;
     size_t size;
     rb_status s = rb_case_read_input(c, path, &text, &size, why);
     if (s != RB_OK)
         return s;
+    if (is_history)
+        fill_apart(text);
     s = rb_io_table_parse(path, text, t, why);
     free(text);
     return rb_case_without_content(c, path, s, why);
@@ -88,7 +101,7 @@ static rb_status read_over_x(const rb_case *c, case_table *t, const char *path, 
     if (!is_read(t, path, units)) {
         const double *x[2];
         free_table(t);
-        rb_status s = read_table(c, path, &t->table, why);
+        rb_status s = read_table(c, path, 0, &t->table, why);
         if (s == RB_OK)
             s = rb_case_without_content(
                 c, path,
@@ -201,7 +214,7 @@ static rb_status read_program_table(const rb_case *c, case_table *t, const char 
         return RB_OK;
     free_table(t);
     rb_io_table *table = &t->table;
-    rb_status s = read_table(c, path, table, why);
+    rb_status s = read_table(c, path, 1, table, why);
     if (s != RB_OK)
         return s;
     const int n = known_columns(table, c->words.rc.formulation == RB_TRANSIENT, known);

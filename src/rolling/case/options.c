@@ -243,9 +243,11 @@ const rb_option rb_case_table[] = {
                    "static: displaced without rolling; steady: rolling towards +x; "
                    "transient: rolling from rest, step by step",
                    .common = 1),
-    RB_INTEGER_LINE("increments", RC(increments), RB_FROM_TO(1, 1000000),
+    RB_INTEGER_LINE("increments", RC(increments), RB_FROM_TO(0, 1000000),
                     "static, start of a transient: number of increments in which the "
-                    "load or approach is applied, and then as many for shift or force"),
+                    "load or approach is applied, and then as many for shift or force; with "
+                    "--history: in each of its rows at rest; 0: one, with --history as many as "
+                    "the answer needs"),
     RB_NUMBER_LINE("distance", RC(distance), "a", RB_ABOVE(0),
                    "transient: rolled distance, in Hertz half-widths of the load",
                    .unset = "as --history says", .frozen = 1),

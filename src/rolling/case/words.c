@@ -627,7 +627,6 @@ static rb_status check_formulation(const rb_case *c, rb_message *why)
          "steady rolling does not depend on how the bodies were pressed"},
         {!relaxes_at_rest, "time-step", "only for static contact of viscoelastic bodies"},
         {relaxes_at_rest && history, "speed", "static contact does not roll"},
-        {history, "increments", "the history says them row by row"},
         {rb_case_has_steps(resolved) && rc->mesh != RB_MESH_UNIFORM, "mesh",
          "a computation with steps needs equal elements"}};
     const rb_status s = refuse_by(c, sizeof rules / sizeof *rules, rules, why);

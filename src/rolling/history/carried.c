@@ -57,13 +57,9 @@ static rb_status create_past(rb_rolling_particles *r, rb_message *why)
                       : s;
 }
 
-/* In every step they are others: elastic ones of that interval, displaced by what came
- * before. */
-static rb_status bring_past(rb_rolling_particles *r, const rb_rolling_stride *stride,
-                            rb_message *why)
+rb_status rb_rolling_particles_bodies(rb_rolling_particles *r, double interval, rb_message *why)
 {
     rb_rolling_model *model = r->model;
-    const double interval = stride->interval;
     rb_status s = RB_OK;
 
     if (!(fabs(interval - r->interval) <= 1e-9 * interval)) {
@@ -76,9 +72,20 @@ static rb_status bring_past(rb_rolling_particles *r, const rb_rolling_stride *st
                                           &model->problem, why);
         r->interval = interval;
     }
+    return s;
+}
+
+/* In every step they are others: elastic ones of that interval, displaced by what came
+ * before. */
+static rb_status bring_past(rb_rolling_particles *r, const rb_rolling_stride *stride,
+                            rb_message *why)
+{
+    rb_rolling_model *model = r->model;
+    const rb_status s = rb_rolling_particles_bodies(r, stride->interval, why);
+
     if (s != RB_OK)
         return s;
-    rb_rolling_memory_track_begin(&r->past, interval, stride->c > 0.0, model->bodies.f.w0);
+    rb_rolling_memory_track_begin(&r->past, stride->interval, stride->c > 0.0, model->bodies.f.w0);
     rb_rolling_set_gap(&model->mesh, &model->bodies, &model->problem);
     return RB_OK;
 }

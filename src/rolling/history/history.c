@@ -5,9 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Change of the friction per rolled half-width, in units of its bound, below which a
- * state counts as steady. */
-static const double STEADY_RATE = 1e-3;
+/* Steps of a row at rest are halved until its tractions change by less than this part of what
+ * the load makes, or than a tenth of what an element has, or until there are so many. */
+static const double ROW_CHANGES = 1e-3, OF_AN_ELEMENT = 0.1;
+enum { ROW_STEPS = 1024 };
 
 void rb_rolling_history_free(rb_rolling_history *h)
 {
@@ -24,6 +25,8 @@ void rb_rolling_history_free(rb_rolling_history *h)
 
 /* ---- Steps ------------------------------------------------------------------------- */
 
+/* A row is an entry of the history.  It is computed in one step or more, of which the last one
+ * is recorded. */
 typedef struct {
     rb_rolling_case base;                /* the case with equal elements, for the steps */
     rb_rolling_program own;              /* of the case, where none is given */
@@ -31,35 +34,33 @@ typedef struct {
     const rb_rolling_case *rc;           /* base */
     const rb_rolling_program *program;   /* own, or the given one */
     const rb_rolling_observer *observer; /* or NULL */
-    const rb_rolling_states *found;      /* to follow without solving; or NULL */
+    const rb_rolling_states *found;      /* of the rows, to follow without solving; or NULL */
     const rb_rolling_model *like;        /* whose bodies may be borrowed; or NULL */
     double compression;                  /* of boundaries, where states are found */
     double scale;                        /* of the elements of `found` */
     int is_variant;                      /* 1: of the history that has found them */
     rb_rolling_model *model;
     rb_rolling_history *history;
-    int steps;    /* in all */
+    int rows;     /* in all */
     int at_rest;  /* of them, before the bodies roll */
+    int rolled;   /* steps of a row that rolls */
     double shift; /* rigid shift so far [length] */
     rb_rolling_particles particles;
-    double *q;                /* n: friction before the step; in the particles' memory */
-    int row, part;            /* of the program: steps towards this row that are done */
+    rb_rolling_steady steady;
+    int row, part;            /* of the program: rows towards this one that are done */
+    int step, steps;          /* of the present row: done, and in all */
     rb_rolling_stride stride; /* the current step */
     double to;                /* [half-widths]: where it ends */
 } history_state;
 
-/* Of the program at rest, so far; 0 where it has no times. */
-static double time_of(const history_state *r)
+/* Of the program at rest, `done` of `all` parts behind its row before; 0 where it has no times. */
+static double time_at(const history_state *r, int done, int all)
 {
     const double *t = r->program->time;
 
-    if (!t || r->row + r->part == 0)
+    if (!t || r->row == 0)
         return 0.0;
-    if (r->part == 0) /* the row may be that behind the last one */
-        return t[r->row - 1];
-    const int parts = rb_rolling_program_parts(r->program, r->rc, r->row);
-    return r->part == parts ? t[r->row]
-                            : t[r->row - 1] + (t[r->row] - t[r->row - 1]) * r->part / parts;
+    return done == all ? t[r->row] : t[r->row - 1] + (t[r->row] - t[r->row - 1]) * done / all;
 }
 
 /* What must hold after every step. */
@@ -70,10 +71,24 @@ static rb_status assess(const history_state *r, rb_status s, rb_message *reason,
     return s;
 }
 
-/* The next step is one at rest. */
+/* The next row is one at rest. */
 static int is_at_rest(const history_state *r)
 {
     return r->history->n < r->at_rest;
+}
+
+/* Steps of the next row at rest where they do not depend on the answer; 0: they do. */
+static int steps_at_rest(const history_state *r)
+{
+    const int increments = r->program == &r->own || r->rc->time_step > 0.0 ? 1 : r->rc->increments;
+    return rb_rolling_program_steps(r->program, r->rc, r->row, increments);
+}
+
+/* Steps of the next row, where its state is given. */
+static int steps_found(const history_state *r)
+{
+    const int known = is_at_rest(r) ? steps_at_rest(r) : r->is_variant ? 0 : r->rolled;
+    return known > 0 ? known : r->found->substeps[r->history->n];
 }
 
 /* The problem of the next step: at rest, where the rigid shift or the given force moves
@@ -82,31 +97,32 @@ static rb_status begin_step(history_state *r, rb_message *why)
 {
     rb_rolling_model *model = r->model;
     rb_contact_problem *p = &model->problem;
-    const int k = r->history->n, rests = is_at_rest(r),
-              parts = rests ? rb_rolling_program_parts(r->program, r->rc, r->row) : 0;
-    const double c = rests ? 0.0 : r->history->step, mu_before = model->rc->mu;
+    const int k = r->history->n, rests = is_at_rest(r), is_first = k == 0 && r->step == 0;
+    const double c = rests ? 0.0 : r->history->step / r->steps, mu_before = model->rc->mu;
     const rb_rolling_past past = {r->particles.w_T, model->carried.yielded, c};
     rb_rolling_case step;
     rb_message reason = {""};
 
     if (rests) {
-        const double before = time_of(r);
-        r->part++;
+        const int all = rb_rolling_program_parts(r->program, r->rc, r->row) * r->steps,
+                  done = r->part * r->steps + r->step;
+        const double interval = time_at(r, done + 1, all) - time_at(r, done, all);
         r->to = 0.0;
-        r->stride = (rb_rolling_stride){0.0, time_of(r) - before, k == 0};
-        step = rb_rolling_program_row(r->program, r->rc, r->row, r->part, parts);
+        r->stride = (rb_rolling_stride){0.0, interval, is_first};
+        step = rb_rolling_program_row(r->program, r->rc, r->row, done + 1, all);
     } else {
-        const double part = c / r->history->half_width, from = (k - r->at_rest) * part;
-        r->to = k + 1 == r->steps ? r->program->distance[r->program->n - 1]
-                                  : (k - r->at_rest + 1) * part;
+        const double length = c / r->history->half_width;
+        const int done = (k - r->at_rest) * r->steps + r->step;
+        r->to = k + 1 == r->rows && r->step + 1 == r->steps
+                    ? r->program->distance[r->program->n - 1]
+                    : (done + 1) * length;
         r->stride = (rb_rolling_stride){c, rb_rolling_relaxes(r->rc) ? c / r->rc->speed : 0.0, 0};
-        step = rb_rolling_program_step(r->program, r->rc, from, r->to);
-        memcpy(r->q, model->state.q, (size_t)model->state.n * sizeof *r->q);
+        step = rb_rolling_program_step(r->program, r->rc, done * length, r->to);
     }
     /* The rows are checked beforehand; between two of them mu and the load both vary, and
      * their product may be less than a force that is linear. */
-    rb_status s =
-        assess(r, r->program->mu ? rb_rolling_case_check(&step, &reason) : RB_OK, &reason, why);
+    rb_status s = assess(r, r->program->mu ? rb_rolling_program_check_case(&step, &reason) : RB_OK,
+                         &reason, why);
     if (rests) {
         if (step.formulation == RB_TRANSIENT && isnan(step.force) && isnan(step.force_ratio))
             step.force_ratio = 0.0; /* driven by its creepage as soon as it rolls */
@@ -133,57 +149,52 @@ static rb_status begin_step(history_state *r, rb_message *why)
         rb_contact_set_friction(p, rb_rolling_largest_mu(model->rc), p->bound);
     else if (step.mu != mu_before)
         rb_rolling_start_bounds(model->rc, NULL, &model->bodies, p);
-    rb_rolling_set_past(model->rc, &model->bodies, rests && k == 0 ? NULL : &past, p);
+    rb_rolling_set_past(model->rc, &model->bodies, is_first ? NULL : &past, p);
     rb_rolling_set_control(model->rc, p);
-    if (rests) {
+    if (rests)
         p->xi -= p->force_given ? 0.0 : r->shift;
-        r->row += r->part == parts;
-        r->part %= parts;
-    }
     return RB_OK;
 }
 
-/* What follows from the state that the step has found. */
+/* What follows from the state that the step has found.  Means over a row are those of its
+ * steps, which have one length. */
 static void end_step(history_state *r, rb_status s)
 {
     rb_rolling_history *h = r->history;
     const rb_rolling_model *model = r->model;
     const rb_contact_problem *p = &model->problem;
     const rb_contact_state *state = &model->state;
+    const int k = h->n, rests = is_at_rest(r), rolls = model->rc->formulation == RB_TRANSIENT,
+              done = ++r->step;
 
-    if (is_at_rest(r))
+    if (rests)
         r->shift += state->xi;
-    else if (s == RB_OK) {
-        /* Follows how long the friction has not changed. */
-        const double bound =
-            rb_contact_friction_scale(p) * STEADY_RATE * r->stride.c / h->half_width;
-        int moves = 0;
-
-        for (int i = 0; i < state->n; i++)
-            moves += fabs(state->q[i] - r->q[i]) > bound;
-        if (moves)
-            h->steady_from = -1;
-        else if (h->steady_from < 0)
-            h->steady_from = h->n;
-    }
     rb_rolling_particles_leave(&r->particles, &r->stride);
-    const int k = h->n++, rolls = model->rc->formulation == RB_TRANSIENT;
-
+    h->substeps[k] = done;
     h->distance[k] = r->to;
-    if (rolls)
-        h->creepage[k] = state->xi;
     h->shift[k] = r->shift;
     h->approach[k] = state->delta;
     h->normal_load[k] = rb_rolling_model_load(model);
     h->tangential_load[k] = rb_rolling_model_force(model);
     h->force_ratio[k] = rb_rolling_force_ratio(model);
-    h->residual[k] = state->residual;
+    h->residual[k] = done > 1 ? fmax(h->residual[k], state->residual) : state->residual;
     h->max_pressure[k] = rb_rolling_peak_pressure(model);
     rb_rolling_contact_edges(model->rc, &model->mesh, state, &h->contact_from[k],
                              &h->contact_to[k]);
-    if (rolls)
-        h->dissipation[k] = rb_rolling_dissipated_power(model->rc, p->n, state->lambda, state->q,
-                                                        model->bodies.f.h, p->e_T);
+    double work = 0.0;
+    if (rolls) {
+        const double power = rb_rolling_dissipated_power(model->rc, p->n, state->lambda, state->q,
+                                                         model->bodies.f.h, p->e_T);
+        h->creepage[k] += (state->xi - h->creepage[k]) / done;
+        h->dissipation[k] += (power - h->dissipation[k]) / done;
+        work = power * r->stride.c;
+    }
+    for (int i = 0; i < p->n && !rolls; i++)
+        work -= state->zone[i] > RB_ZONE_STICK
+                    ? state->q[i] * state->lambda[i] * model->bodies.f.h[i]
+                    : 0.0;
+    h->step_work[k] = work + (done > 1 ? h->step_work[k] : 0.0);
+    h->friction_work[k] = h->step_work[k] + (k > 0 ? h->friction_work[k - 1] : 0.0);
     h->moment[k] = rb_contact_moment(p, state);
     double torque_b, hottest_at;
     rb_rolling_torques(model->rc, h->moment[k], h->tangential_load[k], &h->torque_a[k], &torque_b);
@@ -194,59 +205,321 @@ static void end_step(history_state *r, rb_status s)
                                     model->carried.temperature, &h->max_temperature[k],
                                     &hottest_at);
     if (h->time) {
-        h->time[k] = r->program->time ? time_of(r) : r->to * h->half_width / r->rc->speed;
+        const int all = rb_rolling_program_parts(r->program, r->rc, r->row) * r->steps;
+        h->time[k] = r->program->time ? time_at(r, r->part * r->steps + done, all)
+                                      : r->to * h->half_width / r->rc->speed;
         h->lost_work[k] = r->particles.past.lost;
     }
     if (h->mu)
         h->mu[k] = model->rc->mu;
+    h->stick[k] = h->slipping[k] = 0;
     for (int i = 0; i < p->n; i++) {
         h->stick[k] += state->zone[i] == RB_ZONE_STICK;
         h->slipping[k] += state->zone[i] > RB_ZONE_STICK;
     }
+    if (!rests && s == RB_OK)
+        rb_rolling_steady_see(&r->steady, model, h, r->to * h->half_width);
+    if (done < r->steps && s == RB_OK)
+        return;
+    h->n++;
+    r->step = 0;
+    if (rests && ++r->part == rb_rolling_program_parts(r->program, r->rc, r->row)) {
+        r->part = 0;
+        r->row++;
+    }
+}
+
+/* The element that touches first. */
+static int first_to_touch(const rb_contact_problem *p)
+{
+    int k = 0;
+
+    for (int i = 1; i < p->n; i++)
+        k = p->d_N[i] < p->d_N[k] ? i : k;
+    return k;
+}
+
+/* The approach at first touch: of the parabola through that element and its neighbours. */
+static double touch(const rb_contact_problem *p, const double *x)
+{
+    const int k = first_to_touch(p);
+    double rise = 0.0, off;
+
+    if (k > 0 && k < p->n - 1) {
+        const double d[2] = {x[k - 1] - x[k], x[k + 1] - x[k]},
+                     f[2] = {p->d_N[k] - p->d_N[k - 1], p->d_N[k] - p->d_N[k + 1]};
+        if (!rb_rolling_vertex(d, f, &rise, &off))
+            rise = 0.0;
+    }
+    return fabs(p->d_N[k] - rise) > 1e-12 * rise ? p->d_N[k] - rise : 0.0;
+}
+
+/* 1: under what the step gives, the bodies do not touch: without a load, or not so near. */
+static int is_apart(const rb_contact_problem *p)
+{
+    return p->load_given ? p->load == 0.0 : p->delta <= p->d_N[first_to_touch(p)];
+}
+
+/* The state of bodies that do not touch: what moves them goes on, without friction. */
+static rb_status part(rb_rolling_model *model, rb_message *why)
+{
+    rb_contact_problem *p = &model->problem;
+    rb_contact_state *state = &model->state;
+    const size_t n = (size_t)state->n;
+    rb_arena scratch = {0};
+    double *gap = rb_arena_doubles(&scratch, n, 1);
+
+    memset(state->p, 0, n * sizeof *state->p);
+    memset(state->q, 0, n * sizeof *state->q);
+    memset(state->plastic, 0, n * sizeof *state->plastic);
+    memset(state->zone, 0, n * sizeof *state->zone);
+    state->delta = p->load_given ? touch(p, model->bodies.f.x) : p->delta;
+    model->half_width = 0.0;
+    if (!isnan(model->rc->creep_ratio) && model->rc->formulation == RB_TRANSIENT)
+        p->xi = rb_rolling_creepage_of_ratio(model, model->rc->creep_ratio);
+    state->xi = p->force_given ? 0.0 : p->xi;
+    state->residual = 0.0;
+    state->status = RB_OK;
+    if (!scratch.failed)
+        rb_contact_kinematics(p, state, gap, state->lambda);
+    return scratch.failed ? rb_fail(why, rb_arena_done(&scratch, RB_ENOMEM), "out of memory")
+                          : rb_arena_done(&scratch, RB_OK);
 }
 
 static rb_status solve_step(const history_state *r, rb_message *why)
 {
-    return is_at_rest(r) ? rb_rolling_model_resolve(r->model, 0, why)
+    if (is_apart(&r->model->problem))
+        return part(r->model, why);
+    return is_at_rest(r) ? rb_rolling_model_resolve(r->model, r->step > 0, why)
                          : rb_rolling_model_control(r->model, why);
 }
 
-static rb_status all_steps(history_state *r, rb_message *why)
+/* The given state of a row, with the residual that it leaves. */
+static rb_status take_found(const history_state *r, rb_message *why)
 {
     rb_rolling_model *model = r->model;
-    const rb_rolling_observer *o = r->observer;
+    rb_contact_state *state = &model->state;
+    rb_contact_violation v = {.scaled = NAN};
 
-    for (int k = 0; k < r->steps; k++) {
+    rb_rolling_states_get(r->found, r->history->n, state);
+    model->half_width =
+        rb_rolling_contact_half_width(model->rc, fmax(0.0, rb_rolling_model_load(model)));
+    if (!isnan(model->rc->creep_ratio) && model->rc->formulation == RB_TRANSIENT)
+        model->problem.xi = rb_rolling_creepage_of_ratio(model, model->rc->creep_ratio);
+    rb_status s = rb_rolling_model_friction(model, why);
+    if (s == RB_OK)
+        s = rb_contact_residual(&model->problem, state, &v);
+    state->residual = v.scaled;
+    return s;
+}
+
+/* A row in this number of steps. */
+static rb_status compute_row(history_state *r, int steps, rb_message *why)
+{
+    rb_status s = RB_OK;
+
+    r->steps = steps;
+    for (int i = 0; i < steps && s == RB_OK; i++) {
         rb_message reason = {""};
-        rb_status s = begin_step(r, why);
+        s = begin_step(r, why);
         if (s != RB_OK)
             return s;
-        if (r->found) {
-            /* The given state of this step, with the residual that it leaves. */
-            rb_contact_state *state = &model->state;
-            rb_contact_violation v = {.scaled = NAN};
-            rb_rolling_states_get(r->found, k, state);
-            model->half_width =
-                rb_rolling_contact_half_width(model->rc, fmax(0.0, rb_rolling_model_load(model)));
-            if (!isnan(model->rc->creep_ratio) && model->rc->formulation == RB_TRANSIENT)
-                model->problem.xi = rb_rolling_creepage_of_ratio(model, model->rc->creep_ratio);
-            s = rb_rolling_model_friction(model, &reason);
-            if (s == RB_OK)
-                s = rb_contact_residual(&model->problem, state, &v);
-            state->residual = v.scaled;
-        } else
-            s = solve_step(r, &reason);
+        s = r->found && i + 1 == steps ? take_found(r, &reason) : solve_step(r, &reason);
         if (s == RB_INTERRUPTED)
-            return rb_fail(why, s, "interrupted after step %d of %d", k, r->steps);
+            return rb_fail(why, s, "interrupted after step %d of %d", r->history->n, r->rows);
         s = assess(r, s, &reason, why);
         if (s >= 0)
             end_step(r, s);
         if (s == RB_OK)
-            s = rb_rolling_check_crushed(model, why);
+            s = rb_rolling_check_crushed(r->model, why);
+    }
+    return s;
+}
+
+/* ---- Rows at rest in as many steps as they need ------------------------------------- */
+
+/* What a row at rest changes, to compute it again in other steps. */
+typedef struct {
+    rb_rolling_states state; /* one */
+    int row, part;
+    double shift, half_width, interval;
+    double *past; /* coefficients of friction, plastic slip, displacements that the bodies bring,
+                     and what those that relax remember */
+} bookmark;
+
+static void bookmark_free(bookmark *b)
+{
+    rb_rolling_states_free(&b->state);
+    free(b->past);
+}
+
+static rb_status bookmark_set(const history_state *r, bookmark *b)
+{
+    const rb_rolling_model *model = r->model;
+    const size_t n = (size_t)model->mesh.n, m = n + 1;
+    const size_t size = rb_rolling_memory_track_size(&r->particles.past);
+
+    *b = (bookmark){.row = r->row,
+                    .part = r->part,
+                    .shift = r->shift,
+                    .half_width = model->half_width,
+                    .interval = r->particles.interval,
+                    .past = rb_alloc(2 * n + 2 * m + size, 1)};
+    if (!b->past)
+        return RB_ENOMEM;
+    rb_rolling_memory_track_save(&r->particles.past, b->past + 2 * n + 2 * m);
+    if (r->history->n == 0) /* bodies that relax have no problem yet, and others no past */
+        return RB_OK;
+    memcpy(b->past, model->problem.bound, n * sizeof *b->past);
+    if (model->carried.yielded)
+        memcpy(b->past + n, model->carried.yielded, n * sizeof *b->past);
+    memcpy(b->past + 2 * n, model->bodies.f.w0, 2 * m * sizeof *b->past);
+    return rb_rolling_states_keep(model, r->history, 0, 1, &b->state);
+}
+
+static rb_status bookmark_return(bookmark *b, history_state *r, rb_message *why)
+{
+    rb_rolling_model *model = r->model;
+    const size_t n = (size_t)model->mesh.n, m = n + 1;
+    rb_status s = RB_OK;
+
+    r->row = b->row;
+    r->part = b->part;
+    r->shift = b->shift;
+    model->half_width = b->half_width;
+    rb_rolling_memory_track_restore(&r->particles.past, b->past + 2 * n + 2 * m);
+    if (model->carried.yielded)
+        memcpy(model->carried.yielded, b->past + n, n * sizeof *b->past);
+    if (--r->history->n == 0) {
+        rb_rolling_start_bounds(model->rc, NULL, &model->bodies, &model->problem);
+        return RB_OK;
+    }
+    if (rb_rolling_relaxes(r->rc))
+        s = rb_rolling_particles_bodies(&r->particles, b->interval, why);
+    if (s != RB_OK)
+        return s;
+    memcpy(model->bodies.f.w0, b->past + 2 * n, 2 * m * sizeof *b->past);
+    memcpy(model->problem.bound, b->past, n * sizeof *b->past);
+    rb_rolling_states_get(&b->state, 0, &model->state);
+    return RB_OK;
+}
+
+/* How much the tractions of a state differ from others, as a part of what the load makes. */
+static double differs(const rb_rolling_model *model, const rb_rolling_states *other)
+{
+    const rb_contact_state *state = &model->state;
+    const double *h = model->bodies.f.h, P = rb_rolling_model_load(model),
+                 mu = fmin(1.0, rb_rolling_largest_mu(model->rc));
+    double of_p = 0.0, of_q = 0.0;
+
+    for (int i = 0; i < state->n; i++) {
+        of_p += fabs(state->p[i] - other->p[i]) * h[i];
+        of_q += fabs(state->q[i] - other->q[i]) * h[i];
+    }
+    return P > 0.0 ? fmax(of_p, mu > 0.0 ? of_q / mu : 0.0) / P : 0.0;
+}
+
+static double tolerated(const rb_rolling_model *model)
+{
+    int contact = 0;
+
+    for (int i = 0; i < model->state.n; i++)
+        contact += model->state.p[i] > 0.0;
+    return fmax(ROW_CHANGES, OF_AN_ELEMENT / fmax(1.0, contact));
+}
+
+/* 1: the pressure is that of the other state. */
+static int is_pressure(const rb_rolling_model *model, const rb_rolling_states *other)
+{
+    const double p0 = rb_norm_inf((size_t)model->state.n, model->state.p);
+    int same = 1;
+
+    for (int i = 0; i < model->state.n; i++)
+        same &= fabs(model->state.p[i] - other->p[i]) <= 1e-9 * p0;
+    return same;
+}
+
+/* 1: a row at rest has one answer, in however many steps it is computed: without contact at its
+ * end, without friction and memory, or if a force or shift alone moved bodies that are not
+ * coupled, and no law changed on the way. */
+static int is_one_step_enough(const history_state *r, int is_first, const rb_rolling_states *before)
+{
+    const rb_rolling_model *model = r->model;
+    const int coupled = rb_contact_operator_response(model->problem.op).coupled;
+
+    if (rb_rolling_relaxes(r->rc))
+        return 0;
+    return model->problem.mu == 0.0 || rb_rolling_model_load(model) == 0.0 ||
+           (!coupled && r->program->mu == NULL && !rb_rolling_law_depends_on_state(model->rc) &&
+            (is_first || is_pressure(model, before)));
+}
+
+/* Steps are halved until the state at the end of the row no longer depends on them. */
+static rb_status compute_row_at_rest(history_state *r, rb_message *why)
+{
+    const int given = steps_at_rest(r);
+    const int is_first = r->history->n == 0;
+    bookmark start;
+    rb_rolling_states coarser = {0};
+    rb_status s;
+
+    if (given > 0)
+        return compute_row(r, given, why);
+    s = bookmark_set(r, &start);
+    if (s == RB_OK)
+        s = compute_row(r, 1, why);
+    double change = s == RB_OK && !is_one_step_enough(r, is_first, &start.state) ? INFINITY : 0.0;
+    for (int steps = 2; s == RB_OK && change > tolerated(r->model) && steps <= ROW_STEPS;
+         steps *= 2) {
+        s = rb_rolling_states_keep(r->model, r->history, 0, 1, &coarser);
+        if (s == RB_OK)
+            s = bookmark_return(&start, r, why);
+        if (s == RB_OK)
+            s = compute_row(r, steps, why);
+        if (s == RB_OK)
+            change = differs(r->model, &coarser);
+    }
+    if (s == RB_OK && change > tolerated(r->model) && change > r->model->row_changes) {
+        r->model->row_changes = change;
+        r->model->row_changed = r->history->n;
+    }
+    rb_rolling_states_free(&coarser);
+    bookmark_free(&start);
+    return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the steps of a row") : s;
+}
+
+/* The last cycle: the last row and the one before it are prescribed as two rows before were. */
+static void find_cycle(const history_state *r)
+{
+    rb_rolling_history *h = r->history;
+    const rb_rolling_program *program = r->program;
+    const int last = program->n - 1;
+
+    h->cycle_work = NAN;
+    h->cycle_rows = 0;
+    if (program->distance || h->n != program->n)
+        return;
+    for (int j = last - 1; j > 0 && h->cycle_rows == 0; j--)
+        if (rb_rolling_program_is_same(program, j, last) &&
+            rb_rolling_program_is_same(program, j - 1, last - 1)) {
+            h->cycle_rows = last - j;
+            h->cycle_work = h->friction_work[last] - h->friction_work[j];
+        }
+}
+
+static rb_status all_rows(history_state *r, rb_message *why)
+{
+    const rb_rolling_observer *o = r->observer;
+
+    for (int k = 0; k < r->rows; k++) {
+        const int rests = is_at_rest(r);
+        const rb_status s = r->found ? compute_row(r, steps_found(r), why)
+                            : rests  ? compute_row_at_rest(r, why)
+                                     : compute_row(r, r->rolled, why);
         if (s != RB_OK)
             return s;
-        if (o && o->step && o->step(model, r->history, k, r->steps, o->context))
-            return rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k + 1, r->steps);
+        if (o && o->step && o->step(r->model, r->history, k, r->rows, o->context))
+            return rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k + 1, r->rows);
     }
     return RB_OK;
 }
@@ -328,44 +601,54 @@ static rb_status prepare(history_state *r, double zone, rb_message *why)
         h->half_width = model->half_width;
     if (r->found) /* as solving would have left it */
         model->half_width = h->half_width;
-    /* Step length and number.  Where the case does not say, a step is one element, or as
-     * little less as brings the last one to the last row: a single short step would find a
-     * creepage that is mostly error.  Of a variant of a history there are as many as there. */
+    /* Rows that roll, and their steps.  Where the case does not say, a row is one step of one
+     * element, or of as little less as brings the last one to the last row: a single short step
+     * would find a creepage that is mostly error.  Of a variant of a history there are as many as
+     * there.  Longer rows are computed in equal steps of at most an element. */
     const int rows = rb_rolling_program_at_rest(r->program), n = r->program->n;
     const double way = rows < n ? r->program->distance[n - 1] * h->half_width : 0.0;
-    const double elements = way / rb_rolling_middle_length(model);
+    const double elements = way / rb_rolling_middle_length(model),
+                 shortest = ceil(elements * (1.0 - 1e-9));
     r->at_rest = 0;
     for (int row = 0; row < rows; row++)
         r->at_rest += rb_rolling_program_parts(r->program, r->rc, row);
     const double count = way == 0.0         ? 0.0
                          : r->rc->steps > 0 ? r->rc->steps
                          : r->is_variant    ? fmax(1.0, r->found->steps - r->at_rest)
-                                            : ceil(elements * (1.0 - 1e-9));
-    const double step = way == 0.0 ? 0.0 : way / count;
+                                            : shortest;
+    const double each = way == 0.0 || count > shortest ? 1.0
+                        : r->is_variant && r->found->steps > r->at_rest
+                            ? r->found->substeps[r->at_rest]
+                            : ceil(elements / count * (1.0 - 1e-9));
 
-    if (count > RB_ROLLING_MOST_STEPS)
+    if (count * each > RB_ROLLING_MOST_STEPS)
         return rb_fail(why, RB_EINVAL,
                        "distance: %g half-widths are %.3g steps; expected at most %g",
-                       way / h->half_width, count, (double)RB_ROLLING_MOST_STEPS);
-    r->steps = r->at_rest + (int)count;
-    if (r->found && r->found->steps != r->steps)
+                       way / h->half_width, count * each, (double)RB_ROLLING_MOST_STEPS);
+    if (count > shortest && rb_rolling_relaxes(r->rc) && !r->found)
+        return rb_fail(why, RB_EINVAL,
+                       "steps: viscoelastic bodies roll by one element in each step; expected at "
+                       "most %g with these elements, got %g",
+                       shortest, count);
+    r->rows = r->at_rest + (int)count;
+    r->rolled = (int)each;
+    if (r->found && r->found->steps != r->rows)
         return rb_fail(why, RB_EINVAL, "history: %d steps, the program has %d", r->found->steps,
-                       r->steps);
-    h->step = step;
+                       r->rows);
+    h->step = way == 0.0 ? 0.0 : way / count;
     h->steady_from = -1;
-    r->row = r->part = 0;
+    r->row = r->part = r->step = 0;
     r->particles = (rb_rolling_particles){.rc = r->rc,
                                           .model = model,
-                                          .step = step,
-                                          .steps = r->steps,
+                                          .step = h->step / r->rolled,
+                                          .steps = r->at_rest + (int)(count * each),
                                           .keeps_elements = r->found != NULL};
     s = rb_rolling_particles_create(&r->particles, why);
-    if (s != RB_OK)
-        return s;
-    r->q = rb_arena_doubles(&r->particles.memory, (size_t)model->mesh.n, 1);
-    return r->q ? rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc, model->mu_varies,
-                                           r->steps, h)
-                : RB_ENOMEM;
+    if (s == RB_OK)
+        s = rb_rolling_steady_create(model->mesh.n, &r->particles.memory, &r->steady);
+    return s == RB_OK ? rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc,
+                                                 model->mu_varies, r->rows, h)
+                      : s;
 }
 
 /* The case and its program. */
@@ -400,7 +683,15 @@ static rb_status run_program(history_state *r, const rb_rolling_case *rc, rb_mes
         wider = 0.0;
         s = prepare(r, zone, why);
         if (s == RB_OK) {
-            s = rb_rolling_check_layer_resolved(model, all_steps(r, why), why);
+            s = rb_rolling_check_layer_resolved(model, all_rows(r, why), why);
+            r->history->steady_from = rb_rolling_steady_from(&r->steady, r->rc, r->history);
+            find_cycle(r);
+            if (r->found) {
+                model->row_changes = r->found->row_changes;
+                model->row_changed = r->found->row_changed;
+            }
+            r->history->row_changes = model->row_changes;
+            r->history->row_changed = model->row_changed;
             if (s == RB_OK && r->history->step == 0.0 && !model->problem.load_given)
                 /* nothing rolls, no distance is measured by a: it is that of the largest load */
                 r->history->half_width = rb_rolling_contact_half_width(
@@ -508,7 +799,14 @@ const rb_rolling_history *rb_rolling_follower_history(const rb_rolling_follower 
 
 rb_status rb_rolling_follower_begin(rb_rolling_follower *f, rb_message *why)
 {
+    if (f->r.step == 0)
+        f->r.steps = steps_found(&f->r);
     return begin_step(&f->r, why);
+}
+
+int rb_rolling_follower_ends_row(const rb_rolling_follower *f)
+{
+    return f->r.step + 1 == f->r.steps;
 }
 
 rb_status rb_rolling_follower_solve(rb_rolling_follower *f, rb_message *why)

@@ -45,6 +45,10 @@ void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int 
 /* After it, with the tractions on A that were found. */
 void rb_rolling_memory_track_end(rb_rolling_memory_track *r, double step, const double *p,
                                  const double *q);
+/* At rest: what the track remembers, as so many numbers, and back. */
+size_t rb_rolling_memory_track_size(const rb_rolling_memory_track *r);
+void rb_rolling_memory_track_save(const rb_rolling_memory_track *r, double *numbers);
+void rb_rolling_memory_track_restore(rb_rolling_memory_track *r, double *numbers);
 void rb_rolling_memory_track_free(rb_rolling_memory_track *r);
 
 /* ---- carried.c --------------------------------------------------------------------- */
@@ -82,12 +86,36 @@ rb_status rb_rolling_particles_create(rb_rolling_particles *r, rb_message *why);
 /* Before a step is solved: moves the state variables to the places of the particles. */
 rb_status rb_rolling_particles_bring(rb_rolling_particles *r, const rb_rolling_stride *stride,
                                      rb_message *why);
+/* The bodies that relax as elastic ones over a step of this interval [s]. */
+rb_status rb_rolling_particles_bodies(rb_rolling_particles *r, double interval, rb_message *why);
 /* After a step: stores the state variables. */
 void rb_rolling_particles_leave(rb_rolling_particles *r, const rb_rolling_stride *stride);
 void rb_rolling_particles_free(rb_rolling_particles *r);
 
+/* ---- steady.c ---------------------------------------------------------------------- */
+
+/* The state that those behind it have not left so far. */
+enum { RB_ROLLING_STEADY_VALUES = 7 };
+typedef struct {
+    int row;         /* of the history; -1: none */
+    double from, to; /* way at that state and at the last one [length] */
+    double most;     /* how far those behind it have been, in their own scales */
+    double *p, *q;   /* its tractions */
+    double value[RB_ROLLING_STEADY_VALUES], largest[RB_ROLLING_STEADY_VALUES];
+} rb_rolling_steady;
+
+rb_status rb_rolling_steady_create(int n, rb_arena *memory, rb_rolling_steady *steady);
+/* A rolled step of the row h->n of the history, after `way` [length] so far. */
+void rb_rolling_steady_see(rb_rolling_steady *steady, const rb_rolling_model *model,
+                           const rb_rolling_history *h, double way);
+/* The row from which on nothing has changed, or -1. */
+int rb_rolling_steady_from(const rb_rolling_steady *steady, const rb_rolling_case *rc,
+                           const rb_rolling_history *h);
+
 /* ---- program.c --------------------------------------------------------------------- */
 
+/* 1: two rows prescribe the same, whatever their times. */
+int rb_rolling_program_is_same(const rb_rolling_program *program, int a, int b);
 /* Number of rows at rest at the beginning of the program. */
 int rb_rolling_program_at_rest(const rb_rolling_program *program);
 /* Number of steps at rest from row r - 1 to row r. */
@@ -96,9 +124,14 @@ int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling
  * r. */
 rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program, const rb_rolling_case *rc,
                                        int r, int part, int parts);
+/* Steps of row r at rest in so many increments: the first row presses and then loads. */
+int rb_rolling_program_steps(const rb_rolling_program *program, const rb_rolling_case *rc, int r,
+                             int increments);
 /* The case of a step rolled from one distance to another. */
 rb_rolling_case rb_rolling_program_step(const rb_rolling_program *program,
                                         const rb_rolling_case *rc, double from, double to);
+/* Checks a row, which may be without contact: a load of 0 or an approach of at most 0. */
+rb_status rb_rolling_program_check_case(const rb_rolling_case *rc, rb_message *why);
 /* Checks that each row is a valid case. */
 rb_status rb_rolling_program_check(const rb_rolling_program *program, const rb_rolling_case *rc,
                                    rb_message *why);

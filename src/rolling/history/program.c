@@ -56,6 +56,36 @@ int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling
     return (int)fmin(fmax(ceil(steps * (1.0 - 1e-9)), 1.0), RB_ROLLING_MOST_STEPS);
 }
 
+/* 1: the case is loaded tangentially at rest. */
+static int loads(const rb_rolling_case *at)
+{
+    if (!isnan(at->force_ratio))
+        return at->force_ratio != 0.0;
+    if (!isnan(at->force))
+        return at->force != 0.0;
+    return at->formulation == RB_STATIC && rb_rolling_wanted_shift(at) != 0.0;
+}
+
+/* The first row in parts: the bodies are pressed together without friction, and then loaded
+ * tangentially, as in a case without a history. */
+static void begin_from_nothing(rb_rolling_case *at, int part, int parts)
+{
+    const rb_rolling_derived d = rb_rolling_derive(at);
+    const double shift = rb_rolling_wanted_shift(at);
+    const int presses = loads(at) ? parts / 2 : parts;
+    const double pressed = fmin(1.0, (double)part / presses),
+                 loaded = part > presses ? (double)(part - presses) / (parts - presses) : 0.0;
+
+    at->half_width = NAN;
+    at->load = pressed * d.load;
+    at->approach = pressed * d.approach;
+    if (at->formulation == RB_STATIC && isnan(at->force) && isnan(at->force_ratio))
+        at->shift = shift;
+    at->shift *= loaded;
+    at->force *= loaded;
+    at->force_ratio *= loaded;
+}
+
 rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program, const rb_rolling_case *rc,
                                        int r, int part, int parts)
 {
@@ -64,9 +94,19 @@ rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program, const 
     for (int c = 0; c < RB_ROLLING_PROGRAM_COLUMNS; c++) {
         const double *x = column_of(program, c);
         if (x)
-            replace(&at, c, part == parts ? x[r] : x[r - 1] + (x[r] - x[r - 1]) * part / parts);
+            replace(&at, c,
+                    part == parts || r == 0 ? x[r] : x[r - 1] + (x[r] - x[r - 1]) * part / parts);
     }
+    if (r == 0 && part < parts)
+        begin_from_nothing(&at, part, parts);
     return at;
+}
+
+int rb_rolling_program_steps(const rb_rolling_program *program, const rb_rolling_case *rc, int r,
+                             int increments)
+{
+    const rb_rolling_case at = rb_rolling_program_row(program, rc, r, 1, 1);
+    return r == 0 && increments > 1 && loads(&at) ? 2 * increments : increments;
 }
 
 /* The last row at or before distance x that has a row behind it; of rows at the same
@@ -119,6 +159,18 @@ rb_rolling_case rb_rolling_program_step(const rb_rolling_program *program,
     return at;
 }
 
+int rb_rolling_program_is_same(const rb_rolling_program *program, int a, int b)
+{
+    int same = 1;
+
+    for (int c = 0; c < RB_ROLLING_PROGRAM_COLUMNS; c++) {
+        const double *x = column_of(program, c);
+        if (x && x != program->time)
+            same &= fabs(x[a] - x[b]) <= 1e-12 * fmax(fabs(x[a]), fabs(x[b]));
+    }
+    return same;
+}
+
 rb_rolling_case rb_rolling_program_base(const rb_rolling_program *program,
                                         const rb_rolling_case *rc)
 {
@@ -133,11 +185,35 @@ rb_rolling_case rb_rolling_program_base(const rb_rolling_program *program,
 
 /* ---- Checks ------------------------------------------------------------------------ */
 
+rb_status rb_rolling_program_check_case(const rb_rolling_case *rc, rb_message *why)
+{
+    const int unloaded = rc->load == 0.0, lifted = isnan(rc->load) && rc->approach <= 0.0;
+    rb_rolling_case touching = *rc;
+
+    if (unloaded && rc->force != 0.0 && !isnan(rc->force))
+        return rb_fail(why, RB_EINVAL,
+                       "force: without a load there is no friction; expected 0, "
+                       "got %g",
+                       rc->force);
+    /* everything else as under some load */
+    if (unloaded)
+        touching.load = rb_rolling_hertz_load(rc, 1e-3 * rb_rolling_radius(rc));
+    if (lifted)
+        touching.approach = 1e-6 * rb_rolling_radius(rc);
+    if (lifted && rc->force != 0.0 && !isnan(rc->force))
+        return rb_fail(why, RB_EINVAL,
+                       "force: bodies that do not touch have no friction; expected "
+                       "0, got %g",
+                       rc->force);
+    return rb_rolling_case_check(&touching, why);
+}
+
 rb_status rb_rolling_program_check(const rb_rolling_program *program, const rb_rolling_case *rc,
                                    rb_message *why)
 {
     const rb_rolling_formulation formulation = rc->formulation;
     const double *d = program->distance;
+    int touches = 0;
 
     if (program->n < 1)
         return rb_fail(why, RB_EINVAL, "history: expected 1 row or more");
@@ -206,10 +282,15 @@ rb_status rb_rolling_program_check(const rb_rolling_program *program, const rb_r
     for (int r = 0; r < program->n; r++) {
         const rb_rolling_case at = rb_rolling_program_row(program, rc, r, 1, 1);
         rb_message reason = {""};
-        const rb_status s = rb_rolling_case_check(&at, &reason);
+        rb_status s = rb_rolling_program_check_case(&at, &reason);
+        if (at.load < 0.0)
+            s = rb_fail(&reason, RB_EINVAL, "load: expected a number >= 0, got %g", at.load);
         if (s != RB_OK)
             return rb_fail(why, s, "history: row %d: %.200s", r + 1, reason.text);
+        touches |= !(at.load == 0.0 || (isnan(at.load) && at.approach <= 0.0));
     }
+    if (!touches)
+        return rb_fail(why, RB_EINVAL, "history: no row presses the bodies together");
     return RB_OK;
 }
 

@@ -123,6 +123,44 @@ rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc, const rb_rol
                : s;
 }
 
+/* Numbers of one body at each of its terms, of the tractions, and the energy. */
+static size_t past_size(const rb_rolling_memory_track *r, int b)
+{
+    return 2 * (size_t)r->all * (size_t)r->body[b].memory->n;
+}
+
+size_t rb_rolling_memory_track_size(const rb_rolling_memory_track *r)
+{
+    size_t size = 2 * (size_t)r->all + 1;
+
+    for (int b = 0; b < r->bodies; b++)
+        size += past_size(r, b);
+    return size;
+}
+
+static void copy_past(const rb_rolling_memory_track *r, double *numbers, int back)
+{
+    for (int b = 0; b <= r->bodies; b++) {
+        double *own = b < r->bodies ? r->body[b].past : r->traction;
+        const size_t size = b < r->bodies ? past_size(r, b) : 2 * (size_t)r->all;
+        if (own)
+            memcpy(back ? own : numbers, back ? numbers : own, size * sizeof *own);
+        numbers += size;
+    }
+}
+
+void rb_rolling_memory_track_save(const rb_rolling_memory_track *r, double *numbers)
+{
+    numbers[0] = r->lost;
+    copy_past(r, numbers + 1, 0);
+}
+
+void rb_rolling_memory_track_restore(rb_rolling_memory_track *r, double *numbers)
+{
+    r->lost = numbers[0];
+    copy_past(r, numbers + 1, 1);
+}
+
 /* Values of both directions move by one element towards -x; nothing comes from +x. */
 static void move(int n, double *values)
 {

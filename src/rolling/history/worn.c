@@ -402,6 +402,7 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     memset(last, 0, sizeof *last);
     r.rc.load = rb_rolling_derive(rc).load; /* a given half-width means this load */
     r.rc.half_width = NAN;
+    r.rc.increments = 1; /* the cycles have their own */
     rb_status s = check(rc, wear, why);
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_wear_columns, rc, 0, wear->steps + 1, history);

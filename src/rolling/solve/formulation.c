@@ -262,7 +262,8 @@ void rb_rolling_set_given(const rb_rolling_case *rc, const rb_rolling_bodies *bo
     rb_rolling_start_bounds(rc, NULL, bodies, p);
     rb_rolling_set_control(rc, p);
     const double friction = (p->mu > 0.0 ? p->mu : 1.0) * unit.slip;
-    p->stress = rb_rolling_derive(rc).stress;
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+    p->stress = d.stress > 0.0 ? d.stress : 1e-3 * d.modulus; /* bodies that are apart */
     p->gap_length = p->stress * unit.gap;
     p->slip_length = p->stress * fmax(friction, unit.coupled_slip);
     p->rounding = 64.0 * DBL_EPSILON * unit.reach;

@@ -184,6 +184,18 @@ static int short_memory(const rb_rolling_case *rc, const rb_rolling_solution *s,
                rolls ? "times as many --contact-elements" : "s as --time-step");
 }
 
+/* A row of a history at rest, of which more steps did not help. */
+static int row_of_steps(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    (void)rc;
+    return s->row_changed > 0 &&
+           say(text,
+               "Row %d of the history is not certain: twice the steps still change its tractions "
+               "by "
+               "%.2g of what the load makes. Give rows between, or --increments.",
+               s->row_changed, s->row_changes);
+}
+
 /* A number of corners, at most MOST of them with their places. */
 static int list_corners(char *text, const char *option, rb_units units, int corners,
                         const double *x)
@@ -523,6 +535,7 @@ static const struct {
     {"flat-layer", flat_layer, 0},
     {"near-datum", near_datum, 0},
     {"short-memory", short_memory, 0},
+    {"row-of-steps", row_of_steps, 0},
     {"gap-corners", gap_corners, 0},
     {"irregularity-corners", irregularity_corners, 0},
     {"coarse-elements", coarse_elements, 0},

@@ -178,6 +178,12 @@ static const rb_rolling_result steps[] = {
          .meaning = "on A's axle, > 0 the way A rolls"),
     STEP("torque_b", torque_b, .unit = "N", .error_bar = RB_SCALE_ONE,
          .condition = RB_FOR_CYLINDER_B, .meaning = "on B's axle, > 0 the way B rolls"),
+    STEP("substeps", substeps, .unit = "1", .kind = RB_RESULT_WHOLE,
+         .meaning = "in how many steps the row was computed"),
+    STEP("step_work", step_work, .unit = "N",
+         .meaning = "work that friction dissipates in the row, also at rest"),
+    STEP("friction_work", friction_work, .unit = "N", .error_bar = RB_SCALE_ONE,
+         .meaning = "the same so far"),
 };
 
 static const rb_rolling_result points[] = {
@@ -439,6 +445,7 @@ void rb_rolling_history_convert(rb_rolling_history *h, rb_units units)
     rb_rolling_columns_convert(&rb_rolling_history_columns, h->n, h, units);
     h->half_width = rb_unit_shown(units, "mm", h->half_width);
     h->step = rb_unit_shown(units, "mm", h->step);
+    h->cycle_work = rb_unit_shown(units, "N", h->cycle_work);
 }
 
 void rb_rolling_wear_history_convert(rb_rolling_wear_history *h, rb_units units)

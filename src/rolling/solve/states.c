@@ -10,6 +10,7 @@ void rb_rolling_states_free(rb_rolling_states *s)
     free(s->p);
     free(s->delta);
     free(s->zone);
+    free(s->substeps);
     memset(s, 0, sizeof *s);
 }
 
@@ -22,8 +23,9 @@ rb_status rb_rolling_states_alloc(int n, int steps, rb_rolling_states *s)
                              .x = rb_alloc(m, 2),
                              .p = rb_alloc(all, 4),
                              .delta = rb_alloc((size_t)steps, 2),
-                             .zone = rb_alloc_int(all)};
-    if (!s->x || !s->p || !s->delta || !s->zone) {
+                             .zone = rb_alloc_int(all),
+                             .substeps = rb_alloc_int((size_t)steps)};
+    if (!s->x || !s->p || !s->delta || !s->zone || !s->substeps) {
         rb_rolling_states_free(s);
         return RB_ENOMEM;
     }
@@ -32,11 +34,13 @@ rb_status rb_rolling_states_alloc(int n, int steps, rb_rolling_states *s)
     s->lambda = s->q + all;
     s->plastic = s->lambda + all;
     s->xi = s->delta + steps;
+    for (int k = 0; k < steps; k++)
+        s->substeps[k] = 1;
     return RB_OK;
 }
 
-rb_status rb_rolling_states_keep(const rb_rolling_model *model, int step, int steps,
-                                 rb_rolling_states *s)
+rb_status rb_rolling_states_keep(const rb_rolling_model *model, const rb_rolling_history *history,
+                                 int step, int steps, rb_rolling_states *s)
 {
     const rb_contact_state *state = &model->state;
     const size_t n = (size_t)model->mesh.n, at = (size_t)step * n;
@@ -55,6 +59,7 @@ rb_status rb_rolling_states_keep(const rb_rolling_model *model, int step, int st
     memcpy(s->zone + at, state->zone, n * sizeof *s->zone);
     s->delta[step] = state->delta;
     s->xi[step] = state->xi;
+    s->substeps[step] = history->substeps[step];
     return RB_OK;
 }
 

@@ -203,7 +203,10 @@ static rb_status run_coarser(const rb_rolling_case *rc, const rb_rolling_program
     rb_status s = RB_OK;
 
     for (int k = 0; k < runs && s == RB_OK; k++) {
-        const rb_rolling_case coarser = rb_rolling_error_run(rc, k);
+        rb_rolling_case coarser = rb_rolling_error_run(rc, k);
+        /* rows of several steps stay, their steps are longer on a coarser mesh */
+        if (rc->steps > 0 && own->substeps[own->n - 1] > 1)
+            coarser.steps = rc->steps;
         rb_rolling_model model = {0};
         rb_rolling_history history = {0};
         s = rb_rolling_history_run(&coarser, program, &through, &model, &history, why);
