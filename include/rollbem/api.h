@@ -157,6 +157,7 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *                                standard deviation
  *   fit.value fit.interval.from fit.interval.to fit.deviation   after rb_api_fit, an entry per
  *                                parameter, in the units of the case; NAN: not identified
+ *   fit.mesh                     what the mesh leaves in the values, of a case with error bars
  *   fit.identified fit.at_bound  1 or 0
  *   fit.correlation              parameters x parameters
  *   fit.creep fit.force fit.fitted fit.band   an entry per point: the data, by the name of their

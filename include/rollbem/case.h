@@ -552,7 +552,8 @@ typedef struct {
     /* found: */
     const char *unit;
     double value, interval[2], deviation; /* Student's interval; standard deviation */
-    double correlation[RB_CASE_FIT_MAX];  /* with the other parameters; NAN: not known */
+    double mesh; /* what the mesh leaves in the value, of a case with error bars; NAN: not known */
+    double correlation[RB_CASE_FIT_MAX]; /* with the other parameters; NAN: not known */
     int identified, at_bound;
     double from, to, scale;
     int low_open, high_open, positive;
@@ -604,7 +605,9 @@ rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_cas
  * those of a case).
  * On entry fit has n, names, starts, bounds, level and iterations; free it in any case.  RB_EINVAL:
  * a name is not a number of the case, or there are too few points; RB_INACCURATE: kappa > 1;
- * RB_MAXITER, RB_INTERRUPTED: fit holds the last values. */
+ * RB_MAXITER: no minimum was found, or numbers around it have a lesser sum of squares, or the
+ * elements let the sum jump by more than the noise: fit holds the last values, as after
+ * RB_INTERRUPTED. */
 rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
                             const rb_case_fit_observer *observer, rb_case_fit *fit,
                             rb_message *why);

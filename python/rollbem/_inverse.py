@@ -167,6 +167,7 @@ class Parameter(NamedTuple):
     deviation: float
     correlation: "dict[str, float]"
     identified: bool
+    mesh: float  # what the mesh leaves in the value, of fit(error=True); NaN: not known
 
 
 class Fit(_Named):
@@ -177,13 +178,13 @@ class Fit(_Named):
 
     def __init__(self, names: Sequence[str], handle: Any, level: float) -> None:
         columns = [handle.array(f"fit.{name}") for name in
-                   ("value", "interval.from", "interval.to", "deviation", "identified")]
+                   ("value", "interval.from", "interval.to", "deviation", "identified", "mesh")]
         correlation = np.atleast_2d(handle.array("fit.correlation"))
         self.parameters = {}
         for j, name in enumerate(names):
-            value, low, high, deviation, identified = (float(column[j]) for column in columns)
+            value, low, high, deviation, identified, mesh = (float(column[j]) for column in columns)
             others = {other: float(correlation[i, j]) for i, other in enumerate(names) if i != j}
-            self.parameters[name] = Parameter(value, (low, high), deviation, others, identified == 1.0)
+            self.parameters[name] = Parameter(value, (low, high), deviation, others, identified == 1.0, mesh)
         self.sentences = [in_keywords(line) for line in handle.word("fit.sentences").splitlines()]
         self._arrays = {name: array.copy() for name in ("creep", "creep_ratio", *_FORCES, "fitted", "band")
                         if (array := handle.array(f"fit.{name}")) is not None}
@@ -268,6 +269,7 @@ def fit(data: Union[str, os.PathLike, Table], names: Union[str, Sequence[str]], 
     ``data`` is a file, a dictionary of columns or a ``pandas.DataFrame``: ``creep`` or ``creep_ratio``; ``force``,
     ``force_ratio`` or ``force_over_load``; and ``load``, ``speed``, ``temperature``, ``sigma`` where they vary.
     ``names`` are options, or ``creep_offset``. Numbers are in the units of the case.
+    Intervals hold the noise in the data; with ``error=True`` each parameter has its ``mesh``, what the elements leave.
     A number that the data do not tell is NaN; a warning (:class:`Note`, also in ``sentences``) says so.
     ``progress(done, 0)`` is called with the number of steps now and then. A fit that does not converge raises
     :class:`Unsolved`, whose ``solution`` has the numbers so far, for ``start=``.

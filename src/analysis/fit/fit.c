@@ -19,6 +19,10 @@ static const double SAME = 1e-3, SAME_OF_ALL = 1e-8;
  * and what a fit that finds no lesser sum may be off. */
 enum { MOVING_STEPS = 20, HALVINGS = 5 };
 static const double AT_REST = 0.02, LITTLE = 0.3;
+/* How often a fit that has come to rest goes on from a lesser sum near by. */
+enum { SEARCHES = 5 };
+/* What elements may change in a force, as a part of the noise, or of all forces. */
+static const double ROUGH = 0.5, ROUGH_OF_ALL = 5e-4;
 /* The least and the largest of a coefficient of friction and its fall. */
 static const double LEAST_MU = 0.01, MOST_MU = 3.0;
 /* A correlation that is worth a word. */
@@ -339,15 +343,23 @@ rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_cas
 
 /* ---- Elements that do not come to rest --------------------------------------------- */
 
+/* What a fit has come to. */
+typedef struct {
+    double theta[RB_CASE_FIT_MAX], start[RB_CASE_FIT_MAX];
+    double squares; /* of the measured forces, over their deviations */
+    int several;    /* 1: the model has several solutions there */
+    int searched;   /* 1: numbers around have no lesser sum, on few elements */
+} progress;
+
 /* The step d of Gauss and Newton from theta to the least sum of squares, and by what part of the
  * noise the curve then moves, all points together.  Numbers that a bound holds stay. */
-static rb_status gauss_newton_step(const fit_problem *p, const double *theta, double *d,
-                                   double *moves, rb_message *why)
+static rb_status gauss_newton_step(const fit_problem *p, const double *theta, double squares,
+                                   double *d, double *moves, rb_message *why)
 {
     const size_t points = (size_t)p->points, n = (size_t)p->n;
     rb_arena scratch = {0};
     double *J = rb_arena_doubles(&scratch, points, n), *b = rb_arena_doubles(&scratch, points, 1),
-           singular[RB_CASE_FIT_MAX], squares = 0.0;
+           singular[RB_CASE_FIT_MAX], moved = 0.0;
     lapack_int rank = 0;
 
     if (scratch.failed)
@@ -368,9 +380,9 @@ static rb_status gauss_newton_step(const fit_problem *p, const double *theta, do
         double by = 0.0;
         for (int j = 0; j < p->n; j++)
             by += fit_column(p, j)[k] * d[j];
-        squares += by * by;
+        moved += by * by;
     }
-    *moves = sqrt(squares / variance_of(p));
+    *moves = sqrt(moved / fmax(variance_of(p), SAME_OF_ALL * squares / p->points));
     return rb_arena_done(&scratch,
                          info == 0 ? RB_OK : rb_fail(why, RB_SINGULAR, "fit: no step is found"));
 }
@@ -378,10 +390,10 @@ static rb_status gauss_newton_step(const fit_problem *p, const double *theta, do
 /* Gauss and Newton's method on elements that move with the numbers, where the minima on elements
  * that stay lead from one to the next.  The points have their elements for theta and are tried
  * there. RB_MAXITER: no minimum is found. */
-static rb_status gauss_newton(fit_problem *p, double *theta, double chi2,
+static rb_status gauss_newton(fit_problem *p, progress *of, double chi2,
                               const rb_case_fit_observer *observer, rb_message *why)
 {
-    double d[RB_CASE_FIT_MAX], trial[RB_CASE_FIT_MAX], moves = INFINITY;
+    double *theta = of->theta, d[RB_CASE_FIT_MAX], trial[RB_CASE_FIT_MAX], moves = INFINITY;
     rb_status s = RB_OK;
 
     for (int k = 0; s == RB_OK; k++) {
@@ -389,7 +401,7 @@ static rb_status gauss_newton(fit_problem *p, double *theta, double chi2,
         p->fit->chi_square = chi2;
         s = rb_case_fit_move(p, theta, why);
         if (s == RB_OK)
-            s = gauss_newton_step(p, theta, d, &moves, why);
+            s = gauss_newton_step(p, theta, of->squares, d, &moves, why);
         if (s != RB_OK || moves <= AT_REST || k == MOVING_STEPS)
             break;
         for (int h = 0; h < HALVINGS && s == RB_OK && !(least < chi2); h++, part *= 0.5) {
@@ -422,7 +434,12 @@ static rb_status gauss_newton(fit_problem *p, double *theta, double chi2,
     }
     for (int k = 0; k < p->points; k++)
         p->fit->model[k] = p->data->force[k] + p->f[k] * (p->data->sigma ? p->data->sigma[k] : 1.0);
-    return s == RB_OK && !(moves <= LITTLE) ? RB_MAXITER : s;
+    return s == RB_OK && !(moves <= LITTLE)
+               ? rb_fail(why, RB_MAXITER,
+                         "fit: not converged: a new mesh still changes the sum of squares. The "
+                         "data may not determine all numbers: fit fewer, keep the elements "
+                         "(--mesh uniform --zone X), or give another start (--start)")
+               : s;
 }
 
 /* ---- All together ------------------------------------------------------------------ */
@@ -455,28 +472,31 @@ static rb_status refuse_several(fit_problem *p, const double *theta, rb_message 
                          p->kappa, rb_unit_shown(p->c->resolved.units, "mm", 2.0 * kappa * length));
 }
 
-/* Moves theta to the fit with few elements, which is near that with all of them, and sets kappa of
- * all elements there: if it is above 1, their sum of squares has jumps.  Where this fails, theta
- * stays. */
-static rb_status start_coarsely(fit_problem *p, double *theta, const rb_case_fit_observer *observer,
+/* Moves theta to the fit with few elements, which is near that with all of them, with the search
+ * around it, which many elements would make long; and sets kappa of all elements there: if it is
+ * above 1, their sum of squares has jumps.  Where this fails, theta stays. */
+static rb_status start_coarsely(fit_problem *p, progress *of, const rb_case_fit_observer *observer,
                                 rb_message *why)
 {
     const rb_case *fine = p->c;
     rb_case *coarse = rb_case_copy(fine);
     double coarsely[RB_CASE_FIT_MAX];
-    int moved;
+    int moved, found = 1;
     rb_status s = coarse ? RB_OK : rb_fail(why, RB_ENOMEM, "out of memory for a case");
 
-    memcpy(coarsely, theta, (size_t)p->n * sizeof *theta);
+    memcpy(coarsely, of->theta, sizeof coarsely);
     if (s == RB_OK)
         s = rb_case_set_number(coarse, "contact-elements", COARSE, why);
     if (s == RB_OK)
         s = rb_case_resolve(coarse, why);
     p->c = coarse;
-    if (s == RB_OK)
+    for (int k = 0; k < SEARCHES && s == RB_OK && found; k++) {
         s = rb_case_fit_place(p, coarsely, &moved, why);
-    if (s == RB_OK)
-        s = rb_case_fit_descend(p, coarsely, observer, why);
+        if (s == RB_OK)
+            s = rb_case_fit_descend(p, coarsely, observer, why);
+        if (s == RB_OK)
+            s = rb_case_fit_search(p, of->squares, coarsely, &found, why);
+    }
     p->c = fine;
     p->known_n = 0;
     rb_case_free(coarse);
@@ -484,7 +504,8 @@ static rb_status start_coarsely(fit_problem *p, double *theta, const rb_case_fit
     if (s == RB_OK)
         s = rb_case_fit_kappa(p, coarsely, NAN, &p->kappa, why);
     if (s == RB_OK)
-        memcpy(theta, coarsely, (size_t)p->n * sizeof *theta);
+        memcpy(of->theta, coarsely, sizeof coarsely);
+    of->searched = s == RB_OK && !found;
     return s == RB_ENOMEM || s == RB_INTERRUPTED ? s : RB_OK;
 }
 
@@ -505,8 +526,73 @@ static rb_status descend_first(fit_problem *p, double *theta, const double *star
     return s == RB_OK ? rb_case_fit_descend(p, theta, observer, why) : s;
 }
 
-rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
-                            const rb_case_fit_observer *observer, rb_case_fit *fit, rb_message *why)
+/* To a minimum of the sum: on elements that stay, which are then made anew; where they differ, on
+ * elements that move, because a sum on those that stay has minima of its own. */
+static rb_status converge(fit_problem *p, progress *of, const rb_case_fit_observer *observer,
+                          rb_message *why)
+{
+    double *theta = of->theta, chi2 = INFINITY;
+    int moved = 1;
+    rb_status s = RB_OK;
+
+    for (int round = 0; round < ROUNDS && s == RB_OK && moved && !of->several; round++) {
+        s = round == 0 ? descend_first(p, theta, of->start, observer, why)
+                       : rb_case_fit_descend(p, theta, observer, why);
+        of->several = s == RB_OK && has_several(p);
+        if (of->several)
+            return s;
+        if (s == RB_OK)
+            s = rb_case_fit_place(p, theta, &moved, why);
+        p->moves |= moved;
+        if (s == RB_OK && moved)
+            s = rb_case_fit_try(p, theta, &chi2, why);
+        if (s == RB_OK && moved)
+            moved = fabs(chi2 - p->fit->chi_square) >
+                    SAME * p->fit->chi_square + SAME_OF_ALL * of->squares;
+    }
+    return s == RB_OK && p->moves ? gauss_newton(p, of, chi2, observer, why) : s;
+}
+
+/* The same from numbers that a search has found. */
+static rb_status converge_again(fit_problem *p, progress *of, const rb_case_fit_observer *observer,
+                                rb_message *why)
+{
+    double chi2;
+    int moved;
+
+    memcpy(of->start, of->theta, sizeof of->start);
+    if (!p->moves)
+        return converge(p, of, observer, why);
+    rb_status s = rb_case_fit_place(p, of->theta, &moved, why);
+    if (s == RB_OK)
+        s = rb_case_fit_try(p, of->theta, &chi2, why);
+    return s == RB_OK ? gauss_newton(p, of, chi2, observer, why) : s;
+}
+
+/* Refuses a result around which the forces jump by more than their noise, from one mesh to the
+ * next or where an edge of the contact passes an element: the sum then has many minima.  Where no
+ * noise is left, the result is none of the others. */
+static rb_status check_smooth(fit_problem *p, const progress *of, rb_message *why)
+{
+    const double chi2 = p->fit->chi_square, all = sqrt(of->squares / p->points),
+                 noise = sqrt(chi2 / p->fit->degrees_of_freedom);
+    double roughness = 0.0;
+
+    if (!(chi2 > SAME_OF_ALL * of->squares))
+        return RB_OK;
+    const rb_status s = rb_case_fit_roughness(p, of->theta, &roughness, why);
+    return s != RB_OK || roughness <= ROUGH * fmax(noise, ROUGH_OF_ALL * all)
+               ? s
+               : rb_fail(why, RB_MAXITER,
+                         "fit: not converged: on these elements the forces jump by %.2g of their "
+                         "noise where the numbers change by 8 %%, so that the sum of squares has "
+                         "many minima; give more elements (--contact-elements %d) or --mesh fitted",
+                         roughness / noise, 2 * p->c->resolved.rc.contact_elements);
+}
+
+/* The fit of the same case on its own elements. */
+static rb_status solve(const rb_case *c, const rb_case_data *data,
+                       const rb_case_fit_observer *observer, rb_case_fit *fit, rb_message *why)
 {
     const size_t points = (size_t)data->n;
     fit_problem p = {.c = c,
@@ -520,72 +606,63 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
                      .load = rb_case_option("load"),
                      .speed = rb_case_option("speed"),
                      .temperature = rb_case_option("temperature")};
-    double theta[RB_CASE_FIT_MAX] = {0.0}, start[RB_CASE_FIT_MAX], squares = 0.0;
-    double chi2 = INFINITY;
-    int moved = 1, round = 0, moves = 0, several = 0;
+    progress of = {.several = 0};
     rb_status s = RB_OK;
 
-    if (c->resolved.error)
-        return rb_fail(why, RB_EINVAL, "--error: a fit has intervals instead of error bars");
     if (data->n <= fit->n)
         return rb_fail(why, RB_EINVAL, "--fit: expected at least %d points for %d number%s, got %d",
                        fit->n + 1, fit->n, fit->n > 1 ? "s" : "", data->n);
     fit->degrees_of_freedom = data->n - fit->n;
     p.at = calloc(points, sizeof *p.at);
     p.known = calloc(FIT_CASES, sizeof *p.known);
+    p.order = rb_alloc_int(points);
     p.f = rb_alloc(points, 1);
     p.J = rb_alloc(points, (size_t)fit->n);
     fit->model = rb_alloc(points, 1);
     fit->band = rb_alloc(points, 1);
-    if (!p.at || !p.known || !p.f || !p.J || !fit->model || !fit->band)
+    if (!p.at || !p.known || !p.order || !p.f || !p.J || !fit->model || !fit->band)
         s = rb_fail(why, RB_ENOMEM, "out of memory for a fit of %d points", data->n);
     for (int j = 0; j < fit->n && s == RB_OK; j++) {
         s = set_parameter(&p, j, why);
-        theta[j] = fit->parameter[j].value;
+        of.theta[j] = fit->parameter[j].value;
     }
     if (s == RB_OK && p.offset >= 0 && data->is_ratio)
         s = rb_fail(why, RB_EINVAL,
                     "--fit creep-offset: needs creepages, a column creep and no ratios");
-    memcpy(start, theta, sizeof start);
+    memcpy(of.start, of.theta, sizeof of.start);
+    for (int k = 0; k < p.points && s == RB_OK; k++) {
+        p.order[k] = k;
+        of.squares += gsl_pow_2(rb_case_fit_residual(&p, k, 0.0));
+    }
     if (s == RB_OK && c->resolved.rc.contact_elements > 2 * COARSE)
-        s = start_coarsely(&p, theta, observer, why);
-    several = s == RB_OK && has_several(&p);
-    for (int k = 0; k < p.points; k++)
-        squares += gsl_pow_2(rb_case_fit_residual(&p, k, 0.0));
-    for (; round < ROUNDS && s == RB_OK && moved && !several; round++) {
-        s = round == 0 ? descend_first(&p, theta, start, observer, why)
-                       : rb_case_fit_descend(&p, theta, observer, why);
-        several = s == RB_OK && has_several(&p);
-        if (several)
-            break;
-        if (s == RB_OK)
-            s = rb_case_fit_place(&p, theta, &moved, why);
-        moves |= moved;
-        if (s == RB_OK && moved)
-            s = rb_case_fit_try(&p, theta, &chi2, why);
-        if (s == RB_OK && moved)
-            moved = fabs(chi2 - fit->chi_square) > SAME * fit->chi_square + SAME_OF_ALL * squares;
+        s = start_coarsely(&p, &of, observer, why);
+    of.several = s == RB_OK && has_several(&p);
+    if (s == RB_OK && !of.several)
+        s = converge(&p, &of, observer, why);
+    /* A minimum is one if no numbers around it, near or far, have a lesser sum. */
+    int found = !of.searched || s != RB_OK;
+    for (int k = 0; k < SEARCHES && s >= 0 && s != RB_INTERRUPTED && !of.several && found; k++) {
+        rb_message reason = {""};
+        const rb_status searched = rb_case_fit_search(&p, of.squares, of.theta, &found, &reason);
+        if (searched != RB_OK)
+            s = rb_fail(why, searched, "%s", rb_status_reason(searched, &reason));
+        else if (found)
+            s = converge_again(&p, &of, observer, why);
     }
-    if (s == RB_OK && moved && !several) {
-        s = gauss_newton(&p, theta, chi2, observer, why);
-        if (s == RB_MAXITER)
-            s = rb_fail(
-                why, s,
-                "fit: not converged: a new mesh still changes the sum of squares. The data may "
-                "not determine all numbers: fit fewer, keep the elements (--mesh uniform "
-                "--zone X), or give another start (--start)");
-    }
+    if (s == RB_OK && !of.several && found)
+        s = rb_fail(why, RB_MAXITER,
+                    "fit: not converged: numbers around the result still have a lesser sum of "
+                    "squares. Give another start (--start), or fit fewer numbers");
     for (int j = 0; j < fit->n && s != RB_EINVAL && s != RB_ENOMEM; j++)
-        fit->parameter[j].value = theta[j];
-    if (s == RB_OK && moves && !moved) /* otherwise they are known */
-        s = rb_case_fit_move(&p, theta, why);
+        fit->parameter[j].value = of.theta[j];
     fit->kappa = p.kappa;
-    if (s == RB_OK && !several) {
+    if (s == RB_OK && !of.several) {
         doubt_data(&p);
-        set_intervals(&p, theta);
+        set_intervals(&p, of.theta);
+        s = check_smooth(&p, &of, why);
     }
     if (s == RB_OK && has_several(&p))
-        s = refuse_several(&p, theta, why);
+        s = refuse_several(&p, of.theta, why);
     fit->status = s;
     rb_case_fit_release(&p, p.accepted == 0);
     rb_case_fit_release(&p, p.accepted);
@@ -593,8 +670,68 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
         rb_rolling_model_free(&p.at[k].base);
     free(p.at);
     free(p.known);
+    free(p.order);
     free(p.f);
     free(p.J);
+    return s;
+}
+
+/* What the mesh leaves in the numbers: their spread over n/2, 0.7 n and n elements, as of error
+ * bars, twice as much, three times where n is below 200. */
+static rb_status add_mesh_part(const rb_case *c, const rb_case_data *data, rb_case_fit *fit,
+                               rb_message *why)
+{
+    static const double parts[] = {0.5, 0.7};
+    const int n = c->resolved.rc.contact_elements;
+    double low[RB_CASE_FIT_MAX], high[RB_CASE_FIT_MAX];
+    rb_status s = RB_OK;
+
+    for (int j = 0; j < fit->n; j++)
+        low[j] = high[j] = fit->parameter[j].value;
+    for (size_t k = 0; k < sizeof parts / sizeof *parts && s == RB_OK; k++) {
+        rb_case_fit other = {.n = fit->n, .level = fit->level};
+        rb_case *fewer = rb_case_copy(c);
+        rb_message reason = {""};
+        s = fewer ? rb_case_set_number(fewer, "contact-elements", round(parts[k] * n), why)
+                  : RB_ENOMEM;
+        if (s == RB_OK)
+            s = rb_case_resolve(fewer, why);
+        for (int j = 0; j < fit->n; j++) {
+            other.parameter[j] = fit->parameter[j];
+            other.parameter[j].start = fit->parameter[j].value;
+        }
+        const rb_status solved = s == RB_OK ? solve(fewer, data, NULL, &other, &reason) : RB_ENOMEM;
+        if (s == RB_OK && (solved == RB_ENOMEM || solved == RB_INTERRUPTED))
+            s = rb_fail(why, solved, "%s", rb_status_reason(solved, &reason));
+        for (int j = 0; j < fit->n; j++) {
+            const double x = solved == RB_OK ? other.parameter[j].value : NAN;
+            low[j] = isnan(x) ? NAN : fmin(low[j], x);
+            high[j] = isnan(x) ? NAN : fmax(high[j], x);
+        }
+        if (s == RB_OK && solved != RB_OK)
+            rb_append(
+                fit->sentences, sizeof fit->sentences,
+                "what the mesh leaves in the numbers is not known: with %.0f elements the fit "
+                "does not converge\n",
+                round(parts[k] * n));
+        rb_case_fit_free(&other);
+        rb_case_free(fewer);
+        if (solved != RB_OK)
+            break;
+    }
+    for (int j = 0; j < fit->n; j++)
+        fit->parameter[j].mesh = (n < 200 ? 3.0 : 2.0) * (high[j] - low[j]);
+    return s;
+}
+
+rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
+                            const rb_case_fit_observer *observer, rb_case_fit *fit, rb_message *why)
+{
+    for (int j = 0; j < fit->n; j++)
+        fit->parameter[j].mesh = NAN;
+    rb_status s = solve(c, data, observer, fit, why);
+    if (s == RB_OK && c->resolved.error)
+        s = fit->status = add_mesh_part(c, data, fit, why);
     return s;
 }
 

@@ -1,5 +1,5 @@
-/* A fit of numbers of a case to measured forces (theory.md, D5): what the files fit.c,
- * fit_points.c and fit_descent.c share. */
+/* A fit of numbers of a case to measured forces (theory.md, D5): what the files of this
+ * folder share. */
 #ifndef ROLLBEM_CASE_FIT_H
 #define ROLLBEM_CASE_FIT_H
 
@@ -37,6 +37,8 @@ typedef struct {
     fit_case *known; /* FIT_CASES: cases with the numbers known_for */
     int known_n;
     double known_for[RB_CASE_FIT_MAX];
+    int moves;     /* 1: elements move with the numbers */
+    int *order;    /* points: those first that have ended a sum before all were solved */
     double *f, *J; /* points: residuals of the last trial; points x n: derivatives of those
                       of the accepted numbers */
     double staying[RB_CASE_FIT_MAX]; /* the largest entries of the columns of J on elements that
@@ -44,7 +46,7 @@ typedef struct {
     double kappa;                    /* the largest of all points, with the numbers of J */
 } fit_problem;
 
-/* ---- fit_points.c ------------------------------------------------------------------ */
+/* ---- points.c ---------------------------------------------------------------------- */
 
 /* Makes the elements of all points for the numbers theta.  *moved: 1: some are others
  * than before. */
@@ -60,6 +62,11 @@ rb_status rb_case_fit_extend(fit_problem *p, const double *theta, int k, int ele
 /* Gives J the derivatives on elements that move with the numbers (theory.md, D6); columns of
  * numbers that change nothing then are 0.  And kappa of the elements for theta. */
 rb_status rb_case_fit_move(fit_problem *p, const double *theta, rb_message *why);
+/* The sum of squares for theta, on elements of their own where these move, as far as it is below
+ * `limit`: larger, or INFINITY, otherwise.  f: the residuals of all points, with limit INFINITY;
+ * NULL: not asked for. INFINITY where a point has no solution. */
+rb_status rb_case_fit_sum(fit_problem *p, const double *theta, double limit, double *f, double *sum,
+                          rb_message *why);
 /* The largest kappa (theory.md, F3) of the points for theta, without solving them: pressures hardly
  * depend on friction.  memory: the sliding distance of friction with memory; NAN: the case's. */
 rb_status rb_case_fit_kappa(fit_problem *p, const double *theta, double memory, double *kappa,
@@ -69,7 +76,7 @@ void rb_case_fit_release(fit_problem *p, int which);
 /* Of a force that the model gives point k. */
 double rb_case_fit_residual(const fit_problem *p, int k, double model);
 
-/* ---- fit_descent.c ----------------------------------------------------------------- */
+/* ---- descent.c --------------------------------------------------------------------- */
 
 /* Moves theta to the least sum of squares. */
 rb_status rb_case_fit_descend(fit_problem *p, double *theta, const rb_case_fit_observer *observer,
@@ -82,7 +89,19 @@ int rb_case_fit_is_held(const fit_problem *p, int j, double x);
 /* Moves a number into its bounds. */
 void rb_case_fit_clip(const rb_case_parameter *of, double *x);
 
-/* ---- fit_words.c ------------------------------------------------------------------- */
+/* ---- search.c ---------------------------------------------------------------------- */
+
+/* Looks for lesser sums around theta, with the J of the accepted numbers, and goes there.  *found:
+ * 1: there was one.  squares: of all measured forces over their deviations. */
+rb_status rb_case_fit_search(fit_problem *p, double squares, double *theta, int *found,
+                             rb_message *why);
+
+/* By how much the residuals leave parabolas where the number that is known least moves by 8 % to
+ * either side, and the others follow it: a standard deviation. */
+rb_status rb_case_fit_roughness(fit_problem *p, const double *theta, double *roughness,
+                                rb_message *why);
+
+/* ---- words.c ----------------------------------------------------------------------- */
 
 /* RB_EINVAL: not the name of a number that can be fitted. */
 rb_status rb_case_fit_check_name(const char *name, rb_message *why);

@@ -330,6 +330,47 @@ rb_status rb_case_fit_place(fit_problem *p, const double *theta, int *moved, rb_
     return s;
 }
 
+rb_status rb_case_fit_sum(fit_problem *p, const double *theta, double limit, double *f, double *sum,
+                          rb_message *why)
+{
+    const int stays = !p->moves && p->accepted >= 0, trial = p->accepted == 0;
+    rb_status s = RB_OK;
+
+    *sum = 0.0;
+    if (stays)
+        rb_case_fit_release(p, trial);
+    for (int i = 0; i < p->points && s == RB_OK && *sum <= limit; i++) {
+        const int k = p->order[i], first = p->at[k].first;
+        place at = {p, theta, k, -1};
+        rb_rolling_case rc;
+        rb_rolling_model own = {.mesh = {.n = 0}};
+        const rb_rolling_model *model = stays ? &p->at[k].solved[trial] : &own;
+        if (!stays) {
+            s = case_at(&at, 0.0, &rc, why);
+            if (s == RB_OK)
+                s = rb_rolling_model_create(&rc, &own, why);
+        } else {
+            if (!p->at[first].solved[trial].state.p) /* it makes the flexibility */
+                s = solve_point(p, theta, first, trial, why);
+            if (s == RB_OK && !model->state.p)
+                s = solve_point(p, theta, k, trial, why);
+        }
+        const double residual = s == RB_OK ? rb_case_fit_residual(p, k, measure(p, model)) : NAN;
+        *sum += residual * residual;
+        if (f)
+            f[k] = residual;
+        if (*sum > limit) { /* the next sum asks this point first */
+            memmove(p->order + 1, p->order, (size_t)i * sizeof *p->order);
+            p->order[0] = k;
+        }
+        rb_rolling_model_free(&own);
+    }
+    if (s == RB_OK || s == RB_ENOMEM || s == RB_INTERRUPTED)
+        return s;
+    *sum = INFINITY;
+    return RB_OK;
+}
+
 rb_status rb_case_fit_kappa(fit_problem *p, const double *theta, double memory, double *kappa,
                             rb_message *why)
 {

@@ -60,18 +60,18 @@ static int see_step(int iteration, double chi_square, int n, const double *value
 /* In the units of the case; what the data do not determine is NAN. */
 static rb_status keep_parameters(rb_api *a, const rb_case_fit *fit, rb_units units)
 {
-    enum { VALUE, FROM, TO, DEVIATION, IDENTIFIED, AT_BOUND, COLUMNS };
-    static const char *const names[COLUMNS] = {"fit.value",       "fit.interval.from",
-                                               "fit.interval.to", "fit.deviation",
-                                               "fit.identified",  "fit.at_bound"};
+    enum { VALUE, FROM, TO, DEVIATION, MESH, IDENTIFIED, AT_BOUND, COLUMNS };
+    static const char *const names[COLUMNS] = {
+        "fit.value", "fit.interval.from", "fit.interval.to", "fit.deviation",
+        "fit.mesh",  "fit.identified",    "fit.at_bound"};
     double x[COLUMNS][RB_CASE_FIT_MAX], correlation[RB_CASE_FIT_MAX * RB_CASE_FIT_MAX];
     const int n = fit->n, solved = fit->status == RB_OK;
     rb_status s = RB_OK;
 
     for (int j = 0; j < n; j++) {
         const rb_case_parameter *p = &fit->parameter[j];
-        const double of[] = {p->value, p->interval[0], p->interval[1], p->deviation};
-        for (int k = VALUE; k <= DEVIATION; k++)
+        const double of[] = {p->value, p->interval[0], p->interval[1], p->deviation, p->mesh};
+        for (int k = VALUE; k <= MESH; k++)
             x[k][j] = (solved && p->identified) || (!solved && k == VALUE)
                           ? rb_unit_shown(units, p->unit, of[k])
                           : NAN;

@@ -62,6 +62,9 @@ static const char about[] =
     "force_over_load (Q/P); and load, speed, temperature, sigma if they vary.\n"
     "Several tests can be written in one file, one below the other. As everywhere, a\n"
     "braked wheel has xi > 0 and Q < 0.\n"
+    "Intervals hold the noise in the data; --error adds what the mesh leaves in the\n"
+    "numbers, by fits with half and 0.7 of the elements.  A result around which the sum of\n"
+    "squares is less, or jumps from element to element, is refused as not converged.\n"
     "A fit is refused if its model has several solutions (kappa > 1). A number that\n"
     "the data do not determine is reported as not identified, without a value.\n";
 
@@ -245,7 +248,6 @@ static const cli_case_command command = {
     .synopsis = "rollbem fit DATA --fit NAME,... [OPTION...] [CASE.ini]",
     .about = about,
     .notes = notes,
-    .refused = ",error,",
     .purpose = RB_CASE_CURVE,
     .options = options,
     .option_n = OPTIONS,

@@ -64,6 +64,9 @@ void rb_report_json_fit(json_t **root, const rb_report_fit *f)
         rb_report_json_set(
             &object, "deviation",
             rb_report_json_number(p->identified ? in_units(f, p->unit, p->deviation) : NAN));
+        rb_report_json_set(
+            &object, "mesh",
+            rb_report_json_number(p->identified ? in_units(f, p->unit, p->mesh) : NAN));
         rb_report_json_set(&object, "unit", json_string(rb_report_unit_name(f->units, p->unit)));
         rb_report_json_set(&object, "identified", json_boolean(p->identified));
         rb_report_json_set(&object, "at_bound", json_boolean(p->at_bound));
@@ -104,15 +107,28 @@ static const char *unit_behind(const rb_report_fit *f, const char *unit, char te
     return text;
 }
 
+/* What the intervals hold. */
+static const char *hold(const rb_report_fit *f)
+{
+    int known = 0;
+    for (int j = 0; j < f->fit->n; j++)
+        known |= !isnan(f->fit->parameter[j].mesh);
+    return known ? "intervals hold the noise in the data; +- is what the mesh leaves"
+                 : "intervals hold the noise in the data, not the error of the mesh (--error "
+                   "adds it)";
+}
+
 static void write_parameter(char *text, size_t size, const rb_report_fit *f, int j)
 {
     const rb_case_parameter *p = &f->fit->parameter[j];
-    char unit[20];
+    char unit[20], mesh[40] = "";
 
+    if (!isnan(p->mesh))
+        snprintf(mesh, sizeof mesh, ", +- %.2g by the mesh", in_units(f, p->unit, p->mesh));
     if (p->identified)
-        snprintf(text, size, "%-22s %12.6g   %.6g ... %.6g%s", p->name,
+        snprintf(text, size, "%-22s %12.6g   %.6g ... %.6g%s%s", p->name,
                  in_units(f, p->unit, p->value), in_units(f, p->unit, p->interval[0]),
-                 in_units(f, p->unit, p->interval[1]), unit_behind(f, p->unit, unit));
+                 in_units(f, p->unit, p->interval[1]), unit_behind(f, p->unit, unit), mesh);
     else
         snprintf(text, size, "%-22s not identified", p->name);
 }
@@ -137,7 +153,7 @@ rb_status rb_report_fit_table(FILE *out, const rb_report_fit *f, const char *com
     }
     if (f->data->measure == RB_CASE_FORCE)
         rb_report_comment(&c, "forces in %s", rb_report_unit_name(f->units, "N/mm"));
-    rb_report_comment(&c, "intervals and band of %g %%", 100.0 * f->fit->level);
+    rb_report_comment(&c, "intervals and band of %g %%; %s", 100.0 * f->fit->level, hold(f));
     for (int k = 0; k < f->data->n; k++) {
         const char *unit = force_unit(f);
         rb_report_cell_number(&c, f->data->creep[k]);
@@ -157,6 +173,7 @@ void rb_report_fit_summary(FILE *out, const rb_report_fit *f)
     fprintf(out, "fit of %d points, %d step%s, %d degrees of freedom, intervals of %g %%\n",
             f->data->n, f->fit->iterations, f->fit->iterations == 1 ? "" : "s",
             f->fit->degrees_of_freedom, 100.0 * f->fit->level);
+    fprintf(out, "  %s\n", hold(f));
     for (int j = 0; j < f->fit->n; j++) {
         write_parameter(line, sizeof line, f, j);
         fprintf(out, "  %s\n", line);
