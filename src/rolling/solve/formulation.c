@@ -309,8 +309,10 @@ static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *
     /* A layer that softens has one answer to a slip only where its stress falls by less
      * than the friction that the slip sets free. */
     const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
-    double most = rb_contact_operator_response(p->op).slip;
+    double most = rb_contact_operator_response(p->op).slip, longest = 0.0;
 
+    for (int i = 0; i < p->n; i++)
+        longest = fmax(longest, bodies->f.h[i]);
     for (int i = 0; K.S && i < p->n; i++)
         most = fmax(most, K.S[i + (size_t)(p->n + i) * (size_t)p->n]);
     const double least = 1.0 / (p->own * most);
@@ -318,8 +320,9 @@ static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *
                ? RB_OK
                : rb_fail(why, RB_EINVAL,
                          "hardening: softening by %g MPa/mm has no unique solution, "
-                         "expected less than %g MPa/mm on this mesh",
-                         -rc->hardening, least);
+                         "expected %g MPa/mm at most on elements of %.3g mm; shorter ones allow "
+                         "more",
+                         -rc->hardening, rb_largest_shown(least * (1.0 - 1e-9)), longest);
 }
 
 static rb_status not_made(rb_status s, int n, rb_message *why)
