@@ -415,6 +415,72 @@ TEST(friction_power_adds_up)
               "balance");
 }
 
+/* The balance of power (V4) from the JSON alone: for every support, both bodies, every way to
+ * drive.  Of a wheel that turns the lever arms' part is also int (p u_T - q u_N) dx / R, by the
+ * printed displacements of A on a rigid plane. */
+TEST(powers_balance)
+{
+    static const struct {
+        const char *options;
+        double bound; /* of the balance, as a part of its terms: the slip operator's error */
+        int turns;    /* 1: A alone deforms and turns */
+    } all[] = {
+        {"--support halfplane --creep-ratio 0.5", 2e-3, 0},
+        {"--support halfplane --layer-thickness 0.5 --creep-ratio 0.5", 2e-3, 0},
+        {"--similar --support halfplane --radius-b 30 --force-ratio -0.3", 2e-3, 0},
+        {"--support hub --creep-ratio 0.5", 2e-3, 1},
+        {"--support hub --creep-ratio 0.5 --mesh aligned", 2e-3, 1},
+        {"--support hub --force-ratio 0.4 --hub-ratio 0.6", 2e-3, 1},
+        {"--support hub --free-axle", 2e-3, 0},
+        {"--support hub --creep 0.1", 2e-3, 1},
+        {"--support hub --half-width 5 --creep-ratio -0.5 --mu 1", 2e-3, 1},
+        {"--support hub --gap exact --creep-ratio 0.5", 2e-3, 1},
+        {"--support hub --normals surface --creep-ratio 0.5", 2e-3, 0},
+        {"--support hub --cover-thickness 3 --young 100 --half-width 2 --creep-ratio 0.5", 2e-3, 1},
+        {"--support arc --creep-ratio 0.5", 2e-3, 0},
+        {"--support arc --arc 60 --young 1000 --half-width 5 --creep-ratio 0.5", 2e-3, 0},
+        {"--support hub --young-b 70000 --radius-b 30 --creep-ratio 0.5", 2e-3, 0},
+        {"--support hub --similar --radius-b 80 --support-b hub --creep-ratio 0.5", 2e-3, 0},
+        {"--support halfplane --young-b 70000 --radius-b 30 --support-b arc --creep-ratio 0.5",
+         2e-3, 0},
+        {"--support hub --young 2100 --relaxation-time 0.01 --relaxation-ratio 1 --speed 100 "
+         "--creep-ratio 0.5",
+         2e-3, 0},
+        {"--support hub --young 2100 --relaxation-time 0.01 --relaxation-ratio 1 --speed 100 "
+         "--free-axle",
+         2e-3, 0},
+        {"--support hub --interlayer-tangential 1e-6 --creep-ratio 0.5", 2e-3, 0},
+    };
+
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        char line[500];
+        snprintf(line, sizeof line,
+                 "--young 210000 --poisson 0.3 --radius 50 --half-width 1 --mu 0.3 --gap parabola "
+                 "--formulation steady --contact-elements 100 %s",
+                 all[k].options);
+        held_json *root = run_json(line);
+        const json_t *s = json_object_get(root, "summary"), *t = json_object_get(root, "table"),
+                     *inputs = json_object_get(root, "inputs");
+        const double R_A = number_in(inputs, "radius"), R_B = number_in(inputs, "radius-b");
+        const double R = isfinite(R_B) ? 1.0 / (1.0 / R_A + 1.0 / R_B) : R_A;
+        const double creepage = -number_in(s, "creepage") * number_in(s, "tangential_load"),
+                     load = number_in(s, "resistance_moment") / R, L = number_in(s, "lever_power"),
+                     D = number_in(s, "dissipation"), H = number_in(s, "hysteresis");
+        double levers = 0.0;
+        /* where nothing is driven a little of what full sliding would supply */
+        const double slides = 0.3 * number_in(s, "normal_load") * number_in(s, "half_width") / R;
+        CHECK_ABS(creepage + load + L, D + H,
+                  all[k].bound * (fabs(creepage) + fabs(load) + fabs(L) + 0.05 * slides), "%s",
+                  all[k].options);
+        for (size_t i = 0; i < json_array_size(json_object_get(t, "h_mm")); i++)
+            levers += (entry(t, "p_MPa", i) * entry(t, "ut_mm", i) -
+                       entry(t, "q_MPa", i) * entry(t, "un_mm", i)) *
+                      entry(t, "h_mm", i) / R_A;
+        if (all[k].turns)
+            CHECK_ABS(levers, L, 0.01 * fabs(L) + 1e-3 * D, "lever arms: %s", all[k].options);
+    }
+}
+
 /* Where hardly anything is dissipated, the mean of the tractions on both sides of a slip
  * can be of the wrong sign: the balance holds, and the error bar too. */
 TEST(power_below_zero_is_named)

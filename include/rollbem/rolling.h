@@ -514,6 +514,9 @@ typedef struct {
     double resistance_ratio;   /* M/(P R), the coefficient of rolling resistance */
     double hysteresis;         /* power per unit speed that viscoelasticity dissipates
                                   [force/length]; steady only, otherwise NAN */
+    double lever_power;        /* power per unit speed that the lever arms of wheels supply, so that
+                                  -xi Q + M/R + lever_power = dissipation + hysteresis
+                                  [force/length]; 0 for half-planes; steady only */
     double torque_a;           /* M + Q R_A: external torque on A's axle [force]; > 0: in the
                                   direction in which A rolls, so it drives A; NAN in static */
     double torque_b;           /* M - Q R_B: the same for B; NAN also if B is a plane */

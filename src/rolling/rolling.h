@@ -478,6 +478,10 @@ void rb_rolling_torques(const rb_rolling_case *rc, double moment, double force, 
 /* Power per unit speed that viscoelasticity dissipates, -int t Dw ds (theory.md V4): 0
  * for elastic bodies; steady rolling only, otherwise NAN.  RB_ENOMEM. */
 rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power);
+/* Power per unit speed that the lever arms of wheels supply, which change as they deform (theory.md
+ * V4): 0 for half-planes; steady rolling only, otherwise NAN.  hysteresis: the result of the
+ * function above.  RB_ENOMEM. */
+rb_status rb_rolling_lever_power(const rb_rolling_model *model, double hysteresis, double *power);
 
 /* ---- patches.c --------------------------------------------------------------------- */
 

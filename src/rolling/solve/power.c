@@ -93,6 +93,51 @@ void rb_rolling_torques(const rb_rolling_case *rc, double moment, double force, 
                     : NAN;
 }
 
+/* -int (p w_N' + q w_T') dx of the bodies together (V4).  The surface's own part of the slip is
+ * paired with friction as all of it is.  w: 2 (n + 1), r: n, both scratch. */
+static rb_status work_of_surfaces(const rb_rolling_model *model, double *w, double *r,
+                                  double *power)
+{
+    const rb_contact_problem *p = &model->problem;
+    const rb_contact_state *state = &model->state;
+    const rb_bem_flexibility *f = &model->bodies.f;
+    const rb_status s = rb_rolling_displacement(&model->bodies, state->p, state->q, w);
+
+    for (int i = 0; i < p->n; i++)
+        r[i] = state->lambda[i] - state->xi * p->e_T[i];
+    *power = s != RB_OK ? NAN
+                        : normal_work(p->n, f->x, w, state->p, f->h) -
+                              paired_power(model->rc, p->n, r, state->q, f->h, p->e_T);
+    return s;
+}
+
+rb_status rb_rolling_lever_power(const rb_rolling_model *model, double hysteresis, double *power)
+{
+    const int n = model->problem.n;
+
+    *power = model->rc->formulation == RB_STEADY ? 0.0 : NAN;
+    if (model->rc->formulation != RB_STEADY || rb_rolling_can(model->rc, RB_BODY_FLAT))
+        return RB_OK;
+    rb_arena scratch = {0};
+    double *w = rb_arena_doubles(&scratch, 2 * ((size_t)n + 1), 1),
+           *r = rb_arena_doubles(&scratch, (size_t)n, 1), work;
+    rb_status s = scratch.failed ? RB_ENOMEM : work_of_surfaces(model, w, r, &work);
+
+    if (s == RB_OK)
+        *power = hysteresis - work;
+    /* where p and q turn along the contact, Q and M are not what the creepage and the load
+     * work on */
+    if (s == RB_OK && model->rc->normals == RB_BEM_NORMALS_SURFACE) {
+        const double radius = rb_rolling_radius(model->rc), xi = model->state.xi;
+        const rb_bem_flexibility *f = &model->bodies.f;
+        *power += xi * rb_rolling_model_force(model) -
+                  rb_contact_moment(&model->problem, &model->state) / radius;
+        for (int i = 0; i < n; i++)
+            *power += f->h[i] * (f->x[i] / radius * model->state.p[i] - xi * model->state.q[i]);
+    }
+    return rb_arena_done(&scratch, s);
+}
+
 rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
 {
     const rb_contact_problem *p = &model->problem;
@@ -111,14 +156,9 @@ rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
     if (scratch.failed)
         return rb_arena_done(&scratch, RB_ENOMEM);
     if (flat) {
-        const rb_status s = rb_rolling_displacement(&model->bodies, state->p, state->q, w);
+        const rb_status s = work_of_surfaces(model, w, r, power);
         if (s != RB_OK)
             return rb_arena_done(&scratch, s);
-        /* the surface's own part of the slip is paired with friction as all of it is */
-        for (int i = 0; i < n; i++)
-            r[i] = state->lambda[i] - state->xi * p->e_T[i];
-        *power = normal_work(n, f->x, w, state->p, f->h) -
-                 paired_power(model->rc, n, r, state->q, f->h, p->e_T);
     }
     /* With wheels: of each body by itself what memory adds, because the elastic part, which
      * costs nothing, would leave the error of the mesh. */

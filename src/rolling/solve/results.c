@@ -79,6 +79,9 @@ static const rb_rolling_result scalars[] = {
            .meaning = "M/(P R), the coefficient of rolling resistance"),
     RESULT("hysteresis", hysteresis, .unit = "N/mm", .error_bar = RB_SCALE_WORK, .study = 18,
            .meaning = "power per unit speed that bodies which relax lose; steady"),
+    RESULT("lever_power", lever_power, .unit = "N/mm", .error_bar = RB_SCALE_WORK,
+           .meaning = "power per unit speed that the lever arms of wheels supply: -xi Q + M/R + "
+                      "lever_power = dissipation + hysteresis; steady"),
     RESULT("torque_a", torque_a, .unit = "N", .error_bar = RB_SCALE_TORQUE, .study = 24,
            .meaning = "M + Q R_A: torque that turns A's axle the way A rolls; < 0 "
                       "brakes it"),

@@ -237,7 +237,7 @@ rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_
     if (status == RB_OK) {
         /* M, its coefficient and where the power goes that neither Q nor M/R leave to
          * friction. */
-        s->resistance_moment = s->resistance_ratio = s->hysteresis = NAN;
+        s->resistance_moment = s->resistance_ratio = s->hysteresis = s->lever_power = NAN;
         s->torque_a = s->torque_b = NAN;
         if (s->formulation != RB_STATIC) {
             s->resistance_moment = unless_tiny(rb_contact_moment(&model->problem, &model->state),
@@ -249,6 +249,8 @@ rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_
             rb_rolling_torques(model->rc, s->resistance_moment, s->tangential_load, &s->torque_a,
                                &s->torque_b);
             status = rb_rolling_hysteresis(model, &s->hysteresis);
+            if (status == RB_OK)
+                status = rb_rolling_lever_power(model, s->hysteresis, &s->lever_power);
         }
     }
     s->support_balance = NAN;
