@@ -379,6 +379,36 @@ TEST(an_incompressible_wheel_on_a_hub)
     CHECK_MAX(fabs(s.support_balance), 1e-3, "support");
 }
 
+/* A small arc gives way like a bonded punch, 2 P/(pi E*) ln(c2/c1) more at c1 than at c2; its
+ * elements are as fine as it is, and become finer with all others.  Right at .1 and .2 degrees:
+ * .027911 and .026335 mm, as dense systems of many elements find. */
+TEST(a_small_arc_has_elements_of_its_own)
+{
+    static const struct {
+        double arc, approach;
+    } rows[] = {{1e-6, NAN}, {1e-3, NAN}, {0.1, 0.027911}, {0.2, 0.026335}};
+    const double rate = 2.0 * 1000.0 * 0.75 / (M_PI * 210000.0);
+    double found[4];
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        const rb_rolling_case rc = rolling_case(
+            "young 210000 radius 50 gap parabola load 1000 mu 0 support arc poisson 0.5 arc %g",
+            rows[k].arc);
+        OWNED(rb_rolling_solution) s;
+        rb_rolling_errors e;
+        CHECK_OK(rb_rolling_solve_with_errors(&rc, &s, &e, &heard));
+        found[k] = s.approach;
+        CHECK_MAX(s.boundary_elements, 500, "elements at %g degrees", rows[k].arc);
+        if (k > 0)
+            CHECK_ABS(found[k - 1] - found[k], rate * log(rows[k].arc / rows[k - 1].arc),
+                      2e-3 * rate, "%g degrees", rows[k].arc);
+        if (isnan(rows[k].approach))
+            continue;
+        CHECK_REL(s.approach, rows[k].approach, 1e-3, "%g degrees", rows[k].arc);
+        CHECK_ABS(s.approach, rows[k].approach, e.scalar.approach, "bar");
+        CHECK_MAX(e.scalar.approach, 3e-3 * s.approach, "bar");
+    }
+}
+
 TEST(every_failed_allocation_is_reported)
 {
     rb_rolling_case rc = wheel(RB_BEM_HUB, 0.05);

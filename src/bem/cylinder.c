@@ -6,53 +6,98 @@
 
 /* Beside the contact lies one element on each side: the upstream one on the right and its
  * mirror image on the left.  From there to the top each side is graded: at the distance
- * s, an angle, elements have the size h(s) = min(h0 + g s, cap), so that N(s) = int ds/h
- * = ln(1 + g s/h0)/g   up to  s* = (cap - h0)/g,  then linear, elements lie between, and
- * ends are where N is a multiple of N(total)/elements.  Both sides count angles from the
- * lowest point as positive: symmetric ends make a symmetric mesh. */
+ * s, an angle, elements have the size h(s) = min(h0 + g s, cap, e0 + f (S - s)), so that
+ * N(s) = int ds/h = ln(1 + g s/h0)/g while they grow, linear where they have their largest size
+ * and the mirror image of the first towards a clamped arc at S that is small; elements lie
+ * between, and ends are where N is a multiple of N(total)/elements.  Both sides count angles from
+ * the lowest point as positive: symmetric ends make a symmetric mesh. */
 typedef struct {
-    double from;    /* angle at which the element beside the contact ends */
-    double h0;      /* size of that element */
-    double growth;  /* g; negative where the cap is below h0 */
-    double cap;     /* largest size */
-    double clamped; /* s at which the clamped arc starts; the top where there is none */
+    double from;     /* angle at which the element beside the contact ends */
+    double h0;       /* size of that element */
+    double growth;   /* g; negative where the cap is below h0 */
+    double cap;      /* largest size */
+    double clamped;  /* S at which the clamped arc starts; the top where there is none */
+    double e0, fall; /* size beside a small arc and f; e0 = 0: the arc has elements of the cap */
     int free_n, arc_n;
 } graded_side;
 
 static const double automatic_growth = 0.15; /* neighbours differ by at most a fifth */
 static const double largest_angle = 2.0 * M_PI / 72.0;
-/* What is finer, a clamped point, would need the whole circle as fine. */
+/* What is finer, a thin rim, would need the whole circle as fine. */
 static const double smallest_feature = 0.003;
 /* A larger hub leaves a rim whose elements would be thousands if all were as fine. */
 static const double largest_thick = 0.95;
+/* Half-angle of arcs that have graded elements, because the tractions at the ends of an arc are
+ * infinite like those of a punch; and the part of it that the first one is. */
+static const double small_arc = 20.0 * M_PI / 180.0, first_on_arc = 0.02;
 
 static double side_length(const graded_side *side)
 {
     return M_PI - side->from;
 }
 
+/* Where elements end to grow, and where they begin to shrink again. */
+typedef struct {
+    double up, down;
+} turns;
+
+static turns turns_of(const graded_side *side)
+{
+    const double g = side->growth, f = side->fall, S = side->clamped;
+    const double up = (side->cap - side->h0) / g;
+
+    if (!(side->e0 > 0.0))
+        return (turns){up, INFINITY};
+    const double down = S - (side->cap - side->e0) / f;
+    /* sizes that meet below the cap */
+    const double meet = fmin(fmax((side->e0 + f * S - side->h0) / (g + f), 0.0), S);
+    return up <= down || !(g > 0.0) ? (turns){fmin(up, S), fmax(down, fmin(up, S))}
+                                    : (turns){meet, meet};
+}
+
 static double elements_until(const graded_side *side, double s)
 {
-    const double g = side->growth, h0 = side->h0, bend = (side->cap - h0) / g;
-    const double graded = log1p(g * fmin(s, bend) / h0) / g;
-    return graded + fmax(s - bend, 0.0) / side->cap;
+    const double g = side->growth, f = side->fall, h0 = side->h0;
+    const turns at = turns_of(side);
+    const double grown = log1p(g * fmin(s, at.up) / h0) / g;
+    double shrunk = 0.0, rest = s;
+
+    if (s > at.down) {
+        const double high = side->e0 + f * (side->clamped - at.down),
+                     low = side->e0 + f * fmax(side->clamped - s, 0.0);
+        shrunk = log(high / low) / f;
+        rest = at.down;
+    }
+    return grown + fmax(rest - at.up, 0.0) / side->cap + shrunk;
 }
 
 static double angle_after(const graded_side *side, double elements)
 {
-    const double g = side->growth, h0 = side->h0, bend = (side->cap - h0) / g;
-    const double graded = log1p(g * bend / h0) / g;
-    return h0 * expm1(g * fmin(elements, graded)) / g + fmax(elements - graded, 0.0) * side->cap;
+    const double g = side->growth, f = side->fall, h0 = side->h0;
+    const turns at = turns_of(side);
+    const double grown = log1p(g * at.up / h0) / g, flat = (fmin(at.down, 1e9) - at.up) / side->cap;
+
+    if (elements <= grown)
+        return h0 * expm1(g * elements) / g;
+    if (elements <= grown + flat || !(side->e0 > 0.0))
+        return at.up + (elements - grown) * side->cap;
+    const double high = side->e0 + f * (side->clamped - at.down);
+    return side->clamped - (high * exp(-f * (elements - grown - flat)) - side->e0) / f;
+}
+
+/* Half of the clamped arc.  On a small one they grow from its end to the top as fast as beside it.
+ */
+static double arc_elements(const graded_side *side)
+{
+    const double arc = side_length(side) - side->clamped;
+    return side->e0 > 0.0
+               ? log1p(side->fall * arc / side->e0) / side->fall
+               : elements_until(side, side_length(side)) - elements_until(side, side->clamped);
 }
 
 static double side_elements(const graded_side *side)
 {
-    return elements_until(side, side_length(side));
-}
-
-static double arc_elements(const graded_side *side)
-{
-    return side_elements(side) - elements_until(side, side->clamped);
+    return elements_until(side, side->clamped) + arc_elements(side);
 }
 
 /* Rounded, where x.5 is as likely as any other: arcs and sides that are alike have it,
@@ -78,11 +123,17 @@ static void count_elements(graded_side *side, int all)
 static double end_angle(const graded_side *side, int k)
 {
     const double free_part = elements_until(side, side->clamped);
-    const double N = k <= side->free_n
-                         ? free_part * k / side->free_n
-                         : free_part + arc_elements(side) * (k - side->free_n) / side->arc_n;
-    const double s = k == side->free_n ? side->clamped : angle_after(side, N);
-    return k == side->free_n + side->arc_n ? M_PI : side->from + s;
+    const int on_arc = k - side->free_n;
+    if (on_arc > 0 && side->e0 > 0.0) {
+        const double N = arc_elements(side) * on_arc / side->arc_n;
+        return on_arc == side->arc_n
+                   ? M_PI
+                   : side->from + side->clamped + side->e0 * expm1(side->fall * N) / side->fall;
+    }
+    const double N = on_arc <= 0 ? free_part * k / side->free_n
+                                 : free_part + arc_elements(side) * on_arc / side->arc_n;
+    const double s = on_arc == 0 ? side->clamped : angle_after(side, N);
+    return on_arc == side->arc_n ? M_PI : side->from + s;
 }
 
 /* The inner contour of a thin wall: equal elements under the contact, from angle low to
@@ -154,7 +205,7 @@ static double largest_size(const rb_bem_cylinder *cylinder)
 {
     const double feature = is_thin(cylinder) ? sqrt(thickness(cylinder) / cylinder->radius)
                            : cylinder->support == RB_BEM_HUB ? (1.0 - cylinder->hub_ratio) / 4.0
-                                                             : 2.0 * cylinder->arc / 8.0;
+                                                             : INFINITY;
     return fmin(largest_angle, fmax(feature, smallest_feature)) / refinement(cylinder);
 }
 
@@ -165,6 +216,12 @@ static graded_side lay_out_side(const rb_bem_cylinder *cylinder, double contact,
 
     side.growth = copysign(automatic_growth / refinement(cylinder), side.cap - side.h0);
     side.clamped = side_length(&side) - (has_hub ? 0.0 : cylinder->arc);
+    if (!has_hub && cylinder->arc < small_arc) {
+        side.fall = automatic_growth / refinement(cylinder);
+        /* or as small as they get from those of the contact */
+        const double first = first_on_arc * cylinder->arc / gsl_pow_2(refinement(cylinder));
+        side.e0 = fmin(cylinder->arc, fmax(first, side.h0 - side.fall * side.clamped));
+    }
     return side;
 }
 
@@ -197,6 +254,7 @@ static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const doub
         for (int k = 0; k < 100; k++) {
             const double g = sqrt(low * high);
             layout.right.growth = layout.left.growth = g;
+            layout.right.fall = layout.left.fall = g;
             *(outer_demand(&layout) > wanted ? &low : &high) = g;
         }
         const double right = side_elements(&layout.right), left = side_elements(&layout.left);
