@@ -279,12 +279,22 @@ TEST(all_solutions_are_listed)
     CHECK_RUN(lcp("--all p"), 0, out, "by enumeration, n = 1, 2 bases");
     assert_non_null(strstr(out, "\np\t1\t1\t0\t1\n"));
     assert_non_null(strstr(out, "\np\t2\t1\t1\t0\n"));
-    CHECK_RUN(lcp("--all ray"), 1, err, "no solution in 2 complementary bases");
+    CHECK_RUN(lcp("--all ray"), 1, err, "no solution (2 complementary bases)");
     assert_non_null(strstr(out, "# ray: no solution by enumeration, n = 1, 2 bases, "));
     assert_null(strstr(out, "nan"));
     assert_int_equal(lcp("--all --trace p"), 64);
     write_file("p", "1 0 0");
-    CHECK_RUN(lcp("--all p"), 0, err, "1 of 2 complementary bases are singular");
+    CHECK_RUN(lcp("--all p"), 0, out, "solved by enumeration, n = 1, 2 bases");
+    write_file("p", "1 0 -1");
+    CHECK_RUN(lcp("--all p"), 1, err,
+              "no solution (2 complementary bases; 1 singular, each excluded)");
+    write_file("p", "1 1e-300 -1e300"); /* z = 1e600 */
+    CHECK_RUN(lcp("--all p"), 1, err, "none found, 1 of 2 complementary bases undecided");
+    assert_non_null(strstr(out, "undecided by enumeration"));
+    write_file("p", "2  0 1 0 0  -1 0"); /* (t, 1) */
+    CHECK_RUN(lcp("--all p"), 0, err, "belongs to singular bases only");
+    CHECK_RUN(lcp("--all --json p"), 0, out, "\"singular_basis\": true");
+    write_file("p", "1 0 0");
     CHECK_RUN(lcp("--all --json p"), 0, out, "\"solutions\"");
 }
 

@@ -340,31 +340,36 @@ TEST(one_variable_by_hand)
 {
     const double M[] = {-1.0}, q[] = {1.0}, high[] = {3.0}, low[] = {0.0};
     rb_lcp_solutions all;
-    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, NULL, NULL, &all, NULL));
+    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, NULL, NULL, 0.0, &all, NULL));
     assert_int_equal(all.count, 2);
     assert_int_equal(all.bases, 2);
     assert_int_equal(all.singular, 0);
     CHECK_ABS(all.z[0] + all.z[1], 1.0, 1e-15, "z");
     rb_lcp_solutions_free(&all);
-    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, low, high, &all, NULL));
+    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, low, high, 0.0, &all, NULL));
     assert_int_equal(all.count, 3);
     CHECK_ABS(all.z[0] + all.z[1] + all.z[2], 4.0, 1e-15, "z");
     rb_lcp_solutions_free(&all);
 }
 
-/* z2 and z3 between their bounds give z2 = -4e-10, which is rounding beside z3 = 4e6; on
- * its bound, though, w1 = -1e8, where it was 4e144 before.  z1 = 1e8 / 24.75 and z3 are
- * a solution. */
-TEST(a_bound_may_change_the_sign_of_a_row)
+/* Rows of the sizes 1e8, 1e154 and 1: fractions give two solutions, z = (1e8 / 24.75, 0, 4e6)
+ * and one whose z2 is 3e-155. */
+TEST(solutions_of_any_size_are_listed)
 {
     const double M[] = {24.75, 12.75, 0.0, -1e154, -25.0, -25.0, -25.0, 0.0, -25.0};
     const double q[] = {1.0 / 3.0, -1e-8, 1e8};
     OWNED(rb_lcp_solutions) all;
-    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){3, M, 3, q}, NULL, NULL, &all, NULL));
-    assert_int_equal(all.count, 1);
-    CHECK_REL(all.z[0], (1e8 - 1.0 / 3.0) / 24.75, 1e-13, "z1");
-    CHECK_ABS(all.z[1], 0.0, 0.0, "z2");
-    CHECK_REL(all.z[2], 4e6, 1e-13, "z3");
+    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){3, M, 3, q}, NULL, NULL, 0.0, &all, NULL));
+    assert_int_equal(all.count, 2);
+    assert_int_equal(all.undecided, 0);
+    const double *large = all.z[2] > 0.0 ? all.z : all.z + 3, *small = all.z + 3 - (large - all.z);
+    CHECK_REL(large[0], (1e8 - 1.0 / 3.0) / 24.75, 1e-13, "z1");
+    CHECK_ABS(large[1], 0.0, 0.0, "z2");
+    CHECK_REL(large[2], 4e6, 1e-13, "z3");
+    /* w1 = w2 = 0: 12.75 z1 = 1e-8 + 25 z2, 24.75 z1 + 1/3 = 1e154 z2 */
+    CHECK_REL(small[0], 1e-8 / 12.75, 1e-13, "z1");
+    CHECK_REL(small[1], (24.75e-8 / 12.75 + 1.0 / 3.0) / 1e154, 1e-13, "z2");
+    CHECK_ABS(small[2], 0.0, 0.0, "z3");
 }
 
 /* M = 1: z = -q cut off by its box, whatever ends that has. */
@@ -388,7 +393,7 @@ TEST(boxes_of_every_kind_are_enumerated)
         const double low[] = {all[a].low, all[b].low}, q[] = {all[a].q, all[b].q};
         const double high[] = {all[a].high, all[b].high};
         OWNED(rb_lcp_solutions) found;
-        CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){2, M, 2, q}, low, high, &found, NULL));
+        CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){2, M, 2, q}, low, high, 0.0, &found, NULL));
         assert_int_equal(found.count, 1);
         CHECK_ABS(found.z[0], all[a].z, 0.0, "z(1), boxes %d and %d", a, b);
         CHECK_ABS(found.z[1], all[b].z, 0.0, "z(2), boxes %d and %d", a, b);
@@ -402,14 +407,104 @@ TEST(solutions_are_listed_once)
 {
     const double M[] = {2.0, 1.0, 1.0, 2.0}, zero[] = {0.0, 0.0};
     rb_lcp_solutions all;
-    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){2, M, 2, zero}, NULL, NULL, &all, NULL));
+    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){2, M, 2, zero}, NULL, NULL, 0.0, &all, NULL));
     assert_int_equal(all.count, 1);
     CHECK_ABS(all.z[0] + all.z[1], 0.0, 0.0, "z");
     rb_lcp_solutions_free(&all);
-    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){1, zero, 1, zero}, NULL, NULL, &all, NULL));
+    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){1, zero, 1, zero}, NULL, NULL, 0.0, &all, NULL));
     assert_int_equal(all.count, 1);
     assert_int_equal(all.singular, 1);
+    assert_int_equal(all.undecided, 0);
     rb_lcp_solutions_free(&all);
+}
+
+/* Of singular bases: M = [0 1; 0 0], q = (-1, 0) is solved by (t, 1) for every t, of which
+ * the bases of z2 alone and of both have one; M = 0 with q = -1 has none, and says so. */
+TEST(singular_bases_are_decided)
+{
+    const double M[] = {0.0, 0.0, 1.0, 0.0}, q[] = {-1.0, 0.0}, none[] = {-1.0, -1.0};
+    const double zero[4] = {0.0}, high[] = {2.0, 3.0};
+    rb_lcp_solutions all;
+    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){2, M, 2, q}, NULL, NULL, 0.0, &all, NULL));
+    assert_int_equal(all.undecided, 0);
+    assert_int_equal(all.singular, 3);
+    assert_true(all.count >= 1);
+    for (int k = 0; k < all.count; k++) {
+        CHECK_ABS(all.z[2 * k + 1], 1.0, 1e-12, "z2");
+        assert_true(all.z[2 * k] >= 0.0);
+        assert_int_equal(all.singular_basis[k], 1);
+    }
+    rb_lcp_solutions_free(&all);
+    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){2, zero, 2, none}, NULL, NULL, 0.0, &all, NULL));
+    assert_int_equal(all.count, 0);
+    assert_int_equal(all.singular, 3);
+    assert_int_equal(all.undecided, 0);
+    rb_lcp_solutions_free(&all);
+    /* in a box they are at its upper end */
+    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){2, zero, 2, none}, NULL, high, 0.0, &all, NULL));
+    assert_int_equal(all.count, 1);
+    assert_int_equal(all.undecided, 0);
+    CHECK_ABS(all.z[0], 2.0, 0.0, "z1");
+    CHECK_ABS(all.z[1], 3.0, 0.0, "z2");
+    rb_lcp_solutions_free(&all);
+}
+
+/* diag(1e-7, 1e7): once taken for singular; M = -1 in units of 1e6 and 1e-6: four solutions,
+ * which are not one; units of powers of two change nothing, bit by bit. */
+TEST(units_change_no_solution)
+{
+    const double apart[] = {1e-7, 0.0, 0.0, 1e7}, minus[] = {-1.0, 0.0, 0.0, -1.0};
+    const double of_apart[] = {-1e-4, -1e4}, of_minus[] = {1e-6, 1e6};
+    rb_lcp_solutions all;
+    CHECK_OK(
+        rb_lcp_enumerate(&(rb_lcp_problem){2, apart, 2, of_apart}, NULL, NULL, 0.0, &all, NULL));
+    assert_int_equal(all.count, 1);
+    CHECK_REL(all.z[0], 1000.0, 1e-15, "z1");
+    CHECK_REL(all.z[1], 0.001, 1e-15, "z2");
+    rb_lcp_solutions_free(&all);
+    CHECK_OK(
+        rb_lcp_enumerate(&(rb_lcp_problem){2, minus, 2, of_minus}, NULL, NULL, 0.0, &all, NULL));
+    assert_int_equal(all.count, 4);
+    rb_lcp_solutions_free(&all);
+    for (int k = 0; k < 100; k++) {
+        double M[49], S[49], q[7], p[7], column[7];
+        const int n = 4 + k % 4;
+        OWNED(rb_lcp_solutions) plain;
+        OWNED(rb_lcp_solutions) scaled;
+        for (int i = 0; i < n * n; i++)
+            M[i] = S[i] = floor(3.5 * uniform() + 0.5);
+        for (int i = 0; i < n; i++)
+            q[i] = p[i] = floor(3.5 * uniform() + 0.5);
+        for (int i = 0; i < n; i++) {
+            const double row = exp2(floor(40.0 * uniform()));
+            column[i] = exp2(floor(40.0 * uniform()));
+            p[i] *= row;
+            for (int j = 0; j < n; j++) {
+                S[i + j * n] *= row;
+                S[j + i * n] *= column[i];
+            }
+        }
+        CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){n, M, n, q}, NULL, NULL, 0.0, &plain, NULL));
+        CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){n, S, n, p}, NULL, NULL, 0.0, &scaled, NULL));
+        assert_int_equal(plain.count, scaled.count);
+        assert_int_equal(plain.undecided + scaled.undecided, 0);
+        for (int i = 0; i < n * plain.count; i++) /* in the same order */
+            CHECK_ABS(scaled.z[i] * column[i % n], plain.z[i], 0.0, "problem %d, entry %d", k, i);
+    }
+}
+
+TEST(a_search_for_all_solutions_ends_in_time)
+{
+    static double M[16 * 16], q[16];
+    OWNED(rb_lcp_solutions) all;
+    for (int i = 0; i < 256; i++)
+        M[i] = uniform();
+    for (int i = 0; i < 16; i++)
+        q[i] = uniform();
+    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){16, M, 16, q}, NULL, NULL, 1e-4, &all, &heard),
+                 RB_TIME_LIMIT);
+    assert_non_null(strstr(heard.text, "of 65536 complementary bases"));
+    assert_true(all.bases > 0 && all.bases < 65536);
 }
 
 /* Three places of each boxed variable: 3^13 are tried, 3^14 are not. */
@@ -424,8 +519,9 @@ TEST(too_many_bases_are_refused)
         low[i] = -1.0;
         high[i] = 1.0;
     }
-    CHECK_SAYS(rb_lcp_enumerate(&(rb_lcp_problem){BOXED, M, BOXED, q}, low, high, &all, &heard),
-               RB_EINVAL, "4.78e+06 complementary bases");
+    CHECK_SAYS(
+        rb_lcp_enumerate(&(rb_lcp_problem){BOXED, M, BOXED, q}, low, high, 0.0, &all, &heard),
+        RB_EINVAL, "4.78e+06 complementary bases");
 }
 
 /* Lemke's answers are among them. */
@@ -434,7 +530,7 @@ TEST(what_lemke_finds_is_listed)
     for (int k = 0; k < 100; k++) {
         const int n = 1 + k % 7;
         double M[49], q[7], z[7];
-        OWNED(rb_lcp_solutions) all;
+        OWNED(rb_lcp_solutions) all = {0};
         int found = 0;
         for (int i = 0; i < n * n; i++)
             M[i] = uniform();
@@ -442,7 +538,7 @@ TEST(what_lemke_finds_is_listed)
             q[i] = uniform();
         if (rb_lcp_lemke(&(rb_lcp_problem){n, M, n, q}, NULL, z, NULL) != RB_OK)
             continue;
-        CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){n, M, n, q}, NULL, NULL, &all, NULL));
+        CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){n, M, n, q}, NULL, NULL, 0.0, &all, NULL));
         for (int s = 0; s < all.count; s++) {
             double apart = 0.0;
             for (int i = 0; i < n; i++)
@@ -482,21 +578,23 @@ TEST(bad_input_is_named)
     B[1] = NAN;
     CHECK_STATUS(rb_lcp_bimatrix(&two, 0, NULL, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "B(2, 1)"));
-    CHECK_SAYS(rb_lcp_enumerate(&(rb_lcp_problem){2, A, LD, low}, low, high, &all, &heard),
+    CHECK_SAYS(rb_lcp_enumerate(&(rb_lcp_problem){2, A, LD, low}, low, high, 0.0, &all, &heard),
                RB_EINVAL, "bounds 1 are [1, 0]");
-    CHECK_SAYS(rb_lcp_enumerate(&(rb_lcp_problem){23, big, 23, big}, NULL, NULL, &all, &heard),
+    CHECK_SAYS(rb_lcp_enumerate(&(rb_lcp_problem){23, big, 23, big}, NULL, NULL, 0.0, &all, &heard),
                RB_EINVAL, "order 22");
-    CHECK_SAYS(rb_lcp_enumerate(&(rb_lcp_problem){2, B, LD, zero}, NULL, NULL, &all, &heard),
+    CHECK_SAYS(rb_lcp_enumerate(&(rb_lcp_problem){2, B, LD, zero}, NULL, NULL, 0.0, &all, &heard),
                RB_EINVAL, "M(2, 1) = nan");
 }
 
-/* z = 1e600 would solve, which is no number. */
-TEST(points_beyond_the_largest_number_are_no_solutions)
+/* z = 1e600 would solve, which is no number: it cannot be listed, and "no solution" would be
+ * wrong. */
+TEST(points_beyond_the_largest_number_are_not_listed)
 {
     const double M[] = {1e-300}, q[] = {-1e300};
     OWNED(rb_lcp_solutions) all;
-    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, NULL, NULL, &all, NULL));
+    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, NULL, NULL, 0.0, &all, NULL));
     assert_int_equal(all.count, 0);
+    assert_int_equal(all.undecided, 1);
 }
 
 static rb_status solve_anew(void *context)

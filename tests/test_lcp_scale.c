@@ -135,7 +135,7 @@ TEST(rows_in_other_units_change_nothing)
     CHECK_REL(z[1], 2.0, 1e-14, "z(2)");
     CHECK_ABS(z[2], 0.0, 0.0, "z(3)");
     OWNED(rb_lcp_solutions) all;
-    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){3, M, 3, q}, NULL, NULL, &all, NULL));
+    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){3, M, 3, q}, NULL, NULL, 0.0, &all, NULL));
     assert_int_equal(all.count, 1);
     CHECK_REL(all.z[0], 1.0, 1e-14, "enumerated z(1)");
     CHECK_REL(all.z[1], 2.0, 1e-14, "enumerated z(2)");

@@ -143,18 +143,25 @@ const rb_lcp_solver *rb_lcp_solvers(int *count);
 rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
                        double *z, rb_lcp_info *info);
 
-/* All solutions that belong to complementary bases, each once. */
+/* All solutions that belong to complementary bases, each once; where bases are singular,
+ * and there may be infinitely many, one of each such basis at least. */
 typedef struct {
     int n, count;
-    double *z;           /* n x count; owned */
-    int bases, singular; /* bases tried, and how many of them are singular: solutions that
-                            belong to singular bases only are not found */
+    double *z;           /* n x count; owned, as is the next one */
+    int *singular_basis; /* count; 1: of a singular basis only, so that other solutions may lie
+                            next to it */
+    int bases, singular; /* bases tried, and how many of them are singular */
+    int undecided;       /* bases of which is not known whether they have a solution; where
+                            it is 0 and count is 0 there is none */
 } rb_lcp_solutions;
 
-/* lower, upper as in rb_lcp_mixed_problem.  RB_EINVAL: more than 2^22 bases (order 22 for
- * the LCP), crossed bounds, NaN or infinity in M or q; RB_ENOMEM. */
+/* lower, upper as in rb_lcp_mixed_problem.  seconds: time limit, 0: none.  Units of rows and
+ * columns do not matter.  Of a singular basis B a linear program asks whether q is in the
+ * cone of [I_N, -M_B]: then it has a solution, or else Farkas' lemma excludes it.
+ * RB_TIME_LIMIT: `all` has what the bases so far have given; RB_EINVAL: more than 2^22
+ * bases (order 22 for the LCP), crossed bounds, NaN or infinity in M or q; RB_ENOMEM. */
 rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const double *upper,
-                           rb_lcp_solutions *all, rb_message *why);
+                           double seconds, rb_lcp_solutions *all, rb_message *why);
 void rb_lcp_solutions_free(rb_lcp_solutions *all);
 
 /* An equilibrium of a game by the method of Lemke and Howson with a lexicographic rule.

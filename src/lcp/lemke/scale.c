@@ -16,7 +16,9 @@ static const double BALANCED = 1024.0;
 /* Where the largest entries of all rows and columns are within this factor of 1, and
  * sweeps at most. */
 static const double CLOSE = 1.5;
-enum { SWEEPS = 30, BALANCING = 20 };
+enum { SWEEPS = 30, BALANCING = 20, TO_REST = 500 };
+/* A change of all exponents that ends the balancing. */
+static const double AT_REST = 1e-9;
 
 /* A row whose terms are smaller than this part of those of the rows that share unknowns
  * with it is divided by this part of them, because it may contain only their rounding
@@ -25,6 +27,9 @@ static const double FAINT = 1e-4;
 /* A residual above this part of max |q| is no rounding of rows whose entries are
  * negligible here. */
 static const double PLAIN = 1e-6;
+
+/* Rounding of the terms of z beyond this part of q, or of what bounds come to, hides them. */
+static const double HIDDEN = 0.1;
 
 /* A residual that needs no closer look. */
 static const double EXACT = 1e-13;
@@ -66,18 +71,66 @@ static int differ_by(int n, const double *x, double factor)
     return most > factor * least;
 }
 
+/* The exponents of rows may grow and those of columns fall by the same number, in each part of
+ * [M q] that hangs together: by one that makes the exponent of its first row whole, so
+ * that no fraction depends on the units that M was given in.  label: n. */
+static void anchor(const lcp_matrix *M, const double *q, double *r, double *c, double *label)
+{
+    const int n = M->n;
+    int first = -1, changes = 1;
+    for (int i = 0; i < n; i++) {
+        first = first < 0 && q[i] != 0.0 ? i : first;
+        label[i] = q[i] != 0.0 ? first : i;
+    }
+    for (int pass = 0; changes && pass < n; pass++) {
+        changes = 0;
+        for (int j = 0; j < n; j++) {
+            const lcp_column a = rb_lcp_column(M, j);
+            double least = n;
+            for (int k = 0; k < a.count; k++)
+                if (a.x[k] != 0.0)
+                    least = fmin(least, label[a.row ? a.row[k] : k]);
+            for (int k = 0; k < a.count; k++) {
+                double *own = &label[a.row ? a.row[k] : k];
+                if (a.x[k] != 0.0 && *own != least) {
+                    *own = least;
+                    changes = 1;
+                }
+            }
+        }
+        /* what q joins stays together */
+        for (int i = 0; i < n && first >= 0; i++)
+            label[first] = q[i] != 0.0 ? fmin(label[first], label[i]) : label[first];
+        for (int i = 0; i < n && first >= 0; i++)
+            label[i] = q[i] != 0.0 ? label[first] : label[i];
+    }
+    for (int j = 0; j < n; j++) {
+        const lcp_column a = rb_lcp_column(M, j);
+        for (int k = 0; k < a.count; k++)
+            if (a.x[k] != 0.0) {
+                const double own = r[(int)label[a.row ? a.row[k] : k]];
+                c[j] -= round(own) - own;
+                break;
+            }
+    }
+    for (int i = n - 1; i >= 0; i--) { /* a label is not above its row */
+        const double own = r[(int)label[i]];
+        r[i] += round(own) - own;
+    }
+}
+
 /* The mean exponents of rows and columns of [M q] become zero in turns, which leaves
  * little of any scaling of a problem (Curtis and Reid, IMA Journal of Applied Mathematics
  * 10, 1972).  Ruiz' sweeps alone do not look at q, and can leave 2^80 between the q of
  * rows that share no unknowns.  sum, count: n each. */
-static void balance_exponents(const lcp_matrix *M, const double *q, double *r, double *c,
-                              double *sum, double *count)
+static void balance_exponents(const lcp_matrix *M, const double *q, int sweeps, double *r,
+                              double *c, double *sum, double *count)
 {
     const int n = M->n;
-    double of_q = 0.0;
+    double of_q = 0.0, change = 0.0;
     memset(r, 0, (size_t)n * sizeof *r);
     memset(c, 0, (size_t)n * sizeof *c);
-    for (int sweep = 0; sweep < BALANCING; sweep++) {
+    for (int sweep = 0; sweep < sweeps; sweep++) {
         double sum_q = 0.0, count_q = 0.0;
         for (int i = 0; i < n; i++) {
             count[i] = q[i] != 0.0;
@@ -95,32 +148,45 @@ static void balance_exponents(const lcp_matrix *M, const double *q, double *r, d
                     own += e + r[i];
                     entries += 1.0;
                 }
-            if (sweep % 2 && entries > 0.0)
+            if (sweep % 2 && entries > 0.0) {
+                change = fmax(change, fabs(c[j] + own / entries));
                 c[j] = -own / entries;
+            }
         }
         for (int i = 0; i < n; i++) {
-            if (sweep % 2 == 0 && count[i] > 0.0)
+            if (sweep % 2 == 0 && count[i] > 0.0) {
+                change = fmax(change, fabs(r[i] + sum[i] / count[i]));
                 r[i] = -sum[i] / count[i];
+            }
             if (q[i] != 0.0) {
                 sum_q += ilogb(q[i]) + r[i];
                 count_q += 1.0;
             }
         }
-        if (sweep % 2 && count_q > 0.0)
+        if (sweep % 2 && count_q > 0.0) {
+            change = fmax(change, fabs(of_q + sum_q / count_q));
             of_q = -sum_q / count_q;
+        }
+        if (sweep % 2) {
+            if (change <= AT_REST)
+                break;
+            change = 0.0;
+        }
     }
+    if (sweeps == TO_REST)
+        anchor(M, q, r, c, sum);
     for (int i = 0; i < n; i++) {
         r[i] = exp2(r[i]);
         c[i] = exp2(c[i]);
     }
 }
 
-/* The nearest one whose products with the numbers of a problem neither vanish nor
- * overflow where these are near 1. */
+/* A near one whose products with the numbers of a problem neither vanish nor overflow where
+ * these are near 1.  Exponents are often halves, and do not change there. */
 static double power_of_two(double x)
 {
     const double most = 1000.0;
-    return exp2(fmin(fmax(round(log2(x)), -most), most));
+    return exp2(fmin(fmax(floor(log2(x) + 0.3), -most), most));
 }
 
 rb_status rb_lcp_scale_create(const lcp_matrix *M, const double *q, int always, lcp_scale *s)
@@ -141,7 +207,7 @@ rb_status rb_lcp_scale_create(const lcp_matrix *M, const double *q, int always, 
         c[i] = s->largest == 0.0 ? 1.0 : exp2(-round(log2(s->largest)));
     }
     if (s->needed) {
-        balance_exponents(M, q, r, c, row, col);
+        balance_exponents(M, q, always ? TO_REST : BALANCING, r, c, row, col);
         largest_entries(M, r, c, row, col);
     }
     for (int k = 0; s->needed && k < SWEEPS; k++) {
@@ -287,13 +353,13 @@ void rb_lcp_scale_back(const lcp_posed *s, double *z)
 
 /* ---- The residual of each row in its own scale -------------------------------------- */
 
-/* most[i] = the largest terms, in the scale, of the rows that share an unknown with row
- * i: where row i has nothing but their rounding, they are its size.  felt[i]: the same by
- * row i's entry of that unknown, which is not zero. */
+/* felt[i]: the largest terms, in the scale, of the rows that share an unknown with row i,
+ * by row i's entry of that unknown: rounding errors of them come through it.  of_any: also
+ * of unknowns that are zero. */
 static void largest_neighbours(const lcp_matrix *M, const lcp_scale *s, const double *z,
-                               const double *terms, double *most, double *felt)
+                               const double *terms, double *of_any, double *felt)
 {
-    memset(most, 0, (size_t)M->n * sizeof *most);
+    memset(of_any, 0, (size_t)M->n * sizeof *of_any);
     memset(felt, 0, (size_t)M->n * sizeof *felt);
     for (int j = 0; j < M->n; j++) {
         const lcp_column a = rb_lcp_column(M, j);
@@ -305,11 +371,10 @@ static void largest_neighbours(const lcp_matrix *M, const lcp_scale *s, const do
         }
         for (int k = 0; k < a.count; k++) {
             const int i = a.row ? a.row[k] : k;
-            if (a.x[k] == 0.0)
-                continue;
-            most[i] = fmax(most[i], largest);
+            const double own = fabs(a.x[k]) * s->row[i] * s->col[j] * largest;
+            of_any[i] = fmax(of_any[i], own);
             if (z[j] != 0.0)
-                felt[i] = fmax(felt[i], fabs(a.x[k]) * s->row[i] * s->col[j] * largest);
+                felt[i] = fmax(felt[i], own);
         }
     }
 }
@@ -319,26 +384,36 @@ rb_status rb_lcp_measure(const lcp_matrix *M, const lcp_scale *scale, const doub
                          rb_lcp_info *info)
 {
     const int n = M->n;
-    double *w = rb_alloc((size_t)n, 4);
+    double *w = rb_alloc((size_t)n, 5);
     if (!w)
         return RB_ENOMEM;
-    double *terms = w + n, *most = terms + n, *felt = most + n;
+    double *terms = w + n, *of_any = terms + n, *felt = of_any + n, *data = felt + n;
     const double plain = PLAIN * rb_norm_inf((size_t)n, q);
     /* w = M z + q and the terms of each row, |M| |z| + |q|. */
     for (int i = 0; i < M->n; i++) {
         w[i] = q[i];
-        terms[i] = fabs(q[i]);
+        terms[i] = data[i] = fabs(q[i]);
     }
     for (int j = 0; j < M->n; j++) {
         const lcp_column a = rb_lcp_column(M, j);
         const double x = z[j];
+        const int given = x == rb_lcp_lower(lower, j) || x == rb_lcp_upper(upper, j);
         for (int k = 0; x != 0.0 && k < a.count; k++) {
             const int i = a.row ? a.row[k] : k;
             const double t = a.x[k] * x;
             w[i] += t;
             terms[i] += fabs(t);
+            data[i] += given ? fabs(t) : 0.0;
         }
     }
+    /* Of z that are so large that rounding of their terms hides q and the bounds nothing is
+     * known: they may stand for a matrix that is singular. */
+    double largest = 0.0, known = 0.0;
+    for (int i = 0; i < n; i++) {
+        largest = fmax(largest, terms[i] * scale->row[i]);
+        known = fmax(known, data[i] * scale->row[i]);
+    }
+    const double hidden = known > 0.0 ? DBL_EPSILON * largest / known : 0.0;
     /* rows that share unknowns are looked for only where a row does not pass alone */
     for (int pass = 0; pass < 2; pass++) {
         info->res = info->scaled = 0.0;
@@ -349,7 +424,7 @@ rb_status rb_lcp_measure(const lcp_matrix *M, const lcp_scale *scale, const doub
             const double high = z[i] - rb_lcp_upper(upper, i);
             const double own = fabs(fmax(fmin(low, w[i]), high));
             const double scaled = fabs(fmax(fmin(low / c, w[i] * r), high / c));
-            const double others = pass == 0 ? 0.0 : own <= plain ? most[i] : felt[i];
+            const double others = pass == 0 ? 0.0 : own <= plain ? of_any[i] : felt[i];
             const double size = fmax(terms[i] * r, FAINT * others);
             const double part = scaled == 0.0 ? 0.0 : scaled / size;
             if (isnan(z[i]) || !isfinite(terms[i]) || isnan(part)) {
@@ -363,10 +438,14 @@ rb_status rb_lcp_measure(const lcp_matrix *M, const lcp_scale *scale, const doub
                 info->row = i;
             }
         }
-        if (pass == 0 && info->scaled <= EXACT)
+        if (pass == 0 && info->scaled <= EXACT && !(hidden > HIDDEN))
             break;
         if (pass == 0)
-            largest_neighbours(M, scale, z, terms, most, felt);
+            largest_neighbours(M, scale, z, terms, of_any, felt);
+    }
+    if (hidden > HIDDEN && !isnan(info->scaled) && hidden > info->scaled) {
+        info->scaled = hidden;
+        info->row = info->row < 0 ? 0 : info->row;
     }
     free(w);
     return RB_OK;

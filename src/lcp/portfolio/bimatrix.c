@@ -231,7 +231,7 @@ rb_status rb_lcp_bimatrix_enumerate(const rb_lcp_game *g, rb_lcp_solutions *all,
         }
     for (int k = 0; k < order; k++)
         q[k] = -1.0;
-    s = rb_lcp_enumerate(&(rb_lcp_problem){order, M, order, q}, NULL, NULL, all, why);
+    s = rb_lcp_enumerate(&(rb_lcp_problem){order, M, order, q}, NULL, NULL, 0.0, all, why);
     if (s == RB_OK) {
         /* Each half of a solution becomes a strategy: its probabilities add up to 1. */
         for (int k = 0; k < all->count; k++) {

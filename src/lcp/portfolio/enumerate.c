@@ -1,39 +1,48 @@
-/* All solutions of a small problem: every complementary basis is tried. */
-#include "lcp/lemke/lemke.h"
+/* All solutions of a small problem: every complementary basis is tried, and none is left out
+ * because its matrix is singular. */
+#include "lcp/portfolio/linear.h"
 
 #include <cblas.h>
 #include <lapacke.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Parts of the largest value: below RIGHT a wrong sign is rounding, below SAME two
- * solutions are one.  A matrix with a smaller reciprocal condition than SINGULAR has no
- * inverse. */
-static const double RIGHT = 1e-11, SAME = 1e-9, SINGULAR = 1e-13;
+/* What decides, as parts of what the rounding errors of z are a part of (bound) and of the
+ * terms of a row: below RIGHT a wrong sign is rounding; of two components below SAME of
+ * themselves they are one.  Closer to a bound than ROUGHLY of the largest z the size of
+ * the rounding errors is asked for.  A matrix with rows and columns near 1 and a smaller
+ * reciprocal condition than SINGULAR is not inverted. */
+static const double RIGHT = 1e-11, SAME = 1e-9, ROUGHLY = 1e-6, SINGULAR = 1e-13;
 
 /* Bases that are tried at most. */
 static const double MOST_BASES = 4194304.0;
 
-typedef enum { AT_LOWER, AT_UPPER, BETWEEN } place;
+/* Bases between two looks at the clock. */
+enum { BETWEEN_LOOKS = 64 };
 
 typedef struct {
     int n;
     rb_lcp_problem p;
     const double *lower, *upper;
-    place *at;             /* n */
-    double *A, *x;         /* n x n, n: system of the z between their bounds */
-    int *inside, *swap;    /* n, 2n: those z; pivots, and work of dgecon */
-    double *z, *w, *terms; /* n; terms: of the rows of w, by modulus */
-    double *work;          /* 4n, of dgecon */
+    lcp_side *at;           /* n: LCP_AT_LOWER, LCP_AT_UPPER, LCP_BETWEEN */
+    double *A, *x;          /* n x n, n: system of the z between their bounds */
+    double *row, *col;      /* n each: its scales */
+    int *inside, *swap, m;  /* n, 2n: those z; pivots, and work of dgecon; how many */
+    double *z, *w, *terms;  /* n; terms: of the rows of w, by modulus */
+    double *bound;          /* n: what the rounding errors of z are a part of */
+    double *inverse, *work; /* n x n each; work: of dgecon as well, 4 n at least */
+    uint64_t *residues;     /* n x n */
+    lcp_linear *linear;     /* owned */
 } search;
 
-static int is_place(const search *s, int i, place at)
+static int is_place(const search *s, int i, lcp_side at)
 {
     const double low = rb_lcp_lower(s->lower, i), high = rb_lcp_upper(s->upper, i);
-    return at == AT_LOWER   ? isfinite(low)
-           : at == AT_UPPER ? isfinite(high) && high > low
-                            : high > low;
+    return at == LCP_AT_LOWER   ? isfinite(low)
+           : at == LCP_AT_UPPER ? isfinite(high) && high > low
+                                : high > low;
 }
 
 /* M z + q, with the z that are between their bounds as they stand. */
@@ -44,17 +53,88 @@ static void product(search *s)
                 1);
 }
 
-/* z of the basis; 0: its matrix has no inverse. */
+/* ---- Whether a matrix is singular, exactly ------------------------------------------- */
+
+static uint64_t times(uint64_t a, uint64_t b, uint64_t prime)
+{
+    __extension__ typedef unsigned __int128 two_words;
+    return (uint64_t)((two_words)a * b % prime);
+}
+
+static uint64_t power(uint64_t a, uint64_t exponent, uint64_t prime)
+{
+    uint64_t x = 1;
+    for (; exponent; exponent >>= 1, a = times(a, a, prime))
+        if (exponent & 1)
+            x = times(x, a, prime);
+    return x;
+}
+
+/* A double is a whole number of 53 bits times a power of two. */
+static uint64_t residue(double x, uint64_t prime)
+{
+    int e;
+    const uint64_t whole = (uint64_t)ldexp(frexp(fabs(x), &e), 53), half = (prime + 1) / 2;
+    e -= 53;
+    const uint64_t value =
+        times(whole % prime, power(e < 0 ? half : 2, (uint64_t)abs(e), prime), prime);
+    return x < 0.0 && value ? prime - value : value;
+}
+
+/* 1: the determinant of the rows and columns inside is not zero, because it is not zero by
+ * one of two primes.  0: it is zero by both, and would have to have both as factors else. */
+static int is_regular(search *s)
+{
+    static const uint64_t primes[2] = {2305843009213693921ULL, 2305843009213693907ULL};
+    const int m = s->m;
+    uint64_t *a = s->residues;
+    for (int k = 0; k < 2; k++) {
+        const uint64_t prime = primes[k];
+        int c = 0;
+        for (int j = 0; j < m; j++)
+            for (int i = 0; i < m; i++)
+                a[i * m + j] = residue(
+                    s->p.M[(size_t)s->inside[i] + (size_t)s->inside[j] * (size_t)s->p.ldm], prime);
+        for (; c < m; c++) { /* Gauss' elimination */
+            int r = c;
+            while (r < m && !a[r * m + c])
+                r++;
+            if (r == m)
+                break;
+            for (int j = c; j < m && r > c; j++) {
+                const uint64_t t = a[r * m + j];
+                a[r * m + j] = a[c * m + j];
+                a[c * m + j] = t;
+            }
+            const uint64_t inverse = power(a[c * m + c], prime - 2, prime);
+            for (int i = c + 1; i < m; i++) {
+                const uint64_t f = times(a[i * m + c], inverse, prime);
+                for (int j = c; f && j < m; j++) {
+                    const uint64_t t = times(f, a[c * m + j], prime);
+                    a[i * m + j] += a[i * m + j] >= t ? -t : prime - t;
+                }
+            }
+        }
+        if (c == m)
+            return 1;
+    }
+    return 0;
+}
+
+/* ---- The point of a basis ------------------------------------------------------------ */
+
+/* z of the basis; 0: its matrix has no inverse that could be told from rounding. */
 static int basic_point(search *s)
 {
     int m = 0;
     for (int i = 0; i < s->n; i++) {
-        s->z[i] = s->at[i] == AT_LOWER   ? rb_lcp_lower(s->lower, i)
-                  : s->at[i] == AT_UPPER ? rb_lcp_upper(s->upper, i)
-                                         : 0.0;
-        if (s->at[i] == BETWEEN)
+        s->z[i] = s->at[i] == LCP_AT_LOWER   ? rb_lcp_lower(s->lower, i)
+                  : s->at[i] == LCP_AT_UPPER ? rb_lcp_upper(s->upper, i)
+                                             : 0.0;
+        if (s->at[i] == LCP_BETWEEN)
             s->inside[m++] = i;
     }
+    s->m = m;
     if (m == 0)
         return 1;
     product(s);
@@ -64,50 +144,119 @@ static int basic_point(search *s)
             s->A[r + c * m] = column[s->inside[r]];
         s->x[c] = -s->w[s->inside[c]];
     }
+    /* Rows, then columns by powers of two: a block need not be balanced where M is. */
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < m; i++) {
+            double most = 0.0;
+            for (int j = 0; j < m; j++)
+                most = fmax(most, fabs(s->A[pass ? j + i * m : i + j * m]));
+            const double by = most > 0.0 && isfinite(most) ? exp2(-(double)ilogb(most)) : 1.0;
+            for (int j = 0; j < m; j++)
+                s->A[pass ? j + i * m : i + j * m] *= by;
+            (pass ? s->col : s->row)[i] = by;
+        }
+    for (int r = 0; r < m; r++)
+        s->x[r] *= s->row[r];
     double rcond = 0.0;
     const double norm = LAPACKE_dlange(LAPACK_COL_MAJOR, '1', m, m, s->A, m);
-    if (LAPACKE_dgetrf(LAPACK_COL_MAJOR, m, m, s->A, m, s->swap) != 0 ||
+    if (LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, m, m, s->A, m, s->swap) != 0 ||
         LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', m, s->A, m, norm, &rcond, s->work,
                             s->swap + s->n) != 0 ||
         rcond < SINGULAR)
         return 0;
-    LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', m, 1, s->A, m, s->swap, s->x, m);
+    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', m, 1, s->A, m, s->swap, s->x, m);
     for (int c = 0; c < m; c++)
-        s->z[s->inside[c]] = s->x[c];
+        s->z[s->inside[c]] = s->x[c] * s->col[c];
     return 1;
+}
+
+/* bound = |A^-1| (|L| |U| |z| + |M| |z| + |q|), by components, of the basis whose LU is in A:
+ * elimination can leave more than rounding of the terms of a row. */
+static void bound_errors(search *s)
+{
+    const int m = s->m;
+    memset(s->bound, 0, (size_t)s->n * sizeof *s->bound);
+    if (m == 0)
+        return;
+    for (int r = 0; r < m; r++) { /* |U| |z| */
+        s->terms[r] = 0.0;
+        for (int c = r; c < m; c++)
+            s->terms[r] += fabs(s->A[r + c * m] * s->z[s->inside[c]] / s->col[c]);
+    }
+    for (int r = m - 1; r >= 0; r--) { /* |L| of that */
+        s->x[r] = s->terms[r];
+        for (int c = 0; c < r; c++)
+            s->x[r] += fabs(s->A[r + c * m]) * s->terms[c];
+    }
+    for (int r = m - 1; r >= 0; r--) { /* the rows were exchanged */
+        const double x = s->x[r];
+        s->x[r] = s->x[s->swap[r] - 1];
+        s->x[s->swap[r] - 1] = x;
+    }
+    memcpy(s->inverse, s->A, (size_t)m * (size_t)m * sizeof *s->inverse);
+    LAPACKE_dgetri_work(LAPACK_COL_MAJOR, m, s->inverse, m, s->swap, s->work, m * m);
+    for (int r = 0; r < m; r++) {
+        const double *row = s->p.M + s->inside[r];
+        double sum = fabs(s->p.q[s->inside[r]]);
+        for (int j = 0; j < s->n; j++)
+            sum += fabs(row[(size_t)j * (size_t)s->p.ldm] * s->z[j]);
+        s->x[r] += sum * s->row[r];
+    }
+    for (int c = 0; c < m; c++) {
+        double sum = 0.0;
+        for (int r = 0; r < m; r++)
+            sum += fabs(s->inverse[c + r * m]) * s->x[r];
+        s->bound[s->inside[c]] = sum * s->col[c];
+    }
 }
 
 /* The bounds of z and the signs of w, which the basis alone does not give; and that the
  * rows of z between their bounds are still zero, which large entries of M may spoil
- * where a z was put on a bound. */
-static int is_solution(search *s)
+ * where a z was put on a bound.  regular: 0 where z is the point of a linear program. */
+static int is_solution(search *s, int regular)
 {
-    /* What is outside of the box by rounding is put on it. */
-    const double slack = RIGHT * rb_norm_inf((size_t)s->n, s->z);
-    for (int i = 0; i < s->n; i++) {
+    const int n = s->n;
+    /* Linear programming knows M and q, whose entries are near 1, and z but for rounding of
+     * them. */
+    const double norm = rb_norm_inf((size_t)n, s->z), largest = regular ? norm : fmax(norm, 1.0);
+    const double rough = ROUGHLY * largest;
+    int close = !regular;
+    if (!isfinite(largest)) /* entries near the largest double can give no numbers */
+        return 0;
+    for (int i = 0; i < n; i++) {
         const double low = rb_lcp_lower(s->lower, i), high = rb_lcp_upper(s->upper, i);
-        if (s->z[i] < low - slack || s->z[i] > high + slack)
+        if (s->z[i] < low - rough || s->z[i] > high + rough)
             return 0;
-        s->z[i] = fmin(fmax(s->z[i], low), high);
+        close |= s->at[i] == LCP_BETWEEN && (s->z[i] < low + rough || s->z[i] > high - rough);
+    }
+    for (int i = 0; i < n; i++)
+        s->bound[i] = largest;
+    if (regular)
+        bound_errors(s);
+    /* What is outside of the box, or just inside, by rounding is put on it. */
+    for (int i = 0; close && i < n; i++) {
+        const double low = rb_lcp_lower(s->lower, i), high = rb_lcp_upper(s->upper, i);
+        const double small = RIGHT * s->bound[i];
+        if (s->z[i] < low - small || s->z[i] > high + small)
+            return 0;
+        s->z[i] = s->z[i] <= low + small ? low : s->z[i] >= high - small ? high : s->z[i];
     }
     product(s);
     /* The terms of every row of M z + q, whose rounding is a part of them. */
-    for (int i = 0; i < s->n; i++) {
+    for (int i = 0; i < n; i++) {
         const double *row = s->p.M + i;
         s->terms[i] = fabs(s->p.q[i]);
-        for (int j = 0; j < s->n; j++)
+        for (int j = 0; j < n; j++)
             s->terms[i] += fabs(row[(size_t)j * (size_t)s->p.ldm] * s->z[j]);
-    }
-    const double most = rb_norm_inf((size_t)s->n, s->terms);
-    /* entries near the largest double can give a point that is no numbers */
-    if (!isfinite(rb_norm_inf((size_t)s->n, s->z)) || !isfinite(most))
-        return 0;
-    for (int i = 0; i < s->n; i++) {
-        const int fixed = rb_lcp_lower(s->lower, i) >= rb_lcp_upper(s->upper, i);
-        const double small = RIGHT * (s->at[i] == BETWEEN ? most : s->terms[i]);
-        if (s->at[i] != AT_UPPER && s->w[i] < -small && !fixed)
+        if (!isfinite(s->terms[i]))
             return 0;
-        if (s->at[i] != AT_LOWER && s->w[i] > small)
+    }
+    for (int i = 0; i < n; i++) {
+        const int fixed = rb_lcp_lower(s->lower, i) >= rb_lcp_upper(s->upper, i);
+        const double small = RIGHT * s->terms[i];
+        if (s->at[i] != LCP_AT_UPPER && s->w[i] < -small && !fixed)
+            return 0;
+        if (s->at[i] != LCP_AT_LOWER && s->w[i] > small)
             return 0;
     }
     return 1;
@@ -118,27 +267,35 @@ void rb_lcp_solutions_free(rb_lcp_solutions *all)
     if (!all)
         return;
     free(all->z);
+    free(all->singular_basis);
     *all = (rb_lcp_solutions){0};
 }
 
 /* Adds z, unless it is known already.  RB_ENOMEM. */
-static rb_status keep(const search *s, rb_lcp_solutions *all)
+static rb_status keep(const search *s, int regular, rb_lcp_solutions *all)
 {
     const size_t n = (size_t)s->n, count = (size_t)all->count, bytes = n * sizeof *s->z;
-    const double near = SAME * rb_norm_inf(n, s->z);
     for (size_t k = 0; k < count; k++) {
-        double apart = 0.0;
-        for (size_t i = 0; i < n; i++)
-            apart = fmax(apart, fabs(all->z[k * n + i] - s->z[i]));
-        if (apart <= near)
+        int same = 1;
+        for (size_t i = 0; same && i < n; i++) {
+            const double x = all->z[k * n + i], y = s->z[i];
+            same = fabs(x - y) <= SAME * fmax(fabs(x), fabs(y)) + RIGHT * s->bound[i];
+        }
+        if (same) {
+            all->singular_basis[k] &= !regular;
             return RB_OK;
+        }
     }
     if ((count & (count - 1)) == 0) { /* full: room for twice as many */
-        double *z = realloc(all->z, (count ? 2 * count : 1) * bytes);
-        if (!z)
+        const size_t room = count ? 2 * count : 1;
+        double *z = realloc(all->z, room * bytes);
+        all->z = z ? z : all->z;
+        int *mark = z ? realloc(all->singular_basis, room * sizeof *mark) : NULL;
+        if (!mark)
             return RB_ENOMEM;
-        all->z = z;
+        all->singular_basis = mark;
     }
+    all->singular_basis[count] = !regular;
     memcpy(all->z + n * (size_t)all->count++, s->z, bytes);
     return RB_OK;
 }
@@ -146,19 +303,37 @@ static rb_status keep(const search *s, rb_lcp_solutions *all)
 /* The first place of z_i that there is from `at` on; 0: there is none. */
 static int place_from(search *s, int i, int at)
 {
-    for (; at <= BETWEEN; at++)
-        if (is_place(s, i, (place)at)) {
-            s->at[i] = (place)at;
+    for (; at <= LCP_BETWEEN; at++)
+        if (is_place(s, i, (lcp_side)at)) {
+            s->at[i] = (lcp_side)at;
             return 1;
         }
     return 0;
 }
 
+/* One basis: its point, or where its matrix is singular what linear programming says of its
+ * complementary cone.  RB_ENOMEM. */
+static rb_status look_at_basis(search *s, rb_lcp_solutions *all)
+{
+    int regular = basic_point(s);
+    all->bases++;
+    if (regular)
+        return is_solution(s, 1) ? keep(s, 1, all) : RB_OK;
+    regular = is_regular(s);
+    all->singular += !regular;
+    const rb_status s_ = rb_lcp_linear_decide(s->linear, s->at, s->z);
+    if (s_ == RB_OK && is_solution(s, 0))
+        return keep(s, regular, all);
+    all->undecided += s_ != RB_NO_SOLUTION;
+    return RB_OK;
+}
+
 rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const double *upper,
-                           rb_lcp_solutions *all, rb_message *why)
+                           double seconds, rb_lcp_solutions *all, rb_message *why)
 {
     const int n = p->n;
     const size_t order = (size_t)n;
+    const double began = rb_seconds();
     search s = {.n = n, .p = *p, .lower = lower, .upper = upper};
     *all = (rb_lcp_solutions){.n = n};
     const rb_lcp_options plain = rb_lcp_defaults();
@@ -169,40 +344,81 @@ rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const d
         return status;
     double bases = 1.0;
     for (int i = 0; i < n; i++)
-        bases *= is_place(&s, i, AT_LOWER) + is_place(&s, i, AT_UPPER) + is_place(&s, i, BETWEEN);
+        bases *= is_place(&s, i, LCP_AT_LOWER) + is_place(&s, i, LCP_AT_UPPER) +
+                 is_place(&s, i, LCP_BETWEEN);
     if (bases > MOST_BASES)
         return rb_fail(why, RB_EINVAL,
                        "lcp: all solutions: %.3g complementary bases: expected at most "
                        "%.3g, that is order 22 without bounds",
                        bases, MOST_BASES);
+    /* In units of their own for rows and columns, and q as a whole near 1. */
     rb_arena scratch = {0};
+    lcp_posed posed = {0};
+    const lcp_matrix given = {.n = n, .dense = p->M, .ld = p->ldm};
+    double *ends = rb_arena_doubles(&scratch, order, 3), unit = 1.0;
     s.at = rb_arena_zeros(&scratch, order, sizeof *s.at);
     s.A = rb_arena_doubles(&scratch, order, order);
-    s.x = rb_arena_doubles(&scratch, order, 1);
-    s.z = rb_arena_doubles(&scratch, order, 1);
-    s.w = rb_arena_doubles(&scratch, order, 1);
-    s.terms = rb_arena_doubles(&scratch, order, 1);
-    s.work = rb_arena_doubles(&scratch, order, 4);
+    s.inverse = rb_arena_doubles(&scratch, order, order);
+    s.work = rb_arena_doubles(&scratch, order, order + 4);
+    s.residues = rb_arena_zeros(&scratch, order * order, sizeof *s.residues);
+    s.x = rb_arena_doubles(&scratch, order, 7);
     s.inside = rb_arena_ints(&scratch, order);
     s.swap = rb_arena_ints(&scratch, 2 * order);
-    status = scratch.failed ? RB_ENOMEM : RB_OK;
+    status =
+        scratch.failed ? RB_ENOMEM : rb_lcp_pose(&given, p->q, lower, upper, &plain, 1, &posed);
+    if (status == RB_OK) {
+        s.row = s.x + order;
+        s.col = s.row + order;
+        s.z = s.col + order;
+        s.w = s.z + order;
+        s.terms = s.w + order;
+        s.bound = s.terms + order;
+        const double most = rb_norm_inf(order, posed.q);
+        unit = most > 0.0 ? exp2((double)ilogb(most)) : 1.0;
+        for (size_t i = 0; i < order; i++) {
+            ends[i] = posed.q[i] / unit;
+            ends[order + i] = posed.lower ? posed.lower[i] / unit : 0.0;
+            ends[2 * order + i] = posed.upper ? posed.upper[i] / unit : 0.0;
+        }
+        s.p = (rb_lcp_problem){n, posed.M.dense, posed.M.ld, ends};
+        s.lower = posed.lower ? ends + order : NULL;
+        s.upper = posed.upper ? ends + 2 * order : NULL;
+        status = rb_lcp_linear_create(&posed.M, s.p.q, s.lower, s.upper, &s.linear);
+    }
     for (int i = 0; status == RB_OK && i < n; i++)
-        place_from(&s, i, AT_LOWER);
+        place_from(&s, i, LCP_AT_LOWER);
     for (int digit = 0; status == RB_OK && digit < n;) {
-        const int regular = basic_point(&s);
-        all->bases++;
-        all->singular += !regular;
-        if (regular && is_solution(&s))
-            status = keep(&s, all);
+        status = look_at_basis(&s, all);
         if (status == RB_OK && rb_interrupted())
             status = rb_fail(why, RB_INTERRUPTED, "lcp: interrupted after %d bases", all->bases);
+        if (status == RB_OK && seconds > 0.0 && all->bases % BETWEEN_LOOKS == 0 &&
+            rb_seconds() - began > seconds)
+            status = rb_fail(why, RB_TIME_LIMIT, "lcp: %d of %.0f complementary bases in %g s",
+                             all->bases, bases, seconds);
         /* The next basis, the places being the digits of a number. */
         for (digit = 0; digit < n && !place_from(&s, digit, (int)s.at[digit] + 1); digit++)
-            place_from(&s, digit, AT_LOWER);
+            place_from(&s, digit, LCP_AT_LOWER);
+        if (digit == n && status == RB_TIME_LIMIT) /* that was the last one */
+            status = RB_OK;
     }
+    int kept = 0;
+    for (int k = 0; k < all->count; k++) {
+        double *z = all->z + (size_t)k * order;
+        for (size_t i = 0; i < order; i++)
+            z[i] *= unit;
+        rb_lcp_scale_back(&posed, z);
+        if (isfinite(rb_norm_inf(order, z))) {
+            all->singular_basis[kept] = all->singular_basis[k];
+            memmove(all->z + (size_t)kept++ * order, z, order * sizeof *z);
+        }
+    }
+    all->undecided += all->count - kept; /* beyond the largest number */
+    all->count = kept;
+    rb_lcp_linear_free(s.linear);
+    rb_lcp_posed_free(&posed);
     rb_arena_free(&scratch);
-    if (status == RB_OK)
-        return RB_OK;
+    if (status == RB_OK || status == RB_TIME_LIMIT)
+        return status;
     rb_lcp_solutions_free(all);
     return status == RB_INTERRUPTED
                ? status

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 
 typedef struct {
-    double tol;
+    double tol, seconds;
     int game, solver, all, label, max_pivots, rule, trace, solution;
     rb_report_style style;
     const char *q, *lower, *upper, *cover, *start, *output;
@@ -54,6 +54,8 @@ static const rb_option options[] = {
     RB_INTEGER_LINE("max-pivots", PLACE(max_pivots), RB_FROM_TO(1, 1e9),
                     "iteration limit of each method",
                     .unset = "lemke 50 n + 1000, newton 10 n + 100, games half a minute"),
+    RB_NUMBER_LINE("seconds", PLACE(seconds), "s", RB_ABOVE(0.0), "time limit per file",
+                   .unset = "none"),
     RB_TEXT_LINE("start", PLACE(start), "FILE",
                  "z of a similar problem to start from: n numbers, as --q", .unset = "the bounds",
                  .file = RB_FILE_READ),
@@ -103,9 +105,12 @@ static const char notes[] =
     "strategy\n"
     "that the path begins with.\n"
     "After a file that fails the others are still solved.\n"
-    "Exit codes, the largest of all files: 0 solved; 1 secondary ray, iteration limit, no "
-    "solution\n"
-    "or residual above the tolerance; 64 wrong command line; 65 malformed file; 66 no such file;\n"
+    "Status: solved; no-solution: proved; secondary-ray, undecided: none was found, and none is\n"
+    "excluded; iteration-limit, time-limit; numerical-failure: there is a solution, which "
+    "rounding\n"
+    "errors hide; residual-above-tolerance; singular-matrix (newton).\n"
+    "Exit codes, the largest of all files: 0 solved; 1 not solved; 64 wrong command line; 65 "
+    "malformed file; 66 no such file;\n"
     "70 internal; 73 cannot write.\n";
 
 typedef struct {
@@ -125,6 +130,8 @@ typedef struct {
     double *lower, *upper, *cover, *start; /* n each, or NULL */
     double *z, *w;                         /* n x solutions */
     int solutions;                         /* 1 but for --all */
+    int singular, undecided;               /* --all: bases */
+    int *singular_basis;                   /* --all: of each solution; owned */
     double payoff[2];                      /* --game, the first solution */
 } lcp_result;
 
@@ -174,6 +181,7 @@ static rb_lcp_options solver_options(lcp_run *run, const lcp_result *r)
 {
     rb_lcp_options opt = rb_lcp_defaults();
     opt.max_iters = run->o->max_pivots;
+    opt.seconds = run->o->seconds;
     opt.rule = (rb_lcp_rule)run->o->rule;
     opt.cover = r->cover;
     opt.start = r->start;
@@ -214,20 +222,43 @@ static cli_exit say_end(const lcp_options *o, lcp_result *r, rb_status s)
 
 /* ---- All solutions ----------------------------------------------------------------- */
 
-/* What the enumeration has left out, and whether it has found anything. */
-static cli_exit say_all(const lcp_options *o, lcp_result *r, const rb_lcp_solutions *all)
+/* What the enumeration has found, and what it could not decide.  end: RB_OK, RB_TIME_LIMIT. */
+static cli_exit say_all(const lcp_options *o, lcp_result *r, const rb_lcp_solutions *all,
+                        rb_status end)
 {
+    int singular_only = 0;
     r->info.iters = all->bases;
-    if (all->singular)
+    r->singular = all->singular;
+    r->undecided = all->undecided;
+    for (int k = 0; k < all->count; k++)
+        singular_only += r->singular_basis[k];
+    if (singular_only)
         fprintf(stderr,
-                "rollbem: %s: note: %d of %d complementary bases are singular: solutions that "
-                "belong to these only are not listed\n",
-                r->file, all->singular, all->bases);
-    if (all->count)
+                "rollbem: %s: note: %d of %d solutions belong%s to singular bases only: others may "
+                "lie next to %s\n",
+                r->file, singular_only, all->count, singular_only == 1 ? "s" : "",
+                singular_only == 1 ? "it" : "them");
+    if (all->count && all->undecided)
+        fprintf(stderr,
+                "rollbem: %s: note: %d of %d complementary bases are undecided: there may be more "
+                "solutions\n",
+                r->file, all->undecided, all->bases);
+    if (all->count && end == RB_OK)
         return say_end(o, r, RB_OK);
-    r->status = "no solution";
-    r->info.res = r->info.scaled = r->floor = NAN;
-    return cli_fail(CLI_UNSOLVED, "%s: no solution in %d complementary bases", r->file, all->bases);
+    if (!all->count)
+        r->info.res = r->info.scaled = r->floor = NAN;
+    r->status = rb_status_text(end != RB_OK ? end : all->undecided ? RB_UNDECIDED : RB_NO_SOLUTION);
+    if (end != RB_OK)
+        return cli_fail(CLI_UNSOLVED, "%s: %s", r->file, r->info.msg.text);
+    if (all->undecided)
+        return cli_fail(CLI_UNSOLVED, "%s: none found, %d of %d complementary bases undecided",
+                        r->file, all->undecided, all->bases);
+    return all->singular ? cli_fail(CLI_UNSOLVED,
+                                    "%s: no solution (%d complementary bases; %d singular, each "
+                                    "excluded)",
+                                    r->file, all->bases, all->singular)
+                         : cli_fail(CLI_UNSOLVED, "%s: no solution (%d complementary bases)",
+                                    r->file, all->bases);
 }
 
 /* r->z, the solutions, is taken over from all, and r->w made as large. */
@@ -236,6 +267,8 @@ static rb_status take_all(lcp_result *r, rb_lcp_solutions *all)
     free(r->z);
     free(r->w);
     r->z = all->z;
+    r->singular_basis = all->singular_basis;
+    all->singular_basis = NULL;
     r->w = rb_alloc((size_t)all->n, (size_t)all->count);
     r->solutions = all->count;
     r->solver = "enumeration";
@@ -250,9 +283,10 @@ static cli_exit run_all(lcp_run *run, rb_io_matrix *M, lcp_result *r)
     rb_status s = rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
     if (rb_io_matrix_to_dense(M) == RB_OK)
         s = rb_lcp_enumerate(&(rb_lcp_problem){r->n, M->dense, r->n, r->boxed.q}, r->lower,
-                             r->upper, &all, &r->info.msg);
+                             r->upper, run->o->seconds, &all, &r->info.msg);
     r->seconds = rb_seconds() - start;
-    if (s == RB_OK)
+    const rb_status end = s;
+    if (s >= 0)
         s = take_all(r, &all);
     if (s != RB_OK)
         return invalid(r, s, &r->info.msg);
@@ -271,7 +305,7 @@ static cli_exit run_all(lcp_run *run, rb_io_matrix *M, lcp_result *r)
             r->info.row = row;
         }
     }
-    return say_all(run->o, r, &all);
+    return say_all(run->o, r, &all, end);
 }
 
 static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
@@ -349,7 +383,8 @@ static cli_exit solve_game(lcp_run *run, lcp_result *r)
         s = rb_lcp_bimatrix(&game, run->o->trace && !run->o->label ? 0 : run->o->label - 1, &opt,
                             r->z, &r->info);
     r->seconds = rb_seconds() - start;
-    if (run->o->all && s == RB_OK)
+    const rb_status end = s;
+    if (run->o->all && s >= 0)
         s = take_all(r, &all);
     if (s >= 0) {
         /* z = (x, y), w = what each strategy loses, of all solutions; the residual is the
@@ -366,7 +401,7 @@ static cli_exit solve_game(lcp_run *run, lcp_result *r)
     }
     rb_io_bimatrix_free(&g);
     return s < 0         ? invalid(r, s, &r->info.msg)
-           : run->o->all ? say_all(run->o, r, &all)
+           : run->o->all ? say_all(run->o, r, &all, end)
                          : say_end(run->o, r, s);
 }
 
@@ -413,10 +448,13 @@ static cli_exit solve_file(void *context, const char *path)
         if (run->o->all) {
             json_t *list = json_array();
             for (int k = 0; k < r.solutions; k++)
-                rb_report_json_append(&list, json_pack("{s:o, s:o}", "z",
-                                                       vector(r.n, r.z + (size_t)k * r.n), "w",
-                                                       vector(r.n, r.w + (size_t)k * r.n)));
+                rb_report_json_append(
+                    &list, json_pack("{s:o, s:o, s:b}", "z", vector(r.n, r.z + (size_t)k * r.n),
+                                     "w", vector(r.n, r.w + (size_t)k * r.n), "singular_basis",
+                                     r.singular_basis ? r.singular_basis[k] : 0));
             cli_rows_set(rows, "solutions", list);
+            cli_rows_set(rows, "singular", known ? json_integer(r.singular) : json_null());
+            cli_rows_set(rows, "undecided", known ? json_integer(r.undecided) : json_null());
         } else if (run->o->solution) {
             cli_rows_set(rows, "z", vector(r.n, r.z));
             cli_rows_set(rows, "w", vector(r.n, r.w));
@@ -450,6 +488,7 @@ static cli_exit solve_file(void *context, const char *path)
     free(r.upper);
     free(r.cover);
     free(r.start);
+    free(r.singular_basis);
     free(r.z);
     free(r.w);
     return code;

@@ -1,0 +1,26 @@
+/* Linear programs under an LCP (GLPK).  Private to src/lcp/portfolio. */
+#ifndef LCP_LINEAR_H
+#define LCP_LINEAR_H
+
+#include "lcp/lemke/lemke.h"
+
+/* The inequalities that remain of a problem when of some pairs it is fixed which of z_i and
+ * w_i is at its end (lcp_side).  Starts from the last basis, so that similar choices take
+ * few steps. */
+typedef struct lcp_linear lcp_linear;
+
+/* Borrows M, q (whose largest entry should be near 1) and the bounds.  RB_ENOMEM. */
+rb_status rb_lcp_linear_create(const lcp_matrix *M, const double *q, const double *lower,
+                               const double *upper, lcp_linear **linear);
+void rb_lcp_linear_free(lcp_linear *linear);
+
+/* Looks for z within its bounds with w = M z + q of the signs that `side` (n) asks for.
+ * RB_OK: z (n) has them but for rounding; RB_NO_SOLUTION: there is none, which was checked
+ * (rb_lcp_excludes); RB_UNDECIDED. */
+rb_status rb_lcp_linear_decide(lcp_linear *linear, const lcp_side *side, double *z);
+
+/* The z of least sum of z and w among them, z and w >= 0: the problem has no bounds.  As
+ * above, but RB_NO_SOLUTION is not checked. */
+rb_status rb_lcp_linear_least(lcp_linear *linear, const lcp_side *side, double *z, double *w);
+
+#endif

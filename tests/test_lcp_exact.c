@@ -1,0 +1,173 @@
+/* Random problems of small integers against their solutions without rounding: what is listed,
+ * what is found, and "no solution".  10 000 problems; a twentieth of them in every run. */
+#include "check.h"
+
+#include "exact.h"
+#include "numbers.h"
+#include "rollbem/lcp.h"
+
+enum { PROBLEMS = 10000, PARTS = 20 };
+
+static unsigned seed;
+
+static int below(int n)
+{
+    return (int)((uniform_from(&seed) + 1.0) * 0.5 * n) % n;
+}
+
+typedef struct {
+    exact_lcp of_integers;
+    double M[EXACT_MOST * EXACT_MOST], q[EXACT_MOST], column[EXACT_MOST];
+} problem;
+
+/* Entries of -3 ... 3, of -1 ... 1, with a positive diagonal, skew, or of low rank; rows and
+ * columns in units of up to 2^40. */
+static void pose(int number, problem *p)
+{
+    exact_lcp *e = &p->of_integers;
+    seed = 77u + 1000003u * (unsigned)number;
+    for (int k = 0; k < 4; k++)
+        uniform_from(&seed);
+    const int kind = number % 5, scaled = number / 5 % 2, few = kind == 1;
+    const int n = e->n = 1 + below(6), most = few ? 1 : 3;
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n; j++)
+            e->M[i][j] = below(2 * most + 1) - most;
+        e->q[i] = below(2 * most + 1) - most;
+    }
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            if (kind == 2 && i == j)
+                e->M[i][j] = 1 + below(3);
+            if (kind == 3 && j >= i)
+                e->M[i][j] = i == j ? 0 : -e->M[j][i];
+            if (kind == 4) /* two rows and all of them */
+                e->M[i][j] = i < 2 ? e->M[i][j] : e->M[i % 2][j] * (1 + i / 3);
+        }
+    for (int i = 0; i < n; i++) {
+        const double row = scaled ? exp2(below(81) - 40) : 1.0;
+        p->column[i] = scaled ? exp2(below(81) - 40) : 1.0;
+        p->q[i] = row * e->q[i];
+        for (int j = 0; j < n; j++)
+            p->M[i + j * n] = row * e->M[i][j];
+    }
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++)
+            p->M[i + j * n] *= p->column[j];
+}
+
+/* The number of the solution in a list, or -1. */
+static int find(const exact_list *list, int n, const double *z)
+{
+    for (int k = 0; k < list->count; k++) {
+        double apart = 0.0;
+        for (int i = 0; i < n; i++)
+            apart = fmax(apart, fabs(z[i] - list->z[k][i]) / (1e-3 + fabs(list->z[k][i])));
+        if (apart < 1e-9)
+            return k;
+    }
+    return -1;
+}
+
+/* |min(z, w)| of the integers, z in their units. */
+static double residual(const exact_lcp *e, const double *z)
+{
+    double worst = 0.0;
+    for (int i = 0; i < e->n; i++) {
+        double w = e->q[i], terms = fabs(w);
+        for (int j = 0; j < e->n; j++) {
+            w += e->M[i][j] * z[j];
+            terms += fabs(e->M[i][j] * z[j]);
+        }
+        worst = fmax(worst, fabs(fmin(z[i], w)) / fmax(terms, 1.0));
+    }
+    return worst;
+}
+
+static exact_list of_bases, all_points;
+
+TEST(all_solutions_are_those_of_fractions)
+{
+    int solvable = 0, singular = 0, undecided = 0, several = 0, only_singular = 0;
+    for (int k = 0; k < PROBLEMS; k++) {
+        problem p;
+        OWNED(rb_lcp_solutions) all;
+        if (!is_in_turn(k, PARTS))
+            continue;
+        pose(k, &p);
+        const int n = p.of_integers.n;
+        exact_solutions(&p.of_integers, &of_bases, &all_points);
+        CHECK_OK(
+            rb_lcp_enumerate(&(rb_lcp_problem){n, p.M, n, p.q}, NULL, NULL, 0.0, &all, &heard));
+        undecided += all.undecided;
+        singular += all.singular > 0;
+        solvable += all_points.count > 0;
+        several += of_bases.count > 1;
+        only_singular += of_bases.count == 0 && all_points.count > 0;
+        if ((all.count > 0) != (all_points.count > 0) || all.bases != 1 << n)
+            fail_msg("problem %d: %d listed, %d undecided; there are %d", k, all.count,
+                     all.undecided, all_points.count);
+        int found = 0;
+        for (int a = 0; a < all.count; a++) {
+            double z[EXACT_MOST];
+            for (int i = 0; i < n; i++)
+                z[i] = all.z[i + a * n] * p.column[i];
+            CHECK_MAX(residual(&p.of_integers, z), 1e-10, "problem %d, solution %d", k, a);
+            const int is = find(&of_bases, n, z);
+            found += is >= 0;
+            if (is < 0 && !all.singular_basis[a])
+                fail_msg("problem %d, solution %d: of no regular basis", k, a);
+            for (int b = 0; b < a; b++) {
+                double y[EXACT_MOST];
+                for (int i = 0; i < n; i++)
+                    y[i] = all.z[i + b * n] * p.column[i];
+                if (is >= 0 && find(&of_bases, n, y) == is)
+                    fail_msg("problem %d: solutions %d and %d are the same", k, a, b);
+            }
+        }
+        if (found != of_bases.count)
+            fail_msg("problem %d: %d of %d solutions of regular bases", k, found, of_bases.count);
+    }
+    print_message("%d solvable, %d of singular bases only, %d several, %d with singular bases, %d "
+                  "bases undecided\n",
+                  solvable, only_singular, several, singular, undecided);
+    assert_int_equal(undecided, 0);
+    assert_true(several > 20 && singular > 100);
+    assert_true(only_singular > 0 || !getenv("ROLLBEM_TEST_ALL"));
+}
+
+TEST(what_solvers_say_is_so)
+{
+    static const char *const names[] = {"auto", "lemke", "lemke-sparse", "newton"};
+    int open = 0, none = 0, proved = 0;
+    for (int k = 0; k < PROBLEMS; k++) {
+        problem p;
+        if (!is_in_turn(k, PARTS))
+            continue;
+        pose(k, &p);
+        const int n = p.of_integers.n;
+        OWNED(rb_sparse) M;
+        CHECK_OK(rb_sparse_from_dense(n, n, p.M, n, &M));
+        exact_solutions(&p.of_integers, &of_bases, &all_points);
+        none += all_points.count == 0;
+        for (int s = 0; s < 4; s++) {
+            double z[EXACT_MOST];
+            rb_lcp_info info;
+            const rb_status got =
+                rb_lcp_solve(names[s], &(rb_lcp_mixed_problem){.M = &M, .q = p.q}, NULL, z, &info);
+            for (int i = 0; i < n; i++)
+                z[i] *= p.column[i];
+            if (got == RB_OK)
+                CHECK_MAX(residual(&p.of_integers, z), 1e-9, "problem %d by %s", k, names[s]);
+            if (got == RB_OK ? all_points.count == 0
+                             : got == RB_NO_SOLUTION && all_points.count > 0)
+                fail_msg("problem %d: %s says '%s', there are %d", k, names[s], rb_status_text(got),
+                         all_points.count);
+            proved += s == 0 && got == RB_NO_SOLUTION;
+            open += s == 0 && got != RB_OK && got != RB_NO_SOLUTION;
+        }
+    }
+    print_message("auto: %d without solution, %d proved, %d left open\n", none, proved, open);
+}
+
+RUN_TESTS(NULL, NULL)
