@@ -183,6 +183,31 @@ TEST(a_core_needs_its_cover)
     CHECK_REL(approach[1], approach[0], 1e-14, "approach");
 }
 
+/* Waves know the incompressible cover on any core: it is the limit of nearly incompressible ones,
+ * and on a hard core that on a rigid one. */
+TEST(an_incompressible_cover_has_an_elastic_core)
+{
+    static const double poisson[] = {0.4999, 0.49999, 0.5};
+    double p0[3], hard[2];
+    for (int k = 0; k < 5; k++) {
+        OWNED(rb_rolling_solution) s;
+        rb_rolling_case rc =
+            rolling_case("support hub radius 50 gap parabola load 100 mu 0 young 10 "
+                         "cover-thickness 3 core-young 100 core-poisson 0.3");
+        rc.a.poisson = k < 3 ? poisson[k] : 0.5;
+        if (k >= 3)
+            rc.a.core_young = k == 3 ? 1e7 : 0.0;
+        CHECK_OK(rb_rolling_solve(&rc, &s, &heard));
+        *(k < 3 ? &p0[k] : &hard[k - 3]) = s.max_pressure;
+        if (k == 2) {
+            CHECK_SAYS(rb_rolling_stress_check(&rc, &heard), RB_EINVAL, "0.499 at most, got 0.5");
+        }
+    }
+    CHECK_REL(p0[1], p0[2], 1e-4, "nu = .49999");
+    CHECK_REL((p0[2] - p0[0]) / (p0[2] - p0[1]), 10.0, 0.02, "linear in 1/2 - nu");
+    CHECK_REL(hard[0], hard[1], 1e-4, "hard core");
+}
+
 TEST(what_does_not_fit_is_refused)
 {
     const double ends[] = {-1.0, 0.0, 1.0, 2.0};
@@ -341,7 +366,7 @@ TEST(the_bond_carries_the_load)
 
 TEST(bad_covers_are_refused)
 {
-    static const char *const word[5] = {"add --support hub", "less than the radius", "compressible",
+    static const char *const word[5] = {"add --support hub", "less than the radius", "near-field",
                                         "core", "hub of radius"};
     for (int k = 0; k < 5; k++) {
         rb_rolling_case rc =
@@ -350,6 +375,8 @@ TEST(bad_covers_are_refused)
         rc.half_width = 1.0;
         if (k == 0)
             rc.a.support = RB_BEM_ARC;
+        if (k == 2)
+            rc.near_field = RB_NEAR_FIELD_PLAIN;
         if (k == 4)
             rc.a.hub_ratio = 0.95;
         CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL, word[k]);

@@ -136,6 +136,8 @@ extern const rb_rolling_body_kind *const rb_rolling_body_kinds[];
 
 /* ---- body_wheel.c, body_halfplane.c: rows of the table in body.c ------------------- */
 
+/* Poisson's ratio up to which boundary elements compute a cover on an elastic core. */
+#define RB_ROLLING_COMPRESSIBLE 0.499
 /* 1: a cover with an elastic core. */
 int rb_rolling_has_elastic_core(const rb_rolling_body *body);
 extern const rb_rolling_body_kind rb_rolling_arc, rb_rolling_hub, rb_rolling_cover;

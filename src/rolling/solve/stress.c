@@ -44,6 +44,12 @@ rb_status rb_rolling_stress_check(const rb_rolling_case *rc, rb_message *why)
 {
     if (!rb_rolling_body_can(&rc->a, RB_BODY_STRESS))
         return rb_fail(why, RB_EINVAL, "stress: inside such a body it is not known");
+    if (rb_rolling_has_elastic_core(&rc->a) &&
+        rb_rolling_material(rc, &rc->a).poisson > RB_ROLLING_COMPRESSIBLE)
+        return rb_fail(why, RB_EINVAL,
+                       "stress: in a cover on an elastic core it is computed for Poisson's ratios "
+                       "of 0.499 at most, got %g",
+                       rc->a.poisson);
     /* given tractions make the same stress in a body that relaxes everywhere alike */
     return rc->a.memory.n == 0 || !rb_rolling_has_elastic_core(&rc->a)
                ? RB_OK
