@@ -1052,7 +1052,8 @@ TEST(history_tables_are_histories)
         {"--load 100 --force-ratio 0.4 --increments 4 --units si --radius 0.05 --young 9.45e10",
          "--units mm"},
         {"--formulation transient --load 100 --creep-ratio 0.4 --distance 1 --error",
-         "--formulation transient"}};
+         "--formulation transient"},
+        {"--load 100 --shift 0.001 --increments 2 --mu 0 --format csv", "--mu 0"}};
     for (size_t k = 0; k < sizeof runs / sizeof *runs; k++) {
         OWNED(rb_io_table) a, b;
         const double *q[2];
@@ -1072,8 +1073,8 @@ TEST(history_tables_are_histories)
             CHECK_ABS(q[0][i], first[i], 1e-8 * fabs(first[a.rows - 1]), "%s, Q of row %d",
                       runs[k].first, i + 1);
     }
-    CHECK_RUN(rollbem(STEPS "--formulation transient --history a.tsv --creep 0.1"), 64, err,
-              "--creep: the history has a column force");
+    CHECK_RUN(rollbem(STEPS "--history a.tsv --shift 0.1"), 64, err,
+              "--shift: the history has a column shift");
 }
 
 RUN_TESTS(enter_folder, leave_folder)

@@ -2,6 +2,7 @@
  * constraints, what is refused. */
 #include "check.h"
 
+#include "analysis/design/design.h"
 #include "rollbem/rollbem.h"
 
 #include <unistd.h>

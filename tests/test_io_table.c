@@ -74,7 +74,6 @@ TEST(bad_tables_are_named_with_their_line)
         {"0,5;1,5\n1.5;2\n", ":2: expected a number, got '1.5'; decimals have a comma in line 1"},
         {"x;y\n1.234,5;2\n", ":2: expected a number, got '1.234,5' in column 'x'"},
         {"load;force\n1;\n", ":2: expected 2 numbers (load, force), got 1"},
-        {"load;force\n;1\n", ":2: expected a number, got '' in column 'load'"},
         {"load;force\n1;2%\n", ":2: expected a number, got '2%' in column 'force'"},
         {"load force\n", ": no numbers"},
         {"# load force\n\n", ": no numbers"},
@@ -208,6 +207,9 @@ TEST(headings_that_are_not_understood_are_named)
         {"x_mm\n1\n", "expected a column gap_mm"},
         {"# x [mm], gap [furlong]\n1 2\n", "column 'gap [furlong]'"},
         {"# width [mm], gap [um]\n1 2\n", "unknown column 'width [mm]'"},
+        {"x,gap\n1,2\n3,NaN\n", "g:3: expected a number, got none in column 'gap'"},
+        {"x;gap\n;2\n", "g:2: expected a number, got none in column 'x'"},
+        {"x,gap\n1,\n", "g:2: expected a number, got none in column 'gap'"},
         {"1 2 3\n", "g:1: expected 2 numbers, got 3"}};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         OWNED(rb_io_table) t;
@@ -251,6 +253,23 @@ TEST(commas_are_decimal_or_separate)
         CHECK_OK(read_text(all[k].text, &t, &heard));
         assert_int_equal(t.columns, all[k].columns);
         CHECK_ABS(t.x[0], all[k].first, 0.0, "%s", all[k].text);
+    }
+}
+
+/* As the program writes numbers that do not exist; only a column that is read needs all. */
+TEST(unused_columns_may_have_no_numbers)
+{
+    static const rb_io_column of_x[] = {{"x", NULL, "mm", RB_IO_COLUMN_NEEDED},
+                                        {NULL, NULL, "-", RB_IO_COLUMN_UNUSED}};
+    static const char *const text[] = {"x_mm\tedge_mm\n1\tNaN\n2\t3\n", "x_mm,edge\n1,\n2,3\n",
+                                       "edge,x_mm\n,1\n3,2\n", "edge,x_mm,a\r\n,1,\r\n3,2,4\r\n"};
+    for (size_t k = 0; k < sizeof text / sizeof *text; k++) {
+        OWNED(rb_io_table) t;
+        const double *x[2];
+        CHECK_OK(read_text(text[k], &t, &heard));
+        CHECK_OK(rb_io_table_assign("g", &t, 2, of_x, RB_UNITS_MM, x, &heard));
+        CHECK_ABS(x[0][1] - x[0][0], 1.0, 0.0, "x, %zu", k);
+        assert_true(t.x[0] != t.x[0] || t.x[2] != t.x[2]);
     }
 }
 

@@ -103,6 +103,17 @@ static const sentence notes[] = {
     {"radians", "The arc is 1.5 degrees. If it is meant in radians, write --arc 1.5rad",
      "--mu 0 --approach 0.01 --arc 1.5 --contact-elements 20",
      "--mu 0 --approach 0.01 --arc 2 --contact-elements 20"},
+    {"other-units",
+     "p0 = 8.94e+08 MPa is more than diamond bears, 1e+05 MPa. If the numbers are in m, N/m and Pa",
+     "--similar --support halfplane --gap parabola --young 2.1e11 --poisson 0.3 --radius 0.46 "
+     "--load 1e7 --mu 0",
+     "--similar --support halfplane --gap parabola --young 2.1e11 --poisson 0.3 --radius 0.46 "
+     "--load 1e7 --mu 0 --units si"},
+    {"other-units", "The load presses a stiff body flat (a = 0.6 R). If the numbers are in m, N/m",
+     "--support halfplane --gap parabola --young 2.1e5 --poisson 0.3 --radius 0.46 --load 3e4 "
+     "--mu 0",
+     "--support halfplane --gap parabola --young 2.1e5 --poisson 0.3 --radius 0.46 --load 1e4 "
+     "--mu 0"},
     {"not-unique", "The whole contact slides: the creepage is not unique", ROLLS "--force-ratio 1",
      ROLLS "--force-ratio 0.99"},
     {"not-unique", "slide towards both sides: the shift is not unique",

@@ -77,12 +77,17 @@ const char *rb_api_crack_option(int k, const char *field, char *text, int size);
  * "wear", "stress", "maximum", "crack", "position" or "growth"): "name", "unit", "kind"
  * (number, whole, seconds), "meaning". */
 const char *rb_api_result(const char *table, int k, const char *field, char *text, int size);
-/* Value of an option after rb_api_resolve. */
+/* Value of an option after rb_api_resolve, a number in the units of the case. */
 const char *rb_api_value(const rb_api *a, const char *name, char *text, int size);
+/* The unit of a system ("mm", "si", "inch") that stands for one of mm, N, MPa, which the
+ * descriptions name: "Pa" for "MPa" in SI.  NULL: there is no such system. */
+const char *rb_api_unit(const char *system, const char *unit, char *text, int size);
 
 /* ---- Results ----------------------------------------------------------------------- */
 
-/* In mm, N and MPa, whatever units the options are given in.
+/* In the units of the case, its option `units`, as are all numbers that are handed over: mm, N
+ * and MPa unless it says otherwise.  The matrices and vectors of an LCP (lcp.M, lcp.q, pivot.value
+ * ...) stay in mm, N and MPa.
  *
  * A number of the solution by name, its error bar as "error.NAME"; or "carter" (1:
  * Carter's law holds), "radius", "modulus", "hertz_load"; "curve.free_creepage",
@@ -156,7 +161,7 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *   tolerance.NAME               after rb_api_tolerances, of a number of the solution: its
  *                                standard deviation
  *   fit.value fit.interval.from fit.interval.to fit.deviation   after rb_api_fit, an entry per
- *                                parameter, in the units of the case; NAN: not identified
+ *                                parameter; NAN: not identified
  *   fit.mesh                     what the mesh leaves in the values, of a case with error bars
  *   fit.identified fit.at_bound  1 or 0
  *   fit.correlation              parameters x parameters
@@ -212,7 +217,7 @@ int rb_api_stress(rb_api *a, int nx, int ny, double depth);
  * options of `rollbem crack` ("crack-angle", "45"). */
 int rb_api_crack(rb_api *a, int n, const char *const *names, const char *const *values);
 /* Computes the wear of a handle for "wear" like `rollbem wear`: law "archard" or
- * "dissipation", coefficient K [1/MPa], share of B.  A slides by `slide` [mm]; if that is
+ * "dissipation", coefficient K [1/stress], share of B.  A slides by `slide` [length]; if that is
  * NAN, A frets or rolls for `cycles` cycles or turns.  steps: number of steps; quarter:
  * increments per quarter of a cycle of fretting (rollbem/rolling.h). */
 int rb_api_wear(rb_api *a, const char *law, double coefficient, double share, double slide,

@@ -63,7 +63,8 @@ rb_status rb_io_check_harmless(const char *path, const char *folder, rb_message 
  * between semicolons, with decimal commas where semicolons, tabs or blanks separate the
  * numbers, in double quotes, with a byte-order mark, in UTF-16.  # starts a comment.  A
  * first line of words names the columns, and a second one may have their units; or the last
- * comment before the first row names them, if it has as many words. */
+ * comment before the first row names them, if it has as many words.  A cell of a named
+ * column that is empty or "NaN" has the number NAN. */
 typedef struct {
     int rows, columns;
     char **name;          /* columns; NULL: the file does not name them; owned, like all arrays

@@ -8,7 +8,8 @@
 ``fit`` and ``design`` take the options of the program (``help(rollbem.solve)`` lists them, ``_``
 for ``-``); ``lcp`` and ``friction`` take matrices; ``check``, ``contact``, ``verify`` and
 ``examples`` ask the program itself.
-Units are mm, N/mm (per length of the axis) and MPa; creepage > 0 brakes A, then Q < 0.
+Units are mm, N/mm (per length of the axis) and MPa; with ``units="si"`` or ``"inch"`` all numbers, given
+and found, are in m, N/m, Pa or inch, lbf/inch, psi. Creepage > 0 brakes A, then Q < 0.
 """
 
 from . import _library, pictures  # _library first: see _kernels

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from . import _values, pictures
 from ._library import (CRACK_OPTIONS, GROUPS, OPTIONS, RESULTS, SOLVED, Handle, InvalidInput, Kept, Note, Progress,
-                       Unsolved, doubles, handles, lib, texts)
+                       Unsolved, doubles, handles, lib, texts, unit_of)
 
 Array = NDArray[np.float64]
 Table = Mapping[str, Sequence[float]]
@@ -158,16 +158,17 @@ class _ByInput(dict):
         raise KeyError(name)
 
 
-def _unit(result: str, table: str, unit_of_input: str) -> str:
+def _unit(result: str, table: str, unit_of_input: str, system: str) -> str:
     """The unit of a derivative; "1": it has none."""
     one, by = RESULTS[table][result].unit or "1", "" if unit_of_input in ("-", "1") else unit_of_input
+    one, by = unit_of(system, one), unit_of(system, by)
     if not by or one == by:
         return "1" if by else one
     return "/".join(f"({unit})" if "/" in unit else unit for unit in (one, by))
 
 
 class Derivatives(dict):
-    """Derivatives by result and option: ``d["tangential_load"]["mu"]``, in mm, N and MPa.
+    """Derivatives by result and option: ``d["tangential_load"]["mu"]``, in the units of the case.
 
     Of a curve, of the steps of a history or of a study each is an array like the results. Where the two sides of a
     derivative differ it is that for a growing input; of a curve ``sides`` has both: arrays of points x 2 for a falling and
@@ -178,7 +179,7 @@ class Derivatives(dict):
     units: "dict[str, dict[str, str]]"
     elements: Optional[str] = None  # of a solution: whether its elements move while an input changes
 
-    def __init__(self, handle: Any = None, of: str = "", shape: "tuple[int, ...]" = (-1,)) -> None:
+    def __init__(self, handle: Any = None, of: str = "", shape: "tuple[int, ...]" = (-1,), system: str = "") -> None:
         super().__init__()
         self.sides, self.units = {}, {}
         for slope in handle.slopes(of) if handle is not None else []:
@@ -187,7 +188,8 @@ class Derivatives(dict):
                 self.sides.setdefault(slope.result, _ByInput())[slope.input] = array
                 array = np.where(np.isnan(array[:, 1]), array[:, 0], array[:, 1])
             self._add(slope.result, slope.input, array.reshape(shape),
-                      _unit(slope.result, "step" if of == "history" else "number", slope.unit))
+                      _unit(slope.result, "step" if of == "history" else "number", slope.unit,
+                            system or handle.value("units")))
 
     def _add(self, result: str, name: str, value: Any, unit: str) -> None:
         self.setdefault(result, _ByInput())[name] = value
@@ -254,6 +256,11 @@ class _Named:
 
     _arrays: dict
     _numbers: dict
+    _system: str = "mm"  # units of the case
+
+    def _in(self, unit: str) -> str:
+        """A unit of mm, N, MPa as the results have it."""
+        return unit_of(self._system, unit)
 
     def __getattr__(self, name: str) -> Any:
         if not name.startswith("_"):
@@ -280,7 +287,7 @@ class _Named:
 
         columns = self.columns()
         frame = pandas.DataFrame({name: np.ravel(values) for name, values in columns.items()})
-        known = {name: row.unit for table in RESULTS.values() for name, row in table.items()}
+        known = {name: self._in(row.unit) for table in RESULTS.values() for name, row in table.items()}
         known.update({f"deviation_{name}": unit for name, unit in known.items()})
         if self.__dict__.get("derivatives"):
             known.update(_units_of(self.__dict__["derivatives"]))
@@ -346,6 +353,10 @@ class Solution(_Named):
     @property
     def _numbers(self) -> dict:
         return self._all("numbers", lambda: self._handle.numbers("number"))
+
+    @property
+    def _system(self) -> str:
+        return self._handle.value("units")
 
     @property
     def numbers(self) -> dict:
@@ -464,8 +475,9 @@ class Solution(_Named):
 
     def __repr__(self) -> str:
         n = self._numbers
-        return (f"<Solution: {self.formulation}, {self.status}; P = {n['normal_load']:.6g} N/mm, "
-                f"Q = {n['tangential_load']:.6g} N/mm, p0 = {n['max_pressure']:.6g} MPa; "
+        load, stress = self._in("N/mm"), self._in("MPa")
+        return (f"<Solution: {self.formulation}, {self.status}; P = {n['normal_load']:.6g} {load}, "
+                f"Q = {n['tangential_load']:.6g} {load}, p0 = {n['max_pressure']:.6g} {stress}; "
                 f"{n['stick']} stick, {n['slip']} slip>")
 
 
@@ -492,7 +504,7 @@ class History(_Named):
 
     def __init__(self, solution: Solution) -> None:
         handle = solution._handle
-        self.solution = solution
+        self.solution, self._system = solution, solution._system
         self._arrays = handle.arrays("step", "history.")
         self._numbers = {name: handle.number(f"history.{name}")
                          for name in ("half_width", "steady_from", "cycle_work", "cycle_rows")}
@@ -510,8 +522,9 @@ class History(_Named):
 
     def __repr__(self) -> str:
         way = f" over {self.distance[-1]:.5g} half-widths" if self.distance[-1] > 0.0 else " at rest"
-        return (f"<History: {len(self.residual)} steps{way}; at the end P = {self.normal_load[-1]:.6g} N/mm, "
-                f"Q = {self.tangential_load[-1]:.6g} N/mm, {self.stick[-1]} stick, {self.slip[-1]} slip>")
+        load = self._in("N/mm")
+        return (f"<History: {len(self.residual)} steps{way}; at the end P = {self.normal_load[-1]:.6g} {load}, "
+                f"Q = {self.tangential_load[-1]:.6g} {load}, {self.stick[-1]} stick, {self.slip[-1]} slip>")
 
 
 class Curve(_Named):
@@ -529,7 +542,7 @@ class Curve(_Named):
     half_width: float
 
     def __init__(self, case: Case, handle: Handle, over: str) -> None:
-        self.case, self.over = case, over
+        self.case, self.over, self._system = case, over, handle.value("units")
         self._arrays = handle.arrays("point", "curve.")
         self._numbers = {name: handle.number(f"curve.{name}") for name in ("free_creepage", "half_width")}
         self.errors = handle.arrays("point", "curve.error.")
@@ -582,7 +595,7 @@ class Stress(_Named):
     def __init__(self, solution: Solution, maxima: dict) -> None:
         # copied: the next stress of the same solution is made in the same memory
         found = solution._live().arrays("stress", "stress.", copied=True)
-        self.solution, self.maxima = solution, maxima
+        self.solution, self.maxima, self._system = solution, maxima, solution._system
         self._arrays = {name: array.T for name, array in found.items()}
         self._numbers = {}
 
@@ -593,7 +606,7 @@ class Stress(_Named):
     def __repr__(self) -> str:
         largest = self.maxima["max_shear"]
         return (f"<Stress: {' x '.join(map(str, self.max_shear.shape[::-1]))} points; largest max_shear "
-                f"{largest.value:.6g} MPa at ({largest.x:.4g}, {largest.y:.4g}) mm>")
+                f"{largest.value:.6g} {self._in('MPa')} at ({largest.x:.4g}, {largest.y:.4g}) {self._in('mm')}>")
 
 
 class Wear(_Named):
@@ -607,7 +620,7 @@ class Wear(_Named):
     depth: Optional[Array]
 
     def __init__(self, case: Case, handle: Handle) -> None:
-        self.case = case
+        self.case, self._system = case, handle.value("units")
         self._arrays = handle.arrays("wear", "wear.")
         self._numbers = {}
         self.x, self.depth = (handle.array(f"wear.profile.{name}") for name in ("x", "depth"))
@@ -617,7 +630,8 @@ class Wear(_Named):
         return pictures.wear(self, figure)
 
     def __repr__(self) -> str:
-        return f"<Wear: {len(self.way) - 1} steps; worn {self.worn[-1]:.6g} mm2, deepest {self.max_depth[-1]:.4g} mm>"
+        return (f"<Wear: {len(self.way) - 1} steps; worn {self.worn[-1]:.6g} {self._in('mm2')}, "
+                f"deepest {self.max_depth[-1]:.4g} {self._in('mm')}>")
 
 
 class Sweep(_Named):
@@ -632,15 +646,15 @@ class Sweep(_Named):
     derivatives: Derivatives  # of sweep(derivatives=...)
     tolerances: dict  # standard deviations, of sweep(tolerance=...)
 
-    def __init__(self, axes: Mapping[str, Array], handle: Handle) -> None:
+    def __init__(self, axes: Mapping[str, Array], handle: Handle, system: str) -> None:
         shape = tuple(len(values) for values in axes.values())
-        self.axes = dict(axes)
+        self.axes, self._system = dict(axes), system
         found = {"status": handle.array("sweep.status").astype(int), **handle.arrays("crack", "sweep."),
                  **handle.arrays("number", "sweep.")}
         self._arrays = {name: array.reshape(shape) for name, array in found.items()}
         self._numbers = {}
         self.notes = handle.notes()
-        self.derivatives = Derivatives(handle, "sweep", shape)
+        self.derivatives = Derivatives(handle, "sweep", shape, system)
         self.tolerances = {name: array.reshape(shape) for name, array in handle.arrays("number", "sweep.tolerance.").items()
                            if np.isfinite(array).any()}
 
@@ -792,8 +806,8 @@ def wear(case: _CaseLike = None, *, coefficient: float, slide: Optional[float] =
          quarter: int = 8, progress: Progress = None, **options: Any) -> Wear:
     """Wears A, and B by its ``share``, as ``rollbem wear`` does.
 
-    ``coefficient`` [1/MPa] is the worn volume per load and way (or per work: law="dissipation"). A
-    slides over B by ``slide`` [mm], or it frets (static) or rolls (steady) for so many ``cycles``.
+    ``coefficient`` (1/stress, by default 1/MPa) is the worn volume per load and way (or per work: law="dissipation"). A
+    slides over B by ``slide`` (a length), or it frets (static) or rolls (steady) for so many ``cycles``.
     ``progress(done, total)`` is called with the number of steps now and then.
     """
     if (slide is None) == (cycles is None):
@@ -852,7 +866,7 @@ def sweep(case: _CaseLike = None, workers: int = 0, progress: Progress = None,
     else:
         status = study.run("rb_api_sweep", len(cases), handles(cases), workers, progress=progress)
     study.check(status)
-    found = Sweep(axes, study)
+    found = Sweep(axes, study, cases[0].value("units"))
     _warn(found.notes)
     return found
 

@@ -27,7 +27,7 @@ class Crack(_Named):
     growth: "dict[str, Array]"
 
     def __init__(self, case: Case, handle: Any) -> None:
-        self.case = case
+        self.case, self._system = case, handle.value("units")
         faces = {"opening": "opening", "sliding": "sliding", "pressure": "pressure",
                  "friction": "friction", "zone": "zone", "x": "node.x", "y": "node.y",
                  "path_x": "path.x", "path_y": "path.y"}
@@ -51,14 +51,14 @@ class Crack(_Named):
         axes = figure.add_subplot()
         axes.plot(self.x, self.K_I, label="$K_I$")
         axes.plot(self.x, self.K_II, "--", label="$K_{II}$")
-        axes.set_xlabel("position of the contact  [mm]")
-        axes.set_ylabel("stress intensity  [MPa mm$^{1/2}$]")
+        axes.set_xlabel(f"position of the contact  [{self._in('mm')}]")
+        axes.set_ylabel(f"stress intensity  [{self._in('MPa.mm^0.5').replace('.', ' ', 1).replace('^0.5', '$^{1/2}$')}]")
         axes.legend()
         return figure
 
     def __repr__(self) -> str:
         return (f"<Crack: {len(self.x)} positions; K_I at most {self.K_I_max:.5g}, "
-                f"K_II {self.K_II_min:.5g} ... {self.K_II_max:.5g} MPa mm^0.5>")
+                f"K_II {self.K_II_min:.5g} ... {self.K_II_max:.5g} {self._in('MPa.mm^0.5').replace('.', ' ', 1)}>")
 
 
 def crack(case: _CaseLike = None, **options: Any) -> Crack:
@@ -113,7 +113,7 @@ def derivatives(solution: Union[Solution, _CaseLike] = None, *, smooth: bool = F
     """Derivatives of every number of a solution by every number of its case: ``d["tangential_load"]["mu"]``.
 
     A pair (left, right) where the two sides differ, NaN where there is none. Names of columns (``"p"``, ``"q"``) give an array with an
-    entry per element. In mm, N and MPa; ``d.units`` has the units. ``d.to_pandas()``: a row per result and option. ``smooth``:
+    entry per element. In the units of the case, which ``d.units`` names. ``d.to_pandas()``: a row per result and option. ``smooth``:
     without the jumps where an element changes between stick and slip, as of ``rollbem --smooth-derivatives``.
     """
     if not isinstance(solution, Solution):
@@ -146,7 +146,7 @@ def derivatives(solution: Union[Solution, _CaseLike] = None, *, smooth: bool = F
                 same = np.array_equal(left, right, equal_nan=True)
                 if not is_column:
                     left, right = float(left[0]), float(right[0])
-                found._add(result, name, left if same else (left, right), _unit(result, "column" if is_column else "number", unit))
+                found._add(result, name, left if same else (left, right), _unit(result, "column" if is_column else "number", unit, solution._system))
         if smooth:
             return found
         over_x = {result: {by: handle.array(f"derivative.{result}.{by}") for by in ("gap", "mu")}
@@ -177,6 +177,7 @@ class Fit(_Named):
     sentences: "list[str]"
 
     def __init__(self, names: Sequence[str], handle: Any, level: float) -> None:
+        self._system = handle.value("units")
         columns = [handle.array(f"fit.{name}") for name in
                    ("value", "interval.from", "interval.to", "deviation", "identified", "mesh")]
         correlation = np.atleast_2d(handle.array("fit.correlation"))
@@ -315,7 +316,7 @@ class Design(_Named):
         self._numbers = {"value": float(handle.array("design.result")[0]),
                          "start": float(handle.array("design.result.start")[0]),
                          "evaluations": int(handle.array("design.evaluations")[0])}
-        self.result, self.status = result, handle.word("status")
+        self.result, self.status, self._system = result, handle.word("status"), handle.value("units")
 
     def __repr__(self) -> str:
         return f"<Design: {self.result} {self.value:.6g}, at the start {self.start:.6g}>"

@@ -46,6 +46,7 @@ FUNCTIONS = {
     "rb_api_crack_option": (_Text, _Int, _Text, _Text, _Int),
     "rb_api_result": (_Text, _Text, _Int, _Text, _Text, _Int),
     "rb_api_value": (_Text, _Handle, _Text, _Text, _Int),
+    "rb_api_unit": (_Text, _Text, _Text, _Text, _Int),
     "rb_api_number": (_Double, _Handle, _Text),
     "rb_api_word": (_Text, _Handle, _Text),
     "rb_api_note": (_Text, _Handle, _Int, _Text, _Int),
@@ -208,6 +209,13 @@ CRACK_OPTIONS = {_keyword(option.name): option for option in _rows(Option, lib.r
 RESULTS = {table: {result.name: result for result in _rows(Result, lib.rb_api_result, table.encode())}
            for table in ("number", "column", "step", "point", "patch", "wear", "stress", "crack", "position",
                                                             "growth")}
+
+
+def unit_of(system: str, unit: str) -> str:
+    """What stands for a unit of mm, N, MPa in a system, ``units`` of a case: "Pa" for "MPa" in "si"."""
+    room = ctypes.create_string_buffer(80)
+    return lib.rb_api_unit(system.encode(), unit.encode(), room, len(room)).decode()
+
 
 # ---- Messages -----------------------------------------------------------------------------
 

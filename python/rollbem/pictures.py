@@ -30,8 +30,8 @@ def _figure(figure: Any, rows: int = 1, **keywords: Any) -> Any:
         return figure, np.atleast_1d(figure.subplots(rows, 1, **keywords))
 
 
-def _stress_unit(largest: float) -> "tuple[float, str]":
-    return (1000.0, "GPa") if largest >= 1e4 else (1.0, "MPa")
+def _stress_unit(of: Any, largest: float) -> "tuple[float, str]":
+    return (1000.0, "GPa") if of._in("MPa") == "MPa" and largest >= 1e4 else (1.0, of._in("MPa"))
 
 
 def _zones(axes: Any, solution: "Solution", labelled: bool) -> None:
@@ -71,7 +71,7 @@ def tractions(solution: "Solution", figure: Any = None) -> Any:
     """Pressure, friction between its bounds, zones, and the slip below."""
     s, mu = solution, solution.value("mu")
     bound = bounds(s)
-    unit, label = _stress_unit(s.max_pressure)
+    unit, label = _stress_unit(s, s.max_pressure)
     figure, (upper, lower) = _figure(figure, 2, sharex=True, gridspec_kw={"height_ratios": [2, 1]})
     upper.set_xlim(*_limits(s))
     _zones(upper, s, labelled=True)
@@ -85,13 +85,13 @@ def tractions(solution: "Solution", figure: Any = None) -> Any:
     below = max(1.2 * min(mu, 1.0) * s.max_pressure, 0.08 * s.max_pressure)
     upper.set_ylim(-below / unit, (1.14 * s.max_pressure + 0.13 * below) / unit)
     upper.set_ylabel(f"traction [{label}]")
-    upper.set_title(f"{s.formulation} contact: μ = {mu:g}, P = {s.normal_load:.5g} N/mm, "
-                    f"Q = {s.tangential_load:.5g} N/mm")
+    upper.set_title(f"{s.formulation} contact: μ = {mu:g}, P = {s.normal_load:.5g} {s._in('N/mm')}, "
+                    f"Q = {s.tangential_load:.5g} {s._in('N/mm')}")
     upper.legend(loc="upper right", bbox_to_anchor=(1.0, 0.93), fontsize=8)
     touches = np.asarray(s.zone) != 0 if s.contact else np.full(len(s.x), True)
     lower.plot(s.x, np.where(touches, s.slip, np.nan), color=SLIP)
     lower.set_ylabel("slip")
-    lower.set_xlabel("x [mm]" + ("" if s.formulation == "static" else "   (rolling towards +x →)"))
+    lower.set_xlabel(f"x [{s._in('mm')}]" + ("" if s.formulation == "static" else "   (rolling towards +x →)"))
     lower.ticklabel_format(axis="y", scilimits=(-2, 3))
     return figure
 
@@ -117,7 +117,8 @@ def curves(of: "Sequence[Curve]", figure: Any = None) -> Any:
     axes.grid(color="#dddddd", linewidth=0.6)
     axes.set_xlabel("creepage ξ" if over_creep else "creepage ratio ξR/(μa)")
     axes.set_ylabel("braking force −Q/P" if several else "braking force −Q/(μP)")
-    axes.set_title(f"Creep curve: P = {of[0].normal_load[-1]:.5g} N/mm, a = {of[0].half_width:.4g} mm")
+    axes.set_title(f"Creep curve: P = {of[0].normal_load[-1]:.5g} {of[0]._in('N/mm')}, "
+                   f"a = {of[0].half_width:.4g} {of[0]._in('mm')}")
     axes.legend(loc="lower right")
     return figure
 
@@ -141,13 +142,15 @@ def wear(of: "Wear", figure: Any = None) -> Any:
     """What is worn off over the way (the cycles), and the profile at the end."""
     figure, (upper, lower) = _figure(figure, 2)
     upper.plot(of.way, of.worn, color=PRESSURE)
-    upper.set_ylabel("worn / mm²")
-    upper.set_xlabel("way / mm, or cycles")
+    length = of._in("mm")
+    upper.set_ylabel(f"worn / {length}²")
+    upper.set_xlabel(f"way / {length}, or cycles")
     if of.x is not None:
-        lower.plot(of.x, np.asarray(of.depth) * 1e3, color=FRICTION)
+        scale, depth = {"mm": (1e3, "µm"), "m": (1e6, "µm")}.get(length, (1e3, f"10⁻³ {length}"))
+        lower.plot(of.x, np.asarray(of.depth) * scale, color=FRICTION)
         lower.invert_yaxis()
-    lower.set_ylabel("depth / µm")
-    lower.set_xlabel("x / mm")
+        lower.set_ylabel(f"depth / {depth}")
+    lower.set_xlabel(f"x / {length}")
     return figure
 
 
@@ -163,7 +166,7 @@ def contours(of: "Stress", figure: Any = None, field: str = "max_shear") -> Any:
     values = getattr(of, field)
     if values.ndim != 2 or 1 in values.shape:
         raise ValueError("contours need a stress on a grid")
-    unit, label = _stress_unit(np.nanmax(np.abs(values)))
+    unit, label = _stress_unit(of, np.nanmax(np.abs(values)))
     figure, (axes,) = _figure(figure)
     filled = axes.contourf(of.x, of.y, np.ma.masked_invalid(values) / unit, 12, cmap="viridis")
     lines = axes.contour(of.x, of.y, np.ma.masked_invalid(values) / unit, filled.levels,
@@ -174,8 +177,8 @@ def contours(of: "Stress", figure: Any = None, field: str = "max_shear") -> Any:
         largest = of.maxima[field]
         axes.plot(largest.x, largest.y, "+", color="white", markersize=9)
         axes.set_title(f"largest {field.replace('_', ' ')} {largest.value / unit:.5g} {label} "
-                       f"at ({largest.x:.4g}, {largest.y:.4g}) mm")
-    axes.set(xlabel="x [mm]", ylabel="depth y [mm]", aspect="equal")
+                       f"at ({largest.x:.4g}, {largest.y:.4g}) {of._in('mm')}")
+    axes.set(xlabel=f"x [{of._in('mm')}]", ylabel=f"depth y [{of._in('mm')}]", aspect="equal")
     axes.invert_yaxis()
     return figure
 
@@ -219,8 +222,8 @@ def study(of: "Sweep", show: str = "force_ratio", over: "Optional[str]" = None, 
         values = values.squeeze().T
     values = values.reshape(shape)
     figure, (axes,) = _figure(figure)
-    label = _named(show, results[show].unit)
-    axes.set_xlabel(_named(over, options[over].unit))
+    label = _named(show, of._in(results[show].unit))
+    axes.set_xlabel(_named(over, of._in(options[over].unit)))
     # curves and maps go along ascending values
     order = np.argsort(of.axes[over])
     x, values = of.axes[over][order], values[:, order]
@@ -231,7 +234,7 @@ def study(of: "Sweep", show: str = "force_ratio", over: "Optional[str]" = None, 
         lines = axes.contour(x, of.axes[family][rows], field, filled.levels, colors="white", linewidths=0.4)
         axes.clabel(lines, fontsize=7)
         figure.colorbar(filled, ax=axes, label=label)
-        axes.set_ylabel(_named(family, options[family].unit))
+        axes.set_ylabel(_named(family, of._in(options[family].unit)))
         return figure
     for row, value, colour in zip(values, of.axes[family] if family else [None], CURVES * (1 + len(values) // len(CURVES))):
         axes.plot(x, row, color=colour, marker="o", markersize=2.5,

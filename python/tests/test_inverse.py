@@ -109,12 +109,12 @@ def test_columns_are_those_of_the_program():
     h = rollbem.history(**ROLLED, derivatives=["tangential_load", "all:load"])
     assert_as_printed(h.derivatives, run_json(**ROLLED, derivatives="tangential_load,all:load")["history"]["derivatives"],
                       len(h.distance))
-    # numbers are in mm, N and MPa, whatever units the options have
+    # numbers are in the units of the case
     si = dict(support="halfplane", similar=True, load=500e3, units="si", contact_elements=30, radius=0.05, young=2.1e11)
     mm = {**SMALL, "radius": 50, "young": 2.1e5}
     by = [rollbem.curve(**case, points=3, derivatives="tangential_load:radius").derivatives for case in (mm, si)]
-    assert by[1]["tangential_load"]["radius"] == pytest.approx(by[0]["tangential_load"]["radius"], rel=1e-9)
-    assert by[1].units["tangential_load"]["radius"] == "(N/mm)/mm"
+    assert by[1]["tangential_load"]["radius"] == pytest.approx(1e6 * by[0]["tangential_load"]["radius"], rel=1e-9)
+    assert by[1].units["tangential_load"]["radius"] == "(N/m)/m"
     for several in rollbem.curve(**SMALL, mu=[0.2, 0.3], points=3, derivatives="tangential_load:mu"):
         assert several.derivatives["tangential_load"]["mu"].shape == (3,)
     over = rollbem.curve(start=10, stop=1000, points=3, over="speed", creep=1e-3, relaxation_time=1e-3, relaxation_ratio=1,

@@ -76,9 +76,13 @@ rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d
         if (find_result(word, &k->result, why) != RB_OK)
             return RB_EINVAL;
         const char *unit = k->result && k->result->unit ? k->result->unit : "-";
-        if (rb_case_read_number(c, number, unit, &k->bound, why) != RB_OK)
-            return rb_fail(why, RB_EINVAL, "--subject: %s: expected a number, got '%.40s'", word,
-                           number);
+        rb_message of_unit = {""};
+        if (rb_case_read_number(c, number, unit, &k->bound, &of_unit) != RB_OK)
+            return of_unit.text[0]
+                       ? rb_fail(why, RB_EINVAL, "--subject: %s: expected %.200s", word,
+                                 of_unit.text)
+                       : rb_fail(why, RB_EINVAL, "--subject: %s: expected a number, got '%.40s'",
+                                 word, number);
     }
     return RB_OK;
 }
@@ -90,9 +94,14 @@ static rb_status read_bounds(const rb_case *c, const char *name, const char *uni
 
     if (colon)
         *colon = '\0';
-    for (int k = 0; k < 2; k++)
-        if (!colon || rb_case_read_number(c, k ? colon + 1 : text, unit, &bound[k], why) != RB_OK)
-            return rb_fail(why, RB_EINVAL, "--over: expected %s=A:B", name);
+    for (int k = 0; k < 2; k++) {
+        rb_message of_unit = {""};
+        if (!colon ||
+            rb_case_read_number(c, k ? colon + 1 : text, unit, &bound[k], &of_unit) != RB_OK)
+            return of_unit.text[0]
+                       ? rb_fail(why, RB_EINVAL, "--over: %s: expected %.200s", name, of_unit.text)
+                       : rb_fail(why, RB_EINVAL, "--over: expected %s=A:B", name);
+    }
     return bound[0] < bound[1] ? RB_OK
                                : rb_fail(why, RB_EINVAL, "--over: %s: expected A < B", name);
 }
@@ -131,9 +140,11 @@ static rb_status add_variables(const rb_case *c, int numbers, const rb_case_numb
         return RB_EINVAL;
     if (!is_gap) {
         const double value = number[k].input.value;
+        const rb_units units = rb_case_resolved(c)->units;
         if (!(bound[0] <= value && value <= bound[1]))
             return rb_fail(why, RB_EINVAL,
-                           "--over: %s begins at %g, which is not within its bounds", name, value);
+                           "--over: %s begins at %g %s, which is not within its bounds", name,
+                           rb_unit_shown(units, unit, value), rb_unit_name(units, unit));
         return add_variable(d, name, unit, bound[0], bound[1], value, why);
     }
     d->gap_from = d->n;
@@ -322,9 +333,12 @@ static rb_status evaluate(problem *p, const double *x)
     rb_status s = at ? RB_OK : rb_fail(p->why, RB_ENOMEM, "out of memory for a case");
 
     memcpy(p->x, x, (size_t)d->n * sizeof *x);
-    for (int j = 0; j < d->n && s == RB_OK; j++)
+    for (int j = 0; j < d->n && s == RB_OK; j++) /* x is in mm, N, MPa, whatever the case is in */
         if (j < d->gap_from || j >= d->gap_from + d->gap_n)
-            s = rb_case_set_number(at, d->variable[j].name, x[j], p->why);
+            s = rb_case_set_number(
+                at, d->variable[j].name,
+                rb_unit_shown(rb_case_units(at, RB_GIVEN_ARGUMENT), d->variable[j].unit, x[j]),
+                p->why);
     if (s == RB_OK)
         s = rb_case_resolve(at, p->why);
     if (s == RB_OK)

@@ -322,7 +322,7 @@ rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_cas
     if (s == RB_OK && falls && !rb_case_given(c, "mu-fall"))
         s = rb_case_set_number(c, "mu-fall", 0.1, why);
     if (s == RB_OK && falls && !rb_case_given(c, "slip-scale"))
-        s = rb_case_set_number(c, "slip-scale", 1.0, why);
+        rb_case_assign(c, rb_case_option("slip-scale"), 1.0);
     if (s == RB_OK && data->temperature && !rb_case_given(c, "conductivity"))
         s = rb_fail(why, RB_EINVAL,
                     "the data have a column temperature, but the case has no heat: give "
@@ -334,10 +334,10 @@ rb_status rb_case_prepare_fit(rb_case *c, const rb_case_data *data, const rb_cas
                     "the data have a column speed, but nothing in the case depends on it: give "
                     "--relaxation-time, --conductivity or --mu-fall, or leave the column out");
     if (s == RB_OK && data->speed && !rb_case_given(c, "speed"))
-        s = rb_case_set_number(c, "speed", 1.0, why);
+        rb_case_assign(c, rb_case_option("speed"), 1.0);
     if (s == RB_OK && data->load && !rb_case_given(c, "load") && !rb_case_given(c, "half-width") &&
         !rb_case_given(c, "approach"))
-        s = rb_case_set_number(c, "load", data->load[0], why);
+        rb_case_assign(c, rb_case_option("load"), data->load[0]);
     return s;
 }
 

@@ -129,7 +129,9 @@ static const rb_io_column measured[] = {
     [LOAD] = {"load", "normal load|normal force|P|Fn|Fz|last|normalkraft", "N/mm", OPTIONAL},
     [SPEED] = {"speed", "velocity|rolling speed|V|geschwindigkeit", "mm/s", OPTIONAL},
     [TEMPERATURE] = {"temperature", NULL, "K", OPTIONAL},
-    [SIGMA] = {"sigma", "standard deviation|std", "-", OPTIONAL}};
+    [SIGMA] = {"sigma", "standard deviation|std", "-", OPTIONAL},
+    /* what people count and call their points by */
+    [SIGMA + 1] = {"test", "run|point|id|label|name|number|no|time", "s", RB_IO_COLUMN_UNUSED}};
 
 enum { COLUMNS = sizeof measured / sizeof *measured };
 
@@ -241,6 +243,11 @@ static rb_status read_data(const rb_case *c, const char *path, rb_io_table *t, d
     const int has_force = rb_io_table_has(t, &measured[FORCE]) ||
                           rb_io_table_has(t, &measured[FORCE_RATIO]) ||
                           rb_io_table_has(t, &measured[FORCE_OVER_LOAD]);
+    rb_message misspelt = {""};
+    if ((!has_creep || !has_force) &&
+        rb_io_table_assign(path, t, COLUMNS, measured, units, x, &misspelt) != RB_OK &&
+        strstr(misspelt.text, "did you mean"))
+        return rb_fail(why, RB_EFORMAT, "%s", misspelt.text);
     if (!has_creep || !has_force)
         return missing(t, path, why);
     const int is_computed = rb_io_table_column(t, "residual") && rb_io_table_column(t, "creepage");

@@ -360,9 +360,17 @@ static rb_status refuse_cell(const reading *r, const char *row, int j, const cha
                    n < 60 ? (int)n : 60, cell, column, hint);
 }
 
+/* A cell of a named column without a number, as the program writes it in its tables and in CSV. */
+static int is_missing(const rb_io_table *t, const char *cell, size_t n)
+{
+    return t->name && (n == 0 || (n == 3 && strncmp(cell, "NaN", 3) == 0));
+}
+
 static rb_status read_row(reading *r, const char *text)
 {
     rb_io_table *t = r->t;
+    dialect d = r->d;
+    const dialect strict = {.cells = ','};
     const char *cell, *row = text;
     size_t length;
     int n = 0;
@@ -373,9 +381,15 @@ static rb_status read_row(reading *r, const char *text)
     for (int j = 0; t->word && j < t->columns; j++)
         t->word[first + (size_t)j] = NULL;
     t->line[t->rows++] = r->line;
-    for (; next_cell(&r->d, &text, &cell, &length); n++) {
-        double value;
-        const int number = is_number(&r->d, cell, length, &value);
+    /* commas with nothing between them */
+    if (!d.cells && !d.comma_line && count_cells(&d, text) < t->columns &&
+        count_cells(&strict, text) <= t->columns &&
+        (strstr(text, ",,") || *text == ',' || text[strlen(text) - 1] == ','))
+        d = strict;
+    for (; next_cell(&d, &text, &cell, &length); n++) {
+        double value = NAN;
+        const int number =
+            is_number(&d, cell, length, &value) || (!r->words && is_missing(t, cell, length));
         if (n >= t->columns && length == 0) { /* of a spreadsheet, behind the last column */
             n--;
             continue;
@@ -391,6 +405,9 @@ static rb_status read_row(reading *r, const char *text)
         if (word)
             t->word[first + (size_t)n] = memcpy(word, cell, length);
     }
+    if (d.cells == ',' && !r->words) /* behind the last comma */
+        for (; n < t->columns && row[strlen(row) - 1] == ','; n++)
+            t->x[first + (size_t)n] = NAN;
     if (n == t->columns)
         return RB_OK;
     char names[160] = "";
@@ -459,6 +476,8 @@ static rb_status parse(const char *path, char *text, int words, rb_io_table *t, 
     memset(t, 0, sizeof *t);
     for (char *next; s == RB_OK && *text; text = next) {
         next = text + strcspn(text, "\n");
+        if (next > text && next[-1] == '\r')
+            next[-1] = '\0';
         if (*next)
             *next++ = '\0';
         r.line++;
@@ -613,8 +632,12 @@ rb_status rb_io_table_assign(const char *path, rb_io_table *t, int n, const rb_i
         if (x[k])
             return rb_fail(why, RB_EFORMAT, "%s: columns '%.60s' and '%.60s' are both %s", path,
                            t->name[(x[k] - t->x) / t->rows], t->name[j], known[k].name);
-        for (int i = 0; i < t->rows; i++)
+        for (int i = 0; i < t->rows; i++) {
+            if (t->line && isnan(column[i]))
+                return rb_fail(why, RB_EFORMAT, "%s:%d: expected a number, got none in column '%s'",
+                               path, t->line[i], t->name ? t->name[j] : "");
             column[i] = rb_unit_times(&factor, column[i]);
+        }
         x[k] = column;
     }
     for (int k = 0; k < n; k++)

@@ -62,6 +62,97 @@ api_array *rb_api_copy_array(rb_api *a, const char *name, int rows, int columns,
     return made;
 }
 
+/* ---- Units ------------------------------------------------------------------------- */
+
+/* The part of the name behind a beginning; NULL: it begins otherwise. */
+static const char *behind(const char *name, const char *beginning)
+{
+    const size_t n = strlen(beginning);
+    return strncmp(name, beginning, n) == 0 ? name + n : NULL;
+}
+
+/* The unit in mm, N, MPa of all numbers of an array; NULL: they have none, or are those of a
+ * problem that was handed over, of an LCP, or in the units of the case already. */
+static const char *unit_of_array(const rb_api *a, const char *name)
+{
+    static const struct {
+        const char *beginning;
+        const rb_rolling_results *results;
+    } tables[] = {{"history.error.", &rb_rolling_history_columns},
+                  {"history.tolerance.", &rb_rolling_history_columns},
+                  {"history.", &rb_rolling_history_columns},
+                  {"curve.tolerance.", &rb_rolling_curve_columns},
+                  {"curve.error.", &rb_rolling_curve_columns},
+                  {"curve.", &rb_rolling_curve_columns},
+                  {"wear.", &rb_rolling_wear_columns},
+                  {"patch.", &rb_rolling_patch_scalars},
+                  {"stress.", &rb_rolling_stress_scalars},
+                  {"crack.summary.", &rb_case_crack_scalars},
+                  {"crack.growth.", &rb_case_crack_growth_columns},
+                  {"crack.", &rb_case_crack_columns},
+                  {"sweep.tolerance.", &rb_rolling_solution_scalars},
+                  {"sweep.", &rb_rolling_solution_scalars},
+                  {"sweep.", &rb_case_crack_scalars},
+                  {"tolerance.", &rb_rolling_solution_scalars},
+                  {"", &rb_rolling_solution_columns}};
+    /* what no table has; a beginning ends with a point */
+    static const char *const others[][2] = {
+        {"friction_power", "MPa"}, {"ends", "mm"},          {"gap0", "mm"},
+        {"F", "mm/MPa"},           {"G", "mm/MPa"},         {"mesh.", "mm"},
+        {"closed.", "MPa"},        {"wear.profile.", "mm"}, {"crack.path.", "mm"},
+        {"crack.node.x", "mm"},    {"crack.node.y", "mm"},  {"crack.node.length", "mm"},
+        {"crack.opening", "mm"},   {"crack.sliding", "mm"}, {"crack.pressure", "MPa"},
+        {"crack.friction", "MPa"}, {"step.x", "mm"},        {"step.p", "MPa"},
+        {"step.q", "MPa"},         {"pivot.p", "MPa"},      {"pivot.q", "MPa"},
+        {"newton.p", "MPa"},       {"newton.q", "MPa"},     {"guess.p", "MPa"},
+        {"guess.q", "MPa"},        {"guess.gap", "mm"},     {"guess.shift", "mm"}};
+    if (strcmp(name, "wear.way") == 0)
+        return a->wear.slides ? "mm" : NULL;
+    if (strcmp(name, "wear.work") == 0)
+        return a->wear.slides || a->wear.rolls ? "N/mm" : "N";
+    for (size_t k = 0; k < sizeof others / sizeof *others; k++) {
+        const char *rest = behind(name, others[k][0]);
+        if (rest && (!*rest || rest[-1] == '.'))
+            return others[k][1];
+    }
+    for (size_t k = 0; k < sizeof tables / sizeof *tables; k++) {
+        const char *rest = behind(name, tables[k].beginning);
+        const rb_rolling_result *r = rest ? rb_rolling_find_result(tables[k].results, rest) : NULL;
+        if (r)
+            return r->unit;
+    }
+    return NULL;
+}
+
+static rb_units units_of(const rb_api *a, const char *name)
+{
+    return behind(name, "sweep.") ? a->study_units : rb_case_resolved(a->words)->units;
+}
+
+/* From mm, N, MPa to the units of the case: n numbers of an array from the first on. */
+static void show(const rb_api *a, api_array *made, int first, int n)
+{
+    rb_unit_factor f;
+    const rb_units units = units_of(a, made->name);
+    if (rb_unit_of_system(units, unit_of_array(a, made->name), &f))
+        for (int i = first; i < first + n; i++)
+            made->at[i] = rb_unit_over(&f, made->at[i]);
+    else if (behind(made->name, "maxima."))
+        for (int i = first; i < first + n; i++)
+            made->at[i] = rb_unit_shown(units, i == 0 ? "MPa" : i < 3 ? "mm" : NULL, made->at[i]);
+}
+
+/* A number that is handed over, in mm, N, MPa. */
+static double stored(const rb_api *a, const char *unit, double x)
+{
+    return rb_unit_stored(rb_case_units(a->words, RB_GIVEN_ARGUMENT), unit, x);
+}
+
+static double shown(const rb_api *a, const char *unit, double x)
+{
+    return rb_unit_shown(rb_case_resolved(a->words)->units, unit, x);
+}
+
 /* Adds one column to an array that grows step by step. */
 static rb_status add_column(rb_api *a, const char *name, int rows, const double *x)
 {
@@ -75,6 +166,8 @@ static rb_status add_column(rb_api *a, const char *name, int rows, const double 
     to->at = longer;
     memcpy(&longer[(size_t)rows * (size_t)to->columns], x, sizeof(double) * (size_t)rows);
     to->columns++;
+    if (to->shown) /* somebody has looked at it */
+        show(a, to, rows * (to->columns - 1), rows);
     return RB_OK;
 }
 
@@ -463,7 +556,20 @@ const char *rb_api_value(const rb_api *a, const char *name, char *text, int size
     char buffer[64];
     if (!o)
         return NULL;
-    return written(rb_option_text(o, rb_case_resolved(a->words), buffer), text, size);
+    const char *value = rb_option_text(o, rb_case_resolved(a->words), buffer);
+    double x;
+    if (o->kind == RB_OPTION_NUMBER && rb_option_number(value, &x) &&
+        rb_case_resolved(a->words)->units != RB_UNITS_MM)
+        rb_format(buffer, sizeof buffer, "%.15g", shown(a, o->unit, x));
+    return written(value, text, size);
+}
+
+const char *rb_api_unit(const char *system, const char *unit, char *text, int size)
+{
+    const rb_choice *of = rb_case_option("units")->choices;
+    while (of->name && strcmp(of->name, system) != 0)
+        of++;
+    return of->name ? written(rb_unit_name((rb_units)of->value, unit), text, size) : NULL;
 }
 
 const char *rb_api_word(const rb_api *a, const char *name)
@@ -523,29 +629,31 @@ double rb_api_number(const rb_api *a, const char *name)
         const char *name;
         double value;
         int is_known;
-    } numbers[] = {{"carter", rb_rolling_carter_holds(&c->rc), 1},
-                   {"radius", c->derived.radius, 1},
-                   {"modulus", c->derived.modulus, 1},
-                   {"hertz_load", c->derived.load, 1},
-                   {"curve.free_creepage", a->curve.free_creepage, a->curve.n > 0},
-                   {"curve.half_width", a->curve.half_width, a->curve.n > 0},
-                   {"history.half_width", result->history.half_width, result->history.n > 0},
+        const char *unit; /* NULL: none */
+    } numbers[] = {{"carter", rb_rolling_carter_holds(&c->rc), 1, NULL},
+                   {"radius", c->derived.radius, 1, "mm"},
+                   {"modulus", c->derived.modulus, 1, "MPa"},
+                   {"hertz_load", c->derived.load, 1, "N/mm"},
+                   {"curve.free_creepage", a->curve.free_creepage, a->curve.n > 0, NULL},
+                   {"curve.half_width", a->curve.half_width, a->curve.n > 0, "mm"},
+                   {"history.half_width", result->history.half_width, result->history.n > 0, "mm"},
                    {"history.steady_from", result->history.steady_from,
-                    result->history.n > 0 && result->history.steady_from >= 0},
-                   {"history.cycle_work", result->history.cycle_work, result->history.n > 0},
-                   {"history.cycle_rows", result->history.cycle_rows, result->history.n > 0},
-                   {"task.iterations", a->iterations, 1},
-                   {"task.residual", a->residual, 1},
-                   {"task.scaled_residual", a->scaled_residual, 1}};
+                    result->history.n > 0 && result->history.steady_from >= 0, NULL},
+                   {"history.cycle_work", result->history.cycle_work, result->history.n > 0, "N"},
+                   {"history.cycle_rows", result->history.cycle_rows, result->history.n > 0, NULL},
+                   {"task.iterations", a->iterations, 1, NULL},
+                   {"task.residual", a->residual, 1, NULL},
+                   {"task.scaled_residual", a->scaled_residual, 1, NULL}};
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
         if (strcmp(name, numbers[k].name) == 0)
-            return numbers[k].is_known ? numbers[k].value : NAN;
+            return numbers[k].is_known ? shown(a, numbers[k].unit, numbers[k].value) : NAN;
     const int is_error = strncmp(name, error_, strlen(error_)) == 0;
     const rb_rolling_result *r = rb_rolling_find_result(&rb_rolling_solution_scalars,
                                                         is_error ? name + strlen(error_) : name);
     if (!r || result->solution.n == 0 || (is_error && (!result->has_errors || !r->error_bar)))
         return NAN;
-    return rb_rolling_number(r, is_error ? &result->errors.scalar : &result->solution);
+    return shown(a, r->unit,
+                 rb_rolling_number(r, is_error ? &result->errors.scalar : &result->solution));
 }
 
 /* ---- Matrices ---------------------------------------------------------------------- */
@@ -676,8 +784,15 @@ static api_array *derivative_array(rb_api *a, const char *name, const char *resu
     for (int k = 0; k < 2 * RB_CASE_OVER_X_N && all->n_x > 0; k++) {
         char known[40];
         snprintf(known, sizeof known, "%s.%s", rb_case_over_x_names[k / 2], k % 2 ? "mu" : "gap");
-        if (strcmp(known, result) == 0)
-            return rb_api_copy_array(a, name, all->n_x, 1, all->over_x + k * all->n_x);
+        if (strcmp(known, result) != 0)
+            continue;
+        const rb_rolling_result *of =
+            rb_rolling_find_result(&rb_rolling_solution_scalars, rb_case_over_x_names[k / 2]);
+        const double by = k % 2 ? 1.0 : shown(a, "mm", 1.0); /* by mu, by the gap */
+        api_array *made = rb_api_copy_array(a, name, all->n_x, 1, all->over_x + k * all->n_x);
+        for (int i = 0; made && i < all->n_x; i++)
+            made->at[i] = shown(a, of->unit, made->at[i]) / by;
+        return made;
     }
     const int rows = !values && is_column ? a->result.solution.n : 1;
     api_array *made = all->n > 0 && (r || values)
@@ -686,17 +801,20 @@ static api_array *derivative_array(rb_api *a, const char *name, const char *resu
 
     for (int k = 0; made && k < all->n; k++) {
         const rb_case_derivative *of = &all->of[k];
+        const double by = shown(a, of->unit, 1.0);
         if (values)
-            made->at[k] = of->value;
+            made->at[k] = shown(a, of->unit, of->value);
         for (int side = 0; side < 2 && !values; side++) {
             const int from = of->status == RB_OK && of->d.sides == 1 ? 0 : side;
             const rb_rolling_solution *d = &of->d.value[from];
             const int has = of->status == RB_OK && of->d.has[from] &&
                             (!is_column || rb_rolling_has_column(r, d));
             for (int i = 0; i < rows; i++)
-                made->at[i + rows * (2 * k + side)] = !has         ? NAN
-                                                      : !is_column ? rb_rolling_number(r, d)
-                                                                   : rb_rolling_entry(r, d, i);
+                made->at[i + rows * (2 * k + side)] =
+                    !has ? NAN
+                         : shown(a, r->unit,
+                                 is_column ? rb_rolling_entry(r, d, i) : rb_rolling_number(r, d)) /
+                               by;
         }
     }
     return made;
@@ -760,9 +878,11 @@ static api_array *slope_array(rb_api *a, const char *name)
         api_array *made = k < s->n ? rb_api_make_array(a, name, s->rows, sides) : NULL;
         for (int row = 0; made && row < s->rows; row++) {
             const double *both = s->value + 2 * ((size_t)row * (size_t)s->n + (size_t)k);
-            made->at[row] = sides == 2 ? both[0] : rb_case_slope_value(s, row, k);
+            const rb_units units = units_of(a, name);
+            made->at[row] = rb_case_slope_shown(
+                &s->of[k], units, sides == 2 ? both[0] : rb_case_slope_value(s, row, k));
             if (sides == 2)
-                made->at[s->rows + row] = both[1];
+                made->at[s->rows + row] = rb_case_slope_shown(&s->of[k], units, both[1]);
         }
         return made;
     }
@@ -805,6 +925,10 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
         made = model_array(a, name);
         rb_api_call_ends(a, RB_OK);
     }
+    if (made && !made->shown)
+        show(a, made, 0, made->rows * made->columns);
+    if (made)
+        made->shown = 1;
     *rows = made ? made->rows : 0;
     *columns = made ? made->columns : 0;
     return made ? made->at : NULL;
@@ -834,8 +958,10 @@ int rb_api_curve_derivatives(rb_api *a, const char *over, double from, double to
     rb_api_forget_arrays(a, "curve.");
     rb_rolling_curve_free(&a->curve);
     rb_rolling_curve_free(&a->curve_errors);
-    const rb_rolling_range range = {(rb_rolling_variable)variable->value, from, to, points,
-                                    c->units};
+    const int speeds = variable->name && variable->value == RB_OVER_SPEED;
+    const char *unit = speeds ? "mm/s" : NULL;
+    const rb_rolling_range range = {(rb_rolling_variable)variable->value, stored(a, unit, from),
+                                    stored(a, unit, to), points, c->units};
     rb_api_call_begins(a);
     rb_status s = rb_api_check_refusals(a, &a->why);
     if (s == RB_OK) {
@@ -1117,7 +1243,8 @@ int rb_api_stress(rb_api *a, int nx, int ny, double depth)
     rb_status s = begin_stress(a, "stress.");
     rb_api_call_begins(a);
     if (s == RB_OK)
-        s = rb_rolling_stress_on_grid(&a->result.model, nx, ny, depth, &grid, &a->why);
+        s = rb_rolling_stress_on_grid(&a->result.model, nx, ny, stored(a, "mm", depth), &grid,
+                                      &a->why);
     s = rb_api_call_ends(a, s);
     if (s == RB_OK)
         s = keep_stress(a, nx, ny, grid.at);
@@ -1128,17 +1255,21 @@ int rb_api_stress(rb_api *a, int nx, int ny, double depth)
 int rb_api_stress_at(rb_api *a, int n, const double *xy)
 {
     rb_rolling_stress *at = NULL;
+    double *place = NULL;
     rb_status s = begin_stress(a, "stress.");
     if (s == RB_OK && n < 1)
         s = rb_fail(&a->why, RB_EINVAL, "stress: expected at least one point, got %d", n);
-    if (s == RB_OK && !(at = calloc((size_t)n, sizeof *at)))
+    if (s == RB_OK && (!(at = calloc((size_t)n, sizeof *at)) || !(place = rb_alloc((size_t)n, 2))))
         s = RB_ENOMEM;
+    for (int k = 0; s == RB_OK && k < 2 * n; k++)
+        place[k] = stored(a, "mm", xy[k]);
     rb_api_call_begins(a);
     if (s == RB_OK)
-        s = rb_rolling_stress_at(&a->result.model, n, xy, at, &a->why);
+        s = rb_rolling_stress_at(&a->result.model, n, place, at, &a->why);
     s = rb_api_call_ends(a, s);
     if (s == RB_OK)
         s = keep_stress(a, n, 1, at);
+    free(place);
     free(at);
     return rb_api_ended(a, s);
 }
@@ -1390,10 +1521,10 @@ int rb_api_wear(rb_api *a, const char *law, double coefficient, double share, do
 {
     const rb_rolling_wear how = {.law = strcmp(law, "archard") == 0 ? RB_WEAR_ARCHARD
                                                                     : RB_WEAR_DISSIPATION,
-                                 .coefficient = coefficient,
+                                 .coefficient = stored(a, "1/MPa", coefficient),
                                  .share = share,
                                  .slides = !isnan(slide),
-                                 .way = isnan(slide) ? cycles : slide,
+                                 .way = isnan(slide) ? cycles : stored(a, "mm", slide),
                                  .steps = steps,
                                  .increments = quarter};
     rb_rolling_solution last = {0};
@@ -1428,7 +1559,7 @@ int rb_api_stress_maxima(rb_api *a, double depth)
     rb_status s = begin_stress(a, "maxima.");
     rb_api_call_begins(a);
     if (s == RB_OK)
-        s = rb_rolling_stress_maxima_find(&a->result.model, depth, &m, &a->why);
+        s = rb_rolling_stress_maxima_find(&a->result.model, stored(a, "mm", depth), &m, &a->why);
     s = rb_api_call_ends(a, s);
     for (int k = 0; s == RB_OK && rb_rolling_maximum(&m, k); k++) {
         const rb_rolling_extremum *at = rb_rolling_maximum(&m, k);

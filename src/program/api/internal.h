@@ -9,6 +9,7 @@
 typedef struct {
     char name[120];
     int rows, columns;
+    int shown;  /* 1: in the units of the case; 0: in mm, N, MPa */
     double *at; /* owned */
 } api_array;
 
@@ -72,6 +73,7 @@ struct rb_api {
     char *said[API_SAID_N]; /* NULL: not asked for; owned */
     api_array **made;       /* arrays; owned, as each of them */
     int arrays;
+    rb_units study_units; /* of the cases of the last sweep */
 };
 
 void rb_api_forget_notes(rb_api *a);

@@ -278,6 +278,11 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
                             "--paris: a study has the K of cracks of given lengths");
             s = u == RB_OK ? u : rb_fail(&st.a->why, u, "case %d: %.580s", k + 1, why.text);
         }
+    a->study_units = n > 0 && s == RB_OK ? rb_case_resolved(cases[0]->words)->units : RB_UNITS_MM;
+    for (int k = 1; k < n && s == RB_OK; k++)
+        if (rb_case_resolved(cases[k]->words)->units != a->study_units)
+            s = rb_fail(&a->why, RB_EINVAL, "case %d: units: the cases of a study have the same",
+                        k + 1);
     if (s == RB_OK && (derivatives || tolerance) && n > 0) {
         s = choose_slopes(a, n, cases, derivatives, tolerance, own);
         of_cases.measure = measure_slopes;

@@ -37,6 +37,11 @@ static cli_exit read_case_file(const cli_spec *spec, const char *path, rb_case *
     const rb_status s = rb_case_read(c, path, spec->set_n - 2, spec->sets + 1, &why);
     if (s != RB_ENOENT)
         return cli_say(s, &why);
+    if (rb_unit_is_known(path))
+        return cli_fail(CLI_USAGE,
+                        "'%s' is no case file: write a unit behind its number without a "
+                        "blank, as 210GPa",
+                        path);
     cli_guess_command(&guess);
     return cli_fail(cli_exit_of(s), "%s%s", why.text, rb_guess_text(&guess, ""));
 }
@@ -73,7 +78,10 @@ cli_exit cli_check_units(const rb_case *c, const rb_option_set *set, const cli_a
     char what[300];
     for (int k = 0; k < set->n; k++) {
         const rb_option *o = &set->options[k];
-        if (o->kind == RB_OPTION_TEXT && set->given[k] > 0 && strchr(o->unit, '=') &&
+        /* the C of Paris' law has a unit that depends on its exponent */
+        const int own_units =
+            (o->kind == RB_OPTION_TEXT && strchr(o->unit, '=')) || strcmp(o->name, "paris") == 0;
+        if (own_units && set->given[k] > 0 &&
             rb_case_units(c, set->given[k]) != rb_case_units(c, RB_GIVEN_ARGUMENT))
             return cli_fail(
                 CLI_DATA,

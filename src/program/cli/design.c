@@ -7,6 +7,7 @@
 #include <jansson.h>
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 #include <unistd.h>
 
 typedef struct {
@@ -14,6 +15,7 @@ typedef struct {
     int most;
     double span;
     rb_design design;
+    rb_units units;
     int tells; /* 1: evaluations on standard error */
 } designing;
 
@@ -61,12 +63,23 @@ static void add_json(const cli_case_run *run, json_t **root)
     rb_report_json_design(root, &((const designing *)run->own)->design, run->c->units);
 }
 
+/* "" of a pure number. */
+static const char *unit_of(const rb_design *d, rb_units units)
+{
+    const char *unit = d->result && d->result->unit ? d->result->unit : "1";
+    return strcmp(unit, "1") != 0 ? rb_unit_name(units, unit) : "";
+}
+
 static void summarise(FILE *out, const cli_case_run *run)
 {
     const rb_design *d = &((const designing *)run->own)->design;
+    const rb_units units = run->c->units;
+    const char *unit = d->result ? d->result->unit : NULL, *name = unit_of(d, units);
     if (d->status == RB_OK)
-        fprintf(out, "design: %s %.6g, at the start %.6g, %d evaluations\n",
-                rb_design_result_name(d->result), d->value, d->start, d->evaluations);
+        fprintf(out, "design: %s %.6g%s%s, at the start %.6g%s%s, %d evaluations\n",
+                rb_design_result_name(d->result), rb_unit_shown(units, unit, d->value),
+                *name ? " " : "", name, rb_unit_shown(units, unit, d->start), *name ? " " : "",
+                name, d->evaluations);
 }
 
 static int tell(int evaluation, double value, const double *x, void *context)
@@ -76,9 +89,10 @@ static int tell(int evaluation, double value, const double *x, void *context)
     if (f->tells) {
         cli_wait_rest();
         fprintf(stderr, "evaluation %d: %s %.8g", evaluation, rb_design_result_name(d->result),
-                value);
+                rb_unit_shown(f->units, d->result ? d->result->unit : NULL, value));
         for (int j = 0; j < d->n && j < 4; j++)
-            fprintf(stderr, " %s=%.6g", d->variable[j].name, x[j]);
+            fprintf(stderr, " %s=%.6g", d->variable[j].name,
+                    rb_unit_shown(f->units, d->variable[j].unit, x[j]));
         fputc('\n', stderr);
     }
     return cli_interrupted();
@@ -89,6 +103,7 @@ static rb_status solve(cli_case_run *run, rb_message *why)
     designing *f = run->own;
     const rb_design_observer observer = {tell, f};
     f->tells = !run->o.quiet && isatty(STDERR_FILENO);
+    f->units = run->c->units;
     cli_interrupts_catch();
     const rb_status s = rb_design_solve(run->words, &observer, &f->design, why);
     cli_interrupts_leave();

@@ -89,6 +89,19 @@ static const char *option_that_begins(const cli_spec *spec, const char *letters,
     return found;
 }
 
+/* 1: the next argument is the unit of a number, behind a blank: --young 210 GPa. */
+static int has_unit_apart(const rb_option *o, const char *value, const char *next)
+{
+    char both[120];
+    double x;
+    int plain = 1;
+    if (o->kind != RB_OPTION_NUMBER || !next || *next == '-' || !rb_option_number(value, &x) ||
+        access(next, F_OK) == 0 ||
+        snprintf(both, sizeof both, "%s %s", value, next) >= (int)sizeof both)
+        return 0;
+    return rb_unit_read(both, o->unit, &x, &plain, NULL) == RB_OK && !plain;
+}
+
 cli_exit cli_parse(const cli_spec *spec, int argc, char **argv, cli_args *args)
 {
     int operands_only = 0;
@@ -139,6 +152,9 @@ cli_exit cli_parse(const cli_spec *spec, int argc, char **argv, cli_args *args)
         if (!value)
             return cli_fail(CLI_USAGE, "%s: expected %s, got nothing", what,
                             rb_option_expected(&set->options[k], expected, sizeof expected));
+        if (has_unit_apart(&set->options[k], value, argv[i + 1]))
+            return cli_fail(CLI_USAGE, "%s: write %s%s without a blank, or '%s %s' in quotes", what,
+                            value, argv[i + 1], value, argv[i + 1]);
         if (rb_option_assign(set, k, RB_GIVEN_ARGUMENT, what, value, &why) != RB_OK)
             return cli_fail(CLI_USAGE, "%s", why.text);
     }

@@ -382,6 +382,24 @@ static int radians(const rb_rolling_case *rc, const rb_rolling_solution *s, char
                rc->a.arc, rc->a.arc);
 }
 
+/* Numbers in m, N and Pa that are taken for mm, N and MPa: a pressure that nothing bears (diamond's
+ * hardness is 1e5 MPa), or a stiff body that a load presses flat. */
+static int other_units(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    const double hardest = 1e5, stiff = 1e3, flat = 0.5, width = widest_patch(s) / rc->a.radius;
+    static const char ask[] = "If the numbers are in m, N/m and Pa, write --units si; a number may "
+                              "also have its unit, as 210GPa or 500kN/m.";
+
+    if (s->units != RB_UNITS_MM)
+        return 0;
+    if (s->max_pressure > hardest)
+        return say(text, "p0 = %.3g MPa is more than diamond bears, %.3g MPa. %s", s->max_pressure,
+                   hardest, ask);
+    return !isnan(rc->load) && rc->a.young > stiff && rc->gap != RB_GAP_TABLE &&
+           rc->b.radius > 0.0 && !(rc->interlayer_normal > 0.0) && width > flat &&
+           say(text, "The load presses a stiff body flat (a = %.2g R). %s", width, ask);
+}
+
 /* ---- What is not unique ------------------------------------------------------------ */
 
 /* Beyond full sliding the force does not change: it does not tell the creepage.  At the end
@@ -544,6 +562,7 @@ static const struct {
     {"no-creepage", no_creepage, 0},
     {"percent", percent, 0},
     {"radians", radians, 0},
+    {"other-units", other_units, 0},
     {"not-unique", not_unique_motion, 0},
     {"steep-fall", steep_fall, 0},
     {"angle-of-arc", angle_of_arc, 0},
