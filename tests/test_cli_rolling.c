@@ -415,6 +415,51 @@ TEST(friction_power_adds_up)
               "balance");
 }
 
+static double slope(const json_t *root, const char *of, const char *by, size_t row)
+{
+    const json_t *all = json_object_get(json_object_get(root, "history"), "derivatives");
+    const json_t *value = json_array_get(json_object_get(json_object_get(all, of), by), row);
+    return json_is_number(value) ? json_number_value(value) : NAN;
+}
+
+/* A row in which everything slides under its force has no derivatives, and those behind it have
+ * none; the rows before it have theirs.  Of a given part of mu P all but the motion has. */
+TEST(rows_before_full_sliding_have_derivatives)
+{
+#define STEPS                                                                                      \
+    "--support halfplane --similar --load 500 --mu 0.3 --contact-elements 20 --history rows.txt "  \
+    "--json --derivatives "
+    char line[500];
+    write_file("rows.txt", "force\n50\n149\n");
+    held_json *before = run_json(STEPS "shift:mu,approach:load");
+    write_file("rows.txt", "force\n50\n149\n150\n100\n");
+    held_json *all = run_json(STEPS "shift:mu,approach:load");
+    for (size_t row = 0; row < 2; row++) {
+        CHECK_REL(slope(all, "shift", "mu", row), slope(before, "shift", "mu", row), 1e-9, "mu");
+        CHECK_REL(slope(all, "approach", "load", row), slope(before, "approach", "load", row), 1e-9,
+                  "load");
+        assert_true(isnan(slope(all, "shift", "mu", row + 2)));
+        assert_true(isnan(slope(all, "approach", "load", row + 2)));
+    }
+    const char *note =
+        json_string_value(json_object_get(json_object_get(all, "history"), "derivatives_note"));
+    assert_non_null(strstr(note, "2 of 4 rows have no derivatives: from row 3 on: the whole "
+                                 "contact slides under the given force"));
+    write_file("rows.txt", "force\n150\n100\n");
+    snprintf(line, sizeof line, "%s", STEPS "shift:mu");
+    CHECK_RUN(rollbem(line), 1, err,
+              "row 1 of the history: the whole contact slides under the given force");
+    held_json *part = run_json(
+        "--support halfplane --similar --load 500 --mu 0.3 --contact-elements 20 --formulation "
+        "transient --force-ratio -1 --distance 0.5 --json "
+        "--derivatives tangential_load:mu,creepage:mu");
+    for (size_t row = 0; row < 3; row++) {
+        CHECK_REL(slope(part, "tangential_load", "mu", row), -500.0, 1e-9, "-P");
+        assert_true(isnan(slope(part, "creepage", "mu", row)));
+    }
+#undef STEPS
+}
+
 /* The balance of power (V4) from the JSON alone: for every support, both bodies, every way to
  * drive.  Of a wheel that turns the lever arms' part is also int (p u_T - q u_N) dx / R, by the
  * printed displacements of A on a rigid plane. */

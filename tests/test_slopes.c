@@ -163,7 +163,7 @@ TEST(one_step_is_told)
     value[4] = value[5] = NAN;
     of = (rb_case_slopes){.table = &rb_rolling_history_columns, .n = 1, .rows = 7, .value = value};
     assert_int_equal(rb_case_slopes_note(&of, &note), 1);
-    assert_non_null(strstr(note.text, "in 1 of 7 steps some derivatives do not exist (NaN)"));
+    assert_non_null(strstr(note.text, "in 1 of 7 rows some derivatives do not exist (NaN)"));
     value[5] = 1.0;
     assert_int_equal(rb_case_slopes_note(&of, &note), 0);
 }
@@ -578,14 +578,14 @@ TEST(points_are_single_cases)
         const char *over;
     } curve[] = {
         {{{PLANES "mesh uniform similar yes zone 1.2"}},
-         {RB_OVER_CREEP_RATIO, 0.1, 0.9, 3},
+         {RB_OVER_CREEP_RATIO, 0.1, 0.9, 3, RB_UNITS_MM},
          "creep-ratio"},
         {{{PLANES "mesh uniform young-b 70000 interlayer-tangential 1e-6"}},
-         {RB_OVER_CREEP, -2e-3, 1e-3, 4},
+         {RB_OVER_CREEP, -2e-3, 1e-3, 4, RB_UNITS_MM},
          "creep"},
         {{{PLANES
            "mesh uniform similar yes relaxation-time 1e-3 relaxation-ratio 1 creep 1e-3 zone 2"}},
-         {RB_OVER_SPEED, 100, 10000, 3},
+         {RB_OVER_SPEED, 100, 10000, 3, RB_UNITS_MM},
          "speed"}};
     for (size_t k = 0; k < sizeof curve / sizeof *curve; k++) {
         rb_message why = {""};

@@ -289,7 +289,7 @@ typedef struct {
     int degenerate;    /* of a history: steps in which elements stand between two zones */
     int stay;          /* of a history: 1: elements of an automatic zone are frozen */
     int without;       /* of a curve: points that have no derivatives, and why the last one
-                          has none */
+                          has none; of a history: rows, the last ones, and why the first of them */
     rb_message reason;
     const char *tolerance; /* of a curve or a study: uncertain inputs, for the standard
                               deviations of its points or cases; NULL: none; borrowed */

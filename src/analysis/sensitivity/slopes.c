@@ -159,18 +159,21 @@ int rb_case_slopes_note(const rb_case_slopes *s, rb_message *note)
     if (s->stay)
         rb_append(note->text, size, "derivatives are those on elements that do not move");
     if (s->without > 0)
-        rb_append(note->text, size, "%s%d of %d points have no derivatives: %.500s",
-                  s->stay ? "; " : "", s->without, s->rows, s->reason.text);
+        rb_append(note->text, size, "%s%d of %d %s have no derivatives: %.500s",
+                  s->stay ? "; " : "", s->without, s->rows,
+                  s->table == &rb_rolling_history_columns ? "rows" : "points", s->reason.text);
     else if (s->degenerate > 0)
         rb_append(note->text, size,
                   "%sin %d of %d steps an element stands between two zones: derivatives from "
                   "there on are those for growing numbers",
                   s->stay ? "; " : "", s->degenerate, s->rows);
-    if (without > 0)
-        rb_append(note->text, size,
-                  "%sin %d of %d steps some derivatives do not exist (NaN), for example by mu "
-                  "where surfaces without friction slide under a given force",
-                  note->text[0] ? "; " : "", without, s->rows);
+    if (without > s->without)
+        rb_append(
+            note->text, size,
+            "%sin %d of %d rows some derivatives do not exist (NaN): those of the motion where "
+            "everything slides under a given part of mu P, those by mu where surfaces "
+            "without friction slide under a given force",
+            note->text[0] ? "; " : "", without - s->without, s->rows);
     return note->text[0] != '\0';
 }
 

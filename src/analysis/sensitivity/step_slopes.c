@@ -17,6 +17,14 @@ typedef struct {
     rb_sensitivity_at_elements *picked; /* a derivative for each step; owned */
 } varied;
 
+/* What the steps allow. */
+typedef struct {
+    int rows;          /* that have derivatives: those before the first that has none */
+    int *is_arbitrary; /* steps: 1: the motion of this step is, because everything slides at
+                         Q = +-mu P; borrowed */
+    int moved;         /* the first of them; steps: none */
+} allowed;
+
 /* What the elements grow with, under the largest load: of bodies that relax, which roll by
  * elements, the unit of the way. */
 static double unit_of_elements(const rb_rolling_case *rc, const rb_rolling_program *program)
@@ -132,6 +140,8 @@ static void varied_free(varied *v)
 static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *base, varied *v,
                                     rb_message *why)
 {
+    const int holds = !base->problem.force_given;
+
     memset(v->rate.gap, 0, 4 * (size_t)v->rate.n * sizeof *v->rate.gap);
     v->rate.normal = v->rate.tangential = 0.0;
     for (int k = 0; k < v->of.n; k++) {
@@ -140,6 +150,8 @@ static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *b
 
         if (status != RB_OK)
             return status;
+        if (holds)
+            at->problem.force_given = 0;
         rb_rolling_variant_set(&base->state, NULL, 0.0, &at->state);
         status =
             rb_sensitivity_add_variant(s, at, v->of.weight[k] / v->step, &v->left, &v->rate, why);
@@ -162,14 +174,31 @@ static rb_status differentiate_step(const rb_sensitivity *s, rb_rolling_model *b
     return status;
 }
 
+/* Whether a given force finds everything sliding by Coulomb's law: then no motion is its. */
+static int slides_under_force(const rb_rolling_model *model)
+{
+    const rb_contact_state *state = &model->state;
+    int contact = 0, slides = 0;
+
+    for (int i = 0; i < state->n; i++) {
+        contact += state->zone[i] != RB_ZONE_SEPARATED;
+        slides +=
+            state->zone[i] == RB_ZONE_SLIP_NEGATIVE || state->zone[i] == RB_ZONE_SLIP_POSITIVE;
+    }
+    return model->problem.force_given && contact > 0 && slides == contact &&
+           rb_rolling_largest_mu(model->rc) > 0.0 && !rb_rolling_law_depends_on_state(model->rc);
+}
+
+/* A step without derivatives ends those of the rows: the ones before it have theirs. */
 static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower *base, int n,
-                           varied *v, rb_case_slopes *slopes, rb_message *why)
+                           varied *v, rb_case_slopes *slopes, allowed *can, rb_message *why)
 {
     rb_rolling_model *model = rb_rolling_follower_model(base);
 
     for (int step = 0; step < states->steps;) {
         rb_sensitivity *s = NULL;
-        rb_status status = rb_rolling_follower_begin(base, why);
+        rb_message reason = {""};
+        rb_status status = rb_rolling_follower_begin(base, &reason);
         const int ends_row = rb_rolling_follower_ends_row(base);
         if (ends_row)
             rb_rolling_states_get(states, step, &model->state);
@@ -177,17 +206,35 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
          * none */
         if (status == RB_OK)
             status = !ends_row || rb_rolling_is_compressed(model)
-                         ? rb_rolling_follower_solve(base, why)
-                         : rb_rolling_model_friction(model, why);
+                         ? rb_rolling_follower_solve(base, &reason)
+                         : rb_rolling_model_friction(model, &reason);
+        if (status == RB_OK && slides_under_force(model)) {
+            /* All of mu P, if it is given as such, changes with it at any motion, also at one at
+             * which the slowest element slides, too; a given force would be more than friction
+             * carries. */
+            double more = 0.0;
+            for (int i = 0; i < model->state.n; i++)
+                more = fmax(more, fabs(model->state.lambda[i] / model->problem.e_T[i]));
+            more = rb_rolling_model_force(model) > 0.0 ? -more : more;
+            if (!isnan(model->rc->force) || model->problem.axle != 0.0)
+                status =
+                    rb_fail(&reason, RB_SINGULAR, "the whole contact slides under the given force");
+            model->problem.force_given = 0;
+            model->state.xi += more;
+            for (int i = 0; i < model->state.n; i++)
+                model->state.lambda[i] += more * model->problem.e_T[i];
+            can->is_arbitrary[step] = 1;
+            can->moved = step < can->moved ? step : can->moved;
+        }
         if (status == RB_OK)
-            status = rb_sensitivity_create(model, 0, &s, why);
+            status = rb_sensitivity_create(model, 0, &s, &reason);
         if (status == RB_OK)
             slopes->degenerate += ends_row && rb_sensitivity_degenerate(s) > 0;
         for (int k = 0; k < n && status == RB_OK; k++)
             status = rb_interrupted() ? rb_fail(why, RB_INTERRUPTED,
                                                 "derivatives: interrupted after step %d of %d",
                                                 step, states->steps)
-                                      : differentiate_step(s, model, &v[k], why);
+                                      : differentiate_step(s, model, &v[k], &reason);
         if (status == RB_OK)
             rb_rolling_follower_end(base);
         for (int k = 0; k < n && status == RB_OK; k++)
@@ -195,16 +242,37 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
                                                               v[k].step, v[k].model, &v[k].tangent,
                                                               &v[k].picked[step]);
         rb_sensitivity_free(s);
-        step += ends_row;
-        if (status != RB_OK)
+        if (status == RB_INTERRUPTED)
             return status;
+        if (status == RB_ENOMEM || (status != RB_OK && step == 0))
+            return rb_fail(why, status, "derivatives: row %d of the history: %.400s", step + 1,
+                           rb_status_reason(status, &reason));
+        if (status != RB_OK) {
+            rb_fail(&slopes->reason, status, "from row %d on: %.400s", step + 1,
+                    rb_status_reason(status, &reason));
+            return RB_OK;
+        }
+        step += ends_row;
+        can->rows = step;
     }
     return RB_OK;
 }
 
-/* Of a column after a step, from the histories at the four values. */
-static double slope_of(const varied *v, const rb_rolling_result *r, int row)
+/* 1: a result of the motion alone, which nothing determines in that row; a shift is that of all
+ * rows up to it. */
+static int is_undetermined(const allowed *can, const rb_rolling_result *r, int row)
 {
+    return row >= can->rows ||
+           (can->is_arbitrary[row] && (r->offset == offsetof(rb_rolling_history, creepage) ||
+                                       r->offset == offsetof(rb_rolling_history, dissipation))) ||
+           (row >= can->moved && r->offset == offsetof(rb_rolling_history, shift));
+}
+
+/* Of a column after a step, from the histories at the four values. */
+static double slope_of(const varied *v, const allowed *can, const rb_rolling_result *r, int row)
+{
+    if (is_undetermined(can, r, row))
+        return NAN;
     const rb_sensitivity_at_elements *picked = &v->picked[row];
     double sum = 0.0, at = 0.0;
 
@@ -223,7 +291,7 @@ static double slope_of(const varied *v, const rb_rolling_result *r, int row)
 
 /* Standard deviations of all columns that the history has; without memory it has none. */
 static rb_status take_deviations(const rb_case_tolerances *t, const varied *v, int n,
-                                 rb_rolling_history *history)
+                                 const allowed *can, rb_rolling_history *history)
 {
     rb_rolling_history *d = history->deviations = calloc(1, sizeof *d);
 
@@ -245,7 +313,7 @@ static rb_status take_deviations(const rb_case_tolerances *t, const varied *v, i
             for (int i = 0; i < t->n; i++)
                 for (int row = 0; row < d->n && strcmp(t->name[i], v[j].number->name) == 0; row++)
                     (*column)[row] =
-                        hypot((*column)[row], t->deviation[i] * slope_of(&v[j], r, row));
+                        hypot((*column)[row], t->deviation[i] * slope_of(&v[j], can, r, row));
     }
     return RB_OK;
 }
@@ -295,6 +363,9 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
         asked = rb_case_add_name(name, asked, t->name[i]);
     rb_case_number *number = rb_arena_zeros(&scratch, RB_CASE_NUMBERS_MAX, sizeof *number);
     varied *v = rb_arena_zeros(&scratch, RB_CASE_NUMBERS_MAX, sizeof *v);
+    allowed can = {.moved = states->steps,
+                   .is_arbitrary =
+                       rb_arena_zeros(&scratch, (size_t)states->steps, sizeof *can.is_arbitrary)};
     if (scratch.failed)
         return rb_fail(why, rb_arena_done(&scratch, RB_ENOMEM), "out of memory for derivatives");
     status = rb_case_numbers(c, number, &numbers, why);
@@ -307,7 +378,7 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
                 status = vary(c, states, base, &v[n++], why);
             }
     if (status == RB_OK)
-        status = all_steps(states, base, n, v, s, why);
+        status = all_steps(states, base, n, v, s, &can, why);
     if (status == RB_OK && s->n > 0 && rb_case_slopes_alloc(states->steps, s) != RB_OK)
         status = rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     for (int k = 0; k < s->n && status == RB_OK; k++)
@@ -315,9 +386,10 @@ rb_status rb_case_slopes_of_steps(const rb_case *c, const rb_rolling_states *sta
             for (int row = 0; row < s->rows && strcmp(v[j].number->name, s->of[k].input) == 0;
                  row++) {
                 double *both = s->value + 2 * ((size_t)row * (size_t)s->n + (size_t)k);
-                both[0] = both[1] = slope_of(&v[j], s->of[k].result, row);
+                both[0] = both[1] = slope_of(&v[j], &can, s->of[k].result, row);
             }
-    if (status == RB_OK && t && take_deviations(t, v, n, history) != RB_OK)
+    s->without = status == RB_OK ? states->steps - can.rows : 0;
+    if (status == RB_OK && t && take_deviations(t, v, n, &can, history) != RB_OK)
         status = rb_fail(why, RB_ENOMEM, "out of memory for deviations");
     for (int k = 0; k < n; k++)
         varied_free(&v[k]);
