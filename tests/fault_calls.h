@@ -16,6 +16,7 @@ enum { CALLS = 1 << 16, STACKS = 1 << 16, WORDS = 128 };
 static uintptr_t *calls;  /* CALLS, of the includer: return addresses, less the base */
 static uintptr_t *stacks; /* STACKS, of the includer: those that have been walked */
 static uintptr_t base, code_start, code_end;
+static unsigned call_parts = 1, call_part; /* which calls count */
 
 /* 1: the set has that key now and had not before.  A full set takes no more. */
 static int insert(uintptr_t *set, size_t size, uintptr_t key)
@@ -35,7 +36,8 @@ static int insert(uintptr_t *set, size_t size, uintptr_t key)
 static _Unwind_Reason_Code note_call(struct _Unwind_Context *context, void *found)
 {
     const uintptr_t at = _Unwind_GetIP(context);
-    if (at >= code_start && at < code_end && insert(calls, CALLS, at - base))
+    if (at >= code_start && at < code_end &&
+        (at - base) * 0x9e3779b1u / 7 % call_parts == call_part && insert(calls, CALLS, at - base))
         *(int *)found = 1;
     return _URC_NO_REASON;
 }

@@ -146,6 +146,8 @@ static int serve(int argc, char **argv, char **environment)
     unsetenv("LD_PRELOAD");
     while (read(FAULT_REQUESTS, &request, sizeof request) == sizeof request) {
         *run = (tally){0};
+        call_parts = request.parts > 0 ? (unsigned)request.parts : 1;
+        call_part = (unsigned)request.part;
         const pid_t pid = fork();
         if (pid == 0) {
             close(FAULT_REQUESTS);

@@ -4,12 +4,13 @@
 
 /* Which allocations of one run fail.  A run by calls refuses the first allocation that is
  * reached through a call of the program that no refused allocation has been reached
- * through before, in this run or an earlier one: after as many runs as give refusals,
- * each call that leads to an allocation has seen one fail. */
+ * through before, in this run or an earlier one of this server: after as many runs as give
+ * refusals, each call that leads to an allocation has seen one fail. */
 typedef struct {
     long only; /* this one, counted from 1; 0: none */
     long from; /* all from this one on; 0: none */
     int by_calls;
+    int parts, part; /* by calls: only those of this part of all calls of the program */
 } fault_request;
 
 typedef struct {

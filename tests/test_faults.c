@@ -95,6 +95,20 @@ static const char *const allocating[] = {
     "in/b.ini --units si --load 1e5 --format csv --plot-script p.gp --plot p.svg",
     "in/b.ini --formulation transient --distance 0.3 --steps 2 --creep-ratio 0.5 "
     "--history-plot h.svg --progress --error --contact-elements 12",
+    "in/b.ini --formulation steady --creep-ratio 0.5 --derivatives --json",
+    "in/b.ini --formulation steady --creep-ratio 0.5 --smooth-derivatives --json",
+    "in/b.ini --formulation steady --creep-ratio 0.5 --tolerance mu=0.02,radius=1% --json",
+    "in/b.ini --formulation transient --distance 0.3 --steps 2 --creep-ratio 0.5 --derivatives "
+    "tangential_load:mu --tolerance mu=0.02 --json",
+    "curve in/b.ini --points 2 --derivatives tangential_load:mu --tolerance mu=0.02 --json",
+    "sweep in/s.ini --derivatives tangential_load:mu --tolerance mu=0.02 --jobs 1 --output w.tsv",
+    "crack in/b.ini --similar --crack-elements 4 --steps 24 --json --plot p.svg",
+    "crack in/b.ini --similar --crack-elements 4 --steps 24 --fluid trapped --crack-angle 30",
+    "crack in/b.ini --similar --crack-elements 4 --steps 24 --paris 1e-10,3 --grow-steps 1",
+    "fit in/creep.tsv in/b.ini --fit mu,young --similar --json --plot p.svg --plot-script p.gp",
+    "fit in/creep.tsv in/b.ini --fit mu,creep-offset --similar --mesh fitted --error "
+    "--contact-elements 12",
+    "design in/b.ini --similar --minimise max_pressure --over radius=40:60 --json",
     "--example by-hand --json",
     "curve in/b.ini --points 3 --mu 0.1,0.3 --plot-script p.gp --plot p.svg",
     "curve in/b.ini --points 3 --over speed --from 1 --to 100 --relaxation-time 0.1 "
@@ -255,6 +269,19 @@ typedef struct {
     int code, files, bad;
 } inspection;
 
+/* The problem is solved, by another method than the one that found no memory: other iterations, and
+ * digits of its own. */
+static int is_solved_too(const char *printed, const char *wanted)
+{
+    held_json *a = json_loads(printed, 0, NULL), *b = json_loads(wanted, 0, NULL);
+    const json_t *x = json_array_get(json_object_get(a, "problems"), 0),
+                 *y = json_array_get(json_object_get(b, "problems"), 0);
+    const json_t *is = json_object_get(x, "status"), *was = json_object_get(y, "status");
+    return x && y && is && json_equal(is, was) &&
+           json_array_size(json_object_get(a, "problems")) ==
+               json_array_size(json_object_get(b, "problems"));
+}
+
 /* Lines that the whole study has, and those of cases that found no memory. */
 static int is_part_of_study(const char *text, const char *whole)
 {
@@ -263,7 +290,9 @@ static int is_part_of_study(const char *text, const char *whole)
     for (size_t length; *text; text += length) {
         length = strcspn(text, "\n") + 1;
         snprintf(line, sizeof line, "%.*s", (int)length, text);
-        if (text + length > text + n || (!strstr(whole, line) && !strstr(line, "\t-2\t")))
+        /* notes say of how many cases they are */
+        if (text + length > text + n || (!strstr(whole, line) && !strstr(line, "\t-2\t") &&
+                                         !strstr(line, ",-2,") && strncmp(line, "# ", 2) != 0))
             return 0;
     }
     return 1;
@@ -285,6 +314,9 @@ static void inspect(const char *path, void *context)
         good = strcmp(text, "old\n") == 0;
     if (!good && wanted && in->code && in->j->rows)
         good = is_part_of_study(text, wanted);
+    /* without the cases that found no memory */
+    if (!good && wanted && in->code && in->j->rows && strncmp(wanted, "<?xml", 5) == 0)
+        good = size > 10 && strstr(text + size - 10, "</svg>") != NULL;
     if (!good)
         print_error("%s: %s, exit code %d: %zu bytes that are not the whole file\n", in->j->name,
                     path, in->code, size);
@@ -367,7 +399,8 @@ static void assess(const job *j, const char *fault, int k, int status, int code,
     int good = in.bad == 0 && (in.code == 0 || in.code == code);
     if (in.code == 0) /* the fault did no harm */
         good = good && in.files == reference_files &&
-               (strcmp(printed, reference_out) == 0 || same_json(printed, reference_out));
+               (strcmp(printed, reference_out) == 0 || same_json(printed, reference_out) ||
+                (strncmp(j->arguments, "lcp ", 4) == 0 && is_solved_too(printed, reference_out)));
     else
         good = good && strstr(text, said);
     if (!good)
@@ -490,15 +523,23 @@ static int preloaded(void)
     return !SANITIZED && access(preload, R_OK) == 0;
 }
 
+/* The calls of each job are its own: what one tries does not depend on those before it.  A part of
+ * them each time, another one in the next turn. */
+enum { PARTS = 8 };
+
 static int fail_every_call(const job *j)
 {
+    const char *turn = getenv("ROLLBEM_TEST_TURN"), *all = getenv("ROLLBEM_TEST_ALL");
+    const fault_request by_calls = {
+        .by_calls = 1, .parts = all ? 1 : PARTS, .part = all || !turn ? 0 : atoi(turn) % PARTS};
+    unlink("calls");
     make_reference(j);
     const fault_server server = start_server();
     const fault_reply whole = run_failing(&server, j, &(fault_request){0});
     assess(j, "no fault", 0, whole.status, 0, "");
     assert_true(whole.allocations > 0);
     for (int k = 1;; k++) {
-        const fault_reply reply = run_failing(&server, j, &(fault_request){.by_calls = 1});
+        const fault_reply reply = run_failing(&server, j, &by_calls);
         assess(j, "call that allocates", k, reply.status, 70, "out of memory");
         if (!reply.refused) {
             stop_server(&server);
@@ -518,7 +559,8 @@ TEST(every_call_that_allocates)
     const char *const *line = allocating;
     for (int part = 0; part < (getenv("ROLLBEM_TEST_ALL") ? 2 : 1); part++, line++)
         for (; *line; line++)
-            tried += fail_every_call(&(job){.name = *line, .arguments = *line});
+            tried += fail_every_call(&(job){
+                .name = *line, .arguments = *line, .rows = strncmp(*line, "sweep ", 6) == 0});
     none_wrong(tried, "calls that allocate");
 }
 
@@ -558,7 +600,8 @@ static const char *const making_inputs[] = {
     ">gap.txt; printf '0.5 0\\n0.6 0.0001\\n0.7 0\\n' >flat.txt; printf "
     "-- '-2 0\\n0 0.0001\\n2 0\\n' >worn.txt; printf -- '-1 0.3\\n1 0.2\\n' "
     ">mu.txt; printf '0 0.1\\n0.1 0.2\\n' "
-    ">points.txt; printf 'creep-ratio mu\\n0.2 0.1\\n0.5 0.3\\n' >cases.txt",
+    ">points.txt; printf 'creep-ratio mu\\n0.2 0.1\\n0.5 0.3\\n' >cases.txt; printf "
+    "'creep force\\n1e-4 -4\\n3e-4 -11\\n6e-4 -18\\n1e-3 -24\\n2e-3 -29\\n' >creep.tsv",
     "\"$R\" in/b.ini --quiet --fclib in/f.hdf5; \"$R\" in/b.ini --quiet --json "
     "--output in/static.json; $R in/b.ini --quiet --output in/table.tsv; \"$R\" in/b.ini --quiet "
     "--formulation steady --creep-ratio 0.5 --json --output in/steady.json; \"$R\" in/b.ini "

@@ -435,22 +435,21 @@ static rb_status search(problem *p)
     double *u = rb_alloc((size_t)d->n, 1), least;
     nlopt_opt opt = nlopt_create(NLOPT_LD_SLSQP, (unsigned)d->n);
 
-    if (!u || !opt) {
-        free(u);
-        nlopt_destroy(opt);
-        return rb_fail(p->why, RB_ENOMEM, "out of memory for a design");
-    }
-    for (int k = 0; k <= d->constraints; k++) {
+    int made = u && opt;
+    for (int k = 0; k <= d->constraints && made; k++) {
         const rb_design_constraint *c = k ? &d->constraint[k - 1] : NULL;
         f[k] = (function){p, opt, k, d->largest ? -1.0 : 1.0, 0.0};
         if (c) {
             f[k].scale = (c->at_least ? -1.0 : 1.0) / fmax(fabs(c->bound), 1e-12);
             f[k].bound = c->bound;
-            nlopt_add_inequality_constraint(opt, call, &f[k], 0.1 * MISSED);
+            made = nlopt_add_inequality_constraint(opt, call, &f[k], 0.1 * MISSED) > 0;
         }
     }
-    nlopt_set_lower_bounds1(opt, 0.0);
-    nlopt_set_upper_bounds1(opt, 1.0);
+    if (!made || nlopt_set_lower_bounds1(opt, 0.0) < 0 || nlopt_set_upper_bounds1(opt, 1.0) < 0) {
+        free(u);
+        nlopt_destroy(opt);
+        return rb_fail(p->why, RB_ENOMEM, "out of memory for a design");
+    }
     nlopt_set_min_objective(opt, call, &f[0]);
     nlopt_set_ftol_rel(opt, 1e-9);
     nlopt_set_ftol_abs(opt, 1e-9);
@@ -473,6 +472,8 @@ static rb_status search(problem *p)
             before = p->best_value;
             r = nlopt_optimize(opt, u, &least);
         }
+        if (p->status == RB_OK && r == NLOPT_OUT_OF_MEMORY)
+            p->status = rb_fail(p->why, RB_ENOMEM, "out of memory for a design");
         if (p->status == RB_OK && r == NLOPT_MAXEVAL_REACHED)
             p->status =
                 rb_fail(p->why, RB_MAXITER, "design: not converged after %d evaluation%s%s%s",

@@ -215,8 +215,14 @@ static rb_status step_to_least(const state *at, int kinks, double *d, double *le
             }
             ends += rest % CHOICES == ENDS;
         }
-        if (ends > n || LAPACKE_dgglse(LAPACK_ROW_MAJOR, p->points, n, ends, A, p->n, B[0],
-                                       RB_CASE_FIT_MAX, f, end, x) != 0)
+        const int info = ends > n ? 1
+                                  : LAPACKE_dgglse(LAPACK_ROW_MAJOR, p->points, n, ends, A, p->n,
+                                                   B[0], RB_CASE_FIT_MAX, f, end, x);
+        if (info == LAPACK_WORK_MEMORY_ERROR || info == LAPACK_TRANSPOSE_MEMORY_ERROR) {
+            free(A);
+            return rb_fail(at->why, RB_ENOMEM, "out of memory for a step");
+        }
+        if (info != 0)
             continue;
         for (int k = n - ends; k < p->points; k++)
             sum += f[k] * f[k];

@@ -383,8 +383,10 @@ static rb_status gauss_newton_step(const fit_problem *p, const double *theta, do
         moved += by * by;
     }
     *moves = sqrt(moved / fmax(variance_of(p), SAME_OF_ALL * squares / p->points));
-    return rb_arena_done(&scratch,
-                         info == 0 ? RB_OK : rb_fail(why, RB_SINGULAR, "fit: no step is found"));
+    return rb_arena_done(&scratch, info == 0 ? RB_OK
+                                   : rb_lapack_status(info) == RB_ENOMEM
+                                       ? rb_fail(why, RB_ENOMEM, "out of memory for a step")
+                                       : rb_fail(why, RB_SINGULAR, "fit: no step is found"));
 }
 
 /* Gauss and Newton's method on elements that move with the numbers, where the minima on elements

@@ -67,7 +67,7 @@ static rb_status look_at(search *s, const double *theta, int *goes)
 }
 
 /* Direction k of 2 n: number k/2 up or down, alone; of another 2 n: the others follow it as the
- * derivatives say.  0: there is no such direction. */
+ * derivatives say.  0: there is no such direction; -1: no memory. */
 static int direction(const search *s, int k, double *d)
 {
     const fit_problem *p = s->p;
@@ -97,8 +97,10 @@ static int direction(const search *s, int k, double *d)
                     unit[c] * unit[r] * fit_dot(p->points, fit_column(p, r), fit_column(p, c));
         m++;
     }
-    if (m == 0 || LAPACKE_dgelsd(LAPACK_COL_MAJOR, m, m, 1, A, m, b, m, singular, 1e-9, &rank) != 0)
-        return 0;
+    const int info =
+        m == 0 ? 1 : LAPACKE_dgelsd(LAPACK_COL_MAJOR, m, m, 1, A, m, b, m, singular, 1e-9, &rank);
+    if (info != 0)
+        return rb_lapack_status(info) == RB_ENOMEM ? -1 : 0;
     m = 0;
     for (int i = 0; i < n; i++)
         if (i != j)
@@ -116,11 +118,15 @@ static rb_status to_neighbour(search *s, double h, int *goes)
     rb_status status = RB_OK;
 
     *goes = 0;
-    for (int k = from; k < to && status == RB_OK && !*goes; k++)
-        if (direction(s, k, d)) {
+    for (int k = from; k < to && status == RB_OK && !*goes; k++) {
+        const int there_is = direction(s, k, d);
+        if (there_is < 0)
+            return RB_ENOMEM;
+        if (there_is) {
             step_from(s, h, d, theta);
             status = look_at(s, theta, goes);
         }
+    }
     return status;
 }
 
@@ -158,9 +164,13 @@ static rb_status secant_step(search *s, double h, int *goes)
     }
     for (size_t k = 0; k < points && status == RB_OK; k++)
         b[k] = -b[k];
-    if (status == RB_OK && isfinite(sum) &&
-        LAPACKE_dgelsd(LAPACK_COL_MAJOR, p->points, p->n, 1, J, p->points, b, p->points, singular,
-                       1e-6, &rank) == 0)
+    const int info = status != RB_OK || !isfinite(sum)
+                         ? 1
+                         : LAPACKE_dgelsd(LAPACK_COL_MAJOR, p->points, p->n, 1, J, p->points, b,
+                                          p->points, singular, 1e-6, &rank);
+    if (rb_lapack_status(info) == RB_ENOMEM)
+        status = RB_ENOMEM;
+    if (info == 0)
         /* secants say little beyond a few of their steps */
         for (double part = 1.0; part > 0.2 && status == RB_OK && !*goes; part *= 0.5) {
             for (size_t j = 0; j < n; j++)
@@ -222,6 +232,8 @@ rb_status rb_case_fit_roughness(fit_problem *p, const double *theta, double *rou
             p->fit->parameter[widest].deviation / fabs(theta[widest]))
             widest = j;
     known = direction(&s, (p->n > 1 ? 2 * p->n : 0) + 2 * widest, d);
+    if (known < 0)
+        status = RB_ENOMEM;
     for (int k = 0; k < AT && status == RB_OK && known; k++) {
         double way[RB_CASE_FIT_MAX], at[RB_CASE_FIT_MAX], sum, *own = f + (size_t)k * points;
         for (int j = 0; j < p->n; j++)

@@ -300,18 +300,16 @@ typedef struct {
     void *context;
 } curve_slopes;
 
-static rb_case *case_of_point(const curve_slopes *of, const rb_rolling_model *model,
-                              rb_message *why)
+static rb_status case_of_point(const curve_slopes *of, const rb_rolling_model *model,
+                               rb_case **made, rb_message *why)
 {
     static const char *const name[] = {[RB_OVER_CREEP_RATIO] = "creep-ratio",
                                        [RB_OVER_CREEP] = "creep",
                                        [RB_OVER_SPEED] = "speed"};
-    rb_case *point = rb_case_copy(of->c);
+    rb_case *point = *made = rb_case_copy(of->c);
 
-    if (!point) {
-        rb_fail(why, RB_ENOMEM, "out of memory for a case");
-        return NULL;
-    }
+    if (!point)
+        return rb_fail(why, RB_ENOMEM, "out of memory for a case");
     point->purpose = RB_CASE_SINGLE;
     point->words.mus.n = 1;
     rb_case_assign(point, rb_case_option("mu"), of->mu);
@@ -320,10 +318,12 @@ static rb_case *case_of_point(const curve_slopes *of, const rb_rolling_model *mo
                          : of->range->over == RB_OVER_SPEED ? model->rc->speed
                                                             : model->rc->creep_ratio;
     rb_case_assign(point, rb_case_option(name[of->range->over]), value);
-    if (rb_case_resolve(point, why) == RB_OK)
-        return point;
-    rb_case_free(point);
-    return NULL;
+    const rb_status s = rb_case_resolve(point, why);
+    if (s != RB_OK) {
+        rb_case_free(point);
+        *made = NULL;
+    }
+    return s;
 }
 
 rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range, const char *words,
@@ -331,12 +331,12 @@ rb_status rb_case_curve_choose(const rb_case *c, const rb_rolling_range *range, 
 {
     rb_case_tolerances t;
     const curve_slopes of = {.c = c, .range = range, .mu = c->resolved.rc.mu};
-    rb_case *point = case_of_point(&of, NULL, why);
+    rb_case *point;
+    rb_status status = case_of_point(&of, NULL, &point, why);
 
     *s = (rb_case_slopes){0};
-    if (!point)
-        return RB_EINVAL;
-    rb_status status = RB_OK;
+    if (status != RB_OK)
+        return status;
     if (words)
         status = rb_case_slopes_choose(point, &rb_rolling_solution_scalars, words,
                                        RB_CASE_SLOPES_MAX, s, why);
@@ -377,8 +377,8 @@ static rb_status see_point(const rb_rolling_model *model, int k, void *context, 
     double *row = of->s->value + 2 * (size_t)k * (size_t)of->s->n;
     rb_message *reason = &of->s->reason;
     rb_rolling_solution deviation;
-    rb_case *point = case_of_point(of, model, reason);
-    rb_status s = point ? RB_OK : RB_EINVAL;
+    rb_case *point;
+    rb_status s = case_of_point(of, model, &point, reason);
 
     if (s == RB_OK)
         s = rb_case_slopes_at(point, model, of->s, row, of->deviations ? &deviation : NULL, reason);

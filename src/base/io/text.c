@@ -146,7 +146,7 @@ rb_status rb_io_check_harmless(const char *path, const char *folder, rb_message 
     if (!folder)
         return RB_OK;
     /* The canonical path of the folder is the beginning of that of the file. */
-    char *file = realpath(path, NULL), *above = realpath(folder, NULL);
+    char *file = realpath(path, NULL), *above = file ? realpath(folder, NULL) : NULL;
     rb_status s = RB_OK;
     if (!file || !above)
         s = cannot_read(file ? folder : path, why);

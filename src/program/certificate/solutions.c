@@ -39,6 +39,10 @@ static json_t *result_with(const json_t *root, const json_t *from)
     static const char *const own[] = {"notes",           "derivatives",     "without_derivatives",
                                       "derivatives_are", "derivatives_of",  "tolerances",
                                       "own_of_b",        "uncertain_inputs"};
+    if (one && json_object_size(one) != json_object_size(root)) { /* json_copy does not tell */
+        json_decref(one);
+        return NULL;
+    }
     json_object_del(one, "solutions");
     for (size_t k = 0; k < sizeof own / sizeof *own && from != root; k++)
         json_object_del(one, own[k]); /* they are of the result itself */

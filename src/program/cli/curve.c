@@ -268,7 +268,7 @@ static cli_exit check(cli_case_run *run)
     const rb_status s =
         rb_case_curve_choose(run->words, &range, r->derivatives, r->tolerance, &slopes, &why);
     rb_case_slopes_free(&slopes);
-    return s != RB_OK ? cli_fail(CLI_USAGE, "%s", why.text) : CLI_CONTINUE;
+    return s != RB_OK ? cli_say(s, &why) : CLI_CONTINUE;
 }
 
 static const cli_case_command command = {

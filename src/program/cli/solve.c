@@ -307,19 +307,20 @@ static cli_exit check(cli_case_run *run)
     if (code != CLI_CONTINUE)
         return code;
     /* Names of results and of numbers. */
-    if (it->derivatives && has_steps &&
-        rb_case_slopes_choose(run->words, &rb_rolling_history_columns, it->derivatives,
-                              RB_CASE_SLOPES_MAX, &it->slopes_of_steps, &why) != RB_OK)
-        return cli_fail(CLI_USAGE, "%s", why.text);
-    if (it->derivatives && !has_steps &&
-        rb_report_derivatives_of(it->derivatives, c, &it->shown, &why) != RB_OK)
-        return cli_fail(CLI_USAGE, "--%sderivatives: %s", it->smooth ? "smooth-" : "", why.text);
-    if (it->tolerance &&
-        rb_case_read_tolerances(run->words, it->tolerance, &it->tolerances, &why) != RB_OK)
-        return cli_fail(CLI_USAGE, "%s", why.text);
-    if ((it->derivatives || it->tolerance) && has_steps &&
-        rb_case_slopes_check_steps(run->words, &why) != RB_OK)
-        return cli_fail(CLI_USAGE, "%s", why.text);
+    rb_status s = RB_OK;
+    if (it->derivatives && has_steps)
+        s = rb_case_slopes_choose(run->words, &rb_rolling_history_columns, it->derivatives,
+                                  RB_CASE_SLOPES_MAX, &it->slopes_of_steps, &why);
+    else if (it->derivatives &&
+             (s = rb_report_derivatives_of(it->derivatives, c, &it->shown, &why)) != RB_OK)
+        return cli_fail(cli_exit_of(s), "--%sderivatives: %s", it->smooth ? "smooth-" : "",
+                        rb_status_reason(s, &why));
+    if (s == RB_OK && it->tolerance)
+        s = rb_case_read_tolerances(run->words, it->tolerance, &it->tolerances, &why);
+    if (s == RB_OK && (it->derivatives || it->tolerance) && has_steps)
+        s = rb_case_slopes_check_steps(run->words, &why);
+    if (s != RB_OK)
+        return cli_say(s, &why);
     /* Where the states of the steps are printed, and in which units. */
     if (it->states && (run->o.style.format != RB_REPORT_JSON || c->units != RB_UNITS_MM))
         return cli_fail(CLI_USAGE, "--states: with --json and in mm, N, MPa only");

@@ -382,8 +382,9 @@ cli_exit cli_study_sample(study *st, const rb_case *c)
 
     if (!st->o->tolerance)
         return cli_fail(CLI_USAGE, "--sample needs --tolerance NAME=X,...");
-    if (rb_case_read_tolerances(c, st->o->tolerance, &t, &why) != RB_OK)
-        return cli_fail(CLI_USAGE, "%s", why.text);
+    const rb_status s = rb_case_read_tolerances(c, st->o->tolerance, &t, &why);
+    if (s != RB_OK)
+        return cli_say(s, &why);
     st->sampled = rb_alloc((size_t)n, (size_t)t.n);
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     if (!st->sampled || !rng) {

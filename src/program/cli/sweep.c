@@ -236,9 +236,11 @@ static cli_exit choose_results(study *st)
     if (code == CLI_CONTINUE && st->o->derivatives && st->has_crack)
         code = cli_fail(CLI_USAGE, "--derivatives: the K of cracks have none");
     if (code == CLI_CONTINUE && st->o->derivatives) {
-        if (rb_case_slopes_choose(st->base, &rb_rolling_solution_scalars, st->o->derivatives,
-                                  RB_ROW_OWN, &st->slopes, &why) != RB_OK)
-            code = cli_fail(CLI_USAGE, "%s", why.text);
+        const rb_status s =
+            rb_case_slopes_choose(st->base, &rb_rolling_solution_scalars, st->o->derivatives,
+                                  RB_ROW_OWN, &st->slopes, &why);
+        if (s != RB_OK)
+            code = cli_say(s, &why);
     }
     const int deviates = st->o->tolerance && st->o->sample == 0;
     if (code == CLI_CONTINUE && deviates && st->has_crack)
@@ -250,9 +252,10 @@ static cli_exit choose_results(study *st)
         for (int k = 0; k < st->results; k++)
             if (st->result[k].of == OF_SOLUTION && !st->result[k].is_error)
                 of[n++] = st->result[k].r;
-        if (rb_case_slopes_add_deviations(st->base, st->o->tolerance, n, of, &st->slopes, &why) !=
-            RB_OK)
-            code = cli_fail(CLI_USAGE, "%s", why.text);
+        const rb_status s =
+            rb_case_slopes_add_deviations(st->base, st->o->tolerance, n, of, &st->slopes, &why);
+        if (s != RB_OK)
+            code = cli_say(s, &why);
     }
     /* Not every body's stress is known; what else is wrong is known with the first case. */
     if (code != CLI_CONTINUE)

@@ -92,9 +92,12 @@ void rb_report_json_derivatives(json_t **root, const rb_report_derivatives *d)
                 if (of->status != RB_OK)
                     continue;
                 json_t *value = one_side(d->result[k], d->is_column[k], of, 0);
-                json_t *right =
-                    of->d.sides == 2 ? one_side(d->result[k], d->is_column[k], of, 1) : NULL;
-                if (right && !json_equal(value, right)) { /* those of this result differ */
+                const int two = of->d.sides == 2;
+                json_t *right = two ? one_side(d->result[k], d->is_column[k], of, 1) : NULL;
+                if (two && !right) { /* no memory: the whole has none then */
+                    json_decref(value);
+                    value = NULL;
+                } else if (right && !json_equal(value, right)) { /* those of this result differ */
                     json_t *both = json_array();
                     rb_report_json_append(&both, value);
                     rb_report_json_append(&both, right);

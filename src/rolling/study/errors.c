@@ -528,7 +528,12 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
     } while (stood < 2 && refine(accuracy, worst_relative(rc, solution, &parts.contact.scalar),
                                  worst_relative(rc, solution, &parts.boundary.scalar),
                                  rc->mesh == RB_MESH_FITTED && !solution->equal_instead, &refined));
-    if (status == RB_OK || status == RB_ENOMEM)
+    if (status == RB_ENOMEM)
+        return rb_fail(why, status,
+                       "accuracy %g: out of memory beyond %d elements, whose estimated error is "
+                       "%.2g",
+                       accuracy, *elements, worst);
+    if (status == RB_OK)
         status = rb_fail(why, RB_INACCURATE,
                          "accuracy %g not reached with %d elements: estimated error "
                          "%.2g%s",
