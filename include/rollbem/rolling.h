@@ -1414,8 +1414,8 @@ rb_status rb_rolling_estimate_errors(const rb_rolling_case *rc, const rb_rolling
 
 /* Refines contact and boundary until the estimates of P, Q, p0, half-width and creepage
  * are at most `accuracy` relative.  *elements: number of contact elements used at the
- * end; 0: nothing was solved.  RB_INACCURATE, with the best estimate, if memory, 6400
- * contact elements or 64 times the default boundary elements do not suffice. */
+ * end; 0: nothing was solved.  With the best estimate: RB_INACCURATE if 6400 contact elements
+ * or 64 times the default boundary elements do not suffice, RB_ENOMEM if the memory does not. */
 rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accuracy,
                                        rb_rolling_solution *solution, rb_rolling_errors *errors,
                                        int *elements, rb_message *why);

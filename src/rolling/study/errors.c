@@ -528,8 +528,8 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
     } while (stood < 2 && refine(accuracy, worst_relative(rc, solution, &parts.contact.scalar),
                                  worst_relative(rc, solution, &parts.boundary.scalar),
                                  rc->mesh == RB_MESH_FITTED && !solution->equal_instead, &refined));
-    if (status == RB_ENOMEM)
-        return rb_fail(why, status,
+    if (status == RB_ENOMEM || status == RB_EINVAL) /* more than the machine has is refused */
+        return rb_fail(why, RB_ENOMEM,
                        "accuracy %g: out of memory beyond %d elements, whose estimated error is "
                        "%.2g",
                        accuracy, *elements, worst);
