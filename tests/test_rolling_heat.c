@@ -75,10 +75,11 @@ static rb_rolling_case sliding(double peclet, int n)
 static double closed_maximum(const rb_rolling_case *rc, const rb_rolling_solution *s)
 {
     const double p0 = rb_closed_hertz_max_pressure(s->normal_load, rc->half_width);
+    /* each surface passes at its own speed */
     return rb_closed_flash_temperature(
         rc->mu * p0 * fabs(rc->creep) * rc->speed, rc->half_width, rc->speed,
-        sqrt(rc->heat_a.conductivity * rc->heat_a.heat_capacity) +
-            sqrt(rc->heat_b.conductivity * rc->heat_b.heat_capacity));
+        sqrt(rc->heat_a.conductivity * rc->heat_a.heat_capacity * (1.0 - 0.5 * rc->creep)) +
+            sqrt(rc->heat_b.conductivity * rc->heat_b.heat_capacity * (1.0 + 0.5 * rc->creep)));
 }
 
 /* The elements alone, under the heat of Hertz's pressure at their midpoints. */
@@ -199,18 +200,96 @@ TEST(conduction_between_bodies)
     }
 }
 
+/* ---- Two speeds -------------------------------------------------------------------- */
+
+/* Blok: each surface moves with its own speed, V (1 -+ xi/2), V their mean.  Full sliding at up to
+ * xi = 2, where one of them rests: equal bodies are sqrt(2) times as warm there as the speed V of
+ * both would tell. */
+TEST(surfaces_have_their_own_speeds)
+{
+    static const double creep[] = {-2.0, -1.9, -1.0, 0.5, 1.0, 1.9, 2.0};
+    for (int unlike = 0; unlike < 3; unlike++)
+        for (size_t k = 0; k < sizeof creep / sizeof *creep; k++) {
+            rb_rolling_case rc = sliding(1e5, 100);
+            rc.creep = creep[k];
+            if (unlike)
+                rc.heat_b = (rb_rolling_heat){unlike > 1 ? 0.0 : 20.0, 2.0, 0.0};
+            if (unlike > 1 && creep[k] == 2.0)
+                continue; /* A rests, and B takes no heat */
+            OWNED(rb_rolling_solution) s = solved(&rc);
+            CHECK_REL(s.max_temperature, closed_maximum(&rc, &s), 2e-3, "bodies %d, creep %g",
+                      unlike, creep[k]);
+            for (int i = 0; i < s.n; i++)
+                if (s.zone[i] != RB_ZONE_SEPARATED)
+                    CHECK_ABS(s.temperature[i], s.temperature_b[i], 1e-9 * s.max_temperature,
+                              "element %d", i);
+            if (creep[k] != 2.0)
+                continue;
+            rb_rolling_case one = with(rc, "creep 0.002");
+            OWNED(rb_rolling_solution) slow = solved(&one);
+            if (!unlike)
+                CHECK_REL(s.max_temperature / 1000.0, M_SQRT2 * slow.max_temperature, 2e-3,
+                          "12754 K for 9016 K");
+        }
+}
+
+/* Bodies that change places at the opposite creepage are equally warm, also where their surfaces
+ * move against each other; so are those on all meshes. */
+TEST(bodies_may_change_places)
+{
+    static const double creep[] = {0.3, 1.7, 3.0};
+    for (size_t k = 0; k < sizeof creep / sizeof *creep; k++) {
+        double warm[4];
+        for (int j = 0; j < 4; j++) {
+            rb_rolling_case rc = sliding(300.0, 120);
+            const rb_rolling_heat one = {50.0, 3.5, 20.0}, other = {20.0, 2.0, 5.0};
+            rc.creep = j % 2 ? -creep[k] : creep[k];
+            rc.heat_a = j % 2 ? other : one;
+            rc.heat_b = j % 2 ? one : other;
+            if (j > 1)
+                set(&rc, "mesh fitted slip-operator upstream");
+            OWNED(rb_rolling_solution) s = solved(&rc);
+            warm[j] = s.max_temperature;
+        }
+        CHECK_REL(warm[1], warm[0], 1e-6, "creep %g", creep[k]);
+        CHECK_REL(warm[3], warm[2], 1e-6, "creep %g, fitted", creep[k]);
+        /* where a surface hardly moves, or the other way, an edge is warmest, to which equal
+         * elements come as near as half of one */
+        CHECK_REL(warm[2], warm[0],
+                  k == 0   ? 3e-3
+                  : k == 1 ? 1e-2
+                           : 5e-2,
+                  "creep %g: meshes", creep[k]);
+    }
+}
+
+/* What neither turns nor conducts gets warmer for ever; steps want both to pass. */
+TEST(resting_surfaces_are_refused_where_nothing_takes_the_heat)
+{
+    rb_rolling_solution s;
+    rb_rolling_case rc = with(sliding(1e4, 40), "creep 2 conductivity-b 0");
+    CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL, "it gets warmer for ever");
+    set(&rc, "formulation transient distance 1 mesh uniform slip-operator upstream "
+             "conductivity-b 50 creep 1.9999");
+    CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL, "of A, V = ");
+    set(&rc, "creep -2.5");
+    CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL, "of B, V = -");
+}
+
 /* ---- Steps ------------------------------------------------------------------------- */
 
 TEST(steps_tend_to_the_steady_state)
 {
     static const int steps[] = {0, 300};
-    rb_rolling_case rc = with(sliding(1e4, 120), "mesh uniform slip-operator upstream");
-    OWNED(rb_rolling_solution) steady = solved(&rc);
-    set(&rc, "formulation transient distance 3");
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 4; k++) {
+        rb_rolling_case rc = with(sliding(1e4, 120), "mesh uniform slip-operator upstream");
+        if (k > 1) /* A is the slower one */
+            set(&rc, "creep 1.2 conductivity-b 20");
+        OWNED(rb_rolling_solution) steady = solved(&rc);
+        set(&rc, "formulation transient distance 3");
         OWNED(rb_rolling_history) h;
         OWNED(rb_rolling_model) model;
-        rc.steps = steps[k];
+        rc.steps = steps[k % 2];
         CHECK_OK(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &heard));
         CHECK_REL(h.max_temperature[h.n - 1], steady.max_temperature, 1e-2, "%d steps", h.n);
         /* it rises along the way; the peak between elements is known to 1e-5 */

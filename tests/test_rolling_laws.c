@@ -613,6 +613,7 @@ TEST(steps_have_the_friction_of_their_way)
         *(rolls ? &program.creep : &program.shift) = rolls ? creep : shift;
         program.distance = rolls ? distance : NULL;
         rc.load = 3000.0;
+        rc.increments = 1; /* what is seen of a row is its last step */
 
         rb_rolling_history h = run_of(&rc, &program, NULL, NULL, &model);
         const double way = h.half_width, element = model.bodies.f.h[0];

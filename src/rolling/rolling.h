@@ -282,6 +282,9 @@ double rb_rolling_sliding_creepage(const rb_rolling_case *rc, const rb_contact_p
 
 /* 1 if temperatures are computed. */
 int rb_rolling_has_heat(const rb_rolling_case *rc);
+/* The speed at which the surface of A (of_b: B) passes the contact, V (1 -+ xi/2), V the mean of
+ * both; < 0: towards +x. */
+double rb_rolling_surface_speed(const rb_rolling_case *rc, int of_b, double creepage);
 /* V a/(2 diffusivity); INFINITY if no heat enters the body. */
 double rb_rolling_peclet(const rb_rolling_heat *body, double speed, double half_width);
 /* Temperatures of both surfaces (n each) under the friction power per unit speed (n) of
@@ -297,6 +300,7 @@ typedef struct rb_rolling_heat_track {
     int n, rows, newest, known; /* rows: number of stored steps (ring buffer), of which
                                    `known` are filled */
     double h, step;             /* lengths of an element and of a step */
+    double half_width;          /* [length] */
     double *heat;               /* rows x n [stress * length / time] */
 } rb_rolling_heat_track;
 
@@ -305,11 +309,14 @@ typedef struct rb_rolling_heat_track {
 rb_status rb_rolling_heat_track_create(const rb_rolling_case *rc, double half_width,
                                        rb_arena *memory, rb_rolling_heat_track *track,
                                        rb_message *why);
+/* RB_EINVAL: the same of either surface at a creepage. */
+rb_status rb_rolling_heat_track_check(const rb_rolling_case *rc, double half_width, double creepage,
+                                      rb_message *why);
 /* Prepares the storage for the heat of the next rolled step. */
 void rb_rolling_heat_track_advance(rb_rolling_heat_track *track);
-/* Stores the heat of the newest step with friction q and slip displacement lambda, and
- * computes the temperature (n) of both surfaces at its end. */
-void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q, const double *lambda,
+/* Stores the heat of the newest step with the friction, slip displacement and creepage of its
+ * state, and computes the temperature (n) of both surfaces at its end. */
+void rb_rolling_heat_track_step(const rb_rolling_case *rc, const rb_contact_state *state,
                                 rb_rolling_heat_track *track, double *temperature);
 
 /* ---- coarse.c ---------------------------------------------------------------------- */

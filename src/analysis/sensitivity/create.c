@@ -209,6 +209,7 @@ void rb_sensitivity_free(rb_sensitivity *s)
     free(s->slip);
     free(s->law_slip);
     free(s->law_force);
+    free(s->law_xi);
     rb_sensitivity_factors_free(s->factors);
     rb_rolling_perturbation_free(s->perturbation);
     if (s->own)

@@ -253,6 +253,24 @@ static rb_status fill_memory(rb_sensitivity *s, rb_rolling_model *v, double step
     return status;
 }
 
+/* Of all coefficients with respect to the creepage alone. */
+static rb_status fill_by_creepage(rb_sensitivity *s, rb_rolling_model *v, rb_message *why)
+{
+    static const double step = 1e-3; /* of speeds over their mean */
+    const rb_sensitivity_stencil *places = &rb_sensitivity_middle;
+    const double xi = s->model->state.xi;
+    rb_status status = RB_OK;
+
+    for (int k = 0; k < places->n && status == RB_OK; k++) {
+        v->state.xi = xi + places->place[k] * step;
+        status = rb_rolling_model_friction(v, why);
+        for (int i = 0; i < s->n; i++)
+            s->law_xi[i] += places->weight[k] * v->problem.bound[i] / step;
+    }
+    v->state.xi = xi;
+    return status;
+}
+
 /* Coefficients of one element follow from its own slip alone, but where friction
  * remembers or heats: then every element asks all others. */
 static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *scratch, rb_message *why)
@@ -280,6 +298,8 @@ static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *scratc
     /* The friction of an element heats by the slips at both its ends: that of an element that
      * sticks by the one behind it, where the next element slips; and what opens behind the
      * contact heats its last element. */
+    if (s->law_xi)
+        status = fill_by_creepage(s, v, why);
     for (size_t j = 0; j < n && status == RB_OK; j++) {
         const int *zone = model->state.zone, heats = s->law_force != NULL;
         if (zone[j] > RB_ZONE_STICK ||
@@ -303,9 +323,11 @@ rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why)
     if (!rb_rolling_law_depends_on_state(model->rc))
         return RB_OK;
     s->law_slip = rb_alloc(n, n);
-    s->law_force = model->rc->friction.heat != 0.0 ? rb_alloc(n, n) : NULL;
+    const int heats = model->rc->friction.heat != 0.0;
+    s->law_force = heats ? rb_alloc(n, n) : NULL;
+    s->law_xi = heats ? rb_alloc(n, 1) : NULL;
     double *scratch = rb_alloc(n, 1);
-    if (!s->law_slip || !scratch || (model->rc->friction.heat != 0.0 && !s->law_force))
+    if (!s->law_slip || !scratch || (heats && (!s->law_force || !s->law_xi)))
         status = rb_fail(why, RB_ENOMEM, "out of memory for %d coefficients", s->n);
     if (status == RB_OK)
         status = rb_rolling_variant_create(model, model->rc, 1, 0, NULL, &v, why);

@@ -9,12 +9,14 @@
 struct rb_sensitivity {
     const rb_rolling_model *model; /* borrowed */
     int n, degenerate;
-    int contact, at_rest;                   /* elements in contact; of these, with BORDER_REST */
-    char *border;                           /* n: which pairs of an element are degenerate; owned */
-    double *slip;                           /* 2n: T_T lambda and gap of the state; owned */
-    double *law_slip, *law_force;           /* n x n: derivatives of the bounds with respect to
-                                               slips and friction; NULL: zero; owned */
-    rb_rolling_solution solution;           /* of the model, if results are differentiated */
+    int contact, at_rest;         /* elements in contact; of these, with BORDER_REST */
+    char *border;                 /* n: which pairs of an element are degenerate; owned */
+    double *slip;                 /* 2n: T_T lambda and gap of the state; owned */
+    double *law_slip, *law_force; /* n x n: derivatives of the bounds with respect to
+                                     slips and friction; NULL: zero; owned */
+    double *law_xi;               /* n: the same with respect to the creepage, by which the
+                                     surfaces differ in speed (T1); NULL: zero; owned */
+    rb_rolling_solution solution; /* of the model, if results are differentiated */
     struct rb_sensitivity_factors *factors; /* for the zones of the model; owned */
     struct rb_sensitivity *free_rolling;    /* for free rolling of the same model; NULL: none */
     rb_rolling_model *freely;               /* the model in free rolling; owned */

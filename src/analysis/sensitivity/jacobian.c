@@ -134,6 +134,9 @@ static void fill_element(const rb_sensitivity *s, rb_sensitivity_factors *f, int
     tangential[(size_t)(m + 1 + c) * ld] = 1.0;
     if (slides(zone))
         tangential[(size_t)c * ld] = -sign_of(zone) * p->bound[i];
+    if (slides(zone) && s->law_xi)
+        tangential[(size_t)(f->size - 1) * ld] =
+            -sign_of(zone) * s->model->state.p[i] * s->law_xi[i];
     dependence(s, f->zone, i, weight, force, pressure);
     int from = 0, to = s->n;
     while (from < to && weight[from] == 0.0)

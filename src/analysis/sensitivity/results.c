@@ -125,6 +125,7 @@ static rb_status differentiate_heat(const rb_sensitivity *s, const rb_sensitivit
         for (int j = 0; j < 5; j++)
             for (size_t i = 0; i < n; i++)
                 near[j][i] = from[j][i] + part * (to[j][i] - from[j][i]);
+        small.creepage = at->creepage + part * (moved[k].creepage - at->creepage);
         status = rb_rolling_solution_heat(s->model->rc, &small, &conduction, t, t + n, why);
         cblas_daxpy(2 * s->n, v->at.weight[k] / (part * v->step), t, 1, warmer, 1);
     }

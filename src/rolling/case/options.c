@@ -85,8 +85,9 @@ const rb_option rb_case_table[] = {
                    "E_glassy/E_rubbery - 1",
                    .unset = "elastic", .list = PLACE(memory_a.ratios)),
     RB_NUMBER_LINE("speed", RC(speed), "mm/s", RB_ABOVE(0),
-                   "rolling speed; needed for viscoelastic bodies, temperatures and "
-                   "velocity-dependent friction",
+                   "rolling speed, the mean of the speeds at which the two surfaces pass the "
+                   "contact; needed for viscoelastic bodies, temperatures and velocity-dependent "
+                   "friction",
                    .unset = "not given"),
 
     RB_GROUP_LINE("body-b", "Body B: a rigid plane unless an option makes it elastic"),
@@ -225,8 +226,11 @@ const rb_option rb_case_table[] = {
     RB_GROUP_LINE("tangential", "Tangential direction: one of (static: see the notes)"),
     RB_NUMBER_LINE("shift", RC(shift), "mm", RB_ANY, "static: rigid displacement of A towards +x",
                    .unset = "a tenth of the approach; 0 under load", .excludes = RB_ONE_LOADING),
-    RB_NUMBER_LINE("creep", RC(creep), "-", RB_ANY, "creepage xi; > 0: braked wheel, Q < 0",
-                   .unset = "not given", .excludes = RB_ONE_CREEPAGE, .common = 1),
+    RB_NUMBER_LINE(
+        "creep", RC(creep), "-", RB_ANY,
+        "creepage xi, the difference of the surfaces' speeds over their mean; > 0: braked "
+        "wheel, Q < 0; 2: locked wheel",
+        .unset = "not given", .excludes = RB_ONE_CREEPAGE, .common = 1),
     RB_NUMBER_LINE("creep-ratio", RC(creep_ratio), "-", RB_ANY,
                    "xi R/(mu a), the sign of xi; 1: full sliding of similar bodies",
                    .unset = "not given", .excludes = RB_ONE_CREEPAGE, .common = 1),

@@ -219,10 +219,12 @@ static rb_status create_heat(rb_rolling_particles *r, rb_message *why)
 static rb_status bring_heat(rb_rolling_particles *r, const rb_rolling_stride *stride,
                             rb_message *why)
 {
-    (void)why;
-    if (stride->c > 0.0)
-        rb_rolling_heat_track_advance(&r->heat);
-    return RB_OK;
+    if (stride->c == 0.0)
+        return RB_OK;
+    rb_rolling_heat_track_advance(&r->heat);
+    const double given = r->model->rc->creep;
+    return isnan(given) ? RB_OK
+                        : rb_rolling_heat_track_check(r->rc, r->heat.half_width, given, why);
 }
 
 static void leave_heat(rb_rolling_particles *r, const rb_rolling_stride *stride)
@@ -230,8 +232,7 @@ static void leave_heat(rb_rolling_particles *r, const rb_rolling_stride *stride)
     rb_rolling_model *model = r->model;
 
     if (stride->c > 0.0)
-        rb_rolling_heat_track_step(model->rc, model->state.q, model->state.lambda, &r->heat,
-                                   model->carried.temperature);
+        rb_rolling_heat_track_step(model->rc, &model->state, &r->heat, model->carried.temperature);
 }
 
 /* ---- All of them ------------------------------------------------------------------- */

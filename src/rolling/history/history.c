@@ -442,23 +442,25 @@ static int is_pressure(const rb_rolling_model *model, const rb_rolling_states *o
 /* 1: a row at rest has one answer, in however many steps it is computed: without contact at its
  * end, without friction and memory, or if a force or shift alone moved bodies that are not
  * coupled, and no law changed on the way. */
-static int is_one_step_enough(const history_state *r, int is_first, const rb_rolling_states *before)
+static int is_one_step_enough(const history_state *r, const bookmark *before)
 {
     const rb_rolling_model *model = r->model;
-    const int coupled = rb_contact_operator_response(model->problem.op).coupled;
+    const int coupled = rb_contact_operator_response(model->problem.op).coupled, row = before->row,
+              is_first = before->state.n == 0;
+    const double *mu = r->program->mu;
 
     if (rb_rolling_relaxes(r->rc))
         return 0;
     return model->problem.mu == 0.0 || rb_rolling_model_load(model) == 0.0 ||
-           (!coupled && r->program->mu == NULL && !rb_rolling_law_depends_on_state(model->rc) &&
-            (is_first || is_pressure(model, before)));
+           (!coupled && !(mu && row > 0 && mu[row] != mu[row - 1]) &&
+            !rb_rolling_law_depends_on_state(model->rc) &&
+            (is_first || is_pressure(model, &before->state)));
 }
 
 /* Steps are halved until the state at the end of the row no longer depends on them. */
 static rb_status compute_row_at_rest(history_state *r, rb_message *why)
 {
     const int given = steps_at_rest(r);
-    const int is_first = r->history->n == 0;
     bookmark start;
     rb_rolling_states coarser = {0};
     rb_status s;
@@ -468,7 +470,7 @@ static rb_status compute_row_at_rest(history_state *r, rb_message *why)
     s = bookmark_set(r, &start);
     if (s == RB_OK)
         s = compute_row(r, 1, why);
-    double change = s == RB_OK && !is_one_step_enough(r, is_first, &start.state) ? INFINITY : 0.0;
+    double change = s == RB_OK && !is_one_step_enough(r, &start) ? INFINITY : 0.0;
     for (int steps = 2; s == RB_OK && change > tolerated(r->model) && steps <= ROW_STEPS;
          steps *= 2) {
         s = rb_rolling_states_keep(r->model, r->history, 0, 1, &coarser);

@@ -42,12 +42,18 @@ static double moving_source(double z)
                      1.0;
 }
 
-/* Rise at the origin from a unit heat per area and time between 0 and x. */
+/* Rise at the origin from a unit heat per area and time between 0 and x, where the surface comes
+ * from +x; speed < 0: from -x. */
 static double rise_from_origin(const rb_rolling_heat *body, double speed, double x)
 {
-    const double P = speed / (2.0 * diffusivity(body));
+    const double P = speed / (2.0 * diffusivity(body)); /* odd in P: the mirror image */
 
     return moving_source(P * x) / (M_PI * body->conductivity * P);
+}
+
+double rb_rolling_surface_speed(const rb_rolling_case *rc, int of_b, double creepage)
+{
+    return rc->speed * (of_b ? 1.0 + 0.5 * creepage : 1.0 - 0.5 * creepage);
 }
 
 double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, double from, double to)
@@ -114,12 +120,12 @@ static void conductor_row(const conductor *c, int i, double *row)
 }
 
 /* Whether the conductor is that of the same elements. */
-static int is_known(const rb_rolling_case *rc, const rb_rolling_heat *body,
-                    const rb_rolling_solution *s, int equal, const conductor *c)
+static int is_known(const rb_rolling_heat *body, double speed, const rb_rolling_solution *s,
+                    int equal, const conductor *c)
 {
     const size_t n = (size_t)s->n;
 
-    if (c->n != s->n || c->speed != rc->speed || !is_alike(&c->body, body))
+    if (c->n != s->n || c->speed != speed || !is_alike(&c->body, body))
         return 0;
     return equal ? c->response && c->h == s->h[0]
                  : c->rows && memcmp(c->rows + n * n, s->x, n * sizeof *s->x) == 0 &&
@@ -127,20 +133,20 @@ static int is_known(const rb_rolling_case *rc, const rb_rolling_heat *body,
 }
 
 /* Kept where it is that of the same elements. */
-static rb_status conductor_set(const rb_rolling_case *rc, const rb_rolling_heat *body,
+static rb_status conductor_set(const rb_rolling_case *rc, const rb_rolling_heat *body, double speed,
                                const rb_rolling_solution *s, conductor *c)
 {
     /* more are sooner by transforms, and rows of more are too large to be kept */
     enum { DIRECT = 200, ROWS = 500 };
     const int n = s->n, equal = rc->mesh != RB_MESH_FITTED && n > 0;
 
-    if (is_known(rc, body, s, equal, c)) {
+    if (is_known(body, speed, s, equal, c)) {
         c->x = s->x;
         c->all = s->h;
         return RB_OK;
     }
     conductor_free(c);
-    *c = (conductor){*body, rc->speed, n, n > 0 ? s->h[0] : 0.0, s->x, s->h, NULL, NULL, NULL};
+    *c = (conductor){*body, speed, n, n > 0 ? s->h[0] : 0.0, s->x, s->h, NULL, NULL, NULL};
     if (!equal) {
         double *rows = n > 0 && n <= ROWS ? rb_alloc((size_t)n, (size_t)n + 2) : NULL;
         for (int i = 0; i < n && rows; i++)
@@ -153,9 +159,9 @@ static rb_status conductor_set(const rb_rolling_case *rc, const rb_rolling_heat 
         return rows || n == 0 || n > ROWS ? RB_OK : RB_ENOMEM;
     }
     c->response = rb_alloc(2 * (size_t)n - 1, 1);
-    double before = rise_from_origin(body, rc->speed, s->h[0] * (0.5 - n));
+    double before = rise_from_origin(body, speed, s->h[0] * (0.5 - n));
     for (int k = 1 - n; c->response && k < n; k++) {
-        const double to = rise_from_origin(body, rc->speed, s->h[0] * (k + 0.5));
+        const double to = rise_from_origin(body, speed, s->h[0] * (k + 0.5));
         c->response[n - 1 + k] = to - before;
         before = to;
     }
@@ -305,19 +311,30 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_roll
                                         struct rb_rolling_conduction **conduction, double *t_a,
                                         double *t_b, rb_message *why)
 {
-    const int n = s->n, b_conducts = rc->heat_b.conductivity > 0.0,
-              alike = b_conducts && is_alike(&rc->heat_a, &rc->heat_b),
-              shared = b_conducts && !alike;
+    /* A surface that rests under the contact has been warmed for ever: it takes no heat. */
+    const double V_a = rb_rolling_surface_speed(rc, 0, s->creepage),
+                 V_b = rb_rolling_surface_speed(rc, 1, s->creepage);
+    const int n = s->n, into_a = V_a != 0.0, into_b = rc->heat_b.conductivity > 0.0 && V_b != 0.0,
+              alike = into_a && into_b && V_a == V_b && is_alike(&rc->heat_a, &rc->heat_b),
+              shared = into_a && into_b && !alike;
     rb_arena scratch = {0};
     double *heat = rb_arena_doubles(&scratch, (size_t)n, 1),
            *heat_a = rb_arena_doubles(&scratch, (size_t)n, 1);
     struct rb_rolling_conduction *own = *conduction ? *conduction : calloc(1, sizeof *own);
-    rb_status status =
-        !scratch.failed && own ? conductor_set(rc, &rc->heat_a, s, &own->a) : RB_ENOMEM;
+    rb_status status = !scratch.failed && own ? RB_OK : RB_ENOMEM;
 
     *conduction = own;
-    if (status == RB_OK && shared)
-        status = conductor_set(rc, &rc->heat_b, s, &own->b);
+    if (status == RB_OK && !into_a && !into_b) {
+        rb_arena_free(&scratch);
+        return rb_fail(why, RB_EINVAL,
+                       "temperature: at a creepage of %g the surface of A rests under the contact, "
+                       "and no heat enters B: it gets warmer for ever",
+                       s->creepage);
+    }
+    if (status == RB_OK && into_a)
+        status = conductor_set(rc, &rc->heat_a, V_a, s, &own->a);
+    if (status == RB_OK && into_b && !alike)
+        status = conductor_set(rc, &rc->heat_b, V_b, s, &own->b);
     if (status == RB_OK) {
         /* Friction heats, it never cools.  Powers of elements that begin or end the
          * contact may be negative on coarse meshes, because they hold a part of what
@@ -331,20 +348,26 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_roll
         const double part = all > 0.0 ? all / heats : 0.0;
         for (int i = 0; i < n; i++) {
             heat[i] = rc->speed * part * fmax(power[i], 0.0);
-            heat_a[i] = b_conducts ? 0.5 * heat[i] : heat[i];
+            heat_a[i] = alike ? 0.5 * heat[i] : into_a ? heat[i] : 0.0;
         }
         if (shared)
             status = share_heat(&own->a, &own->b, s, heat, heat_a);
     }
-    if (status == RB_OK)
+    if (status == RB_OK && into_a)
         status = warm(&own->a, heat_a, t_a);
-    if (status == RB_OK) {
-        for (int i = 0; i < n; i++) {
-            heat[i] -= heat_a[i];
-            t_b[i] = alike || is_contact(s, i) ? t_a[i] : rc->heat_b.temperature;
-        }
-        if (shared)
-            status = warm(&own->b, heat, t_b);
+    for (int i = 0; i < n; i++)
+        heat[i] -= heat_a[i];
+    if (status == RB_OK && into_b && !alike)
+        status = warm(&own->b, heat, t_b);
+    /* What takes no heat has its own temperature, and in contact that of the other surface. */
+    for (int i = 0; i < n && status == RB_OK; i++) {
+        const int touches = is_contact(s, i);
+        if (alike)
+            t_b[i] = t_a[i];
+        else if (!into_b)
+            t_b[i] = touches ? t_a[i] : rc->heat_b.temperature;
+        else if (!into_a)
+            t_a[i] = touches ? t_b[i] : rc->heat_a.temperature;
     }
     rb_arena_free(&scratch);
     return status == RB_OK ? RB_OK
@@ -383,23 +406,36 @@ void rb_rolling_peak_temperature(int n, const double *x, const int *zone, const 
  * would count by more than 1e-3. */
 static const double LEAST_PECLET = 10.0;
 
+rb_status rb_rolling_heat_track_check(const rb_rolling_case *rc, double half_width, double creepage,
+                                      rb_message *why)
+{
+    const rb_rolling_heat *const body[2] = {&rc->heat_a, &rc->heat_b};
+
+    for (int b = 0; b < 2; b++) {
+        const double V = rb_rolling_surface_speed(rc, b, creepage),
+                     peclet = rb_rolling_peclet(body[b], V, half_width);
+        if (!(peclet >= LEAST_PECLET))
+            return rb_fail(why, RB_EINVAL,
+                           "temperature: in transient rolling heat conduction is computed along "
+                           "the depth only, which needs V a/(2 diffusivity) >= %g of each surface, "
+                           "got %.3g of %s, V = %.4g mm/s",
+                           LEAST_PECLET, peclet, b ? "B" : "A", V);
+    }
+    return RB_OK;
+}
+
 rb_status rb_rolling_heat_track_create(const rb_rolling_case *rc, double half_width,
                                        rb_arena *memory, rb_rolling_heat_track *track,
                                        rb_message *why)
 {
-    const double peclet = fmin(rb_rolling_peclet(&rc->heat_a, rc->speed, half_width),
-                               rb_rolling_peclet(&rc->heat_b, rc->speed, half_width));
-
     track->heat = NULL;
     track->rows = track->newest = track->known = 0;
-    if (peclet < LEAST_PECLET)
-        return rb_fail(why, RB_EINVAL,
-                       "temperature: in transient rolling heat conduction is computed along the "
-                       "depth only, which needs V a/(2 diffusivity) >= %g, got %.3g",
-                       LEAST_PECLET, peclet);
+    track->half_width = half_width;
     const double rows = track->step > 0.0 ? ceil(track->n * track->h / track->step) + 1.0 : 1.0;
-    const rb_status s =
-        rb_memory_check(sizeof(double) * rows * track->n, "temperature: the heat of steps", why);
+    rb_status s = rb_rolling_heat_track_check(rc, half_width, 0.0, why);
+    if (s == RB_OK)
+        s = rb_memory_check(sizeof(double) * rows * track->n, "temperature: the heat of steps",
+                            why);
     if (s != RB_OK)
         return s;
     track->rows = (int)rows;
@@ -414,11 +450,15 @@ void rb_rolling_heat_track_advance(rb_rolling_heat_track *t)
 }
 
 /* (T3) A particle at x was at x + k c when the k-th step back ended. */
-void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q, const double *lambda,
+void rb_rolling_heat_track_step(const rb_rolling_case *rc, const rb_contact_state *state,
                                 rb_rolling_heat_track *t, double *temperature)
 {
-    const double effusivity = sqrt(rc->heat_a.conductivity * rc->heat_a.heat_capacity) +
-                              sqrt(rc->heat_b.conductivity * rc->heat_b.heat_capacity);
+    const double *q = state->q, *lambda = state->lambda;
+    const rb_rolling_heat *const body[2] = {&rc->heat_a, &rc->heat_b};
+    double effusivity = 0.0; /* what a surface takes grows like the root of its own speed */
+    for (int b = 0; b < 2; b++)
+        effusivity += sqrt(body[b]->conductivity * body[b]->heat_capacity *
+                           fabs(rb_rolling_surface_speed(rc, b, state->xi) / rc->speed));
     const double unit = 2.0 * sqrt(t->step / (M_PI * rc->speed)) / effusivity;
 
     for (int i = 0; i < t->n; i++) {

@@ -19,6 +19,7 @@ static rb_status temperatures_of(rb_rolling_model *model, double *t, rb_message 
                                 .q = state->q,
                                 .shift = state->lambda,
                                 .zone = state->zone,
+                                .creepage = state->xi,
                                 .formulation = rc->formulation,
                                 .slip_operator = rc->slip_operator};
 
@@ -27,7 +28,7 @@ static rb_status temperatures_of(rb_rolling_model *model, double *t, rb_message 
             return rb_fail(why, RB_EINVAL,
                            "temperature: the heat of the steps before is known only while their "
                            "history runs");
-        rb_rolling_heat_track_step(rc, state->q, state->lambda, model->carried.heat, t);
+        rb_rolling_heat_track_step(rc, state, model->carried.heat, t);
         return RB_OK;
     }
     double *scratch = rb_alloc((size_t)n, 3), *power = scratch, *t_b = scratch + n;
