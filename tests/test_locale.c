@@ -85,7 +85,8 @@ static void write_all(char *text, size_t size)
     CHECK_OK(rb_report_table(out, &c->rc, s, "rollbem", &style));
     json_t *inputs = rb_report_json_inputs(words);
     CHECK_OK(rb_report_json_write(out, inputs));
-    rb_report_notes(out, &c->rc, s, 0);
+    const rb_rolling_note_list notes = rb_rolling_find_notes(&c->rc, s);
+    rb_report_notes(out, &notes, 0);
     assert_int_equal(fclose(out), 0);
 
     OWNED(rb_io_table) t;

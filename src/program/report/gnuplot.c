@@ -262,8 +262,15 @@ const char *rb_report_zone_colour(int zone, int pale)
                                              [RB_ZONE_SLIP_NEGATIVE] = {"#c4501b", "#fae3d6"},
                                              [RB_ZONE_SLIP_POSITIVE] = {"#8a3fa0", "#ecdff1"},
                                              [RB_ZONE_YIELD_NEGATIVE] = {"#8c6a00", "#f3ecd0"},
-                                             [RB_ZONE_YIELD_POSITIVE] = {"#b0305c", "#f6dde6"}};
+                                             [RB_ZONE_YIELD_POSITIVE] = {"#b0305c", "#f6dde6"},
+                                             [RB_REPORT_FRICTIONLESS] = {"#3d5a80", "#e0e7ef"}};
     return colours[zone][pale != 0];
+}
+
+int rb_report_zone(const rb_rolling_solution *s, int i)
+{
+    const int frictionless = s->mu ? s->mu[i] == 0.0 : isnan(s->force_ratio);
+    return frictionless && s->zone[i] != RB_ZONE_SEPARATED ? RB_REPORT_FRICTIONLESS : s->zone[i];
 }
 
 const char *rb_report_dashes(int k)

@@ -115,6 +115,10 @@ const char *rb_report_colour(int k);
 double rb_report_marker_scale(rb_report_canvas canvas);
 /* The colour of a zone as the page has it, strong or a pale shade of it. */
 const char *rb_report_zone_colour(int zone, int pale);
+/* The zone of element i as pictures and strips show it: what touches without friction neither
+ * sticks nor slips. */
+enum { RB_REPORT_FRICTIONLESS = 6 };
+int rb_report_zone(const rb_rolling_solution *s, int i);
 /* The dash type of curve k of several, which print in grey tells apart. */
 const char *rb_report_dashes(int k);
 /* A unit of an axis: values divided by `size` are in units of `name`. */

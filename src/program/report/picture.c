@@ -142,13 +142,15 @@ typedef struct {
 static void write_zone_label(FILE *out, const view *v, const stretch *st)
 {
     const double share = (st->to - st->from) / (v->to - v->from);
-    static const char *const flat[] = {"separated", "stick",   "slip →",
-                                       "← slip",    "yield →", "← yield"},
-                             *const upright[] = {"separated", "stick", "slip",
-                                                 "slip",      "yield", "yield"};
+    static const char *const flat[] = {"separated", "stick",   "slip →", "← slip",
+                                       "yield →",   "← yield", "contact"},
+                             *const upright[] = {"separated", "stick", "slip",   "slip",
+                                                 "yield",     "yield", "contact"};
     /* what the letters and the arrow take of the axis: they are larger in a column */
     const double letter = v->place.titled ? 0.013 : 0.02;
-    const double length = letter * (double)(strlen(upright[st->zone]) + (st->zone > 1 ? 2 : 0));
+    const double length =
+        letter * (double)(strlen(upright[st->zone]) +
+                          (strlen(flat[st->zone]) > strlen(upright[st->zone]) ? 2 : 0));
     if (share < 0.025)
         return;
     fprintf(out, "set label '{/*0.85 %s}' at first %.9g, graph %s textcolor rgb '#555555' front\n",
@@ -163,11 +165,12 @@ static void write_zones(FILE *out, const view *v, int labelled)
          * behind it. */
         const rb_rolling_solution *s = v->s;
         const int first = i;
-        while (i < s->n && s->zone[i] == s->zone[first])
+        while (i < s->n && rb_report_zone(s, i) == rb_report_zone(s, first))
             ++i;
         const double from = (s->x[first] - s->h[first] / 2) / v->length.size;
         const double to = (s->x[i - 1] + s->h[i - 1] / 2) / v->length.size;
-        const stretch st = (stretch){fmax(from, v->from), fmin(to, v->to), s->zone[first]};
+        const stretch st =
+            (stretch){fmax(from, v->from), fmin(to, v->to), rb_report_zone(s, first)};
         fprintf(out,
                 "set object rectangle from first %.9g, graph 0 to first %.9g, graph 1 fillcolor "
                 "rgb '%s' fillstyle solid noborder behind\n",

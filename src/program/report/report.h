@@ -141,8 +141,8 @@ rb_status rb_report_json_write(FILE *out, struct json_t *json);
 /* ---- Summaries for readers --------------------------------------------------------- */
 
 /* Writes the zones of the elements as characters, from just before the contact to just
- * after it, at most width characters: o separated, * stick, S slip, . elsewhere.  strip:
- * width + 1 characters, width >= 8. */
+ * after it, at most width characters: o separated, * stick, S slip, = contact without friction, .
+ * elsewhere.  strip: width + 1 characters, width >= 8. */
 void rb_report_strip(const rb_rolling_solution *s, int width, char *strip);
 /* A summary of a few lines; width: of the terminal. */
 void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width);

@@ -77,16 +77,17 @@ static void write_axes(FILE *out, const view *v)
     const rb_rolling_solution *s = v->s->s;
     for (int i = 0; i < s->n;) {
         const int first = i;
-        while (i < s->n && s->zone[i] == s->zone[first])
+        const int zone = rb_report_zone(s, first);
+        while (i < s->n && rb_report_zone(s, i) == zone)
             i++;
-        if (s->zone[first] == RB_ZONE_SEPARATED)
+        if (zone == RB_ZONE_SEPARATED)
             continue;
         fprintf(out,
                 "set arrow from %.9g, graph -0.018 to %.9g, graph -0.018 nohead linewidth %d "
                 "linecolor rgb '%s' front\n",
                 (s->x[first] - s->h[first] / 2) / v->length.size,
-                (s->x[i - 1] + s->h[i - 1] / 2) / v->length.size,
-                s->zone[first] == RB_ZONE_STICK ? 2 : 6, rb_report_zone_colour(s->zone[first], 0));
+                (s->x[i - 1] + s->h[i - 1] / 2) / v->length.size, zone == RB_ZONE_STICK ? 2 : 6,
+                rb_report_zone_colour(zone, 0));
     }
 }
 

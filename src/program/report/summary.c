@@ -17,7 +17,7 @@ static int is_contact(const rb_rolling_solution *s, int i)
 
 void rb_report_strip(const rb_rolling_solution *s, int width, char *strip)
 {
-    static const char marks[] = "oS|*", mark[] = "o*SS||"; /* mark: of each zone */
+    static const char marks[] = "oS|*=", mark[] = "o*SS||="; /* mark: of each zone */
     /* Elements first .. last - 1: the contact and a margin, or all without contact. */
     int first = 0, last = s->n, at = 0;
     while (first < s->n && !is_contact(s, first))
@@ -38,10 +38,10 @@ void rb_report_strip(const rb_rolling_solution *s, int width, char *strip)
         const int from = first + (int)((long)shown * k / n);
         const int to = first + (int)((long)shown * (k + 1) / n);
         /* The commonest mark of these elements. */
-        int count[4] = {0}, best = 0;
+        int count[5] = {0}, best = 0;
         for (int i = from; i < to; i++)
-            count[strchr(marks, mark[s->zone[i]]) - marks]++;
-        for (int j = 1; j < 4; j++)
+            count[strchr(marks, mark[rb_report_zone(s, i)]) - marks]++;
+        for (int j = 1; j < 5; j++)
             if (count[j] >= count[best])
                 best = j;
         strip[at++] = marks[best];
@@ -103,12 +103,12 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
         if (!isnan(s->dissipation))
             fprintf(out, "  power     %.5g %s dissipated, per unit speed\n",
                     rb_report_tidy(s->dissipation, s->normal_load), load);
-        if (s->hysteresis > 0.0)
-            fprintf(out,
-                    "  resists   M = %.5g %s, M/(P R) = %.5g, hysteresis %.5g %s per unit speed\n",
-                    s->resistance_moment, rb_unit_name(s->units, "N"), s->resistance_ratio,
-                    s->hysteresis, load);
         if (s->hysteresis > 0.0) {
+            fprintf(out, "  resists   M = %.5g %s, ", s->resistance_moment,
+                    rb_unit_name(s->units, "N"));
+            if (!isnan(s->resistance_ratio))
+                fprintf(out, "M/(P R) = %.5g, ", s->resistance_ratio);
+            fprintf(out, "hysteresis %.5g %s per unit speed\n", s->hysteresis, load);
             const double lever = s->normal_load * s->half_width;
             fprintf(out, "  torque    %.5g %s on A's axle", rb_report_tidy(s->torque_a, lever),
                     rb_unit_name(s->units, "N"));
@@ -124,7 +124,14 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
     enum { LONGEST = 200 };
     char strip[LONGEST + 1];
     const int room = width - 13 < LONGEST ? width - 13 : LONGEST;
-    fprintf(out, "  elements  %d: %d stick, %d slip, ", s->n, s->stick, s->slipping);
+    int frictionless = 0;
+    for (int i = 0; i < s->n; i++)
+        frictionless += rb_report_zone(s, i) == RB_REPORT_FRICTIONLESS;
+    fprintf(out, "  elements  %d: ", s->n);
+    if (frictionless > 0)
+        fprintf(out, "%d touch without friction, ", frictionless);
+    if (frictionless < s->contact || s->contact == 0)
+        fprintf(out, "%d stick, %d slip, ", s->stick, s->slipping - frictionless);
     if (s->yielding >= 0)
         fprintf(out, "%d of them yield, ", s->yielding);
     fprintf(out, "%d separated", s->n - s->contact);
