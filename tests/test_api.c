@@ -513,6 +513,45 @@ TEST(problems_by_themselves_are_solved)
     CHECK_MAX(rb_api_number(a, "task.scaled_residual"), 1e-8, "of a file");
 }
 
+/* In compressed columns, with bounds, a start and a time limit; all solutions; games. */
+TEST(sparse_problems_and_games_are_solved)
+{
+    static const int p[] = {0, 2, 4}, rows[] = {0, 1, 0, 1}, wrong[] = {0, 2, 0, 1};
+    static const double x[] = {2.0, 1.0, 1.0, 2.0}, q[] = {-5.0, -6.0}, upper[] = {1.0, INFINITY},
+                        lower[] = {0.0, 0.0}, M[] = {1.0, 3.0, 3.0, 1.0}, two[] = {-2.0, -3.0},
+                        A[] = {3.0, 5.0, 0.0, 1.0}, B[] = {3.0, 0.0, 5.0, 1.0}, zeros[4] = {0.0};
+    static const int columns[] = {0, 1, 2}, diagonal[] = {0, 1};
+    static const double ones[] = {1.0, 1.0}, push[] = {-1.0, 0.5}, mu = 0.3;
+    held_api *a = rb_api_create();
+    int n, count;
+
+    assert_int_equal(rb_api_lcp_sparse(a, 2, p, rows, x, q, lower, upper, ones, "auto", 0, 5.0),
+                     RB_OK);
+    CHECK_ABS(array(a, "lcp.z", 2, 1)[0], 1.0, 1e-12, "at its upper bound");
+    CHECK_ABS(array(a, "lcp.z", 2, 1)[1], 2.5, 1e-12, "between");
+    assert_int_equal(rb_api_lcp_sparse(a, 2, p, wrong, x, q, NULL, NULL, NULL, "auto", 0, 0.0),
+                     RB_EINVAL);
+    assert_non_null(strstr(rb_api_message(a), "column 1: row 2"));
+    assert_int_equal(rb_api_lcp_sparse(a, 2, p, rows, x, q, NULL, NULL, NULL, "x", 0, 0.0),
+                     RB_EINVAL);
+    assert_int_equal(rb_api_lcp_all(a, 2, M, two, NULL, NULL, 0.0), RB_OK);
+    assert_non_null(rb_api_array(a, "lcp.all", &n, &count));
+    assert_int_equal(count, 3);
+    assert_int_equal(rb_api_lcp_all(a, 2, zeros, two, NULL, NULL, 0.0), RB_NO_SOLUTION);
+    assert_string_equal(rb_api_word(a, "status"), "no solution");
+    assert_int_equal(rb_api_game(a, 2, 2, A, B, -1, 0, 0, 0.0), RB_OK);
+    CHECK_ABS(array(a, "game.z", 4, 1)[1], 1.0, 1e-12, "both confess");
+    CHECK_ABS(array(a, "game.payoff", 2, 1)[0], 1.0, 1e-12, "payoff");
+    assert_int_equal(rb_api_game(a, 2, 2, A, B, -1, 1, 0, 0.0), RB_OK);
+    assert_non_null(rb_api_array(a, "game.all", &n, &count));
+    assert_int_equal(count, 1);
+    assert_int_equal(rb_api_game(a, 0, 2, A, B, -1, 0, 0, 0.0), RB_EINVAL);
+    assert_int_equal(
+        rb_api_friction_sparse(a, 2, 1, columns, diagonal, ones, push, &mu, "auto", 1e-8, 0),
+        RB_OK);
+    CHECK_ABS(array(a, "friction.r", 2, 1)[1], -0.3, 1e-9, "it slides");
+}
+
 TEST(a_sweep_is_its_cases)
 {
     static const char *const mu[] = {"0.1", "0.2", "0.4"};

@@ -180,7 +180,13 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *                                names of crack.summary
  *   sweep.derivative.approach:mu ...   after rb_api_sweep_derivatives
  *   sweep.tolerance.approach ...   with uncertain inputs: standard deviations
- *   lcp.z lcp.w                  after rb_api_lcp
+ *   lcp.z lcp.w                  after rb_api_lcp, rb_api_lcp_sparse
+ *   lcp.all                      after rb_api_lcp_all, n x solutions
+ *   lcp.singular_basis           1: of a singular basis only, an entry per solution
+ *   lcp.bases                    how many were tried, are singular, and are undecided
+ *   game.z game.regret game.payoff   after rb_api_game: both strategies below each other, what each
+ *                                pays less than the best reply, and the two best replies
+ *   game.all ...                 of all equilibria, as lcp.all
  *   friction.r friction.u        after rb_api_friction, dimension x contacts */
 const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns);
 
@@ -283,6 +289,21 @@ int rb_api_stress_maxima(rb_api *a, double depth);
  * "lemke", "lemke-sparse" or "newton"; max_pivots 0: the solver's own limit. */
 int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *solver,
                int max_pivots);
+/* The same of a sparse M in compressed columns: p[j] ... p[j+1] - 1 are the entries of column j, i
+ * their rows, which increase, x their values.  lower <= z <= upper, n each (rollbem/lcp.h); start:
+ * the z of a similar problem; NULL: 0 and infinity, none.  seconds: time limit, 0: none. */
+int rb_api_lcp_sparse(rb_api *a, int n, const int *p, const int *i, const double *x,
+                      const double *q, const double *lower, const double *upper,
+                      const double *start, const char *solver, int max_pivots, double seconds);
+/* All solutions, of order 22 at most (rb_lcp_enumerate); M n x n, column by column. RB_NO_SOLUTION:
+ * it is proved that there is none; RB_UNDECIDED. */
+int rb_api_lcp_all(rb_api *a, int n, const double *M, const double *q, const double *lower,
+                   const double *upper, double seconds);
+/* An equilibrium of a game: payoffs A of the row player and B of the column player, m x n, column
+ * by column; label as of rb_lcp_bimatrix, -1: any.  all 1: all extreme equilibria, for m + n
+ * up to 22. */
+int rb_api_game(rb_api *a, int m, int n, const double *A, const double *B, int label, int all,
+                int max_pivots, double seconds);
 /* Chooses the residual that decides whether a problem is solved: "scaled" (default), or
  * "acary", (13) of Acary, which depends on units.  rb_api_note tells if a problem is
  * solved in the scaled measure only. */
@@ -293,6 +314,10 @@ int rb_api_friction_measure(rb_api *a, const char *measure);
  * struct. */
 int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W, const double *q,
                     const double *mu, const char *solver, double tol, int max_iters);
+/* The same with W in compressed columns, as of rb_api_lcp_sparse. */
+int rb_api_friction_sparse(rb_api *a, int dimension, int contacts, const int *p, const int *i,
+                           const double *x, const double *q, const double *mu, const char *solver,
+                           double tol, int max_iters);
 /* The same for the problem of a file, FCLib or Siconos. */
 int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double tol,
                          int max_iters);

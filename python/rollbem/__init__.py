@@ -6,26 +6,27 @@
 
 ``solve``, ``curve``, ``history``, ``stress``, ``wear``, ``sweep``, ``crack``, ``derivatives``,
 ``fit`` and ``design`` take the options of the program (``help(rollbem.solve)`` lists them, ``_``
-for ``-``); ``lcp`` and ``friction`` take matrices; ``check``, ``contact``, ``verify`` and
+for ``-``); ``lcp``, ``game`` and ``friction`` take matrices; ``check``, ``contact``, ``verify`` and
 ``examples`` ask the program itself.
 Units are mm, N/mm (per length of the axis) and MPa; with ``units="si"`` or ``"inch"`` all numbers, given
 and found, are in m, N/m, Pa or inch, lbf/inch, psi. Creepage > 0 brakes A, then Q < 0.
 """
 
 from . import _library, pictures  # _library first: see _kernels
-from ._case import (Answer, Case, Complementarity, Curve, Derivatives, Extremum, Friction, History, Solution, Stress,
-                    Sweep, Wear, curve, friction, history, lcp, solve, stress, sweep, wear)
+from ._case import (Case, Curve, Derivatives, Extremum, History, Solution, Stress, Sweep, Wear, curve, history, solve,
+                    stress, sweep, wear)
 from ._inverse import (Crack, Design, Fit, Parameter, crack, curve_derivatives, derivatives, design, fit,
                        history_derivatives, tolerances)
 from ._library import (OPTIONS, RESULTS, VERSION as __version__, Error, InvalidInput, MissingFile,
                        Note, OutOfMemory, Unsolved)
+from ._problems import Answer, Complementarity, Friction, Game, Solutions, friction, game, lcp
 from ._program import Check, ContactCases, Reference, References, check, contact, examples, verify
 
 __all__ = ["Answer", "Case", "Check", "Complementarity", "ContactCases", "Crack", "Curve", "Derivatives",
            "Design",
-           "Error", "Extremum", "Fit", "Friction", "History", "InvalidInput", "MissingFile", "Note",
-           "OPTIONS", "OutOfMemory", "Parameter", "RESULTS", "Reference", "References", "Solution",
+           "Error", "Extremum", "Fit", "Friction", "Game", "History", "InvalidInput", "MissingFile", "Note",
+           "OPTIONS", "OutOfMemory", "Parameter", "RESULTS", "Reference", "References", "Solution", "Solutions",
            "Stress", "Sweep",
            "Unsolved", "Wear", "check", "contact", "crack", "curve", "curve_derivatives", "derivatives",
-           "design", "examples", "fit", "friction", "history", "history_derivatives",
+           "design", "examples", "fit", "friction", "game", "history", "history_derivatives",
            "lcp", "pictures", "solve", "stress", "sweep", "tolerances", "verify", "wear"]

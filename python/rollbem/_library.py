@@ -69,9 +69,13 @@ FUNCTIONS = {
     "rb_api_design": (_Int, _Handle, _Text, _Int, _Text, _Text, _Double, _Int),
     "rb_api_pivots": (_Int, _Handle),
     "rb_api_variable": (_Text, _Handle, _Int, _Text, _Int),
-    "rb_api_lcp": (_Int, _Handle, _Int, _Doubles, _Doubles, _Text, _Int),
+    "rb_api_lcp_sparse": (_Int, _Handle, _Int, _Ints, _Ints, _Doubles, _Doubles, _Doubles, _Doubles, _Doubles, _Text, _Int,
+                          _Double),
+    "rb_api_lcp_all": (_Int, _Handle, _Int, _Doubles, _Doubles, _Doubles, _Doubles, _Double),
+    "rb_api_game": (_Int, _Handle, _Int, _Int, _Doubles, _Doubles, _Int, _Int, _Int, _Double),
     "rb_api_friction_measure": (_Int, _Handle, _Text),
     "rb_api_friction": (_Int, _Handle, _Int, _Int, _Doubles, _Doubles, _Doubles, _Text, _Double, _Int),
+    "rb_api_friction_sparse": (_Int, _Handle, _Int, _Int, _Ints, _Ints, _Doubles, _Doubles, _Doubles, _Text, _Double, _Int),
     "rb_api_friction_file": (_Int, _Handle, _Text, _Text, _Double, _Int),
     "rb_api_wear": (_Int, _Handle, _Text, _Double, _Double, _Double, _Double, _Int, _Int),
     "rb_api_sweep": (_Int, _Handle, _Int, ctypes.POINTER(_Handle), _Int),
@@ -489,8 +493,12 @@ class Kept(_Answers):
         return self._arrays.get(name)
 
 
-def doubles(array: NDArray[np.float64]) -> Any:
-    return array.ctypes.data_as(_Doubles)
+def doubles(array: "Optional[NDArray[np.float64]]") -> Any:
+    return None if array is None else array.ctypes.data_as(_Doubles)
+
+
+def ints(array: "NDArray[np.intc]") -> Any:
+    return array.ctypes.data_as(_Ints)
 
 
 def texts(of: "list[str]") -> Any:

@@ -100,6 +100,47 @@ def matrix(name: str, value: Any, rows: int) -> NDArray[np.float64]:
     return np.asfortranarray(found)
 
 
+def compressed(name: str, value: Any, rows: int) -> "tuple[NDArray[np.intc], NDArray[np.intc], NDArray[np.float64]]":
+    """Compressed columns of a square matrix, dense or one of SciPy's, which is not made dense."""
+    if hasattr(value, "tocsc"):
+        shape = tuple(value.shape)
+        if shape == (rows, rows):
+            found = value.tocsc(copy=True)
+            if found.dtype.kind not in "biuf":
+                raise InvalidInput(f"{name}=: expected numbers, got {shown(value)}")
+            found.sum_duplicates()
+            found.sort_indices()
+            if found.nnz > MOST:
+                raise InvalidInput(f"{name}=: {found.nnz} entries, expected at most {MOST}")
+            return (np.ascontiguousarray(found.indptr, dtype=np.intc), np.ascontiguousarray(found.indices, dtype=np.intc),
+                    np.ascontiguousarray(found.data, dtype=float))
+    else:
+        dense = array(name, value.toarray() if hasattr(value, "toarray") else value)
+        shape = dense.shape
+        if shape == (rows, rows):
+            column, row = np.nonzero(dense.T)
+            counts = np.bincount(column, minlength=rows)
+            begins = np.concatenate([[0], np.cumsum(counts)]).astype(np.intc)
+            return begins, row.astype(np.intc), np.ascontiguousarray(dense.T[column, row])
+    raise InvalidInput(f"{name}=: expected a matrix of {rows} x {rows}, got {' x '.join(map(str, shape)) or 'a number'}")
+
+
+def each(name: str, value: Any, rows: int) -> NDArray[np.float64]:
+    """A number for each row, or one for all of them."""
+    found = vector(name, value)
+    if len(found) not in (1, rows):
+        raise InvalidInput(f"{name}=: expected a number or one per row ({rows}), got {len(found)}")
+    return np.ascontiguousarray(np.broadcast_to(found, rows))
+
+
+def table(name: str, value: Any) -> NDArray[np.float64]:
+    """Numbers in rows and columns."""
+    found = array(name, value.toarray() if hasattr(value, "toarray") else value)
+    if found.ndim != 2 or found.size == 0:
+        raise InvalidInput(f"{name}=: expected a matrix, got {' x '.join(map(str, found.shape)) or 'a number'}")
+    return found
+
+
 def columns(name: str, table: Mapping[str, Sequence[float]]) -> dict:
     """Columns of a table, of one length."""
     found = {str(key): vector(f"{name}[{key!r}]", values) for key, values in table.items()}

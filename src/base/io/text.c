@@ -87,6 +87,27 @@ static rb_status from_utf16(const char *path, char **text, size_t *size, rb_mess
                           : RB_OK;
 }
 
+/* A format that is read elsewhere, by how its files begin; NULL: another one. */
+static const char *kind_of(const char *text, size_t size)
+{
+    static const struct {
+        const char *begins, *name;
+        size_t n;
+    } kinds[] = {
+        {"PK\3\4",
+         "an archive such as NumPy's .npz or a spreadsheet's .xlsx, expected text; the Python "
+         "package takes its arrays",
+         4},
+        {"\x93NUMPY", "an array of NumPy (.npy); the Python package reads it", 6},
+        {"MATLAB 5.0", "a file of MATLAB (.mat); the Python package reads it", 10},
+        {"\x89HDF\r\n", "an HDF5 file, expected text; the Python package takes its arrays", 6},
+        {"NFG ", "a game of Gambit (.nfg); the Python package reads it: rollbem.game", 4}};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        if (size >= kinds[k].n && memcmp(text, kinds[k].begins, kinds[k].n) == 0)
+            return kinds[k].name;
+    return NULL;
+}
+
 rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_message *why)
 {
     struct stat st, null;
@@ -117,6 +138,9 @@ rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_messag
     if (s == RB_OK && *size >= 2 &&
         (memcmp(*text, "\xff\xfe", 2) == 0 || memcmp(*text, "\xfe\xff", 2) == 0))
         s = from_utf16(path, text, size, why);
+    const char *kind = s == RB_OK ? kind_of(*text, *size) : NULL;
+    if (kind)
+        s = rb_fail(why, RB_EFORMAT, "%s: %s", path, kind);
     /* What is no text is said to be none, before anything takes it for malformed numbers. */
     const char *zero = s == RB_OK ? memchr(*text, '\0', *size) : NULL;
     if (zero) {

@@ -22,39 +22,180 @@ static void begin(rb_api *a, const char *arrays, const char *solver)
 
 /* ---- Complementarity --------------------------------------------------------------- */
 
-int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *solver,
-               int max_pivots)
+/* The matrix in compressed columns that the caller owns; RB_EINVAL: it is none. */
+static rb_status borrow(int n, const int *p, const int *i, const double *x, rb_sparse *M,
+                        rb_message *why)
 {
-    rb_lcp_options options = rb_lcp_defaults();
-    rb_lcp_info info = {0};
-    rb_sparse sparse = {0};
-    options.max_iters = max_pivots;
+    if (n < 1)
+        return rb_fail(why, RB_EINVAL, "lcp: n = %d", n);
+    for (int j = 0; j < n; j++)
+        if (p[0] != 0 || p[j + 1] < p[j])
+            return rb_fail(why, RB_EINVAL, "matrix: column %d begins at %d and ends at %d", j + 1,
+                           p[j], p[j + 1]);
+    for (int j = 0; j < n; j++)
+        for (int k = p[j]; k < p[j + 1]; k++)
+            if (i[k] < 0 || i[k] >= n || (k > p[j] && i[k] <= i[k - 1]))
+                return rb_fail(why, RB_EINVAL,
+                               "matrix: column %d: row %d, expected rows of 0 to %d that increase",
+                               j + 1, i[k], n - 1);
+    *M = (rb_sparse){n, n, (int *)(uintptr_t)p, (int *)(uintptr_t)i, (double *)(uintptr_t)x};
+    return RB_OK;
+}
+
+/* 1: there is a solver of this name. */
+static int is_known(const char *solver, const char **name)
+{
     int count, known = 0;
     const rb_lcp_solver *solvers = rb_lcp_solvers(&count);
     while (known < count && strcmp(solver, solvers[known].name) != 0)
         known++;
-    begin(a, "lcp.", known < count ? solvers[known].name : "");
-    if (known == count)
-        return rb_api_refuse(
-            a, "--solver: expected auto, lemke, lemke-sparse or newton, got '%.60s'", solver);
-    if (n < 1)
-        return rb_api_refuse(a, "lcp: n = %d", n);
+    *name = known < count ? solvers[known].name : "";
+    return known < count;
+}
+
+static int solve_lcp(rb_api *a, const rb_lcp_mixed_problem *p, const char *solver,
+                     const rb_lcp_options *options)
+{
+    const int n = p->M->cols;
+    rb_lcp_info info = {0};
     api_array *z = rb_api_make_array(a, "lcp.z", n, 1);
     api_array *w = z ? rb_api_make_array(a, "lcp.w", n, 1) : NULL;
-    rb_status s = w ? rb_sparse_from_dense(n, n, M, n, &sparse) : RB_ENOMEM;
+    rb_status s = w ? RB_OK : RB_ENOMEM;
     if (s == RB_OK) {
-        const rb_lcp_mixed_problem p = {.M = &sparse, .q = q};
         rb_api_call_begins(a);
-        s = rb_lcp_solve(solver, &p, &options, z->at, &info);
+        s = rb_lcp_solve(solver, p, options, z->at, &info);
         if (s >= 0)
-            a->residual = rb_lcp_residual_mixed(&p, z->at, w->at);
+            a->residual = rb_lcp_residual_mixed(p, z->at, w->at);
         a->why = info.msg;
         s = rb_api_call_ends(a, s);
         a->scaled_residual = info.scaled;
         a->iterations = info.iters;
         a->solver = info.solver ? info.solver : a->solver;
     }
+    return rb_api_ended(a, s);
+}
+
+static const char other_solver[] =
+    "--solver: expected auto, lemke, lemke-sparse or newton, got '%.60s'";
+
+int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *solver,
+               int max_pivots)
+{
+    rb_lcp_options options = rb_lcp_defaults();
+    rb_sparse sparse = {0};
+    const char *name;
+    const int known = is_known(solver, &name);
+    begin(a, "lcp.", name);
+    options.max_iters = max_pivots;
+    if (!known)
+        return rb_api_refuse(a, other_solver, solver);
+    if (n < 1)
+        return rb_api_refuse(a, "lcp: n = %d", n);
+    const rb_status s = rb_sparse_from_dense(n, n, M, n, &sparse);
+    const int ended =
+        s == RB_OK ? solve_lcp(a, &(rb_lcp_mixed_problem){.M = &sparse, .q = q}, solver, &options)
+                   : rb_api_ended(a, s);
     rb_sparse_free(&sparse);
+    return ended;
+}
+
+int rb_api_lcp_sparse(rb_api *a, int n, const int *p, const int *i, const double *x,
+                      const double *q, const double *lower, const double *upper,
+                      const double *start, const char *solver, int max_pivots, double seconds)
+{
+    rb_lcp_options options = rb_lcp_defaults();
+    rb_sparse M;
+    const char *name;
+    const int known = is_known(solver, &name);
+    begin(a, "lcp.", name);
+    options.max_iters = max_pivots;
+    options.seconds = seconds;
+    options.start = start;
+    if (!known)
+        return rb_api_refuse(a, other_solver, solver);
+    const rb_status s = borrow(n, p, i, x, &M, &a->why);
+    if (s != RB_OK)
+        return rb_api_ended(a, s);
+    const rb_lcp_mixed_problem problem = {.M = &M, .q = q, .lower = lower, .upper = upper};
+    return solve_lcp(a, &problem, solver, &options);
+}
+
+/* The solutions of a list, rows x count, and which of them are of a singular basis only. */
+static rb_status keep_all(rb_api *a, const char *what, const rb_lcp_solutions *all)
+{
+    char name[40];
+    snprintf(name, sizeof name, "%s.all", what);
+    api_array *z = rb_api_make_array(a, name, all->n, all->count);
+    snprintf(name, sizeof name, "%s.singular_basis", what);
+    api_array *singular = z ? rb_api_make_array(a, name, all->count, 1) : NULL;
+    snprintf(name, sizeof name, "%s.bases", what);
+    api_array *bases = singular ? rb_api_make_array(a, name, 3, 1) : NULL;
+    if (!bases)
+        return RB_ENOMEM;
+    memcpy(z->at, all->z, sizeof *z->at * (size_t)all->n * (size_t)all->count);
+    for (int k = 0; k < all->count; k++)
+        singular->at[k] = all->singular_basis ? all->singular_basis[k] : 0;
+    bases->at[0] = all->bases;
+    bases->at[1] = all->singular;
+    bases->at[2] = all->undecided;
+    return RB_OK;
+}
+
+int rb_api_lcp_all(rb_api *a, int n, const double *M, const double *q, const double *lower,
+                   const double *upper, double seconds)
+{
+    const rb_lcp_problem p = {n, M, n, q};
+    rb_lcp_solutions all = {0};
+    begin(a, "lcp.", "enumeration");
+    rb_api_call_begins(a);
+    rb_status s = rb_lcp_enumerate(&p, lower, upper, seconds, &all, &a->why);
+    s = rb_api_call_ends(a, s);
+    if ((s == RB_OK || s == RB_TIME_LIMIT) && keep_all(a, "lcp", &all) != RB_OK)
+        s = RB_ENOMEM;
+    if (s == RB_OK && all.count == 0)
+        s = all.undecided
+                ? rb_fail(&a->why, RB_UNDECIDED, "lcp: none found, %d of %d bases undecided",
+                          all.undecided, all.bases)
+                : rb_fail(&a->why, RB_NO_SOLUTION,
+                          "lcp: no solution (%d bases; %d singular, each excluded)", all.bases,
+                          all.singular);
+    rb_lcp_solutions_free(&all);
+    return rb_api_ended(a, s);
+}
+
+int rb_api_game(rb_api *a, int m, int n, const double *A, const double *B, int label, int all_of_it,
+                int max_pivots, double seconds)
+{
+    const rb_lcp_game game = {m, n, A, B, m};
+    rb_lcp_options options = rb_lcp_defaults();
+    rb_lcp_info info = {0};
+    rb_lcp_solutions all = {0};
+    begin(a, "game.", all_of_it ? "enumeration" : "lemke-howson");
+    options.max_iters = max_pivots;
+    options.seconds = seconds;
+    if (m < 1 || n < 1 || m > INT_MAX - n)
+        return rb_api_refuse(a, "game: %d x %d strategies", m, n);
+    api_array *z = rb_api_make_array(a, "game.z", m + n, 1);
+    api_array *payoff = z ? rb_api_make_array(a, "game.payoff", 2, 1) : NULL;
+    api_array *regret = payoff ? rb_api_make_array(a, "game.regret", m + n, 1) : NULL;
+    rb_status s = regret ? RB_OK : RB_ENOMEM;
+    if (s == RB_OK) {
+        rb_api_call_begins(a);
+        if (all_of_it)
+            s = rb_lcp_bimatrix_enumerate(&game, &all, &a->why);
+        else {
+            s = rb_lcp_bimatrix(&game, label, &options, z->at, &info);
+            a->why = info.msg;
+        }
+        s = rb_api_call_ends(a, s);
+        a->iterations = info.iters;
+        a->scaled_residual = all_of_it ? NAN : info.scaled;
+    }
+    if (s >= 0 && !all_of_it)
+        a->residual = rb_lcp_bimatrix_regret(&game, z->at, regret->at, payoff->at);
+    if (s == RB_OK && all_of_it && keep_all(a, "game", &all) != RB_OK)
+        s = RB_ENOMEM;
+    rb_lcp_solutions_free(&all);
     return rb_api_ended(a, s);
 }
 
@@ -96,31 +237,53 @@ int rb_api_friction_measure(rb_api *a, const char *measure)
     return rb_api_ended(a, RB_OK);
 }
 
-int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W, const double *q,
-                    const double *mu, const char *solver, double tol, int max_iters)
+/* W dense, or in compressed columns (p not NULL); all of it is copied. */
+static int local_friction(rb_api *a, int dimension, int contacts, const double *W, const int *p,
+                          const int *i, const double *x, const double *q, const double *mu,
+                          const char *solver, double tol, int max_iters)
 {
     begin(a, "friction.", solver);
     if (dimension < 2 || dimension > 3 || contacts < 1 || contacts > INT_MAX / dimension)
         return rb_api_refuse(a, "friction: %d contacts of dimension %d, expected 2 or 3", contacts,
                              dimension);
     const size_t m = (size_t)dimension * (size_t)contacts;
-    rb_friction_problem p = {.form = RB_FRICTION_LOCAL_DENSE,
-                             .dimension = dimension,
-                             .contacts = contacts,
-                             .W = rb_alloc(m, m),
-                             .q = rb_alloc(m, 1),
-                             .mu = rb_alloc((size_t)contacts, 1)};
-    rb_status s = p.W && p.q && p.mu ? RB_OK : RB_ENOMEM;
+    rb_friction_problem problem = {.form = p ? RB_FRICTION_LOCAL_SPARSE : RB_FRICTION_LOCAL_DENSE,
+                                   .dimension = dimension,
+                                   .contacts = contacts,
+                                   .W = p ? NULL : rb_alloc(m, m),
+                                   .q = rb_alloc(m, 1),
+                                   .mu = rb_alloc((size_t)contacts, 1)};
+    rb_sparse borrowed;
+    rb_status s = (p || problem.W) && problem.q && problem.mu ? RB_OK : RB_ENOMEM;
+    if (s == RB_OK && p)
+        s = borrow((int)m, p, i, x, &borrowed, &a->why);
+    if (s == RB_OK && p)
+        s = rb_sparse_copy(&borrowed, &problem.Ws);
     if (s == RB_OK) {
-        memcpy(p.W, W, sizeof *W * m * m);
-        memcpy(p.q, q, sizeof *q * m);
-        memcpy(p.mu, mu, sizeof *mu * (size_t)contacts);
-        s = rb_friction_problem_check(&p, &a->why);
+        if (!p)
+            memcpy(problem.W, W, sizeof *W * m * m);
+        memcpy(problem.q, q, sizeof *q * m);
+        memcpy(problem.mu, mu, sizeof *mu * (size_t)contacts);
+        s = rb_friction_problem_check(&problem, &a->why);
     }
     if (s == RB_OK)
-        s = solve_friction(a, &p, solver, tol, max_iters);
-    rb_friction_problem_free(&p);
+        s = solve_friction(a, &problem, solver, tol, max_iters);
+    rb_friction_problem_free(&problem);
     return rb_api_ended(a, s);
+}
+
+int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W, const double *q,
+                    const double *mu, const char *solver, double tol, int max_iters)
+{
+    return local_friction(a, dimension, contacts, W, NULL, NULL, NULL, q, mu, solver, tol,
+                          max_iters);
+}
+
+int rb_api_friction_sparse(rb_api *a, int dimension, int contacts, const int *p, const int *i,
+                           const double *x, const double *q, const double *mu, const char *solver,
+                           double tol, int max_iters)
+{
+    return local_friction(a, dimension, contacts, NULL, p, i, x, q, mu, solver, tol, max_iters);
 }
 
 int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double tol, int max_iters)

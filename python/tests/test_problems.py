@@ -1,0 +1,153 @@
+"""Complementarity problems, games and friction problems by themselves, and files of other programs."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import rollbem
+from conftest import ROOT, run
+
+sparse = pytest.importorskip("scipy.sparse")
+
+
+def check(M, q, s, lower=0.0, upper=np.inf):
+    """The conditions, recomputed from z alone."""
+    w = M @ s.z + q
+    assert np.allclose(w, s.w, atol=1e-12)
+    assert np.all(s.z >= lower) and np.all(s.z <= upper)
+    between = (s.z > lower) & (s.z < upper)
+    assert np.abs(w[between]).max(initial=0) < 1e-9
+    assert np.all(w[(s.z == lower) & (s.z < upper)] >= -1e-9) and np.all(w[(s.z == upper) & (s.z > lower)] <= 1e-9)
+
+
+@pytest.mark.parametrize("lower, upper", [(None, None), (-1.0, 1.0), (-np.inf, np.inf), (0.0, [0.5, 1.0, 2.0] * 10)])
+def test_bounds(lower, upper):
+    rng = np.random.default_rng(1)
+    A = rng.normal(size=(30, 30))
+    M, q = A @ A.T + np.eye(30), rng.normal(size=30)
+    bounds = {} if lower is None else dict(lower=lower, upper=upper)
+    s = rollbem.lcp(M, q, **bounds)
+    check(M, q, s, *((0.0, np.inf) if lower is None else (lower, np.asarray(upper))))
+    again = rollbem.lcp(sparse.csr_matrix(M), q, start=s.z, **bounds)
+    assert np.allclose(again.z, s.z) and again.iterations <= s.iterations
+
+
+def test_sparse_matrices_stay_sparse():
+    """99856 unknowns in less than 200 MB, NumPy and SciPy among them; dense they would take 80 GB."""
+    program = """
+import resource, sys
+import rollbem, numpy as np, scipy.sparse as sp
+k = 316
+line = sp.diags([-1, 2, -1], [-1, 0, 1], shape=(k, k))
+x = np.linspace(0, 1, k)
+q = -1e-3 * np.sin(5 * np.add.outer(x, x)).ravel()
+s = rollbem.lcp((sp.kron(sp.eye(k), line) + sp.kron(line, sp.eye(k))).tocoo(), q)
+print(s.status, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024)
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=ROOT / "python")
+    status, megabytes = done.stdout.split()
+    assert status == "solved" and int(megabytes) < 200
+
+
+def test_sparse_friction_is_dense_friction():
+    W = sparse.block_diag([np.eye(3) + 0.1] * 20).tolil()
+    W[0, 5] = W[5, 0] = 0.2
+    q = np.random.default_rng(2).normal(size=60)
+    q[::3] = -1.0
+    one, other = (rollbem.friction(matrix, q, 0.5) for matrix in (W, W.toarray()))
+    assert np.allclose(one.r, other.r, atol=1e-7)
+    frame = pytest.importorskip("pandas") and one.to_pandas()
+    assert list(frame.columns) == ["r_N", "r_T1", "r_T2", "u_N", "u_T1", "u_T2"] and len(frame) == 20
+
+
+def test_all_solutions():
+    M = np.array([[1.0, 3.0], [3.0, 1.0]])
+    found = rollbem.lcp(M, [-2, -3], all=True)
+    assert sorted(map(tuple, np.round(found, 12))) == [(0, 3), (0.875, 0.375), (2, 0)]
+    assert found.bases == 4 and found.undecided == 0
+    with pytest.raises(rollbem.Unsolved, match="no solution") as none:
+        rollbem.lcp(np.zeros((2, 2)), [-1, 1], all=True)
+    assert none.value.solution == []
+    four = [line.split() for line in run("lcp", "--all", "--solution", ROOT / "examples/lcp/murty.txt").stdout.splitlines()
+            if line and not line.startswith("#")]
+    assert len(four) > 1  # what the program lists it lists as well
+
+
+def test_games():
+    prisoners = rollbem.game([[3, 0], [5, 1]], [[3, 5], [0, 1]])
+    assert prisoners.x.tolist() == [0, 1] and prisoners.payoff == (1, 1)
+    coins = rollbem.game([[1, -1], [-1, 1]], all=True)
+    assert len(coins) == 1 and np.allclose(coins[0], 0.5)
+    assert len(rollbem.game(np.eye(3), np.eye(3), all=True)) == 7  # three pure ones, three of pairs, one of all
+    assert rollbem.game(np.eye(3), np.eye(3), label=2).x.tolist() == [0, 1, 0]
+
+
+NFG = {"payoffs": 'NFG 1 R "Prisoner\\"s" { "P1" "P2" } { 2 3 } "a comment"\n1 -1 4 1/2\n2, 0 5 0.25\n3 7 6 1e1\n',
+       "names": 'NFG 1 D "" { "P1" "P2" } { { "a" "b" } { "c" "d" "e" } }\n1 -1 4 1/2 2 0 5 0.25 3 7 6 10',
+       "outcomes": 'NFG 1 R "x" { "P1" "P2" } { 2 3 }\n{ { "" 1, -1 } { "" 4, 1/2 } { "" 2, 0 } { "" 5, .25 } { "" 3 7 } '
+                   '{ "" 6, 10 } }\n1 2 3 4 5 6\n'}
+
+
+@pytest.mark.parametrize("kind", NFG)
+def test_games_of_gambit(kind, tmp_path):
+    from rollbem._files import gambit
+
+    path = tmp_path / "game.nfg"
+    path.write_text(NFG[kind])
+    A, B = gambit(str(path))
+    assert A.tolist() == [[1, 2, 3], [4, 5, 6]] and B.tolist() == [[-1, 0, 7], [0.5, 0.25, 10]]
+    assert rollbem.game(path).payoff == (6, 10)
+    assert run("lcp", "--game", path).returncode == 65
+
+
+@pytest.mark.parametrize("text, words", [
+    ('NFG 1 R "x" { "P1" "P2" "P3" } { 2 2 2 }\n1', "3 players, expected 2"), ('EFG 2 R "x" { "P1" }', "extensive form"),
+    ('NFG 1 R "x" { "P1" "P2" } { 2 2 }\n1 2 3', "expected 4 profiles"), ("2 2\n1 2", "expected NFG 1 R"),
+    ('NFG 1 R "x" { "P1" "P2" } { 2 2 }\n1 2 3 4 5 6 7 x', "got 'x'"), ('NFG 1 R "x" { "P1"', "not closed"),
+    ('NFG 1 R "x" { "P1" "P2" } { 1 1 } { { "" 1 } }\n1', "expected 2 payoffs"), ("", "expected NFG 1 R")])
+def test_what_is_no_game_of_two(text, words, tmp_path):
+    path = tmp_path / "game.nfg"
+    path.write_text(text)
+    with pytest.raises(rollbem.InvalidInput, match=words):
+        rollbem.game(path)
+
+
+def test_archives(tmp_path):
+    io = pytest.importorskip("scipy.io")
+    M, q, want = sparse.csr_matrix([[2.0, 1.0], [1.0, 2.0]]), [-5.0, -6.0], [4 / 3, 7 / 3]
+    sparse.save_npz(tmp_path / "sparse.npz", M)
+    np.savez(tmp_path / "arrays.npz", M=M.toarray(), q=q, upper=[1.0, 9.0])
+    np.save(tmp_path / "array.npy", M.toarray())
+    io.savemat(tmp_path / "matlab.mat", dict(A=M, b=q, name="x"))
+    io.savemat(tmp_path / "two.mat", dict(C=M, D=M))
+    io.mmwrite(str(tmp_path / "market.mtx"), M)
+    for name in ("sparse.npz", "array.npy", "market.mtx"):
+        assert np.allclose(rollbem.lcp(tmp_path / name, q).z, want)
+    assert np.allclose(rollbem.lcp(tmp_path / "matlab.mat").z, want)
+    assert np.allclose(rollbem.lcp(tmp_path / "arrays.npz").z, [1.0, 2.5])
+    with pytest.raises(rollbem.InvalidInput, match="got C, D"):
+        rollbem.lcp(tmp_path / "two.mat")
+    with pytest.raises(rollbem.MissingFile):
+        rollbem.lcp(tmp_path / "none.npz")
+    for name, words in (("sparse.npz", ".npz"), ("array.npy", ".npy"), ("matlab.mat", "MATLAB")):
+        said = run("lcp", tmp_path / name)
+        assert said.returncode == 65 and words in said.stderr and "Python" in said.stderr
+
+
+@pytest.mark.parametrize("call, words", [
+    (lambda: rollbem.lcp(np.eye(2), [1.0], lower=[1, 2]), "2 x 2|lower="),
+    (lambda: rollbem.lcp(np.eye(2), [1.0, 2.0], lower=[1, 2, 3]), "lower=: expected a number or one per row"),
+    (lambda: rollbem.lcp(np.eye(2), [1.0, 2.0], lower=2, upper=1), "bound"),
+    (lambda: rollbem.lcp(sparse.eye(3), [1.0, 2.0]), "M=: expected a matrix of 2 x 2, got 3 x 3"),
+    (lambda: rollbem.lcp(sparse.eye(2) * 1j, [1.0, 2.0]), "M=: expected numbers"),
+    (lambda: rollbem.lcp(np.eye(2), [1.0, 2.0], tol=1e-12), "tol="),
+    (lambda: rollbem.lcp(np.eye(2), [1.0, 2.0], seconds=0), "seconds="),
+    (lambda: rollbem.lcp(np.eye(2)), "q="),
+    (lambda: rollbem.game([[1, 2]], [[1], [2]]), "B=: expected 1 x 2 payoffs, got 2 x 1"),
+    (lambda: rollbem.game([[1, 2]], label=9), "label=: expected a whole number from 1 to 3"),
+    (lambda: rollbem.game([1, 2]), "A=: expected a matrix")])
+def test_what_is_no_problem(call, words):
+    with pytest.raises(rollbem.InvalidInput, match=words):
+        call()
