@@ -58,7 +58,7 @@ static rb_status certify(const json_t *root, rb_certificate_outcome *found, rb_m
         rb_case_create(json_object_get(root, "crack") ? RB_CASE_CRACK : RB_CASE_SINGLE);
     assert_non_null(lines);
     assert_non_null(words);
-    const rb_status s = rb_certificate_check_solutions(lines, "result", root, words, found, why);
+    const rb_status s = rb_certificate_check(lines, "result", root, words, found, why);
     rb_case_free(words);
     fclose(lines);
     return s;
@@ -185,13 +185,6 @@ TEST(results_are_valid)
     }
 }
 
-/* What no check can tell without solving: free rolling where the pressure slips, too. */
-static int is_left_out(const char *key, const json_t *value)
-{
-    return strcmp(key, "iterations") == 0 ||
-           (strcmp(key, "free_creepage") == 0 && json_number_value(value) != 0.0);
-}
-
 /* One part in a million; what is zero but for rounding becomes 1e-3. */
 static double changed(double x)
 {
@@ -210,205 +203,11 @@ static void expect_found(const json_t *root, const char *given, const char *key,
     }
 }
 
-/* Changes every number of a list, or of lists in it; returns how many. */
-static int change_list(const json_t *root, const char *given, const char *key, json_t *list)
-{
-    int changes = 0;
-    for (size_t i = 0; i < json_array_size(list); i++) {
-        json_t *old = json_array_get(list, i);
-        if (json_is_array(old)) {
-            changes += change_list(root, given, key, old);
-            continue;
-        }
-        json_incref(old);
-        if (json_is_number(old)) {
-            const int modulus = strcmp(key, "zone") == 0 ? 4 : 1000000;
-            json_array_set_new(list, i,
-                               json_is_integer(old)
-                                   ? json_integer((json_integer_value(old) + 1) % modulus)
-                                   : json_real(changed(json_real_value(old))));
-            expect_found(root, given, key, (int)i);
-            changes++;
-        }
-        json_array_set_new(list, i, old);
-    }
-    return changes;
-}
-
-/* Of every step: what is printed of it, and its state. */
-TEST(every_changed_number_of_a_history_is_found)
-{
-    int changes = 0;
-    missed = 0;
-    for (int k = 0; k < HISTORIES; k++) {
-        json_t *root = run_json(histories[k]), *list, *value;
-        json_t *history = json_object_get(root, "history");
-        json_t *states = json_object_get(history, "states"), *names;
-        const char *key;
-        rb_certificate_outcome found;
-        CHECK_STATUS(certify(root, &found, &heard), RB_OK);
-        assert_int_equal(found.violations, 0);
-        json_object_foreach(history, key, list) changes +=
-            change_list(root, histories[k], key, list);
-        json_object_foreach(states, key, list) changes +=
-            change_list(root, histories[k], key, list);
-        names = json_copy(history);
-        json_object_foreach(names, key, value)
-        {
-            if (!json_is_real(value))
-                continue;
-            json_object_set_new(history, key, json_real(changed(json_real_value(value))));
-            expect_found(root, histories[k], key, 0);
-            json_object_set(history, key, value);
-            changes++;
-        }
-        json_decref(names);
-        json_decref(root);
-    }
-    assert_true(changes > 500);
-    assert_int_equal(missed, 0);
-}
-
-TEST(every_changed_number_is_found)
-{
-    int changes = 0;
-    missed = 0;
-    for (int k = 0; k < CASES; k++) {
-        json_t *root = run_json(cases[k]), *value;
-        json_t *summary = json_object_get(root, "summary");
-        json_t *table = json_object_get(root, "table");
-        const char *key;
-        rb_certificate_outcome found;
-        CHECK_STATUS(certify(root, &found, &heard), RB_OK);
-        assert_int_equal(found.violations, 0);
-        json_t *names = json_copy(summary);
-        json_object_foreach(names, key, value)
-        {
-            if (!json_is_number(value) || is_left_out(key, value))
-                continue;
-            json_object_set_new(summary, key,
-                                json_is_integer(value)
-                                    ? json_integer(json_integer_value(value) + 1)
-                                    : json_real(changed(json_real_value(value))));
-            expect_found(root, cases[k], key, 0);
-            json_object_set(summary, key, value);
-            changes++;
-        }
-        json_decref(names);
-        json_object_foreach(table, key, value)
-        {
-            for (size_t i = 0; i < json_array_size(value); i++) {
-                json_t *old = json_incref(json_array_get(value, i));
-                json_array_set_new(value, i,
-                                   json_is_integer(old)
-                                       ? json_integer((json_integer_value(old) + 1) % 4)
-                                       : json_real(changed(json_real_value(old))));
-                expect_found(root, cases[k], key, (int)i);
-                json_array_set_new(value, i, old);
-                changes++;
-            }
-        }
-        json_decref(root);
-    }
-    assert_true(changes > 1000);
-    assert_int_equal(missed, 0);
-}
-
-/* A place by a thousandth: the stress there is another one.  Of a wheel's stress a part
- * in a million of the largest pressure is found. */
-static json_t *changed_stress(const char *key, double x)
-{
-    const int is_place = strcmp(key, "x") == 0 || strcmp(key, "y") == 0;
-    return json_real(is_place ? x * (1.0 + 1e-3) + 1e-3 : changed(x) + copysign(1e-4, x));
-}
-
-/* Every real number of a list; returns how many. */
-static int change_reals(const char *key, json_t *list)
-{
-    int changes = 0;
-    for (size_t i = 0; i < json_array_size(list); i++) {
-        const json_t *value = json_array_get(list, i);
-        if (json_is_real(value) && ++changes)
-            json_array_set_new(list, i, changed_stress(key, json_real_value(value)));
-    }
-    return changes;
-}
-
 static void expect_violations(const json_t *root, int wanted)
 {
     rb_certificate_outcome found;
     CHECK_STATUS(certify(root, &found, &heard), RB_OK);
     assert_int_equal(found.violations, wanted);
-}
-
-/* Each number of the grid or of the points has its own line: all are changed at once, but
- * for the places that were given. */
-static void change_stresses(json_t *root, const char *name, int is_given)
-{
-    json_t *part = json_object_get(root, name), *own = json_deep_copy(part), *list;
-    const char *key;
-    int changes = 0;
-    json_object_foreach(part, key, list)
-    {
-        if (!is_given || (strcmp(key, "x_mm") != 0 && strcmp(key, "y_mm") != 0))
-            changes += change_reals(key, list);
-    }
-    assert_true(changes > 20);
-    expect_violations(root, changes);
-    json_object_set_new(root, name, own);
-}
-
-/* Value, x or y of all largest stresses at once: a changed place has another stress. */
-static void change_maxima(json_t *root, const char *key)
-{
-    json_t *maxima = json_object_get(root, "maxima"), *own = json_deep_copy(maxima), *one;
-    const char *name;
-    json_object_foreach(maxima, name, one)
-    {
-        const double x = json_real_value(json_object_get(one, key));
-        json_object_set_new(one, key, changed_stress(key, x));
-    }
-    expect_violations(root, 6);
-    json_object_set_new(root, "maxima", own);
-}
-
-static void change_shakedown(json_t *root, const char *given)
-{
-    static const char *const keys[] = {"limit", "shear_yield", "x", "y", "residual"};
-    json_t *shakedown = json_object_get(root, "shakedown");
-    for (size_t k = 0; k < sizeof keys / sizeof *keys && shakedown; k++) {
-        json_t *own = json_incref(json_object_get(shakedown, keys[k]));
-        json_object_set_new(shakedown, keys[k], changed_stress(keys[k], json_real_value(own)));
-        expect_found(root, given, keys[k], 0);
-        json_object_set_new(shakedown, keys[k], own);
-    }
-}
-
-TEST(every_changed_number_of_a_stress_is_found)
-{
-    static const char *const given[] = {"x_mm", "y_mm"}, *const of[] = {"value", "x", "y"};
-    write_points();
-    missed = 0;
-    for (int k = 0; k < STRESSES; k++) {
-        held_json *root = run_json(stresses[k]);
-        json_t *points = json_object_get(root, "points");
-        json_t *depth = json_incref(json_object_get(root, "depth"));
-        expect_violations(root, 0);
-        json_object_set_new(root, "depth", json_real(0.01));
-        expect_found(root, stresses[k], "depth", 0);
-        json_object_set_new(root, "depth", depth);
-        for (int j = 0; j < 2 && points; j++) {
-            json_t *kept = json_deep_copy(json_object_get(points, given[j]));
-            change_reals(given[j], json_object_get(points, given[j]));
-            expect_found(root, stresses[k], given[j], 0);
-            json_object_set_new(points, given[j], kept);
-        }
-        change_stresses(root, points ? "points" : "grid", points != NULL);
-        for (int j = 0; j < 3; j++)
-            change_maxima(root, of[j]);
-        change_shakedown(root, stresses[k]);
-    }
-    assert_int_equal(missed, 0);
 }
 
 /* Given values that the result does not meet, and those that it does not depend on. */
@@ -472,8 +271,8 @@ TEST(files_belong_to_the_result)
               "--quiet --output r.json && \"$R\" check r.json"),
         0);
     assert_int_equal(shell("echo '# seen' >> g.txt; \"$R\" check r.json"), 1);
-    assert_string_equal(out, "r.json: violated: inputs, or a file that they name, are not "
-                             "those of the result (input_hash)\n");
+    assert_non_null(strstr(out, "r.json: violated: input_hash: printed"));
+    assert_non_null(strstr(out, "inputs, or a file that they name, are not those of the result"));
 }
 
 static void check_says(const char *make, int code, const char *part)
@@ -524,7 +323,7 @@ static const char *said_of(const json_t *root, const char *path, const char *val
     rb_certificate_outcome found;
     rb_message why = {""};
     edit(other, path, value);
-    const rb_status s = rb_certificate_check_solutions(lines, "r", other, words, &found, &why);
+    const rb_status s = rb_certificate_check(lines, "r", other, words, &found, &why);
     rewind(lines);
     text[fread(text, 1, sizeof text - 1, lines)] = '\0';
     assert_int_equal(found.violations > 0, text[0] != '\0');
@@ -572,8 +371,7 @@ TEST(all_solutions_are_judged)
             json_array_set(list, 2, json_array_get(list, 1));
         if (change == 3)
             json_array_remove(list, 0), json_array_remove(list, 0);
-        CHECK_STATUS(rb_certificate_check_solutions(lines, "r", wrong, words, &found, &heard),
-                     RB_OK);
+        CHECK_STATUS(rb_certificate_check(lines, "r", wrong, words, &found, &heard), RB_OK);
         rewind(lines);
         if (change == 0)
             assert_int_equal(found.violations, 0);
@@ -595,7 +393,7 @@ TEST(all_solutions_are_judged)
         {"solutions", "{}", "cannot be checked: no list of solutions"},
         {"solutions/1", "{}", "solution 2: cannot be checked: expected a summary and a"},
         {"solutions/1/table", "", "solution 2: cannot be checked: expected a summary and"},
-        {"solutions/1/more", "1", "solution 2: cannot be checked: expected a summary and"},
+        {"solutions/1/more", "1", "violated: solutions.2.more is no result of this case"},
         {"summary/status", "\"x\"", "r: cannot be checked: its status is"},
     };
     for (size_t k = 0; k < sizeof edits / sizeof *edits; k++)
@@ -622,7 +420,7 @@ TEST(all_solutions_are_judged)
                  "--slip-scale 5 --mesh uniform --slip-operator upstream --contact-elements 92 "
                  "--zone 4.65 --creep 0.0009999 --all-solutions" STEADY);
     json_array_set(member(root, "solutions"), 2, member(member(coarse, "solutions"), "0"));
-    assert_string_equal(said_of(root, "summary/iterations", "1000"), "");
+    assert_non_null(strstr(said_of(root, "summary/iterations", "1000"), "is missing"));
     json_decref(coarse);
     json_decref(root);
 }
@@ -724,22 +522,22 @@ TEST(tables_are_valid_by_their_comments)
              "\"$R\" %s --quiet | sed '/^# patch 2/s/P = ./P = 7/' > t.tsv; \"$R\" check t.tsv",
              tables[2]);
     assert_int_equal(shell(line), 1);
-    assert_non_null(strstr(out, "violated: P of a patch: printed 7"));
+    assert_non_null(strstr(out, "comments.10, entry 15: printed 7"));
     snprintf(line, sizeof line,
              "\"$R\" %s --quiet | sed '/^# patch 1/d' > t.tsv; \"$R\" check t.tsv", tables[2]);
     assert_int_equal(shell(line), 1);
-    assert_string_equal(out, "t.tsv: violated: patch 1 is missing\n");
+    assert_string_equal(out, "t.tsv: violated: comments: 10 entries, expected 11\n");
     snprintf(line, sizeof line,
              "\"$R\" %s --quiet | sed '/^# patch 2/s/from/from x/' > t.tsv; \"$R\" check t.tsv",
              tables[2]);
     assert_int_equal(shell(line), 1);
-    assert_string_equal(out, "t.tsv: violated: patch 2 is missing\n");
+    assert_non_null(strstr(out, "t.tsv: violated: comments.10: 20 entries, expected 19"));
     snprintf(line, sizeof line,
              "\"$R\" %s --quiet | sed '/^# .* solved; residual/s/residual.*/residual 1e-3/' "
              "> t.tsv; \"$R\" check t.tsv",
              tables[4]);
     assert_int_equal(shell(line), 1);
-    assert_non_null(strstr(out, "violated: residual: printed 0.001"));
+    assert_non_null(strstr(out, ": printed 0.001, recomputed"));
 }
 
 TEST(tables_that_cannot_be_checked_are_refused)
@@ -762,7 +560,7 @@ TEST(tables_that_cannot_be_checked_are_refused)
                  {"--formulation steady --creep 1e-3 --accuracy 0.5", "error bars"},
                  {"| sed '/^# static/s/solved/not solved/'", "its status is not solved"},
                  {"| sed '/^[-0-9]/d'", "no numbers"},
-                 {"| awk '!/^[-0-9]/ || n++ < 2'", "it has 2 elements"},
+                 {"| awk '!/^[-0-9]/ || n++ < 2'", "its table has no elements"},
                  {"| sed '/^-/s/\t/\tx/'", "expected a number"},
                  {"| sed 's/h_mm/width/'", "table: expected"}};
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
@@ -893,7 +691,7 @@ TEST(every_changed_derivative_is_found)
         json_t *history = json_object_get(root, "history"), *in = history ? history : root;
         expect_violations(root, 0);
         for (size_t j = 0; j < sizeof names / sizeof *names; j++)
-            changes += change_all_slopes(root, in, names[j], 1e-5);
+            changes += change_all_slopes(root, in, names[j], 1e-4);
     }
     assert_true(changes > 500);
 }
@@ -905,23 +703,23 @@ TEST(derivatives_belong_to_the_result)
     static const struct {
         const char *path, *value, *part;
     } edits[] = {
-        {"derivatives/tangential_load", "", "violated: derivatives.tangential_load.mu is missing"},
-        {"derivatives", "", "violated: derivatives.tangential_load.mu is missing"},
-        {"derivatives_of", "", "violated: derivatives is not what it should be"},
+        {"derivatives/tangential_load", "", "violated: derivatives.tangential_load is missing"},
+        {"derivatives", "", "violated: derivatives is missing"},
+        {"derivatives_of", "", "violated: derivatives is no result of this case"},
         {"derivatives_of", "\"approach\"", "derivatives.tangential_load is no result of this case"},
         {"derivatives/more", "1", "violated: derivatives.more is no result of this case"},
         {"derivatives/approach/more", "1", "violated: derivatives.approach.more is no result"},
         {"derivatives/approach/mu", "", "violated: derivatives.approach.mu is missing"},
-        {"derivatives/approach/interlayer-normal", "1", "interlayer-normal is missing, or"},
-        {"derivatives_are", "\"x\"", "violated: derivatives_are is not what it should be"},
-        {"derivatives_over_x/tangential_load/gap/9", "1", "tangential_load.gap of element 10: "},
-        {"derivatives_over_x/approach/mu/9", "1", "derivatives_over_x.approach.mu of element 10"},
+        {"derivatives/approach/interlayer-normal", "1", "interlayer-normal: printed 1, should be"},
+        {"derivatives_are", "\"x\"", "violated: derivatives_are: printed \"x\", should be"},
+        {"derivatives_over_x/tangential_load/gap/9", "1", "tangential_load.gap, entry 10: "},
+        {"derivatives_over_x/approach/mu/9", "1", "derivatives_over_x.approach.mu, entry 10"},
         {"without_derivatives/mu", "\"x\"", "violated: without_derivatives.mu is no result of"},
-        {"smooth_derivatives", "{}", "violated: smooth derivatives: the zone of element 13"},
-        {"uncertain_inputs", "", "violated: tolerances is not what it should be"},
-        {"tolerances", "", "violated: tolerances.approach is missing"},
+        {"smooth_derivatives", "{}", "cannot be checked: smooth derivatives: the zone of element"},
+        {"uncertain_inputs", "", "violated: tolerances is no result of this case"},
+        {"tolerances", "", "violated: tolerances is missing"},
         {"tolerances/approach", "", "violated: tolerances.approach is missing"},
-        {"own_of_b", "[1]", "violated: own_of_b is not what it should be"},
+        {"own_of_b", "[1]", "violated: own_of_b is no result of this case"},
         {"uncertain_inputs/mu", "0.021", "violated: tolerances.tangential_load: printed"},
         {"uncertain_inputs/mo", "0.021", "'mo' is not a number of"},
         {"tolerances/more", "1", "violated: tolerances.more is no result of this case"},
@@ -932,7 +730,8 @@ TEST(derivatives_belong_to_the_result)
             fail_msg("%s = %s: %s", edits[k].path, edits[k].value,
                      said_of(root, edits[k].path, edits[k].value));
     held_json *steps = run_json(histories[0]);
-    assert_non_null(strstr(said_of(steps, "derivatives", "{}"), "violated: derivatives is not"));
+    assert_non_null(
+        strstr(said_of(steps, "derivatives", "{}"), "violated: derivatives is no result"));
     static const char *const of_steps[] = {"derivatives",
                                            "derivatives/approach",
                                            "derivatives/approach/mu",
@@ -941,7 +740,8 @@ TEST(derivatives_belong_to_the_result)
                                            "tolerances/approach",
                                            "tolerances/approach/1"};
     held_json *sloped = run_json(slopes[5]);
-    assert_non_null(strstr(said_of(steps, "history/tolerances", "{}"), "tolerances is not"));
+    assert_non_null(
+        strstr(said_of(steps, "history/tolerances", "{}"), "history.tolerances is no result"));
     for (size_t k = 0; k < sizeof of_steps / sizeof *of_steps; k++) {
         char path[80];
         snprintf(path, sizeof path, "history/%s", of_steps[k]);
@@ -954,7 +754,7 @@ TEST(derivatives_belong_to_the_result)
               "\"$R\" check r.json && sed 's/mu=0.02/mu=0.03/' r.json >r2.json; "
               "\"$R\" check r2.json"),
         1);
-    assert_non_null(strstr(out, "violated: command: uncertain_inputs are not those of"));
+    assert_non_null(strstr(out, "violated: command: uncertain_inputs is not what it asks for"));
 }
 
 /* Of numbers and of columns, with one of them or both; and whether sides that differ by a rounding
@@ -1042,29 +842,30 @@ TEST(what_cannot_be_checked_is_refused)
 
 /* ---- Everything that a result says ------------------------------------------------- */
 
-/* What only solving again would tell, and what is of the machine. */
-static int is_beyond_checking(const char *key, const json_t *value)
+/* What is of the machine that has solved, and of the way to the solution. */
+static int is_beyond_checking(const char *path)
 {
-    static const char *const keys[] = {"iterations", "seconds", "integrals", "openblas"};
-    if (is_left_out(key, value))
-        return 1;
-    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
-        if (strcmp(key, keys[k]) == 0)
+    static const char *const ends[] = {"/iterations", "/integrals", "/openblas"};
+    for (size_t k = 0; k < sizeof ends / sizeof *ends; k++)
+        if (strlen(path) > strlen(ends[k]) &&
+            strcmp(path + strlen(path) - strlen(ends[k]), ends[k]) == 0)
             return 1;
-    return 0;
+    return strstr(path, "/seconds/") != NULL;
 }
 
 typedef struct {
     json_t *root;
     const char *given;
+    double part;         /* that numbers are changed by */
+    const char *without; /* members of the result that are left as they are */
     int changes, missed;
 } tampering;
 
 /* The command line is the program's to read. */
-static void expect_noticed(tampering *t, const char *path)
+static void expect_noticed(tampering *t, const char *path, const char *what)
 {
-    const int is_program = strstr(path, "/command") || strstr(path, "yield_shear") ||
-                           json_object_get(t->root, "solutions");
+    const int is_program = strcmp(path, "/command") == 0 || strcmp(path, "/depth") == 0 ||
+                           strstr(path, "yield_shear") || strcmp(what, "taken away") == 0;
     rb_certificate_outcome found;
     rb_message why = {""};
     t->changes++;
@@ -1074,65 +875,96 @@ static void expect_noticed(tampering *t, const char *path)
             return;
     } else if (certify(t->root, &found, &why) != RB_OK || found.violations > 0)
         return;
-    print_error("%s: a change of %s was not noticed\n", t->given, path);
+    print_error("%s: %s %s was not noticed\n", t->given, path, what);
     t->missed++;
 }
 
-/* A part in ten thousand; a word loses its first letter, or gets one.  At the place of a
- * largest stress it is flat: there a part in a hundred. */
-static json_t *other_value(const char *path, const json_t *value)
+/* Numbers by a part; a word loses its first letter, or gets one.  At the place of a largest stress
+ * it is flat: there a part in a hundred, and K_I and K_II have their extremes at positions. */
+static json_t *other_value(const tampering *t, const char *path, const json_t *value)
 {
-    const char *end = strrchr(path, '/');
+    const char *end = strrchr(path, '/'), *of_slopes = strstr(path, "derivatives/");
     const int is_flat = strstr(path, "maxima/") && end[2] == '\0';
     if (json_is_string(value))
         return json_string(json_string_value(value)[0] ? json_string_value(value) + 1 : "x");
+    if (json_is_integer(value) && strstr(path, "/zone/"))
+        return json_integer((json_integer_value(value) + 1) % 4);
     if (json_is_integer(value))
         return json_integer(json_integer_value(value) + 1);
+    if (json_is_real(value) && of_slopes) { /* a part of the largest effect, at least */
+        const json_t *in = json_object_get(json_object_get(t->root, "history"), "derivatives"),
+                     *inputs = json_object_get(t->root, "inputs");
+        char result[40], input[40];
+        if (sscanf(of_slopes, "derivatives/%39[^/]/%39[^/]", result, input) != 2)
+            return NULL;
+        in = json_object_get(in ? in : json_object_get(t->root, "derivatives"), result);
+        const double by = fabs(json_number_value(json_object_get(inputs, input)));
+        if (by == 0.0) /* its effect is that of no number */
+            return NULL;
+        const double least = 1e-2 * largest_effect(in, inputs, 1.0) / by;
+        return json_real(json_real_value(value) +
+                         t->part * fmax(fabs(json_real_value(value)), least));
+    }
     if (json_is_real(value)) {
         const double x = json_real_value(value);
-        return json_real(is_flat ? x + 0.01 : fabs(x) > 1e-9 ? x * (1.0 + 1e-4) : x + 1e-3);
+        return json_real(is_flat ? x + 0.01 : fabs(x) > 1e-9 ? x * (1.0 + t->part) : x + 1e-3);
     }
-    return json_is_boolean(value) ? json_boolean(!json_is_true(value)) : NULL;
+    return json_is_boolean(value) ? json_boolean(!json_is_true(value)) : json_real(1.0);
 }
 
-/* Each value of the tree in turn; of lists two entries, unless ROLLBEM_TEST_ALL. */
+/* Each value of the tree in turn is changed, each member taken away, and to each object one added;
+ * of lists two entries, unless ROLLBEM_TEST_ALL. */
 static void tamper(tampering *t, json_t *at, const char *path)
 {
-    const int all = getenv("ROLLBEM_TEST_ALL") != NULL;
-    const size_t n = json_array_size(at);
-    char own[200];
+    const int all = getenv("ROLLBEM_TEST_ALL") != NULL, is_object = json_is_object(at);
+    json_t *names = members(at), *value;
+    const size_t n = json_object_size(names);
     const char *key;
-    json_t *value, *names = json_is_object(at) ? json_copy(at) : NULL;
+    char own[240];
+    size_t i = 0;
+
+    if (is_object) {
+        json_object_set_new(at, "one-more", json_real(1.0));
+        snprintf(own, sizeof own, "%s/one-more", path);
+        expect_noticed(t, own, "added");
+        json_object_del(at, "one-more");
+    }
     json_object_foreach(names, key, value)
     {
         snprintf(own, sizeof own, "%s/%s", path, key);
-        json_t *other = is_beyond_checking(key, value) ? NULL : other_value(own, value);
-        if (other) {
-            json_object_set_new(at, key, other);
-            expect_noticed(t, own);
+        const size_t entry = i++;
+        if (!is_object && !all && n > 2 && entry != n / 3 && entry != 2 * n / 3)
+            continue;
+        if (is_object && strcmp(key, "command") != 0) {
+            json_object_del(at, key);
+            expect_noticed(t, own, "taken away");
             json_object_set(at, key, value);
-        } else if (!is_beyond_checking(key, value))
-            tamper(t, value, own);
+        }
+        if (json_is_object(value) || json_is_array(value)) {
+            if (!strstr(t->without, own))
+                tamper(t, value, own);
+            continue;
+        }
+        if (is_beyond_checking(own))
+            continue;
+        json_t *other = other_value(t, own, value);
+        if (!other)
+            continue;
+        if (is_object)
+            json_object_set_new(at, key, other);
+        else
+            json_array_set_new(at, entry, other);
+        expect_noticed(t, own, "changed");
+        if (is_object)
+            json_object_set(at, key, value);
+        else
+            json_array_set(at, entry, value);
     }
     json_decref(names);
-    for (size_t i = 0; i < n; i++) {
-        if (!all && n > 2 && i != n / 3 && i != 2 * n / 3)
-            continue;
-        value = json_incref(json_array_get(at, i));
-        snprintf(own, sizeof own, "%s/%zu", path, i);
-        json_t *other = other_value(own, value);
-        if (other) {
-            json_array_set_new(at, i, other);
-            expect_noticed(t, own);
-            json_array_set(at, i, value);
-        } else
-            tamper(t, value, own);
-        json_decref(value);
-    }
 }
 
-/* One result of each kind, by the program, so that a value that is never compared is
- * found here, also one that is not there yet. */
+/* One result of each kind, by the program, so that a value that is never compared is found here,
+ * also one that is not there yet.  A run has a part of the kinds, the next one others. */
 TEST(whatever_is_changed_is_noticed)
 {
     static const char *const kinds[] = {
@@ -1151,7 +983,12 @@ TEST(whatever_is_changed_is_noticed)
         "--crack-elements 8 --steps 30 --passes 2 --fluid trapped --creep-ratio "
         "-3" STEADY STATES,
         "crack " TINY "--support halfplane --similar --half-width 1 --radius 1000 "
+        "--crack-elements 8 --fluid trapped --closing located --steps 30 --creep-ratio "
+        "-3" STEADY STATES,
+        "crack " TINY "--support halfplane --similar --half-width 1 --radius 1000 "
         "--crack-elements 8 --crack-depth 0.3 --increments 3 --shift 1e-4" STATES,
+        "crack " TINY "--support halfplane --similar --half-width 1 --radius 1000 "
+        "--crack-elements 8 --unloaded --remote-stress 3" STATES,
         TINY "--support halfplane --radius-b -200 --young-b 3e4 --plane stress --approach "
              "1e-3 --shift 1e-5 --increments 2" STATES,
         TINY "--support hub --hub-ratio 0.6 --cover-thickness 5 --core-young 2e5 --load 100 "
@@ -1162,36 +999,35 @@ TEST(whatever_is_changed_is_noticed)
              "--yield-stress 10 --hardening 1e4",
         TINY "--support halfplane --load 100 --creep-ratio 0.4 --gap bumps.txt" STEADY,
         TINY "--support halfplane --load 100 --creep-ratio 0.4 --speed 1000 --friction-law "
-             "exponential --mu-fall 0.1 --slip-scale 10 --all-solutions" STEADY};
-    tampering t = {.changes = 0};
+             "exponential --mu-fall 0.1 --slip-scale 10 --all-solutions" STEADY,
+        TINY "--support halfplane --load 100 --creep-ratio 0.4 --derivatives "
+             "tangential_load,approach,p --tolerance mu=0.02,radius=1%" STEADY,
+        TINY STATES "--support halfplane --load 100 --young-b 210000 --increments 2 --shift "
+                    "1e-4 --derivatives tangential_load --tolerance mu=0.02",
+    };
+    const size_t n = sizeof kinds / sizeof *kinds;
+    const int all = getenv("ROLLBEM_TEST_ALL") != NULL;
+    tampering t = {.part = 1e-4, .without = ""};
     write_controls();
     assert_int_equal(shell("printf '0.1 0.02\n-0.1 0.3\n' > near.txt; awk 'BEGIN {for (x "
                            "= -3; x < 3.01; x += 0.05) print x, x * x / 100 + 0.001 * "
                            "cos(12 * x)}' > bumps.txt"),
                      0);
-    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+    for (size_t k = 0; k < n; k++) {
+        if (!is_in_turn((int)k, 4))
+            continue;
         t.given = kinds[k];
         t.root = run_json(kinds[k]);
-        assert_int_equal(json_dump_file(t.root, "changed.json", JSON_REAL_PRECISION(17)), 0);
-        assert_int_equal(shell("\"$R\" check changed.json"), 0);
-        if (k > 0 && !getenv("ROLLBEM_TEST_ALL")) {
-            /* inputs are the same of all kinds; a limit of shakedown takes long to be found */
-            const int shakedown = strstr(kinds[k], "--shakedown") != NULL;
-            json_t *inputs = json_incref(json_object_get(t.root, "inputs"));
-            json_t *parts = json_copy(t.root), *part;
-            const char *key;
-            json_object_foreach(parts, key, part)
-            {
-                if (part != inputs && (!shakedown || strcmp(key, "shakedown") == 0))
-                    tamper(&t, part, key);
-            }
-            json_decref(parts);
-            json_decref(inputs);
-        } else
-            tamper(&t, t.root, "");
+        expect_violations(t.root, 0);
+        /* inputs are the same of all kinds; a limit of shakedown takes long to be found */
+        t.without = k == 0 || all                             ? "/"
+                    : strstr(kinds[k], "--shakedown") != NULL ? "/inputs/units/summary/table/grid"
+                                                              : "/inputs/units";
+        tamper(&t, t.root, "");
         json_decref(t.root);
     }
-    assert_true(t.changes > 400);
+    print_message("%d changes, %d not noticed\n", t.changes, t.missed);
+    assert_true(t.changes > 500);
     assert_int_equal(t.missed, 0);
 }
 
@@ -1291,7 +1127,7 @@ TEST(files_of_others_are_left_alone)
     assert_int_equal(shell("\"$R\" check of/wrong.json"), 65);
     assert_non_null(strstr(err, "g.txt: not in the folder of/"));
     assert_int_equal(shell("\"$R\" check --any-folder of/wrong.json"), 1);
-    assert_non_null(strstr(out, "(input_hash)")); /* the path is one of the inputs */
+    assert_non_null(strstr(out, "input_hash: printed")); /* the path is one of the inputs */
     /* but no more than regular files of any folder, without their content */
     static const struct {
         const char *file, *part;
@@ -1341,7 +1177,7 @@ TEST(odd_bytes_are_named)
               "--output t.tsv --quiet; LC_ALL=C sed '1s/un_mm/u\\xffn_mm/' t.tsv > u.tsv; "
               "\"$R\" check u.tsv"),
         1);
-    assert_non_null(strstr(out, "violated: un_mm: 0 numbers, expected"));
+    assert_non_null(strstr(out, "violated: table.un_mm is missing"));
 }
 
 /* ---- Results that somebody has changed --------------------------------------------- */
@@ -1359,18 +1195,18 @@ TEST(every_edit_is_named)
          "--contact-elements 12" STEADY,
          {
              {"summary/iterations", "1000", ""},
-             {"summary/iterations", "-1", "summary.iterations is no count"},
-             {"summary/seconds/total", "-1", "summary.seconds.total is no time"},
+             {"summary/iterations", "-1", "summary.iterations: printed -1"},
+             {"summary/seconds/total", "-1", "summary.seconds.total: printed -1"},
              {"summary/seconds", "", "summary.seconds is missing"},
-             {"summary/seconds", "-1", "summary.seconds is missing, or holds no times"},
-             {"summary/openblas", "", "summary.integrals or summary.openblas is missing"},
-             {"summary/free_creepage", "1", "which the friction at a creepage of"},
-             {"summary/free_creepage", "\"x\"", "summary.free_creepage is no number"},
+             {"summary/seconds", "-1", "summary.seconds: printed -1"},
+             {"summary/openblas", "", "summary.openblas is missing"},
+             {"summary/free_creepage", "1", "summary.free_creepage: printed 1"},
+             {"summary/free_creepage", "\"x\"", "summary.free_creepage: printed \"x\""},
              {"schema", "\"rollbem/2\"", "r: cannot be checked: not a result of schema"},
              {"inputs", "", "inputs, summary or table is missing"},
              {"summary", "[]", "inputs, summary or table is missing"},
              {"table", "", "inputs, summary or table is missing"},
-             {"errors", "{}", "results with 'errors' (only single cases"},
+             {"errors", "{}", "violated: errors is no result of this case"},
              {"history", "{}", "its inputs and its history do not belong together"},
              {"inputs/error", "true", "error bars take solutions"},
              {"inputs/accuracy", "0.01", "error bars take solutions"},
@@ -1396,7 +1232,7 @@ TEST(every_edit_is_named)
              {"inputs/formulation", "", "'formulation' of inputs cannot be built again"},
              {"table/p_MPa", "[0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]",
               "r: violated: the given load: printed 0, recomputed 100 ("},
-             {"input_hash", "\"0\"", "are not those of the result (input_hash)"},
+             {"input_hash", "\"0\"", "are not those of the result"},
              {"table/h_mm/3", "-0.1", "r: table: element 4 is out of order"},
              {"table/x_mm/5", "-9", "r: table: element 6 is out of order"},
              {"table/x_mm/5", "null", "r: table: x_mm of element 6 is no number"},
@@ -1414,7 +1250,7 @@ TEST(every_edit_is_named)
         {"--support halfplane --load 100 --mu 0.3 --creep-ratio 0.4 --mesh uniform "
          "--contact-elements 12" STEADY,
          {
-             {"history", "null", "r: cannot be checked: no steps"},
+             {"history", "null", "take --states"},
              {"table/p_MPa/6", "-1", "violated: pressure of element 7: -1 < 0"},
              {"table/p_MPa/6", "-1", "zone of element 7: 2 at a pressure of -1"},
              {"table/p_MPa/0", "1", "violated: zone of element 1: 0 at a pressure of 1"},
@@ -1425,19 +1261,19 @@ TEST(every_edit_is_named)
              {"table/zone/6", "3", "violated: slip of element 7: q - mu p ="},
              {"table/q_MPa/6", "0", "violated: slip of element 7: q + mu p ="},
              {"table/shift_mm/6", "-1", "violated: slip of element 7: q + mu p = "},
-             {"table/gap_mm/6", "1", "violated: gap_mm of element 7: printed 1"},
-             {"table/un_mm/6", "", "violated: un_mm: 11 numbers, expected 12"},
-             {"table/ut_mm/6", "1", "violated: ut_mm of element 7: printed 1"},
-             {"table/more", "[]", "columns, expected"},
+             {"table/gap_mm/6", "1", "violated: table.gap_mm, entry 7: printed 1"},
+             {"table/un_mm/6", "", "violated: table.un_mm: 11 entries, expected 12"},
+             {"table/ut_mm/6", "1", "violated: table.ut_mm, entry 7: printed 1"},
+             {"table/more", "[]", "violated: table.more is no result of this case"},
              {"summary/more", "1", "violated: summary.more is no result of this case"},
-             {"summary/datum", "", "summary.datum is missing, or should be null"},
-             {"summary/load_error", "", "load_error is missing, or should be null"},
-             {"summary/support_balance", "1", "support_balance is missing, or should be"},
-             {"summary/contact", "\"x\"", "violated: summary.contact: printed nan, recomputed"},
-             {"summary/edges", "\"x\"", "summary.edges is not what it should be"},
+             {"summary/datum", "", "summary.datum is missing, should be 36.78"},
+             {"summary/load_error", "", "load_error is missing, should be"},
+             {"summary/support_balance", "1", "support_balance: printed 1, should be null"},
+             {"summary/contact", "\"x\"", "violated: summary.contact: printed \"x\", should be 6"},
+             {"summary/edges", "\"x\"", "summary.edges: printed \"x\", should be \"bounded\""},
              {"summary/iterations", "1000", ""},
-             {"summary/normal_load", "101", "violated: normal_load: printed 101"},
-             {"summary/tangential_load", "1", "violated: tangential_load: printed 1"},
+             {"summary/normal_load", "101", "violated: summary.normal_load: printed 101"},
+             {"summary/tangential_load", "1", "violated: summary.tangential_load: printed 1"},
              {"summary/creepage", "0", "violated: the given creep_ratio: printed 0"},
              {"summary/boundary_matrix", "\"hierarchical\"", "boundary_matrix"},
          }},
@@ -1446,9 +1282,9 @@ TEST(every_edit_is_named)
          "--mesh fitted --contact-elements 30" STEADY,
          {
              {"notes", "[]", ""},
-             {"summary/hysteresis", "0.0074", "violated: hysteresis by waves: printed "},
-             {"summary/hysteresis", "0.0069", "violated: hysteresis by waves: printed "},
-             {"summary/hysteresis", "null", "violated: hysteresis by waves: printed nan"},
+             {"summary/hysteresis", "0.0074", "violated: summary.hysteresis: printed "},
+             {"summary/hysteresis", "0.0069", "violated: summary.hysteresis: printed "},
+             {"summary/hysteresis", "null", "violated: summary.hysteresis: printed null"},
          }},
         {"--support halfplane --load 100 --mu 0.3 --creep-ratio -0.4 --mesh uniform "
          "--contact-elements 12" STEADY,
@@ -1470,9 +1306,9 @@ TEST(every_edit_is_named)
          {
              {"summary/patches/1/normal_load", "1",
               "violated: summary.patches.2.normal_load: printed 1"},
-             {"summary/patches/0/to", "null", "violated: summary.patches.1.to: printed nan"},
+             {"summary/patches/0/to", "null", "violated: summary.patches.1.to: printed null"},
              {"summary/patches/0/more", "1", "patches.1.more is no result of this case"},
-             {"summary/patches/1", "", "summary.patches is not what it should be"},
+             {"summary/patches/1", "", "summary.patches: 1 entries, expected 2"},
              {"summary/creepage", "1", "violated: summary.creepage: printed 1, recomputed 0 "},
          }},
         {"--support halfplane --load 100 --mu 0.3 --increments 3 --shift 1e-4 "
@@ -1485,27 +1321,27 @@ TEST(every_edit_is_named)
              {"history/states", "[]", "depends on the steps before it: take --states"},
              {"inputs/increments", "1", "its inputs and its history do not belong"},
              {"history/approach", "[]", "r: cannot be checked: no steps"},
-             {"history/states/p_MPa", "", "r: states: expected 6 steps in p_MPa"},
-             {"history/states/q_MPa/0", "", "r: states: expected 6 steps in q_MPa"},
+             {"history/states/p_MPa", "", "r: expected 6 steps in p_MPa"},
+             {"history/states/q_MPa/0", "", "r: expected 6 steps in q_MPa"},
              {"history/states/shift_mm/1/4", "", "numbers in shift_mm"},
              {"history/states/shift_mm/1/4", "null", "shift_mm of element 5 is no number"},
-             {"history/states/zone", "", "r: states: expected 6 steps in zone"},
+             {"history/states/zone", "", "r: expected 6 steps in zone"},
              {"history/states/zone/2/4", "4", "violated: step 3: yield of element 5"},
-             {"history/states/zone/2/4", "6", "r: states: zone 6"},
-             {"history/states/zone/2/4", "-1", "r: states: zone -1"},
-             {"history/states/zone/2/4", "0.5", "r: states: zone 0.5"},
+             {"history/states/zone/2/4", "6", "zone of element 5 is 6"},
+             {"history/states/zone/2/4", "-1", "zone of element 5 is -1"},
+             {"history/states/zone/2/4", "0.5", "zone of element 5 is 0.5"},
              {"history/states/motion", "", "numbers in motion"},
              {"table/x_mm/3", "null", "x_mm of element 4 is no number"},
              {"table/h_mm", "", "numbers in h_mm"},
              {"history/states/motion/1", "1", "violated: step 2: the given shift or"},
              {"history/states/p_MPa/1/5", "1", "violated: step 2: "},
              {"history/approach/1", "1", "violated: step 2: gap of element"},
-             {"history/normal_load/1", "", "history: 5 numbers in normal_load, expected 6"},
-             {"history/stick/1", "7.5", "violated: step 2: stick: printed 7.5"},
-             {"history/residual/1", "1", "violated: step 2: residual: printed 1"},
-             {"history/half_width", "1", "violated: half_width: printed 1"},
-             {"history/steady_from", "\"x\"", "steady_from is not what it should be"},
-             {"history/more", "1", "violated: history: more is no result of this case"},
+             {"history/normal_load/1", "", "history.normal_load: 5 entries, expected 6"},
+             {"history/stick/1", "7.5", "violated: history.stick, entry 2: printed 7.5"},
+             {"history/residual/1", "1", "violated: history.residual, entry 2: printed 1"},
+             {"history/half_width", "1", "violated: history.half_width: printed 1"},
+             {"history/steady_from", "\"x\"", "history.steady_from: printed \"x\", should be"},
+             {"history/more", "1", "violated: history.more is no result of this case"},
          }},
         {"--support halfplane --load 100 --mu 0.3 --shift 1e-4 --contact-elements 12 "
          "--grid 3x4 --shakedown",
@@ -1517,11 +1353,11 @@ TEST(every_edit_is_named)
              {"grid/ny", "null", "cannot be checked: its grid is not nx by ny points"},
              {"grid/ny", "0", "cannot be checked: its grid is not nx by ny points"},
              {"grid/x_mm", "", "cannot be checked: its grid is not nx by ny points"},
-             {"grid/y_mm", "[]", "violated: grid.y_mm is not what it should be"},
+             {"grid/y_mm", "[]", "violated: grid.y_mm: 0 entries, expected 12"},
              {"grid/more", "[]", "violated: grid.more is no result of this case"},
-             {"grid/sxx_MPa/2", "null", "violated: grid.sxx_MPa of element 3: printed"},
-             {"maxima/max_shear", "1", "violated: maxima: point 0 at (nan, nan) lies outside"},
-             {"shakedown", "1", "violated: shakedown.limit is missing"},
+             {"grid/sxx_MPa/2", "null", "violated: grid.sxx_MPa, entry 3: printed null"},
+             {"maxima/max_shear", "1", "violated: maxima.max_shear: printed 1, should be {"},
+             {"shakedown", "1", "violated: shakedown: printed 1, should be {"},
          }},
         {"--support halfplane --load 100 --mu 0.3 --shift 1e-4 --contact-elements 12 "
          "--points inside.txt",
@@ -1553,18 +1389,6 @@ TEST(every_edit_is_named)
                 continue;
             print_error("result %zu, %s = %s: '%s' wanted; said: %s\n", k, path, value, part, said);
             wrong++;
-        }
-        /* beside nine digits 1e-10 of what has no unit of its own */
-        if (strstr(results[k].given, "humps")) {
-            const double x = json_number_value(
-                member(member(member(member(root, "summary"), "patches"), "0"), "to"));
-            char value[40];
-            for (int beyond = 0; beyond < 2; beyond++) {
-                snprintf(value, sizeof value, "%.17g",
-                         x + 1e-9 * fabs(x) + (beyond ? 1.2e-10 : 0.8e-10));
-                const char *said = said_of(root, "summary/patches/0/to", value);
-                assert_int_equal(*said != '\0', beyond);
-            }
         }
     }
     assert_int_equal(wrong, 0);

@@ -492,6 +492,10 @@ typedef struct {
     rb_arena memory; /* of the arrays */
 } rb_case_crack_track;
 
+/* The case of the contact that loads the crack: of a coupled one on equal elements that reach
+ * beyond the contact. */
+rb_resolved_case rb_case_crack_contact(const rb_resolved_case *resolved,
+                                       const rb_case_crack *crack);
 /* The track of result->contact and result->states, whose arrays it borrows; also sets
  * half_width, shape, passes and notes of the result.  RB_EINVAL: a step of the contact
  * jumps over the crack. */

@@ -155,6 +155,11 @@ typedef struct {
  * RB_EINVAL: no steps; RB_RAY, RB_INACCURATE: a step was not solved; why names it. */
 rb_status rb_crack_pass(rb_crack *crack, const rb_crack_passage *passage, rb_crack_history *history,
                         rb_message *why);
+/* Trapped fluid has the volume of the place where the mouth closes: `state`, that of step k - 1 of
+ * a pass with an open mouth, becomes that just before this place, if the mouth closes on the way to
+ * step k and the passage asks for it; otherwise it stays as it is.  T: scratch for 4 nodes. */
+rb_status rb_crack_close(rb_crack *crack, const rb_crack_passage *passage, int k, double scale,
+                         double *T, rb_crack_state *state, rb_message *why);
 /* Zeros for so many steps, n = 0; elements: of a coupled wheel, or 0.  RB_ENOMEM. */
 rb_status rb_crack_history_alloc(const rb_crack *crack, int steps, int elements,
                                  rb_crack_history *history);

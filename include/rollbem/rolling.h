@@ -782,6 +782,8 @@ rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message
 /* The same on the present mesh, from the present zones, after the given load, force or
  * motion of the model's case has changed. */
 rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why);
+/* How many equal elements are used where so many cannot be fitted to the edges of the contact. */
+int rb_rolling_equal_elements_instead(int elements);
 /* Builds bodies and contact problem on the elements of a result, with a state of zeros,
  * and solves nothing.  plan: NULL: that of the case.  model: all zeros before; free it in
  * any case. */

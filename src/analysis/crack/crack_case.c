@@ -243,13 +243,26 @@ rb_crack_passage rb_case_crack_passage(const rb_case_crack *k, const rb_case_cra
 
 /* ---- Solve ------------------------------------------------------------------------- */
 
+rb_resolved_case rb_case_crack_contact(const rb_resolved_case *c, const rb_case_crack *k)
+{
+    rb_resolved_case contact = *c;
+    contact.error = 0;
+    if (k->coupled) { /* the lip of the crack takes part in the contact beyond its edges */
+        contact.rc.mesh = RB_MESH_UNIFORM;
+        contact.rc.slip_operator = RB_SLIP_UPSTREAM;
+        if (contact.rc.zone == 0.0)
+            contact.rc.zone = ZONE * c->derived.half_width;
+    }
+    return contact;
+}
+
 /* One mesh: as many elements as times `finer` says, of crack and contact. */
 static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, int finer,
                             const rb_crack_observer *observer, rb_case_crack_result *r,
                             rb_message *why)
 {
     contact_steps kept = {&r->states, observer, 0};
-    rb_resolved_case refined = *c;
+    rb_resolved_case refined = rb_case_crack_contact(c, k);
     rb_case_crack_track t = {0};
     rb_crack *crack = NULL;
 
@@ -257,13 +270,6 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
     r->passes = k->passes;
     if (!rb_case_has_steps(c))
         refined.rc.contact_elements *= finer;
-    refined.error = 0;
-    if (k->coupled) { /* the lip of the crack takes part in the contact beyond its edges */
-        refined.rc.mesh = RB_MESH_UNIFORM;
-        refined.rc.slip_operator = RB_SLIP_UPSTREAM;
-        if (refined.rc.zone == 0.0)
-            refined.rc.zone = ZONE * c->derived.half_width;
-    }
     rb_status s = k->unloaded ? RB_OK : rb_case_solve(&refined, keep_step, &kept, &r->contact, why);
     if (s == RB_INTERRUPTED && kept.failed)
         s = RB_ENOMEM;

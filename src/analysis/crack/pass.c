@@ -77,14 +77,16 @@ static const rb_bem_edge_load *load_of(const rb_crack_passage *p, int k)
     return p->loads > 0 && !p->wheel ? &p->load[p->loads > 1 ? k : 0] : NULL;
 }
 
-/* What is trapped is the volume at the place where the mouth closes, and near it the
- * crack closes fast: the state becomes that just before this place, by bisection.  If the
- * mouth does not close, it stays as it is.  T: scratch for 4n. */
-static rb_status approach_closing(rb_crack *c, const rb_crack_passage *p, int k, double scale,
-                                  double *T, rb_crack_state *state, rb_message *why)
+/* Near that place the crack closes fast: by bisection. */
+rb_status rb_crack_close(rb_crack *c, const rb_crack_passage *p, int k, double scale, double *T,
+                         rb_crack_state *state, rb_message *why)
 {
     rb_crack_state trial;
     double open = 0.0, closed = 1.0;
+
+    if (!p->locate_closing || p->fluid != RB_CRACK_TRAPPED || k == 0 ||
+        state->zone[0] != RB_ZONE_SEPARATED || state->fluid_pressure != 0.0)
+        return RB_OK;
     rb_status s = rb_crack_state_alloc(c, &trial);
 
     for (double part = 1.0; closed - open > CLOSING && s == RB_OK; part = 0.5 * (open + closed)) {
@@ -150,9 +152,8 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
         rb_message reason = {""};
         if (p->observer && p->observer->stopped(k, n, p->observer->context))
             s = RB_INTERRUPTED;
-        if (s == RB_OK && p->locate_closing && p->fluid == RB_CRACK_TRAPPED && step > 0 &&
-            state.zone[0] == RB_ZONE_SEPARATED && state.fluid_pressure == 0.0)
-            s = approach_closing(c, p, step, scale, T, &state, &reason);
+        if (s == RB_OK)
+            s = rb_crack_close(c, p, step, scale, T, &state, &reason);
         const rb_bem_edge_load *load = load_of(p, step);
         double mouth = c->shape.path.x[0] - x, at_mouth = 0.0; /* the pressure of the load there */
         for (int i = 0; load && i < load->n; i++)

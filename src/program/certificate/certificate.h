@@ -14,18 +14,13 @@ typedef struct {
     double residual;         /* of the printed state */
 } rb_certificate_outcome;
 
-/* Checks the JSON of a case, of a history with its states, or of the stress below a case,
- * without solving.  It builds the problem again from the inputs in the JSON (words: a
- * case with default values, which receives them) and computes all printed results again
- * from pressures, friction, approach and creepage.  Each violation is written to out in
- * one line. RB_EFORMAT: this kind of result cannot be checked; RB_ENOMEM. */
+/* Checks the JSON of a case, of a history with its states, of the stress below a case, of all its
+ * solutions, or of a crack with its states.  It builds the problem again from the inputs in the
+ * JSON (words: a case with default values, for a crack of RB_CASE_CRACK, which receives them) and
+ * from the states that are stored, writes the JSON again and compares.  Each violation is written
+ * to out in one line.  RB_EFORMAT: this kind of result cannot be checked; RB_ENOMEM. */
 rb_status rb_certificate_check(FILE *out, const char *name, const struct json_t *root,
                                rb_case *words, rb_certificate_outcome *found, rb_message *why);
-/* The same for a result of --all-solutions: checks each solution, and that the solutions
- * differ.  For any other result it calls rb_certificate_check. */
-rb_status rb_certificate_check_solutions(FILE *out, const char *name, const struct json_t *root,
-                                         rb_case *words, rb_certificate_outcome *found,
-                                         rb_message *why);
 /* The same for a table of rb_report_table.  words: the resolved inputs of the command
  * line in the comments of the table (rb_report_table_command). */
 rb_status rb_certificate_check_table(FILE *out, const char *name, const char *text,

@@ -6,129 +6,139 @@
 #include "program/report/report.h"
 
 #include <jansson.h>
+#include <stdint.h>
 
+/* One reading of a result. */
 typedef struct {
     FILE *out;
     const char *name; /* of the file */
     rb_certificate_outcome *found;
-    const json_t *summary; /* NULL: of a table, which has none */
-    const json_t *table;
-    int step; /* step of a history that is checked, from 1 on; 0: the result */
-    rb_rolling_model model;
-    rb_rolling_solution again; /* computed from the state */
-    int hierarchical;          /* a matrix that approximates */
-    double tol;                /* of the scaled residual */
-    double exact;              /* of the scaled gap and slip, as the result's own residual has it */
-    double displacement;       /* rounding of displacements [length] */
-    struct rb_certificate_slopes *slopes; /* while derivatives are compared; slopes.c */
-    enum { RB_NO_SIDES, RB_SIDES_OF_CASE, RB_SIDES_OF_STEPS } sides; /* which may be printed */
+    int quiet;       /* 1: violations are counted and not told */
+    int judges;      /* 1: the laws are judged while the states are read */
+    uint64_t moving; /* 0: numbers are taken as they are; otherwise each is moved by a rounding */
+    int step;        /* of a sequence that is judged, from 1 on; 0: the result */
+    const char *of;  /* what is judged, before every violation, such as "solution 2: " */
+    /* of the contact whose laws are judged */
+    const rb_rolling_model *model;
+    double tol;          /* of the scaled residual */
+    double exact;        /* of the scaled slip, as the result's own residual has it */
+    double displacement; /* rounding of displacements [length] */
 } rb_certificate;
 
 void rb_certificate_violated(rb_certificate *c, const char *format, ...) RB_PRINTF(2, 3);
 /* NAN is equal to NAN alone. */
-void rb_certificate_expect(rb_certificate *c, const char *what, int element, double printed,
-                           double want, double allowed);
+void rb_certificate_expect(rb_certificate *c, const char *what, double printed, double want,
+                           double allowed);
 /* RB_EFORMAT: "<name>: cannot be checked: <what>". */
-rb_status rb_certificate_refuse(const char *name, const char *what, rb_message *why);
-/* "" where there is no such word. */
+rb_status rb_certificate_refuse(const rb_certificate *c, const char *what, rb_message *why);
+
+/* ---- inputs.c: the case again ----------------------------------------------------- */
+
+/* "" where there is no such word; NAN where there is no such number. */
 const char *rb_certificate_word(const json_t *object, const char *key);
-double rb_certificate_number(const json_t *value);
 double rb_certificate_member(const json_t *object, const char *key);
-
-/* Refuses results of other schemas, kinds (a list of keys, NULL at its end), units or
- * versions, with error bars, or not solved. */
-rb_status rb_certificate_head(const char *name, const json_t *root, const char *const *known,
-                              rb_message *why);
 /* Sets and resolves words by the inputs of a result, and sees that the same inputs come out. */
-rb_status rb_certificate_rebuild_case(const char *name, const json_t *root, rb_case *words,
-                                      rb_message *why);
+rb_status rb_certificate_inputs(const rb_certificate *c, const json_t *root, rb_case *words,
+                                rb_message *why);
 
-/* A violation where the hash of the inputs and of the files that they name, which is taken over,
- * is not the printed one.  RB_ENOMEM: now is NULL. */
-rb_status rb_certificate_hash(rb_certificate *c, const json_t *root, json_t *now);
+/* A copy of the case whose load, or what is given instead, is moved by a rounding, for what is
+ * solved; NULL on error. */
+rb_status rb_certificate_move_inputs(rb_certificate *c, const json_t *root, const rb_case *words,
+                                     rb_case **other, rb_message *why);
 
-/* n numbers that a table has under a heading. */
-rb_status rb_certificate_column(const char *name, const json_t *table, const char *heading, int n,
-                                double *x, rb_message *why);
+/* ---- state.c: what is stored in a result -------------------------------------------- */
 
-/* The same of each of the steps of `of`, `apart` numbers from step to step. */
-rb_status rb_certificate_lists(const char *name, const char *of, const json_t *table,
-                               const char *heading, int steps, int n, size_t apart, double *x,
-                               rb_message *why);
+/* n numbers of a list that the object has under a key; each of `steps` lists, `apart` numbers from
+ * one to the next.  All finite. */
+rb_status rb_certificate_list(rb_certificate *c, const json_t *object, const char *key, int n,
+                              double *x, rb_message *why);
+rb_status rb_certificate_lists(rb_certificate *c, const json_t *object, const char *key, int steps,
+                               int n, size_t apart, double *x, rb_message *why);
+/* The same of zones, 0 to `most`. */
+rb_status rb_certificate_zones(rb_certificate *c, const json_t *object, const char *key, int steps,
+                               int n, int most, int *zone, rb_message *why);
+/* x, or x moved by a rounding, each time by another one. */
+double rb_certificate_moved(rb_certificate *c, double x);
+double rb_certificate_stored(rb_certificate *c, const json_t *object, const char *key);
 
-/* Typical sizes of the numbers of a result; rounding errors are compared with them. */
+/* Where the parts of a contact stand in a result. */
 typedef struct {
-    double half_width, load, pressure;
-    double number; /* of unit 1 */
-    double radius; /* the larger one, of torques */
-} rb_certificate_scales;
-/* What a number of this name, a row of the table, may differ by beside its own nine
- * digits; otherwise: it is none of them or has no unit. */
-double rb_certificate_rounding(const rb_rolling_results *all, const char *name,
-                               const rb_certificate_scales *scales, double otherwise);
+    const json_t *summary; /* NULL: of a table, which has none */
+    const json_t *table;
+    const json_t *history; /* NULL: one step */
+    double residual;       /* that is printed for the last state */
+} rb_certificate_contact;
 
-/* What the number of this path, names with points between, may differ by. */
-typedef double rb_certificate_slack(const rb_certificate *c, const char *path, double want);
-/* The last name of a path. */
-const char *rb_certificate_last(const char *path);
-/* All that `again` holds against what is printed in its place: objects in objects, lists.
- * name: the path of both, of which a violation tells; element: from 1 on, in a list. */
-void rb_certificate_compare(rb_certificate *c, const char *name, int element, const json_t *printed,
-                            const json_t *again, rb_certificate_slack *slack);
+/* The model of a contact with the state that is stored, its solution and its steps, of which all
+ * states are kept; judged, where c judges.  r, states: free them in any case. */
+rb_status rb_certificate_restore(rb_certificate *c, const rb_resolved_case *resolved,
+                                 const rb_certificate_contact *stored, rb_case_result *r,
+                                 rb_rolling_states *states, rb_message *why);
 
-/* From the residual that is printed for the current state. */
+/* ---- laws.c: contact and friction --------------------------------------------------- */
+
+/* Sets the tolerances from the residual that is printed for the state of c->model. */
 void rb_certificate_tolerances(rb_certificate *c, double residual);
-/* The given load or approach, creepage or shift against the model's. */
-void rb_certificate_given(rb_certificate *c, double load);
-void rb_certificate_motion(rb_certificate *c);
-/* Contact and friction, element by element. */
+/* Of the state of c->model: load and force, and what was given of them and of the motion; the laws
+ * of contact and friction element by element; RB_ENOMEM. */
 rb_status rb_certificate_laws(rb_certificate *c);
+/* The lost power of a steady solution, and its mesh. */
+rb_status rb_certificate_balances(rb_certificate *c, const rb_rolling_solution *s);
 
-/* The model of a case on the n elements of its table, with the state that is printed. */
-rb_status rb_certificate_rebuild(rb_certificate *c, const rb_resolved_case *resolved, int n,
-                                 rb_message *why);
-/* Judges the state of the model, and what is printed beside it; residual: as printed. */
-rb_status rb_certificate_assess(rb_certificate *c, double residual, rb_message *why);
-/* Frees, and returns s with its reason in words. */
-rb_status rb_certificate_end(rb_certificate *c, rb_status s, rb_message *why);
+/* ---- power.c ------------------------------------------------------------------------ */
 
-/* ---- history.c ------------------------------------------------------------------ */
-
-/* Follows the steps of a history by its states, checks each of them and leaves the model
- * at the last one.  states, h: overwritten; free them in any case. */
-rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
-                                const rb_resolved_case *resolved, int n, rb_rolling_states *states,
-                                rb_rolling_history *h, rb_message *why);
-/* Its columns against those that came out. */
-rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printed,
-                                         const rb_rolling_history *h);
-
-/* ---- crack.c -------------------------------------------------------------------- */
-
-/* A crack under the passing contact, with its faces. */
-rb_status rb_certificate_crack(FILE *out, const char *name, const json_t *root, rb_case *words,
-                               rb_certificate_outcome *found, rb_message *why);
-
-/* ---- power.c -------------------------------------------------------------------- */
-
-/* Power per unit speed that the bodies lose in steady rolling, from the current state;
+/* Power per unit speed that the bodies lose in steady rolling, from the state of the model;
  * allowed: what elements of this size may make of it. */
-rb_status rb_certificate_hysteresis(const rb_certificate *c, double *power, double *allowed);
+rb_status rb_certificate_hysteresis(const rb_rolling_model *model, const rb_rolling_solution *s,
+                                    double *power, double *allowed);
 
-/* ---- slopes.c ------------------------------------------------------------------- */
+/* ---- stress.c ----------------------------------------------------------------------- */
 
-/* Derivatives and standard deviations of the result root of a case, against those that
- * the library computes from the model. */
-rb_status rb_certificate_derivatives(rb_certificate *c, const json_t *root, const rb_case *words,
-                                     rb_message *why);
-/* The same of a history by its states, which it takes over into `again`. */
-rb_status rb_certificate_step_derivatives(rb_certificate *c, const json_t *root,
-                                          const rb_case *words, const rb_rolling_states *states,
-                                          rb_rolling_history *again, rb_message *why);
+typedef struct {
+    rb_rolling_stress_grid grid;
+    rb_rolling_stress_maxima maxima;
+    rb_rolling_shakedown limit;
+    rb_report_stress shown;
+} rb_certificate_stress;
 
-/* ---- stress.c ------------------------------------------------------------------- */
+/* Grid or points, maxima and shakedown from the model's tractions, at the places that are stored.
+ */
+rb_status rb_certificate_restore_stress(rb_certificate *c, const json_t *root,
+                                        const rb_case_result *r, rb_certificate_stress *s,
+                                        rb_message *why);
 
-/* Grid or points, maxima and shakedown, computed from the model's tractions. */
-rb_status rb_certificate_stress(rb_certificate *c, const json_t *root, rb_message *why);
+/* ---- slopes.c ----------------------------------------------------------------------- */
+
+/* Derivatives and standard deviations that are asked for. */
+typedef struct {
+    const char *names; /* NULL: no derivatives */
+    int deviates;      /* 1: standard deviations */
+    rb_case_tolerances uncertain;
+    rb_case_derivatives all;
+    rb_report_derivatives shown;
+    rb_case_slopes of_steps;
+} rb_certificate_slopes;
+
+/* As the command computes them, at the stored state; those of steps are set in r->history, too. */
+rb_status rb_certificate_restore_slopes(rb_certificate *c, const json_t *root, const rb_case *words,
+                                        rb_case_result *r, rb_rolling_states *states,
+                                        rb_certificate_slopes *s, rb_message *why);
+void rb_certificate_slopes_free(rb_certificate_slopes *s);
+
+/* ---- crack.c ------------------------------------------------------------------------ */
+
+/* A crack under the passing contact, with its faces.  r: free it in any case. */
+rb_status rb_certificate_restore_crack(rb_certificate *c, const json_t *root, rb_case *words,
+                                       rb_case_crack_result *r, rb_message *why);
+
+/* ---- compare.c: what is printed and what is written again --------------------------- */
+
+/* Writes the result again from what it stores, with the numbers moved as c says; RB_EFORMAT: why it
+ * cannot be. */
+typedef rb_status rb_certificate_writer(rb_certificate *c, void *context, json_t **again,
+                                        rb_message *why);
+/* Judges and compares: tells of every violation.  RB_EFORMAT, RB_ENOMEM. */
+rb_status rb_certificate_compare(rb_certificate *c, const json_t *printed,
+                                 rb_certificate_writer *write, void *context, rb_message *why);
 
 #endif

@@ -10,6 +10,12 @@
 
 typedef double complex cplx;
 
+/* Whose loss it is. */
+typedef struct {
+    const rb_rolling_model *model;
+    const rb_rolling_solution *s;
+} contact;
+
 /* Displacements (w_N, w_T) under waves exp(im theta) of (p, q), R/(2 G) times
  * (N p - i C q, T q + i C p). */
 typedef struct {
@@ -121,17 +127,17 @@ enum { WAVES = 5 };
 
 /* Per length of wave number k = m/R: Im of conj(p, q) times m/R (w_N, w_T), over pi.  On what
  * is flat, an element as wide as the one before has that one's wave, turned on. */
-static void losses(const rb_certificate *c, const body *b, int is_b, const double m[WAVES],
+static void losses(const contact *c, const body *b, int is_b, const double m[WAVES],
                    double loss[WAVES])
 {
-    const rb_rolling_model *model = &c->model;
-    const double *x = c->again.x, *h = c->again.h, mirror = is_b ? -1.0 : 1.0;
+    const rb_rolling_model *model = c->model;
+    const double *x = c->s->x, *h = c->s->h, mirror = is_b ? -1.0 : 1.0;
     const int turns = (is_b ? model->rc->b : model->rc->a).support == RB_BEM_HUB;
     enum { AFRESH = 32 }; /* elements, behind which roundings no longer add up */
     double wave[2][WAVES], turn[2][WAVES], p[2][WAVES] = {{0}}, q[2][WAVES] = {{0}};
     int run = 0; /* elements since the waves were computed; 0: the one before carries nothing */
 
-    for (int i = 0; i < c->again.n; i++) {
+    for (int i = 0; i < c->s->n; i++) {
         const double P = model->state.p[i], Q = mirror * model->state.q[i];
         if (P == 0.0 && Q == 0.0) {
             run = 0;
@@ -178,16 +184,15 @@ static void losses(const rb_certificate *c, const body *b, int is_b, const doubl
 
 /* unresolved: the part of the waves that are shorter than four elements, where a traction
  * that is constant over each of them is no longer that of the contact. */
-static double lost_in(const rb_certificate *c, const body *b, int is_b, double longest,
-                      double *unresolved)
+static double lost_in(const contact *c, const body *b, int is_b, double longest, double *unresolved)
 {
     /* Gauss and Legendre, five points */
     static const double at[3] = {0.0, 0.5384693101056831, 0.9061798459386640},
                         weight[3] = {0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
-    const int n = c->again.n;
-    const double width = c->again.x[n - 1] - c->again.x[0], widest = acos(-1.0) / width;
+    const int n = c->s->n;
+    const double width = c->s->x[n - 1] - c->s->x[0], widest = acos(-1.0) / width;
     const double last = 16.0 * acos(-1.0) * n / width;
-    const int is_wheel = (is_b ? c->model.rc->b : c->model.rc->a).support == RB_BEM_HUB;
+    const int is_wheel = (is_b ? c->model->rc->b : c->model->rc->a).support == RB_BEM_HUB;
     const double shortest = 0.5 * acos(-1.0) / longest;
     double sum = 0.0, from = 1e-6 / width, m[WAVES], loss[WAVES];
 
@@ -233,11 +238,11 @@ static double work_by_differences(const rb_rolling_solution *s, const double *p,
 }
 
 /* -int q w_T' dx by the differences that the slip is made of, which look upstream. */
-static double work_by_slip(const rb_certificate *c)
+static double work_by_slip(const contact *c)
 {
-    const rb_contact_state *state = &c->model.state;
-    const rb_contact_problem *problem = &c->model.problem;
-    const rb_rolling_solution *s = &c->again;
+    const rb_contact_state *state = &c->model->state;
+    const rb_contact_problem *problem = &c->model->problem;
+    const rb_rolling_solution *s = c->s;
     double work = 0.0;
 
     for (int i = 0; i < s->n; i++) {
@@ -254,19 +259,19 @@ static double work_by_slip(const rb_certificate *c)
  * which the elastic part costs nothing in truth.  Twice the distance between the points
  * changes them by three times their error, which is of second order.  Of friction the
  * differences that look upstream, of first order where slip begins, stand beside them. */
-static rb_status missed_by_differences(const rb_certificate *c, double *missed)
+static rb_status missed_by_differences(const contact *c, double *missed)
 {
-    const rb_contact_state *state = &c->model.state;
-    const int m = c->model.bodies.f.m;
+    const rb_contact_state *state = &c->model->state;
+    const int m = c->model->bodies.f.m;
     double *w = rb_alloc(2 * (size_t)m, 1);
     const rb_status s =
-        w ? rb_rolling_displacement(&c->model.bodies, state->p, state->q, w) : RB_ENOMEM;
+        w ? rb_rolling_displacement(&c->model->bodies, state->p, state->q, w) : RB_ENOMEM;
 
     if (s == RB_OK) {
-        const double friction = work_by_differences(&c->again, state->q, w + m, 1);
-        *missed = fabs(work_by_differences(&c->again, state->p, w, 1) -
-                       work_by_differences(&c->again, state->p, w, 2)) +
-                  fabs(friction - work_by_differences(&c->again, state->q, w + m, 2)) +
+        const double friction = work_by_differences(c->s, state->q, w + m, 1);
+        *missed = fabs(work_by_differences(c->s, state->p, w, 1) -
+                       work_by_differences(c->s, state->p, w, 2)) +
+                  fabs(friction - work_by_differences(c->s, state->q, w + m, 2)) +
                   fabs(friction - work_by_slip(c));
     }
     free(w);
@@ -277,16 +282,17 @@ static rb_status missed_by_differences(const rb_certificate *c, double *missed)
  * contact's width at most, and on equal elements, in one of which the contact ends, a
  * part of it; waves that the elements do not resolve up to two times what these lose
  * (tests/test_certificates.c). */
-rb_status rb_certificate_hysteresis(const rb_certificate *c, double *power, double *allowed)
+rb_status rb_certificate_hysteresis(const rb_rolling_model *model, const rb_rolling_solution *s,
+                                    double *power, double *allowed)
 {
-    const rb_rolling_case *rc = c->model.rc;
+    const contact whole = {model, s}, *c = &whole;
+    const rb_rolling_case *rc = c->model->rc;
     const rb_rolling_body *const bodies[] = {&rc->a, &rc->b};
-    const rb_rolling_solution *s = &c->again;
     const double width = s->x[s->n - 1] - s->x[0];
     double sum = 0.0, unresolved = 0.0, longest = 0.0;
 
     for (int i = 0; i < s->n; i++)
-        if (c->model.state.p[i] > 0.0)
+        if (c->model->state.p[i] > 0.0)
             longest = fmax(longest, s->h[i]);
     for (int b = 0; b < 1 + rc->elastic_b; b++) {
         if (bodies[b]->memory.n > 0) {
@@ -294,7 +300,7 @@ rb_status rb_certificate_hysteresis(const rb_certificate *c, double *power, doub
             sum += lost_in(c, &of, b, longest, &unresolved);
         }
     }
-    const int fitted = rc->mesh == RB_MESH_FITTED && !c->model.equal_instead;
+    const int fitted = rc->mesh == RB_MESH_FITTED && !c->model->equal_instead;
     const double share = longest / s->half_width;
     const double missed = 2.0 * share * share + (fitted ? 0.0 : 0.06 * share);
     double differences = 0.0;

@@ -201,8 +201,8 @@ static cli_case_run run_of(const cli_case_command *command, void *own, int *give
                           .words = words};
 }
 
-cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc, char **argv,
-                         rb_case *words, int *files)
+cli_exit cli_case_asks(const cli_case_command *command, void *own, int argc, char **argv,
+                       rb_case *words, int *files, json_t **asked)
 {
     int given[CLI_COMMAND_OPTIONS_MAX] = {0}, plain[CLI_COMMAND_OPTIONS_MAX] = {0};
     cli_case_run run = run_of(command, own, given, plain, words);
@@ -211,8 +211,12 @@ cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc, c
     cli_exit code = read_words(&spec, &run, argc, argv);
     if (code == CLI_CONTINUE)
         code = cli_say(rb_case_resolve(words, &why), &why);
-    if (code == CLI_CONTINUE)
+    *asked = NULL;
+    if (code == CLI_CONTINUE) {
         rb_case_store(words, &run.set, own);
+        *asked = json_object();
+        command->asked(&run, asked);
+    }
     *files = run.args.operands;
     cli_args_free(&run.args);
     return code;

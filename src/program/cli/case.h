@@ -102,6 +102,8 @@ struct cli_case_command {
     void (*document)(const cli_case_run *run, rb_report_document *document);
     void (*inputs)(const cli_case_run *run, struct json_t **inputs);
     void (*json)(const cli_case_run *run, struct json_t **root);
+    /* what its options ask for of the JSON, see cli_case_asks */
+    void (*asked)(const cli_case_run *run, struct json_t **members);
     /* the summary */
     void (*summarise)(FILE *out, const cli_case_run *run);
 };
@@ -109,17 +111,16 @@ struct cli_case_command {
 /* Reads, resolves, solves and prints: the whole command.  Its exit code. */
 cli_exit cli_case_run_command(const cli_case_command *command, void *own, int argc, char **argv);
 
-/* The resolved case of a command line of `rollbem` itself; what it would write is neither
- * looked at nor written; derivatives (or smooth ones), tolerance: what they were given, NULL:
- * nothing.  CLI_CONTINUE, or the exit code after the line of why. */
-cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words, int *files,
-                          const char **derivatives, const char **tolerance);
-/* The same of `rollbem stress`; yield_shear: what it was given, NAN: nothing. */
-cli_exit cli_stress_inputs(int argc, char **argv, rb_case *words, int *files, double *yield_shear);
-/* The same of `rollbem crack`. */
-cli_exit cli_crack_inputs(int argc, char **argv, rb_case *words, int *files);
-/* The same of any such command; files: written, how many case files it names. */
-cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc, char **argv,
-                         rb_case *words, int *files);
+/* What a command line of `rollbem` itself asks for: the resolved case, and members of the JSON:
+ * true, false or a value; of an object, some of its own members.  What it would write is neither
+ * looked at nor written; files: written, how many case files it names.  CLI_CONTINUE, or the exit
+ * code after the line of why.  asked: NULL on error, or without memory. */
+cli_exit cli_solve_asks(int argc, char **argv, rb_case *words, int *files, struct json_t **asked);
+/* The same of `rollbem stress` and `rollbem crack`. */
+cli_exit cli_stress_asks(int argc, char **argv, rb_case *words, int *files, struct json_t **asked);
+cli_exit cli_crack_asks(int argc, char **argv, rb_case *words, int *files, struct json_t **asked);
+/* The same of any such command. */
+cli_exit cli_case_asks(const cli_case_command *command, void *own, int argc, char **argv,
+                       rb_case *words, int *files, struct json_t **asked);
 
 #endif

@@ -12,31 +12,27 @@
 #include <string.h>
 
 static const char about[] =
-    "Checks results of `rollbem` in JSON or as a table without solving. It builds\n"
-    "the problem again on the printed elements, from `inputs` or from the command\n"
-    "line in the comments of the table. From the printed pressures, friction,\n"
-    "approach and creepage it computes gaps, slip, bounds, load, force and all other\n"
-    "numbers again, and prints valid, or what is violated and by how much. A table\n"
-    "has no approach and creepage; the values that fit its gaps and slips best are\n"
-    "used.\n"
-    "Histories are checked step by step if they were written with --states: gaps,\n"
-    "bounds, and the slip from the step before. Stress (rollbem stress --json) is\n"
-    "computed again from the tractions, and hysteresis also from a decomposition of\n"
-    "the tractions into waves, which is independent of the library's formula.\n"
-    "Cracks are checked position by position if they were written with --states: the\n"
-    "contact, opening and slip of the faces under its tractions and their own, the\n"
-    "laws of contact, friction and fluid, K_I and K_II, and the summary.\n"
-    "Derivatives and tolerances are computed again at the printed state by the\n"
-    "library's own formulas; those of free_creepage take a solution of free rolling.\n"
+    "Checks results of `rollbem` in JSON or as a table. The problem is built again\n"
+    "from `inputs`, or from the command line in the comments of a table, on the\n"
+    "printed elements and with the printed tractions, approach and creepage; the\n"
+    "result is written again from them and compared member by member, notes\n"
+    "included. Besides, the laws of contact and friction are judged from the\n"
+    "tractions alone. Prints valid, or what is violated and by how much.\n"
+    "A table has no approach and creepage; the values that fit its gaps and slips\n"
+    "best are used.\n"
+    "Histories are checked step by step if they were written with --states, cracks\n"
+    "position by position. Solved again are free rolling for free_creepage, the\n"
+    "other solutions of --all-solutions, and where the mouth of a crack closes.\n"
     "A table of derivatives has no state and cannot be checked: take --json.\n"
-    "Not checked: iterations, seconds, the solver, and free_creepage, of which only\n"
-    "the direction is known. Refused: histories without states; cracks without states,\n"
-    "or growing; curves, error bars, units other than mm, N, MPa; CSV.\n"
+    "Not checked: iterations, seconds, names of the processor's kernels. Refused:\n"
+    "histories without states; cracks without states, or growing; curves, error\n"
+    "bars, units other than mm, N, MPa; CSV.\n"
     "A result may come from an untrusted source: files that it names (a gap, a\n"
     "history) are read only if they are regular files of at most 64 MB in its folder\n"
     "or below, unless --any-folder is given, and no message quotes their content.\n"
     "\n"
-    "Exit codes: 0 valid; 1 violated; 65 cannot be checked; 66 no such file.";
+    "Exit codes: 0 valid; 1 violated; 65 cannot be checked; 66 no such file; 70 out of\n"
+    "memory.";
 
 static cli_exit tell(const char *path, rb_status s, const rb_certificate_outcome *found,
                      const rb_message *why)
@@ -69,50 +65,54 @@ static rb_case *confined(rb_case_purpose purpose, const char *folder)
     return words;
 }
 
-/* What a result says of what was asked for and is not what --derivatives and --tolerance say;
- * NULL: nothing. */
-static const char *other_than_asked(const char *derivatives, const char *tolerance,
-                                    const rb_case *words, const json_t *root)
+/* The path of the first member of a result that is not as it was asked for; "": all are.  path:
+ * written. */
+static const char *not_as_asked(const json_t *asked, const json_t *printed, const char *above,
+                                char *path, size_t size)
 {
-    static const struct {
-        const char *key, *fault;
-    } rows[] = {{"derivatives_of", "derivatives_of are not those of --derivatives"},
-                {"own_of_b", "own_of_b are not the options that it gives B"},
-                {"uncertain_inputs", "uncertain_inputs are not those of --tolerance"}};
-    rb_case_tolerances t = {.n = 0};
-    rb_message why;
-    json_t *given = json_object();
-    const char *fault = NULL;
-    if (derivatives || tolerance)
-        rb_report_json_asked(&given, derivatives, words);
-    if (tolerance && rb_case_read_tolerances(words, tolerance, &t, &why) == RB_OK)
-        rb_report_json_uncertain(&given, &t, RB_UNITS_MM);
-    for (size_t k = 0; k < sizeof rows / sizeof *rows && !fault; k++) {
-        const json_t *printed = json_object_get(root, rows[k].key),
-                     *wanted = json_object_get(given, rows[k].key);
-        if ((printed || wanted) && !json_equal(printed, wanted))
-            fault = rows[k].fault;
+    const char *key;
+    json_t *want;
+    json_object_foreach((json_t *)asked, key, want)
+    {
+        const json_t *value = json_object_get(printed, key);
+        char own[100];
+        snprintf(own, sizeof own, "%s%.60s", above, key);
+        const int same = json_is_false(want)  ? !value
+                         : json_is_true(want) ? value != NULL
+                         : json_is_real(want)
+                             ? fabs(json_number_value(value) - json_real_value(want)) <=
+                                   1e-9 * fabs(json_real_value(want))
+                         : json_is_object(want) && strcmp(key, "uncertain_inputs") != 0
+                             ? value != NULL
+                             : json_equal(value, want);
+        if (!same) {
+            snprintf(path, size, "%s", own);
+            return path;
+        }
+        if (json_is_object(want) && json_is_object(value)) {
+            char prefix[110];
+            snprintf(prefix, sizeof prefix, "%s.", own);
+            if (*not_as_asked(want, value, prefix, path, size))
+                return path;
+        }
     }
-    json_decref(given);
-    return fault;
+    return "";
 }
 
-/* *fault: what is wrong with the command line that a result quotes; NULL: nothing.
- * RB_ENOMEM. */
+/* What is wrong with the command line that a result quotes, in text; "": nothing.  RB_ENOMEM. */
 static rb_status fault_of_command(const json_t *root, char **argv, int argc, const char *folder,
-                                  const char **fault)
+                                  char *text, size_t size)
 {
     const char *other = other_command(argv[1]);
     const int is_stress = other && strcmp(other, "stress") == 0,
               is_crack = other && strcmp(other, "crack") == 0;
-    double given = NAN; /* yield_shear as printed; NAN: nowhere */
-    const char *derivatives = NULL, *tolerance = NULL;
+    char path[120] = "";
     int files = 0;
-    *fault = NULL;
-    if ((other && !is_stress && !is_crack) ||
-        is_stress != (json_object_get(root, "maxima") != NULL) ||
-        is_crack != (json_object_get(root, "crack") != NULL)) {
-        *fault = "it is another command's";
+    json_t *asked = NULL;
+
+    *text = '\0';
+    if (other && !is_stress && !is_crack) {
+        snprintf(text, size, "it is another command's");
         return RB_OK;
     }
     /* Of a case whose JSON this is. */
@@ -122,25 +122,21 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc, con
                               folder);
     if (!words)
         return RB_ENOMEM;
-    const cli_exit code =
-        is_crack    ? cli_crack_inputs(argc - 1, argv + 1, words, &files)
-        : is_stress ? cli_stress_inputs(argc - 1, argv + 1, words, &files, &given)
-                    : cli_solve_inputs(argc, argv, words, &files, &derivatives, &tolerance);
+    const cli_exit code = is_crack    ? cli_crack_asks(argc - 1, argv + 1, words, &files, &asked)
+                          : is_stress ? cli_stress_asks(argc - 1, argv + 1, words, &files, &asked)
+                                      : cli_solve_asks(argc, argv, words, &files, &asked);
     json_t *inputs = code == CLI_CONTINUE ? rb_report_json_inputs(words) : NULL;
-    const json_t *printed = json_object_get(root, "shakedown");
-    const double yield = json_number_value(json_object_get(printed, "yield_shear"));
-    const int no_memory = code == CLI_INTERNAL || (code == CLI_CONTINUE && !inputs);
+    const int no_memory = code == CLI_INTERNAL || (code == CLI_CONTINUE && !(inputs && asked));
     if (files > 0 || no_memory)
         ; /* a case file may have changed since, or be elsewhere */
     else if (code != CLI_CONTINUE)
-        *fault = "it is not a command line of rollbem";
+        snprintf(text, size, "it is not a command line of rollbem");
     else if (!json_equal(inputs, json_object_get(root, "inputs")))
-        *fault = "it has other inputs than `inputs`";
-    else if (printed && (isnan(given) ? yield != 0.0 : fabs(yield - given) > 1e-9 * given))
-        *fault = "yield_shear of shakedown is not --yield-shear";
-    else if (!is_stress && !is_crack)
-        *fault = other_than_asked(derivatives, tolerance, words, root);
+        snprintf(text, size, "it has other inputs than `inputs`");
+    else if (*not_as_asked(asked, root, "", path, sizeof path))
+        snprintf(text, size, "%s is not what it asks for", path);
     json_decref(inputs);
+    json_decref(asked);
     rb_case_free(words);
     return no_memory ? RB_ENOMEM : RB_OK;
 }
@@ -175,25 +171,24 @@ static cli_exit check_json(const char *path, const char *text, size_t size, cons
     }
     rb_case *words =
         confined(json_object_get(root, "crack") ? RB_CASE_CRACK : RB_CASE_SINGLE, folder);
-    rb_status s =
-        words ? rb_certificate_check_solutions(stdout, path, root, words, &found, &why) : RB_ENOMEM;
+    rb_status s = words ? rb_certificate_check(stdout, path, root, words, &found, &why) : RB_ENOMEM;
     if (s == RB_OK) {
         /* The command line that the result quotes against its inputs. */
         const char *quoted = json_string_value(json_object_get(root, "command"));
-        const char *fault = "it is not a command line of rollbem";
+        char fault[200] = "it is not a command line of rollbem";
         if (quoted && strncmp(quoted, "rollbem", 7) == 0 && strchr(" ", quoted[7])) {
             char *line = strdup(quoted + 7);
             int argc;
             char **argv = line ? cli_split_line(line, &argc) : NULL;
             const int kept = cli_keep_failures(1);
-            s = argv ? fault_of_command(root, argv, argc, folder, &fault) : RB_ENOMEM;
+            s = argv ? fault_of_command(root, argv, argc, folder, fault, sizeof fault) : RB_ENOMEM;
             cli_keep_failures(kept);
             free(argv);
             free(line);
         }
         if (s != RB_OK)
             rb_fail(&why, s, "%s: out of memory", path);
-        else if (fault) {
+        else if (*fault) {
             printf("%s: violated: command: %s\n", path, fault);
             found.violations++;
         }
@@ -219,7 +214,7 @@ static cli_exit check_table(const char *path, const char *text, const char *fold
                         "table with its comments ('# rollbem ...')",
                         path);
     rb_case *words = confined(RB_CASE_SINGLE, folder);
-    const char *unused;
+    json_t *asked = NULL;
     int argc, files;
     char **argv = words ? cli_split_line(line, &argc) : NULL;
     cli_exit code = CLI_INTERNAL;
@@ -229,7 +224,8 @@ static cli_exit check_table(const char *path, const char *text, const char *fold
         /* The case is that of the command line that the table quotes. */
         const char *other = other_command(argv[1]);
         const int kept = cli_keep_failures(1);
-        code = other ? CLI_DATA : cli_solve_inputs(argc, argv, words, &files, &unused, &unused);
+        code = other ? CLI_DATA : cli_solve_asks(argc, argv, words, &files, &asked);
+        json_decref(asked);
         cli_keep_failures(kept);
         if (other)
             cli_fail(code,

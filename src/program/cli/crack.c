@@ -2,6 +2,7 @@
 #include "program/cli/case.h"
 #include "program/cli/interrupt.h"
 
+#include <jansson.h>
 #include <stddef.h>
 
 typedef struct {
@@ -123,6 +124,12 @@ static void summarise(FILE *out, const cli_case_run *run)
     rb_report_crack_summary(out, &((const crack_run *)run->own)->result, cli_is_coloured(stderr));
 }
 
+static void ask(const cli_case_run *run, json_t **members)
+{
+    rb_report_json_set(members, "crack", json_true());
+    rb_report_json_set(members, "faces", json_boolean(((const crack_run *)run->own)->states));
+}
+
 static const cli_case_command command = {
     .synopsis = "rollbem crack [OPTION...] [CASE.ini]",
     .about = about,
@@ -136,13 +143,14 @@ static const cli_case_command command = {
     .solve = solve,
     .table = write_table,
     .document = fill_in,
+    .asked = ask,
     .summarise = summarise,
 };
 
-cli_exit cli_crack_inputs(int argc, char **argv, rb_case *words, int *case_files)
+cli_exit cli_crack_asks(int argc, char **argv, rb_case *words, int *case_files, json_t **asked)
 {
     crack_run own = {0};
-    return cli_case_inputs(&command, &own, argc, argv, words, case_files);
+    return cli_case_asks(&command, &own, argc, argv, words, case_files, asked);
 }
 
 int cli_crack(int argc, char **argv)

@@ -2,6 +2,7 @@
 #include "program/cli/case.h"
 #include "program/cli/run.h"
 
+#include <jansson.h>
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -327,6 +328,34 @@ static cli_exit check(cli_case_run *run)
     return CLI_CONTINUE;
 }
 
+static void ask(const cli_case_run *run, json_t **members)
+{
+    static const char *const slopes[] = {"derivatives_of", "own_of_b", "uncertain_inputs"};
+    const solved *it = run->own;
+    const char *names = it->smooth ? it->smooth : it->derivatives;
+    rb_case_tolerances t = {.n = 0};
+    rb_message why;
+
+    rb_report_json_set(members, "maxima", json_false());
+    rb_report_json_set(members, "crack", json_false());
+    rb_report_json_set(members, "solutions", json_boolean(it->all_solutions));
+    if (rb_case_has_steps(rb_case_resolved(run->words))) {
+        json_t *history = json_object();
+        rb_report_json_set(&history, "derivatives", json_boolean(it->derivatives != NULL));
+        rb_report_json_set(&history, "states", json_boolean(it->states));
+        rb_report_json_set(members, "history", history);
+    } else
+        rb_report_json_set(members, "derivatives", json_boolean(it->derivatives != NULL));
+    rb_report_json_set(members, "smooth_derivatives", json_boolean(it->smooth != NULL));
+    if (names || it->tolerance)
+        rb_report_json_asked(members, names, run->words);
+    if (it->tolerance && rb_case_read_tolerances(run->words, it->tolerance, &t, &why) == RB_OK)
+        rb_report_json_uncertain(members, &t, RB_UNITS_MM);
+    for (size_t k = 0; k < sizeof slopes / sizeof *slopes; k++)
+        if (*members && !json_object_get(*members, slopes[k]))
+            rb_report_json_set(members, slopes[k], json_false());
+}
+
 static const cli_case_command command = {
     .synopsis = "rollbem [OPTION...] [CASE.ini]",
     .about = about,
@@ -341,16 +370,14 @@ static const cli_case_command command = {
     .before_table = show_behind,
     .table = write_table,
     .document = fill_in,
+    .asked = ask,
     .summarise = summarise,
 };
 
-cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words, int *case_files,
-                          const char **derivatives, const char **tolerance)
+cli_exit cli_solve_asks(int argc, char **argv, rb_case *words, int *case_files, json_t **asked)
 {
     solved it = {.steps.every = 1};
-    const cli_exit code = cli_case_inputs(&command, &it, argc, argv, words, case_files);
-    *derivatives = it.smooth ? it.smooth : it.derivatives;
-    *tolerance = it.tolerance;
+    const cli_exit code = cli_case_asks(&command, &it, argc, argv, words, case_files, asked);
     return code == CLI_CONTINUE && it.trace ? choose_pivots(words) : code;
 }
 

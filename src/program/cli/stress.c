@@ -2,6 +2,7 @@
 #include "program/cli/case.h"
 #include "program/cli/run.h"
 
+#include <jansson.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -75,6 +76,16 @@ static const char notes[] = CLI_CASE_NOTES "Example: rollbem stress --support ha
 
 /* ---- What is asked for ------------------------------------------------------------ */
 
+/* The grid's size; 0: its text has none. */
+static int read_grid(stress *st)
+{
+    int end = 0;
+    st->nx = 61;
+    st->ny = 41;
+    return !st->grid || (sscanf(st->grid, "%5dx%5d%n", &st->nx, &st->ny, &end) == 2 &&
+                         !st->grid[end] && st->nx >= 2 && st->ny >= 2);
+}
+
 static cli_exit check(cli_case_run *run)
 {
     stress *st = run->own;
@@ -90,11 +101,7 @@ static cli_exit check(cli_case_run *run)
     if (st->map && run->c->rc.plane == RB_PLANE_STRESS)
         return cli_fail(CLI_USAGE, "--shakedown-map: its limits are those of plane "
                                    "strain; in plane stress take --shakedown");
-    int end = 0;
-    st->nx = 61;
-    st->ny = 41;
-    if (st->grid && (sscanf(st->grid, "%5dx%5d%n", &st->nx, &st->ny, &end) != 2 || st->grid[end] ||
-                     st->nx < 2 || st->ny < 2))
+    if (!read_grid(st))
         return cli_fail(CLI_USAGE, "--grid: expected two numbers >= 2 such as 61x41, got '%s'",
                         st->grid);
     if (st->grid && st->points)
@@ -308,6 +315,27 @@ static void summarise(FILE *out, const cli_case_run *run)
     }
 }
 
+static void ask(const cli_case_run *run, json_t **members)
+{
+    stress *st = run->own;
+    json_t *grid = json_false(), *shakedown = json_false();
+
+    if (!st->points && read_grid(st)) {
+        grid = json_object();
+        rb_report_json_set(&grid, "nx", json_integer(st->nx));
+        rb_report_json_set(&grid, "ny", json_integer(st->ny));
+    }
+    if (wants_shakedown(st)) {
+        shakedown = json_object();
+        rb_report_json_set(&shakedown, "yield_shear", rb_report_json_number(st->yield_shear));
+    }
+    rb_report_json_set(members, "maxima", json_true());
+    rb_report_json_set(members, "depth", rb_report_json_number(st->depth > 0.0 ? st->depth : NAN));
+    rb_report_json_set(members, "grid", grid);
+    rb_report_json_set(members, "points", json_boolean(st->points != NULL));
+    rb_report_json_set(members, "shakedown", shakedown);
+}
+
 static const cli_case_command command = {
     .synopsis = "rollbem stress [OPTION...] [CASE.ini]",
     .about = about,
@@ -320,16 +348,14 @@ static const cli_case_command command = {
     .solve = solve,
     .table = write_table,
     .document = fill_in,
+    .asked = ask,
     .summarise = summarise,
 };
 
-cli_exit cli_stress_inputs(int argc, char **argv, rb_case *words, int *case_files,
-                           double *yield_shear)
+cli_exit cli_stress_asks(int argc, char **argv, rb_case *words, int *case_files, json_t **asked)
 {
     stress st = {.yield_shear = NAN};
-    const cli_exit code = cli_case_inputs(&command, &st, argc, argv, words, case_files);
-    *yield_shear = st.yield_shear;
-    return code;
+    return cli_case_asks(&command, &st, argc, argv, words, case_files, asked);
 }
 
 int cli_stress(int argc, char **argv)

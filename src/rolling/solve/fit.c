@@ -144,11 +144,16 @@ static void forget(brackets *known)
 
 /* ---- All of them ------------------------------------------------------------------- */
 
+int rb_rolling_equal_elements_instead(int elements)
+{
+    return (int)ceil(1.3 * elements);
+}
+
 rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *why)
 {
     const int wanted = model->plan.elements;
 
-    model->plan.elements = (int)ceil(1.3 * wanted);
+    model->plan.elements = rb_rolling_equal_elements_instead(wanted);
     const rb_status s = rb_rolling_solve_zone(model, 0, why);
     model->plan.elements = wanted;
     return s;
