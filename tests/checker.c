@@ -637,7 +637,8 @@ static void check_ratios(const contact *c, const table *t)
     const double P_ = number(c->summary, "normal_load");
     const double Q_ = number(c->summary, "tangential_load");
     double a = sqrt(4.0 * P_ * c->radius / (pi * c->modulus));
-    const int relaxes = c->moves && (has_memory(c->inputs, "") || has_memory(c->inputs, "-b"));
+    const int relaxes =
+        c->formulation != STATIC && (has_memory(c->inputs, "") || has_memory(c->inputs, "-b"));
     if (number(c->inputs, "interlayer-normal") > 0.0 || relaxes) {
         /* theirs by formula, to a few per cent of what carries */
         a = number(c->summary, "hertz_half_width");

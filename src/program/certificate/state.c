@@ -383,9 +383,9 @@ rb_status rb_certificate_restore(rb_certificate *c, const rb_resolved_case *reso
     if (s == RB_OK && stored->summary)
         take_over(stored->summary, &r->model, &r->solution);
     if (s == RB_OK && c->moving > 0) {
-        move_results(&rb_rolling_solution_scalars, rc, 0, &r->solution);
+        move_results(&rb_rolling_solution_scalars, r->model.rc, 0, &r->solution);
         if (r->history.n > 0)
-            move_results(&rb_rolling_history_columns, rc, r->history.n, &r->history);
+            move_results(&rb_rolling_history_columns, r->model.rc, r->history.n, &r->history);
     }
     if (s == RB_OK && c->judges)
         s = rb_certificate_balances(c, &r->solution);
