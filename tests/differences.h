@@ -244,7 +244,9 @@ static int difference_is_left_out(const rb_rolling_result *r, const rb_rolling_s
 {
     const int strain = strcmp(r->name, "max_strain") == 0,
               peak = strcmp(r->name, "max_pressure") == 0 || strcmp(r->name, "kappa") == 0;
+    /* the length that sticks is one of elements, its derivative is not */
     return !rb_sensitivity_has(r) || strcmp(r->name, "free_creepage") == 0 ||
+           strcmp(r->name, "stick_length") == 0 ||
            (elements != RB_SENSITIVITY_EDGES && (difference_is_edge(r) || strain)) ||
            ((peak || strain) && difference_has_tie(at));
 }

@@ -101,7 +101,8 @@ static int compare_input(const words *w, const rb_case_derivative *d, const rb_r
         const double x = rb_rolling_number(q, at), got = rb_rolling_number(q, &d->d.value[0]);
         double want = 0.0;
         if (!rb_sensitivity_has(q) || isnan(x) || strncmp(q->name, "contact_", 8) == 0 ||
-            strcmp(q->name, "half_width") == 0) /* edges end at midpoints: kinks */
+            strcmp(q->name, "half_width") == 0 || /* edges end at midpoints: kinks */
+            strcmp(q->name, "stick_length") == 0) /* by elements, its derivative by none */
             continue;
         for (int j = 0; j < 4; j++)
             want += weight[j] * rb_rolling_number(q, &r[j].solution) / (12.0 * step);
@@ -392,6 +393,36 @@ TEST(fitted_elements_move_with_the_edges)
             CHECK_REL(by_P->free_creepage, 0.5 * s->free_creepage / 500.0, 5e-3,
                       "free rolling by P");
     }
+}
+
+/* The length that sticks: Carter's 2a - 2 |xi| R/mu, Cattaneo's 2a sqrt(1 - Q/(mu P)). */
+TEST(stick_grows_between_changes_of_zones)
+{
+    static const char *const meshes[] = {"fitted", "aligned", "uniform"};
+    for (int k = 0; k < 3; k++) {
+        const words w = {{"support halfplane similar yes gap parabola young 210000 poisson 0.3 "
+                          "radius 100 half-width 1 mu 0.3 contact-elements 100 creep 0.0015 "
+                          "formulation steady mesh",
+                          meshes[k]}};
+        const double bound = k < 2 ? 0.012 : 0.03;
+        OWNED(rb_case_result) r;
+        OWNED(rb_case_derivatives) all;
+        held_case *c = solved(&w, NULL, 0.0, &r);
+        CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
+        CHECK_REL(of(&all, "creep")->d.value[0].stick_length, -200.0 / 0.3, bound, "by xi");
+        CHECK_REL(of(&all, "mu")->d.value[0].stick_length, 2.0 * 0.0015 * 100.0 / 0.09, bound,
+                  "by mu");
+        CHECK_REL(of(&all, "half-width")->d.value[0].stick_length, 2.0, bound, "by a");
+    }
+    const words w = {{"support halfplane similar yes gap parabola young 210000 poisson 0.3 radius "
+                      "100 half-width 1 mu 0.3 contact-elements 200 force-ratio 0.5"}};
+    OWNED(rb_case_result) r;
+    OWNED(rb_case_derivatives) all;
+    held_case *c = solved(&w, NULL, 0.0, &r);
+    CHECK_OK(rb_case_differentiate(c, &r.model, 0, NULL, &all, &heard));
+    CHECK_REL(of(&all, "force-ratio")->d.value[0].stick_length, -1.0 / sqrt(0.5), 0.02, "by Q");
+    CHECK_REL(of(&all, "half-width")->d.value[0].stick_length, 2.0 * sqrt(0.5), 0.02, "by a");
+    CHECK_ABS(of(&all, "mu")->d.value[0].stick_length, 0.0, 1e-6, "by mu");
 }
 
 /* Where two elements have nearly the largest pressure: stresses scale with P and E. */

@@ -258,8 +258,10 @@ rb_status rb_sensitivity_differentiate(const rb_sensitivity *s, const rb_sensiti
     if (status != RB_OK)
         return status;
     for (int k = 0; k < 2; k++)
-        if (d->has[k])
+        if (d->has[k]) {
+            d->value[k].stick_length = rb_sensitivity_stick_length(s, input->scale, d, k);
             rb_sensitivity_clean(s, input->scale, &d->value[k]);
+        }
     if (both && d->has[1] && rb_sensitivity_unite_sides(d)) {
         rb_rolling_solution_free(&d->value[1]);
         d->has[1] = 0;

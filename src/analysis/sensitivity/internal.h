@@ -143,6 +143,13 @@ void rb_sensitivity_set_strain(const rb_sensitivity *s, int k, rb_sensitivity_de
 /* 1: two are compressed equally now, and not beside. */
 int rb_sensitivity_strain_has_sides(const rb_sensitivity *s, const double strain[4]);
 
+/* ---- smooth.c ---------------------------------------------------------------------- */
+
+/* The derivative of the length of all that sticks on side k, whose other results are known: that
+ * between two changes of zones, not that of the lengths of elements.  NAN: it is not known. */
+double rb_sensitivity_stick_length(const rb_sensitivity *s, double scale,
+                                   const rb_sensitivity_derivative *d, int k);
+
 /* ---- differentiate.c --------------------------------------------------------------- */
 
 /* Determines whether and how the elements move.  RB_ENOMEM. */

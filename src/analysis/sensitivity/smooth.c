@@ -228,6 +228,70 @@ static rb_status add_jumps(const rb_sensitivity_jumps *jumps, double scale, int 
     return status;
 }
 
+/* Motion of the end x of an element. */
+static double motion_at(const rb_sensitivity *s, const double by[2], double x)
+{
+    double edges[2];
+
+    if (s->moves == RB_SENSITIVITY_FIXED)
+        return 0.0;
+    if (s->moves == RB_SENSITIVITY_ZONE) {
+        const rb_rolling_case *rc = s->model->rc;
+        return by[0] * x / rb_rolling_zone_half_width(rc, rb_rolling_derive(rc).load);
+    }
+    rb_sensitivity_edges_of(s->model, edges);
+    return by[1] + by[0] * (x - edges[1]) / edges[0];
+}
+
+/* How fast stick grows over the boundary between a sticking and a slipping element: by one element
+ * from where the one begins to slip to where the other one begins to stick. */
+static double growth_of_stick(const rb_sensitivity *s, double scale, int stick, int slip,
+                              const rb_sensitivity_derivative *d, int k)
+{
+    const rb_contact_problem *p = &s->model->problem;
+    const double *h = s->model->bodies.f.h,
+                 by[2] = {condition_rate(s, BEGINS_TO_SLIP, stick, &d->rate, d, k),
+                          condition_rate(s, BEGINS_TO_STICK, slip, &d->rate, d, k)},
+                 at[2] = {-condition(s, BEGINS_TO_SLIP, stick) / by[0],
+                          -condition(s, BEGINS_TO_STICK, slip) / by[1]};
+
+    if (fmax(fabs(by[0]) / rb_contact_friction_scale(p), fabs(by[1]) / p->slip_length) * scale <
+        STAYS)
+        return 0.0;
+    /* where both conditions grow the boundary hardly moves: by what one grows faster, in the middle
+     * between both elements */
+    return 0.5 * (h[stick] + h[slip]) *
+           (at[0] * at[1] < 0.0 ? 1.0 / (at[1] - at[0]) : 0.25 * (1.0 / at[1] - 1.0 / at[0]));
+}
+
+double rb_sensitivity_stick_length(const rb_sensitivity *s, double scale,
+                                   const rb_sensitivity_derivative *d, int k)
+{
+    const double *ends = s->model->mesh.ends;
+    int first = 0, last = s->n - 1;
+    double sum = 0.0;
+
+    if (s->degenerate > 0 || s->model->problem.yield)
+        return NAN;
+    while (first < s->n && !kind_of(s, first))
+        first++;
+    while (last >= 0 && !kind_of(s, last))
+        last--;
+    for (int i = first; i <= last + 1; i++) {
+        const int left = kind_of(s, i - 1), right = kind_of(s, i), starts = right == 1;
+        if ((left == 1) == starts)
+            continue;
+        if (i == first || i == last + 1)
+            sum += starts ? -d->value[k].contact_from : d->value[k].contact_to;
+        else
+            sum += (starts ? -1.0 : 1.0) * motion_at(s, d->by[k], ends[i]) +
+                   (left * right == 0
+                        ? 0.0
+                        : growth_of_stick(s, scale, starts ? i : i - 1, starts ? i - 1 : i, d, k));
+    }
+    return sum;
+}
+
 /* Changes of the input where the next elements change their zones, to first order. */
 static void set_stays(const rb_sensitivity *s, int k, rb_sensitivity_derivative *d)
 {
@@ -278,7 +342,9 @@ rb_status rb_sensitivity_smooth(const rb_sensitivity_jumps *jumps,
                                  "or --derivatives"
                                : "give --mesh aligned or fitted");
         set_stays(jumps->s, k, derivative);
+        const double stuck = d->stick_length; /* is smooth already */
         status = add_jumps(jumps, input->scale, k, derivative, &unused, why);
+        d->stick_length = stuck;
         if (status == RB_OK && derivative->free_rolling)
             status = jumps->freely ? add_jumps(jumps->freely, input->scale, k,
                                                derivative->free_rolling, &creepage, why)
