@@ -175,8 +175,8 @@ TEST(options_reach_the_methods)
     opt.max_iters = 0;
     CHECK_OK(rb_lcp_solve("auto", &box, &opt, z, &info));
     assert_string_equal(info.solver, "lemke-sparse");
-    CHECK_STATUS(rb_lcp_solve("newton", &box, &opt, z, &info), RB_EINVAL);
-    assert_non_null(strstr(info.msg.text, "bounds"));
+    /* Murty's paths are long for single exchanges, too */
+    CHECK_STATUS(rb_lcp_solve("newton", &box, &opt, z, &info), RB_MAXITER);
     CHECK_STATUS(rb_lcp_solve("simplex", &p, &opt, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "expected auto, lemke"));
     CHECK_OK(rb_lcp_solve("auto", &p, NULL, z, NULL));

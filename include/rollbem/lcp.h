@@ -136,10 +136,12 @@ const rb_lcp_solver *rb_lcp_solvers(int *count);
  * first method from the structure of M; if it does not finish soon, all methods continue
  * in turns.  info->solver names the method that found z, info->iters is the sum over all
  * methods, and max_iters limits each of them.  If all fail, z is the last point of
- * Lemke's method.  With a trace, a covering vector, a rule or bounds "auto" uses Lemke's
- * method.  Statuses as for the single solvers; RB_NUMERICAL also where M is definite or
+ * Lemke's method.  Rows that are dominated by their diagonal are solved by sweeps
+ * (info->solver "gauss-seidel"), problems with bounds by newton as long as it makes
+ * progress, then by Lemke's method, which "auto" also uses with a trace, a covering vector
+ * or a rule.  Statuses as for the single solvers; RB_NUMERICAL also where M is definite or
  * diagonally dominant, so that there is a solution, but no path has found it; RB_EINVAL
- * also for an unknown solver and for newton with bounds. */
+ * also for an unknown solver. */
 rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
                        double *z, rb_lcp_info *info);
 

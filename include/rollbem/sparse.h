@@ -53,6 +53,9 @@ void rb_sparse_apply_transposed(double alpha, const rb_sparse *a, const double *
  * RB_ENOMEM. */
 rb_status rb_sparse_multiply(const rb_sparse *a, const rb_sparse *b, rb_sparse *c);
 
+/* symmetric: 1 if A = A', entry by entry.  RB_ENOMEM. */
+rb_status rb_sparse_is_symmetric(const rb_sparse *a, int *symmetric);
+
 /* Connected components of the graph of A + A', A square.  part[i]: number of the
  * component that node i belongs to, counted from 0. */
 rb_status rb_sparse_components(const rb_sparse *a, int *count, int *part);
@@ -96,6 +99,8 @@ rb_status rb_sparse_cholesky_solve(rb_sparse_cholesky *factor, const double *b, 
  * W stays sparse. */
 rb_status rb_sparse_cholesky_congruence(rb_sparse_cholesky *factor, const rb_sparse *h,
                                         rb_sparse *w);
+/* Number of entries that the factor of a matrix with this pattern would have. */
+rb_status rb_sparse_cholesky_estimate(const rb_sparse *k, double *entries);
 double rb_sparse_cholesky_flops(const rb_sparse_cholesky *factor);
 /* Number of entries of the factor. */
 double rb_sparse_cholesky_entries(const rb_sparse_cholesky *factor);

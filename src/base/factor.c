@@ -360,6 +360,24 @@ rb_status rb_sparse_lu_estimate(const rb_sparse *a, double *flops)
     return s;
 }
 
+rb_status rb_sparse_cholesky_estimate(const rb_sparse *k, double *entries)
+{
+    cholmod_common c;
+    cholmod_start(&c);
+    c.print = 0;
+    /* one ordering, and no relaxed supernodes: an estimate */
+    c.nmethods = 1;
+    c.method[0].ordering = CHOLMOD_AMD;
+    c.postorder = 1;
+    c.supernodal = CHOLMOD_SIMPLICIAL;
+    cholmod_sparse view = view_of(k, 1);
+    cholmod_factor *l = cholmod_analyze(&view, &c);
+    *entries = c.lnz;
+    cholmod_free_factor(&l, &c);
+    cholmod_finish(&c);
+    return *entries > 0.0 ? RB_OK : RB_ENOMEM;
+}
+
 double rb_sparse_cholesky_flops(const rb_sparse_cholesky *factor)
 {
     return factor->flops;

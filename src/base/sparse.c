@@ -273,6 +273,23 @@ static int find_root(int *up, int i)
     return i;
 }
 
+rb_status rb_sparse_is_symmetric(const rb_sparse *a, int *symmetric)
+{
+    rb_sparse t;
+    *symmetric = 0;
+    if (a->rows != a->cols)
+        return RB_OK;
+    if (rb_sparse_transpose(a, &t) != RB_OK)
+        return RB_ENOMEM;
+    const size_t nz = (size_t)a->p[a->cols];
+    *symmetric = memcmp(a->p, t.p, ((size_t)a->cols + 1) * sizeof *a->p) == 0 &&
+                 memcmp(a->i, t.i, nz * sizeof *a->i) == 0;
+    for (size_t k = 0; *symmetric && k < nz; k++)
+        *symmetric = a->x[k] == t.x[k];
+    rb_sparse_free(&t);
+    return RB_OK;
+}
+
 rb_status rb_sparse_components(const rb_sparse *a, int *count, int *part)
 {
     *count = 0;

@@ -5,7 +5,6 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* What has a wrong sign below this part of its terms is looked at as rounding; and what is
  * left of it must not let in any z below so many times the largest |q|. */
@@ -100,19 +99,12 @@ static int is_dominant(const rb_sparse *M, double *rows)
 
 int rb_lcp_is_definite(const rb_sparse *M)
 {
-    rb_sparse T = {0};
     rb_sparse_cholesky *factor = NULL;
     double *rows = rb_alloc((size_t)M->cols, 1);
-    int yes = rows && is_dominant(M, rows);
-    if (rows && !yes && rb_sparse_transpose(M, &T) == RB_OK) {
-        const size_t nz = (size_t)M->p[M->cols];
-        yes = memcmp(M->p, T.p, ((size_t)M->cols + 1) * sizeof *M->p) == 0 &&
-              memcmp(M->i, T.i, nz * sizeof *M->i) == 0 &&
-              memcmp(M->x, T.x, nz * sizeof *M->x) == 0 &&
-              rb_sparse_cholesky_create(M, &factor) == RB_OK;
-    }
+    int symmetric = 0, yes = rows && is_dominant(M, rows);
+    if (!yes && rb_sparse_is_symmetric(M, &symmetric) == RB_OK && symmetric)
+        yes = rb_sparse_cholesky_create(M, &factor) == RB_OK;
     rb_sparse_cholesky_free(factor);
-    rb_sparse_free(&T);
     free(rows);
     return yes;
 }

@@ -90,6 +90,20 @@ static inline double rb_lcp_upper(const double *upper, int i)
     return upper ? upper[i] : INFINITY;
 }
 
+/* ---- newton.c ------------------------------------------------------------------------ */
+
+/* rb_lcp_newton with bounds.  hopes: RB_MAXITER where the steps make no progress any more. */
+rb_status rb_lcp_newton_in_boxes(const rb_lcp_mixed_problem *p, int hopes,
+                                 const rb_lcp_options *opt, double *z, rb_lcp_info *info);
+
+/* ---- contraction.c ------------------------------------------------------------------- */
+
+/* Projected Gauss-Seidel where every row is dominated by its positive diagonal by a factor
+ * of 0.95 at least: then each sweep brings z nearer to the one solution by this factor.
+ * RB_SINGULAR: M is not so, and nothing was done; other statuses as rb_lcp_mixed. */
+rb_status rb_lcp_contraction(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt, double began,
+                             double *z, rb_lcp_info *info);
+
 /* ---- bimatrix.c ---------------------------------------------------------------------- */
 
 /* rb_lcp_bimatrix without a label, of a game that has been checked; began: on

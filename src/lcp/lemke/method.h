@@ -13,6 +13,7 @@ typedef struct {
     int generic;  /* 1: where opt has no covering vector, one on which ties and the long
                      paths of Murty and Fathi do not depend (tableau) */
     int split;    /* 1: free variables as differences of two (mixed) */
+    int hopes;    /* 1: ends where single exchanges would be next (newton) */
     double began; /* on rb_seconds() */
 } lcp_task;
 

@@ -31,6 +31,9 @@ static const double MANY = 0.1;
  * always, from the second one on elsewhere; so many systems are its first turn. */
 enum { SURE_FROM = 200, HOPE_FROM = 60, SURE_SYSTEMS = 40, HOPE_SYSTEMS = 3 };
 
+/* From this order on it is looked whether rows are dominated by their diagonal. */
+enum { DOMINATED_FROM = 200 };
+
 typedef struct {
     int n, positive; /* order; 1: all diagonal entries are positive */
     double part;     /* entries that are not zero, as a part of all */
@@ -201,7 +204,8 @@ static rb_status run_portfolio(const lcp_task *task, double *z, rb_lcp_info *inf
             } else
                 for (s = RB_OK; s == RB_OK && !a->ended && a->info.iters < a->systems;)
                     s = take_turn(&p, a, used_by(a) + 1.0);
-            over = a->ended && (s == RB_OK || s == RB_NO_SOLUTION || s == RB_TIME_LIMIT);
+            over = a->ended &&
+                   (s == RB_OK || s == RB_NO_SOLUTION || s == RB_TIME_LIMIT || s == RB_INTERRUPTED);
             if (a->ended && s != RB_ENOMEM && (over || a == spokesman || said == RB_ENOMEM)) {
                 memcpy(z, p.z, (size_t)task->M.n * sizeof *z);
                 *info = a->info;
@@ -296,24 +300,37 @@ rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const 
                        "or newton",
                        solver);
     const int boxes = p->lower || p->upper;
-    if (kind == BLOCKS && boxes)
-        return rb_fail(&info->msg, RB_EINVAL,
-                       "lcp: newton does not accept bounds; use lemke-sparse");
     const rb_status s = rb_lcp_check_mixed(p, &o, &info->msg);
     if (s != RB_OK)
         return s;
+    const double began = rb_seconds();
     const int path = o.trace || o.cover || o.rule != RB_LCP_LEXICOGRAPHIC;
-    rb_status status;
+    rb_status status = RB_SINGULAR;
+    if (kind == BLOCKS)
+        return rb_lcp_newton_in_boxes(p, 0, &o, z, info);
+    if (kind == AUTO && !path && p->M->cols >= DOMINATED_FROM) {
+        status = rb_lcp_contraction(p, &o, began, z, info);
+        if (status == RB_OK || status == RB_TIME_LIMIT || status == RB_INTERRUPTED)
+            return status;
+    }
     if (kind == AUTO && !path && !boxes) {
         const lcp_task task = {
-            .M = {.n = p->M->cols, .sparse = p->M}, .q = p->q, .opt = &o, .began = rb_seconds()};
+            .M = {.n = p->M->cols, .sparse = p->M}, .q = p->q, .opt = &o, .began = began};
         status = rb_lcp_game_solve(p->M, p->q, &o, z, info);
         if (status != RB_OK && status >= 0)
             status = run_portfolio(&task, z, info);
         return retry_definite(p, &o, z, info, status);
     }
-    if (kind == BLOCKS)
-        return rb_lcp_newton(p->M, p->q, &o, z, info);
+    if (kind == AUTO && !path) {
+        /* In boxes Newton's method first, as long as it makes progress. */
+        status = rb_lcp_newton_in_boxes(p, 1, &o, z, info);
+        if (status == RB_OK || status == RB_TIME_LIMIT || status == RB_INTERRUPTED)
+            return status;
+        const int systems = info->iters;
+        status = rb_lcp_mixed(p, &o, z, info);
+        info->iters += systems;
+        return retry_definite(p, &o, z, info, status);
+    }
     const int large = p->M->cols >= LARGE && read_structure(p->M).part < MANY;
     if (kind == LEMKE_SPARSE || boxes || o.start || large)
         return retry_definite(p, &o, z, info, rb_lcp_mixed(p, &o, z, info));

@@ -509,9 +509,6 @@ static cli_exit check_options(const lcp_options *o)
         return cli_fail(
             CLI_USAGE,
             "lcp: --trace, --cover and --rule belong to Lemke's method: not with --solver newton");
-    if (o->solver == NEWTON && (o->lower || o->upper))
-        return cli_fail(CLI_USAGE,
-                        "lcp: --lower and --upper need Lemke's method: not with --solver newton");
     if (o->trace && o->solution && o->style.format != RB_REPORT_JSON)
         return cli_fail(
             CLI_USAGE,

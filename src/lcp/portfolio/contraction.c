@@ -1,0 +1,110 @@
+/* Projected Gauss-Seidel sweeps where rows are dominated by their diagonal: a contraction in the
+ * largest norm, which also proves that there is one solution. */
+#include "lcp/lemke/lemke.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* The largest sum |off| / diagonal of a row; beyond it other methods are faster. */
+static const double DOMINATED = 0.95;
+
+/* A sweep that changes no z by more than this part of the largest is the last one. */
+static const double STILL = 4.0 * DBL_EPSILON;
+
+/* Looks for units of z in which rows are dominated. */
+enum { TRIALS = 12 };
+/* ... as long as the ratio changes by this part of it. */
+static const double STALLS = 1e-3;
+
+/* The largest sum_j |M_ij| unit_j / (M_ii unit_i) over the others j, of the columns of M'.
+ * next: the mean of unit and of these sums over M_ii: towards those units in which the
+ * ratio is the least (Perron). */
+static double domination(const rb_sparse *rows, const double *unit, double *next)
+{
+    double ratio = 0.0;
+    for (int i = 0; i < rows->cols; i++) {
+        double own = 0.0, others = 0.0;
+        for (int k = rows->p[i]; k < rows->p[i + 1]; k++)
+            if (rows->i[k] == i)
+                own = rows->x[k];
+            else
+                others += fabs(rows->x[k]) * unit[rows->i[k]];
+        if (!(own > 0.0))
+            return INFINITY;
+        ratio = fmax(ratio, others / (own * unit[i]));
+        next[i] = 0.5 * (unit[i] + others / own);
+    }
+    return ratio;
+}
+
+rb_status rb_lcp_contraction(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt, double began,
+                             double *z, rb_lcp_info *info)
+{
+    const lcp_matrix given = {.n = p->M->rows, .sparse = p->M};
+    const int n = given.n;
+    rb_arena scratch = {0};
+    lcp_scale scale = {0};
+    rb_sparse rows = {0}; /* M', whose columns are M's rows */
+    double *unit = rb_arena_doubles(&scratch, (size_t)n, 1),
+           *next = rb_arena_doubles(&scratch, (size_t)n, 1);
+    rb_status s = scratch.failed ? RB_ENOMEM : rb_sparse_transpose(p->M, &rows);
+    double ratio = INFINITY;
+    for (int i = 0; s == RB_OK && i < n; i++)
+        unit[i] = 1.0;
+    for (int k = 0; s == RB_OK && k < TRIALS && !(ratio <= DOMINATED); k++) {
+        if (k == 1) /* columns may have units of their own: begin with those of the diagonal */
+            for (int i = 0; i < n; i++)
+                next[i] = 1.0 / rb_sparse_diagonal(p->M, i);
+        if (k > 0)
+            memcpy(unit, next, (size_t)n * sizeof *unit);
+        const double last = ratio;
+        ratio = domination(&rows, unit, next);
+        if (isinf(ratio) || (k > 1 && fabs(ratio - last) <= STALLS * last))
+            break;
+    }
+    if (s == RB_OK && !(ratio <= DOMINATED))
+        s = RB_SINGULAR;
+    if (s == RB_OK) {
+        const int sweeps = ratio > 0.0 ? 4 + (int)(log(DBL_EPSILON) / log(ratio)) : 4;
+        const int most = opt->max_iters && opt->max_iters < sweeps ? opt->max_iters : sweeps;
+        double change = INFINITY, size = 0.0;
+        *info = RB_LCP_INFO_NONE;
+        info->solver = "gauss-seidel";
+        for (int i = 0; i < n; i++)
+            z[i] = fmin(fmax(opt->start ? opt->start[i] : 0.0, rb_lcp_lower(p->lower, i)),
+                        rb_lcp_upper(p->upper, i));
+        while (s == RB_OK && change > STILL * size && info->iters < most) {
+            change = size = 0.0;
+            for (int i = 0; i < n; i++) {
+                double w = p->q[i], own = 1.0;
+                for (int k = rows.p[i]; k < rows.p[i + 1]; k++) {
+                    w += rows.x[k] * z[rows.i[k]];
+                    own = rows.i[k] == i ? rows.x[k] : own;
+                }
+                const double x = fmin(fmax(z[i] - w / own, rb_lcp_lower(p->lower, i)),
+                                      rb_lcp_upper(p->upper, i));
+                change = fmax(change, fabs(x - z[i]) / unit[i]);
+                size = fmax(size, fabs(x) / unit[i]);
+                z[i] = x;
+            }
+            info->iters++;
+            if (rb_interrupted())
+                s = rb_fail(&info->msg, RB_INTERRUPTED, "lcp: interrupted after %d sweeps",
+                            info->iters);
+            else if (opt->seconds > 0.0 && rb_seconds() - began > opt->seconds)
+                s = rb_fail(&info->msg, RB_TIME_LIMIT, "lcp: no solution after %d sweeps in %g s",
+                            info->iters, opt->seconds);
+        }
+        if (rb_lcp_scale_create(&given, p->q, 0, &scale) != RB_OK ||
+            rb_lcp_measure(&given, &scale, p->q, p->lower, p->upper, z, info) != RB_OK)
+            s = RB_ENOMEM;
+        if (s == RB_OK)
+            s = rb_lcp_assess(info);
+    }
+    if (s == RB_ENOMEM)
+        rb_fail(&info->msg, s, "lcp: out of memory for order %d", n);
+    rb_lcp_scale_free(&scale);
+    rb_sparse_free(&rows);
+    return rb_arena_done(&scratch, s);
+}
