@@ -380,14 +380,15 @@ class Handle(_Answers):
             return call(self.at, *arguments)
         status: list = []
         handle = self  # held until the call is over, also where nobody waits for it
-        ended, over = threading.Event(), ctypes.c_int(0)
+        ended, over = _thread.allocate_lock(), ctypes.c_int(0)  # Event is not safe from signals
+        ended.acquire()
 
         def work() -> None:
             try:
                 status.append(call(handle.at, *arguments))
             finally:
                 over.value = 1
-                ended.set()
+                ended.release()
 
         try:
             try:
@@ -396,13 +397,13 @@ class Handle(_Answers):
                 over.value = 1
                 raise
             seen = (0, 0)
-            while not ended.wait(None if progress is None else _LOOK) or progress is not None:
-                now = self.progress()
+            runs = True
+            while runs:
+                runs = not ended.acquire(True, -1 if progress is None else _LOOK)
+                now = self.progress() if progress is not None else seen
                 if now != seen and any(now):
                     seen = now
                     progress(*now)
-                if ended.is_set():
-                    break
         finally:
             # until its end the call uses the handle; nothing breaks in on C, also no second Control-C
             lib.rb_api_stop_until(self.at, over)
