@@ -13,7 +13,7 @@ and found, are in m, N/m, Pa or inch, lbf/inch, psi. Creepage > 0 brakes A, then
 """
 
 from . import _library, pictures  # _library first: see _kernels
-from ._case import (Case, Curve, Derivatives, Extremum, History, Solution, Stress, Sweep, Wear, curve, history, solve,
+from ._case import (Case, Curve, Curves, Derivatives, Extremum, History, Solution, Stress, Sweep, Wear, curve, history, solve,
                     stress, sweep, wear)
 from ._inverse import (Crack, Design, Fit, Parameter, crack, curve_derivatives, derivatives, design, fit,
                        history_derivatives, tolerances)
@@ -22,7 +22,7 @@ from ._library import (OPTIONS, RESULTS, VERSION as __version__, Error, InvalidI
 from ._problems import Answer, Complementarity, Friction, Game, Solutions, friction, game, lcp
 from ._program import Check, ContactCases, Reference, References, check, contact, examples, verify
 
-__all__ = ["Answer", "Case", "Check", "Complementarity", "ContactCases", "Crack", "Curve", "Derivatives",
+__all__ = ["Answer", "Case", "Check", "Complementarity", "ContactCases", "Crack", "Curve", "Curves", "Derivatives",
            "Design",
            "Error", "Extremum", "Fit", "Friction", "Game", "History", "InvalidInput", "MissingFile", "Note",
            "OPTIONS", "OutOfMemory", "Parameter", "RESULTS", "Reference", "References", "Solution", "Solutions",

@@ -13,7 +13,7 @@ import sys
 import tempfile
 import warnings
 import weakref
-from typing import Any, Iterator, Mapping, Optional, Sequence, Union
+from typing import Any, Callable, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,8 +23,10 @@ from ._library import (CRACK_OPTIONS, GROUPS, OPTIONS, RESULTS, SOLVED, Handle, 
                        Unsolved, doubles, handles, lib, texts, unit_of)
 
 Array = NDArray[np.float64]
-Table = Mapping[str, Sequence[float]]
+Table = Union[Mapping[str, Sequence[float]], Array]
 Value = Union[bool, int, float, str, os.PathLike, Sequence[float], Table]
+
+REFUSED = -1  # status of a combination that is none
 
 _CaseLike = Union["Case", str, os.PathLike, Mapping[str, Optional[Value]], None]
 
@@ -44,12 +46,15 @@ class Case:
     ``Case(mu=0.3, creep=0.1)``, ``Case("rail.ini", load=800)``.  Names are those of the
     program with ``_`` for ``-``; what is given here wins over the file.  Options that name a
     file with a table (``gap``, ``irregularity``, ``history``) take a dictionary of columns as
-    well.  ``case["mu"]`` is a value as the program resolves it.  A dictionary of options may
+    well, or an array of N x 2.  ``case["mu"]`` is a value as the program resolves it, ``dict(case)`` has all of them;
+    cases are equal if all their values are.  A dictionary of options may
     stand for the file: ``Case({"mu": 0.3, "contact-elements": 60})``.
     """
 
-    def __init__(self, file: Union[str, os.PathLike, Mapping[str, Optional[Value]], None] = None,
+    def __init__(self, file: Union["Case", str, os.PathLike, Mapping[str, Optional[Value]], None] = None,
                  **options: Optional[Value]) -> None:
+        if isinstance(file, Case):
+            file, options = file.file, {**file.options, **options}
         if hasattr(file, "keys"):  # also a pandas.Series
             options = {**_values.names("case", file), **options}
             file = None
@@ -69,11 +74,15 @@ class Case:
         self._take(state["options"])
 
     def _as_text(self, name: str, value: Value) -> str:
-        if not isinstance(value, Mapping) and not (hasattr(value, "keys") and np.ndim(value) == 2):  # a DataFrame
-            return _values.text(name, value)
-        if name in OPTIONS and OPTIONS[name].kind in ("number", "integer", "flag"):
+        kind = OPTIONS[name].kind if name in OPTIONS else ""
+        is_table = isinstance(value, Mapping) or np.ndim(value) == 2 and not isinstance(value, (str, bytes))
+        if kind == "integer" and isinstance(value, (float, np.floating)) and float(value).is_integer():
+            value = int(value)  # of an axis of a study, or of a column of pandas
+        if not is_table:
+            return _values.flag(name, value) if kind == "flag" else _values.text(name, value)
+        if kind in ("number", "integer", "flag"):
             raise InvalidInput(f"{name}=: expected {OPTIONS[name].expected}, got columns of a table")
-        return self._write_table(_values.columns(name, value))
+        return self._write_table(_values.columns(name, value if hasattr(value, "keys") else _values.rows(name, value)))
 
     def _write_table(self, columns: Table) -> str:
         with tempfile.NamedTemporaryFile("w", prefix="rollbem-", suffix=".txt", delete=False) as file:
@@ -97,12 +106,61 @@ class Case:
         """The same case with other options; None takes one away."""
         return Case(self.file, **{**self.options, **options})
 
-    def __getitem__(self, option: str) -> Union[bool, int, float, str]:
-        if option.replace("-", "_") not in OPTIONS:
-            raise KeyError(option)
+    def _resolved(self) -> Handle:
         handle = self.handle("solve")
         handle.check(handle.ask("rb_api_resolve"))
-        return _value(option, handle)
+        return handle
+
+    def __contains__(self, option: object) -> bool:
+        """Whether there is an option of that name; ``case.options`` has those that were given."""
+        return isinstance(option, str) and option.replace("-", "_") in OPTIONS
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(OPTIONS)
+
+    def __len__(self) -> int:
+        return len(OPTIONS)
+
+    def __getitem__(self, option: str) -> Union[bool, int, float, str]:
+        if option not in self:
+            raise KeyError(option)
+        return _value(option, self._resolved())
+
+    def keys(self) -> Any:
+        """All options; ``dict(case)`` has their values as the program resolves them."""
+        return OPTIONS.keys()
+
+    def values(self) -> list:
+        """The values of all options, as the program resolves them."""
+        return [value for _, value in self.items()]
+
+    def items(self) -> list:
+        """All options with their values, as the program resolves them."""
+        handle = self._resolved()
+        return [(name, _value(name, handle)) for name in OPTIONS]
+
+    def _key(self) -> tuple:
+        """What makes two cases one: values as they are resolved, and what stands in tables."""
+        handle = self._resolved()
+        tables = {name: tuple((column, tuple(map(float, values))) for column, values in _values.columns(
+                      name, value if hasattr(value, "keys") else _values.rows(name, value)).items())
+                  for name, value in self.options.items()
+                  if isinstance(value, Mapping) or np.ndim(value) == 2 and not isinstance(value, (str, bytes))}
+        return tuple(tables.get(name, handle.value(option.name)) for name, option in OPTIONS.items())
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Case):
+            return NotImplemented
+        try:
+            return self is other or self._key() == other._key()
+        except InvalidInput:  # one of them is none that can be solved
+            return self.file == other.file and self._texts == other._texts
+
+    def __hash__(self) -> int:
+        try:
+            return hash(self._key())
+        except InvalidInput:
+            return hash((self.file, *sorted(self._texts.items())))
 
     def solve(self, progress: Progress = None) -> "Solution":
         """See :func:`solve`."""
@@ -155,7 +213,7 @@ class _ByInput(dict):
         other = name.replace("_", "-") if isinstance(name, str) else name
         if other in self:
             return self[other]
-        raise KeyError(name)
+        raise KeyError(f"{name}{_values.guess(name, self)}")
 
 
 def _unit(result: str, table: str, unit_of_input: str, system: str) -> str:
@@ -179,7 +237,8 @@ class Derivatives(dict):
     units: "dict[str, dict[str, str]]"
     elements: Optional[str] = None  # of a solution: whether its elements move while an input changes
 
-    def __init__(self, handle: Any = None, of: str = "", shape: "tuple[int, ...]" = (-1,), system: str = "") -> None:
+    def __init__(self, handle: Any = None, of: str = "", placed: "Callable[[Array], Array]" = np.ravel,
+                 system: str = "") -> None:
         super().__init__()
         self.sides, self.units = {}, {}
         for slope in handle.slopes(of) if handle is not None else []:
@@ -187,9 +246,12 @@ class Derivatives(dict):
             if array.ndim == 2:
                 self.sides.setdefault(slope.result, _ByInput())[slope.input] = array
                 array = np.where(np.isnan(array[:, 1]), array[:, 0], array[:, 1])
-            self._add(slope.result, slope.input, array.reshape(shape),
+            self._add(slope.result, slope.input, placed(array),
                       _unit(slope.result, "step" if of == "history" else "number", slope.unit,
                             system or handle.value("units")))
+
+    def __missing__(self, result: str) -> Any:
+        raise KeyError(f"{result}{_values.guess(result, self)}")
 
     def _add(self, result: str, name: str, value: Any, unit: str) -> None:
         self.setdefault(result, _ByInput())[name] = value
@@ -257,6 +319,7 @@ class _Named:
     _arrays: dict
     _numbers: dict
     _system: str = "mm"  # units of the case
+    _tables: "tuple[str, ...]" = ()  # of its columns
 
     def _in(self, unit: str) -> str:
         """A unit of mm, N, MPa as the results have it."""
@@ -268,7 +331,8 @@ class _Named:
                 for known in (name, name[:-1] if name.endswith("_") else name):  # yield_
                     if known in values:
                         return values[known]
-        raise AttributeError(f"{type(self).__name__} has no '{name}'")
+        known = (*self._arrays, *self._numbers) if not name.startswith("_") else ()
+        raise AttributeError(f"{type(self).__name__} has no '{name}'{_values.guess(name, known)}")
 
     def __dir__(self) -> list:
         found = {name + "_" * keyword.iskeyword(name) for name in (*self._arrays, *self._numbers)}
@@ -287,7 +351,8 @@ class _Named:
 
         columns = self.columns()
         frame = pandas.DataFrame({name: np.ravel(values) for name, values in columns.items()})
-        known = {name: self._in(row.unit) for table in RESULTS.values() for name, row in table.items()}
+        known = {name: self._in(row.unit) for table in (*RESULTS, *reversed(self._tables))
+                 for name, row in RESULTS[table].items()}
         known.update({f"deviation_{name}": unit for name, unit in known.items()})
         if self.__dict__.get("derivatives"):
             known.update(_units_of(self.__dict__["derivatives"]))
@@ -323,6 +388,8 @@ class Solution(_Named):
     Arrays are read-only views of memory that the solution owns; they stay valid as long as
     they are used.  A column hides a number of the same name; ``numbers`` has all numbers.
     """
+
+    _tables = ("column",)
 
     def __init__(self, case: Case, handle: Handle) -> None:
         self.case, self._handle = case, handle
@@ -469,9 +536,13 @@ class Solution(_Named):
             handle.check(handle.run("rb_api_pivots"))
             return handle.array("lcp.M").copy(), handle.array("lcp.q").copy()
 
-    def plot(self, figure: Any = None) -> Any:
-        """The picture of the program: tractions, zones, slip.  Returns the figure."""
-        return pictures.tractions(self, figure)
+    def plot(self, figure: Any = None, ax: Any = None, label: Optional[str] = None) -> Any:
+        """The picture of the program: tractions, zones, slip.  Returns the figure.
+
+        ``ax``: the axes of the tractions, or two, the second for the slip; ``label`` names the case where several
+        stand in one figure: ``figure = a.plot(label="dry"); b.plot(figure, label="wet")``.
+        """
+        return pictures.tractions(self, figure, ax, label)
 
     def __repr__(self) -> str:
         n = self._numbers
@@ -502,6 +573,8 @@ class History(_Named):
     q: Array
     zone: NDArray[np.int_]
 
+    _tables = ("step",)
+
     def __init__(self, solution: Solution) -> None:
         handle = solution._handle
         self.solution, self._system = solution, solution._system
@@ -516,9 +589,9 @@ class History(_Named):
         self.p, self.q, zone = (np.atleast_2d(handle.array(f"step.{name}").T) for name in ("p", "q", "zone"))
         self.zone = zone.astype(int)
 
-    def plot(self, figure: Any = None) -> Any:
-        """Force and stick over the rolled distance.  Returns the figure."""
-        return pictures.history(self, figure)
+    def plot(self, figure: Any = None, ax: Any = None, label: Optional[str] = None) -> Any:
+        """Force and stick over the rolled distance.  Returns the figure; ``ax``, ``label`` as of a solution."""
+        return pictures.history(self, figure, ax, label)
 
     def __repr__(self) -> str:
         way = f" over {self.distance[-1]:.5g} half-widths" if self.distance[-1] > 0.0 else " at rest"
@@ -541,6 +614,8 @@ class Curve(_Named):
     free_creepage: float
     half_width: float
 
+    _tables = ("point",)
+
     def __init__(self, case: Case, handle: Handle, over: str) -> None:
         self.case, self.over, self._system = case, over, handle.value("units")
         self._arrays = handle.arrays("point", "curve.")
@@ -552,9 +627,10 @@ class Curve(_Named):
         self.mu = _value("mu", handle)
         self.carter_holds = handle.number("carter") == 1.0
 
-    def plot(self, figure: Any = None) -> Any:
-        """The picture of the program: -Q/(mu P) over the creepage.  Returns the figure."""
-        return pictures.curves([self], figure)
+    def plot(self, figure: Any = None, ax: Any = None, label: Optional[str] = None) -> Any:
+        """The picture of the program: -Q/(mu P) over the creepage.  Returns the figure; ``ax``, ``label`` as of a
+        solution."""
+        return pictures.curves([self], figure, ax, label)
 
     def __repr__(self) -> str:
         over = self._arrays[self.over.replace("-", "_")]
@@ -562,6 +638,28 @@ class Curve(_Named):
         largest = f"; largest |Q|/(mu P) {np.abs(found).max():.5g}" if len(found) else ""
         return (f"<Curve: {len(over)} points, {self.over.replace('-', '_')} {over.min():.5g} ... {over.max():.5g}, "
                 f"mu = {self.mu}{largest}>")
+
+
+class Curves(list):
+    """Creep curves of several coefficients of friction, as ``curve(mu=[0.1, 0.3])`` gives them."""
+
+    def plot(self, figure: Any = None, ax: Any = None) -> Any:
+        """-Q/P of all of them over the creepage, as the program draws them.  Returns the figure."""
+        return pictures.curves(self, figure, ax)
+
+    def to_pandas(self) -> Any:
+        """Their columns below each other, behind a column ``mu``."""
+        import pandas
+
+        frames = [curve.to_pandas() for curve in self]
+        for curve, frame in zip(self, frames):
+            frame.insert(0, "mu", curve.mu)
+        together = pandas.concat(frames, ignore_index=True)
+        together.attrs = frames[0].attrs
+        return together
+
+    def __repr__(self) -> str:
+        return f"<Curves: mu = {', '.join(str(curve.mu) for curve in self)}>"
 
 
 class Extremum(tuple):
@@ -592,6 +690,8 @@ class Stress(_Named):
     solution: Solution
     maxima: "dict[str, Extremum]"
 
+    _tables = ("stress",)
+
     def __init__(self, solution: Solution, maxima: dict) -> None:
         # copied: the next stress of the same solution is made in the same memory
         found = solution._live().arrays("stress", "stress.", copied=True)
@@ -599,9 +699,9 @@ class Stress(_Named):
         self._arrays = {name: array.T for name, array in found.items()}
         self._numbers = {}
 
-    def plot(self, figure: Any = None, field: str = "max_shear") -> Any:
+    def plot(self, figure: Any = None, field: str = "max_shear", ax: Any = None) -> Any:
         """Contours of a field of a grid.  Returns the figure."""
-        return pictures.contours(self, figure, field)
+        return pictures.contours(self, figure, field, ax)
 
     def __repr__(self) -> str:
         largest = self.maxima["max_shear"]
@@ -619,15 +719,17 @@ class Wear(_Named):
     x: Optional[Array]
     depth: Optional[Array]
 
+    _tables = ("wear",)
+
     def __init__(self, case: Case, handle: Handle) -> None:
         self.case, self._system = case, handle.value("units")
         self._arrays = handle.arrays("wear", "wear.")
         self._numbers = {}
         self.x, self.depth = (handle.array(f"wear.profile.{name}") for name in ("x", "depth"))
 
-    def plot(self, figure: Any = None) -> Any:
-        """Worn volume over the way, and the profile at the end.  Returns the figure."""
-        return pictures.wear(self, figure)
+    def plot(self, figure: Any = None, ax: Any = None, label: Optional[str] = None) -> Any:
+        """Worn volume over the way, and the profile at the end.  Returns the figure; ``ax``, ``label`` as of a solution."""
+        return pictures.wear(self, figure, ax, label)
 
     def __repr__(self) -> str:
         return (f"<Wear: {len(self.way) - 1} steps; worn {self.worn[-1]:.6g} {self._in('mm2')}, "
@@ -637,7 +739,7 @@ class Wear(_Named):
 class Sweep(_Named):
     """A study: an array per result, with an axis per varied option, in the order given.
 
-    ``axes`` holds the values of each; ``status`` is 0 where a case was solved.
+    ``axes`` holds the values of each; ``status`` is 0 where a case was solved, -1 where the combination is impossible.
     """
 
     axes: "dict[str, Array]"
@@ -646,16 +748,28 @@ class Sweep(_Named):
     derivatives: Derivatives  # of sweep(derivatives=...)
     tolerances: dict  # standard deviations, of sweep(tolerance=...)
 
-    def __init__(self, axes: Mapping[str, Array], handle: Handle, system: str) -> None:
+    _tables = ("number", "crack")
+
+    def __init__(self, axes: Mapping[str, Array], handle: Handle, system: str, at: "list[int]") -> None:
         shape = tuple(len(values) for values in axes.values())
+        count = int(np.prod(shape))
+
+        def placed(array: Array, missing: float = np.nan) -> Array:
+            """Solved cases at their places; impossible combinations have no number."""
+            if len(at) == count:
+                return array.reshape(shape)
+            whole = np.full(count, missing, dtype=float if missing != missing else array.dtype)
+            whole[at] = array
+            return whole.reshape(shape)
+
         self.axes, self._system = dict(axes), system
-        found = {"status": handle.array("sweep.status").astype(int), **handle.arrays("crack", "sweep."),
-                 **handle.arrays("number", "sweep.")}
-        self._arrays = {name: array.reshape(shape) for name, array in found.items()}
+        found = {**handle.arrays("crack", "sweep."), **handle.arrays("number", "sweep.")}
+        self._arrays = {"status": placed(handle.array("sweep.status").astype(int), REFUSED),
+                        **{name: placed(array) for name, array in found.items()}}
         self._numbers = {}
         self.notes = handle.notes()
-        self.derivatives = Derivatives(handle, "sweep", shape, system)
-        self.tolerances = {name: array.reshape(shape) for name, array in handle.arrays("number", "sweep.tolerance.").items()
+        self.derivatives = Derivatives(handle, "sweep", placed, system)
+        self.tolerances = {name: placed(array) for name, array in handle.arrays("number", "sweep.tolerance.").items()
                            if np.isfinite(array).any()}
 
     def columns(self) -> dict:
@@ -665,10 +779,10 @@ class Sweep(_Named):
         return {**{name: array.ravel() for name, array in super().columns().items()}, **found}
 
     def plot(self, figure: Any = None, show: str = "force_ratio", over: Optional[str] = None,
-             family: Optional[str] = None, map: bool = False) -> Any:
+             family: Optional[str] = None, map: bool = False, ax: Any = None) -> Any:
         """A result over one option, a curve for each value of another, as ``rollbem sweep --plot``;
         with ``map`` its contours over the two.  Returns the figure."""
-        return pictures.study(self, show, over, family, map, figure)
+        return pictures.study(self, show, over, family, map, figure, ax)
 
     def __repr__(self) -> str:
         over = " x ".join(f"{len(v)} {k}" for k, v in self.axes.items())
@@ -703,10 +817,10 @@ def solve(case: _CaseLike = None, *, progress: Progress = None,
 
 def curve(case: _CaseLike = None, start: float = 0.0, stop: float = 1.5,
           points: int = 61, over: str = "creep-ratio", *, derivatives: Any = None, tolerance: Any = None,
-          progress: Progress = None, **options: Any) -> Union[Curve, "list[Curve]"]:
+          progress: Progress = None, **options: Any) -> Union[Curve, Curves]:
     """Steady rolling at equally spaced creepage ratios, or over="creep" creepages.
 
-    With several ``mu`` a list of curves.  ``progress(done, total)`` is called with the number of points
+    With several ``mu`` a list of curves, which has their ``plot``.  ``progress(done, total)`` is called with the number of points
     now and then, for each curve anew.
     ``derivatives``, as ``"tangential_load:mu,max_pressure"`` or a list of such names, or True for all: those of the numbers
     of each point by one or all options; ``derivatives["tangential_load"]["mu"]`` of the curve has an entry per point.
@@ -716,8 +830,8 @@ def curve(case: _CaseLike = None, start: float = 0.0, stop: float = 1.5,
     case = _case(case, options)
     mu = case.options.get("mu")
     if mu is not None and np.ndim(mu) == 1:
-        return [curve(case.but(mu=value), start, stop, points, over, derivatives=derivatives, tolerance=tolerance, progress=progress)
-                for value in _values.vector("mu", mu)]
+        return Curves(curve(case.but(mu=value), start, stop, points, over, derivatives=derivatives, tolerance=tolerance,
+                            progress=progress) for value in _values.vector("mu", mu))
     handle = case.handle("curve")
     range_ = (_values.word("over", over, "creep-ratio, creep or speed"), _values.number("start", start),
               _values.number("stop", stop), _values.whole("points", points))
@@ -840,21 +954,30 @@ def sweep(case: _CaseLike = None, workers: int = 0, progress: Progress = None,
     workers = _values.whole("workers", workers)
     base = case if isinstance(case, Case) else Case(case)
     options = {crack_option(name) or name: value for name, value in options.items()}
-    axes = {name: _values.vector(name, value) for name, value in options.items()
+    axes = {name: _values.axis(name, value) for name, value in options.items()
             if isinstance(value, (list, range)) or np.ndim(value) == 1 and hasattr(value, "__array__")}
     cracks = [name for name in options if name in CRACK_OPTIONS]
     base = base.but(**{name: value for name, value in options.items() if name not in (*axes, *cracks)})
     if not axes:
         raise InvalidInput("sweep: expected at least one option with a list of values, such as mu=[0.1, 0.3]")
-    cases, words = [], []
-    for values in itertools.product(*axes.values()):
-        one = dict(zip(axes, values))
-        cases.append(base.handle("crack" if cracks else "sweep",
-                                 **{name: value for name, value in one.items() if name not in cracks}))
-        words += [_values.text(name, one.get(name, options[name])) for name in cracks]
-    study = Handle("sweep")
     if cracks and (derivatives is not None or tolerance is not None):
         raise InvalidInput(f"sweep: {'tolerance' if derivatives is None else 'derivatives'}: not of cracks")
+    combinations = [dict(zip(axes, values)) for values in itertools.product(*axes.values())]
+    cases, words, at, refused = [], [], [], []
+    for k, one in enumerate(combinations):
+        try:
+            handle = base.handle("crack" if cracks else "sweep",
+                                 **{name: value for name, value in one.items() if name not in cracks})
+            handle.check(handle.ask("rb_api_resolve"))
+        except InvalidInput as error:  # an impossible combination is no end of the study
+            refused.append((one, error))
+            continue
+        cases.append(handle)
+        at.append(k)
+        words += [_values.text(name, one.get(name, options[name])) for name in cracks]
+    if not cases:
+        raise refused[0][1]
+    study = Handle("sweep")
     if derivatives is not None or tolerance is not None:
         status = study.run("rb_api_sweep_derivatives", len(cases), handles(cases),
                            None if derivatives is None else _words(derivatives),
@@ -866,9 +989,23 @@ def sweep(case: _CaseLike = None, workers: int = 0, progress: Progress = None,
     else:
         status = study.run("rb_api_sweep", len(cases), handles(cases), workers, progress=progress)
     study.check(status)
-    found = Sweep(axes, study, cases[0].value("units"))
+    axes = {name: _numbers_of(name, values, combinations, at, cases) for name, values in axes.items()}
+    found = Sweep(axes, study, cases[0].value("units"), at)
+    if refused:
+        one, error = refused[0]
+        which = ", ".join(f"{name}={value}" for name, value in one.items())
+        found.notes.insert(0, f"{len(refused)} of {len(combinations)} combinations {'is' if len(refused) == 1 else 'are'} "
+                              f"impossible and not solved ({which}: {error})")
     _warn(found.notes)
     return found
+
+
+def _numbers_of(name: str, values: Any, combinations: "list[dict]", at: "list[int]", cases: "list[Handle]") -> Array:
+    """Values with units ("100kN/m") as the numbers that the program reads; words stay words."""
+    if values.dtype.kind != "O" or name not in OPTIONS or OPTIONS[name].kind not in ("number", "integer"):
+        return values
+    read = {str(combinations[k][name]): _value(name, handle) for k, handle in zip(at, cases)}
+    return np.array([read.get(str(value), np.nan) for value in values])
 
 
 def crack_option(name: str) -> Optional[str]:

@@ -7,7 +7,7 @@ from typing import Any, Mapping, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 
-from . import _values
+from . import _values, pictures
 from ._case import (Array, Case, Derivatives, Solution, Table, _case, _CaseLike, _Named, _uncertain, _unit, _warn,
                     crack_option, curve, history)
 from ._library import SOLVED, InvalidInput, Progress, doubles, in_keywords, lib, texts
@@ -43,14 +43,13 @@ class Crack(_Named):
         """The numbers by name."""
         return dict(self._numbers)
 
-    def plot(self, figure: Any = None) -> Any:
-        """K_I and K_II over the position of the contact.  Returns the figure."""
-        import matplotlib.pyplot
+    _tables = ("position", "crack")
 
-        figure = figure or matplotlib.pyplot.figure()
-        axes = figure.add_subplot()
-        axes.plot(self.x, self.K_I, label="$K_I$")
-        axes.plot(self.x, self.K_II, "--", label="$K_{II}$")
+    def plot(self, figure: Any = None, ax: Any = None, label: Optional[str] = None) -> Any:
+        """K_I and K_II over the position of the contact.  Returns the figure; ``ax``, ``label`` as of a solution."""
+        figure, (axes,) = pictures._figure(figure, 1, ax)
+        axes.plot(self.x, self.K_I, label=pictures._named_line(axes, label, "$K_I$"))
+        axes.plot(self.x, self.K_II, "--", label=pictures._named_line(axes, label, "$K_{II}$"))
         axes.set_xlabel(f"position of the contact  [{self._in('mm')}]")
         axes.set_ylabel(f"stress intensity  [{self._in('MPa.mm^0.5').replace('.', ' ', 1).replace('^0.5', '$^{1/2}$')}]")
         axes.legend()
@@ -198,16 +197,14 @@ class Fit(_Named):
     def __getitem__(self, name: str) -> Parameter:
         return self.parameters[name.replace("_", "-")]
 
-    def plot(self, figure: Any = None) -> Any:
-        """Points and fitted curve.  Returns the figure."""
-        import matplotlib.pyplot
-
-        figure = figure or matplotlib.pyplot.figure()
-        axes = figure.add_subplot()
+    def plot(self, figure: Any = None, ax: Any = None, label: Optional[str] = None) -> Any:
+        """Points and fitted curve.  Returns the figure; ``ax``, ``label`` as of a solution."""
+        figure, (axes,) = pictures._figure(figure, 1, ax)
         over, force = list(self._arrays)[:2]
         order = np.argsort(self._arrays[over])
-        axes.plot(self._arrays[over], self._arrays[force], "o", label="measured")
-        axes.plot(self._arrays[over][order], self._arrays["fitted"][order], label="fitted")
+        axes.plot(self._arrays[over], self._arrays[force], "o", label=pictures._named_line(axes, label, "measured"))
+        axes.plot(self._arrays[over][order], self._arrays["fitted"][order],
+                  label=pictures._named_line(axes, label, "fitted"))
         axes.set_xlabel(over)
         axes.set_ylabel(force)
         axes.legend()
@@ -317,6 +314,12 @@ class Design(_Named):
                          "start": float(handle.array("design.result.start")[0]),
                          "evaluations": int(handle.array("design.evaluations")[0])}
         self.result, self.status, self._system = result, handle.word("status"), handle.value("units")
+
+    def to_pandas(self) -> Any:
+        """A row per variable: ``value``."""
+        import pandas
+
+        return pandas.DataFrame(list(self.variables.items()), columns=["variable", "value"])
 
     def __repr__(self) -> str:
         return f"<Design: {self.result} {self.value:.6g}, at the start {self.start:.6g}>"

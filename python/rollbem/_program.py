@@ -47,6 +47,12 @@ class Check(NamedTuple):
     def __bool__(self) -> bool:
         return self.valid
 
+    def to_pandas(self) -> Any:
+        """A row per line of what was found."""
+        import pandas
+
+        return pandas.DataFrame({"file": self.file, "valid": self.valid, "finding": self.findings or [""]})
+
     def __repr__(self) -> str:
         return f"<Check: {self.file}: {'valid' if self.valid else 'violated'}; {'; '.join(self.findings)}>"
 

@@ -11,18 +11,23 @@ from rollbem._library import OPTIONS, RESULTS
 
 _HEAD = """# Made from the tables of the library by rollbem._stubs.
 import os
-from typing import Any, Callable, Dict, List, Literal, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import (Any, Callable, Dict, Iterator, List, Literal, Mapping, NamedTuple, Optional, Protocol, Sequence,
+                    SupportsFloat, Tuple, Union)
 import numpy as np
 from numpy.typing import NDArray
 from . import pictures as pictures
 
 Array = NDArray[np.float64]
-Table = Mapping[str, Sequence[float]]
+Table = Union[Mapping[str, Union[Sequence[float], NDArray[Any]]], NDArray[Any], "_Frame"]
 Progress = Optional[Callable[[int, int], object]]
-Value = Union[bool, int, float, str, os.PathLike, Sequence[float], Table]
+Value = Union[bool, int, SupportsFloat, str, os.PathLike, Sequence[Any], Table]
 _Path = Union[str, os.PathLike]
 _CaseLike = Union["Case", str, os.PathLike, Mapping[str, Optional[Value]], None]
 _Numbers = Union[float, Sequence[float], Array]
+
+class _Frame(Protocol):  # such as pandas.DataFrame
+    def keys(self) -> Any: ...
+    def __getitem__(self, name: Any) -> Any: ...
 """
 
 # The tables whose columns are arrays, and those of single numbers, of each result.
@@ -30,13 +35,13 @@ _RESULTS: "dict[str, tuple[tuple, tuple]]" = {
     "Solution": (("column",), ("number",)), "History": (("step",), ()), "Curve": (("point",), ()),
     "Stress": (("stress",), ()), "Sweep": (("number",), ()), "Wear": (("wear",), ())}
 # What of a class is used by its signs: s["mu"], len(c), bool(check).
-_SPECIAL = ("__getitem__", "__len__", "__iter__", "__bool__", "__contains__")
+_SPECIAL = ("__getitem__", "__len__", "__iter__", "__bool__", "__contains__", "__eq__", "__hash__")
 
 
 def _option_type(name: str, many: bool) -> str:
     row = OPTIONS[name]
     words = ", ".join(repr(word) for word in row.choices.split()) if row.kind == "choice" else ""
-    one = {"flag": "bool", "integer": "int", "number": "Union[float, str]"}.get(row.kind, "Union[str, os.PathLike, Table]")
+    one = {"flag": "bool", "integer": "int", "number": "Union[SupportsFloat, str]"}.get(row.kind, "Union[str, os.PathLike, Table]")
     one = f"Literal[{words}]" if words else one
     return f"Union[{one}, Sequence[Any]]" if many or row.kind == "number" else one
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 from typing import Any, Mapping, Sequence
 
@@ -139,6 +140,50 @@ def table(name: str, value: Any) -> NDArray[np.float64]:
     if found.ndim != 2 or found.size == 0:
         raise InvalidInput(f"{name}=: expected a matrix, got {' x '.join(map(str, found.shape)) or 'a number'}")
     return found
+
+
+def rows(name: str, value: Any) -> dict:
+    """The columns of an array of N x 2 or more, by their numbers: most have no names."""
+    found = array(name, value)
+    if found.ndim != 2 or found.shape[1] < 2 or len(found) == 0:
+        raise InvalidInput(f"{name}=: expected columns, an array of N x 2, got {' x '.join(map(str, found.shape))}")
+    names = ("x", "gap") if name == "gap" and found.shape[1] == 2 else map(str, range(found.shape[1]))
+    return {column: found[:, k] for k, column in enumerate(names)}
+
+
+def axis(name: str, value: Any) -> NDArray[Any]:
+    """Values of an option that varies: numbers, or texts as a case has them."""
+    values = list(value) if not isinstance(value, range) else value
+    if any(isinstance(_one(one), (str, bool)) for one in values):
+        found = np.empty(len(values), dtype=object)
+        found[:] = [_one(one) for one in values]
+        return found
+    return vector(name, value)
+
+
+def flag(name: str, value: Any) -> str:
+    """Yes or no: also 0 and 1."""
+    one = _one(value)
+    return text(name, bool(one) if isinstance(one, (int, float)) and one in (0, 1) else one)
+
+
+# What people call results.
+_ALSO = {"Q": "tangential_load", "P": "normal_load", "p0": "max_pressure", "a": "half_width", "xi": "creepage",
+         "delta": "approach", "friction_force": "tangential_load", "tangential_force": "tangential_load",
+         "force": "tangential_load", "normal_force": "normal_load", "load": "normal_load", "peak_pressure": "max_pressure",
+         "pmax": "max_pressure", "pressure": "p", "traction": "q", "shear": "q", "traction_coefficient": "force_ratio",
+         "friction_coefficient": "force_ratio", "width": "half_width", "power": "dissipation", "slip_zone": "zone"}
+
+
+def guess(name: Any, known: Any) -> str:
+    """ " (did you mean 'tangential_load'?)", or nothing."""
+    if not isinstance(name, str):
+        return ""
+    names = [one for one in known if isinstance(one, str)]
+    lower = name.lower().replace("-", "_").replace(" ", "_")
+    found = [other for key, other in _ALSO.items() if key.lower() == lower and other in names]
+    found += difflib.get_close_matches(lower, names, 1, 0.7)
+    return f" (did you mean '{found[0]}'?)" if found else ""
 
 
 def columns(name: str, table: Mapping[str, Sequence[float]]) -> dict:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Optional, Sequence
 import numpy as np
 
 from ._library import CRACK_OPTIONS, OPTIONS, RESULTS, InvalidInput
+from ._values import guess
 
 if TYPE_CHECKING:
     from ._case import Curve, History, Solution, Stress, Sweep, Wear
@@ -21,13 +22,39 @@ STYLE = {"axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor":
          "axes.titlesize": 10, "svg.fonttype": "none"}
 
 
-def _figure(figure: Any, rows: int = 1, **keywords: Any) -> Any:
-    """The figure and its axes: a new one, unless the caller has one."""
+def _figure(figure: Any, rows: int = 1, ax: Any = None, **keywords: Any) -> Any:
+    """The figure and its axes: those of the caller, of a figure that has as many, or new ones.
+
+    Of several rows the caller may give the axes of the first alone: the others are None then.
+    """
     from matplotlib import pyplot
 
+    if ax is not None:
+        given = list(np.ravel(np.asarray(ax, dtype=object)))
+        if len(given) > rows or not all(hasattr(axes, "plot") for axes in given):
+            raise InvalidInput(f"ax=: expected axes of matplotlib, {'one' if rows == 1 else f'one or {rows}'}, got {ax!r}")
+        return given[0].figure, [*given, *[None] * (rows - len(given))]
     with pyplot.rc_context(STYLE):
         figure = figure or pyplot.figure(figsize=(6.4, 4.4), constrained_layout=True)
-        return figure, np.atleast_1d(figure.subplots(rows, 1, **keywords))
+        there = [axes for axes in figure.axes if axes.get_label() != "<colorbar>"]
+        if len(there) == rows and all(hasattr(axes, "rollbem") for axes in there):
+            return figure, there  # a second case in the picture of the first
+        made = np.atleast_1d(figure.subplots(rows, 1, **keywords))
+        for axes in made:
+            axes.rollbem = True
+        return figure, made
+
+
+def _named_line(axes: Any, label: "Optional[str]", what: "Optional[str]") -> "Optional[str]":
+    """What stands in the legend: the case behind the column, and nothing twice."""
+    text = what if label is None or what is None else f"{what}, {label}"
+    known = {line.get_label() for line in axes.get_lines()}
+    return None if text in known else text
+
+
+def _again(axes: Any) -> bool:
+    """Whether the axes have lines of another case."""
+    return any(not line.get_label().startswith("_") for line in axes.get_lines())
 
 
 def _stress_unit(of: Any, largest: float) -> "tuple[float, str]":
@@ -67,88 +94,126 @@ def bounds(solution: "Solution") -> Any:
     return bound
 
 
-def tractions(solution: "Solution", figure: Any = None) -> Any:
-    """Pressure, friction between its bounds, zones, and the slip below."""
+def tractions(solution: "Solution", figure: Any = None, ax: Any = None, label: "Optional[str]" = None) -> Any:
+    """Pressure, friction between its bounds, zones, and the slip below.
+
+    A second case in the same axes is dashed, with zones of its own left out.
+    """
     s, mu = solution, solution.value("mu")
     bound = bounds(s)
-    unit, label = _stress_unit(s, s.max_pressure)
-    figure, (upper, lower) = _figure(figure, 2, sharex=True, gridspec_kw={"height_ratios": [2, 1]})
-    upper.set_xlim(*_limits(s))
-    _zones(upper, s, labelled=True)
-    _zones(lower, s, labelled=False)
-    for axes in (upper, lower):
-        axes.axhline(0, color="#999999", linewidth=0.6)
-    for sign, text in ((1, "±μp"), (-1, None)):
-        upper.plot(s.x, sign * bound / unit, "--", color=BOUND, linewidth=0.9, label=text)
-    upper.plot(s.x, s.p / unit, color=PRESSURE, label="pressure p")
-    upper.plot(s.x, s.q / unit, color=FRICTION, label="friction q")
+    figure, (upper, lower) = _figure(figure, 2, ax, sharex=True, gridspec_kw={"height_ratios": [2, 1]})
+    again = _again(upper)
+    unit, unit_name = _stress_unit(s, s.max_pressure)
+    if again:  # in the unit of the first
+        unit, unit_name = getattr(upper, "rollbem_unit", (unit, unit_name))
+    upper.rollbem_unit = (unit, unit_name)
+    low, high = _limits(s)
     below = max(1.2 * min(mu, 1.0) * s.max_pressure, 0.08 * s.max_pressure)
-    upper.set_ylim(-below / unit, (1.14 * s.max_pressure + 0.13 * below) / unit)
-    upper.set_ylabel(f"traction [{label}]")
-    upper.set_title(f"{s.formulation} contact: μ = {mu:g}, P = {s.normal_load:.5g} {s._in('N/mm')}, "
-                    f"Q = {s.tangential_load:.5g} {s._in('N/mm')}")
+    bottom, top = -below / unit, (1.14 * s.max_pressure + 0.13 * below) / unit
+    if again:
+        low, high = min(low, upper.get_xlim()[0]), max(high, upper.get_xlim()[1])
+        bottom, top = min(bottom, upper.get_ylim()[0]), max(top, upper.get_ylim()[1])
+    upper.set_xlim(low, high)
+    for axes in (upper, lower) if not again else ():
+        if axes is not None:
+            _zones(axes, s, labelled=axes is upper)
+            axes.axhline(0, color="#999999", linewidth=0.6)
+    dashes = "--" if again else "-"
+    for sign, text in ((1, "±μp"), (-1, None)):
+        upper.plot(s.x, sign * bound / unit, "--", color=BOUND, linewidth=0.9, label=_named_line(upper, None, text))
+    upper.plot(s.x, s.p / unit, dashes, color=PRESSURE, label=_named_line(upper, label, "pressure p"))
+    upper.plot(s.x, s.q / unit, dashes, color=FRICTION, label=_named_line(upper, label, "friction q"))
+    upper.set_ylim(bottom, top)
+    upper.set_ylabel(f"traction [{unit_name}]")
+    if not again and ax is None:
+        upper.set_title(f"{s.formulation} contact: μ = {mu:g}, P = {s.normal_load:.5g} {s._in('N/mm')}, "
+                        f"Q = {s.tangential_load:.5g} {s._in('N/mm')}")
+    elif ax is None:
+        upper.set_title("")
     upper.legend(loc="upper right", bbox_to_anchor=(1.0, 0.93), fontsize=8)
+    along = f"x [{s._in('mm')}]" + ("" if s.formulation == "static" else "   (rolling towards +x →)")
+    if lower is None:
+        upper.set_xlabel(along)
+        return figure
     touches = np.asarray(s.zone) != 0 if s.contact else np.full(len(s.x), True)
-    lower.plot(s.x, np.where(touches, s.slip, np.nan), color=SLIP)
+    lower.plot(s.x, np.where(touches, s.slip, np.nan), dashes, color=SLIP, label=label)
     lower.set_ylabel("slip")
-    lower.set_xlabel(f"x [{s._in('mm')}]" + ("" if s.formulation == "static" else "   (rolling towards +x →)"))
+    lower.set_xlabel(along)
     lower.ticklabel_format(axis="y", scilimits=(-2, 3))
     return figure
 
 
-def curves(of: "Sequence[Curve]", figure: Any = None) -> Any:
+def curves(of: "Sequence[Curve]", figure: Any = None, ax: Any = None, label: "Optional[str]" = None) -> Any:
     """-Q/(mu P) over the creepage ratio; of several mu, -Q/P over the creepage."""
-    figure, (axes,) = _figure(figure)
+    figure, (axes,) = _figure(figure, 1, ax)
+    before = sum(not line.get_label().startswith("_") and line.get_label() != "Carter" for line in axes.get_lines())
     several, over_creep = len(of) > 1, len(of) > 1 or of[0].over == "creep"
-    for curve, colour in zip(of, CURVES * (1 + len(of) // len(CURVES))):
+    for curve, colour in zip(of, (CURVES * (2 + (before + len(of)) // len(CURVES)))[before:]):
         scale = curve.mu if several else 1.0
         x = curve.creepage if over_creep else curve.creep_ratio
         if "force_ratio" in curve.errors:
             bar = np.abs(curve.errors["force_ratio"])
             axes.fill_between(x, scale * (-curve.force_ratio - bar), scale * (-curve.force_ratio + bar),
                               color=colour, alpha=0.25, linewidth=0, label="error")
-        axes.plot(x, -scale * curve.force_ratio, color=colour, label=f"μ = {curve.mu:g}")
+        axes.plot(x, -scale * curve.force_ratio, color=colour,
+                  label=f"μ = {curve.mu:g}" if label is None else label)
         if curve.carter_holds:
             ratio = np.linspace(curve.creep_ratio[0], curve.creep_ratio[-1], 25)
             share = np.minimum(np.abs(ratio), 1.0)
             carter = np.sign(ratio) * share * (2.0 - share)
             axes.plot(np.linspace(x[0], x[-1], 25), scale * carter, "o", markersize=4, markerfacecolor="none",
-                      color="#111111", label="Carter" if curve is of[0] else None)
+                      color="#111111", label=_named_line(axes, None, "Carter"))
     axes.grid(color="#dddddd", linewidth=0.6)
     axes.set_xlabel("creepage ξ" if over_creep else "creepage ratio ξR/(μa)")
     axes.set_ylabel("braking force −Q/P" if several else "braking force −Q/(μP)")
-    axes.set_title(f"Creep curve: P = {of[0].normal_load[-1]:.5g} {of[0]._in('N/mm')}, "
-                   f"a = {of[0].half_width:.4g} {of[0]._in('mm')}")
+    if ax is None:
+        axes.set_title("Creep curves" if before else
+                       f"Creep curve: P = {of[0].normal_load[-1]:.5g} {of[0]._in('N/mm')}, "
+                       f"a = {of[0].half_width:.4g} {of[0]._in('mm')}")
     axes.legend(loc="lower right")
     return figure
 
 
-def history(of: "History", figure: Any = None) -> Any:
+def history(of: "History", figure: Any = None, ax: Any = None, label: "Optional[str]" = None) -> Any:
     """Q/(mu P) and the stick over the rolled distance, or over the increments."""
-    figure, (upper, lower) = _figure(figure, 2, sharex=True)
+    figure, (upper, lower) = _figure(figure, 2, ax, sharex=True)
     rolls = of.distance[-1] > 0
     x = of.distance if rolls else np.arange(1, len(of.residual) + 1)
-    upper.plot(x, of.force_ratio, color=FRICTION)
+    again = bool(upper.get_lines())
+    dashes, along = "--" if again else "-", "rolled distance / a" if rolls else "increment"
+    upper.plot(x, of.force_ratio, dashes, color=FRICTION, label=label)
     upper.set_ylabel("Q/(μP)")
-    lower.step(x, of.stick, where="mid", color=PRESSURE, label="stick")
-    lower.step(x, of.slip, where="mid", color=SLIP, label="slip")
+    if label is not None:
+        upper.legend()
+    if lower is None:
+        upper.set_xlabel(along)
+        return figure
+    for values, colour, name in ((of.stick, PRESSURE, "stick"), (of.slip, SLIP, "slip")):
+        lower.step(x, values, dashes, where="mid", color=colour, label=_named_line(lower, label, name))
     lower.set_ylabel("elements")
-    lower.set_xlabel("rolled distance / a" if rolls else "increment")
+    lower.set_xlabel(along)
     lower.legend()
     return figure
 
 
-def wear(of: "Wear", figure: Any = None) -> Any:
+def wear(of: "Wear", figure: Any = None, ax: Any = None, label: "Optional[str]" = None) -> Any:
     """What is worn off over the way (the cycles), and the profile at the end."""
-    figure, (upper, lower) = _figure(figure, 2)
-    upper.plot(of.way, of.worn, color=PRESSURE)
+    figure, (upper, lower) = _figure(figure, 2, ax)
+    again = bool(upper.get_lines())
+    dashes = "--" if again else "-"
+    upper.plot(of.way, of.worn, dashes, color=PRESSURE, label=label)
     length = of._in("mm")
     upper.set_ylabel(f"worn / {length}²")
     upper.set_xlabel(f"way / {length}, or cycles")
+    if label is not None:
+        upper.legend()
+    if lower is None:
+        return figure
     if of.x is not None:
         scale, depth = {"mm": (1e3, "µm"), "m": (1e6, "µm")}.get(length, (1e3, f"10⁻³ {length}"))
-        lower.plot(of.x, np.asarray(of.depth) * scale, color=FRICTION)
-        lower.invert_yaxis()
+        lower.plot(of.x, np.asarray(of.depth) * scale, dashes, color=FRICTION)
+        if not lower.yaxis_inverted():
+            lower.invert_yaxis()
         lower.set_ylabel(f"depth / {depth}")
     lower.set_xlabel(f"x / {length}")
     return figure
@@ -161,13 +226,15 @@ def close(figure: Any) -> None:
     pyplot.close(figure)
 
 
-def contours(of: "Stress", figure: Any = None, field: str = "max_shear") -> Any:
+def contours(of: "Stress", figure: Any = None, field: str = "max_shear", ax: Any = None) -> Any:
     """Contours of a field below the contact, its largest value marked."""
+    if field not in of._arrays or field in ("x", "y"):
+        raise InvalidInput(f"field=: expected a stress, got '{field}'{guess(field, of._arrays)}")
     values = getattr(of, field)
     if values.ndim != 2 or 1 in values.shape:
         raise ValueError("contours need a stress on a grid")
     unit, label = _stress_unit(of, np.nanmax(np.abs(values)))
-    figure, (axes,) = _figure(figure)
+    figure, (axes,) = _figure(figure, 1, ax)
     filled = axes.contourf(of.x, of.y, np.ma.masked_invalid(values) / unit, 12, cmap="viridis")
     lines = axes.contour(of.x, of.y, np.ma.masked_invalid(values) / unit, filled.levels,
                          colors="white", linewidths=0.4)
@@ -176,10 +243,12 @@ def contours(of: "Stress", figure: Any = None, field: str = "max_shear") -> Any:
     if field in of.maxima:
         largest = of.maxima[field]
         axes.plot(largest.x, largest.y, "+", color="white", markersize=9)
-        axes.set_title(f"largest {field.replace('_', ' ')} {largest.value / unit:.5g} {label} "
-                       f"at ({largest.x:.4g}, {largest.y:.4g}) {of._in('mm')}")
+        if ax is None:
+            axes.set_title(f"largest {field.replace('_', ' ')} {largest.value / unit:.5g} {label} "
+                           f"at ({largest.x:.4g}, {largest.y:.4g}) {of._in('mm')}")
     axes.set(xlabel=f"x [{of._in('mm')}]", ylabel=f"depth y [{of._in('mm')}]", aspect="equal")
-    axes.invert_yaxis()
+    if not axes.yaxis_inverted():
+        axes.invert_yaxis()
     return figure
 
 
@@ -192,12 +261,12 @@ def _axis(of: "Sweep", name: "Optional[str]", but: "Optional[str]" = None) -> "O
     """The option that is asked for, or else the last that has several values."""
     free = [axis for axis, values in of.axes.items() if len(values) > 1 and axis != but]
     if name is not None and name not in free:
-        raise InvalidInput(f"expected an option that varies ({', '.join(free)}), got '{name}'")
+        raise InvalidInput(f"expected an option that varies ({', '.join(free)}), got '{name}'{guess(name, free)}")
     return name or (free[-1] if free else None)
 
 
 def study(of: "Sweep", show: str = "force_ratio", over: "Optional[str]" = None, family: "Optional[str]" = None,
-          map: bool = False, figure: Any = None) -> Any:
+          map: bool = False, figure: Any = None, ax: Any = None) -> Any:
     """A result over one option, a curve for each value of another; or a map over the two.
 
     Cases that were not solved leave holes.
@@ -205,7 +274,7 @@ def study(of: "Sweep", show: str = "force_ratio", over: "Optional[str]" = None, 
     results = {**RESULTS["crack"], **RESULTS["number"]}
     options = {**CRACK_OPTIONS, **OPTIONS}
     if show not in results or not hasattr(of, show):
-        raise InvalidInput(f"expected a result of the study, got '{show}'")
+        raise InvalidInput(f"expected a result of the study, got '{show}'{guess(show, of._arrays)}")
     over = _axis(of, over)
     if over is None:
         raise InvalidInput("no option varies")
@@ -215,17 +284,20 @@ def study(of: "Sweep", show: str = "force_ratio", over: "Optional[str]" = None, 
         raise InvalidInput(f"{', '.join(others)}: more options vary than the picture shows")
     if map and family is None:
         raise InvalidInput("a map needs two options that vary")
+    if map and any(of.axes[name].dtype.kind == "O" for name in (over, family)):
+        raise InvalidInput("a map needs two options with numbers")
     names = list(of.axes)
     values = np.where(of.status == 0, getattr(of, show), np.nan)
     shape = (len(of.axes[family]) if family else 1, len(of.axes[over]))
     if family and names.index(family) > names.index(over):
         values = values.squeeze().T
     values = values.reshape(shape)
-    figure, (axes,) = _figure(figure)
+    figure, (axes,) = _figure(figure, 1, ax)
+    before = len(axes.get_lines())
     label = _named(show, of._in(results[show].unit))
     axes.set_xlabel(_named(over, of._in(options[over].unit)))
     # curves and maps go along ascending values
-    order = np.argsort(of.axes[over])
+    order = np.argsort(of.axes[over]) if of.axes[over].dtype.kind != "O" else np.arange(len(of.axes[over]))
     x, values = of.axes[over][order], values[:, order]
     if map:
         rows = np.argsort(of.axes[family])
@@ -236,9 +308,11 @@ def study(of: "Sweep", show: str = "force_ratio", over: "Optional[str]" = None, 
         figure.colorbar(filled, ax=axes, label=label)
         axes.set_ylabel(_named(family, of._in(options[family].unit)))
         return figure
-    for row, value, colour in zip(values, of.axes[family] if family else [None], CURVES * (1 + len(values) // len(CURVES))):
+    colours = (CURVES * (2 + (before + len(values)) // len(CURVES)))[before:]
+    for row, value, colour in zip(values, of.axes[family] if family else [None], colours):
         axes.plot(x, row, color=colour, marker="o", markersize=2.5,
-                  label=None if value is None else f"{family.replace('_', ' ')} = {value:g}")
+                  label=None if value is None else
+                  f"{family.replace('_', ' ')} = {value if isinstance(value, str) else format(value, 'g')}")
     axes.grid(color="#dddddd", linewidth=0.6)
     axes.set_ylabel(label)
     if family:
