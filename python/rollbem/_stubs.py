@@ -12,7 +12,7 @@ from rollbem._library import OPTIONS, RESULTS
 _HEAD = """# Made from the tables of the library by rollbem._stubs.
 import os
 from typing import (Any, Callable, Dict, Iterator, List, Literal, Mapping, NamedTuple, Optional, Protocol, Sequence,
-                    SupportsFloat, Tuple, Union)
+                    SupportsFloat, SupportsIndex, Tuple, Union)
 import numpy as np
 from numpy.typing import NDArray
 from . import pictures as pictures
@@ -33,7 +33,10 @@ class _Frame(Protocol):  # such as pandas.DataFrame
 # The tables whose columns are arrays, and those of single numbers, of each result.
 _RESULTS: "dict[str, tuple[tuple, tuple]]" = {
     "Solution": (("column",), ("number",)), "History": (("step",), ()), "Curve": (("point",), ()),
-    "Stress": (("stress",), ()), "Sweep": (("number",), ()), "Wear": (("wear",), ())}
+    "Stress": (("stress",), ()), "Sweep": (("number", "crack"), ()), "Wear": (("wear",), ()), "Crack": (("position",), ("crack",)), "Fit": ((), ()),
+    "Design": ((), ())}
+# What these options take besides their words: files with a table, other solvers.
+_ALSO = {"gap": "str, os.PathLike, Table", "friction_law": "str, os.PathLike, Table", "solver": "str"}
 # What of a class is used by its signs: s["mu"], len(c), bool(check).
 _SPECIAL = ("__getitem__", "__len__", "__iter__", "__bool__", "__contains__", "__eq__", "__hash__")
 
@@ -41,8 +44,9 @@ _SPECIAL = ("__getitem__", "__len__", "__iter__", "__bool__", "__contains__", "_
 def _option_type(name: str, many: bool) -> str:
     row = OPTIONS[name]
     words = ", ".join(repr(word) for word in row.choices.split()) if row.kind == "choice" else ""
-    one = {"flag": "bool", "integer": "int", "number": "Union[SupportsFloat, str]"}.get(row.kind, "Union[str, os.PathLike, Table]")
+    one = {"flag": "Union[bool, Literal[0, 1]]", "integer": "SupportsIndex", "number": "Union[SupportsFloat, str]"}.get(row.kind, "Union[str, os.PathLike, Table]")
     one = f"Literal[{words}]" if words else one
+    one = f"Union[{one}, {_ALSO[name]}]" if name in _ALSO else one
     return f"Union[{one}, Sequence[Any]]" if many or row.kind == "number" else one
 
 

@@ -226,10 +226,20 @@ def test_types_are_those_of_a_checker(tmp_path):
         "held: bool = bool(rollbem.verify())\n"
         "about: str = rollbem.examples()['rail']\n"
         "rollbem.sweep(mu=[0.1, 0.2], progress=print)\n"
+        "import numpy as np\n"
+        "from decimal import Decimal\n"
+        "x = np.linspace(-1, 1, 5)\n"
+        "rollbem.solve(gap=np.column_stack([x, x * x]), mu=Decimal('0.3'), load='1kN/mm', similar=0)\n"
+        "rollbem.solve(gap={'x': x, 'gap': x * x}, load=np.float32(3), contact_elements=np.int64(20), solver='nsgs-ac')\n"
+        "rollbem.sweep(rollbem.Case(load=3), mu=x, load=['100kN/m'], support=['arc', 'hub'])\n"
+        "rollbem.history({'distance': [0, 4], 'creep': x}, load=500, support='halfplane').q\n"
+        "K: float = rollbem.crack(crack_angle=30, fluid='trapped').K_I_max\n"
+        "rollbem.curve(mu=[0.1, 0.3])\n"
+        "z: float = rollbem.game([[1, -1], [-1, 1]])\n"
         "rollbem.solve(support='banana')\n"
         "rollbem.solve(progres=3)\n")
     told = subprocess.run(["mypy", "--follow-imports=silent", "--cache-dir", str(ROOT / os.environ.get("B", "build") / "mypy"), "use.py",
                            "rollbem/__init__.pyi"], cwd=tmp_path, capture_output=True, text=True).stdout
     errors = [line for line in told.splitlines() if "error:" in line]
-    assert len(errors) == 2 and all(line.startswith("use.py") for line in errors), told
-    assert "'banana'" in errors[0] and "progres" in errors[1]
+    assert len(errors) == 3 and all(line.startswith("use.py") for line in errors), told
+    assert "Game" in errors[0] and "'banana'" in errors[1] and "progres" in errors[2]
