@@ -170,4 +170,125 @@ TEST(what_solvers_say_is_so)
     print_message("auto: %d without solution, %d proved, %d left open\n", none, proved, open);
 }
 
+/* ---- Games --------------------------------------------------------------------------- */
+
+enum { STRATEGIES = 4, MOST_VERTICES = 80 };
+
+/* A vertex of {v >= 0, C v <= 1}: all its tight inequalities, and v. */
+typedef struct {
+    int labels;
+    double v[STRATEGIES];
+} vertex;
+
+/* C: others x own, whole numbers > 0.  Zero is left out.  Returns how many. */
+static int exact_vertices(int own, int others, int C[STRATEGIES][STRATEGIES], int own_label,
+                          int other_label, vertex *found)
+{
+    int count = 0;
+    for (int S = 1; S < 1 << own; S++)
+        for (int T = 1; T < 1 << others; T++) {
+            exact_whole A[EXACT_MOST][EXACT_MOST + 1], x[EXACT_MOST], over;
+            int column[STRATEGIES], columns = 0, rows = 0, labels = 0, feasible = 1;
+            for (int i = 0; i < own; i++)
+                if (S >> i & 1)
+                    column[columns++] = i;
+            for (int j = 0; j < others; j++)
+                if (T >> j & 1) {
+                    for (int c = 0; c < columns && rows < EXACT_MOST; c++)
+                        A[rows][c] = C[j][column[c]];
+                    A[rows++][columns] = 1;
+                }
+            if (rows != columns || !exact_solve(rows, columns, A, x, &over))
+                continue;
+            vertex next = {0, {0}};
+            for (int i = 0; i < own; i++)
+                labels |= S >> i & 1 ? 0 : 1 << (own_label + i);
+            for (int c = 0; c < columns; c++) {
+                feasible &= x[c] >= 0;
+                labels |= x[c] == 0 ? 1 << (own_label + column[c]) : 0;
+                next.v[column[c]] = (double)x[c] / (double)over;
+            }
+            for (int j = 0; j < others; j++) {
+                exact_whole sum = 0;
+                for (int c = 0; c < columns; c++)
+                    sum += C[j][column[c]] * x[c];
+                feasible &= sum <= over;
+                labels |= sum == over ? 1 << (other_label + j) : 0;
+            }
+            next.labels = labels;
+            for (int k = 0; k < count && feasible; k++)
+                feasible = found[k].labels != labels;
+            if (feasible)
+                found[count++] = next;
+        }
+    return count;
+}
+
+/* Payoffs 0 ... 2, most games degenerate: the extreme equilibria are those of fractions, each
+ * is in a set, and any mixture within a set is an equilibrium. */
+TEST(extreme_equilibria_are_those_of_fractions)
+{
+    static vertex xs[MOST_VERTICES], ys[MOST_VERTICES];
+    int degenerate = 0;
+    for (int k = 0; k < PROBLEMS / 5; k++) {
+        if (!is_in_turn(k, PARTS))
+            continue;
+        seed = 5u + 7919u * (unsigned)k;
+        for (int l = 0; l < 4; l++)
+            uniform_from(&seed);
+        const int m = 1 + below(STRATEGIES), n = 1 + below(STRATEGIES), most = 1 + below(3);
+        double A[16], B[16], shift = below(3) - 1.0, unit = exp2(below(81) - 40.0);
+        int of_x[STRATEGIES][STRATEGIES], of_y[STRATEGIES][STRATEGIES];
+        for (int i = 0; i < m; i++)
+            for (int j = 0; j < n; j++) {
+                const int a = below(most + 1), b = below(most + 1);
+                of_y[i][j] = 1 + a;                    /* A y <= 1 */
+                of_x[j][i] = 1 + b;                    /* B'x <= 1 */
+                A[i + j * m] = unit * (a + shift * j); /* a constant per column changes nothing */
+                B[i + j * m] = b / unit;
+            }
+        const int nx = exact_vertices(m, n, of_x, 0, m, xs),
+                  ny = exact_vertices(n, m, of_y, m, 0, ys);
+        int count = 0;
+        for (int a = 0; a < nx; a++)
+            for (int b = 0; b < ny; b++)
+                count += (xs[a].labels | ys[b].labels) == (1 << (m + n)) - 1;
+        OWNED(rb_lcp_solutions) all;
+        const rb_lcp_game game = {m, n, A, B, m};
+        CHECK_OK(rb_lcp_bimatrix_enumerate(&game, 0.0, &all, &heard));
+        if (all.count != count || all.undecided)
+            fail_msg("game %d: %d listed, %d undecided, there are %d", k, all.count, all.undecided,
+                     count);
+        degenerate += all.sets != all.count;
+        for (int s = 0; s < all.sets; s++) {
+            double z[8] = {0.0}, regret[8], payoff[2], sum[2] = {0.0, 0.0};
+            for (int l = all.set[s]; l < all.set[s + 1]; l++) /* a mixture of x, another of y */
+                for (int i = 0; i < m + n; i++)
+                    z[i] += all.z[i + all.member[l] * (m + n)] * (1.0 + ((i < m) ? l : l * l) % 5);
+            for (int i = 0; i < m + n; i++)
+                sum[i >= m] += z[i];
+            for (int i = 0; i < m + n; i++)
+                z[i] /= sum[i >= m];
+            const rb_lcp_game plain = {m, n, A, B, m};
+            rb_lcp_bimatrix_regret(&plain, z, regret, payoff);
+            for (int i = 0; i < m + n; i++)
+                CHECK_MAX(fmin(z[i], regret[i] * (i < m ? 1.0 / unit : unit)), 1e-12,
+                          "game %d, set %d", k, s);
+        }
+        /* the players change places */
+        double At[16], Bt[16];
+        for (int i = 0; i < m; i++)
+            for (int j = 0; j < n; j++) {
+                At[j + i * n] = B[i + j * m];
+                Bt[j + i * n] = A[i + j * m];
+            }
+        OWNED(rb_lcp_solutions) mirrored;
+        CHECK_OK(
+            rb_lcp_bimatrix_enumerate(&(rb_lcp_game){n, m, At, Bt, n}, 0.0, &mirrored, &heard));
+        assert_int_equal(mirrored.count, all.count);
+        assert_int_equal(mirrored.sets, all.sets);
+    }
+    assert_true(degenerate > 20);
+}
+
 RUN_TESTS(NULL, NULL)

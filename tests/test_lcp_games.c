@@ -214,9 +214,10 @@ TEST(all_equilibria_of_a_game)
     OWNED(rb_lcp_solutions) all;
     int mixed = 0;
     battle_of_the_sexes();
-    CHECK_OK(rb_lcp_bimatrix_enumerate(&two, &all, &heard));
+    CHECK_OK(rb_lcp_bimatrix_enumerate(&two, 0.0, &all, &heard));
     assert_int_equal(all.count, 3);
-    assert_int_equal(all.bases, 16);
+    assert_int_equal(all.bases, 12); /* of both polytopes: 4 over 2 each */
+    assert_int_equal(all.sets, 3);
     for (int k = 0; k < 3; k++) {
         const double *z = all.z + 4 * k;
         CHECK_MAX(gain(2, 2, z), 1e-15, "equilibrium %d", k);
@@ -229,6 +230,30 @@ TEST(all_equilibria_of_a_game)
     assert_int_equal(mixed, 1);
 }
 
+/* The row player does not care: x = (1, 0) with y = (1, 0), (1/2, 1/2); x = (0, 1) with y = (1/2,
+ * 1/2), (0, 1); and all equal payoffs: every pair of pure strategies, in one set. */
+TEST(indifferent_players_have_sets_of_equilibria)
+{
+    OWNED(rb_lcp_solutions) all;
+    OWNED(rb_lcp_solutions) equal;
+    memset(A, 0, sizeof A);
+    memset(B, 0, sizeof B);
+    CHECK_OK(rb_lcp_bimatrix_enumerate(&two, 0.0, &equal, NULL));
+    assert_int_equal(equal.count, 4);
+    assert_int_equal(equal.sets, 1);
+    assert_int_equal(equal.set[1], 4);
+    A[0] = A[1 + LD] = 1.0; /* matching pennies for the one, nothing at stake for the other */
+    CHECK_OK(rb_lcp_bimatrix_enumerate(&two, 0.0, &all, NULL));
+    assert_int_equal(all.count, 4);
+    assert_int_equal(all.sets, 3);
+    for (int k = 0; k < 4; k++) {
+        const double *z = all.z + 4 * k;
+        CHECK_MAX(gain(2, 2, z), 1e-15, "equilibrium %d", k);
+        assert_true(z[0] == 0.0 || z[0] == 1.0);
+        assert_true(z[2] == 0.5 || z[2] == z[0]);
+    }
+}
+
 /* A nondegenerate game has an odd number of equilibria, and every label leads to one of
  * them. */
 TEST(every_label_leads_to_an_equilibrium)
@@ -239,7 +264,7 @@ TEST(every_label_leads_to_an_equilibrium)
         OWNED(rb_lcp_solutions) all;
         double z[N];
         random_game(m, n, 0);
-        CHECK_OK(rb_lcp_bimatrix_enumerate(&game, &all, NULL));
+        CHECK_OK(rb_lcp_bimatrix_enumerate(&game, 0.0, &all, NULL));
         assert_int_equal(all.count % 2, 1);
         for (int label = 0; label < m + n; label++) {
             int found = 0;
@@ -565,8 +590,8 @@ TEST(bad_input_is_named)
     assert_non_null(strstr(info.msg.text, "label 5: expected 1 to 4"));
     CHECK_STATUS(rb_lcp_bimatrix(&two, -2, NULL, z, &info), RB_EINVAL);
     CHECK_STATUS(rb_lcp_bimatrix(&(rb_lcp_game){2, 0, A, B, LD}, 0, NULL, z, &info), RB_EINVAL);
-    CHECK_SAYS(rb_lcp_bimatrix_enumerate(&(rb_lcp_game){2, 0, A, B, LD}, &all, &heard), RB_EINVAL,
-               "a game of 2 by 0");
+    CHECK_SAYS(rb_lcp_bimatrix_enumerate(&(rb_lcp_game){2, 0, A, B, LD}, 0.0, &all, &heard),
+               RB_EINVAL, "a game of 2 by 0");
     const double right = A[LD];
     A[LD] = -INFINITY;
     CHECK_STATUS(rb_lcp_bimatrix(&two, 0, NULL, z, &info), RB_EINVAL);
@@ -602,7 +627,7 @@ static rb_status solve_anew(void *context)
     double z[4];
     OWNED(rb_lcp_solutions) all;
     const rb_status s = rb_lcp_bimatrix(context, 0, NULL, z, NULL);
-    const rb_status t = rb_lcp_bimatrix_enumerate(context, &all, NULL);
+    const rb_status t = rb_lcp_bimatrix_enumerate(context, 0.0, &all, NULL);
     return s == RB_OK ? t : s;
 }
 
@@ -614,7 +639,7 @@ TEST(short_memory_is_reported)
         OWNED(rb_lcp_solutions) all;
         alloc_fail_after(i);
         const rb_status s = rb_lcp_bimatrix(&two, 0, NULL, z, NULL);
-        const rb_status t = rb_lcp_bimatrix_enumerate(&two, &all, NULL);
+        const rb_status t = rb_lcp_bimatrix_enumerate(&two, 0.0, &all, NULL);
         const int refused = alloc_failed();
         alloc_succeed();
         assert_true(refused == (s == RB_ENOMEM || t == RB_ENOMEM));

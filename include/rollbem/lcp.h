@@ -155,6 +155,9 @@ typedef struct {
     int bases, singular; /* bases tried, and how many of them are singular */
     int undecided;       /* bases of which is not known whether they have a solution; where
                             it is 0 and count is 0 there is none */
+    int sets;            /* games: maximal sets of equilibria; 0: not listed */
+    int *set, *member;   /* sets + 1, set[sets]: set k has the solutions member[set[k]] ...
+                            member[set[k + 1] - 1]; owned */
 } rb_lcp_solutions;
 
 /* lower, upper as in rb_lcp_mixed_problem.  seconds: time limit, 0: none.  Units of rows and
@@ -177,9 +180,12 @@ void rb_lcp_solutions_free(rb_lcp_solutions *all);
  * RB_EINVAL, RB_ENOMEM. */
 rb_status rb_lcp_bimatrix(const rb_lcp_game *game, int label, const rb_lcp_options *opt, double *z,
                           rb_lcp_info *info);
-/* All equilibria that belong to complementary bases, as in rb_lcp_enumerate; m + n is at
- * most 22. */
-rb_status rb_lcp_bimatrix_enumerate(const rb_lcp_game *game, rb_lcp_solutions *all,
+/* All extreme equilibria: pairs of vertices of the two polytopes of best replies; z = (x, y).
+ * All others are mixtures: in a maximal set, whose equilibria are all pairs of some x and
+ * some y, any mixture of these x with any mixture of these y is one.  `bases` counts bases
+ * of the polytopes, sets is 0 where there are more than 1000.  m + n is at most 22.
+ * seconds and statuses as rb_lcp_enumerate. */
+rb_status rb_lcp_bimatrix_enumerate(const rb_lcp_game *game, double seconds, rb_lcp_solutions *all,
                                     rb_message *why);
 /* regret: m + n values >= 0, what each strategy pays less than the best reply to the
  * other player's mixed strategy; payoff: the payoffs of the best replies.  Returns max

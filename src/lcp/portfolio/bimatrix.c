@@ -1,6 +1,6 @@
 /* Equilibria of bimatrix games by the method of Lemke and Howson (SIAM Journal 12, 1964),
  * in the form with two tableaus (Cottle, Pang, Stone, section 4.4). */
-#include "lcp/lemke/lemke.h"
+#include "lcp/portfolio/game.h"
 
 #include <cblas.h>
 #include <limits.h>
@@ -9,30 +9,7 @@
 #include <string.h>
 #include <tgmath.h>
 
-/* The least of a player's payoffs, and a power of two by which the largest is at most above
- * it (1 where all are equal): integers stay exact, and what ties in them. */
-typedef struct {
-    double low, wide;
-} payoffs;
-
-static payoffs payoffs_of(const rb_lcp_game *g, const double *P)
-{
-    double low = INFINITY, high = -INFINITY;
-    for (int j = 0; j < g->n; j++)
-        for (int i = 0; i < g->m; i++) {
-            low = fmin(low, P[(size_t)i + (size_t)j * (size_t)g->ld]);
-            high = fmax(high, P[(size_t)i + (size_t)j * (size_t)g->ld]);
-        }
-    return (payoffs){low, high > low ? exp2(ceil(log2(high - low))) : 1.0};
-}
-
-/* In [0, 1]: adding to payoffs and multiplying them changes no equilibrium. */
-static double scaled(payoffs p, const rb_lcp_game *g, const double *P, int i, int j)
-{
-    return (P[(size_t)i + (size_t)j * (size_t)g->ld] - p.low) / p.wide;
-}
-
-/* Payoffs in [0, 1]: adding to them and multiplying them changes no equilibrium. */
+/* Payoffs in [0, 1]. */
 typedef struct {
     int m, n;
     const double *a, *b; /* m x n, column-major */
@@ -88,7 +65,7 @@ double rb_lcp_bimatrix_regret(const rb_lcp_game *g, const double *z, double *reg
     return worst;
 }
 
-static rb_status check_input(const rb_lcp_game *g, int label, rb_message *why)
+rb_status rb_lcp_game_check(const rb_lcp_game *g, int label, rb_message *why)
 {
     const int m = g->m, n = g->n;
     if (m < 1 || n < 1 || g->ld < m)
@@ -108,6 +85,27 @@ static rb_status check_input(const rb_lcp_game *g, int label, rb_message *why)
     return RB_OK;
 }
 
+double rb_lcp_game_scale(const rb_lcp_game *g, double *a, double *b)
+{
+    double larger = 0.0;
+    for (int player = 0; player < 2; player++) {
+        const double *P = player ? g->B : g->A;
+        double low = INFINITY, high = -INFINITY;
+        for (int j = 0; j < g->n; j++)
+            for (int i = 0; i < g->m; i++) {
+                low = fmin(low, P[(size_t)i + (size_t)j * (size_t)g->ld]);
+                high = fmax(high, P[(size_t)i + (size_t)j * (size_t)g->ld]);
+            }
+        const double wide = high > low ? exp2(ceil(log2(high - low))) : 1.0;
+        for (int j = 0; j < g->n; j++)
+            for (int i = 0; i < g->m; i++)
+                (player ? b : a)[i + j * g->m] =
+                    (P[(size_t)i + (size_t)j * (size_t)g->ld] - low) / wide;
+        larger = fmax(larger, wide);
+    }
+    return larger;
+}
+
 static rb_status out_of_memory(const rb_lcp_game *g, rb_message *why)
 {
     return rb_fail(why, RB_ENOMEM, "lcp: out of memory for a game of %d by %d", g->m, g->n);
@@ -124,13 +122,7 @@ static rb_status solve_by_label(const rb_lcp_game *g, int label, const rb_lcp_op
            *regret = rb_arena_doubles(&memory, (size_t)g->m + (size_t)g->n, 1), payoff[2];
     if (memory.failed)
         return rb_arena_done(&memory, out_of_memory(g, &info->msg));
-    const payoffs of_a = payoffs_of(g, g->A), of_b = payoffs_of(g, g->B);
-    const double size = fmax(of_a.wide, of_b.wide);
-    for (int j = 0; j < g->n; j++)
-        for (int i = 0; i < g->m; i++) {
-            a[i + j * g->m] = scaled(of_a, g, g->A, i, j);
-            b[i + j * g->m] = scaled(of_b, g, g->B, i, j);
-        }
+    const double size = rb_lcp_game_scale(g, a, b);
     const howson_game positive = {g->m, g->n, a, b};
     rb_status s = RB_NUMERICAL;
     for (int more = 0; more < 2 && (s == RB_NUMERICAL || s == RB_INACCURATE); more++) {
@@ -196,7 +188,7 @@ rb_status rb_lcp_bimatrix(const rb_lcp_game *g, int label, const rb_lcp_options 
     const double began = rb_seconds();
     info = info ? info : &unread;
     *info = RB_LCP_INFO_NONE;
-    rb_status s = check_input(g, label == -1 ? 0 : label, &info->msg);
+    rb_status s = rb_lcp_game_check(g, label == -1 ? 0 : label, &info->msg);
     if (s != RB_OK)
         return s;
     if (label == -1)
@@ -205,41 +197,4 @@ rb_status rb_lcp_bimatrix(const rb_lcp_game *g, int label, const rb_lcp_options 
     if (!o.max_iters)
         o.max_iters = (int)fmin(ALL_WORK / (2.0 * rows * labels), 1e9);
     return solve_by_label(g, label, &o, began, z, info);
-}
-
-/* ---- All equilibria ---------------------------------------------------------------- */
-
-/* With payoffs turned into costs a, b > 0 an equilibrium is, but for the length of its
- * halves, a solution of the LCP with M = [0 a; b' 0] and q = -1 (Cottle, Pang, Stone,
- * section 1.2); w >= 0 leaves neither half of it zero. */
-rb_status rb_lcp_bimatrix_enumerate(const rb_lcp_game *g, rb_lcp_solutions *all, rb_message *why)
-{
-    const int m = g->m, order = g->m + g->n;
-    *all = (rb_lcp_solutions){0};
-    rb_status s = check_input(g, 0, why);
-    if (s != RB_OK)
-        return s;
-    double *M = rb_alloc((size_t)order, (size_t)order + 1);
-    if (!M)
-        return out_of_memory(g, why);
-    double *q = M + (size_t)order * (size_t)order;
-    const payoffs of_a = payoffs_of(g, g->A), of_b = payoffs_of(g, g->B);
-    for (int j = 0; j < g->n; j++)
-        for (int i = 0; i < m; i++) {
-            M[i + (m + j) * order] = 2.0 - scaled(of_a, g, g->A, i, j);
-            M[m + j + i * order] = 2.0 - scaled(of_b, g, g->B, i, j);
-        }
-    for (int k = 0; k < order; k++)
-        q[k] = -1.0;
-    s = rb_lcp_enumerate(&(rb_lcp_problem){order, M, order, q}, NULL, NULL, 0.0, all, why);
-    if (s == RB_OK) {
-        /* Each half of a solution becomes a strategy: its probabilities add up to 1. */
-        for (int k = 0; k < all->count; k++) {
-            double *x = all->z + (size_t)k * (size_t)all->n, *y = x + g->m;
-            cblas_dscal(g->m, 1.0 / rb_norm_1((size_t)g->m, x, 1), x, 1);
-            cblas_dscal(g->n, 1.0 / rb_norm_1((size_t)g->n, y, 1), y, 1);
-        }
-    }
-    free(M);
-    return s;
 }

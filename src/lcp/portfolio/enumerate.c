@@ -5,7 +5,6 @@
 #include <cblas.h>
 #include <lapacke.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,7 +32,6 @@ typedef struct {
     double *z, *w, *terms;  /* n; terms: of the rows of w, by modulus */
     double *bound;          /* n: what the rounding errors of z are a part of */
     double *inverse, *work; /* n x n each; work: of dgecon as well, 4 n at least */
-    uint64_t *residues;     /* n x n */
     lcp_linear *linear;     /* owned */
 } search;
 
@@ -51,74 +49,6 @@ static void product(search *s)
     memcpy(s->w, s->p.q, (size_t)s->n * sizeof *s->w);
     cblas_dgemv(CblasColMajor, CblasNoTrans, s->n, s->n, 1.0, s->p.M, s->p.ldm, s->z, 1, 1.0, s->w,
                 1);
-}
-
-/* ---- Whether a matrix is singular, exactly ------------------------------------------- */
-
-static uint64_t times(uint64_t a, uint64_t b, uint64_t prime)
-{
-    __extension__ typedef unsigned __int128 two_words;
-    return (uint64_t)((two_words)a * b % prime);
-}
-
-static uint64_t power(uint64_t a, uint64_t exponent, uint64_t prime)
-{
-    uint64_t x = 1;
-    for (; exponent; exponent >>= 1, a = times(a, a, prime))
-        if (exponent & 1)
-            x = times(x, a, prime);
-    return x;
-}
-
-/* A double is a whole number of 53 bits times a power of two. */
-static uint64_t residue(double x, uint64_t prime)
-{
-    int e;
-    const uint64_t whole = (uint64_t)ldexp(frexp(fabs(x), &e), 53), half = (prime + 1) / 2;
-    e -= 53;
-    const uint64_t value =
-        times(whole % prime, power(e < 0 ? half : 2, (uint64_t)abs(e), prime), prime);
-    return x < 0.0 && value ? prime - value : value;
-}
-
-/* 1: the determinant of the rows and columns inside is not zero, because it is not zero by
- * one of two primes.  0: it is zero by both, and would have to have both as factors else. */
-static int is_regular(search *s)
-{
-    static const uint64_t primes[2] = {2305843009213693921ULL, 2305843009213693907ULL};
-    const int m = s->m;
-    uint64_t *a = s->residues;
-    for (int k = 0; k < 2; k++) {
-        const uint64_t prime = primes[k];
-        int c = 0;
-        for (int j = 0; j < m; j++)
-            for (int i = 0; i < m; i++)
-                a[i * m + j] = residue(
-                    s->p.M[(size_t)s->inside[i] + (size_t)s->inside[j] * (size_t)s->p.ldm], prime);
-        for (; c < m; c++) { /* Gauss' elimination */
-            int r = c;
-            while (r < m && !a[r * m + c])
-                r++;
-            if (r == m)
-                break;
-            for (int j = c; j < m && r > c; j++) {
-                const uint64_t t = a[r * m + j];
-                a[r * m + j] = a[c * m + j];
-                a[c * m + j] = t;
-            }
-            const uint64_t inverse = power(a[c * m + c], prime - 2, prime);
-            for (int i = c + 1; i < m; i++) {
-                const uint64_t f = times(a[i * m + c], inverse, prime);
-                for (int j = c; f && j < m; j++) {
-                    const uint64_t t = times(f, a[c * m + j], prime);
-                    a[i * m + j] += a[i * m + j] >= t ? -t : prime - t;
-                }
-            }
-        }
-        if (c == m)
-            return 1;
-    }
-    return 0;
 }
 
 /* ---- The point of a basis ------------------------------------------------------------ */
@@ -268,6 +198,8 @@ void rb_lcp_solutions_free(rb_lcp_solutions *all)
         return;
     free(all->z);
     free(all->singular_basis);
+    free(all->set);
+    free(all->member);
     *all = (rb_lcp_solutions){0};
 }
 
@@ -319,7 +251,7 @@ static rb_status look_at_basis(search *s, rb_lcp_solutions *all)
     all->bases++;
     if (regular)
         return is_solution(s, 1) ? keep(s, 1, all) : RB_OK;
-    regular = is_regular(s);
+    regular = rb_lcp_is_regular(s->p.M, s->p.ldm, s->m, s->inside, s->inside);
     all->singular += !regular;
     const rb_status s_ = rb_lcp_linear_decide(s->linear, s->at, s->z);
     if (s_ == RB_OK && is_solution(s, 0))
@@ -360,7 +292,6 @@ rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const d
     s.A = rb_arena_doubles(&scratch, order, order);
     s.inverse = rb_arena_doubles(&scratch, order, order);
     s.work = rb_arena_doubles(&scratch, order, order + 4);
-    s.residues = rb_arena_zeros(&scratch, order * order, sizeof *s.residues);
     s.x = rb_arena_doubles(&scratch, order, 7);
     s.inside = rb_arena_ints(&scratch, order);
     s.swap = rb_arena_ints(&scratch, 2 * order);

@@ -23,4 +23,9 @@ rb_status rb_lcp_linear_decide(lcp_linear *linear, const lcp_side *side, double 
  * above, but RB_NO_SOLUTION is not checked. */
 rb_status rb_lcp_linear_least(lcp_linear *linear, const lcp_side *side, double *z, double *w);
 
+/* regular.c: 1: the determinant of these m rows and columns (32 at most) is not zero, because
+ * it is not zero modulo one of two primes near 2^61.  0: it is zero modulo both, and would
+ * have to have both as factors otherwise. */
+int rb_lcp_is_regular(const double *M, int ld, int m, const int *row, const int *column);
+
 #endif

@@ -182,7 +182,7 @@ int rb_api_game(rb_api *a, int m, int n, const double *A, const double *B, int l
     if (s == RB_OK) {
         rb_api_call_begins(a);
         if (all_of_it)
-            s = rb_lcp_bimatrix_enumerate(&game, &all, &a->why);
+            s = rb_lcp_bimatrix_enumerate(&game, 0.0, &all, &a->why);
         else {
             s = rb_lcp_bimatrix(&game, label, &options, z->at, &info);
             a->why = info.msg;

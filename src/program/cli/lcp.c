@@ -59,8 +59,10 @@ static const rb_option options[] = {
     RB_TEXT_LINE("start", PLACE(start), "FILE",
                  "z of a similar problem to start from: n numbers, as --q", .unset = "the bounds",
                  .file = RB_FILE_READ),
-    RB_FLAG_LINE("all", PLACE(all),
-                 "all solutions, by trying every complementary basis (order 22 at most)"),
+    RB_FLAG_LINE(
+        "all", PLACE(all),
+        "all solutions, by trying every complementary basis (order 22 at most); --game: all "
+        "extreme equilibria"),
     RB_INTEGER_LINE("label", PLACE(label), RB_FROM_TO(1, 1e9),
                     "--game: the strategy that the path begins with, rows then columns",
                     .unset = "several in turns; 1 with --trace"),
@@ -132,6 +134,7 @@ typedef struct {
     int solutions;                         /* 1 but for --all */
     int singular, undecided;               /* --all: bases */
     int *singular_basis;                   /* --all: of each solution; owned */
+    int sets, *set, *member;               /* --game --all: as of rb_lcp_solutions; owned */
     double payoff[2];                      /* --game, the first solution */
 } lcp_result;
 
@@ -243,6 +246,20 @@ static cli_exit say_all(const lcp_options *o, lcp_result *r, const rb_lcp_soluti
                 "rollbem: %s: note: %d of %d complementary bases are undecided: there may be more "
                 "solutions\n",
                 r->file, all->undecided, all->bases);
+    int mixed = 0; /* sets with more than one */
+    for (int k = 0; k < r->sets; k++)
+        mixed += r->set[k + 1] - r->set[k] > 1;
+    if (mixed)
+        fprintf(stderr,
+                "rollbem: %s: note: %d extreme equilibria in %d maximal set%s; all others are "
+                "mixtures within a set\n",
+                r->file, all->count, r->sets, r->sets == 1 ? "" : "s");
+    if (o->game && all->count && r->sets == 0)
+        fprintf(
+            stderr,
+            "rollbem: %s: note: %d extreme equilibria, in more than 1000 maximal sets, which are "
+            "not listed\n",
+            r->file, all->count);
     if (all->count && end == RB_OK)
         return say_end(o, r, RB_OK);
     if (!all->count)
@@ -269,6 +286,10 @@ static rb_status take_all(lcp_result *r, rb_lcp_solutions *all)
     r->z = all->z;
     r->singular_basis = all->singular_basis;
     all->singular_basis = NULL;
+    r->sets = all->sets;
+    r->set = all->set;
+    r->member = all->member;
+    all->set = all->member = NULL;
     r->w = rb_alloc((size_t)all->n, (size_t)all->count);
     r->solutions = all->count;
     r->solver = "enumeration";
@@ -378,7 +399,7 @@ static cli_exit solve_game(lcp_run *run, lcp_result *r)
     r->z = rb_alloc((size_t)r->n, 1);
     r->w = rb_alloc((size_t)r->n, 1);
     if (run->o->all)
-        s = rb_lcp_bimatrix_enumerate(&game, &all, &r->info.msg);
+        s = rb_lcp_bimatrix_enumerate(&game, run->o->seconds, &all, &r->info.msg);
     else if (r->z && r->w)
         s = rb_lcp_bimatrix(&game, run->o->trace && !run->o->label ? 0 : run->o->label - 1, &opt,
                             r->z, &r->info);
@@ -455,6 +476,18 @@ static cli_exit solve_file(void *context, const char *path)
             cli_rows_set(rows, "solutions", list);
             cli_rows_set(rows, "singular", known ? json_integer(r.singular) : json_null());
             cli_rows_set(rows, "undecided", known ? json_integer(r.undecided) : json_null());
+            if (run->o->game) {
+                json_t *sets = json_array();
+                for (int k = 0; k < r.sets; k++) {
+                    json_t *of_set = json_array();
+                    for (int l = r.set[k]; l < r.set[k + 1]; l++)
+                        rb_report_json_append(&of_set, json_integer(r.member[l] + 1));
+                    rb_report_json_append(&sets, of_set);
+                }
+                cli_rows_set(rows, "sets", r.sets ? sets : json_null());
+                if (!r.sets)
+                    json_decref(sets);
+            }
         } else if (run->o->solution) {
             cli_rows_set(rows, "z", vector(r.n, r.z));
             cli_rows_set(rows, "w", vector(r.n, r.w));
@@ -471,6 +504,12 @@ static cli_exit solve_file(void *context, const char *path)
         rb_report_comment(&rows->cells, "%s: %s by %s%s, n = %d, %d %s%s, %.3g s", r.file, r.status,
                           r.solver, label, r.n, r.info.iters, run->o->all ? "bases" : "pivots",
                           residual, r.seconds);
+        for (int k = 0; k < r.sets; k++) {
+            char text[400] = "";
+            for (int l = r.set[k]; l < r.set[k + 1]; l++)
+                rb_append(text, sizeof text, " %d", r.member[l] + 1);
+            rb_report_comment(&rows->cells, "maximal set %d: solutions%s", k + 1, text);
+        }
         for (int k = 0; k < r.solutions && !run->o->trace && r.z; k++)
             for (int i = 0; i < r.n; i++) {
                 const size_t at = (size_t)k * (size_t)r.n + (size_t)i;
@@ -489,6 +528,8 @@ static cli_exit solve_file(void *context, const char *path)
     free(r.cover);
     free(r.start);
     free(r.singular_basis);
+    free(r.set);
+    free(r.member);
     free(r.z);
     free(r.w);
     return code;
