@@ -129,6 +129,8 @@ static const char *const allocating[] = {
     "check in/all.json",
     "check in/grid.json",
     "check in/points.json in/static.json",
+    "check in/crack.json",
+    "check in/slopes.json",
     "lcp in/rod.txt --solution --json",
     "lcp in/murty.txt --all --json",
     "lcp in/murty.txt --trace --rule first-index --json",
@@ -611,7 +613,10 @@ static const char *const making_inputs[] = {
     "--mu-fall 0.1 --slip-scale 10 --speed 1e3 --all-solutions --json --output in/all.json; "
     "\"$R\" stress in/b.ini --quiet --shift 0.001 --grid 3x3 --shakedown --json "
     "--output in/grid.json; \"$R\" stress in/b.ini --quiet --shift 0.001 --points in/points.txt "
-    "--json --output in/points.json"};
+    "--json --output in/points.json; \"$R\" crack in/b.ini --quiet --similar --crack-elements 4 "
+    "--steps 24 --fluid trapped --closing located --states --json --output in/crack.json; \"$R\" "
+    "in/b.ini --quiet --formulation steady --creep-ratio 0.5 --derivatives approach --tolerance "
+    "mu=0.02 --json --output in/slopes.json"};
 
 /* HDF5 is a part of the program where its archive is linked, and makes more calls that
  * allocate than all the rest: those of its own are tried with ROLLBEM_TEST_ALL. */

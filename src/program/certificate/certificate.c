@@ -183,7 +183,7 @@ static rb_status write_case(rb_certificate *c, void *context, json_t **again, rb
     const rb_certificate_contact stored = {summary, json_object_get(root, "table"), history,
                                            rb_certificate_member(summary, "residual")};
     const int has_solutions = json_object_get(root, "solutions") != NULL;
-    static const char *const of_stress[] = {"depth", "maxima", "shakedown", "grid", "points"};
+    static const char *const of_stress[] = {"maxima", "grid", "points"};
     int has_stress = 0;
     parts p = {.all.n = 0};
 
@@ -314,17 +314,13 @@ rb_status rb_certificate_check(FILE *out, const char *name, const json_t *root, 
     memset(found, 0, sizeof *found);
     if (is_crack)
         rb_case_crack_set(words);
-    rb_status s = check_head(&c, root, why);
+    rb_status s = check_head(&c, root, &reason);
     if (s == RB_OK)
-        s = rb_certificate_inputs(&c, root, words, why);
+        s = rb_certificate_inputs(&c, root, words, &reason);
     if (s == RB_OK)
         s = is_crack ? check_crack(&c, root, words, &reason)
                      : check_steps(&c, root, rb_case_resolved(words), &reason);
     if (s == RB_OK)
         s = rb_certificate_compare(&c, root, write_again, &of, &reason);
-    return s == RB_OK || !reason.text[0] ? s
-           : s == RB_ENOMEM              ? rb_fail(why, s, "%s: out of memory", name)
-           : strncmp(reason.text, name, strlen(name)) == 0
-               ? rb_fail(why, RB_EFORMAT, "%s", reason.text)
-               : rb_fail(why, RB_EFORMAT, "%s: cannot be checked: %s", name, reason.text);
+    return rb_certificate_end(&c, s, &reason, why);
 }

@@ -51,6 +51,18 @@ rb_status rb_certificate_refuse(const rb_certificate *c, const char *what, rb_me
     return rb_fail(why, RB_EFORMAT, "%s: cannot be checked: %s", c->name, what);
 }
 
+rb_status rb_certificate_end(const rb_certificate *c, rb_status s, const rb_message *reason,
+                             rb_message *why)
+{
+    if (s == RB_OK)
+        return s;
+    if (s == RB_ENOMEM)
+        return rb_fail(why, s, "%s: out of memory", c->name);
+    const int is_named = strncmp(reason->text, c->name, strlen(c->name)) == 0;
+    return is_named ? rb_fail(why, RB_EFORMAT, "%s", reason->text)
+                    : rb_fail(why, RB_EFORMAT, "%s: cannot be checked: %s", c->name, reason->text);
+}
+
 /* ---- Trees ------------------------------------------------------------------------- */
 
 /* A member, as it is written again, and with moved numbers.  NULL: there is none. */
@@ -322,7 +334,7 @@ rb_status rb_certificate_compare(rb_certificate *c, const json_t *printed,
     if (s == RB_OK)
         s = compare_twice(c, printed, again, write, context, why);
     json_decref(again);
-    if (fclose(c->out) != 0 && s == RB_OK)
+    if ((fclose(c->out) != 0 || !lines) && s == RB_OK) /* success without a text: no memory */
         s = RB_ENOMEM;
     c->out = out;
     if (s == RB_OK)

@@ -118,7 +118,7 @@ static rb_status set_inputs(const json_t *root, const json_t *now, int first, rb
 }
 
 /* What a result may ask of this computer: a boundary of more elements takes 4 kB for each. */
-enum { MOST_OUTER = 50000 };
+enum { MOST_OUTER = 20000 };
 
 /* What follows from others, such as the mesh of steady rolling or an option of B, is given as well
  * where it is another one: hence more rounds than one. */
@@ -138,9 +138,8 @@ rb_status rb_certificate_inputs(const rb_certificate *c, const json_t *root, rb_
         if (s == RB_OK && !now)
             s = RB_ENOMEM;
     }
-    if (s != RB_OK)
-        s = rb_fail(why, s == RB_ENOMEM ? s : RB_EFORMAT, "%s: cannot be checked: inputs: %s",
-                    c->name, reason.text);
+    if (s != RB_OK && s != RB_ENOMEM)
+        s = rb_fail(why, RB_EFORMAT, "%s: cannot be checked: inputs: %s", c->name, reason.text);
     json_object_foreach(now, key, value)
     {
         if (s == RB_OK && !json_equal(value, json_object_get(inputs, key)))

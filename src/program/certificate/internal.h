@@ -32,6 +32,11 @@ void rb_certificate_expect(rb_certificate *c, const char *what, double printed, 
 /* RB_EFORMAT: "<name>: cannot be checked: <what>". */
 rb_status rb_certificate_refuse(const rb_certificate *c, const char *what, rb_message *why);
 
+/* Tells why a result cannot be checked, or that there is no memory.  Returns RB_EFORMAT, RB_ENOMEM
+ * or RB_OK. */
+rb_status rb_certificate_end(const rb_certificate *c, rb_status s, const rb_message *reason,
+                             rb_message *why);
+
 /* ---- inputs.c: the case again ----------------------------------------------------- */
 
 /* "" where there is no such word; NAN where there is no such number. */

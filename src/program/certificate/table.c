@@ -109,7 +109,7 @@ static rb_status write_table(rb_certificate *c, void *context, json_t **again, r
         s = lines ? rb_report_table(lines, &of->resolved->rc, &r.solution, of->command,
                                     &(rb_report_style){RB_REPORT_TSV, 0})
                   : RB_ENOMEM;
-        if (lines && fclose(lines) != 0)
+        if (lines && (fclose(lines) != 0 || !text)) /* success without a text: no memory */
             s = RB_ENOMEM;
         json_decref(*again);
         *again = NULL;
@@ -142,19 +142,20 @@ rb_status rb_certificate_check_table(FILE *out, const char *name, const char *te
         : resolved->error || resolved->accuracy > 0.0 ? "error bars take solutions on other meshes"
         : resolved->units != RB_UNITS_MM              ? "units other than mm, N, MPa"
                                                       : NULL;
-    rb_status s = refused ? rb_certificate_refuse(&c, refused, why) : RB_OK;
+    rb_status s = refused ? rb_certificate_refuse(&c, refused, &reason) : RB_OK;
     /* "# steady, solved; residual 3.1e-14" */
     const char *of = strstr(text, "; residual "), solved[] = ", solved";
     const ptrdiff_t n = (ptrdiff_t)strlen(solved);
     double residual;
     if (s == RB_OK && (!of || sscanf(of, "; residual %lf", &residual) != 1))
-        s = rb_certificate_refuse(&c, "expected a table of a single case, with its comments", why);
+        s = rb_certificate_refuse(&c, "expected a table of a single case, with its comments",
+                                  &reason);
     if (s == RB_OK && !(of - text > n && strncmp(of - n, solved, (size_t)n) == 0))
-        s = rb_certificate_refuse(&c, "its status is not solved", why);
+        s = rb_certificate_refuse(&c, "its status is not solved", &reason);
     if (s == RB_OK)
         s = rb_report_table_command(text, &line);
     if (s == RB_OK)
-        s = tree_of(name, text, &tree, why);
+        s = tree_of(name, text, &tree, &reason);
     if (s == RB_OK) {
         snprintf(command, sizeof command, "rollbem%s", line);
         source from = {tree, resolved, command, residual};
@@ -162,9 +163,5 @@ rb_status rb_certificate_check_table(FILE *out, const char *name, const char *te
     }
     free(line);
     json_decref(tree);
-    return s == RB_OK || !reason.text[0] ? s
-           : s == RB_ENOMEM              ? rb_fail(why, s, "%s: out of memory", name)
-           : strncmp(reason.text, name, strlen(name)) == 0
-               ? rb_fail(why, RB_EFORMAT, "%s", reason.text)
-               : rb_fail(why, RB_EFORMAT, "%s: cannot be checked: %s", name, reason.text);
+    return rb_certificate_end(&c, s, &reason, why);
 }
