@@ -88,7 +88,8 @@ void fuzz_lemke(const uint8_t *data, size_t size)
     rb_sparse_free(&a);
     rb_lcp_solutions all = {0};
     rb_message why = {""};
-    const rb_status s = rb_lcp_enumerate(&(rb_lcp_problem){n, M, n, q}, NULL, NULL, &all, &why);
+    const rb_status s =
+        rb_lcp_enumerate(&(rb_lcp_problem){n, M, n, q}, NULL, NULL, 0.0, &all, &why);
     fuzz_require_reason(s, &why);
     for (int k = 0; s == RB_OK && k < all.count; k++)
         require_listed(n, M, q, all.z + k * n);
