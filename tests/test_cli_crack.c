@@ -62,7 +62,7 @@ TEST(passes)
     static const size_t step[] = {45, 55, 65, 75, 80, 120};
     char line[300];
     for (size_t k = 0; k < sizeof want / sizeof *want; k++) {
-        snprintf(line, sizeof line, HERTZ "--formulation steady %s", want[k].load);
+        snprintf(line, sizeof line, HERTZ "--formulation steady --steps 120 %s", want[k].load);
         held_json *root = run_json(line);
         const json_t *table = json_object_get(root, "table");
         const double unit = scale_of(root);
@@ -137,7 +137,8 @@ TEST(units_and_case_files)
         CHECK_REL(in_summary(si, names[k]), want * 1e6 / sqrt(1000.0), 1e-9, "%s", names[k]);
         CHECK_REL(in_summary(file, names[k]), want, 0.0, "%s", names[k]);
     }
-    CHECK_REL(entry(json_object_get(si, "table"), "x", 0), -6e-3, 1e-12, "x");
+    /* six half-widths before the mouth */
+    CHECK_REL(entry(json_object_get(si, "table"), "x", 0), -5.8e-3, 1e-12, "x");
     CHECK_ABS(number_in(json_object_get(file, "inputs"), "remote-stress"), 20.0, 0.0, "inputs");
 }
 
@@ -357,6 +358,102 @@ TEST(back_to_the_surface)
  * a case file, and it goes on where it was cut. */
 #define VARIED "sweep cracks.ini --vary-1 'crack-length 0.5 1' --vary-2 'crack-angle 30 60' "
 
+/* Cracks much shorter than the contact, and the bars of their K: another mesh of contact and
+ * crack, and other positions, stay within them. */
+TEST(short_cracks)
+{
+    static const struct {
+        const char *options, *name;
+        double want; /* of 800 contact elements, 80 of the crack, 2400 positions */
+    } rows[] = {
+        {"--mu 0 --crack-angle 30 --crack-friction 0.1 --crack-length 0.05 ", "delta_K_II", 0.5925},
+        {"--mu 0 --fluid trapped --crack-length 0.1147 ", "K_I_max", 0.6262},
+        {"--mu 0 --fluid trapped --closing located --crack-length 0.1147 ", "K_I_max", 0.6262},
+        {"--mu 0.3 --formulation steady --creep-ratio -3 --fluid trapped --closing located "
+         "--crack-length 0.1147 ",
+         "K_I_max", 4.0836}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        char line[400];
+        snprintf(line, sizeof line,
+                 "crack --similar --support halfplane --radius 1000 --half-width 1 "
+                 "--crack-elements 20 --error %s",
+                 rows[k].options);
+        held_json *root = run_json(line);
+        const double bar =
+            number_in(json_object_get(json_object_get(root, "summary"), "errors"), rows[k].name);
+        CHECK_ABS(in_summary(root, rows[k].name), rows[k].want, bar, "%s", line);
+        if (k != 1)
+            CHECK_MAX(bar, 0.12 * rows[k].want, "%s", line);
+    }
+}
+
+/* The half-width is that of the loads of the history; lengths with a unit need none. */
+TEST(fretting_has_its_own_half_width)
+{
+#define FRETTING                                                                                   \
+    "crack --similar --support halfplane --gap parabola --young 210000 --poisson 0.3 --radius "    \
+    "1000 --mu 0.5 --formulation static --history fretting.txt --crack-angle 90 --crack-friction " \
+    "0 --contact-elements 100 "
+    write_file("fretting.txt", "load force_ratio\n90.62286500739786 0\n90.62286500739786 0.6\n"
+                               "90.62286500739786 0\n90.62286500739786 -0.6\n"
+                               "90.62286500739786 0\n90.62286500739786 0.6\n");
+    held_json *root = run_json(FRETTING "--crack-length 0.05 --from 1 --error"),
+              *mm = run_json(FRETTING "--crack-length 0.05mm --from 1000um");
+    CHECK_REL(in_summary(root, "half_width"), 1.0, 1e-6, "half-width");
+    CHECK_REL(in_summary(root, "K_I_max"), 9.717, 5e-4, "K_I");
+    CHECK_REL(in_summary(mm, "K_I_max"), in_summary(root, "K_I_max"), 1e-6, "with units");
+    const json_t *errors = json_object_get(json_object_get(root, "summary"), "errors");
+    CHECK_ABS(in_summary(root, "delta_K_II"), 4.4663, number_in(errors, "delta_K_II"),
+              "in its bar");
+    CHECK_ABS(in_summary(mm, "crack_length"), 0.05, 1e-12, "length");
+    assert_string_equal(
+        json_string_value(json_object_get(json_object_get(mm, "inputs"), "crack-length")),
+        "0.05mm");
+    held_json *unloaded = run_json(FRETTING "--unloaded --remote-stress 10 --crack-length 0.05");
+    CHECK_REL(in_summary(unloaded, "K_I_max"), 11.2152 * sqrt(M_PI * 0.05), 1e-3, "of 0.05 mm");
+    check_refused("crack --support halfplane --mu 0 --unloaded --remote-stress 10", 64,
+                  "give them with a unit");
+    held_json *absolute = run_json("crack --support halfplane --mu 0 --unloaded --remote-stress 10 "
+                                   "--crack-angle 90 --crack-length 0.05mm");
+    CHECK_REL(in_summary(absolute, "K_I_max"), 11.2152 * sqrt(M_PI * 0.05), 1e-3, "the same");
+    /* under an approach the half-width is that of the load that is computed */
+    held_json *approach =
+        run_json("crack --similar --support halfplane --gap parabola --radius 1000 "
+                 "--approach 0.002 --mu 0 --crack-elements 8 --steps 30");
+    CHECK_REL(in_summary(approach, "half_width"),
+              number_in(json_object_get(approach, "contact"), "hertz_half_width"), 1e-12,
+              "half-width");
+}
+
+/* What a pass says of its positions: only what is so. */
+TEST(positions_say_what_they_miss)
+{
+#define SHORT_PASS                                                                                 \
+    "crack --similar --support halfplane --radius 1000 --half-width 1 --crack-elements 8 "         \
+    "--contact-elements 20 --mu 0 "
+    static const struct {
+        const char *line, *note;
+        int says;
+    } rows[] = {{SHORT_PASS "--crack-mouth -0.5", "from the mouth", 0},
+                {SHORT_PASS "--crack-mouth -0.5 --from -6", "5.5 half-widths from the mouth", 1},
+                {SHORT_PASS "--steps 120", "Positions are", 0},
+                {SHORT_PASS "--steps 120 --crack-length 0.05", "take at most 0.005", 1},
+                {SHORT_PASS "--crack-length 0.05", "Positions are", 0},
+                {SHORT_PASS "--formulation transient --creep 0 --distance 3",
+                 "does not reach the crack: it ends 2", 1},
+                {SHORT_PASS "--formulation transient --creep 0 --distance 7", "does not reach", 0},
+                {SHORT_PASS "--to -3", "does not reach the crack: it ends 2", 1}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        held_json *root = run_json(rows[k].line);
+        const json_t *notes = json_object_get(root, "notes");
+        int said = 0;
+        for (size_t i = 0; i < json_array_size(notes); i++)
+            said |= strstr(json_string_value(json_array_get(notes, i)), rows[k].note) != NULL;
+        if (said != rows[k].says)
+            fail_msg("%s: '%s' is %s", rows[k].line, rows[k].note, said ? "said" : "not said");
+    }
+}
+
 TEST(studies)
 {
     static const char *const names[] = {"K_I_max", "K_II_max", "delta_K_II", "K_II_min_at"};
@@ -413,7 +510,7 @@ TEST(studies)
                   "case 2: --crack-angle: expected more than 0");
     check_refused(STUDY "--vary-1 'crack-elements 3 30'", 64, "case 1: crack-elements");
     check_refused(STUDY "--vary-1 'crack-angle 30' --derivatives half_width", 64, "have none");
-    check_refused(STUDY "--vary-1 'fluid 1 2'", 64, "with a number as value");
+    check_refused(STUDY "--vary-1 'fluid 1 2'", 64, "none, trapped or pressure");
     check_refused(STUDY "--vary-1 'crack-angle 30' --paris 1e-12,3", 64, "--paris");
     check_refused(STUDY "--vary-1 'crack-angle 30' --results max_shear", 64,
                   "no result 'max_shear'");

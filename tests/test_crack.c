@@ -248,7 +248,7 @@ TEST(stress_of_strips)
         }
         const rb_bem_edge_load above = {STRIPS, load.x, load.p, mirrored};
         CHECK_OK(rb_bem_halfplane_stress(&above, (rb_bem_points){N - 1, places}, stress));
-        CHECK_OK(rb_crack_load(c, &load.load, at[k], 0.0, T));
+        CHECK_OK(rb_crack_load(c, &load.load, RB_CRACK_STRIPS, at[k], 0.0, T));
         for (int j = 0; j < N - 1; j++) {
             CHECK_ABS(T[j] / hat[j], stress[3 * j + 1], 1e-7, "syy, x = %g", at[k]);
             /* along t = +x: sigma_ns is sxy, which the mirror turns */
@@ -292,8 +292,8 @@ TEST(betti)
     held_crack *c = create(edge_crack(60.0, N, 0.1));
     CHECK_OK(rb_crack_pass(c, &passage, &h, NULL));
     rb_crack_places(c, px, py, NULL, tx, ty);
-    CHECK_OK(rb_crack_load(c, &strip, left, 0.0, T[0]));
-    CHECK_OK(rb_crack_load(c, &strip, right, 0.0, T[1]));
+    CHECK_OK(rb_crack_load(c, &strip, RB_CRACK_STRIPS, left, 0.0, T[0]));
+    CHECK_OK(rb_crack_load(c, &strip, RB_CRACK_STRIPS, right, 0.0, T[1]));
     for (int j = 0; j < N; j++) {
         const double complex t = tx[j] + I * ty[j];
         z[j] = px[j] + I * py[j];
@@ -441,7 +441,7 @@ static double by_steps(int n, int positions, const double *x, double *pressure)
     CHECK_OK(rb_crack_state_alloc(c, &s));
     *pressure = 0.0;
     for (int k = 0; k < positions; k++) {
-        CHECK_OK(rb_crack_load(c, &load.load, x[k], 0.0, T));
+        CHECK_OK(rb_crack_load(c, &load.load, RB_CRACK_STRIPS, x[k], 0.0, T));
         CHECK_OK(rb_crack_step(c, T, RB_CRACK_TRAPPED, 0.0, 1.0, &s, NULL));
         most = fmax(most, s.K_I);
         *pressure = fmax(*pressure, s.fluid_pressure);

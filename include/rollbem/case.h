@@ -383,9 +383,19 @@ void rb_case_derivatives_free(rb_case_derivatives *all);
 
 /* ---- Cracks ------------------------------------------------------------------------ */
 
+/* Lengths of a crack that were given with a unit, as bits. */
+enum {
+    RB_CRACK_LENGTH = 1,
+    RB_CRACK_MOUTH = 2,
+    RB_CRACK_DEPTH = 4,
+    RB_CRACK_FROM = 8,
+    RB_CRACK_TO = 16,
+    RB_CRACK_GROW_TO = 32
+};
+
 /* A crack in body B under the contact of a case, as given by the user.  Lengths are in
- * half-widths (Hertz's half-width of the load, as for distances of histories), the angle
- * is in degrees. */
+ * half-widths of the contact (rb_case_crack_result), or in mm where their bit is set; the
+ * angle is in degrees. */
 typedef struct {
     double length, angle, mouth, depth, friction;
     int elements;
@@ -399,8 +409,9 @@ typedef struct {
     rb_numbers paris_law; /* C and m, with lengths and K in the units of the case */
     int paris_range;      /* rb_case_crack_range */
     int tension;          /* 1: grows perpendicular to the largest tension, 0: straight ahead */
-    double threshold, grow_to; /* [K]; length in half-widths, NAN: twice the length */
+    double threshold, grow_to; /* [K]; length, NAN: twice the length of the crack */
     int grow_steps;
+    int in_mm; /* bits of lengths */
 } rb_case_crack;
 
 /* The range of K during a pass that determines the growth of the crack. */
@@ -449,11 +460,16 @@ rb_option_set rb_case_crack_set(rb_case *c);
 /* The crack of the resolved case in mm, N, MPa; NULL: it takes none. */
 const rb_case_crack *rb_case_crack_of(const rb_case *c);
 
-enum { RB_CASE_CRACK_NOTES = 6 };
+enum { RB_CASE_CRACK_NOTES = 8 };
 typedef struct {
     rb_case_result contact; /* the contact; solution.n = 0: unloaded */
-    double half_width;      /* [length] */
-    rb_status status;       /* RB_INTERRUPTED: some passes or lengths are missing */
+    double half_width;      /* unit of the lengths of the crack: that of the load, in a history of
+                               the largest one (rb_rolling_contact_half_width) [length]; NAN:
+                               nothing loads the crack, and no load is given */
+    int positions; /* of a pass, where the program has added some to those of the track; otherwise
+                      0 */
+    double *position; /* [length]; owned */
+    rb_status status; /* RB_INTERRUPTED: some passes or lengths are missing */
     int passes;
     rb_crack_shape shape;
     rb_rolling_states states; /* of the contact, if it has steps; otherwise n = 0 */
@@ -468,6 +484,11 @@ typedef struct {
     int note_kinds;                      /* how many were thought of so far */
     rb_units units;                      /* of all values except shape and contact.model */
 } rb_case_crack_result;
+
+/* The crack with its lengths in mm, a being the unit of those without one (NAN: they are NAN), and
+ * with the positions that are not given. */
+rb_case_crack rb_case_crack_lengths(const rb_resolved_case *resolved, const rb_case_crack *crack,
+                                    double a);
 
 /* Checks the crack, the positions, and whether the case can load a crack. */
 rb_status rb_case_crack_check(const rb_resolved_case *resolved, const rb_case_crack *crack,
@@ -488,8 +509,9 @@ typedef struct {
     double *x; /* n positions [length] */
     int loads; /* as in rb_crack_passage */
     rb_bem_edge_load *load;
+    rb_crack_load_kind kind;
     double *ends;
-    rb_arena memory; /* of the arrays */
+    rb_arena memory; /* of the arrays; those of a result with positions are its own */
 } rb_case_crack_track;
 
 /* The case of the contact that loads the crack: of a coupled one on equal elements that reach
@@ -497,10 +519,11 @@ typedef struct {
 rb_resolved_case rb_case_crack_contact(const rb_resolved_case *resolved,
                                        const rb_case_crack *crack);
 /* The track of result->contact and result->states, whose arrays it borrows; also sets
- * half_width, shape, passes and notes of the result.  RB_EINVAL: a step of the contact
- * jumps over the crack. */
+ * half_width, shape, passes and notes of the result.  Where the program chooses the positions,
+ * those of the result are taken if there are any; otherwise it begins with `finer` times as
+ * many.  RB_EINVAL: a step of the contact jumps over the crack; a length is out of range. */
 rb_status rb_case_crack_follow(const rb_resolved_case *resolved, const rb_case_crack *crack,
-                               rb_case_crack_result *result, rb_case_crack_track *track,
+                               int finer, rb_case_crack_result *result, rb_case_crack_track *track,
                                rb_message *why);
 void rb_case_crack_track_free(rb_case_crack_track *track);
 /* The passage of such a track without a wheel. */

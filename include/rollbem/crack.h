@@ -61,12 +61,18 @@ const double *rb_crack_flexibility(const rb_crack *crack);
 
 /* ---- Load -------------------------------------------------------------------------- */
 
+/* A load is given by strips, on which its tractions are constant, or by nodes, between which
+ * they are linear. */
+typedef enum { RB_CRACK_STRIPS, RB_CRACK_NODES } rb_crack_load_kind;
+
 /* Nodal forces T (2n) of the stress that the load causes in the body without a crack.
- * load: strips [length] with pressure p and friction q on the upper body A, moved by x;
- * NULL: none.  tension: uniform stress along the surface.  RB_EINVAL: the strips are out
- * of order, or a crack of the full plane lies above y = 0; RB_ENOMEM. */
-rb_status rb_crack_load(const rb_crack *crack, const rb_bem_edge_load *load, double x,
-                        double tension, double *T);
+ * load: [length], with pressure p and friction q on the upper body A, moved by x; NULL: none.
+ * tension: uniform stress along the surface.  RB_EINVAL: the abscissae are out of order, or a
+ * crack of the full plane lies above y = 0; RB_ENOMEM. */
+rb_status rb_crack_load(const rb_crack *crack, const rb_bem_edge_load *load,
+                        rb_crack_load_kind kind, double x, double tension, double *T);
+/* The pressure of the load at x. */
+double rb_crack_pressure(const rb_bem_edge_load *load, rb_crack_load_kind kind, double x);
 
 /* ---- One state --------------------------------------------------------------------- */
 
@@ -124,6 +130,9 @@ typedef struct {
     const double *x; /* steps: position of the load [length] */
     int loads;       /* 0: none, 1: the same load in each step, or steps: one load per step */
     const rb_bem_edge_load *load; /* borrowed, as x */
+    rb_crack_load_kind kind;      /* of all loads */
+    const double *forces;         /* steps x 2n: the nodal forces of rb_crack_load at the positions;
+                                     NULL: they are computed */
     int passes;                   /* >= 1: how often the steps are repeated */
     rb_crack_fluid fluid;
     int locate_closing; /* trapped fluid: 0: the volume of the last step with an open

@@ -66,8 +66,12 @@ typedef struct {
     const char *path_name; /* placeholder of this name in the help: FILE, NAME */
     rb_option_file file;   /* texts, and choices with another word */
     unsigned excludes;     /* bit mask; of options with a common bit only one may be given */
-    int frozen;           /* numbers: 1: a number of the mesh, the steps or the solver; there are no
-                             derivatives with respect to it */
+    int frozen;     /* numbers: 1: a number of the mesh, the steps or the solver; there are no
+                       derivatives with respect to it */
+    size_t lengths; /* numbers in another unit than one of length, as half-widths are: if
+                       not 0, a length with a unit may be given as well; it is stored in
+                       mm, and sets length_bit of the int at this offset */
+    int length_bit;
     const char *alone;    /* texts: value if the option is given without one, that is, if the
                              next argument is an option, a file, or has a dot or slash; NULL:
                              a value is required */
@@ -177,6 +181,9 @@ typedef struct {
 /* Describes the allowed values of an option: "a number >= 0", "lemke, newton or auto".
  * Returns text. */
 const char *rb_option_expected(const rb_option *option, char *text, size_t size);
+
+/* 1: the value of the option in this target is a length in mm (`lengths` above). */
+int rb_option_is_length(const rb_option *option, const void *target);
 
 /* 1: the number is in the range of the option. */
 int rb_option_in_range(const rb_option *option, double value);

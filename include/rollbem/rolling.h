@@ -1297,6 +1297,18 @@ rb_status rb_rolling_stress_check(const rb_rolling_case *rc, rb_message *why);
 rb_status rb_rolling_stress_at(const rb_rolling_model *model, int n, const double *xy,
                                rb_rolling_stress *stress, rb_message *why);
 
+/* The tractions p and q of a state, between n + 1 ends along the contact, as nodes between which
+ * they are linear (B14): the midpoints of the elements, and close to the edges of patches more of
+ * them, where the tractions fall like a power of the distance.  The first and the last node
+ * carry nothing.  ends: those of the mesh, or along another line; p, q likewise.  edge_nodes:
+ * from an edge on, RB_ROLLING_EDGE_NODES for the stress at the edge itself.  load: in `memory`.
+ * RB_ENOMEM. */
+enum { RB_ROLLING_EDGE_NODES = 32 };
+rb_status rb_rolling_traction_nodes(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                    const struct rb_contact_state *state, const double *ends,
+                                    const double *p, const double *q, int edge_nodes,
+                                    rb_arena *memory, rb_bem_edge_load *load);
+
 /* Height of A's surface at x: 0 for a half-plane. */
 double rb_rolling_surface(const rb_rolling_case *rc, double x);
 

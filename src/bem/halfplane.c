@@ -39,7 +39,9 @@ static const double FAR = 2.0;
 
 /* Muskhelishvili's Phi of the mirrored body y <= 0, f = p + i q on strips from x to x':
  *     2 pi i Phi = sum f (ln(x' - z) - ln(x - z)) = -sum_m v^m sum f (u'^m - u^m)/m
- * with v = half/(z - middle), u = (x - middle)/half. */
+ * with v = half/(z - middle), u = (x - middle)/half.  Of tractions that are linear between
+ * nodes, with the slopes f_u, and zero at both ends
+ *     2 pi i Phi = sum_m v^m/m sum f_u (u'^(m + 1) - u^(m + 1))/(m + 1). */
 typedef struct {
     double middle, half;
     double complex moment[TERMS + 1]; /* of v^m, without 1/m */
@@ -140,6 +142,22 @@ rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_po
     if (n < 2 || !rb_bem_edge_load_is_valid(load, n, points))
         return RB_EINVAL;
     const double tiny = 1e-20 * (nodes[n - 1] - nodes[0]);
+    const int is_series = points.n > TERMS && n > 2;
+    far_field far = {.middle = 0.5 * (nodes[0] + nodes[n - 1]),
+                     .half = 0.5 * (nodes[n - 1] - nodes[0])};
+    for (int j = 0; is_series && j + 1 < n; j++) {
+        const double u = (nodes[j] - far.middle) / far.half,
+                     next = (nodes[j + 1] - far.middle) / far.half;
+        double complex at =
+            complex_of(q[j + 1] - q[j], p[j] - p[j + 1]) / (next - u) / (2.0 * M_PI);
+        double complex to = at * next;
+        at *= u;
+        for (int m = 1; m <= TERMS; m++) {
+            at *= u;
+            to *= next;
+            far.moment[m] += (to - at) / (m + 1);
+        }
+    }
     int stop = 0;
 #pragma omp parallel for num_threads(rb_blas_loop_threads())                                       \
     schedule(static) if ((double)points.n * n > rb_pairs_for_threads)
@@ -149,6 +167,10 @@ rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_po
         /* The logarithms at a node itself cancel, if both intervals see it from as near. */
         const double x = points.xy[2 * i], y = fmax(points.xy[2 * i + 1], tiny);
         double complex above = 0.0, below = 0.0, slope = 0.0;
+        if (is_series && hypot(x - far.middle, y) >= FAR * far.half) {
+            far_stress(&far, complex_of(x, -y), stress + 3 * i);
+            continue;
+        }
         for (int j = 0; j + 1 < n; j++) {
             const double h = nodes[j + 1] - nodes[j], from = nodes[j] - x, to = nodes[j + 1] - x;
             const double complex g = complex_of(-p[j], q[j]),

@@ -33,7 +33,7 @@ static rb_status assemble(const rb_crack *c, const rb_crack_wheel *w, double x,
     for (int j = 0; j < m && s == RB_OK; j++) {
         const double unit = 1.0 / (w->ends[j + 1] - w->ends[j]), none = 0.0;
         const rb_bem_edge_load strip = {1, w->ends + j, &unit, &none};
-        s = rb_crack_load(c, &strip, x, 0.0, C + (size_t)n2 * (size_t)j);
+        s = rb_crack_load(c, &strip, RB_CRACK_STRIPS, x, 0.0, C + (size_t)n2 * (size_t)j);
     }
     if (s == RB_OK) {
         memset(F, 0, ld * ld * sizeof *F);

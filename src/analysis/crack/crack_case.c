@@ -2,42 +2,115 @@
 #include "rolling/case/words.h"
 
 #include <gsl/gsl_math.h>
+#include <stdlib.h>
 #include <string.h>
 
-/* Positions farther apart, in half-widths, miss the crack; above NARROW extremes lie
- * between them.  The first one stands at least FAR from the mouth. */
+/* Positions farther apart, in half-widths, miss the crack; above NARROW, of what is smaller,
+ * the half-width or the crack, extremes lie between them.  The first one stands at least FAR
+ * from the mouth. */
 static const double WIDE = 0.5, NARROW = 0.1, FAR = 6.0;
 /* Of a B that is a cylinder: the deepest place of a crack in a half-plane, in radii. */
 static const double DEEPEST = 0.1;
-/* Half-width of the potential contact of a coupled crack, in half-widths. */
-static const double ZONE = 1.6;
-enum { INTERVALS = 120 };
+/* Half-width of the potential contact of a coupled crack, in half-widths, and how much wider
+ * the next one is where the contact reaches its end. */
+static const double ZONE = 1.6, WIDER = 1.3;
+enum { INTERVALS = 120, MOST_POSITIONS = 4000, MOST_MARKS = 64, SEARCHES = 3, ZONES = 5 };
+/* Nodes of the tractions at an edge (B14): a crack feels their mean over its length. */
+enum { EDGE_NODES = 10 };
 
-/* ---- Positions --------------------------------------------------------------------- */
+/* ---- Lengths ----------------------------------------------------------------------- */
 
-static int intervals(const rb_resolved_case *c)
+/* The unit of the lengths as far as the load tells it; NAN: it does not. */
+static double unit_of_load(const rb_resolved_case *c, const rb_case_crack *k)
 {
-    return c->rc.steps > 0 ? c->rc.steps : INTERVALS;
+    double load = c->derived.load;
+
+    if (!k->unloaded && rb_case_has_steps(c))
+        return NAN;
+    for (int i = 0; c->program.load && i < c->program.n; i++)
+        load = i > 0 ? fmax(load, c->program.load[i]) : c->program.load[i];
+    return isnan(load) ? NAN : rb_rolling_unit_of_distance(&c->rc, load);
 }
 
-static double from_of(const rb_resolved_case *c, const rb_case_crack *k)
+/* That of the contact as it is solved; NAN: there is none. */
+static double unit_of(const rb_resolved_case *c, const rb_case_crack *k,
+                      const rb_case_crack_result *r)
 {
-    return !isnan(k->from)                                          ? k->from
-           : rb_case_has_steps(c) && c->rc.formulation == RB_STATIC ? 0.0
-                                                                    : -FAR;
+    const rb_rolling_solution *one = &r->contact.solution;
+    const double known = unit_of_load(c, k);
+
+    if (!k->unloaded && rb_case_has_steps(c))
+        return r->contact.history.half_width;
+    return !isnan(known) || k->unloaded   ? known
+           : isnan(one->hertz_half_width) ? one->half_width
+                                          : one->hertz_half_width;
 }
 
-static double to_of(const rb_case_crack *k)
+rb_case_crack rb_case_crack_lengths(const rb_resolved_case *c, const rb_case_crack *k, double a)
 {
-    return isnan(k->to) ? FAR : k->to;
+    rb_case_crack l = *k;
+    const struct {
+        double *length;
+        int bit;
+    } all[] = {{&l.length, RB_CRACK_LENGTH}, {&l.mouth, RB_CRACK_MOUTH},
+               {&l.depth, RB_CRACK_DEPTH},   {&l.from, RB_CRACK_FROM},
+               {&l.to, RB_CRACK_TO},         {&l.grow_to, RB_CRACK_GROW_TO}};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if (!(k->in_mm & all[i].bit) && *all[i].length != 0.0)
+            *all[i].length *= a;
+    if (isnan(l.from))
+        l.from = isnan(a) || (rb_case_has_steps(c) && c->rc.formulation == RB_STATIC)
+                     ? 0.0
+                     : l.mouth - FAR * a;
+    if (isnan(l.to))
+        l.to = l.mouth + FAR * a;
+    if (isnan(l.grow_to))
+        l.grow_to = 2.0 * l.length;
+    return l;
+}
+
+/* What only the unit of the lengths tells. */
+static rb_status check_lengths(const rb_resolved_case *c, const rb_case_crack *k, double a,
+                               rb_message *why)
+{
+    const rb_rolling_case *rc = &c->rc;
+    const rb_case_crack l = rb_case_crack_lengths(c, k, a);
+    const double deepest = l.depth + l.length * fabs(sin(k->angle * M_PI / 180.0));
+
+    if (!(l.length > 0.0 && isfinite(l.mouth) && l.depth >= 0.0))
+        return rb_fail(why, RB_EINVAL,
+                       "--unloaded: without --load and --half-width there is no half-width that "
+                       "the lengths of the crack could be measured by; give them with a unit, "
+                       "such as --crack-length 0.05mm");
+    if (!k->unloaded && rc->elastic_b && deepest > DEEPEST * fabs(rc->b.radius))
+        return rb_fail(why, RB_EINVAL,
+                       "crack: body B counts as a half-plane; a crack as deep as %g of "
+                       "its radius needs its shape, expected at most %g",
+                       deepest / fabs(rc->b.radius), DEEPEST);
+    if (!isnan(k->grow_to) && !(l.grow_to > l.length))
+        return rb_fail(why, RB_EINVAL,
+                       "--grow-to: expected more than the length of the crack, %g mm, got %g mm",
+                       l.length, l.grow_to);
+    if (rb_case_has_steps(c) || k->unloaded)
+        return RB_OK;
+    if (!(l.from < l.to))
+        return rb_fail(why, RB_EINVAL,
+                       "--from and --to: A rolls towards +x; expected --from below --to, "
+                       "got %g and %g half-widths",
+                       l.from / a, l.to / a);
+    const double step = (l.to - l.from) / a / (rc->steps > 0 ? rc->steps : INTERVALS);
+    if (step > WIDE * (1.0 + 1e-12))
+        return rb_fail(why, RB_EINVAL,
+                       "--steps: %d steps of %g half-widths would jump over the crack, "
+                       "expected at least %d",
+                       rc->steps > 0 ? rc->steps : INTERVALS, step,
+                       (int)ceil((l.to - l.from) / a / WIDE * (1.0 - 1e-12)));
+    return RB_OK;
 }
 
 rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k, rb_message *why)
 {
     const rb_rolling_case *rc = &c->rc;
-    const double a = c->derived.half_width;
-    const double deepest = a * (k->depth + k->length * fabs(sin(k->angle * M_PI / 180.0)));
-
     if (!(k->angle >= 0.0 && k->angle < 180.0) || (k->depth == 0.0 && k->angle == 0.0))
         return rb_fail(why, RB_EINVAL,
                        "--crack-angle: expected more than 0 and less than 180 degrees%s, "
@@ -61,11 +134,6 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
         return rb_fail(why, RB_EINVAL,
                        "crack: the stress in body B is known where it is homogeneous and "
                        "elastic only, without a layer, a cover or memory");
-    if (!k->unloaded && rc->elastic_b && deepest > DEEPEST * fabs(rc->b.radius))
-        return rb_fail(why, RB_EINVAL,
-                       "crack: body B counts as a half-plane; a crack as deep as %g of "
-                       "its radius needs its shape, expected at most %g",
-                       deepest / fabs(rc->b.radius), DEEPEST);
     if (k->coupled && (rb_rolling_largest_mu(rc) > 0.0 || rb_case_has_steps(c)))
         return rb_fail(why, RB_EINVAL,
                        "--coupled: for a contact without friction and without steps of its "
@@ -79,24 +147,121 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
     const rb_status s = rb_case_check_growth(k, why);
     if (s != RB_OK)
         return s;
-    /* Positions of the contact. */
-    const double from = from_of(c, k), to = to_of(k);
-    const int n = intervals(c), steps = rb_case_has_steps(c);
-    if (steps && !isnan(k->to))
+    if (rb_case_has_steps(c) && !isnan(k->to))
         return rb_fail(why, RB_EINVAL, "--to: the history says how far the contact goes");
-    if (steps || k->unloaded)
-        return RB_OK;
-    if (!(from < to))
-        return rb_fail(why, RB_EINVAL,
-                       "--from and --to: A rolls towards +x; expected --from below --to, "
-                       "got %g and %g",
-                       from, to);
-    if ((to - from) / n > WIDE * (1.0 + 1e-12))
-        return rb_fail(why, RB_EINVAL,
-                       "--steps: %d steps of %g half-widths would jump over the crack, "
-                       "expected at least %d",
-                       n, (to - from) / n, (int)ceil((to - from) / WIDE * (1.0 - 1e-12)));
-    return RB_OK;
+    const double a = unit_of_load(c, k); /* before anything is solved, if it is known */
+    return isnan(a) ? RB_OK : check_lengths(c, k, a, why);
+}
+
+/* ---- Positions --------------------------------------------------------------------- */
+
+/* The program chooses the positions: what moves is one state. */
+static int chooses_positions(const rb_resolved_case *c, const rb_case_crack *k)
+{
+    return !k->unloaded && !rb_case_has_steps(c) && c->rc.steps == 0;
+}
+
+/* What K changes fastest with: the crack, or the half-width. */
+static double scale_of(const rb_case_crack *lengths, double a)
+{
+    return fmin(lengths->length + lengths->depth, a);
+}
+
+/* Where the tractions bend: edges of patches, ends of stick. */
+static int marks_of(const rb_case_crack_track *t, int n, const int *zone, double *mark)
+{
+    const rb_bem_edge_load *load = &t->load[0];
+    int marks = 0;
+
+    for (int j = 0; t->kind == RB_CRACK_NODES && j < load->n && marks < MOST_MARKS; j++)
+        if (load->p[j] == 0.0 &&
+            ((j > 0 && load->p[j - 1] > 0.0) || (j + 1 < load->n && load->p[j + 1] > 0.0)))
+            mark[marks++] = load->x[j];
+    for (int i = 1; i < n && marks < MOST_MARKS; i++)
+        if (zone[i] != zone[i - 1] && (t->kind == RB_CRACK_STRIPS || (zone[i] && zone[i - 1])))
+            mark[marks++] = t->ends[i];
+    return marks;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Equal steps, and where a mark passes over a crack that is shorter than the half-width
+ * steps of a part of its length.  finer: so many times as many.  Returns how many positions;
+ * x: room for MOST_POSITIONS + 1. */
+static int first_positions(const rb_case_crack *l, double a, int finer, int marks,
+                           const double *mark, double *x)
+{
+    const int intervals = finer * INTERVALS;
+    const double scale = scale_of(l, a), room = 3.0 * scale;
+    double step = NARROW * scale / finer;
+    int n = 0;
+
+    for (int i = 0; i <= intervals; i++)
+        x[n++] = i < intervals ? l->from + (l->to - l->from) * i / intervals : l->to;
+    while (2.0 * marks * room / step > MOST_POSITIONS - n)
+        step *= 1.1;
+    for (int m = 0; m < marks && scale < a; m++) {
+        const int half = (int)ceil(room / step);
+        for (int i = -half; i <= half && n <= MOST_POSITIONS; i++) {
+            const double at = l->mouth - mark[m] + i * step;
+            if (at > l->from && at < l->to)
+                x[n++] = at;
+        }
+    }
+    qsort(x, (size_t)n, sizeof *x, ascending);
+    /* those of several marks may nearly be the same */
+    int kept = 1;
+    for (int i = 1; i < n; i++)
+        if (x[i] - x[kept - 1] > 0.2 * step)
+            x[kept++] = x[i];
+        else if (x[i] == l->to)
+            x[kept - 1] = l->to;
+    return kept;
+}
+
+/* More of them on both sides of the extremes of the last pass, so that these are found on
+ * them.  Returns how many positions; 0: there is nothing to be found. */
+static int more_positions(const rb_crack_history *h, int passes, double least, double **to)
+{
+    enum { PARTS = 4 };
+    const int n = h->n / passes, from = h->n - n;
+    const double *columns[] = {h->K_I, h->K_II, h->K_I_upper, h->K_II_upper};
+    int *parts = rb_alloc_int((size_t)n), added = 0;
+    double largest = 0.0;
+
+    *to = NULL;
+    if (!parts)
+        return -1;
+    for (int j = 0; j < 4; j++)
+        largest = columns[j] ? fmax(largest, rb_norm_inf((size_t)n, columns[j] + from)) : largest;
+    for (int j = 0; j < 4; j++)
+        for (int sign = -1; sign <= 1 && columns[j]; sign += 2) {
+            const double *value = columns[j] + from;
+            int most = 0;
+            for (int i = 1; i < n; i++)
+                /* of faces that stick the first of many that are equal but for rounding */
+                most = sign * (value[i] - value[most]) > 1e-9 * largest ? i : most;
+            for (int i = most; i <= most + 1; i++) /* the intervals before and behind it */
+                if (i > 0 && i < n && fabs(value[i] - value[i - 1]) > 1e-9 * largest &&
+                    h->x[from + i] - h->x[from + i - 1] > least)
+                    parts[i] = PARTS;
+        }
+    for (int i = 1; i < n; i++)
+        added += parts[i] ? PARTS - 1 : 0;
+    double *x = added ? rb_alloc((size_t)(n + added), 1) : NULL;
+    int m = 0;
+    for (int i = 0; x && i < n; i++) {
+        for (int k = 1; k < parts[i]; k++)
+            x[m++] = h->x[from + i - 1] + (h->x[from + i] - h->x[from + i - 1]) * k / PARTS;
+        x[m++] = h->x[from + i];
+    }
+    free(parts);
+    *to = x;
+    return x ? m : added ? -1 : 0;
 }
 
 /* ---- Load -------------------------------------------------------------------------- */
@@ -122,9 +287,11 @@ void rb_case_crack_track_free(rb_case_crack_track *t)
     *t = (rb_case_crack_track){0};
 }
 
-/* The ends of n contact elements, and their tractions in each of the loads. */
-static rb_status set_loads(int n, const double *x, const double *h, const double *p,
-                           const double *q, rb_case_crack_track *t)
+/* The ends of n contact elements, and their tractions in each of the loads: nodes between
+ * which they are linear (B14), of a coupled contact strips. */
+static rb_status set_loads(const rb_resolved_case *c, const rb_case_crack *k, int n,
+                           const double *x, const double *h, const double *p, const double *q,
+                           const int *zone, rb_case_crack_track *t)
 {
     t->ends = rb_arena_doubles(&t->memory, (size_t)n + 1, 1);
     if (!t->ends)
@@ -132,98 +299,151 @@ static rb_status set_loads(int n, const double *x, const double *h, const double
     for (int i = 0; i < n; i++)
         t->ends[i] = x[i] - 0.5 * h[i];
     t->ends[n] = x[n - 1] + 0.5 * h[n - 1];
-    for (int i = 0; i < t->loads; i++)
-        t->load[i] = (rb_bem_edge_load){n, t->ends, p + (size_t)i * n, q + (size_t)i * n};
-    return RB_OK;
+    t->kind = k->coupled ? RB_CRACK_STRIPS : RB_CRACK_NODES;
+    rb_status s = RB_OK;
+    for (int i = 0; i < t->loads && s == RB_OK; i++) {
+        const size_t at = (size_t)i * (size_t)n;
+        const rb_rolling_mesh mesh = {.n = n, .ends = t->ends};
+        const rb_contact_state state = {
+            .n = n, .p = (double *)p + at, .q = (double *)q + at, .zone = (int *)zone + at};
+        if (k->coupled)
+            t->load[i] = (rb_bem_edge_load){n, t->ends, p + at, q + at};
+        else
+            s = rb_rolling_traction_nodes(&c->rc, &mesh, &state, t->ends, p + at, q + at,
+                                          EDGE_NODES, &t->memory, &t->load[i]);
+    }
+    return s;
 }
 
-/* A note where it applies; its text may show the value. */
-static void note(rb_case_crack_result *r, int applies, const char *text, double value)
+/* A note where it applies; its text may show the values. */
+static void note(rb_case_crack_result *r, int applies, const char *text, double value, double other)
 {
     const int kind = r->note_kinds++;
 
     if (!applies || r->notes == RB_CASE_CRACK_NOTES)
         return;
     r->note_kind[r->notes] = kind;
-    snprintf(r->note[r->notes++], sizeof r->note[0], text, value);
+    snprintf(r->note[r->notes++], sizeof r->note[0], text, value, other);
 }
 
 static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
                        const rb_case_crack_track *t, rb_case_crack_result *r)
 {
-    const double a = r->half_width, first = fabs(t->x[0] / a - k->mouth);
-    const double radius = c->rc.elastic_b ? c->rc.b.radius : INFINITY;
-    double step = 0.0;
+    const double a = r->half_width;
+    const rb_case_crack l = rb_case_crack_lengths(c, k, a);
+    const double radius = c->rc.elastic_b ? c->rc.b.radius : INFINITY, last = t->x[t->n - 1],
+                 first = fabs(t->x[0] - l.mouth) / a, wanted = NARROW * scale_of(&l, a) / a;
+    double step = 0.0, away = INFINITY;
 
     if (k->unloaded)
         return;
     for (int i = 1; i < t->n; i++)
         step = fmax(step, (t->x[i] - t->x[i - 1]) / a);
-    note(r, first < FAR * (1.0 - 1e-12) && t->x[t->n - 1] > t->x[0],
+    /* from the nearest place under the load to the mouth */
+    for (int i = 0; i < t->n; i++) {
+        const rb_bem_edge_load *load = &t->load[t->loads > 1 ? i : 0];
+        const double mouth = l.mouth - t->x[i];
+        for (int j = 0; j < load->n; j++)
+            if (load->p[j] > 0.0)
+                away = fmin(away, fabs(mouth - load->x[j]) / a);
+    }
+    const double spacing = (t->ends[1] - t->ends[0]) / a;
+    note(r, first < FAR * (1.0 - 1e-9) && last > t->x[0],
          "The first position is %.3g half-widths from the mouth, where the load "
          "already acts on the crack; begin at least 6 away (--from).",
-         first);
-    note(r, step > NARROW * (1.0 + 1e-9),
+         first, 0.0);
+    note(r, step > wanted * (1.0 + 1e-9) && !chooses_positions(c, k),
          "Positions are %.3g half-widths apart; the extremes of K lie between them "
-         "(take at most 0.1, --steps).",
-         step);
+         "(take at most %.2g, --steps).",
+         step, wanted);
+    note(r, last > t->x[0] && away > fmax(step, spacing),
+         "The contact does not reach the crack: it ends %.3g half-widths from its mouth "
+         "(--distance, --to).",
+         away, 0.0);
     note(r, k->fluid == RB_CRACK_TRAPPED && !k->locate_closing,
          "The volume of the trapped fluid is that of the last position with an open "
          "mouth, and depends on the positions; --closing located does not.",
-         0.0);
+         0.0, 0.0);
     note(r, !c->rc.elastic_b,
          "Body B is rigid for the contact: K are the limits of a body that is much "
          "stiffer than A.",
-         0.0);
+         0.0, 0.0);
     note(r, isfinite(radius),
          radius < 0.0 ? "Body B has a bore; the crack is computed as in a half-plane."
                       : "Body B is a cylinder; the crack is computed as in a half-plane.",
-         0.0);
+         0.0, 0.0);
 }
 
-rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k,
+/* The positions of the contact: those of the history, equal ones, or the program's own. */
+static rb_status set_positions(const rb_resolved_case *c, const rb_case_crack *k, int finer,
                                rb_case_crack_result *r, rb_case_crack_track *t, rb_message *why)
 {
     const int has_steps = rb_case_has_steps(c) && !k->unloaded,
               rolls = c->rc.formulation == RB_TRANSIENT;
-    const double from = from_of(c, k);
-    const rb_rolling_states *steps = &r->states;
+    const rb_case_crack l = rb_case_crack_lengths(c, k, r->half_width);
     const rb_rolling_solution *one = &r->contact.solution;
-    rb_status s = RB_OK;
 
-    memset(t, 0, sizeof *t);
-    r->half_width = has_steps && rolls ? r->contact.history.half_width : c->derived.half_width;
-    const rb_rolling_body *b = c->rc.elastic_b && !k->unloaded ? &c->rc.b : &c->rc.a;
-    const double a = r->half_width;
-    r->shape = (rb_crack_shape){
-        .path = rb_crack_straight(k->mouth * a, k->depth * a, k->length * a, k->angle),
-        .elements = k->elements,
-        .friction = k->friction,
-        .shear = 0.5 * b->young / (1.0 + b->poisson),
-        /* of plane stress: the same kappa */
-        .poisson = c->rc.plane == RB_PLANE_STRESS ? b->poisson / (1.0 + b->poisson) : b->poisson};
-    r->passes = k->unloaded ? 1 : k->passes;
-    t->n = k->unloaded ? 1 : has_steps ? steps->steps : intervals(c) + 1;
-    t->loads = k->unloaded ? 0 : has_steps ? t->n : 1;
+    if (chooses_positions(c, k)) {
+        double *x = rb_arena_doubles(&t->memory, MOST_POSITIONS + 1, 1);
+        double mark[MOST_MARKS];
+        if (!x)
+            return RB_ENOMEM;
+        t->x = r->positions > 0 ? r->position : x;
+        t->n = r->positions > 0 ? r->positions
+                                : first_positions(&l, r->half_width, finer,
+                                                  marks_of(t, one->n, one->zone, mark), mark, x);
+        return RB_OK;
+    }
+    t->n = k->unloaded ? 1 : has_steps ? r->states.steps : finer * c->rc.steps + 1;
     t->x = rb_arena_doubles(&t->memory, (size_t)t->n, 1);
-    t->load = rb_arena_zeros(&t->memory, (size_t)t->n, sizeof *t->load);
-    if (t->memory.failed)
+    if (!t->x)
         return RB_ENOMEM;
     for (int i = 0; i < t->n; i++)
-        t->x[i] = r->half_width * (k->unloaded  ? from
-                                   : !has_steps ? from + (to_of(k) - from) * i / (t->n - 1)
-                                   : rolls      ? from + r->contact.history.distance[i]
-                                                : from);
+        t->x[i] = k->unloaded  ? l.from
+                  : !has_steps ? l.from + (l.to - l.from) * i / (t->n - 1)
+                  : rolls      ? l.from + r->half_width * r->contact.history.distance[i]
+                               : l.from;
     for (int i = 1; i < t->n && has_steps; i++)
         if (t->x[i] - t->x[i - 1] > WIDE * r->half_width)
             return rb_fail(why, RB_EINVAL,
                            "--steps: step %d rolls %g half-widths and jumps over the "
                            "crack, expected at most %g",
                            i + 1, (t->x[i] - t->x[i - 1]) / r->half_width, WIDE);
+    return RB_OK;
+}
+
+rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k, int finer,
+                               rb_case_crack_result *r, rb_case_crack_track *t, rb_message *why)
+{
+    const int has_steps = rb_case_has_steps(c) && !k->unloaded;
+    const rb_rolling_states *steps = &r->states;
+    const rb_rolling_solution *one = &r->contact.solution;
+
+    memset(t, 0, sizeof *t);
+    r->half_width = unit_of(c, k, r);
+    rb_status s = check_lengths(c, k, r->half_width, why);
+    if (s != RB_OK)
+        return s;
+    const rb_case_crack l = rb_case_crack_lengths(c, k, r->half_width);
+    const rb_rolling_body *b = c->rc.elastic_b && !k->unloaded ? &c->rc.b : &c->rc.a;
+    r->shape = (rb_crack_shape){
+        .path = rb_crack_straight(l.mouth, l.depth, l.length, k->angle),
+        .elements = k->elements,
+        .friction = k->friction,
+        .shear = 0.5 * b->young / (1.0 + b->poisson),
+        /* of plane stress: the same kappa */
+        .poisson = c->rc.plane == RB_PLANE_STRESS ? b->poisson / (1.0 + b->poisson) : b->poisson};
+    r->passes = k->unloaded ? 1 : k->passes;
+    t->loads = k->unloaded ? 0 : has_steps ? steps->steps : 1;
+    t->load = rb_arena_zeros(&t->memory, (size_t)t->loads + 1, sizeof *t->load);
+    if (t->memory.failed)
+        return RB_ENOMEM;
     if (has_steps)
-        s = set_loads(steps->n, steps->x, steps->h, steps->p, steps->q, t);
+        s = set_loads(c, k, steps->n, steps->x, steps->h, steps->p, steps->q, steps->zone, t);
     else if (!k->unloaded)
-        s = set_loads(one->n, one->x, one->h, one->p, one->q, t);
+        s = set_loads(c, k, one->n, one->x, one->h, one->p, one->q, one->zone, t);
+    if (s == RB_OK)
+        s = set_positions(c, k, finer, r, t, why);
     if (s == RB_OK)
         find_notes(c, k, t, r);
     return s;
@@ -235,6 +455,7 @@ rb_crack_passage rb_case_crack_passage(const rb_case_crack *k, const rb_case_cra
                               .x = t->x,
                               .loads = t->loads,
                               .load = t->load,
+                              .kind = t->kind,
                               .passes = k->unloaded ? 1 : k->passes,
                               .fluid = (rb_crack_fluid)k->fluid,
                               .locate_closing = k->locate_closing,
@@ -256,9 +477,86 @@ rb_resolved_case rb_case_crack_contact(const rb_resolved_case *c, const rb_case_
     return contact;
 }
 
-/* One mesh: as many elements as times `finer` says, of crack and contact. */
+/* Nodal forces of the load at the positions of a pass; those of the positions before, which
+ * are among them, are taken from there.  Owned by the caller; NULL: out of memory. */
+static double *forces_at(const rb_crack *crack, const rb_crack_passage *to,
+                         const rb_crack_passage *before, rb_status *s)
+{
+    const size_t size = 2 * (size_t)rb_crack_nodes(crack);
+    double *T = rb_alloc((size_t)to->steps, size);
+    *s = T ? RB_OK : RB_ENOMEM;
+    for (int i = 0, j = 0; i < to->steps && *s == RB_OK; i++) {
+        double *here = T + (size_t)i * size;
+        while (before && j < before->steps && before->x[j] < to->x[i])
+            j++;
+        if (before && j < before->steps && before->x[j] == to->x[i])
+            memcpy(here, before->forces + (size_t)j * size, size * sizeof *here);
+        else
+            *s = rb_crack_load(crack, to->load, to->kind, to->x[i], to->tension, here);
+    }
+    return T;
+}
+
+rb_status rb_case_crack_pass(const rb_resolved_case *c, const rb_case_crack *l,
+                             const rb_case_crack_track *t, const rb_crack_wheel *wheel,
+                             const rb_crack_observer *observer, rb_crack *crack,
+                             rb_case_crack_result *r, rb_message *why)
+{
+    rb_crack_passage passage = rb_case_crack_passage(l, t);
+    passage.wheel = wheel;
+    passage.observer = observer;
+    if (!chooses_positions(c, l))
+        return rb_crack_pass(crack, &passage, &r->history, why);
+    /* Bower's volume is that of a position: others would change it. */
+    const int searches = l->fluid == RB_CRACK_TRAPPED && !l->locate_closing ? 0 : SEARCHES;
+    rb_status s = RB_OK;
+    double *T = wheel ? NULL : forces_at(crack, &passage, NULL, &s);
+
+    passage.forces = T;
+    if (s == RB_OK)
+        s = rb_crack_pass(crack, &passage, &r->history, why);
+    for (int i = 0; i < searches && s == RB_OK; i++) {
+        rb_crack_passage finer = passage;
+        double *x;
+        finer.steps =
+            more_positions(&r->history, passage.passes, 1e-3 * scale_of(l, r->half_width), &x);
+        if (finer.steps <= 0) {
+            s = finer.steps < 0 ? RB_ENOMEM : RB_OK;
+            break;
+        }
+        finer.x = x;
+        double *more = wheel ? NULL : forces_at(crack, &finer, &passage, &s);
+        finer.forces = more;
+        free(T);
+        T = more;
+        free(r->position);
+        r->position = x;
+        r->positions = finer.steps;
+        passage = finer;
+        rb_crack_history_free(&r->history);
+        if (s == RB_OK)
+            s = rb_crack_pass(crack, &passage, &r->history, why);
+    }
+    free(T);
+    return s;
+}
+
+/* 1: a pressure at an end of the potential contact, in any step. */
+static int reaches_end(const rb_crack_history *h)
+{
+    for (int i = 0; i < h->n; i++) {
+        const double *p = h->wheel + (size_t)i * (size_t)h->elements;
+        if (p[0] > 0.0 || p[h->elements - 1] > 0.0)
+            return 1;
+    }
+    return 0;
+}
+
+/* One mesh: as many elements of crack and contact, and positions, as times `finer` says; the
+ * contact has one more, so that the mouth lies elsewhere in its elements.  zone: half-width
+ * of the potential contact of a coupled crack. */
 static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, int finer,
-                            const rb_crack_observer *observer, rb_case_crack_result *r,
+                            double zone, const rb_crack_observer *observer, rb_case_crack_result *r,
                             rb_message *why)
 {
     contact_steps kept = {&r->states, observer, 0};
@@ -268,13 +566,17 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
 
     memset(r, 0, sizeof *r);
     r->passes = k->passes;
-    if (!rb_case_has_steps(c))
-        refined.rc.contact_elements *= finer;
+    if (finer > 1 && rb_case_has_steps(c)) {
+        refined.rc.steps *= finer;
+        refined.rc.increments *= finer;
+    }
+    if (k->coupled)
+        refined.rc.zone = zone;
     rb_status s = k->unloaded ? RB_OK : rb_case_solve(&refined, keep_step, &kept, &r->contact, why);
     if (s == RB_INTERRUPTED && kept.failed)
         s = RB_ENOMEM;
     if (s == RB_OK)
-        s = rb_case_crack_follow(c, k, r, &t, why);
+        s = rb_case_crack_follow(c, k, finer, r, &t, why);
     r->shape.elements *= finer;
     if (s == RB_OK && k->coupled)
         s = rb_rolling_model_add_matrix(&r->contact.model, why);
@@ -289,20 +591,18 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
                                       .gap = model->problem.d_N,
                                       .load = r->contact.solution.normal_load,
                                       .approach = r->contact.solution.approach};
-        rb_crack_passage passage = rb_case_crack_passage(k, &t);
-        passage.wheel = k->coupled ? &wheel : NULL;
-        passage.observer = observer;
+        const rb_case_crack l = rb_case_crack_lengths(c, k, r->half_width);
         if (k->coupled && !model->bodies.F)
             s = rb_fail(why, RB_EINVAL, "--coupled: fewer than %d contact elements",
                         RB_ROLLING_LARGE);
         else
-            s = rb_crack_pass(crack, &passage, &r->history, why);
+            s = rb_case_crack_pass(c, &l, &t, k->coupled ? &wheel : NULL, observer, crack, r, why);
         if (s == RB_INTERRUPTED)
-            r->passes = r->history.n / passage.steps;
+            r->passes = r->history.n / (r->positions > 0 ? r->positions : t.n);
         if (r->history.n > 0)
             r->summary = rb_case_crack_summarise(&r->history, r->passes);
         if (s == RB_OK && !isnan(k->paris) && finer == 1)
-            s = rb_case_grow_crack(c, k, &passage, r, why);
+            s = rb_case_grow_crack(c, k, &t, observer, r, why);
         const rb_case_crack_growth *g = &r->growth;
         if ((g->surfaced || g->rests) && r->notes < RB_CASE_CRACK_NOTES)
             snprintf(r->note[r->notes++], sizeof r->note[0],
@@ -318,6 +618,31 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
     return s;
 }
 
+/* A coupled contact may reach beyond its zone where the crack opens: again on a wider one. */
+static rb_status solve_on_zones(const rb_resolved_case *c, const rb_case_crack *k, int finer,
+                                const rb_crack_observer *observer, rb_case_crack_result *r,
+                                rb_message *why)
+{
+    rb_resolved_case wider = *c;
+    double zone = c->rc.zone > 0.0 ? c->rc.zone : ZONE * c->derived.half_width;
+    rb_status s = solve_once(c, k, finer, zone, observer, r, why);
+
+    for (int i = 1;
+         i < ZONES && k->coupled && c->rc.zone == 0.0 && s == RB_OK && reaches_end(&r->history);
+         i++) {
+        zone *= WIDER;
+        wider.rc.contact_elements = (int)ceil(wider.rc.contact_elements * WIDER);
+        rb_case_crack_free(r);
+        s = solve_once(&wider, k, finer, zone, observer, r, why);
+    }
+    if (s == RB_OK && k->coupled && reaches_end(&r->history))
+        note(r, 1,
+             "The contact that the crack opens reaches the end of the potential contact, %.3g mm "
+             "from the middle; widen it (--zone).",
+             zone, 0.0);
+    return s;
+}
+
 rb_status rb_case_crack_solve(const rb_resolved_case *c, const rb_case_crack *k,
                               const rb_crack_observer *observer, rb_case_crack_result *r,
                               rb_message *why)
@@ -325,14 +650,21 @@ rb_status rb_case_crack_solve(const rb_resolved_case *c, const rb_case_crack *k,
     memset(r, 0, sizeof *r);
     rb_status s = rb_case_crack_check(c, k, why);
     if (s == RB_OK)
-        s = solve_once(c, k, 1, observer, r, why);
-    if (s == RB_OK && c->error) {
-        rb_case_crack_result fine;
-        s = solve_once(c, k, 2, observer, &fine, why);
+        s = solve_on_zones(c, k, 1, observer, r, why);
+    /* Twice as many elements of crack and contact, and positions; and a contact whose elements
+     * the mouth meets elsewhere: two meshes alone may agree by chance. */
+    rb_case_crack finer = *k;
+    finer.locate_closing = k->fluid == RB_CRACK_TRAPPED; /* as infinitely many positions do */
+    static const double contact[] = {2.0, 1.4};
+    for (int i = 0; i < 2 && s == RB_OK && c->error; i++) {
+        rb_case_crack_result other;
+        rb_resolved_case refined = *c;
+        refined.rc.contact_elements = (int)ceil(contact[i] * c->rc.contact_elements) + 1;
+        s = solve_on_zones(&refined, i == 0 ? &finer : k, i == 0 ? 2 : 1, observer, &other, why);
         r->has_errors = s == RB_OK;
         if (s == RB_OK)
-            rb_case_crack_set_errors(&fine.summary, r);
-        rb_case_crack_free(&fine);
+            rb_case_crack_add_errors(&other.summary, r);
+        rb_case_crack_free(&other);
     }
     r->status = s;
     return s == RB_ENOMEM ? rb_fail(why, s, "crack: out of memory") : s;

@@ -95,12 +95,14 @@ const rb_rolling_result_table *rb_case_result_table(int k)
     return t->name ? t : k < (int)(sizeof of_cracks / sizeof *of_cracks) ? &of_cracks[k] : NULL;
 }
 
-void rb_case_crack_set_errors(const rb_case_crack_summary *finer, rb_case_crack_result *r)
+void rb_case_crack_add_errors(const rb_case_crack_summary *other, rb_case_crack_result *r)
 {
-    for (const rb_rolling_result *row = scalars; row < scalars + rb_case_crack_scalars.n; row++)
-        rb_rolling_set_number(
-            row, &r->errors,
-            2.0 * fabs(rb_rolling_number(row, finer) - rb_rolling_number(row, &r->summary)));
+    for (const rb_rolling_result *row = scalars; row < scalars + rb_case_crack_scalars.n; row++) {
+        const double now = rb_rolling_number(row, &r->errors),
+                     more = 2.0 * fabs(rb_rolling_number(row, other) -
+                                       rb_rolling_number(row, &r->summary));
+        rb_rolling_set_number(row, &r->errors, now > more ? now : more);
+    }
 }
 
 int rb_case_crack_has_result(const rb_rolling_result *r, const rb_case_crack *k)
@@ -132,6 +134,9 @@ void rb_case_crack_free(rb_case_crack_result *r)
     rb_case_result_free(&r->contact);
     rb_rolling_states_free(&r->states);
     rb_crack_history_free(&r->history);
+    free(r->position);
+    r->position = NULL;
+    r->positions = 0;
     free(r->growth.length);
     r->growth.length = NULL;
 }

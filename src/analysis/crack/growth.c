@@ -19,10 +19,6 @@ rb_status rb_case_check_growth(const rb_case_crack *k, rb_message *why)
     if (k->unloaded)
         return rb_fail(why, RB_EINVAL,
                        "--paris: cracks grow under loads that pass; --unloaded has none");
-    if (!isnan(k->grow_to) && !(k->grow_to > k->length))
-        return rb_fail(why, RB_EINVAL,
-                       "--grow-to: expected more than the length of the crack, %g, got %g",
-                       k->length, k->grow_to);
     return RB_OK;
 }
 
@@ -78,13 +74,13 @@ static void add_length(const rb_resolved_case *c, const rb_case_crack *k, const 
 }
 
 rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *k,
-                             const rb_crack_passage *passage, rb_case_crack_result *r,
-                             rb_message *why)
+                             const rb_case_crack_track *track, const rb_crack_observer *observer,
+                             rb_case_crack_result *r, rb_message *why)
 {
     rb_case_crack_growth *g = &r->growth;
     rb_crack_shape shape = r->shape;
-    const double first = k->length * r->half_width,
-                 last = isnan(k->grow_to) ? 2.0 * first : k->grow_to * r->half_width;
+    const rb_case_crack lengths = rb_case_crack_lengths(c, k, r->half_width);
+    const double first = lengths.length, last = lengths.grow_to;
     rb_case_crack_summary summary = r->summary;
     double **const column[] = {&g->length,     &g->tip_x,   &g->tip_y, &g->angle, &g->K_I_max,
                                &g->delta_K_II, &g->delta_K, &g->rate,  &g->cycles};
@@ -100,23 +96,25 @@ rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *k,
         add_length(c, k, &shape.path, first, &summary, g);
     for (int i = 1; i <= k->grow_steps && s == RB_OK && !g->rests; i++) {
         rb_crack *crack = NULL;
-        rb_crack_history history = {0};
+        rb_case_crack_result longer = {.half_width = r->half_width};
+        rb_case_crack l = lengths;
         const double angle = last_angle(&shape.path) - (k->tension ? summary.kink_angle : 0.0);
         if (!extend((last - first) / k->grow_steps, angle, &shape.path)) {
             g->surfaced = 1;
             break;
         }
         shape.elements = k->elements + PIECE_ELEMENTS * (shape.path.pieces - 1);
+        l.length = first + (last - first) * i / k->grow_steps;
         s = rb_crack_create(&shape, &crack, why);
         if (s == RB_OK)
-            s = rb_crack_pass(crack, passage, &history, why);
+            s = rb_case_crack_pass(c, &l, track, NULL, observer, crack, &longer, why);
         if (s == RB_OK) {
-            summary = rb_case_crack_summarise(&history, passage->passes);
+            summary = rb_case_crack_summarise(&longer.history, k->passes);
             g->path = shape.path;
-            add_length(c, k, &shape.path, first + (last - first) * i / k->grow_steps, &summary, g);
+            add_length(c, k, &shape.path, l.length, &summary, g);
         } else if (s == RB_INTERRUPTED)
             rb_fail(why, s, "interrupted after length %d of %d", g->n, k->grow_steps + 1);
-        rb_crack_history_free(&history);
+        rb_case_crack_free(&longer);
         rb_crack_free(crack);
     }
     return s;

@@ -95,9 +95,9 @@ rb_status rb_crack_close(rb_crack *c, const rb_crack_passage *p, int k, double s
         /* Nodal forces on the way from step k - 1 to step k. */
         double *before = T + 2 * c->n;
         const double x = p->x[k - 1] + part * (p->x[k] - p->x[k - 1]);
-        s = rb_crack_load(c, load_of(p, k), x, p->tension, T);
+        s = rb_crack_load(c, load_of(p, k), p->kind, x, p->tension, T);
         if (s == RB_OK && p->loads > 1)
-            s = rb_crack_load(c, load_of(p, k - 1), x, p->tension, before);
+            s = rb_crack_load(c, load_of(p, k - 1), p->kind, x, p->tension, before);
         for (int i = 0; i < 2 * c->n && p->loads > 1; i++)
             T[i] = part * T[i] + (1.0 - part) * before[i];
         if (s == RB_OK)
@@ -155,12 +155,12 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
         if (s == RB_OK)
             s = rb_crack_close(c, p, step, scale, T, &state, &reason);
         const rb_bem_edge_load *load = load_of(p, step);
-        double mouth = c->shape.path.x[0] - x, at_mouth = 0.0; /* the pressure of the load there */
-        for (int i = 0; load && i < load->n; i++)
-            if (load->x[i] <= mouth && mouth < load->x[i + 1])
-                at_mouth = load->p[i];
-        if (s == RB_OK)
-            s = rb_crack_load(c, load, x, p->tension, T);
+        const double at_mouth =
+            load ? rb_crack_pressure(load, p->kind, c->shape.path.x[0] - x) : 0.0;
+        if (p->forces)
+            memcpy(T, p->forces + 2 * (size_t)step * (size_t)c->n, 2 * (size_t)c->n * sizeof *T);
+        else if (s == RB_OK)
+            s = rb_crack_load(c, load, p->kind, x, p->tension, T);
         if (s == RB_OK)
             s = p->wheel
                     ? rb_crack_step_coupled(c, p->wheel, x, T, scale, &state,

@@ -112,10 +112,41 @@ static void set_scales(restored *j)
     }
 }
 
+/* The positions of a pass, where the program has chosen them: in order, from --from to --to. */
+static rb_status read_positions(restored *j, rb_message *why)
+{
+    const json_t *table = json_object_get(j->root, "table");
+    const int all = (int)json_array_size(json_object_get(table, "x")),
+              passes = j->crack.passes > 0 ? j->crack.passes : 1, n = all / passes;
+    if (j->crack.unloaded || rb_case_has_steps(j->resolved) || j->resolved->rc.steps > 0)
+        return RB_OK;
+    if (n < 2)
+        return rb_fail(why, RB_EFORMAT, "table has no positions");
+    j->r->position = rb_alloc((size_t)all, 1);
+    if (!j->r->position)
+        return RB_ENOMEM;
+    j->r->positions = n;
+    const rb_status s = rb_certificate_list(j->c, table, "x", all, j->r->position, why);
+    for (int i = 1; i < n && s == RB_OK; i++)
+        if (!(j->r->position[i] > j->r->position[i - 1]))
+            rb_certificate_violated(j->c, "table.x: position %d, %.17g, is not behind %.17g", i,
+                                    j->r->position[i], j->r->position[i - 1]);
+    return s;
+}
+
 /* The crack with what is stored of its faces, under the contact that is restored. */
 static rb_status rebuild(restored *j, rb_message *why)
 {
-    rb_status s = rb_case_crack_follow(j->resolved, &j->crack, j->r, &j->track, why);
+    rb_status s = read_positions(j, why);
+
+    if (s == RB_OK)
+        s = rb_case_crack_follow(j->resolved, &j->crack, 1, j->r, &j->track, why);
+    if (s == RB_OK && j->r->positions > 0) {
+        const rb_case_crack l = rb_case_crack_lengths(j->resolved, &j->crack, j->r->half_width);
+        const double *at = j->r->position, slack = 1e-9 * j->r->half_width;
+        rb_certificate_expect(j->c, "table.x: --from", at[0], l.from, slack);
+        rb_certificate_expect(j->c, "table.x: --to", at[j->r->positions - 1], l.to, slack);
+    }
     const json_t *places = json_object_get(json_object_get(j->root, "faces"), "x_mm"),
                  *x = json_object_get(json_object_get(j->root, "table"), "x");
     const int n = j->crack.elements - (j->crack.depth > 0.0);
@@ -160,7 +191,7 @@ static rb_status displace(restored *j, int k, rb_message *why)
     const int n = h->nodes, step = k % t->n;
     const rb_bem_edge_load *load = t->loads > 0 ? &t->load[t->loads > 1 ? step : 0] : NULL;
     const rb_bem_edge_load coupled = {h->elements, t->ends, h->wheel + k * h->elements, j->none};
-    const rb_status s = rb_crack_load(j->body, h->wheel ? &coupled : load, t->x[step],
+    const rb_status s = rb_crack_load(j->body, h->wheel ? &coupled : load, t->kind, t->x[step],
                                       j->crack.remote_stress, j->T);
 
     if (s != RB_OK)
@@ -191,7 +222,8 @@ static rb_status judge_wheel(restored *j, int k)
     for (int i = 0; i < m; i++) {
         const double width = ends[i + 1] - ends[i], unit = 1.0 / width;
         const rb_bem_edge_load strip = {1, ends + i, &unit, j->none};
-        const rb_status s = rb_crack_load(j->body, &strip, j->track.x[k % j->track.n], 0.0, j->T);
+        const rb_status s =
+            rb_crack_load(j->body, &strip, RB_CRACK_STRIPS, j->track.x[k % j->track.n], 0.0, j->T);
         if (s != RB_OK)
             return s;
         j->gap[i] += cblas_ddot(2 * n, j->T, 1, D, 1);
@@ -252,11 +284,8 @@ static void follow_fluid(restored *j, int k, double before)
 
     again->fluid_pressure[k] = again->fluid_volume[k] = 0.0;
     if (j->crack.fluid == RB_CRACK_PRESSURE && t->loads > 0) {
-        const rb_bem_edge_load *load = &t->load[t->loads > 1 ? step : 0];
-        const double mouth = j->r->shape.path.x[0] - t->x[step];
-        for (int i = 0; i < load->n; i++)
-            if (load->x[i] <= mouth && mouth < load->x[i + 1])
-                again->fluid_pressure[k] = load->p[i];
+        again->fluid_pressure[k] = rb_crack_pressure(&t->load[t->loads > 1 ? step : 0], t->kind,
+                                                     j->r->shape.path.x[0] - t->x[step]);
     }
     if (j->crack.fluid != RB_CRACK_TRAPPED)
         return;

@@ -18,6 +18,15 @@ static const char about_growth[] =
     "growth: a row per length of the crack; cycles: passes until it has that length; sharp tip, "
     "linear elasticity, no wear of the mouth";
 
+/* From the upper end to the tip, straight, before it grows. */
+static double length_of(const rb_case_crack_result *r)
+{
+    const rb_crack_path *path = &r->shape.path;
+    return rb_unit_shown(
+        r->units, "mm",
+        hypot(path->x[path->pieces] - path->x[0], path->y[path->pieces] - path->y[0]));
+}
+
 /* A crack that grows: its lengths; otherwise the positions of the contact. */
 rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r, const char *command,
                                 const rb_report_style *style)
@@ -81,6 +90,7 @@ void rb_report_json_crack(json_t **root, const rb_case_crack_result *r)
 
     rb_report_json_set(&summary, "status", json_string(rb_status_text(r->status)));
     rb_report_json_set(&summary, "half_width", rb_report_json_number(r->half_width));
+    rb_report_json_set(&summary, "crack_length", rb_report_json_number(length_of(r)));
     rb_report_json_set(&summary, "passes", json_integer(r->passes));
     rb_report_json_set(&summary, "last_pass_from", json_integer(r->summary.from));
     if (r->has_errors)
@@ -163,8 +173,12 @@ void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r, int colou
 
     for (int k = 0; k < r->notes; k++)
         rb_report_note(out, r->note[k], colour);
-    fprintf(out, "crack: %d positions, %d pass%s, half-width %.5g %s\n", r->history.n / r->passes,
-            r->passes, r->passes > 1 ? "es" : "", r->half_width, mm);
+    fprintf(out, "crack: length %.5g %s, %d positions, %d pass%s", length_of(r), mm,
+            r->history.n / r->passes, r->passes, r->passes > 1 ? "es" : "");
+    if (isnan(r->half_width))
+        fputc('\n', out);
+    else
+        fprintf(out, ", half-width %.5g %s\n", r->half_width, mm);
     fprintf(out, "  K_I       %.5g ... %.5g", s->K_I_min, s->K_I_max);
     print_bar(out, r, e->K_I_max);
     fprintf(out, " %s, largest with the contact at x = %.4g %s, K_II = %.4g there\n", K,

@@ -21,8 +21,9 @@ json_t *rb_report_json_option(const rb_option *o, const void *values, rb_units u
                 shown.value[i] = rb_unit_shown(units, o->unit, list->value[i]);
             return rb_report_json_numbers(shown.n, shown.value);
         }
-        return o->word && v == o->word_value
-                   ? json_string(o->word)
+        return o->word && v == o->word_value ? json_string(o->word)
+               : rb_option_is_length(o, values)
+                   ? rb_report_json_text(rb_option_text(o, values, buffer))
                    : rb_report_json_number(rb_unit_shown(units, o->unit, v));
     }
     case RB_OPTION_INTEGER:

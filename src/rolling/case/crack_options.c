@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #define PLACE(member) offsetof(rb_case_crack, member)
+#define OR_LENGTH(name) .lengths = PLACE(in_mm), .length_bit = RB_CRACK_##name
 
 static const rb_choice fluids[] = {{"none", RB_CRACK_DRY},
                                    {"trapped", RB_CRACK_TRAPPED},
@@ -17,23 +18,28 @@ static const rb_choice ranges[] = {
 static const rb_choice directions[] = {{"coplanar", 0}, {"tension", 1}, {NULL, 0}};
 
 const rb_option rb_case_crack_options[] = {
-    RB_GROUP_LINE("crack", "Crack in B; lengths in Hertz half-widths of the load"),
-    RB_NUMBER_LINE("crack-length", PLACE(length), "a", RB_ABOVE(0), "along the crack"),
+    RB_GROUP_LINE("crack",
+                  "Crack in B; lengths in half-widths of the contact, or with a unit: 0.05mm"),
+    RB_NUMBER_LINE("crack-length", PLACE(length), "a", RB_ABOVE(0), "along the crack",
+                   OR_LENGTH(LENGTH)),
     RB_NUMBER_LINE("crack-angle", PLACE(angle), "degrees", RB_ANY,
                    "to the surface; below 90 the tip points to +x, where A rolls"),
-    RB_NUMBER_LINE("crack-mouth", PLACE(mouth), "a", RB_ANY, "x of its mouth, or of its upper end"),
+    RB_NUMBER_LINE("crack-mouth", PLACE(mouth), "a", RB_ANY, "x of its mouth, or of its upper end",
+                   OR_LENGTH(MOUTH)),
     RB_NUMBER_LINE("crack-depth", PLACE(depth), "a", RB_FROM(0),
-                   "of its upper end below the surface; 0: it has a mouth"),
+                   "of its upper end below the surface; 0: it has a mouth", OR_LENGTH(DEPTH)),
     RB_NUMBER_LINE("crack-friction", PLACE(friction), "-", RB_FROM(0),
                    "coefficient of friction between its faces"),
     RB_INTEGER_LINE("crack-elements", PLACE(elements), RB_FROM_TO(4, 2000),
                     "along the crack, graded towards both ends"),
     RB_NUMBER_LINE("from", PLACE(from), "a", RB_ANY,
                    "first position of the contact; of a static history the only one",
-                   .unset = "-6; of a static history 0"),
+                   .unset = "6 a before the mouth; of a static history 0", OR_LENGTH(FROM)),
     RB_NUMBER_LINE("to", PLACE(to), "a", RB_ANY,
-                   "last position; --steps says in how many equal steps, 120 unless given",
-                   .unset = "6; of a transient as far as it rolls"),
+                   "last position; --steps says in how many equal steps; unless given, steps "
+                   "follow the length of the crack and crowd where K is largest",
+                   .unset = "6 a behind the mouth; of a transient as far as it rolls",
+                   OR_LENGTH(TO)),
     RB_INTEGER_LINE("passes", PLACE(passes), RB_FROM_TO(1, 1000),
                     "the same load passes again; results are those of the last pass"),
     RB_CHOICE_LINE("fluid", PLACE(fluid), fluids,
@@ -60,7 +66,7 @@ const rb_option rb_case_crack_options[] = {
                    "straight ahead, or perpendicular to the largest tension ahead of the "
                    "tip over a pass (Erdogan and Sih)"),
     RB_NUMBER_LINE("grow-to", PLACE(grow_to), "a", RB_ABOVE(0), "length where it ends",
-                   .unset = "twice the length"),
+                   .unset = "twice the length", OR_LENGTH(GROW_TO)),
     RB_INTEGER_LINE("grow-steps", PLACE(grow_steps), RB_FROM_TO(1, 60),
                     "increments of that growth"),
 };

@@ -29,6 +29,8 @@ static void take_back(const rb_option_set *set, int i, const void *defaults)
                         : o->kind == RB_OPTION_TEXT ? sizeof(const char *)
                                                     : sizeof(int);
     memcpy((char *)set->target + o->offset, (const char *)defaults + o->offset, size);
+    if (o->lengths)
+        *(int *)(void *)((char *)set->target + o->lengths) &= ~o->length_bit;
     set->given[i] = 0;
 }
 

@@ -73,8 +73,23 @@ static int set_any(const rb_option *o, char *target, const char *value, reading 
 {
     void *place = target + o->offset;
     switch (o->kind) {
-    case RB_OPTION_NUMBER:
-        return o->list ? set_list(o, target, value, r) : set_number(o, place, value, r);
+    case RB_OPTION_NUMBER: {
+        int *const lengths = o->lengths ? (int *)(void *)(target + o->lengths) : NULL;
+        double length;
+        int plain;
+        if (lengths && rb_unit_read(value, "mm", &length, &plain, NULL) == RB_OK && !plain) {
+            if (!rb_option_in_range(o, length))
+                return 0;
+            *(double *)place = length;
+            *lengths |= o->length_bit;
+            return 1;
+        }
+        if (!(o->list ? set_list(o, target, value, r) : set_number(o, place, value, r)))
+            return 0;
+        if (lengths)
+            *lengths &= ~o->length_bit;
+        return 1;
+    }
     case RB_OPTION_INTEGER: {
         char *end;
         errno = 0;
@@ -134,6 +149,12 @@ rb_status rb_option_assign(const rb_option_set *set, int k, int by, const char *
     return RB_OK;
 }
 
+int rb_option_is_length(const rb_option *o, const void *target)
+{
+    return o->lengths &&
+           (*(const int *)(const void *)((const char *)target + o->lengths) & o->length_bit) != 0;
+}
+
 const char *rb_option_text(const rb_option *o, const void *target, char buffer[64])
 {
     const void *place = (const char *)target + o->offset;
@@ -144,7 +165,7 @@ const char *rb_option_text(const rb_option *o, const void *target, char buffer[6
             return o->word;
         if (isnan(v))
             return "";
-        rb_format(buffer, 64, "%.15g", v);
+        rb_format(buffer, 64, rb_option_is_length(o, target) ? "%.15gmm" : "%.15g", v);
         return buffer;
     }
     case RB_OPTION_INTEGER:

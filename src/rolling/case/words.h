@@ -86,11 +86,21 @@ rb_status rb_case_read_files(rb_case *c, rb_message *why);
 
 /* ---- crack_results.c --------------------------------------------------------------- */
 
-/* Error bars from the summary on twice as many elements: of second order, a third of the
- * difference is left in it. */
-void rb_case_crack_set_errors(const rb_case_crack_summary *finer, rb_case_crack_result *result);
+/* Error bars: twice the largest difference to the summaries of other meshes, of which this is one;
+ * of second order a third of the difference is left in one with twice as many elements. */
+void rb_case_crack_add_errors(const rb_case_crack_summary *other, rb_case_crack_result *result);
 /* The summary and its error bars as the own numbers of a row. */
 void rb_case_crack_set_row(rb_case_crack_result *result, rb_rolling_row *row);
+
+/* ---- crack_case.c ------------------------------------------------------------------ */
+
+/* The passes of the track over a crack, of these lengths in mm, into r->history: where the program
+ * chooses the positions, with more of them where K is largest and smallest; they are r's then.
+ * wheel: of a coupled crack, or NULL. */
+rb_status rb_case_crack_pass(const rb_resolved_case *c, const rb_case_crack *lengths,
+                             const rb_case_crack_track *track, const rb_crack_wheel *wheel,
+                             const rb_crack_observer *observer, rb_crack *crack,
+                             rb_case_crack_result *r, rb_message *why);
 
 /* ---- growth.c ---------------------------------------------------------------------- */
 
@@ -99,8 +109,8 @@ rb_status rb_case_check_growth(const rb_case_crack *crack, rb_message *why);
 /* Computes r->growth under the same load, starting from the first length, whose summary
  * is in r. */
 rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *crack,
-                             const rb_crack_passage *passage, rb_case_crack_result *r,
-                             rb_message *why);
+                             const rb_case_crack_track *track, const rb_crack_observer *observer,
+                             rb_case_crack_result *r, rb_message *why);
 
 /* ---- resolve.c ---------------------------------------------------------------------- */
 

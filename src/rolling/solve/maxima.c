@@ -429,16 +429,16 @@ static rb_status maximum(const search *f, measure *of, rb_rolling_extremum *best
                                        best->value - 1e-3 * fabs(best->value), place, &top, why);
         if (status != RB_OK)
             return status;
-        /* What is on a boundary to rounding is there. */
+        /* What is on a boundary as far as the search can tell is there. */
         for (int end = 0; end < 2; end++) {
             const double boundary = end ? r->in->bottom : r->in->top;
             rb_rolling_stress at;
-            if (place[1] == boundary || fabs(place[1] - boundary) > 1e-6 * (f->high - f->low))
+            if (place[1] == boundary || fabs(place[1] - boundary) > 1e-4 * (f->high - f->low))
                 continue;
             const rb_status there = stress_at(f, r->in, 1, place, &boundary, &at, why);
             if (there != RB_OK)
                 return there;
-            if (of(&at) >= top - 1e-9 * fabs(top)) {
+            if (of(&at) >= top - 5e-7 * fabs(top)) {
                 place[1] = boundary;
                 top = of(&at);
             }

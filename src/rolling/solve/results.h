@@ -35,16 +35,6 @@ const double *rb_rolling_field_nodes(const rb_rolling_field *field, int *n);
 /* Below it there is nothing to stress: the thickness of a layer on a rigid base. */
 double rb_rolling_deepest(const rb_rolling_case *rc);
 
-/* ---- tractions.c ------------------------------------------------------------------- */
-
-/* The tractions p and q of n elements with n + 1 ends along the contact, as nodes between
- * which they are linear (B14): the midpoints, and close to the edges of patches more of
- * them, where the tractions fall like a power of the distance.  The first and the last node
- * carry nothing.  load: in `memory`.  RB_ENOMEM. */
-rb_status rb_rolling_traction_nodes(const rb_rolling_model *model, const double *ends,
-                                    const double *p, const double *q, rb_arena *memory,
-                                    rb_bem_edge_load *load);
-
 /* Lengths of the elements in contact and of those among them that stick. */
 void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,
                              double *stick);

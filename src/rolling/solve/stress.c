@@ -67,8 +67,9 @@ static rb_status create_flat(rb_rolling_field *f, rb_message *why)
 {
     const rb_rolling_model *model = f->model;
     const rb_bem_surface surface = rb_rolling_surface_of(model->rc, &model->rc->a, f->length);
-    const rb_status s = rb_rolling_traction_nodes(model, model->mesh.ends, model->state.p,
-                                                  model->state.q, &f->memory, &f->nodes);
+    const rb_status s = rb_rolling_traction_nodes(model->rc, &model->mesh, &model->state,
+                                                  model->mesh.ends, model->state.p, model->state.q,
+                                                  RB_ROLLING_EDGE_NODES, &f->memory, &f->nodes);
     return s == RB_OK && model->rc->a.layer > 0.0
                ? rb_bem_layer_field_create(&surface, &f->nodes, &f->layer, why)
                : s;
@@ -98,7 +99,8 @@ static rb_status create_wheel(rb_rolling_field *f, rb_message *why)
         p[i] = x * t[2 * i + 1] - y * t[2 * i];
         ends[i + 1] = ends[i] + h;
     }
-    s = rb_rolling_traction_nodes(model, ends, p, q, &f->memory, &f->nodes);
+    s = rb_rolling_traction_nodes(model->rc, &model->mesh, &model->state, ends, p, q,
+                                  RB_ROLLING_EDGE_NODES, &f->memory, &f->nodes);
     if (s == RB_OK)
         s = rb_bem_field_create(system_of(f), &f->nodes, &f->wheel, why);
     double *x = rb_arena_doubles(&f->memory, (size_t)f->nodes.n, 1);

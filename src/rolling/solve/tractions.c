@@ -3,16 +3,17 @@
 
 #include <gsl/gsl_math.h>
 
-/* Nodes between the outermost midpoint that is trusted and the edge, at distances that grow
- * with the fourth power from it; parts of the interval between the next midpoints; and how
- * many elements at an edge are replaced. */
-enum { EDGE_NODES = 32, PARTS = 4, LEAST_REPLACED = 2, MOST_REPLACED = 5 };
+/* Parts of the interval between the next midpoints, and how many elements at an edge are
+ * replaced. */
+enum { PARTS = 4, LEAST_REPLACED = 2, MOST_REPLACED = 5 };
 
 /* One run of elements in contact.  x: midpoints. */
 typedef struct {
-    const rb_rolling_model *model;
+    const rb_rolling_case *rc;
+    const rb_contact_state *state;
     const double *x, *ends, *p, *q;
     int first, last;
+    int nodes; /* between an edge and the outermost midpoint that is trusted */
 } patch;
 
 /* Where the pressure goes near an edge: t being the distance outwards from the outermost
@@ -31,14 +32,13 @@ static double pressure_beyond(const edge *e, double t)
 /* With so many elements replaced, by the parabola through three that lie so many apart. */
 static edge edge_with(const patch *r, int side, int replaced, int apart)
 {
-    const rb_rolling_model *model = r->model;
-    const double beta = rb_rolling_derive(model->rc).dundurs;
-    const int *zone = model->state.zone, outer = side > 0 ? r->last : r->first, n = model->mesh.n;
+    const double beta = rb_rolling_derive(r->rc).dundurs;
+    const int *zone = r->state->zone, outer = side > 0 ? r->last : r->first, n = r->state->n;
     edge e = {.from = outer - side * replaced, .side = side};
     double d[3], y[3];
 
-    e.exponent = rb_rolling_edge_exponent(model->rc, r->ends[e.from + 1] - r->ends[e.from],
-                                          &model->state, e.from, side);
+    e.exponent = rb_rolling_edge_exponent(r->rc, r->ends[e.from + 1] - r->ends[e.from], r->state,
+                                          e.from, side);
     for (int i = 0; i < 3; i++) {
         const int j = e.from - side * i * apart;
         /* Where the friction feeds back on it, the pressure bends at the end of a slip zone. */
@@ -108,14 +108,15 @@ static void add_node(rb_bem_edge_load *load, double *x, double *p, double *q, do
     q[load->n++] = friction;
 }
 
-/* The nodes from an edge to its trusted midpoint, or back. */
+/* The nodes from an edge to its trusted midpoint, or back, at distances from the edge that grow
+ * with the fourth power. */
 static void add_edge(const patch *r, const edge *e, rb_bem_edge_load *load, double *x, double *p,
                      double *q)
 {
     const int outer = e->side > 0 ? r->last : r->first;
-    for (int i = 0; i < EDGE_NODES; i++) {
-        const int k = e->side < 0 ? i : EDGE_NODES - 1 - i;
-        const double d = e->reach * gsl_pow_4((double)k / EDGE_NODES), t = e->reach - d,
+    for (int i = 0; i < r->nodes; i++) {
+        const int k = e->side < 0 ? i : r->nodes - 1 - i;
+        const double d = e->reach * gsl_pow_4((double)k / r->nodes), t = e->reach - d,
                      at = r->x[e->from] + e->side * t;
         /* Chords of a function that starts like a root hold less than it does; with so much
          * more at the nodes they hold the same. */
@@ -145,7 +146,7 @@ static void add_interval(const patch *r, int j, int parts, double exponent, rb_b
 
 static void add_patch(const patch *r, rb_bem_edge_load *load, double *x, double *p, double *q)
 {
-    const int n = r->model->mesh.n;
+    const int n = r->state->n;
     const edge left = edge_of(r, -1), right = edge_of(r, 1);
     const int from = left.reach > 0.0 ? left.from : r->first,
               to = right.reach > 0.0 ? right.from : r->last;
@@ -172,16 +173,17 @@ static void add_patch(const patch *r, rb_bem_edge_load *load, double *x, double 
         add_node(load, x, p, q, to + 1 < n ? r->x[to + 1] : r->ends[n], 0.0, 0.0);
 }
 
-rb_status rb_rolling_traction_nodes(const rb_rolling_model *model, const double *ends,
-                                    const double *p, const double *q, rb_arena *memory,
-                                    rb_bem_edge_load *load)
+rb_status rb_rolling_traction_nodes(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                    const rb_contact_state *state, const double *ends,
+                                    const double *p, const double *q, int edge_nodes,
+                                    rb_arena *memory, rb_bem_edge_load *load)
 {
-    const int n = model->mesh.n;
+    const int n = state->n;
     rb_rolling_run run = {.last = -1};
     size_t patches = 0;
-    while (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run))
+    while (rb_rolling_next_patch(rc, mesh, state, run.last + 1, &run))
         patches++;
-    const size_t most = (size_t)n + 2 + patches * 2 * (EDGE_NODES + 3 * PARTS);
+    const size_t most = (size_t)n + 2 + patches * 2 * ((size_t)edge_nodes + 3 * PARTS);
     double *middle = rb_arena_doubles(memory, (size_t)n, 1);
     double *nodes = rb_arena_doubles(memory, most, 3);
 
@@ -191,10 +193,9 @@ rb_status rb_rolling_traction_nodes(const rb_rolling_model *model, const double 
     for (int i = 0; i < n; i++)
         middle[i] = 0.5 * (ends[i] + ends[i + 1]);
     *load = (rb_bem_edge_load){0, nodes, at_p, at_q};
-    for (run.last = -1;
-         rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1, &run);)
-        add_patch(&(patch){model, middle, ends, p, q, run.first, run.last}, load, nodes, at_p,
-                  at_q);
+    for (run.last = -1; rb_rolling_next_patch(rc, mesh, state, run.last + 1, &run);)
+        add_patch(&(patch){rc, state, middle, ends, p, q, run.first, run.last, edge_nodes}, load,
+                  nodes, at_p, at_q);
     if (patches == 0) {
         add_node(load, nodes, at_p, at_q, ends[0], 0.0, 0.0);
         add_node(load, nodes, at_p, at_q, ends[n], 0.0, 0.0);
