@@ -518,13 +518,22 @@ typedef struct {
  * beyond the contact. */
 rb_resolved_case rb_case_crack_contact(const rb_resolved_case *resolved,
                                        const rb_case_crack *crack);
+
+/* So many times as many elements of the contact, positions that the program chooses, elements of
+ * the crack, and steps of a history or equal ones as the case says. */
+typedef struct {
+    double contact, positions;
+    int crack, steps;
+} rb_case_crack_mesh;
+extern const rb_case_crack_mesh rb_case_crack_own_mesh; /* once as many */
+
 /* The track of result->contact and result->states, whose arrays it borrows; also sets
  * half_width, shape, passes and notes of the result.  Where the program chooses the positions,
- * those of the result are taken if there are any; otherwise it begins with `finer` times as
- * many.  RB_EINVAL: a step of the contact jumps over the crack; a length is out of range. */
+ * those of the result are taken if there are any.  RB_EINVAL: a step of the contact jumps over the
+ * crack; a length is out of range. */
 rb_status rb_case_crack_follow(const rb_resolved_case *resolved, const rb_case_crack *crack,
-                               int finer, rb_case_crack_result *result, rb_case_crack_track *track,
-                               rb_message *why);
+                               const rb_case_crack_mesh *finer, rb_case_crack_result *result,
+                               rb_case_crack_track *track, rb_message *why);
 void rb_case_crack_track_free(rb_case_crack_track *track);
 /* The passage of such a track without a wheel. */
 rb_crack_passage rb_case_crack_passage(const rb_case_crack *crack,

@@ -155,6 +155,8 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
 
 /* ---- Positions --------------------------------------------------------------------- */
 
+const rb_case_crack_mesh rb_case_crack_own_mesh = {1.0, 1.0, 1, 1};
+
 /* The program chooses the positions: what moves is one state. */
 static int chooses_positions(const rb_resolved_case *c, const rb_case_crack *k)
 {
@@ -177,9 +179,12 @@ static int marks_of(const rb_case_crack_track *t, int n, const int *zone, double
         if (load->p[j] == 0.0 &&
             ((j > 0 && load->p[j - 1] > 0.0) || (j + 1 < load->n && load->p[j + 1] > 0.0)))
             mark[marks++] = load->x[j];
-    for (int i = 1; i < n && marks < MOST_MARKS; i++)
-        if (zone[i] != zone[i - 1] && (t->kind == RB_CRACK_STRIPS || (zone[i] && zone[i - 1])))
+    for (int i = 1; i < n && marks < MOST_MARKS; i++) {
+        const int loaded = zone[i] != RB_ZONE_SEPARATED, before = zone[i - 1] != RB_ZONE_SEPARATED,
+                  sticks = zone[i] == RB_ZONE_STICK, stuck = zone[i - 1] == RB_ZONE_STICK;
+        if (loaded && before ? sticks != stuck : t->kind == RB_CRACK_STRIPS && loaded != before)
             mark[marks++] = t->ends[i];
+    }
     return marks;
 }
 
@@ -192,10 +197,10 @@ static int ascending(const void *a, const void *b)
 /* Equal steps, and where a mark passes over a crack that is shorter than the half-width
  * steps of a part of its length.  finer: so many times as many.  Returns how many positions;
  * x: room for MOST_POSITIONS + 1. */
-static int first_positions(const rb_case_crack *l, double a, int finer, int marks,
+static int first_positions(const rb_case_crack *l, double a, double finer, int marks,
                            const double *mark, double *x)
 {
-    const int intervals = finer * INTERVALS;
+    const int intervals = (int)ceil(finer * INTERVALS);
     const double scale = scale_of(l, a), room = 3.0 * scale;
     double step = NARROW * scale / finer;
     int n = 0;
@@ -375,8 +380,9 @@ static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
 }
 
 /* The positions of the contact: those of the history, equal ones, or the program's own. */
-static rb_status set_positions(const rb_resolved_case *c, const rb_case_crack *k, int finer,
-                               rb_case_crack_result *r, rb_case_crack_track *t, rb_message *why)
+static rb_status set_positions(const rb_resolved_case *c, const rb_case_crack *k,
+                               const rb_case_crack_mesh *finer, rb_case_crack_result *r,
+                               rb_case_crack_track *t, rb_message *why)
 {
     const int has_steps = rb_case_has_steps(c) && !k->unloaded,
               rolls = c->rc.formulation == RB_TRANSIENT;
@@ -390,11 +396,11 @@ static rb_status set_positions(const rb_resolved_case *c, const rb_case_crack *k
             return RB_ENOMEM;
         t->x = r->positions > 0 ? r->position : x;
         t->n = r->positions > 0 ? r->positions
-                                : first_positions(&l, r->half_width, finer,
+                                : first_positions(&l, r->half_width, finer->positions,
                                                   marks_of(t, one->n, one->zone, mark), mark, x);
         return RB_OK;
     }
-    t->n = k->unloaded ? 1 : has_steps ? r->states.steps : finer * c->rc.steps + 1;
+    t->n = k->unloaded ? 1 : has_steps ? r->states.steps : finer->steps * c->rc.steps + 1;
     t->x = rb_arena_doubles(&t->memory, (size_t)t->n, 1);
     if (!t->x)
         return RB_ENOMEM;
@@ -412,8 +418,9 @@ static rb_status set_positions(const rb_resolved_case *c, const rb_case_crack *k
     return RB_OK;
 }
 
-rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k, int finer,
-                               rb_case_crack_result *r, rb_case_crack_track *t, rb_message *why)
+rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k,
+                               const rb_case_crack_mesh *finer, rb_case_crack_result *r,
+                               rb_case_crack_track *t, rb_message *why)
 {
     const int has_steps = rb_case_has_steps(c) && !k->unloaded;
     const rb_rolling_states *steps = &r->states;
@@ -552,11 +559,10 @@ static int reaches_end(const rb_crack_history *h)
     return 0;
 }
 
-/* One mesh: as many elements of crack and contact, and positions, as times `finer` says; the
- * contact has one more, so that the mouth lies elsewhere in its elements.  zone: half-width
- * of the potential contact of a coupled crack. */
-static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, int finer,
-                            double zone, const rb_crack_observer *observer, rb_case_crack_result *r,
+/* One mesh.  zone: half-width of the potential contact of a coupled crack. */
+static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k,
+                            const rb_case_crack_mesh *finer, double zone,
+                            const rb_crack_observer *observer, rb_case_crack_result *r,
                             rb_message *why)
 {
     contact_steps kept = {&r->states, observer, 0};
@@ -566,9 +572,11 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
 
     memset(r, 0, sizeof *r);
     r->passes = k->passes;
-    if (finer > 1 && rb_case_has_steps(c)) {
-        refined.rc.steps *= finer;
-        refined.rc.increments *= finer;
+    if (finer->contact > 1.0) /* and the mouth lies elsewhere in its elements */
+        refined.rc.contact_elements = (int)ceil(finer->contact * c->rc.contact_elements) + 1;
+    if (rb_case_has_steps(c)) {
+        refined.rc.steps *= finer->steps;
+        refined.rc.increments *= finer->steps;
     }
     if (k->coupled)
         refined.rc.zone = zone;
@@ -577,7 +585,7 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
         s = RB_ENOMEM;
     if (s == RB_OK)
         s = rb_case_crack_follow(c, k, finer, r, &t, why);
-    r->shape.elements *= finer;
+    r->shape.elements *= finer->crack;
     if (s == RB_OK && k->coupled)
         s = rb_rolling_model_add_matrix(&r->contact.model, why);
     if (s == RB_OK)
@@ -601,7 +609,7 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
             r->passes = r->history.n / (r->positions > 0 ? r->positions : t.n);
         if (r->history.n > 0)
             r->summary = rb_case_crack_summarise(&r->history, r->passes);
-        if (s == RB_OK && !isnan(k->paris) && finer == 1)
+        if (s == RB_OK && !isnan(k->paris) && finer == &rb_case_crack_own_mesh)
             s = rb_case_grow_crack(c, k, &t, observer, r, why);
         const rb_case_crack_growth *g = &r->growth;
         if ((g->surfaced || g->rests) && r->notes < RB_CASE_CRACK_NOTES)
@@ -619,9 +627,9 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k, i
 }
 
 /* A coupled contact may reach beyond its zone where the crack opens: again on a wider one. */
-static rb_status solve_on_zones(const rb_resolved_case *c, const rb_case_crack *k, int finer,
-                                const rb_crack_observer *observer, rb_case_crack_result *r,
-                                rb_message *why)
+static rb_status solve_on_zones(const rb_resolved_case *c, const rb_case_crack *k,
+                                const rb_case_crack_mesh *finer, const rb_crack_observer *observer,
+                                rb_case_crack_result *r, rb_message *why)
 {
     rb_resolved_case wider = *c;
     double zone = c->rc.zone > 0.0 ? c->rc.zone : ZONE * c->derived.half_width;
@@ -650,17 +658,15 @@ rb_status rb_case_crack_solve(const rb_resolved_case *c, const rb_case_crack *k,
     memset(r, 0, sizeof *r);
     rb_status s = rb_case_crack_check(c, k, why);
     if (s == RB_OK)
-        s = solve_on_zones(c, k, 1, observer, r, why);
-    /* Twice as many elements of crack and contact, and positions; and a contact whose elements
-     * the mouth meets elsewhere: two meshes alone may agree by chance. */
-    rb_case_crack finer = *k;
-    finer.locate_closing = k->fluid == RB_CRACK_TRAPPED; /* as infinitely many positions do */
-    static const double contact[] = {2.0, 1.4};
+        s = solve_on_zones(c, k, &rb_case_crack_own_mesh, observer, r, why);
+    /* Two meshes alone may agree by chance. */
+    static const rb_case_crack_mesh meshes[] = {{2.0, 1.0, 2, 2}, {1.4, 1.4, 1, 1}};
     for (int i = 0; i < 2 && s == RB_OK && c->error; i++) {
         rb_case_crack_result other;
-        rb_resolved_case refined = *c;
-        refined.rc.contact_elements = (int)ceil(contact[i] * c->rc.contact_elements) + 1;
-        s = solve_on_zones(&refined, i == 0 ? &finer : k, i == 0 ? 2 : 1, observer, &other, why);
+        rb_case_crack finer = *k;
+        /* as infinitely many positions do */
+        finer.locate_closing |= i == 0 && k->fluid == RB_CRACK_TRAPPED;
+        s = solve_on_zones(c, &finer, &meshes[i], observer, &other, why);
         r->has_errors = s == RB_OK;
         if (s == RB_OK)
             rb_case_crack_add_errors(&other.summary, r);

@@ -95,7 +95,10 @@ rb_status rb_crack_close(rb_crack *c, const rb_crack_passage *p, int k, double s
         /* Nodal forces on the way from step k - 1 to step k. */
         double *before = T + 2 * c->n;
         const double x = p->x[k - 1] + part * (p->x[k] - p->x[k - 1]);
-        s = rb_crack_load(c, load_of(p, k), p->kind, x, p->tension, T);
+        if (part == 1.0 && p->forces)
+            memcpy(T, p->forces + 2 * (size_t)k * (size_t)c->n, 2 * (size_t)c->n * sizeof *T);
+        else
+            s = rb_crack_load(c, load_of(p, k), p->kind, x, p->tension, T);
         if (s == RB_OK && p->loads > 1)
             s = rb_crack_load(c, load_of(p, k - 1), p->kind, x, p->tension, before);
         for (int i = 0; i < 2 * c->n && p->loads > 1; i++)

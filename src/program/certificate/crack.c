@@ -140,7 +140,8 @@ static rb_status rebuild(restored *j, rb_message *why)
     rb_status s = read_positions(j, why);
 
     if (s == RB_OK)
-        s = rb_case_crack_follow(j->resolved, &j->crack, 1, j->r, &j->track, why);
+        s = rb_case_crack_follow(j->resolved, &j->crack, &rb_case_crack_own_mesh, j->r, &j->track,
+                                 why);
     if (s == RB_OK && j->r->positions > 0) {
         const rb_case_crack l = rb_case_crack_lengths(j->resolved, &j->crack, j->r->half_width);
         const double *at = j->r->position, slack = 1e-9 * j->r->half_width;
