@@ -1237,6 +1237,8 @@ typedef struct rb_rolling_curve {
                       direction; NULL if friction does not depend on the state */
     double *kappa; /* as in rb_rolling_solution; NULL likewise */
     int rising;    /* number of points of branch 1, which come first */
+    int unsolved;  /* points without a solution: NAN but for what is varied and, if the search for
+                      one began, kappa of its end */
     double free_creepage, half_width, seconds;
     int iterations;
     rb_rolling_solution last; /* solution at the last point, for notes, but with the largest kappa

@@ -111,7 +111,9 @@ static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
     rb_rolling_study_notes found = {.rows = 0};
     rb_status s = RB_OK;
     all.units = c->units;
-    for (int k = 0; k < mus->n && s == RB_OK; k++) {
+    for (int k = 0; k < mus->n && s >= 0 && (s == RB_OK || curves->curve[k - 1].unsolved > 0);
+         k++) {
+        const rb_status before = s;
         rb_message reason = {""};
         rc.mu = curves->mu[k] = mus->value[k];
         if (range->derivatives || range->tolerance) {
@@ -128,10 +130,11 @@ static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
         curves->n += s >= 0;
         if (s >= 0)
             rb_rolling_join_study_notes(&found, &curves->curve[k].notes);
-        if (s != RB_OK && mus->n > 1)
-            rb_fail(why, s, "mu = %g: %.280s", rc.mu, rb_status_reason(s, &reason));
-        else if (s != RB_OK)
+        if (s != RB_OK && mus->n > 1 && before == RB_OK)
+            rb_fail(why, s, "mu = %g: %.480s", rc.mu, rb_status_reason(s, &reason));
+        else if (s != RB_OK && (before == RB_OK || s < 0))
             *why = reason;
+        s = s == RB_OK ? before : s;
     }
     curves->has_errors = c->error && s == RB_OK; /* an unfinished curve has none */
     curves->rc = &c->rc;

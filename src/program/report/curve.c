@@ -105,8 +105,10 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
         int sliding = rising;
         while (sliding > 0 && c->stick_ratio[sliding - 1] == 0.0)
             sliding--;
-        fprintf(out, "curve, mu = %g: %d points in %.2g s, residual <= %.2g\n", curves->mu[k], c->n,
-                c->seconds, largest(c->n, c->residual));
+        fprintf(out, "curve, mu = %g: %d points in %.2g s, ", curves->mu[k], c->n, c->seconds);
+        if (c->unsolved > 0)
+            fprintf(out, "%d without a solution, ", c->unsolved);
+        fprintf(out, "residual <= %.2g\n", largest(c->n, c->residual));
         if (isfinite(c->free_creepage))
             fprintf(out, "  free rolling (Q = 0) at xi = %.5g\n",
                     c->free_creepage + 0.0); /* -0 is 0 */
@@ -161,6 +163,9 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                     points, points > 1 ? "s" : "", c->dissipation[least],
                     rb_unit_name(c->units, "N/mm"), c->creepage[least],
                     rb_rolling_below_zero(curves->rc, &c->last));
+        int held = sliding - 1; /* the last point before that has a solution */
+        while (held > 0 && isnan(c->stick_ratio[held]))
+            held--;
         const int slides = !speeds && sliding < rising && curves->mu[k] > 0.0;
         /* where it yields it need not slide */
         double yields = 0.0;
@@ -171,15 +176,15 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                 out,
                 "  nothing sticks from a creepage between xi = %.5g and %.5g on: up to %.3g %% of "
                 "the interface yields\n",
-                c->creepage[sliding - 1], c->creepage[sliding], 100.0 * yields);
+                c->creepage[held], c->creepage[sliding], 100.0 * yields);
         else if (slides && yields > 0.0)
             fprintf(out, "  nothing sticks at any point: up to %.3g %% of the interface yields\n",
                     100.0 * yields);
         else if (slides && sliding > 0) {
-            fprintf(out, "  full sliding begins between xi = %.5g and %.5g",
-                    c->creepage[sliding - 1], c->creepage[sliding]);
+            fprintf(out, "  full sliding begins between xi = %.5g and %.5g", c->creepage[held],
+                    c->creepage[sliding]);
             if (!isnan(c->creep_ratio[sliding]))
-                fprintf(out, ", xi R/(mu a) = %.4g and %.4g", c->creep_ratio[sliding - 1],
+                fprintf(out, ", xi R/(mu a) = %.4g and %.4g", c->creep_ratio[held],
                         c->creep_ratio[sliding]);
             fputc('\n', out);
         } else if (slides)
@@ -252,6 +257,15 @@ static int draws_carter(const view *v)
     return v->over != RB_OVER_SPEED && rb_rolling_carter_holds(v->rc);
 }
 
+static int last_solved(const rb_rolling_curve *c)
+{
+    int k = c->n - 1;
+
+    while (k > 0 && isnan(c->normal_load[k]))
+        k--;
+    return k;
+}
+
 static void write_labels(FILE *out, const view *v, int titled)
 {
     const rb_rolling_curve *c = &v->curves->curve[0];
@@ -276,8 +290,8 @@ static void write_labels(FILE *out, const view *v, int titled)
             out,
             "set label 1 '{/:Bold %s}   P = %s %s,  a = %s%s %s' at screen 0.54, 0.972 center\n",
             v->over == RB_OVER_SPEED ? "Rolling resistance" : "Creep curve",
-            RB_REPORT_NUMBER(c->normal_load[c->n - 1], 5), rb_unit_name(c->units, "N/mm"), at_first,
-            RB_REPORT_NUMBER(half, 4), rb_unit_name(c->units, "mm"));
+            RB_REPORT_NUMBER(c->normal_load[last_solved(c)], 5), rb_unit_name(c->units, "N/mm"),
+            at_first, RB_REPORT_NUMBER(half, 4), rb_unit_name(c->units, "mm"));
         rb_report_label_bodies(out, v->rc, c->units, 0.54, 0.935);
     }
     if (v->over == RB_OVER_SPEED)
@@ -387,7 +401,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
                 fprintf(out, "%.9g %.9g\n", (1.0 - t) * x_of(v, c, 0) + t * x_of(v, c, last),
                         -rb_closed_carter_force_ratio(s) *
                             (v->y == FORCE_RATIO ? 1.0 : v->curves->mu[k]) *
-                            (v->y == FORCE ? c->normal_load[last] : 1.0));
+                            (v->y == FORCE ? c->normal_load[last_solved(c)] : 1.0));
             }
             fputs("EOD\n", out);
         }

@@ -38,7 +38,7 @@ static rb_status note_point(const rb_rolling_model *model, rb_units units, rb_ro
     }
     rb_rolling_solution_convert(&at, units);
     const rb_rolling_row_notes notes = rb_rolling_find_row_notes(&rc, &at);
-    rb_rolling_add_row_notes(&c->notes, c->notes.rows, &notes);
+    rb_rolling_add_row_notes(&c->notes, c->n - 1, &notes);
     rb_rolling_solution_free(&at);
     return RB_OK;
 }
@@ -142,31 +142,77 @@ static rb_status remember_branch(const rb_rolling_model *model, branch_start *st
     return RB_OK;
 }
 
+/* 1: a solver found nothing there; it may elsewhere. */
+static int is_unsolved(rb_status s)
+{
+    return s == RB_MAXITER || s == RB_RAY || s == RB_SINGULAR || s == RB_INACCURATE;
+}
+
+/* A point without a solution keeps its place; why: of the first one. */
+static rb_status record_unsolved(const rb_rolling_model *model, const rb_rolling_range *r,
+                                 double value, rb_status s, rb_rolling_curve *c, rb_message *why)
+{
+    const rb_rolling_derived d = rb_rolling_derive(model->rc);
+    const double unit = rb_rolling_largest_mu(model->rc) * d.half_width / d.radius; /* of xi */
+    const int k = c->n++;
+
+    for (int j = 0; j < rb_rolling_curve_columns.n; j++) {
+        const rb_rolling_result *column = &rb_rolling_curve_columns.row[j];
+        double *at = column->kind == RB_RESULT_NUMBER ? rb_rolling_column(column, c) : NULL;
+        if (at)
+            at[k] = NAN;
+    }
+    rb_rolling_add_row_notes(&c->notes, k, &(rb_rolling_row_notes){.n = 0});
+    c->speed[k] = model->rc->speed;
+    if (r->over != RB_OVER_SPEED) {
+        c->creepage[k] = r->over == RB_OVER_CREEP ? value : value * unit;
+        c->creep_ratio[k] = r->over == RB_OVER_CREEP ? value / unit : value;
+    }
+    if (c->branch)
+        c->branch[k] = k < c->rising ? 1 : 2;
+    if (c->unsolved++ == 0 && why) {
+        const rb_message reason = *why;
+        rb_fail(why, s, "the point at %s = %g has no solution: %.400s",
+                r->over == RB_OVER_SPEED   ? "speed"
+                : r->over == RB_OVER_CREEP ? "xi"
+                                           : "xi R/(mu a)",
+                value, rb_status_reason(s, &reason));
+    }
+    return c->kappa && model->state.p ? rb_rolling_law_kappa(model, &c->kappa[k]) : RB_OK;
+}
+
 static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_range *r,
                                 const watcher *w, rb_rolling_model *model, rb_rolling_curve *c,
                                 rb_message *why)
 {
     rb_rolling_case steady = *rc;
-    double edge[2];
+    rb_status s = RB_OK, first = RB_OK;
+    double edge[2] = {NAN, NAN};
+    int is_made = 0;
 
     steady.shift = steady.force = steady.force_ratio = NAN;
     steady.free_axle = 0;
-    set_creepage(r->over, r->from, &steady);
-    rb_status s = rb_rolling_model_create(&steady, model, why);
-    if (s != RB_OK)
-        return s;
-    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge[0], &edge[1]);
     const int moves = rb_rolling_law_depends_on_state(&steady), points = r->points;
     branch_start start = {.scratch = NULL};
     for (int k = 0; k < (moves ? 2 * points : points) && s == RB_OK; k++) {
-        set_creepage(r->over, value_at(r, k < points ? k : 2 * points - 1 - k), &steady);
-        s = rb_rolling_model_set_case(model, &steady, why);
+        const double value = value_at(r, k < points ? k : 2 * points - 1 - k);
+        rb_message reason = {""};
+        set_creepage(r->over, value, &steady);
+        if (is_made)
+            s = rb_rolling_model_set_case(model, &steady, &reason);
+        else {
+            rb_rolling_model_free(model);
+            s = rb_rolling_model_create(&steady, model, &reason);
+            is_made = s == RB_OK;
+            if (is_made)
+                rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge[0],
+                                         &edge[1]);
+        }
         if (s == RB_OK)
-            s = rb_rolling_model_control(model, why);
-        if (moves && s >= 0) {
-            const rb_status t = remember_branch(model, &start);
+            s = rb_rolling_model_control(model, &reason);
+        if (moves && s == RB_OK) {
+            s = remember_branch(model, &start);
             model->plan.start = &start.table;
-            s = t == RB_OK ? s : t;
         }
         /* A fitted mesh whose contact has moved is fitted again; a potential contact that is
          * full is chosen again. */
@@ -175,32 +221,37 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
             rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
         const double moved =
             fmax(fabs(from - edge[0]), fabs(to - edge[1])) / (0.5 * (edge[1] - edge[0]));
-        if (s == RB_ZONE ||
-            (s == RB_OK && steady.mesh != RB_MESH_UNIFORM && moved > RB_ROLLING_REFIT)) {
+        if (is_made && (s == RB_ZONE || (s == RB_OK && steady.mesh != RB_MESH_UNIFORM &&
+                                         moved > RB_ROLLING_REFIT))) {
             if (s == RB_ZONE) { /* the whole search for the contact again */
                 const int iterations = model->iterations;
                 rb_rolling_plan plan = rb_rolling_plan_of(&steady);
                 plan.start = model->plan.start;
                 rb_rolling_model_free(model);
-                s = rb_rolling_model_reuse(&steady, &plan, model, why);
+                s = rb_rolling_model_reuse(&steady, &plan, model, &reason);
                 model->iterations += iterations;
             } else
-                s = steady.mesh == RB_MESH_ALIGNED ? rb_rolling_model_realign(model, why)
-                                                   : rb_rolling_model_refit(model, why);
+                s = steady.mesh == RB_MESH_ALIGNED ? rb_rolling_model_realign(model, &reason)
+                                                   : rb_rolling_model_refit(model, &reason);
             if (s == RB_OK)
                 rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge[0],
                                          &edge[1]);
         }
-        if (s >= 0) {
+        if (s != RB_OK && first == RB_OK && why)
+            *why = reason;
+        if (is_unsolved(s)) {
+            first = first == RB_OK ? s : first;
+            s = record_unsolved(model, r, value, s, c, why);
+        } else if (s >= 0 && model->state.p) {
             const rb_status t = record(model, w, c, why);
             s = t < 0 ? t : s;
         }
     }
     model->plan.start = NULL;
     free(start.scratch);
-    if (s == RB_OK && rb_rolling_largest_mu(rc) > 0.0)
+    if (s == RB_OK && is_made && model->state.status == RB_OK && rb_rolling_largest_mu(rc) > 0.0)
         s = rb_rolling_free_creepage_if_any(model, &c->free_creepage, why);
-    return s;
+    return s == RB_OK ? first : s;
 }
 
 /* The flexibility itself depends on the speed. */
@@ -208,20 +259,26 @@ static rb_status over_speeds(const rb_rolling_case *rc, const rb_rolling_range *
                              rb_rolling_model *model, rb_rolling_curve *c, rb_message *why)
 {
     rb_rolling_case steady = *rc;
-    rb_status s = RB_OK;
+    rb_status s = RB_OK, first = RB_OK;
 
     for (int k = 0; k < r->points && s == RB_OK; k++) {
         const int iterations = model->iterations;
+        rb_message reason = {""};
         steady.speed = value_at(r, k);
         rb_rolling_model_free(model);
-        s = rb_rolling_model_create(&steady, model, why);
+        s = rb_rolling_model_create(&steady, model, &reason);
         model->iterations += iterations;
-        if (s >= 0 && model->state.p) {
+        if (s != RB_OK && first == RB_OK && why)
+            *why = reason;
+        if (is_unsolved(s)) {
+            first = first == RB_OK ? s : first;
+            s = record_unsolved(model, r, steady.speed, s, c, why);
+        } else if (s >= 0 && model->state.p) {
             const rb_status t = record(model, w, c, why);
             s = t < 0 ? t : s;
         }
     }
-    return s;
+    return s == RB_OK ? first : s;
 }
 
 static rb_status check_curve(const rb_rolling_case *rc, const rb_rolling_range *r, rb_message *why)
@@ -273,7 +330,8 @@ rb_status rb_rolling_curve_observe(const rb_rolling_case *rc, const rb_rolling_r
     if (s == RB_OK)
         s = (range->over == RB_OVER_SPEED ? over_speeds : over_creepages)(&steady, range, &w,
                                                                           &model, curve, why);
-    s = rb_rolling_check_layer_resolved(&model, s, why);
+    if (curve->unsolved == 0)
+        s = rb_rolling_check_layer_resolved(&model, s, why);
     curve->iterations = model.iterations;
     curve->seconds = rb_seconds() - start;
     rb_rolling_model_free(&model);
