@@ -106,7 +106,7 @@ static void exact_keep(int n, const double *z, exact_list *list)
 
 /* of_bases: the solutions of bases that are regular; all: those of all sets of columns that
  * do not depend on each other, which have a solution if there is any (Caratheodory). */
-static void exact_solutions(const exact_lcp *p, exact_list *of_bases, exact_list *all)
+static inline void exact_solutions(const exact_lcp *p, exact_list *of_bases, exact_list *all)
 {
     double z[EXACT_MOST];
     const int full = (1 << p->n) - 1;

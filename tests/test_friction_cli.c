@@ -30,6 +30,26 @@ static int set_up(void **state)
     return 0;
 }
 
+/* A steep rod: three solutions, a row per contact of each. */
+TEST(all_solutions_are_listed)
+{
+    write_file("rod", "2 1 0 2 2 2 2 1.8757797451792866 1.3639461402385225 1.3639461402385225 "
+                      "3.124220254820713 0.5 3 2.2");
+    CHECK_RUN(rollbem("friction --all rod"), 0, out,
+              "file\tsolution\tcontact\tstate\tr_N\tr_T\tu_N\tu_T\n");
+    assert_non_null(strstr(out, "\nrod\t1\t1\tseparated\t0\t0\t0.5\t3\n"));
+    assert_non_null(strstr(out, "\nrod\t2\t1\tstick\t0.632432"));
+    assert_non_null(strstr(out, "\nrod\t3\t1\tslip+\t0.444483"));
+    CHECK_RUN(rollbem("friction rod"), 0, err,
+              "W_NN - mu |W_NT| < 0 at contact 1: there may be several solutions; --all lists");
+    CHECK_RUN(rollbem("friction --all no"), 1, err, "no solution (4 states; 3 singular, each");
+    CHECK_RUN(rollbem("friction --all --json rod"), 0, out, "\"slip+\"");
+    CHECK_RUN(rollbem("friction --all cone --kind siconos-soclcp"), 65, err, "cones");
+    write_file("space", "3 1 0 3 3 3 3 1 0 0 0 1 0 0 0 1 -1 0 0 0.5");
+    CHECK_RUN(rollbem("friction --all space"), 65, err, "in two dimensions only");
+    CHECK_RUN(rollbem("friction --all --solver lemke rod"), 64, err, "not with --solver");
+}
+
 TEST(the_answer_can_be_checked)
 {
     assert_int_equal(rollbem("friction --json --solution slides"), 0);

@@ -250,6 +250,40 @@ rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y, do
  * 0; *given: the sum of the moduli of q. */
 int rb_friction_has_no_solution(const rb_friction_problem *problem, double *least, double *given);
 
+/* ---- All solutions in two dimensions ------------------------------------------------- */
+
+/* States of a contact; bits of rb_friction_solutions.states.  mu = 0: a closed contact has the
+ * name STICK. */
+typedef enum {
+    RB_FRICTION_OPEN,       /* r = 0, u_N >= 0 */
+    RB_FRICTION_STICK,      /* u = 0, |r_T| <= mu r_N */
+    RB_FRICTION_SLIP_PLUS,  /* u_N = 0, u_T >= 0, r_T = -mu r_N */
+    RB_FRICTION_SLIP_MINUS, /* u_N = 0, u_T <= 0, r_T = mu r_N */
+    RB_FRICTION_STATES
+} rb_friction_state;
+
+typedef struct {
+    int contacts, count;
+    double *r, *u;       /* 2 contacts x count; owned, as the next two */
+    unsigned *states;    /* contacts x count: 1 << state; several bits where r lies on the
+                            border between states */
+    int *singular_state; /* count; 1: of states with a singular matrix only, so that other
+                            solutions may lie next to it */
+    int tried, singular, undecided; /* states of all contacts together, as of rb_lcp_solutions */
+} rb_friction_solutions;
+
+/* All solutions of a plane problem with at most 8 contacts, each once: every state of every
+ * contact is tried (4^contacts).  seconds: time limit, 0: none.  The global form is condensed
+ * first.  RB_TIME_LIMIT: what has been found so far; RB_EINVAL: dimension 3, in which their
+ * number need not be finite, more contacts, or an error of rb_friction_problem_check;
+ * RB_SINGULAR, RB_ENOMEM. */
+rb_status rb_friction_all(const rb_friction_problem *problem, double seconds,
+                          rb_friction_solutions *all, rb_message *why);
+void rb_friction_solutions_free(rb_friction_solutions *all);
+/* The number, from 1 on, of the first contact of a local form with W_NN < mu ||W_NT||, where
+ * pushing a contact that slips opens it: there may be several solutions.  0: none. */
+int rb_friction_may_have_several(const rb_friction_problem *problem);
+
 /* ---- One structure, many loads ----------------------------------------------------- */
 
 /* Keeps everything that depends only on W, or on K and H: the factorisation of K, the

@@ -17,7 +17,7 @@ typedef struct {
 /* Where y_i may lie: y_i w_i >= 0 for every w_i that side and bounds allow. */
 static interval of_multiplier(lcp_side side, double low, double high)
 {
-    if (low == high)
+    if (low == high || side == LCP_LEFT_OUT)
         return (interval){0.0, 0.0};
     if (side == LCP_BETWEEN)
         return (interval){-INFINITY, INFINITY};
@@ -57,10 +57,10 @@ int rb_lcp_excludes(const lcp_matrix *M, const double *q, const double *lower, c
             c += a.x[k] * y[a.row ? a.row[k] : k];
             size += fabs(a.x[k]);
         }
-        const double z = at == LCP_AT_LOWER   ? low
-                         : at == LCP_AT_UPPER ? high
-                         : c > 0.0            ? high
-                                              : low;
+        const double z = at == LCP_AT_LOWER || at == LCP_LEFT_OUT ? low
+                         : at == LCP_AT_UPPER                     ? high
+                         : c > 0.0                                ? high
+                                                                  : low;
         if (c == 0.0 || z == 0.0)
             continue;
         if (!isinf(z)) {

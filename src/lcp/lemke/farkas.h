@@ -9,7 +9,8 @@ typedef enum {
     LCP_OPEN,     /* nothing: z_i within its bounds, w_i with the sign that all of them allow */
     LCP_AT_LOWER, /* z_i = lower_i, w_i >= 0 */
     LCP_AT_UPPER, /* z_i = upper_i, w_i <= 0 */
-    LCP_BETWEEN   /* w_i = 0 */
+    LCP_BETWEEN,  /* w_i = 0 */
+    LCP_LEFT_OUT  /* z_i = lower_i, w_i any number */
 } lcp_side;
 
 /* 1: y proves that no z within its bounds has the signs of w = M z + q that `side` (n;

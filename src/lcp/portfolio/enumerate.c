@@ -25,6 +25,8 @@ typedef struct {
     int n;
     rb_lcp_problem p;
     const double *lower, *upper;
+    const lcp_choices *choices;
+    int *choice;            /* blocks: the present one */
     lcp_side *at;           /* n: LCP_AT_LOWER, LCP_AT_UPPER, LCP_BETWEEN */
     double *A, *x;          /* n x n, n: system of the z between their bounds */
     double *row, *col;      /* n each: its scales */
@@ -35,9 +37,9 @@ typedef struct {
     lcp_linear *linear;     /* owned */
 } search;
 
-static int is_place(const search *s, int i, lcp_side at)
+static int is_place(const double *lower, const double *upper, int i, lcp_side at)
 {
-    const double low = rb_lcp_lower(s->lower, i), high = rb_lcp_upper(s->upper, i);
+    const double low = rb_lcp_lower(lower, i), high = rb_lcp_upper(upper, i);
     return at == LCP_AT_LOWER   ? isfinite(low)
            : at == LCP_AT_UPPER ? isfinite(high) && high > low
                                 : high > low;
@@ -58,9 +60,9 @@ static int basic_point(search *s)
 {
     int m = 0;
     for (int i = 0; i < s->n; i++) {
-        s->z[i] = s->at[i] == LCP_AT_LOWER   ? rb_lcp_lower(s->lower, i)
-                  : s->at[i] == LCP_AT_UPPER ? rb_lcp_upper(s->upper, i)
-                                             : 0.0;
+        s->z[i] = s->at[i] == LCP_AT_UPPER  ? rb_lcp_upper(s->upper, i)
+                  : s->at[i] == LCP_BETWEEN ? 0.0
+                                            : rb_lcp_lower(s->lower, i);
         if (s->at[i] == LCP_BETWEEN)
             s->inside[m++] = i;
     }
@@ -184,6 +186,8 @@ static int is_solution(search *s, int regular)
     for (int i = 0; i < n; i++) {
         const int fixed = rb_lcp_lower(s->lower, i) >= rb_lcp_upper(s->upper, i);
         const double small = RIGHT * s->terms[i];
+        if (s->at[i] == LCP_LEFT_OUT)
+            continue;
         if (s->at[i] != LCP_AT_UPPER && s->w[i] < -small && !fixed)
             return 0;
         if (s->at[i] != LCP_AT_LOWER && s->w[i] > small)
@@ -211,10 +215,14 @@ static rb_status keep(const search *s, int regular, rb_lcp_solutions *all)
         int same = 1;
         for (size_t i = 0; same && i < n; i++) {
             const double x = all->z[k * n + i], y = s->z[i];
+            if (s->choices->compared && !s->choices->compared[i])
+                continue;
             same = fabs(x - y) <= SAME * fmax(fabs(x), fabs(y)) + RIGHT * s->bound[i];
         }
         if (same) {
             all->singular_basis[k] &= !regular;
+            if (s->choices->found)
+                s->choices->found(s->choices->context, (int)k, s->choice);
             return RB_OK;
         }
     }
@@ -229,18 +237,18 @@ static rb_status keep(const search *s, int regular, rb_lcp_solutions *all)
     }
     all->singular_basis[count] = !regular;
     memcpy(all->z + n * (size_t)all->count++, s->z, bytes);
+    if (s->choices->found)
+        s->choices->found(s->choices->context, (int)count, s->choice);
     return RB_OK;
 }
 
-/* The first place of z_i that there is from `at` on; 0: there is none. */
-static int place_from(search *s, int i, int at)
+/* Choice k of the block whose indices begin at `first`. */
+static void choose(search *s, int block, int first, int k)
 {
-    for (; at <= LCP_BETWEEN; at++)
-        if (is_place(s, i, (lcp_side)at)) {
-            s->at[i] = (lcp_side)at;
-            return 1;
-        }
-    return 0;
+    const int size = s->choices->size[block];
+    s->choice[block] = k;
+    memcpy(s->at + first, s->choices->side[block] + (size_t)k * (size_t)size,
+           (size_t)size * sizeof *s->at);
 }
 
 /* One basis: its point, or where its matrix is singular what linear programming says of its
@@ -260,24 +268,19 @@ static rb_status look_at_basis(search *s, rb_lcp_solutions *all)
     return RB_OK;
 }
 
-rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const double *upper,
-                           double seconds, rb_lcp_solutions *all, rb_message *why)
+rb_status rb_lcp_try_all(const rb_lcp_problem *p, const double *lower, const double *upper,
+                         const lcp_choices *choices, double seconds, rb_lcp_solutions *all,
+                         rb_message *why)
 {
     const int n = p->n;
     const size_t order = (size_t)n;
     const double began = rb_seconds();
-    search s = {.n = n, .p = *p, .lower = lower, .upper = upper};
+    search s = {.n = n, .choices = choices};
     *all = (rb_lcp_solutions){.n = n};
     const rb_lcp_options plain = rb_lcp_defaults();
-    rb_status status = rb_lcp_check_dense(&s.p, &plain, why);
-    if (status == RB_OK)
-        status = rb_lcp_check_boxes(n, lower, upper, why);
-    if (status != RB_OK)
-        return status;
     double bases = 1.0;
-    for (int i = 0; i < n; i++)
-        bases *= is_place(&s, i, LCP_AT_LOWER) + is_place(&s, i, LCP_AT_UPPER) +
-                 is_place(&s, i, LCP_BETWEEN);
+    for (int block = 0; block < choices->blocks; block++)
+        bases *= choices->count[block];
     if (bases > MOST_BASES)
         return rb_fail(why, RB_EINVAL,
                        "lcp: all solutions: %.3g complementary bases: expected at most "
@@ -289,13 +292,14 @@ rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const d
     const lcp_matrix given = {.n = n, .dense = p->M, .ld = p->ldm};
     double *ends = rb_arena_doubles(&scratch, order, 3), unit = 1.0;
     s.at = rb_arena_zeros(&scratch, order, sizeof *s.at);
+    s.choice = rb_arena_ints(&scratch, (size_t)choices->blocks);
     s.A = rb_arena_doubles(&scratch, order, order);
     s.inverse = rb_arena_doubles(&scratch, order, order);
     s.work = rb_arena_doubles(&scratch, order, order + 4);
     s.x = rb_arena_doubles(&scratch, order, 7);
     s.inside = rb_arena_ints(&scratch, order);
     s.swap = rb_arena_ints(&scratch, 2 * order);
-    status =
+    rb_status status =
         scratch.failed ? RB_ENOMEM : rb_lcp_pose(&given, p->q, lower, upper, &plain, 1, &posed);
     if (status == RB_OK) {
         s.row = s.x + order;
@@ -316,21 +320,27 @@ rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const d
         s.upper = posed.upper ? ends + 2 * order : NULL;
         status = rb_lcp_linear_create(&posed.M, s.p.q, s.lower, s.upper, &s.linear);
     }
-    for (int i = 0; status == RB_OK && i < n; i++)
-        place_from(&s, i, LCP_AT_LOWER);
-    for (int digit = 0; status == RB_OK && digit < n;) {
+    for (int block = 0, first = 0; status == RB_OK && block < choices->blocks; block++) {
+        choose(&s, block, first, 0);
+        first += choices->size[block];
+    }
+    for (int digit = 0; status == RB_OK && digit < choices->blocks;) {
         status = look_at_basis(&s, all);
         if (status == RB_OK && rb_interrupted())
             status = rb_fail(why, RB_INTERRUPTED, "lcp: interrupted after %d bases", all->bases);
         if (status == RB_OK && seconds > 0.0 && all->bases % BETWEEN_LOOKS == 0 &&
-            rb_seconds() - began > seconds)
+            all->bases < bases && rb_seconds() - began > seconds)
             status = rb_fail(why, RB_TIME_LIMIT, "lcp: %d of %.0f complementary bases in %g s",
                              all->bases, bases, seconds);
-        /* The next basis, the places being the digits of a number. */
-        for (digit = 0; digit < n && !place_from(&s, digit, (int)s.at[digit] + 1); digit++)
-            place_from(&s, digit, LCP_AT_LOWER);
-        if (digit == n && status == RB_TIME_LIMIT) /* that was the last one */
-            status = RB_OK;
+        /* The next basis, the choices being the digits of a number. */
+        int first = 0;
+        for (digit = 0; digit < choices->blocks; digit++) {
+            const int next = s.choice[digit] + 1, carries = next == choices->count[digit];
+            choose(&s, digit, first, carries ? 0 : next);
+            if (!carries)
+                break;
+            first += choices->size[digit];
+        }
     }
     int kept = 0;
     for (int k = 0; k < all->count; k++) {
@@ -354,4 +364,35 @@ rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const d
     return status == RB_INTERRUPTED
                ? status
                : rb_fail(why, status, "lcp: out of memory for all solutions of order %d", n);
+}
+
+rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const double *upper,
+                           double seconds, rb_lcp_solutions *all, rb_message *why)
+{
+    const size_t order = (size_t)(p->n > 0 ? p->n : 0);
+    const rb_lcp_options plain = rb_lcp_defaults();
+    rb_arena scratch = {0};
+    *all = (rb_lcp_solutions){.n = p->n};
+    rb_status s = rb_lcp_check_dense(p, &plain, why);
+    if (s == RB_OK)
+        s = rb_lcp_check_boxes(p->n, lower, upper, why);
+    if (s != RB_OK)
+        return s;
+    /* Each index by itself, at the bounds that it has or between them. */
+    int *size = rb_arena_ints(&scratch, order), *count = rb_arena_ints(&scratch, order);
+    lcp_side *side = rb_arena_zeros(&scratch, 3 * order, sizeof *side);
+    const lcp_side **of_index = rb_arena_zeros(&scratch, order, sizeof *of_index);
+    for (int i = 0; i < p->n && !scratch.failed; i++) {
+        lcp_side *own = side + 3 * (size_t)i;
+        size[i] = 1;
+        of_index[i] = own;
+        for (int at = LCP_AT_LOWER; at <= LCP_BETWEEN; at++)
+            if (is_place(lower, upper, i, (lcp_side)at))
+                own[count[i]++] = (lcp_side)at;
+    }
+    const lcp_choices choices = {.blocks = p->n, .size = size, .count = count, .side = of_index};
+    s = scratch.failed
+            ? rb_fail(why, RB_ENOMEM, "lcp: out of memory for all solutions of order %d", p->n)
+            : rb_lcp_try_all(p, lower, upper, &choices, seconds, all, why);
+    return rb_arena_done(&scratch, s);
 }

@@ -108,8 +108,9 @@ static void fix_sides(const lcp_linear *l, glp_prob *p, const lcp_side *side)
     for (int i = 0; i < l->M.n; i++) {
         const lcp_side at = side ? side[i] : LCP_OPEN;
         const double low = rb_lcp_lower(l->lower, i), high = rb_lcp_upper(l->upper, i);
-        const double from = at == LCP_AT_UPPER ? high : low, to = at == LCP_AT_LOWER ? low : high;
-        const int fixed = low == high;
+        const double from = at == LCP_AT_UPPER ? high : low;
+        const double to = at == LCP_AT_LOWER || at == LCP_LEFT_OUT ? low : high;
+        const int fixed = low == high || at == LCP_LEFT_OUT; /* w is any number */
         /* w may be positive where z_i can be at its lower bound, negative at the upper one */
         const int plus = fixed || at == LCP_AT_LOWER || (at == LCP_OPEN && isfinite(low));
         const int minus = fixed || at == LCP_AT_UPPER || (at == LCP_OPEN && isfinite(high));

@@ -17,7 +17,7 @@
 typedef struct {
     const char *solver;
     double tol, seconds;
-    int max_iters, measure, kind, format, facts, solution, trace;
+    int max_iters, measure, kind, format, facts, solution, trace, all;
     rb_report_style style;
     const char *output;
 } friction_options;
@@ -54,6 +54,8 @@ static const rb_option options[] = {
                     .unset = "the solver's own"),
     RB_NUMBER_LINE("seconds", PLACE(seconds), "s", RB_ABOVE(0.0), "time limit per file",
                    .unset = "none"),
+    RB_FLAG_LINE("all", PLACE(all),
+                 "all solutions of plane problems, by trying every state (8 contacts at most)"),
     RB_CHOICE_LINE("kind", PLACE(kind), kinds, "format of the files, if it is not recognised"),
     RB_GROUP_LINE("output", "Output"),
     RB_FLAG_LINE("facts", PLACE(facts), "rank, degree of hyperstaticity, nullity of K, asymmetry"),
@@ -88,6 +90,9 @@ static const char notes[] =
     "acary (13) decides. A note says if a problem is solved in the scaled measure only.\n"
     "Status solved-to-rounding: residual above the tolerance but not above the\n"
     "floor; infeasible: not solved, and proved to have no solution.\n"
+    "--all lists every solution of a plane problem, a row per contact: separated,\n"
+    "stick, slip+ (u_T > 0, r_T = -mu r_N), slip- (u_T < 0, r_T = mu r_N), several\n"
+    "names on the border between them; status no-solution is proved, undecided not.\n"
     "--trace prints every iterate with the solver, its iterations and operations so\n"
     "far, and the scaled residual; members of auto run in turns.\n"
     "If a file fails, the others are still solved.\n"
@@ -107,8 +112,9 @@ typedef struct {
     int contacts, dimension, m; /* m: 0 when not read */
     rb_friction_info info;
     rb_friction_facts facts;
-    rb_message note; /* on how the result is to be read; empty: none */
-    double *r, *u;   /* m; owned */
+    rb_message note;           /* on how the result is to be read; empty: none */
+    double *r, *u;             /* m; owned */
+    rb_friction_solutions all; /* --all; owned */
 } friction_result;
 
 /* ---- One file --------------------------------------------------------------------- */
@@ -181,6 +187,115 @@ static rb_friction_options solver_options(friction_run *run)
     return opt;
 }
 
+/* ---- All solutions ------------------------------------------------------------------ */
+
+static const char *const state_names[RB_FRICTION_STATES] = {"separated", "stick", "slip+", "slip-"};
+
+/* "stick|slip+" on the border between them. */
+static const char *name_states(unsigned states, char *text, size_t size)
+{
+    text[0] = '\0';
+    for (int k = 0; k < RB_FRICTION_STATES; k++)
+        if (states >> k & 1)
+            rb_append(text, size, "%s%s", text[0] ? "|" : "", state_names[k]);
+    return text;
+}
+
+static cli_exit find_all(friction_run *run, friction_result *r, const rb_friction_problem *p)
+{
+    rb_message why = {""};
+    const double start = rb_seconds();
+    const rb_status s = rb_friction_all(p, run->o->seconds, &r->all, &why);
+    r->info.solver = "enumeration";
+    r->info.seconds = rb_seconds() - start;
+    r->info.iters = r->all.tried;
+    r->info.residual = r->info.scaled = r->info.floor = r->info.worst = NAN;
+    r->info.contact = -1;
+    if (s < 0 || s == RB_SINGULAR)
+        return failed(r, s, why.text);
+    int singular_only = 0;
+    for (int k = 0; k < r->all.count; k++) {
+        rb_friction_errors e;
+        const size_t at = (size_t)k * (size_t)r->m;
+        singular_only += r->all.singular_state[k];
+        if (rb_friction_error(p, r->all.r + at, NULL, NULL, &e) != RB_OK)
+            return failed(r, RB_ENOMEM, "out of memory");
+        r->info.residual = k ? fmax(r->info.residual, e.residual) : e.residual;
+        r->info.scaled = k ? fmax(r->info.scaled, e.scaled) : e.scaled;
+        r->info.worst = k ? fmax(r->info.worst, e.worst) : e.worst;
+        r->info.floor = k ? fmax(r->info.floor, e.floor) : e.floor;
+    }
+    if (singular_only)
+        fprintf(
+            stderr,
+            "rollbem: %s: note: %d of %d solutions belong%s to singular states only: others may "
+            "lie next to %s\n",
+            r->file, singular_only, r->all.count, singular_only == 1 ? "s" : "",
+            singular_only == 1 ? "it" : "them");
+    if (r->all.count && r->all.undecided)
+        fprintf(stderr,
+                "rollbem: %s: note: %d of %d states are undecided: there may be more solutions\n",
+                r->file, r->all.undecided, r->all.tried);
+    r->status = rb_status_text(s != RB_OK             ? s
+                               : r->all.count         ? RB_OK
+                               : r->all.undecided > 0 ? RB_UNDECIDED
+                                                      : RB_NO_SOLUTION);
+    if (s != RB_OK)
+        return cli_fail(CLI_UNSOLVED, "%s: %s", r->file, why.text);
+    if (r->all.count)
+        return CLI_OK;
+    if (r->all.undecided)
+        return cli_fail(CLI_UNSOLVED, "%s: none found, %d of %d states undecided", r->file,
+                        r->all.undecided, r->all.tried);
+    return cli_fail(CLI_UNSOLVED, "%s: no solution (%d states; %d singular, each excluded)",
+                    r->file, r->all.tried, r->all.singular);
+}
+
+/* A row per contact of each solution. */
+static void list_all(const friction_run *run, const friction_result *r)
+{
+    cli_rows *rows = (cli_rows *)&run->files.rows;
+    rb_report_comment(&rows->cells, "%s: %s by enumeration, %d contacts, %d states, %.3g s",
+                      r->file, r->status, r->contacts, r->all.tried, r->info.seconds);
+    for (int k = 0; k < r->all.count; k++)
+        for (int c = 0; c < r->contacts; c++) {
+            const size_t at = (size_t)(2 * (k * r->contacts + c));
+            char text[80];
+            const cli_value row[] = {
+                CLI_TEXT(NULL, "file", r->file),
+                CLI_WHOLE(NULL, "solution", k + 1),
+                CLI_WHOLE(NULL, "contact", c + 1),
+                CLI_TEXT(NULL, "state",
+                         name_states(r->all.states[k * r->contacts + c], text, sizeof text)),
+                CLI_NUMBER(NULL, "r_N", r->all.r[at]),
+                CLI_NUMBER(NULL, "r_T", r->all.r[at + 1]),
+                CLI_NUMBER(NULL, "u_N", r->all.u[at]),
+                CLI_NUMBER(NULL, "u_T", r->all.u[at + 1])};
+            cli_rows_add(rows, sizeof row / sizeof *row, row);
+        }
+}
+
+static json_t *json_of_all(const friction_result *r)
+{
+    json_t *list = json_array();
+    for (int k = 0; k < r->all.count; k++) {
+        json_t *states = json_array();
+        for (int c = 0; c < r->contacts; c++) {
+            char text[80];
+            rb_report_json_append(
+                &states,
+                json_string(name_states(r->all.states[k * r->contacts + c], text, sizeof text)));
+        }
+        const size_t at = (size_t)k * (size_t)r->m;
+        rb_report_json_append(&list,
+                              json_pack("{s:o, s:o, s:o, s:b}", "r",
+                                        rb_report_json_numbers(r->m, r->all.r + at), "u",
+                                        rb_report_json_numbers(r->m, r->all.u + at), "states",
+                                        states, "singular_state", r->all.singular_state[k]));
+    }
+    return list;
+}
+
 /* A least load that is so many times what is given is worth a note. */
 static const double MUCH = 1e3;
 
@@ -197,6 +312,11 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
     r->r = rb_alloc((size_t)r->m, 1);
     r->u = rb_alloc((size_t)r->m, 1);
     cli_exit code = r->r && r->u ? CLI_OK : failed(r, RB_ENOMEM, "out of memory");
+    if (code == CLI_OK && run->o->all) {
+        code = find_all(run, r, &p);
+        rb_friction_problem_free(&p);
+        return code;
+    }
     /* Ranks on request; unsymmetric and indefinite W in any case. */
     if (code == CLI_OK && (run->o->facts || r->m <= MOST_ROWS)) {
         s = rb_friction_examine(&p, run->o->facts, &r->facts);
@@ -211,6 +331,12 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
                     "unique\n",
                     r->file);
     }
+    const int several = code == CLI_OK && p.dimension == 2 ? rb_friction_may_have_several(&p) : 0;
+    if (several)
+        fprintf(stderr,
+                "rollbem: %s: note: W_NN - mu |W_NT| < 0 at contact %d: there may be several "
+                "solutions%s\n",
+                r->file, several, p.contacts <= 8 ? "; --all lists them" : "");
     if (code == CLI_OK) {
         const rb_friction_options opt = solver_options(run);
         const rb_friction_solution solution = {r->r, r->u, NULL};
@@ -291,6 +417,8 @@ static cli_exit solve_file(void *context, const char *path)
     cli_exit code;
     if (s != RB_OK)
         code = unreadable(&r, s, &why);
+    else if (kind == RB_FRICTION_FILE_SICONOS_SOCLCP && run->o->all)
+        code = failed(&r, RB_EINVAL, "--all does not read problems on cones");
     else if (kind == RB_FRICTION_FILE_SICONOS_SOCLCP)
         code = solve_cones(run, &r);
     else
@@ -323,7 +451,11 @@ static cli_exit solve_file(void *context, const char *path)
     cli_rows *rows = &run->files.rows;
     if (rows->is_json) {
         cli_rows_add(rows, run->o->facts ? VALUES : VALUES - FACTS, values);
-        if (run->o->solution) {
+        if (run->o->all) {
+            cli_rows_set(rows, "solutions", known ? json_of_all(&r) : json_null());
+            cli_rows_set(rows, "singular", known ? json_integer(r.all.singular) : json_null());
+            cli_rows_set(rows, "undecided", known ? json_integer(r.all.undecided) : json_null());
+        } else if (run->o->solution) {
             cli_rows_set(rows, "r", r.r ? rb_report_json_numbers(r.m, r.r) : json_null());
             cli_rows_set(rows, "u", r.u ? rb_report_json_numbers(r.m, r.u) : json_null());
         }
@@ -332,7 +464,9 @@ static cli_exit solve_file(void *context, const char *path)
     } else if (known) {
         if (r.note.text[0])
             rb_report_comment(&rows->cells, "note: %s: %s", r.file, r.note.text);
-        if (!run->o->solution)
+        if (run->o->all)
+            list_all(run, &r);
+        else if (!run->o->solution)
             cli_rows_add(rows, VALUES, values);
         else
             rb_report_comment(&rows->cells,
@@ -344,7 +478,7 @@ static cli_exit solve_file(void *context, const char *path)
                               "rank %d, hyperstaticity %d, nullity %d, asymmetry %.3g%s",
                               facts->rank, facts->hyperstaticity, facts->nullity, facts->asymmetry,
                               facts->indefinite ? ", indefinite" : "");
-        for (int i = 0; i < r.m && run->o->solution; i++) {
+        for (int i = 0; i < r.m && run->o->solution && !run->o->all; i++) {
             const cli_value component[] = {
                 CLI_TEXT(NULL, "file", r.file), CLI_WHOLE(NULL, "i", i + 1),
                 CLI_NUMBER(NULL, "r", r.r[i]), CLI_NUMBER(NULL, "u", r.u[i])};
@@ -352,6 +486,7 @@ static cli_exit solve_file(void *context, const char *path)
         }
     }
     json_decref(run->steps);
+    rb_friction_solutions_free(&r.all);
     free(r.r);
     free(r.u);
     return code;
@@ -384,13 +519,19 @@ int cli_friction(int argc, char **argv)
         code = cli_fail(CLI_USAGE, "friction: expected at least one FILE");
     if (code == CLI_CONTINUE)
         code = cli_friction_solver("solver", o.solver, &solver);
+    if (code == CLI_CONTINUE && o.all && (o.trace || o.facts || o.max_iters || o.measure))
+        code = cli_fail(CLI_USAGE, "friction: --all tries every state: not with --trace, --facts, "
+                                   "--max-iters or --measure");
+    if (code == CLI_CONTINUE && o.all && strcmp(o.solver, "auto") != 0)
+        code = cli_fail(CLI_USAGE, "friction: --all tries every state: not with --solver");
     if (code == CLI_CONTINUE)
         code = cli_check_files(&spec, &args);
     if (code == CLI_CONTINUE) {
         friction_run run = {
             .files = {.style = &o.style,
                       .columns =
-                          o.solution ? "file i r u"
+                          o.all        ? "file solution contact state r_N r_T u_N u_T"
+                          : o.solution ? "file i r u"
                           : o.facts
                               ? "file solver status contacts dimension iterations residual floor "
                                 "seconds scaled rank hyperstaticity nullity asymmetry indefinite"
