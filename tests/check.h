@@ -61,7 +61,8 @@ static inline void add_test_(int line, const struct CMUnitTest *test)
 /* ROLLBEM_TEST_FILTER: the functions of this name alone, which may have * and ?. */
 static inline int run_all_tests(int (*before)(void **), int (*behind)(void **))
 {
-    cmocka_set_test_filter(getenv("ROLLBEM_TEST_FILTER"));
+    if (getenv("ROLLBEM_TEST_FILTER"))
+        cmocka_set_test_filter(getenv("ROLLBEM_TEST_FILTER"));
     return _cmocka_run_group_tests("tests", all_tests_.test, (size_t)all_tests_.count, before,
                                    behind);
 }

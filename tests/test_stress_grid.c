@@ -115,6 +115,11 @@ TEST(bad_linear_tractions_are_refused)
     assert_int_equal(rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){2, nodes, none, none},
                                                     (rb_bem_points){1, above}, s),
                      RB_EINVAL);
+    alloc_fail_after(0);
+    const rb_status status = rb_bem_halfplane_stress_linear(
+        &(rb_bem_edge_load){2, nodes, none, none}, (rb_bem_points){1, xy}, s);
+    alloc_succeed();
+    assert_int_equal(status, RB_ENOMEM);
 }
 
 TEST(bad_grids_are_refused)

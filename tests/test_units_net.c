@@ -207,6 +207,7 @@ static const char *unit_of(const char *name, const char *path)
                                             {"slide", "mm"},
                                             {"wear-coefficient", "1/MPa"},
                                             {"half_width", "mm"},
+                                            {"crack_length", "mm"},
                                             {"span", "mm"},
                                             {"peak", "mm"},
                                             {"residual_gap", "mm"},

@@ -126,6 +126,28 @@ rb_status rb_bem_halfplane_stress(const rb_bem_edge_load *load, rb_bem_points po
 
 /* ---- Tractions that are linear between nodes --------------------------------------- */
 
+/* ln(to - i y) - ln(from - i y), to - from = h, to its own digits also where it is small. */
+static double complex log_of_ends(double from, double to, double h, double y)
+{
+    /* w = h/2 over the middle: 2 atanh(w), as a series where that is short */
+    const double middle = 0.5 * (from + to), square = middle * middle + y * y;
+    if (h * h < 4e-3 * square) {
+        const double re = 0.5 * h * middle / square, im = 0.5 * h * y / square;
+        const double re2 = re * re - im * im, im2 = 2.0 * re * im;
+        double sum_re = 1.0 / 11.0, sum_im = 0.0;
+        for (int k = 9; k >= 1; k -= 2) {
+            const double next = sum_re * re2 - sum_im * im2 + 1.0 / k;
+            sum_im = sum_re * im2 + sum_im * re2;
+            sum_re = next;
+        }
+        return complex_of(2.0 * (re * sum_re - im * sum_im), 2.0 * (re * sum_im + im * sum_re));
+    }
+    /* the logarithm of the farther end's distance over the nearer one's */
+    const double sum = from + to, near = sum < 0.0 ? to : from,
+                 apart = 0.5 * log1p(h * fabs(sum) / (near * near + y * y));
+    return complex_of(sum < 0.0 ? -apart : apart, atan2(y * h, from * to + y * y));
+}
+
 /* No jump of q, so that sxx stays finite on the surface.
  *
  * With g = -p + i q on y = 0 and Phi = (1/2 pi i) int g(t)/(t - z) dt (Muskhelishvili):
@@ -142,6 +164,13 @@ rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_po
     if (n < 2 || !rb_bem_edge_load_is_valid(load, n, points))
         return RB_EINVAL;
     const double tiny = 1e-20 * (nodes[n - 1] - nodes[0]);
+    double *rise_re = rb_alloc((size_t)n, 2), *rise_im = rise_re ? rise_re + n : NULL;
+    if (!rise_re)
+        return RB_ENOMEM;
+    for (int j = 0; j + 1 < n; j++) {
+        rise_re[j] = (p[j] - p[j + 1]) / (nodes[j + 1] - nodes[j]);
+        rise_im[j] = (q[j + 1] - q[j]) / (nodes[j + 1] - nodes[j]);
+    }
     const int is_series = points.n > TERMS && n > 2;
     far_field far = {.middle = 0.5 * (nodes[0] + nodes[n - 1]),
                      .half = 0.5 * (nodes[n - 1] - nodes[0])};
@@ -166,29 +195,37 @@ rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_po
             continue;
         /* The logarithms at a node itself cancel, if both intervals see it from as near. */
         const double x = points.xy[2 * i], y = fmax(points.xy[2 * i + 1], tiny);
-        double complex above = 0.0, below = 0.0, slope = 0.0;
         if (is_series && hypot(x - far.middle, y) >= FAR * far.half) {
             far_stress(&far, complex_of(x, -y), stress + 3 * i);
             continue;
         }
+        /* of z and of its mirror image, whose L is the conjugate, and of Phi' */
+        double above_re = 0.0, above_im = 0.0, below_re = 0.0, below_im = 0.0, slope_re = 0.0,
+               slope_im = 0.0;
         for (int j = 0; j + 1 < n; j++) {
             const double h = nodes[j + 1] - nodes[j], from = nodes[j] - x, to = nodes[j + 1] - x;
-            const double complex g = complex_of(-p[j], q[j]),
-                                 rise = complex_of((p[j] - p[j + 1]) / h, (q[j + 1] - q[j]) / h);
-            /* the logarithm of the farther end's distance over the nearer one's */
-            const double sum = from + to, near = sum < 0.0 ? to : from,
-                         apart = 0.5 * log1p(h * fabs(sum) / (near * near + y * y)),
-                         re = sum < 0.0 ? -apart : apart, im = atan2(y * h, from * to + y * y);
-            const double complex at = g - rise * from, up = rise * complex_of(0.0, y);
-            above += (at + up) * complex_of(re, im) + rise * h;
-            below += (at - up) * complex_of(re, -im) + rise * h;
-            slope += rise * complex_of(re, im);
+            const double re = rise_re[j], im = rise_im[j];
+            const double complex L = log_of_ends(from, to, h, y);
+            const double log_re = creal(L), log_im = cimag(L);
+            const double on_re = -p[j] - re * from, on_im = q[j] - im * from;
+            const double at_re = on_re - y * im, at_im = on_im + y * re, /* g(z) */
+                mirrored_re = on_re + y * im, mirrored_im = on_im - y * re;
+            above_re += at_re * log_re - at_im * log_im + re * h;
+            above_im += at_re * log_im + at_im * log_re + im * h;
+            below_re += mirrored_re * log_re + mirrored_im * log_im + re * h;
+            below_im += mirrored_im * log_re - mirrored_re * log_im + im * h;
+            slope_re += re * log_re - im * log_im;
+            slope_im += re * log_im + im * log_re;
         }
+        const double complex above = complex_of(above_re, above_im),
+                             below = complex_of(below_re, below_im),
+                             slope = complex_of(slope_re, slope_im);
         const double complex c = 1.0 / (2.0 * M_PI * I);
         const double complex normal = c * above - c * below + 2.0 * I * y * conj(c * slope);
         stress[3 * i] = 4.0 * creal(c * above) - creal(normal);
         stress[3 * i + 1] = creal(normal);
         stress[3 * i + 2] = -cimag(normal);
     }
+    free(rise_re);
     return stop ? RB_INTERRUPTED : RB_OK;
 }
