@@ -3,7 +3,7 @@
 #define ROLLBEM_TESTS_BEM_SHAPES_H
 
 #include "check.h"
-#include "rollbem/bem.h"
+#include "bem/bem.h"
 
 #include <gsl/gsl_math.h>
 

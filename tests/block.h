@@ -5,7 +5,7 @@
 #ifndef ROLLBEM_TESTS_BLOCK_H
 #define ROLLBEM_TESTS_BLOCK_H
 
-#include "rollbem/sparse.h"
+#include "base/sparse.h"
 
 #include <math.h>
 #include <stdlib.h>

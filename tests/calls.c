@@ -7,7 +7,7 @@
  * says what is wrong. */
 #include "rollbem/api.h"
 
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 
 #include <math.h>
 #include <stdio.h>

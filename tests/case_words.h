@@ -3,7 +3,7 @@
 #define ROLLBEM_TEST_CASE_WORDS_H
 
 #include "check.h"
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 
 #include <string.h>
 

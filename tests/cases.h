@@ -3,7 +3,7 @@
 #define ROLLBEM_TESTS_CASES_H
 
 #include "check.h"
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,10 @@
 #ifndef ROLLBEM_TESTS_CHECK_H
 #define ROLLBEM_TESTS_CHECK_H
 
-#include "rollbem/base.h"
+#include "rollbem/api.h"
+#include "rollbem/bem.h"
+#include "rollbem/case.h"
+#include "base/base.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -4,7 +4,7 @@
 #define ROLLBEM_TESTS_CONTACT_RANDOM_H
 
 #include "check.h"
-#include "rollbem/contact.h"
+#include "lcp/contact/contact.h"
 
 #include <string.h>
 

@@ -4,9 +4,12 @@
 #ifndef DIFFERENCES_H
 #define DIFFERENCES_H
 
+#include "analysis/sensitivity/derivatives.h"
+#include "analysis/sensitivity/sensitivity.h"
+#include "lcp/contact/contact.h"
+#include "rolling/case/case.h"
+#include "rolling/rolling.h"
 #include "check.h"
-
-#include "rollbem/rollbem.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,7 @@
 /* endurance SOLVES THREADS: so many cases in one process, by handles of rollbem/api.h,
  * shared among the threads; the memory in use after a tenth of them is that at the end. */
-#include "rollbem/rollbem.h"
+
+#include "rollbem/api.h"
 
 #include <pthread.h>
 #include <stdatomic.h>

@@ -3,7 +3,7 @@
 #define ROLLBEM_TESTS_FRICTION_PROBLEMS_H
 
 #include "check.h"
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 
 #include <stdlib.h>
 

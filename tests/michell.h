@@ -3,7 +3,7 @@
 #define ROLLBEM_TESTS_MICHELL_H
 
 #include "check.h"
-#include "rollbem/bem.h"
+#include "bem/bem.h"
 
 #include <complex.h>
 #include <lapacke.h>

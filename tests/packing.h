@@ -3,7 +3,7 @@
 #define ROLLBEM_TESTS_PACKING_H
 
 #include "check.h"
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 
 #include <unistd.h>
 

@@ -4,7 +4,7 @@
 
 #include "cases.h"
 #include "check.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 enum { N = 9, M = N + 1 };
 

@@ -3,7 +3,7 @@
 #define ROLLBEM_TESTS_PROFILES_H
 
 #include "check.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 static inline rb_rolling_profile *profile_of(int n, const double *x, const double *gap,
                                              double noise)

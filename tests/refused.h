@@ -3,7 +3,7 @@
 #define REFUSED_H
 
 #include "check.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 #include <string.h>
 

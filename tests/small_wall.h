@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_TESTS_SMALL_WALL_H
 #define ROLLBEM_TESTS_SMALL_WALL_H
 
-#include "rollbem/fem.h"
+#include "fem/fem.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #define SOLVED_H
 
 #include "check.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 /* To be freed by the caller, as the next. */
 static inline rb_rolling_solution solved(const rb_rolling_case *rc)

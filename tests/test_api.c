@@ -2,7 +2,8 @@
  * arrays satisfy the equations that they stand for. */
 #include "check.h"
 #include "rollbem/api.h"
-#include "rollbem/case.h"
+#include "analysis/sensitivity/derivatives.h"
+#include "rolling/case/case.h"
 #include "two_threads.h"
 
 #include <signal.h>

@@ -1,5 +1,5 @@
 #include "check.h"
-#include "rollbem/base.h"
+#include "base/base.h"
 
 TEST(refusals_write_their_line)
 {

@@ -1,7 +1,7 @@
 /* Flexibilities of the contact: the half-plane and the pair of bodies. */
 #include "bem_shapes.h"
 #include "check.h"
-#include "rollbem/bem.h"
+#include "bem/bem.h"
 
 #include <complex.h>
 #include <gsl/gsl_integration.h>

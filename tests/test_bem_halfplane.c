@@ -1,6 +1,6 @@
 /* Stress in the half-plane against Hertz's field. */
 #include "check.h"
-#include "rollbem/bem.h"
+#include "bem/bem.h"
 
 #include <gsl/gsl_math.h>
 

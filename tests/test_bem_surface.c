@@ -2,7 +2,7 @@
  * limits and identities. */
 #include "bem_shapes.h"
 #include "check.h"
-#include "rollbem/bem.h"
+#include "bem/bem.h"
 
 #include <complex.h>
 #include <gsl/gsl_errno.h>

@@ -1,6 +1,6 @@
 #define _XOPEN_SOURCE 700 /* setenv */
 #include "check.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 #include <sys/resource.h>
 #include <sys/wait.h>

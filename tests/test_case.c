@@ -1,8 +1,8 @@
 /* Cases by names: the table describes itself, words are set, resolved and refused, and
  * the same words give the same answer through the library and through the program. */
 #include "cli_run.h"
-#include "rollbem/blas.h"
-#include "rollbem/case.h"
+#include "base/blas.h"
+#include "rolling/case/case.h"
 #include "rolling/case/closed_forms.h"
 
 #include <gsl/gsl_math.h>

@@ -1,8 +1,8 @@
 /* The program as its users meet it: exit codes, the one line of each error, whole files
  * or none, the same numbers in every format.  B: the build directory, default build. */
 #include "cli_run.h"
-#include "rollbem/io.h"
-#include "rollbem/lcp.h"
+#include "base/io/io.h"
+#include "lcp/lcp.h"
 
 #include <sys/stat.h>
 

@@ -1,7 +1,7 @@
 /* The recorded outputs of examples/ against what the program prints today, numbers
  * compared as numbers.  Run from the project's root; B: the build directory. */
 #include "pages.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 #include <unistd.h>
 

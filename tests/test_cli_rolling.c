@@ -1,6 +1,6 @@
 /* Creep curves and subsurface stress as the program's users meet them. */
 #include "cli_run.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 #include <sys/stat.h>
 

@@ -1,8 +1,8 @@
 /* Input files of CONTACT: our own in every way of writing them, the same cases by the
  * program's own options, and CONTACT's examples below ROLLBEM_DATA. */
 #include "cli_run.h"
-#include "rollbem/case.h"
-#include "rollbem/io_contact.h"
+#include "rolling/case/case.h"
+#include "base/io/io_contact.h"
 
 #include <gsl/gsl_math.h>
 

@@ -2,7 +2,7 @@
  * archive of their own, solve a case without cone solvers, HDF5 and SuiteSparse (see the
  * Makefile, which links this program to nothing else). */
 #include "check.h"
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 
 static rb_status solve(const char *const *words, rb_case_result *r, rb_message *why)
 {

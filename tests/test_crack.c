@@ -3,9 +3,10 @@
  * from an independent discretisation (dislocations collocated with graded elements, 9
  * digits, and Galerkin at n = 40), those of the full plane from closed forms. */
 #include "check.h"
-#include "rollbem/case.h"
-#include "rollbem/contact.h"
-#include "rollbem/crack.h"
+#include "analysis/crack/crack_case.h"
+#include "rolling/case/case.h"
+#include "lcp/contact/contact.h"
+#include "analysis/crack/crack.h"
 
 #include <complex.h>
 #include <gsl/gsl_integration.h>

@@ -2,7 +2,7 @@
  * bodies are, and elements are as short as the tables of a case. */
 #include "case_words.h"
 #include "cli_run.h"
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 
 #include <gsl/gsl_math.h>
 #include <math.h>

@@ -3,7 +3,6 @@
 #include "check.h"
 
 #include "analysis/design/design.h"
-#include "rollbem/rollbem.h"
 
 #include <unistd.h>
 

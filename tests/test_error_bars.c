@@ -15,9 +15,9 @@
 #include "cases.h"
 #include "check.h"
 #include "random_case.h"
-#include "rollbem/case.h"
-#include "rollbem/friction.h"
-#include "rollbem/rolling.h"
+#include "rolling/case/case.h"
+#include "lcp/friction/friction.h"
+#include "rolling/rolling.h"
 
 #include <gsl/gsl_math.h>
 #include <signal.h>

@@ -3,7 +3,7 @@
  * the boundary makes; here these runs are made one by one. */
 #include "cases.h"
 #include "check.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 static const struct {
     double contact, boundary;

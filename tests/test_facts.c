@@ -1,8 +1,8 @@
 /* Facts that must agree: the same physics asked for in two ways gives the same answer, to
  * the last digit where the arithmetic is the same. */
 #include "cli_run.h"
-#include "rollbem/blas.h"
-#include "rollbem/case.h"
+#include "base/blas.h"
+#include "rolling/case/case.h"
 
 /* ---- Two answers ------------------------------------------------------------------- */
 

@@ -4,7 +4,7 @@
 #include "cli_run.h"
 #include "fault_call.h"
 #include "fault_malloc.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 #include <dirent.h>
 #include <fcntl.h>

@@ -3,8 +3,8 @@
 #define _GNU_SOURCE
 #include "check.h"
 #include "failing_call.h"
-#include "rollbem/friction.h"
-#include "rollbem/io_fclib.h"
+#include "lcp/friction/friction.h"
+#include "base/io/io_fclib.h"
 #include "scratch.h"
 
 #include <hdf5.h>

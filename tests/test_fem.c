@@ -1,6 +1,6 @@
 /* Finite elements: rigid motions, patch test, closed forms, models, condensation. */
 #include "check.h"
-#include "rollbem/fem.h"
+#include "fem/fem.h"
 
 static const rb_fem_material material = {
     .young = 7.0, .poisson = 0.3, .density = 2.5, .section = 0.4};

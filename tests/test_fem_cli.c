@@ -1,8 +1,8 @@
 /* rollbem example: recorded outputs, JSON, pictures, problem files, refusals.  Run from
  * the project's root; B: the build directory. */
 #include "check.h"
-#include "rollbem/friction.h"
-#include "rollbem/io.h"
+#include "lcp/friction/friction.h"
+#include "base/io/io.h"
 
 #include <jansson.h>
 #include <sys/wait.h>

@@ -1,7 +1,7 @@
 /* The bar and both trusses against tests/data/kanno/reference.json, each by two solvers;
  * equilibrium and the contact laws recomputed from the states alone. */
 #include "check.h"
-#include "rollbem/fem.h"
+#include "fem/fem.h"
 
 #include <jansson.h>
 

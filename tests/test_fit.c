@@ -4,7 +4,6 @@
 #include "cli_run.h"
 
 #include "program/report/report.h"
-#include "rollbem/rollbem.h"
 
 #include <fcntl.h>
 #include <jansson.h>

@@ -1,6 +1,6 @@
 /* The problem, its measure, and Newton on both forms. */
 #include "check.h"
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 #include "numbers.h"
 #include "friction_problems.h"
 

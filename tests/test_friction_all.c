@@ -5,7 +5,7 @@
 #include "exact.h"
 #include "friction_problems.h"
 #include "numbers.h"
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 
 enum {
     OPEN = 1 << RB_FRICTION_OPEN,

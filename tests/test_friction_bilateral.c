@@ -3,8 +3,8 @@
 #define _XOPEN_SOURCE 700
 #include "check.h"
 #include "friction_problems.h"
-#include "rollbem/friction.h"
-#include "rollbem/io_fclib.h"
+#include "lcp/friction/friction.h"
+#include "base/io/io_fclib.h"
 #include "numbers.h"
 
 #include <unistd.h>

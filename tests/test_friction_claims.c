@@ -5,7 +5,7 @@
  * ROLLBEM_TEST_ALL 200 000. */
 #include "check.h"
 #include "friction_problems.h"
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 #include "numbers.h"
 
 enum { MOST = 36 }; /* rows */

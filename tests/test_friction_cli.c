@@ -1,7 +1,7 @@
 /* `rollbem friction` and `rollbem compare` as their users meet them. */
 #define _XOPEN_SOURCE 700
 #include "cli_run.h"
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 
 /* One contact, W = 1: pressed with 2, drawn with 3 against mu = 0.5: slides, r = (2, -1). */
 static const char SLIDING[] = "2 1 0 2 2 2 2 1 0 0 1 -2 3 0.5";

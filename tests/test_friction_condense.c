@@ -3,7 +3,7 @@
  * at several contacts. */
 #include "check.h"
 #include "friction_problems.h"
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 #include "numbers.h"
 
 static unsigned long long seed = 9;

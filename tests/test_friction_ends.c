@@ -2,7 +2,7 @@
  * largest, with arguments that are none, and without memory. */
 #include "check.h"
 #include "friction_problems.h"
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 #include "numbers.h"
 
 #include <float.h>

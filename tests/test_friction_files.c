@@ -1,8 +1,8 @@
 /* Problems from the files of other projects, and to them: every number arrives where it
  * belongs, in every form that a file can have. */
 #include "check.h"
-#include "rollbem/friction.h"
-#include "rollbem/io_fclib.h"
+#include "lcp/friction/friction.h"
+#include "base/io/io_fclib.h"
 #include "scratch.h"
 
 static void put(const char *text)

@@ -1,7 +1,7 @@
 /* Proofs that a friction problem has no solution: each is checked from W and q alone. */
 #include "check.h"
 #include "friction_problems.h"
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 #include "numbers.h"
 
 enum { MOST = 90 };

@@ -3,7 +3,7 @@
 #define _XOPEN_SOURCE 700
 #include "check.h"
 #include "packing.h"
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 
 #include <unistd.h>
 

@@ -2,8 +2,8 @@
  * from the equations of motion. */
 #define _XOPEN_SOURCE 700
 #include "check.h"
-#include "rollbem/friction.h"
-#include "rollbem/io_fclib.h"
+#include "lcp/friction/friction.h"
+#include "base/io/io_fclib.h"
 #include "scratch.h"
 #include "numbers.h"
 

@@ -1,7 +1,7 @@
 /* Every solver of the registry, the canonical SOCLCP, and the files of other projects. */
 #include "check.h"
 #include "friction_problems.h"
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 #include "numbers.h"
 
 /* A chain of contacts, each coupled to its neighbours, W block tridiagonal and positive

@@ -1,7 +1,7 @@
 /* What is solved does not depend on units: the scaled measure, and every solver. */
 #include "check.h"
 #include "friction_problems.h"
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 #include "numbers.h"
 
 /* W = B B' + 1, q random: some contacts open, some stick, some slip. */

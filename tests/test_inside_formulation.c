@@ -3,7 +3,7 @@
 #include "cases.h"
 #include "check.h"
 #include "posed.h"
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

@@ -4,7 +4,7 @@
 #include "cases.h"
 #include "check.h"
 #include "profiles.h"
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>
 

@@ -1,7 +1,7 @@
 /* Matrix Market and Siconos' text format: what is read, and what is refused and how. */
 #define _XOPEN_SOURCE 700
 #include "check.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 #include "scratch.h"
 
 #include <dirent.h>

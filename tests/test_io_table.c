@@ -1,6 +1,6 @@
 /* Tables of numbers: what is read, and how a bad one is refused. */
 #include "check.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 #include <unistd.h>
 

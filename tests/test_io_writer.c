@@ -2,7 +2,7 @@
 #define _GNU_SOURCE
 #include "check.h"
 #include "failing_call.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 #include <dirent.h>
 #include <signal.h>

@@ -1,6 +1,6 @@
 /* Large contacts on half-planes: no matrix, the same answers. */
 #include "cases.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "solved.h"
 
 #include <cblas.h>

@@ -1,7 +1,7 @@
 /* Stress in a layer and in its base (L5). */
 #include "cases.h"
 #include "check.h"
-#include "rollbem/bem.h"
+#include "bem/bem.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

@@ -1,7 +1,7 @@
 /* Lemke's method: ends, ties, planted problems, bad input, failing allocations. */
 #include "check.h"
-#include "rollbem/io.h"
-#include "rollbem/lcp.h"
+#include "base/io/io.h"
+#include "lcp/lcp.h"
 #include "numbers.h"
 
 static unsigned long long seed = 20240229;

@@ -4,7 +4,7 @@
 #include "check.h"
 
 #include "../tools/bench/lcp_families.h"
-#include "rollbem/lcp.h"
+#include "lcp/lcp.h"
 
 #define CHECK_TRUE(condition, ...)                                                                 \
     do {                                                                                           \

@@ -4,7 +4,7 @@
 
 #include "exact.h"
 #include "numbers.h"
-#include "rollbem/lcp.h"
+#include "lcp/lcp.h"
 
 enum { PROBLEMS = 10000, PARTS = 20 };
 

@@ -1,7 +1,7 @@
 /* Bimatrix games by Lemke and Howson's method, and all solutions of small problems. */
 #include "check.h"
 
-#include "rollbem/lcp.h"
+#include "lcp/lcp.h"
 #include "numbers.h"
 
 static unsigned long long state_of_random = 77;

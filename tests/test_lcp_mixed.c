@@ -3,7 +3,7 @@
 #include "check.h"
 
 #include "block.h"
-#include "rollbem/lcp.h"
+#include "lcp/lcp.h"
 #include "numbers.h"
 
 static unsigned long long state_of_random = 4;

@@ -2,7 +2,7 @@
  * Newton steps go round in circles, warm, and on what it cannot solve. */
 #include "check.h"
 
-#include "rollbem/lcp.h"
+#include "lcp/lcp.h"
 
 static unsigned long long state_of_random = 20;
 

@@ -1,7 +1,7 @@
 /* Problems whose rows and columns are scaled by powers of two: the same solution in other
  * units.  Claims are judged in the units of the problem before it was scaled. */
 #include "check.h"
-#include "rollbem/lcp.h"
+#include "lcp/lcp.h"
 #include "numbers.h"
 
 enum { LARGEST = 60, KINDS = 5 };

@@ -3,8 +3,8 @@
 #define _XOPEN_SOURCE 700 /* setenv */
 #include "check.h"
 #include "rollbem/api.h"
-#include "rollbem/case.h"
-#include "rollbem/io.h"
+#include "rolling/case/case.h"
+#include "base/io/io.h"
 #include "program/report/report.h"
 
 #include <jansson.h>

@@ -1,7 +1,7 @@
 /* Typical mistakes: one line each, with the words that help; and the first minute:
  * examples, notes, a terminal. */
 #include "cli_run.h"
-#include "rollbem/base.h"
+#include "base/base.h"
 
 static const struct {
     const char *arguments, *wanted;

@@ -5,8 +5,8 @@
 #define _XOPEN_SOURCE 700 /* nftw */
 #include "cli_run.h"
 #include "covering.h"
-#include "rollbem/case.h"
-#include "rollbem/friction.h"
+#include "rolling/case/case.h"
+#include "lcp/friction/friction.h"
 
 #include <dirent.h>
 #include <fcntl.h>

@@ -2,7 +2,7 @@
 #include "cases.h"
 #include "check.h"
 #include "rolling/case/closed_forms.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 #include "program/report/report.h"
 
 #include <jansson.h>

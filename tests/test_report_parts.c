@@ -1,7 +1,7 @@
 /* Parts of reports by themselves: cells, studies, files of matrices and of ParaView. */
 #include "cases.h"
 #include "case_words.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 #include "program/report/report.h"
 
 #include <dirent.h>

@@ -1,6 +1,6 @@
 /* Two elastic bodies (4.5), each with its own support. */
 #include "cases.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "solved.h"
 #include "numbers.h"
 

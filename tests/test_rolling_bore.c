@@ -2,7 +2,7 @@
 #include "cases.h"
 #include "refused.h"
 #include "rolling/case/closed_forms.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

@@ -1,8 +1,8 @@
 /* Cases that must be refused, each with its reason, and the quantities derived from good
  * ones. */
 #include "refused.h"
-#include "rollbem/options.h"
-#include "rollbem/rolling.h"
+#include "rolling/case/options.h"
+#include "rolling/rolling.h"
 
 #include <gsl/gsl_math.h>
 

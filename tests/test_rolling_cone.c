@@ -1,8 +1,8 @@
 /* The rolling problems through the cone solvers of src/lcp/friction: a third opinion. */
 #include "cases.h"
 #include "check.h"
-#include "rollbem/friction.h"
-#include "rollbem/rolling.h"
+#include "lcp/friction/friction.h"
+#include "rolling/rolling.h"
 #include "solved.h"
 
 /* Steady rolling of dissimilar bodies: W is not symmetric. */

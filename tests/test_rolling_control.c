@@ -1,7 +1,7 @@
 /* Given loads and forces up to full sliding, and the two solvers against each other. */
 #include "cases.h"
 #include "check.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "numbers.h"
 #include "solved.h"
 

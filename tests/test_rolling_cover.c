@@ -2,7 +2,7 @@
  * wheel, a rigid core and the layer on a half-plane. */
 #include "cases.h"
 #include "check.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 #include <gsl/gsl_math.h>
 #include <time.h>

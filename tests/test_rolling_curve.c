@@ -1,6 +1,6 @@
 /* Curves: where their points lie, that each is its case, refusals. */
 #include "cases.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "solved.h"
 
 static rb_rolling_case carter(int elements)

@@ -1,7 +1,7 @@
 /* Every call that leads to an allocation sees it refused once, in small cases of all
  * kinds: it is told, and nothing is lost. */
 #include "cases.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

@@ -2,8 +2,8 @@
  * an interface that yields. */
 #include "cases.h"
 #include "refused.h"
-#include "rollbem/friction.h"
-#include "rollbem/rolling.h"
+#include "lcp/friction/friction.h"
+#include "rolling/rolling.h"
 #include "solved.h"
 
 /* Half as much friction over the middle of the contact as at its ends. */

@@ -1,7 +1,7 @@
 /* Hertz, Carter, Bentall-Johnson, Cattaneo-Mindlin on the half-plane: no error but that
  * of the contact mesh. */
 #include "cases.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

@@ -1,7 +1,7 @@
 /* Friction that depends on the state: the coefficients of a state, starts, the uniqueness
  * number, forces, each recomputed here; and in how many solves they are found. */
 #include "cases.h"
-#include "rollbem/sensitivity.h"
+#include "analysis/sensitivity/sensitivity.h"
 #include "solved.h"
 
 /* ---- The coefficients of a state --------------------------------------------------- */

@@ -1,7 +1,7 @@
 /* Friction laws (theory.md 4.11): coefficients that depend on slip velocity, memory and
  * temperature, proven by formulas of their own and by Coulomb's law with them. */
 #include "cases.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "solved.h"
 
 /* Wheel and rail of veldep_fric.inp (CONTACT): 92 elements there, 81 in contact. */

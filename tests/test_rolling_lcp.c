@@ -3,7 +3,7 @@
  * tractions that z means. */
 #include "cases.h"
 #include "check.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 /* Dissimilar bodies, so that every block is there. */
 static rb_rolling_model dissimilar_model(int load_given, int force_given)

@@ -2,7 +2,7 @@
  * of speed, figures of CONTACT, asymptotes of thick and thin layers. */
 #include "cases.h"
 #include "check.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

@@ -1,7 +1,7 @@
 /* The processes of a study, as the one sees them that hands out cases. */
 #define _GNU_SOURCE
 #include "cases.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "solved.h"
 
 #include <errno.h>

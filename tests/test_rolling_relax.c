@@ -2,7 +2,7 @@
 #include "cases.h"
 #include "check.h"
 #include "check.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 #include <gsl/gsl_math.h>
 

@@ -1,7 +1,7 @@
 /* What follows from a solved model: creep curves, stress, dissipation, error bars. */
 #include "cases.h"
 #include "check.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "numbers.h"
 #include "solved.h"
 

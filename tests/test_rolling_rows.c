@@ -3,7 +3,7 @@
  * from which row on nothing changes. */
 #include "cases.h"
 #include "check.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

@@ -2,7 +2,7 @@
  * none (theory.md A1). */
 #include "case_words.h"
 #include "cli_run.h"
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 
 #include <gsl/gsl_math.h>
 

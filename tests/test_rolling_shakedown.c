@@ -2,7 +2,7 @@
  * below Hertz's pressure with friction (Johnson, Contact Mechanics, 4.2 and 7.1). */
 #include "cases.h"
 #include "check.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 enum { N = 1201 };
 

@@ -3,7 +3,7 @@
  * asan). */
 #include "cases.h"
 #include "check.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 typedef struct {
     rb_rolling_case rc;

@@ -2,7 +2,7 @@
  * its columns say, and what rides through the contact. */
 #include "cases.h"
 #include "check.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 static const rb_bem_support supports[] = {RB_BEM_ARC, RB_BEM_HUB, RB_BEM_HALFPLANE};
 enum { KINDS = 12 };

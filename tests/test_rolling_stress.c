@@ -1,7 +1,7 @@
 /* Stress below a contact: its parts, closed forms on the axis and far away, maxima and
  * where they are looked for. */
 #include "cases.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

@@ -3,7 +3,7 @@
 #include "cases.h"
 #include "check.h"
 #include "michell.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "solved.h"
 
 #include <complex.h>

@@ -3,7 +3,7 @@
 #include "cases.h"
 #include "check.h"
 #include "rolling/case/closed_forms.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 #include <gsl/gsl_math.h>
 

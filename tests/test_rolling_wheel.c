@@ -3,7 +3,7 @@
  * The measured figures stand in docs/rolling.md. */
 #include "cases.h"
 #include "rolling/case/closed_forms.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

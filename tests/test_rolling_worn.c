@@ -1,6 +1,6 @@
 /* Wear of one small contact: each step recomputed from the one before it, and refusals. */
 #include "cases.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

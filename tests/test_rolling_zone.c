@@ -1,6 +1,6 @@
 /* The potential contact, the edges of the contact and elements fitted to them. */
 #include "cases.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "solved.h"
 #include "numbers.h"
 

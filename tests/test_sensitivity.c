@@ -2,8 +2,8 @@
  * elements with the same zones, forward against adjoint, Carter's slopes, both sides of a
  * border. */
 #include "case_words.h"
-
-#include "rollbem/rollbem.h"
+#include "analysis/sensitivity/derivatives.h"
+#include "analysis/sensitivity/sensitivity.h"
 
 #include <string.h>
 

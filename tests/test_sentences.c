@@ -1,7 +1,7 @@
 /* Whatever the program says in words is true of the state as solved: each sentence has a case
  * that must say it and a near one that must not. */
 #include "cli_run.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 #define STEEL "--similar --support halfplane --gap parabola --young 210000 --poisson 0.3 "
 #define CARTER STEEL "--radius 100 --half-width 1 --mu 0.3 --contact-elements 24 "

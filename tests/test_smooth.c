@@ -1,8 +1,7 @@
 /* Smooth derivatives (theory.md D8): Carter's slopes to second order; the jump at a change
  * of zones against a solution on its other side; where zones change; refusals. */
 #include "case_words.h"
-
-#include "rollbem/rollbem.h"
+#include "analysis/sensitivity/derivatives.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>

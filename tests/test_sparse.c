@@ -1,6 +1,6 @@
 #include "check.h"
-#include "rollbem/base.h"
-#include "rollbem/sparse.h"
+#include "base/base.h"
+#include "base/sparse.h"
 
 #include <limits.h>
 #include <suitesparse/SuiteSparse_config.h>

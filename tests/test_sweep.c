@@ -2,8 +2,8 @@
 /* Parameter studies: the library's processes and the program. */
 #include "cases.h"
 #include "cli_run.h"
-#include "rollbem/io.h"
-#include "rollbem/rolling.h"
+#include "base/io/io.h"
+#include "rolling/rolling.h"
 
 #include <signal.h>
 #include <sys/mman.h>

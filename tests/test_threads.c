@@ -1,9 +1,9 @@
 /* Cases, LCPs and friction problems solved in four threads at once give the bytes that
  * they give one after another (docs/threads.md). */
 #include "check.h"
-#include "rollbem/blas.h"
-#include "rollbem/case.h"
-#include "rollbem/friction.h"
+#include "base/blas.h"
+#include "rolling/case/case.h"
+#include "lcp/friction/friction.h"
 
 #include <pthread.h>
 

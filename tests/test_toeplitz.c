@@ -1,7 +1,7 @@
 /* The half-plane by Fourier transforms against its dense matrix. */
 #include "bem_shapes.h"
 #include "check.h"
-#include "rollbem/bem.h"
+#include "bem/bem.h"
 
 #include <gsl/gsl_math.h>
 

@@ -1,9 +1,9 @@
 /* Units: the table against the definitions, and every command in every system: the same
  * numbers, converted. */
 #include "cli_run.h"
-#include "rollbem/case.h"
-#include "rollbem/io.h"
-#include "rollbem/units.h"
+#include "rolling/case/case.h"
+#include "base/io/io.h"
+#include "base/units.h"
 
 /* ---- The table --------------------------------------------------------------------- */
 

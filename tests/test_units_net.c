@@ -3,9 +3,9 @@
  * and from a case file, and all numbers of its JSON are compared.  A part of the lines per run
  * (make test-all: all). */
 #include "cli_run.h"
-#include "rollbem/case.h"
-#include "rollbem/crack.h"
-#include "rollbem/units.h"
+#include "rolling/case/case.h"
+#include "analysis/crack/crack.h"
+#include "base/units.h"
 
 #include <ctype.h>
 

@@ -3,7 +3,7 @@
 #define TWO_THREADS_H
 
 #include "check.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 /* Calls the test twice: with OPENBLAS_NUM_THREADS unset and, forced, with 2.  Skips it where
  * the library has one thread. */

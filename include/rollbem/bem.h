@@ -24,10 +24,6 @@ rb_bem_material rb_bem_material_from_young(double young, double poisson);
  * those of the real material; in plane stress poisson is in (-0.5, 0.5]. */
 rb_bem_material rb_bem_material_in_plane(rb_bem_plane plane, double young, double poisson);
 
-/* 1: 1 - 2 nu is below 1e-9: then what is left of the term that the pressure of a hub works on
- * drowns in the rounding of the others. */
-int rb_bem_is_incompressible(rb_bem_material material);
-
 /* ---- Meshes (B4) ----------------------------------------------------------------- */
 
 typedef enum {
@@ -53,8 +49,6 @@ typedef struct {
 
 rb_status rb_bem_mesh_alloc(int n, rb_bem_mesh *mesh); /* all traction-free */
 void rb_bem_mesh_free(rb_bem_mesh *mesh);
-/* Length of element j. */
-double rb_bem_mesh_length(const rb_bem_mesh *mesh, int j);
 
 /* Checks that every contour closes, that no element has zero length and that the contact
  * elements are contiguous.  RB_EINVAL: why names the element. */
@@ -82,13 +76,6 @@ typedef struct {
                                hub; 0: 1 */
 } rb_bem_cylinder;
 
-/* Height of a circle above its lowest point, R - sqrt(R^2 - x^2), |x| <= R, without
- * cancellation (B9). */
-double rb_bem_circle_height(double radius, double x);
-
-/* The most elements of the contact, and outside it, of a cylinder's mesh. */
-enum { RB_BEM_MOST_ELEMENTS = 1000000 };
-
 /* Meshes a cylinder.  ends: n_c + 2 increasing abscissae |x| < R, the ends of n_c contact
  * elements and of the upstream element after them.  Outside the contact the elements grow
  * geometrically; symmetric ends give a symmetric mesh.  RB_EINVAL: the contact elements
@@ -96,12 +83,6 @@ enum { RB_BEM_MOST_ELEMENTS = 1000000 };
  * range; mesh is then empty. */
 rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c, const double *ends,
                                rb_bem_mesh *mesh, rb_message *why);
-
-/* Meshes the core of a covered cylinder (B11): a ring between the inner contour of the
- * cover's mesh, in reversed order, and a rigid hub of radius hub_ratio R.  RB_EINVAL: the
- * hub reaches the cover. */
-rb_status rb_bem_mesh_core(const rb_bem_cylinder *cylinder, const rb_bem_mesh *cover,
-                           rb_bem_mesh *core, rb_message *why);
 
 /* ---- Influence (B1-B3) ----------------------------------------------------------- */
 
@@ -133,42 +114,17 @@ rb_status rb_bem_assemble(const rb_bem_mesh *mesh, rb_bem_material material, dou
 /* The factorised system A x = b of *Addi* (14); opaque. */
 typedef struct rb_bem_system rb_bem_system;
 
-/* Bytes that the system and its condensation need; serves to refuse sizes that are too
- * large. */
-double rb_bem_system_bytes(int n, int n_c);
-
-/* The instruction set that the integrals use on this processor: "AVX-512", "AVX2" or
- * "plain". */
-const char *rb_bem_vector_name(void);
-
-/* With this number of elements or more the matrix is hierarchical: the flexibility agrees
- * to 1e-8, the work is about n log n, the memory of order n. */
-enum { RB_BEM_HIERARCHICAL = 1500 };
-
 /* Assembles and factorises the system once (LU).  The mesh is copied.  RB_EINVAL: the
  * body has no support, so that three rigid motions remain (the message says so), or the
  * material or the mesh is invalid; RB_SINGULAR; RB_ENOMEM. */
 rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,
                                rb_bem_system **system, rb_message *why);
-/* As rb_bem_system_create; a hierarchical matrix is compressed to the relative tolerance
- * `compression`, if that is less than usual (at most 1e-9), for systems whose difference is
- * taken. */
-rb_status rb_bem_system_create_within(const rb_bem_mesh *mesh, rb_bem_material material,
-                                      double compression, rb_bem_system **system, rb_message *why);
-/* A cover bonded to an elastic core (B11).  The inner contour of the cover (the last
- * elements of its mesh) has the displacement that the tractions there cause in the core.
- * The matrix is dense at any size.  RB_EINVAL also if the two meshes do not match, or if
- * the cover is incompressible. */
-rb_status rb_bem_system_create_bonded(const rb_bem_mesh *cover, rb_bem_material material,
-                                      const rb_bem_mesh *core, rb_bem_material core_material,
-                                      rb_bem_system **system, rb_message *why);
+
 void rb_bem_system_free(rb_bem_system *system);
-const rb_bem_mesh *rb_bem_system_mesh(const rb_bem_system *system);
+
 /* Estimated reciprocal condition number (1-norm) of the scaled matrix A; NAN if A is
  * hierarchical. */
 double rb_bem_system_rcond(const rb_bem_system *system);
-/* Seconds spent in assembly and in the LU. */
-void rb_bem_system_seconds(const rb_bem_system *system, double *assembly, double *factor);
 
 /* Displacement u and traction t of every element (2n each, global x, y) under the mesh's
  * given values and the contact tractions t_contact (2 contact_n, global; NULL: zero). */
@@ -207,28 +163,6 @@ struct rb_bem_flexibility {
 rb_status rb_bem_condense(const rb_bem_system *system, rb_bem_normals normals,
                           rb_bem_flexibility *f, rb_message *why);
 
-/* The same flexibility, more accurate close to the load (B10): the exact half-plane
- * solution of each loaded element is subtracted, and the boundary elements solve for the
- * smooth remainder.  RB_EINVAL also if the body does not lie on the inner side of every
- * contact element. */
-rb_status rb_bem_condense_subtracted(const rb_bem_system *system, rb_bem_normals normals,
-                                     rb_bem_flexibility *f, rb_message *why);
-
-/* A body under given tractions r = (r_N, r_T) of its contact (2 contact_n), and what they displace
- * more where it is a slightly different one. */
-typedef struct rb_bem_loaded rb_bem_loaded;
-/* system: borrowed; subtracted: as in rb_bem_condense_subtracted.  RB_EINVAL: it is bonded to an
- * elastic core; RB_ENOMEM. */
-rb_status rb_bem_loaded_create(const rb_bem_system *system, rb_bem_normals normals, int subtracted,
-                               const double *r, rb_bem_loaded **loaded, rb_message *why);
-/* (B13) w of rb_bem_flexibility (2m) of the body with this boundary, which has the same elements at
- * slightly different places, and of this material, less w of the system's body: exact to first
- * order in the change of H and G, by the factors of the system alone.  One thread at a time.
- * RB_ENOMEM. */
-rb_status rb_bem_loaded_change(rb_bem_loaded *loaded, const rb_bem_mesh *mesh,
-                               rb_bem_material material, double *change);
-void rb_bem_loaded_free(rb_bem_loaded *loaded);
-
 /* A body whose influence function depends on the distance alone (a wheel's does not).  It
  * is a half-plane (Flamant, theory.md 3), elastic or viscoelastic in steady rolling
  * towards +x, or a layer of this material bonded to a rigid or elastic base.  All
@@ -255,25 +189,9 @@ typedef struct {
  * point. */
 rb_bem_surface rb_bem_halfplane(rb_bem_material material, double datum);
 
-/* (V2) The memory of a half-plane keeps ln(sqrt(r^2 + d^2)/r) of a load that has moved on by r,
- * where the elastic displacement is ln(d/|x|): what the first has over the second, as a
- * function of r/d >= 0, and its mean G over exp(-u) du at r = u L, as a function of d/L > 0. */
-double rb_bem_memory_beyond_datum(double ratio);
-double rb_bem_memory_of_datum(double datum_over_length);
-/* The same mean for a strip of width d of a half-space that rests far away (CONTACT), whose
- * displacement is asinh(d/(2|x|)). */
-double rb_bem_memory_of_strip(double width_over_length);
-
 /* ends as in rb_bem_mesh_cylinder, but without the bound R. */
 rb_status rb_bem_flexibility_surface(int n_c, const double *ends, const rb_bem_surface *body,
                                      rb_bem_flexibility *f, rb_message *why);
-
-/* The same for equal elements, as a Toeplitz operator: products by Fourier transforms
- * take n log n operations and memory for a few n numbers.  The sum of two Toeplitz
- * operators (rb_bem_flexibility_pair) is a Toeplitz operator.  Only one thread at a time
- * may call apply.  RB_EINVAL: as above, or elements of different lengths. */
-rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends, const rb_bem_surface *body,
-                                      rb_bem_flexibility *f, rb_message *why);
 
 /* A full disc, fixed at its centre. */
 typedef struct {
@@ -281,40 +199,12 @@ typedef struct {
     rb_bem_material material;
 } rb_bem_disc;
 
-/* The flexibility of a disc in closed form.  Only the contact, at the lowest point, has
- * elements (equal arcs; ends as in rb_bem_mesh_cylinder).  A force and a moment at the
- * centre carry the load.  Displacements are relative to the centre, without the infinite
- * translation of a point force and without mean rotation.  The operator is Toeplitz in
- * the directions of the surface.  RB_EINVAL: as above, or arcs of different lengths. */
-rb_status rb_bem_flexibility_disc(int n_c, const double *ends, const rb_bem_disc *disc,
-                                  rb_bem_normals normals, rb_bem_flexibility *f, rb_message *why);
-
-/* Matrix W of the displacements w = W r at any points x of the surface, for tractions r
- * constant on n strips with the n + 1 ends.  W: 2 points x 2n, column-major, rows (w_N,
- * w_T).  RB_EINVAL: invalid sizes or body; RB_ENOMEM. */
-rb_status rb_bem_surface_displacement(const rb_bem_surface *body, int n, const double *ends,
-                                      int points, const double *x, double *W);
-
 /* Tractions on the edge y = 0 of a half-plane y >= 0; borrowed. */
 typedef struct {
     int n;
     const double *x;     /* ends of n strips (n + 1), or n nodes; increasing */
     const double *p, *q; /* n: along +y, into the body (pressure), and along +x */
 } rb_bem_edge_load;
-
-/* Adds to w the normal displacements w_N at the points x under tractions that are
- * constant on strips, without forming a matrix.  Errors as above. */
-rb_status rb_bem_surface_add_normal(const rb_bem_surface *body, const rb_bem_edge_load *load,
-                                    int points, const double *x, double *w);
-
-/* Weights of one step of a viscoelastic body (V6), for a load linear in time over the
- * step (or linear along a length): filtered load after the step = kept * (filtered load
- * before) + before * (load before) + after * (load after). */
-typedef struct {
-    double kept, before, after;
-} rb_bem_fading;
-/* time: relaxation time; step > 0, in the same unit. */
-rb_bem_fading rb_bem_fading_over(double time, double step);
 
 /* A wheel with rotational symmetry: a ring of one material, or a cover on a core that is
  * rigid or is a ring on a rigid hub; in steady rolling towards +x its material may be
@@ -335,78 +225,17 @@ typedef struct {
 rb_status rb_bem_flexibility_wheel(int n_c, const double *ends, const rb_bem_wheel *wheel,
                                    rb_bem_normals normals, rb_bem_flexibility *f, rb_message *why);
 
-/* The same as products by Fourier transforms, n log n work, to 1e-10 of the largest
- * displacement.  apply serves one thread at a time.  A cover that is very thin against
- * its elements gets the dense matrix. */
-rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends, const rb_bem_wheel *wheel,
-                                            rb_bem_normals normals, rb_bem_flexibility *f,
-                                            rb_message *why);
-
-/* A homogeneous elastic half-plane with one datum in the same way, on elements of any
- * lengths, such as those of a wheel that it touches. */
-rb_status rb_bem_flexibility_plane_products(int n_c, const double *ends,
-                                            const rb_bem_surface *plane, rb_bem_flexibility *f,
-                                            rb_message *why);
-
-/* Displacement w of points x on the lower half of the glassy wheel along the normal of
- * the obstacle, into the body, under strips of p and q along that normal and tangent.
- * RB_EINVAL, RB_ENOMEM. */
-rb_status rb_bem_wheel_normal(const rb_bem_wheel *wheel, const rb_bem_edge_load *load, int points,
-                              const double *x, double *w);
-
-/* Adds the viscoelastic part (V8) to the flexibility of the glassy wheel, which was
- * made with these normals.  ends: of the contact elements, as in
- * rb_bem_mesh_cylinder.  f becomes a dense matrix.  RB_EINVAL: invalid radii, materials
- * or relaxation terms; RB_ENOMEM. */
-rb_status rb_bem_flexibility_add_memory(const rb_bem_wheel *wheel, rb_bem_normals normals,
-                                        const double *ends, rb_bem_flexibility *f, rb_message *why);
-
 /* Two bodies in contact (4.5): F_A + F_B.  B is computed as an upper body and mirrored,
  * so its coupling blocks enter with the opposite sign.  Takes ownership of a and b and
  * leaves both empty, also on failure.  RB_EINVAL: the points of a and b differ. */
 rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
                                   rb_bem_flexibility *f, rb_message *why);
 
-/* Adds a compliant interface whose deformation at an element depends only on the traction
- * of this element: normal and tangential compliance on the diagonals of F_NN and F_TT
- * [length/stress], n values each, >= 0.  Call it after rb_bem_flexibility_pair.
- * RB_EINVAL, RB_ENOMEM. */
-rb_status rb_bem_flexibility_add_compliance(rb_bem_flexibility *f, const double *normal,
-                                            const double *tangential);
-
 void rb_bem_flexibility_apply(const rb_bem_flexibility *f, const double *r, double *w);
 /* F: 2m x 2n column-major, ldf >= 2m. */
 rb_status rb_bem_flexibility_matrix(const rb_bem_flexibility *f, double *F, int ldf);
-/* The dense matrix of f, ld = 2m, borrowed; NULL if f does not store one. */
-const double *rb_bem_flexibility_stored(const rb_bem_flexibility *f);
-/* The same flexibility as a dense matrix. */
-rb_status rb_bem_flexibility_as_matrix(const rb_bem_flexibility *f, rb_bem_flexibility *dense);
-/* Converts f to a dense matrix.  RB_ENOMEM leaves f unchanged. */
-rb_status rb_bem_flexibility_store(rb_bem_flexibility *f);
+
 void rb_bem_flexibility_free(rb_bem_flexibility *f);
-
-/* Circulant preconditioners for a line of equal elements: approximate inverses of F_NN or
- * F_TT (apply) and of A F_TT (apply_difference), where (A w)_i = sum over k of stencil_k
- * w_{i-1+k}.  The stencil (0, 1, -1, 0) is the difference to the upstream element,
- * towards +x.  local: the stencil of A for the compliance that was added to f.  w and r
- * have n entries each and may be the same array.  One thread at a time. */
-typedef struct rb_bem_circulant rb_bem_circulant;
-rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double stencil[4],
-                                  const double local[4], rb_bem_circulant **circulant);
-void rb_bem_circulant_apply(const rb_bem_circulant *c, const double *w, double *r);
-void rb_bem_circulant_apply_difference(const rb_bem_circulant *c, const double *w, double *r);
-/* Approximate inverse of 1 + hardening F_TT, for an interface whose friction grows with
- * its plastic slip by the factor hardening. */
-void rb_bem_circulant_apply_yielding(const rb_bem_circulant *c, double hardening, const double *w,
-                                     double *r);
-void rb_bem_circulant_free(rb_bem_circulant *circulant);
-
-/* w_i = sum over j of t_(i-j) r_j (n each, w may be r) by Fourier transforms; t: those of
- * distances 1 - n ... n - 1.  NULL without memory.  One thread at a time. */
-typedef struct rb_bem_convolution rb_bem_convolution;
-rb_bem_convolution *rb_bem_convolution_create(int n, const double *t);
-void rb_bem_convolution_apply(const rb_bem_convolution *c, const double *r, double *w);
-void rb_bem_convolution_free(rb_bem_convolution *convolution);
 
 /* ---- Interior (B8) ---------------------------------------------------------------- */
 
@@ -431,45 +260,10 @@ typedef struct {
 rb_status rb_bem_interior(const rb_bem_boundary *body, rb_bem_points points, double *displacement,
                           double *stress, rb_message *why);
 
-/* Stress of a body under contact tractions, accurate up to the loaded surface: the near
- * field of the tractions is in closed form (B10).  load: linear between n nodes x, which
- * are measured along the contour from the start of the first contact element; p into the
- * body, q along each element; what lies beyond the contact elements is left out.  The
- * field borrows the system.  RB_EINVAL: the body does not lie on the inner side of every
- * contact element. */
-typedef struct rb_bem_field rb_bem_field;
-rb_status rb_bem_field_create(const rb_bem_system *system, const rb_bem_edge_load *load,
-                              rb_bem_field **field, rb_message *why);
-rb_status rb_bem_field_stress(const rb_bem_field *field, rb_bem_points points, double *stress,
-                              rb_message *why);
-void rb_bem_field_free(rb_bem_field *field);
-
 /* Stress below tractions that are constant on n strips [x[i], x[i+1]].  stress: 3 per
  * point (sxx, syy, sxy); on y = 0 the limit from inside. */
 rb_status rb_bem_halfplane_stress(const rb_bem_edge_load *load, rb_bem_points points,
                                   double *stress);
-
-/* The same for tractions that are linear between n nodes and zero at the first and the
- * last node; sxx is then finite everywhere.  Use it for points within a few contact
- * widths: rounding errors grow with the ratio of their distance to the spacing of the
- * nodes. */
-rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_points points,
-                                         double *stress);
-
-/* Stress in a layer or in the base below it under given tractions (L5).  load: tractions
- * at nodes.  The arrays of body and load must exist until the field is freed.  The first
- * call whose points extend over more than three times the width of the load computes the
- * Fourier components of the field again.  RB_EINVAL: body is no layer, a point lies
- * outside, or the points extend too far for so thin a layer. */
-typedef struct rb_bem_layer_field rb_bem_layer_field;
-rb_status rb_bem_layer_field_create(const rb_bem_surface *body, const rb_bem_edge_load *load,
-                                    rb_bem_layer_field **field, rb_message *why);
-/* stress: 3 per point.  On input it holds sxx, syy, sxy of a half-plane of the layer's
- * material.  For points in the layer the difference between layer and half-plane is
- * added; for points below the layer the stress is overwritten. */
-rb_status rb_bem_layer_field_add(rb_bem_layer_field *field, rb_bem_points points, double *stress,
-                                 rb_message *why);
-void rb_bem_layer_field_free(rb_bem_layer_field *field);
 
 /* ---- A reference ------------------------------------------------------------------- */
 

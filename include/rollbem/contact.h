@@ -41,17 +41,8 @@ typedef struct {
 rb_status rb_contact_operator_products(int n, const rb_contact_products *products,
                                        rb_contact_operator **op);
 
-/* Adds products of the same operator to `dense`, so that large systems are solved with
- * GMRES; if GMRES does not converge, the matrices are used.  `dense` takes ownership of
- * the products and frees earlier ones.  NULL: matrices only. */
-void rb_contact_operator_add_products(rb_contact_operator *dense, rb_contact_operator *products);
-
 /* Like all functions that free something, this one accepts NULL. */
 void rb_contact_operator_free(rb_contact_operator *op);
-
-/* gap += F_N (p, q), slip += S (p, q); all n. */
-void rb_contact_operator_add(rb_contact_operator *op, const double *p, const double *q, double *gap,
-                             double *slip);
 
 /* The matrices of an operator; F is NULL if it has none. */
 typedef struct {
@@ -61,19 +52,10 @@ typedef struct {
 } rb_contact_matrix;
 rb_contact_matrix rb_contact_operator_matrix(const rb_contact_operator *op);
 
-/* Typical displacements under unit tractions; the scales of a problem are computed from
- * them. */
-typedef struct {
-    double gap, slip;    /* mean of the diagonals of F_NN and of A F_TT */
-    double coupled_slip; /* slip of the middle element under unit pressures */
-    double reach;        /* sum of a row of F_NN divided by its diagonal entry; 0 with matrices */
-    int coupled;         /* 0: pressure causes no slip and friction no gap */
-} rb_contact_response;
-rb_contact_response rb_contact_operator_response(const rb_contact_operator *op);
+struct rb_contact_state;
 
 /* ---- The problem ------------------------------------------------------------------- */
 
-struct rb_contact_state;
 typedef void rb_contact_newton_trace(const struct rb_contact_state *state, void *context);
 
 /* Gap (K1): y_N = d_N + F_N (r_N, r_T) - delta >= 0, complementary to r_N.
@@ -129,9 +111,7 @@ typedef struct {
 /* Allocates the arrays, all zero, for the elements of the operator.  The problem takes
  * ownership of the operator, also on failure.  RB_ENOMEM. */
 rb_status rb_contact_problem_alloc(rb_contact_operator *op, rb_contact_problem *problem);
-/* The same, but the caller keeps the operator: set problem->op to NULL before you free
- * the problem. */
-rb_status rb_contact_problem_borrow(rb_contact_operator *op, rb_contact_problem *problem);
+
 void rb_contact_problem_free(rb_contact_problem *problem);
 
 /* One coefficient of friction for all elements (bound NULL), or one for each: n values
@@ -139,28 +119,7 @@ void rb_contact_problem_free(rb_contact_problem *problem);
  * remain valid. */
 void rb_contact_set_friction(rb_contact_problem *problem, double mu, const double *bound);
 
-/* Adds a plastic layer with the same yield stress everywhere; the caller sets recall and
- * own. RB_ENOMEM. */
-rb_status rb_contact_set_yield(rb_contact_problem *problem, double stress, double hardening);
-/* Accumulated plastic slip u (n values) from the plastic slips (n values).  zone: n zones, whose
- * direction says which sign grows u, so that u is linear in the plastic slips; NULL: their sizes
- * count. */
-void rb_contact_yielded(const rb_contact_problem *problem, const double *plastic, const int *zone,
-                        double *u);
-/* Yield stress of element i at the accumulated plastic slip u; INFINITY without a plastic
- * layer. */
-double rb_contact_yield_stress(const rb_contact_problem *problem, int i, double u);
-
 /* ---- The state: unknowns of a problem ---------------------------------------------- */
-
-typedef enum {
-    RB_ZONE_SEPARATED = 0,
-    RB_ZONE_STICK = 1,
-    RB_ZONE_SLIP_NEGATIVE = 2,  /* r_T = -mu r_N: A's surface slides towards +x */
-    RB_ZONE_SLIP_POSITIVE = 3,  /* r_T = +mu r_N */
-    RB_ZONE_YIELD_NEGATIVE = 4, /* r_T = -(yield + hardening u): the layer yields */
-    RB_ZONE_YIELD_POSITIVE = 5  /* r_T = +(yield + hardening u) */
-} rb_contact_zone;
 
 typedef enum {
     RB_SOLVER_AUTO,
@@ -191,19 +150,6 @@ typedef struct rb_contact_state {
 rb_status rb_contact_state_alloc(int n, rb_contact_state *state);
 void rb_contact_state_free(rb_contact_state *state);
 
-/* 1: in element i the surfaces slide and the layer between them yields, too: |r_T| = bound r_N
- * and, with hardening, u is what raises the yield stress up to it (Y1). */
-int rb_contact_slips_and_yields(const rb_contact_problem *problem, const rb_contact_state *state,
-                                int i);
-/* Sets the plastic slips from zones, pressures and slips: all of lambda where the layer yields
- * alone; what hardens it up to bound r_N where the surfaces slide, too, which is where the plastic
- * slip was not 0 before; else 0.  u: n accumulated plastic slips, or NULL. */
-void rb_contact_set_plastic(const rb_contact_problem *problem, rb_contact_state *state, double *u);
-
-/* Computes gap (n) and lambda (n) from p, q, delta and xi. */
-void rb_contact_kinematics(const rb_contact_problem *problem, const rb_contact_state *state,
-                           double *gap, double *lambda);
-
 /* Largest violations of (K1)-(K3) and of the given load and force, recomputed from p, q,
  * delta and xi alone. */
 typedef struct {
@@ -215,12 +161,6 @@ typedef struct {
 rb_status rb_contact_residual(const rb_contact_problem *problem, const rb_contact_state *state,
                               rb_contact_violation *violation);
 
-/* Scale of the tangential tractions: mu times the pressure problem->stress; without
- * friction that pressure itself. */
-double rb_contact_friction_scale(const rb_contact_problem *problem);
-/* The largest friction force that the pressures of the state allow: mu P for one
- * coefficient. */
-double rb_contact_capacity(const rb_contact_problem *problem, const rb_contact_state *state);
 /* P, Q and M of the state. */
 double rb_contact_load(const rb_contact_problem *problem, const rb_contact_state *state);
 double rb_contact_force(const rb_contact_problem *problem, const rb_contact_state *state);
@@ -252,13 +192,6 @@ void rb_contact_lcp_free(rb_contact_lcp *lcp);
 void rb_contact_lcp_recover(const rb_contact_problem *problem, const rb_contact_lcp *lcp,
                             const double *z, rb_contact_state *state);
 
-/* Writes the name of a variable of the LCP of n contact elements; variables are numbered
- * w, z, z0 as in lcp.h.  Examples: "p[3]", "lambda+[2]", "plastic+[2]".  The variables of
- * the given load and force come last: "motion[1]", "force[1]".  Returns name. */
-enum { RB_CONTACT_VARIABLE = 32 };
-const char *rb_contact_lcp_variable(const rb_contact_lcp *lcp, int n, int variable,
-                                    char name[RB_CONTACT_VARIABLE]);
-
 /* ---- Solvers ----------------------------------------------------------------------- */
 
 /* The problem with given delta and xi as a problem on Coulomb's cones: u = W r + q, two
@@ -270,11 +203,6 @@ typedef struct {
     double *q;  /* 2n */
 } rb_contact_cone;
 
-/* RB_EINVAL: the operator has no matrices; RB_ENOMEM. */
-rb_status rb_contact_cone_create(const rb_contact_problem *problem, double delta, double xi,
-                                 rb_contact_cone *cone, rb_message *why);
-void rb_contact_cone_free(rb_contact_cone *cone);
-
 /* A cone solver: a name, and the function that solves by the method of this name. */
 typedef struct {
     const char *name; /* borrowed; NULL: none */
@@ -283,9 +211,6 @@ typedef struct {
     rb_status (*solve)(const char *name, const rb_contact_cone *cone, double tol, double *r,
                        int *iterations, rb_message *why);
 } rb_contact_cone_solver;
-
-/* Finds a cone solver by its name, as rb_friction_cone_solver does. */
-typedef rb_contact_cone_solver rb_contact_cone_finder(const char *name);
 
 typedef struct {
     rb_contact_solver solver;
@@ -302,16 +227,6 @@ rb_contact_options rb_contact_defaults(void);
  * one that succeeded.  warm: 1 to start from the zones of the state. */
 rb_status rb_contact_solve(rb_contact_problem *problem, const rb_contact_options *options, int warm,
                            rb_contact_state *state, rb_message *why);
-
-/* The LCP whose solution the state is, if Lemke's method found it; for any other state,
- * or NULL, the LCP that Lemke's method tries first. */
-rb_status rb_contact_lcp_first(const rb_contact_problem *problem, const rb_contact_options *options,
-                               const rb_contact_state *state, rb_contact_lcp *lcp, rb_message *why);
-
-/* Solves the linear equations for the zones given in the state, whether they are right or
- * wrong.  Writes p, q, lambda, delta and xi into the state, and the gap (n); the
- * conditions that they violate show where the zones are wrong. RB_SINGULAR, RB_ENOMEM. */
-rb_status rb_contact_try_zones(rb_contact_problem *problem, rb_contact_state *state, double *gap);
 
 RB_PUBLIC_END
 

@@ -126,12 +126,6 @@ rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_option
 rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt, double *z,
                        rb_lcp_info *info);
 
-/* The solvers that rb_lcp_solve accepts, auto first. */
-typedef struct {
-    const char *name, *summary;
-} rb_lcp_solver;
-const rb_lcp_solver *rb_lcp_solvers(int *count);
-
 /* Solves with the named solver; NULL: "auto", a portfolio of methods.  "auto" chooses a
  * first method from the structure of M; if it does not finish soon, all methods continue
  * in turns.  info->solver names the method that found z, info->iters is the sum over all
@@ -187,27 +181,12 @@ rb_status rb_lcp_bimatrix(const rb_lcp_game *game, int label, const rb_lcp_optio
  * seconds and statuses as rb_lcp_enumerate. */
 rb_status rb_lcp_bimatrix_enumerate(const rb_lcp_game *game, double seconds, rb_lcp_solutions *all,
                                     rb_message *why);
-/* regret: m + n values >= 0, what each strategy pays less than the best reply to the
- * other player's mixed strategy; payoff: the payoffs of the best replies.  Returns max
- * min(probability, regret). */
-double rb_lcp_bimatrix_regret(const rb_lcp_game *game, const double *z, double *regret,
-                              double payoff[2]);
 
 /* w = M z + q and max_i |min(z_i, w_i)|; w: n or NULL. */
 double rb_lcp_residual(const rb_lcp_problem *p, const double *z, double *w);
 /* The same for the mixed problem: max_i |max(min(z_i - lower_i, w_i), z_i - upper_i)|; w:
  * n. */
 double rb_lcp_residual_mixed(const rb_lcp_mixed_problem *p, const double *z, double *w);
-/* The relative residual row by row: max_i |min(z_i, w_i)| / (|M| |z| + |q|)_i, of the
- * equilibrated matrix R M C.  A row that may contain only rounding errors of larger rows
- * with the same unknowns is divided by 1e-4 of their scale instead.  The residual does
- * not depend on the units of rows and columns.  row: the row of the maximum, or -1; may
- * be NULL.  RB_ENOMEM. */
-rb_status rb_lcp_scaled_residual(const rb_lcp_mixed_problem *p, const double *z, double *scaled,
-                                 int *row);
-/* The residual that rounding errors of the data can cause: 1e-14 max_i (|M| |z| + |q|)_i;
- * work: n. */
-double rb_lcp_rounding_floor(const rb_lcp_mixed_problem *p, const double *z, double *work);
 
 RB_PUBLIC_END
 

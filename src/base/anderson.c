@@ -2,7 +2,7 @@
  * last steps f = g(r) - r are combined so that the sum is as small as possible, and the
  * same combination of the g is the next r.  For a linear iteration this is GMRES.  u is
  * combined in the same way, because it is affine in r. */
-#include "rollbem/base.h"
+#include "base/base.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* Scratch memory that is freed at once. */
-#include "rollbem/base.h"
+#include "base/base.h"
 
 #include <stddef.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* Signs without rounding: sums of products as sums of doubles that do not overlap (Shewchuk,
  * Discrete and Computational Geometry 18, 1997). */
-#include "rollbem/base.h"
+#include "base/base.h"
 
 #include <math.h>
 #include <stdlib.h>

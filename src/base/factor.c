@@ -1,5 +1,5 @@
 /* SuiteSparse behind rollbem/sparse.h: rank (SPQR), LU (UMFPACK), Cholesky (CHOLMOD). */
-#include "rollbem/sparse.h"
+#include "base/sparse.h"
 
 #include <suitesparse/SuiteSparseQR_C.h>
 #include <suitesparse/cholmod.h>

@@ -1,5 +1,5 @@
 /* Finds the name that is most similar to a misspelt word. */
-#include "rollbem/base.h"
+#include "base/base.h"
 
 #include <stdio.h>
 #include <stdlib.h>

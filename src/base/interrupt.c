@@ -1,4 +1,4 @@
-#include "rollbem/base.h"
+#include "base/base.h"
 
 static _Thread_local rb_interrupt present;
 

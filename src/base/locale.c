@@ -1,6 +1,6 @@
 /* Reads and writes numbers in the C locale, whatever locale the calling program has
  * set. */
-#include "rollbem/base.h"
+#include "base/base.h"
 
 #include <locale.h>
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-#include "rollbem/base.h"
+#include "base/base.h"
 
 #include <stdatomic.h>
 

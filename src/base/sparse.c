@@ -1,4 +1,4 @@
-#include "rollbem/sparse.h"
+#include "base/sparse.h"
 
 #include <limits.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* Units as products of powers of a few words, and their factors to mm, N, MPa, s. */
-#include "rollbem/units.h"
+#include "base/units.h"
 
 #include <ctype.h>
 #include <math.h>

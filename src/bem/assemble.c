@@ -1,6 +1,6 @@
 #include "bem/assemble.h"
 #include "bem/internal.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 #include <stdlib.h>
 

@@ -5,7 +5,7 @@
 #define ROLLBEM_BEM_BOND_H
 
 #include "bem/strip.h"
-#include "rollbem/bem.h"
+#include "bem/bem.h"
 
 /* Dofs of the interface count as in the cover's mesh, from its element `first` on. */
 typedef struct {

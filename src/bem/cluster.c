@@ -1,5 +1,5 @@
 #include "bem/cluster.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 int rb_cluster_levels(int n, int most)
 {

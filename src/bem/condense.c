@@ -7,7 +7,7 @@
 #include "bem/large.h"
 #include "bem/skeleton.h"
 #include "bem/strip.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 #include <cblas.h>
 #include <math.h>

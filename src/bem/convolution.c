@@ -1,7 +1,7 @@
 /* Products with a Toeplitz matrix by Fourier transforms. */
 #include "bem/fourier.h"
 
-#include "rollbem/bem.h"
+#include "bem/bem.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_BEM_ELIMINATION_H
 #define ROLLBEM_BEM_ELIMINATION_H
 
-#include "rollbem/base.h"
+#include "base/base.h"
 
 #include <lapacke.h>
 

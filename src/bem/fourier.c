@@ -1,5 +1,5 @@
 #include "bem/fourier.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 #include <gsl/gsl_math.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 #include "bem/given.h"
 #include "bem/internal.h"
 #include "bem/mixed.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 #include <cblas.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 #ifndef ROLLBEM_BEM_GIVEN_H
 #define ROLLBEM_BEM_GIVEN_H
 
-#include "rollbem/bem.h"
+#include "bem/bem.h"
 
 typedef struct rb_given rb_given;
 

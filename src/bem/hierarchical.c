@@ -1,5 +1,5 @@
 #include "bem/hierarchical_parts.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -7,7 +7,7 @@
 #ifndef ROLLBEM_BEM_HIERARCHICAL_H
 #define ROLLBEM_BEM_HIERARCHICAL_H
 
-#include "rollbem/bem.h"
+#include "bem/bem.h"
 
 typedef struct rb_hierarchical rb_hierarchical;
 

@@ -1,6 +1,6 @@
 /* Solutions with a hierarchical matrix, and the check that they are solutions. */
 #include "bem/hierarchical_parts.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 #include <cblas.h>
 #include <math.h>

@@ -19,7 +19,7 @@
 #include "bem/complex.h"
 #include "bem/internal.h"
 #include "bem/kernels.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 #include <complex.h>
 #include <gsl/gsl_math.h>

@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_BEM_INTERNAL_H
 #define ROLLBEM_BEM_INTERNAL_H
 
-#include "rollbem/bem.h"
+#include "bem/bem.h"
 
 /* Pairs of point and element from which several threads pay: fewer are done before the
  * others have woken, and waiting for them on a busy machine costs far more. */

@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_BEM_LAYER_H
 #define ROLLBEM_BEM_LAYER_H
 
-#include "rollbem/bem.h"
+#include "bem/bem.h"
 
 #include <complex.h>
 

@@ -3,7 +3,7 @@
  * numbers; below the bond the whole stress is computed in this way. */
 #include "bem/internal.h"
 #include "bem/layer.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_math.h>

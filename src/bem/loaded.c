@@ -5,7 +5,7 @@
 #include "bem/internal.h"
 #include "bem/strip.h"
 #include "bem/system.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 #include <cblas.h>
 #include <stdlib.h>

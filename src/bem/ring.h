@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_BEM_RING_H
 #define ROLLBEM_BEM_RING_H
 
-#include "rollbem/bem.h"
+#include "bem/bem.h"
 
 #include <complex.h>
 

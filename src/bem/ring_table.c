@@ -3,7 +3,7 @@
 #include "bem/internal.h"
 #include "bem/panels.h"
 #include "bem/ring.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 #include <gsl/gsl_math.h>
 #include <math.h>

@@ -3,7 +3,7 @@
 #ifndef ROLLBEM_BEM_STRIP_H
 #define ROLLBEM_BEM_STRIP_H
 
-#include "rollbem/bem.h"
+#include "bem/bem.h"
 
 #include <complex.h>
 

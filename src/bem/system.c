@@ -3,7 +3,7 @@
 #include "bem/assemble.h"
 #include "bem/incompressible.h"
 #include "bem/internal.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 #include "bem/large.h"
 
 #include <cblas.h>

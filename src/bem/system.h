@@ -4,7 +4,7 @@
 
 #include "bem/bond.h"
 #include "bem/hierarchical.h"
-#include "rollbem/bem.h"
+#include "bem/bem.h"
 
 #include <lapacke.h>
 

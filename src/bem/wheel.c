@@ -8,7 +8,7 @@
 #include "bem/internal.h"
 #include "bem/ring.h"
 #include "bem/wheel.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 #include <complex.h>
 #include <gsl/gsl_math.h>

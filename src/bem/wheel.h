@@ -3,7 +3,7 @@
 #define ROLLBEM_BEM_WHEEL_H
 
 #include "bem/ring.h"
-#include "rollbem/bem.h"
+#include "bem/bem.h"
 
 /* RB_EINVAL, RB_SINGULAR: wheel and ends of n_c contact elements. */
 rb_status rb_wheel_check(int n_c, const double *ends, const rb_bem_wheel *wheel, rb_message *why);

@@ -1,5 +1,5 @@
 /* Condensation to the unknowns that the contacts touch. */
-#include "rollbem/fem.h"
+#include "fem/fem.h"
 
 #include <stdlib.h>
 

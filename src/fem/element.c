@@ -1,5 +1,5 @@
 /* Element matrices: two-node bars, four-node quads, eight-node bricks. */
-#include "rollbem/fem.h"
+#include "fem/fem.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* A history of loads, increment by increment, on the condensed structure. */
-#include "rollbem/fem.h"
+#include "fem/fem.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* Meshes of one kind of element, and the assembly of their matrices. */
-#include "rollbem/fem.h"
+#include "fem/fem.h"
 
 #include <math.h>
 #include <stdlib.h>

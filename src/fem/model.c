@@ -1,5 +1,5 @@
 /* Models: a mesh over a flat obstacle with loads, built piece by piece. */
-#include "rollbem/fem.h"
+#include "fem/fem.h"
 
 #include <stdlib.h>
 #include <string.h>

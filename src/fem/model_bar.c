@@ -1,5 +1,5 @@
 /* *Kanno* 3.2: half a bar pressed onto an obstacle and pushed from its end. */
-#include "rollbem/fem.h"
+#include "fem/fem.h"
 
 static const double length = 400.0, height = 40.0, thickness = 10.0; /* mm */
 static const double pressure = 0.01;                                 /* MPa per increment */

@@ -1,5 +1,5 @@
 /* *Kanno* 3.1: a double-layer grid of bars on an obstacle, loaded once, unloaded slowly. */
-#include "rollbem/fem.h"
+#include "fem/fem.h"
 
 static const double spacing[3] = {2000.0, 3000.0, 2000.0}; /* mm */
 static const double inner_load = 102900.0;                 /* N */

@@ -1,6 +1,6 @@
 /* A structure that may touch obstacles, its state, and one increment as a problem of
  * friction. */
-#include "rollbem/fem.h"
+#include "fem/fem.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_FEM_WALL_H
 #define ROLLBEM_FEM_WALL_H
 
-#include "rollbem/fem.h"
+#include "fem/fem.h"
 
 enum { COURSES = 5, BLOCKS = 12, UPPER_SUPPORT = BLOCKS, LOWER_SUPPORT = -1 };
 

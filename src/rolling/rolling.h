@@ -1,548 +1,824 @@
-/* Declarations shared by the files of this folder. */
-#ifndef ROLLBEM_ROLLING_INTERNAL_H
-#define ROLLBEM_ROLLING_INTERNAL_H
+/* What src/analysis and src/program use of rolling contact besides rollbem/rolling.h: results by
+ * name, notes, followers, variants, conversions. */
+#ifndef ROLLBEM_SRC_ROLLING_ROLLING_H
+#define ROLLBEM_SRC_ROLLING_ROLLING_H
 
-#include "rollbem/options.h"
+#include "base/units.h"
+#include "bem/bem.h"
+#include "lcp/contact/contact.h"
 #include "rollbem/rolling.h"
 
-#include <math.h>
+/* ---- Case ------------------------------------------------------------------------ */
 
-/* ---- case.c: quantities derived from a case ---------------------------------------- */
+/* From how many equal elements on half-planes are solved by Fourier transforms, without a
+ * matrix: steady rolling, with every friction law (on aligned meshes as fast as the
+ * matrix at 150 elements, 2 to 4 times faster at 800); static contact, steps and wear (as
+ * fast at 300, twice as fast at 600, 2 to 5 times at 1200).  Below RB_ROLLING_LARGE a
+ * matrix can be added where something needs it (rb_rolling_model_add_matrix); from there
+ * on it would take seconds. */
+enum { RB_ROLLING_TRANSFORMS = 150, RB_ROLLING_TRANSFORMS_STEPS = 400, RB_ROLLING_LARGE = 1500 };
 
-/* 1 if the boundary of wheels outside the contact is finer than needed for finding the
- * contact; the second function sets the plan to the default boundary. */
-int rb_rolling_has_fine_boundary(const rb_rolling_plan *plan);
-void rb_rolling_coarsen_boundary(rb_rolling_plan *plan);
-/* 1: Q, a force ratio or a free axle is given, and no creepage. */
-int rb_rolling_force_is_given(const rb_rolling_case *rc);
-
-/* 1 if products are computed by Fourier transforms: half-planes, and covers in steady
- * rolling, with equal elements, solved by Newton's method. */
-int rb_rolling_has_transforms(const rb_rolling_case *rc);
-
-/* ---- options.c: the ranges of the option table --------------------------------------- */
-
-/* Checks the numbers of a case: RB_EINVAL "young: expected a number > 0, got -1".  What
- * has its default is not given. */
-rb_status rb_rolling_check_ranges(const rb_rolling_case *rc, const rb_rolling_case *defaults,
-                                  rb_message *why);
-/* Checks a number against the range of an option; of the one with this name. */
-rb_status rb_rolling_check_option(const rb_option *option, double value, rb_message *why);
-rb_status rb_rolling_check_number(const char *option, double value, rb_message *why);
-
-/* ---- interpolant.c ----------------------------------------------------------------- */
-
-/* A curve through n >= 3 points with increasing x: a cubic spline, with zero curvature at both
- * ends, that breaks off at the corners of the data and where it would leave them.  Beyond the ends
- * it goes straight on.  is_smooth: 1: one spline in any case.  RB_ENOMEM. */
-typedef struct rb_rolling_interpolant rb_rolling_interpolant;
-rb_status rb_rolling_interpolant_create(int n, const double *x, const double *y, int is_smooth,
-                                        rb_rolling_interpolant **interpolant);
-void rb_rolling_interpolant_free(rb_rolling_interpolant *interpolant);
-double rb_rolling_interpolant_at(const rb_rolling_interpolant *interpolant, double x);
-/* Number and abscissae of its points; of its corners, and by how much the slope is larger behind
- * each; borrowed. */
-int rb_rolling_interpolant_rows(const rb_rolling_interpolant *interpolant, const double **x);
-int rb_rolling_interpolant_corners(const rb_rolling_interpolant *interpolant, const double **x,
-                                   const double **bend);
-
-/* ---- profile.c, profile_points.c --------------------------------------------------- */
-
-struct rb_rolling_profile {
-    rb_rolling_interpolant *curve; /* owned */
-    double from, to, radius;
+/* The most of each that a case may ask for: elements of the contact and on the circle outside
+ * it, steps of a history, points of a curve. */
+enum {
+    RB_ROLLING_MOST_ELEMENTS = 1 << 24,
+    RB_ROLLING_MOST_OUTER = RB_BEM_MOST_ELEMENTS,
+    RB_ROLLING_MOST_STEPS = 10000000,
+    RB_ROLLING_MOST_POINTS = 1000000
 };
 
-/* Corners of the profile, as of its interpolant. */
-int rb_rolling_profile_corners(const rb_rolling_profile *profile, const double **x,
-                               const double **bend);
+/* Properties of a body, as bits. */
+typedef enum {
+    RB_BODY_FLAT = 1,        /* its surface is a plane, otherwise a circle */
+    RB_BODY_BOUNDARY = 2,    /* has boundary elements outside the contact, too */
+    RB_BODY_HOMOGENEOUS = 4, /* of one elastic material: Hertz's half-width applies, and
+                                the formulas of heat conduction, too */
+    RB_BODY_ELASTIC = 8,     /* elastic: no hysteresis */
+    RB_BODY_STRESS = 16,     /* the stress inside can be computed */
+    RB_BODY_TURNS = 32       /* rotationally symmetric: its stiffness is the same at every angle */
+} rb_rolling_ability;
 
-/* Number and abscissae of the points of the spline; borrowed. */
-int rb_rolling_profile_rows(const rb_rolling_profile *profile, const double **x);
-/* Checks for three or more finite points with increasing x: RB_EINVAL "<what>: row
- * ...". */
-rb_status rb_rolling_points_check(const char *what, int n, const double *x, const double *gap,
-                                  rb_message *why);
-
-/* ---- body_wheel.c ------------------------------------------------------------------ */
-
-/* Factorises the boundary elements of A, a wheel, again; owned by the caller. */
-rb_status rb_rolling_boundary_system(const rb_rolling_model *model, rb_bem_system **system,
-                                     rb_message *why);
-/* 1: the flexibility of the wheel has its near field in closed form. */
-int rb_rolling_subtracts(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                         const rb_rolling_body *body);
-/* A wheel on a hub or a cover; borrows length and the body. */
-rb_bem_wheel rb_rolling_wheel_of(const rb_rolling_case *rc, const rb_rolling_body *body,
-                                 double length[RB_ROLLING_TERMS]);
-
-/* ---- perturbation.c ---------------------------------------------------------------- */
-
-/* Adds to w (2m) what the bodies of v, on its mesh, displace more than those of the model under the
- * tractions of the model, to first order; x, h: m, of the elements of v, written where A changes.
- * RB_INACCURATE: elements outside the contact come or go. */
-rb_status rb_rolling_perturbation_add(rb_rolling_perturbation *perturbation,
-                                      const rb_rolling_model *v, double *w, double *x, double *h,
-                                      rb_message *why);
-
-/* ---- Rows of the table of bodies (body.c) ------------------------------------------ */
-
-/* The flexibility of one body. */
+/* An option that applies to some bodies only; the option of body B has the suffix
+ * "-b". */
 typedef struct {
-    rb_bem_flexibility f;  /* owned */
-    rb_bem_system *system; /* NULL without boundary elements; owned */
-    int keeps_memory;      /* 1: compute `memory` for a half-plane, too */
-    double *memory;        /* 2m x 2n: viscoelastic part of f, for pairs with a wheel in steady
-                              rolling; otherwise NULL; owned */
-    double seconds_assembly, seconds_factor, seconds_condense;
-} rb_rolling_body_flexibility;
+    const char *option;                              /* NULL ends the list */
+    int (*has_meaning)(const rb_rolling_body *body); /* NULL: every body of the row */
+    const char *reason; /* end of the error message for other bodies; NULL: "of the
+                           support ..." */
+} rb_rolling_parameter;
 
-/* Builds the flexibility of A or B anew: w = w0 + F r (2m) of that body in its own frame, and x and
- * h of its elements (m; NULL: not wanted). */
-rb_status rb_rolling_body_displacement(const rb_rolling_model *model, int of_b, const double *r,
-                                       double *w, double *x, double *h, rb_message *why);
+/* The allowed words of the option `support`; an entry with name NULL ends the list. */
+extern const rb_choice rb_rolling_supports[];
 
-struct rb_rolling_body_kind {
-    const char *name; /* in pictures */
-    rb_bem_support support;
-    int (*holds)(const rb_rolling_body *body); /* 1: the body has this
-                                                  addition; NULL: the row of a support */
-    int can;                                   /* a sum of rb_rolling_ability */
-    const rb_rolling_parameter *parameters;
-    /* Checks ranges of the parameters; for an addition it is called for every body, with
-     * or without the addition.  which: "", or " of body B".  NULL: nothing to check. */
-    rb_status (*check)(const rb_rolling_case *rc, const rb_rolling_body *body, const char *which,
-                       rb_message *why);
+/* 1: the body has all properties of the sum `abilities`. */
+int rb_rolling_body_can(const rb_rolling_body *body, int abilities);
 
-    /* Of the support only: */
-    rb_status (*flexibility)(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                             const rb_rolling_body *body, const rb_rolling_mesh *mesh,
-                             rb_rolling_body_flexibility *one_body, rb_message *why);
-    /* The same for equal elements by Fourier transforms, without a matrix, for bodies for
-     * which `transformed` returns 1 (NULL: half-planes); NULL: never. */
-    int (*transformed)(const rb_rolling_case *rc, const rb_rolling_body *body);
-    rb_status (*transforms)(const rb_rolling_case *rc, const rb_rolling_plan *plan,
-                            const rb_rolling_body *body, const rb_rolling_mesh *mesh,
-                            rb_rolling_body_flexibility *one_body, rb_message *why);
-    /* The half-plane or layer that answers like the body close to a load. */
-    rb_bem_surface (*surface)(const rb_rolling_case *rc, const rb_rolling_body *body,
-                              double length[RB_ROLLING_TERMS]);
-    /* Depth of zero displacement; NULL: not defined. */
-    double (*datum)(const rb_rolling_case *rc, const rb_rolling_body *body);
-};
+/* The same as one cubic spline without corners, which changes smoothly with its points: of a gap
+ * that is searched for. */
+rb_status rb_rolling_profile_smooth(int n, const double *x, const double *gap,
+                                    rb_rolling_profile **profile, rb_message *why);
 
-/* All rows; NULL ends the list. */
-extern const rb_rolling_body_kind *const rb_rolling_body_kinds[];
+/* The radius of the parabola that is nearest to the gap around its smallest value, in the lowest
+ * tenth of its range [length]; NAN: the gap has none: it is flat, a roof or hollow there. */
+double rb_rolling_profile_radius(const rb_rolling_profile *profile);
+/* The first and the last x of the profile. */
+void rb_rolling_profile_range(const rb_rolling_profile *profile, double *from, double *to);
+/* The gap at any x.  Beyond the ends it is extrapolated by straight lines; a contact
+ * there is not accepted. */
+double rb_rolling_profile_gap(const rb_rolling_profile *profile, double x);
 
-/* ---- body_wheel.c, body_halfplane.c: rows of the table in body.c ------------------- */
+/* ---- Friction laws (theory.md 4.11) ------------------------------------------------ */
 
-/* Poisson's ratio up to which boundary elements compute a cover on an elastic core. */
-#define RB_ROLLING_COMPRESSIBLE 0.499
-/* 1: a cover with an elastic core. */
-int rb_rolling_has_elastic_core(const rb_rolling_body *body);
-extern const rb_rolling_body_kind rb_rolling_arc, rb_rolling_hub, rb_rolling_cover;
-extern const rb_rolling_body_kind rb_rolling_halfplane, rb_rolling_layer, rb_rolling_relaxation;
-rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc, const rb_rolling_body *body,
-                                            double length[RB_ROLLING_TERMS]);
-/* L = V tau of each term. */
-void rb_rolling_memory_lengths(const rb_rolling_case *rc, const rb_rolling_body *body,
-                               double length[RB_ROLLING_TERMS]);
-/* ---- material.c -------------------------------------------------------------------- */
+/* The elastic constants of a body for the plane problem of the case; the second function:
+ * those of the base or core below its layer or cover. */
+rb_bem_material rb_rolling_material(const rb_rolling_case *rc, const rb_rolling_body *body);
+rb_bem_material rb_rolling_base_material(const rb_rolling_case *rc, const rb_rolling_body *body);
 
-/* Checks that nu is in the range of plane stress, if that is the problem; what: "base" or
- * "core", NULL for the body itself. */
-rb_status rb_rolling_check_poisson(const rb_rolling_case *rc, const char *what, double poisson,
-                                   const char *which, rb_message *why);
+/* The largest coefficient of the friction law; it is the mu of Q/(mu P) and of xi R/(mu
+ * a). */
+double rb_rolling_largest_mu(const rb_rolling_case *rc);
+/* 1 if the coefficients depend on the solution, so that they have to be iterated: in
+ * rolling, if the law depends on the slip velocity or on the temperature. */
+int rb_rolling_law_depends_on_state(const rb_rolling_case *rc);
+/* 1: A, and B if it is elastic, have all properties of `abilities`. */
+int rb_rolling_can(const rb_rolling_case *rc, int abilities);
 
-/* ---- body.c ------------------------------------------------------------------------ */
+/* 1 if Carter's law applies: steady rolling of similar homogeneous half-planes whose gap
+ * is not a table. */
+int rb_rolling_carter_holds(const rb_rolling_case *rc);
+/* 1: pressure displaces the surfaces along each other, and friction apart: the bodies are unlike,
+ * and tractions have other exponents at the edges than the square root (E1). */
+int rb_rolling_couples(const rb_rolling_case *rc);
+/* 1: a body of the case is viscoelastic. */
+int rb_rolling_relaxes(const rb_rolling_case *rc);
 
-/* Checks a body.  RB_EINVAL: invalid values.  which: "", or " of body B". */
-rb_status rb_rolling_body_check(const rb_rolling_case *rc, const rb_rolling_body *body,
-                                const char *which, int plane_allowed, rb_message *why);
+rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc);
+/* 1/R = 1/R_A + 1/R_B; Hertz's half-width of a load, and the load of a half-width.  INFINITY: the
+ * gap is a table that has no radius, and none was given; what refers to one is NAN then. */
+double rb_rolling_radius(const rb_rolling_case *rc);
+int rb_rolling_has_radius(const rb_rolling_case *rc);
+double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load);
+/* The half-width a of the contact under a load by formula, the unit of distances and of xi R/(mu
+ * a): Hertz's; with a third body that gives way and in steady rolling of bodies that relax theirs
+ * (theory.md A1), to one or two per cent; of a gap without a radius half of where it is low. */
+double rb_rolling_contact_half_width(const rb_rolling_case *rc, double load);
+/* The unit of the distances of a history under this largest load: the same of the bodies at rest,
+ * where nothing has relaxed yet. */
+double rb_rolling_unit_of_distance(const rb_rolling_case *rc, double load);
 
-/* The given datum of a half-plane, or 2R/e with R of the body (of A for a plane); NAN if
- * displacements are not relative to a datum: wheels, and layers on a rigid base. */
-double rb_rolling_datum(const rb_rolling_case *rc, const rb_rolling_body *body);
-/* The half-plane or layer that answers like the body close to a load.  length: array for
- * the lengths V tau, which the surface borrows, like the ratios of the body. */
-rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc, const rb_rolling_body *body,
-                                     double length[RB_ROLLING_TERMS]);
+/* The half-width that an automatic zone follows [length]: Hertz's, or, where it is larger, that
+ * between rigid bodies with the normal compliance L_N of the third body, P = 2 a^3/(3 R L_N).
+ * load: NaN: those of the given approach. */
+double rb_rolling_zone_half_width(const rb_rolling_case *rc, double load);
+double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width);
+/* 1: a body has a finite thickness: a layer, a cover or a wheel on a hub. */
+int rb_rolling_has_thickness(const rb_rolling_case *rc);
+/* The larger radius of A and B; A's if B is a plane. */
+double rb_rolling_larger_radius(const rb_rolling_case *rc);
 
-/* ---- body_memory.c ----------------------------------------------------------------- */
+/* ---- Case -> contact mesh -> flexibility ------------------------------------------- */
 
-/* Computes the viscoelastic part, memory = whole - glassy, 2m x 2n, in two calls: before
- * the viscoelastic part is added to the flexibility, and after. RB_ENOMEM. */
-rb_status rb_rolling_memory_before(const rb_bem_flexibility *glassy, double **memory);
-void rb_rolling_memory_after(const rb_bem_flexibility *whole, double *memory);
+/* Compression of boundaries whose flexibility is subtracted from that of others nearby: what
+ * hierarchical matrices leave out by chance is divided by the step between them. */
+#define RB_ROLLING_CLOSE 1e-13
 
-/* ---- bodies.c ---------------------------------------------------------------------- */
+/* The plan with the values of the case; functions that get plan NULL use it. */
+rb_rolling_plan rb_rolling_plan_of(const rb_rolling_case *rc);
 
-/* The same bodies with their matrix, where they have none: f and transforms are new, also after
- * a failure, the rest is borrowed. */
-rb_status rb_rolling_bodies_with_matrix(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                                        const rb_rolling_bodies *bodies, rb_rolling_bodies *stored,
-                                        rb_message *why);
-
-/* ---- mesh.c ------------------------------------------------------------------------ */
-
-/* Computes the gaps at the midpoints with the irregularity at its present place.
- * RB_ENOMEM. */
-rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *mesh);
-
-/* ---- former_place.c ---------------------------------------------------------------- */
-
-/* Tangential displacement at the distance `step` upstream of each midpoint: w_T = w0_T +
- * W_T (p, q).  Equal elements, half-planes and wheels. */
+/* The elements of a result; borrowed. */
 typedef struct {
     int n;
-    double step;      /* 0: there is none */
-    double *W_T;      /* n x 2n; NULL without a dense flexibility */
-    double *response; /* w_T of a unit p and of a unit q at 2n - 1 distances */
-} rb_rolling_former_place;
+    const double *x, *h; /* n: midpoints, lengths */
+    int are_equal;
+} rb_rolling_elements;
 
-/* ahead: overwritten; its arrays are memory's. */
-rb_status rb_rolling_former_place_create(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                                         double step, rb_arena *memory,
-                                         rb_rolling_former_place *ahead);
-/* w_T: n, overwritten. */
-void rb_rolling_former_place_apply(const rb_rolling_former_place *ahead,
-                                   const rb_rolling_bodies *bodies, const double *p,
-                                   const double *q, double *w_T);
-/* w_T of unit tractions one element downstream of the contact and two upstream of it.
- * W_T: 2 x 2n, zeroed.  Equal elements.  RB_ENOMEM. */
-rb_status rb_rolling_displacement_outside(const rb_rolling_case *rc,
-                                          const rb_rolling_bodies *bodies, double *W_T);
+/* Reconstructs the mesh of a result: equal elements from the two outer ends, fitted
+ * elements from every element. */
+rb_status rb_rolling_mesh_of_result(const rb_rolling_case *rc, const rb_rolling_elements *elements,
+                                    rb_rolling_mesh *mesh, rb_message *why);
 
-/* ---- formulation.c: what changes from step to step --------------------------------- */
+/* The undeformed gap of the profile at x, including the worn depth. */
+double rb_rolling_initial_gap(const rb_rolling_case *rc, double x);
 
-/* The creepage of ratio xi R/(mu a), mu the largest coefficient, and the ratio of a
- * creepage: NAN without friction or contact. */
-double rb_rolling_creepage_of_ratio(const rb_rolling_model *model, double ratio);
-double rb_rolling_ratio_of_creepage(const rb_rolling_model *model, double creepage);
+/* w = w0 + F (p, q), 2m values, m = n + 1.  RB_ENOMEM. */
+rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p, const double *q,
+                                  double *w);
 
-void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                         const rb_rolling_past *past, rb_contact_problem *p);
-void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p);
-/* All that friction and given load, motion and force determine: bounds, control and
- * scales. */
-void rb_rolling_set_given(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                          rb_contact_problem *p);
-/* Another operator of the same bodies, after these have got a matrix.  The problem keeps its
- * own where there is no memory. */
-rb_status rb_rolling_problem_renew_operator(const rb_rolling_case *rc,
-                                            const rb_rolling_bodies *bodies, rb_contact_problem *p,
-                                            rb_message *why);
-/* The problem of bodies and an operator that belong to another one, which stays their
- * owner: p->op must be NULL before p is freed.  w0 of the bodies adds to gap and slip. */
-rb_status rb_rolling_problem_share(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                                   const rb_rolling_bodies *bodies, rb_contact_operator *op,
-                                   rb_contact_problem *p, rb_message *why);
-/* The given rigid shift or its default: a tenth of the approach, 0 under load control. */
-double rb_rolling_wanted_shift(const rb_rolling_case *rc);
-/* d_N, from the gaps of the mesh. */
-void rb_rolling_set_gap(const rb_rolling_mesh *mesh, const rb_rolling_bodies *bodies,
-                        rb_contact_problem *p);
+/* A row of the table of bodies (src/rolling/body/body.c).  A body has the row of its support
+ * and one row for each addition (layer, cover, viscoelasticity).  It has those properties
+ * that all its rows have. */
+typedef struct rb_rolling_body_kind rb_rolling_body_kind;
 
-/* Accumulated plastic slip of the interface at the elements (n). */
-void rb_rolling_yielded(const rb_rolling_model *model, double *yielded);
+/* Row k = 0, 1, ... of the table; NULL after the last one. */
+const rb_rolling_body_kind *rb_rolling_body_kind_get(int k);
+/* The row of the body's support. */
+const rb_rolling_body_kind *rb_rolling_kind_of(const rb_rolling_body *body);
+/* 1: it is a row of this body. */
+int rb_rolling_body_is(const rb_rolling_body *body, const rb_rolling_body_kind *kind);
+const char *rb_rolling_kind_name(const rb_rolling_body_kind *kind); /* in pictures */
+rb_bem_support rb_rolling_kind_support(const rb_rolling_body_kind *kind);
+/* The options that apply to some bodies only; an entry without a name ends the list. */
+const rb_rolling_parameter *rb_rolling_kind_parameters(const rb_rolling_body_kind *kind);
 
-/* ---- law.c, law_iteration.c: friction laws ----------------------------------------- */
+/* ---- Solution -------------------------------------------------------------------- */
 
-rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why);
-/* Value of the table at x: linear between its points, constant beyond them. */
-double rb_rolling_friction_at(const rb_rolling_table *table, double x);
-/* 1 if the law depends on the slip velocity. */
-int rb_rolling_law_depends_on_slip(const rb_rolling_friction *f);
-double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v, double temperature);
-/* The coefficient at rest and without heating. */
-double rb_rolling_law_at_rest(const rb_rolling_case *rc, double x);
-/* Largest -dmu/dv of a particle that passes an element of this length, or an upper bound if two
- * terms have different slip scales or friction remembers (theory.md F3). */
-double rb_rolling_law_steepest(const rb_rolling_case *rc, double length);
-/* First bounds of the elements for the iteration: those at rest, or the given start. */
-void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_table *start,
-                             const rb_rolling_bodies *bodies, rb_contact_problem *p);
-/* The coefficients (n) of the law for the state. */
-rb_status rb_rolling_law_coefficients(rb_rolling_model *model, double *mu, rb_message *why);
-/* Sets first bounds: coefficients of fast sliding up to x, and those at rest beyond. */
-rb_status rb_rolling_law_start(rb_rolling_model *model, double x, rb_message *why);
-/* law_newton.c: Newton's method from the present bounds, until these and the bounds of
- * the law differ by at most `enough` in the natural residual.  left: number of contact
- * problems that may still be solved.  RB_MAXITER: this number is used up, or the residual
- * does not decrease. */
-rb_status rb_rolling_law_newton(rb_rolling_model *model, double enough, int *left, rb_message *why);
-/* Solves the model's problem by iteration if the law depends on the state. */
-rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *why);
+enum { RB_LEFT_BOUNDED = 1, RB_RIGHT_BOUNDED = 2 };
 
-/* A creepage at which the whole contact slides; the search for a given force starts
- * there. */
-double rb_rolling_sliding_creepage(const rb_rolling_case *rc, const rb_contact_problem *p);
+/* ---- The results by name ----------------------------------------------------------- */
 
-/* ---- heat.c ------------------------------------------------------------------------ */
+typedef enum {
+    RB_RESULT_NUMBER,
+    RB_RESULT_WHOLE,  /* int */
+    RB_RESULT_SECONDS /* a number: time spent on it */
+} rb_rolling_result_kind;
 
-/* 1 if temperatures are computed. */
-int rb_rolling_has_heat(const rb_rolling_case *rc);
-/* The speed at which the surface of A (of_b: B) passes the contact, V (1 -+ xi/2), V the mean of
- * both; < 0: towards +x. */
-double rb_rolling_surface_speed(const rb_rolling_case *rc, int of_b, double creepage);
-/* V a/(2 diffusivity); INFINITY if no heat enters the body. */
-double rb_rolling_peclet(const rb_rolling_heat *body, double speed, double half_width);
-/* Temperatures of both surfaces (n each) under the friction power per unit speed (n) of
- * a steady solution with tractions, slip and zones.  conduction: where what the elements
- * make of heat is kept, from NULL on; freed by the caller. */
-rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_rolling_solution *s,
-                                        const double *power,
-                                        struct rb_rolling_conduction **conduction, double *t_a,
-                                        double *t_b, rb_message *why);
+/* The scale of a result with an error bar; its rounding error is proportional to this
+ * scale. */
+typedef enum {
+    RB_SCALE_NONE,
+    RB_SCALE_ONE,
+    RB_SCALE_LOAD,     /* P */
+    RB_SCALE_FRICTION, /* mu P */
+    RB_SCALE_APPROACH,
+    RB_SCALE_SHIFT,    /* mu a^2/R */
+    RB_SCALE_CREEPAGE, /* mu a/R */
+    RB_SCALE_WIDTH,    /* a */
+    RB_SCALE_ELEMENT,  /* length of an element */
+    RB_SCALE_PRESSURE, /* p0 */
+    RB_SCALE_POWER,    /* mu P times the creepage */
+    RB_SCALE_MOMENT,   /* P a */
+    RB_SCALE_TORQUE,   /* P a and mu P R */
+    RB_SCALE_STRAIN,   /* a/R */
+    RB_SCALE_WORK,     /* P a/R */
+    RB_SCALE_HEAT      /* rise of the temperature */
+} rb_rolling_error_scale;
 
-/* The heat of earlier steps, for the particles that are still in the mesh. */
-typedef struct rb_rolling_heat_track {
-    int n, rows, newest, known; /* rows: number of stored steps (ring buffer), of which
-                                   `known` are filled */
-    double h, step;             /* lengths of an element and of a step */
-    double half_width;          /* [length] */
-    double *heat;               /* rows x n [stress * length / time] */
-} rb_rolling_heat_track;
+/* Which cases have a result.  For all other cases a number is NAN, a column is NULL, and
+ * reports omit both. */
+typedef enum {
+    RB_FOR_ALL,
+    RB_FOR_HEAT,
+    RB_FOR_WORN,
+    RB_FOR_LAW,        /* friction coefficients that differ between elements */
+    RB_FOR_MOVING_LAW, /* friction coefficients that depend on the state */
+    RB_FOR_WAY,        /* friction coefficient from a column of a history */
+    RB_FOR_MEMORY,
+    RB_FOR_YIELD,
+    RB_FOR_CYLINDER_B
+} rb_rolling_condition;
 
-/* Creates a track for track->n elements of length h, in memory.  RB_EINVAL: the Peclet number is
- * too small for heat conduction along the depth only. */
-rb_status rb_rolling_heat_track_create(const rb_rolling_case *rc, double half_width,
-                                       rb_arena *memory, rb_rolling_heat_track *track,
-                                       rb_message *why);
-/* RB_EINVAL: the same of either surface at a creepage. */
-rb_status rb_rolling_heat_track_check(const rb_rolling_case *rc, double half_width, double creepage,
-                                      rb_message *why);
-/* Prepares the storage for the heat of the next rolled step. */
-void rb_rolling_heat_track_advance(rb_rolling_heat_track *track);
-/* Stores the heat of the newest step with the friction, slip displacement and creepage of its
- * state, and computes the temperature (n) of both surfaces at its end. */
-void rb_rolling_heat_track_step(const rb_rolling_case *rc, const rb_contact_state *state,
-                                rb_rolling_heat_track *track, double *temperature);
-
-/* ---- coarse.c ---------------------------------------------------------------------- */
-
-/* Number of elements of the coarser mesh on which a problem with n elements starts. */
-int rb_rolling_coarse_elements(int n);
-/* Interpolates tractions, zones, delta and xi from a solution with fewer elements on the
- * same line. */
-void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                           const rb_contact_state *coarse, const rb_rolling_mesh *fine_mesh,
-                           rb_contact_state *fine);
-
-/* The friction coefficients (n; owned by the caller) of a solved model; NULL: those of
- * the case, or the law may have other states, or no memory. */
-double *rb_rolling_friction_of(const rb_rolling_model *model);
-/* Interpolates them from the mesh to a model on other elements, whose next solve follows
- * them; NULL: none. */
-void rb_rolling_follow_friction(const rb_rolling_mesh *mesh, const double *bound,
-                                rb_rolling_model *fine);
-
-/* ---- model.c ----------------------------------------------------------------------- */
-
-/* Sets another case on the same elements, for the next step of a history or the next
- * point of a curve; mesh, bodies and problem are not changed. */
-rb_status rb_rolling_model_set_case(rb_rolling_model *model, const rb_rolling_case *rc,
-                                    rb_message *why);
-/* Frees model->freely. */
-void rb_rolling_forget_free_rolling(rb_rolling_model *model);
-
-/* ---- create.c ---------------------------------------------------------------------- */
-
-/* The free-rolling creepage as a result: NAN if it is not found, which does not change
- * the status of the solved case.  RB_ENOMEM. */
-rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creepage,
-                                          rb_message *why);
-
-/* ---- missed_contact.c -------------------------------------------------------------- */
-
-enum { RB_MOST_OVERLAPS = 16 };
-
-/* Intervals in which the bodies overlap although no midpoint of an element lies there. */
+/* Description of one result.  Tables, JSON, studies and error bars are made from these
+ * rows. */
 typedef struct {
-    int count;
-    double from[RB_MOST_OVERLAPS], to[RB_MOST_OVERLAPS];
-} rb_rolling_overlap;
+    const char *name; /* in JSON */
+    const char *unit; /* "mm"; NULL: none */
+    rb_rolling_result_kind kind;
+    size_t offset; /* of the value, or of the pointer to the column, in its struct */
+    rb_rolling_error_scale error_bar; /* RB_SCALE_NONE: no discretisation error is estimated
+                                       */
+    int study;                        /* number of its column in a study; 0: none */
+    int is_mean;       /* in a rolled step: 1: mean over the step, 0: value at its end */
+    int no_derivative; /* 1: has no derivative: a residual, or a place known only to
+                          within one element */
+    rb_rolling_condition condition;
+    const char *symbol; /* heads the column instead of the name; NULL: the name */
+    const char *meaning;
+} rb_rolling_result;
 
-/* Searches along the whole table; other gaps are convex, so that the bodies cannot touch
- * outside the contact (theory.md 5.1).  RB_ENOMEM. */
-rb_status rb_rolling_find_overlap(const rb_rolling_model *model, const rb_contact_state *state,
-                                  rb_rolling_overlap *overlap);
-
-/* RB_ZONE: an element at an end of the mesh is in contact, so that the contact may extend
- * further, or the bodies overlap where there is no midpoint of an element.  state: of the
- * model's problem. */
-rb_status rb_rolling_check_enclosed(const rb_rolling_model *model, const rb_contact_state *state,
-                                    rb_message *why);
-
-/* ---- zone.c ------------------------------------------------------------------------ */
-
-/* RB_EINVAL: a layer, cover or rim is compressed by all of its thickness. */
-rb_status rb_rolling_check_crushed(const rb_rolling_model *model, rb_message *why);
-/* Called at the end of a solution, a history or a curve with status s.  RB_EINVAL: a
- * layer or cover is crushed, or needs shorter elements than those in contact, which may
- * also be the reason for a failure.  Only meshes of results are checked; coarse meshes
- * used before may be too coarse. */
-rb_status rb_rolling_check_layer_resolved(const rb_rolling_model *model, rb_status s,
-                                          rb_message *why);
-/* Solves on equal elements in the given potential contact, or in one that is found and
- * encloses the contact.  coarse: elements may be too long for separate patches; later
- * searches begin with the potential contact of this one.  RB_ZONE: no potential contact
- * was found; RB_NO_CONTACT. */
-rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message *why);
-
-/* The first potential contact, from the undeformed gap: its ends, the smallest gap and that at the
- * edges of the contact. */
-void rb_rolling_first_zone(const rb_rolling_case *rc, double *from, double *to, double *least,
-                           double *level);
-
-/* ---- resolution.c ------------------------------------------------------------------ */
-
-/* The number of elements, `least` or more, whose midpoints show what the tables of gap,
- * irregularity, worn depth and friction say, on the mesh of the case.  RB_ENOMEM. */
-rb_status rb_rolling_elements_for_tables(const rb_rolling_case *rc, int least, int *elements);
-/* What those of the case miss of the tables, 0 if they are enough: amplitude of the pressure
- * [stress], mean error of the coefficient of friction.  RB_ENOMEM. */
-rb_status rb_rolling_missed_by_elements(const rb_rolling_case *rc, double *pressure, double *mu);
-
-/* ---- align.c ----------------------------------------------------------------------- */
-
-/* Solves on equal elements whose ends coincide with both edges, after a first solution.
- * If the edges do not converge, other equal elements are used, and model->equal_instead
- * is set. RB_EINVAL: several patches. */
-rb_status rb_rolling_solve_aligned(rb_rolling_model *model, rb_message *why);
-/* The same, starting from the present edges of the model. */
-rb_status rb_rolling_model_realign(rb_rolling_model *model, rb_message *why);
-
-/* ---- fit.c ------------------------------------------------------------------------- */
-
-/* Solves on elements fitted to the contact edges; if these do not converge, on equal
- * elements, and model->equal_instead is set. */
-rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why);
-/* Shift of a contact edge, in half-widths, beyond which a mesh is fitted or aligned again where
- * a solution follows another one. */
-#define RB_ROLLING_REFIT 0.01
-/* Builds a fitted mesh and bodies again for the present edges of the model, and
- * solves. */
-rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why);
-/* Solves on the same number of equal elements across the contact, without fitting their
- * ends. */
-rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *why);
-
-/* ---- mesh.c ------------------------------------------------------------------------ */
-
-/* The worn depth at x. */
-double rb_rolling_worn_depth(const rb_rolling_case *rc, double x);
-/* How much the largest pressure rises where elements get so many times shorter, because
- * the slope of the worn table, or of the gap's, turns by s at a corner between `from` and
- * `to`: there the pressure is infinite, p = -E* s ln|x| / (2 pi) + ..., up to the next one. */
-double rb_rolling_rise_at_corners(const rb_rolling_case *rc, double from, double to, double element,
-                                  double times);
-/* The same in the patches of a solution, in mm, N, MPa, but for corners so near an edge that the
- * surface is pressed on one side of them only. */
-double rb_rolling_rise_in_patches(const rb_rolling_case *rc, const rb_rolling_solution *s,
-                                  double times);
-/* The undeformed gap at n places, with the irregularity moved by `passed`.  RB_ENOMEM. */
-rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n, const double *x,
-                               double *gap);
-/* 0: the bodies may touch in several places. */
-int rb_rolling_is_convex(const rb_rolling_case *rc);
-/* The interval in which elements may lie: on the lower half of every round body, within
- * the table. */
-void rb_rolling_extent(const rb_rolling_case *rc, double *from, double *to);
-
-/* A patch for fitted elements, and how far the elements must extend beyond its edges. */
 typedef struct {
-    double from, to, margin_left, margin_right;
-    double h_left, h_right; /* lengths of the elements from which the edges were computed; fit.c */
-} rb_rolling_span;
+    int n;
+    const rb_rolling_result *row;
+} rb_rolling_results;
 
-rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int all, int count,
-                                const rb_rolling_span *span, rb_rolling_mesh *mesh,
-                                rb_message *why);
+/* The numbers of rb_rolling_solution, and its columns with one entry per element. */
+extern const rb_rolling_results rb_rolling_solution_scalars, rb_rolling_solution_columns;
+/* The numbers of rb_rolling_patch. */
+extern const rb_rolling_results rb_rolling_patch_scalars;
+/* The columns of rb_rolling_history, one entry per step, and of rb_rolling_curve, one
+ * entry per creepage. */
+extern const rb_rolling_results rb_rolling_history_columns, rb_rolling_curve_columns;
+/* The columns of rb_rolling_wear_history, one entry per step. */
+extern const rb_rolling_results rb_rolling_wear_columns;
+/* The numbers of rb_rolling_stress, and of rb_rolling_stress_maxima: three rows for each
+ * maximum, its value and its place. */
+extern const rb_rolling_results rb_rolling_stress_scalars, rb_rolling_maxima_scalars;
 
-/* ---- power.c ----------------------------------------------------------------------- */
+/* All these tables; an entry without a name ends the list. */
+typedef struct {
+    const char *name, *title;
+    const rb_rolling_results *results;
+} rb_rolling_result_table;
+extern const rb_rolling_result_table rb_rolling_result_tables[];
 
-/* Power per unit speed of friction q (n) and slip displacement lambda (n); NAN for
+/* The row with this name; NULL: there is none. */
+const rb_rolling_result *rb_rolling_find_result(const rb_rolling_results *table, const char *name);
+/* 1 if the case has this result.  mu_varies: 1: in a history with a column mu. */
+int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc, int mu_varies);
+/* 1 if the struct `owner` has this column. */
+int rb_rolling_has_column(const rb_rolling_result *r, const void *owner);
+/* The numbers of a solution without its columns, which remain with it. */
+rb_rolling_solution rb_rolling_scalars_of(const rb_rolling_solution *solution);
+/* The number, or entry i of the column, as a double; owner: the struct that the table
+ * describes. */
+double rb_rolling_number(const rb_rolling_result *r, const void *owner);
+double rb_rolling_entry(const rb_rolling_result *r, const void *owner, int i);
+/* The column itself, of numbers; NULL: the owner has none. */
+double *rb_rolling_column(const rb_rolling_result *r, const void *owner);
+void rb_rolling_set_number(const rb_rolling_result *r, void *owner, double value);
+/* From mm, N, MPa to other units: the numbers, or the columns of so many rows, that have one. */
+void rb_rolling_numbers_convert(const rb_rolling_results *table, void *owner, rb_units units);
+void rb_rolling_columns_convert(const rb_rolling_results *table, int rows, void *owner,
+                                rb_units units);
+
+/* Writes the name with its unit, as in the heads of columns: "max_pressure_MPa".  Returns
+ * heading. */
+enum { RB_ROLLING_HEADING = 40 };
+const char *rb_rolling_heading(const rb_rolling_result *r, rb_units units,
+                               char heading[RB_ROLLING_HEADING]);
+
+/* Column k = 1, 2, ... of a study; NULL after the last one. */
+const rb_rolling_result *rb_rolling_study_column(int k);
+
+/* Friction power per area and unit speed [stress], n values with sum power h =
+ * dissipation; wear laws use it.  In steady rolling the slip is known between midpoints,
+ * and half of it is assigned to each of the two elements (theory.md 6).  NAN in
  * static. */
-double rb_rolling_dissipated_power(const rb_rolling_case *rc, int n, const double *lambda,
-                                   const double *q, const double *h, const double *e_T);
+void rb_rolling_friction_power(const rb_rolling_solution *s, double *power);
 
-/* int p abs(slip) dx per rolled distance, with slip and pressure multiplied as in the
- * power. */
-double rb_rolling_slid_pressure(const rb_rolling_case *rc, int n, const double *lambda,
-                                const double *p, const double *h, const double *e_T);
-
-/* Compression of the thinnest layer, cover or rim divided by its thickness; what: which
- * of them it is (may be NULL).  The approach is divided between two elastic bodies by
- * their compliances, but no body is compressed more than the pressure can compress its
- * material.  NAN: neither body has a layer, cover or rim. */
-double rb_rolling_strain(const rb_rolling_case *rc, double approach, double pressure,
-                         const char **what);
-
-/* Torques that keep both bodies rolling against M and the force Q, > 0 if they drive
- * (theory.md V4); torque_b is NAN if B is a plane. */
-void rb_rolling_torques(const rb_rolling_case *rc, double moment, double force, double *torque_a,
-                        double *torque_b);
-
-/* Power per unit speed that viscoelasticity dissipates, -int t Dw ds (theory.md V4): 0
- * for elastic bodies; steady rolling only, otherwise NAN.  RB_ENOMEM. */
-rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power);
-/* Power per unit speed that the lever arms of wheels supply, which change as they deform (theory.md
- * V4): 0 for half-planes; steady rolling only, otherwise NAN.  hysteresis: the result of the
- * function above.  RB_ENOMEM. */
-rb_status rb_rolling_lever_power(const rb_rolling_model *model, double hysteresis, double *power);
-
-/* ---- patches.c --------------------------------------------------------------------- */
-
-/* A patch: neighbouring elements first ... last in contact, and its edges. */
 typedef struct {
-    int first, last;
-    double from, to;
-    int bounded; /* edges that are only known to lie within one element, as in rb_rolling_patch */
-} rb_rolling_run;
+    int n;
+    int kind[RB_ROLLING_NOTES]; /* which note, see rb_rolling_note_name */
+    char text[RB_ROLLING_NOTES][RB_ROLLING_NOTE_LENGTH];
+} rb_rolling_note_list;
+rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_rolling_solution *s);
+/* "static-creepage", ... of kind k = 0, 1, ...; NULL after the last one. */
+const char *rb_rolling_note_name(int k);
 
-/* (E1) The power of the distance from the edge on that side (-1 left, +1 right) with which
- * the pressure starts there.  Where A slides with q = -+mu p up to the edge, it is
- * 1/2 + side atan(beta q/p)/pi; without friction, without coupling and in stick 1/2; on a
- * third body that is softer than the half-planes under an element of such a length 1.  j: an
- * element near the edge; a slip zone that does not hold its inner neighbour is too short. */
-double rb_rolling_edge_exponent(const rb_rolling_case *rc, double length,
-                                const rb_contact_state *state, int j, int side);
+/* The notes on one row of a curve or a study: the first few of them. */
+enum { RB_ROLLING_ROW_NOTES = 6 };
+typedef struct {
+    int n, kind[RB_ROLLING_ROW_NOTES];
+    char text[RB_ROLLING_ROW_NOTES][RB_ROLLING_NOTE_LENGTH];
+} rb_rolling_row_notes;
+/* Those of a solved case in the units of the solution, but for those on columns of its table. */
+rb_rolling_row_notes rb_rolling_find_row_notes(const rb_rolling_case *rc,
+                                               const rb_rolling_solution *s);
+/* One more, of a kind of the caller's from RB_ROLLING_OWN_NOTES on. */
+enum { RB_ROLLING_OWN_NOTES = 36 };
+void rb_rolling_add_note(rb_rolling_row_notes *notes, int kind, const char *text);
 
-/* Smallest number of equal elements of a patch whose edges can be computed from the
- * pressure (theory.md 4.7). */
-enum { RB_ROLLING_ALIGNED_LEAST = 9 };
-/* And of any elements. */
-enum { RB_ROLLING_PATCH_LEAST = 5 };
+void rb_rolling_add_row_notes(rb_rolling_study_notes *all, int row,
+                              const rb_rolling_row_notes *notes);
+/* Further rows behind those of `all`. */
+void rb_rolling_join_study_notes(rb_rolling_study_notes *all, const rb_rolling_study_notes *more);
+/* One line for each kind, with the rows that it is true of; row: "case", "point". */
+rb_rolling_note_list rb_rolling_list_study_notes(const rb_rolling_study_notes *all,
+                                                 const char *row);
+/* 1: the friction power is negative by more than rounding errors, which is an error of
+ * the mesh; the text of the note about it. */
+int rb_rolling_is_below_zero(double dissipation, double load);
+const char *rb_rolling_below_zero(const rb_rolling_case *rc, const rb_rolling_solution *s);
 
-/* Vertex of the parabola through (0, 0) and two neighbours (d, f): its height and place.
- * 0: the parabola has no maximum. */
-static inline int rb_rolling_vertex(const double d[2], const double f[2], double *rise, double *at)
-{
-    const double left = f[0] / d[0], right = f[1] / d[1];
-    const double curvature = (right - left) / (d[1] - d[0]);
-    const double slope = left - curvature * d[0];
+/* Temperature rise at a point of the surface caused by a unit heat flux that enters the
+ * body between the distances `from` < `to` upstream of the point (T1), at any Peclet
+ * number; conductivity > 0. */
+double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, double from, double to);
 
-    if (!(curvature < 0.0))
-        return 0;
-    *rise = -slope * slope / (4.0 * curvature);
-    *at = -slope / (2.0 * curvature);
-    return 1;
-}
-/* Finds the next patch from element `at` on; returns 0 if there is none. */
-int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                          const rb_contact_state *state, int at, rb_rolling_run *run);
-/* The same, but patches are merged if more elements between them would not help: all
- * patches under a convex gap (single open elements next to an edge are ignored), and
- * patches that are separated by one open element if large friction between dissimilar
- * bodies opens every other element. */
-int rb_rolling_next_merged_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                                 const rb_contact_state *state, int at, rb_rolling_run *run);
-/* Computes the patches of a solution and the results that depend on all of them.
+/* ---- The model of a case -------------------------------------------------------- */
+
+/* 1 if the mesh has so many equal elements that it is solved by Fourier transforms,
+ * without a matrix. */
+int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
+/* The same for a build that has Fourier transforms: the page has none, and takes the same
+ * elements. */
+int rb_rolling_suits_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
+
+/* The same by another plan (NULL: that of the case), for a model of zeros, or one that has
+ * solved a case which differs at most in friction, load, approach, shift, creepage or
+ * force.  Its flexibility is used again if the equal elements have the same ends.  The
+ * result is bitwise the same as without it. */
+rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                 rb_rolling_model *model, rb_message *why);
+/* Makes an empty model with a copy of the case; mesh and bodies are built later.  plan
+ * NULL: that of the case. RB_ENOMEM; model: overwritten. */
+rb_status rb_rolling_model_begin(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                 rb_rolling_model *model, rb_message *why);
+/* Takes ownership of the mesh, builds the bodies on it and solves.  RB_ZONE: solved, and
+ * the contact does not end within the mesh. */
+rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh, rb_message *why);
+/* Solves the model's problem again and adds to its times and counts; warm: 1 to start
+ * from its zones.  RB_ZONE as above.  Every solve on any mesh calls this function. */
+rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why);
+/* The same on the present mesh, from the present zones, after the given load, force or
+ * motion of the model's case has changed. */
+rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why);
+/* How many equal elements are used where so many cannot be fitted to the edges of the contact. */
+int rb_rolling_equal_elements_instead(int elements);
+/* Builds bodies and contact problem on the elements of a result, with a state of zeros,
+ * and solves nothing.  plan: NULL: that of the case.  model: all zeros before; free it in
+ * any case. */
+rb_status rb_rolling_model_of_result(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                     const rb_rolling_elements *elements, rb_rolling_model *model,
+                                     rb_message *why);
+
+/* The boundary elements of A or B; n = 0 for half-planes and rigid bodies.  RB_EINVAL,
  * RB_ENOMEM. */
-rb_status rb_rolling_set_patches(const rb_rolling_model *model, rb_rolling_solution *solution);
+rb_status rb_rolling_boundary_mesh(const rb_rolling_model *model, int of_b, rb_bem_mesh *boundary,
+                                   rb_message *why);
 
-/* Length of the longest element in contact. */
-double rb_rolling_longest_element(int n, const int *zone, const double *h);
+/* Forms the matrices of the flexibility and of the problem if the model was solved
+ * without them and has fewer than RB_ROLLING_LARGE elements; other models are not
+ * changed. RB_ENOMEM. */
+rb_status rb_rolling_model_add_matrix(rb_rolling_model *model, rb_message *why);
+
+/* Sets the friction coefficients of the model's problem to those that the friction law
+ * gives for its state, and likewise a given force; the residual of the state then
+ * includes the friction law.  RB_ENOMEM. */
+rb_status rb_rolling_model_friction(rb_rolling_model *model, rb_message *why);
+
+/* The case that rolls without a force. */
+rb_rolling_case rb_rolling_without_force(const rb_rolling_case *rc);
+/* The creepage at which Q = 0 (steady, mu > 0), on the model's mesh.  The model's
+ * solution is not changed, but the data that it keeps for further solves is. */
+rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage, rb_message *why);
+
+/* P and Q of the state. */
+double rb_rolling_model_load(const rb_rolling_model *model);
+double rb_rolling_model_force(const rb_rolling_model *model);
+/* Q divided by the maximum friction force mu P; NAN without friction or load. */
+double rb_rolling_force_ratio(const rb_rolling_model *model);
+/* The outer edges of all patches; NAN without contact. */
+void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                              const rb_contact_state *state, double *from, double *to);
+
+/* The same after a solve that began at `begun` (rb_seconds) and has ended with status s, as far
+ * as there is a state; with status and time.  Returns the status of both. */
+rb_status rb_rolling_end_solve(const rb_rolling_model *model, rb_status s, double begun,
+                               rb_rolling_solution *solution, rb_message *why);
+/* The solution without the residuals and temperatures, which stay 0, and the balance of the
+ * support, which is NAN. */
+rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_solution *solution,
+                                      rb_message *why);
+/* Its temperatures, if it has such columns, and the highest.  RB_ENOMEM, RB_SINGULAR. */
+rb_status rb_rolling_set_temperature(const rb_rolling_model *model, rb_rolling_solution *solution,
+                                     rb_message *why);
+
+/* Highest of the temperatures t of elements in contact, by a parabola through the warmest
+ * one and its neighbours, and its place; NAN without contact.  x, zone, t: n. */
+void rb_rolling_peak_temperature(int n, const double *x, const int *zone, const double *t,
+                                 double *value, double *at);
+void rb_rolling_conduction_free(struct rb_rolling_conduction *conduction);
+rb_status rb_rolling_solution_heat(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                                   struct rb_rolling_conduction **conduction, double *t_a,
+                                   double *t_b, rb_message *why);
+
+/* What the tractions of a solved model displace, kept for all variants of the model; of is
+ * borrowed. NULL without memory. */
+typedef struct rb_rolling_perturbation rb_rolling_perturbation;
+rb_rolling_perturbation *rb_rolling_perturbation_create(const rb_rolling_model *of);
+void rb_rolling_perturbation_free(rb_rolling_perturbation *perturbation);
+
+/* A variant of a solved model: a case that differs slightly from the model's in some
+ * number, on the same elements, with the model's state and zones, to be completed.  If
+ * the flexibility is the same, it is borrowed from the model.  RB_INACCURATE: the number
+ * of elements outside the contact differs.  results: 0 if only the equations are needed.
+ * own_bodies: 1: the variant has a compressed boundary of its own instead of the model's,
+ * so that all variants have it compressed as closely.  perturbation: of the model: where bodies
+ * that change leave their flexibility to it, the variant has their change under the tractions of
+ * the model alone, which is exact to first order; NULL: they are built.  variant: overwritten; free
+ * it in any case. */
+rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
+                                    int results, int own_bodies,
+                                    rb_rolling_perturbation *perturbation,
+                                    rb_rolling_model *variant, rb_message *why);
+/* 1: such a variant is built with flexibilities of its own. */
+int rb_rolling_variant_builds(const rb_rolling_model *of, const rb_rolling_case *rc, int results);
+/* A variant with the model's case on elements whose ends x are moved to shift + scale
+ * x. */
+rb_status rb_rolling_variant_move(const rb_rolling_model *of, rb_rolling_perturbation *perturbation,
+                                  double shift, double scale, rb_rolling_model *variant,
+                                  rb_message *why);
+/* Gap and coefficients of friction on elements moved to shift + scale x, n values each, where the
+ * irregularity has come this much further; friction that does not depend on the place alone stays
+ * that of the model.  RB_ENOMEM. */
+rb_status rb_rolling_variant_data(const rb_rolling_model *of, double shift, double scale,
+                                  double further, double *gap, double *bound, rb_message *why);
+/* A variant with another case on elements whose ends x are moved to shift + scale x.  The
+ * flexibility is computed again if they move or the bodies differ. */
+rb_status rb_rolling_variant_place(const rb_rolling_model *of, const rb_rolling_case *rc,
+                                   double shift, double scale, rb_rolling_model *variant,
+                                   rb_message *why);
+/* 1: both cases have the same flexibility. */
+int rb_rolling_same_bodies(const rb_rolling_case *x, const rb_rolling_case *y);
+/* The bodies of y displace so many times what those of x do, under any tractions: of one elastic
+ * material each, they differ in Young's modulus alone, all by this factor.  0: they do not. */
+double rb_rolling_softening(const rb_rolling_case *x, const rb_rolling_case *y);
+/* A variant that is also solved, starting from the zones of the model. */
+rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_case *rc,
+                                   rb_rolling_model *variant, rb_message *why);
+/* 1: a variant has as many elements as the model on each side of its wheels, not only as
+ * many together: else the flexibility jumps between them. */
+int rb_rolling_same_sides(const rb_rolling_model *of, const rb_rolling_model *variant);
+/* 1: a boundary of the model is so fine that its matrix is compressed. */
+int rb_rolling_is_compressed(const rb_rolling_model *model);
+/* The model itself solved again, its boundaries compressed as closely as those of its
+ * variants. */
+rb_status rb_rolling_variant_closely(const rb_rolling_model *of, rb_rolling_model *variant,
+                                     rb_message *why);
+/* p0 of the model's state, MPa: the largest peak of all patches; 0 without contact. */
+double rb_rolling_peak_pressure(const rb_rolling_model *model);
+/* Compression of the layer, cover or rim of A and of B divided by its thickness: of each body
+ * that by the approach and that by the pressure, the lesser of which holds; NAN: it has none.
+ * max_strain is the larger one of both bodies. */
+void rb_rolling_strains(const rb_rolling_case *rc, double approach, double pressure,
+                        double strain[4]);
+/* The model itself with a matrix of its own, if it has fewer than RB_ROLLING_LARGE
+ * elements. */
+rb_status rb_rolling_variant_with_matrix(const rb_rolling_model *of, rb_rolling_model *variant,
+                                         rb_message *why);
+/* What the case of a variant gives at the state of the model, if it differs at most in
+ * friction and in given load, motion and force: all else stays, so that no variant is
+ * needed.  bound: n, written; problem: overwritten, borrows bound and all rows of the
+ * model.  0: the case differs in more. */
+int rb_rolling_variant_given(const rb_rolling_model *of, const rb_rolling_case *rc, double *bound,
+                             rb_contact_problem *problem, rb_status *status, rb_message *why);
+void rb_rolling_variant_free(const rb_rolling_model *of, rb_rolling_model *variant);
+/* Sets the state of a variant to that of its model plus `part` times `along` (NULL: 0):
+ * p, q, delta and xi; zones are the model's. */
+void rb_rolling_variant_set(const rb_contact_state *of, const rb_contact_state *along, double part,
+                            rb_contact_state *variant);
+/* Computes from them slip (0 in stick), friction coefficients and Hertz's half-width of
+ * the variant.  gap, slip: n, of all elements; NULL: not wanted. */
+rb_status rb_rolling_variant_complete(rb_rolling_model *variant, double *gap, double *slip,
+                                      rb_message *why);
+
+/* kappa (theory.md F3) of the state, for friction that depends on the state.  Above 1 a
+ * single element, or a step, may have several solutions.  RB_ENOMEM. */
+rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa);
+/* In steady rolling kappa is the largest of those of the elements: that of one, and the element
+ * that has the largest; -1: none, or not steady. */
+double rb_rolling_law_kappa_of(const rb_rolling_model *model, int element);
+int rb_rolling_law_kappa_element(const rb_rolling_model *model);
+
+/* What part of the coefficient that it had before it a particle keeps behind element i, of friction
+ * with a memory (theory.md F2). */
+double rb_rolling_law_kept(const rb_rolling_model *model, int i);
+
+/* Several solutions of one steady case, ordered by decreasing force. */
+typedef struct {
+    int n;
+    rb_rolling_solution *solution; /* the residual of each is computed; owned */
+    int starts, failed; /* starts of the iteration that were tried, and those that did not
+                           converge */
+} rb_rolling_solutions;
+
+/* Finds different solutions of a steady model with a given creepage under a friction law
+ * that depends on the state: the model's solution, and those to which the iteration
+ * converges on the model's mesh when slip is assumed behind a given place; up to 200
+ * places are tried (theory.md F5).  Solutions to which it does not converge are not
+ * found.  The model then holds the last state.  RB_EINVAL: other cases. all: overwritten;
+ * free it in any case. */
+rb_status rb_rolling_find_solutions(rb_rolling_model *model, rb_rolling_solutions *all,
+                                    rb_message *why);
+void rb_rolling_solutions_free(rb_rolling_solutions *all);
+
+/* ---- Histories: static increments and transient rolling ---------------------------- */
+
+/* The columns of a program and their names in tables. */
+typedef struct {
+    const char *name;
+    const char *also; /* other names that people give it, "normal load|P"; NULL: none */
+    const char *unit; /* in mm, N, MPa (rollbem/units.h) */
+    size_t column;    /* offset of its pointer in rb_rolling_program */
+    size_t value;     /* offset in rb_rolling_case of the value that it replaces; distance and
+                         time: SIZE_MAX */
+    int is_mean;      /* 1: a rolled step uses the mean over the step, 0: the value at its end
+                       */
+} rb_rolling_program_column;
+
+enum { RB_ROLLING_PROGRAM_COLUMNS = 10 };
+extern const rb_rolling_program_column rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS];
+
+/* The case that results of the program refer to; if the program has a column mu, its mu
+ * is the largest value. */
+rb_rolling_case rb_rolling_program_base(const rb_rolling_program *program,
+                                        const rb_rolling_case *rc);
+
+/* 1: the case, without a program, is a sequence of rolling steps or increments. */
+int rb_rolling_has_steps(const rb_rolling_case *rc);
+
+/* The solutions of the steps of a history: n elements, `steps` states. */
+typedef struct {
+    const rb_rolling_program
+        *program; /* the program of the history; NULL: the values of the case; borrowed */
+    int n, steps;
+    double *x, *h; /* n: midpoints and lengths [length]; owned, like all arrays here */
+    double *p, *q, *lambda, *plastic; /* steps x n, one step after the other; plastic: the part of
+                                         lambda that the interface yields */
+    int *zone;
+    int *substeps;     /* steps: in how many steps the row was computed */
+    double *delta;     /* steps: approach */
+    double *xi;        /* steps: rigid shift of a static step [length], creepage of a rolled step */
+    double half_width; /* unit of the distances [length] */
+    double row_changes; /* as in rb_rolling_history, like row_changed */
+    int row_changed;
+} rb_rolling_states;
+
+/* On RB_ENOMEM states is empty. */
+rb_status rb_rolling_states_alloc(int n, int steps, rb_rolling_states *states);
+/* Copies the state and the elements of the model after a step into states.  Step 0 begins with
+ * new memory for all steps: a run that starts again may have other elements.  RB_ENOMEM. */
+rb_status rb_rolling_states_keep(const rb_rolling_model *model, const rb_rolling_history *history,
+                                 int step, int steps, rb_rolling_states *states);
+/* Copies tractions, slip and its plastic part, zones, delta and xi of a step into a state of as
+ * many elements; its status becomes RB_OK. */
+void rb_rolling_states_get(const rb_rolling_states *states, int step, rb_contact_state *state);
+void rb_rolling_states_free(rb_rolling_states *states);
+
+/* Goes through the program of the given states without solving.  After each step the
+ * model has the contact problem of the step, which depends on the earlier states, and the
+ * given state with its residual; friction that depends on the state has the coefficients of
+ * the given one.  Otherwise like rb_rolling_history_run.  RB_EINVAL: the number of steps
+ * differs. */
+rb_status rb_rolling_history_follow(const rb_rolling_case *rc, const rb_rolling_states *states,
+                                    const rb_rolling_observer *observer, rb_rolling_model *model,
+                                    rb_rolling_history *history, rb_message *why);
+
+/* The same step by step, with states that the caller sets: opaque. */
+typedef struct rb_rolling_follower rb_rolling_follower;
+
+/* of: another follower, before its first step, whose bodies are borrowed where rc has the
+ * same (NULL: none), and which lives longer; scale: of the elements of the states, which
+ * are borrowed.  Free it in any case. */
+rb_status rb_rolling_follower_create(const rb_rolling_case *rc, const rb_rolling_states *states,
+                                     const rb_rolling_follower *of, double scale,
+                                     rb_rolling_follower **follower, rb_message *why);
+/* The model has the problem of the next step, with the past that the states before it
+ * left. */
+rb_status rb_rolling_follower_begin(rb_rolling_follower *follower, rb_message *why);
+/* 1: the step that has begun is the last one of a row, whose state is among the given ones;
+ * 0: it ends inside the row. */
+int rb_rolling_follower_ends_row(const rb_rolling_follower *follower);
+/* Whose state is to be set between begin and end; borrowed. */
+rb_rolling_model *rb_rolling_follower_model(rb_rolling_follower *follower);
+/* Solves the step, from the state that the model has, on the elements of the states. */
+rb_status rb_rolling_follower_solve(rb_rolling_follower *follower, rb_message *why);
+/* Takes the state that the model has, complete, as that of the step. */
+void rb_rolling_follower_end(rb_rolling_follower *follower);
+/* Of the steps so far; borrowed. */
+const rb_rolling_history *rb_rolling_follower_history(const rb_rolling_follower *follower);
+void rb_rolling_follower_free(rb_rolling_follower *follower);
+
+/* ---- Wear -------------------------------------------------------------------------- */
+
+/* Converts from mm, N, MPa to other units; call it once only. */
+void rb_rolling_wear_history_convert(rb_rolling_wear_history *history, rb_units units);
+
+/* ---- Creep curves ------------------------------------------------------------------ */
+
+/* Convert from mm, N, MPa to other units; call them once only.  The field `units` tells
+ * the present units. */
+void rb_rolling_solution_convert(rb_rolling_solution *s, rb_units units);
+void rb_rolling_history_convert(rb_rolling_history *h, rb_units units);
+void rb_rolling_curve_convert(rb_rolling_curve *c, rb_units units);
+
+/* Sees the model at point k; its refusal ends the curve. */
+typedef rb_status rb_rolling_point(const rb_rolling_model *model, int k, void *context,
+                                   rb_message *why);
+/* The same, watched. */
+rb_status rb_rolling_curve_observe(const rb_rolling_case *rc, const rb_rolling_range *range,
+                                   rb_rolling_point *point, void *context, rb_rolling_curve *curve,
+                                   rb_message *why);
+
+/* ---- Subsurface stress of body A --------------------------------------------------- */
+
+/* RB_EINVAL: the stress inside A cannot be computed, because A has a viscoelastic cover
+ * on an elastic core. */
+rb_status rb_rolling_stress_check(const rb_rolling_case *rc, rb_message *why);
+
+/* The tractions p and q of a state, between n + 1 ends along the contact, as nodes between which
+ * they are linear (B14): the midpoints of the elements, and close to the edges of patches more of
+ * them, where the tractions fall like a power of the distance.  The first and the last node
+ * carry nothing.  ends: those of the mesh, or along another line; p, q likewise.  edge_nodes:
+ * from an edge on, RB_ROLLING_EDGE_NODES for the stress at the edge itself.  load: in `memory`.
+ * RB_ENOMEM. */
+enum { RB_ROLLING_EDGE_NODES = 32 };
+rb_status rb_rolling_traction_nodes(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                    const struct rb_contact_state *state, const double *ends,
+                                    const double *p, const double *q, int edge_nodes,
+                                    rb_arena *memory, rb_bem_edge_load *load);
+
+/* Height of A's surface at x: 0 for a half-plane. */
+double rb_rolling_surface(const rb_rolling_case *rc, double x);
+
+/* "body", "layer", "base". */
+const char *rb_rolling_place_name(rb_rolling_place place);
+
+/* The k-th of them, of which rb_rolling_maxima_scalars has the rows 3k, 3k + 1 and 3k + 2;
+ * NULL: there are no more. */
+rb_rolling_extremum *rb_rolling_maximum(rb_rolling_stress_maxima *maxima, int k);
+
+/* From mm, N, MPa to other units. */
+void rb_rolling_stress_convert(int n, rb_rolling_stress *at, rb_rolling_stress_maxima *maxima,
+                               rb_units units);
+
+/* Computes the values again at the places and in the materials given in maxima.  RB_EINVAL:
+ * a place lies outside A. */
+rb_status rb_rolling_stress_maxima_at(const rb_rolling_model *model,
+                                      rb_rolling_stress_maxima *maxima, rb_message *why);
+
+/* inside[k] = 1 if point k lies in A or on its surface, so that rb_rolling_stress_at can
+ * compute the stress there.  RB_ENOMEM. */
+rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *xy, int *inside);
+
+/* Stress on a grid that follows A's surface, row by row; the first row is on the
+ * surface. */
+typedef struct {
+    int nx, ny;
+    rb_rolling_stress *at; /* nx x ny; stresses of points that are not inside are NAN; owned */
+    int *inside;           /* nx x ny; owned */
+} rb_rolling_stress_grid;
+
+/* Computes shear_yield and x again from the stress at the depth y and the given residual
+ * stress. */
+rb_status rb_rolling_shakedown_at(const rb_rolling_model *model, rb_rolling_shakedown *shakedown,
+                                  rb_message *why);
+
+/* Computes the stress on a grid over the same width and depth as the maxima; nx, ny >= 2.
+ * grid: overwritten. */
+rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int ny, double depth,
+                                    rb_rolling_stress_grid *grid, rb_message *why);
+void rb_rolling_stress_grid_free(rb_rolling_stress_grid *grid);
+
+/* Solves a case on equal elements between from and to; the contact may lie anywhere in
+ * between.  Of the mesh options of the case only contact_elements is used.  solution is
+ * overwritten; free it in any case. */
+rb_status rb_rolling_solve_between(const rb_rolling_case *rc, double from, double to,
+                                   rb_rolling_solution *solution, rb_message *why);
+/* The same for one step that starts from the tractions, friction coefficients and plastic
+ * slip of the solution `before` on the same elements, in mm, N, MPa (NULL: no contact
+ * before): rolling by `step` [length] (RB_TRANSIENT), or a shift or load at rest
+ * (RB_STATIC, step 0). The iteration of a friction law starts from the coefficients
+ * `start` (rb_rolling_plan), or from those before (NULL).  RB_EINVAL: steady rolling,
+ * other elements, viscoelastic bodies, or temperatures. */
+rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double to,
+                                  const rb_rolling_solution *before, const rb_rolling_table *start,
+                                  double step, rb_rolling_solution *solution, rb_message *why);
+
+/* ---- Error bars (theory.md 5.1) ---------------------------------------------------- */
+
+/* Estimates the errors of a case that is already solved; solution: complete, in mm, N,
+ * MPa.  stress: its maxima down to the default depth if error bars for them are wanted,
+ * otherwise NULL. */
+rb_status rb_rolling_estimate_errors(const rb_rolling_case *rc, const rb_rolling_solution *solution,
+                                     const rb_rolling_stress_maxima *stress,
+                                     rb_rolling_errors *errors, rb_message *why);
+
+/* The number of coarser runs whose differences are the error bars: 2, with wheels 3. */
+int rb_rolling_error_runs(const rb_rolling_case *rc);
+
+/* Computes a curve and its errors: errors->force_ratio[k] and the other columns belong to
+ * the k-th creepage; errors->residual has no meaning.  This takes twice as long as the
+ * curve alone.  point (may be NULL) also sees the points of the coarser curves.  Free
+ * both in any case. */
+rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc, const rb_rolling_range *range,
+                                       rb_rolling_point *point, void *context,
+                                       rb_rolling_curve *curve, rb_rolling_curve *errors,
+                                       rb_message *why);
+
+/* Computes a history with history->errors (their residual has no meaning).  The coarser
+ * runs also have longer steps, so that the errors include those of the step length.
+ * After the main run the observer is called for the coarser runs with model and history
+ * NULL.  Free model and history in any case. */
+rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
+                                         const rb_rolling_program *program,
+                                         const rb_rolling_observer *observer,
+                                         rb_rolling_model *model, rb_rolling_history *history,
+                                         rb_message *why);
+
+/* Peak memory in bytes that rb_rolling_solve needs; serves to refuse sizes that are too
+ * large.  n: contact elements; boundary: boundary elements of one wheel (0: half-planes);
+ * unknowns: size of Newton's last linear system, elements in contact plus sticking
+ * elements, at most 2n. */
+double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unknowns);
+
+/* The same as rb_rolling_solve, but the model is kept for stresses or further solves;
+ * free both in any case. */
+rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
+                                 rb_rolling_solution *solution, rb_message *why);
+/* The same for a model that has been solved before, see rb_rolling_model_reuse. */
+rb_status rb_rolling_solve_model_reuse(const rb_rolling_case *rc, rb_rolling_model *model,
+                                       rb_rolling_solution *solution, rb_message *why);
+
+/* ---- Parameter studies ----------------------------------------------------------- */
+
+enum { RB_ROW_OWN = 128 };
+
+/* The results of one case of a study: numbers only, no columns; NAN if a case has no such
+ * result. */
+typedef struct {
+    rb_rolling_solution solution;    /* with the status of the case */
+    rb_rolling_errors errors;        /* NAN without RB_ROW_ERRORS */
+    rb_rolling_stress_maxima stress; /* NAN without RB_ROW_STRESS */
+    double own[RB_ROW_OWN];          /* values computed by `measure` of the sweep; otherwise NAN */
+    rb_rolling_row_notes notes;      /* in the units of the sweep */
+} rb_rolling_row;
+
+enum { RB_ROW_ERRORS = 1, RB_ROW_STRESS = 2 }; /* bits of rb_rolling_sweep.also */
+
+/* From mm, N, MPa to other units. */
+void rb_rolling_row_convert(rb_rolling_row *row, rb_units units);
+
+/* A study of the cases first ... first + count - 1, solved by processes of this machine
+ * (0: as many as it has processors), one thread each.  `make` makes case k and `measure`
+ * computes row->own; both run in these processes.  `see` and `tick` run in the calling
+ * process: `see` receives the rows in order, `tick` is called every few milliseconds with
+ * the number of rows passed to `see`; a return value other than 0 ends the study.  A
+ * process that crashes is replaced and its case is tried once more; if it crashes again,
+ * the case gets RB_ENOMEM. */
+typedef struct {
+    int first, count, workers;
+    unsigned also;  /* what to compute besides the solution: bits RB_ROW_... */
+    rb_units units; /* of what notes say */
+    rb_status (*make)(int k, rb_rolling_case *rc, void *context);
+    /* own: row->own of the case that `make` made last; model: its solved model; may be
+     * NULL */
+    rb_status (*measure)(const rb_rolling_model *model, double *own, void *context,
+                         rb_message *why);
+    /* NULL, or in the place of all that: solves case k, of which row has no numbers yet,
+     * and returns its status */
+    rb_status (*solve)(int k, rb_rolling_row *row, void *context, rb_message *why);
+    int (*see)(int k, const rb_rolling_row *row, void *context);
+    int (*tick)(int seen, void *context); /* or NULL */
+    void *context;
+} rb_rolling_sweep;
+
+/* Solves case k in the calling process in the same way as a process of the study does.
+ * why: the reason if the case is not solved, see row->solution.status. */
+void rb_rolling_sweep_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row *row,
+                           rb_message *why);
+/* Runs the study.  RB_INTERRUPTED: `see` or `tick` ended it.  In any case no process is
+ * left running. */
+rb_status rb_rolling_sweep_run(const rb_rolling_sweep *sweep, rb_message *why);
+
+/* A pool of worker processes, as seen by the process that distributes the cases. */
+typedef struct rb_rolling_pool {
+    int (*idle)(
+        struct rb_rolling_pool *pool); /* number of further cases that the pool accepts now */
+    rb_status (*submit)(struct rb_rolling_pool *pool,
+                        int k); /* submits case k; idle() must be > 0 */
+    /* 1: case *k is done, and row is written; 0: no case was done within the given
+     * milliseconds; a negative status: the pool has failed. */
+    int (*collect)(struct rb_rolling_pool *pool, int milliseconds, int *k, rb_rolling_row *row);
+    void (*stop)(struct rb_rolling_pool *pool); /* ends all processes at once and frees the pool */
+} rb_rolling_pool;
+
+/* Starts the pool of rb_rolling_sweep_run: sweep->workers processes, at most
+ * sweep->count.  sweep is borrowed. */
+rb_status rb_rolling_pool_start(const rb_rolling_sweep *sweep, rb_rolling_pool **pool,
+                                rb_message *why);
+/* The same as rb_rolling_sweep_run with a given pool; the pool is stopped in any case. */
+rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_pool *pool,
+                              rb_message *why);
 
 #endif

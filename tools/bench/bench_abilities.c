@@ -3,7 +3,7 @@
  * chooses and on equal elements, for similar and for unlike bodies.  Arguments: elements
  * (default 400 1600 6400). */
 #include "fast_blas.h"
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 #include "rows.h"
 
 #include <stdlib.h>

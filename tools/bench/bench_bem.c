@@ -3,7 +3,7 @@
 #include "bem/column.h"
 #include "bem/large.h"
 #include "bem/system.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 #include <cblas.h>
 #include <gsl/gsl_math.h>

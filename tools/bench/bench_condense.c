@@ -4,7 +4,7 @@
  * nothing. Seconds, the best of several runs; condensing / solving is to be below 1. */
 #include "fast_blas.h"
 #include "rows.h"
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
  * half-plane under the same elements: processor time of a whole solution, the least of
  * three. Arguments: elements; those above 960 by waves only (default 60 240 960 6400). */
 #include "fast_blas.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "rows.h"
 
 #include <stdlib.h>

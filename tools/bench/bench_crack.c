@@ -2,7 +2,7 @@
  * degrees, 40 elements: the crack's matrices, and the pass. Argument: the number of
  * elements of the crack (default 40). */
 #include "fast_blas.h"
-#include "rollbem/crack.h"
+#include "analysis/crack/crack.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
  * bodies) against as many separate solutions, of which every tenth is timed. */
 #include "fast_blas.h"
 #include "rows.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 #include <math.h>
 #include <stdio.h>

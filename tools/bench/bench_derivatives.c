@@ -1,7 +1,8 @@
 /* What all derivatives of a case cost against its solve: 200 fitted elements across a
  * contact of half-planes. */
-#include "rollbem/blas.h"
-#include "rollbem/case.h"
+#include "base/blas.h"
+#include "analysis/sensitivity/derivatives.h"
+#include "rolling/case/case.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,8 +1,9 @@
 /* Coverage of the intervals and time of a fit: sixty sets of 24 points with noise, 40
  * elements, a falling law, a third body and an offset of creepage (docs/derivatives.md).
  * bench_fit [SETS [SEED [ELEMENTS [MEMORY]]]]: the memory of friction in mm. */
-#include "rollbem/blas.h"
-#include "rollbem/case.h"
+#include "base/blas.h"
+#include "analysis/fit/fit_case.h"
+#include "rolling/case/case.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -10,7 +10,7 @@
  * 1e-4 times it, until (13) is met, and only the run that met it is timed.  Siconos runs
  * in a child process, since it may exit. Optional: only where Debian's
  * libsiconos-numerics-dev was found at build time. */
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -6,7 +6,7 @@
 #include "carter.h"
 #include "fast_blas.h"
 #include "rows.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,8 +5,8 @@
  * Problem: Kwak's form (K4) of steady rolling on a half-plane, dissimilar bodies, equal
  * elements over 1.3 times the Hertz half-width; lengths in a, stresses in E* a/R. */
 #include "lcp_families.h"
-#include "rollbem/blas.h"
-#include "rollbem/lcp.h"
+#include "base/blas.h"
+#include "lcp/lcp.h"
 
 #include <cblas.h>
 #include <lapacke.h>

@@ -8,7 +8,7 @@
  * working directory, and the friction files below ROLLBEM_DATA.  A solver that has used
  * as many operations as `auto` did is stopped: it is not the best. */
 #include "fast_blas.h"
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 
 #include <glob.h>
 #include <math.h>

@@ -2,7 +2,7 @@
  * elements; and Lemke beside Newton on the same problems. */
 #include "fast_blas.h"
 #include "rows.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 #include <math.h>
 #include <stdio.h>

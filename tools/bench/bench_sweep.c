@@ -3,7 +3,7 @@
  * used.
  * Argument: the number of cases (default 10000). */
 #include "fast_blas.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_BENCH_CARTER_H
 #define ROLLBEM_BENCH_CARTER_H
 
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 #include <math.h>
 

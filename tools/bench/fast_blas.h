@@ -3,7 +3,7 @@
 #ifndef ROLLBEM_BENCH_FAST_BLAS_H
 #define ROLLBEM_BENCH_FAST_BLAS_H
 
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 #include <stdlib.h>
 #include <unistd.h>

@@ -3,8 +3,8 @@
 #ifndef BENCH_LCP_FAMILIES_H
 #define BENCH_LCP_FAMILIES_H
 
-#include "rollbem/base.h"
-#include "rollbem/sparse.h"
+#include "base/base.h"
+#include "base/sparse.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,9 @@
 /* What a case reads: its file, and the tables of gap, history and of any columns. */
 #include "fuzz.h"
+#include "base/io/io.h"
+#include "lcp/friction/friction.h"
+#include "rollbem/options.h"
+#include "rolling/case/case.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 #ifndef ROLLBEM_FUZZ_H
 #define ROLLBEM_FUZZ_H
 
-#include "rollbem/rollbem.h"
+#include "rollbem/base.h"
 
 #include <stddef.h>
 #include <stdint.h>

@@ -1,5 +1,6 @@
 /* The functions of rollbem/api.h in any order, with any values. */
 #include "fuzz.h"
+#include "rollbem/api.h"
 
 #include <math.h>
 #include <stdlib.h>

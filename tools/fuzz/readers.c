@@ -1,5 +1,10 @@
 /* Files of problems: Siconos' text, Matrix Market, plain text, FCLib, CONTACT's input. */
 #include "fuzz.h"
+#include "base/io/io.h"
+#include "base/io/io_contact.h"
+#include "lcp/friction/friction.h"
+#include "rollbem/sparse.h"
+#include "rolling/case/case.h"
 
 #include <math.h>
 #include <stdlib.h>

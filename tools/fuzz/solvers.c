@@ -1,5 +1,8 @@
 /* Solvers on any finite numbers: what they call solved, is solved. */
 #include "fuzz.h"
+#include "rollbem/friction.h"
+#include "rollbem/lcp.h"
+#include "rollbem/sparse.h"
 
 #include <float.h>
 #include <math.h>

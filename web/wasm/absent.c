@@ -7,8 +7,8 @@
 #include "bem/large.h"
 #include "bem/skeleton.h"
 #include "rolling/study/internal.h"
-#include "rollbem/blas.h"
-#include "rollbem/friction.h"
+#include "base/blas.h"
+#include "lcp/friction/friction.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>

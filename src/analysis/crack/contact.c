@@ -2,7 +2,7 @@
  * row of the LCP (C7), and stress intensities (C8). */
 #include "analysis/crack/internal.h"
 
-#include "rollbem/lcp.h"
+#include "lcp/lcp.h"
 
 #include <cblas.h>
 #include <math.h>

@@ -1,4 +1,6 @@
 /* A crack under the contact of a case: its options, and the contact as its load. */
+#include "analysis/crack/crack.h"
+#include "analysis/crack/crack_case.h"
 #include "rolling/case/words.h"
 
 #include <gsl/gsl_math.h>

@@ -1,5 +1,7 @@
 /* The results of a crack by name: numbers of a pass, positions, lengths; in other units,
  * and as a row of a study. */
+#include "analysis/crack/crack.h"
+#include "analysis/crack/crack_case.h"
 #include "rolling/case/words.h"
 
 #include <gsl/gsl_math.h>

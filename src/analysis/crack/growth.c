@@ -1,4 +1,6 @@
 /* A crack that grows under passing contacts by Paris's law, pass after pass (C10). */
+#include "analysis/crack/crack.h"
+#include "analysis/crack/crack_case.h"
 #include "rolling/case/words.h"
 
 #include <gsl/gsl_math.h>

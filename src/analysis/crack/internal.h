@@ -2,8 +2,8 @@
 #ifndef ROLLBEM_CRACK_INTERNAL_H
 #define ROLLBEM_CRACK_INTERNAL_H
 
-#include "rollbem/contact.h"
-#include "rollbem/crack.h"
+#include "lcp/contact/contact.h"
+#include "analysis/crack/crack.h"
 
 #include <complex.h>
 #include <gsl/gsl_integration.h>

@@ -1,4 +1,6 @@
 /* Designs: a case as a function of some of its numbers, with its gradient, for NLopt. */
+#include "analysis/sensitivity/derivatives.h"
+#include "analysis/sensitivity/sensitivity.h"
 #include "analysis/design/design.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
 #ifndef ROLLBEM_DESIGN_H
 #define ROLLBEM_DESIGN_H
 
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 
 enum { RB_DESIGN_CONSTRAINTS = 16 };
 

@@ -3,6 +3,7 @@
 #ifndef ROLLBEM_CASE_FIT_H
 #define ROLLBEM_CASE_FIT_H
 
+#include "analysis/fit/fit_case.h"
 #include "rolling/case/words.h"
 
 /* A measured point.  Points that share elements have these and their flexibility from

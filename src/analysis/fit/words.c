@@ -1,6 +1,6 @@
 /* What a fit is asked for, in words and columns: names, starts, bounds, data. */
 #include "analysis/fit/fit.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,6 @@
 /* The numbers of a case with respect to which its results can be differentiated. */
+#include "analysis/sensitivity/derivatives.h"
+#include "analysis/sensitivity/sensitivity.h"
 #include "rolling/case/words.h"
 
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_SENSITIVITY_INTERNAL_H
 #define ROLLBEM_SENSITIVITY_INTERNAL_H
 
-#include "rollbem/sensitivity.h"
+#include "analysis/sensitivity/sensitivity.h"
 
 /* The equations of a state with given zones (D1), and the factorisation of their
  * Jacobian. */

@@ -1,4 +1,6 @@
 /* Derivatives in columns: at every point of a curve, in every case of a study (theory.md, D2). */
+#include "analysis/sensitivity/derivatives.h"
+#include "analysis/sensitivity/sensitivity.h"
 #include "rolling/case/words.h"
 
 #include <stdio.h>

@@ -1,4 +1,6 @@
 /* Derivatives after every step of a history (theory.md, D7). */
+#include "analysis/sensitivity/derivatives.h"
+#include "analysis/sensitivity/sensitivity.h"
 #include "rolling/case/words.h"
 
 #include <stddef.h>

@@ -2,7 +2,7 @@
 #ifndef IO_CHILD_H
 #define IO_CHILD_H
 
-#include "rollbem/base.h"
+#include "base/base.h"
 
 #include <stdio.h>
 

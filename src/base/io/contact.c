@@ -1,7 +1,7 @@
 /* Input files of CONTACT: which lines a case has follows from its control digits. */
-#include "rollbem/io_contact.h"
+#include "base/io/io_contact.h"
 
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 #include <ctype.h>
 #include <math.h>

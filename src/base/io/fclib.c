@@ -1,7 +1,7 @@
-#include "rollbem/io_fclib.h"
+#include "base/io/io_fclib.h"
 
 #include "base/io/child.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 #include <hdf5.h>
 

@@ -1,4 +1,4 @@
-#include "rollbem/io.h"
+#include "base/io/io.h"
 #include "base/io/readers.h"
 
 #include <limits.h>

@@ -4,7 +4,7 @@
 #define IO_READERS_H
 
 #include "base/io/tokens.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 /* A whole Matrix Market file. */
 void rb_io_read_matrix_market(io_tokens *t, rb_io_matrix *m);

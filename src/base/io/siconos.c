@@ -1,5 +1,5 @@
 /* The text format of Siconos' test problems, as read off its files and their README. */
-#include "rollbem/io.h"
+#include "base/io/io.h"
 #include "base/io/readers.h"
 
 #include <limits.h>

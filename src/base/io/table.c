@@ -1,5 +1,5 @@
 /* Tables of numbers, with or without named columns, as people and spreadsheets write them. */
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 #include <ctype.h>
 #include <limits.h>

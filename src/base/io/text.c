@@ -1,7 +1,7 @@
 #define _XOPEN_SOURCE 700 /* realpath */
 /* Input files as text. */
 #include "base/io/tokens.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 #include <errno.h>
 #include <stdlib.h>

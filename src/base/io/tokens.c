@@ -1,6 +1,6 @@
 #include "base/io/tokens.h"
 
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 #include <ctype.h>
 #include <errno.h>

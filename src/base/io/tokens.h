@@ -6,7 +6,7 @@
 #ifndef IO_TOKENS_H
 #define IO_TOKENS_H
 
-#include "rollbem/base.h"
+#include "base/base.h"
 
 #include <stdio.h>
 

@@ -1,5 +1,5 @@
 #define _GNU_SOURCE /* O_TMPFILE, realpath */
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -3,7 +3,7 @@
 #ifndef ROLLBEM_CONTACT_INTERNAL_H
 #define ROLLBEM_CONTACT_INTERNAL_H
 
-#include "rollbem/contact.h"
+#include "lcp/contact/contact.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* The solvers of this folder for the contact problems of rollbem/contact.h. */
-#include "rollbem/contact.h"
-#include "rollbem/friction.h"
+#include "lcp/contact/contact.h"
+#include "lcp/friction/friction.h"
 
 #include <stdlib.h>
 

@@ -1,8 +1,8 @@
 /* Between friction problems and the files of other projects. */
 #include "lcp/friction/internal.h"
 
-#include "rollbem/io.h"
-#include "rollbem/io_fclib.h"
+#include "base/io/io.h"
+#include "base/io/io_fclib.h"
 
 #include <stdlib.h>
 

@@ -4,7 +4,7 @@
 #ifndef ROLLBEM_FRICTION_INTERNAL_H
 #define ROLLBEM_FRICTION_INTERNAL_H
 
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 
 /* ---- Problems (problem.c) ---------------------------------------------------------- */
 

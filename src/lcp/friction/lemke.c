@@ -13,7 +13,7 @@
  * redundant its paths are long or end on a ray, and those of order 4 n_c do not. Each may
  * be mirrored (T -> -T), which exchanges + and -. */
 #include "lcp/friction/internal.h"
-#include "rollbem/lcp.h"
+#include "lcp/lcp.h"
 
 #include <lapacke.h>
 #include <limits.h>

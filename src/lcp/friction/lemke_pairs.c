@@ -8,7 +8,7 @@
  * (lemke.c) z = (0, 0, u-) solves the problem with q = 0, and u-'q_T may be negative: its
  * path can end on a ray or wander through thousands of pivots. */
 #include "lcp/friction/internal.h"
-#include "rollbem/lcp.h"
+#include "lcp/lcp.h"
 
 #include <limits.h>
 #include <math.h>

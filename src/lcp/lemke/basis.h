@@ -3,7 +3,7 @@
 #ifndef LCP_BASIS_H
 #define LCP_BASIS_H
 
-#include "rollbem/lcp.h"
+#include "lcp/lcp.h"
 
 /* Variables: w_i = i, z_i = n + i, t = 2n.  Of each pair w_i, z_i at most one is basic,
  * and both are nonbasic for one pair at most, when t is basic.  The basis matrix B has a

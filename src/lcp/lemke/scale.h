@@ -2,7 +2,7 @@
 #ifndef LCP_SCALE_H
 #define LCP_SCALE_H
 
-#include "rollbem/lcp.h"
+#include "lcp/lcp.h"
 
 /* M, dense or sparse; borrowed. */
 typedef struct {

@@ -3,7 +3,7 @@
 #ifndef LCP_TABLEAU_H
 #define LCP_TABLEAU_H
 
-#include "rollbem/lcp.h"
+#include "lcp/lcp.h"
 
 /* w = q + M z + d z0; borrowed. */
 typedef struct {

@@ -1,3 +1,6 @@
+#include "base/base.h"
+#include "rollbem/lcp.h"
+
 /* The path of Lemke and Howson on two tableaus of the type REAL.  bimatrix.c includes this
  * file twice: where rounding errors have spoilt the path of doubles, that of long doubles
  * follows.  IN(name): a name of its own for each; CANCELLED: the part of their terms below

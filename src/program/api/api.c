@@ -1,9 +1,11 @@
 /* A case, its results and the steps of its solution as numbers, text and arrays by name. */
+#include "analysis/crack/crack.h"
+#include "analysis/crack/crack_case.h"
 #include "program/api/internal.h"
 
-#include "rollbem/blas.h"
+#include "base/blas.h"
 #include "rolling/case/closed_forms.h"
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 
 #include <gsl/gsl_errno.h>
 #include <stdarg.h>

@@ -3,7 +3,8 @@
 #define ROLLBEM_API_INTERNAL_H
 
 #include "rollbem/api.h"
-#include "rollbem/case.h"
+#include "analysis/sensitivity/derivatives.h"
+#include "rolling/case/case.h"
 
 /* An array that was asked for. */
 typedef struct {

@@ -1,8 +1,9 @@
 /* What is asked of a case backwards: numbers fitted to measurements, designs. */
+#include "analysis/fit/fit_case.h"
 #include "program/api/internal.h"
 
 #include "analysis/design/design.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 #include <math.h>
 #include <stdlib.h>

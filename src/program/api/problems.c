@@ -1,9 +1,10 @@
 /* Problems that the caller passes as arrays: complementarity problems, friction problems,
  * sweeps of cases. */
+#include "analysis/crack/crack_case.h"
 #include "program/api/internal.h"
 
-#include "rollbem/friction.h"
-#include "rollbem/lcp.h"
+#include "lcp/friction/friction.h"
+#include "lcp/lcp.h"
 
 #include <limits.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_CERTIFICATE_H
 #define ROLLBEM_CERTIFICATE_H
 
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 
 #include <stdio.h>
 

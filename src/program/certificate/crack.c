@@ -3,8 +3,8 @@
  * every position, then the laws of the faces and of the fluid and the stress intensities.  Nothing
  * is solved but where the mouth closes between two positions. */
 #include "program/certificate/internal.h"
-#include "rollbem/contact.h"
-#include "rollbem/crack.h"
+#include "lcp/contact/contact.h"
+#include "analysis/crack/crack.h"
 
 #include <cblas.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* The certificate of a table: its inputs are those of the command line in its comments,
  * its approach and its motion those that fit its gaps and shifts best. */
 #include "program/certificate/internal.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 #include <math.h>
 #include <stdio.h>

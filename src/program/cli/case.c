@@ -1,7 +1,7 @@
 #include "program/cli/case.h"
 #include "program/cli/wait.h"
 
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 
 #include <jansson.h>
 #include <string.h>

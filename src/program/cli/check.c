@@ -1,7 +1,7 @@
 /* rollbem check: results verified without the solver. */
 #include "program/cli/case.h"
 #include "program/cli/wait.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 #include "program/certificate/certificate.h"
 #include "program/report/report.h"
 

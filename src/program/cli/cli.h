@@ -8,7 +8,9 @@
 #ifndef ROLLBEM_CLI_H
 #define ROLLBEM_CLI_H
 
-#include "rollbem/rollbem.h"
+#include "base/base.h"
+#include "rollbem/case.h"
+#include "rollbem/options.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -1,5 +1,6 @@
 /* The commands by name, and the command line.  The table is in main.c; this file does not
  * depend on the single commands. */
+#include "rolling/case/case.h"
 #include "program/cli/cli.h"
 
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #include "program/cli/solvers.h"
 #include "program/cli/wait.h"
 
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 #include "program/report/report.h"
 
 #include <jansson.h>

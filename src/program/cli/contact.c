@@ -3,7 +3,7 @@
 #include "program/cli/output.h"
 #include "program/cli/rows.h"
 #include "program/cli/wait.h"
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 
 #include <jansson.h>
 #include <stddef.h>

@@ -1,4 +1,6 @@
 /* A line of help: a name and the text beside it, of options by their tables; the pager. */
+#include "rolling/case/case.h"
+#include "rolling/case/options.h"
 #include "program/cli/cli.h"
 
 #include <fcntl.h>

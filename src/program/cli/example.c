@@ -5,7 +5,7 @@
 #include "program/cli/solvers.h"
 #include "program/cli/wait.h"
 
-#include "rollbem/io.h"
+#include "base/io/io.h"
 #include "program/report/report_fem.h"
 
 #include <jansson.h>

@@ -1,8 +1,11 @@
 /* rollbem help WORD: finds commands, options, results, units, words of the glossary and
  * questions that contain it. */
+#include "analysis/crack/crack_case.h"
+#include "rolling/case/case.h"
+#include "rolling/rolling.h"
 #include "program/cli/find.h"
 
-#include "rollbem/units.h"
+#include "base/units.h"
 
 #include <ctype.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Control-C and similar signals end a long run; what its finished steps or cases gave is kept. */
 #include "program/cli/interrupt.h"
 
-#include "rollbem/base.h"
+#include "base/base.h"
 
 #include <signal.h>
 #include <stddef.h>

@@ -4,8 +4,8 @@
 #include "program/cli/rows.h"
 #include "program/cli/wait.h"
 
-#include "rollbem/io.h"
-#include "rollbem/lcp.h"
+#include "base/io/io.h"
+#include "lcp/lcp.h"
 #include "program/report/report.h"
 
 #include <jansson.h>

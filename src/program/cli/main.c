@@ -1,6 +1,6 @@
 /* rollbem: finds the command, and checks that its output was written. */
 #include "program/cli/cli.h"
-#include "rollbem/blas.h"
+#include "base/blas.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 #include "program/cli/output.h"
 
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 #include <errno.h>
 #include <jansson.h>

@@ -1,7 +1,7 @@
 /* rollbem page: writes the page for browsers, which opens with a given case. */
 #include "program/cli/case.h"
 #include "program/cli/output.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 #include "program/report/report.h"
 
 #include <jansson.h>

@@ -1,4 +1,7 @@
 /* Options from the command line, by the tables of a cli_spec. */
+#include "base/units.h"
+#include "rolling/case/case.h"
+#include "rolling/case/options.h"
 #include "program/cli/describe.h"
 #include "program/cli/find.h"
 

@@ -4,6 +4,7 @@
 #ifndef ROLLBEM_CLI_POOL_H
 #define ROLLBEM_CLI_POOL_H
 
+#include "rolling/rolling.h"
 #include "program/cli/cli.h"
 
 #include <stdint.h>

@@ -3,7 +3,7 @@
 #include "program/cli/interrupt.h"
 #include "program/cli/output.h"
 #include "program/cli/wait.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 #include "program/report/report.h"
 
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_CLI_RUN_H
 #define ROLLBEM_CLI_RUN_H
 
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 #include "program/report/report.h"
 
 /* What a sequence of steps leaves on its way. */

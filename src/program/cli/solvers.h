@@ -3,7 +3,7 @@
 #define ROLLBEM_CLI_SOLVERS_H
 
 #include "program/cli/cli.h"
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 
 /* CLI_CONTINUE and the solver, or CLI_USAGE after a line that names the option and what
  * may have been meant. */

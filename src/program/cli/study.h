@@ -4,8 +4,9 @@
 #define ROLLBEM_CLI_STUDY_H
 
 #include "program/cli/output.h"
-#include "rollbem/case.h"
-#include "rollbem/io.h"
+#include "analysis/sensitivity/derivatives.h"
+#include "rolling/case/case.h"
+#include "base/io/io.h"
 
 #include <inttypes.h>
 

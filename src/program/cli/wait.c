@@ -2,7 +2,7 @@
  * often as not: by functions that a signal handler may call. */
 #include "program/cli/wait.h"
 
-#include "rollbem/base.h"
+#include "base/base.h"
 
 #include <errno.h>
 #include <signal.h>

@@ -2,7 +2,7 @@
 #include "program/cli/case.h"
 #include "program/cli/interrupt.h"
 #include "program/cli/run.h"
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 #include <jansson.h>
 #include <stddef.h>

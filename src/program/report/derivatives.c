@@ -1,7 +1,8 @@
 /* Derivatives of the results of a case, and standard deviations of the results for
  * uncertain inputs. */
 #include "program/report/internal.h"
-#include "rollbem/case.h"
+#include "analysis/sensitivity/derivatives.h"
+#include "rolling/case/case.h"
 
 #include <jansson.h>
 #include <math.h>

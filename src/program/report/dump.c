@@ -1,7 +1,7 @@
 /* Writes the matrices of a solution to files. */
 #include "program/report/internal.h"
 
-#include "rollbem/io.h"
+#include "base/io/io.h"
 
 #include <stdlib.h>
 #include <sys/stat.h>

@@ -1,4 +1,4 @@
-#include "rollbem/friction.h"
+#include "lcp/friction/friction.h"
 #include "program/report/report.h"
 
 #include <stdlib.h>

@@ -1,6 +1,7 @@
 /* Numbers fitted to a measured creep curve: JSON, table, sentences, picture. */
 #include "program/report/internal.h"
-#include "rollbem/case.h"
+#include "analysis/fit/fit_case.h"
+#include "rolling/case/case.h"
 
 #include <jansson.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* The inputs of a case as JSON: every value used, defaults included; null where a column
  * of the history is used instead. */
 #include "program/report/internal.h"
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 
 #include <inttypes.h>
 #include <jansson.h>

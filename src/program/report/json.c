@@ -1,7 +1,7 @@
 /* Solutions as JSON: schema rollbem/1. */
 #include "program/report/internal.h"
-#include "rollbem/case.h"
-#include "rollbem/blas.h"
+#include "rolling/case/case.h"
+#include "base/blas.h"
 
 #include <jansson.h>
 #include <math.h>

@@ -4,9 +4,12 @@
 #ifndef ROLLBEM_REPORT_H
 #define ROLLBEM_REPORT_H
 
-#include "rollbem/case.h"
+#include "analysis/sensitivity/derivatives.h"
+#include "analysis/crack/crack_case.h"
+#include "analysis/fit/fit_case.h"
+#include "rolling/case/case.h"
 #include "analysis/design/design.h"
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 
 #include <stdio.h>
 

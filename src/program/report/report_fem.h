@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_REPORT_FEM_H
 #define ROLLBEM_REPORT_FEM_H
 
-#include "rollbem/fem.h"
+#include "fem/fem.h"
 #include "program/report/report.h"
 
 /* ---- Pictures: statuses as in program/report/report.h ---------- */

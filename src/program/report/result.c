@@ -1,6 +1,7 @@
 /* The JSON of a solved case, whole: what the commands write and the certificate writes again. */
 #include "program/report/internal.h"
-#include "rollbem/case.h"
+#include "analysis/sensitivity/derivatives.h"
+#include "rolling/case/case.h"
 
 #include <jansson.h>
 

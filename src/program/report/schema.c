@@ -1,6 +1,6 @@
 /* The JSON Schema of what --json prints, from the tables that print it. */
 #include "program/report/internal.h"
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 
 #include <jansson.h>
 

@@ -1,7 +1,7 @@
 /* Summary of a solution in a few lines, and the notes on how to read it. */
 #include "program/report/internal.h"
-#include "rollbem/case.h"
-#include "rollbem/blas.h"
+#include "rolling/case/case.h"
+#include "base/blas.h"
 
 #include <math.h>
 #include <string.h>

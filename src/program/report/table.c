@@ -1,6 +1,6 @@
 /* The traction table. */
 #include "program/report/internal.h"
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 
 rb_status rb_report_table(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s,
                           const char *command, const rb_report_style *style)

@@ -1,6 +1,6 @@
 /* A table with tabs, abbreviated for a terminal: few digits, few rows, few columns. */
 #include "program/report/report.h"
-#include "rollbem/units.h"
+#include "base/units.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* Lemke's pivots of a solved model, with the names of contact variables. */
 #include "program/report/internal.h"
 
-#include "rollbem/io.h"
-#include "rollbem/lcp.h"
+#include "base/io/io.h"
+#include "lcp/lcp.h"
 
 #include <stdlib.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 /* Words used by all formats. */
 #include "program/report/internal.h"
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 
 #include <stddef.h>
 #include <string.h>

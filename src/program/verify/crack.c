@@ -2,7 +2,7 @@
  * and forth, and filled with a fluid. */
 #include "program/verify/internal.h"
 
-#include "rollbem/crack.h"
+#include "analysis/crack/crack.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_VERIFY_INTERNAL_H
 #define ROLLBEM_VERIFY_INTERNAL_H
 
-#include "rollbem/rolling.h"
+#include "rolling/rolling.h"
 #include "program/verify/verify.h"
 
 typedef struct {

@@ -3,7 +3,7 @@
 #ifndef ROLLBEM_VERIFY_H
 #define ROLLBEM_VERIFY_H
 
-#include "rollbem/base.h"
+#include "base/base.h"
 
 /* One reference value and the value that the program computes. */
 typedef struct {

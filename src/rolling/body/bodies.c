@@ -1,4 +1,4 @@
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <cblas.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* The table of bodies, and functions for all bodies. */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 const rb_choice rb_rolling_supports[] = {
     {"arc", RB_BEM_ARC}, {"hub", RB_BEM_HUB}, {"halfplane", RB_BEM_HALFPLANE}, {NULL, 0}};

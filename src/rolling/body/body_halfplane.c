@@ -1,6 +1,6 @@
 /* Half-planes, which have translation symmetry: of one material, as a layer on a base,
  * and viscoelastic. */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>
 

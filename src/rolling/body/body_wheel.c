@@ -1,6 +1,6 @@
 /* Wheels, whose boundary has elements all around: on a clamped arc, on a rigid hub, and
  * with a cover on a core. */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>
 

@@ -1,6 +1,6 @@
 /* Where a particle was one step ago, when a step is not one element: between the
  * midpoints and beyond them. */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <cblas.h>
 #include <string.h>

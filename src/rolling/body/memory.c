@@ -1,5 +1,5 @@
 /* Memory at the peak of a solution: the formulas of docs/performance.md, "Memory". */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 /* Numbers per element of the path on which Newton's method goes on where its steps go
  * round in circles. */

@@ -1,4 +1,4 @@
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_interp.h>

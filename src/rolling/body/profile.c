@@ -1,5 +1,5 @@
 /* What a profile of the gap tells: its ends, rows, corners, radius and values. */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <stdlib.h>
 

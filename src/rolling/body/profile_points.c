@@ -1,7 +1,7 @@
 /* A measured gap as a curve: through its points or, where they carry noise, the smoothest curve
  * that stays as close to them as the noise is large.  The pressure follows the curvature of the
  * gap, which a cubic spline keeps continuous. */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>
 #include <lapacke.h>

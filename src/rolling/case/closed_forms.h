@@ -5,7 +5,7 @@
 #ifndef ROLLBEM_CLOSED_FORMS_H
 #define ROLLBEM_CLOSED_FORMS_H
 
-#include "rollbem/base.h"
+#include "base/base.h"
 
 /* ---- Hertz ------------------------------------------------------------------------ */
 

@@ -1,5 +1,5 @@
 /* Converts cases of CONTACT to cases of rollbem.  Signs: docs/contact.md. */
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 
 #include <gsl/gsl_math.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
 /* The options of a case, each once: everything that reads, shows or checks them is made
  * from this table. */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Solves a resolved case of any formulation, with error bars or to an accuracy if
  * required. */
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 
 #include <string.h>
 

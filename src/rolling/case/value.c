@@ -1,5 +1,5 @@
 /* One value of one option: from text, strictly, and back. */
-#include "rollbem/case.h"
+#include "rolling/case/case.h"
 
 #include <errno.h>
 #include <limits.h>

@@ -1,6 +1,6 @@
 /* A case made from options: set by name, resolved, checked. */
 #include "rolling/case/words.h"
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <stdio.h>
 #include <stdlib.h>

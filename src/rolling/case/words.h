@@ -2,8 +2,8 @@
 #ifndef ROLLBEM_CASE_INTERNAL_H
 #define ROLLBEM_CASE_INTERNAL_H
 
-#include "rollbem/case.h"
-#include "rollbem/io.h"
+#include "rolling/case/case.h"
+#include "base/io/io.h"
 
 /* A table read from a file that an option names. */
 typedef struct {
@@ -66,15 +66,6 @@ rb_status rb_case_refuse_given(const rb_case *c, const char *name, const char *r
  * of the file. */
 rb_status rb_case_without_content(const rb_case *c, const char *path, rb_status s, rb_message *why);
 
-/* ---- derivatives.c ------------------------------------------------------------------ */
-
-/* As rb_case_differentiate, but without over_x. */
-rb_status rb_case_differentiate_by_numbers(const rb_case *c, const rb_rolling_model *model, int n,
-                                           const char *const *names, rb_case_derivatives *all,
-                                           rb_message *why);
-/* Puts the option before a refusal of its text.  Returns s. */
-rb_status rb_case_name_option(const char *option, rb_status s, rb_message *why);
-
 /* ---- files.c: the tables that a case names ----------------------------------------- */
 
 void rb_case_free_files(rb_case *c);
@@ -83,34 +74,6 @@ void rb_case_free_files(rb_case *c);
 rb_status rb_case_read_history(rb_case *c, rb_message *why);
 /* Reads gap, irregularity, wear and friction of the resolved case. */
 rb_status rb_case_read_files(rb_case *c, rb_message *why);
-
-/* ---- crack_results.c --------------------------------------------------------------- */
-
-/* Error bars: twice the largest difference to the summaries of other meshes, of which this is one;
- * of second order a third of the difference is left in one with twice as many elements. */
-void rb_case_crack_add_errors(const rb_case_crack_summary *other, rb_case_crack_result *result);
-/* The summary and its error bars as the own numbers of a row. */
-void rb_case_crack_set_row(rb_case_crack_result *result, rb_rolling_row *row);
-
-/* ---- crack_case.c ------------------------------------------------------------------ */
-
-/* The passes of the track over a crack, of these lengths in mm, into r->history: where the program
- * chooses the positions, with more of them where K is largest and smallest; they are r's then.
- * wheel: of a coupled crack, or NULL. */
-rb_status rb_case_crack_pass(const rb_resolved_case *c, const rb_case_crack *lengths,
-                             const rb_case_crack_track *track, const rb_crack_wheel *wheel,
-                             const rb_crack_observer *observer, rb_crack *crack,
-                             rb_case_crack_result *r, rb_message *why);
-
-/* ---- growth.c ---------------------------------------------------------------------- */
-
-/* Checks the options of crack growth. */
-rb_status rb_case_check_growth(const rb_case_crack *crack, rb_message *why);
-/* Computes r->growth under the same load, starting from the first length, whose summary
- * is in r. */
-rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *crack,
-                             const rb_case_crack_track *track, const rb_crack_observer *observer,
-                             rb_case_crack_result *r, rb_message *why);
 
 /* ---- resolve.c ---------------------------------------------------------------------- */
 
@@ -134,10 +97,5 @@ rb_status rb_option_resolve(const rb_option_set *set, const rb_option_precedence
 rb_status rb_option_resolve_against(const rb_option_set *set, const rb_option_precedence *how,
                                     const rb_option *option, int by, const char *reason,
                                     rb_message *why);
-
-/* Adds a name unless it is among the n; returns how many there are then. */
-int rb_case_add_name(const char *name[RB_CASE_NUMBERS_MAX], int n, const char *one);
-/* The inputs of the columns, each once; returns how many. */
-int rb_case_slope_inputs(const rb_case_slopes *s, const char *name[RB_CASE_NUMBERS_MAX]);
 
 #endif

@@ -1,6 +1,6 @@
 /* Equal elements aligned with the contact: both edges are ends of elements, so that the
  * second-order slip operator has its second order (theory.md 4.7). */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 enum {
     FIRST = 30,     /* elements at least that the first edges are found with */

@@ -1,6 +1,6 @@
 /* A solution on a coarser mesh is the start on a finer one, so that the number of Newton
  * steps does not grow. */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 /* Elements of the coarsest mesh, which starts cold: fewer than any that starts from
  * another one. */

@@ -1,6 +1,6 @@
 /* From a case to its solved contact problem on the given kind of mesh, and the
  * free-rolling creepage. */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* Elements fitted to the patches of the contact, whose edges are known only from a
  * solution (theory.md 5.1). */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* The formulation of a case as a contact problem (theory.md 4.2): the kinematic operator
  * A, the motion of the surfaces, the given quantities.  The solvers are the same for all
  * formulations. */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <float.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* Flash temperature: friction heats the surfaces on their way through the contact
  * (theory.md 4.8). */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <cblas.h>
 #include <float.h>

@@ -1,5 +1,5 @@
 /* Friction laws (theory.md 4.11): the coefficient of an element from its state. */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <gsl/gsl_interp.h>
 

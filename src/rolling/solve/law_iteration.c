@@ -1,6 +1,6 @@
 /* States whose coefficients of friction depend on them (theory.md 4.11): the contact
  * problem with the coefficients of the state before, until they do not change. */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <stdlib.h>
 #include <string.h>

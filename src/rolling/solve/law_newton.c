@@ -3,7 +3,7 @@
  * b.  The derivative of T along a direction is a difference of two solved contacts, so
  * that the method works for all laws, for coupled bodies and for operators without a
  * matrix. */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <cblas.h>
 #include <string.h>

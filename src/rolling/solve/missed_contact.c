@@ -1,6 +1,6 @@
 /* The gap beyond the elements that could carry load: if the gap is a table, the bodies
  * may touch at places without elements (theory.md 5.1). */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <cblas.h>
 #include <gsl/gsl_interp.h>

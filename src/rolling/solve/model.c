@@ -1,5 +1,5 @@
 /* A solved contact problem on a given mesh, and its given ratio. */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <stdlib.h>
 #include <string.h>

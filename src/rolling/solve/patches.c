@@ -1,5 +1,5 @@
 /* Where the contact begins and ends: its patches and their edges (theory.md 5.1). */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* The power dissipated by friction and by viscoelastic bodies. */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <cblas.h>
 #include <math.h>

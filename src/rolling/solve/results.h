@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_RESULTS_INTERNAL_H
 #define ROLLBEM_RESULTS_INTERNAL_H
 
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 /* ---- results.c --------------------------------------------------------------------- */
 

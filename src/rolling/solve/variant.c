@@ -1,6 +1,6 @@
 /* The same contact on the same elements for a slightly different case; derivatives of a
  * solution are computed from such variants (theory.md, D1). */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>
 #include <stdlib.h>

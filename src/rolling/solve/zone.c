@@ -1,6 +1,6 @@
 /* The potential contact: the interval with elements, which must enclose the whole contact
  * (theory.md 5.1). */
-#include "rolling/rolling.h"
+#include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>
 

@@ -1,12 +1,10 @@
 /* Which kernels OpenBLAS uses.  A version of OpenBLAS that is older than the processor
  * may not recognise it and choose slow kernels (0.3.21 chooses kernels of 2004 on a
  * server of 2023, which are four times slower). */
-#ifndef ROLLBEM_BLAS_H
-#define ROLLBEM_BLAS_H
+#ifndef ROLLBEM_SRC_BASE_BLAS_H
+#define ROLLBEM_SRC_BASE_BLAS_H
 
-#include "rollbem/base.h"
-
-RB_PUBLIC_BEGIN
+#include "base/base.h"
 
 /* The name of the kernels in use: "SkylakeX", "Haswell", ... */
 const char *rb_blas_core(void);
@@ -15,11 +13,6 @@ const char *rb_blas_core(void);
  * them; NULL: there are none.  The name is a value for the environment variable
  * OPENBLAS_CORETYPE, which OpenBLAS reads when it is loaded. */
 const char *rb_blas_better_core(void);
-
-/* Sets the number of BLAS threads (0: one per processor, or the value of
- * OPENBLAS_NUM_THREADS) and returns the number before.  The small matrix products of
- * Lemke's and Newton's methods are faster with one thread. */
-int rb_blas_threads(int threads);
 
 /* Number of OpenMP threads that the library uses in a loop: the value of OMP_NUM_THREADS,
  * but at most four per processor, because tens of thousands of threads would crash the
@@ -31,7 +24,5 @@ int rb_blas_loop_threads(void);
  * OpenBLAS has one thread only, the function reduces OpenMP to one thread where
  * necessary. */
 int rb_blas_has_room(void);
-
-RB_PUBLIC_END
 
 #endif

@@ -7,10 +7,8 @@
 #ifndef ROLLBEM_IO_FCLIB_H
 #define ROLLBEM_IO_FCLIB_H
 
-#include "rollbem/base.h"
-#include "rollbem/sparse.h"
-
-RB_PUBLIC_BEGIN
+#include "base/base.h"
+#include "base/sparse.h"
 
 /* local:  u = W r + q.   global:  M v = H r + f,  u = H' v + w.
  * [N, T] or [N, T1, T2] per contact.  With bilateral constraints of forces l:
@@ -49,7 +47,5 @@ rb_status rb_io_fclib_read(const char *path, rb_io_fclib *problem, rb_message *w
  * (io.h). RB_EWRITE, RB_ENOMEM. */
 rb_status rb_io_fclib_write(const char *path, const rb_io_fclib *problem, rb_io_fclib_layout layout,
                             const char *title, const char *description, rb_message *why);
-
-RB_PUBLIC_END
 
 #endif

@@ -3,9 +3,7 @@
 #ifndef ROLLBEM_IO_CONTACT_H
 #define ROLLBEM_IO_CONTACT_H
 
-#include "rollbem/base.h"
-
-RB_PUBLIC_BEGIN
+#include "base/base.h"
 
 /* The control digits by their letters; digits without an effect here are not stored. */
 typedef struct {
@@ -46,7 +44,5 @@ typedef struct {
 /* All cases up to module 0 or the end.  Owned by the caller (free); RB_ENOENT, RB_EFORMAT
  * with file and line, RB_ENOMEM. */
 rb_status rb_io_contact_read(const char *path, int *n, rb_io_contact_case **cases, rb_message *why);
-
-RB_PUBLIC_END
 
 #endif

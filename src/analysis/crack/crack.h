@@ -11,10 +11,9 @@
 #ifndef ROLLBEM_CRACK_H
 #define ROLLBEM_CRACK_H
 
-#include "rollbem/base.h"
-#include "rollbem/bem.h"
-
-RB_PUBLIC_BEGIN
+#include "base/base.h"
+#include "bem/bem.h"
+#include "rolling/case/case.h"
 
 /* ---- Shape ------------------------------------------------------------------------- */
 
@@ -75,12 +74,6 @@ rb_status rb_crack_load(const rb_crack *crack, const rb_bem_edge_load *load,
 double rb_crack_pressure(const rb_bem_edge_load *load, rb_crack_load_kind kind, double x);
 
 /* ---- One state --------------------------------------------------------------------- */
-
-typedef enum {
-    RB_CRACK_DRY,
-    RB_CRACK_TRAPPED, /* incompressible fluid is trapped where the mouth closes */
-    RB_CRACK_PRESSURE /* the contact pressure at the mouth acts on the faces */
-} rb_crack_fluid;
 
 typedef struct {
     int n;
@@ -177,7 +170,5 @@ void rb_crack_history_free(rb_crack_history *history);
 /* The largest tension across any direction ahead of a tip, times sqrt(2 pi r) (Erdogan
  * and Sih): approximately K_I of a kink in this direction.  *angle: from t towards n. */
 double rb_crack_largest_tension(double K_I, double K_II, double *angle);
-
-RB_PUBLIC_END
 
 #endif

@@ -5,11 +5,9 @@
 #ifndef ROLLBEM_FEM_H
 #define ROLLBEM_FEM_H
 
-#include "rollbem/base.h"
-#include "rollbem/friction.h"
-#include "rollbem/sparse.h"
-
-RB_PUBLIC_BEGIN
+#include "base/base.h"
+#include "lcp/friction/friction.h"
+#include "base/sparse.h"
 
 /* ---- Elements -------------------------------------------------------------------- */
 
@@ -255,7 +253,5 @@ rb_status rb_fem_wall_problem(const rb_fem_wall *wall, int step, rb_friction_pro
  * difficulty (iterations, then time), the easiest first.  RB_EINVAL: count < 1, or more
  * than were solved. */
 rb_status rb_fem_wall_select(const rb_fem_wall *wall, int count, int *step);
-
-RB_PUBLIC_END
 
 #endif

@@ -13,10 +13,8 @@
 #ifndef ROLLBEM_SENSITIVITY_H
 #define ROLLBEM_SENSITIVITY_H
 
-#include "rollbem/base.h"
-#include "rollbem/rolling.h"
-
-RB_PUBLIC_BEGIN
+#include "base/base.h"
+#include "rolling/rolling.h"
 
 /* A solved model with the factors of its Jacobian; opaque. */
 typedef struct rb_sensitivity rb_sensitivity;
@@ -203,7 +201,5 @@ double rb_sensitivity_rounding(const rb_rolling_case *rc, const rb_rolling_resul
 
 /* 1: the result has a derivative. */
 int rb_sensitivity_has(const rb_rolling_result *result);
-
-RB_PUBLIC_END
 
 #endif

@@ -1,18 +1,10 @@
 /* Units.  All computations use mm, N, MPa and s, and options and results name their units
  * in this system.  Values in other units are converted on input and output by one
  * table. */
-#ifndef ROLLBEM_UNITS_H
-#define ROLLBEM_UNITS_H
+#ifndef ROLLBEM_SRC_BASE_UNITS_H
+#define ROLLBEM_SRC_BASE_UNITS_H
 
-#include "rollbem/base.h"
-
-RB_PUBLIC_BEGIN
-
-typedef enum {
-    RB_UNITS_MM,  /* mm, N, MPa */
-    RB_UNITS_SI,  /* m, N, Pa */
-    RB_UNITS_INCH /* in, lbf, psi */
-} rb_units;
+#include "base/base.h"
 
 /* unit: as options and results name it ("mm", "MPa", "N/mm", "N", "mm/s", "mm/MPa").
  * Units that are the same in every system ("-", "1", "s", "degrees", "elements") are not
@@ -63,7 +55,5 @@ rb_status rb_unit_read(const char *text, const char *unit, double *value, int *p
  * what is no unit of the quantity.  RB_EINVAL: it is another name. */
 rb_status rb_unit_of_heading(const char *heading, const char *name, const char *unit,
                              rb_unit_factor *factor, int *plain);
-
-RB_PUBLIC_END
 
 #endif

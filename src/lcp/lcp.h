@@ -1,0 +1,32 @@
+/* What the rooms use of LCPs besides rollbem/lcp.h. */
+#ifndef ROLLBEM_SRC_LCP_LCP_H
+#define ROLLBEM_SRC_LCP_LCP_H
+
+#include "base/base.h"
+#include "base/sparse.h"
+#include "rollbem/lcp.h"
+
+/* The solvers that rb_lcp_solve accepts, auto first. */
+typedef struct {
+    const char *name, *summary;
+} rb_lcp_solver;
+const rb_lcp_solver *rb_lcp_solvers(int *count);
+
+/* regret: m + n values >= 0, what each strategy pays less than the best reply to the
+ * other player's mixed strategy; payoff: the payoffs of the best replies.  Returns max
+ * min(probability, regret). */
+double rb_lcp_bimatrix_regret(const rb_lcp_game *game, const double *z, double *regret,
+                              double payoff[2]);
+
+/* The relative residual row by row: max_i |min(z_i, w_i)| / (|M| |z| + |q|)_i, of the
+ * equilibrated matrix R M C.  A row that may contain only rounding errors of larger rows
+ * with the same unknowns is divided by 1e-4 of their scale instead.  The residual does
+ * not depend on the units of rows and columns.  row: the row of the maximum, or -1; may
+ * be NULL.  RB_ENOMEM. */
+rb_status rb_lcp_scaled_residual(const rb_lcp_mixed_problem *p, const double *z, double *scaled,
+                                 int *row);
+/* The residual that rounding errors of the data can cause: 1e-14 max_i (|M| |z| + |q|)_i;
+ * work: n. */
+double rb_lcp_rounding_floor(const rb_lcp_mixed_problem *p, const double *z, double *work);
+
+#endif

@@ -1,0 +1,134 @@
+/* Questions to the table of options (rollbem/options.h). */
+#ifndef ROLLBEM_SRC_ROLLING_CASE_OPTIONS_H
+#define ROLLBEM_SRC_ROLLING_CASE_OPTIONS_H
+
+#include "base/units.h"
+#include "rolling/rolling.h"
+#include "rollbem/options.h"
+
+/* ---- Options --------------------------------------------------------------------- */
+
+/* Macros for the ranges and rows of an option table: */
+#define RB_ANY                                                                                     \
+    {                                                                                              \
+        -INFINITY, INFINITY, 1, 1                                                                  \
+    }
+#define RB_ABOVE(x)                                                                                \
+    {                                                                                              \
+        x, INFINITY, 1, 1                                                                          \
+    }
+#define RB_FROM(x)                                                                                 \
+    {                                                                                              \
+        x, INFINITY, 0, 1                                                                          \
+    }
+#define RB_BETWEEN(x, y)                                                                           \
+    {                                                                                              \
+        x, y, 1, 1                                                                                 \
+    } /* (x, y) */
+#define RB_FROM_TO(x, y)                                                                           \
+    {                                                                                              \
+        x, y, 0, 0                                                                                 \
+    } /* [x, y] */
+#define RB_ABOVE_UPTO(x, y)                                                                        \
+    {                                                                                              \
+        x, y, 1, 0                                                                                 \
+    } /* (x, y] */
+
+#define RB_GROUP_LINE(section, title)                                                              \
+    {                                                                                              \
+        .name = section, .kind = RB_OPTION_GROUP, .help = title                                    \
+    }
+#define RB_NUMBER_LINE(name_, place, unit_, range_, ...)                                           \
+    {                                                                                              \
+        .name = name_, .kind = RB_OPTION_NUMBER, .offset = place, .unit = unit_, .range = range_,  \
+        .help = __VA_ARGS__                                                                        \
+    }
+#define RB_INTEGER_LINE(name_, place, range_, ...)                                                 \
+    {                                                                                              \
+        .name = name_, .kind = RB_OPTION_INTEGER, .offset = place, .unit = "", .range = range_,    \
+        .help = __VA_ARGS__                                                                        \
+    }
+#define RB_CHOICE_LINE(name_, place, choices_, ...)                                                \
+    {                                                                                              \
+        .name = name_, .kind = RB_OPTION_CHOICE, .offset = place, .unit = "", .choices = choices_, \
+        .help = __VA_ARGS__                                                                        \
+    }
+#define RB_FLAG_LINE(name_, place, ...)                                                            \
+    {                                                                                              \
+        .name = name_, .kind = RB_OPTION_FLAG, .offset = place, .unit = "", .help = __VA_ARGS__    \
+    }
+#define RB_TEXT_LINE(name_, place, metavar, ...)                                                   \
+    {                                                                                              \
+        .name = name_, .kind = RB_OPTION_TEXT, .offset = place, .unit = metavar,                   \
+        .help = __VA_ARGS__                                                                        \
+    }
+
+/* The numbers of wear, members of a struct like rb_rolling_wear; the sliding distance and
+ * the cycles are two of it, or `way` both times.  The command line and the library have
+ * their ranges from here. */
+#define RB_WEAR_LINES(PLACE, SLIDE, CYCLES)                                                        \
+    RB_NUMBER_LINE("wear-coefficient", PLACE(coefficient), "1/MPa", RB_ABOVE(0),                   \
+                   "K: worn volume per load and sliding distance, or per work, mm3/(N mm)",        \
+                   .unset = "none: it must be given"),                                             \
+        RB_NUMBER_LINE("wear-share", PLACE(share), "-", RB_FROM_TO(0, 1),                          \
+                       "fraction of K that wears B: in the contact (fretting), along its "         \
+                       "track (A slides) or at its radius (rolling)"),                             \
+        RB_NUMBER_LINE("slide", PLACE(SLIDE), "mm", RB_ABOVE(0),                                   \
+                       "static: total distance by which A slides over B, towards +x",              \
+                       .unset = "A frets, or rolls"),                                              \
+        RB_NUMBER_LINE("cycles", PLACE(CYCLES), "-", RB_ABOVE(0),                                  \
+                       "static: fretting cycles between the shift or force and its opposite; "     \
+                       "steady: turns of the wheel"),                                              \
+        RB_INTEGER_LINE("wear-steps", PLACE(steps), RB_FROM_TO(1, 1000000),                        \
+                        "number of steps; each is implicit and stable for any length"),            \
+        RB_INTEGER_LINE("quarter", PLACE(increments), RB_FROM_TO(1, 100000),                       \
+                        "number of increments per quarter of a fretting cycle")
+
+/* Numbers of a fit and of a design, which the command line and the library refuse alike. */
+#define RB_FIT_SIGMA_LINE(place)                                                                   \
+    RB_NUMBER_LINE("sigma", place, "-", RB_ABOVE(0),                                               \
+                   "standard deviation of the measured forces, in their units; a column "          \
+                   "sigma gives one for each",                                                     \
+                   .unset = "from the residuals")
+#define RB_FIT_LEVEL_LINE(place)                                                                   \
+    RB_NUMBER_LINE("level", place, "-", RB_BETWEEN(0, 1), "of the intervals (Student's)")
+#define RB_DESIGN_SPAN_LINE(place)                                                                 \
+    RB_NUMBER_LINE("span", place, "mm", RB_ABOVE(0),                                               \
+                   "half-width of the span of pressure_ripple, about x = 0",                       \
+                   .unset = "all elements")
+#define RB_DESIGN_EVALUATIONS_LINE(place)                                                          \
+    RB_INTEGER_LINE("evaluations", place, RB_FROM_TO(1, 100000), "solved cases at most")
+
+/* Describes the allowed values of an option: "a number >= 0", "lemke, newton or auto".
+ * Returns text. */
+const char *rb_option_expected(const rb_option *option, char *text, size_t size);
+
+/* 1: the value of the option in this target is a length in mm (`lengths` above). */
+int rb_option_is_length(const rb_option *option, const void *target);
+
+/* 1: the number is in the range of the option. */
+int rb_option_in_range(const rb_option *option, double value);
+
+/* ---- The options of a case ------------------------------------------------------- */
+
+/* Options with a common bit exclude each other. */
+enum {
+    RB_ONE_NORMAL = 1,
+    RB_ONE_CREEPAGE = 2,
+    RB_ONE_LOADING = 4,
+    RB_ONE_YOUNG_B = 8,
+    RB_ONE_POISSON_B = 16,
+    RB_ONE_FRICTION = 32
+};
+
+enum { RB_CASE_OPTIONS_MAX = 128 };
+
+/* All options and headings of a case, in the order of the help; their offsets refer to
+ * rb_resolved_case. */
+extern const rb_option rb_case_table[];
+extern const int rb_case_table_n;
+
+/* 1: the body is of a kind that has this option of a body: base-young of a layer. */
+int rb_option_applies(const rb_option *option, const rb_rolling_body *body);
+
+#endif
