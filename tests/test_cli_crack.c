@@ -197,6 +197,23 @@ TEST(pictures)
                      0);
     assert_int_equal(shell("sed -n '/^.tips/,/^EOD/p' d.gp | wc -l"), 0);
     assert_int_equal(atoi(out), 5);
+    /* a contact that stands still is drawn over its steps */
+    assert_int_equal(rollbem("crack --increments 2 --plot e.svg --plot-script e.gp --quiet"), 0);
+    assert_int_equal(shell("grep -c \"xlabel 'step'\" e.gp"), 0);
+    assert_int_equal(rollbem("crack --increments 2 --orbit f.svg --quiet"), 0);
+}
+
+/* A crack at 90 degrees stays below its mouth to the last digit, also when it has grown. */
+TEST(right_angles_are_right)
+{
+    assert_int_equal(rollbem(HERTZ "--mu 0 --crack-angle 90 --remote-stress 1 --paris 1e-9,3 "
+                                   "--grow-steps 3 --json"),
+                     0);
+    held_json *root = NOT_NULL(json_loads(out, 0, NULL));
+    const json_t *tip = json_object_get(json_object_get(root, "growth"), "tip_x");
+    assert_int_equal(json_array_size(tip), 4);
+    for (size_t k = 0; k < 4; k++)
+        assert_true(json_number_value(json_array_get(tip, k)) == 0.0);
 }
 
 /* The face on the side of +x, to which K_II > 0 refers, lies above at 30 degrees and below at

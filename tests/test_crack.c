@@ -733,4 +733,33 @@ TEST(no_memory)
     assert_true(done);
 }
 
+/* Asked so many times, no more. */
+static int is_over(void *context)
+{
+    int *left = context;
+    return (*left)-- <= 0;
+}
+
+/* A crack of many elements takes long: it can be stopped at each of them. */
+TEST(a_crack_can_be_stopped_while_it_is_made)
+{
+    enum { ELEMENTS = 12 };
+    const rb_crack_shape shape = edge_crack(30.0, ELEMENTS, 0.1);
+    int times = 0, done = 0;
+    for (; !done && times < 200; times++) {
+        rb_crack *c = NULL;
+        int left = times;
+        const rb_interrupt before = rb_interrupt_by((rb_interrupt){is_over, &left});
+        const rb_status s = rb_crack_create(&shape, &c, &heard);
+        rb_interrupt_by(before);
+        done = s == RB_OK;
+        if (!done) {
+            CHECK_STATUS(s, RB_INTERRUPTED);
+            assert_null(c);
+        }
+        rb_crack_free(c);
+    }
+    assert_true(done && times > 4 * ELEMENTS); /* two parts of two matrices */
+}
+
 RUN_TESTS(NULL, NULL)

@@ -20,10 +20,11 @@ static const double EDGE_CRACK = 1.1215222552;
 
 rb_crack_path rb_crack_straight(double mouth, double depth, double length, double angle)
 {
-    const double w = angle * (M_PI / 180.0);
+    /* the cosine of 90 degrees to the last digit */
+    const double degree = M_PI / 180.0;
     return (rb_crack_path){.pieces = 1,
-                           .x = {mouth, mouth + length * cos(w)},
-                           .y = {-depth, -depth - length * sin(w)}};
+                           .x = {mouth, mouth + length * sin((90.0 - angle) * degree)},
+                           .y = {-depth, -depth - length * sin(angle * degree)}};
 }
 
 static double complex place(const rb_crack_path *path, int k)
@@ -220,11 +221,13 @@ static void add_entry(rb_crack *c, int j, int l, int direction, double complex t
 
 /* The straight pieces by themselves, integrated by parts: logarithms, and what stands at
  * the ends of a piece where a hat is not zero. */
-static void add_collinear(rb_crack *c, double C)
+static rb_status add_collinear(rb_crack *c, double C)
 {
     const rb_crack_element *e = c->element;
 
-    for (int i = 0; i < c->shape.elements; i++)
+    for (int i = 0; i < c->shape.elements; i++) {
+        if (rb_interrupted())
+            return RB_INTERRUPTED;
         for (int l = 0; l < c->shape.elements; l++) {
             if (e[i].piece != e[l].piece)
                 continue;
@@ -241,6 +244,8 @@ static void add_collinear(rb_crack *c, double C)
                 add_entry(c, i + 1 - c->first, l, k, -unit * to);
             }
         }
+    }
+    return RB_OK;
 }
 
 /* The surface, and the other pieces of a crack with kinks, by quadrature. */
@@ -251,7 +256,9 @@ static rb_status add_quadrature(rb_crack *c, double g)
     gsl_integration_glfixed_table *const rule[2] = {gsl_integration_glfixed_table_alloc(POINTS),
                                                     gsl_integration_glfixed_table_alloc(GRADED)};
 
-    for (int i = 0; i < n && rule[0] && rule[1]; i++) {
+    rb_status status = rule[0] && rule[1] ? RB_OK : RB_ENOMEM;
+    for (int i = 0; i < n && status == RB_OK; i++) {
+        status = rb_interrupted() ? RB_INTERRUPTED : RB_OK;
         rb_crack_point point[2 * GRADED];
         const int points =
             rb_crack_points(&e[i], i == 0 ? c->first == 0 : e[i - 1].piece != e[i].piece,
@@ -272,7 +279,7 @@ static rb_status add_quadrature(rb_crack *c, double g)
     for (int k = 0; k < 2; k++)
         if (rule[k])
             gsl_integration_glfixed_table_free(rule[k]);
-    return rule[0] && rule[1] ? RB_OK : RB_ENOMEM;
+    return status;
 }
 
 /* F = -K^-1 of the symmetric part; the quadrature alone makes K unsymmetric. */
@@ -346,12 +353,12 @@ static rb_status assemble(const rb_crack_shape *shape, const double *s, rb_crack
         c->t[j] = sum / cabs(sum);
         c->hat[j] = 0.5 * (c->element[k].length + (k > 0 ? c->element[k - 1].length : 0));
     }
-    add_collinear(c, 2.0 * g);
-    if (!shape->full_plane || shape->path.pieces > 1) {
-        const rb_status status = add_quadrature(c, g);
-        if (status != RB_OK)
-            return status;
-    }
+    rb_status status = add_collinear(c, 2.0 * g);
+    if (status == RB_OK && (!shape->full_plane || shape->path.pieces > 1))
+        status = add_quadrature(c, g);
+    if (status != RB_OK)
+        return rb_fail(why, status, "crack: %s",
+                       status == RB_INTERRUPTED ? "interrupted" : "out of memory");
     /* Turns K from (x, y) of all nodes to the frames (n, t) of each: its columns, that are D,
      * and its rows, that are forces. */
     const int n = c->n, m = 2 * n;

@@ -157,6 +157,16 @@ static void extremes(const double *value, int from, int n, int *least, int *most
     }
 }
 
+/* Of faces that stick many steps have the same K but for rounding: the first of those like k. */
+static int first_like(const double *value, int from, int n, int k)
+{
+    const double rounding = 1e-9 * rb_norm_inf((size_t)(n - from), value + from);
+    int i = from;
+    while (fabs(value[i] - value[k]) > rounding)
+        i++;
+    return i;
+}
+
 rb_case_crack_summary rb_case_crack_summarise(const rb_crack_history *h, int passes)
 {
     const int n = h->n, steps = n / GSL_MAX(passes, 1), from = n - steps;
@@ -166,13 +176,14 @@ rb_case_crack_summary rb_case_crack_summarise(const rb_crack_history *h, int pas
     extremes(h->K_I, from, n, &least, &most);
     s.K_I_min = h->K_I[least];
     s.K_I_max = h->K_I[most];
+    most = first_like(h->K_I, from, n, most);
     s.K_I_max_at = h->x[most];
     s.K_II_at_K_I_max = h->K_II[most];
     extremes(h->K_II, from, n, &least, &most);
     s.K_II_min = h->K_II[least];
     s.K_II_max = h->K_II[most];
-    s.K_II_min_at = h->x[least];
-    s.K_II_max_at = h->x[most];
+    s.K_II_min_at = h->x[first_like(h->K_II, from, n, least)];
+    s.K_II_max_at = h->x[first_like(h->K_II, from, n, most)];
     s.delta_K_I = s.K_I_max - s.K_I_min;
     s.delta_K_II = s.K_II_max - s.K_II_min;
     s.K_I_max_upper = s.K_I_min_upper = s.K_II_max_upper = s.K_II_min_upper = NAN;

@@ -34,13 +34,14 @@ static double last_angle(const rb_crack_path *path)
 /* Straight on, or as a new piece in another direction. */
 static int extend(double by, double angle, rb_crack_path *path)
 {
-    const double w = angle * (M_PI / 180.0), turn = fabs(angle - last_angle(path));
+    const rb_crack_path next = rb_crack_straight(0.0, 0.0, by, angle);
+    const double turn = fabs(angle - last_angle(path));
     const int from = path->pieces, to = turn > 1e-9 ? from + 1 : from;
 
     if (to > RB_CRACK_PIECES)
         return 0;
-    path->x[to] = path->x[from] + by * cos(w);
-    path->y[to] = path->y[from] - by * sin(w);
+    path->x[to] = path->x[from] + next.x[1];
+    path->y[to] = path->y[from] + next.y[1];
     path->pieces = to;
     return path->y[to] < 0.0;
 }

@@ -127,7 +127,7 @@ double rb_report_labels_in(double height)
 
 /* Words that are put one behind the other, as far as there is room. */
 typedef struct {
-    char text[256];
+    char text[512];
     size_t n;
 } words;
 
@@ -147,10 +147,16 @@ static void add_length(words *w, const char *of, double length, rb_units units)
               rb_unit_name(units, "mm"));
 }
 
+static void add_material(words *w, double young, double poisson, rb_units units)
+{
+    const double shown = rb_unit_shown(units, "MPa", young);
+    const rb_report_unit unit = rb_report_axis_unit(units, "MPa", shown);
+    add_words(w, "E = %s %s, ν = %.4g", RB_REPORT_NUMBER(shown / unit.size, 5), unit.name, poisson);
+}
+
 static void add_body(words *w, const rb_rolling_body *b, rb_units units)
 {
-    const double young = rb_unit_shown(units, "MPa", b->young);
-    const rb_report_unit unit = rb_report_axis_unit(units, "MPa", young);
+    const double below = b->layer > 0.0 ? b->base_young : b->core_young;
     add_words(w, "%s", rb_rolling_kind_name(rb_rolling_kind_of(b)));
     if (isfinite(b->radius))
         add_length(w, "R = ", b->radius, units);
@@ -158,14 +164,20 @@ static void add_body(words *w, const rb_rolling_body *b, rb_units units)
         add_length(w, "cover ", b->cover, units);
     if (b->layer > 0.0)
         add_length(w, "layer ", b->layer, units);
-    add_words(w, ", E = %s %s%s", RB_REPORT_NUMBER(young / unit.size, 5), unit.name,
-              b->memory.n > 0 ? ", relaxes" : "");
+    add_words(w, ", ");
+    add_material(w, b->young, b->poisson, units);
+    add_words(w, "%s", b->memory.n > 0 ? ", relaxes" : "");
+    if ((b->layer > 0.0 || b->cover > 0.0) && below > 0.0) {
+        add_words(w, " on ");
+        add_material(w, below, b->layer > 0.0 ? b->base_poisson : b->core_poisson, units);
+    } else if (b->layer > 0.0 || b->cover > 0.0)
+        add_words(w, " on a rigid %s", b->layer > 0.0 ? "base" : "core");
 }
 
 void rb_report_label_bodies(FILE *out, const rb_rolling_case *rc, rb_units units, double x,
                             double y)
 {
-    enum { FITS = 90 }; /* characters of this size in a line */
+    enum { FITS = 100 }; /* letters of this size in a line */
     words w = {.n = 0};
     add_words(&w, "A: ");
     add_body(&w, &rc->a, units);
@@ -175,6 +187,9 @@ void rb_report_label_bodies(FILE *out, const rb_rolling_case *rc, rb_units units
         add_body(&w, &rc->b, units);
     } else
         add_words(&w, " rigid");
+    size_t letters = 0; /* of UTF-8 */
+    for (size_t k = 0; k < w.n; k++)
+        letters += ((unsigned char)w.text[k] & 0xc0) != 0x80;
     fprintf(out, "set label 9 '{/*%.3g %s}' at screen %g, %g center textcolor rgb '#444444'\n",
-            w.n > FITS ? 0.95 * FITS / (double)w.n : 0.95, w.text, x, y);
+            letters > FITS ? 0.95 * FITS / (double)letters : 0.95, w.text, x, y);
 }

@@ -273,34 +273,51 @@ static axes axes_of(const rb_case_crack_result *r)
                   rb_report_axis_unit(r->units, "MPa", s->fluid_pressure_max)};
 }
 
-static void write_steps(FILE *out, const rb_case_crack_result *r, double length)
+/* A contact that stands still over the crack is drawn over its steps. */
+static int stands_still(const rb_case_crack_result *r)
+{
+    return r->history.x[r->history.n - 1] == r->history.x[first_of(r)];
+}
+
+/* Over what is drawn: the position in half-widths, or the number of the step. */
+static double abscissa(const rb_case_crack_result *r, int k)
+{
+    return stands_still(r) ? k - first_of(r) + 1 : r->history.x[k] / r->half_width;
+}
+
+static const char *abscissa_label(const rb_case_crack_result *r)
+{
+    return stands_still(r) ? "step" : "position of the contact / a";
+}
+
+static void write_steps(FILE *out, const rb_case_crack_result *r)
 {
     const rb_crack_history *h = &r->history;
     const axes unit = axes_of(r);
     fputs("$K << EOD\n", out);
     for (int k = first_of(r); k < h->n; k++)
-        fprintf(out, "%.9g %.9g %.9g %.9g\n", h->x[k] / length, h->K_I[k] / unit.K.size,
+        fprintf(out, "%.9g %.9g %.9g %.9g\n", abscissa(r, k), h->K_I[k] / unit.K.size,
                 h->K_II[k] / unit.K.size, h->fluid_pressure[k] / unit.fluid.size);
     fputs("EOD\n", out);
 }
 
 /* A box for each run of nodes in one zone at one position: x, s, half-sizes, colour. */
-static void write_zones(FILE *out, const rb_case_crack_result *r, const double *hat, double length)
+static void write_zones(FILE *out, const rb_case_crack_result *r, const double *hat)
 {
     const rb_crack_history *h = &r->history;
-    const double unit = rb_unit_shown(r->units, "mm", 1.0) / length;
+    const double unit = rb_unit_shown(r->units, "mm", 1.0) / r->half_width;
     fputs("$zones << EOD\n", out);
     for (int k = first_of(r); k < h->n; k++) {
         const int *zone = h->zone + (size_t)k * h->nodes;
-        const double left = k > first_of(r) ? h->x[k] - h->x[k - 1] : 0.0;
-        const double right = k + 1 < h->n ? h->x[k + 1] - h->x[k] : 0.0;
+        const double x = abscissa(r, k), left = k > first_of(r) ? x - abscissa(r, k - 1) : 0.0;
+        const double right = k + 1 < h->n ? abscissa(r, k + 1) - x : 0.0;
         double from = 0.0, to = 0.0;
         for (int j = 0; j < h->nodes; j++) {
             to += hat[j] * unit;
             if (j + 1 < h->nodes && zone[j + 1] == zone[j])
                 continue;
-            fprintf(out, "%.9g %.9g %.9g %.9g %d\n", (h->x[k] + 0.25 * (right - left)) / length,
-                    0.5 * (from + to), 0.26 * (left + right) / length, 0.5 * (to - from),
+            fprintf(out, "%.9g %.9g %.9g %.9g %d\n", x + 0.25 * (right - left), 0.5 * (from + to),
+                    0.26 * (left + right), 0.5 * (to - from),
                     (int)strtol(colour_of(zone[j]) + 1, NULL, 16));
             from = to;
         }
@@ -337,8 +354,8 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
 
     for (int j = 0; j < h->nodes; j++)
         along += v->hat[j] / rb_unit_stored(r->units, "mm", a);
-    write_steps(out, r, a);
-    write_zones(out, r, v->hat, a);
+    write_steps(out, r);
+    write_zones(out, r, v->hat);
     write_title(out, v, place);
     fprintf(out,
             "set multiplot\nset lmargin at screen %g\nset rmargin at screen %g\n"
@@ -351,7 +368,7 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
             !wet           ? 0.965
             : place.titled ? 0.89
                            : 0.83,
-            0.88 + place.up, 0.48, h->x[first_of(r)] / a, h->x[h->n - 1] / a,
+            0.88 + place.up, 0.48, abscissa(r, first_of(r)), abscissa(r, h->n - 1),
             0.925 + 1.4 * place.up, rb_report_key_font(canvas),
             rb_report_raised(shown.K.name, unit), 0.68);
     if (wet)
@@ -370,12 +387,12 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
     fprintf(out,
             "\nunset label 1\nunset label 2\nunset y2tics\nunset y2label\nunset key\n"
             "set ytics nomirror\nset tmargin at screen 0.44\nset bmargin at screen %g\n"
-            "set format x '%%g'\nset xlabel 'position of the contact / a' offset 0,0.3\n"
+            "set format x '%%g'\nset xlabel '%s' offset 0,0.3\n"
             "set offsets 0,0,0,0\nset yrange [*:*] reverse\nset autoscale yfix\n"
             "set ytics %g\n"
             "set label 2 '%salong the crack / a%s' at screen 0.03, %g center rotate\n",
-            0.16 + place.up, rb_report_round_step(along / 4.0), place.titled ? "" : "{/*0.85 ",
-            place.titled ? "" : "}", 0.3 + 0.5 * place.up);
+            0.16 + place.up, abscissa_label(r), rb_report_round_step(along / 4.0),
+            place.titled ? "" : "{/*0.85 ", place.titled ? "" : "}", 0.3 + 0.5 * place.up);
     write_zone_key(out, canvas, faces_of(r).plus, 1);
     fputs("plot $zones using 1:2:3:4:5 with boxxyerror fillstyle solid noborder linecolor rgb "
           "variable notitle",
@@ -405,7 +422,7 @@ static void write_orbit(FILE *out, rb_report_canvas canvas, const void *context)
     char unit[40];
     const char *K = rb_report_raised(axes_of(v->r).K.name, unit);
 
-    write_steps(out, v->r, v->r->half_width);
+    write_steps(out, v->r);
     write_title(out, v, place);
     rb_report_room(out, 0.14 + place.right, place.titled ? 0.86 : 0.79, 0.14 + place.up,
                    0.92 + place.up);
@@ -413,10 +430,10 @@ static void write_orbit(FILE *out, rb_report_canvas canvas, const void *context)
             RB_REPORT_GRID RB_REPORT_ZERO
             "set offsets graph 0.06,graph 0.06,graph 0.06,graph 0.06\nset xlabel 'K_{I}  "
             "[%s]'\nset ylabel 'K_{II}  [%s]'\nset "
-            "cblabel 'position of the contact / a' offset 1,0\nunset key\n" RB_REPORT_PALETTE
+            "cblabel '%s' offset 1,0\nunset key\n" RB_REPORT_PALETTE
             "plot $K using 2:3:1 with lines palette linewidth 2.2, $K using 2:3:1 with points "
             "palette pointtype 7 pointsize 0.6\n",
-            K, K);
+            K, K, abscissa_label(v->r));
 }
 
 rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas, const rb_case_crack_result *r,
@@ -451,7 +468,7 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
     const int n = h->nodes;
     int k = first_of(r); /* the position nearest to the one asked for */
     for (int i = k; i < h->n; i++)
-        if (fabs(h->x[i] - v->at * r->half_width) < fabs(h->x[k] - v->at * r->half_width))
+        if (fabs(h->x[i] - v->at * r->half_width) <= fabs(h->x[k] - v->at * r->half_width))
             k = i;
     const double unit = rb_unit_stored(r->units, "mm", r->half_width); /* a in mm */
     const double at = h->x[k] / r->half_width;

@@ -103,11 +103,13 @@ static void write_subtitle(FILE *out, const view *v, const char *title, double y
             RB_REPORT_NUMBER(s->half_width / length.size, 4), length.name);
     if (isfinite(s->force_ratio))
         fprintf(out, ",  Q/(μP) = %.4g", rb_report_tidy(s->force_ratio, 1.0) + 0.0);
-    fprintf(
-        out,
-        "' at screen 0.5, %g center\nset label 4 '{/*0.8 contact: thin line stick, thick line slip "
-        "(orange →, purple ←)}' at screen 0.5, 0.025 center textcolor rgb '#444444'\n",
-        y);
+    fprintf(out,
+            "' at screen 0.5, %g center\nset label 4 '{/*0.8 contact: %s}' at screen 0.5, 0.025 "
+            "center textcolor rgb '#444444'\n",
+            y,
+            rb_rolling_largest_mu(v->s->rc) > 0.0
+                ? "thin line stick, thick line slip (orange →, purple ←)"
+                : "without friction");
     rb_report_label_bodies(out, v->s->rc, s->units, 0.5, y - line);
 }
 
@@ -121,12 +123,12 @@ typedef struct {
  * the tics behind. */
 static panel panel_of(const view *v, int k)
 {
-    const double wide = v->column ? 0.61 : 0.345, high = v->column ? 0.31 : 0.60;
+    const double wide = v->column ? 0.61 : 0.345, high = v->column ? 0.31 : 0.55;
     const double aspect = v->shape * shown_aspect(v);
     const double width = fmin(wide, high / aspect);
     const double left = v->column ? 0.2 : 0.085 + 0.475 * k;
     return (panel){.left = left + 0.5 * (wide - width),
-                   .middle = !v->column ? 0.48 : 0.755 - 0.45 * k,
+                   .middle = !v->column ? 0.505 : 0.755 - 0.45 * k,
                    .width = width,
                    .height = width * aspect};
 }
@@ -184,10 +186,11 @@ static void write_panel(FILE *out, rb_report_canvas canvas, const view *v, const
 {
     const double bottom = at.middle - at.height / 2, top = bottom + at.height;
     rb_report_room(out, at.left, at.left + at.width, bottom, top);
-    fprintf(out, "set xtics %.9g\nset ytics %.9g\n",
-            rb_report_round_step((v->to - v->from) /
-                                 rb_report_labels_in((v->column ? 0.7 : 1.2) * at.width)),
-            rb_report_round_step(v->depth / fmin(5.0, 0.6 * rb_report_labels_in(at.height))));
+    fprintf(
+        out, "set xtics %.9g\nset ytics %.9g\n",
+        rb_report_round_step((v->to - v->from) /
+                             fmax(rb_report_labels_in((v->column ? 0.7 : 1.2) * at.width), 4.0)),
+        rb_report_round_step(v->depth / fmin(5.0, 0.6 * rb_report_labels_in(at.height))));
     /* the value of the maximum stands in the title, where it covers no contour's */
     fprintf(out,
             "set cbtics %.9g\nset colorbox user origin %g, %g size 0.013, %g\n"
