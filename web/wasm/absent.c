@@ -6,6 +6,7 @@
 #include "bem/hierarchical.h"
 #include "bem/large.h"
 #include "bem/skeleton.h"
+#include "rolling/internal.h"
 #include "rolling/study/internal.h"
 #include "base/blas.h"
 #include "lcp/friction/friction.h"
@@ -230,6 +231,52 @@ int rb_rolling_profile_rows(const rb_rolling_profile *profile, const double **x)
 {
     (void)profile;
     *x = NULL;
+    return 0;
+}
+
+double rb_rolling_profile_radius(const rb_rolling_profile *profile)
+{
+    (void)profile;
+    return NAN;
+}
+
+int rb_rolling_profile_corners(const rb_rolling_profile *profile, const double **x,
+                               const double **bend)
+{
+    (void)profile;
+    *x = *bend = NULL;
+    return 0;
+}
+
+/* Nor an interpolant. */
+rb_status rb_rolling_interpolant_create(int n, const double *x, const double *y, int is_smooth,
+                                        rb_rolling_interpolant **interpolant)
+{
+    (void)n;
+    (void)x;
+    (void)y;
+    (void)is_smooth;
+    *interpolant = NULL;
+    return RB_EINVAL;
+}
+
+void rb_rolling_interpolant_free(rb_rolling_interpolant *interpolant)
+{
+    (void)interpolant;
+}
+
+double rb_rolling_interpolant_at(const rb_rolling_interpolant *interpolant, double x)
+{
+    (void)interpolant;
+    (void)x;
+    return NAN;
+}
+
+int rb_rolling_interpolant_corners(const rb_rolling_interpolant *interpolant, const double **x,
+                                   const double **bend)
+{
+    (void)interpolant;
+    *x = *bend = NULL;
     return 0;
 }
 

@@ -245,7 +245,10 @@ rb_status rb_api_call_ends(rb_api *a, rb_status s)
 void rb_api_forget_call(rb_api *a)
 {
     a->why.text[0] = '\0';
-    a->stopped = a->heard = a->done = a->total = 0;
+    a->stopped = 0;
+    a->heard = 0;
+    a->done = 0;
+    a->total = 0;
 }
 
 /* All results; the model stays aside where its bodies remain those of the case. */
@@ -922,7 +925,8 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
     if (!made && strncmp(name, "tolerance.", 10) == 0)
         made = tolerance_array(a, name, name + 10);
     if (!made && a->result.model.mesh.n > 0) {
-        a->stopped = a->heard = 0;
+        a->stopped = 0;
+        a->heard = 0;
         rb_api_call_begins(a);
         made = model_array(a, name);
         rb_api_call_ends(a, RB_OK);
