@@ -30,7 +30,7 @@ const PAGE = [
     "crack.js",
     "main.js",
 ];
-const LIMIT = 700e3;
+const LIMIT = 800e3;
 
 /* The sketch of docs/ as a picture of its own, which the page's styles leave as it is; its title describes it. */
 function picture(file) {
