@@ -262,7 +262,7 @@ $(B)/tests/%: tests/%.c tests/check.h $(B)/tests/failing_alloc.o $(B)/librollbem
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Itests -MMD -MP -MF $@.d -o $@ $< $(filter %.o,$^) $(B)/librollbem.a $(LDFLAGS) $(WRAP) $(LDLIBS) -lcmocka
 
 # the core by itself, with the libraries that it needs and no others
-CORE := $(patsubst %.c,$(B)/%.o,$(wildcard src/base/*.c src/bem/*.c $(foreach folder,lemke portfolio contact,src/lcp/$(folder)/*.c) src/rolling/*/*.c src/analysis/crack/*.c)) $(B)/src/base/io/table.o $(B)/src/base/io/text.o $(B)/src/base/io/tokens.o
+CORE := $(patsubst %.c,$(B)/%.o,$(wildcard src/base/*.c src/bem/*.c $(foreach folder,lemke portfolio proof contact,src/lcp/$(folder)/*.c) src/rolling/*/*.c src/analysis/crack/*.c)) $(B)/src/base/io/table.o $(B)/src/base/io/text.o $(B)/src/base/io/tokens.o
 CORE_LIBS = $(filter-out -lgslcblas,$(shell pkg-config --libs openblas lapacke gsl fftw3)) -lfftw3_threads -lm $(OPENMP)
 $(B)/librollbem-core.a: $(filter $(CORE),$(LIB_OBJ))
 	@rm -f $@

@@ -15,6 +15,7 @@ static const struct {
     {"bem", " base blas sparse bem "},
     {"lcp/lemke", " base blas lcp "},
     {"lcp/portfolio", " base blas lcp "},
+    {"lcp/proof", " base lcp "},
     {"lcp/contact", " base lcp contact "},
     {"lcp/friction", " base blas sparse io io_fclib lcp contact friction "},
     {"rolling/case", " base units io io_contact rolling options case "},

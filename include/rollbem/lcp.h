@@ -182,6 +182,34 @@ rb_status rb_lcp_bimatrix(const rb_lcp_game *game, int label, const rb_lcp_optio
 rb_status rb_lcp_bimatrix_enumerate(const rb_lcp_game *game, double seconds, rb_lcp_solutions *all,
                                     rb_message *why);
 
+/* What is proved of a solution (docs/proof.md): the problem with exactly these numbers has a
+ * solution, and each z_i of it lies within error_i of z_i. */
+typedef enum { RB_LCP_AT_BOUND, RB_LCP_BASIC, RB_LCP_UNDECIDED } rb_lcp_pair;
+
+typedef struct {
+    int n, proved;
+    const char *reason; /* why not; "": proved; static text */
+    int row;            /* the first row or unknown whose sign is not proved; -1: none */
+    double *z, *error;  /* n; owned */
+    int *state;         /* n: rb_lcp_pair; owned */
+    int undecided;      /* pairs of which is open whether z_i is 0 or inside its bounds */
+    int isolated;       /* 1: no other solution lies near, apart from parts of z that w does not
+                           notice: w, and for contact tractions, gaps and slips, are isolated */
+    double bound;         /* max error_i / max |z| */
+    double stored_within; /* the z given: within this part of max |z| of that solution */
+    double nearby;        /* the z given, within its bounds, solves a problem exactly whose q_i
+                             differ from these by at most this part of (|M| |z| + |q|)_i */
+    double margin;        /* the least unknown or w_i > 0, as a multiple of its error */
+    double norm;          /* max row sum of |I - R A|; below 0.99 the basis is regular */
+} rb_lcp_proof;
+
+/* Proves that there is a solution with the signs of z, or of a z near to it, which may come
+ * from any solver.  RB_OK: proved; RB_UNDECIDED: not proved, see proof->reason;
+ * RB_INTERRUPTED; RB_EINVAL: M not square, NaN or infinity; RB_ENOMEM.  No tolerance decides anything.  Needs
+ * dense matrices of the unknowns inside their bounds, 4000 at most.  Free the proof. */
+rb_status rb_lcp_prove(const rb_lcp_mixed_problem *p, const double *z, rb_lcp_proof *proof);
+void rb_lcp_proof_free(rb_lcp_proof *proof);
+
 /* w = M z + q and max_i |min(z_i, w_i)|; w: n or NULL. */
 double rb_lcp_residual(const rb_lcp_problem *p, const double *z, double *w);
 /* The same for the mixed problem: max_i |max(min(z_i - lower_i, w_i), z_i - upper_i)|; w:

@@ -1,0 +1,275 @@
+/* Proofs of solutions against fractions: what is proved is so, of problems that are regular,
+ * degenerate, ill-conditioned, in any units, and of z that are no solutions. */
+#include "check.h"
+
+#include "exact.h"
+#include "numbers.h"
+#include "rollbem/lcp.h"
+
+enum { PROBLEMS = 10000, PARTS = 20 };
+
+static unsigned seed;
+
+static int below(int n)
+{
+    return (int)((uniform_from(&seed) + 1.0) * 0.5 * n) % n;
+}
+
+static rb_status prove_dense(int n, const double *M, const double *q, const double *lower,
+                             const double *upper, const double *z, rb_lcp_proof *proof)
+{
+    OWNED(rb_sparse) sparse = {0};
+    CHECK_OK(rb_sparse_from_dense(n, n, M, n, &sparse));
+    const rb_lcp_mixed_problem p = {&sparse, q, lower, upper};
+    return rb_lcp_prove(&p, z, proof);
+}
+
+/* ---- By hand ----------------------------------------------------------------------------- */
+
+TEST(two_unknowns_are_proved)
+{
+    const double M[] = {2, 1, 1, 2}, q[] = {-5, -6}, z[] = {4.0 / 3, 7.0 / 3};
+    OWNED(rb_lcp_proof) proof;
+    CHECK_OK(prove_dense(2, M, q, NULL, NULL, z, &proof));
+    assert_true(proof.proved && proof.isolated && proof.undecided == 0);
+    for (int i = 0; i < 2; i++)
+        CHECK_MAX(fabs(proof.z[i] - z[i]), proof.error[i], "z_%d", i);
+    CHECK_MAX(proof.bound, 1e-14, "bound");
+    CHECK_MAX(proof.stored_within, 1e-14, "stored numbers");
+    CHECK_MAX(proof.nearby, 4e-16, "data nearby");
+}
+
+/* The stored numbers are compared, however wrong they are: the proof is of the solution that the
+ * signs lead to. */
+TEST(wrong_numbers_are_far_from_what_is_proved)
+{
+    const double M[] = {2, 1, 1, 2}, q[] = {-5, -6};
+    for (int k = 0; k < 3; k++) {
+        const double z[][2] = {{1.0, 2.0}, {0.0, 3.0}, {0.0, 0.0}}; /* too small; half; none */
+        OWNED(rb_lcp_proof) proof;
+        CHECK_OK(prove_dense(2, M, q, NULL, NULL, z[k], &proof));
+        CHECK_MAX(fabs(proof.z[1] - 7.0 / 3), proof.error[1], "%d", k);
+        CHECK_MAX(0.1, proof.stored_within, "%d", k);
+        CHECK_MAX(0.1, proof.nearby, "%d", k);
+    }
+}
+
+TEST(a_problem_without_a_solution_is_not_proved)
+{
+    const double M[] = {0, 0, 0, 1}, q[] = {-1, 0}, z[] = {1e9, 0};
+    OWNED(rb_lcp_proof) proof;
+    CHECK_STATUS(prove_dense(2, M, q, NULL, NULL, z, &proof), RB_UNDECIDED);
+    assert_false(proof.proved);
+    assert_true(proof.reason[0] != '\0');
+}
+
+TEST(bad_numbers_are_refused)
+{
+    const double good[] = {2, 1, 1, 2}, bad[] = {2, NAN, 1, 2}, q[] = {-5, -6};
+    const double z[] = {1, 2}, far[] = {1, INFINITY}, none[] = {NAN, -6};
+    rb_lcp_proof proof;
+    CHECK_STATUS(prove_dense(2, bad, q, NULL, NULL, z, &proof), RB_EINVAL);
+    CHECK_STATUS(prove_dense(2, good, none, NULL, NULL, z, &proof), RB_EINVAL);
+    CHECK_STATUS(prove_dense(2, good, q, NULL, NULL, far, &proof), RB_EINVAL);
+}
+
+/* z_1 at 1, its upper end, z_2 free, z_3 fixed at 2, z_4 zero: z_2 = -(q_2 + z_1 + 2)/2. */
+TEST(boxes_and_free_unknowns_are_proved)
+{
+    const double M[] = {3, 1, 0, 0, 1, 2, 0, 1, 0, 1, 1, 0, 0, 0, 0, 1};
+    const double q[] = {-9, -4, 100, 3}, lower[] = {0, -INFINITY, 2, 0},
+                 upper[] = {1, INFINITY, 2, INFINITY}, z[] = {1, 0.5, 2, 0};
+    OWNED(rb_lcp_proof) proof;
+    CHECK_OK(prove_dense(4, M, q, lower, upper, z, &proof));
+    assert_true(proof.isolated);
+    CHECK_MAX(fabs(proof.z[1] - 0.5), proof.error[1], "free");
+    CHECK_MAX(proof.stored_within, 1e-14, "stored");
+}
+
+/* A separated element of Kwak's form (lambda+, lambda-), and one of the pivoted form whose slip is
+ * zero by symmetry: which of its two parts is positive is undecided, and all else is proved. */
+TEST(exact_zeros_are_found_by_structure)
+{
+    /* r_N separated (q = 1), gamma+ and lambda- of it: l = 0.5 r_N + 2 gamma + nu + slip */
+    const double slip[] = {0.3, -0.3, 0.0};
+    for (int k = 0; k < 3; k++) {
+        const double M[] = {1, .5, .6, 0, 2, -1, 0, 1, 0}, q[] = {1, slip[k], 0};
+        const double z[] = {0, 0, fmax(0.0, -slip[k])};
+        OWNED(rb_lcp_proof) proof;
+        CHECK_OK(prove_dense(3, M, q, NULL, NULL, z, &proof));
+        assert_int_equal(proof.undecided, slip[k] == 0.0);
+        CHECK_MAX(fabs(proof.z[2] - z[2]), proof.error[2], "lambda- with slip %g", slip[k]);
+    }
+    const double K[] = {1, 0, 0, 0, 2, -2, 0, -2, 2};
+    for (int k = 0; k < 2; k++) {
+        const double q[] = {1, slip[k], -slip[k]};
+        const double z[] = {0, fmax(0.0, -slip[k] / 2), fmax(0.0, slip[k] / 2)};
+        OWNED(rb_lcp_proof) proof;
+        CHECK_OK(prove_dense(3, K, q, NULL, NULL, z, &proof));
+        assert_true(proof.isolated);
+        for (int i = 0; i < 3; i++)
+            CHECK_MAX(fabs(proof.z[i] - z[i]), proof.error[i], "z_%d", i);
+    }
+}
+
+/* q_1 = -M_12 z_2 exactly: z_1 = w_1 = 0. */
+TEST(a_degenerate_pair_is_undecided)
+{
+    const double M[] = {2, -1, 1, 2}, q[] = {-3, -6}, z[] = {0, 3};
+    OWNED(rb_lcp_proof) proof;
+    CHECK_OK(prove_dense(2, M, q, NULL, NULL, z, &proof));
+    assert_int_equal(proof.undecided, 1);
+    assert_int_equal(proof.state[0], RB_LCP_UNDECIDED);
+    CHECK_MAX(proof.bound, 1e-14, "bound");
+}
+
+static rb_status prove_without_memory(void *context)
+{
+    const double M[] = {2, -1, 1, 2}, q[] = {-3, -6}, z[] = {0, 3};
+    int p[] = {0, 2, 4}, i[] = {0, 1, 0, 1};
+    rb_sparse sparse = {2, 2, p, i, (double *)(uintptr_t)M};
+    rb_lcp_proof proof;
+    const rb_status s = rb_lcp_prove(&(rb_lcp_mixed_problem){&sparse, q, NULL, NULL}, z, &proof);
+    rb_lcp_proof_free(&proof);
+    return s;
+}
+
+TEST(allocations_that_fail_are_said)
+{
+    assert_true(alloc_fail_each(prove_without_memory, NULL) > 20);
+}
+
+/* ---- Against fractions ------------------------------------------------------------------- */
+
+typedef struct {
+    exact_lcp of_integers;
+    double M[EXACT_MOST * EXACT_MOST], q[EXACT_MOST], column[EXACT_MOST];
+} problem;
+
+/* Small integers; a positive diagonal; q that make a pair degenerate; parts of Hilbert's matrix;
+ * nearly dependent rows; a contact in the pivoted form with symmetric data.  Every second one
+ * with rows and columns in units of up to 2^40. */
+static void pose(int number, problem *p)
+{
+    exact_lcp *e = &p->of_integers;
+    memset(e, 0, sizeof *e);
+    seed = 4711u + 1000003u * (unsigned)number;
+    for (int k = 0; k < 4; k++)
+        uniform_from(&seed);
+    const int kind = number % 6, scaled = number / 6 % 2;
+    const int n = e->n = kind == 5 ? 6 : 1 + below(5);
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < n; j++)
+            e->M[i][j] = below(7) - 3 + (kind == 1 && i == j ? 5 : 0);
+        e->q[i] = below(7) - 3;
+    }
+    if (kind == 2) { /* q = -M z with z of 0 and 1: w is zero wherever z is */
+        int z[EXACT_MOST];
+        for (int i = 0; i < n; i++) {
+            z[i] = below(2);
+            e->M[i][i] += 4;
+        }
+        for (int i = 0; i < n; i++) {
+            e->q[i] = below(3) ? 0 : 2 * !z[i];
+            for (int j = 0; j < n; j++)
+                e->q[i] -= e->M[i][j] * z[j];
+        }
+    }
+    for (int i = 0; i < n && (kind == 3 || kind == 4); i++)
+        for (int j = 0; j < n; j++)
+            e->M[i][j] = kind == 3         ? 2520 / (i + j + 1)
+                         : i == n - 1 && i ? e->M[0][j] * 30000 + (j == n - 1)
+                                           : e->M[i][j];
+    if (kind == 5) { /* p1 p2 gamma1 gamma2 nu1 nu2, mu = 1: two elements that mirror each other */
+        const int a = 3 + below(3), b = below(3), c = below(2), d = below(5) - 2, far = below(2);
+        memset(e->M, 0, sizeof e->M);
+        for (int i = 0; i < 2; i++)
+            for (int j = 0; j < 2; j++) {
+                const int own = i == j ? a : b, across = i == j ? 0 : (i ? c : -c);
+                e->M[i][j] = own - across;
+                e->M[i][2 + j] = across;
+                e->M[2 + i][j] = -across - own;
+                e->M[2 + i][2 + j] = own;
+            }
+        for (int i = 0; i < 2; i++) {
+            e->M[2 + i][4 + i] = 1;
+            e->M[4 + i][i] = 2;
+            e->M[4 + i][2 + i] = -1;
+            e->q[i] = far && i ? 3 : -below(4);
+            e->q[2 + i] = d * (i ? -1 : 1);
+            e->q[4 + i] = 0;
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        const double row = scaled ? exp2(below(81) - 40) : 1.0;
+        p->column[i] = scaled ? exp2(below(81) - 40) : 1.0;
+        p->q[i] = row * e->q[i];
+        for (int j = 0; j < n; j++)
+            p->M[i + j * n] = row * e->M[i][j];
+    }
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++)
+            p->M[i + j * n] *= p->column[j];
+}
+
+/* 1: an exact solution lies within the bounds; the list is rounded to doubles. */
+static int holds(const problem *p, const rb_lcp_proof *proof, const exact_list *all)
+{
+    for (int k = 0; k < all->count; k++) {
+        int within = 1;
+        for (int i = 0; i < p->of_integers.n; i++) {
+            const double z = all->z[k][i] / p->column[i];
+            within &= fabs(z - proof->z[i]) <= proof->error[i] * (1.0 + 1e-12) + 0x1p-53 * z;
+        }
+        if (within)
+            return 1;
+    }
+    return 0;
+}
+
+/* All solutions, of regular bases and others. */
+TEST(what_is_proved_has_a_solution)
+{
+    static exact_list of_bases, all;
+    static problem p;
+    int proved = 0, tried = 0, solvable = 0, shown = 0, kinds[6] = {0};
+    for (int number = 0; number < PROBLEMS; number++) {
+        if (!is_in_turn(number / 12, PARTS))
+            continue;
+        pose(number, &p);
+        const int n = p.of_integers.n;
+        exact_solutions(&p.of_integers, &of_bases, &all);
+        /* from each solution, and from z that are none */
+        int regular = 0;
+        for (int k = 0; k < of_bases.count + 2; k++) {
+            double z[EXACT_MOST];
+            for (int i = 0; i < n; i++)
+                z[i] = (k < of_bases.count ? of_bases.z[k][i]
+                        : below(3)         ? below(9) / 3.0
+                                           : 0.0) /
+                       p.column[i];
+            OWNED(rb_lcp_proof) proof;
+            const rb_status s = prove_dense(n, p.M, p.q, NULL, NULL, z, &proof);
+            tried++;
+            assert_int_equal(s, proof.proved ? RB_OK : RB_UNDECIDED);
+            if (!proof.proved)
+                continue;
+            proved++;
+            kinds[number % 6]++;
+            regular = 1;
+            if (!holds(&p, &proof, &all))
+                fail_msg("problem %d, start %d: proved, but no solution lies there", number, k);
+            if (k < of_bases.count)
+                CHECK_MAX(proof.nearby, 1e-14, "problem %d: z is exact but for rounding", number);
+        }
+        solvable += of_bases.count > 0;
+        shown += regular && of_bases.count > 0;
+    }
+    for (int k = 0; k < 6; k++)
+        assert_true(kinds[k] > 0);
+    CHECK_MAX(0.7, (double)shown / solvable, "%d of %d problems proved", shown, solvable);
+    if (getenv("ROLLBEM_TEST_ALL"))
+        print_message("%d proofs of %d tries; %d of %d problems\n", proved, tried, shown, solvable);
+}
+
+RUN_TESTS(NULL, NULL)
