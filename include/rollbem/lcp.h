@@ -188,13 +188,13 @@ typedef enum { RB_LCP_AT_BOUND, RB_LCP_BASIC, RB_LCP_UNDECIDED } rb_lcp_pair;
 
 typedef struct {
     int n, proved;
-    const char *reason; /* why not; "": proved; static text */
-    int row;            /* the first row or unknown whose sign is not proved; -1: none */
-    double *z, *error;  /* n; owned */
-    int *state;         /* n: rb_lcp_pair; owned */
-    int undecided;      /* pairs of which is open whether z_i is 0 or inside its bounds */
-    int isolated;       /* 1: no other solution lies near, apart from parts of z that w does not
-                           notice: w, and for contact tractions, gaps and slips, are isolated */
+    const char *reason;   /* why not; "": proved; static text */
+    int row;              /* the first row or unknown whose sign is not proved; -1: none */
+    double *z, *error;    /* n; owned */
+    int *state;           /* n: rb_lcp_pair; owned */
+    int undecided;        /* pairs of which is open whether z_i is 0 or inside its bounds */
+    int isolated;         /* 1: no other solution lies near, apart from parts of z that w does not
+                             notice: w, and for contact tractions, gaps and slips, are isolated */
     double bound;         /* max error_i / max |z| */
     double stored_within; /* the z given: within this part of max |z| of that solution */
     double nearby;        /* the z given, within its bounds, solves a problem exactly whose q_i
@@ -205,8 +205,9 @@ typedef struct {
 
 /* Proves that there is a solution with the signs of z, or of a z near to it, which may come
  * from any solver.  RB_OK: proved; RB_UNDECIDED: not proved, see proof->reason;
- * RB_INTERRUPTED; RB_EINVAL: M not square, NaN or infinity; RB_ENOMEM.  No tolerance decides anything.  Needs
- * dense matrices of the unknowns inside their bounds, 4000 at most.  Free the proof. */
+ * RB_INTERRUPTED; RB_EINVAL: M not square, NaN or infinity; RB_ENOMEM.  No tolerance decides
+ * anything.  Needs dense matrices of the unknowns inside their bounds, 4000 at most.  Free the
+ * proof. */
 rb_status rb_lcp_prove(const rb_lcp_mixed_problem *p, const double *z, rb_lcp_proof *proof);
 void rb_lcp_proof_free(rb_lcp_proof *proof);
 

@@ -2,7 +2,7 @@
  * identity, and the bound of each unknown that follows from a residual. */
 #include "lcp/proof/bounds.h"
 
-#include "rollbem/base.h"
+#include "base/base.h"
 
 #include <cblas.h>
 #include <fenv.h>

@@ -343,7 +343,8 @@ static const char *solve_basis(prover *p, int fine, double *norm, rb_status *mem
 }
 
 /* t >= 0 of the undecided pairs: w_beta = y + S t, and <S> v >= c > 0 with a v > 0 makes S an
- * H-matrix, so that there is one t, 0 <= t <= v max max(0, -y)/c.  RB_UNDECIDED: S is not shown to be one; RB_ENOMEM. */
+ * H-matrix, so that there is one t, 0 <= t <= v max max(0, -y)/c.  RB_UNDECIDED: S is not shown to
+ * be one; RB_ENOMEM. */
 static rb_status bound_undecided(prover *p)
 {
     const int b = p->betas, n = p->n;
