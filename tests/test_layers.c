@@ -42,6 +42,7 @@ static const struct {
     const char *folder, *header;
 } shared[] = {
     {"lcp/portfolio", "lcp/lemke/lemke"},
+    {"lcp/proof", "lcp/lemke/lemke"},
     {"lcp/friction", "lcp/portfolio/linear"},
     {"rolling/solve", "rolling/case/closed_forms"},
     {"rolling/study", "rolling/case/closed_forms"},

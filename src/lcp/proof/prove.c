@@ -2,7 +2,6 @@
  * bounds (docs/proof.md).  What is computed only guides the proof; each inequality that counts
  * fails for a NaN. */
 #include "lcp/lemke/lemke.h"
-#include "lcp/lemke/farkas.h"
 #include "lcp/proof/bounds.h"
 
 #include <math.h>
