@@ -443,11 +443,12 @@ static rb_status maximum(const search *f, measure *of, rb_rolling_extremum *best
                 top = of(&at);
             }
         }
-        if (top > best->value) {
-            double xy[2];
-            to_xy(f, r->in, place[0], place[1], xy);
-            *best = (rb_rolling_extremum){top, xy[0], xy[1], r->in->material};
-        }
+        /* of two that rounding alone tells apart, as in a symmetric contact, that on the right */
+        double xy[2];
+        to_xy(f, r->in, place[0], place[1], xy);
+        const double same = isfinite(best->value) ? 1e-7 * fabs(best->value) : 0.0;
+        if (top > best->value + same || (top >= best->value - same && xy[0] > best->x))
+            *best = (rb_rolling_extremum){fmax(top, best->value), xy[0], xy[1], r->in->material};
     }
     return RB_OK;
 }
