@@ -298,6 +298,32 @@ TEST(all_solutions_are_listed)
     CHECK_RUN(lcp("--all --json p"), 0, out, "\"solutions\"");
 }
 
+/* Of every example: two, a box, a sparse matrix, a game; and of a file without a solution. */
+TEST(solutions_are_proved)
+{
+    static const char *const proved[] = {
+        "$PROJECT/examples/lcp/two.txt",
+        "$PROJECT/examples/lcp/murty.txt",
+        "--upper $PROJECT/examples/lcp/rod-upper.txt $PROJECT/examples/lcp/rod.txt",
+        "--q $PROJECT/examples/lcp/string-q.txt $PROJECT/examples/lcp/string.mtx",
+        "--game $PROJECT/examples/lcp/game.txt",
+        "--solver newton good",
+        NULL};
+    for (const char *const *file = proved; *file; file++) {
+        assert_int_equal(rollbemf("lcp --prove --json %s", *file), 0);
+        assert_non_null(strstr(err, ": proved: a solution with these signs, isolated"));
+        held_json *root = NOT_NULL(json_loads(out, 0, NULL));
+        const json_t *proof =
+            json_object_get(json_array_get(json_object_get(root, "problems"), 0), "proof");
+        assert_string_equal(json_string_value(json_object_get(proof, "status")), "proved");
+        CHECK_MAX(json_number_value(json_object_get(proof, "stored_within")), 1e-13, "%s", *file);
+        CHECK_MAX(json_number_value(json_object_get(proof, "nearby")), 1e-15, "%s", *file);
+    }
+    CHECK_RUN(lcp("--prove good"), 0, out, "scaled\tsolver\tproof\twithin\n");
+    CHECK_RUN(lcp("--prove --solution good"), 0, out, "file\ti\tz\tw\twithin\n");
+    CHECK_RUN(lcp("--prove ray"), 1, err, "ray: not proved: ");
+}
+
 TEST(games_are_solved)
 {
     write_file("p", "2 2 # battle of the sexes\n2 0 0 1\n1 0 0 2\n");

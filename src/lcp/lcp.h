@@ -29,4 +29,10 @@ rb_status rb_lcp_scaled_residual(const rb_lcp_mixed_problem *p, const double *z,
  * work: n. */
 double rb_lcp_rounding_floor(const rb_lcp_mixed_problem *p, const double *z, double *work);
 
+/* A game as a problem with the unknowns (x, y, u, v), u and v free, the payoffs: M, and q,
+ * lower of m + n + 2; no upper bounds.  RB_ENOMEM. */
+rb_status rb_lcp_of_game(const rb_lcp_game *game, rb_sparse *M, double *q, double *lower);
+/* As rb_lcp_prove, of that problem; z = (x, y). */
+rb_status rb_lcp_prove_game(const rb_lcp_game *game, const double *z, rb_lcp_proof *proof);
+
 #endif

@@ -14,7 +14,7 @@
 
 typedef struct {
     double tol, seconds;
-    int game, solver, all, label, max_pivots, rule, trace, solution;
+    int game, solver, all, label, max_pivots, rule, trace, solution, prove;
     rb_report_style style;
     const char *q, *lower, *upper, *cover, *start, *output;
 } lcp_options;
@@ -71,6 +71,8 @@ static const rb_option options[] = {
                  .file = RB_FILE_READ),
     RB_CHOICE_LINE("rule", PLACE(rule), rules,
                    "which row leaves when ratios tie; first-index can cycle"),
+    RB_FLAG_LINE("prove", PLACE(prove),
+                 "prove that there is a solution with these signs, and how near it is"),
     RB_GROUP_LINE("output", "Output"),
     RB_FLAG_LINE("trace", PLACE(trace), "a row per pivot instead of one per file"),
     RB_FLAG_LINE("solution", PLACE(solution),
@@ -106,6 +108,8 @@ static const char notes[] =
     "strategies, w what each loses against the best reply; a last column has the label, the "
     "strategy\n"
     "that the path begins with.\n"
+    "With --prove a machine-checked proof says that the problem with exactly these numbers has a\n"
+    "solution with these signs, and how far the printed z are from it (docs/proof.md).\n"
     "After a file that fails the others are still solved.\n"
     "Status: solved; no-solution: proved; secondary-ray, undecided: none was found, and none is\n"
     "excluded; iteration-limit, time-limit; numerical-failure: there is a solution, which "
@@ -136,6 +140,7 @@ typedef struct {
     int *singular_basis;                   /* --all: of each solution; owned */
     int sets, *set, *member;               /* --game --all: as of rb_lcp_solutions; owned */
     double payoff[2];                      /* --game, the first solution */
+    rb_lcp_proof proof;                    /* --prove, of one solution; owned */
 } lcp_result;
 
 /* ---- Trace ------------------------------------------------------------------------ */
@@ -220,6 +225,17 @@ static cli_exit say_end(const lcp_options *o, lcp_result *r, rb_status s)
                  o->max_pivots ? o->max_pivots : r->info.iters);
     else if (code != CLI_OK)
         cli_fail(code, "%s: %s", r->file, r->info.msg.text);
+    return code;
+}
+
+/* What is proved of z, on standard error; s: of rb_lcp_prove. */
+static cli_exit say_proof(lcp_result *r, rb_status s, cli_exit code)
+{
+    char text[400];
+    if (s < 0)
+        return invalid(r, s, &(rb_message){"out of memory"});
+    fprintf(stderr, "rollbem: %s: %s\n", r->file,
+            rb_report_proof_text(&r->proof, text, sizeof text));
     return code;
 }
 
@@ -370,6 +386,8 @@ static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
                 s = rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
         }
         code = s < 0 ? invalid(r, s, &r->info.msg) : say_end(o, r, s);
+        if (o->prove && s >= 0)
+            code = say_proof(r, rb_lcp_prove(&r->boxed, r->z, &r->proof), code);
     }
     rb_io_lcp_free(&p);
     return code;
@@ -420,10 +438,13 @@ static cli_exit solve_game(lcp_run *run, lcp_result *r)
         r->floor = 1e-14 * size;
         r->info.scaled = size > 0.0 ? r->info.res / size : r->info.res;
     }
+    cli_exit code = s < 0         ? invalid(r, s, &r->info.msg)
+                    : run->o->all ? say_all(run->o, r, &all, end)
+                                  : say_end(run->o, r, s);
+    if (run->o->prove && s >= 0 && !run->o->all)
+        code = say_proof(r, rb_lcp_prove_game(&game, r->z, &r->proof), code);
     rb_io_bimatrix_free(&g);
-    return s < 0         ? invalid(r, s, &r->info.msg)
-           : run->o->all ? say_all(run->o, r, &all, end)
-                         : say_end(run->o, r, s);
+    return code;
 }
 
 /* ---- One file ---------------------------------------------------------------------- */
@@ -445,17 +466,23 @@ static cli_exit solve_file(void *context, const char *path)
     if (!run->o->trace)
         cli_wait_end();
     const int known = r.n > 0;
-    const cli_value values[] = {CLI_TEXT("file", "file", r.file),
-                                CLI_TEXT("solver", "solver", r.solver),
-                                CLI_WORDS("status", "status", r.status),
-                                CLI_KNOWN("contacts", NULL, 0, 0), /* as of `friction` */
-                                CLI_KNOWN("dimension", "n", r.n, known),
-                                CLI_KNOWN("iterations", "pivots", r.info.iters, known),
-                                CLI_NUMBER("residual", "residual", r.info.res),
-                                CLI_NUMBER("scaled_residual", "scaled", r.info.scaled),
-                                CLI_NUMBER("floor", NULL, r.floor),
-                                CLI_NUMBER("seconds", "seconds", r.seconds),
-                                CLI_KNOWN(NULL, "label", r.info.label + 1, r.info.label >= 0)};
+    char proof[60] = "";
+    if (r.proof.n)
+        rb_report_proof_status(&r.proof, proof, sizeof proof);
+    const cli_value values[] = {
+        CLI_TEXT("file", "file", r.file),
+        CLI_TEXT("solver", "solver", r.solver),
+        CLI_WORDS("status", "status", r.status),
+        CLI_KNOWN("contacts", NULL, 0, 0), /* as of `friction` */
+        CLI_KNOWN("dimension", "n", r.n, known),
+        CLI_KNOWN("iterations", "pivots", r.info.iters, known),
+        CLI_NUMBER("residual", "residual", r.info.res),
+        CLI_NUMBER("scaled_residual", "scaled", r.info.scaled),
+        CLI_NUMBER("floor", NULL, r.floor),
+        CLI_NUMBER("seconds", "seconds", r.seconds),
+        CLI_KNOWN(NULL, "label", r.info.label + 1, r.info.label >= 0),
+        CLI_WORDS(NULL, "proof", r.proof.n ? proof : "-"),
+        CLI_NUMBER(NULL, "within", r.proof.proved ? r.proof.stored_within : NAN)};
     enum { VALUES = sizeof values / sizeof *values };
     cli_rows *rows = &run->files.rows;
     if (rows->is_json) {
@@ -492,6 +519,8 @@ static cli_exit solve_file(void *context, const char *path)
             cli_rows_set(rows, "z", vector(r.n, r.z));
             cli_rows_set(rows, "w", vector(r.n, r.w));
         }
+        if (run->o->prove)
+            cli_rows_set(rows, "proof", r.proof.n ? rb_report_json_proof(&r.proof) : json_null());
         if (run->o->trace)
             cli_rows_set(rows, "pivots", json_incref(run->pivots.list));
     } else if (known && (run->o->trace || run->o->solution || run->o->all)) {
@@ -514,14 +543,20 @@ static cli_exit solve_file(void *context, const char *path)
             for (int i = 0; i < r.n; i++) {
                 const size_t at = (size_t)k * (size_t)r.n + (size_t)i;
                 const cli_value unknown[] = {
-                    CLI_TEXT(NULL, "file", r.file), CLI_WHOLE(NULL, "solution", k + 1),
-                    CLI_WHOLE(NULL, "i", i + 1), CLI_NUMBER(NULL, "z", r.z[at]),
-                    CLI_NUMBER(NULL, "w", r.w[at])};
+                    CLI_TEXT(NULL, "file", r.file),
+                    CLI_WHOLE(NULL, "solution", k + 1),
+                    CLI_WHOLE(NULL, "i", i + 1),
+                    CLI_NUMBER(NULL, "z", r.z[at]),
+                    CLI_NUMBER(NULL, "w", r.w[at]),
+                    CLI_NUMBER(NULL, "within",
+                               r.proof.proved ? fabs(r.z[at] - r.proof.z[i]) + r.proof.error[i]
+                                              : NAN)};
                 cli_rows_add(rows, sizeof unknown / sizeof *unknown, unknown);
             }
     } else if (known)
         cli_rows_add(rows, VALUES, values);
     json_decref(run->pivots.list);
+    rb_lcp_proof_free(&r.proof);
     rb_sparse_free(&r.M);
     free(r.lower);
     free(r.upper);
@@ -589,10 +624,14 @@ int cli_lcp(int argc, char **argv)
             .files = {.style = &o.style,
                       .columns = o.trace      ? "file pivot entering leaving row ratio z0"
                                  : o.all      ? "file solution i z w"
-                                 : o.solution ? "file i z w"
-                                 : o.game
-                                     ? "file status n pivots residual seconds scaled solver label"
-                                     : "file status n pivots residual seconds scaled solver",
+                                 : o.solution ? (o.prove ? "file i z w within" : "file i z w")
+                                 : o.game     ? (o.prove ? "file status n pivots residual seconds "
+                                                           "scaled solver label proof within"
+                                                         : "file status n pivots residual seconds "
+                                                           "scaled solver label")
+                                 : o.prove ? "file status n pivots residual seconds scaled solver "
+                                             "proof within"
+                                           : "file status n pivots residual seconds scaled solver",
                       .conventions = conventions,
                       .solve = solve_file,
                       .context = &run},

@@ -107,6 +107,11 @@ struct json_t *rb_report_json_text(const char *text);
 /* A number; null for NaN and infinities. */
 struct json_t *rb_report_json_number(double x);
 struct json_t *rb_report_json_numbers(int n, const double *x);
+/* "proved", "proved but for 2 pairs", "not proved"; the whole sentence; the object `proof`.
+ * text: written and returned. */
+const char *rb_report_proof_status(const rb_lcp_proof *proof, char *text, size_t size);
+const char *rb_report_proof_text(const rb_lcp_proof *proof, char *text, size_t size);
+struct json_t *rb_report_json_proof(const rb_lcp_proof *proof);
 struct json_t *rb_report_json_summary(const rb_rolling_solution *s);
 /* The value of an option in the struct of its table. */
 struct json_t *rb_report_json_option(const rb_option *option, const void *values, rb_units units);

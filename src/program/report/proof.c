@@ -1,0 +1,55 @@
+/* What is proved of a solution, for people and as JSON. */
+#include "program/report/internal.h"
+
+#include <jansson.h>
+#include <math.h>
+
+const char *rb_report_proof_status(const rb_lcp_proof *p, char *text, size_t size)
+{
+    if (!p->proved)
+        snprintf(text, size, "not proved");
+    else if (p->undecided)
+        snprintf(text, size, "proved but for %d pair%s", p->undecided,
+                 p->undecided == 1 ? "" : "s");
+    else
+        snprintf(text, size, "proved");
+    return text;
+}
+
+const char *rb_report_proof_text(const rb_lcp_proof *p, char *text, size_t size)
+{
+    char status[60];
+    snprintf(text, size, "%s", rb_report_proof_status(p, status, sizeof status));
+    if (!p->proved) {
+        rb_append(text, size, ": %s", p->reason);
+        if (p->row >= 0)
+            rb_append(text, size, " (row %d)", p->row + 1);
+    } else
+        rb_append(text, size,
+                  ": a solution with these signs, %seach z within %.2g max z of it, those printed "
+                  "within %.2g max z",
+                  p->isolated ? "isolated, " : "", p->bound, p->stored_within);
+    if (isfinite(p->nearby))
+        rb_append(text, size, "; exact for a q within %.2g of the terms", p->nearby);
+    return text;
+}
+
+json_t *rb_report_json_proof(const rb_lcp_proof *p)
+{
+    char status[60];
+    json_t *object = json_object();
+    rb_report_json_set(&object, "status",
+                       json_string(rb_report_proof_status(p, status, sizeof status)));
+    rb_report_json_set(&object, "reason", p->proved ? json_null() : json_string(p->reason));
+    rb_report_json_set(&object, "row",
+                       !p->proved && p->row >= 0 ? json_integer(p->row + 1) : json_null());
+    rb_report_json_set(&object, "bound", rb_report_json_number(p->proved ? p->bound : NAN));
+    rb_report_json_set(&object, "stored_within",
+                       rb_report_json_number(p->proved ? p->stored_within : NAN));
+    rb_report_json_set(&object, "undecided", json_integer(p->proved ? p->undecided : 0));
+    rb_report_json_set(&object, "isolated", json_boolean(p->proved && p->isolated));
+    rb_report_json_set(&object, "nearby", rb_report_json_number(p->nearby));
+    rb_report_json_set(&object, "margin", rb_report_json_number(p->proved ? p->margin : NAN));
+    rb_report_json_set(&object, "norm", rb_report_json_number(p->norm));
+    return object;
+}
