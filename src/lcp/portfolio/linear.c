@@ -35,7 +35,7 @@ rb_status rb_lcp_linear_create(const lcp_matrix *M, const double *q, const doubl
         return RB_ENOMEM;
     *l = (lcp_linear){.M = *M, .q = q, .lower = lower, .upper = upper};
     l->y = rb_alloc((size_t)M->n, 1);
-    if (l->y)
+    if (l->y && glp_init_env() <= 1) /* 2: no memory, with which GLPK would end the program */
         return RB_OK;
     rb_lcp_linear_free(l);
     *linear = NULL;

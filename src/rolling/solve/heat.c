@@ -355,7 +355,7 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_roll
     }
     if (status == RB_OK && into_a)
         status = warm(&own->a, heat_a, t_a);
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < n && status == RB_OK; i++)
         heat[i] -= heat_a[i];
     if (status == RB_OK && into_b && !alike)
         status = warm(&own->b, heat, t_b);
