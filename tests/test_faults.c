@@ -557,12 +557,14 @@ TEST(every_call_that_allocates)
     if (!preloaded())
         skip();
     for (int i = 0; i < JOBS; i++)
-        tried += fail_every_call(&jobs[i]);
+        if (is_in_turn(i, 3))
+            tried += fail_every_call(&jobs[i]);
     const char *const *line = allocating;
     for (int part = 0; part < (getenv("ROLLBEM_TEST_ALL") ? 2 : 1); part++, line++)
-        for (; *line; line++)
-            tried += fail_every_call(&(job){
-                .name = *line, .arguments = *line, .rows = strncmp(*line, "sweep ", 6) == 0});
+        for (int i = 0; *line; line++, i++)
+            if (is_in_turn(i, 3))
+                tried += fail_every_call(&(job){
+                    .name = *line, .arguments = *line, .rows = strncmp(*line, "sweep ", 6) == 0});
     none_wrong(tried, "calls that allocate");
 }
 
@@ -573,6 +575,8 @@ TEST(every_allocation_from_one_on)
     if (!preloaded())
         skip();
     for (int i = 0; i < JOBS; i++) {
+        if (!is_in_turn(i, 3))
+            continue;
         make_reference(&jobs[i]);
         const fault_server server = start_server();
         const long n = run_failing(&server, &jobs[i], &(fault_request){0}).allocations;
