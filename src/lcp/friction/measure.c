@@ -187,8 +187,12 @@ rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *
             for (int i = 0; s == RB_OK && i < n; i++)
                 v[i] += dv[i];
         }
-        if (s == RB_OK && measure->spring > 0.0) {
+        if (s == RB_OK)
             rb_sparse_apply_transposed(1.0, &p->H, dv, 0.0, u);
+        measure->noise = 0.0;
+        if (s == RB_OK && measure->spring <= 0.0) /* what is left after a correction */
+            measure->noise = rb_norm_inf((size_t)m, u);
+        if (s == RB_OK && measure->spring > 0.0) {
             correction = rb_friction_norm((size_t)m, u);
             given_correction = rb_friction_norm((size_t)m, in_given_units(measure, u, measure->y));
         }
@@ -283,7 +287,7 @@ double rb_friction_measure_worst(const rb_friction_measure *measure, const doubl
     for (int c = 0; c < p->contacts; c++) {
         const double rho = measure->rho[2 * c];
         const double far = rb_friction_law_distance(d, p->mu[c], rho, r + c * d, u + c * d);
-        if (!(far > 0.0))
+        if (!(far > measure->noise))
             continue;
         /* The global form does not see in v what cancels in the velocity of a contact: its
          * own force counts, too. */

@@ -20,9 +20,4 @@ typedef enum {
 int rb_lcp_excludes(const lcp_matrix *M, const double *q, const double *lower, const double *upper,
                     const lcp_side *side, double *y);
 
-/* 1: M is symmetric with a Cholesky factor, or strictly dominated by a positive diagonal,
- * by rows or by columns: then there is one solution for every q and all bounds, and no
- * path of Lemke's method ends on a ray but by rounding errors. */
-int rb_lcp_is_definite(const rb_sparse *M);
-
 #endif

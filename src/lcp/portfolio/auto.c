@@ -248,6 +248,43 @@ const rb_lcp_solver *rb_lcp_solvers(int *count)
     return solvers;
 }
 
+/* 1: the diagonal is positive and larger than the others of every column, or of every
+ * row; rows: n, zero. */
+static int is_dominant(const rb_sparse *M, double *rows)
+{
+    int by_columns = 1, by_rows = 1;
+    for (int j = 0; j < M->cols; j++) {
+        double rest = 0.0, own = 0.0;
+        for (int k = M->p[j]; k < M->p[j + 1]; k++) {
+            const int i = M->i[k];
+            if (i == j)
+                own = M->x[k];
+            else
+                rest += fabs(M->x[k]);
+            rows[i] += i == j ? M->x[k] : -fabs(M->x[k]);
+        }
+        by_columns &= own > rest * (1.0 + 1e-9);
+    }
+    for (int i = 0; i < M->cols; i++)
+        by_rows &= rows[i] > 0.0;
+    return by_columns || by_rows;
+}
+
+/* 1: M is symmetric with a Cholesky factor, or strictly dominated by a positive diagonal,
+ * by rows or by columns: then there is one solution for every q and all bounds, and no
+ * path of Lemke's method ends on a ray but by rounding errors. */
+static int is_definite(const rb_sparse *M)
+{
+    rb_sparse_cholesky *factor = NULL;
+    double *rows = rb_alloc((size_t)M->cols, 1);
+    int symmetric = 0, yes = rows && is_dominant(M, rows);
+    if (!yes && rb_sparse_is_symmetric(M, &symmetric) == RB_OK && symmetric)
+        yes = rb_sparse_cholesky_create(M, &factor) == RB_OK;
+    rb_sparse_cholesky_free(factor);
+    free(rows);
+    return yes;
+}
+
 /* Paths that are tried in place of one that has ended where no exact path ends. */
 enum { OTHER_COVERS = 3 };
 
@@ -258,7 +295,7 @@ static rb_status retry_definite(const rb_lcp_mixed_problem *p, const rb_lcp_opti
                                 rb_lcp_info *info, rb_status s)
 {
     const int own = opt->cover || opt->trace || opt->rule != RB_LCP_LEXICOGRAPHIC;
-    if ((s != RB_RAY && s != RB_NUMERICAL && s != RB_SINGULAR) || !rb_lcp_is_definite(p->M))
+    if ((s != RB_RAY && s != RB_NUMERICAL && s != RB_SINGULAR) || !is_definite(p->M))
         return s;
     const size_t n = (size_t)p->M->cols;
     double *cover = rb_alloc(n, 1);
