@@ -91,9 +91,9 @@ TEST(all_solutions_are_those_of_fractions)
     int solvable = 0, singular = 0, undecided = 0, several = 0, only_singular = 0;
     for (int k = 0; k < PROBLEMS; k++) {
         problem p;
-        OWNED(rb_lcp_solutions) all;
         if (!is_in_turn(k, PARTS))
             continue;
+        OWNED(rb_lcp_solutions) all;
         pose(k, &p);
         const int n = p.of_integers.n;
         exact_solutions(&p.of_integers, &of_bases, &all_points);

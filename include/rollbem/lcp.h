@@ -129,13 +129,16 @@ rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
 /* Solves with the named solver; NULL: "auto", a portfolio of methods.  "auto" chooses a
  * first method from the structure of M; if it does not finish soon, all methods continue
  * in turns.  info->solver names the method that found z, info->iters is the sum over all
- * methods, and max_iters limits each of them.  If all fail, z is the last point of
- * Lemke's method.  Rows that are dominated by their diagonal are solved by sweeps
- * (info->solver "gauss-seidel"), problems with bounds by newton as long as it makes
- * progress, then by Lemke's method, which "auto" also uses with a trace, a covering vector
- * or a rule.  Statuses as for the single solvers; RB_NUMERICAL also where M is definite or
- * diagonally dominant, so that there is a solution, but no path has found it; RB_EINVAL
- * also for an unknown solver. */
+ * methods, and max_iters limits each of them.  Rows that are dominated by their diagonal are
+ * solved by sweeps (info->solver "gauss-seidel"), problems with bounds by newton as long as it
+ * makes progress, then by Lemke's method, which "auto" also uses with a trace, a covering
+ * vector or a rule.  If all fail, problems up to order 200 are decided by branching over linear
+ * programs ("branching", whose choices count as iterations; 2e6 of them or 10 s at most, where
+ * `seconds` is 0): it finds a solution or proves that there is none.  If that fails, too, z,
+ * status and message are those of Lemke's method.  Statuses as for the single solvers;
+ * RB_NO_SOLUTION: proved; RB_UNDECIDED: all choices were tried, but rounding errors leave some
+ * open; RB_NUMERICAL also where M is definite or diagonally dominant, so that there is a
+ * solution, but no path has found it; RB_EINVAL also for an unknown solver. */
 rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
                        double *z, rb_lcp_info *info);
 

@@ -321,6 +321,34 @@ static rb_status retry_definite(const rb_lcp_mixed_problem *p, const rb_lcp_opti
     return s;
 }
 
+/* s: how all methods have ended.  Where that proves nothing, and the problem is not large,
+ * branching finds a solution or proves that there is none.  max_iters limits it, too. */
+static rb_status branch(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt, double began,
+                        double *z, rb_lcp_info *info, rb_status s)
+{
+    if (p->M->cols > LCP_BRANCH_UP_TO || (s != RB_RAY && s != RB_SINGULAR && s != RB_MAXITER &&
+                                          s != RB_INACCURATE && s != RB_NUMERICAL))
+        return s;
+    const int before = info->iters;
+    const rb_status found = rb_lcp_branch(p, opt, began, z, info);
+    const int choices = info->iters - before;
+    if (found == RB_NO_SOLUTION)
+        rb_fail(&info->msg, found,
+                "lcp: no solution: %d choices of what is zero, each excluded by linear programming",
+                choices);
+    else if (found == RB_UNDECIDED)
+        rb_fail(&info->msg, found,
+                "lcp: none found: of %d choices of what is zero some are open by rounding errors",
+                choices);
+    else if (found == RB_TIME_LIMIT)
+        rb_fail(&info->msg, found,
+                "lcp: no solution after %d pivots and %d choices of what is zero in %g s", before,
+                choices, opt->seconds);
+    else if (found == RB_INTERRUPTED)
+        rb_fail(&info->msg, found, "lcp: interrupted after %d choices of what is zero", choices);
+    return found == RB_MAXITER || found == RB_ENOMEM ? s : found;
+}
+
 rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
                        double *z, rb_lcp_info *info)
 {
@@ -356,7 +384,8 @@ rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const 
         status = rb_lcp_game_solve(p->M, p->q, &o, z, info);
         if (status != RB_OK && status >= 0)
             status = run_portfolio(&task, z, info);
-        return retry_definite(p, &o, z, info, status);
+        status = retry_definite(p, &o, z, info, status);
+        return branch(p, &o, began, z, info, status);
     }
     if (kind == AUTO && !path) {
         /* In boxes Newton's method first, as long as it makes progress. */
@@ -366,7 +395,8 @@ rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const 
         const int systems = info->iters;
         status = rb_lcp_mixed(p, &o, z, info);
         info->iters += systems;
-        return retry_definite(p, &o, z, info, status);
+        status = retry_definite(p, &o, z, info, status);
+        return branch(p, &o, began, z, info, status);
     }
     const int large = p->M->cols >= LARGE && read_structure(p->M).part < MANY;
     if (kind == LEMKE_SPARSE || boxes || o.start || large)

@@ -17,7 +17,8 @@ struct lcp_linear {
     lcp_matrix M;
     const double *q, *lower, *upper;
     glp_prob *elastic, *least; /* NULL: not made yet */
-    double *y;                 /* n; owned */
+    double *y, *other, *value; /* n, n, n + 1: multipliers, a row of a tableau; y owns all */
+    int *index;                /* n + 1; owned */
     jmp_buf failed;            /* where GLPK gives up: no memory, or a failed assertion */
 };
 
@@ -34,9 +35,15 @@ rb_status rb_lcp_linear_create(const lcp_matrix *M, const double *q, const doubl
     if (!l)
         return RB_ENOMEM;
     *l = (lcp_linear){.M = *M, .q = q, .lower = lower, .upper = upper};
-    l->y = rb_alloc((size_t)M->n, 1);
-    if (l->y && glp_init_env() <= 1) /* 2: no memory, with which GLPK would end the program */
+    const size_t n = (size_t)M->n;
+    l->y = rb_alloc(3 * n + 1, 1);
+    l->index = malloc((n + 1) * sizeof *l->index);
+    /* 2: no memory, with which GLPK would end the program */
+    if (l->y && l->index && glp_init_env() <= 1) {
+        l->other = l->y + n;
+        l->value = l->other + n;
         return RB_OK;
+    }
     rb_lcp_linear_free(l);
     *linear = NULL;
     return RB_ENOMEM;
@@ -51,7 +58,17 @@ void rb_lcp_linear_free(lcp_linear *l)
     if (l->least)
         glp_delete_prob(l->least);
     free(l->y);
+    free(l->index);
     free(l);
+}
+
+/* 1: z_i has a lower bound alone, and w_i >= 0; -1: an upper one alone; 0: w_i may have both
+ * signs, or is zero. */
+static double end_of(const lcp_linear *l, int i)
+{
+    const int low = isfinite(rb_lcp_lower(l->lower, i)) != 0;
+    const int high = isfinite(rb_lcp_upper(l->upper, i)) != 0;
+    return low - high;
 }
 
 /* The matrix and the costs; what is fixed changes from call to call. */
@@ -65,13 +82,13 @@ static glp_prob *make_program(const lcp_linear *l, int elastic)
     glp_add_cols(p, elastic ? 3 * n : n);
     for (int j = 0; index && value && j < n; j++) {
         const lcp_column a = rb_lcp_column(&l->M, j);
-        double sum = 1.0;
+        double sum = end_of(l, j);
         int count = 0;
         for (int k = 0; k < a.count; k++)
             if (a.x[k] != 0.0) {
                 index[++count] = (a.row ? a.row[k] : k) + 1;
                 value[count] = a.x[k];
-                sum += a.x[k];
+                sum += end_of(l, index[count] - 1) * a.x[k];
             }
         glp_set_mat_col(p, j + 1, count, index, value);
         if (!elastic)
@@ -168,6 +185,38 @@ rb_status rb_lcp_linear_decide(lcp_linear *l, const lcp_side *side, double *z)
     return s;
 }
 
+/* y: the multipliers of the row that the dual simplex method has found to be infeasible, from
+ * its row of the tableau.  0: it has found none. */
+static int read_ray(const lcp_linear *l, glp_prob *p, int *index, double *value)
+{
+    const int n = l->M.n, basic = glp_get_unbnd_ray(p);
+    if (basic == 0 ||
+        (basic <= n ? glp_get_row_stat(p, basic) : glp_get_col_stat(p, basic - n)) != GLP_BS)
+        return 0;
+    const int count = glp_eval_tab_row(p, basic, index, value);
+    memset(l->y, 0, (size_t)n * sizeof *l->y);
+    if (basic <= n)
+        l->y[basic - 1] = 1.0;
+    for (int k = 1; k <= count; k++)
+        if (index[k] <= n)
+            l->y[index[k] - 1] = -value[k];
+    return 1;
+}
+
+/* The multipliers of the last basis of p, of either sign, exclude all z. */
+static int ray_excludes(lcp_linear *l, glp_prob *p, const lcp_side *side)
+{
+    const int n = l->M.n;
+    if (!read_ray(l, p, l->index, l->value))
+        return 0;
+    memcpy(l->other, l->y, (size_t)n * sizeof *l->y);
+    if (rb_lcp_excludes(&l->M, l->q, l->lower, l->upper, side, l->other))
+        return 1;
+    for (int i = 0; i < n; i++)
+        l->other[i] = -l->y[i];
+    return rb_lcp_excludes(&l->M, l->q, l->lower, l->upper, side, l->other);
+}
+
 rb_status rb_lcp_linear_least(lcp_linear *l, const lcp_side *side, double *z, double *w)
 {
     const int n = l->M.n;
@@ -186,9 +235,9 @@ rb_status rb_lcp_linear_least(lcp_linear *l, const lcp_side *side, double *z, do
         fix_sides(l, p, side);
         if (run_simplex(p, GLP_DUALP) == 0) {
             const int status = glp_get_status(p);
-            s = status == GLP_OPT                              ? RB_OK
-                : status == GLP_NOFEAS || status == GLP_INFEAS ? RB_NO_SOLUTION
-                                                               : RB_UNDECIDED;
+            s = status == GLP_OPT          ? RB_OK
+                : ray_excludes(l, p, side) ? RB_NO_SOLUTION
+                                           : RB_UNDECIDED;
             for (int i = 0; i < n; i++) {
                 z[i] = glp_get_col_prim(p, i + 1);
                 w[i] = glp_get_row_prim(p, i + 1) + l->q[i];
@@ -196,5 +245,15 @@ rb_status rb_lcp_linear_least(lcp_linear *l, const lcp_side *side, double *z, do
         }
     }
     glp_error_hook(NULL, NULL);
+    if (s != RB_UNDECIDED)
+        return s;
+    /* There is a z whose sum could not be minimised: one pair is as good as another. */
+    s = rb_lcp_linear_decide(l, side, z);
+    memcpy(w, l->q, (size_t)n * sizeof *w);
+    for (int j = 0; j < n; j++) {
+        const lcp_column a = rb_lcp_column(&l->M, j);
+        for (int k = 0; k < a.count; k++)
+            w[a.row ? a.row[k] : k] += a.x[k] * z[j];
+    }
     return s;
 }

@@ -19,8 +19,8 @@ void rb_lcp_linear_free(lcp_linear *linear);
  * (rb_lcp_excludes); RB_UNDECIDED. */
 rb_status rb_lcp_linear_decide(lcp_linear *linear, const lcp_side *side, double *z);
 
-/* The z of least sum of z and w among them, z and w >= 0: the problem has no bounds.  As
- * above, but RB_NO_SOLUTION is not checked. */
+/* The z among them whose distances from their bounds and |w| have the least sum, over the i
+ * with one bound.  Statuses as above. */
 rb_status rb_lcp_linear_least(lcp_linear *linear, const lcp_side *side, double *z, double *w);
 
 /* enumerate.c: what is tried of a problem whose indices fall into blocks: each choice of a

@@ -47,8 +47,9 @@ static const rb_option options[] = {
     RB_GROUP_LINE("solver", "Solver"),
     RB_CHOICE_LINE(
         "solver", PLACE(solver), solvers,
-        "auto: all methods in turns, first the one that suits the structure of M; lemke: with a "
-        "tableau; lemke-sparse: with a sparse LU, also for bounds; newton: see above"),
+        "auto: all methods in turns, first the one that suits the structure of M, then, up to "
+        "order 200, branching; lemke: with a tableau; lemke-sparse: with a sparse LU, also for "
+        "bounds; newton: see above"),
     RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
                    "tolerance of the scaled residual: see below"),
     RB_INTEGER_LINE("max-pivots", PLACE(max_pivots), RB_FROM_TO(1, 1e9),
