@@ -99,7 +99,8 @@ double rb_friction_measure_floor(const rb_friction_measure *measure, const doubl
                                  const double *v);
 /* The largest distance of one contact from its law, as a part of its own velocities: the
  * terms of its rows |W| |r| + |q| (global: |H'| |v| + |w|), its own |r| / rho, and at
- * least 1e-4 of ||q||; those that are noise count as zero.  contact: its number, or -1; may be NULL. */
+ * least 1e-4 of ||q||; those that are noise count as zero.  contact: its number, or -1; may be
+ * NULL. */
 double rb_friction_measure_worst(const rb_friction_measure *measure, const double *r,
                                  const double *u, const double *v, int *contact);
 /* Global form.  k of a row in the units of the problem that is solved. */
