@@ -119,6 +119,13 @@ typedef struct {
  * Lemke's and Newton's methods are faster with one thread. */
 int rb_blas_threads(int threads);
 
+/* The name of faster kernels of OpenBLAS that this processor can run although OpenBLAS did
+ * not choose them; NULL: there are none.  An OpenBLAS that is older than the processor may
+ * not recognise it (0.3.21 chooses kernels of 2004 on a server of 2023, which are four times
+ * slower).  The name is a value for the environment variable OPENBLAS_CORETYPE, which
+ * OpenBLAS reads when it is loaded. */
+const char *rb_blas_better_core(void);
+
 RB_PUBLIC_END
 
 #endif

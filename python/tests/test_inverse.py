@@ -16,12 +16,12 @@ STEADY = dict(PLANES, formulation="steady", creep_ratio=0.5)
 
 def test_cracks():
     c = rollbem.crack(**PLANES, mu=0.0, crack_angle=45, passes=2, from_=-7)
-    assert len(c.x) == 242 and c.x[0] == pytest.approx(-7 * 0.8165, rel=1e-3)
-    assert c.K_II_max == c.K_II[121:].max()
-    assert c.faces["opening"].shape == (40, 242) and c.faces["path_y"][1] < 0
+    assert len(c.x) % 2 == 0 and c.x[0] == pytest.approx(-7 * 0.8165, rel=1e-3)
+    assert c.K_II_max == c.K_II[len(c.x) // 2:].max()
+    assert c.faces["opening"].shape == (40, len(c.x)) and c.faces["path_y"][1] < 0
     assert c.growth == {}
     assert "delta_K_II" in c.numbers and "positions" in repr(c)
-    assert len(c.to_pandas()) == 242
+    assert len(c.to_pandas()) == len(c.x)
     grown = rollbem.crack(**PLANES, mu=0.0, paris=(1e-12, 3), grow_steps=2)
     assert grown.growth["cycles"][0] == 0 and len(grown.growth["length"]) == 3
     with pytest.raises(rollbem.InvalidInput, match="crack.angle"):
