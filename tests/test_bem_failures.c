@@ -205,7 +205,8 @@ static rb_status make_wheel(const void *of)
     rb_bem_field *field = NULL;
     rb_bem_loaded *loaded = NULL;
     double r[2 * N] = {1.0}, change[2 * M];
-    OWNED(rb_bem_flexibility) f = {0}, g = {0}, waves = {0};
+    OWNED(rb_bem_flexibility) f = {0}, g = {0}, waves = {0}, below = {0}, pair = {0};
+    double F[4 * N * (N + 1)];
     const rb_bem_edge_load load = {1, ends, t_contact + 1, t_contact},
                            nodes = {2, ends, t_contact + 1, t_contact};
     const rb_bem_surface plane = rb_bem_halfplane(rubber, 1.0);
@@ -246,6 +247,13 @@ static rb_status make_wheel(const void *of)
     rb_bem_flexibility_free(&waves);
     if (s == RB_OK)
         s = rb_bem_flexibility_plane_products(N, ends, &plane, &waves, NULL);
+    if (s == RB_OK)
+        s = rb_bem_flexibility_plane_products(N, ends, &plane, &below, NULL);
+    if (s == RB_OK)
+        s = rb_bem_flexibility_pair(&waves, &below, &pair, NULL);
+    if (s == RB_OK)
+        s = rb_bem_flexibility_matrix(&pair, F, 2 * (N + 1));
+    rb_bem_flexibility_free(&pair);
     rb_bem_flexibility_free(&waves);
     rb_bem_field_free(field);
     rb_bem_flexibility_free(&g);

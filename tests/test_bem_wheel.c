@@ -271,6 +271,22 @@ TEST(displacement_anywhere)
     }
 }
 
+/* Of one half-plane or of two in contact, without products. */
+static double *surface_matrix(int n, const double *ends, const rb_bem_surface *above,
+                              const rb_bem_surface *below)
+{
+    rb_bem_flexibility a, b, f;
+    CHECK_OK(rb_bem_flexibility_surface(n, ends, above, &f, NULL));
+    if (below) {
+        a = f;
+        CHECK_OK(rb_bem_flexibility_surface(n, ends, below, &b, NULL));
+        CHECK_OK(rb_bem_flexibility_pair(&a, &b, &f, NULL));
+    }
+    double *F = matrix_of(&f);
+    rb_bem_flexibility_free(&f);
+    return F;
+}
+
 /* On equal, fitted and rough elements and on equal arcs, under tractions that jump. */
 TEST(products_are_the_matrix)
 {
@@ -308,21 +324,36 @@ TEST(products_are_the_matrix)
         CHECK_ABS(apart(n, G, F), 0.0, kind == 2 ? 1e-12 : 1e-15, "matrix"); /* 2: differences */
         free(G);
         rb_bem_flexibility_free(&f);
+        /* a half-plane, and two of them in contact, which are one product */
         const rb_bem_surface plane = rb_bem_halfplane(wheel->material, 0.1 + k);
-        CHECK_OK(rb_bem_flexibility_plane_products(n, ends, &plane, &f, NULL));
-        rb_bem_flexibility_apply(&f, r, w);
-        G = matrix_of(&f);
-        largest = 0.0;
-        memset(want, 0, sizeof want);
-        for (int j = 0; j < 2 * n; j++)
+        const rb_bem_surface below = rb_bem_halfplane(wheels[(k + 1) % WHEELS].material, 2.0);
+        for (int bodies = 1; bodies <= 2; bodies++) {
+            CHECK_OK(rb_bem_flexibility_plane_products(n, ends, &plane, &f, NULL));
+            G = surface_matrix(n, ends, &plane, bodies == 2 ? &below : NULL);
+            if (bodies == 2) {
+                rb_bem_flexibility a = f, b;
+                const void *one = f.data;
+                CHECK_OK(rb_bem_flexibility_plane_products(n, ends, &below, &b, NULL));
+                CHECK_OK(rb_bem_flexibility_pair(&a, &b, &f, NULL));
+                assert_ptr_equal(f.data, one);
+            }
+            rb_bem_flexibility_apply(&f, r, w);
+            double *H = matrix_of(&f);
+            CHECK_ABS(apart(n, H, G), 0.0, 1e-15, "matrix of half-planes");
+            free(H);
+            largest = 0.0;
+            memset(want, 0, sizeof want);
+            for (int j = 0; j < 2 * n; j++)
+                for (int i = 0; i < 2 * m; i++)
+                    want[i] += G[i + j * 2 * m] * r[j];
             for (int i = 0; i < 2 * m; i++)
-                want[i] += G[i + j * 2 * m] * r[j];
-        for (int i = 0; i < 2 * m; i++)
-            largest = fmax(largest, fabs(want[i]));
-        for (int i = 0; i < 2 * m; i++)
-            CHECK_ABS(w[i], want[i], 1e-11 * largest, "plane, elements %d, row %d", kind, i);
-        free(G);
-        rb_bem_flexibility_free(&f);
+                largest = fmax(largest, fabs(want[i]));
+            for (int i = 0; i < 2 * m; i++)
+                CHECK_ABS(w[i], want[i], 1e-11 * largest, "%d planes, elements %d, row %d", bodies,
+                          kind, i);
+            free(G);
+            rb_bem_flexibility_free(&f);
+        }
     }
 }
 

@@ -27,6 +27,8 @@ typedef struct {
     int n, m, steps;
     rb_bem_wheel wheel;   /* elastic: borrows nothing; radius 0: a half-plane */
     rb_bem_surface plane; /* the same */
+    rb_bem_surface other; /* of the half-plane that was added to this one */
+    int has_other;
     rb_bem_normals normals;
     int parts;       /* kernels: N, T and C of a wheel; N alone of a half-plane, whose T is N
                         and whose C sums */
@@ -143,18 +145,54 @@ static void products_apply(const rb_bem_flexibility *f, const double *r, double 
         add_coupling(o, r, w);
 }
 
+/* Of a body in its own frame. */
+static rb_status body_matrix(const products *o, const rb_bem_surface *plane,
+                             rb_bem_flexibility *dense)
+{
+    return o->wheel.radius > 0.0
+               ? rb_bem_flexibility_wheel(o->n, o->ends, &o->wheel, o->normals, dense, NULL)
+               : rb_bem_flexibility_surface(o->n, o->ends, plane, dense, NULL);
+}
+
 static rb_status products_matrix(const rb_bem_flexibility *f, double *F, int ldf)
 {
     const products *o = f->data;
-    rb_bem_flexibility dense;
-    rb_status s = o->wheel.radius > 0.0
-                      ? rb_bem_flexibility_wheel(o->n, o->ends, &o->wheel, o->normals, &dense, NULL)
-                      : rb_bem_flexibility_surface(o->n, o->ends, &o->plane, &dense, NULL);
-    if (s == RB_OK) {
-        s = rb_bem_flexibility_matrix(&dense, F, ldf);
-        rb_bem_flexibility_free(&dense);
+    rb_bem_flexibility one, other = {0}, dense = {0};
+    rb_status s = body_matrix(o, &o->plane, &one);
+
+    if (s == RB_OK && o->has_other) {
+        s = body_matrix(o, &o->other, &other);
+        if (s == RB_OK)
+            s = rb_bem_flexibility_pair(&one, &other, &dense, NULL);
+    } else if (s == RB_OK) {
+        dense = one;
+        memset(&one, 0, sizeof one);
     }
+    if (s == RB_OK)
+        s = rb_bem_flexibility_matrix(&dense, F, ldf);
+    rb_bem_flexibility_free(&one);
+    rb_bem_flexibility_free(&dense);
     return s;
+}
+
+/* Two half-planes on the same elements: one kernel, and couplings of opposite signs. */
+static int products_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
+{
+    products *x = a->data;
+    const products *y = b->data;
+
+    if (b->add_mirrored != products_add || x->has_other || y->has_other || x->n != y->n ||
+        x->steps != y->steps || memcmp(x->ends, y->ends, ((size_t)x->m + 1) * sizeof *x->ends) != 0)
+        return 0;
+    for (int k = 0; k < x->near_first[x->m]; k++)
+        x->near[k] += y->near[k];
+    for (int k = 0; k <= x->fourier.size / 2; k++)
+        for (int c = 0; c < 2; c++)
+            x->kernel[0][k][c] += y->kernel[0][k][c];
+    x->coupling -= y->coupling;
+    x->other = y->plane;
+    x->has_other = 1;
+    return 1;
 }
 
 /* ---- Their tables ------------------------------------------------------------------ */
@@ -395,6 +433,7 @@ rb_status rb_bem_flexibility_plane_products(int n_c, const double *ends,
         memcpy(x, f->x, (size_t)f->m * sizeof *x);
         memcpy(x + f->m, ends, ((size_t)f->m + 1) * sizeof *x);
         s = make(&like, x, (ends[n_c + 1] - ends[0]) / (n_c + 1), ends, f);
+        f->add_mirrored = products_add;
     }
     return rb_bem_flexibility_end("half-plane", n_c, s, f, why);
 }

@@ -16,7 +16,12 @@
  * fast at 300, twice as fast at 600, 2 to 5 times at 1200).  Below RB_ROLLING_LARGE a
  * matrix can be added where something needs it (rb_rolling_model_add_matrix); from there
  * on it would take seconds. */
-enum { RB_ROLLING_TRANSFORMS = 150, RB_ROLLING_TRANSFORMS_STEPS = 400, RB_ROLLING_LARGE = 1500 };
+enum {
+    RB_ROLLING_TRANSFORMS = 150,
+    RB_ROLLING_TRANSFORMS_FITTED = 240, /* fitted elements, with those outside the contact */
+    RB_ROLLING_TRANSFORMS_STEPS = 400,
+    RB_ROLLING_LARGE = 1500
+};
 
 /* The most of each that a case may ask for: elements of the contact and on the circle outside
  * it, steps of a history, points of a curve. */

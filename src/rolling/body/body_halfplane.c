@@ -95,9 +95,9 @@ static rb_status halfplane_transforms(const rb_rolling_case *rc, const rb_rollin
                                       rb_rolling_body_flexibility *one_body, rb_message *why)
 {
     (void)plan; /* nothing lies outside the contact */
-    return make(rc->a.support == RB_BEM_HALFPLANE ? rb_bem_flexibility_toeplitz
-                                                  : rb_bem_flexibility_plane_products,
-                rc, body, mesh, one_body, why);
+    const int are_equal = rc->a.support == RB_BEM_HALFPLANE && rc->mesh != RB_MESH_FITTED;
+    return make(are_equal ? rb_bem_flexibility_toeplitz : rb_bem_flexibility_plane_products, rc,
+                body, mesh, one_body, why);
 }
 
 enum { HALFPLANE = RB_BODY_FLAT | RB_BODY_TURNS };

@@ -309,25 +309,37 @@ static int is_transformed(const rb_rolling_case *rc, const rb_rolling_body *body
                       rb_rolling_body_can(body, RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC));
 }
 
+/* Elements of any lengths: homogeneous half-planes with nothing between them, rolling steadily.
+ * From mu beta = 1 on many steps of Newton fail, and those of Lemke want a matrix. */
+static int suits_fitted_products(const rb_rolling_case *rc)
+{
+    return rc->formulation == RB_STEADY && rc->slip_operator == RB_SLIP_UPSTREAM &&
+           rc->interlayer_normal == 0.0 && rc->interlayer_tangential == 0.0 &&
+           rc->yield_stress == 0.0 &&
+           rb_rolling_largest_mu(rc) * fabs(rb_rolling_derive(rc).dundurs) < 1.0 &&
+           rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC);
+}
+
 static int suits_transforms(const rb_rolling_case *rc)
 {
     /* products know no more than one datum, strips have two */
     const int strips = rc->a.strip > 0.0 || (rc->elastic_b && rc->b.strip > 0.0);
     return !strips &&
            (rc->contact.solver == RB_SOLVER_AUTO || rc->contact.solver == RB_SOLVER_NEWTON) &&
-           rc->mesh != RB_MESH_FITTED && is_transformed(rc, &rc->a) &&
-           (!rc->elastic_b || is_transformed(rc, &rc->b));
+           (rc->mesh != RB_MESH_FITTED || suits_fitted_products(rc)) &&
+           is_transformed(rc, &rc->a) && (!rc->elastic_b || is_transformed(rc, &rc->b));
 }
 
 int rb_rolling_has_transforms(const rb_rolling_case *rc)
 {
-    return RB_TRANSFORMS && suits_transforms(rc);
+    return RB_TRANSFORMS && rc->mesh != RB_MESH_FITTED && suits_transforms(rc);
 }
 
 int rb_rolling_suits_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
 {
-    const int least =
-        rc->formulation == RB_STEADY ? RB_ROLLING_TRANSFORMS : RB_ROLLING_TRANSFORMS_STEPS;
+    const int least = rc->mesh == RB_MESH_FITTED     ? RB_ROLLING_TRANSFORMS_FITTED
+                      : rc->formulation == RB_STEADY ? RB_ROLLING_TRANSFORMS
+                                                     : RB_ROLLING_TRANSFORMS_STEPS;
 
     return mesh->n >= least && suits_transforms(rc);
 }

@@ -562,8 +562,8 @@ static rb_status resolve_law(rb_case *c, rb_message *why)
 
 /* From so many elements on they are not graded to the edges, on any support.  Where pressure and
  * friction are coupled, on layers and in bodies that relax equal elements are of first order: up to
- * so many graded ones are worth their time. */
-enum { MANY = 1500, MOST_GRADED = 400 };
+ * so many graded ones are worth their time, and where products solve for them so many. */
+enum { MANY = 1500, MOST_GRADED = 400, MOST_GRADED_BY_PRODUCTS = 100000 };
 int rb_case_has_steps(const rb_resolved_case *resolved)
 {
     return resolved->program.n > 0 || rb_rolling_has_steps(&resolved->rc);
@@ -778,9 +778,13 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width);
     const rb_rolling_mesh equal = {.n = rc->contact_elements};
     const int graded = rb_rolling_couples(rc) || !rb_rolling_can(rc, RB_BODY_HOMOGENEOUS);
-    const int many =
-        rc->contact_elements >= MANY ||
-        (rb_rolling_suits_large(rc, &equal) && (!graded || rc->contact_elements > MOST_GRADED));
+    rb_rolling_case fitted = *rc;
+    fitted.mesh = RB_MESH_FITTED;
+    const int most = !graded                                   ? 0
+                     : rb_rolling_suits_large(&fitted, &equal) ? MOST_GRADED_BY_PRODUCTS
+                                                               : MOST_GRADED;
+    const int many = rc->contact_elements > most &&
+                     (rc->contact_elements >= MANY || rb_rolling_suits_large(rc, &equal));
     if (!rb_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper && rc->zone == 0.0 &&
         rc->gap != RB_GAP_TABLE && !c->resolved.worn_file)
         rc->mesh =

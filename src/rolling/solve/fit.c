@@ -7,6 +7,8 @@
 enum {
     FIRST = 30, /* elements at least that the first edges are found with */
     ROUNDS = 10,
+    MOST_AT_ONCE = 400, /* elements, of which more start from COARSEST at most */
+    COARSEST = 200,
     MOST_PATCHES = 16
 };
 /* Edges that have come to rest, or near enough after all rounds: in lengths of the
@@ -180,7 +182,9 @@ rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why)
         s = rb_rolling_mesh_spans(model->rc, model->plan.elements, fitted.count, fitted.span, &mesh,
                                   why);
 
-        if (s == RB_OK) {
+        if (s == RB_OK && rb_rolling_is_large(model->rc, &mesh))
+            s = rb_rolling_model_build(model, &mesh, why); /* which starts from the state */
+        else if (s == RB_OK) {
             memset(&model->mesh, 0, sizeof model->mesh);
             memset(&model->state, 0, sizeof model->state);
             s = rb_rolling_model_build(model, &mesh, why);
@@ -226,18 +230,27 @@ rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
 {
     const rb_rolling_plan asked = model->plan;
     const int fine = rb_rolling_has_fine_boundary(&asked);
+    int halvings = 0;
 
+    while (asked.elements > MOST_AT_ONCE && asked.elements >> halvings > COARSEST)
+        halvings++;
     /* A coarse solution to fit to: where the rest of a wheel has many elements, with few
      * of them. */
     if (model->rc->zone == 0.0) {
-        model->plan.elements = (int)fmax(FIRST, asked.elements / 2);
+        model->plan.elements = (int)fmax(FIRST, (asked.elements >> halvings) / 2);
         model->plan.near_field = RB_NEAR_FIELD_PLAIN;
     }
     if (fine)
         rb_rolling_coarsen_boundary(&model->plan);
     rb_status s = rb_rolling_solve_zone(model, 1, why);
-    model->plan.elements = asked.elements;
     model->plan.near_field = asked.near_field;
+    /* Many elements start from the edges and the zones of few. */
+    for (int k = halvings; k > 0 && s == RB_OK; k -= 2) {
+        model->plan.elements = asked.elements >> k;
+        s = rb_rolling_model_refit(model, why);
+        model->iterations = 0; /* those of the many count */
+    }
+    model->plan.elements = asked.elements;
     if (s == RB_OK)
         s = rb_rolling_model_refit(model, why);
     if (s == RB_OK && fine) {

@@ -66,8 +66,9 @@ typedef struct {
     double local[4];      /* what is added to A q for the interlayer: zeros where there is none
                            */
     rb_bem_circulant *inverse;
-    double *w;    /* 2m: displacements of one product */
-    double *slip; /* n: A w_T */
+    double *density; /* n: lengths of elements over that of the middle one; NULL: all are equal */
+    double *w;       /* 2m: displacements of one product */
+    double *slip;    /* n: A w_T */
 } transforms;
 
 static void transforms_free(void *context)
@@ -76,6 +77,7 @@ static void transforms_free(void *context)
 
     rb_bem_circulant_free(t->inverse);
     free(t->A.outside);
+    free(t->density);
     free(t->w);
     free(t->slip);
     free(t);
@@ -110,6 +112,10 @@ static void transforms_precondition(void *context, int tangential, double *line)
         rb_bem_circulant_apply_difference(t->inverse, line, line);
     else
         rb_bem_circulant_apply(t->inverse, line, line);
+    /* Elements that change their lengths slowly answer, over their numbers, like equal ones that
+     * carry p h: ln|x_i - x_j| is ln|i - j| and something smooth. */
+    for (int i = 0; t->density && i < t->A.n; i++)
+        line[i] /= t->density[i];
 }
 
 static void transforms_precondition_yielding(void *context, double hardening, double *line)
@@ -134,9 +140,16 @@ static rb_status transform_operator(const rb_bem_flexibility *f, double complian
         t->local[k] = compliance * (A->local[k] - A->stencil[k]);
     t->w = rb_alloc(2 * (size_t)f->m, 1);
     t->slip = rb_alloc((size_t)A->n, 1);
-    const rb_status s = t->w && t->slip
-                            ? rb_bem_circulant_create(&t->f, t->A.stencil, t->A.local, &t->inverse)
-                            : RB_ENOMEM;
+    rb_status s = t->w && t->slip
+                      ? rb_bem_circulant_create(&t->f, t->A.stencil, t->A.local, &t->inverse)
+                      : RB_ENOMEM;
+    const double middle = f->h[A->n / 2];
+    if (s == RB_OK && !(fabs(f->h[0] / middle - 1.0) < 0.1)) {
+        t->density = rb_alloc((size_t)A->n, 1);
+        s = t->density ? RB_OK : RB_ENOMEM;
+        for (int i = 0; i < A->n && t->density; i++)
+            t->density[i] = f->h[i] / middle;
+    }
     if (s != RB_OK) {
         transforms_free(t);
         return s;

@@ -132,6 +132,17 @@ static rb_status start_from_coarse(rb_rolling_model *model, rb_message *why)
     return s < 0 ? s : RB_OK;
 }
 
+static void copy_state(const rb_contact_state *from, rb_contact_state *to)
+{
+    const size_t n = (size_t)to->n;
+
+    memcpy(to->p, from->p, n * sizeof *to->p);
+    memcpy(to->q, from->q, n * sizeof *to->q);
+    memcpy(to->zone, from->zone, n * sizeof *to->zone);
+    to->delta = from->delta;
+    to->xi = from->xi;
+}
+
 /* Bodies, where they are not kept, contact problem and a state of zeros on the model's
  * mesh. */
 static rb_status set_up(rb_rolling_model *model, int kept, rb_message *why)
@@ -186,7 +197,7 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
                             ((size_t)model->mesh.n + 2) * sizeof *model->mesh.ends) == 0;
     /* the edges have been followed from another line to this one */
     const int near =
-        model->state.p && model->state.status == RB_OK && model->rc->mesh == RB_MESH_ALIGNED;
+        model->state.p && model->state.status == RB_OK && model->rc->mesh != RB_MESH_UNIFORM;
     rb_rolling_mesh old_mesh = model->mesh;
     rb_contact_state old = model->state;
     double *bound = near ? rb_rolling_friction_of(model) : NULL;
@@ -199,7 +210,11 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
     memset(mesh, 0, sizeof *mesh);
     rb_status s = set_up(model, kept, why);
     const int large = s == RB_OK && !model->bodies.F;
-    if (large && near) {
+    if (large && near && model->rc->mesh == RB_MESH_FITTED && old.n == model->state.n) {
+        /* element by element: they have moved with the edges */
+        copy_state(&old, &model->state);
+        rb_rolling_follow_friction(&old_mesh, bound, model);
+    } else if (large && near) {
         rb_rolling_start_from(model->rc, &old_mesh, &old, &model->mesh, &model->state);
         rb_rolling_follow_friction(&old_mesh, bound, model);
     } else if (large)
