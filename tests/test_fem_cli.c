@@ -156,8 +156,49 @@ TEST(the_wall_writes_its_problems)
     }
 }
 
+static void read_steps(rb_io_table *table, const char *arguments)
+{
+    rb_io_table_free(table);
+    assert_int_equal(run("%s --quiet --output %s", arguments, inside("out.tsv")), 0);
+    CHECK_OK(rb_io_table_read(inside("out.tsv"), table, &heard));
+}
+
+/* Without friction the bar is in uniform plane strain; no gap is open in the beginning, so
+ * that twice the load doubles displacements and reactions. */
+TEST(friction_and_loads_may_be_others)
+{
+    const double E = 5.0, nu = 0.48, p = 0.03;
+    OWNED(rb_io_table) table = {0}, other = {0};
+    read_steps(&table, "bar --mu 0 --load 0.03");
+    for (int k = 0; k < table.rows; k++) {
+        const double s = -p * (k + 1), plane = (1.0 - nu * nu) / E;
+        const double strain = plane * (s + nu / (1.0 - nu) * p);
+        const double upward = plane * (-p - nu / (1.0 - nu) * s);
+        CHECK_REL(rb_io_table_column(&table, "corner_ux_mm")[k], 400.0 * strain, 1e-9, "step %d",
+                  k + 1);
+        CHECK_REL(rb_io_table_column(&table, "corner_uy_mm")[k], 40.0 * upward, 1e-9, "step %d",
+                  k + 1);
+        CHECK_REL(rb_io_table_column(&table, "normal_sum_N")[k], 4000.0 * p, 1e-9, "step %d",
+                  k + 1);
+    }
+    read_steps(&table, "truss --nodes 4 --mu 0.3 --load 70000");
+    read_steps(&other, "truss --nodes 4 --mu 0.3 --load 140000");
+    CHECK_REL(rb_io_table_column(&table, "normal_sum_N")[0], 5.0 * 4.0 * 70000.0, 1e-12, "sum");
+    for (int k = 0; k < table.rows; k++) {
+        const double *small = rb_io_table_column(&table, "max_increment_mm");
+        CHECK_ABS(rb_io_table_column(&other, "max_increment_mm")[k], 2.0 * small[k],
+                  1e-9 * small[0], "step %d", k + 1);
+        CHECK_ABS(rb_io_table_column(&other, "slip")[k], rb_io_table_column(&table, "slip")[k], 0.0,
+                  "step %d", k + 1);
+    }
+}
+
 TEST(refusals_have_their_exit_codes)
 {
+    assert_int_equal(run("wall --mu 0.5 2>/dev/null"), 64);
+    assert_int_equal(run("wall --load 1 2>/dev/null"), 64);
+    assert_int_equal(run("bar --mu -1 2>/dev/null"), 64);
+    assert_int_equal(run("truss --load 0 2>/dev/null"), 64);
     assert_int_equal(run("2>/dev/null"), 64);
     assert_int_equal(run("bra 2>/dev/null"), 64);
     assert_int_equal(run("bar truss 2>/dev/null"), 64);

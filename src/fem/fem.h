@@ -134,6 +134,8 @@ rb_status rb_fem_model_alloc(rb_fem_kind kind, int nodes, int elements, int cont
 rb_status rb_fem_model_build(rb_fem_model *model, const rb_fem_material *material, double mu,
                              int steps, rb_message *why);
 void rb_fem_model_free(rb_fem_model *model);
+/* Another coefficient mu >= 0 of all contacts that can slide, and all loads times factor. */
+void rb_fem_model_change(rb_fem_model *model, double mu, double factor);
 /* Adds a force on one direction of a node in increment step; forces on fixed directions
  * are ignored. */
 void rb_fem_model_load(rb_fem_model *model, int step, int node, int direction, double force);
@@ -142,6 +144,8 @@ void rb_fem_model_load(rb_fem_model *model, int step, int node, int direction, d
  * strain, nx x ny Q1 elements, ux = 0 on x = 0; 0.01 MPa on top and 0.01 k MPa on the
  * right face, k = 1 ... 5.  Published: nx = 160, ny = 16.  N, mm. */
 rb_status rb_fem_model_bar(int nx, int ny, rb_fem_model *model, rb_message *why);
+#define RB_FEM_BAR_MU 1.3
+#define RB_FEM_BAR_PRESSURE 0.01 /* MPa per increment */
 
 /* *Kanno* 3.1: double-layer grid of bars on n x n contact nodes, 2000 x 3000 mm apart,
  * the upper layer 2000 mm above, offset by half a cell, E = 205800 MPa, A = 10000 mm2, mu
@@ -155,6 +159,8 @@ typedef enum {
 
 /* Published: n = 12.  RB_EINVAL: n < 2. */
 rb_status rb_fem_model_truss(rb_fem_layout layout, int n, rb_fem_model *model, rb_message *why);
+#define RB_FEM_TRUSS_MU 0.12
+#define RB_FEM_TRUSS_LOAD 102900.0 /* N, on inner nodes, at gamma = 1 */
 
 typedef enum { RB_FEM_SEPARATED, RB_FEM_STICK, RB_FEM_SLIP } rb_fem_contact;
 

@@ -60,6 +60,16 @@ void rb_fem_model_free(rb_fem_model *model)
     memset(model, 0, sizeof *model);
 }
 
+void rb_fem_model_change(rb_fem_model *model, double mu, double factor)
+{
+    const size_t loads = (size_t)model->mesh.dofs * (size_t)model->steps;
+    for (int i = 0; i < model->structure.contacts; i++)
+        if (model->structure.mu[i] > 0.0)
+            model->structure.mu[i] = mu;
+    for (size_t k = 0; k < loads; k++)
+        model->load[k] *= factor;
+}
+
 void rb_fem_model_load(rb_fem_model *model, int step, int node, int direction, double force)
 {
     const int dof = model->mesh.dof[model->mesh.dimension * node + direction];

@@ -2,7 +2,6 @@
 #include "fem/fem.h"
 
 static const double length = 400.0, height = 40.0, thickness = 10.0; /* mm */
-static const double pressure = 0.01;                                 /* MPa per increment */
 
 enum { INCREMENTS = 5 };
 
@@ -42,11 +41,11 @@ rb_status rb_fem_model_bar(int nx, int ny, rb_fem_model *model, rb_message *why)
             rb_fem_mesh_hold(&model->mesh, node_at(nx, 0, j), 0);
         for (int i = 0; i <= nx; i++)
             model->contact_node[i] = node_at(nx, i, 0);
-        s = rb_fem_model_build(model, &material, 1.3, INCREMENTS, why);
+        s = rb_fem_model_build(model, &material, RB_FEM_BAR_MU, INCREMENTS, why);
     }
     if (s == RB_OK) {
-        const double top = pressure * thickness * length / nx;
-        const double right = pressure * thickness * height / ny;
+        const double top = RB_FEM_BAR_PRESSURE * thickness * length / nx;
+        const double right = RB_FEM_BAR_PRESSURE * thickness * height / ny;
         for (int k = 0; k < INCREMENTS; k++) {
             for (int i = 0; i <= nx; i++)
                 rb_fem_model_load(model, k, node_at(nx, i, ny), 1, -top * share(i, nx));

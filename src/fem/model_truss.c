@@ -2,7 +2,6 @@
 #include "fem/fem.h"
 
 static const double spacing[3] = {2000.0, 3000.0, 2000.0}; /* mm */
-static const double inner_load = 102900.0;                 /* N */
 static const double gamma_of[] = {5.0, 4.05, 3.1, 2.15, 1.2, 0.25};
 
 enum { INCREMENTS = sizeof gamma_of / sizeof gamma_of[0] };
@@ -69,14 +68,15 @@ rb_status rb_fem_model_truss(rb_fem_layout layout, int n, rb_fem_model *model, r
         }
         for (int k = 0; k < n * n; k++)
             model->contact_node[k] = k;
-        s = rb_fem_model_build(model, &material, 0.12, INCREMENTS, why);
+        s = rb_fem_model_build(model, &material, RB_FEM_TRUSS_MU, INCREMENTS, why);
     }
     if (s == RB_OK) {
         for (int step = 0; step < INCREMENTS; step++)
             for (int j = 0; j < g.m; j++)
                 for (int i = 0; i < g.m; i++)
                     rb_fem_model_load(model, step, g.n * g.n + i + g.m * j, 2,
-                                      -gamma_of[step] * inner_load * share(i, g.m) * share(j, g.m));
+                                      -gamma_of[step] * RB_FEM_TRUSS_LOAD * share(i, g.m) *
+                                          share(j, g.m));
     } else
         rb_fem_model_free(model);
     return s;

@@ -16,7 +16,7 @@
 typedef struct {
     const char *name; /* bar, truss or wall */
     const char *solver, *output, *plot;
-    double tol, step;
+    double tol, step, mu, load; /* mu, load < 0: the published ones */
     rb_report_style style;
     int quiet;
     int layout, nodes;         /* truss */
@@ -41,6 +41,12 @@ static const rb_option options[] = {
     RB_TEXT_LINE("solver", PLACE(solver), "NAME", "friction solver, as in `rollbem friction`",
                  .unset = "bar nsn-nm, truss and wall nsn-ac"),
     RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0), "tolerance of the friction solver"),
+    RB_NUMBER_LINE("mu", PLACE(mu), "", RB_FROM(0.0), "bar, truss: friction coefficient",
+                   .unset = "bar 1.3, truss 0.12"),
+    RB_NUMBER_LINE("load", PLACE(load), "", RB_ABOVE(0.0),
+                   "bar: pressure on top, and its growth on the right, per increment [MPa]; truss: "
+                   "force on an inner node at gamma = 1 [N]",
+                   .unset = "bar 0.01, truss 102900"),
     RB_CHOICE_LINE("layout", PLACE(layout), layouts,
                    "truss: the upper nodes; the paper has its layout in a figure only"),
     RB_INTEGER_LINE("nodes", PLACE(nodes), RB_FROM_TO(2, 100), "truss: contact nodes per side"),
@@ -83,6 +89,11 @@ static rb_status end_steps(FILE *out, const example_options *o, const cli_rows *
     rb_report_json_set(&inputs, "example", json_string(o->name));
     rb_report_json_set(&inputs, "solver", json_string(o->solver));
     rb_report_json_set(&inputs, "tol", rb_report_json_number(o->tol));
+    if (strcmp(o->name, "wall") != 0) {
+        rb_report_json_set(&inputs, "mu", rb_report_json_number(o->mu));
+        rb_report_json_set(&inputs, strcmp(o->name, "bar") == 0 ? "load_MPa" : "load_N",
+                           rb_report_json_number(o->load));
+    }
     if (strcmp(o->name, "truss") == 0) {
         rb_report_json_set(&inputs, "layout", json_string(layouts[o->layout].name));
         rb_report_json_set(&inputs, "nodes", json_integer(o->nodes));
@@ -161,6 +172,8 @@ static cli_exit run_history(const example_options *o)
                 &why);
     if (made != CLI_CONTINUE)
         return made;
+    rb_fem_model_change(&model, o->mu,
+                        o->load / (is_bar ? RB_FEM_BAR_PRESSURE : RB_FEM_TRUSS_LOAD));
     if (!o->quiet)
         cli_wait_begin();
     const rb_status s = rb_fem_run(&model, o->solver, o->tol, &history, &why);
@@ -310,14 +323,15 @@ static cli_exit run_wall(const example_options *o)
 
 static const struct {
     const char *name, *about, *solver; /* the quickest */
+    double mu, load;                   /* the published ones; 0: no option */
     cli_exit (*run)(const example_options *o);
 } finite_elements[] = {
     {"bar", "an elastic bar on an obstacle, pushed from its end (Kanno, example 3.2)", "nsn-nm",
-     run_history},
+     RB_FEM_BAR_MU, RB_FEM_BAR_PRESSURE, run_history},
     {"truss", "a double-layer grid of bars, loaded, then unloaded (Kanno, 3.1)", "nsn-ac",
-     run_history},
+     RB_FEM_TRUSS_MU, RB_FEM_TRUSS_LOAD, run_history},
     {"wall", "12 elastic blocks in running bond, pressed and sheared (after Acary 2017)", "nsn-ac",
-     run_wall}};
+     0.0, 0.0, run_wall}};
 enum { FINITE_ELEMENTS = sizeof finite_elements / sizeof finite_elements[0] };
 
 int cli_example(int argc, char **argv)
@@ -335,8 +349,13 @@ int cli_example(int argc, char **argv)
         free(words);
         return code;
     }
-    example_options o = {
-        .tol = 1e-10, .step = 1e-2, .nodes = 12, .mesh = MESH_FINE, .problems = 50};
+    example_options o = {.tol = 1e-10,
+                         .mu = -1.0,
+                         .load = -1.0,
+                         .step = 1e-2,
+                         .nodes = 12,
+                         .mesh = MESH_FINE,
+                         .problems = 50};
     cli_args args = {0};
     const cli_spec spec = {.synopsis = "rollbem example [OPTION...] bar|truss|wall",
                            .about = about,
@@ -365,7 +384,15 @@ int cli_example(int argc, char **argv)
         if (k < FINITE_ELEMENTS) {
             o.name = name;
             o.solver = o.solver ? o.solver : finite_elements[k].solver;
-            code = finite_elements[k].run(&o);
+            const int fixed = finite_elements[k].load == 0.0;
+            code =
+                fixed && (o.mu >= 0.0 || o.load > 0.0)
+                    ? cli_fail(CLI_USAGE,
+                               "example: --mu and --load belong to bar and truss, not to %s", name)
+                    : CLI_CONTINUE;
+            o.mu = o.mu >= 0.0 ? o.mu : finite_elements[k].mu;
+            o.load = o.load > 0.0 ? o.load : finite_elements[k].load;
+            code = code == CLI_CONTINUE ? finite_elements[k].run(&o) : code;
         } else
             code = cli_fail(CLI_USAGE,
                             "example: expected bar, truss, wall or a name that `rollbem examples` "
