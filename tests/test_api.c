@@ -968,8 +968,8 @@ TEST(a_stopped_run_is_interrupted)
     signal(SIGALRM, SIG_DFL);
     assert_int_equal(passing, RB_INTERRUPTED);
     rb_api_progress(stopped, &done, &total);
-    CHECK_ABS(total % 1000, 0, 0.0, "as many positions in each pass, of %d", total);
-    assert_true(total > 1000 * 100);
+    /* as many positions in each pass; 0: before the first one, while the crack was made */
+    assert_true(total == 0 || (total % 1000 == 0 && total > 1000 * 100));
     assert_null(rb_api_array(stopped, "crack.K_I", &rows, &columns));
     rb_api_free(stopped);
 }

@@ -128,7 +128,7 @@ TEST(stresses_have_bars_where_they_are_asked_for)
     rb_rolling_errors errors, alone;
     CHECK_OK(rb_rolling_solve_model(&rc, &model, &own, &heard));
     CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &maxima, &heard));
-    CHECK_OK(rb_rolling_estimate_errors(&rc, &own, &maxima, &errors, &heard));
+    CHECK_OK(rb_rolling_estimate_errors(&rc, &own, &maxima, NULL, &errors, &heard));
     CHECK_OK(rb_rolling_solve_with_errors(&rc, &again, &alone, &heard));
     assert_true(errors.scalar.max_pressure == alone.scalar.max_pressure &&
                 errors.scalar.force_ratio == alone.scalar.force_ratio);

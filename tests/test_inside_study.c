@@ -199,7 +199,7 @@ TEST(nothing_is_halved_below_its_least)
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_history) h;
     CHECK_STATUS(rb_rolling_error_check(&rc, &heard), RB_EINVAL);
-    CHECK_STATUS(rb_rolling_estimate_errors(&rc, &s, NULL, &errors, &heard), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_estimate_errors(&rc, &s, NULL, NULL, &errors, &heard), RB_EINVAL);
     assert_true(isnan(errors.scalar.normal_load));
     CHECK_STATUS(rb_rolling_curve_with_errors(&rc, &(rb_rolling_range){0, 0.0, 1.0, 2, RB_UNITS_MM},
                                               NULL, NULL, &curve, &bars, &heard),

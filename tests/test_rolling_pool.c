@@ -74,7 +74,7 @@ TEST(rows_have_what_is_asked_for)
         OWNED(rb_rolling_solution) s;
         CHECK_OK(rb_rolling_solve_model(&rc, &model, &s, NULL));
         CHECK_OK(rb_rolling_stress_maxima_find(&model, 0.0, &stress, NULL));
-        CHECK_OK(rb_rolling_estimate_errors(&rc, &s, &stress, &errors, NULL));
+        CHECK_OK(rb_rolling_estimate_errors(&rc, &s, &stress, NULL, &errors, NULL));
         CHECK_OK(row.solution.status);
         CHECK_ABS(row.solution.tangential_load, s.tangential_load, 0.0, "Q");
         CHECK_ABS(row.solution.free_creepage, s.free_creepage, 0.0, "free creepage");

@@ -216,7 +216,9 @@ const char *rb_api_variable(const rb_api *a, int variable, char *text, int size)
 /* Solves the linear equations for the given zones (0 separated, 1 stick, 2 and 3 slip),
  * whether they are right or wrong. */
 int rb_api_guess(rb_api *a, int n, const int *zone);
-/* Stress below the surface of A on nx x ny points, down to a depth [length] (0:
+/* Whose stress the functions below compute from now on: 0: A's (as at first), 1: B's, at y <= 0. */
+int rb_api_stress_of(rb_api *a, int of_b);
+/* Stress below the surface on nx x ny points, y increasing, down to a depth [length] (0:
  * automatic). */
 int rb_api_stress(rb_api *a, int nx, int ny, double depth);
 /* Moves the contact of a handle for "crack" over a crack in body B.  names and values: n

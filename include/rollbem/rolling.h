@@ -755,7 +755,8 @@ typedef struct {
     rb_rolling_solution scalar; /* the error of each result with an error bar, in the field of the
                                    result; NAN if the result is NAN in the solution or in a coarser
                                    run, or if there is no estimate; no columns */
-    rb_rolling_stress_maxima stress; /* errors of values and places; NAN unless requested */
+    rb_rolling_stress_maxima stress, stress_b; /* errors of values and places in A and in B; NAN
+                                                  unless requested */
 } rb_rolling_errors;
 
 /* Solves a case and estimates errors from the spread over n/2, 0.7 n and n contact

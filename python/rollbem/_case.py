@@ -679,7 +679,7 @@ class Extremum(tuple):
 
 
 class Stress(_Named):
-    """Stress in body A: arrays of ny x nx (a row per depth), or with an entry per point.
+    """Stress in a body: arrays of ny x nx (a row per depth, y increasing), or with an entry per point.
 
     Tension positive; ``szz`` is that of plane strain, 0 in plane stress.  ``maxima``
     holds value and place of the largest ``max_shear`` (in the plane), ``tresca_shear``
@@ -689,13 +689,14 @@ class Stress(_Named):
 
     solution: Solution
     maxima: "dict[str, Extremum]"
+    body: str
 
     _tables = ("stress",)
 
-    def __init__(self, solution: Solution, maxima: dict) -> None:
+    def __init__(self, solution: Solution, maxima: dict, body: str = "a") -> None:
         # copied: the next stress of the same solution is made in the same memory
         found = solution._live().arrays("stress", "stress.", copied=True)
-        self.solution, self.maxima, self._system = solution, maxima, solution._system
+        self.solution, self.maxima, self.body, self._system = solution, maxima, body, solution._system
         self._arrays = {name: array.T for name, array in found.items()}
         self._numbers = {}
 
@@ -705,7 +706,7 @@ class Stress(_Named):
 
     def __repr__(self) -> str:
         largest = self.maxima["max_shear"]
-        return (f"<Stress: {' x '.join(map(str, self.max_shear.shape[::-1]))} points; largest max_shear "
+        return (f"<Stress in {self.body.upper()}: {' x '.join(map(str, self.max_shear.shape[::-1]))} points; largest max_shear "
                 f"{largest.value:.6g} {self._in('MPa')} at ({largest.x:.4g}, {largest.y:.4g}) {self._in('mm')}>")
 
 
@@ -886,11 +887,14 @@ def history(program: Optional[Table] = None, case: _CaseLike = None, *,
 
 
 def stress(case: Union[Solution, _CaseLike] = None, grid: "tuple[int, int]" = (61, 41),
-           depth: Optional[float] = None, points: Any = None, **options: Any) -> Stress:
-    """Stress below the surface of A, on a grid or at points (n x 2: x, y > 0 inside A).
+           depth: Optional[float] = None, points: Any = None, body: str = "a", **options: Any) -> Stress:
+    """Stress below the surface of A, or with ``body="b"`` of B, on a grid or at points (n x 2: x, y > 0 inside A, y < 0
+    inside B).
 
     ``case`` may be a :class:`Solution`, which is not solved again.
     """
+    if body not in ("a", "b"):
+        raise InvalidInput(f"body=: expected 'a' or 'b', got {body!r}")
     if isinstance(case, Solution) and not options:
         solution = case
     else:
@@ -900,6 +904,7 @@ def stress(case: Union[Solution, _CaseLike] = None, grid: "tuple[int, int]" = (6
     handle = solution._live()
     depth = 0.0 if depth is None else _values.number("depth", depth)
     with handle.lock:  # what the call has made is read before another thread calls
+        handle.check(handle.run("rb_api_stress_of", int(body == "b")))
         handle.check(handle.run("rb_api_stress_maxima", depth))
         names = ("max_shear", "tresca_shear", "von_mises", "orthogonal_shear", "tension", "compression")
         maxima = {name: Extremum(handle.array(f"maxima.{name}").tolist()) for name in names}
@@ -912,7 +917,7 @@ def stress(case: Union[Solution, _CaseLike] = None, grid: "tuple[int, int]" = (6
             if xy.ndim != 2 or xy.shape[1] != 2 or len(xy) == 0:
                 raise InvalidInput(f"points=: expected an array of n x 2, got {' x '.join(map(str, xy.shape))}")
             handle.check(handle.run("rb_api_stress_at", len(xy), doubles(xy)))
-        return Stress(solution, maxima)
+        return Stress(solution, maxima, body)
 
 
 def wear(case: _CaseLike = None, *, coefficient: float, slide: Optional[float] = None,

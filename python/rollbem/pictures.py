@@ -246,8 +246,9 @@ def contours(of: "Stress", figure: Any = None, field: str = "max_shear", ax: Any
         if ax is None:
             axes.set_title(f"largest {field.replace('_', ' ')} {largest.value / unit:.5g} {label} "
                            f"at ({largest.x:.4g}, {largest.y:.4g}) {of._in('mm')}")
-    axes.set(xlabel=f"x [{of._in('mm')}]", ylabel=f"depth y [{of._in('mm')}]", aspect="equal")
-    if not axes.yaxis_inverted():
+    axes.set(xlabel=f"x [{of._in('mm')}]", ylabel=f"{'depth ' if of.body == 'a' else ''}y [{of._in('mm')}]",
+             aspect="equal")
+    if of.body == "a" and not axes.yaxis_inverted():
         axes.invert_yaxis()
     return figure
 

@@ -246,7 +246,8 @@ extern const rb_rolling_results rb_rolling_history_columns, rb_rolling_curve_col
 extern const rb_rolling_results rb_rolling_wear_columns;
 /* The numbers of rb_rolling_stress, and of rb_rolling_stress_maxima: three rows for each
  * maximum, its value and its place. */
-extern const rb_rolling_results rb_rolling_stress_scalars, rb_rolling_maxima_scalars;
+extern const rb_rolling_results rb_rolling_stress_scalars, rb_rolling_maxima_scalars,
+    rb_rolling_maxima_b_scalars;
 
 /* All these tables; an entry without a name ends the list. */
 typedef struct {
@@ -695,6 +696,32 @@ rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int n
                                     rb_rolling_stress_grid *grid, rb_message *why);
 void rb_rolling_stress_grid_free(rb_rolling_stress_grid *grid);
 
+/* ---- Subsurface stress of body B --------------------------------------------------- */
+
+/* Body B of a solved model as an upper body, mirrored at y = 0: `model` is one whose body A it
+ * is, under the same pressure and the opposite friction, for the functions above.  Borrows the
+ * model it is made of. */
+typedef struct {
+    rb_rolling_model model;
+    rb_rolling_case rc; /* that of the model, with exchanged bodies */
+    double *q;          /* owned */
+} rb_rolling_mirror;
+
+/* RB_EINVAL: B is rigid, or its stress cannot be computed. */
+rb_status rb_rolling_mirror_check(const rb_rolling_case *rc, rb_message *why);
+rb_status rb_rolling_mirror_create(const rb_rolling_model *model, rb_rolling_mirror **mirror,
+                                   rb_message *why);
+void rb_rolling_mirror_free(rb_rolling_mirror *mirror);
+/* From the image back to body B: y and sxy change their signs; maxima: NULL, or likewise. */
+void rb_rolling_mirror_stress(int n, rb_rolling_stress *at, rb_rolling_stress_maxima *maxima);
+
+/* Likewise of a grid, whose rows then begin with the deepest. */
+void rb_rolling_mirror_grid(rb_rolling_stress_grid *grid);
+
+/* As rb_rolling_stress_maxima_find, of body B. */
+rb_status rb_rolling_stress_maxima_of_b(const rb_rolling_model *model, double depth,
+                                        rb_rolling_stress_maxima *maxima, rb_message *why);
+
 /* Solves a case on equal elements between from and to; the contact may lie anywhere in
  * between.  Of the mesh options of the case only contact_elements is used.  solution is
  * overwritten; free it in any case. */
@@ -713,10 +740,11 @@ rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double
 /* ---- Error bars (theory.md 5.1) ---------------------------------------------------- */
 
 /* Estimates the errors of a case that is already solved; solution: complete, in mm, N,
- * MPa.  stress: its maxima down to the default depth if error bars for them are wanted,
+ * MPa.  stress, stress_b: its maxima in all of A and of B if error bars for them are wanted,
  * otherwise NULL. */
 rb_status rb_rolling_estimate_errors(const rb_rolling_case *rc, const rb_rolling_solution *solution,
                                      const rb_rolling_stress_maxima *stress,
+                                     const rb_rolling_stress_maxima *stress_b,
                                      rb_rolling_errors *errors, rb_message *why);
 
 /* The number of coarser runs whose differences are the error bars: 2, with wheels 3. */
@@ -764,12 +792,13 @@ enum { RB_ROW_OWN = 128 };
 typedef struct {
     rb_rolling_solution solution;    /* with the status of the case */
     rb_rolling_errors errors;        /* NAN without RB_ROW_ERRORS */
-    rb_rolling_stress_maxima stress; /* NAN without RB_ROW_STRESS */
+    rb_rolling_stress_maxima stress, stress_b; /* NAN without RB_ROW_STRESS, ..._B */
     double own[RB_ROW_OWN];          /* values computed by `measure` of the sweep; otherwise NAN */
     rb_rolling_row_notes notes;      /* in the units of the sweep */
 } rb_rolling_row;
 
-enum { RB_ROW_ERRORS = 1, RB_ROW_STRESS = 2 }; /* bits of rb_rolling_sweep.also */
+/* bits of rb_rolling_sweep.also */
+enum { RB_ROW_ERRORS = 1, RB_ROW_STRESS = 2, RB_ROW_STRESS_B = 4 };
 
 /* From mm, N, MPa to other units. */
 void rb_rolling_row_convert(rb_rolling_row *row, rb_units units);

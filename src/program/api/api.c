@@ -1231,8 +1231,18 @@ static rb_status keep_stress(rb_api *a, int nx, int ny, const rb_rolling_stress 
     return RB_OK;
 }
 
-static rb_status begin_stress(rb_api *a, const char *arrays)
+int rb_api_stress_of(rb_api *a, int of_b)
 {
+    a->stress_of_b = of_b != 0;
+    return RB_OK;
+}
+
+/* The model of the body that is asked for: A, or B in a mirror, to be freed. */
+static rb_status begin_stress(rb_api *a, const char *arrays, rb_rolling_mirror **mirror,
+                              const rb_rolling_model **model)
+{
+    *mirror = NULL;
+    *model = &a->result.model;
     rb_api_forget_call(a);
     rb_api_forget_arrays(a, arrays);
     if (!a->result.model.state.p)
@@ -1240,18 +1250,26 @@ static rb_status begin_stress(rb_api *a, const char *arrays)
                        a->result.has_errors
                            ? "the stress needs a case that is solved without error bars"
                            : "nothing is solved");
-    return rb_rolling_stress_check(a->result.model.rc, &a->why);
+    if (!a->stress_of_b)
+        return rb_rolling_stress_check(a->result.model.rc, &a->why);
+    const rb_status s = rb_rolling_mirror_create(&a->result.model, mirror, &a->why);
+    *model = s == RB_OK ? &(*mirror)->model : NULL;
+    return s;
 }
 
 int rb_api_stress(rb_api *a, int nx, int ny, double depth)
 {
     rb_rolling_stress_grid grid = {0};
-    rb_status s = begin_stress(a, "stress.");
+    rb_rolling_mirror *mirror;
+    const rb_rolling_model *model;
+    rb_status s = begin_stress(a, "stress.", &mirror, &model);
     rb_api_call_begins(a);
     if (s == RB_OK)
-        s = rb_rolling_stress_on_grid(&a->result.model, nx, ny, stored(a, "mm", depth), &grid,
-                                      &a->why);
+        s = rb_rolling_stress_on_grid(model, nx, ny, stored(a, "mm", depth), &grid, &a->why);
     s = rb_api_call_ends(a, s);
+    rb_rolling_mirror_free(mirror);
+    if (s == RB_OK && a->stress_of_b)
+        rb_rolling_mirror_grid(&grid);
     if (s == RB_OK)
         s = keep_stress(a, nx, ny, grid.at);
     rb_rolling_stress_grid_free(&grid);
@@ -1262,17 +1280,22 @@ int rb_api_stress_at(rb_api *a, int n, const double *xy)
 {
     rb_rolling_stress *at = NULL;
     double *place = NULL;
-    rb_status s = begin_stress(a, "stress.");
+    rb_rolling_mirror *mirror;
+    const rb_rolling_model *model;
+    rb_status s = begin_stress(a, "stress.", &mirror, &model);
     if (s == RB_OK && n < 1)
         s = rb_fail(&a->why, RB_EINVAL, "stress: expected at least one point, got %d", n);
     if (s == RB_OK && (!(at = calloc((size_t)n, sizeof *at)) || !(place = rb_alloc((size_t)n, 2))))
         s = RB_ENOMEM;
     for (int k = 0; s == RB_OK && k < 2 * n; k++)
-        place[k] = stored(a, "mm", xy[k]);
+        place[k] = stored(a, "mm", a->stress_of_b && k % 2 ? 0.0 - xy[k] : xy[k]);
     rb_api_call_begins(a);
     if (s == RB_OK)
-        s = rb_rolling_stress_at(&a->result.model, n, place, at, &a->why);
+        s = rb_rolling_stress_at(model, n, place, at, &a->why);
     s = rb_api_call_ends(a, s);
+    rb_rolling_mirror_free(mirror);
+    if (s == RB_OK && a->stress_of_b)
+        rb_rolling_mirror_stress(n, at, NULL);
     if (s == RB_OK)
         s = keep_stress(a, n, 1, at);
     free(place);
@@ -1562,11 +1585,16 @@ int rb_api_wear(rb_api *a, const char *law, double coefficient, double share, do
 int rb_api_stress_maxima(rb_api *a, double depth)
 {
     rb_rolling_stress_maxima m;
-    rb_status s = begin_stress(a, "maxima.");
+    rb_rolling_mirror *mirror;
+    const rb_rolling_model *model;
+    rb_status s = begin_stress(a, "maxima.", &mirror, &model);
     rb_api_call_begins(a);
     if (s == RB_OK)
-        s = rb_rolling_stress_maxima_find(&a->result.model, stored(a, "mm", depth), &m, &a->why);
+        s = rb_rolling_stress_maxima_find(model, stored(a, "mm", depth), &m, &a->why);
     s = rb_api_call_ends(a, s);
+    rb_rolling_mirror_free(mirror);
+    if (s == RB_OK && a->stress_of_b)
+        rb_rolling_mirror_stress(0, NULL, &m);
     for (int k = 0; s == RB_OK && rb_rolling_maximum(&m, k); k++) {
         const rb_rolling_extremum *at = rb_rolling_maximum(&m, k);
         const double x[] = {at->value, at->x, at->y, at->material};

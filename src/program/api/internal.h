@@ -51,6 +51,7 @@ struct rb_api {
     rb_rolling_solution deviation;        /* after rb_api_tolerances, has_deviation */
     int has_deviation;
     rb_rolling_wear_history wear; /* n = 0: not asked for */
+    int stress_of_b;              /* 1: the stress is asked for in body B */
     rb_contact_lcp lcp;
     int pivots; /* seen so far */
     double *tableau;

@@ -13,21 +13,28 @@ static const double FLAT = 1e-10, CORNERS = 1e-3;
  * away, but not much, is not that of the maximum. */
 static const double SEARCHED = 1e-6, NEAR = 1e-3;
 
-static double slack_of(const rb_case_result *r)
+/* The body: A, or the image of B, and the sign of y in it. */
+typedef struct {
+    const rb_rolling_model *model;
+    const rb_rolling_solution *solution;
+    double up;
+} body;
+
+static double slack_of(const body *b)
 {
-    const int is_flat = rb_rolling_body_can(&r->model.rc->a, RB_BODY_FLAT);
-    return (is_flat ? FLAT : CORNERS) * r->solution.max_pressure;
+    const int is_flat = rb_rolling_body_can(&b->model->rc->a, RB_BODY_FLAT);
+    return (is_flat ? FLAT : CORNERS) * b->solution->max_pressure;
 }
 
 /* 1: it is neither the place that was found nor another one. */
-static int is_beside(const rb_case_result *r, double x, double y, double x_found, double y_found)
+static int is_beside(const body *b, double x, double y, double x_found, double y_found)
 {
-    const double apart = hypot(x - x_found, y - y_found) / r->solution.half_width;
+    const double apart = hypot(x - x_found, y - y_found) / b->solution->half_width;
     return apart > SEARCHED && apart < NEAR;
 }
 
 /* Given points are taken as they are: a list in one row. */
-static rb_status points_again(rb_certificate *c, const json_t *printed, const rb_case_result *r,
+static rb_status points_again(rb_certificate *c, const json_t *printed, const body *b,
                               rb_rolling_stress_grid *row, rb_message *why)
 {
     const int n = (int)json_array_size(json_object_get(printed, "x_mm"));
@@ -42,10 +49,10 @@ static rb_status points_again(rb_certificate *c, const json_t *printed, const rb
         s = RB_ENOMEM;
     for (int k = 0; k < n && s == RB_OK; k++) {
         xy[2 * k] = x[k];
-        xy[2 * k + 1] = y[k];
+        xy[2 * k + 1] = b->up * y[k];
     }
     if (s == RB_OK)
-        s = rb_rolling_stress_at(&r->model, n, xy, row->at, why);
+        s = rb_rolling_stress_at(b->model, n, xy, row->at, why);
     row->nx = n;
     free(x);
     return s;
@@ -53,12 +60,11 @@ static rb_status points_again(rb_certificate *c, const json_t *printed, const rb
 
 /* The largest stresses, found again; one that is printed at another place stays there if none is
  * larger: where a maximum is flat or symmetric a search may end at either. */
-static rb_status maxima_again(rb_certificate *c, const json_t *printed, double depth,
-                              const rb_case_result *r, rb_rolling_stress_maxima *maxima,
-                              rb_message *why)
+static rb_status maxima_again(rb_certificate *c, const json_t *printed, double depth, const body *b,
+                              rb_rolling_stress_maxima *maxima, rb_message *why)
 {
     rb_rolling_stress_maxima found, there;
-    rb_status s = rb_rolling_stress_maxima_find(&r->model, depth, &found, why);
+    rb_status s = rb_rolling_stress_maxima_find(b->model, depth, &found, why);
 
     if (s != RB_OK)
         return s;
@@ -66,11 +72,12 @@ static rb_status maxima_again(rb_certificate *c, const json_t *printed, double d
     for (int k = 0; rb_rolling_maximum(&there, k); k++) {
         const json_t *one = json_object_get(printed, rb_rolling_maxima_scalars.row[3 * k].name);
         const char *material = rb_certificate_word(one, "material");
-        const double x = rb_certificate_stored(c, one, "x"), y = rb_certificate_stored(c, one, "y"),
-                     below = y - rb_rolling_surface(r->model.rc, x);
+        const double x = rb_certificate_stored(c, one, "x"),
+                     y = b->up * rb_certificate_stored(c, one, "y"),
+                     below = y - rb_rolling_surface(b->model->rc, x);
         rb_rolling_extremum *at = rb_rolling_maximum(&there, k);
         if (!isfinite(x) || !isfinite(y) || (depth > 0.0 && !(below <= depth * (1.0 + 1e-9))) ||
-            is_beside(r, x, y, at->x, at->y))
+            is_beside(b, x, y, at->x, at->y))
             continue;
         at->x = x;
         at->y = y;
@@ -80,29 +87,29 @@ static rb_status maxima_again(rb_certificate *c, const json_t *printed, double d
             at->material++;
     }
     rb_message outside;
-    s = rb_rolling_stress_maxima_at(&r->model, &there, &outside);
+    s = rb_rolling_stress_maxima_at(b->model, &there, &outside);
     for (int k = 0; rb_rolling_maximum(&there, k) && s == RB_OK; k++)
         if (rb_rolling_maximum(&there, k)->value >=
-            rb_rolling_maximum(&found, k)->value - slack_of(r))
+            rb_rolling_maximum(&found, k)->value - slack_of(b))
             *rb_rolling_maximum(maxima, k) = *rb_rolling_maximum(&there, k);
     return s == RB_ENOMEM ? s : RB_OK;
 }
 
 /* The same of the place that decides on shakedown. */
-static rb_status shakedown_again(rb_certificate *c, const json_t *printed, const rb_case_result *r,
+static rb_status shakedown_again(rb_certificate *c, const json_t *printed, const body *b,
                                  rb_rolling_shakedown *limit, rb_message *why)
 {
-    rb_status s = rb_rolling_shakedown_find(&r->model, limit, why);
+    rb_status s = rb_rolling_shakedown_find(b->model, limit, why);
     rb_rolling_shakedown there = {.x = rb_certificate_stored(c, printed, "x"),
-                                  .y = rb_certificate_stored(c, printed, "y"),
+                                  .y = b->up * rb_certificate_stored(c, printed, "y"),
                                   .residual = rb_certificate_stored(c, printed, "residual")};
     rb_message outside;
 
     if (s != RB_OK || !isfinite(there.x + there.y + there.residual) ||
-        is_beside(r, there.x, there.y, limit->x, limit->y))
+        is_beside(b, there.x, there.y, limit->x, limit->y))
         return s;
-    s = rb_rolling_shakedown_at(&r->model, &there, &outside);
-    if (s == RB_OK && fabs(there.shear_yield - limit->shear_yield) <= slack_of(r))
+    s = rb_rolling_shakedown_at(b->model, &there, &outside);
+    if (s == RB_OK && fabs(there.shear_yield - limit->shear_yield) <= slack_of(b))
         *limit = there;
     return s == RB_ENOMEM ? s : RB_OK;
 }
@@ -114,22 +121,35 @@ rb_status rb_certificate_restore_stress(rb_certificate *c, const json_t *root,
     const json_t *grid = json_object_get(root, "grid"),
                  *shakedown = json_object_get(root, "shakedown");
     const double depth = json_number_value(json_object_get(root, "depth")); /* 0: null */
-    rb_status status;
+    const int of_b = strcmp(rb_certificate_word(root, "body"), "b") == 0;
+    rb_rolling_mirror *mirror = NULL;
 
     memset(s, 0, sizeof *s);
+    rb_status status = of_b ? rb_rolling_mirror_create(&r->model, &mirror, why) : RB_OK;
+    if (status != RB_OK)
+        return status;
+    const body b = {mirror ? &mirror->model : &r->model, &r->solution, of_b ? -1.0 : 1.0};
     if (grid) { /* its points follow from its size */
         const double nx = rb_certificate_member(grid, "nx"), ny = rb_certificate_member(grid, "ny");
         const size_t n = json_array_size(json_object_get(grid, "x_mm"));
         status = nx >= 2.0 && ny >= 2.0 && nx * ny == (double)n
-                     ? rb_rolling_stress_on_grid(&r->model, (int)nx, (int)ny, depth, &s->grid, why)
+                     ? rb_rolling_stress_on_grid(b.model, (int)nx, (int)ny, depth, &s->grid, why)
                      : rb_certificate_refuse(c, "its grid is not nx by ny points", why);
     } else
-        status = points_again(c, json_object_get(root, "points"), r, &s->grid, why);
+        status = points_again(c, json_object_get(root, "points"), &b, &s->grid, why);
     if (status == RB_OK)
-        status = maxima_again(c, json_object_get(root, "maxima"), depth, r, &s->maxima, why);
+        status = maxima_again(c, json_object_get(root, "maxima"), depth, &b, &s->maxima, why);
     if (status == RB_OK && shakedown)
-        status = shakedown_again(c, shakedown, r, &s->limit, why);
-    s->shown = (rb_report_stress){.nx = grid ? s->grid.nx : 0,
+        status = shakedown_again(c, shakedown, &b, &s->limit, why);
+    rb_rolling_mirror_free(mirror);
+    if (status == RB_OK && of_b) {
+        if (grid)
+            rb_rolling_mirror_grid(&s->grid);
+        rb_rolling_mirror_stress(grid ? 0 : s->grid.nx, s->grid.at, &s->maxima);
+        s->limit.y = 0.0 - s->limit.y;
+    }
+    s->shown = (rb_report_stress){.of_b = of_b,
+                                  .nx = grid ? s->grid.nx : 0,
                                   .ny = s->grid.ny,
                                   .n = grid ? s->grid.nx * s->grid.ny : s->grid.nx,
                                   .depth = depth,

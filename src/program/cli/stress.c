@@ -1,4 +1,4 @@
-/* rollbem stress: the stress below the surface of body A. */
+/* rollbem stress: the stress below the surface of a body. */
 #include "program/cli/case.h"
 #include "program/cli/run.h"
 
@@ -12,13 +12,14 @@ typedef struct {
     /* options */
     const char *grid, *points, *vtk, *fringes, *map;
     double depth, fringe, yield_shear;
-    int shakedown;
+    int shakedown, of_b;
     /* where the stress is asked for */
     int nx, ny;        /* of the grid */
     rb_io_table place; /* the file of points; rows = 0: the grid */
     double *xy;        /* place.rows pairs; owned */
     /* results */
     rb_case_result run;
+    rb_rolling_mirror *mirror; /* B, of run's model; NULL: A is asked for; owned */
     rb_rolling_stress_maxima maxima;
     rb_rolling_shakedown found;
     rb_rolling_errors errors;        /* with --error */
@@ -29,17 +30,21 @@ typedef struct {
 
 #define PLACE(member) offsetof(stress, member)
 
+static const rb_choice bodies[] = {{"a", 0}, {"b", 1}, {NULL, 0}};
+
 static const rb_option options[] = {
     RB_GROUP_LINE("stress", "Stress"),
+    RB_CHOICE_LINE("body", PLACE(of_b), bodies,
+                   "whose stress: A's, at y >= 0, or B's, at y <= 0 (rail, race, counter disc)"),
     RB_TEXT_LINE("grid", PLACE(grid), "NXxNY", "points along the surface and into the depth",
                  .unset = "61x41"),
     RB_NUMBER_LINE("depth", PLACE(depth), "mm", RB_ABOVE(0),
                    "of the grid and of the search for maxima; auto: a grid of 2.5 half-widths, "
-                   "maxima in all of A",
+                   "maxima in all of the body",
                    .word = "auto", .word_value = 0.0),
     RB_TEXT_LINE("points", PLACE(points), "FILE",
-                 "instead of a grid: rows x, y [mm], y > 0 inside A", .unset = "none",
-                 .file = RB_FILE_READ),
+                 "instead of a grid: rows x, y [mm], y > 0 inside A, y < 0 inside B",
+                 .unset = "none", .file = RB_FILE_READ),
     RB_TEXT_LINE("vtk", PLACE(vtk), "FILE", "for ParaView: .vtu, or .vti (half-planes only)",
                  .unset = "none", .file = RB_FILE_WRITTEN),
     CLI_PICTURE_LINE("fringes", PLACE(fringes), "picture of photoelastic fringes"),
@@ -48,10 +53,11 @@ static const rb_option options[] = {
                    "auto: about ten fringes",
                    .word = "auto", .word_value = 0.0),
     RB_FLAG_LINE("shakedown", PLACE(shakedown),
-                 "largest p0 at which residual stresses keep A elastic under repeated "
+                 "largest p0 at which residual stresses keep the body elastic under repeated "
                  "rolling (Melan, Tresca)"),
     RB_NUMBER_LINE("yield-shear", PLACE(yield_shear), "MPa", RB_ABOVE(0),
-                   "yield stress k of A in shear; shows the case in the map", .unset = "not given"),
+                   "yield stress k of the body in shear; shows the case in the map",
+                   .unset = "not given"),
     CLI_PICTURE_LINE("shakedown-map", PLACE(map), "picture of p0/k over Q/P with the case"),
 };
 
@@ -63,10 +69,11 @@ _Static_assert((int)OPTIONS <= (int)CLI_COMMAND_OPTIONS_MAX, "given");
 enum { CONTOURS_X = 161, CONTOURS_Y = 101, FRINGES_X = 241, FRINGES_Y = 151 };
 
 static const char about[] =
-    "Solves a case and prints the stress in body A below the contact: the tensor\n"
-    "(tension positive), principal stresses in the plane, the largest shear in the plane\n"
+    "Solves a case and prints the stress in body A above the contact, or in B below it\n"
+    "(--body b): the tensor (tension positive), principal stresses in the plane, the largest shear "
+    "in the plane\n"
     "and of all planes (Tresca), von Mises, hydrostatic stress; in the header, the values\n"
-    "and places of the maxima in all of A, of two materials also which one. --plot draws\n"
+    "and places of the maxima in all of the body, of two materials also which one. --plot draws\n"
     "contours of the in-plane shear and von Mises. The grid reaches a half-width beyond\n"
     "the contact and follows the surface of a wheel.\n"
     "\n" CLI_CASE_SIGNS;
@@ -91,8 +98,9 @@ static cli_exit check(cli_case_run *run)
     stress *st = run->own;
     rb_report_vtk_kind kind;
     rb_message why = {""};
-    const rb_report_stress asked = {.nx = st->points ? 0 : 1, .rc = &run->c->rc};
-    const rb_status s = rb_rolling_stress_check(&run->c->rc, &why);
+    const rb_report_stress asked = {.of_b = st->of_b, .nx = st->points ? 0 : 1, .rc = &run->c->rc};
+    const rb_status s =
+        (st->of_b ? rb_rolling_mirror_check : rb_rolling_stress_check)(&run->c->rc, &why);
     if (s != RB_OK)
         return cli_case_refused(run->words, s, &why);
     if (st->vtk && (rb_report_vtk_kind_of(st->vtk, &kind, &why) != RB_OK ||
@@ -137,18 +145,72 @@ static int wants_shakedown(const stress *st)
 static rb_report_stress of_grid(const cli_case_run *run, const rb_rolling_stress_grid *grid)
 {
     const stress *st = run->own;
-    return (rb_report_stress){.nx = grid->nx,
+    return (rb_report_stress){.of_b = st->of_b,
+                              .nx = grid->nx,
                               .ny = grid->ny,
                               .n = grid->nx * grid->ny,
                               .depth = rb_unit_shown(run->c->units, "mm", st->depth),
                               .at = grid->at,
                               .inside = grid->inside,
                               .maxima = &st->maxima,
-                              .errors = run->c->error ? &st->errors.stress : NULL,
+                              .errors = !run->c->error ? NULL
+                                        : st->of_b     ? &st->errors.stress_b
+                                                       : &st->errors.stress,
                               .shakedown = wants_shakedown(st) ? &st->found : NULL,
                               .yield_shear = rb_unit_shown(run->c->units, "MPa", st->yield_shear),
                               .rc = &run->c->rc,
                               .s = &st->run.solution};
+}
+
+/* At the points of the file; the first one that is not in the body is named by its line. */
+static rb_status solve_points(stress *st, const rb_rolling_model *model, rb_message *why)
+{
+    const int n = st->place.rows;
+    int *inside = rb_alloc_int((size_t)n);
+    st->at_points = calloc((size_t)n, sizeof *st->at_points);
+    if (!inside || !st->at_points) {
+        free(inside);
+        return RB_ENOMEM;
+    }
+    for (int k = 0; k < n && st->of_b; k++)
+        st->xy[2 * k + 1] = 0.0 - st->xy[2 * k + 1]; /* of the mirror image */
+    rb_status s = rb_rolling_inside(model, n, st->xy, inside);
+    for (int k = 0; k < n && s == RB_OK; k++) {
+        const double x = st->xy[2 * k], y = st->xy[2 * k + 1];
+        if (!inside[k] && st->of_b && y < 0.0)
+            s = rb_fail(why, RB_EFORMAT, "%.200s:%d: (%g, %g) mm lies above body B: y <= 0",
+                        st->points, st->place.line[k], x, -y);
+        else if (!inside[k])
+            s = rb_fail(why, RB_EFORMAT, "%.200s:%d: the point (%g, %g) mm lies outside body %s",
+                        st->points, st->place.line[k], x, st->of_b ? 0.0 - y : y,
+                        st->of_b ? "B" : "A");
+    }
+    if (s == RB_OK)
+        s = rb_rolling_stress_at(model, n, st->xy, st->at_points, why);
+    if (s == RB_OK && st->of_b)
+        rb_rolling_mirror_stress(n, st->at_points, NULL);
+    free(inside);
+    return s;
+}
+
+static rb_status solve_grid(const stress *st, const rb_rolling_model *model, int nx, int ny,
+                            rb_rolling_stress_grid *grid, rb_message *why)
+{
+    const rb_status s = rb_rolling_stress_on_grid(model, nx, ny, st->depth, grid, why);
+    if (s == RB_OK && st->of_b)
+        rb_rolling_mirror_grid(grid);
+    return s;
+}
+
+static rb_status estimate_errors(const cli_case_run *run, stress *st, rb_message *why)
+{
+    rb_rolling_stress_maxima maxima;
+    rb_status s = (st->of_b ? rb_rolling_stress_maxima_of_b
+                            : rb_rolling_stress_maxima_find)(&st->run.model, 0.0, &maxima, why);
+    return s == RB_OK ? rb_rolling_estimate_errors(&run->c->rc, &st->run.solution,
+                                                   st->of_b ? NULL : &maxima,
+                                                   st->of_b ? &maxima : NULL, &st->errors, why)
+                      : s;
 }
 
 static rb_status solve(cli_case_run *run, rb_message *why)
@@ -156,46 +218,36 @@ static rb_status solve(cli_case_run *run, rb_message *why)
     stress *st = run->own;
     /* The model belongs to a plain solution, whose error bars follow. */
     rb_resolved_case plain = *run->c;
-    rb_rolling_stress_maxima maxima;
     plain.error = 0;
     rb_status s = cli_run_case(&plain, NULL, &st->run, why);
     if (s == RB_OK && run->c->error)
-        s = rb_rolling_stress_maxima_find(&st->run.model, 0.0, &maxima, why);
-    if (s == RB_OK && run->c->error)
-        s = rb_rolling_estimate_errors(&run->c->rc, &st->run.solution, &maxima, &st->errors, why);
+        s = estimate_errors(run, st, why);
+    if (s == RB_OK && st->of_b)
+        s = rb_rolling_mirror_create(&st->run.model, &st->mirror, why);
     if (s == RB_OK) {
-        const rb_rolling_model *model = &st->run.model;
+        const rb_rolling_model *model = st->mirror ? &st->mirror->model : &st->run.model;
         s = rb_rolling_stress_maxima_find(model, st->depth, &st->maxima, why);
         if (s == RB_OK && wants_shakedown(st))
             s = rb_rolling_shakedown_find(model, &st->found, why);
-        if (s == RB_OK && st->place.rows > 0) {
-            /* The first point that is not in the body is named by its line. */
-            const int n = st->place.rows;
-            int *inside = rb_alloc_int((size_t)n);
-            st->at_points = calloc((size_t)n, sizeof *st->at_points);
-            s = inside && st->at_points ? RB_OK : RB_ENOMEM;
-            if (s == RB_OK)
-                s = rb_rolling_inside(&st->run.model, n, st->xy, inside);
-            for (int k = 0; k < n && s == RB_OK; k++)
-                if (!inside[k])
-                    s = rb_fail(why, RB_EFORMAT,
-                                "%.200s:%d: the point (%g, %g) mm lies outside body A", st->points,
-                                st->place.line[k], st->xy[2 * k], st->xy[2 * k + 1]);
-            if (s == RB_OK)
-                s = rb_rolling_stress_at(&st->run.model, n, st->xy, st->at_points, why);
-            free(inside);
-        } else if (s == RB_OK)
-            s = rb_rolling_stress_on_grid(model, st->nx, st->ny, st->depth, &st->at, why);
+        if (s == RB_OK && st->place.rows > 0)
+            s = solve_points(st, model, why);
+        else if (s == RB_OK)
+            s = solve_grid(st, model, st->nx, st->ny, &st->at, why);
         if (s == RB_OK && st->fringes)
-            s = rb_rolling_stress_on_grid(model, FRINGES_X, FRINGES_Y, st->depth, &st->fine, why);
+            s = solve_grid(st, model, FRINGES_X, FRINGES_Y, &st->fine, why);
         else if (s == RB_OK && run->o.plot)
-            s = rb_rolling_stress_on_grid(model, CONTOURS_X, CONTOURS_Y, st->depth, &st->fine, why);
+            s = solve_grid(st, model, CONTOURS_X, CONTOURS_Y, &st->fine, why);
+        if (s == RB_OK && st->of_b) {
+            rb_rolling_mirror_stress(0, NULL, &st->maxima);
+            st->found.y = 0.0 - st->found.y;
+        }
     }
     rb_rolling_stress_maxima none = st->maxima;
     rb_rolling_shakedown *found = &st->found;
     rb_case_result_convert(&st->run, run->c->units);
     rb_rolling_solution_convert(&st->errors.scalar, run->c->units);
     rb_rolling_stress_convert(0, NULL, &st->errors.stress, run->c->units);
+    rb_rolling_stress_convert(0, NULL, &st->errors.stress_b, run->c->units);
     rb_rolling_stress_convert(st->at_points ? st->place.rows : 0, st->at_points, &none,
                               run->c->units);
     rb_rolling_stress_convert(st->at.nx * st->at.ny, st->at.at, &st->maxima, run->c->units);
@@ -329,6 +381,7 @@ static void ask(const cli_case_run *run, json_t **members)
         shakedown = json_object();
         rb_report_json_set(&shakedown, "yield_shear", rb_report_json_number(st->yield_shear));
     }
+    rb_report_json_set(members, "body", json_string(bodies[st->of_b].name));
     rb_report_json_set(members, "maxima", json_true());
     rb_report_json_set(members, "depth", rb_report_json_number(st->depth > 0.0 ? st->depth : NAN));
     rb_report_json_set(members, "grid", grid);
@@ -362,6 +415,7 @@ int cli_stress(int argc, char **argv)
 {
     stress st = {.yield_shear = NAN};
     const cli_exit code = cli_case_run_command(&command, &st, argc, argv);
+    rb_rolling_mirror_free(st.mirror);
     rb_case_result_free(&st.run);
     rb_rolling_stress_grid_free(&st.at);
     rb_rolling_stress_grid_free(&st.fine);

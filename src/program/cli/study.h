@@ -38,7 +38,7 @@ typedef struct {
 /* A column behind the status: a number, or its error bar. */
 typedef struct {
     const rb_rolling_result *r;
-    enum { OF_SOLUTION, OF_STRESS, OF_CRACK } of;
+    enum { OF_SOLUTION, OF_STRESS, OF_STRESS_B, OF_CRACK } of;
     int is_error;
 } study_result;
 

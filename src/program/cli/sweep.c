@@ -150,8 +150,9 @@ static void choose(study *st, study_result wanted)
 /* The results of the cases, and whose they are: of a crack and its contact, or of the
  * contact and the stress below it. */
 typedef struct {
-    const rb_rolling_results *table[2];
-    int of[2];
+    int n;
+    const rb_rolling_results *table[3];
+    int of[3];
 } study_tables;
 
 /* The contact of a crack has no error bars of its own. */
@@ -173,13 +174,16 @@ static cli_exit choose_by_name(study *st, const char *option, const char *name)
     const char *own = bar ? name + 6 : name;
     rb_guess guess = {.word = own};
     const study_tables from =
-        st->has_crack ? (study_tables){{&rb_case_crack_scalars, &rb_rolling_solution_scalars},
+        st->has_crack ? (study_tables){2,
+                                       {&rb_case_crack_scalars, &rb_rolling_solution_scalars},
                                        {OF_CRACK, OF_SOLUTION}}
-                      : (study_tables){{&rb_rolling_solution_scalars, &rb_rolling_maxima_scalars},
-                                       {OF_SOLUTION, OF_STRESS}};
+                      : (study_tables){3,
+                                       {&rb_rolling_solution_scalars, &rb_rolling_maxima_scalars,
+                                        &rb_rolling_maxima_b_scalars},
+                                       {OF_SOLUTION, OF_STRESS, OF_STRESS_B}};
     if (bar && !rb_case_resolved(st->base)->error)
         return cli_fail(CLI_USAGE, "--%s: '%s' needs --error", option, name);
-    for (int t = 0; t < 2; t++)
+    for (int t = 0; t < from.n; t++)
         for (int k = 0; k < from.table[t]->n; k++) {
             const study_result found = {&from.table[t]->row[k], from.of[t], 0};
             rb_guess_try(&guess, found.r->name);
@@ -193,7 +197,7 @@ static cli_exit choose_by_name(study *st, const char *option, const char *name)
     /* With the results that there are, where none is similar. */
     const char *near = rb_guess_text(&guess, bar ? "error_" : "");
     char all[3000] = "";
-    for (int t = 0; t < 2 && !*near; t++)
+    for (int t = 0; t < from.n && !*near; t++)
         for (int k = 0; k < from.table[t]->n; k++)
             rb_append(all, sizeof all, "%s%s", *all ? ", " : "; there are ",
                       from.table[t]->row[k].name);
@@ -260,10 +264,14 @@ static cli_exit choose_results(study *st)
     /* Not every body's stress is known; what else is wrong is known with the first case. */
     if (code != CLI_CONTINUE)
         return code;
-    const rb_status s = rb_rolling_stress_check(&rb_case_resolved(st->one)->rc, &why);
-    for (int k = 0; k < st->results; k++)
-        if (st->result[k].of == OF_STRESS && s != RB_OK)
+    const rb_rolling_case *rc = &rb_case_resolved(st->one)->rc;
+    for (int k = 0; k < st->results; k++) {
+        const rb_status s = st->result[k].of == OF_STRESS     ? rb_rolling_stress_check(rc, &why)
+                            : st->result[k].of == OF_STRESS_B ? rb_rolling_mirror_check(rc, &why)
+                                                              : RB_OK;
+        if (s != RB_OK)
             return cli_case_refused(st->one, s, &why);
+    }
     return CLI_CONTINUE;
 }
 
@@ -319,11 +327,10 @@ static double cell_value(const study *st, int j, int k, const rb_rolling_row *ro
     if (result->of == OF_CRACK)
         return rb_unit_shown(units, result->r->unit,
                              rb_case_crack_of_row(result->r, result->is_error, row));
-    const void *owner =
-        result->of == OF_STRESS
-            ? result->is_error ? (const void *)&row->errors.stress : (const void *)&row->stress
-        : result->is_error ? (const void *)&row->errors.scalar
-                           : (const void *)&row->solution;
+    const rb_rolling_errors *e = &row->errors;
+    const void *const owners[2][3] = {{&row->solution, &row->stress, &row->stress_b},
+                                      {&e->scalar, &e->stress, &e->stress_b}};
+    const void *owner = owners[result->is_error != 0][result->of];
     return rb_rolling_number(result->r, owner);
 }
 
@@ -754,6 +761,8 @@ static rb_rolling_sweep sweep_of(study *st)
     for (int k = 0; k < st->results; k++)
         if (st->result[k].of == OF_STRESS)
             also |= RB_ROW_STRESS;
+        else if (st->result[k].of == OF_STRESS_B)
+            also |= RB_ROW_STRESS_B;
     return (rb_rolling_sweep){.first = st->first,
                               .also = also,
                               .units = rb_case_resolved(st->base)->units,

@@ -281,9 +281,10 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas, const rb_r
 
 /* ---- Subsurface stress ------------------------------------------------------------- */
 
-/* Stress at points of body A: a grid (nx x ny, row by row from the surface) or, with
- * nx = 0, n points.  Grid points outside the body are left out. */
+/* Stress at points of a body: a grid (nx x ny, row by row, y increasing) or, with nx = 0, n
+ * points.  Grid points outside the body are left out. */
 typedef struct {
+    int of_b; /* 1: of body B */
     int nx, ny, n;
     double depth;                /* of the grid and of the maxima [length]; 0: 2.5 half-widths */
     const rb_rolling_stress *at; /* n; borrowed, as all here */

@@ -70,8 +70,13 @@ void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
 {
     void *before = rb_locale_begin();
     char line[400];
-    fprintf(out, "stress in A under p0 = %.6g %s, a = %.5g %s\n", s->s->max_pressure,
-            rb_unit_name(s->s->units, "MPa"), s->s->half_width, rb_unit_name(s->s->units, "mm"));
+    const rb_units units = s->s->units;
+    fprintf(out, "stress in %s", s->of_b ? "B" : "A");
+    if (s->of_b)
+        fprintf(out, " (E = %.6g %s, nu = %.4g)", rb_unit_shown(units, "MPa", s->rc->b.young),
+                rb_unit_name(units, "MPa"), s->rc->b.poisson);
+    fprintf(out, " under p0 = %.6g %s, a = %.5g %s\n", s->s->max_pressure,
+            rb_unit_name(units, "MPa"), s->s->half_width, rb_unit_name(units, "mm"));
     for (int k = 0; maximum(k); k++)
         fprintf(out, "  %s\n", maximum_text(s, k, line, sizeof line));
     if (s->shakedown)
@@ -95,7 +100,9 @@ rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s, const cha
 
     const rb_rolling_note_list notes = rb_rolling_find_notes(s->rc, s->s);
     rb_report_comment_notes(&c, &notes);
-    rb_report_comment(&c, "tension positive; y > 0 inside A; the grid follows A's surface");
+    rb_report_comment(&c, s->of_b
+                              ? "tension positive; y < 0 inside B; the grid follows B's surface"
+                              : "tension positive; y > 0 inside A; the grid follows A's surface");
     for (int k = 0; maximum(k); k++)
         rb_report_comment(&c, "%s", maximum_text(s, k, line, sizeof line));
     if (s->shakedown)
@@ -120,6 +127,7 @@ void rb_report_json_stress(json_t **root, const rb_report_stress *s)
 {
     const rb_report_columns columns = columns_of(s);
     json_t *points = json_object();
+    rb_report_json_set(root, "body", json_string(s->of_b ? "b" : "a"));
     rb_report_json_set(root, "depth", rb_report_json_number(s->depth > 0.0 ? s->depth : NAN));
     json_t *all = json_object();
     for (int k = 0; maximum(k); k++) {

@@ -11,6 +11,7 @@ typedef struct {
     double stress_unit;
     const char *stress_label;
     double from, to, depth; /* in units */
+    double low, high;       /* of y, likewise */
     double fringe;          /* [stress] */
     double shape;           /* of the canvas: width over height */
     int column;             /* panels below each other */
@@ -28,7 +29,9 @@ static view make_view(const rb_report_stress *s)
     v.depth = 0.0;
     for (int k = 0; k < s->n; k++)
         if (rb_report_stress_is_inside(s, k))
-            v.depth = fmax(v.depth, s->at[k].y / v.length.size);
+            v.depth = fmax(v.depth, fabs(s->at[k].y) / v.length.size);
+    v.low = s->of_b ? -v.depth : 0.0;
+    v.high = s->of_b ? 0.0 : v.depth;
     return v;
 }
 
@@ -71,9 +74,11 @@ static void write_axes(FILE *out, const view *v)
     fputs("set view map\nset tics scale 0.6\nunset key\n"
           "set pm3d map corners2color mean\n",
           out);
-    fprintf(out, "set xrange [%.9g:%.9g]\nset yrange [0:%.9g]\n", v->from, v->to, v->depth);
+    fprintf(out, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\n", v->from, v->to, v->low,
+            v->high);
     write_x_label(out, v);
-    /* Where A touches: one line for each zone, drawn below the surface. */
+    /* Where the bodies touch: one line for each zone, drawn outside the surface. */
+    const double beside = v->s->of_b ? 1.018 : -0.018;
     const rb_rolling_solution *s = v->s->s;
     for (int i = 0; i < s->n;) {
         const int first = i;
@@ -83,11 +88,11 @@ static void write_axes(FILE *out, const view *v)
         if (zone == RB_ZONE_SEPARATED)
             continue;
         fprintf(out,
-                "set arrow from %.9g, graph -0.018 to %.9g, graph -0.018 nohead linewidth %d "
+                "set arrow from %.9g, graph %g to %.9g, graph %g nohead linewidth %d "
                 "linecolor rgb '%s' front\n",
-                (s->x[first] - s->h[first] / 2) / v->length.size,
-                (s->x[i - 1] + s->h[i - 1] / 2) / v->length.size, zone == RB_ZONE_STICK ? 2 : 6,
-                rb_report_zone_colour(zone, 0));
+                (s->x[first] - s->h[first] / 2) / v->length.size, beside,
+                (s->x[i - 1] + s->h[i - 1] / 2) / v->length.size, beside,
+                zone == RB_ZONE_STICK ? 2 : 6, rb_report_zone_colour(zone, 0));
     }
 }
 
@@ -133,11 +138,16 @@ static panel panel_of(const view *v, int k)
                    .height = width * aspect};
 }
 
+static const char *into(const view *v)
+{
+    return v->s->of_b ? "0: surface of B" : "into A";
+}
+
 /* Where there is room beside the numbers: gnuplot would put it beyond the canvas. */
 static void write_y_label(FILE *out, const view *v, panel at)
 {
-    fprintf(out, "set label 5 'y %s, into A' at screen %g, %g center rotate\n", v->length.label,
-            at.left - (v->column ? 0.145 : 0.073), at.middle);
+    fprintf(out, "set label 5 'y %s, %s' at screen %g, %g center rotate\n", v->length.label,
+            into(v), at.left - (v->column ? 0.145 : 0.073), at.middle);
 }
 
 static double number_font(rb_report_canvas canvas)
@@ -172,8 +182,8 @@ static void write_numbers(FILE *out, rb_report_canvas canvas, const view *v, int
                  .ny = v->s->ny,
                  .point = point_of_grid,
                  .of = &(field){v, column},
-                 .from = {v->from, 0.0},
-                 .to = {v->to, v->depth},
+                 .from = {v->from, v->low},
+                 .to = {v->to, v->high},
                  .first = step,
                  .step = step,
                  .last = m->value / v->stress_unit,
@@ -221,8 +231,9 @@ static void write_contours(FILE *out, rb_report_canvas canvas, const void *conte
     fputs("set contour base\nset cntrlabel onecolor\n" RB_REPORT_PALETTE "set multiplot\n"
           "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
           out);
-    write_subtitle(out, v, "Stress below the surface of A", first.middle + first.height / 2 + 0.18,
-                   0.06);
+    write_subtitle(out, v,
+                   v->s->of_b ? "Stress below the surface of B" : "Stress below the surface of A",
+                   first.middle + first.height / 2 + 0.18, 0.06);
     if (v->column) /* its caption says the rest; the lower panel has the x axis of both */
         fputs("unset label 1\nunset label 9\nset xlabel\n", out);
     const panel second = panel_of(v, 1);
@@ -266,11 +277,11 @@ static void write_fringes(FILE *out, rb_report_canvas canvas, const void *contex
     fputs("set palette gray\nset cbrange [0:1]\nunset colorbox\n", out);
     rb_report_room(out, 0.11 + 1.5 * place.right, 0.97, 0.17, 0.87);
     write_axes(out, v);
-    fprintf(out, "set ylabel 'y %s, into A'\n", v->length.label);
+    fprintf(out, "set ylabel 'y %s, %s'\n", v->length.label, into(v));
     fprintf(out, "set size ratio %g\nset xtics %.9g\nset ytics %.9g\n", shown_aspect(v),
             rb_report_round_step((v->to - v->from) / (place.titled ? 8.0 : 5.0)),
             rb_report_round_step(v->depth / 5.0));
-    write_subtitle(out, v, "Isochromatics", 0.975, 0.036);
+    write_subtitle(out, v, v->s->of_b ? "Isochromatics of B" : "Isochromatics", 0.975, 0.036);
     if (!place.titled)
         fputs("unset label 1\nunset label 9\n", out);
     fprintf(out,

@@ -11,13 +11,15 @@ static double depth_of_datum(const rb_rolling_case *rc, const rb_rolling_body *b
 {
     if (body->strip > 0.0)
         return body->strip;
+    if (body->datum > 0.0)
+        return body->datum;
     double from, to, radius = isfinite(body->radius) ? fabs(body->radius) : rc->a.radius;
 
     if (!isfinite(radius)) { /* of a gap without a radius: as deep as its table is wide */
         rb_rolling_profile_range(rc->profile, &from, &to);
         radius = 0.5 * (to - from);
     }
-    return body->datum > 0.0 ? body->datum : 2.0 * radius / M_E;
+    return 2.0 * radius / M_E;
 }
 
 void rb_rolling_memory_lengths(const rb_rolling_case *rc, const rb_rolling_body *body,

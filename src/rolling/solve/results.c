@@ -271,22 +271,24 @@ static const rb_rolling_result stresses[] = {
     STRESS("hydrostatic", hydrostatic, .unit = "MPa", .meaning = "a third of the trace"),
 };
 
-#define LARGEST(name, member, words)                                                               \
-    OF(rb_rolling_stress_maxima, name, member.value, .unit = "MPa",                                \
+/* of: behind the names of body B's */
+#define LARGEST(name, of, member, words)                                                           \
+    OF(rb_rolling_stress_maxima, name of, member.value, .unit = "MPa",                             \
        .error_bar = RB_SCALE_PRESSURE, .meaning = words),                                          \
-        OF(rb_rolling_stress_maxima, name "_x", member.x, .unit = "mm",                            \
+        OF(rb_rolling_stress_maxima, name "_x" of, member.x, .unit = "mm",                         \
            .error_bar = RB_SCALE_WIDTH, .meaning = "its place along the surface"),                 \
-        OF(rb_rolling_stress_maxima, name "_y", member.y, .unit = "mm",                            \
+        OF(rb_rolling_stress_maxima, name "_y" of, member.y, .unit = "mm",                         \
            .error_bar = RB_SCALE_WIDTH, .meaning = "its depth")
+#define MAXIMA(of, in)                                                                             \
+    LARGEST("max_shear", of, max_shear, "in-plane shear" in),                                      \
+        LARGEST("tresca_shear", of, tresca_shear, "largest (Tresca) shear" in),                    \
+        LARGEST("von_mises", of, von_mises, "von Mises" in),                                       \
+        LARGEST("orthogonal_shear", of, orthogonal_shear, "orthogonal shear |sxy|" in),            \
+        LARGEST("tension", of, tension, "largest principal stress" in),                            \
+        LARGEST("compression", of, compression, "largest compression" in)
 
-static const rb_rolling_result maxima[] = {
-    LARGEST("max_shear", max_shear, "in-plane shear"),
-    LARGEST("tresca_shear", tresca_shear, "largest (Tresca) shear"),
-    LARGEST("von_mises", von_mises, "von Mises"),
-    LARGEST("orthogonal_shear", orthogonal_shear, "orthogonal shear |sxy|"),
-    LARGEST("tension", tension, "largest principal stress"),
-    LARGEST("compression", compression, "largest compression"),
-};
+static const rb_rolling_result maxima[] = {MAXIMA("", "")};
+static const rb_rolling_result maxima_b[] = {MAXIMA("_b", " in B")};
 
 #define TABLE(rows)                                                                                \
     {                                                                                              \
@@ -300,6 +302,7 @@ const rb_rolling_results rb_rolling_curve_columns = TABLE(points);
 const rb_rolling_results rb_rolling_wear_columns = TABLE(wears);
 const rb_rolling_results rb_rolling_stress_scalars = TABLE(stresses);
 const rb_rolling_results rb_rolling_maxima_scalars = TABLE(maxima);
+const rb_rolling_results rb_rolling_maxima_b_scalars = TABLE(maxima_b);
 
 const rb_rolling_result_table rb_rolling_result_tables[] = {
     {"number", "Numbers of a solution", &rb_rolling_solution_scalars},
@@ -310,6 +313,7 @@ const rb_rolling_result_table rb_rolling_result_tables[] = {
     {"wear", "Steps of wear", &rb_rolling_wear_columns},
     {"stress", "Stress at a point", &rb_rolling_stress_scalars},
     {"maximum", "Largest stresses", &rb_rolling_maxima_scalars},
+    {"maximum_b", "Largest stresses of body B", &rb_rolling_maxima_b_scalars},
     {NULL, NULL, NULL}};
 
 /* ---- Values ------------------------------------------------------------------------ */
@@ -492,8 +496,10 @@ void rb_rolling_row_convert(rb_rolling_row *row, rb_units units)
 {
     rb_rolling_solution_convert(&row->solution, units);
     rb_rolling_solution_convert(&row->errors.scalar, units);
-    rb_rolling_stress_convert(0, NULL, &row->errors.stress, units);
-    rb_rolling_stress_convert(0, NULL, &row->stress, units);
+    rb_rolling_stress_maxima *const stress[] = {&row->errors.stress, &row->errors.stress_b,
+                                                &row->stress, &row->stress_b};
+    for (int k = 0; k < 4; k++)
+        rb_rolling_stress_convert(0, NULL, stress[k], units);
 }
 
 /* ---- Owners ------------------------------------------------------------------------ */
@@ -511,8 +517,9 @@ rb_rolling_row rb_rolling_no_row(rb_status status)
 {
     rb_rolling_row row = {.solution = no_scalars(status), .errors.scalar = no_scalars(RB_OK)};
     for (int i = 0; i < rb_rolling_maxima_scalars.n; i++)
-        *(double *)place(&maxima[i], &row.stress) =
-            *(double *)place(&maxima[i], &row.errors.stress) = NAN;
+        *(double *)place(&maxima[i], &row.stress) = *(double *)place(&maxima[i], &row.stress_b) =
+            *(double *)place(&maxima[i], &row.errors.stress) =
+                *(double *)place(&maxima[i], &row.errors.stress_b) = NAN;
     for (int i = 0; i < RB_ROW_OWN; i++)
         row.own[i] = NAN;
     return row;

@@ -7,13 +7,16 @@
 enum { ACROSS = 161, DEPTHS = 40, HALVINGS = 40 };
 static const double golden = 0.6180339887498949; /* (sqrt(5) - 1)/2 */
 
-/* Places of one depth, from a half-width before the contact to one behind it. */
+/* Places of one depth, from a half-width before the contact to one behind it; on the surface also
+ * the nodes of the tractions, because the stress has corners and infinite slopes there, at edges
+ * and at the ends of stick. */
 typedef struct {
     const rb_rolling_field *field;
     rb_bem_plane plane;
     double from, to;
-    double xy[2 * ACROSS];
-    rb_rolling_stress at[ACROSS];
+    int n;      /* of this depth */
+    double *xy; /* room for all, in memory */
+    rb_rolling_stress *at;
 } row;
 
 /* The shear at a place with the residual stress 2 c along x: the radius of Mohr's circle in
@@ -36,7 +39,7 @@ static double needed_with(const row *r, double c, double *x)
     double x_above = r->from, x_below = r->from;
 
     *x = r->from;
-    for (int i = 0; i < ACROSS; i++) {
+    for (int i = 0; i < r->n; i++) {
         const rb_rolling_stress *s = &r->at[i];
         const double shear = shear_with(s, c, r->plane), radius = shear_with(s, c, RB_PLANE_STRAIN),
                      mean = 0.5 * (s->sxx + s->syy) + c;
@@ -62,11 +65,16 @@ static double needed_with(const row *r, double c, double *x)
 
 static rb_status look_at(row *r, double y)
 {
-    for (int i = 0; i < ACROSS; i++) {
-        r->xy[2 * i] = r->from + (r->to - r->from) * i / (ACROSS - 1);
+    int nodes;
+    const double *x = rb_rolling_field_nodes(r->field, &nodes);
+    r->n = 0;
+    for (int i = 0; i < ACROSS; i++)
+        r->xy[2 * r->n++] = r->from + (r->to - r->from) * i / (ACROSS - 1);
+    for (int i = 0; i < nodes && y == 0.0; i++)
+        r->xy[2 * r->n++] = x[i];
+    for (int i = 0; i < r->n; i++)
         r->xy[2 * i + 1] = y;
-    }
-    return rb_rolling_field_at(r->field, ACROSS, r->xy, r->at, NULL);
+    return rb_rolling_field_at(r->field, r->n, r->xy, r->at, NULL);
 }
 
 /* The yield stress in shear that the depth y needs, with the residual stress that makes
@@ -77,7 +85,7 @@ static rb_status needed_at(row *r, double y, rb_rolling_shakedown *k)
     const rb_status s = look_at(r, y);
     if (s != RB_OK)
         return s;
-    for (int i = 0; i < ACROSS; i++)
+    for (int i = 0; i < r->n; i++)
         largest = fmax(largest, fabs(r->at[i].sxx) + fabs(r->at[i].syy));
     double low = -largest, high = largest;
     for (int i = 0; i < 2 * HALVINGS; i++) {
@@ -116,9 +124,15 @@ static rb_status row_of(const rb_rolling_model *model, rb_arena *scratch, rb_rol
     if (s != RB_OK)
         return s;
     const double a = 0.5 * (to - from);
+    int nodes;
+    rb_rolling_field_nodes(*field, &nodes);
     *r = rb_arena_zeros(scratch, 1, sizeof **r);
-    if (!*r)
+    double *xy = rb_arena_doubles(scratch, (size_t)nodes + ACROSS, 2);
+    rb_rolling_stress *at = rb_arena_zeros(scratch, (size_t)nodes + ACROSS, sizeof *at);
+    if (scratch->failed)
         return RB_ENOMEM;
+    (*r)->xy = xy;
+    (*r)->at = at;
     (*r)->field = *field;
     (*r)->plane = model->rc->plane;
     (*r)->from = from - a;
@@ -181,7 +195,7 @@ rb_status rb_rolling_shakedown_at(const rb_rolling_model *model, rb_rolling_shak
         double x = shakedown->x;
         shakedown->shear_yield = needed_with(r, c, &x);
         /* the residual stress that makes the largest least lets several places decide */
-        for (int i = 0; i < ACROSS; i++)
+        for (int i = 0; i < r->n; i++)
             if (fabs(r->at[i].x - shakedown->x) <= 1e-9 * (r->to - r->from) &&
                 shear_with(&r->at[i], c, r->plane) >= shakedown->shear_yield * (1.0 - 1e-9))
                 x = shakedown->x;

@@ -264,27 +264,32 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
 /* One run: what it says. */
 typedef struct {
     rb_rolling_solution solution;
-    rb_rolling_stress_maxima stress;
+    rb_rolling_stress_maxima stress[2]; /* of A and B */
 } sample;
+
+/* Which of them are asked for. */
+typedef struct {
+    int of[2];
+} asked_stress;
 
 /* The parts of the errors, kept apart because --accuracy refines the larger one. */
 typedef struct {
     rb_rolling_errors contact, boundary;
 } error_parts;
 
-/* The tables of what has error bars: of a solution, and of its largest stresses. */
-static const rb_rolling_results *const tables[] = {&rb_rolling_solution_scalars,
-                                                   &rb_rolling_maxima_scalars};
-enum { TABLES = 2 };
+/* The tables of what has error bars: of a solution, and of the largest stresses of both bodies. */
+static const rb_rolling_results *const tables[] = {
+    &rb_rolling_solution_scalars, &rb_rolling_maxima_scalars, &rb_rolling_maxima_b_scalars};
+enum { TABLES = 3 };
 
 static const void *part_of_sample(const sample *s, int table)
 {
-    return table ? (const void *)&s->stress : &s->solution;
+    return table ? (const void *)&s->stress[table - 1] : &s->solution;
 }
 
 static void *part_of_errors(rb_rolling_errors *e, int table)
 {
-    return table ? (void *)&e->stress : &e->scalar;
+    return table == 0 ? (void *)&e->scalar : table == 1 ? &e->stress : &e->stress_b;
 }
 
 /* Where a coarser run has no stick at all: the zone is shorter than its elements, of
@@ -318,12 +323,15 @@ static void add_parts(error_parts *parts, rb_rolling_errors *errors)
 
 /* ---- One case and its error bars --------------------------------------------------- */
 
-static rb_status take_sample(const rb_rolling_case *rc, int with_stress, sample *s, rb_message *why)
+static rb_status take_sample(const rb_rolling_case *rc, asked_stress with, sample *s,
+                             rb_message *why)
 {
     rb_rolling_model model = {0};
     rb_status status = rb_rolling_solve_model(rc, &model, &s->solution, why);
-    if (status == RB_OK && with_stress)
-        status = rb_rolling_stress_maxima_find(&model, 0.0, &s->stress, why);
+    if (status == RB_OK && with.of[0])
+        status = rb_rolling_stress_maxima_find(&model, 0.0, &s->stress[0], why);
+    if (status == RB_OK && with.of[1])
+        status = rb_rolling_stress_maxima_of_b(&model, 0.0, &s->stress[1], why);
     rb_rolling_model_free(&model);
     return status;
 }
@@ -343,7 +351,7 @@ static double contact_error_with(const double coarser[], double own, double anot
 }
 
 /* From the case's own results and those of its coarser runs. */
-static rb_status find_parts(const rb_rolling_case *rc, int with_stress, const sample *own,
+static rb_status find_parts(const rb_rolling_case *rc, asked_stress with, const sample *own,
                             error_parts *parts, rb_message *why)
 {
     sample run[RB_ERROR_RUNS] = {0}, another = {0};
@@ -353,7 +361,7 @@ static rb_status find_parts(const rb_rolling_case *rc, int with_stress, const sa
 
     for (int k = 0; k < runs && status == RB_OK; k++) {
         const rb_rolling_case coarser = rb_rolling_error_run(rc, k);
-        status = take_sample(&coarser, with_stress, &run[k], &reason);
+        status = take_sample(&coarser, with, &run[k], &reason);
         if (status != RB_OK)
             rb_fail(why, status, "error bars: %d contact elements: %.200s",
                     coarser.contact_elements, rb_status_reason(status, &reason));
@@ -367,14 +375,14 @@ static rb_status find_parts(const rb_rolling_case *rc, int with_stress, const sa
     const double of_own = rc->mesh == RB_MESH_FITTED && fewest < 24 ? 2.0 : 0.85;
     rb_rolling_case other_mesh = *rc;
     other_mesh.contact_elements = (int)(of_own * rc->contact_elements);
-    const int has_another = status == RB_OK && patches > 1 &&
-                            take_sample(&other_mesh, with_stress, &another, NULL) == RB_OK;
+    const int has_another =
+        status == RB_OK && patches > 1 && take_sample(&other_mesh, with, &another, NULL) == RB_OK;
     if (status == RB_OK) {
         double coarser[RB_ERROR_RUNS];
 
         parts->contact = parts->boundary = rb_rolling_no_row(RB_OK).errors;
-        for (int t = 0; t <= with_stress; t++)
-            for (int k = 0; k < tables[t]->n; k++) {
+        for (int t = 0; t < TABLES; t++)
+            for (int k = 0; k < tables[t]->n && (t == 0 || with.of[t - 1]); k++) {
                 const rb_rolling_result *r = &tables[t]->row[k];
                 if (r->error_bar == RB_SCALE_NONE)
                     continue;
@@ -388,7 +396,7 @@ static rb_status find_parts(const rb_rolling_case *rc, int with_stress, const sa
                     has_another ? rb_rolling_number(r, part_of_sample(&another, t)) : NAN;
                 rb_rolling_set_number(r, part_of_errors(&parts->contact, t),
                                       contact_error_with(coarser, value, other, of_own > 1.0) +
-                                          least_error(rc, &own->solution, t, r->error_bar) +
+                                          least_error(rc, &own->solution, t > 0, r->error_bar) +
                                           unseen);
                 rb_rolling_set_number(r, part_of_errors(&parts->boundary, t),
                                       rb_rolling_boundary_error(runs, coarser, value));
@@ -402,17 +410,21 @@ static rb_status find_parts(const rb_rolling_case *rc, int with_stress, const sa
 
 rb_status rb_rolling_estimate_errors(const rb_rolling_case *rc, const rb_rolling_solution *solution,
                                      const rb_rolling_stress_maxima *stress,
+                                     const rb_rolling_stress_maxima *stress_b,
                                      rb_rolling_errors *errors, rb_message *why)
 {
     sample own = {.solution = *solution};
+    const asked_stress with = {{stress != NULL, stress_b != NULL}};
     error_parts parts;
     rb_status status = rb_rolling_error_check(rc, why);
 
     if (stress)
-        own.stress = *stress;
+        own.stress[0] = *stress;
+    if (stress_b)
+        own.stress[1] = *stress_b;
     *errors = rb_rolling_no_row(RB_OK).errors;
     if (status == RB_OK)
-        status = find_parts(rc, stress != NULL, &own, &parts, why);
+        status = find_parts(rc, with, &own, &parts, why);
     if (status == RB_OK)
         add_parts(&parts, errors);
     return status;
@@ -423,10 +435,10 @@ static rb_status solve_parts(const rb_rolling_case *rc, rb_rolling_solution *sol
                              error_parts *parts, rb_message *why)
 {
     sample own = {0};
-    const rb_status status = take_sample(rc, 0, &own, why);
+    const rb_status status = take_sample(rc, (asked_stress){{0, 0}}, &own, why);
 
     *solution = own.solution;
-    return status == RB_OK ? find_parts(rc, 0, &own, parts, why) : status;
+    return status == RB_OK ? find_parts(rc, (asked_stress){{0, 0}}, &own, parts, why) : status;
 }
 
 rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, rb_rolling_solution *solution,

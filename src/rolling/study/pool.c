@@ -56,13 +56,16 @@ void rb_rolling_sweep_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row 
         row->solution = rb_rolling_scalars_of(&solution);
     /* What a row has besides the solution. */
     const int with_stress = (sweep->also & RB_ROW_STRESS) != 0;
+    const int with_stress_b = (sweep->also & RB_ROW_STRESS_B) != 0;
     if (s == RB_OK && with_stress)
         s = rb_rolling_stress_maxima_find(&model, 0.0, &row->stress, why);
+    if (s == RB_OK && with_stress_b)
+        s = rb_rolling_stress_maxima_of_b(&model, 0.0, &row->stress_b, why);
     if (s == RB_OK && sweep->measure)
         s = sweep->measure(&model, row->own, sweep->context, why);
     if (s == RB_OK && sweep->also & RB_ROW_ERRORS)
         s = rb_rolling_estimate_errors(&rc, &solution, with_stress ? &row->stress : NULL,
-                                       &row->errors, why);
+                                       with_stress_b ? &row->stress_b : NULL, &row->errors, why);
     row->solution.status = s;
     if (s >= 0 && solution.p) {
         rb_rolling_solution_convert(&solution, sweep->units);
