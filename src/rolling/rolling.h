@@ -790,11 +790,11 @@ enum { RB_ROW_OWN = 128 };
 /* The results of one case of a study: numbers only, no columns; NAN if a case has no such
  * result. */
 typedef struct {
-    rb_rolling_solution solution;    /* with the status of the case */
-    rb_rolling_errors errors;        /* NAN without RB_ROW_ERRORS */
+    rb_rolling_solution solution;              /* with the status of the case */
+    rb_rolling_errors errors;                  /* NAN without RB_ROW_ERRORS */
     rb_rolling_stress_maxima stress, stress_b; /* NAN without RB_ROW_STRESS, ..._B */
-    double own[RB_ROW_OWN];          /* values computed by `measure` of the sweep; otherwise NAN */
-    rb_rolling_row_notes notes;      /* in the units of the sweep */
+    double own[RB_ROW_OWN];     /* values computed by `measure` of the sweep; otherwise NAN */
+    rb_rolling_row_notes notes; /* in the units of the sweep */
 } rb_rolling_row;
 
 /* bits of rb_rolling_sweep.also */

@@ -21,7 +21,8 @@ rb_status rb_report_vtk_check(rb_report_vtk_kind kind, const rb_report_stress *s
 {
     if (kind == RB_REPORT_VTI && s->nx == 0)
         return rb_fail(why, RB_EINVAL, ".vti holds regular grids; for points use .vtu");
-    if (kind == RB_REPORT_VTI && !rb_rolling_body_can(s->of_b ? &s->rc->b : &s->rc->a, RB_BODY_FLAT))
+    if (kind == RB_REPORT_VTI &&
+        !rb_rolling_body_can(s->of_b ? &s->rc->b : &s->rc->a, RB_BODY_FLAT))
         return rb_fail(why, RB_EINVAL,
                        ".vti holds regular grids, that of a wheel follows its surface; use .vtu");
     return RB_OK;
