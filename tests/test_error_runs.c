@@ -206,12 +206,14 @@ static double with_neighbours(const double *bar, int i, int steps)
     return most;
 }
 
-/* Of each rolled step the largest of its own bar and its neighbours'. */
-static void bars_of_a_history(int force_is_given)
+/* Of each rolled row the largest of its own bar and its neighbours'.  Rows of one step are fewer on
+ * a coarser mesh; rows of several steps stay, and have fewer. */
+static void bars_of_a_history(double distance, int force_is_given)
 {
     enum { STEPS = 10 };
     rb_rolling_case rc = plain_case(RB_BEM_HALFPLANE);
-    set(&rc, "formulation transient zone %g distance 0.8 steps %d", 1.5 * rc.half_width, STEPS);
+    set(&rc, "formulation transient zone %g distance %g steps %d", 1.5 * rc.half_width, distance,
+        STEPS);
     if (force_is_given) {
         set(&rc, "creep-ratio nan force-ratio 0.5");
     }
@@ -219,11 +221,14 @@ static void bars_of_a_history(int force_is_given)
     rb_rolling_history own, run[2];
     CHECK_OK(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &own, &heard));
     for (int k = 0; k < 2; k++) {
-        const rb_rolling_case coarser = coarser_case(&rc, k);
+        rb_rolling_case coarser = coarser_case(&rc, k);
+        if (own.substeps[STEPS] > 1)
+            coarser.steps = STEPS;
         CHECK_OK(rb_rolling_history_run(&coarser, NULL, NULL, &others[k], &run[k], &heard));
     }
     double force[STEPS + 1] = {0.0}, creepage[STEPS + 1] = {0.0}, power[STEPS + 1] = {0.0};
     assert_int_equal(own.n, STEPS + 1);
+    assert_int_equal(own.substeps[STEPS], distance < 0.75 ? 1 : 3); /* elements of 0.075 a */
     for (int i = 1; i <= STEPS; i++) {
         const double x = own.distance[i], middle = 0.5 * (own.distance[i - 1] + x);
         double Q[3] = {0.0, 0.0, own.tangential_load[i]};
@@ -258,8 +263,9 @@ static void bars_of_a_history(int force_is_given)
 
 TEST(a_history_s_bars_are_of_its_coarser_histories)
 {
-    bars_of_a_history(0);
-    bars_of_a_history(1);
+    bars_of_a_history(0.7, 0);
+    bars_of_a_history(0.7, 1);
+    bars_of_a_history(1.6, 0);
 }
 
 RUN_TESTS(NULL, NULL)

@@ -225,7 +225,8 @@ TEST(test_static_history_of_one_step)
     char line[500];
     write_file("one.txt", "load shift\n700 1e-3\n");
     for (int k = 0; k < 3; k++) {
-        snprintf(line, sizeof line, "%s --formulation static --history one.txt", supports[k]);
+        snprintf(line, sizeof line, "%s --formulation static --history one.txt --increments 1",
+                 supports[k]);
         held_json *history = run_json(line);
         snprintf(line, sizeof line, "%s --formulation static --load 700 --shift 1e-3", supports[k]);
         held_json *single = run_json(line);
@@ -240,7 +241,8 @@ TEST(test_transient_at_rest)
     char line[500];
     write_file("rest.txt", "distance load\n0 700\n");
     for (int k = 0; k < 3; k++) {
-        snprintf(line, sizeof line, "%s --formulation transient --history rest.txt", supports[k]);
+        snprintf(line, sizeof line, "%s --formulation transient --history rest.txt --increments 1",
+                 supports[k]);
         held_json *rest = run_json(line);
         snprintf(line, sizeof line, "%s --formulation static --load 700", supports[k]);
         held_json *single = run_json(line);

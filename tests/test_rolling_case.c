@@ -261,8 +261,7 @@ TEST(ranges_of_relaxation)
     REFUSED("relaxation-time: expected a number > 0", PLANE; rc.a.memory = late);
     REFUSED("relaxation-ratio: expected a number >= 0", PLANE; rc.a.memory = less);
     REFUSED("relaxation-ratio: expected a number >= 0", PLANE; rc.a.memory = endless);
-    REFUSED("steps: viscoelastic bodies", PLANE; rc.a.memory = one; TRANSIENT; rc.steps = 3;
-            rc.speed = 1.0);
+    ACCEPTED(PLANE; rc.a.memory = one; TRANSIENT; rc.steps = 3; rc.speed = 1.0);
     REFUSED("a clamped arc cannot turn", rc.a.memory = one; STEADY; rc.speed = 1.0);
     REFUSED("in transient rolling for the support halfplane", HUB; rc.a.memory = one; TRANSIENT;
             rc.speed = 1.0);
@@ -424,8 +423,8 @@ TEST(ranges_of_the_mesh)
     ACCEPTED(rc.outer_refinement = 1000.0);
     REFUSED("outer refinement: expected 0", rc.outer_refinement = 1001.0);
     REFUSED("outer refinement: expected 0", rc.outer_refinement = -1.0);
-    REFUSED("increments: expected a whole number in [1, 1e+06]", rc.increments = -1);
-    REFUSED("increments: expected a whole number in [1, 1e+06]", rc.increments = 1000001);
+    REFUSED("increments: expected a whole number in [0, 1e+06]", rc.increments = -1);
+    REFUSED("increments: expected a whole number in [0, 1e+06]", rc.increments = 1000001);
     ACCEPTED(STEADY; rc.increments = 1);
     REFUSED("steady rolling does not depend", STEADY; rc.increments = 2);
     ACCEPTED(rc.zone = 49.9);

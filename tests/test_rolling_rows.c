@@ -121,7 +121,7 @@ TEST(rows_take_the_steps_they_need)
             if (needs ? h.substeps[row] < 2 : h.substeps[row] != 1)
                 fail_msg("case %d, row %d: %d steps", k, row + 1, h.substeps[row]);
         }
-        assert_int_equal(h.row_changed, 0);
+        assert_int_equal(h.rows.changed, 0);
     }
 }
 

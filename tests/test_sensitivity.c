@@ -63,6 +63,8 @@ static const words regimes[] = {
     {{PLANES ROLLING "similar yes creep -1e-3 relaxation-time 1e-3 relaxation-ratio 1 speed 1000"}},
     {{PLANES ROLLING "creep 1e-3 layer-thickness 2 base-young 200000 base-poisson 0.3"}},
     {{PLANES "formulation static shift 1e-3"}},
+    {{PLANES "formulation static similar yes shift 2e-3 friction-law linear mu 0.2 mu-fall 0.1 "
+             "memory 1e-3 tol 1e-13"}},
     /* automatic zones that follow a soft third body, or are tightened around narrow contacts */
     {{NARROW "load 20 young-b 1e4 interlayer-normal 1e-4 force-ratio 0.3"}},
     {{NARROW "load 20 layer-thickness 0.02 force-ratio 0.3"}},

@@ -22,6 +22,9 @@
 #define FALLS                                                                                      \
     ROLLS "--creep-ratio 0.5 --friction-law exponential --mu-fall 0.2 --speed 1000 --slip-scale "
 
+#define PUSHED                                                                                     \
+    STEEL "--radius 100 --half-width 1 --mu 0.2 --friction-law exponential --mu-fall 0.1 "         \
+          "--formulation static --contact-elements "
 #define CAPPED CARTER "--contact-elements 60 --mu 100 --yield-stress 100 "
 #define FALLING                                                                                    \
     CARTER "--friction-law exponential --mu-fall 0.2 --slip-scale 1 --speed 1000 "                 \
@@ -87,6 +90,15 @@ static const sentence notes[] = {
      STEEL "--radius 100 --mu 0.5 --formulation static --contact-elements 200 --history sudden.txt",
      STEEL
      "--radius 100 --mu 0.5 --formulation static --contact-elements 40 --history gradual.txt"},
+    {"jumps",
+     "In row 3 of the history the contact jumps to full sliding, at shift 0.006 mm, "
+     "force -194.9 N/mm",
+     PUSHED "40 --memory 5e-5 --history pushed.txt",
+     PUSHED "40 --memory 3e-3 --history pushed.txt"},
+    {"coarse-fall",
+     "Friction falls over 0.1 mm of the surface behind the edge of stick, and the elements are "
+     "longer, 0.17 mm: give 34 --contact-elements",
+     PUSHED "20 --memory 5e-5 --shift 0.003", PUSHED "34 --memory 5e-5 --shift 0.003"},
     {"static-creepage", "In a static case --creep does not change the tractions",
      FRETS "--creep 0.001", FRETS "--shift 0.001"},
     {"no-creepage", "the wheel rolls at creepage 0", ROLLS, ROLLS "--force 0"},
@@ -245,6 +257,7 @@ static int write_gaps(void)
     write_file("places.txt", "-10 0.1\n0 0.1\n0.5 0.5\n10 0.5\n");
     write_file("sudden.txt", "load force\n0.01 0\n100 15\n");
     write_file("gradual.txt", "load force\n50 0\n100 15\n");
+    write_file("pushed.txt", "shift\n0\n0.002\n0.01\n");
     write_file("flat.txt", "-0.2 0\n-0.1 1e-9\n0 0\n0.1 1e-9\n0.2 0\n");
     return 0;
 }

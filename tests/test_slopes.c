@@ -28,6 +28,8 @@ static const words histories[] = {
     {{PLANES ROLLS "young-b 70000 force-ratio -0.5"}},
     {{PLANES "formulation static young-b 70000 increments 4 shift 1e-3"}},
     {{PLANES "formulation static similar yes increments 5 force-ratio 0.6"}},
+    {{PLANES "formulation static similar yes increments 5 shift 3e-3 friction-law exponential "
+             "mu-fall 0.1 memory 2e-3"}},
     {{"support hub load 500 contact-elements 20 outer-elements 60 " ROLLS "creep-ratio 0.5"}},
     {{PLANES ROLLS
       "similar yes creep 1e-3 relaxation-time 1e-3 relaxation-ratio 1 speed 1000 zone 2"}},

@@ -296,6 +296,15 @@ rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling
 
 /* ---- Solution -------------------------------------------------------------------- */
 
+/* What is to be known of the rows of a history at rest; rows are counted from 1, 0: none. */
+typedef struct {
+    int changed;       /* the row whose tractions still depend on its steps */
+    double changes;    /* by how much, as a part of what the load makes */
+    int jumped;        /* the first row in which the contact jumps to full sliding (F6) */
+    double jump_shift; /* before the jump [length] */
+    double jump_force; /* likewise [force/length] */
+} rb_rolling_rows;
+
 /* A part of the contact with separated elements on either side. */
 typedef struct {
     double from, to; /* edges [length] */
@@ -357,11 +366,10 @@ typedef struct {
     double datum;                        /* of A; NAN where it has none [length] */
     double contact_from, contact_to;     /* outermost edges (theory.md 5.1) */
     double nip_width;                    /* contact_to - contact_from [length] */
-    int edges_bounded;  /* 1: some edge of some patch is only known to an element */
-    int equal_instead;  /* 1: equal elements were used, because fitting the mesh to the
-                           contact edges did not converge */
-    double row_changes; /* as in rb_rolling_history, like row_changed */
-    int row_changed;
+    int edges_bounded;            /* 1: some edge of some patch is only known to an element */
+    int equal_instead;            /* 1: equal elements were used, because fitting the mesh to the
+                                     contact edges did not converge */
+    rb_rolling_rows rows;         /* of its history */
     double max_pressure;          /* p0 [stress] */
     int contact, stick, slipping; /* numbers of elements; slipping includes yielding */
     int yielding; /* number of elements whose interface yields; -1: no yield stress */
@@ -431,13 +439,12 @@ typedef struct rb_rolling_model {
     rb_rolling_bodies bodies;
     rb_contact_problem problem;
     rb_contact_state state;
-    double shift;       /* in a history: rigid shift of the earlier steps, to be added to the
-                           state's [length] */
-    int mu_varies;      /* in a history: 1: the program has a column mu */
-    int equal_instead;  /* 1: equal elements were used, because fitting the mesh to the
-                           contact edges did not converge */
-    double row_changes; /* as in rb_rolling_history, like row_changed */
-    int row_changed;
+    double shift;         /* in a history: rigid shift of the earlier steps, to be added to the
+                             state's [length] */
+    int mu_varies;        /* in a history: 1: the program has a column mu */
+    int equal_instead;    /* 1: equal elements were used, because fitting the mesh to the
+                             contact edges did not converge */
+    rb_rolling_rows rows; /* of its history */
     double first_from, first_to; /* ends of the equal elements with which the search for the edges
                                     began; the same value twice: none [length] */
     double half_width;           /* Hertz's half-width of the last computed load; used in the creep
@@ -526,17 +533,15 @@ typedef struct rb_rolling_history {
     double *mu;              /* mu of the case at the end of the step; NULL if it is the same in all
                                 steps */
     double *torque_a,
-        *torque_b;      /* M + Q R_A and M - Q R_B [force]; torque_b: NULL if B is a plane */
-    double half_width;  /* unit of the distances [length] */
-    double step;        /* of a rolled row [length]; 0 in a static history */
-    double row_changes; /* by how much the tractions of a row at rest still depend on its steps,
-                           as a part of what the load makes; 0: by no more than 1e-3 */
-    int row_changed;    /* that row, counted from 1; 0: none */
-    double cycle_work;  /* work of friction in the last cycle [force]; NAN: the rows do not end with
-                           a whole cycle */
-    int cycle_rows;     /* its rows; 0: likewise */
-    int steady_from;    /* first step from which the state is steady until the end, or -1 */
-    rb_units units;     /* of all values here */
+        *torque_b;     /* M + Q R_A and M - Q R_B [force]; torque_b: NULL if B is a plane */
+    double half_width; /* unit of the distances [length] */
+    double step;       /* of a rolled row [length]; 0 in a static history */
+    rb_rolling_rows rows;
+    double cycle_work; /* work of friction in the last cycle [force]; NAN: the rows do not end with
+                          a whole cycle */
+    int cycle_rows;    /* its rows; 0: likewise */
+    int steady_from;   /* first step from which the state is steady until the end, or -1 */
+    rb_units units;    /* of all values here */
     struct rb_rolling_history *errors;     /* error bar of every entry; NULL: not computed; owned */
     struct rb_rolling_history *deviations; /* standard deviation of every entry that has
                                               derivatives (rb_case_slopes_of_steps); NULL: not

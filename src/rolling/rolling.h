@@ -566,8 +566,7 @@ typedef struct {
     double *delta;     /* steps: approach */
     double *xi;        /* steps: rigid shift of a static step [length], creepage of a rolled step */
     double half_width; /* unit of the distances [length] */
-    double row_changes; /* as in rb_rolling_history, like row_changed */
-    int row_changed;
+    rb_rolling_rows rows; /* of its history */
 } rb_rolling_states;
 
 /* On RB_ENOMEM states is empty. */

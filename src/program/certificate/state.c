@@ -302,10 +302,12 @@ static rb_status follow(rb_certificate *c, const rb_resolved_case *resolved,
                         k + 1);
     }
     to->half_width = rb_certificate_member(history, "half_width");
-    if (json_object_get(history, "row_changed")) { /* what more steps would change is not known */
-        to->row_changes = rb_certificate_member(history, "row_changes");
-        to->row_changed = (int)json_integer_value(json_object_get(history, "row_changed"));
+    /* what more or fewer steps would give is not known; the jump itself is computed again */
+    if (json_object_get(history, "row_changed")) {
+        to->rows.changes = rb_certificate_member(history, "row_changes");
+        to->rows.changed = (int)json_integer_value(json_object_get(history, "row_changed"));
     }
+    to->rows.jumped = (int)json_integer_value(json_object_get(history, "jump_row"));
     to->program = resolved->program.n > 0 ? &resolved->program : NULL;
     if (s == RB_OK)
         s = rb_rolling_history_follow(&resolved->rc, to, c->judges ? &observer : NULL, &r->model,

@@ -53,9 +53,14 @@ json_t *rb_report_json_history(const rb_rolling_history *h)
                        h->steady_from < 0 ? json_null() : json_integer(h->steady_from));
     rb_report_json_set(&history, "cycle_work", rb_report_json_number(h->cycle_work));
     rb_report_json_set(&history, "cycle_rows", json_integer(h->cycle_rows));
-    if (h->row_changed > 0) {
-        rb_report_json_set(&history, "row_changes", rb_report_json_number(h->row_changes));
-        rb_report_json_set(&history, "row_changed", json_integer(h->row_changed));
+    if (h->rows.changed > 0) {
+        rb_report_json_set(&history, "row_changes", rb_report_json_number(h->rows.changes));
+        rb_report_json_set(&history, "row_changed", json_integer(h->rows.changed));
+    }
+    if (h->rows.jumped > 0) {
+        rb_report_json_set(&history, "jump_row", json_integer(h->rows.jumped));
+        rb_report_json_set(&history, "jump_shift", rb_report_json_number(h->rows.jump_shift));
+        rb_report_json_set(&history, "jump_force", rb_report_json_number(h->rows.jump_force));
     }
     for (int k = 1; k < parts; k++) {
         json_t *object = json_object();

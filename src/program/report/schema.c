@@ -148,7 +148,8 @@ json_t *rb_report_json_schema(void)
                                "derivatives must be read; steady_from: the first step from which "
                                "nothing changes to the end of the way; cycle_work [N]: of friction "
                                "in the last cycle, of cycle_rows rows; row_changes: by how much "
-                               "row_changed still depends on its steps"));
+                               "row_changed still depends on its steps; jump_row: in which the "
+                               "contact jumps to full sliding, from jump_shift, jump_force"));
     json_t *curve = columns(&rb_rolling_curve_columns, 0,
                             "an entry per creepage; tolerances: standard deviations; "
                             "derivatives_note: how many points have none, and why");

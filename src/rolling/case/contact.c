@@ -109,6 +109,13 @@ static void set_friction(const rb_io_contact_case *in, rb_case_contact *c)
     rc->mu = in->digit.T == 0 ? 0.0 : in->fstat;
     if (in->digit.T == 0 || !falls(in))
         return;
+    if (in->digit.T == 1 && !(in->memory > 0.0)) {
+        leave_out(c,
+                  "friction that falls in a shift without a sliding distance: mu = %g, its "
+                  "value at rest",
+                  in->fstat);
+        return;
+    }
     rc->mu = in->fkin;
     rc->speed = in->velocity;
     rc->friction = (rb_rolling_friction){.law = laws[in->law - 2],

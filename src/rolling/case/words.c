@@ -530,7 +530,9 @@ static rb_status resolve_law(rb_case *c, rb_message *why)
          "only for friction that changes, see --mu-fall and --mu-heat"}};
     rb_status s = count_numbers(c, "mu-fall", &typed->falls, 1, 2, why);
 
-    if (s == RB_OK && falls && typed->falls.n != typed->slip_scales.n)
+    /* at rest the slip takes no time, and has no scale */
+    const int scaled = c->resolved.rc.formulation != RB_STATIC || typed->slip_scales.n > 0;
+    if (s == RB_OK && falls && scaled && typed->falls.n != typed->slip_scales.n)
         s = rb_fail(why, RB_EINVAL,
                     "--mu-fall and --slip-scale: expected equally many numbers, got %d and %d",
                     typed->falls.n, typed->slip_scales.n);

@@ -141,7 +141,8 @@ static rb_status create_friction(rb_rolling_particles *r, rb_message *why)
     return r->mu ? RB_OK : RB_ENOMEM;
 }
 
-/* Those at the former places of the particles; nothing is iterated at rest. */
+/* Those at the former places of the particles.  At rest, where bodies have a time, what has not
+ * slid in the step before has healed since then (F6). */
 static rb_status bring_friction(rb_rolling_particles *r, const rb_rolling_stride *stride,
                                 rb_message *why)
 {
@@ -149,11 +150,20 @@ static rb_status bring_friction(rb_rolling_particles *r, const rb_rolling_stride
     const double *x = r->model->bodies.f.x;
     const rb_rolling_table now = {p->n, x, p->bound};
 
+    const rb_rolling_friction *f = &r->rc->friction;
+    const double healed = stride->c == 0.0 && f->memory > 0.0
+                              ? exp(-f->memory_slip * stride->interval / f->memory)
+                              : 1.0;
+
     (void)why;
-    if (stride->c == 0.0)
+    if (stride->c == 0.0 && !(f->memory > 0.0))
         return RB_OK;
-    for (int i = 0; i < p->n; i++)
-        r->mu[i] = rb_rolling_friction_at(&now, x[i] + stride->c);
+    for (int i = 0; i < p->n; i++) {
+        const double rest = rb_rolling_law_at_rest(r->model->rc, x[i]);
+        r->mu[i] = stride->c > 0.0 ? rb_rolling_friction_at(&now, x[i] + stride->c) : p->bound[i];
+        if (stride->c == 0.0 && r->model->state.zone[i] <= RB_ZONE_STICK)
+            r->mu[i] = rest + (r->mu[i] - rest) * healed;
+    }
     r->model->carried.mu = r->mu;
     return RB_OK;
 }

@@ -9,6 +9,10 @@
  * the load makes, or than a tenth of what an element has, or until there are so many. */
 static const double ROW_CHANGES = 1e-3, OF_AN_ELEMENT = 0.1;
 enum { ROW_STEPS = 1024 };
+/* Friction that falls by more than this part of mu P in a step may have jumped, and has if that
+ * does not become half in a quarter of it. */
+static const double FALLS = 2e-3;
+enum { LOOKED_BACK = 3, STEPS_TO_JUMP = 32 };
 
 void rb_rolling_history_free(rb_rolling_history *h)
 {
@@ -51,6 +55,10 @@ typedef struct {
     int step, steps;          /* of the present row: done, and in all */
     rb_rolling_stride stride; /* the current step */
     double to;                /* [half-widths]: where it ends */
+    struct {
+        double of_P;         /* how far Q falls, as a part of mu P */
+        double shift, force; /* before */
+    } fall;                  /* the largest in a step of the row to full sliding (F6) */
 } history_state;
 
 /* Of the program at rest, `done` of `all` parts behind its row before; 0 where it has no times. */
@@ -156,6 +164,31 @@ static rb_status begin_step(history_state *r, rb_message *why)
     return RB_OK;
 }
 
+/* Whether the step, the present one, takes away friction that the one before had, and all
+ * slides. */
+static void see_fall(history_state *r, double shift_before)
+{
+    const rb_rolling_history *h = r->history;
+    const rb_contact_state *state = &r->model->state;
+    const int k = h->n, before = r->step > 1 ? k : k - 1;
+    const double mu = r->model->rc->mu, P = rb_rolling_model_load(r->model);
+
+    for (int i = 0; i < state->n; i++)
+        if (state->zone[i] == RB_ZONE_STICK)
+            return;
+    if (before < 0 || !(mu * P > 0.0) || !(h->normal_load[before] > 0.0))
+        return;
+    const double Q = h->tangential_load[before],
+                 fell = (fabs(Q) / h->normal_load[before] -
+                         fabs(rb_rolling_model_force(r->model)) / P) /
+                        mu;
+    if (fell > r->fall.of_P) {
+        r->fall.of_P = fell;
+        r->fall.shift = shift_before;
+        r->fall.force = Q;
+    }
+}
+
 /* What follows from the state that the step has found.  Means over a row are those of its
  * steps, which have one length. */
 static void end_step(history_state *r, rb_status s)
@@ -167,6 +200,8 @@ static void end_step(history_state *r, rb_status s)
     const int k = h->n, rests = is_at_rest(r), rolls = model->rc->formulation == RB_TRANSIENT,
               done = ++r->step;
 
+    if (rests && rb_rolling_law_depends_on_state(model->rc))
+        see_fall(r, r->shift);
     if (rests)
         r->shift += state->xi;
     rb_rolling_particles_leave(&r->particles, &r->stride);
@@ -319,6 +354,7 @@ static rb_status compute_row(history_state *r, int steps, rb_message *why)
     rb_status s = RB_OK;
 
     r->steps = steps;
+    memset(&r->fall, 0, sizeof r->fall);
     for (int i = 0; i < steps && s == RB_OK; i++) {
         rb_message reason = {""};
         s = begin_step(r, why);
@@ -457,10 +493,43 @@ static int is_one_step_enough(const history_state *r, const bookmark *before)
             (is_first || is_pressure(model, &before->state)));
 }
 
+/* The falls in a step of the row in as many steps, half as many and so on: what falls on a path
+ * falls half as far in half a step; a jump does not. */
+static int is_gradual(const double fall[LOOKED_BACK])
+{
+    return !(fall[0] > 0.5 * fall[LOOKED_BACK - 1]);
+}
+
+/* 1: the row in `steps` does not tell whether the contact has jumped on the way, or from where. */
+static int may_jump(const history_state *r, int steps, const double fall[LOOKED_BACK])
+{
+    const rb_rolling_history *h = r->history;
+    const int row = h->n - 1;
+
+    if (!rb_rolling_law_depends_on_state(r->model->rc))
+        return 0;
+    return steps < STEPS_TO_JUMP
+               ? fall[0] > FALLS || (h->stick[row] == 0 && h->slipping[row] > 0 &&
+                                     (row == 0 || h->stick[row - 1] > 0))
+               : fall[0] > FALLS && (is_gradual(fall) || fabs(fall[0] - fall[1]) > FALLS);
+}
+
+static void note_jump(const history_state *r)
+{
+    rb_rolling_rows *rows = &r->model->rows;
+
+    if (rows->jumped > 0)
+        return;
+    rows->jumped = r->history->n;
+    rows->jump_shift = r->fall.shift;
+    rows->jump_force = r->fall.force;
+}
+
 /* Steps are halved until the state at the end of the row no longer depends on them. */
 static rb_status compute_row_at_rest(history_state *r, rb_message *why)
 {
     const int given = steps_at_rest(r);
+    double fall[LOOKED_BACK] = {0.0};
     bookmark start;
     rb_rolling_states coarser = {0};
     rb_status s;
@@ -471,8 +540,10 @@ static rb_status compute_row_at_rest(history_state *r, rb_message *why)
     if (s == RB_OK)
         s = compute_row(r, 1, why);
     double change = s == RB_OK && !is_one_step_enough(r, &start) ? INFINITY : 0.0;
-    for (int steps = 2; s == RB_OK && change > tolerated(r->model) && steps <= ROW_STEPS;
-         steps *= 2) {
+    int steps = 1;
+    while (s == RB_OK && steps < ROW_STEPS &&
+           (change > tolerated(r->model) || may_jump(r, steps, fall))) {
+        steps *= 2;
         s = rb_rolling_states_keep(r->model, r->history, 0, 1, &coarser);
         if (s == RB_OK)
             s = bookmark_return(&start, r, why);
@@ -480,10 +551,15 @@ static rb_status compute_row_at_rest(history_state *r, rb_message *why)
             s = compute_row(r, steps, why);
         if (s == RB_OK)
             change = differs(r->model, &coarser);
+        for (int k = LOOKED_BACK - 1; k > 0; k--)
+            fall[k] = fall[k - 1];
+        fall[0] = r->fall.of_P;
     }
-    if (s == RB_OK && change > tolerated(r->model) && change > r->model->row_changes) {
-        r->model->row_changes = change;
-        r->model->row_changed = r->history->n;
+    if (s == RB_OK && steps >= STEPS_TO_JUMP && fall[0] > FALLS && !is_gradual(fall))
+        note_jump(r);
+    if (s == RB_OK && change > tolerated(r->model) && change > r->model->rows.changes) {
+        r->model->rows.changes = change;
+        r->model->rows.changed = r->history->n;
     }
     rb_rolling_states_free(&coarser);
     bookmark_free(&start);
@@ -520,6 +596,8 @@ static rb_status all_rows(history_state *r, rb_message *why)
                                      : compute_row(r, r->rolled, why);
         if (s != RB_OK)
             return s;
+        if (r->found && r->found->rows.jumped == r->history->n)
+            note_jump(r);
         if (o && o->step && o->step(r->model, r->history, k, r->rows, o->context))
             return rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k + 1, r->rows);
     }
@@ -545,6 +623,10 @@ static rb_status widest_contact(const history_state *r, double zone, rb_message 
     widest.formulation = RB_STATIC;
     widest.increments = 1;
     widest.heat_a.conductivity = 0.0; /* nothing slides yet */
+    if (rb_rolling_law_depends_on_slip(&widest.friction)) {
+        widest.mu = rb_rolling_law_at_rest(&widest, 0.0);
+        widest.friction = (rb_rolling_friction){.law = RB_FRICTION_constant};
+    }
     widest.zone = zone;
     widest.load = largest(program->load, program->n, widest.load);
     widest.approach = largest(program->approach, program->n, widest.approach);
@@ -690,11 +772,10 @@ static rb_status run_program(history_state *r, const rb_rolling_case *rc, rb_mes
             r->history->steady_from = rb_rolling_steady_from(&r->steady, r->rc, r->history);
             find_cycle(r);
             if (r->found) {
-                model->row_changes = r->found->row_changes;
-                model->row_changed = r->found->row_changed;
+                model->rows.changed = r->found->rows.changed;
+                model->rows.changes = r->found->rows.changes;
             }
-            r->history->row_changes = model->row_changes;
-            r->history->row_changed = model->row_changed;
+            r->history->rows = model->rows;
             if (s == RB_OK && r->history->step == 0.0 && !model->problem.load_given)
                 /* nothing rolls, no distance is measured by a: it is that of the largest load */
                 r->history->half_width = rb_rolling_contact_half_width(

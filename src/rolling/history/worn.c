@@ -403,6 +403,8 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     r.rc.load = rb_rolling_derive(rc).load; /* a given half-width means this load */
     r.rc.half_width = NAN;
     r.rc.increments = 1; /* the cycles have their own */
+    if (wear->slides && rb_rolling_law_depends_on_slip(&rc->friction)) /* it is kinetic */
+        r.rc.friction = (rb_rolling_friction){.law = RB_FRICTION_constant};
     rb_status s = check(rc, wear, why);
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_wear_columns, rc, 0, wear->steps + 1, history);

@@ -18,10 +18,10 @@ static double table_mu(const rb_rolling_case *rc, double x, double v)
     return rb_rolling_friction_at(&rc->friction.table, x);
 }
 
-/* v in units of the slip scale of term k; without a fall the scale means nothing. */
+/* v in units of the slip scale of term k; without a fall, and at rest, the scale means nothing. */
 static double scaled(const rb_rolling_friction *f, int k, double v)
 {
-    return f->fall[k] != 0.0 ? v / f->slip_scale[k] : 0.0;
+    return f->fall[k] != 0.0 && v != 0.0 ? v / f->slip_scale[k] : 0.0;
 }
 
 static double exponential_mu(const rb_rolling_case *rc, double x, double v)
@@ -30,7 +30,7 @@ static double exponential_mu(const rb_rolling_case *rc, double x, double v)
     double mu = rc->mu;
     (void)x;
     for (int k = 0; k < 2; k++)
-        mu += f->fall[k] != 0.0 ? f->fall[k] * exp2(-v / f->slip_scale[k]) : 0.0;
+        mu += f->fall[k] != 0.0 ? f->fall[k] * exp2(-scaled(f, k, v)) : 0.0;
     return mu;
 }
 
@@ -90,8 +90,9 @@ int rb_rolling_law_depends_on_slip(const rb_rolling_friction *f)
 
 int rb_rolling_law_depends_on_state(const rb_rolling_case *rc)
 {
-    return rc->formulation != RB_STATIC &&
-           (rb_rolling_law_depends_on_slip(&rc->friction) || rc->friction.heat != 0.0);
+    const rb_rolling_friction *f = &rc->friction;
+    const int slips = rb_rolling_law_depends_on_slip(f);
+    return rc->formulation != RB_STATIC ? slips || f->heat != 0.0 : slips && f->memory > 0.0;
 }
 
 /* The end of the coefficients' range on that side: 1 the largest, -1 the least. */
@@ -137,9 +138,9 @@ rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
         const char *option;
         double value;
     } numbers[] = {{slips, "mu-fall", f->fall[0]},
-                   {slips && f->fall[0] != 0.0, "slip-scale", f->slip_scale[0]},
+                   {slips && rolls && f->fall[0] != 0.0, "slip-scale", f->slip_scale[0]},
                    {slips, "mu-fall", f->fall[1]},
-                   {slips && f->fall[1] != 0.0, "slip-scale", f->slip_scale[1]},
+                   {slips && rolls && f->fall[1] != 0.0, "slip-scale", f->slip_scale[1]},
                    {heats, "mu-heat", f->heat},
                    {heats, "mu-heat", f->heat_from},
                    {remembers, "memory", f->memory},
@@ -154,6 +155,13 @@ rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
     if (heats && !(isfinite(f->heat_range) && f->heat_range > 0.0))
         return rb_fail(why, RB_EINVAL, "mu-heat: expected a number > 0 as the third, got %g",
                        f->heat_range);
+    /* Slip that begins at the edge spreads like a crack without toughness (F6). */
+    if (slips && !rolls && !remembers && f->fall[0] + f->fall[1] > 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "friction law %s: a static coefficient of %g above the kinetic one of %g "
+                       "needs a sliding distance in static contact, add --memory; without it the "
+                       "result on fine meshes is that of mu = %g",
+                       names[f->law], rc->mu + f->fall[0] + f->fall[1], rc->mu, rc->mu);
     if (slips && rolls && rc->speed == 0.0)
         return rb_fail(why, RB_EINVAL, "friction law %s: needs the speed of rolling, add --speed",
                        names[f->law]);

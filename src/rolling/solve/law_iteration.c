@@ -46,29 +46,39 @@ static rb_status temperatures_of(rb_rolling_model *model, double *t, rb_message 
     return s;
 }
 
-/* Of element i; of one that slips by the direction of its zone, so that derivatives exist at the
- * end of the zone. */
-static double slip_velocity(const rb_rolling_model *model, int i)
+/* How far element i slips; one that slips by the direction of its zone, so that derivatives exist
+ * at the end of the zone. */
+static double slid_distance(const rb_rolling_model *model, int i)
 {
     const int zone = model->state.zone[i];
     const double lambda = model->state.lambda[i];
 
-    return (zone == RB_ZONE_SLIP_NEGATIVE   ? lambda
-            : zone == RB_ZONE_SLIP_POSITIVE ? -lambda
-                                            : fabs(lambda)) /
-           model->problem.e_T[i] * model->rc->speed;
+    return zone == RB_ZONE_SLIP_NEGATIVE   ? lambda
+           : zone == RB_ZONE_SLIP_POSITIVE ? -lambda
+                                           : fabs(lambda);
+}
+
+/* At rest slip takes no time: it is kinetic at once (F6). */
+static double slip_velocity(const rb_rolling_model *model, int i)
+{
+    return model->rc->formulation == RB_STATIC
+               ? INFINITY
+               : slid_distance(model, i) / model->problem.e_T[i] * model->rc->speed;
 }
 
 double rb_rolling_law_kept(const rb_rolling_model *model, int i)
 {
     const rb_rolling_friction *f = &model->rc->friction;
-    const double slid =
-        fmax(slip_velocity(model, i), f->memory_slip) * model->problem.e_T[i] / model->rc->speed;
+    const double slid = slid_distance(model, i),
+                 least = model->rc->formulation == RB_STATIC
+                             ? slid
+                             : f->memory_slip * model->problem.e_T[i] / model->rc->speed;
 
-    return exp(-slid / f->memory);
+    return exp(-fmax(slid, least) / f->memory);
 }
 
-/* From the leading edge on, in the order in which particles pass (F2). */
+/* From the leading edge on, in the order in which particles pass (F2); at rest particles stay, and
+ * keep what they remember without contact too. */
 static void set_coefficients(const rb_rolling_model *model, const double *temperature, double *mu)
 {
     const rb_rolling_case *rc = model->rc;
@@ -81,7 +91,8 @@ static void set_coefficients(const rb_rolling_model *model, const double *temper
                                    ? rb_rolling_law_at_rest(rc, x[i])
                                    : NAN;
         if (state->zone[i] == RB_ZONE_SEPARATED) {
-            mu[i] = at_rest;
+            mu[i] =
+                rc->formulation == RB_STATIC && model->carried.mu ? model->carried.mu[i] : at_rest;
             continue;
         }
         mu[i] = rb_rolling_law_mu(rc, x[i], slip_velocity(model, i),
@@ -149,13 +160,14 @@ rb_status rb_rolling_model_friction(rb_rolling_model *model, rb_message *why)
  * where they have become less for long. */
 typedef struct {
     double part, least, before;
+    int patience;             /* rounds in which the steps need not become less */
     int turned, waited, fell; /* rounds */
     double *step;             /* n: of the round before */
 } relaxation;
 
 static void relax(relaxation *r, const rb_contact_problem *p, double change, double *mu)
 {
-    enum { TURNS = 4, WAITED = 40, FELL = 20 };
+    enum { TURNS = 4, FELL = 20 };
     const int less = change < 0.95 * r->least;
     double turns = 0.0;
 
@@ -169,7 +181,7 @@ static void relax(relaxation *r, const rb_contact_problem *p, double change, dou
     if (r->fell == FELL) {
         r->part = fmin(2.0 * r->part, 1.0);
         r->fell = r->waited = 0;
-    } else if (r->turned == TURNS || r->waited == WAITED) {
+    } else if (r->turned == TURNS || r->waited == r->patience) {
         r->part = fmax(0.5 * r->part, 1.0 / 256.0);
         r->turned = r->waited = 0;
         r->least = change;
@@ -209,20 +221,24 @@ static double enough_of(const rb_rolling_model *model)
  * RB_MAXITER: they still change. */
 static rb_status go_round(rb_rolling_model *model, int warm, rb_message *why)
 {
-    enum { ROUNDS = 200 };
+    enum { ROUNDS = 200, WAITED = 40 };
     static const double NEAR = 0.05, FALLS = 0.7;
     rb_contact_problem *p = &model->problem;
     rb_contact_state *state = &model->state;
     const double enough = enough_of(model);
     const int large = !rb_contact_operator_matrix(p->op).F;
+    /* at rest the edge of slip moves by an element or less in a round (F6) */
+    const int moves = model->rc->formulation == RB_STATIC ? p->n : 0,
+              rounds = ROUNDS + 4 * moves;
     double change = INFINITY, *mu = rb_alloc((size_t)p->n, 2);
-    relaxation r = {.part = 1.0, .least = INFINITY, .before = INFINITY};
+    relaxation r = {
+        .part = 1.0, .least = INFINITY, .before = INFINITY, .patience = WAITED + moves};
     rb_anderson faster;
     rb_status s = rb_anderson_init(large ? p->n : 0, &faster);
 
     s = mu ? s : RB_ENOMEM;
     r.step = mu ? mu + p->n : NULL;
-    for (int k = 0; k < ROUNDS && s == RB_OK && change > enough; k++) {
+    for (int k = 0; k < rounds && s == RB_OK && change > enough; k++) {
         s = rb_rolling_problem_solve(p, model->rc, warm || k > 0, state, why);
         model->iterations += state->iterations;
         if (s == RB_OK)
@@ -253,7 +269,7 @@ static rb_status go_round(rb_rolling_model *model, int warm, rb_message *why)
                ? rb_fail(why, RB_MAXITER,
                          "friction law: after %d rounds and Newton's method the "
                          "coefficients still change, by %.2g of the largest",
-                         ROUNDS, change)
+                         rounds, change)
                : s;
 }
 
@@ -261,7 +277,8 @@ static rb_status go_round(rb_rolling_model *model, int warm, rb_message *why)
 rb_status rb_rolling_law_start(rb_rolling_model *model, double x, rb_message *why)
 {
     const rb_rolling_case *rc = model->rc;
-    const double fastest = 1e3 * rc->speed, *places = model->bodies.f.x;
+    const double fastest = rc->formulation == RB_STATIC ? INFINITY : 1e3 * rc->speed,
+                 *places = model->bodies.f.x;
     const double warmest = rc->friction.heat_from + 2.0 * rc->friction.heat_range;
     rb_contact_problem *p = &model->problem;
     double *mu = rb_alloc((size_t)p->n, 1);
@@ -306,6 +323,7 @@ typedef struct {
     rb_rolling_model *model;
     double *start; /* n: bounds that every solve begins with, so that Q is a function */
     double side, unit;
+    double small; /* what two forces may differ by */
     rb_message *why;
 } search;
 
@@ -352,7 +370,9 @@ static rb_status go_on(search *s, double x[3], double f[3])
                 const double next = x[1] + GOLDEN * (right ? x[2] - x[1] : x[0] - x[1]);
                 double g;
                 status = lack(s, next, &g);
-                const int better = g < f[1], end = right == better ? 0 : 2;
+                /* behind a jump to full sliding the force is the same: then it is before it */
+                const int better = right ? g < f[1] - s->small : g <= f[1] + s->small;
+                const int end = right == better ? 0 : 2;
                 x[end] = better ? x[1] : next;
                 f[end] = better ? f[1] : g;
                 if (better) {
@@ -393,9 +413,9 @@ static rb_status find_force(search *s, double x[2], double f[2], double small)
             f[1 - end] *= 0.5;
         kept = 1 - end;
     }
-    return rb_fail(s->why, RB_MAXITER,
-                   "friction law: at creepage %g the force jumps past the given value",
-                   s->side * x[1]);
+    return rb_fail(
+        s->why, RB_MAXITER, "friction law: at %s %g the force jumps past the given value",
+        s->model->rc->formulation == RB_STATIC ? "a shift of" : "creepage", s->side * x[1]);
 }
 
 /* The iteration with a given force, from the current state.  A force that refers to the
@@ -422,7 +442,7 @@ static rb_status solve_between(search *s, double from, double to, double small)
 static rb_status solve_force(rb_rolling_model *model, rb_message *why)
 {
     rb_contact_problem *p = &model->problem;
-    search by = {model, rb_alloc((size_t)p->n, 1), 1.0, 0.0, why};
+    search by = {model, rb_alloc((size_t)p->n, 1), 1.0, 0.0, 0.0, why};
     double x[3] = {0.0}, f[3] = {0.0};
     rb_status s = by.start ? RB_OK : RB_ENOMEM;
 
@@ -431,7 +451,7 @@ static rb_status solve_force(rb_rolling_model *model, rb_message *why)
         memcpy(by.start, p->bound, (size_t)p->n * sizeof *by.start);
         s = lack(&by, 0.0, &f[0]);
     }
-    const double small =
+    const double small = by.small =
         0.1 * fmax(model->rc->contact.tol, p->rounding) * rb_contact_capacity(p, &model->state);
     if (s == RB_OK && fabs(f[0]) > small) {
         by.side = f[0] > 0.0 ? 1.0 : -1.0;
@@ -439,10 +459,13 @@ static rb_status solve_force(rb_rolling_model *model, rb_message *why)
         s = go_on(&by, x, f);
         if (s == RB_OK && f[1] > 0.0) {
             model->state.refused_at = by.side * x[1];
+            const int rests = model->rc->formulation == RB_STATIC;
             s = rb_fail(why, RB_EINVAL,
                         "force Q = %.10g N/mm: with this friction law the largest is %g N/mm, "
-                        "at creepage %g",
-                        p->force, rb_largest_shown(p->force + by.side * f[1]), by.side * x[1]);
+                        "at %s %g%s",
+                        p->force, rb_largest_shown(p->force + by.side * f[1]),
+                        rests ? "a shift of" : "creepage",
+                        by.side * x[1] + (rests ? model->shift : 0.0), rests ? " mm" : "");
         } else if (s == RB_OK) {
             /* The force is lacking at x[0] and reached at x[1].  Where a creepage has
              * several states and the search falls on one or another of them, the force
@@ -481,11 +504,25 @@ static rb_status follow_force(rb_rolling_model *model)
     return s == RB_OK ? measure(model, NULL) : s;
 }
 
+/* At rest, from the coefficients before the step: the rounds come down to the state with the most
+ * friction, that which follows from them (F6). */
+static void begin_at_rest(rb_rolling_model *model)
+{
+    const double *x = model->bodies.f.x, *carried = model->carried.mu;
+    rb_contact_problem *p = &model->problem;
+
+    for (int i = 0; i < p->n; i++)
+        p->bound[i] = carried ? carried[i] : rb_rolling_law_at_rest(model->rc, x[i]);
+    rb_contact_set_friction(p, p->mu, p->bound);
+}
+
 rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *why)
 {
     const int follows = model->follows;
     rb_status s = RB_MAXITER;
 
+    if (model->rc->formulation == RB_STATIC)
+        begin_at_rest(model);
     model->follows = 0;
     if (model->problem.force_given && follows) {
         s = follow_force(model);
@@ -553,9 +590,11 @@ rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa)
     double *scratch;
 
     *kappa = most < 0 ? 0.0 : fmax(0.0, rb_rolling_law_kappa_of(model, most));
-    if (model->rc->formulation != RB_TRANSIENT)
+    if (model->rc->formulation == RB_STEADY)
         return RB_OK;
     *kappa = NAN;
+    if (model->rc->formulation == RB_STATIC) /* it follows its path (F6) */
+        return RB_OK;
     if (!(scratch = rb_alloc((size_t)p->n, 4)))
         return RB_ENOMEM;
     *kappa = model->rc->speed * largest_answer(p, model->state.p, scratch) / p->e_T[0] *

@@ -188,12 +188,47 @@ static int short_memory(const rb_rolling_case *rc, const rb_rolling_solution *s,
 static int row_of_steps(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
     (void)rc;
-    return s->row_changed > 0 &&
+    return s->rows.changed > 0 &&
            say(text,
                "Row %d of the history is not certain: twice the steps still change its tractions "
                "by "
                "%.2g of what the load makes. Give rows between, or --increments.",
-               s->row_changed, s->row_changes);
+               s->rows.changed, s->rows.changes);
+}
+
+/* Of friction that falls with the slid distance; kinetic energy is no part of the model. */
+static int jumps(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    (void)rc;
+    return s->rows.jumped > 0 &&
+           say(text,
+               "In row %d of the history the contact jumps to full sliding, at shift %.4g %s, force "
+               "%.4g %s; the energy that is set free is no part of the model.",
+               s->rows.jumped, s->rows.jump_shift, rb_unit_name(s->units, "mm"), s->rows.jump_force,
+               rb_unit_name(s->units, "N/mm"));
+}
+
+/* At rest friction falls with the slid distance, over a length of the surface that elements must
+ * show (F6). */
+static int coarse_fall(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    double longest = 0.0;
+
+    if (rc->formulation != RB_STATIC || !rb_rolling_law_depends_on_state(rc))
+        return 0;
+    const double falls = rb_rolling_law_at_rest(rc, 0.0) - rc->mu,
+                 p0 = rb_unit_stored(s->units, "MPa", s->max_pressure);
+    for (int i = 0; i < s->n; i++)
+        if (s->zone[i] > RB_ZONE_STICK)
+            longest = fmax(longest, rb_unit_stored(s->units, "mm", s->h[i]));
+    const double needs = rc->friction.memory * rb_rolling_derive(rc).modulus / (falls * p0);
+    return falls > 0.0 && longest > needs &&
+           say(text,
+               "Friction falls over %.2g %s of the surface behind the edge of stick, and the "
+               "elements are longer, %.2g %s: give %.0f --contact-elements.",
+               rb_unit_shown(s->units, "mm", needs), rb_unit_name(s->units, "mm"),
+               rb_unit_shown(s->units, "mm", longest), rb_unit_name(s->units, "mm"),
+               ceil(rc->contact_elements * longest / needs));
 }
 
 /* A number of corners, at most MOST of them with their places. */
@@ -554,6 +589,8 @@ static const struct {
     {"near-datum", near_datum, 0},
     {"short-memory", short_memory, 0},
     {"row-of-steps", row_of_steps, 0},
+    {"jumps", jumps, 0},
+    {"coarse-fall", coarse_fall, 0},
     {"gap-corners", gap_corners, 0},
     {"irregularity-corners", irregularity_corners, 0},
     {"coarse-elements", coarse_elements, 0},

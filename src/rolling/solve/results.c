@@ -363,7 +363,7 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc,
     case RB_FOR_LAW:
         return rc->friction.law != RB_FRICTION_constant || rc->friction.heat != 0.0 || mu_varies;
     case RB_FOR_MOVING_LAW:
-        return rb_rolling_law_depends_on_state(rc);
+        return rb_rolling_law_depends_on_state(rc) && rc->formulation != RB_STATIC;
     case RB_FOR_WAY:
         return mu_varies;
     case RB_FOR_MEMORY:
@@ -436,6 +436,8 @@ void rb_rolling_solution_convert(rb_rolling_solution *s, rb_units units)
         return;
     rb_rolling_numbers_convert(&rb_rolling_solution_scalars, s, units);
     rb_rolling_columns_convert(&rb_rolling_solution_columns, s->n, s, units);
+    s->rows.jump_shift = rb_unit_shown(units, "mm", s->rows.jump_shift);
+    s->rows.jump_force = rb_unit_shown(units, "N/mm", s->rows.jump_force);
     for (int k = 0; k < s->patches; k++)
         rb_rolling_numbers_convert(&rb_rolling_patch_scalars, &s->patch[k], units);
 }
@@ -453,6 +455,8 @@ void rb_rolling_history_convert(rb_rolling_history *h, rb_units units)
     h->half_width = rb_unit_shown(units, "mm", h->half_width);
     h->step = rb_unit_shown(units, "mm", h->step);
     h->cycle_work = rb_unit_shown(units, "N", h->cycle_work);
+    h->rows.jump_shift = rb_unit_shown(units, "mm", h->rows.jump_shift);
+    h->rows.jump_force = rb_unit_shown(units, "N/mm", h->rows.jump_force);
 }
 
 void rb_rolling_wear_history_convert(rb_rolling_wear_history *h, rb_units units)

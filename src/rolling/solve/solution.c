@@ -280,8 +280,7 @@ rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_
                             ? s->max_pressure / rb_rolling_derive(model->rc).modulus
                             : 0.5 * s->half_width / rb_rolling_radius(model->rc);
     s->equal_instead = model->equal_instead;
-    s->row_changes = model->row_changes;
-    s->row_changed = model->row_changed;
+    s->rows = model->rows;
     s->slip_operator = model->rc->slip_operator;
     s->kappa = NAN;
     if (rb_rolling_law_depends_on_state(model->rc))
