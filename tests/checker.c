@@ -412,7 +412,7 @@ static void check_contact(const contact *c, const table *t)
 }
 
 /* The coefficients by the law, from the printed slip and temperatures; with memory of a
- * transient only their range is known. */
+ * transient, or of more than a step at rest, only their range is known. */
 static void check_law(contact *c, const table *t, const json_t *object, const rows *controls)
 {
     const json_t *printed = json_object_get(object, "mu");
@@ -424,7 +424,8 @@ static void check_law(contact *c, const table *t, const json_t *object, const ro
     const int follows_way = controls && column_of(controls->header, "mu") >= 0;
     /* particles may remember what the history had before */
     const double most = largest_mu(c->inputs, number(c->inputs, "mu"));
-    c->moves = c->formulation != STATIC && (heats || listed(c->inputs, "mu-fall", 0));
+    const double falls = listed(c->inputs, "mu-fall", 0) + listed(c->inputs, "mu-fall", 1);
+    c->moves = c->formulation != STATIC ? heats || falls != 0.0 : d > 0.0 && falls != 0.0;
     c->mu_of = doubles((size_t)t->n);
     if ((printed != NULL) == (is_one && !follows_way))
         violated("friction law", "the column mu does not follow --friction-law");
@@ -437,7 +438,15 @@ static void check_law(contact *c, const table *t, const json_t *object, const ro
         c->mu_of[i] = !printed ? mu : json_number_value(json_array_get(printed, (size_t)i));
         if (c->mu_of[i] < 0.0 || c->mu_of[i] > most * (1.0 + 1e-12))
             violated("friction law", "element %d: mu = %g", i + 1, c->mu_of[i]);
-        if (d > 0.0 && c->moves && c->formulation == TRANSIENT)
+        if (d > 0.0 && c->moves && c->formulation == STATIC) {
+            if (c->mu_of[i] < c->last_mu * (1.0 - 1e-12))
+                violated("friction law", "element %d: mu = %g below the kinetic one", i + 1,
+                         c->mu_of[i]);
+            const int slips = t->column[ZONE][i] != SEPARATED && t->column[ZONE][i] != STICK;
+            if (slips) /* at once kinetic but for what it has slid */
+                mu = c->last_mu + falls * exp(-fabs(t->column[SHIFT][i]) / d);
+        }
+        if (d > 0.0 && c->moves && (c->formulation == TRANSIENT || c->steps))
             continue;
         if (d > 0.0 && c->moves && !open) {
             const double next = i + 1 < t->n ? t->column[X][i + 1] - x : t->column[H][i];
@@ -1176,7 +1185,17 @@ static void check_summary(const contact *c, const char *path)
         char room[400];
         snprintf(room, sizeof room, "%.*s", (int)strcspn(line + 1, "\n"), line + 1);
         const char *at = strstr(room, said[k].before);
-        const double want = number(c->summary, said[k].key);
+        double want = number(c->summary, said[k].key);
+        /* "N touch without friction, " are among those that slip in JSON, and stand before both */
+        const char *touch = strstr(room, " touch without friction, ");
+        if (touch && strcmp(said[k].key, "stick") == 0)
+            at = strstr(touch, " stick, ") ? touch + strlen(" touch without friction") : NULL;
+        if (touch && strcmp(said[k].key, "slip") == 0) {
+            const double touching = strtod(strstr(room, ": ") + 2, NULL);
+            if (!at && touching != want)
+                violated("summary", "%g touch, in JSON %g slip", touching, want);
+            want -= touching;
+        }
         if (!at)
             continue;
         double tol = 6e-5 * fabs(want) + 1e-12;

@@ -986,6 +986,25 @@ TEST(what_sticks_heals)
     free(seen.zone);
 }
 
+/* A column mu moves the coefficients of what sticks as well. */
+TEST(a_kinetic_coefficient_may_change_at_rest)
+{
+    static const double shift[] = {0.0, 1e-4, 2e-4}, mu[] = {0.3, 0.3, 0.2};
+    const rb_rolling_program program = {.n = 3, .shift = shift, .mu = mu};
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_history) h;
+    const rb_rolling_case rc = pushed(40, 0.5, 36.788);
+    CHECK_OK(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &heard));
+    int sticks = 0;
+    for (int i = 0; i < model.mesh.n; i++) {
+        if (model.state.zone[i] == RB_ZONE_STICK) {
+            CHECK_ABS(model.problem.bound[i], 0.3, 1e-12, "element %d", i);
+            sticks++;
+        }
+    }
+    assert_true(sticks > 10);
+}
+
 /* ---- Refusals ---------------------------------------------------------------------- */
 
 static void refused(const rb_rolling_case *rc, const char *says)

@@ -175,7 +175,8 @@ const rb_option rb_case_table[] = {
                    .unset = "none", .list = PLACE(law.slip_scales)),
     RB_NUMBER_LINE("memory", PLACE(law.memory), "mm", RB_ABOVE(0),
                    "d[,s0]: the coefficient approaches the law over a sliding distance "
-                   "d; at rest it changes as if sliding at s0 (1 mm/s)",
+                   "d; at rest it changes as if sliding at s0 (1 mm/s); static cases whose "
+                   "friction falls need it",
                    .unset = "none", .list = PLACE(law.memories)),
     RB_NUMBER_LINE("mu-heat", PLACE(law.heat), "-", RB_ANY,
                    "dmu,Tref,dT: mu changes linearly by dmu while the surface temperature "

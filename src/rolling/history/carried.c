@@ -141,8 +141,9 @@ static rb_status create_friction(rb_rolling_particles *r, rb_message *why)
     return r->mu ? RB_OK : RB_ENOMEM;
 }
 
-/* Those at the former places of the particles.  At rest, where bodies have a time, what has not
- * slid in the step before has healed since then (F6). */
+/* Those at the former places of the particles.  At rest particles carry how far they are above the
+ * kinetic coefficient, which a program may change; and where bodies have a time, what has not slid
+ * in the step before has healed since then (F6). */
 static rb_status bring_friction(rb_rolling_particles *r, const rb_rolling_stride *stride,
                                 rb_message *why)
 {
@@ -160,12 +161,19 @@ static rb_status bring_friction(rb_rolling_particles *r, const rb_rolling_stride
         return RB_OK;
     for (int i = 0; i < p->n; i++) {
         const double rest = rb_rolling_law_at_rest(r->model->rc, x[i]);
-        r->mu[i] = stride->c > 0.0 ? rb_rolling_friction_at(&now, x[i] + stride->c) : p->bound[i];
+        r->mu[i] = stride->c > 0.0 ? rb_rolling_friction_at(&now, x[i] + stride->c)
+                                   : p->bound[i] + (r->model->rc->mu - r->mu_given);
         if (stride->c == 0.0 && r->model->state.zone[i] <= RB_ZONE_STICK)
             r->mu[i] = rest + (r->mu[i] - rest) * healed;
     }
     r->model->carried.mu = r->mu;
     return RB_OK;
+}
+
+static void leave_friction(rb_rolling_particles *r, const rb_rolling_stride *stride)
+{
+    (void)stride;
+    r->mu_given = r->model->rc->mu;
 }
 
 /* ---- An interface that yields ------------------------------------------------------ */
@@ -260,7 +268,7 @@ typedef struct {
 /* What looks at the bodies of the step before stands before those that change. */
 static const memory memories[] = {
     {NULL, create_displacement, bring_displacement, NULL, 0},
-    {rb_rolling_law_depends_on_state, create_friction, bring_friction, NULL, 0},
+    {rb_rolling_law_depends_on_state, create_friction, bring_friction, leave_friction, 0},
     {yields, create_yielded, bring_yielded, NULL, 0},
     {rb_rolling_has_heat, create_heat, bring_heat, leave_heat, 0},
     {rb_rolling_relaxes, create_past, bring_past, leave_past, 1}};

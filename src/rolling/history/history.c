@@ -378,7 +378,7 @@ static rb_status compute_row(history_state *r, int steps, rb_message *why)
 typedef struct {
     rb_rolling_states state; /* one */
     int row, part;
-    double shift, half_width, interval;
+    double shift, half_width, interval, mu_given;
     double *past; /* coefficients of friction, plastic slip, displacements that the bodies bring,
                      and what those that relax remember */
 } bookmark;
@@ -400,6 +400,7 @@ static rb_status bookmark_set(const history_state *r, bookmark *b)
                     .shift = r->shift,
                     .half_width = model->half_width,
                     .interval = r->particles.interval,
+                    .mu_given = r->particles.mu_given,
                     .past = rb_alloc(2 * n + 2 * m + size, 1)};
     if (!b->past)
         return RB_ENOMEM;
@@ -423,6 +424,7 @@ static rb_status bookmark_return(bookmark *b, history_state *r, rb_message *why)
     r->part = b->part;
     r->shift = b->shift;
     model->half_width = b->half_width;
+    r->particles.mu_given = b->mu_given;
     rb_rolling_memory_track_restore(&r->particles.past, b->past + 2 * n + 2 * m);
     if (model->carried.yielded)
         memcpy(model->carried.yielded, b->past + n, n * sizeof *b->past);

@@ -64,6 +64,7 @@ typedef struct {
     rb_arena memory;               /* of all arrays that follow */
     double *w_T;                   /* n: tangential displacement that the next step starts from */
     double *mu;                    /* n: coefficients before the step */
+    double mu_given;               /* the coefficient of the case in the step before */
     double *yielded;               /* n + 1: plastic slip of the interface, to be moved with the
                                       particles */
     double *w;                     /* 2 (n + 1): displacements of the last step */
