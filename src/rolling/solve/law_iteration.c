@@ -228,11 +228,9 @@ static rb_status go_round(rb_rolling_model *model, int warm, rb_message *why)
     const double enough = enough_of(model);
     const int large = !rb_contact_operator_matrix(p->op).F;
     /* at rest the edge of slip moves by an element or less in a round (F6) */
-    const int moves = model->rc->formulation == RB_STATIC ? p->n : 0,
-              rounds = ROUNDS + 4 * moves;
+    const int moves = model->rc->formulation == RB_STATIC ? p->n : 0, rounds = ROUNDS + 4 * moves;
     double change = INFINITY, *mu = rb_alloc((size_t)p->n, 2);
-    relaxation r = {
-        .part = 1.0, .least = INFINITY, .before = INFINITY, .patience = WAITED + moves};
+    relaxation r = {.part = 1.0, .least = INFINITY, .before = INFINITY, .patience = WAITED + moves};
     rb_anderson faster;
     rb_status s = rb_anderson_init(large ? p->n : 0, &faster);
 

@@ -202,7 +202,8 @@ static int jumps(const rb_rolling_case *rc, const rb_rolling_solution *s, char *
     (void)rc;
     return s->rows.jumped > 0 &&
            say(text,
-               "In row %d of the history the contact jumps to full sliding, at shift %.4g %s, force "
+               "In row %d of the history the contact jumps to full sliding, at shift %.4g %s, "
+               "force "
                "%.4g %s; the energy that is set free is no part of the model.",
                s->rows.jumped, s->rows.jump_shift, rb_unit_name(s->units, "mm"), s->rows.jump_force,
                rb_unit_name(s->units, "N/mm"));
