@@ -147,6 +147,22 @@ typedef struct rb_contact_state {
                           than that; otherwise 0 */
 } rb_contact_state;
 
+/* What is proved of a state (docs/proof.md): the discrete problem has a solution with these
+ * zones.  Bounds and distances as parts of the largest pressure. */
+enum { RB_CONTACT_UNDECIDED = 8 };
+typedef struct {
+    int asked, proved;       /* asked 0: no proof was tried */
+    const char *reason;      /* why not; static text */
+    char where[32];          /* the condition that is not proved, such as gap[17]; "": none */
+    double bound_p, bound_q; /* of p and q as computed again by the proof */
+    double stored_within;    /* of the state's own p and q */
+    int undecided;           /* elements whose zone is open: two zones meet there to rounding */
+    int element[RB_CONTACT_UNDECIDED]; /* the first of them, from 1 */
+    int isolated; /* no other solution has nearly the same tractions, gaps and slips */
+    double nearby, margin, norm; /* as of rb_lcp_proof */
+    int steps, steps_proved;     /* of a case with steps; 0: none */
+} rb_contact_proof;
+
 rb_status rb_contact_state_alloc(int n, rb_contact_state *state);
 void rb_contact_state_free(rb_contact_state *state);
 

@@ -397,8 +397,9 @@ typedef struct {
                                   the case has no heat conduction */
     double max_temperature_at; /* [length] */
     double peclet;             /* V a/(2 diffusivity of A), a the half-width */
-    double kappa; /* (F3) for a friction law that depends on the state; above 1 there may
-                     be several solutions; otherwise NAN */
+    double kappa;           /* (F3) for a friction law that depends on the state; above 1 there may
+                               be several solutions; otherwise NAN */
+    rb_contact_proof proof; /* asked 0: none was asked for */
     double seconds_assembly, seconds_factor, seconds_condense, seconds_lcp, seconds_total;
 } rb_rolling_solution;
 

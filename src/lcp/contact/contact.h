@@ -104,4 +104,12 @@ rb_status rb_contact_lcp_first(const rb_contact_problem *problem, const rb_conta
  * conditions that they violate show where the zones are wrong. RB_SINGULAR, RB_ENOMEM. */
 rb_status rb_contact_try_zones(rb_contact_problem *problem, rb_contact_state *state, double *gap);
 
+/* ---- Proof ------------------------------------------------------------------------- */
+
+/* Proves that the problem has a solution with the zones of the state, or tells what is not
+ * proved.  Without matrices they are formed up to 1500 elements.  RB_OK: it ran, see
+ * proof->proved; RB_SINGULAR, RB_INTERRUPTED, RB_ENOMEM. */
+rb_status rb_contact_prove(const rb_contact_problem *problem, const rb_contact_state *state,
+                           rb_contact_proof *proof, rb_message *why);
+
 #endif

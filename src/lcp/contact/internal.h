@@ -172,6 +172,11 @@ void rb_contact_classify(const rb_contact_problem *problem, double tol, rb_conta
  * normal and tangential problems.  RB_MAXITER: it cycles; RB_SINGULAR. */
 rb_status rb_contact_newton(rb_contact_problem *problem, int warm, rb_contact_state *state);
 
+/* ---- solve.c ----------------------------------------------------------------------- */
+
+/* Whether the given force is all that friction can carry. */
+int rb_contact_slides_fully(const rb_contact_problem *problem);
+
 /* ---- path.c ------------------------------------------------------------------------ */
 
 /* Follows the path from the zones of the state, which should be nearly right, by changing

@@ -439,8 +439,7 @@ static rb_status solve_yielding(rb_contact_problem *problem, const rb_contact_op
 
 /* ---- Full sliding ------------------------------------------------------------------ */
 
-/* Whether the given force is all that friction can carry. */
-static int slides_fully(const rb_contact_problem *problem)
+int rb_contact_slides_fully(const rb_contact_problem *problem)
 {
     return problem->force_given && problem->force == 0.0 && problem->axle == 0.0 &&
            fabs(problem->force_ratio) >= 1.0 - 1e-12;
@@ -592,7 +591,7 @@ static rb_status solve_cone(rb_contact_problem *problem, const rb_contact_option
 
     state->delta = problem->delta;
     state->xi = problem->xi;
-    if (slides_fully(problem))
+    if (rb_contact_slides_fully(problem))
         s = solve_full_sliding(problem, options, state, why);
     else if (problem->load_given || problem->force_given)
         s = solve_given(problem, options, 0, state, why);
@@ -615,8 +614,9 @@ rb_status rb_contact_solve(rb_contact_problem *problem, const rb_contact_options
     state->iterations = 0;
     state->refused_at = 0.0;
     rb_status s = options->solver == RB_SOLVER_CONE ? solve_cone(problem, options, state, why)
-                  : slides_fully(problem) ? solve_full_sliding(problem, options, state, why)
-                                          : solve_given(problem, options, warm, state, why);
+                  : rb_contact_slides_fully(problem)
+                      ? solve_full_sliding(problem, options, state, why)
+                      : solve_given(problem, options, warm, state, why);
 
     if (s > 0 && problem->force_given && (problem->force != 0.0 || problem->axle > 0.0)) {
         const rb_status t = check_capacity(problem, options, state, why);

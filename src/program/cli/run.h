@@ -13,6 +13,8 @@ typedef struct {
     rb_report_style style;     /* of the snapshots */
     int every;                 /* steps from one to the next; the last step has one too */
     rb_rolling_states *states; /* of all steps, overwritten; or NULL */
+    rb_contact_proof *proof;   /* of the last step, with the number of steps that are proved; or
+                                  NULL */
 } cli_steps;
 
 /* The tractions after that step as a file of the folder: step_000012.tsv, or .csv.  rc

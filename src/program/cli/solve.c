@@ -10,7 +10,7 @@
 
 typedef struct {
     /* options */
-    int trace, all_solutions, states;
+    int trace, all_solutions, states, prove;
     const char *dump, *fclib, *history_table, *history_plot;
     const char *derivatives, *smooth, *tolerance;
     cli_steps steps;
@@ -18,6 +18,7 @@ typedef struct {
     rb_case_result r;
     rb_rolling_solutions all; /* n = 0: not asked for */
     rb_rolling_states kept;   /* of every step; n = 0: likewise */
+    rb_contact_proof proof;
     rb_report_derivatives shown;
     rb_case_derivatives slopes;
     rb_case_tolerances tolerances;
@@ -40,6 +41,9 @@ static const rb_option options[] = {
                  "steady, friction that depends on the slip or the temperature: solutions "
                  "that differ, each with its residual, on standard error and as solutions "
                  "in JSON"),
+    RB_FLAG_LINE("prove", PLACE(prove),
+                 "prove that the discrete problem has a solution with these zones, and bound the "
+                 "distance of p and q from it; of a case with steps each step"),
 
     RB_TEXT_LINE("derivatives", PLACE(derivatives), "RESULT,...",
                  "derivatives of these results (without names: of all) with respect to "
@@ -211,7 +215,11 @@ static rb_status solve(cli_case_run *run, rb_message *why)
     const int steps = rb_case_has_steps(run->c);
     it->steps.states =
         it->states || (steps && (it->derivatives || it->tolerance)) ? &it->kept : NULL;
+    it->steps.proof = it->prove ? &it->proof : NULL;
     rb_status s = cli_run_case(run->c, &it->steps, &it->r, why);
+    if (s == RB_OK && it->prove && !steps)
+        s = rb_contact_prove(&it->r.model.problem, &it->r.model.state, &it->proof, why);
+    it->r.solution.proof = it->proof;
     if (s == RB_OK && it->all_solutions)
         s = rb_rolling_find_solutions(&it->r.model, &it->all, why);
     if (s == RB_OK && steps && (it->derivatives || it->tolerance)) {
@@ -288,6 +296,8 @@ static cli_exit check(cli_case_run *run)
                                    "--trace, which show one of them");
     if (it->all_solutions && (!isnan(c->rc.force) || !isnan(c->rc.force_ratio) || c->rc.free_axle))
         return cli_fail(CLI_USAGE, "--all-solutions: at a given creepage, not under a given force");
+    if (it->prove && !model_kept)
+        return cli_fail(CLI_USAGE, "--prove: not together with error bars");
     if (it->smooth && (it->derivatives || it->tolerance))
         return cli_fail(CLI_USAGE, "--smooth-derivatives: not together with --%s",
                         it->derivatives ? "derivatives" : "tolerance");

@@ -146,6 +146,8 @@ json_t *rb_report_json_summary(const rb_rolling_solution *s)
     if (s->boundary_elements > 0)
         rb_report_json_set(&summary, "boundary_matrix",
                            json_string(s->hierarchical ? "hierarchical" : "dense"));
+    if (s->proof.asked)
+        rb_report_json_set(&summary, "proof", rb_report_json_contact_proof(&s->proof));
     rb_report_json_set(&summary, "integrals", json_string(rb_bem_vector_name()));
     rb_report_json_set(&summary, "openblas", json_string(rb_blas_core()));
     set_results(&times, &rb_rolling_solution_scalars, s, 1);

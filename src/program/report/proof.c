@@ -53,3 +53,68 @@ json_t *rb_report_json_proof(const rb_lcp_proof *p)
     rb_report_json_set(&object, "norm", rb_report_json_number(p->norm));
     return object;
 }
+
+/* ---- Contact -------------------------------------------------------------------------- */
+
+const char *rb_report_contact_proof_status(const rb_contact_proof *p, char *text, size_t size)
+{
+    if (!p->proved)
+        snprintf(text, size, "not proved");
+    else if (p->undecided)
+        snprintf(text, size, "proved but for the zone of %d element%s", p->undecided,
+                 p->undecided == 1 ? "" : "s");
+    else
+        snprintf(text, size, "proved");
+    return text;
+}
+
+const char *rb_report_contact_proof_text(const rb_contact_proof *p, char *text, size_t size)
+{
+    char status[60];
+    snprintf(text, size, "%s", rb_report_contact_proof_status(p, status, sizeof status));
+    for (int k = 0; p->proved && k < p->undecided && k < RB_CONTACT_UNDECIDED; k++)
+        rb_append(text, size, "%s %d", k ? "," : "", p->element[k]);
+    if (p->undecided > RB_CONTACT_UNDECIDED)
+        rb_append(text, size, ", ...");
+    if (p->proved) {
+        if (!p->undecided)
+            rb_append(text, size, ": zones exact");
+        rb_append(text, size, ", p within %.2g of p0, q within %.2g", p->bound_p, p->bound_q);
+        if (p->isolated)
+            rb_append(text, size, ", isolated");
+    } else {
+        rb_append(text, size, ": %s", p->reason);
+        if (*p->where)
+            rb_append(text, size, " (%s)", p->where);
+    }
+    if (!p->proved && isfinite(p->nearby))
+        rb_append(text, size, "; exact for data within %.2g", p->nearby);
+    if (p->steps)
+        rb_append(text, size, " (%d of %d steps proved)", p->steps_proved, p->steps);
+    return text;
+}
+
+json_t *rb_report_json_contact_proof(const rb_contact_proof *p)
+{
+    char status[60];
+    json_t *object = json_object(), *elements = json_array();
+    for (int k = 0; k < p->undecided && k < RB_CONTACT_UNDECIDED; k++)
+        rb_report_json_append(&elements, json_integer(p->element[k]));
+    rb_report_json_set(&object, "status",
+                       json_string(rb_report_contact_proof_status(p, status, sizeof status)));
+    rb_report_json_set(&object, "reason", p->proved ? json_null() : json_string(p->reason));
+    rb_report_json_set(&object, "where", *p->where ? json_string(p->where) : json_null());
+    rb_report_json_set(&object, "bound_p", rb_report_json_number(p->bound_p));
+    rb_report_json_set(&object, "bound_q", rb_report_json_number(p->bound_q));
+    rb_report_json_set(&object, "stored_within", rb_report_json_number(p->stored_within));
+    rb_report_json_set(&object, "undecided", elements);
+    rb_report_json_set(&object, "isolated", json_boolean(p->proved && p->isolated));
+    rb_report_json_set(&object, "nearby", rb_report_json_number(p->nearby));
+    rb_report_json_set(&object, "margin", rb_report_json_number(p->margin));
+    rb_report_json_set(&object, "norm", rb_report_json_number(p->norm));
+    if (p->steps) {
+        rb_report_json_set(&object, "steps", json_integer(p->steps));
+        rb_report_json_set(&object, "steps_proved", json_integer(p->steps_proved));
+    }
+    return object;
+}

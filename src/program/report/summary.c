@@ -72,6 +72,11 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
         fprintf(out, "Lemke (%s form), %d pivots", rb_case_word("lcp-form", (int)s->lcp_form),
                 s->iterations);
     fprintf(out, ", residual %.2g\n", s->residual);
+    if (s->proof.asked) {
+        char text[400];
+        fprintf(out, "  proof     %s\n",
+                rb_report_contact_proof_text(&s->proof, text, sizeof text));
+    }
     const char *load = rb_unit_name(s->units, "N/mm"), *mm = rb_unit_name(s->units, "mm"),
                *stress = rb_unit_name(s->units, "MPa");
     fprintf(out, "  load      P = %.6g %s, Q = %.6g %s", s->normal_load, load,

@@ -1,0 +1,173 @@
+/* Proof that the contact problem has a solution with these zones: its pivoted form (K5), whose
+ * coefficients are those of the operator, and the unknowns that the state means. */
+#include "lcp/contact/contact.h"
+#include "lcp/contact/internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Of an operator without matrices they are formed up to this number of elements. */
+enum { MOST_FORMED = 1500 };
+/* Below this part of mu p a distance to the bound of friction is rounding: where the proof begins.
+ */
+static const double NOTHING = 1e-12;
+
+/* The matrices of products, column by column. */
+static rb_status form_matrices(const rb_contact_problem *p, double **F, rb_contact_operator **op)
+{
+    const int n = p->n;
+    const size_t length = (size_t)n;
+    rb_arena scratch = {0};
+    double *unit = rb_arena_doubles(&scratch, 2 * length, 1);
+    *F = rb_alloc(length, 2 * length);
+    double *S = rb_alloc(length, 2 * length);
+    if (scratch.failed || !*F || !S) {
+        free(S);
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    }
+    for (size_t j = 0; j < 2 * length; j++) {
+        unit[j] = 1.0;
+        rb_contact_operator_add(p->op, unit, unit + length, *F + j * length, S + j * length);
+        unit[j] = 0.0;
+    }
+    rb_arena_free(&scratch);
+    return rb_contact_operator_dense(n, *F, n, S, op);
+}
+
+/* z of the pivoted form that the state means; its inverse is rb_contact_lcp_recover. */
+static void unknowns(const rb_contact_problem *p, const rb_contact_lcp *lcp,
+                     const rb_contact_state *s, double *z)
+{
+    const int n = p->n, borders = (lcp->yields ? 5 : 3) * n;
+    const double o = lcp->mirrored ? -1.0 : 1.0;
+    memset(z, 0, (size_t)lcp->size * sizeof *z);
+    for (int i = 0; i < n; i++) {
+        const double most = p->bound[i] * s->p[i], plastic = p->yield ? o * s->plastic[i] : 0.0;
+        double gamma = o * s->q[i] + most, slip = o * s->lambda[i] - plastic;
+        if (s->zone[i] == RB_ZONE_SEPARATED || gamma <= NOTHING * most)
+            gamma = 0.0;
+        if (fabs(slip) <= NOTHING * fabs(s->lambda[i]))
+            slip = 0.0; /* all of it is plastic */
+        z[i] = s->p[i];
+        z[n + i] = gamma;
+        z[2 * n + i] = s->zone[i] == RB_ZONE_STICK ? 0.0 : fmax(0.0, -slip);
+        if (lcp->yields) {
+            z[3 * n + i] = fmax(0.0, plastic);
+            z[4 * n + i] = fmax(0.0, -plastic);
+        }
+    }
+    if (p->load_given)
+        z[borders] = s->delta - lcp->delta0;
+    if (p->force_given)
+        z[borders + p->load_given] = fabs(s->xi - lcp->xi0);
+    for (int k = 0; k < lcp->size; k++)
+        z[k] /= lcp->z_scale[k];
+}
+
+/* What a proof of the LCP says of tractions: bounds as parts of the largest pressure. */
+static void translate(const rb_contact_problem *p, const rb_contact_lcp *lcp,
+                      const rb_contact_state *s, const rb_lcp_proof *of, rb_contact_proof *proof)
+{
+    const int n = p->n;
+    const double o = lcp->mirrored ? -1.0 : 1.0, u = 0x1p-50;
+    double most = 0.0;
+    proof->isolated = of->isolated;
+    proof->margin = of->margin;
+    for (int i = 0; i < n; i++)
+        most = fmax(most, of->z[i] * lcp->z_scale[i]);
+    most = most > 0.0 ? most : p->stress;
+    proof->bound_p = proof->bound_q = proof->stored_within = 0.0;
+    for (int i = 0; i < n; i++) {
+        /* 8 u pay for the rounding of these few operations themselves */
+        const double r_N = of->z[i] * lcp->z_scale[i], gamma = of->z[n + i] * lcp->z_scale[n + i],
+                     e_N = (of->error[i] * lcp->z_scale[i] + u * fabs(r_N)) * (1.0 + u),
+                     r_T = o * (gamma - p->bound[i] * r_N),
+                     e_T = (of->error[n + i] * lcp->z_scale[n + i] + p->bound[i] * e_N +
+                            u * (fabs(gamma) + p->bound[i] * fabs(r_N))) *
+                           (1.0 + u);
+        proof->bound_p = fmax(proof->bound_p, e_N / most * (1.0 + u));
+        proof->bound_q = fmax(proof->bound_q, e_T / most * (1.0 + u));
+        proof->stored_within =
+            fmax(proof->stored_within,
+                 fmax(fabs(s->p[i] - r_N) + e_N, fabs(s->q[i] - r_T) + e_T) / most * (1.0 + u));
+        /* A separated element has a slip of any sign, one without friction a direction that means
+         * nothing: their zones are known. */
+        int open = of->state[i] == RB_LCP_UNDECIDED;
+        for (int k = 1; k * n + i < (lcp->yields ? 5 : 3) * n; k++)
+            open |= of->state[k * n + i] == RB_LCP_UNDECIDED && of->state[i] == RB_LCP_BASIC &&
+                    p->bound[i] > 0.0;
+        if (open && proof->undecided++ < RB_CONTACT_UNDECIDED)
+            proof->element[proof->undecided - 1] = i + 1;
+    }
+}
+
+rb_status rb_contact_prove(const rb_contact_problem *problem, const rb_contact_state *state,
+                           rb_contact_proof *proof, rb_message *why)
+{
+    const int n = problem->n;
+    rb_contact_problem p = *problem; /* the arrays stay the problem's */
+    rb_contact_operator *formed = NULL;
+    rb_contact_lcp lcp = {0};
+    rb_sparse M = {0};
+    rb_lcp_proof of = {0};
+    double *z = NULL, *F = NULL;
+    rb_status s = RB_OK;
+    *proof = (rb_contact_proof){.asked = 1,
+                                .reason = "",
+                                .bound_p = NAN,
+                                .bound_q = NAN,
+                                .stored_within = NAN,
+                                .nearby = NAN,
+                                .margin = NAN,
+                                .norm = NAN};
+    if (!rb_contact_operator_matrix(p.op).F) {
+        if (n > MOST_FORMED) {
+            proof->reason = "too many elements for a matrix";
+            return RB_OK;
+        }
+        s = form_matrices(problem, &F, &formed);
+        p.op = formed;
+    }
+    /* Under all that friction can carry every larger creepage will do: it is taken as given. */
+    if (rb_contact_slides_fully(problem)) {
+        p.force_given = 0;
+        p.xi = state->xi;
+    }
+    double sum = 0.0;
+    for (int i = 0; i < n; i++)
+        sum += state->zone[i] != RB_ZONE_SEPARATED ? state->lambda[i] : 0.0;
+    /* an xi0 on the far side of xi, so that xi' > 0 */
+    const double far = p.sliding + 2.0 * fabs(state->xi),
+                 xi0 = (state->xi < 0.0 ? -1.0 : 1.0) *
+                       (far > 0.0 ? far : p.slip_length / (rb_norm_1((size_t)n, p.e_T, 1) / n));
+    if (s == RB_OK)
+        s = rb_contact_lcp_create(&p, RB_LCP_PIVOTED, sum < 0.0, xi0, &lcp, why);
+    if (s == RB_OK) {
+        z = rb_alloc((size_t)lcp.size, 1);
+        s = z ? rb_sparse_from_dense(lcp.size, lcp.size, lcp.M, lcp.size, &M) : RB_ENOMEM;
+    }
+    if (s == RB_OK) {
+        unknowns(&p, &lcp, state, z);
+        s = rb_lcp_prove(&(rb_lcp_mixed_problem){.M = &M, .q = lcp.b}, z, &of);
+    }
+    if (s == RB_OK || s == RB_UNDECIDED) {
+        proof->proved = of.proved;
+        proof->nearby = of.nearby;
+        proof->norm = of.norm;
+        proof->reason = of.reason;
+        if (of.proved)
+            translate(&p, &lcp, state, &of, proof);
+        else if (of.row >= 0)
+            rb_contact_lcp_variable(&lcp, n, of.row, proof->where);
+        s = RB_OK;
+    }
+    rb_lcp_proof_free(&of);
+    rb_sparse_free(&M);
+    free(z);
+    rb_contact_lcp_free(&lcp);
+    rb_contact_operator_free(formed);
+    free(F);
+    return s == RB_OK || s == RB_INTERRUPTED
+               ? s
+               : rb_fail(why, s, "proof of %d contact elements: %s", n, rb_status_text(s));
+}
