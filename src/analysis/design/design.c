@@ -325,6 +325,25 @@ static rb_status differentiate(problem *p, const rb_case *at, const rb_rolling_c
     return status;
 }
 
+/* A result that the case has not, or that has no derivative, is no function to search with. */
+static rb_status check_known(problem *p, rb_rolling_formulation formulation)
+{
+    const rb_design *d = p->d;
+
+    for (int k = 0; k <= d->constraints; k++) {
+        const char *name = rb_design_result_name(k == 0 ? d->result : d->constraint[k - 1].result);
+        if (isnan(p->value[k]))
+            return rb_fail(p->why, RB_EINVAL, "design: this %scase has no %s%s",
+                           formulation == RB_STATIC ? "static " : "", name,
+                           formulation == RB_STATIC ? "; see --formulation steady" : "");
+        for (int j = 0; j < d->n; j++)
+            if (isnan(p->gradient[k * d->n + j]))
+                return rb_fail(p->why, RB_EINVAL, "design: %s has no derivative by %s here", name,
+                               d->variable[j].name);
+    }
+    return RB_OK;
+}
+
 static rb_status evaluate(problem *p, const double *x)
 {
     rb_design *d = p->d;
@@ -352,6 +371,7 @@ static rb_status evaluate(problem *p, const double *x)
     if (s == RB_OK) {
         read_functions(d, &solution, NULL, p->value, 1);
         s = differentiate(p, at, &rc, &model, &solution);
+        s = s == RB_OK ? check_known(p, rc.formulation) : s;
     }
     if (s == RB_OK) {
         if (d->evaluations++ == 0)

@@ -79,9 +79,10 @@ void cli_print_entry(const char *name, const char *text)
 FILE *cli_open_pager(void)
 {
     FILE *pager = NULL;
-    if (isatty(STDOUT_FILENO))
-        pager = popen("if [ -n \"$PAGER\" ]; then exec $PAGER; elif command -v less "
-                      ">/dev/null; then exec less -FRX; else exec cat; fi",
+    if (isatty(STDOUT_FILENO)) /* what does not start has read nothing */
+        pager = popen("if [ -n \"$PAGER\" ]; then eval \"$PAGER\"; case $? in 126|127) exec cat;; "
+                      "esac; elif command -v less >/dev/null; then exec less -FRX; else exec cat; "
+                      "fi",
                       "w");
     if (pager)
         dup2(fileno(pager), STDOUT_FILENO);
