@@ -87,24 +87,32 @@ static rb_status from_utf16(const char *path, char **text, size_t *size, rb_mess
                           : RB_OK;
 }
 
-/* A format that is read elsewhere, by how its files begin; NULL: another one. */
-static const char *kind_of(const char *text, size_t size)
+/* What a file of another format is by its first bytes and the ending of its name, and what reads
+ * it; NULL: nothing that is known. */
+static const char *known_format(const char *path, const char *text, size_t size)
 {
     static const struct {
-        const char *begins, *name;
+        const char *begins;
         size_t n;
-    } kinds[] = {
-        {"PK\3\4",
-         "an archive such as NumPy's .npz or a spreadsheet's .xlsx, expected text; the Python "
-         "package takes its arrays",
-         4},
-        {"\x93NUMPY", "an array of NumPy (.npy); the Python package reads it", 6},
-        {"MATLAB 5.0", "a file of MATLAB (.mat); the Python package reads it", 10},
-        {"\x89HDF\r\n", "an HDF5 file, expected text; the Python package takes its arrays", 6},
-        {"NFG ", "a game of Gambit (.nfg); the Python package reads it: rollbem.game", 4}};
-    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
-        if (size >= kinds[k].n && memcmp(text, kinds[k].begins, kinds[k].n) == 0)
-            return kinds[k].name;
+        const char *ending, *what; /* ending NULL: any */
+    } formats[] = {
+        {"\x93NUMPY", 6, NULL, "an array of NumPy (.npy); the Python package reads it"},
+        {"PK\3\4", 4, ".npz", "arrays of NumPy (.npz); the Python package reads them"},
+        {"PK\3\4", 4, ".xlsx", "an Excel workbook; save it as CSV"},
+        {"PK\3\4", 4, ".ods", "a spreadsheet; save it as CSV"},
+        {"PK\3\4", 4, NULL, "a zip archive; the Python package reads the arrays of NumPy's"},
+        {"\xd0\xcf\x11\xe0", 4, NULL, "an Excel workbook; save it as CSV"},
+        {"MATLAB 5.0", 10, NULL, "a file of MATLAB (.mat); the Python package reads it"},
+        {"\x89HDF", 4, NULL,
+         "an HDF5 file; those of FCLib are read by rollbem friction, those of MATLAB 7.3 by the "
+         "Python package"},
+        {"\x1f\x8b", 2, NULL, "compressed by gzip; unpack it"},
+        {"NFG ", 4, NULL, "a game of Gambit (.nfg); the Python package reads it: rollbem.game"}};
+    const char *ending = strrchr(path, '.');
+    for (size_t k = 0; k < sizeof formats / sizeof *formats; k++)
+        if (size >= formats[k].n && memcmp(text, formats[k].begins, formats[k].n) == 0 &&
+            (!formats[k].ending || (ending && strcmp(ending, formats[k].ending) == 0)))
+            return formats[k].what;
     return NULL;
 }
 
@@ -138,9 +146,9 @@ rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_messag
     if (s == RB_OK && *size >= 2 &&
         (memcmp(*text, "\xff\xfe", 2) == 0 || memcmp(*text, "\xfe\xff", 2) == 0))
         s = from_utf16(path, text, size, why);
-    const char *kind = s == RB_OK ? kind_of(*text, *size) : NULL;
-    if (kind)
-        s = rb_fail(why, RB_EFORMAT, "%s: %s", path, kind);
+    const char *format = s == RB_OK ? known_format(path, *text, *size) : NULL;
+    if (format)
+        s = rb_fail(why, RB_EFORMAT, "%s: expected text, got %s", path, format);
     /* What is no text is said to be none, before anything takes it for malformed numbers. */
     const char *zero = s == RB_OK ? memchr(*text, '\0', *size) : NULL;
     if (zero) {
