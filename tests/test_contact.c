@@ -365,8 +365,8 @@ TEST(what_is_left_out_is_said)
          "a step of viscoelastic bodies"},
         {1, "s/203100/213100/", "skipped: approximate pressure (B = 1)"},
         {1, "s/203100/203000/;s/25000\\./0.02/", "reaches the end of the potential contact"},
-        {0, "s/022020   L/022220   L/;/POISS/a 1 1 1 1", "the simplified theory (M = 2)"},
-        {0, "s/022020   L/022320   L/;/POISS/a 1 1 1 1", "that of Fastsim (M = 3)"},
+        {1, "s/022020   L/022220   L/;/POISS/a 1 1 1 1", "the simplified theory (M = 2) is not"},
+        {1, "s/022020   L/022320   L/;/POISS/a 1 1 1 1", "the simplified theory (M = 3) is not"},
         {0, "s/022020   L/022920   L/;/POISS/a 1 1 1 1", "the material (M = 9)"},
         {0, "s/1   1   IBASE/1   2   IBASE/;/^   0.0016/a 1 2 3 4 5 6", "the planform (IPLAN = 2)"},
         {0, "s/ 0000331/ 1000331/", "temperatures (H = 1)"},
@@ -388,6 +388,72 @@ TEST(what_is_left_out_is_said)
         if (code != all[k].code || !strstr(err, all[k].said))
             fail_msg("%s: %d, %s", all[k].change, code, err);
     }
+}
+
+/* Three cases: the words behind the module are a comment; one that is not of this program, or
+ * cannot be read, leaves the others alone. */
+TEST(other_cases_of_a_file_are_run)
+{
+    static const struct {
+        const char *file, *change, *said;
+        int code, status[3]; /* 1: solved */
+        double creepage[3];
+    } all[] = {
+        {"contact-lower.inp", "", "", 0, {1, 1, 1}, {-.00024, -.00048, -.00012}},
+        {"contact-lower.inp",
+         "s/MODULE//;s/module/% of CONTACT/",
+         "",
+         0,
+         {1, 1, 1},
+         {-.00024, -.00048, -.00012}},
+        {"contact-lower.inp", "s/MODULE/Module/", "", 0, {1, 1, 1}, {-.00024, -.00048, -.00012}},
+        {"contact-m2.inp",
+         "",
+         "contact-m2.inp:15: case 2 skipped: the simplified theory (M = 2)",
+         0,
+         {1, 0, 1},
+         {-.00024, 0, -.00024}},
+        {"contact-l6.inp",
+         "",
+         "case 2 skipped: friction that changes with the temperature (L = 6",
+         0,
+         {1, 0, 1},
+         {-.00024, 0, -.00024}},
+        {"contact-lower.inp",
+         "s/-0.00048/what/",
+         "case 2 skipped: what cannot be read (line 20: expected FN or PEN, CKSI or FX",
+         65,
+         {1, 0, 1},
+         {-.00024, 0, -.00012}}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        const int code = shellf("sed '%s' \"$PROJECT/tests/data/%s\" >%s; \"$R\" contact %s --json",
+                                all[k].change, all[k].file, all[k].file, all[k].file);
+        held_json *root = json_loads(out, 0, NULL);
+        const json_t *cases = json_object_get(root, "cases");
+        if (code != all[k].code || !strstr(err, all[k].said) || json_array_size(cases) != 3)
+            fail_msg("%zu: %d, %s", k, code, err);
+        for (size_t j = 0; j < 3; j++) {
+            const json_t *one = json_array_get(cases, j);
+            assert_string_equal(json_string_value(json_object_get(one, "status")),
+                                all[k].status[j] ? "solved" : "not run");
+            if (all[k].status[j])
+                CHECK_REL(number_in(one, "CKSI"), all[k].creepage[j], 1e-12, "%zu, case %zu", k,
+                          j + 1);
+        }
+    }
+    /* a case that takes over values of one that is not read is not run either */
+    assert_int_equal(shell("sed 's/-0.00048/what/;29,$ {s/022020/122020/;/FSTAT/d}' "
+                           "\"$PROJECT/tests/data/contact-lower.inp\" >two.inp; "
+                           "\"$R\" contact two.inp"),
+                     65);
+    assert_non_null(strstr(err, "case 3 skipped: what cannot be read (it takes over values of"));
+    /* nothing that could be run: no table of nothing */
+    assert_int_equal(shell("sed 's/  55   1   -1.0500/  55   3   -1.0500/' "
+                           "\"$PROJECT/tests/data/contact-lower.inp\" >three.inp; "
+                           "\"$R\" contact three.inp"),
+                     1);
+    assert_string_equal(out, "");
+    assert_non_null(strstr(err, "case 1, and 2 more cases skipped: three dimensions (MY = 3 rows"));
 }
 
 TEST(bad_files_are_refused)

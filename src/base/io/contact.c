@@ -6,7 +6,9 @@
 #include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 typedef struct {
     const char *path;
@@ -52,11 +54,18 @@ static void skip_line(reading *r)
         next_line(r);
 }
 
-static int is_module_line(const char *line, int *module)
+/* A line at which a case begins: the module, and behind it a comment.  Elsewhere the comment
+ * has to be the word module. */
+static int is_module_line(const char *line, int begins, int *module)
 {
-    int n = 0;
-    return sscanf(line, "%d%n", module, &n) == 1 &&
-           strncmp(line + n + strspn(line + n, " \t"), "MODULE", 6) == 0;
+    line += strspn(line, " \t");
+    const char *comment = line + 1 + strspn(line + 1, " \t\r");
+    if (!isdigit((unsigned char)*line) || (comment == line + 1 && *comment && *comment != '\n'))
+        return 0;
+    *module = *line - '0';
+    return strncasecmp(comment, "module", 6) == 0 ||
+           (begins && !isdigit((unsigned char)*comment) && !strchr("+-.", *comment)) ||
+           (begins && (!*comment || *comment == '\n'));
 }
 
 static void fail(reading *r, const char *names, const char *got)
@@ -216,6 +225,11 @@ static void read_case(reading *r, rb_io_contact_case *c)
     c->law = d->L == 1 ? c->law : d->L;
     if (d->L == 0) {
         read_numbers(r, 2, (double *[]){&c->fstat, &c->fkin}, "FSTAT, FKIN", NULL);
+    } else if (d->L == 6) {
+        read_numbers(r, 4, (double *[]){&c->fstat, NULL, NULL, NULL}, "FREF, TREF, DFHEAT, DTHEAT",
+                     NULL);
+        c->fkin = c->fstat;
+        read_numbers(r, 2, (double *[]){&c->memory, &c->memory_slip}, "MEMDST, MEM_S0", NULL);
     } else if (d->L > 1) {
         read_numbers(
             r, 5,
@@ -232,7 +246,7 @@ static void read_case(reading *r, rb_io_contact_case *c)
         read_numbers(r, 4, (double *[]){&c->poisson[0], &c->poisson[1], &c->shear[0], &c->shear[1]},
                      "POISS(1), POISS(2), GG(1), GG(2)", NULL);
     if (d->C >= 2 && d->M > 0)
-        read_numbers(r, 4,
+        read_numbers(r, d->M == 1 || d->M == 4 ? 4 : 1, /* of others no number is kept */
                      d->M == 1 ? (double *[]){&c->ratio[0], &c->ratio[1], &c->time[0], &c->time[1]}
                      : d->M == 4
                          ? (double *[]){&c->layer_shear, &c->layer, &c->yield, &c->hardening}
@@ -246,53 +260,107 @@ static void read_case(reading *r, rb_io_contact_case *c)
     read_gap(r, c);
 }
 
-/* 1: the module goes on with a case that has no line MODULE of its own, R = 0 or 2;
- * behind points below the surface and the like it is not found. */
-static int stays(reading *r, const rb_io_contact_case *c)
+/* 1: all lines of the case are read.  Points below the surface and the like are not. */
+static int is_whole(const reading *r, const rb_io_contact_case *c)
 {
     const rb_io_contact_digits *d = &c->digit;
-    int module;
-    return d->R % 2 == 0 && d->S < 2 && d->E < 9 && d->V == 0 && c->plan < 4 &&
-           isdigit((unsigned char)*find_line(r)) && !is_module_line(r->at, &module);
+    return r->status == RB_OK && d->S < 2 && d->E < 9 && d->V == 0 && c->plan < 4;
 }
 
-/* What a case has behind what is read here ends at the next line that says MODULE. */
+/* 1: the module goes on with a case that has no line of its module, R = 0 or 2. */
+static int stays(reading *r, const rb_io_contact_case *c)
+{
+    int module;
+    return c->digit.R % 2 == 0 && is_whole(r, c) && isdigit((unsigned char)*find_line(r)) &&
+           !is_module_line(find_line(r), 0, &module);
+}
+
+/* 1: the case takes over values or the state of the case before. */
+static int takes_over(const rb_io_contact_case *c)
+{
+    const rb_io_contact_digits *d = &c->digit;
+    return d->L == 1 || d->C < 2 || d->D < 2 || d->Z < 2 || ((d->T == 1 || d->T == 2) && d->P == 0);
+}
+
+/* Reads a case of module 3.  before: the values of the last one that was read; lost: 1 behind a
+ * case that was not. */
+static void read_or_tell(reading *r, const rb_io_contact_case *before, int *lost,
+                         rb_io_contact_case *c)
+{
+    rb_message *why = r->why, own = {""};
+    r->why = &own;
+    read_case(r, c);
+    r->why = why;
+    if (r->status == RB_EFORMAT) {
+        /* behind the name of the file, which the reader of the message knows */
+        const char *text = strncmp(own.text, r->path, strlen(r->path)) == 0
+                               ? own.text + strlen(r->path) + 1
+                               : own.text;
+        if (why && !why->text[0])
+            *why = own;
+        *c = *before;
+        snprintf(c->unread, sizeof c->unread, "line %.190s", text);
+        *lost = 1;
+    } else if (*lost && takes_over(c)) {
+        snprintf(c->unread, sizeof c->unread, "it takes over values of a case that is not read");
+    } else
+        *lost = c->digit.V != 0;
+}
+
+/* What a case has behind what is read here ends at the next line that says module. */
 rb_status rb_io_contact_read(const char *path, int *n, rb_io_contact_case **cases, rb_message *why)
 {
+    rb_message first = {""}; /* why the first case that is not read is not */
     reading r = {.path = path, .why = why};
     rb_io_contact_case now = {.potential = 1};
     char *text, *line;
     size_t size;
-    int module;
+    int module, begins = 1, lost = 0, read = 0;
     *n = 0;
     *cases = NULL;
     r.status = rb_io_read_text(path, &text, &size, why);
     if (r.status != RB_OK)
         return r.status;
     r.at = text;
+    r.why = &first;
     while (r.status == RB_OK && (line = next_line(&r)) != NULL) {
-        if (!is_module_line(line, &module))
+        if (!is_module_line(line, begins, &module)) {
+            begins = 0;
             continue;
+        }
         if (module == 0)
             break;
         now.line = r.line;
         do {
             rb_io_contact_case *more = realloc(*cases, sizeof *more * (size_t)(*n + 1));
             if (!more) {
-                r.status = rb_fail(why, RB_ENOMEM, "%s: out of memory", path);
+                r.status = RB_ENOMEM;
                 break;
             }
             *cases = more;
-            now.module = module;
+            rb_io_contact_case one = now;
+            one.module = module;
             if (module == 3)
-                read_case(&r, &now);
-            more[(*n)++] = now;
+                read_or_tell(&r, &now, &lost, &one);
+            more[(*n)++] = one;
+            read += !one.unread[0];
+            begins = module == 3 && !one.unread[0] && is_whole(&r, &one);
+            if (r.status == RB_EFORMAT) /* the next line of a module begins another case */
+                r.status = RB_OK;
+            else {
+                now = one;
+                now.unread[0] = '\0';
+            }
             now.line = r.line + 1;
-        } while (r.status == RB_OK && module == 3 && stays(&r, &now));
+        } while (r.status == RB_OK && begins && stays(&r, &now));
     }
-    if (r.status == RB_OK && *n == 0)
+    if (r.status == RB_ENOMEM)
+        rb_fail(why, RB_ENOMEM, "%s: out of memory", path);
+    else if (*n == 0)
         r.status = rb_fail(why, RB_EFORMAT,
                            "%s: no line such as '3 MODULE': not an input file of CONTACT", path);
+    else if (read == 0)
+        r.status = rb_fail(why, RB_EFORMAT, "%s", first.text);
     if (r.status != RB_OK) {
         free(*cases);
         *cases = NULL;

@@ -39,10 +39,13 @@ typedef struct {
     int base, plan;        /* IBASE, IPLAN */
     double b[6];           /* IBASE = 1 */
     double centre, radius; /* XM, RX1; IBASE = 2 */
+    char unread[200];      /* why the case could not be read; "": it was.  Its other members then
+                              have no meaning. */
 } rb_io_contact_case;
 
-/* All cases up to module 0 or the end.  Owned by the caller (free); RB_ENOENT, RB_EFORMAT
- * with file and line, RB_ENOMEM. */
+/* All cases up to module 0 or the end.  A case that cannot be read, or that takes over values
+ * of one, says so in `unread`; the others are read.  Owned by the caller (free); RB_ENOENT,
+ * RB_EFORMAT with file and line where no case can be read, RB_ENOMEM. */
 rb_status rb_io_contact_read(const char *path, int *n, rb_io_contact_case **cases, rb_message *why);
 
 #endif

@@ -44,7 +44,8 @@ static const char notes[] =
     "[N/mm] and the residual. FX_REL is FX/(FSTAT FN); FRIC_POWER is that of CONTACT, < 0.\n"
     "NPLAST elements yield, NSLIP others slip; UPL is what the third body has yielded.\n"
     "Exit codes: 0 all cases that could be run are solved; 1 less than half of the cases\n"
-    "could be run, or one was not solved; 65 malformed file; 66 no such file.\n";
+    "could be run, or one was not solved; 65 a case cannot be read, the others are run;\n"
+    "66 no such file.\n";
 
 typedef struct {
     const rb_io_contact_case *in;
@@ -208,7 +209,13 @@ int cli_contact(int argc, char **argv)
                                : "%s:%d: case %d%s skipped: %s is not supported",
                      all.path, r->in->line, k + 1, more, r->c.left_out);
         }
-        code = cli_write_file(all.o->output, print, &all);
+        for (int k = 0; k < all.n; k++)
+            if (cases[k].unread[0])
+                worst = CLI_DATA > worst ? CLI_DATA : worst;
+        /* a table of cases none of which was run says nothing; JSON has the reasons */
+        code = ran > 0 || o.style.format == RB_REPORT_JSON
+                   ? cli_write_file(all.o->output, print, &all)
+                   : CLI_OK;
         if (code != CLI_OK)
             worst = code;
         else if (ran == 0)

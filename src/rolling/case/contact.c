@@ -49,8 +49,15 @@ static int is_another_step(rb_case_contact *c, const rb_io_contact_case *in)
 static int is_outside(rb_case_contact *c, const rb_io_contact_case *in)
 {
     const rb_io_contact_digits *d = &in->digit;
-    if (in->module != 3)
+    if (in->unread[0])
+        leave_out(c, "what cannot be read (%.150s)", in->unread);
+    else if (in->module != 3)
         leave_out(c, "module %d (module 3 alone is read)", in->module);
+    else if (d->M == 2 || d->M == 3)
+        leave_out(c, "the simplified theory (M = %d)", d->M);
+    else if (in->law == 6 && d->T > 0)
+        leave_out(c, "friction that changes with the temperature (L = 6; rollbem has it as "
+                     "--mu-heat)");
     else if (d->V > 0)
         leave_out(c, "friction of its own in every row of elements (V = %d)", d->V);
     else if (in->my > 1)
@@ -136,14 +143,12 @@ void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
     if (is_outside(c, in))
         return;
     /* What CONTACT has in a case that is run, and this program has not. */
-    static const char *const materials[] = {"", "", "the flexibility of the simplified theory",
-                                            "that of Fastsim"};
     const rb_io_contact_digits *d = &in->digit;
     if (in->fstat != in->fkin && d->T > 0 && !falls(in))
         leave_out(c, "another friction law (L = %d): mu = %g, its value at rest", in->law,
                   in->fstat);
     if (d->M > 1 && d->M != 4)
-        leave_out(c, "%s (M = %d)", d->M < 4 ? materials[d->M] : "the material", d->M);
+        leave_out(c, "the material (M = %d)", d->M);
     if (d->T > 0 && (in->side != 0.0 || in->spin != 0.0))
         leave_out(c, "CETA, FY and CPHI");
     if (d->T == 3 && !is_line_contact(in) && fabs(in->dq / in->dx - 1.0) > 0.01)
