@@ -146,6 +146,23 @@ TEST(matrix_market_is_read)
     CHECK_REL(z[1], 7.0 / 3.0, 1e-15, "z(2)");
 }
 
+/* Without an unknown there is nothing to solve. */
+TEST(empty_problems_are_solved)
+{
+    write_file("none", "0\n");
+    write_file("none.mtx", "%%MatrixMarket matrix array real general\n0 0\n");
+    write_file("none.q", "");
+    assert_int_equal(rollbem("lcp --json none"), 0);
+    held_json *root = NOT_NULL(json_loads(out, 0, NULL));
+    const json_t *p = NOT_NULL(json_array_get(json_object_get(root, "problems"), 0));
+    assert_string_equal(json_string_value(json_object_get(p, "status")), "solved");
+    CHECK_ABS(number_in(p, "dimension"), 0.0, 0.0, "n");
+    CHECK_ABS(number_in(p, "residual"), 0.0, 0.0, "residual");
+    assert_int_equal(rollbem("lcp --solution none"), 0);
+    assert_int_equal(rollbem("lcp none.mtx --q none.q"), 0);
+    assert_int_equal(unlink("none") | unlink("none.mtx") | unlink("none.q"), 0);
+}
+
 TEST(a_cover_may_hold_zeros_where_q_is_not_negative)
 {
     double z[2];

@@ -203,6 +203,63 @@ TEST(global_problems_are_read_as_text)
     check_refused("friction --output x space", 65, "rows of the matrix: expected 4, got '3'");
 }
 
+/* Texts of Siconos that hold other problems, and problems without a contact. */
+TEST(kinds_of_files_are_told_apart)
+{
+    write_file("mixed", "1 1 2\n1 2\n3 4\n5 6\n");
+    write_file("rolling", "5 1 0 5 5 5 5");
+    write_file("rolling-2d", "2 2 0 4 4 4 4 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 -1 0 -1 0 0.5 0.5 "
+                             "0.1 0.1");
+    CHECK_RUN(rollbem("friction mixed"), 65, err, "a mixed linear complementarity problem (MLCP)");
+    CHECK_RUN(rollbem("friction rolling"), 65, err,
+              "a problem of rolling friction (RFC3D) of Siconos");
+    CHECK_RUN(rollbem("friction rolling-2d"), 65, err, "with mu_r behind mu");
+    write_file("none", "3 0 0 0 0\n0\n0\n");
+    assert_int_equal(rollbem("friction --json --solution none slides"), 0);
+    held_json *root = NOT_NULL(json_loads(out, 0, NULL));
+    const json_t *p = NOT_NULL(json_array_get(json_object_get(root, "problems"), 0));
+    assert_string_equal(json_string_value(json_object_get(p, "status")), "solved");
+    CHECK_ABS(number_in(p, "contacts"), 0.0, 0.0, "contacts");
+    CHECK_RUN(rollbem("compare none"), 65, err, "none: no contact, nothing to compare");
+}
+
+/* K = diag(2, 2) with digits lost; its symmetric part is solved. */
+TEST(a_small_asymmetry_of_k_is_taken_out)
+{
+    static const char K[] = "2 1 0 2 2 2 2 2 0 %s 2\n0 2 2 2 2 1 0 0 1\n-4 1\n0 0\n0.5\n";
+    char text[100];
+    snprintf(text, sizeof text, K, "1.2e-6");
+    write_file("lost", text);
+    CHECK_RUN(rollbem("friction --solution lost"), 0, err,
+              "lost: note: K is not symmetric (|K - K'| is 6e-07 of |K|); its symmetric part");
+    double r;
+    assert_int_equal(sscanf(NOT_NULL(strstr(out, "\nlost\t1\t")), "\nlost\t1\t%lf", &r), 1);
+    CHECK_ABS(r, 4.0, 1e-5, "r_N");
+    snprintf(text, sizeof text, K, "2e-3");
+    write_file("lost", text);
+    CHECK_RUN(rollbem("friction lost"), 65, err, "K is not symmetric: |K - K'| = 0.001 of |K|");
+    snprintf(text, sizeof text, K, "2e-9"); /* rounding */
+    write_file("lost", text);
+    assert_int_equal(rollbem("friction lost"), 0);
+    assert_null(strstr(err, "note"));
+}
+
+/* The standard input and pipes are read to their end before anything is looked for in them. */
+TEST(pipes_are_read)
+{
+    CHECK_RUN(shell("\"$R\" friction --json - <slides"), 0, out, "\"solved\"");
+    CHECK_RUN(shell("cat slides | \"$R\" friction -"), 0, out, "solved");
+    CHECK_RUN(shell("cat slides | \"$R\" compare --solvers nsn-ac -"), 0, out, "nsn-ac");
+    CHECK_RUN(shell("rm -f p && mkfifo p && (cat slides >p & \"$R\" friction p)"), 0, out, "\np\t");
+    CHECK_RUN(shell("cat empty | \"$R\" friction -"), 65, err, "rollbem: standard input");
+    CHECK_RUN(shell("cat short | \"$R\" friction -"), 65, err, "rollbem: standard input:1:");
+    CHECK_RUN(shell("mkdir -p t && TMPDIR=t \"$R\" friction - <foreign.hdf5; "
+                    "test $? = 65 && ls t | wc -l"),
+              0, out, "0\n");
+    CHECK_RUN(shell("TMPDIR=nowhere \"$R\" friction - <slides"), 73, err,
+              "standard input: cannot be copied to nowhere/rollbem-");
+}
+
 TEST(the_command_line_is_checked)
 {
     check_refused("friction", 64, "FILE");

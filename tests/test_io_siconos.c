@@ -114,6 +114,11 @@ TEST(kinds_are_told_by_their_sizes)
                {"2 2 1 7 7", RB_IO_SICONOS_FRICTION_GLOBAL},
                {"4 2 1 7 7", -1},
                {"3 2 1 0 0", -1},
+               {"5 2 0 10 10", RB_IO_SICONOS_ROLLING},
+               {"1 1 2 1 2 3 4 5 6", RB_IO_SICONOS_MIXED}, /* two rows of three */
+               {"1 1 2 1 2 3 4 5", -1},
+               {"1 1 1 0.5 0 1", RB_IO_SICONOS_MIXED},
+               {"1 1 3 1 2 3 4 5 6 7 8 9", -1},
                {"3 2 1 7 8", -1}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_io_siconos_kind kind = RB_IO_SICONOS_LCP;
@@ -264,7 +269,7 @@ TEST(what_is_wrong_is_named_with_its_line)
     check_refused(read_lcp, "2000000000 0 2000000000 2000000000 2000000000 2000000000 1",
                   "room for");
     check_refused(read_friction, "2 715827883", /* three of each are no int */
-                  "number of contacts: expected an integer from 1 to 715827882");
+                  "number of contacts: expected an integer from 0 to 715827882");
     check_refused(read_friction, "3 715827882 0",
                   "rows of the matrix: expected 2147483646, the file ends");
     check_refused(read_friction, "4 1", "dimension: expected an integer from 2 to 3");
@@ -417,6 +422,29 @@ TEST(market_gives_back_the_same_numbers)
             CHECK_ABS(m.dense[i + 3 * j], x[i + 4 * j], 0.0, "entry %d, %d", i, j);
 }
 
+/* Of skew-symmetric ones the triangle below the diagonal is written. */
+TEST(skew_symmetric_markets_are_read)
+{
+    static const char *const files[] = {
+        "%%MatrixMarket matrix array real skew-symmetric\n3 3\n1 2 3\n",
+        "%%MatrixMarket matrix coordinate real skew-symmetric\n3 3 4\n2 1 1\n3 1 2\n3 2 3\n"
+        "1 1 0\n"};
+    static const double want[] = {0, 1, 2, -1, 0, 3, -2, -3, 0}; /* columns */
+    for (int k = 0; k < 2; k++) {
+        OWNED(rb_io_matrix) m;
+        put(files[k]);
+        CHECK_OK(rb_io_matrix_market_read(path, &m, &heard));
+        CHECK_OK(rb_io_matrix_to_dense(&m));
+        for (int i = 0; i < 9; i++)
+            CHECK_ABS(m.dense[i], want[i], 0.0, "file %d, entry %d", k, i);
+    }
+    check_refused(read_market,
+                  "%%MatrixMarket matrix coordinate real skew-symmetric\n2 2 1\n2 2 3\n",
+                  "a skew-symmetric matrix has no diagonal, got 3 in row 2");
+    check_refused(read_market, "%%MatrixMarket matrix array real skew-symmetric\n2 2\n1 2\n",
+                  "end of the file");
+}
+
 /* The four kinds give the same matrix. */
 TEST(market_kinds)
 {
@@ -436,6 +464,27 @@ TEST(market_kinds)
         for (int i = 0; i < 4; i++)
             CHECK_ABS(m.dense[i], want[i], 0.0, "file %d, entry %d", k, i);
     }
+}
+
+/* What Siconos writes of other kinds, and what stands behind q. */
+TEST(other_kinds_of_siconos_are_named)
+{
+    static const char LCP[] = "2 0 2 2 2 2 2 0 1 3 -5 -6";
+    static const struct {
+        const char *behind, *words;
+    } all[] = {{" 0 0 1 1", "a relay problem of Siconos, expected an LCP"},
+               {" 7", "expected the end of the file or a comment after q, got 1 number"},
+               {" 7 8 9\nMurty 1988", "after q, got 3 numbers"}};
+    char text[100];
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        snprintf(text, sizeof text, "%s%s", LCP, all[k].behind);
+        check_refused(read_any_lcp, text, all[k].words);
+    }
+    snprintf(text, sizeof text, "%s\nMurty 1988", LCP);
+    put(text);
+    CHECK_OK(read_any_lcp());
+    check_refused(read_any_lcp, "1 1 2\n1 2\n3 4\n5 6\n", "a mixed LCP (MLCP) of Siconos");
+    check_refused(read_any_lcp, "5 1 0 5 5", "a problem of rolling friction of Siconos");
 }
 
 TEST(market_refusals)
@@ -594,7 +643,8 @@ TEST(kinds_of_lcp_are_told_apart)
     refused_with(read_any_lcp, "1 2 3 4", "", "end of the file after n, n rows of M and");
     refused_with(read_any_lcp, "2\n1 x 3 4\n5 6", "", ":2: M, row 1, number 2");
     refused_with(read_any_lcp, "2\n1 2\n3 x\n5 6", "", ":3: M, row 2, number 2");
-    refused_with(read_any_lcp, "0", "", ":1: n: expected an integer >= 1, got '0'");
+    refused_with(read_any_lcp, "-1", "", ":1: n: expected an integer >= 0, got '-1'");
+    refused_with(read_any_lcp, "0 1", "", "expected the end of the file after n = 0");
     put("1 2");
     CHECK_STATUS(rb_io_lcp_read(path, NULL, &(rb_io_lcp){0}, NULL), RB_EFORMAT);
     CHECK_STATUS(rb_io_lcp_read("/nowhere/x", NULL, &(rb_io_lcp){0}, &heard), RB_ENOENT);

@@ -23,18 +23,20 @@ typedef enum {
 
 typedef struct {
     rb_friction_form form;
-    int dimension;   /* d: 2 or 3 */
-    int contacts;    /* n_c */
-    double *mu;      /* n_c, >= 0; owned, like all arrays here */
-    double *W;       /* LOCAL_DENSE: m x m column-major */
-    rb_sparse Ws;    /* LOCAL_SPARSE: m x m */
-    double *q;       /* local: m */
-    int dofs;        /* GLOBAL: n */
-    rb_sparse K;     /* n x n, both triangles */
-    rb_sparse H;     /* n x m */
-    double *f;       /* n */
-    double *w;       /* m */
-    double *lengths; /* NULL, or n_c / 2 values set by rb_friction_split_rolling */
+    int dimension;    /* d: 2 or 3 */
+    int contacts;     /* n_c */
+    double *mu;       /* n_c, >= 0; owned, like all arrays here */
+    double *W;        /* LOCAL_DENSE: m x m column-major */
+    rb_sparse Ws;     /* LOCAL_SPARSE: m x m */
+    double *q;        /* local: m */
+    int dofs;         /* GLOBAL: n */
+    rb_sparse K;      /* n x n, both triangles */
+    rb_sparse H;      /* n x m */
+    double *f;        /* n */
+    double *w;        /* m */
+    double *lengths;  /* NULL, or n_c / 2 values set by rb_friction_split_rolling */
+    double asymmetry; /* of a file's K, of which K is the symmetric part: max |K - K'| / max |K|;
+                         0: it is symmetric to 1e-8 */
 } rb_friction_problem;
 
 void rb_friction_problem_free(rb_friction_problem *problem);

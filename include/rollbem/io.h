@@ -69,7 +69,7 @@ rb_status rb_io_matrix_market_read(const char *path, rb_io_matrix *m, rb_message
 
 /* ---- Text format of Siconos ------------------------------------------------------- */
 
-/* w = M z + q.  Text after q in the file is a comment. */
+/* w = M z + q.  Words after q in the file are a comment; numbers are refused. */
 typedef struct {
     int n;
     rb_io_matrix M;

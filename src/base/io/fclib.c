@@ -317,10 +317,17 @@ static rb_status read_file(const reader *in, rb_io_fclib *p)
     const char *root = root_of(p);
     if (!exists(in, root))
         return rb_fail(in->why, RB_EFORMAT, "%s: HDF5, but holds no FCLib problem", in->path);
-    char vectors[60];
+    char vectors[60], columns_of[60];
+    int height = 1, columns;
     snprintf(vectors, sizeof vectors, "%s/vectors", root);
+    snprintf(columns_of, sizeof columns_of, "%s/%s", root, p->global ? "H" : "W");
+    /* The columns of H or W: without any there is no contact, and nothing to solve. */
+    rb_status s = read_int(in, columns_of, "n", &columns);
+    if (s == RB_OK && !p->global)
+        s = read_int(in, columns_of, "m", &height);
+    if (s != RB_OK || (columns == 0 && (p->global || height == 0)))
+        return s == RB_OK ? read_int(in, root, "spacedim", &p->spacedim) : s;
     /* The matrices, */
-    rb_status s;
     if (p->global) {
         s = read_matrix(in, root, "M", &p->M);
         if (s == RB_OK)

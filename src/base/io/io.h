@@ -42,10 +42,12 @@ rb_status rb_io_make_folder(const char *path, rb_message *why);
 rb_status rb_io_folder_check(const char *path, rb_message *why);
 
 /* Reads an input file into a text that ends with a zero byte; owned by the caller.
- * UTF-16 with a byte-order mark becomes UTF-8.  RB_ENOENT; RB_EFORMAT: a zero byte in the
- * file, a device other than a terminal or /dev/null, more than 2 GB (of a pipe 256 MB);
- * RB_ENOMEM. */
+ * RB_ENOENT; RB_EFORMAT: UTF-16, a zero byte in the file, a device other than a terminal
+ * or /dev/null, more than 2 GB (of a pipe 256 MB); RB_ENOMEM. */
 rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_message *why);
+/* The same for a table that a spreadsheet may have written: UTF-16 with a byte-order mark
+ * becomes UTF-8. */
+rb_status rb_io_read_spreadsheet(const char *path, char **text, size_t *size, rb_message *why);
 
 /* Checks a path that comes from an untrusted file.  RB_EFORMAT unless path is a regular
  * file of at most 64 MB and, after links are followed, lies in the folder or below it
@@ -97,7 +99,9 @@ typedef enum {
     RB_IO_SICONOS_LCP,
     RB_IO_SICONOS_FRICTION,
     RB_IO_SICONOS_SOCLCP,
-    RB_IO_SICONOS_FRICTION_GLOBAL
+    RB_IO_SICONOS_FRICTION_GLOBAL,
+    RB_IO_SICONOS_ROLLING, /* rolling friction in 3D, and a mixed LCP: there is no reader */
+    RB_IO_SICONOS_MIXED
 } rb_io_siconos_kind;
 
 /* Guesses the kind from the sizes at the beginning of the file.  Some files are

@@ -121,11 +121,19 @@ static void read_text(io_tokens *t, rb_io_lcp *p)
         rb_io_tokens_rewind(t);
     } else if (kind >= 0 && !plain) {
         rb_io_tokens_fail(t, "a %s of Siconos, expected an LCP",
-                          kind == RB_IO_SICONOS_SOCLCP ? "SOCLCP" : "friction problem");
+                          kind == RB_IO_SICONOS_SOCLCP    ? "SOCLCP"
+                          : kind == RB_IO_SICONOS_MIXED   ? "mixed LCP (MLCP)"
+                          : kind == RB_IO_SICONOS_ROLLING ? "problem of rolling friction"
+                                                          : "friction problem");
         return;
     }
-    /* n, the rows of M, q. */
-    const int n = p->n = rb_io_tokens_int(t, 1, INT_MAX, "n");
+    /* n, the rows of M, q; an empty problem is 0 alone. */
+    const int n = p->n = rb_io_tokens_int(t, 0, INT_MAX, "n");
+    if (t->status == RB_OK && n == 0) {
+        if (rb_io_tokens_more(t))
+            rb_io_tokens_fail(t, "expected the end of the file after n = 0");
+        return;
+    }
     p->M.rows = p->M.cols = n;
     p->M.dense = read_rows(t, n, n, "M");
     p->q = rb_io_tokens_alloc(t, (size_t)n, 1, "q");

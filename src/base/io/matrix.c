@@ -60,7 +60,8 @@ rb_status rb_io_matrix_market_write(const char *path, rb_io_dense m, const char 
 }
 
 /* Files that hold real matrices: "row column value" lines (coordinate), or all entries column
- * by column (array); of symmetric ones the lower triangle alone is written. */
+ * by column (array); of symmetric ones the lower triangle alone is written, of skew-symmetric
+ * ones without the diagonal, which is 0. */
 void rb_io_read_matrix_market(io_tokens *t, rb_io_matrix *m)
 {
     *m = (rb_io_matrix){0};
@@ -69,15 +70,16 @@ void rb_io_read_matrix_market(io_tokens *t, rb_io_matrix *m)
     const int coordinate = rb_io_tokens_take(t, "coordinate");
     known = known && (coordinate || rb_io_tokens_take(t, "array")) &&
             (rb_io_tokens_take(t, "real") || rb_io_tokens_take(t, "integer"));
-    const int symmetric = rb_io_tokens_take(t, "symmetric");
+    const int skew = rb_io_tokens_take(t, "skew-symmetric"),
+              symmetric = skew || rb_io_tokens_take(t, "symmetric");
     if (!known || !(symmetric || rb_io_tokens_take(t, "general")))
         rb_io_tokens_fail(t, "expected the line '%%%%MatrixMarket matrix array|coordinate "
-                             "real|integer general|symmetric'");
+                             "real|integer general|symmetric|skew-symmetric'");
     while (rb_io_tokens_more(t) && *t->at == '%')
         rb_io_tokens_skip_line(t);
     m->rows = rb_io_tokens_int(t, 0, INT_MAX, "rows");
     m->cols = rb_io_tokens_int(t, 0, INT_MAX, "columns");
-    if (t->status == RB_OK && (m->rows == 0 || m->cols == 0))
+    if (t->status == RB_OK && (m->rows == 0) != (m->cols == 0))
         rb_io_tokens_fail(t, "a matrix of %d by %d has no entries", m->rows, m->cols);
     if (t->status == RB_OK && symmetric && m->rows != m->cols)
         rb_io_tokens_fail(t, "a symmetric matrix of %d by %d", m->rows, m->cols);
@@ -93,18 +95,25 @@ void rb_io_read_matrix_market(io_tokens *t, rb_io_matrix *m)
             const int i = rb_io_tokens_int(t, 1, m->rows, "row") - 1;
             const int j = rb_io_tokens_int(t, 1, m->cols, "column") - 1;
             const double x = rb_io_tokens_real(t, "value");
+            if (t->status == RB_OK && skew && i == j && x != 0.0)
+                rb_io_tokens_fail(t, "a skew-symmetric matrix has no diagonal, got %g in row %d", x,
+                                  i + 1);
             rb_triplets_add(&m->entries, i, j, x);
             if (symmetric && i != j)
-                rb_triplets_add(&m->entries, j, i, x);
+                rb_triplets_add(&m->entries, j, i, skew ? -x : x);
         }
     } else if (symmetric) {
-        if (rb_io_tokens_room_for(t, rows, (cols + 1) / 2, "matrix") &&
+        if (rb_io_tokens_room_for(t, rows, (skew ? cols - 1 : cols + 1) / 2, "matrix") &&
             !(m->dense = rb_alloc(rows, cols)))
             t->status = rb_fail(t->why, RB_ENOMEM, "%s: out of memory for matrix", t->path);
         for (size_t j = 0; t->status == RB_OK && j < cols; j++) {
-            rb_io_tokens_reals(t, rows - j, m->dense + j + j * rows, "column of the triangle");
-            for (size_t i = j; i < rows; i++)
-                m->dense[j + i * rows] = m->dense[i + j * rows];
+            const size_t first = j + (skew ? 1 : 0); /* below the diagonal, or on it */
+            double *column = m->dense + j * rows;
+            if (skew)
+                column[j] = 0.0;
+            rb_io_tokens_reals(t, rows - first, column + first, "column of the triangle");
+            for (size_t i = first; i < rows; i++)
+                m->dense[j + i * rows] = skew ? -column[i] : column[i];
         }
     } else {
         m->dense = rb_io_tokens_alloc(t, rows, cols, "matrix");

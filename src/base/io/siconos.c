@@ -4,6 +4,7 @@
 
 #include <limits.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { DENSE, BLOCKS, SPARSE };
 enum { TRIPLETS = 1, COLUMNS = 2 };
@@ -170,12 +171,33 @@ void rb_io_lcp_free(rb_io_lcp *p)
     *p = (rb_io_lcp){0};
 }
 
+/* How many numbers stand here, before a word or the end. */
+static size_t count_numbers(io_tokens *t)
+{
+    size_t n = 0;
+    for (; rb_io_tokens_more(t); n++) {
+        char *end;
+        rb_read_number(t->at, &end);
+        if (end == t->at || !strchr(" \t\r\n", *end)) /* or the zero behind the text */
+            break;
+        t->at = end;
+    }
+    return n;
+}
+
 void rb_io_read_siconos_lcp(io_tokens *t, rb_io_lcp *p)
 {
     *p = (rb_io_lcp){0};
     p->n = rb_io_tokens_int(t, 1, INT_MAX, "n");
     read_matrix(t, p->n, p->n, &p->M);
     p->q = read_vector(t, p->n, "q");
+    const size_t left = ok(t) ? count_numbers(t) : 0;
+    if (left == 2 * (size_t)p->n)
+        rb_io_tokens_fail(t, "a relay problem of Siconos, expected an LCP: behind q stand its "
+                             "bounds; give them to an LCP as --lower and --upper");
+    else if (left > 0)
+        rb_io_tokens_fail(t, "expected the end of the file or a comment after q, got %zu number%s",
+                          left, left == 1 ? "" : "s");
     if (!ok(t))
         rb_io_lcp_free(p);
 }
@@ -210,6 +232,18 @@ static void expect_end(io_tokens *t)
         rb_io_tokens_fail(t, "expected the end of the file after the last number");
 }
 
+/* Behind mu of a friction problem; of rolling friction stands mu_r there. */
+static void expect_end_of_friction(io_tokens *t, int contacts)
+{
+    io_tokens behind = *t;
+    if (ok(t) && contacts > 1 && count_numbers(&behind) == (size_t)contacts &&
+        !rb_io_tokens_more(&behind))
+        rb_io_tokens_fail(t,
+                          "a problem of rolling friction of Siconos, with mu_r behind mu; rolling "
+                          "friction is read from files of FCLib");
+    expect_end(t);
+}
+
 rb_status rb_io_siconos_read_friction(const char *path, int global, rb_io_friction *p,
                                       rb_message *why)
 {
@@ -217,8 +251,12 @@ rb_status rb_io_siconos_read_friction(const char *path, int global, rb_io_fricti
     *p = (rb_io_friction){.global = global};
     rb_io_tokens_open(path, &t, why);
     p->dimension = rb_io_tokens_int(&t, 2, 3, "dimension");
-    p->contacts = rb_io_tokens_int(&t, 1, INT_MAX / 3, "number of contacts");
+    p->contacts = rb_io_tokens_int(&t, 0, INT_MAX / 3, "number of contacts");
     const int m = p->dimension * p->contacts;
+    if (ok(&t) && m == 0) { /* what follows are sizes of 0 */
+        rb_io_tokens_close(&t);
+        return RB_OK;
+    }
     if (global) {
         read_matrix(&t, 0, 0, &p->M);
         if (ok(&t))
@@ -230,7 +268,7 @@ rb_status rb_io_siconos_read_friction(const char *path, int global, rb_io_fricti
         p->q = read_vector(&t, m, "q");
     }
     p->mu = read_vector(&t, p->contacts, "mu");
-    expect_end(&t);
+    expect_end_of_friction(&t, p->contacts);
     if (!ok(&t))
         rb_io_friction_free(p);
     rb_io_tokens_close(&t);
@@ -267,14 +305,32 @@ rb_status rb_io_siconos_read_soclcp(const char *path, rb_io_soclcp *p, rb_messag
 
 /* ---- Kinds ------------------------------------------------------------------------- */
 
+/* Mixed: n, m, rows, and rows (n + m + 1) numbers: A, B, C, D, a, b. */
+static int is_mixed(io_tokens *t, const int head[3])
+{
+    const double numbers = 3.0 + (double)head[2] * ((double)head[0] + head[1] + 1.0);
+    if (head[0] < 1 || head[1] < 1 || head[2] < head[1] || head[2] > head[0] + head[1])
+        return 0;
+    rb_io_tokens_rewind(t);
+    return (double)count_numbers(t) == numbers && !rb_io_tokens_more(t);
+}
+
 /* LCP: n, storage, n, n.  Friction: d, contacts, storage, m, m with m = d contacts.
  * SOCLCP: n, cones, storage, n, n.  Global friction: d, contacts, storage, n, n. */
 int rb_io_siconos_kind_at(io_tokens *t)
 {
     enum { SIZES = 5 };
     int head[SIZES];
-    for (int i = 0; i < SIZES; i++)
+    for (int i = 0; i < SIZES; i++) {
+        const int before = ok(t);
         head[i] = rb_io_tokens_int(t, 0, INT_MAX, "size at the head");
+        if (i >= 3 && before && !ok(t)) { /* perhaps its sizes end with the third number */
+            const int mixed = is_mixed(t, head);
+            if (!mixed)
+                t->status = RB_EFORMAT;
+            return mixed ? RB_IO_SICONOS_MIXED : -1;
+        }
+    }
     if (!ok(t))
         return -1;
     const int matrix = head[2] <= SPARSE && head[3] == head[4];
@@ -282,10 +338,13 @@ int rb_io_siconos_kind_at(io_tokens *t)
         return RB_IO_SICONOS_LCP;
     if (matrix && (head[0] == 2 || head[0] == 3) && head[3] == (long long)head[0] * head[1])
         return RB_IO_SICONOS_FRICTION;
-    if (matrix && head[3] == head[0])
+    if (matrix && head[0] == 5 && head[3] == 5LL * head[1])
+        return RB_IO_SICONOS_ROLLING;
+    if (matrix && head[3] == head[0] && head[3] > 0)
         return RB_IO_SICONOS_SOCLCP;
-    return matrix && (head[0] == 2 || head[0] == 3) && head[3] > 0 ? RB_IO_SICONOS_FRICTION_GLOBAL
-                                                                   : -1;
+    if (matrix && (head[0] == 2 || head[0] == 3) && head[3] > 0)
+        return RB_IO_SICONOS_FRICTION_GLOBAL;
+    return is_mixed(t, head) ? RB_IO_SICONOS_MIXED : -1;
 }
 
 rb_status rb_io_siconos_guess(const char *path, rb_io_siconos_kind *kind, rb_message *why)

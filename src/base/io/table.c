@@ -501,7 +501,7 @@ static rb_status read_file(const char *path, int words, rb_io_table *t, rb_messa
 {
     char *text;
     size_t size;
-    rb_status s = rb_io_read_text(path, &text, &size, why);
+    rb_status s = rb_io_read_spreadsheet(path, &text, &size, why);
     memset(t, 0, sizeof *t);
     if (s == RB_OK)
         s = parse(path, text, words, t, why);

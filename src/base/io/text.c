@@ -116,7 +116,7 @@ static const char *known_format(const char *path, const char *text, size_t size)
     return NULL;
 }
 
-rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_message *why)
+static rb_status read_text(const char *path, int utf16, char **text, size_t *size, rb_message *why)
 {
     struct stat st, null;
     *text = NULL;
@@ -145,7 +145,8 @@ rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_messag
     fclose(file);
     if (s == RB_OK && *size >= 2 &&
         (memcmp(*text, "\xff\xfe", 2) == 0 || memcmp(*text, "\xfe\xff", 2) == 0))
-        s = from_utf16(path, text, size, why);
+        s = utf16 ? from_utf16(path, text, size, why)
+                  : rb_fail(why, RB_EFORMAT, "%s: UTF-16 text, expected ASCII or UTF-8", path);
     const char *format = s == RB_OK ? known_format(path, *text, *size) : NULL;
     if (format)
         s = rb_fail(why, RB_EFORMAT, "%s: expected text, got %s", path, format);
@@ -164,6 +165,16 @@ rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_messag
         *text = NULL;
     }
     return s;
+}
+
+rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_message *why)
+{
+    return read_text(path, 0, text, size, why);
+}
+
+rb_status rb_io_read_spreadsheet(const char *path, char **text, size_t *size, rb_message *why)
+{
+    return read_text(path, 1, text, size, why);
 }
 
 rb_status rb_io_check_harmless(const char *path, const char *folder, rb_message *why)

@@ -158,7 +158,7 @@ int rb_io_tokens_room_for(io_tokens *t, size_t rows, size_t cols, const char *wh
     if (t->status != RB_OK)
         return 0;
     const size_t most = ((size_t)(t->end - t->at) + 1) / 2;
-    if (rows <= most / cols)
+    if (cols == 0 || rows <= most / cols)
         return 1;
     rb_io_tokens_fail(t, "%s: expected %.10g numbers, the rest of the file has room for %zu", what,
                       (double)rows * (double)cols, most);

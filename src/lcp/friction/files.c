@@ -6,6 +6,33 @@
 
 #include <stdlib.h>
 
+/* K of a file that is symmetric but for digits lost on the way becomes its symmetric part. */
+static rb_status symmetrise(rb_friction_problem *p)
+{
+    const double rounding = 1e-8, lost = 1e-4;
+    double difference = 0.0, largest = 0.0;
+    rb_triplets t = {.rows = p->K.rows, .cols = p->K.cols};
+    rb_sparse half = {0};
+    if (p->form != RB_FRICTION_GLOBAL || p->K.rows != p->K.cols)
+        return RB_OK;
+    rb_status s = rb_friction_sparse_asymmetry(&p->K, &difference, &largest);
+    if (s != RB_OK || !(difference > rounding * largest && difference <= lost * largest))
+        return s; /* what is worse is refused with its size */
+    for (int j = 0; j < p->K.cols; j++)
+        for (int k = p->K.p[j]; k < p->K.p[j + 1]; k++) {
+            rb_triplets_add(&t, p->K.i[k], j, 0.5 * p->K.x[k]);
+            rb_triplets_add(&t, j, p->K.i[k], 0.5 * p->K.x[k]);
+        }
+    s = rb_sparse_from_triplets(&t, &half);
+    rb_triplets_free(&t);
+    if (s == RB_OK) {
+        rb_sparse_free(&p->K);
+        p->K = half;
+        p->asymmetry = difference / largest;
+    }
+    return s;
+}
+
 static rb_status read_fclib(const char *path, rb_friction_problem *problem, rb_message *why)
 {
     rb_io_fclib file;
@@ -28,13 +55,20 @@ static rb_status read_fclib(const char *path, rb_friction_problem *problem, rb_m
                                .w = file.w};
     file.W = file.M = file.H = (rb_sparse){0};
     file.mu = file.q = file.f = file.w = NULL;
-    if (file.rolling)
+    if (file.contacts == 0) {
+        rb_io_fclib_free(&file);
+        return RB_OK;
+    }
+    s = symmetrise(p);
+    const double asymmetry = p->asymmetry; /* what follows makes problems of their own */
+    if (s == RB_OK && file.rolling)
         s = rb_friction_split_rolling(problem, file.mu_r, &detail);
     if (s == RB_OK && file.rolling)
         file.G.rows = problem->dofs; /* constraints do not hold the motions added */
     if (s == RB_OK && file.constraints)
         s = file.global ? rb_friction_eliminate(problem, &file.G, file.b, &detail)
                         : rb_friction_eliminate_local(problem, &file.V, &file.R, file.s, &detail);
+    problem->asymmetry = asymmetry;
     rb_io_fclib_free(&file);
     if (s == RB_EINVAL)
         return rb_fail(why, RB_EFORMAT, "%s: %s", path, detail.text);
@@ -70,6 +104,8 @@ static rb_status read_siconos(const char *path, int global, rb_friction_problem 
         p->W = file.W.dense;
         file.W.dense = NULL;
     }
+    if (s == RB_OK)
+        s = symmetrise(p);
     rb_io_friction_free(&file);
     return s == RB_OK ? s : rb_fail(why, s, "%s: out of memory", path);
 }
@@ -99,6 +135,14 @@ rb_status rb_friction_file_kind(const char *path, rb_friction_file *kind, rb_mes
     if (s == RB_OK && text == RB_IO_SICONOS_LCP)
         return rb_fail(why, RB_EFORMAT, "%s: a linear complementarity problem: see 'rollbem lcp'",
                        path);
+    if (s == RB_OK && (text == RB_IO_SICONOS_MIXED || text == RB_IO_SICONOS_ROLLING))
+        return rb_fail(
+            why, RB_EFORMAT, "%s: %s", path,
+            text == RB_IO_SICONOS_MIXED
+                ? "a mixed linear complementarity problem (MLCP) of Siconos, expected a "
+                  "friction problem"
+                : "a problem of rolling friction (RFC3D) of Siconos; rolling friction is "
+                  "read from files of FCLib");
     *kind = text == RB_IO_SICONOS_SOCLCP            ? RB_FRICTION_FILE_SICONOS_SOCLCP
             : text == RB_IO_SICONOS_FRICTION_GLOBAL ? RB_FRICTION_FILE_SICONOS_GLOBAL
                                                     : RB_FRICTION_FILE_SICONOS;
@@ -119,7 +163,7 @@ rb_status rb_friction_read_as(const char *path, rb_friction_file kind, rb_fricti
         s = kind == RB_FRICTION_FILE_FCLIB            ? read_fclib(path, problem, why)
             : kind == RB_FRICTION_FILE_SICONOS_GLOBAL ? read_siconos(path, 1, problem, why)
                                                       : read_text(path, problem, why);
-    if (s == RB_OK)
+    if (s == RB_OK && problem->contacts > 0) /* without any it is solved */
         s = rb_friction_problem_check(problem, &detail);
     if (s == RB_EINVAL)
         s = rb_fail(why, RB_EFORMAT, "%s: %s", path, detail.text);

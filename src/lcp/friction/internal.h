@@ -9,6 +9,8 @@
 /* ---- Problems (problem.c) ---------------------------------------------------------- */
 
 /* RB_EINVAL: missing, wrong size, NaN or infinity; why names the place. */
+/* max |A - A'| and max |A| */
+rb_status rb_friction_sparse_asymmetry(const rb_sparse *a, double *difference, double *largest);
 rb_status rb_friction_check_vector(const char *name, size_t n, const double *x, rb_message *why);
 rb_status rb_friction_check_sparse(const char *name, const rb_sparse *a, int rows, int cols,
                                    rb_message *why);

@@ -46,8 +46,7 @@ rb_status rb_friction_check_sparse(const char *name, const rb_sparse *a, int row
     return rb_friction_check_vector(name, (size_t)a->p[cols], a->x, why);
 }
 
-/* max |A - A'| and max |A| */
-static rb_status sparse_asymmetry(const rb_sparse *a, double *difference, double *largest)
+rb_status rb_friction_sparse_asymmetry(const rb_sparse *a, double *difference, double *largest)
 {
     rb_sparse t;
     if (rb_sparse_transpose(a, &t) != RB_OK)
@@ -93,7 +92,7 @@ rb_status rb_friction_problem_check(const rb_friction_problem *p, rb_message *wh
             s = rb_friction_check_vector("w", (size_t)m, p->w, why);
         double difference = 0.0, largest = 0.0;
         if (s == RB_OK)
-            s = sparse_asymmetry(&p->K, &difference, &largest);
+            s = rb_friction_sparse_asymmetry(&p->K, &difference, &largest);
         if (s == RB_OK && difference > 1e-8 * largest)
             return rb_fail(why, RB_EINVAL, "K is not symmetric: |K - K'| = %.2g of |K|",
                            difference / largest);
@@ -112,7 +111,7 @@ static rb_status examine_local(const rb_sparse *w, int with_rank, rb_friction_fa
     double difference, largest;
     rb_status s = with_rank ? rb_sparse_rank(w, &facts->rank) : RB_OK;
     if (s == RB_OK)
-        s = sparse_asymmetry(w, &difference, &largest);
+        s = rb_friction_sparse_asymmetry(w, &difference, &largest);
     if (s == RB_OK) {
         /* Indefinite: the symmetric part + 1e-10 max |W| has no Cholesky factor. */
         int *indefinite = &facts->indefinite;

@@ -54,6 +54,14 @@ static int is_known(const char *solver, const char **name)
     return known < count;
 }
 
+/* A problem without unknowns is solved. */
+static int nothing_is_unknown(rb_api *a)
+{
+    a->iterations = 0;
+    a->residual = a->scaled_residual = 0.0;
+    return rb_api_ended(a, RB_OK);
+}
+
 static int solve_lcp(rb_api *a, const rb_lcp_mixed_problem *p, const char *solver,
                      const rb_lcp_options *options)
 {
@@ -90,8 +98,10 @@ int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *s
     options.max_iters = max_pivots;
     if (!known)
         return rb_api_refuse(a, other_solver, solver);
-    if (n < 1)
+    if (n < 0)
         return rb_api_refuse(a, "lcp: n = %d", n);
+    if (n == 0)
+        return nothing_is_unknown(a);
     const rb_status s = rb_sparse_from_dense(n, n, M, n, &sparse);
     const int ended =
         s == RB_OK ? solve_lcp(a, &(rb_lcp_mixed_problem){.M = &sparse, .q = q}, solver, &options)
@@ -114,6 +124,8 @@ int rb_api_lcp_sparse(rb_api *a, int n, const int *p, const int *i, const double
     options.start = start;
     if (!known)
         return rb_api_refuse(a, other_solver, solver);
+    if (n == 0)
+        return nothing_is_unknown(a);
     const rb_status s = borrow(n, p, i, x, &M, &a->why);
     if (s != RB_OK)
         return rb_api_ended(a, s);
@@ -292,6 +304,8 @@ int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double
     rb_friction_problem p = {0};
     begin(a, "friction.", solver);
     rb_status s = rb_friction_read(path, &p, &a->why);
+    if (s == RB_OK && p.contacts == 0)
+        return nothing_is_unknown(a);
     if (s == RB_OK)
         s = solve_friction(a, &p, solver, tol, max_iters);
     rb_friction_problem_free(&p);

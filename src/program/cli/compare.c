@@ -3,6 +3,7 @@
 #include "program/cli/output.h"
 #include "program/cli/rows.h"
 #include "program/cli/solvers.h"
+#include "program/cli/spool.h"
 #include "program/cli/wait.h"
 
 #include "lcp/friction/friction.h"
@@ -126,7 +127,14 @@ static cli_exit run_file(comparison *c, const char *path)
 {
     rb_friction_problem p;
     rb_message why = {""};
-    const rb_status s = rb_friction_read(path, &p, &why);
+    cli_spool read;
+    rb_status s = cli_spool_begin(path, &read, &why);
+    if (s == RB_OK)
+        s = rb_friction_read(cli_spool_path(&read), &p, &why);
+    cli_spool_rename(&read, &why);
+    cli_spool_end(&read);
+    if (s == RB_OK && p.contacts == 0)
+        s = rb_fail(&why, RB_EFORMAT, "%s: no contact, nothing to compare", path);
     if (s != RB_OK)
         return cli_say(s, &why);
     const size_t m = (size_t)(p.dimension * p.contacts);

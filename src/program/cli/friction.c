@@ -4,6 +4,7 @@
 #include "program/cli/output.h"
 #include "program/cli/rows.h"
 #include "program/cli/solvers.h"
+#include "program/cli/spool.h"
 #include "program/cli/wait.h"
 
 #include "lcp/friction/friction.h"
@@ -109,6 +110,7 @@ typedef struct {
 
 typedef struct {
     const char *file, *status, *measure;
+    cli_spool read;             /* it, or its copy */
     int contacts, dimension, m; /* m: 0 when not read */
     rb_friction_info info;
     rb_friction_facts facts;
@@ -128,8 +130,9 @@ static cli_exit failed(friction_result *r, rb_status s, const char *text)
                     text[0] ? text : rb_status_text(s));
 }
 
-static cli_exit unreadable(friction_result *r, rb_status s, const rb_message *why)
+static cli_exit unreadable(friction_result *r, rb_status s, rb_message *why)
 {
+    cli_spool_rename(&r->read, why);
     r->status = rb_status_text(s);
     r->info.residual = r->info.scaled = r->info.floor = r->info.flops = r->info.seconds =
         r->facts.asymmetry = NAN;
@@ -303,12 +306,25 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
 {
     rb_friction_problem p;
     rb_message why = {""};
-    rb_status s = rb_friction_read_as(r->file, (rb_friction_file)run->o->kind, &p, &why);
+    rb_status s =
+        rb_friction_read_as(cli_spool_path(&r->read), (rb_friction_file)run->o->kind, &p, &why);
     if (s != RB_OK)
         return unreadable(r, s, &why);
     r->contacts = p.contacts;
     r->dimension = p.dimension;
     r->m = p.dimension * p.contacts;
+    if (p.contacts == 0) { /* nothing is unknown */
+        r->status = rb_status_text(RB_OK);
+        r->info.residual = r->info.scaled = r->info.floor = r->info.seconds = 0.0;
+        rb_friction_problem_free(&p);
+        return CLI_OK;
+    }
+    if (p.asymmetry > 0.0)
+        fprintf(
+            stderr,
+            "rollbem: %s: note: K is not symmetric (|K - K'| is %.2g of |K|); its symmetric part "
+            "is solved\n",
+            r->file, p.asymmetry);
     r->r = rb_alloc((size_t)r->m, 1);
     r->u = rb_alloc((size_t)r->m, 1);
     cli_exit code = r->r && r->u ? CLI_OK : failed(r, RB_ENOMEM, "out of memory");
@@ -375,7 +391,7 @@ static cli_exit solve_cones(friction_run *run, friction_result *r)
 {
     rb_friction_soclcp_data d;
     rb_message why = {""};
-    rb_status s = rb_friction_soclcp_read(r->file, &d, &why);
+    rb_status s = rb_friction_soclcp_read(cli_spool_path(&r->read), &d, &why);
     if (s != RB_OK)
         return unreadable(r, s, &why);
     r->contacts = d.problem.cones;
@@ -410,9 +426,9 @@ static cli_exit solve_file(void *context, const char *path)
         .info = {.solver = run->o->solver, .residual = NAN, .scaled = NAN, .floor = NAN}};
     rb_friction_file kind = (rb_friction_file)run->o->kind;
     rb_message why = {""};
-    rb_status s = RB_OK;
-    if (kind == RB_FRICTION_FILE_ANY)
-        s = rb_friction_file_kind(path, &kind, &why);
+    rb_status s = cli_spool_begin(path, &r.read, &why);
+    if (s == RB_OK && kind == RB_FRICTION_FILE_ANY)
+        s = rb_friction_file_kind(cli_spool_path(&r.read), &kind, &why);
     run->steps = json_array();
     cli_exit code;
     if (s != RB_OK)
@@ -423,7 +439,7 @@ static cli_exit solve_file(void *context, const char *path)
         code = solve_cones(run, &r);
     else
         code = solve_friction(run, &r);
-    const int known = r.m > 0;
+    const int known = r.m > 0 || (r.dimension > 0 && code == CLI_OK);
     const rb_friction_info *info = &r.info;
     const rb_friction_facts *facts = &r.facts;
     const cli_value values[] = {
@@ -469,10 +485,10 @@ static cli_exit solve_file(void *context, const char *path)
         else if (!run->o->solution)
             cli_rows_add(rows, VALUES, values);
         else
-            rb_report_comment(&rows->cells,
-                              "%s: %s by %s, %d contacts, %d iterations, residual %.3g, %.3g s",
-                              r.file, r.status, info->solver, r.contacts, info->iters,
-                              info->residual, info->seconds);
+            rb_report_comment(
+                &rows->cells, "%s: %s by %s, %d contact%s, %d iteration%s, residual %.3g, %.3g s",
+                r.file, r.status, info->solver, r.contacts, r.contacts == 1 ? "" : "s", info->iters,
+                info->iters == 1 ? "" : "s", info->residual, info->seconds);
         if (run->o->solution && run->o->facts)
             rb_report_comment(&rows->cells,
                               "rank %d, hyperstaticity %d, nullity %d, asymmetry %.3g%s",
@@ -485,6 +501,7 @@ static cli_exit solve_file(void *context, const char *path)
             cli_rows_add(rows, sizeof component / sizeof *component, component);
         }
     }
+    cli_spool_end(&r.read);
     json_decref(run->steps);
     rb_friction_solutions_free(&r.all);
     free(r.r);

@@ -142,6 +142,7 @@ typedef struct {
     int sets, *set, *member;               /* --game --all: as of rb_lcp_solutions; owned */
     double payoff[2];                      /* --game, the first solution */
     rb_lcp_proof proof;                    /* --prove, of one solution; owned */
+    int is_empty;                          /* 1: n = 0, which is solved */
 } lcp_result;
 
 /* ---- Trace ------------------------------------------------------------------------ */
@@ -352,6 +353,13 @@ static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
     rb_io_lcp p;
     rb_message why = {""};
     rb_status s = rb_io_lcp_read(r->file, o->q, &p, &why);
+    if (s == RB_OK && p.n == 0) { /* nothing is unknown */
+        r->status = rb_status_text(RB_OK);
+        r->is_empty = 1;
+        r->info.res = r->info.scaled = r->seconds = 0.0;
+        rb_io_lcp_free(&p);
+        return CLI_OK;
+    }
     /* The vectors of the options, each of n numbers. */
     if (s == RB_OK && o->lower)
         s = rb_io_bounds_read(o->lower, p.n, "lower", &r->lower, &why);
@@ -466,7 +474,7 @@ static cli_exit solve_file(void *context, const char *path)
     const cli_exit code = run->o->game ? solve_game(run, &r) : solve_lcp(run, &r);
     if (!run->o->trace)
         cli_wait_end();
-    const int known = r.n > 0;
+    const int known = r.n > 0 || r.is_empty;
     char proof[60] = "";
     if (r.proof.n)
         rb_report_proof_status(&r.proof, proof, sizeof proof);
