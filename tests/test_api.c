@@ -451,7 +451,7 @@ TEST(every_name_has_its_value)
     assert_string_equal(rb_api_word(a, "task.solver"), "lemke");
     CHECK_ABS(rb_api_number(a, "task.iterations"), 2.0, 0.0, "z0, then z");
     CHECK_ABS(rb_api_number(a, "task.residual"), 0.0, 1e-15, "2 z = 4");
-    assert_true(rb_api_lcp(a, 0, &M, &q, "lemke", 0) < 0);
+    assert_true(rb_api_lcp(a, -1, &M, &q, "lemke", 0) < 0);
     assert_int_equal(rb_api_lcp(a, 1, &M, &q, "lemke", 0), RB_OK);
     assert_int_equal(rb_api_friction(a, 1, 1, &W, &v, &mu, "auto", 1e-10, 0), RB_EINVAL);
     CHECK_ABS(rb_api_number(a, "task.iterations"), 0.0, 0.0, "none of the problem before");
@@ -825,7 +825,7 @@ TEST(what_is_not_there_is_none)
     int r, c;
     for (size_t k = 0; k < sizeof names / sizeof *names; k++)
         assert_null(rb_api_array(a, names[k], &r, &c));
-    assert_true(rb_api_lcp(a, 0, NULL, NULL, "lemke", 0) < 0);
+    assert_true(rb_api_lcp(a, -1, NULL, NULL, "lemke", 0) < 0);
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
         assert_true(isnan(rb_api_number(a, numbers[k])));
     assert_null(rb_api_word(a, "solver"));
@@ -865,8 +865,12 @@ TEST(solvers_have_their_names)
     assert_string_not_equal(rb_api_word(a, "task.solver"), "auto"); /* but who solved it */
     CHECK_MAX(rb_api_number(a, "task.scaled_residual"), 1e-10, "scaled");
     CHECK_MAX(0.0, rb_api_number(a, "task.scaled_residual"), "a number");
-    assert_int_equal(rb_api_friction(a, 2, 0, W, v, &mu, "nsn-ac", 1e-10, 0), RB_EINVAL);
-    assert_non_null(strstr(rb_api_message(a), "0 contacts of dimension 2"));
+    assert_int_equal(rb_api_friction(a, 2, -1, W, v, &mu, "nsn-ac", 1e-10, 0), RB_EINVAL);
+    assert_non_null(strstr(rb_api_message(a), "-1 contacts of dimension 2"));
+    /* Nothing is unknown. */
+    assert_int_equal(rb_api_friction(a, 2, 0, NULL, NULL, NULL, "nsn-ac", 1e-10, 0), RB_OK);
+    assert_int_equal(rb_api_lcp(a, 0, NULL, NULL, "lemke", 0), RB_OK);
+    CHECK_ABS(rb_api_number(a, "task.residual"), 0.0, 0.0, "of nothing");
     assert_int_equal(rb_api_friction(a, 3, 1 << 30, W, v, &mu, "nsn-ac", 1e-10, 0), RB_EINVAL);
     assert_int_equal(rb_api_friction(a, 2, 1, W, v, &(double){-1.0}, "nsn-ac", 1e-10, 0),
                      RB_EINVAL);

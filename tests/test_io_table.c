@@ -263,15 +263,14 @@ TEST(files_of_other_programs_are_named)
         const char *bytes;
         size_t n;
         const char *part;
-    } all[] = {
-        {"\x93NUMPY\1\0v", 9, "got an array of NumPy; the Python package takes it, as rollbem.lcp"},
-        {"PK\3\4\0\0", 6, "got a zip archive"},
-        {"\xd0\xcf\x11\xe0\0", 5, "got an Excel workbook; save it as CSV"},
-        {"\x89HDF\r\n\x1a\n\0", 9, "got an HDF5 file"},
-        {"\x1f\x8b\x08\0", 4, "got compressed by gzip; unpack it"},
-        {"1 2\n\0", 5, ":2: a zero byte, expected text"},
-        {"\xff\xfe\1\xd8x\0", 6, "half a character of UTF-16"},
-        {"\xff\xfex", 3, "half a character of UTF-16"}};
+    } all[] = {{"\x93NUMPY\1\0v", 9, "got an array of NumPy (.npy); the Python package reads it"},
+               {"PK\3\4\0\0", 6, "got a zip archive"},
+               {"\xd0\xcf\x11\xe0\0", 5, "got an Excel workbook; save it as CSV"},
+               {"\x89HDF\r\n\x1a\n\0", 9, "got an HDF5 file"},
+               {"\x1f\x8b\x08\0", 4, "got compressed by gzip; unpack it"},
+               {"1 2\n\0", 5, ":2: a zero byte, expected text"},
+               {"\xff\xfe\1\xd8x\0", 6, "half a character of UTF-16"},
+               {"\xff\xfex", 3, "half a character of UTF-16"}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_io_table t;
         CHECK_SAYS(read_bytes(all[k].bytes, all[k].n, &t, &heard), RB_EFORMAT, all[k].part);

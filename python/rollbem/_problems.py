@@ -128,6 +128,12 @@ class Friction(Answer):
         return {f"{of}_{name}": getattr(self, of)[:, k] for of in "ru" for k, name in enumerate(["N", *tangential])}
 
 
+def _made(handle: Handle, name: str, rows: int = 0) -> Array:
+    """An array of the library; without unknowns there is none."""
+    array = handle.array(name)
+    return np.zeros((rows, 0) if rows else 0) if array is None else array
+
+
 def _list(handle: Handle, what: str, split: Optional[int] = None) -> Solutions:
     z = handle.array(f"{what}.all")
     columns = [] if z is None or z.size == 0 else list(np.atleast_2d(z.reshape(-1, order="F").reshape(
@@ -159,7 +165,7 @@ def lcp(M: Any, q: Any = None, solver: str = "auto", max_pivots: int = 0, *, low
         q, lower, upper, start = (read.get(name) if value is None else value for name, value in given.items())
     if q is None:
         raise InvalidInput("q=: expected numbers in one row, got None")
-    q = _values.vector("q", q)
+    q = _values.vector("q", q, 0)
     n = len(q)
     columns = _values.compressed("M", M, n)
     bounds = [None if bound is None and other is None else
@@ -173,7 +179,7 @@ def lcp(M: Any, q: Any = None, solver: str = "auto", max_pivots: int = 0, *, low
     if not limit >= 0.0 or (seconds is not None and limit == 0.0):
         raise InvalidInput(f"seconds=: expected a number > 0, got {_values.shown(seconds)}")
     handle = Handle("solve")
-    if all:
+    if all and n:
         dense = np.asfortranarray(M.toarray() if hasattr(M, "toarray") else M, dtype=float)
         status = handle.run("rb_api_lcp_all", n, doubles(dense), doubles(q), *map(doubles, bounds), limit)
         if status < SOLVED:
@@ -185,8 +191,11 @@ def lcp(M: Any, q: Any = None, solver: str = "auto", max_pivots: int = 0, *, low
                         _values.whole("max_pivots", max_pivots), limit)
     if status < SOLVED:
         raise handle.error(status)
-    found = Complementarity(handle, z=handle.array("lcp.z"), w=handle.array("lcp.w"),
-                            scaled_residual=handle.number("task.scaled_residual"))
+    if all:  # of no unknowns
+        only = Solutions([np.zeros(0)])
+        only.of_singular_basis, only.bases, only.singular, only.undecided = [False], 1, 0, 0
+        return _kept(only, handle, status)
+    found = Complementarity(handle, z=_made(handle, "lcp.z"), w=_made(handle, "lcp.w"), scaled_residual=handle.number("task.scaled_residual"))
     if status == _INACCURATE and found.scaled_residual <= tol:
         found.status, status = "solved", SOLVED
     return _kept(found, handle, status)
@@ -242,11 +251,11 @@ def friction(W: Any, q: Any = None, mu: Any = None, dimension: int = 3, solver: 
             raise InvalidInput("mu=: the file of the problem has its own")
         status = handle.run("rb_api_friction_file", os.fsencode(_values.path("W", W)), *how)
     else:
-        dimension, q = _values.whole("dimension", dimension, 2, 3), _values.vector("q", q)
+        dimension, q = _values.whole("dimension", dimension, 2, 3), _values.vector("q", q, 0)
         if len(q) % dimension:
             raise InvalidInput(f"q=: expected a multiple of dimension={dimension} numbers, got {len(q)}")
         contacts = len(q) // dimension
-        mu = _values.vector("mu", mu)
+        mu = _values.vector("mu", mu, min(contacts, 1))
         if len(mu) not in (1, contacts):
             raise InvalidInput(f"mu=: expected a number or one per contact ({contacts}), got {len(mu)}")
         mu = np.ascontiguousarray(np.broadcast_to(mu, contacts))
@@ -259,8 +268,8 @@ def friction(W: Any, q: Any = None, mu: Any = None, dimension: int = 3, solver: 
             status = handle.run("rb_api_friction", dimension, contacts, doubles(W), doubles(q), doubles(mu), *how)
     if status < SOLVED:
         raise handle.error(status)
-    found = Friction(handle, r=np.atleast_2d(handle.array("friction.r").T),
-                     u=np.atleast_2d(handle.array("friction.u").T))
+    r, u = (_made(handle, f"friction.{name}", dimension) for name in "ru")
+    found = Friction(handle, r=np.atleast_2d(r.T), u=np.atleast_2d(u.T))
     found.scaled_residual = handle.number("task.scaled_residual")
     found.notes = handle.notes()
     for note in found.notes:

@@ -73,10 +73,10 @@ def names(name: str, value: Mapping[str, Any]) -> dict[str, Any]:
     return {key.replace("-", "_"): value[key] for key in value.keys()}
 
 
-def vector(name: str, value: Any) -> NDArray[np.float64]:
+def vector(name: str, value: Any, least: int = 1) -> NDArray[np.float64]:
     """Numbers in one row, at least one."""
     found = array(name, value)
-    if found.size == 0:
+    if found.size < least:
         raise InvalidInput(f"{name}=: expected at least one number, got {shown(value)}")
     if found.size != max(found.shape, default=1):
         raise InvalidInput(f"{name}=: expected numbers in one row, got {' x '.join(map(str, found.shape))}")
@@ -128,7 +128,7 @@ def compressed(name: str, value: Any, rows: int) -> "tuple[NDArray[np.intc], NDA
 
 def each(name: str, value: Any, rows: int) -> NDArray[np.float64]:
     """A number for each row, or one for all of them."""
-    found = vector(name, value)
+    found = vector(name, value, min(rows, 1))
     if len(found) not in (1, rows):
         raise InvalidInput(f"{name}=: expected a number or one per row ({rows}), got {len(found)}")
     return np.ascontiguousarray(np.broadcast_to(found, rows))

@@ -440,7 +440,7 @@ EYE, TOO_LARGE = np.eye(3), "from 0 to 2147483647, got 2147483648"
     (lambda: rollbem.lcp(EYE, [1, 2, 3], max_pivots=1.5), "max_pivots=: expected a whole number from 0 to .*, got 1.5"),
     (lambda: rollbem.lcp(EYE, [1, 2, 3], max_pivots=2**31), f"max_pivots=: expected a whole number {TOO_LARGE}"),
     (lambda: rollbem.lcp(EYE, [1, 2, 3], solver=None), "solver=: expected auto, lemke, lemke-sparse or newton, got None"),
-    (lambda: rollbem.lcp([], []), "q=: expected at least one number"),
+    (lambda: rollbem.lcp([], []), "M=: expected a matrix of 0 x 0, got 0"),
     (lambda: rollbem.lcp(3, [1, 2]), "M=: expected a matrix of 2 x 2, got a number"),
     (lambda: rollbem.friction(EYE, [-1, 0, 0], 0.3, dimension=0), "dimension=: expected a whole number from 2 to 3, got 0"),
     (lambda: rollbem.friction(EYE, [-1, 0, 0], 0.3, dimension=2), "q=: expected a multiple of dimension=2"),

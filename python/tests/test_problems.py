@@ -150,3 +150,14 @@ def test_archives(tmp_path):
 def test_what_is_no_problem(call, words):
     with pytest.raises(rollbem.InvalidInput, match=words):
         call()
+
+
+def test_problems_without_unknowns_are_solved():
+    """A contact search that finds nothing, and LCPs of no rows."""
+    none = np.zeros((0, 0))
+    for M in (none, sparse.csc_matrix((0, 0))):
+        found = rollbem.lcp(M, [])
+        assert found.status == "solved" and found.z.shape == found.w.shape == (0,)
+        assert len(rollbem.lcp(M, [], all=True)) == 1
+        found = rollbem.friction(M, [], [], dimension=2)
+        assert found.r.shape == found.u.shape == (0, 2) and found.residual == 0.0

@@ -256,6 +256,8 @@ static int local_friction(rb_api *a, int dimension, int contacts, const double *
                           const char *solver, double tol, int max_iters)
 {
     begin(a, "friction.", solver);
+    if (contacts == 0 && (dimension == 2 || dimension == 3))
+        return nothing_is_unknown(a);
     if (dimension < 2 || dimension > 3 || contacts < 1 || contacts > INT_MAX / dimension)
         return rb_api_refuse(a, "friction: %d contacts of dimension %d, expected 2 or 3", contacts,
                              dimension);
@@ -273,7 +275,7 @@ static int local_friction(rb_api *a, int dimension, int contacts, const double *
     if (s == RB_OK && p)
         s = rb_sparse_copy(&borrowed, &problem.Ws);
     if (s == RB_OK) {
-        if (!p)
+        if (problem.W && W)
             memcpy(problem.W, W, sizeof *W * m * m);
         memcpy(problem.q, q, sizeof *q * m);
         memcpy(problem.mu, mu, sizeof *mu * (size_t)contacts);
@@ -304,12 +306,11 @@ int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double
     rb_friction_problem p = {0};
     begin(a, "friction.", solver);
     rb_status s = rb_friction_read(path, &p, &a->why);
-    if (s == RB_OK && p.contacts == 0)
-        return nothing_is_unknown(a);
-    if (s == RB_OK)
+    const int is_empty = s == RB_OK && p.contacts == 0;
+    if (s == RB_OK && !is_empty)
         s = solve_friction(a, &p, solver, tol, max_iters);
     rb_friction_problem_free(&p);
-    return rb_api_ended(a, s);
+    return is_empty ? nothing_is_unknown(a) : rb_api_ended(a, s);
 }
 
 /* ---- Many cases -------------------------------------------------------------------- */
