@@ -509,7 +509,6 @@ TEST(what_contact_has_besides_is_listed)
     rb_io_contact_case in = steel;
     in.fstat = 0.3;
     in.law = 5;
-    in.digit.M = 2;
     in.spin = 1e-3;
     in.dq = 0.0506;
     in.plan = 2;
@@ -519,10 +518,9 @@ TEST(what_contact_has_besides_is_listed)
     assert_true(c.runs);
     assert_string_equal(
         c.left_out,
-        "another friction law (L = 5): mu = 0.3, its value at rest; the flexibility of "
-        "the simplified theory (M = 2); CETA, FY and CPHI; the step DQ = 0.0506: slip is "
-        "that over an element, DX = 0.05; the planform (IPLAN = 2); temperatures (H = "
-        "1); the rigid slip per element (E = 2)");
+        "another friction law (L = 5): mu = 0.3, its value at rest; CETA, FY and "
+        "CPHI; the step DQ = 0.0506: slip is that over an element, DX = 0.05; the planform "
+        "(IPLAN = 2); temperatures (H = 1); the rigid slip per element (E = 2)");
     in = steel;
     in.dq = 0.0504; /* within a hundredth */
     in.digit.E = 1;

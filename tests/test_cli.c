@@ -432,7 +432,7 @@ TEST(no_list_shows_an_option_that_is_refused)
          "relaxation-ratio-b yield-stress hardening conductivity heat-capacity-b"},
         {"crack --crack-length 1", "accuracy"},
         {"sweep --vary-1 'mu .1 .2' --crack-length .1", "accuracy paris threshold grow-to"},
-        {"fit data --fit mu", "error accuracy history creep shift force-ratio distance"},
+        {"fit data --fit mu", "accuracy history creep shift force-ratio distance"},
         {"design --maximise force_ratio --over mu=.1:.2", "error accuracy history increments"}};
     write_file("data", "creep_ratio force_ratio\n.2 -.3\n.4 -.6\n.6 -.8\n");
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {

@@ -101,6 +101,7 @@ TEST(what_is_refused)
         const char *result, *over, *subject, *says;
     } bad[] = {{"max_presure", "radius=1:2", NULL, "max_pressure"},
                {"iterations", "radius=1:2", NULL, "expected a result that has derivatives"},
+               {"dissipation", "radius=1:200", NULL, "this static case has no dissipation; see "},
                {"max_pressure", "", NULL, "--over"},
                {"max_pressure", "radius", NULL, "radius=A:B"},
                {"max_pressure", "radius=2:1", NULL, "A < B"},

@@ -72,6 +72,7 @@ TEST(steps_warm_what_passes_them)
         OWNED(rb_arena) memory = {0};
         rb_rolling_heat_track track = {.n = N, .h = h, .step = c};
         double q[N], lambda[N], t[N], heat[STEPS][N];
+        const rb_contact_state state = {.n = N, .q = q, .lambda = lambda};
         CHECK_OK(rb_rolling_heat_track_create(&rc, 5.0, &memory, &track, NULL));
         assert_int_equal(track.rows, (int)ceil(N / lengths[j]) + 1);
         const double unit = 2.0 * sqrt(c / (M_PI * V)) / (sqrt(160.0) + sqrt(10.0));
@@ -82,7 +83,7 @@ TEST(steps_warm_what_passes_them)
                 heat[k][i] = -q[i] * lambda[i] * V / c;
             }
             rb_rolling_heat_track_advance(&track);
-            rb_rolling_heat_track_step(&rc, q, lambda, &track, t);
+            rb_rolling_heat_track_step(&rc, &state, &track, t);
             for (int i = 0; i < N; i++) {
                 double want = 20.0;
                 for (int b = 0; b <= k; b++) { /* b steps ago it stood at place */

@@ -321,8 +321,6 @@ TEST(refusals_have_their_code_and_reason)
         {64, "lcp one.txt --solver newton --trace", "not with --solver newton"},
         {64, "lcp one.txt --solver newton --cover one.txt", "not with --solver newton"},
         {64, "lcp one.txt --solver newton --rule first-index", "not with --solver newton"},
-        {64, "lcp one.txt --solver newton --lower one.txt", "--lower and --upper need"},
-        {64, "lcp one.txt --solver newton --upper one.txt", "--lower and --upper need"},
         {64, "lcp one.txt --trace --solution", "are two tables: one of them"},
         {64, "lcp one.txt --all --trace", "--all tries every basis"},
         {64, "lcp one.txt --all --start one.txt", "--all tries every basis"},
@@ -337,7 +335,7 @@ TEST(refusals_have_their_code_and_reason)
         {64, "lcp game.txt --game --rule first-index", "--game reads A and B alone"},
         {64, "lcp game.txt --label 1", "only with --game and without --all"},
         {64, "lcp game.txt --game --all --label 1", "only with --game and without --all"},
-        {65, "lcp colour.txt --output t.tsv", "colour.txt:1: n: expected an integer >= 1"},
+        {65, "lcp colour.txt --output t.tsv", "colour.txt:1: n: expected an integer >= 0"},
         {64, "compare --solvers nothing one.txt", "no friction solver is called 'nothing'"},
         {65, "friction one.txt --output t.tsv",
          "one.txt:4: size at the head: expected an integer >= 0"},
@@ -457,6 +455,13 @@ TEST(terminals_get_a_short_table)
     assert_true(lines <= 24);
     assert_int_equal(shell("script -qec \"'$R' --example rail --format tsv\" typescript"), 0);
     assert_non_null(strstr(out, "# rollbem"));
+    /* a pager that does not start loses nothing */
+    static const char *const pagers[] = {"no-such-pager", "/", "cat"};
+    for (size_t k = 0; k < sizeof pagers / sizeof *pagers; k++) {
+        assert_int_equal(shellf("PAGER=%s script -qec \"'$R' help rolling\" typescript", pagers[k]),
+                         0);
+        assert_non_null(strstr(out, "free rolling"));
+    }
 }
 
 /* Help on a terminal: the command's own options, then common ones without their groups. */

@@ -86,6 +86,8 @@ typedef struct {
     uint64_t noted, found;          /* kinds of notes that the file has; those before a row of it
                                        that is still to come */
     double start, shown, told_next; /* seconds; of the last one from the start */
+    double spent;                   /* seconds of the whole study */
+    int ran;                        /* cases of this run */
 } study;
 
 /* What varies: reads --cases and --vary-1 ...; 0 columns are refused. */

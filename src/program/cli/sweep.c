@@ -777,6 +777,28 @@ static rb_rolling_sweep sweep_of(study *st)
                               .context = st};
 }
 
+static void print_summary(FILE *out, const void *context)
+{
+    const study *st = context;
+    const rb_rolling_note_list said = rb_rolling_list_study_notes(&st->notes, "case");
+    char heading[STUDY_HEADING];
+    const double n = st->summed;
+
+    rb_report_notes(out, &said, cli_is_coloured(stderr));
+    fprintf(out, "study: %d cases in %.3g s; not solved: %d of %d\n", st->ran, st->spent,
+            st->unsolved, st->cases);
+    for (int j = 0; j < st->results && st->summed > 1; j++) {
+        const double mean = st->sum[j] / n;
+        const double variance = (st->square[j] - n * mean * mean) / (n - 1.0);
+        const rb_rolling_result *r = st->result[j].r;
+        const double rounding =
+            rb_sensitivity_rounding(&rb_case_resolved(st->base)->rc, r, st->first_result[j] + mean);
+        if (rb_sensitivity_has(r) && sqrt(fmax(variance, 0.0)) > rounding)
+            fprintf(out, "  %-28s %.6g +- %.2g\n", column_name(st, st->columns + 2 + j, heading),
+                    st->first_result[j] + mean, sqrt(variance));
+    }
+}
+
 static cli_exit run(study *st)
 {
     rb_message why = {""};
@@ -794,26 +816,10 @@ static cli_exit run(study *st)
         return cli_fail(cli_exit_of(s), "%s%s", why.text,
                         st->path ? "; the same command continues from there" : "");
     st->complete = 1;
-    if (!st->o->quiet) {
-        const rb_rolling_note_list said = rb_rolling_list_study_notes(&st->notes, "case");
-        rb_report_notes(stderr, &said, cli_is_coloured(stderr));
-        char heading[STUDY_HEADING];
-        const double n = st->summed;
-
-        fprintf(stderr, "study: %d cases in %.3g s; not solved: %d of %d\n", sweep.count, spent,
-                st->unsolved, st->cases);
-        for (int j = 0; j < st->results && st->summed > 1; j++) {
-            const double mean = st->sum[j] / n;
-            const double variance = (st->square[j] - n * mean * mean) / (n - 1.0);
-            const rb_rolling_result *r = st->result[j].r;
-            const double rounding = rb_sensitivity_rounding(&rb_case_resolved(st->base)->rc, r,
-                                                            st->first_result[j] + mean);
-            if (rb_sensitivity_has(r) && sqrt(fmax(variance, 0.0)) > rounding)
-                fprintf(stderr, "  %-28s %.6g +- %.2g\n",
-                        column_name(st, st->columns + 2 + j, heading), st->first_result[j] + mean,
-                        sqrt(variance));
-        }
-    }
+    st->ran = sweep.count;
+    st->spent = spent;
+    if (!st->o->quiet)
+        cli_print_lines(print_summary, st);
     if (st->unsolved_case) {
         /* Rows have no place for words: the first that was not solved is solved once more. */
         rb_rolling_row row;
