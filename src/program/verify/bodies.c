@@ -179,6 +179,54 @@ static void below_sliding(rb_verify *v)
     rb_verify_absolute(v, b.max.max_shear.x / b.a, 0.625, 1e-2, "full sliding: its side");
 }
 
+/* Carter's tractions of equal half-planes, s = xi R/(mu a) = 1/2, nu = 0.3: B is no mirror image of
+ * A; strips in closed form (B16). */
+static void below_in_b(rb_verify *v)
+{
+    static const double xy[] = {0.0, 0.5, 0.5, 0.25}, wanted[][3] = {{-0.37320, -0.92702, 0.07362},
+                                                                     {-0.67949, -0.86176, 0.22243}};
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_model model = {0};
+    rb_rolling_mirror *b = NULL;
+    rb_rolling_solution s = {0};
+    rb_rolling_stress at[2] = {{.sxx = NAN}, {.sxx = NAN}};
+    rb_rolling_stress_maxima most = {.tension = {NAN, NAN, NAN, RB_MATERIAL_BODY}};
+    rb_message why = {""};
+    rc.a.poisson = 0.3;
+    rb_verify_on_same(&rc);
+    rc.mu = 0.3;
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = 200;
+    rc.creep_ratio = 0.5;
+    rb_status status = rb_rolling_solve_model(&rc, &model, &s, &why);
+    const double a = s.hertz_half_width, p0 = rb_closed_hertz_max_pressure(s.normal_load, a),
+                 points[] = {a * xy[0], a * xy[1], a * xy[2], a * xy[3]};
+    if (status == RB_OK)
+        status = rb_rolling_mirror_create(&model, &b, &why);
+    if (status == RB_OK)
+        status = rb_rolling_stress_at(&b->model, 2, points, at, &why);
+    if (status == RB_OK)
+        status = rb_rolling_stress_maxima_find(&b->model, 0.0, &most, &why);
+    rb_verify_note(v, status, &why);
+    rb_rolling_mirror_stress(2, at, NULL);
+    for (int k = 0; k < 2; k++) {
+        const double got[] = {at[k].sxx, at[k].syy, at[k].sxy};
+        for (int j = 0; j < 3; j++)
+            rb_verify_absolute(v, got[j] / p0, wanted[k][j], 2e-4,
+                               "body B under Carter's tractions: %s / p0 at (%g, -%g) a",
+                               j == 0   ? "sxx"
+                               : j == 1 ? "syy"
+                                        : "sxy",
+                               xy[2 * k], xy[2 * k + 1]);
+    }
+    rb_verify_relative(v, most.tension.value / p0, 0.6 * (2.0 * sqrt(0.5) - 0.5), 1e-3,
+                       "body B under Carter's tractions: tension at its edge / p0");
+    rb_rolling_mirror_free(b);
+    rb_rolling_model_free(&model);
+    rb_rolling_solution_free(&s);
+}
+
 /* p0/k at the shakedown limit of a case; no finite number where there is none. */
 static double shakedown_limit(rb_verify *v, const rb_rolling_case *rc)
 {
@@ -227,4 +275,5 @@ void rb_verify_bodies(rb_verify *v)
     below_hertz_disc(v);
     below_layers(v);
     below_sliding(v);
+    below_in_b(v);
 }
