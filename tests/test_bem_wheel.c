@@ -325,8 +325,10 @@ TEST(products_are_the_matrix)
         free(G);
         rb_bem_flexibility_free(&f);
         /* a half-plane, and two of them in contact, which are one product */
-        const rb_bem_surface plane = rb_bem_halfplane(wheel->material, 0.1 + k);
-        const rb_bem_surface below = rb_bem_halfplane(wheels[(k + 1) % WHEELS].material, 2.0);
+        rb_bem_surface plane = rb_bem_halfplane(wheel->material, 0.1 + k);
+        rb_bem_surface below = rb_bem_halfplane(wheels[(k + 1) % WHEELS].material, 2.0);
+        plane.datum_tangential = k % 2 ? 7.0 : 0.0;
+        below.datum_tangential = k % 3 ? 5.0 : 0.0;
         for (int bodies = 1; bodies <= 2; bodies++) {
             CHECK_OK(rb_bem_flexibility_plane_products(n, ends, &plane, &f, NULL));
             G = surface_matrix(n, ends, &plane, bodies == 2 ? &below : NULL);

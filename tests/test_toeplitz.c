@@ -19,15 +19,22 @@ static double *equal_ends(int n, double from, double to)
 static const rb_bem_material steel = {82000.0, 0.28}, rubber = {1.0, 0.5},
                              aluminium = {23000.0, 0.31};
 
+static const double one_depth[2];
+
+/* sheared: depths of zero tangential displacement over those of zero normal displacement, or 0 */
 static rb_bem_flexibility built(make *by, int n, rb_bem_material a, const rb_bem_material *b,
-                                double datum)
+                                double datum, const double sheared[2])
 {
     SCRATCH double *ends = equal_ends(n, -1.3e-3, 1.1e-3);
     rb_bem_flexibility f, of_a, of_b;
-    CHECK_OK(by(n, ends, HALFPLANE(a, datum), &of_a, &heard));
+    rb_bem_surface above = *HALFPLANE(a, datum);
+    above.datum_tangential = sheared[0] * datum;
+    CHECK_OK(by(n, ends, &above, &of_a, &heard));
     f = of_a;
     if (b) {
-        CHECK_OK(by(n, ends, HALFPLANE(*b, 2.0 * datum), &of_b, &heard));
+        rb_bem_surface below = *HALFPLANE(*b, 2.0 * datum);
+        below.datum_tangential = sheared[1] * datum;
+        CHECK_OK(by(n, ends, &below, &of_b, &heard));
         CHECK_OK(rb_bem_flexibility_pair(&of_a, &of_b, &f, &heard));
     }
     return f;
@@ -39,10 +46,11 @@ static double largest(size_t n, const double *x)
 }
 
 /* Entries, products with random tractions, points: relative to the largest entry. */
-static void compare(int n, rb_bem_material a, const rb_bem_material *b, double datum)
+static void compare(int n, rb_bem_material a, const rb_bem_material *b, double datum,
+                    const double sheared[2])
 {
-    OWNED(rb_bem_flexibility) dense = built(rb_bem_flexibility_surface, n, a, b, datum);
-    OWNED(rb_bem_flexibility) fast = built(rb_bem_flexibility_toeplitz, n, a, b, datum);
+    OWNED(rb_bem_flexibility) dense = built(rb_bem_flexibility_surface, n, a, b, datum, sheared);
+    OWNED(rb_bem_flexibility) fast = built(rb_bem_flexibility_toeplitz, n, a, b, datum, sheared);
     const int m = dense.m, ld = 2 * m + 3;
     SCRATCH double *F = rb_alloc((size_t)ld, 2 * (size_t)n),
                    *T = rb_alloc((size_t)ld, 2 * (size_t)n);
@@ -74,12 +82,14 @@ static void compare(int n, rb_bem_material a, const rb_bem_material *b, double d
 TEST(equals_the_dense_matrix)
 {
     const int n[] = {1, 2, 3, 7, 64, 201};
-    for (size_t k = 0; k < sizeof n / sizeof *n; k++) {
-        compare(n[k], steel, NULL, 10.0);
-        compare(n[k], rubber, NULL, 1.0);
-        compare(n[k], steel, &aluminium, 10.0);
-        compare(n[k], steel, &steel, 10.0);
-    }
+    static const double sheared[][2] = {{0.0, 0.0}, {1.5, 0.0}, {0.0, 1.5}, {1.5, 0.7}};
+    for (size_t k = 0; k < sizeof n / sizeof *n; k++)
+        for (int j = 0; j < 4; j++) {
+            compare(n[k], steel, NULL, 10.0, sheared[j]);
+            compare(n[k], rubber, NULL, 1.0, sheared[j]);
+            compare(n[k], steel, &aluminium, 10.0, sheared[j]);
+            compare(n[k], steel, &steel, 10.0, sheared[j]);
+        }
 }
 
 /* A pair of two kinds keeps both; two matrices become one, in the place of the first. */
@@ -121,9 +131,9 @@ TEST(keeps_differences_under_a_deep_datum)
 {
     enum { n = 500 };
     OWNED(rb_bem_flexibility)
-    near = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 1.0);
+    near = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 1.0, one_depth);
     OWNED(rb_bem_flexibility)
-    deep = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 1e12);
+    deep = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 1e12, one_depth);
     double r[2 * n] = {0}, w[4 * (n + 1)];
     for (int j = 0; j < n; j++)
         r[j] = j % 2 ? 1.0 : -1.0;
@@ -138,7 +148,7 @@ TEST(long_lines_work)
 {
     enum { n = 200000 };
     OWNED(rb_bem_flexibility)
-    f = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 10.0);
+    f = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 10.0, one_depth);
     double *r = rb_alloc(2 * n, 1), *w = rb_alloc(2 * (size_t)f.m, 1), one[2];
     const double ends[2] = {-1.3e-3 + 1000 * 2.4e-3 / n, -1.3e-3 + 1001 * 2.4e-3 / n};
     double W[8];
@@ -354,7 +364,8 @@ TEST(bad_input)
     refuse(2, equal, (rb_bem_material){-1.0, 0.3}, 1.0, "");
     refuse(2, equal, (rb_bem_material){1.0, 0.6}, 1.0, "");
 
-    OWNED(rb_bem_flexibility) f = built(rb_bem_flexibility_toeplitz, 5, steel, NULL, 1.0);
+    OWNED(rb_bem_flexibility) f =
+        built(rb_bem_flexibility_toeplitz, 5, steel, NULL, 1.0, one_depth);
     double F[144];
     CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 11), RB_EINVAL);
 }

@@ -172,7 +172,7 @@ typedef struct {
                                  (instantaneous) constants */
     double datum;             /* depth of zero displacement of the half-plane or elastic base */
     double datum_tangential;  /* the same for tangential displacement; only for a
-                                 homogeneous half-plane stored as a matrix; 0: datum */
+                                 homogeneous half-plane; 0: datum */
     double datum_memory;      /* of a homogeneous half-plane in steady rolling: sum f_k G(d/L_k), by
                                  which the memory of loads that have passed differs from that of
                                  ln(d/|x|) (V2), see rb_bem_memory_of_datum; 0 for a wheel's */

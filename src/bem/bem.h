@@ -137,7 +137,7 @@ rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends, const r
                                             rb_bem_normals normals, rb_bem_flexibility *f,
                                             rb_message *why);
 
-/* A homogeneous elastic half-plane with one datum in the same way, on elements of any
+/* A homogeneous elastic half-plane in the same way, on elements of any
  * lengths, such as those of a wheel that it touches. */
 rb_status rb_bem_flexibility_plane_products(int n_c, const double *ends,
                                             const rb_bem_surface *plane, rb_bem_flexibility *f,

@@ -272,7 +272,8 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends, const rb_bem_
     /* One strip seen from distances -n ... n elements, or 0 ... n where both sides are alike. */
     const int symmetric = body->terms == 0, first = symmetric ? 0 : -n_c;
     const size_t points = (size_t)(n_c - first) + 1;
-    toeplitz *o = start(n_c, ends, body->thickness == 0.0, f);
+    const int alike = body->thickness == 0.0 && !(body->datum_tangential > 0.0);
+    toeplitz *o = start(n_c, ends, alike, f);
     double *x = rb_alloc(points, 1), *W = rb_alloc(2 * points, 2);
 
     s = o && x && W ? RB_OK : RB_ENOMEM;

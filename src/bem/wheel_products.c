@@ -33,6 +33,7 @@ typedef struct {
     int parts;       /* kernels: N, T and C of a wheel; N alone of a half-plane, whose T is N
                         and whose C sums */
     double coupling; /* of a half-plane: C over abs(x) */
+    double sheared;  /* of a half-plane: what a tangential datum adds to T */
     double *ends;    /* n + 2, as given */
     double *place;   /* cosines and sines of m midpoints, for the obstacle's normals */
     spread *from;    /* n + 1 ends */
@@ -143,6 +144,11 @@ static void products_apply(const rb_bem_flexibility *f, const double *r, double 
         rb_wheel_turn(cosine, sine, -1, o->m, w, w);
     if (o->parts == 1)
         add_coupling(o, r, w);
+    double force = 0.0;
+    for (int j = 0; j < o->n && o->sheared != 0.0; j++)
+        force += r[o->n + j] * (o->ends[j + 1] - o->ends[j]);
+    for (int i = 0; i < o->m && o->sheared != 0.0; i++)
+        w[o->m + i] += o->sheared * force;
 }
 
 /* Of a body in its own frame. */
@@ -190,6 +196,7 @@ static int products_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
         for (int c = 0; c < 2; c++)
             x->kernel[0][k][c] += y->kernel[0][k][c];
     x->coupling -= y->coupling;
+    x->sheared += y->sheared;
     x->other = y->plane;
     x->has_other = 1;
     return 1;
@@ -298,6 +305,11 @@ static rb_status set_tables(products *o, const double *angles, double step)
         kernel = rb_wheel_kernel_of_plane(&o->plane);
         o->parts = 1;
         o->coupling = kernel.scale * 0.5 * M_PI * (kernel.kappa - 1.0);
+        const rb_bem_material solid = o->plane.material;
+        o->sheared = o->plane.datum_tangential > 0.0
+                         ? (1.0 - solid.poisson) / (M_PI * solid.shear) *
+                               log(o->plane.datum_tangential / o->plane.datum)
+                         : 0.0;
     }
     if (s == RB_OK) {
         for (int j = 0; j <= o->n; j++)
@@ -419,10 +431,9 @@ rb_status rb_bem_flexibility_plane_products(int n_c, const double *ends,
     rb_status s = rb_bem_surface_check(plane, why);
     if (s == RB_OK)
         s = rb_bem_ends_check(n_c, ends, why);
-    if (s == RB_OK && (plane->terms > 0 || plane->thickness > 0.0 || plane->datum_tangential > 0.0))
+    if (s == RB_OK && (plane->terms > 0 || plane->thickness > 0.0))
         s = rb_fail(why, RB_EINVAL,
-                    "products on any elements: a homogeneous elastic half-plane with one "
-                    "datum only");
+                    "products on any elements: a homogeneous elastic half-plane only");
     if (s != RB_OK)
         return s;
     s = rb_bem_flexibility_points(n_c, f);

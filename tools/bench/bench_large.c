@@ -143,10 +143,15 @@ static void apply_both(int n)
 }
 
 /* The same problem by Newton with the matrix, cold, flexibility and all. */
-static void solve_both(int n, int unlike)
+typedef enum { SIMILAR, UNLIKE, STRIPS, PAIRS } bodies_kind;
+static const char *const pair_name[PAIRS] = {"similar bodies", "unlike bodies",
+                                             "strips of half-spaces (CONTACT)"};
+
+static void solve_both(int n, bodies_kind kind)
 {
     rb_rolling_case rc = carter(n);
-    rc.b.young *= unlike ? 0.3 : 1.0;
+    rc.b.young *= kind == UNLIKE ? 0.3 : 1.0;
+    rc.a.strip = rc.b.strip = kind == STRIPS ? 100.0 : 0.0;
     rb_rolling_case dense = rc;
     rb_rolling_model model;
     rb_rolling_bodies bodies;
@@ -173,9 +178,9 @@ static void solve_both(int n, int unlike)
     double difference = 0.0;
     for (int i = 0; i < n; i++)
         difference = fmax(difference, fabs(state.q[i] - model.state.q[i]) / problem.stress);
-    printf("| one solution, %s bodies, %s elements | %s | %s | %.0f | %s |\n",
-           unlike ? "unlike" : "similar", row_count(n).text, row_seconds(slow).text,
-           row_seconds(fast).text, slow / fast, row_power(1, difference).text);
+    printf("| one solution, %s, %s elements | %s | %s | %.0f | %s |\n", pair_name[kind],
+           row_count(n).text, row_seconds(slow).text, row_seconds(fast).text, slow / fast,
+           row_power(1, difference).text);
     rb_contact_state_free(&state);
     rb_contact_problem_free(&problem);
     rb_rolling_bodies_free(&bodies);
@@ -202,9 +207,9 @@ int main(int argc, char **argv)
     }
     growth(5, standard);
     apply_both(4000);
-    for (int unlike = 0; unlike < 2; unlike++)
+    for (int kind = 0; kind < PAIRS; kind++)
         for (int k = 0; k < 3; k++)
-            solve_both(both[k], unlike);
+            solve_both(both[k], (bodies_kind)kind);
     both_meshes(6, meshes);
     return 0;
 }

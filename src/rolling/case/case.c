@@ -322,10 +322,7 @@ static int suits_fitted_products(const rb_rolling_case *rc)
 
 static int suits_transforms(const rb_rolling_case *rc)
 {
-    /* products know no more than one datum, strips have two */
-    const int strips = rc->a.strip > 0.0 || (rc->elastic_b && rc->b.strip > 0.0);
-    return !strips &&
-           (rc->contact.solver == RB_SOLVER_AUTO || rc->contact.solver == RB_SOLVER_NEWTON) &&
+    return (rc->contact.solver == RB_SOLVER_AUTO || rc->contact.solver == RB_SOLVER_NEWTON) &&
            (rc->mesh != RB_MESH_FITTED || suits_fitted_products(rc)) &&
            is_transformed(rc, &rc->a) && (!rc->elastic_b || is_transformed(rc, &rc->b));
 }
