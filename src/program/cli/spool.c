@@ -1,4 +1,5 @@
 #define _XOPEN_SOURCE 700 /* pread, mkstemp */
+#include "base/base.h"
 #include "program/cli/spool.h"
 
 #include <errno.h>
