@@ -24,7 +24,8 @@ LDLIBS += $(filter-out -lgslcblas,$(shell pkg-config --libs $(PKGS) 2>/dev/null)
 LIBRARY_FOLDER := $(dir $(filter /%,$(shell $(CC) -print-file-name=libgsl.a)))
 ARCHIVED := lapacke gsl fftw3_threads fftw3 nlopt glpk inih jansson sz aec z umfpack spqr cholmod amd colamd ccolamd camd suitesparseconfig
 HDF5_ARCHIVE := $(if $(filter hdf5-serial,$(HDF5)),$(wildcard $(patsubst -L%,%/libhdf5.a,$(shell pkg-config --libs-only-L $(HDF5)))))
-ARCHIVES := $(HDF5_ARCHIVE) $(if $(LIBRARY_FOLDER),$(wildcard $(ARCHIVED:%=$(LIBRARY_FOLDER)lib%.a)))
+GOMP_ARCHIVE := $(filter /%,$(shell $(CC) -print-file-name=libgomp.a))
+ARCHIVES := $(GOMP_ARCHIVE) $(HDF5_ARCHIVE) $(if $(LIBRARY_FOLDER),$(wildcard $(ARCHIVED:%=$(LIBRARY_FOLDER)lib%.a)))
 # SuiteSparse 5 has METIS in a library of its own
 METIS := $(if $(ARCHIVES),$(if $(LIBRARY_FOLDER),$(firstword $(wildcard $(LIBRARY_FOLDER)libmetis.so.5))))
 # and GLPK's archive wants libtool's loader, whose development files need not be there

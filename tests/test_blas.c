@@ -83,4 +83,26 @@ TEST(memory_for_the_buffers_is_asked_for_first)
         assert_int_equal(room_with(300, 2), 80);
 }
 
+/* Idle threads of the program's OpenMP sleep, unless the environment says otherwise: libgomp counts
+ * how often they look for work before. */
+TEST(the_program_waits_passively)
+{
+    const char *build = getenv("B") ? getenv("B") : "build";
+    char command[400], line[200] = "";
+    snprintf(
+        command, sizeof command,
+        "nm %s/rollbem 2>/dev/null | grep -qw '[Tt] GOMP_parallel' && "
+        "env -u OMP_WAIT_POLICY -u GOMP_SPINCOUNT OMP_DISPLAY_ENV=verbose %s/rollbem --version "
+        "2>&1 | grep SPINCOUNT",
+        build, build);
+    FILE *output = NOT_NULL(popen(command, "r"));
+    const int spoke = fgets(line, sizeof line, output) != NULL;
+    pclose(output);
+    if (!spoke) { /* OpenMP is not part of the program, or another one */
+        print_message("left out: no libgomp within the program\n");
+        skip();
+    }
+    assert_non_null(strstr(line, "'0'"));
+}
+
 RUN_TESTS(NULL, NULL)

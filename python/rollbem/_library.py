@@ -100,11 +100,18 @@ def _version_of_package() -> str:
 def _load() -> ctypes.CDLL:
     """The library with its functions declared, of the version that the package is made for."""
     found = _find()
+    # OpenMP reads this once; its threads would wait for work in a loop, longer than most cases take
+    waits = "OMP_WAIT_POLICY" not in os.environ
+    if waits:
+        os.environ["OMP_WAIT_POLICY"] = "passive"
     try:
         library = ctypes.CDLL(found)
     except OSError as error:
         raise ImportError(f"rollbem: the library does not load: {error}; in a checkout, run make first, "
                           "or name it in ROLLBEM_LIBRARY") from None
+    finally:
+        if waits:
+            del os.environ["OMP_WAIT_POLICY"]
     for name, (result, *arguments) in FUNCTIONS.items():
         try:
             function = getattr(library, name)

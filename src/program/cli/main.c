@@ -39,6 +39,14 @@ static void start_again_with(const char *name, const char *value, char **argv)
         execv("/proc/self/exe", argv);
 }
 
+/* OpenMP's threads wait for work in a loop for some milliseconds each time, longer than most
+ * cases take, unless the environment says otherwise when the library begins.  That is after
+ * this where OpenMP is part of the program. */
+__attribute__((constructor(101))) static void wait_passively(void)
+{
+    setenv("OMP_WAIT_POLICY", "passive", 0);
+}
+
 /* Some libraries end the program where memory is short (OpenMP, with exit code 1). */
 static int came_to_the_end;
 
