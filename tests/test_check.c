@@ -195,7 +195,7 @@ static int missed;
 
 static void expect_found(const json_t *root, const char *given, const char *key, int i)
 {
-    rb_certificate_outcome found;
+    rb_certificate_outcome found = {.prove = 0};
     rb_message why = {""};
     if (certify(root, &found, &why) == RB_OK && found.violations == 0) {
         print_error("%s: a change of %s[%d] was not found\n", given, key, i);
@@ -205,12 +205,33 @@ static void expect_found(const json_t *root, const char *given, const char *key,
 
 static void expect_violations(const json_t *root, int wanted)
 {
-    rb_certificate_outcome found;
+    rb_certificate_outcome found = {.prove = 0};
     CHECK_STATUS(certify(root, &found, &heard), RB_OK);
     assert_int_equal(found.violations, wanted);
 }
 
 /* Given values that the result does not meet, and those that it does not depend on. */
+/* Of one step and several, of a table, and with the proof in the result; bounds that are too good
+ * are noticed, and tractions that belong to no solution. */
+TEST(results_are_proved_without_the_solver)
+{
+    assert_int_equal(rollbemf("%s --json --output r.json", cases[2]), 0);
+    CHECK_RUN(rollbem("check --prove r.json"), 0, out, "r.json: proved: zones exact, p within ");
+    assert_int_equal(rollbemf("%s --json --output r.json", histories[1]), 0);
+    CHECK_RUN(rollbem("check --prove r.json"), 0, out, "(5 of 5 steps proved)");
+    assert_int_equal(rollbemf("%s --output r.tsv", cases[1]), 0);
+    CHECK_RUN(rollbem("check --prove r.tsv"), 0, out, "r.tsv: proved: zones exact, p within ");
+    CHECK_RUN(rollbemf("%s --prove --json --output r.json", cases[2]), 0, err,
+              "  proof     proved");
+    CHECK_RUN(rollbem("check r.json"), 0, out, "r.json: valid");
+    assert_int_equal(shell("sed -i 's/\"stored_within\": [0-9.e-]*/\"stored_within\": 1e-20/' "
+                           "r.json"),
+                     0);
+    CHECK_RUN(rollbem("check r.json"), 1, out, "violated: proof: stored_within");
+    unlink("r.json");
+    unlink("r.tsv");
+}
+
 TEST(every_changed_input_is_found)
 {
     int changes = 0;
@@ -249,7 +270,7 @@ TEST(inputs_belong_to_the_result)
         json_t *all = json_object_get(root, "inputs");
         const double x = json_number_value(json_object_get(all, inputs[k].key)) * (1.0 + 1e-5);
         char value[40];
-        rb_certificate_outcome found;
+        rb_certificate_outcome found = {.prove = 0};
         json_object_set_new(all, inputs[k].key, json_real(x));
         rb_case *words = case_of(cases[inputs[k].which]);
         snprintf(value, sizeof value, "%.17g", x);
@@ -320,7 +341,7 @@ static const char *said_of(const json_t *root, const char *path, const char *val
     FILE *lines = tmpfile();
     rb_case *words = rb_case_create(RB_CASE_SINGLE);
     json_t *other = json_deep_copy(root);
-    rb_certificate_outcome found;
+    rb_certificate_outcome found = {.prove = 0};
     rb_message why = {""};
     edit(other, path, value);
     const rb_status s = rb_certificate_check(lines, "r", other, words, &found, &why);
@@ -356,7 +377,7 @@ TEST(all_solutions_are_judged)
 
     json_t *root = run_json(given), *all = json_object_get(root, "solutions");
     held_case *words = rb_case_create(RB_CASE_SINGLE);
-    rb_certificate_outcome found;
+    rb_certificate_outcome found = {.prove = 0};
     assert_int_equal(json_array_size(all), 3);
     for (int change = 0; change < 4; change++) {
         FILE *lines = tmpfile();
@@ -429,7 +450,7 @@ TEST(all_solutions_are_judged)
 
 static int violations_of(const char *text, const rb_case *words)
 {
-    rb_certificate_outcome found;
+    rb_certificate_outcome found = {.prove = 0};
     rb_message why = {""};
     FILE *lines = tmpfile();
     assert_non_null(lines);
@@ -866,7 +887,7 @@ static void expect_noticed(tampering *t, const char *path, const char *what)
 {
     const int is_program = strcmp(path, "/command") == 0 || strcmp(path, "/depth") == 0 ||
                            strstr(path, "yield_shear") || strcmp(what, "taken away") == 0;
-    rb_certificate_outcome found;
+    rb_certificate_outcome found = {.prove = 0};
     rb_message why = {""};
     t->changes++;
     if (is_program) {

@@ -158,9 +158,11 @@ typedef struct {
     double stored_within;    /* of the state's own p and q */
     int undecided;           /* elements whose zone is open: two zones meet there to rounding */
     int element[RB_CONTACT_UNDECIDED]; /* the first of them, from 1 */
-    int isolated; /* no other solution has nearly the same tractions, gaps and slips */
-    double nearby, margin, norm; /* as of rb_lcp_proof */
-    int steps, steps_proved;     /* of a case with steps; 0: none */
+    int isolated;  /* no other solution has nearly the same tractions, gaps and slips */
+    double nearby; /* p and q solve a problem exactly whose data, coefficients of friction included,
+                      differ by at most this part */
+    double margin, norm;     /* as of rb_lcp_proof */
+    int steps, steps_proved; /* of a case with steps; 0: none */
 } rb_contact_proof;
 
 rb_status rb_contact_state_alloc(int n, rb_contact_state *state);

@@ -34,16 +34,26 @@ static rb_status form_matrices(const rb_contact_problem *p, double **F, rb_conta
     return rb_contact_operator_dense(n, *F, n, S, op);
 }
 
-/* z of the pivoted form that the state means; its inverse is rb_contact_lcp_recover. */
-static void unknowns(const rb_contact_problem *p, const rb_contact_lcp *lcp,
-                     const rb_contact_state *s, double *z)
+/* z of the pivoted form that the state means; its inverse is rb_contact_lcp_recover.  Where the
+ * surfaces slide the friction is its bound: returns by which part the coefficients of friction
+ * would have to differ for that. */
+static double unknowns(const rb_contact_problem *p, const rb_contact_lcp *lcp,
+                       const rb_contact_state *s, double *z)
 {
     const int n = p->n, borders = (lcp->yields ? 5 : 3) * n;
     const double o = lcp->mirrored ? -1.0 : 1.0;
+    double differ = 0.0;
     memset(z, 0, (size_t)lcp->size * sizeof *z);
     for (int i = 0; i < n; i++) {
+        const int slides =
+            s->zone[i] == RB_ZONE_SLIP_NEGATIVE || s->zone[i] == RB_ZONE_SLIP_POSITIVE;
         const double most = p->bound[i] * s->p[i], plastic = p->yield ? o * s->plastic[i] : 0.0;
         double gamma = o * s->q[i] + most, slip = o * s->lambda[i] - plastic;
+        if (slides && most > 0.0) {
+            const double r_T = rb_contact_slope(s->zone[i]) * most;
+            differ = fmax(differ, fabs(s->q[i] - r_T) / most);
+            gamma = o * r_T + most;
+        }
         if (s->zone[i] == RB_ZONE_SEPARATED || gamma <= NOTHING * most)
             gamma = 0.0;
         if (fabs(slip) <= NOTHING * fabs(s->lambda[i]))
@@ -62,6 +72,7 @@ static void unknowns(const rb_contact_problem *p, const rb_contact_lcp *lcp,
         z[borders + p->load_given] = fabs(s->xi - lcp->xi0);
     for (int k = 0; k < lcp->size; k++)
         z[k] /= lcp->z_scale[k];
+    return differ * (1.0 + 0x1p-48) + 0x1p-50;
 }
 
 /* What a proof of the LCP says of tractions: bounds as parts of the largest pressure. */
@@ -110,7 +121,7 @@ rb_status rb_contact_prove(const rb_contact_problem *problem, const rb_contact_s
     rb_contact_lcp lcp = {0};
     rb_sparse M = {0};
     rb_lcp_proof of = {0};
-    double *z = NULL, *F = NULL;
+    double *z = NULL, *F = NULL, differ = 0.0;
     rb_status s = RB_OK;
     *proof = (rb_contact_proof){.asked = 1,
                                 .reason = "",
@@ -147,12 +158,12 @@ rb_status rb_contact_prove(const rb_contact_problem *problem, const rb_contact_s
         s = z ? rb_sparse_from_dense(lcp.size, lcp.size, lcp.M, lcp.size, &M) : RB_ENOMEM;
     }
     if (s == RB_OK) {
-        unknowns(&p, &lcp, state, z);
+        differ = unknowns(&p, &lcp, state, z);
         s = rb_lcp_prove(&(rb_lcp_mixed_problem){.M = &M, .q = lcp.b}, z, &of);
     }
     if (s == RB_OK || s == RB_UNDECIDED) {
         proof->proved = of.proved;
-        proof->nearby = of.nearby;
+        proof->nearby = fmax(of.nearby, differ);
         proof->norm = of.norm;
         proof->reason = of.reason;
         if (of.proved)

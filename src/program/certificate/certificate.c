@@ -294,6 +294,9 @@ static rb_status write_again(rb_certificate *c, void *context, json_t **again, r
     if (s != RB_OK)
         return s;
     take_over_machine(json_object_get(of->root, "summary"), json_object_get(*again, "summary"));
+    json_t *proof = json_object_get(json_object_get(of->root, "summary"), "proof");
+    if (proof) /* which has been judged */
+        json_object_set(json_object_get(*again, "summary"), "proof", proof);
     take_over_machine(json_object_get(of->root, "contact"), json_object_get(*again, "contact"));
     for (size_t k = 0; k < json_array_size(all); k++)
         take_over_machine(
@@ -311,7 +314,7 @@ rb_status rb_certificate_check(FILE *out, const char *name, const json_t *root, 
 
     const int is_crack = json_object_get(root, "crack") != NULL;
 
-    memset(found, 0, sizeof *found);
+    *found = (rb_certificate_outcome){.prove = found->prove};
     if (is_crack)
         rb_case_crack_set(words);
     rb_status s = check_head(&c, root, &reason);

@@ -16,6 +16,7 @@ typedef struct {
     int quiet;       /* 1: violations are counted and not told */
     int judges;      /* 1: the laws are judged while the states are read */
     uint64_t moving; /* 0: numbers are taken as they are; otherwise each is moved by a rounding */
+    int proves;      /* 1: solutions are proved while they are judged */
     int step;        /* of a sequence that is judged, from 1 on; 0: the result */
     const char *of;  /* what is judged, before every violation, such as "solution 2: " */
     /* of the contact whose laws are judged */
@@ -89,6 +90,13 @@ void rb_certificate_tolerances(rb_certificate *c, double residual);
 rb_status rb_certificate_laws(rb_certificate *c);
 /* The lost power of a steady solution, and its mesh. */
 rb_status rb_certificate_balances(rb_certificate *c, const rb_rolling_solution *s);
+
+/* ---- proof.c ------------------------------------------------------------------------ */
+
+/* Proves the state of c->model where c proves: found->proof.  RB_ENOMEM. */
+rb_status rb_certificate_prove(rb_certificate *c);
+/* What the summary prints of a proof, against found->proof. */
+void rb_certificate_judge_proof(rb_certificate *c, const json_t *summary);
 
 /* ---- power.c ------------------------------------------------------------------------ */
 

@@ -229,6 +229,8 @@ static rb_status restore_step(rb_certificate *c, const rb_resolved_case *resolve
         c->model = m;
         rb_certificate_tolerances(c, stored->residual);
         s = rb_certificate_laws(c);
+        if (s == RB_OK)
+            s = rb_certificate_prove(c);
     }
     return s;
 }
@@ -253,6 +255,8 @@ static int judge_step(const rb_rolling_model *model, const rb_rolling_history *h
     c->model = model;
     rb_certificate_tolerances(c, json_number_value(json_array_get(j->residual, (size_t)step)));
     j->status = rb_certificate_laws(c);
+    if (j->status == RB_OK)
+        j->status = rb_certificate_prove(c);
     c->step = 0;
     return j->status != RB_OK;
 }
@@ -369,6 +373,7 @@ rb_status rb_certificate_restore(rb_certificate *c, const rb_resolved_case *reso
 
     if (n < 3)
         return rb_certificate_refuse(c, "its table has no elements", why);
+    c->proves = c->judges && (c->found->prove || json_object_get(stored->summary, "proof"));
     rb_status s = stored->history ? follow(c, resolved, stored, n, r, states, why)
                                   : restore_step(c, resolved, stored, n, r, why);
     if (s == RB_OK)
@@ -391,5 +396,7 @@ rb_status rb_certificate_restore(rb_certificate *c, const rb_resolved_case *reso
     }
     if (s == RB_OK && c->judges)
         s = rb_certificate_balances(c, &r->solution);
+    if (s == RB_OK && c->proves)
+        rb_certificate_judge_proof(c, stored->summary);
     return s;
 }

@@ -135,7 +135,7 @@ rb_status rb_certificate_check_table(FILE *out, const char *name, const char *te
     char *line = NULL, command[4200];
     rb_message reason = {""};
 
-    memset(found, 0, sizeof *found);
+    *found = (rb_certificate_outcome){.prove = found->prove};
     const char *refused =
         rb_case_has_steps(resolved)
             ? "its last state depends on the steps before it: take --json --states"

@@ -31,7 +31,8 @@ static const char about[] =
     "history) are read only if they are regular files of at most 64 MB in its folder\n"
     "or below, unless --any-folder is given, and no message quotes their content.\n"
     "\n"
-    "Exit codes: 0 valid; 1 violated; 65 cannot be checked; 66 no such file; 70 out of\n"
+    "Exit codes: 0 valid; 1 violated, or not proved; 65 cannot be checked; 66 no such file; 70 out "
+    "of\n"
     "memory.";
 
 static cli_exit tell(const char *path, rb_status s, const rb_certificate_outcome *found,
@@ -42,7 +43,17 @@ static cli_exit tell(const char *path, rb_status s, const rb_certificate_outcome
     if (found->violations == 0)
         printf("%s: valid: %d numbers computed again, residual %.2g\n", path, found->numbers,
                found->residual);
-    return found->violations ? CLI_UNSOLVED : CLI_OK;
+    const int unproved =
+        found->prove && (!found->proof.proved || found->proof.steps_proved < found->proof.steps);
+    if (found->prove) {
+        char text[400] = "not proved: it has no state of a contact";
+        if (found->proof.asked)
+            rb_report_contact_proof_text(&found->proof, text, sizeof text);
+        if (found->proof.proved)
+            rb_append(text, sizeof text, "; those stored within %.2g", found->proof.stored_within);
+        printf("%s: %s\n", path, text);
+    }
+    return found->violations || unproved ? CLI_UNSOLVED : CLI_OK;
 }
 
 /* The command that a result is of, where it is not `rollbem` itself; or NULL. */
@@ -151,9 +162,10 @@ static void *noting_malloc(size_t size)
     return memory;
 }
 
-static cli_exit check_json(const char *path, const char *text, size_t size, const char *folder)
+static cli_exit check_json(const char *path, const char *text, size_t size, const char *folder,
+                           int prove)
 {
-    rb_certificate_outcome found = {0};
+    rb_certificate_outcome found = {.prove = prove};
     rb_message why = {""};
     json_error_t error;
     memory_was_refused = 0;
@@ -200,9 +212,9 @@ static cli_exit check_json(const char *path, const char *text, size_t size, cons
 
 /* ---- Tables ------------------------------------------------------------------------ */
 
-static cli_exit check_table(const char *path, const char *text, const char *folder)
+static cli_exit check_table(const char *path, const char *text, const char *folder, int prove)
 {
-    rb_certificate_outcome found;
+    rb_certificate_outcome found = {.prove = prove};
     rb_message why = {""};
     char *line = NULL;
     const rb_status found_line = rb_report_table_command(text, &line);
@@ -249,12 +261,15 @@ static cli_exit check_table(const char *path, const char *text, const char *fold
 /* ---- Command ----------------------------------------------------------------------- */
 
 typedef struct {
-    int any_folder;
+    int any_folder, prove;
 } check_options;
 
 static const rb_option options[] = {
     RB_FLAG_LINE("any-folder", offsetof(check_options, any_folder),
                  "also read files that a result names outside its folder"),
+    RB_FLAG_LINE("prove", offsetof(check_options, prove),
+                 "also prove, without solving, that the discrete problem has a solution with the "
+                 "stored zones, and that the stored tractions are near to it"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -277,8 +292,8 @@ static cli_exit check_file(const char *path, const check_options *o)
     if (!folder)
         code = cli_fail(code, "%s: out of memory", path);
     else
-        code = first == '{' || first == '[' ? check_json(path, text, size, within)
-                                            : check_table(path, text, within);
+        code = first == '{' || first == '[' ? check_json(path, text, size, within, o->prove)
+                                            : check_table(path, text, within, o->prove);
     cli_wait_end();
     free(folder);
     free(text);

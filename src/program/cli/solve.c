@@ -349,6 +349,7 @@ static void ask(const cli_case_run *run, json_t **members)
     rb_report_json_set(members, "maxima", json_false());
     rb_report_json_set(members, "crack", json_false());
     rb_report_json_set(members, "solutions", json_boolean(it->all_solutions));
+    rb_report_json_set(members, "summary", json_pack("{s:b}", "proof", it->prove));
     if (rb_case_has_steps(rb_case_resolved(run->words))) {
         json_t *history = json_object();
         rb_report_json_set(&history, "derivatives", json_boolean(it->derivatives != NULL));

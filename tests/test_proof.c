@@ -1,0 +1,86 @@
+/* Proofs of contacts: cases of every support, control and formulation have the zones that were
+ * found, and wrong tractions are told by their distance. */
+#include "case_words.h"
+#include "lcp/contact/contact.h"
+
+static const words cases[] = {
+    {{"support arc approach 0.5"}},
+    {{"support hub mu 3 formulation steady creep-ratio 0.5 contact-elements 40"}},
+    {{"support halfplane approach 0.01 formulation steady creep-ratio 0.4 contact-elements 30"}},
+    {{"support halfplane load 100 formulation steady force-ratio 0.4 contact-elements 31"}},
+    {{"support halfplane load 100 formulation steady force-ratio 1 contact-elements 30"}},
+    {{"support halfplane load 100 formulation steady free-axle yes contact-elements 30"}},
+    {{"support halfplane load 100 formulation steady creep-ratio 0 contact-elements 30"}},
+    {{"support halfplane load 100 mu 0 contact-elements 30"}},
+    {{"support halfplane load 100 shift 0 contact-elements 30 mesh uniform"}},
+    {{"support halfplane load 100 shift 0 contact-elements 31 mesh uniform"}},
+    {{"support halfplane load 100 force 5 mu 0.1 lcp-form kwak contact-elements 24"}},
+    {{"support halfplane load 100 formulation steady creep-ratio 0.4 contact-elements 60 ",
+      "mesh fitted"}},
+    {{"support halfplane load 100 formulation steady creep-ratio 0.5 yield-stress 10 ",
+      "contact-elements 30"}},
+    {{"support halfplane load 100 formulation steady creep-ratio 0.7 friction-law exponential ",
+      "mu 0.3 mu-fall 0.1 slip-scale 10 speed 1000 contact-elements 30"}},
+    {{"support halfplane load 100 formulation transient force-ratio 0.4 distance 0.2 ",
+      "contact-elements 24"}},
+    {{"support halfplane load 100 formulation steady creep-ratio 0.4 contact-elements 600 ",
+      "solver newton"}},
+};
+
+enum { CASES = sizeof cases / sizeof *cases };
+
+TEST(solutions_have_the_zones_that_were_found)
+{
+    for (int k = 0; k < CASES; k++) {
+        held_case *c = case_of(RB_CASE_SINGLE, &cases[k], NULL, 0.0);
+        rb_case_result r = {.has_errors = 0};
+        rb_contact_proof proof;
+        if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard) != RB_OK)
+            fail_msg("%s: %s", cases[k].word[0], heard.text);
+        CHECK_OK(rb_contact_prove(&r.model.problem, &r.model.state, &proof, &heard));
+        if (!proof.proved)
+            fail_msg("%s: %s (%s)", cases[k].word[0], proof.reason, proof.where);
+        CHECK_MAX(proof.bound_p, 1e-6, "p: %s", cases[k].word[0]);
+        CHECK_MAX(proof.bound_q, 1e-6, "q: %s", cases[k].word[0]);
+        CHECK_MAX(proof.stored_within, 1e-6, "stored: %s", cases[k].word[0]);
+        CHECK_MAX(proof.nearby, 1e-9, "nearby: %s", cases[k].word[0]);
+        assert_int_equal(proof.undecided, 0);
+        rb_case_result_free(&r);
+    }
+}
+
+/* Tractions that are not the solution's, in the zones of the solution. */
+TEST(wrong_tractions_are_far_from_what_is_proved)
+{
+    held_case *c = case_of(RB_CASE_SINGLE, &cases[2], NULL, 0.0);
+    rb_case_result r = {.has_errors = 0};
+    rb_contact_proof proof;
+    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
+    rb_contact_state *found = &r.model.state;
+    const int middle = found->n / 2;
+    const double p0 = rb_norm_inf((size_t)found->n, found->p), before = found->p[middle];
+    found->p[middle] = before * (1.0 + 1e-6);
+    CHECK_OK(rb_contact_prove(&r.model.problem, found, &proof, &heard));
+    assert_true(proof.proved);
+    CHECK_ABS(proof.stored_within, 1e-6 * before / p0, 1e-8, "distance");
+    CHECK_MAX(1e-9, proof.nearby, "data nearby");
+    rb_case_result_free(&r);
+}
+
+static rb_status prove_case(void *context)
+{
+    const rb_case_result *r = context;
+    rb_contact_proof proof;
+    return rb_contact_prove(&r->model.problem, &r->model.state, &proof, NULL);
+}
+
+TEST(proofs_without_memory_are_said)
+{
+    held_case *c = case_of(RB_CASE_SINGLE, &cases[10], NULL, 0.0);
+    rb_case_result r = {.has_errors = 0};
+    CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
+    assert_true(alloc_fail_each(prove_case, &r) > 30);
+    rb_case_result_free(&r);
+}
+
+RUN_TESTS(NULL, NULL)
