@@ -175,6 +175,27 @@ static rb_status judge_solutions(rb_certificate *c, parts *p, rb_message *why)
     return s;
 }
 
+/* A printed bound that is less than this part of the bound that is proved now is not one that the
+ * program has printed: bounds differ by the order of a few sums alone. */
+static const double LEAST = 0.01;
+
+/* What the summary prints of a proof, against the proof that was found from the stored state. */
+static void judge_proof(rb_certificate *c, const json_t *summary)
+{
+    const json_t *printed = json_object_get(summary, "proof");
+    const rb_contact_proof *proof = &c->found->proof;
+    const double within = rb_certificate_member(printed, "stored_within");
+    const char *status = rb_certificate_word(printed, "status");
+    if (!printed)
+        return;
+    if (strncmp(status, "proved", 6) == 0 && !proof->proved)
+        rb_certificate_violated(c, "proof: %s is printed, but not proved: %s%s%s", status,
+                                proof->reason, *proof->where ? ", " : "", proof->where);
+    else if (strncmp(status, "proved", 6) == 0 && !(within >= LEAST * proof->stored_within))
+        rb_certificate_violated(c, "proof: stored_within is printed as %.3g, proved is %.3g",
+                                within, proof->stored_within);
+}
+
 static rb_status write_case(rb_certificate *c, void *context, json_t **again, rb_message *why)
 {
     const source *of = context;
@@ -191,6 +212,8 @@ static rb_status write_case(rb_certificate *c, void *context, json_t **again, rb
         has_stress |= json_object_get(root, of_stress[k]) != NULL;
     rb_status s =
         rb_certificate_restore(c, rb_case_resolved(of->words), &stored, &p.r, &p.states, why);
+    if (s == RB_OK && c->judges)
+        judge_proof(c, summary);
     if (s == RB_OK && has_stress)
         s = rb_certificate_restore_stress(c, root, &p.r, &p.stress, why);
     if (s == RB_OK)

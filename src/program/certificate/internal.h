@@ -88,15 +88,10 @@ void rb_certificate_tolerances(rb_certificate *c, double residual);
 /* Of the state of c->model: load and force, and what was given of them and of the motion; the laws
  * of contact and friction element by element; RB_ENOMEM. */
 rb_status rb_certificate_laws(rb_certificate *c);
-/* The lost power of a steady solution, and its mesh. */
-rb_status rb_certificate_balances(rb_certificate *c, const rb_rolling_solution *s);
-
-/* ---- proof.c ------------------------------------------------------------------------ */
-
 /* Proves the state of c->model where c proves: found->proof.  RB_ENOMEM. */
 rb_status rb_certificate_prove(rb_certificate *c);
-/* What the summary prints of a proof, against found->proof. */
-void rb_certificate_judge_proof(rb_certificate *c, const json_t *summary);
+/* The lost power of a steady solution, and its mesh. */
+rb_status rb_certificate_balances(rb_certificate *c, const rb_rolling_solution *s);
 
 /* ---- power.c ------------------------------------------------------------------------ */
 

@@ -3,6 +3,8 @@
  * power that is lost.  Nothing is solved. */
 #include "program/certificate/internal.h"
 
+#include "lcp/contact/contact.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -202,4 +204,21 @@ rb_status rb_certificate_balances(rb_certificate *c, const rb_rolling_solution *
         rb_certificate_expect(c, "the given creep_ratio", s->creep_ratio, rc->creep_ratio,
                               CONTROLS * fabs(rc->creep_ratio) + RATIO);
     return judge_hysteresis(c, s);
+}
+
+/* ---- Proof ------------------------------------------------------------------------- */
+
+rb_status rb_certificate_prove(rb_certificate *c)
+{
+    rb_contact_proof *proof = &c->found->proof;
+    const int steps = c->step ? proof->steps : 0, proved = c->step ? proof->steps_proved : 0;
+    rb_message why;
+    if (!c->proves)
+        return RB_OK;
+    const rb_status s = rb_contact_prove(&c->model->problem, &c->model->state, proof, &why);
+    if (c->step) {
+        proof->steps = steps + 1;
+        proof->steps_proved = proved + proof->proved;
+    }
+    return s > 0 ? RB_OK : s;
 }

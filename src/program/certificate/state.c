@@ -396,7 +396,5 @@ rb_status rb_certificate_restore(rb_certificate *c, const rb_resolved_case *reso
     }
     if (s == RB_OK && c->judges)
         s = rb_certificate_balances(c, &r->solution);
-    if (s == RB_OK && c->proves)
-        rb_certificate_judge_proof(c, stored->summary);
     return s;
 }
