@@ -42,6 +42,7 @@ static const char *const lines[] = {
     "~ --load {N/mm 500} --shift {mm 0.001} --increments 3 --error",
     "~ --gap {gap} --load {N/mm 100} --gap-smoothing {mm 1e-7}",
     "~ --worn {worn} --load {N/mm 100}",
+    "~ --max-pressure {MPa 900} --shift {mm 1e-4}",
     "~ --formulation transient --distance 0.2 --irregularity {flat} --load {N/mm 100} --creep 0",
     "~ --friction-law {law} --load {N/mm 100} --shift {mm 1e-4}",
     "~ --history {history}",

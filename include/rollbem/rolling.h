@@ -160,7 +160,9 @@ typedef struct {
                   slip velocity */
     rb_rolling_friction friction;
 
-    double approach, load, half_width; /* one of; all NAN: approach = R/2 */
+    double approach, load, half_width, max_pressure; /* one of; all NAN: approach = R/2 */
+    double pressed_by; /* the load that makes the largest pressure max_pressure, where Hertz's
+                          formula does not say it (rb_rolling_find_load); otherwise NAN */
 
     /* static: one of shift, force, force_ratio loads the contact (all NAN: the shift is a
      * tenth of the given approach, as in *Addi*, or 0 under load control); creep or

@@ -116,6 +116,15 @@ double rb_rolling_unit_of_distance(const rb_rolling_case *rc, double load);
  * load: NaN: those of the given approach. */
 double rb_rolling_zone_half_width(const rb_rolling_case *rc, double load);
 double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width);
+/* The load of the largest pressure of the case: pi R p^2/E*, or of a gap without a radius an
+ * estimate. */
+double rb_rolling_pressure_load(const rb_rolling_case *rc);
+/* 1: that is the load exactly. */
+int rb_rolling_pressure_is_hertz(const rb_rolling_case *rc);
+/* Finds the load under which the largest pressure of the solved case is that of the case, within
+ * 1e-10; sets pressed_by and, of equal elements without one, zone.  RB_EINVAL: the gap has
+ * corners. */
+rb_status rb_rolling_find_load(rb_rolling_case *rc, rb_message *why);
 /* 1: a body has a finite thickness: a layer, a cover or a wheel on a hub. */
 int rb_rolling_has_thickness(const rb_rolling_case *rc);
 /* The larger radius of A and B; A's if B is a plane. */

@@ -21,6 +21,12 @@ static rb_status check(const rb_rolling_model *model, rb_message *why)
 
     if (!state->p || state->status != RB_OK)
         return rb_fail(why, RB_INACCURATE, "derivatives: the case was not solved");
+    if (!isnan(rc->pressed_by))
+        return rb_fail(
+            why, RB_EINVAL,
+            "derivatives: under --max-pressure only where Hertz's formula says the load; "
+            "give --load %.10g",
+            rc->pressed_by);
     if (!dense && (rb_rolling_law_depends_on_state(rc) || model->problem.yield))
         return rb_fail(why, RB_EINVAL,
                        "derivatives: friction that depends on the state, or an interface "

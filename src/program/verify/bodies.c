@@ -244,6 +244,33 @@ static double shakedown_limit(rb_verify *v, const rb_rolling_case *rc)
     return p0 / limit.shear_yield;
 }
 
+/* The load of a largest pressure: a layer of 2 mm on a rigid base under R = 100, Chebyshev
+ * polynomials (B17). */
+static void loads_of_pressures(rb_verify *v)
+{
+    static const struct {
+        double poisson, pressure, load;
+    } rows[] = {{0.3, 20.0, 65.02324}, {0.5, 20.0, 51.99160}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        rb_rolling_case rc = rb_verify_uncoupled();
+        rb_message why = {""};
+        rc.a.radius = 100.0;
+        rc.a.young = 1000.0;
+        rc.a.poisson = rows[k].poisson;
+        rc.a.layer = 2.0;
+        rc.elastic_b = 0;
+        rc.mu = 0.0;
+        rc.approach = rc.load = rc.half_width = NAN;
+        rc.max_pressure = rows[k].pressure;
+        rc.mesh = RB_MESH_FITTED;
+        rc.contact_elements = 100;
+        rb_verify_note(v, rb_rolling_find_load(&rc, &why), &why);
+        rb_verify_relative(v, rc.pressed_by, rows[k].load, 3e-4,
+                           "layer, nu = %g: load of a largest pressure of %g E/1000",
+                           rows[k].poisson, rows[k].pressure);
+    }
+}
+
 void rb_verify_bodies(rb_verify *v)
 {
     /* Johnson's shakedown map (S1): k/p0 without friction, and at full sliding with
@@ -276,4 +303,5 @@ void rb_verify_bodies(rb_verify *v)
     below_layers(v);
     below_sliding(v);
     below_in_b(v);
+    loads_of_pressures(v);
 }

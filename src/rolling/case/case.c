@@ -19,6 +19,8 @@ rb_rolling_case rb_rolling_case_defaults(void)
                           .approach = NAN,
                           .load = NAN,
                           .half_width = NAN,
+                          .max_pressure = NAN,
+                          .pressed_by = NAN,
                           .shift = NAN,
                           .creep = NAN,
                           .creep_ratio = NAN,
@@ -160,6 +162,18 @@ double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width)
     return M_PI * modulus(rc) * gsl_pow_2(half_width) / (4.0 * rb_rolling_radius(rc));
 }
 
+double rb_rolling_pressure_load(const rb_rolling_case *rc)
+{
+    enum { ROUNDS = 60 };
+    const double p = rc->max_pressure;
+    if (rb_rolling_has_radius(rc))
+        return M_PI * rb_rolling_radius(rc) * gsl_pow_2(p) / modulus(rc);
+    double load = p; /* 2P/(pi a) = p, a that of the load */
+    for (int k = 0; k < ROUNDS; k++)
+        load = 0.5 * M_PI * p * rb_rolling_contact_half_width(rc, load);
+    return load;
+}
+
 /* What terms of relaxation add to the compliance of a body under a contact of half-width a that
  * rolls steadily, as a part of the glassy one (A1): the whole of f_k where it rolls slowly, nothing
  * where it passes before anything relaxes. */
@@ -251,7 +265,10 @@ rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc)
     d.dundurs = (coupling(rb_rolling_material(rc, a)) -
                  (rc->elastic_b ? coupling(rb_rolling_material(rc, &rc->b)) : 0.0)) *
                 d.modulus;
-    d.load = isnan(rc->half_width) ? rc->load : rb_rolling_hertz_load(rc, rc->half_width);
+    d.load = !isnan(rc->half_width)    ? rb_rolling_hertz_load(rc, rc->half_width)
+             : isnan(rc->max_pressure) ? rc->load
+             : isnan(rc->pressed_by)   ? rb_rolling_pressure_load(rc)
+                                       : rc->pressed_by;
     if (!isnan(d.load)) {
         d.approach = NAN;
         d.half_width = rb_rolling_contact_half_width(rc, d.load);
@@ -528,10 +545,11 @@ static int count_given(int n, const double *value)
 
 static rb_status check_normal(const rb_rolling_case *rc, rb_message *why)
 {
-    const double normal[] = {rc->approach, rc->load, rc->half_width};
+    const double normal[] = {rc->approach, rc->load, rc->half_width, rc->max_pressure};
 
-    if (count_given(3, normal) > 1)
-        return rb_fail(why, RB_EINVAL, "approach, load and half-width exclude each other");
+    if (count_given(4, normal) > 1)
+        return rb_fail(why, RB_EINVAL,
+                       "approach, load, half-width and max-pressure exclude each other");
     const double reach = fmin(fabs(rc->a.radius), fabs(rc->b.radius));
     if (rc->half_width >= reach)
         return rb_fail(why, RB_EINVAL,
@@ -629,7 +647,7 @@ static rb_status check_gap(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL,
                        "radius: expected a finite one; only half-planes under a gap from a file "
                        "may have none");
-    if (isnan(rc->load) && isnan(rc->approach) && isnan(rc->half_width))
+    if (isnan(rc->load) && isnan(rc->approach) && isnan(rc->half_width) && isnan(rc->max_pressure))
         return rb_fail(why, RB_EINVAL, "approach: R/2 unless it is given, and %s, or --load",
                        no_radius);
     if (!isnan(rc->half_width))
@@ -719,6 +737,7 @@ static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
                  {"load", rc->load},
                  {"approach", rc->approach},
                  {"half-width", rc->half_width},
+                 {"max-pressure", rc->max_pressure},
                  {"speed", rc->speed != 0.0 ? rc->speed : NAN}};
 
     for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {

@@ -223,6 +223,11 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("half-width", RC(half_width), "mm", RB_ABOVE(0),
                    "the half-width a of Hertz; the load follows from it", .unset = "not given",
                    .excludes = RB_ONE_NORMAL, .common = 1),
+    RB_NUMBER_LINE(
+        "max-pressure", RC(max_pressure), "MPa", RB_ABOVE(0),
+        "largest pressure p0; the load follows from it, by Hertz's formula or, on layers, "
+        "wheels, other gaps and with coupled friction, by a search",
+        .unset = "not given", .excludes = RB_ONE_NORMAL),
 
     RB_GROUP_LINE("tangential", "Tangential direction: one of (static: see the notes)"),
     RB_NUMBER_LINE("shift", RC(shift), "mm", RB_ANY, "static: rigid displacement of A towards +x",

@@ -743,6 +743,18 @@ static rb_status check_purpose(const rb_case *c, rb_message *why)
     return refuse_by(c, sizeof rules / sizeof *rules, rules, why);
 }
 
+/* The load of a largest pressure that no formula knows: of one state, which is solved some times
+ * here. */
+static rb_status find_load(rb_case *c, rb_message *why)
+{
+    const int many = c->purpose == RB_CASE_CURVE || c->purpose == RB_CASE_SPEEDS ||
+                     c->purpose == RB_CASE_WEAR || rb_case_has_steps(&c->resolved);
+    return many ? rb_fail(why, RB_EINVAL,
+                          "max-pressure: with more than one state only where Hertz's formula says "
+                          "the load (half-planes of alike materials, gap parabola); give --load")
+                : rb_rolling_find_load(&c->resolved.rc, why);
+}
+
 rb_status rb_case_resolve(rb_case *c, rb_message *why)
 {
     const rb_option_precedence how = rb_case_precedence(c);
@@ -777,7 +789,8 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     /* The paper's own example stays on its equal elements, as do large contacts, which
      * need them. */
     rb_rolling_case *rc = &c->resolved.rc;
-    const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width);
+    const int paper =
+        isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width) && isnan(rc->max_pressure);
     const rb_rolling_mesh equal = {.n = rc->contact_elements};
     const int graded = rb_rolling_couples(rc) || !rb_rolling_can(rc, RB_BODY_HOMOGENEOUS);
     rb_rolling_case fitted = *rc;
@@ -787,8 +800,11 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
                                                                : MOST_GRADED;
     const int many = rc->contact_elements > most &&
                      (rc->contact_elements >= MANY || rb_rolling_suits_large(rc, &equal));
-    if (!rb_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper && rc->zone == 0.0 &&
-        rc->gap != RB_GAP_TABLE && !c->resolved.worn_file)
+    /* the search for a load needs a mesh that scales with the contact */
+    const int scales = !isnan(rc->max_pressure) && !rb_rolling_pressure_is_hertz(rc) &&
+                       !rb_case_has_steps(&c->resolved);
+    if (!rb_case_given(c, "mesh") && (rc->formulation == RB_STEADY || scales) && !paper &&
+        rc->zone == 0.0 && rc->gap != RB_GAP_TABLE && !c->resolved.worn_file)
         rc->mesh =
             !many && rc->slip_operator == RB_SLIP_UPSTREAM ? RB_MESH_FITTED : RB_MESH_ALIGNED;
     if (!rb_case_given(c, "contact-elements") && rc->mesh == RB_MESH_FITTED)
@@ -806,6 +822,8 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     if (!rb_case_given(c, "slip-operator") && rc->formulation == RB_STEADY &&
         rc->mesh == RB_MESH_ALIGNED)
         rc->slip_operator = RB_SLIP_SECOND;
+    if (s == RB_OK && !isnan(rc->max_pressure) && !rb_rolling_pressure_is_hertz(rc))
+        s = find_load(c, why);
     if (s == RB_OK)
         c->resolved.derived = rb_rolling_derive(&c->resolved.rc);
     return rb_case_locate(c, s, why);

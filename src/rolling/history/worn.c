@@ -401,7 +401,7 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     memset(history, 0, sizeof *history);
     memset(last, 0, sizeof *last);
     r.rc.load = rb_rolling_derive(rc).load; /* a given half-width means this load */
-    r.rc.half_width = NAN;
+    r.rc.half_width = r.rc.max_pressure = r.rc.pressed_by = NAN;
     r.rc.increments = 1; /* the cycles have their own */
     if (wear->slides && rb_rolling_law_depends_on_slip(&rc->friction)) /* it is kinetic */
         r.rc.friction = (rb_rolling_friction){.law = RB_FRICTION_constant};
