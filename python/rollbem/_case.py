@@ -536,6 +536,21 @@ class Solution(_Named):
             handle.check(handle.run("rb_api_pivots"))
             return handle.array("lcp.M").copy(), handle.array("lcp.q").copy()
 
+    @property
+    def proof(self) -> dict:
+        """What a machine-checked proof says: whether the discrete problem has a solution with these zones (``proved``,
+        else ``reason``), and the distances of p and q from it as parts of p0 (``bound_p``, ``bound_q``,
+        ``stored_within``).  docs/proof.md."""
+        handle = self._live()
+        with handle.lock:
+            handle.check(handle.run("rb_api_prove"))
+            found: dict = {name: handle.number(f"proof.{name}") for name in (
+                "proved", "undecided", "isolated", "bound_p", "bound_q", "stored_within", "nearby", "margin", "norm")}
+            proved = bool(found["proved"])
+            return {**found, "proved": proved, "isolated": found["isolated"] == 1.0,
+                    "undecided": int(found["undecided"]) if proved else 0,
+                    "reason": "" if proved else handle.word("proof.reason")}
+
     def plot(self, figure: Any = None, ax: Any = None, label: Optional[str] = None) -> Any:
         """The picture of the program: tractions, zones, slip.  Returns the figure.
 

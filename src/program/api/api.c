@@ -5,6 +5,7 @@
 
 #include "base/blas.h"
 #include "rolling/case/closed_forms.h"
+#include "lcp/contact/contact.h"
 #include "lcp/friction/friction.h"
 
 #include <gsl/gsl_errno.h>
@@ -598,6 +599,8 @@ const char *rb_api_word(const rb_api *a, const char *name)
         return rb_case_word(name, (int)s->formulation);
     if (strcmp(name, "lcp-form") == 0)
         return rb_case_word(name, (int)s->lcp_form);
+    if (strcmp(name, "proof.reason") == 0)
+        return s->proof.asked ? s->proof.reason : NULL;
     if (strcmp(name, "solver") == 0)
         return s->solver == RB_SOLVER_CONE ? s->cone_solver : rb_case_word(name, (int)s->solver);
     return NULL;
@@ -629,6 +632,7 @@ double rb_api_number(const rb_api *a, const char *name)
 {
     const rb_resolved_case *c = rb_case_resolved(a->words);
     const rb_case_result *result = &a->result;
+    const rb_contact_proof *proof = &result->solution.proof;
     /* Of the case, of the last curve or history, of the problem that was handed over. */
     const struct {
         const char *name;
@@ -646,6 +650,15 @@ double rb_api_number(const rb_api *a, const char *name)
                     result->history.n > 0 && result->history.steady_from >= 0, NULL},
                    {"history.cycle_work", result->history.cycle_work, result->history.n > 0, "N"},
                    {"history.cycle_rows", result->history.cycle_rows, result->history.n > 0, NULL},
+                   {"proof.proved", proof->proved, proof->asked, NULL},
+                   {"proof.undecided", proof->undecided, proof->proved, NULL},
+                   {"proof.isolated", proof->isolated, proof->proved, NULL},
+                   {"proof.bound_p", proof->bound_p, proof->proved, NULL},
+                   {"proof.bound_q", proof->bound_q, proof->proved, NULL},
+                   {"proof.stored_within", proof->stored_within, proof->proved, NULL},
+                   {"proof.nearby", proof->nearby, proof->asked, NULL},
+                   {"proof.margin", proof->margin, proof->proved, NULL},
+                   {"proof.norm", proof->norm, proof->asked, NULL},
                    {"task.iterations", a->iterations, 1, NULL},
                    {"task.residual", a->residual, 1, NULL},
                    {"task.scaled_residual", a->scaled_residual, 1, NULL}};
@@ -1153,6 +1166,17 @@ static void keep_newton_step(const rb_contact_state *state, void *context)
 
     if (a->status == RB_OK && state->n == a->result.model.mesh.n)
         a->status = add_state(a, "newton", state);
+}
+
+int rb_api_prove(rb_api *a)
+{
+    const rb_rolling_model *model = &a->result.model;
+    rb_api_forget_call(a);
+    if (!has_model(a))
+        return a->status;
+    rb_api_call_begins(a);
+    return rb_api_ended(
+        a, rb_contact_prove(&model->problem, &model->state, &a->result.solution.proof, &a->why));
 }
 
 int rb_api_newton(rb_api *a)
