@@ -363,6 +363,39 @@ TEST(words_are_found)
                   "there are iterations, residual,");
 }
 
+/* Words of the books and the trades, each with a line of its own in the glossary. */
+TEST(words_of_the_trades_are_found)
+{
+    char words[] =
+        "adhesion, anisotropic, animation, bearing, belt, Blok, boundary lubrication, "
+        "Boussinesq, braking, Brazilian, brush, bulge, bulk modulus, Burmister, calender, "
+        "cam, cast iron, coating, conformal, contact filter, contour, corrugation, "
+        "damping, diametral, dimensionless, dissipated energy, driven, dwell, EHL, "
+        "elastomer, equivalent radius, Excel, face width, FASTSIM, fatigue, first yield, "
+        "Flamant, footprint, full adhesion, Galin, gross slip, hardness, heat partition, "
+        "Hertzian, hollow, Hunter, impact, indenter, isochromatic, Jaeger, Kalker, "
+        "kinetic, LaTeX, locked, loss factor, lubricant, Maxwell, Mindlin, misalignment, "
+        "Monte Carlo, needle, notebook, octahedral, p/p0, pandas, partial slip, periodic, "
+        "photoelastic, pin, pitting, plasticity, PLI, Polach, point contact, punch, pure "
+        "rolling, raceway, ratchetting, ratcheting, RCF, reduced modulus, residual "
+        "stress, reversal, rpm, Ruiz, sand, Shore, slide-to-roll, Spence, spin, squeal, "
+        "SRR, standard linear solid, stick-slip, subsurface, SWT, tan delta, tensile, "
+        "third-body, third body, tilt, tire, tooth, toughness, traction coefficient, "
+        "tractive, twin disc, tyre, uncertainty, wavy, wear rate, wheel flat, Winkler";
+    for (char *rest = words, *word; (word = strtok_r(rest, ",", &rest)) != NULL;) {
+        if (shellf("\"$R\" help %s", word) != 0 || !strstr(out, "Glossary"))
+            fail_msg("rollbem help%s: %s%s", word, out, err);
+    }
+    /* all options that the glossary names are some command's */
+    CHECK_RUN(
+        shellf("for c in '' curve stress wear crack sweep fit design contact; do \"$R\" $c "
+               "--help=all; done >help; grep -o -- '--[a-z][a-z0-9-]*' %s/docs/glossary.md | "
+               "sort -u | while read -r o; do grep -q -e \"$o\" help || echo $o; done; echo .",
+               getenv("PWD")),
+        0, out, ".\n");
+    assert_string_equal(out, ".\n");
+}
+
 /* what verify prints: tests/recorded/verify */
 TEST(verify_takes_no_operand)
 {

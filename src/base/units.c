@@ -51,6 +51,8 @@ static const word words[] = {
     {"lbf", "4.4482216152605 N", "kM", 0, 0},
     {"lb", "lbf", "+", 0, 0},
     {"kip", "1e3 lbf", "+", 0, 0},
+    {"pli", "lbf/in", "", 0, 0},
+    {"PLI", "pli", "", 0, 0},
     {"Pa", "N/m2", "hkMGT", 0, 0},
     {"pascal", "Pa", "hkMGT+", 0, 0},
     {"bar", "1e5 Pa", "mk", 0, 0},

@@ -344,7 +344,11 @@ int rb_io_siconos_kind_at(io_tokens *t)
         return RB_IO_SICONOS_SOCLCP;
     if (matrix && (head[0] == 2 || head[0] == 3) && head[3] > 0)
         return RB_IO_SICONOS_FRICTION_GLOBAL;
-    return is_mixed(t, head) ? RB_IO_SICONOS_MIXED : -1;
+    const int line = t->line; /* the last size's, which the message names */
+    if (is_mixed(t, head))
+        return RB_IO_SICONOS_MIXED;
+    t->line = line;
+    return -1;
 }
 
 rb_status rb_io_siconos_guess(const char *path, rb_io_siconos_kind *kind, rb_message *why)

@@ -2,6 +2,8 @@
 #include "base/base.h"
 #include "program/cli/spool.h"
 
+#include "base/base.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
