@@ -151,6 +151,38 @@ TEST(no_solution_is_said_by_lemke)
     }
 }
 
+/* Without ties in q auto takes Lemke's path for ones; if that is one of the long ones, another. */
+TEST(the_path_of_ones_comes_first)
+{
+    enum { N = 60 };
+    static double M[N * N], q[N], z[N];
+    unsigned long long seed = 7;
+    for (int long_path = 0; long_path < 2; long_path++) {
+        rb_lcp_info own, info;
+        OWNED(rb_sparse) sparse;
+        for (int i = 0; i < N; i++) {
+            for (int j = 0; j < N; j++) {
+                seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+                M[i + j * N] = !long_path ? (double)(seed >> 40) / (1 << 24)
+                               : i == j   ? 1.0
+                               : i > j    ? 2.0
+                                          : 0.0;
+            }
+            q[i] = long_path ? -1.0 - 1e-3 * i : M[i] - 0.9;
+        }
+        CHECK_OK(rb_sparse_from_dense(N, N, M, N, &sparse));
+        const rb_lcp_mixed_problem p = {.M = &sparse, .q = q};
+        const rb_status alone = rb_lcp_solve("lemke", &p, NULL, z, &own);
+        CHECK_OK(rb_lcp_solve("auto", &p, NULL, z, &info));
+        if (!long_path) {
+            CHECK_OK(alone);
+            assert_int_equal(info.iters, own.iters);
+            assert_string_equal(info.solver, "lemke");
+        } else
+            CHECK_TRUE(info.iters < 3000, "%d pivots", info.iters);
+    }
+}
+
 TEST(options_reach_the_methods)
 {
     lcp_family f;

@@ -281,6 +281,19 @@ static rb_status fail_memory(lemke *l)
  * Fathi short, and little enough for other paths to stay as long as with ones. */
 static const double GENERIC = 0.0625;
 
+/* The least entry of q ties with another one within this part of it. */
+static const double SAME = 1e-6;
+
+static int least_ties(int n, const double *q)
+{
+    double least = INFINITY, next = INFINITY;
+    for (int i = 0; i < n; i++) {
+        next = fmin(next, fmax(least, q[i]));
+        least = fmin(least, q[i]);
+    }
+    return next - least <= SAME * fabs(least);
+}
+
 static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, void *state)
 {
     lemke *l = state;
@@ -311,7 +324,11 @@ static rb_status begin(const lcp_task *task, int balance_q, rb_lcp_info *info, v
     if (s == RB_OK) {
         double *cover = l->weight + n + 1;
         unsigned long long seed = 20260101;
-        if (!(l->data.cover || !l->task->generic)) {
+        const int generic =
+            l->task->generic == LCP_GENERIC ||
+            (l->task->generic == LCP_GENERIC_FOR_TIES && least_ties(n, l->data.p.q));
+        l->work.ones = !l->data.cover && !generic;
+        if (!l->data.cover && generic) {
             for (int i = 0; i < l->n; i++)
                 cover[i] = 1.0 + GENERIC * (rb_lcp_random(&seed) - 0.5);
             l->data.cover = cover;

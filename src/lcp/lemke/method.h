@@ -5,16 +5,19 @@
 
 #include "lcp/lemke/scale.h"
 
+/* A generic covering vector is one on which ties and the long paths of Murty and Fathi do not
+ * depend; but other paths are shortest with ones. */
+typedef enum { LCP_ONES, LCP_GENERIC_FOR_TIES, LCP_GENERIC } lcp_cover;
+
 /* What a method is given: checked and borrowed. */
 typedef struct {
     lcp_matrix M;
     const double *q, *lower, *upper;
     const rb_lcp_options *opt;
-    int generic;  /* 1: where opt has no covering vector, one on which ties and the long
-                     paths of Murty and Fathi do not depend (tableau) */
-    int split;    /* 1: free variables as differences of two (mixed) */
-    int hopes;    /* 1: ends where single exchanges would be next (newton) */
-    double began; /* on rb_seconds() */
+    lcp_cover generic; /* where opt has no covering vector (tableau) */
+    int split;         /* 1: free variables as differences of two (mixed) */
+    int hopes;         /* 1: ends where single exchanges would be next (newton) */
+    double began;      /* on rb_seconds() */
 } lcp_task;
 
 /* Operations by formulas, about a nanosecond each, so that the same problem always takes
@@ -22,6 +25,7 @@ typedef struct {
 typedef struct {
     double used, allowed;
     int paused; /* 1: the method has used what it is allowed, and can go on */
+    int ones;   /* 1: the path of a covering vector of ones, where the caller has given none */
 } lcp_work;
 
 typedef struct {

@@ -130,7 +130,7 @@ static rb_status take_turn(portfolio *p, member *a, double allowance)
             if (tableau) {
                 a->task.M.dense = p->dense;
                 a->task.M.ld = a->task.M.n;
-                a->task.generic = 1;
+                a->task.generic = a->task.generic ? LCP_GENERIC : LCP_GENERIC_FOR_TIES;
             }
             a->work = a->work ? a->work : malloc(a->method->size);
             a->open = s == RB_OK && a->work;
@@ -163,6 +163,10 @@ static rb_status take_turn(portfolio *p, member *a, double allowance)
 /* From round to round. */
 static const double GROWTH = 1.25;
 
+/* A path of a covering vector of ones that takes so many times the first turn may be one of the
+ * long ones; another one begins. */
+static const double LONG = 4.0;
+
 /* Operations that Newton's method may always take after the pivots have failed. */
 static const double LAST_CHANCE = 1e6;
 
@@ -177,7 +181,7 @@ static rb_status run_portfolio(const lcp_task *task, double *z, rb_lcp_info *inf
     /* The first method that pivots: how it has ended is what is said of a problem that none
      * has solved. */
     const member *spokesman = &p.member[first->method == &rb_lcp_newton_method];
-    double allowance = 0.0;
+    double allowance = 0.0, begun = 0.0; /* begun: by the first turn */
     int over = !p.z;
     for (int round = 0, open = p.count, last = 0; !over && open && !last; round++) {
         /* Where no pivots are left, but Newton's method has not ended: what it may use. */
@@ -188,6 +192,10 @@ static rb_status run_portfolio(const lcp_task *task, double *z, rb_lcp_info *inf
             last &= (p.member[k].method == &rb_lcp_newton_method) != p.member[k].ended;
         }
         open = 0;
+        if (round && first->open && first->work->ones && used_by(first) > LONG * begun) {
+            first->method->end(first->work, RB_MAXITER, p.z);
+            first->open = 0;
+        }
         for (int k = 0; !over && k < (round ? p.count : 1); k++) {
             member *a = &p.member[k];
             if (a->ended)
@@ -215,7 +223,8 @@ static rb_status run_portfolio(const lcp_task *task, double *z, rb_lcp_info *inf
         }
         for (int k = 0; k < p.count; k++)
             open += !p.member[k].ended;
-        allowance = round ? allowance * GROWTH : fmax(used_by(first), 1.0);
+        begun = round ? begun : fmax(used_by(first), 1.0);
+        allowance = round ? allowance * GROWTH : begun;
     }
     int iters = 0;
     for (int k = 0; k < p.count; k++) {

@@ -38,11 +38,33 @@ static double domination(const rb_sparse *rows, const double *unit, double *next
     return ratio;
 }
 
+/* 1: in no units are the rows dominated: the least ratio that units can give is the spectral
+ * radius of the matrix of |M_ij| / M_jj, j other than i, and that is not below the least sum of a
+ * column (Collatz and Wielandt). */
+static int is_hopeless(const rb_sparse *M)
+{
+    double least = INFINITY;
+    for (int j = 0; j < M->cols && least > DOMINATED; j++) {
+        double own = 0.0, others = 0.0;
+        for (int k = M->p[j]; k < M->p[j + 1]; k++)
+            if (M->i[k] == j)
+                own = M->x[k];
+            else
+                others += fabs(M->x[k]);
+        if (!(own > 0.0))
+            return 1;
+        least = fmin(least, others / own);
+    }
+    return least > DOMINATED;
+}
+
 rb_status rb_lcp_contraction(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt, double began,
                              double *z, rb_lcp_info *info)
 {
     const lcp_matrix given = {.n = p->M->rows, .sparse = p->M};
     const int n = given.n;
+    if (is_hopeless(p->M))
+        return RB_SINGULAR;
     rb_arena scratch = {0};
     lcp_scale scale = {0};
     rb_sparse rows = {0}; /* M', whose columns are M's rows */
