@@ -429,6 +429,36 @@ TEST(verify_takes_no_operand)
     check_refused("check r.json", 65, "(only single cases, histories, stress");
 }
 
+/* What the completion for bash offers behind words, the last of which is being written. */
+TEST(completion_offers_names)
+{
+    static const struct {
+        const char *words, *there, *absent;
+    } rows[] = {
+        {"rollbem --example ca", " cattaneo-to-carter ", " rail "},
+        {"rollbem --derivatives ''", " force_ratio ", " iterations "},
+        {"rollbem help cr", " crack ", " curve "},
+        {"rollbem sweep --results force_ratio,max_s", " force_ratio,max_shear ", " max_shear "},
+        {"rollbem sweep --show ''", " von_mises ", " radius "},
+        {"rollbem sweep --vary-1 cr", " creep-ratio ", " radius "},
+        {"rollbem sweep --over ''", " radius ", " force_ratio "},
+        {"rollbem curve --over ''", " creep-ratio ", " radius "},
+        {"rollbem design --minimise max_p", " max_pressure ", " radius "},
+        {"rollbem design --over ra", " radius ", " force_ratio "},
+        {"rollbem fit data --fit mu,mu", " mu,mu-fall ", " mu-fall "}};
+    assert_int_equal(rollbem("--completion=bash"), 0);
+    write_file("completion", out);
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        assert_int_equal(shellf("bash -c \". ./completion; COMP_WORDS=(%s); "
+                                "COMP_CWORD=\\$((\\${#COMP_WORDS[@]} - 1)); _rollbem; "
+                                "printf ' %%s ' \\\"\\${COMPREPLY[@]}\\\"\"",
+                                rows[k].words),
+                         0);
+        if (!strstr(out, rows[k].there) || strstr(out, rows[k].absent))
+            fail_msg("%s: %s", rows[k].words, out);
+    }
+}
+
 /* As first word the completion for bash offers every command that the help lists. */
 TEST(completion_offers_every_command)
 {

@@ -1,5 +1,7 @@
 /* Descriptions of the commands for other programs, made from the option tables: manual
  * pages, completions of three shells, pages of the reference. */
+#include "analysis/crack/crack_case.h"
+#include "analysis/sensitivity/sensitivity.h"
 #include "program/cli/describe.h"
 #include "program/cli/find.h"
 
@@ -43,6 +45,72 @@ static void print_choices(const rb_option *o)
 {
     for (const rb_choice *c = o->choices; c && c->name; c++)
         printf("%s%s", c == o->choices ? "" : " ", c->name);
+}
+
+/* What may stand behind an option: its choices, or the names of which it takes one or several. */
+static const struct {
+    const char *option;
+    enum { OF_EXAMPLES, OF_RESULTS, OF_SLOPES, OF_NUMBERS, OF_OPTIONS } names;
+} named[] = {{"example", OF_EXAMPLES},
+             {"results", OF_RESULTS},
+             {"show", OF_RESULTS},
+             {"derivatives", OF_SLOPES},
+             {"smooth-derivatives", OF_SLOPES},
+             {"minimise", OF_SLOPES},
+             {"maximise", OF_SLOPES},
+             {"subject", OF_SLOPES},
+             {"tolerance", OF_NUMBERS},
+             {"fit", OF_NUMBERS},
+             {"over", OF_NUMBERS},
+             {"family", OF_OPTIONS},
+             {"vary-1", OF_OPTIONS},
+             {"vary-2", OF_OPTIONS},
+             {"vary-3", OF_OPTIONS},
+             {"vary-4", OF_OPTIONS}};
+
+enum { NAMED = sizeof named / sizeof *named };
+
+static int kind_of_names(const rb_option *o)
+{
+    int k = 0;
+    while (k < NAMED && (o->choices || strcmp(named[k].option, o->name) != 0))
+        k++;
+    return k < NAMED ? (int)named[k].names : -1;
+}
+
+static int has_values(const rb_option *o)
+{
+    return o->kind != RB_OPTION_FLAG && (o->choices || kind_of_names(o) >= 0);
+}
+
+static void print_examples(void)
+{
+    char name[80], about[1000];
+    for (int k = 0; cli_example_about(k, name, sizeof name, about, sizeof about); k++)
+        printf(" %s", strchr(name, ' ') + 1); /* behind --example */
+}
+
+static void print_values(const cli_spec *spec, const rb_option *o)
+{
+    const rb_rolling_results *const tables[] = {
+        &rb_rolling_solution_scalars, &rb_rolling_maxima_scalars, &rb_rolling_maxima_b_scalars,
+        &rb_case_crack_scalars};
+    const int names = kind_of_names(o), slopes = names == OF_SLOPES;
+    if (names < 0)
+        print_choices(o);
+    else if (names == OF_EXAMPLES)
+        print_examples();
+    for (int t = 0; (slopes || names == OF_RESULTS) && t < 4; t++)
+        for (int k = 0; k < tables[t]->n; k++)
+            if (!slopes || rb_sensitivity_has(&tables[t]->row[k]))
+                printf(" %s", tables[t]->row[k].name);
+    for (int k = 0; names >= OF_NUMBERS && k < spec->sets[0].n; k++) {
+        const rb_option *of = &spec->sets[0].options[k];
+        const int is_number = of->kind == RB_OPTION_NUMBER;
+        if (cli_takes(spec, of) &&
+            (is_number || (names == OF_OPTIONS && of->kind != RB_OPTION_GROUP)))
+            printf(" %s", of->name);
+    }
 }
 
 /* ---- Manual pages ------------------------------------------------------------------ */
@@ -169,7 +237,7 @@ static void bash_command(const cli_spec *spec)
         if (at.option->kind == RB_OPTION_FLAG)
             continue;
         printf("        --%s) values=\"", at.option->name);
-        print_choices(at.option);
+        print_values(spec, at.option);
         printf("\" kind=%s ;;\n", takes_file(at.option) ? "file" : "word");
     }
     fputs("        esac\n        options=\"", stdout);
@@ -192,9 +260,9 @@ static void zsh_command(const cli_spec *spec)
         }
         fputs("]", stdout);
         if (o->kind != RB_OPTION_FLAG)
-            fputs(takes_file(o) ? ":file:_files" : o->choices ? ":value:(" : ":value:", stdout);
-        if (o->kind != RB_OPTION_FLAG && !takes_file(o) && o->choices) {
-            print_choices(o);
+            fputs(takes_file(o) ? ":file:_files" : has_values(o) ? ":value:(" : ":value:", stdout);
+        if (!takes_file(o) && has_values(o)) {
+            print_values(spec, o);
             putchar(')');
         }
         puts("' \\");
@@ -216,9 +284,9 @@ static void fish_command(const cli_spec *spec)
         printf(" -l %s", o->name);
         if (o->kind != RB_OPTION_FLAG)
             fputs(takes_file(o) ? " -r" : " -x", stdout);
-        if (o->kind != RB_OPTION_FLAG && o->choices) {
+        if (has_values(o)) {
             fputs(" -a '", stdout);
-            print_choices(o);
+            print_values(spec, o);
             putchar('\'');
         }
         fputs(" -d '", stdout);
@@ -275,13 +343,20 @@ static cli_exit bash_completion(void)
           stdout);
     const cli_exit code = cli_describe_all("bash", 0);
     fputs("    esac\n"
+          "    [ \"$command\" = help ] && options= values=\"",
+          stdout);
+    print_commands(" ");
+    fputs("\" kind=word\n"
           "    options=\"$options --help --usage --version\"\n"
           "    [ \"$COMP_CWORD\" -eq 1 ] && options=\"$options ",
           stdout);
     print_commands(" ");
     fputs("\"\n"
           "    if [ -n \"$kind\" ]; then\n"
-          "        COMPREPLY=($(compgen -W \"$values\" -- \"$current\"))\n"
+          "        # one name, or several between commas\n"
+          "        local before=\n"
+          "        [[ $current == *,* ]] && before=${current%,*},\n"
+          "        COMPREPLY=($(compgen -P \"$before\" -W \"$values\" -- \"${current##*,}\"))\n"
           "        [ \"$kind\" = file ] && COMPREPLY+=($(compgen -f -- \"$current\"))\n"
           "    elif [[ $current == -* || $COMP_CWORD -eq 1 ]]; then\n"
           "        COMPREPLY=($(compgen -W \"$options\" -- \"$current\"))\n"
@@ -302,6 +377,9 @@ static cli_exit zsh_completion(void)
           stdout);
     print_commands(" ");
     fputs("\n    fi\n    case $command in\n", stdout);
+    fputs("    help)\n        compadd -- ", stdout);
+    print_commands(" ");
+    fputs("\n        ;;\n", stdout);
     const cli_exit code = cli_describe_all("zsh", 0);
     fputs("    esac\n}\n_rollbem \"$@\"\n", stdout);
     return code;
@@ -319,6 +397,9 @@ static cli_exit fish_completion(void)
         print_quoted(cli_command_help(cli_command_name(k)));
         puts("'");
     }
+    fputs("complete -c rollbem -n '__fish_seen_subcommand_from help' -f -a '", stdout);
+    print_commands(" ");
+    puts("'");
     return cli_describe_all("fish", 1);
 }
 
