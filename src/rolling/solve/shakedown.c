@@ -36,6 +36,10 @@ static double needed_with(const row *r, double c, double *x)
 {
     /* far away the load has no stress */
     double most = fabs(c), above = c + fabs(c), below = c - fabs(c);
+    /* The residual stress that makes the largest least leaves two places equal, or the two
+     * conditions: of what only rounding tells apart the first counts. */
+    const double beyond = 1.0 + 1e-9;
+    double at = most, at_above = above, at_below = below;
     double x_above = r->from, x_below = r->from;
 
     *x = r->from;
@@ -43,24 +47,28 @@ static double needed_with(const row *r, double c, double *x)
         const rb_rolling_stress *s = &r->at[i];
         const double shear = shear_with(s, c, r->plane), radius = shear_with(s, c, RB_PLANE_STRAIN),
                      mean = 0.5 * (s->sxx + s->syy) + c;
-        if (shear > most) {
-            most = shear;
+        most = fmax(most, shear);
+        above = fmax(above, mean + radius - s->szz);
+        below = fmin(below, mean - radius - s->szz);
+        if (shear > at * beyond) {
+            at = shear;
             *x = s->x;
         }
-        if (mean + radius - s->szz > above) {
-            above = mean + radius - s->szz;
+        if (mean + radius - s->szz > at_above * beyond) {
+            at_above = mean + radius - s->szz;
             x_above = s->x;
         }
-        if (mean - radius - s->szz < below) {
-            below = mean - radius - s->szz;
+        if (mean - radius - s->szz < at_below * beyond) {
+            at_below = mean - radius - s->szz;
             x_below = s->x;
         }
     }
-    if (r->plane == RB_PLANE_STRESS || 0.25 * (above - below) <= most)
-        return most;
+    const double along = r->plane == RB_PLANE_STRESS ? 0.0 : 0.25 * (above - below);
+    if (along <= most * beyond)
+        return fmax(most, along);
     /* of the two places the one with the larger part */
-    *x = above > -below ? x_above : x_below;
-    return 0.25 * (above - below);
+    *x = above >= -below / beyond ? x_above : x_below;
+    return along;
 }
 
 static rb_status look_at(row *r, double y)
