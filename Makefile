@@ -240,6 +240,12 @@ $(B)/examples.inc: $(wildcard examples/*/case.ini)
 	@mkdir -p $(@D)
 	$(Q)for f in $^; do echo "{\"$$(basename $$(dirname $$f))\","; sed 's/\\/\\\\/g; s/"/\\"/g; s/.*/"&\\n"/' $$f; echo "},"; done > $@
 $(B)/src/program/cli/examples.o: $(B)/examples.inc
+# the templates of the pictures, line by line
+$(B)/pictures.inc: $(wildcard src/program/report/pictures/*.gp)
+	@mkdir -p $(@D)
+	$(Q)for f in $^; do sed 's/\\/\\\\/g; s/"/\\"/g; s/.*/{"'"$$(basename $$f .gp)"'", "&\\n"},/' $$f; done > $@
+$(B)/src/program/report/gnuplot.o: $(B)/pictures.inc
+$(B)/src/program/report/gnuplot.o: CPPFLAGS += -I$(B)
 # what `rollbem help WORD` finds in the docs
 $(B)/words.inc: tools/scripts/words.awk docs/glossary.md docs/faq.md
 	@mkdir -p $(@D)

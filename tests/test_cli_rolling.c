@@ -738,7 +738,7 @@ TEST(pictures_in_sizes)
                            "--quiet --plot none.svg --plot-script alone.gp"),
                      70);
     slurp("alone.gp", out, sizeof out);
-    assert_non_null(strstr(out, "$data << EOD"));
+    assert_non_null(strstr(out, "$drawn << EOD"));
 }
 
 /* What a reader needs who has the picture alone. */
@@ -747,29 +747,27 @@ TEST(pictures_name_the_case)
     static const struct {
         const char *line, *option, *text;
     } pictures[] = {
-        {"--approach 0.5", "plot", "A: arc, R = 50 mm, E = 94.5 GPa;  B rigid"},
+        {"--approach 0.5", "plot", "A: arc, R = 50 mm, E = 94.5 GPa, ν = 0.1;  B rigid"},
         {"--approach 0.5e-3 --units si", "plot", "A: arc, R = 0.05 m, E = 94.5 GPa"},
         {"--support hub --young-b 2e5 --poisson-b 0.3 --support-b halfplane --approach 0.5", "plot",
-         "A: hub, R = 50 mm, E = 94.5 GPa;  B: half-plane, E = 200 GPa"},
+         "A: hub, R = 50 mm, E = 94.5 GPa, ν = 0.1;  B: half-plane, E = 200 GPa, ν = 0.3"},
         {"--support hub --cover-thickness 5 --relaxation-time 1e-3 --relaxation-ratio 1 "
          "--speed 1000 --load 100 --formulation steady --creep 1e-4",
-         "plot", "A: hub, R = 50 mm, cover 5 mm, E = 94.5 GPa, relaxes;  B rigid"},
+         "plot",
+         "A: hub, R = 50 mm, cover 5 mm, E = 94.5 GPa, ν = 0.1, relaxes on a rigid core;  B rigid"},
         {"curve " SIMILAR "--points 5", "plot", "A: half-plane, R = 50 mm, E"},
-        {"curve " SIMILAR "--points 5 --mu 0.1,0.3", "plot",
-         "dashtype (9,4) linewidth 2.6 title 'μ = 0.3'"},
+        {"curve " SIMILAR "--points 5 --mu 0.1,0.3", "plot", "mu = '0.1 0.3'"},
         {"stress " SIMILAR "--grid 15x9", "plot", "A: half-plane, R = 50 mm, E"},
         {"stress " SIMILAR "--grid 15x9", "plot", "with labels boxed"},
         {"stress " SIMILAR "--grid 15x9", "fringes", "A: half-plane, R = 50 mm, E"},
         {SIMILAR "--increments 2 --force-ratio 0.5", "history-plot", "A: half-plane, R"},
         {SIMILAR "--increments 2 --force-ratio 0.5 --error", "history-plot",
-         "title 'estimated error, at most "},
+         "band_title = 'estimated error, at most "},
         /* all of it slides: 0.02 P; the key names the force, as the creepage is given */
         {SIMILAR "--formulation transient --distance 1 --creep 0.05 --tolerance mu=0.02",
-         "history-plot",
-         "'#c0392b' fillstyle transparent solid 0.3 noborder title 'standard deviation, at most "
-         "4.1 N/mm'"},
+         "history-plot", "band_title = 'standard deviation, at most 4.1 N/mm'"},
         {SIMILAR "--formulation transient --distance 1 --creep 0.01 --error", "history-plot",
-         "'#c0392b' fillstyle transparent solid 0.3 noborder title 'estimated error, at most "}};
+         "band2 = 2"}};
     for (size_t k = 0; k < sizeof pictures / sizeof *pictures; k++) {
         char line[400];
         snprintf(line, sizeof line,
@@ -780,6 +778,38 @@ TEST(pictures_name_the_case)
         if (shellf("grep -F \"%s\" named.gp", pictures[k].text) != 0)
             fail_msg("--%s: no %s", pictures[k].option, pictures[k].text);
     }
+}
+
+/* A lecturer's own commands read the table by the names of its columns, whatever the picture. */
+TEST(own_templates_draw_the_table)
+{
+    static const struct {
+        const char *line, *option, *x, *y;
+    } pictures[] = {
+        {SIMILAR, "plot", "x_mm", "p_MPa"},
+        {SIMILAR "--units inch", "plot", "x_in", "p_psi"},
+        {"curve " SIMILAR "--points 5 --mu 0.1,0.3", "plot", "creepage", "Q_N/mm"},
+        {SIMILAR "--increments 2 --force-ratio 0.5", "history-plot", "shift_mm", "force_ratio"},
+        {"wear " SIMILAR "--wear-coefficient 1e-10 --slide 1e6 --wear-steps 2", "plot", "way",
+         "max_depth_mm"}};
+    char text[200];
+    for (size_t k = 0; k < sizeof pictures / sizeof *pictures; k++) {
+        snprintf(text, sizeof text,
+                 "set title title\nplot $table using '%s':'%s' with lines title 'mine'\n",
+                 pictures[k].x, pictures[k].y);
+        write_file("own.gp", text);
+        assert_int_equal(shellf("\"$R\" %s --contact-elements 12 --quiet --output out.tsv --%s "
+                                "own.svg --plot-template own.gp --plot-script whole.gp && gnuplot "
+                                "-d whole.gp | cmp - own.svg && grep -q mine own.svg",
+                                pictures[k].line, pictures[k].option),
+                         0);
+    }
+    write_file("own.gp", "plot foo(\n");
+    assert_int_equal(rollbem(SIMILAR "--quiet --plot own.svg --plot-template own.gp"), 65);
+    assert_non_null(strstr(err, "own.gp: gnuplot failed: "));
+    assert_int_equal(rollbem(SIMILAR "--quiet --plot own.svg --plot-template none.gp"), 66);
+    assert_int_equal(rollbem(SIMILAR "--quiet --plot-template own.gp"), 64);
+    assert_non_null(strstr(err, "--plot-template: expected one picture"));
 }
 
 /* Where an option of a body varies, no one body is that of the whole picture. */
@@ -806,18 +836,11 @@ TEST(rounding_is_not_drawn_as_slip)
     assert_null(strstr(out, "10^{"));
 }
 
-/* The last x of a block of gnuplot's script. */
-static double last_x_of(const char *script, const char *name)
+/* The number behind this text of a script. */
+static double number_behind(const char *script, const char *text)
 {
-    static char text[200000];
-    char head[40];
-    slurp(script, text, sizeof text);
-    snprintf(head, sizeof head, "$%s << EOD\n", name);
-    const char *at = NOT_NULL(strstr(text, head));
-    const char *line = strchr(at, '\n') + 1, *next = line;
-    for (; strncmp(next, "EOD", 3) != 0; next = strchr(next, '\n') + 1)
-        line = next;
-    return strtod(line, NULL);
+    slurp(script, out, sizeof out);
+    return strtod(NOT_NULL(strstr(out, text)) + strlen(text), NULL);
 }
 
 /* Over equal ratios, curves of several mu end at different creepages; those of the
@@ -828,7 +851,11 @@ TEST(curves_of_a_picture_share_their_range)
                              "--contact-elements 20 --plot c.svg --plot-script c.gp "
                              "--header bare --output c.tsv"),
                      0);
-    CHECK_REL(last_x_of("c.gp", "curve0"), last_x_of("c.gp", "curve1"), 1e-8, "ends");
+    double end[2];
+    slurp("c.gp", out, sizeof out);
+    assert_int_equal(
+        sscanf(NOT_NULL(strstr(out, "x_last = '")), "x_last = '%lf %lf'", &end[0], &end[1]), 2);
+    CHECK_REL(end[0], end[1], 1e-8, "ends");
     assert_int_equal(shell("awk '$3 > 1.499999 && $3 < 1.500001' c.tsv | wc -l"), 0);
     assert_int_equal(atoi(out), 2);
 }
@@ -861,16 +888,6 @@ TEST(numbers_of_contour_lines_keep_off_the_border)
     assert_true(lowest <= -0.8 && levels >= 7);
 }
 
-/* The upper end of the axis that the script sets. */
-static double top_of(const char *script)
-{
-    double from, to;
-    slurp(script, out, sizeof out);
-    const char *range = NOT_NULL(strstr(out, "set yrange ["));
-    assert_int_equal(sscanf(range, "set yrange [%lf:%lf]", &from, &to), 2);
-    return to;
-}
-
 /* A pressure far beyond the limit stays below the upper edge of the map, by a tenth. */
 TEST(the_shakedown_map_shows_its_case)
 {
@@ -879,7 +896,7 @@ TEST(the_shakedown_map_shows_its_case)
                                "--yield-shear 40 --shakedown-map m.svg --plot-script m.gp");
     const double own = number_in(json_object_get(root, "summary"), "max_pressure") / yield_shear;
     assert_true(own > 10.0);
-    CHECK_REL(top_of("m.gp"), 1.1 * own, 1e-5, "p0 = %g k", own);
+    CHECK_REL(number_behind("m.gp", "set yrange [0:"), 1.1 * own, 1e-5, "p0 = %g k", own);
 }
 
 /* Over large mu the bound mu p is cut off at the largest pressure, which keeps the room. */
@@ -887,7 +904,8 @@ TEST(a_large_bound_leaves_room_to_the_pressure)
 {
     held_json *one = run_json(SIMILAR "--mu 1 --plot 1.svg --plot-script 1.gp"),
               *three = run_json(SIMILAR "--mu 3 --plot 3.svg --plot-script 3.gp");
-    CHECK_REL(top_of("1.gp"), top_of("3.gp"), 1e-6, "upper end");
+    CHECK_REL(number_behind("1.gp", "p_to = "), number_behind("3.gp", "p_to = "), 1e-6,
+              "upper end");
 }
 
 /* The value of the largest stress stands in the title of its panel, where it covers no

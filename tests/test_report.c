@@ -487,15 +487,15 @@ TEST(history_of_few_steps_is_drawn)
     h.contact_to[0] = 3.0;
     CHECK_OK(rb_report_history_picture(out, canvas, &rc, &h, &heard));
     const char *script = content(out);
-    assert_non_null(strstr(script, "set xrange [1:1.000001]\n"));
-    assert_non_null(strstr(script, "$data << EOD\n1 0.25 0 0.75 0 0\nEOD"));
-    assert_non_null(strstr(script, "set label 2 'shift  [mm]'"));
+    assert_non_null(strstr(script, "x_from = 1.0\nx_to = 1.000001\n"));
+    assert_non_null(strstr(script, "band_force\n1 0.25 0 0.75 0 0\nEOD"));
+    assert_non_null(strstr(script, "label1 = 'shift  [mm]'"));
     fclose(out);
 
     out = tmpfile();
     h.n = 17; /* from 1 on: eight marks of two increments */
     CHECK_OK(rb_report_history_picture(out, canvas, &rc, &h, &heard));
-    assert_non_null(strstr(content(out), "set xtics 2\n"));
+    assert_non_null(strstr(content(out), "x_step = 2.0\n"));
     fclose(out);
 
     out = tmpfile();
@@ -506,8 +506,8 @@ TEST(history_of_few_steps_is_drawn)
     CHECK_OK(rb_report_history_picture(out, canvas, &rc, &h, &heard));
     script = content(out);
     assert_non_null(strstr(script, "Static contact in time}   2 steps"));
-    assert_non_null(strstr(script, "$data << EOD\n0 2 100 0 0 0 0\n0.5 0 0 0 0 0 0\nEOD"));
-    assert_non_null(strstr(script, "set xrange [0:0.5]\n"));
+    assert_non_null(strstr(script, "band_approach\n0 2 100 0 0 0 0\n0.5 0 0 0 0 0 0\nEOD"));
+    assert_non_null(strstr(script, "x_from = 0.0\nx_to = 0.5\n"));
     fclose(out);
 }
 
@@ -574,9 +574,9 @@ TEST(picture_without_contact_says_so)
     s.half_width = s.max_pressure = s.normal_load = s.tangential_load = 0.0;
     CHECK_OK(rb_report_picture(out, canvas, &rc, &s, &heard));
     const char *script = content(out);
-    assert_non_null(strstr(script, "set label 2 '{/*0.95 no contact}'"));
-    assert_non_null(strstr(script, "set xrange [-1.25:1.25]")); /* all elements */
-    assert_null(strstr(script, "$carter"));
+    assert_non_null(strstr(script, "results = '{/*0.95 no contact}'"));
+    assert_non_null(strstr(script, "x_from = -1.25\nx_to = 1.25\n")); /* all elements */
+    assert_non_null(strstr(script, "is_carter = 0\n"));
     assert_null(strstr(script, "nan"));
     fclose(out);
 }

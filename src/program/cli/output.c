@@ -193,31 +193,42 @@ static cli_exit check_clash(const cli_spec *spec, const cli_args *args, const rb
 
 cli_exit cli_check_files(const cli_spec *spec, const cli_args *args)
 {
-    const rb_option *o, *size_of = NULL, *script_of = NULL;
+    /* What is said about pictures needs one, or one alone. */
+    struct {
+        const char *name;
+        int alone, given;
+        const rb_option *of;
+    } about[] = {
+        {"plot-size", 0, 0, NULL}, {"plot-script", 1, 0, NULL}, {"plot-template", 1, 0, NULL}};
+    const rb_option *o;
     const char *path, *file = cli_case_file_of(args);
     char name[300];
     cli_exit code = CLI_CONTINUE;
-    int set = 0, i = 0, pictures = 0, size = 0, script = 0;
+    int set = 0, i = 0, pictures = 0;
     for (int k = 0; k < spec->set_n; k++)
         for (int j = 0; j < spec->sets[k].n; j++) {
             const rb_option_set *of = &spec->sets[k];
             o = &of->options[j];
             pictures += o->file == RB_FILE_PICTURE && rb_option_path(o, of->target);
-            if (strcmp(o->name, "plot-size") == 0 && (size = of->given[j]) != 0)
-                size_of = o;
-            if (strcmp(o->name, "plot-script") == 0 && (script = of->given[j]) != 0)
-                script_of = o;
+            for (size_t m = 0; m < sizeof about / sizeof *about; m++)
+                if (strcmp(o->name, about[m].name) == 0 && of->given[j]) {
+                    about[m].given = of->given[j];
+                    about[m].of = o;
+                }
         }
-    /* A size needs a picture, and a script belongs to one alone. */
-    if (size && pictures == 0)
-        return cli_fail(size > 0 ? CLI_DATA : CLI_USAGE,
-                        "%s: there is no picture; --plot FILE asks for one",
-                        rb_option_source(size_of, size, file, name, sizeof name));
-    if (script && pictures != 1)
-        return cli_fail(script > 0 ? CLI_DATA : CLI_USAGE,
-                        "%s: expected one picture (such as --plot FILE), got %d",
-                        rb_option_source(script_of, script, file, name, sizeof name), pictures);
+    for (size_t m = 0; m < sizeof about / sizeof *about; m++) {
+        if (!about[m].given || pictures == 1 || (pictures > 1 && !about[m].alone))
+            continue;
+        const char *source = rb_option_source(about[m].of, about[m].given, file, name, sizeof name);
+        code = about[m].given > 0 ? CLI_DATA : CLI_USAGE;
+        return about[m].alone
+                   ? cli_fail(code, "%s: expected one picture (such as --plot FILE), got %d",
+                              source, pictures)
+                   : cli_fail(code, "%s: there is no picture; --plot FILE asks for one", source);
+    }
     while (code == CLI_CONTINUE && (path = next_path(spec, &set, &i, &o)) != NULL) {
+        if (o == about[2].of && access(path, R_OK) != 0) /* before anything is solved */
+            return cli_fail(CLI_NOINPUT, "%s: %s", path, strerror(errno));
         if (is_output(o) && strcmp(path, "-") != 0)
             code = check_clash(spec, args, o, path);
         if (code == CLI_CONTINUE && o->file != RB_FILE_READ) {
@@ -278,7 +289,7 @@ cli_exit cli_write_file(const char *path, cli_write *write, const void *context)
 }
 
 typedef struct {
-    const char *option;
+    const char *option, *template_file;
     rb_report_canvas canvas;
     cli_draw *draw;
     const void *context;
@@ -294,23 +305,38 @@ static rb_status draw_picture(FILE *out, const void *context, rb_message *why)
     const rb_status s = d->draw(out, d->canvas, d->context, &reason);
     if (s == RB_OK || (s == RB_EWRITE && ferror(out)))
         return s;
+    if (s == RB_EFORMAT)
+        return rb_fail(why, s, "%s: %s", d->template_file, rb_status_reason(s, &reason));
     return rb_fail(why, s, "--%s: %s", d->option, rb_status_reason(s, &reason));
 }
 
 cli_exit cli_draw_file(const cli_pictures *pictures, const char *option, const char *path,
                        cli_draw *draw, const void *context)
 {
-    drawing d = {.option = option, .draw = draw, .context = context};
+    drawing d = {
+        .option = option, .template_file = pictures->own, .draw = draw, .context = context};
+    rb_message why = {""};
+    char *own = NULL;
+    size_t size;
     if (!path)
         return CLI_OK;
+    if (pictures->own) {
+        const rb_status s = rb_io_read_text(pictures->own, &own, &size, &why);
+        if (s != RB_OK)
+            return cli_say(s, &why);
+        d.canvas.own = own;
+    }
     d.canvas.size = (rb_report_picture_size)pictures->size;
     rb_report_picture_kind_of(path, &d.canvas.kind, NULL); /* cli_check_files knows it */
     drawing script = d;
     script.canvas.script = 1;
     /* first the script, which does not need gnuplot */
-    const cli_exit code =
+    cli_exit code =
         pictures->script ? cli_write_file(pictures->script, draw_picture, &script) : CLI_OK;
-    return code == CLI_OK ? cli_write_file(path, draw_picture, &d) : code;
+    if (code == CLI_OK)
+        code = cli_write_file(path, draw_picture, &d);
+    free(own);
+    return code;
 }
 
 typedef struct {

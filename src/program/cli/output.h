@@ -6,7 +6,7 @@
 #include "program/cli/rows.h"
 #include "program/report/report.h"
 
-enum { CLI_OUTPUT_OPTIONS_MAX = 10 };
+enum { CLI_OUTPUT_OPTIONS_MAX = 11 };
 
 /* Rows of an option table for a style that stands there. */
 extern const rb_choice cli_formats[], cli_headers[];
@@ -32,6 +32,7 @@ extern const rb_choice cli_formats[], cli_headers[];
 typedef struct {
     int size;           /* rb_report_picture_size */
     const char *script; /* where gnuplot's script goes too; NULL: nowhere */
+    const char *own;    /* file with a template instead of the program's; NULL: none */
 } cli_pictures;
 
 extern const rb_choice cli_picture_sizes[];
@@ -41,7 +42,11 @@ extern const rb_choice cli_picture_sizes[];
         RB_TEXT_LINE("plot-script", pictures + offsetof(cli_pictures, script), "FILE",             \
                      "also write the picture's gnuplot script with its data, for changes by "      \
                      "hand",                                                                       \
-                     .unset = "none", .file = RB_FILE_WRITTEN)
+                     .unset = "none", .file = RB_FILE_WRITTEN),                                    \
+        RB_TEXT_LINE("plot-template", pictures + offsetof(cli_pictures, own), "FILE",              \
+                     "gnuplot commands that draw the picture from its table and titles, instead "  \
+                     "of the program's",                                                           \
+                     .unset = "none", .file = RB_FILE_READ)
 
 /* A picture by the name of its file. */
 #define CLI_PICTURE_LINE(name, place, what)                                                        \

@@ -54,6 +54,11 @@ double rb_report_round_step(double step)
     return power * (digit <= 1.0 ? 1.0 : digit <= 2.0 ? 2.0 : digit <= 5.0 ? 5.0 : 10.0);
 }
 
+const char *rb_report_log_format(double from, double to)
+{
+    return to >= 1e4 || from < 1e-3 ? "10^{%L}" : "% h";
+}
+
 void rb_report_log_tics(FILE *script, char axis, double from, double to)
 {
     if (to >= 1e4 || from < 1e-3)
@@ -118,6 +123,17 @@ void rb_report_band_title(FILE *out, int is_error, double most, const char *unit
     fputs("', ", out);
 }
 
+void rb_report_let_band(FILE *script, int is_error, double most, const char *unit, int titled)
+{
+    const char *name = is_error ? "estimated error" : "standard deviation";
+
+    if (titled)
+        rb_report_let_text(script, "band_title", "%s, at most %s%s%s", name,
+                           RB_REPORT_NUMBER(most, 2), *unit ? " " : "", unit);
+    else
+        rb_report_let_text(script, "band_title", "%s", name);
+}
+
 double rb_report_labels_in(double height)
 {
     return fmax(2.0, 12.0 * height);
@@ -174,10 +190,19 @@ static void add_body(words *w, const rb_rolling_body *b, rb_units units)
         add_words(w, " on a rigid %s", b->layer > 0.0 ? "base" : "core");
 }
 
-void rb_report_label_bodies(FILE *out, const rb_rolling_case *rc, rb_units units, double x,
-                            double y)
+/* The size of letters at which they fit into a line. */
+static double size_of(const words *w)
 {
-    enum { FITS = 100 }; /* letters of this size in a line */
+    enum { FITS = 100 }; /* letters of the largest size in a line */
+    size_t letters = 0;  /* of UTF-8 */
+
+    for (size_t k = 0; k < w->n; k++)
+        letters += ((unsigned char)w->text[k] & 0xc0) != 0x80;
+    return letters > FITS ? 0.95 * FITS / (double)letters : 0.95;
+}
+
+static words words_of(const rb_rolling_case *rc, rb_units units)
+{
     words w = {.n = 0};
     add_words(&w, "A: ");
     add_body(&w, &rc->a, units);
@@ -187,9 +212,21 @@ void rb_report_label_bodies(FILE *out, const rb_rolling_case *rc, rb_units units
         add_body(&w, &rc->b, units);
     } else
         add_words(&w, " rigid");
-    size_t letters = 0; /* of UTF-8 */
-    for (size_t k = 0; k < w.n; k++)
-        letters += ((unsigned char)w.text[k] & 0xc0) != 0x80;
+    return w;
+}
+
+void rb_report_let_bodies(FILE *script, const rb_rolling_case *rc, rb_units units)
+{
+    const words w = words_of(rc, units);
+
+    rb_report_let_text(script, "bodies", "{/*%.3g %s}", size_of(&w), w.text);
+}
+
+void rb_report_label_bodies(FILE *out, const rb_rolling_case *rc, rb_units units, double x,
+                            double y)
+{
+    const words w = words_of(rc, units);
+
     fprintf(out, "set label 9 '{/*%.3g %s}' at screen %g, %g center textcolor rgb '#444444'\n",
-            letters > FITS ? 0.95 * FITS / (double)letters : 0.95, w.text, x, y);
+            size_of(&w), w.text, x, y);
 }

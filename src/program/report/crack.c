@@ -408,7 +408,7 @@ rb_status rb_report_crack_picture(FILE *out, rb_report_canvas canvas, const rb_c
     if (s == RB_OK && r->history.n - first_of(r) < 2)
         s = rb_fail(why, RB_EINVAL, "one position alone is no picture over positions");
     if (s == RB_OK)
-        s = rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_K, &v, why);
+        s = rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, NULL, write_K, &v, why);
     free(v.hat);
     return s;
 }
@@ -442,7 +442,7 @@ rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas, const rb_cas
     view v = {.r = r};
     if (r->history.n - first_of(r) < 2)
         return rb_fail(why, RB_EINVAL, "one position alone is no orbit");
-    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_orbit, &v, why);
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, NULL, write_orbit, &v, why);
 }
 
 /* ---- Picture: the crack open and torn ------------------------------------------------ */
@@ -575,7 +575,7 @@ rb_status rb_report_crack_open(FILE *out, rb_report_canvas canvas, const rb_case
     view v = {.at = at};
     rb_status s = see(r, &v, why);
     if (s == RB_OK)
-        s = rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_open, &v, why);
+        s = rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, NULL, write_open, &v, why);
     free(v.hat);
     return s;
 }

@@ -266,81 +266,60 @@ static int last_solved(const rb_rolling_curve *c)
     return k;
 }
 
-static void write_labels(FILE *out, const view *v, int titled)
+static void write_labels(FILE *out, const view *v)
 {
     const rb_rolling_curve *c = &v->curves->curve[0];
-    if (titled) {
-        /* Where Hertz's half-width is not that of the contact, that of the last point; of bodies
-         * that relax those at the first and the last speed. */
-        const int is_own = rb_rolling_has_thickness(v->rc) || !rb_rolling_has_radius(v->rc);
-        const double half = is_own ? c->last.half_width : c->half_width;
-        char at_first[40] = "";
-        if (v->over == RB_OVER_SPEED && rb_rolling_relaxes(v->rc) && !is_own) {
-            rb_rolling_case first = *v->rc;
-            first.speed = c->speed[0];
-            rb_format(
-                at_first, sizeof at_first, "%s ... ",
-                RB_REPORT_NUMBER(
-                    rb_unit_shown(c->units, "mm",
-                                  rb_rolling_contact_half_width(
-                                      &first, rb_unit_stored(c->units, "N/mm", c->normal_load[0]))),
-                    4));
-        }
-        fprintf(
-            out,
-            "set label 1 '{/:Bold %s}   P = %s %s,  a = %s%s %s' at screen 0.54, 0.972 center\n",
-            v->over == RB_OVER_SPEED ? "Rolling resistance" : "Creep curve",
-            RB_REPORT_NUMBER(c->normal_load[last_solved(c)], 5), rb_unit_name(c->units, "N/mm"),
-            at_first, RB_REPORT_NUMBER(half, 4), rb_unit_name(c->units, "mm"));
-        rb_report_label_bodies(out, v->rc, c->units, 0.54, 0.935);
+    /* Where Hertz's half-width is not that of the contact, that of the last point; of bodies
+     * that relax those at the first and the last speed. */
+    const int is_own = rb_rolling_has_thickness(v->rc) || !rb_rolling_has_radius(v->rc);
+    const double half = is_own ? c->last.half_width : c->half_width;
+    char at_first[40] = "";
+
+    if (v->over == RB_OVER_SPEED && rb_rolling_relaxes(v->rc) && !is_own) {
+        rb_rolling_case first = *v->rc;
+        first.speed = c->speed[0];
+        const double load = rb_unit_stored(c->units, "N/mm", c->normal_load[0]);
+        rb_format(
+            at_first, sizeof at_first, "%s ... ",
+            RB_REPORT_NUMBER(
+                rb_unit_shown(c->units, "mm", rb_rolling_contact_half_width(&first, load)), 4));
     }
+    rb_report_let_text(out, "title", "{/:Bold %s}   P = %s %s,  a = %s%s %s",
+                       v->over == RB_OVER_SPEED ? "Rolling resistance" : "Creep curve",
+                       RB_REPORT_NUMBER(c->normal_load[last_solved(c)], 5),
+                       rb_unit_name(c->units, "N/mm"), at_first, RB_REPORT_NUMBER(half, 4),
+                       rb_unit_name(c->units, "mm"));
+    rb_report_let_bodies(out, v->rc, c->units);
     if (v->over == RB_OVER_SPEED)
-        fprintf(out, "set logscale x\nset ylabel 'resistance to rolling  M/(PR)%s'\n",
-                RB_REPORT_COUNTED_IN(v->exponent, ""));
+        rb_report_let_text(out, "y_label", "resistance to rolling  M/(PR)%s",
+                           RB_REPORT_COUNTED_IN(v->exponent, ""));
     else
-        fprintf(out, "set ylabel 'braking force  −Q%s' offset 1,0\n",
-                v->y == FORCE             ? RB_REPORT_COUNTED_IN(0, rb_unit_name(c->units, "N/mm"))
-                : v->y == FORCE_OVER_LOAD ? "/P"
-                                          : "/(μP)");
+        rb_report_let_text(out, "y_label", "braking force  −Q%s",
+                           v->y == FORCE ? RB_REPORT_COUNTED_IN(0, rb_unit_name(c->units, "N/mm"))
+                           : v->y == FORCE_OVER_LOAD ? "/P"
+                                                     : "/(μP)");
+    rb_report_let_text(
+        out, "x_label", "%s%s",
+        v->over == RB_OVER_SPEED   ? "speed"
+        : v->over == RB_OVER_CREEP ? "creepage ξ"
+                                   : "creepage ratio  ξR/(μa)",
+        RB_REPORT_COUNTED_IN(v->over == RB_OVER_CREEP ? v->exponent : 0,
+                             v->over == RB_OVER_SPEED ? rb_unit_name(c->units, "mm/s") : ""));
+    rb_report_let_text(out, "x_format", "%s",
+                       v->over == RB_OVER_SPEED ? rb_report_log_format(v->from, v->to) : "% h");
 }
 
-static void write_x_label(FILE *out, const view *v)
-{
-    const char *speed = rb_unit_name(v->curves->curve[0].units, "mm/s");
-    if (v->over == RB_OVER_SPEED)
-        rb_report_log_tics(out, 'x', v->from, v->to);
-    fprintf(out, "set xlabel '%s%s'\n",
-            v->over == RB_OVER_SPEED   ? "speed"
-            : v->over == RB_OVER_CREEP ? "creepage ξ"
-                                       : "creepage ratio  ξR/(μa)",
-            RB_REPORT_COUNTED_IN(v->over == RB_OVER_CREEP ? v->exponent : 0,
-                                 v->over == RB_OVER_SPEED ? speed : ""));
-}
-
-/* The panel below: how hot the surfaces become at each point. */
-static void write_heat(FILE *out, const view *v, rb_report_place place)
+/* Of the panel below: how hot the surfaces become at each point. */
+static double heat_step(const view *v)
 {
     double least = INFINITY, most = -INFINITY;
+
     for (int k = 0; k < v->curves->n; k++)
         for (int i = 0; i < v->curves->curve[k].n; i++) {
             least = fmin(least, v->curves->curve[k].max_temperature[i]);
             most = fmax(most, v->curves->curve[k].max_temperature[i]);
         }
-    fprintf(out,
-            "unset label\nunset key\nset tmargin at screen %g\nset bmargin at screen %g\nset "
-            "format x '%%g'\nset ylabel 'hottest  [K]' offset 1,0\n"
-            "set offsets 0,0,graph 0.08,graph 0.08\nset yrange [*:*]\n",
-            0.345 + place.up, 0.14 + place.up);
-    if (most > least)
-        fprintf(out, "set ytics %.9g\n", rb_report_round_step((most - least) / 4.0));
-    write_x_label(out, v);
-    fputs("plot ", out);
-    for (int k = 0; k < v->curves->n; k++)
-        fprintf(out, "%s$curve%d using 1:4 with %s linecolor rgb '%s' dashtype %s linewidth 2.6",
-                k > 0 ? ", " : "", k,
-                v->curves->curve[k].n <= FEW ? "linespoints pointtype 7 pointsize 0.7" : "lines",
-                rb_report_colour(k), rb_report_dashes(k));
-    fputs("\nunset multiplot\n", out);
+    return most > least ? rb_report_round_step((most - least) / 4.0) : 0.0;
 }
 
 /* The way back, where it is another one to the eye. */
@@ -362,102 +341,133 @@ static int comes_back_otherwise(const view *v)
     return 0;
 }
 
-static void write_band_title(FILE *out, const view *v, int titled)
+static rb_status write_table(FILE *out, const void *of, const rb_report_style *style)
 {
+    const view *v = of;
+    return rb_report_curve_table(out, v->curves, "", style);
+}
+
+/* A list of a number for each curve. */
+typedef double number_of_curve(const view *v, int k);
+
+static void let_list(FILE *out, const char *name, const view *v, number_of_curve *number)
+{
+    char text[RB_REPORT_CURVES * (RB_NUMBER_TEXT + 1)] = "", one[RB_NUMBER_TEXT];
+
+    for (int k = 0; k < v->curves->n; k++)
+        rb_append(text, sizeof text, "%s%s", k ? " " : "", rb_number_text(number(v, k), one));
+    rb_report_let_text(out, name, "%s", text);
+}
+
+static double first_row(const view *v, int k)
+{
+    double row = 0.0;
+    for (int j = 0; j < k; j++)
+        row += v->curves->curve[j].n;
+    return row;
+}
+
+static double rising_row(const view *v, int k)
+{
+    const rb_rolling_curve *c = &v->curves->curve[k];
+    return first_row(v, k) + (c->rising < c->n ? c->rising : c->n) - 1;
+}
+
+static double last_row(const view *v, int k)
+{
+    return first_row(v, k) + v->curves->curve[k].n - 1;
+}
+
+static double y_scale(const view *v, int k)
+{
+    return v->y == RESISTANCE        ? pow(10.0, -v->exponent)
+           : v->y == FORCE_OVER_LOAD ? -scale_of(v, k)
+                                     : -1.0;
+}
+
+static double carter_scale(const view *v, int k)
+{
+    const rb_rolling_curve *c = &v->curves->curve[k];
+    return (v->y == FORCE_RATIO ? 1.0 : v->curves->mu[k]) *
+           (v->y == FORCE ? c->normal_load[last_solved(c)] : 1.0);
+}
+
+static double first_x(const view *v, int k)
+{
+    return x_of(v, &v->curves->curve[k], 0);
+}
+
+static double last_x(const view *v, int k)
+{
+    return x_of(v, &v->curves->curve[k], v->curves->curve[k].n - 1);
+}
+
+static double first_s(const view *v, int k)
+{
+    return v->curves->curve[k].creep_ratio[0];
+}
+
+static double last_s(const view *v, int k)
+{
+    return v->curves->curve[k].creep_ratio[v->curves->curve[k].n - 1];
+}
+
+static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context)
+{
+    const view *v = context;
     const rb_rolling_curve *c = &v->curves->curve[0];
+    const int has_band = band_of(v, 0) != NULL, titled = rb_report_place_of(canvas).titled;
+    char x[40], y[40];
     double most = 0.0;
 
+    rb_report_let_table(out, "table", write_table, v, 0);
+    rb_report_let_units(out, c->units);
+    rb_format(x, sizeof x, v->over == RB_OVER_SPEED ? "speed_%s" : "%s",
+              v->over == RB_OVER_SPEED   ? rb_unit_name(c->units, "mm/s")
+              : v->over == RB_OVER_CREEP ? "creepage"
+                                         : "creep_ratio");
+    rb_format(y, sizeof y, v->y == FORCE ? "Q_%s" : "%s",
+              v->y == FORCE        ? rb_unit_name(c->units, "N/mm")
+              : v->y == RESISTANCE ? "resistance_ratio"
+                                   : "force_ratio");
+    rb_report_let_text(out, "x_name", "%s", x);
+    rb_report_let_text(out, "y_name", "%s", y);
+    rb_report_let_text(out, "band", "%s%s",
+                       !has_band               ? ""
+                       : v->curves->has_errors ? "error_"
+                                               : "deviation_",
+                       has_band ? y : "");
+    rb_report_let(out, "x_unit", v->over == RB_OVER_CREEP ? pow(10.0, v->exponent) : 1.0);
+    rb_report_let(out, "x_from", v->from);
+    rb_report_let(out, "x_to", v->to);
+    let_list(out, "mu", v, scale_of);
+    let_list(out, "first", v, first_row);
+    let_list(out, "rising", v, rising_row);
+    let_list(out, "last", v, last_row);
+    let_list(out, "y_scale", v, y_scale);
+    rb_report_let_text(out, "mu_title", "μ %s ", c->branch ? "≤" : "=");
     for (int k = 0; k < v->curves->n; k++)
         for (int i = 0; i < v->curves->curve[k].n; i++)
             most = fmax(most, half_width(v, k, i));
-    most *= v->y == RESISTANCE ? pow(10.0, v->exponent) : 1.0;
-    rb_report_band_title(out, v->curves->has_errors, most,
-                         v->y == FORCE ? rb_unit_name(c->units, "N/mm") : "", titled);
-}
-
-static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
-{
-    const view *v = context;
-    const rb_report_place place = rb_report_place_of(canvas);
-    for (int k = 0; k < v->curves->n; k++) {
-        const rb_rolling_curve *c = &v->curves->curve[k];
-        fprintf(out, "$curve%d << EOD\n", k);
-        /* In units of y; 0 where it was not asked for. */
-        for (int i = 0; i < c->n; i++)
-            fprintf(out, "%.9g %.9g %.9g %.9g\n", x_of(v, c, i), y_of(v, c, i, scale_of(v, k)),
-                    half_width(v, k, i), has_heat(v) ? c->max_temperature[i] : 0.0);
-        fputs("EOD\n", out);
-    }
-    if (draws_carter(v)) {
-        /* Carter's law as markers; ratio and creepage are proportional. */
-        enum { POINTS = 24 };
-        for (int k = 0; k < v->curves->n; k++) {
-            const rb_rolling_curve *c = &v->curves->curve[k];
-            const int last = c->n - 1;
-            fprintf(out, "$carter%d << EOD\n", k);
-            for (int i = 0; i <= POINTS; i++) {
-                const double t = (double)i / POINTS;
-                const double s = (1.0 - t) * c->creep_ratio[0] + t * c->creep_ratio[last];
-                fprintf(out, "%.9g %.9g\n", (1.0 - t) * x_of(v, c, 0) + t * x_of(v, c, last),
-                        -rb_closed_carter_force_ratio(s) *
-                            (v->y == FORCE_RATIO ? 1.0 : v->curves->mu[k]) *
-                            (v->y == FORCE ? c->normal_load[last_solved(c)] : 1.0));
-            }
-            fputs("EOD\n", out);
-        }
-    }
-    rb_report_room(out, 0.13 + place.right, 0.965, (has_heat(v) ? 0.39 : 0.14) + place.up,
-                   0.9 + place.up);
-    fputs(RB_REPORT_GRID "set offsets 0,0,graph 0.05,0\n" RB_REPORT_ZERO, out);
+    rb_report_let_band(out, v->curves->has_errors,
+                       most * (v->y == RESISTANCE ? pow(10.0, v->exponent) : 1.0),
+                       v->y == FORCE ? rb_unit_name(c->units, "N/mm") : "", titled);
+    /* Carter's law; ratio and creepage are proportional */
+    rb_report_let_whole(out, "is_carter", draws_carter(v));
+    let_list(out, "s_first", v, first_s);
+    let_list(out, "s_last", v, last_s);
+    let_list(out, "x_first", v, first_x);
+    let_list(out, "x_last", v, last_x);
+    let_list(out, "carter_scale", v, carter_scale);
+    rb_report_let_whole(out, "back", v->over != RB_OVER_SPEED && comes_back_otherwise(v));
+    rb_report_let_whole(out, "few", c->rising <= FEW);
+    rb_report_let_whole(out, "key_above", v->corner);
+    rb_report_let_whole(out, "above_0", v->above_0);
+    rb_report_let_whole(out, "logarithmic", v->over == RB_OVER_SPEED);
+    rb_report_let_whole(out, "heat", has_heat(v));
     if (has_heat(v))
-        fputs("set multiplot\nset format x ''\n", out);
-    fprintf(out, "set key %s samplen 2.2 font ',%.3g'\n",
-            v->corner ? "left top Left reverse" : "right bottom", rb_report_key_font(canvas));
-    fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
-    if (v->above_0)
-        fputs("set yrange [0:*]\n", out);
-    write_labels(out, v, place.titled);
-    if (!has_heat(v))
-        write_x_label(out, v);
-    fputs("plot ", out);
-    for (int k = 0; k < v->curves->n && band_of(v, 0); k++) {
-        fprintf(out, "$curve%d using 1:($2-$3):($2+$3) every ::0::%d " RB_REPORT_BAND " ", k,
-                v->curves->curve[k].rising - 1, rb_report_colour(k));
-        if (k == 0)
-            write_band_title(out, v, place.titled);
-        else
-            fputs("notitle, ", out);
-    }
-    for (int k = 0; k < v->curves->n; k++)
-        fprintf(out,
-                "%s$curve%d using 1:2 every ::0::%d with %s linecolor rgb '%s' dashtype %s "
-                "linewidth 2.6 title 'μ %s %g'",
-                k > 0 ? ", " : "", k, v->curves->curve[k].rising - 1,
-                v->curves->curve[k].rising <= FEW ? "linespoints pointtype 7 pointsize 0.7"
-                                                  : "lines",
-                rb_report_colour(k), rb_report_dashes(k), v->curves->curve[k].branch ? "≤" : "=",
-                scale_of(v, k));
-    const int back = v->over != RB_OVER_SPEED && comes_back_otherwise(v);
-    for (int k = 0; k < v->curves->n && back; k++) {
-        const int first = v->curves->curve[k].rising;
-        const char *colour = rb_report_colour(v->curves->n + k);
-        if (v->curves->curve[k].branch && band_of(v, k))
-            fprintf(out, ", $curve%d using 1:($2-$3):($2+$3) every ::%d " RB_REPORT_BAND " notitle",
-                    k, first, colour);
-        if (v->curves->curve[k].branch)
-            fprintf(out,
-                    ", $curve%d using 1:2 every ::%d with lines linecolor rgb '%s' dashtype (2,3) "
-                    "linewidth 2.2 %s",
-                    k, first, colour, k == 0 ? "title 'on the way back'" : "notitle");
-    }
-    for (int k = 0; k < v->curves->n && draws_carter(v); k++)
-        fprintf(out,
-                ", $carter%d using 1:2 with points pointtype 6 pointsize %g linecolor rgb "
-                "'#111111' linewidth 1.1 %s",
-                k, 1.7 * rb_report_marker_scale(canvas), k == 0 ? "title 'Carter'" : "notitle");
-    fputs("\n", out);
-    if (has_heat(v))
-        write_heat(out, v, place);
+        rb_report_let(out, "heat_step", heat_step(v));
+    write_labels(out, v);
 }
 
 rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas, const rb_rolling_case *rc,
@@ -510,5 +520,5 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas, const rb_r
             taken[1] += x < wide && y > 1.0 - high;
         }
     v.corner = taken[0] > taken[1];
-    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why);
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, "curve", write_inputs, &v, why);
 }

@@ -118,5 +118,5 @@ rb_status rb_report_picture_bar(FILE *out, rb_report_canvas canvas, const rb_fem
     const int nx = model->structure.contacts - 1;
     const bar_view v = {
         model, &history->step[history->steps - 1], nx, model->mesh.elements / nx, x[0], x[1]};
-    return rb_report_draw(out, canvas, RB_REPORT_SCREEN, write_script, &v, why);
+    return rb_report_draw(out, canvas, RB_REPORT_SCREEN, NULL, write_script, &v, why);
 }

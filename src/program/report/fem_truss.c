@@ -172,5 +172,5 @@ rb_status rb_report_picture_truss(FILE *out, rb_report_canvas canvas, const rb_f
                           history,
                           upper < model->structure.contacts ? "upper nodes inside"
                                                             : "upper nodes overhanging"};
-    return rb_report_draw(out, canvas, RB_REPORT_PANELS, write_script, &v, why);
+    return rb_report_draw(out, canvas, RB_REPORT_PANELS, NULL, write_script, &v, why);
 }

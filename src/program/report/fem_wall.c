@@ -164,7 +164,7 @@ rb_status rb_report_picture_wall(FILE *out, rb_report_canvas canvas, const rb_fe
         v.f.u = u;
         if (most > 0.0)
             v.f.magnify = rb_report_round_down(0.12 * v.f.height / most);
-        s = rb_report_draw(out, canvas, RB_REPORT_PANELS, write_script, &v, why);
+        s = rb_report_draw(out, canvas, RB_REPORT_PANELS, NULL, write_script, &v, why);
     }
     free(u);
     return s;

@@ -4,8 +4,11 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -309,27 +312,135 @@ void rb_report_room(FILE *script, double left, double right, double bottom, doub
             left, right, bottom, top);
 }
 
-rb_status rb_report_draw(FILE *out, rb_report_canvas canvas, rb_report_shape shape,
-                         rb_report_script *script, const void *view, rb_message *why)
+/* ---- Templates --------------------------------------------------------------------- */
+
+/* The files of the folder pictures, line by line. */
+static const struct {
+    const char *picture, *line;
+} templates[] = {
+#include "pictures.inc"
+};
+
+void rb_report_let(FILE *script, const char *name, double x)
 {
-    enum { SECONDS = 120 }; /* the largest picture takes one or two */
+    char text[RB_NUMBER_TEXT];
+
+    if (!isfinite(x))
+        fprintf(script, "%s = NaN\n", name);
+    else { /* gnuplot divides whole numbers as C does */
+        rb_number_text(x, text);
+        fprintf(script, "%s = %s%s\n", name, text, strpbrk(text, ".e") ? "" : ".0");
+    }
+}
+
+void rb_report_let_whole(FILE *script, const char *name, int n)
+{
+    fprintf(script, "%s = %d\n", name, n);
+}
+
+void rb_report_let_text(FILE *script, const char *name, const char *format, ...)
+{
+    char text[4000];
+    va_list arguments;
+
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    fprintf(script, "%s = '", name);
+    for (const char *at = text; *at; at++)
+        fprintf(script, *at == '\'' ? "''" : *at == '\n' ? " " : "%c", *at);
+    fputs("'\n", script);
+}
+
+void rb_report_let_units(FILE *script, rb_units units)
+{
+    rb_report_let_text(script, "mm", "%s", rb_unit_name(units, "mm"));
+    rb_report_let_text(script, "MPa", "%s", rb_unit_name(units, "MPa"));
+    rb_report_let_text(script, "N_mm", "%s", rb_unit_name(units, "N/mm"));
+}
+
+void rb_report_let_table(FILE *script, const char *name, rb_report_write_table *write,
+                         const void *of, int row)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *memory = open_memstream(&text, &size);
+    rb_status s = memory ? write(memory, of, &(rb_report_style){.bare = 1}) : RB_ENOMEM;
+
+    if (memory && fclose(memory) != 0)
+        s = RB_ENOMEM;
+    fprintf(script, "$%s << EOD\n", name);
+    int rows = -1; /* the first line has headings */
+    for (const char *line = text; s == RB_OK && line && *line; rows++) {
+        const size_t n = strcspn(line, "\n") + 1;
+        fwrite(line, 1, n, script);
+        if (row > 0 && rows >= 0 && rows % row == row - 1)
+            fputc('\n', script);
+        line += n;
+    }
+    fputs("EOD\n", script);
+    free(text);
+}
+
+/* What holds for all templates, a lecturer's too. */
+static void write_canvas(FILE *script, rb_report_canvas canvas, rb_report_shape shape)
+{
     const extent e = extent_of(canvas, shape);
     const int k = canvas.kind;
-    FILE *file = canvas.script ? out : temporary();
-    if (!file)
-        return no_temporary(why);
-    void *before = rb_locale_begin();
-    fprintf(file,
+    const rb_report_place place = rb_report_place_of(canvas);
+
+    fprintf(script,
             "set encoding utf8\nset terminal %s size %.4g%s,%.4g%s font 'DejaVu "
             "Sans,%.3g' linewidth %.3g background '#ffffff' enhanced\nset tics out "
             "nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n",
             looks[k].terminal, e.width, looks[k].unit, e.height, looks[k].unit,
             looks[k].font[shape] * e.letters, looks[k].line[shape] * e.letters);
-    script(file, canvas, view);
+    rb_report_let_whole(script, "titled", place.titled);
+    rb_report_let_whole(script, "slide", canvas.size == RB_REPORT_SLIDE);
+    rb_report_let(script, "right", place.right);
+    rb_report_let(script, "up", place.up);
+    fprintf(script, "key_font = ',%.3g'\n", rb_report_key_font(canvas));
+    rb_report_let(script, "marker", rb_report_marker_scale(canvas));
+}
+
+/* Returns 1 if there is one of that name. */
+static int write_template(FILE *script, const char *picture)
+{
+    int lines = 0;
+
+    for (size_t k = 0; k < sizeof templates / sizeof *templates; k++)
+        if (strcmp(templates[k].picture, picture) == 0) {
+            fputs(templates[k].line, script);
+            lines++;
+        }
+    return lines > 0;
+}
+
+rb_status rb_report_draw(FILE *out, rb_report_canvas canvas, rb_report_shape shape,
+                         const char *picture, rb_report_script *inputs, const void *view,
+                         rb_message *why)
+{
+    enum { SECONDS = 120 }; /* the largest picture takes one or two */
+    if (canvas.own && !picture)
+        return rb_fail(why, RB_EINVAL, "this picture has no template");
+    FILE *file = canvas.script ? out : temporary();
+    if (!file)
+        return no_temporary(why);
+    void *before = rb_locale_begin();
+    write_canvas(file, canvas, shape);
+    inputs(file, canvas, view);
     rb_locale_end(before);
+    if (picture)
+        write_template(file, "common");
+    if (canvas.own)
+        fputs(canvas.own, file);
+    else if (picture)
+        write_template(file, picture);
     if (canvas.script)
         return rb_report_flush(out);
-    const rb_status s = rb_report_gnuplot(file, canvas.kind, SECONDS, out, why);
+    rb_status s = rb_report_gnuplot(file, canvas.kind, SECONDS, out, why);
+    if (s == RB_EHELPER && canvas.own && why && strncmp(why->text, "gnuplot failed", 14) == 0)
+        s = RB_EFORMAT; /* a template of ours would be right */
     fclose(file);
     return s;
 }

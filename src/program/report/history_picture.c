@@ -19,7 +19,6 @@ typedef struct {
     double power; /* 10^exponent */
     double from, to;
     quantity named; /* whose band the key names: the first that has one */
-    rb_report_place place;
 } view;
 
 /* Standard deviations are those of Q, because mu and P may be uncertain, too. */
@@ -92,45 +91,13 @@ static double widest(const view *v, quantity of)
     return most;
 }
 
-/* One of three, k from above. */
-typedef struct {
-    int k;
-    quantity of;
-    const char *label, *colour;
-    int column, band; /* of the data; band: half its width, or 0 */
-} panel;
-
-static void write_panel(FILE *out, const view *v, const panel *p)
+/* One of three, k from 1: its label, its range and tics for the values with their bands and for
+ * what else must be seen, from `least` to `most`. */
+static void let_panel(FILE *out, const view *v, int k, quantity of, const char *colour,
+                      const char *label, double least, double most)
 {
-    static const double tops[] = {0.9, 0.634, 0.368};
-    /* larger tics need more between them */
-    const double height = v->place.titled ? 0.235 : 0.215;
-    const double top = tops[p->k] + v->place.up;
-    fprintf(out,
-            "set tmargin at screen %g\nset bmargin at screen %g\n"
-            "set label 2 '%s' at screen 0.03, %g center rotate\nplot ",
-            top, top - height, p->label, top - height / 2);
-    if (p->band && bands_of(v)) {
-        fprintf(out, "$data using 1:($%d-$%d):($%d+$%d) " RB_REPORT_BAND " ", p->column, p->band,
-                p->column, p->band, p->colour);
-        if (p->of == v->named) {
-            const double most = widest(v, p->of) * (p->of == MOTION ? v->power : 1.0);
-            const char *unit = p->of == FORCE || p->of == LOAD ? "N/mm" : "mm";
-            const int pure = (p->of == MOTION && v->rolls) || (p->of == FORCE && !shows_Q(v));
-            rb_report_band_title(out, v->h->errors != NULL, most,
-                                 pure ? "" : rb_unit_name(v->h->units, unit), v->place.titled);
-        } else
-            fputs("notitle, ", out); /* a key for one panel */
-    }
-    fprintf(out,
-            "$data using 1:%d with %s linecolor rgb '%s' linewidth 1.8 pointtype 7 "
-            "pointsize 0.8 notitle\n",
-            p->column, v->points ? "linespoints" : "lines", p->colour);
-}
+    char name[20];
 
-/* A range and tics for the values with their bands, and for what else must be seen. */
-static void write_range(FILE *out, const view *v, quantity of, double least, double most)
-{
     for (int i = 0; i < v->h->n; i++) {
         if (!is_shown(v, i))
             continue;
@@ -144,34 +111,39 @@ static void write_range(FILE *out, const view *v, quantity of, double least, dou
         most += margin;
     }
     const double height = most - least;
-    fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", least - 0.08 * height,
-            most + 0.08 * height, rb_report_round_step(height / 5.0));
+    const struct {
+        const char *name;
+        double x;
+    } range[] = {{"from%d", of == STICK ? 0.0 : least - 0.08 * height},
+                 {"to%d", of == STICK ? 1.0 : most + 0.08 * height},
+                 {"step%d", of == STICK ? 0.2 : rb_report_round_step(height / 5.0)}};
+    for (size_t j = 0; j < sizeof range / sizeof *range; j++) {
+        rb_format(name, sizeof name, range[j].name, k);
+        rb_report_let(out, name, range[j].x);
+    }
+    rb_format(name, sizeof name, "label%d", k);
+    rb_report_let_text(out, name, "%s", label);
+    rb_format(name, sizeof name, "colour%d", k);
+    rb_report_let_text(out, name, "%s", colour);
+    rb_format(name, sizeof name, "band%d", k);
+    rb_report_let_whole(out, name, of != STICK && bands_of(v) ? 1 + (of == v->named) : 0);
 }
 
-static void write_last_axis(FILE *out, const char *label)
-{
-    fprintf(out, "set format x '%%g'\nset xlabel '%s' offset 0,0.3\n", label);
-}
-
-static void write_way(FILE *out, const view *v)
+static void let_way(FILE *out, const view *v)
 {
     char label[80];
 
-    snprintf(label, sizeof label, "%s%s", v->rolls ? "ξ" : "shift",
-             RB_REPORT_COUNTED_IN(v->exponent, v->rolls ? "" : rb_unit_name(v->h->units, "mm")));
-    write_range(out, v, MOTION, INFINITY, -INFINITY);
-    write_panel(out, v, &(panel){0, MOTION, label, "#6c3483", 2, 5});
-    fputs("unset label 1\nunset label 9\n", out);
-    write_range(out, v, FORCE, 0.0, 0.0); /* a force is seen against none */
-    snprintf(label, sizeof label, shows_Q(v) ? "Q  [%s]" : "Q/(μP)",
-             rb_unit_name(v->h->units, "N/mm"));
-    write_panel(out, v, &(panel){1, FORCE, label, "#c0392b", 3, 6});
-    write_last_axis(out, v->rolls ? "rolled distance / a" : "increment");
-    fputs("set yrange [0:1]\nset ytics 0.2\n", out);
-    write_panel(out, v, &(panel){2, STICK, "stick / contact", "#1f4e79", 4, 0});
+    rb_format(label, sizeof label, "%s%s", v->rolls ? "ξ" : "shift",
+              RB_REPORT_COUNTED_IN(v->exponent, v->rolls ? "" : rb_unit_name(v->h->units, "mm")));
+    let_panel(out, v, 1, MOTION, "#6c3483", label, INFINITY, -INFINITY);
+    rb_format(label, sizeof label, shows_Q(v) ? "Q  [%s]" : "Q/(μP)",
+              rb_unit_name(v->h->units, "N/mm"));
+    let_panel(out, v, 2, FORCE, "#c0392b", label, 0.0, 0.0); /* a force is seen against none */
+    let_panel(out, v, 3, STICK, "#1f4e79", "stick / contact", 0.0, 1.0);
+    rb_report_let_text(out, "x_label", "%s", v->rolls ? "rolled distance / a" : "increment");
 }
 
-static void write_time(FILE *out, const view *v)
+static void let_time(FILE *out, const view *v)
 {
     static const quantity shown[] = {HALF_WIDTH, LOAD, APPROACH};
     static const char *const label[] = {"half-width  [%s]", "P  [%s]", "approach  [%s]"},
@@ -180,21 +152,28 @@ static void write_time(FILE *out, const view *v)
 
     for (int k = 0; k < 3; k++) {
         char text[80];
-        snprintf(text, sizeof text, label[k], rb_unit_name(v->h->units, unit[k]));
-        if (k == 2)
-            write_last_axis(out, "time  [s]");
-        write_range(out, v, shown[k], 0.0, 0.0);
-        write_panel(out, v, &(panel){k, shown[k], text, colour[k], 2 + k, 5 + k});
-        fputs("unset label 1\nunset label 9\n", out);
+        rb_format(text, sizeof text, label[k], rb_unit_name(v->h->units, unit[k]));
+        let_panel(out, v, k + 1, shown[k], colour[k], text, 0.0, 0.0);
     }
+    rb_report_let_text(out, "x_label", "time  [s]");
 }
 
-static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
+static rb_status write_table(FILE *out, const void *of, const rb_report_style *style)
+{
+    return rb_report_history(out, of, "", style);
+}
+
+static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
     const int last = v->h->n - 1;
     const char *unit = rb_unit_name(v->h->units, "N/mm");
-    fputs("$data << EOD\n", out);
+
+    rb_report_let_table(out, "table", write_table, v->h, 0);
+    rb_report_let_units(out, v->h->units);
+    fprintf(out, "$drawn << EOD\n%s\n",
+            v->in_time ? "time half_width load approach band band_load band_approach"
+                       : "x motion force stick band band_force");
     for (int i = 0; i < v->h->n; i++) {
         const int contact = v->h->stick[i] + v->h->slipping[i];
         if (v->in_time)
@@ -207,29 +186,31 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
                     band(v, MOTION, i), band(v, FORCE, i));
     }
     fputs("EOD\n", out);
-    fprintf(out,
-            "set multiplot\nset lmargin at screen %g\nset rmargin at screen "
-            "0.965\n" RB_REPORT_GRID "set format x ''\n"
-            "set key at screen 0.965, %g right samplen 2.2 font ',%.3g'\n",
-            0.14 + v->place.right, 0.924 + v->place.up, rb_report_key_font(canvas));
-    fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
-    if (!v->rolls && !v->in_time) /* no half increments */
-        fprintf(out, "set xtics %g\n", fmax(1.0, rb_report_round_step((v->to - v->from) / 8.0)));
-    if (v->place.titled)
-        fprintf(out,
-                "set label 1 '{/:Bold %s}   %d steps,  at the end P = %s %s,  Q = %s "
-                "%s' at screen 0.54, 0.978 center\n",
-                v->rolls     ? "Transient rolling"
-                : v->in_time ? "Static contact in time"
-                             : "Static history",
-                v->h->n, RB_REPORT_NUMBER(v->h->normal_load[last], 5), unit,
-                RB_REPORT_NUMBER(
-                    rb_report_tidy(v->h->tangential_load[last], v->h->normal_load[last]), 5),
-                unit);
-    if (v->place.titled)
-        rb_report_label_bodies(out, v->rc, v->h->units, 0.54, 0.944);
-    (v->in_time ? write_time : write_way)(out, v);
-    fputs("unset multiplot\n", out);
+    rb_report_let(out, "x_from", v->from);
+    rb_report_let(out, "x_to", v->to);
+    /* no half increments */
+    rb_report_let(
+        out, "x_step",
+        v->rolls || v->in_time ? 0.0 : fmax(1.0, rb_report_round_step((v->to - v->from) / 8.0)));
+    rb_report_let_whole(out, "few", v->points);
+    rb_report_let_text(
+        out, "title", "{/:Bold %s}   %d steps,  at the end P = %s %s,  Q = %s %s",
+        v->rolls     ? "Transient rolling"
+        : v->in_time ? "Static contact in time"
+                     : "Static history",
+        v->h->n, RB_REPORT_NUMBER(v->h->normal_load[last], 5), unit,
+        RB_REPORT_NUMBER(rb_report_tidy(v->h->tangential_load[last], v->h->normal_load[last]), 5),
+        unit);
+    rb_report_let_bodies(out, v->rc, v->h->units);
+    if (bands_of(v)) { /* a key for one panel */
+        const quantity of = v->named;
+        const char *name = of == FORCE || of == LOAD ? "N/mm" : "mm";
+        const int pure = (of == MOTION && v->rolls) || (of == FORCE && !shows_Q(v));
+        rb_report_let_band(
+            out, v->h->errors != NULL, widest(v, of) * (of == MOTION ? v->power : 1.0),
+            pure ? "" : rb_unit_name(v->h->units, name), rb_report_place_of(canvas).titled);
+    }
+    (v->in_time ? let_time : let_way)(out, v);
 }
 
 rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas, const rb_rolling_case *rc,
@@ -241,8 +222,7 @@ rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas, const rb
               .rolls = history->step > 0.0,
               .in_time = history->step == 0.0 && history->time,
               .points = history->n <= 40,
-              .power = 1.0, /* as value() reads it below */
-              .place = rb_report_place_of(canvas)};
+              .power = 1.0}; /* as value() reads it below */
     v.exponent = rb_report_exponent(largest_of(&v, MOTION));
     v.power = pow(10.0, v.exponent);
     static const quantity ways[] = {MOTION, FORCE}, times[] = {HALF_WIDTH, LOAD, APPROACH};
@@ -256,5 +236,5 @@ rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas, const rb
     if (!(v.to > v.from)) /* a single step */
         v.to = v.from + 1e-6;
     v.rc = rc;
-    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why);
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, "history", write_inputs, &v, why);
 }

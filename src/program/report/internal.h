@@ -96,6 +96,8 @@ void rb_report_room(FILE *script, double left, double right, double bottom, doub
 /* The label of the picture that names the bodies, centred at screen x, y. */
 void rb_report_label_bodies(FILE *script, const rb_rolling_case *rc, rb_units units, double x,
                             double y);
+/* The same as the text `bodies` of a template. */
+void rb_report_let_bodies(FILE *script, const rb_rolling_case *rc, rb_units units);
 /* Thin grid lines at the tics. */
 #define RB_REPORT_GRID "set grid linecolor rgb '#dddddd' linewidth 0.6\n"
 /* A band about a curve, as a part of plot; its argument: the colour of the curve. */
@@ -104,11 +106,15 @@ void rb_report_label_bodies(FILE *script, const rb_rolling_case *rc, rb_units un
 /* Its title in the key, with the largest half-width, because a narrow band is hidden by its
  * curve; unit: "" of pure numbers. */
 void rb_report_band_title(FILE *script, int is_error, double most, const char *unit, int titled);
+/* The same as the text `band_title` of a template. */
+void rb_report_let_band(FILE *script, int is_error, double most, const char *unit, int titled);
 /* Thin lines through 0. */
 #define RB_REPORT_ZERO "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n"
 /* The powers alone at the tics of a logarithmic axis, 'x' or 'y', where numbers would be
  * longer than their tics. */
 void rb_report_log_tics(FILE *script, char axis, double from, double to);
+/* The format of the numbers there. */
+const char *rb_report_log_format(double from, double to);
 /* The colour of curve k of several, as gnuplot's rgb. */
 const char *rb_report_colour(int k);
 /* gnuplot draws markers larger in svg; this is the factor that corrects their size. */
@@ -196,10 +202,24 @@ void rb_report_letters_in(rb_report_canvas canvas, rb_report_shape shape, double
                           double letters[2]);
 double rb_report_width_over_height(rb_report_canvas canvas, rb_report_shape shape);
 
-/* Draws a picture from the commands that `script` writes after the settings of canvas,
- * shape and axes; or writes these commands themselves. */
+/* What a template of a picture reads, written one after the other: numbers, whole numbers, texts,
+ * and tables as blocks, each with a line of headings. */
+void rb_report_let(FILE *script, const char *name, double x);
+void rb_report_let_whole(FILE *script, const char *name, int n);
+void rb_report_let_text(FILE *script, const char *name, const char *format, ...) RB_PRINTF(3, 4);
+/* The names that columns have for mm, MPa, N/mm, as mm, MPa, N_mm. */
+void rb_report_let_units(FILE *script, rb_units units);
+/* The block $name of a table that `write` writes with bare headings; a blank line behind each `row`
+ * rows, 0: none. */
+typedef rb_status rb_report_write_table(FILE *out, const void *of, const rb_report_style *style);
+void rb_report_let_table(FILE *script, const char *name, rb_report_write_table *write,
+                         const void *of, int row);
+
+/* Draws a picture by the template of this name (pictures/NAME.gp) or the canvas's own, from
+ * what `inputs` writes; or writes the whole script. */
 typedef void rb_report_script(FILE *script, rb_report_canvas canvas, const void *view);
 rb_status rb_report_draw(FILE *out, rb_report_canvas canvas, rb_report_shape shape,
-                         rb_report_script *script, const void *view, rb_message *why);
+                         const char *picture, rb_report_script *inputs, const void *view,
+                         rb_message *why);
 
 #endif

@@ -35,5 +35,5 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
 rb_status rb_report_profiles_picture(FILE *out, rb_report_canvas canvas,
                                      const rb_report_profiles *profiles, rb_message *why)
 {
-    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, profiles, why);
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, NULL, write_script, profiles, why);
 }

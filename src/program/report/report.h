@@ -187,10 +187,12 @@ typedef struct {
     rb_report_picture_kind kind;
     rb_report_picture_size size;
     int script; /* 1: write gnuplot's input with the data instead of the picture */
+    const char *own; /* a template instead of the picture's, or NULL */
 } rb_report_canvas;
 
 /* gnuplot makes all pictures; they are written completely or not at all.  RB_EHELPER:
- * gnuplot is missing or has failed; RB_EWRITE; RB_ENOMEM. */
+ * gnuplot is missing or has failed; RB_EFORMAT: it does not understand the canvas's own template;
+ * RB_EWRITE; RB_ENOMEM. */
 
 /* By the end of the name.  RB_EINVAL: none of .png, .svg, .pdf. */
 rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *kind,

@@ -263,7 +263,7 @@ rb_status rb_report_stress_picture(FILE *out, rb_report_canvas canvas, const rb_
     view v = make_view(s);
     v.shape = rb_report_width_over_height(canvas, RB_REPORT_WIDE);
     v.column = canvas.size == RB_REPORT_85MM;
-    return rb_report_draw(out, canvas, RB_REPORT_WIDE, write_contours, &v, why);
+    return rb_report_draw(out, canvas, RB_REPORT_WIDE, NULL, write_contours, &v, why);
 }
 
 /* ---- Fringes ----------------------------------------------------------------------- */
@@ -304,7 +304,7 @@ rb_status rb_report_fringes(FILE *out, rb_report_canvas canvas, const rb_report_
         enum { ORDERS = 12 };
         v.fringe = rb_report_round_step(2.0 * s->maxima->max_shear.value / ORDERS);
     }
-    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_fringes, &v, why);
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, NULL, write_fringes, &v, why);
 }
 
 /* ---- Shakedown --------------------------------------------------------------------- */
@@ -354,5 +354,5 @@ rb_status rb_report_shakedown_map(FILE *out, rb_report_canvas canvas, const rb_r
 {
     if (!s->shakedown || !(s->s->normal_load > 0.0))
         return rb_fail(why, RB_EINVAL, "no contact to draw");
-    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_limit, s, why);
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, NULL, write_limit, s, why);
 }

@@ -109,22 +109,14 @@ rb_status rb_report_wear_keep(rb_report_wear *w, const rb_rolling_solution *s,
 
 /* ---- Picture ----------------------------------------------------------------------- */
 
-static void write_panel(FILE *out, const rb_report_wear *w, int column)
+static rb_status write_table(FILE *out, const void *of, const rb_report_style *style)
 {
-    fputs("plot ", out);
-    for (int k = 0; k < w->profiles; k++)
-        fprintf(out,
-                "%s$profile%d using 1:%d with lines linecolor rgb '%s' dashtype %s linewidth 1.8 "
-                "title '%s'",
-                k > 0 ? ", " : "", k, column, rb_report_colour(k), rb_report_dashes(k),
-                RB_REPORT_NUMBER(w->profile[k].way, 5));
-    fputc('\n', out);
+    return rb_report_wear_table(out, of, "", style);
 }
 
-static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
+static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const rb_report_wear *w = context;
-    const rb_report_place place = rb_report_place_of(canvas);
     const rb_rolling_wear_history *h = w->history;
     const int last = h->n - 1;
     const double half = 0.5 * (h->contact_to[last] - h->contact_from[last]);
@@ -140,44 +132,39 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     const double to = fmax(h->contact_to[0], h->contact_to[last]) / length.size;
     const char *mm = rb_unit_name(h->units, "mm");
     const wear_words words = words_of(h);
+    char name[20], first[20 * RB_REPORT_WEAR_PROFILES] = "",
+                              ends[20 * RB_REPORT_WEAR_PROFILES] = "";
+    int rows = 0;
 
+    (void)canvas;
+    rb_report_let_table(out, "table", write_table, w, 0);
+    rb_report_let_units(out, h->units);
+    fputs("$profiles << EOD\nx p depth\n", out);
     for (int k = 0; k < w->profiles; k++) {
         const rb_report_wear_profile *p = &w->profile[k];
-        fprintf(out, "$profile%d << EOD\n", k);
-        for (int i = 0; i < p->n; i++)
+        rb_append(first, sizeof first, "%s%d", k ? " " : "", rows);
+        for (int i = 0; i < p->n; i++, rows++)
             fprintf(out, "%.9g %.9g %.9g\n", p->x[i] / length.size, p->p[i] / stress.size,
                     -p->depth[i] / depth.size);
-        fputs("EOD\n", out);
+        rb_append(ends, sizeof ends, "%s%d", k ? " " : "", rows - 1);
     }
-    fprintf(out,
-            "set multiplot\nset lmargin at screen %g\nset rmargin at screen 0.965\n" RB_REPORT_GRID
-            "set format x ''\n",
-            0.14 + place.right);
-    fprintf(out,
-            "set xrange [%.9g:%.9g]\nset key at screen 0.965, %g right horizontal maxrows 1 "
-            "samplen 1.5 font ',%.3g'\nset label 2 '%s:' at screen %g, %g left\n",
-            from - 0.1 * (to - from), to + 0.1 * (to - from), 0.91 + 1.6 * place.up,
-            rb_report_key_font(canvas), words.way, 0.14 - place.right, 0.897 + place.up);
-    if (place.titled)
-        fprintf(out,
-                "set label 1 '{/:Bold Wear}   P = %s %s,  %s %s^3/%s worn after %s %s' at "
-                "screen 0.54, 0.955 center\n",
-                RB_REPORT_NUMBER(h->normal_load[last], 5), rb_unit_name(h->units, "N/mm"),
-                RB_REPORT_NUMBER(h->worn[last], 4), mm, mm, RB_REPORT_NUMBER(h->way[last], 5),
-                words.way);
-    fprintf(out,
-            "set tmargin at screen 0.87\nset bmargin at screen 0.54\n"
-            "set yrange [0:*]\nset label 3 'pressure  [%s]' at screen 0.03, 0.705 center rotate\n",
-            stress.name);
-    write_panel(out, w, 2);
-    fprintf(out,
-            "unset label\nunset key\nset tmargin at screen 0.50\nset bmargin at screen 0.13\nset "
-            "format x '%%g'\nset yrange [*:*]\nset offsets 0,0,0,graph 0.05\n"
-            "set label 3 'worn off  [%s]' at screen 0.03, 0.315 center rotate\n"
-            "set xlabel 'x [%s]' offset 0,0.3\n",
-            depth.name, length.name);
-    write_panel(out, w, 3);
-    fputs("unset multiplot\n", out);
+    fputs("EOD\n", out);
+    rb_report_let_text(out, "first", "%s", first);
+    rb_report_let_text(out, "last", "%s", ends);
+    for (int k = 0; k < w->profiles; k++) {
+        snprintf(name, sizeof name, "name%d", k + 1);
+        rb_report_let_text(out, name, "%s", RB_REPORT_NUMBER(w->profile[k].way, 5));
+    }
+    rb_report_let(out, "x_from", from - 0.1 * (to - from));
+    rb_report_let(out, "x_to", to + 0.1 * (to - from));
+    rb_report_let_text(out, "title", "{/:Bold Wear}   P = %s %s,  %s %s^3/%s worn after %s %s",
+                       RB_REPORT_NUMBER(h->normal_load[last], 5), rb_unit_name(h->units, "N/mm"),
+                       RB_REPORT_NUMBER(h->worn[last], 4), mm, mm,
+                       RB_REPORT_NUMBER(h->way[last], 5), words.way);
+    rb_report_let_text(out, "way", "%s", words.way);
+    rb_report_let_text(out, "x_label", "x [%s]", length.name);
+    rb_report_let_text(out, "p_label", "pressure  [%s]", stress.name);
+    rb_report_let_text(out, "depth_label", "worn off  [%s]", depth.name);
 }
 
 rb_status rb_report_wear_picture(FILE *out, rb_report_canvas canvas, const rb_report_wear *w,
@@ -185,5 +172,5 @@ rb_status rb_report_wear_picture(FILE *out, rb_report_canvas canvas, const rb_re
 {
     if (w->profiles < 1)
         return rb_fail(why, RB_EINVAL, "nothing to draw");
-    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, w, why);
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, "wear", write_inputs, w, why);
 }

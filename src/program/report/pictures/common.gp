@@ -1,0 +1,17 @@
+# What all pictures share.  Blocks of data have a line of headings; columns are read by their names.
+set datafile columnheaders
+has(name) = strstrt(sprintf("\t%s\t", $table[1]), sprintf("\t%s\t", name)) > 0
+colour(k) = word('#1f4e79 #c0392b #b9770e #6c3483 #117864 #5d6d7e #7b241c #2e86c1', k % 8 + 1)
+set dashtype 12 (9,4)
+set dashtype 13 (3,3)
+set dashtype 14 (9,3,3,3)
+set dashtype 15 (14,3)
+set dashtype 16 (6,2,2,2,2,2)
+dashes(k) = k % 6 == 0 ? 1 : 11 + k % 6
+grey = '#999999'
+number(list, k) = real(word(list, k))
+# without rounding errors, which would be a range of their own
+tidy(x) = real(sprintf('%.9g', x))
+# zones of contact: separated, stick, slip to the left and to the right, yield likewise, frictionless
+strong(zone) = word('#9a9a9a #2c7a57 #c4501b #8a3fa0 #8c6a00 #b0305c #3d5a80', zone + 1)
+pale(zone) = word('#f3f3f3 #d9ebe2 #fae3d6 #ecdff1 #f3ecd0 #f6dde6 #e0e7ef', zone + 1)
