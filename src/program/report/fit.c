@@ -410,6 +410,6 @@ rb_status rb_report_fit_picture(FILE *out, rb_report_canvas canvas, const rb_rep
         v.widest = NAN;
     v.exponent = rb_report_exponent(most);
     qsort(v.point, n, sizeof *v.point, by_test);
-    return rb_arena_done(&scratch,
-                         rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, NULL, write_script, &v, why));
+    return rb_arena_done(
+        &scratch, rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, NULL, write_script, &v, why));
 }

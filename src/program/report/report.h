@@ -186,7 +186,7 @@ typedef enum {
 typedef struct {
     rb_report_picture_kind kind;
     rb_report_picture_size size;
-    int script; /* 1: write gnuplot's input with the data instead of the picture */
+    int script;      /* 1: write gnuplot's input with the data instead of the picture */
     const char *own; /* a template instead of the picture's, or NULL */
 } rb_report_canvas;
 

@@ -462,8 +462,8 @@ rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas, const rb_r
         v.shown.to += margin;
     }
     status = v.shown.from <= v.shown.to
-                 ? rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS,
-                                  NULL, map ? write_map : write_curves, &v, why)
+                 ? rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, NULL,
+                                  map ? write_map : write_curves, &v, why)
                  : rb_fail(why, RB_EINVAL, "no case has a %s", s->shown.name);
     free(at);
     return status;
