@@ -25,6 +25,10 @@ static void check_energy(const rb_rolling_case *rc, const rb_rolling_solution *s
     const double fed = moment_of(s) / R - s->creepage * s->tangential_load;
     CHECK_REL(s->dissipation + s->hysteresis, fed, bound, "%s: energy", what);
     CHECK_REL(s->resistance_ratio, moment_of(s) / (s->normal_load * R), 1e-13, "%s", what);
+    CHECK_REL(s->hysteresis_factor,
+              1.5 * M_PI * moment_of(s) /
+                  (s->normal_load * 0.5 * (s->contact_to - s->contact_from)),
+              1e-12, "%s: Tabor's factor", what);
 }
 
 /* A frictionless cylinder R = 100 with a_g = 1 on a rigid plane, one relaxation time. */

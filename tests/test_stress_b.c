@@ -178,6 +178,16 @@ TEST(each_body_has_its_own_maximum)
     }
 }
 
+/* First yield (Tresca) beside shakedown: p0/k = 1/.30028 and 4 under Hertz's pressure. */
+TEST(first_yield_comes_before_shakedown)
+{
+    held_json *root = run_json("stress --similar --support halfplane --gap parabola --young 210000 "
+                               "--poisson 0.3 --mu 0 --load 100 --body b --shakedown --grid 2x2");
+    const json_t *limit = json_object_get(root, "shakedown");
+    CHECK_REL(number_in(limit, "first_yield"), 1.0 / 0.30028, 1e-3, "Tresca");
+    CHECK_REL(number_in(limit, "limit"), 4.0, 2e-3, "Melan");
+}
+
 /* ---- Doors ------------------------------------------------------------------------- */
 
 TEST(certificates_know_the_body)

@@ -383,6 +383,8 @@ typedef struct {
     double dissipation;        /* power per unit speed [force/length] */
     double resistance_moment;  /* M = int x p dx [force]; NAN in static, like the ratio */
     double resistance_ratio;   /* M/(P R), the coefficient of rolling resistance */
+    double hysteresis_factor;  /* Tabor's, (3 pi/2) M/(P a), a half the width of the contact; steady
+                                  rolling of bodies that relax, otherwise NAN */
     double hysteresis;         /* power per unit speed that viscoelasticity dissipates
                                   [force/length]; steady only, otherwise NAN */
     double lever_power;        /* power per unit speed that the lever arms of wheels supply, so that

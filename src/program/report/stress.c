@@ -57,9 +57,12 @@ static const char *shakedown_text(const rb_report_stress *s, char *line, size_t 
     const rb_rolling_shakedown *d = s->shakedown;
     const double limit = s->s->max_pressure / d->shear_yield;
     const double own = s->s->max_pressure / s->yield_shear;
-    const int n = snprintf(line, size, "%-24s p0 <= %.5g k, decided at x = %.4g %s, y = %.4g %s",
+    const int n = snprintf(line, size,
+                           "%-24s p0 <= %.5g k, decided at x = %.4g %s, y = %.4g %s; first yield "
+                           "at p0 = %.5g k",
                            "shakedown", limit, d->x, rb_unit_name(s->s->units, "mm"), d->y,
-                           rb_unit_name(s->s->units, "mm"));
+                           rb_unit_name(s->s->units, "mm"),
+                           s->s->max_pressure / s->maxima->tresca_shear.value);
     if (isfinite(own))
         snprintf(line + n, size - (size_t)n, "; here p0 = %.5g k: %s", own,
                  own <= limit ? "shakes down" : "does not shake down");
@@ -141,13 +144,15 @@ void rb_report_json_stress(json_t **root, const rb_report_stress *s)
     rb_report_json_set(root, "maxima", all);
     if (s->shakedown) {
         const rb_rolling_shakedown *d = s->shakedown;
-        const rb_report_named numbers[] = {{"limit", s->s->max_pressure / d->shear_yield},
-                                           {"shear_yield", d->shear_yield},
-                                           {"x", d->x},
-                                           {"y", d->y},
-                                           {"residual", d->residual},
-                                           {"yield_shear", s->yield_shear}};
-        rb_report_json_set(root, "shakedown", rb_report_json_named(6, numbers));
+        const rb_report_named numbers[] = {
+            {"limit", s->s->max_pressure / d->shear_yield},
+            {"first_yield", s->s->max_pressure / s->maxima->tresca_shear.value},
+            {"shear_yield", d->shear_yield},
+            {"x", d->x},
+            {"y", d->y},
+            {"residual", d->residual},
+            {"yield_shear", s->yield_shear}};
+        rb_report_json_set(root, "shakedown", rb_report_json_named(7, numbers));
     }
     if (s->nx > 0) {
         rb_report_json_set(&points, "nx", json_integer(s->nx));

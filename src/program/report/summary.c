@@ -113,6 +113,8 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
                     rb_unit_name(s->units, "N"));
             if (!isnan(s->resistance_ratio))
                 fprintf(out, "M/(P R) = %.5g, ", s->resistance_ratio);
+            if (!isnan(s->hysteresis_factor))
+                fprintf(out, "factor %.5g, ", s->hysteresis_factor);
             fprintf(out, "hysteresis %.5g %s per unit speed\n", s->hysteresis, load);
             const double lever = s->normal_load * s->half_width;
             fprintf(out, "  torque    %.5g %s on A's axle", rb_report_tidy(s->torque_a, lever),

@@ -1,5 +1,6 @@
 #include "rolling/solve/results.h"
 
+#include <gsl/gsl_math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -262,6 +263,10 @@ rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_
     }
     set_stick_limits(&model->mesh, s);
     s->nip_width = s->contact_to - s->contact_from;
+    s->hysteresis_factor =
+        s->formulation == RB_STEADY && rb_rolling_relaxes(model->rc) && s->normal_load > 0.0
+            ? 1.5 * M_PI * s->resistance_moment / (s->normal_load * s->half_width)
+            : NAN;
     /* Clapeyron's: half the work of the tractions, which are linear in the displacements
      * unless a body relaxes or the interface yields. */
     double twice = 0.0;
