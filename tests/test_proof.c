@@ -67,6 +67,67 @@ TEST(wrong_tractions_are_far_from_what_is_proved)
     rb_case_result_free(&r);
 }
 
+/* Without coupling by definiteness; never where friction and pressure act on each other, or where
+ * the datum is so near that F_NN is indefinite. */
+TEST(solutions_are_unique_where_that_is_shown)
+{
+    static const struct {
+        words of;
+        const char *unique;
+    } rows[] = {
+        {{{"similar yes support halfplane load 100 formulation steady creep-ratio 0.4 ",
+           "contact-elements 30"}},
+         "uncoupled"},
+        {{{"similar yes support halfplane load 100 shift 1e-5 contact-elements 30"}}, "uncoupled"},
+        {{{"support halfplane load 100 mu 0 contact-elements 30"}}, "frictionless"},
+        {{{"support halfplane load 100 poisson 0.3 formulation steady creep-ratio 0.4 ",
+           "contact-elements 30"}},
+         "not shown"},
+        {{{"support halfplane approach 0.001 mu 0 datum 0.1 contact-elements 30"}}, "not shown"},
+    };
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        held_case *c = case_of(RB_CASE_SINGLE, &rows[k].of, NULL, 0.0);
+        rb_case_result r = {.has_errors = 0};
+        rb_contact_proof proof;
+        if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard) < 0)
+            fail_msg("%s: %s", rows[k].of.word[0], heard.text);
+        CHECK_OK(rb_contact_prove(&r.model.problem, &r.model.state, &proof, &heard));
+        if (strcmp(proof.unique, rows[k].unique) != 0)
+            fail_msg("%s: %s", rows[k].of.word[0], proof.unique);
+        rb_case_result_free(&r);
+    }
+}
+
+/* Of all matrices of order 3 with integers of -2 ... 2 and a diagonal of 0 ... 3 every seventh:
+ * definite by Sylvester's minors of 2 S = A + A'; weights of powers of two change nothing. */
+TEST(definite_matrices_are_told_from_others)
+{
+    const double d[] = {1.0, 1.0, 1.0};
+    int shown = 0, definite_ones = 0;
+    for (int k = 0; k < 1000000; k += 7) {
+        int code = k, a[9], definite;
+        double A[9];
+        for (int i = 0; i < 9; i++) {
+            const int values = i % 4 == 0 ? 4 : 5;
+            a[i] = code % values - (i % 4 == 0 ? 0 : 2);
+            code /= values;
+            A[i] = a[i];
+        }
+        const int s01 = a[1] + a[3], s02 = a[2] + a[6], s12 = a[5] + a[7], s0 = 2 * a[0],
+                  s1 = 2 * a[4], s2 = 2 * a[8];
+        const int is = s0 > 0 && s0 * s1 - s01 * s01 > 0 &&
+                       s0 * (s1 * s2 - s12 * s12) - s01 * (s01 * s2 - s12 * s02) +
+                               s02 * (s01 * s12 - s1 * s02) >
+                           0;
+        CHECK_OK(rb_lcp_prove_definite(3, A, 3, d, &definite));
+        if (definite && !is)
+            fail_msg("matrix %d is not definite", k);
+        shown += definite;
+        definite_ones += is;
+    }
+    assert_int_equal(shown, definite_ones);
+}
+
 static rb_status prove_case(void *context)
 {
     const rb_case_result *r = context;

@@ -213,7 +213,8 @@ int rb_api_pivots(rb_api *a);
 int rb_api_newton(rb_api *a);
 /* Proves the solution, of steps the last one (docs/proof.md).  Then rb_api_number has
  * proof.proved, proof.undecided (elements), proof.isolated, proof.bound_p, proof.bound_q,
- * proof.stored_within, proof.nearby, proof.margin, proof.norm, and rb_api_word proof.reason. */
+ * proof.stored_within, proof.nearby, proof.margin, proof.norm, and rb_api_word proof.reason
+ * and proof.unique. */
 int rb_api_prove(rb_api *a);
 /* "p[3]", "lambda+[2]", "z0": name of a variable of rb_api_pivots; NULL: there is none. */
 const char *rb_api_variable(const rb_api *a, int variable, char *text, int size);

@@ -161,7 +161,11 @@ typedef struct {
     int isolated;  /* no other solution has nearly the same tractions, gaps and slips */
     double nearby; /* p and q solve a problem exactly whose data, coefficients of friction included,
                       differ by at most this part */
-    double margin, norm;     /* as of rb_lcp_proof */
+    double margin, norm; /* as of rb_lcp_proof */
+    /* Whether the tractions are proved to be the only ones for these coefficients of friction:
+     * "frictionless", "uncoupled", "pressure" (p alone), "not shown"; NULL: no proof
+     * was tried */
+    const char *unique;
     int steps, steps_proved; /* of a case with steps; 0: none */
 } rb_contact_proof;
 

@@ -549,6 +549,7 @@ class Solution(_Named):
             proved = bool(found["proved"])
             return {**found, "proved": proved, "isolated": found["isolated"] == 1.0,
                     "undecided": int(found["undecided"]) if proved else 0,
+                    "unique": handle.word("proof.unique") or "not shown",
                     "reason": "" if proved else handle.word("proof.reason")}
 
     def plot(self, figure: Any = None, ax: Any = None, label: Optional[str] = None) -> Any:

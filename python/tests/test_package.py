@@ -477,5 +477,6 @@ def test_headings_of_tables_have_units():
 def test_solutions_are_proved():
     solution = rollbem.solve(support="halfplane", load=500., formulation="steady", creep_ratio=0.4, contact_elements=30)
     proof = solution.proof
+    assert proof["unique"] == "not shown"
     assert proof["proved"] and proof["isolated"] and proof["undecided"] == 0 and proof["reason"] == ""
     assert 0.0 < proof["bound_p"] < 1e-8 and 0.0 < proof["stored_within"] < 1e-8

@@ -35,4 +35,9 @@ rb_status rb_lcp_of_game(const rb_lcp_game *game, rb_sparse *M, double *q, doubl
 /* As rb_lcp_prove, of that problem; z = (x, y). */
 rb_status rb_lcp_prove_game(const rb_lcp_game *game, const double *z, rb_lcp_proof *proof);
 
+/* definite: 1: x'D A x > 0 is proved for all x other than zero, D = diag(d), for A (n x n,
+ * column-major) and all matrices whose entries differ from it by at most 8 units of rounding; 0:
+ * it is not.  RB_ENOMEM. */
+rb_status rb_lcp_prove_definite(int n, const double *A, int ld, const double *d, int *definite);
+
 #endif

@@ -863,4 +863,9 @@ rb_status rb_rolling_pool_start(const rb_rolling_sweep *sweep, rb_rolling_pool *
 rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_pool *pool,
                               rb_message *why);
 
+/* rb_contact_prove of the state of a model.  Where its friction depends on the state, the
+ * coefficients are those with which the iteration has ended: unique is "fixed friction". */
+rb_status rb_rolling_model_prove(const rb_rolling_model *model, rb_contact_proof *proof,
+                                 rb_message *why);
+
 #endif

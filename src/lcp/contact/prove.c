@@ -112,6 +112,78 @@ static void translate(const rb_contact_problem *p, const rb_contact_lcp *lcp,
     }
 }
 
+/* ---- Uniqueness ------------------------------------------------------------------------- */
+
+/* definite: two solutions have the same x: sum d_i dx_i dy_i <= 0 for complementary x and y = A x
+ * + column b, and dx'D A dx > 0 otherwise.  Where b is an unknown of a border with row'dx = 0, d =
+ * row/column makes it cancel.  x are the pressures and y the gaps, or friction and slips. */
+static rb_status prove_part(const rb_contact_problem *p, const double *A, int ld, int border,
+                            const double *row, const double *column, double *d, int *definite)
+{
+    const int n = p->n;
+    *definite = 0;
+    for (int kind = border ? 1 : 0; kind < 3 && !*definite; kind++) {
+        if (border && kind != 1)
+            break;
+        for (int i = 0; i < n; i++) {
+            double of_row = 0.0, of_column = 0.0;
+            for (int j = 0; kind == 2 && j < n; j++) {
+                of_row += A[i + (size_t)j * (size_t)ld];
+                of_column += A[j + (size_t)i * (size_t)ld];
+            }
+            d[i] = kind == 0 ? 1.0 : kind == 1 ? row[i] / column[i] : of_column / of_row;
+        }
+        int cancels = 1; /* exactly, where there is a border */
+        for (int i = 0; border && i < n; i++)
+            cancels &= fma(d[i], column[i], -row[i]) == 0.0;
+        if (!cancels)
+            break;
+        const rb_status s = rb_lcp_prove_definite(n, A, ld, d, definite);
+        if (s != RB_OK)
+            return s;
+    }
+    return RB_OK;
+}
+
+/* Of coefficients of friction as they are: first the pressure, which friction does not change,
+ * then friction under that pressure (docs/proof.md). */
+static rb_status prove_unique(const rb_contact_problem *p, rb_contact_proof *proof)
+{
+    const int n = p->n;
+    const size_t length = (size_t)n;
+    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
+    int coupled = 0, definite = 0;
+    proof->unique = "not shown";
+    if (p->yield)
+        return RB_OK;
+    for (size_t j = 0; j < length; j++) {
+        for (size_t i = 0; i < length; i++)
+            coupled |= K.F[i + (length + j) * (size_t)K.ldf] != 0.0;
+        coupled |= p->load_given && p->load_T[j] != 0.0;
+    }
+    if (coupled && p->mu > 0.0)
+        return RB_OK;
+    rb_arena scratch = {0};
+    double *d = rb_arena_doubles(&scratch, length, 4), *row_N = d + length, *row_T = row_N + length,
+           *ones = row_T + length;
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    for (size_t i = 0; i < length; i++)
+        ones[i] = 1.0;
+    rb_status s = prove_part(p, K.F, K.ldf, p->load_given, p->load_N, ones, d, &definite);
+    if (s == RB_OK && definite) {
+        proof->unique = p->mu > 0.0 ? "pressure" : "frictionless";
+        if (p->mu > 0.0) {
+            rb_contact_force_row(p, row_N, row_T);
+            s = prove_part(p, K.S + length * length, n, p->force_given, row_T, p->e_T, d,
+                           &definite);
+            if (s == RB_OK && definite)
+                proof->unique = "uncoupled";
+        }
+    }
+    return rb_arena_done(&scratch, s);
+}
+
 rb_status rb_contact_prove(const rb_contact_problem *problem, const rb_contact_state *state,
                            rb_contact_proof *proof, rb_message *why)
 {
@@ -161,16 +233,16 @@ rb_status rb_contact_prove(const rb_contact_problem *problem, const rb_contact_s
         differ = unknowns(&p, &lcp, state, z);
         s = rb_lcp_prove(&(rb_lcp_mixed_problem){.M = &M, .q = lcp.b}, z, &of);
     }
-    if (s == RB_OK || s == RB_UNDECIDED) {
+    if (s == RB_OK || s == RB_UNDECIDED) { /* it ran */
         proof->proved = of.proved;
         proof->nearby = fmax(of.nearby, differ);
         proof->norm = of.norm;
         proof->reason = of.reason;
+        s = prove_unique(&p, proof);
         if (of.proved)
             translate(&p, &lcp, state, &of, proof);
         else if (of.row >= 0)
             rb_contact_lcp_variable(&lcp, n, of.row, proof->where);
-        s = RB_OK;
     }
     rb_lcp_proof_free(&of);
     rb_sparse_free(&M);

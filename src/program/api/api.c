@@ -601,6 +601,8 @@ const char *rb_api_word(const rb_api *a, const char *name)
         return rb_case_word(name, (int)s->lcp_form);
     if (strcmp(name, "proof.reason") == 0)
         return s->proof.asked ? s->proof.reason : NULL;
+    if (strcmp(name, "proof.unique") == 0)
+        return s->proof.asked ? s->proof.unique : NULL;
     if (strcmp(name, "solver") == 0)
         return s->solver == RB_SOLVER_CONE ? s->cone_solver : rb_case_word(name, (int)s->solver);
     return NULL;
@@ -1175,8 +1177,7 @@ int rb_api_prove(rb_api *a)
     if (!has_model(a))
         return a->status;
     rb_api_call_begins(a);
-    return rb_api_ended(
-        a, rb_contact_prove(&model->problem, &model->state, &a->result.solution.proof, &a->why));
+    return rb_api_ended(a, rb_rolling_model_prove(model, &a->result.solution.proof, &a->why));
 }
 
 int rb_api_newton(rb_api *a)

@@ -3,8 +3,6 @@
  * power that is lost.  Nothing is solved. */
 #include "program/certificate/internal.h"
 
-#include "lcp/contact/contact.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -215,7 +213,7 @@ rb_status rb_certificate_prove(rb_certificate *c)
     rb_message why;
     if (!c->proves)
         return RB_OK;
-    const rb_status s = rb_contact_prove(&c->model->problem, &c->model->state, proof, &why);
+    const rb_status s = rb_rolling_model_prove(c->model, proof, &why);
     if (c->step) {
         proof->steps = steps + 1;
         proof->steps_proved = proved + proof->proved;

@@ -102,7 +102,7 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
         w->failed = rb_fail(w->why, RB_ENOMEM, "states: out of memory for %d steps", steps);
     if (asked->proof && w->failed == RB_OK) {
         const int before = step ? asked->proof->steps_proved : 0;
-        w->failed = rb_contact_prove(&model->problem, &model->state, asked->proof, w->why);
+        w->failed = rb_rolling_model_prove(model, asked->proof, w->why);
         asked->proof->steps = step + 1;
         asked->proof->steps_proved = before + asked->proof->proved;
     }

@@ -218,7 +218,7 @@ static rb_status solve(cli_case_run *run, rb_message *why)
     it->steps.proof = it->prove ? &it->proof : NULL;
     rb_status s = cli_run_case(run->c, &it->steps, &it->r, why);
     if (s == RB_OK && it->prove && !steps)
-        s = rb_contact_prove(&it->r.model.problem, &it->r.model.state, &it->proof, why);
+        s = rb_rolling_model_prove(&it->r.model, &it->proof, why);
     it->r.solution.proof = it->proof;
     if (s == RB_OK && it->all_solutions)
         s = rb_rolling_find_solutions(&it->r.model, &it->all, why);

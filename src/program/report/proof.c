@@ -3,6 +3,7 @@
 
 #include <jansson.h>
 #include <math.h>
+#include <string.h>
 
 const char *rb_report_proof_status(const rb_lcp_proof *p, char *text, size_t size)
 {
@@ -80,7 +81,14 @@ const char *rb_report_contact_proof_text(const rb_contact_proof *p, char *text, 
         if (!p->undecided)
             rb_append(text, size, ": zones exact");
         rb_append(text, size, ", p within %.2g of p0, q within %.2g", p->bound_p, p->bound_q);
-        if (p->isolated)
+        const char *const unique = p->unique ? p->unique : "not shown";
+        if (strcmp(unique, "pressure") == 0)
+            rb_append(text, size, ", p unique");
+        else if (strcmp(unique, "fixed friction") == 0)
+            rb_append(text, size, ", unique for these coefficients of friction");
+        else if (strcmp(unique, "not shown") != 0)
+            rb_append(text, size, ", unique");
+        if (p->isolated && (strcmp(unique, "pressure") == 0 || strcmp(unique, "not shown") == 0))
             rb_append(text, size, ", isolated");
     } else {
         rb_append(text, size, ": %s", p->reason);
@@ -109,6 +117,7 @@ json_t *rb_report_json_contact_proof(const rb_contact_proof *p)
     rb_report_json_set(&object, "stored_within", rb_report_json_number(p->stored_within));
     rb_report_json_set(&object, "undecided", elements);
     rb_report_json_set(&object, "isolated", json_boolean(p->proved && p->isolated));
+    rb_report_json_set(&object, "unique", json_string(p->unique ? p->unique : "not shown"));
     rb_report_json_set(&object, "nearby", rb_report_json_number(p->nearby));
     rb_report_json_set(&object, "margin", rb_report_json_number(p->margin));
     rb_report_json_set(&object, "norm", rb_report_json_number(p->norm));

@@ -345,3 +345,13 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
     }
     return status;
 }
+
+rb_status rb_rolling_model_prove(const rb_rolling_model *model, rb_contact_proof *proof,
+                                 rb_message *why)
+{
+    const rb_status s = rb_contact_prove(&model->problem, &model->state, proof, why);
+    if (s == RB_OK && proof->unique && strcmp(proof->unique, "uncoupled") == 0 &&
+        rb_rolling_law_depends_on_state(model->rc))
+        proof->unique = "fixed friction";
+    return s;
+}
