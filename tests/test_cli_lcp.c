@@ -59,6 +59,44 @@ TEST(the_largest_exit_code_wins_and_all_files_run)
     CHECK_RUN(lcp("--trase good"), 64, err, "--trace");
 }
 
+/* Each word where it must be said, and beside it where it must not. */
+TEST(status_words_say_what_is_known)
+{
+    static const char
+        turned[] = "2 -2 -2 2 -2 1 -1",
+        hilbert[] =
+            "3 1 .5 .333333333333333 .5 .333333333333333 .25 .333333333333333 .25 .2 -1 -.7 -.5";
+    static const struct {
+        const char *problem, *arguments, *status;
+        int code;
+    } cases[] = {
+        {GOOD, "", "solved", 0},
+        {GOOD, "--tol 1e-300", "solved", 0}, /* the residual is zero */
+        {hilbert, "", "solved", 0},
+        {hilbert, "--tol 1e-300", "solved-to-rounding", 0},
+        {"1 0 -1", "", "no-solution", 1},
+        {"1 1e-12 -1", "", "solved", 0}, /* z = 1e12 */
+        {"1 0 -1", "--all", "no solution", 1},
+        {turned, "--solver lemke", "secondary-ray", 1},
+        {turned, "", "solved", 0},
+        {"2 0 1 -1 0 -1 -1", "--solver lemke", "no-solution", 1}, /* a ray that proves it */
+        {"2 -2 -2 2 0 1 -1", "--solver newton", "singular-matrix", 1},
+        {GOOD, "--solver newton", "solved", 0},
+        {KOSTREVA, "--solver lemke --max-pivots 3", "iteration-limit", 1},
+        {KOSTREVA, "--solver lemke --max-pivots 4", "solved", 0},
+        {KOSTREVA, "--seconds 1e-9", "time-limit", 1},
+        {KOSTREVA, "--seconds 100", "solved", 0},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char arguments[200], said[60];
+        write_file("p", cases[k].problem);
+        snprintf(arguments, sizeof arguments, "p %s", cases[k].arguments);
+        snprintf(said, sizeof said, strstr(arguments, "--all") ? "p: %s" : "p\t%s\t",
+                 cases[k].status);
+        CHECK_RUN(lcp(arguments), cases[k].code, out, said);
+    }
+}
+
 TEST(the_tie_rule_can_be_chosen)
 {
     assert_int_equal(lcp("--rule first-index --max-pivots 100 kostreva"), 1);
