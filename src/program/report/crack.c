@@ -230,7 +230,7 @@ static faces faces_of(const rb_case_crack_result *r)
 
 /* What the colours mean, at the bottom of the picture; open: 1, where there is something to
  * be seen of it.  A column, whose letters are larger, takes two lines. */
-static void write_zone_key(FILE *out, rb_report_canvas canvas, const char *slips, int open)
+static void let_zone_key(FILE *out, rb_report_canvas canvas, const char *slips, int open)
 {
     static const struct {
         int zone, line;
@@ -241,17 +241,26 @@ static void write_zone_key(FILE *out, rb_report_canvas canvas, const char *slips
                  {RB_ZONE_SLIP_NEGATIVE, 1, 0.03, 0.34, "■", "face slips to the tip"},
                  {RB_ZONE_SLIP_POSITIVE, 1, 0.66, 0.66, "■", "away from the tip"}};
     const int titled = rb_report_place_of(canvas).titled;
+    int n = 0;
     for (size_t k = open ? 0 : 1; k < sizeof zones / sizeof *zones; k++) {
         const int slip = zones[k].zone == RB_ZONE_SLIP_NEGATIVE;
-        fprintf(out,
-                "set label %d '%s %s%s%s' at screen %g, %g left textcolor rgb '%s' font ',%.3g'\n",
-                (int)k + 3, zones[k].box, slip ? slips : "", slip ? " " : "",
-                titled || zones[k].zone != RB_ZONE_SLIP_POSITIVE ? zones[k].name : "away from it",
-                titled ? zones[k].x : zones[k].in_column, titled || zones[k].line ? 0.025 : 0.065,
-                zones[k].zone == RB_ZONE_SEPARATED ? "#666666"
-                                                   : rb_report_zone_colour(zones[k].zone, 0),
-                rb_report_key_font(canvas));
+        char name[20];
+        n++;
+        rb_format(name, sizeof name, "zone%d", n);
+        rb_report_let_text(out, name, "%s %s%s%s", zones[k].box, slip ? slips : "", slip ? " " : "",
+                           titled || zones[k].zone != RB_ZONE_SLIP_POSITIVE ? zones[k].name
+                                                                            : "away from it");
+        rb_format(name, sizeof name, "zone_x%d", n);
+        rb_report_let(out, name, titled ? zones[k].x : zones[k].in_column);
+        rb_format(name, sizeof name, "zone_y%d", n);
+        rb_report_let(out, name, titled || zones[k].line ? 0.025 : 0.065);
+        rb_format(name, sizeof name, "zone_colour%d", n);
+        rb_report_let_text(out, name, "%s",
+                           zones[k].zone == RB_ZONE_SEPARATED
+                               ? "#666666"
+                               : rb_report_zone_colour(zones[k].zone, 0));
     }
+    rb_report_let_whole(out, "zone_names", n);
 }
 
 /* Steps of the last pass. */
@@ -294,7 +303,7 @@ static void write_steps(FILE *out, const rb_case_crack_result *r)
 {
     const rb_crack_history *h = &r->history;
     const axes unit = axes_of(r);
-    fputs("$K << EOD\n", out);
+    fputs("$K << EOD\nx K_I K_II fluid\n", out);
     for (int k = first_of(r); k < h->n; k++)
         fprintf(out, "%.9g %.9g %.9g %.9g\n", abscissa(r, k), h->K_I[k] / unit.K.size,
                 h->K_II[k] / unit.K.size, h->fluid_pressure[k] / unit.fluid.size);
@@ -306,7 +315,7 @@ static void write_zones(FILE *out, const rb_case_crack_result *r, const double *
 {
     const rb_crack_history *h = &r->history;
     const double unit = rb_unit_shown(r->units, "mm", 1.0) / r->half_width;
-    fputs("$zones << EOD\n", out);
+    fputs("$zones << EOD\nx along half_x half_along colour\n", out);
     for (int k = first_of(r); k < h->n; k++) {
         const int *zone = h->zone + (size_t)k * h->nodes;
         const double x = abscissa(r, k), left = k > first_of(r) ? x - abscissa(r, k - 1) : 0.0;
@@ -325,19 +334,25 @@ static void write_zones(FILE *out, const rb_case_crack_result *r, const double *
     fputs("EOD\n", out);
 }
 
-static void write_title(FILE *out, const view *v, rb_report_place place)
+static rb_status write_table(FILE *out, const void *of, const rb_report_style *style)
+{
+    return rb_report_crack_table(out, of, "", style);
+}
+
+static void let_title(FILE *out, const view *v)
 {
     const rb_case_crack_result *r = v->r;
     const rb_crack_path *path = &r->shape.path;
     const double dx = path->x[path->pieces] - path->x[0], dy = path->y[0] - path->y[path->pieces];
-    if (place.titled)
-        fprintf(
-            out,
-            "set label 1 '{/:Bold Crack}   length %.4g a at %.4g° to the surface,  μ of the faces "
-            "%.3g,  a = %s %s' at screen 0.54, 0.972 center\n",
-            hypot(dx, dy) / rb_unit_stored(r->units, "mm", r->half_width),
-            atan2(dy, dx) * 180.0 / 3.14159265358979, r->shape.friction,
-            RB_REPORT_NUMBER(r->half_width, 4), rb_unit_name(r->units, "mm"));
+
+    rb_report_let_table(out, "table", write_table, r, 0);
+    rb_report_let_units(out, r->units);
+    rb_report_let_text(
+        out, "title",
+        "{/:Bold Crack}   length %.4g a at %.4g° to the surface,  μ of the faces %.3g,  a = %s %s",
+        hypot(dx, dy) / rb_unit_stored(r->units, "mm", r->half_width),
+        atan2(dy, dx) * 180.0 / 3.14159265358979, r->shape.friction,
+        RB_REPORT_NUMBER(r->half_width, 4), rb_unit_name(r->units, "mm"));
 }
 
 static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
@@ -345,59 +360,25 @@ static void write_K(FILE *out, rb_report_canvas canvas, const void *context)
     const view *v = context;
     const rb_case_crack_result *r = v->r;
     const rb_crack_history *h = &r->history;
-    const rb_report_place place = rb_report_place_of(canvas);
     const double a = r->half_width;
-    char unit[40];
     const axes shown = axes_of(r);
-    const int wet = r->summary.fluid_pressure_max > 0.0;
+    char unit[40];
     double along = 0.0; /* the whole crack, in half-widths */
 
     for (int j = 0; j < h->nodes; j++)
         along += v->hat[j] / rb_unit_stored(r->units, "mm", a);
+    let_title(out, v);
     write_steps(out, r);
     write_zones(out, r, v->hat);
-    write_title(out, v, place);
-    fprintf(out,
-            "set multiplot\nset lmargin at screen %g\nset rmargin at screen %g\n"
-            "set tmargin at screen %g\nset bmargin at screen %g\n" RB_REPORT_GRID
-            "set format x ''\nset xrange [%.9g:%.9g]\nset offsets 0,0,graph 0.08,graph "
-            "0.08\n" RB_REPORT_ZERO
-            "set key at screen 0.965, %g right horizontal maxrows 1 samplen 2 font ',%.3g'\nset "
-            "label 2 'K  [%s]' at screen 0.03, %g center rotate\n",
-            0.14 + place.right,
-            !wet           ? 0.965
-            : place.titled ? 0.89
-                           : 0.83,
-            0.88 + place.up, 0.48, abscissa(r, first_of(r)), abscissa(r, h->n - 1),
-            0.925 + 1.4 * place.up, rb_report_key_font(canvas),
-            rb_report_raised(shown.K.name, unit), 0.68);
-    if (wet)
-        fprintf(out,
-                "set y2tics\nset y2label 'fluid  [%s]' offset -0.5,0\nset ytics nomirror\nset "
-                "y2range [0:%.9g]\n",
-                shown.fluid.name, 1.15 * r->summary.fluid_pressure_max / shown.fluid.size);
-    fputs(
-        "plot $K using 1:2 with lines linecolor rgb '#c0392b' linewidth 2.4 title 'K_{I}', $K "
-        "using 1:3 with lines linecolor rgb '#1f4e79' dashtype (10,3) linewidth 2.4 title 'K_{II}'",
-        out);
-    if (wet)
-        fputs(", $K using 1:4 axes x1y2 with lines linecolor rgb '#117864' dashtype (3,3) "
-              "linewidth 1.6 title 'fluid'",
-              out);
-    fprintf(out,
-            "\nunset label 1\nunset label 2\nunset y2tics\nunset y2label\nunset key\n"
-            "set ytics nomirror\nset tmargin at screen 0.44\nset bmargin at screen %g\n"
-            "set format x '%%g'\nset xlabel '%s' offset 0,0.3\n"
-            "set offsets 0,0,0,0\nset yrange [*:*] reverse\nset autoscale yfix\n"
-            "set ytics %g\n"
-            "set label 2 '%salong the crack / a%s' at screen 0.03, %g center rotate\n",
-            0.16 + place.up, abscissa_label(r), rb_report_round_step(along / 4.0),
-            place.titled ? "" : "{/*0.85 ", place.titled ? "" : "}", 0.3 + 0.5 * place.up);
-    write_zone_key(out, canvas, faces_of(r).plus, 1);
-    fputs("plot $zones using 1:2:3:4:5 with boxxyerror fillstyle solid noborder linecolor rgb "
-          "variable notitle",
-          out);
-    fputs("\nunset multiplot\n", out);
+    rb_report_let(out, "x_from", abscissa(r, first_of(r)));
+    rb_report_let(out, "x_to", abscissa(r, h->n - 1));
+    rb_report_let_text(out, "x_label", "%s", abscissa_label(r));
+    rb_report_let_text(out, "K_label", "K  [%s]", rb_report_raised(shown.K.name, unit));
+    rb_report_let_whole(out, "wet", r->summary.fluid_pressure_max > 0.0);
+    rb_report_let_text(out, "fluid_label", "fluid  [%s]", shown.fluid.name);
+    rb_report_let(out, "fluid_to", 1.15 * r->summary.fluid_pressure_max / shown.fluid.size);
+    rb_report_let(out, "along_step", rb_report_round_step(along / 4.0));
+    let_zone_key(out, canvas, faces_of(r).plus, 1);
 }
 
 rb_status rb_report_crack_picture(FILE *out, rb_report_canvas canvas, const rb_case_crack_result *r,
@@ -408,7 +389,7 @@ rb_status rb_report_crack_picture(FILE *out, rb_report_canvas canvas, const rb_c
     if (s == RB_OK && r->history.n - first_of(r) < 2)
         s = rb_fail(why, RB_EINVAL, "one position alone is no picture over positions");
     if (s == RB_OK)
-        s = rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, NULL, write_K, &v, why);
+        s = rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, "crack", write_K, &v, why);
     free(v.hat);
     return s;
 }
@@ -418,22 +399,15 @@ rb_status rb_report_crack_picture(FILE *out, rb_report_canvas canvas, const rb_c
 static void write_orbit(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
-    const rb_report_place place = rb_report_place_of(canvas);
     char unit[40];
     const char *K = rb_report_raised(axes_of(v->r).K.name, unit);
 
+    (void)canvas;
+    let_title(out, v);
     write_steps(out, v->r);
-    write_title(out, v, place);
-    rb_report_room(out, 0.14 + place.right, place.titled ? 0.86 : 0.79, 0.14 + place.up,
-                   0.92 + place.up);
-    fprintf(out,
-            RB_REPORT_GRID RB_REPORT_ZERO
-            "set offsets graph 0.06,graph 0.06,graph 0.06,graph 0.06\nset xlabel 'K_{I}  "
-            "[%s]'\nset ylabel 'K_{II}  [%s]'\nset "
-            "cblabel '%s' offset 1,0\nunset key\n" RB_REPORT_PALETTE
-            "plot $K using 2:3:1 with lines palette linewidth 2.2, $K using 2:3:1 with points "
-            "palette pointtype 7 pointsize 0.6\n",
-            K, K, abscissa_label(v->r));
+    rb_report_let_text(out, "position", "%s", abscissa_label(v->r));
+    rb_report_let_text(out, "x_label", "K_{I}  [%s]", K);
+    rb_report_let_text(out, "y_label", "K_{II}  [%s]", K);
 }
 
 rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas, const rb_case_crack_result *r,
@@ -442,7 +416,7 @@ rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas, const rb_cas
     view v = {.r = r};
     if (r->history.n - first_of(r) < 2)
         return rb_fail(why, RB_EINVAL, "one position alone is no orbit");
-    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, NULL, write_orbit, &v, why);
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, "orbit", write_orbit, &v, why);
 }
 
 /* ---- Picture: the crack open and torn ------------------------------------------------ */
@@ -451,7 +425,7 @@ rb_status rb_report_crack_orbit(FILE *out, rb_report_canvas canvas, const rb_cas
 static void write_points(FILE *out, const char *block, int n, const double *x, const double *y,
                          double unit)
 {
-    fprintf(out, "$%s << EOD\n", block);
+    fprintf(out, "$%s << EOD\nx y\n", block);
     for (int i = 0; i < n; i++)
         fprintf(out, "%.9g %.9g\n", x[i] / unit, y[i] / unit);
     fputs("EOD\n", out);
@@ -473,6 +447,9 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
     const double unit = rb_unit_stored(r->units, "mm", r->half_width); /* a in mm */
     const double at = h->x[k] / r->half_width;
     char name[40];
+
+    rb_report_let_table(out, "table", write_table, r, 0);
+    rb_report_let_units(out, r->units);
     const double *D_N = h->D + (size_t)k * 2 * (size_t)n, *D_T = D_N + n;
     const int *zone = h->zone + (size_t)k * (size_t)n;
     double largest = 0.0, deepest = 0.0, from = INFINITY, to = -INFINITY;
@@ -494,7 +471,7 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
     const double times = largest > 0.0 ? rb_report_round_step(0.03 * size / largest) : 1.0;
     for (int side = -1; side <= 1; side += 2) {
         const double factor = 0.5 * side * times / r->half_width;
-        fprintf(out, "$face%d << EOD\n", (side + 1) / 2);
+        fprintf(out, "$face%d << EOD\nx y colour touches\n", (side + 1) / 2);
         if (path->y[0] < 0.0)
             fprintf(out, "%.9g %.9g 0 0\n", path->x[0] / unit, path->y[0] / unit);
         for (int j = 0; j < n; j++) {
@@ -508,16 +485,14 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
                 path->y[path->pieces] / unit);
     }
     const rb_report_unit K = axes_of(r).K;
-    if (place.titled)
-        fprintf(out,
-                "set label 1 '{/:Bold Crack}   contact at x = %s a,  displacements of the faces × "
-                "%s' at screen 0.54, 0.972 center\n"
-                "set label 2 'K_{I} = %s,  K_{II} = %s %s' at screen 0.54, 0.935 center\n",
-                RB_REPORT_NUMBER(rb_report_tidy(at, 1.0), 4), RB_REPORT_NUMBER(times, 3),
-                RB_REPORT_NUMBER(h->K_I[k] / K.size, 4), RB_REPORT_NUMBER(h->K_II[k] / K.size, 4),
-                rb_report_raised(K.name, name));
+    rb_report_let_text(out, "title",
+                       "{/:Bold Crack}   contact at x = %s a,  displacements of the faces × %s",
+                       RB_REPORT_NUMBER(rb_report_tidy(at, 1.0), 4), RB_REPORT_NUMBER(times, 3));
+    rb_report_let_text(out, "K_there", "K_{I} = %s,  K_{II} = %s %s",
+                       RB_REPORT_NUMBER(h->K_I[k] / K.size, 4),
+                       RB_REPORT_NUMBER(h->K_II[k] / K.size, 4), rb_report_raised(K.name, name));
     const faces face = faces_of(r);
-    write_zone_key(out, canvas, face.plus, 0);
+    let_zone_key(out, canvas, face.plus, 0);
     const double margin = 0.25 * size, step = rb_report_round_step(0.2 * size);
     /* more of the body, until the panel is filled at equal scales */
     const double left = 0.12 + place.right, high = 0.68,
@@ -528,45 +503,26 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
     const double bottom = -deepest - margin - fmax(width / aspect - height, 0.0);
     from -= 0.5 * beside + margin;
     to += 0.5 * beside + margin;
-    if (!place.titled)
-        fprintf(out, "set label 9 'faces × %s' at graph 0.03, 0.06 font ',%.3g' front\n",
-                RB_REPORT_NUMBER(times, 3), rb_report_key_font(canvas));
-    fputs("set size ratio -1\n", out);
-    rb_report_room(out, left, 0.965, 0.21 + place.up, 0.21 + high + place.up);
-    fprintf(out,
-            "set xrange [%.9g:%.9g]\n"
-            "set yrange [%.9g:%.9g]\nset xlabel 'x / a'\nset ylabel 'y / a'\nset xtics %g\n"
-            "set ytics %g\n"
-            "set key inside right top horizontal maxrows 1 samplen 2 font ',%.3g'\n"
-            "set object 1 rectangle from graph 0, first %.9g to graph 1, first 0 fillcolor rgb "
-            "'#eeeeee' fillstyle solid noborder behind\n",
-            from, to, bottom, 0.6 * margin, step, step, rb_report_key_font(canvas), bottom);
-    /* the contact above, where it is within the picture */
-    fprintf(out,
-            "set object 2 rectangle from %.9g, 0 to %.9g, %.9g fillcolor rgb '#bbbbbb' fillstyle "
-            "solid noborder\n"
-            "plot 0 with lines linecolor rgb '#333333' linewidth 1.5 notitle, $face0 using 1:2 "
-            "with filledcurves closed linecolor rgb '#ffffff' notitle, $face1 using 1:2 with "
-            "filledcurves closed linecolor rgb '#ffffff' notitle",
-            fmin(fmax(at - 1.0, from), to), fmin(fmax(at + 1.0, from), to), 0.15 * margin);
-    if (g->n > 1)
-        fputs(", $way using 1:2 with lines linecolor rgb '#555555' linewidth 1.2 notitle, $tips "
-              "using 1:2 with points pointtype 6 pointsize 1.2 linecolor rgb '#555555' title "
-              "'grown'",
-              out);
-    /* the dashed one above, or a closed crack would have one face; the zones on both */
-    for (int side = 1; side >= 0; side--)
-        fprintf(out,
-                ", $face%d using 1:2 with lines linecolor rgb '%s' linewidth 2 dashtype %s title "
-                "'%s face'",
-                side, side ? "#111111" : "#8aa4bd", side ? "solid" : "(6,6)",
-                side ? face.plus : face.minus);
-    for (int side = 0; side < 2; side++)
-        fprintf(out,
-                ", $face%d using ($4 > 0 ? $1 : NaN):2:3 with points pointtype 7 pointsize 1 "
-                "linecolor rgb variable notitle",
-                side);
-    fputc('\n', out);
+    const struct {
+        const char *name;
+        double x;
+    } numbers[] = {{"left", left},
+                   {"high", high},
+                   {"x_from", from},
+                   {"x_to", to},
+                   {"bottom", bottom},
+                   {"y_to", 0.6 * margin},
+                   {"step", step},
+                   /* the contact above, where it is within the picture */
+                   {"contact_from", fmin(fmax(at - 1.0, from), to)},
+                   {"contact_to", fmin(fmax(at + 1.0, from), to)},
+                   {"contact_high", 0.15 * margin}};
+    for (size_t j = 0; j < sizeof numbers / sizeof *numbers; j++)
+        rb_report_let(out, numbers[j].name, numbers[j].x);
+    rb_report_let_text(out, "faces", "faces × %s", RB_REPORT_NUMBER(times, 3));
+    rb_report_let_text(out, "face0_name", "%s face", face.minus);
+    rb_report_let_text(out, "face1_name", "%s face", face.plus);
+    rb_report_let_whole(out, "grows", g->n > 1);
 }
 
 rb_status rb_report_crack_open(FILE *out, rb_report_canvas canvas, const rb_case_crack_result *r,
@@ -575,7 +531,7 @@ rb_status rb_report_crack_open(FILE *out, rb_report_canvas canvas, const rb_case
     view v = {.at = at};
     rb_status s = see(r, &v, why);
     if (s == RB_OK)
-        s = rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, NULL, write_open, &v, why);
+        s = rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, "crack_open", write_open, &v, why);
     free(v.hat);
     return s;
 }
