@@ -89,6 +89,28 @@ TEST(many_elements_never_give_a_larger_error)
             check_errors(rows[k], 0, 4, sizes, 2400);
 }
 
+/* Carter's force to a given accuracy; where little sticks more elements are needed than a matrix
+ * could have.  Fewer than the bars of aligned elements can do with begin as fitted ones. */
+TEST(an_accuracy_is_reached_without_a_matrix)
+{
+    static const struct {
+        double ratio, accuracy;
+        int from, most;
+    } rows[] = {{0.4, 1e-6, 100, 3000}, {0.99, 1e-6, 100, 20000}, {0.4, 2e-2, 12, 60}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        char asked[100];
+        snprintf(asked, sizeof asked, "creep-ratio %g accuracy %g", rows[k].ratio,
+                 rows[k].accuracy);
+        const words w = {{"similar yes support halfplane gap parabola young 210000 poisson 0.3 "
+                          "half-width 1 formulation steady mu 0.3",
+                          asked}};
+        const rb_rolling_solution s = solved(&w, rows[k].from);
+        CHECK_ABS(s.force_ratio, -rows[k].ratio * (2.0 - rows[k].ratio), rows[k].accuracy,
+                  "row %zu", k);
+        assert_true(s.n <= rows[k].most);
+    }
+}
+
 /* ---- Tables ------------------------------------------------------------------------ */
 
 /* A file of rows x, shape(x) from -to to to. */

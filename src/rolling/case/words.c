@@ -566,6 +566,8 @@ static rb_status resolve_law(rb_case *c, rb_message *why)
  * friction are coupled, on layers and in bodies that relax equal elements are of first order: up to
  * so many graded ones are worth their time, and where products solve for them so many. */
 enum { MANY = 1500, MOST_GRADED = 400, MOST_GRADED_BY_PRODUCTS = 100000 };
+/* half as many, by which error bars are found, are still aligned elements */
+enum { LEAST_REFINED = 24 };
 int rb_case_has_steps(const rb_resolved_case *resolved)
 {
     return resolved->program.n > 0 || rb_rolling_has_steps(&resolved->rc);
@@ -803,11 +805,15 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     /* the search for a load needs a mesh that scales with the contact */
     const int scales = !isnan(rc->max_pressure) && !rb_rolling_pressure_is_hertz(rc) &&
                        !rb_case_has_steps(&c->resolved);
+    /* of second order between similar half-planes, and the cheapest where there will be many */
+    const int refined = c->resolved.accuracy > 0.0 && rb_rolling_carter_holds(rc) &&
+                        rc->contact_elements >= LEAST_REFINED && !rb_case_given(c, "mesh");
     if (!rb_case_given(c, "mesh") && (rc->formulation == RB_STEADY || scales) && !paper &&
         rc->zone == 0.0 && rc->gap != RB_GAP_TABLE && !c->resolved.worn_file)
-        rc->mesh =
-            !many && rc->slip_operator == RB_SLIP_UPSTREAM ? RB_MESH_FITTED : RB_MESH_ALIGNED;
-    if (!rb_case_given(c, "contact-elements") && rc->mesh == RB_MESH_FITTED)
+        rc->mesh = !many && !refined && rc->slip_operator == RB_SLIP_UPSTREAM ? RB_MESH_FITTED
+                                                                              : RB_MESH_ALIGNED;
+    if (!rb_case_given(c, "contact-elements") &&
+        (rc->mesh == RB_MESH_FITTED || (refined && rc->mesh == RB_MESH_ALIGNED)))
         rc->contact_elements = 100;
     if (c->resolved.program.n > 0)
         c->resolved.rc = rb_rolling_program_base(&c->resolved.program, &c->resolved.rc);

@@ -6,7 +6,7 @@
 
 /* Where --accuracy gives up: contact elements, and how much finer than usual the boundary
  * of a wheel is. */
-enum { MOST_ELEMENTS = 6400, MOST_ON_WHEELS = 1600 };
+enum { MOST_ELEMENTS = 6400, MOST_WITHOUT_MATRIX = 102400, MOST_ON_WHEELS = 1600 };
 static const double finest_boundary = 32.0;
 
 /* ---- The coarser runs -------------------------------------------------------------- */
@@ -483,7 +483,10 @@ static double worst_relative(const rb_rolling_case *rc, const rb_rolling_solutio
 static int refine(double accuracy, double contact, double boundary, int fitted, rb_rolling_case *rc)
 {
     const int wheels = rb_rolling_error_runs(rc) > 2;
-    const double most = wheels ? MOST_ON_WHEELS : MOST_ELEMENTS;
+    const rb_rolling_mesh twice = {.n = 2 * rc->contact_elements};
+    const double most = wheels                               ? MOST_ON_WHEELS
+                        : rb_rolling_suits_large(rc, &twice) ? MOST_WITHOUT_MATRIX
+                                                             : MOST_ELEMENTS;
     const double order = fitted ? 2.0 : 1.0;
     const double n = rc->contact_elements, outer = fmax(rc->outer_refinement, 1.0);
     const double for_contact = fmax(0.5 * accuracy, accuracy - boundary);
@@ -510,6 +513,9 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
     double worst = INFINITY, before;
     int round = 0, stood = 0; /* rounds in which the bars did not fall */
     rb_status status = rb_rolling_error_check(rc, why);
+    const int second_order = rc->mesh == RB_MESH_FITTED ||
+                             (rc->mesh == RB_MESH_ALIGNED && rc->slip_operator == RB_SLIP_SECOND &&
+                              rb_rolling_carter_holds(rc));
 
     memset(solution, 0, sizeof *solution);
     *errors = rb_rolling_no_row(RB_OK).errors;
@@ -539,7 +545,7 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
             return RB_OK;
     } while (stood < 2 && refine(accuracy, worst_relative(rc, solution, &parts.contact.scalar),
                                  worst_relative(rc, solution, &parts.boundary.scalar),
-                                 rc->mesh == RB_MESH_FITTED && !solution->equal_instead, &refined));
+                                 second_order && !solution->equal_instead, &refined));
     if (status == RB_ENOMEM || status == RB_EINVAL) /* more than the machine has is refused */
         return rb_fail(why, RB_ENOMEM,
                        "accuracy %g: out of memory beyond %d elements, whose estimated error is "
