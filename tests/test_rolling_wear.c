@@ -62,11 +62,10 @@ static double roughness(const rb_rolling_solution *s)
 }
 
 /* The worn volume is K P S to rounding, in any number of steps, and each step is stable:
- * 1.56 a is the half-width after two units (1.62 in one step). */
+ * 1.56 a is the half-width after two units. */
 TEST(sliding_wears_its_volume)
 {
     static const int steps[] = {100, 10, 1};
-    static const double width[] = {1.56, 1.56, 1.62};
     const rb_rolling_case rc = cylinder(200, 6.0);
 
     for (int k = 0; k < 3; k++) {
@@ -77,7 +76,7 @@ TEST(sliding_wears_its_volume)
             volume += w.last.worn[i] * w.last.h[i];
         CHECK_REL(volume, wear.coefficient * rc.load * wear.way, 1e-12, "%d steps", steps[k]);
         CHECK_REL(w.h.worn[w.h.n - 1], volume, 1e-12, "%d steps: recorded", steps[k]);
-        CHECK_ABS(half_width(&w), width[k], 0.035, "%d steps: half-width, to half an element",
+        CHECK_ABS(half_width(&w), 1.56, 0.035, "%d steps: half-width, to half an element",
                   steps[k]);
         CHECK_MAX(roughness(&w.last), 0.02 * w.h.max_pressure[0], "%d steps: saw teeth", steps[k]);
         CHECK_MAX(w.h.residual[w.h.n - 1], 1e-10, "%d steps: residual of the worn gap", steps[k]);
@@ -182,9 +181,10 @@ TEST(wheel_loses_its_radius)
         .law = RB_WEAR_DISSIPATION, .coefficient = 1e-7, .way = 1000.0, .steps = 4};
     worn w = run(&rc, &wear);
     const int last = w.h.n - 1;
-    for (int k = 1; k <= last; k++) { /* implicit: with the work at its end */
-        CHECK_REL(w.h.radius[k - 1] - w.h.radius[k], 250.0 * 1e-7 * w.h.work[k], 1e-9, "step %d",
-                  k);
+    for (int k = 1; k <= last; k++) { /* of second order: with the mean work */
+        const double before = k > 1 ? w.h.work[k - 1] : w.h.work[1];
+        CHECK_REL(w.h.radius[k - 1] - w.h.radius[k], 250.0 * 1e-7 * 0.5 * (before + w.h.work[k]),
+                  k > 1 ? 1e-9 : 1e-6, "step %d", k);
         assert_true(w.h.radius[k] < w.h.radius[k - 1]);
     }
     CHECK_REL(w.h.worn[last], M_PI * (gsl_pow_2(rc.a.radius) - gsl_pow_2(w.h.radius[last])), 1e-12,

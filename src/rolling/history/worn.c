@@ -1,5 +1,5 @@
-/* Wear: a sequence of contact problems, each of which includes the wear of its own step
- * implicitly (theory.md 4.9). */
+/* Wear: a sequence of steps of two contact problems, each of which includes the wear of its own
+ * stage implicitly (theory.md 4.9). */
 #include "rolling/history/internal.h"
 
 #include <gsl/gsl_math.h>
@@ -12,6 +12,10 @@ void rb_rolling_wear_history_free(rb_rolling_wear_history *h)
     memset(h, 0, sizeof *h);
 }
 
+/* (W4) The diagonally implicit method of second order with weights 1 - gamma and gamma: both are
+ * positive, so that nothing wears negatively, and the pressure at its end is that under its gap. */
+#define GAMMA (1.0 - M_SQRT1_2)
+
 /* ---- What is at work --------------------------------------------------------------- */
 
 typedef struct {
@@ -19,16 +23,17 @@ typedef struct {
     rb_rolling_case rc;     /* on the present mesh, with the worn depth so far */
     rb_rolling_model model; /* mesh, bodies and the contact after the last step */
     int n;
-    rb_arena memory;    /* of the arrays */
-    double *x, *depth;  /* n: midpoints, and what is worn off there [length] */
-    double *compliance; /* n: depth that a step wears per pressure [length/stress] */
-    double *path;       /* n: way that the surfaces slide in a cycle [length] */
-    double *softer;     /* flexibility with the compliance on its diagonal, or, where there
-                           is no matrix, 2n: the interface's with it */
-    double work;        /* of friction in a cycle [force] */
-    double track;       /* volume per unit width that B has lost where A slides or rolls on a
-                           plane [length^2] */
-    double passage;     /* depth of that track in one passage of A [length] */
+    rb_arena memory;   /* of the arrays */
+    double *x, *depth; /* n: midpoints, and what is worn off there [length] */
+    double *rate;      /* n: depth that a step wears per pressure [length/stress] */
+    double *pressed;   /* n: pressure under the present gap [stress] */
+    double *path;      /* n: way that the surfaces slide in a cycle [length] */
+    double *softer;    /* flexibility with the compliance on its diagonal, or, where there
+                          is no matrix, 2n: the interface's with it */
+    double work;       /* of friction in a cycle [force] */
+    double track;      /* volume per unit width that B has lost where A slides or rolls on a
+                          plane [length^2] */
+    double passage;    /* depth of that track in one passage of A [length] */
     rb_rolling_wear_history *history;
     rb_rolling_solution *last;
     const rb_rolling_wear_observer *observer; /* or NULL */
@@ -77,7 +82,8 @@ static rb_status press(wear_state *r, rb_message *why)
     r->n = (int)n;
     r->x = rb_arena_doubles(&r->memory, n, 1);
     r->depth = rb_arena_doubles(&r->memory, n, 1);
-    r->compliance = rb_arena_doubles(&r->memory, n, 1);
+    r->rate = rb_arena_doubles(&r->memory, n, 1);
+    r->pressed = rb_arena_doubles(&r->memory, n, 1);
     r->path = rb_arena_doubles(&r->memory, n, 1);
     r->softer = r->model.bodies.F ? rb_arena_doubles(&r->memory, 2 * m, 2 * n)
                                   : rb_arena_doubles(&r->memory, n, 2);
@@ -110,6 +116,8 @@ static rb_status widen(wear_state *r, rb_message *why)
         return s;
     }
     memcpy(wider.depth + more, r->depth, (size_t)n * sizeof *r->depth);
+    memset(wider.pressed, 0, (size_t)wider.n * sizeof *wider.pressed);
+    memcpy(wider.pressed + more, r->pressed, (size_t)n * sizeof *r->pressed);
     run_free(r);
     *r = wider;
     r->rc.worn = worn_of(r);
@@ -134,9 +142,10 @@ static rb_status pose(wear_state *r, const rb_rolling_bodies *bodies, rb_message
     return s;
 }
 
-/* (W1) y = g + k ds p - delta + F_NN p: the pressure wears its own step off, so that the
- * worn gap and the pressure belong together at its end, however long it is. */
-static rb_status wear_off(wear_state *r, rb_message *why)
+/* (W1) y = g + k ds p - delta + F_NN p: the pressure wears its own part of the step off, so that
+ * the worn gap and the pressure belong together at its end, however long it is.  Leaves the
+ * pressure in the state, and the depth as it was. */
+static rb_status press_worn(wear_state *r, double part, rb_message *why)
 {
     /* The bodies, whose arrays are borrowed, softer under each element by what a step
      * wears. */
@@ -146,23 +155,83 @@ static rb_status wear_off(wear_state *r, rb_message *why)
     if (softer.F) {
         memcpy(r->softer, softer.F, 4 * m * n * sizeof *r->softer);
         for (size_t i = 0; i < n; i++)
-            r->softer[i + 2 * m * i] += r->compliance[i];
+            r->softer[i + 2 * m * i] += part * r->rate[i];
         softer.F = r->softer;
     } else {
         for (size_t i = 0; i < 2 * n; i++)
             r->softer[i] = (softer.f.compliance ? softer.f.compliance[i] : 0.0) +
-                           (i < n ? r->compliance[i] : 0.0);
+                           (i < n ? part * r->rate[i] : 0.0);
         softer.f.compliance = r->softer;
     }
-    rb_status s = pose(r, &softer, why);
+    const rb_status s = pose(r, &softer, why);
+    return s == RB_OK ? rb_rolling_model_resolve(&r->model, 1, why) : s;
+}
 
-    if (s == RB_OK)
-        s = rb_rolling_model_resolve(&r->model, 1, why);
-    if (s != RB_OK)
-        return s;
+static void wear_off(wear_state *r, double part)
+{
     for (int i = 0; i < r->n; i++)
-        r->depth[i] += r->compliance[i] * r->model.state.p[i];
-    return pose(r, &r->model.bodies, why);
+        r->depth[i] += part * r->rate[i] * r->model.state.p[i];
+}
+
+/* What the present pressure carries [force/length]. */
+static double carried(const wear_state *r)
+{
+    double sum = 0.0;
+
+    for (int i = 0; i < r->n; i++)
+        sum += r->model.state.p[i] * r->model.bodies.f.h[i];
+    return sum;
+}
+
+/* 1: a stage takes so much of the pressure off an element that the two stages together would wear
+ * more there than any number of short ones: below 1/(1 + gamma z), z the last one at which the
+ * stability function (1 - (1 - 2 gamma) z)/(1 + gamma z)^2 is not negative.  Or the contact grows
+ * so far that the pressure at its new edge would have a step. */
+static int is_steep(const wear_state *r)
+{
+    static const double LEAST = (1.0 - 2.0 * GAMMA) / (1.0 - GAMMA), COUNTS = 1e-3, NEW = 0.1;
+    const double *p = r->model.state.p, p0 = rb_norm_inf((size_t)r->n, r->pressed);
+
+    for (int i = 0; i < r->n; i++)
+        if (r->pressed[i] > COUNTS * p0 ? p[i] < LEAST * r->pressed[i]
+                                        : p[i] - r->pressed[i] > NEW * p0)
+            return 1;
+    return 0;
+}
+
+/* (W4) A part of a step; *mean: the load that its wear has carried, averaged.  Where it is steep it
+ * is halved, and at last one implicit stage, which is of first order and never wears too much. */
+static rb_status wear_step(wear_state *r, double part, int halved, double *mean, rb_message *why)
+{
+    enum { MOST_HALVED = 4 };
+    rb_status s = press_worn(r, GAMMA * part, why);
+
+    if (s == RB_OK && is_steep(r)) {
+        double half[2] = {0.0, 0.0};
+        if (halved < MOST_HALVED) {
+            s = wear_step(r, 0.5 * part, halved + 1, &half[0], why);
+            if (s == RB_OK)
+                s = wear_step(r, 0.5 * part, halved + 1, &half[1], why);
+            *mean = 0.5 * (half[0] + half[1]);
+            return s;
+        }
+        s = press_worn(r, part, why);
+        if (s != RB_OK)
+            return s;
+        wear_off(r, part);
+        *mean = carried(r);
+    } else if (s == RB_OK) {
+        wear_off(r, (1.0 - GAMMA) * part);
+        *mean = (1.0 - GAMMA) * carried(r);
+        s = press_worn(r, GAMMA * part, why);
+        if (s != RB_OK)
+            return s;
+        wear_off(r, GAMMA * part);
+        *mean += GAMMA * carried(r);
+    }
+    if (s == RB_OK)
+        memcpy(r->pressed, r->model.state.p, (size_t)r->n * sizeof *r->pressed);
+    return s;
 }
 
 /* ---- Sliding, fretting, rolling ---------------------------------------------------- */
@@ -185,19 +254,17 @@ static int see_increment(const rb_rolling_model *model, const rb_rolling_history
 }
 
 /* (W3) A round wheel stays round: R = R_before - turns dz(R); B turns R/|R_B| times as
- * often, a bore grows. */
-static rb_status roll(wear_state *r, double turns, rb_message *why)
+ * often, a bore grows.  *depth: per turn, at the radii found. */
+static rb_status roll_stage(wear_state *r, double before, double before_b, double turns,
+                            double *depth, rb_message *why)
 {
     enum { ROUNDS = 30 };
-    const double before = r->rc.a.radius, before_b = r->rc.b.radius;
     const double share = r->wear->share;
     const int turns_b = r->rc.elastic_b && isfinite(before_b) && share > 0.0;
-    double depth = 0.0;
-    rb_status s = RB_OK;
 
     for (int k = 0; k < ROUNDS; k++) {
         rb_rolling_model_free(&r->model);
-        s = rb_rolling_model_create(&r->rc, &r->model, why);
+        const rb_status s = rb_rolling_model_create(&r->rc, &r->model, why);
         if (s != RB_OK)
             return s;
         /* Depth per turn: every point of the circumference passes the contact once. */
@@ -205,15 +272,15 @@ static rb_status roll(wear_state *r, double turns, rb_message *why)
         const rb_contact_state *state = &model->state;
         const double *h = model->bodies.f.h, *e_T = model->problem.e_T;
 
-        depth =
+        *depth =
             r->wear->coefficient *
             (r->wear->law == RB_WEAR_ARCHARD
                  ? rb_rolling_slid_pressure(model->rc, state->n, state->lambda, state->p, h, e_T)
                  : rb_rolling_dissipated_power(model->rc, state->n, state->lambda, state->q, h,
                                                e_T));
-        const double radius = before - turns * (1.0 - share) * depth, moved = r->rc.a.radius;
+        const double radius = before - turns * (1.0 - share) * *depth, moved = r->rc.a.radius;
         if (turns_b)
-            r->rc.b.radius = before_b - turns * share * depth * moved / fabs(r->rc.b.radius);
+            r->rc.b.radius = before_b - turns * share * *depth * moved / fabs(r->rc.b.radius);
         if (!(radius > 0.5 * before) || !(r->rc.b.radius / before_b > 0.5 || !turns_b))
             return rb_fail(
                 why, RB_EINVAL, "wear: a step takes %g of the radius %g; take more steps",
@@ -222,8 +289,27 @@ static rb_status roll(wear_state *r, double turns, rb_message *why)
         if (fabs(radius - moved) <= 1e-14 * before)
             break;
     }
-    r->passage = share * depth;
-    r->track += turns_b ? 0.0 : r->passage * turns * 2.0 * M_PI * before;
+    return RB_OK;
+}
+
+/* (W4) of the radii. */
+static rb_status roll(wear_state *r, double turns, rb_message *why)
+{
+    const double start = r->rc.a.radius, start_b = r->rc.b.radius, share = r->wear->share;
+    double first = 0.0, second = 0.0;
+    rb_status s = roll_stage(r, start, start_b, GAMMA * turns, &first, why);
+
+    if (s != RB_OK)
+        return s;
+    const double worn = (start - r->rc.a.radius) / GAMMA,
+                 worn_b = (start_b - r->rc.b.radius) / GAMMA;
+    const int turns_b = r->rc.elastic_b && isfinite(start_b) && share > 0.0;
+    s = roll_stage(r, start - (1.0 - GAMMA) * worn,
+                   turns_b ? start_b - (1.0 - GAMMA) * worn_b : start_b, GAMMA * turns, &second,
+                   why);
+    r->passage = share * second;
+    if (!turns_b)
+        r->track += share * ((1.0 - GAMMA) * first + GAMMA * second) * turns * 2.0 * M_PI * start;
     r->work =
         rb_rolling_dissipated_power(r->model.rc, r->model.state.n, r->model.state.lambda,
                                     r->model.state.q, r->model.bodies.f.h, r->model.problem.e_T);
@@ -280,6 +366,63 @@ static rb_status record(wear_state *r, double way, rb_message *why)
                : RB_OK;
 }
 
+/* What a cycle slides everywhere, under the worn gap: loading, and one closed cycle to the other
+ * side and back, in static increments. */
+static rb_status fret(wear_state *r, rb_message *why)
+{
+    const int quarter = r->wear->increments, rows = 5 * quarter;
+    const rb_rolling_case *rc = &r->rc;
+    const double last = !isnan(rc->force)         ? rc->force
+                        : !isnan(rc->force_ratio) ? rc->force_ratio
+                                                  : rb_rolling_wanted_shift(rc);
+    rb_arena scratch = {0};
+    double *column = rb_arena_doubles(&scratch, (size_t)rows, 1);
+    rb_rolling_program program = {.n = rows};
+    rb_rolling_history history = {0};
+    rb_rolling_model model = {0};
+
+    *(!isnan(rc->force)         ? &program.force
+      : !isnan(rc->force_ratio) ? &program.force_ratio
+                                : &program.shift) = column;
+    for (int j = 0; j < rows && column; j++) {
+        const double t = (j + 1.0) / quarter; /* quarters of a cycle */
+        column[j] = last * (t <= 1.0 ? t : t <= 3.0 ? 2.0 - t : t - 4.0);
+    }
+    r->work = 0.0;
+    memset(r->path, 0, (size_t)r->n * sizeof *r->path);
+    const rb_status s =
+        column ? rb_rolling_history_run(rc, &program, &(rb_rolling_observer){see_increment, r},
+                                        &model, &history, why)
+               : RB_ENOMEM;
+    rb_rolling_model_free(&model);
+    rb_rolling_history_free(&history);
+    return rb_arena_done(&scratch, s);
+}
+
+/* The depth that a step wears per pressure, of the path there is in its middle: of that under the
+ * gap which half a step with the path at its start wears. */
+static rb_status set_rate(wear_state *r, double depth, rb_message *why)
+{
+    rb_status s = fret(r, why);
+    double *before = s == RB_OK ? rb_alloc((size_t)r->n, 1) : NULL;
+
+    if (!before)
+        return s == RB_OK ? RB_ENOMEM : s;
+    memcpy(before, r->depth, (size_t)r->n * sizeof *before);
+    for (int i = 0; i < r->n; i++)
+        r->rate[i] = depth * r->path[i];
+    s = press_worn(r, 0.5, why);
+    if (s == RB_OK) {
+        wear_off(r, 0.5);
+        s = fret(r, why);
+    }
+    memcpy(r->depth, before, (size_t)r->n * sizeof *before);
+    for (int i = 0; i < r->n; i++)
+        r->rate[i] = depth * r->path[i];
+    free(before);
+    return s;
+}
+
 static rb_status one_step(wear_state *r, double part, rb_message *why)
 {
     enum { WIDER = 12 };
@@ -289,56 +432,34 @@ static rb_status one_step(wear_state *r, double part, rb_message *why)
         (r->wear->law == RB_WEAR_ARCHARD ? 1.0 : rb_rolling_largest_mu(&r->rc));
     rb_message reason = {""};
     rb_status s = RB_ZONE;
+    double mean = 0.0;
 
     if (r->rc.formulation == RB_STEADY)
         return roll(r, part, why);
     for (int k = 0; k < WIDER && s == RB_ZONE; k++) {
+        double *before;
+
         reason.text[0] = '\0';
         s = k > 0 ? widen(r, &reason) : RB_OK;
-        if (s == RB_OK && !r->wear->slides) {
-            /* Loading, and one closed cycle to the other side and back, in static
-             * increments. */
-            const int quarter = r->wear->increments, rows = 5 * quarter;
-            const rb_rolling_case *rc = &r->rc;
-            const double last = !isnan(rc->force)         ? rc->force
-                                : !isnan(rc->force_ratio) ? rc->force_ratio
-                                                          : rb_rolling_wanted_shift(rc);
-            rb_arena scratch = {0};
-            double *column = rb_arena_doubles(&scratch, (size_t)rows, 1);
-            rb_rolling_program program = {.n = rows};
-            rb_rolling_history history = {0};
-            rb_rolling_model model = {0};
-
-            *(!isnan(rc->force)         ? &program.force
-              : !isnan(rc->force_ratio) ? &program.force_ratio
-                                        : &program.shift) = column;
-            for (int j = 0; j < rows && column; j++) {
-                const double t = (j + 1.0) / quarter; /* quarters of a cycle */
-                column[j] = last * (t <= 1.0 ? t : t <= 3.0 ? 2.0 - t : t - 4.0);
-            }
-            r->work = 0.0;
-            memset(r->path, 0, (size_t)r->n * sizeof *r->path);
-            s = column
-                    ? rb_rolling_history_run(rc, &program, &(rb_rolling_observer){see_increment, r},
-                                             &model, &history, &reason)
-                    : RB_ENOMEM;
-            rb_rolling_model_free(&model);
-            rb_rolling_history_free(&history);
-            rb_arena_free(&scratch);
-        }
+        if (s == RB_OK && !r->wear->slides)
+            s = set_rate(r, depth * part, &reason);
+        for (int i = 0; i < r->n && r->wear->slides; i++)
+            r->rate[i] = (1.0 - share) * depth * part;
         if (s != RB_OK)
             continue;
-        for (int i = 0; i < r->n; i++)
-            r->compliance[i] =
-                r->wear->slides ? (1.0 - share) * depth * part : depth * part * r->path[i];
-        s = wear_off(r, &reason);
+        if (!(before = rb_alloc((size_t)r->n, 1)))
+            return RB_ENOMEM;
+        memcpy(before, r->depth, (size_t)r->n * sizeof *before);
+        s = wear_step(r, 1.0, 0, &mean, &reason);
+        if (s == RB_OK)
+            s = pose(r, &r->model.bodies, &reason);
+        if (s == RB_ZONE) /* again, on a wider zone */
+            memcpy(r->depth, before, (size_t)r->n * sizeof *before);
+        free(before);
     }
     if (s == RB_OK && r->wear->slides) {
-        double carried = 0.0;
-        for (int i = 0; i < r->n; i++)
-            carried += r->model.state.p[i] * r->model.bodies.f.h[i];
-        r->passage = share * depth * carried;
-        r->track += r->passage * part;
+        r->passage = share * depth * carried(r);
+        r->track += share * depth * mean * part;
     }
     return s == RB_OK ? s : rb_fail(why, s, "%.300s", rb_status_reason(s, &reason));
 }
@@ -346,8 +467,20 @@ static rb_status one_step(wear_state *r, double part, rb_message *why)
 #define PLACE(member) offsetof(rb_rolling_wear, member)
 static const rb_option rows[] = {RB_WEAR_LINES(PLACE, way, way)};
 
+/* The case as it wears: what slides is past its static coefficient. */
+static rb_rolling_case worn_case(const rb_rolling_case *rc, const rb_rolling_wear *wear)
+{
+    rb_rolling_case worn = *rc;
+
+    if (wear->slides && rb_rolling_law_depends_on_slip(&rc->friction))
+        worn.friction = (rb_rolling_friction){.law = RB_FRICTION_constant};
+    return worn;
+}
+
 static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear, rb_message *why)
 {
+    const rb_rolling_case worn = worn_case(rc, wear);
+
     const int rolls = rc->formulation == RB_STEADY;
 
     if (rc->formulation == RB_TRANSIENT)
@@ -386,7 +519,7 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear, r
         return rb_fail(
             why, RB_EINVAL,
             "wear: not with --yield-stress, because a third body separates the surfaces");
-    return rb_rolling_case_check(rc, why);
+    return rb_rolling_case_check(&worn, why);
 }
 
 rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *wear,
@@ -394,8 +527,11 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
                               rb_rolling_wear_history *history, rb_rolling_solution *last,
                               rb_message *why)
 {
-    wear_state r = {
-        .wear = wear, .rc = *rc, .history = history, .last = last, .observer = observer};
+    wear_state r = {.wear = wear,
+                    .rc = worn_case(rc, wear),
+                    .history = history,
+                    .last = last,
+                    .observer = observer};
     const double part = wear->way / wear->steps;
 
     memset(history, 0, sizeof *history);
@@ -403,8 +539,6 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     r.rc.load = rb_rolling_derive(rc).load; /* a given half-width means this load */
     r.rc.half_width = r.rc.max_pressure = r.rc.pressed_by = NAN;
     r.rc.increments = 1; /* the cycles have their own */
-    if (wear->slides && rb_rolling_law_depends_on_slip(&rc->friction)) /* it is kinetic */
-        r.rc.friction = (rb_rolling_friction){.law = RB_FRICTION_constant};
     rb_status s = check(rc, wear, why);
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_wear_columns, rc, 0, wear->steps + 1, history);
@@ -430,6 +564,8 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
         r.rc.worn = worn_of(&r);
         s = pose(&r, &r.model.bodies, why);
     }
+    if (s == RB_OK && rc->formulation != RB_STEADY)
+        memcpy(r.pressed, r.model.state.p, (size_t)r.n * sizeof *r.pressed);
     if (s == RB_OK)
         s = record(&r, 0.0, why);
     for (int k = 1; k <= wear->steps && s == RB_OK; k++) {
