@@ -195,7 +195,7 @@ TEST(refusals_have_their_code_and_reason)
         {64, "b.ini --all-solutions --formulation steady --creep-ratio 0.5",
          "only for steady rolling without error bars"},
         {64,
-         "b.ini --all-solutions --shift 0.001 --friction-law linear --mu-fall .1 "
+         "b.ini --all-solutions --shift 0.001 --memory 1 --friction-law linear --mu-fall .1 "
          "--slip-scale 1 --speed 1",
          "only for steady rolling"},
         {64, "b.ini --shift 0.001 --error --dump d",

@@ -84,6 +84,90 @@ TEST(sliding_wears_its_volume)
     }
 }
 
+/* Half as long steps have less than half the error; K S P = 4 a^3/R, values of a second program. */
+TEST(steps_are_of_second_order)
+{
+    static const double least[] = {4e-3, 1.2e-3, 5e-4};
+    static const int steps[] = {5, 10, 20};
+    const rb_rolling_case rc = cylinder(300, 4.0);
+    for (int k = 0; k < 3; k++) {
+        const rb_rolling_wear wear = {.law = RB_WEAR_ARCHARD,
+                                      .slides = 1,
+                                      .coefficient = 1e-9,
+                                      .way = 4.0 / rc.a.radius / (1e-9 * rc.load),
+                                      .steps = steps[k]};
+        worn w = run(&rc, &wear);
+        CHECK_REL(w.last.p[150], 0.43639 * w.h.max_pressure[0], least[k], "%d steps: p(0)",
+                  steps[k]);
+        CHECK_REL(w.h.max_depth[w.h.n - 1], 1.5417 / rc.a.radius, 1e-3, "%d steps: depth",
+                  steps[k]);
+        for (int i = 0; i < w.last.n; i++)
+            assert_true(w.last.worn[i] >= 0.0);
+        worn_free(&w);
+    }
+}
+
+/* What sticks keeps c = a sqrt(1 - Q/(mu P)), and the slip zone unloads: closed form of the limit,
+ * which more cycles do not leave.  Its pressure has no bound at c, and no error bar. */
+TEST(partial_slip_ends_in_its_limit)
+{
+    double worn_before = 0.0;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = cylinder(108, 1.35); /* 0.025 a: c between two elements */
+        set(&rc, "mu 0.5 force-ratio %g", 1.0 - 0.6 * 0.6);
+        const rb_rolling_wear wear = {.law = RB_WEAR_ARCHARD,
+                                      .coefficient = 1e-8,
+                                      .way = k ? 1e10 : 1e8,
+                                      .steps = 10,
+                                      .increments = 2};
+        worn w = run(&rc, &wear);
+        const double c = 0.6, middle = 0.5 * (1.0 + c * c) / c;
+        CHECK_REL(0.5 * (w.last.p[53] + w.last.p[54]), middle * w.h.max_pressure[0], 0.05, "p(0)");
+        assert_int_equal(w.last.stick_edge, 1);
+        assert_int_equal(w.h.stick_edge, 1);
+        if (k)
+            CHECK_REL(w.h.worn[10], worn_before, 0.01, "the limit");
+        worn_before = w.h.worn[10];
+        worn_free(&w);
+    }
+}
+
+/* Bars hold the converged values, cover the steps, and are absent where there is no limit. */
+TEST(wear_has_error_bars)
+{
+    rb_rolling_case rc = cylinder(60, 2.4);
+    worn w;
+    for (int steps = 1; steps < 8; steps += 3) {
+        const rb_rolling_wear wear = {.law = RB_WEAR_ARCHARD,
+                                      .slides = 1,
+                                      .coefficient = 1e-9,
+                                      .way = 4.0 / rc.a.radius / (1e-9 * rc.load),
+                                      .steps = steps};
+        CHECK_OK(rb_rolling_wear_with_errors(&rc, &wear, NULL, &w.h, &w.last, &heard));
+        const int last = w.h.n - 1;
+        assert_non_null(w.h.errors);
+        assert_null(w.h.errors->worn_b);
+        CHECK_ABS(w.h.max_depth[last], 1.5417 / rc.a.radius, w.h.errors->max_depth[last], "depth");
+        CHECK_ABS(w.h.contact_to[last], 1.9625, w.h.errors->contact_to[last] + 0.0125, "edge");
+        CHECK_MAX(w.h.errors->worn[last], 1e-9 * w.h.worn[last], "volume by P");
+        worn_free(&w);
+    }
+    set(&rc, "mu 0.5 force-ratio 0.6 zone 1.35");
+    const rb_rolling_wear frets = {.law = RB_WEAR_ARCHARD,
+                                   .coefficient = 1e-8,
+                                   .way = 1e5,
+                                   .steps = 2,
+                                   .increments = 2,
+                                   .share = 0.5};
+    CHECK_OK(rb_rolling_wear_with_errors(&rc, &frets, NULL, &w.h, &w.last, &heard));
+    assert_true(isnan(w.h.errors->max_pressure[2]) && w.h.errors->worn_b[2] > 0.0 &&
+                w.h.errors->worn[1] > 0.0);
+    worn_free(&w);
+    rc.contact_elements = 5; /* too few to be halved */
+    CHECK_STATUS(rb_rolling_wear_with_errors(&rc, &frets, NULL, &w.h, &w.last, &heard), RB_EINVAL);
+    worn_free(&w);
+}
+
 /* Late: p = P/(2b) and V = 2 b^3/(3R), from any number of steps. */
 TEST(cylinder_wears_to_uniform_pressure)
 {

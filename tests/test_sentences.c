@@ -95,6 +95,11 @@ static const sentence notes[] = {
      "force -194.9 N/mm",
      PUSHED "40 --memory 5e-5 --history pushed.txt",
      PUSHED "40 --memory 3e-3 --history pushed.txt"},
+    {"stick-edge", "The pressure is singular at the edge of what sticks and does not wear",
+     "wear " STEEL "--radius 100 --mu 0.5 --load 100 --force-ratio 0.6 --cycles 1e6 "
+     "--wear-coefficient 1e-8 --wear-steps 2 --quarter 2 --contact-elements 40",
+     "wear " STEEL "--radius 100 --mu 0.5 --load 100 --shift 0.3 --cycles 1e3 "
+     "--wear-coefficient 1e-8 --wear-steps 2 --quarter 2 --contact-elements 40"},
     {"coarse-fall",
      "Friction falls over 0.1 mm of the surface behind the edge of stick, and the elements are "
      "longer, 0.17 mm: give 34 --contact-elements",

@@ -372,6 +372,7 @@ typedef struct {
     int equal_instead;            /* 1: equal elements were used, because fitting the mesh to the
                                      contact edges did not converge */
     rb_rolling_rows rows;         /* of its history */
+    int stick_edge;               /* 1: as in rb_rolling_wear_history */
     double max_pressure;          /* p0 [stress] */
     int contact, stick, slipping; /* numbers of elements; slipping includes yielding */
     int yielding; /* number of elements whose interface yields; -1: no yield stress */
@@ -599,7 +600,7 @@ typedef struct {
 } rb_rolling_wear;
 
 /* One entry per step; the first entry is the state before any wear.  Arrays are owned. */
-typedef struct {
+typedef struct rb_rolling_wear_history {
     int n;
     double *way;       /* sliding distance so far [length], or number of cycles or turns */
     double *worn;      /* volume of A per unit width [length^2] */
@@ -614,7 +615,11 @@ typedef struct {
     double *residual; /* of the contact under the worn gap */
     double radius_before, radius_b_before;
     int slides, rolls; /* both 0: fretting */
+    int stick_edge;    /* 1: a part of the contact sticks in every cycle and wears nothing; at its
+                          edge the pressure grows without bound */
     rb_units units;    /* of all values here */
+    struct rb_rolling_wear_history *errors; /* error bars of the columns that have them; NULL: not
+                                               estimated; owned */
 } rb_rolling_wear_history;
 
 void rb_rolling_wear_history_free(rb_rolling_wear_history *history);
@@ -639,6 +644,13 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
                               const rb_rolling_wear_observer *observer,
                               rb_rolling_wear_history *history, rb_rolling_solution *last,
                               rb_message *why);
+/* The same with error bars in history->errors: from n/2, 0.7 n and n elements, the boundary
+ * outside, and half as many steps.  That of a pressure with a stick edge is NAN.  The observer sees
+ * the run itself. */
+rb_status rb_rolling_wear_with_errors(const rb_rolling_case *rc, const rb_rolling_wear *wear,
+                                      const rb_rolling_wear_observer *observer,
+                                      rb_rolling_wear_history *history, rb_rolling_solution *last,
+                                      rb_message *why);
 
 /* ---- Creep curves ------------------------------------------------------------------ */
 

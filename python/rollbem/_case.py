@@ -729,18 +729,20 @@ class Stress(_Named):
 class Wear(_Named):
     """Steps of wear as arrays with an entry per step, the first before anything is worn.
 
-    ``x`` and ``depth`` are what is worn off A at the end.
+    ``x`` and ``depth`` are what is worn off A at the end; ``errors`` the error bars of the arrays, with ``error=True``.
     """
 
     case: Case
     x: Optional[Array]
     depth: Optional[Array]
+    errors: dict
 
     _tables = ("wear",)
 
     def __init__(self, case: Case, handle: Handle) -> None:
         self.case, self._system = case, handle.value("units")
         self._arrays = handle.arrays("wear", "wear.")
+        self.errors = handle.arrays("wear", "wear.error.")
         self._numbers = {}
         self.x, self.depth = (handle.array(f"wear.profile.{name}") for name in ("x", "depth"))
 

@@ -784,6 +784,7 @@ static api_array *series_array(rb_api *a, const char *name)
         {"curve.tolerance.", &rb_rolling_curve_columns, a->curve.deviations, a->curve.n, 1, 0},
         {"curve.error.", &rb_rolling_curve_columns, &a->curve_errors, a->curve_errors.n, 1, 0},
         {"curve.", &rb_rolling_curve_columns, &a->curve, a->curve.n, 1, 0},
+        {"wear.error.", &rb_rolling_wear_columns, a->wear.errors, a->wear.n, 1, 0},
         {"wear.", &rb_rolling_wear_columns, &a->wear, a->wear.n, 1, 0},
         {"patch.", &rb_rolling_patch_scalars, s->patch, s->patches, 1, sizeof *s->patch},
         {"", &rb_rolling_solution_columns, s, s->n, 1, 0}};
@@ -1595,9 +1596,9 @@ int rb_api_wear(rb_api *a, const char *law, double coefficient, double share, do
         s = rb_case_resolve(a->words, &a->why);
     rb_api_call_begins(a);
     if (s == RB_OK)
-        s = rb_rolling_wear_run(&rb_case_resolved(a->words)->rc, &how,
-                                &(rb_rolling_wear_observer){stop_wear, a}, &a->wear, &last,
-                                &a->why);
+        s = (rb_case_resolved(a->words)->error ? rb_rolling_wear_with_errors : rb_rolling_wear_run)(
+            &rb_case_resolved(a->words)->rc, &how, &(rb_rolling_wear_observer){stop_wear, a},
+            &a->wear, &last, &a->why);
     s = rb_api_call_ends(a, s);
     if (s >= 0 && last.worn &&
         (!rb_api_copy_array(a, "wear.profile.x", last.n, 1, last.x) ||

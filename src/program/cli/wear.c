@@ -88,8 +88,9 @@ static rb_status solve(cli_case_run *run, rb_message *why)
     if (s != RB_OK)
         return s;
     cli_interrupts_catch();
-    s = rb_rolling_wear_run(&run->c->rc, &how, &(rb_rolling_wear_observer){after_step, run},
-                            &w->history, &w->last, why);
+    s = (run->c->error ? rb_rolling_wear_with_errors : rb_rolling_wear_run)(
+        &run->c->rc, &how, &(rb_rolling_wear_observer){after_step, run}, &w->history, &w->last,
+        why);
     cli_interrupts_leave();
     rb_rolling_wear_history_convert(&w->history, run->c->units);
     if (w->failed != RB_OK) {

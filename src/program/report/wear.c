@@ -6,9 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-static rb_report_columns columns_of(const rb_rolling_wear_history *h)
+/* The steps, and their error bars.  Returns how many. */
+static int parts_of(const rb_rolling_wear_history *h, rb_report_columns part[2])
 {
-    return (rb_report_columns){&rb_rolling_wear_columns, h, 0, h->units, 0};
+    part[0] = (rb_report_columns){&rb_rolling_wear_columns, h, RB_REPORT_VALUES, h->units, 0};
+    if (h->errors)
+        part[1] =
+            (rb_report_columns){&rb_rolling_wear_columns, h->errors, RB_REPORT_ERRORS, h->units, 0};
+    return h->errors ? 2 : 1;
 }
 
 /* What the way counts, and what the work of friction is per. */
@@ -34,20 +39,27 @@ static wear_words words_of(const rb_rolling_wear_history *h)
 rb_status rb_report_wear_table(FILE *out, const rb_report_wear *w, const char *command,
                                const rb_report_style *style)
 {
-    const rb_report_columns columns = columns_of(w->history);
+    rb_report_columns part[2];
+    const int parts = parts_of(w->history, part);
     const wear_words words = words_of(w->history);
-    rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
+    rb_report_cells c = rb_report_begin_columns(out, style, command, parts, part);
 
     rb_report_comment(&c, "way: %s; work: of friction per %s", words.way, words.work);
-    return rb_report_end_columns(&c, w->history->n, 1, &columns);
+    return rb_report_end_columns(&c, w->history->n, parts, part);
 }
 
 json_t *rb_report_json_wear(const rb_report_wear *w)
 {
-    const rb_report_columns columns = columns_of(w->history);
+    rb_report_columns part[2];
+    const int parts = parts_of(w->history, part);
     json_t *wear = json_object();
 
-    rb_report_json_columns(&wear, w->history->n, &columns, 0);
+    rb_report_json_columns(&wear, w->history->n, &part[0], 0);
+    if (parts > 1) {
+        json_t *errors = json_object();
+        rb_report_json_columns(&errors, w->history->n, &part[1], 0);
+        rb_report_json_set(&wear, "errors", errors);
+    }
     return wear;
 }
 
@@ -69,6 +81,21 @@ void rb_report_wear_summary(FILE *out, const rb_report_wear *w)
             h->contact_to[last], mm, h->contact_from[0], h->contact_to[0], mm);
     fprintf(out, "  p0        %.6g %s, before %.6g %s; residual %.2g\n", h->max_pressure[last], MPa,
             h->max_pressure[0], MPa, h->residual[last]);
+    for (int j = 0; j < rb_rolling_wear_columns.n && h->errors; j++) {
+        const rb_rolling_result *r = &rb_rolling_wear_columns.row[j];
+        if (j == 0)
+            fputs("  error bars at the end (estimated from coarser meshes and longer steps)\n",
+                  out);
+        if (!r->error_bar || !rb_rolling_has_column(r, h))
+            continue;
+        const double e = rb_rolling_entry(r, h->errors, last);
+        const char *unit = r->unit ? rb_report_unit_name(h->units, r->unit) : "";
+        if (isnan(e))
+            fprintf(out, "    %-16s no bar\n", r->name);
+        else
+            fprintf(out, "    %-16s %.8g +- %.1g%s%s\n", r->name, rb_rolling_entry(r, h, last), e,
+                    *unit ? " " : "", unit);
+    }
     rb_locale_end(before);
 }
 

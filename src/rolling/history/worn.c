@@ -8,6 +8,9 @@
 
 void rb_rolling_wear_history_free(rb_rolling_wear_history *h)
 {
+    if (h->errors)
+        rb_rolling_wear_history_free(h->errors);
+    free(h->errors);
     rb_rolling_columns_free(&rb_rolling_wear_columns, h);
     memset(h, 0, sizeof *h);
 }
@@ -318,6 +321,21 @@ static rb_status roll(wear_state *r, double turns, rb_message *why)
 
 /* ---- Records ----------------------------------------------------------------------- */
 
+/* 1: the pressure of what sticks in all of the cycle has grown at its edge, behind which it is worn
+ * off, above the one at first: it has no bound there. */
+static int has_stick_edge(const wear_state *r)
+{
+    static const double GROWN = 1.01;
+    int sticks = 0, slips = 0;
+
+    for (int i = 0; i < r->n; i++) {
+        sticks += r->model.state.p[i] > 0.0 && r->path[i] == 0.0;
+        slips += r->path[i] > 0.0 && r->depth[i] > 0.0;
+    }
+    return sticks > 0 && slips > 0 &&
+           rb_rolling_peak_pressure(&r->model) > GROWN * r->history->max_pressure[0];
+}
+
 static rb_status record(wear_state *r, double way, rb_message *why)
 {
     rb_rolling_wear_history *h = r->history;
@@ -359,6 +377,7 @@ static rb_status record(wear_state *r, double way, rb_message *why)
     h->contact_to[k] = s.contact_to;
     h->residual[k] = s.residual;
     h->n++;
+    h->stick_edge = s.stick_edge = !rolls && !r->wear->slides && way > 0.0 && has_stick_edge(r);
     rb_rolling_solution_free(r->last);
     *r->last = s;
     return r->observer && r->observer->step(r->last, h, k, r->wear->steps, r->observer->context)

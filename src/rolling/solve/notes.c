@@ -232,6 +232,16 @@ static int coarse_fall(const rb_rolling_case *rc, const rb_rolling_solution *s, 
                ceil(rc->contact_elements * longest / needs));
 }
 
+static int stick_edge(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    (void)rc;
+    return s->stick_edge &&
+           say(text,
+               "The pressure is singular at the edge of what sticks and does not wear: the largest "
+               "value, %.4g %s, belongs to the mesh. Read the pressure in the middle.",
+               s->max_pressure, rb_unit_name(s->units, "MPa"));
+}
+
 /* A number of corners, at most MOST of them with their places. */
 static int list_corners(char *text, const char *option, rb_units units, int corners,
                         const double *x)
@@ -592,6 +602,7 @@ static const struct {
     {"row-of-steps", row_of_steps, 0},
     {"jumps", jumps, 0},
     {"coarse-fall", coarse_fall, 0},
+    {"stick-edge", stick_edge, 0},
     {"gap-corners", gap_corners, 0},
     {"irregularity-corners", irregularity_corners, 0},
     {"coarse-elements", coarse_elements, 0},

@@ -229,19 +229,26 @@ static const rb_rolling_result points[] = {
 
 static const rb_rolling_result wears[] = {
     WEAR("way", way, .meaning = "slid so far [mm]; cycles or turns so far"),
-    WEAR("worn", worn, .unit = "mm2", .meaning = "worn volume per mm of width"),
-    WEAR("max_depth", max_depth, .unit = "mm", .meaning = "largest worn depth"),
-    WEAR("radius", radius, .unit = "mm", .meaning = "of A"),
-    WEAR("worn_b", worn_b, .unit = "mm2", .meaning = "worn volume of B, with a share"),
-    WEAR("max_depth_b", max_depth_b, .unit = "mm",
+    WEAR("worn", worn, .error_bar = RB_SCALE_ONE, .unit = "mm2",
+         .meaning = "worn volume per mm of width"),
+    WEAR("max_depth", max_depth, .error_bar = RB_SCALE_ONE, .unit = "mm",
+         .meaning = "largest worn depth"),
+    WEAR("radius", radius, .error_bar = RB_SCALE_ONE, .unit = "mm", .meaning = "of A"),
+    WEAR("worn_b", worn_b, .error_bar = RB_SCALE_ONE, .unit = "mm2",
+         .meaning = "worn volume of B, with a share"),
+    WEAR("max_depth_b", max_depth_b, .error_bar = RB_SCALE_ONE, .unit = "mm",
          .meaning = "largest worn depth of B; of a track, in one passage"),
-    WEAR("radius_b", radius_b, .unit = "mm", .meaning = "of B; < 0 of a bore"),
-    WEAR("work", work, .meaning = "of friction, per slid or rolled mm [N/mm] or cycle [N]"),
-    WEAR("approach", approach, .unit = "mm", .meaning = "delta"),
-    WEAR("normal_load", normal_load, .unit = "N/mm", .meaning = "P"),
-    WEAR("max_pressure", max_pressure, .unit = "MPa", .meaning = "p0"),
-    WEAR("contact_from", contact_from, .unit = "mm", .meaning = "trailing edge"),
-    WEAR("contact_to", contact_to, .unit = "mm", .meaning = "leading edge"),
+    WEAR("radius_b", radius_b, .error_bar = RB_SCALE_ONE, .unit = "mm",
+         .meaning = "of B; < 0 of a bore"),
+    WEAR("work", work, .error_bar = RB_SCALE_ONE,
+         .meaning = "of friction, per slid or rolled mm [N/mm] or cycle [N]"),
+    WEAR("approach", approach, .error_bar = RB_SCALE_ONE, .unit = "mm", .meaning = "delta"),
+    WEAR("normal_load", normal_load, .error_bar = RB_SCALE_ONE, .unit = "N/mm", .meaning = "P"),
+    WEAR("max_pressure", max_pressure, .error_bar = RB_SCALE_ONE, .unit = "MPa", .meaning = "p0"),
+    WEAR("contact_from", contact_from, .error_bar = RB_SCALE_ONE, .unit = "mm",
+         .meaning = "trailing edge"),
+    WEAR("contact_to", contact_to, .error_bar = RB_SCALE_ONE, .unit = "mm",
+         .meaning = "leading edge"),
     WEAR("residual", residual, .meaning = "natural residual under the worn gap"),
 };
 
@@ -477,6 +484,8 @@ void rb_rolling_wear_history_convert(rb_rolling_wear_history *h, rb_units units)
     }
     h->radius_before = rb_unit_shown(units, "mm", h->radius_before);
     h->radius_b_before = rb_unit_shown(units, "mm", h->radius_b_before);
+    if (h->errors)
+        rb_rolling_wear_history_convert(h->errors, units);
 }
 
 void rb_rolling_curve_convert(rb_rolling_curve *c, rb_units units)

@@ -256,3 +256,100 @@ rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
         rb_rolling_history_free(&placed[k]);
     return s;
 }
+
+/* ---- Wear -------------------------------------------------------------------------- */
+
+/* The error of the steps, from a run with others: what it deviates by at its own entries, linear
+ * over the way. */
+static void add_step_errors(const rb_rolling_wear_history *own,
+                            const rb_rolling_wear_history *other, rb_rolling_wear_history *errors)
+{
+    const rb_rolling_results *columns = &rb_rolling_wear_columns;
+
+    for (int k = 0; k < columns->n; k++) {
+        const rb_rolling_result *c = &columns->row[k];
+        if (!c->error_bar || !rb_rolling_has_column(c, own))
+            continue;
+        const double *mine = rb_rolling_column(c, own), *theirs = rb_rolling_column(c, other);
+        double *e = rb_rolling_column(c, errors);
+        for (int i = 1, j = 1; i < own->n; i++) {
+            double off[2];
+            while (j + 1 < other->n && other->way[j] < own->way[i])
+                j++;
+            for (int side = 0; side < 2; side++) { /* at entries j - 1 and j of the other run */
+                const double way = other->way[j - 1 + side];
+                int m = 1;
+                while (m + 1 < own->n && own->way[m] < way)
+                    m++;
+                const double part = (way - own->way[m - 1]) / (own->way[m] - own->way[m - 1]);
+                off[side] =
+                    fabs(theirs[j - 1 + side] - mine[m - 1] - part * (mine[m] - mine[m - 1]));
+            }
+            const double part =
+                (own->way[i] - other->way[j - 1]) / (other->way[j] - other->way[j - 1]);
+            e[i] += off[0] + part * (off[1] - off[0]);
+        }
+    }
+}
+
+static rb_status wear_errors(const rb_rolling_case *rc, const rb_rolling_wear_history run[],
+                             int runs, const rb_rolling_wear_history *other,
+                             rb_rolling_wear_history *own)
+{
+    const void *found[RB_ERROR_RUNS];
+    rb_rolling_wear_history *errors = own->errors = calloc(1, sizeof *errors);
+    rb_status s = errors ? rb_rolling_columns_alloc(&rb_rolling_wear_columns, rc, 0, own->n, errors)
+                         : RB_ENOMEM;
+
+    if (s != RB_OK)
+        return s;
+    double **const of_b[][2] = {{&errors->worn_b, &own->worn_b},
+                                {&errors->max_depth_b, &own->max_depth_b},
+                                {&errors->radius_b, &own->radius_b}};
+    for (size_t k = 0; k < sizeof of_b / sizeof *of_b; k++)
+        if (!*of_b[k][1]) {
+            free(*of_b[k][0]);
+            *of_b[k][0] = NULL;
+        }
+    errors->n = own->n;
+    errors->slides = own->slides;
+    errors->rolls = own->rolls;
+    memcpy(errors->way, own->way, (size_t)own->n * sizeof *own->way);
+    for (int k = 0; k < runs; k++)
+        found[k] = &run[k];
+    error_columns(&rb_rolling_wear_columns, own->n, runs, found, own, errors);
+    add_step_errors(own, other, errors);
+    for (int i = 0; i < own->n && own->stick_edge; i++)
+        errors->max_pressure[i] = NAN;
+    return RB_OK;
+}
+
+rb_status rb_rolling_wear_with_errors(const rb_rolling_case *rc, const rb_rolling_wear *wear,
+                                      const rb_rolling_wear_observer *observer,
+                                      rb_rolling_wear_history *history, rb_rolling_solution *last,
+                                      rb_message *why)
+{
+    rb_rolling_wear_history run[RB_ERROR_RUNS + 1] = {{0}};
+    const int runs = rb_rolling_error_runs(rc);
+    rb_status s = rb_rolling_error_check(rc, why);
+
+    memset(history, 0, sizeof *history);
+    memset(last, 0, sizeof *last);
+    if (s == RB_OK)
+        s = rb_rolling_wear_run(rc, wear, observer, history, last, why);
+    for (int k = 0; k <= runs && s == RB_OK; k++) {
+        rb_rolling_wear other = *wear;
+        rb_rolling_solution end = {0};
+        /* the last run has other steps: half as many, or two for one */
+        const rb_rolling_case coarser = k < runs ? rb_rolling_error_run(rc, k) : *rc;
+        if (k == runs)
+            other.steps = wear->steps > 1 ? wear->steps / 2 : 2;
+        s = rb_rolling_wear_run(&coarser, &other, NULL, &run[k], &end, why);
+        rb_rolling_solution_free(&end);
+    }
+    if (s == RB_OK)
+        s = wear_errors(rc, run, runs, &run[runs], history);
+    for (int k = 0; k <= runs; k++)
+        rb_rolling_wear_history_free(&run[k]);
+    return s;
+}
