@@ -49,6 +49,8 @@ static const struct {
     {"--formulation transient --creep 0.001", "--distance or --history"},
     {"--young-b 70000 --similar", "exclude each other"},
     {"--poisson-b 0.3", "body B is rigid without --similar or --young-b"},
+    {"--support halfplane --layer-thickness 1 --base-poisson 0.3", "rigid without --base-young"},
+    {"--support hub --cover-thickness 1 --core-poisson 0.3", "is rigid without --core-young"},
     {"--arc 30 --support hub", "of the support arc only"},
     {"--plot picture.jpg", ".png, .svg or .pdf"},
     {"--plot", "expected a name, got nothing"},

@@ -373,7 +373,7 @@ TEST(ranges_of_the_loading)
     REFUSED("less than the radius of either body, 50 mm", rc.half_width = 50.0);
     REFUSED("less than the radius of either body, 20 mm", rc.elastic_b = 1; rc.b.radius = 20.0;
             rc.half_width = 20.0);
-    REFUSED("approach, load and half-width exclude", rc.half_width = rc.load = 1.0);
+    REFUSED("approach, load, half-width and max-pressure exclude", rc.half_width = rc.load = 1.0);
     REFUSED("approach: expected a number > 0", rc.approach = INFINITY);
 }
 

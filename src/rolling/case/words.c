@@ -461,6 +461,24 @@ static rb_status check_parameter(const rb_case *c, int is_b, const rb_rolling_bo
                : rb_case_refuse_given(c, name, reason, why);
 }
 
+/* Poisson's ratio of a base or core that is rigid: said, unless "rigid" was written, as in a study
+ * that goes to this limit. */
+static rb_status check_rigid_parts(const rb_case *c, rb_message *why)
+{
+    static const char base[] = "the base is rigid without --base-young",
+                      core[] = "the core is rigid without --core-young",
+                      base_b[] = "the base of B is rigid without --base-young-b",
+                      core_b[] = "the core of B is rigid without --core-young-b";
+    const rb_rolling_body *a = &c->resolved.rc.a, *b = &c->resolved.rc.b;
+    const rule rules[] = {
+        {a->base_young == 0.0 && !rb_case_given(c, "base-young"), "base-poisson", base},
+        {a->core_young == 0.0 && !rb_case_given(c, "core-young"), "core-poisson", core},
+        {b->base_young == 0.0 && !rb_case_given(c, "base-young-b"), "base-poisson-b", base_b},
+        {b->core_young == 0.0 && !rb_case_given(c, "core-young-b"), "core-poisson-b", core_b}};
+
+    return refuse_by(c, sizeof rules / sizeof *rules, rules, why);
+}
+
 static rb_status resolve_bodies(rb_case *c, rb_message *why)
 {
     rb_resolved_case *s = &c->resolved;
@@ -478,7 +496,7 @@ static rb_status resolve_bodies(rb_case *c, rb_message *why)
                 status = check_parameter(c, body, kind, p, why);
             }
     }
-    return status;
+    return status == RB_OK ? check_rigid_parts(c, why) : status;
 }
 
 static rb_status check_heat(const rb_case *c, rb_message *why)
