@@ -1,6 +1,6 @@
 /* Chapter 4: the stress below the contact of the first screen, coarse while a hand moves something; its largest value
  * and the place of it are the library's own. */
-import { card, html, segments, show, show_notes, svg, ticks, width_of } from "./draw.js";
+import { card, height_for, html, segments, show, show_notes, svg, ticks, width_of } from "./draw.js";
 import { ALL_TANGENTIAL, formulation_of, hold, plain } from "./state.js";
 import { svg_text } from "./take.js";
 import { say } from "./words.js";
@@ -239,7 +239,7 @@ export function below_view(words, page) {
         const x0 = xs[0],
             x1 = xs[nx - 1],
             depth = Math.max(...ys) - Math.min(...ys),
-            height = Math.min(520, Math.round((inner * depth) / (x1 - x0)));
+            height = height_for(Math.min(520, (inner * depth) / (x1 - x0)), 130, 150);
         const most = largest(name);
         if (!scale || (!store.holding && (most.value > scale || most.value < 0.6 * scale)))
             scale = nice_above(most.value || 1);

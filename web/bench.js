@@ -1,5 +1,5 @@
 /* The workbench: the whole panel, tractions, numbers and the creep curve, and what can be taken along. */
-import { html } from "./draw.js";
+import { ONE_COLUMN, html } from "./draw.js";
 import { controls } from "./controls.js";
 import { contact_view } from "./contact.js";
 import { take_view } from "./take.js";
@@ -27,7 +27,7 @@ export function bench_view(words, page) {
         html("div", { class: "stack", id: "bench" }, contact.node, more),
     );
     /* On phones the controls come after the tractions, which stay in sight. */
-    const phone = matchMedia("(max-width: 920px)");
+    const phone = matchMedia(ONE_COLUMN);
     function place_controls() {
         if (phone.matches) contact.tractions.after(form);
         else node.prepend(form);

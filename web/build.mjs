@@ -48,7 +48,7 @@ const joined = (files) =>
                 .replace(/^import .*?;\n/gms, "")
                 .replace(/^export /gm, "")
                 .replace(/^ +/gm, "")
-                .replace(/^\/\*[^]*?\*\/\n/gm, ""),
+                .replace(/^\/\*[\s\S]*?\*\/\n/gm, ""),
         )
         .join("\n");
 

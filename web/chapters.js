@@ -1,5 +1,5 @@
-/* Chapters 1 to 3: each asks first, then answers with what the library has solved, then leaves it to the hand. */
-import { card, html, show, show_notes, width_of } from "./draw.js";
+/* Press, Brake and A soft wheel: each asks first, then answers with what the library has solved, then leaves it to the hand. */
+import { SIDE_BY_SIDE, card, height_for, html, show, show_notes, width_of } from "./draw.js";
 import { creep_curve, curve_request, scaled, tractions_legend, tractions_picture } from "./contact.js";
 import { ALL_TANGENTIAL, NORMAL, PRESETS, hold, plain } from "./state.js";
 import { svg_text } from "./take.js";
@@ -62,6 +62,12 @@ const layout = (tale, after, ...figure) =>
         html("div", { class: "after" }, after),
     );
 
+/* Of two figures in one window beside the text; on a phone the first one stays in sight. */
+const beside = (wanted, around, least) =>
+    matchMedia(SIDE_BY_SIDE).matches
+        ? height_for(Math.min(wanted, 0.5 * (innerHeight - 180) + 30 - around), 0, least)
+        : height_for(wanted, around, least);
+
 /* What a chapter tells where its case was not solved; grey. */
 function grey(node, page, name) {
     const trouble = page.store.trouble(name);
@@ -69,7 +75,7 @@ function grey(node, page, name) {
     return trouble ? say(page.words.refused, { why: trouble }) : "";
 }
 
-/* ---- 1 Press ----------------------------------------------------------------------- */
+/* ---- Press ----------------------------------------------------------------------- */
 
 export function press_view(words, page) {
     const { store } = page,
@@ -164,7 +170,7 @@ export function press_view(words, page) {
         picture.replaceChildren(
             tractions_picture(picture, words, guess === null ? blank : a, {
                 width: wide,
-                height: Math.round(Math.min(400, Math.max(220, wide * 0.5))),
+                height: height_for(Math.min(400, Math.max(220, wide * 0.5)), 80),
                 name: "press",
                 slip: false,
                 bounds: false,
@@ -205,7 +211,7 @@ export function press_view(words, page) {
     };
 }
 
-/* ---- 2 Brake ----------------------------------------------------------------------- */
+/* ---- Brake ----------------------------------------------------------------------- */
 
 const CELLS = 16;
 
@@ -383,7 +389,7 @@ export function brake_view(words, page) {
         picture.replaceChildren(
             tractions_picture(picture, words, revealed ? seen : blank, {
                 width: wide,
-                height: Math.round(Math.min(300, Math.max(190, wide * 0.36))),
+                height: beside(Math.min(300, Math.max(190, wide * 0.36)), 80),
                 name: "brake",
                 slip: false,
                 axes: { x: [-1.4, 1.4], top: 1.1, low: -0.42, slip: 0 },
@@ -428,7 +434,7 @@ export function brake_view(words, page) {
         curve_host.replaceChildren(
             creep_curve(words, {
                 width: width_of(curve_host),
-                height: Math.round(Math.min(330, Math.max(240, width_of(curve_host) * 0.42))),
+                height: beside(Math.min(330, Math.max(240, width_of(curve_host) * 0.42)), 40, 160),
                 curve,
                 ghost: ghost_curve,
                 old: curve_key !== wanted().key,
@@ -460,7 +466,7 @@ export function brake_view(words, page) {
     };
 }
 
-/* ---- 3 A soft wheel ---------------------------------------------------------------- */
+/* ---- A soft wheel ---------------------------------------------------------------- */
 
 export function soft_view(words, page) {
     const { store } = page,
@@ -506,7 +512,14 @@ export function soft_view(words, page) {
         read: (a) => Number(a.values.speed),
         write: (v) => store.set("memory", { ...store.case("memory"), speed: plain(v) }),
     });
-    const node = layout(
+    const relaxing = layout(
+        html("p", {}, w.memory),
+        [html("div", { class: "knobs one" }, speed.node), costs],
+        html("h3", {}, w.leaning),
+        leaning,
+        notes_memory,
+    );
+    const asking = layout(
         [
             html("p", { class: "question" }, w.question),
             choices(w.question, w.choices, (value) => {
@@ -522,19 +535,18 @@ export function soft_view(words, page) {
             html("div", { class: "knobs one" }, cover.node, poisson.node),
             state,
             html("div", { class: "row" }, page.history_buttons()),
-            html("p", {}, w.memory),
-            html("div", { class: "knobs one" }, speed.node),
-            costs,
         ],
         picture,
         notes,
-        html("div", { class: "revealing" }, curve_host, html("h3", {}, w.leaning), leaning, notes_memory),
+        html("div", { class: "revealing" }, curve_host),
         html(
             "div",
             { class: "row" },
             page.take_along(() => svg_text(picture.querySelector("svg")), "rollbem-soft", null, given),
         ),
     );
+    relaxing.hidden = true;
+    const node = html("div", { class: "stack" }, asking, relaxing);
     const wanted = () => curve_request(given(), "curve soft");
     const wants = () => (guess !== null && !store.holding && wanted().key !== curve_key ? [wanted()] : []);
     /* The wheel turns as if its radius were larger by this part: the rim is so much slower than it travels. */
@@ -565,9 +577,10 @@ export function soft_view(words, page) {
             shown && store.ghosts[name] && store.ghosts[name] !== store.solved[name] ? store.ghosts[name] : null;
         [cover, poisson].forEach((knob) => knob.sync(a));
         show_notes(notes, a);
-        node.classList.toggle("revealed", shown);
+        for (const part of [asking, relaxing]) part.classList.toggle("revealed", shown);
+        relaxing.hidden = !shown;
         const wide = width_of(picture),
-            tall = Math.round(Math.min(230, Math.max(150, wide * 0.3)));
+            tall = beside(Math.min(230, Math.max(150, wide * 0.3)), 80);
         picture.replaceChildren(
             tractions_picture(picture, words, a, {
                 width: wide,
@@ -594,7 +607,7 @@ export function soft_view(words, page) {
         curve_host.replaceChildren(
             creep_curve(words, {
                 width: width_of(curve_host),
-                height: 270,
+                height: beside(270, 40, 160),
                 curve,
                 old: curve_key !== wanted().key,
                 numbers: n,

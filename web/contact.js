@@ -1,5 +1,6 @@
 /* The workbench's pictures: tractions, zones and slip; the numbers; the creep curve with a point that can be dragged. */
 import {
+    ONE_COLUMN,
     chart,
     html,
     legend,
@@ -105,7 +106,9 @@ export function tractions_picture(host, words, answer, options = {}) {
         { slip, most } = slip_of(c),
         slip_top = Math.max(slip_axis || 0, most);
     const small = innerHeight < 1000 && width < 560,
-        height = options.height ?? Math.round(Math.max(small ? 190 : 250, Math.min(420, width * 0.44))),
+        height =
+            options.height ??
+            Math.round(Math.max(small ? Math.min(190, 0.34 * innerHeight) : 250, Math.min(420, width * 0.44))),
         strip = 26;
     const below = options.slip === false ? 8 : 84,
         total = height + strip + below + 46;
@@ -391,13 +394,13 @@ export function creep_curve(words, { width, height, curve, old, numbers: n, stor
 /* Of a case: what its curve is asked for. */
 export const curve_request = (given, slot) => {
     const of = hold(given, ALL_TANGENTIAL, "creep-ratio", "0.5");
-    return { kind: "curve", slot, given: of, key: JSON.stringify(of), from: -1.4, to: 1.4, points: 29 };
+    return { kind: "curve", slot, given: of, key: JSON.stringify(of), from: -1.4, to: 1.4, points: 57 };
 };
 
 export function contact_view(words, page) {
     const { store } = page,
         matters = matters_card(words, page),
-        phone = matchMedia("(max-width: 920px)");
+        phone = matchMedia(ONE_COLUMN);
     let curve = null,
         curve_key = "",
         closed = null,

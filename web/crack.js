@@ -1,6 +1,6 @@
-/* Chapter 6: a contact that passes over a crack, as the library solves it position by position: the wheel is dragged
+/* A contact that passes over a crack, as the library solves it position by position: the wheel is dragged
  * over it, and its faces open, stick and slide. */
-import { card, chart, html, legend, line, player, segments, show, stroke, svg, width_of } from "./draw.js";
+import { card, chart, height_for, html, legend, line, player, segments, show, stroke, svg, width_of } from "./draw.js";
 import { make_draggable } from "./knob.js";
 import { round_125 } from "./lens.js";
 import { ALL_TANGENTIAL, PRESETS, contact_of, crack_of, hold, plain } from "./state.js";
@@ -203,7 +203,7 @@ export function crack_view(words, page) {
     function draw_at(k) {
         const a = data.numbers.half_width,
             width = width_of(picture),
-            per = Math.min(Math.max(110, 0.16 * innerHeight), width / 4.8) /* px of a half-width */,
+            per = Math.min((height_for(0.52 * innerHeight, 60, 200) - 60) / 2.7, width / 4.8) /* px of a half-width */,
             tall = Math.round(0.95 * per + 62),
             height = Math.round(tall + 1.72 * per + 24),
             shown = guess !== null,
@@ -423,7 +423,7 @@ export function crack_view(words, page) {
             ghost = store.ghosts.crack && store.ghosts.crack !== store.solved.crack ? store.ghosts.crack : null;
         const plot = chart({
             width,
-            height: 220,
+            height: Math.round(Math.max(150, Math.min(220, innerHeight - 560))),
             x: [-WAY, WAY],
             y: axis,
             x_label: w.x_axis,

@@ -118,6 +118,15 @@ export const legend = (...entries) =>
 /* The width that a picture gets on the page. */
 export const width_of = (host) => Math.max(280, Math.min(1600, host.clientWidth || 700));
 
+/* A figure's height: the wanted one where the figure and its sliders then fit into the window together; around: what
+ * else of its card stands in the same window. */
+export const SIDE_BY_SIDE = "(min-width: 921px), (min-width: 561px) and (max-height: 480px)",
+    ONE_COLUMN = "(max-width: 560px), (max-width: 920px) and (min-height: 481px)";
+export function height_for(wanted, around = 0, least = 110) {
+    const room = matchMedia(SIDE_BY_SIDE).matches ? innerHeight - (innerHeight > 480 ? 150 : 84) : 0.44 * innerHeight;
+    return Math.round(Math.max(least, Math.min(wanted, room - around)));
+}
+
 export const card = (title, ...children) =>
     html("section", { class: "card" }, title && html("h3", {}, title), ...children);
 

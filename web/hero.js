@@ -68,7 +68,7 @@ export function hero_view(words, page) {
         store = page.store;
     const canvas = html("canvas", { role: "img", class: "stage" });
     const headline = html("h1", { id: "headline" }),
-        lead = html("p", { class: "lead" }),
+        lead = html("p", { class: "lead" }, w.lead),
         note = html("p", { class: "trouble", hidden: true });
     const live = html("p", { class: "unseen", role: "status", "aria-live": "polite" });
     const handle = (kind, label, min, max) =>
@@ -87,7 +87,14 @@ export function hero_view(words, page) {
     hub.append(html("span", { "aria-hidden": "true" }, "↓"));
     rim.append(html("span", { "aria-hidden": "true" }, "↻"));
     const stage = html("div", { class: "stage-box" }, canvas, rim, hub, border);
-    const facts = html("dl", { class: "facts" });
+    /* Places of the numbers before there are any: nothing moves when they come. */
+    const facts = html(
+        "dl",
+        { class: "facts" },
+        ["pressed", "wide", "pressure", "used", "slower"].map((name) =>
+            html("div", {}, html("dt", {}, w.facts[name]), html("dd", {}, "–")),
+        ),
+    );
     const knobs = html("div", { class: "knobs" });
     const pause = html("button", { type: "button", class: "button", onclick: () => set_running(!running) });
     const motion = matchMedia("(prefers-reduced-motion: reduce)");
@@ -136,7 +143,7 @@ export function hero_view(words, page) {
     const node = html(
         "div",
         { class: "hero" },
-        html("div", { class: "says" }, headline, lead, note),
+        html("div", { class: "says" }, headline, lead),
         stage,
         live,
         facts,
@@ -156,6 +163,7 @@ export function hero_view(words, page) {
                 ),
             ),
         ),
+        note,
     );
 
     function drive_of(answer) {
@@ -540,7 +548,7 @@ export function hero_view(words, page) {
             }),
         );
         const fact = (label, value, unit) =>
-            html("div", {}, html("dt", {}, label), html("dd", {}, value, " ", html("small", {}, unit)));
+            html("div", {}, html("dt", {}, label), html("dd", {}, html("b", {}, value), " ", html("small", {}, unit)));
         facts.replaceChildren(
             fact(w.facts.pressed, show(n.normal_load, 3), "N/mm"),
             fact(w.facts.wide, show(n.nip_width, 3), "mm"),

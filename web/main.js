@@ -21,11 +21,11 @@ const CHAPTERS = [
     ["hero", hero_view],
     ["press", press_view],
     ["brake", brake_view],
+    ["roll", roll_view],
     ["soft", soft_view],
     ["below", below_view],
-    ["step", step_view],
     ["crack", crack_view],
-    ["roll", roll_view],
+    ["step", step_view],
     ["bench", bench_view],
 ];
 /* Cases that the library is asked for in another way than to solve them. */
@@ -214,11 +214,12 @@ async function main() {
 
     function build(name, make) {
         const view = (views[name] = make(words, page)),
-            { title, number } = words.chapters[name];
+            { title, number, join } = words.chapters[name];
         const node = html(
             "section",
             { id: `at-${name}`, class: `chapter ${name}`, "aria-label": title, tabindex: -1 },
             name !== "hero" && html("h2", {}, number && html("span", { class: "count" }, number), title),
+            join && html("p", { class: "join" }, join),
             view.node,
         );
         at("story").append(node);
@@ -235,6 +236,7 @@ async function main() {
                         open(name);
                     },
                 },
+                html("span", { class: "number", "aria-hidden": "true" }, number),
                 words.chapters[name].short,
             ),
         );

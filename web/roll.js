@@ -1,6 +1,19 @@
 /* From rest to steady rolling: the picture of a step, and under it the way there with the steady value that is
  * reached; load, friction, force or creepage drawn by hand over the way. */
-import { card, chart, html, line, player, segments, show, show_notes, stroke, svg, width_of } from "./draw.js";
+import {
+    card,
+    chart,
+    height_for,
+    html,
+    line,
+    player,
+    segments,
+    show,
+    show_notes,
+    stroke,
+    svg,
+    width_of,
+} from "./draw.js";
 import { edges_of_equal, tractions_legend, tractions_picture } from "./contact.js";
 import { make_draggable, slider_for } from "./knob.js";
 import { ALL_TANGENTIAL, DRAWN, NORMAL, TANGENTIAL, formulation_of, held, hold, table_of_drawn } from "./state.js";
@@ -63,13 +76,12 @@ export function roll_view(words, page) {
         });
     const node = html(
         "div",
-        { class: "two" },
+        { class: "two revealed" },
+        html("div", { class: "tale" }, html("p", { class: "question" }, w.question), html("p", {}, w.tale), driven),
+        card("", frames.node, picture, way, legend_row, notes),
         html(
             "div",
-            { class: "tale" },
-            html("p", { class: "question" }, w.question),
-            html("p", {}, w.tale),
-            driven,
+            { class: "after" },
             html("div", { class: "knobs one" }, drive.node),
             html("div", { class: "row" }, html("label", { for: "roll-distance" }, words.roll_distance), field),
             told,
@@ -89,7 +101,6 @@ export function roll_view(words, page) {
                 same,
             ),
         ),
-        card("", frames.node, picture, way, legend_row, notes),
     );
 
     /* The case of the page, rolling from rest on equal elements. */
@@ -319,7 +330,7 @@ export function roll_view(words, page) {
         const ends = edges_of_equal(columns),
             mu = Number(data.values.mu.split(",")[0]) || 0.1;
         const width = width_of(picture),
-            tall = Math.round(Math.max(150, Math.min(280, width * 0.34, innerHeight - 470)));
+            tall = height_for(Math.min(280, Math.max(150, width * 0.34), Math.max(120, innerHeight - 470)), 130);
         picture.replaceChildren(
             tractions_picture(
                 picture,

@@ -473,7 +473,8 @@ export function step_view(words, page) {
         },
         take(answer) {
             if (answer.kind === "guess") return judged(answer);
-            if (answer.refused) return failed(answer.refused);
+            /* What the method ended before its first pivot has no pivots to show. */
+            if (answer.refused || !answer["pivot.p"]) return failed(answer.refused || answer.unsolved || answer.end);
             data = answer;
             const n = data["pivot.p"].rows;
             title.textContent = say(words.step_title, { n });

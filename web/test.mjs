@@ -18,6 +18,8 @@ import { pathToFileURL } from "node:url";
 import { gunzipSync } from "node:zlib";
 import { CHROMIUM, close_browser, open_page } from "./chromium.mjs";
 import { crawl } from "./crawl.mjs";
+import { SIZES, drag_brake } from "./still.mjs";
+import { SIZES as WINDOWS, seen_together } from "./together.mjs";
 import { open_in_firefox } from "./firefox.mjs";
 import { axes_of, axes_still_fit, bounds_of, tidy_number } from "./contact.js";
 import { value_to_hold, with_motion } from "./controls.js";
@@ -608,8 +610,8 @@ await test("notes of the library reach the page", () =>
 
 /* ---- The page ---------------------------------------------------------------------- */
 
-await test("one file below 700 kB that names no other", () => {
-    check(text_of_page.length < 700e3, `${text_of_page.length} bytes`);
+await test("one file of at most 800 kB that names no other", () => {
+    check(text_of_page.length <= 800e3, `${text_of_page.length} bytes`);
     check(!/(src|href)="?https?:/.test(text_of_page), "it asks for something");
 });
 
@@ -1082,6 +1084,24 @@ async function views(page) {
         );
         check(orange.length >= 2 && orange.every((n) => n === 0), `${orange}`);
     });
+    await test("nothing moves under a hand, nor while it loads", async () => {
+        for (const [width, height] of process.env.ROLLBEM_TEST_ALL ? SIZES : SIZES.slice(1, 2)) {
+            const { loading, shift, moved, errors } = await drag_brake(url, width, height),
+                what = `${width} x ${height}`;
+            check(moved < 1 && shift < 0.01, `${what}: moved ${moved} px, layout shift ${shift}`);
+            check(loading < 0.01, `${what}: layout shift ${loading} while it loads`);
+            check(!errors.length, `${what}: ${errors}`);
+        }
+        await page.tab("Page.bringToFront");
+    });
+    if (process.env.ROLLBEM_TEST_ALL)
+        await test("every slider stands in one window with its picture, at four sizes", async () => {
+            for (const [width, height] of WINDOWS) {
+                const rows = await seen_together(url, width, height),
+                    short = rows.filter(({ part }) => part < 0.9);
+                check(rows.length > 25 && !short.length, `${width} x ${height}: ${JSON.stringify(short)}`);
+            }
+        });
     await test("printed: a page for each chapter that was seen, its figure as wide as the page", async () => {
         for (const view of VIEWS) {
             await page.run(`rollbem.open('${view}')`);
