@@ -145,7 +145,7 @@ function read_drawn(text) {
     const [what, distance, ...values] = text.split(" "),
         numbers = values.map(Number);
     if (
-        !(what in DRAWN) ||
+        !Object.hasOwn(DRAWN, what) ||
         !(Number(distance) > 0) ||
         numbers.length < 2 ||
         numbers.length > MOST_DRAWN ||

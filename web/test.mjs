@@ -1715,6 +1715,7 @@ async function views(page) {
         ["#contact-elements=1e9", "--contact-elements"],
         [`#mu=${"9".repeat(5000)}`, "could not be read"],
         ["#mu=0.3&drawn=load+1+NaN+2", "could not be read"],
+        ["#mu=0.3&drawn=toString+1+1+2", "could not be read"],
         ["#formulation=transient&history=/etc/passwd", "/etc/passwd"],
         ["#mu=0.3&load=-1", "the first case is shown instead"],
     ])
