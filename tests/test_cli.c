@@ -339,7 +339,7 @@ TEST(words_are_found)
                  {"help GPa", "a unit of --young", "--mu "},
                  {"help basis", "Glossary\n  basis ", "--mu "},
                  {"help gnuplot", "Questions\n  Can I use it without gnuplot?", "--mu "},
-                 {"help E", "--young X", "--mu "},
+                 {"help E", "--young X", "--mu X"},
                  {"help what is aligned", "Which mesh", "--mu "},
                  {"help 'How do I cite it?'", "CITATION.cff", "--zone"},
                  {"help relaxation time", "--relaxation-time X", "--zone"},
@@ -491,7 +491,7 @@ TEST(no_list_shows_an_option_that_is_refused)
         {"curve --points 2", "accuracy history distance steps irregularity increments time-step"},
         {"stress --grid 3x3", "accuracy conductivity heat-capacity temperature temperature-b"},
         {"wear --wear-coefficient 1e-9 --slide 1",
-         "error accuracy history increments distance steps irregularity relaxation-time "
+         "accuracy history increments distance steps irregularity relaxation-time "
          "relaxation-ratio-b yield-stress hardening conductivity heat-capacity-b"},
         {"crack --crack-length 1", "accuracy"},
         {"sweep --vary-1 'mu .1 .2' --crack-length .1", "accuracy paris threshold grow-to"},

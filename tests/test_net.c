@@ -174,7 +174,8 @@ static const struct {
 /* Options that other factors give, and those whose one value stands for all; units:
  * tests/test_units.c. */
 static const char options_elsewhere[] =
-    " units similar young-b poisson-b radius-b support-b formulation distance steps history"
+    " units similar max-pressure young-b poisson-b radius-b support-b formulation distance steps "
+    "history"
     " zone approach load half-width shift creep creep-ratio force force-ratio mu friction-law"
     " mu-fall slip-scale memory mu-heat poisson arc hub-ratio datum arc-b hub-ratio-b datum-b"
     " tol contact-elements outer-elements error accuracy radius young irregularity increments"

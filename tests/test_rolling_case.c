@@ -512,7 +512,7 @@ TEST(carters_law_is_for_similar_half_planes)
     HOLDS(rb_rolling_carter_holds(&rc), 0, rc.b.young *= 1.0 - 1.05 * e);
 }
 
-TEST(transforms_are_for_many_equal_elements_on_half_planes)
+TEST(transforms_are_for_many_elements_on_half_planes)
 {
     const rb_rolling_mesh large = {.n = RB_ROLLING_TRANSFORMS_STEPS}, small = {.n = large.n - 1};
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.creep = 0.001);
@@ -526,7 +526,13 @@ TEST(transforms_are_for_many_equal_elements_on_half_planes)
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.contact.solver = RB_SOLVER_NEWTON);
     HOLDS(rb_rolling_is_large(&rc, &large), 0, rc.contact.solver = RB_SOLVER_LEMKE);
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.mesh = RB_MESH_ALIGNED);
-    HOLDS(rb_rolling_is_large(&rc, &large), 0, rc.mesh = RB_MESH_FITTED);
+    const rb_rolling_mesh fitted = {.n = RB_ROLLING_TRANSFORMS_FITTED}, below = {.n = fitted.n - 1};
+    HOLDS(rb_rolling_is_large(&rc, &fitted), 1, rc.mesh = RB_MESH_FITTED);
+    HOLDS(rb_rolling_is_large(&rc, &below), 0, rc.mesh = RB_MESH_FITTED);
+    HOLDS(rb_rolling_is_large(&rc, &fitted), 0, rc.mesh = RB_MESH_FITTED;
+          rc.formulation = RB_STATIC);
+    HOLDS(rb_rolling_is_large(&rc, &fitted), 0, rc.mesh = RB_MESH_FITTED;
+          rc.interlayer_tangential = 1e-6);
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.yield_stress = 1.0);
     HOLDS(rb_rolling_is_large(&rc, &some), 1, rc.yield_stress = 1.0);
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.interlayer_tangential = 1e-6);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 40, GAP = 2, LEAST_ROWS = 3 };
+enum { WIDTH = 40, GAP = 2, LEAST_ROWS = 2 };
 
 typedef struct {
     int rows, columns;
