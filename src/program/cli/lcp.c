@@ -601,6 +601,8 @@ static cli_exit check_options(const lcp_options *o)
     if (o->all && (path || o->start || o->solver || o->max_pivots))
         return cli_fail(CLI_USAGE, "lcp: --all tries every basis: not with --solver, --start, "
                                    "--cover, --rule, --trace or --max-pivots");
+    if (o->all && o->prove)
+        return cli_fail(CLI_USAGE, "lcp: --prove proves one solution: not with --all");
     if (o->game && (vectors || o->q || o->solver || o->rule))
         return cli_fail(CLI_USAGE, "lcp: --game reads A and B alone: not with --q, --lower, "
                                    "--upper, --start, --cover, --solver or --rule");
