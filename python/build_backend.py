@@ -21,7 +21,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 SOURCE = HERE / "library" if (HERE / "library").is_dir() else HERE.parent
-OF_LIBRARY = ("Makefile", "LICENSE", "include", "src", "scripts")
+OF_LIBRARY = ("Makefile", "LICENSE", "include", "src", "tools/scripts")
 OF_PACKAGE = ("README.md", "pyproject.toml", "build_backend.py", "rollbem", "tests", "examples")
 
 VERSION = re.search(r'RB_VERSION "(.*)"', (SOURCE / "include/rollbem/base.h").read_text()).group(1)
