@@ -1035,7 +1035,7 @@ TEST(whatever_is_changed_is_noticed)
                            "cos(12 * x)}' > bumps.txt"),
                      0);
     for (size_t k = 0; k < n; k++) {
-        if (!is_in_turn((int)k, 4))
+        if (!is_in_turn((int)k, 8))
             continue;
         /* what two places or two roundings decide is right near either, not between them */
         t.part = is_in_turn((int)k, 8) ? 1e-4 : 0.5;
