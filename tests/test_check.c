@@ -1038,7 +1038,7 @@ TEST(whatever_is_changed_is_noticed)
         if (!is_in_turn((int)k, 8))
             continue;
         /* what two places or two roundings decide is right near either, not between them */
-        t.part = is_in_turn((int)k, 8) ? 1e-4 : 0.5;
+        t.part = is_in_turn((int)k, 16) ? 1e-4 : 0.5;
         t.given = kinds[k];
         t.root = run_json(kinds[k]);
         expect_violations(t.root, 0);
