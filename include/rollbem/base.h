@@ -85,6 +85,8 @@ const char *rb_status_text(rb_status s);
 /* The text of why, or that of s if why is NULL or empty. */
 const char *rb_status_reason(rb_status s, const rb_message *why);
 
+/* For progress displays: the name of the computation that runs, as any thread of the process
+ * has recorded it last (static text); NULL: none. */
 const char *rb_phase_now(void);
 
 /* What long computations ask every few milliseconds; once it does not return 0 they end with
@@ -97,18 +99,7 @@ typedef struct {
  * far; at first that is nothing. */
 rb_interrupt rb_interrupt_by(rb_interrupt next);
 
-/* Scratch memory: arrays that a function needs for itself.  It allocates all of them, asks
- * once whether there was memory, and returns rb_arena_done(...) at each exit, which frees
- * them and returns the status:
- *
- *     rb_arena scratch = {0};
- *     double *M = rb_arena_doubles(&scratch, n, n), *q = rb_arena_doubles(&scratch, n, 1);
- *     if (scratch.failed)
- *         return rb_arena_done(&scratch, RB_ENOMEM);
- *
- * A function that is handed an arena adds arrays to it and leaves freeing to the owner.
- * Once an allocation has failed, all later ones do.  Each array is a block of its own, so
- * that tools that watch memory see its ends.  One thread at a time. */
+/* Memory of several arrays that is freed at once: opaque. */
 typedef struct {
     int failed;                 /* 1: an array could not be allocated */
     union rb_arena_block *last; /* of a list of all arrays; owned */

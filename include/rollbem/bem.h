@@ -231,6 +231,7 @@ rb_status rb_bem_flexibility_wheel(int n_c, const double *ends, const rb_bem_whe
 rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
                                   rb_bem_flexibility *f, rb_message *why);
 
+/* w = F r, without w0. */
 void rb_bem_flexibility_apply(const rb_bem_flexibility *f, const double *r, double *w);
 /* F: 2m x 2n column-major, ldf >= 2m. */
 rb_status rb_bem_flexibility_matrix(const rb_bem_flexibility *f, double *F, int ldf);

@@ -54,13 +54,11 @@ void rb_locale_end(void *before);
 double rb_read_number(const char *text, char **end);
 int rb_format(char *text, size_t size, const char *format, ...) RB_PRINTF(3, 4);
 
-/* For progress displays: rb_phase records the name of the computation that now runs
- * (static text), rb_phase_now returns the name recorded last by any thread of the
- * process, or NULL if there is none. */
+/* Records the name of the computation that now runs (static text), for rb_phase_now. */
 void rb_phase(const char *what);
 
-/* The answer; 0 where nothing is asked.  A loop that may take long asks in every turn, on the
- * thread of its caller. */
+/* What this thread was told to ask (rb_interrupt_by) answers; 0 where nothing is asked.  A loop
+ * that may take long asks in every turn, on the thread of its caller. */
 int rb_interrupted(void);
 /* The same in a parallel loop, whose threads share `stop`, 0 at first: 1 for all of them once
  * the caller's thread has got the answer. */
@@ -77,6 +75,19 @@ double *rb_copy(size_t n, const double *x);
  * small or too large for that, or memory is short. */
 enum { RB_SIGN_UNKNOWN = 2 };
 int rb_exact_sign(size_t n, const double *a, const double *b);
+
+/* rb_arena, scratch memory: arrays that a function needs for itself.  It allocates all of them,
+ * asks once whether there was memory, and returns rb_arena_done(...) at each exit, which frees them
+ * and returns the status:
+ *
+ *     rb_arena scratch = {0};
+ *     double *M = rb_arena_doubles(&scratch, n, n), *q = rb_arena_doubles(&scratch, n, 1);
+ *     if (scratch.failed)
+ *         return rb_arena_done(&scratch, RB_ENOMEM);
+ *
+ * A function that is handed an arena adds arrays to it and leaves freeing to the owner.
+ * Once an allocation has failed, all later ones do.  Each array is a block of its own, so
+ * that tools that watch memory see its ends.  One thread at a time. */
 
 /* rows x cols doubles, n ints, or count things of a size, all zero; owned by the arena.
  * NULL when memory is short or the product overflows. */

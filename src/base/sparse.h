@@ -11,12 +11,14 @@ void rb_triplets_add_matrix(rb_triplets *t, double factor, const rb_sparse *a);
  * rb_triplets_add enlarges the arrays itself.  Returns t->status. */
 rb_status rb_triplets_reserve(rb_triplets *t, size_t more);
 
+/* b is a copy of a.  RB_ENOMEM. */
 rb_status rb_sparse_copy(const rb_sparse *a, rb_sparse *b);
 rb_status rb_sparse_transpose(const rb_sparse *a, rb_sparse *t);
 
 /* A_jj, 0 where it has no entry. */
 double rb_sparse_diagonal(const rb_sparse *a, int j);
 
+/* y = alpha A' x + beta y. */
 void rb_sparse_apply_transposed(double alpha, const rb_sparse *a, const double *x, double beta,
                                 double *y);
 

@@ -57,6 +57,7 @@ rb_status rb_bem_system_create_bonded(const rb_bem_mesh *cover, rb_bem_material 
                                       const rb_bem_mesh *core, rb_bem_material core_material,
                                       rb_bem_system **system, rb_message *why);
 
+/* Its elements; borrowed. */
 const rb_bem_mesh *rb_bem_system_mesh(const rb_bem_system *system);
 
 /* Seconds spent in assembly and in the LU. */
@@ -64,7 +65,7 @@ void rb_bem_system_seconds(const rb_bem_system *system, double *assembly, double
 
 /* ---- Flexibility of the contact (B5) ---------------------------------------------- */
 
-/* The same flexibility, more accurate close to the load (B10): the exact half-plane
+/* As rb_bem_condense, but more accurate close to the load (B10): the exact half-plane
  * solution of each loaded element is subtracted, and the boundary elements solve for the
  * smooth remainder.  RB_EINVAL also if the body does not lie on the inner side of every
  * contact element. */
@@ -95,10 +96,10 @@ double rb_bem_memory_of_datum(double datum_over_length);
  * displacement is asinh(d/(2|x|)). */
 double rb_bem_memory_of_strip(double width_over_length);
 
-/* The same for equal elements, as a Toeplitz operator: products by Fourier transforms
- * take n log n operations and memory for a few n numbers.  The sum of two Toeplitz
+/* As rb_bem_flexibility_surface for equal elements, as a Toeplitz operator: products by Fourier
+ * transforms take n log n operations and memory for a few n numbers.  The sum of two Toeplitz
  * operators (rb_bem_flexibility_pair) is a Toeplitz operator.  Only one thread at a time
- * may call apply.  RB_EINVAL: as above, or elements of different lengths. */
+ * may call apply.  RB_EINVAL: as there, or elements of different lengths. */
 rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends, const rb_bem_surface *body,
                                       rb_bem_flexibility *f, rb_message *why);
 
@@ -117,7 +118,7 @@ rb_status rb_bem_surface_displacement(const rb_bem_surface *body, int n, const d
                                       int points, const double *x, double *W);
 
 /* Adds to w the normal displacements w_N at the points x under tractions that are
- * constant on strips, without forming a matrix.  Errors as above. */
+ * constant on strips, without forming a matrix.  Errors as of rb_bem_flexibility_surface. */
 rb_status rb_bem_surface_add_normal(const rb_bem_surface *body, const rb_bem_edge_load *load,
                                     int points, const double *x, double *w);
 
@@ -130,9 +131,9 @@ typedef struct {
 /* time: relaxation time; step > 0, in the same unit. */
 rb_bem_fading rb_bem_fading_over(double time, double step);
 
-/* The same as products by Fourier transforms, n log n work, to 1e-10 of the largest
- * displacement.  apply serves one thread at a time.  A cover that is very thin against
- * its elements gets the dense matrix. */
+/* As rb_bem_flexibility_wheel, by products of Fourier transforms, n log n work, to 1e-10 of the
+ * largest displacement.  apply serves one thread at a time.  A cover that is very thin against its
+ * elements gets the dense matrix. */
 rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends, const rb_bem_wheel *wheel,
                                             rb_bem_normals normals, rb_bem_flexibility *f,
                                             rb_message *why);
@@ -208,10 +209,9 @@ rb_status rb_bem_field_stress(const rb_bem_field *field, rb_bem_points points, d
                               rb_message *why);
 void rb_bem_field_free(rb_bem_field *field);
 
-/* The same for tractions that are linear between n nodes and zero at the first and the
- * last node; sxx is then finite everywhere.  Use it for points within a few contact
- * widths: rounding errors grow with the ratio of their distance to the spacing of the
- * nodes. */
+/* As rb_bem_halfplane_stress for tractions that are linear between n nodes and zero at the first
+ * and the last node; sxx is then finite everywhere.  Use it for points within a few contact widths:
+ * rounding errors grow with the ratio of their distance to the spacing of the nodes. */
 rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_points points,
                                          double *stress);
 

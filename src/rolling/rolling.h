@@ -58,8 +58,8 @@ extern const rb_choice rb_rolling_supports[];
 /* 1: the body has all properties of the sum `abilities`. */
 int rb_rolling_body_can(const rb_rolling_body *body, int abilities);
 
-/* The same as one cubic spline without corners, which changes smoothly with its points: of a gap
- * that is searched for. */
+/* As rb_rolling_profile_create, but one cubic spline without corners, which changes smoothly with
+ * its points: of a gap that is searched for. */
 rb_status rb_rolling_profile_smooth(int n, const double *x, const double *gap,
                                     rb_rolling_profile **profile, rb_message *why);
 
@@ -97,6 +97,7 @@ int rb_rolling_couples(const rb_rolling_case *rc);
 /* 1: a body of the case is viscoelastic. */
 int rb_rolling_relaxes(const rb_rolling_case *rc);
 
+/* What follows from a case. */
 rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc);
 /* 1/R = 1/R_A + 1/R_B; Hertz's half-width of a load, and the load of a half-width.  INFINITY: the
  * gap is a table that has no radius, and none was given; what refers to one is NAN then. */
@@ -322,6 +323,7 @@ rb_rolling_row_notes rb_rolling_find_row_notes(const rb_rolling_case *rc,
 enum { RB_ROLLING_OWN_NOTES = 36 };
 void rb_rolling_add_note(rb_rolling_row_notes *notes, int kind, const char *text);
 
+/* Adds the notes of a row to those on all rows (rb_rolling_study_notes). */
 void rb_rolling_add_row_notes(rb_rolling_study_notes *all, int row,
                               const rb_rolling_row_notes *notes);
 /* Further rows behind those of `all`. */
@@ -348,8 +350,8 @@ int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
  * elements. */
 int rb_rolling_suits_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
 
-/* The same by another plan (NULL: that of the case), for a model of zeros, or one that has
- * solved a case which differs at most in friction, load, approach, shift, creepage or
+/* As rb_rolling_model_create, by another plan (NULL: that of the case), for a model of zeros, or
+ * one that has solved a case which differs at most in friction, load, approach, shift, creepage or
  * force.  Its flexibility is used again if the equal elements have the same ends.  The
  * result is bitwise the same as without it. */
 rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, const rb_rolling_plan *plan,
@@ -362,7 +364,8 @@ rb_status rb_rolling_model_begin(const rb_rolling_case *rc, const rb_rolling_pla
  * the contact does not end within the mesh. */
 rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh, rb_message *why);
 /* Solves the model's problem again and adds to its times and counts; warm: 1 to start
- * from its zones.  RB_ZONE as above.  Every solve on any mesh calls this function. */
+ * from its zones.  RB_ZONE as of rb_rolling_model_create.  Every solve on any mesh calls this
+ * function. */
 rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why);
 /* The same on the present mesh, from the present zones, after the given load, force or
  * motion of the model's case has changed. */
@@ -406,8 +409,8 @@ double rb_rolling_force_ratio(const rb_rolling_model *model);
 void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                               const rb_contact_state *state, double *from, double *to);
 
-/* The same after a solve that began at `begun` (rb_seconds) and has ended with status s, as far
- * as there is a state; with status and time.  Returns the status of both. */
+/* As rb_rolling_model_solution, after a solve that began at `begun` (rb_seconds) and has ended with
+ * status s, as far as there is a state; with status and time.  Returns the status of both. */
 rb_status rb_rolling_end_solve(const rb_rolling_model *model, rb_status s, double begun,
                                rb_rolling_solution *solution, rb_message *why);
 /* The solution without the residuals and temperatures, which stay 0, and the balance of the
@@ -639,7 +642,7 @@ void rb_rolling_curve_convert(rb_rolling_curve *c, rb_units units);
 /* Sees the model at point k; its refusal ends the curve. */
 typedef rb_status rb_rolling_point(const rb_rolling_model *model, int k, void *context,
                                    rb_message *why);
-/* The same, watched. */
+/* As rb_rolling_curve_solve, watched. */
 rb_status rb_rolling_curve_observe(const rb_rolling_case *rc, const rb_rolling_range *range,
                                    rb_rolling_point *point, void *context, rb_rolling_curve *curve,
                                    rb_message *why);

@@ -57,10 +57,10 @@ rb_status rb_io_check_harmless(const char *path, const char *folder, rb_message 
 
 /* ---- Tables of numbers ------------------------------------------------------------- */
 
-/* The same for a text that has already been read from path; the function changes the
+/* As rb_io_table_read, of a text that has already been read from path; the function changes the
  * text. */
 rb_status rb_io_table_parse(const char *path, char *text, rb_io_table *t, rb_message *why);
-/* The same for a table whose cells may be words.  Blanks are then part of a cell where
+/* As rb_io_table_read, of a table whose cells may be words.  Blanks are then part of a cell where
  * tabs, commas or semicolons separate the cells. */
 rb_status rb_io_table_read_words(const char *path, rb_io_table *t, rb_message *why);
 /* The `rows` numbers of a column of exactly this name; NULL if there is none. */
@@ -110,6 +110,7 @@ typedef enum {
  * local one; with d degrees of freedom it is read as cones. */
 rb_status rb_io_siconos_guess(const char *path, rb_io_siconos_kind *kind, rb_message *why);
 
+/* Reads such a file.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
 rb_status rb_io_siconos_read_lcp(const char *path, rb_io_lcp *p, rb_message *why);
 
 /* ---- Linear complementarity problems of any kind ----------------------------------- */

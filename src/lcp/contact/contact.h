@@ -28,8 +28,8 @@ rb_contact_response rb_contact_operator_response(const rb_contact_operator *op);
 
 /* ---- The problem ------------------------------------------------------------------- */
 
-/* The same, but the caller keeps the operator: set problem->op to NULL before you free
- * the problem. */
+/* As rb_contact_problem_alloc, but the caller keeps the operator: set problem->op to NULL before
+ * you free the problem. */
 rb_status rb_contact_problem_borrow(rb_contact_operator *op, rb_contact_problem *problem);
 
 /* Adds a plastic layer with the same yield stress everywhere; the caller sets recall and

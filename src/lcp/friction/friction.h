@@ -113,8 +113,8 @@ void rb_friction_profile(int problems, int solvers, const double *cost, int taus
 
 /* ---- The canonical SOCLCP, *Kanno* (1) --------------------------------------------- */
 
-/* The same with owned arrays.  Cones of slope tau in a file, ||x_1|| <= tau x_0, are
- * scaled to slope 1: x_0 is tau times and y_0 1/tau times the value of the file. */
+/* An rb_friction_soclcp_problem with its own arrays.  Cones of slope tau in a file, ||x_1|| <= tau
+ * x_0, are scaled to slope 1: x_0 is tau times and y_0 1/tau times the value of the file. */
 typedef struct {
     rb_friction_soclcp_problem problem;
     double *M, *q;

@@ -73,10 +73,10 @@ const char *rb_case_word(const char *name, int value);
 /* Name of the section of an option. */
 const char *rb_case_section(const rb_option *option);
 
-/* The same for a word, which is borrowed: many cases may be set one after the other. */
+/* As rb_case_set, for a word, which is borrowed: many cases may be set one after the other. */
 rb_status rb_case_set_word(rb_case *c, const char *name, const char *word, rb_message *why);
 
-/* The same from the text of a case file; name: name of the file in messages. */
+/* As rb_case_read, from the text of a case file; name: name of the file in messages. */
 rb_status rb_case_read_text(rb_case *c, const char *name, const char *text, rb_message *why);
 
 /* The units of numbers without a unit from the source `by`; the case file (by > 0) has
@@ -99,7 +99,7 @@ int rb_case_has_steps(const rb_resolved_case *resolved);
 
 /* ---- Solving ----------------------------------------------------------------------- */
 
-/* The same, but result holds the result of an earlier case (or is {0}); its model is used
+/* As rb_case_solve, but result holds the result of an earlier case (or is {0}); its model is used
  * again as by rb_rolling_model_reuse.  Steps and error bars are computed from the
  * beginning. */
 rb_status rb_case_solve_again(const rb_resolved_case *resolved, rb_rolling_step *step,
