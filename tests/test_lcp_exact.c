@@ -2,32 +2,17 @@
  * what is found, and "no solution".  10 000 problems; a twentieth of them in every run. */
 #include "check.h"
 
-#include "exact.h"
-#include "numbers.h"
+#include "integer_lcp.h"
 #include "lcp/lcp.h"
 
 enum { PROBLEMS = 10000, PARTS = 20 };
-
-static unsigned seed;
-
-static int below(int n)
-{
-    return (int)((uniform_from(&seed) + 1.0) * 0.5 * n) % n;
-}
-
-typedef struct {
-    exact_lcp of_integers;
-    double M[EXACT_MOST * EXACT_MOST], q[EXACT_MOST], column[EXACT_MOST];
-} problem;
 
 /* Entries of -3 ... 3, of -1 ... 1, with a positive diagonal, skew, or of low rank; rows and
  * columns in units of up to 2^40. */
 static void pose(int number, problem *p)
 {
     exact_lcp *e = &p->of_integers;
-    seed = 77u + 1000003u * (unsigned)number;
-    for (int k = 0; k < 4; k++)
-        uniform_from(&seed);
+    seed_by(77u, number);
     const int kind = number % 5, scaled = number / 5 % 2, few = kind == 1;
     const int n = e->n = 1 + below(6), most = few ? 1 : 3;
     for (int i = 0; i < n; i++) {
@@ -44,16 +29,7 @@ static void pose(int number, problem *p)
             if (kind == 4) /* two rows and all of them */
                 e->M[i][j] = i < 2 ? e->M[i][j] : e->M[i % 2][j] * (1 + i / 3);
         }
-    for (int i = 0; i < n; i++) {
-        const double row = scaled ? exp2(below(81) - 40) : 1.0;
-        p->column[i] = scaled ? exp2(below(81) - 40) : 1.0;
-        p->q[i] = row * e->q[i];
-        for (int j = 0; j < n; j++)
-            p->M[i + j * n] = row * e->M[i][j];
-    }
-    for (int j = 0; j < n; j++)
-        for (int i = 0; i < n; i++)
-            p->M[i + j * n] *= p->column[j];
+    put_into_units(scaled, p);
 }
 
 /* The number of the solution in a list, or -1. */

@@ -2,18 +2,10 @@
  * degenerate, ill-conditioned, in any units, and of z that are no solutions. */
 #include "check.h"
 
-#include "exact.h"
-#include "numbers.h"
+#include "integer_lcp.h"
 #include "rollbem/lcp.h"
 
 enum { PROBLEMS = 10000, PARTS = 20 };
-
-static unsigned seed;
-
-static int below(int n)
-{
-    return (int)((uniform_from(&seed) + 1.0) * 0.5 * n) % n;
-}
 
 static rb_status prove_dense(int n, const double *M, const double *q, const double *lower,
                              const double *upper, const double *z, rb_lcp_proof *proof)
@@ -141,11 +133,6 @@ TEST(allocations_that_fail_are_said)
 
 /* ---- Against fractions ------------------------------------------------------------------- */
 
-typedef struct {
-    exact_lcp of_integers;
-    double M[EXACT_MOST * EXACT_MOST], q[EXACT_MOST], column[EXACT_MOST];
-} problem;
-
 /* Small integers; a positive diagonal; q that make a pair degenerate; parts of Hilbert's matrix;
  * nearly dependent rows; a contact in the pivoted form with symmetric data.  Every second one
  * with rows and columns in units of up to 2^40. */
@@ -153,9 +140,7 @@ static void pose(int number, problem *p)
 {
     exact_lcp *e = &p->of_integers;
     memset(e, 0, sizeof *e);
-    seed = 4711u + 1000003u * (unsigned)number;
-    for (int k = 0; k < 4; k++)
-        uniform_from(&seed);
+    seed_by(4711u, number);
     const int kind = number % 6, scaled = number / 6 % 2;
     const int n = e->n = kind == 5 ? 6 : 1 + below(5);
     for (int i = 0; i < n; i++) {
@@ -200,16 +185,7 @@ static void pose(int number, problem *p)
             e->q[4 + i] = 0;
         }
     }
-    for (int i = 0; i < n; i++) {
-        const double row = scaled ? exp2(below(81) - 40) : 1.0;
-        p->column[i] = scaled ? exp2(below(81) - 40) : 1.0;
-        p->q[i] = row * e->q[i];
-        for (int j = 0; j < n; j++)
-            p->M[i + j * n] = row * e->M[i][j];
-    }
-    for (int j = 0; j < n; j++)
-        for (int i = 0; i < n; i++)
-            p->M[i + j * n] *= p->column[j];
+    put_into_units(scaled, p);
 }
 
 /* 1: an exact solution lies within the bounds; the list is rounded to doubles. */
