@@ -75,14 +75,13 @@ class Case:
 
     def _as_text(self, name: str, value: Value) -> str:
         kind = OPTIONS[name].kind if name in OPTIONS else ""
-        is_table = isinstance(value, Mapping) or np.ndim(value) == 2 and not isinstance(value, (str, bytes))
         if kind == "integer" and isinstance(value, (float, np.floating)) and float(value).is_integer():
             value = int(value)  # of an axis of a study, or of a column of pandas
-        if not is_table:
+        if not _values.is_table(value):
             return _values.flag(name, value) if kind == "flag" else _values.text(name, value)
         if kind in ("number", "integer", "flag"):
             raise InvalidInput(f"{name}=: expected {OPTIONS[name].expected}, got columns of a table")
-        return self._write_table(_values.columns(name, value if hasattr(value, "keys") else _values.rows(name, value)))
+        return self._write_table(_values.columns(name, value))
 
     def _write_table(self, columns: Table) -> str:
         with tempfile.NamedTemporaryFile("w", prefix="rollbem-", suffix=".txt", delete=False) as file:
@@ -142,10 +141,8 @@ class Case:
     def _key(self) -> tuple:
         """What makes two cases one: values as they are resolved, and what stands in tables."""
         handle = self._resolved()
-        tables = {name: tuple((column, tuple(map(float, values))) for column, values in _values.columns(
-                      name, value if hasattr(value, "keys") else _values.rows(name, value)).items())
-                  for name, value in self.options.items()
-                  if isinstance(value, Mapping) or np.ndim(value) == 2 and not isinstance(value, (str, bytes))}
+        tables = {name: tuple((column, *map(float, values)) for column, values in _values.columns(name, value).items())
+                  for name, value in self.options.items() if _values.is_table(value)}
         return tuple(tables.get(name, handle.value(option.name)) for name, option in OPTIONS.items())
 
     def __eq__(self, other: object) -> bool:
@@ -170,7 +167,7 @@ class Case:
 
     def _solve(self, purpose: str, progress: Progress = None) -> "Solution":
         handle = self.handle(purpose)
-        return _kept(Solution(self, handle), handle, handle.run("rb_api_solve", progress=progress))
+        return handle.kept(Solution(self, handle), handle.run("rb_api_solve", progress=progress))
 
     def __repr__(self) -> str:
         words = [repr(os.fspath(self.file))] if self.file is not None else []
@@ -185,16 +182,6 @@ def _value(option: str, handle: Handle) -> Union[bool, int, float, str]:
                 "number": lambda: float(text)}.get(row.kind, lambda: text)()
     except ValueError:  # a word stands for the number, or several numbers
         return text
-
-
-def _kept(solution: Any, handle: Handle, status: int) -> Any:
-    """What ended without a full answer is raised, with what there is."""
-    if status == SOLVED:
-        return solution
-    error = handle.error(status)
-    if status > SOLVED:
-        error.solution = solution
-    raise error
 
 
 def _case(case: _CaseLike, options: Mapping[str, Any]) -> Case:
@@ -541,16 +528,18 @@ class Solution(_Named):
         """What a machine-checked proof says: whether the discrete problem has a solution with these zones (``proved``,
         else ``reason``), and the distances of p and q from it as parts of p0 (``bound_p``, ``bound_q``,
         ``stored_within``).  docs/proof.md."""
-        handle = self._live()
-        with handle.lock:
-            handle.check(handle.run("rb_api_prove"))
-            found: dict = {name: handle.number(f"proof.{name}") for name in (
-                "proved", "undecided", "isolated", "bound_p", "bound_q", "stored_within", "nearby", "margin", "norm")}
-            proved = bool(found["proved"])
-            return {**found, "proved": proved, "isolated": found["isolated"] == 1.0,
-                    "undecided": int(found["undecided"]) if proved else 0,
-                    "unique": handle.word("proof.unique") or "not shown",
-                    "reason": "" if proved else handle.word("proof.reason")}
+        if "proof" not in self._more:
+            handle = self._live()
+            with handle.lock:
+                handle.check(handle.run("rb_api_prove"))
+                found: dict = {name: handle.number(f"proof.{name}") for name in (
+                    "proved", "undecided", "isolated", "bound_p", "bound_q", "stored_within", "nearby", "margin", "norm")}
+                proved = found["proved"] == 1.0
+                self._more["proof"] = {**found, "proved": proved, "isolated": found["isolated"] == 1.0,
+                                       "undecided": int(found["undecided"]) if proved else 0,
+                                       "unique": handle.word("proof.unique") or "not shown",
+                                       "reason": "" if proved else handle.word("proof.reason")}
+        return self._more["proof"]
 
     def plot(self, figure: Any = None, ax: Any = None, label: Optional[str] = None) -> Any:
         """The picture of the program: tractions, zones, slip.  Returns the figure.
@@ -863,7 +852,7 @@ def curve(case: _CaseLike = None, start: float = 0.0, stop: float = 1.5,
         raise handle.error(status)
     found = Curve(case, handle, over)
     _warn(found.notes)
-    return _kept(found, handle, status)
+    return handle.kept(found, status)
 
 
 def history(program: Optional[Table] = None, case: _CaseLike = None, *,
@@ -958,7 +947,7 @@ def wear(case: _CaseLike = None, *, coefficient: float, slide: Optional[float] =
                         _values.whole("steps", steps, 1), _values.whole("quarter", quarter, 1), progress=progress)
     if status < SOLVED:
         raise handle.error(status)
-    return _kept(Wear(whole, handle), handle, status)
+    return handle.kept(Wear(whole, handle), status)
 
 
 def sweep(case: _CaseLike = None, workers: int = 0, progress: Progress = None,

@@ -29,18 +29,13 @@ def _scipy(what: str, path: str) -> Any:
 
 def _chosen(path: str, found: "dict[str, Any]") -> "dict[str, Any]":
     """M (or A) and q (or b, where there is no M), and what else belongs to a problem."""
-    if "M" in found:
-        parts = {name: found[name] for name in _PARTS if name in found}
-    else:
-        matrices = [name for name, value in found.items() if np.ndim(value) == 2 and min(np.shape(value)) > 1]
-        if "A" in found:
-            matrices = ["A"]
+    parts = {name: found[name] for name in _PARTS if name in found}
+    if "M" not in parts:
+        matrices = ["A"] if "A" in found else [
+            name for name, value in found.items() if np.ndim(value) == 2 and min(np.shape(value)) > 1]
         if len(matrices) != 1:
             raise InvalidInput(f"{path}: expected a matrix M or A, got " + (", ".join(sorted(found)) or "no array"))
-        parts = {"M": found[matrices[0]]}
-        for name in _PARTS[1:]:
-            if name in found:
-                parts[name] = found[name]
+        parts["M"] = found[matrices[0]]
         if "q" not in parts and "b" in found:
             parts["q"] = found["b"]
     return {name: value if name == "M" else np.ravel(value.toarray() if hasattr(value, "toarray") else value)
@@ -50,14 +45,8 @@ def _chosen(path: str, found: "dict[str, Any]") -> "dict[str, Any]":
 def _npz(path: str) -> "dict[str, Any]":
     with np.load(path, allow_pickle=False) as archive:
         found = {name: archive[name] for name in archive.files}
-    if {"format", "indptr", "indices", "data", "shape"} <= found.keys():  # scipy.sparse.save_npz
-        kind = found["format"].item()
-        kind = kind.decode() if isinstance(kind, bytes) else str(kind)
-        sparse = _scipy("sparse matrices", path).sparse
-        if kind not in ("csr", "csc", "bsr"):
-            return {"M": sparse.load_npz(path)}
-        make = getattr(sparse, f"{kind}_matrix")
-        return {"M": make((found["data"], found["indices"], found["indptr"]), shape=tuple(found["shape"]))}
+    if {"format", "shape"} <= found.keys():
+        return {"M": _scipy("sparse matrices", path).sparse.load_npz(path)}
     return _chosen(path, found)
 
 
@@ -104,9 +93,9 @@ def problem(path: str) -> "dict[str, Any]":
             return _mat(path)
         if kind == ".mtx":
             return {"M": _scipy("files of Matrix Market", path).io.mmread(path)}
+    except InvalidInput:
+        raise
     except (ValueError, KeyError, OSError, EOFError, TypeError) as error:
-        if isinstance(error, InvalidInput):
-            raise
         raise InvalidInput(f"{path}: cannot be read: {error}") from None
     raise InvalidInput(f"{path}: expected a file .npz, .npy, .mat or .mtx; rollbem lcp reads others")
 
@@ -118,10 +107,8 @@ _TOKEN = re.compile(r'\s*(?:"((?:[^"\\]|\\.)*)"|([{}])|([^\s{}",]+)|,)')
 
 def _tokens(path: str, text: str) -> "Iterator[tuple[str, str]]":
     """("text", ...), ("sign", "{"), ("word", "3/2"); commas are blanks."""
-    at = 0
+    at, text = 0, text.rstrip()
     while at < len(text):
-        if not text[at:].strip():
-            return
         token = _TOKEN.match(text, at)
         if not token:
             line = text.count("\n", 0, at) + 1

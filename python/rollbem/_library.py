@@ -357,6 +357,15 @@ class Handle(_Answers):
         if status != SOLVED:
             raise self.error(status)
 
+    def kept(self, solution: Any, status: int) -> Any:
+        """The solution; what ended without a full answer is raised, with what there is."""
+        if status == SOLVED:
+            return solution
+        error = self.error(status)
+        if status > SOLVED:
+            error.solution = solution
+        raise error
+
     def ask(self, function: str, *arguments: Any) -> int:
         """Calls a function that is over at once."""
         return getattr(lib, function)(self.at, *arguments)

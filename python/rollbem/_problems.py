@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import Any, Iterator, Optional, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _files, _values
-from ._library import SOLVED, Handle, InvalidInput, Note, Unsolved, doubles, ints
+from ._library import SOLVED, Handle, InvalidInput, Note, doubles, ints
 
 Array = NDArray[np.float64]
 _INACCURATE = 6
@@ -18,16 +18,6 @@ _INACCURATE = 6
 
 def _is_path(value: Any) -> bool:
     return isinstance(value, (str, bytes, os.PathLike))
-
-
-def _kept(solution: Any, handle: Handle, status: int) -> Any:
-    """What ended without a full answer is raised, with what there is."""
-    if status == SOLVED:
-        return solution
-    error = handle.error(status)
-    if status > SOLVED:
-        error.solution = solution
-    raise error
 
 
 class Answer:
@@ -184,7 +174,7 @@ def lcp(M: Any, q: Any = None, solver: str = "auto", max_pivots: int = 0, *, low
         status = handle.run("rb_api_lcp_all", n, doubles(dense), doubles(q), *map(doubles, bounds), limit)
         if status < SOLVED:
             raise handle.error(status)
-        return _kept(_list(handle, "lcp"), handle, status)
+        return handle.kept(_list(handle, "lcp"), status)
     status = handle.run("rb_api_lcp_sparse", n, ints(columns[0]), ints(columns[1]), doubles(columns[2]), doubles(q),
                         *map(doubles, bounds), doubles(begin),
                         _values.word("solver", solver, "auto, lemke, lemke-sparse or newton"),
@@ -194,11 +184,11 @@ def lcp(M: Any, q: Any = None, solver: str = "auto", max_pivots: int = 0, *, low
     if all:  # of no unknowns
         only = Solutions([np.zeros(0)])
         only.of_singular_basis, only.bases, only.singular, only.undecided = [False], 1, 0, 0
-        return _kept(only, handle, status)
+        return handle.kept(only, status)
     found = Complementarity(handle, z=_made(handle, "lcp.z"), w=_made(handle, "lcp.w"), scaled_residual=handle.number("task.scaled_residual"))
     if status == _INACCURATE and found.scaled_residual <= tol:
         found.status, status = "solved", SOLVED
-    return _kept(found, handle, status)
+    return handle.kept(found, status)
 
 
 def game(A: Any, B: Any = None, label: Optional[int] = None, *, max_pivots: int = 0, seconds: Optional[float] = None,
@@ -226,9 +216,9 @@ def game(A: Any, B: Any = None, label: Optional[int] = None, *, max_pivots: int 
     if status < SOLVED:
         raise handle.error(status)
     if all:
-        return _kept(_list(handle, "game", m), handle, status)
+        return handle.kept(_list(handle, "game", m), status)
     z = handle.array("game.z")
-    return _kept(Game(handle, x=z[:m], y=z[m:], payoff=tuple(x + 0.0 for x in handle.array("game.payoff").tolist())), handle, status)
+    return handle.kept(Game(handle, x=z[:m], y=z[m:], payoff=tuple(x + 0.0 for x in handle.array("game.payoff").tolist())), status)
 
 
 def friction(W: Any, q: Any = None, mu: Any = None, dimension: int = 3, solver: str = "auto",
@@ -274,4 +264,4 @@ def friction(W: Any, q: Any = None, mu: Any = None, dimension: int = 3, solver: 
     found.notes = handle.notes()
     for note in found.notes:
         warnings.warn(note, Note, stacklevel=2)
-    return _kept(found, handle, status)
+    return handle.kept(found, status)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
-from typing import Any, Mapping, Sequence
+from typing import Any, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -142,15 +142,6 @@ def table(name: str, value: Any) -> NDArray[np.float64]:
     return found
 
 
-def rows(name: str, value: Any) -> dict:
-    """The columns of an array of N x 2 or more, by their numbers: most have no names."""
-    found = array(name, value)
-    if found.ndim != 2 or found.shape[1] < 2 or len(found) == 0:
-        raise InvalidInput(f"{name}=: expected columns, an array of N x 2, got {' x '.join(map(str, found.shape))}")
-    names = ("x", "gap") if name == "gap" and found.shape[1] == 2 else map(str, range(found.shape[1]))
-    return {column: found[:, k] for k, column in enumerate(names)}
-
-
 def axis(name: str, value: Any) -> NDArray[Any]:
     """Values of an option that varies: numbers, or texts as a case has them."""
     values = list(value) if not isinstance(value, range) else value
@@ -186,9 +177,24 @@ def guess(name: Any, known: Any) -> str:
     return f" (did you mean '{found[0]}'?)" if found else ""
 
 
-def columns(name: str, table: Mapping[str, Sequence[float]]) -> dict:
+def _rows(name: str, value: Any) -> dict:
+    """The columns of an array of N x 2 or more, by their numbers: most have no names."""
+    found = array(name, value)
+    if found.ndim != 2 or found.shape[1] < 2 or len(found) == 0:
+        raise InvalidInput(f"{name}=: expected columns, an array of N x 2, got {' x '.join(map(str, found.shape))}")
+    names = ("x", "gap") if name == "gap" and found.shape[1] == 2 else map(str, range(found.shape[1]))
+    return {column: found[:, k] for k, column in enumerate(names)}
+
+
+def is_table(value: Any) -> bool:
+    """Columns by name, or an array of them, and no number or text."""
+    return isinstance(value, Mapping) or np.ndim(value) == 2
+
+
+def columns(name: str, table: Any) -> dict:
     """Columns of a table, of one length."""
-    found = {str(key): vector(f"{name}[{key!r}]", values) for key, values in table.items()}
+    named = table if hasattr(table, "keys") else _rows(name, table)
+    found = {str(key): vector(f"{name}[{key!r}]", values) for key, values in named.items()}
     lengths = {key: len(values) for key, values in found.items()}
     if len(set(lengths.values())) != 1:
         raise InvalidInput(f"{name}=: expected columns of one length, got "

@@ -117,12 +117,13 @@ def test_archives(tmp_path):
     io = pytest.importorskip("scipy.io")
     M, q, want = sparse.csr_matrix([[2.0, 1.0], [1.0, 2.0]]), [-5.0, -6.0], [4 / 3, 7 / 3]
     sparse.save_npz(tmp_path / "sparse.npz", M)
+    sparse.save_npz(tmp_path / "triplets.npz", M.tocoo())
     np.savez(tmp_path / "arrays.npz", M=M.toarray(), q=q, upper=[1.0, 9.0])
     np.save(tmp_path / "array.npy", M.toarray())
     io.savemat(tmp_path / "matlab.mat", dict(A=M, b=q, name="x"))
     io.savemat(tmp_path / "two.mat", dict(C=M, D=M))
     io.mmwrite(str(tmp_path / "market.mtx"), M)
-    for name in ("sparse.npz", "array.npy", "market.mtx"):
+    for name in ("sparse.npz", "triplets.npz", "array.npy", "market.mtx"):
         assert np.allclose(rollbem.lcp(tmp_path / name, q).z, want)
     assert np.allclose(rollbem.lcp(tmp_path / "matlab.mat").z, want)
     assert np.allclose(rollbem.lcp(tmp_path / "arrays.npz").z, [1.0, 2.5])
