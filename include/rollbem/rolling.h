@@ -644,13 +644,6 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
                               const rb_rolling_wear_observer *observer,
                               rb_rolling_wear_history *history, rb_rolling_solution *last,
                               rb_message *why);
-/* The same with error bars in history->errors: from n/2, 0.7 n and n elements, the boundary
- * outside, and half as many steps.  That of a pressure with a stick edge is NAN.  The observer sees
- * the run itself. */
-rb_status rb_rolling_wear_with_errors(const rb_rolling_case *rc, const rb_rolling_wear *wear,
-                                      const rb_rolling_wear_observer *observer,
-                                      rb_rolling_wear_history *history, rb_rolling_solution *last,
-                                      rb_message *why);
 
 /* ---- Creep curves ------------------------------------------------------------------ */
 

@@ -628,6 +628,13 @@ void rb_rolling_follower_free(rb_rolling_follower *follower);
 
 /* ---- Wear -------------------------------------------------------------------------- */
 
+/* As rb_rolling_wear_run, with error bars in history->errors: from n/2, 0.7 n and n elements, the
+ * boundary outside, and half as many steps.  That of a pressure with a stick edge is NAN.  The
+ * observer sees the run itself. */
+rb_status rb_rolling_wear_with_errors(const rb_rolling_case *rc, const rb_rolling_wear *wear,
+                                      const rb_rolling_wear_observer *observer,
+                                      rb_rolling_wear_history *history, rb_rolling_solution *last,
+                                      rb_message *why);
 /* Converts from mm, N, MPa to other units; call it once only. */
 void rb_rolling_wear_history_convert(rb_rolling_wear_history *history, rb_units units);
 

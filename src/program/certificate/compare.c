@@ -141,13 +141,6 @@ static int depth(const json_t *list)
     return json_is_array(list) + json_is_array(json_array_get(list, 0));
 }
 
-/* 1: `two` has [left, right] of a derivative, which one number stands for where they are equal. */
-static int are_sides(const char *path, const json_t *two, const json_t *one)
-{
-    return strstr(path, "derivatives") && json_array_size(two) == 2 && one &&
-           depth(two) == depth(one) + 1;
-}
-
 static void compare(comparison *k, const char *path, const json_t *printed, const written *w);
 
 static void compare_numbers(comparison *k, const char *path, const json_t *printed,
@@ -237,14 +230,17 @@ static void compare(comparison *k, const char *path, const json_t *printed, cons
 {
     char text[2][64];
 
-    for (int i = 0; i < 2; i++) /* one number for both sides of a derivative, or both */
-        if (are_sides(path, i ? printed : w->again, i ? w->again : printed)) {
-            for (size_t side = 0; side < 2; side++) {
-                const written of_again = entry_of(w, side);
-                compare(k, path, i ? json_array_get(printed, side) : printed, i ? w : &of_again);
-            }
-            return;
+    /* [left, right] of a derivative, which one number stands for where they are equal */
+    for (int i = 0; i < 2 && strstr(path, "derivatives"); i++) {
+        const json_t *two = i ? printed : w->again, *one = i ? w->again : printed;
+        if (json_array_size(two) != 2 || !one || depth(two) != depth(one) + 1)
+            continue;
+        for (size_t side = 0; side < 2; side++) {
+            const written of_again = entry_of(w, side);
+            compare(k, path, i ? json_array_get(printed, side) : printed, i ? w : &of_again);
         }
+        return;
+    }
     for (int i = 0; i < SAMPLES && !are_alike(printed, w->again); i++)
         if (are_alike(printed, w->sample[i])) {
             compare(k, path, printed, &(written){w->sample[i], {NULL}});

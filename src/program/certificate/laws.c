@@ -14,13 +14,6 @@ enum { UNRESOLVED = 4 };             /* slip zones at the trailing edge of fewer
 
 /* ---- Tolerances -------------------------------------------------------------------- */
 
-static int is_hierarchical(const rb_rolling_model *m)
-{
-    const rb_bem_system *const system[] = {m->bodies.system_a, m->bodies.system_b};
-    return (system[0] && isnan(rb_bem_system_rcond(system[0]))) ||
-           (system[1] && isnan(rb_bem_system_rcond(system[1])));
-}
-
 /* The residual that the result prints is believed where it is below what was asked for.
  * Hierarchical matrices approximate: other ends of elements, by a rounding, other digits. */
 void rb_certificate_tolerances(rb_certificate *c, double residual)
@@ -28,7 +21,7 @@ void rb_certificate_tolerances(rb_certificate *c, double residual)
     const rb_rolling_model *m = c->model;
     const rb_rolling_case *rc = m->rc;
     const rb_contact_problem *p = &m->problem;
-    const int hierarchical = is_hierarchical(m);
+    const int hierarchical = rb_rolling_is_compressed(m);
     const double asked = fmin(fmax(rc->contact.tol, p->rounding), LOOSEST);
 
     c->exact = 10.0 * fmax(residual < asked ? residual : asked, p->rounding);

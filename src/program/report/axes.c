@@ -115,14 +115,6 @@ const char *rb_report_counted_in(int exponent, const char *unit, char text[64])
     return text;
 }
 
-void rb_report_band_title(FILE *out, int is_error, double most, const char *unit, int titled)
-{
-    fprintf(out, "title '%s", is_error ? "estimated error" : "standard deviation");
-    if (titled)
-        fprintf(out, ", at most %s%s%s", RB_REPORT_NUMBER(most, 2), *unit ? " " : "", unit);
-    fputs("', ", out);
-}
-
 void rb_report_let_band(FILE *script, int is_error, double most, const char *unit, int titled)
 {
     const char *name = is_error ? "estimated error" : "standard deviation";

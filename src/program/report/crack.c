@@ -350,8 +350,7 @@ static void let_title(FILE *out, const view *v)
     rb_report_let_text(
         out, "title",
         "{/:Bold Crack}   length %.4g a at %.4g° to the surface,  μ of the faces %.3g,  a = %s %s",
-        hypot(dx, dy) / rb_unit_stored(r->units, "mm", r->half_width),
-        atan2(dy, dx) * 180.0 / 3.14159265358979, r->shape.friction,
+        length_of(r) / r->half_width, atan2(dy, dx) * 180.0 / 3.14159265358979, r->shape.friction,
         RB_REPORT_NUMBER(r->half_width, 4), rb_unit_name(r->units, "mm"));
 }
 

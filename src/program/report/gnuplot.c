@@ -253,11 +253,6 @@ const char *rb_report_colour(int k)
     return colours[k % 8];
 }
 
-double rb_report_marker_scale(rb_report_canvas canvas)
-{
-    return canvas.kind == RB_REPORT_SVG ? 0.45 : 1.0;
-}
-
 const char *rb_report_zone_colour(int zone, int pale)
 {
     static const char *const colours[][2] = {[RB_ZONE_SEPARATED] = {"#9a9a9a", "#f3f3f3"},
@@ -400,7 +395,8 @@ static void write_canvas(FILE *script, rb_report_canvas canvas, rb_report_shape 
     rb_report_let(script, "right", place.right);
     rb_report_let(script, "up", place.up);
     fprintf(script, "key_font = ',%.3g'\n", rb_report_key_font(canvas));
-    rb_report_let(script, "marker", rb_report_marker_scale(canvas));
+    /* gnuplot draws markers larger in svg */
+    rb_report_let(script, "marker", canvas.kind == RB_REPORT_SVG ? 0.45 : 1.0);
 }
 
 /* Returns 1 if there is one of that name. */

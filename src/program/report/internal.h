@@ -103,10 +103,8 @@ void rb_report_let_bodies(FILE *script, const rb_rolling_case *rc, rb_units unit
 /* A band about a curve, as a part of plot; its argument: the colour of the curve. */
 #define RB_REPORT_BAND                                                                             \
     "with filledcurves linecolor rgb '%s' fillstyle transparent solid 0.3 noborder"
-/* Its title in the key, with the largest half-width, because a narrow band is hidden by its
- * curve; unit: "" of pure numbers. */
-void rb_report_band_title(FILE *script, int is_error, double most, const char *unit, int titled);
-/* The same as the text `band_title` of a template. */
+/* Its title in the key, the text `band_title` of a template, with the largest half-width, because a
+ * narrow band is hidden by its curve; unit: "" of pure numbers. */
 void rb_report_let_band(FILE *script, int is_error, double most, const char *unit, int titled);
 /* Thin lines through 0. */
 #define RB_REPORT_ZERO "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n"
@@ -117,8 +115,6 @@ void rb_report_log_tics(FILE *script, char axis, double from, double to);
 const char *rb_report_log_format(double from, double to);
 /* The colour of curve k of several, as gnuplot's rgb. */
 const char *rb_report_colour(int k);
-/* gnuplot draws markers larger in svg; this is the factor that corrects their size. */
-double rb_report_marker_scale(rb_report_canvas canvas);
 /* The colour of a zone as the page has it, strong or a pale shade of it. */
 const char *rb_report_zone_colour(int zone, int pale);
 /* The zone of element i as pictures and strips show it: what touches without friction neither

@@ -5,16 +5,21 @@
 #include <math.h>
 #include <string.h>
 
+/* The undecided are `what`, as "pair", with words before their number. */
+static const char *status_text(int proved, int undecided, const char *before, const char *what,
+                               char *text, size_t size)
+{
+    if (proved && undecided)
+        snprintf(text, size, "proved but for %s%d %s%s", before, undecided, what,
+                 undecided == 1 ? "" : "s");
+    else
+        snprintf(text, size, "%s", proved ? "proved" : "not proved");
+    return text;
+}
+
 const char *rb_report_proof_status(const rb_lcp_proof *p, char *text, size_t size)
 {
-    if (!p->proved)
-        snprintf(text, size, "not proved");
-    else if (p->undecided)
-        snprintf(text, size, "proved but for %d pair%s", p->undecided,
-                 p->undecided == 1 ? "" : "s");
-    else
-        snprintf(text, size, "proved");
-    return text;
+    return status_text(p->proved, p->undecided, "", "pair", text, size);
 }
 
 const char *rb_report_proof_text(const rb_lcp_proof *p, char *text, size_t size)
@@ -57,22 +62,15 @@ json_t *rb_report_json_proof(const rb_lcp_proof *p)
 
 /* ---- Contact -------------------------------------------------------------------------- */
 
-const char *rb_report_contact_proof_status(const rb_contact_proof *p, char *text, size_t size)
+static const char *contact_status(const rb_contact_proof *p, char *text, size_t size)
 {
-    if (!p->proved)
-        snprintf(text, size, "not proved");
-    else if (p->undecided)
-        snprintf(text, size, "proved but for the zone of %d element%s", p->undecided,
-                 p->undecided == 1 ? "" : "s");
-    else
-        snprintf(text, size, "proved");
-    return text;
+    return status_text(p->proved, p->undecided, "the zone of ", "element", text, size);
 }
 
 const char *rb_report_contact_proof_text(const rb_contact_proof *p, char *text, size_t size)
 {
     char status[60];
-    snprintf(text, size, "%s", rb_report_contact_proof_status(p, status, sizeof status));
+    snprintf(text, size, "%s", contact_status(p, status, sizeof status));
     for (int k = 0; p->proved && k < p->undecided && k < RB_CONTACT_UNDECIDED; k++)
         rb_append(text, size, "%s %d", k ? "," : "", p->element[k]);
     if (p->undecided > RB_CONTACT_UNDECIDED)
@@ -108,8 +106,7 @@ json_t *rb_report_json_contact_proof(const rb_contact_proof *p)
     json_t *object = json_object(), *elements = json_array();
     for (int k = 0; k < p->undecided && k < RB_CONTACT_UNDECIDED; k++)
         rb_report_json_append(&elements, json_integer(p->element[k]));
-    rb_report_json_set(&object, "status",
-                       json_string(rb_report_contact_proof_status(p, status, sizeof status)));
+    rb_report_json_set(&object, "status", json_string(contact_status(p, status, sizeof status)));
     rb_report_json_set(&object, "reason", p->proved ? json_null() : json_string(p->reason));
     rb_report_json_set(&object, "where", *p->where ? json_string(p->where) : json_null());
     rb_report_json_set(&object, "bound_p", rb_report_json_number(p->bound_p));

@@ -112,8 +112,7 @@ struct json_t *rb_report_json_numbers(int n, const double *x);
 const char *rb_report_proof_status(const rb_lcp_proof *proof, char *text, size_t size);
 const char *rb_report_proof_text(const rb_lcp_proof *proof, char *text, size_t size);
 struct json_t *rb_report_json_proof(const rb_lcp_proof *proof);
-/* The same of a contact. */
-const char *rb_report_contact_proof_status(const rb_contact_proof *proof, char *text, size_t size);
+/* The sentence and the object of a contact. */
 const char *rb_report_contact_proof_text(const rb_contact_proof *proof, char *text, size_t size);
 struct json_t *rb_report_json_contact_proof(const rb_contact_proof *proof);
 struct json_t *rb_report_json_summary(const rb_rolling_solution *s);

@@ -57,6 +57,42 @@ double rb_report_tidy(double x, double size)
     return fabs(x) <= 1e-12 * fabs(size) ? 0.0 : x;
 }
 
+/* Creepage, friction power, the resistance to rolling and the torques that it takes. */
+static void write_rolling(FILE *out, const rb_rolling_solution *s)
+{
+    const char *load = rb_unit_name(s->units, "N/mm");
+
+    fprintf(out, "  creepage  xi = %.6g", s->creepage);
+    if (!isnan(s->creep_ratio))
+        fprintf(out, ", xi R/(mu a) = %.5g", s->creep_ratio);
+    if (!isnan(s->free_creepage)) {
+        const int zero = fabs(s->free_creepage) <= 1e-12 + 1e-9 * fabs(s->creepage);
+        fprintf(out, ", free rolling at %.5g", zero ? 0.0 : s->free_creepage);
+    } else if (s->formulation == RB_STEADY && !isnan(s->creep_ratio)) {
+        fputs(", free rolling not found", out);
+    }
+    fputc('\n', out);
+    if (!isnan(s->dissipation))
+        fprintf(out, "  power     %.5g %s dissipated, per unit speed\n",
+                rb_report_tidy(s->dissipation, s->normal_load), load);
+    if (s->hysteresis > 0.0) {
+        fprintf(out, "  resists   M = %.5g %s, ", s->resistance_moment,
+                rb_unit_name(s->units, "N"));
+        if (!isnan(s->resistance_ratio))
+            fprintf(out, "M/(P R) = %.5g, ", s->resistance_ratio);
+        if (!isnan(s->hysteresis_factor))
+            fprintf(out, "factor %.5g, ", s->hysteresis_factor);
+        fprintf(out, "hysteresis %.5g %s per unit speed\n", s->hysteresis, load);
+        const double lever = s->normal_load * s->half_width;
+        fprintf(out, "  torque    %.5g %s on A's axle", rb_report_tidy(s->torque_a, lever),
+                rb_unit_name(s->units, "N"));
+        if (!isnan(s->torque_b))
+            fprintf(out, ", %.5g %s on B's", rb_report_tidy(s->torque_b, lever),
+                    rb_unit_name(s->units, "N"));
+        fputs(", > 0: it drives\n", out);
+    }
+}
+
 void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
 {
     void *before = rb_locale_begin();
@@ -91,40 +127,10 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
         fprintf(out, "  patch %-3d %.5g ... %.5g %s, p0 = %.6g %s, P = %.6g %s\n", k + 1,
                 s->patch[k].from, s->patch[k].to, mm, s->patch[k].max_pressure, stress,
                 s->patch[k].normal_load, load);
-    const int moves = !isnan(s->creepage) && (s->formulation != RB_STATIC || s->creepage != 0.0);
     if (s->formulation == RB_STATIC && !isnan(s->tangential_shift))
         fprintf(out, "  shift     %.6g %s\n", s->tangential_shift, rb_unit_name(s->units, "mm"));
-    if (moves) {
-        fprintf(out, "  creepage  xi = %.6g", s->creepage);
-        if (!isnan(s->creep_ratio))
-            fprintf(out, ", xi R/(mu a) = %.5g", s->creep_ratio);
-        if (!isnan(s->free_creepage)) {
-            const int zero = fabs(s->free_creepage) <= 1e-12 + 1e-9 * fabs(s->creepage);
-            fprintf(out, ", free rolling at %.5g", zero ? 0.0 : s->free_creepage);
-        } else if (s->formulation == RB_STEADY && !isnan(s->creep_ratio)) {
-            fputs(", free rolling not found", out);
-        }
-        fputc('\n', out);
-        if (!isnan(s->dissipation))
-            fprintf(out, "  power     %.5g %s dissipated, per unit speed\n",
-                    rb_report_tidy(s->dissipation, s->normal_load), load);
-        if (s->hysteresis > 0.0) {
-            fprintf(out, "  resists   M = %.5g %s, ", s->resistance_moment,
-                    rb_unit_name(s->units, "N"));
-            if (!isnan(s->resistance_ratio))
-                fprintf(out, "M/(P R) = %.5g, ", s->resistance_ratio);
-            if (!isnan(s->hysteresis_factor))
-                fprintf(out, "factor %.5g, ", s->hysteresis_factor);
-            fprintf(out, "hysteresis %.5g %s per unit speed\n", s->hysteresis, load);
-            const double lever = s->normal_load * s->half_width;
-            fprintf(out, "  torque    %.5g %s on A's axle", rb_report_tidy(s->torque_a, lever),
-                    rb_unit_name(s->units, "N"));
-            if (!isnan(s->torque_b))
-                fprintf(out, ", %.5g %s on B's", rb_report_tidy(s->torque_b, lever),
-                        rb_unit_name(s->units, "N"));
-            fputs(", > 0: it drives\n", out);
-        }
-    }
+    if (!isnan(s->creepage) && (s->formulation != RB_STATIC || s->creepage != 0.0))
+        write_rolling(out, s);
     if (!isnan(s->max_temperature))
         fprintf(out, "  heat      %.5g K at x = %.4g %s at most, Peclet number %.3g\n",
                 s->max_temperature, s->max_temperature_at, rb_unit_name(s->units, "mm"), s->peclet);
