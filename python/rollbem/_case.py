@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _values, pictures
-from ._library import (CRACK_OPTIONS, GROUPS, OPTIONS, RESULTS, SOLVED, Handle, InvalidInput, Kept, Note, Progress,
-                       Unsolved, doubles, handles, lib, texts, unit_of)
+from ._library import (CRACK_OPTIONS, GROUPS, HISTORY_NUMBERS, OPTIONS, RESULTS, SOLVED, Handle, InvalidInput, Kept,
+                       Note, Progress, Unsolved, doubles, handles, lib, texts, unit_of)
 
 Array = NDArray[np.float64]
 Table = Union[Mapping[str, Sequence[float]], Array]
@@ -573,6 +573,9 @@ class History(_Named):
     steady_from: float  # the first step from which on nothing changes, counted from 0; nan: none
     cycle_work: float  # of friction in the last cycle [N]; nan: the rows do not end with a whole one
     cycle_rows: float  # its rows; 0: likewise
+    jump_row: float  # in which the contact jumps to full sliding, counted from 1; nan: in none
+    jump_shift: float  # from where
+    jump_force: float
     x: Array
     p: Array
     q: Array
@@ -584,8 +587,7 @@ class History(_Named):
         handle = solution._handle
         self.solution, self._system = solution, solution._system
         self._arrays = handle.arrays("step", "history.")
-        self._numbers = {name: handle.number(f"history.{name}")
-                         for name in ("half_width", "steady_from", "cycle_work", "cycle_rows")}
+        self._numbers = {name: handle.number(f"history.{name}") for name in HISTORY_NUMBERS}
         self.errors = handle.arrays("step", "history.error.")
         self.tolerances = handle.arrays("step", "history.tolerance.", copied=True)
         self.derivatives = Derivatives(handle, "history")

@@ -296,10 +296,13 @@ class _Answers:
         return found
 
 
+# of a history, besides the columns of its table
+HISTORY_NUMBERS = ("half_width", "steady_from", "cycle_work", "cycle_rows", "jump_row", "jump_shift", "jump_force")
+
 # what a solution answers, besides the options: the names in include/rollbem/api.h
 _NUMBERS = ([prefix + name for prefix in ("", "error.") for name in RESULTS["number"]]
             + ["carter", "radius", "modulus", "hertz_load"]
-            + [f"history.{name}" for name in ("half_width", "steady_from", "cycle_work", "cycle_rows")])
+            + [f"history.{name}" for name in HISTORY_NUMBERS])
 _WORDS = ("status", "formulation", "solver", "lcp-form")
 _ARRAYS = (list(RESULTS["column"]) + [f"patch.{name}" for name in RESULTS["patch"]]
            + [prefix + name for prefix in ("history.", "history.error.", "history.tolerance.")

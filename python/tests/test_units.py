@@ -113,6 +113,22 @@ def test_stresses():
             assert unit_of(system, "MPa") in repr(y)
 
 
+def test_histories_tell_where_the_contact_jumps():
+    of = dict(support="halfplane", similar=True, young=210000, radius=100, half_width=1, mu=0.2, formulation="static",
+              contact_elements=30, datum=36.788, datum_b=36.788, friction_law="exponential", mu_fall=0.1, slip_scale=1,
+              memory=5e-5)
+    found = []
+    for system in ("mm", *SYSTEMS):
+        with pytest.warns(rollbem.Note, match="jumps to full sliding"):
+            found.append(rollbem.history({"shift [mm]": [0.0, 3e-3, 6e-3]}, **given(system, **of)))
+        mm, load = factor(system, "mm"), factor(system, "N/mm")
+        assert found[-1].jump_row == 3 and 3e-3 < found[-1].jump_shift / mm < 6e-3
+        assert np.isclose(found[-1].jump_shift / mm, found[0].jump_shift)
+        assert np.isclose(found[-1].jump_force / load, found[0].jump_force)
+        assert abs(found[-1].jump_force) > abs(found[-1].tangential_load[-1])
+    assert np.isnan(rollbem.history({"shift": [0.0, 1e-4]}, load=500, formulation="static").jump_row)
+
+
 def test_histories_and_wear():
     for system in SYSTEMS:
         load, mm = factor(system, "N/mm"), factor(system, "mm")

@@ -635,35 +635,40 @@ double rb_api_number(const rb_api *a, const char *name)
     const rb_resolved_case *c = rb_case_resolved(a->words);
     const rb_case_result *result = &a->result;
     const rb_contact_proof *proof = &result->solution.proof;
+    const rb_rolling_history *history = &result->history;
     /* Of the case, of the last curve or history, of the problem that was handed over. */
     const struct {
         const char *name;
         double value;
         int is_known;
         const char *unit; /* NULL: none */
-    } numbers[] = {{"carter", rb_rolling_carter_holds(&c->rc), 1, NULL},
-                   {"radius", c->derived.radius, 1, "mm"},
-                   {"modulus", c->derived.modulus, 1, "MPa"},
-                   {"hertz_load", c->derived.load, 1, "N/mm"},
-                   {"curve.free_creepage", a->curve.free_creepage, a->curve.n > 0, NULL},
-                   {"curve.half_width", a->curve.half_width, a->curve.n > 0, "mm"},
-                   {"history.half_width", result->history.half_width, result->history.n > 0, "mm"},
-                   {"history.steady_from", result->history.steady_from,
-                    result->history.n > 0 && result->history.steady_from >= 0, NULL},
-                   {"history.cycle_work", result->history.cycle_work, result->history.n > 0, "N"},
-                   {"history.cycle_rows", result->history.cycle_rows, result->history.n > 0, NULL},
-                   {"proof.proved", proof->proved, proof->asked, NULL},
-                   {"proof.undecided", proof->undecided, proof->proved, NULL},
-                   {"proof.isolated", proof->isolated, proof->proved, NULL},
-                   {"proof.bound_p", proof->bound_p, proof->proved, NULL},
-                   {"proof.bound_q", proof->bound_q, proof->proved, NULL},
-                   {"proof.stored_within", proof->stored_within, proof->proved, NULL},
-                   {"proof.nearby", proof->nearby, proof->asked, NULL},
-                   {"proof.margin", proof->margin, proof->proved, NULL},
-                   {"proof.norm", proof->norm, proof->asked, NULL},
-                   {"task.iterations", a->iterations, 1, NULL},
-                   {"task.residual", a->residual, 1, NULL},
-                   {"task.scaled_residual", a->scaled_residual, 1, NULL}};
+    } numbers[] = {
+        {"carter", rb_rolling_carter_holds(&c->rc), 1, NULL},
+        {"radius", c->derived.radius, 1, "mm"},
+        {"modulus", c->derived.modulus, 1, "MPa"},
+        {"hertz_load", c->derived.load, 1, "N/mm"},
+        {"curve.free_creepage", a->curve.free_creepage, a->curve.n > 0, NULL},
+        {"curve.half_width", a->curve.half_width, a->curve.n > 0, "mm"},
+        {"history.half_width", history->half_width, history->n > 0, "mm"},
+        {"history.steady_from", history->steady_from, history->n > 0 && history->steady_from >= 0,
+         NULL},
+        {"history.cycle_work", history->cycle_work, history->n > 0, "N"},
+        {"history.cycle_rows", history->cycle_rows, history->n > 0, NULL},
+        {"history.jump_row", history->rows.jumped, history->rows.jumped > 0, NULL},
+        {"history.jump_shift", history->rows.jump_shift, history->rows.jumped > 0, "mm"},
+        {"history.jump_force", history->rows.jump_force, history->rows.jumped > 0, "N/mm"},
+        {"proof.proved", proof->proved, proof->asked, NULL},
+        {"proof.undecided", proof->undecided, proof->proved, NULL},
+        {"proof.isolated", proof->isolated, proof->proved, NULL},
+        {"proof.bound_p", proof->bound_p, proof->proved, NULL},
+        {"proof.bound_q", proof->bound_q, proof->proved, NULL},
+        {"proof.stored_within", proof->stored_within, proof->proved, NULL},
+        {"proof.nearby", proof->nearby, proof->asked, NULL},
+        {"proof.margin", proof->margin, proof->proved, NULL},
+        {"proof.norm", proof->norm, proof->asked, NULL},
+        {"task.iterations", a->iterations, 1, NULL},
+        {"task.residual", a->residual, 1, NULL},
+        {"task.scaled_residual", a->scaled_residual, 1, NULL}};
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
         if (strcmp(name, numbers[k].name) == 0)
             return numbers[k].is_known ? shown(a, numbers[k].unit, numbers[k].value) : NAN;

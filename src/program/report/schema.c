@@ -103,6 +103,8 @@ static json_t *summary(void)
     rb_report_json_set(&properties, "errors",
                        object_of(results(&rb_rolling_solution_scalars, 0),
                                  "estimated errors of the discretisation"));
+    rb_report_json_set(&properties, "proof",
+                       typed("object", "of --prove: what is proved of the zones and tractions"));
     return with_required(object_of(properties, "the numbers of the solution"), required);
 }
 
@@ -156,14 +158,16 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(&of, "curve", curve);
     rb_report_json_set(&of, "curves", list_of(json_incref(curve), "of several coefficients"));
     rb_report_json_set(&of, "wear",
-                       columns(&rb_rolling_wear_columns, 0, "an entry per step of wear"));
+                       columns(&rb_rolling_wear_columns, 0,
+                               "an entry per step of wear; errors: estimated errors, of --error"));
+    rb_report_json_set(&of, "body", typed("string", "whose stress: a or b"));
     rb_report_json_set(&of, "grid",
                        columns(&rb_rolling_stress_scalars, 1, "stress, an entry per point"));
     rb_report_json_set(&of, "points",
                        columns(&rb_rolling_stress_scalars, 1, "the same at given points"));
     rb_report_json_set(
         &of, "depth",
-        number("of grid and maxima; null: a grid of 2.5 half-widths, maxima in all of A"));
+        number("of grid and maxima; null: a grid of 2.5 half-widths, maxima in all of the body"));
     rb_report_json_set(&of, "maxima", typed("object", "largest stresses, their places"));
     rb_report_json_set(&of, "derivatives",
                        typed("object", "of --derivatives: of each result with respect to each "
