@@ -109,7 +109,8 @@ rb_status rb_lapack_status(int info)
 {
     if (info == 0)
         return RB_OK;
-    return info == LAPACK_WORK_MEMORY_ERROR ? RB_ENOMEM : RB_SINGULAR;
+    return info == LAPACK_WORK_MEMORY_ERROR || info == LAPACK_TRANSPOSE_MEMORY_ERROR ? RB_ENOMEM
+                                                                                     : RB_SINGULAR;
 }
 
 /* Bytes of the UTF-8 character at text; 0: none, or a control character. */

@@ -218,7 +218,7 @@ static rb_status step_to_least(const state *at, int kinks, double *d, double *le
         const int info = ends > n ? 1
                                   : LAPACKE_dgglse(LAPACK_ROW_MAJOR, p->points, n, ends, A, p->n,
                                                    B[0], RB_CASE_FIT_MAX, f, end, x);
-        if (info == LAPACK_WORK_MEMORY_ERROR || info == LAPACK_TRANSPOSE_MEMORY_ERROR) {
+        if (rb_lapack_status(info) == RB_ENOMEM) {
             free(A);
             return rb_fail(at->why, RB_ENOMEM, "out of memory for a step");
         }

@@ -107,7 +107,7 @@ static int is_solution(search *s, rb_lcp_info *info)
         }
         const int failed =
             LAPACKE_dgelsd(LAPACK_COL_MAJOR, m, m, 1, s->A, m, s->x, m, s->work, RANK, &rank);
-        if (failed == LAPACK_WORK_MEMORY_ERROR)
+        if (rb_lapack_status(failed) == RB_ENOMEM)
             return RB_ENOMEM;
         for (int c = 0; failed == 0 && c < m; c++) {
             const int i = s->inside[c];
