@@ -4,6 +4,7 @@
 #include "rolling/case/words.h"
 
 #include <gsl/gsl_math.h>
+#include <gsl/gsl_sort.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -190,12 +191,6 @@ static int marks_of(const rb_case_crack_track *t, int n, const int *zone, double
     return marks;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Equal steps, and where a mark passes over a crack that is shorter than the half-width
  * steps of a part of its length.  finer: so many times as many.  Returns how many positions;
  * x: room for MOST_POSITIONS + 1. */
@@ -219,7 +214,7 @@ static int first_positions(const rb_case_crack *l, double a, double finer, int m
                 x[n++] = at;
         }
     }
-    qsort(x, (size_t)n, sizeof *x, ascending);
+    gsl_sort(x, 1, (size_t)n);
     /* those of several marks may nearly be the same */
     int kept = 1;
     for (int i = 1; i < n; i++)

@@ -3,7 +3,7 @@
 #include "rolling/solve/results.h"
 
 #include <gsl/gsl_math.h>
-#include <stdlib.h>
+#include <gsl/gsl_sort.h>
 
 /* Places are (s, depth): along the surface and below it, the arc of a wheel's circle; each
  * material is then a strip between two depths. */
@@ -77,12 +77,6 @@ static rb_status stress_at(const search *f, const strip *in, int n, const double
 
 /* ---- The points that are looked at first ------------------------------------------- */
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Along the surface: the nodes of the tractions, which crowd at the edges of contacts, and
  * the middles between them; where these are far apart, more; and outwards, in growing steps,
  * as far as the stress may have another peak. */
@@ -116,7 +110,7 @@ static rb_status set_candidates(search *f, rb_arena *memory)
         s[m++] = f->high + away;
         step = fmin(1.2 * step, most / 40.0 + widest);
     }
-    qsort(s, (size_t)m, sizeof *s, ascending);
+    gsl_sort(s, 1, (size_t)m);
     f->candidates = m;
     f->reach = most;
     return RB_OK;
