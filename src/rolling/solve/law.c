@@ -51,29 +51,23 @@ static double linear_mu(const rb_rolling_case *rc, double x, double v)
 }
 
 /* steepest: largest -dmu/dv of either term with fall and slip scale 1; 0: the law does
- * not depend on the slip velocity.  with_memory: largest mu(0) - mu(v) - v dmu/dv of it. */
-struct law {
+ * not depend on the slip velocity.  with_memory: largest mu(0) - mu(v) - v dmu/dv of it.
+ * The macro takes all of them, so that a law that lacks one does not compile. */
+#define LAW(name, steepest_1, steepest_2, memory_1, memory_2)                                      \
+    [RB_FRICTION_##name] = {name##_mu, {steepest_1, steepest_2}, {memory_1, memory_2}}
+static const struct {
     double (*mu)(const rb_rolling_case *rc, double x, double v);
     double steepest[2], with_memory[2];
-};
-
-/* All numbers of a row at once: a law that lacks one does not compile. */
-#define ROW(mu, steepest_1, steepest_2, with_memory_1, with_memory_2)                              \
-    {                                                                                              \
-        mu, {steepest_1, steepest_2},                                                              \
-        {                                                                                          \
-            with_memory_1, with_memory_2                                                           \
-        }                                                                                          \
-    }
-static const struct law laws[RB_FRICTION_LAWS] = {
-    [RB_FRICTION_constant] = ROW(constant_mu, 0.0, 0.0, 0.0, 0.0),
+} laws[RB_FRICTION_LAWS] = {
+    LAW(constant, 0.0, 0.0, 0.0, 0.0),
     /* log 2, and 1 + exp(-2) */
-    [RB_FRICTION_exponential] = ROW(exponential_mu, 0.6931471805599453, 0.6931471805599453,
-                                    1.1353352832366127, 1.1353352832366127),
+    LAW(exponential, 0.6931471805599453, 0.6931471805599453, 1.1353352832366127,
+        1.1353352832366127),
     /* 1, 3 sqrt(3)/8 */
-    [RB_FRICTION_rational] = ROW(rational_mu, 1.0, 0.6495190528383290, 1.0, 1.125),
-    [RB_FRICTION_linear] = ROW(linear_mu, 0.5, 0.5, 2.0, 2.0),
-    [RB_FRICTION_table] = ROW(table_mu, 0.0, 0.0, 0.0, 0.0)};
+    LAW(rational, 1.0, 0.6495190528383290, 1.0, 1.125),
+    LAW(linear, 0.5, 0.5, 2.0, 2.0),
+    LAW(table, 0.0, 0.0, 0.0, 0.0),
+};
 
 #define NAME_OF_LAW(name, help) #name,
 static const char *const names[] = {RB_ROLLING_FRICTION_LAWS(NAME_OF_LAW) "table"};
