@@ -282,9 +282,6 @@ double rb_rolling_sliding_creepage(const rb_rolling_case *rc, const rb_contact_p
 
 /* 1 if temperatures are computed. */
 int rb_rolling_has_heat(const rb_rolling_case *rc);
-/* The speed at which the surface of A (of_b: B) passes the contact, V (1 -+ xi/2), V the mean of
- * both; < 0: towards +x. */
-double rb_rolling_surface_speed(const rb_rolling_case *rc, int of_b, double creepage);
 /* V a/(2 diffusivity); INFINITY if no heat enters the body. */
 double rb_rolling_peclet(const rb_rolling_heat *body, double speed, double half_width);
 /* Temperatures of both surfaces (n each) under the friction power per unit speed (n) of

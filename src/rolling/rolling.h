@@ -468,9 +468,6 @@ rb_status rb_rolling_variant_place(const rb_rolling_model *of, const rb_rolling_
                                    rb_message *why);
 /* 1: both cases have the same flexibility. */
 int rb_rolling_same_bodies(const rb_rolling_case *x, const rb_rolling_case *y);
-/* The bodies of y displace so many times what those of x do, under any tractions: of one elastic
- * material each, they differ in Young's modulus alone, all by this factor.  0: they do not. */
-double rb_rolling_softening(const rb_rolling_case *x, const rb_rolling_case *y);
 /* A variant that is also solved, starting from the zones of the model. */
 rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_case *rc,
                                    rb_rolling_model *variant, rb_message *why);

@@ -51,7 +51,9 @@ static double rise_from_origin(const rb_rolling_heat *body, double speed, double
     return moving_source(P * x) / (M_PI * body->conductivity * P);
 }
 
-double rb_rolling_surface_speed(const rb_rolling_case *rc, int of_b, double creepage)
+/* The speed at which the surface of A (of_b: B) passes the contact, V (1 -+ xi/2), V the mean of
+ * both; < 0: towards +x. */
+static double surface_speed(const rb_rolling_case *rc, int of_b, double creepage)
 {
     return rc->speed * (of_b ? 1.0 + 0.5 * creepage : 1.0 - 0.5 * creepage);
 }
@@ -312,8 +314,7 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_roll
                                         double *t_b, rb_message *why)
 {
     /* A surface that rests under the contact has been warmed for ever: it takes no heat. */
-    const double V_a = rb_rolling_surface_speed(rc, 0, s->creepage),
-                 V_b = rb_rolling_surface_speed(rc, 1, s->creepage);
+    const double V_a = surface_speed(rc, 0, s->creepage), V_b = surface_speed(rc, 1, s->creepage);
     const int n = s->n, into_a = V_a != 0.0, into_b = rc->heat_b.conductivity > 0.0 && V_b != 0.0,
               alike = into_a && into_b && V_a == V_b && is_alike(&rc->heat_a, &rc->heat_b),
               shared = into_a && into_b && !alike;
@@ -412,7 +413,7 @@ rb_status rb_rolling_heat_track_check(const rb_rolling_case *rc, double half_wid
     const rb_rolling_heat *const body[2] = {&rc->heat_a, &rc->heat_b};
 
     for (int b = 0; b < 2; b++) {
-        const double V = rb_rolling_surface_speed(rc, b, creepage),
+        const double V = surface_speed(rc, b, creepage),
                      peclet = rb_rolling_peclet(body[b], V, half_width);
         if (!(peclet >= LEAST_PECLET))
             return rb_fail(why, RB_EINVAL,
@@ -458,7 +459,7 @@ void rb_rolling_heat_track_step(const rb_rolling_case *rc, const rb_contact_stat
     double effusivity = 0.0; /* what a surface takes grows like the root of its own speed */
     for (int b = 0; b < 2; b++)
         effusivity += sqrt(body[b]->conductivity * body[b]->heat_capacity *
-                           fabs(rb_rolling_surface_speed(rc, b, state->xi) / rc->speed));
+                           fabs(surface_speed(rc, b, state->xi) / rc->speed));
     const double unit = 2.0 * sqrt(t->step / (M_PI * rc->speed)) / effusivity;
 
     for (int i = 0; i < t->n; i++) {

@@ -32,8 +32,6 @@ rb_status rb_rolling_field_at(const rb_rolling_field *field, int n, const double
                               rb_rolling_stress *stress, rb_message *why);
 /* The n abscissae between which the tractions are linear. */
 const double *rb_rolling_field_nodes(const rb_rolling_field *field, int *n);
-/* Below it there is nothing to stress: the thickness of a layer on a rigid base. */
-double rb_rolling_deepest(const rb_rolling_case *rc);
 
 /* Lengths of the elements in contact and of those among them that stick. */
 void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* Below a layer on a rigid base there is nothing to stress. */
-double rb_rolling_deepest(const rb_rolling_case *rc)
+static double deepest_stressed(const rb_rolling_case *rc)
 {
     return rc->a.layer > 0.0 && rc->a.base_young == 0.0 ? rc->a.layer : INFINITY;
 }
@@ -262,7 +262,7 @@ rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *
 {
     if (rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT)) {
         for (int k = 0; k < n; k++)
-            inside[k] = xy[2 * k + 1] >= 0.0 && xy[2 * k + 1] <= rb_rolling_deepest(model->rc);
+            inside[k] = xy[2 * k + 1] >= 0.0 && xy[2 * k + 1] <= deepest_stressed(model->rc);
         return RB_OK;
     }
     rb_arena scratch = {0};
@@ -307,7 +307,7 @@ static rb_status make_grid(const rb_rolling_model *model, double from, double to
                               ? INFINITY
                               : 0.9 * model->rc->a.radius,
                  left = fmax(from - a, -widest), right = fmin(to + a, widest),
-                 deepest = depth > 0.0 ? depth : fmin(2.5 * a, rb_rolling_deepest(model->rc));
+                 deepest = depth > 0.0 ? depth : fmin(2.5 * a, deepest_stressed(model->rc));
     rb_arena scratch = {0};
     double *xy = rb_arena_doubles(&scratch, (size_t)n, 2),
            *kept = rb_arena_doubles(&scratch, (size_t)n, 2);

@@ -81,7 +81,9 @@ static int same_rows(const rb_rolling_case *x, const rb_rolling_case *y)
 
 /* ---- How displacements change, by formula ------------------------------------------ */
 
-double rb_rolling_softening(const rb_rolling_case *x, const rb_rolling_case *y)
+/* The bodies of y displace so many times what those of x do, under any tractions: of one elastic
+ * material each, they differ in Young's modulus alone, all by this factor.  0: they do not. */
+static double softening(const rb_rolling_case *x, const rb_rolling_case *y)
 {
     const double factor = x->a.young / y->a.young;
     rb_rolling_body a = x->a, b = x->b;
@@ -160,7 +162,7 @@ static rb_status add_change(const rb_rolling_model *of, const rb_rolling_case *r
         return RB_ENOMEM;
     }
     if (!are_plain_halfplanes(rc)) {
-        const double more = rb_rolling_softening(of->rc, rc) - 1.0;
+        const double more = softening(of->rc, rc) - 1.0;
         for (int i = 0; i < 2 * m; i++)
             w0[i] += more * (w[i] - f->w0[i]);
         for (int i = 0; i < n; i++) {
@@ -212,7 +214,7 @@ static change_kind change_of(const rb_rolling_model *of, const rb_rolling_case *
                              int moves)
 {
     const int by_formula =
-        (!moves && (same_but_interlayer(rc, of->rc) || rb_rolling_softening(of->rc, rc) > 0.0)) ||
+        (!moves && (same_but_interlayer(rc, of->rc) || softening(of->rc, rc) > 0.0)) ||
         (are_plain_halfplanes(of->rc) && are_plain_halfplanes(rc) &&
          rc->elastic_b == of->rc->elastic_b);
 
