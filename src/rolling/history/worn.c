@@ -29,6 +29,7 @@ typedef struct {
     rb_arena memory;   /* of the arrays */
     double *x, *depth; /* n: midpoints, and what is worn off there [length] */
     double *rate;      /* n: depth that a step wears per pressure [length/stress] */
+    double *start;     /* n: depth at the start of the step [length] */
     double *pressed;   /* n: pressure under the present gap [stress] */
     double *path;      /* n: way that the surfaces slide in a cycle [length] */
     double *softer;    /* flexibility with the compliance on its diagonal, or, where there
@@ -86,6 +87,7 @@ static rb_status press(wear_state *r, rb_message *why)
     r->x = rb_arena_doubles(&r->memory, n, 1);
     r->depth = rb_arena_doubles(&r->memory, n, 1);
     r->rate = rb_arena_doubles(&r->memory, n, 1);
+    r->start = rb_arena_doubles(&r->memory, n, 1);
     r->pressed = rb_arena_doubles(&r->memory, n, 1);
     r->path = rb_arena_doubles(&r->memory, n, 1);
     r->softer = r->model.bodies.F ? rb_arena_doubles(&r->memory, 2 * m, 2 * n)
@@ -423,11 +425,9 @@ static rb_status fret(wear_state *r, rb_message *why)
 static rb_status set_rate(wear_state *r, double depth, rb_message *why)
 {
     rb_status s = fret(r, why);
-    double *before = s == RB_OK ? rb_alloc((size_t)r->n, 1) : NULL;
 
-    if (!before)
-        return s == RB_OK ? RB_ENOMEM : s;
-    memcpy(before, r->depth, (size_t)r->n * sizeof *before);
+    if (s != RB_OK)
+        return s;
     for (int i = 0; i < r->n; i++)
         r->rate[i] = depth * r->path[i];
     s = press_worn(r, 0.5, why);
@@ -435,10 +435,9 @@ static rb_status set_rate(wear_state *r, double depth, rb_message *why)
         wear_off(r, 0.5);
         s = fret(r, why);
     }
-    memcpy(r->depth, before, (size_t)r->n * sizeof *before);
+    memcpy(r->depth, r->start, (size_t)r->n * sizeof *r->depth);
     for (int i = 0; i < r->n; i++)
         r->rate[i] = depth * r->path[i];
-    free(before);
     return s;
 }
 
@@ -456,25 +455,20 @@ static rb_status one_step(wear_state *r, double part, rb_message *why)
     if (r->rc.formulation == RB_STEADY)
         return roll(r, part, why);
     for (int k = 0; k < WIDER && s == RB_ZONE; k++) {
-        double *before;
-
         reason.text[0] = '\0';
         s = k > 0 ? widen(r, &reason) : RB_OK;
+        memcpy(r->start, r->depth, (size_t)r->n * sizeof *r->start);
         if (s == RB_OK && !r->wear->slides)
             s = set_rate(r, depth * part, &reason);
         for (int i = 0; i < r->n && r->wear->slides; i++)
             r->rate[i] = (1.0 - share) * depth * part;
         if (s != RB_OK)
             continue;
-        if (!(before = rb_alloc((size_t)r->n, 1)))
-            return RB_ENOMEM;
-        memcpy(before, r->depth, (size_t)r->n * sizeof *before);
         s = wear_step(r, 1.0, 0, &mean, &reason);
         if (s == RB_OK)
             s = pose(r, &r->model.bodies, &reason);
         if (s == RB_ZONE) /* again, on a wider zone */
-            memcpy(r->depth, before, (size_t)r->n * sizeof *before);
-        free(before);
+            memcpy(r->depth, r->start, (size_t)r->n * sizeof *r->depth);
     }
     if (s == RB_OK && r->wear->slides) {
         r->passage = share * depth * carried(r);
