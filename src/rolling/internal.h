@@ -250,7 +250,7 @@ void rb_rolling_yielded(const rb_rolling_model *model, double *yielded);
 
 rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why);
 /* Value of the table at x: linear between its points, constant beyond them. */
-double rb_rolling_friction_at(const rb_rolling_table *table, double x);
+double rb_rolling_table_at(const rb_rolling_table *table, double x);
 /* 1 if the law depends on the slip velocity. */
 int rb_rolling_law_depends_on_slip(const rb_rolling_friction *f);
 double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v, double temperature);

@@ -161,7 +161,7 @@ static rb_status bring_friction(rb_rolling_particles *r, const rb_rolling_stride
         return RB_OK;
     for (int i = 0; i < p->n; i++) {
         const double rest = rb_rolling_law_at_rest(r->model->rc, x[i]);
-        r->mu[i] = stride->c > 0.0 ? rb_rolling_friction_at(&now, x[i] + stride->c)
+        r->mu[i] = stride->c > 0.0 ? rb_rolling_table_at(&now, x[i] + stride->c)
                                    : p->bound[i] + (r->model->rc->mu - r->mu_given);
         if (stride->c == 0.0 && r->model->state.zone[i] <= RB_ZONE_STICK)
             r->mu[i] = rest + (r->mu[i] - rest) * healed;

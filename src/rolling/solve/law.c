@@ -15,7 +15,7 @@ static double constant_mu(const rb_rolling_case *rc, double x, double v)
 static double table_mu(const rb_rolling_case *rc, double x, double v)
 {
     (void)v;
-    return rb_rolling_friction_at(&rc->friction.table, x);
+    return rb_rolling_table_at(&rc->friction.table, x);
 }
 
 /* v in units of the slip scale of term k; without a fall, and at rest, the scale means nothing. */
@@ -72,7 +72,7 @@ static const struct {
 #define NAME_OF_LAW(name, help) #name,
 static const char *const names[] = {RB_ROLLING_FRICTION_LAWS(NAME_OF_LAW) "table"};
 
-double rb_rolling_friction_at(const rb_rolling_table *table, double x)
+double rb_rolling_table_at(const rb_rolling_table *table, double x)
 {
     const int last = table->n - 1;
 
@@ -215,7 +215,7 @@ void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_table *
 {
     for (int i = 0; i < p->n; i++)
         p->bound[i] = start && rc->formulation != RB_STATIC
-                          ? rb_rolling_friction_at(start, bodies->f.x[i])
+                          ? rb_rolling_table_at(start, bodies->f.x[i])
                           : rb_rolling_law_at_rest(rc, bodies->f.x[i]);
     rb_contact_set_friction(p, rb_rolling_largest_mu(rc), p->bound);
 }

@@ -36,7 +36,7 @@ static double irregularity_at(const void *of, double x)
 
 static double friction_at(const void *of, double x)
 {
-    return rb_rolling_friction_at(of, x);
+    return rb_rolling_table_at(of, x);
 }
 
 /* What elements of one length miss: the largest and the mean distance of the table from straight

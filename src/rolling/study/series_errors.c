@@ -261,35 +261,30 @@ rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
 
 /* The error of the steps, from a run with others: what it deviates by at its own entries, linear
  * over the way. */
-static void add_step_errors(const rb_rolling_wear_history *own,
-                            const rb_rolling_wear_history *other, rb_rolling_wear_history *errors)
+static rb_status add_step_errors(const rb_rolling_wear_history *own,
+                                 const rb_rolling_wear_history *other,
+                                 rb_rolling_wear_history *errors)
 {
     const rb_rolling_results *columns = &rb_rolling_wear_columns;
+    double *off = rb_alloc((size_t)other->n, 1);
 
+    if (!off)
+        return RB_ENOMEM;
     for (int k = 0; k < columns->n; k++) {
         const rb_rolling_result *c = &columns->row[k];
         if (!c->error_bar || !rb_rolling_has_column(c, own))
             continue;
-        const double *mine = rb_rolling_column(c, own), *theirs = rb_rolling_column(c, other);
+        const rb_rolling_table mine = {own->n, own->way, rb_rolling_column(c, own)},
+                               deviation = {other->n, other->way, off};
+        const double *theirs = rb_rolling_column(c, other);
         double *e = rb_rolling_column(c, errors);
-        for (int i = 1, j = 1; i < own->n; i++) {
-            double off[2];
-            while (j + 1 < other->n && other->way[j] < own->way[i])
-                j++;
-            for (int side = 0; side < 2; side++) { /* at entries j - 1 and j of the other run */
-                const double way = other->way[j - 1 + side];
-                int m = 1;
-                while (m + 1 < own->n && own->way[m] < way)
-                    m++;
-                const double part = (way - own->way[m - 1]) / (own->way[m] - own->way[m - 1]);
-                off[side] =
-                    fabs(theirs[j - 1 + side] - mine[m - 1] - part * (mine[m] - mine[m - 1]));
-            }
-            const double part =
-                (own->way[i] - other->way[j - 1]) / (other->way[j] - other->way[j - 1]);
-            e[i] += off[0] + part * (off[1] - off[0]);
-        }
+        for (int j = 0; j < other->n; j++)
+            off[j] = fabs(theirs[j] - rb_rolling_table_at(&mine, other->way[j]));
+        for (int i = 0; i < own->n; i++)
+            e[i] += rb_rolling_table_at(&deviation, own->way[i]);
     }
+    free(off);
+    return RB_OK;
 }
 
 static rb_status wear_errors(const rb_rolling_case *rc, const rb_rolling_wear_history run[],
@@ -318,10 +313,10 @@ static rb_status wear_errors(const rb_rolling_case *rc, const rb_rolling_wear_hi
     for (int k = 0; k < runs; k++)
         found[k] = &run[k];
     error_columns(&rb_rolling_wear_columns, own->n, runs, found, own, errors);
-    add_step_errors(own, other, errors);
+    s = add_step_errors(own, other, errors);
     for (int i = 0; i < own->n && own->stick_edge; i++)
         errors->max_pressure[i] = NAN;
-    return RB_OK;
+    return s;
 }
 
 rb_status rb_rolling_wear_with_errors(const rb_rolling_case *rc, const rb_rolling_wear *wear,
