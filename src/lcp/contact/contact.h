@@ -55,6 +55,10 @@ typedef enum {
     RB_ZONE_YIELD_POSITIVE = 5  /* r_T = +(yield + hardening u) */
 } rb_contact_zone;
 
+/* What a warm start needs of another state with as many elements: zones, tractions, approach and
+ * creepage. */
+void rb_contact_copy_start(const rb_contact_state *from, rb_contact_state *to);
+
 /* 1: in element i the surfaces slide and the layer between them yields, too: |r_T| = bound r_N
  * and, with hardening, u is what raises the yield stress up to it (Y1). */
 int rb_contact_slips_and_yields(const rb_contact_problem *problem, const rb_contact_state *state,

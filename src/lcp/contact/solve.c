@@ -271,10 +271,9 @@ static void take_share(const friction *of, double share, rb_contact_problem *pro
         problem->bound[i] = share * of->bound[i];
 }
 
-/* What a warm start needs. */
-static void copy_start(int n, const rb_contact_state *from, rb_contact_state *to)
+void rb_contact_copy_start(const rb_contact_state *from, rb_contact_state *to)
 {
-    const size_t count = (size_t)n;
+    const size_t count = (size_t)to->n;
 
     memcpy(to->zone, from->zone, count * sizeof(int));
     memcpy(to->p, from->p, count * sizeof(double));
@@ -309,7 +308,7 @@ static rb_status solve_by_friction(rb_contact_problem *problem, const rb_contact
             double step = of.share;
             int row = 0;
 
-            copy_start(problem->n, state, &good);
+            rb_contact_copy_start(state, &good);
             while (s == RB_OK && of.share < 1.0 && step > LEAST_STEP) {
                 const double next = fmin(1.0, of.share + step);
                 take_share(&of, next, problem);
@@ -317,12 +316,12 @@ static rb_status solve_by_friction(rb_contact_problem *problem, const rb_contact
                 if (is_solved(s, problem, options, state)) {
                     of.share = next;
                     step *= ++row % 3 ? 1.0 : 2.0;
-                    copy_start(problem->n, state, &good);
+                    rb_contact_copy_start(state, &good);
                 } else if (s >= 0) {
                     step *= 0.5;
                     row = 0;
                     s = RB_OK;
-                    copy_start(problem->n, &good, state);
+                    rb_contact_copy_start(&good, state);
                 }
             }
             s = s == RB_OK && of.share < 1.0 ? RB_MAXITER : s;

@@ -132,17 +132,6 @@ static rb_status start_from_coarse(rb_rolling_model *model, rb_message *why)
     return s < 0 ? s : RB_OK;
 }
 
-static void copy_state(const rb_contact_state *from, rb_contact_state *to)
-{
-    const size_t n = (size_t)to->n;
-
-    memcpy(to->p, from->p, n * sizeof *to->p);
-    memcpy(to->q, from->q, n * sizeof *to->q);
-    memcpy(to->zone, from->zone, n * sizeof *to->zone);
-    to->delta = from->delta;
-    to->xi = from->xi;
-}
-
 /* Bodies, where they are not kept, contact problem and a state of zeros on the model's
  * mesh. */
 static rb_status set_up(rb_rolling_model *model, int kept, rb_message *why)
@@ -212,7 +201,7 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
     const int large = s == RB_OK && !model->bodies.F;
     if (large && near && model->rc->mesh == RB_MESH_FITTED && old.n == model->state.n) {
         /* element by element: they have moved with the edges */
-        copy_state(&old, &model->state);
+        rb_contact_copy_start(&old, &model->state);
         rb_rolling_follow_friction(&old_mesh, bound, model);
     } else if (large && near) {
         rb_rolling_start_from(model->rc, &old_mesh, &old, &model->mesh, &model->state);
