@@ -122,9 +122,7 @@ static rb_status prove_part(const rb_contact_problem *p, const double *A, int ld
 {
     const int n = p->n;
     *definite = 0;
-    for (int kind = border ? 1 : 0; kind < 3 && !*definite; kind++) {
-        if (border && kind != 1)
-            break;
+    for (int kind = border ? 1 : 0; kind < (border ? 2 : 3) && !*definite; kind++) {
         for (int i = 0; i < n; i++) {
             double of_row = 0.0, of_column = 0.0;
             for (int j = 0; kind == 2 && j < n; j++) {

@@ -54,9 +54,8 @@ typedef struct {
     double *work;      /* 5 k */
 } proof_inverse;
 
-/* Takes over A (k x k, from malloc).  It is regular if norm < 0.99, and so are all matrices
- * whose entries differ from its own by at most the part `radius`.  1: there was memory. */
-int rb_proof_inverse(int k, double *A, double radius, proof_inverse *inverse);
+/* Takes over A (k x k, from malloc).  It is regular if norm < 0.99.  1: there was memory. */
+int rb_proof_inverse(int k, double *A, proof_inverse *inverse);
 void rb_proof_inverse_free(proof_inverse *inverse);
 /* x, e: |A^-1 (-b) - x| <= e for each b within `radius` (k, or NULL).  fine: residuals in twice
  * the precision. */

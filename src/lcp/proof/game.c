@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 rb_status rb_lcp_of_game(const rb_lcp_game *g, rb_sparse *M, double *q, double *lower)
 {
@@ -36,21 +37,14 @@ rb_status rb_lcp_of_game(const rb_lcp_game *g, rb_sparse *M, double *q, double *
 
 rb_status rb_lcp_prove_game(const rb_lcp_game *g, const double *z, rb_lcp_proof *proof)
 {
-    const int m = g->m, n = g->n;
-    const size_t order = (size_t)m + (size_t)n + 2;
+    const size_t order = (size_t)g->m + (size_t)g->n + 2;
     double *q = rb_alloc(order, 1), *lower = rb_alloc(order, 1), *start = rb_alloc(order, 1);
     rb_sparse M = {0};
     *proof = (rb_lcp_proof){.row = -1};
     rb_status s = q && lower && start ? rb_lcp_of_game(g, &M, q, lower) : RB_ENOMEM;
     if (s == RB_OK) {
-        for (size_t i = 0; i + 2 < order; i++)
-            start[i] = z[i];
-        for (int i = 0; i < m; i++) /* x'A y, and x'B y */
-            for (int j = 0; j < n; j++) {
-                const size_t at = (size_t)i + (size_t)j * (size_t)g->ld;
-                start[order - 2] += z[i] * g->A[at] * z[m + j];
-                start[order - 1] += z[i] * g->B[at] * z[m + j];
-            }
+        rb_lcp_bimatrix_regret(g, z, start, start + order - 2); /* for the payoffs */
+        memcpy(start, z, (order - 2) * sizeof *start);
         s = rb_lcp_prove(&(rb_lcp_mixed_problem){&M, q, lower, NULL}, start, proof);
     }
     rb_sparse_free(&M);

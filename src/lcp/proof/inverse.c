@@ -29,12 +29,6 @@ void rb_proof_abs_product(int m, int n, const double *A, int ld, const double *x
     }
 }
 
-/* The larger one; NaN if one of them is. */
-static double larger(double a, double b)
-{
-    return isnan(a) || a >= b ? a : b;
-}
-
 /* Rows and columns by powers of two, so that the largest modulus of each is near 1; factor:
  * 2k.  Where scaling back does not give A again, because of underflow, A stays as it is. */
 static void scale(int k, const double *A, int *row, int *column, double *factor, double *B)
@@ -76,7 +70,7 @@ static void scale(int k, const double *A, int *row, int *column, double *factor,
     memcpy(B, A, n * n * sizeof *B);
 }
 
-int rb_proof_inverse(int k, double *A, double radius, proof_inverse *v)
+int rb_proof_inverse(int k, double *A, proof_inverse *v)
 {
     const size_t n = (size_t)k;
     *v = (proof_inverse){.k = k, .norm = 0.0};
@@ -107,14 +101,11 @@ int rb_proof_inverse(int k, double *A, double radius, proof_inverse *v)
                 rows[i] = proof_up(n, rows[i]);
             rb_proof_abs_product(k, k, v->R, k, rows, sums);
             rb_proof_abs_product(k, k, A, k, v->g, rows);
-            v->norm = 0.0;
             for (size_t i = 0; i < n; i++)
-                v->g[i] = proof_up(n, rows[i]) + proof_error(n, proof_up(n, sums[i]) + 1.0) +
-                          radius * proof_up(n + 4, sums[i]) + (double)k * (double)k * PROOF_TINY;
-            for (size_t i = 0; i < n; i++) {
-                v->g[i] = proof_up(4, v->g[i]);
-                v->norm = larger(v->norm, v->g[i]);
-            }
+                v->g[i] =
+                    proof_up(4, proof_up(n, rows[i]) + proof_error(n, proof_up(n, sums[i]) + 1.0) +
+                                    (double)k * (double)k * PROOF_TINY);
+            v->norm = rb_norm_inf(n, v->g);
         }
     }
     free(pivot);
@@ -184,11 +175,9 @@ void rb_proof_solve(const proof_inverse *v, const double *given, const double *r
     }
     rb_proof_abs_product(k, k, v->R, k, r, d);
     /* |A^-1 r| <= d + g max(d)/(1 - max g), by components */
-    double most = 0.0;
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n; i++)
         d[i] = proof_up(n, d[i]);
-        most = larger(most, d[i]);
-    }
+    const double most = rb_norm_inf(n, d);
     for (size_t i = 0; i < n; i++) {
         e[i] = proof_up(8, d[i] + v->g[i] * (most / (1.0 - v->norm)));
         e[i] = proof_up(8, e[i] + 4.0 * PROOF_U * (fabs(x[i]) + fabs(low[i])));

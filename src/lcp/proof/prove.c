@@ -32,7 +32,7 @@ typedef struct {
     int *strict;                    /* n: 1: the sign of w_i is proved */
     int *beta, betas;               /* the undecided pairs */
     double *X, *EX, *Y, *EY, *t;    /* m or n x (1 + MOST_UNDECIDED): of base and undecided z */
-    double *work;                   /* 3 n */
+    double *work;                   /* 4 n */
 } prover;
 
 enum { NOTHING, SLACK_Z, SLACK_W, FREE_TWIN, FREE_BASIC };
@@ -292,7 +292,7 @@ static const char *solve_basis(prover *p, int fine, double *norm, rb_status *mem
                 A[(size_t)of_row[r] + (size_t)p->core[c] * (size_t)k] = p->M.x[q];
         }
     const char *why = NULL;
-    if (!rb_proof_inverse(k, A, 0.0, &inverse)) {
+    if (!rb_proof_inverse(k, A, &inverse)) {
         *memory = RB_ENOMEM;
         why = "out of memory";
     }
@@ -360,7 +360,7 @@ static rb_status bound_undecided(prover *p)
             A[(size_t)i + (size_t)j * order] =
                 i == j ? p->Y[at] - p->EY[at] : -(fabs(p->Y[at]) + p->EY[at]);
         }
-    room = room && rb_proof_inverse(b, rb_copy(order * order, A), 0.0, &inverse);
+    room = room && rb_proof_inverse(b, rb_copy(order * order, A), &inverse);
     int yes = room && isfinite(inverse.norm);
     for (int i = 0; yes && i < b; i++)
         least[i] = -1.0;
@@ -440,12 +440,6 @@ static verdict of_unknown(const prover *p, int i, double x, double e)
     return a == RIGHT ? b : a == WRONG || b == WRONG ? WRONG : OPEN;
 }
 
-static void put_on_bound(prover *p, int i, double x)
-{
-    const double low = rb_lcp_lower(p->lower, i), high = rb_lcp_upper(p->upper, i);
-    p->at[i] = isinf(low) || (isfinite(high) && x > high) ? LCP_AT_UPPER : LCP_AT_LOWER;
-}
-
 /* Values of the z that are not basic, and what they make of M z + q. */
 static void set_base(prover *p)
 {
@@ -465,6 +459,20 @@ static void set_base(prover *p)
         p->base_error[i] = 0.0;
         if (terms)
             p->base[i] = proof_value(&sum, (size_t)terms + 1, &p->base_error[i]);
+    }
+}
+
+/* The undecided t >= 0 widen the bounds E of n numbers X_0 + X_beta t: |z - X_0| <= E_0 + (|X_beta|
+ * + E_beta) t. */
+static void widen(const prover *p, int n, const double *X, double *E)
+{
+    for (int i = 0; p->betas && i < n; i++) {
+        double sum = 0.0;
+        for (int b = 0; b < p->betas; b++) {
+            const size_t at = (size_t)(b + 1) * (size_t)n + (size_t)i;
+            sum += (fabs(X[at]) + E[at]) * p->t[b];
+        }
+        E[i] = proof_up(4, E[i] + proof_up(MOST_UNDECIDED, sum));
     }
 }
 
@@ -490,27 +498,12 @@ static rb_status attempt(prover *p, int *fine, int *again, rb_lcp_proof *proof)
         proof->row = p->beta[0];
         return bounded;
     }
-    /* with t of the undecided pairs: |z - x| <= e + (|X_beta| + e) t */
-    for (int c = 0; c < p->m; c++) {
-        double sum = 0.0;
-        for (int b = 0; b < p->betas; b++) {
-            const size_t at = (size_t)(b + 1) * (size_t)p->m + (size_t)c;
-            sum += (fabs(p->X[at]) + p->EX[at]) * p->t[b];
-        }
-        p->EX[c] = p->betas ? proof_up(4, p->EX[c] + proof_up(MOST_UNDECIDED, sum)) : p->EX[c];
-    }
-    for (int i = 0; i < n; i++) {
-        double sum = 0.0;
-        for (int b = 0; b < p->betas; b++) {
-            const size_t at = (size_t)(b + 1) * (size_t)n + (size_t)i;
-            sum += (fabs(p->Y[at]) + p->EY[at]) * p->t[b];
-        }
-        p->EY[i] = p->betas ? proof_up(4, p->EY[i] + proof_up(MOST_UNDECIDED, sum)) : p->EY[i];
-    }
+    widen(p, p->m, p->X, p->EX);
+    widen(p, n, p->Y, p->EY);
     /* The signs.  Where one is wrong the pair is exchanged; where none is, but one is open, the
      * residual is computed again with more digits; then the pair is left undecided. */
     int wrong = 0, open = 0;
-    verdict *of = (verdict *)(void *)p->key;
+    int *of = p->key; /* n: verdicts */
     proof->margin = INFINITY;
     proof->row = -1;
     for (int i = 0; i < n; i++) {
@@ -546,15 +539,14 @@ static rb_status attempt(prover *p, int *fine, int *again, rb_lcp_proof *proof)
     }
     for (int i = 0; i < n; i++) {
         const int c = p->column[i];
-        if (of[i] == RIGHT || (!wrong && of[i] != OPEN) || (wrong && of[i] != WRONG))
+        const double low = rb_lcp_lower(p->lower, i), high = rb_lcp_upper(p->upper, i);
+        if (of[i] != (wrong ? WRONG : OPEN))
             continue;
         if (wrong) {
-            if (c >= 0)
-                put_on_bound(p, i, p->X[c]);
-            else
-                p->at[i] = LCP_BETWEEN;
+            const int is_above = isinf(low) || (isfinite(high) && c >= 0 && p->X[c] > high);
+            p->at[i] = c < 0 ? LCP_BETWEEN : is_above ? LCP_AT_UPPER : LCP_AT_LOWER;
             p->open[i] = 0;
-        } else if (isfinite(rb_lcp_lower(p->lower, i)) && isinf(rb_lcp_upper(p->upper, i))) {
+        } else if (isfinite(low) && isinf(high)) {
             p->open[i] = 1;
             p->at[i] = LCP_AT_LOWER;
         } else
@@ -744,9 +736,7 @@ rb_status rb_lcp_prove(const rb_lcp_mixed_problem *given, const double *z, rb_lc
     for (int round = 0; round < ROUNDS && s == RB_UNDECIDED && again; round++) {
         int open = 0;
         for (int i = 0; i < n; i++)
-            open += p.open[i];
-        if (open > MOST_UNDECIDED)
-            break;
+            open |= p.open[i];
         if (open && columns == 1) { /* room for the undecided pairs */
             columns = MOST_UNDECIDED + 1;
             for (size_t k = 0; k < sizeof large / sizeof *large; k++)
