@@ -221,16 +221,11 @@ rb_status rb_lcp_branch(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt
         s.best = s.w + order;
         s.x = s.best + order;
         s.work = s.x + order;
-        const double most = rb_norm_inf(order, posed.q);
-        s.unit = most > 0.0 ? exp2((double)ilogb(most)) : 1.0;
-        for (size_t i = 0; i < order; i++) {
-            ends[i] = posed.q[i] / s.unit;
-            ends[order + i] = posed.lower ? posed.lower[i] / s.unit : 0.0;
-            ends[2 * order + i] = posed.upper ? posed.upper[i] / s.unit : 0.0;
-        }
-        s.q = ends;
-        s.lower = posed.lower ? ends + order : NULL;
-        s.upper = posed.upper ? ends + 2 * order : NULL;
+        const lcp_near_one near = rb_lcp_bring_near_one(&posed, ends);
+        s.unit = near.unit;
+        s.q = near.q;
+        s.lower = near.lower;
+        s.upper = near.upper;
         status = rb_lcp_linear_create(&posed.M, s.q, s.lower, s.upper, &s.linear);
     }
     if (status == RB_OK)

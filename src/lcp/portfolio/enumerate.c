@@ -53,10 +53,10 @@ static void product(search *s)
                 1);
 }
 
-/* ---- The point of a basis ------------------------------------------------------------ */
+/* ---- The basic solution of a basis --------------------------------------------------- */
 
 /* z of the basis; 0: its matrix has no inverse that could be told from rounding. */
-static int basic_point(search *s)
+static int basic_solution(search *s)
 {
     int m = 0;
     for (int i = 0; i < s->n; i++) {
@@ -255,16 +255,15 @@ static void choose(search *s, int block, int first, int k)
  * complementary cone.  RB_ENOMEM. */
 static rb_status look_at_basis(search *s, rb_lcp_solutions *all)
 {
-    int regular = basic_point(s);
     all->bases++;
-    if (regular)
+    if (basic_solution(s))
         return is_solution(s, 1) ? keep(s, 1, all) : RB_OK;
-    regular = rb_lcp_is_regular(s->p.M, s->p.ldm, s->m, s->inside, s->inside);
+    const int regular = rb_lcp_is_regular(s->p.M, s->p.ldm, s->m, s->inside, s->inside);
+    const rb_status exists = rb_lcp_linear_decide(s->linear, s->at, s->z);
     all->singular += !regular;
-    const rb_status s_ = rb_lcp_linear_decide(s->linear, s->at, s->z);
-    if (s_ == RB_OK && is_solution(s, 0))
+    if (exists == RB_OK && is_solution(s, 0))
         return keep(s, regular, all);
-    all->undecided += s_ != RB_NO_SOLUTION;
+    all->undecided += exists != RB_NO_SOLUTION;
     return RB_OK;
 }
 
@@ -308,16 +307,11 @@ rb_status rb_lcp_try_all(const rb_lcp_problem *p, const double *lower, const dou
         s.w = s.z + order;
         s.terms = s.w + order;
         s.bound = s.terms + order;
-        const double most = rb_norm_inf(order, posed.q);
-        unit = most > 0.0 ? exp2((double)ilogb(most)) : 1.0;
-        for (size_t i = 0; i < order; i++) {
-            ends[i] = posed.q[i] / unit;
-            ends[order + i] = posed.lower ? posed.lower[i] / unit : 0.0;
-            ends[2 * order + i] = posed.upper ? posed.upper[i] / unit : 0.0;
-        }
-        s.p = (rb_lcp_problem){n, posed.M.dense, posed.M.ld, ends};
-        s.lower = posed.lower ? ends + order : NULL;
-        s.upper = posed.upper ? ends + 2 * order : NULL;
+        const lcp_near_one near = rb_lcp_bring_near_one(&posed, ends);
+        unit = near.unit;
+        s.p = (rb_lcp_problem){n, posed.M.dense, posed.M.ld, near.q};
+        s.lower = near.lower;
+        s.upper = near.upper;
         status = rb_lcp_linear_create(&posed.M, s.p.q, s.lower, s.upper, &s.linear);
     }
     for (int block = 0, first = 0; status == RB_OK && block < choices->blocks; block++) {

@@ -26,46 +26,32 @@ enum { MOST_SETS = 1000 };
 typedef struct {
     int own, others, own_label, other_label;
     const double *C; /* others x own, column-major; borrowed */
-    int count, room, slots;
-    uint32_t *labels; /* room */
-    double *v;        /* own x room */
-    int *slot;        /* slots, a power of two: number of a vertex + 1 */
+    int count, room;
+    uint32_t *labels;     /* room; owned, as v */
+    double *v;            /* own x room */
+    unsigned char *known; /* a bit per set of labels: it is that of a vertex; of an arena */
 } polytope;
 
-static rb_status grow(polytope *p)
-{
-    const int room = p->room ? 2 * p->room : 64, slots = 4 * room;
-    uint32_t *labels = realloc(p->labels, (size_t)room * sizeof *labels);
-    p->labels = labels ? labels : p->labels;
-    double *v = labels ? realloc(p->v, (size_t)room * (size_t)p->own * sizeof *v) : NULL;
-    p->v = v ? v : p->v;
-    int *slot = v ? calloc((size_t)slots, sizeof *slot) : NULL;
-    if (!slot)
-        return RB_ENOMEM;
-    free(p->slot);
-    p->slot = slot;
-    p->room = room;
-    p->slots = slots;
-    for (int k = 0; k < p->count; k++) {
-        uint32_t at = (p->labels[k] * 2654435761u) & (uint32_t)(slots - 1);
-        while (slot[at])
-            at = (at + 1) & (uint32_t)(slots - 1);
-        slot[at] = k + 1;
-    }
-    return RB_OK;
-}
-
+/* Adds v, unless it is known already.  RB_ENOMEM. */
 static rb_status keep_vertex(polytope *p, uint32_t labels, const double *v)
 {
-    if (p->count == p->room && grow(p) != RB_OK)
-        return RB_ENOMEM;
-    uint32_t at = (labels * 2654435761u) & (uint32_t)(p->slots - 1);
-    for (; p->slot[at]; at = (at + 1) & (uint32_t)(p->slots - 1))
-        if (p->labels[p->slot[at] - 1] == labels)
-            return RB_OK;
+    const unsigned char bit = (unsigned char)(1u << labels % 8);
+    if (p->known[labels / 8] & bit)
+        return RB_OK;
+    if (p->count == p->room) {
+        const int room = p->room ? 2 * p->room : 64;
+        uint32_t *more_labels = realloc(p->labels, (size_t)room * sizeof *more_labels);
+        p->labels = more_labels ? more_labels : p->labels;
+        double *more_v =
+            more_labels ? realloc(p->v, (size_t)room * (size_t)p->own * sizeof *more_v) : NULL;
+        if (!more_v)
+            return RB_ENOMEM;
+        p->v = more_v;
+        p->room = room;
+    }
+    p->known[labels / 8] |= bit;
     p->labels[p->count] = labels;
-    memcpy(p->v + (size_t)p->count * (size_t)p->own, v, (size_t)p->own * sizeof *v);
-    p->slot[at] = ++p->count;
+    memcpy(p->v + (size_t)p->count++ * (size_t)p->own, v, (size_t)p->own * sizeof *v);
     return RB_OK;
 }
 
@@ -230,7 +216,7 @@ static rb_status find_pairs(const polytope *P, const polytope *Q, rb_lcp_solutio
     const uint32_t every = (uint32_t)((1ULL << all->n) - 1);
     int *pair = NULL;
     rb_status s = RB_OK;
-    for (int room = 0, pass = 0; s == RB_OK && pass < 2; pass++) {
+    for (int pass = 0; s == RB_OK && pass < 2; pass++) {
         int count = 0;
         for (int a = 0; a < P->count; a++)
             for (int b = 0; b < Q->count; b++)
@@ -242,12 +228,11 @@ static rb_status find_pairs(const polytope *P, const polytope *Q, rb_lcp_solutio
                     count++;
                 }
         if (pass == 0) {
-            room = count;
-            pair = rb_alloc_int(2 * (size_t)room);
-            all->z = rb_alloc((size_t)room, (size_t)all->n);
-            all->singular_basis = rb_alloc_int((size_t)room);
+            pair = rb_alloc_int(2 * (size_t)count);
+            all->z = rb_alloc((size_t)count, (size_t)all->n);
+            all->singular_basis = rb_alloc_int((size_t)count);
             s = pair && all->z && all->singular_basis ? RB_OK : RB_ENOMEM;
-            all->count = s == RB_OK ? room : 0;
+            all->count = s == RB_OK ? count : 0;
         }
     }
     for (int k = 0; s == RB_OK && k < all->count; k++)
@@ -286,6 +271,8 @@ rb_status rb_lcp_bimatrix_enumerate(const rb_lcp_game *g, double seconds, rb_lcp
     polytope P = {.own = m, .others = n, .own_label = 0, .other_label = m, .C = transposed};
     polytope Q = {.own = n, .others = m, .own_label = m, .other_label = 0, .C = a};
     all->n = m + n;
+    P.known = rb_arena_zeros(&scratch, ((size_t)1 << (m + n)) / 8 + 1, 1);
+    Q.known = rb_arena_zeros(&scratch, ((size_t)1 << (m + n)) / 8 + 1, 1);
     s = scratch.failed ? RB_ENOMEM : RB_OK;
     if (s == RB_OK) {
         rb_lcp_game_scale(g, a, b);
@@ -303,10 +290,8 @@ rb_status rb_lcp_bimatrix_enumerate(const rb_lcp_game *g, double seconds, rb_lcp
         s = find_pairs(&P, &Q, all);
     free(P.labels);
     free(P.v);
-    free(P.slot);
     free(Q.labels);
     free(Q.v);
-    free(Q.slot);
     rb_arena_free(&scratch);
     if (s == RB_OK && end == RB_OK)
         return RB_OK;

@@ -28,6 +28,20 @@ static void give_up(void *info)
     longjmp(l->failed, 1);
 }
 
+lcp_near_one rb_lcp_bring_near_one(const lcp_posed *posed, double *memory)
+{
+    const size_t n = (size_t)posed->M.n;
+    const double most = rb_norm_inf(n, posed->q),
+                 unit = most > 0.0 ? exp2((double)ilogb(most)) : 1.0;
+    double *q = memory, *lower = q + n, *upper = lower + n;
+    for (size_t i = 0; i < n; i++) {
+        q[i] = posed->q[i] / unit;
+        lower[i] = posed->lower ? posed->lower[i] / unit : 0.0;
+        upper[i] = posed->upper ? posed->upper[i] / unit : 0.0;
+    }
+    return (lcp_near_one){unit, q, posed->lower ? lower : NULL, posed->upper ? upper : NULL};
+}
+
 rb_status rb_lcp_linear_create(const lcp_matrix *M, const double *q, const double *lower,
                                const double *upper, lcp_linear **linear)
 {
@@ -187,19 +201,19 @@ rb_status rb_lcp_linear_decide(lcp_linear *l, const lcp_side *side, double *z)
 
 /* y: the multipliers of the row that the dual simplex method has found to be infeasible, from
  * its row of the tableau.  0: it has found none. */
-static int read_ray(const lcp_linear *l, glp_prob *p, int *index, double *value)
+static int read_ray(const lcp_linear *l, glp_prob *p)
 {
     const int n = l->M.n, basic = glp_get_unbnd_ray(p);
     if (basic == 0 ||
         (basic <= n ? glp_get_row_stat(p, basic) : glp_get_col_stat(p, basic - n)) != GLP_BS)
         return 0;
-    const int count = glp_eval_tab_row(p, basic, index, value);
+    const int count = glp_eval_tab_row(p, basic, l->index, l->value);
     memset(l->y, 0, (size_t)n * sizeof *l->y);
     if (basic <= n)
         l->y[basic - 1] = 1.0;
     for (int k = 1; k <= count; k++)
-        if (index[k] <= n)
-            l->y[index[k] - 1] = -value[k];
+        if (l->index[k] <= n)
+            l->y[l->index[k] - 1] = -l->value[k];
     return 1;
 }
 
@@ -207,7 +221,7 @@ static int read_ray(const lcp_linear *l, glp_prob *p, int *index, double *value)
 static int ray_excludes(lcp_linear *l, glp_prob *p, const lcp_side *side)
 {
     const int n = l->M.n;
-    if (!read_ray(l, p, l->index, l->value))
+    if (!read_ray(l, p))
         return 0;
     memcpy(l->other, l->y, (size_t)n * sizeof *l->y);
     if (rb_lcp_excludes(&l->M, l->q, l->lower, l->upper, side, l->other))

@@ -9,6 +9,16 @@
  * few steps. */
 typedef struct lcp_linear lcp_linear;
 
+/* A posed problem with q and z in a unit, a power of two, in which the largest |q| is near 1. */
+typedef struct {
+    double unit;
+    const double *q, *lower,
+        *upper; /* n each, in the memory given; bounds NULL where posed's are */
+} lcp_near_one;
+
+/* memory: 3 n */
+lcp_near_one rb_lcp_bring_near_one(const lcp_posed *posed, double *memory);
+
 /* Borrows M, q (whose largest entry should be near 1) and the bounds.  RB_ENOMEM. */
 rb_status rb_lcp_linear_create(const lcp_matrix *M, const double *q, const double *lower,
                                const double *upper, lcp_linear **linear);

@@ -40,11 +40,6 @@ typedef struct {
     rb_lcp_info *info;
 } newton;
 
-static double at_bound(const newton *s, int i)
-{
-    return s->number[i] == UPPER ? rb_lcp_upper(s->p.upper, i) : rb_lcp_lower(s->p.lower, i);
-}
-
 /* Whether M is symmetric with a positive diagonal, and its factors would be full. */
 static rb_status choose_gradients(newton *s)
 {
@@ -167,7 +162,9 @@ static rb_status solve_basic(newton *s, double to)
     double *rhs = s->w, *bound = s->x;
     for (int i = 0; i < n; i++) {
         rhs[i] = -s->p.q[i];
-        bound[i] = s->number[i] >= 0 ? 0.0 : at_bound(s, i);
+        bound[i] = s->number[i] >= 0       ? 0.0
+                   : s->number[i] == UPPER ? rb_lcp_upper(s->p.upper, i)
+                                           : rb_lcp_lower(s->p.lower, i);
     }
     if (s->p.lower || s->p.upper) /* else all are zero */
         rb_sparse_apply(-1.0, M, bound, 1.0, rhs);
