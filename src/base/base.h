@@ -15,6 +15,12 @@ double rb_largest_shown(double x);
 /* Appends to text, a buffer of size bytes in all; whatever does not fit is cut off. */
 void rb_append(char *text, size_t size, const char *format, ...) RB_PRINTF(3, 4);
 
+/* The end of a noun behind the number n: "%d step%s". */
+static inline const char *rb_plural(long long n)
+{
+    return n == 1 ? "" : "s";
+}
+
 /* Copies the next word of a list with commas, as far as it fits.  Returns the rest of the list;
  * NULL: it is empty, or NULL. */
 const char *rb_next_word(const char *list, char *word, size_t size);

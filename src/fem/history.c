@@ -62,8 +62,8 @@ static rb_status solve_increment(runner *run, const char *solver, double tol, rb
     *length = units.length;
     const char *reason = rb_status_reason(s, &info.msg);
     if (s != RB_OK && isfinite(info.residual))
-        rb_fail(why, s, "%s: %s after %d iterations, residual %.3g", solver, reason, info.iters,
-                info.residual);
+        rb_fail(why, s, "%s: %s after %d iteration%s, residual %.3g", solver, reason, info.iters,
+                rb_plural(info.iters), info.residual);
     else if (s != RB_OK) /* it has not begun */
         rb_fail(why, s, "%s", reason);
     rb_friction_problem_free(&problem);

@@ -165,8 +165,8 @@ static rb_status read_values(const reader *in, const char *group, const char *na
     snprintf(full, sizeof full, "%s/%s", group, name);
     const rb_status s = read_array(in, full, type, H5Tget_size(type), &n, values);
     if (s == RB_OK && n < least)
-        return rb_fail(in->why, RB_EFORMAT, "%s: %s has %d entries, expected %d", in->path, full, n,
-                       least);
+        return rb_fail(in->why, RB_EFORMAT, "%s: %s: expected %d %s, got %d", in->path, full, least,
+                       least == 1 ? "entry" : "entries", n);
     return s;
 }
 

@@ -49,7 +49,8 @@ static rb_status read_vector(const char *path, int n, const char *what, int infi
         rb_io_tokens_blank_comments(&t);
         const size_t count = count_words(&t);
         if (count != (size_t)n)
-            rb_io_tokens_fail(&t, "%s: expected %d numbers, got %zu", what, n, count);
+            rb_io_tokens_fail(&t, "%s: expected %d number%s, got %zu", what, n, rb_plural(n),
+                              count);
         *x = rb_io_tokens_alloc(&t, (size_t)n, 1, what);
         rb_io_tokens_reals(&t, (size_t)n, *x, what);
     }

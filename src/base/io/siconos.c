@@ -150,7 +150,8 @@ static void read_matrix(io_tokens *t, int rows, int cols, rb_io_matrix *m)
                 }
             }
             if (ok(t) && e->nz != nz)
-                rb_io_tokens_fail(t, "sparse matrix: expected %d entries, got %d", nz, e->nz);
+                rb_io_tokens_fail(t, "sparse matrix: expected %d %s, got %d", nz,
+                                  nz == 1 ? "entry" : "entries", e->nz);
         }
     }
 }
@@ -197,7 +198,7 @@ void rb_io_read_siconos_lcp(io_tokens *t, rb_io_lcp *p)
                              "bounds; give them to an LCP as --lower and --upper");
     else if (left > 0)
         rb_io_tokens_fail(t, "expected the end of the file or a comment after q, got %zu number%s",
-                          left, left == 1 ? "" : "s");
+                          left, rb_plural((long long)left));
     if (!ok(t))
         rb_io_lcp_free(p);
 }

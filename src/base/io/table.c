@@ -414,7 +414,7 @@ static rb_status read_row(reading *r, const char *text)
     for (int j = 0; t->name && j < t->columns; j++)
         rb_append(names, sizeof names, "%s%s", j ? ", " : " (", t->name[j]);
     return rb_fail(r->why, RB_EFORMAT, "%s:%d: expected %d number%s%s%s, got %d", r->path, r->line,
-                   t->columns, t->columns == 1 ? "" : "s", names, *names ? ")" : "", n);
+                   t->columns, rb_plural(t->columns), names, *names ? ")" : "", n);
 }
 
 /* From rows to columns. */
@@ -615,8 +615,8 @@ rb_status rb_io_table_assign(const char *path, rb_io_table *t, int n, const rb_i
         x[k] = NULL;
     drop_comment(t, n, known);
     if (!t->name && t->columns != n)
-        return rb_fail(why, RB_EFORMAT, "%s:%d: expected %d numbers, got %d", path, t->line[0], n,
-                       t->columns);
+        return rb_fail(why, RB_EFORMAT, "%s:%d: expected %d number%s, got %d", path, t->line[0], n,
+                       rb_plural(n), t->columns);
     for (int j = 0; j < t->columns; j++) {
         rb_unit_factor factor;
         int k = j;

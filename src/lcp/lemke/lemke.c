@@ -159,8 +159,8 @@ rb_status rb_lcp_fail_ray(rb_lcp_info *info, const lcp_posed *posed, int enterin
     if (rb_norm_inf((size_t)n, direction) == 0.0)
         return rb_fail(&info->msg, RB_NUMERICAL,
                        "lcp: rounding errors have led the path back to its beginning after %d "
-                       "pivots",
-                       info->iters);
+                       "pivot%s",
+                       info->iters, rb_plural(info->iters));
     info->ray_variable = entering;
     if (rb_lcp_excludes(&posed->M, posed->q, posed->lower, posed->upper, NULL, direction))
         return rb_fail(&info->msg, RB_NO_SOLUTION,
@@ -169,22 +169,23 @@ rb_status rb_lcp_fail_ray(rb_lcp_info *info, const lcp_posed *posed, int enterin
                        "within its bounds has the signs of w",
                        info->iters, letter, entering % n + 1);
     return rb_fail(&info->msg, RB_RAY,
-                   "lcp: secondary ray after %d pivots: no row blocks %c(%d); z0 = %g; this does "
+                   "lcp: secondary ray after %d pivot%s: no row blocks %c(%d); z0 = %g; this does "
                    "not prove that there is no solution",
-                   info->iters, letter, entering % n + 1, z0);
+                   info->iters, rb_plural(info->iters), letter, entering % n + 1, z0);
 }
 
 rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int n, double start)
 {
     const int most = opt->max_iters ? opt->max_iters : 50 * n + 1000;
     if (info->iters >= most)
-        return rb_fail(&info->msg, RB_MAXITER, "lcp: no solution after max_iters = %d pivots",
-                       most);
+        return rb_fail(&info->msg, RB_MAXITER, "lcp: no solution after max_iters = %d pivot%s",
+                       most, rb_plural(most));
     if (opt->seconds > 0.0 && rb_seconds() - start > opt->seconds)
-        return rb_fail(&info->msg, RB_TIME_LIMIT, "lcp: no solution after %d pivots in %g s",
-                       info->iters, opt->seconds);
+        return rb_fail(&info->msg, RB_TIME_LIMIT, "lcp: no solution after %d pivot%s in %g s",
+                       info->iters, rb_plural(info->iters), opt->seconds);
     if (rb_interrupted())
-        return rb_fail(&info->msg, RB_INTERRUPTED, "lcp: interrupted after %d pivots", info->iters);
+        return rb_fail(&info->msg, RB_INTERRUPTED, "lcp: interrupted after %d pivot%s", info->iters,
+                       rb_plural(info->iters));
     return RB_OK;
 }
 
@@ -194,8 +195,8 @@ rb_status rb_lcp_assess(rb_lcp_info *info)
                ? RB_OK
                : rb_fail(&info->msg, RB_INACCURATE,
                          "lcp: rounding errors make the solution inaccurate: the "
-                         "residual of row %d is %.2g of its terms after %d steps",
-                         info->row + 1, info->scaled, info->iters);
+                         "residual of row %d is %.2g of its terms after %d step%s",
+                         info->row + 1, info->scaled, info->iters, rb_plural(info->iters));
 }
 
 /* z0 enters and makes w >= 0; then the complement of what has left enters, until z0

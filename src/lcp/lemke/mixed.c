@@ -120,9 +120,9 @@ static rb_status refresh(mixed *p)
     if (status != RB_OK)
         return rb_fail(&p->info->msg, status,
                        status == RB_SINGULAR
-                           ? "lcp: a basis is singular to rounding after %d pivots"
-                           : "lcp: out of memory for the LU of a basis after %d pivots",
-                       p->info->iters);
+                           ? "lcp: a basis is singular to rounding after %d pivot%s"
+                           : "lcp: out of memory for the LU of a basis after %d pivot%s",
+                       p->info->iters, rb_plural(p->info->iters));
     const double zero = ZERO * rb_norm_inf((size_t)p->n, p->value);
     for (int s = 0; s < p->n; s++) {
         const int v = p->b.variable[s];
@@ -289,7 +289,8 @@ static rb_status find_slot(mixed *p, int entering, double sign, int *slot, doubl
     for (;;) {
         rb_status s = rb_lcp_basis_column(&p->b, entering, p->y);
         if (s != RB_OK)
-            return rb_fail(&p->info->msg, s, "lcp: no column after %d pivots", p->info->iters);
+            return rb_fail(&p->info->msg, s, "lcp: no column after %d pivot%s", p->info->iters,
+                           rb_plural(p->info->iters));
         const double noise = DROP * rb_norm_inf((size_t)p->n, p->y);
         for (int k = 0; k < p->n; k++)
             if (fabs(p->y[k]) <= noise)
@@ -352,8 +353,8 @@ static rb_status move(mixed *p, int entering, double sign, double step, int slot
     p->generic[slot] = change;
     p->value[slot] = from + sign * step;
     if (rb_lcp_basis_exchange(&p->b, slot, entering, p->y) != RB_OK)
-        return rb_fail(&p->info->msg, RB_ENOMEM, "lcp: out of memory after %d pivots",
-                       p->info->iters);
+        return rb_fail(&p->info->msg, RB_ENOMEM, "lcp: out of memory after %d pivot%s",
+                       p->info->iters, rb_plural(p->info->iters));
     tell_trace(p, entering, leaving, slot, step);
     return RB_OK;
 }

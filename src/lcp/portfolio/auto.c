@@ -324,9 +324,9 @@ static rb_status retry_definite(const rb_lcp_mixed_problem *p, const rb_lcp_opti
     free(cover);
     if (s == RB_NUMERICAL)
         rb_fail(&info->msg, s,
-                "lcp: numerical failure after %d pivots: M is definite, so that there is a "
+                "lcp: numerical failure after %d pivot%s: M is definite, so that there is a "
                 "solution, but rounding errors hide it",
-                info->iters);
+                info->iters, rb_plural(info->iters));
     return s;
 }
 
@@ -342,19 +342,21 @@ static rb_status branch(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt
     const rb_status found = rb_lcp_branch(p, opt, began, z, info);
     const int choices = info->iters - before;
     if (found == RB_NO_SOLUTION)
-        rb_fail(&info->msg, found,
-                "lcp: no solution: %d choices of what is zero, each excluded by linear programming",
-                choices);
+        rb_fail(
+            &info->msg, found,
+            "lcp: no solution: %d choice%s of what is zero, each excluded by linear programming",
+            choices, rb_plural(choices));
     else if (found == RB_UNDECIDED)
         rb_fail(&info->msg, found,
-                "lcp: none found: of %d choices of what is zero some are open by rounding errors",
-                choices);
+                "lcp: none found: rounding errors leave some of %d choice%s of what is zero open",
+                choices, rb_plural(choices));
     else if (found == RB_TIME_LIMIT)
         rb_fail(&info->msg, found,
-                "lcp: no solution after %d pivots and %d choices of what is zero in %g s", before,
-                choices, opt->seconds);
+                "lcp: no solution after %d pivot%s and %d choice%s of what is zero in %g s", before,
+                rb_plural(before), choices, rb_plural(choices), opt->seconds);
     else if (found == RB_INTERRUPTED)
-        rb_fail(&info->msg, found, "lcp: interrupted after %d choices of what is zero", choices);
+        rb_fail(&info->msg, found, "lcp: interrupted after %d choice%s of what is zero", choices,
+                rb_plural(choices));
     return found == RB_MAXITER || found == RB_ENOMEM ? s : found;
 }
 

@@ -112,11 +112,11 @@ rb_status rb_lcp_contraction(const rb_lcp_mixed_problem *p, const rb_lcp_options
             }
             info->iters++;
             if (rb_interrupted())
-                s = rb_fail(&info->msg, RB_INTERRUPTED, "lcp: interrupted after %d sweeps",
-                            info->iters);
+                s = rb_fail(&info->msg, RB_INTERRUPTED, "lcp: interrupted after %d sweep%s",
+                            info->iters, rb_plural(info->iters));
             else if (opt->seconds > 0.0 && rb_seconds() - began > opt->seconds)
-                s = rb_fail(&info->msg, RB_TIME_LIMIT, "lcp: no solution after %d sweeps in %g s",
-                            info->iters, opt->seconds);
+                s = rb_fail(&info->msg, RB_TIME_LIMIT, "lcp: no solution after %d sweep%s in %g s",
+                            info->iters, rb_plural(info->iters), opt->seconds);
         }
         if (rb_lcp_scale_create(&given, p->q, 0, &scale) != RB_OK ||
             rb_lcp_measure(&given, &scale, p->q, p->lower, p->upper, z, info) != RB_OK)

@@ -321,7 +321,8 @@ rb_status rb_lcp_try_all(const rb_lcp_problem *p, const double *lower, const dou
     for (int digit = 0; status == RB_OK && digit < choices->blocks;) {
         status = look_at_basis(&s, all);
         if (status == RB_OK && rb_interrupted())
-            status = rb_fail(why, RB_INTERRUPTED, "lcp: interrupted after %d bases", all->bases);
+            status = rb_fail(why, RB_INTERRUPTED, "lcp: interrupted after %d %s", all->bases,
+                             all->bases == 1 ? "basis" : "bases");
         if (status == RB_OK && seconds > 0.0 && all->bases % BETWEEN_LOOKS == 0 &&
             all->bases < bases && rb_seconds() - began > seconds)
             status = rb_fail(why, RB_TIME_LIMIT, "lcp: %d of %.0f complementary bases in %g s",

@@ -181,8 +181,8 @@ static rb_status solve_basic(newton *s, double to)
     if (status == RB_SINGULAR)
         return rb_fail(&s->info->msg, status,
                        "lcp: newton: a principal submatrix of order %d is singular after "
-                       "%d steps",
-                       s->A.rows, s->info->iters);
+                       "%d step%s",
+                       s->A.rows, s->info->iters, rb_plural(s->info->iters));
     return status == RB_OK ? status
                            : rb_fail(&s->info->msg, status, "lcp: newton: no factorisation: %s",
                                      rb_status_text(status));
@@ -209,14 +209,16 @@ static rb_status iterate(void *state)
     while (!rb_lcp_pauses(&s->work)) {
         if (s->info->iters >= most)
             return rb_fail(&s->info->msg, RB_MAXITER,
-                           "lcp: newton: no solution after max_iters = %d steps", most);
+                           "lcp: newton: no solution after max_iters = %d step%s", most,
+                           rb_plural(most));
         if (opt->seconds > 0.0 && rb_seconds() - s->task->began > opt->seconds)
             return rb_fail(&s->info->msg, RB_TIME_LIMIT,
-                           "lcp: newton: no solution after %d steps in %g s", s->info->iters,
-                           opt->seconds);
+                           "lcp: newton: no solution after %d step%s in %g s", s->info->iters,
+                           rb_plural(s->info->iters), opt->seconds);
         if (rb_interrupted())
-            return rb_fail(&s->info->msg, RB_INTERRUPTED, "lcp: newton: interrupted after %d steps",
-                           s->info->iters);
+            return rb_fail(&s->info->msg, RB_INTERRUPTED,
+                           "lcp: newton: interrupted after %d step%s", s->info->iters,
+                           rb_plural(s->info->iters));
         const rb_status status = solve_basic(s, GRADIENTS_TO);
         if (status != RB_OK)
             return status;

@@ -174,7 +174,8 @@ static rb_status print_profiles(FILE *out, const void *context, rb_message *why)
         rb_report_cell_text(&cells, c->solver[s]);
     rb_report_cells_end_row(&cells);
     rb_report_comment_origin(&cells, cli_command_line());
-    rb_report_comment(&cells, "profiles over %s, %d problems", costs[c->o->cost].name, c->problems);
+    rb_report_comment(&cells, "profiles over %s, %d problem%s", costs[c->o->cost].name, c->problems,
+                      rb_plural(c->problems));
     for (int k = 0; k < TAUS; k++) {
         rb_report_cell_number(&cells, c->tau[k]);
         for (int s = 0; s < c->solvers; s++)

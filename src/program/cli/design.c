@@ -76,10 +76,10 @@ static void summarise(FILE *out, const cli_case_run *run)
     const rb_units units = run->c->units;
     const char *unit = d->result ? d->result->unit : NULL, *name = unit_of(d, units);
     if (d->status == RB_OK)
-        fprintf(out, "design: %s %.6g%s%s, at the start %.6g%s%s, %d evaluations\n",
+        fprintf(out, "design: %s %.6g%s%s, at the start %.6g%s%s, %d evaluation%s\n",
                 rb_design_result_name(d->result), rb_unit_shown(units, unit, d->value),
                 *name ? " " : "", name, rb_unit_shown(units, unit, d->start), *name ? " " : "",
-                name, d->evaluations);
+                name, d->evaluations, rb_plural(d->evaluations));
 }
 
 static int tell(int evaluation, double value, const double *x, void *context)

@@ -253,8 +253,8 @@ static cli_exit finish_wall(const wall_run *run)
             char name[40], title[200];
             rb_friction_problem problem = {0};
             snprintf(name, sizeof name, "wall-%02d.hdf5", k + 1);
-            snprintf(title, sizeof title, "rollbem wall, step %d, solved in %d iterations",
-                     step + 1, run->step[step].iterations);
+            snprintf(title, sizeof title, "rollbem wall, step %d, solved in %d iteration%s",
+                     step + 1, run->step[step].iterations, rb_plural(run->step[step].iterations));
             char *path = rb_io_join(run->o->output, name);
             s = path ? rb_fem_wall_problem(run->wall, step, &problem) : RB_ENOMEM;
             if (s == RB_OK)
@@ -289,7 +289,8 @@ static cli_exit run_wall(const example_options *o)
         fprintf(stderr, "wall: %d contact points, %d degrees of freedom\n", contacts,
                 rb_fem_wall_dofs(run.wall));
         if (rb_fem_wall_rank(run.wall, &rank) == RB_OK)
-            fprintf(stderr, "H has rank %d: %d times hyperstatic\n", rank, 3 * contacts - rank);
+            fprintf(stderr, "H has rank %d: %d time%s hyperstatic\n", rank, 3 * contacts - rank,
+                    rb_plural(3 * contacts - rank));
     }
     const int planned = rb_fem_wall_steps(run.wall);
     run.step = calloc((size_t)planned, sizeof *run.step);
@@ -302,9 +303,9 @@ static cli_exit run_wall(const example_options *o)
             break;
         run.steps++;
         if (!o->quiet)
-            fprintf(stderr, "step %d of %d: shear %.0f N, %d iterations, %.2f s\n", run.steps,
+            fprintf(stderr, "step %d of %d: shear %.0f N, %d iteration%s, %.2f s\n", run.steps,
                     planned, rint(step->shear) + 0.0, /* no -0 */
-                    step->iterations, step->seconds);
+                    step->iterations, rb_plural(step->iterations), step->seconds);
     }
     cli_interrupts_leave();
     if (s == RB_OK && run.steps < planned)

@@ -175,7 +175,7 @@ static cli_exit resume(cli_case_run *run)
     if (!run->o.quiet)
         fprintf(stderr,
                 "rollbem: %s holds the numbers after %d step%s: the fit goes on from there\n",
-                f->resume, f->steps, f->steps == 1 ? "" : "s");
+                f->resume, f->steps, rb_plural(f->steps));
     return CLI_CONTINUE;
 }
 

@@ -154,11 +154,12 @@ static cli_exit assess(friction_run *run, friction_result *r, rb_status s)
     if (run->o->measure != RB_FRICTION_BY_ACARY && r->info.scaled <= run->o->tol)
         return cli_fail(
             CLI_UNSOLVED,
-            "%s: %s: %s after %d iterations: contact %d misses Coulomb's law by %.2g of "
+            "%s: %s: %s after %d iteration%s: contact %d misses Coulomb's law by %.2g of "
             "its own velocities",
-            r->file, r->info.solver, r->status, r->info.iters, r->info.contact + 1, r->info.worst);
-    return cli_fail(CLI_UNSOLVED, "%s: %s: %s after %d iterations, %s %.2g", r->file,
-                    r->info.solver, r->status, r->info.iters,
+            r->file, r->info.solver, r->status, r->info.iters, rb_plural(r->info.iters),
+            r->info.contact + 1, r->info.worst);
+    return cli_fail(CLI_UNSOLVED, "%s: %s: %s after %d iteration%s, %s %.2g", r->file,
+                    r->info.solver, r->status, r->info.iters, rb_plural(r->info.iters),
                     run->o->measure == RB_FRICTION_BY_ACARY ? "residual (13)" : "scaled residual",
                     rb_friction_deciding(&r->info));
 }
@@ -237,8 +238,8 @@ static cli_exit find_all(friction_run *run, friction_result *r, const rb_frictio
             singular_only == 1 ? "it" : "them");
     if (r->all.count && r->all.undecided)
         fprintf(stderr,
-                "rollbem: %s: note: %d of %d states are undecided: there may be more solutions\n",
-                r->file, r->all.undecided, r->all.tried);
+                "rollbem: %s: note: %d of %d states %s undecided: there may be more solutions\n",
+                r->file, r->all.undecided, r->all.tried, r->all.undecided == 1 ? "is" : "are");
     r->status = rb_status_text(s != RB_OK             ? s
                                : r->all.count         ? RB_OK
                                : r->all.undecided > 0 ? RB_UNDECIDED
@@ -258,8 +259,9 @@ static cli_exit find_all(friction_run *run, friction_result *r, const rb_frictio
 static void list_all(const friction_run *run, const friction_result *r)
 {
     cli_rows *rows = (cli_rows *)&run->files.rows;
-    rb_report_comment(&rows->cells, "%s: %s by enumeration, %d contacts, %d states, %.3g s",
-                      r->file, r->status, r->contacts, r->all.tried, r->info.seconds);
+    rb_report_comment(&rows->cells, "%s: %s by enumeration, %d contact%s, %d state%s, %.3g s",
+                      r->file, r->status, r->contacts, rb_plural(r->contacts), r->all.tried,
+                      rb_plural(r->all.tried), r->info.seconds);
     for (int k = 0; k < r->all.count; k++)
         for (int c = 0; c < r->contacts; c++) {
             const size_t at = (size_t)(2 * (k * r->contacts + c));
@@ -485,10 +487,10 @@ static cli_exit solve_file(void *context, const char *path)
         else if (!run->o->solution)
             cli_rows_add(rows, VALUES, values);
         else
-            rb_report_comment(
-                &rows->cells, "%s: %s by %s, %d contact%s, %d iteration%s, residual %.3g, %.3g s",
-                r.file, r.status, info->solver, r.contacts, r.contacts == 1 ? "" : "s", info->iters,
-                info->iters == 1 ? "" : "s", info->residual, info->seconds);
+            rb_report_comment(&rows->cells,
+                              "%s: %s by %s, %d contact%s, %d iteration%s, residual %.3g, %.3g s",
+                              r.file, r.status, info->solver, r.contacts, rb_plural(r.contacts),
+                              info->iters, rb_plural(info->iters), info->residual, info->seconds);
         if (run->o->solution && run->o->facts)
             rb_report_comment(&rows->cells,
                               "rank %d, hyperstaticity %d, nullity %d, asymmetry %.3g%s",

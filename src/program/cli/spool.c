@@ -1,5 +1,4 @@
 #define _XOPEN_SOURCE 700 /* pread, mkstemp */
-#include "base/base.h"
 #include "program/cli/spool.h"
 
 #include "base/base.h"

@@ -350,7 +350,8 @@ static void write_head(const study *st, FILE *out)
         rb_report_cell_text(&c, column_name(st, j, heading));
     rb_report_cells_end_row(&c);
     rb_report_comment_origin(&c, cli_command_line());
-    rb_report_comment(&c, "study %016" PRIx64 " of %d cases%s%s", st->fingerprint, st->cases,
+    rb_report_comment(&c, "study %016" PRIx64 " of %d case%s%s%s", st->fingerprint, st->cases,
+                      rb_plural(st->cases),
                       st->o->tolerance ? ", standard deviations of inputs: " : "",
                       st->o->tolerance ? st->o->tolerance : "");
     rb_report_comment(&c, "status 0: solved. xi > 0: A's surface slides towards +x, the friction "
@@ -618,7 +619,8 @@ static cli_exit resume(study *st)
         (ftruncate(fileno(st->out), st->whole) != 0 || fseek(st->out, st->whole, SEEK_SET) != 0))
         code = cannot_write(st->path);
     if (code == CLI_CONTINUE && !st->o->quiet && st->first > 0)
-        fprintf(stderr, "rollbem: %s holds %d of %d cases\n", st->path, st->first, st->cases);
+        fprintf(stderr, "rollbem: %s holds %d of %d case%s\n", st->path, st->first, st->cases,
+                rb_plural(st->cases));
     return code;
 }
 
@@ -785,8 +787,8 @@ static void print_summary(FILE *out, const void *context)
     const double n = st->summed;
 
     rb_report_notes(out, &said, cli_is_coloured(stderr));
-    fprintf(out, "study: %d cases in %.3g s; not solved: %d of %d\n", st->ran, st->spent,
-            st->unsolved, st->cases);
+    fprintf(out, "study: %d case%s in %.3g s; not solved: %d of %d\n", st->ran, rb_plural(st->ran),
+            st->spent, st->unsolved, st->cases);
     for (int j = 0; j < st->results && st->summed > 1; j++) {
         const double mean = st->sum[j] / n;
         const double variance = (st->square[j] - n * mean * mean) / (n - 1.0);
@@ -834,8 +836,8 @@ static cli_exit run(study *st)
     if (st->o->cite)
         cli_print_citations(&rb_case_resolved(st->base)->rc, NULL);
     if (st->no_memory > 0)
-        cli_fail(CLI_INTERNAL, "out of memory in %d cases: their status is %d", st->no_memory,
-                 RB_ENOMEM);
+        cli_fail(CLI_INTERNAL, "out of memory in %d case%s, of status %d", st->no_memory,
+                 rb_plural(st->no_memory), RB_ENOMEM);
     return (cli_exit)st->worst;
 }
 
