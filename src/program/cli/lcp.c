@@ -261,9 +261,9 @@ static cli_exit say_all(const lcp_options *o, lcp_result *r, const rb_lcp_soluti
                 singular_only == 1 ? "it" : "them");
     if (all->count && all->undecided)
         fprintf(stderr,
-                "rollbem: %s: note: %d of %d complementary bases are undecided: there may be more "
+                "rollbem: %s: note: %d of %d complementary bases %s undecided: there may be more "
                 "solutions\n",
-                r->file, all->undecided, all->bases);
+                r->file, all->undecided, all->bases, all->undecided == 1 ? "is" : "are");
     int mixed = 0; /* sets with more than one */
     for (int k = 0; k < r->sets; k++)
         mixed += r->set[k + 1] - r->set[k] > 1;
@@ -271,7 +271,7 @@ static cli_exit say_all(const lcp_options *o, lcp_result *r, const rb_lcp_soluti
         fprintf(stderr,
                 "rollbem: %s: note: %d extreme equilibria in %d maximal set%s; all others are "
                 "mixtures within a set\n",
-                r->file, all->count, r->sets, r->sets == 1 ? "" : "s");
+                r->file, all->count, r->sets, rb_plural(r->sets));
     if (o->game && all->count && r->sets == 0)
         fprintf(
             stderr,
@@ -288,12 +288,13 @@ static cli_exit say_all(const lcp_options *o, lcp_result *r, const rb_lcp_soluti
     if (all->undecided)
         return cli_fail(CLI_UNSOLVED, "%s: none found, %d of %d complementary bases undecided",
                         r->file, all->undecided, all->bases);
+    const char *bases = all->bases == 1 ? "basis" : "bases";
     return all->singular ? cli_fail(CLI_UNSOLVED,
-                                    "%s: no solution (%d complementary bases; %d singular, each "
+                                    "%s: no solution (%d complementary %s; %d singular, each "
                                     "excluded)",
-                                    r->file, all->bases, all->singular)
-                         : cli_fail(CLI_UNSOLVED, "%s: no solution (%d complementary bases)",
-                                    r->file, all->bases);
+                                    r->file, all->bases, bases, all->singular)
+                         : cli_fail(CLI_UNSOLVED, "%s: no solution (%d complementary %s)", r->file,
+                                    all->bases, bases);
 }
 
 /* r->z, the solutions, is taken over from all, and r->w made as large. */
@@ -458,6 +459,99 @@ static cli_exit solve_game(lcp_run *run, lcp_result *r)
 
 /* ---- One file ---------------------------------------------------------------------- */
 
+/* 0: nothing is known of the problem, which was not read. */
+static int is_known(const lcp_result *r)
+{
+    return r->n > 0 || r->is_empty;
+}
+
+/* What --game, --all, --solution, --prove and --trace add to the object of the file. */
+static void add_members(const lcp_run *run, cli_rows *rows, const lcp_result *r)
+{
+    const lcp_options *o = run->o;
+    const int known = is_known(r);
+    if (o->game) {
+        cli_rows_set(rows, "payoffs", known ? rb_report_json_numbers(2, r->payoff) : json_null());
+        cli_rows_set(rows, "label",
+                     r->info.label >= 0 ? json_integer(r->info.label + 1) : json_null());
+    }
+    if (o->all) {
+        json_t *list = json_array(), *sets = r->sets ? json_array() : json_null();
+        for (int k = 0; k < r->solutions; k++)
+            rb_report_json_append(
+                &list, json_pack("{s:o, s:o, s:b}", "z", vector(r->n, r->z + (size_t)k * r->n), "w",
+                                 vector(r->n, r->w + (size_t)k * r->n), "singular_basis",
+                                 r->singular_basis ? r->singular_basis[k] : 0));
+        for (int k = 0; k < r->sets; k++) {
+            json_t *members = json_array();
+            for (int l = r->set[k]; l < r->set[k + 1]; l++)
+                rb_report_json_append(&members, json_integer(r->member[l] + 1));
+            rb_report_json_append(&sets, members);
+        }
+        cli_rows_set(rows, "solutions", list);
+        cli_rows_set(rows, "singular", known ? json_integer(r->singular) : json_null());
+        cli_rows_set(rows, "undecided", known ? json_integer(r->undecided) : json_null());
+        if (o->game)
+            cli_rows_set(rows, "sets", sets);
+        else
+            json_decref(sets);
+    } else if (o->solution) {
+        cli_rows_set(rows, "z", vector(r->n, r->z));
+        cli_rows_set(rows, "w", vector(r->n, r->w));
+    }
+    if (o->prove)
+        cli_rows_set(rows, "proof", r->proof.n ? rb_report_json_proof(&r->proof) : json_null());
+    if (o->trace)
+        cli_rows_set(rows, "pivots", json_incref(run->pivots.list));
+}
+
+/* A # line of the file, and a row per unknown of each solution. */
+static void list_unknowns(const lcp_run *run, cli_rows *rows, const lcp_result *r)
+{
+    char residual[40] = "", label[40] = ""; /* without a solution there is none */
+    const char *counted = run->o->all          ? r->info.iters == 1 ? "basis" : "bases"
+                          : r->info.iters == 1 ? "pivot"
+                                               : "pivots";
+    if (isfinite(r->info.res))
+        snprintf(residual, sizeof residual, ", scaled residual %.3g", r->info.scaled);
+    if (r->info.label >= 0)
+        snprintf(label, sizeof label, " from label %d", r->info.label + 1);
+    rb_report_comment(&rows->cells, "%s: %s by %s%s, n = %d, %d %s%s, %.3g s", r->file, r->status,
+                      r->solver, label, r->n, r->info.iters, counted, residual, r->seconds);
+    for (int k = 0; k < r->sets; k++) {
+        char text[400] = "";
+        for (int l = r->set[k]; l < r->set[k + 1]; l++)
+            rb_append(text, sizeof text, " %d", r->member[l] + 1);
+        rb_report_comment(&rows->cells, "maximal set %d: solutions%s", k + 1, text);
+    }
+    for (int k = 0; k < r->solutions && !run->o->trace && r->z; k++)
+        for (int i = 0; i < r->n; i++) {
+            const size_t at = (size_t)k * (size_t)r->n + (size_t)i;
+            const double within =
+                r->proof.proved ? fabs(r->z[at] - r->proof.z[i]) + r->proof.error[i] : NAN;
+            const cli_value unknown[] = {
+                CLI_TEXT(NULL, "file", r->file), CLI_WHOLE(NULL, "solution", k + 1),
+                CLI_WHOLE(NULL, "i", i + 1),     CLI_NUMBER(NULL, "z", r->z[at]),
+                CLI_NUMBER(NULL, "w", r->w[at]), CLI_NUMBER(NULL, "within", within)};
+            cli_rows_add(rows, sizeof unknown / sizeof *unknown, unknown);
+        }
+}
+
+static void free_result(lcp_result *r)
+{
+    rb_lcp_proof_free(&r->proof);
+    rb_sparse_free(&r->M);
+    free(r->lower);
+    free(r->upper);
+    free(r->cover);
+    free(r->start);
+    free(r->singular_basis);
+    free(r->set);
+    free(r->member);
+    free(r->z);
+    free(r->w);
+}
+
 static cli_exit solve_file(void *context, const char *path)
 {
     lcp_run *run = context;
@@ -474,8 +568,8 @@ static cli_exit solve_file(void *context, const char *path)
     const cli_exit code = run->o->game ? solve_game(run, &r) : solve_lcp(run, &r);
     if (!run->o->trace)
         cli_wait_end();
-    const int known = r.n > 0 || r.is_empty;
-    char proof[60] = "";
+    const int known = is_known(&r);
+    char proof[60] = "-";
     if (r.proof.n)
         rb_report_proof_status(&r.proof, proof, sizeof proof);
     const cli_value values[] = {
@@ -490,92 +584,19 @@ static cli_exit solve_file(void *context, const char *path)
         CLI_NUMBER("floor", NULL, r.floor),
         CLI_NUMBER("seconds", "seconds", r.seconds),
         CLI_KNOWN(NULL, "label", r.info.label + 1, r.info.label >= 0),
-        CLI_WORDS(NULL, "proof", r.proof.n ? proof : "-"),
+        CLI_WORDS(NULL, "proof", proof),
         CLI_NUMBER(NULL, "within", r.proof.proved ? r.proof.stored_within : NAN)};
     enum { VALUES = sizeof values / sizeof *values };
     cli_rows *rows = &run->files.rows;
     if (rows->is_json) {
         cli_rows_add(rows, VALUES, values);
-        if (run->o->game) {
-            cli_rows_set(rows, "payoffs",
-                         known ? rb_report_json_numbers(2, r.payoff) : json_null());
-            cli_rows_set(rows, "label",
-                         r.info.label >= 0 ? json_integer(r.info.label + 1) : json_null());
-        }
-        if (run->o->all) {
-            json_t *list = json_array();
-            for (int k = 0; k < r.solutions; k++)
-                rb_report_json_append(
-                    &list, json_pack("{s:o, s:o, s:b}", "z", vector(r.n, r.z + (size_t)k * r.n),
-                                     "w", vector(r.n, r.w + (size_t)k * r.n), "singular_basis",
-                                     r.singular_basis ? r.singular_basis[k] : 0));
-            cli_rows_set(rows, "solutions", list);
-            cli_rows_set(rows, "singular", known ? json_integer(r.singular) : json_null());
-            cli_rows_set(rows, "undecided", known ? json_integer(r.undecided) : json_null());
-            if (run->o->game) {
-                json_t *sets = json_array();
-                for (int k = 0; k < r.sets; k++) {
-                    json_t *of_set = json_array();
-                    for (int l = r.set[k]; l < r.set[k + 1]; l++)
-                        rb_report_json_append(&of_set, json_integer(r.member[l] + 1));
-                    rb_report_json_append(&sets, of_set);
-                }
-                cli_rows_set(rows, "sets", r.sets ? sets : json_null());
-                if (!r.sets)
-                    json_decref(sets);
-            }
-        } else if (run->o->solution) {
-            cli_rows_set(rows, "z", vector(r.n, r.z));
-            cli_rows_set(rows, "w", vector(r.n, r.w));
-        }
-        if (run->o->prove)
-            cli_rows_set(rows, "proof", r.proof.n ? rb_report_json_proof(&r.proof) : json_null());
-        if (run->o->trace)
-            cli_rows_set(rows, "pivots", json_incref(run->pivots.list));
-    } else if (known && (run->o->trace || run->o->solution || run->o->all)) {
-        /* A # line of the file, and a row per unknown, of each solution. */
-        char residual[40] = "", label[40] = ""; /* without a solution there is none */
-        if (isfinite(r.info.res))
-            snprintf(residual, sizeof residual, ", scaled residual %.3g", r.info.scaled);
-        if (r.info.label >= 0)
-            snprintf(label, sizeof label, " from label %d", r.info.label + 1);
-        rb_report_comment(&rows->cells, "%s: %s by %s%s, n = %d, %d %s%s, %.3g s", r.file, r.status,
-                          r.solver, label, r.n, r.info.iters, run->o->all ? "bases" : "pivots",
-                          residual, r.seconds);
-        for (int k = 0; k < r.sets; k++) {
-            char text[400] = "";
-            for (int l = r.set[k]; l < r.set[k + 1]; l++)
-                rb_append(text, sizeof text, " %d", r.member[l] + 1);
-            rb_report_comment(&rows->cells, "maximal set %d: solutions%s", k + 1, text);
-        }
-        for (int k = 0; k < r.solutions && !run->o->trace && r.z; k++)
-            for (int i = 0; i < r.n; i++) {
-                const size_t at = (size_t)k * (size_t)r.n + (size_t)i;
-                const cli_value unknown[] = {
-                    CLI_TEXT(NULL, "file", r.file),
-                    CLI_WHOLE(NULL, "solution", k + 1),
-                    CLI_WHOLE(NULL, "i", i + 1),
-                    CLI_NUMBER(NULL, "z", r.z[at]),
-                    CLI_NUMBER(NULL, "w", r.w[at]),
-                    CLI_NUMBER(NULL, "within",
-                               r.proof.proved ? fabs(r.z[at] - r.proof.z[i]) + r.proof.error[i]
-                                              : NAN)};
-                cli_rows_add(rows, sizeof unknown / sizeof *unknown, unknown);
-            }
-    } else if (known)
+        add_members(run, rows, &r);
+    } else if (known && (run->o->trace || run->o->solution || run->o->all))
+        list_unknowns(run, rows, &r);
+    else if (known)
         cli_rows_add(rows, VALUES, values);
     json_decref(run->pivots.list);
-    rb_lcp_proof_free(&r.proof);
-    rb_sparse_free(&r.M);
-    free(r.lower);
-    free(r.upper);
-    free(r.cover);
-    free(r.start);
-    free(r.singular_basis);
-    free(r.set);
-    free(r.member);
-    free(r.z);
-    free(r.w);
+    free_result(&r);
     return code;
 }
 
@@ -631,22 +652,22 @@ int cli_lcp(int argc, char **argv)
     if (code == CLI_CONTINUE)
         code = cli_check_files(&spec, &args);
     if (code == CLI_CONTINUE) {
-        lcp_run run = {
-            .files = {.style = &o.style,
-                      .columns = o.trace      ? "file pivot entering leaving row ratio z0"
-                                 : o.all      ? "file solution i z w"
-                                 : o.solution ? (o.prove ? "file i z w within" : "file i z w")
-                                 : o.game     ? (o.prove ? "file status n pivots residual seconds "
-                                                           "scaled solver label proof within"
-                                                         : "file status n pivots residual seconds "
-                                                           "scaled solver label")
-                                 : o.prove ? "file status n pivots residual seconds scaled solver "
-                                             "proof within"
-                                           : "file status n pivots residual seconds scaled solver",
-                      .conventions = conventions,
-                      .solve = solve_file,
-                      .context = &run},
-            .o = &o};
+        char columns[120];
+        snprintf(columns, sizeof columns, "%s%s%s",
+                 o.trace      ? "file pivot entering leaving row ratio z0"
+                 : o.all      ? "file solution i z w"
+                 : o.solution ? "file i z w"
+                              : "file status n pivots residual seconds scaled solver",
+                 o.game && !(o.trace || o.all || o.solution) ? " label" : "",
+                 !o.prove || o.trace ? ""
+                 : o.solution        ? " within"
+                                     : " proof within");
+        lcp_run run = {.files = {.style = &o.style,
+                                 .columns = columns,
+                                 .conventions = conventions,
+                                 .solve = solve_file,
+                                 .context = &run},
+                       .o = &o};
         code = cli_solve_problems(&run.files, &args, o.output);
     }
     cli_args_free(&args);
