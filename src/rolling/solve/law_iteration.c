@@ -502,33 +502,27 @@ static rb_status follow_force(rb_rolling_model *model)
     return s == RB_OK ? measure(model, NULL) : s;
 }
 
-/* At rest, from the coefficients before the step: the rounds come down to the state with the most
- * friction, that which follows from them (F6). */
-static void begin_at_rest(rb_rolling_model *model)
-{
-    const double *x = model->bodies.f.x, *carried = model->carried.mu;
-    rb_contact_problem *p = &model->problem;
-
-    for (int i = 0; i < p->n; i++)
-        p->bound[i] = carried ? carried[i] : rb_rolling_law_at_rest(model->rc, x[i]);
-    rb_contact_set_friction(p, p->mu, p->bound);
-}
-
 rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *why)
 {
+    rb_contact_problem *p = &model->problem;
     const int follows = model->follows;
     rb_status s = RB_MAXITER;
 
-    if (model->rc->formulation == RB_STATIC)
-        begin_at_rest(model);
+    /* At rest, from the coefficients before the step: the rounds come down to the state with the
+     * most friction, that which follows from them (F6). */
+    if (model->rc->formulation == RB_STATIC) {
+        rb_rolling_start_bounds(model->rc, NULL, &model->bodies, p);
+        if (model->carried.mu)
+            rb_contact_set_friction(p, p->mu, model->carried.mu);
+    }
     model->follows = 0;
-    if (model->problem.force_given && follows) {
+    if (p->force_given && follows) {
         s = follow_force(model);
         if (s > 0)
-            rb_rolling_start_bounds(model->rc, model->plan.start, &model->bodies, &model->problem);
+            rb_rolling_start_bounds(model->rc, model->plan.start, &model->bodies, p);
     }
     if (s > 0)
-        s = model->problem.force_given ? solve_force(model, why) : iterate(model, warm, why);
+        s = p->force_given ? solve_force(model, why) : iterate(model, warm, why);
     return model->state.status = s;
 }
 
