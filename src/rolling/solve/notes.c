@@ -191,8 +191,7 @@ static int row_of_steps(const rb_rolling_case *rc, const rb_rolling_solution *s,
     return s->rows.changed > 0 &&
            say(text,
                "Row %d of the history is not certain: twice the steps still change its tractions "
-               "by "
-               "%.2g of what the load makes. Give rows between, or --increments.",
+               "by %.2g of what the load makes. Give rows between, or --increments.",
                s->rows.changed, s->rows.changes);
 }
 
@@ -203,8 +202,7 @@ static int jumps(const rb_rolling_case *rc, const rb_rolling_solution *s, char *
     return s->rows.jumped > 0 &&
            say(text,
                "In row %d of the history the contact jumps to full sliding, at shift %.4g %s, "
-               "force "
-               "%.4g %s; the energy that is set free is no part of the model.",
+               "force %.4g %s; the energy that is set free is no part of the model.",
                s->rows.jumped, s->rows.jump_shift, rb_unit_name(s->units, "mm"), s->rows.jump_force,
                rb_unit_name(s->units, "N/mm"));
 }
