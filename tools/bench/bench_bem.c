@@ -5,6 +5,7 @@
 #include "bem/system.h"
 #include "base/blas.h"
 
+#include <gsl/gsl_sort.h>
 #include <cblas.h>
 #include <gsl/gsl_math.h>
 #include <lapacke.h>
@@ -225,15 +226,9 @@ static double processor_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static int by_size(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double median(int count, double *x)
 {
-    qsort(x, (size_t)count, sizeof *x, by_size);
+    gsl_sort(x, 1, (size_t)count);
     return x[count / 2];
 }
 

@@ -12,6 +12,7 @@
  * libsiconos-numerics-dev was found at build time. */
 #include "lcp/friction/friction.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -248,15 +249,9 @@ static double our_seconds(const rb_friction_problem *p, rb_friction_handle *hand
 
 /* ---- Tables ------------------------------------------------------------------------ */
 
-static int by_size(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double median(int n, double *x)
 {
-    qsort(x, (size_t)n, sizeof *x, by_size);
+    gsl_sort(x, 1, (size_t)n);
     return n ? 0.5 * (x[(n - 1) / 2] + x[n / 2]) : NAN;
 }
 

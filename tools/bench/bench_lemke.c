@@ -8,6 +8,7 @@
 #include "base/blas.h"
 #include "lcp/lcp.h"
 
+#include <gsl/gsl_sort.h>
 #include <cblas.h>
 #include <lapacke.h>
 #include <math.h>
@@ -298,12 +299,6 @@ static double siconos(const problem *p, int *pivots, double *residual)
 
 /* ---- Table ------------------------------------------------------------------------- */
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double delayed(const problem *p, int runs, rb_lcp_info *info)
 {
     double *z = need(p->n, 1), *seconds = need(runs, 1);
@@ -314,7 +309,7 @@ static double delayed(const problem *p, int runs, rb_lcp_info *info)
         if (s != RB_OK)
             fprintf(stderr, "bench_lemke: %s: %s\n", rb_status_text(s), info->msg.text);
     }
-    qsort(seconds, runs, sizeof *seconds, ascending);
+    gsl_sort(seconds, 1, runs);
     const double median = seconds[runs / 2];
     free(z);
     free(seconds);

@@ -4,17 +4,12 @@
 #include "rows.h"
 #include "rolling/rolling.h"
 
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 enum { RUNS = 5 };
-
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 /* A steel wheel on a hub over a rigid plane, steady, equal elements. */
 static rb_rolling_case wheel(int elements)
@@ -41,7 +36,7 @@ static rb_rolling_solution median_solution(const rb_rolling_case *rc)
         rb_rolling_solve(rc, &best, NULL);
         total[k] = best.seconds_total;
     }
-    qsort(total, RUNS, sizeof *total, ascending);
+    gsl_sort(total, 1, RUNS);
     best.seconds_total = total[RUNS / 2];
     return best;
 }

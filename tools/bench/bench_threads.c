@@ -3,6 +3,7 @@
  * processor time and elapsed time, medians of turns.  B: the build directory. */
 #include "rows.h"
 
+#include <gsl/gsl_sort.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -11,12 +12,6 @@
 #include <unistd.h>
 
 enum { TURNS = 7, WORDS = 32, SIDES = 2, CLOCKS = 2 };
-
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 static double seconds_of(struct timeval t)
 {
@@ -79,7 +74,7 @@ int main(void)
         printf("| %s", cases[k][0]);
         for (int c = 0; c < CLOCKS; c++) {
             for (int one = 0; one < SIDES; one++)
-                qsort(t[one][c], TURNS, sizeof(double), compare);
+                gsl_sort(t[one][c], 1, TURNS);
             const double all = t[0][c][TURNS / 2], one = t[1][c][TURNS / 2];
             printf(" | %s | %s | %.2f", row_seconds(all).text, row_seconds(one).text, all / one);
         }

@@ -335,6 +335,7 @@ static rb_status follow(restored *j, rb_message *why)
     const rb_crack_history *h = &j->stored;
     const size_t n = (size_t)h->nodes, apart = 2 * n;
     const rb_crack_passage passage = rb_case_crack_passage(&j->crack, &j->track);
+    const double stress = largest_stress(j);
     rb_crack_state before = {0};
     rb_status s = rb_crack_state_alloc(j->body, &before);
 
@@ -350,8 +351,7 @@ static rb_status follow(restored *j, rb_message *why)
             memcpy(before.zone, h->zone + (size_t)(k - 1) * n, n * sizeof *before.zone);
             before.fluid_pressure = again->fluid_pressure[k - 1];
             before.volume = again->fluid_volume[k - 1];
-            s = rb_crack_close(j->body, &passage, k % j->track.n, largest_stress(j), j->T, &before,
-                               why);
+            s = rb_crack_close(j->body, &passage, k % j->track.n, stress, j->T, &before, why);
         }
         if (s == RB_OK)
             s = displace(j, k, why);

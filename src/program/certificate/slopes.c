@@ -80,9 +80,11 @@ static void move_derivatives(const rb_case_result *r, const rb_case_number *numb
                                                   scale);
             for (int k = 0; k < columns->n; k++) {
                 double *x = rb_rolling_column(&columns->row[k], d);
-                const int is_real = columns->row[k].kind == RB_RESULT_NUMBER;
-                for (int j = 0; j < d->n && x && is_real; j++)
-                    x[j] += rounding_of(r, &columns->row[k], &r->solution, d->n) / scale;
+                if (!x || columns->row[k].kind != RB_RESULT_NUMBER)
+                    continue;
+                const double by = rounding_of(r, &columns->row[k], &r->solution, d->n) / scale;
+                for (int j = 0; j < d->n; j++)
+                    x[j] += by;
             }
         }
 }
@@ -90,12 +92,13 @@ static void move_derivatives(const rb_case_result *r, const rb_case_number *numb
 static void move_slopes(const rb_case_result *r, const rb_case_number *number, int n,
                         rb_case_slopes *s)
 {
-    for (int k = 0; k < s->n; k++)
+    for (int k = 0; k < s->n; k++) {
+        const double by = rounding_of(r, s->of[k].result, &r->history, r->history.n) /
+                          scale_of(number, n, s->of[k].input);
         for (int row = 0; row < s->rows; row++)
             for (int side = 0; side < 2; side++)
-                s->value[2 * ((size_t)row * (size_t)s->n + (size_t)k) + (size_t)side] +=
-                    rounding_of(r, s->of[k].result, &r->history, r->history.n) /
-                    scale_of(number, n, s->of[k].input);
+                s->value[2 * ((size_t)row * (size_t)s->n + (size_t)k) + (size_t)side] += by;
+    }
 }
 
 /* ---- Again ------------------------------------------------------------------------- */
