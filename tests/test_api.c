@@ -547,6 +547,11 @@ TEST(sparse_problems_and_games_are_solved)
     assert_non_null(rb_api_array(a, "game.all", &n, &count));
     assert_int_equal(count, 1);
     assert_int_equal(rb_api_game(a, 0, 2, A, B, -1, 0, 0, 0.0), RB_EINVAL);
+    enum { LARGE = 11 };
+    double payoffs[LARGE * LARGE];
+    for (int k = 0; k < LARGE * LARGE; k++)
+        payoffs[k] = sin(k * k);
+    assert_int_equal(rb_api_game(a, LARGE, LARGE, payoffs, payoffs, -1, 1, 0, 1e-4), RB_TIME_LIMIT);
     assert_int_equal(
         rb_api_friction_sparse(a, 2, 1, columns, diagonal, ones, push, &mu, "auto", 1e-8, 0),
         RB_OK);

@@ -309,7 +309,7 @@ int rb_api_lcp_all(rb_api *a, int n, const double *M, const double *q, const dou
                    const double *upper, double seconds);
 /* An equilibrium of a game: payoffs A of the row player and B of the column player, m x n, column
  * by column; label as of rb_lcp_bimatrix, -1: any.  all 1: all extreme equilibria, for m + n
- * up to 22. */
+ * up to 22.  seconds: time limit, 0: none. */
 int rb_api_game(rb_api *a, int m, int n, const double *A, const double *B, int label, int all,
                 int max_pivots, double seconds);
 /* Chooses the residual that decides whether a problem is solved: "scaled" (default), or

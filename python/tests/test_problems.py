@@ -153,6 +153,13 @@ def test_what_is_no_problem(call, words):
         call()
 
 
+def test_a_list_of_equilibria_ends_in_time():
+    A, B = np.random.default_rng(3).standard_normal((2, 11, 11))
+    with pytest.raises(rollbem.Unsolved, match="bases of the two polytopes in") as ended:
+        rollbem.game(A, B, all=True, seconds=1e-4)
+    assert ended.value.solution.bases < 1e5  # of 1.4 million
+
+
 def test_problems_without_unknowns_are_solved():
     """A contact search that finds nothing, and LCPs of no rows."""
     none = np.zeros((0, 0))

@@ -43,17 +43,6 @@ static rb_status borrow(int n, const int *p, const int *i, const double *x, rb_s
     return RB_OK;
 }
 
-/* 1: there is a solver of this name. */
-static int is_known(const char *solver, const char **name)
-{
-    int count, known = 0;
-    const rb_lcp_solver *solvers = rb_lcp_solvers(&count);
-    while (known < count && strcmp(solver, solvers[known].name) != 0)
-        known++;
-    *name = known < count ? solvers[known].name : "";
-    return known < count;
-}
-
 /* A problem without unknowns is solved. */
 static int nothing_is_unknown(rb_api *a)
 {
@@ -62,75 +51,59 @@ static int nothing_is_unknown(rb_api *a)
     return rb_api_ended(a, RB_OK);
 }
 
-static int solve_lcp(rb_api *a, const rb_lcp_mixed_problem *p, const char *solver,
-                     const rb_lcp_options *options)
-{
-    const int n = p->M->cols;
-    rb_lcp_info info = {0};
-    api_array *z = rb_api_make_array(a, "lcp.z", n, 1);
-    api_array *w = z ? rb_api_make_array(a, "lcp.w", n, 1) : NULL;
-    rb_status s = w ? RB_OK : RB_ENOMEM;
-    if (s == RB_OK) {
-        rb_api_call_begins(a);
-        s = rb_lcp_solve(solver, p, options, z->at, &info);
-        if (s >= 0)
-            a->residual = rb_lcp_residual_mixed(p, z->at, w->at);
-        a->why = info.msg;
-        s = rb_api_call_ends(a, s);
-        a->scaled_residual = info.scaled;
-        a->iterations = info.iters;
-        a->solver = info.solver ? info.solver : a->solver;
-    }
-    return rb_api_ended(a, s);
-}
-
-static const char other_solver[] =
-    "--solver: expected auto, lemke, lemke-sparse or newton, got '%.60s'";
-
-int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *solver,
-               int max_pivots)
-{
-    rb_lcp_options options = rb_lcp_defaults();
-    rb_sparse sparse = {0};
-    const char *name;
-    const int known = is_known(solver, &name);
-    begin(a, "lcp.", name);
-    options.max_iters = max_pivots;
-    if (!known)
-        return rb_api_refuse(a, other_solver, solver);
-    if (n < 0)
-        return rb_api_refuse(a, "lcp: n = %d", n);
-    if (n == 0)
-        return nothing_is_unknown(a);
-    const rb_status s = rb_sparse_from_dense(n, n, M, n, &sparse);
-    const int ended =
-        s == RB_OK ? solve_lcp(a, &(rb_lcp_mixed_problem){.M = &sparse, .q = q}, solver, &options)
-                   : rb_api_ended(a, s);
-    rb_sparse_free(&sparse);
-    return ended;
-}
-
 int rb_api_lcp_sparse(rb_api *a, int n, const int *p, const int *i, const double *x,
                       const double *q, const double *lower, const double *upper,
                       const double *start, const char *solver, int max_pivots, double seconds)
 {
     rb_lcp_options options = rb_lcp_defaults();
+    rb_lcp_info info = {0};
     rb_sparse M;
-    const char *name;
-    const int known = is_known(solver, &name);
-    begin(a, "lcp.", name);
+    int count, known = 0;
+    const rb_lcp_solver *solvers = rb_lcp_solvers(&count);
+    while (known < count && strcmp(solver, solvers[known].name) != 0)
+        known++;
+    begin(a, "lcp.", known < count ? solvers[known].name : "");
     options.max_iters = max_pivots;
     options.seconds = seconds;
     options.start = start;
-    if (!known)
-        return rb_api_refuse(a, other_solver, solver);
+    if (known == count)
+        return rb_api_refuse(
+            a, "--solver: expected auto, lemke, lemke-sparse or newton, got '%.60s'", solver);
     if (n == 0)
         return nothing_is_unknown(a);
-    const rb_status s = borrow(n, p, i, x, &M, &a->why);
+    rb_status s = borrow(n, p, i, x, &M, &a->why);
     if (s != RB_OK)
         return rb_api_ended(a, s);
     const rb_lcp_mixed_problem problem = {.M = &M, .q = q, .lower = lower, .upper = upper};
-    return solve_lcp(a, &problem, solver, &options);
+    api_array *z = rb_api_make_array(a, "lcp.z", n, 1);
+    api_array *w = z ? rb_api_make_array(a, "lcp.w", n, 1) : NULL;
+    if (!w)
+        return rb_api_ended(a, RB_ENOMEM);
+    rb_api_call_begins(a);
+    s = rb_lcp_solve(solver, &problem, &options, z->at, &info);
+    if (s >= 0)
+        a->residual = rb_lcp_residual_mixed(&problem, z->at, w->at);
+    a->why = info.msg;
+    s = rb_api_call_ends(a, s);
+    a->scaled_residual = info.scaled;
+    a->iterations = info.iters;
+    a->solver = info.solver ? info.solver : a->solver;
+    return rb_api_ended(a, s);
+}
+
+int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *solver,
+               int max_pivots)
+{
+    rb_sparse columns = {0};
+    const rb_status s = n > 0 ? rb_sparse_from_dense(n, n, M, n, &columns) : RB_OK;
+    if (s != RB_OK) {
+        begin(a, "lcp.", "");
+        return rb_api_ended(a, s);
+    }
+    const int ended = rb_api_lcp_sparse(a, n, columns.p, columns.i, columns.x, q, NULL, NULL, NULL,
+                                        solver, max_pivots, 0.0);
+    rb_sparse_free(&columns);
+    return ended;
 }
 
 /* The solutions of a list, rows x count, and which of them are of a singular basis only. */
@@ -195,7 +168,7 @@ int rb_api_game(rb_api *a, int m, int n, const double *A, const double *B, int l
     if (s == RB_OK) {
         rb_api_call_begins(a);
         if (all_of_it)
-            s = rb_lcp_bimatrix_enumerate(&game, 0.0, &all, &a->why);
+            s = rb_lcp_bimatrix_enumerate(&game, seconds, &all, &a->why);
         else {
             s = rb_lcp_bimatrix(&game, label, &options, z->at, &info);
             a->why = info.msg;
@@ -206,7 +179,7 @@ int rb_api_game(rb_api *a, int m, int n, const double *A, const double *B, int l
     }
     if (s >= 0 && !all_of_it)
         a->residual = rb_lcp_bimatrix_regret(&game, z->at, regret->at, payoff->at);
-    if (s == RB_OK && all_of_it && keep_all(a, "game", &all) != RB_OK)
+    if ((s == RB_OK || s == RB_TIME_LIMIT) && all_of_it && keep_all(a, "game", &all) != RB_OK)
         s = RB_ENOMEM;
     rb_lcp_solutions_free(&all);
     return rb_api_ended(a, s);
