@@ -5,6 +5,8 @@
 
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sort.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -317,15 +319,18 @@ static rb_status set_loads(const rb_resolved_case *c, const rb_case_crack *k, in
     return s;
 }
 
-/* A note where it applies; its text may show the values. */
-static void note(rb_case_crack_result *r, int applies, const char *text, double value, double other)
+/* A note where it applies. */
+static void RB_PRINTF(3, 4) note(rb_case_crack_result *r, int applies, const char *text, ...)
 {
     const int kind = r->note_kinds++;
 
     if (!applies || r->notes == RB_CASE_CRACK_NOTES)
         return;
+    va_list values;
+    va_start(values, text);
     r->note_kind[r->notes] = kind;
-    snprintf(r->note[r->notes++], sizeof r->note[0], text, value, other);
+    vsnprintf(r->note[r->notes++], sizeof r->note[0], text, values);
+    va_end(values);
 }
 
 static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
@@ -353,7 +358,7 @@ static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
     note(r, first < FAR * (1.0 - 1e-9) && last > t->x[0],
          "The first position is %.3g half-widths from the mouth, where the load "
          "already acts on the crack; begin at least 6 away (--from).",
-         first, 0.0);
+         first);
     note(r, step > wanted * (1.0 + 1e-9) && !chooses_positions(c, k),
          "Positions are %.3g half-widths apart; the extremes of K lie between them "
          "(take at most %.2g, --steps).",
@@ -361,19 +366,16 @@ static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
     note(r, last > t->x[0] && away > fmax(step, spacing),
          "The contact does not reach the crack: it ends %.3g half-widths from its mouth "
          "(--distance, --to).",
-         away, 0.0);
+         away);
     note(r, k->fluid == RB_CRACK_TRAPPED && !k->locate_closing,
          "The volume of the trapped fluid is that of the last position with an open "
-         "mouth, and depends on the positions; --closing located does not.",
-         0.0, 0.0);
+         "mouth, and depends on the positions; --closing located does not.");
     note(r, !c->rc.elastic_b,
          "Body B is rigid for the contact: K are the limits of a body that is much "
-         "stiffer than A.",
-         0.0, 0.0);
+         "stiffer than A.");
     note(r, isfinite(radius),
          radius < 0.0 ? "Body B has a bore; the crack is computed as in a half-plane."
-                      : "Body B is a cylinder; the crack is computed as in a half-plane.",
-         0.0, 0.0);
+                      : "Body B is a cylinder; the crack is computed as in a half-plane.");
 }
 
 /* The positions of the contact: those of the history, equal ones, or the program's own. */
@@ -644,7 +646,7 @@ static rb_status solve_on_zones(const rb_resolved_case *c, const rb_case_crack *
         note(r, 1,
              "The contact that the crack opens reaches the end of the potential contact, %.3g mm "
              "from the middle; widen it (--zone).",
-             zone, 0.0);
+             zone);
     return s;
 }
 
