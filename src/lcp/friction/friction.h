@@ -98,6 +98,9 @@ typedef enum {
     RB_FRICTION_STATES
 } rb_friction_state;
 
+/* Contacts of which rb_friction_all tries all states, 4^8. */
+enum { RB_FRICTION_ALL_UP_TO = 8 };
+
 /* The number, from 1 on, of the first contact of a local form with W_NN < mu ||W_NT||, where
  * pushing a contact that slips opens it: there may be several solutions.  0: none. */
 int rb_friction_may_have_several(const rb_friction_problem *problem);

@@ -6,9 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Contacts: 4^8 states. */
-enum { MOST_CONTACTS = 8 };
-
 /* Of a contact z = (r_N, s+, u-) with s+ = r_T + mu r_N, w = (u_N, u+, s-) with u_T = u+ - u-
  * and s- = mu r_N - r_T: Coulomb's law is complementarity of z and w.  Of a contact that is
  * open nobody asks which way it slips. */
@@ -92,9 +89,9 @@ rb_status rb_friction_all(const rb_friction_problem *p, double seconds, rb_frict
         s = rb_fail(why, RB_EINVAL,
                     "all solutions: dimension %d: their number is finite in two dimensions only",
                     p->dimension);
-    if (s == RB_OK && p->contacts > MOST_CONTACTS)
+    if (s == RB_OK && p->contacts > RB_FRICTION_ALL_UP_TO)
         s = rb_fail(why, RB_EINVAL, "all solutions: %d contacts: expected at most %d", p->contacts,
-                    MOST_CONTACTS);
+                    RB_FRICTION_ALL_UP_TO);
     if (s != RB_OK)
         return s;
     const int nc = p->contacts, n = SIZE * nc, m = 2 * nc;

@@ -229,17 +229,8 @@ static cli_exit find_all(friction_run *run, friction_result *r, const rb_frictio
         r->info.worst = k ? fmax(r->info.worst, e.worst) : e.worst;
         r->info.floor = k ? fmax(r->info.floor, e.floor) : e.floor;
     }
-    if (singular_only)
-        fprintf(
-            stderr,
-            "rollbem: %s: note: %d of %d solutions belong%s to singular states only: others may "
-            "lie next to %s\n",
-            r->file, singular_only, r->all.count, singular_only == 1 ? "s" : "",
-            singular_only == 1 ? "it" : "them");
-    if (r->all.count && r->all.undecided)
-        fprintf(stderr,
-                "rollbem: %s: note: %d of %d states %s undecided: there may be more solutions\n",
-                r->file, r->all.undecided, r->all.tried, r->all.undecided == 1 ? "is" : "are");
+    cli_note_enumeration(r->file, "states", r->all.count, singular_only, r->all.undecided,
+                         r->all.tried);
     r->status = rb_status_text(s != RB_OK             ? s
                                : r->all.count         ? RB_OK
                                : r->all.undecided > 0 ? RB_UNDECIDED
@@ -354,7 +345,7 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
         fprintf(stderr,
                 "rollbem: %s: note: W_NN - mu |W_NT| < 0 at contact %d: there may be several "
                 "solutions%s\n",
-                r->file, several, p.contacts <= 8 ? "; --all lists them" : "");
+                r->file, several, p.contacts <= RB_FRICTION_ALL_UP_TO ? "; --all lists them" : "");
     if (code == CLI_OK) {
         const rb_friction_options opt = solver_options(run);
         const rb_friction_solution solution = {r->r, r->u, NULL};

@@ -253,17 +253,7 @@ static cli_exit say_all(const lcp_options *o, lcp_result *r, const rb_lcp_soluti
     r->undecided = all->undecided;
     for (int k = 0; k < all->count; k++)
         singular_only += r->singular_basis[k];
-    if (singular_only)
-        fprintf(stderr,
-                "rollbem: %s: note: %d of %d solutions belong%s to singular bases only: others may "
-                "lie next to %s\n",
-                r->file, singular_only, all->count, singular_only == 1 ? "s" : "",
-                singular_only == 1 ? "it" : "them");
-    if (all->count && all->undecided)
-        fprintf(stderr,
-                "rollbem: %s: note: %d of %d complementary bases %s undecided: there may be more "
-                "solutions\n",
-                r->file, all->undecided, all->bases, all->undecided == 1 ? "is" : "are");
+    cli_note_enumeration(r->file, "bases", all->count, singular_only, all->undecided, all->bases);
     int mixed = 0; /* sets with more than one */
     for (int k = 0; k < r->sets; k++)
         mixed += r->set[k + 1] - r->set[k] > 1;

@@ -364,6 +364,21 @@ static rb_status write_problems(FILE *out, const void *context, rb_message *why)
     return rb_report_json_write(out, root);
 }
 
+void cli_note_enumeration(const char *file, const char *what, int solutions, int singular_only,
+                          int undecided, int tried)
+{
+    if (singular_only)
+        fprintf(stderr,
+                "rollbem: %s: note: %d of %d solutions belong%s to singular %s only: others may "
+                "lie next to %s\n",
+                file, singular_only, solutions, singular_only == 1 ? "s" : "", what,
+                singular_only == 1 ? "it" : "them");
+    if (solutions && undecided)
+        fprintf(stderr,
+                "rollbem: %s: note: %d of %d %s %s undecided: there may be more solutions\n", file,
+                undecided, tried, what, undecided == 1 ? "is" : "are");
+}
+
 cli_exit cli_solve_problems(cli_problems *p, const cli_args *args, const char *output)
 {
     cli_exit worst = CLI_OK;
