@@ -66,8 +66,8 @@ static const char *other_command(const char *word)
     return NULL;
 }
 
-/* A case that reads regular files of bounded size alone, in the folder or below it; NULL:
- * in any.  NULL: no memory. */
+/* A case that reads regular files of bounded size alone, in the folder or below it; folder NULL:
+ * in any.  Returns NULL without memory. */
 static rb_case *confined(rb_case_purpose purpose, const char *folder)
 {
     rb_case *words = cli_case_create(purpose);
@@ -138,13 +138,13 @@ static rb_status fault_of_command(const json_t *root, char **argv, int argc, con
                                       : cli_solve_asks(argc, argv, words, &files, &asked);
     json_t *inputs = code == CLI_CONTINUE ? rb_report_json_inputs(words) : NULL;
     const int no_memory = code == CLI_INTERNAL || (code == CLI_CONTINUE && !(inputs && asked));
-    if (files > 0 || no_memory)
-        ; /* a case file may have changed since, or be elsewhere */
-    else if (code != CLI_CONTINUE)
+    const int can_tell =
+        files == 0 && !no_memory; /* case files may have changed, or be elsewhere */
+    if (can_tell && code != CLI_CONTINUE)
         snprintf(text, size, "it is not a command line of rollbem");
-    else if (!json_equal(inputs, json_object_get(root, "inputs")))
+    else if (can_tell && !json_equal(inputs, json_object_get(root, "inputs")))
         snprintf(text, size, "it has other inputs than `inputs`");
-    else if (*not_as_asked(asked, root, "", path, sizeof path))
+    else if (can_tell && *not_as_asked(asked, root, "", path, sizeof path))
         snprintf(text, size, "%s is not what it asks for", path);
     json_decref(inputs);
     json_decref(asked);
