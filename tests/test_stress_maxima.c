@@ -138,6 +138,7 @@ TEST(maxima_lie_where_they_are)
                       "%s: depth of %s", rows[k].line, rows[k].name);
         assert_string_equal(json_string_value(json_object_get(one, "material")), rows[k].material);
     }
+    json_decref(root);
 }
 
 /* Both sides of a bond have the same place, and the base's is printed as such: its digits

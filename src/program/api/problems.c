@@ -118,7 +118,8 @@ static rb_status keep_all(rb_api *a, const char *what, const rb_lcp_solutions *a
     api_array *bases = singular ? rb_api_make_array(a, name, 3, 1) : NULL;
     if (!bases)
         return RB_ENOMEM;
-    memcpy(z->at, all->z, sizeof *z->at * (size_t)all->n * (size_t)all->count);
+    if (all->count > 0)
+        memcpy(z->at, all->z, sizeof *z->at * (size_t)all->n * (size_t)all->count);
     for (int k = 0; k < all->count; k++)
         singular->at[k] = all->singular_basis ? all->singular_basis[k] : 0;
     bases->at[0] = all->bases;
@@ -250,8 +251,10 @@ static int local_friction(rb_api *a, int dimension, int contacts, const double *
     if (s == RB_OK) {
         if (problem.W && W)
             memcpy(problem.W, W, sizeof *W * m * m);
-        memcpy(problem.q, q, sizeof *q * m);
-        memcpy(problem.mu, mu, sizeof *mu * (size_t)contacts);
+        if (m > 0) {
+            memcpy(problem.q, q, sizeof *q * m);
+            memcpy(problem.mu, mu, sizeof *mu * (size_t)contacts);
+        }
         s = rb_friction_problem_check(&problem, &a->why);
     }
     if (s == RB_OK)

@@ -133,8 +133,10 @@ static cli_exit run_file(comparison *c, const char *path)
         s = rb_friction_read(cli_spool_path(&read), &p, &why);
     cli_spool_rename(&read, &why);
     cli_spool_end(&read);
-    if (s == RB_OK && p.contacts == 0)
+    if (s == RB_OK && p.contacts == 0) {
+        rb_friction_problem_free(&p);
         s = rb_fail(&why, RB_EFORMAT, "%s: no contact, nothing to compare", path);
+    }
     if (s != RB_OK)
         return cli_say(s, &why);
     const size_t m = (size_t)(p.dimension * p.contacts);
