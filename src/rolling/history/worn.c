@@ -31,6 +31,7 @@ typedef struct {
     double *rate;      /* n: depth that a step wears per pressure [length/stress] */
     double *start;     /* n: depth at the start of the step [length] */
     double *pressed;   /* n: pressure under the present gap [stress] */
+    double *first;     /* n: that of the first stage of a step */
     double *path;      /* n: way that the surfaces slide in a cycle [length] */
     double *softer;    /* flexibility with the compliance on its diagonal, or, where there
                           is no matrix, 2n: the interface's with it */
@@ -89,6 +90,7 @@ static rb_status press(wear_state *r, rb_message *why)
     r->rate = rb_arena_doubles(&r->memory, n, 1);
     r->start = rb_arena_doubles(&r->memory, n, 1);
     r->pressed = rb_arena_doubles(&r->memory, n, 1);
+    r->first = rb_arena_doubles(&r->memory, n, 1);
     r->path = rb_arena_doubles(&r->memory, n, 1);
     r->softer = r->model.bodies.F ? rb_arena_doubles(&r->memory, 2 * m, 2 * n)
                                   : rb_arena_doubles(&r->memory, n, 2);
@@ -172,10 +174,10 @@ static rb_status press_worn(wear_state *r, double part, rb_message *why)
     return s == RB_OK ? rb_rolling_model_resolve(&r->model, 1, why) : s;
 }
 
-static void wear_off(wear_state *r, double part)
+static void wear_off(wear_state *r, double part, const double *p)
 {
     for (int i = 0; i < r->n; i++)
-        r->depth[i] += part * r->rate[i] * r->model.state.p[i];
+        r->depth[i] += part * r->rate[i] * p[i];
 }
 
 /* What the present pressure carries [force/length]. */
@@ -188,18 +190,29 @@ static double carried(const wear_state *r)
     return sum;
 }
 
-/* 1: a stage takes so much of the pressure off an element that the two stages together would wear
- * more there than any number of short ones: below 1/(1 + gamma z), z the last one at which the
- * stability function (1 - (1 - 2 gamma) z)/(1 + gamma z)^2 is not negative.  Or the contact grows
- * so far that the pressure at its new edge would have a step. */
-static int is_steep(const wear_state *r)
+/* 1: elements that carried nothing under the pressure p now carry more than this part of the
+ * largest one.  A stage wears them by its own weight alone, so that they stand out afterwards. */
+static int has_grown(const wear_state *r, const double *p, double most)
 {
-    static const double LEAST = (1.0 - 2.0 * GAMMA) / (1.0 - GAMMA), COUNTS = 1e-3, NEW = 0.1;
-    const double *p = r->model.state.p, p0 = rb_norm_inf((size_t)r->n, r->pressed);
+    static const double COUNTS = 1e-3;
+    const double *now = r->model.state.p, p0 = rb_norm_inf((size_t)r->n, r->pressed);
 
     for (int i = 0; i < r->n; i++)
-        if (r->pressed[i] > COUNTS * p0 ? p[i] < LEAST * r->pressed[i]
-                                        : p[i] - r->pressed[i] > NEW * p0)
+        if (p[i] <= COUNTS * p0 && now[i] - p[i] > most * p0)
+            return 1;
+    return 0;
+}
+
+/* 1: a stage takes so much of the pressure off an element that the two stages together would wear
+ * more there than any number of short ones: below 1/(1 + gamma z), z the last one at which the
+ * stability function (1 - (1 - 2 gamma) z)/(1 + gamma z)^2 is not negative. */
+static int is_steep(const wear_state *r)
+{
+    static const double LEAST = (1.0 - 2.0 * GAMMA) / (1.0 - GAMMA), COUNTS = 1e-3;
+    const double p0 = rb_norm_inf((size_t)r->n, r->pressed);
+
+    for (int i = 0; i < r->n; i++)
+        if (r->pressed[i] > COUNTS * p0 && r->model.state.p[i] < LEAST * r->pressed[i])
             return 1;
     return 0;
 }
@@ -208,31 +221,38 @@ static int is_steep(const wear_state *r)
  * is halved, and at last one implicit stage, which is of first order and never wears too much. */
 static rb_status wear_step(wear_state *r, double part, int halved, double *mean, rb_message *why)
 {
+    static const double NEW_1 = 0.02, NEW_2 = 0.1;
     enum { MOST_HALVED = 4 };
     rb_status s = press_worn(r, GAMMA * part, why);
+    int steep = s == RB_OK && (is_steep(r) || has_grown(r, r->pressed, NEW_1));
 
-    if (s == RB_OK && is_steep(r)) {
-        double half[2] = {0.0, 0.0};
-        if (halved < MOST_HALVED) {
-            s = wear_step(r, 0.5 * part, halved + 1, &half[0], why);
-            if (s == RB_OK)
-                s = wear_step(r, 0.5 * part, halved + 1, &half[1], why);
-            *mean = 0.5 * (half[0] + half[1]);
-            return s;
-        }
-        s = press_worn(r, part, why);
-        if (s != RB_OK)
-            return s;
-        wear_off(r, part);
-        *mean = carried(r);
-    } else if (s == RB_OK) {
-        wear_off(r, (1.0 - GAMMA) * part);
+    if (s == RB_OK && !steep) {
+        memcpy(r->first, r->model.state.p, (size_t)r->n * sizeof *r->first);
+        wear_off(r, (1.0 - GAMMA) * part, r->first);
         *mean = (1.0 - GAMMA) * carried(r);
         s = press_worn(r, GAMMA * part, why);
-        if (s != RB_OK)
-            return s;
-        wear_off(r, GAMMA * part);
-        *mean += GAMMA * carried(r);
+        steep = s == RB_OK && has_grown(r, r->first, NEW_2);
+        if (steep)
+            wear_off(r, (GAMMA - 1.0) * part, r->first);
+        else if (s == RB_OK) {
+            wear_off(r, GAMMA * part, r->model.state.p);
+            *mean += GAMMA * carried(r);
+        }
+    }
+    if (s == RB_OK && steep && halved < MOST_HALVED) {
+        double half[2] = {0.0, 0.0};
+        s = wear_step(r, 0.5 * part, halved + 1, &half[0], why);
+        if (s == RB_OK)
+            s = wear_step(r, 0.5 * part, halved + 1, &half[1], why);
+        *mean = 0.5 * (half[0] + half[1]);
+        return s;
+    }
+    if (s == RB_OK && steep) {
+        s = press_worn(r, part, why);
+        if (s == RB_OK) {
+            wear_off(r, part, r->model.state.p);
+            *mean = carried(r);
+        }
     }
     if (s == RB_OK)
         memcpy(r->pressed, r->model.state.p, (size_t)r->n * sizeof *r->pressed);
@@ -432,7 +452,7 @@ static rb_status set_rate(wear_state *r, double depth, rb_message *why)
         r->rate[i] = depth * r->path[i];
     s = press_worn(r, 0.5, why);
     if (s == RB_OK) {
-        wear_off(r, 0.5);
+        wear_off(r, 0.5, r->model.state.p);
         s = fret(r, why);
     }
     memcpy(r->depth, r->start, (size_t)r->n * sizeof *r->depth);
