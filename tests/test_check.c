@@ -296,6 +296,25 @@ TEST(files_belong_to_the_result)
     assert_non_null(strstr(out, "inputs, or a file that they name, are not those of the result"));
 }
 
+/* A load that is searched for is the same to the last bit where the zone that it had is given. */
+TEST(searched_loads_are_found_again)
+{
+    static const char *const searched[] = {
+        "--support halfplane --similar --max-pressure 50 --gap um.tsv",
+        "--support halfplane --similar --max-pressure 150 --gap um.tsv",
+        "--support halfplane --similar --max-pressure 200 --gap um.tsv --mu 0.1 "
+        "--formulation steady --creep-ratio 0.4",
+        "--support hub --max-pressure 150 --mu 0 --contact-elements 40",
+        "--support halfplane --max-pressure 150 --mu 3 --mesh uniform"};
+    assert_int_equal(shell("awk 'BEGIN {print \"x [mm]\\tgap [um]\"; for (x = -3; x < 3.01; x += "
+                           "0.1) print x \"\\t\" x * x / 0.1}' > um.tsv"),
+                     0);
+    for (size_t k = 0; k < sizeof searched / sizeof *searched; k++)
+        if (shellf("\"$R\" %s --json --quiet --output r.json && \"$R\" check r.json",
+                   searched[k]) != 0)
+            fail_msg("%s: %s%s", searched[k], out, err);
+}
+
 static void check_says(const char *make, int code, const char *part)
 {
     const int got = shellf("{ %s ; } >r.json 2>/dev/null; \"$R\" check r.json", make);

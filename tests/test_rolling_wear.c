@@ -84,7 +84,8 @@ TEST(sliding_wears_its_volume)
     }
 }
 
-/* Half as long steps have less than half the error; K S P = 4 a^3/R, values of a second program. */
+/* K S P = 4 a^3/R against values of a second program; steps of first order err
+ * by 5.7e-2, 2.7e-2, 1.3e-2. */
 TEST(steps_are_of_second_order)
 {
     static const double least[] = {4e-3, 1.2e-3, 5e-4};

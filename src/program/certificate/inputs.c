@@ -160,7 +160,7 @@ rb_status rb_certificate_inputs(const rb_certificate *c, const json_t *root, rb_
 rb_status rb_certificate_move_inputs(rb_certificate *c, const json_t *root, const rb_case *words,
                                      rb_case **other, rb_message *why)
 {
-    static const char *const names[] = {"load", "half-width", "approach"};
+    static const char *const names[] = {"load", "half-width", "approach", "max-pressure"};
     const json_t *inputs = json_object_get(root, "inputs");
     char text[40];
     rb_status s = RB_OK;

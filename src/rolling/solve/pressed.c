@@ -40,40 +40,42 @@ static rb_status pressure_under(const rb_rolling_case *rc, double load, double *
     return status;
 }
 
-rb_status rb_rolling_find_load(rb_rolling_case *rc, rb_message *why)
+/* Secants in ln P over ln p, kept between loads with too little and too much pressure.  follows: 1:
+ * the zone is a multiple of the contact's half-width under each load, and at.zone is set to it; 0:
+ * a zone that fills has too much load. */
+static rb_status search(rb_rolling_case *at, double wanted, int follows, double near, double *load,
+                        rb_message *why)
 {
     enum { MOST = 60 };
-    const double wanted = rc->max_pressure, start = rb_rolling_pressure_load(rc);
-    rb_rolling_case at = *rc;
-    at.max_pressure = at.pressed_by = NAN;
-    /* On equal elements a zone that grows by steps would make the pressure jump: it is a multiple
-     * of the half-width. */
-    const int follows = rc->mesh == RB_MESH_UNIFORM && rc->zone == 0.0;
-    double multiple = NAN, low = NAN, high = NAN, x = log(start), before = NAN, off_before = NAN;
-    rb_status s = RB_OK;
+    double multiple = NAN, low = NAN, high = NAN, before = NAN, off_before = NAN;
+    double x = log(*load);
 
-    for (int k = 0; k < MOST && s == RB_OK; k++) {
+    for (int k = 0; k < MOST; k++) {
         double pressure, widest;
-        const double load = exp(x), width = rb_rolling_contact_half_width(rc, load);
-        at.zone = follows && !isnan(multiple) ? multiple * width : rc->zone;
-        s = pressure_under(&at, load, &pressure, &widest, why);
+        *load = exp(x);
+        const double width = rb_rolling_contact_half_width(at, *load);
+        if (follows)
+            at->zone = isnan(multiple) ? 0.0 : multiple * width;
+        const rb_status s = pressure_under(at, *load, &pressure, &widest, why);
         if (s == RB_ZONE && follows && !isnan(multiple)) {
             multiple *= 1.3; /* the contact has grown faster */
-            s = RB_OK;
+            continue;
+        }
+        if (s == RB_ZONE && at->zone > 0.0 && !(high - low <= NARROW) &&
+            !(isnan(low) && k == MOST / 2)) {
+            high = x;
+            x = isnan(low) ? x - M_LN2 : 0.5 * (low + high);
             continue;
         }
         if (s != RB_OK)
-            break;
+            return s;
         if (follows && isnan(multiple)) {
             multiple = widest / width;
             continue; /* the same load again, in this zone */
         }
         const double off = log(pressure / wanted);
-        if (fabs(off) <= NEAR || (high - low) <= NARROW) {
-            rc->pressed_by = load;
-            rc->zone = at.zone;
-            break;
-        }
+        if (fabs(off) <= near || (high - low) <= NARROW)
+            return RB_OK;
         *(off < 0.0 ? &low : &high) = x;
         /* the slope of ln P over ln p is 2 under Hertz's pressure */
         const double slope =
@@ -86,16 +88,41 @@ rb_status rb_rolling_find_load(rb_rolling_case *rc, rb_message *why)
         off_before = off;
         x = next;
     }
-    if (s == RB_OK && isnan(rc->pressed_by))
-        s = rb_fail(why, RB_MAXITER, "max-pressure: no load was found with %g MPa", wanted);
+    return rb_fail(why, RB_MAXITER, "max-pressure: no load was found with %g MPa", wanted);
+}
+
+rb_status rb_rolling_find_load(rb_rolling_case *rc, rb_message *why)
+{
+    /* to which the load has to be known for the zone */
+    static const double ROUGHLY = 1e-2;
+    const double wanted = rc->max_pressure, start = rb_rolling_pressure_load(rc);
+    rb_rolling_case at = *rc;
+    rb_status s = RB_OK;
+
+    at.max_pressure = at.pressed_by = NAN;
+    /* On equal elements a zone that grows by steps would make the pressure jump.  A zone of its own
+     * is found first, and the load from the beginning in this zone: a case that gives the zone has
+     * the same load, to the last bit. */
+    if (rc->mesh == RB_MESH_UNIFORM && rc->zone == 0.0) {
+        double load = start;
+        s = search(&at, wanted, 1, ROUGHLY, &load, why);
+    }
+    double load = start;
+    if (s == RB_OK)
+        s = search(&at, wanted, 0, NEAR, &load, why);
     if (s == RB_OK && rc->gap == RB_GAP_TABLE) {
-        double finer;
-        at.contact_elements *= 2;
-        s = pressure_under(&at, rc->pressed_by, &finer, NULL, why);
-        if (s == RB_OK && finer > CORNER * wanted)
+        rb_rolling_case finer = at;
+        double pressure;
+        finer.contact_elements *= 2;
+        s = pressure_under(&finer, load, &pressure, NULL, why);
+        if (s == RB_OK && pressure > CORNER * wanted)
             s = rb_fail(
                 why, RB_EINVAL,
                 "max-pressure: the pressure is unbounded at a corner of the gap: give --load");
+    }
+    if (s == RB_OK) {
+        rc->pressed_by = load;
+        rc->zone = at.zone;
     }
     return s;
 }
