@@ -185,7 +185,7 @@ static void add_body(words *w, const rb_rolling_body *b, rb_units units)
 /* The size of letters at which they fit into a line. */
 static double size_of(const words *w)
 {
-    enum { FITS = 100 }; /* letters of the largest size in a line */
+    enum { FITS = 92 }; /* letters of the largest size in a line */
     size_t letters = 0;  /* of UTF-8 */
 
     for (size_t k = 0; k < w->n; k++)
