@@ -121,6 +121,7 @@ TEST(doors_and_refusals)
     check_refused(LAYER "--max-pressure 20 --half-width 1", 64, "exclude each other");
     check_refused(LAYER "--max-pressure 0", 64, "--max-pressure: expected a number > 0");
     check_refused("curve " LAYER "--mu 0.3 --max-pressure 20", 64, "give --load");
+    check_refused(LAYER "--mu 0.3 --max-pressure 20 --error", 64, "error bars only where Hertz");
     check_refused(LAYER "--max-pressure 20 --contact-elements 20 --derivatives", 64,
                   "derivatives: under --max-pressure");
     write_file("loads.txt", "load shift\n100 0\n");

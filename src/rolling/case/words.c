@@ -768,10 +768,16 @@ static rb_status find_load(rb_case *c, rb_message *why)
 {
     const int many = c->purpose == RB_CASE_CURVE || c->purpose == RB_CASE_SPEEDS ||
                      c->purpose == RB_CASE_WEAR || rb_case_has_steps(&c->resolved);
-    return many ? rb_fail(why, RB_EINVAL,
-                          "max-pressure: with more than one state only where Hertz's formula says "
-                          "the load (half-planes of alike materials, gap parabola); give --load")
-                : rb_rolling_find_load(&c->resolved.rc, why);
+    if (many)
+        return rb_fail(why, RB_EINVAL,
+                       "max-pressure: with more than one state only where Hertz's formula says "
+                       "the load (half-planes of alike materials, gap parabola); give --load");
+    /* other meshes would have other loads, and the bar of the load would be that of none */
+    if (c->resolved.error || c->resolved.accuracy > 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "max-pressure: error bars only where Hertz's formula says the load "
+                       "(half-planes of alike materials, gap parabola); give --load");
+    return rb_rolling_find_load(&c->resolved.rc, why);
 }
 
 rb_status rb_case_resolve(rb_case *c, rb_message *why)
