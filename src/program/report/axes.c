@@ -186,7 +186,7 @@ static void add_body(words *w, const rb_rolling_body *b, rb_units units)
 static double size_of(const words *w)
 {
     enum { FITS = 92 }; /* letters of the largest size in a line */
-    size_t letters = 0;  /* of UTF-8 */
+    size_t letters = 0; /* of UTF-8 */
 
     for (size_t k = 0; k < w->n; k++)
         letters += ((unsigned char)w->text[k] & 0xc0) != 0x80;
