@@ -4,6 +4,7 @@
 
 #define LAPACK_COL_MAJOR 102
 #define LAPACK_WORK_MEMORY_ERROR (-1010)
+#define LAPACK_TRANSPOSE_MEMORY_ERROR (-1011)
 typedef int lapack_int;
 
 int LAPACKE_dgetrf_work(int layout, int m, int n, double *A, int lda, int *pivots);
