@@ -88,12 +88,14 @@ static inline void check_refused(const char *arguments, int code, const char *pa
     assert_string_equal(out, "");
 }
 
-/* For a shell: waits until process $p catches a signal, by the last digit of its mask, or has
- * ended: a signal that comes before, a shell's `&` makes it ignore. */
+/* For a shell: waits until process $p, which is the program by now, catches a signal, by the last
+ * digit of its mask, or has ended.  A shell's `&` makes the program ignore a signal that comes
+ * before, and `sh -c` itself catches SIGINT: so does its copy until it becomes the program. */
 #define WHEN_CAUGHT(digits)                                                                        \
-    "until [ ! -e /proc/$p/status ] || "                                                           \
-    "grep -q -e 'SigCgt:.*[" digits "]$' -e '^State:.*Z' /proc/$p/status; "                        \
-    "do sleep 0.01; done; "
+    "until [ ! -e /proc/$p/status ] || grep -q '^State:.*Z' /proc/$p/status || "                   \
+    "{ grep -q '^Name:.*rollbem' /proc/$p/status && "                                              \
+    "grep -q 'SigCgt:.*[" digits "]$' /proc/$p/status; }; "                                        \
+    "do sleep 0.01; done 2>/dev/null; "
 #define INT_CAUGHT "2367abef" /* bit 1 */
 #define HUP_CAUGHT "37bf"     /* bits 0 and 1: without nohup both are caught */
 
