@@ -154,7 +154,7 @@ static inline rb_rolling_case carter_case(int elements)
     return with(similar_planes(RB_STEADY, elements), "creep-ratio 0.5");
 }
 
-/* Similar steel bodies (theory.md 6): CONTACT's case. */
+/* Similar steel bodies (theory-solvers.md 6): CONTACT's case. */
 static inline rb_rolling_case steel_wheel(int across)
 {
     rb_rolling_case rc = half_plane(RB_STATIC, across + 10);

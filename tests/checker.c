@@ -485,7 +485,7 @@ static void check_friction(const contact *c, const table *t)
 }
 
 /* What the interface has yielded at element i, and the part of this step in it: steady, u
- * follows the material by the difference of the local slip (theory.md 4.10). */
+ * follows the material by the difference of the local slip (theory-rolling.md 4.10). */
 static double yielded_at(const contact *c, int n, int i)
 {
     return i < n ? json_number_value(json_array_get(c->plastic, (size_t)i)) : 0.0;
@@ -787,10 +787,10 @@ static double initial_gap(const contact *c, double x)
     return B < 0.0 ? of_a - of_b : of_a + of_b; /* a bore curves as A does */
 }
 
-/* The member of the second-order differences that theory.md 4.7 takes. */
+/* The member of the second-order differences that theory-rolling.md 4.7 takes. */
 static const double EDGE = 0.0740956;
 
-/* A third body's own part of the slip has t = 1 (theory.md 4.10): what that adds. */
+/* A third body's own part of the slip has t = 1 (theory-rolling.md 4.10): what that adds. */
 static double local_slip(const contact *c, const table *t, int i)
 {
     const double *q = t->column[Q], s = 1.0 - EDGE;
@@ -1018,7 +1018,7 @@ static double fed_by_levers(const contact *c, const table *t)
 
 /* What creepage, the curvature and a worn profile feed is lost in friction and in the
  * bodies.  The power belongs to the tractions of the contact: with surface normals Q and
- * M/R are forces in other directions, and would miss xi M/R (theory.md V4). */
+ * M/R are forces in other directions, and would miss xi M/R (theory-bodies.md V4). */
 static void check_energy(const contact *c, const table *t)
 {
     const double lost = number(c->summary, "dissipation") + number(c->summary, "hysteresis") +

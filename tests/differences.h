@@ -63,7 +63,7 @@ static void difference_take(const differences *best, differences *d)
 
 /* ---- Single cases ------------------------------------------------------------------ */
 
-/* Where p^2 through the second and third element in contact is 0 (theory.md D6). */
+/* Where p^2 through the second and third element in contact is 0 (theory-solvers.md D6). */
 static double difference_edge(const rb_rolling_model *m, int side)
 {
     const double *p = m->state.p, *x = m->mesh.ends;

@@ -80,7 +80,7 @@ await check(
 await check(
     "formulas are typeset, in the dark too",
     async (page) => {
-        await holds(page, "document.querySelectorAll('.katex-display').length > 30");
+        await holds(page, "document.querySelectorAll('.katex-display').length > 10");
         await holds(page, "document.querySelector('.katex-html .mfrac').getBoundingClientRect().height > 15");
         await page.until("document.fonts.check('16px KaTeX_Main')");
         await page.run("document.getElementById('3-boundary-elements').scrollIntoView()");

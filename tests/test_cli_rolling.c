@@ -136,7 +136,7 @@ static void check_maximum(const json_t *root, const char *name, double value, do
     CHECK_ABS(number_in(m, "y") / 0.5, y, 0.01, "y / a of %s", name);
 }
 
-/* Closed forms for nu = 0.3 (theory.md 6). */
+/* Closed forms for nu = 0.3 (theory-solvers.md 6). */
 TEST(maxima_are_those_of_hertz_and_full_sliding)
 {
     json_t *root = run_json("stress " SIMILAR "--shift 0 --mesh fitted --grid 3x3");

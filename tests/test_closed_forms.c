@@ -107,7 +107,7 @@ TEST(spence_of_complementary_parts)
     assert_true(isnan(rb_closed_spence_friction(beta, 1.0)));
 }
 
-/* theory.md 6: aluminium on steel */
+/* theory-solvers.md 6: aluminium on steel */
 TEST(bentall_johnson_published_numbers)
 {
     const double beta = 0.143834, R = 25.0;

@@ -166,8 +166,8 @@ static rb_case *solve_words(const char *const part[], rb_case_result *r)
     return c;
 }
 
-/* Westergaard's waves of p0 = 485.7 (theory.md 6), 50 rows each: 60 elements see every other
- * half of them and find 235.5; and the bar holds there, too. */
+/* Westergaard's waves of p0 = 485.7 (theory-solvers.md 6), 50 rows each: 60 elements see every
+ * other half of them and find 235.5; and the bar holds there, too. */
 TEST(elements_follow_the_waves_of_a_gap)
 {
     static const char base[] = "gap waves.txt support halfplane young 1e5 poisson 0 mu 0 load "

@@ -1,7 +1,7 @@
 /* Do the error bars hold the truth?  Random cases of every class {half-plane, hub, arc} x
  * {similar, dissimilar} x {uniform, fitted} x {static, steady, transient} against runs
  * with four times the elements of the contact and of the boundary, and four times the
- * steps.  The whole study of theory.md 5.1:
+ * steps.  The whole study of theory-solvers.md 5.1:
  *
  *     build/tests/test_error_bars 20
  *

@@ -1,4 +1,4 @@
-/* Error bars are what theory.md 5.1 says of the coarser runs: three times the spread over
+/* Error bars are what theory-solvers.md 5.1 says of the coarser runs: three times the spread over
  * n/2, 0.7 n and n contact elements, and one and a half times the difference that half of
  * the boundary makes; here these runs are made one by one. */
 #include "cases.h"

@@ -965,7 +965,7 @@ static void check_calls(const int *row, const char *the_case)
 static int may_fail(const int *row)
 {
     /* and an accuracy may be out of reach; under large friction no path is promised to
-     * lead through an interface that softens (theory.md 4.12) */
+     * lead through an interface that softens (theory-rolling.md 4.12) */
     return is(row, SOLVER, "cone") || is(row, OUTPUT, "accuracy") ||
            (is(row, INTERLAYER, "softening") && is(row, MU, "3"));
 }

@@ -66,7 +66,7 @@ TEST(exchanging_the_bodies_mirrors_the_result)
     }
 }
 
-/* Aluminium on steel (theory.md 6), free rolling, both wheels with hubs. */
+/* Aluminium on steel (theory-solvers.md 6), free rolling, both wheels with hubs. */
 static double finite_free_creepage(double ratio, double mu)
 {
     rb_rolling_case rc = with(steady_wheel(RB_BEM_HUB, 0.31), "young %g", 2.0 * 23000.0 * 1.31);

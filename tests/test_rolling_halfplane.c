@@ -174,7 +174,7 @@ TEST(the_signs_of_creepage_mirror_for_similar_bodies)
     CHECK_ABS(plus.free_creepage, 0.0, 1e-12 * plus.creepage, "free rolling");
 }
 
-/* Aluminium on steel (theory.md 6). */
+/* Aluminium on steel (theory-solvers.md 6). */
 static rb_rolling_case aluminium_on_steel(double mu)
 {
     return rolling_case("poisson 0.31 young %g poisson-b 0.28 young-b %g radius-b 50 "

@@ -17,7 +17,7 @@ static void release(rb_rolling_model *model, rb_rolling_history *history)
     rb_rolling_history_free(history);
 }
 
-/* CONTACT, n = 200, c = h (theory.md 6): distance/a, 1e4 |xi|. */
+/* CONTACT, n = 200, c = h (theory-solvers.md 6): distance/a, 1e4 |xi|. */
 static const double contact_says[][2] = {{0.04, 1.214}, {0.1, 1.243}, {0.2, 1.298}, {0.4, 1.432},
                                          {0.6, 1.619},  {0.8, 2.027}, {1.0, 2.818}, {1.4, 2.393},
                                          {2.0, 2.371},  {3.0, 2.389}};

@@ -1,4 +1,4 @@
-/* Friction laws (theory.md 4.11): coefficients that depend on slip velocity, memory and
+/* Friction laws (theory-rolling.md 4.11): coefficients that depend on slip velocity, memory and
  * temperature, proven by formulas of their own and by Coulomb's law with them. */
 #include "cases.h"
 #include "rolling/rolling.h"
@@ -114,7 +114,7 @@ TEST(ratios_refer_to_the_largest_coefficient)
     CHECK_REL(s.kappa, 45000.0 * slope * 495.0 * 1.0491 / 113889.0, 5e-3, "kappa");
 }
 
-/* ---- Figures of theory.md 4.11 ----------------------------------------------------- */
+/* ---- Figures of theory-rolling.md 4.11 ----------------------------------------------------- */
 
 /* CONTACT: 0.5941, 45 in adhesion, 36 in slip. */
 TEST(the_rail_case_is_met)
@@ -197,7 +197,7 @@ TEST(curves_have_two_branches)
 /* Two states of the same problem, both to rounding: a change of mu by one of the two
  * residuals would be 1e-13, they are 1e-4 apart, and half-way between them Coulomb's law
  * is violated.  One element at the end of the stick zone sticks in one of them and slips
- * in the other: the difference falls with the elements (theory.md F3). */
+ * in the other: the difference falls with the elements (theory-rolling.md F3). */
 TEST(one_element_more_may_stick)
 {
     static const double creep[] = {0.0009, 0.0012}, apart[] = {1.3044e-4, 3.7478e-5};

@@ -43,7 +43,7 @@ static rb_rolling_case hunter(double f, double length, int n)
     return rc;
 }
 
-/* docs/theory.md (V3): f, V tau/a_g, leading and trailing edge, p_max/p0g, M/(P a_g). The
+/* docs/theory-bodies.md (V3): f, V tau/a_g, leading and trailing edge, p_max/p0g, M/(P a_g). The
  * formulas were first evaluated with p_max/p0g = 0.3115114 in the last row; the maximum
  * of V3's pressure is 0.4428963, which the solution meets as it does in the other rows. */
 static const double rows[8][6] = {

@@ -409,7 +409,7 @@ TEST(a_long_memory_has_the_steady_approach)
     }
 }
 
-/* Hunter's exact M: f = 1, V tau = a_g (theory.md V3). */
+/* Hunter's exact M: f = 1, V tau = a_g (theory-bodies.md V3). */
 TEST(rolling_from_rest_ends_at_hunters_moment)
 {
     rb_rolling_case rc = with(relaxing(100), "relaxation-time 1 relaxation-ratio 1 half-width 1 "

@@ -216,7 +216,7 @@ TEST(a_point_outside_has_its_index)
     }
 }
 
-/* ---- Dissipation (theory.md 6) ----------------------------------------------------- */
+/* ---- Dissipation (theory-solvers.md 6) ----------------------------------------------------- */
 
 /* D = -xi Q + (1/R) int x p dx for bodies similar or not. */
 TEST(dissipation_is_the_work_of_the_forces)

@@ -1,5 +1,5 @@
 /* The half-width that distances and ratios refer to is that of the contact as it is, or there is
- * none (theory.md A1). */
+ * none (theory-rolling.md A1). */
 #include "case_words.h"
 #include "cli_run.h"
 #include "rolling/case/case.h"

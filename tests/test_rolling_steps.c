@@ -362,7 +362,7 @@ TEST(columns_are_those_of_the_solution)
     }
 }
 
-/* In a steady state D = -xi Q + (1/R) int x p dx (theory.md 6). */
+/* In a steady state D = -xi Q + (1/R) int x p dx (theory-solvers.md 6). */
 TEST(power_and_moment_balance_when_steady)
 {
     rb_rolling_case rc = with(spence(160), "formulation transient creep 1e-3 distance 12");

@@ -101,7 +101,7 @@ TEST(compressible_wheels_need_small_elements_too)
     }
 }
 
-/* Aluminium on steel (theory.md 6), both of them wheels, mu -> infinity. */
+/* Aluminium on steel (theory-solvers.md 6), both of them wheels, mu -> infinity. */
 static double bentall_johnson_error(rb_bem_support support, int elements)
 {
     rb_rolling_case rc = with(wheel(support, 2e-5), "young 60260 poisson 0.31");

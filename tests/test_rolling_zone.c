@@ -34,7 +34,7 @@ static void check_ends(const rb_rolling_solution *s, const char *what)
 
 /* ---- Edges ------------------------------------------------------------------------- */
 
-/* Full sliding: p falls like a power other than 1/2 (theory.md E1), which extrapolation
+/* Full sliding: p falls like a power other than 1/2 (theory-solvers.md E1), which extrapolation
  * of p^2 misses by up to some elements. */
 TEST(edges_of_sliding_contacts_are_those_of_fine_meshes)
 {

@@ -1,4 +1,4 @@
-/* Smooth derivatives (theory.md D8): Carter's slopes to second order; the jump at a change
+/* Smooth derivatives (theory-solvers.md D8): Carter's slopes to second order; the jump at a change
  * of zones against a solution on its other side; where zones change; refusals. */
 #include "case_words.h"
 #include "analysis/sensitivity/derivatives.h"

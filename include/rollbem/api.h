@@ -240,9 +240,9 @@ int rb_api_wear(rb_api *a, const char *law, double coefficient, double share, do
  * the case, on the elements of the solution.  The case must have one step and no error
  * bars. */
 int rb_api_derivatives(rb_api *a);
-/* The same arrays without the jumps where an element changes between stick and slip (theory.md
- * D8), as of `rollbem --smooth-derivatives`; none with respect to gap and mu of each
- * element. */
+/* The same arrays without the jumps where an element changes between stick and slip
+ * (theory-solvers.md D8), as of `rollbem --smooth-derivatives`; none with respect to gap and mu of
+ * each element. */
 int rb_api_smooth_derivatives(rb_api *a);
 /* Field of input k = 0, 1, ... of the derivatives: "name" (of its option; "mu-fall-2":
  * the second number of its list), "unit", "refusal" (the reason why it has no

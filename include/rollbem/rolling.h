@@ -92,7 +92,7 @@ rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, d
 
 void rb_rolling_profile_free(rb_rolling_profile *profile);
 
-/* ---- Friction laws (theory.md 4.11) ------------------------------------------------ */
+/* ---- Friction laws (theory-rolling.md 4.11) ------------------------------------------------ */
 
 /* A law gives the coefficient of an element from its state: place x, slip velocity v,
  * temperature.  Each row of this table has the name of a law and one line about it.  The
@@ -169,13 +169,13 @@ typedef struct {
      * creep_ratio only enter (12). steady, transient: one of creep, creep_ratio, force,
      * force_ratio. */
     double shift, creep, creep_ratio, force, force_ratio;
-    int free_axle; /* steady: A's axle is free of torque, Q = -M/R_A (theory.md V4), and
+    int free_axle; /* steady: A's axle is free of torque, Q = -M/R_A (theory-bodies.md V4), and
                       creepage and force are not given */
 
     rb_rolling_formulation formulation;
     int increments;   /* static, transient: if above 1, the bodies are first pressed and
                          then loaded tangentially, each in this number of increments
-                         (theory.md 5.3) */
+                         (theory-solvers.md 5.3) */
     double speed;     /* rolling speed [length/s]; must be > 0 if a rolling body is viscoelastic
                          or conducts heat, or if friction depends on the slip velocity */
     double time_step; /* static program of viscoelastic bodies: longest time step between
@@ -246,7 +246,7 @@ typedef struct {
 rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                                   double from, double to, rb_rolling_mesh *mesh, rb_message *why);
 /* Elements fitted to the contact edges [from, to]: ends at -cos(theta) between them, and
- * growing ones outside each edge (theory.md 5.1). */
+ * growing ones outside each edge (theory-solvers.md 5.1). */
 rb_status rb_rolling_mesh_fitted(const rb_rolling_case *rc, const rb_rolling_plan *plan,
                                  double from, double to, rb_rolling_mesh *mesh, rb_message *why);
 
@@ -366,7 +366,7 @@ typedef struct {
     double creep_ratio, force_ratio;     /* xi R/(mu a), Q/(mu P); NAN at mu = 0 */
     double half_width;                   /* of the contact, from edge to edge [length] */
     double datum;                        /* of A; NAN where it has none [length] */
-    double contact_from, contact_to;     /* outermost edges (theory.md 5.1) */
+    double contact_from, contact_to;     /* outermost edges (theory-solvers.md 5.1) */
     double nip_width;                    /* contact_to - contact_from [length] */
     int edges_bounded;            /* 1: some edge of some patch is only known to an element */
     int equal_instead;            /* 1: equal elements were used, because fitting the mesh to the
@@ -750,7 +750,7 @@ typedef struct {
 rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double depth,
                                         rb_rolling_stress_maxima *maxima, rb_message *why);
 
-/* Shakedown of A, a half-plane under repeated rolling (theory.md S1): the yield stress in
+/* Shakedown of A, a half-plane under repeated rolling (theory-bodies.md S1): the yield stress in
  * shear k at which it just shakes down to elastic behaviour, the place that decides, and
  * the residual stress along x that rolling leaves there. */
 typedef struct {
@@ -763,7 +763,7 @@ typedef struct {
 rb_status rb_rolling_shakedown_find(const rb_rolling_model *model, rb_rolling_shakedown *shakedown,
                                     rb_message *why);
 
-/* ---- Error bars (theory.md 5.1) ---------------------------------------------------- */
+/* ---- Error bars (theory-solvers.md 5.1) ---------------------------------------------------- */
 
 /* Estimated discretisation errors. */
 typedef struct {

@@ -257,7 +257,7 @@ double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v, double t
 /* The coefficient at rest and without heating. */
 double rb_rolling_law_at_rest(const rb_rolling_case *rc, double x);
 /* Largest -dmu/dv of a particle that passes an element of this length, or an upper bound if two
- * terms have different slip scales or friction remembers (theory.md F3). */
+ * terms have different slip scales or friction remembers (theory-rolling.md F3). */
 double rb_rolling_law_steepest(const rb_rolling_case *rc, double length);
 /* First bounds of the elements for the iteration: those at rest, or the given start. */
 void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_table *start,
@@ -361,7 +361,7 @@ typedef struct {
 } rb_rolling_overlap;
 
 /* Searches along the whole table; other gaps are convex, so that the bodies cannot touch
- * outside the contact (theory.md 5.1).  RB_ENOMEM. */
+ * outside the contact (theory-solvers.md 5.1).  RB_ENOMEM. */
 rb_status rb_rolling_find_overlap(const rb_rolling_model *model, const rb_contact_state *state,
                                   rb_rolling_overlap *overlap);
 
@@ -477,16 +477,16 @@ double rb_rolling_strain(const rb_rolling_case *rc, double approach, double pres
                          const char **what);
 
 /* Torques that keep both bodies rolling against M and the force Q, > 0 if they drive
- * (theory.md V4); torque_b is NAN if B is a plane. */
+ * (theory-bodies.md V4); torque_b is NAN if B is a plane. */
 void rb_rolling_torques(const rb_rolling_case *rc, double moment, double force, double *torque_a,
                         double *torque_b);
 
-/* Power per unit speed that viscoelasticity dissipates, -int t Dw ds (theory.md V4): 0
+/* Power per unit speed that viscoelasticity dissipates, -int t Dw ds (theory-bodies.md V4): 0
  * for elastic bodies; steady rolling only, otherwise NAN.  RB_ENOMEM. */
 rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power);
-/* Power per unit speed that the lever arms of wheels supply, which change as they deform (theory.md
- * V4): 0 for half-planes; steady rolling only, otherwise NAN.  hysteresis: the result of the
- * function above.  RB_ENOMEM. */
+/* Power per unit speed that the lever arms of wheels supply, which change as they deform
+ * (theory-bodies.md V4): 0 for half-planes; steady rolling only, otherwise NAN.  hysteresis: the
+ * result of the function above.  RB_ENOMEM. */
 rb_status rb_rolling_lever_power(const rb_rolling_model *model, double hysteresis, double *power);
 
 /* ---- patches.c --------------------------------------------------------------------- */
@@ -507,7 +507,7 @@ double rb_rolling_edge_exponent(const rb_rolling_case *rc, double length,
                                 const rb_contact_state *state, int j, int side);
 
 /* Smallest number of equal elements of a patch whose edges can be computed from the
- * pressure (theory.md 4.7). */
+ * pressure (theory-rolling.md 4.7). */
 enum { RB_ROLLING_ALIGNED_LEAST = 9 };
 /* And of any elements. */
 enum { RB_ROLLING_PATCH_LEAST = 5 };

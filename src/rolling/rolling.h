@@ -72,7 +72,7 @@ void rb_rolling_profile_range(const rb_rolling_profile *profile, double *from, d
  * there is not accepted. */
 double rb_rolling_profile_gap(const rb_rolling_profile *profile, double x);
 
-/* ---- Friction laws (theory.md 4.11) ------------------------------------------------ */
+/* ---- Friction laws (theory-rolling.md 4.11) ------------------------------------------------ */
 
 /* The elastic constants of a body for the plane problem of the case; the second function:
  * those of the base or core below its layer or cover. */
@@ -106,7 +106,8 @@ int rb_rolling_has_radius(const rb_rolling_case *rc);
 double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load);
 /* The half-width a of the contact under a load by formula, the unit of distances and of xi R/(mu
  * a): Hertz's; with a third body that gives way and in steady rolling of bodies that relax theirs
- * (theory.md A1), to one or two per cent; of a gap without a radius half of where it is low. */
+ * (theory-rolling.md A1), to one or two per cent; of a gap without a radius half of where it is
+ * low. */
 double rb_rolling_contact_half_width(const rb_rolling_case *rc, double load);
 /* The unit of the distances of a history under this largest load: the same of the bodies at rest,
  * where nothing has relaxed yet. */
@@ -297,7 +298,7 @@ const rb_rolling_result *rb_rolling_study_column(int k);
 
 /* Friction power per area and unit speed [stress], n values with sum power h =
  * dissipation; wear laws use it.  In steady rolling the slip is known between midpoints,
- * and half of it is assigned to each of the two elements (theory.md 6).  NAN in
+ * and half of it is assigned to each of the two elements (theory-solvers.md 6).  NAN in
  * static. */
 void rb_rolling_friction_power(const rb_rolling_solution *s, double *power);
 
@@ -507,7 +508,7 @@ void rb_rolling_variant_set(const rb_contact_state *of, const rb_contact_state *
 rb_status rb_rolling_variant_complete(rb_rolling_model *variant, double *gap, double *slip,
                                       rb_message *why);
 
-/* kappa (theory.md F3) of the state, for friction that depends on the state.  Above 1 a
+/* kappa (theory-rolling.md F3) of the state, for friction that depends on the state.  Above 1 a
  * single element, or a step, may have several solutions.  RB_ENOMEM. */
 rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa);
 /* In steady rolling kappa is the largest of those of the elements: that of one, and the element
@@ -516,7 +517,7 @@ double rb_rolling_law_kappa_of(const rb_rolling_model *model, int element);
 int rb_rolling_law_kappa_element(const rb_rolling_model *model);
 
 /* What part of the coefficient that it had before it a particle keeps behind element i, of friction
- * with a memory (theory.md F2). */
+ * with a memory (theory-rolling.md F2). */
 double rb_rolling_law_kept(const rb_rolling_model *model, int i);
 
 /* Several solutions of one steady case, ordered by decreasing force. */
@@ -530,7 +531,7 @@ typedef struct {
 /* Finds different solutions of a steady model with a given creepage under a friction law
  * that depends on the state: the model's solution, and those to which the iteration
  * converges on the model's mesh when slip is assumed behind a given place; up to 200
- * places are tried (theory.md F5).  Solutions to which it does not converge are not
+ * places are tried (theory-rolling.md F5).  Solutions to which it does not converge are not
  * found.  The model then holds the last state.  RB_EINVAL: other cases. all: overwritten;
  * free it in any case. */
 rb_status rb_rolling_find_solutions(rb_rolling_model *model, rb_rolling_solutions *all,
@@ -752,7 +753,7 @@ rb_status rb_rolling_step_between(const rb_rolling_case *rc, double from, double
                                   const rb_rolling_solution *before, const rb_rolling_table *start,
                                   double step, rb_rolling_solution *solution, rb_message *why);
 
-/* ---- Error bars (theory.md 5.1) ---------------------------------------------------- */
+/* ---- Error bars (theory-solvers.md 5.1) ---------------------------------------------------- */
 
 /* Estimates the errors of a case that is already solved; solution: complete, in mm, N,
  * MPa.  stress, stress_b: its maxima in all of A and of B if error bars for them are wanted,

@@ -1,4 +1,4 @@
-/* The least sum of squares of a fit (theory.md, D5): Levenberg's and Marquardt's method
+/* The least sum of squares of a fit (theory-solvers.md, D5): Levenberg's and Marquardt's method
  * (GSL's) and, where zones change at the minimum, Gauss and Newton's method for residuals
  * with kinks. */
 #include "analysis/fit/fit.h"

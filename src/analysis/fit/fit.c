@@ -1,4 +1,4 @@
-/* Numbers of a case fitted to measured forces (theory.md, D5): where to start, intervals,
+/* Numbers of a case fitted to measured forces (theory-solvers.md, D5): where to start, intervals,
  * and all together. */
 #include "analysis/fit/fit.h"
 
@@ -457,7 +457,7 @@ static int has_several(const fit_problem *p)
 }
 
 /* RB_INACCURATE, with the sliding distance of a memory that makes kappa a half: kappa is
- * inverse to a long one (theory.md F3). */
+ * inverse to a long one (theory-rolling.md F3). */
 static rb_status refuse_several(fit_problem *p, const double *theta, rb_message *why)
 {
     const double length = 1e6 * p->c->resolved.derived.half_width;

@@ -1,4 +1,4 @@
-/* A fit of numbers of a case to measured forces (theory.md, D5): what the files of this
+/* A fit of numbers of a case to measured forces (theory-solvers.md, D5): what the files of this
  * folder share. */
 #ifndef ROLLBEM_CASE_FIT_H
 #define ROLLBEM_CASE_FIT_H
@@ -60,16 +60,17 @@ rb_status rb_case_fit_accept(fit_problem *p, const double *theta, rb_message *wh
  * in another zone (rb_sensitivity_extend). */
 rb_status rb_case_fit_extend(fit_problem *p, const double *theta, int k, int element, int zone,
                              double *f, double *row, rb_message *why);
-/* Gives J the derivatives on elements that move with the numbers (theory.md, D6); columns of
- * numbers that change nothing then are 0.  And kappa of the elements for theta. */
+/* Gives J the derivatives on elements that move with the numbers (theory-solvers.md, D6); columns
+ * of numbers that change nothing then are 0.  And kappa of the elements for theta. */
 rb_status rb_case_fit_move(fit_problem *p, const double *theta, rb_message *why);
 /* The sum of squares for theta, on elements of their own where these move, as far as it is below
  * `limit`: larger, or INFINITY, otherwise.  f: the residuals of all points, with limit INFINITY;
  * NULL: not asked for. INFINITY where a point has no solution. */
 rb_status rb_case_fit_sum(fit_problem *p, const double *theta, double limit, double *f, double *sum,
                           rb_message *why);
-/* The largest kappa (theory.md, F3) of the points for theta, without solving them: pressures hardly
- * depend on friction.  memory: the sliding distance of friction with memory; NAN: the case's. */
+/* The largest kappa (theory-rolling.md, F3) of the points for theta, without solving them:
+ * pressures hardly depend on friction.  memory: the sliding distance of friction with memory; NAN:
+ * the case's. */
 rb_status rb_case_fit_kappa(fit_problem *p, const double *theta, double memory, double *kappa,
                             rb_message *why);
 /* Frees the solutions of all points with the accepted numbers, or those of a trial. */

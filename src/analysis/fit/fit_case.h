@@ -5,7 +5,7 @@
 #include "analysis/sensitivity/derivatives.h"
 #include "rolling/case/case.h"
 
-/* ---- Fits to measured creep curves (theory.md, D5) ---------------------------------- */
+/* ---- Fits to measured creep curves (theory-solvers.md, D5) ---------------------------------- */
 
 enum { RB_CASE_FIT_MAX = 12 };
 

@@ -1,4 +1,4 @@
-/* The measured points of a fit: their elements, solutions and derivatives (theory.md, D5).
+/* The measured points of a fit: their elements, solutions and derivatives (theory-solvers.md, D5).
  * Elements stay those of the first solution of each point while the numbers move, so that
  * the sum of squares is continuous. */
 #include "analysis/fit/fit.h"

@@ -1,8 +1,8 @@
-/* Lesser sums of squares around the numbers of a fit (theory.md, D5).  Where elements move with
- * the numbers, the sum has small jumps, between which derivatives lead to a minimum that is none.
- * Here every sum is that of new elements, where these move, and differences over wide steps pass
- * over the jumps: Gauss's and Newton's method with secants whose steps become smaller (implicit
- * filtering). */
+/* Lesser sums of squares around the numbers of a fit (theory-solvers.md, D5).  Where elements move
+ * with the numbers, the sum has small jumps, between which derivatives lead to a minimum that is
+ * none. Here every sum is that of new elements, where these move, and differences over wide steps
+ * pass over the jumps: Gauss's and Newton's method with secants whose steps become smaller
+ * (implicit filtering). */
 #include "analysis/fit/fit.h"
 
 #include <lapacke.h>

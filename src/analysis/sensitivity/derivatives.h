@@ -50,7 +50,7 @@ typedef struct {
 rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model, int n,
                                 const char *const *names, rb_case_derivatives *all,
                                 rb_message *why);
-/* The same with smooth derivatives (theory.md, D8). */
+/* The same with smooth derivatives (theory-solvers.md, D8). */
 rb_status rb_case_differentiate_smoothly(const rb_case *c, const rb_rolling_model *model, int n,
                                          const char *const *names, rb_case_derivatives *all,
                                          rb_message *why);

@@ -1,4 +1,4 @@
-/* Derivatives of the results of a case with respect to one of its numbers (theory.md,
+/* Derivatives of the results of a case with respect to one of its numbers (theory-solvers.md,
  * D4). At four (five at the end of a range) values of the number nearby the problem is
  * built anew on the same elements: its equations at the unknowns that are there give the
  * rates, and the results of the unknowns moved along the tangent their derivatives.

@@ -1,4 +1,4 @@
-/* The equations of a contact whose zones are known (theory.md, D1), and the derivatives
+/* The equations of a contact whose zones are known (theory-solvers.md, D1), and the derivatives
  * of the friction law with respect to slips and tractions. */
 #include "analysis/sensitivity/internal.h"
 

@@ -1,4 +1,4 @@
-/* Solutions close to one whose Jacobian is known (theory.md, D1): Newton's method with
+/* Solutions close to one whose Jacobian is known (theory-solvers.md, D1): Newton's method with
  * zones that may change from step to step. */
 #include "analysis/sensitivity/internal.h"
 

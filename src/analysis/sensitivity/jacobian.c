@@ -1,4 +1,4 @@
-/* The Jacobian of a contact whose zones are known (theory.md, D1), and its solves. */
+/* The Jacobian of a contact whose zones are known (theory-solvers.md, D1), and its solves. */
 #include "analysis/sensitivity/internal.h"
 
 #include <cblas.h>

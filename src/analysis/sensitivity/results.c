@@ -1,4 +1,4 @@
-/* Derivatives of results: how those of variants, moved along a tangent, change (theory.md,
+/* Derivatives of results: how those of variants, moved along a tangent, change (theory-solvers.md,
  * D4); what of them is rounding. */
 #include "analysis/sensitivity/internal.h"
 

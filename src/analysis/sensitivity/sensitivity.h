@@ -1,4 +1,4 @@
-/* Derivatives of a solved case with respect to its numbers (theory.md, D1 ... D4).  With
+/* Derivatives of a solved case with respect to its numbers (theory-solvers.md, D1 ... D4).  With
  * the zones of the solution the problem is linear; its tangent gives the derivatives of
  * tractions, approach and creepage, and from these follow the derivatives of all results.
  * Elements that the program has placed move with the contact, as they do in a solve with

@@ -1,4 +1,5 @@
-/* Derivatives in columns: at every point of a curve, in every case of a study (theory.md, D2). */
+/* Derivatives in columns: at every point of a curve, in every case of a study (theory-solvers.md,
+ * D2). */
 #include "analysis/sensitivity/derivatives.h"
 #include "analysis/sensitivity/sensitivity.h"
 #include "rolling/case/words.h"

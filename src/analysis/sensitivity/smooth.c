@@ -1,4 +1,4 @@
-/* Derivatives without the jumps at changes of zones (theory.md, D8). Where stick meets
+/* Derivatives without the jumps at changes of zones (theory-solvers.md, D8). Where stick meets
  * slip, the tangent tells at which values of the input the two elements there change their
  * zones. The jump of the derivative at the nearer value follows from the exchange of one
  * equation. Up to half of it is added, so that the derivative is continuous there. */

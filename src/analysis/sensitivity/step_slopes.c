@@ -1,4 +1,4 @@
-/* Derivatives after every step of a history (theory.md, D7). */
+/* Derivatives after every step of a history (theory-solvers.md, D7). */
 #include "analysis/sensitivity/derivatives.h"
 #include "analysis/sensitivity/sensitivity.h"
 #include "rolling/case/words.h"

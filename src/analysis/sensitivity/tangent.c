@@ -1,4 +1,4 @@
-/* Tangents of a solved contact (theory.md, D2), also if elements are at the border of two
+/* Tangents of a solved contact (theory-solvers.md, D2), also if elements are at the border of two
  * zones. */
 #include "analysis/sensitivity/internal.h"
 

@@ -1,5 +1,6 @@
 /* Variants of a solved model, at the values of an input nearby, and what they tell of the
- * equations (theory.md, D2, D4): built anew on the same elements, or on elements that are moved. */
+ * equations (theory-solvers.md, D2, D4): built anew on the same elements, or on elements that are
+ * moved. */
 #include "analysis/sensitivity/internal.h"
 
 #include <string.h>

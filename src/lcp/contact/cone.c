@@ -1,5 +1,5 @@
 /* The bridge to the cone solvers of the caller: a contact problem with given approach and
- * creepage as u = W r + q in the frame [N, T] of each element (theory.md 5). */
+ * creepage as u = W r + q in the frame [N, T] of each element (theory-solvers.md 5). */
 #include "lcp/contact/internal.h"
 
 #include <stdlib.h>

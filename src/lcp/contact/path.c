@@ -1,4 +1,4 @@
-/* The piecewise linear path (Katzenelson's method; theory.md 5).  Terms are added to the
+/* The piecewise linear path (Katzenelson's method; theory-solvers.md 5).  Terms are added to the
  * data of the problem such that the zones of the state solve it; they are multiplied by
  * t, which goes from 1 to 0.  p, q, slips and gaps are linear in t up to the point where
  * the first element leaves its zone; only this element then changes its zone.  If it

@@ -1,4 +1,4 @@
-/* A layer between the surfaces that yields (theory.md, Y1): beside Coulomb's bound mu p
+/* A layer between the surfaces that yields (theory-rolling.md, Y1): beside Coulomb's bound mu p
  * the friction has a second one, which follows what the layer has yielded.  With every
  * element's law known the problem is linear, as in newton.c: solved by GMRES where there
  * are products, else by a matrix that is assembled again in each step, because the rows

@@ -1,4 +1,4 @@
-/* Hysteresis computed independently (theory.md V4, V8): the tractions are decomposed into
+/* Hysteresis computed independently (theory-bodies.md V4, V8): the tractions are decomposed into
  * waves, and the loss of each wave follows from the imaginary part of its compliance.
  * The library computes the loss from matrices and from differences along the contact,
  * which are not used here. */

@@ -58,9 +58,10 @@ int cli_verify(int argc, char **argv)
     int json = 0;
     const cli_spec spec = {
         .synopsis = "rollbem verify [--json]",
-        .about = "Computes every closed-form and published reference of docs/theory.md 6 and\n"
-                 "prints what was wanted, what came out, the error and its bound, one line\n"
-                 "each. Exit code 0 only if all hold.",
+        .about =
+            "Computes every closed-form and published reference of docs/theory-solvers.md 6 and\n"
+            "prints what was wanted, what came out, the error and its bound, one line\n"
+            "each. Exit code 0 only if all hold.",
         .sets = {{options, sizeof options / sizeof options[0], &json, NULL, NULL}},
         .set_n = 1};
     cli_args args = {0};

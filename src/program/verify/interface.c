@@ -108,7 +108,7 @@ static void falling_friction(rb_verify *v)
 }
 
 /* Brushes that yield: q grows by xi/L_T per length from the leading edge to the yield
- * stress, by xi/(L_T + 1/k) to mu p, and is mu p then (theory.md Y2). */
+ * stress, by xi/(L_T + 1/k) to mu p, and is mu p then (theory-rolling.md Y2). */
 static void yielding_brushes(rb_verify *v, int elements, double bound)
 {
     rb_rolling_case rc = stiff_bodies(elements);

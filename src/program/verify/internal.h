@@ -36,7 +36,7 @@ rb_rolling_case rb_verify_uncoupled(void);
 /* Makes B a plane of A's material and support. */
 void rb_verify_on_same(rb_rolling_case *rc);
 
-/* Aluminium on steel rolling freely, R_A = R_B = 50, a = 0.1 (theory.md 6). */
+/* Aluminium on steel rolling freely, R_A = R_B = 50, a = 0.1 (theory-solvers.md 6). */
 rb_rolling_case rb_verify_aluminium_on_steel(double mu);
 
 void rb_verify_contact(rb_verify *v);   /* Hertz, Carter, Cattaneo, Bentall-Johnson */

@@ -18,7 +18,7 @@ static double creepage_at(const rb_rolling_history *h, double distance)
     return h->n > 0 ? h->creepage[nearest] : NAN;
 }
 
-/* Steel on steel from rest to Q = 0.64 mu P: theory.md 6, computed with CONTACT, 200
+/* Steel on steel from rest to Q = 0.64 mu P: theory-solvers.md 6, computed with CONTACT, 200
  * elements across, steps of one element.  Near the kink at 0.8 it still moves with n. */
 static void cattaneo_to_carter(rb_verify *v)
 {

@@ -1,4 +1,4 @@
-/* Comparison of the program with reference values (theory.md 6): closed forms and
+/* Comparison of the program with reference values (theory-solvers.md 6): closed forms and
  * published results. */
 #ifndef ROLLBEM_VERIFY_H
 #define ROLLBEM_VERIFY_H

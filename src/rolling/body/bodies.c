@@ -82,7 +82,7 @@ static rb_status join_bodies(const rb_rolling_case *rc, const rb_rolling_plan *p
                              rb_message *why)
 {
     /* hysteresis is made of it, because what turns with a wheel costs nothing;
-     * half-planes move straight on (theory.md V4) */
+     * half-planes move straight on (theory-bodies.md V4) */
     one_body[0].keeps_memory = one_body[1].keeps_memory =
         rc->formulation == RB_STEADY && !rb_rolling_can(rc, RB_BODY_FLAT);
     rb_status s = body_flexibility(rc, plan, &rc->a, mesh, transforms, &one_body[0], why);

@@ -52,7 +52,7 @@ static double coupling(rb_bem_material m)
 }
 
 /* Solves a^2/(4R) (2 ln(4R/a) - 1) = delta for a, the compression of a half-cylinder
- * (theory.md 6).  Newton's method starts where the contact is never wider: at the overlap
+ * (theory-solvers.md 6).  Newton's method starts where the contact is never wider: at the overlap
  * of the rigid shapes, or at 0.7 R.  It ends at rounding, because the width of the
  * automatic zone, and with it every result, follows from a. */
 static double half_width_of_approach(double radius, double approach)

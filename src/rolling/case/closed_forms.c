@@ -1,4 +1,4 @@
-/* Closed forms of theory.md 6. */
+/* Closed forms of theory-solvers.md 6. */
 #include "rolling/case/closed_forms.h"
 
 #include <math.h>

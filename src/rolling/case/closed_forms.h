@@ -1,4 +1,4 @@
-/* Closed forms of plane contact on half-planes (theory.md 6): `rollbem verify`, the tests
+/* Closed forms of plane contact on half-planes (theory-solvers.md 6): `rollbem verify`, the tests
  * and the pictures compare results with them.  1/E* = sum (1 - nu^2)/E; loads per unit
  * length. References: Johnson, Contact Mechanics (1985), chapters 4, 7, 8; Bentall and
  * Johnson, Int. J. Mech. Sci. 9 (1967) 389-404. */

@@ -1,4 +1,4 @@
-/* Viscoelastic bodies, step by step (theory.md V5, V6).  In a step each of them behaves
+/* Viscoelastic bodies, step by step (theory-bodies.md V5, V6).  In a step each of them behaves
  * like an elastic body that is softer than the glassy one and has an initial displacement
  * from earlier loads.  Filtered tractions are stored, not displacements: tractions move
  * with the material and are zero where there was no load, while displacements are nonzero

@@ -1,5 +1,5 @@
 /* Wear: a sequence of steps of two contact problems, each of which includes the wear of its own
- * stage implicitly (theory.md 4.9). */
+ * stage implicitly (theory-rolling.md 4.9). */
 #include "rolling/history/internal.h"
 
 #include <gsl/gsl_math.h>

@@ -1,5 +1,5 @@
 /* Equal elements aligned with the contact: both edges are ends of elements, so that the
- * second-order slip operator has its second order (theory.md 4.7). */
+ * second-order slip operator has its second order (theory-rolling.md 4.7). */
 #include "rolling/internal.h"
 
 enum {

@@ -1,5 +1,5 @@
 /* Elements fitted to the patches of the contact, whose edges are known only from a
- * solution (theory.md 5.1). */
+ * solution (theory-solvers.md 5.1). */
 #include "rolling/internal.h"
 
 #include <string.h>

@@ -20,9 +20,9 @@ typedef struct {
 } kinematic;
 
 /* The member t of the family of second-order differences whose leading edge is not
- * shifted (theory.md 4.7): ((1-t)/4, (3+3t)/4, -(5+3t)/4, (1+t)/4).  The local part of
+ * shifted (theory-rolling.md 4.7): ((1-t)/4, (3+3t)/4, -(5+3t)/4, (1+t)/4).  The local part of
  * F_TT takes another member of the family: t = 1, whose leading edge is not shifted there
- * (theory.md 4.10). */
+ * (theory-rolling.md 4.10). */
 static rb_status set_kinematic(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                                kinematic *A)
 {
@@ -293,7 +293,7 @@ static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *
     if (rc->yield_stress > 0.0) {
         /* How far the interface has yielded where the material comes from (Y1): steadily
          * rolled u follows the slip by the difference that the local part of F_TT has
-         * (theory.md 4.10); in a step it begins with what the past has left. */
+         * (theory-rolling.md 4.10); in a step it begins with what the past has left. */
         p->recall[0] = second ? 4.0 / 3.0 : rolls ? 1.0 : 0.0;
         p->recall[1] = second ? -1.0 / 3.0 : 0.0;
         p->own = second ? 2.0 / 3.0 : 1.0;

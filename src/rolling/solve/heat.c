@@ -1,5 +1,5 @@
 /* Flash temperature: friction heats the surfaces on their way through the contact
- * (theory.md 4.8). */
+ * (theory-rolling.md 4.8). */
 #include "rolling/internal.h"
 
 #include <cblas.h>

@@ -1,4 +1,4 @@
-/* Friction laws (theory.md 4.11): the coefficient of an element from its state. */
+/* Friction laws (theory-rolling.md 4.11): the coefficient of an element from its state. */
 #include "rolling/internal.h"
 
 #include <gsl/gsl_interp.h>

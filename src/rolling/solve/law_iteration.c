@@ -1,4 +1,4 @@
-/* States whose coefficients of friction depend on them (theory.md 4.11): the contact
+/* States whose coefficients of friction depend on them (theory-rolling.md 4.11): the contact
  * problem with the coefficients of the state before, until they do not change. */
 #include "rolling/internal.h"
 

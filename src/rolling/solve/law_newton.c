@@ -1,4 +1,4 @@
-/* Newton's method for friction that depends on the state (theory.md F1): it solves b =
+/* Newton's method for friction that depends on the state (theory-rolling.md F1): it solves b =
  * T(b), where T(b) are the coefficients of the law for the contact solved with the bounds
  * b.  The derivative of T along a direction is a difference of two solved contacts, so
  * that the method works for all laws, for coupled bodies and for operators without a

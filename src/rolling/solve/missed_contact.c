@@ -1,5 +1,5 @@
 /* The gap beyond the elements that could carry load: if the gap is a table, the bodies
- * may touch at places without elements (theory.md 5.1). */
+ * may touch at places without elements (theory-solvers.md 5.1). */
 #include "rolling/internal.h"
 
 #include <cblas.h>

@@ -13,7 +13,7 @@
  * inaccurate, from those below it does not hold at all. */
 static const double inaccurate_approach = 0.02, inaccurate_width = 0.1;
 /* An element by itself has other states from kappa = 1 on, several together a little
- * earlier (theory.md F3). */
+ * earlier (theory-rolling.md F3). */
 static const double not_unique = 0.95;
 static const double broken_approach = 0.1, broken_width = 0.3;
 

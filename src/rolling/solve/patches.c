@@ -1,4 +1,4 @@
-/* Where the contact begins and ends: its patches and their edges (theory.md 5.1). */
+/* Where the contact begins and ends: its patches and their edges (theory-solvers.md 5.1). */
 #include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>

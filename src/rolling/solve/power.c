@@ -31,7 +31,7 @@ void rb_rolling_friction_power(const rb_rolling_solution *s, double *power)
 
 /* Slip i times a traction, per rolled way.  The upstream difference of steady rolling is
  * the slip between two midpoints, so it is paired with the mean of their tractions
- * (theory.md 6); otherwise slip and traction belong to the same point. */
+ * (theory-solvers.md 6); otherwise slip and traction belong to the same point. */
 static double slip_times(const rb_rolling_case *rc, int n, const double *lambda,
                          const double *traction, const double *h, const double *e_T, int i)
 {

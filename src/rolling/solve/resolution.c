@@ -1,5 +1,5 @@
 /* How short elements must be for the tables of a case: the gap is known to the contact at the
- * midpoints of elements alone, and what lies between them is lost (theory.md 5.1). */
+ * midpoints of elements alone, and what lies between them is lost (theory-solvers.md 5.1). */
 #include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>

@@ -1,4 +1,4 @@
-/* Shakedown of a body under repeated rolling (theory.md S1), from the elastic stress
+/* Shakedown of a body under repeated rolling (theory-bodies.md S1), from the elastic stress
  * below the contact. */
 #include "rolling/solve/results.h"
 

@@ -1,5 +1,5 @@
 /* The same contact on the same elements for a slightly different case; derivatives of a
- * solution are computed from such variants (theory.md, D1). */
+ * solution are computed from such variants (theory-solvers.md, D1). */
 #include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>

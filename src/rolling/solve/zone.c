@@ -1,5 +1,5 @@
 /* The potential contact: the interval with elements, which must enclose the whole contact
- * (theory.md 5.1). */
+ * (theory-solvers.md 5.1). */
 #include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>
@@ -58,7 +58,7 @@ static int is_loaded(const rb_contact_state *state, int i)
 
 /* A layer or cover that is nearly incompressible carries by waves as short as it is
  * thick: longer elements make the load of nu = 1/2 wrong by 2 % and more.  Others are
- * mattresses when they are thin, which any element resolves (theory.md L4). */
+ * mattresses when they are thin, which any element resolves (theory-bodies.md L4). */
 static rb_status check_resolved(const rb_rolling_model *model, rb_message *why)
 {
     static const double nearly_incompressible = 0.49;
@@ -273,7 +273,7 @@ static rb_status grown(const rb_rolling_model *model, interval zone, interval *w
 
 /* A zone that is wide enough.  Where the first one is symmetric and follows a load it is a
  * multiple of that one, so that it grows with a formula and not with the elements that were
- * found in contact (theory.md D6); under a given approach the first one is an estimate. */
+ * found in contact (theory-solvers.md D6); under a given approach the first one is an estimate. */
 static interval tightened(const rb_rolling_case *rc, interval wanted)
 {
     static const double steps = 16.0; /* to a factor of two */
@@ -378,7 +378,7 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
         rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge.from, &edge.to);
         if (isnan(rb_rolling_derive(model->rc).load)) {
             /* those of elements, which move with the first zone alone and not with the
-             * pressure: derivatives know how (theory.md D6) */
+             * pressure: derivatives know how (theory-solvers.md D6) */
             int left, right;
             separated_at_ends(&model->state, &left, &right);
             edge = (interval){model->mesh.ends[left], model->mesh.ends[model->mesh.n - right]};

@@ -1,5 +1,5 @@
 /* Several steady solutions of one case, which may exist if friction depends strongly on
- * the state (theory.md F5). */
+ * the state (theory-rolling.md F5). */
 #include "rolling/study/internal.h"
 
 #include <stdlib.h>

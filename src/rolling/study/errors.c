@@ -1,4 +1,4 @@
-/* Discretisation errors from coarser runs (theory.md 5.1). */
+/* Discretisation errors from coarser runs (theory-solvers.md 5.1). */
 #include "rolling/study/internal.h"
 
 #include <gsl/gsl_math.h>

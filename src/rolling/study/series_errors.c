@@ -1,5 +1,5 @@
 /* Error bars of curves and histories: every entry of a column has one, as a scalar of a
- * solution has (theory.md 5.1). */
+ * solution has (theory-solvers.md 5.1). */
 #include "rolling/study/internal.h"
 
 #include <float.h>
