@@ -188,6 +188,35 @@ TEST(first_yield_comes_before_shakedown)
     CHECK_REL(number_in(limit, "limit"), 4.0, 2e-3, "Melan");
 }
 
+/* Carter's tractions: inside, A and B need different yield stresses; at the surface both need the
+ * same, p0/k = 1/(mu sqrt(4 s (1 - s) + s^3)), and in B that decides at mu .3, s .5. */
+TEST(shakedown_of_b_is_decided_at_its_surface)
+{
+    static const struct {
+        double mu, s, a, a_depth, b, b_depth;
+    } rows[] = {{0.3, 0.5, 3.0215, 0.359, 3.1427, 0.0}, {0.25, 0.7, 3.0751, 0.392, 3.1053, 0.431}};
+    CHECK_ABS(1.0 / (0.3 * sqrt(4.0 * 0.5 * 0.5 + 0.125)), 3.1427, 5e-5, "the closed form");
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
+        for (int n = 100; n <= 101; n++) {
+            /* equal elements need not end where the stick zone does */
+            rb_rolling_case rc = rolling_case(
+                "similar young 210000 poisson 0.3 radius 1000 support halfplane gap parabola "
+                "half-width 1 mu %g formulation steady creep-ratio %g mesh %s contact-elements %d",
+                rows[k].mu, rows[k].s, n % 2 ? "uniform" : "fitted", n);
+            OWNED(rb_rolling_model) model = solved_model(&rc);
+            held_mirror *b = NULL;
+            rb_rolling_shakedown of_a, of_b;
+            const double p0 = 210000.0 / 0.91 / 4000.0;
+            CHECK_OK(rb_rolling_mirror_create(&model, &b, &heard));
+            CHECK_OK(rb_rolling_shakedown_find(&model, &of_a, &heard));
+            CHECK_OK(rb_rolling_shakedown_find(&b->model, &of_b, &heard));
+            CHECK_REL(p0 / of_a.shear_yield, rows[k].a, 5e-4, "A, mu = %g", rows[k].mu);
+            CHECK_ABS(of_a.y, rows[k].a_depth, 5e-3, "A, depth");
+            CHECK_REL(p0 / of_b.shear_yield, rows[k].b, 6e-4, "B, mu = %g", rows[k].mu);
+            CHECK_ABS(of_b.y, rows[k].b_depth, 5e-3, "B, depth");
+        }
+}
+
 /* ---- Doors ------------------------------------------------------------------------- */
 
 TEST(certificates_know_the_body)

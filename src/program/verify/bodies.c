@@ -191,6 +191,7 @@ static void below_in_b(rb_verify *v)
     rb_rolling_solution s = {0};
     rb_rolling_stress at[2] = {{.sxx = NAN}, {.sxx = NAN}};
     rb_rolling_stress_maxima most = {.tension = {NAN, NAN, NAN, RB_MATERIAL_BODY}};
+    rb_rolling_shakedown limit = {.shear_yield = NAN};
     rb_message why = {""};
     rc.a.poisson = 0.3;
     rb_verify_on_same(&rc);
@@ -208,6 +209,8 @@ static void below_in_b(rb_verify *v)
         status = rb_rolling_stress_at(&b->model, 2, points, at, &why);
     if (status == RB_OK)
         status = rb_rolling_stress_maxima_find(&b->model, 0.0, &most, &why);
+    if (status == RB_OK)
+        status = rb_rolling_shakedown_find(&b->model, &limit, &why);
     rb_verify_note(v, status, &why);
     rb_rolling_mirror_stress(2, at, NULL);
     for (int k = 0; k < 2; k++) {
@@ -222,6 +225,8 @@ static void below_in_b(rb_verify *v)
     }
     rb_verify_relative(v, most.tension.value / p0, 0.6 * (2.0 * sqrt(0.5) - 0.5), 1e-3,
                        "body B under Carter's tractions: tension at its edge / p0");
+    rb_verify_relative(v, p0 / limit.shear_yield, 1.0 / (0.3 * sqrt(1.125)), 5e-4,
+                       "body B under Carter's tractions: shakedown, p0/k");
     rb_rolling_mirror_free(b);
     rb_rolling_model_free(&model);
     rb_rolling_solution_free(&s);

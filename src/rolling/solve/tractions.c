@@ -2,6 +2,7 @@
 #include "rolling/solve/results.h"
 
 #include <gsl/gsl_math.h>
+#include <string.h>
 
 /* Parts of the interval between the next midpoints, and how many elements at an edge are
  * replaced. */
@@ -29,6 +30,17 @@ static double pressure_beyond(const edge *e, double t)
     return pow(fmax(1.0 + t * (e->b + e->c * t), 0.0), e->exponent);
 }
 
+/* The parabola 1 + b t + c t^2 through three points, the first at t = 0; its root, 0 where there is
+ * none ahead. */
+static double set_parabola(edge *e, const double t[3], const double y[3])
+{
+    const double slope = (y[1] - y[0]) / t[1], next = (y[2] - y[1]) / (t[2] - t[1]);
+    e->c = (next - slope) / t[2];
+    e->b = slope - e->c * t[1];
+    const double square = e->b * e->b - 4.0 * e->c;
+    return e->b < 0.0 && square >= 0.0 ? 2.0 / (sqrt(square) - e->b) : 0.0;
+}
+
 /* With so many elements replaced, by the parabola through three that lie so many apart. */
 static edge edge_with(const patch *r, int side, int replaced, int apart)
 {
@@ -47,13 +59,7 @@ static edge edge_with(const patch *r, int side, int replaced, int apart)
         d[i] = side * (r->x[j] - r->x[e.from]);
         y[i] = pow(r->p[j] / r->p[e.from], 1.0 / e.exponent);
     }
-    const double slope = (y[1] - y[0]) / d[1], next = (y[2] - y[1]) / (d[2] - d[1]);
-    e.c = (next - slope) / d[2];
-    e.b = slope - e.c * d[1];
-    const double square = e.b * e.b - 4.0 * e.c;
-    if (!(e.b < 0.0 && square >= 0.0))
-        return e;
-    const double reach = 2.0 / (sqrt(square) - e.b);
+    const double reach = set_parabola(&e, d, y);
     /* An edge lies in the last loaded or in the first open element, not beyond the middle
      * of one that stands between two patches, and the elements that are replaced have about
      * the pressure that is put in their place. */
@@ -144,6 +150,108 @@ static void add_interval(const patch *r, int j, int parts, double exponent, rb_b
     }
 }
 
+/* ---- Ends of stick ------------------------------------------------------------------ */
+
+/* Where slip begins beside stick the friction has an infinite slope: what is left of its bound,
+ * g = f p - q, f the ratio in slip, starts like the root of the distance d from there.  As at an
+ * edge g^2 is a parabola, through three elements of the stick zone. */
+typedef struct {
+    edge of;      /* of g, with its exponent 1/2 */
+    int slips;    /* the first element that slips */
+    double ratio; /* q/p in slip */
+    double least; /* g at the trusted midpoint, with its sign */
+} stick_end;
+
+static double unused(const patch *r, int j, double ratio)
+{
+    return ratio * r->p[j] - r->q[j];
+}
+
+/* The stick zone ends behind its element `sticks`, towards `side`; first, last: the elements whose
+ * midpoints are trusted beside the edges.  reach = 0: nothing is known. */
+static stick_end stick_end_of(const patch *r, int sticks, int side, int first, int last)
+{
+    const int *zone = r->state->zone;
+    const int slips = sticks + side, from = sticks - side * LEAST_REPLACED, inner = from - 2 * side;
+    stick_end e = {.of = {.from = from, .side = side, .exponent = 0.5}, .slips = slips};
+
+    /* friction that feeds back on the pressure ends with another power */
+    if (rb_rolling_derive(r->rc).dundurs != 0.0 || slips < first || slips > last || inner < first ||
+        inner > last || zone[slips] < RB_ZONE_SLIP_NEGATIVE || zone[slips] > RB_ZONE_SLIP_POSITIVE)
+        return e;
+    double d[3], y[3];
+    e.ratio = r->q[slips] / r->p[slips];
+    e.least = unused(r, from, e.ratio);
+    for (int i = 0; i < 3; i++) {
+        const int j = from - side * i;
+        if (zone[j] != RB_ZONE_STICK)
+            return e;
+        d[i] = side * (r->x[j] - r->x[from]);
+        y[i] = gsl_pow_2(unused(r, j, e.ratio) / e.least);
+    }
+    /* between the midpoints of the last element but one that sticks and of the second that slips */
+    const int beyond = slips + side, before = sticks - side;
+    const double reach = set_parabola(&e.of, d, y);
+    if (beyond >= first && beyond <= last && reach > side * (r->x[before] - r->x[from]) &&
+        reach < side * (r->x[beyond] - r->x[from]))
+        e.of.reach = reach;
+    return e;
+}
+
+/* A node on the chord between its neighbours. */
+static void insert_node(rb_bem_edge_load *load, double *x, double *p, double *q, double at)
+{
+    int i = load->n - 1;
+    while (i > 0 && x[i] > at)
+        i--;
+    if (x[i] >= at || i + 1 >= load->n)
+        return;
+    const double part = (at - x[i]) / (x[i + 1] - x[i]);
+    double *const of[] = {x, p, q};
+    for (int k = 0; k < 3; k++) {
+        const double here = of[k][i] + part * (of[k][i + 1] - of[k][i]);
+        memmove(of[k] + i + 2, of[k] + i + 1, (size_t)(load->n - i - 1) * sizeof(double));
+        of[k][i + 1] = here;
+    }
+    load->n++;
+}
+
+/* More nodes at an end of stick, as at an edge, and the friction there. */
+static void add_stick_end(const patch *r, const stick_end *e, rb_bem_edge_load *load, double *x,
+                          double *p, double *q)
+{
+    const int side = e->of.side, nodes = r->nodes / 2;
+    const double from = r->x[e->of.from],
+                 to = from + side * fmax(e->of.reach, side * (r->x[e->slips] - from));
+    for (int k = 0; k < nodes; k++)
+        insert_node(load, x, p, q,
+                    from + side * e->of.reach * (1.0 - gsl_pow_4((double)k / nodes)));
+    for (int i = 0; i < load->n; i++) {
+        const double t = side * (x[i] - from),
+                     k = nodes * sqrt(sqrt(fmax(1.0 - t / e->of.reach, 0.0)));
+        if (t >= 0.0 && side * (to - x[i]) >= 0.0)
+            q[i] = e->ratio * p[i] -
+                   (k > 0.0 ? (1.0 + 1.0 / (3.0 * k * k)) * e->least * pressure_beyond(&e->of, t)
+                            : 0.0);
+    }
+}
+
+/* Every change from stick to slip or back between two trusted midpoints. */
+static void add_stick_ends(const patch *r, int first, int last, rb_bem_edge_load *load, double *x,
+                           double *p, double *q)
+{
+    const int *zone = r->state->zone;
+    for (int j = first; j < last; j++)
+        for (int side = -1; side <= 1; side += 2) {
+            const int sticks = side > 0 ? j : j + 1;
+            if (zone[sticks] != RB_ZONE_STICK || zone[sticks + side] == RB_ZONE_STICK)
+                continue;
+            const stick_end e = stick_end_of(r, sticks, side, first, last);
+            if (e.of.reach > 0.0)
+                add_stick_end(r, &e, load, x, p, q);
+        }
+}
+
 static void add_patch(const patch *r, rb_bem_edge_load *load, double *x, double *p, double *q)
 {
     const int n = r->state->n;
@@ -171,6 +279,7 @@ static void add_patch(const patch *r, rb_bem_edge_load *load, double *x, double 
         add_edge(r, &right, load, x, p, q);
     else
         add_node(load, x, p, q, to + 1 < n ? r->x[to + 1] : r->ends[n], 0.0, 0.0);
+    add_stick_ends(r, from, to, load, x, p, q);
 }
 
 rb_status rb_rolling_traction_nodes(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
@@ -180,10 +289,13 @@ rb_status rb_rolling_traction_nodes(const rb_rolling_case *rc, const rb_rolling_
 {
     const int n = state->n;
     rb_rolling_run run = {.last = -1};
-    size_t patches = 0;
+    size_t patches = 0, ends_of_stick = 0;
     while (rb_rolling_next_patch(rc, mesh, state, run.last + 1, &run))
         patches++;
-    const size_t most = (size_t)n + 2 + patches * 2 * ((size_t)edge_nodes + 3 * PARTS);
+    for (int i = 0; i + 1 < n; i++)
+        ends_of_stick += (state->zone[i] == RB_ZONE_STICK) != (state->zone[i + 1] == RB_ZONE_STICK);
+    const size_t most = (size_t)n + 2 + patches * 2 * ((size_t)edge_nodes + 3 * PARTS) +
+                        ends_of_stick * (size_t)edge_nodes;
     double *middle = rb_arena_doubles(memory, (size_t)n, 1);
     double *nodes = rb_arena_doubles(memory, most, 3);
 
