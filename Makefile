@@ -100,6 +100,8 @@ run: packages
 	@echo "A braked steel wheel on a steel rail: rollbem --example rail --creep-ratio 0.4"
 	@$(B)/rollbem --example rail --creep-ratio 0.4 --format brief
 	@echo "Next: $(B)/rollbem help, $(B)/rollbem examples, --plot rail.png for a picture, make test"
+	@if [ -f $(B)/rollbem.html ]; then echo "In a browser, the same wheel to turn and to brake: $(B)/rollbem.html"; \
+	else echo "In a browser, the same wheel to turn and to brake: make page writes $(B)/rollbem.html"; fi
 
 # make test T=rolling_wheel builds and runs one program, tests/test_rolling_wheel.c; T="rolling_heat
 # rolling_wear" those two; NAME=a_test, or a pattern, picks functions of one
@@ -385,19 +387,21 @@ install-python:
 	ROLLBEM_LIBRARY="$(CURDIR)/$(B)/librollbem.so" PYTHONPATH=python PYTHONDONTWRITEBYTECODE=1 python3 -m rollbem._stubs > "$(PACKAGES_OF_PYTHON)/__init__.pyi" 2>/dev/null || \
 	    rm -f "$(PACKAGES_OF_PYTHON)/__init__.pyi"
 
-# what a release is made of, from the last commit; the same bytes whenever and wherever
+# what a release is made of, from the last commit; the same bytes whenever and wherever.  The page is in
+# it as it is built, for those who have no compiler for it
 DIST = $(B)/rollbem-$(VERSION).tar.gz
-dist:
+dist: page-where-possible
 	@mkdir -p $(B)
-	git archive --prefix=rollbem-$(VERSION)/ HEAD | gzip -n9 > $(DIST)
+	git archive --prefix=rollbem-$(VERSION)/ $$([ ! -f $(B)/rollbem.html ] || echo --add-file=$(B)/rollbem.html) HEAD | gzip -n9 > $(DIST)
 	@echo "  DIST $(DIST)"
 
 # a release is these: tools/scripts/release
-release: ; @tools/scripts/packages --install deb && tools/scripts/release $(B)
+release: ; @tools/scripts/packages --install deb page && tools/scripts/release $(B)
 
 # Debian packages in $(B)/deb, from what make dist packs
-deb: dist
-	@tools/scripts/packages --install deb
+deb:
+	@tools/scripts/packages --install deb page
+	@$(MAKE) --no-print-directory B=$(B) dist
 	rm -rf $(B)/deb && mkdir $(B)/deb && tar -xzf $(DIST) -C $(B)/deb
 	# without what this make was told: its B is another folder there, and the rules clean it
 	cd $(B)/deb/rollbem-$(VERSION) && cp -r packaging/debian . && env -u MAKEFLAGS -u B dpkg-buildpackage -us -uc -b >&2
@@ -433,14 +437,23 @@ $(PAGE)/%.o: %.c
 $(PAGE)/rollbem.wasm: $(WASM_OBJ) web/sources Makefile
 	@echo "  LD  $@"
 	$(Q)$(WASM_CC) $(WASM_TARGET) -mexec-model=reactor -o $@ $(WASM_OBJ) -lm -Wl,--strip-all -Wl,-z,stack-size=1048576 $(WASM_EXPORTS:%=-Wl,--export=%)
+ifeq ($(wildcard rollbem.html),)
 $(B)/rollbem.html: $(PAGE)/rollbem.wasm $(wildcard web/*.*) docs/signs.svg include/rollbem/base.h
+	@mkdir -p $(@D)
 	@node web/build.mjs $@ $<
 -include $(WASM_OBJ:.o=.d)
+else
+# an archive of sources brings the page along, for those without its compiler; without that file it is built
+$(B)/rollbem.html: rollbem.html
+	@mkdir -p $(@D)
+	@cp $< $@
+all: $(B)/rollbem.html
+endif
 
-page: ; @tools/scripts/packages --install page && $(MAKE) --no-print-directory B=$(B) $(B)/rollbem.html
+page: ; @{ [ -f rollbem.html ] || tools/scripts/packages --install page; } && $(MAKE) --no-print-directory B=$(B) $(B)/rollbem.html
 # for the suite, which skips its tests where the tools are absent
 page-where-possible:
-	@if missing=$$(tools/scripts/packages page 2>&1); then $(MAKE) --no-print-directory $(if $(Q),-s) B=$(B) $(B)/rollbem.html; \
+	@if [ -f rollbem.html ] || missing=$$(tools/scripts/packages page 2>&1); then $(MAKE) --no-print-directory $(if $(Q),-s) B=$(B) $(B)/rollbem.html; \
 	else echo "the page is not built: $$missing" | head -1; fi
 
 # what people of several kinds do on their first day; pictures stay in $(B)/journeys

@@ -1,7 +1,8 @@
 """Builds wheel and source archive (PEP 517) with what Python brings along: nothing is fetched.
 
 The wheel holds the C library, made by the project's Makefile, from the checkout around this
-folder or from the sources inside the archive.  The same sources give the same bytes.
+folder or from the sources inside the archive, and the page for browsers where it has been built
+(make page).  The same sources give the same bytes.
 """
 
 import base64
@@ -92,6 +93,14 @@ def _pack_wheel(folder, files, pure=False):
     return wheel
 
 
+def _page():
+    """The page for browsers as it is built, or as an archive of sources brings it along; None where it is neither."""
+    places = (Path(os.environ.get("ROLLBEM_LIBRARY") or SOURCE / "build/librollbem.so").with_name("rollbem.html"),
+              SOURCE / "build/rollbem.html", SOURCE / "rollbem.html")
+    found = next((place for place in places if place.is_file()), None)
+    return found and found.read_bytes()
+
+
 def _stubs():
     """Types for editors, made by the package itself: empty where NumPy is absent, which it needs."""
     made = subprocess.run([sys.executable, "-m", "rollbem._stubs"], capture_output=True, cwd=HERE,
@@ -103,9 +112,9 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     files = {name: path.read_bytes() for name, path in _files(HERE, ["rollbem"])}
     files["rollbem/_version.py"] = f'VERSION = "{VERSION}"\n'.encode()
     files["rollbem/librollbem.so"] = _library()
-    stubs = _stubs()
-    if stubs:
-        files["rollbem/__init__.pyi"] = stubs
+    for name, data in (("__init__.pyi", _stubs()), ("rollbem.html", _page())):
+        if data:
+            files[f"rollbem/{name}"] = data
     return _pack_wheel(wheel_directory, files)
 
 
@@ -127,6 +136,9 @@ def build_sdist(sdist_directory, config_settings=None):
         for prefix, folder, names in (("", HERE, OF_PACKAGE), ("library/", SOURCE, OF_LIBRARY)):
             for name, path in _files(folder, names):
                 add(prefix + name, path.read_bytes(), os.access(path, os.X_OK))
+        page = _page()
+        if page:
+            add("library/rollbem.html", page)
     with open(Path(sdist_directory) / f"{root}.tar.gz", "wb") as file:
         with gzip.GzipFile(filename="", mode="wb", fileobj=file, mtime=0) as archive:
             archive.write(packed.getvalue())

@@ -4,7 +4,7 @@ import { load_library } from "./library.js";
 
 /* What the page does not take; rollbem page reads it in the page itself. */
 export const LARGEST = { "contact-elements": 400, "outer-elements": 800, steps: 600, distance: 40, increments: 60 };
-export const LEFT_OUT = ["accuracy", "error", "irregularity"];
+export const LEFT_OUT = ["accuracy", "error", "irregularity", "units"];
 
 /* A case of these words.  Of each slot of requests the last case is kept: where only values differ
  * they are set on it, and the library uses what it can of its matrices again. */

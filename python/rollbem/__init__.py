@@ -19,6 +19,7 @@ from ._inverse import (Crack, Design, Fit, Parameter, crack, curve_derivatives, 
                        history_derivatives, tolerances)
 from ._library import (OPTIONS, RESULTS, VERSION as __version__, Error, InvalidInput, MissingFile,
                        Note, OutOfMemory, Unsolved)
+from ._page import page
 from ._problems import Answer, Complementarity, Friction, Game, Solutions, friction, game, lcp
 from ._program import Check, ContactCases, Reference, References, check, contact, examples, verify
 
@@ -29,4 +30,4 @@ __all__ = ["Answer", "Case", "Check", "Complementarity", "ContactCases", "Crack"
            "Stress", "Sweep",
            "Unsolved", "Wear", "check", "contact", "crack", "curve", "curve_derivatives", "derivatives",
            "design", "examples", "fit", "friction", "game", "history", "history_derivatives",
-           "lcp", "pictures", "solve", "stress", "sweep", "tolerances", "verify", "wear"]
+           "lcp", "page", "pictures", "solve", "stress", "sweep", "tolerances", "verify", "wear"]

@@ -2,10 +2,11 @@
 
 import json
 import math
+import os
 
 import numpy as np
 import pytest
-from conftest import run, run_json
+from conftest import PROGRAM, run, run_json
 
 import rollbem
 from rollbem._library import in_keywords
@@ -205,3 +206,16 @@ def test_json_keeps_its_schema(schema, words, in_root):
     if "summary" in result:
         del result["summary"]["max_pressure"]
         assert "'max_pressure' is a required property" in schema(result)
+
+
+@pytest.mark.skipif(not os.path.exists(f"{PROGRAM}.html"), reason="the page is not built")
+def test_the_page_is_the_program_s(tmp_path):
+    case = dict(STEADY, creep_ratio=0.4, contact_elements=60)
+    case["load"] = "500N/mm"
+    assert run("page", "--output", str(tmp_path / "want.html"), **case).returncode == 0
+    ours = rollbem.page(tmp_path / "ours.html", **case)
+    assert open(ours, "rb").read() == (tmp_path / "want.html").read_bytes()
+    for wrong in (dict(contact_elements=401), dict(error=True), dict(gap={"x": [-1, 0, 1], "gap": [1, 0, 1]}), dict(units="si")):
+        with pytest.raises(rollbem.InvalidInput):
+            rollbem.page(tmp_path / "wrong.html", **{**STEADY, **wrong})
+    assert not (tmp_path / "wrong.html").exists()
