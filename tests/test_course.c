@@ -6,21 +6,26 @@
 #include <glob.h>
 #include <unistd.h>
 
-enum { LESSONS = 13, EXERCISES = 5, MAX_NUMBERS = 40000 };
+enum { LESSONS = 13, PAGES = 4, EXERCISES = 5, MAX_NUMBERS = 40000 };
 
 static char folder[] = "/tmp/rollbem-course-XXXXXX";
 static glob_t lessons, solutions;
+static char *pages[PAGES] = {/* with their exercise and its solution */
+                             "docs/course/half-plane.md", "docs/course/kinematics.md",
+                             "docs/course/complementarity.md", "docs/course/boundary-elements.md"};
 
 TEST(blocks_print_what_the_pages_show)
 {
     assert_int_equal(lessons.gl_pathc, LESSONS);
     assert_int_equal(solutions.gl_pathc, LESSONS);
-    char *page[2 * LESSONS]; /* each lesson before its solutions */
+    char *page[2 * LESSONS + PAGES]; /* each lesson before its solutions */
     for (size_t k = 0; k < LESSONS; k++) {
         page[2 * k] = lessons.gl_pathv[k];
         page[2 * k + 1] = solutions.gl_pathv[k];
     }
-    assert_int_equal(run_pages(page, 2 * LESSONS, 1, folder), 0);
+    for (size_t k = 0; k < PAGES; k++)
+        page[2 * LESSONS + k] = pages[k];
+    assert_int_equal(run_pages(page, 2 * LESSONS + PAGES, 1, folder), 0);
 }
 
 /* The test above leaves them out where they cannot be run; this one says so. */
@@ -140,6 +145,11 @@ TEST(numbers_of_the_sentences_are_printed_by_a_block)
         wrong += count_unfounded(&all, lessons.gl_pathv[k]);
         wrong += count_unfounded(&all, solutions.gl_pathv[k]);
     }
+    for (size_t k = 0; k < PAGES; k++) {
+        all.n = 0;
+        collect_page(&all, pages[k]);
+        wrong += count_unfounded(&all, pages[k]);
+    }
     assert_int_equal(wrong, 0);
 }
 
@@ -209,6 +219,8 @@ TEST(links_and_pictures_are_there)
         assert_true(check_links(lessons.gl_pathv[k]) >= 1);
         check_links(solutions.gl_pathv[k]);
     }
+    for (size_t k = 0; k < PAGES; k++)
+        check_links(pages[k]);
     check_links("docs/course/README.md");
     check_links("docs/course/lecturers.md");
     check_links("docs/glossary.md");
