@@ -178,19 +178,19 @@ rb_status rb_sparse_multiply(const rb_sparse *a, const rb_sparse *b, rb_sparse *
     rb_triplets t = {.rows = a->rows, .cols = b->cols};
     rb_arena scratch = {0};
     double *sum = rb_arena_doubles(&scratch, (size_t)a->rows, 1);
-    int *seen = rb_arena_ints(&scratch, (size_t)a->rows),
+    int *column_of_row = rb_arena_ints(&scratch, (size_t)a->rows),
         *touched = rb_arena_ints(&scratch, (size_t)a->rows);
     if (scratch.failed)
         return rb_arena_done(&scratch, RB_ENOMEM);
     for (int j = 0; j < b->cols; j++) {
         /* Column j of the product: sum, over the entries of B's column, of columns of A;
-         * touched: its rows, each once, marked by seen = j + 1. */
+         * touched: its rows, each once, marked by column_of_row = j + 1. */
         int count = 0;
         for (int l = b->p[j]; l < b->p[j + 1]; l++)
             for (int k = a->p[b->i[l]]; k < a->p[b->i[l] + 1]; k++) {
                 const int i = a->i[k];
-                if (seen[i] != j + 1) {
-                    seen[i] = j + 1;
+                if (column_of_row[i] != j + 1) {
+                    column_of_row[i] = j + 1;
                     sum[i] = 0.0;
                     touched[count++] = i;
                 }

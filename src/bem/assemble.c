@@ -15,9 +15,9 @@ rb_bem_blocks rb_bem_element_integrals(rb_bem_segment element, double px, double
     if (self) {
         rb_integrate_self(&k, e.a, &v);
     } else {
-        const rb_view_angles seen = rb_view_angles_of(&e, px, py);
-        rb_integrate_H(&k, &seen, &v);
-        rb_integrate_G(&k, e.a, &seen, &v);
+        const rb_view_angles angles = rb_view_angles_of(&e, px, py);
+        rb_integrate_H(&k, &angles, &v);
+        rb_integrate_G(&k, e.a, &angles, &v);
     }
     return (rb_bem_blocks){.H = {v.Hxx, v.Hyx, v.Hxy, v.Hyy}, .G = {v.Gxx, v.Gxy, v.Gxy, v.Gyy}};
 }

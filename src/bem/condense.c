@@ -218,7 +218,7 @@ static rb_status split_elements(const rb_bem_mesh *mesh, split *p)
     const double complex a = mesh->x0[from] + mesh->y0[from] * I,
                          b = mesh->x1[to] + mesh->y1[to] * I, middle = 0.5 * (a + b);
     const double reach = cabs(b - a); /* twice the radius of the contact */
-    char seen[2 * MOST] = {0};
+    char taken[2 * MOST] = {0};
 
     p->element = rb_arena_ints(&p->memory, (size_t)n);
     p->sample = rb_arena_ints(&p->memory, 2 * MOST);
@@ -234,9 +234,9 @@ static rb_status split_elements(const rb_bem_mesh *mesh, split *p)
         const int right = creal(rb_strip_midpoint(mesh, k)) > creal(middle),
                   bin = (int)fmin(PARTS * log(r), MOST - 1);
         p->element[p->near + p->far++] = k;
-        if (!seen[2 * bin + right])
+        if (!taken[2 * bin + right])
             p->sample[p->sampled++] = k;
-        seen[2 * bin + right] = 1;
+        taken[2 * bin + right] = 1;
     }
     return RB_OK;
 }
@@ -249,8 +249,8 @@ static rb_status choose_loads(const particular *p, split *far)
     const int loads = 2 * mesh->contact_n;
     const double complex middle =
         rb_strip_midpoint(mesh, mesh->contact_first + mesh->contact_n / 2);
-    rb_skeleton seen;
-    rb_status s = rb_skeleton_alloc(2 * far->sampled, loads, &seen);
+    rb_skeleton far_field;
+    rb_status s = rb_skeleton_alloc(2 * far->sampled, loads, &far_field);
 
     if (s != RB_OK)
         return s;
@@ -262,14 +262,14 @@ static rb_status choose_loads(const particular *p, split *far)
             left_over(p, k, c, value);
             for (int l = 0; l < 2; l++)
                 for (int d = 0; d < 2; d++)
-                    seen.K[2 * i + d + (size_t)(2 * c + l) * (size_t)seen.ld] =
+                    far_field.K[2 * i + d + (size_t)(2 * c + l) * (size_t)far_field.ld] =
                         value[l][d] *
                         (mesh->condition[2 * k + d] == RB_BEM_DISPLACEMENT ? 1.0 : over);
         }
     }
-    s = rb_skeleton_reduce(&seen, 1e-2 * p->s->tolerance, &far->memory, &far->kept, &far->order,
-                           &far->T);
-    rb_skeleton_free(&seen);
+    s = rb_skeleton_reduce(&far_field, 1e-2 * p->s->tolerance, &far->memory, &far->kept,
+                           &far->order, &far->T);
+    rb_skeleton_free(&far_field);
     return s;
 }
 

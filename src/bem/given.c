@@ -108,7 +108,7 @@ static rb_status skeletonise(const void *tree, int level, int k)
     const cluster *part = is_leaf ? NULL : at(g, level + 1, 2 * k);
     cluster *c = at(g, level, k);
     rb_circle reach = reach_of(g, level, k);
-    rb_skeleton seen = {0};
+    rb_skeleton far_field = {0};
 
     c->columns = is_leaf ? 2 * (rb_cluster_first(g->matrix.n, level, k + 1) - first)
                          : part[0].kept + part[1].kept;
@@ -119,11 +119,11 @@ static rb_status skeletonise(const void *tree, int level, int k)
         c->column[i] = is_leaf            ? 2 * first + i
                        : i < part[0].kept ? part[0].column[part[0].order[i]]
                                           : part[1].column[part[1].order[i - part[0].kept]];
-    rb_status s =
-        rb_mixed_see_columns(&g->matrix, 0, NULL, &reach, g->points, c->columns, c->column, &seen);
+    rb_status s = rb_mixed_see_columns(&g->matrix, 0, NULL, &reach, g->points, c->columns,
+                                       c->column, &far_field);
     if (s == RB_OK)
-        s = rb_skeleton_reduce(&seen, g->tolerance, &c->memory, &c->kept, &c->order, &c->T);
-    rb_skeleton_free(&seen);
+        s = rb_skeleton_reduce(&far_field, g->tolerance, &c->memory, &c->kept, &c->order, &c->T);
+    rb_skeleton_free(&far_field);
     return s;
 }
 

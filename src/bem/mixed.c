@@ -178,15 +178,16 @@ rb_status rb_mixed_entries(const rb_mixed *a, int rows, const int *row, int colu
 }
 
 rb_status rb_mixed_see_columns(const rb_mixed *a, int rows, const int *row, const rb_circle *circle,
-                               int points, int columns, const int *column, rb_skeleton *seen)
+                               int points, int columns, const int *column, rb_skeleton *far_field)
 {
     rb_mixed_rows r;
     rb_status s = rb_mixed_rows_make(a, rows, row, circle, points, &r);
 
     if (s == RB_OK)
-        s = rb_skeleton_alloc(r.rows, columns, seen);
+        s = rb_skeleton_alloc(r.rows, columns, far_field);
     if (s == RB_OK)
-        s = rb_mixed_block(a, &r, columns, column, (rb_matrix_view){seen->K, 1, (size_t)seen->ld});
+        s = rb_mixed_block(a, &r, columns, column,
+                           (rb_matrix_view){far_field->K, 1, (size_t)far_field->ld});
     rb_mixed_rows_free(&r);
     return s;
 }

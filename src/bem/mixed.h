@@ -56,7 +56,7 @@ rb_status rb_mixed_entries(const rb_mixed *a, int rows, const int *row, int colu
 
 /* What columns do to rows, and to points of the circle: the skeleton's K, not factored. */
 rb_status rb_mixed_see_columns(const rb_mixed *a, int rows, const int *row, const rb_circle *circle,
-                               int points, int columns, const int *column, rb_skeleton *seen);
+                               int points, int columns, const int *column, rb_skeleton *far_field);
 
 /* The same as rb_mixed_block for loads along x and y on each of `points` parts of the circle; of
  * order one. */

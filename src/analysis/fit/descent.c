@@ -121,7 +121,7 @@ rb_status rb_case_fit_tell(rb_case_fit *fit, const rb_case_fit_observer *o, doub
                : RB_OK;
 }
 
-static rb_status tell(const state *at)
+static rb_status report_accepted(const state *at)
 {
     return rb_case_fit_tell(at->p->fit, at->observer, at->accepted_chi2, at->accepted, at->why);
 }
@@ -290,7 +290,7 @@ static rb_status descend_at_kinks(state *at, int *done)
         evaluate_at(x, at);
         if (at->status == RB_OK && at->chi2 < at->accepted_chi2) {
             accept(x, at);
-            s = at->accepted_status == RB_OK ? tell(at) : at->accepted_status;
+            s = at->accepted_status == RB_OK ? report_accepted(at) : at->accepted_status;
             goes_on = p->fit->iterations < at->most;
         } else {
             s = at->status == RB_ENOMEM ? at->status : RB_OK;
@@ -376,7 +376,7 @@ rb_status rb_case_fit_descend(fit_problem *p, double *theta, const rb_case_fit_o
         } else if (s == RB_OK) {
             done = ended != GSL_SUCCESS || chi2 - at.accepted_chi2 <= CONVERGED * chi2 ||
                    at.promise <= CONVERGED;
-            s = tell(&at);
+            s = report_accepted(&at);
         }
         done |= p->kappa > 1.0 && chi2 - at.accepted_chi2 <= CONVERGED_WITH_JUMPS * chi2;
         if (s == RB_OK && !done && (at.clipped || ended == BEYOND_KINKS)) {

@@ -593,8 +593,9 @@ static rb_status check_smooth(fit_problem *p, const progress *of, rb_message *wh
 }
 
 /* The fit of the same case on its own elements. */
-static rb_status solve(const rb_case *c, const rb_case_data *data,
-                       const rb_case_fit_observer *observer, rb_case_fit *fit, rb_message *why)
+static rb_status fit_on_own_elements(const rb_case *c, const rb_case_data *data,
+                                     const rb_case_fit_observer *observer, rb_case_fit *fit,
+                                     rb_message *why)
 {
     const size_t points = (size_t)data->n;
     fit_problem p = {.c = c,
@@ -702,7 +703,8 @@ static rb_status add_mesh_part(const rb_case *c, const rb_case_data *data, rb_ca
             other.parameter[j] = fit->parameter[j];
             other.parameter[j].start = fit->parameter[j].value;
         }
-        const rb_status solved = s == RB_OK ? solve(fewer, data, NULL, &other, &reason) : RB_ENOMEM;
+        const rb_status solved =
+            s == RB_OK ? fit_on_own_elements(fewer, data, NULL, &other, &reason) : RB_ENOMEM;
         if (s == RB_OK && (solved == RB_ENOMEM || solved == RB_INTERRUPTED))
             s = rb_fail(why, solved, "%s", rb_status_reason(solved, &reason));
         for (int j = 0; j < fit->n; j++) {
@@ -731,7 +733,7 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
 {
     for (int j = 0; j < fit->n; j++)
         fit->parameter[j].mesh = NAN;
-    rb_status s = solve(c, data, observer, fit, why);
+    rb_status s = fit_on_own_elements(c, data, observer, fit, why);
     if (s == RB_OK && c->resolved.error)
         s = fit->status = add_mesh_part(c, data, fit, why);
     return s;

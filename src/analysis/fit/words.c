@@ -220,13 +220,13 @@ static rb_status add_column(rb_io_table *t, const char *name, double value)
 
 static rb_status missing(const rb_io_table *t, const char *path, rb_message *why)
 {
-    char seen[200] = "";
+    char listed[200] = "";
     for (int j = 0; t->name && j < t->columns; j++)
-        rb_append(seen, sizeof seen, "%s%.60s", j ? ", " : "; got ", t->name[j]);
+        rb_append(listed, sizeof listed, "%s%.60s", j ? ", " : "; got ", t->name[j]);
     return rb_fail(why, RB_EFORMAT,
                    "%.250s: expected a column creep or creep_ratio, and one of force, "
                    "force_ratio, force_over_load%s",
-                   path, seen);
+                   path, listed);
 }
 
 static rb_status read_data(const rb_case *c, const char *path, rb_io_table *t, double sigma,

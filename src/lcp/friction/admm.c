@@ -17,8 +17,8 @@
 #define ITERATIONS 50000
 #define ALPHA 1.6
 #define FIRST_PENALTY 0.1
-#define BALANCE 3.0   /* one residual so many times the other: the penalty moves */
-#define LOOK_EVERY 10 /* iterations between looks at the measure */
+#define BALANCE 3.0      /* one residual so many times the other: the penalty moves */
+#define MEASURE_EVERY 10 /* iterations between evaluations of the measure */
 
 typedef struct {
     rb_friction_task *task;
@@ -81,7 +81,7 @@ static rb_status start_admm(rb_friction_task *task, int variant, void *state)
                 .A = rb_alloc(m, 2 * d + 6),
                 .penalty = FIRST_PENALTY,
                 .limit = rb_friction_task_left(task, ITERATIONS),
-                .next = LOOK_EVERY};
+                .next = MEASURE_EVERY};
     if (!a->A)
         return RB_ENOMEM;
     a->B = a->A + m * d;
@@ -156,7 +156,7 @@ static rb_status go_on_alternating(void *state)
         }
         if (st == RB_OK) {
             st = RB_MAXITER;
-            if (a->k % LOOK_EVERY == 0 || a->k == a->limit) {
+            if (a->k % MEASURE_EVERY == 0 || a->k == a->limit) {
                 memcpy(t->r, a->z, (size_t)t->m * sizeof(double));
                 st = rb_friction_task_assess(t);
             }

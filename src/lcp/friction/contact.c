@@ -14,8 +14,8 @@ rb_friction_problem rb_friction_of_cone(const rb_contact_cone *cone)
                                  .q = cone->q};
 }
 
-static rb_status solve(const char *name, const rb_contact_cone *cone, double tol, double *r,
-                       int *iterations, rb_message *why)
+static rb_status solve_cone(const char *name, const rb_contact_cone *cone, double tol, double *r,
+                            int *iterations, rb_message *why)
 {
     const rb_friction_problem problem = rb_friction_of_cone(cone);
     rb_friction_options options = rb_friction_defaults();
@@ -36,5 +36,5 @@ static rb_status solve(const char *name, const rb_contact_cone *cone, double tol
 
 rb_contact_cone_solver rb_friction_cone_solver(const char *name)
 {
-    return (rb_contact_cone_solver){name, rb_friction_solver_named(name) ? solve : NULL};
+    return (rb_contact_cone_solver){name, rb_friction_solver_named(name) ? solve_cone : NULL};
 }

@@ -7,7 +7,7 @@
 
 #define SWEEPS 100000
 #define LEAST_CHANGE 1e-16 /* of (14), below which the sweeps stand still */
-#define LOOK_EVERY 200     /* sweeps between looks at (13) that (14) did not ask for */
+#define MEASURE_EVERY 200  /* sweeps between looks at (13) that (14) did not ask for */
 
 /* Anderson's acceleration, where the sweeps are accelerated and the first did not do. */
 typedef struct {
@@ -138,7 +138,7 @@ static inline double relax(int d, sweeper *s, int c)
 
 /* The measure with the current velocities; recomputed where `refresh` or a close call
  * asks for it. */
-static double look(sweeper *s, int refresh)
+static double current_error(sweeper *s, int refresh)
 {
     rb_friction_task *t = s->task;
     const double tol = t->opt.tol;
@@ -209,7 +209,7 @@ static rb_status go_on_sweeping(void *state)
 {
     sweeper *s = state;
     rb_friction_task *t = s->task;
-    if (s->k == 0 && t->opt.r0 && rb_friction_task_accepts(t, look(s, 0)))
+    if (s->k == 0 && t->opt.r0 && rb_friction_task_accepts(t, current_error(s, 0)))
         return RB_OK;
     while (s->k < s->limit && rb_friction_task_goes_on(t)) {
         double sum = 0.0;
@@ -230,12 +230,13 @@ static rb_status go_on_sweeping(void *state)
             return s->failed;
         if (rb_friction_task_late(t))
             return RB_INTERRUPTED;
-        /* Early on, where a few sweeps may do, it looks at every power of two. */
+        /* Early on, where a few sweeps may do, it measures at every power of two. */
         const int power_of_two = (s->k & (s->k - 1)) == 0;
         int stalled = 0;
-        if (change <= s->tau || s->k % LOOK_EVERY == 0 || s->k == s->limit ||
-            (s->k < LOOK_EVERY && power_of_two)) {
-            const double error = look(s, s->k % LOOK_EVERY == 0 || change <= LEAST_CHANGE);
+        if (change <= s->tau || s->k % MEASURE_EVERY == 0 || s->k == s->limit ||
+            (s->k < MEASURE_EVERY && power_of_two)) {
+            const double error =
+                current_error(s, s->k % MEASURE_EVERY == 0 || change <= LEAST_CHANGE);
             const rb_status st = rb_friction_task_status(t, error, change <= LEAST_CHANGE);
             if (st != RB_MAXITER)
                 return st;

@@ -8,7 +8,7 @@
 
 #define STEPS 50000
 #define LEAST_CHANGE 1e-17 /* of r, below which the steps stand still */
-#define LOOK_EVERY 200     /* steps between looks at the measure that no change asked for */
+#define MEASURE_EVERY 200  /* steps between evaluations of the measure that no change asked for */
 
 typedef struct {
     rb_friction_task *task;
@@ -102,7 +102,7 @@ static rb_status go_on_projecting(void *state)
         t->info->iters++;
         if (rb_friction_task_late(t))
             return RB_INTERRUPTED;
-        if (change <= s->tau || s->k % LOOK_EVERY == 0 || s->k == s->limit) {
+        if (change <= s->tau || s->k % MEASURE_EVERY == 0 || s->k == s->limit) {
             const double error = rb_friction_task_error(t);
             st = rb_friction_task_status(t, error, change <= LEAST_CHANGE);
             if (change <= s->tau)

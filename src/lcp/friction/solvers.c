@@ -148,7 +148,7 @@ static void release(rb_friction_handle *handle)
     free(handle->last);
 }
 
-static rb_status solve(rb_friction_shared *shared, const call *c)
+static rb_status solve_call(rb_friction_shared *shared, const call *c)
 {
     const rb_friction_problem *problem = shared->problem;
     const int m = problem->dimension * problem->contacts;
@@ -214,7 +214,7 @@ rb_status rb_friction_solve(const char *name, const rb_friction_problem *problem
     c.at = *solution;
     s = setup(problem, &handle, &c.info->msg);
     if (s == RB_OK)
-        s = solve(&handle.shared, &c);
+        s = solve_call(&handle.shared, &c);
     release(&handle);
     return s;
 }
@@ -259,7 +259,7 @@ rb_status rb_friction_handle_solve(rb_friction_handle *handle, const char *name,
     c.at = *solution;
     if (!c.at.v)
         c.at.v = handle->shared.memory + m + n;
-    s = solve(&handle->shared, &c);
+    s = solve_call(&handle->shared, &c);
     if (s == RB_OK) {
         /* The last solution is where the next call starts, unless that says otherwise. */
         if (!handle->last)

@@ -127,17 +127,17 @@ static int pivot(lemke *l, int row, int entering)
     rb_lcp_tableau_pivot(t, row, -1 - t->place[entering], l->a);
     if (l->posed.opt.trace) {
         /* Hands the pivot to the trace, with the whole tableau where that is wanted. */
-        rb_lcp_pivot seen = {.pivot = iter,
-                             .entering = entering,
-                             .leaving = leaving,
-                             .row = row,
-                             .ratio = t->q[row],
-                             .z0 = lemke_z0(l),
-                             .attempt = l->posed.opt.attempt,
-                             .n = l->n,
-                             .basis = t->basis,
-                             .value = t->q,
-                             .nonbasis = t->nonbasis};
+        rb_lcp_pivot record = {.pivot = iter,
+                               .entering = entering,
+                               .leaving = leaving,
+                               .row = row,
+                               .ratio = t->q[row],
+                               .z0 = lemke_z0(l),
+                               .attempt = l->posed.opt.attempt,
+                               .n = l->n,
+                               .basis = t->basis,
+                               .value = t->q,
+                               .nonbasis = t->nonbasis};
         const size_t n = (size_t)l->n;
         if (l->image) {
             rb_lcp_tableau_flush(&l->t);
@@ -145,8 +145,8 @@ static int pivot(lemke *l, int row, int entering)
                 rb_lcp_tableau_column(&l->t, c, l->image + (size_t)c * n);
             memcpy(l->image + n * (n + 1), l->t.q, n * sizeof(double));
         }
-        seen.tableau = l->image;
-        l->posed.opt.trace(&seen, l->posed.opt.trace_context);
+        record.tableau = l->image;
+        l->posed.opt.trace(&record, l->posed.opt.trace_context);
     }
     return leaving;
 }

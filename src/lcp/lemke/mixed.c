@@ -311,18 +311,18 @@ static rb_status find_slot(mixed *p, int entering, double sign, int *slot, doubl
 
 static void tell_trace(const mixed *p, int entering, int leaving, int slot, double step)
 {
-    const rb_lcp_pivot seen = {.pivot = p->info->iters,
-                               .entering = entering,
-                               .leaving = leaving,
-                               .row = slot >= 0 ? slot : p->b.n,
-                               .ratio = step,
-                               .z0 = value_of_t(p),
-                               .attempt = p->opt.attempt,
-                               .n = p->n,
-                               .basis = p->b.variable,
-                               .value = p->value};
+    const rb_lcp_pivot record = {.pivot = p->info->iters,
+                                 .entering = entering,
+                                 .leaving = leaving,
+                                 .row = slot >= 0 ? slot : p->b.n,
+                                 .ratio = step,
+                                 .z0 = value_of_t(p),
+                                 .attempt = p->opt.attempt,
+                                 .n = p->n,
+                                 .basis = p->b.variable,
+                                 .value = p->value};
     if (p->opt.trace)
-        p->opt.trace(&seen, p->opt.trace_context);
+        p->opt.trace(&record, p->opt.trace_context);
 }
 
 /* The entering variable moves by sign * step: the basic ones with it, those that tie to

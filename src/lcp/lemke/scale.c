@@ -250,11 +250,11 @@ static void trace_in_units(const rb_lcp_pivot *p, void *context)
 {
     lcp_posed *s = context;
     const int n = p->n;
-    rb_lcp_pivot seen = *p;
+    rb_lcp_pivot record = *p;
     for (int i = 0; i < n; i++)
         s->value[i] = p->value[i] * unit_of(&s->scale, n, p->basis[i]);
-    seen.value = s->value;
-    seen.ratio *= unit_of(&s->scale, n, p->entering);
+    record.value = s->value;
+    record.ratio *= unit_of(&s->scale, n, p->entering);
     if (p->tableau) {
         for (int c = 0; c < n + 2; c++) {
             const double of_column = c <= n ? unit_of(&s->scale, n, p->nonbasis[c]) : 1.0;
@@ -263,9 +263,9 @@ static void trace_in_units(const rb_lcp_pivot *p, void *context)
                 s->tableau[at] = p->tableau[at] * unit_of(&s->scale, n, p->basis[i]) / of_column;
             }
         }
-        seen.tableau = s->tableau;
+        record.tableau = s->tableau;
     }
-    s->caller.trace(&seen, s->caller.trace_context);
+    s->caller.trace(&record, s->caller.trace_context);
 }
 
 /* to = by times from, or over it where `inverse`.  A finite number that overflows becomes

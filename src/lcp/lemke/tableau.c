@@ -382,7 +382,7 @@ static void gather(const solver *p, int v)
 }
 
 /* The columns of X, ld n, hold g in the order of row; they become the tableau's. */
-static void solve(solver *p, const lcp_tableau *t, int columns, double *X)
+static void express_in_basis(solver *p, const lcp_tableau *t, int columns, double *X)
 {
     const int n = p->n, m = p->m;
     for (int c = 0; c < columns; c++)
@@ -439,8 +439,8 @@ rb_status rb_lcp_tableau_rebuild(lcp_tableau *t)
         }
         for (int k = 0; k < n; k++)
             t->q[k] = data->p.q[p.row[k]];
-        solve(&p, t, n + 1, t->T);
-        solve(&p, t, 1, t->q);
+        express_in_basis(&p, t, n + 1, t->T);
+        express_in_basis(&p, t, 1, t->q);
         /* All columns of T are up to date. */
         for (int c = 0; c <= t->n; c++)
             t->slot[c] = c;

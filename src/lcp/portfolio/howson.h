@@ -142,16 +142,16 @@ static rb_status IN(follow_path)(const howson_game *g, int dropped, const rb_lcp
         basis ^= hash_of(2 * leaving + in_y) ^ hash_of(2 * entering + in_y);
         /* After the pivot on that row of t; of a label's two variables z is the one of its own
          * tableau. */
-        const rb_lcp_pivot seen = {.pivot = info->iters,
-                                   .entering =
-                                       (entering < m) != in_y ? labels + entering : entering,
-                                   .leaving = (leaving < m) != in_y ? labels + leaving : leaving,
-                                   .row = in_y ? row : m + row,
-                                   .ratio = (double)IN(row_of)(t, row)[t->width - 1],
-                                   .attempt = opt->attempt,
-                                   .n = labels};
+        const rb_lcp_pivot record = {.pivot = info->iters,
+                                     .entering =
+                                         (entering < m) != in_y ? labels + entering : entering,
+                                     .leaving = (leaving < m) != in_y ? labels + leaving : leaving,
+                                     .row = in_y ? row : m + row,
+                                     .ratio = (double)IN(row_of)(t, row)[t->width - 1],
+                                     .attempt = opt->attempt,
+                                     .n = labels};
         if (opt->trace)
-            opt->trace(&seen, opt->trace_context);
+            opt->trace(&record, opt->trace_context);
         info->iters++;
         entering = leaving;
         t = in_y ? &of_x : &of_y;

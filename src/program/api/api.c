@@ -223,8 +223,9 @@ static int is_stopped(void *context)
 {
     rb_api *a = context;
     const rb_interrupt *outside = &a->outside;
-    a->heard = a->heard || a->stopped || (outside->asked && outside->asked(outside->context));
-    return a->heard;
+    a->interrupted =
+        a->interrupted || a->stopped || (outside->asked && outside->asked(outside->context));
+    return a->interrupted;
 }
 
 void rb_api_call_begins(rb_api *a)
@@ -240,14 +241,15 @@ rb_status rb_api_call_ends(rb_api *a, rb_status s)
     rb_interrupt_by(a->outside);
     if (--calls == 0)
         rb_blas_threads(threads_outside); /* 0: as the variable says */
-    return !a->heard || s == RB_INTERRUPTED ? s : rb_fail(&a->why, RB_INTERRUPTED, "interrupted");
+    return !a->interrupted || s == RB_INTERRUPTED ? s
+                                                  : rb_fail(&a->why, RB_INTERRUPTED, "interrupted");
 }
 
 void rb_api_forget_call(rb_api *a)
 {
     a->why.text[0] = '\0';
     a->stopped = 0;
-    a->heard = 0;
+    a->interrupted = 0;
     a->done = 0;
     a->total = 0;
 }
@@ -322,7 +324,7 @@ void rb_api_free(rb_api *a)
 
 /* Who does not look at the status of rb_api_set must not get the solution of another
  * case: what was refused last stands in the way until the same name is accepted. */
-static int took(rb_api *a, const char *name, rb_status s)
+static int note_refusal(rb_api *a, const char *name, rb_status s)
 {
     int k = 0;
     while (k < a->refusals && strncmp(a->refused[k].name, name, sizeof a->refused[k].name - 1) != 0)
@@ -348,13 +350,13 @@ int rb_api_set(rb_api *a, const char *name, const char *text)
     for (size_t k = 0; k < sizeof driving / sizeof *driving; k++)
         drives |= strcmp(name, driving[k]) == 0;
     forget(a, drives);
-    return took(a, name, rb_case_set(a->words, name, text, RB_GIVEN_ARGUMENT, &a->why));
+    return note_refusal(a, name, rb_case_set(a->words, name, text, RB_GIVEN_ARGUMENT, &a->why));
 }
 
 int rb_api_read(rb_api *a, const char *path)
 {
     forget(a, 0);
-    return took(a, path, rb_case_read(a->words, path, 0, NULL, &a->why));
+    return note_refusal(a, path, rb_case_read(a->words, path, 0, NULL, &a->why));
 }
 
 rb_status rb_api_check_refusals(const rb_api *a, rb_message *why)
@@ -947,7 +949,7 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
         made = tolerance_array(a, name, name + 10);
     if (!made && a->result.model.mesh.n > 0) {
         a->stopped = 0;
-        a->heard = 0;
+        a->interrupted = 0;
         rb_api_call_begins(a);
         made = model_array(a, name);
         rb_api_call_ends(a, RB_OK);

@@ -65,7 +65,7 @@ struct rb_api {
     const char *row;             /* "point" or "case"; static text */
     const char *solver;          /* of the last problem that was handed over; static text */
     _Atomic int stopped;         /* by another thread, or a signal handler */
-    int heard;                   /* 1: the running call has seen that */
+    int interrupted;             /* 1: the running call has seen that */
     rb_interrupt outside;        /* what the thread of the running call asked before */
     _Atomic int done, total;     /* of the running call, for another thread */
     rb_status status;

@@ -35,8 +35,8 @@ static const char about[] =
     "of\n"
     "memory.";
 
-static cli_exit tell(const char *path, rb_status s, const rb_certificate_outcome *found,
-                     const rb_message *why)
+static cli_exit print_verdict(const char *path, rb_status s, const rb_certificate_outcome *found,
+                              const rb_message *why)
 {
     if (s != RB_OK)
         return cli_fail(s == RB_ENOMEM ? CLI_INTERNAL : CLI_DATA, "%s", why->text);
@@ -207,7 +207,7 @@ static cli_exit check_json(const char *path, const char *text, size_t size, cons
     }
     rb_case_free(words);
     json_decref(root);
-    return tell(path, s, &found, &why);
+    return print_verdict(path, s, &found, &why);
 }
 
 /* ---- Tables ------------------------------------------------------------------------ */
@@ -252,8 +252,9 @@ static cli_exit check_table(const char *path, const char *text, const char *fold
     free(argv);
     free(line);
     if (code == CLI_CONTINUE)
-        code = tell(path, rb_certificate_check_table(stdout, path, text, words, &found, &why),
-                    &found, &why);
+        code =
+            print_verdict(path, rb_certificate_check_table(stdout, path, text, words, &found, &why),
+                          &found, &why);
     rb_case_free(words);
     return code;
 }

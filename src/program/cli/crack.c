@@ -65,7 +65,7 @@ static int is_interrupted(int step, int steps, void *context)
     return cli_interrupted();
 }
 
-static rb_status solve(cli_case_run *run, rb_message *why)
+static rb_status solve_crack_case(cli_case_run *run, rb_message *why)
 {
     crack_run *own = run->own;
     rb_case_crack_result *r = &own->result;
@@ -140,7 +140,7 @@ static const cli_case_command command = {
     .takes_crack = 1,
     .files = files,
     .check = check,
-    .solve = solve,
+    .solve = solve_crack_case,
     .table = write_table,
     .document = fill_in,
     .asked = ask,

@@ -160,7 +160,7 @@ static void free_curves(rb_report_curves *curves)
     }
 }
 
-static rb_status solve(cli_case_run *run, rb_message *why)
+static rb_status solve_all_curves(cli_case_run *run, rb_message *why)
 {
     curve *r = run->own;
     rb_status s = solve_curves(run->words, run->c, &r->range, &r->curves, why);
@@ -285,7 +285,7 @@ static const cli_case_command command = {
     .files = files,
     .prepare = choose_purpose,
     .check = check,
-    .solve = solve,
+    .solve = solve_all_curves,
     .table = write_table,
     .inputs = add_inputs,
     .json = add_json,

@@ -82,7 +82,7 @@ static void summarise(FILE *out, const cli_case_run *run)
                 name, d->evaluations, rb_plural(d->evaluations));
 }
 
-static int tell(int evaluation, double value, const double *x, void *context)
+static int report_evaluation(int evaluation, double value, const double *x, void *context)
 {
     const designing *f = context;
     const rb_design *d = &f->design;
@@ -98,10 +98,10 @@ static int tell(int evaluation, double value, const double *x, void *context)
     return cli_interrupted();
 }
 
-static rb_status solve(cli_case_run *run, rb_message *why)
+static rb_status solve_design(cli_case_run *run, rb_message *why)
 {
     designing *f = run->own;
-    const rb_design_observer observer = {tell, f};
+    const rb_design_observer observer = {report_evaluation, f};
     f->tells = !run->o.quiet && isatty(STDERR_FILENO);
     f->units = run->c->units;
     cli_interrupts_catch();
@@ -141,7 +141,7 @@ static const cli_case_command command = {
     .options = options,
     .option_n = OPTIONS,
     .check = check,
-    .solve = solve,
+    .solve = solve_design,
     .table = write_table,
     .json = add_json,
     .summarise = summarise,

@@ -27,8 +27,8 @@ static struct {
     int n, in_name, found;
     char **word;
     const char *title; /* to be printed above the next line; NULL: it has been */
-    const rb_option *seen[SETS_MAX];
-    int seen_n;
+    const rb_option *searched[SETS_MAX];
+    int searched_n;
 } search;
 
 /* 1: some word of text begins with it, in capitals or not. */
@@ -122,13 +122,13 @@ void cli_find_options(const cli_spec *spec)
     cli_command_of(spec, command);
     for (const rb_option_set *set = spec->sets; set < spec->sets + spec->set_n; set++) {
         int k = 0;
-        while (k < search.seen_n && search.seen[k] != set->options)
+        while (k < search.searched_n && search.searched[k] != set->options)
             k++;
-        if (k < search.seen_n ||
+        if (k < search.searched_n ||
             (set->options == rb_case_crack_options && strcmp(command, "crack") != 0))
             continue; /* a study takes those of a crack, too */
         if (k < SETS_MAX)
-            search.seen[search.seen_n++] = set->options;
+            search.searched[search.searched_n++] = set->options;
         for (const rb_option *o = set->options; o < set->options + set->n; o++) {
             if (!cli_takes(spec, o))
                 continue;
@@ -193,7 +193,7 @@ static void find_everything(const rb_option_set *options)
     for (int part = 0; part < PARTS; part++) {
         search.title = titles[part];
         for (search.in_name = 1; search.in_name >= 0; search.in_name--) {
-            search.seen_n = 0;
+            search.searched_n = 0;
             for (int k = 0; part == COMMANDS && cli_command_name(k); k++) {
                 snprintf(name, sizeof name, "rollbem %s", cli_command_name(k));
                 show_if(name, cli_command_help(cli_command_name(k)));

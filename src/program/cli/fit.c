@@ -181,7 +181,7 @@ static cli_exit resume(cli_case_run *run)
 
 /* ---- Command ----------------------------------------------------------------------- */
 
-static int tell(int iteration, double chi_square, int n, const double *value, void *context)
+static int report_step(int iteration, double chi_square, int n, const double *value, void *context)
 {
     fitting *f = context;
     f->steps = iteration;
@@ -201,10 +201,10 @@ static int tell(int iteration, double chi_square, int n, const double *value, vo
 }
 
 /* The best numbers so far are kept, so that --start goes on from there. */
-static rb_status solve(cli_case_run *run, rb_message *why)
+static rb_status solve_fit(cli_case_run *run, rb_message *why)
 {
     fitting *f = run->own;
-    const rb_case_fit_observer observer = {tell, f};
+    const rb_case_fit_observer observer = {report_step, f};
     f->tells = !run->o.quiet && (f->progress || isatty(STDERR_FILENO));
     f->units = run->c->units;
     cli_interrupts_catch();
@@ -255,7 +255,7 @@ static const cli_case_command command = {
     .files = files,
     .prepare = prepare,
     .check = resume,
-    .solve = solve,
+    .solve = solve_fit,
     .table = write_table,
     .json = add_json,
     .summarise = summarise,

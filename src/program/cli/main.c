@@ -48,17 +48,17 @@ __attribute__((constructor(101))) static void wait_passively(void)
 }
 
 /* Some libraries end the program where memory is short (OpenMP, with exit code 1). */
-static int came_to_the_end;
+static int finished;
 
-static void say_who_ended_it(void)
+static void name_the_cause(void)
 {
-    if (!came_to_the_end)
+    if (!finished)
         _exit(cli_fail(CLI_INTERNAL, "out of memory"));
 }
 
 int main(int argc, char **argv)
 {
-    atexit(say_who_ended_it);
+    atexit(name_the_cause);
     /* Files must not get the numbers of standard input, output and error: a closed one is
      * opened the wrong way round, so that using it is the error that it was. */
     for (int fd = 0; fd <= 2; fd++)
@@ -99,6 +99,6 @@ int main(int argc, char **argv)
                             errno ? strerror(errno) : "write error");
     }
     cli_end();
-    came_to_the_end = 1;
+    finished = 1;
     return code;
 }

@@ -206,7 +206,7 @@ static void drop_derivatives(solved *it)
     rb_case_slopes_free(&it->slopes_of_steps);
 }
 
-static rb_status solve(cli_case_run *run, rb_message *why)
+static rb_status solve_case(cli_case_run *run, rb_message *why)
 {
     solved *it = run->own;
     const rb_units units = run->c->units;
@@ -377,7 +377,7 @@ static const cli_case_command command = {
     .options_last = 1,
     .files = files,
     .check = check,
-    .solve = solve,
+    .solve = solve_case,
     .before_table = show_behind,
     .table = write_table,
     .document = fill_in,

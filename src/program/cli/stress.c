@@ -213,7 +213,7 @@ static rb_status estimate_errors(const cli_case_run *run, stress *st, rb_message
                       : s;
 }
 
-static rb_status solve(cli_case_run *run, rb_message *why)
+static rb_status solve_stress(cli_case_run *run, rb_message *why)
 {
     stress *st = run->own;
     /* The model belongs to a plain solution, whose error bars follow. */
@@ -398,7 +398,7 @@ static const cli_case_command command = {
     .option_n = OPTIONS,
     .files = files,
     .check = check,
-    .solve = solve,
+    .solve = solve_stress,
     .table = write_table,
     .document = fill_in,
     .asked = ask,

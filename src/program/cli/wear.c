@@ -73,7 +73,7 @@ static int after_step(rb_rolling_solution *s, const rb_rolling_wear_history *h, 
     return cli_interrupted() || w->failed != RB_OK;
 }
 
-static rb_status solve(cli_case_run *run, rb_message *why)
+static rb_status solve_wear(cli_case_run *run, rb_message *why)
 {
     wear *w = run->own;
     const rb_rolling_wear how = {.law = w->law,
@@ -174,7 +174,7 @@ static const cli_case_command command = {
     .option_n = OPTIONS,
     .files = files,
     .check = check,
-    .solve = solve,
+    .solve = solve_wear,
     .table = write_table,
     .inputs = add_inputs,
     .json = add_json,

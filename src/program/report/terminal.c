@@ -271,7 +271,7 @@ rb_status rb_report_terminal(FILE *out, char *text, const rb_report_window *wind
 
 /* Characters that a terminal shows of the first n bytes: none of a colour's, one of
  * those that make a letter of UTF-8. */
-static int seen(const char *text, size_t n)
+static int width_shown(const char *text, size_t n)
 {
     int count = 0;
     for (size_t k = 0; k < n; k++) {
@@ -302,7 +302,7 @@ int rb_report_wrapped(FILE *out, const char *text, int width)
         lines++;
         while (text < end) {
             const size_t word = strcspn(text + gap, " \n");
-            const int wide = seen(text + gap, word);
+            const int wide = width_shown(text + gap, word);
             if (at > indent && at + (int)gap + wide > width) {
                 at = fprintf(out, "\n%*s", indent, "") - 1;
                 lines++;

@@ -244,7 +244,7 @@ static rb_status leave_out_ends(search *f)
     return s;
 }
 
-static rb_status look(search *f, rb_message *why)
+static rb_status compute_stress(search *f, rb_message *why)
 {
     rb_arena scratch = {0};
     double *depth = rb_arena_doubles(&scratch, (size_t)f->n, 1);
@@ -468,7 +468,7 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
     if (s == RB_OK)
         s = leave_out_ends(&f);
     if (s == RB_OK)
-        s = look(&f, why);
+        s = compute_stress(&f, why);
     for (int i = 0; i < MEASURES && s == RB_OK; i++)
         s = maximum(&f, measures[i], rb_rolling_maximum(maxima, i), why);
     rb_rolling_field_free(f.field);

@@ -227,8 +227,8 @@ static int add_places(const rb_rolling_model *model, const rb_contact_state *sta
 }
 
 /* All arrays are scratch memory; the caller frees it. */
-static rb_status look(const rb_rolling_model *model, const rb_contact_state *state,
-                      rb_arena *scratch, rb_rolling_overlap *o)
+static rb_status find_overlap(const rb_rolling_model *model, const rb_contact_state *state,
+                              rb_arena *scratch, rb_rolling_overlap *o)
 {
     enum { TABLES = 3 };
     const rb_rolling_case *rc = model->rc;
@@ -318,7 +318,7 @@ rb_status rb_rolling_find_overlap(const rb_rolling_model *model, const rb_contac
     o->count = 0;
     if (rb_rolling_is_convex(model->rc) || model->mesh.n < 2)
         return RB_OK;
-    return rb_arena_done(&scratch, look(model, state, &scratch, o));
+    return rb_arena_done(&scratch, find_overlap(model, state, &scratch, o));
 }
 
 /* ---- Whether the mesh holds the contact -------------------------------------------- */

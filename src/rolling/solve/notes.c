@@ -17,9 +17,9 @@ static const double inaccurate_approach = 0.02, inaccurate_width = 0.1;
 static const double not_unique = 0.95;
 static const double broken_approach = 0.1, broken_width = 0.3;
 
-/* Writes the sentence, and says that it was. */
+/* Writes the sentence of a note that applies. */
 RB_PRINTF(2, 3)
-static int say(char *text, const char *format, ...)
+static int write_note(char *text, const char *format, ...)
 {
     va_list args;
     void *before = rb_locale_begin();
@@ -61,11 +61,11 @@ static int wide_arc(const rb_rolling_case *rc, const rb_rolling_solution *s, cha
 
     if (!((bore || rc->interlayer_normal > 0.0) && a > inaccurate_width * radius))
         return 0;
-    return say(text,
-               "The contact spans %.3g degrees of %s. Half-planes hold for small arcs: "
-               "expect errors of the order (a/R)^2 = %.2g.",
-               360.0 / acos(-1.0) * asin(fmin(a / radius, 1.0)), bore ? "the journal" : "body A",
-               a / radius * (a / radius));
+    return write_note(text,
+                      "The contact spans %.3g degrees of %s. Half-planes hold for small arcs: "
+                      "expect errors of the order (a/R)^2 = %.2g.",
+                      360.0 / acos(-1.0) * asin(fmin(a / radius, 1.0)),
+                      bore ? "the journal" : "body A", a / radius * (a / radius));
 }
 
 /* Of Hertz's contact a = 2 R p0/E*; what a third body gives way strains neither body, and a
@@ -91,11 +91,13 @@ static int strains(const rb_rolling_case *rc, const rb_rolling_solution *s, char
         else
             rb_format(how_large, sizeof how_large, "2 p0/E* = %.2g", width);
         return broken
-                   ? say(text,
+                   ? write_note(
+                         text,
                          "The strains are far beyond linear elasticity (%s): treat the numbers as "
                          "a test problem.",
                          how_large)
-                   : say(text,
+                   : write_note(
+                         text,
                          "The strains are large for linear elasticity (%s): expect errors of that "
                          "order.",
                          how_large);
@@ -110,10 +112,11 @@ static int thin_and_strained(const rb_rolling_case *rc, const rb_rolling_solutio
 
     if (!(rb_rolling_has_thickness(rc) && s->max_strain >= large))
         return 0;
-    return say(text,
-               "The thinnest layer, cover or rim is compressed by %.0f %% of its thickness: linear "
-               "elasticity is inaccurate there.",
-               100.0 * s->max_strain);
+    return write_note(
+        text,
+        "The thinnest layer, cover or rim is compressed by %.0f %% of its thickness: linear "
+        "elasticity is inaccurate there.",
+        100.0 * s->max_strain);
 }
 
 /* A cover of radius R under P rolls freely at a creepage above that of the flat layer by
@@ -138,15 +141,16 @@ static int flat_layer(const rb_rolling_case *rc, const rb_rolling_solution *s, c
     const int both = thickest[0] > 0.0 && thickest[1] > 0.0, b = !(thickest[0] > 0.0);
     if (thickest[b] == 0.0)
         return 0;
-    return say(text,
-               "The layer%s computed as flat at thickness/R = %.2g. %s at a creepage that is %s by "
-               "about %.1g (much friction) to %.1g (little); see --cover-thickness%s.",
-               both ? "s are"
-               : b  ? " of B is"
-                    : " is",
-               thickest[b], both ? "Round covers roll freely" : "A round cover rolls freely",
-               shift < 0.0 ? "lower" : "higher", held * fabs(shift), free_to_slide * fabs(shift),
-               b ? "-b" : "");
+    return write_note(
+        text,
+        "The layer%s computed as flat at thickness/R = %.2g. %s at a creepage that is %s by "
+        "about %.1g (much friction) to %.1g (little); see --cover-thickness%s.",
+        both ? "s are"
+        : b  ? " of B is"
+             : " is",
+        thickest[b], both ? "Round covers roll freely" : "A round cover rolls freely",
+        shift < 0.0 ? "lower" : "higher", held * fabs(shift), free_to_slide * fabs(shift),
+        b ? "-b" : "");
 }
 
 /* ---- Bodies that relax, tables, the datum ------------------------------------------ */
@@ -176,12 +180,12 @@ static int short_memory(const rb_rolling_case *rc, const rb_rolling_solution *s,
     const double overshoot = left / glassy;
     if (!(overshoot > much))
         return 0;
-    return say(text,
-               "In one step (%s%.2g s) the bodies relax so much that under the given approach the "
-               "pressure may fall too far, to zero even, and come back: take %.2g %s.",
-               rolls ? "one element, " : "", step,
-               rolls ? ceil(2.0 * overshoot) : 0.5 * step / overshoot,
-               rolls ? "times as many --contact-elements" : "s as --time-step");
+    return write_note(
+        text,
+        "In one step (%s%.2g s) the bodies relax so much that under the given approach the "
+        "pressure may fall too far, to zero even, and come back: take %.2g %s.",
+        rolls ? "one element, " : "", step, rolls ? ceil(2.0 * overshoot) : 0.5 * step / overshoot,
+        rolls ? "times as many --contact-elements" : "s as --time-step");
 }
 
 /* A row of a history at rest, of which more steps did not help. */
@@ -189,7 +193,8 @@ static int row_of_steps(const rb_rolling_case *rc, const rb_rolling_solution *s,
 {
     (void)rc;
     return s->rows.changed > 0 &&
-           say(text,
+           write_note(
+               text,
                "Row %d of the history is not certain: twice the steps still change its tractions "
                "by %.2g of what the load makes. Give rows between, or --increments.",
                s->rows.changed, s->rows.changes);
@@ -200,7 +205,8 @@ static int jumps(const rb_rolling_case *rc, const rb_rolling_solution *s, char *
 {
     (void)rc;
     return s->rows.jumped > 0 &&
-           say(text,
+           write_note(
+               text,
                "In row %d of the history the contact jumps to full sliding, at shift %.4g %s, "
                "force %.4g %s; the energy that is set free is no part of the model.",
                s->rows.jumped, s->rows.jump_shift, rb_unit_name(s->units, "mm"), s->rows.jump_force,
@@ -222,7 +228,8 @@ static int coarse_fall(const rb_rolling_case *rc, const rb_rolling_solution *s, 
             longest = fmax(longest, rb_unit_stored(s->units, "mm", s->h[i]));
     const double needs = rc->friction.memory * rb_rolling_derive(rc).modulus / (falls * p0);
     return falls > 0.0 && longest > needs &&
-           say(text,
+           write_note(
+               text,
                "Friction falls over %.2g %s of the surface behind the edge of stick, and the "
                "elements are longer, %.2g %s: give %.0f --contact-elements.",
                rb_unit_shown(s->units, "mm", needs), rb_unit_name(s->units, "mm"),
@@ -234,7 +241,8 @@ static int stick_edge(const rb_rolling_case *rc, const rb_rolling_solution *s, c
 {
     (void)rc;
     return s->stick_edge &&
-           say(text,
+           write_note(
+               text,
                "The pressure is singular at the edge of what sticks and does not wear: the largest "
                "value, %.4g %s, belongs to the mesh. Read the pressure in the middle.",
                s->max_pressure, rb_unit_name(s->units, "MPa"));
@@ -254,7 +262,8 @@ static int list_corners(char *text, const char *option, rb_units units, int corn
                                                       : ", ",
                   rb_unit_shown(units, "mm", x[k]));
     return corners > 0 &&
-           say(text,
+           write_note(
+               text,
                "The table of --%s has %d corner%s, at x = %s %s%s: the slope of the curve through "
                "its points jumps there.",
                option, corners, corners > 1 ? "s" : "", places, rb_unit_name(units, "mm"),
@@ -294,10 +303,11 @@ static int coarse_elements(const rb_rolling_case *rc, const rb_rolling_solution 
     if (rb_rolling_elements_for_tables(rc, rc->contact_elements, &wanted) != RB_OK ||
         !(wanted > much * rc->contact_elements) || s->n >= wanted)
         return 0;
-    return say(text,
-               "The tables of the case have shorter waves than the elements show, which see them "
-               "at their midpoints alone: give %d --contact-elements for %d.",
-               wanted, rc->contact_elements);
+    return write_note(
+        text,
+        "The tables of the case have shorter waves than the elements show, which see them "
+        "at their midpoints alone: give %d --contact-elements for %d.",
+        wanted, rc->contact_elements);
 }
 
 static int pressed_corners(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
@@ -306,7 +316,8 @@ static int pressed_corners(const rb_rolling_case *rc, const rb_rolling_solution 
     const double rise = rb_unit_shown(s->units, "MPa", rb_rolling_rise_in_patches(rc, s, 2.0));
 
     return rise > much * s->max_pressure &&
-           say(text,
+           write_note(
+               text,
                "The %s has corners in the contact, where the pressure is infinite: p0 rises by "
                "%.2g %s each time the elements are halved.%s",
                rc->worn.n > 0 ? "worn table" : "gap", rise, rb_unit_name(s->units, "MPa"),
@@ -361,13 +372,15 @@ static int near_datum(const rb_rolling_case *rc, const rb_rolling_solution *s, c
         0.0)
         return 0;
     if (rises)
-        return say(text, "The approach is negative: the datum, the depth of zero displacement from "
-                         "which it is measured, is too near. Give a larger --datum.");
-    return say(text,
-               "The datum, the depth of zero displacement, is so near that uniform tractions move "
-               "the surface against themselves: other solutions exist for the same %s. Give a "
-               "larger --datum.",
-               shifted ? "shift" : "approach");
+        return write_note(
+            text, "The approach is negative: the datum, the depth of zero displacement from "
+                  "which it is measured, is too near. Give a larger --datum.");
+    return write_note(
+        text,
+        "The datum, the depth of zero displacement, is so near that uniform tractions move "
+        "the surface against themselves: other solutions exist for the same %s. Give a "
+        "larger --datum.",
+        shifted ? "shift" : "approach");
 }
 
 /* ---- What is given, perhaps in other units ----------------------------------------- */
@@ -381,8 +394,9 @@ static int static_creepage(const rb_rolling_case *rc, const rb_rolling_solution 
 {
     (void)s;
     return rc->formulation == RB_STATIC && is_creepage_given(rc) &&
-           say(text, "In a static case --creep does not change the tractions; use --formulation "
-                     "steady to roll.");
+           write_note(text,
+                      "In a static case --creep does not change the tractions; use --formulation "
+                      "steady to roll.");
 }
 
 static int no_creepage(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
@@ -390,8 +404,9 @@ static int no_creepage(const rb_rolling_case *rc, const rb_rolling_solution *s, 
     (void)s;
     return rc->formulation == RB_STEADY && !is_creepage_given(rc) &&
            !rb_rolling_force_is_given(rc) &&
-           say(text, "No --creep, --creep-ratio, --force or --force-ratio is given: the wheel "
-                     "rolls at creepage 0.");
+           write_note(text,
+                      "No --creep, --creep-ratio, --force or --force-ratio is given: the wheel "
+                      "rolls at creepage 0.");
 }
 
 /* The slowest element tells where full sliding begins: its slip is what the creepage may
@@ -412,18 +427,19 @@ static int percent(const rb_rolling_case *rc, const rb_rolling_solution *s, char
     const double begins = s->creepage - side * slowest;
     if (!(fabs(s->creepage) > far * fabs(begins)))
         return 0;
-    return say(text,
-               "xi = %.3g is far beyond full sliding, which begins at %.3g. If the creepage is "
-               "meant in per cent, write --creep %g%%.",
-               s->creepage, begins, s->creepage);
+    return write_note(
+        text,
+        "xi = %.3g is far beyond full sliding, which begins at %.3g. If the creepage is "
+        "meant in per cent, write --creep %g%%.",
+        s->creepage, begins, s->creepage);
 }
 
 static int radians(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
     (void)s;
     return rc->a.support == RB_BEM_ARC && rc->a.arc < 2.0 &&
-           say(text, "The arc is %g degrees. If it is meant in radians, write --arc %grad.",
-               rc->a.arc, rc->a.arc);
+           write_note(text, "The arc is %g degrees. If it is meant in radians, write --arc %grad.",
+                      rc->a.arc, rc->a.arc);
 }
 
 /* Numbers in m, N and Pa that are taken for mm, N and MPa: a pressure that nothing bears (diamond's
@@ -437,11 +453,11 @@ static int other_units(const rb_rolling_case *rc, const rb_rolling_solution *s, 
     if (s->units != RB_UNITS_MM)
         return 0;
     if (s->max_pressure > hardest)
-        return say(text, "p0 = %.3g MPa is more than diamond bears, %.3g MPa. %s", s->max_pressure,
-                   hardest, ask);
+        return write_note(text, "p0 = %.3g MPa is more than diamond bears, %.3g MPa. %s",
+                          s->max_pressure, hardest, ask);
     return !isnan(rc->load) && rc->a.young > stiff && rc->gap != RB_GAP_TABLE &&
            rc->b.radius > 0.0 && !(rc->interlayer_normal > 0.0) && width > flat &&
-           say(text, "The load presses a stiff body flat (a = %.2g R). %s", width, ask);
+           write_note(text, "The load presses a stiff body flat (a = %.2g R). %s", width, ask);
 }
 
 /* ---- What is not unique ------------------------------------------------------------ */
@@ -465,14 +481,16 @@ static int not_unique_motion(const rb_rolling_case *rc, const rb_rolling_solutio
         !(rb_rolling_largest_mu(rc) > 0.0) || rb_rolling_law_depends_on_state(rc))
         return 0;
     if (sides == 3)
-        return say(text,
-                   "%s slide towards both sides: the %s is not unique, a range of it gives the "
-                   "same tractions.",
-                   s->stick == 0 ? "No element sticks, and they"
-                                 : "What sticks is at the bound of its friction, and the others",
-                   s->formulation == RB_STATIC ? "shift" : "creepage");
+        return write_note(
+            text,
+            "%s slide towards both sides: the %s is not unique, a range of it gives the "
+            "same tractions.",
+            s->stick == 0 ? "No element sticks, and they"
+                          : "What sticks is at the bound of its friction, and the others",
+            s->formulation == RB_STATIC ? "shift" : "creepage");
     return s->formulation != RB_STATIC &&
-           say(text,
+           write_note(
+               text,
                "The whole contact slides: the creepage is not unique, every one beyond it gives "
                "the same force.");
 }
@@ -481,18 +499,19 @@ static int steep_fall(const rb_rolling_case *rc, const rb_rolling_solution *s, c
 {
     (void)rc;
     return s->kappa > not_unique &&
-           say(text,
-               "Friction falls so steeply with the slip velocity (kappa = %.3g) that other "
-               "solutions may exist; the start decides which one is found.",
-               s->kappa);
+           write_note(text,
+                      "Friction falls so steeply with the slip velocity (kappa = %.3g) that other "
+                      "solutions may exist; the start decides which one is found.",
+                      s->kappa);
 }
 
 static int angle_of_arc(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
     (void)s;
     return rc->formulation != RB_STATIC && !rb_rolling_can(rc, RB_BODY_TURNS) &&
-           say(text, "On an arc support the answer depends on the angle of the wheel; --support "
-                     "hub and halfplane do not have this.");
+           write_note(text,
+                      "On an arc support the answer depends on the angle of the wheel; --support "
+                      "hub and halfplane do not have this.");
 }
 
 /* ---- Zones, edges, slip ------------------------------------------------------------ */
@@ -501,7 +520,8 @@ static int yields(const rb_rolling_case *rc, const rb_rolling_solution *s, char 
 {
     (void)rc;
     return s->yielding > 0 &&
-           say(text, "The interface yields: zone 4 with q < 0, zone 5 with q > 0. The column shift "
+           write_note(
+               text, "The interface yields: zone 4 with q < 0, zone 5 with q > 0. The column shift "
                      "is slip and yielding together, plastic is the yielded part.");
 }
 
@@ -509,7 +529,8 @@ static int equal_elements(const rb_rolling_case *rc, const rb_rolling_solution *
 {
     (void)rc;
     return s->equal_instead &&
-           say(text, "Elements could not be fitted to the contact edges; equal ones were used.");
+           write_note(text,
+                      "Elements could not be fitted to the contact edges; equal ones were used.");
 }
 
 /* Whether the pressure stops falling towards this edge of the patch, as at a corner. */
@@ -537,17 +558,19 @@ static int uncertain_edge(const rb_rolling_case *rc, const rb_rolling_solution *
             const double x = side < 0 ? patch->from : patch->to;
             const char *mm = rb_unit_name(s->units, "mm");
             if (patch->contact < RB_ROLLING_PATCH_LEAST)
-                return say(text,
-                           "Only %d element%s the contact that begins at x = %.4g %s: its edges "
-                           "are uncertain by one element.",
-                           patch->contact, patch->contact == 1 ? " carries" : "s carry",
-                           patch->from, mm);
+                return write_note(
+                    text,
+                    "Only %d element%s the contact that begins at x = %.4g %s: its edges "
+                    "are uncertain by one element.",
+                    patch->contact, patch->contact == 1 ? " carries" : "s carry", patch->from, mm);
             return is_abrupt(s, patch, side)
-                       ? say(text,
+                       ? write_note(
+                             text,
                              "The pressure ends abruptly at the edge x = %.4g %s, the position of "
                              "which is uncertain by one element.",
                              x, mm)
-                       : say(text,
+                       : write_note(
+                             text,
                              "The edge at x = %.4g %s is uncertain by one element: the pressure "
                              "beside it does not follow the power law of a smooth edge.",
                              x, mm);
@@ -559,8 +582,8 @@ static int uncertain_edge(const rb_rolling_case *rc, const rb_rolling_solution *
 static int negative_power(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
     return rb_rolling_is_below_zero(s->dissipation, s->normal_load) &&
-           say(text, "The dissipation, %.2g %s, is below zero: it is %s.", s->dissipation,
-               rb_unit_name(s->units, "N/mm"), rb_rolling_below_zero(rc, s));
+           write_note(text, "The dissipation, %.2g %s, is below zero: it is %s.", s->dissipation,
+                      rb_unit_name(s->units, "N/mm"), rb_rolling_below_zero(rc, s));
 }
 
 /* What the force does beside free rolling goes into slip at the trailing edge; the least is
@@ -569,8 +592,9 @@ static int short_slip(const rb_rolling_case *rc, const rb_rolling_solution *s, c
 {
     return rc->formulation == RB_STEADY && s->slipping == 0 && s->stick > 0 &&
            fabs(s->force_ratio) > 1.0001e-3 &&
-           say(text, "No element slips, and the dissipation is 0: the slip at the trailing edge, "
-                     "which the force drives, is shorter than an element; take more of them.");
+           write_note(text,
+                      "No element slips, and the dissipation is 0: the slip at the trailing edge, "
+                      "which the force drives, is shorter than an element; take more of them.");
 }
 
 /* Where no creepage is given nobody asks for the slip of (12), which is one of rolling. */
@@ -578,7 +602,8 @@ static int slip_violations(const rb_rolling_case *rc, const rb_rolling_solution 
 {
     return rc->formulation == RB_STATIC && is_creepage_given(rc) &&
            rb_rolling_largest_mu(rc) > 0.0 && s->slip_violations > 0 &&
-           say(text,
+           write_note(
+               text,
                "In %d of %d elements the slip computed afterwards points along the friction, not "
                "against it; for rolling use --formulation steady.",
                s->slip_violations, s->n);
