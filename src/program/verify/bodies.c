@@ -82,7 +82,7 @@ static subsurface below(rb_verify *v, const rb_rolling_case *rc)
     rb_rolling_model model;
     rb_rolling_solution s = {0};
     const rb_rolling_extremum nothing = {NAN, NAN, NAN, RB_MATERIAL_BODY};
-    subsurface b = {.p0 = NAN, .max = {nothing, nothing, nothing, nothing}};
+    subsurface b = {.p0 = NAN, .max = {nothing, nothing, nothing, nothing, nothing, nothing}};
     rb_status status = rb_rolling_solve_model(rc, &model, &s, &why);
     b.a = s.hertz_half_width;
     if (status == RB_OK) {
