@@ -39,6 +39,17 @@ const holds = async (page, expression) => {
 const NO_OVERFLOW = "document.documentElement.scrollWidth <= document.documentElement.clientWidth";
 const HERO = "document.querySelector('iframe.hero').contentDocument";
 
+await check(
+    "headline, wheel and three doors in one window of 1280 x 720",
+    async (page) => {
+        await page.until(`${HERO} && !/Loading/.test(${HERO}.body.innerText) && ${HERO}.querySelector('canvas')`, 60);
+        await holds(page, "[...document.querySelectorAll('.hero, .cards > div')].every((part) => part.getBoundingClientRect().bottom <= innerHeight)");
+        await holds(page, "document.querySelectorAll('h1').length === 1");
+        await holds(page, `[...${HERO}.querySelectorAll('h1')].every((h) => h.getBoundingClientRect().height === 0)`);
+    },
+    "index.html",
+    { width: 1280, height: 720 },
+);
 for (const [width, height, mobile] of [
     [390, 844, true],
     [1440, 900, false],

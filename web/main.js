@@ -312,7 +312,8 @@ async function main() {
         }
         if (!link) return false;
         embed ||= link.embed;
-        document.documentElement.classList.toggle("embed", embed);
+        document.documentElement.classList.toggle("embed", Boolean(embed));
+        document.documentElement.classList.toggle("lens", embed === "lens");
         link_note = "";
         link_given = link.given;
         current = link.view;

@@ -165,10 +165,13 @@ export function write_link(given, view, drawn, embed = false) {
             ...given,
             ...(drawn && { drawn: [drawn.what, drawn.distance, ...drawn.values].join(" ") }),
             view,
-            ...(embed && { embed: "hero" }),
+            ...(embed && { embed }),
         }).toString()
     );
 }
+
+/* What a frame of another page shows: the first screen, or its picture alone. */
+const EMBEDDED = ["hero", "lens"];
 
 /* { given, view, drawn, embed } of a fragment; null: there is none.  Names and values are the library's
  * to judge; an Error says what is no link at all. */
@@ -181,7 +184,7 @@ export function read_link(fragment, views) {
     const view = views.includes(given.view) ? given.view : views[0];
     const drawn = given.drawn ? read_drawn(given.drawn) : null;
     delete given.view;
-    const embed = given.embed === "hero";
+    const embed = EMBEDDED.includes(given.embed) && given.embed;
     for (const name of ["drawn", "embed"]) delete given[name];
     return { given: Object.keys(given).length ? given : null, view, drawn, embed };
 }

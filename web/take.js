@@ -191,7 +191,7 @@ export function take_along(page, picture, name, canvas, given = () => page.given
         ...(!words_for_crack(given()).length && { python: () => python_of(given(), options) }),
         link: () => location.href.split("#")[0] + write_link(contact_of(given()), "hero", null),
         embed: () =>
-            `<iframe src="${(location.href.split("#")[0] + write_link(contact_of(given()), "hero", null, true)).replaceAll("&", "&amp;")}" width="900" height="620" title="rollbem" style="border:0"></iframe>`,
+            `<iframe src="${(location.href.split("#")[0] + write_link(contact_of(given()), "hero", null, "hero")).replaceAll("&", "&amp;")}" width="900" height="620" title="rollbem" style="border:0"></iframe>`,
     };
     const button = (text, act) =>
         html(

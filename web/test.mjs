@@ -1608,6 +1608,14 @@ async function views(page) {
                 ),
                 "more than the hero, or another case",
             );
+            await other.run("location.hash = location.hash.replace('embed=hero', 'embed=lens')");
+            await other.until(IDLE);
+            check(
+                await other.run(
+                    "document.querySelector('.says').getBoundingClientRect().height === 0 && document.querySelector('.stage').getBoundingClientRect().height > 0.9 * innerHeight && document.documentElement.scrollHeight <= innerHeight",
+                ),
+                "more than the lens",
+            );
             check(other.errors.length === 0, other.errors.join("; "));
         } finally {
             await other.close();
