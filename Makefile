@@ -279,7 +279,7 @@ $(B)/tests/%: $(B)/tests/%.o $(B)/tests/failing_alloc.o $(B)/librollbem.a
 	$(Q)$(CC) $(TEST_CFLAGS) -o $@ $(filter %.o,$^) $(B)/librollbem.a $(WRAP) $(TEST_LIBS)
 
 # the core by itself, with the libraries that it needs and no others
-CORE := $(patsubst %.c,$(B)/%.o,$(wildcard src/base/*.c src/bem/*.c $(foreach folder,lemke portfolio proof contact,src/lcp/$(folder)/*.c) src/rolling/*/*.c src/analysis/crack/*.c)) $(B)/src/base/io/table.o $(B)/src/base/io/text.o $(B)/src/base/io/tokens.o
+CORE := $(patsubst %.c,$(B)/%.o,$(wildcard src/base/*.c src/bem/*.c $(foreach folder,lemke portfolio proof contact,src/lcp/$(folder)/*.c) src/rolling/*.c src/rolling/*/*.c src/analysis/crack/*.c)) $(B)/src/base/io/table.o $(B)/src/base/io/text.o $(B)/src/base/io/tokens.o
 CORE_LIBS = $(filter-out -lgslcblas,$(shell pkg-config --libs openblas lapacke gsl fftw3)) -lfftw3_threads -lm $(OPENMP)
 $(B)/librollbem-core.a: $(filter $(CORE),$(LIB_OBJ))
 	@rm -f $@

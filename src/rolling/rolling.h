@@ -416,8 +416,8 @@ rb_status rb_rolling_end_solve(const rb_rolling_model *model, rb_status s, doubl
                                rb_rolling_solution *solution, rb_message *why);
 /* The solution without the residuals and temperatures, which stay 0, and the balance of the
  * support, which is NAN. */
-rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_solution *solution,
-                                      rb_message *why);
+rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_solution *solution,
+                                   rb_message *why);
 /* Its temperatures, if it has such columns, and the highest.  RB_ENOMEM, RB_SINGULAR. */
 rb_status rb_rolling_set_temperature(const rb_rolling_model *model, rb_rolling_solution *solution,
                                      rb_message *why);

@@ -315,7 +315,7 @@ static rb_status results_of(const rb_contact_state *y, rb_rolling_model *v,
 
     memcpy(v->state.lambda, y->lambda, (size_t)y->n * sizeof *y->lambda);
     if (status == RB_OK)
-        status = rb_rolling_variant_solution(v, results, why);
+        status = rb_rolling_bare_solution(v, results, why);
     return status == RB_OK ? rb_rolling_set_temperature(v, results, why) : status;
 }
 

@@ -150,7 +150,7 @@ rb_status rb_sensitivity_results(const rb_sensitivity *s, rb_sensitivity_variant
                                &v->model[k].state);
         status = rb_rolling_variant_complete(&v->model[k], NULL, NULL, why);
         if (status == RB_OK)
-            status = rb_rolling_variant_solution(&v->model[k], &moved[k], why);
+            status = rb_rolling_bare_solution(&v->model[k], &moved[k], why);
         if (status == RB_OK && steepest >= 0)
             moved[k].kappa = rb_rolling_law_kappa_of(&v->model[k], steepest);
     }

@@ -220,8 +220,8 @@ rb_status rb_rolling_set_temperature(const rb_rolling_model *model, rb_rolling_s
     return status;
 }
 
-rb_status rb_rolling_variant_solution(const rb_rolling_model *model, rb_rolling_solution *s,
-                                      rb_message *why)
+rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_solution *s,
+                                   rb_message *why)
 {
     memset(s, 0, sizeof *s);
     s->n = model->mesh.n;
@@ -323,7 +323,7 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
                                     rb_message *why)
 {
     rb_contact_violation violation;
-    rb_status status = rb_rolling_variant_solution(model, s, why);
+    rb_status status = rb_rolling_bare_solution(model, s, why);
 
     if (status != RB_OK)
         return status;

@@ -28,7 +28,7 @@ static rb_status note_point(const rb_rolling_model *model, rb_units units, rb_ro
 {
     rb_rolling_case rc = *model->rc;
     rb_rolling_solution at;
-    const rb_status s = rb_rolling_variant_solution(model, &at, why);
+    const rb_status s = rb_rolling_bare_solution(model, &at, why);
 
     if (s != RB_OK)
         return s;
