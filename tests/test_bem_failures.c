@@ -246,9 +246,9 @@ static rb_status make_wheel(const void *of)
                                               NULL);
     rb_bem_flexibility_free(&waves);
     if (s == RB_OK)
-        s = rb_bem_flexibility_plane_products(N, ends, &plane, &waves, NULL);
+        s = rb_bem_flexibility_surface_products(N, ends, &plane, &waves, NULL);
     if (s == RB_OK)
-        s = rb_bem_flexibility_plane_products(N, ends, &plane, &below, NULL);
+        s = rb_bem_flexibility_surface_products(N, ends, &plane, &below, NULL);
     if (s == RB_OK)
         s = rb_bem_flexibility_pair(&waves, &below, &pair, NULL);
     if (s == RB_OK)

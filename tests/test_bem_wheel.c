@@ -324,38 +324,94 @@ TEST(products_are_the_matrix)
         CHECK_ABS(apart(n, G, F), 0.0, kind == 2 ? 1e-12 : 1e-15, "matrix"); /* 2: differences */
         free(G);
         rb_bem_flexibility_free(&f);
-        /* a half-plane, and two of them in contact, which are one product */
-        rb_bem_surface plane = rb_bem_halfplane(wheel->material, 0.1 + k);
-        rb_bem_surface below = rb_bem_halfplane(wheels[(k + 1) % WHEELS].material, 2.0);
-        plane.datum_tangential = k % 2 ? 7.0 : 0.0;
-        below.datum_tangential = k % 3 ? 5.0 : 0.0;
-        for (int bodies = 1; bodies <= 2; bodies++) {
-            CHECK_OK(rb_bem_flexibility_plane_products(n, ends, &plane, &f, NULL));
-            G = surface_matrix(n, ends, &plane, bodies == 2 ? &below : NULL);
-            if (bodies == 2) {
-                rb_bem_flexibility a = f, b;
-                const void *one = f.data;
-                CHECK_OK(rb_bem_flexibility_plane_products(n, ends, &below, &b, NULL));
-                CHECK_OK(rb_bem_flexibility_pair(&a, &b, &f, NULL));
-                assert_ptr_equal(f.data, one);
-            }
-            rb_bem_flexibility_apply(&f, r, w);
-            double *H = matrix_of(&f);
-            CHECK_ABS(apart(n, H, G), 0.0, 1e-15, "matrix of half-planes");
-            free(H);
-            largest = 0.0;
-            memset(want, 0, sizeof want);
-            for (int j = 0; j < 2 * n; j++)
-                for (int i = 0; i < 2 * m; i++)
-                    want[i] += G[i + j * 2 * m] * r[j];
-            for (int i = 0; i < 2 * m; i++)
-                largest = fmax(largest, fabs(want[i]));
-            for (int i = 0; i < 2 * m; i++)
-                CHECK_ABS(w[i], want[i], 1e-11 * largest, "%d planes, elements %d, row %d", bodies,
-                          kind, i);
-            free(G);
-            rb_bem_flexibility_free(&f);
+    }
+}
+
+/* Half-planes, one whose friction has another datum, layers on rigid and elastic bases, and what
+ * remembers. */
+enum { FLAT_BODIES = 7 };
+static void flat_bodies(rb_bem_surface body[FLAT_BODIES])
+{
+    static const double ratio[] = {2.0, 0.5}, length[] = {0.4, 3.0};
+    const rb_bem_material soft = rb_bem_material_from_young(10.0, 0.48),
+                          stiff = rb_bem_material_from_young(70.0, 0.3);
+    for (int k = 0; k < FLAT_BODIES; k++)
+        body[k] = rb_bem_halfplane(k % 2 ? stiff : soft, 1.0 + k);
+    body[1].datum_tangential = 7.0;
+    for (int k = 2; k < 5; k++)
+        body[k].thickness = k == 3 ? 0.05 : 0.8;
+    body[3].elastic_base = body[4].elastic_base = 1;
+    body[3].base = body[4].base = stiff;
+    for (int k = 4; k < FLAT_BODIES; k++) {
+        body[k].terms = k == 5 ? 1 : 2;
+        body[k].ratio = ratio;
+        body[k].length = length;
+    }
+    body[6].datum_memory = 0.3;
+}
+
+/* The waves of a thin layer are shorter than the elements of a line of 3. */
+static int is_thin(const rb_bem_surface *body, int n)
+{
+    return body->thickness > 0.0 && body->thickness < 8.0 * 3.0 / (n + 1);
+}
+
+/* One body, or two in contact, which are one product where their steps are the same. */
+static void check_flat_products(int n, const double *ends, const rb_bem_surface *above,
+                                const rb_bem_surface *below, const char *what)
+{
+    const int m = n + 1;
+    rb_bem_flexibility f;
+    SCRATCH double *r = rb_alloc(2 * (size_t)n, 1), *w = rb_alloc(4 * (size_t)m, 1);
+    double *want = w + 2 * m, largest = 0.0;
+
+    for (int i = 0; i < 2 * n; i++)
+        r[i] = (rand() % 1000) / 1000.0 - 0.3;
+    CHECK_OK(rb_bem_flexibility_surface_products(n, ends, above, &f, NULL));
+    if (below) {
+        rb_bem_flexibility a = f, b;
+        const void *one = f.data;
+        CHECK_OK(rb_bem_flexibility_surface_products(n, ends, below, &b, NULL));
+        CHECK_OK(rb_bem_flexibility_pair(&a, &b, &f, NULL));
+        assert_int_equal(f.data == one, is_thin(above, n) == is_thin(below, n));
+    }
+    SCRATCH double *G = surface_matrix(n, ends, above, below), *H = matrix_of(&f);
+    CHECK_ABS(apart(n, H, G), 0.0, 1e-15, "%s: matrix", what);
+    rb_bem_flexibility_apply(&f, r, w);
+    for (int i = 0; i < 2 * m; i++) {
+        want[i] = 0.0;
+        for (int j = 0; j < 2 * n; j++)
+            want[i] += G[i + j * 2 * m] * r[j];
+        largest = fmax(largest, fabs(want[i]));
+    }
+    for (int i = 0; i < 2 * m; i++)
+        CHECK_ABS(w[i], want[i], 1e-11 * largest, "%s: row %d", what, i);
+    rb_bem_flexibility_free(&f);
+}
+
+TEST(products_of_flat_bodies_are_the_matrix)
+{
+    enum { n = 100 };
+    static double ends[n + 2];
+    rb_bem_surface body[FLAT_BODIES];
+    char what[60];
+
+    srand(4);
+    flat_bodies(body);
+    for (int kind = 0; kind < 3; kind++) {
+        if (!is_in_turn(kind, 3))
+            continue;
+        for (int i = 0; i < n + 2; i++) {
+            const double t = 2.0 * i / (n + 1) - 1.0;
+            ends[i] = 1.5 * (kind == 0   ? t
+                             : kind == 1 ? sin(0.49 * M_PI * t)
+                                         : t + 0.3 * (rand() % 100) / 100.0 / n);
         }
+        for (int a = 0; a < FLAT_BODIES; a++)
+            for (int b = -1; b < FLAT_BODIES; b++) {
+                snprintf(what, sizeof what, "elements %d, bodies %d and %d", kind, a, b);
+                check_flat_products(n, ends, body + a, b < 0 ? NULL : body + b, what);
+            }
     }
 }
 

@@ -58,7 +58,8 @@ static void check_errors(const char *bodies, int first, int count, const int *si
 }
 
 static const char unlike[] = "young 70000 poisson 0.33 young-b 210000 poisson-b 0.28",
-                  rigid_plane[] = "young 210000 poisson 0.3";
+                  rigid_plane[] = "young 210000 poisson 0.3",
+                  layer[] = "young 210000 poisson 0.3 layer-thickness 0.1";
 
 TEST(more_elements_never_give_a_larger_error)
 {
@@ -68,7 +69,7 @@ TEST(more_elements_never_give_a_larger_error)
     } rows[] = {{"similar yes young 210000 poisson 0.3", 0},
                 {unlike, 0},
                 {rigid_plane, 0},
-                {"young 210000 poisson 0.3 layer-thickness 0.1", 1},
+                {layer, 1},
                 {"similar yes young 210000 poisson 0.3 layer-thickness 0.05 base-young 70000 "
                  "base-poisson 0.3",
                  0}};
@@ -81,11 +82,19 @@ TEST(more_elements_never_give_a_larger_error)
 /* Where the matrix ends and products begin, and far beyond. */
 TEST(many_elements_never_give_a_larger_error)
 {
-    static const char *const rows[] = {unlike, rigid_plane};
+    static const char *const rows[] = {
+        unlike,
+        rigid_plane,
+        layer,
+        "similar yes young 1000 poisson 0.3 layer-thickness 0.05 base-young 70000 base-poisson 0.3",
+        "similar yes young 1000 poisson 0.3 relaxation-time 1e-3 relaxation-ratio 2 speed 100",
+        "young 70000 poisson 0.33 young-b 210000 poisson-b 0.28 interlayer-normal 1e-7 "
+        "interlayer-tangential 3e-7"};
+    enum { ROWS = sizeof rows / sizeof *rows };
     static const int sizes[] = {150, 300, 600, 1200};
 
-    for (int k = 0; k < 2; k++)
-        if (is_in_turn(k, 2))
+    for (int k = 0; k < ROWS; k++)
+        if (is_in_turn(k, ROWS))
             check_errors(rows[k], 0, 4, sizes, 2400);
 }
 

@@ -138,11 +138,11 @@ rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends, const r
                                             rb_bem_normals normals, rb_bem_flexibility *f,
                                             rb_message *why);
 
-/* A homogeneous elastic half-plane in the same way, on elements of any
- * lengths, such as those of a wheel that it touches. */
-rb_status rb_bem_flexibility_plane_products(int n_c, const double *ends,
-                                            const rb_bem_surface *plane, rb_bem_flexibility *f,
-                                            rb_message *why);
+/* A flat body in the same way, on elements of any lengths, such as those of a wheel that it
+ * touches; a layer that is very thin against its elements gets the dense matrix. */
+rb_status rb_bem_flexibility_surface_products(int n_c, const double *ends,
+                                              const rb_bem_surface *body, rb_bem_flexibility *f,
+                                              rb_message *why);
 
 /* Displacement w of points x on the lower half of the glassy wheel along the normal of
  * the obstacle, into the body, under strips of p and q along that normal and tangent.

@@ -50,6 +50,19 @@ rb_status rb_bem_surface_check(const rb_bem_surface *body, rb_message *why);
 void rb_bem_memory_integrals(const rb_bem_surface *body, double x, double b, double *log,
                              double *sign);
 
+/* Displacement at a point under a strip of half-length b whose middle lies X upstream of
+ * it: w_N = -K int p ln|(x-s)/d| + c int q sgn(x-s),  K = 2(1-nu^2)/(pi E) = (1-nu)/(pi
+ * G) w_T = -K int q ln|(x-s)/d| - c int p sgn(x-s),  c = (1-2nu)(1+nu)/(2E) =
+ * (1-2nu)/(4G) both times what the memory makes of the integrals (V2).  A layer's
+ * logarithm is that of the distance over its thickness (L3). */
+typedef struct {
+    const rb_bem_surface *body;
+    double K, c, depth, slow; /* slow: 1 + sum f_k */
+    double raised;            /* what the memory of the datum adds to w per force p or q */
+    double sheared;           /* what the tangential datum adds to w_T per force q */
+} rb_bem_strip_kernel;
+rb_bem_strip_kernel rb_bem_strip_kernel_of(const rb_bem_surface *body);
+
 /* s; unless that is RB_OK, f is freed and why says that there was no memory for it. */
 rb_status rb_bem_flexibility_end(const char *what, int n_c, rb_status s, rb_bem_flexibility *f,
                                  rb_message *why);

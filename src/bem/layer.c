@@ -6,24 +6,26 @@
 #include <gsl/gsl_math.h>
 #include <math.h>
 
-/* W = scale h (mean of the kernel + everywhere). */
-typedef struct {
-    const rb_bem_layer_table *table;
-    double scale;      /* (1 - nu)/(pi shear) */
-    double everywhere; /* by the datum of an elastic base */
-    double d;
-} remainder_kernel;
-
-/* Of points and strips that are `reach` apart at most. */
-static rb_status begin(const rb_bem_surface *body, double reach, remainder_kernel *k)
+rb_status rb_bem_layer_remainder_of(const rb_bem_surface *body, double reach,
+                                    rb_bem_layer_remainder *k)
 {
     const double base = rb_bem_layer_base_compliance(body), d = body->thickness;
 
-    *k = (remainder_kernel){.table = rb_bem_layer_table_of(body, reach / d),
-                            .scale = (1.0 - body->material.poisson) / (M_PI * body->material.shear),
-                            .everywhere = base > 0.0 ? base * log(body->datum / d) : 0.0,
-                            .d = d};
+    *k = (rb_bem_layer_remainder){.table = rb_bem_layer_table_of(body, reach / d),
+                                  .scale = (1.0 - body->material.poisson) /
+                                           (M_PI * body->material.shear),
+                                  .everywhere = base > 0.0 ? base * log(body->datum / d) : 0.0,
+                                  .d = d};
     return k->table ? RB_OK : RB_ENOMEM;
+}
+
+rb_bem_layer_kernel rb_bem_layer_primitive(const rb_bem_layer_remainder *k, double x)
+{
+    rb_bem_layer_kernel e = rb_bem_layer_integral(k->table, x / k->d);
+    e.of[0] = k->scale * (e.of[0] * k->d + k->everywhere * x);
+    e.of[1] = k->scale * (e.of[1] * k->d + k->everywhere * x);
+    e.of[2] *= k->scale * k->d;
+    return e;
 }
 
 static double reach_of(int points, const double *x, int n, const double *ends)
@@ -37,7 +39,7 @@ static double reach_of(int points, const double *x, int n, const double *ends)
 }
 
 /* Of the point at x under the strip between the two ends, times its length. */
-static rb_bem_layer_kernel under(const remainder_kernel *k, double x, const double ends[2])
+static rb_bem_layer_kernel under(const rb_bem_layer_remainder *k, double x, const double ends[2])
 {
     const double h = ends[1] - ends[0], by = k->scale * h,
                  X = 0.5 * ((x - ends[0]) + (x - ends[1]));
@@ -52,8 +54,8 @@ rb_status rb_bem_layer_add_remainder(const rb_bem_surface *body, int points, con
                                      const double *ends, double *W)
 {
     const size_t m = (size_t)points, columns = (size_t)n;
-    remainder_kernel k;
-    const rb_status s = begin(body, reach_of(points, x, n, ends), &k);
+    rb_bem_layer_remainder k;
+    const rb_status s = rb_bem_layer_remainder_of(body, reach_of(points, x, n, ends), &k);
 
     if (s != RB_OK)
         return s;
@@ -75,8 +77,8 @@ rb_status rb_bem_layer_add_remainder(const rb_bem_surface *body, int points, con
 rb_status rb_bem_layer_add_normal(const rb_bem_surface *body, const rb_bem_edge_load *load,
                                   int points, const double *x, double *w)
 {
-    remainder_kernel k;
-    const rb_status s = begin(body, reach_of(points, x, load->n, load->x), &k);
+    rb_bem_layer_remainder k;
+    const rb_status s = rb_bem_layer_remainder_of(body, reach_of(points, x, load->n, load->x), &k);
 
     if (s != RB_OK)
         return s;

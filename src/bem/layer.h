@@ -46,8 +46,24 @@ typedef struct {
     double of[4]; /* the last one: of no meaning */
 } rb_bem_layer_kernel;
 rb_bem_layer_kernel rb_bem_layer_mean(const rb_bem_layer_table *table, double X, double b);
+/* The integral from 0 to X. */
+rb_bem_layer_kernel rb_bem_layer_integral(const rb_bem_layer_table *table, double X);
 
 /* ---- Displacements ----------------------------------------------------------------- */
+
+/* The smooth remainder of a layer over a half-plane of its material (L3), of points and strips that
+ * are `reach` apart at most: scale h (mean of the kernel + everywhere).  RB_ENOMEM.  Give its table
+ * back when done. */
+typedef struct {
+    const rb_bem_layer_table *table;
+    double scale;      /* (1 - nu)/(pi shear) */
+    double everywhere; /* by the datum of an elastic base */
+    double d;
+} rb_bem_layer_remainder;
+rb_status rb_bem_layer_remainder_of(const rb_bem_surface *body, double reach,
+                                    rb_bem_layer_remainder *k);
+/* What a load of 1 from 0 to x displaces at 0, with the sign of x. */
+rb_bem_layer_kernel rb_bem_layer_primitive(const rb_bem_layer_remainder *k, double x);
 
 /* The smooth remainder of a layer over a half-plane of its material (L3): displacements
  * of `points` abscissae x under n strips between ends (n + 1), added to W, 2 points x 2n

@@ -219,6 +219,11 @@ static rb_bem_layer_kernel look_up(const rb_bem_layer_table *table, double X, in
     return v;
 }
 
+rb_bem_layer_kernel rb_bem_layer_integral(const rb_bem_layer_table *table, double X)
+{
+    return look_up(table, X, 1);
+}
+
 /* Short strips by Gauss's rule of 2, 3 or 5 points, whose differences of integrals would
  * lose digits. */
 rb_bem_layer_kernel rb_bem_layer_mean(const rb_bem_layer_table *table, double X, double b)

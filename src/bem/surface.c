@@ -62,28 +62,16 @@ static double strip_log(double X, double b, double d)
     return far - 2.0 * b + b * log(s1 / d * (s2 / d));
 }
 
-/* Displacement at a point under a strip of half-length b whose middle lies X upstream of
- * it: w_N = -K int p ln|(x-s)/d| + c int q sgn(x-s),  K = 2(1-nu^2)/(pi E) = (1-nu)/(pi
- * G) w_T = -K int q ln|(x-s)/d| - c int p sgn(x-s),  c = (1-2nu)(1+nu)/(2E) =
- * (1-2nu)/(4G) both times what the memory makes of the integrals (V2).  A layer's
- * logarithm is that of the distance over its thickness (L3). */
-typedef struct {
-    const rb_bem_surface *body;
-    double K, c, depth, slow; /* slow: 1 + sum f_k */
-    double raised;            /* what the memory of the datum adds to w per force p or q */
-    double sheared;           /* what the tangential datum adds to w_T per force q */
-} strip_kernel;
-
-static strip_kernel kernel_of(const rb_bem_surface *body)
+rb_bem_strip_kernel rb_bem_strip_kernel_of(const rb_bem_surface *body)
 {
     const rb_bem_material m = body->material;
-    strip_kernel k = {body,
-                      (1.0 - m.poisson) / (M_PI * m.shear),
-                      (1.0 - 2.0 * m.poisson) / (4.0 * m.shear),
-                      body->thickness > 0.0 ? body->thickness : body->datum,
-                      1.0,
-                      0.0,
-                      0.0};
+    rb_bem_strip_kernel k = {body,
+                             (1.0 - m.poisson) / (M_PI * m.shear),
+                             (1.0 - 2.0 * m.poisson) / (4.0 * m.shear),
+                             body->thickness > 0.0 ? body->thickness : body->datum,
+                             1.0,
+                             0.0,
+                             0.0};
     k.raised = body->thickness > 0.0 ? 0.0 : k.K * body->datum_memory;
     for (int j = 0; j < body->terms; j++)
         k.slow += body->ratio[j];
@@ -97,7 +85,7 @@ typedef struct {
     double p, q;
 } normal_entry;
 
-static inline normal_entry entry_of(const strip_kernel *k, double X, double b)
+static inline normal_entry entry_of(const rb_bem_strip_kernel *k, double X, double b)
 {
     /* int sgn(x - s) ds over the same strip: -2b where it lies ahead (X >= b). */
     double log = k->slow * strip_log(X, b, k->depth),
@@ -119,7 +107,7 @@ static inline normal_entry entry_of(const strip_kernel *k, double X, double b)
 static rb_status displacements(const rb_bem_surface *body, int n, const double *ends, int points,
                                const double *low, const double *high, const double *x, double *W)
 {
-    const strip_kernel k = kernel_of(body);
+    const rb_bem_strip_kernel k = rb_bem_strip_kernel_of(body);
     const size_t m = (size_t)points;
 
     for (size_t j = 0; j < (size_t)n; j++) {
@@ -153,7 +141,7 @@ rb_status rb_bem_surface_add_normal(const rb_bem_surface *body, const rb_bem_edg
     const double *ends = load->x;
     if (rb_bem_surface_check(body, NULL) != RB_OK || load->n < 1 || points < 1)
         return RB_EINVAL;
-    const strip_kernel kernel = kernel_of(body);
+    const rb_bem_strip_kernel kernel = rb_bem_strip_kernel_of(body);
     for (int j = 0; j < load->n; j++)
         for (int i = 0; i < points; i++) {
             const normal_entry e =

@@ -255,13 +255,6 @@ rb_status rb_wheel_kernel_create(const rb_bem_wheel *w, double smallest, double 
                                 fmin(smallest, log(w->radius / w->inner)), reach, &kernel->inner);
 }
 
-rb_wheel_kernel rb_wheel_kernel_of_plane(const rb_bem_surface *plane)
-{
-    return (rb_wheel_kernel){.kappa = 3.0 - 4.0 * plane->material.poisson,
-                             .scale = 1.0 / (4.0 * M_PI * plane->material.shear),
-                             .datum = plane->datum};
-}
-
 void rb_wheel_kernel_free(rb_wheel_kernel *kernel)
 {
     rb_ring_table_free(&kernel->inner);

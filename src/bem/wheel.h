@@ -38,8 +38,6 @@ typedef struct {
 /* For smallest <= abs(x) <= reach, or 0.  RB_ENOMEM. */
 rb_status rb_wheel_kernel_create(const rb_bem_wheel *wheel, double smallest, double reach,
                                  rb_wheel_kernel *kernel);
-/* Of a homogeneous elastic half-plane, x a length: nothing to free. */
-rb_wheel_kernel rb_wheel_kernel_of_plane(const rb_bem_surface *plane);
 void rb_wheel_kernel_free(rb_wheel_kernel *kernel);
 /* [length/stress] */
 rb_ring_answer rb_wheel_kernel_at(const rb_wheel_kernel *kernel, double x);

@@ -1,5 +1,5 @@
-/* Products with the flexibility of a wheel, or of a half-plane in contact with one, by
- * Fourier transforms, on arcs and elements of any lengths:
+/* Products with the flexibility of a wheel or of a flat body by Fourier transforms, on arcs and
+ * elements of any lengths:
  * the precorrected method (Phillips and White 1997).  Uniform tractions are charges at
  * the ends of their arcs under the primitive G of the kernel.  Charges and answers go to
  * and from equal steps of the angle by Lagrange's polynomials; what these do not resolve,
@@ -7,8 +7,10 @@
 #include "bem/fourier.h" /* before complex.h: pairs of doubles */
 
 #include "bem/internal.h"
+#include "bem/layer.h"
 #include "bem/wheel.h"
 
+#include <cblas.h>
 #include <gsl/gsl_math.h>
 #include <math.h>
 #include <stdlib.h>
@@ -25,15 +27,15 @@ typedef struct {
 
 typedef struct {
     int n, m, steps;
-    rb_bem_wheel wheel;   /* elastic: borrows nothing; radius 0: a half-plane */
-    rb_bem_surface plane; /* the same */
-    rb_bem_surface other; /* of the half-plane that was added to this one */
+    rb_bem_wheel wheel;   /* elastic: borrows nothing; radius 0: a flat body */
+    rb_bem_surface plane; /* its memory lies in `memory` */
+    rb_bem_surface other; /* of the flat body that was added to this one */
     int has_other;
     rb_bem_normals normals;
-    int parts;       /* kernels: N, T and C of a wheel; N alone of a half-plane, whose T is N
-                        and whose C sums */
-    double coupling; /* of a half-plane: C over abs(x) */
-    double sheared;  /* of a half-plane: what a tangential datum adds to T */
+    int parts;       /* kernels: N, T and C; N alone of an elastic half-plane, whose T is N and
+                        whose C sums */
+    double coupling; /* of a flat body: the part of C that is a multiple of abs(x) */
+    double sheared;  /* of a flat body: what a tangential datum adds to T */
     double *ends;    /* n + 2, as given */
     double *place;   /* cosines and sines of m midpoints, for the obstacle's normals */
     spread *from;    /* n + 1 ends */
@@ -142,13 +144,28 @@ static void products_apply(const rb_bem_flexibility *f, const double *r, double 
     }
     if (turned)
         rb_wheel_turn(cosine, sine, -1, o->m, w, w);
-    if (o->parts == 1)
+    if (o->coupling != 0.0)
         add_coupling(o, r, w);
     double force = 0.0;
     for (int j = 0; j < o->n && o->sheared != 0.0; j++)
         force += r[o->n + j] * (o->ends[j + 1] - o->ends[j]);
     for (int i = 0; i < o->m && o->sheared != 0.0; i++)
         w[o->m + i] += o->sheared * force;
+}
+
+/* The relaxation of a body, which is borrowed, into memory of one's own.  0: there is none. */
+static int own_memory(rb_arena *memory, rb_bem_surface *body)
+{
+    const size_t terms = (size_t)body->terms;
+    double *own = terms > 0 ? rb_arena_doubles(memory, terms, 2) : NULL;
+
+    if (!own)
+        return terms == 0;
+    memcpy(own, body->ratio, terms * sizeof *own);
+    memcpy(own + terms, body->length, terms * sizeof *own);
+    body->ratio = own;
+    body->length = own + terms;
+    return 1;
 }
 
 /* Of a body in its own frame. */
@@ -181,7 +198,32 @@ static rb_status products_matrix(const rb_bem_flexibility *f, double *F, int ldf
     return s;
 }
 
-/* Two half-planes on the same elements: one kernel, and couplings of opposite signs. */
+/* Of y: the part that is added to part c of another one; -1: none. */
+static int part_for(const products *y, int c)
+{
+    return y->parts == 3 ? c : c < 2 ? 0 : -1;
+}
+
+/* From one part to three.  0: out of memory. */
+static int widen(products *x)
+{
+    const size_t pairs = (size_t)x->near_first[x->m],
+                 modes = ((size_t)x->fourier.size / 2 + 1) * sizeof *x->kernel[0];
+    double *near = rb_arena_doubles(&x->memory, 3 * pairs + 1, 1);
+
+    if (!near)
+        return 0;
+    memcpy(near, x->near, pairs * sizeof *near);
+    memcpy(near + pairs, x->near, pairs * sizeof *near);
+    memset(near + 2 * pairs, 0, pairs * sizeof *near);
+    memcpy(x->kernel[1], x->kernel[0], modes);
+    memset(x->kernel[2], 0, modes);
+    x->near = near;
+    x->parts = 3;
+    return 1;
+}
+
+/* Two flat bodies on the same elements: one kernel, and couplings of opposite signs. */
 static int products_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
 {
     products *x = a->data;
@@ -190,14 +232,22 @@ static int products_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
     if (b->add_mirrored != products_add || x->has_other || y->has_other || x->n != y->n ||
         x->steps != y->steps || memcmp(x->ends, y->ends, ((size_t)x->m + 1) * sizeof *x->ends) != 0)
         return 0;
-    for (int k = 0; k < x->near_first[x->m]; k++)
-        x->near[k] += y->near[k];
-    for (int k = 0; k <= x->fourier.size / 2; k++)
-        for (int c = 0; c < 2; c++)
-            x->kernel[0][k][c] += y->kernel[0][k][c];
+    rb_bem_surface other = y->plane;
+    if (!own_memory(&x->memory, &other) || (x->parts < y->parts && !widen(x)))
+        return 0;
+    const size_t pairs = (size_t)x->near_first[x->m];
+    for (int c = 0; c < x->parts; c++) {
+        const int from = part_for(y, c);
+        const double sign = c == 2 ? -1.0 : 1.0;
+        if (from < 0)
+            continue;
+        cblas_daxpy((int)pairs, sign, y->near + (size_t)from * pairs, 1,
+                    x->near + (size_t)c * pairs, 1);
+        cblas_daxpy(x->fourier.size + 2, sign, y->kernel[from][0], 1, x->kernel[c][0], 1);
+    }
     x->coupling -= y->coupling;
     x->sheared += y->sheared;
-    x->other = y->plane;
+    x->other = other;
     x->has_other = 1;
     return 1;
 }
@@ -225,6 +275,53 @@ static spread spread_at(double place)
     return at;
 }
 
+/* The primitive G of a body: what uniform traction displaces, from 0 to x.  C of a flat body is
+ * that beyond its multiple of abs(x). */
+typedef struct {
+    rb_wheel_kernel wheel;
+    rb_bem_strip_kernel flat;     /* body NULL: it is a wheel */
+    rb_bem_layer_remainder layer; /* table NULL: there is none */
+} primitive;
+
+/* reach: of x at most; smallest: abs(x) at least, or 0. */
+static rb_status primitive_create(const products *o, double smallest, double reach, primitive *G)
+{
+    *G = (primitive){.flat = {.body = NULL}};
+    if (o->wheel.radius > 0.0)
+        return rb_wheel_kernel_create(&o->wheel, smallest, reach, &G->wheel);
+    G->flat = rb_bem_strip_kernel_of(&o->plane);
+    return o->plane.thickness > 0.0 ? rb_bem_layer_remainder_of(&o->plane, reach, &G->layer)
+                                    : RB_OK;
+}
+
+static void primitive_free(primitive *G)
+{
+    if (!G->flat.body)
+        rb_wheel_kernel_free(&G->wheel);
+    if (G->layer.table)
+        rb_bem_layer_table_release(G->layer.table);
+}
+
+static rb_ring_answer primitive_at(const primitive *G, double x)
+{
+    const rb_bem_strip_kernel *k = &G->flat;
+
+    if (!k->body)
+        return rb_wheel_kernel_at(&G->wheel, x);
+    double log_part = x != 0.0 ? k->slow * x * (log(fabs(x) / k->depth) - 1.0) : 0.0, C = 0.0;
+    if (k->body->terms > 0) {
+        double log_memory, sign_memory;
+        rb_bem_memory_integrals(k->body, 0.5 * x, 0.5 * x, &log_memory, &sign_memory);
+        log_part += log_memory;
+        C = k->c * sign_memory;
+    }
+    const double both = k->raised * x - k->K * log_part;
+    if (!G->layer.table)
+        return (rb_ring_answer){both, both, C};
+    const rb_bem_layer_kernel more = rb_bem_layer_primitive(&G->layer, x);
+    return (rb_ring_answer){both + more.of[0], both + more.of[1], C + more.of[2]};
+}
+
 enum { WINDOW = 2 * NEAR + 2 * ORDER };
 
 /* Parts of the primitive, at steps -steps ... steps or at the steps of a window. */
@@ -236,8 +333,8 @@ static double part_of(rb_ring_answer at, int part)
 }
 
 /* The pairs closer than NEAR steps. */
-static rb_status correct_near(products *o, const rb_wheel_kernel *kernel, parts_of on_steps,
-                              const double *end, const double *middle, double step)
+static rb_status correct_near(products *o, const primitive *G, parts_of on_steps, const double *end,
+                              const double *middle, double step)
 {
     const double reach = NEAR * step;
     double window[3][WINDOW] = {{0.0}};
@@ -274,7 +371,7 @@ static rb_status correct_near(products *o, const rb_wheel_kernel *kernel, parts_
         for (int k = 0; k < count; k++) {
             const spread *from = &o->from[first + k];
             const int at = from->first - o->from[first].first;
-            const rb_ring_answer exact = rb_wheel_kernel_at(kernel, middle[i] - end[first + k]);
+            const rb_ring_answer exact = primitive_at(G, middle[i] - end[first + k]);
             for (int c = 0; c < o->parts; c++) {
                 double own = part_of(exact, c);
                 for (int b = 0; b < ORDER; b++)
@@ -290,7 +387,7 @@ static rb_status set_tables(products *o, const double *angles, double step)
 {
     const double *middle = angles, *end = angles + o->m;
     const double first = end[0] - ORDER * step;
-    rb_wheel_kernel kernel = {0};
+    primitive G = {.flat = {.body = NULL}};
     const size_t both = 2 * (size_t)o->steps + 1;
     double *all = rb_alloc(both, 3);
     parts_of on_steps = {all, all ? all + both : NULL, all ? all + 2 * both : NULL};
@@ -299,17 +396,12 @@ static rb_status set_tables(products *o, const double *angles, double step)
     double smallest = 0.25 * step;
     for (int j = 0; j < o->n; j++)
         smallest = fmin(smallest, 0.25 * (end[j + 1] - end[j]));
-    if (s == RB_OK && o->wheel.radius > 0.0)
-        s = rb_wheel_kernel_create(&o->wheel, smallest, (o->steps + 1) * step, &kernel);
-    else if (s == RB_OK) {
-        kernel = rb_wheel_kernel_of_plane(&o->plane);
-        o->parts = 1;
-        o->coupling = kernel.scale * 0.5 * M_PI * (kernel.kappa - 1.0);
-        const rb_bem_material solid = o->plane.material;
-        o->sheared = o->plane.datum_tangential > 0.0
-                         ? (1.0 - solid.poisson) / (M_PI * solid.shear) *
-                               log(o->plane.datum_tangential / o->plane.datum)
-                         : 0.0;
+    if (s == RB_OK)
+        s = primitive_create(o, smallest, (o->steps + 1) * step, &G);
+    if (s == RB_OK && G.flat.body) {
+        o->parts = o->plane.terms > 0 || G.layer.table ? 3 : 1;
+        o->coupling = G.flat.slow * G.flat.c;
+        o->sheared = G.flat.sheared;
     }
     if (s == RB_OK) {
         for (int j = 0; j <= o->n; j++)
@@ -320,7 +412,7 @@ static rb_status set_tables(products *o, const double *angles, double step)
             o->place[o->m + i] = sin(middle[i]);
         }
         for (int k = -o->steps; k <= o->steps; k++) {
-            const rb_ring_answer at = rb_wheel_kernel_at(&kernel, k * step);
+            const rb_ring_answer at = primitive_at(&G, k * step);
             for (int c = 0; c < o->parts; c++)
                 on_steps[c][o->steps + k] = part_of(at, c);
         }
@@ -330,9 +422,9 @@ static rb_status set_tables(products *o, const double *angles, double step)
                 rb_fourier_kernel(&o->fourier, o->steps, on_steps[c] + 1, o->work[0]);
             memcpy(o->kernel[c], z, ((size_t)o->fourier.size / 2 + 1) * sizeof *z);
         }
-        s = correct_near(o, &kernel, on_steps, end, middle, step);
-        rb_wheel_kernel_free(&kernel);
+        s = correct_near(o, &G, on_steps, end, middle, step);
     }
+    primitive_free(&G);
     free(all);
     return s;
 }
@@ -367,7 +459,8 @@ static rb_status make(const products *like, double *x, double step, const double
         o->to = rb_arena_zeros(&o->memory, m, sizeof *o->to);
         o->near_first = rb_arena_ints(&o->memory, m + 1);
         o->near_end = rb_arena_ints(&o->memory, m);
-        all = !o->memory.failed && rb_fourier_make(2 * o->steps, &o->fourier);
+        all = own_memory(&o->memory, &o->plane) && !o->memory.failed &&
+              rb_fourier_make(2 * o->steps, &o->fourier);
         for (int k = 0; all && k < 3; k++) {
             o->kernel[k] = fftw_alloc_complex((size_t)o->fourier.size / 2 + 1);
             all = o->kernel[k] != NULL;
@@ -420,22 +513,25 @@ rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends, const r
     return rb_bem_flexibility_end("wheel", n_c, s, f, why);
 }
 
-rb_status rb_bem_flexibility_plane_products(int n_c, const double *ends,
-                                            const rb_bem_surface *plane, rb_bem_flexibility *f,
-                                            rb_message *why)
+rb_status rb_bem_flexibility_surface_products(int n_c, const double *ends,
+                                              const rb_bem_surface *body, rb_bem_flexibility *f,
+                                              rb_message *why)
 {
-    const products like = {.plane = *plane, .normals = RB_BEM_NORMALS_SURFACE};
+    const products like = {.plane = *body, .normals = RB_BEM_NORMALS_SURFACE};
     double *x = NULL;
 
     *f = (rb_bem_flexibility){0};
-    rb_status s = rb_bem_surface_check(plane, why);
+    rb_status s = rb_bem_surface_check(body, why);
     if (s == RB_OK)
         s = rb_bem_ends_check(n_c, ends, why);
-    if (s == RB_OK && (plane->terms > 0 || plane->thickness > 0.0))
-        s = rb_fail(why, RB_EINVAL,
-                    "products on any elements: a homogeneous elastic half-plane only");
     if (s != RB_OK)
         return s;
+    const double length = ends[n_c + 1] - ends[0];
+    double step = length / (n_c + 1);
+    if (body->thickness > 0.0) /* its waves are as long as it is thick */
+        step = fmin(step, body->thickness / 8.0);
+    if (!(length < MOST_STEPS * step))
+        return rb_bem_flexibility_surface(n_c, ends, body, f, why);
     s = rb_bem_flexibility_points(n_c, f);
     if (s == RB_OK && !(x = rb_alloc(2 * (size_t)n_c + 3, 1)))
         s = RB_ENOMEM;
@@ -443,7 +539,7 @@ rb_status rb_bem_flexibility_plane_products(int n_c, const double *ends,
         rb_bem_flexibility_place(ends, f);
         memcpy(x, f->x, (size_t)f->m * sizeof *x);
         memcpy(x + f->m, ends, ((size_t)f->m + 1) * sizeof *x);
-        s = make(&like, x, (ends[n_c + 1] - ends[0]) / (n_c + 1), ends, f);
+        s = make(&like, x, step, ends, f);
         f->add_mirrored = products_add;
     }
     return rb_bem_flexibility_end("half-plane", n_c, s, f, why);

@@ -98,7 +98,7 @@ static rb_status halfplane_transforms(const rb_rolling_case *rc, const rb_rollin
 {
     (void)plan; /* nothing lies outside the contact */
     const int are_equal = rc->a.support == RB_BEM_HALFPLANE && rc->mesh != RB_MESH_FITTED;
-    return make(are_equal ? rb_bem_flexibility_toeplitz : rb_bem_flexibility_plane_products, rc,
+    return make(are_equal ? rb_bem_flexibility_toeplitz : rb_bem_flexibility_surface_products, rc,
                 body, mesh, one_body, why);
 }
 
