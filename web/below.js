@@ -3,7 +3,7 @@
 import { card, height_for, html, segments, show, show_notes, svg, ticks, width_of } from "./draw.js";
 import { ALL_TANGENTIAL, formulation_of, hold, plain } from "./state.js";
 import { svg_text } from "./take.js";
-import { say } from "./words.js";
+import { fill_in } from "./words.js";
 
 const FINE = [81, 49],
     COARSE = [41, 25],
@@ -38,7 +38,7 @@ const nice_above = (x) => {
 const scale_bar = (words, most) =>
     html(
         "div",
-        { class: "scale", role: "img", "aria-label": say(words.below_scale, { most: show(most) }) },
+        { class: "scale", role: "img", "aria-label": fill_in(words.below_scale, { most: show(most) }) },
         html("span", {}, "0"),
         html("i", {
             style: `background:linear-gradient(90deg,${Array.from({ length: BANDS }, (_, k) => `rgb(${colour(k / (BANDS - 0.5)).map(Math.round)}) ${(100 * k) / BANDS}% ${(100 * (k + 1)) / BANDS}%`).join()})`,
@@ -308,24 +308,24 @@ export function below_view(words, page) {
         const a = data.numbers.half_width,
             p0 = data.numbers.max_pressure;
         note.textContent =
-            say(words.below_note, {
+            fill_in(words.below_note, {
                 what: words.below_kinds[name],
                 value: show(most.value, 3),
                 part: show(most.value / p0, 3),
                 x: show(most.x, 2),
                 place:
                     most.depth > 0.02 * a
-                        ? say(words.below_depth, { depth: show(most.depth, 3), part: show(most.depth / a, 2) })
+                        ? fill_in(words.below_depth, { depth: show(most.depth, 3), part: show(most.depth / a, 2) })
                         : words.below_surface,
             }) +
             (most.own ? "" : ` ${w.coarse}`) +
-            (kind === "fringes" ? " " + say(words.below_fringes, { step: show((2 * scale) / FRINGES, 3) }) : "");
+            (kind === "fringes" ? " " + fill_in(words.below_fringes, { step: show((2 * scale) / FRINGES, 3) }) : "");
         const shear = largest("max_shear"),
             deep = shear.depth > 0.02 * a,
             off = guess && Math.hypot(guess.x - shear.x, guess.depth - shear.depth) / a;
         told.textContent = [
-            guess && (off < NEAR ? w.right : say(w.wrong, { off: show(off, 2) })),
-            say(deep ? w.answer_below : w.answer_surface, {
+            guess && (off < NEAR ? w.right : fill_in(w.wrong, { off: show(off, 2) })),
+            fill_in(deep ? w.answer_below : w.answer_surface, {
                 depth: show(shear.depth / a, 2),
                 part: show(shear.value / p0, 2),
             }),

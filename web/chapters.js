@@ -4,7 +4,7 @@ import { creep_curve, curve_request, scaled, tractions_legend, tractions_picture
 import { ALL_TANGENTIAL, NORMAL, PRESETS, hold, plain } from "./state.js";
 import { svg_text } from "./take.js";
 import { slip_share } from "./hero.js";
-import { say } from "./words.js";
+import { fill_in } from "./words.js";
 
 const FREE = { ...PRESETS.rail, "creep-ratio": "0" };
 const MEMORY = {
@@ -72,7 +72,7 @@ const beside = (wanted, around, least) =>
 function grey(node, page, name) {
     const trouble = page.store.trouble(name);
     node.classList.toggle("stale-inside", Boolean(trouble));
-    return trouble ? say(page.words.refused, { why: trouble }) : "";
+    return trouble ? fill_in(page.words.refused, { why: trouble }) : "";
 }
 
 /* ---- Press ----------------------------------------------------------------------- */
@@ -183,7 +183,7 @@ export function press_view(words, page) {
         if (trouble || (guess !== null && answered !== guess))
             told.textContent =
                 trouble ||
-                say(guess === "16" ? w.right : w.wrong, {
+                fill_in(guess === "16" ? w.right : w.wrong, {
                     wide: show(2 * n.half_width, 3),
                     a: show(n.half_width, 3),
                     p0: show(n.max_pressure, 3),
@@ -194,7 +194,7 @@ export function press_view(words, page) {
         compared.textContent =
             !ghost || guess === null
                 ? w.hint
-                : say(w.compared, {
+                : fill_in(w.compared, {
                       load: show(n.normal_load / ghost.numbers.normal_load, 3),
                       wide: show(n.half_width / ghost.numbers.half_width, 3),
                       pressure: show(n.max_pressure / ghost.numbers.max_pressure, 3),
@@ -351,7 +351,7 @@ export function brake_view(words, page) {
             cells[k].textContent = zone ? "≈" : "=";
             cells[k].setAttribute(
                 "aria-label",
-                say(w.cell, { k: k + 1, n: CELLS, zone: zone ? words.hero.slips : words.hero.sticks }),
+                fill_in(w.cell, { k: k + 1, n: CELLS, zone: zone ? words.hero.slips : words.hero.sticks }),
             );
             cells[k].setAttribute("aria-pressed", String(Boolean(zone)));
         });
@@ -380,14 +380,18 @@ export function brake_view(words, page) {
         show_notes(notes, a);
         node.classList.toggle("revealed", revealed);
         see.hidden = revealed;
-        const seen = scaled(a),
+        const in_units = scaled(a),
             blank = {
-                ...seen,
-                columns: { ...seen.columns, q: seen.columns.q.map(() => 0), zone: seen.columns.zone.map(() => 0) },
+                ...in_units,
+                columns: {
+                    ...in_units.columns,
+                    q: in_units.columns.q.map(() => 0),
+                    zone: in_units.columns.zone.map(() => 0),
+                },
             },
             wide = width_of(picture);
         picture.replaceChildren(
-            tractions_picture(picture, words, revealed ? seen : blank, {
+            tractions_picture(picture, words, revealed ? in_units : blank, {
                 width: wide,
                 height: beside(Math.min(300, Math.max(190, wide * 0.36)), 80),
                 name: "brake",
@@ -412,11 +416,11 @@ export function brake_view(words, page) {
             solved_row.append(
                 ...right.map((zone) => html("span", { class: zone ? "zone2" : "zone1" }, zone ? "≈" : "=")),
             );
-            told.textContent = `${say(w.hits, { hits, n: CELLS })} ${w.answer}`;
+            told.textContent = `${fill_in(w.hits, { hits, n: CELLS })} ${w.answer}`;
         }
         state.textContent =
             trouble ||
-            say(n.stick === 0 ? w.state_skids : w.state, {
+            fill_in(n.stick === 0 ? w.state_skids : w.state, {
                 s: show(100 * n.creep_ratio, 3),
                 slips: show(100 * (n.stick === 0 ? 1 : slips), 2),
                 used: show(100 * used, 2),
@@ -424,7 +428,7 @@ export function brake_view(words, page) {
             });
         care.textContent =
             ghost && Math.abs(ghost.numbers.max_pressure / n.max_pressure - 1) > 0.01
-                ? say(w.care_not, {
+                ? fill_in(w.care_not, {
                       before: show(ghost.numbers.max_pressure, 3),
                       now: show(n.max_pressure, 3),
                       width_before: show(2 * ghost.numbers.half_width, 3),
@@ -570,7 +574,7 @@ export function soft_view(words, page) {
         const n = a.numbers,
             trouble =
                 grey(node, page, "soft") ||
-                (store.trouble("memory") && say(words.refused, { why: store.trouble("memory") })),
+                (store.trouble("memory") && fill_in(words.refused, { why: store.trouble("memory") })),
             shown = guess !== null,
             percent = 100 * larger_by(n);
         const ghost_of = (name) =>
@@ -597,12 +601,12 @@ export function soft_view(words, page) {
             trouble ||
             [
                 guess === kind ? w.right : w.wrong,
-                say(w.answer[kind], { percent: show(Math.abs(percent), 2), xi: show(n.free_creepage, 2) }),
+                fill_in(w.answer[kind], { percent: show(Math.abs(percent), 2), xi: show(n.free_creepage, 2) }),
                 kind === "larger" ? w.why : "",
             ]
                 .filter(Boolean)
                 .join(" ");
-        state.textContent = trouble || say(w.state, { percent: show(percent, 2), half: show(n.half_width, 3) });
+        state.textContent = trouble || fill_in(w.state, { percent: show(percent, 2), half: show(n.half_width, 3) });
         if (curve_key !== wanted().key && wants().length) page.ask_view("soft");
         curve_host.replaceChildren(
             creep_curve(words, {
@@ -631,7 +635,7 @@ export function soft_view(words, page) {
             }),
         );
         const sum = [...m.columns.p].reduce((s, p, i) => s + p * m.columns.h[i], 0);
-        costs.textContent = say(w.costs, {
+        costs.textContent = fill_in(w.costs, {
             moment: show(m.numbers.resistance_moment, 2),
             forward: show(m.numbers.resistance_moment / (sum || 1), 2),
         });

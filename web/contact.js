@@ -18,7 +18,7 @@ import {
 import { make_draggable } from "./knob.js";
 import { matters_card } from "./matters.js";
 import { ALL_TANGENTIAL, formulation_of, hold } from "./state.js";
-import { say } from "./words.js";
+import { fill_in } from "./words.js";
 
 const edges = (c) => [...c.x].map((x, i) => x - c.h[i] / 2).concat(c.x.at(-1) + c.h.at(-1) / 2);
 const most_of = (list) => list.reduce((most, v) => Math.max(most, Math.abs(v) || 0), 0);
@@ -119,7 +119,7 @@ export function tractions_picture(host, words, answer, options = {}) {
         y: [low, top],
         y_label: options.units?.[1] ?? words.mpa,
         bottom: strip + below + 46,
-        label: say(words.tractions_alt, {
+        label: fill_in(words.tractions_alt, {
             p0: show(most_of(c.p)),
             qmin: show(Math.min(...c.q)),
             qmax: show(Math.max(...c.q)),
@@ -343,7 +343,7 @@ export function creep_curve(words, { width, height, curve, old, numbers: n, stor
         "data-handle": name,
         "aria-valuemax": FAR,
         "aria-valuenow": n.creep_ratio.toFixed(3),
-        "aria-valuetext": say(words.curve_value, { s: show(n.creep_ratio, 3), f: show(n.force_ratio, 3) }),
+        "aria-valuetext": fill_in(words.curve_value, { s: show(n.creep_ratio, 3), f: show(n.force_ratio, 3) }),
         style: "fill:var(--accent);stroke:var(--card);stroke-width:3;touch-action:none",
     });
     make_draggable(store, point, (event) => {
@@ -471,21 +471,21 @@ export function contact_view(words, page) {
         numbers.replaceChildren(number_row(words, a, page.units, page.given));
         show_notes(notes, a);
         const ghost = store.ghosts.main && store.ghosts.main !== a ? store.ghosts.main : null,
-            seen = is_scaled ? scaled(a) : a;
+            drawn = is_scaled ? scaled(a) : a;
         if (is_scaled)
-            axes = { x: [-1.55, 1.55], top: 1.12, low: -Math.max(0.45, 1.15 * most_of(seen.columns.q)), slip: 0 };
+            axes = { x: [-1.55, 1.55], top: 1.12, low: -Math.max(0.45, 1.15 * most_of(drawn.columns.q)), slip: 0 };
         else if (!axes || (!store.holding && !axes_still_fit(axes, a))) axes = axes_of(a);
         const forms = forms_of(a),
             shown =
                 is_scaled && forms
                     ? {
-                          x: seen.columns.x,
+                          x: drawn.columns.x,
                           p: forms.p.map((v) => v / a.numbers.max_pressure),
                           q: forms.q.map((v) => v / a.numbers.max_pressure),
                       }
                     : forms;
         tractions.replaceChildren(
-            tractions_picture(tractions, words, seen, {
+            tractions_picture(tractions, words, drawn, {
                 width,
                 axes,
                 ...(phone.matches && {
@@ -502,7 +502,7 @@ export function contact_view(words, page) {
             tractions_legend(words, a.columns.zone, Boolean(forms)),
             ghost ? html("p", { class: "note" }, words.ghost) : "",
         );
-        note.textContent = say(words.solved_in, {
+        note.textContent = fill_in(words.solved_in, {
             contact: a.numbers.contact,
             stick: a.numbers.stick,
             ms: show(a.milliseconds, 2),

@@ -15,7 +15,7 @@ import {
     with_point,
     with_support,
 } from "./state.js";
-import { say } from "./words.js";
+import { fill_in } from "./words.js";
 
 /* Spans of the sliders: exact fields and the library's own ranges go beyond them. */
 const SPANS = {
@@ -68,7 +68,7 @@ export function with_motion(given, formulation, numbers) {
 export function controls(host, words, page) {
     const { options, store } = page,
         option = Object.fromEntries(options.map((o) => [o.name, o]));
-    const help_of = (o) => say(words.expected, { help: o.help, expected: o.expected, default: o.default || "–" });
+    const help_of = (o) => fill_in(words.expected, { help: o.help, expected: o.expected, default: o.default || "–" });
     const whole = (name) => option[name].kind === "integer";
     const numbers = () => page.answer?.numbers;
     /* As it was typed; a number as the library has read it, units and all. */

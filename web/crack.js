@@ -5,7 +5,7 @@ import { make_draggable } from "./knob.js";
 import { round_125 } from "./lens.js";
 import { ALL_TANGENTIAL, PRESETS, contact_of, crack_of, hold, plain } from "./state.js";
 import { svg_text } from "./take.js";
-import { say } from "./words.js";
+import { fill_in } from "./words.js";
 
 export const CRACK_CASE = {
     ...hold(PRESETS.rail, ALL_TANGENTIAL, "creep-ratio", "-0.5"),
@@ -114,7 +114,7 @@ export function crack_view(words, page) {
         describe: (k) => (data ? where_of(data["crack.x"].at[k] / data.numbers.half_width) : ""),
     });
     const where_of = (x) =>
-        Math.abs(x) < 0.01 ? w.above : say(x < 0 ? w.before : w.after, { x: show(Math.abs(x), 2) });
+        Math.abs(x) < 0.01 ? w.above : fill_in(x < 0 ? w.before : w.after, { x: show(Math.abs(x), 2) });
     const node = html(
         "div",
         { class: "two" },
@@ -228,7 +228,7 @@ export function crack_view(words, page) {
             width,
             height,
             role: "group",
-            "aria-label": say(w.alt, { where: where_of(place) }),
+            "aria-label": fill_in(w.alt, { where: where_of(place) }),
         });
         root.append(
             svg("rect", { x: 0, y: tall, width, height: height - tall, style: "fill:var(--body-b)" }),
@@ -248,14 +248,14 @@ export function crack_view(words, page) {
                 svg(
                     "text",
                     { x: width - 8, y: height - 10, "text-anchor": "end", class: "soft" },
-                    say(width < 520 ? w.magnified_short : w.magnified, { times: show(magnified) }),
+                    fill_in(width < 520 ? w.magnified_short : w.magnified, { times: show(magnified) }),
                 ),
                 ...(wet
                     ? [
                           svg(
                               "text",
                               { x: 8, y: height - 10, class: "soft" },
-                              say(w.wet, { p: show(data["crack.fluid_pressure"].at[k], 3) }),
+                              fill_in(w.wet, { p: show(data["crack.fluid_pressure"].at[k], 3) }),
                           ),
                       ]
                     : []),
@@ -356,7 +356,7 @@ export function crack_view(words, page) {
                 min: ANGLES[0],
                 max: ANGLES[1],
                 now: start.angle,
-                text: say(w.tip_value, { angle: show(start.angle, 3), length: show(start.length, 3) }),
+                text: fill_in(w.tip_value, { angle: show(start.angle, 3), length: show(start.length, 3) }),
                 sign: "",
                 drag(dx, dy) {
                     const rad = (start.angle * Math.PI) / 180,
@@ -466,7 +466,7 @@ export function crack_view(words, page) {
         const length = Number(data.crack["crack-length"]) * a,
             part = (name) => Math.round((100 * data[`crack.${name}`].at[k]) / length),
             [open, stick] = [part("open_length"), part("stick_length")];
-        state.textContent = say(w.state, {
+        state.textContent = fill_in(w.state, {
             where: where_of(place),
             K_I: show(data["crack.K_I"].at[k], 3),
             K_II: show(data["crack.K_II"].at[k], 3),
@@ -501,19 +501,19 @@ export function crack_view(words, page) {
         if (trouble || answered !== guess) {
             const { kind, K_I, K_II } = at_the_mouth(a);
             told.textContent =
-                trouble && say(words.refused, { why: trouble })
-                    ? say(words.refused, { why: trouble })
+                trouble && fill_in(words.refused, { why: trouble })
+                    ? fill_in(words.refused, { why: trouble })
                     : [
                           guess === kind ? w.right : w.wrong,
-                          say(w.answer[kind], { K_I: show(K_I, 3), K_II: show(K_II, 3) }),
+                          fill_in(w.answer[kind], { K_I: show(K_I, 3), K_II: show(K_II, 3) }),
                       ].join(" ");
         }
         answered = guess;
         const ghost = store.ghosts.crack && store.ghosts.crack !== a ? store.ghosts.crack : null,
             number = (of, name) => show(of.summary[name], 3);
         sum.textContent = [
-            say(w.sum, { K_I: number(a, "K_I_max"), dK: number(a, "delta_K_II") }),
-            ghost && say(w.was, { K_I: number(ghost, "K_I_max"), dK: number(ghost, "delta_K_II") }),
+            fill_in(w.sum, { K_I: number(a, "K_I_max"), dK: number(a, "delta_K_II") }),
+            ghost && fill_in(w.was, { K_I: number(ghost, "K_I_max"), dK: number(ghost, "delta_K_II") }),
             given().fluid === "trapped" && w.wet_why,
         ]
             .filter(Boolean)

@@ -23,7 +23,7 @@ export async function crawl({ stride, from, views, seconds }) {
         }
     }
     /* What is shown is what was solved, or grey with a line. */
-    function look(what) {
+    function inspect(what) {
         const text = document.querySelector("main").textContent,
             trouble = store.trouble("main");
         for (const odd of ["NaN", "undefined", "[object", "{"])
@@ -87,10 +87,10 @@ export async function crawl({ stride, from, views, seconds }) {
                         slider.dispatchEvent(new Event("input"));
                         slider.dispatchEvent(new Event("change"));
                         await rest(what);
-                        look(what);
+                        inspect(what);
                         rollbem.open(view);
                         await rest(what);
-                        look(what);
+                        inspect(what);
                         states++;
                         /* No dead end: back where it began. */
                         history.back();

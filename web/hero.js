@@ -5,7 +5,7 @@ import { draw_lens, fit_lens, lens_still_fits } from "./lens.js";
 import { html, show } from "./draw.js";
 import { make_draggable } from "./knob.js";
 import { ALL_TANGENTIAL, NORMAL, formulation_of, hold, radius_of_ground, share_of_ground } from "./state.js";
-import { say } from "./words.js";
+import { fill_in } from "./words.js";
 
 const LENS_SPEED = 0.24; /* contact widths per second: slow motion */
 const TURN_SPEED = 0.55; /* radians per second */
@@ -32,7 +32,7 @@ const PARTS = [
 /* The headline of a state: which, and in words. */
 export function headline_of(words, answer, trouble, given) {
     const w = words.hero;
-    if (!answer || trouble) return { kind: "unsolved", text: say(w.unsolved, { why: trouble || "…" }) };
+    if (!answer || trouble) return { kind: "unsolved", text: fill_in(w.unsolved, { why: trouble || "…" }) };
     const share = slip_share(answer),
         n = answer.numbers,
         percent = Math.round(100 * share);
@@ -48,19 +48,21 @@ export function headline_of(words, answer, trouble, given) {
                     ? w.rest_slides
                     : share < 0.005
                       ? w.rest_sticks
-                      : say(w.rest, { share: part_in_words(w, share) }),
+                      : fill_in(w.rest, { share: part_in_words(w, share) }),
         };
     if (share >= 0.9995) return { kind: "skid", text: w.skid[way] };
     if (share > 0.9) return { kind: "nearly", text: w.nearly[way] };
     if (share < 0.005 && Math.abs(n.force_ratio) < 0.01) return { kind: "free", text: w.free };
-    if (share < 0.1) return { kind: "touch", text: say(w.touch[way], { percent: Math.max(1, percent) }) };
-    return { kind: "partial", text: say(w.partial[way], { share: part_in_words(w, share) }) };
+    if (share < 0.1) return { kind: "touch", text: fill_in(w.touch[way], { percent: Math.max(1, percent) }) };
+    return { kind: "partial", text: fill_in(w.partial[way], { share: part_in_words(w, share) }) };
 }
 function part_in_words(w, share) {
     const [part, name] = PARTS.reduce((best, next) =>
         Math.abs(next[0] - share) < Math.abs(best[0] - share) ? next : best,
     );
-    return Math.abs(part - share) < 0.012 ? w.parts[name] : say(w.parts.percent, { percent: Math.round(100 * share) });
+    return Math.abs(part - share) < 0.012
+        ? w.parts[name]
+        : fill_in(w.parts.percent, { percent: Math.round(100 * share) });
 }
 
 export function hero_view(words, page) {
@@ -174,7 +176,7 @@ export function hero_view(words, page) {
         const a = store.solved.main;
         if (!a) return "";
         const used = Math.abs(a.numbers.force_ratio);
-        return say(value >= 0 ? w.drive_brake : w.drive_accelerate, {
+        return fill_in(value >= 0 ? w.drive_brake : w.drive_accelerate, {
             used: Number.isFinite(used) ? Math.round(100 * used) : 0,
         });
     }
@@ -336,7 +338,7 @@ export function hero_view(words, page) {
             fit = goal;
         return fit;
     }
-    function draw_wheel(pen, at, a, seen, given) {
+    function draw_wheel(pen, at, a, lens_box, given) {
         const { cx, cy, r, ground, left, right } = at,
             R = Number(a.values.radius),
             support = a.values.support;
@@ -417,20 +419,20 @@ export function hero_view(words, page) {
         }
         const ring = Math.max(7, Math.min(13, r * 0.12));
         pen.circle(cx, ground, ring, { stroke: "ink", width: 1.6 });
-        const joints = seen
+        const joints = lens_box
             ? [
                   [
                       [cx + ring * 0.7, ground - ring * 0.7],
-                      [seen.x, seen.y + 14],
+                      [lens_box.x, lens_box.y + 14],
                   ],
                   [
                       [cx + ring * 0.7, ground + ring * 0.7],
-                      [seen.x, seen.y + seen.h - 14],
+                      [lens_box.x, lens_box.y + lens_box.h - 14],
                   ],
               ]
             : [];
         pen.strokes(joints, { stroke: "ink", width: 1.1, dash: [4, 5], alpha: 0.6 });
-        pen.text(cx, ground + 32, say(w.to_scale, { radius: show(R) }), {
+        pen.text(cx, ground + 32, fill_in(w.to_scale, { radius: show(R) }), {
             fill: "soft",
             size: small,
             anchor: "middle",
@@ -441,11 +443,11 @@ export function hero_view(words, page) {
         const n = a.numbers,
             per = layout(size()).lens.w;
         return {
-            wide: say(per < 520 ? w.wide_short : w.wide, {
+            wide: fill_in(per < 520 ? w.wide_short : w.wide, {
                 wide: show(goal.window[1] - goal.window[0], 2),
                 slip: show(goal.slip, 2),
             }),
-            press: n.contact_to > n.contact_from ? say(w.press, { p0: show(n.max_pressure, 3) }) : "",
+            press: n.contact_to > n.contact_from ? fill_in(w.press, { p0: show(n.max_pressure, 3) }) : "",
             stick: w.sticks,
             slip: w.slips,
             enters: w.enters,
@@ -540,7 +542,7 @@ export function hero_view(words, page) {
         note.textContent = trouble ? w.stale : (a.notes ?? []).map((line) => line.replace(/\.?$/, ".")).join(" ");
         canvas.setAttribute(
             "aria-label",
-            say(w.alt, {
+            fill_in(w.alt, {
                 headline: text,
                 wide: show(n.nip_width, 3),
                 p0: show(n.max_pressure, 3),
@@ -624,6 +626,6 @@ export function hero_view(words, page) {
             frame_times = [];
         },
         pause: () => set_running(false),
-        seen: () => ({ placed, way, fit, running }),
+        layout: () => ({ placed, way, fit, running }),
     };
 }

@@ -12,7 +12,7 @@ import { step_view } from "./step.js";
 import { CRACK_CASE, crack_request, crack_view } from "./crack.js";
 import { bench_view } from "./bench.js";
 import { take_along } from "./take.js";
-import { say, words } from "./words.js";
+import { fill_in, words } from "./words.js";
 
 const at = (id) => document.getElementById(id);
 
@@ -39,7 +39,7 @@ window.addEventListener("error", (event) => faults.push(event.error?.stack ?? ev
 window.addEventListener("unhandledrejection", (event) => faults.push(event.reason?.stack ?? String(event.reason)));
 
 async function main() {
-    at("footer").textContent = say(words.footer, { version: VERSION });
+    at("footer").textContent = fill_in(words.footer, { version: VERSION });
     at("headline-before").textContent = words.loading;
     const views = {},
         near = new Set(),
@@ -95,7 +95,7 @@ async function main() {
         ask: (request) => solver.ask(request),
         ask_view: (name) => ask_views((view) => view === views[name]),
         large: () => document.documentElement.classList.contains("large"),
-        tell,
+        show_message,
         open_file,
         open,
         history_buttons: () =>
@@ -170,17 +170,17 @@ async function main() {
         if (answer.refused && newer) return;
         if (request.case === "main" && request.given === link_given && answer.refused) {
             /* A link whose case the library refuses opens the first case, with a note. */
-            link_note = say(words.link_refused, { why: answer.refused });
+            link_note = fill_in(words.link_refused, { why: answer.refused });
             store.replace({ ...store.state, cases: { ...store.state.cases, main: { ...PRESETS.rail } } });
             return;
         }
         store.answer(request.case, { ...answer, given: request.given, coarse: request.coarse });
         if (request.case === "main")
-            tell(
+            show_message(
                 answer.refused
-                    ? say(words.refused, { why: answer.refused })
+                    ? fill_in(words.refused, { why: answer.refused })
                     : answer.unsolved
-                      ? say(words.unsolved, { why: answer.unsolved })
+                      ? fill_in(words.unsolved, { why: answer.unsolved })
                       : link_note,
             );
         for (const view of near) if (view.uses.includes(request.case)) view.solved?.(request.case);
@@ -205,7 +205,7 @@ async function main() {
             button.setAttribute("aria-disabled", String(!can));
         }
     }
-    function tell(text) {
+    function show_message(text) {
         at("message").textContent = text;
         at("message").hidden = !text;
     }
@@ -307,8 +307,8 @@ async function main() {
         try {
             link = read_link(location.hash, names);
         } catch (error) {
-            link_note = say(words.link_broken, { why: error.message });
-            tell(link_note);
+            link_note = fill_in(words.link_broken, { why: error.message });
+            show_message(link_note);
         }
         if (!link) return false;
         embed ||= link.embed;
@@ -328,7 +328,7 @@ async function main() {
         try {
             page.change(read_case_file(await file.text()));
         } catch (error) {
-            tell(say(words.file_broken, { file: file.name, why: error.message }));
+            show_message(fill_in(words.file_broken, { file: file.name, why: error.message }));
         }
     }
     window.addEventListener("dragover", (event) => event.preventDefault());
@@ -397,7 +397,7 @@ async function main() {
     try {
         solver = await start_solver(WASM, WORKER, take);
     } catch (error) {
-        return tell(say(words.no_wasm, { why: error.message }));
+        return show_message(fill_in(words.no_wasm, { why: error.message }));
     }
     Object.assign(page, {
         options: solver.options,
@@ -462,7 +462,7 @@ async function main() {
 
 const until = (holds) =>
     new Promise((resolve) => {
-        const look = () => (holds() ? resolve() : setTimeout(look, 8));
-        look();
+        const poll = () => (holds() ? resolve() : setTimeout(poll, 8));
+        poll();
     });
 main();

@@ -1,7 +1,7 @@
 /* From the boundary to the complementarity problem: the wheel's elements, H and G, condensation, F
  * and M as shades, with the block under the pointer explained. */
 import { html, show, stroke, svg } from "./draw.js";
-import { say } from "./words.js";
+import { fill_in } from "./words.js";
 
 export const parse = (name) => {
     const m = /^([a-z0-9]+[+-]?)(?:\[(\d+)\])?$/.exec(name);
@@ -57,7 +57,7 @@ function shaded(words, name, matrix, { rows, columns, explain, see = () => {} })
     const text = html("p", { "aria-live": "polite" }, words.matrix_hint),
         outline = html("i", { hidden: true }),
         place = { i: 0, j: 0 };
-    function tell() {
+    function announce() {
         const { i, j } = place,
             r = run_about(rows, i),
             c = run_about(columns, j);
@@ -76,7 +76,7 @@ function shaded(words, name, matrix, { rows, columns, explain, see = () => {} })
             0,
             Math.min(rows.length - 1, Math.floor(((event.clientY - box.top) / box.height) * rows.length)),
         );
-        tell();
+        announce();
     });
     canvas.addEventListener("keydown", (event) => {
         const step = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] }[event.key];
@@ -84,7 +84,7 @@ function shaded(words, name, matrix, { rows, columns, explain, see = () => {} })
         event.preventDefault();
         place.i = Math.max(0, Math.min(rows.length - 1, place.i + step[0]));
         place.j = Math.max(0, Math.min(columns.length - 1, place.j + step[1]));
-        tell();
+        announce();
     });
     return html(
         "figure",
@@ -129,7 +129,7 @@ function boundary_picture(words, a, kinds) {
         marks = svg("g");
     const root = svg(
         "svg",
-        { viewBox: `0 0 ${size} ${size}`, role: "img", "aria-label": say(words.boundary_alt, { n: kinds.length }) },
+        { viewBox: `0 0 ${size} ${size}`, role: "img", "aria-label": fill_in(words.boundary_alt, { n: kinds.length }) },
         kinds.map((kind, k) =>
             svg("path", {
                 d: `M${X(x0[k])} ${Y(y0[k])}L${X(x1[k])} ${Y(y1[k])}`,
@@ -227,13 +227,13 @@ function block_table(words, size, kind) {
 export function matrices(words, a, n) {
     const flexibility = (i, j, value) => {
         const ei = i % (n + 1);
-        return say(words.matrix_F, {
+        return fill_in(words.matrix_F, {
             i: i + 1,
             j: j + 1,
             value,
             di: i <= n ? words.normal : words.tangent,
             dj: j < n ? words.pressing : words.rubbing,
-            ei: ei === n ? say(words.upstream, { n: n + 1 }) : ei + 1,
+            ei: ei === n ? fill_in(words.upstream, { n: n + 1 }) : ei + 1,
             ej: (j % n) + 1,
         });
     };
@@ -242,7 +242,7 @@ export function matrices(words, a, n) {
         shaded(words, "F", a.F, {
             rows: Array.from({ length: 2 * n + 2 }, (_, i) => (i <= n ? "N" : "T")),
             columns: Array.from({ length: 2 * n }, (_, j) => (j < n ? "N" : "T")),
-            explain: (i, j, value, block) => `${say(words.block_F, block)} ${flexibility(i, j, value)}`,
+            explain: (i, j, value, block) => `${fill_in(words.block_F, block)} ${flexibility(i, j, value)}`,
         });
     const size = a["lcp.M"].rows,
         kind = (k) => parse(a.names[k]).kind,
@@ -251,7 +251,7 @@ export function matrices(words, a, n) {
         rows: Array.from({ length: size }, (_, i) => kind(i)),
         columns: Array.from({ length: size }, (_, j) => kind(size + j)),
         explain: (i, j, value, { row, column }) =>
-            `${words.blocks_M[`${bare(row)} ${bare(column)}`] ?? words.block_border} ${say(words.matrix_M, { i: i + 1, j: j + 1, value, wi: pretty(words, a.names[i]), zj: pretty(words, a.names[size + j]) })}`,
+            `${words.blocks_M[`${bare(row)} ${bare(column)}`] ?? words.block_border} ${fill_in(words.matrix_M, { i: i + 1, j: j + 1, value, wi: pretty(words, a.names[i]), zj: pretty(words, a.names[size + j]) })}`,
     });
     const lcp = [
         html("h4", {}, words.lcp_title),
@@ -271,9 +271,9 @@ export function matrices(words, a, n) {
         columns: which === "Gc" ? contact.map(() => "contact") : dof,
         see: (i, j) => boundary.see(Math.floor(i / 2), Math.floor(to(j) / 2)),
         explain: (i, j, value, { row, column }) =>
-            say(words.block_boundary, { row: words.boundary[row], column: words.boundary[column] }) +
+            fill_in(words.block_boundary, { row: words.boundary[row], column: words.boundary[column] }) +
             " " +
-            say(words[which === "A" && column === "held" ? "matrix_A_held" : `matrix_${which}`], {
+            fill_in(words[which === "A" && column === "held" ? "matrix_A_held" : `matrix_${which}`], {
                 i: i + 1,
                 j: j + 1,
                 value,
@@ -295,7 +295,7 @@ export function matrices(words, a, n) {
         html(
             "p",
             {},
-            say(words.condense_note, {
+            fill_in(words.condense_note, {
                 N: 2 * kinds.length,
                 n: contact.length,
                 held: 2 * kinds.filter((kind) => kind === "held").length,

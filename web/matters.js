@@ -1,12 +1,12 @@
 /* Which input matters: what one percent more of each input does to a result and to the tractions, and how uncertain the
  * results are, by the library's own derivatives. */
 import { card, chart, html, legend, line, segments, show, stroke, svg, width_of } from "./draw.js";
-import { say } from "./words.js";
+import { fill_in } from "./words.js";
 
 const RESULTS = ["max_pressure", "approach", "tangential_load", "creepage"],
     MOST_ROWS = 8,
     LIVE = 150 /* ms: what takes longer waits until the hand lets go */,
-    PATIENCE = 300 /* ms after which bars of the case before say so */,
+    STALE_AFTER = 300 /* ms after which bars of the case before say so */,
     SMALL = 1e-6 /* of the result: rounding, not an effect */,
     UNCERTAIN = "mu=10%,radius=1%,young=1%";
 
@@ -63,7 +63,7 @@ export function matters_card(words, page) {
         scale = 0,
         cost = 0,
         behind_since = 0,
-        seen = false;
+        in_view = false;
     const node = card(
         w.title,
         html("p", { class: "note" }, w.note),
@@ -76,8 +76,8 @@ export function matters_card(words, page) {
         deviations,
     );
     new IntersectionObserver(([entry]) => {
-        seen = entry.isIntersecting;
-        if (seen) page.ask_view("bench");
+        in_view = entry.isIntersecting;
+        if (in_view) page.ask_view("bench");
     }).observe(node);
     const has = (name) => Math.abs(data.numbers[name]) > 1e-12 && data[`derivative.${name}`];
     choice.append(
@@ -107,9 +107,9 @@ export function matters_card(words, page) {
         if (!data || data.given === page.given) behind_since = 0;
         else if (!behind_since) {
             behind_since = performance.now();
-            setTimeout(draw, PATIENCE + 20);
+            setTimeout(draw, STALE_AFTER + 20);
         }
-        const old = behind_since > 0 && performance.now() - behind_since > PATIENCE,
+        const old = behind_since > 0 && performance.now() - behind_since > STALE_AFTER,
             key = [data, chosen, input, store.trouble("main"), old];
         node.classList.toggle("stale-inside", Boolean(store.trouble("main")));
         rows.classList.toggle("old", old);
@@ -120,8 +120,8 @@ export function matters_card(words, page) {
             rows.replaceChildren();
             along.replaceChildren();
             told.textContent = data.refused
-                ? say(words.refused, { why: data.refused })
-                : say(w.zero, { result: words.numbers[chosen] });
+                ? fill_in(words.refused, { why: data.refused })
+                : fill_in(w.zero, { result: words.numbers[chosen] });
             return;
         }
         const list = effects(
@@ -151,7 +151,7 @@ export function matters_card(words, page) {
                                 draw();
                             },
                         },
-                        told_change({ less, more }).falls ? say(w.less_of, { name: name_of(name) }) : name_of(name),
+                        told_change({ less, more }).falls ? fill_in(w.less_of, { name: name_of(name) }) : name_of(name),
                     ),
                     html(
                         "span",
@@ -182,14 +182,14 @@ export function matters_card(words, page) {
         }
         told.textContent = [
             list.length
-                ? say(w.most, {
+                ? fill_in(w.most, {
                       name: name_of(list[0].name),
                       result: words.numbers[chosen],
                       side: side_of(told_change(list[0]).falls),
                       change: percent(told_change(list[0]).change),
                   })
-                : say(w.none, { result: words.numbers[chosen] }),
-            kinks.length && say(w.kink, { names: kinks.map(({ name }) => name_of(name)).join(", ") }),
+                : fill_in(w.none, { result: words.numbers[chosen] }),
+            kinks.length && fill_in(w.kink, { names: kinks.map(({ name }) => name_of(name)).join(", ") }),
         ]
             .filter(Boolean)
             .join(" ");
@@ -216,7 +216,7 @@ export function matters_card(words, page) {
             x_label: words.x_axis,
             y_label: words.mpa,
             y_ticks: 4,
-            label: say(w.along_alt, { ...of, p: show(most(p), 3), q: show(most(q), 3) }),
+            label: fill_in(w.along_alt, { ...of, p: show(most(p), 3), q: show(most(q), 3) }),
         });
         const inside = [...data.x.keys()].filter((i) => data.x[i] > from - beside && data.x[i] < to + beside);
         for (const [column, colour, width] of [
@@ -227,7 +227,7 @@ export function matters_card(words, page) {
                 svg("path", { d: line(inside.map((i) => [X(data.x[i]), Y(column[i])])), style: stroke(colour, width) }),
             );
         along.replaceChildren(
-            html("p", { class: "note" }, say(w.along, { ...of, elements: data.elements })),
+            html("p", { class: "note" }, fill_in(w.along, { ...of, elements: data.elements })),
             root,
             legend(["--press", words.pressure], ["--rub", words.friction]),
         );
@@ -237,7 +237,7 @@ export function matters_card(words, page) {
         deviations.classList.toggle("old", old);
         deviations.replaceChildren(
             ...(data.uncertain
-                ? [html("li", {}, say(w.uncertain_refused, { why: data.uncertain.replace("--tolerance: ", "") }))]
+                ? [html("li", {}, fill_in(w.uncertain_refused, { why: data.uncertain.replace("--tolerance: ", "") }))]
                 : data.deviations
                   ? RESULTS.filter((name) => Number.isFinite(data.deviations[name])).map((name) =>
                         html(
@@ -245,7 +245,7 @@ export function matters_card(words, page) {
                             { "data-deviation": name },
                             old
                                 ? "…"
-                                : say(w.uncertain_of, {
+                                : fill_in(w.uncertain_of, {
                                       result: words.numbers[name],
                                       value: show(data.numbers[name], 4),
                                       deviation: show(data.deviations[name], 2),
@@ -260,7 +260,7 @@ export function matters_card(words, page) {
         node,
         draw,
         wants: () =>
-            !seen ||
+            !in_view ||
             store.trouble("main") ||
             (store.holding && cost > LIVE) ||
             (data?.given === page.given && data.tolerance === field.value.trim())

@@ -93,7 +93,7 @@ export function svg_pen(width, height, palette) {
         String(text).replace(/[<>&"]/g, (c) => ({ "<": "&lt;", ">": "&gt;", "&": "&amp;", '"': "&quot;" })[c]);
     const number = (v) => Number(v.toFixed(2));
     const d = (points) => points.map(([x, y], k) => `${k ? "L" : "M"}${number(x)} ${number(y)}`).join("");
-    const look = ({ fill, stroke, width: wide = 1.5, dash, alpha = 1, name }) =>
+    const attributes = ({ fill, stroke, width: wide = 1.5, dash, alpha = 1, name }) =>
         (name ? `class="${safe(name)}" ` : "") +
         `fill="${fill ? safe(palette(fill)) : "none"}"` +
         (stroke
@@ -102,10 +102,11 @@ export function svg_pen(width, height, palette) {
         (dash?.length ? ` stroke-dasharray="${dash.join(" ")}"` : "") +
         (alpha < 1 ? ` opacity="${alpha}"` : "");
     return {
-        shape: (points, style) => out.push(`<path d="${d(points)}${style.fill ? "Z" : ""}" ${look(style)}/>`),
-        strokes: (lines, style) => lines.length && out.push(`<path d="${lines.map(d).join("")}" ${look(style)}/>`),
+        shape: (points, style) => out.push(`<path d="${d(points)}${style.fill ? "Z" : ""}" ${attributes(style)}/>`),
+        strokes: (lines, style) =>
+            lines.length && out.push(`<path d="${lines.map(d).join("")}" ${attributes(style)}/>`),
         circle: (x, y, r, style) =>
-            out.push(`<circle cx="${number(x)}" cy="${number(y)}" r="${number(r)}" ${look(style)}/>`),
+            out.push(`<circle cx="${number(x)}" cy="${number(y)}" r="${number(r)}" ${attributes(style)}/>`),
         text(x, y, words, { fill = "ink", size = 13, weight = 400, anchor = "start", halo } = {}) {
             const around = halo
                 ? ` stroke="${safe(palette(halo))}" stroke-width="4" stroke-linejoin="round" paint-order="stroke"`
@@ -123,7 +124,7 @@ export function svg_pen(width, height, palette) {
             out.push("</g>");
         },
         frame: (x, y, w, h, radius, style) =>
-            out.push(`<rect x="${x}" y="${y}" width="${w}" height="${h}" rx="${radius}" ${look(style)}/>`),
+            out.push(`<rect x="${x}" y="${y}" width="${w}" height="${h}" rx="${radius}" ${attributes(style)}/>`),
         end: () =>
             `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" width="${width}" height="${height}" font-family="${safe(FONT)}">` +
             `<rect width="100%" height="100%" fill="${safe(palette("paper"))}"/>${out.join("")}</svg>`,

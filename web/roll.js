@@ -18,7 +18,7 @@ import { edges_of_equal, tractions_legend, tractions_picture } from "./contact.j
 import { make_draggable, slider_for } from "./knob.js";
 import { ALL_TANGENTIAL, DRAWN, NORMAL, TANGENTIAL, formulation_of, held, hold, table_of_drawn } from "./state.js";
 import { command_of, svg_text, text_card } from "./take.js";
-import { say } from "./words.js";
+import { fill_in } from "./words.js";
 
 const POINTS = 13,
     FILE = "drawn.tsv",
@@ -47,7 +47,7 @@ export function roll_view(words, page) {
         milliseconds: 60,
         see: frame,
         describe: (k, n) =>
-            say(words.roll_step, { k: k + 1, n, distance: data ? show(data.history.distance[k], 3) : "" }),
+            fill_in(words.roll_step, { k: k + 1, n, distance: data ? show(data.history.distance[k], 3) : "" }),
     });
     const field = slider_for(
         store,
@@ -259,7 +259,7 @@ export function roll_view(words, page) {
                     class: "handle",
                     tabindex: 0,
                     role: "slider",
-                    "aria-label": say(words.hand_point, { k: k + 1, distance: show((x[1] * k) / last, 2) }),
+                    "aria-label": fill_in(words.hand_point, { k: k + 1, distance: show((x[1] * k) / last, 2) }),
                     "aria-valuemin": low,
                     "aria-valuemax": high,
                     "aria-valuenow": v,
@@ -349,7 +349,7 @@ export function roll_view(words, page) {
                 },
             ),
         );
-        picture.firstChild.setAttribute("aria-label", say(words.roll_alt, { k: k + 1 }));
+        picture.firstChild.setAttribute("aria-label", fill_in(words.roll_alt, { k: k + 1 }));
         draw_way(k);
     }
     function draw_way(k) {
@@ -420,7 +420,7 @@ export function roll_view(words, page) {
             far = Math.abs(last / end - 1);
         told.textContent =
             Number.isFinite(end) && Number.isFinite(last)
-                ? say(far < 0.01 ? w.reached : w.not_yet, {
+                ? fill_in(far < 0.01 ? w.reached : w.not_yet, {
                       distance: show(d.at(-1), 3),
                       part: show(100 * (last / end), 3),
                   })
@@ -465,7 +465,7 @@ export function roll_view(words, page) {
         take(answer) {
             if (answer.kind === "closed") steady = answer.refused ? null : answer;
             else if (answer.refused || !answer["step.p"]) {
-                told.textContent = say(words.refused, { why: answer.refused ?? answer.unsolved });
+                told.textContent = fill_in(words.refused, { why: answer.refused ?? answer.unsolved });
                 node.classList.add("stale-inside");
             } else {
                 const first = !data || data["step.p"].columns !== answer["step.p"].columns;

@@ -1,19 +1,19 @@
 /* Step through the method: matrices, Lemke's pivots, Newton's zones, guessed zones. */
 import { card, chart, html, player, show, stairs, stroke, svg, width_of } from "./draw.js";
 import { matrices, parse, pretty } from "./matrices.js";
-import { say } from "./words.js";
+import { fill_in } from "./words.js";
 
 /* "Element 3 is pressed until element 2 touches." */
 export function sentence_of(words, a, k) {
     if (k === 0)
-        return `${words.pivot_start} ${say(words.sentence, { enter: words.enters.z0, leave: say(words.leaves[parse(a.names[a["pivot.leaving"].at[0]]).kind], parse(a.names[a["pivot.leaving"].at[0]])) })}`;
+        return `${words.pivot_start} ${fill_in(words.sentence, { enter: words.enters.z0, leave: fill_in(words.leaves[parse(a.names[a["pivot.leaving"].at[0]]).kind], parse(a.names[a["pivot.leaving"].at[0]])) })}`;
     const enters = parse(a.names[a["pivot.entering"].at[k]]),
         leaves = parse(a.names[a["pivot.leaving"].at[k]]);
     const same = enters.i === leaves.i && words.same_element[`${enters.kind} ${leaves.kind}`];
-    if (same) return say(same, enters) + ".";
-    return say(words.sentence, {
-        enter: say(words.enters[enters.kind], enters),
-        leave: say(words.leaves[leaves.kind], leaves),
+    if (same) return fill_in(same, enters) + ".";
+    return fill_in(words.sentence, {
+        enter: fill_in(words.enters[enters.kind], enters),
+        leave: fill_in(words.leaves[leaves.kind], leaves),
     });
 }
 
@@ -93,10 +93,10 @@ function newton_strips(words, a) {
         changed = (k) => k === 0 || all[k].some((z, i) => z !== all[k - 1][i]);
     return [
         html("h4", {}, words.newton_title),
-        html("p", { class: "note" }, say(words.newton_note, { n: zone.columns, pivots: a["pivot.z0"].columns })),
+        html("p", { class: "note" }, fill_in(words.newton_note, { n: zone.columns, pivots: a["pivot.z0"].columns })),
         ...all.flatMap((zones, k) => {
             if (!changed(k)) return []; /* pressure and friction in turn: these zones hold */
-            const row = strip(words, zones, say(words.newton_step, { k: k + 1 }));
+            const row = strip(words, zones, fill_in(words.newton_step, { k: k + 1 }));
             if (k > 0) zones.forEach((z, i) => z !== all[k - 1][i] && row.children[i + 1].classList.add("changed"));
             return [row];
         }),
@@ -179,7 +179,7 @@ function ratio_test(words, a, k) {
             { class: "note" },
             k === 0
                 ? words.ratio_first
-                : say(words.ratio_note, { entering: pretty(words, a.names[a["pivot.entering"].at[k]]) }),
+                : fill_in(words.ratio_note, { entering: pretty(words, a.names[a["pivot.entering"].at[k]]) }),
         ),
         html(
             "table",
@@ -218,13 +218,13 @@ export function assess(words, { p, q, gap, shift }, zones, mu) {
         far = 1e-9 * Math.max(...[...shift].map(Math.abs));
     return zones.flatMap((z, k) => {
         const i = k + 1;
-        if (z === 0) return gap[k] < -wide ? [say(words.guess_overlap, { i, gap: show(-gap[k], 3) })] : [];
-        if (p[k] < -tol) return [say(words.guess_pull, { i, p: show(p[k], 3) })];
+        if (z === 0) return gap[k] < -wide ? [fill_in(words.guess_overlap, { i, gap: show(-gap[k], 3) })] : [];
+        if (p[k] < -tol) return [fill_in(words.guess_pull, { i, p: show(p[k], 3) })];
         if (z === 1)
             return Math.abs(q[k]) > mu * p[k] + tol
-                ? [say(words.guess_friction, { i, q: show(Math.abs(q[k]), 3), bound: show(mu * p[k], 3) })]
+                ? [fill_in(words.guess_friction, { i, q: show(Math.abs(q[k]), 3), bound: show(mu * p[k], 3) })]
                 : [];
-        return (z === 2 ? shift[k] < -far : shift[k] > far) ? [say(words.guess_direction, { i })] : [];
+        return (z === 2 ? shift[k] < -far : shift[k] > far) ? [fill_in(words.guess_direction, { i })] : [];
     });
 }
 
@@ -264,7 +264,7 @@ export function step_view(words, page) {
         label: words.pivots,
         see: frame,
         milliseconds: 1400,
-        describe: (k, n) => say(words.pivot_count, { k: k + 1, n }),
+        describe: (k, n) => fill_in(words.pivot_count, { k: k + 1, n }),
     });
     const paint = html("div"),
         guess_picture = html("figure"),
@@ -377,11 +377,11 @@ export function step_view(words, page) {
                 q: part("pivot.q"),
                 mu: mu(),
                 top: top(),
-                label: say(words.pivot_alt, { k: k + 1, z0: show(data["pivot.z0"].at[k]) }),
+                label: fill_in(words.pivot_alt, { k: k + 1, z0: show(data["pivot.z0"].at[k]) }),
             }),
         );
         z0.textContent =
-            say(words.z0, { z0: show(data["pivot.z0"].at[k], 4) }) +
+            fill_in(words.z0, { z0: show(data["pivot.z0"].at[k], 4) }) +
             (k === frames.count - 1 && data.end ? ` ${data.end}` : "");
         ratios.replaceChildren(...ratio_test(words, data, k));
     }
@@ -398,7 +398,7 @@ export function step_view(words, page) {
                         {
                             type: "button",
                             class: `zone${z}`,
-                            "aria-label": say(words.guess_element, { i: i + 1, zone: words.zones[z] }),
+                            "aria-label": fill_in(words.guess_element, { i: i + 1, zone: words.zones[z] }),
                             onclick: () => {
                                 zones[i] = (zones[i] + 1) % 4;
                                 repaint(zones);
@@ -422,7 +422,7 @@ export function step_view(words, page) {
     function judged(answer) {
         if (answer.refused)
             return verdict.replaceChildren(
-                html("p", { class: "bad" }, say(words.guess_refused, { why: answer.refused })),
+                html("p", { class: "bad" }, fill_in(words.guess_refused, { why: answer.refused })),
             );
         const part = (name) => answer[`guess.${name}`].at,
             wrong = assess(words, { p: part("p"), q: part("q"), gap: part("gap"), shift: part("shift") }, asked, mu());
@@ -431,7 +431,7 @@ export function step_view(words, page) {
                 "p",
                 { class: wrong.length ? "bad" : "good" },
                 wrong.length
-                    ? say(words.guess_wrong[wrong.length === 1 ? "one" : "other"], { n: wrong.length })
+                    ? fill_in(words.guess_wrong[wrong.length === 1 ? "one" : "other"], { n: wrong.length })
                     : words.guess_right,
             ),
             html(
@@ -477,7 +477,7 @@ export function step_view(words, page) {
             if (answer.refused || !answer["pivot.p"]) return failed(answer.refused || answer.unsolved || answer.end);
             data = answer;
             const n = data["pivot.p"].rows;
-            title.textContent = say(words.step_title, { n });
+            title.textContent = fill_in(words.step_title, { n });
             show_matrices();
             newton.replaceChildren(...newton_strips(words, data));
             if (zones.length !== n) repaint(Array(n).fill(0));
@@ -487,7 +487,7 @@ export function step_view(words, page) {
     };
     function failed(why) {
         data = null;
-        title.textContent = say(words.refused, { why });
+        title.textContent = fill_in(words.refused, { why });
         for (const host of [strips, picture, ratios, newton, matrix_host, paint, verdict, guess_picture])
             host.replaceChildren();
         sentence.textContent = z0.textContent = "";
@@ -499,7 +499,7 @@ export function step_view(words, page) {
         if (!n) return;
         const log = n * Math.log10(3),
             digits = Math.floor(log) + 1;
-        counted.textContent = say(a.words.solver === "lemke" ? words.step.ways : words.step.ways_only, {
+        counted.textContent = fill_in(a.words.solver === "lemke" ? words.step.ways : words.step.ways_only, {
             n,
             lead: Math.floor(10 ** (log - digits + 2)),
             more: digits - 2,

@@ -2,7 +2,7 @@
 import { card, html } from "./draw.js";
 import { tractions_picture } from "./contact.js";
 import { contact_of, crack_of, write_link } from "./state.js";
-import { say } from "./words.js";
+import { fill_in } from "./words.js";
 
 const words_for_crack = (given) => Object.entries(crack_of(given)).map(([name, text]) => `--${name} ${text}`);
 export const command_of = (given, options) =>
@@ -204,7 +204,7 @@ export function take_along(page, picture, name, canvas, given = () => page.given
                     try {
                         said.textContent = (await act()) ?? "";
                     } catch (error) {
-                        said.textContent = say(w.failed, { why: error.message });
+                        said.textContent = fill_in(w.failed, { why: error.message });
                     }
                 },
             },
@@ -225,7 +225,7 @@ export function take_along(page, picture, name, canvas, given = () => page.given
                 canvas &&
                     can_clip() &&
                     button(w.clip, async () => {
-                        said.textContent = say(w.recording, { seconds: CLIP_SECONDS });
+                        said.textContent = fill_in(w.recording, { seconds: CLIP_SECONDS });
                         save(`${name}.webm`, await clip_of(canvas()), "video/webm");
                         return w.saved;
                     }),

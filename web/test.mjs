@@ -903,7 +903,7 @@ async function views(page) {
             /^Yes. They are pressed together.*K_I = 0\. .*K_II = 79\d/.test(await text_of("#at-crack .answer")),
             await text_of("#at-crack .answer"),
         );
-        const seen = () =>
+        const crack_state = () =>
             page.run(
                 "(() => { const { data, place } = rollbem.views.crack.shown(); return { place, coarse: rollbem.store.answers.crack.coarse, positions: data['crack.x'].at.length, K: data.summary.K_I_max }; })()",
             );
@@ -925,20 +925,20 @@ async function views(page) {
             for (const k of [0.3, 0.6, 1]) await mouse("mouseMoved", k);
             await page.until("rollbem.solver.idle()");
             await page.run("new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))");
-            const on_the_way = await seen();
+            const on_the_way = await crack_state();
             await mouse("mouseReleased", 1);
             await settled();
             return on_the_way;
         };
-        const before = await seen();
+        const before = await crack_state();
         await drag("wheel", -120, 0);
-        const there = await seen();
+        const there = await crack_state();
         check(
             there.place < before.place - 0.5 && there.K === before.K,
             `the wheel: ${JSON.stringify([before, there])}`,
         );
         const on_the_way = await drag("tip", 20, 40),
-            after = await seen();
+            after = await crack_state();
         check(
             on_the_way.coarse && on_the_way.positions === 61 && !after.coarse && after.positions === 121,
             `the tip: ${JSON.stringify([on_the_way, after])}`,
@@ -968,7 +968,7 @@ async function views(page) {
         }
         await page.run("document.querySelector('#at-crack [name=fluid][value=trapped]').click()");
         await settled();
-        const wet = await seen();
+        const wet = await crack_state();
         check(
             wet.K > 5 * before.K &&
                 /Before: \d/.test(await page.run("document.querySelector('#at-crack').textContent")),
@@ -1399,14 +1399,14 @@ async function views(page) {
         await page.run("rollbem.preset('rail'); rollbem.open('hero')");
         await settled();
         const states = await page.run(`(async () => {
-            const load = () => rollbem.page.given.load, seen = [load()];
+            const load = () => rollbem.page.given.load, loads = [load()];
             history.replaceState(null, "");
             rollbem.page.change({ ...rollbem.page.given, load: "20000" });
-            seen.push(load());
+            loads.push(load());
             const back = new Promise((resolve) => addEventListener("popstate", resolve, { once: true }));
             rollbem.store.undo();
             await back;
-            return [...seen, load(), rollbem.store.can_redo];
+            return [...loads, load(), rollbem.store.can_redo];
         })()`);
         check(states.join() === "12500,20000,12500,true", states.join());
     });

@@ -33,9 +33,9 @@ export async function seen_together(url, width, height) {
                     const head = document.querySelector("header").getBoundingClientRect().bottom,
                         picture = (slider.closest(".two") ?? document.querySelector("#at-${chapter}")).querySelector("${PICTURES[chapter] ?? "figure svg"}").getBoundingClientRect(),
                         at = slider.getBoundingClientRect(),
-                        seen = Math.min(innerHeight, picture.bottom) - Math.max(head, picture.top);
+                        visible = Math.min(innerHeight, picture.bottom) - Math.max(head, picture.top);
                     return { slider: slider.dataset.dial ?? slider.ariaLabel ?? slider.id, chapter: "${chapter}",
-                        part: at.top >= head && at.bottom <= innerHeight + 1 ? Math.max(0, seen / picture.height) : 0 };
+                        part: at.top >= head && at.bottom <= innerHeight + 1 ? Math.max(0, visible / picture.height) : 0 };
                 })`,
             )),
         );

@@ -601,4 +601,5 @@ export const words = {
 };
 
 /* A word with {names} replaced. */
-export const say = (text, values = {}) => text.replace(/\{(\w+)\}/g, (all, name) => values[name] ?? all);
+/* The sentence with its {names} replaced by values. */
+export const fill_in = (text, values = {}) => text.replace(/\{(\w+)\}/g, (all, name) => values[name] ?? all);
