@@ -798,13 +798,29 @@ static double local_slip(const contact *c, const table *t, int i)
            (-q[i - 1] + 3.0 * q[i] - 3.0 * q[i + 1] + q[i + 2]);
 }
 
+/* What bulk stresses strain A more than B, homogeneous half-planes. */
+static double bulk_strain(const contact *c)
+{
+    const int thin = strcmp(word(c->inputs, "plane"), "stress") == 0;
+    double strain = 0.0;
+    for (int b = 0; b < 2; b++) {
+        const double X = json_number_value(
+                         json_object_get(c->inputs, b ? "bulk-stress-b" : "bulk-stress")),
+                     E = number(c->inputs, b ? "young-b" : "young"),
+                     nu = number(c->inputs, b ? "poisson-b" : "poisson");
+        if (X != 0.0)
+            strain += (b ? -X : X) * (thin ? 1.0 : 1.0 - nu * nu) / E;
+    }
+    return strain;
+}
+
 /* Gap and slip from the printed displacements. */
 static void check_kinematics(const contact *c, const table *t)
 {
     const double *x = t->column[X], *un = t->column[UN], *ut = t->column[UT];
     const double delta = number(c->summary, "approach");
     const double rounding = 1e-13 * (largest(t->n, un) + largest(t->n, ut) + delta);
-    const double length = tolerance(c) * length_scale(c, t) + rounding;
+    const double length = tolerance(c) * length_scale(c, t) + rounding, strain = bulk_strain(c);
     for (int i = 0; i < t->n; i++) {
         const double worn = json_number_value(json_array_get(c->worn, (size_t)i));
         const double g0 = initial_gap(c, x[i]) + worn;
@@ -819,12 +835,12 @@ static void check_kinematics(const contact *c, const table *t)
             const double xi = number(c->summary, "creepage");
             const double rigid = number(c->summary, "tangential_shift");
             /* the last digit of a rigid shift may be all that the surface yields */
-            expect("shift = shift + ut", t->column[SHIFT][i], rigid + ut[i],
+            expect("shift = shift + ut", t->column[SHIFT][i], rigid + ut[i] + strain * x[i],
                    length + 1e-15 * fabs(rigid));
-            expect("slip (12)", t->column[SLIP][i], xi - (ut[i + 1] - ut[i]) / dx,
+            expect("slip (12)", t->column[SLIP][i], xi - strain - (ut[i + 1] - ut[i]) / dx,
                    length / dx + 1e-12 * fabs(xi));
         } else {
-            const double xi = number(c->summary, "creepage");
+            const double xi = number(c->summary, "creepage") - strain;
             const char *of = json_string_value(json_object_get(c->inputs, "slip-operator"));
             const int second = of && strcmp(of, "second") == 0;
             if (!second)
@@ -974,7 +990,7 @@ static double fed_by_creepage(const contact *c, const table *t)
     double fed = 0.0;
     for (int i = 1; i + 1 < t->n; i++)
         fed -= q[i] * (second ? t->column[H][i] : 0.5 * (x[i + 1] - x[i - 1]));
-    return fed * number(c->summary, "creepage");
+    return fed * (number(c->summary, "creepage") - bulk_strain(c));
 }
 
 /* -int p un' dx, a parabola through three neighbours as un. */

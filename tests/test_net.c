@@ -121,6 +121,7 @@ static const struct {
       {"both", "--interlayer-normal 2e-6 --interlayer-tangential 1e-6"},
       {"hardening", "--interlayer-tangential 1e-6 --yield-stress 40 --hardening 1e5"},
       {"softening", "--yield-stress 200 --hardening -2000"}}},
+    {"bulk", NULL, {{"none", ""}, {"both", "--bulk-stress 60 --bulk-stress-b -25"}}},
     {"mu",
      NULL,
      {{"0", "--mu 0"}, {"1e-3", "--mu 1e-3"}, {"0.3", ""}, {"3", "--mu 3"}, {"way", ""}}},
@@ -183,7 +184,8 @@ static const char options_elsewhere[] =
     " layer-thickness base-young base-poisson relaxation-time time-step relaxation-ratio speed"
     " layer-thickness-b base-young-b base-poisson-b relaxation-time-b relaxation-ratio-b"
     " free-axle gap-smoothing conductivity heat-capacity temperature conductivity-b heat-capacity-b"
-    " temperature-b worn interlayer-normal interlayer-tangential yield-stress hardening ";
+    " temperature-b worn interlayer-normal interlayer-tangential yield-stress hardening"
+    " bulk-stress bulk-stress-b ";
 
 enum { LEVELS = 40 };
 static level levels[FACTORS][LEVELS];
@@ -319,6 +321,10 @@ static const conflict conflicts[] = {
     {{"output=curve*", "regime!steady"}, "a curve needs steady rolling"},
     {{"output=curve*", "tangential!none"}, "a curve varies it from --from"},
     {{"size=transforms", "output=fclib"}, "dense"},
+    {{"bulk=both", "body-b=rigid"}, "a rigid body B is not strained"},
+    {{"bulk=both", "support!halfplane"}, "half-planes of one elastic material only"},
+    {{"bulk=both", "body-b=hub|arc"}, "half-planes of one elastic material only"},
+    {{"bulk=both", "surface!plain", "body-b!rigid"}, "half-planes of one elastic material only"},
     {{YIELDING, "law=exponential|rational|linear|memory|heat|both"}, "not with a law that follows"},
     {{YIELDING, "solver=cone"}, "solves Coulomb's law only"},
     {{YIELDING, "output=fclib"}, "Coulomb's cones alone"},

@@ -107,6 +107,12 @@ static const sentence notes[] = {
     {"static-creepage", "In a static case --creep does not change the tractions",
      FRETS "--creep 0.001", FRETS "--shift 0.001"},
     {"no-creepage", "the wheel rolls at creepage 0", ROLLS, ROLLS "--force 0"},
+    {"strained-creepage", "the bulk stresses shift every creepage by 0.000433",
+     STEEL "--radius 100 --load 100 --mu 0.3 --creep 0 --bulk-stress 100 " ROLL,
+     STEEL "--radius 100 --load 100 --mu 0.3 --creep 0 " ROLL},
+    {"slips-both-ways", "The contact slips in both directions",
+     STEEL "--radius 100 --max-pressure 1000 --mu 0.5 --force-ratio 0.6 --bulk-stress-b 1250",
+     STEEL "--radius 100 --max-pressure 1000 --mu 0.5 --force-ratio 0.6 --bulk-stress-b 500"},
     {"percent",
      "xi = 0.1 is far beyond full sliding, which begins at 0.00296. If the creepage is "
      "meant in per cent, write --creep 0.1%",

@@ -169,6 +169,10 @@ typedef struct {
      * creep_ratio only enter (12). steady, transient: one of creep, creep_ratio, force,
      * force_ratio. */
     double shift, creep, creep_ratio, force, force_ratio;
+    /* Uniform stress along the surface of A and of B, far from the contact and before it [stress],
+     * tension > 0: it strains the bodies (theory-rolling.md 4.13).  Half-planes of one elastic
+     * material. */
+    double bulk_stress, bulk_stress_b;
     int free_axle; /* steady: A's axle is free of torque, Q = -M/R_A (theory-bodies.md V4), and
                       creepage and force are not given */
 
@@ -511,7 +515,8 @@ typedef struct {
     const double *mu;
     const double *load, *approach;                                   /* at most one */
     const double *shift, *creep, *creep_ratio, *force, *force_ratio; /* at most one */
-} rb_rolling_program;                                                /* all borrowed */
+    const double *bulk_stress, *bulk_stress_b;
+} rb_rolling_program; /* all borrowed */
 
 /* One entry per step. */
 typedef struct rb_rolling_history {

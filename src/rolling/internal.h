@@ -13,6 +13,10 @@
  * contact; the second function sets the plan to the default boundary. */
 int rb_rolling_has_fine_boundary(const rb_rolling_plan *plan);
 void rb_rolling_coarsen_boundary(rb_rolling_plan *plan);
+/* 1: a bulk stress is given; and the strain along the surface that it makes in A less that in B
+ * (U1): displacements differ by so much times x. */
+int rb_rolling_is_strained(const rb_rolling_case *rc);
+double rb_rolling_bulk_strain(const rb_rolling_case *rc);
 /* 1: Q, a force ratio or a free axle is given, and no creepage. */
 int rb_rolling_force_is_given(const rb_rolling_case *rc);
 

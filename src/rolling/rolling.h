@@ -552,7 +552,7 @@ typedef struct {
                        */
 } rb_rolling_program_column;
 
-enum { RB_ROLLING_PROGRAM_COLUMNS = 10 };
+enum { RB_ROLLING_PROGRAM_COLUMNS = 12 };
 extern const rb_rolling_program_column rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS];
 
 /* The case that results of the program refer to; if the program has a column mu, its mu

@@ -134,6 +134,12 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
     if (k->unloaded && k->fluid == RB_CRACK_PRESSURE)
         return rb_fail(why, RB_EINVAL,
                        "--fluid pressure: is the contact pressure, and --unloaded has none");
+    if ((rc->bulk_stress_b != 0.0 || c->program.bulk_stress_b) &&
+        (k->unloaded || rb_case_has_steps(c)))
+        return rb_fail(why, RB_EINVAL,
+                       "--bulk-stress-b: with a crack of a contact without steps only; "
+                       "%s --remote-stress",
+                       k->unloaded ? "--unloaded takes" : "a stress that stays is");
     if (!k->unloaded && rc->elastic_b &&
         !rb_rolling_body_can(&rc->b, RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC))
         return rb_fail(why, RB_EINVAL,
@@ -440,6 +446,7 @@ rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k
         /* of plane stress: the same kappa */
         .poisson = c->rc.plane == RB_PLANE_STRESS ? b->poisson / (1.0 + b->poisson) : b->poisson};
     r->passes = k->unloaded ? 1 : k->passes;
+    t->bulk = c->rc.bulk_stress_b;
     t->loads = k->unloaded ? 0 : has_steps ? steps->steps : 1;
     t->load = rb_arena_zeros(&t->memory, (size_t)t->loads + 1, sizeof *t->load);
     if (t->memory.failed)
@@ -465,7 +472,7 @@ rb_crack_passage rb_case_crack_passage(const rb_case_crack *k, const rb_case_cra
                               .passes = k->unloaded ? 1 : k->passes,
                               .fluid = (rb_crack_fluid)k->fluid,
                               .locate_closing = k->locate_closing,
-                              .tension = k->remote_stress};
+                              .tension = k->remote_stress + t->bulk};
 }
 
 /* ---- Solve ------------------------------------------------------------------------- */

@@ -88,6 +88,7 @@ typedef struct {
     rb_bem_edge_load *load;
     rb_crack_load_kind kind;
     double *ends;
+    double bulk;     /* stress of B along its surface besides the remote one */
     rb_arena memory; /* of the arrays; those of a result with positions are its own */
 } rb_case_crack_track;
 

@@ -104,8 +104,7 @@ rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n, rb_m
             if (*n == RB_CASE_NUMBERS_MAX || !isfinite(value) ||
                 (entry == 0 && isnan(*(double *)(void *)((char *)&words + o->offset))) ||
                 (o->word && value == o->word_value && o->word_value != 0.0) ||
-                (o->word && value == o->word_value && value == 0.0 && o->range.from >= 0.0) ||
-                rb_case_is_replaced(c, o))
+                (o->word && value == o->word_value && value == 0.0) || rb_case_is_replaced(c, o))
                 continue;
             if (has_meaning(c, o, entry, value, &means) != RB_OK)
                 return rb_fail(why, RB_ENOMEM, "out of memory for the numbers of a case");

@@ -82,6 +82,37 @@ static void carter_on(rb_verify *v, rb_bem_support support, const char *name)
                        "Carter on a cylinder held by its %s", name);
 }
 
+/* At rest under Q and a bulk stress of B in one step the stick zone is displaced (theory-rolling.md
+ * U2). */
+static double displaced_at(double x, const void *context)
+{
+    const curve *c = context;
+    const double own = rb_closed_hertz_pressure(1.0, 1.0, x / c->a),
+                 half = rb_closed_cattaneo_stick(0.6);
+    return c->mu * c->p0 * (own - half * rb_closed_hertz_pressure(1.0, half, x / c->a - c->s));
+}
+
+static void bulk_stress(rb_verify *v)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.contact_elements = 200;
+    rb_verify_on_same(&rc);
+    const rb_rolling_derived d = rb_rolling_derive(&rc);
+    const curve c = {rc.mu, d.stress, rc.half_width, -0.25};
+    rc.force_ratio = 0.6;
+    rc.bulk_stress_b = -4.0 * c.s * c.mu * c.p0;
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_absolute(v, rms_error(s, s->q, c.mu * c.p0, displaced_at, &c), 0.0, 3e-3,
+                       "bulk stress mu p0 of B: rms of q / (mu p0)");
+    rc.formulation = RB_STEADY;
+    const double strain = -rc.bulk_stress_b * 0.5 / d.modulus;
+    const double xi = rb_verify_solve(v, &rc)->creepage;
+    rc.bulk_stress_b = 0.0;
+    rb_verify_relative(v, xi - rb_verify_solve(v, &rc)->creepage, strain, 1e-6,
+                       "bulk stress of B: shift of the creepage");
+}
+
 /* The matrix of Addi et al. and its pivoted form are one problem. */
 static void two_forms(rb_verify *v)
 {
@@ -200,6 +231,7 @@ void rb_verify_contact(rb_verify *v)
     carter_on(v, RB_BEM_ARC, "arc");
     carter_on(v, RB_BEM_HUB, "hub");
     two_forms(v);
+    bulk_stress(v);
     rb_rolling_case rc = rb_verify_uncoupled();
     rc.force_ratio = 0.64;
     const rb_rolling_solution *s = rb_verify_solve(v, &rc);

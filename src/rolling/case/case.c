@@ -305,6 +305,21 @@ double rb_rolling_zone_half_width(const rb_rolling_case *rc, double load)
     return rc->interlayer_normal > 0.0 ? fmax(hertz, soft) : hertz;
 }
 
+int rb_rolling_is_strained(const rb_rolling_case *rc)
+{
+    return rc->bulk_stress != 0.0 || rc->bulk_stress_b != 0.0;
+}
+
+double rb_rolling_bulk_strain(const rb_rolling_case *rc)
+{
+    return rb_rolling_is_strained(rc)
+               ? rc->bulk_stress * compliance(rb_rolling_material(rc, &rc->a)) -
+                     (rc->elastic_b
+                          ? rc->bulk_stress_b * compliance(rb_rolling_material(rc, &rc->b))
+                          : 0.0)
+               : 0.0;
+}
+
 int rb_rolling_force_is_given(const rb_rolling_case *rc)
 {
     return !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
@@ -392,7 +407,8 @@ int rb_rolling_carter_holds(const rb_rolling_case *rc)
            rc->friction.law == RB_FRICTION_constant && !rb_rolling_law_depends_on_state(rc) &&
            rc->interlayer_normal == 0.0 && rc->interlayer_tangential == 0.0 &&
            rc->yield_stress == 0.0 && rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS) &&
-           rc->gap != RB_GAP_TABLE && rc->worn.n == 0 && !rb_rolling_couples(rc);
+           rc->gap != RB_GAP_TABLE && rc->worn.n == 0 && !rb_rolling_is_strained(rc) &&
+           !rb_rolling_couples(rc);
 }
 
 rb_rolling_plan rb_rolling_plan_of(const rb_rolling_case *rc)
@@ -724,6 +740,28 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
+/* A stress that is uniform along the surface, and so is its strain: of what is flat, of one
+ * material, and keeps no memory. */
+static rb_status check_bulk(const rb_rolling_case *rc, rb_message *why)
+{
+    const double stress[2] = {rc->bulk_stress, rc->bulk_stress_b};
+
+    if (rc->bulk_stress_b != 0.0 && !rc->elastic_b)
+        return rb_fail(why, RB_EINVAL,
+                       "bulk-stress-b: a rigid body B is not strained; make it elastic (--similar, "
+                       "--young-b)");
+    for (int k = 0; k < 2; k++)
+        if (stress[k] != 0.0 &&
+            !rb_rolling_body_can(k ? &rc->b : &rc->a,
+                                 RB_BODY_FLAT | RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC))
+            return rb_fail(
+                why, RB_EINVAL,
+                "bulk-stress%s: of half-planes of one elastic material only (--support%s "
+                "halfplane), without layer and relaxation",
+                k ? "-b" : "", k ? "-b" : "");
+    return RB_OK;
+}
+
 static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
 {
     const struct {
@@ -737,6 +775,8 @@ static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
                  {"approach", rc->approach},
                  {"half-width", rc->half_width},
                  {"max-pressure", rc->max_pressure},
+                 {"bulk-stress", rc->bulk_stress != 0.0 ? rc->bulk_stress : NAN},
+                 {"bulk-stress-b", rc->bulk_stress_b != 0.0 ? rc->bulk_stress_b : NAN},
                  {"speed", rc->speed != 0.0 ? rc->speed : NAN}};
 
     for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
@@ -750,10 +790,10 @@ static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
 rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
 {
     static rb_status (*const checks[])(const rb_rolling_case *, rb_message *) = {
-        check_memory,       check_heat,       rb_rolling_law_check, check_interlayer,
-        check_normal,       check_tangential, check_bore,           check_gap,
-        check_irregularity, check_worn,       check_increments,     check_sizes,
-        check_mesh};
+        check_memory, check_heat,         rb_rolling_law_check, check_interlayer,
+        check_normal, check_tangential,   check_bore,           check_gap,
+        check_bulk,   check_irregularity, check_worn,           check_increments,
+        check_sizes,  check_mesh};
     const rb_rolling_case defaults = rb_rolling_case_defaults();
     rb_status s = rb_rolling_check_ranges(rc, &defaults, why);
 

@@ -248,6 +248,15 @@ const rb_option rb_case_table[] = {
                  "steady: no torque on A's axle, Q = -M/R_A; M: see resistance_moment",
                  .excludes = RB_ONE_LOADING),
 
+    RB_GROUP_LINE("bulk", "Bulk stress: half-planes that are stretched along the surface"),
+    RB_NUMBER_LINE("bulk-stress", RC(bulk_stress), "MPa", RB_ANY,
+                   "uniform stress of A along x, far from the contact, tension > 0: its strain "
+                   "shifts the stick zone at rest, and the creepage of rolling",
+                   .word = "none", .word_value = 0.0),
+    RB_NUMBER_LINE("bulk-stress-b", RC(bulk_stress_b), "MPa", RB_ANY,
+                   "the same of an elastic B, as of a specimen in a test of fretting fatigue",
+                   .word = "none", .word_value = 0.0),
+
     RB_GROUP_LINE("problem", "Problem"),
     RB_CHOICE_LINE("formulation", RC(formulation), formulations,
                    "static: displaced without rolling; steady: rolling towards +x; "
@@ -266,8 +275,8 @@ const rb_option rb_case_table[] = {
     RB_TEXT_LINE("history", PLACE(history_file), "FILE",
                  "table with named columns: distance (transient, in Hertz half-widths of "
                  "the largest load), time [s] (static, viscoelastic bodies), mu, load or "
-                 "approach, shift, creep, creep_ratio, force or force_ratio; a column "
-                 "replaces the value of the case",
+                 "approach, shift, creep, creep_ratio, force or force_ratio, bulk_stress, "
+                 "bulk_stress_b; a column replaces the value of the case",
                  .unset = "none", .file = RB_FILE_READ),
 
     RB_NUMBER_LINE("time-step", RC(time_step), "s", RB_ABOVE(0),

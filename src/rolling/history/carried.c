@@ -109,8 +109,8 @@ static rb_status create_displacement(rb_rolling_particles *r, rb_message *why)
     return r->memory.failed ? RB_ENOMEM : RB_OK;
 }
 
-/* w_T of the present tractions at the same places (c = 0), or where the particles are
- * that a step of length c brings to them. */
+/* w_T of the present tractions and strains at the same places (c = 0), or where the particles
+ * are that a step of length c brings to them. */
 static rb_status bring_displacement(rb_rolling_particles *r, const rb_rolling_stride *stride,
                                     rb_message *why)
 {
@@ -125,11 +125,19 @@ static rb_status bring_displacement(rb_rolling_particles *r, const rb_rolling_st
             s = rb_rolling_former_place_create(r->rc, bodies, stride->c, &r->memory, &r->ahead);
         if (s == RB_OK)
             rb_rolling_former_place_apply(&r->ahead, bodies, state->p, state->q, r->w_T);
-        return s;
+    } else {
+        s = rb_rolling_displacement(bodies, state->p, state->q, r->w);
+        memcpy(r->w_T, r->w + m + element, (size_t)n * sizeof(double));
     }
-    s = rb_rolling_displacement(bodies, state->p, state->q, r->w);
-    memcpy(r->w_T, r->w + m + element, (size_t)n * sizeof(double));
+    for (int i = 0; i < n && s == RB_OK && r->strain != 0.0; i++)
+        r->w_T[i] += r->strain * (bodies->f.x[i] + stride->c);
     return s;
+}
+
+static void leave_displacement(rb_rolling_particles *r, const rb_rolling_stride *stride)
+{
+    (void)stride;
+    r->strain = rb_rolling_bulk_strain(r->model->rc);
 }
 
 /* ---- Coefficients of friction ------------------------------------------------------ */
@@ -267,7 +275,7 @@ typedef struct {
 
 /* What looks at the bodies of the step before stands before those that change. */
 static const memory memories[] = {
-    {NULL, create_displacement, bring_displacement, NULL, 0},
+    {NULL, create_displacement, bring_displacement, leave_displacement, 0},
     {rb_rolling_law_depends_on_state, create_friction, bring_friction, leave_friction, 0},
     {yields, create_yielded, bring_yielded, NULL, 0},
     {rb_rolling_has_heat, create_heat, bring_heat, leave_heat, 0},

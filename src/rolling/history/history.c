@@ -378,7 +378,7 @@ static rb_status compute_row(history_state *r, int steps, rb_message *why)
 typedef struct {
     rb_rolling_states state; /* one */
     int row, part;
-    double shift, half_width, interval, mu_given;
+    double shift, half_width, interval, mu_given, strain;
     double *past; /* coefficients of friction, plastic slip, displacements that the bodies bring,
                      and what those that relax remember */
 } bookmark;
@@ -401,6 +401,7 @@ static rb_status bookmark_set(const history_state *r, bookmark *b)
                     .half_width = model->half_width,
                     .interval = r->particles.interval,
                     .mu_given = r->particles.mu_given,
+                    .strain = r->particles.strain,
                     .past = rb_alloc(2 * n + 2 * m + size, 1)};
     if (!b->past)
         return RB_ENOMEM;
@@ -425,6 +426,7 @@ static rb_status bookmark_return(bookmark *b, history_state *r, rb_message *why)
     r->shift = b->shift;
     model->half_width = b->half_width;
     r->particles.mu_given = b->mu_given;
+    r->particles.strain = b->strain;
     rb_rolling_memory_track_restore(&r->particles.past, b->past + 2 * n + 2 * m);
     if (model->carried.yielded)
         memcpy(model->carried.yielded, b->past + n, n * sizeof *b->past);
@@ -479,7 +481,7 @@ static int is_pressure(const rb_rolling_model *model, const rb_rolling_states *o
 
 /* 1: a row at rest has one answer, in however many steps it is computed: without contact at its
  * end, without friction and memory, or if a force or shift alone moved bodies that are not
- * coupled, and no law changed on the way. */
+ * coupled, no bulk stress strained them, and no law changed on the way. */
 static int is_one_step_enough(const history_state *r, const bookmark *before)
 {
     const rb_rolling_model *model = r->model;
@@ -490,7 +492,8 @@ static int is_one_step_enough(const history_state *r, const bookmark *before)
     if (rb_rolling_relaxes(r->rc))
         return 0;
     return model->problem.mu == 0.0 || rb_rolling_model_load(model) == 0.0 ||
-           (!coupled && !(mu && row > 0 && mu[row] != mu[row - 1]) &&
+           (!coupled && rb_rolling_bulk_strain(model->rc) == before->strain &&
+            !(mu && row > 0 && mu[row] != mu[row - 1]) &&
             !rb_rolling_law_depends_on_state(model->rc) &&
             (is_first || is_pressure(model, &before->state)));
 }

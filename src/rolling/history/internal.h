@@ -63,6 +63,7 @@ typedef struct {
     int keeps_elements;            /* 1: keep the elements of the given states */
     rb_arena memory;               /* of all arrays that follow */
     double *w_T;                   /* n: tangential displacement that the next step starts from */
+    double strain;                 /* of bulk stresses in the step before (U1) */
     double *mu;                    /* n: coefficients before the step */
     double mu_given;               /* the coefficient of the case in the step before */
     double *yielded;               /* n + 1: plastic slip of the interface, to be moved with the

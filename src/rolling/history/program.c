@@ -22,6 +22,8 @@ const rb_rolling_program_column rb_rolling_program_columns[RB_ROLLING_PROGRAM_CO
     COLUMN(force_ratio, NULL, "-", 0),
     COLUMN(creep, "creepage|xi", "-", 1),
     COLUMN(creep_ratio, NULL, "-", 1),
+    COLUMN(bulk_stress, NULL, "MPa", 0),
+    COLUMN(bulk_stress_b, NULL, "MPa", 0),
 };
 
 static const double *column_of(const rb_rolling_program *program, int c)
@@ -56,9 +58,11 @@ int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling
     return (int)fmin(fmax(ceil(steps * (1.0 - 1e-9)), 1.0), RB_ROLLING_MOST_STEPS);
 }
 
-/* 1: the case is loaded tangentially at rest. */
+/* 1: the case is loaded tangentially at rest, or its bodies are strained. */
 static int loads(const rb_rolling_case *at)
 {
+    if (at->bulk_stress != 0.0 || at->bulk_stress_b != 0.0)
+        return 1;
     if (!isnan(at->force_ratio))
         return at->force_ratio != 0.0;
     if (!isnan(at->force))
@@ -84,6 +88,8 @@ static void begin_from_nothing(rb_rolling_case *at, int part, int parts)
     at->shift *= loaded;
     at->force *= loaded;
     at->force_ratio *= loaded;
+    at->bulk_stress *= loaded;
+    at->bulk_stress_b *= loaded;
 }
 
 rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program, const rb_rolling_case *rc,
@@ -306,7 +312,8 @@ rb_status rb_rolling_program_of_case(const rb_rolling_case *rc, rb_arena *memory
     const size_t rows = 2 * (size_t)count + 1; /* at most */
     double *distance = rb_arena_doubles(memory, rows, 1),
            *normal = rb_arena_doubles(memory, rows, 1),
-           *loading = rb_arena_doubles(memory, rows, 1), last;
+           *loading = rb_arena_doubles(memory, rows, 1), *bulk = rb_arena_doubles(memory, rows, 2),
+           last;
 
     if (memory->failed)
         return RB_ENOMEM;
@@ -326,13 +333,23 @@ rb_status rb_rolling_program_of_case(const rb_rolling_case *rc, rb_arena *memory
             last = rb_rolling_wanted_shift(rc);
         }
     }
-    const int loaded = last != 0.0 && count > 1;
+    const int is_strained = rc->bulk_stress != 0.0 || rc->bulk_stress_b != 0.0,
+              loaded = (last != 0.0 || is_strained) && count > 1;
+    if (is_strained) { /* in phase with the force or shift */
+        program->bulk_stress = bulk;
+        program->bulk_stress_b = bulk + rows;
+    }
     program->n = count + (loaded ? count : 0) + rolls;
     for (int r = 0; r < program->n; r++) {
         normal[r] = r < count ? most * (r + 1) / count : most;
+        const double part = !loaded || r >= 2 * count ? 1.0
+                            : r < count               ? 0.0
+                                                      : (double)(r + 1 - count) / count;
         loading[r] = !loaded || r >= 2 * count ? last
                      : r < count               ? 0.0
                                                : last * (r + 1 - count) / count;
+        bulk[r] = part * rc->bulk_stress;
+        bulk[(size_t)r + rows] = part * rc->bulk_stress_b;
     }
     if (rolls)
         distance[program->n - 1] = rc->distance;

@@ -540,6 +540,10 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear, r
                        "not a friction law");
     if (!rolls && rc->mesh != RB_MESH_UNIFORM)
         return rb_fail(why, RB_EINVAL, "wear: the worn gap needs equal elements (--mesh uniform)");
+    if (!rolls && rb_rolling_is_strained(rc))
+        return rb_fail(why, RB_EINVAL,
+                       "wear: bulk stress is taken in steady rolling only, got one with %s",
+                       wear->slides ? "--slide" : "fretting cycles");
     if (rolls && wear->slides)
         return rb_fail(why, RB_EINVAL,
                        "wear: --slide needs --formulation static; for a rolling wheel give "

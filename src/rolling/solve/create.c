@@ -171,12 +171,14 @@ static rb_status roll_freely_dense(rb_rolling_model *model, double *creepage, rb
 
 rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage, rb_message *why)
 {
-    /* Similar bodies without a history roll freely at no creepage. */
-    *creepage = (!rb_contact_operator_response(model->problem.op).coupled &&
-                 rb_norm_inf((size_t)model->problem.n, model->problem.d_T) == 0.0)
-                    ? 0.0
-                    : NAN;
-    if (*creepage == 0.0)
+    /* Similar bodies without a history roll freely at no creepage but that of their strains. */
+    const double strain = rb_rolling_bulk_strain(model->rc);
+    const rb_contact_problem *p = &model->problem;
+    int rests = !rb_contact_operator_response(p->op).coupled;
+    for (int i = 0; i < p->n && rests; i++)
+        rests = p->d_T[i] + strain * p->e_T[i] == 0.0;
+    *creepage = rests ? strain : NAN;
+    if (rests)
         return RB_OK;
     if (model->rc->mesh != RB_MESH_UNIFORM || rb_rolling_law_depends_on_state(model->rc))
         return roll_freely_anew(model, creepage, why);

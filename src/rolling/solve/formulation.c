@@ -207,9 +207,12 @@ void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bod
 {
     const int n = p->n, m = n + 1;
     const double *x = bodies->f.x, *w0_T = bodies->f.w0 + m;
+    const double strain = rb_rolling_bulk_strain(rc);
 
     for (int i = 0; i < n; i++) {
         p->d_T[i] = p->differences ? w0_T[i] - w0_T[i + 1] : w0_T[i];
+        if (strain != 0.0) /* (U1) */
+            p->d_T[i] += strain * (p->differences ? x[i] - x[i + 1] : x[i]);
         if (past)
             p->d_T[i] -= past->w_T[i];
         if (p->yield)
@@ -440,8 +443,11 @@ double rb_rolling_sliding_creepage(const rb_rolling_case *rc, const rb_contact_p
     const double a = d.half_width, beta = fabs(d.dundurs);
     const double mu = p->mu;
     const double ratio = (mu + 2.0 * beta * (1.0 + mu * mu)) * d.strain;
+    double moved = 0.0; /* a strain moves the creepages, or the shifts, of full sliding */
 
-    return rc->formulation == RB_STEADY ? 2.0 * ratio : 4.0 * ratio * a / p->e_T[0];
+    for (int i = 0; i < p->n && rb_rolling_is_strained(rc); i++)
+        moved = fmax(moved, fabs(p->d_T[i] / p->e_T[i]));
+    return moved + (rc->formulation == RB_STEADY ? 2.0 * ratio : 4.0 * ratio * a / p->e_T[0]);
 }
 
 rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling_case *rc, int warm,

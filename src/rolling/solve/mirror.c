@@ -35,6 +35,8 @@ rb_status rb_rolling_mirror_create(const rb_rolling_model *model, rb_rolling_mir
     m->rc = *model->rc;
     m->rc.a = model->rc->b;
     m->rc.b = model->rc->a;
+    m->rc.bulk_stress = model->rc->bulk_stress_b;
+    m->rc.bulk_stress_b = model->rc->bulk_stress;
     if (m->rc.a.datum == 0.0) /* of a plane it would be A's; the stress does not depend on it */
         m->rc.a.datum = 1.0;
     m->model = *model;

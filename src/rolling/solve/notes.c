@@ -409,6 +409,33 @@ static int no_creepage(const rb_rolling_case *rc, const rb_rolling_solution *s, 
                       "rolls at creepage 0.");
 }
 
+static int strained_creepage(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    (void)s;
+    return rc->formulation == RB_STEADY && rb_rolling_is_strained(rc) &&
+           write_note(
+               text,
+               "The creepage is that of the unstrained bodies: the bulk stresses shift every "
+               "creepage by %.4g.",
+               rb_rolling_bulk_strain(rc));
+}
+
+static int slips_both_ways(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    int ways = 0;
+
+    for (int i = 0; i < s->n; i++)
+        ways |= s->zone[i] == RB_ZONE_SLIP_NEGATIVE   ? 1
+                : s->zone[i] == RB_ZONE_SLIP_POSITIVE ? 2
+                                                      : 0;
+    return rc->formulation == RB_STATIC && rb_rolling_is_strained(rc) && ways == 3 &&
+           !rb_rolling_has_steps(rc) &&
+           write_note(
+               text, "The contact slips in both directions: where it does, friction depends on the "
+                     "order in which force and bulk stress came, and in how many steps "
+                     "(--increments, --history).");
+}
+
 /* The slowest element tells where full sliding begins: its slip is what the creepage may
  * be less, because Coulomb's friction does not change with it. */
 static int percent(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
@@ -632,6 +659,8 @@ static const struct {
     {"pressed-corners", pressed_corners, 0},
     {"static-creepage", static_creepage, 0},
     {"no-creepage", no_creepage, 0},
+    {"strained-creepage", strained_creepage, 0},
+    {"slips-both-ways", slips_both_ways, 0},
     {"percent", percent, 0},
     {"radians", radians, 0},
     {"other-units", other_units, 0},

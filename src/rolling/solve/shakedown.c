@@ -13,6 +13,7 @@ static const double golden = 0.6180339887498949; /* (sqrt(5) - 1)/2 */
 typedef struct {
     const rb_rolling_field *field;
     rb_bem_plane plane;
+    double bulk[2]; /* the stress far away: along x, and along the axis */
     double from, to;
     int n;      /* of this depth */
     double *xy; /* room for all, in memory */
@@ -34,8 +35,10 @@ static double shear_with(const rb_rolling_stress *s, double c, rb_bem_plane plan
  * and less than 2 k above the smallest of another. */
 static double needed_with(const row *r, double c, double *x)
 {
-    /* far away the load has no stress */
-    double most = fabs(c), above = c + fabs(c), below = c - fabs(c);
+    /* far away the load has no stress, but the bulk of the body may have */
+    const double far = 0.5 * r->bulk[0] + c;
+    double most = fabs(far), above = far + fabs(far) - r->bulk[1],
+           below = far - fabs(far) - r->bulk[1];
     /* The residual stress that makes the largest least leaves two places equal, or the two
      * conditions: of what only rounding tells apart the first counts. */
     const double beyond = 1.0 + 1e-9;
@@ -143,6 +146,9 @@ static rb_status row_of(const rb_rolling_model *model, rb_arena *scratch, rb_rol
     (*r)->at = at;
     (*r)->field = *field;
     (*r)->plane = model->rc->plane;
+    (*r)->bulk[0] = model->rc->bulk_stress;
+    (*r)->bulk[1] =
+        (*r)->plane == RB_PLANE_STRESS ? 0.0 : model->rc->a.poisson * model->rc->bulk_stress;
     (*r)->from = from - a;
     (*r)->to = to + a;
     return RB_OK;

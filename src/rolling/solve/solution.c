@@ -144,11 +144,11 @@ static rb_status set_table(const rb_rolling_model *model, rb_rolling_solution *s
     /* static: (12) with sgn(V) = -1, from the creepage of the case and the strain
      * upstream; otherwise the slip of the solution itself. */
     const double *w_T = w + m;
-    const double *x = model->bodies.f.x;
+    const double *x = model->bodies.f.x, strain = rb_rolling_bulk_strain(model->rc);
 
     for (int i = 0; i < s->n; i++)
         s->slip[i] = s->formulation == RB_STATIC
-                         ? s->creepage - (w_T[i + 1] - w_T[i]) / (x[i + 1] - x[i])
+                         ? s->creepage - strain - (w_T[i + 1] - w_T[i]) / (x[i + 1] - x[i])
                      : s->formulation == RB_STEADY ? s->shift[i] / (x[i + 1] - x[i])
                                                    : s->shift[i] / model->problem.e_T[i];
     free(w);

@@ -218,7 +218,7 @@ rb_status rb_rolling_field_at(const rb_rolling_field *f, int n, const double *xy
                                                             : rc->a.poisson;
         rb_rolling_stress s = {.x = xy[2 * k],
                                .y = xy[2 * k + 1],
-                               .sxx = sigma[3 * k],
+                               .sxx = sigma[3 * k] + rc->bulk_stress,
                                .syy = sigma[3 * k + 1],
                                .sxy = sigma[3 * k + 2]};
         const double mean = 0.5 * (s.sxx + s.syy);
