@@ -1054,7 +1054,7 @@ TEST(a_datum_that_is_too_near_is_said)
                  "--half-width 0.47 --contact-elements 30 --json %s",
                  all[k].options);
         assert_int_equal(rollbem(command), 0);
-        assert_int_equal(strstr(err, "The datum, the depth of zero displacement, is so near") !=
+        assert_int_equal(strstr(err, "The datum, the distance of zero displacement, is so near") !=
                              NULL,
                          all[k].near);
     }

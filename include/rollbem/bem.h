@@ -170,7 +170,7 @@ rb_status rb_bem_condense(const rb_bem_system *system, rb_bem_normals normals,
 typedef struct {
     rb_bem_material material; /* of the half-plane or layer; if viscoelastic, the glassy
                                  (instantaneous) constants */
-    double datum;             /* depth of zero displacement of the half-plane or elastic base */
+    double datum;             /* where along the half-plane or elastic base a load moves nothing */
     double datum_tangential;  /* the same for tangential displacement; only for a
                                  homogeneous half-plane; 0: datum */
     double datum_memory;      /* of a homogeneous half-plane in steady rolling: sum f_k G(d/L_k), by
@@ -185,8 +185,8 @@ typedef struct {
     rb_bem_material base;
 } rb_bem_surface;
 
-/* An elastic half-plane with zero displacement at the depth datum > 0 below the loaded
- * point. */
+/* An elastic half-plane whose displacement is zero at the distance datum > 0 along the surface from
+ * the loaded point. */
 rb_bem_surface rb_bem_halfplane(rb_bem_material material, double datum);
 
 /* ends as in rb_bem_mesh_cylinder, but without the bound R. */

@@ -60,7 +60,7 @@ typedef struct {
     rb_bem_support support;
     double arc;       /* half-angle of the clamped arc [degrees] */
     double hub_ratio; /* radius of the rigid hub / radius */
-    double datum;     /* half-plane: depth of zero displacement; 0: 2R/e */
+    double datum;     /* half-plane: where along it a load moves nothing; 0: 2R/e */
     double strip;     /* homogeneous half-plane: in place of a datum, the width of a strip
                          of a half-space that rests far away, as in CONTACT; 0: a datum */
     double layer;     /* half-plane: thickness of a layer of this material, bonded to a

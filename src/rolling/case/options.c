@@ -57,8 +57,8 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("hub-ratio", RC(a.hub_ratio), "-", RB_BETWEEN(0, 1),
                    "radius of the rigid core / R"),
     RB_NUMBER_LINE("datum", RC(a.datum), "mm", RB_ABOVE(0),
-                   "halfplane: depth of zero displacement; auto: 2R/e, the compression of a "
-                   "half-cylinder",
+                   "halfplane: where along the surface a load moves nothing; auto: 2R/e, the "
+                   "compression of a half-cylinder",
                    .word = "auto", .word_value = 0.0),
     RB_NUMBER_LINE("layer-thickness", RC(a.layer), "mm", RB_ABOVE(0),
                    "halfplane: thickness of a layer of this material, bonded to a base",
@@ -111,8 +111,8 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("hub-ratio-b", RC(b.hub_ratio), "-", RB_BETWEEN(0, 1),
                    "radius of its rigid core / radius"),
     RB_NUMBER_LINE("datum-b", RC(b.datum), "mm", RB_ABOVE(0),
-                   "halfplane: depth of zero displacement; auto: 2/e of its radius, or "
-                   "of A's for a plane",
+                   "halfplane: where along the surface a load moves nothing; auto: 2/e of its "
+                   "radius, or of A's for a plane",
                    .word = "auto", .word_value = 0.0),
     RB_NUMBER_LINE("layer-thickness-b", RC(b.layer), "mm", RB_ABOVE(0),
                    "halfplane: thickness of a layer of its material on a base", .word = "none",

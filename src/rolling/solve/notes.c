@@ -373,11 +373,11 @@ static int near_datum(const rb_rolling_case *rc, const rb_rolling_solution *s, c
         return 0;
     if (rises)
         return write_note(
-            text, "The approach is negative: the datum, the depth of zero displacement from "
+            text, "The approach is negative: the datum, the distance along the surface from "
                   "which it is measured, is too near. Give a larger --datum.");
     return write_note(
         text,
-        "The datum, the depth of zero displacement, is so near that uniform tractions move "
+        "The datum, the distance of zero displacement, is so near that uniform tractions move "
         "the surface against themselves: other solutions exist for the same %s. Give a "
         "larger --datum.",
         shifted ? "shift" : "approach");

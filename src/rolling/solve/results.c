@@ -106,7 +106,8 @@ static const rb_rolling_result scalars[] = {
     RESULT("kappa", kappa, .study = 23, .condition = RB_FOR_MOVING_LAW,
            .meaning = "uniqueness of friction that falls: above 1 there may be several "
                       "solutions"),
-    RESULT("datum", datum, .unit = "mm", .meaning = "depth of zero displacement in A; half-planes"),
+    RESULT("datum", datum, .unit = "mm",
+           .meaning = "distance along the surface at which a load moves nothing; half-planes"),
     RESULT("boundary_elements", boundary_elements, .kind = RB_RESULT_WHOLE,
            .meaning = "of both bodies"),
     RESULT("assembly", seconds_assembly, .kind = RB_RESULT_SECONDS,
