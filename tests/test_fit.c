@@ -557,14 +557,13 @@ TEST(each_test_has_its_curve)
     fit.parameter[1] = (rb_case_parameter){.name = "young", .unit = "MPa"};
     const char *script = script_of(&data, &fit, RB_UNITS_MM);
     static const char *const parts[] = {
-        ("$test0 << EOD\n2 20 22 3\n3 30 31 1\nEOD\n$test1 << EOD\n1 11 12 2\n1 21 22 4\nEOD\n"
-         "$test2 << EOD\n2 40 41 5\nEOD\n"),
+        ("$points << EOD\nx measured fitted band\n2 20 22 3\n3 30 31 1\n1 11 12 2\n1 21 22 4\n"
+         "2 40 41 5\nEOD\nfirst = ' 0 2 4'\nlast = ' 1 3 4'\njoined = ' 1 2'\nsingle = ' 3'\n"),
         "mu 0.3 (0.25 … 0.35);  young not identified",
-        "'P = 99.5 N/mm'",
-        "'P = 200.5 N/mm'",
-        "'P = 50 N/mm'",
-        "$test1 using 1:($3-$4):($3+$4) with filledcurves",
-        "$test2 using 1:3:4 with yerrorbars",
+        "name1 = 'P = 99.5 N/mm'",
+        "name2 = 'P = 200.5 N/mm'",
+        "name3 = 'P = 50 N/mm'",
+        "banded = 1",
         "'90 % confidence band, at most ±5 N/mm'",
         "'creepage ξ  [10^{-3}]'",
         "'braking force  −Q  [N/mm]'"};
@@ -577,10 +576,8 @@ TEST(each_test_has_its_curve)
     /* one number is not identified */
     band[4] = NAN;
     script = script_of(&data, &fit, RB_UNITS_MM);
-    assert_non_null(strstr(script, "$test1 using 1:3 with lines"));
-    assert_null(strstr(script, "filledcurves"));
-    assert_null(strstr(script, "yerrorbars"));
-    assert_null(strstr(script, "band"));
+    assert_non_null(strstr(script, "banded = 0"));
+    assert_non_null(strstr(script, "2 20 22 0\n"));
     /* one load: one curve without its name; a driven wheel: the key on the other side */
     static const double driven[] = {-3e-3, -1e-3, -2e-3, -1e-3, -2e-3};
     data.load = NULL;
@@ -588,11 +585,28 @@ TEST(each_test_has_its_curve)
     data.measure = RB_CASE_FORCE_RATIO;
     data.is_ratio = 1;
     script = script_of(&data, &fit, RB_UNITS_MM);
-    assert_null(strstr(script, "$test1"));
+    assert_non_null(strstr(script, "first = ' 0'\nlast = ' 4'\njoined = ' 1'\nsingle = ''\n"));
     assert_null(strstr(script, "'P ="));
-    assert_non_null(strstr(script, "set key left top"));
+    assert_non_null(strstr(script, "brakes = 0"));
     assert_non_null(strstr(script, "'creepage ratio  ξR/(μa)  [10^{-3}]'"));
     assert_non_null(strstr(script, "'braking force  −Q/(μP)'"));
+}
+
+/* By the program's template and by a lecturer's, each from what the script holds. */
+TEST(fits_are_drawn_by_templates)
+{
+    write_data("creep.tsv", "creep\tforce_over_load");
+    write_file("own.gp", "set title title\n"
+                         "plot $table using 'creep':'fitted' with lines title 'mine'\n");
+    if (shell("command -v gnuplot"))
+        skip();
+    for (int own = 0; own < 2; own++)
+        assert_int_equal(
+            shellf("\"$R\" fit creep.tsv --fit mu" BODIES
+                   " --quiet --output out.tsv --plot own.svg %s --plot-script whole.gp "
+                   "&& gnuplot -d whole.gp | cmp - own.svg && grep -q %s own.svg",
+                   own ? "--plot-template own.gp" : "", own ? "mine" : "measured"),
+            0);
 }
 
 /* ---- --derivatives and --tolerance ------------------------------------------------- */

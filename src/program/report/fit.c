@@ -216,8 +216,8 @@ static int is_near(const double *column, int i, int k)
     return !column || fabs(column[i] - column[k]) <= 0.02 * fmax(fabs(column[i]), fabs(column[k]));
 }
 
-/* "P = 500 N/mm": what tells this test from the others. */
-static void write_conditions(FILE *out, const view *v, int test)
+/* Appends "P = 500 N/mm": what tells this test from the others. */
+static void append_conditions(char *text, size_t size, const view *v, int test)
 {
     const rb_case_data *d = v->fit->data;
     const struct {
@@ -238,16 +238,16 @@ static void write_conditions(FILE *out, const view *v, int test)
         }
         if (!varies)
             continue;
-        fprintf(out, "%s%s = %s %s", between, all[c].name,
-                RB_REPORT_NUMBER(in_units(v->fit, all[c].unit, sum / n), 4),
-                rb_unit_name(v->fit->units, all[c].unit));
+        rb_append(text, size, "%s%s = %s %s", between, all[c].name,
+                  RB_REPORT_NUMBER(in_units(v->fit, all[c].unit, sum / n), 4),
+                  rb_unit_name(v->fit->units, all[c].unit));
         between = ", ";
     }
 }
 
 /* Names, values and intervals, as far as they are identified; without the intervals where the
  * line would be too long. */
-static void write_title(FILE *out, const rb_report_fit *f, double middle)
+static void write_numbers(FILE *out, const rb_report_fit *f)
 {
     enum { FITS = 90, LONG = 125 }; /* characters in a line, and in one of smaller letters */
     char text[RB_CASE_FIT_MAX * 120], unit[20];
@@ -270,115 +270,103 @@ static void write_title(FILE *out, const rb_report_fit *f, double middle)
             break;
     }
     const size_t n = strlen(text);
-    fprintf(out,
-            "set label 1 '{/:Bold Fitted creep curve}   %d points' at screen %g, 0.972 center\n"
-            "set label 9 '{/*%.3g %s}' at screen %g, 0.935 center textcolor rgb '#444444'\n",
-            f->data->n, middle, n > FITS ? 0.95 * FITS / (double)n : 0.95, text, middle);
+    rb_report_let_text(out, "numbers", "{/*%.3g %s}", n > FITS ? 0.95 * FITS / (double)n : 0.95,
+                       text);
 }
 
-/* Marks of the measured points, and of a fitted one that has no other to be joined to. */
-#define MEASURED "pointsize 1.4 linewidth 1.4"
-#define FITTED_ALONE "pointtype 7 pointsize 0.5"
+/* A list of the tests: their first rows among the points, their last ones, or which tests have
+ * several points or one. */
+typedef enum { FIRST, LAST, JOINED, SINGLE } list_kind;
 
-static void write_curves(FILE *out, const view *v, int titled)
+static void write_list(FILE *out, const char *name, const view *v, list_kind kind)
 {
-    /* shapes that differ without their colours */
-    static const int markers[NAMED] = {6, 4, 8, 12, 10, 1, 2, 3};
-    const rb_report_fit *f = v->fit;
-    const int named = v->tests > 1 && v->tests <= NAMED, n = f->data->n;
-    const char *unit = force_unit(f);
-    int some_alone = 0;
+    const int n = v->fit->data->n;
 
-    fputs("plot ", out);
-    for (int k = 0; k < n; k++) {
-        const int t = v->point[k].test;
-        if (k > 0 && t == v->point[k - 1].test)
+    fprintf(out, "%s = '", name);
+    for (int k = 0, begin = 0; k < n; k++) {
+        if (k + 1 < n && v->point[k + 1].test == v->point[k].test)
             continue;
-        const char *colour = rb_report_colour(named ? t : 0);
-        const int marker = markers[named ? t : 0];
-        const int alone = k + 1 == n || v->point[k + 1].test != t;
-        some_alone |= alone;
-        if (!isnan(v->widest))
-            fprintf(out,
-                    alone ? "$test%d using 1:3:4 with yerrorbars " FITTED_ALONE
-                            " linecolor rgb '%s' notitle, "
-                          : "$test%d using 1:($3-$4):($3+$4) " RB_REPORT_BAND " notitle, ",
-                    t, colour);
-        fprintf(out,
-                "$test%d using 1:3 with %s linecolor rgb '%s' dashtype %s linewidth 2.2 notitle, "
-                "$test%d using 1:2 with points pointtype %d " MEASURED
-                " linecolor rgb '%s' notitle, ",
-                t, alone ? "points " FITTED_ALONE : "lines", colour,
-                rb_report_dashes(named ? t : 0), t, marker, colour);
-        if (named) {
-            fprintf(out,
-                    "NaN with linespoints pointtype %d " MEASURED
-                    " linecolor rgb '%s' dashtype %s title '",
-                    marker, colour, rb_report_dashes(t));
-            write_conditions(out, v, t);
-            fputs("', ", out);
-        }
+        if (kind == FIRST || kind == LAST)
+            fprintf(out, " %d", kind == FIRST ? begin : k);
+        else if ((kind == SINGLE) == (k == begin))
+            fprintf(out, " %d", v->point[k].test + 1);
+        begin = k + 1;
     }
-    const char *colour = named ? "#444444" : rb_report_colour(0);
-    fprintf(out,
-            "NaN with points pointtype %d " MEASURED
-            " linecolor rgb '%s' title 'measured', NaN with %s linecolor rgb '%s' linewidth 2.2 "
-            "title 'fitted'",
-            markers[0], colour, some_alone ? "linespoints " FITTED_ALONE : "lines", colour);
-    if (!isnan(v->widest)) {
-        fprintf(out, ", NaN " RB_REPORT_BAND " title '%g %% %sband", colour, 100.0 * f->fit->level,
-                titled ? "confidence " : "");
-        char name[20];
-        if (titled) /* there is room, and a thin band hides behind its curve */
-            fprintf(out, ", at most ±%s%s", RB_REPORT_NUMBER(in_units(f, unit, v->widest), 2),
-                    unit_behind(f, unit, name));
-        fputc('\'', out);
-    }
-    fputc('\n', out);
+    fputs("'\n", out);
 }
 
-static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
+/* Forces as in the picture of a curve: those that brake, -Q, upwards. */
+static void write_points(FILE *out, const view *v)
+{
+    const rb_report_fit *f = v->fit;
+    const char *unit = force_unit(f);
+
+    fputs("$points << EOD\nx measured fitted band\n", out);
+    for (int k = 0; k < f->data->n; k++) {
+        const point *at = &v->point[k];
+        fprintf(out, "%.9g %.9g %.9g %.9g\n", at->creep / pow(10.0, v->exponent),
+                -in_units(f, unit, f->data->force[at->row]),
+                -in_units(f, unit, f->fit->model[at->row]),
+                isnan(v->widest) ? 0.0 : in_units(f, unit, f->fit->band[at->row]));
+    }
+    fputs("EOD\n", out);
+    write_list(out, "first", v, FIRST);
+    write_list(out, "last", v, LAST);
+    write_list(out, "joined", v, JOINED);
+    write_list(out, "single", v, SINGLE);
+}
+
+static rb_status write_table(FILE *out, const void *of, const rb_report_style *style)
+{
+    return rb_report_fit_table(out, of, "", style);
+}
+
+static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
     const rb_report_fit *f = v->fit;
-    const rb_report_place place = rb_report_place_of(canvas);
-    const double *creep = f->data->creep, *force = f->data->force;
+    const rb_case_data *d = f->data;
+    const int titled = rb_report_place_of(canvas).titled;
+    const int named = v->tests > 1 && v->tests <= NAMED;
     const char *unit = force_unit(f);
+    char text[200], name[20];
     double sum = 0.0;
     int drives = 0, pushes = 0; /* creepage and -Q below zero */
 
-    /* x, measured, fitted, half-width of the band of each test; forces as in the picture of a
-     * curve: those that brake, -Q, upwards */
-    for (int k = 0; k < f->data->n; k++) {
-        const point *at = &v->point[k];
-        if (k == 0 || at->test != at[-1].test)
-            fprintf(out, "%s$test%d << EOD\n", k ? "EOD\n" : "", at->test);
-        fprintf(out, "%.9g %.9g %.9g %.9g\n", at->creep / pow(10.0, v->exponent),
-                -in_units(f, unit, force[at->row]), -in_units(f, unit, f->fit->model[at->row]),
-                isnan(v->widest) ? 0.0 : in_units(f, unit, f->fit->band[at->row]));
-        sum += creep[k];
-        drives |= creep[k] < 0.0;
-        pushes |= force[k] > 0.0;
+    for (int k = 0; k < d->n; k++) {
+        sum += d->creep[k];
+        drives |= d->creep[k] < 0.0;
+        pushes |= d->force[k] > 0.0;
     }
-    fputs("EOD\n", out);
-    rb_report_room(out, 0.13 + place.right, 0.965, 0.14 + place.up, 0.9 + place.up);
-    fprintf(out,
-            RB_REPORT_GRID "set offsets %s,graph 0.03,graph 0.05,%s\n"
-                           "set xrange [*<0:0<*]\nset yrange [*<0:0<*]\n" RB_REPORT_ZERO,
-            drives ? "graph 0.03" : "0", pushes ? "graph 0.05" : "0");
-    fprintf(out, "set key %s samplen 2.2 font ',%.3g'\n",
-            sum < 0.0 ? "left top Left reverse" : "right bottom", rb_report_key_font(canvas));
-    if (place.titled)
-        write_title(out, f, 0.54);
-    fprintf(out,
-            "set xlabel 'creepage %s%s'\n"
-            "set ylabel 'braking force  −Q%s' offset 1,0\n",
-            f->data->is_ratio ? "ratio  ξR/(μa)" : "ξ", RB_REPORT_COUNTED_IN(v->exponent, ""),
-            f->data->measure == RB_CASE_FORCE
-                ? RB_REPORT_COUNTED_IN(0, rb_unit_name(f->units, unit))
-            : f->data->measure == RB_CASE_FORCE_RATIO ? "/(μP)"
-                                                      : "/P");
-    write_curves(out, v, place.titled);
+    rb_report_let_table(out, "table", write_table, f, 0);
+    rb_report_let_units(out, f->units);
+    write_points(out, v);
+    rb_report_let_whole(out, "named", named);
+    for (int t = 0; named && t < v->tests; t++) {
+        text[0] = '\0';
+        append_conditions(text, sizeof text, v, t);
+        snprintf(name, sizeof name, "name%d", t + 1);
+        rb_report_let_text(out, name, "%s", text);
+    }
+    rb_report_let_whole(out, "drives", drives);
+    rb_report_let_whole(out, "pushes", pushes);
+    rb_report_let_whole(out, "brakes", sum >= 0.0);
+    rb_report_let_text(out, "title", "{/:Bold Fitted creep curve}   %d points", d->n);
+    write_numbers(out, f);
+    rb_report_let_text(out, "x_label", "creepage %s%s", d->is_ratio ? "ratio  ξR/(μa)" : "ξ",
+                       RB_REPORT_COUNTED_IN(v->exponent, ""));
+    rb_report_let_text(out, "y_label", "braking force  −Q%s",
+                       d->measure == RB_CASE_FORCE
+                           ? RB_REPORT_COUNTED_IN(0, rb_unit_name(f->units, unit))
+                       : d->measure == RB_CASE_FORCE_RATIO ? "/(μP)"
+                                                           : "/P");
+    rb_report_let_whole(out, "banded", !isnan(v->widest));
+    /* at most so much where there is room: a thin band hides behind its curve */
+    snprintf(text, sizeof text, "%g %% %sband", 100.0 * f->fit->level, titled ? "confidence " : "");
+    if (titled && !isnan(v->widest))
+        rb_append(text, sizeof text, ", at most ±%s%s",
+                  RB_REPORT_NUMBER(in_units(f, unit, v->widest), 2), unit_behind(f, unit, name));
+    rb_report_let_text(out, "band_title", "%s", text);
 }
 
 rb_status rb_report_fit_picture(FILE *out, rb_report_canvas canvas, const rb_report_fit *f,
@@ -411,5 +399,5 @@ rb_status rb_report_fit_picture(FILE *out, rb_report_canvas canvas, const rb_rep
     v.exponent = rb_report_exponent(most);
     qsort(v.point, n, sizeof *v.point, by_test);
     return rb_arena_done(
-        &scratch, rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, NULL, write_script, &v, why));
+        &scratch, rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, "fit", write_inputs, &v, why));
 }
