@@ -19,13 +19,16 @@ TEST(blocks_print_what_the_pages_show)
     assert_int_equal(lessons.gl_pathc, LESSONS);
     assert_int_equal(solutions.gl_pathc, LESSONS);
     char *page[2 * LESSONS + PAGES]; /* each lesson before its solutions */
-    for (size_t k = 0; k < LESSONS; k++) {
-        page[2 * k] = lessons.gl_pathv[k];
-        page[2 * k + 1] = solutions.gl_pathv[k];
-    }
+    size_t n = 0;
+    for (size_t k = 0; k < LESSONS; k++)
+        if (is_in_turn((int)k, 3)) {
+            page[n++] = lessons.gl_pathv[k];
+            page[n++] = solutions.gl_pathv[k];
+        }
     for (size_t k = 0; k < PAGES; k++)
-        page[2 * LESSONS + k] = pages[k];
-    assert_int_equal(run_pages(page, 2 * LESSONS + PAGES, 1, folder), 0);
+        if (is_in_turn((int)k, 3))
+            page[n++] = pages[k];
+    assert_int_equal(run_pages(page, n, 1, folder), 0);
 }
 
 /* The test above leaves them out where they cannot be run; this one says so. */
