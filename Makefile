@@ -132,14 +132,16 @@ check-tests: all page-where-possible $(if $(shell command -v gnuplot),$(B)/cours
 	@B=$(B) tests/run $(LONGEST) $(filter-out $(LONGEST),$(OTHERS))
 
 # the tests that compare digits and what is printed, under each kernel of OpenBLAS that the processor
-# can run; make test-all: all but those that compute nothing or build by themselves
+# can run, each with the next turn of long tests; make test-all: all but those that compute nothing or
+# build by themselves
 KERNELS ?= $(shell tools/scripts/kernels)
 KERNEL_TESTS ?= $(patsubst %,$(B)/tests/test_%,recorded course facts certificates lcp lcp_scale inside_lcp lcp_mixed friction inside_newton bem_system fem crack rolling_plane rolling_shakedown api)
 KERNEL_BLIND = tests/page tests/site tests/install tests/release tests/octave tests/python tests/journeys/% $(B)/tests/test_symbols $(B)/tests/test_hardening $(B)/tests/test_fuzz
 kernels: all $(TESTS) $(B)/packings $(B)/bench/bench_large
 	@rm -f $(B)/course/.drawn # each draws the pictures of the course
-	@for kernel in $(KERNELS); do echo "== OPENBLAS_CORETYPE=$$kernel"; \
-		OPENBLAS_CORETYPE=$$kernel B=$(B) tests/run $(KERNEL_TESTS) || exit 1; done
+	@turn=$${ROLLBEM_TEST_TURN:-$$(date +%-j)}; \
+	for kernel in $(KERNELS); do turn=$$((turn + 1)); echo "== OPENBLAS_CORETYPE=$$kernel"; \
+		ROLLBEM_TEST_TURN=$$turn OPENBLAS_CORETYPE=$$kernel B=$(B) tests/run $(KERNEL_TESTS) || exit 1; done
 
 SANITIZED = B=build/asan PAGE=$(B)/page CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined"
 asan:

@@ -1,4 +1,4 @@
-/* Options times regimes: every pair of values of the factors below is run in four turns (every
+/* Options times regimes: every pair of values of the factors below is run in sixteen turns (every
  * triple by make test-all) and judged by tests/checker.c, which shares no code with the
  * library. */
 #define _DEFAULT_SOURCE   /* MAP_ANONYMOUS */
@@ -1172,7 +1172,7 @@ typedef struct {
     int failures, failed_solves, proofs, unproved;
 } findings;
 
-enum { TURNS = 8 }; /* an eighth of the rows each */
+enum { TURNS = 16 }; /* parts of the rows, one in each run */
 
 static void work(int worker, int result)
 {

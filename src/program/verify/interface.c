@@ -165,5 +165,5 @@ void rb_verify_interface(rb_verify *v)
     flash_temperature(v, 200, 0.1, 6.3e-5);
     flash_temperature(v, 200, 2.0, 1e-4);
     wear(v, 1);
-    wear(v, 20);
+    wear(v, 5);
 }
