@@ -376,7 +376,44 @@ TEST(solutions_are_proved)
     }
     CHECK_RUN(lcp("--prove good"), 0, out, "scaled\tsolver\tproof\twithin\n");
     CHECK_RUN(lcp("--prove --solution good"), 0, out, "file\ti\tz\tw\twithin\n");
-    CHECK_RUN(lcp("--prove ray"), 1, err, "ray: not proved: ");
+    CHECK_RUN(lcp("--prove ray"), 1, err, "ray: proved: there is no solution");
+    CHECK_RUN(lcp("--prove --json ray"), 1, out, "\"status\": \"no solution\"");
+}
+
+/* Of every example; of several, none, and infinitely many. */
+TEST(numbers_of_solutions_are_proved)
+{
+    static const struct {
+        const char *file, *number;
+    } rows[] = {
+        {"$PROJECT/examples/lcp/two.txt", "exactly 1 solution\n"},
+        {"$PROJECT/examples/lcp/murty.txt", "exactly 1 solution\n"},
+        {"$PROJECT/examples/lcp/rod.txt", "exactly 1 solution\n"},
+        {"--upper $PROJECT/examples/lcp/rod-upper.txt $PROJECT/examples/lcp/rod.txt",
+         "exactly 1 solution\n"},
+        {"--game $PROJECT/examples/lcp/game.txt", "exactly 3 solutions\n"},
+        {"three", "exactly 3 solutions\n"},
+        {"none", "there is no solution\n"},
+        {"segment",
+         "not proved: how many solutions there are; of 3 complementary bases it is open\n"},
+    };
+    write_file("three", "2  1 3  3 1  -2 -3");
+    write_file("none", "2  0 1  -1 0  -1 -1");
+    write_file("segment", "2  1 1  1 1  -1 -1");
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        rollbemf("lcp --all --prove --json %s", rows[k].file);
+        if (!strstr(err, rows[k].number))
+            fail_msg("%s: %s", rows[k].file, err);
+        held_json *root = NOT_NULL(json_loads(out, 0, NULL));
+        const json_t *one = json_array_get(json_object_get(root, "problems"), 0),
+                     *number = json_object_get(one, "number");
+        assert_true(json_is_integer(json_object_get(number, "least")));
+        for (size_t l = 0; l < json_array_size(json_object_get(one, "solutions")); l++)
+            assert_true(json_is_object(
+                json_object_get(json_array_get(json_object_get(one, "solutions"), l), "proof")));
+    }
+    CHECK_RUN(lcp("--all --prove three"), 0, out, "file\tsolution\ti\tz\tw\twithin\n");
+    assert_int_equal(unlink("three") + unlink("none") + unlink("segment"), 0);
 }
 
 TEST(games_are_solved)

@@ -30,6 +30,21 @@ static int set_up(void **state)
     return 0;
 }
 
+TEST(reactions_are_proved)
+{
+    CHECK_RUN(rollbem("friction --prove slides"), 0, err, "slides: proved: 1 slip; isolated, ");
+    assert_non_null(strstr(out, "scaled\tproof\twithin\n"));
+    assert_non_null(strstr(err, "; exact for q and mu within "));
+    CHECK_RUN(rollbem("friction --prove --json slides"), 0, out, "\"proof\": {");
+    assert_non_null(strstr(out, "\"status\": \"proved\""));
+    CHECK_RUN(rollbem("friction --prove --facts slides"), 0, out, "asymmetry\tindefinite\tproof");
+    CHECK_RUN(rollbem("friction --prove no"), 1, err, "no: not proved: ");
+    CHECK_RUN(rollbem("friction --kind siconos-soclcp --prove cone"), 65, err,
+              "--prove does not read problems on cones");
+    CHECK_RUN(rollbem("friction --prove --all slides"), 64, err, "not with --all");
+    CHECK_RUN(rollbem("friction --prove --trace slides"), 64, err, "not with --trace");
+}
+
 /* A steep rod: three solutions, a row per contact of each. */
 TEST(all_solutions_are_listed)
 {

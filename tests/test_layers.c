@@ -44,6 +44,9 @@ static const struct {
 } shared[] = {
     {"lcp/portfolio", "lcp/lemke/lemke"},
     {"lcp/proof", "lcp/lemke/lemke"},
+    {"lcp/proof", "lcp/portfolio/linear"},
+    {"lcp/friction", "lcp/proof/absent"},
+    {"lcp/friction", "lcp/proof/bounds"},
     {"lcp/friction", "lcp/portfolio/linear"},
     {"rolling/solve", "rolling/case/closed_forms"},
     {"rolling/study", "rolling/case/closed_forms"},

@@ -3,7 +3,7 @@
 #include "check.h"
 
 #include "integer_lcp.h"
-#include "rollbem/lcp.h"
+#include "lcp/lcp.h"
 
 enum { PROBLEMS = 10000, PARTS = 20 };
 
@@ -246,6 +246,156 @@ TEST(what_is_proved_has_a_solution)
     CHECK_MAX(0.7, (double)shown / solvable, "%d of %d problems proved", shown, solvable);
     if (getenv("ROLLBEM_TEST_ALL"))
         print_message("%d proofs of %d tries; %d of %d problems\n", proved, tried, shown, solvable);
+}
+
+/* ---- Numbers of solutions ----------------------------------------------------------------- */
+
+static rb_status count_dense(int n, const double *M, const double *q, int count, const double *z,
+                             rb_lcp_number *number)
+{
+    OWNED(rb_sparse) sparse = {0};
+    CHECK_OK(rb_sparse_from_dense(n, n, M, n, &sparse));
+    const rb_lcp_mixed_problem p = {&sparse, q, NULL, NULL};
+    return rb_lcp_prove_number(&p, NULL, count, z, 0.0, number);
+}
+
+/* 1: the points half way between two solutions are solutions: there are infinitely many. */
+static int has_segment(const exact_lcp *e, const exact_list *all)
+{
+    for (int k = 0; k < all->count; k++)
+        for (int l = 0; l < k; l++) {
+            int is = 1;
+            for (int i = 0; i < e->n; i++) {
+                double w = e->q[i];
+                for (int j = 0; j < e->n; j++)
+                    w += e->M[i][j] * 0.5 * (all->z[k][j] + all->z[l][j]);
+                is &= w >= -1e-9 && (all->z[k][i] + all->z[l][i] == 0.0 || fabs(w) < 1e-9);
+            }
+            if (is)
+                return 1;
+        }
+    return 0;
+}
+
+/* No solution has a smaller sum than what is proved of all. */
+static double check_absence(int number, const problem *p, const exact_list *all)
+{
+    const int n = p->of_integers.n;
+    OWNED(rb_sparse) sparse = {0};
+    rb_lcp_proof proof = {0};
+    CHECK_OK(rb_sparse_from_dense(n, n, p->M, n, &sparse));
+    const rb_lcp_mixed_problem posed = {&sparse, p->q, NULL, NULL};
+    CHECK_OK(rb_lcp_prove_absence(&posed, &proof));
+    for (int k = 0; k < all->count; k++) {
+        double sum = 0.0;
+        for (int i = 0; i < n; i++)
+            sum += all->z[k][i] / p->column[i];
+        CHECK_MAX(proof.least_sum, sum * (1.0 + 1e-12), "problem %d", number);
+    }
+    return proof.least_sum;
+}
+
+/* No number below what is said to exist, none above what is said at most; most problems counted. */
+TEST(numbers_of_solutions_are_right)
+{
+    static exact_list of_bases, all;
+    static problem p;
+    int counted = 0, tried = 0, none = 0, several = 0, absent = 0;
+    for (int number = 0; number < PROBLEMS; number++) {
+        if (!is_in_turn(number / 12, PARTS))
+            continue;
+        pose(number, &p);
+        const int n = p.of_integers.n;
+        exact_solutions(&p.of_integers, &of_bases, &all);
+        double z[20 * EXACT_MOST];
+        const int known = all.count < 20 ? all.count : 20;
+        for (int k = 0; k < known; k++)
+            for (int i = 0; i < n; i++)
+                z[k * n + i] = all.z[k][i] / p.column[i];
+        rb_lcp_number found;
+        CHECK_OK(count_dense(n, p.M, p.q, known, z, &found));
+        tried++;
+        absent += isinf(check_absence(number, &p, &all));
+        if (found.least > all.count)
+            fail_msg("problem %d: at least %d of %d", number, found.least, all.count);
+        if (found.most >= 0 && (all.count > found.most || has_segment(&p.of_integers, &all)))
+            fail_msg("problem %d: at most %d of %d", number, found.most, all.count);
+        counted += found.least == found.most;
+        none += found.most == 0;
+        several += found.least == found.most && found.least > 1;
+        rb_lcp_number_free(&found);
+    }
+    CHECK_MAX(0.5, (double)counted / tried, "%d of %d counted", counted, tried);
+    assert_true(none > 0 && several > 0 && absent > 0);
+    if (getenv("ROLLBEM_TEST_ALL"))
+        print_message(
+            "%d of %d counted, %d of them without solution, %d with several; %d absent by "
+            "Farkas' lemma\n",
+            counted, tried, none, several, absent);
+}
+
+/* Solutions at (0, 0) degenerate: w = 0 and z = 0, and still one in all. */
+TEST(a_degenerate_solution_is_counted_once)
+{
+    const double M[] = {2, -1, 1, 2}, q[] = {-3, -6}, z[] = {0, 3};
+    rb_lcp_number found;
+    CHECK_OK(count_dense(2, M, q, 1, z, &found));
+    assert_int_equal(found.least, 1);
+    assert_int_equal(found.most, 1);
+    rb_lcp_number_free(&found);
+}
+
+/* z_1 + z_2 = 1: a segment of solutions, of which nothing is counted; M z >= 0 has none for q < 0.
+ */
+TEST(segments_are_left_open_and_absence_is_proved)
+{
+    const double M[] = {1, 1, 1, 1}, q[] = {-1, -1}, z[] = {1, 0, 0, 1};
+    rb_lcp_number found;
+    CHECK_OK(count_dense(2, M, q, 2, z, &found));
+    assert_int_equal(found.most, -1);
+    assert_true(found.least <= 2 && found.open > 0);
+    rb_lcp_number_free(&found);
+    const double skew[] = {0, -1, 1, 0}, low[] = {-1, -1}, zero[] = {0, 0};
+    CHECK_OK(count_dense(2, skew, low, 0, z, &found));
+    assert_int_equal(found.most, 0);
+    rb_lcp_number_free(&found);
+    OWNED(rb_sparse) sparse = {0};
+    CHECK_OK(rb_sparse_from_dense(2, 2, skew, 2, &sparse));
+    const rb_lcp_mixed_problem p = {&sparse, low, NULL, NULL};
+    OWNED(rb_lcp_proof) proof;
+    CHECK_STATUS(rb_lcp_prove(&p, zero, &proof), RB_UNDECIDED);
+    CHECK_OK(rb_lcp_prove_absence(&p, &proof));
+    assert_true(isinf(proof.least_sum));
+}
+
+/* [[0, 1], [-1, e]]: z = (0, 1/e), which rounding hides from linear programs. */
+TEST(large_solutions_are_not_excluded)
+{
+    const double e = 0x1p-50, M[] = {0, -1, 1, e}, q[] = {-1, -1};
+    OWNED(rb_sparse) sparse = {0};
+    CHECK_OK(rb_sparse_from_dense(2, 2, M, 2, &sparse));
+    const rb_lcp_mixed_problem p = {&sparse, q, NULL, NULL};
+    rb_lcp_proof proof = {0};
+    CHECK_OK(rb_lcp_prove_absence(&p, &proof));
+    CHECK_MAX(proof.least_sum, 0x1p50, "the sum of the solution");
+}
+
+static rb_status count_without_memory(void *context)
+{
+    const double M[] = {1, 1, 1, 1}, q[] = {-1, -1}, z[] = {1, 0, 0, 1};
+    int p[] = {0, 2, 4}, i[] = {0, 1, 0, 1};
+    rb_sparse sparse = {2, 2, p, i, (double *)(uintptr_t)M};
+    rb_lcp_number number;
+    const rb_lcp_mixed_problem posed = {&sparse, q, NULL, NULL};
+    const rb_status s = rb_lcp_prove_number(&posed, NULL, 2, z, 0.0, &number);
+    if (s == RB_OK)
+        rb_lcp_number_free(&number);
+    return s;
+}
+
+TEST(allocations_of_numbers_that_fail_are_said)
+{
+    assert_true(alloc_fail_each(count_without_memory, NULL) > 20);
 }
 
 RUN_TESTS(NULL, NULL)

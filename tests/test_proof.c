@@ -78,8 +78,8 @@ TEST(wrong_tractions_are_far_from_what_is_proved)
     rb_case_result_free(&r);
 }
 
-/* Without coupling by definiteness; never where friction and pressure act on each other, or where
- * the datum is so near that F_NN is indefinite. */
+/* Without coupling by definiteness, with little coupling by energy; never where the datum is so
+ * near that F_NN is indefinite. */
 TEST(solutions_are_unique_where_that_is_shown)
 {
     static const struct {
@@ -91,8 +91,12 @@ TEST(solutions_are_unique_where_that_is_shown)
          "uncoupled"},
         {{{"similar yes support halfplane load 100 shift 1e-5 contact-elements 30"}}, "uncoupled"},
         {{{"support halfplane load 100 mu 0 contact-elements 30"}}, "frictionless"},
+        {{{"support halfplane load 100 poisson 0.3 shift 1e-4 contact-elements 20"}}, "energy"},
+        {{{"support halfplane load 100 poisson 0.45 mu 0.1 mesh uniform formulation steady ",
+           "force-ratio 0.4 contact-elements 20"}},
+         "at its creepage"},
         {{{"support halfplane load 100 poisson 0.3 formulation steady creep-ratio 0.4 ",
-           "contact-elements 30"}},
+           "contact-elements 20"}},
          "not shown"},
         {{{"support halfplane approach 0.001 mu 0 datum 0.1 contact-elements 30"}}, "not shown"},
     };
@@ -130,7 +134,7 @@ TEST(definite_matrices_are_told_from_others)
                        s0 * (s1 * s2 - s12 * s12) - s01 * (s01 * s2 - s12 * s02) +
                                s02 * (s01 * s12 - s1 * s02) >
                            0;
-        CHECK_OK(rb_lcp_prove_definite(3, A, 3, d, &definite));
+        CHECK_OK(rb_lcp_prove_definite(3, A, 3, d, NULL, &definite));
         if (definite && !is)
             fail_msg("matrix %d is not definite", k);
         shown += definite;

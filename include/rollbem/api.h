@@ -312,6 +312,14 @@ int rb_api_lcp_all(rb_api *a, int n, const double *M, const double *q, const dou
  * up to 22.  seconds: time limit, 0: none. */
 int rb_api_game(rb_api *a, int m, int n, const double *A, const double *B, int label, int all,
                 int max_pivots, double seconds);
+/* yes 1: the calls of this handle above and below also prove what they find (docs/proof.md), as
+ * arrays "lcp.proof", "game.proof" (proved, undecided pairs, isolated, bound, stored_within,
+ * nearby, margin, norm, least_sum of rb_lcp_proof), with "lcp.proof.z" and "lcp.proof.error" of
+ * what is proved, "friction.proof" (proved, touching, isolated, bound, stored_within, nearby,
+ * margin, norm, condensed, and contacts separated, in stick, in slip, without friction), and of all
+ * solutions "lcp.number", "game.number" (at least, at most or NAN, bases left open).  The word
+ * "task.proof.reason" says why nothing is proved. */
+int rb_api_prove_problems(rb_api *a, int yes);
 /* Chooses the residual that decides whether a problem is solved: "scaled" (default), or
  * "acary", (13) of Acary, which depends on units.  rb_api_note tells if a problem is
  * solved in the scaled measure only. */

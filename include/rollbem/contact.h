@@ -163,8 +163,8 @@ typedef struct {
                       differ by at most this part */
     double margin, norm; /* as of rb_lcp_proof */
     /* Whether the tractions are proved to be the only ones for these coefficients of friction:
-     * "frictionless", "uncoupled", "pressure" (p alone), "not shown"; NULL: no proof
-     * was tried */
+     * "frictionless", "uncoupled", "energy", "at its creepage" (of which there may be another for
+     * the force), "pressure" (p alone), "not shown"; NULL: no proof was tried */
     const char *unique;
     int steps, steps_proved; /* of a case with steps; 0: none */
 } rb_contact_proof;

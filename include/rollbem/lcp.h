@@ -204,6 +204,9 @@ typedef struct {
                              differ from these by at most this part of (|M| |z| + |q|)_i */
     double margin;        /* the least unknown or w_i > 0, as a multiple of its error */
     double norm;          /* max row sum of |I - R A|; below 0.99 the basis is regular */
+    double least_sum; /* what sum (z - lower), over the z without an upper bound, is proved to be
+                         at least in every solution: infinite: there is no solution; 0: nothing
+                         is proved, or not looked at */
 } rb_lcp_proof;
 
 /* Proves that there is a solution with the signs of z, or of a z near to it, which may come

@@ -70,6 +70,7 @@ FUNCTIONS = {
     "rb_api_design": (_Int, _Handle, _Text, _Int, _Text, _Text, _Double, _Int),
     "rb_api_pivots": (_Int, _Handle),
     "rb_api_prove": (_Int, _Handle),
+    "rb_api_prove_problems": (_Int, _Handle, _Int),
     "rb_api_variable": (_Text, _Handle, _Int, _Text, _Int),
     "rb_api_lcp_sparse": (_Int, _Handle, _Int, _Ints, _Ints, _Doubles, _Doubles, _Doubles, _Doubles, _Doubles, _Text, _Int,
                           _Double),

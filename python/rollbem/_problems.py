@@ -27,6 +27,8 @@ class Answer:
     solver: str
     iterations: int
     residual: float
+    #: With ``prove=True``: ``proved``, ``isolated``, ``bound``, ``stored_within``, ``nearby`` and more.
+    proof: Optional[dict] = None
 
     def __init__(self, handle: Handle, **arrays: Any) -> None:
         self.status = handle.word("status")
@@ -72,6 +74,8 @@ class Solutions(list):
     bases: int
     singular: int
     undecided: int
+    #: With ``prove=True``: how many solutions are proved to exist, and how many at most (None: no largest number).
+    number: "Optional[tuple[int, Optional[int]]]" = None
 
     def to_pandas(self) -> Any:
         """A row per solution."""
@@ -124,6 +128,25 @@ def _made(handle: Handle, name: str, rows: int = 0) -> Array:
     return np.zeros((rows, 0) if rows else 0) if array is None else array
 
 
+_OF_LCP = ("proved", "undecided", "isolated", "bound", "stored_within", "nearby", "margin", "norm", "least_sum")
+_OF_FRICTION = ("proved", "touching", "isolated", "bound", "stored_within", "nearby", "margin", "norm", "condensed",
+                "separated", "stick", "slip", "frictionless")
+
+
+def _proof(handle: Handle, what: str, names: tuple) -> Optional[dict]:
+    """What was proved, by name; None: nobody asked."""
+    numbers = handle.array(f"{what}.proof")
+    if numbers is None:
+        return None
+    found: dict = dict(zip(names, numbers.tolist()))
+    for name in names:
+        if name in ("proved", "isolated", "condensed"):
+            found[name] = found[name] == 1.0
+        elif name in ("undecided", "touching", "separated", "stick", "slip", "frictionless"):
+            found[name] = int(found[name])
+    return {**found, "reason": handle.word("task.proof.reason")}
+
+
 def _list(handle: Handle, what: str, split: Optional[int] = None) -> Solutions:
     z = handle.array(f"{what}.all")
     columns = [] if z is None or z.size == 0 else list(np.atleast_2d(z.reshape(-1, order="F").reshape(
@@ -132,12 +155,15 @@ def _list(handle: Handle, what: str, split: Optional[int] = None) -> Solutions:
     singular, bases = handle.array(f"{what}.singular_basis"), handle.array(f"{what}.bases")
     found.of_singular_basis = [] if singular is None else [one == 1.0 for one in np.atleast_1d(singular)]
     found.bases, found.singular, found.undecided = (0, 0, 0) if bases is None else (int(x) for x in bases)
+    number = handle.array(f"{what}.number")
+    if number is not None:
+        found.number = int(number[0]), None if np.isnan(number[1]) else int(number[1])
     return found
 
 
 def lcp(M: Any, q: Any = None, solver: str = "auto", max_pivots: int = 0, *, lower: Any = None, upper: Any = None,
         start: Any = None, tol: float = 1e-10, seconds: Optional[float] = None,
-        all: bool = False) -> Union[Complementarity, Solutions]:
+        all: bool = False, prove: bool = False) -> Union[Complementarity, Solutions]:
     """Solves z >= 0, w = M z + q >= 0, z'w = 0 by "lemke", "lemke-sparse" or "newton" (P-matrices).
 
     "auto" takes turns between them; the ``solver`` of the answer says which of them gave it.  ``M`` is dense or a sparse
@@ -147,6 +173,7 @@ def lcp(M: Any, q: Any = None, solver: str = "auto", max_pivots: int = 0, *, low
     >= 0 at a lower bound, <= 0 at an upper one, 0 between.  ``start`` is the z of a similar problem.  Solved is what leaves
     at most ``tol`` of ``scaled_residual``, 1e-10 or more; after ``seconds`` a run ends.
     ``all=True``: the list of all solutions of up to 22 unknowns.
+    ``prove=True``: ``proof`` says what is proved of the answer, of a list ``number`` how many solutions there are.
     """
     if _is_path(M):
         given = dict(q=q, lower=lower, upper=upper, start=start)
@@ -169,6 +196,7 @@ def lcp(M: Any, q: Any = None, solver: str = "auto", max_pivots: int = 0, *, low
     if not limit >= 0.0 or (seconds is not None and limit == 0.0):
         raise InvalidInput(f"seconds=: expected a number > 0, got {_values.shown(seconds)}")
     handle = Handle("solve")
+    handle.check(handle.run("rb_api_prove_problems", int(prove)))
     if all and n:
         dense = np.asfortranarray(M.toarray() if hasattr(M, "toarray") else M, dtype=float)
         status = handle.run("rb_api_lcp_all", n, doubles(dense), doubles(q), *map(doubles, bounds), limit)
@@ -185,19 +213,21 @@ def lcp(M: Any, q: Any = None, solver: str = "auto", max_pivots: int = 0, *, low
         only = Solutions([np.zeros(0)])
         only.of_singular_basis, only.bases, only.singular, only.undecided = [False], 1, 0, 0
         return handle.kept(only, status)
-    found = Complementarity(handle, z=_made(handle, "lcp.z"), w=_made(handle, "lcp.w"), scaled_residual=handle.number("task.scaled_residual"))
+    found = Complementarity(handle, z=_made(handle, "lcp.z"), w=_made(handle, "lcp.w"), scaled_residual=handle.number("task.scaled_residual"),
+                            proof=_proof(handle, "lcp", _OF_LCP))
     if status == _INACCURATE and found.scaled_residual <= tol:
         found.status, status = "solved", SOLVED
     return handle.kept(found, status)
 
 
 def game(A: Any, B: Any = None, label: Optional[int] = None, *, max_pivots: int = 0, seconds: Optional[float] = None,
-         all: bool = False) -> Union[Game, Solutions]:
+         all: bool = False, prove: bool = False) -> Union[Game, Solutions]:
     """An equilibrium of a game of two players by the method of Lemke and Howson.
 
     ``A`` and ``B`` are the payoffs of the row and of the column player (``B`` None: -A); or ``A`` names a file of Gambit,
     ``.nfg``.  ``label`` 1, 2, ...: the strategy, rows first, that the path begins with; other labels may lead elsewhere.
     ``all=True``: the list of all extreme equilibria, pairs (x, y), of games with 22 strategies at most.
+    ``prove=True``: ``proof``, of a list ``number``, as of :func:`lcp`.
     """
     if _is_path(A):
         if B is not None:
@@ -211,6 +241,7 @@ def game(A: Any, B: Any = None, label: Optional[int] = None, *, max_pivots: int 
     first = -1 if label is None else _values.whole("label", label, 1, m + n) - 1
     limit = 0.0 if seconds is None else _values.number("seconds", seconds)
     handle = Handle("solve")
+    handle.check(handle.run("rb_api_prove_problems", int(prove)))
     status = handle.run("rb_api_game", m, n, doubles(np.asfortranarray(A)), doubles(np.asfortranarray(B)), first, int(all),
                         _values.whole("max_pivots", max_pivots), limit)
     if status < SOLVED:
@@ -218,19 +249,22 @@ def game(A: Any, B: Any = None, label: Optional[int] = None, *, max_pivots: int 
     if all:
         return handle.kept(_list(handle, "game", m), status)
     z = handle.array("game.z")
-    return handle.kept(Game(handle, x=z[:m], y=z[m:], payoff=tuple(x + 0.0 for x in handle.array("game.payoff").tolist())), status)
+    return handle.kept(Game(handle, x=z[:m], y=z[m:], payoff=tuple(x + 0.0 for x in handle.array("game.payoff").tolist()),
+                            proof=_proof(handle, "game", _OF_LCP)), status)
 
 
 def friction(W: Any, q: Any = None, mu: Any = None, dimension: int = 3, solver: str = "auto",
-             tol: float = 1e-8, max_iters: int = 0, measure: str = "scaled") -> Friction:
+             tol: float = 1e-8, max_iters: int = 0, measure: str = "scaled", prove: bool = False) -> Friction:
     """Solves u = W r + q under Coulomb's law; per contact the normal row comes first.
 
     ``W`` is dense or a sparse matrix of SciPy, which stays sparse; ``mu`` is a number or one per contact.
     ``friction("file.hdf5")`` reads FCLib or Siconos.
     ``measure="acary"``: (13) of Acary, ``residual``, decides instead of ``scaled_residual``; where a
     problem is solved in the scaled measure alone, a warning (:class:`Note`) says so.
+    ``prove=True``: ``proof`` says whether a solution with these zones is proved to exist, and how near it is.
     """
     handle = Handle("solve")
+    handle.check(handle.run("rb_api_prove_problems", int(prove)))
     handle.check(handle.run("rb_api_friction_measure", _values.word("measure", measure, "scaled or acary")))
     how = (_values.word("solver", solver, "a name of rollbem friction or auto"), _values.number("tol", tol),
            _values.whole("max_iters", max_iters))
@@ -261,7 +295,7 @@ def friction(W: Any, q: Any = None, mu: Any = None, dimension: int = 3, solver: 
     r, u = (_made(handle, f"friction.{name}", dimension) for name in "ru")
     found = Friction(handle, r=np.atleast_2d(r.T), u=np.atleast_2d(u.T))
     found.scaled_residual = handle.number("task.scaled_residual")
-    found.notes = handle.notes()
+    found.notes, found.proof = handle.notes(), _proof(handle, "friction", _OF_FRICTION)
     for note in found.notes:
         warnings.warn(note, Note, stacklevel=2)
     return handle.kept(found, status)

@@ -169,3 +169,26 @@ def test_problems_without_unknowns_are_solved():
         assert len(rollbem.lcp(M, [], all=True)) == 1
         found = rollbem.friction(M, [], [], dimension=2)
         assert found.r.shape == found.u.shape == (0, 2) and found.residual == 0.0
+
+
+def test_answers_are_proved():
+    M, q = np.array([[2.0, 1.0], [1.0, 2.0]]), [-5.0, -6.0]
+    proof = rollbem.lcp(M, q, prove=True).proof
+    assert proof["proved"] and proof["isolated"] and proof["undecided"] == 0 and proof["bound"] < 1e-14
+    assert rollbem.lcp(M, q).proof is None
+    assert rollbem.lcp(M, q, all=True, prove=True).number == (1, 1)
+    assert rollbem.lcp(M, q, all=True).number is None
+    A = np.array([[2.0, 0.0], [0.0, 1.0]])
+    assert rollbem.game(A, A, prove=True).proof["proved"]
+    assert rollbem.game(A, A, all=True, prove=True).number == (3, 3)
+    W = np.array([[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+    proof = rollbem.friction(W, [-4.0, 3.0, 4.0], 0.5, prove=True).proof
+    assert proof["proved"] and proof["slip"] == 1 and proof["bound"] < 1e-12
+    proof = rollbem.friction(W, [-4.0, 0.3, 0.4], 0.5, prove=True).proof
+    assert proof["stick"] == 1 and proof["nearby"] < 1e-12
+
+
+def test_absence_is_proved():
+    with pytest.raises(rollbem.Unsolved) as none:
+        rollbem.lcp(np.array([[0.0, 1.0], [-1.0, 0.0]]), [-1.0, -1.0], prove=True)
+    assert none.value.solution.proof["least_sum"] == np.inf

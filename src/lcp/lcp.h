@@ -35,9 +35,34 @@ rb_status rb_lcp_of_game(const rb_lcp_game *game, rb_sparse *M, double *q, doubl
 /* As rb_lcp_prove, of that problem; z = (x, y). */
 rb_status rb_lcp_prove_game(const rb_lcp_game *game, const double *z, rb_lcp_proof *proof);
 
+/* How many solutions are proved to exist, and how many at most. */
+typedef struct {
+    int least, most;     /* most -1: not bounded */
+    int open;            /* complementary bases that leave the number open */
+    int proved;          /* of the z given, each by itself */
+    int proofs;          /* as many as there are z; owned */
+    rb_lcp_proof *proof; /* of each z given */
+} rb_lcp_number;
+/* z: n x count, the solutions that are known, as rb_lcp_enumerate has them.  most: n, |z_i| <=
+ * most_i is known of each solution; NULL: nothing is.  seconds: time limit, 0: none.  RB_OK;
+ * RB_TIME_LIMIT: bases are left open; RB_EINVAL: more than 2^22 bases, NaN or infinity;
+ * RB_INTERRUPTED, RB_ENOMEM. */
+rb_status rb_lcp_prove_number(const rb_lcp_mixed_problem *p, const double *most, int count,
+                              const double *z, double seconds, rb_lcp_number *number);
+/* The same of a game, z: (m + n) x count. */
+rb_status rb_lcp_prove_game_number(const rb_lcp_game *game, int count, const double *z,
+                                   double seconds, rb_lcp_number *number);
+void rb_lcp_number_free(rb_lcp_number *number);
+
+/* proof->least_sum by Farkas' lemma, of a problem that is not proved to have a solution; of more
+ * than 400 unknowns, for which a linear program takes long, it stays 0.  RB_ENOMEM, RB_EINVAL: NaN
+ * or infinity. */
+rb_status rb_lcp_prove_absence(const rb_lcp_mixed_problem *p, rb_lcp_proof *proof);
+
 /* definite: 1: x'D A x > 0 is proved for all x other than zero, D = diag(d), for A (n x n,
- * column-major) and all matrices whose entries differ from it by at most 8 units of rounding; 0:
- * it is not.  RB_ENOMEM. */
-rb_status rb_lcp_prove_definite(int n, const double *A, int ld, const double *d, int *definite);
+ * column-major) and all matrices whose entries differ from it by at most 8 units of rounding, and
+ * those of D A by radius besides (n x n; NULL: zeros); 0: it is not.  RB_ENOMEM. */
+rb_status rb_lcp_prove_definite(int n, const double *A, int ld, const double *d,
+                                const double *radius, int *definite);
 
 #endif

@@ -3,6 +3,8 @@
 #include "lcp/contact/contact.h"
 #include "lcp/contact/internal.h"
 
+#include <cblas.h>
+#include <lapacke.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -114,53 +116,183 @@ static void translate(const rb_contact_problem *p, const rb_contact_lcp *lcp,
 
 /* ---- Uniqueness ------------------------------------------------------------------------- */
 
-/* definite: two solutions have the same x: sum d_i dx_i dy_i <= 0 for complementary x and y = A x
- * + column b, and dx'D A dx > 0 otherwise.  Where b is an unknown of a border with row'dx = 0, d =
- * row/column makes it cancel.  x are the pressures and y the gaps, or friction and slips. */
-static rb_status prove_part(const rb_contact_problem *p, const double *A, int ld, int border,
-                            const double *row, const double *column, double *d, int *definite)
+/* Candidates of weights d > 0 with D A nearly symmetric: row/column, with which the unknown of a
+ * border cancels, where A has one with row'dx = 0 and this column, exactly; without a border also
+ * ones, and the sums of the columns of A over those of its rows.  0: there are no more. */
+static int choose_weights(int n, const double *A, int ld, int border, const double *row,
+                          const double *column, int kind, double *d)
 {
-    const int n = p->n;
-    *definite = 0;
-    for (int kind = border ? 1 : 0; kind < (border ? 2 : 3) && !*definite; kind++) {
-        for (int i = 0; i < n; i++) {
-            double of_row = 0.0, of_column = 0.0;
-            for (int j = 0; kind == 2 && j < n; j++) {
-                of_row += A[i + (size_t)j * (size_t)ld];
-                of_column += A[j + (size_t)i * (size_t)ld];
-            }
-            d[i] = kind == 0 ? 1.0 : kind == 1 ? row[i] / column[i] : of_column / of_row;
+    enum { RATIO, ONES, SUMS, KINDS };
+    int cancels = 1;
+    for (int i = 0; i < n && kind < KINDS; i++) {
+        double of_row = 0.0, of_column = 0.0;
+        for (int j = 0; kind == SUMS && j < n; j++) {
+            of_row += A[i + (size_t)j * (size_t)ld];
+            of_column += A[j + (size_t)i * (size_t)ld];
         }
-        int cancels = 1; /* exactly, where there is a border */
-        for (int i = 0; border && i < n; i++)
-            cancels &= fma(d[i], column[i], -row[i]) == 0.0;
-        if (!cancels)
-            break;
-        const rb_status s = rb_lcp_prove_definite(n, A, ld, d, definite);
-        if (s != RB_OK)
-            return s;
+        d[i] = kind == RATIO ? row[i] / column[i] : kind == ONES ? 1.0 : of_column / of_row;
+        cancels &= fma(d[i], column[i], -row[i]) == 0.0;
     }
-    return RB_OK;
+    return kind < (border ? ONES : KINDS) && (cancels || !border);
 }
 
-/* Of coefficients of friction as they are: first the pressure, which friction does not change,
- * then friction under that pressure (docs/proof.md). */
-static rb_status prove_unique(const rb_contact_problem *p, rb_contact_proof *proof)
+/* 1: all are positive numbers. */
+static int are_positive(int n, const double *d)
+{
+    int yes = 1;
+    for (int i = 0; i < n; i++)
+        yes &= d[i] > 0.0 && isfinite(d[i]);
+    return yes;
+}
+
+/* definite: two solutions have the same x: sum d_i dx_i dy_i <= 0 for complementary x and y = A x
+ * + column b, and dx'D A dx > 0 otherwise.  x are the pressures and y the gaps, or friction and
+ * slips. */
+static rb_status prove_part(int n, const double *A, int ld, int border, const double *row,
+                            const double *column, double *d, int *definite)
+{
+    rb_status s = RB_OK;
+    *definite = 0;
+    for (int kind = 0;
+         s == RB_OK && !*definite && choose_weights(n, A, ld, border, row, column, kind, d); kind++)
+        s = rb_lcp_prove_definite(n, A, ld, d, NULL, definite);
+    return s;
+}
+
+/* ---- Uniqueness where pressure and friction act on each other ----------------------------- */
+
+/* Elements up to which the energy test is tried: it takes up to 77 factors of matrices twice as
+ * large. */
+enum { MOST_COUPLED = 300 };
+
+/* Two solutions have dp_i dy_i <= 0 and dt_i ds_i <= mu_i |dp_i| |ds_i| (p pressures, y gaps, t
+ * friction, s slips = [S_N S_T] x with x = (dp, dt)), so that for all d, kappa, alpha > 0
+ *
+ *     x'D [F; kappa S] x <= sum kappa d mu (alpha dp^2 + ds^2/alpha)/2,
+ *
+ * which is not so for x other than zero where the difference of both sides is definite. */
+typedef struct {
+    int n;
+    const rb_contact_matrix *K;
+    const double *mu;
+    double *H, *G, *G_size; /* 2n x 2n: D [F; S]; S'D mu S, of S and of its moduli */
+    double *E, *radius;     /* 2n x 2n: the difference, and what its entries may be wrong by */
+    double *factor, *ones;  /* 2n x 2n, 2n */
+} energy;
+
+/* G = T'diag(w) T, T n x 2n; work: n x 2n. */
+static void gram(int n, const double *T, const double *w, double *work, double *G)
+{
+    for (int j = 0; j < 2 * n; j++)
+        for (int i = 0; i < n; i++)
+            work[i + j * n] = w[i] * T[i + j * n];
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, 2 * n, 2 * n, n, 1.0, T, n, work, n, 0.0,
+                G, 2 * n);
+}
+
+static void set_weights(energy *e, const double *d, double *work)
+{
+    const int n = e->n, m = 2 * n;
+    double *w = work + (size_t)n * (size_t)m, *T = w + n;
+    for (int i = 0; i < n; i++)
+        w[i] = d[i] * e->mu[i];
+    gram(n, e->K->S, w, work, e->G);
+    for (int k = 0; k < n * m; k++)
+        T[k] = fabs(e->K->S[k]);
+    gram(n, T, w, work, e->G_size);
+    for (int j = 0; j < m; j++)
+        for (int i = 0; i < n; i++) {
+            e->H[i + j * m] = d[i] * e->K->F[i + (size_t)j * (size_t)e->K->ldf];
+            e->H[n + i + j * m] = d[i] * e->K->S[i + j * n];
+        }
+}
+
+/* The difference is proved to be definite.  RB_ENOMEM. */
+static rb_status prove_energy(energy *e, const double *d, double kappa, double alpha, int *definite)
+{
+    const int n = e->n, m = 2 * n;
+    const double c = 0.5 * kappa / alpha;
+    for (int j = 0; j < m; j++)
+        for (int i = 0; i < m; i++) {
+            const int k = i + j * m;
+            const double h = (i < n ? 1.0 : kappa) * e->H[k],
+                         own = i == j && i < n ? 0.5 * kappa * alpha * d[i] * e->mu[i] : 0.0;
+            e->E[k] = h - c * e->G[k] - own;
+            e->radius[k] =
+                32.0 * 0x1p-53 * (fabs(h) + own) + c * (64.0 + 4.0 * n) * 0x1p-53 * e->G_size[k];
+        }
+    for (int j = 0; j < m; j++) /* the symmetric part has a Cholesky factor, or it ends here */
+        for (int i = j; i < m; i++)
+            e->factor[i + j * m] = 0.5 * (e->E[i + j * m] + e->E[j + i * m]);
+    *definite = 0;
+    if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'L', m, e->factor, m) != 0)
+        return RB_OK;
+    return rb_lcp_prove_definite(m, e->E, m, e->ones, e->radius, definite);
+}
+
+/* unique: 1: the tractions are the only ones for this creepage. */
+static rb_status prove_coupled(const rb_contact_problem *p, const rb_contact_matrix *K, int *unique)
+{
+    const int n = p->n;
+    const size_t length = (size_t)n, order = 2 * length;
+    rb_arena scratch = {0};
+    energy e = {.n = n, .K = K, .mu = p->bound};
+    *unique = 0;
+    if (n > MOST_COUPLED)
+        return RB_OK;
+    double **matrices[] = {&e.H, &e.G, &e.G_size, &e.E, &e.radius, &e.factor};
+    for (size_t k = 0; k < sizeof matrices / sizeof *matrices; k++)
+        *matrices[k] = rb_arena_doubles(&scratch, order, order);
+    double *d = rb_arena_doubles(&scratch, length, 2), *column = d + length,
+           *work = rb_arena_doubles(&scratch, length, 2 * order + 1);
+    e.ones = rb_arena_doubles(&scratch, order, 1);
+    if (scratch.failed)
+        return rb_arena_done(&scratch, RB_ENOMEM);
+    double largest = 0.0;
+    for (size_t i = 0; i < length; i++) {
+        double sum = 0.0;
+        e.ones[2 * i] = e.ones[2 * i + 1] = column[i] = 1.0;
+        for (size_t j = 0; j < length; j++)
+            sum += fabs(K->S[i + (length + j) * length]);
+        largest = fmax(largest, sum);
+    }
+    rb_status s = RB_OK;
+    for (int kind = 0; s == RB_OK && !*unique &&
+                       choose_weights(n, K->F, K->ldf, p->load_given, p->load_N, column, kind, d);
+         kind++) {
+        if (!are_positive(n, d))
+            continue;
+        set_weights(&e, d, work);
+        for (int of_kappa = 0; of_kappa <= 6 && !*unique; of_kappa++)
+            for (int of_alpha = -4; s == RB_OK && of_alpha <= 6 && !*unique; of_alpha++)
+                s = prove_energy(&e, d, pow(10.0, -0.5 * of_kappa),
+                                 largest * pow(10.0, 0.25 * of_alpha), unique);
+    }
+    return rb_arena_done(&scratch, s);
+}
+
+/* Of coefficients of friction as they are; force_given: the creepage belongs to a force.  First the
+ * pressure, which friction does not change, then friction under that pressure (docs/proof.md). */
+static rb_status prove_unique(const rb_contact_problem *p, int force_given, rb_contact_proof *proof)
 {
     const int n = p->n;
     const size_t length = (size_t)n;
     const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
-    int coupled = 0, definite = 0;
+    int coupled = 0, of_load = 0, definite = 0;
     proof->unique = "not shown";
     if (p->yield)
         return RB_OK;
     for (size_t j = 0; j < length; j++) {
         for (size_t i = 0; i < length; i++)
             coupled |= K.F[i + (length + j) * (size_t)K.ldf] != 0.0;
-        coupled |= p->load_given && p->load_T[j] != 0.0;
+        of_load |= p->load_given && p->load_T[j] != 0.0;
     }
-    if (coupled && p->mu > 0.0)
-        return RB_OK;
+    if ((coupled || of_load) && p->mu > 0.0) {
+        const rb_status s = of_load ? RB_OK : prove_coupled(p, &K, &definite);
+        if (definite)
+            proof->unique = force_given ? "at its creepage" : "energy";
+        return s;
+    }
     rb_arena scratch = {0};
     double *d = rb_arena_doubles(&scratch, length, 4), *row_N = d + length, *row_T = row_N + length,
            *ones = row_T + length;
@@ -168,12 +300,12 @@ static rb_status prove_unique(const rb_contact_problem *p, rb_contact_proof *pro
         return rb_arena_done(&scratch, RB_ENOMEM);
     for (size_t i = 0; i < length; i++)
         ones[i] = 1.0;
-    rb_status s = prove_part(p, K.F, K.ldf, p->load_given, p->load_N, ones, d, &definite);
+    rb_status s = prove_part(n, K.F, K.ldf, p->load_given, p->load_N, ones, d, &definite);
     if (s == RB_OK && definite) {
         proof->unique = p->mu > 0.0 ? "pressure" : "frictionless";
         if (p->mu > 0.0) {
             rb_contact_force_row(p, row_N, row_T);
-            s = prove_part(p, K.S + length * length, n, p->force_given, row_T, p->e_T, d,
+            s = prove_part(n, K.S + length * length, n, p->force_given, row_T, p->e_T, d,
                            &definite);
             if (s == RB_OK && definite)
                 proof->unique = "uncoupled";
@@ -236,7 +368,7 @@ rb_status rb_contact_prove(const rb_contact_problem *problem, const rb_contact_s
         proof->nearby = fmax(of.nearby, differ);
         proof->norm = of.norm;
         proof->reason = of.reason;
-        s = prove_unique(&p, proof);
+        s = prove_unique(&p, problem->force_given, proof);
         if (of.proved)
             translate(&p, &lcp, state, &of, proof);
         else if (of.row >= 0)

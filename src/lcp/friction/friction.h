@@ -86,6 +86,31 @@ rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y, do
  * 0; *given: the sum of the moduli of q. */
 int rb_friction_has_no_solution(const rb_friction_problem *problem, double *least, double *given);
 
+/* ---- Proofs (docs/proof.md) ----------------------------------------------------------- */
+
+/* What is proved of reactions: the problem with exactly these numbers (global: the condensed one)
+ * has a solution in whose zones all inequalities are strict. */
+typedef struct {
+    int proved;
+    const char *reason; /* why not; "": proved; static text */
+    int contact;        /* the first one of which an inequality is not proved; -1: none */
+    int condensed;      /* 1: of the condensed problem, whose coefficients are rounded */
+    int zones[4];       /* contacts that are separated, stick, slip, and closed without friction */
+    int touching;       /* separated ones with u_N = 0 exactly: they are not isolated */
+    int isolated;       /* 1: no other solution lies near */
+    double bound;       /* of |r_i - r_i of the solution|, as a part of max |r| */
+    double stored_within; /* the same of the r given */
+    double nearby;        /* the r given, zero where contacts are separated, solve exactly a problem
+                             whose q, as parts of (|W| |r| + |q|)_i, and mu differ by at most this */
+    double margin;        /* the least r_N, u_N or slip as a multiple of its error */
+    double norm;          /* of the active equations: below 0.99 they are regular */
+} rb_friction_proof;
+
+/* r: of any solver.  RB_OK: proved; RB_UNDECIDED: not proved; RB_EINVAL: no finite numbers;
+ * RB_SINGULAR: K is singular; RB_INTERRUPTED, RB_ENOMEM. */
+rb_status rb_friction_prove_zones(const rb_friction_problem *problem, const double *r,
+                                  rb_friction_proof *proof, rb_message *why);
+
 /* ---- All solutions in two dimensions ------------------------------------------------- */
 
 /* States of a contact; bits of rb_friction_solutions.states.  mu = 0: a closed contact has the

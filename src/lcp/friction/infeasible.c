@@ -1,6 +1,8 @@
 /* A proof that a problem has no solution: no reactions of any size prevent penetration at
  * all contacts. */
 #include "lcp/friction/internal.h"
+#include "lcp/proof/absent.h"
+#include "lcp/proof/bounds.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -38,6 +40,19 @@ static void transposed(search *s, const double *y)
                 g[a] -= s->rho[2 * e] * y[b->i[k]] *
                         b->x[(size_t)k * (size_t)(d * d) + (size_t)(a * d)];
     }
+}
+
+/* The sum of the moduli of the terms of its entries of one contact. */
+static double moduli(const search *s, int contact, const double *y)
+{
+    const rb_friction_blocks *b = &s->blocks;
+    const size_t size = (size_t)(b->d * b->d);
+    double sum = 0.0;
+    for (int k = b->p[contact]; k < b->p[contact + 1]; k++)
+        for (int a = 0; a < b->d; a++)
+            sum += fabs(s->rho[2 * contact] * y[b->i[k]] *
+                        b->x[(size_t)k * size + (size_t)(a * b->d)]);
+    return sum;
 }
 
 /* 1 / |A|^2 by the power method, a little shorter to be safe; 0: A is zero. */
@@ -126,17 +141,21 @@ rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y, do
         /* What any solution must have of sum W_NN r_N, proved by y: -A'y misses K* by at
          * most `miss`, so that 0 <= y'(A x + q_N) <= y'q_N + miss sum x_N.  0: y proves
          * nothing. */
-        double load = 0.0, miss = 0.0;
+        double load = 0.0, terms = 0.0, miss = 0.0;
         transposed(&s, y);
         for (int c = 0; c < nc; c++) {
             const double *h = s.gradient + c * d;
+            const double noise =
+                proof_error((size_t)nc + 16, (1.0 + local->mu[c]) * moduli(&s, c, y));
             load += y[c] * local->q[c * d];
-            miss = fmax(miss, local->mu[c] * rb_friction_tangential(d, h) - h[0]);
+            terms += fabs(y[c] * local->q[c * d]);
+            miss = fmax(miss, local->mu[c] * rb_friction_tangential(d, h) - h[0] + noise);
         }
+        load += proof_error((size_t)nc + 4, terms);
         if (!(load < 0.0))
             *least = 0.0;
         else
-            *least = miss > 0.0 ? -load / miss : INFINITY;
+            *least = miss > 0.0 ? -load / miss * (1.0 - 8.0 * PROOF_U) : INFINITY;
     }
     rb_friction_blocks_free(&s.blocks);
     free(s.x);
@@ -175,7 +194,7 @@ static int sign_of_column(const rb_friction_problem *p, const double *y, int row
 
 /* 1: y >= 0 proves that the problem as it is given has no solution.  Local form: -W_N'y in
  * K* and y'q_N < 0; global form: H_N y = 0 and y'w_N < 0.  Sums that are zero have no
- * rounding; others decide where they are far above it. */
+ * rounding; others count where they are beyond it. */
 static int proves(const rb_friction_problem *p, const double *y)
 {
     const int d = p->dimension, nc = p->contacts, global = p->form == RB_FRICTION_GLOBAL;
@@ -199,7 +218,7 @@ static int proves(const rb_friction_problem *p, const double *y)
             sum += size;
             zero &= k == 0 ? sign == 0 || sign == -1 : sign == 0 || p->mu[c] == 0.0;
         }
-        const double rounding = 1e-14 * (nc + 4.0) * (1.0 + p->mu[c]) * sum;
+        const double rounding = proof_error((size_t)nc + 16, (1.0 + p->mu[c]) * sum);
         yes = zero || -h[0] - p->mu[c] * rb_friction_tangential(d, h) > rounding;
     }
     for (int c = 0; yes && c < nc; c++) {
@@ -217,16 +236,12 @@ static int proves(const rb_friction_problem *p, const double *y)
 static int proves_nearly(const rb_friction_problem *p, const double *unit, const double *y,
                          double *rounded)
 {
-    enum { MULTIPLES = 64 };
-    const double most = rb_norm_inf((size_t)p->contacts, y);
-    for (int by = 0; by <= MULTIPLES && most > 0.0; by++) {
-        double off = 0.0;
-        for (int c = 0; c < p->contacts; c++) {
-            const double x = y[c] / most * (by ? by : 1.0), whole = by ? round(x) : x;
-            off = fmax(off, fabs(x - whole));
-            rounded[c] = whole * (unit ? unit[c] : 1.0);
-        }
-        if (off <= 1e-5 && proves(p, rounded))
+    for (int by = 0; by <= PROOF_MULTIPLES; by++) {
+        if (!rb_proof_nearly_whole((size_t)p->contacts, y, by, rounded))
+            continue;
+        for (int c = 0; unit && c < p->contacts; c++)
+            rounded[c] *= unit[c];
+        if (proves(p, rounded))
             return 1;
     }
     return 0;

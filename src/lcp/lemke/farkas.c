@@ -31,6 +31,12 @@ static interval of_multiplier(lcp_side side, double low, double high)
                                             : INFINITY};
 }
 
+double rb_lcp_multiplier(lcp_side side, double low, double high, double y)
+{
+    const interval may = of_multiplier(side, low, high);
+    return fmin(fmax(y, may.least), may.most);
+}
+
 int rb_lcp_excludes(const lcp_matrix *M, const double *q, const double *lower, const double *upper,
                     const lcp_side *side, double *y)
 {

@@ -13,6 +13,9 @@ typedef enum {
     LCP_LEFT_OUT  /* z_i = lower_i, w_i any number */
 } lcp_side;
 
+/* y_i, or the nearest number with y_i w_i >= 0 for every w_i that side and bounds allow. */
+double rb_lcp_multiplier(lcp_side side, double low, double high, double y);
+
 /* 1: y proves that no z within its bounds has the signs of w = M z + q that `side` (n;
  * NULL: all open) asks for: y'w < 0 for all of them, and >= 0 for the signs (Farkas).
  * Products within 1e-9 of their terms count as zero.  y: n, changed: what has a wrong

@@ -37,7 +37,7 @@ typedef struct {
     lcp_linear *linear;     /* owned */
 } search;
 
-static int is_place(const double *lower, const double *upper, int i, lcp_side at)
+int rb_lcp_is_place(const double *lower, const double *upper, int i, lcp_side at)
 {
     const double low = rb_lcp_lower(lower, i), high = rb_lcp_upper(upper, i);
     return at == LCP_AT_LOWER   ? isfinite(low)
@@ -382,7 +382,7 @@ rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower, const d
         size[i] = 1;
         of_index[i] = own;
         for (int at = LCP_AT_LOWER; at <= LCP_BETWEEN; at++)
-            if (is_place(lower, upper, i, (lcp_side)at))
+            if (rb_lcp_is_place(lower, upper, i, (lcp_side)at))
                 own[count[i]++] = (lcp_side)at;
     }
     const lcp_choices choices = {.blocks = p->n, .size = size, .count = count, .side = of_index};

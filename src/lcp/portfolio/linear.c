@@ -199,6 +199,11 @@ rb_status rb_lcp_linear_decide(lcp_linear *l, const lcp_side *side, double *z)
     return s;
 }
 
+void rb_lcp_linear_multipliers(const lcp_linear *l, double *y)
+{
+    memcpy(y, l->y, (size_t)l->M.n * sizeof *y);
+}
+
 /* y: the multipliers of the row that the dual simplex method has found to be infeasible, from
  * its row of the tableau.  0: it has found none. */
 static int read_ray(const lcp_linear *l, glp_prob *p)

@@ -29,9 +29,15 @@ void rb_lcp_linear_free(lcp_linear *linear);
  * (rb_lcp_excludes); RB_UNDECIDED. */
 rb_status rb_lcp_linear_decide(lcp_linear *linear, const lcp_side *side, double *z);
 
+/* y: n, the multipliers with which the last call has ended, of the rows of the posed problem. */
+void rb_lcp_linear_multipliers(const lcp_linear *linear, double *y);
+
 /* The z among them whose distances from their bounds and |w| have the least sum, over the i
  * with one bound.  Statuses as above. */
 rb_status rb_lcp_linear_least(lcp_linear *linear, const lcp_side *side, double *z, double *w);
+
+/* enumerate.c: 1: the bounds allow z_i to be there. */
+int rb_lcp_is_place(const double *lower, const double *upper, int i, lcp_side at);
 
 /* enumerate.c: what is tried of a problem whose indices fall into blocks: each choice of a
  * block gives a side to each of its indices. */

@@ -54,8 +54,9 @@ typedef struct {
     double *work;      /* 5 k */
 } proof_inverse;
 
-/* Takes over A (k x k, from malloc).  It is regular if norm < 0.99.  1: there was memory. */
-int rb_proof_inverse(int k, double *A, proof_inverse *inverse);
+/* Takes over A (k x k, from malloc), of whose entries this part is not known.  It is regular if
+ * norm < 0.99.  1: there was memory. */
+int rb_proof_inverse(int k, double *A, double unknown, proof_inverse *inverse);
 void rb_proof_inverse_free(proof_inverse *inverse);
 /* x, e: |A^-1 (-b) - x| <= e for each b within `radius` (k, or NULL).  fine: residuals in twice
  * the precision. */

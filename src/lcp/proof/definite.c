@@ -11,7 +11,8 @@
 /* Entries may differ from those of A by so many units of rounding. */
 static const double RADIUS = 16.0;
 
-rb_status rb_lcp_prove_definite(int n, const double *A, int ld, const double *d, int *definite)
+rb_status rb_lcp_prove_definite(int n, const double *A, int ld, const double *d,
+                                const double *radius, int *definite)
 {
     const size_t order = (size_t)n, lead = (size_t)ld;
     rb_arena scratch = {0};
@@ -36,6 +37,8 @@ rb_status rb_lcp_prove_definite(int n, const double *A, int ld, const double *d,
                          scale = by[i] * by[j];
             S[i + j * order] = 0.5 * (a + b) * scale;
             radii[i] += RADIUS * PROOF_U * (fabs(a) + fabs(b)) * scale + PROOF_TINY;
+            if (radius)
+                radii[i] += (radius[i + j * order] + radius[j + i * order]) * scale;
         }
     double noise = 0.0, worst = 0.0;
     for (size_t i = 0; i < order; i++) {

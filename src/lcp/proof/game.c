@@ -35,21 +35,73 @@ rb_status rb_lcp_of_game(const rb_lcp_game *g, rb_sparse *M, double *q, double *
     return s;
 }
 
+/* The problem of a game, and (x, y) with the payoffs of the best replies for count z; free all. */
+typedef struct {
+    rb_sparse M;
+    double *q, *lower, *z; /* q owns both: m + n + 2, m + n + 2, (m + n + 2) x count */
+    rb_lcp_mixed_problem problem;
+} posed_game;
+
+static rb_status pose_game(const rb_lcp_game *g, int count, const double *z, posed_game *p)
+{
+    const size_t strategies = (size_t)g->m + (size_t)g->n, order = strategies + 2;
+    double *regret = rb_alloc(strategies, 1);
+    *p = (posed_game){.q = rb_alloc(order, 2 + (size_t)count)};
+    rb_status s = RB_ENOMEM;
+    if (p->q && regret) {
+        p->lower = p->q + order;
+        p->z = p->lower + order;
+        s = rb_lcp_of_game(g, &p->M, p->q, p->lower);
+    }
+    for (size_t k = 0; s == RB_OK && k < (size_t)count; k++) {
+        memcpy(p->z + k * order, z + k * strategies, strategies * sizeof *z);
+        rb_lcp_bimatrix_regret(g, z + k * strategies, regret, p->z + k * order + strategies);
+    }
+    free(regret);
+    p->problem = (rb_lcp_mixed_problem){&p->M, p->q, p->lower, NULL};
+    return s;
+}
+
+static void free_game(posed_game *p)
+{
+    rb_sparse_free(&p->M);
+    free(p->q);
+}
+
 rb_status rb_lcp_prove_game(const rb_lcp_game *g, const double *z, rb_lcp_proof *proof)
 {
-    const size_t order = (size_t)g->m + (size_t)g->n + 2;
-    double *q = rb_alloc(order, 1), *lower = rb_alloc(order, 1), *start = rb_alloc(order, 1);
-    rb_sparse M = {0};
+    posed_game p;
     *proof = (rb_lcp_proof){.row = -1};
-    rb_status s = q && lower && start ? rb_lcp_of_game(g, &M, q, lower) : RB_ENOMEM;
+    rb_status s = pose_game(g, 1, z, &p);
+    if (s == RB_OK)
+        s = rb_lcp_prove(&p.problem, p.z, proof);
+    free_game(&p);
+    return s;
+}
+
+/* Probabilities are 1 at most, and the payoffs of the best replies the largest payoffs. */
+rb_status rb_lcp_prove_game_number(const rb_lcp_game *g, int count, const double *z, double seconds,
+                                   rb_lcp_number *number)
+{
+    const int strategies = g->m + g->n;
+    double *most = rb_alloc((size_t)strategies + 2, 1);
+    posed_game p;
+    *number = (rb_lcp_number){.most = -1};
+    rb_status s = pose_game(g, count, z, &p);
+    if (s == RB_OK && !most)
+        s = RB_ENOMEM;
     if (s == RB_OK) {
-        rb_lcp_bimatrix_regret(g, z, start, start + order - 2); /* for the payoffs */
-        memcpy(start, z, (order - 2) * sizeof *start);
-        s = rb_lcp_prove(&(rb_lcp_mixed_problem){&M, q, lower, NULL}, start, proof);
+        for (int i = 0; i < strategies; i++)
+            most[i] = 1.0;
+        for (int i = 0; i < g->m; i++)
+            for (int j = 0; j < g->n; j++) {
+                const size_t at = (size_t)i + (size_t)j * (size_t)g->ld;
+                most[strategies] = fmax(most[strategies], fabs(g->A[at]));
+                most[strategies + 1] = fmax(most[strategies + 1], fabs(g->B[at]));
+            }
+        s = rb_lcp_prove_number(&p.problem, most, count, p.z, seconds, number);
     }
-    rb_sparse_free(&M);
-    free(q);
-    free(lower);
-    free(start);
+    free_game(&p);
+    free(most);
     return s;
 }

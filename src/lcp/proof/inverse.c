@@ -70,7 +70,7 @@ static void scale(int k, const double *A, int *row, int *column, double *factor,
     memcpy(B, A, n * n * sizeof *B);
 }
 
-int rb_proof_inverse(int k, double *A, proof_inverse *v)
+int rb_proof_inverse(int k, double *A, double unknown, proof_inverse *v)
 {
     const size_t n = (size_t)k;
     *v = (proof_inverse){.k = k, .norm = 0.0};
@@ -102,9 +102,9 @@ int rb_proof_inverse(int k, double *A, proof_inverse *v)
             rb_proof_abs_product(k, k, v->R, k, rows, sums);
             rb_proof_abs_product(k, k, A, k, v->g, rows);
             for (size_t i = 0; i < n; i++)
-                v->g[i] =
-                    proof_up(4, proof_up(n, rows[i]) + proof_error(n, proof_up(n, sums[i]) + 1.0) +
-                                    (double)k * (double)k * PROOF_TINY);
+                v->g[i] = proof_up(4, proof_up(n, rows[i]) + unknown * proof_up(n, sums[i]) +
+                                          proof_error(n, proof_up(n, sums[i]) + 1.0) +
+                                          (double)k * (double)k * PROOF_TINY);
             v->norm = rb_norm_inf(n, v->g);
         }
     }

@@ -292,7 +292,7 @@ static const char *solve_basis(prover *p, int fine, double *norm, rb_status *mem
                 A[(size_t)of_row[r] + (size_t)p->core[c] * (size_t)k] = p->M.x[q];
         }
     const char *why = NULL;
-    if (!rb_proof_inverse(k, A, &inverse)) {
+    if (!rb_proof_inverse(k, A, 0.0, &inverse)) {
         *memory = RB_ENOMEM;
         why = "out of memory";
     }
@@ -360,7 +360,7 @@ static rb_status bound_undecided(prover *p)
             A[(size_t)i + (size_t)j * order] =
                 i == j ? p->Y[at] - p->EY[at] : -(fabs(p->Y[at]) + p->EY[at]);
         }
-    room = room && rb_proof_inverse(b, rb_copy(order * order, A), &inverse);
+    room = room && rb_proof_inverse(b, rb_copy(order * order, A), 0.0, &inverse);
     int yes = room && isfinite(inverse.norm);
     for (int i = 0; yes && i < b; i++)
         least[i] = -1.0;
@@ -576,6 +576,8 @@ static void write_proof(prover *p, const double *given, rb_lcp_proof *proof)
             if (proof->z[i] < 0.0) {
                 proof->z[j] = -proof->z[i];
                 proof->z[i] = 0.0;
+                proof->state[i] = RB_LCP_AT_BOUND;
+                proof->state[j] = RB_LCP_BASIC;
             }
             proof->error[j] = proof->error[i];
             if (fabs(p->X[p->column[i]]) <= proof->error[i]) {

@@ -590,6 +590,8 @@ const char *rb_api_word(const rb_api *a, const char *name)
         return rb_status_text(a->status);
     if (strcmp(name, "task.solver") == 0)
         return a->solver;
+    if (strcmp(name, "task.proof.reason") == 0)
+        return a->proof_reason;
     for (int k = 0; k < API_SAID_N; k++)
         if (strcmp(name, said[k]) == 0)
             return a->said[k];

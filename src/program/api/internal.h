@@ -59,6 +59,8 @@ struct rb_api {
     int iterations;
     double residual, scaled_residual;
     int by_acary;                /* (13) decides whether friction problems are solved */
+    int proves;                  /* 1: problems that are handed over are also proved: */
+    const char *proof_reason;    /* why the last one was not; static text */
     rb_message note;             /* on the last problem that was handed over; empty: none */
     rb_rolling_study_notes rows; /* on the points or cases of the last curve or sweep; rows = 0: it
                                     was neither */

@@ -19,6 +19,63 @@ static void begin(rb_api *a, const char *arrays, const char *solver)
     a->iterations = 0;
     a->residual = a->scaled_residual = NAN;
     a->solver = solver;
+    a->proof_reason = "";
+}
+
+/* ---- Proofs ------------------------------------------------------------------------ */
+
+int rb_api_prove_problems(rb_api *a, int yes)
+{
+    a->proves = yes != 0;
+    return rb_api_ended(a, RB_OK);
+}
+
+static rb_status keep_numbers(rb_api *a, const char *what, const char *name, int n, const double *x)
+{
+    char text[40];
+    snprintf(text, sizeof text, "%s.%s", what, name);
+    return rb_api_copy_array(a, text, n, 1, x) ? RB_OK : RB_ENOMEM;
+}
+
+/* Takes over the proof; s: of rb_lcp_prove. */
+static rb_status keep_proof(rb_api *a, const char *what, rb_status s, rb_lcp_proof *p)
+{
+    const double numbers[] = {p->proved, p->undecided, p->isolated, p->bound,    p->stored_within,
+                              p->nearby, p->margin,    p->norm,     p->least_sum};
+    if (s != RB_OK && s != RB_UNDECIDED)
+        return s;
+    a->proof_reason = p->reason;
+    s = keep_numbers(a, what, "proof", sizeof numbers / sizeof *numbers, numbers);
+    if (s == RB_OK && p->proved)
+        s = keep_numbers(a, what, "proof.z", p->n, p->z);
+    if (s == RB_OK && p->proved)
+        s = keep_numbers(a, what, "proof.error", p->n, p->error);
+    rb_lcp_proof_free(p);
+    return s;
+}
+
+/* The same of how many solutions there are; most is NAN where it is not bounded. */
+static rb_status keep_number(rb_api *a, const char *what, rb_status s, rb_lcp_number *n)
+{
+    if (s != RB_OK && s != RB_TIME_LIMIT)
+        return s;
+    const double numbers[] = {n->least, n->most >= 0 ? n->most : NAN, n->open};
+    s = keep_numbers(a, what, "number", 3, numbers);
+    rb_lcp_number_free(n);
+    return s;
+}
+
+static rb_status prove_friction(rb_api *a, const rb_friction_problem *problem, const double *r)
+{
+    rb_friction_proof p;
+    const rb_status s = rb_friction_prove_zones(problem, r, &p, &a->why);
+    const double numbers[] = {p.proved,   p.touching, p.isolated, p.bound,     p.stored_within,
+                              p.nearby,   p.margin,   p.norm,     p.condensed, p.zones[0],
+                              p.zones[1], p.zones[2], p.zones[3]};
+    if (s != RB_OK && s != RB_UNDECIDED)
+        return s;
+    a->proof_reason = p.reason;
+    return keep_numbers(a, "friction", "proof", sizeof numbers / sizeof *numbers, numbers);
 }
 
 /* ---- Complementarity --------------------------------------------------------------- */
@@ -84,6 +141,14 @@ int rb_api_lcp_sparse(rb_api *a, int n, const int *p, const int *i, const double
     if (s >= 0)
         a->residual = rb_lcp_residual_mixed(&problem, z->at, w->at);
     a->why = info.msg;
+    if (s >= 0 && s != RB_INTERRUPTED && a->proves) {
+        rb_lcp_proof proof;
+        rb_status proved = rb_lcp_prove(&problem, z->at, &proof);
+        if (proved == RB_UNDECIDED)
+            proved = rb_lcp_prove_absence(&problem, &proof);
+        proved = keep_proof(a, "lcp", proved, &proof);
+        s = proved == RB_OK ? s : proved;
+    }
     s = rb_api_call_ends(a, s);
     a->scaled_residual = info.scaled;
     a->iterations = info.iters;
@@ -136,6 +201,17 @@ int rb_api_lcp_all(rb_api *a, int n, const double *M, const double *q, const dou
     begin(a, "lcp.", "enumeration");
     rb_api_call_begins(a);
     rb_status s = rb_lcp_enumerate(&p, lower, upper, seconds, &all, &a->why);
+    if (s == RB_OK && a->proves) {
+        rb_sparse columns = {0};
+        rb_lcp_number number;
+        s = rb_sparse_from_dense(n, n, M, n, &columns);
+        if (s == RB_OK)
+            s = keep_number(a, "lcp",
+                            rb_lcp_prove_number(&(rb_lcp_mixed_problem){&columns, q, lower, upper},
+                                                NULL, all.count, all.z, seconds, &number),
+                            &number);
+        rb_sparse_free(&columns);
+    }
     s = rb_api_call_ends(a, s);
     if ((s == RB_OK || s == RB_TIME_LIMIT) && keep_all(a, "lcp", &all) != RB_OK)
         s = RB_ENOMEM;
@@ -174,6 +250,15 @@ int rb_api_game(rb_api *a, int m, int n, const double *A, const double *B, int l
             s = rb_lcp_bimatrix(&game, label, &options, z->at, &info);
             a->why = info.msg;
         }
+        if (s == RB_OK && a->proves) {
+            rb_lcp_number number;
+            rb_lcp_proof proof;
+            s = all_of_it ? keep_number(
+                                a, "game",
+                                rb_lcp_prove_game_number(&game, all.count, all.z, seconds, &number),
+                                &number)
+                          : keep_proof(a, "game", rb_lcp_prove_game(&game, z->at, &proof), &proof);
+        }
         s = rb_api_call_ends(a, s);
         a->iterations = info.iters;
         a->scaled_residual = all_of_it ? NAN : info.scaled;
@@ -205,6 +290,10 @@ static rb_status solve_friction(rb_api *a, const rb_friction_problem *p, const c
     rb_api_call_begins(a);
     rb_status s = rb_friction_solve(solver, p, &options, &solution, &info);
     a->why = info.msg;
+    if (s >= 0 && s != RB_INTERRUPTED && a->proves) {
+        const rb_status proved = prove_friction(a, p, r->at);
+        s = proved == RB_OK ? s : proved;
+    }
     s = rb_api_call_ends(a, s);
     a->solver = info.solver;
     a->iterations = info.iters;

@@ -18,7 +18,7 @@
 typedef struct {
     const char *solver;
     double tol, seconds;
-    int max_iters, measure, kind, format, facts, solution, trace, all;
+    int max_iters, measure, kind, format, facts, solution, trace, all, prove;
     rb_report_style style;
     const char *output;
 } friction_options;
@@ -57,6 +57,8 @@ static const rb_option options[] = {
                    .unset = "none"),
     RB_FLAG_LINE("all", PLACE(all),
                  "all solutions of plane problems, by trying every state (8 contacts at most)"),
+    RB_FLAG_LINE("prove", PLACE(prove),
+                 "prove that there is a solution in these zones, and how near it is"),
     RB_CHOICE_LINE("kind", PLACE(kind), kinds, "format of the files, if it is not recognised"),
     RB_GROUP_LINE("output", "Output"),
     RB_FLAG_LINE("facts", PLACE(facts), "rank, degree of hyperstaticity, nullity of K, asymmetry"),
@@ -94,6 +96,9 @@ static const char notes[] =
     "--all lists every solution of a plane problem, a row per contact: separated,\n"
     "stick, slip+ (u_T > 0, r_T = -mu r_N), slip- (u_T < 0, r_T = mu r_N), several\n"
     "names on the border between them; status no-solution is proved, undecided not.\n"
+    "--prove: a machine-checked proof that the problem with exactly these numbers has a\n"
+    "solution with these zones, and the part of q and mu that the printed reactions are\n"
+    "exact for (docs/proof.md).\n"
     "--trace prints every iterate with the solver, its iterations and operations so\n"
     "far, and the scaled residual; members of auto run in turns.\n"
     "If a file fails, the others are still solved.\n"
@@ -117,6 +122,8 @@ typedef struct {
     rb_message note;           /* on how the result is to be read; empty: none */
     double *r, *u;             /* m; owned */
     rb_friction_solutions all; /* --all; owned */
+    int is_tried;              /* 1: --prove has run: */
+    rb_friction_proof proof;
 } friction_result;
 
 /* ---- One file --------------------------------------------------------------------- */
@@ -189,6 +196,20 @@ static rb_friction_options solver_options(friction_run *run)
     opt.progress = o->trace ? trace : NULL;
     opt.context = run;
     return opt;
+}
+
+/* What is proved of the reactions, on standard error. */
+static cli_exit prove(friction_result *r, const rb_friction_problem *p, cli_exit code)
+{
+    rb_message why = {""};
+    char text[600];
+    const rb_status s = rb_friction_prove_zones(p, r->r, &r->proof, &why);
+    if (s != RB_OK && s != RB_UNDECIDED)
+        return failed(r, s, why.text);
+    r->is_tried = 1;
+    fprintf(stderr, "rollbem: %s: %s\n", r->file,
+            rb_report_friction_proof_text(&r->proof, text, sizeof text));
+    return code;
 }
 
 /* ---- All solutions ------------------------------------------------------------------ */
@@ -321,6 +342,8 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
     r->r = rb_alloc((size_t)r->m, 1);
     r->u = rb_alloc((size_t)r->m, 1);
     cli_exit code = r->r && r->u ? CLI_OK : failed(r, RB_ENOMEM, "out of memory");
+    if (code == CLI_OK && run->o->prove && p.lengths)
+        code = failed(r, RB_EINVAL, "--prove does not take rolling friction: leave it out");
     if (code == CLI_OK && run->o->all) {
         code = find_all(run, r, &p);
         rb_friction_problem_free(&p);
@@ -366,7 +389,9 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
             fprintf(stderr,
                     "rollbem: %s: note: there is no solution with a sum W_NN r_N below %.2g; |q| "
                     "adds up to %.2g\n",
-                    r->file, least, given);
+                    r->file, 0.95 * least, given); /* two digits are not above it */
+        if (run->o->prove && r->m > 0)
+            code = prove(r, &p, code);
         if (p.lengths) {
             /* Rolling contacts are solved as two contacts each and told as one of five
              * entries. */
@@ -428,6 +453,8 @@ static cli_exit solve_file(void *context, const char *path)
         code = unreadable(&r, s, &why);
     else if (kind == RB_FRICTION_FILE_SICONOS_SOCLCP && run->o->all)
         code = failed(&r, RB_EINVAL, "--all does not read problems on cones");
+    else if (kind == RB_FRICTION_FILE_SICONOS_SOCLCP && run->o->prove)
+        code = failed(&r, RB_EINVAL, "--prove does not read problems on cones: leave it out");
     else if (kind == RB_FRICTION_FILE_SICONOS_SOCLCP)
         code = solve_cones(run, &r);
     else
@@ -451,6 +478,11 @@ static cli_exit solve_file(void *context, const char *path)
         CLI_NUMBER("floor", "floor", info->floor),
         CLI_NUMBER("flops", NULL, info->flops),
         CLI_NUMBER("seconds", "seconds", info->seconds),
+        CLI_WORDS(NULL, "proof",
+                  !r.is_tried      ? "-"
+                  : r.proof.proved ? "proved"
+                                   : "not proved"),
+        CLI_NUMBER(NULL, "within", r.proof.proved ? r.proof.stored_within : NAN),
         CLI_KNOWN("rank", "rank", facts->rank, known),
         CLI_KNOWN("hyperstaticity", "hyperstaticity", facts->hyperstaticity, known),
         CLI_KNOWN("nullity", "nullity", facts->nullity, known),
@@ -468,6 +500,9 @@ static cli_exit solve_file(void *context, const char *path)
             cli_rows_set(rows, "r", r.r ? rb_report_json_numbers(r.m, r.r) : json_null());
             cli_rows_set(rows, "u", r.u ? rb_report_json_numbers(r.m, r.u) : json_null());
         }
+        if (run->o->prove)
+            cli_rows_set(rows, "proof",
+                         r.is_tried ? rb_report_json_friction_proof(&r.proof) : json_null());
         if (run->o->trace)
             cli_rows_set(rows, "trace", json_incref(run->steps));
     } else if (known) {
@@ -532,25 +567,30 @@ int cli_friction(int argc, char **argv)
     if (code == CLI_CONTINUE && o.all && (o.trace || o.facts || o.max_iters || o.measure))
         code = cli_fail(CLI_USAGE, "friction: --all tries every state: not with --trace, --facts, "
                                    "--max-iters or --measure");
+    if (code == CLI_CONTINUE && o.all && o.prove)
+        code = cli_fail(CLI_USAGE, "friction: --prove proves the solution that was found: not with "
+                                   "--all");
+    if (code == CLI_CONTINUE && o.prove && o.trace)
+        code = cli_fail(CLI_USAGE, "friction: --prove is about the last iterate: not with --trace");
     if (code == CLI_CONTINUE && o.all && strcmp(o.solver, "auto") != 0)
         code = cli_fail(CLI_USAGE, "friction: --all tries every state: not with --solver");
     if (code == CLI_CONTINUE)
         code = cli_check_files(&spec, &args);
     if (code == CLI_CONTINUE) {
-        friction_run run = {
-            .files = {.style = &o.style,
-                      .columns =
-                          o.all        ? "file solution contact state r_N r_T u_N u_T"
-                          : o.solution ? "file i r u"
-                          : o.facts
-                              ? "file solver status contacts dimension iterations residual floor "
-                                "seconds scaled rank hyperstaticity nullity asymmetry indefinite"
+        char columns[160];
+        snprintf(columns, sizeof columns, "%s%s%s",
+                 o.all        ? "file solution contact state r_N r_T u_N u_T"
+                 : o.solution ? "file i r u"
                               : "file solver status contacts dimension iterations residual floor "
                                 "seconds scaled",
-                      .conventions = conventions,
-                      .solve = solve_file,
-                      .context = &run},
-            .o = &o};
+                 o.facts && !o.solution ? " rank hyperstaticity nullity asymmetry indefinite" : "",
+                 o.prove && !o.solution ? " proof within" : "");
+        friction_run run = {.files = {.style = &o.style,
+                                      .columns = columns,
+                                      .conventions = conventions,
+                                      .solve = solve_file,
+                                      .context = &run},
+                            .o = &o};
         code = cli_solve_problems(&run.files, &args, o.output);
     }
     cli_args_free(&args);

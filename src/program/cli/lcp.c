@@ -72,8 +72,10 @@ static const rb_option options[] = {
                  .file = RB_FILE_READ),
     RB_CHOICE_LINE("rule", PLACE(rule), rules,
                    "which row leaves when ratios tie; first-index can cycle"),
-    RB_FLAG_LINE("prove", PLACE(prove),
-                 "prove that there is a solution with these signs, and how near it is"),
+    RB_FLAG_LINE(
+        "prove", PLACE(prove),
+        "prove that there is a solution with these signs, and how near it is; or that there "
+        "is none; --all: how many there are"),
     RB_GROUP_LINE("output", "Output"),
     RB_FLAG_LINE("trace", PLACE(trace), "a row per pivot instead of one per file"),
     RB_FLAG_LINE("solution", PLACE(solution),
@@ -110,7 +112,9 @@ static const char notes[] =
     "strategy\n"
     "that the path begins with.\n"
     "With --prove a machine-checked proof says that the problem with exactly these numbers has a\n"
-    "solution with these signs, and how far the printed z are from it (docs/proof.md).\n"
+    "solution with these signs, and how far the printed z are from it, or that it has none; with "
+    "--all\n"
+    "how many solutions it has (docs/proof.md).\n"
     "After a file that fails the others are still solved.\n"
     "Status: solved; no-solution: proved; secondary-ray, undecided: none was found, and none is\n"
     "excluded; iteration-limit, time-limit; numerical-failure: there is a solution, which "
@@ -142,6 +146,8 @@ typedef struct {
     int sets, *set, *member;               /* --game --all: as of rb_lcp_solutions; owned */
     double payoff[2];                      /* --game, the first solution */
     rb_lcp_proof proof;                    /* --prove, of one solution; owned */
+    int is_counted;                        /* 1: --all --prove has run: */
+    rb_lcp_number number;                  /* owned */
     int is_empty;                          /* 1: n = 0, which is solved */
 } lcp_result;
 
@@ -241,6 +247,19 @@ static cli_exit say_proof(lcp_result *r, rb_status s, cli_exit code)
     return code;
 }
 
+/* How many solutions there are; s: of rb_lcp_prove_number. */
+static cli_exit say_number(lcp_result *r, rb_status s, cli_exit code)
+{
+    char text[400];
+    if (s == RB_INTERRUPTED || s < 0)
+        return failed(r, s, &(rb_message){""});
+    r->is_counted = 1;
+    fprintf(stderr, "rollbem: %s: %s%s\n", r->file,
+            rb_report_number_text(&r->number, text, sizeof text),
+            s == RB_TIME_LIMIT ? " (time limit)" : "");
+    return code;
+}
+
 /* ---- All solutions ----------------------------------------------------------------- */
 
 /* What the enumeration has found, and what it could not decide.  end: RB_OK, RB_TIME_LIMIT. */
@@ -335,7 +354,23 @@ static cli_exit run_all(lcp_run *run, rb_io_matrix *M, lcp_result *r)
             r->info.row = row;
         }
     }
-    return say_all(run->o, r, &all, end);
+    const cli_exit code = say_all(run->o, r, &all, end);
+    if (!run->o->prove || end != RB_OK)
+        return code;
+    return say_number(
+        r, rb_lcp_prove_number(&r->boxed, NULL, all.count, r->z, run->o->seconds, &r->number),
+        code);
+}
+
+/* A solution, or that there is none. */
+static rb_status prove(lcp_result *r)
+{
+    rb_status s = rb_lcp_prove(&r->boxed, r->z, &r->proof);
+    if (s == RB_UNDECIDED) {
+        const rb_status absence = rb_lcp_prove_absence(&r->boxed, &r->proof);
+        s = absence == RB_OK ? s : absence;
+    }
+    return s;
 }
 
 static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
@@ -387,7 +422,7 @@ static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
         }
         code = s < 0 ? invalid(r, s, &r->info.msg) : say_end(o, r, s);
         if (o->prove && s >= 0)
-            code = say_proof(r, rb_lcp_prove(&r->boxed, r->z, &r->proof), code);
+            code = say_proof(r, prove(r), code);
     }
     rb_io_lcp_free(&p);
     return code;
@@ -441,7 +476,11 @@ static cli_exit solve_game(lcp_run *run, lcp_result *r)
     cli_exit code = s < 0         ? invalid(r, s, &r->info.msg)
                     : run->o->all ? say_all(run->o, r, &all, end)
                                   : say_end(run->o, r, s);
-    if (run->o->prove && s >= 0 && !run->o->all)
+    if (run->o->prove && run->o->all && end == RB_OK && s >= 0)
+        code = say_number(
+            r, rb_lcp_prove_game_number(&game, r->solutions, r->z, run->o->seconds, &r->number),
+            code);
+    else if (run->o->prove && s >= 0 && !run->o->all)
         code = say_proof(r, rb_lcp_prove_game(&game, r->z, &r->proof), code);
     rb_io_bimatrix_free(&g);
     return code;
@@ -467,11 +506,14 @@ static void add_members(const lcp_run *run, cli_rows *rows, const lcp_result *r)
     }
     if (o->all) {
         json_t *list = json_array(), *sets = r->sets ? json_array() : json_null();
-        for (int k = 0; k < r->solutions; k++)
-            rb_report_json_append(
-                &list, json_pack("{s:o, s:o, s:b}", "z", vector(r->n, r->z + (size_t)k * r->n), "w",
-                                 vector(r->n, r->w + (size_t)k * r->n), "singular_basis",
-                                 r->singular_basis ? r->singular_basis[k] : 0));
+        for (int k = 0; k < r->solutions; k++) {
+            json_t *one = json_pack("{s:o, s:o, s:b}", "z", vector(r->n, r->z + (size_t)k * r->n),
+                                    "w", vector(r->n, r->w + (size_t)k * r->n), "singular_basis",
+                                    r->singular_basis ? r->singular_basis[k] : 0);
+            if (k < r->number.proofs)
+                rb_report_json_set(&one, "proof", rb_report_json_proof(&r->number.proof[k]));
+            rb_report_json_append(&list, one);
+        }
         for (int k = 0; k < r->sets; k++) {
             json_t *members = json_array();
             for (int l = r->set[k]; l < r->set[k + 1]; l++)
@@ -489,7 +531,10 @@ static void add_members(const lcp_run *run, cli_rows *rows, const lcp_result *r)
         cli_rows_set(rows, "z", vector(r->n, r->z));
         cli_rows_set(rows, "w", vector(r->n, r->w));
     }
-    if (o->prove)
+    if (o->prove && o->all)
+        cli_rows_set(rows, "number",
+                     r->is_counted ? rb_report_json_number_of_solutions(&r->number) : json_null());
+    else if (o->prove)
         cli_rows_set(rows, "proof", r->proof.n ? rb_report_json_proof(&r->proof) : json_null());
     if (o->trace)
         cli_rows_set(rows, "pivots", json_incref(run->pivots.list));
@@ -517,8 +562,9 @@ static void list_unknowns(const lcp_run *run, cli_rows *rows, const lcp_result *
     for (int k = 0; k < r->solutions && !run->o->trace && r->z; k++)
         for (int i = 0; i < r->n; i++) {
             const size_t at = (size_t)k * (size_t)r->n + (size_t)i;
+            const rb_lcp_proof *proof = k < r->number.proofs ? &r->number.proof[k] : &r->proof;
             const double within =
-                r->proof.proved ? fabs(r->z[at] - r->proof.z[i]) + r->proof.error[i] : NAN;
+                proof->proved ? fabs(r->z[at] - proof->z[i]) + proof->error[i] : NAN;
             const cli_value unknown[] = {
                 CLI_TEXT(NULL, "file", r->file), CLI_WHOLE(NULL, "solution", k + 1),
                 CLI_WHOLE(NULL, "i", i + 1),     CLI_NUMBER(NULL, "z", r->z[at]),
@@ -530,6 +576,7 @@ static void list_unknowns(const lcp_run *run, cli_rows *rows, const lcp_result *
 static void free_result(lcp_result *r)
 {
     rb_lcp_proof_free(&r->proof);
+    rb_lcp_number_free(&r->number);
     rb_sparse_free(&r->M);
     free(r->lower);
     free(r->upper);
@@ -612,8 +659,6 @@ static cli_exit check_options(const lcp_options *o)
     if (o->all && (path || o->start || o->solver || o->max_pivots))
         return cli_fail(CLI_USAGE, "lcp: --all tries every basis: not with --solver, --start, "
                                    "--cover, --rule, --trace or --max-pivots");
-    if (o->all && o->prove)
-        return cli_fail(CLI_USAGE, "lcp: --prove proves one solution: not with --all");
     if (o->game && (vectors || o->q || o->solver || o->rule))
         return cli_fail(CLI_USAGE, "lcp: --game reads A and B alone: not with --q, --lower, "
                                    "--upper, --start, --cover, --solver or --rule");
@@ -649,9 +694,9 @@ int cli_lcp(int argc, char **argv)
                  : o.solution ? "file i z w"
                               : "file status n pivots residual seconds scaled solver",
                  o.game && !(o.trace || o.all || o.solution) ? " label" : "",
-                 !o.prove || o.trace ? ""
-                 : o.solution        ? " within"
-                                     : " proof within");
+                 !o.prove || o.trace   ? ""
+                 : o.solution || o.all ? " within"
+                                       : " proof within");
         lcp_run run = {.files = {.style = &o.style,
                                  .columns = columns,
                                  .conventions = conventions,

@@ -19,14 +19,24 @@ static const char *status_text(int proved, int undecided, const char *before, co
 
 const char *rb_report_proof_status(const rb_lcp_proof *p, char *text, size_t size)
 {
+    if (isinf(p->least_sum)) {
+        snprintf(text, size, "no solution");
+        return text;
+    }
     return status_text(p->proved, p->undecided, "", "pair", text, size);
 }
 
 const char *rb_report_proof_text(const rb_lcp_proof *p, char *text, size_t size)
 {
     char status[60];
+    if (isinf(p->least_sum)) {
+        snprintf(text, size, "proved: there is no solution");
+        return text;
+    }
     snprintf(text, size, "%s", rb_report_proof_status(p, status, sizeof status));
-    if (!p->proved) {
+    if (p->least_sum > 0.0) /* two digits are not above it */
+        rb_append(text, size, ": every solution has sum(z) >= %.2g", 0.95 * p->least_sum);
+    else if (!p->proved) {
         rb_append(text, size, ": %s", p->reason);
         if (p->row >= 0)
             rb_append(text, size, " (row %d)", p->row + 1);
@@ -57,6 +67,85 @@ json_t *rb_report_json_proof(const rb_lcp_proof *p)
     rb_report_json_set(&object, "nearby", rb_report_json_number(p->nearby));
     rb_report_json_set(&object, "margin", rb_report_json_number(p->proved ? p->margin : NAN));
     rb_report_json_set(&object, "norm", rb_report_json_number(p->norm));
+    rb_report_json_set(&object, "least_sum",
+                       rb_report_json_number(p->least_sum > 0.0 ? p->least_sum : NAN));
+    return object;
+}
+
+const char *rb_report_number_text(const rb_lcp_number *n, char *text, size_t size)
+{
+    text[0] = '\0';
+    if (n->most == 0)
+        rb_append(text, size, "proved: there is no solution");
+    else if (n->most == n->least)
+        rb_append(text, size, "proved: exactly %d solution%s", n->least, rb_plural(n->least));
+    else if (n->least > 0)
+        rb_append(text, size, "proved: at least %d solution%s", n->least, rb_plural(n->least));
+    else
+        rb_append(text, size,
+                  n->most > 0 ? "proved: " : "not proved: how many solutions there are");
+    if (n->most > n->least)
+        rb_append(text, size, "%sat most %d", n->least ? ", " : "", n->most);
+    if (n->open)
+        rb_append(text, size, "; of %d complementary %s it is open", n->open,
+                  n->open == 1 ? "basis" : "bases");
+    return text;
+}
+
+json_t *rb_report_json_number_of_solutions(const rb_lcp_number *n)
+{
+    json_t *object = json_object();
+    rb_report_json_set(&object, "least", json_integer(n->least));
+    rb_report_json_set(&object, "most", n->most >= 0 ? json_integer(n->most) : json_null());
+    rb_report_json_set(&object, "open", json_integer(n->open));
+    return object;
+}
+
+/* ---- Friction ------------------------------------------------------------------------- */
+
+const char *rb_report_friction_proof_text(const rb_friction_proof *p, char *text, size_t size)
+{
+    static const char *const zones[] = {"separated", "stick", "slip", "closed without friction"};
+    text[0] = '\0';
+    if (p->proved) {
+        const char *before = "proved: ";
+        for (int k = 0; k < 4; k++)
+            if (p->zones[k]) {
+                rb_append(text, size, "%s%d %s", before, p->zones[k], zones[k]);
+                before = ", ";
+            }
+        rb_append(
+            text, size,
+            "; %sreactions within %.2g max r of the solution, those printed within %.2g max r",
+            p->isolated ? "isolated, " : "", p->bound, p->stored_within);
+    } else {
+        rb_append(text, size, "not proved: %s", p->reason);
+        if (p->contact >= 0)
+            rb_append(text, size, " (contact %d)", p->contact + 1);
+    }
+    if (isfinite(p->nearby))
+        rb_append(text, size, "; exact for q and mu within %.2g", p->nearby);
+    if (p->condensed)
+        rb_append(text, size, "; of the condensed problem");
+    return text;
+}
+
+json_t *rb_report_json_friction_proof(const rb_friction_proof *p)
+{
+    const rb_lcp_proof as_lcp = {.proved = p->proved,
+                                 .reason = p->reason,
+                                 .row = -1,
+                                 .bound = p->bound,
+                                 .stored_within = p->stored_within,
+                                 .isolated = p->isolated,
+                                 .nearby = p->nearby,
+                                 .margin = p->margin,
+                                 .norm = p->norm};
+    json_t *object = rb_report_json_proof(&as_lcp);
+    rb_report_json_set(&object, "contact",
+                       p->contact >= 0 ? json_integer(p->contact + 1) : json_null());
+    rb_report_json_set(&object, "touching", json_integer(p->proved ? p->touching : 0));
+    rb_report_json_set(&object, "condensed", json_boolean(p->condensed));
     return object;
 }
 
@@ -84,6 +173,8 @@ const char *rb_report_contact_proof_text(const rb_contact_proof *p, char *text, 
             rb_append(text, size, ", p unique");
         else if (strcmp(unique, "fixed friction") == 0)
             rb_append(text, size, ", unique for these coefficients of friction");
+        else if (strcmp(unique, "at its creepage") == 0)
+            rb_append(text, size, ", unique at its creepage");
         else if (strcmp(unique, "not shown") != 0)
             rb_append(text, size, ", unique");
         if (p->isolated && (strcmp(unique, "pressure") == 0 || strcmp(unique, "not shown") == 0))

@@ -4,6 +4,7 @@
 #ifndef ROLLBEM_REPORT_H
 #define ROLLBEM_REPORT_H
 
+#include "lcp/friction/friction.h"
 #include "analysis/sensitivity/derivatives.h"
 #include "analysis/crack/crack_case.h"
 #include "analysis/fit/fit_case.h"
@@ -112,7 +113,13 @@ struct json_t *rb_report_json_numbers(int n, const double *x);
 const char *rb_report_proof_status(const rb_lcp_proof *proof, char *text, size_t size);
 const char *rb_report_proof_text(const rb_lcp_proof *proof, char *text, size_t size);
 struct json_t *rb_report_json_proof(const rb_lcp_proof *proof);
+/* "proved: exactly 3 solutions", "proved: at least 2 solutions, at most 4; ..."; the object
+ * `number`. */
+const char *rb_report_number_text(const rb_lcp_number *number, char *text, size_t size);
+struct json_t *rb_report_json_number_of_solutions(const rb_lcp_number *number);
 /* The sentence and the object of a contact. */
+const char *rb_report_friction_proof_text(const rb_friction_proof *proof, char *text, size_t size);
+struct json_t *rb_report_json_friction_proof(const rb_friction_proof *proof);
 const char *rb_report_contact_proof_text(const rb_contact_proof *proof, char *text, size_t size);
 struct json_t *rb_report_json_contact_proof(const rb_contact_proof *proof);
 struct json_t *rb_report_json_summary(const rb_rolling_solution *s);

@@ -350,8 +350,11 @@ rb_status rb_rolling_model_prove(const rb_rolling_model *model, rb_contact_proof
                                  rb_message *why)
 {
     const rb_status s = rb_contact_prove(&model->problem, &model->state, proof, why);
-    if (s == RB_OK && proof->unique && strcmp(proof->unique, "uncoupled") == 0 &&
-        rb_rolling_law_depends_on_state(model->rc))
-        proof->unique = "fixed friction";
+    if (s == RB_OK && proof->unique && rb_rolling_law_depends_on_state(model->rc)) {
+        if (strcmp(proof->unique, "uncoupled") == 0 || strcmp(proof->unique, "energy") == 0)
+            proof->unique = "fixed friction";
+        else if (strcmp(proof->unique, "at its creepage") == 0)
+            proof->unique = "not shown";
+    }
     return s;
 }
