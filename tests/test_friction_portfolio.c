@@ -131,6 +131,28 @@ TEST(auto_on_the_packings_it_lost_on)
     }
 }
 
+/* Newton's methods came to 1e-10 of the whole within 60 steps, and went on for hundreds because of
+ * contacts that carry 1e-4 of the others: 484 and 284 iterations of all members. */
+TEST(faint_contacts_do_not_hold_auto_up)
+{
+    static const struct {
+        const char *file;
+        int most;
+        double flops;
+    } rows[] = {{"siconos/fc3d/Capsules-i101-404.dat", 260, 2.3e7},
+                {"fclib/Capsules-i125-1213.hdf5", 90, 1.1e7}};
+    for (int k = 0; k < 2; k++) {
+        OWNED(rb_friction_problem) p;
+        rb_friction_info info;
+        CHECK_OK(rb_friction_read(outside_data(rows[k].file), &p, &heard));
+        SCRATCH double *r = rb_alloc((size_t)(3 * p.contacts), 1);
+        CHECK_OK(run("auto", &p, r, &info));
+        assert_true(info.iters <= rows[k].most);
+        CHECK_MAX(info.flops, rows[k].flops, "%s: operations", rows[k].file);
+        CHECK_MAX(info.worst, 1e-8, "%s: contact", rows[k].file);
+    }
+}
+
 /* W and q that the generator prints, and those condensed from its mass and H; condensing
  * takes less time than solving. */
 TEST(global_packings_condense_to_the_local_ones)

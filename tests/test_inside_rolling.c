@@ -29,6 +29,26 @@ TEST(the_gap_is_that_of_both_bodies)
     assert_false(rb_rolling_is_convex(&rc));
 }
 
+/* Bytes between two numbers do not make another body; any byte of a number does. */
+TEST(bodies_are_compared_by_their_numbers)
+{
+    static const size_t size = sizeof(rb_rolling_body);
+    const rb_rolling_body like =
+        with(half_plane(RB_STEADY, 12), "relaxation-time 1 relaxation-ratio 1").a;
+    rb_rolling_body x, y;
+    int numbers = 0;
+    memset(&x, 0, size);
+    memcpy(&x, &like, size);
+    for (size_t k = 0; k < size; k++) {
+        memcpy(&y, &x, size);
+        ((unsigned char *)&y)[k] ^= 1;
+        numbers += !rb_rolling_same_body(&x, &y);
+    }
+    /* support and the count of terms are ints, all others doubles */
+    assert_int_equal(numbers, (int)(13 * sizeof(double) + 2 * sizeof(int) +
+                                    2 * RB_ROLLING_TERMS * sizeof(double)));
+}
+
 TEST(what_is_worn_is_linear_between_its_points)
 {
     const double x[] = {-1.0, 0.0, 3.0}, y[] = {0.1, 0.4, 0.1};

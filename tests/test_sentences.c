@@ -18,6 +18,9 @@
 #define ROOF                                                                                       \
     "--similar --support halfplane --young 210000 --poisson 0.3 --radius 100 --mu 0 "              \
     "--gap roof.txt "
+#define SPEEDS                                                                                     \
+    "curve --over speed --support halfplane --young 10 --poisson 0.3 --load 0.1 --mu 0.1 "         \
+    "--relaxation-time 0.01 --relaxation-ratio 1 --from 1 --to 100 --points 2 "
 #define PASSES CARTER "--formulation transient --creep-ratio 0.3 --distance 0.1 "
 #define FALLS                                                                                      \
     ROLLS "--creep-ratio 0.5 --friction-law exponential --mu-fall 0.2 --speed 1000 --slip-scale "
@@ -201,6 +204,8 @@ static const sentence studies[] = {
      "--vary-1 'crack-length 0.5 1'",
      "sweep " CARTER "--mu 0 --crack-elements 4 --vary-1 'crack-length 0.5 1'"},
     /* of the curve: where a third body yields nothing slides */
+    {"resistance", "largest resistance to rolling M/(P R) = 0.", SPEEDS "--gap parabola",
+     SPEEDS "--load 0.001 --gap roof.txt"}, /* which has no radius */
     {"full sliding", "full sliding begins between", "curve " CARTER "--points 3",
      "curve " CARTER "--mu 100 --yield-stress 10 --over creep --to 0.1 --points 3"},
     {"full sliding",

@@ -57,6 +57,8 @@ extern const rb_choice rb_rolling_supports[];
 
 /* 1: the body has all properties of the sum `abilities`. */
 int rb_rolling_body_can(const rb_rolling_body *body, int abilities);
+/* Whether all numbers are the same, NAN included; bytes between them do not count. */
+int rb_rolling_same_body(const rb_rolling_body *x, const rb_rolling_body *y);
 
 /* As rb_rolling_profile_create, but one cubic spline without corners, which changes smoothly with
  * its points: of a gap that is searched for. */

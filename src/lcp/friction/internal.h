@@ -205,6 +205,9 @@ typedef struct {
     double deadline;       /* on rb_seconds(); 0: none */
     double budget;         /* value of info->flops at which a method pauses; INFINITY: never */
     int proved;            /* 1: rb_friction_prove has accepted r */
+    int tries;             /* so often a method pauses where the norm over all contacts is met, but
+                              not that of a contact */
+    int nearly;            /* 1: it has paused for that */
     rb_status measured;    /* status of the last computation of the error (RB_ENOMEM) */
     double *r, *u;         /* m: the iterate; start on entry */
     double *v;             /* n */
@@ -243,7 +246,7 @@ int rb_friction_task_late(const rb_friction_task *task);
 /* Status of the task's iterate with this error.  RB_OK: accepted; RB_MAXITER: not accepted
  * yet; RB_SINGULAR: not a finite number; RB_INACCURATE: not accepted, and `stands`: the
  * method changes it no more. */
-rb_status rb_friction_task_status(const rb_friction_task *task, double error, int stands);
+rb_status rb_friction_task_status(rb_friction_task *task, double error, int stands);
 /* The same after computing the error; RB_INTERRUPTED: time limit or stop. */
 rb_status rb_friction_task_assess(rb_friction_task *task);
 /* The relative change of an iterate at which the measure is worth another look, after one

@@ -217,10 +217,16 @@ int rb_friction_task_affords(rb_friction_task *task, double flops)
 
 /* ---- Whether an iterate is the end ------------------------------------------------- */
 
-rb_status rb_friction_task_status(const rb_friction_task *task, double error, int stands)
+rb_status rb_friction_task_status(rb_friction_task *task, double error, int stands)
 {
     if (rb_friction_task_accepts(task, error))
         return RB_OK;
+    if (error <= task->opt.tol && task->tries > 0) {
+        task->tries--;
+        task->nearly = 1;
+        task->budget = task->info->flops;
+        return RB_MAXITER;
+    }
     if (!isfinite(error))
         return task->measured == RB_OK ? RB_SINGULAR : task->measured;
     return stands ? RB_INACCURATE : RB_MAXITER;

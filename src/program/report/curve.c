@@ -113,12 +113,14 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
             fprintf(out, "  free rolling (Q = 0) at xi = %.5g\n",
                     c->free_creepage + 0.0); /* -0 is 0 */
         if (speeds) {
-            int most = 0;
+            int most = 0; /* points without a solution, and bodies without a radius, have none */
             for (int i = 1; i < c->n; i++)
-                if (c->resistance_ratio[i] > c->resistance_ratio[most])
+                if (c->resistance_ratio[i] > c->resistance_ratio[most] ||
+                    isnan(c->resistance_ratio[most]))
                     most = i;
-            fprintf(out, "  largest resistance to rolling M/(P R) = %.5g at %.5g %s\n",
-                    c->resistance_ratio[most], c->speed[most], rb_unit_name(c->units, "mm/s"));
+            if (!isnan(c->resistance_ratio[most]))
+                fprintf(out, "  largest resistance to rolling M/(P R) = %.5g at %.5g %s\n",
+                        c->resistance_ratio[most], c->speed[most], rb_unit_name(c->units, "mm/s"));
         } else if (c->branch) {
             /* How far apart rising and falling creepage are. */
             int most = 0;

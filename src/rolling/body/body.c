@@ -1,6 +1,9 @@
 /* The table of bodies, and functions for all bodies. */
 #include "rolling/internal.h"
 
+#include <stddef.h>
+#include <string.h>
+
 const rb_choice rb_rolling_supports[] = {
     {"arc", RB_BEM_ARC}, {"hub", RB_BEM_HUB}, {"halfplane", RB_BEM_HALFPLANE}, {NULL, 0}};
 
@@ -55,6 +58,22 @@ int rb_rolling_body_can(const rb_rolling_body *body, int abilities)
         if (rb_rolling_body_is(body, *kind))
             can &= (*kind)->can;
     return can == abilities;
+}
+
+int rb_rolling_same_body(const rb_rolling_body *x, const rb_rolling_body *y)
+{
+    enum {
+        YOUNG = offsetof(rb_rolling_body, young),
+        SUPPORT = offsetof(rb_rolling_body, support),
+        ARC = offsetof(rb_rolling_body, arc),
+        MEMORY = offsetof(rb_rolling_body, memory)
+    };
+    const char *a = (const char *)x, *b = (const char *)y;
+
+    return memcmp(a + YOUNG, b + YOUNG, SUPPORT - YOUNG) == 0 && x->support == y->support &&
+           memcmp(a + ARC, b + ARC, MEMORY - ARC) == 0 && x->memory.n == y->memory.n &&
+           memcmp(x->memory.time, y->memory.time, sizeof x->memory.time) == 0 &&
+           memcmp(x->memory.ratio, y->memory.ratio, sizeof x->memory.ratio) == 0;
 }
 
 int rb_rolling_can(const rb_rolling_case *rc, int abilities)

@@ -132,7 +132,7 @@ rb_status rb_rolling_perturbation_add(rb_rolling_perturbation *perturbation,
         const rb_rolling_body *is = k ? &v->rc->b : &v->rc->a, *was = k ? &of->rc->b : &of->rc->a;
         /* of zero displacement below a flat body: of the radius of A, too */
         const double depth[] = {rb_rolling_datum(v->rc, is), rb_rolling_datum(of->rc, was)};
-        if (!moves && memcmp(is, was, sizeof *is) == 0 &&
+        if (!moves && rb_rolling_same_body(is, was) &&
             memcmp(&depth[0], &depth[1], sizeof *depth) == 0 &&
             (is->memory.n == 0 || v->rc->speed == of->rc->speed))
             continue;

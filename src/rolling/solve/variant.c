@@ -41,16 +41,11 @@ static int have_same_boundary(const rb_bem_system *x, const rb_bem_system *y)
     return !x || rb_bem_system_mesh(x)->n == rb_bem_system_mesh(y)->n;
 }
 
-static int same_body(const rb_rolling_body *x, const rb_rolling_body *y)
-{
-    return memcmp(x, y, sizeof *x) == 0;
-}
-
 /* What is between them may differ. */
 static int same_but_interlayer(const rb_rolling_case *x, const rb_rolling_case *y)
 {
-    return same_body(&x->a, &y->a) && x->elastic_b == y->elastic_b &&
-           (!x->elastic_b || same_body(&x->b, &y->b)) &&
+    return rb_rolling_same_body(&x->a, &y->a) && x->elastic_b == y->elastic_b &&
+           (!x->elastic_b || rb_rolling_same_body(&x->b, &y->b)) &&
            (x->speed == y->speed || !rb_rolling_relaxes(x));
 }
 
@@ -90,9 +85,10 @@ static double softening(const rb_rolling_case *x, const rb_rolling_case *y)
 
     a.young = y->a.young;
     b.young = y->b.young;
-    return rb_rolling_can(x, RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC) && same_body(&a, &y->a) &&
-                   x->elastic_b == y->elastic_b &&
-                   (!x->elastic_b || (same_body(&b, &y->b) && x->b.young / y->b.young == factor))
+    return rb_rolling_can(x, RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC) &&
+                   rb_rolling_same_body(&a, &y->a) && x->elastic_b == y->elastic_b &&
+                   (!x->elastic_b ||
+                    (rb_rolling_same_body(&b, &y->b) && x->b.young / y->b.young == factor))
                ? factor
                : 0.0;
 }
