@@ -89,6 +89,10 @@ TEST(cattaneo_traction_sums_to_the_force)
         CHECK_ABS(Q / (mu * P), ratio, 1e-7, "Q/(mu P) = %g", ratio);
     }
     CHECK_REL(rb_closed_cattaneo_stick(0.64), 0.6, 1e-14, "stick");
+    const rb_closed_worn worn = rb_closed_worn_limit(rb_closed_cattaneo_stick(0.8));
+    CHECK_REL(worn.volume, 0.426563, 1e-6, "worn volume");
+    CHECK_REL(worn.depth, 0.328159, 1e-6, "worn depth");
+    CHECK_REL(worn.mid_pressure, 1.341641, 1e-6, "p(0) of the worn contact");
 }
 
 /* Of two parts whose squares add up to 1 the ratios beta/mu are inverse; little sticks

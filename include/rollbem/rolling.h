@@ -592,8 +592,9 @@ typedef enum {
 /* Wear of A, and of B according to its share.  There are three cases.  Sliding over B
  * towards +x (static, `slides`): B's wear is spread over its track and does not change
  * the gap.  Fretting between the shift or force of the case and its opposite (static):
- * both bodies wear in the contact.  Steady rolling: round bodies stay round, and their
- * radii change. */
+ * both bodies wear in the contact, and where all of it slides over more than a tenth of the
+ * half-width each by its own profile (theory-rolling.md 4.9, W5).  Steady rolling: round bodies
+ * stay round, and their radii change. */
 typedef struct {
     rb_rolling_wear_law law;
     double coefficient; /* K [1/stress], of both bodies together */
@@ -614,12 +615,17 @@ typedef struct rb_rolling_wear_history {
     /* The same of B; NULL if B does not wear, radius_b also if B is a plane.  If A slides
      * or rolls over a plane: the depth of one passage. */
     double *worn_b, *max_depth_b, *radius_b;
-    double *work; /* of friction: per sliding or rolling distance [force/length], or per
-                     cycle [force] */
+    double *work;   /* of friction: per sliding or rolling distance [force/length], or per
+                       cycle [force] */
+    double *stroke; /* fretting: A slides to -stroke ... stroke over B, mean of the contact
+                       [length]; NULL otherwise */
     double *approach, *normal_load, *max_pressure, *contact_from, *contact_to;
     double *residual; /* of the contact under the worn gap */
     double radius_before, radius_b_before;
     int slides, rolls; /* both 0: fretting */
+    int positions;     /* along the stroke at which the contact was solved; 0: the stroke is small.
+                          Then pressure, contact and the worn depth of the solution, which is that
+                          of both bodies, belong to the middle of the stroke. */
     int stick_edge;    /* 1: a part of the contact sticks in every cycle and wears nothing; at its
                           edge the pressure grows without bound */
     rb_units units;    /* of all values here */

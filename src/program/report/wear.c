@@ -45,6 +45,11 @@ rb_status rb_report_wear_table(FILE *out, const rb_report_wear *w, const char *c
     rb_report_cells c = rb_report_begin_columns(out, style, command, parts, part);
 
     rb_report_comment(&c, "way: %s; work: of friction per %s", words.way, words.work);
+    if (w->history->positions > 0)
+        rb_report_comment(&c,
+                          "stroke: long, the wear is that of %d places along it; approach, "
+                          "contact and p0 belong to its middle",
+                          w->history->positions);
     return rb_report_end_columns(&c, w->history->n, parts, part);
 }
 
@@ -70,6 +75,10 @@ void rb_report_wear_summary(FILE *out, const rb_report_wear *w)
     const int last = h->n - 1;
     const char *mm = rb_unit_name(h->units, "mm"), *MPa = rb_unit_name(h->units, "MPa");
 
+    char positions[80] = "";
+    if (h->positions > 0)
+        snprintf(positions, sizeof positions,
+                 ", solved at %d places along it; contact and p0 in its middle", h->positions);
     fprintf(out, "wear: %d steps, %.5g %s\n", last, h->way[last], words_of(h).way);
     fprintf(out, "  worn      %.6g %s3 per %s of width, at most %.5g %s deep\n", h->worn[last], mm,
             mm, h->max_depth[last], mm);
@@ -77,6 +86,8 @@ void rb_report_wear_summary(FILE *out, const rb_report_wear *w)
         fprintf(out, "  worn of B %.6g %s3 per %s of width, %s %.5g %s deep\n", h->worn_b[last], mm,
                 mm, h->slides || (h->rolls && !h->radius_b) ? "in one passage" : "at most",
                 h->max_depth_b[last], mm);
+    if (h->stroke)
+        fprintf(out, "  stroke    +-%.5g %s%s\n", h->stroke[last], mm, positions);
     fprintf(out, "  contact   %.5g ... %.5g %s, before %.5g ... %.5g %s\n", h->contact_from[last],
             h->contact_to[last], mm, h->contact_from[0], h->contact_to[0], mm);
     fprintf(out, "  p0        %.6g %s, before %.6g %s; residual %.2g\n", h->max_pressure[last], MPa,

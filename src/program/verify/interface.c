@@ -56,6 +56,35 @@ static void wear(rb_verify *v, int steps)
     rb_rolling_solution_free(&last);
 }
 
+/* Partial slip after so many cycles that the slip zone is unloaded; c/a = 0.6 lies between two
+ * elements.  The deepest and the most strained place is at c, where p is singular: errors of first
+ * order. */
+static void worn_limit(rb_verify *v, int elements, double bound)
+{
+    static rb_message why;
+    static const double stick = 0.6;
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_wear_history h;
+    rb_rolling_solution last;
+    const double R = rc.a.radius, a = rc.half_width;
+    const rb_rolling_wear w = {.coefficient = 1e-8, .way = 1e10, .steps = 2, .increments = 2};
+    const rb_closed_worn limit = rb_closed_worn_limit(stick);
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.mu = 0.5;
+    rc.force_ratio = 1.0 - stick * stick;
+    rc.zone = 1.35 * a;
+    rc.contact_elements = elements;
+    why.text[0] = '\0';
+    const rb_status s = rb_rolling_wear_run(&rc, &w, NULL, &h, &last, &why);
+    rb_verify_note(v, s, &why);
+    rb_verify_relative(v, s == RB_OK ? h.worn[h.n - 1] : NAN, limit.volume * a * a * a / R, bound,
+                       "wear in partial slip, %d elements: volume of the limit", elements);
+    rb_verify_relative(v, s == RB_OK ? h.max_depth[h.n - 1] : NAN, limit.depth * a * a / R, bound,
+                       "wear in partial slip, %d elements: depth of the limit", elements);
+    rb_rolling_wear_history_free(&h);
+    rb_rolling_solution_free(&last);
+}
+
 /* Bodies so stiff that only the third body deforms. */
 static rb_rolling_case stiff_bodies(int elements)
 {
@@ -166,4 +195,6 @@ void rb_verify_interface(rb_verify *v)
     flash_temperature(v, 200, 2.0, 1e-4);
     wear(v, 1);
     wear(v, 5);
+    worn_limit(v, 54, 0.065);
+    worn_limit(v, 108, 0.034);
 }

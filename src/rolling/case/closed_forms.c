@@ -90,6 +90,22 @@ double rb_closed_cattaneo_traction(double mu, double max_pressure, double half_w
     return copysign(mu * max_pressure * q, force_ratio);
 }
 
+rb_closed_worn rb_closed_worn_limit(double stick)
+{
+    /* twice the depth is acosh(x/c) - x sqrt(x^2 - c^2), largest at x^2 = (1 + c^2)/2 and 0 at b */
+    const double c = stick, deepest = sqrt(0.5 * (1.0 + c * c));
+    double from = deepest, b = 2.0;
+    for (int k = 0; k < 60; k++) {
+        const double x = 0.5 * (from + b);
+        *(acosh(x / c) > x * sqrt(x * x - c * c) ? &from : &b) = x;
+    }
+    const double edge = sqrt(b * b - c * c);
+    return (rb_closed_worn){
+        .volume = edge * (b * b - 1.0) - gsl_pow_3(edge) / 3.0,
+        .depth = 0.5 * (acosh(deepest / c) - deepest * sqrt(deepest * deepest - c * c)),
+        .mid_pressure = (1.0 + c * c) / (2.0 * c)};
+}
+
 double rb_closed_spence_friction(double beta, double stick)
 {
     if (!(stick > 0.0 && stick < 1.0))

@@ -52,6 +52,15 @@ double rb_closed_cattaneo_stick(double force_ratio);
 double rb_closed_cattaneo_traction(double mu, double max_pressure, double half_width,
                                    double force_ratio, double x);
 
+/* What partial slip wears after many cycles, where c = a times `stick` sticks in each and the rest
+ * unloads (theory.md 4.9), R/a^2 = 1: volume V R/a^3 of both bodies, largest depth R/a^2, and
+ * p(0)/p0. */
+typedef struct {
+    double volume, depth, mid_pressure;
+} rb_closed_worn;
+
+rb_closed_worn rb_closed_worn_limit(double stick);
+
 /* ---- Dissimilar cylinders under a growing load (Spence) ---------------------------- */
 
 /* The mu for which the fraction c/a = `stick`, in (0, 1), of the contact sticks at every

@@ -94,6 +94,39 @@ rb_status rb_rolling_particles_bodies(rb_rolling_particles *r, double interval, 
 void rb_rolling_particles_leave(rb_rolling_particles *r, const rb_rolling_stride *stride);
 void rb_rolling_particles_free(rb_rolling_particles *r);
 
+/* ---- stroke.c ---------------------------------------------------------------------- */
+
+/* Worn profiles of A and B that move over each other by a stroke, in elements of equal length, and
+ * the positions of A at which the contact is solved. */
+typedef struct {
+    int positions; /* 0: the stroke is small, both wear in the same contact */
+    int n, more;   /* elements of A; those of B on either side besides */
+    double h;      /* length of the elements */
+    double reach;  /* the longest stroke [length] */
+    double stroke; /* the present one: A is at -stroke ... stroke over B [length] */
+    rb_arena memory;
+    double *at;     /* positions: place of A over B, in strokes */
+    double *weight; /* positions: of the time that A is there, sum 1 */
+    double *sense;  /* positions: sign of q, -1 where A slides towards +x; 0: p does not feel it */
+    double *a, *b;  /* n and n + 2 more: worn off A and B, in the frame of each [length] */
+    double *start;  /* both, as kept */
+} rb_rolling_stroke;
+
+/* reach: the longest stroke; couples: 1: the pressure depends on the sense of sliding.  RB_ENOMEM;
+ * free in any case. */
+rb_status rb_rolling_stroke_create(int n, int couples, double reach, double half_width, double h,
+                                   rb_rolling_stroke *stroke);
+void rb_rolling_stroke_free(rb_rolling_stroke *stroke);
+/* So many more elements on either side. */
+rb_status rb_rolling_stroke_widen(rb_rolling_stroke *stroke, int more);
+/* (W5) depth (n): what both have lost below the elements of A, which is at `at` strokes. */
+void rb_rolling_stroke_depth(const rb_rolling_stroke *stroke, double at, double *depth);
+/* (W5) Wears rate times the pressures off (n x positions), B by its share. */
+void rb_rolling_stroke_wear(rb_rolling_stroke *stroke, double rate, double share, const double *p);
+/* Keeps the profiles, and restores those kept last. */
+void rb_rolling_stroke_keep(rb_rolling_stroke *stroke);
+void rb_rolling_stroke_restore(rb_rolling_stroke *stroke);
+
 /* ---- steady.c ---------------------------------------------------------------------- */
 
 /* The state that those behind it have not left so far. */

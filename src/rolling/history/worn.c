@@ -21,24 +21,31 @@ void rb_rolling_wear_history_free(rb_rolling_wear_history *h)
 
 /* ---- What is at work --------------------------------------------------------------- */
 
+/* The longest stroke by positions, in half-widths. */
+static const double LONGEST = 5.0;
+
 typedef struct {
     const rb_rolling_wear *wear;
     rb_rolling_case rc;     /* on the present mesh, with the worn depth so far */
     rb_rolling_model model; /* mesh, bodies and the contact after the last step */
     int n;
-    rb_arena memory;   /* of the arrays */
-    double *x, *depth; /* n: midpoints, and what is worn off there [length] */
-    double *rate;      /* n: depth that a step wears per pressure [length/stress] */
-    double *start;     /* n: depth at the start of the step [length] */
-    double *pressed;   /* n: pressure under the present gap [stress] */
-    double *first;     /* n: that of the first stage of a step */
-    double *path;      /* n: way that the surfaces slide in a cycle [length] */
-    double *softer;    /* flexibility with the compliance on its diagonal, or, where there
-                          is no matrix, 2n: the interface's with it */
-    double work;       /* of friction in a cycle [force] */
-    double track;      /* volume per unit width that B has lost where A slides or rolls on a
-                          plane [length^2] */
-    double passage;    /* depth of that track in one passage of A [length] */
+    rb_arena memory;          /* of the arrays */
+    double *x, *depth;        /* n: midpoints, and what is worn off there [length] */
+    double *rate;             /* n: depth that a step wears per pressure [length/stress] */
+    double *start;            /* n: depth at the start of the step [length] */
+    double *pressed;          /* n positions: pressure under the present gap [stress] */
+    double *first;            /* n positions: that of the first stage of a step */
+    double *now;              /* n positions: that of the last stage */
+    double *path;             /* n: way that the surfaces slide in a cycle [length] */
+    rb_rolling_stroke stroke; /* of fretting, if it is not small */
+    double *softer;           /* flexibility with the compliance on its diagonal, or, where there
+                                 is no matrix, 2n: the interface's with it */
+    double slid;              /* from the middle to either side in a cycle, mean of the contact */
+    int was_worn;             /* 1: the case brings a worn depth */
+    double work;              /* of friction in a cycle [force] */
+    double track;             /* volume per unit width that B has lost where A slides or rolls on a
+                                 plane [length^2] */
+    double passage;           /* depth of that track in one passage of A [length] */
     rb_rolling_wear_history *history;
     rb_rolling_solution *last;
     const rb_rolling_wear_observer *observer; /* or NULL */
@@ -47,7 +54,14 @@ typedef struct {
 static void run_free(wear_state *r)
 {
     rb_rolling_model_free(&r->model);
+    rb_rolling_stroke_free(&r->stroke);
     rb_arena_free(&r->memory);
+}
+
+/* Of A over B, at which the contact is solved. */
+static int positions(const wear_state *r)
+{
+    return r->stroke.positions > 0 ? r->stroke.positions : 1;
 }
 
 static rb_rolling_table worn_of(const wear_state *r)
@@ -82,15 +96,16 @@ static rb_status press(wear_state *r, rb_message *why)
     /* Arrays for the mesh of the model. */
     if (s != RB_OK)
         return s;
-    const size_t n = (size_t)r->model.mesh.n, m = n + 1;
+    const size_t n = (size_t)r->model.mesh.n, m = n + 1, all = n * (size_t)positions(r);
 
     r->n = (int)n;
     r->x = rb_arena_doubles(&r->memory, n, 1);
     r->depth = rb_arena_doubles(&r->memory, n, 1);
     r->rate = rb_arena_doubles(&r->memory, n, 1);
     r->start = rb_arena_doubles(&r->memory, n, 1);
-    r->pressed = rb_arena_doubles(&r->memory, n, 1);
-    r->first = rb_arena_doubles(&r->memory, n, 1);
+    r->pressed = rb_arena_doubles(&r->memory, all, 1);
+    r->first = rb_arena_doubles(&r->memory, all, 1);
+    r->now = rb_arena_doubles(&r->memory, all, 1);
     r->path = rb_arena_doubles(&r->memory, n, 1);
     r->softer = r->model.bodies.F ? rb_arena_doubles(&r->memory, 2 * m, 2 * n)
                                   : rb_arena_doubles(&r->memory, n, 2);
@@ -117,14 +132,20 @@ static rb_status widen(wear_state *r, rb_message *why)
     wider.rc.zone = r->rc.zone * (n + 2 * more) / n;
     memset(&wider.model, 0, sizeof wider.model);
     wider.memory = (rb_arena){0};
-    const rb_status s = press(&wider, why);
+    rb_status s = press(&wider, why);
+    if (s == RB_OK && r->stroke.positions > 0)
+        s = rb_rolling_stroke_widen(&r->stroke, more);
+    wider.stroke = r->stroke;
+    r->stroke = (rb_rolling_stroke){0};
     if (s != RB_OK) {
         run_free(&wider);
         return s;
     }
     memcpy(wider.depth + more, r->depth, (size_t)n * sizeof *r->depth);
-    memset(wider.pressed, 0, (size_t)wider.n * sizeof *wider.pressed);
-    memcpy(wider.pressed + more, r->pressed, (size_t)n * sizeof *r->pressed);
+    memset(wider.pressed, 0, (size_t)(wider.n * positions(&wider)) * sizeof *wider.pressed);
+    for (int j = 0; j < positions(&wider); j++)
+        memcpy(wider.pressed + j * wider.n + more, r->pressed + j * n,
+               (size_t)n * sizeof *r->pressed);
     run_free(r);
     *r = wider;
     r->rc.worn = worn_of(r);
@@ -133,14 +154,19 @@ static rb_status widen(wear_state *r, rb_message *why)
 
 /* ---- One implicit step ------------------------------------------------------------- */
 
-/* The contact of these bodies with what is worn off so far. */
-static rb_status pose(wear_state *r, const rb_rolling_bodies *bodies, rb_message *why)
+/* The contact of these bodies with what is worn off so far.  sense: of full sliding, the sign of q;
+ * 0: as it is pressed. */
+static rb_status pose(wear_state *r, const rb_rolling_bodies *bodies, double sense, rb_message *why)
 {
     rb_rolling_model *model = &r->model;
 
     rb_contact_problem_free(&model->problem);
     rb_rolling_case worn = *model->rc;
     worn.worn = worn_of(r);
+    if (!r->wear->slides) {
+        worn.shift = sense == 0.0 ? 0.0 : NAN;
+        worn.force_ratio = sense == 0.0 ? NAN : sense;
+    }
     rb_status s = rb_rolling_model_set_case(model, &worn, why);
     if (s == RB_OK)
         s = rb_rolling_mesh_set_gap(model->rc, &model->mesh);
@@ -152,7 +178,7 @@ static rb_status pose(wear_state *r, const rb_rolling_bodies *bodies, rb_message
 /* (W1) y = g + k ds p - delta + F_NN p: the pressure wears its own part of the step off, so that
  * the worn gap and the pressure belong together at its end, however long it is.  Leaves the
  * pressure in the state, and the depth as it was. */
-static rb_status press_worn(wear_state *r, double part, rb_message *why)
+static rb_status press_softer(wear_state *r, double part, double sense, rb_message *why)
 {
     /* The bodies, whose arrays are borrowed, softer under each element by what a step
      * wears. */
@@ -170,23 +196,59 @@ static rb_status press_worn(wear_state *r, double part, rb_message *why)
                            (i < n ? part * r->rate[i] : 0.0);
         softer.f.compliance = r->softer;
     }
-    const rb_status s = pose(r, &softer, why);
+    const rb_status s = pose(r, &softer, sense, why);
     return s == RB_OK ? rb_rolling_model_resolve(&r->model, 1, why) : s;
+}
+
+/* (W5) A stage at each position of the stroke, as (W1) with what the pressures before it would
+ * wear and, there alone, what the new one wears besides. */
+static rb_status press_positions(wear_state *r, double part, const double *before, rb_message *why)
+{
+    rb_rolling_stroke *stroke = &r->stroke;
+    const double rate = part * r->rate[0];
+    rb_status s = RB_OK;
+
+    rb_rolling_stroke_wear(stroke, rate, r->wear->share, before);
+    for (int j = 0; j < stroke->positions && s == RB_OK; j++) {
+        const double *p = before + j * r->n;
+        rb_rolling_stroke_depth(stroke, stroke->at[j], r->depth);
+        for (int i = 0; i < r->n; i++)
+            r->depth[i] -= rate * p[i];
+        s = press_softer(r, part, stroke->sense[j], why);
+        if (s == RB_OK)
+            memcpy(r->now + j * r->n, r->model.state.p, (size_t)r->n * sizeof *r->now);
+    }
+    rb_rolling_stroke_wear(stroke, -rate, r->wear->share, before);
+    return s;
+}
+
+/* A stage under the gap there is, to the pressures `now`.  before: those of the stage before. */
+static rb_status press_worn(wear_state *r, double part, const double *before, rb_message *why)
+{
+    if (r->stroke.positions > 0)
+        return press_positions(r, part, before, why);
+    const rb_status s = press_softer(r, part, 0.0, why);
+    if (s == RB_OK)
+        memcpy(r->now, r->model.state.p, (size_t)r->n * sizeof *r->now);
+    return s;
 }
 
 static void wear_off(wear_state *r, double part, const double *p)
 {
-    for (int i = 0; i < r->n; i++)
-        r->depth[i] += part * r->rate[i] * p[i];
+    if (r->stroke.positions > 0)
+        rb_rolling_stroke_wear(&r->stroke, part * r->rate[0], r->wear->share, p);
+    else
+        for (int i = 0; i < r->n; i++)
+            r->depth[i] += part * r->rate[i] * p[i];
 }
 
-/* What the present pressure carries [force/length]. */
+/* What the present pressure carries [force/length], where A slides. */
 static double carried(const wear_state *r)
 {
     double sum = 0.0;
 
     for (int i = 0; i < r->n; i++)
-        sum += r->model.state.p[i] * r->model.bodies.f.h[i];
+        sum += r->now[i] * r->model.bodies.f.h[i];
     return sum;
 }
 
@@ -195,10 +257,11 @@ static double carried(const wear_state *r)
 static int has_grown(const wear_state *r, const double *p, double most)
 {
     static const double COUNTS = 1e-3;
-    const double *now = r->model.state.p, p0 = rb_norm_inf((size_t)r->n, r->pressed);
+    const int all = r->n * positions(r);
+    const double p0 = rb_norm_inf((size_t)all, r->pressed);
 
-    for (int i = 0; i < r->n; i++)
-        if (p[i] <= COUNTS * p0 && now[i] - p[i] > most * p0)
+    for (int i = 0; i < all; i++)
+        if (p[i] <= COUNTS * p0 && r->now[i] - p[i] > most * p0)
             return 1;
     return 0;
 }
@@ -209,10 +272,11 @@ static int has_grown(const wear_state *r, const double *p, double most)
 static int is_steep(const wear_state *r)
 {
     static const double LEAST = (1.0 - 2.0 * GAMMA) / (1.0 - GAMMA), COUNTS = 1e-3;
-    const double p0 = rb_norm_inf((size_t)r->n, r->pressed);
+    const int all = r->n * positions(r);
+    const double p0 = rb_norm_inf((size_t)all, r->pressed);
 
-    for (int i = 0; i < r->n; i++)
-        if (r->pressed[i] > COUNTS * p0 && r->model.state.p[i] < LEAST * r->pressed[i])
+    for (int i = 0; i < all; i++)
+        if (r->pressed[i] > COUNTS * p0 && r->now[i] < LEAST * r->pressed[i])
             return 1;
     return 0;
 }
@@ -223,19 +287,20 @@ static rb_status wear_step(wear_state *r, double part, int halved, double *mean,
 {
     static const double NEW_1 = 0.02, NEW_2 = 0.1;
     enum { MOST_HALVED = 4 };
-    rb_status s = press_worn(r, GAMMA * part, why);
+    const size_t all = (size_t)(r->n * positions(r));
+    rb_status s = press_worn(r, GAMMA * part, r->pressed, why);
     int steep = s == RB_OK && (is_steep(r) || has_grown(r, r->pressed, NEW_1));
 
     if (s == RB_OK && !steep) {
-        memcpy(r->first, r->model.state.p, (size_t)r->n * sizeof *r->first);
+        memcpy(r->first, r->now, all * sizeof *r->first);
         wear_off(r, (1.0 - GAMMA) * part, r->first);
         *mean = (1.0 - GAMMA) * carried(r);
-        s = press_worn(r, GAMMA * part, why);
+        s = press_worn(r, GAMMA * part, r->first, why);
         steep = s == RB_OK && has_grown(r, r->first, NEW_2);
         if (steep)
             wear_off(r, (GAMMA - 1.0) * part, r->first);
         else if (s == RB_OK) {
-            wear_off(r, GAMMA * part, r->model.state.p);
+            wear_off(r, GAMMA * part, r->now);
             *mean += GAMMA * carried(r);
         }
     }
@@ -248,14 +313,14 @@ static rb_status wear_step(wear_state *r, double part, int halved, double *mean,
         return s;
     }
     if (s == RB_OK && steep) {
-        s = press_worn(r, part, why);
+        s = press_worn(r, part, r->pressed, why);
         if (s == RB_OK) {
-            wear_off(r, part, r->model.state.p);
+            wear_off(r, part, r->now);
             *mean = carried(r);
         }
     }
     if (s == RB_OK)
-        memcpy(r->pressed, r->model.state.p, (size_t)r->n * sizeof *r->pressed);
+        memcpy(r->pressed, r->now, all * sizeof *r->pressed);
     return s;
 }
 
@@ -358,6 +423,37 @@ static int has_stick_edge(const wear_state *r)
            rb_rolling_peak_pressure(&r->model) > GROWN * r->history->max_pressure[0];
 }
 
+typedef struct {
+    double volume, deepest; /* [length^2], [length] */
+} scar;
+
+static scar scar_of(int n, const double *depth, double h, double part)
+{
+    scar of = {0.0, 0.0};
+
+    for (int i = 0; i < n; i++) {
+        of.volume += part * depth[i] * h;
+        of.deepest = fmax(of.deepest, part * depth[i]);
+    }
+    return of;
+}
+
+/* What is worn off A and B where the gap changes; nothing where it rolls. */
+static void scars(const wear_state *r, scar *a, scar *b)
+{
+    const rb_rolling_stroke *stroke = &r->stroke;
+    const int frets = r->rc.formulation == RB_STATIC && !r->wear->slides; /* both, there */
+    const double share = frets ? r->wear->share : 0.0, h = r->n > 0 ? r->model.bodies.f.h[0] : 0.0;
+
+    if (stroke->positions > 0) {
+        *a = scar_of(stroke->n, stroke->a, h, 1.0);
+        *b = scar_of(stroke->n + 2 * stroke->more, stroke->b, h, 1.0);
+        return;
+    }
+    *a = scar_of(r->n, r->depth, h, 1.0 - share);
+    *b = frets ? scar_of(r->n, r->depth, h, share) : (scar){r->track, r->passage};
+}
+
 static rb_status record(wear_state *r, double way, rb_message *why)
 {
     rb_rolling_wear_history *h = r->history;
@@ -371,18 +467,18 @@ static rb_status record(wear_state *r, double way, rb_message *why)
     h->radius[k] = r->rc.a.radius;
     h->max_depth[k] = rolls ? h->radius_before - r->rc.a.radius : 0.0;
     h->worn[k] = rolls ? M_PI * (gsl_pow_2(h->radius_before) - gsl_pow_2(h->radius[k])) : 0.0;
-    const int both = !rolls && !r->wear->slides; /* wear where they touch */
-    double volume = 0.0, deepest = 0.0;
-    for (int i = 0; i < r->n; i++) { /* none where it rolls */
-        volume += r->depth[i] * s.h[i];
-        deepest = fmax(deepest, r->depth[i]);
-    }
-    const double share = r->wear->share, of_a = both ? 1.0 - share : 1.0;
-    h->worn[k] += of_a * volume;
-    h->max_depth[k] = fmax(h->max_depth[k], of_a * deepest);
+    scar of_a, of_b;
+    scars(r, &of_a, &of_b);
+    h->worn[k] += of_a.volume;
+    h->max_depth[k] = fmax(h->max_depth[k], of_a.deepest);
     if (h->worn_b) {
-        h->worn_b[k] = both ? share * volume : r->track;
-        h->max_depth_b[k] = both ? share * deepest : r->passage;
+        h->worn_b[k] = of_b.volume;
+        h->max_depth_b[k] = of_b.deepest;
+    }
+    if (h->stroke) {
+        h->stroke[k] = r->slid;
+        h->stroke[0] = h->stroke[k > 0];
+        h->positions = r->stroke.positions;
     }
     if (h->radius_b) {
         h->radius_b[k] = r->rc.b.radius;
@@ -440,25 +536,111 @@ static rb_status fret(wear_state *r, rb_message *why)
     return rb_arena_done(&scratch, s);
 }
 
+/* From now on by positions along the stroke: what is worn off so far belongs to A and B by their
+ * shares. */
+static rb_status begin_positions(wear_state *r, double reach, double half_width, rb_message *why)
+{
+    if (isfinite(r->rc.b.radius))
+        return rb_fail(why, RB_EINVAL,
+                       "wear: two cylinders with a stroke of +-%.3g of the half-width: their "
+                       "contact moves over both; at most 0.1, or B as a plane",
+                       reach / half_width);
+    if (reach > LONGEST * half_width)
+        return rb_fail(why, RB_EINVAL,
+                       "wear: a stroke of +-%.3g half-widths, at most %g; where A slides far "
+                       "over B, give --slide, 4 shift a cycle, for --cycles",
+                       reach / half_width, LONGEST);
+    if (r->was_worn)
+        return rb_fail(why, RB_EINVAL,
+                       "wear: --worn is of both bodies in one place, and a stroke of +-%.3g of "
+                       "the half-width moves them; start from the shapes before",
+                       reach / half_width);
+    const size_t n = (size_t)r->n;
+    rb_status s = rb_rolling_stroke_create(r->n, rb_rolling_couples(&r->rc), reach, half_width,
+                                           r->model.bodies.f.h[0], &r->stroke);
+    const size_t all = n * (size_t)positions(r);
+    double *p = rb_arena_doubles(&r->memory, all, 3);
+    if (s != RB_OK || !p)
+        return RB_ENOMEM;
+    r->pressed = p;
+    r->first = p + all;
+    r->now = p + 2 * all;
+    for (int i = 0; i < r->n; i++) {
+        r->stroke.a[i] = (1.0 - r->wear->share) * r->depth[i];
+        r->stroke.b[i + r->stroke.more] = r->wear->share * r->depth[i];
+        r->rate[i] = 0.0;
+    }
+    rb_rolling_stroke_keep(&r->stroke);
+    r->stroke.stroke = fmin(r->slid, reach);
+    s = press_worn(r, 0.0, r->pressed, why);
+    memcpy(r->pressed, r->now, all * sizeof *r->pressed);
+    if (s != RB_OK) /* begins again, on a wider zone */
+        rb_rolling_stroke_free(&r->stroke);
+    return s;
+}
+
+/* The stroke of the last cycle, the mean of its pressure; where all of the contact slides so far
+ * that B's wear does not stay below A's, positions begin. */
+static rb_status see_stroke(wear_state *r, rb_message *why)
+{
+    static const double SMALL = 0.1, COUNTS = 1e-3;
+    const double *p = r->model.state.p, p0 = rb_norm_inf((size_t)r->n, p);
+    const double half_width = 0.5 * (r->history->contact_to[0] - r->history->contact_from[0]);
+    double load = 0.0, sum = 0.0;
+    int sticks = 0;
+
+    for (int i = 0; i < r->n; i++) {
+        load += p[i];
+        sum += p[i] * 0.25 * r->path[i];
+        sticks += p[i] > COUNTS * p0 && r->path[i] == 0.0;
+    }
+    r->slid = load > 0.0 ? sum / load : 0.0;
+    const double reach = fabs(r->rc.shift);
+    if (r->stroke.positions == 0 && !sticks && r->slid > SMALL * half_width && isfinite(reach) &&
+        (r->wear->share > 0.0 || isfinite(r->rc.b.radius))) {
+        const rb_status s = begin_positions(r, reach, half_width, why);
+        if (s != RB_OK)
+            return s;
+    }
+    r->stroke.stroke = fmin(r->slid, r->stroke.reach);
+    return RB_OK;
+}
+
 /* The depth that a step wears per pressure, of the path there is in its middle: of that under the
  * gap which half a step with the path at its start wears. */
 static rb_status set_rate(wear_state *r, double depth, rb_message *why)
 {
     rb_status s = fret(r, why);
 
+    if (s == RB_OK)
+        s = see_stroke(r, why);
     if (s != RB_OK)
         return s;
+    if (r->stroke.positions > 0) {
+        for (int i = 0; i < r->n; i++)
+            r->rate[i] = depth * 4.0 * r->stroke.stroke;
+        return RB_OK;
+    }
     for (int i = 0; i < r->n; i++)
         r->rate[i] = depth * r->path[i];
-    s = press_worn(r, 0.5, why);
+    s = press_worn(r, 0.5, r->pressed, why);
     if (s == RB_OK) {
-        wear_off(r, 0.5, r->model.state.p);
+        wear_off(r, 0.5, r->now);
         s = fret(r, why);
     }
     memcpy(r->depth, r->start, (size_t)r->n * sizeof *r->depth);
     for (int i = 0; i < r->n; i++)
         r->rate[i] = depth * r->path[i];
     return s;
+}
+
+/* The contact under the gap at the end of a step, in the middle of a stroke. */
+static rb_status end_step(wear_state *r, rb_message *why)
+{
+    if (r->stroke.positions > 0)
+        rb_rolling_stroke_depth(&r->stroke, 0.0, r->depth);
+    const rb_status s = pose(r, &r->model.bodies, 0.0, why);
+    return s == RB_OK && r->stroke.positions > 0 ? rb_rolling_model_resolve(&r->model, 1, why) : s;
 }
 
 static rb_status one_step(wear_state *r, double part, rb_message *why)
@@ -478,17 +660,21 @@ static rb_status one_step(wear_state *r, double part, rb_message *why)
         reason.text[0] = '\0';
         s = k > 0 ? widen(r, &reason) : RB_OK;
         memcpy(r->start, r->depth, (size_t)r->n * sizeof *r->start);
+        if (r->stroke.positions > 0)
+            rb_rolling_stroke_keep(&r->stroke);
         if (s == RB_OK && !r->wear->slides)
             s = set_rate(r, depth * part, &reason);
         for (int i = 0; i < r->n && r->wear->slides; i++)
             r->rate[i] = (1.0 - share) * depth * part;
-        if (s != RB_OK)
-            continue;
-        s = wear_step(r, 1.0, 0, &mean, &reason);
         if (s == RB_OK)
-            s = pose(r, &r->model.bodies, &reason);
-        if (s == RB_ZONE) /* again, on a wider zone */
-            memcpy(r->depth, r->start, (size_t)r->n * sizeof *r->depth);
+            s = wear_step(r, 1.0, 0, &mean, &reason);
+        if (s == RB_OK)
+            s = end_step(r, &reason);
+        if (s != RB_ZONE)
+            continue; /* done; else again, on a wider zone */
+        memcpy(r->depth, r->start, (size_t)r->n * sizeof *r->depth);
+        if (r->stroke.positions > 0)
+            rb_rolling_stroke_restore(&r->stroke);
     }
     if (s == RB_OK && r->wear->slides) {
         r->passage = share * depth * carried(r);
@@ -576,10 +762,15 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     r.rc.load = rb_rolling_derive(rc).load; /* a given half-width means this load */
     r.rc.half_width = r.rc.max_pressure = r.rc.pressed_by = NAN;
     r.rc.increments = 1; /* the cycles have their own */
+    r.was_worn = rc->worn.n > 0;
     rb_status s = check(rc, wear, why);
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_wear_columns, rc, 0, wear->steps + 1, history);
     if (s == RB_OK) {
+        if (wear->slides || rc->formulation == RB_STEADY) {
+            free(history->stroke);
+            history->stroke = NULL;
+        }
         if (wear->share == 0.0) {
             free(history->worn_b);
             free(history->max_depth_b);
@@ -599,7 +790,7 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
                                          : press(&r, why);
     if (s == RB_OK && rc->formulation != RB_STEADY) {
         r.rc.worn = worn_of(&r);
-        s = pose(&r, &r.model.bodies, why);
+        s = pose(&r, &r.model.bodies, 0.0, why);
     }
     if (s == RB_OK && rc->formulation != RB_STEADY)
         memcpy(r.pressed, r.model.state.p, (size_t)r.n * sizeof *r.pressed);

@@ -243,6 +243,8 @@ static const rb_rolling_result wears[] = {
          .meaning = "of B; < 0 of a bore"),
     WEAR("work", work, .error_bar = RB_SCALE_ONE,
          .meaning = "of friction, per slid or rolled mm [N/mm] or cycle [N]"),
+    WEAR("stroke", stroke, .error_bar = RB_SCALE_ONE, .unit = "mm",
+         .meaning = "fretting: A slides to so far on either side, mean of the contact"),
     WEAR("approach", approach, .error_bar = RB_SCALE_ONE, .unit = "mm", .meaning = "delta"),
     WEAR("normal_load", normal_load, .error_bar = RB_SCALE_ONE, .unit = "N/mm", .meaning = "P"),
     WEAR("max_pressure", max_pressure, .error_bar = RB_SCALE_ONE, .unit = "MPa", .meaning = "p0"),

@@ -298,13 +298,14 @@ static rb_status wear_errors(const rb_rolling_case *rc, const rb_rolling_wear_hi
 
     if (s != RB_OK)
         return s;
-    double **const of_b[][2] = {{&errors->worn_b, &own->worn_b},
-                                {&errors->max_depth_b, &own->max_depth_b},
-                                {&errors->radius_b, &own->radius_b}};
-    for (size_t k = 0; k < sizeof of_b / sizeof *of_b; k++)
-        if (!*of_b[k][1]) {
-            free(*of_b[k][0]);
-            *of_b[k][0] = NULL;
+    double **const absent[][2] = {{&errors->worn_b, &own->worn_b},
+                                  {&errors->max_depth_b, &own->max_depth_b},
+                                  {&errors->radius_b, &own->radius_b},
+                                  {&errors->stroke, &own->stroke}};
+    for (size_t k = 0; k < sizeof absent / sizeof *absent; k++)
+        if (!*absent[k][1]) {
+            free(*absent[k][0]);
+            *absent[k][0] = NULL;
         }
     errors->n = own->n;
     errors->slides = own->slides;
