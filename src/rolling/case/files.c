@@ -255,6 +255,30 @@ int rb_case_is_replaced(const rb_case *c, const rb_option *option)
     return 0;
 }
 
+/* 1: the option says once more what all rows of column k say, as where a table that
+ * --history-table wrote is read under the same command. */
+static int repeats_column(const rb_case *c, const rb_option_set *set, const rb_option *option,
+                          int k)
+{
+    static const double SAME = 1e-9;
+    const rb_rolling_program *program = &c->words.program;
+    const rb_rolling_program_column *of = &rb_rolling_program_columns[k];
+    const double *column;
+    double value;
+
+    if (option->kind != RB_OPTION_NUMBER || of->value == SIZE_MAX ||
+        !rb_case_given(c, option->name))
+        return 0;
+    rb_resolved_case given = c->words;
+    rb_case_store(c, set, &given); /* in mm, N, MPa as the column is */
+    memcpy(&value, (const char *)&given.rc + of->value, sizeof value);
+    memcpy(&column, (const char *)program + of->column, sizeof column);
+    for (int i = 0; i < program->n; i++)
+        if (!(fabs(column[i] - value) <= SAME * fabs(value)))
+            return 0;
+    return 1;
+}
+
 rb_status rb_case_read_history(rb_case *c, rb_message *why)
 {
     case_table *t = &c->table[CASE_HISTORY];
@@ -275,7 +299,7 @@ rb_status rb_case_read_history(rb_case *c, rb_message *why)
         const rb_option *option = replaced_option(name);
         char reason[80];
         snprintf(reason, sizeof reason, "the history has a column %s", name);
-        if (option && has_column(&t->program, k))
+        if (option && has_column(&t->program, k) && !repeats_column(c, &set, option, k))
             s = rb_option_resolve_against(&set, &how, option, rb_case_given(c, "history"), reason,
                                           why);
     }
