@@ -113,6 +113,12 @@ static void print_values(const cli_spec *spec, const rb_option *o)
     }
 }
 
+/* 1: several of them stand between commas. */
+static int takes_list(const rb_option *o)
+{
+    return kind_of_names(o) >= OF_RESULTS && kind_of_names(o) <= OF_NUMBERS;
+}
+
 /* ---- Manual pages ------------------------------------------------------------------ */
 
 /* Text for troff: a line that begins with blanks is an example and stays as it is. */
@@ -260,10 +266,11 @@ static void zsh_command(const cli_spec *spec)
         }
         fputs("]", stdout);
         if (o->kind != RB_OPTION_FLAG)
-            fputs(takes_file(o) ? ":file:_files" : has_values(o) ? ":value:(" : ":value:", stdout);
+            fputs(takes_file(o) ? ":file:_files" : ":value:", stdout);
         if (!takes_file(o) && has_values(o)) {
+            fputs(takes_list(o) ? "_values -s , name" : "(", stdout);
             print_values(spec, o);
-            putchar(')');
+            fputs(takes_list(o) ? "" : ")", stdout);
         }
         puts("' \\");
     }
@@ -285,9 +292,9 @@ static void fish_command(const cli_spec *spec)
         if (o->kind != RB_OPTION_FLAG)
             fputs(takes_file(o) ? " -r" : " -x", stdout);
         if (has_values(o)) {
-            fputs(" -a '", stdout);
+            fputs(takes_list(o) ? " -a '(__rollbem_list" : " -a '", stdout);
             print_values(spec, o);
-            putchar('\'');
+            fputs(takes_list(o) ? ")'" : "'", stdout);
         }
         fputs(" -d '", stdout);
         print_quoted(o->help);
@@ -391,7 +398,15 @@ static cli_exit fish_completion(void)
           "    not __fish_seen_subcommand_from ",
           stdout);
     print_commands(" ");
-    puts("\nend");
+    puts("\nend\n"
+         "# names behind those that stand before a comma already\n"
+         "function __rollbem_list\n"
+         "    set -l word (commandline -ct | string replace -r '^--[^=]*=' '')\n"
+         "    set -l before (string match -r '^.*,' -- $word)\n"
+         "    for name in $argv\n"
+         "        echo \"$before$name\"\n"
+         "    end\n"
+         "end");
     for (int k = 0; cli_command_name(k); k++) {
         printf("complete -c rollbem -n __fish_use_subcommand -a %s -d '", cli_command_name(k));
         print_quoted(cli_command_help(cli_command_name(k)));
