@@ -906,4 +906,55 @@ TEST(every_failing_allocation_is_told)
     rb_case_free(NULL);
 }
 
+/* Half a material is said, a whole one and the example's are not. */
+TEST(half_a_material_is_said)
+{
+    static const struct {
+        const char *words, *says;
+    } rows[] = {{"young=210000", "--young without --poisson: nu = 0.1 is that of the built-in"},
+                {"young=210000 poisson=0.3", NULL},
+                {"load=100", NULL},
+                {"poisson=0.3", "--poisson without --young: E = 94500 MPa is that"},
+                {"young=210000 poisson=0.3 young-b=70000", NULL}, /* B takes nu of A */
+                {"young=7e4 poisson=.2 support=halfplane layer-thickness=1 base-young=2e5",
+                 "--base-young without --base-poisson: nu = 0.1"},
+                {"young=7e4 poisson=.2 support=halfplane layer-thickness=1 base-young=2e5 "
+                 "base-poisson=0.3",
+                 NULL},
+                {"young=7e4 poisson=.2 support=halfplane layer-thickness=1", NULL}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        rb_case *c = case_of(rows[k].words);
+        char text[200];
+        int said = 0;
+        for (int j = 0; rb_case_half_material(c, j, text, sizeof text); j++)
+            if (*text) {
+                said++;
+                if (!rows[k].says || !strstr(text, rows[k].says))
+                    fail_msg("%s: %s", rows[k].words, text);
+            }
+        assert_int_equal(said, rows[k].says != NULL);
+        rb_case_free(c);
+    }
+}
+
+/* What --history-table has written is read under the command that wrote it. */
+TEST(an_option_may_say_what_all_rows_say)
+{
+    static const char words[] = "formulation=static support=halfplane similar=yes mu=0.3 "
+                                "history=same.txt load=%s";
+    static const struct {
+        const char *load;
+        int refused;
+    } rows[] = {{"100", 0}, {"100kN/m", 0}, {"101", 1}};
+    write_file("same.txt", "load shift\n100.00000000000001 0\n100 1e-3\n");
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        char line[200];
+        rb_case *c = NOT_NULL(rb_case_create(RB_CASE_SINGLE));
+        snprintf(line, sizeof line, words, rows[k].load);
+        CHECK_OK(set_words(c, line, &heard));
+        CHECK_STATUS(rb_case_resolve(c, &heard), rows[k].refused ? RB_EINVAL : RB_OK);
+        rb_case_free(c);
+    }
+}
+
 RUN_TESTS(enter, leave_folder)

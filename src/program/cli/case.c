@@ -60,6 +60,15 @@ cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c, 
     return code == CLI_CONTINUE ? cli_example_read(c, file) : code;
 }
 
+void cli_note_material(FILE *out, const rb_case *c)
+{
+    char text[200];
+
+    for (int k = 0; rb_case_half_material(c, k, text, sizeof text); k++)
+        if (*text)
+            fprintf(out, "rollbem: note: %s\n", text);
+}
+
 cli_exit cli_case_resolve(const cli_spec *spec, rb_case *c, const cli_args *args)
 {
     rb_message why = {""};
@@ -150,8 +159,10 @@ static void print_summary(FILE *out, const void *context)
 {
     const cli_case_run *run = context;
     const rb_rolling_note_list notes = notes_of(run);
+    cli_note_material(out, run->words);
     rb_report_notes(out, &notes, cli_is_coloured(stderr));
     run->command->summarise(out, run);
+    rb_report_bodies(out, &run->c->rc, run->c->units);
 }
 
 static void summarise(const cli_case_run *run)

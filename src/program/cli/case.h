@@ -7,8 +7,9 @@
 /* For --help of every command that takes a case. */
 #define CLI_CASE_SIGNS                                                                             \
     "Signs: x to the right, y up; A is above and rolls towards +x, so the leading\n"               \
-    "edge is at +x. Creepage xi = (V_A - V_B)/|V| > 0: A's surface slides towards +x\n"            \
-    "over the ground (a braked wheel) and the friction q on A points to -x, Q < 0.\n"              \
+    "edge is at +x. Creepage xi = (V_A - V_B)/|V| > 0, V the mean speed of both\n"                 \
+    "surfaces: A's surface slides towards +x over the ground (a braked wheel) and the\n"           \
+    "friction q on A points to -x, Q < 0. Q and --force are the friction on A.\n"                  \
     "Pressure p >= 0. Loads per unit length. Units: mm, N, MPa, unless --units says\n"             \
     "others or a value its own (--young 210GPa); columns name theirs.\n"                           \
     "\n"                                                                                           \
@@ -36,6 +37,9 @@ cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c,
 /* The same in two parts: what is given, and what it means. */
 cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c, cli_args *args);
 cli_exit cli_case_resolve(const cli_spec *spec, rb_case *c, const cli_args *args);
+
+/* A line for each material of which half is given. */
+void cli_note_material(FILE *out, const rb_case *c);
 
 /* --example NAME, the last set of every spec of a case, and what it asks for; file: the case
  * file, which excludes it. */

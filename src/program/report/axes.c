@@ -204,6 +204,8 @@ static words words_of(const rb_rolling_case *rc, rb_units units)
         add_body(&w, &rc->b, units);
     } else
         add_words(&w, " rigid");
+    if (rc->plane == RB_PLANE_STRESS)
+        add_words(&w, ";  plane stress");
     return w;
 }
 

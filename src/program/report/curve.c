@@ -13,6 +13,16 @@ static rb_report_columns columns_of(const rb_rolling_curve *c, int kind)
     return (rb_report_columns){&rb_rolling_curve_columns, c, kind, c->units, 0};
 }
 
+/* The coefficient that Q/(mu P) of a curve refers to: of a law that falls, that of rest. */
+static double reference_mu(const rb_report_curves *curves, int k)
+{
+    if (!curves->rc)
+        return curves->mu[k];
+    rb_rolling_case rc = *curves->rc;
+    rc.mu = curves->mu[k];
+    return rb_rolling_largest_mu(&rc);
+}
+
 rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const char *command,
                                 const rb_report_style *style)
 {
@@ -32,10 +42,12 @@ rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const
             rb_report_cells_end_row(&c);
             rb_report_comment_head(&c, command);
             rb_report_comment_slopes(&c, curves->n, curves->slopes, curves->mu);
+            if (reference_mu(curves, k) != curves->mu[k])
+                rb_report_comment(&c, "mu: of the law at rest, mu(0), which force_ratio refers to");
             rb_report_comment_notes(&c, &curves->notes);
         }
         for (int i = 0; i < curves->curve[k].n; i++) {
-            rb_report_cell_number(&c, curves->mu[k]);
+            rb_report_cell_number(&c, reference_mu(curves, k));
             rb_report_cell_entries(&c, i, parts, part);
             rb_report_cell_slopes(&c, &curves->slopes[k], i);
             rb_report_cells_end_row(&c);
@@ -52,7 +64,7 @@ void rb_report_json_curves(json_t **root, const rb_report_curves *curves)
         const rb_report_columns columns = columns_of(c, 0);
         json_t *curve = json_object();
 
-        rb_report_json_set(&curve, "mu", rb_report_json_number(curves->mu[k]));
+        rb_report_json_set(&curve, "mu", rb_report_json_number(reference_mu(curves, k)));
         rb_report_json_columns(&curve, c->n, &columns, 0);
         rb_report_json_slopes(&curve, &curves->slopes[k]);
         if (c->deviations) {
@@ -105,7 +117,9 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
         int sliding = rising;
         while (sliding > 0 && c->stick_ratio[sliding - 1] == 0.0)
             sliding--;
-        fprintf(out, "curve, mu = %g: %d points in %.2g s, ", curves->mu[k], c->n, c->seconds);
+        fprintf(out, "curve, mu%s = %g: %d points in %.2g s, ",
+                reference_mu(curves, k) != curves->mu[k] ? "(0)" : "", reference_mu(curves, k),
+                c->n, c->seconds);
         if (c->unsolved > 0)
             fprintf(out, "%d without a solution, ", c->unsolved);
         fprintf(out, "residual <= %.2g\n", largest(c->n, c->residual));
@@ -212,12 +226,9 @@ typedef struct {
     int above_0; /* nothing is below 0 but a sliver of a band */
 } view;
 
-/* The coefficient that Q/(mu P) refers to. */
 static double scale_of(const view *v, int k)
 {
-    rb_rolling_case rc = *v->rc;
-    rc.mu = v->curves->mu[k];
-    return rb_rolling_largest_mu(&rc);
+    return reference_mu(v->curves, k);
 }
 
 static double x_of(const view *v, const rb_rolling_curve *c, int i)

@@ -164,6 +164,8 @@ rb_status rb_report_json_write(FILE *out, struct json_t *json);
 void rb_report_strip(const rb_rolling_solution *s, int width, char *strip);
 /* A summary of a few lines; width: of the terminal. */
 void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width);
+/* What both bodies are made of, in a line. */
+void rb_report_bodies(FILE *out, const rb_rolling_case *rc, rb_units units);
 /* Values with their error bars, as many in a line as its width has room for; 0: one. */
 void rb_report_errors(FILE *out, const rb_rolling_solution *s, const rb_rolling_errors *e,
                       int width);

@@ -93,6 +93,57 @@ static void write_rolling(FILE *out, const rb_rolling_solution *s)
     }
 }
 
+static void write_material(FILE *out, double young, double poisson, rb_units units)
+{
+    fprintf(out, "E = %.6g %s, nu = %.6g", rb_unit_shown(units, "MPa", young),
+            rb_unit_name(units, "MPa"), poisson);
+}
+
+static void write_body(FILE *out, const rb_rolling_body *body, rb_units units)
+{
+    const char *mm = rb_unit_name(units, "mm");
+
+    write_material(out, body->young, body->poisson, units);
+    if (body->memory.n > 0)
+        fputs(" at once, relaxing", out);
+    const double thickness = body->layer > 0.0 ? body->layer : body->cover;
+    if (!(thickness > 0.0))
+        return;
+    const double young = body->layer > 0.0 ? body->base_young : body->core_young;
+    fprintf(out, ", %.6g %s thick on ", rb_unit_shown(units, "mm", thickness), mm);
+    if (young > 0.0)
+        write_material(out, young, body->layer > 0.0 ? body->base_poisson : body->core_poisson,
+                       units);
+    else
+        fputs(body->layer > 0.0 ? "a rigid base" : "a rigid core", out);
+}
+
+/* 1: B differs from A in nothing that write_body names. */
+static int is_alike(const rb_rolling_body *a, const rb_rolling_body *b)
+{
+    return a->young == b->young && a->poisson == b->poisson && a->layer == b->layer &&
+           a->cover == b->cover && a->base_young == b->base_young &&
+           a->base_poisson == b->base_poisson && a->core_young == b->core_young &&
+           a->core_poisson == b->core_poisson && (a->memory.n > 0) == (b->memory.n > 0);
+}
+
+void rb_report_bodies(FILE *out, const rb_rolling_case *rc, rb_units units)
+{
+    void *before = rb_locale_begin();
+
+    fputs("  bodies    A: ", out);
+    write_body(out, &rc->a, units);
+    fputs("; B: ", out);
+    if (!rc->elastic_b)
+        fputs("rigid", out);
+    else if (is_alike(&rc->a, &rc->b))
+        fputs("the same", out);
+    else
+        write_body(out, &rc->b, units);
+    fprintf(out, "; plane %s\n", rb_case_word("plane", (int)rc->plane));
+    rb_locale_end(before);
+}
+
 void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
 {
     void *before = rb_locale_begin();

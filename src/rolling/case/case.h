@@ -225,6 +225,10 @@ int rb_case_is_copied_to_b(const char *option);
 int rb_case_is_own_of_b(const rb_case *c, const char *option);
 /* Source of the value of the option `name`; 0: the default. */
 int rb_case_given(const rb_case *c, const char *name);
+/* Half a material, of E and nu one given: the other one is the built-in example's, and the sentence
+ * says so.  k: 0, 1, ... until it returns NULL; the text, or "" where nothing
+ * is to say. */
+const char *rb_case_half_material(const rb_case *c, int k, char *text, size_t room);
 /* Converts an error s of rollbem/rolling.h to an error of this case: if the wrong value
  * is in a file, the message gets the file and the line.  Returns the status to report. */
 rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why);

@@ -414,6 +414,37 @@ static rb_status resolve_body_b(rb_case *c, rb_message *why)
     return RB_OK;
 }
 
+const char *rb_case_half_material(const rb_case *c, int k, char *text, size_t room)
+{
+    static const char *const part[] = {"", "base-", "core-", "base-", "core-"};
+    enum { PARTS = sizeof part / sizeof *part };
+    if (k < 0 || k >= PARTS)
+        return NULL;
+    const rb_rolling_case *rc = &c->resolved.rc;
+    const rb_rolling_body *body = k > 2 ? &rc->b : &rc->a;
+    const char *b = k > 2 ? "-b" : "";
+    const double young[] = {body->young, body->base_young, body->core_young};
+    const double poisson[] = {body->poisson, body->base_poisson, body->core_poisson};
+    const int which = k > 2 ? k - 2 : k;
+    char E[40], nu[40];
+    snprintf(E, sizeof E, "%syoung%s", part[k], b);
+    snprintf(nu, sizeof nu, "%spoisson%s", part[k], b);
+    const int has_E = rb_case_given(c, E) != 0, has_nu = rb_case_given(c, nu) != 0;
+    /* a base or core without E is rigid, and what B has none of it takes from A */
+    const int half = k == 0 ? has_E != has_nu : has_E && !has_nu && young[which] > 0.0;
+    const rb_units units = c->resolved.units;
+    *text = '\0';
+    if (half && has_E && (k < 3 || !rb_case_given(c, k == 3 ? "base-poisson" : "core-poisson")))
+        rb_format(text, room,
+                  "--%s without --%s: nu = %g is that of the built-in example; give both", E, nu,
+                  poisson[which]);
+    else if (half && !has_E)
+        rb_format(text, room,
+                  "--%s without --%s: E = %g %s is that of the built-in example; give both", nu, E,
+                  rb_unit_shown(units, "MPa", young[which]), rb_unit_name(units, "MPa"));
+    return text;
+}
+
 /* ---- Layers and memory ------------------------------------------------------------- */
 
 /* As many times as ratios. */
