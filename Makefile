@@ -125,7 +125,7 @@ test-all:
 
 # the longest programs start first, so that no processor waits for one of them at the end
 LONGEST := tests/page $(B)/tests/test_net tests/python $(B)/tests/test_slopes tests/site $(patsubst %,$(B)/tests/test_%,cli_examples check cli certificates course recorded rolling_laws rolling_turn faults cli_rolling) tests/journeys/terminal tests/journeys/contributor $(patsubst %,$(B)/tests/test_%,smooth cli_crack commands inside_hierarchical rolling_wheel fem_cli large rolling_results error_bars friction_portfolio sweep) tests/journeys/phd-student-in-python $(patsubst %,$(B)/tests/test_%,crack_growth mistakes fem_examples design)
-OTHERS := tests/octave tests/install tests/release tests/figures $(wildcard tests/journeys/*) $(TESTS)
+OTHERS := tests/octave tests/install tests/release tests/figures tests/formulas $(wildcard tests/journeys/*) $(TESTS)
 
 # only the summary line comes last: continuous integration reads it
 check-tests: all page-where-possible $(if $(shell command -v gnuplot),$(B)/course/.drawn) $(TESTS) $(B)/packings $(if $(ROLLBEM_TEST_ALL),$(BENCHES),$(B)/bench/bench_large)
