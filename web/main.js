@@ -80,6 +80,8 @@ async function main() {
         get answer() {
             return store.solved.main ?? null;
         },
+        /* Whether the first case is the reader's own, of a link or carried by the page. */
+        linked: JSON.parse(at("carried").textContent) !== null,
         get drawn() {
             return store.state.drawn;
         },
@@ -311,11 +313,12 @@ async function main() {
             show_message(link_note);
         }
         if (!link) return false;
-        embed ||= link.embed;
+        embed = link.embed || embed;
         document.documentElement.classList.toggle("embed", Boolean(embed));
         document.documentElement.classList.toggle("lens", embed === "lens");
         link_note = "";
         link_given = link.given;
+        page.linked ||= link.given !== null;
         current = link.view;
         store.replace({
             ...store.state,

@@ -1,7 +1,80 @@
 /* Step through the method: matrices, Lemke's pivots, Newton's zones, guessed zones. */
-import { card, chart, html, player, show, stairs, stroke, svg, width_of } from "./draw.js";
+import { card, chart, html, player, segments, show, stairs, stroke, svg, width_of } from "./draw.js";
 import { matrices, parse, pretty } from "./matrices.js";
 import { fill_in } from "./words.js";
+
+/* The two contacts that are stepped through before one's own: an odd number of elements, of which every one touches, on
+ * a wheel whose pressure shifts its friction, so that no two values reach zero together; and an even number, whose middle
+ * two are mirror images of each other. */
+const FIVE = {
+    support: "hub",
+    "hub-ratio": "0.5",
+    "outer-elements": "24",
+    formulation: "steady",
+    radius: "100",
+    young: "10",
+    poisson: "0.3",
+    mu: "0.3",
+    approach: "0.8",
+    "creep-ratio": "0.2",
+    "contact-elements": "5",
+    zone: "7",
+};
+export const EXAMPLES = { untied: FIVE, tied: { ...FIVE, "contact-elements": "4" } };
+const METHOD = { mesh: "uniform", solver: "lemke", "lcp-form": "pivoted" };
+
+/* The rows that may stop what enters in pivot k, the first one first: { i, value, change, ratio }. */
+function ratios_of(a, k) {
+    const size = a["pivot.before"].rows,
+        at = (name, i) => a[name].at[i + size * k],
+        chosen = a["pivot.row"].at[k];
+    const rows = Array.from({ length: size }, (_, i) => ({
+        i,
+        value: at("pivot.before", i),
+        change: at("pivot.column", i),
+    }));
+    return k === 0
+        ? rows
+              .filter(({ value }) => value < 0)
+              .map((row) => ({ ...row, ratio: -row.value }))
+              .sort((x, y) => y.ratio - x.ratio)
+        : rows
+              .filter(({ change }) => change < 0)
+              .map((row) => ({ ...row, ratio: -row.value / row.change }))
+              .sort((x, y) => x.ratio - y.ratio || (x.i === chosen ? -1 : 1));
+}
+const basic_before = (a, k, i) => a.names[k === 0 ? i : a["pivot.basis"].at[i + a["pivot.before"].rows * (k - 1)]];
+/* Numbers are scaled to order one: below this they are rounding. */
+const LEVEL = 1e-9;
+
+/* Of pivot k: the names that reach zero with the one that leaves, and whether the step has no length. */
+export function tie_of(a, k) {
+    const rows = ratios_of(a, k),
+        chosen = rows.find(({ i }) => i === a["pivot.row"].at[k]);
+    if (!chosen) return { tied: [], still: false };
+    const near = ({ ratio }) => Math.abs(ratio - chosen.ratio) <= LEVEL * Math.max(1, chosen.ratio);
+    return {
+        tied: rows.filter((row) => row !== chosen && near(row)).map(({ i }) => basic_before(a, k, i)),
+        still: k > 0 && chosen.ratio <= LEVEL,
+    };
+}
+/* What is said of it, after the sentence of the pivot. */
+function tie_in_words(words, a, k) {
+    const { tied, still } = tie_of(a, k),
+        leaving = a.names[a["pivot.leaving"].at[k]],
+        names = (list) => list.map((name) => pretty(words, name)).join(", ");
+    return [
+        still && words.step.still,
+        tied.length > 0 &&
+            fill_in(leaving === "z0" ? words.step.tie_last : words.step.tie, {
+                all: names([leaving, ...tied]),
+                leaves: names([leaving]),
+                stays: names(tied),
+            }),
+    ]
+        .filter(Boolean)
+        .join(" ");
+}
 
 /* "Element 3 is pressed until element 2 touches." */
 export function sentence_of(words, a, k) {
@@ -12,7 +85,7 @@ export function sentence_of(words, a, k) {
     const same = enters.i === leaves.i && words.same_element[`${enters.kind} ${leaves.kind}`];
     if (same) return fill_in(same, enters) + ".";
     return fill_in(words.sentence, {
-        enter: fill_in(words.enters[enters.kind], enters),
+        enter: fill_in((tie_of(a, k).still && words.enters_still[enters.kind]) || words.enters[enters.kind], enters),
         leave: fill_in(words.leaves[leaves.kind], leaves),
     });
 }
@@ -143,25 +216,8 @@ function bars(host, words, { ends, p, q, mu, top, label }) {
 }
 
 function ratio_test(words, a, k) {
-    const size = a["pivot.before"].rows,
-        at = (name, i) => a[name].at[i + size * k],
-        chosen = a["pivot.row"].at[k];
-    const basic = (i) => a.names[k === 0 ? i : a["pivot.basis"].at[i + size * (k - 1)]];
-    let rows = Array.from({ length: size }, (_, i) => ({
-        i,
-        value: at("pivot.before", i),
-        change: at("pivot.column", i),
-    }));
-    rows =
-        k === 0
-            ? rows
-                  .filter(({ value }) => value < 0)
-                  .map((row) => ({ ...row, ratio: -row.value }))
-                  .sort((x, y) => y.ratio - x.ratio)
-            : rows
-                  .filter(({ change }) => change < 0)
-                  .map((row) => ({ ...row, ratio: -row.value / row.change }))
-                  .sort((x, y) => x.ratio - y.ratio || (x.i === chosen ? -1 : 1));
+    const chosen = a["pivot.row"].at[k],
+        rows = ratios_of(a, k);
     const shown = rows.slice(0, 7);
     if (!shown.some(({ i }) => i === chosen)) shown.splice(6, 1, rows.find(({ i }) => i === chosen) ?? shown[6]);
     /* The bar of the one that stops it is full: the others would need longer. */
@@ -200,7 +256,7 @@ function ratio_test(words, a, k) {
                     html(
                         "tr",
                         { class: row.i === chosen ? "chosen" : "" },
-                        html("td", {}, pretty(words, basic(row.i)) + (row.i === chosen ? " ←" : "")),
+                        html("td", {}, pretty(words, basic_before(a, k, row.i)) + (row.i === chosen ? " ←" : "")),
                         html("td", { class: "race" }, html("i", { style: `width:${race(row)}%` })),
                         [row.value, row.change, row.ratio].map((v) => html("td", { class: "number" }, show(v, 3))),
                     ),
@@ -241,9 +297,12 @@ export function step_view(words, page) {
         of_case = null,
         asked = null,
         wanted = null;
+    let which = null; /* the contact that is stepped through, once it is chosen */
+    const chosen = () => which ?? (page.linked ? "own" : "untied");
     const title = html("h3", {}, words.guess_title),
         matrix_host = html("div"),
-        sentence = html("p", { class: "sentence", "aria-live": "polite" });
+        sentence = html("p", { class: "sentence", "aria-live": "polite" }),
+        tie = html("p", { class: "note tie" });
     const strips = html("div", { class: "stack", style: "gap:.35rem" }),
         picture = html("figure"),
         z0 = html("p", { class: "note" }),
@@ -266,6 +325,8 @@ export function step_view(words, page) {
         milliseconds: 1400,
         describe: (k, n) => fill_in(words.pivot_count, { k: k + 1, n }),
     });
+    const contacts = html("div"),
+        size = html("div", { class: "row" }, html("label", { for: "step-elements" }, words.step_elements), count);
     const paint = html("div"),
         guess_picture = html("figure"),
         verdict = html("div", { "aria-live": "polite" });
@@ -276,12 +337,13 @@ export function step_view(words, page) {
         "div",
         { class: "stack" },
         html("p", { class: "question" }, words.step.question),
+        contacts,
         html(
             "section",
             { class: "card guess" },
             title,
             html("p", {}, words.guess_note),
-            html("div", { class: "row" }, html("label", { for: "step-elements" }, words.step_elements), count),
+            size,
             paint,
             html(
                 "div",
@@ -305,7 +367,7 @@ export function step_view(words, page) {
                 "div",
                 { class: "pair" },
                 html("div", {}, strips, picture, z0),
-                html("div", {}, html("h4", {}, words.ratio_title), ratios),
+                html("div", {}, html("h4", {}, words.ratio_title), ratios, tie),
             ),
             newton,
         ),
@@ -339,15 +401,21 @@ export function step_view(words, page) {
         const n = Number(of_case);
         if (Number.isInteger(n) && n >= FEWEST && n <= MOST) count.value = elements = n;
     }
+    function choose(name) {
+        which = name;
+        contacts.replaceChildren(
+            segments("step", words.step.contacts_title, Object.entries(words.step.contacts), chosen(), (to) => {
+                choose(to);
+                page.ask_view("step");
+            }),
+        );
+        size.hidden = chosen() !== "own";
+    }
+    choose(null);
     function given() {
+        if (EXAMPLES[chosen()]) return { ...EXAMPLES[chosen()], ...METHOD };
         follow_case();
-        const few = {
-            ...page.given,
-            mesh: "uniform",
-            solver: "lemke",
-            "lcp-form": "pivoted",
-            "contact-elements": String(elements),
-        };
+        const few = { ...page.given, ...METHOD, "contact-elements": String(elements) };
         if ((few.support ?? "arc") !== "halfplane") few["outer-elements"] ??= "24";
         if ((few.support ?? "arc") === "halfplane") delete few["outer-elements"];
         const { contact_from: from, contact_to: to } = page.answer?.numbers ?? {};
@@ -364,6 +432,7 @@ export function step_view(words, page) {
         const n = data["pivot.p"].rows,
             kinds = basis_of(data, k, n);
         sentence.innerHTML = sentence_of(words, data, k).replace(/(\d+|z₀)(?![^<]*>)/g, "<b>$1</b>");
+        tie.textContent = tie_in_words(words, data, k);
         strips.replaceChildren(
             basis_grid(words, kinds),
             strip(words, kinds.map(zone_of), words.basis_now),
@@ -458,6 +527,7 @@ export function step_view(words, page) {
         uses: ["main"],
         fine: true,
         data: () => data,
+        choose,
         leave: () => frames.stop(),
         wants: () => (store.holding || store.trouble("main") ? [] : [{ kind: "pivots", given: (wanted = given()) }]),
         /* The elements of the strip are around the contact of the solution. */
@@ -490,7 +560,7 @@ export function step_view(words, page) {
         title.textContent = fill_in(words.refused, { why });
         for (const host of [strips, picture, ratios, newton, matrix_host, paint, verdict, guess_picture])
             host.replaceChildren();
-        sentence.textContent = z0.textContent = "";
+        sentence.textContent = tie.textContent = z0.textContent = "";
     }
     /* 3^n, in words, beside the exchanges that the library needed. */
     function count_ways() {

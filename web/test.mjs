@@ -25,6 +25,7 @@ import { axes_of, axes_still_fit, bounds_of, tidy_number } from "./contact.js";
 import { value_to_hold, with_motion } from "./controls.js";
 import { CRACK_CASE, at_the_mouth, crack_request, faces_at } from "./crack.js";
 import { change_along, effects, kinks_of, told_change } from "./matters.js";
+import { EXAMPLES, sentence_of, tie_of } from "./step.js";
 import { LESSONS, PAGES } from "./take.js";
 import { headline_of, slip_share } from "./hero.js";
 import { fit_lens, offsets_of } from "./lens.js";
@@ -280,6 +281,22 @@ await test("links and case files are read as they are written", () => {
             said = error.message;
         }
         check(said, `${JSON.stringify(text.slice(0, 20))} is taken for a case`);
+    }
+});
+await test("no element of an example is said to be pressed whose pressure stays zero", () => {
+    for (const [name, given] of Object.entries(EXAMPLES)) {
+        const a = answer(library, {
+            kind: "pivots",
+            slot: `pivots ${name}`,
+            given: { ...given, mesh: "uniform", solver: "lemke", "lcp-form": "pivoted" },
+        });
+        const n = a["pivot.p"].rows,
+            most = Math.max(...a["pivot.p"].at);
+        for (let k = 0; k < a["pivot.z0"].columns; k++) {
+            const pressed = /^Element (\d+) is pressed/.exec(sentence_of(words, a, k))?.[1];
+            if (pressed) check(a["pivot.p"].at[n * k + Number(pressed) - 1] > 1e-9 * most, `${name}, pivot ${k + 1}`);
+            check(name !== "untied" || tie_of(a, k).tied.length === 0, `${name}: a tie in pivot ${k + 1}`);
+        }
     }
 });
 await test("every axis has two numbers at least", () => {
@@ -754,7 +771,7 @@ async function views(page) {
     ])
         await test(`Lemke stepped to the end, zones guessed: ${preset}`, async () => {
             await page.run(
-                `rollbem.preset('${preset}'); rollbem.open('step'); document.querySelector("#at-step details").open = true`,
+                `rollbem.preset('${preset}'); rollbem.views.step.choose('own'); rollbem.open('step'); document.querySelector("#at-step details").open = true`,
             );
             await settled();
             check((await page.run("document.querySelectorAll('#at-step canvas').length")) === matrices, "matrices");
@@ -803,6 +820,30 @@ async function views(page) {
                 `the answer: ${await page.run("document.querySelector('#at-step .verdict')?.textContent")}`,
             );
         });
+    await test("the first contact that is stepped through has no tie, the second one, which is explained", async () => {
+        await page.run("rollbem.preset('rail')");
+        for (const [name, ties] of [
+            ["untied", 0],
+            ["tied", 1],
+        ]) {
+            await page.run(`rollbem.views.step.choose('${name}'); rollbem.open('step'); rollbem.page.ask_view('step')`);
+            await settled();
+            const told = await page.run(
+                "Array.from({ length: rollbem.views.step.player.count }, (_, k) => { rollbem.views.step.player.go(k); return ['.sentence', '.tie', '#at-step .pair figure svg'].map((part) => document.querySelector(part).textContent); })",
+            );
+            check(told.length > 4, `${name}: ${told.length} pivots`);
+            check(told.filter(([, tie]) => tie.startsWith("A tie")).length === ties, `${name}: ties`);
+            check(
+                told.filter(([sentence]) => /may be pressed now, but only until/.test(sentence)).length === ties,
+                `${name}: steps of length zero`,
+            );
+        }
+        check(
+            await page.run("document.querySelector('#at-step .row[hidden] #step-elements') !== null"),
+            "the slider of another contact",
+        );
+        await page.run("rollbem.views.step.choose('own'); rollbem.page.ask_view('step')");
+    });
     await test("Step through takes the elements of the case where they are few, else those of its slider", async () => {
         const link = (n) =>
             page.run(`location.hash = "#support=halfplane&load=100&mu=0.3&contact-elements=${n}&view=step"`);
@@ -1076,7 +1117,7 @@ async function views(page) {
     });
     await test("orange is slip alone: no matrix has it", async () => {
         await page.run(
-            "rollbem.preset('rail'); rollbem.open('step'); document.querySelector('#at-step details').open = true",
+            "rollbem.preset('rail'); rollbem.views.step.choose('own'); rollbem.open('step'); document.querySelector('#at-step details').open = true",
         );
         await settled();
         const orange = await page.run(

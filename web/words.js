@@ -445,8 +445,13 @@ export const words = {
     below_alt: "Map of the stress below the contact.",
     depth: "depth [mm]",
     step: {
-        question:
-            "Every part of the contact is apart, sticks or slips. Guess which, on your own contact, and be checked.",
+        question: "Every part of a contact is apart, sticks or slips. Guess which, and be checked.",
+        contacts_title: "Which contact",
+        contacts: { untied: "Five elements", tied: "Four: a tie", own: "The first screen's" },
+        tie: "A tie: {all} reach zero together. Left and right of a symmetric contact are alike, so nothing tells them apart. The lexicographic rule does: it counts row i as if it were larger by a tiny ε to the power i, and {leaves} leaves, while {stays} stays in the basis at zero. So no set of basic variables can come back, and the method cannot run in a circle.",
+        tie_last:
+            "With z₀ {stays} reach zero: the bounds of friction where nothing is pressed. Where z₀ may leave it does, and the method ends.",
+        still: "A step of length zero, the other half of the tie: roles are exchanged and no value changes, so the pressure is still zero.",
         ways: "{n} elements, each apart, sticking or slipping: that is {lead} followed by {more} digits of combinations. Lemke's method needed {pivots} exchanges for the contact of the first screen.",
         ways_only:
             "{n} elements, each apart, sticking or slipping: that is {lead} followed by {more} digits of combinations.",
@@ -543,6 +548,7 @@ export const words = {
         motion: "The rigid motion is released",
         force: "The given load is released",
     },
+    enters_still: { p: "Element {i} may be pressed now, but only" },
     leaves: {
         z0: "z₀ is zero: the problem is solved",
         gap: "element {i} touches",
