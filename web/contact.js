@@ -120,6 +120,7 @@ export function tractions_picture(host, words, answer, options = {}) {
         y_label: options.units?.[1] ?? words.mpa,
         bottom: strip + below + 46,
         label: fill_in(words.tractions_alt, {
+            unit: options.units ? "p₀" : words.mpa,
             p0: show(most_of(c.p)),
             qmin: show(Math.min(...c.q)),
             qmax: show(Math.max(...c.q)),

@@ -1,6 +1,6 @@
 /* A contact that passes over a crack, as the library solves it position by position: the wheel is dragged
  * over it, and its faces open, stick and slide. */
-import { card, chart, height_for, html, legend, line, player, segments, show, stroke, svg, width_of } from "./draw.js";
+import { card, chart, height_for, html, legend, line, player, segments, show, stroke, svg, width_of, write } from "./draw.js";
 import { make_draggable } from "./knob.js";
 import { round_125 } from "./lens.js";
 import { ALL_TANGENTIAL, PRESETS, contact_of, crack_of, hold, plain } from "./state.js";
@@ -466,14 +466,17 @@ export function crack_view(words, page) {
         const length = Number(data.crack["crack-length"]) * a,
             part = (name) => Math.round((100 * data[`crack.${name}`].at[k]) / length),
             [open, stick] = [part("open_length"), part("stick_length")];
-        state.textContent = fill_in(w.state, {
-            where: where_of(place),
-            K_I: show(data["crack.K_I"].at[k], 3),
-            K_II: show(data["crack.K_II"].at[k], 3),
-            open,
-            stick,
-            slip: Math.max(0, 100 - open - stick),
-        });
+        write(
+            state,
+            fill_in(w.state, {
+                where: where_of(place),
+                K_I: show(data["crack.K_I"].at[k], 3),
+                K_II: show(data["crack.K_II"].at[k], 3),
+                open,
+                stick,
+                slip: Math.max(0, 100 - open - stick),
+            }),
+        );
     }
 
     /* ---- Words ---- */
@@ -500,24 +503,25 @@ export function crack_view(words, page) {
         if (kept) water.querySelector(`[value="${kept}"]`)?.focus();
         if (trouble || answered !== guess) {
             const { kind, K_I, K_II } = at_the_mouth(a);
-            told.textContent =
-                trouble && fill_in(words.refused, { why: trouble })
+            write(
+                told,
+                trouble
                     ? fill_in(words.refused, { why: trouble })
                     : [
                           guess === kind ? w.right : w.wrong,
                           fill_in(w.answer[kind], { K_I: show(K_I, 3), K_II: show(K_II, 3) }),
-                      ].join(" ");
+                      ].join(" "),
+            );
         }
         answered = guess;
         const ghost = store.ghosts.crack && store.ghosts.crack !== a ? store.ghosts.crack : null,
             number = (of, name) => show(of.summary[name], 3);
-        sum.textContent = [
+        const sums = [
             fill_in(w.sum, { K_I: number(a, "K_I_max"), dK: number(a, "delta_K_II") }),
             ghost && fill_in(w.was, { K_I: number(ghost, "K_I_max"), dK: number(ghost, "delta_K_II") }),
             given().fluid === "trapped" && w.wet_why,
-        ]
-            .filter(Boolean)
-            .join(" ");
+        ];
+        write(sum, sums.filter(Boolean).join(" "));
     }
     return {
         node,

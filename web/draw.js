@@ -2,12 +2,24 @@
 
 const SVG = "http://www.w3.org/2000/svg";
 
+/* K_I and K_II with their modes as indices. */
+const typeset = (child) =>
+    typeof child === "string" && /K_I/.test(child)
+        ? child.split(/(K_II?)/).map((part) => (part.startsWith("K_") ? html("i", { class: "K" }, "K", html("sub", {}, part.slice(2))) : part))
+        : child;
+export const write = (node, text) => node.replaceChildren(...[typeset(text)].flat());
+
 function fill(node, attributes, children) {
     for (const [name, value] of Object.entries(attributes ?? {}))
         if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
         else if (value === true) node.setAttribute(name, "");
         else if (value !== false && value != null) node.setAttribute(name, value);
-    node.append(...children.flat().filter((child) => child != null && child !== false));
+    node.append(
+        ...children
+            .flat()
+            .filter((child) => child != null && child !== false)
+            .flatMap(typeset),
+    );
     return node;
 }
 export const html = (tag, attributes, ...children) => fill(document.createElement(tag), attributes, children);

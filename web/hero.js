@@ -32,7 +32,8 @@ const PARTS = [
 /* The headline of a state: which, and in words. */
 export function headline_of(words, answer, trouble, given) {
     const w = words.hero;
-    if (!answer || trouble) return { kind: "unsolved", text: fill_in(w.unsolved, { why: trouble || "…" }) };
+    if (!answer && !trouble) return { kind: "solving", text: w.solving };
+    if (trouble) return { kind: "unsolved", text: fill_in(w.unsolved, { why: trouble }) };
     const share = slip_share(answer),
         n = answer.numbers,
         percent = Math.round(100 * share);
@@ -432,7 +433,7 @@ export function hero_view(words, page) {
               ]
             : [];
         pen.strokes(joints, { stroke: "ink", width: 1.1, dash: [4, 5], alpha: 0.6 });
-        pen.text(cx, ground + 32, fill_in(w.to_scale, { radius: show(R) }), {
+        pen.text(cx, ground + 32, fill_in(right - left < 160 ? w.to_scale_short : w.to_scale, { radius: show(R) }), {
             fill: "soft",
             size: small,
             anchor: "middle",
@@ -447,7 +448,7 @@ export function hero_view(words, page) {
                 wide: show(goal.window[1] - goal.window[0], 2),
                 slip: show(goal.slip, 2),
             }),
-            press: n.contact_to > n.contact_from ? fill_in(w.press, { p0: show(n.max_pressure, 3) }) : "",
+            press: n.contact_to > n.contact_from ? fill_in(per < 340 ? w.press_short : w.press, { p0: show(n.max_pressure, 3) }) : "",
             stick: w.sticks,
             slip: w.slips,
             enters: w.enters,

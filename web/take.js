@@ -173,11 +173,14 @@ export const LESSONS = {
     tractions: "course/05-friction.md",
 };
 export const PAGES = { theory: "theory.md", page: "page.md" };
-/* Served, the page lies beside the site's pages; as a file by itself it names those of the sources. */
-const link_to = (file) =>
-    /^https?:$/.test(location.protocol)
-        ? html("a", { href: file.replace(/\.md$/, ".html") }, file.replace(/\.md$/, ""))
-        : `docs/${file}`;
+/* Served, the page lies beside the site's pages; in a checkout beside those of the sources; else it names these. */
+function link_to(words, file) {
+    const [, number, lesson] = /^course\/0?(\d+)-(.*)\.md$/.exec(file) ?? [],
+        name = number ? say(words.lesson_name, { number, name: lesson }) : file.replace(/\.md$/, "");
+    if (/^https?:$/.test(location.protocol)) return html("a", { href: file.replace(/\.md$/, ".html") }, name);
+    if (location.pathname.endsWith("/build/rollbem.html")) return html("a", { href: `../docs/${file}` }, name);
+    return `${name} (docs/${file})`;
+}
 
 /* A menu beside a figure: its picture as a file, its case as text.  picture(): the text of an SVG file;
  * canvas(): what a clip is taken from, if it moves; given(): the case that the figure shows. */
@@ -244,9 +247,9 @@ export function take_along(page, picture, name, canvas, given = () => page.given
                 "p",
                 { class: "note" },
                 w.lesson,
-                link_to(LESSONS[name]),
+                link_to(w, LESSONS[name]),
                 ". ",
-                ...Object.entries(PAGES).flatMap(([key, file]) => [w[key], link_to(file), ". "]),
+                ...Object.entries(PAGES).flatMap(([key, file]) => [w[key], link_to(w, file), ". "]),
                 w.cite,
             ),
             said,

@@ -941,7 +941,7 @@ async function views(page) {
         await page.run("rollbem.views.crack.answer('slides')");
         await settled();
         check(
-            /^Yes. They are pressed together.*K_I = 0\. .*K_II = 79\d/.test(await text_of("#at-crack .answer")),
+            /^Yes. They are pressed together.*KI = 0\. .*KII = 79\d/.test(await text_of("#at-crack .answer")),
             await text_of("#at-crack .answer"),
         );
         const crack_state = () =>
