@@ -1,6 +1,20 @@
 /* A contact that passes over a crack, as the library solves it position by position: the wheel is dragged
  * over it, and its faces open, stick and slide. */
-import { card, chart, height_for, html, legend, line, player, segments, show, stroke, svg, width_of, write } from "./draw.js";
+import {
+    card,
+    chart,
+    height_for,
+    html,
+    legend,
+    line,
+    player,
+    segments,
+    show,
+    stroke,
+    svg,
+    width_of,
+    write,
+} from "./draw.js";
 import { make_draggable } from "./knob.js";
 import { round_125 } from "./lens.js";
 import { ALL_TANGENTIAL, PRESETS, contact_of, crack_of, hold, plain } from "./state.js";

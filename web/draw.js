@@ -5,7 +5,11 @@ const SVG = "http://www.w3.org/2000/svg";
 /* K_I and K_II with their modes as indices. */
 const typeset = (child) =>
     typeof child === "string" && /K_I/.test(child)
-        ? child.split(/(K_II?)/).map((part) => (part.startsWith("K_") ? html("i", { class: "K" }, "K", html("sub", {}, part.slice(2))) : part))
+        ? child
+              .split(/(K_II?)/)
+              .map((part) =>
+                  part.startsWith("K_") ? html("i", { class: "K" }, "K", html("sub", {}, part.slice(2))) : part,
+              )
         : child;
 export const write = (node, text) => node.replaceChildren(...[typeset(text)].flat());
 

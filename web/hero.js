@@ -40,22 +40,23 @@ export function headline_of(words, answer, trouble, given) {
     const way = n.tangential_load > 0 ? "drive" : "brake",
         rolls = formulation_of(given) !== "static";
     if (Number.isNaN(share)) return { kind: "apart", text: w.apart };
-    if (!(Number(answer.values.mu.split(",")[0]) > 0)) return { kind: "smooth", text: w.smooth };
+    if (!(Number(answer.values.mu.split(",")[0]) > 0))
+        return { kind: "smooth", text: rolls ? w.smooth : w.smooth_rest };
     if (!rolls)
         return {
             kind: "rest",
-            text:
-                share >= 1
-                    ? w.rest_slides
-                    : share < 0.005
-                      ? w.rest_sticks
-                      : fill_in(w.rest, { share: part_in_words(w, share) }),
+            text: share >= 1 ? w.rest_slides : share < 0.005 ? w.rest_sticks : with_part(w, w.rest, share),
         };
     if (share >= 0.9995) return { kind: "skid", text: w.skid[way] };
     if (share > 0.9) return { kind: "nearly", text: w.nearly[way] };
     if (share < 0.005 && Math.abs(n.force_ratio) < 0.01) return { kind: "free", text: w.free };
     if (share < 0.1) return { kind: "touch", text: fill_in(w.touch[way], { percent: Math.max(1, percent) }) };
-    return { kind: "partial", text: fill_in(w.partial[way], { share: part_in_words(w, share) }) };
+    return { kind: "partial", text: with_part(w, w.partial[way], share) };
+}
+/* A part is written small within a sentence. */
+function with_part(w, text, share) {
+    const part = part_in_words(w, share);
+    return fill_in(text, { share: text.startsWith("{share}") ? part : part[0].toLowerCase() + part.slice(1) });
 }
 function part_in_words(w, share) {
     const [part, name] = PARTS.reduce((best, next) =>
@@ -448,7 +449,10 @@ export function hero_view(words, page) {
                 wide: show(goal.window[1] - goal.window[0], 2),
                 slip: show(goal.slip, 2),
             }),
-            press: n.contact_to > n.contact_from ? fill_in(per < 340 ? w.press_short : w.press, { p0: show(n.max_pressure, 3) }) : "",
+            press:
+                n.contact_to > n.contact_from
+                    ? fill_in(per < 340 ? w.press_short : w.press, { p0: show(n.max_pressure, 3) })
+                    : "",
             stick: w.sticks,
             slip: w.slips,
             enters: w.enters,

@@ -176,7 +176,7 @@ export const PAGES = { theory: "theory.md", page: "page.md" };
 /* Served, the page lies beside the site's pages; in a checkout beside those of the sources; else it names these. */
 function link_to(words, file) {
     const [, number, lesson] = /^course\/0?(\d+)-(.*)\.md$/.exec(file) ?? [],
-        name = number ? say(words.lesson_name, { number, name: lesson }) : file.replace(/\.md$/, "");
+        name = number ? fill_in(words.lesson_name, { number, name: lesson }) : file.replace(/\.md$/, "");
     if (/^https?:$/.test(location.protocol)) return html("a", { href: file.replace(/\.md$/, ".html") }, name);
     if (location.pathname.endsWith("/build/rollbem.html")) return html("a", { href: `../docs/${file}` }, name);
     return `${name} (docs/${file})`;

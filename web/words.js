@@ -56,6 +56,7 @@ export const words = {
     hero: {
         apart: "They do not touch.",
         smooth: "Nothing rubs here: without friction every contact slides.",
+        smooth_rest: "It stands. Without friction there is pressure alone.",
         free: "It rolls freely. Nothing slips.",
         touch: {
             brake: "A touch on the brake: {percent} % of the contact slips.",
