@@ -2,7 +2,6 @@
  * and the place of it are the library's own. */
 import { card, height_for, html, segments, show, show_notes, svg, ticks, width_of } from "./draw.js";
 import { ALL_TANGENTIAL, formulation_of, hold, plain } from "./state.js";
-import { svg_text } from "./take.js";
 import { fill_in } from "./words.js";
 
 const FINE = [81, 49],
@@ -35,13 +34,14 @@ const nice_above = (x) => {
 };
 
 /* The colours of the bands and their stresses. */
+const bands = () => Array.from({ length: BANDS }, (_, k) => [k, `rgb(${colour(k / (BANDS - 0.5)).map(Math.round)})`]);
 const scale_bar = (words, most) =>
     html(
         "div",
         { class: "scale", role: "img", "aria-label": fill_in(words.below_scale, { most: show(most) }) },
         html("span", {}, "0"),
         html("i", {
-            style: `background:linear-gradient(90deg,${Array.from({ length: BANDS }, (_, k) => `rgb(${colour(k / (BANDS - 0.5)).map(Math.round)}) ${(100 * k) / BANDS}% ${(100 * (k + 1)) / BANDS}%`).join()})`,
+            style: `background:linear-gradient(90deg,${bands().map(([k, rgb]) => `${rgb} ${(100 * k) / BANDS}% ${(100 * (k + 1)) / BANDS}%`)})`,
         }),
         html("span", {}, `${show(most)} ${words.mpa}`),
     );
@@ -130,7 +130,7 @@ export function below_view(words, page) {
             html(
                 "div",
                 { class: "row" },
-                page.take_along(() => svg_text(picture.querySelector("svg")), "rollbem-stress", null),
+                page.take_along(() => on_sheet(), "rollbem-stress", null),
             ),
         ),
         html(
@@ -142,6 +142,20 @@ export function below_view(words, page) {
             page.history_buttons(),
         ),
     );
+
+    const on_sheet = () => ({
+        root: picture.querySelector("svg"),
+        title: fill_in(words.take.titles.below, { kind: words.below_kinds[kind] }),
+        numbers: data.numbers,
+        bar:
+            revealed && kind !== "fringes"
+                ? { colours: bands().map(([, rgb]) => rgb), from: "0", to: `${show(scale)} ${words.mpa}` }
+                : null,
+        legend:
+            kind === "fringes"
+                ? [["--ink", fill_in(words.below_fringes, { step: show((2 * scale) / FRINGES, 3) })]]
+                : [],
+    });
 
     /* The direction of the drive stays; full sliding is a creep ratio beyond 1. */
     function drive(value) {

@@ -2,7 +2,6 @@
 import { SIDE_BY_SIDE, card, height_for, html, show, show_notes, width_of } from "./draw.js";
 import { creep_curve, curve_request, scaled, tractions_legend, tractions_picture } from "./contact.js";
 import { ALL_TANGENTIAL, NORMAL, PRESETS, hold, plain } from "./state.js";
-import { svg_text } from "./take.js";
 import { slip_share } from "./hero.js";
 import { fill_in } from "./words.js";
 
@@ -145,7 +144,12 @@ export function press_view(words, page) {
             "div",
             { class: "row" },
             page.take_along(
-                () => svg_text(picture.querySelector("svg")),
+                () => ({
+                    root: picture.querySelector("svg"),
+                    title: words.take.titles.press,
+                    numbers: store.solved.press.numbers,
+                    legend: [["--press", words.pressure]],
+                }),
                 "rollbem-press",
                 null,
                 () => store.case("press"),
@@ -337,7 +341,32 @@ export function brake_view(words, page) {
         html(
             "div",
             { class: "row" },
-            page.take_along(() => svg_text(picture.querySelector("svg")), "rollbem-brake", null, given),
+            page.take_along(
+                () => ({
+                    root: picture.querySelector("svg"),
+                    title: words.take.titles.brake,
+                    numbers: store.solved.brake.numbers,
+                    legend: legend_row.firstChild?.entries,
+                }),
+                "rollbem-brake",
+                null,
+                given,
+            ),
+            html(
+                "span",
+                { class: "revealing" },
+                page.take_along(
+                    () => ({
+                        root: curve_host.querySelector("svg"),
+                        title: words.take.titles.curve,
+                        numbers: store.solved.brake.numbers,
+                    }),
+                    "rollbem-creep",
+                    null,
+                    given,
+                    words.take.curve,
+                ),
+            ),
         ),
     );
 
@@ -546,7 +575,17 @@ export function soft_view(words, page) {
         html(
             "div",
             { class: "row" },
-            page.take_along(() => svg_text(picture.querySelector("svg")), "rollbem-soft", null, given),
+            page.take_along(
+                () => ({
+                    root: picture.querySelector("svg"),
+                    title: words.take.titles.soft,
+                    numbers: store.solved.soft.numbers,
+                    legend: tractions_legend(words, store.solved.soft.columns.zone, false).entries,
+                }),
+                "rollbem-soft",
+                null,
+                given,
+            ),
         ),
     );
     relaxing.hidden = true;

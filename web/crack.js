@@ -18,7 +18,6 @@ import {
 import { make_draggable } from "./knob.js";
 import { round_125 } from "./lens.js";
 import { ALL_TANGENTIAL, PRESETS, contact_of, crack_of, hold, plain } from "./state.js";
-import { svg_text } from "./take.js";
 import { fill_in } from "./words.js";
 
 export const CRACK_CASE = {
@@ -174,7 +173,20 @@ export function crack_view(words, page) {
             html(
                 "div",
                 { class: "row" },
-                page.take_along(() => svg_text(picture.querySelector("svg")), "rollbem-crack", null, given),
+                page.take_along(
+                    () => ({
+                        root: picture.querySelector("svg"),
+                        title: fill_in(words.take.titles.crack, { where: where_of(place) }),
+                        numbers: data.numbers,
+                        legend: [
+                            ["--stick", words.hero.sticks],
+                            ["--slip", words.hero.slips, "hatched"],
+                        ],
+                    }),
+                    "rollbem-crack",
+                    null,
+                    given,
+                ),
             ),
         ),
         html(

@@ -111,8 +111,8 @@ export const stroke = (colour, width = 2, more = "") =>
 export const zone_colours = ["--apart", "--stick", "--slip", "--slip-other", "--yield", "--yield-other"];
 
 /* Entries [colour, text, how]: filled, hatched, or how = "dotted" or "dashed" as the line is. */
-export const legend = (...entries) =>
-    html(
+export function legend(...entries) {
+    const node = html(
         "div",
         { class: "legend" },
         entries.map(([colour, text, how]) =>
@@ -130,6 +130,9 @@ export const legend = (...entries) =>
             ),
         ),
     );
+    node.entries = entries;
+    return node;
+}
 
 /* The width that a picture gets on the page. */
 export const width_of = (host) => Math.max(280, Math.min(1600, host.clientWidth || 700));

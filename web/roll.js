@@ -17,7 +17,7 @@ import {
 import { edges_of_equal, tractions_legend, tractions_picture } from "./contact.js";
 import { make_draggable, slider_for } from "./knob.js";
 import { ALL_TANGENTIAL, DRAWN, NORMAL, TANGENTIAL, formulation_of, held, hold, table_of_drawn } from "./state.js";
-import { command_of, svg_text, text_card } from "./take.js";
+import { command_of, text_card } from "./take.js";
 import { fill_in } from "./words.js";
 
 const POINTS = 13,
@@ -89,7 +89,17 @@ export function roll_view(words, page) {
                 "div",
                 { class: "row" },
                 page.history_buttons(),
-                page.take_along(() => svg_text(picture.querySelector("svg")), "rollbem-roll", null),
+                page.take_along(
+                    () => ({
+                        root: picture.querySelector("svg"),
+                        title: fill_in(words.take.titles.roll, {
+                            distance: data ? show(data.history.distance[frames.at], 3) : "",
+                        }),
+                        legend: legend_row.firstChild?.entries,
+                    }),
+                    "rollbem-roll",
+                    null,
+                ),
             ),
             html(
                 "details",

@@ -1,5 +1,5 @@
 /* Step through the method: matrices, Lemke's pivots, Newton's zones, guessed zones. */
-import { card, chart, html, player, segments, show, stairs, stroke, svg, width_of } from "./draw.js";
+import { card, chart, html, player, segments, show, stairs, stroke, svg, width_of, zone_colours } from "./draw.js";
 import { matrices, parse, pretty } from "./matrices.js";
 import { fill_in } from "./words.js";
 
@@ -89,6 +89,11 @@ export function sentence_of(words, a, k) {
         leave: fill_in(words.leaves[leaves.kind], leaves),
     });
 }
+
+const short_sentence = (words, a, k) =>
+    sentence_of(words, a, k)
+        .replace(`${words.pivot_start} `, "")
+        .replace(/<[^>]*>/g, "");
 
 /* Basic kinds of each element after pivot k: a set of names like "p", "lambda+". */
 function basis_of(a, k, n) {
@@ -370,6 +375,16 @@ export function step_view(words, page) {
                 html("div", {}, html("h4", {}, words.ratio_title), ratios, tie),
             ),
             newton,
+            html(
+                "div",
+                { class: "row" },
+                page.take_along(
+                    () => pivots_sheet(),
+                    "rollbem-pivots",
+                    null,
+                    () => wanted ?? page.given,
+                ),
+            ),
         ),
         html(
             "details",
@@ -400,6 +415,46 @@ export function step_view(words, page) {
         of_case = page.given["contact-elements"];
         const n = Number(of_case);
         if (Number.isInteger(n) && n >= FEWEST && n <= MOST) count.value = elements = n;
+    }
+    /* The zones after each pivot below each other, with what the pivot does. */
+    function pivots_sheet() {
+        const n = data["pivot.p"].rows,
+            count = data["pivot.z0"].columns,
+            wide = 900,
+            cell = 240 / n,
+            row = 22;
+        const root = svg("svg", {
+            viewBox: `0 0 ${wide} ${row * (count + 1)}`,
+            width: wide,
+            height: row * (count + 1),
+        });
+        for (let i = 0; i < n; i++)
+            root.append(
+                svg("text", { x: 40 + (i + 0.5) * cell, y: 14, "text-anchor": "middle", class: "soft" }, `${i + 1}`),
+            );
+        for (let k = 0; k < count; k++) {
+            const y = row * (k + 1);
+            root.append(
+                svg("text", { x: 30, y: y + 14, "text-anchor": "end" }, `${k + 1}`),
+                ...basis_of(data, k, n).map((kinds, i) =>
+                    svg("rect", {
+                        x: 40 + i * cell,
+                        y: y + 2,
+                        width: cell - 2,
+                        height: row - 4,
+                        style: `fill:var(${zone_colours[zone_of(kinds)]})`,
+                    }),
+                ),
+                svg("text", { x: 292, y: y + 14 }, short_sentence(words, data, k)),
+            );
+        }
+        const shown = new Set(Array.from({ length: count }, (_, k) => basis_of(data, k, n).map(zone_of)).flat());
+        return {
+            root,
+            title: words.take.titles.pivots,
+            numbers: data.numbers,
+            legend: [...shown].sort().map((z) => [zone_colours[z], words.zones[z]]),
+        };
     }
     function choose(name) {
         which = name;

@@ -1,6 +1,6 @@
 /* Take it away: the case as a file and as a command, its numbers and its picture. */
-import { card, html } from "./draw.js";
-import { tractions_picture } from "./contact.js";
+import { card, html, show, svg } from "./draw.js";
+import { tractions_legend, tractions_picture } from "./contact.js";
 import { contact_of, crack_of, write_link } from "./state.js";
 import { fill_in } from "./words.js";
 
@@ -103,6 +103,88 @@ export const python_of = (given, options) => {
         .join(", ")})\nprint(s.normal_load, s.tangential_load, s.notes)\ns.plot().savefig("tractions.png")\n`;
 };
 
+/* A figure as a sheet that stands alone: title and numbers above it, legend, colour bar and the command that computes it
+ * below; what a hand drags is left out.  legend: entries as legend() of draw.js has them; bar: { colours, from, to }. */
+const SOURCE_SIZE = 12,
+    NARROWEST = 480;
+export function sheet(root, { title, numbers, legend = [], bar, source }) {
+    const [, wide, tall] = /^0 0 ([\d.]+) ([\d.]+)$/.exec(root.getAttribute("viewBox")).map(Number),
+        width = Math.max(NARROWEST, wide),
+        of = (text, size) => lines_of(text, (width - 16) / (0.54 * size));
+    const all = svg("svg", { role: "img", "aria-label": title }),
+        figure = root.cloneNode(true);
+    let y = 8;
+    const put = (text, size, more) => {
+        for (const line of of(text, size)) {
+            y += 1.35 * size;
+            all.append(svg("text", { x: 8, y, ...more, style: `font-size:${size}px;${more.style ?? ""}` }, line));
+        }
+    };
+    put(title, 20, { style: "font-weight:700" });
+    put(numbers_in_words(numbers), 14, { class: "soft" });
+    y += 10;
+    for (const handle of figure.querySelectorAll(".handle")) handle.remove();
+    for (const [name, value] of Object.entries({ x: (width - wide) / 2, y, width: wide, height: tall }))
+        figure.setAttribute(name, value);
+    all.append(figure);
+    y += tall + 6;
+    if (bar) {
+        const long = (width - 200) / bar.colours.length;
+        all.append(
+            ...bar.colours.map((fill, k) =>
+                svg("rect", { x: 40 + k * long, y, width: long + 0.5, height: 14, style: `fill:${fill}` }),
+            ),
+            svg("text", { x: 32, y: y + 12, "text-anchor": "end" }, bar.from),
+            svg("text", { x: width - 152, y: y + 12 }, bar.to),
+        );
+        y += 24;
+    }
+    let x = 8;
+    for (const [colour, text, how] of legend) {
+        const long = 40 + 7.2 * text.length;
+        if (x > 8 && x + long > width) [x, y] = [8, y + 20];
+        const line = how === "dotted" || how === "dashed";
+        all.append(
+            line
+                ? svg("path", {
+                      d: `M${x} ${y + 9}h18`,
+                      style: `stroke:var(${colour});stroke-width:2;stroke-dasharray:${how === "dotted" ? "2 4" : "6 4"}`,
+                  })
+                : svg("rect", { x, y: y + 3, width: 18, height: 12, rx: 2, style: `fill:var(${colour})` }),
+            svg("text", { x: x + 24, y: y + 14 }, text),
+        );
+        if (how === "hatched")
+            all.append(
+                svg("path", { d: `M${x + 1} ${y + 15}l8 -12m1 12l8 -12`, style: "stroke:var(--card);stroke-width:2" }),
+            );
+        x += long;
+    }
+    y += legend.length ? 26 : 6;
+    put(source, SOURCE_SIZE, { class: "soft" });
+    all.setAttribute("viewBox", `0 0 ${width} ${Math.ceil(y + 12)}`);
+    for (const [name, value] of Object.entries({ width, height: Math.ceil(y + 12) })) all.setAttribute(name, value);
+    return svg_text(all);
+}
+function lines_of(text, most) {
+    const lines = [""];
+    for (const word of text.split(" ")) {
+        if (lines.at(-1) && lines.at(-1).length + word.length + 1 > most) lines.push("");
+        lines.push(`${lines.pop()} ${word}`.trim());
+    }
+    return lines.filter(Boolean);
+}
+const numbers_in_words = (n = {}) =>
+    [
+        ["P", n.normal_load, "N/mm"],
+        ["p₀", n.max_pressure, "MPa"],
+        ["a", n.half_width, "mm"],
+        ["Q/(μP)", n.force_ratio, ""],
+        ["ξ", n.creepage, ""],
+    ]
+        .filter(([, value]) => Number.isFinite(value))
+        .map(([name, value, unit]) => `${name} = ${show(Math.abs(value) < 1e-12 ? 0 : value, 3)} ${unit}`.trim())
+        .join(", ");
+
 /* A picture of the page as a file by itself. */
 export function svg_text(root) {
     const style = getComputedStyle(document.documentElement),
@@ -170,6 +252,8 @@ export const LESSONS = {
     "rollbem-stress": "course/09-stress.md",
     "rollbem-crack": "crack.md",
     "rollbem-roll": "course/07-transient.md",
+    "rollbem-creep": "course/06-rolling.md",
+    "rollbem-pivots": "course/04-lemke.md",
     tractions: "course/05-friction.md",
 };
 export const PAGES = { theory: "theory.md", page: "page.md" };
@@ -184,9 +268,16 @@ function link_to(words, file) {
 
 /* A menu beside a figure: its picture as a file, its case as text.  picture(): the text of an SVG file;
  * canvas(): what a clip is taken from, if it moves; given(): the case that the figure shows. */
-export function take_along(page, picture, name, canvas, given = () => page.given) {
+export function take_along(page, picture, name, canvas, given = () => page.given, heading = page.words.take.title) {
     const { words, options } = page,
         w = words.take;
+    /* What stands on a sheet beside the figure; a picture that is a text already is complete. */
+    const complete = () => {
+        const made = picture();
+        if (typeof made === "string") return made;
+        const source = fill_in(w.source, { version: VERSION, command: command_of(given(), options) });
+        return sheet(made.root, { source, numbers: page.store.solved.main.numbers, ...made });
+    };
     const said = html("span", { class: "note", role: "status" });
     const copies = {
         command: () => command_of(given(), options),
@@ -216,15 +307,15 @@ export function take_along(page, picture, name, canvas, given = () => page.given
     const menu = html(
         "details",
         { class: "menu" },
-        html("summary", { class: "button" }, w.title),
+        html("summary", { class: "button" }, heading),
         html(
             "div",
             { class: "sheet" },
             html(
                 "div",
                 { class: "row" },
-                button("PNG", async () => save(`${name}.png`, await png_of(picture()), "image/png")),
-                button("SVG", () => save(`${name}.svg`, picture(), "image/svg+xml")),
+                button("PNG", async () => save(`${name}.png`, await png_of(complete()), "image/png")),
+                button("SVG", () => save(`${name}.svg`, complete(), "image/svg+xml")),
                 canvas &&
                     can_clip() &&
                     button(w.clip, async () => {
@@ -327,7 +418,11 @@ export function take_view(words, page) {
         drawn_for = a;
         const given = a.given,
             columns = page.results.column.filter((r) => a.columns[r.name]); /* some belong to some cases */
-        const picture = () => svg_text(tractions_picture(document.body, words, a, { width: 900, name: "file" }));
+        const picture = () => ({
+            root: tractions_picture(document.body, words, a, { width: 900, name: "file" }),
+            title: words.tractions_title,
+            legend: tractions_legend(words, a.columns.zone, false).entries,
+        });
         node.replaceChildren(
             text_card(words, "command", command_of(given, page.options)),
             text_card(words, "link", location.href.split("#")[0] + write_link(given, "bench", page.drawn)),

@@ -1662,6 +1662,38 @@ async function views(page) {
             await other.close();
         }
     });
+    await test("pictures that are taken along have title, numbers, legend and source, and no handles", async () => {
+        await page.run("rollbem.preset('rail')");
+        for (const [chapter, reveal, menu, wanted] of [
+            ["press", "rollbem.views.press.answer('16')", 0, ["A wheel pressed", "pressure p", "MPa"]],
+            ["brake", "rollbem.views.brake.see()", 0, ["A braked wheel", "sticks", "slips: A slides to +x", "p/p₀"]],
+            ["brake", "0", 1, ["Creep curve", "Q/(μP)", "creep ratio"]],
+            ["roll", "rollbem.views.roll.player.go(9)", 0, ["From rest", "half-widths", "sticks"]],
+            ["soft", "rollbem.views.soft.answer('larger')", 0, ["A soft wheel", "sticks"]],
+            [
+                "below",
+                "document.querySelector('#at-below .button.main').click()",
+                0,
+                ["in-plane shear", "MPa", "<image"],
+            ],
+            ["crack", "rollbem.views.crack.answer('slides')", 0, ["A crack below", "sticks", "rollbem crack"]],
+            ["step", "0", 0, ["Lemke's method", "until", "sticks"]],
+        ]) {
+            await page.run(`rollbem.open('${chapter}')`);
+            await settled();
+            await page.run(`void (${reveal})`);
+            await settled();
+            const text = await page.run(`new Promise((resolve) => {
+                const make = URL.createObjectURL;
+                URL.createObjectURL = (blob) => { URL.createObjectURL = make; blob.text().then(resolve); return make(blob); };
+                [...document.querySelectorAll('#at-${chapter} .menu')[${menu}].querySelectorAll('button')].find((b) => b.textContent === 'SVG').click();
+            })`);
+            const lines = text.replace(/<[^>]*>/g, " ");
+            for (const part of [...wanted, "Computed by rollbem", "P = "])
+                check(text.includes(part) || lines.includes(part), `${chapter}: no ${part}`);
+            check(!/class="handle"|undefined|NaN|\{\w+\}|var\(/.test(text), `${chapter}: handles or holes`);
+        }
+    });
     await test("rolled, and looked below", async () => {
         await page.run("rollbem.preset('rail'); rollbem.open('roll')");
         await settled();

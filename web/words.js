@@ -140,6 +140,18 @@ export const words = {
     take: {
         title: "Take it along",
         clip: "Clip (WebM)",
+        curve: "Take the curve along",
+        source: "Computed by rollbem {version}: {command}",
+        titles: {
+            press: "A wheel pressed on its rail: pressure over the contact",
+            brake: "A braked wheel: pressure, friction, where it sticks and where it slips",
+            curve: "Creep curve: friction used over the creep ratio",
+            soft: "A soft wheel: pressure and friction",
+            below: "Stress below the contact: {kind}",
+            roll: "From rest to steady rolling: after {distance} half-widths",
+            crack: "A crack below the wheel: {where}",
+            pivots: "Lemke's method: the zones after each pivot",
+        },
         command: "Copy as command",
         ini: "Copy as case file",
         python: "Copy as Python",
