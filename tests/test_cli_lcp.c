@@ -97,6 +97,26 @@ TEST(status_words_say_what_is_known)
     }
 }
 
+/* Rounding leaves 9e-13 of the terms on Hilbert's matrix, far more than "to rounding" allows. */
+TEST(a_residual_above_the_tolerance_is_named)
+{
+    enum { n = 30 };
+    FILE *f = NOT_NULL(fopen("p", "w"));
+    double q[n] = {0.0};
+    fprintf(f, "%d\n", n);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            q[i] -= 1.0 / (i + j + 1);
+            fprintf(f, "%.17g ", 1.0 / (i + j + 1));
+        }
+    for (int i = 0; i < n; i++)
+        fprintf(f, "%.17g ", q[i]);
+    fclose(f);
+    CHECK_RUN(lcp("p --tol 1e-300"), 1, out, "p\tresidual-above-tolerance\t");
+    assert_non_null(strstr(err, "of its terms, above --tol 1e-300"));
+    CHECK_RUN(lcp("p"), 0, out, "p\tsolved\t");
+}
+
 TEST(the_tie_rule_can_be_chosen)
 {
     assert_int_equal(lcp("--rule first-index --max-pivots 100 kostreva"), 1);

@@ -250,4 +250,27 @@ TEST(elements_follow_every_table)
     }
 }
 
+/* Rows in micrometres, which are read as millimetres make p0 11 624 MPa. */
+TEST(headings_of_a_gap_say_its_unit)
+{
+    static const char *const headings[] = {"x_mm,gap_um", "\"x [mm]\",\"gap [um]\"",
+                                           "\"x (mm)\",\"gap (um)\"", "x/mm;gap/um"};
+    for (int k = 0; k < 4; k++) {
+        OWNED(rb_case_result) r;
+        FILE *f = NOT_NULL(fopen("gap.csv", "w"));
+        fprintf(f, "%s\n", headings[k]);
+        for (int i = -2; i <= 2; i++)
+            fprintf(f, k == 3 ? "%g;%g\n" : "%g,%g\n", abs(i) == 2 ? 2.5 * i : 2.0 * i,
+                    abs(i) == 2 ? 54.0 : 8.7 * abs(i));
+        fclose(f);
+        held_case *c = solve_words(
+            (const char *const[]){"similar yes support halfplane young 210000 poisson 0.3 mu 0 "
+                                  "load 1000",
+                                  "gap gap.csv", NULL},
+            &r);
+        assert_non_null(c);
+        CHECK_REL(r.solution.max_pressure, 384.221, 2e-6, "%s", headings[k]);
+    }
+}
+
 RUN_TESTS(enter_folder, leave_folder)
