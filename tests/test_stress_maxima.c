@@ -278,7 +278,8 @@ static void compare(int k)
             xy[2 * kept++ + 1] = xy[2 * i + 1];
         }
     CHECK_OK(rb_rolling_stress_at(&model, kept, xy, at, &heard));
-    for (int j = 0; maximum_of(&m, j); j++) {
+    /* the last four are those of the bond */
+    for (int j = 0; maximum_of(&m, j) != &m.peel; j++) {
         int best = 0;
         for (int i = 0; i < kept; i++)
             best = measured(&at[i], j) > measured(&at[best], j) ? i : best;
@@ -289,6 +290,17 @@ static void compare(int k)
                      rb_rolling_maxima_scalars.row[3 * j].name, found, maximum_of(&m, j)->x,
                      maximum_of(&m, j)->y, seen, at[best].x, at[best].y, p0);
     }
+    for (int i = 0; i < kept && rc.a.layer > 0.0; i++) {
+        const double least = 1e-6 * rb_rolling_peak_pressure(&model);
+        if (at[i].y != rc.a.layer)
+            continue;
+        CHECK_MAX(fabs(at[i].sxy) * (1.0 - 1e-3), m.bond_shear.value + least,
+                  "case %d, %s: shear at the bond", k, c.line);
+        CHECK_MAX(isnan(m.peel.x) ? 0.0 : at[i].syy * (1.0 - 1e-3), m.peel.value + least,
+                  "case %d, %s: peel", k, c.line);
+        CHECK_MAX(isnan(m.tension_above.x) ? 0.0 : at[i].sxx * (1.0 - 1e-3),
+                  m.tension_above.value + least, "case %d, %s: tension above", k, c.line);
+    }
     rb_rolling_model_free(&model);
 }
 
@@ -297,6 +309,82 @@ TEST(no_point_of_a_scan_has_more)
     for (int k = 0; k < 500; k++)
         if (is_in_turn(k, 160))
             compare(k);
+}
+
+/* ---- Bonds ------------------------------------------------------------------------- */
+
+/* A layer of the base's material: Hertz's stress at its depth, and behind full sliding a little
+ * peel; a coating; B is the exchanged A. */
+TEST(bonds_have_peel_shear_and_tension)
+{
+#define ALIKE                                                                                      \
+    "--similar --young 210000 --poisson 0.3 --radius 1000 --half-width 1 --base-young 210000 "     \
+    "--base-poisson 0.3 --contact-elements 200 --mesh fitted "
+    static const struct {
+        const char *line, *name;
+        double value, x, tolerance, x_tolerance; /* value over p0 where below 1; NAN x: none */
+    } rows[] = {{ALIKE "--mu 0 --layer-thickness 0.5", "bond_1_shear", 0.25, 0.8660, 1e-3, 1e-3},
+                {ALIKE "--mu 0 --layer-thickness 0.5", "bond_1_peel", 0.0, NAN, 0.0, 0.0},
+                {ALIKE "--mu 0 --layer-thickness 0.75", "bond_1_shear", 0.2390, 0.8899, 1e-3, 1e-3},
+                {ALIKE "--mu 0 --layer-thickness 1", "bond_1_shear", 0.21796, 0.9502, 1e-3, 1e-3},
+                {ALIKE "--mu 0.3 --formulation steady --creep -1 --layer-thickness 0.5",
+                 "bond_1_shear", 0.33971, 0.8660, 1e-3, 1e-3},
+                {ALIKE "--mu 0.3 --formulation steady --creep -1 --layer-thickness 0.5",
+                 "bond_1_peel", 0.00125, -2.690, 5e-3, 5e-3},
+                {ALIKE "--mu 0.3 --formulation steady --creep -1 --layer-thickness 0.5 --body b "
+                       "--layer-thickness-b 0.5 --base-young-b 210000 --base-poisson-b 0.3",
+                 "bond_1_peel", 0.00125, 2.690, 5e-3, 5e-3},
+                {FLAT
+                 "--young 70GPa --poisson 0.17 --radius 100 --layer-thickness 0.15 --base-young "
+                 "2.4GPa --base-poisson 0.37 --load 21.84 --contact-elements 200 --mesh fitted",
+                 "bond_1_tension_above", 24.447, 0.5126, 1e-3, 2e-3}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        char line[700];
+        snprintf(line, sizeof line, "stress --support halfplane --gap parabola %s --grid 2x2",
+                 rows[k].line);
+        held_json *root = run_json(line);
+        const json_t *most = json_object_get(json_object_get(root, "maxima"), rows[k].name);
+        const double p0 = number_in(json_object_get(root, "summary"), "max_pressure"),
+                     value = number_in(most, "value");
+        CHECK_ABS(value / (rows[k].value < 1.0 ? p0 : 1.0), rows[k].value,
+                  rows[k].tolerance * rows[k].value, "%s: %s", line, rows[k].name);
+        if (isnan(rows[k].x))
+            assert_true(json_is_null(json_object_get(most, "x")));
+        else
+            CHECK_ABS(number_in(most, "x"), rows[k].x, rows[k].x_tolerance * fabs(rows[k].x), "%s",
+                      line);
+    }
+}
+
+/* Its certificate; a rigid base has one side; without a bond there is nothing to tell; a cover has
+ * the directions of its circle: under equal pressure all around they would show no shear. */
+TEST(bonds_go_through_the_doors)
+{
+    static const struct {
+        const char *line, *has, *has_not;
+    } rows[] = {
+        {"--support halfplane --gap parabola --layer-thickness 1 --mu 0.2 --force-ratio 0.5 "
+         "--load 10 --young 1000 --radius 50",
+         "bond_1_tension_above", "bond_1_tension_below"},
+        {"--support halfplane --gap parabola --similar --mu 0.2 --load 10", "compression",
+         "bond_1"},
+        {"--support halfplane --gap parabola --layer-thickness 1 --base-young 1e4 "
+         "--base-poisson 0.3 --depth 0.5 --load 10 --young 1000 --radius 50",
+         "compression", "bond_1"},
+        {"--support hub --radius 50 --cover-thickness 5 --young 10 --poisson 0.45 --load 1 "
+         "--mu 0.5 --contact-elements 20",
+         "bond_1_shear", "bond_1_tension_below"}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        char line[700];
+        snprintf(line, sizeof line,
+                 "\"$R\" stress %s --grid 3x3 --json --quiet --output b.json && "
+                 "\"$R\" check b.json && cat b.json",
+                 rows[k].line);
+        if (shell(line))
+            fail_msg("%s: %s%s", rows[k].line, out, err);
+        assert_non_null(strstr(out, rows[k].has));
+        assert_null(strstr(out, rows[k].has_not));
+    }
 }
 
 RUN_TESTS(enter_folder, leave_folder)

@@ -468,9 +468,11 @@ typedef struct rb_rolling_model {
     struct rb_rolling_conduction *conduction; /* how heat warms these elements, kept from
                                                  round to round of a friction law; NULL: not
                                                  known yet; owned */
-    struct rb_rolling_model *freely;          /* solved free rolling of the same case, if it was
-                                                 computed on elements of its own; otherwise NULL;
-                                                 owned */
+    struct rb_rolling_given *given;  /* tractions that were given instead of solved for; NULL: those
+                                        of the state; owned */
+    struct rb_rolling_model *freely; /* solved free rolling of the same case, if it was
+                                        computed on elements of its own; otherwise NULL;
+                                        owned */
 } rb_rolling_model;
 
 /* Chooses the potential contact (or the fitted mesh), builds the bodies and solves.  On a
@@ -753,6 +755,9 @@ typedef struct {
     rb_rolling_extremum orthogonal_shear; /* largest |sxy| */
     rb_rolling_extremum tension;          /* largest principal stress */
     rb_rolling_extremum compression;      /* the smallest principal stress, with the other sign */
+    /* At the bond of a layer or a cover: largest tension across it, shear along it, and tension
+     * along it on either side.  0, without a place: none; NAN: there is no such bond or side. */
+    rb_rolling_extremum peel, bond_shear, tension_above, tension_below;
 } rb_rolling_stress_maxima;
 
 /* Finds the maxima in all of A: on its surface, along a bond on both sides of it, and

@@ -916,7 +916,10 @@ def stress(case: Union[Solution, _CaseLike] = None, grid: "tuple[int, int]" = (6
         handle.check(handle.run("rb_api_stress_of", int(body == "b")))
         handle.check(handle.run("rb_api_stress_maxima", depth))
         names = ("max_shear", "tresca_shear", "von_mises", "orthogonal_shear", "tension", "compression")
-        maxima = {name: Extremum(handle.array(f"maxima.{name}").tolist()) for name in names}
+        bond = ("bond_1_peel", "bond_1_shear", "bond_1_tension_above", "bond_1_tension_below")
+        maxima = {name: Extremum(handle.array(f"maxima.{name}").tolist()) for name in names + bond}
+        # NaN: of a bond, or a side of it, that the body does not have
+        maxima = {name: of for name, of in maxima.items() if not np.isnan(of.value)}
         if points is None:
             if np.ndim(grid) != 1 or len(grid) != 2:
                 raise InvalidInput(f"grid=: expected two whole numbers, got {grid!r}")

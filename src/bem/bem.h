@@ -209,9 +209,10 @@ rb_status rb_bem_field_stress(const rb_bem_field *field, rb_bem_points points, d
                               rb_message *why);
 void rb_bem_field_free(rb_bem_field *field);
 
-/* As rb_bem_halfplane_stress for tractions that are linear between n nodes and zero at the first
- * and the last node; sxx is then finite everywhere.  Use it for points within a few contact widths:
- * rounding errors grow with the ratio of their distance to the spacing of the nodes. */
+/* As rb_bem_halfplane_stress for tractions that are linear between n nodes and zero outside; two
+ * nodes at one place are a jump.  Where q does not jump sxx is finite everywhere.  Use it for
+ * points within a few contact widths: rounding errors grow with the ratio of their distance to the
+ * spacing of the nodes. */
 rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_points points,
                                          double *stress);
 

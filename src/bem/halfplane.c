@@ -71,8 +71,10 @@ int rb_bem_edge_load_is_valid(const rb_bem_edge_load *load, int xs, rb_bem_point
 {
     if (load->n < 1 || points.n < 0)
         return 0;
+    /* two nodes at one place are a jump; elements have a length */
+    const int jumps = xs == load->n;
     for (int i = 0; i + 1 < xs; i++)
-        if (!(load->x[i] < load->x[i + 1]))
+        if (!(load->x[i] < load->x[i + 1] || (jumps && load->x[i] == load->x[i + 1])))
             return 0;
     for (int k = 0; k < points.n; k++)
         if (!(points.xy[2 * k + 1] >= 0.0))
@@ -148,14 +150,15 @@ static double complex log_of_ends(double from, double to, double h, double y)
     return complex_of(sum < 0.0 ? -apart : apart, atan2(y * h, from * to + y * y));
 }
 
-/* No jump of q, so that sxx stays finite on the surface.
+/* sxx is finite on the surface but for jumps of q.
  *
  * With g = -p + i q on y = 0 and Phi = (1/2 pi i) int g(t)/(t - z) dt (Muskhelishvili):
  *     sxx + syy = 4 Re Phi(z),
  *     syy - i sxy = Phi(z) - Phi(z*) + (z - z*) Phi'(z)*.
  * An interval between nodes t and t + h, on which g has the slope g', adds
  *     g(z) L + g' h to 2 pi i Phi,   g' L to 2 pi i Phi',   L = ln(t + h - z) - ln(t - z),
- * g(z) being g continued; L is computed to its own digits, also where it is small. */
+ * g(z) being g continued, and a jump [g] at t adds [g]/(t - z) to 2 pi i Phi'.  L is computed to
+ * its own digits, also where it is small. */
 rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_points points,
                                          double *stress)
 {
@@ -168,6 +171,8 @@ rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_po
     if (!rise_re)
         return RB_ENOMEM;
     for (int j = 0; j + 1 < n; j++) {
+        if (nodes[j] == nodes[j + 1])
+            continue; /* a jump: no length, no share */
         rise_re[j] = (p[j] - p[j + 1]) / (nodes[j + 1] - nodes[j]);
         rise_im[j] = (q[j + 1] - q[j]) / (nodes[j + 1] - nodes[j]);
     }
@@ -177,6 +182,12 @@ rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_po
     for (int j = 0; is_series && j + 1 < n; j++) {
         const double u = (nodes[j] - far.middle) / far.half,
                      next = (nodes[j + 1] - far.middle) / far.half;
+        if (nodes[j] == nodes[j + 1]) {
+            double complex jump = complex_of(q[j + 1] - q[j], p[j] - p[j + 1]) / (2.0 * M_PI);
+            for (int m = 1; m <= TERMS; m++)
+                far.moment[m] += jump *= u;
+            continue;
+        }
         double complex at =
             complex_of(q[j + 1] - q[j], p[j] - p[j + 1]) / (next - u) / (2.0 * M_PI);
         double complex to = at * next;
@@ -205,6 +216,13 @@ rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_po
         for (int j = 0; j + 1 < n; j++) {
             const double h = nodes[j + 1] - nodes[j], from = nodes[j] - x, to = nodes[j + 1] - x;
             const double re = rise_re[j], im = rise_im[j];
+            if (h == 0.0) {
+                const double complex jump =
+                    complex_of(p[j] - p[j + 1], q[j + 1] - q[j]) / complex_of(from, -y);
+                slope_re += creal(jump);
+                slope_im += cimag(jump);
+                continue;
+            }
             const double complex L = log_of_ends(from, to, h, y);
             const double log_re = creal(L), log_im = cimag(L);
             const double on_re = -p[j] - re * from, on_im = q[j] - im * from;

@@ -21,6 +21,9 @@ static rb_status check_head(const rb_certificate *c, const json_t *root, rb_mess
 
     if (strcmp(rb_certificate_word(root, "schema"), "rollbem/1") != 0)
         return rb_certificate_refuse(c, "not a result of schema rollbem/1", why);
+    if (json_object_get(root, "tractions"))
+        return rb_certificate_refuse(
+            c, "its tractions were given, and no contact was solved that could be checked", why);
     if (json_object_get(root, "growth"))
         return rb_certificate_refuse(
             c, "a crack that grows: the faces at its other lengths are not printed", why);

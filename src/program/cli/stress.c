@@ -6,13 +6,15 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 typedef struct {
     /* options */
-    const char *grid, *points, *vtk, *fringes, *map;
+    const char *grid, *points, *tractions, *vtk, *fringes, *map;
     double depth, fringe, yield_shear;
     int shakedown, of_b;
+    int pulls, jumps, by_friction; /* of given tractions, as in rb_report_stress */
     /* where the stress is asked for */
     int nx, ny;        /* of the grid */
     rb_io_table place; /* the file of points; rows = 0: the grid */
@@ -44,6 +46,11 @@ static const rb_option options[] = {
                    .word = "auto", .word_value = 0.0),
     RB_TEXT_LINE("points", PLACE(points), "FILE",
                  "instead of a grid: rows x, y [mm], y > 0 inside A, y < 0 inside B",
+                 .unset = "none", .file = RB_FILE_READ),
+    RB_TEXT_LINE("tractions", PLACE(tractions), "FILE",
+                 "instead of a contact: rows x [mm], p, q [MPa] on A, linear between them, zero "
+                 "outside, twice the same x: a jump; with h and zone: elements, as rollbem prints "
+                 "them",
                  .unset = "none", .file = RB_FILE_READ),
     RB_TEXT_LINE("vtk", PLACE(vtk), "FILE", "for ParaView: .vtu, or .vti (half-planes only)",
                  .unset = "none", .file = RB_FILE_WRITTEN),
@@ -93,6 +100,37 @@ static int read_grid(stress *st)
                          !st->grid[end] && st->nx >= 2 && st->ny >= 2);
 }
 
+/* Given tractions act on a half-plane, and nothing is solved: what else a case has says nothing. */
+static cli_exit prepare(cli_case_run *run)
+{
+    static const char *const kept[] = {
+        "young",        "poisson", "support",   "similar",   "layer-thickness",   "base-young",
+        "base-poisson", "young-b", "poisson-b", "support-b", "base-young-b",      "base-poisson-b",
+        "plane",        "units",   "radius",    "radius-b",  "layer-thickness-b", "gap"};
+    const stress *st = run->own;
+    if (!st->tractions)
+        return CLI_CONTINUE;
+    const rb_option_set all = rb_case_options(run->words), *set = &all;
+    rb_message why = {""};
+    char buffer[400];
+    for (int k = 0; k < set->n; k++) {
+        int is_kept = !set->given[k];
+        for (size_t i = 0; i < sizeof kept / sizeof *kept && !is_kept; i++)
+            is_kept = strcmp(set->options[k].name, kept[i]) == 0;
+        if (!is_kept && set->given[k] > 0 && !cli_case_file_of(&run->args))
+            return cli_fail(CLI_USAGE, "--example: with --tractions no contact is solved; leave it "
+                                       "out");
+        if (!is_kept)
+            return cli_fail(CLI_USAGE, "%s: with --tractions no contact is solved; leave it out",
+                            rb_option_source(&set->options[k], set->given[k],
+                                             cli_case_file_of(&run->args), buffer, sizeof buffer));
+    }
+    return rb_case_given(run->words, "support")
+               ? CLI_CONTINUE
+               : cli_say(rb_case_set(run->words, "support", "halfplane", RB_GIVEN_ARGUMENT, &why),
+                         &why);
+}
+
 static cli_exit check(cli_case_run *run)
 {
     stress *st = run->own;
@@ -103,6 +141,16 @@ static cli_exit check(cli_case_run *run)
         (st->of_b ? rb_rolling_mirror_check : rb_rolling_stress_check)(&run->c->rc, &why);
     if (s != RB_OK)
         return cli_case_refused(run->words, s, &why);
+    if (st->tractions && !rb_rolling_can(&run->c->rc, RB_BODY_FLAT))
+        return cli_fail(CLI_USAGE, "--tractions: of half-planes and layers; a wheel is not flat: "
+                                   "take --support halfplane");
+    if (st->tractions && run->o.cite)
+        return cli_fail(CLI_USAGE, "--cite: with --tractions no contact is solved, and nothing but "
+                                   "(B8) of docs/theory.md is used; leave it out");
+    if (st->tractions && st->map)
+        return cli_fail(CLI_USAGE,
+                        "--shakedown-map: its limits are those of rolling; with --tractions take "
+                        "--shakedown");
     if (st->vtk && (rb_report_vtk_kind_of(st->vtk, &kind, &why) != RB_OK ||
                     rb_report_vtk_check(kind, &asked, &why) != RB_OK))
         return cli_fail(CLI_USAGE, "--vtk: %s", why.text);
@@ -146,6 +194,10 @@ static rb_report_stress of_grid(const cli_case_run *run, const rb_rolling_stress
 {
     const stress *st = run->own;
     return (rb_report_stress){.of_b = st->of_b,
+                              .tractions = st->tractions,
+                              .pulls = st->pulls,
+                              .jumps = st->jumps,
+                              .by_friction = st->by_friction,
                               .nx = grid->nx,
                               .ny = grid->ny,
                               .n = grid->nx * grid->ny,
@@ -175,6 +227,12 @@ static rb_status solve_points(stress *st, const rb_rolling_model *model, rb_mess
     for (int k = 0; k < n && st->of_b; k++)
         st->xy[2 * k + 1] = 0.0 - st->xy[2 * k + 1]; /* of the mirror image */
     rb_status s = rb_rolling_inside(model, n, st->xy, inside);
+    for (int k = 0; k < n && s == RB_OK; k++)
+        if (st->xy[2 * k + 1] == 0.0 && rb_rolling_friction_jumps_at(model, st->xy[2 * k]))
+            s = rb_fail(why, RB_EFORMAT,
+                        "%.200s:%d: q jumps at x = %g mm: sxx is unbounded there; take a point "
+                        "beside it",
+                        st->points, st->place.line[k], st->xy[2 * k]);
     for (int k = 0; k < n && s == RB_OK; k++) {
         const double x = st->xy[2 * k], y = st->xy[2 * k + 1];
         if (!inside[k] && st->of_b && y < 0.0)
@@ -213,13 +271,66 @@ static rb_status estimate_errors(const cli_case_run *run, stress *st, rb_message
                       : s;
 }
 
+/* A table of rollbem has h and zone: the tractions of elements, and their edges (B14). */
+static rb_status read_tractions(const cli_case_run *run, stress *st, rb_message *why)
+{
+    enum { X, P, Q, H, ZONE };
+    static const rb_io_column known[] = {
+        [X] = {"x", "position|pos|coordinate", "mm", RB_IO_COLUMN_NEEDED},
+        [P] = {"p", "pressure", "MPa", RB_IO_COLUMN_NEEDED},
+        [Q] = {"q", "friction|traction", "MPa", RB_IO_COLUMN_OPTIONAL},
+        [H] = {"h", NULL, "mm", RB_IO_COLUMN_OPTIONAL},
+        [ZONE] = {"zone", NULL, "-", RB_IO_COLUMN_OPTIONAL},
+        {NULL, NULL, "-", RB_IO_COLUMN_UNUSED}};
+    enum { KNOWN = sizeof known / sizeof *known };
+    const rb_units units = rb_case_units(run->words, rb_option_given(&run->set, "tractions"));
+    const double *column[KNOWN] = {NULL};
+    rb_message heard = {""};
+    rb_io_table table = {0};
+    rb_status s = rb_io_table_read(st->tractions, &table, why);
+    const int headed = s == RB_OK && table.name != NULL;
+    if (s == RB_OK)
+        s = rb_io_table_assign(st->tractions, &table,
+                               headed                   ? (int)KNOWN
+                               : table.columns == P + 1 ? P + 1
+                                                        : Q + 1,
+                               known, units, column, why);
+    double *none = s == RB_OK ? rb_alloc((size_t)table.rows, 1) : NULL;
+    if (s == RB_OK && !none)
+        s = RB_ENOMEM;
+    if (s == RB_OK && !column[H] != !column[ZONE])
+        s = rb_fail(&heard, RB_EFORMAT, "elements need both columns, h and zone");
+    if (s == RB_OK) {
+        const double *q = column[Q] ? column[Q] : none;
+        rb_case_result *r = &st->run;
+        s = column[H] ? rb_rolling_model_of_elements(&run->c->rc, table.rows, column[X], column[H],
+                                                     column[P], q, column[ZONE], &r->model,
+                                                     &r->solution, &heard)
+                      : rb_rolling_model_of_nodes(&run->c->rc, table.rows, column[X], column[P], q,
+                                                  &r->model, &r->solution, &heard);
+        st->by_friction = 1;
+        for (int k = 0; k < table.rows; k++) {
+            st->pulls += column[P][k] < 0.0;
+            st->by_friction &= column[P][k] == 0.0;
+        }
+        for (int k = 0; !isnan(rb_rolling_next_friction_jump(&r->model, &k));)
+            st->jumps++;
+    }
+    free(none);
+    rb_io_table_free(&table);
+    if (s != RB_OK && heard.text[0])
+        rb_fail(why, s, "%.200s: %.400s", st->tractions, heard.text);
+    return s;
+}
+
 static rb_status solve_stress(cli_case_run *run, rb_message *why)
 {
     stress *st = run->own;
     /* The model belongs to a plain solution, whose error bars follow. */
     rb_resolved_case plain = *run->c;
     plain.error = 0;
-    rb_status s = cli_run_case(&plain, NULL, &st->run, why);
+    rb_status s =
+        st->tractions ? read_tractions(run, st, why) : cli_run_case(&plain, NULL, &st->run, why);
     if (s == RB_OK && run->c->error)
         s = estimate_errors(run, st, why);
     if (s == RB_OK && st->of_b)
@@ -262,7 +373,7 @@ static rb_status solve_stress(cli_case_run *run, rb_message *why)
         st->table.n = st->place.rows;
         st->table.at = st->at_points;
     }
-    run->solution = &st->run.solution;
+    run->solution = st->tractions ? NULL : &st->run.solution;
     run->printable = s == RB_OK;
     return s;
 }
@@ -272,7 +383,7 @@ static rb_status solve_stress(cli_case_run *run, rb_message *why)
 static void fill_in(const cli_case_run *run, rb_report_document *d)
 {
     const stress *st = run->own;
-    d->result = &st->run;
+    d->result = st->tractions ? NULL : &st->run;
     d->stress = &st->table;
 }
 
@@ -356,13 +467,14 @@ static const cli_case_file files[] = {{"vtk", .write = write_vtk},
 
 static void summarise(FILE *out, const cli_case_run *run)
 {
-    rb_report_summary(out, run->solution, cli_terminal_width(STDERR_FILENO));
+    if (run->solution)
+        rb_report_summary(out, run->solution, cli_terminal_width(STDERR_FILENO));
     rb_report_stress_summary(out, &((const stress *)run->own)->table);
     if (shows_column(run)) {
         const stress *st = run->own;
         const double x = st->at.at[column_shown(st)].x;
         fprintf(out, "  table     below x = %.4g %s; a file gets all %d points\n",
-                fabs(x) < 1e-9 * run->solution->half_width ? 0.0 : x,
+                fabs(x) < 1e-9 * st->run.solution.half_width ? 0.0 : x,
                 rb_unit_name(run->c->units, "mm"), st->table.n);
     }
 }
@@ -382,6 +494,7 @@ static void ask(const cli_case_run *run, json_t **members)
         rb_report_json_set(&shakedown, "yield_shear", rb_report_json_number(st->yield_shear));
     }
     rb_report_json_set(members, "body", json_string(bodies[st->of_b].name));
+    rb_report_json_set(members, "tractions", json_boolean(st->tractions != NULL));
     rb_report_json_set(members, "maxima", json_true());
     rb_report_json_set(members, "depth", rb_report_json_number(st->depth > 0.0 ? st->depth : NAN));
     rb_report_json_set(members, "grid", grid);
@@ -397,6 +510,7 @@ static const cli_case_command command = {
     .options = options,
     .option_n = OPTIONS,
     .files = files,
+    .prepare = prepare,
     .check = check,
     .solve = solve_stress,
     .table = write_table,

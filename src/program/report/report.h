@@ -307,6 +307,9 @@ typedef struct {
     const rb_rolling_stress_maxima *errors; /* NULL: not computed */
     const rb_rolling_shakedown *shakedown;  /* NULL: not asked for */
     double yield_shear;                     /* k of A [stress]; NAN: not given */
+    const char
+        *tractions; /* file of given tractions, of which s has the totals; NULL: of a contact */
+    int pulls, jumps, by_friction; /* of these rows: with p < 0; where q jumps; p is zero in all */
     const rb_rolling_case *rc;
     const rb_rolling_solution *s;
 } rb_report_stress;

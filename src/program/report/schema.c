@@ -161,6 +161,9 @@ json_t *rb_report_json_schema(void)
                        columns(&rb_rolling_wear_columns, 0,
                                "an entry per step of wear; errors: estimated errors, of --error"));
     rb_report_json_set(&of, "body", typed("string", "whose stress: a or b"));
+    rb_report_json_set(&of, "tractions",
+                       typed("object", "of --tractions: their totals; largest: of |p|, or of |q| "
+                                       "where p is zero"));
     rb_report_json_set(&of, "grid",
                        columns(&rb_rolling_stress_scalars, 1, "stress, an entry per point"));
     rb_report_json_set(&of, "points",

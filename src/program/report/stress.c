@@ -34,6 +34,7 @@ static const char *quantity(double value, double rounding, int digits, const dou
     return text;
 }
 
+/* NULL: it belongs to a bond, or a side of it, that the body does not have. */
 static const char *maximum_text(const rb_report_stress *s, int k, char *line, size_t size)
 {
     const rb_rolling_extremum of = extremum(s->maxima, k), *m = &of;
@@ -42,6 +43,12 @@ static const char *maximum_text(const rb_report_stress *s, int k, char *line, si
     /* a place is searched for until it is known to about a millionth of the half-width */
     const double place = 1e-6 * s->s->half_width, p0 = s->s->max_pressure;
     char value[48], x[48], y[48];
+    if (isnan(m->value))
+        return NULL;
+    if (isnan(m->x)) {
+        snprintf(line, size, "%-24s none", maximum(k)->meaning);
+        return line;
+    }
     const char *where = m->material == RB_MATERIAL_BODY ? "" : rb_rolling_place_name(m->material);
     snprintf(line, size, "%-24s %s %s at x = %s, y = %s %s%s%s; %.5g p0", maximum(k)->meaning,
              quantity(m->value, 1e-12 * p0, 6, e ? &e->value : NULL, value),
@@ -69,11 +76,43 @@ static const char *shakedown_text(const rb_report_stress *s, char *line, size_t 
     return line;
 }
 
+/* Totals of given tractions, and what a reader of them has to know: of the lines 0 to
+ * GIVEN_LINES - 1 those that are not NULL. */
+enum { GIVEN_LINES = 3 };
+static const char *given_text(const rb_report_stress *s, int k, char *line, size_t size)
+{
+    const rb_units units = s->s->units;
+    const char *force = rb_unit_name(units, "N/mm");
+    if (!s->tractions)
+        return NULL;
+    if (k == 0)
+        snprintf(line, size,
+                 "given tractions: P = %.6g %s, Q = %.6g %s, M = %.6g %s; p0 = %.6g %s, "
+                 "the largest %s",
+                 s->s->normal_load, force, s->s->tangential_load, force, s->s->resistance_moment,
+                 rb_unit_name(units, "N"), s->s->max_pressure, rb_unit_name(units, "MPa"),
+                 s->by_friction ? "|q|" : "|p|");
+    else if (k == 1 && s->jumps)
+        snprintf(line, size,
+                 "q jumps: sxx is unbounded there, and the largest stresses leave out "
+                 "%g a around each jump",
+                 RB_ROLLING_LEFT_OUT);
+    else if (k == 2 && s->pulls > 0)
+        snprintf(line, size, "p < 0 in %d row%s: the surface is pulled there", s->pulls,
+                 s->pulls == 1 ? "" : "s");
+    else
+        return NULL;
+    return line;
+}
+
 void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
 {
     void *before = rb_locale_begin();
     char line[400];
     const rb_units units = s->s->units;
+    for (int k = 0; k < GIVEN_LINES; k++)
+        if (given_text(s, k, line, sizeof line))
+            fprintf(out, "%s\n", line);
     fprintf(out, "stress in %s", s->of_b ? "B" : "A");
     if (s->of_b)
         fprintf(out, " (E = %.6g %s, nu = %.4g)", rb_unit_shown(units, "MPa", s->rc->b.young),
@@ -81,7 +120,8 @@ void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
     fprintf(out, " under p0 = %.6g %s, a = %.5g %s\n", s->s->max_pressure,
             rb_unit_name(units, "MPa"), s->s->half_width, rb_unit_name(units, "mm"));
     for (int k = 0; maximum(k); k++)
-        fprintf(out, "  %s\n", maximum_text(s, k, line, sizeof line));
+        if (maximum_text(s, k, line, sizeof line))
+            fprintf(out, "  %s\n", line);
     if (s->shakedown)
         fprintf(out, "  %s\n", shakedown_text(s, line, sizeof line));
     rb_locale_end(before);
@@ -101,13 +141,19 @@ rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s, const cha
     char line[400];
     rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
 
-    const rb_rolling_note_list notes = rb_rolling_find_notes(s->rc, s->s);
-    rb_report_comment_notes(&c, &notes);
+    if (!s->tractions) {
+        const rb_rolling_note_list notes = rb_rolling_find_notes(s->rc, s->s);
+        rb_report_comment_notes(&c, &notes);
+    }
+    for (int k = 0; k < GIVEN_LINES; k++)
+        if (given_text(s, k, line, sizeof line))
+            rb_report_comment(&c, "%s", line);
     rb_report_comment(&c, s->of_b
                               ? "tension positive; y < 0 inside B; the grid follows B's surface"
                               : "tension positive; y > 0 inside A; the grid follows A's surface");
     for (int k = 0; maximum(k); k++)
-        rb_report_comment(&c, "%s", maximum_text(s, k, line, sizeof line));
+        if (maximum_text(s, k, line, sizeof line))
+            rb_report_comment(&c, "%s", line);
     if (s->shakedown)
         rb_report_comment(&c, "%s", shakedown_text(s, line, sizeof line));
     for (int k = 0; k < s->n; k++) {
@@ -131,9 +177,21 @@ void rb_report_json_stress(json_t **root, const rb_report_stress *s)
     const rb_report_columns columns = columns_of(s);
     json_t *points = json_object();
     rb_report_json_set(root, "body", json_string(s->of_b ? "b" : "a"));
+    if (s->tractions) {
+        const rb_report_named totals[] = {{"normal_load", s->s->normal_load},
+                                          {"tangential_load", s->s->tangential_load},
+                                          {"resistance_moment", s->s->resistance_moment},
+                                          {"largest", s->s->max_pressure},
+                                          {"half_width", s->s->half_width},
+                                          {"rows_pulled", s->pulls},
+                                          {"friction_jumps", s->jumps}};
+        rb_report_json_set(root, "tractions", rb_report_json_named(7, totals));
+    }
     rb_report_json_set(root, "depth", rb_report_json_number(s->depth > 0.0 ? s->depth : NAN));
     json_t *all = json_object();
     for (int k = 0; maximum(k); k++) {
+        if (isnan(extremum(s->maxima, k).value))
+            continue;
         json_t *one = json_extremum(extremum(s->maxima, k));
         rb_report_json_set(&one, "material",
                            json_string(rb_rolling_place_name(extremum(s->maxima, k).material)));

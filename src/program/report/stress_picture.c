@@ -102,6 +102,14 @@ static void write_subtitle(FILE *out, const view *v, const char *title, double y
     static const char *const kinds[] = {"static", "steady rolling", "transient rolling"};
     const rb_rolling_solution *s = v->s->s;
     const rb_report_unit length = rb_report_axis_unit(s->units, "mm", s->half_width);
+    if (v->s->tractions) {
+        fprintf(out,
+                "set label 1 '{/:Bold %s}   given tractions,  p_0 = %s %s,  a = %s %s' at screen "
+                "0.5, %g center\n",
+                title, RB_REPORT_NUMBER(s->max_pressure / v->stress_unit, 5), v->stress_label,
+                RB_REPORT_NUMBER(s->half_width / length.size, 4), length.name, y);
+        return;
+    }
     fprintf(out, "set label 1 '{/:Bold %s}   %s,  μ %s %g,  p_0 = %s %s,  a = %s %s", title,
             kinds[s->formulation], s->mu ? "≤" : "=", rb_rolling_largest_mu(v->s->rc),
             RB_REPORT_NUMBER(s->max_pressure / v->stress_unit, 5), v->stress_label,

@@ -82,7 +82,9 @@ static subsurface below(rb_verify *v, const rb_rolling_case *rc)
     rb_rolling_model model;
     rb_rolling_solution s = {0};
     const rb_rolling_extremum nothing = {NAN, NAN, NAN, RB_MATERIAL_BODY};
-    subsurface b = {.p0 = NAN, .max = {nothing, nothing, nothing, nothing, nothing, nothing}};
+    subsurface b = {.p0 = NAN};
+    for (int k = 0; rb_rolling_maximum(&b.max, k); k++)
+        *rb_rolling_maximum(&b.max, k) = nothing;
     rb_status status = rb_rolling_solve_model(rc, &model, &s, &why);
     b.a = s.hertz_half_width;
     if (status == RB_OK) {
@@ -276,6 +278,78 @@ static void loads_of_pressures(rb_verify *v)
     }
 }
 
+/* Below strips of uniform and of triangular friction, by quadrature (B18; Johnson 2.5, 2.6). */
+static void below_strips(rb_verify *v)
+{
+    static const double x[] = {-1.0, 0.0, 1.0}, none[] = {0.0, 0.0, 0.0},
+                        uniform[] = {1.0, 1.0, 1.0}, triangle[] = {0.0, 1.0, 0.0},
+                        place[] = {1.0, 0.1};
+    static const struct {
+        const char *name;
+        const double *p, *q;
+        double wanted[3];
+    } rows[] = {{"uniform pressure", uniform, none, {-0.468222, -0.499974, -0.317516}},
+                {"uniform friction", none, uniform, {-1.590421, -0.317516, -0.468222}},
+                {"triangle of pressure", triangle, none, {-0.134661, -0.031647, -0.045245}},
+                {"triangle of friction", none, triangle, {-0.742062, -0.045245, -0.134661}}};
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_verify_on_same(&rc);
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        rb_rolling_model model = {0};
+        rb_rolling_solution s;
+        rb_rolling_stress at = {.sxx = NAN};
+        rb_message why = {""};
+        rb_status status =
+            rb_rolling_model_of_nodes(&rc, 3, x, rows[k].p, rows[k].q, &model, &s, &why);
+        if (status == RB_OK)
+            status = rb_rolling_stress_at(&model, 1, place, &at, &why);
+        rb_verify_note(v, status, &why);
+        const double got[] = {at.sxx, at.syy, at.sxy};
+        for (int j = 0; j < 3; j++)
+            rb_verify_absolute(v, got[j], rows[k].wanted[j], 1e-6, "%s, a = 1: %s at (1, 0.1) a",
+                               rows[k].name,
+                               j == 0   ? "sxx"
+                               : j == 1 ? "syy"
+                                        : "sxy");
+        rb_rolling_model_free(&model);
+    }
+}
+
+/* At the bond of a layer of the base's own material at a depth of a/2: Hertz's stress, and behind
+ * full sliding its peel (B19). */
+static void at_bonds(rb_verify *v)
+{
+    for (int slides = 0; slides < 2; slides++) {
+        rb_rolling_case rc = rb_verify_uncoupled();
+        rb_rolling_model model = {0};
+        rb_rolling_solution s = {0};
+        rb_rolling_stress_maxima most = {.bond_shear = {NAN, NAN, NAN, RB_MATERIAL_LAYER},
+                                         .peel = {NAN, NAN, NAN, RB_MATERIAL_LAYER}};
+        rb_message why = {""};
+        rc.a.poisson = 0.3;
+        rb_verify_on_same(&rc);
+        rc.a.layer = 0.5 * rb_rolling_derive(&rc).half_width;
+        rc.a.base_young = rc.a.young;
+        rc.a.base_poisson = rc.a.poisson;
+        rc.mu = slides ? 0.3 : 0.0;
+        rc.formulation = slides ? RB_STEADY : RB_STATIC;
+        rc.creep = slides ? -1.0 : 0.0;
+        rc.mesh = RB_MESH_FITTED;
+        rc.contact_elements = 200;
+        rb_status status = rb_rolling_solve_model(&rc, &model, &s, &why);
+        if (status == RB_OK)
+            status = rb_rolling_stress_maxima_find(&model, 0.0, &most, &why);
+        rb_verify_note(v, status, &why);
+        rb_verify_relative(v, most.bond_shear.value / s.max_pressure, slides ? 0.33971 : 0.25, 2e-3,
+                           "bond at 0.5 a, mu = %g: shear / p0", rc.mu);
+        if (slides)
+            rb_verify_relative(v, most.peel.value / s.max_pressure, 0.00125, 0.01,
+                               "bond at 0.5 a, mu = %g: peel / p0", rc.mu);
+        rb_rolling_solution_free(&s);
+        rb_rolling_model_free(&model);
+    }
+}
+
 void rb_verify_bodies(rb_verify *v)
 {
     /* Johnson's shakedown map (S1): k/p0 without friction, and at full sliding with
@@ -308,5 +382,7 @@ void rb_verify_bodies(rb_verify *v)
     below_layers(v);
     below_sliding(v);
     below_in_b(v);
+    below_strips(v);
+    at_bonds(v);
     loads_of_pressures(v);
 }

@@ -1,5 +1,5 @@
 /* The largest stresses of body A (B8): looked for on its surface, along its bond on both
- * sides of it, and inside. */
+ * sides of it, and inside; and those of the bond itself, by name. */
 #include "rolling/solve/results.h"
 
 #include <gsl/gsl_math.h>
@@ -25,13 +25,16 @@ typedef struct {
     double radius;      /* 0: flat */
     double low, high;   /* s of the outermost nodes of the tractions */
     double reach;       /* how far on either side of them */
-    double left_out[3]; /* s of the two ends of a clamped arc, and how far around them */
+    double *left_out;   /* s of the two ends of a clamped arc, or of jumps of given friction */
+    double around_them; /* how far the stress is left out there */
+    int left_outs;
     int strips, rows, n;
     strip strip[2];
     row *row;
     double *s, *at_s; /* candidates for s; of the points */
     int candidates;
     rb_rolling_stress *at;
+    int along_bond; /* 1: stresses have the directions of the bond, not those of x and y */
 } search;
 
 const char *rb_rolling_place_name(rb_rolling_place place)
@@ -58,8 +61,20 @@ static void to_xy(const search *f, const strip *in, double s, double depth, doub
 
 static int is_left_out(const search *f, double s, double depth)
 {
-    return hypot(s - f->left_out[0], depth) < f->left_out[2] ||
-           hypot(s - f->left_out[1], depth) < f->left_out[2];
+    int is = 0;
+    for (int k = 0; k < f->left_outs && !is; k++)
+        is = hypot(s - f->left_out[k], depth) < f->around_them;
+    return is;
+}
+
+/* From x and y to the tangent and the normal of a circle about A's centre. */
+static void turn(double radius, rb_rolling_stress *at)
+{
+    const double angle = atan2(at->x, radius - at->y), c = cos(angle), s = sin(angle),
+                 sxx = at->sxx, syy = at->syy, sxy = at->sxy;
+    at->sxx = sxx * c * c + 2.0 * sxy * c * s + syy * s * s;
+    at->syy = sxx * s * s - 2.0 * sxy * c * s + syy * c * c;
+    at->sxy = (syy - sxx) * c * s + sxy * (c - s) * (c + s);
 }
 
 /* Stress at n places of a strip. */
@@ -72,7 +87,10 @@ static rb_status stress_at(const search *f, const strip *in, int n, const double
         return rb_arena_done(&scratch, RB_ENOMEM);
     for (int k = 0; k < n; k++)
         to_xy(f, in, s[k], depth[k], xy + 2 * k);
-    return rb_arena_done(&scratch, rb_rolling_field_at(f->field, n, xy, at, why));
+    const rb_status status = rb_rolling_field_at(f->field, n, xy, at, why);
+    for (int k = 0; k < n && status == RB_OK && f->along_bond && f->radius > 0.0; k++)
+        turn(f->radius, &at[k]);
+    return rb_arena_done(&scratch, status);
 }
 
 /* ---- The points that are looked at first ------------------------------------------- */
@@ -135,7 +153,7 @@ static void add_row(search *f, const strip *in, double depth)
 
 /* From both boundaries of the strip into it, in steps that grow with the distance from the
  * boundary; there are so many. */
-enum { MOST_ROWS = 256 };
+enum { MOST_ROWS = 256, MOST_OUTWARDS = 400 };
 
 static void add_rows(search *f, const strip *in, double first)
 {
@@ -217,13 +235,30 @@ static rb_status set_rows(search *f, double depth, rb_arena *memory)
     return RB_OK;
 }
 
+/* Where given friction jumps, sxx is infinite like the logarithm of the distance. */
+static rb_status leave_out_jumps(search *f, rb_arena *memory)
+{
+    int n = 0;
+    for (int k = 0; !isnan(rb_rolling_next_friction_jump(f->model, &k));)
+        n++;
+    f->left_out = n ? rb_arena_doubles(memory, (size_t)n, 1) : NULL;
+    if (n && !f->left_out)
+        return RB_ENOMEM;
+    for (int k = 0; f->left_outs < n;)
+        f->left_out[f->left_outs++] = rb_rolling_next_friction_jump(f->model, &k);
+    f->around_them = RB_ROLLING_LEFT_OUT * 0.5 * (f->high - f->low);
+    return RB_OK;
+}
+
 /* A clamped arc has two ends, where the stress is infinite like a power of the distance. */
-static rb_status leave_out_ends(search *f)
+static rb_status leave_out_ends(search *f, rb_arena *memory)
 {
     const rb_rolling_body *a = &f->model->rc->a;
-    f->left_out[2] = 0.0;
     if (a->support != RB_BEM_ARC)
-        return RB_OK;
+        return leave_out_jumps(f, memory);
+    f->left_out = rb_arena_doubles(memory, 2, 1);
+    if (!f->left_out)
+        return RB_ENOMEM;
     rb_bem_mesh mesh = {0};
     const rb_status s = rb_rolling_boundary_mesh(f->model, 0, &mesh, NULL);
     const double half = a->arc * M_PI / 180.0;
@@ -234,10 +269,11 @@ static rb_status leave_out_ends(search *f)
              mesh.condition[2 * next] == RB_BEM_DISPLACEMENT))
             for (int k = 0; k < 2; k++) {
                 const int i = k ? next : j;
-                f->left_out[2] =
-                    fmax(f->left_out[2], hypot(mesh.x1[i] - mesh.x0[i], mesh.y1[i] - mesh.y0[i]));
+                f->around_them =
+                    fmax(f->around_them, hypot(mesh.x1[i] - mesh.x0[i], mesh.y1[i] - mesh.y0[i]));
             }
     }
+    f->left_outs = 2;
     f->left_out[0] = -(M_PI - half) * a->radius;
     f->left_out[1] = (M_PI - half) * a->radius;
     rb_bem_mesh_free(&mesh);
@@ -292,15 +328,27 @@ static double compression(const rb_rolling_stress *s)
     return -s->principal_2;
 }
 
-enum { MEASURES = 6 };
-static measure *const measures[MEASURES] = {max_shear,        tresca_shear, von_mises,
-                                            orthogonal_shear, tension,      compression};
+static double across(const rb_rolling_stress *s)
+{
+    return s->syy;
+}
+
+static double along(const rb_rolling_stress *s)
+{
+    return s->sxx;
+}
+
+/* The last four are those of the bond, in its own directions. */
+enum { IN_BODY = 6, MEASURES = 10 };
+static measure *const measures[MEASURES] = {max_shear, tresca_shear, von_mises, orthogonal_shear,
+                                            tension,   compression,  across,    orthogonal_shear,
+                                            along,     along};
 
 rb_rolling_extremum *rb_rolling_maximum(rb_rolling_stress_maxima *m, int k)
 {
-    rb_rolling_extremum *const all[MEASURES] = {&m->max_shear, &m->tresca_shear,
-                                                &m->von_mises, &m->orthogonal_shear,
-                                                &m->tension,   &m->compression};
+    rb_rolling_extremum *const all[MEASURES] = {
+        &m->max_shear,   &m->tresca_shear, &m->von_mises,  &m->orthogonal_shear, &m->tension,
+        &m->compression, &m->peel,         &m->bond_shear, &m->tension_above,    &m->tension_below};
     return k < MEASURES ? all[k] : NULL;
 }
 
@@ -447,6 +495,95 @@ static rb_status maximum(const search *f, measure *of, rb_rolling_extremum *best
     return RB_OK;
 }
 
+/* ---- At the bond ------------------------------------------------------------------- */
+
+/* Places along the bond: the candidates, as far from each other as fits what changes at this depth,
+ * and outwards to 5 half-widths and 5 depths from the middle.  Returns how many; s: room for them.
+ */
+static int along_the_bond(const search *f, double depth, double *s)
+{
+    const double half = 0.5 * (f->high - f->low),
+                 most = f->radius > 0.0 ? f->reach : fmax(f->reach, 4.0 * half + 5.0 * depth);
+    int n = 0;
+    for (int k = 0; k < f->candidates; k++)
+        if (n == 0 || f->s[k] - s[n - 1] >= 0.1 * depth)
+            s[n++] = f->s[k];
+    double step = fmax(half / 50.0, 0.3 * depth);
+    for (double away = f->reach; away < most && n + 2 <= f->candidates + MOST_OUTWARDS;) {
+        away = fmin(away + step, most);
+        s[n++] = f->low - away;
+        s[n++] = f->high + away;
+        step = fmin(1.2 * step, 0.05 * most);
+    }
+    gsl_sort(s, 1, (size_t)n);
+    return n;
+}
+
+/* The highest peak of one measure among n places along a side of the bond.  What only falls off to
+ * the end of the places is no peak. */
+static rb_status peak_of_bond(const search *f, const strip *in, double depth, measure *of, int n,
+                              const double *s, const rb_rolling_stress *at,
+                              rb_rolling_extremum *best, rb_message *why)
+{
+    double most = 0.0, largest = 0.0;
+    *best = (rb_rolling_extremum){0.0, NAN, NAN, in->material};
+    for (int i = 0; i < n; i++)
+        largest = fmax(largest, fmax(at[i].von_mises, fabs(at[i].hydrostatic)));
+    for (int i = 1; i + 1 < n; i++)
+        if (of(&at[i]) >= of(&at[i - 1]) && of(&at[i]) > of(&at[i + 1]))
+            most = fmax(most, of(&at[i]));
+    if (!(most > 1e-9 * largest))
+        return RB_OK;
+    for (int i = 1; i + 1 < n; i++) {
+        double top = of(&at[i]), place[2] = {s[i], depth}, xy[2];
+        if (!(top >= of(&at[i - 1]) && top > of(&at[i + 1]) && top > 0.9 * most))
+            continue;
+        const rb_status status = climb(f, of, in, 0.5 * fmax(s[i] - s[i - 1], s[i + 1] - s[i]), 0.0,
+                                       best->value - 1e-3 * best->value, place, &top, why);
+        if (status != RB_OK)
+            return status;
+        to_xy(f, in, place[0], place[1], xy);
+        /* of two that rounding alone tells apart that on the right */
+        if (top > best->value * (1.0 + 1e-7) ||
+            (top >= best->value * (1.0 - 1e-7) && xy[0] > best->x))
+            *best = (rb_rolling_extremum){top, xy[0], xy[1], in->material};
+    }
+    return RB_OK;
+}
+
+/* Peel, shear and tension along the bond, down to which the search goes; a rigid base and a core
+ * have no stress of their own. */
+static rb_status maxima_of_bond(search *f, double searched, rb_rolling_stress_maxima *maxima,
+                                rb_arena *memory, rb_message *why)
+{
+    const rb_rolling_body *a = &f->model->rc->a;
+    const double bond = a->layer > 0.0 ? a->layer : a->cover;
+    if (!(bond > 0.0) || (searched > 0.0 && searched < bond))
+        return RB_OK;
+    const int sides = a->layer > 0.0 && a->base_young > 0.0 ? 2 : 1;
+    const strip side[2] = {{RB_MATERIAL_LAYER, 0.0, bond}, {RB_MATERIAL_BASE, bond, INFINITY}};
+    const size_t most = (size_t)f->candidates + MOST_OUTWARDS;
+    double *s = rb_arena_doubles(memory, most, 2);
+    rb_rolling_stress *at = rb_arena_zeros(memory, most, sizeof *at);
+    if (memory->failed)
+        return RB_ENOMEM;
+    double *depth = s + most;
+    const int n = along_the_bond(f, bond, s);
+    for (int k = 0; k < n; k++)
+        depth[k] = bond;
+    rb_status status = RB_OK;
+    f->along_bond = 1;
+    for (int k = 0; k < sides && status == RB_OK; k++) {
+        status = stress_at(f, &side[k], n, s, depth, at, why);
+        for (int i = IN_BODY; i < MEASURES && status == RB_OK; i++)
+            if ((i == MEASURES - 1) == k)
+                status = peak_of_bond(f, &side[k], bond, measures[i], n, s, at,
+                                      rb_rolling_maximum(maxima, i), why);
+    }
+    f->along_bond = 0;
+    return status;
+}
+
 rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double depth,
                                         rb_rolling_stress_maxima *maxima, rb_message *why)
 {
@@ -455,7 +592,9 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
     rb_arena memory = {0};
     search f = {.model = model};
 
-    *maxima = (rb_rolling_stress_maxima){none, none, none, none, none, none};
+    for (int i = 0; i < MEASURES; i++)
+        *rb_rolling_maximum(maxima, i) =
+            i < IN_BODY ? none : (rb_rolling_extremum){NAN, NAN, NAN, RB_MATERIAL_LAYER};
     rb_status s = rb_rolling_stress_check(model->rc, why);
     if (s != RB_OK)
         return s;
@@ -466,11 +605,13 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
     if (s == RB_OK)
         s = set_rows(&f, depth, &memory);
     if (s == RB_OK)
-        s = leave_out_ends(&f);
+        s = leave_out_ends(&f, &memory);
     if (s == RB_OK)
         s = compute_stress(&f, why);
-    for (int i = 0; i < MEASURES && s == RB_OK; i++)
+    for (int i = 0; i < IN_BODY && s == RB_OK; i++)
         s = maximum(&f, measures[i], rb_rolling_maximum(maxima, i), why);
+    if (s == RB_OK)
+        s = maxima_of_bond(&f, depth, maxima, &memory, why);
     rb_rolling_field_free(f.field);
     rb_arena_free(&memory);
     return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the largest stresses") : s;
@@ -481,20 +622,27 @@ rb_status rb_rolling_stress_maxima_at(const rb_rolling_model *model,
 {
     double xy[2 * MEASURES];
     rb_rolling_stress at[MEASURES];
+    int n = 0, which[MEASURES];
 
     for (int k = 0; k < MEASURES; k++) {
         const rb_rolling_extremum *m = rb_rolling_maximum(maxima, k);
-        xy[2 * k] = m->x;
-        xy[2 * k + 1] = m->y;
+        if (isnan(m->x)) /* a bond without it, or none */
+            continue;
+        xy[2 * n] = m->x;
+        xy[2 * n + 1] = m->y;
         /* digits that are lost in other units must not lead to the other side of the bond */
         const double bond = model->rc->a.layer;
         if (bond > 0.0 && fabs(m->y - bond) < 1e-12 * bond)
-            xy[2 * k + 1] = m->material == RB_MATERIAL_BASE ? nextafter(bond, INFINITY) : bond;
+            xy[2 * n + 1] = m->material == RB_MATERIAL_BASE ? nextafter(bond, INFINITY) : bond;
+        which[n++] = k;
     }
-    const rb_status s = rb_rolling_stress_at(model, MEASURES, xy, at, why);
+    const rb_status s = rb_rolling_stress_at(model, n, xy, at, why);
     if (s != RB_OK)
         return s;
-    for (int k = 0; k < MEASURES; k++)
-        rb_rolling_maximum(maxima, k)->value = measures[k](&at[k]);
+    for (int k = 0; k < n; k++) {
+        if (which[k] >= IN_BODY && !rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT))
+            turn(model->rc->a.radius, &at[k]);
+        rb_rolling_maximum(maxima, which[k])->value = measures[which[k]](&at[k]);
+    }
     return RB_OK;
 }

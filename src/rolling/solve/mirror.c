@@ -24,7 +24,8 @@ rb_status rb_rolling_mirror_create(const rb_rolling_model *model, rb_rolling_mir
         return s;
     const int n = model->state.n;
     rb_rolling_mirror *m = calloc(1, sizeof *m);
-    double *q = rb_alloc((size_t)n + 1, 1);
+    const int nodes = model->given ? model->given->load.n : 0;
+    double *q = rb_alloc((size_t)n + (size_t)nodes + 1, 1);
     if (!m || !q) {
         free(m);
         free(q);
@@ -32,6 +33,8 @@ rb_status rb_rolling_mirror_create(const rb_rolling_model *model, rb_rolling_mir
     }
     for (int i = 0; i < n; i++)
         q[i] = -model->state.q[i];
+    for (int i = 0; i < nodes; i++)
+        q[n + i] = -model->given->load.q[i];
     m->rc = *model->rc;
     m->rc.a = model->rc->b;
     m->rc.b = model->rc->a;
@@ -42,6 +45,11 @@ rb_status rb_rolling_mirror_create(const rb_rolling_model *model, rb_rolling_mir
     m->model = *model;
     m->model.rc = &m->rc;
     m->model.state.q = m->q = q;
+    if (nodes > 0) {
+        m->given = (rb_rolling_given){.load = model->given->load};
+        m->given.load.q = q + n;
+        m->model.given = &m->given;
+    }
     m->model.bodies.system_a = model->bodies.system_b;
     m->model.bodies.system_b = model->bodies.system_a;
     *mirror = m;

@@ -45,6 +45,7 @@ void rb_rolling_model_free(rb_rolling_model *model)
     free(model->carried.temperature);
     free(model->carried.yielded);
     rb_rolling_conduction_free(model->conduction);
+    rb_rolling_given_free(model->given);
     rb_rolling_forget_free_rolling(model);
     memset(model, 0, sizeof *model);
 }

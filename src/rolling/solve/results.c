@@ -298,7 +298,11 @@ static const rb_rolling_result stresses[] = {
         LARGEST("von_mises", of, von_mises, "von Mises" in),                                       \
         LARGEST("orthogonal_shear", of, orthogonal_shear, "orthogonal shear |sxy|" in),            \
         LARGEST("tension", of, tension, "largest principal stress" in),                            \
-        LARGEST("compression", of, compression, "largest compression" in)
+        LARGEST("compression", of, compression, "largest compression" in),                         \
+        LARGEST("bond_1_peel", of, peel, "peel at the bond" in),                                   \
+        LARGEST("bond_1_shear", of, bond_shear, "shear at the bond" in),                           \
+        LARGEST("bond_1_tension_above", of, tension_above, "tension above the bond" in),           \
+        LARGEST("bond_1_tension_below", of, tension_below, "tension below the bond" in)
 
 static const rb_rolling_result maxima[] = {MAXIMA("", "")};
 static const rb_rolling_result maxima_b[] = {MAXIMA("_b", " in B")};

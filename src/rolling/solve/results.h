@@ -33,6 +33,14 @@ rb_status rb_rolling_field_at(const rb_rolling_field *field, int n, const double
 /* The n abscissae between which the tractions are linear. */
 const double *rb_rolling_field_nodes(const rb_rolling_field *field, int *n);
 
+/* ---- given_tractions.c ------------------------------------------------------------- */
+
+/* From one end of what is loaded to the other: edges of the contact, NAN without one, or the first
+ * and the last of given nodes. */
+void rb_rolling_loaded_between(const rb_rolling_model *model, double *from, double *to);
+/* On the surface, where given tractions jump: the mean of both sides; sxx NAN where q jumps. */
+void rb_rolling_given_on_jump(const rb_rolling_model *model, double x, double *sigma);
+
 /* Lengths of the elements in contact and of those among them that stick. */
 void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,
                              double *stick);

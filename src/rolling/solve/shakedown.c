@@ -119,7 +119,7 @@ static rb_status row_of(const rb_rolling_model *model, rb_arena *scratch, rb_rol
     double from, to;
 
     *field = NULL;
-    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
+    rb_rolling_loaded_between(model, &from, &to);
     rb_status s = rb_rolling_stress_check(model->rc, why);
     if (s != RB_OK)
         return s;
@@ -129,6 +129,10 @@ static rb_status row_of(const rb_rolling_model *model, rb_arena *scratch, rb_rol
     if (model->rc->a.layer > 0.0)
         return rb_fail(why, RB_EINVAL,
                        "shakedown: of one material; a layer and its base yield differently");
+    int jump = 0;
+    if (!isnan(rb_rolling_next_friction_jump(model, &jump)))
+        return rb_fail(why, RB_EINVAL,
+                       "shakedown: the friction jumps, and no body keeps elastic where it does");
     if (!(from < to))
         return rb_fail(why, RB_NO_CONTACT, "no contact, no stress");
     s = rb_rolling_field_create(model, field, why);

@@ -67,9 +67,13 @@ static rb_status create_flat(rb_rolling_field *f, rb_message *why)
 {
     const rb_rolling_model *model = f->model;
     const rb_bem_surface surface = rb_rolling_surface_of(model->rc, &model->rc->a, f->length);
-    const rb_status s = rb_rolling_traction_nodes(model->rc, &model->mesh, &model->state,
-                                                  model->mesh.ends, model->state.p, model->state.q,
-                                                  RB_ROLLING_EDGE_NODES, &f->memory, &f->nodes);
+    rb_status s = RB_OK;
+    if (model->given)
+        f->nodes = model->given->load;
+    else
+        s = rb_rolling_traction_nodes(model->rc, &model->mesh, &model->state, model->mesh.ends,
+                                      model->state.p, model->state.q, RB_ROLLING_EDGE_NODES,
+                                      &f->memory, &f->nodes);
     return s == RB_OK && model->rc->a.layer > 0.0
                ? rb_bem_layer_field_create(&surface, &f->nodes, &f->layer, why)
                : s;
@@ -185,12 +189,15 @@ static rb_status evaluate(const rb_rolling_field *f, int n, const double *xy, rb
         for (int k = 0; k < n; k++) {
             if (s != RB_OK)
                 return s;
-            if (hypot(xy[2 * k] - ends[0], xy[2 * k + 1]) > far)
+            if (!model->given && hypot(xy[2 * k] - ends[0], xy[2 * k + 1]) > far)
                 s = rb_bem_halfplane_stress(&load, (rb_bem_points){1, xy + 2 * k}, sigma + 3 * k);
         }
-        return s == RB_OK && f->layer
-                   ? rb_bem_layer_field_add(f->layer, (rb_bem_points){n, xy}, sigma, why)
-                   : s;
+        if (s == RB_OK && f->layer)
+            s = rb_bem_layer_field_add(f->layer, (rb_bem_points){n, xy}, sigma, why);
+        for (int k = 0; k < n && s == RB_OK && model->given; k++)
+            if (xy[2 * k + 1] == 0.0)
+                rb_rolling_given_on_jump(model, xy[2 * k], sigma + 3 * k);
+        return s;
     }
     double *moved = rb_arena_doubles(scratch, (size_t)n, 2);
     if (!moved)
@@ -262,7 +269,8 @@ rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *
 {
     if (rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT)) {
         for (int k = 0; k < n; k++)
-            inside[k] = xy[2 * k + 1] >= 0.0 && xy[2 * k + 1] <= deepest_stressed(model->rc);
+            inside[k] = xy[2 * k + 1] >= 0.0 && xy[2 * k + 1] <= deepest_stressed(model->rc) &&
+                        !(xy[2 * k + 1] == 0.0 && rb_rolling_friction_jumps_at(model, xy[2 * k]));
         return RB_OK;
     }
     rb_arena scratch = {0};
@@ -353,7 +361,7 @@ rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int n
     memset(grid, 0, sizeof *grid);
     if (nx < 2 || ny < 2 || (double)nx * ny > 1e8)
         return rb_fail(why, RB_EINVAL, "grid: expected 2 x 2 ... 1e8 points, got %d x %d", nx, ny);
-    rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &from, &to);
+    rb_rolling_loaded_between(model, &from, &to);
     if (!(from < to))
         return rb_fail(why, RB_NO_CONTACT, "no contact, no stress");
     *grid = (rb_rolling_stress_grid){.nx = nx, .ny = ny};

@@ -216,7 +216,8 @@ static void insert_node(rb_bem_edge_load *load, double *x, double *p, double *q,
     load->n++;
 }
 
-/* More nodes at an end of stick, as at an edge, and the friction there. */
+/* More nodes at an end of stick, as at an edge, and the friction there; at the end itself, k = 0
+ * but for rounding, nothing of the bound is left. */
 static void add_stick_end(const patch *r, const stick_end *e, rb_bem_edge_load *load, double *x,
                           double *p, double *q)
 {
@@ -231,7 +232,7 @@ static void add_stick_end(const patch *r, const stick_end *e, rb_bem_edge_load *
                      k = nodes * sqrt(sqrt(fmax(1.0 - t / e->of.reach, 0.0)));
         if (t >= 0.0 && side * (to - x[i]) >= 0.0)
             q[i] = e->ratio * p[i] -
-                   (k > 0.0 ? (1.0 + 1.0 / (3.0 * k * k)) * e->least * pressure_beyond(&e->of, t)
+                   (k > 0.5 ? (1.0 + 1.0 / (3.0 * k * k)) * e->least * pressure_beyond(&e->of, t)
                             : 0.0);
     }
 }
