@@ -32,7 +32,7 @@ static const struct {
     {"curve --mu 0.3,0 --over creep --to 1e-3 --plot c.png", 64,
      "--plot: no curve to draw at mu = 0"},
     {"stress --accuracy 0.1", 64, "--accuracy: stress has error bars"},
-    {"curve --plot a.bmp", 64, "--plot: expected a name ending in .png, .svg or .pdf"},
+    {"curve --plot a.bmp", 64, "--plot: expected a name ending in .png, .svg, .pdf or .eps"},
     {"stress --grid 10", 64, "--grid: expected two numbers >= 2 such as 61x41, got '10'"},
     {"stress --grid 10x", 64, "got '10x'"},
     {"stress --grid 10x1", 64, "got '10x1'"},

@@ -1,6 +1,7 @@
 /* The largest pressure as the load: Hertz's formula, layers, a quartic gap, wheels by the way back,
  * and what is refused. */
 #include "cli_run.h"
+#include "random_case.h"
 
 #include <gsl/gsl_math.h>
 #include <jansson.h>
@@ -88,6 +89,49 @@ TEST(the_way_back)
     }
 }
 
+/* Random cases, and the same with exchanged bodies: the way back, and the same load. */
+static void draw(random_case *c, int k, int exchanged)
+{
+    const char *const of[] = {exchanged ? "-b" : "", exchanged ? "" : "-b"};
+    *c = (random_case){.state = (uint64_t)k * 40503u + 7u, .line = ""};
+    random_add(c, "--support halfplane --gap parabola --contact-elements %d --mu %g ",
+               20 + random_choice(c, 20), random_choice(c, 2) ? random_between(c, 0.05, 0.6) : 0.0);
+    for (int body = 0; body < 2; body++) {
+        const double young = random_log(c, 2e3, 2e5);
+        random_add(c, "--young%s %g --poisson%s %g --radius%s %g ", of[body], young, of[body],
+                   random_between(c, 0.0, 0.45), of[body], random_between(c, 20.0, 200.0));
+        if (random_choice(c, 3) == 0)
+            random_add(c, "--layer-thickness%s %g --base-young%s %g --base-poisson%s 0.3 ",
+                       of[body], random_log(c, 0.3, 3.0), of[body], young * random_log(c, 0.2, 5.0),
+                       of[body]);
+    }
+    if (random_choice(c, 4) == 0)
+        random_add(c, "--interlayer-normal %g ", random_log(c, 1e-7, 1e-5));
+}
+
+TEST(random_cases_go_back)
+{
+    for (int k = 0; k < 100; k++) {
+        random_case c, other;
+        if (!is_in_turn(k, 10))
+            continue;
+        draw(&c, k, 0);
+        draw(&other, k, 1);
+        char line[980];
+        snprintf(line, sizeof line, "%.950s --max-pressure 10", c.line);
+        held_json *root = run_json(line);
+        const double load = of_summary(root, "normal_load");
+        if (strstr(line, "layer") || !strstr(line, "--mu 0 ")) /* searched for; else Hertz's */
+            CHECK_REL(of_summary(root, "max_pressure"), 10.0, 2e-10, "case %d: %s", k, line);
+        else
+            CHECK_REL(2.0 * load / (M_PI * of_summary(root, "hertz_half_width")), 10.0, 1e-9,
+                      "case %d: %s", k, line);
+        snprintf(line, sizeof line, "%.950s --max-pressure 10", other.line);
+        held_json *exchanged = run_json(line);
+        CHECK_REL(of_summary(exchanged, "normal_load"), load, 1e-7, "case %d: %s", k, line);
+    }
+}
+
 /* Where Hertz's formula says the load, its derivatives and every sequence of states follow. */
 TEST(hertz_has_derivatives_and_steps)
 {
@@ -95,6 +139,10 @@ TEST(hertz_has_derivatives_and_steps)
     "--support halfplane --gap parabola --similar --young 206000 --poisson 0.3 --radius 23.5 "     \
     "--max-pressure 1500 "
     held_json *root = run_json(STEEL "--mu 0 --derivatives=normal_load,hertz_half_width");
+    /* with a third body the formula does not hold, not even with a little of one */
+    const json_t *without = json_object_get(root, "without_derivatives");
+    assert_non_null(strstr(json_string_value(json_object_get(without, "interlayer-normal")),
+                           "under --max-pressure Hertz's formula"));
     const json_t *all = json_object_get(root, "derivatives");
     const json_t *load = json_object_get(all, "normal_load");
     const double P = of_summary(root, "normal_load");

@@ -770,6 +770,7 @@ static void check_whole(const char *path)
     } kinds[] = {{".png", "\x89PNG\r\n\x1a\n", "IEND\xae\x42\x60\x82"},
                  {".svg", "<?xml", "</svg>"},
                  {".pdf", "%PDF-", "%%EOF"},
+                 {".eps", "%!PS-Adobe-", "%%EOF"},
                  {".vtu", "<?xml", "</VTKFile>"},
                  {".hdf5", "\x89HDF\r\n\x1a\n", ""},
                  {".tsv", "", ""}, /* the checker reads it */

@@ -344,13 +344,13 @@ TEST(notes_warn_where_due)
 
 /* ---- Pictures --------------------------------------------------------------------- */
 
-TEST(pictures_of_three_kinds)
+TEST(pictures_of_four_kinds)
 {
-    static const char *const names[] = {"a.png", "b.svg", "c.pdf"};
-    static const char *const starts[] = {"\x89PNG", "<?xml", "%PDF"};
+    static const char *const names[] = {"a.png", "b.svg", "c.pdf", "d.eps"};
+    static const char *const starts[] = {"\x89PNG", "<?xml", "%PDF", "%!PS"};
     const rb_rolling_solution s = carter();
     const rb_rolling_case rc = rb_rolling_case_defaults();
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 4; k++) {
         rb_report_picture_kind kind;
         FILE *file = tmpfile();
         assert_int_equal(rb_report_picture_kind_of(names[k], &kind, &heard), RB_OK);

@@ -614,7 +614,7 @@ TEST(what_cannot_be_drawn_is_refused)
         {"--plot a.png --show creep_ratio", "--show: creep_ratio varies"},
         {"--map a.png --vary-3 'mu .1 .2' ",
          "--map: cases 1 and 9 have the same mu and creep-ratio: more options vary"},
-        {"--plot a.gif", "--plot: expected a name ending in .png, .svg or .pdf"},
+        {"--plot a.gif", "--plot: expected a name ending in .png, .svg, .pdf or .eps"},
         {"--plot-size 85mm", "--plot-size: there is no picture"},
         {"--plot a.png --map b.png --plot-script c.gp", "--plot-script: expected one picture"},
         {"--plot a.png --map a.png", "both would write 'a.png'"}};

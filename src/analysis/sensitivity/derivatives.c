@@ -59,9 +59,15 @@ static rb_status vary(void *context, double value, rb_rolling_case *rc, rb_messa
 {
     const rb_case_number *number = context;
     rb_case *copy = varied(number->c, number->option, number->entry, value);
-    const rb_status s =
+    rb_status s =
         copy ? rb_case_resolve(copy, why) : rb_fail(why, RB_ENOMEM, "out of memory for a case");
 
+    /* a load that was searched for does not continue that of Hertz's formula */
+    if (s == RB_OK && !isnan(copy->resolved.rc.pressed_by) &&
+        isnan(number->c->resolved.rc.pressed_by))
+        s = rb_fail(why, RB_EINVAL,
+                    "derivatives: under --max-pressure Hertz's formula says the load at this value "
+                    "only; give --load");
     if (s == RB_OK)
         *rc = copy->resolved.rc;
     rb_case_free(copy);

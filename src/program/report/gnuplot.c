@@ -114,7 +114,8 @@ static const struct {
     size_t end_size;
 } whole[] = {{"\x89PNG\r\n\x1a\n", "IEND\xae\x42\x60\x82", 8},
              {"<?xml", "</svg>", 6},
-             {"%PDF-", "%%EOF", 5}};
+             {"%PDF-", "%%EOF", 5},
+             {"%!PS-Adobe-", "%%EOF", 5}};
 
 /* gnuplot does not say that its output could not be written. */
 static int is_whole(FILE *picture, rb_report_picture_kind kind)
@@ -168,14 +169,15 @@ rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double se
 
 rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *kind, rb_message *why)
 {
-    static const char *const ends[] = {".png", ".svg", ".pdf"};
+    static const char *const ends[] = {".png", ".svg", ".pdf", ".eps"};
     const size_t n = strlen(path);
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 4; k++)
         if (n > 4 && strcmp(path + n - 4, ends[k]) == 0) {
             *kind = (rb_report_picture_kind)k;
             return RB_OK;
         }
-    return rb_fail(why, RB_EINVAL, "expected a name ending in .png, .svg or .pdf, got '%s'", path);
+    return rb_fail(why, RB_EINVAL, "expected a name ending in .png, .svg, .pdf or .eps, got '%s'",
+                   path);
 }
 
 enum { SHAPES = 4 };
@@ -202,6 +204,14 @@ static const struct {
               {1.5, 1.5, 1.4, 1.4},
               15},
              {"pdfcairo",
+              "in",
+              1,
+              {10, 12, 13.33, 13.33},
+              {7.5, 5, 7.5, 7.5},
+              {21, 19, 20, 20},
+              {1.6, 1.6, 1.5, 1.5},
+              21},
+             {"epscairo",
               "in",
               1,
               {10, 12, 13.33, 13.33},
@@ -282,7 +292,7 @@ void rb_report_letters_in(rb_report_canvas canvas, rb_report_shape shape, double
                           double letters[2])
 {
     const extent e = extent_of(canvas, shape);
-    const double points = canvas.kind == RB_REPORT_PDF ? 72.0 : 1.0;
+    const double points = strcmp(looks[canvas.kind].unit, "in") == 0 ? 72.0 : 1.0;
     letters[0] = e.width * points / font;
     letters[1] = e.height * points / font;
 }

@@ -179,7 +179,7 @@ void rb_report_citations(FILE *out, const rb_rolling_case *rc, const rb_rolling_
 
 /* ---- Pictures --------------------------------------------------------------------- */
 
-typedef enum { RB_REPORT_PNG, RB_REPORT_SVG, RB_REPORT_PDF } rb_report_picture_kind;
+typedef enum { RB_REPORT_PNG, RB_REPORT_SVG, RB_REPORT_PDF, RB_REPORT_EPS } rb_report_picture_kind;
 
 /* Sizes for a column and a page of a paper, with letters of 6 and 7 points, and for a
  * slide, 16:9. */
@@ -202,7 +202,7 @@ typedef struct {
  * gnuplot is missing or has failed; RB_EFORMAT: it does not understand the canvas's own template;
  * RB_EWRITE; RB_ENOMEM. */
 
-/* By the end of the name.  RB_EINVAL: none of .png, .svg, .pdf. */
+/* By the end of the name.  RB_EINVAL: none of .png, .svg, .pdf, .eps. */
 rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *kind,
                                     rb_message *why);
 
