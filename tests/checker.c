@@ -823,7 +823,8 @@ static void check_kinematics(const contact *c, const table *t)
     const double length = tolerance(c) * length_scale(c, t) + rounding, strain = bulk_strain(c);
     for (int i = 0; i < t->n; i++) {
         const double worn = json_number_value(json_array_get(c->worn, (size_t)i));
-        const double g0 = initial_gap(c, x[i]) + worn;
+        const double tilt = number(c->summary, "tilt");
+        const double g0 = initial_gap(c, x[i]) + worn - (isnan(tilt) ? 0.0 : tilt * x[i]);
         if (!isnan(g0) && !c->surface_normals)
             expect("gap = g0 + un - approach", t->column[GAP][i], g0 + un[i] - delta, length);
     }

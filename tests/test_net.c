@@ -121,6 +121,7 @@ static const struct {
       {"both", "--interlayer-normal 2e-6 --interlayer-tangential 1e-6"},
       {"hardening", "--interlayer-tangential 1e-6 --yield-stress 40 --hardening 1e5"},
       {"softening", "--yield-stress 200 --hardening -2000"}}},
+    {"tilt", NULL, {{"none", ""}, {"given", "--tilt 1e-3"}}},
     {"bulk", NULL, {{"none", ""}, {"both", "--bulk-stress 60 --bulk-stress-b -25"}}},
     {"mu",
      NULL,
@@ -185,7 +186,7 @@ static const char options_elsewhere[] =
     " layer-thickness-b base-young-b base-poisson-b relaxation-time-b relaxation-ratio-b"
     " free-axle gap-smoothing conductivity heat-capacity temperature conductivity-b heat-capacity-b"
     " temperature-b worn interlayer-normal interlayer-tangential yield-stress hardening"
-    " bulk-stress bulk-stress-b ";
+    " bulk-stress bulk-stress-b tilt moment ";
 
 enum { LEVELS = 40 };
 static level levels[FACTORS][LEVELS];
@@ -321,6 +322,10 @@ static const conflict conflicts[] = {
     {{"output=curve*", "regime!steady"}, "a curve needs steady rolling"},
     {{"output=curve*", "tangential!none"}, "a curve varies it from --from"},
     {{"size=transforms", "output=fclib"}, "dense"},
+    {{"tilt=given", "regime=steady|transient*|steps"}, "of bodies at rest only"},
+    {{"tilt=given", "support!halfplane"}, "of elastic half-planes only"},
+    {{"tilt=given", "body-b=hub|arc"}, "of elastic half-planes only"},
+    {{"tilt=given", RELAXING}, NULL},
     {{"bulk=both", "body-b=rigid"}, "a rigid body B is not strained"},
     {{"bulk=both", "support!halfplane"}, "half-planes of one elastic material only"},
     {{"bulk=both", "body-b=hub|arc"}, "half-planes of one elastic material only"},

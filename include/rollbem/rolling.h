@@ -173,8 +173,12 @@ typedef struct {
      * tension > 0: it strains the bodies (theory-rolling.md 4.13).  Half-planes of one elastic
      * material. */
     double bulk_stress, bulk_stress_b;
-    int free_axle; /* steady: A's axle is free of torque, Q = -M/R_A (theory-bodies.md V4), and
-                      creepage and force are not given */
+    /* static, half-planes: A is turned by the tilt, the gap is g0 - tilt x (> 0: lower at +x), or
+     * by so much that the pressure has this moment int x p dx [force]; one of, NAN: no moment. */
+    double tilt, moment;
+    double tilted_by; /* the tilt that makes the moment (rb_rolling_find_tilt); otherwise NAN */
+    int free_axle;    /* steady: A's axle is free of torque, Q = -M/R_A (theory-bodies.md V4), and
+                         creepage and force are not given */
 
     rb_rolling_formulation formulation;
     int increments;   /* static, transient: if above 1, the bodies are first pressed and
@@ -363,6 +367,7 @@ typedef struct {
     double load_error;                   /* |P - wanted|/wanted; NAN without load control */
     double support_balance;              /* (reaction + load)/P; NAN for half-planes */
     double approach, tangential_shift;   /* delta; rigid shift (static) [length] */
+    double tilt;                         /* of A; NAN: neither tilt nor moment is given */
     double creepage, free_creepage;      /* xi; xi at Q = 0 (steady); NAN otherwise, or if no
                                             such xi was found */
     double hertz_half_width;             /* rb_rolling_contact_half_width of the load P; used in
@@ -386,7 +391,7 @@ typedef struct {
                                   stick_from if some in between slip [length] */
     int slip_violations;       /* number of elements whose slip does not oppose the friction */
     double dissipation;        /* power per unit speed [force/length] */
-    double resistance_moment;  /* M = int x p dx [force]; NAN in static, like the ratio */
+    double resistance_moment;  /* M = int x p dx [force]; NAN in static without tilt */
     double resistance_ratio;   /* M/(P R), the coefficient of rolling resistance */
     double hysteresis_factor;  /* Tabor's, (3 pi/2) M/(P a), a half the width of the contact; steady
                                   rolling of bodies that relax, otherwise NAN */
@@ -517,7 +522,7 @@ typedef struct {
     const double *mu;
     const double *load, *approach;                                   /* at most one */
     const double *shift, *creep, *creep_ratio, *force, *force_ratio; /* at most one */
-    const double *bulk_stress, *bulk_stress_b;
+    const double *bulk_stress, *bulk_stress_b, *tilt;
 } rb_rolling_program; /* all borrowed */
 
 /* One entry per step. */

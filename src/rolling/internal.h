@@ -17,6 +17,9 @@ void rb_rolling_coarsen_boundary(rb_rolling_plan *plan);
  * (U1): displacements differ by so much times x. */
 int rb_rolling_is_strained(const rb_rolling_case *rc);
 double rb_rolling_bulk_strain(const rb_rolling_case *rc);
+/* 1: a tilt or a moment is given; and the tilt (U3). */
+int rb_rolling_is_tilted(const rb_rolling_case *rc);
+double rb_rolling_tilt(const rb_rolling_case *rc);
 /* 1: Q, a force ratio or a free axle is given, and no creepage. */
 int rb_rolling_force_is_given(const rb_rolling_case *rc);
 
@@ -192,6 +195,13 @@ rb_status rb_rolling_bodies_with_matrix(const rb_rolling_case *rc, const rb_roll
 /* Computes the gaps at the midpoints with the irregularity at its present place.
  * RB_ENOMEM. */
 rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *mesh);
+
+/* ---- pressed.c ----------------------------------------------------------------------- */
+
+/* Solves a trial of a search.  s: its numbers, without columns, the moment of the pressure among
+ * them also in static; widest: NULL, or the half-width of the potential contact that it needs. */
+rb_status rb_rolling_try(const rb_rolling_case *trial, rb_rolling_solution *s, double *widest,
+                         rb_message *why);
 
 /* ---- former_place.c ---------------------------------------------------------------- */
 

@@ -129,6 +129,8 @@ int rb_rolling_pressure_is_hertz(const rb_rolling_case *rc);
  * 1e-10; sets pressed_by and, of equal elements without one, zone.  RB_EINVAL: the gap has
  * corners. */
 rb_status rb_rolling_find_load(rb_rolling_case *rc, rb_message *why);
+/* Sets tilted_by, and the zone, of a case with a given moment: solves it some times. */
+rb_status rb_rolling_find_tilt(rb_rolling_case *rc, rb_message *why);
 /* 1: a body has a finite thickness: a layer, a cover or a wheel on a hub. */
 int rb_rolling_has_thickness(const rb_rolling_case *rc);
 /* The larger radius of A and B; A's if B is a plane. */
@@ -222,7 +224,8 @@ typedef enum {
     RB_FOR_WAY,        /* friction coefficient from a column of a history */
     RB_FOR_MEMORY,
     RB_FOR_YIELD,
-    RB_FOR_CYLINDER_B
+    RB_FOR_CYLINDER_B,
+    RB_FOR_TILT
 } rb_rolling_condition;
 
 /* Description of one result.  Tables, JSON, studies and error bars are made from these
@@ -554,7 +557,7 @@ typedef struct {
                        */
 } rb_rolling_program_column;
 
-enum { RB_ROLLING_PROGRAM_COLUMNS = 12 };
+enum { RB_ROLLING_PROGRAM_COLUMNS = 13 };
 extern const rb_rolling_program_column rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS];
 
 /* The case that results of the program refer to; if the program has a column mu, its mu

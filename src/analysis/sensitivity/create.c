@@ -27,6 +27,11 @@ static rb_status check(const rb_rolling_model *model, rb_message *why)
             "derivatives: under --max-pressure only where Hertz's formula says the load; "
             "give --load %.10g",
             rc->pressed_by);
+    if (!isnan(rc->tilted_by))
+        return rb_fail(why, RB_EINVAL,
+                       "derivatives: with --moment not known; give the tilt that it makes, --tilt "
+                       "%.10g",
+                       rc->tilted_by);
     if (!dense && (rb_rolling_law_depends_on_state(rc) || model->problem.yield))
         return rb_fail(why, RB_EINVAL,
                        "derivatives: friction that depends on the state, or an interface "

@@ -178,6 +178,9 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
         fprintf(out, "  patch %-3d %.5g ... %.5g %s, p0 = %.6g %s, P = %.6g %s\n", k + 1,
                 s->patch[k].from, s->patch[k].to, mm, s->patch[k].max_pressure, stress,
                 s->patch[k].normal_load, load);
+    if (!isnan(s->tilt))
+        fprintf(out, "  tilt      %.6g, M = %.6g %s\n", s->tilt, s->resistance_moment,
+                rb_unit_name(s->units, "N"));
     if (s->formulation == RB_STATIC && !isnan(s->tangential_shift))
         fprintf(out, "  shift     %.6g %s\n", s->tangential_shift, rb_unit_name(s->units, "mm"));
     if (!isnan(s->creepage) && (s->formulation != RB_STATIC || s->creepage != 0.0))

@@ -113,6 +113,22 @@ static void bulk_stress(rb_verify *v)
                        "bulk stress of B: shift of the creepage");
 }
 
+/* A moment moves the contact of a cylinder by M/P (theory-rolling.md U3). */
+static void tilted(rb_verify *v)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.mu = 0.0;
+    const rb_rolling_derived d = rb_rolling_derive(&rc);
+    const double arm = 0.5 * rc.half_width;
+    rc.moment = arm * d.load;
+    static rb_message why;
+    rb_verify_note(v, rb_rolling_find_tilt(&rc, &why), &why);
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->tilt, arm / rc.a.radius, 1e-4, "moment P a/2 on a parabola: tilt");
+    rb_verify_relative(v, 0.5 * (s->contact_from + s->contact_to), arm, 1e-4,
+                       "moment P a/2 on a parabola: middle of the contact");
+}
+
 /* The matrix of Addi et al. and its pivoted form are one problem. */
 static void two_forms(rb_verify *v)
 {
@@ -232,6 +248,7 @@ void rb_verify_contact(rb_verify *v)
     carter_on(v, RB_BEM_HUB, "hub");
     two_forms(v);
     bulk_stress(v);
+    tilted(v);
     rb_rolling_case rc = rb_verify_uncoupled();
     rc.force_ratio = 0.64;
     const rb_rolling_solution *s = rb_verify_solve(v, &rc);

@@ -65,7 +65,7 @@ double rb_rolling_rise_at_corners(const rb_rolling_case *rc, double from, double
     return rb_rolling_derive(rc).modulus * most / (2.0 * M_PI);
 }
 
-double rb_rolling_initial_gap(const rb_rolling_case *rc, double x)
+static double upright_gap(const rb_rolling_case *rc, double x)
 {
     const double worn = rb_rolling_worn_depth(rc, x), R = rc->a.radius, bore = -rc->b.radius;
 
@@ -81,6 +81,13 @@ double rb_rolling_initial_gap(const rb_rolling_case *rc, double x)
      * million. */
     const double a = sqrt(R * R - x * x), b = sqrt(bore * bore - x * x);
     return x * x * (bore - R) * (1.0 + (R + bore) / (a + b)) / ((R + a) * (bore + b)) + worn;
+}
+
+/* (U3) */
+double rb_rolling_initial_gap(const rb_rolling_case *rc, double x)
+{
+    const double tilt = rb_rolling_tilt(rc);
+    return tilt != 0.0 ? upright_gap(rc, x) - tilt * x : upright_gap(rc, x);
 }
 
 static rb_status mesh_alloc(int n, rb_rolling_mesh *mesh)

@@ -21,6 +21,8 @@ rb_rolling_case rb_rolling_case_defaults(void)
                           .half_width = NAN,
                           .max_pressure = NAN,
                           .pressed_by = NAN,
+                          .moment = NAN,
+                          .tilted_by = NAN,
                           .shift = NAN,
                           .creep = NAN,
                           .creep_ratio = NAN,
@@ -318,6 +320,16 @@ double rb_rolling_bulk_strain(const rb_rolling_case *rc)
                           ? rc->bulk_stress_b * compliance(rb_rolling_material(rc, &rc->b))
                           : 0.0)
                : 0.0;
+}
+
+int rb_rolling_is_tilted(const rb_rolling_case *rc)
+{
+    return rc->tilt != 0.0 || !isnan(rc->moment);
+}
+
+double rb_rolling_tilt(const rb_rolling_case *rc)
+{
+    return isnan(rc->moment) ? rc->tilt : isnan(rc->tilted_by) ? 0.0 : rc->tilted_by;
 }
 
 int rb_rolling_force_is_given(const rb_rolling_case *rc)
@@ -762,6 +774,41 @@ static rb_status check_bulk(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
+/* A wheel that rolls turns, and has no tilt; one that is held by its boundary elements has its
+ * own. */
+static rb_status check_tilt(const rb_rolling_case *rc, rb_message *why)
+{
+    const char *which = isnan(rc->moment) ? "tilt" : "moment";
+    double from, to;
+
+    if (!rb_rolling_is_tilted(rc))
+        return RB_OK;
+    if (rc->tilt != 0.0 && !isnan(rc->moment))
+        return rb_fail(why, RB_EINVAL, "tilt and moment exclude each other");
+    if (rc->formulation != RB_STATIC)
+        return rb_fail(
+            why, RB_EINVAL,
+            "%s: of bodies at rest only (--formulation static); what rolls turns, and its "
+            "moment is the result resistance_moment",
+            which);
+    if (!rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_ELASTIC))
+        return rb_fail(why, RB_EINVAL,
+                       "%s: of elastic half-planes only (--support halfplane), without relaxation",
+                       which);
+    rb_rolling_extent(rc, &from, &to);
+    if (rc->zone > 0.0) {
+        from = fmax(from, -rc->zone);
+        to = fmin(to, rc->zone);
+    }
+    const double arm = rc->moment / rb_rolling_derive(rc).load;
+    return !isnan(arm) && !(arm > from && arm < to)
+               ? rb_fail(why, RB_EINVAL,
+                         "moment: the load acts at M/P = %.4g mm, and A touches between %.4g and "
+                         "%.4g mm at most: it topples",
+                         arm, from, to)
+               : RB_OK;
+}
+
 static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
 {
     const struct {
@@ -790,10 +837,11 @@ static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
 rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
 {
     static rb_status (*const checks[])(const rb_rolling_case *, rb_message *) = {
-        check_memory, check_heat,         rb_rolling_law_check, check_interlayer,
-        check_normal, check_tangential,   check_bore,           check_gap,
-        check_bulk,   check_irregularity, check_worn,           check_increments,
-        check_sizes,  check_mesh};
+        check_memory,     check_heat,         rb_rolling_law_check,
+        check_interlayer, check_normal,       check_tangential,
+        check_bore,       check_gap,          check_bulk,
+        check_tilt,       check_irregularity, check_worn,
+        check_increments, check_sizes,        check_mesh};
     const rb_rolling_case defaults = rb_rolling_case_defaults();
     rb_status s = rb_rolling_check_ranges(rc, &defaults, why);
 

@@ -257,6 +257,14 @@ const rb_option rb_case_table[] = {
                    "the same of an elastic B, as of a specimen in a test of fretting fatigue",
                    .word = "none", .word_value = 0.0),
 
+    RB_GROUP_LINE("tilt", "Tilt of A at rest: one of"),
+    RB_NUMBER_LINE("tilt", RC(tilt), "-", RB_ANY,
+                   "static, half-planes: angle by which A is turned; > 0 lowers it at +x",
+                   .word = "none", .word_value = 0.0, .excludes = RB_ONE_TILT),
+    RB_NUMBER_LINE("moment", RC(moment), "N", RB_ANY,
+                   "M = int x p dx, per width, that the pressure has; the tilt follows",
+                   .unset = "not given", .excludes = RB_ONE_TILT),
+
     RB_GROUP_LINE("problem", "Problem"),
     RB_CHOICE_LINE("formulation", RC(formulation), formulations,
                    "static: displaced without rolling; steady: rolling towards +x; "
@@ -276,7 +284,7 @@ const rb_option rb_case_table[] = {
                  "table with named columns: distance (transient, in Hertz half-widths of "
                  "the largest load), time [s] (static, viscoelastic bodies), mu, load or "
                  "approach, shift, creep, creep_ratio, force or force_ratio, bulk_stress, "
-                 "bulk_stress_b; a column replaces the value of the case",
+                 "bulk_stress_b, tilt; a column replaces the value of the case",
                  .unset = "none", .file = RB_FILE_READ),
 
     RB_NUMBER_LINE("time-step", RC(time_step), "s", RB_ABOVE(0),

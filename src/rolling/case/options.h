@@ -118,7 +118,8 @@ enum {
     RB_ONE_LOADING = 4,
     RB_ONE_YOUNG_B = 8,
     RB_ONE_POISSON_B = 16,
-    RB_ONE_FRICTION = 32
+    RB_ONE_FRICTION = 32,
+    RB_ONE_TILT = 64
 };
 
 enum { RB_CASE_OPTIONS_MAX = 128 };

@@ -811,6 +811,22 @@ static rb_status find_load(rb_case *c, rb_message *why)
     return rb_rolling_find_load(&c->resolved.rc, why);
 }
 
+/* The same of the tilt of a moment. */
+static rb_status find_tilt(rb_case *c, rb_message *why)
+{
+    const rb_rolling_case *rc = &c->resolved.rc;
+
+    if (c->purpose == RB_CASE_WEAR || rb_case_has_steps(&c->resolved))
+        return rb_fail(why, RB_EINVAL,
+                       "moment: of one state only; with steps give --tilt, or a column tilt of the "
+                       "history");
+    if (c->resolved.error || c->resolved.accuracy > 0.0)
+        return rb_fail(why, RB_EINVAL, "moment: has no error bars, those of --tilt are known");
+    if (!isnan(rc->max_pressure) && !rb_rolling_pressure_is_hertz(rc))
+        return rb_fail(why, RB_EINVAL, "moment: needs --load, --half-width or --approach here");
+    return rb_rolling_find_tilt(&c->resolved.rc, why);
+}
+
 rb_status rb_case_resolve(rb_case *c, rb_message *why)
 {
     const rb_option_precedence how = rb_case_precedence(c);
@@ -857,8 +873,9 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     const int many = rc->contact_elements > most &&
                      (rc->contact_elements >= MANY || rb_rolling_suits_large(rc, &equal));
     /* the search for a load needs a mesh that scales with the contact */
-    const int scales = !isnan(rc->max_pressure) && !rb_rolling_pressure_is_hertz(rc) &&
-                       !rb_case_has_steps(&c->resolved);
+    const int scales =
+        ((!isnan(rc->max_pressure) && !rb_rolling_pressure_is_hertz(rc)) || !isnan(rc->moment)) &&
+        !rb_case_has_steps(&c->resolved);
     /* of second order between similar half-planes, and the cheapest where there will be many */
     const int refined = c->resolved.accuracy > 0.0 && rb_rolling_carter_holds(rc) &&
                         rc->contact_elements >= LEAST_REFINED && !rb_case_given(c, "mesh");
@@ -884,6 +901,8 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
         rc->slip_operator = RB_SLIP_SECOND;
     if (s == RB_OK && !isnan(rc->max_pressure) && !rb_rolling_pressure_is_hertz(rc))
         s = find_load(c, why);
+    if (s == RB_OK && !isnan(rc->moment))
+        s = find_tilt(c, why);
     if (s == RB_OK)
         c->resolved.derived = rb_rolling_derive(&c->resolved.rc);
     return rb_case_locate(c, s, why);

@@ -141,6 +141,10 @@ static rb_status begin_step(history_state *r, rb_message *why)
         s = rb_rolling_model_set_case(model, &step, why);
     if (s == RB_OK)
         s = rb_rolling_particles_bring(&r->particles, &r->stride, why);
+    if (s == RB_OK && r->program->tilt) {
+        s = rb_rolling_mesh_set_gap(model->rc, &model->mesh);
+        rb_rolling_set_gap(&model->mesh, &model->bodies, p);
+    }
     if (s == RB_OK && !rests) {
         /* The irregularity has come nearer by the way so far. */
         model->mesh.passed = r->to * r->history->half_width;

@@ -24,6 +24,7 @@ const rb_rolling_program_column rb_rolling_program_columns[RB_ROLLING_PROGRAM_CO
     COLUMN(creep_ratio, NULL, "-", 1),
     COLUMN(bulk_stress, NULL, "MPa", 0),
     COLUMN(bulk_stress_b, NULL, "MPa", 0),
+    COLUMN(tilt, NULL, "-", 0),
 };
 
 static const double *column_of(const rb_rolling_program *program, int c)

@@ -18,25 +18,36 @@ int rb_rolling_pressure_is_hertz(const rb_rolling_case *rc)
            (rb_rolling_largest_mu(rc) == 0.0 || !rb_rolling_couples(rc));
 }
 
-/* The pressure under a load; the case is that of the search, without the largest pressure.
- * widest: NULL, or the half-width of the potential contact that it needs. */
-static rb_status pressure_under(const rb_rolling_case *rc, double load, double *pressure,
-                                double *widest, rb_message *why)
+rb_status rb_rolling_try(const rb_rolling_case *trial, rb_rolling_solution *s, double *widest,
+                         rb_message *why)
 {
-    rb_rolling_case trial = *rc;
     rb_rolling_model model = {0};
-    rb_rolling_solution s = {0};
-    trial.load = load;
-    const rb_status status = rb_rolling_solve_model(&trial, &model, &s, why);
+    rb_rolling_solution all = {0};
+    const rb_status status = rb_rolling_solve_model(trial, &model, &all, why);
+
+    *s = rb_rolling_scalars_of(&all);
     if (status == RB_OK) {
         double from, to;
-        *pressure = s.max_pressure;
+        s->resistance_moment = rb_contact_moment(&model.problem, &model.state);
         rb_rolling_contact_edges(model.rc, &model.mesh, &model.state, &from, &to);
         if (widest)
             *widest = ROOM * fmax(fabs(from), fabs(to));
     }
-    rb_rolling_solution_free(&s);
+    rb_rolling_solution_free(&all);
     rb_rolling_model_free(&model);
+    return status;
+}
+
+/* The pressure under a load; the case is that of the search, without the largest pressure. */
+static rb_status pressure_under(const rb_rolling_case *rc, double load, double *pressure,
+                                double *widest, rb_message *why)
+{
+    rb_rolling_case trial = *rc;
+    rb_rolling_solution s;
+
+    trial.load = load;
+    const rb_status status = rb_rolling_try(&trial, &s, widest, why);
+    *pressure = s.max_pressure;
     return status;
 }
 

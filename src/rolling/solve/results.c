@@ -42,6 +42,8 @@ static const rb_rolling_result scalars[] = {
            .meaning = "delta: how far A moved towards B"),
     RESULT("tangential_shift", tangential_shift, .unit = "mm", .error_bar = RB_SCALE_SHIFT,
            .meaning = "rigid shift of A; static contact"),
+    RESULT("tilt", tilt, .no_derivative = 1, .condition = RB_FOR_TILT,
+           .meaning = "of A, with --tilt or --moment"),
     RESULT("creepage", creepage, .error_bar = RB_SCALE_CREEPAGE, .study = 5, .meaning = "xi"),
     RESULT("creep_ratio", creep_ratio, .study = 6, .meaning = "xi R/(mu a), a: hertz_half_width"),
     RESULT("free_creepage", free_creepage, .error_bar = RB_SCALE_CREEPAGE, .study = 7,
@@ -389,6 +391,8 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc,
         return rc->yield_stress > 0.0;
     case RB_FOR_CYLINDER_B:
         return isfinite(rc->b.radius);
+    case RB_FOR_TILT:
+        return rb_rolling_is_tilted(rc);
     case RB_FOR_ALL:
         break;
     }

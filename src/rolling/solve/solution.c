@@ -99,12 +99,13 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
     if (s->formulation == RB_STATIC) {
         const rb_rolling_case *rc = model->rc;
         s->tangential_shift = model->shift + model->state.xi;
+        s->tilt = rb_rolling_is_tilted(rc) ? rb_rolling_tilt(rc) : NAN;
         s->creepage = !isnan(rc->creep) ? rc->creep
                       : !isnan(rc->creep_ratio)
                           ? rb_rolling_creepage_of_ratio(model, rc->creep_ratio)
                           : 0.0;
     } else {
-        s->tangential_shift = NAN;
+        s->tangential_shift = s->tilt = NAN;
         s->creepage = model->state.xi;
     }
     s->force_ratio = rb_rolling_force_ratio(model);
@@ -240,9 +241,10 @@ rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_sol
          * friction. */
         s->resistance_moment = s->resistance_ratio = s->hysteresis = s->lever_power = NAN;
         s->torque_a = s->torque_b = NAN;
-        if (s->formulation != RB_STATIC) {
+        if (s->formulation != RB_STATIC || rb_rolling_is_tilted(model->rc))
             s->resistance_moment = unless_tiny(rb_contact_moment(&model->problem, &model->state),
                                                1e-14 * s->normal_load * model->half_width);
+        if (s->formulation != RB_STATIC) {
             s->resistance_ratio =
                 s->normal_load > 0.0 && rb_rolling_has_radius(model->rc)
                     ? s->resistance_moment / (s->normal_load * rb_rolling_radius(model->rc))

@@ -26,7 +26,7 @@ static double width(interval zone)
  * the potential contact. */
 static int is_symmetric(const rb_rolling_case *rc)
 {
-    return rc->gap != RB_GAP_TABLE && rc->worn.n == 0;
+    return rc->gap != RB_GAP_TABLE && rc->worn.n == 0 && rb_rolling_tilt(rc) == 0.0;
 }
 
 static interval extent(const rb_rolling_case *rc)
