@@ -261,7 +261,8 @@ TEST(stress_inside)
         for (int with = 0; with < 2; with++) {
             char line[600];
             snprintf(line, sizeof line,
-                     "stress " SIMILAR "--formulation steady --force-ratio 0.3 --body %s --points "
+                     "stress " SIMILAR
+                     "--formulation steady --mesh uniform --force-ratio 0.3 --body %s --points "
                      "%s --shakedown %s",
                      body[k], k ? "below.txt" : "points.txt",
                      !with ? ""
@@ -300,6 +301,9 @@ TEST(cracks)
     CHECK_REL(at(K, 0), 1.1215 * 80.0 * sqrt(acos(-1.0) * 0.05), 5e-3, "far away");
     for (size_t i = 0; i < json_array_size(K); i++)
         CHECK_ABS(at(K, i), at(other, i), 1e-9, "position %zu", i);
+    CHECK_RUN(shell("\"$R\" " CRACK "--bulk-stress-b 80 --states --json --quiet > c.json && "
+                    "\"$R\" check c.json"),
+              0, out, "valid");
 }
 
 /* Derivatives against differences. */

@@ -186,7 +186,8 @@ static const char options_elsewhere[] =
     " layer-thickness-b base-young-b base-poisson-b relaxation-time-b relaxation-ratio-b"
     " free-axle gap-smoothing conductivity heat-capacity temperature conductivity-b heat-capacity-b"
     " temperature-b worn interlayer-normal interlayer-tangential yield-stress hardening"
-    " bulk-stress bulk-stress-b tilt moment ";
+    " bulk-stress bulk-stress-b tilt moment wheel-load"
+    " transverse-radius transverse-radius-b ";
 
 enum { LEVELS = 40 };
 static level levels[FACTORS][LEVELS];

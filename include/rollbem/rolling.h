@@ -127,6 +127,13 @@ typedef struct {
     double heat, heat_from, heat_range; /* [-], 0: none; two temperatures */
 } rb_rolling_friction;
 
+/* Hertz's ellipse: semi-axes along and across the rolling direction, largest pressure, approach,
+ * and the radius of a cylinder that has this a and this pressure, which is not the rolling radius.
+ */
+typedef struct {
+    double a, b, pressure, approach, radius; /* radius 0: not found */
+} rb_rolling_ellipse;
+
 /* All inputs of one case.  Of quantities with the comment "one of" at most one is given;
  * the others are NAN. rb_rolling_case_defaults() is the example of *Addi* (theory.md
  * 7). */
@@ -163,6 +170,12 @@ typedef struct {
     double approach, load, half_width, max_pressure; /* one of; all NAN: approach = R/2 */
     double pressed_by; /* the load that makes the largest pressure max_pressure, where Hertz's
                           formula does not say it (rb_rolling_find_load); otherwise NAN */
+
+    /* Instead of a load per width: the load [force] of a contact that is curved across the rolling
+     * direction, too, and these radii (INFINITY: flat; < 0: concave).  The case is the strip
+     * through the middle of the ellipse that rb_rolling_find_ellipse finds. */
+    double wheel_load, transverse_radius, transverse_radius_b;
+    rb_rolling_ellipse ellipse;
 
     /* static: one of shift, force, force_ratio loads the contact (all NAN: the shift is a
      * tenth of the given approach, as in *Addi*, or 0 under load control); creep or
@@ -367,6 +380,7 @@ typedef struct {
     double load_error;                   /* |P - wanted|/wanted; NAN without load control */
     double support_balance;              /* (reaction + load)/P; NAN for half-planes */
     double approach, tangential_shift;   /* delta; rigid shift (static) [length] */
+    rb_rolling_ellipse ellipse;          /* NAN: there is none */
     double tilt;                         /* of A; NAN: neither tilt nor moment is given */
     double creepage, free_creepage;      /* xi; xi at Q = 0 (steady); NAN otherwise, or if no
                                             such xi was found */

@@ -129,6 +129,8 @@ int rb_rolling_pressure_is_hertz(const rb_rolling_case *rc);
  * 1e-10; sets pressed_by and, of equal elements without one, zone.  RB_EINVAL: the gap has
  * corners. */
 rb_status rb_rolling_find_load(rb_rolling_case *rc, rb_message *why);
+/* Sets the ellipse of a case with a wheel load. */
+rb_status rb_rolling_find_ellipse(rb_rolling_case *rc, rb_message *why);
 /* Sets tilted_by, and the zone, of a case with a given moment: solves it some times. */
 rb_status rb_rolling_find_tilt(rb_rolling_case *rc, rb_message *why);
 /* 1: a body has a finite thickness: a layer, a cover or a wheel on a hub. */
@@ -225,7 +227,8 @@ typedef enum {
     RB_FOR_MEMORY,
     RB_FOR_YIELD,
     RB_FOR_CYLINDER_B,
-    RB_FOR_TILT
+    RB_FOR_TILT,
+    RB_FOR_ELLIPSE
 } rb_rolling_condition;
 
 /* Description of one result.  Tables, JSON, studies and error bars are made from these

@@ -178,6 +178,13 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
         fprintf(out, "  patch %-3d %.5g ... %.5g %s, p0 = %.6g %s, P = %.6g %s\n", k + 1,
                 s->patch[k].from, s->patch[k].to, mm, s->patch[k].max_pressure, stress,
                 s->patch[k].normal_load, load);
+    if (!isnan(s->ellipse.radius))
+        fprintf(
+            out,
+            "  ellipse   a = %.6g, b = %.6g %s, p0 = %.6g %s, approach %.6g %s; its middle as a "
+            "cylinder of radius %.6g %s\n",
+            s->ellipse.a, s->ellipse.b, mm, s->ellipse.pressure, stress, s->ellipse.approach, mm,
+            s->ellipse.radius, mm);
     if (!isnan(s->tilt))
         fprintf(out, "  tilt      %.6g, M = %.6g %s\n", s->tilt, s->resistance_moment,
                 rb_unit_name(s->units, "N"));

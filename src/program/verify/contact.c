@@ -129,6 +129,26 @@ static void tilted(rb_verify *v)
                        "moment P a/2 on a parabola: middle of the contact");
 }
 
+/* Steel, R = 460 mm on a rail head of 300 mm, 100 kN (theory-rolling.md E2). */
+static void ellipse(rb_verify *v)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.half_width = NAN;
+    rc.mu = 0.0;
+    rc.a.radius = 460.0;
+    rc.a.young = 210000.0;
+    rc.a.poisson = 0.3;
+    rb_verify_on_same(&rc);
+    rc.transverse_radius_b = 300.0;
+    rc.wheel_load = 1e5;
+    static rb_message why;
+    rb_verify_note(v, rb_rolling_find_ellipse(&rc, &why), &why);
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->ellipse.b, 5.387172, 1e-6, "Hertz's ellipse of wheel and rail: b");
+    rb_verify_relative(v, s->half_width, 7.161676, 1e-3, "its strip: half-width");
+    rb_verify_relative(v, s->max_pressure, 1237.559, 1e-3, "its strip: largest pressure");
+}
+
 /* The matrix of Addi et al. and its pivoted form are one problem. */
 static void two_forms(rb_verify *v)
 {
@@ -249,6 +269,7 @@ void rb_verify_contact(rb_verify *v)
     two_forms(v);
     bulk_stress(v);
     tilted(v);
+    ellipse(v);
     rb_rolling_case rc = rb_verify_uncoupled();
     rc.force_ratio = 0.64;
     const rb_rolling_solution *s = rb_verify_solve(v, &rc);

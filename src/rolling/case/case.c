@@ -21,6 +21,9 @@ rb_rolling_case rb_rolling_case_defaults(void)
                           .half_width = NAN,
                           .max_pressure = NAN,
                           .pressed_by = NAN,
+                          .wheel_load = NAN,
+                          .transverse_radius = INFINITY,
+                          .transverse_radius_b = INFINITY,
                           .moment = NAN,
                           .tilted_by = NAN,
                           .shift = NAN,
@@ -86,6 +89,8 @@ static double modulus(const rb_rolling_case *rc)
 double rb_rolling_radius(const rb_rolling_case *rc)
 {
     const double a = rc->a.radius, b = rc->b.radius;
+    if (rc->ellipse.radius > 0.0)
+        return rc->ellipse.radius;
     return b < 0.0 && isfinite(b) && isfinite(a) ? a * b / (a + b) : 1.0 / (1.0 / a + 1.0 / b);
 }
 
@@ -267,10 +272,11 @@ rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc)
     d.dundurs = (coupling(rb_rolling_material(rc, a)) -
                  (rc->elastic_b ? coupling(rb_rolling_material(rc, &rc->b)) : 0.0)) *
                 d.modulus;
-    d.load = !isnan(rc->half_width)    ? rb_rolling_hertz_load(rc, rc->half_width)
-             : isnan(rc->max_pressure) ? rc->load
-             : isnan(rc->pressed_by)   ? rb_rolling_pressure_load(rc)
-                                       : rc->pressed_by;
+    d.load = rb_rolling_has_ellipse(rc) ? M_PI_2 * rc->ellipse.a * rc->ellipse.pressure
+             : !isnan(rc->half_width)   ? rb_rolling_hertz_load(rc, rc->half_width)
+             : isnan(rc->max_pressure)  ? rc->load
+             : isnan(rc->pressed_by)    ? rb_rolling_pressure_load(rc)
+                                        : rc->pressed_by;
     if (!isnan(d.load)) {
         d.approach = NAN;
         d.half_width = rb_rolling_contact_half_width(rc, d.load);
@@ -320,6 +326,11 @@ double rb_rolling_bulk_strain(const rb_rolling_case *rc)
                           ? rc->bulk_stress_b * compliance(rb_rolling_material(rc, &rc->b))
                           : 0.0)
                : 0.0;
+}
+
+int rb_rolling_has_ellipse(const rb_rolling_case *rc)
+{
+    return !isnan(rc->wheel_load);
 }
 
 int rb_rolling_is_tilted(const rb_rolling_case *rc)
@@ -572,11 +583,13 @@ static int count_given(int n, const double *value)
 
 static rb_status check_normal(const rb_rolling_case *rc, rb_message *why)
 {
-    const double normal[] = {rc->approach, rc->load, rc->half_width, rc->max_pressure};
+    const double normal[] = {rc->approach, rc->load, rc->half_width, rc->max_pressure,
+                             rc->wheel_load};
 
-    if (count_given(4, normal) > 1)
-        return rb_fail(why, RB_EINVAL,
-                       "approach, load, half-width and max-pressure exclude each other");
+    if (count_given(5, normal) > 1)
+        return rb_fail(
+            why, RB_EINVAL,
+            "approach, load, half-width, max-pressure and wheel-load exclude each other");
     const double reach = fmin(fabs(rc->a.radius), fabs(rc->b.radius));
     if (rc->half_width >= reach)
         return rb_fail(why, RB_EINVAL,
@@ -779,7 +792,6 @@ static rb_status check_bulk(const rb_rolling_case *rc, rb_message *why)
 static rb_status check_tilt(const rb_rolling_case *rc, rb_message *why)
 {
     const char *which = isnan(rc->moment) ? "tilt" : "moment";
-    double from, to;
 
     if (!rb_rolling_is_tilted(rc))
         return RB_OK;
@@ -795,18 +807,26 @@ static rb_status check_tilt(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL,
                        "%s: of elastic half-planes only (--support halfplane), without relaxation",
                        which);
-    rb_rolling_extent(rc, &from, &to);
-    if (rc->zone > 0.0) {
-        from = fmax(from, -rc->zone);
-        to = fmin(to, rc->zone);
-    }
-    const double arm = rc->moment / rb_rolling_derive(rc).load;
-    return !isnan(arm) && !(arm > from && arm < to)
-               ? rb_fail(why, RB_EINVAL,
-                         "moment: the load acts at M/P = %.4g mm, and A touches between %.4g and "
-                         "%.4g mm at most: it topples",
-                         arm, from, to)
-               : RB_OK;
+    return RB_OK;
+}
+
+/* The strip through the middle of an ellipse. */
+static rb_status check_ellipse(const rb_rolling_case *rc, rb_message *why)
+{
+    if (!rb_rolling_has_ellipse(rc))
+        return RB_OK;
+    if (!(rc->ellipse.radius > 0.0))
+        return rb_fail(why, RB_EINVAL, "wheel-load: its ellipse has not been found");
+    if (rc->gap != RB_GAP_PARABOLA || rc->worn.n > 0)
+        return rb_fail(why, RB_EINVAL,
+                       "wheel-load: Hertz's ellipse needs --gap parabola, without wear");
+    return rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC) &&
+                   rc->plane == RB_PLANE_STRAIN && rc->interlayer_normal == 0.0
+               ? RB_OK
+               : rb_fail(
+                     why, RB_EINVAL,
+                     "wheel-load: Hertz's ellipse is that of half-planes of one elastic material "
+                     "each in plane strain (--support halfplane), without normal interlayer");
 }
 
 static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
@@ -824,6 +844,9 @@ static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
                  {"max-pressure", rc->max_pressure},
                  {"bulk-stress", rc->bulk_stress != 0.0 ? rc->bulk_stress : NAN},
                  {"bulk-stress-b", rc->bulk_stress_b != 0.0 ? rc->bulk_stress_b : NAN},
+                 {"wheel-load", rc->wheel_load},
+                 {"transverse-radius", rc->transverse_radius},
+                 {"transverse-radius-b", rc->transverse_radius_b},
                  {"speed", rc->speed != 0.0 ? rc->speed : NAN}};
 
     for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
@@ -837,11 +860,10 @@ static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
 rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
 {
     static rb_status (*const checks[])(const rb_rolling_case *, rb_message *) = {
-        check_memory,     check_heat,         rb_rolling_law_check,
-        check_interlayer, check_normal,       check_tangential,
-        check_bore,       check_gap,          check_bulk,
-        check_tilt,       check_irregularity, check_worn,
-        check_increments, check_sizes,        check_mesh};
+        check_memory, check_heat,       rb_rolling_law_check, check_interlayer,
+        check_normal, check_tangential, check_bore,           check_gap,
+        check_bulk,   check_tilt,       check_ellipse,        check_irregularity,
+        check_worn,   check_increments, check_sizes,          check_mesh};
     const rb_rolling_case defaults = rb_rolling_case_defaults();
     rb_status s = rb_rolling_check_ranges(rc, &defaults, why);
 

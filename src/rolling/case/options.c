@@ -228,6 +228,16 @@ const rb_option rb_case_table[] = {
         "largest pressure p0; the load follows from it, by Hertz's formula or, on layers, "
         "wheels, other gaps and with coupled friction, by a search",
         .unset = "not given", .excludes = RB_ONE_NORMAL),
+    RB_NUMBER_LINE(
+        "wheel-load", RC(wheel_load), "N", RB_ABOVE(0),
+        "load of a contact that is curved across the rolling direction, too: the case is "
+        "then the strip through the middle of Hertz's ellipse",
+        .unset = "not given", .excludes = RB_ONE_NORMAL),
+    RB_NUMBER_LINE("transverse-radius", RC(transverse_radius), "mm", RB_ANY,
+                   "wheel-load: radius of A across the rolling direction; < 0: concave",
+                   .word = "flat", .word_value = INFINITY),
+    RB_NUMBER_LINE("transverse-radius-b", RC(transverse_radius_b), "mm", RB_ANY,
+                   "the same of B, as of a rail's head", .word = "flat", .word_value = INFINITY),
 
     RB_GROUP_LINE("tangential", "Tangential direction: one of (static: see the notes)"),
     RB_NUMBER_LINE("shift", RC(shift), "mm", RB_ANY, "static: rigid displacement of A towards +x",

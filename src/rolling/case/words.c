@@ -858,11 +858,16 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     if (s != RB_OK)
         return rb_case_locate(c, s, why);
     set_radius(c);
+    if (rb_rolling_has_ellipse(&c->resolved.rc) && !rb_case_given(c, "gap"))
+        c->resolved.rc.gap = RB_GAP_PARABOLA;
+    s = rb_rolling_find_ellipse(&c->resolved.rc, why);
+    if (s != RB_OK)
+        return rb_case_locate(c, s, why);
     /* The paper's own example stays on its equal elements, as do large contacts, which
      * need them. */
     rb_rolling_case *rc = &c->resolved.rc;
-    const int paper =
-        isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width) && isnan(rc->max_pressure);
+    const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width) &&
+                      isnan(rc->max_pressure) && !rb_rolling_has_ellipse(rc);
     const rb_rolling_mesh equal = {.n = rc->contact_elements};
     const int graded = rb_rolling_couples(rc) || !rb_rolling_can(rc, RB_BODY_HOMOGENEOUS);
     rb_rolling_case fitted = *rc;

@@ -81,7 +81,7 @@ static void begin_from_nothing(rb_rolling_case *at, int part, int parts)
     const double pressed = fmin(1.0, (double)part / presses),
                  loaded = part > presses ? (double)(part - presses) / (parts - presses) : 0.0;
 
-    at->half_width = at->max_pressure = at->pressed_by = NAN;
+    at->half_width = at->max_pressure = at->pressed_by = at->wheel_load = NAN;
     at->load = pressed * d.load;
     at->approach = pressed * d.approach;
     if (at->formulation == RB_STATIC && isnan(at->force) && isnan(at->force_ratio))

@@ -726,6 +726,10 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear, r
                        "not a friction law");
     if (!rolls && rc->mesh != RB_MESH_UNIFORM)
         return rb_fail(why, RB_EINVAL, "wear: the worn gap needs equal elements (--mesh uniform)");
+    if (rb_rolling_has_ellipse(rc))
+        return rb_fail(
+            why, RB_EINVAL,
+            "wear: the strip of a --wheel-load wears apart from its ellipse; give --load");
     if (!rolls && rb_rolling_is_strained(rc))
         return rb_fail(why, RB_EINVAL,
                        "wear: bulk stress is taken in steady rolling only, got one with %s",
@@ -760,7 +764,7 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     memset(history, 0, sizeof *history);
     memset(last, 0, sizeof *last);
     r.rc.load = rb_rolling_derive(rc).load; /* a given half-width means this load */
-    r.rc.half_width = r.rc.max_pressure = r.rc.pressed_by = NAN;
+    r.rc.half_width = r.rc.max_pressure = r.rc.pressed_by = r.rc.wheel_load = NAN;
     r.rc.increments = 1; /* the cycles have their own */
     r.was_worn = rc->worn.n > 0;
     rb_status s = check(rc, wear, why);

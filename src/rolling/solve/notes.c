@@ -383,6 +383,20 @@ static int near_datum(const rb_rolling_case *rc, const rb_rolling_solution *s, c
         shifted ? "shift" : "approach");
 }
 
+/* ---- What a strip does not tell ---------------------------------------------------- */
+
+static int strip_of_ellipse(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    return !isnan(s->ellipse.radius) &&
+           write_note(
+               text,
+               "The strip through the middle of the ellipse has its half-width and largest "
+               "pressure. Stress inside, shakedown (p0/k = 4 for 4.7 of an ellipse without "
+               "friction), "
+               "approach and heat are those of a line contact; forces are per width there.") &&
+           rc;
+}
+
 /* ---- What is given, perhaps in other units ----------------------------------------- */
 
 static int is_creepage_given(const rb_rolling_case *rc)
@@ -646,6 +660,7 @@ static const struct {
     {"wide-arc", wide_arc, 0},
     {"strains", strains, 0},
     {"thin-and-strained", thin_and_strained, 0},
+    {"strip-of-ellipse", strip_of_ellipse, 0},
     {"flat-layer", flat_layer, 0},
     {"near-datum", near_datum, 0},
     {"short-memory", short_memory, 0},

@@ -42,6 +42,18 @@ static const rb_rolling_result scalars[] = {
            .meaning = "delta: how far A moved towards B"),
     RESULT("tangential_shift", tangential_shift, .unit = "mm", .error_bar = RB_SCALE_SHIFT,
            .meaning = "rigid shift of A; static contact"),
+    RESULT("ellipse_a", ellipse.a, .unit = "mm", .no_derivative = 1, .condition = RB_FOR_ELLIPSE,
+           .meaning =
+               "semi-axis of Hertz's ellipse along the rolling direction, with --wheel-load"),
+    RESULT("ellipse_b", ellipse.b, .unit = "mm", .no_derivative = 1, .condition = RB_FOR_ELLIPSE,
+           .meaning = "semi-axis across it"),
+    RESULT("ellipse_pressure", ellipse.pressure, .unit = "MPa", .no_derivative = 1,
+           .condition = RB_FOR_ELLIPSE, .meaning = "p0 of the ellipse"),
+    RESULT("ellipse_approach", ellipse.approach, .unit = "mm", .no_derivative = 1,
+           .condition = RB_FOR_ELLIPSE, .meaning = "of the bodies that touch in it"),
+    RESULT("strip_radius", ellipse.radius, .unit = "mm", .no_derivative = 1,
+           .condition = RB_FOR_ELLIPSE,
+           .meaning = "E* a/(2 p0): radius of a cylinder with this a and p0, not that of rolling"),
     RESULT("tilt", tilt, .no_derivative = 1, .condition = RB_FOR_TILT,
            .meaning = "of A, with --tilt or --moment"),
     RESULT("creepage", creepage, .error_bar = RB_SCALE_CREEPAGE, .study = 5, .meaning = "xi"),
@@ -393,6 +405,8 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc,
         return isfinite(rc->b.radius);
     case RB_FOR_TILT:
         return rb_rolling_is_tilted(rc);
+    case RB_FOR_ELLIPSE:
+        return rc->ellipse.radius > 0.0;
     case RB_FOR_ALL:
         break;
     }

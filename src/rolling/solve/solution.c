@@ -96,6 +96,8 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
     s->hertz_half_width = rb_rolling_has_radius(model->rc) ? model->half_width : NAN;
     s->datum = rb_rolling_datum(model->rc, &model->rc->a);
     s->approach = model->state.delta;
+    s->ellipse = model->rc->ellipse.radius > 0.0 ? model->rc->ellipse
+                                                 : (rb_rolling_ellipse){NAN, NAN, NAN, NAN, NAN};
     if (s->formulation == RB_STATIC) {
         const rb_rolling_case *rc = model->rc;
         s->tangential_shift = model->shift + model->state.xi;

@@ -53,6 +53,25 @@ static rb_status search(rb_rolling_case *at, double wanted, double near, double 
     return rb_fail(why, RB_MAXITER, "moment: no tilt was found with %g N", wanted);
 }
 
+/* Equilibrium needs a pressure on either side of the load, where A can touch. */
+static rb_status check_arm(const rb_rolling_case *rc, rb_message *why)
+{
+    double from, to;
+
+    rb_rolling_extent(rc, &from, &to);
+    if (rc->zone > 0.0) {
+        from = fmax(from, -rc->zone);
+        to = fmin(to, rc->zone);
+    }
+    const double arm = rc->moment / rb_rolling_derive(rc).load;
+    return !isnan(arm) && !(arm > from && arm < to)
+               ? rb_fail(why, RB_EINVAL,
+                         "moment: the load acts at M/P = %.4g mm, and A touches between %.4g and "
+                         "%.4g mm at most: it topples",
+                         arm, from, to)
+               : RB_OK;
+}
+
 rb_status rb_rolling_find_tilt(rb_rolling_case *rc, rb_message *why)
 {
     /* to which the tilt has to be known for the zone */
@@ -62,12 +81,12 @@ rb_status rb_rolling_find_tilt(rb_rolling_case *rc, rb_message *why)
         rb_rolling_has_radius(rc) && !isnan(d.load) ? rc->moment / (d.load * d.radius) : 0.0;
     rb_rolling_case at = *rc;
     double widest = 0.0;
-    rb_status s = RB_OK;
+    rb_status s = check_arm(rc, why);
 
     at.moment = at.tilted_by = NAN;
     at.tilt = start;
     /* In a zone of its own, so that a case which gives the zone has the same tilt. */
-    if (rc->mesh == RB_MESH_UNIFORM && rc->zone == 0.0) {
+    if (s == RB_OK && rc->mesh == RB_MESH_UNIFORM && rc->zone == 0.0) {
         s = search(&at, rc->moment, ROUGHLY, &widest, why);
         at.zone = widest;
         at.tilt = start;

@@ -1,0 +1,113 @@
+/* Hertz's ellipse of a wheel on a rail, and the strip through its middle. */
+#include "cli_run.h"
+
+#include <math.h>
+
+#define STEEL "--support halfplane --similar --young 210000 --poisson 0.3 "
+
+static double of_summary(const json_t *root, const char *name)
+{
+    return number_in(json_object_get(root, "summary"), name);
+}
+
+/* a, b, p0, approach, E* a/(2 p0) and pi a p0/2, by Carlson's integrals in another program. */
+TEST(ellipses)
+{
+    static const struct {
+        const char *line;
+        double a, b, pressure, approach, radius;
+    } rows[] = {{STEEL "--wheel-load 100kN --radius 460 --transverse-radius-b 300 --mu 0.3",
+                 7.161676, 5.387172, 1237.559, 0.104119, 333.862},
+                {STEEL
+                 "--wheel-load 100kN --radius 460 --transverse-radius-b 300 --transverse-radius "
+                 "-500 --mu 0.3",
+                 6.144483, 8.508753, 913.2509, 0.089304, 388.162},
+                {STEEL "--wheel-load 100kN --radius 500 --transverse-radius 80 --mu 0.3", 8.865039,
+                 2.656786, 2027.236, 0.122705, 252.287}};
+    for (size_t k = 0; k < 3; k++) {
+        held_json *root = run_json(rows[k].line);
+        CHECK_REL(of_summary(root, "ellipse_a"), rows[k].a, 1e-6, "row %zu", k);
+        CHECK_REL(of_summary(root, "ellipse_b"), rows[k].b, 1e-6, "row %zu", k);
+        CHECK_REL(of_summary(root, "ellipse_pressure"), rows[k].pressure, 1e-6, "row %zu", k);
+        CHECK_REL(of_summary(root, "ellipse_approach"), rows[k].approach, 1e-5, "row %zu", k);
+        CHECK_REL(of_summary(root, "strip_radius"), rows[k].radius, 3e-6, "row %zu", k);
+        CHECK_REL(of_summary(root, "normal_load"), 0.5 * acos(-1.0) * rows[k].a * rows[k].pressure,
+                  1e-6, "row %zu", k);
+        CHECK_REL(of_summary(root, "max_pressure"), rows[k].pressure, 2e-3, "row %zu", k);
+        CHECK_REL(of_summary(root, "half_width"), rows[k].a, 5e-3, "row %zu", k);
+    }
+}
+
+/* E* a/(2 p0) over the rolling radius, a/b from .1 to 10; a circle has pi/4. */
+TEST(strip_radii)
+{
+    static const double want[][2] = {{0.1, 0.988926}, {0.2, 0.968602}, {0.5, 0.895903},
+                                     {1, 0.785398},   {2, 0.630306},   {5, 0.409502},
+                                     {10, 0.270671}};
+    for (size_t k = 0; k < sizeof want / sizeof *want; k++) {
+        /* the transverse radius of this a/b, by halving its logarithm */
+        double low = log(0.05), high = log(2e5), ratio = 0.0, radius = 0.0;
+        for (int i = 0; i < 28 && fabs(ratio / want[k][0] - 1.0) > 1e-6; i++) {
+            const double middle = 0.5 * (low + high);
+            held_json *root = run_jsonf(STEEL "--wheel-load 1kN --radius 100 --mu 0 "
+                                              "--contact-elements 6 --transverse-radius %.15g",
+                                        exp(middle));
+            ratio = of_summary(root, "ellipse_a") / of_summary(root, "ellipse_b");
+            radius = of_summary(root, "strip_radius");
+            *(ratio > want[k][0] ? &low : &high) = middle;
+        }
+        CHECK_REL(radius / 100.0, want[k][1], 3e-6, "a/b = %g", want[k][0]);
+    }
+}
+
+/* Carter's law with the radius of the strip; the axle's torque with that of rolling. */
+TEST(the_strip_rolls)
+{
+    held_json *root =
+        run_json(STEEL "--wheel-load 100kN --radius 460 --transverse-radius-b 300 --mu "
+                       "0.3 --formulation steady --creep-ratio 0.4");
+    const double a = of_summary(root, "ellipse_a"), Q = of_summary(root, "tangential_load");
+    CHECK_ABS(of_summary(root, "force_ratio"), -0.64, 5e-4, "Carter");
+    CHECK_REL(of_summary(root, "creepage"), 0.4 * 0.3 * a / of_summary(root, "strip_radius"), 1e-9,
+              "creepage");
+    CHECK_REL(of_summary(root, "torque_a"), Q * 460.0, 1e-6, "torque");
+}
+
+/* a and p0 grow like the cube root of the load, what the strip carries per width like its square.
+ */
+TEST(derivatives)
+{
+    held_json *root =
+        run_json(STEEL "--wheel-load 100kN --radius 460 --transverse-radius-b 300 --mu "
+                       "0.3 --formulation steady --creep-ratio 0.4 "
+                       "--derivatives=normal_load,half_width");
+    const json_t *d = json_object_get(root, "derivatives");
+    CHECK_REL(number_in(json_object_get(d, "normal_load"), "wheel-load"),
+              of_summary(root, "normal_load") / 1.5e5, 1e-6, "P");
+    CHECK_REL(number_in(json_object_get(d, "half_width"), "wheel-load"),
+              of_summary(root, "half_width") / 3e5, 1e-3, "a");
+}
+
+TEST(what_is_refused)
+{
+    static const struct {
+        const char *line, *words;
+    } rows[] = {
+        {STEEL "--wheel-load 1kN --radius 100 --mu 0", "bodies that touch along a line"},
+        {STEEL
+         "--wheel-load 1kN --radius 100 --transverse-radius -80 --transverse-radius-b 100 --mu 0",
+         "must be > 0"},
+        {STEEL "--wheel-load 1kN --radius 100 --transverse-radius 80 --load 100", "--load"},
+        {STEEL "--wheel-load 1kN --radius 100 --transverse-radius 80 --gap exact",
+         "needs --gap parabola"},
+        {"wear " STEEL "--wheel-load 1kN --radius 100 --transverse-radius 80 --mu 0.3 --slide 100 "
+         "--wear-coefficient 1e-8",
+         "apart from its ellipse"},
+        {"--wheel-load 1kN --transverse-radius 80", "half-planes of one elastic material"},
+        {STEEL "--wheel-load 1kN --transverse-radius 80 --layer-thickness 3 --base-young 1e5",
+         "half-planes of one elastic material"}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
+        check_refused(rows[k].line, 64, rows[k].words);
+}
+
+RUN_TESTS(enter_folder, leave_folder)
