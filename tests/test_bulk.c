@@ -250,7 +250,8 @@ TEST(creepage_is_shifted)
               2e-3 * X * COMPLIANCE, "rolling from rest");
 }
 
-/* X adds to sxx, nu X to szz; a residual stress takes it away again. */
+/* X adds to sxx, nu X to szz; a residual stress takes it away again, so that the shakedown limit
+ * stays. */
 TEST(stress_inside)
 {
     static const char *const body[] = {"a", "b"};
@@ -261,8 +262,7 @@ TEST(stress_inside)
         for (int with = 0; with < 2; with++) {
             char line[600];
             snprintf(line, sizeof line,
-                     "stress " SIMILAR
-                     "--formulation steady --mesh uniform --force-ratio 0.3 --body %s --points "
+                     "stress " SIMILAR "--mu 0 --body %s --points "
                      "%s --shakedown %s",
                      body[k], k ? "below.txt" : "points.txt",
                      !with ? ""
@@ -278,11 +278,9 @@ TEST(stress_inside)
             for (size_t j = 0; j < 4; j++)
                 CHECK_ABS(at(column(root[1], "points", part[i].name), j) -
                               at(column(root[0], "points", part[i].name), j),
-                          part[i].more, 1e-5, "%s of %s at point %zu", part[i].name, body[k], j);
-        const json_t *was = json_object_get(root[0], "shakedown"),
-                     *is = json_object_get(root[1], "shakedown");
-        CHECK_REL(number_in(is, "shear_yield"), number_in(was, "shear_yield"), 1e-6, "%s", body[k]);
-        CHECK_ABS(number_in(is, "residual") - number_in(was, "residual"), -120.0, 1e-2, "%s",
+                          part[i].more, 1e-9, "%s of %s at point %zu", part[i].name, body[k], j);
+        CHECK_REL(number_in(json_object_get(root[1], "shakedown"), "shear_yield"),
+                  number_in(json_object_get(root[0], "shakedown"), "shear_yield"), 1e-6, "%s",
                   body[k]);
         json_decref(root[0]);
         json_decref(root[1]);
