@@ -804,12 +804,12 @@ static double bulk_strain(const contact *c)
     const int thin = strcmp(word(c->inputs, "plane"), "stress") == 0;
     double strain = 0.0;
     for (int b = 0; b < 2; b++) {
-        const double X = json_number_value(
+        const double stress = json_number_value(
                          json_object_get(c->inputs, b ? "bulk-stress-b" : "bulk-stress")),
                      E = number(c->inputs, b ? "young-b" : "young"),
                      nu = number(c->inputs, b ? "poisson-b" : "poisson");
-        if (X != 0.0)
-            strain += (b ? -X : X) * (thin ? 1.0 : 1.0 - nu * nu) / E;
+        if (stress != 0.0)
+            strain += (b ? -stress : stress) * (thin ? 1.0 : 1.0 - nu * nu) / E;
     }
     return strain;
 }
@@ -1100,8 +1100,15 @@ static void check_resistance(const contact *c, const table *t)
     const double P_ = number(c->summary, "normal_load");
     double moment = 0.0, size = 0.0;
     if (c->formulation == STATIC) {
-        if (!isnan(M) || !isnan(lag))
-            violated("resistance_moment", "of static contact is not null");
+        const int tilted = !isnan(number(c->summary, "tilt"));
+        for (int i = 0; i < t->n; i++) {
+            moment += t->column[X][i] * t->column[P][i] * t->column[H][i];
+            size += fabs(t->column[X][i]) * t->column[P][i] * t->column[H][i];
+        }
+        if (isnan(M) == tilted || !isnan(lag))
+            violated("resistance_moment", "of static contact is %g", M);
+        if (tilted)
+            expect("resistance_moment", M, moment, 1e-11 * size);
         return;
     }
     for (int i = 0; i < t->n; i++) {

@@ -38,6 +38,8 @@ enum {
     IRREGULARITY,
     WORN,
     INTERLAYER,
+    TILT,
+    BULK,
     MU,
     LAW,
     SHAPE,
