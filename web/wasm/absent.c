@@ -42,12 +42,12 @@ rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends, const r
     return rb_fail(why, RB_EINVAL, "%d contact elements are %s", n_c, refusal);
 }
 
-rb_status rb_bem_flexibility_plane_products(int n_c, const double *ends,
-                                            const rb_bem_surface *plane, rb_bem_flexibility *f,
-                                            rb_message *why)
+rb_status rb_bem_flexibility_surface_products(int n_c, const double *ends,
+                                              const rb_bem_surface *body, rb_bem_flexibility *f,
+                                              rb_message *why)
 {
     (void)ends;
-    (void)plane;
+    (void)body;
     *f = (rb_bem_flexibility){0};
     return rb_fail(why, RB_EINVAL, "%d contact elements are %s", n_c, refusal);
 }
