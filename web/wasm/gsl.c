@@ -7,6 +7,7 @@
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_multimin.h>
 #include <gsl/gsl_sf_bessel.h>
+#include <gsl/gsl_sf_ellint.h>
 #include <gsl/gsl_sf_expint.h>
 #include <gsl/gsl_sort.h>
 #include <stdlib.h>
@@ -278,6 +279,45 @@ double gsl_sf_bessel_K0_scaled(const double x)
 double gsl_sf_bessel_K1_scaled(const double x)
 {
     return scaled_k(x, 1.0);
+}
+
+/* ---- Complete elliptic integrals ------------------------------------------------------ */
+
+/* By the arithmetic-geometric mean of 1 and sqrt(1 - k^2). */
+double gsl_sf_ellint_Kcomp(double k, gsl_mode_t mode)
+{
+    (void)mode;
+    double a = 1.0, b = sqrt((1.0 - k) * (1.0 + k));
+    while (fabs(a - b) > 1e-15 * a) {
+        const double mean = 0.5 * (a + b);
+        b = sqrt(a * b);
+        a = mean;
+    }
+    return M_PI / (2.0 * a);
+}
+
+/* Carlson's R_D: each duplication brings x, y, z four times closer together, and a series in
+ * their differences, whose first missing term is of the sixth power, gives the rest. */
+double gsl_sf_ellint_RD(double x, double y, double z, gsl_mode_t mode)
+{
+    (void)mode;
+    double sum = 0.0, power = 1.0, mean = 0.2 * (x + y + 3.0 * z);
+    while (fmax(fabs(mean - x), fmax(fabs(mean - y), fabs(mean - z))) > 1e-3 * mean) {
+        const double l = sqrt(x * y) + sqrt(y * z) + sqrt(z * x);
+        sum += power / (sqrt(z) * (z + l));
+        power *= 0.25;
+        x = 0.25 * (x + l);
+        y = 0.25 * (y + l);
+        z = 0.25 * (z + l);
+        mean = 0.2 * (x + y + 3.0 * z);
+    }
+    const double dx = (mean - x) / mean, dy = (mean - y) / mean, dz = -(dx + dy) / 3.0;
+    const double xy = dx * dy, zz = dz * dz;
+    const double e2 = xy - 6.0 * zz, e3 = (3.0 * xy - 8.0 * zz) * dz, e4 = 3.0 * (xy - zz) * zz,
+                 e5 = xy * dz * zz;
+    const double series = 1.0 - 3.0 * e2 / 14.0 + e3 / 6.0 + 9.0 * e2 * e2 / 88.0 -
+                          3.0 * e4 / 22.0 - 9.0 * e2 * e3 / 52.0 + 3.0 * e5 / 26.0;
+    return 3.0 * sum + power * series / (mean * sqrt(mean));
 }
 
 /* ---- Gauss's rule: roots of Legendre's polynomial by Newton
