@@ -218,6 +218,22 @@ TEST(global_problems_are_read_as_text)
     check_refused("friction --output x space", 65, "rows of the matrix: expected 4, got '3'");
 }
 
+/* Two blocks without stiffness on each other; the friction of the upper one is at most 0.5. */
+TEST(a_pile_that_nothing_holds_has_no_equilibrium)
+{
+    for (int pushed = 0; pushed < 2; pushed++) {
+        char text[300];
+        snprintf(text, sizeof text,
+                 "2 2 0 4 4 4 4\n0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n0 4 4 4 4\n"
+                 "1 0 0 0 0 1 0 0 -1 0 1 0 0 -1 0 1\n-1 0 -1 %s\n0 0 0 0\n0.5 0.5\n",
+                 pushed ? "0.501" : "0.499");
+        write_file("pile", text);
+        assert_int_equal(rollbem("friction --kind siconos-global pile"), pushed);
+        assert_int_equal(strstr(out, "\tinfeasible\t") != NULL, pushed);
+        assert_int_equal(strstr(err, "note: no equilibrium exists") != NULL, pushed);
+    }
+}
+
 /* Texts of Siconos that hold other problems, and problems without a contact. */
 TEST(kinds_of_files_are_told_apart)
 {

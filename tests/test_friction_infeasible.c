@@ -226,6 +226,54 @@ TEST(a_global_problem_without_solution)
     }
 }
 
+/* A block without stiffness on a floor, of d coordinates, N first; `unit` of its contact.  It is
+ * pushed by `along` and pressed by `down`.  Beside it two masses on a spring, held by nothing. */
+static int block_floats(int d, double unit, double along, double down, double friction)
+{
+    OWNED(rb_friction_problem) p = zero_global(d, 1, d + 2);
+    rb_triplets K = {.rows = d + 2, .cols = d + 2}, H = {.rows = d + 2, .cols = d};
+    int floats;
+    for (int i = 0; i < d; i++)
+        rb_triplets_add(&H, i, i, unit);
+    for (int i = 0; i < 2; i++) {
+        rb_triplets_add(&K, d + i, d + i, 0.3);
+        rb_triplets_add(&K, d + i, d + 1 - i, -0.3);
+    }
+    CHECK_OK(rb_sparse_from_triplets(&K, &p.K));
+    CHECK_OK(rb_sparse_from_triplets(&H, &p.H));
+    rb_triplets_free(&K);
+    rb_triplets_free(&H);
+    p.mu[0] = friction;
+    p.f[0] = -down;
+    p.f[d - 1] = along;
+    p.f[d] = 0.125, p.f[d + 1] = -0.125;
+    p.w[0] = 0.2;
+    CHECK_OK(rb_friction_floats(&p, &floats));
+    if (floats)
+        return floats;
+    p.f[d] += 0x1p-20; /* and not a hair more on the spring */
+    CHECK_OK(rb_friction_floats(&p, &floats));
+    assert_int_equal(floats, 1);
+    return 0;
+}
+
+/* Said where nothing holds, and not where friction just holds. */
+TEST(what_nothing_holds_has_no_equilibrium)
+{
+    for (int d = 2; d <= 3; d++)
+        for (int k = -1; k <= 1; k++) {
+            const double unit = exp2(30.0 * k);
+            assert_int_equal(block_floats(d, unit, 0.0, -1.0, 0.3), 1); /* lifted */
+            assert_int_equal(block_floats(d, unit, 0.31, 1.0, 0.3), 1); /* pushed away */
+            assert_int_equal(block_floats(d, unit, -0.31, 1.0, 0.3), 1);
+            assert_int_equal(block_floats(d, unit, 1e-3, 1.0, 0.0), 1);
+            assert_int_equal(block_floats(d, unit, 0.29, 1.0, 0.3), 0);
+            assert_int_equal(block_floats(d, unit, 0.5, 1.0, 0.5), 0);
+            assert_int_equal(block_floats(d, unit, 0.0, 1.0, 0.0), 0);
+            assert_int_equal(block_floats(d, unit, 0.0, 0.0, 0.3), 0);
+        }
+}
+
 TEST(global_problems_are_condensed_first)
 {
     double y[1], least;

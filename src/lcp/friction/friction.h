@@ -85,6 +85,10 @@ rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y, do
  * rounding.  Otherwise every solution has a sum W_NN r_N of at least *least, which may be
  * 0; *given: the sum of the moduli of q. */
 int rb_friction_has_no_solution(const rb_friction_problem *problem, double *least, double *given);
+/* *floats = 1: a problem in global form is proved to have no equilibrium, because nothing holds
+ * it: a motion z with z'K = 0 that no contact resists, (H'z)_c in K*, and that the forces drive,
+ * z'f > 0, without rounding.  0: not proved.  RB_OK, RB_ENOMEM. */
+rb_status rb_friction_floats(const rb_friction_problem *global, int *floats);
 
 /* ---- Proofs (docs/proof.md) ----------------------------------------------------------- */
 

@@ -379,7 +379,16 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
             cli_wait_end();
         code = assess(run, r, s);
         double least, given;
-        if (code == CLI_UNSOLVED && rb_friction_has_no_solution(&p, &least, &given)) {
+        int floats = 0;
+        if (code == CLI_UNSOLVED && rb_friction_floats(&p, &floats) != RB_OK)
+            code = failed(r, RB_ENOMEM, "out of memory");
+        if (floats) {
+            r->status = "infeasible";
+            fprintf(stderr,
+                    "rollbem: %s: note: no equilibrium exists: the forces drive a motion that "
+                    "neither K nor any contact resists\n",
+                    r->file);
+        } else if (code == CLI_UNSOLVED && rb_friction_has_no_solution(&p, &least, &given)) {
             r->status = "infeasible";
             fprintf(stderr,
                     "rollbem: %s: note: no solution exists: whatever the reactions are, they "
