@@ -216,13 +216,20 @@ async function clip_of(canvas) {
         MediaRecorder.isTypeSupported(t),
     );
     const recorder = new MediaRecorder(canvas.captureStream(30), { mimeType: type, videoBitsPerSecond: 6e6 }),
-        parts = [];
-    recorder.ondataavailable = ({ data }) => parts.push(data);
+        parts = [],
+        wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+    let size = 0;
+    recorder.ondataavailable = ({ data }) => {
+        parts.push(data);
+        size += data.size;
+    };
     const ended = new Promise((resolve) => {
         recorder.onstop = resolve;
     });
-    recorder.start();
-    await new Promise((resolve) => setTimeout(resolve, 1000 * CLIP_SECONDS));
+    recorder.start(250);
+    await wait(1000 * CLIP_SECONDS);
+    /* where the machine is busy the first frame comes late; the head of the file has some hundred bytes */
+    for (let late = 0; size < 1000 && late < CLIP_SECONDS; late += 0.25) await wait(250);
     recorder.stop();
     await ended;
     return new Blob(parts, { type: "video/webm" });
