@@ -5,6 +5,7 @@
 #include "rolling/rolling.h"
 
 #include <gsl/gsl_math.h>
+#include <stddef.h>
 
 typedef struct {
     const char *word; /* that the refusal must contain */
@@ -576,6 +577,46 @@ TEST(the_half_width_of_an_approach_inverts_the_compression)
     const double a = 0.01 * rc.a.radius;
     rc.approach = a * a / (4 * rc.a.radius) * (2 * log(4 * rc.a.radius / a) - 1);
     CHECK_REL(rb_rolling_derive(&rc).half_width, a, 1e-14, "delta = %g", rc.approach);
+}
+
+/* Every bit of a case counts, but those of what may differ and those that belong to no member:
+ * at most the four bytes behind a whole number. */
+TEST(cases_are_compared_by_their_members)
+{
+    static const struct {
+        size_t from, size;
+    } may_differ[] = {{offsetof(rb_rolling_case, mu), sizeof(double)},
+                      {offsetof(rb_rolling_case, friction), sizeof(rb_rolling_friction)},
+                      {offsetof(rb_rolling_case, approach), 3 * sizeof(double)},
+                      {offsetof(rb_rolling_case, shift), 5 * sizeof(double)}};
+    /* behind the members of which the largest alignment leaves bytes unused */
+    static const size_t unused[] = {offsetof(rb_rolling_case, a) - 1,
+                                    offsetof(rb_rolling_case, b.arc) - 1,
+                                    offsetof(rb_rolling_case, a.memory.time) - 1,
+                                    offsetof(rb_rolling_case, heat_a) - 1,
+                                    offsetof(rb_rolling_case, worn.x) - 1,
+                                    offsetof(rb_rolling_case, speed) - 1,
+                                    offsetof(rb_rolling_case, zone) - 1,
+                                    offsetof(rb_rolling_case, contact.tol) - 1};
+    static rb_rolling_case x, y;
+    size_t run = 0;
+
+    for (size_t at = 0; at < sizeof x; at++) {
+        int may = 0;
+        for (size_t k = 0; k < sizeof may_differ / sizeof *may_differ; k++)
+            may |= at - may_differ[k].from < may_differ[k].size;
+        ((unsigned char *)&y)[at] = 0x41;
+        const int same = rb_rolling_same_rows(&x, &y);
+        ((unsigned char *)&y)[at] = 0;
+        run = same && !may ? run + 1 : 0;
+        if (may)
+            assert_true(same);
+        assert_true(run <= 4);
+    }
+    for (size_t k = 0; sizeof(void *) == 8 && k < sizeof unused / sizeof *unused; k++) {
+        ((unsigned char *)&y)[unused[k]] = 0x41;
+        assert_true(rb_rolling_same_rows(&x, &y));
+    }
 }
 
 RUN_TESTS(NULL, NULL)

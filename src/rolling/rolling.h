@@ -477,6 +477,9 @@ rb_status rb_rolling_variant_place(const rb_rolling_model *of, const rb_rolling_
                                    rb_message *why);
 /* 1: both cases have the same flexibility. */
 int rb_rolling_same_bodies(const rb_rolling_case *x, const rb_rolling_case *y);
+/* 1: the cases differ at most in friction and in given load, motion and force, which leave
+ * mesh, bodies and all rows of the contact problem but its bounds as they are. */
+int rb_rolling_same_rows(const rb_rolling_case *x, const rb_rolling_case *y);
 /* A variant that is also solved, starting from the zones of the model. */
 rb_status rb_rolling_variant_solve(const rb_rolling_model *of, const rb_rolling_case *rc,
                                    rb_rolling_model *variant, rb_message *why);
