@@ -3,6 +3,8 @@
 #include "cli_run.h"
 #include "rolling/rolling.h"
 
+#include <gsl/gsl_math.h>
+
 #define STEEL "--similar --support halfplane --gap parabola --young 210000 --poisson 0.3 "
 #define CARTER STEEL "--radius 100 --half-width 1 --mu 0.3 --contact-elements 24 "
 #define ROLLS CARTER "--formulation steady "
@@ -25,6 +27,21 @@
 #define FALLS                                                                                      \
     ROLLS "--creep-ratio 0.5 --friction-law exponential --mu-fall 0.2 --speed 1000 --slip-scale "
 
+#define HALF                                                                                       \
+    "--support halfplane --gap parabola --young 210000 --radius 100 --load 100 "                   \
+    "--contact-elements 24 "
+#define RELAXES                                                                                    \
+    "--support halfplane --gap parabola --young 10 --poisson 0.5 --radius 1000 --half-width 1 "    \
+    "--mu 0 --formulation transient --creep 0 --relaxation-time 1 --relaxation-ratio 1 "           \
+    "--speed 1 --contact-elements 24 "
+#define GIVES                                                                                      \
+    STEEL "--radius 300 --half-width 6 --mu 0.3 --formulation transient --creep 1e-5 "             \
+          "--interlayer-tangential 1 --contact-elements 24 "
+#define SLIDES CARTER "--formulation transient --creep-ratio 2 "
+#define SWINGS "--formulation transient --history swings.txt --contact-elements 24"
+#define CRACKED                                                                                    \
+    "crack " CARTER "--formulation static --crack-length 0.5 --crack-angle 60 "                    \
+    "--crack-elements 8 "
 #define PUSHED                                                                                     \
     STEEL "--radius 100 --half-width 1 --mu 0.2 --friction-law exponential --mu-fall 0.1 "         \
           "--formulation static --contact-elements "
@@ -206,6 +223,24 @@ static const sentence studies[] = {
      "sweep " PLANE "--half-width 1 --mu 0 --contact-elements 20 --crack-elements 4 "
      "--vary-1 'crack-length 0.5 1'",
      "sweep " CARTER "--mu 0 --crack-elements 4 --vary-1 'crack-length 0.5 1'"},
+    /* E and nu are given in each case, or in none */
+    {"material", "nu = 0.1 is that of the built-in example; give both (all 2 cases)\n",
+     "sweep " HALF "--vary-1 'mu 0.1 0.2'", "sweep " HALF "--vary-1 'poisson 0.2 0.3'"},
+    {"material", "nu = 0.1 is that of the built-in example; give both\n",
+     HALF "--base-young 1e6 --layer-thickness 1 --poisson 0.3",
+     HALF "--base-young 1e6 --layer-thickness 1 --poisson 0.3 --base-poisson 0.3"},
+    /* of steps, to the end of the way: what relaxes, what gives way, what goes to and fro */
+    {"steady", "; steady from step ", RELAXES "--distance 16", RELAXES "--distance 6"},
+    {"steady", "; steady from step ", GIVES "--distance 5", GIVES "--distance 2"},
+    {"steady", "; steady from step ", SLIDES "--distance 6",
+     STEEL "--radius 300 --half-width 6 --mu 50 " SWINGS},
+    {"steady", "; steady from step ", SLIDES "--distance 6",
+     SLIDES "--distance 6 --irregularity waves.txt"},
+    /* the crack's mouth, wherever it lies */
+    {"mouth", "The first position is 1 half-widths from the mouth, where the load already acts",
+     CRACKED "--crack-mouth -3 --from -4", CRACKED "--crack-mouth 3 --from -4"},
+    {"mouth", "half-widths from the mouth", CRACKED "--crack-mouth 3 --from -2.9",
+     CRACKED "--crack-mouth 3"},
     /* of the curve: where a third body yields nothing slides */
     {"resistance", "largest resistance to rolling M/(P R) = 0.", SPEEDS "--gap parabola",
      SPEEDS "--load 0.001 --gap roof.txt"}, /* which has no radius */
@@ -276,6 +311,15 @@ static int write_gaps(void)
     write_file("places.txt", "-10 0.1\n0 0.1\n0.5 0.5\n10 0.5\n");
     write_file("sudden.txt", "load force\n0.01 0\n100 15\n");
     write_file("gradual.txt", "load force\n50 0\n100 15\n");
+    FILE *swings = NOT_NULL(fopen("swings.txt", "w")), *waves = NOT_NULL(fopen("waves.txt", "w"));
+    fprintf(swings, "distance creep\n");
+    for (int k = 0; k <= 100; k++)
+        fprintf(swings, "%g %g\n", 0.1 * k, 1e-3 * sin(0.05 * M_PI * k));
+    for (int k = 0; k <= 200; k++) /* from beside the contact until behind the way's end */
+        fprintf(waves, "%g %g\n", 1.3 + 0.1 * k,
+                5e-4 * fmin(1.0, 0.1 * fmin(k, 200 - k)) * sin(M_PI * k / 10.0));
+    fclose(swings);
+    fclose(waves);
     write_file("pushed.txt", "shift\n0\n0.002\n0.01\n");
     write_file("flat.txt", "-0.2 0\n-0.1 1e-9\n0 0\n0.1 1e-9\n0.2 0\n");
     return 0;
@@ -323,6 +367,17 @@ TEST(studies_say_what_their_rows_would_say)
     }
     held_json *root = run_json("sweep " FRETS "--vary-1 'creep-ratio 0.1 0.2' --format json");
     assert_int_equal(json_array_size(json_object_get(root, "notes")), 1);
+    static const char *const halves[] = {HALF "--format json",
+                                         "sweep " HALF "--vary-1 'mu 0.1 0.2' --format json",
+                                         "curve " HALF "--points 2 --format json"};
+    for (size_t k = 0; k < sizeof halves / sizeof *halves; k++) {
+        held_json *half = run_json(halves[k]);
+        const json_t *said = json_object_get(half, "notes");
+        const size_t last = json_array_size(said);
+        assert_true(last > 0);
+        assert_non_null(
+            strstr(json_string_value(json_array_get(said, last - 1)), "--young without --poisson"));
+    }
 }
 
 TEST(each_bound_is_that_of_the_mesh)

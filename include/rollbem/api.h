@@ -90,11 +90,12 @@ const char *rb_api_unit(const char *system, const char *unit, char *text, int si
  * ...) stay in mm, N and MPa.
  *
  * A number of the solution by name, its error bar as "error.NAME"; or "carter" (1:
- * Carter's law holds), "radius", "modulus", "hertz_load"; "curve.free_creepage",
- * "curve.half_width", "history.half_width", "history.steady_from" (counted from 0),
- * "history.cycle_work", "history.cycle_rows", "history.jump_row" (counted from 1),
- * "history.jump_shift", "history.jump_force"; "task.iterations", "task.residual",
- * "task.scaled_residual" of rb_api_lcp and rb_api_friction.  NAN: there is none. */
+ * Carter's law holds), "radius", "modulus", "hertz_load"; "curve.mu" (that of
+ * force_ratio), "curve.free_creepage", "curve.half_width", "history.half_width",
+ * "history.steady_from" (counted from 0), "history.cycle_work", "history.cycle_rows",
+ * "history.jump_row" (counted from 1), "history.jump_shift", "history.jump_force";
+ * "task.iterations", "task.residual", "task.scaled_residual" of rb_api_lcp and rb_api_friction.
+ * NAN: there is none. */
 double rb_api_number(const rb_api *a, const char *name);
 /* "status", in words; of a solution "formulation", "solver", "lcp-form"; "task.solver";
  * after rb_api_derivatives "elements": whether they move while an input changes; after

@@ -616,7 +616,7 @@ class Curve(_Named):
     tolerances: dict  # standard deviations, of tolerance=...
     derivatives: Derivatives  # of derivatives=..., an entry per point
     notes: "list[str]"  # on how its derivatives must be read
-    mu: Value
+    mu: float  # which force_ratio refers to: of a law that falls, that of rest
     carter_holds: bool
     free_creepage: float
     half_width: float
@@ -631,7 +631,7 @@ class Curve(_Named):
         self.tolerances = handle.arrays("point", "curve.tolerance.")
         self.derivatives = Derivatives(handle, "curve")
         self.notes = handle.notes()
-        self.mu = _value("mu", handle)
+        self.mu = handle.number("curve.mu")
         self.carter_holds = handle.number("carter") == 1.0
 
     def plot(self, figure: Any = None, ax: Any = None, label: Optional[str] = None) -> Any:

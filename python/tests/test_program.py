@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import warnings
 
 import numpy as np
 import pytest
@@ -74,6 +75,21 @@ def test_several_curves():
         want = run_json("curve", "--points", 5, **{**options, "mu": mu})
         check(got.columns(), want["curve"])
         assert got.mu == mu
+    # of a law that falls the one at rest, to which force_ratio refers
+    falls = rollbem.curve(points=3, support="halfplane", half_width=0.05, mu=0.2, friction_law="exponential", mu_fall=0.3,
+                          slip_scale=1.0, speed=1000.0)
+    assert abs(falls.mu - 0.5) < 1e-12
+    assert all(abs(falls.force_ratio * falls.mu * falls.normal_load - falls.tangential_load) < 1e-12 * falls.normal_load)
+
+
+def test_half_a_material_is_said():
+    half = dict(support="halfplane", young=2e5, load=100.0, contact_elements=24)
+    for run in (rollbem.solve, lambda **o: rollbem.curve(points=2, **o), lambda **o: rollbem.sweep(mu=[0.1, 0.2], **o)):
+        with pytest.warns(rollbem.Note, match="young= without poisson="):
+            assert any("young= without poisson=" in note for note in run(**half).notes)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            run(**half, poisson=0.3, similar=True, gap="parabola")
 
 
 def test_histories(tmp_path):

@@ -623,9 +623,11 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size)
     k -= own;
     if ((s->n == 0 && a->rows.rows == 0) || k < 0)
         return NULL;
-    const rb_rolling_note_list list =
-        a->rows.rows > 0 ? rb_rolling_list_study_notes(&a->rows, a->row)
-                         : rb_rolling_find_notes(&rb_case_resolved(a->words)->rc, s);
+    rb_rolling_note_list list = a->rows.rows > 0
+                                    ? rb_rolling_list_study_notes(&a->rows, a->row)
+                                    : rb_rolling_find_notes(&rb_case_resolved(a->words)->rc, s);
+    if (a->rows.rows == 0 || strcmp(a->row, "point") == 0) /* those of a study are its rows' */
+        rb_case_note_materials(a->words, &list);
     if (k >= list.n)
         return NULL;
     snprintf(text, (size_t)size, "%s", list.text[k]);
@@ -651,6 +653,7 @@ double rb_api_number(const rb_api *a, const char *name)
         {"radius", c->derived.radius, 1, "mm"},
         {"modulus", c->derived.modulus, 1, "MPa"},
         {"hertz_load", c->derived.load, 1, "N/mm"},
+        {"curve.mu", rb_rolling_largest_mu(&c->rc), a->curve.n > 0, NULL},
         {"curve.free_creepage", a->curve.free_creepage, a->curve.n > 0, NULL},
         {"curve.half_width", a->curve.half_width, a->curve.n > 0, "mm"},
         {"history.half_width", history->half_width, history->n > 0, "mm"},

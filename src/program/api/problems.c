@@ -435,7 +435,9 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
         snprintf(name, sizeof name, "tolerance.%s", st->slopes->deviation[j]->name);
         column_of(st->a, name)->at[k] = row->own[st->slopes->n + j];
     }
-    rb_rolling_add_row_notes(&st->a->rows, k, &row->notes);
+    rb_rolling_row_notes notes = row->notes;
+    rb_case_note_materials_of_row(st->cases[k]->words, &notes);
+    rb_rolling_add_row_notes(&st->a->rows, k, &notes);
     column_of(st->a, "status")->at[k] = row->solution.status;
     for (int j = 0; j < table->n; j++)
         column_of(st->a, table->row[j].name)->at[k] =

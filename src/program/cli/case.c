@@ -60,15 +60,6 @@ cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c, 
     return code == CLI_CONTINUE ? cli_example_read(c, file) : code;
 }
 
-void cli_note_material(FILE *out, const rb_case *c)
-{
-    char text[200];
-
-    for (int k = 0; rb_case_half_material(c, k, text, sizeof text); k++)
-        if (*text)
-            fprintf(out, "rollbem: note: %s\n", text);
-}
-
 cli_exit cli_case_resolve(const cli_spec *spec, rb_case *c, const cli_args *args)
 {
     rb_message why = {""};
@@ -109,12 +100,14 @@ cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why)
 
 /* ---- Commands that solve one ------------------------------------------------------ */
 
-/* Those on the rows of a curve, or on the solution; n = 0: none. */
+/* Those on the rows of a curve, or on the solution, and on the materials; n = 0: none. */
 static rb_rolling_note_list notes_of(const cli_case_run *run)
 {
-    return run->notes      ? *run->notes
-           : run->solution ? rb_rolling_find_notes(&run->c->rc, run->solution)
-                           : (rb_rolling_note_list){.n = 0};
+    rb_rolling_note_list notes = run->notes      ? *run->notes
+                                 : run->solution ? rb_rolling_find_notes(&run->c->rc, run->solution)
+                                                 : (rb_rolling_note_list){.n = 0};
+    rb_case_note_materials(run->words, &notes);
+    return notes;
 }
 
 static rb_status write_results(FILE *out, const void *context, rb_message *why)
@@ -126,7 +119,8 @@ static rb_status write_results(FILE *out, const void *context, rb_message *why)
     const rb_rolling_note_list notes = notes_of(run);
     rb_report_document document = {.command = cli_command_line(),
                                    .words = run->words,
-                                   .notes = run->notes || run->solution ? &notes : NULL};
+                                   .notes =
+                                       run->notes || run->solution || notes.n > 0 ? &notes : NULL};
     if (run->command->document)
         run->command->document(run, &document);
     json_t *root = rb_report_json_document(&document);
@@ -159,7 +153,6 @@ static void print_summary(FILE *out, const void *context)
 {
     const cli_case_run *run = context;
     const rb_rolling_note_list notes = notes_of(run);
-    cli_note_material(out, run->words);
     rb_report_notes(out, &notes, cli_is_coloured(stderr));
     run->command->summarise(out, run);
     rb_report_bodies(out, &run->c->rc, run->c->units);

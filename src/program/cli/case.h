@@ -38,9 +38,6 @@ cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c,
 cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c, cli_args *args);
 cli_exit cli_case_resolve(const cli_spec *spec, rb_case *c, const cli_args *args);
 
-/* A line for each material of which half is given. */
-void cli_note_material(FILE *out, const rb_case *c);
-
 /* --example NAME, the last set of every spec of a case, and what it asks for; file: the case
  * file, which excludes it. */
 rb_option_set cli_example_set(void);

@@ -377,7 +377,9 @@ static const char note_before[] = "note, case ";
 static const char *name_of_note(int kind, char text[24])
 {
     const char *name = rb_rolling_note_name(kind);
-    snprintf(text, 24, "crack-%d", kind - RB_ROLLING_OWN_NOTES + 1);
+    const int of_material = kind >= RB_CASE_MATERIAL_NOTES;
+    snprintf(text, 24, "%s-%d", of_material ? "material" : "crack",
+             kind - (of_material ? (int)RB_CASE_MATERIAL_NOTES : (int)RB_ROLLING_OWN_NOTES) + 1);
     return name ? name : text;
 }
 
@@ -422,7 +424,8 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
     rb_rolling_row shown = *row;
 
     rb_rolling_row_convert(&shown, rb_case_resolved(st->base)->units);
-    write_notes(st, k, &row->notes);
+    rb_case_note_materials_of_row(st->base, &shown.notes); /* which are given is one for all */
+    write_notes(st, k, &shown.notes);
     for (int j = 0; j < column_count(st); j++) {
         const double x = cell_value(st, j, k, &shown);
         const char *word = cell_word(st, j, k);

@@ -229,6 +229,11 @@ int rb_case_given(const rb_case *c, const char *name);
  * says so.  k: 0, 1, ... until it returns NULL; the text, or "" where nothing
  * is to say. */
 const char *rb_case_half_material(const rb_case *c, int k, char *text, size_t room);
+/* Adds these sentences to the notes on a result, or on a row of a study, of kinds that begin here,
+ * behind those of cracks. */
+enum { RB_CASE_MATERIAL_NOTES = RB_ROLLING_NOTES - 5 };
+void rb_case_note_materials(const rb_case *c, rb_rolling_note_list *notes);
+void rb_case_note_materials_of_row(const rb_case *c, rb_rolling_row_notes *notes);
 /* Converts an error s of rollbem/rolling.h to an error of this case: if the wrong value
  * is in a file, the message gets the file and the line.  Returns the status to report. */
 rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why);

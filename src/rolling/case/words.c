@@ -414,10 +414,11 @@ static rb_status resolve_body_b(rb_case *c, rb_message *why)
     return RB_OK;
 }
 
+enum { PARTS = RB_ROLLING_NOTES - RB_CASE_MATERIAL_NOTES };
+
 const char *rb_case_half_material(const rb_case *c, int k, char *text, size_t room)
 {
-    static const char *const part[] = {"", "base-", "core-", "base-", "core-"};
-    enum { PARTS = sizeof part / sizeof *part };
+    static const char *const part[PARTS] = {"", "base-", "core-", "base-", "core-"};
     if (k < 0 || k >= PARTS)
         return NULL;
     const rb_rolling_case *rc = &c->resolved.rc;
@@ -443,6 +444,23 @@ const char *rb_case_half_material(const rb_case *c, int k, char *text, size_t ro
                   "--%s without --%s: E = %g %s is that of the built-in example; give both", nu, E,
                   rb_unit_shown(units, "MPa", young[which]), rb_unit_name(units, "MPa"));
     return text;
+}
+
+void rb_case_note_materials(const rb_case *c, rb_rolling_note_list *notes)
+{
+    for (int k = 0; k < PARTS && notes->n < RB_ROLLING_NOTES; k++) {
+        notes->kind[notes->n] = RB_CASE_MATERIAL_NOTES + k;
+        notes->n += *rb_case_half_material(c, k, notes->text[notes->n], sizeof notes->text[0]) != 0;
+    }
+}
+
+void rb_case_note_materials_of_row(const rb_case *c, rb_rolling_row_notes *notes)
+{
+    char text[RB_ROLLING_NOTE_LENGTH];
+
+    for (int k = 0; k < PARTS; k++)
+        if (*rb_case_half_material(c, k, text, sizeof text))
+            rb_rolling_add_note(notes, RB_CASE_MATERIAL_NOTES + k, text);
 }
 
 /* ---- Layers and memory ------------------------------------------------------------- */
