@@ -438,8 +438,8 @@ TEST(curves_go_on_behind_points_without_a_solution)
     }
     CHECK_REL(entry(curve, "force_ratio", 4), -0.0793376, 1e-5, "beyond");
     /* and a second curve */
-    CHECK_RUN(rollbem(STEEP "--mu 0.02,0.3"), 1, err, "curve, mu = 0.3: 10 points in");
-    assert_non_null(strstr(out, "\n0.3\t"));
+    CHECK_RUN(rollbem(STEEP "--mu 0.02,0.3"), 1, err, "curve, mu(0) = 0.6: 10 points in");
+    assert_non_null(strstr(out, "\n0.6\t"));
 #undef STEEP
 }
 

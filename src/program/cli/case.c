@@ -149,13 +149,17 @@ static cli_exit write_files(const cli_spec *spec, const cli_case_run *run, int p
     return code;
 }
 
+enum { LARGE_WINDOW = 30 }; /* lines */
+
 static void print_summary(FILE *out, const void *context)
 {
     const cli_case_run *run = context;
     const rb_rolling_note_list notes = notes_of(run);
     rb_report_notes(out, &notes, cli_is_coloured(stderr));
     run->command->summarise(out, run);
-    rb_report_bodies(out, &run->c->rc, run->c->units);
+    /* in a small window the table needs the line more than what was typed just now */
+    if (!isatty(STDERR_FILENO) || cli_terminal_height() >= LARGE_WINDOW)
+        rb_report_bodies(out, &run->c->rc, run->c->units);
 }
 
 static void summarise(const cli_case_run *run)
