@@ -835,7 +835,8 @@ TEST(a_terminal_that_goes_interrupts_unless_nohup)
                  "--creep-ratio 0.5 --quiet --output gone.tsv & p=$!; " WHEN_CAUGHT(
                      "%s") "kill -HUP $p; %s wait $p",
                  /* the tests themselves may run under nohup */
-                 nohup ? "trap '' HUP;" : "env --default-signal=HUP", nohup ? INT_CAUGHT : HUP_CAUGHT,
+                 nohup ? "trap '' HUP;" : "env --default-signal=HUP",
+                 nohup ? INT_CAUGHT : HUP_CAUGHT,
                  nohup ? "sleep 0.3; kill -INT $p || exit 9;" : "");
         CHECK_RUN(shell(line), 1, err, "interrupted after step");
     }

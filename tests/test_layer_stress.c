@@ -214,7 +214,7 @@ TEST(bad_input)
     CHECK_STATUS(rb_bem_layer_field_create(&body, &t.load, &field, &heard), RB_EINVAL);
     body.thickness = 1e-5;
     CHECK_STATUS(rb_bem_layer_field_create(&body, &t.load, &field, &heard), RB_EINVAL);
-    t.x[3] = t.x[2];
+    t.x[3] = t.x[1]; /* the same as t.x[2] would be a jump */
     body.thickness = 0.5;
     CHECK_STATUS(rb_bem_layer_field_create(&body, &t.load, &field, &heard), RB_EINVAL);
     assert_null(field);

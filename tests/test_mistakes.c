@@ -328,7 +328,6 @@ TEST(refusals_have_their_code_and_reason)
         {64, "lcp one.txt --all --start one.txt", "--all tries every basis"},
         {64, "lcp one.txt --all --solver lemke", "--all tries every basis"},
         {64, "lcp one.txt --all --max-pivots 3", "--all tries every basis"},
-        {64, "lcp one.txt --all --prove", "--prove proves one solution"},
         {64, "lcp game.txt --game --lower one.txt", "--game reads A and B alone"},
         {64, "lcp game.txt --game --upper one.txt", "--game reads A and B alone"},
         {64, "lcp game.txt --game --start one.txt", "--game reads A and B alone"},

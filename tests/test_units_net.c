@@ -43,6 +43,10 @@ static const char *const lines[] = {
     "~ --gap {gap} --load {N/mm 100} --gap-smoothing {mm 1e-7}",
     "~ --worn {worn} --load {N/mm 100}",
     "~ --max-pressure {MPa 900} --shift {mm 1e-4}",
+    "~ --gap parabola --wheel-load {N 100000} --transverse-radius {mm 300} --transverse-radius-b "
+    "{mm 2000}",
+    "~ --load {N/mm 500} --shift {mm 1e-3} --bulk-stress {MPa 40} --bulk-stress-b {MPa -20}",
+    "~ --load {N/mm 500} --moment {N 30} --shift {mm 1e-4}",
     "~ --formulation transient --distance 0.2 --irregularity {flat} --load {N/mm 100} --creep 0",
     "~ --friction-law {law} --load {N/mm 100} --shift {mm 1e-4}",
     "~ --history {history}",
@@ -57,6 +61,8 @@ static const char *const lines[] = {
     "stress ~ --load {N/mm 500} --shift {mm 1e-3} --depth {mm 1.5} --grid 4x3 --error",
     "stress ~ --load {N/mm 500} --shift {mm 1e-3} --points {points} --shakedown --yield-shear "
     "{MPa 300}",
+    "stress --support halfplane --young {MPa 205000} --poisson 0.3 --tractions {tractions} "
+    "--points {points}",
     "wear ~ --load {N/mm 500} --slide {mm 1e5} --wear-coefficient {1/MPa 1e-10} --wear-steps 2",
     "wear ~ --load {N/mm 500} --shift {mm 0.002} --cycles 1e5 --wear-coefficient {1/MPa 1e-10} "
     "--wear-steps 2 --quarter 4",
@@ -88,12 +94,13 @@ static const char steel[] = "--similar --support halfplane --radius {mm 46.5} --
 
 /* Tables by their names: a heading and rows with the units of their columns. */
 static const struct {
-    const char *name, *heading, *unit[2], *rows;
+    const char *name, *heading, *unit[3], *rows;
 } tables[] = {
     {"gap", "x gap", {"mm", "mm"}, "-2 .04 -1 .01 -.5 .0025 0 0 .5 .0025 1 .01 2 .04"},
     {"worn", "x depth", {"mm", "mm"}, "-.2 0 -.1 .0004 0 .0005 .1 .0004 .2 0"},
     {"flat", "x gap", {"mm", "mm"}, "-.3 0 0 .001 .3 0"},
     {"law", "x mu", {"mm", "-"}, "-.2 .2 0 .3 .2 .2"},
+    {"tractions", "x p q", {"mm", "MPa", "MPa"}, "-1 0 0 0 100 40 1 0 0"},
     {"points", "x y", {"mm", "mm"}, "0 .5 .1 .3"},
     {"history", "load shift", {"N/mm", "mm"}, "100 0 200 .0005 150 -.0002"},
     {"cases", "load young", {"N/mm", "MPa"}, "100 205000 200 190000"},
@@ -106,7 +113,7 @@ static void write_table(int k, rb_units units, const char *path)
 {
     FILE *file = NOT_NULL(fopen(path, "w"));
     const char *at = tables[k].rows;
-    const int columns = 2;
+    const int columns = tables[k].unit[2] ? 3 : 2;
     double x;
     int n = 0, used;
     fprintf(file, "%s\n", tables[k].heading);
@@ -203,6 +210,7 @@ static const char *unit_of_option(const char *name)
 static const char *unit_of(const char *name, const char *path)
 {
     static const char *const others[][2] = {{"depth", "mm"},
+                                            {"largest", "MPa"},
                                             {"fringe", "MPa"},
                                             {"yield-shear", "MPa"},
                                             {"slide", "mm"},

@@ -100,14 +100,12 @@ cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why)
 
 /* ---- Commands that solve one ------------------------------------------------------ */
 
-/* Those on the rows of a curve, or on the solution, and on the materials; n = 0: none. */
+/* Those on the rows of a curve, or on the solution; n = 0: none. */
 static rb_rolling_note_list notes_of(const cli_case_run *run)
 {
-    rb_rolling_note_list notes = run->notes      ? *run->notes
-                                 : run->solution ? rb_rolling_find_notes(&run->c->rc, run->solution)
-                                                 : (rb_rolling_note_list){.n = 0};
-    rb_case_note_materials(run->words, &notes);
-    return notes;
+    return run->notes      ? *run->notes
+           : run->solution ? rb_rolling_find_notes(&run->c->rc, run->solution)
+                           : (rb_rolling_note_list){.n = 0};
 }
 
 static rb_status write_results(FILE *out, const void *context, rb_message *why)
@@ -119,8 +117,7 @@ static rb_status write_results(FILE *out, const void *context, rb_message *why)
     const rb_rolling_note_list notes = notes_of(run);
     rb_report_document document = {.command = cli_command_line(),
                                    .words = run->words,
-                                   .notes =
-                                       run->notes || run->solution || notes.n > 0 ? &notes : NULL};
+                                   .notes = run->notes || run->solution ? &notes : NULL};
     if (run->command->document)
         run->command->document(run, &document);
     json_t *root = rb_report_json_document(&document);
@@ -154,7 +151,9 @@ enum { LARGE_WINDOW = 30 }; /* lines */
 static void print_summary(FILE *out, const void *context)
 {
     const cli_case_run *run = context;
-    const rb_rolling_note_list notes = notes_of(run);
+    rb_rolling_note_list notes = notes_of(run);
+    /* only here: which halves were given is no part of a result, whose inputs name both */
+    rb_case_note_materials(run->words, &notes);
     rb_report_notes(out, &notes, cli_is_coloured(stderr));
     run->command->summarise(out, run);
     /* in a small window the table needs the line more than what was typed just now */

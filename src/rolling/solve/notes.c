@@ -387,7 +387,7 @@ static int near_datum(const rb_rolling_case *rc, const rb_rolling_solution *s, c
 
 static int strip_of_ellipse(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
-    return !isnan(s->ellipse.radius) &&
+    return s->ellipse.radius > 0.0 &&
            write_note(
                text,
                "The strip through the middle of the ellipse has its half-width and largest "

@@ -280,7 +280,9 @@ static void add_patch(const patch *r, rb_bem_edge_load *load, double *x, double 
         add_edge(r, &right, load, x, p, q);
     else
         add_node(load, x, p, q, to + 1 < n ? r->x[to + 1] : r->ends[n], 0.0, 0.0);
-    add_stick_ends(r, from, to, load, x, p, q);
+    /* after a reversal older ends of stick lie beside this one, and three elements do not tell */
+    if (r->rc->formulation == RB_STEADY)
+        add_stick_ends(r, from, to, load, x, p, q);
 }
 
 rb_status rb_rolling_traction_nodes(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
