@@ -424,7 +424,10 @@ TEST(every_long_call_can_be_stopped)
         if (j->is_asked_of_a_solution && rb_api_solve(a) != RB_OK)
             fail_msg("%s: %s", j->name, rb_api_message(a));
         double late;
-        const int s = stopped_after(a, j->call, k % 2 ? 0.0 : 0.02, &late);
+        int s = stopped_after(a, j->call, k % 2 ? 0.0 : 0.02, &late);
+        /* on a busy machine a call of a tenth of a second may be over before the stop comes */
+        for (int again = 0; again < 8 && s == RB_OK && !j->may_end; again++)
+            s = stopped_after(a, j->call, 0.0, &late);
         if (only)
             print_message("%s: %d, %.3f s, %s\n", j->name, s, late, rb_api_message(a));
         if (s != RB_INTERRUPTED && !(s == RB_OK && j->may_end))
