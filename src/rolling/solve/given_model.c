@@ -108,7 +108,10 @@ rb_status rb_rolling_model_of_elements(const rb_rolling_case *rc, int n, const d
                                        const double *zone, rb_rolling_model *model,
                                        rb_rolling_solution *s, rb_message *why)
 {
-    rb_status status = begin(rc, n, model, s, why);
+    /* a table does not say how it came about: ends of stick are taken as those of steady rolling */
+    rb_rolling_case steady = *rc;
+    steady.formulation = RB_STEADY;
+    rb_status status = begin(&steady, n, model, s, why);
     if (status != RB_OK)
         return status;
     for (int k = 0; k < n; k++) {
