@@ -103,35 +103,23 @@ static void differentiate(floating *s, const double *x)
     }
 }
 
-/* z = Z d at the least |d|, by projected gradients with Nesterov's extrapolation, restarted
- * where |d| grows.  |A|_F^2 is not below |A|^2. */
+/* z = Z d at the least |d|, by projected gradients.  |A|_F^2 is not below |A|^2. */
 static void search(floating *s)
 {
-    const int d = s->p->dimension, k = s->nullity;
+    const int k = s->nullity;
     const double work = 4.0 * k * s->m, size = rb_friction_norm((size_t)(k * s->m), s->A);
-    const double length = size > 0.0 ? 1.0 / (size * size) : 0.0;
-    double t = 1.0, last = INFINITY;
+    rb_friction_descent descent = {.p = s->p,
+                                   .wider = 1.0 + WIDER,
+                                   .length = size > 0.0 ? 1.0 / (size * size) : 0.0,
+                                   .x = s->x,
+                                   .ahead = s->ahead,
+                                   .before = s->before,
+                                   .gradient = s->gradient,
+                                   .t = 1.0,
+                                   .last = INFINITY};
     for (int step = 0; step < STEPS && step * work < OPERATIONS; step++) {
-        double change = 0.0, most = 0.0;
         differentiate(s, s->ahead);
-        const double value = rb_friction_norm((size_t)k, s->d),
-                     next = 0.5 * (1.0 + sqrt(1.0 + 4.0 * t * t));
-        const int grows = value > last;
-        for (int c = 0; c < s->p->contacts; c++) {
-            double *x = s->x + c * d;
-            for (int a = 0; a < d; a++)
-                x[a] = s->ahead[c * d + a] - length * s->gradient[c * d + a];
-            rb_friction_project(d, (1.0 + WIDER) * s->p->mu[c], x, x);
-        }
-        for (int i = 0; i < s->m; i++) {
-            change = fmax(change, fabs(s->x[i] - s->ahead[i]));
-            most = fmax(most, fabs(s->x[i]));
-            s->ahead[i] = s->x[i] + (grows ? 0.0 : (t - 1.0) / next * (s->x[i] - s->before[i]));
-            s->before[i] = s->x[i];
-        }
-        t = grows ? 1.0 : next;
-        last = value;
-        if (change <= 1e-15 * most)
+        if (rb_friction_descend(&descent, rb_friction_norm((size_t)k, s->d)) <= 1e-15)
             break;
     }
     differentiate(s, s->x);

@@ -81,6 +81,29 @@ static double step_length(search *s, double *y)
     return most > 0.0 ? 0.8 / most : 0.0;
 }
 
+double rb_friction_descend(rb_friction_descent *s, double value)
+{
+    const int d = s->p->dimension, nc = s->p->contacts, grows = value > s->last;
+    const double next = 0.5 * (1.0 + sqrt(1.0 + 4.0 * s->t * s->t));
+    double change = 0.0, size = 0.0;
+    for (int c = 0; c < nc; c++) {
+        double *x = s->x + c * d;
+        for (int a = 0; a < d; a++)
+            x[a] = s->ahead[c * d + a] - s->length * s->gradient[c * d + a];
+        rb_friction_project(d, s->wider * s->p->mu[c], x, x);
+    }
+    for (int i = 0; i < d * nc; i++) {
+        const double step = s->x[i] - s->before[i];
+        change = fmax(change, fabs(s->x[i] - s->ahead[i]));
+        size = fmax(size, fabs(s->x[i]));
+        s->ahead[i] = s->x[i] + (grows ? 0.0 : (s->t - 1.0) / next * step);
+        s->before[i] = s->x[i];
+    }
+    s->t = grows ? 1.0 : next;
+    s->last = value;
+    return change == 0.0 ? 0.0 : change / size;
+}
+
 rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y, double *least)
 {
     const size_t m = (size_t)(local->dimension * local->contacts);
@@ -102,9 +125,15 @@ rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y, do
         memset(s.z, 0, m * sizeof *s.z);
         const int d = local->dimension, nc = local->contacts;
         const double work = 4.0 * s.blocks.p[nc] * d * d;
-        double t = 1.0, last = INFINITY;
-        /* Projected gradients with Nesterov's extrapolation (Beck and Teboulle), restarted
-         * where |y| grows. */
+        rb_friction_descent descent = {.p = local,
+                                       .wider = 1.0,
+                                       .length = s.length,
+                                       .x = s.x,
+                                       .ahead = s.z,
+                                       .before = s.before,
+                                       .gradient = s.gradient,
+                                       .t = 1.0,
+                                       .last = INFINITY};
         for (int k = 0; k < STEPS && k * work < OPERATIONS; k++) {
             /* y and half of |y|^2 at x. */
             double value = 0.0;
@@ -116,26 +145,8 @@ rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y, do
                 y[c] = fmax(0.0, -(s.w[c * d] + local->q[c * d]));
                 value += 0.5 * y[c] * y[c];
             }
-            const double next = 0.5 * (1.0 + sqrt(1.0 + 4.0 * t * t));
-            const int grows = value > last;
-            double change = 0.0, size = 0.0;
             transposed(&s, y);
-            for (int c = 0; c < nc; c++) {
-                double *x = s.x + c * d;
-                for (int a = 0; a < d; a++)
-                    x[a] = s.z[c * d + a] - s.length * s.gradient[c * d + a];
-                rb_friction_project(d, local->mu[c], x, x);
-            }
-            for (size_t i = 0; i < m; i++) {
-                const double step = s.x[i] - s.before[i];
-                change = fmax(change, fabs(s.x[i] - s.z[i]));
-                size = fmax(size, fabs(s.x[i]));
-                s.z[i] = s.x[i] + (grows ? 0.0 : (t - 1.0) / next * step);
-                s.before[i] = s.x[i];
-            }
-            t = grows ? 1.0 : next;
-            last = value;
-            if (value == 0.0 || change <= SMALL * size)
+            if (rb_friction_descend(&descent, value) <= SMALL || value == 0.0)
                 break;
         }
         /* What any solution must have of sum W_NN r_N, proved by y: -A'y misses K* by at

@@ -383,6 +383,19 @@ double rb_friction_lemke_pairs_flops(const rb_friction_task *task, double pivots
 /* The row of the list of solvers for a method and variant. */
 const rb_friction_solver *rb_friction_solver_of(const rb_friction_method *method, int variant);
 
+/* Projected gradients on the cones r_T <= wider mu r_N with Nesterov's extrapolation, restarted
+ * where the value grows (Beck and Teboulle); m each: the iterate, zeros at the start, the
+ * extrapolated one, the last one, and the gradient at the extrapolated one; t = 1, last = infinity.
+ */
+typedef struct {
+    const rb_friction_problem *p;
+    double wider, length; /* length: of a step */
+    double *x, *ahead, *before, *gradient;
+    double t, last;
+} rb_friction_descent;
+/* A step; value: at the extrapolated iterate.  Returns how far it goes over the largest |x|. */
+double rb_friction_descend(rb_friction_descent *descent, double value);
+
 /* Runs a method on the prepared task to its end, with at most `limit` iterations. */
 rb_status rb_friction_run(rb_friction_task *task, const rb_friction_method *method, int variant,
                           int limit);
