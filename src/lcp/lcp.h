@@ -58,6 +58,10 @@ void rb_lcp_number_free(rb_lcp_number *number);
  * than 400 unknowns, for which a linear program takes long, it stays 0.  RB_ENOMEM, RB_EINVAL: NaN
  * or infinity. */
 rb_status rb_lcp_prove_absence(const rb_lcp_mixed_problem *p, rb_lcp_proof *proof);
+/* rb_lcp_prove, and rb_lcp_prove_absence of what it leaves open.  RB_UNDECIDED: no solution is
+ * proved to exist; proof->least_sum. */
+rb_status rb_lcp_prove_or_exclude(const rb_lcp_mixed_problem *p, const double *z,
+                                  rb_lcp_proof *proof);
 
 /* definite: 1: x'D A x > 0 is proved for all x other than zero, D = diag(d), for A (n x n,
  * column-major) and all matrices whose entries differ from it by at most 8 units of rounding, and

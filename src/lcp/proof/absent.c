@@ -165,3 +165,11 @@ rb_status rb_lcp_prove_absence(const rb_lcp_mixed_problem *p, rb_lcp_proof *proo
     rb_proof_absence_free(&absence);
     return s;
 }
+
+rb_status rb_lcp_prove_or_exclude(const rb_lcp_mixed_problem *p, const double *z,
+                                  rb_lcp_proof *proof)
+{
+    const rb_status s = rb_lcp_prove(p, z, proof);
+    const rb_status absence = s == RB_UNDECIDED ? rb_lcp_prove_absence(p, proof) : RB_OK;
+    return absence == RB_OK ? s : absence;
+}

@@ -143,10 +143,8 @@ int rb_api_lcp_sparse(rb_api *a, int n, const int *p, const int *i, const double
     a->why = info.msg;
     if (s >= 0 && s != RB_INTERRUPTED && a->proves) {
         rb_lcp_proof proof;
-        rb_status proved = rb_lcp_prove(&problem, z->at, &proof);
-        if (proved == RB_UNDECIDED)
-            proved = rb_lcp_prove_absence(&problem, &proof);
-        proved = keep_proof(a, "lcp", proved, &proof);
+        const rb_status proved =
+            keep_proof(a, "lcp", rb_lcp_prove_or_exclude(&problem, z->at, &proof), &proof);
         s = proved == RB_OK ? s : proved;
     }
     s = rb_api_call_ends(a, s);

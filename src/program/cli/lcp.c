@@ -362,17 +362,6 @@ static cli_exit run_all(lcp_run *run, rb_io_matrix *M, lcp_result *r)
         code);
 }
 
-/* A solution, or that there is none. */
-static rb_status prove(lcp_result *r)
-{
-    rb_status s = rb_lcp_prove(&r->boxed, r->z, &r->proof);
-    if (s == RB_UNDECIDED) {
-        const rb_status absence = rb_lcp_prove_absence(&r->boxed, &r->proof);
-        s = absence == RB_OK ? s : absence;
-    }
-    return s;
-}
-
 static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
 {
     const lcp_options *o = run->o;
@@ -422,7 +411,7 @@ static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
         }
         code = s < 0 ? invalid(r, s, &r->info.msg) : say_end(o, r, s);
         if (o->prove && s >= 0)
-            code = say_proof(r, prove(r), code);
+            code = say_proof(r, rb_lcp_prove_or_exclude(&r->boxed, r->z, &r->proof), code);
     }
     rb_io_lcp_free(&p);
     return code;
