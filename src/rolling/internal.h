@@ -17,6 +17,9 @@ void rb_rolling_coarsen_boundary(rb_rolling_plan *plan);
  * (U1): displacements differ by so much times x. */
 int rb_rolling_is_strained(const rb_rolling_case *rc);
 double rb_rolling_bulk_strain(const rb_rolling_case *rc);
+/* Forgets the half-width, largest pressure or wheel load that were given: load or approach are set
+ * instead. */
+void rb_rolling_press_by_load(rb_rolling_case *rc);
 /* 1: the load is that of an ellipse (E2). */
 int rb_rolling_has_ellipse(const rb_rolling_case *rc);
 /* 1: a tilt or a moment is given; and the tilt (U3). */

@@ -313,6 +313,11 @@ double rb_rolling_zone_half_width(const rb_rolling_case *rc, double load)
     return rc->interlayer_normal > 0.0 ? fmax(hertz, soft) : hertz;
 }
 
+void rb_rolling_press_by_load(rb_rolling_case *rc)
+{
+    rc->half_width = rc->max_pressure = rc->pressed_by = rc->wheel_load = NAN;
+}
+
 int rb_rolling_is_strained(const rb_rolling_case *rc)
 {
     return rc->bulk_stress != 0.0 || rc->bulk_stress_b != 0.0;

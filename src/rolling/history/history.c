@@ -760,8 +760,7 @@ static rb_status begin_program(history_state *r, const rb_rolling_case *rc, rb_m
     if (s == RB_OK && !program && rc->formulation == RB_TRANSIENT && rc->distance == 0.0)
         s = rb_fail(why, RB_EINVAL, "distance: expected > 0, got 0");
     if (s == RB_OK && !program) {
-        r->base.half_width = r->base.max_pressure = r->base.wheel_load =
-            NAN; /* a column of loads replaces it */
+        rb_rolling_press_by_load(&r->base); /* a column of loads replaces it */
         s = rb_rolling_program_of_case(rc, &r->columns, &r->own);
     }
     return s == RB_OK && !r->is_variant ? rb_rolling_program_check(r->program, r->rc, why) : s;

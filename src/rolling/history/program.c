@@ -62,7 +62,7 @@ int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling
 /* 1: the case is loaded tangentially at rest, or its bodies are strained. */
 static int loads(const rb_rolling_case *at)
 {
-    if (at->bulk_stress != 0.0 || at->bulk_stress_b != 0.0)
+    if (rb_rolling_is_strained(at))
         return 1;
     if (!isnan(at->force_ratio))
         return at->force_ratio != 0.0;
@@ -81,7 +81,7 @@ static void begin_from_nothing(rb_rolling_case *at, int part, int parts)
     const double pressed = fmin(1.0, (double)part / presses),
                  loaded = part > presses ? (double)(part - presses) / (parts - presses) : 0.0;
 
-    at->half_width = at->max_pressure = at->pressed_by = at->wheel_load = NAN;
+    rb_rolling_press_by_load(at);
     at->load = pressed * d.load;
     at->approach = pressed * d.approach;
     if (at->formulation == RB_STATIC && isnan(at->force) && isnan(at->force_ratio))
@@ -334,7 +334,7 @@ rb_status rb_rolling_program_of_case(const rb_rolling_case *rc, rb_arena *memory
             last = rb_rolling_wanted_shift(rc);
         }
     }
-    const int is_strained = rc->bulk_stress != 0.0 || rc->bulk_stress_b != 0.0,
+    const int is_strained = rb_rolling_is_strained(rc),
               loaded = (last != 0.0 || is_strained) && count > 1;
     if (is_strained) { /* in phase with the force or shift */
         program->bulk_stress = bulk;

@@ -764,7 +764,7 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     memset(history, 0, sizeof *history);
     memset(last, 0, sizeof *last);
     r.rc.load = rb_rolling_derive(rc).load; /* a given half-width means this load */
-    r.rc.half_width = r.rc.max_pressure = r.rc.pressed_by = r.rc.wheel_load = NAN;
+    rb_rolling_press_by_load(&r.rc);
     r.rc.increments = 1; /* the cycles have their own */
     r.was_worn = rc->worn.n > 0;
     rb_status s = check(rc, wear, why);

@@ -539,7 +539,7 @@ static rb_status peak_of_bond(const search *f, const strip *in, double depth, me
         if (!(top >= of(&at[i - 1]) && top > of(&at[i + 1]) && top > 0.9 * most))
             continue;
         const rb_status status = climb(f, of, in, 0.5 * fmax(s[i] - s[i - 1], s[i + 1] - s[i]), 0.0,
-                                       best->value - 1e-3 * best->value, place, &top, why);
+                                       (1.0 - 1e-3) * best->value, place, &top, why);
         if (status != RB_OK)
             return status;
         to_xy(f, in, place[0], place[1], xy);

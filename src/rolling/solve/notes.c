@@ -387,14 +387,14 @@ static int near_datum(const rb_rolling_case *rc, const rb_rolling_solution *s, c
 
 static int strip_of_ellipse(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
+    (void)rc;
     return s->ellipse.radius > 0.0 &&
            write_note(
                text,
                "The strip through the middle of the ellipse has its half-width and largest "
                "pressure. Stress inside, shakedown (p0/k = 4 for 4.7 of an ellipse without "
-               "friction), "
-               "approach and heat are those of a line contact; forces are per width there.") &&
-           rc;
+               "friction), approach and heat are those of a line contact; forces are per width "
+               "there.");
 }
 
 /* ---- What is given, perhaps in other units ----------------------------------------- */
