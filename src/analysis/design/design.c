@@ -499,7 +499,7 @@ static rb_status search(problem *p)
         if (p->status == RB_OK && r == NLOPT_MAXEVAL_REACHED)
             p->status =
                 rb_fail(p->why, RB_MAXITER, "design: not converged after %d evaluation%s%s%s",
-                        d->evaluations, d->evaluations == 1 ? "" : "s",
+                        d->evaluations, rb_plural(d->evaluations),
                         *p->reason.text ? "; some have no solution: " : "", p->reason.text);
         else if (p->status == RB_OK && r < 0 && r != NLOPT_ROUNDOFF_LIMITED)
             p->status = rb_fail(p->why, RB_INACCURATE, "design: the search failed: %s",

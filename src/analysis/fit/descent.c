@@ -117,7 +117,7 @@ rb_status rb_case_fit_tell(rb_case_fit *fit, const rb_case_fit_observer *o, doub
     fit->iterations++;
     return o && o->step && o->step(fit->iterations, chi2, fit->n, theta, o->context)
                ? rb_fail(why, RB_INTERRUPTED, "fit: interrupted after %d step%s", fit->iterations,
-                         fit->iterations == 1 ? "" : "s")
+                         rb_plural(fit->iterations))
                : RB_OK;
 }
 

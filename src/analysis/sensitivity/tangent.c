@@ -258,7 +258,7 @@ rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_r
         return rb_fail(why, RB_EINVAL,
                        "derivatives: which way %d element%s without friction will slide is found "
                        "by matrices: give fewer than %d elements",
-                       rub, rub == 1 ? "" : "s", RB_ROLLING_LARGE);
+                       rub, rb_plural(rub), RB_ROLLING_LARGE);
     const rb_status status = !s->factors ? tangent_by_products(s, rate, tangent)
                              : s->degenerate || rub > 0
                                  ? tangent_at_border(s, rate, side, tangent, why)

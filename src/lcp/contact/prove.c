@@ -136,15 +136,6 @@ static int choose_weights(int n, const double *A, int ld, int border, const doub
     return kind < (border ? ONES : KINDS) && (cancels || !border);
 }
 
-/* 1: all are positive numbers. */
-static int are_positive(int n, const double *d)
-{
-    int yes = 1;
-    for (int i = 0; i < n; i++)
-        yes &= d[i] > 0.0 && isfinite(d[i]);
-    return yes;
-}
-
 /* definite: two solutions have the same x: sum d_i dx_i dy_i <= 0 for complementary x and y = A x
  * + column b, and dx'D A dx > 0 otherwise.  x are the pressures and y the gaps, or friction and
  * slips. */
@@ -260,7 +251,10 @@ static rb_status prove_coupled(const rb_contact_problem *p, const rb_contact_mat
     for (int kind = 0; s == RB_OK && !*unique &&
                        choose_weights(n, K->F, K->ldf, p->load_given, p->load_N, column, kind, d);
          kind++) {
-        if (!are_positive(n, d))
+        int positive = 1;
+        for (int i = 0; i < n; i++)
+            positive &= d[i] > 0.0 && isfinite(d[i]);
+        if (!positive)
             continue;
         set_weights(&e, d, work);
         for (int of_kappa = 0; of_kappa <= 6 && !*unique; of_kappa++)

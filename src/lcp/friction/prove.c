@@ -268,7 +268,7 @@ static int krawczyk(prover *p, const proof_inverse *v, const double *f, double *
 }
 
 /* x and rho: the zero of the active equations.  RB_UNDECIDED: proof->reason. */
-static rb_status solve(prover *p, rb_friction_proof *proof)
+static rb_status solve_active_equations(prover *p, rb_friction_proof *proof)
 {
     const size_t n = (size_t)p->n;
     rb_arena scratch = {0};
@@ -454,7 +454,7 @@ static rb_status attempt_all(prover *p, rb_friction_proof *proof)
             return RB_UNDECIDED;
         }
         if (s == RB_OK)
-            s = solve(p, proof);
+            s = solve_active_equations(p, proof);
         if (s != RB_OK)
             return s;
         s = judge(p, proof);

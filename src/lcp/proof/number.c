@@ -88,7 +88,7 @@ static int is_wrong(const counter *s, int *open)
     return 0;
 }
 
-static rb_status look(counter *s, proof_absence *absence, basis_verdict *verdict)
+static rb_status judge_basis(counter *s, proof_absence *absence, basis_verdict *verdict)
 {
     const size_t n = (size_t)s->n;
     proof_inverse inverse;
@@ -205,8 +205,7 @@ void rb_lcp_number_free(rb_lcp_number *number)
     *number = (rb_lcp_number){0};
 }
 
-/* The places of each z_i, and the verdict of every basis. */
-static rb_status look_at_all(counter *s, double bases, double seconds, proof_absence *absence)
+static rb_status judge_all(counter *s, double bases, double seconds, proof_absence *absence)
 {
     const double began = rb_seconds();
     rb_status status = RB_OK;
@@ -214,7 +213,7 @@ static rb_status look_at_all(counter *s, double bases, double seconds, proof_abs
         for (int i = 0; i < s->n; i++)
             s->at[i] = s->place[3 * i + basis / s->stride[i] % s->places[i]];
         basis_verdict verdict = ANY_NUMBER;
-        status = look(s, absence, &verdict);
+        status = judge_basis(s, absence, &verdict);
         s->verdict[basis] = (unsigned char)verdict;
         if (status == RB_OK && rb_interrupted())
             status = RB_INTERRUPTED;
@@ -262,7 +261,7 @@ rb_status rb_lcp_prove_number(const rb_lcp_mixed_problem *p, const double *most,
     proof_absence absence;
     rb_status status = rb_proof_absence_create(&M, p->q, p->lower, p->upper, most, &absence);
     if (status == RB_OK && rb_proof_arithmetic())
-        status = look_at_all(&s, bases, seconds, &absence);
+        status = judge_all(&s, bases, seconds, &absence);
     rb_proof_absence_free(&absence);
     const rb_status end = status; /* what was not looked at has any number */
     if (status == RB_OK || status == RB_TIME_LIMIT)

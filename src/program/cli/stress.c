@@ -285,7 +285,7 @@ static rb_status read_tractions(const cli_case_run *run, stress *st, rb_message 
     enum { KNOWN = sizeof known / sizeof *known };
     const rb_units units = rb_case_units(run->words, rb_option_given(&run->set, "tractions"));
     const double *column[KNOWN] = {NULL};
-    rb_message heard = {""};
+    rb_message reason = {""};
     rb_io_table table = {0};
     rb_status s = rb_io_table_read(st->tractions, &table, why);
     const int headed = s == RB_OK && table.name != NULL;
@@ -299,15 +299,15 @@ static rb_status read_tractions(const cli_case_run *run, stress *st, rb_message 
     if (s == RB_OK && !none)
         s = RB_ENOMEM;
     if (s == RB_OK && !column[H] != !column[ZONE])
-        s = rb_fail(&heard, RB_EFORMAT, "elements need both columns, h and zone");
+        s = rb_fail(&reason, RB_EFORMAT, "elements need both columns, h and zone");
     if (s == RB_OK) {
         const double *q = column[Q] ? column[Q] : none;
         rb_case_result *r = &st->run;
         s = column[H] ? rb_rolling_model_of_elements(&run->c->rc, table.rows, column[X], column[H],
                                                      column[P], q, column[ZONE], &r->model,
-                                                     &r->solution, &heard)
+                                                     &r->solution, &reason)
                       : rb_rolling_model_of_nodes(&run->c->rc, table.rows, column[X], column[P], q,
-                                                  &r->model, &r->solution, &heard);
+                                                  &r->model, &r->solution, &reason);
         st->by_friction = 1;
         for (int k = 0; k < table.rows; k++) {
             st->pulls += column[P][k] < 0.0;
@@ -318,8 +318,8 @@ static rb_status read_tractions(const cli_case_run *run, stress *st, rb_message 
     }
     free(none);
     rb_io_table_free(&table);
-    if (s != RB_OK && heard.text[0])
-        rb_fail(why, s, "%.200s: %.400s", st->tractions, heard.text);
+    if (s != RB_OK && reason.text[0])
+        rb_fail(why, s, "%.200s: %.400s", st->tractions, reason.text);
     return s;
 }
 

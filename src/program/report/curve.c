@@ -14,13 +14,13 @@ static rb_report_columns columns_of(const rb_rolling_curve *c, int kind)
 }
 
 /* The coefficient that Q/(mu P) of a curve refers to: of a law that falls, that of rest. */
-static double reference_mu(const rb_report_curves *curves, int k)
+static double reference_mu(const rb_rolling_case *rc, double mu)
 {
-    if (!curves->rc)
-        return curves->mu[k];
-    rb_rolling_case rc = *curves->rc;
-    rc.mu = curves->mu[k];
-    return rb_rolling_largest_mu(&rc);
+    if (!rc)
+        return mu;
+    rb_rolling_case of_curve = *rc;
+    of_curve.mu = mu;
+    return rb_rolling_largest_mu(&of_curve);
 }
 
 rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const char *command,
@@ -29,6 +29,7 @@ rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const
     rb_report_cells c = rb_report_cells_begin(out, style, "");
     for (int k = 0; k < curves->n; k++) {
         /* The coefficient of friction stands before the columns of its curve. */
+        const double mu = reference_mu(curves->rc, curves->mu[k]);
         const rb_rolling_curve *d = curves->curve[k].deviations;
         const rb_report_columns part[2] = {columns_of(&curves->curve[k], RB_REPORT_VALUES),
                                            d ? columns_of(d, RB_REPORT_DEVIATIONS)
@@ -42,12 +43,12 @@ rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves, const
             rb_report_cells_end_row(&c);
             rb_report_comment_head(&c, command);
             rb_report_comment_slopes(&c, curves->n, curves->slopes, curves->mu);
-            if (reference_mu(curves, k) != curves->mu[k])
+            if (mu != curves->mu[k])
                 rb_report_comment(&c, "mu: of the law at rest, mu(0), which force_ratio refers to");
             rb_report_comment_notes(&c, &curves->notes);
         }
         for (int i = 0; i < curves->curve[k].n; i++) {
-            rb_report_cell_number(&c, reference_mu(curves, k));
+            rb_report_cell_number(&c, mu);
             rb_report_cell_entries(&c, i, parts, part);
             rb_report_cell_slopes(&c, &curves->slopes[k], i);
             rb_report_cells_end_row(&c);
@@ -64,7 +65,8 @@ void rb_report_json_curves(json_t **root, const rb_report_curves *curves)
         const rb_report_columns columns = columns_of(c, 0);
         json_t *curve = json_object();
 
-        rb_report_json_set(&curve, "mu", rb_report_json_number(reference_mu(curves, k)));
+        rb_report_json_set(&curve, "mu",
+                           rb_report_json_number(reference_mu(curves->rc, curves->mu[k])));
         rb_report_json_columns(&curve, c->n, &columns, 0);
         rb_report_json_slopes(&curve, &curves->slopes[k]);
         if (c->deviations) {
@@ -117,9 +119,9 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
         int sliding = rising;
         while (sliding > 0 && c->stick_ratio[sliding - 1] == 0.0)
             sliding--;
-        fprintf(out, "curve, mu%s = %g: %d points in %.2g s, ",
-                reference_mu(curves, k) != curves->mu[k] ? "(0)" : "", reference_mu(curves, k),
-                c->n, c->seconds);
+        const double mu = reference_mu(curves->rc, curves->mu[k]);
+        fprintf(out, "curve, mu%s = %g: %d points in %.2g s, ", mu != curves->mu[k] ? "(0)" : "",
+                mu, c->n, c->seconds);
         if (c->unsolved > 0)
             fprintf(out, "%d without a solution, ", c->unsolved);
         fprintf(out, "residual <= %.2g\n", largest(c->n, c->residual));
@@ -228,7 +230,7 @@ typedef struct {
 
 static double scale_of(const view *v, int k)
 {
-    return reference_mu(v->curves, k);
+    return reference_mu(v->rc, v->curves->mu[k]);
 }
 
 static double x_of(const view *v, const rb_rolling_curve *c, int i)

@@ -172,7 +172,7 @@ void rb_report_fit_summary(FILE *out, const rb_report_fit *f)
     char line[200], unit[20];
 
     fprintf(out, "fit of %d points, %d step%s, %d degrees of freedom, intervals of %g %%\n",
-            f->data->n, f->fit->iterations, f->fit->iterations == 1 ? "" : "s",
+            f->data->n, f->fit->iterations, rb_plural(f->fit->iterations),
             f->fit->degrees_of_freedom, 100.0 * f->fit->level);
     fprintf(out, "  %s\n", hold(f));
     for (int j = 0; j < f->fit->n; j++) {

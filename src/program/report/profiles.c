@@ -6,7 +6,7 @@ static void write_inputs(FILE *out, rb_report_canvas canvas, const void *view)
     const rb_report_profiles *p = view;
 
     rb_report_let_text(out, "title", "{/:Bold Performance profiles}   %d problem%s", p->problems,
-                       p->problems == 1 ? "" : "s");
+                       rb_plural(p->problems));
     rb_report_let_text(out, "x_label", "τ: %s over the least of all solvers", p->measure);
     fprintf(out, "small_font = ',%.3g'\n",
             (p->solvers > 12 ? 0.8 : 1.0) * rb_report_key_font(canvas));

@@ -11,7 +11,7 @@ static const char *status_text(int proved, int undecided, const char *before, co
 {
     if (proved && undecided)
         snprintf(text, size, "proved but for %s%d %s%s", before, undecided, what,
-                 undecided == 1 ? "" : "s");
+                 rb_plural(undecided));
     else
         snprintf(text, size, "%s", proved ? "proved" : "not proved");
     return text;

@@ -117,7 +117,7 @@ struct json_t *rb_report_json_proof(const rb_lcp_proof *proof);
  * `number`. */
 const char *rb_report_number_text(const rb_lcp_number *number, char *text, size_t size);
 struct json_t *rb_report_json_number_of_solutions(const rb_lcp_number *number);
-/* The sentence and the object of a contact. */
+/* The sentence and the object of reactions, and those of a contact. */
 const char *rb_report_friction_proof_text(const rb_friction_proof *proof, char *text, size_t size);
 struct json_t *rb_report_json_friction_proof(const rb_friction_proof *proof);
 const char *rb_report_contact_proof_text(const rb_contact_proof *proof, char *text, size_t size);
@@ -307,8 +307,7 @@ typedef struct {
     const rb_rolling_stress_maxima *errors; /* NULL: not computed */
     const rb_rolling_shakedown *shakedown;  /* NULL: not asked for */
     double yield_shear;                     /* k of A [stress]; NAN: not given */
-    const char
-        *tractions; /* file of given tractions, of which s has the totals; NULL: of a contact */
+    const char *tractions;         /* file of those given, whose totals s has; NULL: of a contact */
     int pulls, jumps, by_friction; /* of these rows: with p < 0; where q jumps; p is zero in all */
     const rb_rolling_case *rc;
     const rb_rolling_solution *s;

@@ -99,7 +99,7 @@ static const char *given_text(const rb_report_stress *s, int k, char *line, size
                  RB_ROLLING_LEFT_OUT);
     else if (k == 2 && s->pulls > 0)
         snprintf(line, size, "p < 0 in %d row%s: the surface is pulled there", s->pulls,
-                 s->pulls == 1 ? "" : "s");
+                 rb_plural(s->pulls));
     else
         return NULL;
     return line;
