@@ -287,6 +287,35 @@ TEST(stress_inside)
     }
 }
 
+/* Bodies that are strained alike have the tractions of unstrained ones, also in partial slip, and
+ * shakedown needs a residual stress that takes the bulk stress away. */
+TEST(strained_alike)
+{
+    static const char *const slips[] = {"--formulation static --force-ratio 0.6",
+                                        "--formulation steady --force-ratio -0.6"};
+    static const char *const part[] = {"sxx_MPa", "syy_MPa", "sxy_MPa", "szz_MPa"};
+    static const double more[] = {120.0, 0.0, 0.0, 36.0};
+    write_file("points.txt", "0 0.5\n1 2\n-3 4\n");
+    for (size_t k = 0; k < sizeof slips / sizeof *slips; k++) {
+        held_json *none =
+                      run_jsonf("stress " SIMILAR "%s --points points.txt --shakedown", slips[k]),
+                  *both = run_jsonf("stress " SIMILAR "%s --points points.txt --shakedown "
+                                    "--bulk-stress 120 --bulk-stress-b 120",
+                                    slips[k]);
+        for (int i = 0; i < 4; i++)
+            for (size_t j = 0; j < 3; j++)
+                CHECK_ABS(at(column(both, "points", part[i]), j) -
+                              at(column(none, "points", part[i]), j),
+                          more[i], 1e-9, "%s, %s at point %zu", slips[k], part[i], j);
+        const json_t *free_of_it = json_object_get(none, "shakedown"),
+                     *with_it = json_object_get(both, "shakedown");
+        CHECK_REL(number_in(with_it, "shear_yield"), number_in(free_of_it, "shear_yield"), 1e-9,
+                  "%s", slips[k]);
+        CHECK_ABS(number_in(with_it, "residual") - number_in(free_of_it, "residual"), -120.0, 1e-6,
+                  "%s", slips[k]);
+    }
+}
+
 /* An edge crack of B feels it as a remote stress; far from the contact K_I = 1.1215 X sqrt(pi l).
  */
 TEST(cracks)
