@@ -265,6 +265,33 @@ TEST(the_curve_breaks_at_corners_alone)
     }
 }
 
+/* Between rows that are too few to tell, or as many as tell, a chamfer is flat. */
+TEST(a_chamfer_of_any_number_of_rows_has_its_corners)
+{
+    const double at[][7] = {{-4.0, -2.0, 2.0, 4.0},
+                            {-4.0, -2.0, 0.0, 2.0, 4.0},
+                            {-4.0, -3.0, -2.0, 2.0, 3.0, 4.0},
+                            {-4.0, -3.0, -2.0, 0.0, 2.0, 3.0, 4.0}};
+    for (int k = 0; k < 4; k++) {
+        double of[7];
+        for (int i = 0; i < 4 + k; i++)
+            of[i] = chamfered(at[k][i]);
+        held_profile *p = profile_of(4 + k, at[k], of, 0.0);
+        for (double u = -5.0; u < 5.0; u += 0.03)
+            CHECK_ABS(rb_rolling_profile_gap(p, u), chamfered(u), 1e-14, "%d rows, x = %g", 4 + k,
+                      u);
+    }
+    for (int rows = 9; rows <= 65;
+         rows += 4) { /* a row every 1 ... 1/8 mm, at the corners too or not */
+        const int n = rows_of(chamfered, 8.0 / (rows - 1));
+        held_profile *p = profile_of(n, x, gap, 0.0);
+        for (double u = -1.0; u <= 1.0; u += 0.03)
+            CHECK_ABS(rb_rolling_profile_gap(p, u), 0.0, 1e-12, "%d rows, x = %g", n, u);
+        if ((rows - 1) % 8 == 0)
+            CHECK_REL(bend(p, 2.0), 0.2, 1e-6, "%d rows", n);
+    }
+}
+
 /* Coarse rows do not tell a corner from a bend: the curve keeps between them. */
 TEST(what_is_flat_or_rises_stays_so)
 {

@@ -105,6 +105,11 @@ static const sentence notes[] = {
     {"irregularity-corners",
      "The table of --irregularity has 3 corners, at x = 0.5, 0.6 and 0.9 mm",
      PASSES "--irregularity step.txt", PASSES "--irregularity bump.txt"},
+    {"gap-rows",
+     "The table of --gap has 4 rows, too few around 2 of them to tell corners from curves",
+     ROOF "--load 100 --gap chamfer.txt", ROOF "--load 100"},
+    {"irregularity-rows", "The table of --irregularity has 11 rows, too few around 1 of them",
+     PASSES "--irregularity step.txt", PASSES "--irregularity bump.txt"},
     /* from hardly any contact to one of 150 elements within a row */
     {"row-of-steps", "Row 2 of the history is not certain: twice the steps still change",
      STEEL "--radius 100 --mu 0.5 --formulation static --contact-elements 200 --history sudden.txt",
@@ -308,6 +313,7 @@ static int write_gaps(void)
     write_file("bump.txt",
                "0 0\n.25 .0001464\n.5 .0005\n.75 .0008536\n1 .001\n1.25 .0008536\n1.5 .0005\n"
                "1.75 .0001464\n2 0\n");
+    write_file("chamfer.txt", "-4 .6\n-1 0\n1 0\n4 .6\n");
     write_file("places.txt", "-10 0.1\n0 0.1\n0.5 0.5\n10 0.5\n");
     write_file("sudden.txt", "load force\n0.01 0\n100 15\n");
     write_file("gradual.txt", "load force\n50 0\n100 15\n");

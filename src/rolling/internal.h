@@ -57,6 +57,9 @@ double rb_rolling_interpolant_at(const rb_rolling_interpolant *interpolant, doub
 int rb_rolling_interpolant_rows(const rb_rolling_interpolant *interpolant, const double **x);
 int rb_rolling_interpolant_corners(const rb_rolling_interpolant *interpolant, const double **x,
                                    const double **bend);
+/* Number of its points with too few around them to tell a corner from a curve: beside these it
+ * stays between its points. */
+int rb_rolling_interpolant_untold(const rb_rolling_interpolant *interpolant);
 
 /* ---- profile.c, profile_points.c --------------------------------------------------- */
 

@@ -27,12 +27,13 @@ static const double VISIBLE = 1e-3;
 static const double ROUNDING = 1e-12;
 
 struct rb_rolling_interpolant {
-    int n, corners;
+    int n, corners, untold;
     double *x, *y;           /* n; owned, like the rest */
     double *before, *behind; /* n: slopes on either side of a point; they differ at corners */
     double *corner, *bend;   /* abscissae of the corners and how much steeper the curve is behind */
     int *is_break;           /* n: 1: one spline ends here and another one begins */
     int *is_limited;         /* n: 1: the slope is that of the monotone curve */
+    int *is_untold;          /* n: 1: there are too few rows around to tell a corner here */
     rb_arena memory;
 };
 
@@ -63,20 +64,41 @@ static int other_end(const curve *c, int i, int side)
     return 0;
 }
 
+/* The nearest row on that side in the window that turns as row i does, by half as much or more,
+ * behind rows that turn by little: the other end of a straight piece, as of a flat between two
+ * chamfers.  0: none. */
+static int other_end_of_straight(const curve *c, int i, int side)
+{
+    const double own = curvature(c, i);
+
+    for (int j = i + side; j >= 1 && j + 1 < c->n && abs(j - i) <= WINDOW; j += side) {
+        if (CONTRAST * fabs(curvature(c, j)) < fabs(own))
+            continue;
+        return j != i + side && curvature(c, j) * own >= 0.5 * gsl_pow_2(own) ? j : 0;
+    }
+    return 0;
+}
+
 /* Whether the slope jumps at row i: by much more than it changes from row to row around it, but
- * for a neighbour, where the corner lies between the two, and for the other end of a wall. */
+ * for a neighbour, where the corner lies between the two, and for the other end of a wall or of a
+ * straight piece.  -1: there are too few rows around it to say. */
 static int has_corner(const curve *c, int i)
 {
     const double own = fabs(curvature(c, i));
     const double before = i > 1 ? fabs(curvature(c, i - 1)) : 0.0,
                  behind = i + 2 < c->n ? fabs(curvature(c, i + 1)) : 0.0;
-    const int partner = before > behind ? i - 1 : i + 1, left = other_end(c, i, -1),
-              right = other_end(c, i, 1);
+    const int neighbour = before > behind ? i - 1 : i + 1;
+    const int set_apart[] = {CONTRAST * fmax(before, behind) < own ? i : neighbour,
+                             other_end(c, i, -1), other_end(c, i, 1),
+                             other_end_of_straight(c, i, -1), other_end_of_straight(c, i, 1)};
     double sum = 0.0, size = fabs(c->y[i]);
     int others = 0;
 
     for (int j = i - WINDOW; j <= i + WINDOW; j++) {
-        if (j < 1 || j + 1 >= c->n || j == i || j == partner || j == left || j == right)
+        int is_apart = j < 1 || j + 1 >= c->n || j == i;
+        for (size_t k = 0; k < sizeof set_apart / sizeof *set_apart; k++)
+            is_apart |= j == set_apart[k];
+        if (is_apart)
             continue;
         sum += gsl_pow_2(curvature(c, j));
         size = fmax(size, fabs(c->y[j]));
@@ -84,8 +106,9 @@ static int has_corner(const curve *c, int i)
     }
     const double step = fmin(c->x[i] - c->x[i - 1], c->x[i + 1] - c->x[i]),
                  bend = fabs(chord(c, i) - chord(c, i - 1));
-    return others >= LEAST_OTHERS && own > CONTRAST * sqrt(sum / others) &&
-           bend * step > ROUNDED * size;
+    if (!(bend * step > ROUNDED * size))
+        return 0;
+    return others < LEAST_OTHERS ? -1 : own > CONTRAST * sqrt(sum / others);
 }
 
 /* ---- One spline -------------------------------------------------------------------- */
@@ -226,6 +249,13 @@ static double range_around(const curve *c, int i)
     return high - low;
 }
 
+/* Intervals beside rows of which nobody can say whether they are corners: a curve that turns there
+ * would be invented. */
+static int is_untold(const curve *c, int i)
+{
+    return c->is_untold[i] || c->is_untold[i + 1];
+}
+
 /* 1: the data may have an extremum between rows i and i + 1: they fall before it and rise behind
  * it, or the other way round.  Beyond the ends of the table nothing is known. */
 static int may_turn(const curve *c, int i)
@@ -244,7 +274,7 @@ static int treat_swings(curve *c, int *todo)
     int changed = 0;
 
     for (int i = 0; i + 1 < c->n; i++) {
-        const int turns = may_turn(c, i);
+        const int turns = may_turn(c, i) && !is_untold(c, i);
         const double by = beyond(c, i), range = range_around(c, i);
         const double most = (turns ? MOST_BEYOND : MOST_BEYOND_MONOTONE) * range;
         todo[i] = by > most && range > 0.0          ? BREAK
@@ -281,6 +311,7 @@ rb_status rb_rolling_interpolant_create(int n, const double *x, const double *y,
     c->bend = rb_arena_doubles(&c->memory, rows, 1);
     c->is_break = rb_arena_ints(&c->memory, rows);
     c->is_limited = rb_arena_ints(&c->memory, rows);
+    c->is_untold = rb_arena_ints(&c->memory, rows);
     double *values = rb_arena_doubles(&scratch, rows, 1);
     int *todo = rb_arena_ints(&scratch, rows);
     rb_status s = c->memory.failed || scratch.failed ? RB_ENOMEM : RB_OK;
@@ -288,8 +319,12 @@ rb_status rb_rolling_interpolant_create(int n, const double *x, const double *y,
     if (s == RB_OK) {
         memcpy(c->x, x, rows * sizeof *x);
         memcpy(c->y, y, rows * sizeof *y);
-        for (int i = 1; i + 1 < n && !is_smooth; i++)
-            c->is_break[i] = has_corner(c, i);
+        for (int i = 1; i + 1 < n && !is_smooth; i++) {
+            const int corner = has_corner(c, i);
+            c->is_break[i] = corner > 0;
+            c->is_untold[i] = corner < 0;
+            c->untold += corner < 0;
+        }
         s = set_all_slopes(c, values);
     }
     for (int k = 0; k < ROUNDS && s == RB_OK && !is_smooth && treat_swings(c, todo) > 0; k++)
@@ -340,4 +375,9 @@ int rb_rolling_interpolant_corners(const rb_rolling_interpolant *c, const double
     *x = c->corner;
     *bend = c->bend;
     return c->corners;
+}
+
+int rb_rolling_interpolant_untold(const rb_rolling_interpolant *c)
+{
+    return c->untold;
 }

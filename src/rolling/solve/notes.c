@@ -270,16 +270,36 @@ static int list_corners(char *text, const char *option, rb_units units, int corn
                corners > MOST ? " and so on" : "");
 }
 
+static int tell_few_rows(char *text, const char *option, const rb_rolling_interpolant *curve)
+{
+    const double *x;
+    const int untold = rb_rolling_interpolant_untold(curve);
+
+    return untold > 0 &&
+           write_note(text,
+                      "The table of --%s has %d rows, too few around %d of them to tell corners "
+                      "from curves: what is drawn there stays between its points. Give it more "
+                      "rows.",
+                      option, rb_rolling_interpolant_rows(curve, &x), untold);
+}
+
 static int gap_corners(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
     const double *x = NULL, *bend;
     const int corners =
-        rc->gap == RB_GAP_TABLE ? rb_rolling_profile_corners(rc->profile, &x, &bend) : 0;
+        rc->gap == RB_GAP_TABLE ? rb_rolling_interpolant_corners(rc->profile->curve, &x, &bend) : 0;
 
     return list_corners(text, "gap", s->units, corners, x);
 }
 
-static int irregularity_corners(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+static int gap_rows(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    (void)s;
+    return rc->gap == RB_GAP_TABLE && tell_few_rows(text, "gap", rc->profile->curve);
+}
+
+static int irregularity(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text,
+                        int of_rows)
 {
     const rb_rolling_table *table = &rc->irregularity;
     const double *x, *bend;
@@ -289,9 +309,20 @@ static int irregularity_corners(const rb_rolling_case *rc, const rb_rolling_solu
         rb_rolling_interpolant_create(table->n, table->x, table->y, 0, &curve) != RB_OK)
         return 0;
     const int corners = rb_rolling_interpolant_corners(curve, &x, &bend);
-    const int said = list_corners(text, "irregularity", s->units, corners, x);
+    const int said = of_rows ? tell_few_rows(text, "irregularity", curve)
+                             : list_corners(text, "irregularity", s->units, corners, x);
     rb_rolling_interpolant_free(curve);
     return said;
+}
+
+static int irregularity_corners(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    return irregularity(rc, s, text, 0);
+}
+
+static int irregularity_rows(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    return irregularity(rc, s, text, 1);
 }
 
 /* The elements are too long for the tables of the case. */
@@ -670,6 +701,8 @@ static const struct {
     {"stick-edge", stick_edge, 0},
     {"gap-corners", gap_corners, 0},
     {"irregularity-corners", irregularity_corners, 0},
+    {"gap-rows", gap_rows, 0},
+    {"irregularity-rows", irregularity_rows, 0},
     {"coarse-elements", coarse_elements, 0},
     {"pressed-corners", pressed_corners, 0},
     {"static-creepage", static_creepage, 0},
