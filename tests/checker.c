@@ -1279,7 +1279,8 @@ static double entry(const json_t *object, const char *key, size_t i)
 /* With surface normals Q holds a part of the pressure. */
 static void check_curve(const json_t *inputs, const json_t *curve, int surface_normals)
 {
-    const double mu = largest_mu(inputs, number(curve, "mu"));
+    const double mu = largest_mu(inputs, number(inputs, "mu"));
+    expect("curve, mu", number(curve, "mu"), mu, 1e-12);
     for (size_t i = 0; i < json_array_size(json_object_get(curve, "creepage")); i++) {
         const double P_ = entry(curve, "normal_load", i), Q_ = entry(curve, "tangential_load", i);
         const double ratio = entry(curve, "force_ratio", i);

@@ -1230,7 +1230,7 @@ TEST(test_every_combination)
     print_message("%d of %d solutions are proved\n", all.proofs - all.unproved, all.proofs);
     CHECK_MAX(all.unproved, 1.0 + 0.01 * all.proofs, "solutions that are not proved");
     print_message("%d rows%s cover %d %s; %d contain a conflict; %d rows ended with exit code 1\n",
-                  all_n, triples() ? "" : ", a quarter in each turn,", c.tuples,
+                  all_n, triples() ? "" : ", a sixteenth in each turn,", c.tuples,
                   triples() ? "triples" : "pairs", c.unreachable, all.failed_solves);
     free(all_rows);
     assert_int_equal(all.failures, 0);

@@ -3,6 +3,7 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import { Script } from "node:vm";
 import { gzipSync } from "node:zlib";
+import { DIGITS } from "./solver.js";
 import { LARGEST, LEFT_OUT } from "./worker.js";
 
 /* Scripts in the order of their use; each is an ES module for tests and editors. */
@@ -39,6 +40,21 @@ function picture(file) {
     return `<img alt="${title}" src="data:image/svg+xml;base64,${Buffer.from(svg).toString("base64")}">`;
 }
 
+/* Bytes as text: four of them are five characters of 85, one quarter more where base64 takes one third.  The first
+ * character says how many bytes of the last four are none. */
+function text_of_bytes(bytes) {
+    const none = (4 - (bytes.length % 4)) % 4,
+        padded = Buffer.concat([bytes, Buffer.alloc(none)]),
+        parts = [String(none)];
+    for (let k = 0; k < padded.length; k += 4) {
+        let value = padded.readUInt32BE(k),
+            five = "";
+        for (let j = 0; j < 5; j++, value = Math.floor(value / 85)) five = DIGITS[value % 85] + five;
+        parts.push(five);
+    }
+    return parts.join("");
+}
+
 /* Modules in one: their imports are of each other.  Lines without their indentation, which is a fifth of the page,
  * and without comments, which are for readers of the sources. */
 const joined = (files) =>
@@ -55,7 +71,7 @@ const joined = (files) =>
 const [output, wasm] = process.argv.slice(2);
 const parts = {
     STYLE: readFileSync("web/style.css", "utf8").replace(/^ +/gm, ""),
-    WASM: gzipSync(readFileSync(wasm), { level: 9 }).toString("base64"),
+    WASM: text_of_bytes(gzipSync(readFileSync(wasm), { level: 9 })),
     WORKER: JSON.stringify(joined(WORKER)).replaceAll("</", "<\\/"),
     SCRIPT: joined(PAGE).replaceAll("</script", "<\\/script"),
     SIGNS: picture("docs/signs.svg"),

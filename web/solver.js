@@ -72,11 +72,32 @@ function line_up(wasm, script, take, impatient = false) {
     };
 }
 
-/* packed: the library, gzip in base64. */
+/* What a string within a script may hold, in the order of its values: no quote, no backslash, no "<". */
+export const DIGITS = Array.from({ length: 87 }, (_, k) => String.fromCharCode(35 + k))
+    .filter((c) => !"<\\".includes(c))
+    .join("");
+
+/* Of the text that web/build.mjs makes of bytes. */
+export function bytes_of(text) {
+    const value = new Uint8Array(128),
+        none = Number(text[0]),
+        out = new Uint8Array(((text.length - 1) / 5) * 4),
+        view = new DataView(out.buffer);
+    [...DIGITS].forEach((c, k) => {
+        value[c.charCodeAt(0)] = k;
+    });
+    for (let at = 0, k = 1; k < text.length; at += 4) {
+        let four = 0;
+        for (let j = 0; j < 5; j++) four = 85 * four + value[text.charCodeAt(k++)];
+        view.setUint32(at, four);
+    }
+    return out.subarray(0, out.length - none);
+}
+
+/* packed: the library, gzip as text. */
 export async function start_solver(packed, worker_source, take) {
-    const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
     const wasm = await new Response(
-        new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip")),
+        new Blob([bytes_of(packed)]).stream().pipeThrough(new DecompressionStream("gzip")),
     ).arrayBuffer();
     const script = URL.createObjectURL(new Blob([worker_source], { type: "text/javascript" }));
     const lines = [line_up(wasm, script, take), line_up(wasm, script, take), line_up(wasm, script, take, true)];

@@ -32,6 +32,7 @@ import { fit_lens, offsets_of } from "./lens.js";
 import { PRESETS, ground_of, share_of_ground, with_ground, with_mu, with_point, with_support } from "./state.js";
 import { ticks, zone_colours } from "./draw.js";
 import { load_library } from "./library.js";
+import { bytes_of } from "./solver.js";
 import { read_case_file, read_link, table_of_drawn, write_link } from "./state.js";
 import { words } from "./words.js";
 import { answer } from "./worker.js";
@@ -73,7 +74,7 @@ function check_close(got, want, tol, what) {
 const file = resolve(`${build}/rollbem.html`),
     url = pathToFileURL(file).href,
     text_of_page = readFileSync(file, "utf8");
-const library = await load_library(gunzipSync(Buffer.from(/^const WASM = "(.*)";$/m.exec(text_of_page)[1], "base64")));
+const library = await load_library(gunzipSync(bytes_of(/^const WASM = "(.*)";$/m.exec(text_of_page)[1])));
 const given_of = (ini) =>
     Object.fromEntries(
         readFileSync(ini, "utf8")
