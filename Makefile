@@ -431,14 +431,16 @@ WASM_CC = clang-14
 WASM_TARGET = --target=wasm32-wasi --sysroot=/usr
 WASM_FLAGS = $(WASM_TARGET) -std=c11 -D_POSIX_C_SOURCE=200809L -O3 -msimd128 -DRB_TRANSFORMS=0 -Iweb/wasm/include -Iinclude -Isrc -idirafter /usr/include
 WASM_EXPORTS = malloc free $(addprefix rb_api_,create create_for free set resolve solve status message option result value word number \
-    note array curve pivots newton variable guess stress stress_maxima crack derivatives tolerances input)
+    note array curve pivots newton variable guess stress stress_maxima crack derivatives tolerances input prove)
 WASM_WORDS := $(shell sed 's/\#.*//' web/sources)
 WASM_SRC := $(filter-out $(patsubst -%,src/%,$(filter -%,$(WASM_WORDS))),$(wildcard $(patsubst %,src/%/*.c,$(filter-out -%,$(WASM_WORDS))) web/wasm/*.c))
 WASM_OBJ := $(WASM_SRC:%.c=$(PAGE)/%.o)
+# what reads words, writes tables and calls the kernels is small instead of fast: moves take as long
+WASM_SMALL = base/io program/api rolling/case rolling/study rolling/history rolling/solve analysis/sensitivity lcp/proof
 $(PAGE)/%.o: %.c
 	@mkdir -p $(@D)
 	@echo "  WASM $<"
-	$(Q)$(WASM_CC) $(WASM_FLAGS) -MMD -MP -c -o $@ $<
+	$(Q)$(WASM_CC) $(WASM_FLAGS) $(if $(filter $(WASM_SMALL:%=src/%/),$(<D)/),-Oz) -MMD -MP -c -o $@ $<
 $(PAGE)/rollbem.wasm: $(WASM_OBJ) web/sources Makefile
 	@echo "  LD  $@"
 	$(Q)$(WASM_CC) $(WASM_TARGET) -mexec-model=reactor -o $@ $(WASM_OBJ) -lm -Wl,--strip-all -Wl,-z,stack-size=1048576 $(WASM_EXPORTS:%=-Wl,--export=%)

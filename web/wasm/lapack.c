@@ -125,6 +125,38 @@ int LAPACKE_dpotrf(int layout, char uplo, int n, double *A, int lda)
     return 0;
 }
 
+/* A = LL' by columns, in the lower triangle; uplo is 'L' here. */
+int LAPACKE_dpotrf_work(int layout, char uplo, int n, double *A, int lda)
+{
+    (void)layout;
+    (void)uplo;
+    for (int j = 0; j < n; j++) {
+        double *column = A + (size_t)j * (size_t)lda;
+        for (int k = 0; k < j; k++) {
+            const double *other = A + (size_t)k * (size_t)lda;
+            cblas_daxpy(n - j, -other[j], other + j, 1, column + j, 1);
+        }
+        if (!(column[j] > 0.0))
+            return j + 1;
+        cblas_dscal(n - j, 1.0 / sqrt(column[j]), column + j, 1);
+    }
+    return 0;
+}
+
+/* The inverse from an LU; work holds n x n numbers. */
+int LAPACKE_dgetri_work(int layout, int n, double *A, int lda, const int *pivots, double *work,
+                        int size)
+{
+    (void)size;
+    memset(work, 0, (size_t)n * (size_t)n * sizeof *work);
+    for (int i = 0; i < n; i++)
+        work[(size_t)i * ((size_t)n + 1)] = 1.0;
+    LAPACKE_dgetrs_work(layout, 'N', n, n, A, lda, pivots, work, n);
+    for (int j = 0; j < n; j++)
+        memcpy(A + (size_t)j * (size_t)lda, work + (size_t)j * (size_t)n, (size_t)n * sizeof *work);
+    return 0;
+}
+
 /* The upper triangle of the inverse, from U: columns of U^-1 U^-T e_j. */
 int LAPACKE_dpotri(int layout, char uplo, int n, double *A, int lda)
 {

@@ -16,6 +16,9 @@ int LAPACKE_dgesv_work(int layout, int n, int nrhs, double *A, int lda, int *piv
 int LAPACKE_dgecon_work(int layout, char norm, int n, const double *A, int lda, double anorm,
                         double *rcond, double *work, int *iwork);
 int LAPACKE_dpotrf(int layout, char uplo, int n, double *A, int lda);
+int LAPACKE_dpotrf_work(int layout, char uplo, int n, double *A, int lda);
+int LAPACKE_dgetri_work(int layout, int n, double *A, int lda, const int *pivots, double *work,
+                        int size);
 int LAPACKE_dpotri(int layout, char uplo, int n, double *A, int lda);
 int LAPACKE_dlaswp_work(int layout, int n, double *A, int lda, int k1, int k2, const int *pivots,
                         int incx);
