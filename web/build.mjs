@@ -18,6 +18,7 @@ const PAGE = [
     "pen.js",
     "lens.js",
     "matters.js",
+    "proof.js",
     "contact.js",
     "take.js",
     "controls.js",

@@ -17,6 +17,7 @@ import {
 } from "./draw.js";
 import { make_draggable } from "./knob.js";
 import { matters_card } from "./matters.js";
+import { proof_card } from "./proof.js";
 import { ALL_TANGENTIAL, formulation_of, hold } from "./state.js";
 import { fill_in } from "./words.js";
 
@@ -401,12 +402,13 @@ export const curve_request = (given, slot) => {
 export function contact_view(words, page) {
     const { store } = page,
         matters = matters_card(words, page),
+        proof = proof_card(words),
         phone = matchMedia(ONE_COLUMN);
     let curve = null,
         curve_key = "",
         closed = null,
+        proved = null,
         axes = null,
-        _ghost_axes = null,
         is_scaled = false,
         drawn_for = null;
     const numbers = html("div"),
@@ -435,6 +437,7 @@ export function contact_view(words, page) {
         notes,
         tractions_card,
         html("div", { class: "beside" }, unit_switch, legend_row, note),
+        proof.node,
         html("section", { class: "card" }, html("h3", {}, words.curve_title), curve_host, curve_note),
         matters.node,
     );
@@ -443,6 +446,7 @@ export function contact_view(words, page) {
     function wants() {
         if (store.holding || store.trouble("main")) return matters.wants();
         const all = [{ kind: "closed", slot: "closed bench", given: page.given }];
+        if (proved?.given !== page.given) all.push({ kind: "prove", slot: "proof bench", given: page.given });
         if (drives() && Number(page.given.mu ?? 0.3) !== 0 && curve_key !== wanted_curve().key)
             all.push(wanted_curve());
         return all.concat(matters.wants());
@@ -450,6 +454,7 @@ export function contact_view(words, page) {
     function take(answer, request) {
         if (answer.kind === "derivatives") return matters.take(answer, request);
         if (answer.kind === "closed") closed = answer.refused ? null : { ...answer, given: request.given };
+        else if (answer.kind === "prove") proved = { ...answer, given: request.given };
         else if (answer.kind === "curve") [curve, curve_key] = [answer.refused ? null : answer.points, request.key];
         drawn_for = null;
         draw();
@@ -462,7 +467,7 @@ export function contact_view(words, page) {
     function draw() {
         matters.draw();
         const a = page.answer,
-            key = [a, closed, curve, store.ghosts.main, is_scaled, store.trouble("main"), store.holding];
+            key = [a, closed, proved, curve, store.ghosts.main, is_scaled, store.trouble("main"), store.holding];
         if (!a || (drawn_for && key.every((part, k) => part === drawn_for[k]))) return;
         drawn_for = key;
         const trouble = store.trouble("main"),
@@ -509,6 +514,7 @@ export function contact_view(words, page) {
             ms: show(a.milliseconds, 2),
             residual: show(a.numbers.residual, 2),
         });
+        proof.show(proved?.given === a.given ? proved : null);
         draw_curve(curve_width, a);
     }
     function draw_curve(width, a) {

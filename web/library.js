@@ -142,6 +142,9 @@ export async function load_library(bytes) {
         curve(from, to, points) {
             return c.rb_api_curve(this.at, from, to, points);
         }
+        prove() {
+            return c.rb_api_prove(this.at);
+        }
         newton() {
             return c.rb_api_newton(this.at);
         }

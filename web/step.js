@@ -1,6 +1,7 @@
 /* Step through the method: matrices, Lemke's pivots, Newton's zones, guessed zones. */
 import { card, chart, html, player, segments, show, stairs, stroke, svg, width_of, zone_colours } from "./draw.js";
 import { matrices, parse, pretty } from "./matrices.js";
+import { proof_in_words } from "./proof.js";
 import { fill_in } from "./words.js";
 
 /* The two contacts that are stepped through before one's own: an odd number of elements, of which every one touches, on
@@ -301,7 +302,8 @@ export function step_view(words, page) {
         elements = USUAL,
         of_case = null,
         asked = null,
-        wanted = null;
+        wanted = null,
+        proved = null;
     let which = null; /* the contact that is stepped through, once it is chosen */
     const chosen = () => which ?? (page.linked ? "own" : "untied");
     const title = html("h3", {}, words.guess_title),
@@ -311,6 +313,7 @@ export function step_view(words, page) {
     const strips = html("div", { class: "stack", style: "gap:.35rem" }),
         picture = html("figure"),
         z0 = html("p", { class: "note" }),
+        proof = html("p", { class: "note", "aria-live": "polite" }),
         ratios = html("div"),
         newton = html("div", { class: "stack", style: "gap:.35rem" });
     const count = html("input", {
@@ -374,6 +377,7 @@ export function step_view(words, page) {
                 html("div", {}, strips, picture, z0),
                 html("div", {}, html("h4", {}, words.ratio_title), ratios, tie),
             ),
+            proof,
             newton,
             html(
                 "div",
@@ -508,6 +512,12 @@ export function step_view(words, page) {
             fill_in(words.z0, { z0: show(data["pivot.z0"].at[k], 4) }) +
             (k === frames.count - 1 && data.end ? ` ${data.end}` : "");
         ratios.replaceChildren(...ratio_test(words, data, k));
+        show_proof();
+    }
+    /* What the method ends with is proved. */
+    function show_proof() {
+        const ended = data && proved && frames.at === frames.count - 1;
+        proof.textContent = ended ? `${words.proof.title}: ${proof_in_words(words, proved).join(" ")}` : "";
     }
     function repaint(next) {
         zones = [...next];
@@ -584,7 +594,11 @@ export function step_view(words, page) {
         data: () => data,
         choose,
         leave: () => frames.stop(),
-        wants: () => (store.holding || store.trouble("main") ? [] : [{ kind: "pivots", given: (wanted = given()) }]),
+        wants() {
+            if (store.holding || store.trouble("main")) return [];
+            wanted = given();
+            return ["pivots", "prove"].map((kind) => ({ kind, given: wanted }));
+        },
         /* The elements of the strip are around the contact of the solution. */
         solved() {
             page.ask_view("step");
@@ -598,9 +612,14 @@ export function step_view(words, page) {
         },
         take(answer) {
             if (answer.kind === "guess") return judged(answer);
+            if (answer.kind === "prove") {
+                proved = answer.refused ? null : answer;
+                return show_proof();
+            }
             /* What the method ended before its first pivot has no pivots to show. */
             if (answer.refused || !answer["pivot.p"]) return failed(answer.refused || answer.unsolved || answer.end);
             data = answer;
+            proved = null; /* the proof comes behind the pivots */
             const n = data["pivot.p"].rows;
             title.textContent = fill_in(words.step_title, { n });
             show_matrices();

@@ -26,6 +26,7 @@ import { value_to_hold, with_motion } from "./controls.js";
 import { CRACK_CASE, at_the_mouth, crack_request, faces_at } from "./crack.js";
 import { change_along, effects, kinks_of, told_change } from "./matters.js";
 import { EXAMPLES, sentence_of, tie_of } from "./step.js";
+import { proof_in_words } from "./proof.js";
 import { LESSONS, PAGES } from "./take.js";
 import { headline_of, slip_share } from "./hero.js";
 import { fit_lens, offsets_of } from "./lens.js";
@@ -622,6 +623,25 @@ await test("Carter's tractions are the library's", () => {
         answer(library, { kind: "closed", given: PRESETS.stiff })["closed.q"] === null,
         "Carter for a wheel on a hub",
     );
+});
+await test("proofs are the program's, in its words and in the page's", () => {
+    for (const [preset, more, unique] of [
+        ["rail", {}, /no other solution: friction does not change/],
+        ["rail", { mu: "0", "creep-ratio": undefined, creep: "0.001" }, /without friction/],
+        ["roll", {}, /solution at this creepage|energy test|not shown/],
+    ]) {
+        const given = JSON.parse(JSON.stringify({ ...PRESETS[preset], ...more })),
+            got = answer(library, { kind: "prove", given }),
+            told = proof_in_words(words, got).join(" "),
+            { proof } = JSON.parse(run([...words_of(given), "--prove", "--json", "--quiet"]).stdout).summary;
+        check(got.numbers.proved === 1 && proof.status === "proved", `${preset}: ${got.reason}, ${proof.status}`);
+        check(got.unique === proof.unique && unique.test(told), `${got.unique}, ${proof.unique}: ${told}`);
+        check(
+            Math.abs(Math.log10(got.numbers.bound_p / proof.bound_p)) < 1,
+            `bounds ${got.numbers.bound_p} and ${proof.bound_p}`,
+        );
+        check(!/undefined|NaN|\{/.test(told), told);
+    }
 });
 await test("notes of the library reach the page", () =>
     check(/linear elasticity/.test(solve({ ...PRESETS.stiff, load: "1000" }).notes.join()), "no note on the strain"));

@@ -138,6 +138,17 @@ const answers = {
                 elements: work.word("elements"),
             };
         }),
+    /* A proof that the solution is one, with bounds; what is not known is not a number. */
+    prove: (library, { slot, given }) =>
+        solve_case(library, slot, given, (work) => {
+            if (work.prove() < 0) return { refused: work.message };
+            const names = ["proved", "undecided", "isolated", "bound_p", "bound_q", "nearby"];
+            return {
+                numbers: Object.fromEntries(names.map((name) => [name, work.number(`proof.${name}`)])),
+                reason: work.word("proof.reason"),
+                unique: work.word("proof.unique"),
+            };
+        }),
     /* The contact, then its pass over a crack. */
     crack: (library, { slot, given, crack }) =>
         solve_case(
