@@ -1067,11 +1067,13 @@ TEST(whatever_is_changed_is_noticed)
         t.without = k == 0 || all                             ? "/"
                     : strstr(kinds[k], "--shakedown") != NULL ? "/inputs/units/summary/table/grid"
                                                               : "/inputs/units";
+        const int before = t.changes;
         tamper(&t, t.root, "");
         json_decref(t.root);
+        print_message("kind %zu: %d changes\n", k, t.changes - before);
+        assert_true(t.changes - before > 40); /* or its values were not reached */
     }
     print_message("%d changes, %d not noticed\n", t.changes, t.missed);
-    assert_true(t.changes > 500);
     assert_int_equal(t.missed, 0);
 }
 
