@@ -885,7 +885,7 @@ static void call_everything(int forced)
 {
     rb_api *a = solved(wheel);
     const double one = 1.0, minus[] = {-1.0, 0.1}, W[] = {2, 0, 0, 1}, xy[] = {0.0, 1.0};
-    for (int k = 0; k < 9; k++) {
+    for (int k = 0; k < 10; k++) {
         assert_int_equal(rb_blas_threads(2), 2);
         CHECK_OK(k == 0   ? rb_api_stress(a, 2, 2, 0.0)
                  : k == 1 ? rb_api_stress_at(a, 1, xy)
@@ -894,7 +894,8 @@ static void call_everything(int forced)
                  : k == 4 ? rb_api_newton(a)
                  : k == 5 ? rb_api_lcp(a, 1, &one, minus, "lemke", 0)
                  : k == 6 ? rb_api_friction(a, 2, 1, W, minus, &one, "auto", 1e-9, 0)
-                 : k == 7 ? rb_api_sweep(a, 1, &a, 1)
+                 : k == 7 ? rb_api_prove(a)
+                 : k == 8 ? rb_api_sweep(a, 1, &a, 1)
                           : rb_api_solve(a));
     }
     rb_api_free(a);

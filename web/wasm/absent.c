@@ -280,6 +280,19 @@ int rb_rolling_interpolant_corners(const rb_rolling_interpolant *interpolant, co
     return 0;
 }
 
+int rb_rolling_interpolant_rows(const rb_rolling_interpolant *interpolant, const double **x)
+{
+    (void)interpolant;
+    *x = NULL;
+    return 0;
+}
+
+int rb_rolling_interpolant_untold(const rb_rolling_interpolant *interpolant)
+{
+    (void)interpolant;
+    return 0;
+}
+
 rb_status rb_rolling_points_check(const char *what, int n, const double *x, const double *gap,
                                   rb_message *why)
 {

@@ -1190,7 +1190,8 @@ int rb_api_prove(rb_api *a)
     if (!has_model(a))
         return a->status;
     rb_api_call_begins(a);
-    return rb_api_ended(a, rb_rolling_model_prove(model, &a->result.solution.proof, &a->why));
+    rb_status s = rb_rolling_model_prove(model, &a->result.solution.proof, &a->why);
+    return rb_api_ended(a, rb_api_call_ends(a, s));
 }
 
 int rb_api_newton(rb_api *a)
