@@ -86,6 +86,12 @@ TEST(status_words_say_what_is_known)
         {KOSTREVA, "--solver lemke --max-pivots 4", "solved", 0},
         {KOSTREVA, "--seconds 1e-9", "time-limit", 1},
         {KOSTREVA, "--seconds 100", "solved", 0},
+        /* z = 1e14 (1, 1), which Lemke's pivots do not find, and 1e11 (1, 1) */
+        {"2 1 -.99999999999999 -.99999999999999 1 -1 -1", "--solver lemke", "numerical-failure", 1},
+        {"2 1 -.99999999999999 -.99999999999999 1 -1 -1", "", "solved", 0},
+        {"2 1 -.99999999999 -.99999999999 1 -1 -1", "--solver lemke", "solved", 0},
+        {"2 1 -.99999999999999 -.99999999999999 1 -1 -1", "--all", "undecided by", 1},
+        {"2 1 -1 -1 1 -1 -1", "--all", "no solution", 1},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         char arguments[200], said[60];

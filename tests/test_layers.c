@@ -43,6 +43,7 @@ static const struct {
     const char *folder, *header;
 } shared[] = {
     {"lcp/portfolio", "lcp/lemke/lemke"},
+    {"lcp/lemke", "lcp/proof/bounds"},
     {"lcp/proof", "lcp/lemke/lemke"},
     {"lcp/proof", "lcp/portfolio/linear"},
     {"lcp/friction", "lcp/proof/absent"},

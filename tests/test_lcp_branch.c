@@ -156,6 +156,35 @@ TEST(larger_ones_are_decided)
     }
 }
 
+/* (second difference)^k, computed exactly: definite, so that there is one solution for every q;
+ * near enough to singular that rounding hides it from k = 8 on, and rays look like proofs. */
+TEST(no_solution_is_never_said_of_definite_matrices)
+{
+    int solved = 0;
+    for (int n = 10; n <= MOST; n += 25)
+        for (int k = 2; k <= 8; k += 2) {
+            problem p = {.n = n};
+            double z[MOST], before[MOST];
+            rb_lcp_info info;
+            for (int j = 0; j < n; j++) {
+                memset(before, 0, sizeof before);
+                before[j] = 1.0;
+                for (int turn = 0; turn < k; turn++) {
+                    for (int i = 0; i < n; i++)
+                        p.M[i + j * n] = 2.0 * before[i] - (i > 0 ? before[i - 1] : 0.0) -
+                                         (i + 1 < n ? before[i + 1] : 0.0);
+                    memcpy(before, p.M + j * n, (size_t)n * sizeof *before);
+                }
+                p.q[j] = j * 37 % 101 - 50;
+            }
+            const rb_status s = solve(&p, 0, NULL, z, &info);
+            if (s != RB_OK && s != RB_UNDECIDED && s != RB_NUMERICAL)
+                fail_msg("n = %d, k = %d: %s", n, k, info.msg.text);
+            solved += s == RB_OK;
+        }
+    assert_true(solved >= 6);
+}
+
 /* Limits: what the methods before have said remains, or that the time is over. */
 TEST(limits_end_the_search)
 {

@@ -294,17 +294,26 @@ static int is_definite(const rb_sparse *M)
     return yes;
 }
 
+static rb_status fail_hidden(rb_lcp_info *info)
+{
+    return rb_fail(&info->msg, RB_NUMERICAL,
+                   "lcp: numerical failure after %d pivot%s: M is definite, so that there is a "
+                   "solution, but rounding errors hide it",
+                   info->iters, rb_plural(info->iters));
+}
+
 /* Paths that are tried in place of one that has ended where no exact path ends. */
 enum { OTHER_COVERS = 3 };
 
-/* s: how a path has ended that has not found the solution.  Where M is such that there is
- * one for every q, rounding errors have ended it: paths with other covering vectors are
- * tried if the caller has asked for none. */
+/* s: how a path has ended that has not found the solution; a proof that there is none holds up to
+ * rounding.  Where M is such that there is one for every q, rounding errors have ended it: paths
+ * with other covering vectors are tried if the caller has asked for none. */
 static rb_status retry_definite(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt, double *z,
                                 rb_lcp_info *info, rb_status s)
 {
     const int own = opt->cover || opt->trace || opt->rule != RB_LCP_LEXICOGRAPHIC;
-    if ((s != RB_RAY && s != RB_NUMERICAL && s != RB_SINGULAR) || !is_definite(p->M))
+    if ((s != RB_RAY && s != RB_NUMERICAL && s != RB_SINGULAR && s != RB_NO_SOLUTION) ||
+        !is_definite(p->M))
         return s;
     const size_t n = (size_t)p->M->cols;
     double *cover = rb_alloc(n, 1);
@@ -318,16 +327,11 @@ static rb_status retry_definite(const rb_lcp_mixed_problem *p, const rb_lcp_opti
             cover[i] = rb_lcp_random(&seed);
         s = rb_lcp_mixed(p, &o, z, info);
         iters = info->iters += iters;
-        if (s == RB_RAY || s == RB_SINGULAR || s == RB_INACCURATE)
+        if (s == RB_RAY || s == RB_SINGULAR || s == RB_INACCURATE || s == RB_NO_SOLUTION)
             s = RB_NUMERICAL;
     }
     free(cover);
-    if (s == RB_NUMERICAL)
-        rb_fail(&info->msg, s,
-                "lcp: numerical failure after %d pivot%s: M is definite, so that there is a "
-                "solution, but rounding errors hide it",
-                info->iters, rb_plural(info->iters));
-    return s;
+    return s == RB_NUMERICAL ? fail_hidden(info) : s;
 }
 
 /* s: how all methods have ended.  Where that proves nothing, and the problem is not large,
@@ -341,6 +345,8 @@ static rb_status branch(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt
     const int before = info->iters;
     const rb_status found = rb_lcp_branch(p, opt, began, z, info);
     const int choices = info->iters - before;
+    if (found == RB_NO_SOLUTION && is_definite(p->M))
+        return fail_hidden(info);
     if (found == RB_NO_SOLUTION)
         rb_fail(
             &info->msg, found,
