@@ -900,23 +900,27 @@ typedef struct {
     const char *given;
     double part;         /* that numbers are changed by */
     const char *without; /* members of the result that are left as they are */
-    int changes, missed;
+    int share;           /* one change of so many is made in each run, all of them in a month */
+    int found, changes, missed;
 } tampering;
 
-/* The command line is the program's to read. */
+/* By the certificate, or else by the program, which has the command line to read as well. */
 static void expect_noticed(tampering *t, const char *path, const char *what)
 {
     const int is_program = strcmp(path, "/command") == 0 || strcmp(path, "/depth") == 0 ||
                            strstr(path, "yield_shear") || strcmp(what, "taken away") == 0;
     rb_certificate_outcome found = {.prove = 0};
     rb_message why = {""};
+    if (!is_in_turn(t->found++, t->share))
+        return;
     t->changes++;
+    if (certify(t->root, &found, &why) != RB_OK || found.violations > 0)
+        return;
     if (is_program) {
         assert_int_equal(json_dump_file(t->root, "changed.json", JSON_REAL_PRECISION(17)), 0);
         if (shell("\"$R\" check changed.json") != 0)
             return;
-    } else if (certify(t->root, &found, &why) != RB_OK || found.violations > 0)
-        return;
+    }
     print_error("%s: %s %s was not noticed\n", t->given, path, what);
     t->missed++;
 }
@@ -1019,7 +1023,7 @@ TEST(whatever_is_changed_is_noticed)
         TINY "--support hub --history calm.txt --relaxation-time 1e-3 --relaxation-ratio 1" STATES,
         "stress " TINY "--support halfplane --load 100 --creep-ratio 0.4 --grid 2x2" STEADY,
         "stress " TINY "--support halfplane --load 100 --creep-ratio 0.4 --shakedown "
-        "--yield-shear 300" STEADY,
+        "--yield-shear 300 --grid 2x2" STEADY,
         "stress " TINY "--load 100 --outer-elements 24 --creep-ratio 0.5 --points near.txt" STEADY,
         "crack " TINY "--support halfplane --similar --half-width 1 --radius 1000 "
         "--crack-elements 8 --steps 30 --passes 2 --fluid trapped --creep-ratio "
@@ -1063,17 +1067,21 @@ TEST(whatever_is_changed_is_noticed)
         t.given = kinds[k];
         t.root = run_json(kinds[k]);
         expect_violations(t.root, 0);
-        /* inputs are the same of all kinds; a limit of shakedown takes long to be found */
-        t.without = k == 0 || all                             ? "/"
-                    : strstr(kinds[k], "--shakedown") != NULL ? "/inputs/units/summary/table/grid"
-                                                              : "/inputs/units";
+        /* inputs are the same of all kinds; a limit of shakedown takes long to be found, the
+         * largest stress of a wheel and the hub of a cover as well: their contact is that of other
+         * kinds */
+        const int is_long = strstr(kinds[k], "--shakedown") || strstr(kinds[k], "--points") ||
+                            strstr(kinds[k], "--core-young");
+        t.without = k == 0 || all                   ? "/"
+                    : is_long && kinds[k][0] == 's' ? "/inputs/units/summary/table/grid"
+                                                    : "/inputs/units";
+        t.share = is_long ? 3 : 1;
         const int before = t.changes;
         tamper(&t, t.root, "");
+        print_message("%d changes of %s\n", t.changes - before, kinds[k]);
+        assert_true(t.share * (t.changes - before) > 50); /* or its values were not reached */
         json_decref(t.root);
-        print_message("kind %zu: %d changes\n", k, t.changes - before);
-        assert_true(t.changes - before > 40); /* or its values were not reached */
     }
-    print_message("%d changes, %d not noticed\n", t.changes, t.missed);
     assert_int_equal(t.missed, 0);
 }
 
