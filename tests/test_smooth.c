@@ -125,6 +125,61 @@ TEST(carter_slopes_are_of_second_order)
     }
 }
 
+/* Cattaneo's shift at a given force is mu (d(P) - d(P - Q/mu)), d(P) = 2 P (ln(2 datum/a) + 1/2)/
+ * (pi E*); its derivative by mu is 2 (P ln(c/a) + (P - Pc)/2)/(pi E*), c the half-width that sticks
+ * and Pc = P - Q/mu.  Exact derivatives are 3.6, 2.4 and 1.8 % off here. */
+TEST(deviations_are_those_of_the_continuum)
+{
+    static const char *const elements[] = {"100", "200", "400"};
+    static const double bound[] = {2.5e-3, 6e-4, 1.5e-4};
+    const double E = 210000.0 / (2.0 * 0.91), P = 100.0, Q = 32.0, mu = 0.5,
+                 want = 2.0 * (P * log(0.6) + 0.5 * Q / mu) / (M_PI * E);
+    for (int k = 0; k < 3; k++) {
+        const words w = {{"support halfplane similar yes gap parabola young 210000 poisson 0.3 "
+                          "radius 100 load 100 formulation static force 32 contact-elements",
+                          elements[k]}};
+        rb_case *c = case_of(RB_CASE_SINGLE, &w, "mu", mu);
+        rb_case_result r;
+        rb_case_tolerances t;
+        rb_rolling_solution deviation;
+        CHECK_OK(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard));
+        CHECK_OK(rb_case_read_tolerances(c, "mu=0.01", &t, &heard));
+        CHECK_OK(rb_case_deviations(c, &r.model, &t, &deviation, &heard));
+        CHECK_REL(deviation.tangential_shift, 0.01 * fabs(want), bound[k], "%s elements",
+                  elements[k]);
+        rb_case_result_free(&r);
+        rb_case_free(c);
+    }
+}
+
+/* Where there are no smooth derivatives deviations take those of the discrete case: on equal
+ * elements under edges that move, and for friction with memory. */
+TEST(deviations_without_smooth_derivatives)
+{
+    static const struct {
+        const char *words, *input, *of;
+    } rows[] = {{FIXED "creep-ratio 0.5 mu", "radius", "radius=1%"},
+                {ALIGNED "friction-law exponential mu-fall 0.3 slip-scale 1 speed 1000 memory 1e-3 "
+                         "creep-ratio 0.5 mu",
+                 "mu", "mu=1%"}};
+    for (int k = 0; k < 2; k++) {
+        const words w = {{rows[k].words, "0.3"}};
+        differentiated d;
+        rb_case_tolerances t;
+        rb_rolling_solution deviation;
+        rb_message why;
+        CHECK_STATUS(differentiate(&w, "tol", 1e-9, rows[k].input, 1, &d, &why), RB_EINVAL);
+        differentiated_free(&d);
+        CHECK_OK(differentiate(&w, "tol", 1e-9, rows[k].input, 0, &d, &heard));
+        CHECK_OK(rb_case_read_tolerances(d.c, rows[k].of, &t, &heard));
+        CHECK_OK(rb_case_deviations(d.c, &d.r.model, &t, &deviation, &heard));
+        CHECK_REL(deviation.tangential_load,
+                  0.01 * d.by->value * fabs(d.by->d.value[!d.by->d.has[0]].tangential_load), 1e-9,
+                  "%s", rows[k].input);
+        differentiated_free(&d);
+    }
+}
+
 /* ---- Changes of zones -------------------------------------------------------------- */
 
 static int zones_that_differ(const rb_rolling_solution *a, const rb_rolling_solution *b)

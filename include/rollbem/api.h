@@ -265,8 +265,7 @@ const char *rb_api_derivative(const rb_api *a, const char *of, int k, const char
                               int size);
 /* Standard deviations of the numbers of the solution to first order, from those of inputs
  * as `rollbem --tolerance` takes them: "mu=0.02,radius=1%"; of a case with steps those of
- * the columns of its history.  Computes the derivatives unless rb_api_derivatives has; smooth
- * ones are forgotten. */
+ * the columns of its history.  Single solutions take smooth derivatives where there are any. */
 int rb_api_tolerances(rb_api *a, const char *inputs);
 /* Fits numbers of the case to measured forces, as `rollbem fit`.  data: rows x columns,
  * column by column, of these names; names, start (NULL: none) and bounds (NULL: none) as

@@ -201,25 +201,53 @@ static rb_status differentiate_over_x(const rb_sensitivity *s, const rb_rolling_
     return status == RB_ENOMEM ? rb_fail(why, status, "out of memory for derivatives") : RB_OK;
 }
 
-/* What is computed: derivatives by numbers; those over x, too; or smooth ones by numbers. */
-typedef enum { BY_NUMBERS, AND_OVER_X, SMOOTH } kind_of_derivatives;
+/* What is computed: derivatives by numbers; those over x, too; smooth ones by numbers, or these
+ * where there are any. */
+typedef enum { BY_NUMBERS, AND_OVER_X, SMOOTH, SMOOTH_WHERE_POSSIBLE } kind_of_derivatives;
+
+/* Derivatives with respect to one number. */
+static void differentiate_by(const rb_sensitivity *s, const rb_sensitivity_jumps *jumps,
+                             kind_of_derivatives kind, const rb_case_number *number,
+                             rb_case_derivative *it)
+{
+    memcpy(it->name, number->name, sizeof it->name);
+    it->unit = number->option->unit;
+    it->value = number->input.value;
+    it->status = rb_sensitivity_differentiate(s, &number->input, &it->d, &it->why);
+    if (it->status != RB_OK || !jumps)
+        return;
+    double free_creepage[2];
+    for (int side = 0; side < 2; side++)
+        free_creepage[side] = it->d.value[side].free_creepage;
+    it->status = rb_sensitivity_smooth(jumps, &number->input, &it->d, &it->why);
+    if (kind == SMOOTH || it->status == RB_ENOMEM)
+        return;
+    for (int side = 0; side < 2 && it->status == RB_OK; side++)
+        if (isnan(it->d.value[side].free_creepage))
+            it->d.value[side].free_creepage = free_creepage[side];
+    if (it->status != RB_OK) {
+        rb_sensitivity_derivative_free(&it->d);
+        it->status = rb_sensitivity_differentiate(s, &number->input, &it->d, &it->why);
+    }
+}
 
 static rb_status differentiate(const rb_case *c, const rb_rolling_model *model,
                                kind_of_derivatives kind, int n, const char *const *names,
                                rb_case_derivatives *all, rb_message *why)
 {
-    const int smooth = kind == SMOOTH;
     int numbers;
     rb_sensitivity *s = NULL;
     rb_sensitivity_jumps *jumps = NULL;
     rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
 
     *all = (rb_case_derivatives){.of = calloc(RB_CASE_NUMBERS_MAX, sizeof(rb_case_derivative)),
-                                 .smooth = smooth};
+                                 .smooth = kind == SMOOTH};
     rb_status status = number && all->of ? rb_sensitivity_create(model, 1, &s, why)
                                          : rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
-    if (status == RB_OK && smooth)
+    if (status == RB_OK && kind >= SMOOTH)
         status = rb_sensitivity_jumps_create(s, &jumps, why);
+    if (status != RB_ENOMEM && s && kind == SMOOTH_WHERE_POSSIBLE)
+        status = RB_OK;
     if (status == RB_OK)
         status = rb_case_numbers(c, number, &numbers, why);
     for (int k = 0; status == RB_OK && k < numbers; k++) {
@@ -230,12 +258,7 @@ static rb_status differentiate(const rb_case *c, const rb_rolling_model *model,
         if (!asked)
             continue;
         rb_case_derivative *it = &all->of[all->n++];
-        memcpy(it->name, number[k].name, sizeof it->name);
-        it->unit = number[k].option->unit;
-        it->value = number[k].input.value;
-        it->status = rb_sensitivity_differentiate(s, &number[k].input, &it->d, &it->why);
-        if (it->status == RB_OK && jumps)
-            it->status = rb_sensitivity_smooth(jumps, &number[k].input, &it->d, &it->why);
+        differentiate_by(s, jumps, kind, &number[k], it);
         if (it->status == RB_ENOMEM)
             status = rb_fail(why, RB_ENOMEM, "%s", it->why.text);
         if (status == RB_OK && rb_interrupted())
@@ -271,6 +294,17 @@ rb_status rb_case_differentiate_smoothly(const rb_case *c, const rb_rolling_mode
                                          rb_message *why)
 {
     return differentiate(c, model, SMOOTH, n, names, all, why);
+}
+
+rb_status rb_case_differentiate_by_tolerances(const rb_case *c, const rb_rolling_model *model,
+                                              const rb_case_tolerances *t, rb_case_derivatives *all,
+                                              rb_message *why)
+{
+    const char *name[RB_CASE_TOLERANCES_MAX];
+
+    for (int k = 0; k < t->n; k++)
+        name[k] = t->name[k];
+    return differentiate(c, model, SMOOTH_WHERE_POSSIBLE, t->n, name, all, why);
 }
 
 void rb_case_derivatives_convert(rb_case_derivatives *all, rb_units units)
@@ -455,4 +489,17 @@ rb_status rb_case_propagate(const rb_case_tolerances *t, const rb_case_derivativ
             rb_rolling_set_number(r, deviation, rb_sensitivity_has(r) ? deviates : NAN);
     }
     return RB_OK;
+}
+
+rb_status rb_case_deviations(const rb_case *c, const rb_rolling_model *model,
+                             const rb_case_tolerances *t, rb_rolling_solution *deviation,
+                             rb_message *why)
+{
+    rb_case_derivatives all;
+
+    rb_status s = rb_case_differentiate_by_tolerances(c, model, t, &all, why);
+    if (s == RB_OK)
+        s = rb_case_propagate(t, &all, deviation, why);
+    rb_case_derivatives_free(&all);
+    return s;
 }

@@ -161,9 +161,17 @@ typedef struct {
  * not >= 0; why names it. */
 rb_status rb_case_read_tolerances(const rb_case *c, const char *text, rb_case_tolerances *t,
                                   rb_message *why);
-/* Standard deviations of all results to first order, each in the field of the result
- * (NAN: none).  all: derivatives in mm, N, MPa that include these inputs.  RB_EINVAL: an
- * input has no derivatives. */
+/* Derivatives by these inputs as standard deviations take them: smooth where there are smooth
+ * ones, because a deviation spans many changes of zones; otherwise those of the discrete case. */
+rb_status rb_case_differentiate_by_tolerances(const rb_case *c, const rb_rolling_model *model,
+                                              const rb_case_tolerances *t, rb_case_derivatives *all,
+                                              rb_message *why);
+/* Standard deviations of all results of a solved case to first order, each in the field of the
+ * result (NAN: none), in mm, N, MPa.  RB_EINVAL: an input has no derivatives. */
+rb_status rb_case_deviations(const rb_case *c, const rb_rolling_model *model,
+                             const rb_case_tolerances *t, rb_rolling_solution *deviation,
+                             rb_message *why);
+/* The same from derivatives in mm, N, MPa that include these inputs. */
 rb_status rb_case_propagate(const rb_case_tolerances *t, const rb_case_derivatives *all,
                             rb_rolling_solution *deviation, rb_message *why);
 

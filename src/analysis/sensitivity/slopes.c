@@ -232,11 +232,9 @@ rb_status rb_case_slopes_at(const rb_case *c, const rb_rolling_model *model,
     const char *name[RB_CASE_NUMBERS_MAX];
     rb_case_tolerances t;
     rb_case_derivatives all = {.n = 0};
-    int n = rb_case_slope_inputs(s, name);
+    const int n = rb_case_slope_inputs(s, name);
     const rb_status known = deviation ? rb_case_read_tolerances(c, s->tolerance, &t, why) : RB_OK;
 
-    for (int i = 0; deviation && known == RB_OK && i < t.n; i++)
-        n = rb_case_add_name(name, n, t.name[i]);
     rb_status status =
         n > 0 ? rb_case_differentiate_by_numbers(c, model, n, name, &all, why) : RB_OK;
     for (int k = 0; k < s->n && status == RB_OK; k++)
@@ -253,7 +251,7 @@ rb_status rb_case_slopes_at(const rb_case *c, const rb_rolling_model *model,
     if (status == RB_OK)
         status = known;
     if (status == RB_OK && deviation)
-        status = rb_case_propagate(&t, &all, deviation, why);
+        status = rb_case_deviations(c, model, &t, deviation, why);
     rb_case_derivatives_free(&all);
     return status;
 }

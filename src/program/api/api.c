@@ -1344,16 +1344,23 @@ int rb_api_stress_at(rb_api *a, int n, const double *xy)
 
 /* ---- Derivatives ------------------------------------------------------------------- */
 
+static rb_status of_one_step(rb_api *a)
+{
+    return a->result.solution.n > 0 && a->result.model.state.p
+               ? RB_OK
+               : rb_fail(&a->why, RB_EINVAL,
+                         "derivatives: of a solved case of one step, without error bars");
+}
+
 static rb_status differentiate(rb_api *a, int smooth)
 {
     rb_api_forget_arrays(a, "derivative.");
     rb_case_derivatives_free(&a->derivatives);
     rb_api_call_begins(a);
-    rb_status s = a->result.solution.n > 0 && a->result.model.state.p
-                      ? (smooth ? rb_case_differentiate_smoothly : rb_case_differentiate)(
-                            a->words, &a->result.model, 0, NULL, &a->derivatives, &a->why)
-                      : rb_fail(&a->why, RB_EINVAL,
-                                "derivatives: of a solved case of one step, without error bars");
+    rb_status s = of_one_step(a);
+    if (s == RB_OK)
+        s = (smooth ? rb_case_differentiate_smoothly : rb_case_differentiate)(
+            a->words, &a->result.model, 0, NULL, &a->derivatives, &a->why);
     s = rb_api_call_ends(a, s);
     if (s != RB_OK)
         rb_case_derivatives_free(&a->derivatives);
@@ -1456,11 +1463,14 @@ int rb_api_tolerances(rb_api *a, const char *inputs)
     rb_api_forget_arrays(a, "tolerance.");
     a->has_deviation = 0;
     rb_api_forget_call(a);
-    rb_status s = a->derivatives.n == 0 || a->derivatives.smooth ? differentiate(a, 0) : RB_OK;
+    rb_status s = of_one_step(a);
     if (s == RB_OK)
         s = rb_case_read_tolerances(a->words, inputs, &t, &a->why);
-    if (s == RB_OK)
-        s = rb_case_propagate(&t, &a->derivatives, &a->deviation, &a->why);
+    if (s == RB_OK) {
+        rb_api_call_begins(a);
+        s = rb_api_call_ends(
+            a, rb_case_deviations(a->words, &a->result.model, &t, &a->deviation, &a->why));
+    }
     a->has_deviation = s == RB_OK;
     return rb_api_ended(a, s);
 }

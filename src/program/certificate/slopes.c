@@ -103,6 +103,21 @@ static void move_slopes(const rb_case_result *r, const rb_case_number *number, i
 
 /* ---- Again ------------------------------------------------------------------------- */
 
+static rb_status deviate(const rb_certificate *c, const rb_case *words, const rb_case_result *r,
+                         const rb_case_number *number, int n, rb_certificate_slopes *p,
+                         rb_message *why)
+{
+    rb_case_derivatives all;
+
+    rb_status s = rb_case_differentiate_by_tolerances(words, &r->model, &p->uncertain, &all, why);
+    if (s == RB_OK && c->moving > 0)
+        move_derivatives(r, number, n, &all);
+    if (s == RB_OK)
+        s = rb_case_propagate(&p->uncertain, &all, &p->shown.deviation, why);
+    rb_case_derivatives_free(&all);
+    return s;
+}
+
 rb_status rb_certificate_restore_slopes(rb_certificate *c, const json_t *root, const rb_case *words,
                                         rb_case_result *r, rb_rolling_states *states,
                                         rb_certificate_slopes *p, rb_message *why)
@@ -131,13 +146,13 @@ rb_status rb_certificate_restore_slopes(rb_certificate *c, const json_t *root, c
     }
     if (s == RB_OK && p->names)
         s = rb_report_derivatives_of(p->names, rb_case_resolved(words), &p->shown, why);
-    if (s == RB_OK)
+    if (s == RB_OK && p->names)
         s = (smooth ? rb_case_differentiate_smoothly : rb_case_differentiate)(words, &r->model, 0,
                                                                               NULL, &p->all, why);
-    if (s == RB_OK && c->moving > 0)
+    if (s == RB_OK && p->names && c->moving > 0)
         move_derivatives(r, number, n, &p->all);
     if (s == RB_OK && p->deviates)
-        s = rb_case_propagate(&p->uncertain, &p->all, &p->shown.deviation, why);
+        s = deviate(c, words, r, number, n, p, why);
     p->shown.all = &p->all;
     return s;
 }

@@ -234,10 +234,12 @@ static rb_status solve_case(cli_case_run *run, rb_message *why)
         rb_case_slopes_convert(&it->slopes_of_steps, run->c->units);
     } else if (s == RB_OK && (it->derivatives || it->tolerance)) {
         /* Of what is asked for, in the units that are shown. */
-        s = (it->smooth ? rb_case_differentiate_smoothly : rb_case_differentiate)(
-            run->words, &it->r.model, 0, NULL, &it->slopes, why);
+        if (it->derivatives)
+            s = (it->smooth ? rb_case_differentiate_smoothly : rb_case_differentiate)(
+                run->words, &it->r.model, 0, NULL, &it->slopes, why);
         if (s == RB_OK && it->tolerance)
-            s = rb_case_propagate(&it->tolerances, &it->slopes, &it->shown.deviation, why);
+            s = rb_case_deviations(run->words, &it->r.model, &it->tolerances, &it->shown.deviation,
+                                   why);
         if (s != RB_OK) /* the case has its solution, and nothing beside it */
             drop_derivatives(it);
         rb_rolling_solution_convert(&it->shown.deviation, run->c->units);

@@ -301,7 +301,7 @@ void rb_report_tolerances(FILE *out, const rb_rolling_solution *s, const rb_repo
     for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
         const double deviation = rb_rolling_number(r, &d->deviation);
-        const char *unit = rb_report_unit_name(d->all->units, r->unit);
+        const char *unit = rb_report_unit_name(s->units, r->unit);
         const int plain = strcmp(unit, "1") == 0;
         if (rb_sensitivity_has(r) && deviation > 0.0)
             fprintf(out, "  %-20s %.6g +- %.2g%s%s\n", r->name, rb_rolling_number(r, s) + 0.0,
