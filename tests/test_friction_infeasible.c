@@ -199,6 +199,15 @@ TEST(a_heavy_body_on_a_light_one_is_not_hopeless)
             q[0] = -9.81;
             assert_int_equal(rb_friction_has_no_solution(&p, &least, &given_load), 0);
             CHECK_MAX(least, 2.01 * 9.81 * pow(10.0, k), "the solution obeys the bound");
+            if (d == 3 || k > 11)
+                continue;
+            /* a mass of 1e11 stands on one of 1: (W_22 - 1) r_2 = 9.81 */
+            double r[4], u[4];
+            rb_friction_info info;
+            const rb_friction_solution at = {r, u, NULL};
+            CHECK_OK(rb_friction_solve("auto", &p, NULL, &at, &info));
+            CHECK_REL(r[2], 9.81 / (W[2 * (m + 1)] - 1.0), 1e-5, "k = %d by %s", k, info.solver);
+            CHECK_REL(r[0], r[2] + 9.81, 1e-5, "k = %d by %s", k, info.solver);
         }
 }
 

@@ -317,6 +317,34 @@ static rb_status take_turn(const portfolio *p, member *a, double allowance, cons
     return RB_MAXITER;
 }
 
+/* Few contacts in a plane, and no member has found a solution: all states of all contacts.  Beside
+ * the reactions between bodies of very unlike masses no measure sees the loads, so that a solution
+ * is taken where it is proved and leaves what rounding leaves.  RB_MAXITER: there is none. */
+static rb_status try_all_states(rb_friction_task *task)
+{
+    const size_t m = (size_t)task->m;
+    const double left = task->deadline > 0.0 ? task->deadline - rb_seconds() : 0.0;
+    rb_friction_solutions all = {0};
+    rb_friction_proof proof;
+    if (task->d != 2 || task->contacts > RB_FRICTION_ALL_UP_TO || left < 0.0)
+        return RB_MAXITER;
+    rb_status s = rb_friction_all(task->problem, left, &all, NULL);
+    const int ended = s == RB_ENOMEM || s == RB_INTERRUPTED;
+    for (int k = 0; !ended && !task->proved && k < all.count; k++) {
+        const double *r = all.r + (size_t)k * m;
+        s = rb_friction_prove_zones(task->problem, r, &proof, NULL);
+        if (s != RB_OK)
+            continue;
+        memcpy(task->r, r, m * sizeof *r);
+        task->proved = rb_friction_prove(task) ||
+                       (task->measured == RB_OK && task->info->scaled <= task->info->floor);
+        if (task->proved)
+            task->info->solver = "enumeration";
+    }
+    rb_friction_solutions_free(&all);
+    return task->proved ? RB_OK : ended ? s : RB_MAXITER;
+}
+
 static rb_status run_auto(rb_friction_task *task, int variant)
 {
     (void)variant;
@@ -383,7 +411,7 @@ static rb_status run_auto(rb_friction_task *task, int variant)
     for (int k = 0; k < p.members; k++)
         end_stage(&p.member[k]);
     free(p.memory);
-    return s;
+    return s == RB_MAXITER && iterations_left(&p) ? try_all_states(task) : s;
 }
 
 const rb_friction_method rb_friction_auto_method = {.run = run_auto};
