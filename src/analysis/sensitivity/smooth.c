@@ -109,6 +109,13 @@ static rb_status exchange(const rb_sensitivity *s, int way, boundary *b, rb_sens
                : status;
 }
 
+static rb_status fail_short_zone(int i, rb_message *why)
+{
+    return rb_fail(why, RB_EINVAL,
+                   "smooth derivatives: the zone of element %d is too short; give more elements",
+                   i + 1);
+}
+
 static rb_status check(const rb_sensitivity *s, rb_message *why)
 {
     const rb_rolling_friction *f = &s->model->rc->friction;
@@ -130,10 +137,7 @@ static rb_status check(const rb_sensitivity *s, rb_message *why)
                            "without friction; take the exact derivatives",
                            i + 1, i + 2);
         if (own * right == -2 || (left * own * right != 0 && left != own && right != own))
-            return rb_fail(why, RB_EINVAL,
-                           "smooth derivatives: the zone of element %d is too short; give more "
-                           "elements",
-                           i + 1);
+            return fail_short_zone(i, why);
     }
     return RB_OK;
 }
@@ -159,9 +163,14 @@ static rb_status create(const rb_sensitivity *s, rb_sensitivity_jumps **made, rb
         status = rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
     for (int i = 0; i + 1 < s->n && status == RB_OK; i++) {
         /* a zone of one element at an edge of the contact belongs to the edge, if there is
-         * another boundary */
-        if (!is_boundary(s, i) || (all > 1 && (kind_of(s, i - 1) == 0 || kind_of(s, i + 2) == 0)))
+         * another boundary; where it is the only one, its end would be a jump without measure */
+        const int before = kind_of(s, i - 1) == 0, behind = kind_of(s, i + 2) == 0;
+        if (!is_boundary(s, i) || (all > 1 && (before || behind)))
             continue;
+        if (before || behind) {
+            status = fail_short_zone(before ? i : i + 1, why);
+            break;
+        }
         boundary *b = &jumps->at[jumps->n++];
         b->element[BEGINS_TO_SLIP] = kind_of(s, i) == 1 ? i : i + 1;
         b->element[BEGINS_TO_STICK] = kind_of(s, i) == 1 ? i + 1 : i;
