@@ -168,7 +168,7 @@ TEST(results_are_valid)
     for (size_t k = 0; k < CASES + HISTORIES + STRESSES + sizeof more / sizeof *more; k++) {
         char line[600];
         const size_t after = CASES + HISTORIES;
-        if (k >= after + STRESSES && !is_in_turn((int)k, 3))
+        if (k >= after + STRESSES && !is_in_turn((int)k, 9))
             continue;
         const char *given = k < CASES              ? cases[k]
                             : k < after            ? histories[k - CASES]
@@ -236,9 +236,11 @@ TEST(results_are_proved_without_the_solver)
 
 TEST(every_changed_input_is_found)
 {
-    int changes = 0;
     missed = 0;
     for (int k = 0; k < CASES; k++) {
+        if (!is_in_turn(k, 3))
+            continue;
+        int changes = 0;
         json_t *root = run_json(cases[k]), *value;
         json_t *all = json_object_get(root, "inputs"), *names = json_copy(all);
         const char *key;
@@ -253,8 +255,8 @@ TEST(every_changed_input_is_found)
         }
         json_decref(names);
         json_decref(root);
+        assert_true(changes > 10);
     }
-    assert_true(changes > 60);
     assert_int_equal(missed, 0);
 }
 
@@ -496,8 +498,10 @@ static void change_cell(const char *text, const char *line, int column, char *ch
 TEST(every_changed_number_of_a_table_is_found)
 {
     static char text[sizeof out], changed_text[sizeof out];
-    int changes = 0;
     for (int k = 0; k < CASES; k++) {
+        if (!is_in_turn(k, 3))
+            continue;
+        int changes = 0;
         held_case *words = case_of(cases[k]);
         assert_int_equal(rollbem(cases[k]), 0);
         memcpy(text, out, sizeof text);
@@ -514,8 +518,8 @@ TEST(every_changed_number_of_a_table_is_found)
                 changes++;
             }
         }
+        assert_true(changes > 30);
     }
-    assert_true(changes > 200);
 }
 
 /* Rounding of what is computed again adds no note to a force of 0.001 mu P and takes none away. */

@@ -1,4 +1,4 @@
-/* Options times regimes: every pair of values of the factors below is run in sixteen turns (every
+/* Options times regimes: every pair of values of the factors below is run in 28 turns (every
  * triple by make test-all) and judged by tests/checker.c, which shares no code with the
  * library. */
 #define _DEFAULT_SOURCE   /* MAP_ANONYMOUS */
@@ -1181,7 +1181,7 @@ typedef struct {
     int failures, failed_solves, proofs, unproved;
 } findings;
 
-enum { TURNS = 16 }; /* parts of the rows, one in each run */
+enum { TURNS = 28 }; /* parts of the rows, one in each run */
 
 static void work(int worker, int result)
 {
@@ -1230,7 +1230,7 @@ TEST(test_every_combination)
     print_message("%d of %d solutions are proved\n", all.proofs - all.unproved, all.proofs);
     CHECK_MAX(all.unproved, 1.0 + 0.01 * all.proofs, "solutions that are not proved");
     print_message("%d rows%s cover %d %s; %d contain a conflict; %d rows ended with exit code 1\n",
-                  all_n, triples() ? "" : ", a sixteenth in each turn,", c.tuples,
+                  all_n, triples() ? "" : ", a part of them in each turn,", c.tuples,
                   triples() ? "triples" : "pairs", c.unreachable, all.failed_solves);
     free(all_rows);
     assert_int_equal(all.failures, 0);

@@ -387,6 +387,8 @@ TEST(single_cases_have_derivatives)
         {{SIDES_CHANGE}}};
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        if (!is_in_turn((int)k, 4))
+            continue;
         rb_message why = {""};
         differences d;
         held_case *c = case_of(RB_CASE_SINGLE, &cases[k], "tol", 1e-13);

@@ -36,6 +36,13 @@ def pytest_collectreport(report):
         print(f"[  FAILED  ] {report.nodeid}\n{report.longreprtext}", flush=True)
 
 
+def in_turn(k, parts):
+    """For tests too long for every run: k-th of those that take turns, as tests/check.h has them."""
+    turn = os.environ.get("ROLLBEM_TEST_TURN")
+    return pytest.mark.skipif(turn is not None and "ROLLBEM_TEST_ALL" not in os.environ and (k + int(turn)) % parts != 0,
+                              reason=f"its turn comes every {parts} days")
+
+
 def words(options):
     """Options of Python as those of the program."""
     for name, value in options.items():

@@ -10,7 +10,7 @@ import sys
 
 import numpy as np
 import pytest
-from conftest import PROGRAM, ROOT, words
+from conftest import PROGRAM, ROOT, in_turn, words
 
 import rollbem
 
@@ -83,6 +83,7 @@ def test_contact_runs_the_cases_of_a_file(tmp_path):
     assert len(cases[0]["table"]["x_mm"]) == cases[0]["NPOT"]
 
 
+@in_turn(0, 4)
 def test_verify_gives_every_reference():
     found = rollbem.verify()
     printed = (ROOT / "tests/recorded/verify").read_text()  # what the program prints, by tests/test_recorded.c
@@ -148,7 +149,7 @@ def test_an_error_of_progress_ends_the_run():
         raise RuntimeError("enough")
 
     with pytest.raises(RuntimeError, match="enough"):
-        rollbem.sweep(mu=[0.1 + k / 1e5 for k in range(9000)], contact_elements=60, progress=full)
+        rollbem.sweep(mu=[0.1 + k / 1e5 for k in range(2000)], contact_elements=60, progress=full)
     with pytest.raises(rollbem.InvalidInput, match="progress=: expected a function of done and total, got 3"):
         rollbem.solve(mu=0.3, progress=3)
 
@@ -169,6 +170,7 @@ def test_tables_for_pandas():
     assert len(wear) == 4 and wear["worn"].is_monotonic_increasing
 
 
+@in_turn(1, 4)
 def test_notebooks_show_pictures():
     module("matplotlib")
     from matplotlib import pyplot
@@ -184,6 +186,7 @@ def test_notebooks_show_pictures():
     assert "<pre>" in rollbem.stress(points=[[0.0, 0.5]], **ROLLED)._repr_html_()  # no picture of points
 
 
+@in_turn(2, 4)
 def test_a_notebook_runs_through():
     nbformat, nbclient = module("nbformat"), module("nbclient")
     module("ipykernel"), module("matplotlib"), module("pandas")

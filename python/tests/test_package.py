@@ -20,7 +20,7 @@ from typing import Optional
 
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import ROOT, in_turn
 
 import rollbem
 from rollbem import _library
@@ -213,6 +213,7 @@ def test_friction_over_the_way():
         assert (abs(abs(s.q) - most)[s.zone > 1] < 1e-6).all() and (s.zone > 1).any()
 
 
+@in_turn(3, 4)
 def test_pictures(tmp_path):
     pytest.importorskip("matplotlib")
     base = {k: v for k, v in ROLLED.items() if k not in ("formulation", "creep_ratio")}
@@ -372,6 +373,7 @@ def refused(mu):
     return rollbem.solve(mu=mu, zone=1.0, contact_elements=12)
 
 
+@in_turn(0, 4)
 def test_a_thousand_results_cross_processes():
     all_mu = np.linspace(0.1, 0.5, 1000)
     with ProcessPoolExecutor(2) as pool:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rollbem
-from conftest import ROOT, run
+from conftest import ROOT, in_turn, run
 
 sparse = pytest.importorskip("scipy.sparse")
 
@@ -34,6 +34,7 @@ def test_bounds(lower, upper):
     assert np.allclose(again.z, s.z) and again.iterations <= s.iterations
 
 
+@in_turn(1, 4)
 def test_sparse_matrices_stay_sparse():
     """99856 unknowns in less than 200 MB, NumPy and SciPy among them; dense they would take 80 GB."""
     program = """
