@@ -74,7 +74,8 @@ static const sentence notes[] = {
     {"thin-and-strained", "is compressed by 10 % of its thickness",
      LAYER "--layer-thickness 0.5 --load 20", LAYER "--layer-thickness 0.5"},
     {"flat-layer",
-     "rolls freely at a creepage that is higher by about 0.0005 (much friction) to 0.002 (little)",
+     "rolls freely at a creepage that is higher by about 0.00055 (much friction) to 0.0015 "
+     "(little)",
      LAYER "--layer-thickness 1.2", LAYER "--layer-thickness 0.5"},
     {"flat-layer",
      "The layer of B is computed as flat at thickness/R = 0.02. A round cover rolls "

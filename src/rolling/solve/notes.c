@@ -144,7 +144,7 @@ static int flat_layer(const rb_rolling_case *rc, const rb_rolling_solution *s, c
     return write_note(
         text,
         "The layer%s computed as flat at thickness/R = %.2g. %s at a creepage that is %s by "
-        "about %.1g (much friction) to %.1g (little); see --cover-thickness%s.",
+        "about %.2g (much friction) to %.2g (little); see --cover-thickness%s.",
         both ? "s are"
         : b  ? " of B is"
              : " is",
