@@ -1,7 +1,7 @@
 """docs/theory-bodies.md: relaxing bodies, wheels, layers, stress."""
 import numpy as np
 import rollbem
-from scipy import integrate
+from scipy import integrate, optimize, special
 from printed import close, printed, run, value
 
 PAGE = "theory-bodies.md"
@@ -113,6 +113,146 @@ def tag_L1():
         for j in [0, 7]:  # the inverse transform of 2 L/(E* k), over an element
             got = (2/(Es*al)*np.array(L(name, np.minimum(al, 200)))*np.cos(al*(x[j] - x[0]))*np.sinc(al*h/(2*np.pi))).sum()*0.5e-3*h/np.pi
             close(got, F[at + j, (0 if name == "N" else 24)], 2e-3)
+
+
+def tag_B9():
+    text = printed("theory.md", "x^2/(R + sqrt(R^2 - x^2))")
+    close([value(text, x=x, R=1.0) for x in (0.5, 0.9)], [1 - np.sqrt(1 - x*x) for x in (0.5, 0.9)])
+    close(value(text, x=1e-8, R=1.0), 5e-17)
+
+
+def tag_B14():
+    factor = printed(PAGE, "1 + (4/3) e (1 - e)/k^2").replace("(4/3) e (1 - e)", "(4/3)*e*(1 - e)")
+    node = printed(PAGE, "d_k = D (k/32)^4").split("=")[1].replace("D (", "D*(")
+    d = np.array([value(node, k=k, D=1.0) for k in range(33)])
+    for e in (0.5, 0.4):
+        p = np.array([0.0] + [d[k]**e*value(factor, e=e, k=k) for k in range(1, 33)])
+        close(((p[1:] + p[:-1])/2*np.diff(d)).sum(), 1/(1 + e), 2e-5)
+
+
+def tag_E2():
+    along, steep, strip = (printed("theory-rolling.md", t) for t in (
+        r"\frac{C_l}{C_s} = \frac{R_D(0,k^2,1)}{R_D(0,1,k^2)}", r"C_s = \frac{p_0\, s\, R_D(0,1,k^2)}{3 E^* l^2}", "R_eq = E\\* a/(2 p_0)"))
+    along, steep, strip = along.split("=")[1], steep.split("=")[1], strip.split("=")[1].replace("E\\*", "Es")
+    printed("theory-rolling.md", "R_eq/R_x is 0.989, 0.896, 0.785, 0.630, 0.271 at a/b = 0.1, 0.5, 1, 2, 10")
+    R_D = special.elliprd
+    for shown, slender in zip([0.989, 0.896, 0.785, 0.630, 0.271], [0.1, 0.5, 1, 2, 10]):
+        k = min(slender, 1/slender)
+        names = dict(k=k, s=k, l=1.0, R_D=R_D, Es=1.0, p_0=1.0, a=slender if slender < 1 else 1.0)
+        C_s = value(steep, **names)
+        C_x = C_s if slender < 1 else C_s*value(along, **names)
+        close(round(value(strip, **names)*2*C_x, 3), shown)
+    s = rollbem.solve(similar=True, support="halfplane", young=210000, poisson=0.3, radius=460, transverse_radius=300, gap="parabola",
+                      wheel_load=1e5, mu=0)
+    l, short = max(s.ellipse_a, s.ellipse_b), min(s.ellipse_a, s.ellipse_b)
+    p_0 = value(printed("theory-rolling.md", r"p_0 = \frac{3W}{2\pi s l}").split("=")[1], W=1e5, s=short, l=l)
+    Es = 210000/(1 - 0.09)/2
+    names = dict(k=short/l, s=short, l=l, R_D=R_D, Es=Es, p_0=p_0, a=s.ellipse_a)
+    close([s.ellipse_pressure, s.strip_radius], [p_0, value(strip, **names)], 1e-6)
+    close([value(steep, **names), value(along, **names)*value(steep, **names)], sorted([1/600, 1/920], reverse=True), 1e-6)
+    delta = printed("theory-rolling.md", r"\frac{p_0\, s}{E^*} K\!\left(\sqrt{1-k^2}\right)").replace(r"K\!\left(\sqrt{1-k^2}\right)", "K")
+    close(s.ellipse_approach, value(delta, K=special.ellipk(1 - (short/l)**2), **names), 1e-6)
+
+
+def tag_U1_U2():
+    X, nu, E, mu, R, a = 200.0, 0.3, 210000.0, 0.4, 100.0, 1.0
+    eps = value(printed("theory-rolling.md", "eps = X (1-nu^2)/E").split("=")[1].replace("X (", "X*("), X=X, nu=nu, E=E)
+    case = dict(similar=True, support="halfplane", gap="parabola", young=E, poisson=nu, radius=R, half_width=a, mu=mu)
+    strained = rollbem.solve(**case, formulation="steady", bulk_stress=X, creep=2e-3)
+    close(strained.tangential_load, rollbem.solve(**case, formulation="steady", creep=2e-3 - eps).tangential_load, 1e-9)
+    close(strained.free_creepage, eps, 1e-6)
+    q = printed("theory-rolling.md", r"\left[ H\!\left(\frac{x}{a}\right) - \frac{c}{a} H\!\left(\frac{x-x_0}{c}\right) \right]").replace(r"\!", "")
+    Es, r = E/(1 - nu**2)/2, -0.5
+    p_0 = Es*a/(2*R)
+    c = value(printed("theory-rolling.md", r"c = a \sqrt{1-|r|}").split("=")[1].replace(r"a \sqrt{1-|r|}", "a*sqrt(1-abs(r))"), a=a, r=r)
+    shift = printed("theory-rolling.md", r"\frac{(\epsilon_A-\epsilon_B) E^* a}{2 \mu p_0}").replace(r"\epsilon_A-\epsilon_B", "eps").replace(r"\mu", "m")
+    s = rollbem.solve(**case, formulation="static", bulk_stress=60, force_ratio=r, contact_elements=400)
+    x_0 = -value(shift, eps=60*(1 - nu**2)/E, Es=Es, a=a, m=mu, p_0=p_0)
+    H = lambda t: np.sqrt(np.maximum(1 - t*t, 0))
+    got = -value(q, H=H, x=np.array(s.x), a=a, c=c, x_0=x_0)*mu*p_0
+    close(np.array(s.q)[np.abs(s.x) < 0.97], got[np.abs(s.x) < 0.97], 2e-2)
+
+
+def tag_U3():
+    X, R = 2e-3, 100.0
+    case = dict(similar=True, support="halfplane", gap="parabola", young=210000, poisson=0.3, radius=R, load=500, mu=0)
+    flat, tilted = rollbem.solve(**case), rollbem.solve(**case, tilt=X)
+    x_0 = value(printed("theory-rolling.md", "x_0 = M/P = X R").split("=")[2].replace("X R", "X*R"), X=X, R=R)
+    close((np.array(tilted.x)*tilted.p*tilted.h).sum()/500, x_0, 1e-3)
+    close(flat.approach - tilted.approach, value(printed("theory-rolling.md", "delta falls by X^2 R/2").split("by")[1].replace("X^2 R", "X^2*R"), X=X, R=R), 2e-2)
+
+
+def tag_V1_V5():
+    J = printed(PAGE, "J(t) = J_g [1 + sum f_k (1 - exp(-t/tau_k))]").split("=")[1]
+    wave = printed(PAGE, "c(k) = 1 + sum f_k/(1 - i k L_k)").split("=")[1].replace("sum", "").replace("- i k L_k", "- 1j_*k*L_k")
+    printed(PAGE, r"(E u)(x) = \frac1L\int_0^\infty e^{-r/L}\,u(x+r)\,dr")
+    k, L, f, tau = 3.0, 0.7, 0.8, 2.0
+    E = [integrate.quad(lambda r: np.exp(-r/L)/L*part(k*r), 0, 60*L, limit=500)[0] for part in (np.cos, np.sin)]  # of exp(ikx), at x = 0
+    close(1 + f*(E[0] + 1j*E[1]), 1 + f/(1 - 1j*k*L), 1e-8)
+    assert "f_k/(1 - 1j_*k*L_k)" in wave
+    printed(PAGE, r"w = w_e + \sum_k f_k v_k, \qquad \tau_k\,\frac{dv_k}{dt} = w_e - v_k")
+    v = integrate.solve_ivp(lambda t, v: (1 - v)/tau, [0, 3], [0], rtol=1e-10, atol=1e-12).y[0, -1]
+    close(1 + f*v, value(J.replace("sum f_k (", "f_k*(").replace("J_g [", "J_g*["), J_g=1.0, f_k=f, t=3.0, tau_k=tau), 1e-8)
+
+
+def tag_V3():
+    P_text, m_1, m_2 = (printed(PAGE, t).split("=")[1] for t in (
+        r"m_0 &= \frac{(1+f)P}{\pi a}", r"m_1 = -\frac{E^*(x_0-L)}{2R}", r"m_2 = -\frac{E^* a}{4R}"))
+    trailing = printed(PAGE, "m_0 I_0(k) - m_1 I_1(k) + m_2 I_2(k)")
+    leading = printed(PAGE, r"\frac{2a}{E^* L}\left[m_0 J_0 + m_1 J_1 + m_2 J_2\right]")
+    moment = printed(PAGE, r"x_0 P + \frac{a^2}{1+f}\left[\frac{\pi m_1}{2} - \frac{LP}{a^2}\right]").replace("LP", "L*P")
+    J_1, J_2 = printed(PAGE, r"J_1 = K_1 - \frac1\kappa").split("=")[1], printed(PAGE, r"J_2 = K_2 - 2\left(\frac1\kappa + \frac1{\kappa^2}\right)").split("=")[1]
+    J_1, J_2 = (t.replace(r"\frac1{\kappa^2}", "1/kap^2").replace(r"\frac1\kappa", "1/kap").replace(r"2\left", "2*") for t in (J_1, J_2))
+    printed(PAGE, "k = (1 + f) a/L, kap = a/L")
+    f, R, V, tau, P = 1.0, 100.0, 100.0, 0.01, 1.0
+    s = rollbem.solve(support="halfplane", young=10, poisson=0.5, radius=R, gap="parabola", load=P, mu=0, formulation="steady", force=0,
+                      relaxation_time=[tau], relaxation_ratio=[f], speed=V, contact_elements=200, mesh="fitted")
+    L, Es = V*tau, 10/(1 - 0.25)
+    def state(a, x_0):
+        kap, k = a/L, (1 + f)*a/L
+        names = dict(f=f, P=P, a=a, Es=Es, x_0=x_0, L=L, R=R, kap=kap, k=k)
+        names.update(m_0=value(P_text, **names), m_1=value(m_1, **names), m_2=value(m_2, **names), J_0=special.kve(0, kap))
+        names.update({f"I_{n}": (lambda z, n=n: special.ive(n, z)) for n in range(3)})
+        for n, text in [(1, J_1), (2, J_2)]:
+            names[f"J_{n}"] = value(text, **{f"K_{n}": special.kve(n, kap)}, kap=kap)
+        return names
+    def off(z):
+        names = state(*z)
+        return [value(trailing, **names)/names["m_0"], value(leading, **names) - (z[1] + z[0])/R]
+    a, x_0 = optimize.fsolve(off, [(s.contact_to - s.contact_from)/2, (s.contact_to + s.contact_from)/2], xtol=1e-13)
+    close([a, x_0], [(s.contact_to - s.contact_from)/2, (s.contact_to + s.contact_from)/2], 2e-3)
+    close(value(moment, **state(a, x_0)), s.resistance_moment, 2e-3)
+
+
+def tag_L2():
+    stiff, soft = printed(PAGE, r"(1-\nu)f''' - (2-\nu)f' = \rho\,(f + \beta_2 f')"), printed(PAGE, r"(1-\nu)f'' + \nu f = -\rho\,(f' + \beta_2 f)")
+    rho_text, beta_text = printed(PAGE, "rho = 4 G/E\\*_2"), printed(PAGE, "beta_2 = (1 - 2 nu_2)/(2 (1 - nu_2))").split("= ")[1]
+    printed(PAGE, "Then p = 1, s = 0 gives L_N = D, L_C = -C - 1/(2 (1 - nu)), and s = 1, p = 0 gives L_T = -C")
+    assert stiff and soft and rho_text
+    h = lambda x, n: np.cosh(x) if n % 2 == 0 else np.sinh(x)
+    def slope(kind, n, e):  # n-th derivative of cosh, sinh, eta sinh eta, eta cosh eta - sinh eta
+        if kind < 2:
+            return h(e, n + kind)
+        return e*h(e, n + 1 + kind - 2) + n*h(e, n + kind - 2) - (kind - 2)*h(e, n + 1)
+    def layer(al, nu, rho, beta_2, p, s):
+        rows, right = np.zeros((2, 2)), np.zeros(2)
+        for kind, weight in [(0, p), (1, s), (2, None), (3, None)]:
+            d = [slope(kind, n, al) for n in range(4)]
+            a = [(1 - nu)*d[3] - (2 - nu)*d[1] - rho*(d[0] + beta_2*d[1]), (1 - nu)*d[2] + nu*d[0] + rho*(d[1] + beta_2*d[0])]
+            if weight is None:
+                rows[:, kind - 2] = a
+            else:
+                right -= weight*np.array(a)
+        return np.linalg.solve(rows, right)  # C, D
+    nu, al = 0.3, 0.8
+    ka = 3 - 4*nu
+    den = 2*ka*np.cosh(2*al) + 4*al**2 + 1 + ka**2
+    C, D = layer(al, nu, 0.0, 0.0, 1, 0)
+    close([D, -C - 1/(2*(1 - nu)), -layer(al, nu, 0.0, 0.0, 0, 1)[0]],
+          [(2*ka*np.sinh(2*al) - 4*al)/den, (2*ka*(ka - 1)*(np.cosh(2*al) - 1) - 8*al**2)/((ka + 1)*den), (2*ka*np.sinh(2*al) + 4*al)/den])  # (L1)
+    E, beta_2 = 1.0, value(beta_text.replace("2 nu_2", "2*nu_2").replace("(2 (1", "(2*(1"), nu_2=nu)
+    C, D = layer(al, nu, 4*E/(2*(1 + nu))/(E/(1 - nu**2)), beta_2, 1, 0)  # a base of the same material: the half-plane
+    close([D, -C - 1/(2*(1 - nu))], [1, (1 - 2*nu)/(2*(1 - nu))])
 
 
 def tag_S1():
