@@ -90,6 +90,12 @@ def history_derivatives(case: _CaseLike = None, results: Any = True, **options: 
     return history(None, _case(case, options), derivatives=results).derivatives
 
 
+def _solved(solution: Union[Solution, _CaseLike], options: "dict[str, Any]") -> Solution:
+    if isinstance(solution, Solution):
+        return solution.case.but(**options).solve() if options else solution
+    return _case(solution, options).solve()
+
+
 def tolerances(solution: Union[Solution, _CaseLike] = None, *, tolerance: Any, **options: Any) -> "dict[str, float]":
     """Standard deviations of all numbers, to first order, from those of inputs, which are independent.
 
@@ -97,8 +103,7 @@ def tolerances(solution: Union[Solution, _CaseLike] = None, *, tolerance: Any, *
     ``tolerance`` as of ``rollbem --tolerance``: ``"mu=0.02,radius=1%"``, or ``{"mu": 0.02, "radius": "1%"}``.
     """
     text = _uncertain(tolerance)
-    if not isinstance(solution, Solution):
-        solution = _case(solution, options).solve()
+    solution = _solved(solution, options)
     handle = solution._live()
     with handle.lock:
         status = handle.run("rb_api_tolerances", text)
@@ -115,8 +120,7 @@ def derivatives(solution: Union[Solution, _CaseLike] = None, *, smooth: bool = F
     entry per element. In the units of the case, which ``d.units`` names. ``d.to_pandas()``: a row per result and option. ``smooth``:
     without the jumps where an element changes between stick and slip, as of ``rollbem --smooth-derivatives``.
     """
-    if not isinstance(solution, Solution):
-        solution = _case(solution, options).solve()
+    solution = _solved(solution, options)
     if solution.history is not None:
         raise InvalidInput("derivatives: this case has several steps; history(..., derivatives=...) has those after each")
     handle = solution._live()

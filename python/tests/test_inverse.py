@@ -57,6 +57,10 @@ def test_derivatives():
     assert rollbem.derivatives(**STEADY)["max_pressure"]["load"] == pytest.approx(s.max_pressure / 1000, rel=1e-3)
     with pytest.raises(rollbem.InvalidInput):
         rollbem.derivatives(**PLANES, formulation="static", increments=3)
+    other = rollbem.derivatives(**{**STEADY, "load": 900.0})["tangential_load"]["mu"]
+    assert rollbem.derivatives(s, load=900.0)["tangential_load"]["mu"] == other != d["tangential_load"]["mu"]
+    assert rollbem.tolerances(s, tolerance={"mu": 0.01}, load=900.0)["tangential_load"] == pytest.approx(
+        0.01 * abs(other))
 
 
 def test_smooth_derivatives():
