@@ -43,6 +43,7 @@ static const struct {
     const char *folder, *header;
 } shared[] = {
     {"lcp/portfolio", "lcp/lemke/lemke"},
+    {"lcp/portfolio", "lcp/proof/bounds"},
     {"lcp/lemke", "lcp/proof/bounds"},
     {"lcp/proof", "lcp/lemke/lemke"},
     {"lcp/proof", "lcp/portfolio/linear"},

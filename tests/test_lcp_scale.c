@@ -268,4 +268,27 @@ TEST(short_memory_is_reported)
     assert_true(alloc_fail_each(solve_anew, &p) > 20);
 }
 
+/* A basis within 4e-11 of a singular one has a solution of its own, far from the other one: the
+ * bounds of rounding errors do not make them one. */
+TEST(far_solutions_of_nearly_singular_bases_are_listed)
+{
+    const double e = 0x1p-36;
+    const double M[] = {2 * e, 1,     -2 + e, -3 + 2 * e, -1 + 2 * e, e,  -1 - 2 * e, 2 - 2 * e,
+                        2 - e, 1 + e, -e,     -2 + e,     3 + e,      -2, 2 - e,      -2 * e},
+                 q[] = {3, -1, 2, 4}, far[] = {0, 82463372082.48, 82463372083.28, 41231686042.34};
+    OWNED(rb_lcp_solutions) all;
+    CHECK_OK(rb_lcp_enumerate(&(rb_lcp_problem){4, M, 4, q}, NULL, NULL, 0.0, &all, &heard));
+    assert_int_equal(all.count, 2);
+    assert_int_equal(all.undecided, 0);
+    const int at = all.z[1] > 1e9 ? 0 : 1; /* by fractions */
+    for (int i = 0; i < 4; i++) {
+        CHECK_ABS(all.z[4 * at + i], far[i], 0.01, "z(%d), far", i + 1);
+        CHECK_ABS(all.z[4 * (1 - at) + i],
+                  i == 1   ? 2.0 - 5 * e
+                  : i == 2 ? 1.0 - 3 * e
+                           : 0.0,
+                  1e-13, "z(%d)", i + 1);
+    }
+}
+
 RUN_TESTS(NULL, NULL)

@@ -1,6 +1,7 @@
 /* All solutions of a small problem: every complementary basis is tried, and none is left out
  * because its matrix is singular. */
 #include "lcp/portfolio/linear.h"
+#include "lcp/proof/bounds.h"
 
 #include <cblas.h>
 #include <lapacke.h>
@@ -11,9 +12,11 @@
 /* What decides, as parts of what the rounding errors of z are a part of (bound) and of the
  * terms of a row: below RIGHT a wrong sign is rounding; of two components below SAME of
  * themselves they are one.  Closer to a bound than ROUGHLY of the largest z the size of
- * the rounding errors is asked for.  A matrix with rows and columns near 1 and a smaller
- * reciprocal condition than SINGULAR is not inverted. */
-static const double RIGHT = 1e-11, SAME = 1e-9, ROUGHLY = 1e-6, SINGULAR = 1e-13;
+ * the rounding errors is asked for, and they are no more.  A matrix with rows and columns near 1
+ * and a smaller reciprocal condition than SINGULAR is not inverted; below DOUBTFUL that it is
+ * regular is shown exactly, below POOR its solution is refined. */
+static const double RIGHT = 1e-11, SAME = 1e-9, ROUGHLY = 1e-6, SINGULAR = 1e-15, DOUBTFUL = 1e-13,
+                    POOR = 1e-7;
 
 /* Bases that are tried at most. */
 static const double MOST_BASES = 4194304.0;
@@ -55,6 +58,34 @@ static void product(search *s)
 
 /* ---- The basic solution of a basis --------------------------------------------------- */
 
+/* z to full precision by residuals in twice the precision.  0: they do not get small. */
+static int refine(search *s)
+{
+    enum { TURNS = 10 };
+    const double enough = 1e-14, *q = s->p.q;
+    double change = INFINITY;
+    for (int turn = 0; turn < TURNS && change > enough; turn++) {
+        for (int r = 0; r < s->m; r++) {
+            const int i = s->inside[r];
+            proof_dot sum = {q[i], 0.0, fabs(q[i])};
+            double error;
+            for (int j = 0; j < s->n; j++)
+                proof_add(&sum, s->p.M[(size_t)i + (size_t)j * (size_t)s->p.ldm], s->z[j]);
+            s->x[r] = -s->row[r] * proof_value(&sum, (size_t)s->n + 1, &error);
+        }
+        LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', s->m, 1, s->A, s->m, s->swap, s->x, s->m);
+        double most = 0.0, largest = 0.0;
+        for (int c = 0; c < s->m; c++) {
+            double *z = s->z + s->inside[c];
+            *z += s->x[c] * s->col[c];
+            most = fmax(most, fabs(s->x[c]));
+            largest = fmax(largest, fabs(*z / s->col[c]));
+        }
+        change = largest > 0.0 ? most / largest : 0.0;
+    }
+    return change <= SAME;
+}
+
 /* z of the basis; 0: its matrix has no inverse that could be told from rounding. */
 static int basic_solution(search *s)
 {
@@ -94,12 +125,13 @@ static int basic_solution(search *s)
     if (LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, m, m, s->A, m, s->swap) != 0 ||
         LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', m, s->A, m, norm, &rcond, s->work,
                             s->swap + s->n) != 0 ||
-        rcond < SINGULAR)
+        rcond < SINGULAR ||
+        (rcond < DOUBTFUL && !rb_lcp_is_regular(s->p.M, s->p.ldm, m, s->inside, s->inside)))
         return 0;
     LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', m, 1, s->A, m, s->swap, s->x, m);
     for (int c = 0; c < m; c++)
         s->z[s->inside[c]] = s->x[c] * s->col[c];
-    return 1;
+    return rcond > POOR || refine(s);
 }
 
 /* bound = |A^-1| (|L| |U| |z| + |M| |z| + |q|), by components, of the basis whose LU is in A:
@@ -163,8 +195,11 @@ static int is_solution(search *s, int regular)
     }
     for (int i = 0; i < n; i++)
         s->bound[i] = largest;
-    if (regular)
+    if (regular) {
         bound_errors(s);
+        for (int i = 0; i < n; i++)
+            s->bound[i] = fmin(s->bound[i], rough / RIGHT);
+    }
     /* What is outside of the box, or just inside, by rounding is put on it. */
     for (int i = 0; close && i < n; i++) {
         const double low = rb_lcp_lower(s->lower, i), high = rb_lcp_upper(s->upper, i);
