@@ -279,7 +279,7 @@ static void compare(int k)
         }
     CHECK_OK(rb_rolling_stress_at(&model, kept, xy, at, &heard));
     /* the last four are those of the bond */
-    for (int j = 0; maximum_of(&m, j) != &m.peel; j++) {
+    for (int j = 0; maximum_of(&m, j) != &m.bond[0].peel; j++) {
         int best = 0;
         for (int i = 0; i < kept; i++)
             best = measured(&at[i], j) > measured(&at[best], j) ? i : best;
@@ -294,12 +294,12 @@ static void compare(int k)
         const double least = 1e-6 * rb_rolling_peak_pressure(&model);
         if (at[i].y != rc.a.layer)
             continue;
-        CHECK_MAX(fabs(at[i].sxy) * (1.0 - 1e-3), m.bond_shear.value + least,
+        CHECK_MAX(fabs(at[i].sxy) * (1.0 - 1e-3), m.bond[0].shear.value + least,
                   "case %d, %s: shear at the bond", k, c.line);
-        CHECK_MAX(isnan(m.peel.x) ? 0.0 : at[i].syy * (1.0 - 1e-3), m.peel.value + least,
-                  "case %d, %s: peel", k, c.line);
-        CHECK_MAX(isnan(m.tension_above.x) ? 0.0 : at[i].sxx * (1.0 - 1e-3),
-                  m.tension_above.value + least, "case %d, %s: tension above", k, c.line);
+        CHECK_MAX(isnan(m.bond[0].peel.x) ? 0.0 : at[i].syy * (1.0 - 1e-3),
+                  m.bond[0].peel.value + least, "case %d, %s: peel", k, c.line);
+        CHECK_MAX(isnan(m.bond[0].tension_above.x) ? 0.0 : at[i].sxx * (1.0 - 1e-3),
+                  m.bond[0].tension_above.value + least, "case %d, %s: tension above", k, c.line);
     }
     rb_rolling_model_free(&model);
 }

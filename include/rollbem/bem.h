@@ -163,6 +163,12 @@ struct rb_bem_flexibility {
 rb_status rb_bem_condense(const rb_bem_system *system, rb_bem_normals normals,
                           rb_bem_flexibility *f, rb_message *why);
 
+/* Bonded layers from the surface down; borrowed. */
+typedef struct {
+    int n;                                     /* at least 2 */
+    const double *thickness, *young, *poisson; /* n each */
+} rb_bem_stack;
+
 /* A body whose influence function depends on the distance alone (a wheel's does not).  It
  * is a half-plane (Flamant, theory.md 3), elastic or viscoelastic in steady rolling
  * towards +x, or a layer of this material bonded to a rigid or elastic base.  All
@@ -183,6 +189,8 @@ typedef struct {
     double thickness;         /* of the layer; 0: half-plane */
     int elastic_base;         /* of the layer; 0: rigid */
     rb_bem_material base;
+    const rb_bem_stack *stack; /* of several elastic layers, the first of which is that of
+                                  `material` and `thickness`; NULL: one */
 } rb_bem_surface;
 
 /* An elastic half-plane whose displacement is zero at the distance datum > 0 along the surface from

@@ -115,14 +115,15 @@ typedef struct {
     rb_numbers mus;            /* all values of mu; more than one only for curves */
     const char *friction_file; /* table of the friction law, or NULL */
     rb_case_law law;
-    const char *irregularity_file; /* or NULL */
-    const char *worn_file;         /* or NULL */
-    const char *history_file;      /* or NULL */
-    rb_rolling_program program;    /* the history of that file; n = 0: none */
-    int error;                     /* 1: estimate discretisation errors */
-    double accuracy;               /* refine until the errors are below this; 0: no refinement */
-    rb_units units; /* units of arguments without a unit and of printed results; a case file
-                       names its own units.  The values in this struct are in mm, N, MPa */
+    const char *layers_file, *layers_file_b; /* stacks of layers, or NULL */
+    const char *irregularity_file;           /* or NULL */
+    const char *worn_file;                   /* or NULL */
+    const char *history_file;                /* or NULL */
+    rb_rolling_program program;              /* the history of that file; n = 0: none */
+    int error;                               /* 1: estimate discretisation errors */
+    double accuracy; /* refine until the errors are below this; 0: no refinement */
+    rb_units units;  /* units of arguments without a unit and of printed results; a case file
+                        names its own units.  The values in this struct are in mm, N, MPa */
 } rb_resolved_case;
 
 RB_PUBLIC_END

@@ -70,6 +70,8 @@ typedef struct {
                                         [length]; 0: none */
     double core_young, core_poisson; /* of the core, a ring on the rigid hub; young 0:
                                         everything below the cover is rigid */
+    const rb_bem_stack *stack;       /* half-plane: several layers, the first of which has `layer`,
+                                        `young` and `poisson`; NULL: one at most; borrowed */
     rb_rolling_memory memory;        /* viscoelasticity of the material; n = 0: elastic */
 } rb_rolling_body;
 
@@ -758,10 +760,15 @@ rb_status rb_rolling_stress_at(const rb_rolling_model *model, int n, const doubl
 
 /* The material of A that a place lies in: on a bond the stress along it jumps. */
 typedef enum {
-    RB_MATERIAL_BODY,  /* A is of one material */
-    RB_MATERIAL_LAYER, /* a layer on a half-plane, the cover of a wheel */
-    RB_MATERIAL_BASE   /* the half-plane below the layer */
+    RB_MATERIAL_BODY,                        /* A is of one material */
+    RB_MATERIAL_LAYER,                       /* a layer on a half-plane, the cover of a wheel */
+    RB_MATERIAL_BASE,                        /* the half-plane below the layers */
+    RB_MATERIAL_FIRST,                       /* the first of several layers; after it the others */
+    RB_MATERIAL_LAST = RB_MATERIAL_FIRST + 9 /* the tenth, and all below it */
 } rb_rolling_place;
+
+/* Bonds of a stack whose maxima are looked for, from the surface down. */
+enum { RB_ROLLING_BONDS = 4 };
 
 /* Value and place of a maximum. */
 typedef struct {
@@ -774,9 +781,12 @@ typedef struct {
     rb_rolling_extremum orthogonal_shear; /* largest |sxy| */
     rb_rolling_extremum tension;          /* largest principal stress */
     rb_rolling_extremum compression;      /* the smallest principal stress, with the other sign */
-    /* At the bond of a layer or a cover: largest tension across it, shear along it, and tension
-     * along it on either side.  0, without a place: none; NAN: there is no such bond or side. */
-    rb_rolling_extremum peel, bond_shear, tension_above, tension_below;
+    /* At the bonds of layers, the first of which may be that of a cover: largest tension across
+     * it, shear along it, and tension along it on either side.  0, without a place: none; NAN:
+     * there is no such bond or side. */
+    struct {
+        rb_rolling_extremum peel, shear, tension_above, tension_below;
+    } bond[RB_ROLLING_BONDS];
 } rb_rolling_stress_maxima;
 
 /* Finds the maxima in all of A: on its surface, along a bond on both sides of it, and

@@ -916,7 +916,8 @@ def stress(case: Union[Solution, _CaseLike] = None, grid: "tuple[int, int]" = (6
         handle.check(handle.run("rb_api_stress_of", int(body == "b")))
         handle.check(handle.run("rb_api_stress_maxima", depth))
         names = ("max_shear", "tresca_shear", "von_mises", "orthogonal_shear", "tension", "compression")
-        bond = ("bond_1_peel", "bond_1_shear", "bond_1_tension_above", "bond_1_tension_below")
+        bond = tuple(f"bond_{k}_{of}" for k in (1, 2, 3, 4)
+                     for of in ("peel", "shear", "tension_above", "tension_below"))
         maxima = {name: Extremum(handle.array(f"maxima.{name}").tolist()) for name in names + bond}
         # NaN: of a bond, or a side of it, that the body does not have
         maxima = {name: of for name, of in maxima.items() if not np.isnan(of.value)}

@@ -75,4 +75,10 @@ rb_status rb_bem_layer_add_remainder(const rb_bem_surface *body, int points, con
 rb_status rb_bem_layer_add_normal(const rb_bem_surface *body, const rb_bem_edge_load *load,
                                   int points, const double *x, double *w);
 
+/* ---- Stress ------------------------------------------------------------------------ */
+
+/* Transforms int t(x) exp(-ikx) dx of tractions that are linear between nodes. */
+void rb_bem_edge_load_wave(const rb_bem_edge_load *load, double k, double complex *p,
+                           double complex *q);
+
 #endif

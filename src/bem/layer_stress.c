@@ -3,6 +3,7 @@
  * numbers; below the bond the whole stress is computed in this way. */
 #include "bem/internal.h"
 #include "bem/layer.h"
+#include "bem/stack.h"
 #include "base/blas.h"
 
 #include <gsl/gsl_integration.h>
@@ -31,6 +32,25 @@ static void keep(double complex value, double of[2][GAUSS], int g)
     of[1][g] = cimag(value);
 }
 
+void rb_bem_edge_load_wave(const rb_bem_edge_load *load, double k, double complex *p,
+                           double complex *q)
+{
+    *p = *q = 0.0;
+    for (int j = 0; j + 1 < load->n; j++) {
+        const double h = load->x[j + 1] - load->x[j], t = 0.5 * k * h;
+        /* int of 1 and of x/h exp(-i k x) over the element */
+        const double even = t > 0.0 ? sin(t) / t : 1.0,
+                     odd = t > 0.1 ? (even - cos(t)) / (2.0 * t)
+                                   : t / 6.0 * (1.0 - t * t / 10.0 * (1.0 - t * t / 28.0));
+        const double kx = k * 0.5 * (load->x[j] + load->x[j + 1]);
+        const double complex shift = h * (cos(kx) - I * sin(kx));
+        *p += shift * (even * 0.5 * (load->p[j] + load->p[j + 1]) -
+                       I * odd * (load->p[j + 1] - load->p[j]));
+        *q += shift * (even * 0.5 * (load->q[j] + load->q[j + 1]) -
+                       I * odd * (load->q[j + 1] - load->q[j]));
+    }
+}
+
 /* Wave g of the panel, of length al = k d and with the weight of its Gauss point. */
 static void set_wave(const rb_bem_surface *body, const rb_bem_edge_load *load, double al,
                      double weight, panel *w, int g)
@@ -41,22 +61,10 @@ static void set_wave(const rb_bem_surface *body, const rb_bem_edge_load *load, d
 
     const double wave_number = w->k[g] = al / body->thickness;
     rb_bem_layer_wave_at(body, al, &bond);
-    /* Transforms of the tractions, which are linear between the nodes, times the weight. */
+    /* Transforms of the tractions, times the weight. */
     const double share = weight / (M_PI * body->thickness);
-    double complex p = 0.0, q = 0.0;
-    for (int j = 0; j + 1 < load->n; j++) {
-        const double h = load->x[j + 1] - load->x[j], t = 0.5 * wave_number * h;
-        /* int of 1 and of x/h exp(-i k x) over the element */
-        const double even = t > 0.0 ? sin(t) / t : 1.0,
-                     odd = t > 0.1 ? (even - cos(t)) / (2.0 * t)
-                                   : t / 6.0 * (1.0 - t * t / 10.0 * (1.0 - t * t / 28.0));
-        const double kx = wave_number * 0.5 * (load->x[j] + load->x[j + 1]);
-        const double complex shift = h * (cos(kx) - I * sin(kx));
-        p += shift *
-             (even * 0.5 * (load->p[j] + load->p[j + 1]) - I * odd * (load->p[j + 1] - load->p[j]));
-        q += shift *
-             (even * 0.5 * (load->q[j] + load->q[j + 1]) - I * odd * (load->q[j + 1] - load->q[j]));
-    }
+    double complex p, q;
+    rb_bem_edge_load_wave(load, wave_number, &p, &q);
     p_s[0] = share * p;      /* f(0): -s_yy of the surface */
     p_s[1] = -I * share * q; /* f'(0): s_xy = -i f' is -q there */
     const double complex c = p_s[0] * bond.c[0] + p_s[1] * bond.c[1],
@@ -72,9 +80,10 @@ static void set_wave(const rb_bem_surface *body, const rb_bem_edge_load *load, d
 }
 
 struct rb_bem_layer_field {
-    rb_bem_surface body;   /* what it and the load borrow stays the caller's */
-    rb_bem_edge_load load; /* of nodes */
-    double reach;          /* of the present waves */
+    rb_bem_stack_field *stack; /* of several layers: instead of all that follows; owned */
+    rb_bem_surface body;       /* what it and the load borrow stays the caller's */
+    rb_bem_edge_load load;     /* of nodes */
+    double reach;              /* of the present waves */
     int n;
     panel *panel; /* n, k increasing; owned */
 };
@@ -170,6 +179,7 @@ void rb_bem_layer_field_free(rb_bem_layer_field *field)
 {
     if (!field)
         return;
+    rb_bem_stack_field_free(field->stack);
     free(field->panel);
     free(field);
 }
@@ -234,7 +244,8 @@ rb_status rb_bem_layer_field_create(const rb_bem_surface *body, const rb_bem_edg
         return RB_ENOMEM;
     f->body = *body;
     f->load = *load;
-    const rb_status s = make_waves(f, 2.0 * (load->x[load->n - 1] - load->x[0]), why);
+    const rb_status s = body->stack ? rb_bem_stack_field_create(body, load, &f->stack, why)
+                                    : make_waves(f, 2.0 * (load->x[load->n - 1] - load->x[0]), why);
     if (s == RB_OK)
         *field = f;
     else
@@ -248,6 +259,8 @@ rb_status rb_bem_layer_field_add(rb_bem_layer_field *field, rb_bem_points points
     const double d = field->body.thickness, *x = field->load.x;
     double low = x[0], high = x[field->load.n - 1];
 
+    if (field->stack)
+        return rb_bem_stack_field_add(field->stack, points, stress, why);
     for (int k = 0; k < points.n; k++) {
         const double at = points.xy[2 * k], depth = points.xy[2 * k + 1];
         low = fmin(low, at);

@@ -4,6 +4,7 @@
  * integrals of polynomials, and a table to any distance has a few pieces per octave. */
 #include "bem/layer.h"
 #include "bem/panels.h"
+#include "bem/stack.h"
 
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_math.h>
@@ -29,6 +30,7 @@ struct rb_bem_layer_table {
     /* what the kernel depends on; the pieces of X > 0, then those of X < 0 where memory
      * tells the sides apart */
     rb_bem_surface body; /* of thickness 1, with arrays of its own */
+    rb_bem_stack stack;  /* of the body, likewise */
     int pieces;          /* of a side */
     piece *side[2];
     int users;
@@ -140,6 +142,21 @@ static rb_bem_layer_kernel integral_of(const piece *p, double t, double half)
     return v;
 }
 
+/* The kernel at X, in the units of the waves. */
+static void sum_waves(const waves *w, double X, double of[3])
+{
+    double complex sum[3] = {w->constant[0], w->constant[1], w->constant[2]};
+
+    for (int i = 0; i < w->n; i++) {
+        const double complex e = cexp(I * w->sigma[i] * (X / w->unit));
+        for (int c = 0; c < 3; c++)
+            sum[c] += w->Z[i][c] * e;
+    }
+    of[0] = creal(sum[0]);
+    of[1] = creal(sum[1]);
+    of[2] = cimag(sum[2]);
+}
+
 /* Pieces from .. pieces - 1 of one side; the waves of X < 0 are those of memory that
  * comes from the other side, and of the opposite coupling. */
 static rb_status fill_side(const rb_bem_layer_table *table, int side, int from)
@@ -147,15 +164,20 @@ static rb_status fill_side(const rb_bem_layer_table *table, int side, int from)
     rb_bem_surface body = table->body;
     rb_status s = RB_OK;
     waves w = {.unit = 0.0};
+    double low, width;
+    rb_panel_place(table->pieces, &low, &width);
+    rb_bem_stack_kernel *stack = body.stack ? rb_bem_stack_kernel_create(&body, low) : NULL;
 
+    if (body.stack && !stack)
+        return RB_ENOMEM;
     if (side == 1)
         body.length += body.terms;
     for (int k = from; k < table->pieces && s == RB_OK; k++) {
         piece *p = table->side[side] + k;
-        double low, width, value[SAMPLES][3];
+        double value[SAMPLES][3];
         rb_panel_place(k, &low, &width);
         const double unit = low < 8.0 ? 1.0 : ldexp(1.0, ilogb(low));
-        if (unit != w.unit) {
+        if (unit != w.unit && !stack) {
             waves_free(&w);
             s = make_waves(&body, unit, &w);
         }
@@ -163,26 +185,20 @@ static rb_status fill_side(const rb_bem_layer_table *table, int side, int from)
             s = RB_INTERRUPTED;
         for (int j = 0; j < SAMPLES && s == RB_OK; j++) {
             const double X = low + width * rb_panel_point(SAMPLES, j);
-            double *of = value[j];
-            double complex sum[3] = {w.constant[0], w.constant[1], w.constant[2]};
-
-            for (int i = 0; i < w.n; i++) {
-                const double complex e = cexp(I * w.sigma[i] * (X / w.unit));
-                for (int c = 0; c < 3; c++)
-                    sum[c] += w.Z[i][c] * e;
-            }
-            of[0] = creal(sum[0]);
-            of[1] = creal(sum[1]);
-            of[2] = cimag(sum[2]);
+            if (stack)
+                rb_bem_stack_kernel_at(stack, X, value[j]);
+            else
+                sum_waves(&w, X, value[j]);
             value[j][2] *= side ? -1.0 : 1.0;
         }
         if (s == RB_OK)
             interpolate((const double(*)[3])value, p);
     }
+    rb_bem_stack_kernel_free(stack);
     waves_free(&w);
     for (int k = 0; k < table->pieces && s == RB_OK; k++) {
         piece *p = table->side[side] + k;
-        double low, width, low_before, width_before;
+        double low_before, width_before;
         rb_panel_place(k, &low, &width);
         rb_panel_place(k > 0 ? k - 1 : 0, &low_before, &width_before);
         const rb_bem_layer_kernel own = integral_of(p, -1.0, 0.5 * width),
@@ -267,6 +283,7 @@ static void table_free(rb_bem_layer_table *table)
     if (!table)
         return;
     free((double *)table->body.ratio);
+    free((double *)table->stack.thickness);
     free(table->side[0]);
     free(table->side[1]);
     free(table);
@@ -296,10 +313,35 @@ static int is_for(const rb_bem_layer_table *table, const rb_bem_surface *body)
     if (same && own->elastic_base)
         same = own->base.poisson == body->base.poisson &&
                own->base.shear * body->material.shear == body->base.shear * own->material.shear;
+    same = same && (own->stack ? own->stack->n : 0) == (body->stack ? body->stack->n : 0);
+    for (int k = 0; same && own->stack && k < own->stack->n; k++)
+        same = own->stack->thickness[k] == body->stack->thickness[k] / body->thickness &&
+               own->stack->poisson[k] == body->stack->poisson[k] &&
+               own->stack->young[k] * body->stack->young[0] ==
+                   body->stack->young[k] * own->stack->young[0];
     for (int k = 0; k < body->terms && same; k++)
         same =
             own->ratio[k] == body->ratio[k] && own->length[k] == body->length[k] / body->thickness;
     return same;
+}
+
+/* The stack of a body whose first layer is 1 thick.  0: no memory. */
+static int copy_stack(const rb_bem_surface *body, rb_bem_layer_table *table)
+{
+    const rb_bem_stack *of = body->stack;
+    if (!of)
+        return 1;
+    double *to = rb_alloc((size_t)of->n, 3);
+    if (!to)
+        return 0;
+    for (int k = 0; k < of->n; k++) {
+        to[k] = of->thickness[k] / body->thickness;
+        to[of->n + k] = of->young[k];
+        to[2 * of->n + k] = of->poisson[k];
+    }
+    table->stack = (rb_bem_stack){of->n, to, to + of->n, to + 2 * of->n};
+    table->body.stack = &table->stack;
+    return 1;
 }
 
 /* With the pieces that a shorter one has. */
@@ -325,7 +367,7 @@ static rb_bem_layer_table *make_table(const rb_bem_surface *body, int pieces,
     table->body.ratio = ratio;
     table->body.length = length;
     table->pieces = pieces;
-    rb_status s = RB_OK;
+    rb_status s = copy_stack(body, table) ? RB_OK : RB_ENOMEM;
     for (int side = 0; side <= (terms > 0) && s == RB_OK; side++) {
         table->side[side] = calloc((size_t)pieces, sizeof(piece));
         if (table->side[side] && shorter)

@@ -33,6 +33,18 @@ rb_status rb_bem_surface_check(const rb_bem_surface *body, rb_message *why)
         return s;
     if (!(body->thickness >= 0.0 && isfinite(body->thickness)))
         return rb_fail(why, RB_EINVAL, "layer of thickness %g: expected >= 0", body->thickness);
+    const rb_bem_stack *stack = body->stack;
+    if (stack && (stack->n < 2 || body->terms > 0 || body->thickness != stack->thickness[0]))
+        return rb_fail(why, RB_EINVAL, "stack: expected two elastic layers or more, got %d",
+                       stack->n);
+    for (int k = 0; stack && k < stack->n && s == RB_OK; k++)
+        s = stack->thickness[k] > 0.0 && isfinite(stack->thickness[k])
+                ? rb_bem_material_check(
+                      rb_bem_material_from_young(stack->young[k], stack->poisson[k]), why)
+                : rb_fail(why, RB_EINVAL, "layer %d of thickness %g: expected > 0", k + 1,
+                          stack->thickness[k]);
+    if (s != RB_OK)
+        return s;
     const int has_datum = body->thickness == 0.0 || body->elastic_base;
     if (has_datum && !(body->datum > 0.0 && isfinite(body->datum)))
         return rb_fail(why, RB_EINVAL, "datum = %g: expected a depth > 0", body->datum);

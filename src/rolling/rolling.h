@@ -133,6 +133,12 @@ rb_status rb_rolling_find_load(rb_rolling_case *rc, rb_message *why);
 rb_status rb_rolling_find_ellipse(rb_rolling_case *rc, rb_message *why);
 /* Sets tilted_by, and the zone, of a case with a given moment: solves it some times. */
 rb_status rb_rolling_find_tilt(rb_rolling_case *rc, rb_message *why);
+/* Layers of a half-plane, 0: none; the depth of the bond below the first `bond` of them, of the
+ * last one, and Poisson's ratio of what lies at a depth, on a bond of what lies above it. */
+int rb_rolling_layers(const rb_rolling_body *body);
+double rb_rolling_bond_depth(const rb_rolling_body *body, int bond);
+double rb_rolling_layers_depth(const rb_rolling_body *body);
+double rb_rolling_poisson_at(const rb_rolling_body *body, double depth);
 /* 1: a body has a finite thickness: a layer, a cover or a wheel on a hub. */
 int rb_rolling_has_thickness(const rb_rolling_case *rc);
 /* The larger radius of A and B; A's if B is a plane. */

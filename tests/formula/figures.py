@@ -97,7 +97,7 @@ def has_numbers(table):
 ELSEWHERE = {"B15": "stress_maxima", "B17": "max_pressure", "L4": "default_mesh", "V5": "rolling_relax", "V7": "rolling_relax",
              "F4": "rolling_laws", "F5": "rolling_laws", "I1": "rolling_interlayer", "W2": "rolling_wear", "D2": "sensitivity",
              "D5": "fit", "D7": "slopes", "K2": "contact", "U1": "bulk", "U2": "bulk", "U3": "tilt", "E2": "ellipse",
-             "B18": "given_tractions", "B19": "stress_maxima"}
+             "B18": "given_tractions", "B19": "stress_maxima", "L6": "stack", "L7": "stack", "L8": "stack"}
 
 
 def untested(page, text):

@@ -6,6 +6,7 @@
 #include "bem/hierarchical.h"
 #include "bem/large.h"
 #include "bem/skeleton.h"
+#include "bem/stack.h"
 #include "rolling/internal.h"
 #include "rolling/study/internal.h"
 #include "base/blas.h"
@@ -29,6 +30,48 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends, const rb_bem_
     (void)ends;
     *f = (rb_bem_flexibility){0};
     return rb_fail(why, RB_EINVAL, "%d contact elements are %s", n_c, refusal);
+}
+
+rb_bem_stack_kernel *rb_bem_stack_kernel_create(const rb_bem_surface *body, double reach)
+{
+    (void)body;
+    (void)reach;
+    return NULL;
+}
+
+void rb_bem_stack_kernel_at(const rb_bem_stack_kernel *kernel, double X, double of[3])
+{
+    (void)kernel;
+    (void)X;
+    of[0] = of[1] = of[2] = NAN;
+}
+
+void rb_bem_stack_kernel_free(rb_bem_stack_kernel *kernel)
+{
+    (void)kernel;
+}
+
+rb_status rb_bem_stack_field_create(const rb_bem_surface *body, const rb_bem_edge_load *load,
+                                    rb_bem_stack_field **field, rb_message *why)
+{
+    (void)body;
+    (void)load;
+    *field = NULL;
+    return rb_fail(why, RB_EINVAL, "several layers are %s", refusal);
+}
+
+rb_status rb_bem_stack_field_add(rb_bem_stack_field *field, rb_bem_points points, double *stress,
+                                 rb_message *why)
+{
+    (void)field;
+    (void)points;
+    (void)stress;
+    return rb_fail(why, RB_EINVAL, "several layers are %s", refusal);
+}
+
+void rb_bem_stack_field_free(rb_bem_stack_field *field)
+{
+    (void)field;
 }
 
 rb_status rb_bem_flexibility_wheel_products(int n_c, const double *ends, const rb_bem_wheel *wheel,

@@ -82,7 +82,7 @@ static rb_status maxima_again(rb_certificate *c, const json_t *printed, double d
         at->x = x;
         at->y = y;
         for (at->material = RB_MATERIAL_BODY;
-             at->material < RB_MATERIAL_BASE &&
+             at->material < RB_MATERIAL_LAST &&
              strcmp(material, rb_rolling_place_name(at->material)) != 0;)
             at->material++;
     }

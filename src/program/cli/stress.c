@@ -104,9 +104,10 @@ static int read_grid(stress *st)
 static cli_exit prepare(cli_case_run *run)
 {
     static const char *const kept[] = {
-        "young",        "poisson", "support",   "similar",   "layer-thickness",   "base-young",
-        "base-poisson", "young-b", "poisson-b", "support-b", "base-young-b",      "base-poisson-b",
-        "plane",        "units",   "radius",    "radius-b",  "layer-thickness-b", "gap"};
+        "layers",    "layers-b",        "young",        "poisson",           "support",
+        "similar",   "layer-thickness", "base-young",   "base-poisson",      "young-b",
+        "poisson-b", "support-b",       "base-young-b", "base-poisson-b",    "plane",
+        "units",     "radius",          "radius-b",     "layer-thickness-b", "gap"};
     const stress *st = run->own;
     if (!st->tractions)
         return CLI_CONTINUE;

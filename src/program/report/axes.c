@@ -170,7 +170,10 @@ static void add_body(words *w, const rb_rolling_body *b, rb_units units)
         add_length(w, "R = ", b->radius, units);
     if (b->cover > 0.0)
         add_length(w, "cover ", b->cover, units);
-    if (b->layer > 0.0)
+    if (b->stack) {
+        add_words(w, ", %d layers", b->stack->n);
+        add_length(w, "in all ", rb_rolling_layers_depth(b), units);
+    } else if (b->layer > 0.0)
         add_length(w, "layer ", b->layer, units);
     add_words(w, ", ");
     add_material(w, b->young, b->poisson, units);

@@ -103,6 +103,8 @@ static void write_body(FILE *out, const rb_rolling_body *body, rb_units units)
 {
     const char *mm = rb_unit_name(units, "mm");
 
+    if (body->stack)
+        fprintf(out, "%d layers, the first of ", body->stack->n);
     write_material(out, body->young, body->poisson, units);
     if (body->memory.n > 0)
         fputs(" at once, relaxing", out);
@@ -110,7 +112,11 @@ static void write_body(FILE *out, const rb_rolling_body *body, rb_units units)
     if (!(thickness > 0.0))
         return;
     const double young = body->layer > 0.0 ? body->base_young : body->core_young;
-    fprintf(out, ", %.6g %s thick on ", rb_unit_shown(units, "mm", thickness), mm);
+    fprintf(out, ", %.6g %s thick%s ", rb_unit_shown(units, "mm", thickness), mm,
+            body->stack ? "," : " on");
+    if (body->stack)
+        fprintf(out, "all %.6g %s on ", rb_unit_shown(units, "mm", rb_rolling_layers_depth(body)),
+                mm);
     if (young > 0.0)
         write_material(out, young, body->layer > 0.0 ? body->base_poisson : body->core_poisson,
                        units);
@@ -122,7 +128,7 @@ static void write_body(FILE *out, const rb_rolling_body *body, rb_units units)
 static int is_alike(const rb_rolling_body *a, const rb_rolling_body *b)
 {
     return a->young == b->young && a->poisson == b->poisson && a->layer == b->layer &&
-           a->cover == b->cover && a->base_young == b->base_young &&
+           a->stack == b->stack && a->cover == b->cover && a->base_young == b->base_young &&
            a->base_poisson == b->base_poisson && a->core_young == b->core_young &&
            a->core_poisson == b->core_poisson && (a->memory.n > 0) == (b->memory.n > 0);
 }

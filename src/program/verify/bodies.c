@@ -323,8 +323,8 @@ static void at_bonds(rb_verify *v)
         rb_rolling_case rc = rb_verify_uncoupled();
         rb_rolling_model model = {0};
         rb_rolling_solution s = {0};
-        rb_rolling_stress_maxima most = {.bond_shear = {NAN, NAN, NAN, RB_MATERIAL_LAYER},
-                                         .peel = {NAN, NAN, NAN, RB_MATERIAL_LAYER}};
+        rb_rolling_stress_maxima most = {.bond[0] = {.shear = {NAN, NAN, NAN, RB_MATERIAL_LAYER},
+                                                     .peel = {NAN, NAN, NAN, RB_MATERIAL_LAYER}}};
         rb_message why = {""};
         rc.a.poisson = 0.3;
         rb_verify_on_same(&rc);
@@ -340,14 +340,68 @@ static void at_bonds(rb_verify *v)
         if (status == RB_OK)
             status = rb_rolling_stress_maxima_find(&model, 0.0, &most, &why);
         rb_verify_note(v, status, &why);
-        rb_verify_relative(v, most.bond_shear.value / s.max_pressure, slides ? 0.33971 : 0.25, 2e-3,
-                           "bond at 0.5 a, mu = %g: shear / p0", rc.mu);
+        rb_verify_relative(v, most.bond[0].shear.value / s.max_pressure, slides ? 0.33971 : 0.25,
+                           2e-3, "bond at 0.5 a, mu = %g: shear / p0", rc.mu);
         if (slides)
-            rb_verify_relative(v, most.peel.value / s.max_pressure, 0.00125, 0.01,
+            rb_verify_relative(v, most.bond[0].peel.value / s.max_pressure, 0.00125, 0.01,
                                "bond at 0.5 a, mu = %g: peel / p0", rc.mu);
         rb_rolling_solution_free(&s);
         rb_rolling_model_free(&model);
     }
+}
+
+/* R 50, P 500 on layers of .1 mm, 400 GPa, .05 mm, 3 GPa, and .3 mm, 70 GPa, by Chebyshev's
+ * polynomials; the stress below an ellipse of pressure and friction by 400 Gauss points (L6, L8).
+ */
+static void on_three_layers(rb_verify *v)
+{
+    static const double thickness[] = {.1, .05, .3}, young[] = {400e3, 3e3, 70e3},
+                        poisson[] = {.2, .4, .33}, place[] = {.3, .12},
+                        wanted[] = {-277.144, -419.726, -48.503};
+    static const rb_bem_stack layers = {3, thickness, young, poisson};
+    enum { NODES = 401 };
+    double x[NODES], p[NODES], q[NODES];
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_model model = {0};
+    rb_rolling_solution s = {.max_pressure = NAN, .approach = NAN}, of_ellipse;
+    rb_rolling_stress at = {.sxx = NAN};
+    rb_message why = {""};
+
+    rc.a.stack = &layers;
+    rc.a.layer = thickness[0];
+    rc.a.young = young[0];
+    rc.a.poisson = poisson[0];
+    rc.a.base_young = 210e3;
+    rc.a.base_poisson = 0.3;
+    rc.a.radius = 50.0;
+    rc.half_width = NAN;
+    rc.load = 500.0;
+    rc.mu = 0.0;
+    rc.formulation = RB_STATIC;
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.zone = 0.9;
+    rc.contact_elements = 240;
+    rb_verify_note(v, rb_rolling_solve(&rc, &s, &why), &why);
+    rb_verify_relative(v, s.max_pressure, 462.9217, 1e-4, "three layers: p0");
+    rb_verify_relative(v, s.approach, 0.0116444, 1e-4, "three layers: approach");
+    for (int i = 0; i < NODES; i++) {
+        const double t = -cos(PI * i / (NODES - 1));
+        x[i] = 0.6 * t;
+        p[i] = 500.0 * sqrt(fmax(0.0, 1.0 - t * t));
+        q[i] = 0.3 * p[i];
+    }
+    rb_status status = rb_rolling_model_of_nodes(&rc, NODES, x, p, q, &model, &of_ellipse, &why);
+    if (status == RB_OK)
+        status = rb_rolling_stress_at(&model, 1, place, &at, &why);
+    rb_verify_note(v, status, &why);
+    const double got[] = {at.sxx, at.syy, at.sxy};
+    for (int j = 0; j < 3; j++)
+        rb_verify_relative(v, got[j], wanted[j], 1e-4, "three layers: %s at (0.3, 0.12)",
+                           j == 0   ? "sxx"
+                           : j == 1 ? "syy"
+                                    : "sxy");
+    rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
 }
 
 void rb_verify_bodies(rb_verify *v)
@@ -384,5 +438,6 @@ void rb_verify_bodies(rb_verify *v)
     below_in_b(v);
     below_strips(v);
     at_bonds(v);
+    on_three_layers(v);
     loads_of_pressures(v);
 }

@@ -52,7 +52,8 @@ rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc, const rb_
         .length = length,
         .thickness = body->layer,
         .elastic_base = elastic_base,
-        .base = elastic_base ? rb_rolling_base_material(rc, body) : (rb_bem_material){0}};
+        .base = elastic_base ? rb_rolling_base_material(rc, body) : (rb_bem_material){0},
+        .stack = body->stack};
 }
 
 typedef rb_status maker(int n, const double *ends, const rb_bem_surface *surface,
@@ -136,7 +137,37 @@ const rb_rolling_body_kind rb_rolling_halfplane = {.name = "half-plane",
                                                    .surface = rb_rolling_halfplane_surface,
                                                    .datum = datum};
 
-/* ---- With a layer ------------------------------------------------------------------ */
+/* ---- With layers ------------------------------------------------------------------- */
+
+int rb_rolling_layers(const rb_rolling_body *body)
+{
+    return body->stack ? body->stack->n : body->layer > 0.0;
+}
+
+double rb_rolling_bond_depth(const rb_rolling_body *body, int bond)
+{
+    double depth = body->stack ? 0.0 : body->layer;
+    for (int k = 0; body->stack && k < bond; k++)
+        depth += body->stack->thickness[k];
+    return depth;
+}
+
+double rb_rolling_layers_depth(const rb_rolling_body *body)
+{
+    return rb_rolling_bond_depth(body, rb_rolling_layers(body));
+}
+
+double rb_rolling_poisson_at(const rb_rolling_body *body, double depth)
+{
+    const int layers = rb_rolling_layers(body);
+    int k = 0;
+    for (double bond = 0.0; k < layers; k++) {
+        bond += body->stack ? body->stack->thickness[k] : body->layer;
+        if (depth <= bond)
+            return body->stack ? body->stack->poisson[k] : body->poisson;
+    }
+    return layers > 0 ? body->base_poisson : body->poisson;
+}
 
 static int has_layer(const rb_rolling_body *body)
 {
@@ -146,9 +177,19 @@ static int has_layer(const rb_rolling_body *body)
 static rb_status check_layer(const rb_rolling_case *rc, const rb_rolling_body *b, const char *which,
                              rb_message *why)
 {
+    const char *of_b = b == &rc->b ? "-b" : "";
     if (has_layer(b) && b->support != RB_BEM_HALFPLANE)
+        return rb_fail(why, RB_EINVAL, "%s%s: for the support halfplane only, got a wheel",
+                       b->stack ? "layers" : "layer thickness", b->stack ? of_b : which);
+    if (b->stack && b->memory.n > 0)
         return rb_fail(why, RB_EINVAL,
-                       "layer thickness%s: for the support halfplane only, got a wheel", which);
+                       "layers%s: several layers are elastic; a layer that relaxes is one "
+                       "(--layer-thickness)",
+                       of_b);
+    if (b->stack && rc->plane == RB_PLANE_STRESS)
+        return rb_fail(why, RB_EINVAL,
+                       "layers%s: several layers are in plane strain; leave --plane stress out",
+                       of_b);
     return has_layer(b) && b->base_young > 0.0
                ? rb_rolling_check_poisson(rc, "base", b->base_poisson, which, why)
                : RB_OK;

@@ -104,7 +104,7 @@ static double thickness_of(const rb_rolling_body *body, const char **what)
     const int layer = body->layer > 0.0, cover = body->cover > 0.0;
 
     *what = layer ? "layer" : cover ? "cover" : "rim";
-    return layer                         ? body->layer
+    return layer                         ? rb_rolling_layers_depth(body)
            : cover                       ? body->cover
            : body->support == RB_BEM_HUB ? (1.0 - body->hub_ratio) * body->radius
                                          : INFINITY;
@@ -126,7 +126,11 @@ void rb_rolling_strains(const rb_rolling_case *rc, double approach, double press
             slow += bodies[b]->memory.ratio[k];
         strain[2 * b] =
             approach * compliance(rb_rolling_material(rc, bodies[b])) * modulus(rc) / thickness;
-        strain[2 * b + 1] = 2.0 * pressure * slow / bodies[b]->young;
+        double softness = slow / bodies[b]->young; /* the mean of all layers */
+        const rb_bem_stack *stack = bodies[b]->stack;
+        for (int k = 0; stack && k < stack->n; k++)
+            softness = (k ? softness : 0.0) + stack->thickness[k] / (stack->young[k] * thickness);
+        strain[2 * b + 1] = 2.0 * pressure * softness;
     }
 }
 
@@ -409,7 +413,8 @@ int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
 static int are_alike(const rb_rolling_body *a, const rb_rolling_body *b)
 {
     int alike = a->support == b->support && a->young == b->young && a->poisson == b->poisson &&
-                a->layer == b->layer && a->cover == b->cover && a->memory.n == b->memory.n;
+                a->layer == b->layer && a->stack == b->stack && a->cover == b->cover &&
+                a->memory.n == b->memory.n;
 
     if (a->layer > 0.0)
         alike &= a->base_young == b->base_young && a->base_poisson == b->base_poisson;

@@ -57,8 +57,10 @@ static rb_status read_table(const rb_case *c, const char *path, int is_history, 
 
 static void free_table(case_table *t)
 {
-    if (!t->borrowed)
+    if (!t->borrowed) {
         rb_io_table_free(&t->table);
+        free(t->stack);
+    }
     *t = (case_table){.path = NULL};
 }
 
@@ -246,8 +248,12 @@ static int has_column(const rb_rolling_program *program, int k)
     return program->n > 0 && column;
 }
 
+static int is_of_layers(const rb_case *c, const char *name);
+
 int rb_case_is_replaced(const rb_case *c, const rb_option *option)
 {
+    if (is_of_layers(c, option->name))
+        return 1;
     for (int k = 0; k < RB_ROLLING_PROGRAM_COLUMNS; k++)
         if (has_column(&c->resolved.program, k) &&
             replaced_option(rb_rolling_program_columns[k].name) == option)
@@ -304,6 +310,79 @@ rb_status rb_case_read_history(rb_case *c, rb_message *why)
                                           why);
     }
     return s;
+}
+
+/* ---- Layers ------------------------------------------------------------------------ */
+
+static rb_status read_stack(const rb_case *c, case_table *t, const char *path, rb_units units,
+                            rb_message *why)
+{
+    enum { MOST = 1000, COLUMNS = 3 };
+    static const rb_io_column known[COLUMNS] = {
+        {"thickness", "h|d|layer thickness", "mm", RB_IO_COLUMN_NEEDED},
+        {"young", "e|modulus|young's modulus", "MPa", RB_IO_COLUMN_NEEDED},
+        {"poisson", "nu|poisson's ratio", "-", RB_IO_COLUMN_NEEDED}};
+    const double *x[COLUMNS];
+    free_table(t);
+    rb_status s = read_table(c, path, 0, &t->table, why);
+    if (s == RB_OK)
+        s = rb_case_without_content(
+            c, path, rb_io_table_assign(path, &t->table, COLUMNS, known, units, x, why), why);
+    const int n = s == RB_OK ? t->table.rows : 0;
+    if (s == RB_OK && n > MOST)
+        s = rb_fail(why, RB_EFORMAT, "%s: expected at most %d layers, got %d", path, MOST, n);
+    for (int k = 0; k < n && s == RB_OK; k++) {
+        const double range[] = {x[0][k], x[1][k], x[2][k]};
+        for (int j = 0; j < COLUMNS; j++)
+            if (!(j < 2 ? range[j] > 0.0 && isfinite(range[j])
+                        : range[j] > -1.0 && range[j] <= 0.5))
+                s = rb_fail(why, RB_EFORMAT, "%s:%d: %s: expected a number %s, got %g", path,
+                            t->table.line[k], known[j].name,
+                            j < 2 ? "> 0" : "above -1, at most 0.5", range[j]);
+    }
+    rb_bem_stack *stack = s == RB_OK ? malloc(sizeof *stack) : NULL;
+    if (!stack) {
+        free_table(t);
+        return s == RB_OK ? RB_ENOMEM : rb_case_without_content(c, path, s, why);
+    }
+    *stack = (rb_bem_stack){n, x[0], x[1], x[2]};
+    *t = (case_table){.table = t->table, .path = path, .units = units, .stack = stack};
+    return RB_OK;
+}
+
+rb_status rb_case_read_layers(rb_case *c, int of_b, rb_message *why)
+{
+    rb_rolling_body *body = of_b ? &c->resolved.rc.b : &c->resolved.rc.a;
+    const char *path = of_b ? c->resolved.layers_file_b : c->resolved.layers_file;
+    const rb_units units = units_of_file(c, of_b ? "layers-b" : "layers");
+    case_table *t = &c->table[of_b ? CASE_LAYERS_B : CASE_LAYERS];
+    rb_status s = RB_OK;
+
+    if (!path)
+        return s;
+    if (!is_read(t, path, units))
+        s = read_stack(c, t, path, units, why);
+    if (s != RB_OK)
+        return s;
+    const rb_bem_stack *of = t->stack;
+    body->layer = of->thickness[0];
+    body->young = of->young[0];
+    body->poisson = of->poisson[0];
+    body->stack = of->n > 1 ? of : NULL;
+    return s;
+}
+
+/* 1: the layers of a body, or of A where B is similar, stand in place of this option. */
+static int is_of_layers(const rb_case *c, const char *name)
+{
+    static const char *const of_a[] = {"young", "poisson", "layer-thickness"},
+                             *const of_b[] = {"young-b", "poisson-b", "layer-thickness-b"};
+    const rb_resolved_case *r = &c->resolved;
+    for (int k = 0; k < 3; k++)
+        if ((r->layers_file && strcmp(name, of_a[k]) == 0) ||
+            ((r->layers_file_b || (r->layers_file && r->similar)) && strcmp(name, of_b[k]) == 0))
+            return 1;
+    return 0;
 }
 
 /* ---- All others -------------------------------------------------------------------- */

@@ -37,8 +37,7 @@ static const rb_choice laws[] = {RB_ROLLING_FRICTION_LAWS(CHOICE_OF_LAW){NULL, 0
 static const rb_choice systems[] = {
     {"mm", RB_UNITS_MM}, {"si", RB_UNITS_SI}, {"inch", RB_UNITS_INCH}, {NULL, 0}};
 
-/* Stacks: the bond of each to the next is four more conditions for every wave. */
-#define ONE_LAYER "one layer on its base, a stack of layers is not modelled"
+#define ONE_LAYER "one layer on its base; several: --layers FILE"
 #define ONE_COVER "one cover on its core, a stack of covers is not modelled"
 
 const rb_option rb_case_table[] = {
@@ -63,6 +62,11 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("layer-thickness", RC(a.layer), "mm", RB_ABOVE(0),
                    "halfplane: thickness of a layer of this material, bonded to a base",
                    .word = "none", .word_value = 0.0, .one_only = ONE_LAYER),
+    RB_TEXT_LINE(
+        "layers", PLACE(layers_file), "FILE",
+        "halfplane: rows thickness [mm], young [MPa], poisson of bonded layers, the first at "
+        "the surface, in place of young, poisson and layer-thickness",
+        .unset = "none", .file = RB_FILE_READ),
     RB_NUMBER_LINE("base-young", RC(a.base_young), "MPa", RB_ABOVE(0),
                    "Young's modulus of the layer's base", .word = "rigid", .word_value = 0.0),
     RB_NUMBER_LINE("base-poisson", RC(a.base_poisson), "-", RB_ABOVE_UPTO(-1, 0.5),
@@ -117,6 +121,9 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("layer-thickness-b", RC(b.layer), "mm", RB_ABOVE(0),
                    "halfplane: thickness of a layer of its material on a base", .word = "none",
                    .word_value = 0.0, .one_only = ONE_LAYER, .of_a = RC(a.layer), .if_similar = 1),
+    RB_TEXT_LINE("layers-b", PLACE(layers_file_b), "FILE",
+                 "halfplane: the same of B; makes B elastic", .unset = "none",
+                 .file = RB_FILE_READ),
     RB_NUMBER_LINE("base-young-b", RC(b.base_young), "MPa", RB_ABOVE(0),
                    "Young's modulus of that base", .word = "rigid", .word_value = 0.0,
                    .of_a = RC(a.base_young), .if_similar = 1),

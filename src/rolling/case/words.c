@@ -313,11 +313,11 @@ rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why)
 {
     if (s != RB_EINVAL || !why)
         return s;
-    static const char *const names[CASE_TABLES] = {[CASE_HISTORY] = "history",
-                                                   [CASE_GAP] = "gap",
-                                                   [CASE_IRREGULARITY] = "irregularity",
-                                                   [CASE_WORN] = "worn",
-                                                   [CASE_FRICTION] = "friction table"};
+    static const char *const names[CASE_TABLES] = {
+        [CASE_HISTORY] = "history",           [CASE_GAP] = "gap",
+        [CASE_IRREGULARITY] = "irregularity", [CASE_WORN] = "worn",
+        [CASE_FRICTION] = "friction table",   [CASE_LAYERS] = "layers of A",
+        [CASE_LAYERS_B] = "layers of B"};
     const rb_message said = *why;
     for (int k = 0; k < CASE_TABLES; k++) {
         /* "history: row 3: ..." of the library, by the file and its line. */
@@ -385,7 +385,7 @@ static rb_status resolve_body_b(rb_case *c, rb_message *why)
 {
     rb_resolved_case *s = &c->resolved;
     rb_rolling_case *rc = &s->rc;
-    rc->elastic_b = s->similar || !isnan(s->young_b);
+    rc->elastic_b = s->similar || !isnan(s->young_b) || s->layers_file_b;
     if (!rc->elastic_b)
         s->young_b = s->poisson_b = NAN;
     for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++) {
@@ -406,6 +406,10 @@ static rb_status resolve_body_b(rb_case *c, rb_message *why)
     }
     if (!rc->elastic_b)
         return RB_OK;
+    rc->b.stack = s->similar && rc->b.layer == rc->a.layer ? rc->a.stack : NULL;
+    const rb_status status = rb_case_read_layers(c, 1, why);
+    if (status != RB_OK)
+        return status;
     if (s->similar && !rb_case_given(c, "relaxation-time-b") &&
         !rb_case_given(c, "relaxation-ratio-b"))
         s->memory_b = s->memory_a;
@@ -528,10 +532,39 @@ static rb_status check_rigid_parts(const rb_case *c, rb_message *why)
     return refuse_by(c, sizeof rules / sizeof *rules, rules, why);
 }
 
+/* What stands in a file of layers is not given a second time. */
+static rb_status check_layers(const rb_case *c, rb_message *why)
+{
+    static const char of_a[] = "the first row of --layers says it; leave one of them out",
+                      of_b[] = "the first row of --layers-b says it; leave one of them out",
+                      similar[] = "B has all layers of A; leave --similar or this out";
+    const rb_resolved_case *s = &c->resolved;
+    const int a = s->layers_file != NULL, b = s->layers_file_b != NULL;
+    rule rules[] = {
+        {a, "young", of_a},
+        {a, "poisson", of_a},
+        {a, "layer-thickness", of_a},
+        {b, "young-b", of_b},
+        {b, "poisson-b", of_b},
+        {b, "layer-thickness-b", of_b},
+        {b && s->similar, "similar", "B has the layers of --layers-b; leave one of them out"},
+        {a && s->similar, "layer-thickness-b", similar}};
+    /* what stands in the case file gives way to layers of the command line */
+    for (size_t k = 0; k < sizeof rules / sizeof *rules; k++)
+        rules[k].has_no_meaning &=
+            rb_case_given(c, rules[k].option) < 0 ||
+            rb_case_given(c, rules[k].reason == of_a ? "layers" : "layers-b") > 0;
+    return refuse_by(c, sizeof rules / sizeof *rules, rules, why);
+}
+
 static rb_status resolve_bodies(rb_case *c, rb_message *why)
 {
     rb_resolved_case *s = &c->resolved;
-    rb_status status = resolve_body_b(c, why);
+    rb_status status = check_layers(c, why);
+    if (status == RB_OK)
+        status = rb_case_read_layers(c, 0, why);
+    if (status == RB_OK)
+        status = resolve_body_b(c, why);
     if (status == RB_OK)
         status = resolve_memory(&s->memory_a, "", &s->rc.a.memory, why);
     if (status == RB_OK)

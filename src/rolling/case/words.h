@@ -12,6 +12,7 @@ typedef struct {
     rb_units units;      /* units in which it was read */
     int borrowed;        /* 1: owned by the case of which this one is a copy */
     const double *x, *y; /* the columns of a table over x; those of a history in program */
+    rb_bem_stack *stack; /* those of layers; owned as the table is */
     rb_rolling_program program;
 } case_table;
 
@@ -23,7 +24,16 @@ typedef struct {
 } case_profile;
 
 /* The tables that a case may name. */
-enum { CASE_HISTORY, CASE_GAP, CASE_IRREGULARITY, CASE_WORN, CASE_FRICTION, CASE_TABLES };
+enum {
+    CASE_HISTORY,
+    CASE_GAP,
+    CASE_IRREGULARITY,
+    CASE_WORN,
+    CASE_FRICTION,
+    CASE_LAYERS,
+    CASE_LAYERS_B,
+    CASE_TABLES
+};
 
 enum { CASE_CRACK_OPTIONS_MAX = 40 };
 
@@ -72,6 +82,9 @@ void rb_case_free_files(rb_case *c);
 /* Call it before the given values are used, because the columns of a history may replace
  * some of them. */
 rb_status rb_case_read_history(rb_case *c, rb_message *why);
+/* Reads the layers of a body, and gives it the first one, and all of them if they are several; it
+ * has none: nothing. */
+rb_status rb_case_read_layers(rb_case *c, int of_b, rb_message *why);
 /* Reads gap, irregularity, wear and friction of the resolved case. */
 rb_status rb_case_read_files(rb_case *c, rb_message *why);
 

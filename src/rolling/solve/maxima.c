@@ -29,7 +29,7 @@ typedef struct {
     double around_them; /* how far the stress is left out there */
     int left_outs;
     int strips, rows, n;
-    strip strip[2];
+    strip *strip;
     row *row;
     double *s, *at_s; /* candidates for s; of the points */
     int candidates;
@@ -39,7 +39,9 @@ typedef struct {
 
 const char *rb_rolling_place_name(rb_rolling_place place)
 {
-    static const char *const names[] = {"body", "layer", "base"};
+    static const char *const names[] = {
+        "body",    "layer",   "base",    "layer 1", "layer 2", "layer 3",          "layer 4",
+        "layer 5", "layer 6", "layer 7", "layer 8", "layer 9", "layer 10 or below"};
     return names[place];
 }
 
@@ -49,9 +51,8 @@ static void to_xy(const search *f, const strip *in, double s, double depth, doub
 {
     if (f->radius == 0.0) {
         xy[0] = s;
-        /* the base begins behind the bond, which is the layer's */
-        xy[1] =
-            in->material == RB_MATERIAL_BASE ? fmax(depth, nextafter(in->top, INFINITY)) : depth;
+        /* what lies below a bond begins behind it, the bond is that of the layer above */
+        xy[1] = in->top > 0.0 ? fmax(depth, nextafter(in->top, INFINITY)) : depth;
         return;
     }
     const double angle = s / f->radius;
@@ -175,19 +176,37 @@ static void add_rows(search *f, const strip *in, double first)
         add_row(f, in, in->bottom - depth[k]);
 }
 
+/* Layer `k` of a half-plane, and behind the last one the base. */
+static strip strip_of(const rb_rolling_body *a, int k, double deep)
+{
+    const double top = rb_rolling_bond_depth(a, k);
+    if (k == rb_rolling_layers(a))
+        return (strip){RB_MATERIAL_BASE, top, top + deep};
+    const int place = RB_MATERIAL_FIRST + k;
+    return (strip){!a->stack                  ? RB_MATERIAL_LAYER
+                   : place < RB_MATERIAL_LAST ? (rb_rolling_place)place
+                                              : RB_MATERIAL_LAST,
+                   k == 0 ? 0.0 : top, rb_rolling_bond_depth(a, k + 1)};
+}
+
 /* The strips of A down to the depth, and the rows in them. */
 static rb_status set_rows(search *f, double depth, rb_arena *memory)
 {
     const rb_rolling_body *a = &f->model->rc->a;
-    const int is_flat = rb_rolling_body_can(a, RB_BODY_FLAT);
-    f->row = rb_arena_zeros(memory, 2 * MOST_ROWS, sizeof *f->row);
-    if (!f->row)
+    const int is_flat = rb_rolling_body_can(a, RB_BODY_FLAT), layers = rb_rolling_layers(a);
+    f->strip = rb_arena_zeros(memory, (size_t)layers + 1, sizeof *f->strip);
+    f->row = rb_arena_zeros(memory, ((size_t)layers + 1) * MOST_ROWS, sizeof *f->row);
+    if (memory->failed)
         return RB_ENOMEM;
 
-    /* A layer bends over a softer base as a plate does: over a length like this. */
-    const double layer = a->layer, plate = layer > 0.0 && a->base_young > 0.0
-                                               ? layer * cbrt(fmax(a->young / a->base_young, 1.0))
-                                               : layer;
+    /* Layers bend over a softer base as a plate does: over a length like this. */
+    double stiffest = a->young;
+    for (int k = 1; k < layers; k++)
+        stiffest = fmax(stiffest, a->stack->young[k]);
+    const double layer = rb_rolling_layers_depth(a),
+                 plate = layer > 0.0 && a->base_young > 0.0
+                             ? layer * cbrt(fmax(stiffest / a->base_young, 1.0))
+                             : layer;
     f->radius = is_flat ? 0.0 : a->radius;
     f->reach = is_flat ? 0.0 : M_PI * a->radius;
     int n;
@@ -205,10 +224,10 @@ static rb_status set_rows(search *f, double depth, rb_arena *memory)
             (strip){a->cover > 0.0 ? RB_MATERIAL_LAYER : RB_MATERIAL_BODY, 0.0, a->radius - inner};
     } else {
         const double deep = 2.5 * width + 3.0 * plate;
-        f->strip[f->strips++] = (strip){layer > 0.0 ? RB_MATERIAL_LAYER : RB_MATERIAL_BODY, 0.0,
-                                        layer > 0.0 ? layer : deep};
-        if (layer > 0.0 && a->base_young > 0.0)
-            f->strip[f->strips++] = (strip){RB_MATERIAL_BASE, layer, layer + deep};
+        if (layers == 0)
+            f->strip[f->strips++] = (strip){RB_MATERIAL_BODY, 0.0, deep};
+        for (int k = 0; k < layers + (layers > 0 && a->base_young > 0.0); k++)
+            f->strip[f->strips++] = strip_of(a, k, deep);
     }
     for (int k = f->strips - 1; k >= 0 && depth > 0.0; k--) {
         f->strip[k].bottom = fmin(f->strip[k].bottom, depth);
@@ -338,18 +357,31 @@ static double along(const rb_rolling_stress *s)
     return s->sxx;
 }
 
-/* The last four are those of the bond, in its own directions. */
-enum { IN_BODY = 6, MEASURES = 10 };
-static measure *const measures[MEASURES] = {max_shear, tresca_shear, von_mises, orthogonal_shear,
-                                            tension,   compression,  across,    orthogonal_shear,
-                                            along,     along};
+/* Of the body, and then of each bond, in its own directions. */
+enum { IN_BODY = 6, OF_BOND = 4, MEASURES = IN_BODY + OF_BOND * RB_ROLLING_BONDS };
+static measure *const of_body[IN_BODY] = {max_shear,        tresca_shear, von_mises,
+                                          orthogonal_shear, tension,      compression},
+                      *const of_bond[OF_BOND] = {across, orthogonal_shear, along, along};
+
+static measure *measure_of(int k)
+{
+    return k < IN_BODY ? of_body[k] : of_bond[(k - IN_BODY) % OF_BOND];
+}
 
 rb_rolling_extremum *rb_rolling_maximum(rb_rolling_stress_maxima *m, int k)
 {
-    rb_rolling_extremum *const all[MEASURES] = {
-        &m->max_shear,   &m->tresca_shear, &m->von_mises,  &m->orthogonal_shear, &m->tension,
-        &m->compression, &m->peel,         &m->bond_shear, &m->tension_above,    &m->tension_below};
-    return k < MEASURES ? all[k] : NULL;
+    rb_rolling_extremum *const all[IN_BODY] = {&m->max_shear, &m->tresca_shear,
+                                               &m->von_mises, &m->orthogonal_shear,
+                                               &m->tension,   &m->compression};
+    if (k < IN_BODY)
+        return all[k];
+    if (k >= MEASURES)
+        return NULL;
+    const int bond = (k - IN_BODY) / OF_BOND;
+    rb_rolling_extremum *const at[OF_BOND] = {&m->bond[bond].peel, &m->bond[bond].shear,
+                                              &m->bond[bond].tension_above,
+                                              &m->bond[bond].tension_below};
+    return at[(k - IN_BODY) % OF_BOND];
 }
 
 /* The value at point i of a row; nothing where it is left out. */
@@ -495,7 +527,7 @@ static rb_status maximum(const search *f, measure *of, rb_rolling_extremum *best
     return RB_OK;
 }
 
-/* ---- At the bond ------------------------------------------------------------------- */
+/* ---- At the bonds ------------------------------------------------------------------ */
 
 /* Places along the bond: the candidates, as far from each other as fits what changes at this depth,
  * and outwards to 5 half-widths and 5 depths from the middle.  Returns how many; s: room for them.
@@ -551,17 +583,22 @@ static rb_status peak_of_bond(const search *f, const strip *in, double depth, me
     return RB_OK;
 }
 
-/* Peel, shear and tension along the bond, down to which the search goes; a rigid base and a core
- * have no stress of their own. */
-static rb_status maxima_of_bond(search *f, double searched, rb_rolling_stress_maxima *maxima,
-                                rb_arena *memory, rb_message *why)
+/* Peel, shear and tension along a bond, the first one being 0, if the search goes down to it; a
+ * rigid base and a core have no stress of their own. */
+static rb_status maxima_of_bond(search *f, int which, double searched,
+                                rb_rolling_stress_maxima *maxima, rb_arena *memory, rb_message *why)
 {
     const rb_rolling_body *a = &f->model->rc->a;
-    const double bond = a->layer > 0.0 ? a->layer : a->cover;
+    const int layers = rb_rolling_layers(a);
+    const double bond = which < layers ? rb_rolling_bond_depth(a, which + 1)
+                        : which == 0   ? a->cover
+                                       : 0.0;
     if (!(bond > 0.0) || (searched > 0.0 && searched < bond))
         return RB_OK;
-    const int sides = a->layer > 0.0 && a->base_young > 0.0 ? 2 : 1;
-    const strip side[2] = {{RB_MATERIAL_LAYER, 0.0, bond}, {RB_MATERIAL_BASE, bond, INFINITY}};
+    const int sides = which + 1 < layers || (layers > 0 && a->base_young > 0.0) ? 2 : 1;
+    const strip side[2] = {layers > 0 ? strip_of(a, which, INFINITY)
+                                      : (strip){RB_MATERIAL_LAYER, 0.0, bond},
+                           layers > 0 ? strip_of(a, which + 1, INFINITY) : (strip){0}};
     const size_t most = (size_t)f->candidates + MOST_OUTWARDS;
     double *s = rb_arena_doubles(memory, most, 2);
     rb_rolling_stress *at = rb_arena_zeros(memory, most, sizeof *at);
@@ -575,10 +612,11 @@ static rb_status maxima_of_bond(search *f, double searched, rb_rolling_stress_ma
     f->along_bond = 1;
     for (int k = 0; k < sides && status == RB_OK; k++) {
         status = stress_at(f, &side[k], n, s, depth, at, why);
-        for (int i = IN_BODY; i < MEASURES && status == RB_OK; i++)
-            if ((i == MEASURES - 1) == k)
-                status = peak_of_bond(f, &side[k], bond, measures[i], n, s, at,
-                                      rb_rolling_maximum(maxima, i), why);
+        for (int i = 0; i < OF_BOND && status == RB_OK; i++)
+            if ((i == OF_BOND - 1) == k)
+                status =
+                    peak_of_bond(f, &side[k], bond, of_bond[i], n, s, at,
+                                 rb_rolling_maximum(maxima, IN_BODY + which * OF_BOND + i), why);
     }
     f->along_bond = 0;
     return status;
@@ -609,9 +647,9 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
     if (s == RB_OK)
         s = compute_stress(&f, why);
     for (int i = 0; i < IN_BODY && s == RB_OK; i++)
-        s = maximum(&f, measures[i], rb_rolling_maximum(maxima, i), why);
-    if (s == RB_OK)
-        s = maxima_of_bond(&f, depth, maxima, &memory, why);
+        s = maximum(&f, of_body[i], rb_rolling_maximum(maxima, i), why);
+    for (int k = 0; k < RB_ROLLING_BONDS && s == RB_OK; k++)
+        s = maxima_of_bond(&f, k, depth, maxima, &memory, why);
     rb_rolling_field_free(f.field);
     rb_arena_free(&memory);
     return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the largest stresses") : s;
@@ -631,9 +669,14 @@ rb_status rb_rolling_stress_maxima_at(const rb_rolling_model *model,
         xy[2 * n] = m->x;
         xy[2 * n + 1] = m->y;
         /* digits that are lost in other units must not lead to the other side of the bond */
-        const double bond = model->rc->a.layer;
-        if (bond > 0.0 && fabs(m->y - bond) < 1e-12 * bond)
-            xy[2 * n + 1] = m->material == RB_MATERIAL_BASE ? nextafter(bond, INFINITY) : bond;
+        const rb_rolling_body *a = &model->rc->a;
+        for (int j = 0; j < rb_rolling_layers(a); j++) {
+            const double bond = rb_rolling_bond_depth(a, j + 1);
+            if (fabs(m->y - bond) < 1e-12 * bond)
+                xy[2 * n + 1] = m->material == strip_of(a, j + 1, INFINITY).material
+                                    ? nextafter(bond, INFINITY)
+                                    : bond;
+        }
         which[n++] = k;
     }
     const rb_status s = rb_rolling_stress_at(model, n, xy, at, why);
@@ -642,7 +685,7 @@ rb_status rb_rolling_stress_maxima_at(const rb_rolling_model *model,
     for (int k = 0; k < n; k++) {
         if (which[k] >= IN_BODY && !rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT))
             turn(model->rc->a.radius, &at[k]);
-        rb_rolling_maximum(maxima, which[k])->value = measures[which[k]](&at[k]);
+        rb_rolling_maximum(maxima, which[k])->value = measure_of(which[k])(&at[k]);
     }
     return RB_OK;
 }

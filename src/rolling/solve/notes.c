@@ -131,7 +131,7 @@ static int flat_layer(const rb_rolling_case *rc, const rb_rolling_solution *s, c
     double shift = 0.0, thickest[2] = {0.0, 0.0};
 
     for (int b = 0; b < 1 + rc->elastic_b; b++) {
-        const double R = fabs(bodies[b]->radius), t = bodies[b]->layer;
+        const double R = fabs(bodies[b]->radius), t = bodies[b]->stack ? 0.0 : bodies[b]->layer;
         if (rc->formulation == RB_STATIC || !(t > 0.0) || !isfinite(R) || t < thick * R)
             continue;
         thickest[b] = t / R;
@@ -377,7 +377,8 @@ static double mean_compliance(const rb_rolling_case *rc, const rb_rolling_body *
         }
         return all;
     }
-    const double thickness = fmax(body->layer, mean), of_layer = of_own * log(thickness / mean);
+    const double thickness = fmax(rb_rolling_layers_depth(body), mean),
+                 of_layer = of_own * log(thickness / mean);
     if (!(body->base_young > 0.0))
         return of_layer;
     const rb_bem_material base = rb_rolling_base_material(rc, body);

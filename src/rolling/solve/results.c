@@ -306,17 +306,23 @@ static const rb_rolling_result stresses[] = {
            .error_bar = RB_SCALE_WIDTH, .meaning = "its place along the surface"),                 \
         OF(rb_rolling_stress_maxima, name "_y" of, member.y, .unit = "mm",                         \
            .error_bar = RB_SCALE_WIDTH, .meaning = "its depth")
+#define BOND(name, k, of, in)                                                                      \
+    LARGEST("bond_" #name "_peel", of, bond[k].peel, "peel at bond " #name in),                    \
+        LARGEST("bond_" #name "_shear", of, bond[k].shear, "shear at bond " #name in),             \
+        LARGEST("bond_" #name "_tension_above", of, bond[k].tension_above,                         \
+                "tension above bond " #name in),                                                   \
+        LARGEST("bond_" #name "_tension_below", of, bond[k].tension_below,                         \
+                "tension below bond " #name in)
 #define MAXIMA(of, in)                                                                             \
     LARGEST("max_shear", of, max_shear, "in-plane shear" in),                                      \
         LARGEST("tresca_shear", of, tresca_shear, "largest (Tresca) shear" in),                    \
         LARGEST("von_mises", of, von_mises, "von Mises" in),                                       \
         LARGEST("orthogonal_shear", of, orthogonal_shear, "orthogonal shear |sxy|" in),            \
         LARGEST("tension", of, tension, "largest principal stress" in),                            \
-        LARGEST("compression", of, compression, "largest compression" in),                         \
-        LARGEST("bond_1_peel", of, peel, "peel at the bond" in),                                   \
-        LARGEST("bond_1_shear", of, bond_shear, "shear at the bond" in),                           \
-        LARGEST("bond_1_tension_above", of, tension_above, "tension above the bond" in),           \
-        LARGEST("bond_1_tension_below", of, tension_below, "tension below the bond" in)
+        LARGEST("compression", of, compression, "largest compression" in), BOND(1, 0, of, in),     \
+        BOND(2, 1, of, in), BOND(3, 2, of, in), BOND(4, 3, of, in)
+
+_Static_assert(RB_ROLLING_BONDS == 4, "a row for each");
 
 static const rb_rolling_result maxima[] = {MAXIMA("", "")};
 static const rb_rolling_result maxima_b[] = {MAXIMA("_b", " in B")};

@@ -9,7 +9,8 @@
 /* Below a layer on a rigid base there is nothing to stress. */
 static double deepest_stressed(const rb_rolling_case *rc)
 {
-    return rc->a.layer > 0.0 && rc->a.base_young == 0.0 ? rc->a.layer : INFINITY;
+    return rc->a.layer > 0.0 && rc->a.base_young == 0.0 ? rb_rolling_layers_depth(&rc->a)
+                                                        : INFINITY;
 }
 
 double rb_rolling_surface(const rb_rolling_case *rc, double x)
@@ -219,10 +220,8 @@ rb_status rb_rolling_field_at(const rb_rolling_field *f, int n, const double *xy
     if (status != RB_OK)
         return rb_arena_done(&scratch, status);
     for (int k = 0; k < n; k++) {
-        const int below = rc->a.layer > 0.0 && xy[2 * k + 1] > rc->a.layer;
-        const double lateral = rc->plane == RB_PLANE_STRESS ? 0.0
-                               : below                      ? rc->a.base_poisson
-                                                            : rc->a.poisson;
+        const double lateral =
+            rc->plane == RB_PLANE_STRESS ? 0.0 : rb_rolling_poisson_at(&rc->a, xy[2 * k + 1]);
         rb_rolling_stress s = {.x = xy[2 * k],
                                .y = xy[2 * k + 1],
                                .sxx = sigma[3 * k] + rc->bulk_stress,

@@ -66,18 +66,20 @@ static rb_status check_resolved(const rb_rolling_model *model, rb_message *why)
     const rb_rolling_body *const bodies[2] = {&rc->a, &rc->b};
 
     for (int b = 0; b < 1 + rc->elastic_b; b++) {
-        const double thickness = fmax(bodies[b]->layer, bodies[b]->cover);
+        const double thickness = fmax(rb_rolling_layers_depth(bodies[b]), bodies[b]->cover);
+        double poisson = rb_rolling_material(rc, bodies[b]).poisson;
+        for (int k = 0; bodies[b]->stack && k < bodies[b]->stack->n; k++)
+            poisson = fmax(poisson, bodies[b]->stack->poisson[k]);
         const int n = model->mesh.n;
         const double longest = rb_rolling_longest_element(n, model->state.zone, model->bodies.f.h);
         const double h = longest > 0.0 ? longest : model->bodies.f.h[n / 2];
-        if (thickness > 0.0 && rb_rolling_material(rc, bodies[b]).poisson > nearly_incompressible &&
-            h > thickness * (1.0 + 1e-9))
+        if (thickness > 0.0 && poisson > nearly_incompressible && h > thickness * (1.0 + 1e-9))
             return rb_fail(why, RB_EINVAL,
                            "%s thickness: with nu = %g the elements, %.3g mm, may not be "
                            "longer than the thickness, %g mm; take %.0f contact elements "
                            "or more, twice as many with error bars",
-                           bodies[b]->layer > 0.0 ? "layer" : "cover", bodies[b]->poisson, h,
-                           thickness, ceil(rc->contact_elements * h / thickness));
+                           bodies[b]->layer > 0.0 ? "layer" : "cover", poisson, h, thickness,
+                           ceil(rc->contact_elements * h / thickness));
     }
     return RB_OK;
 }
