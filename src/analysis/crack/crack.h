@@ -132,6 +132,7 @@ typedef struct {
                            mouth (Bower); 1: the volume where the mouth closes between two
                            steps */
     double tension;
+    const double *tensions;      /* steps: one for each step; NULL: tension in all */
     const rb_crack_wheel *wheel; /* NULL: the tractions are those of `load`; otherwise they are
                                     computed together with the crack, and `load` gives the scale */
     const rb_crack_observer *observer; /* or NULL */

@@ -113,6 +113,37 @@ static rb_status check_lengths(const rb_resolved_case *c, const rb_case_crack *k
     return RB_OK;
 }
 
+int rb_case_crack_cycles(const rb_case_crack *k)
+{
+    return k->remote_stresses.n == 2;
+}
+
+static int passes_of(const rb_case_crack *k)
+{
+    return k->unloaded && !rb_case_crack_cycles(k) ? 1 : k->passes;
+}
+
+static rb_status check_remote(const rb_resolved_case *c, const rb_case_crack *k, rb_message *why)
+{
+    const int cycles = rb_case_crack_cycles(k), bulk = c->rc.bulk_stress_b != 0.0;
+
+    if (k->remote_stresses.n > 2 ||
+        (cycles && !(k->remote_stresses.value[0] < k->remote_stresses.value[1])))
+        return rb_fail(why, RB_EINVAL,
+                       "--remote-stress: expected one number, or low,high of a cycle");
+    if (cycles && !k->unloaded)
+        return rb_fail(why, RB_EINVAL,
+                       "--remote-stress: a cycle acts alone, --unloaded; with a contact a column "
+                       "bulk_stress_b of --history says how both go together");
+    if (cycles && k->fluid != RB_CRACK_DRY)
+        return rb_fail(why, RB_EINVAL, "--fluid: not under a cycle of the remote stress");
+    if (k->unloaded && k->remote_stress == 0.0 && !cycles)
+        return rb_fail(why, RB_EINVAL, "--unloaded: needs --remote-stress");
+    if (k->unloaded && (bulk || c->program.bulk_stress_b))
+        return rb_fail(why, RB_EINVAL, "--bulk-stress-b: --unloaded takes --remote-stress");
+    return RB_OK;
+}
+
 rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k, rb_message *why)
 {
     const rb_rolling_case *rc = &c->rc;
@@ -129,17 +160,15 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
         return rb_fail(why, RB_EINVAL, "--closing located: only for --fluid trapped");
     if (k->unloaded && k->coupled)
         return rb_fail(why, RB_EINVAL, "--unloaded and --coupled exclude each other");
-    if (k->unloaded && k->remote_stress == 0.0)
-        return rb_fail(why, RB_EINVAL, "--unloaded: needs --remote-stress");
+    rb_status s = check_remote(c, k, why);
+    if (s != RB_OK)
+        return s;
     if (k->unloaded && k->fluid == RB_CRACK_PRESSURE)
         return rb_fail(why, RB_EINVAL,
                        "--fluid pressure: is the contact pressure, and --unloaded has none");
-    if ((rc->bulk_stress_b != 0.0 || c->program.bulk_stress_b) &&
-        (k->unloaded || rb_case_has_steps(c)))
+    if (!k->unloaded && rc->period > 0.0)
         return rb_fail(why, RB_EINVAL,
-                       "--bulk-stress-b: with a crack of a contact without steps only; "
-                       "%s --remote-stress",
-                       k->unloaded ? "--unloaded takes" : "a stress that stays is");
+                       "--period: a crack is that of one contact alone, without --period");
     if (!k->unloaded && rc->elastic_b &&
         !rb_rolling_body_can(&rc->b, RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC))
         return rb_fail(why, RB_EINVAL,
@@ -155,7 +184,7 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
                        "elastic (--similar, --young-b)");
     if (k->coupled && k->fluid != RB_CRACK_DRY)
         return rb_fail(why, RB_EINVAL, "--coupled: of a crack without fluid");
-    const rb_status s = rb_case_check_growth(k, why);
+    s = rb_case_check_growth(k, why);
     if (s != RB_OK)
         return s;
     if (rb_case_has_steps(c) && !isnan(k->to))
@@ -405,7 +434,9 @@ static rb_status set_positions(const rb_resolved_case *c, const rb_case_crack *k
                                                   marks_of(t, one->n, one->zone, mark), mark, x);
         return RB_OK;
     }
-    t->n = k->unloaded ? 1 : has_steps ? r->states.steps : finer->steps * c->rc.steps + 1;
+    t->n = k->unloaded ? 1 + rb_case_crack_cycles(k)
+           : has_steps ? r->states.steps
+                       : finer->steps * c->rc.steps + 1;
     t->x = rb_arena_doubles(&t->memory, (size_t)t->n, 1);
     if (!t->x)
         return RB_ENOMEM;
@@ -421,6 +452,20 @@ static rb_status set_positions(const rb_resolved_case *c, const rb_case_crack *k
                            "crack, expected at most %g",
                            i + 1, (t->x[i] - t->x[i - 1]) / r->half_width, WIDE);
     return RB_OK;
+}
+
+/* A cycle of the remote stress, or a history of the bulk stress with the contact. */
+static rb_status set_tensions(const rb_case_crack *k, const rb_case_crack_result *r,
+                              rb_case_crack_track *t)
+{
+    const double *bulk = t->loads > 1 ? r->contact.history.bulk_stress_b : NULL;
+
+    if (!rb_case_crack_cycles(k) && !bulk)
+        return RB_OK;
+    t->tension = rb_arena_doubles(&t->memory, (size_t)t->n, 1);
+    for (int i = 0; t->tension && i < t->n; i++)
+        t->tension[i] = bulk ? k->remote_stress + bulk[i] : k->remote_stresses.value[i];
+    return t->tension ? RB_OK : RB_ENOMEM;
 }
 
 rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k,
@@ -445,7 +490,7 @@ rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k
         .shear = 0.5 * b->young / (1.0 + b->poisson),
         /* of plane stress: the same kappa */
         .poisson = c->rc.plane == RB_PLANE_STRESS ? b->poisson / (1.0 + b->poisson) : b->poisson};
-    r->passes = k->unloaded ? 1 : k->passes;
+    r->passes = passes_of(k);
     t->bulk = c->rc.bulk_stress_b;
     t->loads = k->unloaded ? 0 : has_steps ? steps->steps : 1;
     t->load = rb_arena_zeros(&t->memory, (size_t)t->loads + 1, sizeof *t->load);
@@ -458,8 +503,15 @@ rb_status rb_case_crack_follow(const rb_resolved_case *c, const rb_case_crack *k
     if (s == RB_OK)
         s = set_positions(c, k, finer, r, t, why);
     if (s == RB_OK)
+        s = set_tensions(k, r, t);
+    if (s == RB_OK)
         find_notes(c, k, t, r);
     return s;
+}
+
+double rb_case_crack_tension(const rb_case_crack *k, const rb_case_crack_track *t, int step)
+{
+    return t->tension ? t->tension[step] : k->remote_stress + t->bulk;
 }
 
 rb_crack_passage rb_case_crack_passage(const rb_case_crack *k, const rb_case_crack_track *t)
@@ -469,10 +521,11 @@ rb_crack_passage rb_case_crack_passage(const rb_case_crack *k, const rb_case_cra
                               .loads = t->loads,
                               .load = t->load,
                               .kind = t->kind,
-                              .passes = k->unloaded ? 1 : k->passes,
+                              .passes = passes_of(k),
                               .fluid = (rb_crack_fluid)k->fluid,
                               .locate_closing = k->locate_closing,
-                              .tension = k->remote_stress + t->bulk};
+                              .tension = k->remote_stress + t->bulk,
+                              .tensions = t->tension};
 }
 
 /* ---- Solve ------------------------------------------------------------------------- */

@@ -89,6 +89,7 @@ typedef struct {
     rb_crack_load_kind kind;
     double *ends;
     double bulk;     /* stress of B along its surface besides the remote one */
+    double *tension; /* n: both together where they change from step to step; otherwise NULL */
     rb_arena memory; /* of the arrays; those of a result with positions are its own */
 } rb_case_crack_track;
 
@@ -113,6 +114,11 @@ rb_status rb_case_crack_follow(const rb_resolved_case *resolved, const rb_case_c
                                const rb_case_crack_mesh *finer, rb_case_crack_result *result,
                                rb_case_crack_track *track, rb_message *why);
 void rb_case_crack_track_free(rb_case_crack_track *track);
+/* The stress along the surface in a step of a pass, the remote one and that of B. */
+double rb_case_crack_tension(const rb_case_crack *crack, const rb_case_crack_track *track,
+                             int step);
+/* 1: a cycle of the remote stress. */
+int rb_case_crack_cycles(const rb_case_crack *crack);
 /* The passage of such a track without a wheel. */
 rb_crack_passage rb_case_crack_passage(const rb_case_crack *crack,
                                        const rb_case_crack_track *track);

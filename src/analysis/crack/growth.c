@@ -18,9 +18,10 @@ rb_status rb_case_check_growth(const rb_case_crack *k, rb_message *why)
                              "give --paris C,m");
     if (k->paris_law.n != 2 || !(k->paris_law.value[1] > 0.0))
         return rb_fail(why, RB_EINVAL, "--paris: expected two numbers C,m > 0");
-    if (k->unloaded)
+    if (k->unloaded && !rb_case_crack_cycles(k))
         return rb_fail(why, RB_EINVAL,
-                       "--paris: cracks grow under loads that pass; --unloaded has none");
+                       "--paris: cracks grow under loads that pass; --unloaded needs a cycle, "
+                       "--remote-stress low,high");
     return RB_OK;
 }
 
@@ -47,9 +48,13 @@ static int extend(double by, double angle, rb_crack_path *path)
 }
 
 /* dK and da/dN, whose law is written in the units of the case. */
-static void add_length(const rb_resolved_case *c, const rb_case_crack *k, const rb_crack_path *path,
-                       double length, const rb_case_crack_summary *s, rb_case_crack_growth *g)
+static void add_length(const rb_resolved_case *c, const rb_case_crack *k,
+                       const rb_crack_shape *shape, double length, const rb_case_crack_summary *s,
+                       rb_case_crack_growth *g)
 {
+    const rb_crack_path *path = &shape->path;
+    /* what rounding leaves of a K that does not change */
+    const double nothing = 1e-15 * shape->shear * sqrt(length);
     const int i = g->n++;
     const double opens = fmax(s->K_I_max, 0.0) - fmax(s->K_I_min, 0.0);
 
@@ -62,7 +67,7 @@ static void add_length(const rb_resolved_case *c, const rb_case_crack *k, const 
     g->delta_K[i] = k->paris_range == RB_CRACK_MODE_II
                         ? s->delta_K_II
                         : pow(gsl_pow_4(opens) + 8.0 * gsl_pow_4(s->delta_K_II), 0.25);
-    g->rests = g->delta_K[i] <= k->threshold;
+    g->rests = g->delta_K[i] <= fmax(k->threshold, nothing);
     g->rate[i] = g->rests
                      ? 0.0
                      : rb_unit_stored(c->units, "mm",
@@ -96,7 +101,7 @@ rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *k,
     for (size_t j = 0; all && j < COLUMNS; j++)
         *column[j] = all + j * rows;
     if (s == RB_OK)
-        add_length(c, k, &shape.path, first, &summary, g);
+        add_length(c, k, &shape, first, &summary, g);
     for (int i = 1; i <= k->grow_steps && s == RB_OK && !g->rests; i++) {
         rb_crack *crack = NULL;
         rb_case_crack_result longer = {.half_width = r->half_width};
@@ -114,7 +119,7 @@ rb_status rb_case_grow_crack(const rb_resolved_case *c, const rb_case_crack *k,
         if (s == RB_OK) {
             summary = rb_case_crack_summarise(&longer.history, k->passes);
             g->path = shape.path;
-            add_length(c, k, &shape.path, l.length, &summary, g);
+            add_length(c, k, &shape, l.length, &summary, g);
         } else if (s == RB_INTERRUPTED)
             rb_fail(why, s, "interrupted after length %d of %d", g->n, k->grow_steps + 1);
         rb_case_crack_free(&longer);

@@ -77,6 +77,11 @@ static const rb_bem_edge_load *load_of(const rb_crack_passage *p, int k)
     return p->loads > 0 && !p->wheel ? &p->load[p->loads > 1 ? k : 0] : NULL;
 }
 
+static double tension_of(const rb_crack_passage *p, int k)
+{
+    return p->tensions ? p->tensions[k] : p->tension;
+}
+
 /* Near that place the crack closes fast: by bisection. */
 rb_status rb_crack_close(rb_crack *c, const rb_crack_passage *p, int k, double scale, double *T,
                          rb_crack_state *state, rb_message *why)
@@ -98,9 +103,9 @@ rb_status rb_crack_close(rb_crack *c, const rb_crack_passage *p, int k, double s
         if (part == 1.0 && p->forces)
             memcpy(T, p->forces + 2 * (size_t)k * (size_t)c->n, 2 * (size_t)c->n * sizeof *T);
         else
-            s = rb_crack_load(c, load_of(p, k), p->kind, x, p->tension, T);
+            s = rb_crack_load(c, load_of(p, k), p->kind, x, tension_of(p, k), T);
         if (s == RB_OK && p->loads > 1)
-            s = rb_crack_load(c, load_of(p, k - 1), p->kind, x, p->tension, before);
+            s = rb_crack_load(c, load_of(p, k - 1), p->kind, x, tension_of(p, k - 1), before);
         for (int i = 0; i < 2 * c->n && p->loads > 1; i++)
             T[i] = part * T[i] + (1.0 - part) * before[i];
         if (s == RB_OK)
@@ -137,7 +142,9 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
         return rb_fail(why, RB_EINVAL, "crack: a coupled crack cannot contain fluid");
     rb_phase("passes over the crack");
     const int n = p->steps * p->passes;
-    double scale = fabs(p->tension); /* the largest stress */
+    double scale = 0.0; /* the largest stress */
+    for (int k = 0; k < p->steps; k++)
+        scale = fmax(scale, fabs(tension_of(p, k)));
     for (int k = 0; k < p->loads; k++) {
         const size_t strips = (size_t)p->load[k].n;
         scale =
@@ -163,7 +170,7 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
         if (p->forces)
             memcpy(T, p->forces + 2 * (size_t)step * (size_t)c->n, 2 * (size_t)c->n * sizeof *T);
         else if (s == RB_OK)
-            s = rb_crack_load(c, load, p->kind, x, p->tension, T);
+            s = rb_crack_load(c, load, p->kind, x, tension_of(p, step), T);
         if (s == RB_OK)
             s = p->wheel
                     ? rb_crack_step_coupled(c, p->wheel, x, T, scale, &state,

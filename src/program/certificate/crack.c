@@ -86,7 +86,9 @@ static rb_status find_per_D(restored *j, rb_message *why)
 /* The largest stress that loads the crack. */
 static double largest_stress(const restored *j)
 {
-    double stress = fabs(j->crack.remote_stress + j->track.bulk);
+    double stress = 0.0;
+    for (int k = 0; k < j->track.n; k++)
+        stress = fmax(stress, fabs(rb_case_crack_tension(&j->crack, &j->track, k)));
     for (int k = 0; k < j->track.loads; k++)
         for (int i = 0; i < j->track.load[k].n; i++)
             stress = fmax(stress, fmax(fabs(j->track.load[k].p[i]), fabs(j->track.load[k].q[i])));
@@ -193,7 +195,7 @@ static rb_status displace(restored *j, int k, rb_message *why)
     const rb_bem_edge_load *load = t->loads > 0 ? &t->load[t->loads > 1 ? step : 0] : NULL;
     const rb_bem_edge_load coupled = {h->elements, t->ends, h->wheel + k * h->elements, j->none};
     const rb_status s = rb_crack_load(j->body, h->wheel ? &coupled : load, t->kind, t->x[step],
-                                      j->crack.remote_stress + j->track.bulk, j->T);
+                                      rb_case_crack_tension(&j->crack, &j->track, step), j->T);
 
     if (s != RB_OK)
         return rb_fail(why, s, "step %d: %s", k + 1, rb_status_text(s));

@@ -173,19 +173,30 @@ void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r, int colou
 
     for (int k = 0; k < r->notes; k++)
         rb_report_note(out, r->note[k], colour);
-    fprintf(out, "crack: length %.5g %s, %d positions, %d pass%s", length_of(r), mm,
-            r->history.n / r->passes, r->passes, r->passes > 1 ? "es" : "");
+    const int alone = r->contact.solution.n == 0, steps = r->history.n / r->passes;
+    fprintf(out, "crack: length %.5g %s, ", length_of(r), mm);
+    if (alone)
+        fprintf(out, steps > 1 ? "%d cycle%s of the stress" : "one stress", r->passes,
+                r->passes > 1 ? "s" : "");
+    else
+        fprintf(out, "%d positions, %d pass%s", steps, r->passes, r->passes > 1 ? "es" : "");
     if (isnan(r->half_width))
         fputc('\n', out);
     else
         fprintf(out, ", half-width %.5g %s\n", r->half_width, mm);
     fprintf(out, "  K_I       %.5g ... %.5g", s->K_I_min, s->K_I_max);
     print_bar(out, r, e->K_I_max);
-    fprintf(out, " %s, largest with the contact at x = %.4g %s, K_II = %.4g there\n", K,
-            s->K_I_max_at, mm, s->K_II_at_K_I_max);
+    if (alone)
+        fprintf(out, " %s\n", K);
+    else
+        fprintf(out, " %s, largest with the contact at x = %.4g %s, K_II = %.4g there\n", K,
+                s->K_I_max_at, mm, s->K_II_at_K_I_max);
     fprintf(out, "  K_II      %.5g ... %.5g, range %.5g", s->K_II_min, s->K_II_max, s->delta_K_II);
     print_bar(out, r, e->delta_K_II);
-    fprintf(out, " %s, at x = %.4g and %.4g %s\n", K, s->K_II_min_at, s->K_II_max_at, mm);
+    if (alone)
+        fprintf(out, " %s\n", K);
+    else
+        fprintf(out, " %s, at x = %.4g and %.4g %s\n", K, s->K_II_min_at, s->K_II_max_at, mm);
     if (!isnan(s->K_I_max_upper))
         fprintf(out, "  upper end K_I %.5g ... %.5g, K_II %.5g ... %.5g %s\n", s->K_I_min_upper,
                 s->K_I_max_upper, s->K_II_min_upper, s->K_II_max_upper, K);
@@ -196,8 +207,8 @@ void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r, int colou
         fprintf(out, "  passes    the last one changed K by at most %.2g %s\n", s->pass_change, K);
     if (r->growth.n > 0) {
         const int last = r->growth.n - 1;
-        fprintf(out, "  growth    from %.4g to %.4g %s in %.4g passes%s\n", r->growth.length[0],
-                r->growth.length[last], mm, r->growth.cycles[last],
+        fprintf(out, "  growth    from %.4g to %.4g %s in %.4g %s%s\n", r->growth.length[0],
+                r->growth.length[last], mm, r->growth.cycles[last], alone ? "cycles" : "passes",
                 r->growth.rests      ? ", where it rests"
                 : r->growth.surfaced ? ", then to the surface"
                                      : "");

@@ -149,9 +149,10 @@ typedef struct {
     int elements;
     double from, to; /* positions of the contact; NAN: not given */
     int passes;
-    int fluid;            /* rb_crack_fluid */
-    int locate_closing;   /* as in rb_crack_passage */
-    double remote_stress; /* [stress] */
+    int fluid;                  /* rb_crack_fluid */
+    int locate_closing;         /* as in rb_crack_passage */
+    double remote_stress;       /* [stress]; of a cycle the lowest */
+    rb_numbers remote_stresses; /* one that stays, or the lowest and the highest of a cycle */
     int unloaded, coupled;
     double paris;         /* C; NAN: the crack does not grow */
     rb_numbers paris_law; /* C and m, with lengths and K in the units of the case */

@@ -50,7 +50,9 @@ const rb_option rb_case_crack_options[] = {
                    "mouth (Bower), or that of the place between two positions where the "
                    "mouth closes"),
     RB_NUMBER_LINE("remote-stress", PLACE(remote_stress), "MPa", RB_ANY,
-                   "uniform stress in B along the surface, tension > 0"),
+                   "uniform stress in B along the surface, tension > 0; low,high: a cycle, with "
+                   "--unloaded",
+                   .list = PLACE(remote_stresses)),
     RB_FLAG_LINE("unloaded", PLACE(unloaded), "that stress alone, without a contact"),
     RB_FLAG_LINE("coupled", PLACE(coupled),
                  "frictionless contact that depends on the crack: both are solved together"),
