@@ -777,6 +777,9 @@ static double initial_gap(const contact *c, double x)
         return NAN;
     if (strcmp(gap, "parabola") == 0)
         return x * x / (2.0 * c->radius);
+    if (strcmp(gap, "wave") == 0)
+        return number(c->inputs, "amplitude") *
+               (1.0 - cos(2.0 * acos(-1.0) * x / number(c->inputs, "period")));
     if (strcmp(gap, "exact") != 0)
         return NAN;
     const double A = c->a.radius, B = c->b.radius;

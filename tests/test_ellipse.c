@@ -74,6 +74,65 @@ TEST(the_strip_rolls)
     CHECK_REL(of_summary(root, "torque_a"), Q * 460.0, 1e-6, "torque");
 }
 
+/* (E3) Q/(mu W) by strips, and with the slope of Kalker's C11: own integrals, and for nu = 1/4 a
+ * solver in three dimensions that it meets to 2.5 %. */
+TEST(force_of_the_whole)
+{
+    static const double strips[][2] = {{0.05, 0.114060506}, {0.1, 0.220631962}, {0.2, 0.411439707},
+                                       {0.3, 0.572880187},  {0.5, 0.811119584}, {0.8, 0.980201331},
+                                       {0.95, 0.999370944}, {1.3, 1.0}};
+#define ROLLS                                                                                      \
+    "--support halfplane --similar --young 210000 --poisson %g --wheel-load 100kN --radius 460 "   \
+    "--mu 0.3 --formulation steady --transverse-radius-b %.12g --creep-ratio %g"
+    for (size_t k = 0; k < sizeof strips / sizeof *strips; k++) {
+        held_json *root = run_jsonf(ROLLS, 0.3, 300.0, k % 2 ? strips[k][0] : -strips[k][0]);
+        CHECK_REL(of_summary(root, "ellipse_force"), (k % 2 ? -3e4 : 3e4) * strips[k][1], 1e-8,
+                  "s = %g", strips[k][0]);
+    }
+    /* radii of the rail with a/b 1/2, 1, 2; the last is that of 3D */
+    static const struct {
+        double radius, ratio, s, corrected, solid;
+    } rows[] = {{1307.6665, 0.5, 0.05, 0.1251, 0.1253},
+                {460.0, 1.0, 0.05, 0.1417, 0.1411},
+                {460.0, 1.0, 0.2, 0.497, 0.488},
+                {460.0, 1.0, 0.5, 0.907, 0.892},
+                {161.81496, 2.0, 0.2, 0.588, 0.573}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        held_json *root = run_jsonf(ROLLS, 0.25, rows[k].radius, rows[k].s);
+        CHECK_REL(of_summary(root, "ellipse_a") / of_summary(root, "ellipse_b"), rows[k].ratio,
+                  1e-3, "row %zu", k);
+        const double Q = -of_summary(root, "ellipse_force_kalker") / 3e4;
+        CHECK_ABS(Q, rows[k].corrected, 6e-4, "row %zu", k);
+        CHECK_REL(Q, rows[k].solid, 0.03, "row %zu", k);
+    }
+    /* strips at the nodes of Chebyshev, each a case of its own */
+    enum { N = 9 };
+    const double pi = acos(-1.0);
+    held_json *middle = run_jsonf(ROLLS, 0.3, 300.0, 0.4);
+    const double a = of_summary(middle, "ellipse_a"), xi = of_summary(middle, "creepage"),
+                 R = of_summary(middle, "strip_radius");
+    double sum = 0.0;
+    for (int j = 0; j < N / 2 + 1; j++) {
+        const double sine = sin((j + 0.5) * pi / N);
+        held_json *strip = run_jsonf("--support halfplane --similar --young 210000 --poisson 0.3 "
+                                     "--mu 0.3 --formulation steady --gap parabola --radius %.15g "
+                                     "--half-width %.15g --creep %.15g",
+                                     R, a * sine, xi);
+        sum += (j == N / 2 ? 1.0 : 2.0) * 0.75 * pi / N * sine * sine * sine *
+               of_summary(strip, "force_ratio");
+    }
+    CHECK_ABS(of_summary(middle, "ellipse_force") / 3e4, sum, 1e-3, "strips");
+    /* not of unlike bodies, and not where Kalker's table ends */
+    held_json *unlike =
+        run_json("--support halfplane --young 210000 --young-b 70000 --wheel-load 1kN --mu 0.3 "
+                 "--radius 100 --transverse-radius 100 --formulation steady --creep-ratio 0.3");
+    assert_null(json_object_get(json_object_get(unlike, "summary"), "ellipse_force"));
+    held_json *thin = run_jsonf(ROLLS, 0.3, 1e5, 0.4);
+    assert_true(isnan(of_summary(thin, "ellipse_force_kalker")));
+    CHECK_ABS(of_summary(thin, "ellipse_force") / 3e4, of_summary(middle, "ellipse_force") / 3e4,
+              1e-9, "any ellipse");
+}
+
 /* a and p0 grow like the cube root of the load, what the strip carries per width like its square.
  */
 TEST(derivatives)

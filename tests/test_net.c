@@ -37,6 +37,7 @@ enum {
     GAP,
     IRREGULARITY,
     WORN,
+    PERIOD,
     INTERLAYER,
     TILT,
     BULK,
@@ -116,6 +117,7 @@ static const struct {
     {"gap", "gap", {{"file", "--gap gap.txt"}, {"smoothed", "--gap gap.txt --gap-smoothing 1e-5"}}},
     {"irregularity", NULL, {{"none", ""}, {"flat", "--irregularity flat.txt"}}},
     {"worn", NULL, {{"none", ""}, {"scar", "--worn worn.txt"}}},
+    {"period", NULL, {{"none", ""}, {"given", "--period 30"}}},
     {"interlayer",
      NULL,
      {{"none", ""},
@@ -190,7 +192,7 @@ static const char options_elsewhere[] =
     " free-axle gap-smoothing conductivity heat-capacity temperature conductivity-b heat-capacity-b"
     " temperature-b worn interlayer-normal interlayer-tangential yield-stress hardening"
     " bulk-stress bulk-stress-b tilt moment wheel-load"
-    " transverse-radius transverse-radius-b ";
+    " transverse-radius transverse-radius-b period amplitude ";
 
 enum { LEVELS = 40 };
 static level levels[FACTORS][LEVELS];
@@ -330,6 +332,27 @@ static const conflict conflicts[] = {
     {{"tilt=given", "support!halfplane"}, "of elastic half-planes only"},
     {{"tilt=given", "body-b=hub|arc"}, "of elastic half-planes only"},
     {{"tilt=given", RELAXING}, NULL},
+    {{"gap=wave", "period=none"}, "needs --period and --amplitude"},
+    {{"gap=wave", "body-b=cylinder|bore"}, "a wave lies on a plane"},
+    {{"gap=wave", "body-b=hub|arc"}, NULL},
+    {{"gap=wave", "normal=half-width"}, "Hertz's is that of one contact"},
+    {{"period=given", "regime=steady|transient*|steps"}, "of bodies at rest only"},
+    {{"period=given", "support!halfplane"}, "of half-planes of one elastic material only"},
+    {{"period=given", "body-b=hub|arc"}, "of half-planes of one elastic material only"},
+    {{"period=given", "surface!plain", "body-b!rigid"},
+     "of half-planes of one elastic material only"},
+    {{"period=given", "surface!plain", "body-b=rigid"}, NULL},
+    {{"period=given", "mesh=fitted|aligned"}, "equal elements only"},
+    {{"period=given", "normal=half-width"}, "Hertz's is that of one contact"},
+    {{"period=given", "gap=exact"}, "needs --gap parabola, wave"},
+    {{"period=given", "gap=file|smoothed"}, "must be one period long"},
+    {{"period=given", "worn=scar"}, "put it into a table of the gap"},
+    {{"period=given", "irregularity=flat"}, NULL},
+    {{"period=given", "tilt=given"}, "neighbours hold the surface level"},
+    {{"period=given", "bulk=both"}, NULL},
+    {{"period=given", "shape=other"}, "displacements are those from the mean line"},
+    {{"period=given", "output=stress*"}, "contacts that repeat themselves"},
+    {{"period=given", "output=derivatives"}, "with a period not known"},
     {{"bulk=both", "body-b=rigid"}, "a rigid body B is not strained"},
     {{"bulk=both", "support!halfplane"}, "half-planes of one elastic material only"},
     {{"bulk=both", "body-b=hub|arc"}, "half-planes of one elastic material only"},
@@ -652,6 +675,8 @@ static void case_arguments(const int *row, char *text, size_t size)
     for (int f = 0; f < OUTPUT; f++)
         if (levels[f][row[f]].arguments[0])
             snprintf(text + strlen(text), size - strlen(text), " %s", levels[f][row[f]].arguments);
+    if (is(row, GAP, "wave"))
+        snprintf(text + strlen(text), size - strlen(text), " --amplitude 2");
     add_size(row, text, size);
     add_shape(row, text, size);
     if (relaxes(row))

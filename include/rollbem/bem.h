@@ -191,6 +191,8 @@ typedef struct {
     rb_bem_material base;
     const rb_bem_stack *stack; /* of several elastic layers, the first of which is that of
                                   `material` and `thickness`; NULL: one */
+    double period; /* of tractions that repeat themselves along an elastic half-plane [length]: its
+                      displacement has the mean 0 and no datum (P1); 0: none */
 } rb_bem_surface;
 
 /* An elastic half-plane whose displacement is zero at the distance datum > 0 along the surface from

@@ -17,7 +17,7 @@ RB_PUBLIC_BEGIN
 /* ---- Case ------------------------------------------------------------------------ */
 
 typedef enum { RB_STATIC, RB_STEADY, RB_TRANSIENT } rb_rolling_formulation;
-typedef enum { RB_GAP_PARABOLA, RB_GAP_EXACT, RB_GAP_TABLE } rb_rolling_gap;
+typedef enum { RB_GAP_PARABOLA, RB_GAP_EXACT, RB_GAP_TABLE, RB_GAP_WAVE } rb_rolling_gap;
 typedef enum {
     RB_MESH_UNIFORM,
     RB_MESH_FITTED,
@@ -148,6 +148,10 @@ typedef struct {
                                        0; heat_b is used also if B is rigid */
 
     rb_rolling_gap gap;
+    /* static, elastic half-planes: gap and tractions repeat themselves along x, and loads are those
+     * of one period [length]; 0: one contact alone.  amplitude: of RB_GAP_WAVE, whose gap is
+     * D (1 - cos(2 pi x/L)) (theory-rolling.md 4.16). */
+    double period, amplitude;
     const rb_rolling_profile *profile; /* RB_GAP_TABLE; borrowed */
     /* An irregularity of the surface that is added to the gap: a dent (> 0) or a bump (<
      * 0).  The first and the last value are 0; x is the place before rolling.  It moves
@@ -383,6 +387,11 @@ typedef struct {
     double support_balance;              /* (reaction + load)/P; NAN for half-planes */
     double approach, tangential_shift;   /* delta; rigid shift (static) [length] */
     rb_rolling_ellipse ellipse;          /* NAN: there is none */
+    /* steady, of an ellipse between alike bodies: Q of the whole of it by strips, and with the
+     * slope of Kalker's C11 [force]; otherwise NAN */
+    double ellipse_force, ellipse_force_kalker;
+    double mean_pressure, contact_share; /* with a period L: P/L [stress], and the part of L in
+                                            contact; otherwise NAN */
     double tilt;                         /* of A; NAN: neither tilt nor moment is given */
     double creepage, free_creepage;      /* xi; xi at Q = 0 (steady); NAN otherwise, or if no
                                             such xi was found */
@@ -472,7 +481,7 @@ typedef struct rb_rolling_model {
     rb_contact_state state;
     double shift;         /* in a history: rigid shift of the earlier steps, to be added to the
                              state's [length] */
-    int mu_varies;        /* in a history: 1: the program has a column mu */
+    unsigned varies;      /* in a history: columns of the program, rb_rolling_program_varies */
     int equal_instead;    /* 1: equal elements were used, because fitting the mesh to the
                              contact edges did not converge */
     rb_rolling_rows rows; /* of its history */
@@ -566,6 +575,8 @@ typedef struct rb_rolling_history {
                                 likewise */
     double *mu;              /* mu of the case at the end of the step; NULL if it is the same in all
                                 steps */
+    double *bulk_stress, *bulk_stress_b, *tilt; /* likewise at the end of the step [stress], [-];
+                                                   NULL if the program has no such column */
     double *torque_a,
         *torque_b;     /* M + Q R_A and M - Q R_B [force]; torque_b: NULL if B is a plane */
     double half_width; /* unit of the distances [length] */

@@ -22,6 +22,20 @@ double rb_rolling_bulk_strain(const rb_rolling_case *rc);
 void rb_rolling_press_by_load(rb_rolling_case *rc);
 /* 1: the load is that of an ellipse (E2). */
 int rb_rolling_has_ellipse(const rb_rolling_case *rc);
+/* 1: the gap has a shape of its own, that of a table or a wave, not that of the bodies' radii. */
+static inline int rb_rolling_gap_has_shape(const rb_rolling_case *rc)
+{
+    return rc->gap == RB_GAP_TABLE || rc->gap == RB_GAP_WAVE;
+}
+/* Checks the case of a program before its rows, which rb_rolling_program_check checks.  A program
+ * of no rows: rb_rolling_case_check. */
+rb_status rb_rolling_program_check_base(const rb_rolling_program *program,
+                                        const rb_rolling_case *rc, rb_message *why);
+/* 1: rolls steadily on an ellipse between alike bodies under one coefficient of friction; and the
+ * force of all of it at the creepage xi R_eq/(mu a) (E3).  kalker: NAN where his table ends. */
+int rb_rolling_ellipse_slides_alike(const rb_rolling_case *rc);
+void rb_rolling_ellipse_forces(const rb_rolling_case *rc, double creep_ratio, double *strips,
+                               double *kalker);
 /* 1: a tilt or a moment is given; and the tilt (U3). */
 int rb_rolling_is_tilted(const rb_rolling_case *rc);
 double rb_rolling_tilt(const rb_rolling_case *rc);
@@ -465,8 +479,10 @@ rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n, 
                                double *gap);
 /* 0: the bodies may touch in several places. */
 int rb_rolling_is_convex(const rb_rolling_case *rc);
+/* 1: the mesh is a whole period, and its ends are one place. */
+int rb_rolling_fills_period(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
 /* The interval in which elements may lie: on the lower half of every round body, within
- * the table. */
+ * the table and one period. */
 void rb_rolling_extent(const rb_rolling_case *rc, double *from, double *to);
 
 /* A patch for fitted elements, and how far the elements must extend beyond its edges. */

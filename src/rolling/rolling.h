@@ -230,6 +230,10 @@ typedef enum {
     RB_FOR_LAW,        /* friction coefficients that differ between elements */
     RB_FOR_MOVING_LAW, /* friction coefficients that depend on the state */
     RB_FOR_WAY,        /* friction coefficient from a column of a history */
+    RB_FOR_BULK_WAY,   /* likewise bulk stress, that of B and tilt */
+    RB_FOR_BULK_B_WAY,
+    RB_FOR_TILT_WAY,
+    RB_FOR_PERIOD,
     RB_FOR_MEMORY,
     RB_FOR_YIELD,
     RB_FOR_CYLINDER_B,
@@ -283,8 +287,12 @@ extern const rb_rolling_result_table rb_rolling_result_tables[];
 
 /* The row with this name; NULL: there is none. */
 const rb_rolling_result *rb_rolling_find_result(const rb_rolling_results *table, const char *name);
-/* 1 if the case has this result.  mu_varies: 1: in a history with a column mu. */
-int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc, int mu_varies);
+/* Columns of a program that are columns of its history, too. */
+enum { RB_VARIES_MU = 1, RB_VARIES_BULK = 2, RB_VARIES_BULK_B = 4, RB_VARIES_TILT = 8 };
+unsigned rb_rolling_program_varies(const rb_rolling_program *program);
+
+/* 1 if the case has this result.  varies: in a history with such columns. */
+int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc, unsigned varies);
 /* 1 if the struct `owner` has this column. */
 int rb_rolling_has_column(const rb_rolling_result *r, const void *owner);
 /* The numbers of a solution without its columns, which remain with it. */

@@ -27,6 +27,8 @@ static rb_status check(const rb_rolling_model *model, rb_message *why)
             "derivatives: under --max-pressure only where Hertz's formula says the load; "
             "give --load %.10g",
             rc->pressed_by);
+    if (rc->period > 0.0)
+        return rb_fail(why, RB_EINVAL, "derivatives: with a period not known");
     if (!isnan(rc->tilted_by))
         return rb_fail(why, RB_EINVAL,
                        "derivatives: with --moment not known; give the tilt that it makes, --tilt "

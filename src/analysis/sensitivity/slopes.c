@@ -37,16 +37,17 @@ static rb_status add_word(const rb_resolved_case *c, rb_case_slopes *s, char *wo
 
     if (input)
         *input++ = '\0';
-    const int all = strcmp(word, "all") == 0, mu_varies = c->program.mu != NULL;
+    const int all = strcmp(word, "all") == 0;
+    const unsigned varies = rb_rolling_program_varies(&c->program);
     const rb_rolling_result *only = rb_rolling_find_result(s->table, word);
     if (!all && !(only && rb_sensitivity_has(only)))
         return rb_case_refuse_result(word, s->table, NULL, why);
-    if (!all && !rb_rolling_has_result(only, &c->rc, mu_varies))
+    if (!all && !rb_rolling_has_result(only, &c->rc, varies))
         return rb_fail(why, RB_EINVAL, "this case has no %s", word);
     for (int r = 0; r < s->table->n; r++) {
         const rb_rolling_result *result = &s->table->row[r];
         if (!rb_sensitivity_has(result) || (!all && strcmp(result->name, word) != 0) ||
-            !rb_rolling_has_result(result, &c->rc, mu_varies))
+            !rb_rolling_has_result(result, &c->rc, varies))
             continue;
         for (int k = 0; k < numbers; k++) {
             if (input && strcmp(number[k].name, input) != 0)

@@ -184,6 +184,9 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
         fprintf(out, "  patch %-3d %.5g ... %.5g %s, p0 = %.6g %s, P = %.6g %s\n", k + 1,
                 s->patch[k].from, s->patch[k].to, mm, s->patch[k].max_pressure, stress,
                 s->patch[k].normal_load, load);
+    if (!isnan(s->mean_pressure))
+        fprintf(out, "  period    mean pressure %.6g %s, %.4g %% of the period in contact\n",
+                s->mean_pressure, stress, 100.0 * s->contact_share);
     if (!isnan(s->ellipse.radius))
         fprintf(
             out,
@@ -191,6 +194,15 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
             "cylinder of radius %.6g %s\n",
             s->ellipse.a, s->ellipse.b, mm, s->ellipse.pressure, stress, s->ellipse.approach, mm,
             s->ellipse.radius, mm);
+    if (!isnan(s->ellipse_force)) {
+        fprintf(out, "  ellipse   Q = %.6g %s of the whole of it by strips",
+                rb_report_tidy(s->ellipse_force, s->normal_load), rb_unit_name(s->units, "N"));
+        if (!isnan(s->ellipse_force_kalker))
+            fprintf(out, ", %.6g %s with the slope of Kalker's C11",
+                    rb_report_tidy(s->ellipse_force_kalker, s->normal_load),
+                    rb_unit_name(s->units, "N"));
+        fputc('\n', out);
+    }
     if (!isnan(s->tilt))
         fprintf(out, "  tilt      %.6g, M = %.6g %s\n", s->tilt, s->resistance_moment,
                 rb_unit_name(s->units, "N"));

@@ -3,6 +3,7 @@
 
 #include "rolling/case/closed_forms.h"
 
+#include <gsl/gsl_math.h>
 #include <math.h>
 
 static rb_rolling_case rolling_at(double s)
@@ -149,6 +150,31 @@ static void ellipse(rb_verify *v)
     rb_verify_relative(v, s->max_pressure, 1237.559, 1e-3, "its strip: largest pressure");
 }
 
+/* Westergaard's wave, half flattened and flat (theory-rolling.md P1). */
+static void wave(rb_verify *v)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.half_width = NAN;
+    rc.mu = 0.0;
+    rc.gap = RB_GAP_WAVE;
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.period = 10.0;
+    rc.amplitude = 0.01;
+    rc.zone = 5.0;
+    rc.contact_elements = 128;
+    const double flat = M_PI * rb_rolling_derive(&rc).modulus * rc.amplitude;
+    rc.load = 0.5 * flat;
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->contact_share, 0.5, 1e-2, "wave, P half of what flattens it: 2a/L");
+    rb_verify_relative(v, s->max_pressure, M_SQRT2 * flat / rc.period, 1e-3,
+                       "wave, P half of what flattens it: p0");
+    rb_verify_relative(v, s->approach, 0.5 * (1.0 + M_LN2) * rc.amplitude, 1e-3,
+                       "wave, P half of what flattens it: approach");
+    rc.load = 1.5 * flat;
+    s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->max_pressure, 2.5 * flat / rc.period, 1e-3, "flattened wave: p0");
+}
+
 /* The matrix of Addi et al. and its pivoted form are one problem. */
 static void two_forms(rb_verify *v)
 {
@@ -270,6 +296,7 @@ void rb_verify_contact(rb_verify *v)
     bulk_stress(v);
     tilted(v);
     ellipse(v);
+    wave(v);
     rb_rolling_case rc = rb_verify_uncoupled();
     rc.force_ratio = 0.64;
     const rb_rolling_solution *s = rb_verify_solve(v, &rc);

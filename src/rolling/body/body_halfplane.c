@@ -9,6 +9,8 @@
  * (1 - nu)/r + nu x^2/r^3 has a second part. */
 static double depth_of_datum(const rb_rolling_case *rc, const rb_rolling_body *body)
 {
+    if (rc->period > 0.0) /* where ln|2 sin(pi s/L)| is zero near the load */
+        return rc->period / (2.0 * M_PI);
     if (body->strip > 0.0)
         return body->strip;
     if (body->datum > 0.0)
@@ -45,6 +47,7 @@ rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc, const rb_
     return (rb_bem_surface){
         .material = rb_rolling_material(rc, body),
         .datum = datum,
+        .period = rc->period,
         .datum_tangential = body->strip > 0.0 ? datum * exp(nu / (1.0 - nu)) : 0.0,
         .datum_memory = datum_memory,
         .terms = body->memory.n,
@@ -119,7 +122,7 @@ static int not_on_rigid_base(const rb_rolling_body *body)
 
 static double datum(const rb_rolling_case *rc, const rb_rolling_body *body)
 {
-    return on_rigid_base(body) ? NAN : depth_of_datum(rc, body);
+    return on_rigid_base(body) || rc->period > 0.0 ? NAN : depth_of_datum(rc, body);
 }
 
 static const rb_rolling_parameter halfplane_parameters[] = {

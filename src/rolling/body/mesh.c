@@ -71,6 +71,8 @@ static double upright_gap(const rb_rolling_case *rc, double x)
 
     if (rc->gap == RB_GAP_TABLE)
         return rb_rolling_profile_gap(rc->profile, x) + worn;
+    if (rc->gap == RB_GAP_WAVE)
+        return 2.0 * rc->amplitude * gsl_pow_2(sin(M_PI * x / rc->period)) + worn;
     if (rc->gap == RB_GAP_PARABOLA)
         return x * x / (2.0 * rb_rolling_radius(rc)) + worn;
     if (!(bore > 0.0))
@@ -146,21 +148,26 @@ rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *me
 /* Half-width of the lower half of every round body.  Half-planes under a table are flat. */
 static double lower_half(const rb_rolling_case *rc)
 {
-    return rc->gap == RB_GAP_TABLE && rb_rolling_can(rc, RB_BODY_FLAT)
+    return rb_rolling_gap_has_shape(rc) && rb_rolling_can(rc, RB_BODY_FLAT)
                ? INFINITY
                : fmin(rc->a.radius, fabs(rc->b.radius));
 }
 
 void rb_rolling_extent(const rb_rolling_case *rc, double *from, double *to)
 {
-    *to = 0.95 * lower_half(rc);
+    *to = fmin(0.95 * lower_half(rc), rc->period > 0.0 ? 0.5 * rc->period : INFINITY);
     *from = -*to;
     if (rc->gap == RB_GAP_TABLE) {
         double first, last;
         rb_rolling_profile_range(rc->profile, &first, &last);
-        *from = fmax(*from, first);
-        *to = fmin(*to, last);
+        *from = rc->period > 0.0 ? first : fmax(*from, first);
+        *to = rc->period > 0.0 ? first + rc->period : fmin(*to, last);
     }
+}
+
+int rb_rolling_fills_period(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
+{
+    return rc->period > 0.0 && mesh->ends[mesh->n] - mesh->ends[0] >= (1.0 - 1e-9) * rc->period;
 }
 
 /* The mesh must stay on the lower half of every round body. */

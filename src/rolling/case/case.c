@@ -91,6 +91,8 @@ double rb_rolling_radius(const rb_rolling_case *rc)
     const double a = rc->a.radius, b = rc->b.radius;
     if (rc->ellipse.radius > 0.0)
         return rc->ellipse.radius;
+    if (rc->gap == RB_GAP_WAVE) /* of the crest */
+        return gsl_pow_2(rc->period / (2.0 * M_PI)) / rc->amplitude;
     return b < 0.0 && isfinite(b) && isfinite(a) ? a * b / (a + b) : 1.0 / (1.0 / a + 1.0 / b);
 }
 
@@ -237,7 +239,14 @@ static double half_of_low_part(const rb_rolling_case *rc, double load)
     return 0.5 * (to - from);
 }
 
-double rb_rolling_contact_half_width(const rb_rolling_case *rc, double load)
+/* (P1) Westergaard's, of a wave. */
+static double half_width_on_wave(const rb_rolling_case *rc, double load)
+{
+    const double flattens = M_PI * modulus(rc) * rc->amplitude; /* load per period */
+    return rc->period / M_PI * asin(sqrt(fmin(1.0, load / flattens)));
+}
+
+static double half_width_alone(const rb_rolling_case *rc, double load)
 {
     enum { ROUNDS = 100 };
     const int relaxes = rc->formulation != RB_STATIC && rb_rolling_relaxes(rc);
@@ -267,6 +276,19 @@ double rb_rolling_contact_half_width(const rb_rolling_case *rc, double load)
     return a;
 }
 
+/* A contact is no longer than its period. */
+static double within_period(const rb_rolling_case *rc, double half_width)
+{
+    return rc->period > 0.0 ? fmin(half_width, 0.5 * rc->period) : half_width;
+}
+
+double rb_rolling_contact_half_width(const rb_rolling_case *rc, double load)
+{
+    return rc->gap == RB_GAP_WAVE && rc->interlayer_normal == 0.0
+               ? half_width_on_wave(rc, load)
+               : within_period(rc, half_width_alone(rc, load));
+}
+
 rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc)
 {
     const rb_rolling_body *a = &rc->a;
@@ -291,9 +313,10 @@ rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc)
     const double down = fmax(0.0, d.approach);
     if (isnan(d.load))
         /* 2P/(pi E*) of the load that flattens the lower half of the approach */
-        d.half_width = has_radius ? half_width_of_approach(d.radius, down)
-                                  : half_of_low_part(rc, 0.25 * M_PI * d.modulus * down);
-    const int hertz = has_radius && !(rc->interlayer_normal > 0.0) &&
+        d.half_width =
+            within_period(rc, has_radius ? half_width_of_approach(d.radius, down)
+                                         : half_of_low_part(rc, 0.25 * M_PI * d.modulus * down));
+    const int hertz = has_radius && !(rc->interlayer_normal > 0.0) && rc->period == 0.0 &&
                       !(rc->formulation != RB_STATIC && rb_rolling_relaxes(rc));
     const double P = isnan(d.load) ? 0.25 * M_PI * d.modulus * down : d.load;
     d.stress = P == 0.0 ? 0.0
@@ -761,7 +784,7 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
     if (!(rc->outer_refinement >= 0.0 && rc->outer_refinement <= 1000.0))
         return rb_fail(why, RB_EINVAL, "outer refinement: expected 0 ... 1000, got %g",
                        rc->outer_refinement);
-    if (rc->zone >= rc->a.radius || rc->zone >= fabs(rc->b.radius))
+    if (rc->period == 0.0 && (rc->zone >= rc->a.radius || rc->zone >= fabs(rc->b.radius)))
         return rb_fail(why, RB_EINVAL, "zone: %g mm is wider than the radius, %g mm", rc->zone,
                        fmin(rc->a.radius, fabs(rc->b.radius)));
     if (rc->normals == RB_BEM_NORMALS_SURFACE && rb_rolling_body_can(&rc->a, RB_BODY_FLAT))
@@ -820,6 +843,129 @@ static rb_status check_tilt(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
+/* The mean of the undeformed gap over a period: the approach at which nothing stays open. */
+static double mean_gap(const rb_rolling_case *rc)
+{
+    enum { POINTS = 4096 };
+    double from, to, sum = 0.0;
+
+    if (rc->gap != RB_GAP_TABLE)
+        return rc->gap == RB_GAP_WAVE ? rc->amplitude
+                                      : gsl_pow_2(rc->period) / (24.0 * rb_rolling_radius(rc));
+    rb_rolling_profile_range(rc->profile, &from, &to);
+    for (int k = 0; k < POINTS; k++)
+        sum += rb_rolling_profile_gap(rc->profile, from + (k + 0.5) * (to - from) / POINTS);
+    return sum / POINTS;
+}
+
+/* The ends of a period are one place. */
+static rb_status check_closed(const rb_rolling_case *rc, rb_message *why)
+{
+    double from, to;
+
+    if (rc->gap == RB_GAP_EXACT)
+        return rb_fail(why, RB_EINVAL,
+                       "period: needs --gap parabola, wave, or a table that is one period long");
+    if (rc->gap == RB_GAP_PARABOLA) {
+        const double least = fmin(rc->a.radius, fabs(rc->b.radius));
+        return 0.5 * rc->period <= 0.95 * least
+                   ? RB_OK
+                   : rb_fail(why, RB_EINVAL,
+                             "period: cylinders of the radius %g mm stand that close only up to "
+                             "%g mm; got %g mm",
+                             least, 1.9 * least, rc->period);
+    }
+    if (rc->gap == RB_GAP_WAVE)
+        return RB_OK;
+    rb_rolling_profile_range(rc->profile, &from, &to);
+    if (fabs(to - from - rc->period) > 1e-6 * rc->period)
+        return rb_fail(why, RB_EINVAL,
+                       "period: the table of the gap must be one period long, %g mm; it is %g mm",
+                       rc->period, to - from);
+    const double first = rb_rolling_profile_gap(rc->profile, from),
+                 last = rb_rolling_profile_gap(rc->profile, to);
+    return fabs(first - last) <= 1e-6 * fabs(mean_gap(rc)) + 1e-12 * rc->period
+               ? RB_OK
+               : rb_fail(why, RB_EINVAL,
+                         "period: the table of the gap must end as it begins, with %g mm; it ends "
+                         "with %g mm",
+                         first, last);
+}
+
+/* What belongs to one contact alone means nothing to many of them. */
+static rb_status check_alone(const rb_rolling_case *rc, rb_message *why)
+{
+    const struct {
+        int given;
+        const char *what, *instead;
+    } of_one[] = {
+        {rc->a.datum > 0.0 || rc->b.datum > 0.0, "datum",
+         "displacements are those from the mean line of the surface"},
+        {!isnan(rc->half_width), "half-width", "Hertz's is that of one contact; give --load"},
+        {rb_rolling_has_ellipse(rc), "wheel-load", "give --load"},
+        {rb_rolling_is_tilted(rc), isnan(rc->moment) ? "tilt" : "moment",
+         "neighbours hold the surface level"},
+        {rb_rolling_is_strained(rc), rc->bulk_stress != 0.0 ? "bulk-stress" : "bulk-stress-b",
+         "the mean strain of both bodies is the same"},
+        {rc->irregularity.n > 0, "irregularity", "put it into a table of the gap"},
+        {rc->worn.n > 0, "worn", "put it into a table of the gap"},
+        {rc->mesh != RB_MESH_UNIFORM, "mesh", "equal elements only (--mesh uniform)"}};
+
+    for (size_t k = 0; k < sizeof of_one / sizeof *of_one; k++)
+        if (of_one[k].given)
+            return rb_fail(why, RB_EINVAL, "%s: not with a period: %s", of_one[k].what,
+                           of_one[k].instead);
+    return RB_OK;
+}
+
+static rb_status check_wave(const rb_rolling_case *rc, rb_message *why)
+{
+    if (rc->gap != RB_GAP_WAVE)
+        return rc->amplitude > 0.0
+                   ? rb_fail(why, RB_EINVAL, "amplitude: that of a wave, add --gap wave")
+                   : RB_OK;
+    if (!(rc->period > 0.0) || !(rc->amplitude > 0.0))
+        return rb_fail(why, RB_EINVAL, "gap wave: needs --period and --amplitude");
+    if (isfinite(rc->b.radius))
+        return rb_fail(why, RB_EINVAL,
+                       "radius-b: a wave lies on a plane; a table of the gap knows other shapes");
+    if (isnan(rc->load) && isnan(rc->approach) && isnan(rc->max_pressure) &&
+        isnan(rc->half_width) && !rb_rolling_has_ellipse(rc))
+        return rb_fail(why, RB_EINVAL, "gap wave: give --load, --approach or --max-pressure");
+    return RB_OK;
+}
+
+/* (P1) */
+static rb_status check_period(const rb_rolling_case *rc, rb_message *why)
+{
+    rb_status s = check_wave(rc, why);
+
+    if (s != RB_OK || !(rc->period > 0.0))
+        return s;
+    if (rc->formulation != RB_STATIC)
+        return rb_fail(why, RB_EINVAL,
+                       "period: of bodies at rest only (--formulation static); what rolls over "
+                       "waves is never steady");
+    if (!rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC))
+        return rb_fail(why, RB_EINVAL,
+                       "period: of half-planes of one elastic material only (--support "
+                       "halfplane), without layer and relaxation");
+    if (rc->gap == RB_GAP_TABLE && !rc->profile)
+        return RB_OK; /* check_gap says so */
+    s = check_alone(rc, why);
+    if (s == RB_OK)
+        s = check_closed(rc, why);
+    const double approach = s == RB_OK ? rb_rolling_derive(rc).approach : NAN;
+    if (isnan(approach) || rc->interlayer_normal > 0.0) /* which the mean pressure compresses */
+        return s;
+    const double most = mean_gap(rc);
+    return approach < most ? RB_OK
+                           : rb_fail(why, RB_EINVAL,
+                                     "approach: at %g mm, the mean of the gap, nothing is open, "
+                                     "and only --load tells more; got %g mm",
+                                     most, approach);
+}
+
 /* The strip through the middle of an ellipse. */
 static rb_status check_ellipse(const rb_rolling_case *rc, rb_message *why)
 {
@@ -855,6 +1001,8 @@ static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
                  {"bulk-stress", rc->bulk_stress != 0.0 ? rc->bulk_stress : NAN},
                  {"bulk-stress-b", rc->bulk_stress_b != 0.0 ? rc->bulk_stress_b : NAN},
                  {"wheel-load", rc->wheel_load},
+                 {"period", rc->period > 0.0 ? rc->period : 1.0},
+                 {"amplitude", rc->gap == RB_GAP_WAVE ? rc->amplitude : 1.0},
                  {"transverse-radius", rc->transverse_radius},
                  {"transverse-radius-b", rc->transverse_radius_b},
                  {"speed", rc->speed != 0.0 ? rc->speed : NAN}};
@@ -870,10 +1018,11 @@ static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
 rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
 {
     static rb_status (*const checks[])(const rb_rolling_case *, rb_message *) = {
-        check_memory, check_heat,       rb_rolling_law_check, check_interlayer,
-        check_normal, check_tangential, check_bore,           check_gap,
-        check_bulk,   check_tilt,       check_ellipse,        check_irregularity,
-        check_worn,   check_increments, check_sizes,          check_mesh};
+        check_period,       check_memory, check_heat,       rb_rolling_law_check,
+        check_interlayer,   check_normal, check_tangential, check_bore,
+        check_gap,          check_bulk,   check_tilt,       check_ellipse,
+        check_irregularity, check_worn,   check_increments, check_sizes,
+        check_mesh};
     const rb_rolling_case defaults = rb_rolling_case_defaults();
     rb_status s = rb_rolling_check_ranges(rc, &defaults, why);
 

@@ -10,7 +10,8 @@
 
 static const rb_choice planes[] = {
     {"strain", RB_PLANE_STRAIN}, {"stress", RB_PLANE_STRESS}, {NULL, 0}};
-static const rb_choice gaps[] = {{"parabola", RB_GAP_PARABOLA}, {"exact", RB_GAP_EXACT}, {NULL, 0}};
+static const rb_choice gaps[] = {
+    {"parabola", RB_GAP_PARABOLA}, {"exact", RB_GAP_EXACT}, {"wave", RB_GAP_WAVE}, {NULL, 0}};
 static const rb_choice formulations[] = {
     {"static", RB_STATIC}, {"steady", RB_STEADY}, {"transient", RB_TRANSIENT}, {NULL, 0}};
 static const rb_choice meshes[] = {{"uniform", RB_MESH_UNIFORM},
@@ -154,6 +155,14 @@ const rb_option rb_case_table[] = {
         "standard deviation of the noise in the gap file; the gap is then the smoothest "
         "curve with this deviation from the points; 0: a cubic spline through the points",
         .frozen = 1),
+    RB_NUMBER_LINE("period", RC(period), "mm", RB_ABOVE(0),
+                   "static, elastic half-planes: length L after which the gap repeats itself; "
+                   "--load and --force are those of one period",
+                   .word = "none", .word_value = 0.0),
+    RB_NUMBER_LINE("amplitude", RC(amplitude), "mm", RB_ABOVE(0),
+                   "gap wave, D (1 - cos(2 pi x/L)): its amplitude D, half of the height from "
+                   "crest to trough",
+                   .word = "none", .word_value = 0.0),
     RB_TEXT_LINE("irregularity", PLACE(irregularity_file), "FILE",
                  "transient: rows x, gap [mm] of a flat (> 0) or a bump (< 0), which is "
                  "added to the gap and moves with the surface towards -x; x: its place "
@@ -490,7 +499,8 @@ rb_status rb_rolling_check_ranges(const rb_rolling_case *rc, const rb_rolling_ca
             ((of_a || of_b) && !rb_option_applies(o, of_b ? &rc->b : &rc->a)))
             continue;
         const double x = number_at(rc, o, at), unset = number_at(defaults, o, at);
-        if (at == RC(a.radius) && isinf(x) && rc->gap == RB_GAP_TABLE) /* a gap may have none */
+        if (at == RC(a.radius) && isinf(x) &&
+            rb_rolling_gap_has_shape(rc)) /* a gap may have none */
             continue;
         if (!rb_option_in_range(o, x) && !(o->word && x == o->word_value) && x != unset &&
             !(isnan(x) && isnan(unset)))

@@ -682,6 +682,8 @@ static void set_radius(rb_case *c)
 {
     rb_rolling_case *rc = &c->resolved.rc;
 
+    if (rc->gap == RB_GAP_WAVE)
+        rc->a.radius = INFINITY;
     if (rc->gap != RB_GAP_TABLE || rb_case_given(c, "radius") || !rb_rolling_can(rc, RB_BODY_FLAT))
         return;
     const double own = 1.0 / rb_rolling_profile_radius(rc->profile) - 1.0 / rc->b.radius;
@@ -834,6 +836,9 @@ static rb_status check_purpose(const rb_case *c, rb_message *why)
         {c->purpose == RB_CASE_STUDY && formulation == RB_TRANSIENT, "formulation",
          "a study needs static or steady cases"},
         {c->purpose == RB_CASE_WEAR && formulation == RB_TRANSIENT, "formulation", KINDS_OF_WEAR},
+        {c->purpose == RB_CASE_WEAR, "period", "wear is that of one contact alone"},
+        {c->resolved.rc.gap == RB_GAP_WAVE, "radius",
+         "that of a wave's crest follows from --period and --amplitude"},
         {c->purpose == RB_CASE_DESIGN && formulation == RB_TRANSIENT, "formulation", no_steps},
         {!curve && mus->n > 1, "mu",
          comma ? "expected one number, with a decimal point; a curve takes several"
@@ -908,6 +913,8 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
         s = check_purpose(c, why);
     if (s != RB_OK)
         return rb_case_locate(c, s, why);
+    if (c->resolved.rc.amplitude > 0.0 && !rb_case_given(c, "gap"))
+        c->resolved.rc.gap = RB_GAP_WAVE;
     set_radius(c);
     if (rb_rolling_has_ellipse(&c->resolved.rc) && !rb_case_given(c, "gap"))
         c->resolved.rc.gap = RB_GAP_PARABOLA;
@@ -936,7 +943,7 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     const int refined = c->resolved.accuracy > 0.0 && rb_rolling_carter_holds(rc) &&
                         rc->contact_elements >= LEAST_REFINED && !rb_case_given(c, "mesh");
     if (!rb_case_given(c, "mesh") && (rc->formulation == RB_STEADY || scales) && !paper &&
-        rc->zone == 0.0 && rc->gap != RB_GAP_TABLE && !c->resolved.worn_file)
+        rc->zone == 0.0 && rc->gap != RB_GAP_TABLE && !c->resolved.worn_file && rc->period == 0.0)
         rc->mesh = !many && !refined && rc->slip_operator == RB_SLIP_UPSTREAM ? RB_MESH_FITTED
                                                                               : RB_MESH_ALIGNED;
     if (!rb_case_given(c, "contact-elements") &&
@@ -949,7 +956,7 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     rb_rolling_case checked = c->resolved.rc;
     if (c->purpose == RB_CASE_SPEEDS)
         checked.speed = 1.0; /* the curve has its own */
-    s = rb_rolling_case_check(&checked, why);
+    s = rb_rolling_program_check_base(&c->resolved.program, &checked, why);
     if (s == RB_OK)
         s = follow_tables(c, why);
     if (!rb_case_given(c, "slip-operator") && rc->formulation == RB_STEADY &&

@@ -251,6 +251,12 @@ static void end_step(history_state *r, rb_status s)
     }
     if (h->mu)
         h->mu[k] = model->rc->mu;
+    if (h->bulk_stress)
+        h->bulk_stress[k] = model->rc->bulk_stress;
+    if (h->bulk_stress_b)
+        h->bulk_stress_b[k] = model->rc->bulk_stress_b;
+    if (h->tilt)
+        h->tilt[k] = model->rc->tilt;
     h->stick[k] = h->slipping[k] = 0;
     for (int i = 0; i < p->n; i++) {
         h->stick[k] += state->zone[i] == RB_ZONE_STICK;
@@ -679,7 +685,7 @@ static rb_status prepare(history_state *r, double zone, rb_message *why)
     if (s != RB_OK)
         return s;
     r->shift = 0.0;
-    model->mu_varies = r->program->mu != NULL;
+    model->varies = rb_rolling_program_varies(r->program);
     /* The unit of distances: the half-width of the largest load, of bodies that relax with
      * the glassy modulus; under a given approach of the load that the largest one
      * brings at rest.  Of a gap without a radius that of the contact at rest itself. */
@@ -739,8 +745,8 @@ static rb_status prepare(history_state *r, double zone, rb_message *why)
     s = rb_rolling_particles_create(&r->particles, why);
     if (s == RB_OK)
         s = rb_rolling_steady_create(model->mesh.n, &r->particles.memory, &r->steady);
-    return s == RB_OK ? rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc,
-                                                 model->mu_varies, r->rows, h)
+    return s == RB_OK ? rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc, model->varies,
+                                                 r->rows, h)
                       : s;
 }
 
@@ -756,7 +762,9 @@ static rb_status begin_program(history_state *r, const rb_rolling_case *rc, rb_m
     r->program = program ? program : &r->own;
     memset(r->model, 0, sizeof *r->model);
     /* a variant is nearly what was checked, and may be beyond a bound by as much */
-    rb_status s = r->is_variant ? RB_OK : rb_rolling_case_check(&whole, why);
+    rb_status s = r->is_variant ? RB_OK
+                  : program     ? rb_rolling_program_check_base(program, &whole, why)
+                                : rb_rolling_case_check(&whole, why);
     if (s == RB_OK && !program && rc->formulation == RB_TRANSIENT && rc->distance == 0.0)
         s = rb_fail(why, RB_EINVAL, "distance: expected > 0, got 0");
     if (s == RB_OK && !program) {

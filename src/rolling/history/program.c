@@ -41,6 +41,12 @@ static void replace(rb_rolling_case *rc, int c, double value)
     memcpy((char *)rc + rb_rolling_program_columns[c].value, &value, sizeof value);
 }
 
+unsigned rb_rolling_program_varies(const rb_rolling_program *program)
+{
+    return (program->mu ? RB_VARIES_MU : 0U) | (program->bulk_stress ? RB_VARIES_BULK : 0U) |
+           (program->bulk_stress_b ? RB_VARIES_BULK_B : 0U) | (program->tilt ? RB_VARIES_TILT : 0U);
+}
+
 /* ---- The case of a step ------------------------------------------------------------ */
 
 int rb_rolling_program_at_rest(const rb_rolling_program *program)
@@ -191,6 +197,23 @@ rb_rolling_case rb_rolling_program_base(const rb_rolling_program *program,
 }
 
 /* ---- Checks ------------------------------------------------------------------------ */
+
+rb_status rb_rolling_program_check_base(const rb_rolling_program *program,
+                                        const rb_rolling_case *rc, rb_message *why)
+{
+    rb_rolling_case pressed = *rc;
+    const double *column = program->load ? program->load : program->approach;
+    double most = 0.0;
+
+    /* a gap with a shape of its own has no approach unless one is given: here a column says it */
+    if (rb_rolling_gap_has_shape(rc) && isnan(rc->load) && isnan(rc->approach) && column) {
+        for (int r = 0; r < program->n; r++)
+            most = fmax(most, column[r]);
+        if (most > 0.0)
+            *(program->load ? &pressed.load : &pressed.approach) = most;
+    }
+    return rb_rolling_case_check(&pressed, why);
+}
 
 rb_status rb_rolling_program_check_case(const rb_rolling_case *rc, rb_message *why)
 {

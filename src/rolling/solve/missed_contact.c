@@ -264,7 +264,7 @@ static rb_status find_overlap(const rb_rolling_model *model, const rb_contact_st
     status = rb_rolling_gap_along(rc, mesh->passed, places, x, gap);
     if (status != RB_OK || places == 0)
         return status;
-    if (rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS)) {
+    if (rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS) && rc->period == 0.0) {
         /* Pressed half-planes are displaced the less the further away: between these ends
          * nowhere less than at that length from either.  A bound for wheels is not needed:
          * all their places cost one solve. */
@@ -353,9 +353,11 @@ rb_status rb_rolling_check_enclosed(const rb_rolling_model *model, const rb_cont
                                     rb_message *why)
 {
     rb_rolling_overlap overlap;
-    rb_status s = check_end(model, state, 0, why);
+    rb_status s = RB_OK;
 
-    if (s == RB_OK)
+    if (!rb_rolling_fills_period(model->rc, &model->mesh))
+        s = check_end(model, state, 0, why);
+    if (s == RB_OK && !rb_rolling_fills_period(model->rc, &model->mesh))
         s = check_end(model, state, 1, why);
     if (s == RB_OK)
         s = rb_rolling_find_overlap(model, state, &overlap);

@@ -30,6 +30,14 @@ double rb_rolling_edge_exponent(const rb_rolling_case *rc, double length,
                                : 0.5;
 }
 
+/* 1: the contact goes on at the other end of a period. */
+static int goes_on(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                   const rb_contact_state *state, int open)
+{
+    return rb_rolling_fills_period(rc, mesh) && (open < 0 || open >= mesh->n) &&
+           state->zone[0] != RB_ZONE_SEPARATED && state->zone[mesh->n - 1] != RB_ZONE_SEPARATED;
+}
+
 /* The edge of the run whose outermost element on that side is `outer`.  This element is
  * only partly in contact, so the power law goes through the next two, or where it is
  * steep through the two behind its neighbour, which then is disturbed too.  Contact is
@@ -46,6 +54,8 @@ static double edge(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
     const double farthest = open >= 0 && open < mesh->n ? midpoint(mesh, open) : end;
     int j = outer - side;
 
+    if (goes_on(rc, mesh, state, open))
+        return end;
     if (run->last - run->first + 1 < RB_ROLLING_PATCH_LEAST) {
         run->bounded |= bounded;
         return end;
@@ -235,6 +245,9 @@ rb_status rb_rolling_set_patches(const rb_rolling_model *model, rb_rolling_solut
         s->patch[s->patches++] = patch;
     }
     s->half_width = 0.5 * (s->contact_to - s->contact_from);
+    s->contact_share = model->rc->period > 0.0 ? 0.0 : NAN;
+    for (int k = 0; k < s->patches && model->rc->period > 0.0; k++)
+        s->contact_share += (s->patch[k].to - s->patch[k].from) / model->rc->period;
     return RB_OK;
 }
 

@@ -54,6 +54,16 @@ static const rb_rolling_result scalars[] = {
     RESULT("strip_radius", ellipse.radius, .unit = "mm", .no_derivative = 1,
            .condition = RB_FOR_ELLIPSE,
            .meaning = "E* a/(2 p0): radius of a cylinder with this a and p0, not that of rolling"),
+    RESULT("ellipse_force", ellipse_force, .unit = "N", .no_derivative = 1,
+           .condition = RB_FOR_ELLIPSE,
+           .meaning = "Q of the whole ellipse by strips, steady rolling of alike bodies"),
+    RESULT("ellipse_force_kalker", ellipse_force_kalker, .unit = "N", .no_derivative = 1,
+           .condition = RB_FOR_ELLIPSE,
+           .meaning = "the same with the slope of Kalker's C11, a/b from 0.1 to 10"),
+    RESULT("mean_pressure", mean_pressure, .unit = "MPa", .no_derivative = 1,
+           .condition = RB_FOR_PERIOD, .meaning = "P over the period, with --period"),
+    RESULT("contact_share", contact_share, .no_derivative = 1, .condition = RB_FOR_PERIOD,
+           .meaning = "part of the period in contact, 2a/L of one contact"),
     RESULT("tilt", tilt, .no_derivative = 1, .condition = RB_FOR_TILT,
            .meaning = "of A, with --tilt or --moment"),
     RESULT("creepage", creepage, .error_bar = RB_SCALE_CREEPAGE, .study = 5, .meaning = "xi"),
@@ -195,6 +205,13 @@ static const rb_rolling_result steps[] = {
          .meaning = "work that bodies which relax have lost so far"),
     STEP("mu", mu, .unit = "1", .condition = RB_FOR_WAY,
          .meaning = "coefficient of friction at the end of the step"),
+    STEP("bulk_stress", bulk_stress, .no_derivative = 1, .unit = "MPa",
+         .condition = RB_FOR_BULK_WAY,
+         .meaning = "of A at the end of the step, where the history has the column"),
+    STEP("bulk_stress_b", bulk_stress_b, .no_derivative = 1, .unit = "MPa",
+         .condition = RB_FOR_BULK_B_WAY, .meaning = "likewise of B"),
+    STEP("tilt", tilt, .no_derivative = 1, .condition = RB_FOR_TILT_WAY,
+         .meaning = "of A at the end of the step, where the history has the column"),
     STEP("torque_a", torque_a, .unit = "N", .error_bar = RB_SCALE_ONE,
          .meaning = "on A's axle, > 0 the way A rolls"),
     STEP("torque_b", torque_b, .unit = "N", .error_bar = RB_SCALE_ONE,
@@ -390,7 +407,7 @@ double *rb_rolling_column(const rb_rolling_result *r, const void *owner)
     return column;
 }
 
-int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc, int mu_varies)
+int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc, unsigned varies)
 {
     switch (r->condition) {
     case RB_FOR_HEAT:
@@ -398,11 +415,20 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc,
     case RB_FOR_WORN:
         return rc->worn.n > 0;
     case RB_FOR_LAW:
-        return rc->friction.law != RB_FRICTION_constant || rc->friction.heat != 0.0 || mu_varies;
+        return rc->friction.law != RB_FRICTION_constant || rc->friction.heat != 0.0 ||
+               varies & RB_VARIES_MU;
     case RB_FOR_MOVING_LAW:
         return rb_rolling_law_depends_on_state(rc) && rc->formulation != RB_STATIC;
     case RB_FOR_WAY:
-        return mu_varies;
+        return (varies & RB_VARIES_MU) != 0;
+    case RB_FOR_BULK_WAY:
+        return (varies & RB_VARIES_BULK) != 0;
+    case RB_FOR_BULK_B_WAY:
+        return (varies & RB_VARIES_BULK_B) != 0;
+    case RB_FOR_TILT_WAY:
+        return (varies & RB_VARIES_TILT) != 0;
+    case RB_FOR_PERIOD:
+        return rc->period > 0.0;
     case RB_FOR_MEMORY:
         return rb_rolling_relaxes(rc);
     case RB_FOR_YIELD:
@@ -586,12 +612,12 @@ rb_rolling_solution rb_rolling_scalars_of(const rb_rolling_solution *from)
 }
 
 rb_status rb_rolling_columns_alloc(const rb_rolling_results *table, const rb_rolling_case *rc,
-                                   int mu_varies, int rows, void *owner)
+                                   unsigned varies, int rows, void *owner)
 {
     rb_status s = RB_OK;
     for (int k = 0; k < table->n; k++) {
         const rb_rolling_result *r = &table->row[k];
-        if (!rb_rolling_has_result(r, rc, mu_varies))
+        if (!rb_rolling_has_result(r, rc, varies))
             continue;
         void *column = r->kind == RB_RESULT_WHOLE ? (void *)rb_alloc_int((size_t)rows)
                                                   : rb_alloc((size_t)rows, 1);

@@ -12,7 +12,7 @@ rb_rolling_row rb_rolling_no_row(rb_status status);
 /* Zeros for every column of the table that the case has; the owner's others stay NULL.
  * What there is on RB_ENOMEM is freed as if it were complete. */
 rb_status rb_rolling_columns_alloc(const rb_rolling_results *table, const rb_rolling_case *rc,
-                                   int mu_varies, int rows, void *owner);
+                                   unsigned varies, int rows, void *owner);
 void rb_rolling_columns_free(const rb_rolling_results *table, void *owner);
 
 /* ---- solution.c -------------------------------------------------------------------- */

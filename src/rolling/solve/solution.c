@@ -94,6 +94,7 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
     s->tangential_load = rb_rolling_model_force(model);
     s->load_error = p->load_given ? fabs(s->normal_load - p->load) / p->load : NAN;
     s->hertz_half_width = rb_rolling_has_radius(model->rc) ? model->half_width : NAN;
+    s->mean_pressure = model->rc->period > 0.0 ? s->normal_load / model->rc->period : NAN;
     s->datum = rb_rolling_datum(model->rc, &model->rc->a);
     s->approach = model->state.delta;
     s->ellipse = model->rc->ellipse.radius > 0.0 ? model->rc->ellipse
@@ -112,6 +113,10 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
     }
     s->force_ratio = rb_rolling_force_ratio(model);
     s->creep_ratio = rb_rolling_ratio_of_creepage(model, s->creepage);
+    s->ellipse_force = s->ellipse_force_kalker = NAN;
+    if (rb_rolling_ellipse_slides_alike(model->rc))
+        rb_rolling_ellipse_forces(model->rc, s->creep_ratio, &s->ellipse_force,
+                                  &s->ellipse_force_kalker);
 }
 
 /* ---- All together ------------------------------------------------------------------ */
@@ -229,7 +234,7 @@ rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_sol
     memset(s, 0, sizeof *s);
     s->n = model->mesh.n;
     rb_status status = rb_rolling_columns_alloc(&rb_rolling_solution_columns, model->rc,
-                                                model->mu_varies, model->mesh.n, s);
+                                                model->varies, model->mesh.n, s);
 
     if (status == RB_OK) {
         s->formulation = model->rc->formulation;

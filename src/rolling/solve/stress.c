@@ -45,6 +45,10 @@ rb_status rb_rolling_stress_check(const rb_rolling_case *rc, rb_message *why)
 {
     if (!rb_rolling_body_can(&rc->a, RB_BODY_STRESS))
         return rb_fail(why, RB_EINVAL, "stress: inside such a body it is not known");
+    if (rc->period > 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "stress: below contacts that repeat themselves it is not computed; take one "
+                       "contact alone, without --period");
     if (rb_rolling_has_elastic_core(&rc->a) &&
         rb_rolling_material(rc, &rc->a).poisson > RB_ROLLING_COMPRESSIBLE)
         return rb_fail(why, RB_EINVAL,

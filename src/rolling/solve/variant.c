@@ -336,7 +336,7 @@ static rb_status create(const rb_rolling_model *of, const rb_rolling_case *rc, i
     plan.compression = RB_ROLLING_CLOSE;
     rb_status s = rb_rolling_model_begin(rc, NULL, v, why);
     v->equal_instead = of->equal_instead;
-    v->mu_varies = of->mu_varies;
+    v->varies = of->varies;
     if (s == RB_OK && shares)
         return borrow_rows(of, v);
     if (s == RB_OK)
