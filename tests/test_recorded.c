@@ -4,8 +4,8 @@
  *
  * A file of tests/recorded is a shell line, where $R is the program and $EXAMPLES the
  * folder examples, and what came of it. ROLLBEM_RECORD=1 build/tests/test_recorded writes
- * all of them anew: look at the difference and name the reason when you commit it.  Run
- * from the project's root; B: the build. */
+ * all of them anew, or those named: look at the difference and name the reason when you commit it.
+ * Run from the project's root; B: the build. */
 #include "cli_run.h"
 
 #include <ctype.h>
@@ -127,8 +127,8 @@ static void record_is_met(void **state)
     }
 }
 
-/* A test for every record. */
-int main(void)
+/* A test for every record, or for those of this name, which may have * and ?. */
+int main(int argc, char **argv)
 {
     enum { ENOUGH = 200 };
     static struct CMUnitTest tests[ENOUGH];
@@ -139,6 +139,8 @@ int main(void)
     snprintf(records, sizeof records, "%s/tests/recorded", here);
     snprintf(examples, sizeof examples, "%s/examples", here);
     setenv("EXAMPLES", examples, 1);
+    if (argc > 1)
+        cmocka_set_test_filter(argv[1]);
     DIR *dir = opendir(records);
     for (const struct dirent *e; dir && n < ENOUGH && (e = readdir(dir)) != NULL;)
         if (e->d_name[0] != '.') {
