@@ -57,6 +57,34 @@ TEST(contacts_of_hertz)
     assert_true(heavy.constraint[1].value > 0.1);
 }
 
+/* The least radius, and the largest load, that a pressure allows; each has to be varied. */
+TEST(an_input_is_the_objective)
+{
+    OWNED(rb_case_result) r;
+    held_case *c = case_of(hertz);
+    assert_int_equal(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard), RB_OK);
+    const double p0 = r.solution.max_pressure;
+    char most[60];
+    snprintf(most, sizeof most, "max_pressure<=%.17g", 1.25 * p0);
+
+    OWNED(rb_design) least = {.n = 0};
+    CHECK_OK(design(c, "radius", "radius=20:200", most, &least, &heard));
+    CHECK_REL(least.value, 50.0 / (1.25 * 1.25), 1e-5, "R by p0");
+    CHECK_REL(least.variable[0].value, least.value, 1e-15, "the input itself");
+    CHECK_REL(least.start, 50.0, 1e-15, "where it began");
+    assert_string_equal(rb_design_name(&least), "radius");
+    assert_string_equal(rb_design_unit(&least), "mm");
+
+    OWNED(rb_design) heavy = {.n = 0, .largest = 1};
+    CHECK_OK(design(c, "load", "radius=20:80,load=100:9000", most, &heavy, &heard));
+    CHECK_REL(heavy.value, 500.0 * 1.25 * 1.25 * 80.0 / 50.0, 1e-5, "P by p0 and R");
+
+    OWNED(rb_design) other = {.n = 0};
+    rb_message why;
+    CHECK_STATUS(design(c, "radius", "load=100:9000", most, &other, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "add radius=A:B to --over"));
+}
+
 /* Beyond 700 N/mm the contact leaves its zone: the search stays where solutions are, and
  * says why it does not go on. */
 TEST(search_stays_where_solutions_are)

@@ -54,9 +54,36 @@ static rb_status find_result(const char *name, const rb_rolling_result **result,
     return rb_fail(why, RB_EINVAL, "design: %s", reason.text);
 }
 
+const char *rb_design_name(const rb_design *d)
+{
+    return d->input ? d->input->name : rb_design_result_name(d->result);
+}
+
+const char *rb_design_unit(const rb_design *d)
+{
+    return d->input ? d->input->unit : d->result ? d->result->unit : NULL;
+}
+
 rb_status rb_design_objective(const char *name, rb_design *d, rb_message *why)
 {
-    return find_result(name, &d->result, why);
+    const rb_status s = find_result(name, &d->result, why);
+    const rb_option *o = rb_case_option(name);
+
+    d->input = s != RB_OK && o && o->kind == RB_OPTION_NUMBER ? o : NULL;
+    return d->input ? RB_OK : s;
+}
+
+/* The input that is the objective has to be one of the variables. */
+static rb_status find_input(rb_design *d, rb_message *why)
+{
+    for (d->input_at = 0; d->input && d->input_at < d->n; d->input_at++)
+        if (strcmp(d->variable[d->input_at].name, d->input->name) == 0)
+            return RB_OK;
+    return !d->input ? RB_OK
+                     : rb_fail(why, RB_EINVAL,
+                               "design: %s is no result, and an input has to be varied: add %s=A:B "
+                               "to --over",
+                               d->input->name, d->input->name);
 }
 
 rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d, rb_message *why)
@@ -181,7 +208,9 @@ rb_status rb_design_variables(const rb_case *c, const char *text, rb_design *d, 
             s = add_variables(c, numbers, number, word, range, d, why);
     }
     free(number);
-    return s == RB_OK && d->n == 0 ? rb_fail(why, RB_EINVAL, "design: needs --over NAME=A:B") : s;
+    if (s == RB_OK && d->n == 0)
+        s = rb_fail(why, RB_EINVAL, "design: needs --over NAME=A:B");
+    return s == RB_OK ? find_input(d, why) : s;
 }
 
 /* ---- The case as a function -------------------------------------------------------- */
@@ -317,6 +346,7 @@ static rb_status differentiate(problem *p, const rb_case *at, const rb_rolling_c
         status = rb_sensitivity_differentiate(s, &input, &by, p->why);
         if (status == RB_OK)
             read_functions(d, solution, &by.value[by.has[0] ? 0 : 1], &p->gradient[j], d->n);
+        p->gradient[j] = d->input ? j == d->input_at : p->gradient[j];
         rb_sensitivity_derivative_free(&by);
         forget_profiles(p, d->gap_n > 0 ? 1 : 0); /* the first one is that of x */
     }
@@ -331,7 +361,8 @@ static rb_status check_known(problem *p, rb_rolling_formulation formulation)
     const rb_design *d = p->d;
 
     for (int k = 0; k <= d->constraints; k++) {
-        const char *name = rb_design_result_name(k == 0 ? d->result : d->constraint[k - 1].result);
+        const char *name =
+            k == 0 ? rb_design_name(d) : rb_design_result_name(d->constraint[k - 1].result);
         if (isnan(p->value[k]))
             return rb_fail(p->why, RB_EINVAL, "design: this %scase has no %s%s",
                            formulation == RB_STATIC ? "static " : "", name,
@@ -370,6 +401,7 @@ static rb_status evaluate(problem *p, const double *x)
         s = rb_rolling_solve_model(&rc, &model, &solution, p->why);
     if (s == RB_OK) {
         read_functions(d, &solution, NULL, p->value, 1);
+        p->value[0] = d->input ? x[d->input_at] : p->value[0];
         s = differentiate(p, at, &rc, &model, &solution);
         s = s == RB_OK ? check_known(p, rc.formulation) : s;
     }
@@ -480,7 +512,8 @@ static rb_status search(problem *p)
     p->status = evaluate(p, p->best); /* the start, for its size */
     if (p->status == RB_OK) {
         p->known = 1;
-        f[0].scale /= fmax(fabs(d->result ? p->value[0] : p->value[0] * p->value[0]), 1e-300);
+        f[0].scale /=
+            fmax(fabs(d->result || d->input ? p->value[0] : p->value[0] * p->value[0]), 1e-300);
         /* A step without progress may end a search early: again from the best. */
         nlopt_result r = NLOPT_FTOL_REACHED;
         double before = INFINITY;

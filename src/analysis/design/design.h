@@ -27,7 +27,9 @@ typedef struct {
 } rb_design_constraint;
 
 typedef struct {
-    const rb_rolling_result *result; /* NULL: the ripple */
+    const rb_rolling_result *result; /* NULL: the ripple, or the input */
+    const rb_option *input;          /* a number of the case that is varied; NULL: a result */
+    int input_at;                    /* its variable */
     int largest;                     /* 1: maximise, 0: minimise */
     int n;
     rb_design_variable *variable; /* n; owned */
@@ -49,11 +51,16 @@ typedef struct {
 rb_status rb_design_variables(const rb_case *c, const char *text, rb_design *d, rb_message *why);
 /* Reads constraints, for example "max_pressure<=400,tangential_load>=-50". */
 rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d, rb_message *why);
-/* Sets the objective: a result that has derivatives, or "pressure_ripple". */
+/* Sets the objective: a result that has derivatives, "pressure_ripple", or a number of the case
+ * that rb_design_variables, called afterwards, finds among the variables. */
 rb_status rb_design_objective(const char *name, rb_design *d, rb_message *why);
 
 /* The name of a result, where NULL is the ripple. */
 const char *rb_design_result_name(const rb_rolling_result *result);
+
+/* The name and the unit of the objective; unit NULL: none. */
+const char *rb_design_name(const rb_design *d);
+const char *rb_design_unit(const rb_design *d);
 
 /* Called after each evaluation; a return value other than 0 ends the search. */
 typedef struct {

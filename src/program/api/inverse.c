@@ -234,8 +234,8 @@ static rb_status keep_design(rb_api *a, const rb_design *d, rb_units units)
     const struct {
         const char *name;
         double value;
-    } numbers[] = {{"design.result", shown(d->result, units, d->value)},
-                   {"design.result.start", shown(d->result, units, d->start)},
+    } numbers[] = {{"design.result", rb_unit_shown(units, rb_design_unit(d), d->value)},
+                   {"design.result.start", rb_unit_shown(units, rb_design_unit(d), d->start)},
                    {"design.evaluations", d->evaluations}};
     rb_status s = keep_names(a, d);
 

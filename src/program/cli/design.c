@@ -23,10 +23,12 @@ typedef struct {
 
 static const rb_option options[] = {
     RB_GROUP_LINE("design", "What is designed"),
-    RB_TEXT_LINE("minimise", PLACE(least), "RESULT",
-                 "a result of the summary, or pressure_ripple: root mean square deviation of the "
-                 "pressure from its mean over all elements, divided by the mean",
-                 .unset = "none"),
+    RB_TEXT_LINE(
+        "minimise", PLACE(least), "RESULT",
+        "a result of the summary, or pressure_ripple: root mean square deviation of the "
+        "pressure from its mean over all elements, divided by the mean; or a number of the "
+        "case that --over varies",
+        .unset = "none"),
     RB_TEXT_LINE("maximise", PLACE(largest), "RESULT", "the same, maximised", .unset = "none"),
     RB_TEXT_LINE("over", PLACE(over), "NAME=A:B,...",
                  "numbers of the case by their options, with bounds; gap=A:B: every value of the "
@@ -49,6 +51,8 @@ static const char about[] =
 static const char notes[] =
     "Example: rollbem design --support halfplane --similar --load 500 \\\n"
     "           --minimise max_pressure --over radius=20:200\n"
+    "         the least radius: --minimise radius --over radius=20:200 --subject "
+    "'max_pressure<=600'\n"
     "\nExit codes: 0 found; 1 not at rest, or constraints that cannot be met; 64, 65, 66,\n"
     "70, 73 as of the other commands.\n";
 
@@ -66,20 +70,20 @@ static void add_json(const cli_case_run *run, json_t **root)
 /* "" of a pure number. */
 static const char *unit_of(const rb_design *d, rb_units units)
 {
-    const char *unit = d->result && d->result->unit ? d->result->unit : "1";
-    return strcmp(unit, "1") != 0 ? rb_unit_name(units, unit) : "";
+    const char *unit = rb_design_unit(d) ? rb_design_unit(d) : "1";
+    return strcmp(unit, "1") != 0 && strcmp(unit, "-") != 0 ? rb_unit_name(units, unit) : "";
 }
 
 static void summarise(FILE *out, const cli_case_run *run)
 {
     const rb_design *d = &((const designing *)run->own)->design;
     const rb_units units = run->c->units;
-    const char *unit = d->result ? d->result->unit : NULL, *name = unit_of(d, units);
+    const char *unit = rb_design_unit(d), *name = unit_of(d, units);
     if (d->status == RB_OK)
         fprintf(out, "design: %s %.6g%s%s, at the start %.6g%s%s, %d evaluation%s\n",
-                rb_design_result_name(d->result), rb_unit_shown(units, unit, d->value),
-                *name ? " " : "", name, rb_unit_shown(units, unit, d->start), *name ? " " : "",
-                name, d->evaluations, rb_plural(d->evaluations));
+                rb_design_name(d), rb_unit_shown(units, unit, d->value), *name ? " " : "", name,
+                rb_unit_shown(units, unit, d->start), *name ? " " : "", name, d->evaluations,
+                rb_plural(d->evaluations));
 }
 
 static int report_evaluation(int evaluation, double value, const double *x, void *context)
@@ -88,8 +92,8 @@ static int report_evaluation(int evaluation, double value, const double *x, void
     const rb_design *d = &f->design;
     if (f->tells) {
         cli_wait_rest();
-        fprintf(stderr, "evaluation %d: %s %.8g", evaluation, rb_design_result_name(d->result),
-                rb_unit_shown(f->units, d->result ? d->result->unit : NULL, value));
+        fprintf(stderr, "evaluation %d: %s %.8g", evaluation, rb_design_name(d),
+                rb_unit_shown(f->units, rb_design_unit(d), value));
         for (int j = 0; j < d->n && j < 4; j++)
             fprintf(stderr, " %s=%.6g", d->variable[j].name,
                     rb_unit_shown(f->units, d->variable[j].unit, x[j]));

@@ -18,10 +18,9 @@ rb_status rb_report_design_table(FILE *out, const rb_design *d, rb_units units, 
 
     rb_report_comment_origin(&c, command);
     rb_report_comment(&c, "%s %s: %.10g, at the start %.10g [%s]", d->largest ? "largest" : "least",
-                      rb_design_result_name(d->result),
-                      rb_unit_shown(units, unit_of_result(d->result), d->value),
-                      rb_unit_shown(units, unit_of_result(d->result), d->start),
-                      rb_report_unit_name(units, unit_of_result(d->result)));
+                      rb_design_name(d), rb_unit_shown(units, rb_design_unit(d), d->value),
+                      rb_unit_shown(units, rb_design_unit(d), d->start),
+                      rb_report_unit_name(units, rb_design_unit(d)));
     for (int k = 0; k < d->constraints; k++) {
         const rb_design_constraint *k_ = &d->constraint[k];
         const char *unit = unit_of_result(k_->result);
@@ -52,10 +51,10 @@ static json_t *number(rb_units units, const char *unit, double x)
 
 void rb_report_json_design(json_t **root, const rb_design *d, rb_units units)
 {
-    const char *unit = unit_of_result(d->result);
+    const char *unit = rb_design_unit(d);
     json_t *design = json_object(), *variables = json_object(), *all = json_array();
 
-    rb_report_json_set(&design, "result", json_string(rb_design_result_name(d->result)));
+    rb_report_json_set(&design, "result", json_string(rb_design_name(d)));
     rb_report_json_set(&design, "largest", json_boolean(d->largest));
     rb_report_json_set(&design, "unit", json_string(rb_report_unit_name(units, unit)));
     rb_report_json_set(&design, "start", number(units, unit, d->start));
