@@ -4,7 +4,8 @@
     formula CHAPTER.TAG  a function of this folder
     by COMMAND           what takes too long, or needs what is not here: not run, but it must exist
     OPTIONS | EXPRESSION; EXPRESSION ...
-                         run by the program; an expression has the names of the summary in JSON.  N in 1 2:
+                         run by the program, OPTIONS with a command before them or not; an expression has
+                         the names of the summary in JSON, of a crack those of its contact, too.  N in 1 2:
                          before it stands for two lines with {N}.  Each value must stand in the table or
                          the paragraph below, and each figure of the table must be one of them.
     turns                before such lines: a quarter of them is run each day, all with ROLLBEM_TEST_ALL."""
@@ -14,6 +15,7 @@ import math
 import os
 import re
 import subprocess
+import sys
 
 FIGURE = re.compile(r"(?<![\w.])[-+]?(?:\d+\.\d+|\.\d+|\d+)(?:e[-+]?\d+)?(?![\w])")
 COMMENT = re.compile(r"^ *<!-- figures: (.*?) -->\n", re.S | re.M)
@@ -48,10 +50,11 @@ def commands(comment):
 
 
 def summary(options):
-    printed = subprocess.run([os.environ.get("ROLLBEM", "build/rollbem"), "--json", "--quiet", *options.split()],
+    printed = subprocess.run([os.environ.get("ROLLBEM", "build/rollbem"), *options.split(), "--json", "--quiet"],
                              capture_output=True, text=True)
     assert printed.stdout, f"{options}: {printed.stderr}"
-    return {name: x for name, x in json.loads(printed.stdout)["summary"].items() if isinstance(x, (int, float))}
+    root = json.loads(printed.stdout)
+    return {name: x for name, x in [*root.get("contact", {}).items(), *root["summary"].items()] if isinstance(x, (int, float))}
 
 
 def check(page, comment, block):
@@ -127,7 +130,7 @@ if wrong:
     failed = 1
     print("\n".join(wrong))
 print("[  FAILED  ]" if wrong else "[       OK ]", "docs/course/lecturers.md")
-for page in sorted(glob.glob("docs/*.md")):
+for page in sys.argv[1:] or sorted(glob.glob("docs/*.md")):
     text, wrong, checks = open(page).read(), [], 0
     commented = set()
     for m in COMMENT.finditer(text):
