@@ -1,6 +1,8 @@
-/* Chapter 4: the stress below the contact of the first screen, coarse while a hand moves something; its largest value
+/* Chapter 6: the stress below the contact of the first screen, coarse while a hand moves something; its largest value
  * and the place of it are the library's own. */
 import { card, height_for, html, segments, show, show_notes, svg, ticks, width_of } from "./draw.js";
+import { draw_lens, fit_lens } from "./lens.js";
+import { svg_pen } from "./pen.js";
 import { ALL_TANGENTIAL, formulation_of, hold, plain } from "./state.js";
 import { fill_in } from "./words.js";
 
@@ -18,6 +20,7 @@ const SCALE = [
     [244, 214, 96],
     [250, 240, 200],
 ];
+const WHEEL = 0.3; /* what of the picture the wheel takes, above the stress in the ground */
 const SKIDS = [0, 0.1, 0.2, 0.3, 0.4]; /* 0: it rolls freely */
 const NEAR = 0.2; /* half-widths: a guess that is right */
 
@@ -248,25 +251,26 @@ export function below_view(words, page) {
         const width = width_of(picture),
             left = 52,
             right = 10,
-            inner = width - left - right,
-            top = 12;
+            inner = width - left - right;
         const x0 = xs[0],
             x1 = xs[nx - 1],
             depth = Math.max(...ys) - Math.min(...ys),
-            height = height_for(Math.min(520, (inner * depth) / (x1 - x0)), 130, 150);
+            height = height_for(Math.min(420, (inner * depth) / (x1 - x0)) / (1 - WHEEL), 130, 190) * (1 - WHEEL),
+            top = (height * WHEEL) / (1 - WHEEL);
         const most = largest(name);
         if (!scale || (!store.holding && (most.value > scale || most.value < 0.6 * scale)))
             scale = nice_above(most.value || 1);
         const X = (x) => left + ((x - x0) / (x1 - x0)) * inner,
             Y = (d) => top + (d / depth) * height;
         const root = svg("svg", {
-            viewBox: `0 0 ${width} ${height + 62}`,
+            viewBox: `0 0 ${width} ${top + height + 50}`,
             width,
-            height: height + 62,
+            height: top + height + 50,
             role: "img",
             "aria-label": revealed ? words.below_alt : w.guess_alt,
         });
         place = { X, Y, x0, x1, depth, left, inner, top, height, width };
+        root.append(wheel_above({ x: left, y: 1, w: inner, h: top + height - 1 }, top, x0, x1));
         if (revealed) {
             const pixels = store.holding ? 260 : 560,
                 tall = Math.max(20, Math.round((height * pixels) / inner));
@@ -284,17 +288,17 @@ export function below_view(words, page) {
                     preserveAspectRatio: "none",
                 }),
             );
-        } else root.append(svg("rect", { x: left, y: top, width: inner, height, style: "fill:var(--body-a)" }));
+        } else root.append(svg("rect", { x: left, y: top, width: inner, height, style: "fill:var(--body-b)" }));
         for (const v of ticks(x0, x1, Math.max(4, width / 110)))
-            root.append(svg("text", { x: X(v), y: height + 34, "text-anchor": "middle", class: "soft" }, show(v, 3)));
+            root.append(
+                svg("text", { x: X(v), y: top + height + 18, "text-anchor": "middle", class: "soft" }, show(v, 3)),
+            );
         for (const v of ticks(0, depth, 5))
             root.append(svg("text", { x: left - 8, y: Y(v) + 5, "text-anchor": "end", class: "soft" }, show(v, 3)));
         root.append(
-            svg("text", { x: width - right, y: height + 54, "text-anchor": "end", class: "soft" }, words.x_axis),
-            svg("text", { x: left, y: height + 54, class: "soft" }, "↓ " + words.depth),
+            svg("text", { x: width - right, y: top + height + 40, "text-anchor": "end", class: "soft" }, words.x_axis),
+            svg("text", { x: left, y: top + height + 40, class: "soft" }, "↓ " + words.depth),
         );
-        const { contact_from: from, contact_to: to } = data.numbers;
-        root.append(svg("path", { d: `M${X(from)} ${top - 3}H${X(to)}`, style: "stroke:var(--ink);stroke-width:6" }));
         const mark = (x, y, style) => [
             svg("circle", { cx: x, cy: y, r: 9, style: "fill:none;stroke:#fff;stroke-width:5" }),
             svg("circle", { cx: x, cy: y, r: 9, style }),
@@ -348,6 +352,35 @@ export function below_view(words, page) {
             .filter(Boolean)
             .join(" ");
         draw_table();
+    }
+    /* The wheel's half of the lens, with a plane surface as the map of the stress has it. */
+    function wheel_above(box, top, x0, x1) {
+        const pen = svg_pen(width_of(picture), box.h + 2, (name) => `var(--${name})`),
+            flat = { x: [x0, x1], gap: [0, 0], un: [0, 0] },
+            n = data.numbers;
+        draw_lens(pen, box, {
+            answer: data,
+            shape: { numbers: n, columns: flat },
+            share: 0,
+            bend: Infinity,
+            fit: { ...fit_lens(data), window: [x0, x1], lift: 1, press: (0.5 / WHEEL) * n.max_pressure },
+            way: 0,
+            large: page.large(),
+            middle: (top - box.y) / box.h,
+            words: {
+                wide: "",
+                press: fill_in(words.hero.press, { p0: show(n.max_pressure, 3) }),
+                stick: words.hero.sticks,
+                slip: words.hero.slips,
+                enters: "",
+                friction: "",
+                moves: "",
+            },
+        });
+        return document.importNode(
+            new DOMParser().parseFromString(pen.end(null), "image/svg+xml").documentElement,
+            true,
+        );
     }
     /* A point is marked by pointer, or by arrow keys and Enter. */
     function make_guessable(root) {
@@ -442,6 +475,7 @@ export function below_view(words, page) {
         take,
         resize: draw_anew,
         reveal,
+        is_deep: () => Boolean(data) && largest("max_shear").depth > 0.02 * data.numbers.half_width,
         data: () => data,
         shown: () => revealed,
     };

@@ -30,6 +30,7 @@ const PAGE = [
     "matrices.js",
     "step.js",
     "crack.js",
+    "classroom.js",
     "main.js",
 ];
 const LIMIT = 800e3;

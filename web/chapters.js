@@ -1,8 +1,9 @@
 /* Press, Brake and A soft wheel: each asks first, then answers with what the library has solved, then leaves it to the hand. */
-import { SIDE_BY_SIDE, card, height_for, html, show, show_notes, width_of } from "./draw.js";
-import { creep_curve, curve_request, scaled, tractions_legend, tractions_picture } from "./contact.js";
+import { SIDE_BY_SIDE, card, height_for, html, in_slides, show, show_notes, width_of } from "./draw.js";
+import { creep_curve, curve_request, tractions_legend, tractions_picture } from "./contact.js";
 import { ALL_TANGENTIAL, NORMAL, PRESETS, hold, plain } from "./state.js";
 import { slip_share } from "./hero.js";
+import { fit_lens, lens_figure, shape_of } from "./lens.js";
 import { fill_in } from "./words.js";
 
 const FREE = { ...PRESETS.rail, "creep-ratio": "0" };
@@ -62,10 +63,12 @@ const layout = (tale, after, ...figure) =>
     );
 
 /* Of two figures in one window beside the text; on a phone the first one stays in sight. */
-const beside = (wanted, around, least) =>
-    matchMedia(SIDE_BY_SIDE).matches
-        ? height_for(Math.min(wanted, 0.5 * (innerHeight - 180) + 30 - around), 0, least)
-        : height_for(wanted, around, least);
+const beside = (wanted, around, least = 130) =>
+    in_slides()
+        ? Math.max(least, Math.round((innerHeight - 236) / 2))
+        : matchMedia(SIDE_BY_SIDE).matches
+          ? height_for(Math.min(wanted, 0.5 * (innerHeight - 180) + 30 - around), 0, least)
+          : height_for(wanted, around, least);
 
 /* What a chapter tells where its case was not solved; grey. */
 function grey(node, page, name) {
@@ -74,7 +77,38 @@ function grey(node, page, name) {
     return trouble ? fill_in(page.words.refused, { why: trouble }) : "";
 }
 
+/* The lens of a chapter: so high that it and what else its card holds stand in one window. */
+const lens_height = (wide, around) => height_for(Math.min(440, Math.max(230, wide * 0.5)), around, 150);
+
 /* ---- Press ----------------------------------------------------------------------- */
+
+const BESIDE = 24 /* mm that the lens shows to each side */,
+    RISES = 12 /* solutions on the way to the load, each for as many milliseconds: */,
+    RISE_EACH = 90,
+    OPEN = 0.5; /* mm between wheel and rail before they touch */
+const PRESS_FIT = { window: [-BESIDE, BESIDE], press: 2400, slip: 1, rub: 1e9, lift: 10 };
+/* Before it is pressed: a wheel of radius R above its rail. */
+function apart_above(a) {
+    const x = Float64Array.from({ length: 49 }, (_, k) => k - BESIDE),
+        none = new Float64Array(49),
+        R = Number(a.values.radius);
+    const numbers = { ...a.numbers, contact_from: 0, contact_to: 0, half_width: 1, approach: 1, nip_width: 0 };
+    return {
+        ...a,
+        numbers,
+        columns: {
+            ...a.columns,
+            x,
+            h: none.map(() => 1),
+            p: none,
+            q: none,
+            un: none,
+            zone: none,
+            shift: none,
+            gap: x.map((v) => OPEN / PRESS_FIT.lift + v ** 2 / (2 * R)),
+        },
+    };
+}
 
 export function press_view(words, page) {
     const { store } = page,
@@ -85,7 +119,39 @@ export function press_view(words, page) {
         compared = html("p", { class: "note", "aria-live": "polite" });
     let guess = null,
         answered = null,
-        drawn_for = null;
+        drawn_for = null,
+        shape = null,
+        shape_for = null,
+        rise = [],
+        risen = 0,
+        timer = null;
+    const motion = matchMedia("(prefers-reduced-motion: reduce)");
+    /* The gap closes element by element: the library's own solutions under growing loads. */
+    function let_rise() {
+        if (motion.matches || !store.solved.press) return;
+        rise = [];
+        risen = 0;
+        const load = store.solved.press.numbers.normal_load;
+        for (let k = 1; k < RISES; k++)
+            page.ask({
+                kind: "closed",
+                slot: `rise ${k}`,
+                view: "press",
+                k,
+                given: {
+                    ...shape_of(hold(store.case("press"), NORMAL, "load", plain(load * (k / RISES) ** 2)), BESIDE),
+                },
+            });
+        clearInterval(timer);
+        timer = setInterval(() => {
+            if (risen >= RISES - 1 || store.holding) {
+                clearInterval(timer);
+                rise = [];
+            } else if (rise[risen + 1]) risen++;
+            drawn_for = null;
+            render();
+        }, RISE_EACH);
+    }
     const set = (name, value) =>
         store.set(
             "press",
@@ -126,6 +192,7 @@ export function press_view(words, page) {
         [
             html("p", { class: "question" }, w.question),
             choices(w.question, w.choices, (value) => {
+                if (guess === null) let_rise();
                 guess = value;
                 drawn_for = null;
                 render();
@@ -168,19 +235,23 @@ export function press_view(words, page) {
         [load, radius].forEach((knob) => knob.sync(a));
         show_notes(notes, a);
         node.classList.toggle("revealed", guess !== null);
-        /* Elements at the ends of the axis, without pressure: how wide they are would tell. */
-        const blank = { ...a, columns: { x: [-24, 24], h: [0, 0], p: [0, 0], q: [0, 0], zone: [0, 0], slip: [0, 0] } };
-        const wide = width_of(picture);
+        const wide = width_of(picture),
+            rising = rise[risen],
+            shown = guess === null ? apart_above(a) : (rising ?? a);
         picture.replaceChildren(
-            tractions_picture(picture, words, guess === null ? blank : a, {
+            lens_figure(words, shown, {
                 width: wide,
-                height: height_for(Math.min(400, Math.max(220, wide * 0.5)), 80),
-                name: "press",
-                slip: false,
-                bounds: false,
-                units: undefined,
-                axes: { x: [-24, 24], top: 2400, low: -1, slip: 0 },
-                ghost: guess === null ? null : ghost,
+                height: lens_height(wide, 80),
+                given: store.case("press"),
+                fit: PRESS_FIT,
+                shape: guess === null ? shown : (rising ?? shape ?? a),
+                ghost: guess === null || rising ? null : ghost,
+                label: fill_in(words.tractions_alt, {
+                    p0: guess === null ? "?" : show(shown.numbers.max_pressure, 3),
+                    qmin: 0,
+                    qmax: 0,
+                    unit: words.mpa,
+                }),
             }),
         );
         /* The answer is that of the question, whatever the hand does later. */
@@ -208,6 +279,24 @@ export function press_view(words, page) {
         node,
         render,
         uses: ["press"],
+        fine: true,
+        busy: () => rise.length > 0,
+        wants() {
+            const of = store.case("press");
+            return store.holding || store.trouble("press") || shape_for === of
+                ? []
+                : [{ kind: "closed", slot: "shape press", given: shape_of(of, BESIDE), of }];
+        },
+        solved() {
+            if (!store.holding) page.ask_view("press");
+        },
+        take(answer, request) {
+            if (answer.refused) return;
+            if (request.k) rise[request.k] = answer;
+            else [shape, shape_for] = [answer, request.of];
+            drawn_for = null;
+            render();
+        },
         resize() {
             drawn_for = null;
         },
@@ -218,6 +307,26 @@ export function press_view(words, page) {
 /* ---- Brake ----------------------------------------------------------------------- */
 
 const CELLS = 16;
+/* What the offsets of the lines are magnified by, so that all of it shows full sliding in one size: it moves nothing
+ * where load, radius or stiffness change. */
+const FULL = 0.085;
+const slip_scale = ({ numbers: n, values }) =>
+    (FULL * n.half_width) / ((Number(values.mu.split(",")[0]) || 1) * (n.half_width ** 2 / Number(values.radius)));
+/* The state before in the window of this one. */
+const at_same_width = (ghost, a) => {
+    const by = a.numbers.half_width / ghost.numbers.half_width,
+        high = a.numbers.max_pressure / ghost.numbers.max_pressure,
+        over = (list, k) => list.map((v) => k * v);
+    return {
+        ...ghost,
+        columns: { ...ghost.columns, x: over(ghost.columns.x, by), p: over(ghost.columns.p, high) },
+        numbers: {
+            ...ghost.numbers,
+            contact_from: by * ghost.numbers.contact_from,
+            contact_to: by * ghost.numbers.contact_to,
+        },
+    };
+};
 
 export function brake_view(words, page) {
     const { store } = page,
@@ -236,6 +345,8 @@ export function brake_view(words, page) {
         curve = null,
         curve_key = "",
         ghost_curve = null,
+        shape = null,
+        shape_for = null,
         brush = null;
     const set = (given) => store.set("brake", given),
         given = () => store.case("brake");
@@ -395,7 +506,14 @@ export function brake_view(words, page) {
         });
     }
     const wanted = () => curve_request(given(), "curve brake");
-    const wants = () => (revealed && wanted().key !== curve_key ? [wanted()] : []);
+    function wants() {
+        const all = revealed && wanted().key !== curve_key ? [wanted()] : [],
+            of = given(),
+            n = store.solved.brake?.numbers;
+        if (n && !store.holding && shape_for !== of)
+            all.push({ kind: "closed", slot: "shape brake", given: shape_of(of, 1.5 * n.half_width), of });
+        return all;
+    }
     function render() {
         const a = store.solved.brake,
             before = store.ghosts.brake,
@@ -409,25 +527,18 @@ export function brake_view(words, page) {
         show_notes(notes, a);
         node.classList.toggle("revealed", revealed);
         see.hidden = revealed;
-        const in_units = scaled(a),
-            blank = {
-                ...in_units,
-                columns: {
-                    ...in_units.columns,
-                    q: in_units.columns.q.map(() => 0),
-                    zone: in_units.columns.zone.map(() => 0),
-                },
-            },
-            wide = width_of(picture);
+        const wide = width_of(picture);
         picture.replaceChildren(
-            tractions_picture(picture, words, revealed ? in_units : blank, {
+            lens_figure(words, a, {
                 width: wide,
-                height: beside(Math.min(300, Math.max(190, wide * 0.36)), 80),
-                name: "brake",
-                slip: false,
-                axes: { x: [-1.4, 1.4], top: 1.1, low: -0.42, slip: 0 },
-                ghost: revealed && ghost ? scaled(ghost) : null,
-                units: ["x/a", "p/p₀"],
+                height: beside(Math.min(340, Math.max(210, wide * 0.42)), 80),
+                given: given(),
+                fit: { ...fit_lens(a), slip: slip_scale(a) },
+                shape: shape ?? a,
+                blank: !revealed,
+                ghost: revealed && ghost ? at_same_width(ghost, a) : null,
+                unit: "x/a",
+                label: revealed ? words.take.titles.brake : w.question,
             }),
         );
         legend_row.replaceChildren(revealed ? tractions_legend(words, a.columns.zone, false) : "");
@@ -486,12 +597,21 @@ export function brake_view(words, page) {
         render,
         wants,
         uses: ["brake"],
+        fine: true,
+        solved() {
+            if (!store.holding) page.ask_view("brake");
+        },
         resize() {
             drawn_for = null;
         },
         paint,
         see: () => see.click(),
         take(answer, request) {
+            if (request.of) {
+                if (!answer.refused) [shape, shape_for] = [answer, request.of];
+                drawn_for = null;
+                return render();
+            }
             ghost_curve = curve;
             [curve, curve_key] = [answer.refused ? null : answer.points, request.key];
             render();
@@ -500,6 +620,8 @@ export function brake_view(words, page) {
 }
 
 /* ---- A soft wheel ---------------------------------------------------------------- */
+
+const SOFT_WINDOW = [-26, 26];
 
 export function soft_view(words, page) {
     const { store } = page,
@@ -591,7 +713,16 @@ export function soft_view(words, page) {
     relaxing.hidden = true;
     const node = html("div", { class: "stack" }, asking, relaxing);
     const wanted = () => curve_request(given(), "curve soft");
-    const wants = () => (guess !== null && !store.holding && wanted().key !== curve_key ? [wanted()] : []);
+    let shape = null,
+        shape_for = null;
+    function wants() {
+        if (store.holding) return [];
+        const all = guess !== null && wanted().key !== curve_key ? [wanted()] : [],
+            of = given();
+        if (shape_for !== of && store.solved.soft)
+            all.push({ kind: "closed", slot: "shape soft", given: shape_of(of, SOFT_WINDOW[1]), of });
+        return all;
+    }
     /* The wheel turns as if its radius were larger by this part: the rim is so much slower than it travels. */
     const larger_by = (n) => 1 / (1 - n.free_creepage) - 1;
     function render() {
@@ -625,13 +756,14 @@ export function soft_view(words, page) {
         const wide = width_of(picture),
             tall = beside(Math.min(230, Math.max(150, wide * 0.3)), 80);
         picture.replaceChildren(
-            tractions_picture(picture, words, a, {
+            lens_figure(words, a, {
                 width: wide,
-                height: tall,
-                name: "soft",
-                slip: false,
-                axes: { x: [-26, 26], top: 3, low: -0.9, slip: 0 },
+                height: (in_slides() ? height_for : beside)(Math.min(330, Math.max(200, wide * 0.42)), 80),
+                given: given(),
+                fit: { ...fit_lens(a), window: SOFT_WINDOW, press: 3 },
+                shape: shape ?? a,
                 ghost: ghost_of("soft"),
+                label: words.take.titles.soft,
             }),
         );
         if (!shown) return;
@@ -684,11 +816,20 @@ export function soft_view(words, page) {
         render,
         wants,
         uses: ["soft", "memory"],
+        fine: true,
+        solved() {
+            if (!store.holding) page.ask_view("soft");
+        },
         resize() {
             drawn_for = null;
         },
         answer: (value) => node.querySelector(`[data-value="${value}"]`).click(),
         take(answer, request) {
+            if (request.of) {
+                if (!answer.refused) [shape, shape_for] = [answer, request.of];
+                drawn_for = null;
+                return render();
+            }
             [curve, curve_key] = [answer.refused ? null : answer.points, request.key];
             render();
         },

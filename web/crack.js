@@ -5,6 +5,7 @@ import {
     chart,
     height_for,
     html,
+    in_slides,
     legend,
     line,
     player,
@@ -229,7 +230,10 @@ export function crack_view(words, page) {
     function draw_at(k) {
         const a = data.numbers.half_width,
             width = width_of(picture),
-            per = Math.min((height_for(0.52 * innerHeight, 60, 200) - 60) / 2.7, width / 4.8) /* px of a half-width */,
+            per = Math.min(
+                (height_for(0.52 * innerHeight, in_slides() ? 100 : 60, 200) - 60) / 2.7,
+                width / 4.8,
+            ) /* px of a half-width */,
             tall = Math.round(0.95 * per + 62),
             height = Math.round(tall + 1.72 * per + 24),
             shown = guess !== null,
@@ -258,6 +262,8 @@ export function crack_view(words, page) {
         });
         root.append(
             svg("rect", { x: 0, y: tall, width, height: height - tall, style: "fill:var(--body-b)" }),
+            svg("path", { d: `${line(wheel())}V0H0Z`, style: "fill:var(--body-a);stroke:none" }),
+            svg("path", { d: line(wheel()), style: stroke("--edge", 1.2) }),
             svg("path", { d: `M0 ${tall}H${width}`, style: stroke("--edge", 1.5) }),
             ...pressure(),
             svg("path", {
@@ -294,6 +300,16 @@ export function crack_view(words, page) {
         picture.classList.toggle("stale", Boolean(store.trouble("crack")));
         if (shown) draw_curves(k);
 
+        /* The wheel above the ground, gaps magnified: that of Hertz beside the contact, of two half-planes. */
+        function wheel() {
+            const at_x = shown ? data["crack.x"].at[k] : 0;
+            return Array.from({ length: 81 }, (_, i) => {
+                const x = (i * width) / 80,
+                    s = Math.max(1, Math.abs((x - X(at_x)) / per)),
+                    root = Math.sqrt(s * s - 1);
+                return [x, Math.max(0, tall - 0.16 * per * (s * root - Math.log(s + root)))];
+            });
+        }
         /* The pressure of the contact where it stands, and which way its friction pulls the ground. */
         function pressure() {
             const { x, p, q } = data.columns,

@@ -141,7 +141,9 @@ export const width_of = (host) => Math.max(280, Math.min(1600, host.clientWidth 
  * else of its card stands in the same window. */
 export const SIDE_BY_SIDE = "(min-width: 921px), (min-width: 561px) and (max-height: 480px)",
     ONE_COLUMN = "(max-width: 560px), (max-width: 920px) and (min-height: 481px)";
+export const in_slides = () => document.documentElement.classList.contains("slides");
 export function height_for(wanted, around = 0, least = 110) {
+    if (in_slides()) return Math.round(Math.max(least, Math.min(1.4 * wanted, innerHeight - 230 - around)));
     const room = matchMedia(SIDE_BY_SIDE).matches ? innerHeight - (innerHeight > 480 ? 150 : 84) : 0.44 * innerHeight;
     return Math.round(Math.max(least, Math.min(wanted, room - around)));
 }

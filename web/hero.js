@@ -1,7 +1,7 @@
 /* The first screen: a wheel to scale that turns, a lens on its contact, hands on both, and a sentence that says what
  * one sees. */
 import { canvas_pen, read_palette, svg_pen } from "./pen.js";
-import { draw_lens, fit_lens, lens_still_fits } from "./lens.js";
+import { draw_lens, fit_lens, lens_still_fits, lens_words, shape_of } from "./lens.js";
 import { html, show } from "./draw.js";
 import { make_draggable } from "./knob.js";
 import { ALL_TANGENTIAL, NORMAL, formulation_of, hold, radius_of_ground, share_of_ground } from "./state.js";
@@ -441,25 +441,6 @@ export function hero_view(words, page) {
             halo: "paper",
         });
     }
-    function scene_words(a) {
-        const n = a.numbers,
-            per = layout(size()).lens.w;
-        return {
-            wide: fill_in(per < 520 ? w.wide_short : w.wide, {
-                wide: show(goal.window[1] - goal.window[0], 2),
-                slip: show(goal.slip, 2),
-            }),
-            press:
-                n.contact_to > n.contact_from
-                    ? fill_in(per < 340 ? w.press_short : w.press, { p0: show(n.max_pressure, 3) })
-                    : "",
-            stick: w.sticks,
-            slip: w.slips,
-            enters: w.enters,
-            friction: w.friction,
-            moves: formulation_of(page.given) === "static" ? "" : w.moves,
-        };
-    }
     function draw_all(pen, dimensions, a, given) {
         const at = layout(dimensions),
             scale = glide(a);
@@ -471,7 +452,7 @@ export function hero_view(words, page) {
             fit: scale,
             way,
             ghost: ghost_shown(a) ? store.ghosts.main : null,
-            words: scene_words(a),
+            words: lens_words(w, a, goal, at.lens.w, formulation_of(page.given) !== "static"),
             large: page.large(),
         });
         draw_wheel(pen, at.wheel, a, at.wide ? at.lens : null, given);
@@ -509,9 +490,9 @@ export function hero_view(words, page) {
         node.style.transform = `translate(${x.toFixed(1)}px,${y.toFixed(1)}px) translate(-50%,-50%)`;
     }
 
-    function picture_of() {
+    function picture_of(colours = read_palette()) {
         const dimensions = { width: 1200, height: 560 },
-            pen = svg_pen(dimensions.width, dimensions.height, read_palette());
+            pen = svg_pen(dimensions.width, dimensions.height, colours);
         pen.text(8, 34, headline.textContent, { size: 26, weight: 700 });
         const moved = Object.fromEntries(Object.entries(pen).map(([name, f]) => [name, f]));
         draw_all(shifted(moved, 0, 56), { width: 1200, height: 500 }, now(), page.given);
@@ -606,12 +587,7 @@ export function hero_view(words, page) {
                 {
                     kind: "closed",
                     slot: "shape hero",
-                    given: {
-                        ...page.given,
-                        mesh: "uniform",
-                        zone: String(Number(reach.toPrecision(3))),
-                        "contact-elements": "48",
-                    },
+                    given: shape_of(page.given, reach),
                 },
             ];
         },

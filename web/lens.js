@@ -4,6 +4,11 @@
  * The offsets at the surface are those of the solution: the sum of the column shift from the leading edge on is the
  * accumulated slip, creepage times way less that slip is the strain.  How they die away with the depth is drawn. */
 
+import { show, ticks } from "./draw.js";
+import { svg_pen } from "./pen.js";
+import { radius_of_ground, share_of_ground } from "./state.js";
+import { fill_in } from "./words.js";
+
 const spaces_in = (wide) => (wide < 480 ? 18 : 26); /* between the lines, in the window */
 const ASIDE = [1.42, 1.45]; /* the window in half-widths, to each side */
 
@@ -133,13 +138,13 @@ export function draw_lens(pen, box, scene) {
         per = box.w / (x1 - x0),
         spaces = spaces_in(box.w);
     const X = (x) => box.x + (x - x0) * per;
-    const middle = box.y + box.h * 0.55,
+    const middle = box.y + box.h * (scene.middle ?? 0.55),
         depth = Math.min(box.h * 0.36, 0.22 * box.w + 30);
     const touching = n.contact_to > n.contact_from;
     const heights = shape ? surfaces(shape, answer, share, bend) : () => ({ upper: 0, lower: 0 });
     const [end, center] = [heights(x0), heights((x0 + x1) / 2)],
         sag = Math.max(1e-12, end.upper - center.upper, center.lower - end.lower, center.upper * 2);
-    const lift = round_125((0.11 * box.h) / (sag * per)),
+    const lift = fit.lift ?? round_125((0.11 * box.h) / (sag * per)),
         level = heights(n.contact_from || 0).lower;
     const surface = (x) => {
         const at = heights(x);
@@ -148,7 +153,7 @@ export function draw_lens(pen, box, scene) {
     const grid = Array.from({ length: 97 }, (_, k) => x0 + ((x1 - x0) * k) / 96);
     const upper = grid.map((x) => [X(x), surface(x)[0]]),
         lower = grid.map((x) => [X(x), surface(x)[1]]);
-    const small = scene.large ? 15 : box.w < 480 ? 11 : 13;
+    const small = scene.large ? 16 : box.w < 480 ? 11 : 13;
 
     pen.clip(box.x, box.y, box.w, box.h, 14, () => {
         pen.shape(
@@ -163,10 +168,10 @@ export function draw_lens(pen, box, scene) {
         pen.shape([[box.x, box.y], ...upper, [box.x + box.w, box.y]], { fill: "body-a" });
         pen.shape([[box.x, box.y + box.h], ...lower, [box.x + box.w, box.y + box.h]], { fill: "body-b" });
         if (touching) draw_pressure();
-        draw_lines();
+        if (scene.middle === undefined) draw_lines();
         pen.shape(upper, { stroke: "edge", width: 1.2 });
         pen.shape(lower, { stroke: "edge", width: 1.2 });
-        if (touching) {
+        if (touching && !scene.blank) {
             draw_band();
             draw_friction();
         }
@@ -209,10 +214,11 @@ export function draw_lens(pen, box, scene) {
             dots = { outside: [], stick: [], slip: [] };
         for (let k = -2; k <= spaces + 2; k++) {
             const x = x0 + k * space + (space - phase);
-            const zone = touching && x > n.contact_from && x < n.contact_to ? zone_at(answer, x) : 0;
-            let slip = touching ? slip_at(x) : 0,
-                strain = touching ? strain_at(x) : 0;
-            if (touching && x <= n.contact_from) {
+            const torn = touching && !scene.blank,
+                zone = torn && x > n.contact_from && x < n.contact_to ? zone_at(answer, x) : 0;
+            let slip = torn ? slip_at(x) : 0,
+                strain = torn ? strain_at(x) : 0;
+            if (torn && x <= n.contact_from) {
                 const fade = Math.exp((x - n.contact_from) / (0.12 * (x1 - x0)));
                 slip = sign * slip_end;
                 strain = strain_last * fade;
@@ -324,7 +330,7 @@ export function draw_lens(pen, box, scene) {
         pen.text(right, box.y + small + 9, words.wide, { fill: "soft", size: small, anchor: "end" });
         pen.text(box.x + 12, box.y + small + 9, words.press, { fill: "soft", size: small });
         pen.text(right, foot, words.moves, { fill: "soft", size: small, anchor: "end", halo: "body-b" });
-        if (!touching) return;
+        if (!touching || scene.blank) return;
         if (box.w > 560 && Math.max(...c.q.map(Math.abs)) > 1e-6 * fit.press)
             pen.text(box.x + 12, foot, words.friction, { fill: "rub", size: small, halo: "body-b" });
         /* The longest piece of each. */
@@ -335,7 +341,7 @@ export function draw_lens(pen, box, scene) {
             const run = runs[kind_at(i)];
             if (run && c.x[i] - c.x[begin] > run[1] - run[0]) runs[kind_at(i)] = [c.x[begin], c.x[i]];
         }
-        const at = middle + depth * 0.9 + small + 4;
+        const at = scene.middle === undefined ? middle + depth * 0.9 + small + 4 : middle - 0.1 * box.h;
         for (const kind of ["stick", "slip"])
             if (X(runs[kind][1]) - X(runs[kind][0]) > 44)
                 pen.text(
@@ -345,18 +351,73 @@ export function draw_lens(pen, box, scene) {
                     { fill: kind, size: small + 4, weight: 650, anchor: "middle", halo: "body-b" },
                 );
         if (box.w > 560) {
-            pen.text(
-                Math.min(right, X(n.contact_to) + 14),
-                Math.min(middle + depth + 4, foot - small - 10),
-                words.enters,
-                {
-                    fill: "soft",
-                    size: small,
-                    halo: "body-b",
-                },
-            );
+            const x = X(n.contact_to) + 14,
+                has_room = x + 7 * small < right;
+            pen.text(has_room ? x : right, Math.min(middle + depth + 4, foot - small - 10), words.enters, {
+                fill: "soft",
+                size: small,
+                anchor: has_room ? "start" : "end",
+                halo: "body-b",
+            });
         }
     }
     const border = n.stick > 0 ? n.stick_from : n.contact_to;
     return { X, border: touching ? [X(border), surface(border)[0]] : null, middle, lift };
+}
+
+/* What stands in the corners of the lens. */
+export function lens_words(w, { numbers: n }, fit, wide, rolls) {
+    return {
+        wide: fill_in(fit.slip === 1 ? w.wide_alone : wide < 520 ? w.wide_short : w.wide, {
+            wide: show(fit.window[1] - fit.window[0], 2),
+            slip: show(fit.slip, 2),
+        }),
+        press:
+            n.contact_to > n.contact_from
+                ? fill_in(wide < 340 ? w.press_short : w.press, { p0: show(n.max_pressure, 3) })
+                : "",
+        stick: w.sticks,
+        slip: w.slips,
+        enters: w.enters,
+        friction: w.friction,
+        moves: rolls ? w.moves : "",
+    };
+}
+
+/* The coarser solution over the whole window, of which the surfaces beside the contact are drawn. */
+export const shape_of = (given, reach) => ({
+    ...given,
+    mesh: "uniform",
+    zone: String(Number(reach.toPrecision(3))),
+    "contact-elements": "48",
+});
+
+/* The lens of a chapter as a figure, in the page's own colours, with an axis below it.  scene as draw_lens has it, and
+ * given: the case; label: what it is, for who hears it; words: those of the first screen. */
+const AXIS = 34;
+export function lens_figure(words, answer, { width, height, given, label, unit = words.x_axis, ...scene }) {
+    const pen = svg_pen(width, height, (name) => `var(--${name})`),
+        box = { x: 1, y: 1, w: width - 2, h: height - AXIS - 1 },
+        rolls = given.formulation === "steady" || given.formulation === "transient";
+    const large = document.documentElement.classList.contains("large");
+    const drawn = draw_lens(pen, box, {
+        answer,
+        large,
+        shape: answer,
+        share: share_of_ground(given, answer.values),
+        bend: radius_of_ground(answer.values),
+        way: 0,
+        words: { ...lens_words(words.hero, answer, scene.fit, 0, rolls), ...(scene.blank && { press: "", wide: "" }) },
+        ...scene,
+    });
+    const { window } = scene.fit,
+        a = unit === "x/a" ? answer.numbers.half_width : 1;
+    for (const v of ticks(window[0] / a, window[1] / a, Math.max(3, width / 95)))
+        pen.text(drawn.X(v * a), height - 16, show(v, 3), { fill: "soft", size: large ? 16 : 13, anchor: "middle" });
+    pen.text(width - 2, height - 3, unit, { fill: "soft", size: large ? 15 : 12, anchor: "end" });
+    const root = new DOMParser().parseFromString(pen.end(null), "image/svg+xml").documentElement;
+    root.setAttribute("role", "img");
+    root.setAttribute("aria-label", label);
+    root.removeAttribute("font-family");
+    return Object.assign(document.importNode(root, true), { drawn });
 }

@@ -11,6 +11,7 @@ import { below_view } from "./below.js";
 import { step_view } from "./step.js";
 import { CRACK_CASE, crack_request, crack_view } from "./crack.js";
 import { bench_view } from "./bench.js";
+import { make_classroom } from "./classroom.js";
 import { take_along } from "./take.js";
 import { fill_in, words } from "./words.js";
 
@@ -48,6 +49,8 @@ async function main() {
         current = "hero",
         drawing = false,
         embed = false,
+        lesson = false,
+        classroom = null,
         link_given = null,
         link_note = "";
 
@@ -314,6 +317,7 @@ async function main() {
         }
         if (!link) return false;
         embed = link.embed || embed;
+        lesson = link.lesson || lesson;
         document.documentElement.classList.toggle("embed", Boolean(embed));
         document.documentElement.classList.toggle("lens", embed === "lens");
         link_note = "";
@@ -359,7 +363,7 @@ async function main() {
         draw_soon();
     });
     document.addEventListener("fullscreenchange", () => {
-        document.documentElement.classList.toggle("large", Boolean(document.fullscreenElement));
+        document.documentElement.classList.toggle("large", Boolean(document.fullscreenElement || classroom?.place()));
         for (const view of Object.values(views)) view.resize?.();
         draw_soon();
     });
@@ -369,6 +373,9 @@ async function main() {
     at("full").addEventListener("click", () =>
         document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen?.(),
     );
+    at("class").setAttribute("aria-label", words.classroom.open);
+    at("class").title = words.classroom.open;
+    at("class").addEventListener("click", () => classroom?.start(current));
     at("chapters").setAttribute("aria-label", words.chapters_label);
     at("signs").setAttribute("aria-label", words.signs);
     at("signs").append(
@@ -412,13 +419,32 @@ async function main() {
     const begin = linked ? current : "hero";
     for (const [name, make] of embed ? CHAPTERS.slice(0, 1) : CHAPTERS) build(name, make);
     near.add(views.hero);
+    if (!embed)
+        classroom = make_classroom(words, page, {
+            views,
+            store,
+            current: () => current,
+            /* The only chapter in the window, or one of all again. */
+            show(name) {
+                current = name;
+                for (const view of Object.values(views)) view.resize?.();
+                come_near(views[name]);
+                views[name].section.scrollIntoView({ block: "start" });
+                store.rewrite();
+            },
+            near: (name) => come_near(views[name]),
+            idle: async () => {
+                await new Promise((resolve) => setTimeout(resolve, 60)); /* what was begun has been asked */
+                await until(idle);
+            },
+        });
     store.listen(() => {
         if (follow_link()) open(current);
         else store.replace(opened_with);
     });
     await until(() => store.solved.main);
     store.rewrite();
-    if (begin !== "hero") open(begin);
+    if (begin !== "hero" && !lesson) open(begin);
 
     const idle = () =>
         solver.idle() &&
@@ -436,8 +462,12 @@ async function main() {
         idle,
         time_moves,
         near: (name) => near.has(views[name]),
+        classroom,
         preset: (name) => page.change({ ...PRESETS[name] }),
     };
+
+    if (lesson === "slides") classroom?.start(begin);
+    if (lesson === "sheet") classroom?.sheet();
 
     /* For its tests: milliseconds from a move to its picture, sorted; each move is a value of its own. */
     async function time_moves(option, start, count) {

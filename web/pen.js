@@ -86,9 +86,9 @@ export function canvas_pen(canvas, width, height, palette) {
     };
 }
 
+let clips = 0; /* several pictures of one page, each with names of its own */
 export function svg_pen(width, height, palette) {
     const out = [];
-    let clips = 0;
     const safe = (text) =>
         String(text).replace(/[<>&"]/g, (c) => ({ "<": "&lt;", ">": "&gt;", "&": "&amp;", '"': "&quot;" })[c]);
     const number = (v) => Number(v.toFixed(2));
@@ -112,7 +112,7 @@ export function svg_pen(width, height, palette) {
                 ? ` stroke="${safe(palette(halo))}" stroke-width="4" stroke-linejoin="round" paint-order="stroke"`
                 : "";
             out.push(
-                `<text x="${number(x)}" y="${number(y)}" font-size="${size}" font-weight="${weight}" text-anchor="${anchor}" fill="${safe(palette(fill))}"${around}>${safe(words)}</text>`,
+                `<text x="${number(x)}" y="${number(y)}" text-anchor="${anchor}" style="font-size:${size}px;font-weight:${weight};fill:${safe(palette(fill))}"${around}>${safe(words)}</text>`,
             );
         },
         clip(x, y, w, h, radius, draw) {
@@ -125,8 +125,9 @@ export function svg_pen(width, height, palette) {
         },
         frame: (x, y, w, h, radius, style) =>
             out.push(`<rect x="${x}" y="${y}" width="${w}" height="${h}" rx="${radius}" ${attributes(style)}/>`),
-        end: () =>
+        /* background: none for a picture of the page itself */
+        end: (background = "paper") =>
             `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" width="${width}" height="${height}" font-family="${safe(FONT)}">` +
-            `<rect width="100%" height="100%" fill="${safe(palette("paper"))}"/>${out.join("")}</svg>`,
+            `${background ? `<rect width="100%" height="100%" fill="${safe(palette(background))}"/>` : ""}${out.join("")}</svg>`,
     };
 }

@@ -5,6 +5,7 @@ import {
     chart,
     height_for,
     html,
+    in_slides,
     line,
     player,
     segments,
@@ -14,7 +15,8 @@ import {
     svg,
     width_of,
 } from "./draw.js";
-import { edges_of_equal, tractions_legend, tractions_picture } from "./contact.js";
+import { edges_of_equal, tractions_legend } from "./contact.js";
+import { lens_figure } from "./lens.js";
 import { make_draggable, slider_for } from "./knob.js";
 import { ALL_TANGENTIAL, DRAWN, NORMAL, TANGENTIAL, formulation_of, held, hold, table_of_drawn } from "./state.js";
 import { command_of, text_card } from "./take.js";
@@ -337,25 +339,46 @@ export function roll_view(words, page) {
             slip: new Float64Array(n),
             mu: data.history.mu && new Float64Array(n).fill(data.history.mu[k]),
         };
-        const ends = edges_of_equal(columns),
-            mu = Number(data.values.mu.split(",")[0]) || 0.1;
         const width = width_of(picture),
-            tall = height_for(Math.min(280, Math.max(150, width * 0.34), Math.max(120, innerHeight - 470)), 130);
+            tall = height_for(
+                Math.min(300, Math.max(170, width * 0.36), in_slides() ? 115 : Math.max(130, innerHeight - 450)),
+                130,
+            ),
+            inside = [...columns.x.keys()].filter((i) => columns.zone[i] > 0),
+            [from, to] = edges_of_equal(columns),
+            [begin, end] = inside.length
+                ? [columns.x[inside[0]] - columns.h[0] / 2, columns.x[inside.at(-1)] + columns.h[0] / 2]
+                : [0, 0],
+            grown = (end - begin) / (data.numbers.contact_to - data.numbers.contact_from) || 1,
+            mu = Math.max(Number(data.values.mu.split(",")[0]) || 0.1, ...(data.history.mu ?? []));
+        /* Zones and friction are those of the step. The lines are straight: a step does not know the slip of earlier ones. */
+        const numbers = {
+            ...data.numbers,
+            contact_from: begin,
+            contact_to: end,
+            half_width: data.numbers.half_width * grown,
+            approach: data.numbers.approach * grown ** 2,
+            max_pressure: Math.max(...columns.p),
+            stick: columns.zone.filter((z) => z === 1).length,
+            stick_from: end,
+            creepage: 0,
+        };
         picture.replaceChildren(
-            tractions_picture(
-                picture,
+            lens_figure(
                 words,
-                { columns, numbers: data.numbers, values: data.values },
+                { columns: { ...columns, shift: columns.slip }, numbers, values: data.values },
                 {
-                    name: "roll",
-                    slip: false,
+                    width,
                     height: tall,
-                    axes: {
-                        x: ends,
-                        top: steps_top * 1.1,
-                        low: -1.15 * Math.max(mu, ...(data.history.mu ?? [])) * steps_top,
-                        slip: 0,
+                    given: given(),
+                    shape: data,
+                    fit: {
+                        window: [from - 0.2 * (to - from), to + 0.2 * (to - from)],
+                        press: 1.15 * steps_top,
+                        rub: mu * steps_top,
+                        slip: 1,
                     },
+                    label: "",
                 },
             ),
         );

@@ -172,21 +172,24 @@ export function write_link(given, view, drawn, embed = false) {
 
 /* What a frame of another page shows: the first screen, or its picture alone. */
 const EMBEDDED = ["hero", "lens"];
+/* What a class gets: slides, or a worksheet. */
+const CLASSES = ["slides", "sheet"];
 
-/* { given, view, drawn, embed } of a fragment; null: there is none.  Names and values are the library's
+/* { given, view, drawn, embed, lesson } of a fragment; null: there is none.  Names and values are the library's
  * to judge; an Error says what is no link at all. */
 export function read_link(fragment, views) {
     if (fragment.length < 2) return null;
     const place = /^#at-(\w+)$/.exec(fragment)?.[1];
-    if (views.includes(place)) return { given: null, view: place, drawn: null, embed: false };
+    if (views.includes(place)) return { given: null, view: place, drawn: null, embed: false, lesson: false };
     if (fragment.length > LONGEST) throw new Error(`${fragment.length} characters, more than ${LONGEST}`);
     const given = Object.fromEntries(new URLSearchParams(fragment.slice(1)));
     const view = views.includes(given.view) ? given.view : views[0];
     const drawn = given.drawn ? read_drawn(given.drawn) : null;
     delete given.view;
     const embed = EMBEDDED.includes(given.embed) && given.embed;
-    for (const name of ["drawn", "embed"]) delete given[name];
-    return { given: Object.keys(given).length ? given : null, view, drawn, embed };
+    const lesson = CLASSES.includes(given.class) && given.class;
+    for (const name of ["drawn", "embed", "class"]) delete given[name];
+    return { given: Object.keys(given).length ? given : null, view, drawn, embed, lesson };
 }
 
 /* The options of a case file.  Sections, names and values are the library's to judge. */

@@ -1,5 +1,6 @@
 /* Step through the method: matrices, Lemke's pivots, Newton's zones, guessed zones. */
-import { card, chart, html, player, segments, show, stairs, stroke, svg, width_of, zone_colours } from "./draw.js";
+import { chart, html, player, segments, show, stairs, stroke, svg, width_of, zone_colours } from "./draw.js";
+import { lens_figure } from "./lens.js";
 import { matrices, parse, pretty } from "./matrices.js";
 import { proof_in_words } from "./proof.js";
 import { fill_in } from "./words.js";
@@ -367,8 +368,10 @@ export function step_view(words, page) {
             guess_picture,
         ),
         html("div", { class: "tale" }, counted, html("p", {}, words.step.how)),
-        card(
-            words.pivots,
+        html(
+            "section",
+            { class: "card pivots" },
+            html("h3", {}, words.pivots),
             frames.node,
             sentence,
             html(
@@ -498,16 +501,7 @@ export function step_view(words, page) {
             strip(words, solution(), words.solution_zones),
         );
         const part = (name) => data[name].at.subarray(n * k, n * k + n);
-        picture.replaceChildren(
-            bars(picture, words, {
-                ends: data.ends.at,
-                p: part("pivot.p"),
-                q: part("pivot.q"),
-                mu: mu(),
-                top: top(),
-                label: fill_in(words.pivot_alt, { k: k + 1, z0: show(data["pivot.z0"].at[k]) }),
-            }),
-        );
+        picture.replaceChildren(lens_of_pivot(k, kinds.map(zone_of), part("pivot.p"), part("pivot.q")));
         z0.textContent =
             fill_in(words.z0, { z0: show(data["pivot.z0"].at[k], 4) }) +
             (k === frames.count - 1 && data.end ? ` ${data.end}` : "");
@@ -518,6 +512,40 @@ export function step_view(words, page) {
     function show_proof() {
         const ended = data && proved && frames.at === frames.count - 1;
         proof.textContent = ended ? `${words.proof.title}: ${proof_in_words(words, proved).join(" ")}` : "";
+    }
+    /* The lens with its elements as the basis has them: what is not pressed is apart. */
+    function lens_of_pivot(k, zone, p, q) {
+        const ends = data.ends.at,
+            n = zone.length,
+            width = width_of(picture),
+            beside = 0.15 * (ends[n] - ends[0]),
+            pressed = zone.flatMap((z, i) => (z > 0 ? [i] : [])),
+            none = new Float64Array(n);
+        const columns = { x: data.columns.x, h: data.columns.h, p: p.map((v) => Math.max(0, v)), q, zone, shift: none },
+            numbers = {
+                ...data.numbers,
+                contact_from: pressed.length ? ends[pressed[0]] : 0,
+                contact_to: pressed.length ? ends[pressed.at(-1) + 1] : 0,
+                max_pressure: Math.max(...columns.p),
+                stick: zone.filter((z) => z === 1).length,
+                stick_from: ends[n],
+                creepage: 0,
+            };
+        const edges = [ends[0] - beside, ends[n] + beside];
+        return lens_figure(
+            words,
+            { columns, numbers, values: data.values },
+            {
+                width,
+                height: Math.round(Math.min(280, Math.max(200, width * 0.4))),
+                given: wanted,
+                shape: { numbers, columns: { x: edges, gap: [0, 0], un: [0, 0] } },
+                share: 0,
+                bend: Infinity,
+                fit: { window: edges, press: 1.15 * top(), rub: mu() * top() || 1, slip: 1, lift: 1 },
+                label: fill_in(words.pivot_alt, { k: k + 1, z0: show(data["pivot.z0"].at[k]) }),
+            },
+        );
     }
     function repaint(next) {
         zones = [...next];

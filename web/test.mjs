@@ -267,7 +267,7 @@ await test("links and case files are read as they are written", () => {
     };
     check(
         JSON.stringify(read_link(write_link(state.given, state.view, state.drawn), ["hero", "roll"])) ===
-            JSON.stringify({ given: state.given, view: "roll", drawn: state.drawn, embed: false }),
+            JSON.stringify({ given: state.given, view: "roll", drawn: state.drawn, embed: false, lesson: false }),
         "the link",
     );
     check(
