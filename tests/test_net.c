@@ -933,7 +933,8 @@ static void check_certificate(const int *row)
                                           "results with 'curve'"};
     /* a proof of every step of 1500 elements takes minutes */
     const int is_long = is(row, SIZE, "transforms") && has_steps(row);
-    int code = run(program, is_long ? "check json" : "check --prove json", "verdict", "verdict.err");
+    int code =
+        run(program, is_long ? "check json" : "check --prove json", "verdict", "verdict.err");
     slurp("verdict", out, sizeof out);
     slurp("verdict.err", err, sizeof err);
     proofs += strstr(out, "proved") != NULL;

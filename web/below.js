@@ -369,7 +369,7 @@ export function below_view(words, page) {
             middle: (top - box.y) / box.h,
             words: {
                 wide: "",
-                press: fill_in(words.hero.press, { p0: show(n.max_pressure, 3) }),
+                press: box.w < 480 ? "" : fill_in(words.hero.press, { p0: show(n.max_pressure, 3) }),
                 stick: words.hero.sticks,
                 slip: words.hero.slips,
                 enters: "",

@@ -536,6 +536,7 @@ export function brake_view(words, page) {
                 fit: { ...fit_lens(a), slip: slip_scale(a) },
                 shape: shape ?? a,
                 blank: !revealed,
+                alike: true,
                 ghost: revealed && ghost ? at_same_width(ghost, a) : null,
                 unit: "x/a",
                 label: revealed ? words.take.titles.brake : w.question,

@@ -90,5 +90,21 @@ export async function open_in_firefox(url, { width = 1280, height = 900 } = {}) 
         socket.destroy();
         rmSync(folder, { recursive: true, force: true, maxRetries: 5 });
     }
-    return { run, until, close };
+    /* A pointer that presses at the first of these places [x, y], goes along the others and lets go; kind: mouse or touch.
+     * between(k) after each. */
+    async function drag(kind, places, between) {
+        const go = (actions) =>
+                send("WebDriver:PerformActions", {
+                    actions: [{ type: "pointer", id: kind, parameters: { pointerType: kind }, actions }],
+                }),
+            to = ([x, y]) => ({ type: "pointerMove", x: Math.round(x), y: Math.round(y), duration: 0 });
+        await go([to(places[0]), { type: "pointerDown", button: 0 }]);
+        for (const [k, place] of places.entries()) {
+            await go([to(place)]);
+            await between?.(k);
+        }
+        await go([{ type: "pointerUp", button: 0 }]);
+        await send("WebDriver:ReleaseActions", {});
+    }
+    return { run, until, close, drag };
 }

@@ -548,9 +548,7 @@ export function hero_view(words, page) {
             ),
             fact(
                 w.facts.slower,
-                Number.isFinite(n.creepage)
-                    ? `${show(100 * Math.abs(n.creepage) < 1e-9 ? 0 : 100 * Math.abs(n.creepage), 2)} %`
-                    : "–",
+                Number.isFinite(n.creepage) ? `${short_percent(100 * Math.abs(n.creepage))} %` : "–",
                 n.creepage < 0 ? w.facts.faster_unit : w.facts.slower_unit,
             ),
         );
@@ -569,6 +567,8 @@ export function hero_view(words, page) {
         paint();
         start_frames();
     }
+    /* Never so long that its line would break. */
+    const short_percent = (x) => show(x < 0.01 ? Number(x.toFixed(3)) : x, 2);
     const show_plain = (x) => String(Number((x || 0).toPrecision(4)));
     set_running(running);
     return {

@@ -129,7 +129,9 @@ function surfaces(shape, answer, share, bend) {
     };
 }
 
-/* box: { x, y, w, h }.  scene: { answer, shape, share, bend, fit, way (mm that the material has moved), ghost, words,
+/* alike: contacts of one shape are drawn alike whatever their size; middle: where the surface is, of the height, with
+ * nothing drawn in the bodies; blank: without what sticks and slips.
+ * box: { x, y, w, h }.  scene: { answer, shape, share, bend, fit, way (mm that the material has moved), ghost, words,
  * large }.  Returns where things are, for the handles on top. */
 export function draw_lens(pen, box, scene) {
     const { answer, shape, share, bend, fit, way, ghost, words } = scene;
@@ -144,7 +146,8 @@ export function draw_lens(pen, box, scene) {
     const heights = shape ? surfaces(shape, answer, share, bend) : () => ({ upper: 0, lower: 0 });
     const [end, center] = [heights(x0), heights((x0 + x1) / 2)],
         sag = Math.max(1e-12, end.upper - center.upper, center.lower - end.lower, center.upper * 2);
-    const lift = fit.lift ?? round_125((0.11 * box.h) / (sag * per)),
+    const high = (0.11 * box.h) / (sag * per),
+        lift = fit.lift ?? (scene.alike ? high : round_125(high)),
         level = heights(n.contact_from || 0).lower;
     const surface = (x) => {
         const at = heights(x);

@@ -3,6 +3,7 @@
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { close_browser, open_page } from "./chromium.mjs";
+import { open_in_firefox } from "./firefox.mjs";
 
 export const SIZES = [
     [1440, 900],
@@ -55,6 +56,41 @@ export async function drag_brake(url, width, height) {
     return { loading, shift, moved, errors };
 }
 
+/* The same in Firefox, which does not tell its layout shift: how far a mouse or a finger moved picture or slider. */
+export async function drag_brake_in_firefox(url, kind, width, height) {
+    const page = await open_in_firefox(url, { width, height: height + 90 });
+    try {
+        await page.until("window.rollbem && rollbem.idle()");
+        const places = () =>
+            page.run(
+                `["#at-hero .stage-box", "#at-hero [data-dial=creep-ratio]"].map((of) => {
+                    const box = document.querySelector(of).getBoundingClientRect();
+                    return [box.left, box.top, box.width, box.height];
+                })`,
+            );
+        await page.run(
+            'document.querySelector("#at-hero [data-dial=creep-ratio]").scrollIntoView({ block: "nearest", behavior: "instant" })',
+        );
+        const first = await places(),
+            [left, top, wide, tall] = first[1],
+            way = Array.from({ length: 13 }, (_, k) => [
+                left + wide * (0.5 + 0.48 * Math.sin(0.4 + (k / 6) * Math.PI)),
+                top + tall / 2,
+            ]),
+            seen = new Set();
+        let moved = 0;
+        await page.drag(kind, way, async () => {
+            await page.until("rollbem.solver.idle()");
+            const now = await places();
+            moved = Math.max(moved, ...now.flatMap((box, i) => box.map((v, j) => Math.abs(v - first[i][j]))));
+            seen.add(await page.run("document.getElementById('headline').textContent"));
+        });
+        return { moved, headlines: seen.size, faults: await page.run("rollbem.faults") };
+    } finally {
+        await page.close();
+    }
+}
+
 if (process.argv[1]?.endsWith("still.mjs")) {
     const url = pathToFileURL(resolve(`${process.argv[2] ?? "build"}/rollbem.html`)).href;
     for (const [width, height] of SIZES) {
@@ -64,4 +100,14 @@ if (process.argv[1]?.endsWith("still.mjs")) {
         );
     }
     await close_browser();
+    for (const [kind, [width, height]] of [
+        ["mouse", SIZES[1]],
+        ["mouse", SIZES[2]],
+        ["touch", SIZES[1]],
+    ]) {
+        const { moved, headlines, faults } = await drag_brake_in_firefox(url, kind, width, height);
+        console.log(
+            `Firefox, ${kind}, ${width} x ${height}: moved ${moved.toFixed(1)} px, ${headlines} headlines${faults.join()}`,
+        );
+    }
 }

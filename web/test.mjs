@@ -890,10 +890,20 @@ async function views(page) {
     await test("the chapters answer what they ask", async () => {
         await page.run("rollbem.open('press')");
         await settled();
-        const wide = await page.run(
-            "[...document.querySelectorAll('#at-press figure path')].map((e) => e.getBBox().width).filter((w) => w > 1)",
+        const drawn = () =>
+                page.run(
+                    "[...document.querySelectorAll('#at-press figure path')].map((e) => e.getAttribute('d')).join()",
+                ),
+            before_guess = await drawn(),
+            of_question = await page.run("JSON.stringify(rollbem.store.case('press'))");
+        await page.run("rollbem.store.set('press', { ...rollbem.store.case('press'), load: '3000' })");
+        await settled();
+        check(
+            before_guess.length > 500 && before_guess === (await drawn()),
+            "what is drawn before the guess gives it away",
         );
-        check(Math.min(...wide) > 0.9 * Math.max(...wide), `what is drawn before the guess gives it away: ${wide}`);
+        await page.run(`rollbem.store.set('press', ${of_question})`);
+        await settled();
         await page.run("rollbem.views.press.answer('16')");
         await settled();
         check(/Yes, 15.9\d* mm.*99\d MPa/.test(await text_of("#at-press .answer")), await text_of("#at-press .answer"));
@@ -918,14 +928,23 @@ async function views(page) {
             ),
             "the state",
         );
-        const before = await page.run("document.querySelector('#at-brake path.q').getAttribute('d')");
+        /* the creep curve, and along x the pressure in the lens */
+        const places = async () => {
+            const of = async (what) =>
+                (await page.run(`document.querySelector('#at-brake path.${what}').getAttribute('d')`))
+                    .match(/[\d.]+/g)
+                    .map(Number);
+            return [...(await of("curve")), ...(await of("pressure")).filter((_, k) => k % 2 === 0)];
+        };
+        const before = await places();
         await page.run("rollbem.store.set('brake', { ...rollbem.store.case('brake'), load: '2000', radius: '200' })");
         await settled();
-        const numbers = (d) => d.match(/[\d.]+/g).map(Number),
-            after = numbers(await page.run("document.querySelector('#at-brake path.q').getAttribute('d')"));
-        const moved = Math.max(...numbers(before).map((v, k) => Math.abs(v - after[k])));
+        const after = await places(),
+            moved = Math.max(...before.map((v, k) => Math.abs(v - after[k])));
         check(
-            moved < 1.5 && /scales only/.test(await page.run("document.querySelector('#at-brake').textContent")),
+            moved < 1.5 &&
+                before.length === after.length &&
+                /scales only/.test(await page.run("document.querySelector('#at-brake').textContent")),
             `the curve moved by ${moved} px`,
         );
         await page.run("rollbem.open('soft')");
@@ -1683,11 +1702,81 @@ async function views(page) {
             await other.close();
         }
     });
+    await test("slides: one chapter each in 1280 x 590, keys, counted guesses, the answer beside them", async () => {
+        const other = await open_page(`${url}#class=slides`, { width: 1280, height: 590 });
+        const press = (key) =>
+            Promise.all(["keyDown", "keyUp"].map((type) => other.tab("Input.dispatchKeyEvent", { type, key })));
+        try {
+            await other.until(IDLE);
+            const names = await other.run("rollbem.classroom.names");
+            check(names.length === 8, names.join());
+            for (const [k, name] of names.entries()) {
+                check((await other.run("rollbem.classroom.place()")) === name, `slide ${k + 1} is not ${name}`);
+                await press("2");
+                await press("2");
+                await press("1");
+                await press("a");
+                await other.until(IDLE);
+                await other.run("new Promise((resolve) => setTimeout(resolve, 150))");
+                await other.until(IDLE);
+                const found = await other.run(`(() => {
+                    const chapter = document.querySelector("#at-${name}"), floor = document.getElementById("slides").getBoundingClientRect().top,
+                        seen = [...chapter.querySelectorAll("figure svg, .stage, input[type=range], .panel .answer")].filter((node) => node.getClientRects().length);
+                    return { chapters: [...document.querySelectorAll(".chapter")].filter((node) => node.offsetParent).length,
+                        low: seen.filter((node) => node.getBoundingClientRect().bottom > floor + 1 || node.getBoundingClientRect().right > innerWidth).map((node) => node.outerHTML.slice(0, 80)),
+                        pictures: seen.filter((node) => !node.matches("input, .answer")).length,
+                        counts: [...chapter.querySelectorAll(".tally b")].map((node) => node.textContent).join(),
+                        right: chapter.querySelectorAll(".tally.right").length, told: chapter.querySelector(".panel .answer").textContent };
+                })()`);
+                check(found.chapters === 1 && found.pictures > 0, `${name}: ${JSON.stringify(found)}`);
+                check(found.low.length === 0, `${name}: not in the window: ${found.low.join()}`);
+                check(/^1,2/.test(found.counts) && found.right === 1, `${name}: ${JSON.stringify(found)}`);
+                check(found.told.length > 20 && !/undefined|NaN|\{/.test(found.told), found.told);
+                await press("ArrowRight");
+                await other.until(IDLE);
+            }
+            await press("PageUp");
+            check((await other.run("rollbem.classroom.place()")) === names.at(-2), "PageUp");
+            await press("Escape");
+            check(
+                await other.run(
+                    "document.querySelectorAll('.chapter').length === 9 && rollbem.classroom.place() === null",
+                ),
+                "Escape does not leave",
+            );
+            check(other.errors.length === 0, other.errors.join("; "));
+        } finally {
+            await other.close();
+        }
+    });
+    await test("a worksheet: a page of questions, a page of solutions", async () => {
+        const other = await open_page(`${url}#class=sheet`, { width: 1280, height: 900 });
+        try {
+            await other.until("document.querySelectorAll('#sheet article').length === 2", 60);
+            const found = await other.run(`(() => {
+                const text = document.getElementById("sheet").textContent, count = (what) => document.querySelectorAll("#sheet " + what).length;
+                return { questions: count("article:first-of-type section"), pictures: count("section > svg"), ticked: (text.match(/☒/g) ?? []).length,
+                    first: document.querySelector("#sheet article").textContent.includes("☒"), odd: /undefined|NaN|\\{/.test(text) };
+            })()`);
+            check(
+                found.questions === 8 && found.pictures === 16 && found.ticked === 8 && !found.first && !found.odd,
+                JSON.stringify(found),
+            );
+            const { data } = await other.tab("Page.printToPDF", {}),
+                pages = Buffer.from(data, "base64")
+                    .toString("latin1")
+                    .match(/\/Type\s*\/Page[^s]/g).length;
+            check(pages === 2, `${pages} pages`);
+            check(other.errors.length === 0, other.errors.join("; "));
+        } finally {
+            await other.close();
+        }
+    });
     await test("pictures that are taken along have title, numbers, legend and source, and no handles", async () => {
         await page.run("rollbem.preset('rail')");
         for (const [chapter, reveal, menu, wanted] of [
             ["press", "rollbem.views.press.answer('16')", 0, ["A wheel pressed", "pressure p", "MPa"]],
-            ["brake", "rollbem.views.brake.see()", 0, ["A braked wheel", "sticks", "slips: A slides to +x", "p/p₀"]],
+            ["brake", "rollbem.views.brake.see()", 0, ["A braked wheel", "sticks", "slips: A slides to +x", "x/a"]],
             ["brake", "0", 1, ["Creep curve", "Q/(μP)", "creep ratio"]],
             ["roll", "rollbem.views.roll.player.go(9)", 0, ["From rest", "half-widths", "sticks"]],
             ["soft", "rollbem.views.soft.answer('larger')", 0, ["A soft wheel", "sticks"]],
