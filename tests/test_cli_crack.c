@@ -290,6 +290,8 @@ TEST(loads_of_every_kind)
     write_file("way.txt", "distance creep\n0 0\n4 1e-3\n");
     write_file("shift.txt", "load shift\n20 0\n40 1e-4\n40 -1e-4\n");
     for (size_t k = 0; k < sizeof through / sizeof *through; k++) {
+        if (!is_in_turn((int)k, 4))
+            continue;
         held_json *root = run_json(through[k]);
         CHECK_MAX(in_summary(root, "residual"), 1e-8, "%s", through[k]);
         CHECK_MAX(-in_summary(root, "K_I_min"), 1e-12, "%s", through[k]);

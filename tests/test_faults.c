@@ -434,7 +434,7 @@ static void fail_calls(fault_kind kind, const char *name, int samples)
     setenv("ASAN_OPTIONS", "detect_leaks=0", 1); /* it does not like to be followed */
     const int before = loader_calls(kind);
     for (int i = 0; i < JOBS; i++) {
-        if (!is_in_turn(i, 2))
+        if (!is_in_turn(i, 4))
             continue;
         make_reference(&jobs[i]);
         prepare(&jobs[i]);

@@ -70,12 +70,16 @@ static void matches(const char *recorded)
 
 TEST(recorded_outputs_are_todays)
 {
-    assert_int_equal(run("bar --solver lemke --output %s", inside("out.tsv")), 0);
-    matches("examples/bar/output.tsv");
-    assert_int_equal(run("truss --output %s", inside("out.tsv")), 0);
-    matches("examples/truss/upper-inside.tsv");
-    assert_int_equal(run("truss --layout upper-overhanging --output %s", inside("out.tsv")), 0);
-    matches("examples/truss/upper-overhanging.tsv");
+    static const char *const rows[][2] = {
+        {"bar --solver lemke", "examples/bar/output.tsv"},
+        {"truss", "examples/truss/upper-inside.tsv"},
+        {"truss --layout upper-overhanging", "examples/truss/upper-overhanging.tsv"}};
+    for (int k = 0; k < 3; k++) {
+        if (!is_in_turn(k, 3))
+            continue;
+        assert_int_equal(run("%s --output %s", rows[k][0], inside("out.tsv")), 0);
+        matches(rows[k][1]);
+    }
 }
 
 /* Each column of the table is a member of the steps in JSON, but for their number. */
@@ -103,9 +107,11 @@ static void json_matches_the_table(const char *arguments, int code)
 
 TEST(json_has_the_columns_of_the_table)
 {
-    json_matches_the_table("bar --solver lemke", 0);
     json_matches_the_table("truss --nodes 3", 0);
-    json_matches_the_table("wall --mesh coarse --rigid --quiet", 1); /* step 12 fails */
+    if (is_in_turn(0, 3))
+        json_matches_the_table("bar --solver lemke", 0);
+    if (is_in_turn(1, 3))
+        json_matches_the_table("wall --mesh coarse --rigid --quiet", 1); /* step 12 fails */
 }
 
 TEST(json_and_picture_are_written)

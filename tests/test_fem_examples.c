@@ -234,18 +234,12 @@ TEST(small_trusses_by_every_newton)
         truss_by(solvers[k / 2], (rb_fem_layout)(k % 2), 4);
 }
 
-TEST(trusses_by_newton)
+TEST(trusses_by_newton_and_by_smoothing)
 {
-    truss_by("nsn-ac", RB_FEM_UPPER_INSIDE, 12);
-    truss_by("nsn-ac", RB_FEM_UPPER_OVERHANGING, 12);
-}
-
-TEST(trusses_by_smoothing)
-{
-    if (is_in_turn(0, 2))
-        truss_by("soclcp-smoothing", RB_FEM_UPPER_INSIDE, 12);
-    if (is_in_turn(1, 2))
-        truss_by("soclcp-smoothing", RB_FEM_UPPER_OVERHANGING, 12);
+    static const char *const solvers[] = {"nsn-ac", "soclcp-smoothing"};
+    for (int k = 0; k < 4; k++)
+        if (is_in_turn(k, 4))
+            truss_by(solvers[k / 2], (rb_fem_layout)(k % 2), 12);
 }
 
 /* The full system, without condensation, gives the same first increment. */

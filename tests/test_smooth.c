@@ -108,6 +108,8 @@ TEST(carter_slopes_are_of_second_order)
     static const char *const meshes[] = {"aligned", "fitted"}, *const elements[] = {"50", "100",
                                                                                     "200"};
     for (int m = 0; m < 2; m++) {
+        if (!is_in_turn(m, 2))
+            continue;
         double e[3][SLOPES], exact[SLOPES];
         for (int k = 0; k < 3; k++)
             carter_errors(elements[k], meshes[m], 1, e[k]);
