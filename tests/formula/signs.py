@@ -3,7 +3,7 @@ import subprocess
 
 import numpy as np
 import rollbem
-from printed import printed, run
+from printed import close, printed, run, value
 
 STEEL = dict(support="halfplane", gap="parabola", young=210000, poisson=0.3, mu=0.3, radius=500, radius_b=300, load=1000)
 
@@ -51,6 +51,27 @@ def tag_force():
     assert roll[0].creepage > roll[1].creepage > roll[2].creepage
 
 
+def tag_bond():
+    """Torques of a covered roll, and what pulls at its bond, with the radius of the bond."""
+    torques = printed("rolls.md", "`torque_a` = M + Q R_A and `torque_b` = M - Q R_B").replace("`", "").split(" and ")
+    slope, tension, shear = (printed("rolls.md", text) for text in ("t = x/138", "its tension is syy - 2 t sxy", "its shear sxy + t (syy - sxx)"))
+    case = rollbem.Case("examples/roll/case.ini", force_ratio=-0.3)
+    s = rollbem.solve(case)
+    for text, torque, R in zip(torques, (s.torque_a, s.torque_b), (150, 100)):
+        close(value(text.split("=")[1].replace("Q R", "Q*R"), M=s.resistance_moment, Q=s.tangential_load, R_A=R, R_B=R), torque, 2e-3)
+    x = np.array([-8.0, 5.0, 8.0])
+    at = rollbem.stress(case, points=np.column_stack([x, 150 - np.sqrt(138**2 - x*x) - 0.02]))
+    sxx, syy, sxy = (np.ravel(part) for part in (at.sxx, at.syy, at.sxy))
+    n, along = np.array([x, -np.sqrt(138**2 - x*x)])/138, np.array([np.sqrt(138**2 - x*x), x])/138
+    t = value(slope.split("=")[1], x=x)
+    names = dict(sxx=sxx, syy=syy, sxy=sxy, t=t)
+    size = abs(np.array([sxx, syy, sxy])).max()
+    normal = sxx*n[0]**2 + syy*n[1]**2 + 2*sxy*n[0]*n[1]
+    tangential = sxx*n[0]*along[0] + syy*n[1]*along[1] + sxy*(n[0]*along[1] + n[1]*along[0])
+    assert abs(value(tension.split("is ")[1].replace("2 t sxy", "2*t*sxy"), **names) - normal).max() < 2*(t*t).max()*size
+    assert abs(value(shear.split("shear ")[1].replace("t (", "t*("), **names) + tangential).max() < 2*(t*t).max()*size
+
+
 def tag_speeds():
     """V (1 - xi/2) and V (1 + xi/2): the surface of the slower roll passes the contact slower."""
     printed("rolls.md", "xi > 0 means that A is the slower one: its surface passes the nip at V (1 - xi/2), that of B at V (1 + xi/2)")
@@ -76,7 +97,11 @@ def tag_free():
     assert rollbem.solve(**pair, **soft, **own(steel)).free_creepage < 0 < rollbem.solve(**pair, **steel, **own(soft)).free_creepage
     assert rollbem.solve(support="hub", similar=True, hub_ratio=0.9, gap="exact", young=210000, poisson=0.3, radius=50, load=500, mu=0.3,
                          formulation="steady", creep=0.001).free_creepage > 0
-    assert abs(rollbem.solve("examples/roll/case.ini", force=0).free_creepage - 0.0373) < 5e-5
+    roll = lambda **options: rollbem.solve("examples/roll/case.ini", force=0, **options).free_creepage
+    assert abs(roll() - 0.0373) < 5e-5
+    printed("rolls.md", "Compressible covers (foam) do the opposite, here below nu = 0.29")
+    printed("rolls.md", "nu = 0.41 at 2 N/mm")
+    assert roll(poisson=0.285) < 0 < roll(poisson=0.295) and roll(poisson=0.405, load=2) < 0 < roll(poisson=0.415, load=2)
 
 
 def tag_beside():
