@@ -12,13 +12,15 @@
 /* A further round has the elements of the last one's result, if the sum of squares is another
  * one on them, by this part of itself or of the squares of the measured forces. */
 enum { ROUNDS = 2 };
-/* Elements with which a fit of more than twice as many starts. */
+/* Elements with which a fit of more than twice as many starts, and of other starts at most. */
 enum { COARSE = 40 };
 static const double SAME = 1e-3, SAME_OF_ALL = 1e-8;
 /* Steps with elements that move; what moves the fitted curve less, as a part of its noise, is none;
  * and what a fit that finds no lesser sum may be off. */
 enum { MOVING_STEPS = 20, HALVINGS = 5 };
 static const double AT_REST = 0.02, LITTLE = 0.3;
+/* A lesser sum that other starts lead to is less by this part. */
+static const double SAME_ELSEWHERE = 0.1;
 /* How often a fit that has come to rest goes on from a lesser sum near by. */
 enum { SEARCHES = 5 };
 /* What elements may change in a force, as a part of the noise, or of all forces. */
@@ -571,6 +573,65 @@ static rb_status converge_again(fit_problem *p, progress *of, const rb_case_fit_
     return s == RB_OK ? gauss_newton(p, of, chi2, observer, why) : s;
 }
 
+/* From half and twice each number that the fit has begun with, but a coefficient of friction, of
+ * which forces are nearly linear: a lesser sum may lie beyond larger ones.  On few elements, which
+ * the fit then leaves for its own at the least sum of all. */
+static rb_status try_other_starts(fit_problem *p, progress *of, const double *given,
+                                  const rb_case_fit_observer *observer, rb_message *why)
+{
+    static const double factors[] = {0.5, 2.0};
+    enum { OTHERS = 1 + 2 * RB_CASE_FIT_MAX };
+    const rb_case *fine = p->c;
+    const size_t bytes = (size_t)p->n * sizeof *given;
+    rb_case *coarse = rb_case_copy(fine);
+    double least = INFINITY, best[RB_CASE_FIT_MAX], from[OTHERS][RB_CASE_FIT_MAX];
+    int moved, others = 1;
+    rb_status s = coarse ? RB_OK : rb_fail(why, RB_ENOMEM, "out of memory for a case");
+
+    memcpy(from[0], of->theta, bytes);
+    for (int j = 0; j < p->n; j++)
+        for (int k = 0;
+             k < 2 && p->fit->parameter[j].positive && strcmp(p->fit->parameter[j].name, "mu") != 0;
+             k++) {
+            memcpy(from[others], given, bytes);
+            from[others][j] *= factors[k];
+            rb_case_fit_clip(&p->fit->parameter[j], &from[others][j]);
+            others += memcmp(from[others], given, bytes) != 0;
+        }
+    if (s == RB_OK && fine->resolved.rc.contact_elements > COARSE)
+        s = rb_case_set_number(coarse, "contact-elements", COARSE, why);
+    if (s == RB_OK)
+        s = rb_case_resolve(coarse, why);
+    p->c = coarse;
+    p->known_n = 0;
+    memcpy(best, of->theta, bytes);
+    for (int k = 0; k < others && others > 1 && s == RB_OK; k++) {
+        double theta[RB_CASE_FIT_MAX], sum = INFINITY;
+        rb_message reason = {""};
+        memcpy(theta, from[k], bytes);
+        rb_status at = rb_case_fit_place(p, theta, &moved, &reason);
+        if (at == RB_OK)
+            at = rb_case_fit_descend(p, theta, NULL, &reason);
+        if (at == RB_OK)
+            at = rb_case_fit_sum(p, theta, INFINITY, NULL, &sum, &reason);
+        if (at == RB_ENOMEM || at == RB_INTERRUPTED)
+            s = rb_fail(why, at, "%s", rb_status_reason(at, &reason));
+        if (at == RB_OK &&
+            (k == 0 || sum < (1.0 - SAME_ELSEWHERE) * least - SAME_OF_ALL * of->squares)) {
+            least = sum;
+            if (k > 0)
+                memcpy(best, theta, bytes);
+        }
+    }
+    p->c = fine;
+    p->known_n = 0;
+    rb_case_free(coarse);
+    if (s != RB_OK || others == 1)
+        return s;
+    memcpy(of->theta, best, bytes);
+    return converge_again(p, of, observer, why);
+}
+
 /* Refuses a result around which the forces jump by more than their noise, from one mesh to the
  * next or where an edge of the contact passes an element: the sum then has many minima.  Where no
  * noise is left, the result is none of the others. */
@@ -592,8 +653,8 @@ static rb_status check_smooth(fit_problem *p, const progress *of, rb_message *wh
                          roughness / noise, 2 * p->c->resolved.rc.contact_elements);
 }
 
-/* The fit of the same case on its own elements. */
-static rb_status fit_on_own_elements(const rb_case *c, const rb_case_data *data,
+/* The fit of the same case on its own elements.  is_first: 0: its starts are results. */
+static rb_status fit_on_own_elements(const rb_case *c, const rb_case_data *data, int is_first,
                                      const rb_case_fit_observer *observer, rb_case_fit *fit,
                                      rb_message *why)
 {
@@ -610,6 +671,7 @@ static rb_status fit_on_own_elements(const rb_case *c, const rb_case_data *data,
                      .speed = rb_case_option("speed"),
                      .temperature = rb_case_option("temperature")};
     progress of = {.several = 0};
+    double given[RB_CASE_FIT_MAX];
     rb_status s = RB_OK;
 
     if (data->n <= fit->n)
@@ -633,6 +695,7 @@ static rb_status fit_on_own_elements(const rb_case *c, const rb_case_data *data,
         s = rb_fail(why, RB_EINVAL,
                     "--fit creep-offset: needs creepages, a column creep and no ratios");
     memcpy(of.start, of.theta, sizeof of.start);
+    memcpy(given, of.theta, sizeof given);
     for (int k = 0; k < p.points && s == RB_OK; k++) {
         p.order[k] = k;
         of.squares += gsl_pow_2(rb_case_fit_residual(&p, k, 0.0));
@@ -656,6 +719,8 @@ static rb_status fit_on_own_elements(const rb_case *c, const rb_case_data *data,
         s = rb_fail(why, RB_MAXITER,
                     "fit: not converged: numbers around the result still have a lesser sum of "
                     "squares. Give another start (--start), or fit fewer numbers");
+    if (s == RB_OK && !of.several && is_first)
+        s = try_other_starts(&p, &of, given, observer, why);
     for (int j = 0; j < fit->n && s != RB_EINVAL && s != RB_ENOMEM; j++)
         fit->parameter[j].value = of.theta[j];
     fit->kappa = p.kappa;
@@ -704,7 +769,7 @@ static rb_status add_mesh_part(const rb_case *c, const rb_case_data *data, rb_ca
             other.parameter[j].start = fit->parameter[j].value;
         }
         const rb_status solved =
-            s == RB_OK ? fit_on_own_elements(fewer, data, NULL, &other, &reason) : RB_ENOMEM;
+            s == RB_OK ? fit_on_own_elements(fewer, data, 0, NULL, &other, &reason) : RB_ENOMEM;
         if (s == RB_OK && (solved == RB_ENOMEM || solved == RB_INTERRUPTED))
             s = rb_fail(why, solved, "%s", rb_status_reason(solved, &reason));
         for (int j = 0; j < fit->n; j++) {
@@ -733,7 +798,7 @@ rb_status rb_case_fit_solve(const rb_case *c, const rb_case_data *data,
 {
     for (int j = 0; j < fit->n; j++)
         fit->parameter[j].mesh = NAN;
-    rb_status s = fit_on_own_elements(c, data, observer, fit, why);
+    rb_status s = fit_on_own_elements(c, data, 1, observer, fit, why);
     if (s == RB_OK && c->resolved.error)
         s = fit->status = add_mesh_part(c, data, fit, why);
     return s;
