@@ -45,7 +45,7 @@ class Case:
 
     ``Case(mu=0.3, creep=0.1)``, ``Case("rail.ini", load=800)``.  Names are those of the
     program with ``_`` for ``-``; what is given here wins over the file.  Options that name a
-    file with a table (``gap``, ``irregularity``, ``history``) take a dictionary of columns as
+    file with a table (``gap``, ``layers``, ``irregularity``, ``history``) take a dictionary of columns as
     well, or an array of N x 2.  ``case["mu"]`` is a value as the program resolves it, ``dict(case)`` has all of them;
     cases are equal if all their values are.  A dictionary of options may
     stand for the file: ``Case({"mu": 0.3, "contact-elements": 60})``.
@@ -669,11 +669,16 @@ class Curves(list):
         return f"<Curves: mu = {', '.join(str(curve.mu) for curve in self)}>"
 
 
+# rb_rolling_place_name of the library, in the order of its numbers
+_MATERIALS = ("body", "layer", "base", *(f"layer {k}" for k in range(1, 10)), "layer 10 or below")
+
+
 class Extremum(tuple):
     """Value and place (x, y) of a largest stress.
 
     ``material`` says what lies there: ``body``, or of two materials ``layer`` (also the
-    cover of a wheel) or ``base``; on a bond the stress along it differs in both.
+    cover of a wheel) or ``base``, of several layers ``layer 1``, ``layer 2`` ...; on a bond the stress
+    along it differs in both.
     """
 
     value, x, y = (property(lambda self, k=k: self[k]) for k in range(3))
@@ -681,7 +686,7 @@ class Extremum(tuple):
 
     def __new__(cls, numbers: Sequence[float]) -> "Extremum":
         extremum = super().__new__(cls, numbers[:3])
-        extremum.material = ("body", "layer", "base")[int(numbers[3])] if len(numbers) > 3 else "body"
+        extremum.material = _MATERIALS[int(numbers[3])] if len(numbers) > 3 else "body"
         return extremum
 
 

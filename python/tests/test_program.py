@@ -120,6 +120,25 @@ def test_stress(tmp_path):
     check(at.columns(), want["points"] if "points" in want else want["grid"])
 
 
+def test_layers(tmp_path):
+    layers = {"thickness [mm]": [0.1, 0.05, 0.3], "young [GPa]": [400, 3, 70], "poisson": [0.2, 0.4, 0.33]}
+    case = rollbem.Case(support="halfplane", layers=layers, base_young=210e3, base_poisson=0.3, radius=50, load=500,
+                        mu=0, formulation="steady", creep=0)
+    stress = rollbem.stress(case, points=[[0.3, 0.12]])
+    bond = stress.maxima["bond_1_peel"]
+    assert abs(bond.value / 10.164 - 1) < 1e-3 and abs(abs(bond.x) - 1.1001) < 2e-3 and bond.material == "layer 1"
+    assert abs(stress.maxima["bond_3_shear"].value / 101.104 - 1) < 1e-4
+    assert "bond_4_peel" not in stress.maxima
+    with pytest.raises(rollbem.InvalidInput, match="the first row of layers= says it"):
+        rollbem.solve(case.but(young=3.0))
+
+
+def test_least_radius():
+    found = rollbem.design(support="halfplane", similar=True, load=500, mu=0, minimise="radius",
+                           over={"radius": (20, 200)}, subject=["max_pressure<=600"])
+    assert abs(found.value - 21.10263627) < 1e-3
+
+
 def test_sweeps():
     base = {k: v for k, v in STEADY.items() if k not in ("mu", "load")}
     out = run("sweep", "--vary-1", "mu 0.1 0.3", "--vary-2", "creep-ratio 0:1.5:4", load=500.0, **base).stdout

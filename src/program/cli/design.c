@@ -51,8 +51,8 @@ static const char about[] =
 static const char notes[] =
     "Example: rollbem design --support halfplane --similar --load 500 \\\n"
     "           --minimise max_pressure --over radius=20:200\n"
-    "         the least radius: --minimise radius --over radius=20:200 --subject "
-    "'max_pressure<=600'\n"
+    "         rollbem design --support halfplane --similar --load 500 \\\n"
+    "           --minimise radius --over radius=20:200 --subject 'max_pressure<=600'\n"
     "\nExit codes: 0 found; 1 not at rest, or constraints that cannot be met; 64, 65, 66,\n"
     "70, 73 as of the other commands.\n";
 
