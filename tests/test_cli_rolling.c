@@ -903,7 +903,7 @@ TEST(the_shakedown_map_shows_its_case)
                                "--yield-shear 40 --shakedown-map m.svg --plot-script m.gp");
     const double own = number_in(json_object_get(root, "summary"), "max_pressure") / yield_shear;
     assert_true(own > 10.0);
-    CHECK_REL(number_behind("m.gp", "set yrange [0:"), 1.1 * own, 1e-5, "p0 = %g k", own);
+    CHECK_REL(number_behind("m.gp", "limit_to = "), 1.1 * own, 1e-5, "p0 = %g k", own);
 }
 
 /* Over large mu the bound mu p is cut off at the largest pressure, which keeps the room. */
