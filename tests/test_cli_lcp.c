@@ -417,6 +417,8 @@ TEST(numbers_of_solutions_are_proved)
         {"$PROJECT/examples/lcp/rod.txt", "exactly 1 solution\n"},
         {"--upper $PROJECT/examples/lcp/rod-upper.txt $PROJECT/examples/lcp/rod.txt",
          "exactly 1 solution\n"},
+        {"--q $PROJECT/examples/lcp/string-q.txt $PROJECT/examples/lcp/string.mtx",
+         "exactly 1 solution\n"},
         {"--game $PROJECT/examples/lcp/game.txt", "exactly 3 solutions\n"},
         {"three", "exactly 3 solutions\n"},
         {"none", "there is no solution\n"},

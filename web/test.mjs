@@ -18,9 +18,10 @@ import { pathToFileURL } from "node:url";
 import { gunzipSync } from "node:zlib";
 import { CHROMIUM, close_browser, open_page } from "./chromium.mjs";
 import { crawl } from "./crawl.mjs";
-import { SIZES, drag_brake } from "./still.mjs";
+import { SIZES, drag_brake, drag_brake_in_firefox } from "./still.mjs";
 import { SIZES as WINDOWS, seen_together } from "./together.mjs";
 import { open_in_firefox } from "./firefox.mjs";
+import { random_hands, tasks_done } from "./hands.mjs";
 import { axes_of, axes_still_fit, bounds_of, tidy_number } from "./contact.js";
 import { value_to_hold, with_motion } from "./controls.js";
 import { CRACK_CASE, at_the_mouth, crack_request, faces_at } from "./crack.js";
@@ -1183,6 +1184,14 @@ async function views(page) {
                 check(rows.length > 25 && !short.length, `${width} x ${height}: ${JSON.stringify(short)}`);
             }
         });
+    if (process.env.ROLLBEM_TEST_ALL)
+        await test("ten tasks of a lecturer, and random hands", async () => {
+            const { rows, errors } = await tasks_done(url),
+                not_done = rows.filter(({ said }) => said);
+            check(rows.length === 10 && !not_done.length && !errors.length, JSON.stringify({ not_done, errors }));
+            const { faults } = await random_hands(url, { width: 1280, height: 720, seconds: 30, seed: Date.now() });
+            check(!faults.length, faults.join("; "));
+        });
     await test("printed: a page for each chapter that was seen, its figure as wide as the page", async () => {
         for (const view of VIEWS) {
             await page.run(`rollbem.open('${view}')`);
@@ -2128,6 +2137,10 @@ else if (spawnSync("firefox-esr", ["--version"]).status === 0) {
     } finally {
         await page.close();
     }
+    await test("Firefox: nothing moves under a finger", async () => {
+        const { moved, headlines, faults } = await drag_brake_in_firefox(url, "touch", ...SIZES[1]);
+        check(moved < 1 && headlines > 3 && !faults.length, JSON.stringify({ moved, headlines, faults }));
+    });
 } else console.log("[  SKIPPED ] the page in Firefox: no firefox-esr here");
 console.log(`page: ${passed} passed, ${failed} failed`);
 process.exit(failed ? 1 : 0);
