@@ -77,6 +77,29 @@ function grey(node, page, name) {
     return trouble ? fill_in(page.words.refused, { why: trouble }) : "";
 }
 
+/* The surfaces of a chapter's lens: those of a coarser solution as far as reach(answer) to each side, asked for when a hand
+ * has let go.  asked: what a view wants for them; take: whether the answer was theirs. */
+function surfaces_of({ store }, name, reach) {
+    let shape = null,
+        of = null;
+    return {
+        of: (answer) => shape ?? answer,
+        asked() {
+            const given = store.case(name),
+                a = store.solved[name];
+            return !a || store.holding || store.trouble(name) || of === given
+                ? []
+                : [{ kind: "closed", slot: `shape ${name}`, given: shape_of(given, reach(a)), of: given }];
+        },
+        take(answer, request) {
+            if (!request.of) return false;
+            of = request.of; /* also where there are none: they are not asked for again */
+            if (!answer.refused) shape = answer;
+            return true;
+        },
+    };
+}
+
 /* The lens of a chapter: so high that it and what else its card holds stand in one window. */
 const lens_height = (wide, around) => height_for(Math.min(440, Math.max(230, wide * 0.5)), around, 150);
 
@@ -120,12 +143,11 @@ export function press_view(words, page) {
     let guess = null,
         answered = null,
         drawn_for = null,
-        shape = null,
-        shape_for = null,
         rise = [],
         risen = 0,
         timer = null;
-    const motion = matchMedia("(prefers-reduced-motion: reduce)");
+    const motion = matchMedia("(prefers-reduced-motion: reduce)"),
+        surfaces = surfaces_of(page, "press", () => BESIDE);
     /* The gap closes element by element: the library's own solutions under growing loads. */
     function let_rise() {
         if (motion.matches || !store.solved.press) return;
@@ -244,7 +266,7 @@ export function press_view(words, page) {
                 height: lens_height(wide, 80),
                 given: store.case("press"),
                 fit: PRESS_FIT,
-                shape: guess === null ? shown : (rising ?? shape ?? a),
+                shape: guess === null ? shown : (rising ?? surfaces.of(a)),
                 ghost: guess === null || rising ? null : ghost,
                 label: fill_in(words.tractions_alt, {
                     p0: guess === null ? "?" : show(shown.numbers.max_pressure, 3),
@@ -281,19 +303,12 @@ export function press_view(words, page) {
         uses: ["press"],
         fine: true,
         busy: () => rise.length > 0,
-        wants() {
-            const of = store.case("press");
-            return store.holding || store.trouble("press") || shape_for === of
-                ? []
-                : [{ kind: "closed", slot: "shape press", given: shape_of(of, BESIDE), of }];
-        },
+        wants: surfaces.asked,
         solved() {
             if (!store.holding) page.ask_view("press");
         },
         take(answer, request) {
-            if (answer.refused) return;
-            if (request.k) rise[request.k] = answer;
-            else [shape, shape_for] = [answer, request.of];
+            if (!surfaces.take(answer, request) && !answer.refused) rise[request.k] = answer;
             drawn_for = null;
             render();
         },
@@ -345,9 +360,8 @@ export function brake_view(words, page) {
         curve = null,
         curve_key = "",
         ghost_curve = null,
-        shape = null,
-        shape_for = null,
         brush = null;
+    const surfaces = surfaces_of(page, "brake", ({ numbers }) => 1.5 * numbers.half_width);
     const set = (given) => store.set("brake", given),
         given = () => store.case("brake");
     const drive = page.knob({
@@ -506,14 +520,7 @@ export function brake_view(words, page) {
         });
     }
     const wanted = () => curve_request(given(), "curve brake");
-    function wants() {
-        const all = revealed && wanted().key !== curve_key ? [wanted()] : [],
-            of = given(),
-            n = store.solved.brake?.numbers;
-        if (n && !store.holding && shape_for !== of)
-            all.push({ kind: "closed", slot: "shape brake", given: shape_of(of, 1.5 * n.half_width), of });
-        return all;
-    }
+    const wants = () => [...(revealed && wanted().key !== curve_key ? [wanted()] : []), ...surfaces.asked()];
     function render() {
         const a = store.solved.brake,
             before = store.ghosts.brake,
@@ -534,7 +541,7 @@ export function brake_view(words, page) {
                 height: beside(Math.min(340, Math.max(210, wide * 0.42)), 80),
                 given: given(),
                 fit: { ...fit_lens(a), slip: slip_scale(a) },
-                shape: shape ?? a,
+                shape: surfaces.of(a),
                 blank: !revealed,
                 alike: true,
                 ghost: revealed && ghost ? at_same_width(ghost, a) : null,
@@ -608,8 +615,7 @@ export function brake_view(words, page) {
         paint,
         see: () => see.click(),
         take(answer, request) {
-            if (request.of) {
-                if (!answer.refused) [shape, shape_for] = [answer, request.of];
+            if (surfaces.take(answer, request)) {
                 drawn_for = null;
                 return render();
             }
@@ -714,16 +720,11 @@ export function soft_view(words, page) {
     relaxing.hidden = true;
     const node = html("div", { class: "stack" }, asking, relaxing);
     const wanted = () => curve_request(given(), "curve soft");
-    let shape = null,
-        shape_for = null;
-    function wants() {
-        if (store.holding) return [];
-        const all = guess !== null && wanted().key !== curve_key ? [wanted()] : [],
-            of = given();
-        if (shape_for !== of && store.solved.soft)
-            all.push({ kind: "closed", slot: "shape soft", given: shape_of(of, SOFT_WINDOW[1]), of });
-        return all;
-    }
+    const surfaces = surfaces_of(page, "soft", () => SOFT_WINDOW[1]);
+    const wants = () => [
+        ...(guess !== null && !store.holding && wanted().key !== curve_key ? [wanted()] : []),
+        ...surfaces.asked(),
+    ];
     /* The wheel turns as if its radius were larger by this part: the rim is so much slower than it travels. */
     const larger_by = (n) => 1 / (1 - n.free_creepage) - 1;
     function render() {
@@ -762,7 +763,7 @@ export function soft_view(words, page) {
                 height: (in_slides() ? height_for : beside)(Math.min(330, Math.max(200, wide * 0.42)), 80),
                 given: given(),
                 fit: { ...fit_lens(a), window: SOFT_WINDOW, press: 3 },
-                shape: shape ?? a,
+                shape: surfaces.of(a),
                 ghost: ghost_of("soft"),
                 label: words.take.titles.soft,
             }),
@@ -826,8 +827,7 @@ export function soft_view(words, page) {
         },
         answer: (value) => node.querySelector(`[data-value="${value}"]`).click(),
         take(answer, request) {
-            if (request.of) {
-                if (!answer.refused) [shape, shape_for] = [answer, request.of];
+            if (surfaces.take(answer, request)) {
                 drawn_for = null;
                 return render();
             }
