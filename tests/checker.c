@@ -76,6 +76,7 @@ typedef struct {
     const json_t *worn, *plastic; /* per element, or NULL */
     body a, b;
     double mu, modulus, radius; /* largest coefficient of friction, E*, combined R */
+    double period;              /* NAN: one contact alone */
     double last_mu;             /* of the law, in the last row of a history */
     double *mu_of;              /* of every element, by the friction law */
     int moves;                  /* 1: the law depends on the state */
@@ -334,6 +335,9 @@ static contact contact_of(const json_t *root, const rows *controls)
     const char *formulation = word(c.inputs, "formulation");
     c.a = body_of(c.inputs, "");
     c.b = body_of(c.inputs, "-b");
+    c.period = number(c.inputs, "period");
+    if (strcmp(word(c.inputs, "gap"), "wave") == 0) /* its crest's */
+        c.a.radius = pow(c.period / (2.0 * pi), 2.0) / number(c.inputs, "amplitude");
     resolve_datum(&c.a, c.a.radius);
     resolve_datum(&c.b, c.a.radius);
     c.last_mu = wanted(&c, controls, "mu", "mu");
@@ -407,7 +411,10 @@ static void check_contact(const contact *c, const table *t)
         if ((p[i] > 0.0) != (zone[i] != SEPARATED))
             violated("zone", "element %d: p = %g, zone %g", i + 1, p[i], zone[i]);
     }
-    if (t->n > 0 && (p[0] > 0.0 || p[t->n - 1] > 0.0))
+    double whole = 0.0; /* of a period, whose ends are one place */
+    for (int i = 0; i < t->n; i++)
+        whole += t->column[H][i];
+    if (t->n > 0 && (p[0] > 0.0 || p[t->n - 1] > 0.0) && !(whole >= c->period * (1.0 - 1e-9)))
         violated("ends", "the contact reaches an end of the potential contact");
 }
 
@@ -648,6 +655,11 @@ static void check_ratios(const contact *c, const table *t)
     double a = sqrt(4.0 * P_ * c->radius / (pi * c->modulus));
     const int relaxes =
         c->formulation != STATIC && (has_memory(c->inputs, "") || has_memory(c->inputs, "-b"));
+    if (c->period > 0.0) /* Westergaard's, of a wave */
+        a = strcmp(word(c->inputs, "gap"), "wave") == 0
+                ? c->period / pi *
+                      asin(sqrt(fmin(1.0, P_ / (pi * c->modulus * number(c->inputs, "amplitude")))))
+                : fmin(a, 0.5 * c->period);
     if (number(c->inputs, "interlayer-normal") > 0.0 || relaxes) {
         /* theirs by formula, to a few per cent of what carries */
         a = number(c->summary, "hertz_half_width");
@@ -868,6 +880,26 @@ static long double y_ln_y(long double y)
     return y == 0.0L ? 0.0L : y * logl(fabsl(y));
 }
 
+/* Clausen's integral -int ln|2 sin(t/2)| dt from 0 to x, by its series about 0 with the zeta
+ * function of 2 k. */
+static long double clausen(long double x)
+{
+    enum { TERMS = 32 };
+    static long double zeta[TERMS + 1];
+    const long double two_pi = 2.0L * acosl(-1.0L), y = remainderl(x, two_pi), part = y / two_pi;
+    long double power = 1.0L, sum = 1.0L - (y == 0.0L ? 0.0L : logl(fabsl(y)));
+    for (int k = 1; k <= TERMS && zeta[TERMS] == 0.0L; k++) {
+        for (int n = 1000; n >= 1 && k > 2; n--)
+            zeta[k] += powl((long double)n, -2.0L * k);
+        zeta[k] += k == 1 ? two_pi * two_pi / 24.0L : k == 2 ? powl(two_pi, 4) / 1440.0L : 0.0L;
+    }
+    for (int k = 1; k <= TERMS; k++) {
+        power *= part * part;
+        sum += zeta[k] * power / (k * (2.0L * k + 1.0L));
+    }
+    return y * sum;
+}
+
 /* Displacements under p and q of table t at the abscissa x: for each body
  * -2 (1 - nu^2)/(pi E) int ln(|x - s|/d) ds of the same direction, +-c int sgn(x - s) ds
  * of the other one, c = (1 - 2 nu)(1 + nu)/(2E), B with the opposite sign of c. */
@@ -880,14 +912,21 @@ static void flamant(const contact *c, const table *t, double x, long double *un,
         if (p == 0.0L && q == 0.0L)
             continue;
         const long double from = t->column[X][i] - 0.5L * h, to = from + h;
-        const long double log_integral = y_ln_y(x - from) - y_ln_y(x - to) - h;
-        const long double sign_integral = fabsl(x - from) - fabsl(x - to);
+        const long double L = c->period, from_x = x - from, to_x = x - to;
+        long double log_integral = y_ln_y(from_x) - y_ln_y(to_x) - h;
+        long double sign_integral = fabsl(from_x) - fabsl(to_x);
+        if (L > 0.0L) { /* of all periods: Clausen's function, and the saw */
+            log_integral = -L / (2.0L * pi) *
+                           (clausen(2.0L * pi * from_x / L) - clausen(2.0L * pi * to_x / L));
+            sign_integral -= (from_x * from_x - to_x * to_x) / L;
+        }
         for (int k = 0; k < 2; k++) {
             const long double E = bodies[k]->young, nu = bodies[k]->poisson;
             if (E == 0.0L)
                 continue;
             const long double direct =
-                -2.0L * (1.0L - nu * nu) / (pi * E) * (log_integral - h * logl(bodies[k]->datum));
+                -2.0L * (1.0L - nu * nu) / (pi * E) *
+                (log_integral - (L > 0.0L ? 0.0L : h * logl(bodies[k]->datum)));
             const long double cross = (k == 0 ? 1.0L : -1.0L) * (1.0L - 2.0L * nu) * (1.0L + nu) /
                                       (2.0L * E) * sign_integral;
             *un += direct * p + cross * q;

@@ -334,8 +334,6 @@ static const conflict conflicts[] = {
     {{"tilt=given", RELAXING}, NULL},
     {{"gap=wave", "period=none"}, "needs --period and --amplitude"},
     {{"gap=wave", "body-b=cylinder|bore"}, "a wave lies on a plane"},
-    {{"gap=wave", "body-b=hub|arc"}, NULL},
-    {{"gap=wave", "normal=half-width"}, "Hertz's is that of one contact"},
     {{"period=given", "regime=steady|transient*|steps"}, "of bodies at rest only"},
     {{"period=given", "support!halfplane"}, "of half-planes of one elastic material only"},
     {{"period=given", "body-b=hub|arc"}, "of half-planes of one elastic material only"},
