@@ -115,6 +115,25 @@ def tag_L1():
             close(got, F[at + j, (0 if name == "N" else 24)], 2e-3)
 
 
+def tag_L3():
+    factor = printed(PAGE, r"\frac{2h}{\pi E^*}\int_0^\infty\left[").split(r"\int")[0]
+    inside = printed(PAGE, r"m\,e^{-\alpha} + \operatorname{Re}\left(Z_N e^{ikx}\right)\operatorname{sinc}\frac{kh}{2}\right]\frac{d\alpha}{\alpha}")
+    inside = inside.replace(r"\operatorname{Re}\left(Z_N e^{ikx}\right)\operatorname{sinc}\frac{kh}{2}\right]\frac{d\alpha}{\alpha}", "Z*S")
+    printed(PAGE, "Z = c L - c (1, 1, beta)")
+    nu, E, d = 0.3, 1.0, 1.0
+    ka, Es = 3 - 4*nu, E/(1 - nu**2)
+    case = dict(support="halfplane", young=E, poisson=nu, radius=1000, gap="parabola", half_width=1, mu=0.3, mesh="uniform", zone=2.5,
+                contact_elements=24)
+    layer, half = rollbem.solve(layer_thickness=d, **case), rollbem.solve(datum=d, **case)
+    h, x = layer.h[0], np.array(layer.x)
+    L_N = lambda al: (2*ka*np.sinh(2*al) - 4*al)/(2*ka*np.cosh(2*al) + 4*al**2 + 1 + ka**2)  # (L1)
+    def integrand(al, r):
+        return value(inside, m=1.0, e=np.e, alpha=al, Z=(L_N(al) - 1)*np.cos(al*r/d), S=np.sinc(al*h/(2*np.pi*d)))/al
+    for j in [0, 3, 9]:
+        got = value(factor, h=h, Es=Es)*integrate.quad(lambda al: integrand(al, x[j] - x[0]), 1e-6, 60, limit=200)[0]
+        close(got, np.array(layer.F)[j, 0] - np.array(half.F)[j, 0], 1e-4)
+
+
 def tag_B9():
     text = printed("theory.md", "x^2/(R + sqrt(R^2 - x^2))")
     close([value(text, x=x, R=1.0) for x in (0.5, 0.9)], [1 - np.sqrt(1 - x*x) for x in (0.5, 0.9)])
