@@ -361,6 +361,47 @@ TEST(stress_of_cut_layers)
     }
 }
 
+/* Each failing allocation is said, and a stack that is none. */
+TEST(memory_and_bad_stacks)
+{
+    static const double x[] = {-1.0, 0.0, 1.0}, p[] = {0.0, 1.0, 0.0}, xy[] = {.2, .04, .2, .3};
+    const rb_bem_edge_load load = {3, x, p, p};
+    double thickness[] = {.1, .05, .3}, young[] = {400e3, 3e3, 70e3};
+    const rb_bem_stack stack = {3, thickness, young, hard_poisson};
+    double W[ENTRIES], s[6];
+    int k = -1, refused = 1;
+    while (refused) { /* each time others, whose table is not kept */
+        thickness[1] = .05 + 1e-3 * ++k;
+        const rb_bem_surface body = surface_of(&stack, 2e5, 0.3);
+        refused = REFUSED_FROM(k, rb_bem_surface_displacement(&body, 2, x, 1, x, W));
+    }
+    assert_true(k > 3);
+    const rb_bem_surface body = surface_of(&stack, 2e5, 0.3);
+    rb_bem_layer_field *field = NULL;
+    for (k = 0; REFUSED_FROM(k, rb_bem_layer_field_create(&body, &load, &field, NULL)); k++)
+        assert_null(field);
+    assert_true(k > 3);
+    CHECK_STATUS(
+        rb_bem_layer_field_add(field, (rb_bem_points){1, (double[]){0.0, -1e-9}}, s, &heard),
+        RB_EINVAL);
+    for (k = 0; REFUSED_FROM(k, rb_bem_layer_field_add(field, (rb_bem_points){2, xy}, s, NULL));
+         k++)
+        ;
+    CHECK_STATUS(rb_bem_layer_field_add(field, (rb_bem_points){1, (double[]){1e5, 0.1}}, s, &heard),
+                 RB_EINVAL);
+    rb_bem_layer_field_free(field);
+    for (k = 0; k < 3; k++) {
+        rb_bem_surface bad = body;
+        rb_bem_stack other = stack;
+        other.n = k == 0 ? 1 : 3;
+        thickness[2] = k == 1 ? 0.0 : .3;
+        young[2] = k == 2 ? -1.0 : 70e3;
+        bad.stack = &other;
+        CHECK_STATUS(rb_bem_layer_field_create(&bad, &load, &field, &heard), RB_EINVAL);
+        assert_null(field);
+    }
+}
+
 /* ---- Doors ------------------------------------------------------------------------- */
 
 TEST(doors_and_refusals)
