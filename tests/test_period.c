@@ -181,6 +181,21 @@ TEST(histories_and_check)
     assert_int_equal(rollbem(WAVE "--mu 0.3 --load 0.04 --force-ratio 0.6 --prove"), 0);
 }
 
+/* Equal friction everywhere moves nothing: where all sticks the force is given, 0 by itself. */
+TEST(all_of_a_period_sticks)
+{
+    static const char *const bodies[] = {WAVE "--mu 0.3", WAVE "--mu 0.9 --poisson 0.3",
+                                         WAVE "--mu 0.3 --similar"};
+    char line[256];
+    for (size_t k = 0; k < sizeof bodies / sizeof *bodies; k++) {
+        held_json *root = run_jsonf("%s --load 1 --contact-elements 64", bodies[k]);
+        CHECK_ABS(of_summary(root, "tangential_load"), 0.0, 1e-12, "%s", bodies[k]);
+        snprintf(line, sizeof line, "%s --load 1 --contact-elements 64 --shift 0", bodies[k]);
+        assert_int_equal(rollbem(line), 1);
+        assert_non_null(strstr(err, "does not follow from the shift"));
+    }
+}
+
 TEST(what_is_refused)
 {
     static const struct {

@@ -949,6 +949,10 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     if (!rb_case_given(c, "contact-elements") &&
         (rc->mesh == RB_MESH_FITTED || (refined && rc->mesh == RB_MESH_ALIGNED)))
         rc->contact_elements = 100;
+    /* Q = 0, which a shift does not say where all of a period sticks */
+    if (rc->period > 0.0 && isnan(rc->approach) && isnan(rc->shift) &&
+        !rb_rolling_force_is_given(rc) && !c->resolved.history_file)
+        rc->force = 0.0;
     if (c->resolved.program.n > 0)
         c->resolved.rc = rb_rolling_program_base(&c->resolved.program, &c->resolved.rc);
     if (rc->contact.solver == RB_SOLVER_CONE && c->find_cone_solver)

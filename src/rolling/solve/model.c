@@ -50,6 +50,26 @@ void rb_rolling_model_free(rb_rolling_model *model)
     memset(model, 0, sizeof *model);
 }
 
+/* Slip below this part of its scale is none. */
+static const double AT_REST = 1e-9;
+
+/* Where all of a period touches and sticks, equal friction everywhere moves nothing (P1): a shift
+ * does not say how large it is. */
+static rb_status check_determined(const rb_rolling_model *model, rb_message *why)
+{
+    const rb_contact_problem *p = &model->problem;
+
+    if (!rb_rolling_fills_period(model->rc, &model->mesh) || p->force_given)
+        return RB_OK;
+    for (int i = 0; i < p->n; i++)
+        if (model->state.zone[i] == RB_ZONE_SEPARATED || p->bound[i] == 0.0 ||
+            fabs(model->state.lambda[i]) > AT_REST * p->slip_length)
+            return RB_OK;
+    return rb_fail(why, RB_SINGULAR,
+                   "all of the period touches and sticks, so that the force does not follow from "
+                   "the shift; give --force");
+}
+
 rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why)
 {
     const double start = rb_seconds();
@@ -66,6 +86,8 @@ rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message
             rb_rolling_contact_half_width(model->rc, fmax(0.0, rb_rolling_model_load(model)));
     if (s == RB_OK)
         s = model->state.status = rb_rolling_check_enclosed(model, &model->state, why);
+    if (s == RB_OK)
+        s = model->state.status = check_determined(model, why);
     return s;
 }
 
