@@ -47,6 +47,10 @@ static const char *const lines[] = {
     "{mm 2000}",
     "~ --load {N/mm 500} --shift {mm 1e-3} --bulk-stress {MPa 40} --bulk-stress-b {MPa -20}",
     "~ --load {N/mm 500} --moment {N 30} --shift {mm 1e-4}",
+    "--support halfplane --young {MPa 205000} --poisson 0.3 --gap wave --period {mm 1} --amplitude "
+    "{mm 1e-3} --mu 0.2 --load {N/mm 300} --force {N/mm 20} --contact-elements 20",
+    "--support halfplane --radius {mm 46.5} --layers {layers} --base-young {MPa 205000} "
+    "--base-poisson 0.3 --load {N/mm 50} --mu 0.2 --shift {mm 1e-4} --contact-elements 20",
     "~ --formulation transient --distance 0.2 --irregularity {flat} --load {N/mm 100} --creep 0",
     "~ --friction-law {law} --load {N/mm 100} --shift {mm 1e-4}",
     "~ --history {history}",
@@ -102,6 +106,7 @@ static const struct {
     {"law", "x mu", {"mm", "-"}, "-.2 .2 0 .3 .2 .2"},
     {"tractions", "x p q", {"mm", "MPa", "MPa"}, "-1 0 0 0 100 40 1 0 0"},
     {"points", "x y", {"mm", "mm"}, "0 .5 .1 .3"},
+    {"layers", "thickness young poisson", {"mm", "MPa", "-"}, "2 2000 .3 1 9000 .4"},
     {"history", "load shift", {"N/mm", "mm"}, "100 0 200 .0005 150 -.0002"},
     {"cases", "load young", {"N/mm", "MPa"}, "100 205000 200 190000"},
     {"data", "creep force", {"-", "N/mm"}, "-5e-4 50 -1e-3 88 -2e-3 132 -3e-3 146 -5e-3 150"}};

@@ -50,8 +50,8 @@ const rb_option rb_case_crack_options[] = {
                    "mouth (Bower), or that of the place between two positions where the "
                    "mouth closes"),
     RB_NUMBER_LINE("remote-stress", PLACE(remote_stress), "MPa", RB_ANY,
-                   "uniform stress in B along the surface, tension > 0; low,high: a cycle, with "
-                   "--unloaded",
+                   "uniform stress in B along the surface, tension > 0; low,high: a cycle "
+                   "without contact",
                    .list = PLACE(remote_stresses)),
     RB_FLAG_LINE("unloaded", PLACE(unloaded), "that stress alone, without a contact"),
     RB_FLAG_LINE("coupled", PLACE(coupled),
