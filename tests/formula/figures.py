@@ -71,7 +71,7 @@ def check(page, comment, block):
     turns = kind.split("\n")[0] == "turns"
     wrong, lines = [], list(commands(comment.replace("turns\n", "", 1) if turns else comment))
     shown = [w for w in FIGURE.findall(block) if is_measured(w)]
-    met, ran = set(), 0
+    met, near, ran = set(), set(), 0
     for k, line in enumerate(lines):
         if turns and not everything and k % 4 != turn % 4:
             continue
@@ -83,9 +83,12 @@ def check(page, comment, block):
             alike = [w for w in FIGURE.findall(block) if abs(abs(x) - abs(float(w))) <= 0.6*unit(w) and abs(float(w)) >= 0.05*abs(x)
                      and (is_measured(w) or abs(float(w)) < 1)]
             met.update(alike)
+            near.update(w for w in shown if w not in alike and abs(abs(x) - abs(float(w))) < 2e-3*abs(x))
             if not alike:
                 wrong.append(f"{line.strip()}: {expression.strip()} is {x:.6g}, which the page does not show")
     given = set(FIGURE.findall(comment))
+    if ran == len(lines):  # one of two places that show a value may be wrong
+        wrong += [f"{w} is nearly what a command prints" for w in near - met - given]
     if ran == len(lines) and block.lstrip().startswith("|"):
         wrong += [f"{w} is printed by no command" for w in shown if w not in met and w not in given]
     return wrong
