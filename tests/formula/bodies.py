@@ -167,6 +167,7 @@ def tag_E2():
     p_0 = value(printed("theory-rolling.md", r"p_0 = \frac{3W}{2\pi s l}").split("=")[1], W=1e5, s=short, l=l)
     Es = 210000/(1 - 0.09)/2
     names = dict(k=short/l, s=short, l=l, R_D=R_D, Es=Es, p_0=p_0, a=s.ellipse_a)
+    close(s.normal_load, value(printed("faq.md", "3 P/(4 b)").replace("3 P", "3*P"), P=1e5, b=s.ellipse_b), 1e-6)
     close([s.ellipse_pressure, s.strip_radius], [p_0, value(strip, **names)], 1e-6)
     close([value(steep, **names), value(along, **names)*value(steep, **names)], sorted([1/600, 1/920], reverse=True), 1e-6)
     delta = printed("theory-rolling.md", r"\frac{p_0\, s}{E^*} K\!\left(\sqrt{1-k^2}\right)").replace(r"K\!\left(\sqrt{1-k^2}\right)", "K")

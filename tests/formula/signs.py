@@ -75,7 +75,7 @@ def tag_bond():
 def tag_speeds():
     """V (1 - xi/2) and V (1 + xi/2): the surface of the slower roll passes the contact slower."""
     printed("rolls.md", "xi > 0 means that A is the slower one: its surface passes the nip at V (1 - xi/2), that of B at V (1 + xi/2)")
-    printed("faq.md", "a locked wheel has xi = 2, and V is half its forward speed")
+    printed("faq.md", "V (1 - xi/2) and V (1 + xi/2): a locked wheel has xi = 2, and V is half its forward speed")
     printed("glossary.md", "a faster A has xi < 0")
     V, xi = 2.0, 0.3
     a, b = V*(1 - xi/2), V*(1 + xi/2)
