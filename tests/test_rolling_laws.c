@@ -911,6 +911,50 @@ TEST(jumps_are_told)
     }
 }
 
+/* Computed in other steps again, a first row begins with bodies that have not slid: similar ones
+ * slide as little while they are pressed together, so that a row before it changes nothing. */
+TEST(a_first_row_jumps_as_a_second_one_does)
+{
+    static const double shift[] = {0.0, 6e-3}, load[] = {900.0, 900.0};
+    const rb_rolling_case rc = with(pushed(36, 0.05, 36.788), "half-width nan load 900");
+    const rb_rolling_program one = {.n = 1, .shift = shift + 1, .load = load},
+                             two = {.n = 2, .shift = shift, .load = load};
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_model) other;
+    OWNED(rb_rolling_history) h;
+    OWNED(rb_rolling_history) want;
+    CHECK_OK(rb_rolling_history_run(&rc, &one, NULL, &model, &h, &heard));
+    CHECK_OK(rb_rolling_history_run(&rc, &two, NULL, &other, &want, &heard));
+    assert_int_equal(want.rows.jumped, 2);
+    assert_int_equal(h.rows.jumped, 1);
+    assert_int_equal(h.substeps[0], 2 * want.substeps[1]); /* half of them press */
+    CHECK_REL(h.rows.jump_force, want.rows.jump_force, 1e-9, "force");
+    CHECK_REL(h.rows.jump_shift, want.rows.jump_shift, 1e-9, "shift");
+    CHECK_REL(h.friction_work[0], want.friction_work[1], 1e-9, "work");
+}
+
+/* In as many steps from the beginning: dissimilar bodies slide while they are pressed together. */
+TEST(a_first_row_does_not_depend_on_the_steps_tried_before)
+{
+    static const double shift[] = {4e-3}, load[] = {900.0};
+    const rb_rolling_program program = {.n = 1, .shift = shift, .load = load};
+    rb_rolling_case rc = rolling_case("support halfplane gap parabola young 210000 poisson 0.1 "
+                                      "radius 100 load 900 mu 0.2 formulation static "
+                                      "contact-elements 16");
+    rc.friction = pushed(16, 0.2, NAN).friction;
+    OWNED(rb_rolling_model) model;
+    OWNED(rb_rolling_model) other;
+    OWNED(rb_rolling_history) h;
+    OWNED(rb_rolling_history) want;
+    CHECK_OK(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &heard));
+    assert_true(h.substeps[0] >= 4);
+    rc.increments = h.substeps[0] / 2; /* to press, and as many to load */
+    CHECK_OK(rb_rolling_history_run(&rc, &program, NULL, &other, &want, &heard));
+    assert_int_equal(want.substeps[0], h.substeps[0]);
+    for (int i = 0; i < model.mesh.n; i++)
+        CHECK_ABS(model.state.q[i], other.state.q[i], 1e-9 * h.max_pressure[0], "element %d", i);
+}
+
 /* Slip in either sense takes friction away, and time gives it back to what sticks. */
 TEST(friction_at_rest_falls_in_both_senses)
 {
@@ -984,6 +1028,44 @@ TEST(what_sticks_heals)
     assert_true(healed > 5);
     free(seen.bound);
     free(seen.zone);
+}
+
+/* Also where the bodies are apart: a column mu moves the coefficients, and time restores them. */
+TEST(what_is_apart_remembers_its_coefficients)
+{
+    static const double load[] = {900.0, 0.0, 0.0}, shift[] = {4e-3, 4e-3, 4e-3},
+                        mu[] = {0.2, 0.1, 0.1}, time[] = {0.0, 1e-3, 0.3};
+    for (int heals = 0; heals < 2; heals++) {
+        const rb_rolling_program program = {.n = 3,
+                                            .load = load,
+                                            .shift = shift,
+                                            .mu = heals ? NULL : mu,
+                                            .time = heals ? time : NULL};
+        rb_rolling_case rc = with(pushed(40, 0.5, 36.788), "half-width nan load 900");
+        if (heals)
+            set(&rc, "relaxation-time 1e-4 relaxation-ratio 1e-4");
+        rc.friction.memory_slip = 2e-3; /* d/s0 = 0.25 s */
+        bounds_seen seen = {NULL, NULL, 0};
+        const rb_rolling_observer observer = {see_bounds, &seen};
+        OWNED(rb_rolling_model) model;
+        OWNED(rb_rolling_history) h;
+        CHECK_OK(rb_rolling_history_run(&rc, &program, &observer, &model, &h, &heard));
+        const double *first = seen.bound, *second = first + model.mesh.n,
+                     *third = second + model.mesh.n;
+        int slid = 0;
+        assert_int_equal(seen.rows, 3);
+        for (int i = 0; i < model.mesh.n; i++) {
+            if (heals)
+                CHECK_ABS(third[i], 0.3 + (second[i] - 0.3) * exp(-0.299 / 0.25), 1e-12,
+                          "element %d", i);
+            else
+                CHECK_ABS(second[i], first[i] - 0.1, 1e-12, "element %d", i);
+            slid += first[i] < 0.299;
+        }
+        assert_true(slid > 5);
+        free(seen.bound);
+        free(seen.zone);
+    }
 }
 
 /* A column mu moves the coefficients of what sticks as well. */

@@ -301,6 +301,8 @@ rb_status rb_rolling_particles_create(rb_rolling_particles *r, rb_message *why)
 rb_status rb_rolling_particles_bring(rb_rolling_particles *r, const rb_rolling_stride *stride,
                                      rb_message *why)
 {
+    if (stride->is_first) /* also where the first row is computed again in other steps */
+        r->model->carried.mu = NULL;
     for (int k = 0; k < MEMORIES; k++) {
         const int brings =
             is_carried(&memories[k], r) && (memories[k].without_past || !stride->is_first);

@@ -325,10 +325,11 @@ static rb_status part(rb_rolling_model *model, rb_message *why)
     state->xi = p->force_given ? 0.0 : p->xi;
     state->residual = 0.0;
     state->status = RB_OK;
-    if (!scratch.failed)
-        rb_contact_kinematics(p, state, gap, state->lambda);
-    return scratch.failed ? rb_fail(why, rb_arena_done(&scratch, RB_ENOMEM), "out of memory")
-                          : rb_arena_done(&scratch, RB_OK);
+    if (scratch.failed)
+        return rb_fail(why, rb_arena_done(&scratch, RB_ENOMEM), "out of memory");
+    rb_contact_kinematics(p, state, gap, state->lambda);
+    rb_arena_free(&scratch);
+    return rb_rolling_model_friction(model, why); /* particles remember their coefficients */
 }
 
 static rb_status solve_step(const history_state *r, rb_message *why)
