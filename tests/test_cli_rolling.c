@@ -1075,6 +1075,17 @@ TEST(a_datum_that_is_too_near_is_said)
             "--support halfplane --datum 0.1 --datum-b 0.1 --similar --half-width 1 --shift 0.001"),
         0);
     assert_non_null(strstr(err, "other solutions exist for the same shift"));
+    /* under a soft layer the stiff one stretches as far */
+    write_file("stiff.txt", "0.01 210000 0.3\n0.02 2.1e11 0.3\n0.05 210000 0.3\n");
+    static const char *const datum[] = {"auto", "1e6"};
+    for (int k = 0; k < 2; k++) {
+        snprintf(command, sizeof command,
+                 "--support halfplane --radius 20 --layers stiff.txt --base-young 210000 "
+                 "--base-poisson 0.3 --gap parabola --load 200 --mu 0.2 --datum %s",
+                 datum[k]);
+        assert_int_equal(rollbem(command), 0);
+        assert_int_equal(strstr(err, "other solutions exist for the same shift") != NULL, k == 0);
+    }
 }
 
 /* A body that relaxes moves as far as it turns in that time: beyond the datum it is the glassy

@@ -178,7 +178,9 @@ TEST(histories_and_check)
     assert_int_equal(rollbem(WAVE "--mu 0.3 --load 0.0187 --force-ratio 0.6 --json > wave.json"),
                      0);
     assert_int_equal(rollbem("check wave.json"), 0);
-    assert_int_equal(rollbem(WAVE "--mu 0.3 --load 0.04 --force-ratio 0.6 --prove"), 0);
+    assert_int_equal(
+        rollbem(WAVE "--mu 0.3 --load 0.04 --force-ratio 0.6 --prove --json > flat.json"), 0);
+    assert_int_equal(rollbem("check flat.json"), 0);
 }
 
 /* Equal friction everywhere moves nothing: where all sticks the force is given, 0 by itself. */

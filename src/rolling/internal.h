@@ -479,8 +479,6 @@ rb_status rb_rolling_gap_along(const rb_rolling_case *rc, double passed, int n, 
                                double *gap);
 /* 0: the bodies may touch in several places. */
 int rb_rolling_is_convex(const rb_rolling_case *rc);
-/* 1: the mesh is a whole period, and its ends are one place. */
-int rb_rolling_fills_period(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
 /* The interval in which elements may lie: on the lower half of every round body, within
  * the table and one period. */
 void rb_rolling_extent(const rb_rolling_case *rc, double *from, double *to);

@@ -428,6 +428,8 @@ double rb_rolling_model_load(const rb_rolling_model *model);
 double rb_rolling_model_force(const rb_rolling_model *model);
 /* Q divided by the maximum friction force mu P; NAN without friction or load. */
 double rb_rolling_force_ratio(const rb_rolling_model *model);
+/* 1: the mesh is a whole period, and its ends are one place. */
+int rb_rolling_fills_period(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
 /* The outer edges of all patches; NAN without contact. */
 void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                               const rb_contact_state *state, double *from, double *to);

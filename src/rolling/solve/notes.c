@@ -4,6 +4,7 @@
  * that must say it, and a near one that must not, for each. */
 #include "rolling/solve/results.h"
 
+#include <gsl/gsl_math.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -377,14 +378,23 @@ static double mean_compliance(const rb_rolling_case *rc, const rb_rolling_body *
         }
         return all;
     }
-    const double thickness = fmax(rb_rolling_layers_depth(body), mean),
-                 of_layer = of_own * log(thickness / mean);
-    if (!(body->base_young > 0.0))
-        return of_layer;
+    const rb_bem_stack *stack = body->stack;
     const rb_bem_material base = rb_rolling_base_material(rc, body);
-    const double of_base = (1.0 - base.poisson) / base.shear, ratio = of_base / of_own;
-    const double length = thickness * fmax(1.0, along ? ratio : cbrt(ratio));
-    return of_layer + of_base * log(datum / length);
+    const double of_base = (1.0 - base.poisson) / base.shear;
+    double of_layers = 0.0, stiffness = 0.0, depth = 0.0; /* against stretching or bending */
+    for (int k = 0; k < rb_rolling_layers(body); k++) {
+        const double above = depth;
+        const rb_bem_material m =
+            stack ? rb_bem_material_from_young(stack->young[k], stack->poisson[k]) : own;
+        const double of_layer = (1.0 - m.poisson) / m.shear, ratio = of_base / of_layer;
+        depth += stack ? stack->thickness[k] : body->layer;
+        of_layers += of_layer * log(fmax(depth, mean) / fmax(above, mean));
+        stiffness += ratio * (along ? depth - above : gsl_pow_3(depth) - gsl_pow_3(above));
+    }
+    if (!(body->base_young > 0.0))
+        return of_layers;
+    return of_layers +
+           of_base * log(datum / fmax(fmax(depth, mean), along ? stiffness : cbrt(stiffness)));
 }
 
 /* Then the flexibility is indefinite; rolling steadily under a load takes differences of
