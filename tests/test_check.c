@@ -90,7 +90,8 @@ static void write_controls(void)
               "0.4 0.3 0.5\\n0.8 0.1 0.5\\n' > wet.txt; printf 'mu load "
               "shift\\n0.2 100 0\\n0.4 120 1e-4\\n' > dry.txt; printf 'time "
               "load\\n0 100\\n1e-3 100\\n3e-3 50\\n' > calm.txt; printf 'load shift\\n100 0\\n60 "
-              "1e-4\\n0 2e-4\\n100 1e-4\\n' > lift.txt"),
+              "1e-4\\n0 2e-4\\n100 1e-4\\n' > lift.txt; printf 'time load shift mu\\n0 200 1e-3 "
+              "0.3\\n0.01 0 1e-3 0.2\\n5 0 1e-3 0.2\\n5.01 200 1.2e-3 0.2\\n' > heal.txt"),
         0);
 }
 
@@ -162,6 +163,10 @@ TEST(results_are_valid)
         /* next to incompressible, ut is rounding of un */
         "--support hub --mu 0.3 --mesh fitted --contact-elements 45 --load 100 "
         "--poisson 0.49 --young-b 1e5 --radius-b 80",
+        /* apart, with all but nothing left of what was there before */
+        "--support halfplane --history heal.txt --states --contact-elements 12 "
+        "--relaxation-time 0.01 --relaxation-ratio 1 --friction-law exponential --mu-fall 0.1 "
+        "--memory 5e-3,2",
     };
     write_controls();
     write_points();

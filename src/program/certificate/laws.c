@@ -45,6 +45,8 @@ void rb_certificate_tolerances(rb_certificate *c, double residual)
     if (w && rb_rolling_displacement(&m->bodies, m->state.p, m->state.q, w) == RB_OK)
         c->displacement += share * (rb_norm_inf(elements, w) + rb_norm_inf(elements, w + elements));
     free(w);
+    /* That from which a step begins; of bodies that have come apart it is all there is. */
+    c->displacement += share * rb_norm_inf((size_t)p->n, p->d_T);
     c->tol = (hierarchical ? 100.0 : 10.0) * asked +
              c->displacement / fmin(p->gap_length, p->slip_length);
 }

@@ -442,6 +442,7 @@ static rb_status bookmark_return(bookmark *b, history_state *r, rb_message *why)
     if (model->carried.yielded)
         memcpy(model->carried.yielded, b->past + n, n * sizeof *b->past);
     if (--r->history->n == 0) {
+        r->particles.interval = b->interval; /* the first step builds them again */
         rb_rolling_start_bounds(model->rc, NULL, &model->bodies, &model->problem);
         return RB_OK;
     }
