@@ -290,6 +290,8 @@ TEST(refusals_have_their_code_and_reason)
         {65, "sweep b.ini --cases names.txt", "names.txt: no numbers"},
         {65, "sweep b.ini --cases colour.txt",
          "'colour' is not an option of a case with a number as value"},
+        {65, "sweep b.ini --cases layers.txt",
+         "'layers' is not an option of a case with a number as value, or with words\n"},
         {65, "sweep b.ini --cases twice.txt", "column 'mu' is named twice"},
         {65, "sweep b.ini --cases negative.txt --vary-1 'load 1 2'",
          "negative.txt:5: mu: expected a number >= 0, got '-1'"},
@@ -375,6 +377,7 @@ TEST(refusals_have_their_code_and_reason)
     write_file("holes.txt", "load mu\n100 0.1\n100 0.2\n200 0.1\n");
     write_file("names.txt", "mu\n");
     write_file("colour.txt", "colour\n1\n");
+    write_file("layers.txt", "layers\ncoating.csv\n");
     write_file("twice.txt", "mu mu\n1 2\n");
     write_file("negative.txt", "mu\n0.1\n# a comment\n\n-1\n");
     write_file("long.txt", "abcdefghijklmnopqrstuvwxyzabcdefghijklmn\n1\n");

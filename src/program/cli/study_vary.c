@@ -197,7 +197,7 @@ static cli_exit unknown(cli_exit bad, const char *source, const char *name)
 {
     rb_guess guess = {.word = name};
     for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++)
-        if (o->kind != RB_OPTION_GROUP)
+        if (may_vary(o))
             rb_guess_try(&guess, o->name);
     return cli_fail(
         bad, "%s: '%.60s' is not an option of a case with a number as value, or with words%s",
