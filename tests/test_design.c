@@ -140,6 +140,9 @@ TEST(what_is_refused)
                {"max_pressure", "radius=1:200", "half_width=3",
                 "--subject: expected RESULT<=X or RESULT>=X, got"},
                {"max_pressure", "radius=1:200", "half_width<=x", "x"},
+               {"max_pressure", " radius=1:200", "load >= 1, half_width <= x", "load"},
+               {"max_pressure", " radius=1:200 ", "half_width <= 1 mm, half_width >= x",
+                "half_width: expected a number, got 'x'"},
                {"max_pressure", "radius=20:200", "half_width<=0.1", "constraints"}};
     rb_message why;
     held_case *c = case_of(hertz);

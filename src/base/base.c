@@ -47,8 +47,11 @@ const char *rb_next_word(const char *list, char *word, size_t size)
 {
     if (!list || !*list)
         return NULL;
-    const size_t n = strcspn(list, ",");
-    snprintf(word, size, "%.*s", (int)n, list);
+    const size_t n = strcspn(list, ","), from = strspn(list, " ");
+    size_t to = n;
+    while (to > from && list[to - 1] == ' ')
+        to--;
+    snprintf(word, size, "%.*s", to > from ? (int)(to - from) : 0, list + from);
     return list + n + (list[n] == ',');
 }
 

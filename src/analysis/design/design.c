@@ -101,7 +101,10 @@ rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d
         rb_design_constraint *k = &d->constraint[d->constraints++];
         *k = (rb_design_constraint){.at_least = *sign == '>'};
         const char *number = sign + 1 + (sign[1] == '=');
-        *sign = '\0';
+        number += strspn(number, " ");
+        do
+            *sign = '\0'; /* and blanks before it */
+        while (sign > word && *--sign == ' ');
         if (find_result(word, &k->result, why) != RB_OK)
             return RB_EINVAL;
         const char *unit = k->result && k->result->unit ? k->result->unit : "-";

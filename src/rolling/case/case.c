@@ -343,6 +343,7 @@ double rb_rolling_zone_half_width(const rb_rolling_case *rc, double load)
 void rb_rolling_press_by_load(rb_rolling_case *rc)
 {
     rc->half_width = rc->max_pressure = rc->pressed_by = rc->wheel_load = NAN;
+    rc->transverse_radius = rc->transverse_radius_b = INFINITY;
 }
 
 int rb_rolling_is_strained(const rb_rolling_case *rc)
@@ -970,7 +971,11 @@ static rb_status check_period(const rb_rolling_case *rc, rb_message *why)
 static rb_status check_ellipse(const rb_rolling_case *rc, rb_message *why)
 {
     if (!rb_rolling_has_ellipse(rc))
-        return RB_OK;
+        return isinf(rc->transverse_radius) && isinf(rc->transverse_radius_b)
+                   ? RB_OK
+                   : rb_fail(why, RB_EINVAL,
+                             "transverse-radius: that of an ellipse under a load of all of it; "
+                             "give --wheel-load, or leave it out");
     if (!(rc->ellipse.radius > 0.0))
         return rb_fail(why, RB_EINVAL, "wheel-load: its ellipse has not been found");
     if (rc->gap != RB_GAP_PARABOLA || rc->worn.n > 0)
