@@ -147,7 +147,7 @@ TEST(commands_of_the_rolls_run)
 {
     if (!is_in_turn(1, 3))
         skip();
-    assert_int_equal(run_page("docs/rolls.md", 7, folder), 0);
+    assert_int_equal(run_page("docs/rolls.md", 8, folder), 0);
     assert_int_equal(run("test -s %s/nip.png", folder), 0);
     assert_int_equal(run("test -s %s/resistance.png", folder), 0);
 }

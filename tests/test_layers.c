@@ -28,6 +28,7 @@ static const struct {
     {"analysis/sensitivity", " derivatives base blas contact rolling options sensitivity case "},
     {"analysis/fit", " derivatives base io contact rolling options sensitivity case "},
     {"analysis/design", " derivatives base rolling sensitivity case "},
+    {"analysis/prony", " base io lcp "},
     {"program/api", " base blas sparse io lcp contact crack friction rolling "
                     "sensitivity case api "},
     {"program/verify", " base bem crack rolling "},

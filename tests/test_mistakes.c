@@ -155,6 +155,7 @@ TEST(refusals_have_their_code_and_reason)
          "a map needs two options with two values or more"},
         {64, "sweep b.ini --map p.svg --cases just.txt", "--map: no option varies"},
         {64, "contact", "FILE.inp"},
+        {64, "prony", "prony: expected one FILE, got 0 files"},
         {64, "example", "example: expected one of bar, truss, wall"},
         {64, "compare", "compare: expected at least one FILE"},
         {64, "compare one.txt --solvers nsn-ac,nsn-ac", "'nsn-ac' is given twice"},

@@ -72,6 +72,8 @@ static const word words[] = {
     {"h", "60 min", "", 0, 0},
     {"hr", "h", "+", 0, 0},
     {"hour", "h", "+", 0, 0},
+    {"Hz", "s^-1", "mkM", 0, 0},
+    {"hertz", "Hz", "mkM+", 0, 0},
     {"mph", "mile/h", "", 0, 0},
     {"kph", "km/h", "", 0, 0},
     {"fpm", "ft/min", "", 0, 0},
@@ -422,6 +424,8 @@ static const struct {
      {"MJ/(m3 K)", "MJ/(m3 K)", "MJ/(m3 K)"},
      "MJ/(m3 K), kJ/(m3 K), J/(m3 K), J/(cm3 K), MPa/K"},
     {"K", {"K", "K", "K"}, "K"},
+    {"Hz", {"Hz", "Hz", "Hz"}, "Hz, kHz; or rad/s"},
+    {"rad/s", {"rad/s", "rad/s", "rad/s"}, "rad/s; or Hz"},
 };
 
 enum { KINDS = sizeof kinds / sizeof *kinds };

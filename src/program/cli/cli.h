@@ -34,6 +34,7 @@ int cli_compare(int argc, char **argv);
 int cli_example(int argc, char **argv);
 int cli_page(int argc, char **argv);
 int cli_contact(int argc, char **argv);
+int cli_prony(int argc, char **argv);
 int cli_examples(int argc, char **argv);
 int cli_help(int argc, char **argv);
 

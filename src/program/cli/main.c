@@ -17,6 +17,7 @@ static const cli_command commands[] = {
     {"stress", cli_stress, "the stress below the surface: table, pictures, ParaView"},
     {"design", cli_design, "minimum or maximum of a result over numbers of a case"},
     {"fit", cli_fit, "numbers of a case fitted to a measured creep curve"},
+    {"prony", cli_prony, "a series of relaxation times fitted to E' and tan delta over frequency"},
     {"wear", cli_wear, "wear by sliding, fretting or rolling"},
     {"crack", cli_crack, "stress intensities of a crack below the passing contact"},
     {"verify", cli_verify, "compares the program with closed-form and published results"},

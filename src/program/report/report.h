@@ -10,6 +10,7 @@
 #include "analysis/fit/fit_case.h"
 #include "rolling/case/case.h"
 #include "analysis/design/design.h"
+#include "analysis/prony/prony.h"
 #include "rolling/rolling.h"
 
 #include <stdio.h>
@@ -398,6 +399,18 @@ typedef struct {
 
 rb_status rb_report_profiles_picture(FILE *out, rb_report_canvas canvas,
                                      const rb_report_profiles *profiles, rb_message *why);
+
+/* ---- Prony series ------------------------------------------------------------------ */
+
+/* Storage and loss modulus over the frequency: measured and fitted. */
+typedef struct {
+    const rb_prony_data *data;
+    const rb_prony_series *series;
+    rb_units units;
+} rb_report_prony;
+
+rb_status rb_report_prony_picture(FILE *out, rb_report_canvas canvas, const rb_report_prony *p,
+                                  rb_message *why);
 
 /* ---- Data behind the solution ------------------------------------------------------ */
 

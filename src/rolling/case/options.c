@@ -35,7 +35,7 @@ static const rb_choice lcp_forms[] = {
 static const rb_choice laws[] = {RB_ROLLING_FRICTION_LAWS(CHOICE_OF_LAW){NULL, 0}};
 #define HELP_OF_LAW(name, help) #name ": " help "; "
 
-static const rb_choice systems[] = {
+const rb_choice rb_case_systems[] = {
     {"mm", RB_UNITS_MM}, {"si", RB_UNITS_SI}, {"inch", RB_UNITS_INCH}, {NULL, 0}};
 
 #define ONE_LAYER "one layer on its base; several: --layers FILE"
@@ -355,7 +355,7 @@ const rb_option rb_case_table[] = {
         "meshes, and on covers waves around the circumference without elements"),
 
     RB_GROUP_LINE("units", "Units: values may have one, as 210GPa, 100kN/m, 18in, 0.1%"),
-    RB_CHOICE_LINE("units", PLACE(units), systems,
+    RB_CHOICE_LINE("units", PLACE(units), rb_case_systems,
                    "of numbers without a unit, also in files, and of the results: mm, N, "
                    "MPa; m, N, Pa; inch, lbf, psi",
                    .common = 1),

@@ -128,6 +128,8 @@ enum { RB_CASE_OPTIONS_MAX = 128 };
  * rb_resolved_case. */
 extern const rb_option rb_case_table[];
 extern const int rb_case_table_n;
+/* Of --units. */
+extern const rb_choice rb_case_systems[];
 
 /* 1: the body is of a kind that has this option of a body: base-young of a layer. */
 int rb_option_applies(const rb_option *option, const rb_rolling_body *body);
