@@ -99,7 +99,8 @@ static int is_door(const char *folder, const char *name)
 {
     static const char others[] = " base/blas base/sparse base/units base/io/io_contact "
                                  "base/io/io_fclib rolling/case/closed_forms "
-                                 "rolling/case/options analysis/sensitivity/derivatives "
+                                 "rolling/case/options rolling/case/rubber "
+                                 "analysis/sensitivity/derivatives "
                                  "analysis/crack/crack_case analysis/fit/fit_case "
                                  "program/report/report_fem ";
     const char *slash = strrchr(folder, '/');

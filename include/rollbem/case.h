@@ -30,9 +30,12 @@ typedef struct {
     int n;
     void *target;
     int *given; /* n: source of each value, see below; NULL: not recorded */
-    int *plain; /* n: 1 if the value is a number that was given without a unit; NULL: not
-                   recorded */
+    int *plain; /* n: 1 if the value is a number that was given without a unit,
+                   RB_GIVEN_HARDNESS; NULL: not recorded */
 } rb_option_set;
+
+/* In `plain`: the value is the modulus of a hardness, in MPa. */
+enum { RB_GIVEN_HARDNESS = 2 };
 
 /* Source of a value: 0: the default; k > 0: line k of the case file; RB_GIVEN_ARGUMENT:
  * an argument, which has priority over the file; RB_GIVEN_NUMBER: rb_case_set_number and

@@ -67,6 +67,7 @@ typedef struct {
     unsigned excludes;     /* bit mask; of options with a common bit only one may be given */
     int frozen;     /* numbers: 1: a number of the mesh, the steps or the solver; there are no
                        derivatives with respect to it */
+    int modulus;    /* numbers: 1: Young's modulus, also given as a hardness, 60ShoreA */
     size_t lengths; /* numbers in another unit than one of length, as half-widths are: if
                        not 0, a length with a unit may be given as well; it is stored in
                        mm, and sets length_bit of the int at this offset */

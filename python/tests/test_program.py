@@ -92,6 +92,18 @@ def test_half_a_material_is_said():
             run(**half, poisson=0.3, similar=True, gap="parabola")
 
 
+
+def test_a_hardness_is_a_modulus():
+    case = dict(support="halfplane", poisson=0.5, load=1.0, contact_elements=24)
+    for units, load in (("mm", 1.0), ("si", 1e3)):
+        of = {**case, "units": units, "load": load, "radius": 50 if units == "mm" else 0.05}
+        with pytest.warns(rollbem.Note, match="young= of 60 ShoreA is E = .* by Gent"):
+            hard = rollbem.solve(young="60 ShoreA", **of)
+        young = 0.0981 * (56 + 7.62336 * 60) / (0.137505 * 2.54 * 40) * (1 if units == "mm" else 1e6)
+        assert np.allclose(hard.p, rollbem.solve(young=young, **of).p, rtol=1e-12, atol=0)
+    with pytest.raises(ValueError, match="20 to 90 ShoreA"):
+        rollbem.solve(young="95ShoreA", **case)
+
 def test_histories(tmp_path):
     program = {"distance": [0, 1.5], "creep_ratio": [0.2, 0.7]}
     options = dict(support="halfplane", similar=True, load=500.0, contact_elements=30)

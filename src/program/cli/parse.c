@@ -1,6 +1,7 @@
 /* Options from the command line, by the tables of a cli_spec. */
 #include "base/units.h"
 #include "rolling/case/case.h"
+#include "rolling/case/rubber.h"
 #include "rolling/case/options.h"
 #include "program/cli/describe.h"
 #include "program/cli/find.h"
@@ -102,7 +103,8 @@ static int has_unit_apart(const rb_option *o, const char *value, const char *nex
         access(next, F_OK) == 0 ||
         snprintf(both, sizeof both, "%s %s", value, next) >= (int)sizeof both)
         return 0;
-    return rb_unit_read(both, o->unit, &x, &plain, NULL) == RB_OK && !plain;
+    return (o->modulus && rb_rubber_read(both, &x, NULL)) ||
+           (rb_unit_read(both, o->unit, &x, &plain, NULL) == RB_OK && !plain);
 }
 
 cli_exit cli_parse(const cli_spec *spec, int argc, char **argv, cli_args *args)

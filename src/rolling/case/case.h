@@ -230,9 +230,11 @@ int rb_case_given(const rb_case *c, const char *name);
  * says so.  k: 0, 1, ... until it returns NULL; the text, or "" where nothing
  * is to say. */
 const char *rb_case_half_material(const rb_case *c, int k, char *text, size_t room);
+/* A modulus that was given as a hardness: how far the relations differ.  k as before. */
+const char *rb_case_hardness(const rb_case *c, int k, char *text, size_t room);
 /* Adds these sentences to the notes on a result, or on a row of a study, of kinds that begin here,
  * behind those of cracks. */
-enum { RB_CASE_MATERIAL_NOTES = RB_ROLLING_NOTES - 5 };
+enum { RB_CASE_MATERIAL_NOTES = RB_ROLLING_NOTES - 11 };
 void rb_case_note_materials(const rb_case *c, rb_rolling_note_list *notes);
 void rb_case_note_materials_of_row(const rb_case *c, rb_rolling_row_notes *notes);
 /* Converts an error s of rollbem/rolling.h to an error of this case: if the wrong value

@@ -1,5 +1,6 @@
 /* One value of one option: from text, strictly, and back. */
 #include "rolling/case/case.h"
+#include "rolling/case/rubber.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -19,7 +20,7 @@ int rb_option_number(const char *text, double *value)
 
 /* What is read, and what comes of it. */
 typedef struct {
-    int plain;      /* 1: a number came without a unit */
+    int plain;      /* 1: a number came without a unit; RB_GIVEN_HARDNESS */
     rb_message why; /* what is wrong with a unit; "" otherwise */
 } reading;
 
@@ -29,8 +30,12 @@ static int set_number(const rb_option *o, double *place, const char *value, read
     int plain = 0;
     if (o->word && strcmp(value, o->word) == 0)
         v = o->word_value;
-    else if (rb_unit_read(value, o->unit, &v, &plain, &r->why) != RB_OK ||
-             !rb_option_in_range(o, v))
+    else if (o->modulus && rb_rubber_read(value, &v, &r->why)) {
+        if (isnan(v))
+            return 0;
+        plain = RB_GIVEN_HARDNESS;
+    } else if (rb_unit_read(value, o->unit, &v, &plain, &r->why) != RB_OK ||
+               !rb_option_in_range(o, v))
         return 0;
     r->plain |= plain;
     *place = v;

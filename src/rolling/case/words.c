@@ -1,5 +1,6 @@
 /* A case made from options: set by name, resolved, checked. */
 #include "rolling/case/words.h"
+#include "rolling/case/rubber.h"
 #include "rolling/internal.h"
 
 #include <stdio.h>
@@ -233,7 +234,7 @@ void rb_case_store(const rb_case *c, const rb_option_set *set, void *target)
         double *place = (double *)(void *)((char *)target + o->offset);
         rb_numbers *list = (rb_numbers *)(void *)((char *)target + o->list);
         const rb_units units = rb_case_units(c, set->given[k]);
-        if (o->kind != RB_OPTION_NUMBER || !set->given[k] || !set->plain[k])
+        if (o->kind != RB_OPTION_NUMBER || !set->given[k] || set->plain[k] != 1)
             continue;
         *place = rb_unit_stored(units, o->unit, *place);
         for (int i = 0; o->list && i < list->n; i++)
@@ -418,7 +419,7 @@ static rb_status resolve_body_b(rb_case *c, rb_message *why)
     return RB_OK;
 }
 
-enum { PARTS = RB_ROLLING_NOTES - RB_CASE_MATERIAL_NOTES };
+enum { PARTS = 5, MODULI = RB_ROLLING_NOTES - RB_CASE_MATERIAL_NOTES - PARTS };
 
 const char *rb_case_half_material(const rb_case *c, int k, char *text, size_t room)
 {
@@ -450,11 +451,44 @@ const char *rb_case_half_material(const rb_case *c, int k, char *text, size_t ro
     return text;
 }
 
+const char *rb_case_hardness(const rb_case *c, int k, char *text, size_t room)
+{
+    const rb_option *o = rb_case_table, *end = o + rb_case_table_n;
+    for (int before = k; o < end && (!o->modulus || before-- > 0);)
+        o++;
+    if (k < 0 || o == end)
+        return NULL;
+    const int at = (int)(o - rb_case_table);
+    *text = '\0';
+    if (!c->given[at] || c->plain[at] != RB_GIVEN_HARDNESS)
+        return text;
+    const double young = *(const double *)(const void *)((const char *)&c->words + o->offset),
+                 shore = rb_rubber_shore(young);
+    const rb_units units = c->resolved.units;
+    rb_format(text, room, "--%s of %.4g ShoreA is E = %.4g %s by %s", o->name, shore,
+              rb_unit_shown(units, "MPa", young), rb_unit_name(units, "MPa"),
+              rb_rubber_relations[0].name);
+    for (int j = 1; j < RB_RUBBER_RELATIONS; j++)
+        rb_append(text, room, ", %.4g by %s",
+                  rb_unit_shown(units, "MPa", rb_rubber_relations[j].young(shore)),
+                  rb_rubber_relations[j].name);
+    rb_append(text, room, ", a factor of %.1f, and at rest; rolling needs that of its speed",
+              rb_rubber_band(shore));
+    return text;
+}
+
+/* Note k = 0, 1, ... on the materials as they were given, or ""; NULL: there are no more. */
+static const char *material_note(const rb_case *c, int k, char *text, size_t room)
+{
+    return k < PARTS ? rb_case_half_material(c, k, text, room)
+                     : rb_case_hardness(c, k - PARTS, text, room);
+}
+
 void rb_case_note_materials(const rb_case *c, rb_rolling_note_list *notes)
 {
-    for (int k = 0; k < PARTS && notes->n < RB_ROLLING_NOTES; k++) {
+    for (int k = 0; k < PARTS + MODULI && notes->n < RB_ROLLING_NOTES; k++) {
         notes->kind[notes->n] = RB_CASE_MATERIAL_NOTES + k;
-        notes->n += *rb_case_half_material(c, k, notes->text[notes->n], sizeof notes->text[0]) != 0;
+        notes->n += *material_note(c, k, notes->text[notes->n], sizeof notes->text[0]) != 0;
     }
 }
 
@@ -462,8 +496,8 @@ void rb_case_note_materials_of_row(const rb_case *c, rb_rolling_row_notes *notes
 {
     char text[RB_ROLLING_NOTE_LENGTH];
 
-    for (int k = 0; k < PARTS; k++)
-        if (*rb_case_half_material(c, k, text, sizeof text))
+    for (int k = 0; k < PARTS + MODULI; k++)
+        if (*material_note(c, k, text, sizeof text))
             rb_rolling_add_note(notes, RB_CASE_MATERIAL_NOTES + k, text);
 }
 
