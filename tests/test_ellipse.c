@@ -160,7 +160,7 @@ TEST(what_is_refused)
          "--wheel-load 1kN --radius 100 --transverse-radius -80 --transverse-radius-b 100 --mu 0",
          "must be > 0"},
         {STEEL "--wheel-load 1kN --radius 100 --transverse-radius 80 --load 100", "--load"},
-        {STEEL "--load 1 --radius 100 --transverse-radius-b 80", "give --wheel-load"},
+        {STEEL "--load 1 --radius 100 --transverse-radius-b 80", "--transverse-radius-b: that of"},
         {STEEL "--wheel-load 1kN --radius 100 --transverse-radius 80 --gap exact",
          "needs --gap parabola"},
         {"wear " STEEL "--wheel-load 1kN --radius 100 --transverse-radius 80 --mu 0.3 --slide 100 "

@@ -974,8 +974,9 @@ static rb_status check_ellipse(const rb_rolling_case *rc, rb_message *why)
         return isinf(rc->transverse_radius) && isinf(rc->transverse_radius_b)
                    ? RB_OK
                    : rb_fail(why, RB_EINVAL,
-                             "transverse-radius: that of an ellipse under a load of all of it; "
-                             "give --wheel-load, or leave it out");
+                             "transverse-radius%s: that of an ellipse under a load of all of it; "
+                             "give --wheel-load, or leave it out",
+                             isinf(rc->transverse_radius) ? "-b" : "");
     if (!(rc->ellipse.radius > 0.0))
         return rb_fail(why, RB_EINVAL, "wheel-load: its ellipse has not been found");
     if (rc->gap != RB_GAP_PARABOLA || rc->worn.n > 0)
