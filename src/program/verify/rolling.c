@@ -1,10 +1,12 @@
 /* References for transient rolling and for rolling resistance. */
+#include "analysis/prony/prony.h"
 #include "program/verify/internal.h"
 
 #include "rolling/case/closed_forms.h"
 
 #include <gsl/gsl_math.h>
 #include <math.h>
+#include <string.h>
 
 /* ---- Cattaneo to Carter ------------------------------------------------------------ */
 
@@ -136,6 +138,31 @@ static void relaxation(rb_verify *v)
     rb_rolling_model_free(&model);
 }
 
+/* A material of three terms comes back from its moduli, 2 times per decade; the middle one has its
+ * time among them, the last one lies between two. */
+static void prony(rb_verify *v)
+{
+    enum { POINTS = 31, TERMS = 3 };
+    static const double f[TERMS] = {0.5, 1.5, 0.8}, tau[TERMS] = {1e-3, 0.1, 5.0};
+    rb_prony_series s = {.young = 10.0, .terms = TERMS};
+    double omega[POINTS], storage[POINTS], loss[POINTS];
+    rb_message why = {""};
+    memcpy(s.ratio, f, sizeof f);
+    memcpy(s.time, tau, sizeof tau);
+    for (int i = 0; i < POINTS; i++) {
+        omega[i] = pow(10.0, -2.0 + 0.2 * i);
+        rb_prony_moduli(&s, omega[i], &storage[i], &loss[i]);
+    }
+    const rb_prony_data data = {POINTS, omega, storage, loss};
+    rb_verify_note(v, rb_prony_solve(&data, 2.0, RB_ROLLING_TERMS, &s, &why), &why);
+    for (int k = 0; k < TERMS; k++) {
+        const int found = s.terms == TERMS;
+        rb_verify_relative(v, found ? s.ratio[k] : NAN, f[k], 0.006, "prony: f of tau = %g",
+                           tau[k]);
+        rb_verify_relative(v, found ? s.time[k] : NAN, tau[k], 0.02, "prony: tau = %g", tau[k]);
+    }
+}
+
 void rb_verify_rolling(rb_verify *v)
 {
     dissipation(v);
@@ -151,5 +178,6 @@ void rb_verify_rolling(rb_verify *v)
     rb_verify_relative(v, s->hysteresis, s->resistance_moment / rc.a.radius, 1e-3,
                        "Hunter on a cylinder held by its hub: hysteresis = M/R");
     relaxation(v);
+    prony(v);
     cattaneo_to_carter(v);
 }
