@@ -71,7 +71,7 @@ static const struct {
                BETWEEN(b.support, b.arc),
                BETWEEN(b.memory.n, b.memory.time),
                BETWEEN(elastic_b, heat_a),
-               BETWEEN(gap, profile),
+               BETWEEN(gap, period),
                BETWEEN(irregularity.n, irregularity.x),
                BETWEEN(worn.n, worn.x),
                BETWEEN(friction.law, friction.table),
