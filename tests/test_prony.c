@@ -308,6 +308,22 @@ TEST(what_is_no_table_of_moduli_is_refused)
     check_refused("prony wide.tsv --per-decade 8", 64, "expected 2 ... 200 relaxation times");
 }
 
+/* J_g of a liquid is 0: the shortest time takes its place. */
+TEST(liquids_have_a_modulus_of_fast_loads_all_the_same)
+{
+    static moduli m;
+    rb_prony_series s;
+    rb_message why = {""};
+    sample(three_terms, -2.0, 31, &m);
+    for (int i = 0; i < 31; i++) {
+        m.storage[i] = 1e-6 * m.omega[i];
+        m.loss[i] = 1e-3 * m.omega[i];
+    }
+    check_ok(rb_prony_solve(&m.d, 0.0, 16, &s, &why), &why);
+    assert_true(s.young > 10.0 && s.young < 1e4); /* 10: that of the last point */
+    assert_true(s.terms > 0 && rb_prony_slow(&s) < 1e-5);
+}
+
 static rb_status solve_again(void *context)
 {
     rb_prony_series s;

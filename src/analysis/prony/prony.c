@@ -8,6 +8,9 @@
 
 enum { JOINED = -2 };
 
+/* The largest measured modulus over E_g: below it J_g is a rounding error, as that of a liquid. */
+static const double LEAST = 1e-3;
+
 /* ---- One set of times ------------------------------------------------------------------- */
 
 /* A column of the problem over the measured |J*|: 1 for k = 0, 1/(1 + i w tau) of term k - 1. */
@@ -92,7 +95,7 @@ static rb_status fit(const rb_prony_data *d, rb_prony_series *s, rb_message *why
         if (status != RB_OK)
             rb_fail(why, status, "prony: %d times: %s", s->terms,
                     rb_status_reason(status, &info.msg));
-        if (status != RB_OK || c[0] > 0.0 || s->terms == 0)
+        if (status != RB_OK || c[0] > LEAST || s->terms == 0)
             break;
     }
     if (status != RB_OK)
