@@ -123,7 +123,8 @@ void rb_bem_stack_kernel_free(rb_bem_stack_kernel *kernel)
 }
 
 /* Spherical Bessel functions j_0 ... j_n-1 of w >= 0: upwards where that is stable, otherwise
- * downwards from where they vanish. */
+ * downwards from where they vanish.  GSL's gsl_sf_bessel_jl_steed_array gives up where w is large.
+ */
 static void bessel(int n, double w, double *j)
 {
     enum { ABOVE = 40 };
