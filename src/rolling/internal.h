@@ -17,6 +17,8 @@ void rb_rolling_coarsen_boundary(rb_rolling_plan *plan);
  * (U1): displacements differ by so much times x. */
 int rb_rolling_is_strained(const rb_rolling_case *rc);
 double rb_rolling_bulk_strain(const rb_rolling_case *rc);
+/* 1: load, approach, half-width, largest pressure or the load of an ellipse; 0: approach = R/2. */
+int rb_rolling_pressing_is_given(const rb_rolling_case *rc);
 /* Forgets the half-width, largest pressure or wheel load that were given: load or approach are set
  * instead. */
 void rb_rolling_press_by_load(rb_rolling_case *rc);

@@ -133,9 +133,14 @@ rb_status rb_rolling_find_load(rb_rolling_case *rc, rb_message *why);
 rb_status rb_rolling_find_ellipse(rb_rolling_case *rc, rb_message *why);
 /* Sets tilted_by, and the zone, of a case with a given moment: solves it some times. */
 rb_status rb_rolling_find_tilt(rb_rolling_case *rc, rb_message *why);
-/* Layers of a half-plane, 0: none; the depth of the bond below the first `bond` of them, of the
- * last one, and Poisson's ratio of what lies at a depth, on a bond of what lies above it. */
+/* Layers of a half-plane, 0: none; layer k of them from the surface down; the depth of the bond
+ * below the first `bond` of them, of the last one, and Poisson's ratio of what lies at a depth, on
+ * a bond of what lies above it. */
+typedef struct {
+    double thickness, young, poisson; /* [length], [stress], [-] */
+} rb_rolling_layer_properties;
 int rb_rolling_layers(const rb_rolling_body *body);
+rb_rolling_layer_properties rb_rolling_layer_of(const rb_rolling_body *body, int k);
 double rb_rolling_bond_depth(const rb_rolling_body *body, int bond);
 double rb_rolling_layers_depth(const rb_rolling_body *body);
 double rb_rolling_poisson_at(const rb_rolling_body *body, double depth);

@@ -583,10 +583,8 @@ static rb_status try_other_starts(fit_problem *p, progress *of, const double *gi
     enum { OTHERS = 1 + 2 * RB_CASE_FIT_MAX };
     const rb_case *fine = p->c;
     const size_t bytes = (size_t)p->n * sizeof *given;
-    rb_case *coarse = rb_case_copy(fine);
     double least = INFINITY, best[RB_CASE_FIT_MAX], from[OTHERS][RB_CASE_FIT_MAX];
     int moved, others = 1;
-    rb_status s = coarse ? RB_OK : rb_fail(why, RB_ENOMEM, "out of memory for a case");
 
     memcpy(from[0], of->theta, bytes);
     for (int j = 0; j < p->n; j++)
@@ -598,6 +596,10 @@ static rb_status try_other_starts(fit_problem *p, progress *of, const double *gi
             rb_case_fit_clip(&p->fit->parameter[j], &from[others][j]);
             others += memcmp(from[others], given, bytes) != 0;
         }
+    if (others == 1)
+        return RB_OK;
+    rb_case *coarse = rb_case_copy(fine);
+    rb_status s = coarse ? RB_OK : rb_fail(why, RB_ENOMEM, "out of memory for a case");
     if (s == RB_OK && fine->resolved.rc.contact_elements > COARSE)
         s = rb_case_set_number(coarse, "contact-elements", COARSE, why);
     if (s == RB_OK)
@@ -605,7 +607,7 @@ static rb_status try_other_starts(fit_problem *p, progress *of, const double *gi
     p->c = coarse;
     p->known_n = 0;
     memcpy(best, of->theta, bytes);
-    for (int k = 0; k < others && others > 1 && s == RB_OK; k++) {
+    for (int k = 0; k < others && s == RB_OK; k++) {
         double theta[RB_CASE_FIT_MAX], sum = INFINITY;
         rb_message reason = {""};
         memcpy(theta, from[k], bytes);
@@ -626,7 +628,7 @@ static rb_status try_other_starts(fit_problem *p, progress *of, const double *gi
     p->c = fine;
     p->known_n = 0;
     rb_case_free(coarse);
-    if (s != RB_OK || others == 1)
+    if (s != RB_OK)
         return s;
     memcpy(of->theta, best, bytes);
     return converge_again(p, of, observer, why);

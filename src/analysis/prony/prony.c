@@ -3,6 +3,7 @@
 #include "lcp/lcp.h"
 
 #include <complex.h>
+#include <gsl/gsl_statistics.h>
 #include <math.h>
 #include <string.h>
 
@@ -114,11 +115,8 @@ static rb_status fit(const rb_prony_data *d, rb_prony_series *s, rb_message *why
 
 static void range_of(const rb_prony_data *d, double *shortest, double *decades)
 {
-    double low = INFINITY, high = 0.0;
-    for (int i = 0; i < d->n; i++) {
-        low = fmin(low, d->omega[i]);
-        high = fmax(high, d->omega[i]);
-    }
+    double low, high;
+    gsl_stats_minmax(&low, &high, d->omega, 1, (size_t)d->n);
     *shortest = -0.5 - log10(high);
     *decades = log10(high) - log10(low) + 1.0;
 }

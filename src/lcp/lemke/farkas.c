@@ -308,6 +308,8 @@ static int encloses(const farkas *p, const double *y)
 /* 1: y, whole numbers near a multiple of it, or some y near it exclude all z with certainty. */
 static int is_certain(const farkas *p, const double *y)
 {
+    if (!rb_proof_arithmetic())
+        return 0;
     const size_t n = (size_t)p->M->n;
     const int multiple = common_multiple(n, y);
     double *rounded = rb_alloc(n, 1);
@@ -316,7 +318,7 @@ static int is_certain(const farkas *p, const double *y)
         if (rb_proof_nearly_whole(n, y, by <= PROOF_MULTIPLES ? by : multiple, rounded))
             yes = isinf(least_sum(p, rounded, NULL, NULL));
     free(rounded);
-    return rb_proof_arithmetic() && (yes || encloses(p, y));
+    return yes || encloses(p, y);
 }
 
 /* ---- The question ------------------------------------------------------------------ */

@@ -1,6 +1,7 @@
 /* A Prony series and the moduli to which it is fitted, drawn. */
 #include "program/report/internal.h"
 
+#include <gsl/gsl_statistics.h>
 #include <math.h>
 
 static void write_inputs(FILE *out, rb_report_canvas canvas, const void *view)
@@ -9,12 +10,9 @@ static void write_inputs(FILE *out, rb_report_canvas canvas, const void *view)
     const rb_report_prony *p = view;
     const rb_prony_data *d = p->data;
     const rb_prony_series *s = p->series;
-    double low = INFINITY, high = 0.0, storage, loss;
+    double low, high, storage, loss;
 
-    for (int i = 0; i < d->n; i++) {
-        low = fmin(low, d->omega[i]);
-        high = fmax(high, d->omega[i]);
-    }
+    gsl_stats_minmax(&low, &high, d->omega, 1, (size_t)d->n);
     rb_report_let_text(out, "title", "{/:Bold Prony series}   %d term%s, deviation %.2g %% (rms)",
                        s->terms, rb_plural(s->terms), 100.0 * s->rms);
     rb_report_let_text(out, "y_label", "storage and loss modulus  [%s]",

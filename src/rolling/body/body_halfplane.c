@@ -147,11 +147,18 @@ int rb_rolling_layers(const rb_rolling_body *body)
     return body->stack ? body->stack->n : body->layer > 0.0;
 }
 
+rb_rolling_layer_properties rb_rolling_layer_of(const rb_rolling_body *body, int k)
+{
+    const rb_bem_stack *all = body->stack;
+    return all ? (rb_rolling_layer_properties){all->thickness[k], all->young[k], all->poisson[k]}
+               : (rb_rolling_layer_properties){body->layer, body->young, body->poisson};
+}
+
 double rb_rolling_bond_depth(const rb_rolling_body *body, int bond)
 {
-    double depth = body->stack ? 0.0 : body->layer;
-    for (int k = 0; body->stack && k < bond; k++)
-        depth += body->stack->thickness[k];
+    double depth = 0.0;
+    for (int k = 0; k < bond; k++)
+        depth += rb_rolling_layer_of(body, k).thickness;
     return depth;
 }
 
@@ -163,11 +170,12 @@ double rb_rolling_layers_depth(const rb_rolling_body *body)
 double rb_rolling_poisson_at(const rb_rolling_body *body, double depth)
 {
     const int layers = rb_rolling_layers(body);
-    int k = 0;
-    for (double bond = 0.0; k < layers; k++) {
-        bond += body->stack ? body->stack->thickness[k] : body->layer;
+    double bond = 0.0;
+    for (int k = 0; k < layers; k++) {
+        const rb_rolling_layer_properties layer = rb_rolling_layer_of(body, k);
+        bond += layer.thickness;
         if (depth <= bond)
-            return body->stack ? body->stack->poisson[k] : body->poisson;
+            return layer.poisson;
     }
     return layers > 0 ? body->base_poisson : body->poisson;
 }

@@ -128,10 +128,10 @@ void rb_rolling_strains(const rb_rolling_case *rc, double approach, double press
             slow += bodies[b]->memory.ratio[k];
         strain[2 * b] =
             approach * compliance(rb_rolling_material(rc, bodies[b])) * modulus(rc) / thickness;
-        double softness = slow / bodies[b]->young; /* the mean of all layers */
         const rb_bem_stack *stack = bodies[b]->stack;
+        double softness = stack ? 0.0 : slow / bodies[b]->young; /* the mean of all layers */
         for (int k = 0; stack && k < stack->n; k++)
-            softness = (k ? softness : 0.0) + stack->thickness[k] / (stack->young[k] * thickness);
+            softness += stack->thickness[k] / (stack->young[k] * thickness);
         strain[2 * b + 1] = 2.0 * pressure * softness;
     }
 }
@@ -338,6 +338,12 @@ double rb_rolling_zone_half_width(const rb_rolling_case *rc, double load)
                  soft = isnan(P) ? sqrt(2.0 * d.radius * d.approach)
                                  : cbrt(1.5 * d.radius * rc->interlayer_normal * P);
     return rc->interlayer_normal > 0.0 ? fmax(hertz, soft) : hertz;
+}
+
+int rb_rolling_pressing_is_given(const rb_rolling_case *rc)
+{
+    return !isnan(rc->load) || !isnan(rc->approach) || !isnan(rc->half_width) ||
+           !isnan(rc->max_pressure) || rb_rolling_has_ellipse(rc);
 }
 
 void rb_rolling_press_by_load(rb_rolling_case *rc)
@@ -721,7 +727,7 @@ static rb_status check_gap(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL,
                        "radius: expected a finite one; only half-planes under a gap from a file "
                        "may have none");
-    if (isnan(rc->load) && isnan(rc->approach) && isnan(rc->half_width) && isnan(rc->max_pressure))
+    if (!rb_rolling_pressing_is_given(rc))
         return rb_fail(why, RB_EINVAL, "approach: R/2 unless it is given, and %s, or --load",
                        no_radius);
     if (!isnan(rc->half_width))
@@ -930,8 +936,7 @@ static rb_status check_wave(const rb_rolling_case *rc, rb_message *why)
     if (isfinite(rc->b.radius))
         return rb_fail(why, RB_EINVAL,
                        "radius-b: a wave lies on a plane; a table of the gap knows other shapes");
-    if (isnan(rc->load) && isnan(rc->approach) && isnan(rc->max_pressure) &&
-        isnan(rc->half_width) && !rb_rolling_has_ellipse(rc))
+    if (!rb_rolling_pressing_is_given(rc))
         return rb_fail(why, RB_EINVAL, "gap wave: give --load, --approach or --max-pressure");
     return RB_OK;
 }

@@ -248,7 +248,19 @@ static int has_column(const rb_rolling_program *program, int k)
     return program->n > 0 && column;
 }
 
-static int is_of_layers(const rb_case *c, const char *name);
+const char *const rb_case_of_layers[2][CASE_OF_LAYERS] = {
+    {"young", "poisson", "layer-thickness"}, {"young-b", "poisson-b", "layer-thickness-b"}};
+
+/* 1: the layers of a body, or of A where B is similar, stand in place of this option. */
+static int is_of_layers(const rb_case *c, const char *name)
+{
+    const rb_resolved_case *r = &c->resolved;
+    const int has[2] = {r->layers_file != NULL, r->layers_file_b || (r->layers_file && r->similar)};
+    for (int k = 0; k < 2 * CASE_OF_LAYERS; k++)
+        if (has[k % 2] && strcmp(name, rb_case_of_layers[k % 2][k / 2]) == 0)
+            return 1;
+    return 0;
+}
 
 int rb_case_is_replaced(const rb_case *c, const rb_option *option)
 {
@@ -370,19 +382,6 @@ rb_status rb_case_read_layers(rb_case *c, int of_b, rb_message *why)
     body->poisson = of->poisson[0];
     body->stack = of->n > 1 ? of : NULL;
     return s;
-}
-
-/* 1: the layers of a body, or of A where B is similar, stand in place of this option. */
-static int is_of_layers(const rb_case *c, const char *name)
-{
-    static const char *const of_a[] = {"young", "poisson", "layer-thickness"},
-                             *const of_b[] = {"young-b", "poisson-b", "layer-thickness-b"};
-    const rb_resolved_case *r = &c->resolved;
-    for (int k = 0; k < 3; k++)
-        if ((r->layers_file && strcmp(name, of_a[k]) == 0) ||
-            ((r->layers_file_b || (r->layers_file && r->similar)) && strcmp(name, of_b[k]) == 0))
-            return 1;
-    return 0;
 }
 
 /* ---- All others -------------------------------------------------------------------- */

@@ -1,6 +1,7 @@
 /* Young's modulus of rubber by its hardness (docs/rolls.md). */
 #include "rolling/case/rubber.h"
 
+#include <gsl/gsl_math.h>
 #include <math.h>
 #include <string.h>
 #include <strings.h>
@@ -26,7 +27,7 @@ static double by_bs903(double shore)
 {
     double x = 0.0, step = 1.0;
     while (step > 1e-15 * x) {
-        step = (shore / 100.0 - erf(x)) * exp(x * x) * sqrt(acos(-1.0)) / 2.0;
+        step = (shore / 100.0 - erf(x)) * exp(x * x) / M_2_SQRTPI;
         x += step;
     }
     return pow(x / 3.186e-4, 2.0) * 1e-6;

@@ -574,15 +574,15 @@ static rb_status check_layers(const rb_case *c, rb_message *why)
                       similar[] = "B has all layers of A; leave --similar or this out";
     const rb_resolved_case *s = &c->resolved;
     const int a = s->layers_file != NULL, b = s->layers_file_b != NULL;
-    rule rules[] = {
-        {a, "young", of_a},
-        {a, "poisson", of_a},
-        {a, "layer-thickness", of_a},
-        {b, "young-b", of_b},
-        {b, "poisson-b", of_b},
-        {b, "layer-thickness-b", of_b},
-        {b && s->similar, "similar", "B has the layers of --layers-b; leave one of them out"},
+    enum { REPLACED = 2 * CASE_OF_LAYERS };
+    rule rules[REPLACED + 2] = {
+        [REPLACED] = {b && s->similar, "similar",
+                      "B has the layers of --layers-b; leave one of them out"},
         {a && s->similar, "layer-thickness-b", similar}};
+    for (int k = 0; k < REPLACED; k++) {
+        const int of = k / CASE_OF_LAYERS;
+        rules[k] = (rule){of ? b : a, rb_case_of_layers[of][k % CASE_OF_LAYERS], of ? of_b : of_a};
+    }
     /* what stands in the case file gives way to layers of the command line */
     for (size_t k = 0; k < sizeof rules / sizeof *rules; k++)
         rules[k].has_no_meaning &=
@@ -958,8 +958,7 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     /* The paper's own example stays on its equal elements, as do large contacts, which
      * need them. */
     rb_rolling_case *rc = &c->resolved.rc;
-    const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width) &&
-                      isnan(rc->max_pressure) && !rb_rolling_has_ellipse(rc);
+    const int paper = !rb_rolling_pressing_is_given(rc);
     const rb_rolling_mesh equal = {.n = rc->contact_elements};
     const int graded = rb_rolling_couples(rc) || !rb_rolling_can(rc, RB_BODY_HOMOGENEOUS);
     rb_rolling_case fitted = *rc;

@@ -82,6 +82,9 @@ void rb_case_free_files(rb_case *c);
 /* Call it before the given values are used, because the columns of a history may replace
  * some of them. */
 rb_status rb_case_read_history(rb_case *c, rb_message *why);
+/* What layers of A and of B stand in place of. */
+enum { CASE_OF_LAYERS = 3 };
+extern const char *const rb_case_of_layers[2][CASE_OF_LAYERS];
 /* Reads the layers of a body, and gives it the first one, and all of them if they are several; it
  * has none: nothing. */
 rb_status rb_case_read_layers(rb_case *c, int of_b, rb_message *why);

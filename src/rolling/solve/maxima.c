@@ -186,7 +186,7 @@ static strip strip_of(const rb_rolling_body *a, int k, double deep)
     return (strip){!a->stack                  ? RB_MATERIAL_LAYER
                    : place < RB_MATERIAL_LAST ? (rb_rolling_place)place
                                               : RB_MATERIAL_LAST,
-                   k == 0 ? 0.0 : top, rb_rolling_bond_depth(a, k + 1)};
+                   top, rb_rolling_bond_depth(a, k + 1)};
 }
 
 /* The strips of A down to the depth, and the rows in them. */
@@ -201,8 +201,8 @@ static rb_status set_rows(search *f, double depth, rb_arena *memory)
 
     /* Layers bend over a softer base as a plate does: over a length like this. */
     double stiffest = a->young;
-    for (int k = 1; k < layers; k++)
-        stiffest = fmax(stiffest, a->stack->young[k]);
+    for (int k = 0; k < layers; k++)
+        stiffest = fmax(stiffest, rb_rolling_layer_of(a, k).young);
     const double layer = rb_rolling_layers_depth(a),
                  plate = layer > 0.0 && a->base_young > 0.0
                              ? layer * cbrt(fmax(stiffest / a->base_young, 1.0))

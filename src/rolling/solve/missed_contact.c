@@ -353,12 +353,11 @@ rb_status rb_rolling_check_enclosed(const rb_rolling_model *model, const rb_cont
                                     rb_message *why)
 {
     rb_rolling_overlap overlap;
+    const int has_ends = !rb_rolling_fills_period(model->rc, &model->mesh);
     rb_status s = RB_OK;
 
-    if (!rb_rolling_fills_period(model->rc, &model->mesh))
-        s = check_end(model, state, 0, why);
-    if (s == RB_OK && !rb_rolling_fills_period(model->rc, &model->mesh))
-        s = check_end(model, state, 1, why);
+    for (int right = 0; right < 2 && has_ends && s == RB_OK; right++)
+        s = check_end(model, state, right, why);
     if (s == RB_OK)
         s = rb_rolling_find_overlap(model, state, &overlap);
     if (s == RB_OK && overlap.count > 0)

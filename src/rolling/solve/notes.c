@@ -378,16 +378,16 @@ static double mean_compliance(const rb_rolling_case *rc, const rb_rolling_body *
         }
         return all;
     }
-    const rb_bem_stack *stack = body->stack;
     const rb_bem_material base = rb_rolling_base_material(rc, body);
     const double of_base = (1.0 - base.poisson) / base.shear;
     double of_layers = 0.0, stiffness = 0.0, depth = 0.0; /* against stretching or bending */
     for (int k = 0; k < rb_rolling_layers(body); k++) {
         const double above = depth;
+        const rb_rolling_layer_properties layer = rb_rolling_layer_of(body, k);
         const rb_bem_material m =
-            stack ? rb_bem_material_from_young(stack->young[k], stack->poisson[k]) : own;
+            body->stack ? rb_bem_material_from_young(layer.young, layer.poisson) : own;
         const double of_layer = (1.0 - m.poisson) / m.shear, ratio = of_base / of_layer;
-        depth += stack ? stack->thickness[k] : body->layer;
+        depth += layer.thickness;
         of_layers += of_layer * log(fmax(depth, mean) / fmax(above, mean));
         stiffness += ratio * (along ? depth - above : gsl_pow_3(depth) - gsl_pow_3(above));
     }
