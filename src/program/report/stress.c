@@ -49,12 +49,17 @@ static const char *maximum_text(const rb_report_stress *s, int k, char *line, si
         snprintf(line, size, "%-24s none", maximum(k)->meaning);
         return line;
     }
-    const char *where = m->material == RB_MATERIAL_BODY ? "" : rb_rolling_place_name(m->material);
+    const int is_named = m->material != RB_MATERIAL_BODY,
+              is_numbered = m->material >= RB_MATERIAL_FIRST;
     snprintf(line, size, "%-24s %s %s at x = %s, y = %s %s%s%s; %.5g p0", maximum(k)->meaning,
              quantity(m->value, 1e-12 * p0, 6, e ? &e->value : NULL, value),
              rb_unit_name(s->s->units, "MPa"), quantity(m->x, place, 4, e ? &e->x : NULL, x),
              quantity(m->y, place, 4, e ? &e->y : NULL, y), rb_unit_name(s->s->units, "mm"),
-             where[0] ? ", in the " : "", where, fabs(m->value) < 1e-12 * p0 ? 0.0 : m->value / p0);
+             !is_named     ? ""
+             : is_numbered ? ", in "
+                           : ", in the ",
+             is_named ? rb_rolling_place_name(m->material) : "",
+             fabs(m->value) < 1e-12 * p0 ? 0.0 : m->value / p0);
     return line;
 }
 
