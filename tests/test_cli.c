@@ -391,7 +391,7 @@ TEST(words_of_the_trades_are_found)
     }
     /* all options that the glossary names are some command's */
     CHECK_RUN(
-        shellf("for c in '' curve stress wear crack sweep fit design contact; do \"$R\" $c "
+        shellf("for c in '' curve stress wear crack sweep fit design contact rubber; do \"$R\" $c "
                "--help=all; done >help; grep -o -- '--[a-z][a-z0-9-]*' %s/docs/glossary.md | "
                "sort -u | while read -r o; do grep -q -e \"$o\" help || echo $o; done; echo .",
                getenv("PWD")),

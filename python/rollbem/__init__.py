@@ -6,8 +6,8 @@
 
 ``solve``, ``curve``, ``history``, ``stress``, ``wear``, ``sweep``, ``crack``, ``derivatives``,
 ``fit`` and ``design`` take the options of the program (``help(rollbem.solve)`` lists them, ``_``
-for ``-``); ``lcp``, ``game`` and ``friction`` take matrices; ``check``, ``contact``, ``verify`` and
-``examples`` ask the program itself.
+for ``-``); ``lcp``, ``game`` and ``friction`` take matrices; ``check``, ``contact``, ``verify``,
+``examples``, ``rubber`` and ``prony`` ask the program itself.
 Units are mm, N/mm (per length of the axis) and MPa; with ``units="si"`` or ``"inch"`` all numbers, given
 and found, are in m, N/m, Pa or inch, lbf/inch, psi. Creepage > 0 brakes A, then Q < 0.
 """
@@ -21,13 +21,14 @@ from ._library import (OPTIONS, RESULTS, VERSION as __version__, Error, InvalidI
                        Note, OutOfMemory, Unsolved)
 from ._page import page
 from ._problems import Answer, Complementarity, Friction, Game, Solutions, friction, game, lcp
-from ._program import Check, ContactCases, Reference, References, check, contact, examples, verify
+from ._program import (Check, ContactCases, Hardness, Prony, Reference, References, check, contact, examples, prony,
+                       rubber, verify)
 
 __all__ = ["Answer", "Case", "Check", "Complementarity", "ContactCases", "Crack", "Curve", "Curves", "Derivatives",
            "Design",
-           "Error", "Extremum", "Fit", "Friction", "Game", "History", "InvalidInput", "MissingFile", "Note",
-           "OPTIONS", "OutOfMemory", "Parameter", "RESULTS", "Reference", "References", "Solution", "Solutions",
+           "Error", "Extremum", "Fit", "Friction", "Game", "Hardness", "History", "InvalidInput", "MissingFile", "Note",
+           "OPTIONS", "OutOfMemory", "Parameter", "Prony", "RESULTS", "Reference", "References", "Solution", "Solutions",
            "Stress", "Sweep",
            "Unsolved", "Wear", "check", "contact", "crack", "curve", "curve_derivatives", "derivatives",
            "design", "examples", "fit", "friction", "game", "history", "history_derivatives",
-           "lcp", "page", "pictures", "solve", "stress", "sweep", "tolerances", "verify", "wear"]
+           "lcp", "page", "pictures", "prony", "rubber", "solve", "stress", "sweep", "tolerances", "verify", "wear"]

@@ -86,10 +86,7 @@ class Case:
     def _write_table(self, columns: Table) -> str:
         with tempfile.NamedTemporaryFile("w", prefix="rollbem-", suffix=".txt", delete=False) as file:
             weakref.finalize(self, _remove, file.name, os.getpid())  # it lives as long as the case
-            # A name may have blanks, as "x [mm]"; numbers are those of columns without names.
-            print("\t".join(columns) if not all(map(str.isdigit, columns)) else "#", file=file)
-            for row in zip(*columns.values()):
-                print(*(repr(float(x)) for x in row), file=file)
+            _values.write_columns(columns, file)
         return file.name
 
     def handle(self, purpose: str, **more: Value) -> Handle:

@@ -7,10 +7,15 @@ import json
 import os
 import shutil
 import subprocess
-from typing import Any, NamedTuple, Optional, Union
+import tempfile
+import warnings
+from typing import Any, Mapping, NamedTuple, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import NDArray
 
 from . import _values
-from ._library import LIBRARY, Error, InvalidInput, MissingFile, in_keywords
+from ._library import LIBRARY, Error, InvalidInput, MissingFile, Note, in_keywords
 
 _Path = Union[str, os.PathLike]
 SOLVED, UNSOLVED, USAGE, DATA, NO_INPUT = 0, 1, 64, 65, 66
@@ -142,3 +147,86 @@ def examples() -> "dict[str, str]":
     """The built-in examples: their names, for ``--example``, and what they are."""
     return {row["name"]: row["about"] for row in json.loads(_run("examples", "--json")[1])["examples"]
             if row["kind"] == "case"}
+
+
+class Hardness(NamedTuple):
+    """What :func:`rubber` gives: Young's modulus by the first relation, and the least and the largest one of all."""
+
+    scale: str
+    hardness: float
+    young: float
+    young_least: float
+    young_largest: float
+    relations: "dict[str, float]"
+    notes: "list[str]"
+
+    def to_pandas(self) -> Any:
+        """A row per relation."""
+        import pandas
+
+        return pandas.DataFrame(list(self.relations.items()), columns=["relation", "young"])
+
+
+def rubber(shore: Union[str, float, None] = None, pj: Optional[float] = None, units: str = "mm") -> Hardness:
+    """The modulus of a hardness, ``shore="60A"`` or ``pj=100``, by each published relation."""
+    given = [] if shore is None else ["--shore", shore if isinstance(shore, str) else repr(_values.number("shore", shore))]
+    given += [] if pj is None else ["--pj", repr(_values.number("pj", pj))]
+    found = json.loads(_run("rubber", "--json", "--quiet", "--units", units, *given)[1])
+    return Hardness(found["scale"], found["hardness"], found["young"], found["young_least"], found["young_largest"],
+                    {row["relation"]: row["young"] for row in found["relations"]}, found["notes"])
+
+
+class Prony:
+    """What :func:`prony` gives: a material that relaxes, and how far it is from the measured moduli.
+
+    ``material`` are the options of a case, as in ``rollbem.solve(**series.material, poisson=0.5)``; ``points`` holds columns
+    over the frequencies.
+    """
+
+    material: "dict[str, Any]"
+    young_slow: float
+    rms: float
+    largest: float
+    largest_at: float
+    per_decade: float
+    joined: int
+    notes: "list[str]"
+    points: "dict[str, NDArray[np.float64]]"
+
+    def __init__(self, found: "dict[str, Any]") -> None:
+        self.__dict__.update({name: found[name] for name in ("young_slow", "rms", "largest", "largest_at", "per_decade",
+                                                             "joined", "notes")})
+        self.material = {"young": found["young"], "units": found["units"]["system"]}
+        if found["relaxation_time"]:
+            self.material.update(relaxation_time=found["relaxation_time"], relaxation_ratio=found["relaxation_ratio"])
+        self.points = {name: np.array([row[name] for row in found["points"]], dtype=float) for name in found["points"][0]}
+
+    def to_pandas(self) -> Any:
+        """A row per frequency."""
+        import pandas
+
+        return pandas.DataFrame(self.points)
+
+    def __repr__(self) -> str:
+        return (f"<Prony: {len(self.material.get('relaxation_time', []))} terms, E {self.material['young']:.6g}, "
+                f"slow {self.young_slow:.6g}; deviation {self.rms:.2g} (rms)>")
+
+
+def prony(moduli: Union[_Path, Mapping[str, Sequence[float]]], per_decade: Optional[float] = None,
+          units: str = "mm") -> Prony:
+    """Relaxation times from E' and tan delta over the frequency, by ``rollbem prony``.
+
+    ``moduli``: a file, or columns as ``{"frequency_Hz": ..., "storage_modulus_MPa": ..., "tan_delta": ...}``.
+    """
+    given = [] if per_decade is None else ["--per-decade", repr(_values.number("per_decade", per_decade))]
+    with tempfile.TemporaryDirectory(prefix="rollbem-") as folder:
+        if _values.is_table(moduli):
+            path = os.path.join(folder, "moduli.txt")
+            with open(path, "w") as file:
+                _values.write_columns(_values.columns("moduli", moduli), file)
+        else:
+            path = _values.path("moduli", moduli)
+        found = json.loads(_run("prony", "--json", "--quiet", "--units", units, *given, "--", path)[1])
+    for note in found["notes"]:
+        warnings.warn(note, Note, stacklevel=2)
+    return Prony(found)

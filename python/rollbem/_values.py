@@ -202,6 +202,14 @@ def columns(name: str, table: Any) -> dict:
     return found
 
 
+def write_columns(found: dict, file: Any) -> None:
+    """A table that the program reads."""
+    # A name may have blanks, as "x [mm]"; numbers are those of columns without names.
+    print("\t".join(found) if not all(map(str.isdigit, found)) else "#", file=file)
+    for row in zip(*found.values()):
+        print(*(repr(float(x)) for x in row), file=file)
+
+
 def text(name: str, value: Any) -> str:
     """An option as a case file has it; the shortest digits that read back as the same number."""
     value = _one(value)

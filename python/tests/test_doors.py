@@ -98,6 +98,37 @@ def test_examples_have_names_and_whole_sentences():
     assert all(text.endswith((".", ")")) for text in found.values())
 
 
+def test_hardness_by_each_relation():
+    found = rollbem.rubber(shore="60A")
+    assert [round(E, 3) for E in found.relations.values()] == [3.605, 3.489, 5.884]
+    assert (found.young_least, found.young_largest) == (found.relations["BS 903"], found.relations["Qi, Joyce and Boyce"])
+    assert rollbem.rubber(shore=60) == found and len(found.to_pandas()) == 3
+    assert rollbem.rubber(pj=100, units="si").young == pytest.approx(3.7685e6, rel=1e-4)
+    with pytest.raises(rollbem.InvalidInput, match="one of shore= 60A and pj=100"):
+        rollbem.rubber()
+    with pytest.raises(rollbem.InvalidInput, match="20 to 90"):
+        rollbem.rubber(shore="95A")
+
+
+def test_moduli_become_a_material():
+    omega = np.logspace(-2, 4, 31)
+    E = 10 / (1 + sum(f / (1 + 1j * omega * tau) for f, tau in ((0.5, 1e-3), (1.5, 0.1), (0.8, 5))))
+    columns = {"omega_rad/s": omega, "storage_modulus_MPa": E.real, "tan_delta": E.imag / E.real}
+    found = rollbem.prony(columns, per_decade=2)
+    assert np.allclose(found.material["relaxation_ratio"], [0.499, 1.5, 0.804], atol=6e-4)
+    assert found.rms == pytest.approx(1.2e-3, abs=5e-5) and len(found.points["omega"]) == 31
+    rolled = rollbem.solve(**found.material, poisson=0.5, support="halfplane", formulation="steady", load=1.0, speed=100.0)
+    assert rolled.hysteresis > 0
+    with pytest.warns(rollbem.Note, match="largest deviation"):
+        coarse = rollbem.prony(columns, per_decade=0.5)
+    assert len(coarse.to_pandas()) == 31 and "terms" in repr(coarse)
+    with pytest.raises(rollbem.InvalidInput, match="Hz or rad/s"):
+        rollbem.prony({**{k: v for k, v in columns.items() if k != "omega_rad/s"}, "omega": omega})
+    file = str(ROOT / "examples/roll/rubber.tsv")
+    printed = subprocess.run([PROGRAM, "prony", file, "--json", "--quiet"], capture_output=True, check=True).stdout
+    assert rollbem.prony(file).material["young"] == json.loads(printed)["young"]
+
+
 def test_without_the_program_the_line_says_so(monkeypatch, tmp_path):
     monkeypatch.delenv("ROLLBEM_PROGRAM")
     monkeypatch.setenv("PATH", str(tmp_path))

@@ -35,6 +35,7 @@ int cli_example(int argc, char **argv);
 int cli_page(int argc, char **argv);
 int cli_contact(int argc, char **argv);
 int cli_prony(int argc, char **argv);
+int cli_rubber(int argc, char **argv);
 int cli_examples(int argc, char **argv);
 int cli_help(int argc, char **argv);
 

@@ -18,6 +18,7 @@ static const cli_command commands[] = {
     {"design", cli_design, "minimum or maximum of a result over numbers of a case"},
     {"fit", cli_fit, "numbers of a case fitted to a measured creep curve"},
     {"prony", cli_prony, "a series of relaxation times fitted to E' and tan delta over frequency"},
+    {"rubber", cli_rubber, "the modulus of a hardness: Shore A or P&J, by each relation"},
     {"wear", cli_wear, "wear by sliding, fretting or rolling"},
     {"crack", cli_crack, "stress intensities of a crack below the passing contact"},
     {"verify", cli_verify, "compares the program with closed-form and published results"},

@@ -103,7 +103,7 @@ static int has_unit_apart(const rb_option *o, const char *value, const char *nex
         access(next, F_OK) == 0 ||
         snprintf(both, sizeof both, "%s %s", value, next) >= (int)sizeof both)
         return 0;
-    return (o->modulus && rb_rubber_read(both, &x, NULL)) ||
+    return (o->modulus && rb_rubber_read(both, 0, &x, NULL)) ||
            (rb_unit_read(both, o->unit, &x, &plain, NULL) == RB_OK && !plain);
 }
 

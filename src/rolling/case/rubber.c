@@ -38,42 +38,64 @@ static double by_qi(double shore)
     return pow(10.0, 0.0235 * shore - 0.6403);
 }
 
-const rb_rubber_relation rb_rubber_relations[RB_RUBBER_RELATIONS] = {
-    {"Gent", by_gent}, {"BS 903", by_bs903}, {"Qi, Joyce and Boyce", by_qi}};
+/* ---- P&J: hundredths of a millimetre that a ball of 3.175 mm sinks under 9.81 N -------- */
 
-double rb_rubber_band(double shore)
+static const double BALL = 0.5 * 3.175, WEIGHT = 9.81;
+
+/* ISO 48: 61.5 r^-0.48 (F/E)^0.74 hundredths of a millimetre. */
+static double by_iso48(double hundredths)
 {
-    double least = INFINITY, largest = 0.0;
-    for (int k = 0; k < RB_RUBBER_RELATIONS; k++) {
-        const double young = rb_rubber_relations[k].young(shore);
-        least = fmin(least, young);
-        largest = fmax(largest, young);
+    return WEIGHT * pow(61.5 * pow(BALL, -0.48) / hundredths, 1.0 / 0.74);
+}
+
+/* F = 16/9 E sqrt(r d^3) at nu = 1/2. */
+static double by_hertz(double hundredths)
+{
+    return WEIGHT * 9.0 / 16.0 / sqrt(BALL * gsl_pow_3(0.01 * hundredths));
+}
+
+const rb_rubber_scale rb_rubber_scales[RB_RUBBER_SCALES] = {
+    {"ShoreA",
+     20.0,
+     90.0,
+     3,
+     {{"Gent", by_gent}, {"BS 903", by_bs903}, {"Qi, Joyce and Boyce", by_qi}}},
+    {"P&J", 10.0, 200.0, 2, {{"ISO 48", by_iso48}, {"Hertz", by_hertz}}}};
+
+void rb_rubber_band(const rb_rubber_scale *scale, double hardness, double *least, double *largest)
+{
+    *least = INFINITY;
+    *largest = 0.0;
+    for (int k = 0; k < scale->relations; k++) {
+        const double young = scale->relation[k].young(hardness);
+        *least = fmin(*least, young);
+        *largest = fmax(*largest, young);
     }
-    return largest / least;
 }
 
 /* ---- As a value ---------------------------------------------------------------------- */
 
-int rb_rubber_read(const char *text, double *young, rb_message *why)
+int rb_rubber_read(const char *text, int bare, double *shore, rb_message *why)
 {
+    const rb_rubber_scale *scale = &rb_rubber_scales[RB_RUBBER_SHORE_A];
     char *end;
-    const double shore = strchr(" \t\n", *text) ? NAN : rb_read_number(text, &end);
-    if (!isfinite(shore) || end == text)
+    const double read = strchr(" \t\n", *text) ? NAN : rb_read_number(text, &end);
+    if (!isfinite(read) || end == text)
         return 0;
     end += strspn(end, " ");
-    if (strncasecmp(end, "shore", 5) != 0)
+    const int named = strncasecmp(end, "shore", 5) == 0;
+    if (!named && !bare)
         return 0;
-    end += 5;
-    end += strspn(end, " -");
-    *young = NAN;
-    if (strcasecmp(end, "A") != 0)
+    end += named ? 5 + strspn(end + 5, " -") : 0;
+    *shore = NAN;
+    if (strcasecmp(end, "A") != 0 && (named || *end))
         rb_fail(why, RB_EINVAL, "a hardness in ShoreA, of which the modulus is known; got '%.60s'",
                 text);
-    else if (shore < RB_RUBBER_SOFTEST || shore > RB_RUBBER_HARDEST)
+    else if (read < scale->lowest || read > scale->highest)
         rb_fail(why, RB_EINVAL,
                 "a hardness of %g to %g ShoreA, where it says the modulus; got '%.60s'",
-                RB_RUBBER_SOFTEST, RB_RUBBER_HARDEST, text);
+                scale->lowest, scale->highest, text);
     else
-        *young = by_gent(shore);
+        *shore = read;
     return 1;
 }

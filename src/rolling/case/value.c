@@ -30,9 +30,10 @@ static int set_number(const rb_option *o, double *place, const char *value, read
     int plain = 0;
     if (o->word && strcmp(value, o->word) == 0)
         v = o->word_value;
-    else if (o->modulus && rb_rubber_read(value, &v, &r->why)) {
+    else if (o->modulus && rb_rubber_read(value, 0, &v, &r->why)) {
         if (isnan(v))
             return 0;
+        v = rb_rubber_scales[RB_RUBBER_SHORE_A].relation[0].young(v);
         plain = RB_GIVEN_HARDNESS;
     } else if (rb_unit_read(value, o->unit, &v, &plain, &r->why) != RB_OK ||
                !rb_option_in_range(o, v))

@@ -462,18 +462,21 @@ const char *rb_case_hardness(const rb_case *c, int k, char *text, size_t room)
     *text = '\0';
     if (!c->given[at] || c->plain[at] != RB_GIVEN_HARDNESS)
         return text;
+    const rb_rubber_scale *scale = &rb_rubber_scales[RB_RUBBER_SHORE_A];
     const double young = *(const double *)(const void *)((const char *)&c->words + o->offset),
                  shore = rb_rubber_shore(young);
     const rb_units units = c->resolved.units;
+    double least, largest;
     rb_format(text, room, "--%s of %.4g ShoreA is E = %.4g %s by %s", o->name, shore,
               rb_unit_shown(units, "MPa", young), rb_unit_name(units, "MPa"),
-              rb_rubber_relations[0].name);
-    for (int j = 1; j < RB_RUBBER_RELATIONS; j++)
+              scale->relation[0].name);
+    for (int j = 1; j < scale->relations; j++)
         rb_append(text, room, ", %.4g by %s",
-                  rb_unit_shown(units, "MPa", rb_rubber_relations[j].young(shore)),
-                  rb_rubber_relations[j].name);
+                  rb_unit_shown(units, "MPa", scale->relation[j].young(shore)),
+                  scale->relation[j].name);
+    rb_rubber_band(scale, shore, &least, &largest);
     rb_append(text, room, ", a factor of %.1f, and at rest; rolling needs that of its speed",
-              rb_rubber_band(shore));
+              largest / least);
     return text;
 }
 
