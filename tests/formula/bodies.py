@@ -1,4 +1,6 @@
 """docs/theory-bodies.md: relaxing bodies, wheels, layers, stress."""
+import re
+
 import numpy as np
 import rollbem
 from scipy import integrate, optimize, special
@@ -213,6 +215,21 @@ def tag_V1_V5():
     printed(PAGE, r"w = w_e + \sum_k f_k v_k, \qquad \tau_k\,\frac{dv_k}{dt} = w_e - v_k")
     v = integrate.solve_ivp(lambda t, v: (1 - v)/tau, [0, 3], [0], rtol=1e-10, atol=1e-12).y[0, -1]
     close(1 + f*v, value(J.replace("sum f_k (", "f_k*(").replace("J_g [", "J_g*["), J_g=1.0, f_k=f, t=3.0, tau_k=tau), 1e-8)
+
+
+def tag_conventions():  # what a half-plane remembers of loads that have passed
+    d, L, P, compliance = 1000.0, 2000.0, 600.0, 2*(1 - 0.16)/(2*1143*1.4)  # CONTACT's visc_cylindr
+    rows = [printed("supports.md", text).split("|") for text in (
+        "ln(sqrt(r^2 + d^2)/r): positive, decreasing | 1.43536", "asinh(d/(2r)): a strip of width d of a half-space that rests far away | 1.45465",
+        "ln(d/r), as in the elastic displacement | negative beyond d: under a given load the approach would fall without bound as the speed grows | 1.30047")]
+    def remembered(text):
+        text = re.split("[:,]", text)[0]
+        f = lambda r: np.exp(-r/L)/L*value(text, r=r, d=d, asinh=np.arcsinh)
+        return 2*P*compliance/np.pi*sum(integrate.quad(f, a, b, limit=300)[0] for a, b in [(0, d), (d, 40*L)])
+    start = [float(row[-1]) - remembered(row[0]) for row in rows]  # the elastic part: one and the same
+    close(start, 3*start[:1], 2e-5)
+    of = re.search(r"datum (\d+).*?load (\d+)", open("tests/test_rolling_memory.c").read(), re.S)
+    close([float(x) for x in of.groups()], [d, P])
 
 
 def tag_V3():

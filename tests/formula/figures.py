@@ -1,14 +1,21 @@
-"""Tables and sentences of docs/*.md: a comment <!-- figures: ... --> above names what prints their numbers.
+"""Tables and sentences of docs/*.md: a comment <!-- figures: ... --> above names what prints their numbers.  A page is
+refused if it has a number of two digits with a point, or of four, without one, unless it stands in code, in the literature, or in
+a formula that a function of this folder evaluates.
 
     rows NAME            a section of tests/figures, which looks for its rows on the page
     formula CHAPTER.TAG  a function of this folder
     by COMMAND           what takes too long, or needs what is not here: not run, but it must exist
+    in FILE [FUNCTION]   numbers that a test compares, or that the program has as constants: they stand there
+    from SOURCE          literature, or numbers of sections
     OPTIONS | EXPRESSION; EXPRESSION ...
                          run by the program, OPTIONS with a command before them or not; an expression has
-                         the names of the summary in JSON, of a crack those of its contact, too.  N in 1 2:
-                         before it stands for two lines with {N}.  Each value must stand in the table or
-                         the paragraph below, and each figure of the table must be one of them.
-    turns                before such lines: a quarter of them is run each day, all with ROLLBEM_TEST_ALL."""
+                         the names of the summary in JSON, of a crack those of its contact, too; without OPTIONS
+                         it is arithmetic.  N in 1 2: before it stands for two lines with {N}.  Each value must
+                         stand in the table or the paragraph below.
+    turns                before such lines: a quarter of them is run each day, all with ROLLBEM_TEST_ALL.
+
+Below lines of the last three kinds alone each number must be met by one of them, or stand in the comment."""
+import ast
 import glob
 import json
 import math
@@ -19,6 +26,9 @@ import sys
 
 FIGURE = re.compile(r"(?<![\w.])[-+]?(?:\d+\.\d+|\.\d+|\d+)(?:e[-+]?\d+)?(?![\w])")
 COMMENT = re.compile(r"^ *<!-- figures: (.*?) -->\n", re.S | re.M)
+COMMENTS = re.compile(r"(?: *<!-- figures: (?:(?!-->).)*? -->\s*)+\Z", re.S)
+BLOCK = re.compile(r"(?:^ *\|.*\n?)+|(?:^ *[^ \n|].*\n?)+", re.M)  # a table or a paragraph
+OTHER_PAGES = ["README.md", "python/README.md", "docs/course/README.md", "docs/course/lecturers.md", "docs/site/index.md"]  # test_course reads the lessons
 everything, turn = "ROLLBEM_TEST_ALL" in os.environ, int(os.environ.get("ROLLBEM_TEST_TURN", 0))
 
 
@@ -28,18 +38,9 @@ def unit(word):
 
 
 def is_measured(word):
+    """Two digits with a point, three of a whole number of thousands."""
     digits = re.sub(r"^[-+]?[0.]*|\.|e.*", "", word)
-    return len(digits) >= (2 if "." in word or "e" in word else 4)
-
-
-def block_below(text, at):
-    """The table that begins there, or the paragraph."""
-    lines = text[at:].lstrip("\n").split("\n")
-    table = lines[0].lstrip().startswith("|")
-    for k, line in enumerate(lines):
-        if (table and not line.lstrip().startswith("|")) or not line.strip():
-            break
-    return "\n".join(lines[:k])
+    return len(digits) >= 2 if "." in word or "e" in word else len(digits) >= 4 and len(digits.rstrip("0")) >= 3
 
 
 def commands(comment):
@@ -57,46 +58,87 @@ def summary(options):
     return {name: x for name, x in [*root.get("contact", {}).items(), *root["summary"].items()] if isinstance(x, (int, float))}
 
 
-def check(page, comment, block):
-    """What is wrong, as lines."""
-    kind, _, rest = comment.strip().partition(" ")
+def numbers_in(place):
+    """The numbers of a file, or of one function or table of it."""
+    file, _, name = place.partition(" ")
+    text = open(file).read()
+    if name:
+        text = re.search(rf"^[^\n;]*\b{name}\b[^;]*?\{{.*?^\}}", text, re.S | re.M)[0]
+    return {abs(float(x)) for x in re.findall(r"(?<![\w.])(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", text)}
+
+
+def missing(kind, rest):
+    """What is wrong with a line that names a section, a function, a program."""
     if kind == "rows":
         return [] if rest in open("tests/figures").read() else [f"tests/figures has no {rest!r}"]
     if kind == "formula":
         chapter, _, tag = rest.partition(".")
         return [] if f"def {tag}(" in open(f"tests/formula/{chapter}.py").read() else [f"no {rest}"]
-    if kind == "by":
-        places = [re.sub(r"build/bench/(\w+).*", r"tools/bench/\1.c", rest), re.sub(r"build/tests/(\w+).*", r"tests/\1.c", rest), rest.split()[0]]
-        return [] if any(os.path.exists(p) for p in places) or rest.startswith(("make ", "CONTACT")) else [f"{rest}: not here"]
-    turns = kind.split("\n")[0] == "turns"
-    wrong, lines = [], list(commands(comment.replace("turns\n", "", 1) if turns else comment))
-    shown = [w for w in FIGURE.findall(block) if is_measured(w)]
-    met, near, ran = set(), set(), 0
+    places = [re.sub(r"build/bench/(\w+).*", r"tools/bench/\1.c", rest), re.sub(r"build/tests/(\w+).*", r"tests/\1.c", rest), rest.split()[0]]
+    return [] if any(os.path.exists(p) for p in places) or rest.startswith(("make ", "CONTACT")) else [f"{rest}: not here"]
+
+
+def check(comment, block, shown):
+    """What is wrong, as lines; shown: the figures of the block that need something that prints them."""
+    turns = comment.startswith("turns\n")
+    wrong, lines = [], list(commands(comment.replace("turns\n", "", 1)))
+    met, near, ran, all_named = set(), set(), 0, False
     for k, line in enumerate(lines):
-        if turns and not everything and k % 4 != turn % 4:
+        kind, _, rest = line.strip().partition(" ")
+        if kind in ("rows", "formula", "by"):
+            wrong += missing(kind, rest)
+            all_named = True
+        elif kind == "from":
+            all_named |= not any(map(is_measured, FIGURE.findall(rest)))
+        elif kind == "in":
+            there = numbers_in(rest)
+            alike = {w for w in shown if any(abs(x - abs(float(w))) <= 0.5001*unit(w) for x in there)}
+            wrong += [] if alike else [f"nothing here is {line.strip()}"]
+            met |= alike
+        elif turns and not everything and k % 4 != turn % 4:
             continue
+        else:
+            options, _, expressions = line.partition("|")
+            names = {**vars(math), **(summary(options) if options.strip() else {})}
+            for expression in expressions.split(";"):
+                x = eval(expression, names)
+                alike = [w for w in FIGURE.findall(block) if abs(abs(x) - abs(float(w))) <= 0.6*unit(w) and abs(float(w)) >= 0.05*abs(x)
+                         and (is_measured(w) or abs(float(w)) < 1)]
+                met.update(alike)
+                near.update(w for w in shown if w not in alike and abs(abs(x) - abs(float(w))) < 2e-3*abs(x))
+                if not alike:
+                    wrong.append(f"{line.strip()}: {expression.strip()} is {x:.6g}, which the page does not show")
         ran += 1
-        options, _, expressions = line.partition("|")
-        names = {**vars(math), **summary(options)}
-        for expression in expressions.split(";"):
-            x = eval(expression, names)
-            alike = [w for w in FIGURE.findall(block) if abs(abs(x) - abs(float(w))) <= 0.6*unit(w) and abs(float(w)) >= 0.05*abs(x)
-                     and (is_measured(w) or abs(float(w)) < 1)]
-            met.update(alike)
-            near.update(w for w in shown if w not in alike and abs(abs(x) - abs(float(w))) < 2e-3*abs(x))
-            if not alike:
-                wrong.append(f"{line.strip()}: {expression.strip()} is {x:.6g}, which the page does not show")
     given = set(FIGURE.findall(comment))
     if ran == len(lines):  # one of two places that show a value may be wrong
-        wrong += [f"{w} is nearly what a command prints" for w in near - met - given]
-    if ran == len(lines) and block.lstrip().startswith("|"):
-        wrong += [f"{w} is printed by no command" for w in shown if w not in met and w not in given]
+        wrong += [f"{w} is nearly what a command prints" for w in sorted(near - met - given)]
+        wrong += [] if all_named else [f"{w} is printed by no command" for w in shown if w not in met and w not in given]
     return wrong
 
 
-def has_numbers(table):
-    cells = [cell.strip() for row in table.split("\n")[2:] for cell in row.split("|")[1:-1]]
-    return sum(bool(re.fullmatch(r"[-+~<>\d.e%,;/ ms()k]+", c)) and any(map(is_measured, FIGURE.findall(c))) for c in cells) >= 4
+SECTION = r"(?:[345]\.\d\d?)"
+NEED_NONE = [(r"^ *```.*?^ *```|<!--.*?-->", re.S | re.M), (r"(?<=\n\n)(?:    .*\n)+", 0),
+             (rf"(?:[sS]ections?|\.md[`)]?,?|of|in|and|see|to|\])\s+{SECTION}(?=[\s).,;:\]])(?! (?:[mnkM]?m|[mn]?s|%|MPa|GB|times)\b)", 0),
+             (r"\]\([^)]*\)|`[^`]*`|https?://\S+|(?:version |VTK |Siconos |GPL-)\d\S*", 0), (rf"(?<=[(,])\s*{SECTION}(?=[),;])", 0),
+             (r"^\d+\. [A-Z]\..*\n(?:    ?.*\n)*|^#+ .*", re.M), (r"\b(?:1[89]|20)\d\d\b", 0)]
+
+
+def founded(text):
+    """The page without what needs no command: code, comments, links, literature, headings, numbers of sections, years, and
+    what the functions of this folder evaluate."""
+    for pattern, flags in NEED_NONE + [(literal, 0) for literal in evaluated]:
+        text = re.sub(pattern, lambda m: re.sub(r"[^\n]", " ", m[0]), text, flags=flags)
+    return text
+
+
+def literals():
+    for file in glob.glob("tests/formula/*.py"):
+        for node in ast.walk(ast.parse(open(file).read())):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str) and 5 < len(node.value) < 400 and re.search(r"\d", node.value):
+                yield r"\s+".join(map(re.escape, node.value.split()))
+
+
+evaluated = sorted(set(literals()), key=len, reverse=True)
 
 
 # tags whose test has another name
@@ -133,18 +175,17 @@ if wrong:
     failed = 1
     print("\n".join(wrong))
 print("[  FAILED  ]" if wrong else "[       OK ]", "docs/course/lecturers.md")
-for page in sys.argv[1:] or sorted(glob.glob("docs/*.md")):
+for page in sys.argv[1:] or sorted(glob.glob("docs/*.md") + OTHER_PAGES):
     text, wrong, checks = open(page).read(), [], 0
-    commented = set()
-    for m in COMMENT.finditer(text):
-        block = block_below(text, m.end())
-        commented.add(block)
-        checks += 1
-        wrong += check(page, m[1], block)
-    for m in re.finditer(r"(?:^ *\|.*\n)+", text, re.M):
-        table = m[0].rstrip("\n")
-        if has_numbers(table) and table.lstrip() not in {c.lstrip() for c in commented}:
-            wrong.append("a table without a command: " + table.split("\n")[0])
+    visible = founded(text)
+    for block in BLOCK.finditer(COMMENT.sub(lambda m: re.sub(r"[^\n]", " ", m[0]), text)):
+        above = COMMENTS.search(text[:block.start()])
+        shown = [w for w in FIGURE.findall(visible[block.start():block.end()]) if is_measured(w)]
+        if above:
+            checks += 1
+            wrong += check("\n".join(COMMENT.findall(above[0])), block[0], shown)
+        elif shown:
+            wrong.append(f"line {text.count(chr(10), 0, block.start()) + 1}: no command for {' '.join(shown)}")
     wrong += untested(page, text) if "theory" in page else []
     for line in wrong:
         print(f"{page}: {line}")
