@@ -333,7 +333,9 @@ typedef struct {
     int n;
     int kind[RB_ROLLING_NOTES]; /* which note, see rb_rolling_note_name */
     char text[RB_ROLLING_NOTES][RB_ROLLING_NOTE_LENGTH];
+    rb_status status; /* RB_ENOMEM: notes are missing */
 } rb_rolling_note_list;
+extern const char rb_rolling_notes_missing[]; /* the sentence that says so */
 rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_rolling_solution *s);
 /* "static-creepage", ... of kind k = 0, 1, ...; NULL after the last one. */
 const char *rb_rolling_note_name(int k);
@@ -343,6 +345,7 @@ enum { RB_ROLLING_ROW_NOTES = 6 };
 typedef struct {
     int n, kind[RB_ROLLING_ROW_NOTES];
     char text[RB_ROLLING_ROW_NOTES][RB_ROLLING_NOTE_LENGTH];
+    rb_status status; /* RB_ENOMEM: notes are missing */
 } rb_rolling_row_notes;
 /* Those of a solved case in the units of the solution, but for those on columns of its table. */
 rb_rolling_row_notes rb_rolling_find_row_notes(const rb_rolling_case *rc,

@@ -739,12 +739,13 @@ rb_status rb_case_crack_row(const rb_resolved_case *c, const rb_case_crack *k, r
                             rb_message *why)
 {
     rb_case_crack_result r;
-    const rb_status s = rb_case_crack_solve(c, k, NULL, &r, why);
+    rb_status s = rb_case_crack_solve(c, k, NULL, &r, why);
 
     if (r.contact.solution.n > 0) {
         row->solution = rb_rolling_scalars_of(&r.contact.solution);
         rb_rolling_solution_convert(&r.contact.solution, c->units);
         row->notes = rb_rolling_find_row_notes(&c->rc, &r.contact.solution);
+        s = s == RB_OK ? row->notes.status : s;
     }
     for (int i = 0; i < r.notes; i++)
         rb_rolling_add_note(&row->notes, RB_ROLLING_OWN_NOTES + r.note_kind[i], r.note[i]);

@@ -628,9 +628,10 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size)
                                     : rb_rolling_find_notes(&rb_case_resolved(a->words)->rc, s);
     if (a->rows.rows == 0 || strcmp(a->row, "point") == 0) /* those of a study are its rows' */
         rb_case_note_materials(a->words, &list);
-    if (k >= list.n)
+    const int missing = list.status != RB_OK;
+    if (k >= list.n + missing)
         return NULL;
-    snprintf(text, (size_t)size, "%s", list.text[k]);
+    snprintf(text, (size_t)size, "%s", k < list.n ? list.text[k] : rb_rolling_notes_missing);
     return text;
 }
 

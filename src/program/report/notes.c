@@ -13,6 +13,8 @@ void rb_report_notes(FILE *out, const rb_rolling_note_list *notes, int colour)
 {
     for (int k = 0; k < notes->n; k++)
         rb_report_note(out, notes->text[k], colour);
+    if (notes->status != RB_OK)
+        rb_report_note(out, rb_rolling_notes_missing, colour);
 }
 
 void rb_report_comment_notes(const rb_report_cells *c, const rb_rolling_note_list *notes)
@@ -23,7 +25,7 @@ void rb_report_comment_notes(const rb_report_cells *c, const rb_rolling_note_lis
 
 json_t *rb_report_json_notes(const rb_rolling_note_list *notes)
 {
-    json_t *list = json_array();
+    json_t *list = notes->status == RB_OK ? json_array() : NULL;
     for (int k = 0; k < notes->n; k++)
         rb_report_json_append(&list, json_string(notes->text[k]));
     return list;

@@ -148,6 +148,8 @@ rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s, const cha
 
     if (!s->tractions) {
         const rb_rolling_note_list notes = rb_rolling_find_notes(s->rc, s->s);
+        if (notes.status != RB_OK)
+            return notes.status;
         rb_report_comment_notes(&c, &notes);
     }
     for (int k = 0; k < GIVEN_LINES; k++)

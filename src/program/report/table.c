@@ -18,6 +18,8 @@ rb_status rb_report_table(FILE *out, const rb_rolling_case *rc, const rb_rolling
                           rb_unit_name(s->units, "N/mm"));
     if (rc) {
         const rb_rolling_note_list notes = rb_rolling_find_notes(rc, s);
+        if (notes.status != RB_OK)
+            return notes.status;
         rb_report_comment_notes(&c, &notes);
     }
     return rb_report_end_columns(&c, s->n, 1, &columns);

@@ -18,6 +18,9 @@ static const double inaccurate_approach = 0.02, inaccurate_width = 0.1;
 static const double not_unique = 0.95;
 static const double broken_approach = 0.1, broken_width = 0.3;
 
+/* What a note answers besides 0, it has nothing to say, and 1. */
+enum { NO_MEMORY = -1 };
+
 /* Writes the sentence of a note that applies. */
 RB_PRINTF(2, 3)
 static int write_note(char *text, const char *format, ...)
@@ -306,9 +309,10 @@ static int irregularity(const rb_rolling_case *rc, const rb_rolling_solution *s,
     const double *x, *bend;
     rb_rolling_interpolant *curve = NULL;
 
-    if (table->n == 0 ||
-        rb_rolling_interpolant_create(table->n, table->x, table->y, 0, &curve) != RB_OK)
+    if (table->n == 0)
         return 0;
+    if (rb_rolling_interpolant_create(table->n, table->x, table->y, 0, &curve) != RB_OK)
+        return NO_MEMORY;
     const int corners = rb_rolling_interpolant_corners(curve, &x, &bend);
     const int said = of_rows ? tell_few_rows(text, "irregularity", curve)
                              : list_corners(text, "irregularity", s->units, corners, x);
@@ -332,8 +336,9 @@ static int coarse_elements(const rb_rolling_case *rc, const rb_rolling_solution 
     static const double much = 1.5;
     int wanted;
 
-    if (rb_rolling_elements_for_tables(rc, rc->contact_elements, &wanted) != RB_OK ||
-        !(wanted > much * rc->contact_elements) || s->n >= wanted)
+    if (rb_rolling_elements_for_tables(rc, rc->contact_elements, &wanted) != RB_OK)
+        return NO_MEMORY;
+    if (!(wanted > much * rc->contact_elements) || s->n >= wanted)
         return 0;
     return write_note(
         text,
@@ -742,13 +747,19 @@ const char *rb_rolling_note_name(int k)
     return k >= 0 && k < NOTES ? all_notes[k].name : NULL;
 }
 
+const char rb_rolling_notes_missing[] = "Notes on this result may be missing: out of memory.";
+
 rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc, const rb_rolling_solution *s)
 {
     rb_rolling_note_list list = {.n = 0};
 
-    for (int k = 0; k < NOTES; k++)
-        if (all_notes[k].says(rc, s, list.text[list.n]))
+    for (int k = 0; k < NOTES; k++) {
+        const int said = all_notes[k].says(rc, s, list.text[list.n]);
+        if (said == NO_MEMORY)
+            list.status = RB_ENOMEM;
+        else if (said)
             list.kind[list.n++] = k;
+    }
     return list;
 }
 
@@ -758,7 +769,7 @@ rb_rolling_row_notes rb_rolling_find_row_notes(const rb_rolling_case *rc,
                                                const rb_rolling_solution *s)
 {
     const rb_rolling_note_list found = rb_rolling_find_notes(rc, s);
-    rb_rolling_row_notes row = {.n = 0};
+    rb_rolling_row_notes row = {.n = 0, .status = found.status};
 
     for (int k = 0; k < found.n; k++)
         if (!all_notes[found.kind[k]].of_columns)

@@ -40,7 +40,7 @@ static rb_status note_point(const rb_rolling_model *model, rb_units units, rb_ro
     const rb_rolling_row_notes notes = rb_rolling_find_row_notes(&rc, &at);
     rb_rolling_add_row_notes(&c->notes, c->n - 1, &notes);
     rb_rolling_solution_free(&at);
-    return RB_OK;
+    return notes.status;
 }
 
 static rb_status record(const rb_rolling_model *model, const watcher *w, rb_rolling_curve *c,

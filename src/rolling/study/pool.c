@@ -70,6 +70,8 @@ void rb_rolling_sweep_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row 
     if (s >= 0 && solution.p) {
         rb_rolling_solution_convert(&solution, sweep->units);
         row->notes = rb_rolling_find_row_notes(&rc, &solution);
+        if (row->notes.status != RB_OK)
+            row->solution.status = rb_fail(why, row->notes.status, "out of memory");
     }
     rb_rolling_solution_free(&solution);
     rb_rolling_model_free(&model);
