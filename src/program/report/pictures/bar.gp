@@ -1,6 +1,6 @@
 # The deformed bar; below, the reactions of its lower edge over the stretches of equal state.
 # $mesh, $edge: positions; $table: x, normal and tangential / mu per length; $zones: from, to, zone, nodes.
-zone(i, k) = real(word($zones[i], k))
+zone(i, k) = number($zones[i], k)
 is_wide(i) = zone(i, 2) - zone(i, 1) > 0.1 * length
 set multiplot
 set lmargin at screen (slide ? 0.125 : 0.1 + 1.6 * right)

@@ -9,9 +9,12 @@ set dashtype 15 (14,3)
 set dashtype 16 (6,2,2,2,2,2)
 dashes(k) = k % 6 == 0 ? 1 : 11 + k % 6
 grey = '#999999'
-number(list, k) = real(word(list, k))
+# gnuplot reads no number such as 2e+06, which has an exponent and no point
+numeric(text) = strstrt(text, 'e') == 0 || strstrt(text, '.') > 0 ? real(text) \
+    : real(text[1:strstrt(text, 'e') - 1].'.0'.text[strstrt(text, 'e'):*])
+number(list, k) = numeric(word(list, k))
 # without rounding errors, which would be a range of their own
-tidy(x) = real(sprintf('%.9g', x))
+tidy(x) = numeric(sprintf('%.9g', x))
 # zones of contact: separated, stick, slip to the left and to the right, yield likewise, frictionless
 strong(zone) = word('#9a9a9a #2c7a57 #c4501b #8a3fa0 #8c6a00 #b0305c #3d5a80', zone + 1)
 pale(zone) = word('#f3f3f3 #d9ebe2 #fae3d6 #ecdff1 #f3ecd0 #f6dde6 #e0e7ef', zone + 1)

@@ -5,7 +5,7 @@ set datafile missing '?'
 heat = has('temperature_K')
 top(k) = up + number(heat ? '0.83 0.45 0.275' : '0.83 0.36', k)
 bottom(k) = up + number(heat ? '0.48 0.305 0.115' : '0.40 0.115', k)
-zone(i, k) = real(word($zones[i], k))
+zone(i, k) = number($zones[i], k)
 level(z) = word('separated stick slip+→ ←+slip yield+→ ←+yield contact', z + 1)
 name(z, how) = how == 2 ? word('separated stick slip slip yield yield contact', z + 1) : level(z)[1:strstrt(level(z).'+', '+') - 1].(strstrt(level(z), '+') ? ' '.level(z)[strstrt(level(z), '+') + 1:*] : '')
 draw_zones = 'do for [i=2:|$zones|] { set object rectangle from first zone(i, 1), graph 0 to first zone(i, 2), graph 1 fillcolor rgb pale(int(zone(i, 3))) fillstyle solid noborder behind }'
@@ -60,8 +60,8 @@ set label 3 heat_label at screen 0.028, 0.5 * (top(k) + bottom(k)) center rotate
 eval draw_zones
 do for [i=2:|$names|] {
     at_left = int(word($names[i], 4))
-    if (at_left) { set label word($names[i], 1) at first real(word($names[i], 2)), first real(word($names[i], 3)) left offset 0.5,0 front }
-    if (!at_left) { set label word($names[i], 1) at first real(word($names[i], 2)), first real(word($names[i], 3)) right offset -0.5,0 front }
+    if (at_left) { set label word($names[i], 1) at first number($names[i], 2), first number($names[i], 3) left offset 0.5,0 front }
+    if (!at_left) { set label word($names[i], 1) at first number($names[i], 2), first number($names[i], 3) right offset -0.5,0 front }
 }
 plot $drawn using 'x':'temperature_b' with lines dashtype (6,4) linecolor rgb '#7a7a7a' linewidth 1.2, \
      $drawn using 'x':'temperature' with lines linecolor rgb '#b9770e' linewidth 1.8
