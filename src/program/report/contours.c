@@ -86,13 +86,13 @@ static int find_number(const rb_report_contours *c, double level, int n, const n
     return most > 0.0;
 }
 
-void rb_report_contour_numbers(FILE *script, const rb_report_contours *c)
+void rb_report_contour_numbers(FILE *script, const char *name, const rb_report_contours *c)
 {
     number found[NUMBERS + 1];
     int n = 0;
     if (c->mark)
         found[n++] = (number){{c->mark[0], c->mark[1], 0.0}};
-    fputs("$numbers << EOD\n", script);
+    fprintf(script, "$%s << EOD\nx y level\n", name);
     for (int k = 0; c->first + k * c->step <= c->last; k++) {
         const double level = rb_report_tidy(c->first + k * c->step, c->step);
         for (int same = 0;

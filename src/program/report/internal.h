@@ -174,8 +174,8 @@ typedef struct {
     const double *mark;       /* x, y that no number may cover, or NULL */
 } rb_report_contours;
 
-/* Writes the block $numbers, x, y and level, a row for each number at the lines. */
-void rb_report_contour_numbers(FILE *script, const rb_report_contours *contours);
+/* Writes the block $name: x, y and level, a row for each number at the lines. */
+void rb_report_contour_numbers(FILE *script, const char *name, const rb_report_contours *contours);
 /* As a part of splot. */
 #define RB_REPORT_NUMBERS "$numbers using 1:2:3:(sprintf('%%g',$3)) nocontour with labels boxed"
 

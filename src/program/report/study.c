@@ -360,18 +360,19 @@ static void write_numbers(FILE *out, rb_report_canvas canvas, const view *v, con
     double letters[2];
     rb_report_letters_in(canvas, RB_REPORT_FOUR_THIRDS, rb_report_key_font(canvas), letters);
     rb_report_contour_numbers(
-        out, &(rb_report_contours){
-                 .nx = v->row,
-                 .ny = v->study->n / v->row,
-                 .point = point_of_map,
-                 .of = v,
-                 .from = {v->x.from, v->y.from},
-                 .to = {v->x.to, v->y.to},
-                 .logarithmic = {v->x.logarithmic, v->y.logarithmic},
-                 .first = first,
-                 .step = step,
-                 .last = last,
-                 .letter = {1.0 / (letters[0] * room[0]), 1.0 / (letters[1] * room[1])}});
+        out, "numbers",
+        &(rb_report_contours){
+            .nx = v->row,
+            .ny = v->study->n / v->row,
+            .point = point_of_map,
+            .of = v,
+            .from = {v->x.from, v->y.from},
+            .to = {v->x.to, v->y.to},
+            .logarithmic = {v->x.logarithmic, v->y.logarithmic},
+            .first = first,
+            .step = step,
+            .last = last,
+            .letter = {1.0 / (letters[0] * room[0]), 1.0 / (letters[1] * room[1])}});
 }
 
 static void write_map(FILE *out, rb_report_canvas canvas, const void *context)

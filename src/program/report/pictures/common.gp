@@ -18,3 +18,11 @@ tidy(x) = numeric(sprintf('%.9g', x))
 # zones of contact: separated, stick, slip to the left and to the right, yield likewise, frictionless
 strong(zone) = word('#9a9a9a #2c7a57 #c4501b #8a3fa0 #8c6a00 #b0305c #3d5a80', zone + 1)
 pale(zone) = word('#f3f3f3 #d9ebe2 #fae3d6 #ecdff1 #f3ecd0 #f6dde6 #e0e7ef', zone + 1)
+# fields: colours that are grey from dark to light in print, and numbers at their contours
+set palette defined (0 '#440154', 0.15 '#46327e', 0.3 '#365c8d', 0.45 '#277f8e', 0.6 '#1fa187', 0.75 '#4ac16d', 0.9 '#a0da39', 1 '#fde725')
+set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6
+set cntrlabel onecolor
+contour_numbers = "using 'x':'y':'level':(sprintf('%g', column('level'))) nocontour with labels boxed font"
+# below the surface, with a line outside it where the bodies touch: thick where they slip
+set_field = "set view map; set tics scale 0.6; unset key; set pm3d map corners2color mean; set xrange [x_from:x_to]; set yrange [y_from:y_to]; part(k, i) = number($zones[i], k); \
+    do for [i=2:|$zones|] { set arrow from part(1, i), graph beside to part(2, i), graph beside nohead linewidth (part(3, i) == 1 ? 2 : 6) linecolor rgb strong(int(part(3, i))) front }"
