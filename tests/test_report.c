@@ -71,7 +71,7 @@ static char *content(FILE *file)
     return text;
 }
 
-static const rb_report_style full = {RB_REPORT_TSV, 0}, bare = {RB_REPORT_TSV, 1};
+static const rb_report_style full = {.bare = 0}, bare = {.bare = 1};
 
 /* ---- Table ------------------------------------------------------------------------ */
 
@@ -407,6 +407,34 @@ TEST(curves_say_what_has_no_derivatives)
     CHECK_OK(rb_report_curve_table(out, &curves, "curve", &style));
     fclose(out);
     assert_non_null(strstr(text, "# 1 of 2 points have no derivatives: reason 0\n"));
+}
+
+/* In the axes of textbooks: Carter's q is -mu p0 sqrt(1 - x^2/a^2) where it slides, and the table
+ * says what its numbers are divided by. */
+TEST(dimensionless_table)
+{
+    rb_rolling_solution s = carter();
+    rb_rolling_case rc = {.mu = 0.35, .a.radius = 10.0};
+    FILE *file = tmpfile();
+    assert_non_null(file);
+    s.half_width = 2.0; /* not 1, which divides nothing */
+    assert_int_equal(
+        rb_report_table(file, &rc, &s, "rollbem", &(rb_report_style){.dimensionless = 1}), RB_OK);
+    const char *text = content(file);
+    assert_ptr_equal(strstr(text, "x/a\th/a\tgap/a\tp/p0\tq/(mu*p0)\tun/a\t"), text);
+    assert_non_null(strstr(text, "# a = 2 mm, p0 = 100 MPa, mu = 0.35\n"));
+    int rows = 0;
+    for (const char *line = strchr(text, '\n'); line && line[1]; line = strchr(line + 1, '\n')) {
+        double x, h, gap, p, q;
+        if (sscanf(line + 1, "%lf %lf %lf %lf %lf", &x, &h, &gap, &p, &q) != 5)
+            continue;
+        CHECK_ABS(x, s.x[rows] / 2.0, 1e-15, "x/a");
+        CHECK_ABS(p, s.p[rows] / s.max_pressure, 1e-15, "p/p0");
+        CHECK_ABS(q, s.q[rows] / (0.35 * s.max_pressure), 1e-15, "q/(mu p0)");
+        rows++;
+    }
+    assert_int_equal(rows, s.n);
+    fclose(file);
 }
 
 /* What has no steps, no grid, no contact is no picture, and no file is written. */

@@ -176,7 +176,7 @@ TEST(full_disc_is_told)
     static const rb_rolling_stress_maxima maxima;
     const rb_report_stress stress = {
         .n = 4, .at = at, .maxima = &maxima, .rc = &rc, .s = &solution};
-    static const rb_report_style style = {RB_REPORT_TSV, 0};
+    static const rb_report_style style = {.bare = 0};
     FILE *full = fopen("/dev/full", "w");
     if (!full)
         skip();

@@ -538,13 +538,14 @@ class Solution(_Named):
                                        "reason": "" if proved else handle.word("proof.reason")}
         return self._more["proof"]
 
-    def plot(self, figure: Any = None, ax: Any = None, label: Optional[str] = None) -> Any:
+    def plot(self, figure: Any = None, ax: Any = None, label: Optional[str] = None, dimensionless: bool = False) -> Any:
         """The picture of the program: tractions, zones, slip.  Returns the figure.
 
         ``ax``: the axes of the tractions, or two, the second for the slip; ``label`` names the case where several
-        stand in one figure: ``figure = a.plot(label="dry"); b.plot(figure, label="wet")``.
+        stand in one figure: ``figure = a.plot(label="dry"); b.plot(figure, label="wet")``.  ``dimensionless``: x/a,
+        p/p0, q/(mu p0).
         """
-        return pictures.tractions(self, figure, ax, label)
+        return pictures.tractions(self, figure, ax, label, dimensionless)
 
     def __repr__(self) -> str:
         n = self._numbers
@@ -709,9 +710,9 @@ class Stress(_Named):
         self._arrays = {name: array.T for name, array in found.items()}
         self._numbers = {}
 
-    def plot(self, figure: Any = None, field: str = "max_shear", ax: Any = None) -> Any:
-        """Contours of a field of a grid.  Returns the figure."""
-        return pictures.contours(self, figure, field, ax)
+    def plot(self, figure: Any = None, field: str = "max_shear", ax: Any = None, dimensionless: bool = False) -> Any:
+        """Contours of a field of a grid, ``dimensionless`` over x/a and depth/a in p0.  Returns the figure."""
+        return pictures.contours(self, figure, field, ax, dimensionless)
 
     def __repr__(self) -> str:
         largest = self.maxima["max_shear"]

@@ -94,22 +94,40 @@ def bounds(solution: "Solution") -> Any:
     return bound
 
 
-def tractions(solution: "Solution", figure: Any = None, ax: Any = None, label: "Optional[str]" = None) -> Any:
-    """Pressure, friction between its bounds, zones, and the slip below.
+class _InHalfWidths:
+    """A solution whose places along x are counted in its half-width."""
+
+    def __init__(self, solution: "Solution") -> None:
+        if not solution.half_width > 0 or not solution.max_pressure > 0:
+            raise InvalidInput("dimensionless=: nothing touches, so there is neither a nor p0")
+        self._of = solution
+        for name in ("x", "h", "contact_from", "contact_to"):
+            setattr(self, name, getattr(solution, name) / solution.half_width)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._of, name)
+
+
+def tractions(solution: "Solution", figure: Any = None, ax: Any = None, label: "Optional[str]" = None,
+              dimensionless: bool = False) -> Any:
+    """Pressure, friction between its bounds, zones, and the slip below; in units, or x/a, p/p0 and q/(mu p0).
 
     A second case in the same axes is dashed, with zones of its own left out.
     """
-    s, mu = solution, solution.value("mu")
-    bound = bounds(s)
+    s: Any = _InHalfWidths(solution) if dimensionless else solution
+    mu, bound = solution.value("mu"), bounds(solution)
     figure, (upper, lower) = _figure(figure, 2, ax, sharex=True, gridspec_kw={"height_ratios": [2, 1]})
     again = _again(upper)
     unit, unit_name = _stress_unit(s, s.max_pressure)
-    if again:  # in the unit of the first
+    if again and not dimensionless:  # in the unit of the first
         unit, unit_name = getattr(upper, "rollbem_unit", (unit, unit_name))
     upper.rollbem_unit = (unit, unit_name)
+    of_friction = unit
+    if dimensionless:
+        unit, of_friction = s.max_pressure, (mu or 1.0) * s.max_pressure
     low, high = _limits(s)
-    below = max(1.2 * min(mu, 1.0) * s.max_pressure, 0.08 * s.max_pressure)
-    bottom, top = -below / unit, (1.14 * s.max_pressure + 0.13 * below) / unit
+    below = max(1.2 * min(mu, 1.0) * s.max_pressure / of_friction, 0.08 * s.max_pressure / unit)
+    bottom, top = -below, 1.14 * s.max_pressure / unit + 0.13 * below
     if again:
         low, high = min(low, upper.get_xlim()[0]), max(high, upper.get_xlim()[1])
         bottom, top = min(bottom, upper.get_ylim()[0]), max(top, upper.get_ylim()[1])
@@ -120,18 +138,19 @@ def tractions(solution: "Solution", figure: Any = None, ax: Any = None, label: "
             axes.axhline(0, color="#999999", linewidth=0.6)
     dashes = "--" if again else "-"
     for sign, text in ((1, "±μp"), (-1, None)):
-        upper.plot(s.x, sign * bound / unit, "--", color=BOUND, linewidth=0.9, label=_named_line(upper, None, text))
+        upper.plot(s.x, sign * bound / of_friction, "--", color=BOUND, linewidth=0.9, label=_named_line(upper, None, text))
     upper.plot(s.x, s.p / unit, dashes, color=PRESSURE, label=_named_line(upper, label, "pressure p"))
-    upper.plot(s.x, s.q / unit, dashes, color=FRICTION, label=_named_line(upper, label, "friction q"))
+    upper.plot(s.x, s.q / of_friction, dashes, color=FRICTION, label=_named_line(upper, label, "friction q"))
     upper.set_ylim(bottom, top)
-    upper.set_ylabel(f"traction [{unit_name}]")
+    upper.set_ylabel(f"traction [{unit_name}]" if not dimensionless else
+                     "$p/p_0$,  $q/(\\mu p_0)$" if mu else "$p/p_0$,  $q/p_0$")
     if not again and ax is None:
         upper.set_title(f"{s.formulation} contact: μ = {mu:g}, P = {s.normal_load:.5g} {s._in('N/mm')}, "
                         f"Q = {s.tangential_load:.5g} {s._in('N/mm')}")
     elif ax is None:
         upper.set_title("")
     upper.legend(loc="upper right", bbox_to_anchor=(1.0, 0.93), fontsize=8)
-    along = f"x [{s._in('mm')}]" + ("" if s.formulation == "static" else "   (rolling towards +x →)")
+    along = ("x / a" if dimensionless else f"x [{s._in('mm')}]") + ("" if s.formulation == "static" else "   (rolling towards +x →)")
     if lower is None:
         upper.set_xlabel(along)
         return figure
@@ -226,29 +245,36 @@ def close(figure: Any) -> None:
     pyplot.close(figure)
 
 
-def contours(of: "Stress", figure: Any = None, field: str = "max_shear", ax: Any = None) -> Any:
-    """Contours of a field below the contact, its largest value marked."""
+def contours(of: "Stress", figure: Any = None, field: str = "max_shear", ax: Any = None,
+             dimensionless: bool = False) -> Any:
+    """Contours of a field below the contact, its largest value marked; in units, or over x/a and depth/a, in p0."""
     if field not in of._arrays or field in ("x", "y"):
         raise InvalidInput(f"field=: expected a stress, got '{field}'{guess(field, of._arrays)}")
     values = getattr(of, field)
     if values.ndim != 2 or 1 in values.shape:
         raise ValueError("contours need a stress on a grid")
     unit, label = _stress_unit(of, np.nanmax(np.abs(values)))
+    length, down = 1.0, 1.0  # of the axes
+    if dimensionless:
+        unit, label, length = of.solution.max_pressure, "p0", of.solution.half_width
+        down = -1.0 if of.body == "b" else 1.0
+    x, y = of.x / length, down * of.y / length
     figure, (axes,) = _figure(figure, 1, ax)
-    filled = axes.contourf(of.x, of.y, np.ma.masked_invalid(values) / unit, 12, cmap="viridis")
-    lines = axes.contour(of.x, of.y, np.ma.masked_invalid(values) / unit, filled.levels,
+    filled = axes.contourf(x, y, np.ma.masked_invalid(values) / unit, 12, cmap="viridis")
+    lines = axes.contour(x, y, np.ma.masked_invalid(values) / unit, filled.levels,
                          colors="white", linewidths=0.4)
     axes.clabel(lines, fontsize=7)
-    figure.colorbar(filled, ax=axes, label=f"{field.replace('_', ' ')} [{label}]")
+    figure.colorbar(filled, ax=axes, label=f"{field.replace('_', ' ')}{' / p0' if dimensionless else f' [{label}]'}")
     if field in of.maxima:
         largest = of.maxima[field]
-        axes.plot(largest.x, largest.y, "+", color="white", markersize=9)
+        axes.plot(largest.x / length, down * largest.y / length, "+", color="white", markersize=9)
         if ax is None:
             axes.set_title(f"largest {field.replace('_', ' ')} {largest.value / unit:.5g} {label} "
-                           f"at ({largest.x:.4g}, {largest.y:.4g}) {of._in('mm')}")
-    axes.set(xlabel=f"x [{of._in('mm')}]", ylabel=f"{'depth ' if of.body == 'a' else ''}y [{of._in('mm')}]",
-             aspect="equal")
-    if of.body == "a" and not axes.yaxis_inverted():
+                           f"at ({largest.x / length:.4g}, {down * largest.y / length:.4g}) "
+                           f"{'a' if dimensionless else of._in('mm')}")
+    axes.set(xlabel="x / a" if dimensionless else f"x [{of._in('mm')}]", aspect="equal",
+             ylabel="depth / a" if dimensionless else f"{'depth ' if of.body == 'a' else ''}y [{of._in('mm')}]")
+    if (of.body == "a" or dimensionless) and not axes.yaxis_inverted():
         axes.invert_yaxis()
     return figure
 

@@ -130,6 +130,14 @@ def test_pictures_of_several_cases():
     rollbem.crack(LOADED, crack_elements=6).plot(ax=pyplot.subplots()[1], label="30 degrees")
     with pytest.raises(rollbem.InvalidInput, match="ax=: expected axes"):
         one.plot(ax="axes")
+    drawn = one.plot(dimensionless=True).axes[0]
+    pressure, friction = (line for line in drawn.get_lines() if line.get_label() in ("pressure p", "friction q"))
+    assert max(pressure.get_xdata()) == pytest.approx(max(one.x) / one.half_width)
+    assert max(pressure.get_ydata()) == pytest.approx(max(one.p) / one.max_pressure)
+    assert min(friction.get_ydata()) == pytest.approx(min(one.q) / one.value("mu") / one.max_pressure)
+    for body in ("a", "b"):
+        axes = rollbem.stress(one, grid=(5, 4), body=body).plot(dimensionless=True).axes[0]
+        assert axes.get_ylabel() == "depth / a" and axes.get_ylim()[0] > axes.get_ylim()[1] == 0
     pyplot.close("all")
 
 

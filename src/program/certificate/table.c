@@ -107,7 +107,7 @@ static rb_status write_table(rb_certificate *c, void *context, json_t **again, r
         size_t size;
         FILE *lines = open_memstream(&text, &size);
         s = lines ? rb_report_table(lines, &of->resolved->rc, &r.solution, of->command,
-                                    &(rb_report_style){RB_REPORT_TSV, 0})
+                                    &(rb_report_style){.format = RB_REPORT_TSV})
                   : RB_ENOMEM;
         if (lines && (fclose(lines) != 0 || !text)) /* success without a text: no memory */
             s = RB_ENOMEM;
@@ -140,6 +140,7 @@ rb_status rb_certificate_check_table(FILE *out, const char *name, const char *te
         rb_case_has_steps(resolved)
             ? "its last state depends on the steps before it: take --json --states"
         : resolved->error || resolved->accuracy > 0.0 ? "error bars take solutions on other meshes"
+        : strncmp(text, "x/a\t", 4) == 0              ? "dimensionless: take --json"
         : resolved->units != RB_UNITS_MM              ? "units other than mm, N, MPa"
                                                       : NULL;
     rb_status s = refused ? rb_certificate_refuse(&c, refused, &reason) : RB_OK;

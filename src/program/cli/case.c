@@ -174,7 +174,7 @@ static cli_spec spec_of(cli_case_run *run)
     int draws = 0;
     for (const cli_case_file *f = command->files; f && f->option; f++)
         draws |= strcmp(f->option, "plot") == 0;
-    const rb_option_set output = cli_output_set(&run->o, draws);
+    const rb_option_set output = cli_output_set(&run->o, draws, command->has_scales);
     cli_spec spec = {.synopsis = command->synopsis,
                      .about = command->about,
                      .notes = command->notes,
@@ -244,8 +244,12 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
     if (code == CLI_CONTINUE) {
         run.c = rb_case_resolved(run.words);
         rb_case_store(run.words, &run.set, own);
-        code = command->check ? command->check(&run) : code;
+        if (run.o.style.dimensionless && run.o.style.format == RB_REPORT_JSON)
+            code = cli_fail(CLI_USAGE, "--dimensionless: of the table and the picture; JSON has "
+                                       "units: leave one of them out");
     }
+    if (code == CLI_CONTINUE && command->check)
+        code = command->check(&run);
     if (code == CLI_CONTINUE) {
         rb_message why = {""};
         if (!run.o.quiet)
@@ -258,6 +262,10 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
             const int first = !run.o.output && cli_reader_is_person();
             cli_page_begin();
             code = run.command->before_table ? run.command->before_table(&run) : CLI_OK;
+            if (code == CLI_OK && run.o.style.dimensionless && run.solution &&
+                !rb_report_has_scales(run.solution))
+                code = cli_fail(CLI_DATA, "--dimensionless: nothing touches, so there is neither a "
+                                          "nor p0: leave it out");
             if (code == CLI_OK && first)
                 summarise(&run);
             if (code == CLI_OK)

@@ -86,6 +86,7 @@ struct cli_case_command {
     const rb_option *options;
     int option_n;               /* CLI_COMMAND_OPTIONS_MAX at most */
     int options_last;           /* 1: they continue the section [output] */
+    int has_scales;             /* 1: its table and picture may be dimensionless */
     int takes_crack;            /* 1: the case takes the options of a crack */
     int operands;               /* its own, in front of the case file */
     const cli_case_file *files; /* the last row has no option; NULL: none */

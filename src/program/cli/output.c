@@ -36,17 +36,22 @@ const rb_choice cli_picture_sizes[] = {{"own", RB_REPORT_OWN_SIZE},
                      "print references to the methods used to standard "                           \
                      "error")
 
-static const rb_option options[] = {FIRST_LINES, CLI_PLOT_LINES(PLACE(plot), PLACE(pictures)),
-                                    LAST_LINES};
+static const rb_option options[] = {
+    FIRST_LINES, CLI_PLOT_LINES(PLACE(plot), PLACE(pictures)), LAST_LINES,
+    RB_FLAG_LINE("dimensionless", PLACE(style) + offsetof(rb_report_style, dimensionless),
+                 "table and picture in x/a, p/p0, q/(mu p0), "
+                 "depth/a, stress/p0, a and p0 those of the "
+                 "contact; without friction q/p0")};
 static const rb_option without_pictures[] = {FIRST_LINES, LAST_LINES};
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
 _Static_assert((int)OPTIONS <= (int)CLI_OUTPUT_OPTIONS_MAX, "CLI_OUTPUT_OPTIONS_MAX is too small");
 
-rb_option_set cli_output_set(cli_output *o, int draws)
+rb_option_set cli_output_set(cli_output *o, int draws, int has_scales)
 {
-    const int n = draws ? OPTIONS : (int)(sizeof without_pictures / sizeof *without_pictures);
+    const int n =
+        draws ? OPTIONS - !has_scales : (int)(sizeof without_pictures / sizeof *without_pictures);
     return (rb_option_set){draws ? options : without_pictures, n, o, o->given, NULL};
 }
 

@@ -6,7 +6,7 @@
 #include "program/cli/rows.h"
 #include "program/report/report.h"
 
-enum { CLI_OUTPUT_OPTIONS_MAX = 11 };
+enum { CLI_OUTPUT_OPTIONS_MAX = 12 };
 
 /* Rows of an option table for a style that stands there. */
 extern const rb_choice cli_formats[], cli_headers[];
@@ -67,8 +67,8 @@ typedef struct {
 } cli_output;
 
 /* Section [output]: form of the results, --output, --plot and how if the command draws,
- * --quiet, --cite. */
-rb_option_set cli_output_set(cli_output *o, int draws);
+ * --quiet, --cite, --dimensionless of a command that draws and has scales. */
+rb_option_set cli_output_set(cli_output *o, int draws, int has_scales);
 
 /* 1: the results are abbreviated: standard output is a terminal, and nobody has asked for
  * a form of the results, or --format is brief. */

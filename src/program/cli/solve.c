@@ -149,6 +149,7 @@ static rb_status write_history(FILE *out, const void *context, rb_message *why)
 static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
 {
     const cli_case_run *run = context;
+    canvas.dimensionless = run->o.style.dimensionless;
     return rb_report_picture(out, canvas, &run->c->rc, run->solution, why);
 }
 
@@ -285,6 +286,16 @@ static cli_exit check(cli_case_run *run)
                             rb_option_source(&options[i], run->set.given[i],
                                              cli_case_file_of(&run->args), name, sizeof name));
     }
+    if (run->o.style.dimensionless && (it->derivatives || it->smooth || it->history_table ||
+                                       it->history_plot || it->steps.snapshots))
+        return cli_fail(CLI_USAGE,
+                        "--dimensionless: of the tractions of the case, not together "
+                        "with --%s",
+                        it->derivatives     ? "derivatives"
+                        : it->smooth        ? "smooth-derivatives"
+                        : it->history_table ? "history-table"
+                        : it->history_plot  ? "history-plot"
+                                            : "snapshots");
     /* With error bars of a solution there is no model to show (run.h). */
     const int model_kept = has_steps || !(c->error || c->accuracy > 0.0);
     if ((it->dump || it->trace || it->fclib) && !model_kept)
@@ -378,6 +389,7 @@ static const cli_case_command command = {
     .option_n = OPTIONS,
     .options_last = 1,
     .files = files,
+    .has_scales = 1,
     .check = check,
     .solve = solve_case,
     .before_table = show_behind,

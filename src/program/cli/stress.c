@@ -441,7 +441,9 @@ static rb_status write_vtk(FILE *out, const void *context, rb_message *why)
 
 static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, rb_message *why)
 {
-    const stress *st = ((const cli_case_run *)context)->own;
+    const cli_case_run *run = context;
+    const stress *st = run->own;
+    canvas.dimensionless = run->o.style.dimensionless;
     return rb_report_stress_picture(out, canvas, &st->picture, why);
 }
 
@@ -450,6 +452,7 @@ static rb_status draw_fringes(FILE *out, rb_report_canvas canvas, const void *co
 {
     const cli_case_run *run = context;
     const stress *st = run->own;
+    canvas.dimensionless = run->o.style.dimensionless;
     return rb_report_fringes(out, canvas, &st->picture,
                              rb_unit_shown(run->c->units, "MPa", st->fringe), why);
 }
@@ -511,6 +514,7 @@ static const cli_case_command command = {
     .options = options,
     .option_n = OPTIONS,
     .files = files,
+    .has_scales = 1,
     .prepare = prepare,
     .check = check,
     .solve = solve_stress,

@@ -16,6 +16,13 @@ double rb_report_tidy(double x, double size);
 
 /* ---- Columns by the tables of results ---------------------------------------------- */
 
+/* What tables and pictures in the axes of textbooks are divided by, in units of the solution. */
+typedef struct {
+    double length, pressure, friction; /* a, p0, mu p0: without friction p0 */
+    double mu;
+} rb_report_scales;
+rb_report_scales rb_report_scales_of(const rb_rolling_case *rc, const rb_rolling_solution *s);
+
 /* The columns of a struct, or the numbers of an array of structs: values, error bars or
  * standard deviations; of error bars only those that there are. */
 typedef struct {
@@ -23,7 +30,8 @@ typedef struct {
     const void *owner;
     enum { RB_REPORT_VALUES, RB_REPORT_ERRORS, RB_REPORT_DEVIATIONS } kind;
     rb_units units;
-    size_t size; /* of a struct of the array; 0: owner has columns */
+    size_t size;                    /* of a struct of the array; 0: owner has columns */
+    const rb_report_scales *scales; /* NULL: numbers with units */
 } rb_report_columns;
 
 /* 1: the column is there and shown. */
@@ -45,6 +53,8 @@ void rb_report_cell_slopes(rb_report_cells *c, const rb_case_slopes *s, int row)
  * coefficients of friction that tell several tables apart. */
 void rb_report_comment_slopes(const rb_report_cells *c, int n, const rb_case_slopes *s,
                               const double *mu);
+/* What the columns are divided by, if they are, as # lines. */
+void rb_report_comment_scales(const rb_report_cells *c, const rb_report_columns *columns);
 /* # lines with version, command, conventions. */
 void rb_report_comment_head(const rb_report_cells *c, const char *command);
 /* A note as a line of text, its first word in colour. */

@@ -16,9 +16,10 @@ typedef struct {
 typedef struct {
     const rb_rolling_case *rc;
     const rb_rolling_solution *s;
-    rb_report_length length; /* of one unit of the x axis */
-    double stress_unit;
-    const char *stress_label;
+    rb_report_length length;           /* of one unit of the x axis */
+    double stress_unit, friction_unit; /* of the axis of p and of q */
+    rb_report_unit stress;             /* of the title */
+    int dimensionless;
     double from, to; /* x axis, in its units */
     axis slip, heat;
     int carter;     /* 1: draw Carter's curve */
@@ -82,8 +83,8 @@ static void write_data(FILE *out, const view *v)
             bound = fmin(bound, rb_unit_shown(s->units, "MPa", yield));
         }
         if (steps || has_slip(v, i))
-            fprintf(out, " %.9g %.9g %.9g", s->p[i] / v->stress_unit, s->q[i] / v->stress_unit,
-                    bound / v->stress_unit);
+            fprintf(out, " %.9g %.9g %.9g", s->p[i] / v->stress_unit, s->q[i] / v->friction_unit,
+                    bound / v->friction_unit);
         else
             fputs(" ? ? ?", out);
         if (has_slip(v, i))
@@ -158,7 +159,7 @@ static void let_results(FILE *out, const view *v)
         const rb_report_unit length = rb_report_axis_unit(s->units, "mm", s->half_width);
         rb_append(text, sizeof text, "a = %s %s,  p_0 = %s %s",
                   RB_REPORT_NUMBER(s->half_width / length.size, 4), length.name,
-                  RB_REPORT_NUMBER(s->max_pressure / v->stress_unit, 5), v->stress_label);
+                  RB_REPORT_NUMBER(s->max_pressure / v->stress.size, 5), v->stress.name);
         if (!isnan(s->creepage) && moves)
             rb_append(text, sizeof text, ",  ξ = %s", RB_REPORT_NUMBER(s->creepage, 4));
         if (!isnan(s->creep_ratio) && moves) {
@@ -206,17 +207,22 @@ static void let_tractions(FILE *out, const view *v)
     double p = 0.0, q = 0.0;
 
     for (int i = 0; i < s->n; i++) {
-        p = fmax(p, s->p[i]);
-        q = fmax(q, fabs(s->q[i]));
+        p = fmax(p, s->p[i] / v->stress_unit);
+        q = fmax(q, fabs(s->q[i]) / v->friction_unit);
     }
-    const double scale = p > 0.0 ? p : v->stress_unit;
-    const double bound = fmax(q, fmin(rb_rolling_largest_mu(v->rc), 1.0) * p);
+    const double scale = p > 0.0 ? p : 1.0;
+    const double bound =
+        fmax(q, fmin(rb_rolling_largest_mu(v->rc), 1.0) * p * v->stress_unit / v->friction_unit);
     const double below = fmax(1.2 * bound, 0.08 * scale);
     /* a ninth of the height is left to the names of the zones */
     const double above = (fmax(scale, bound) + below / 9.0) * 9.0 / 8.0;
-    rb_report_let(out, "p_from", -below / v->stress_unit);
-    rb_report_let(out, "p_to", above / v->stress_unit);
-    rb_report_let_text(out, "p_label", "traction%s", RB_REPORT_COUNTED_IN(0, v->stress_label));
+    rb_report_let(out, "p_from", -below);
+    rb_report_let(out, "p_to", above);
+    if (!v->dimensionless)
+        rb_report_let_text(out, "p_label", "traction%s", RB_REPORT_COUNTED_IN(0, v->stress.name));
+    else
+        rb_report_let_text(out, "p_label", "p / p_0,  q / %s",
+                           v->friction_unit < v->stress_unit ? "(μ p_0)" : "p_0");
     rb_report_let_text(out, "bound_title", "%s", s->plastic ? "bounds" : "±μp");
 }
 
@@ -296,7 +302,7 @@ static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context
         for (int k = 0; k <= POINTS; k++) {
             const double x = -a * cos(3.14159265358979 * k / POINTS);
             const double q = rb_closed_carter_traction(mu, p0, a, s->creep_ratio, x);
-            fprintf(out, "%.9g %.9g %.9g\n", x / v->length.size, q / v->stress_unit,
+            fprintf(out, "%.9g %.9g %.9g\n", x / v->length.size, q / v->friction_unit,
                     p0 * sqrt(fmax(1.0 - x / a * (x / a), 0.0)) / v->stress_unit);
         }
         fputs("EOD\n", out);
@@ -326,6 +332,7 @@ rb_status rb_report_picture(FILE *out, rb_report_canvas canvas, const rb_rolling
         return rb_fail(why, RB_EINVAL, "nothing to draw");
     view v = {.rc = rc,
               .s = s,
+              .dimensionless = canvas.dimensionless && rb_report_has_scales(s),
               .column = !rb_report_place_of(canvas).titled,
               .smaller = canvas.size == RB_REPORT_SLIDE ? 0.035 : 0.075};
     double from = s->x[0] - s->h[0] / 2, to = s->x[s->n - 1] + s->h[s->n - 1] / 2;
@@ -334,7 +341,8 @@ rb_status rb_report_picture(FILE *out, rb_report_canvas canvas, const rb_rolling
         from = fmax(from, s->contact_from - margin);
         to = fmin(to, s->contact_to + margin);
     }
-    v.length = rb_report_length_axis(s->units, s->half_width);
+    v.length = v.dimensionless ? (rb_report_length){s->half_width, "/ a"}
+                               : rb_report_length_axis(s->units, s->half_width);
     v.from = from / v.length.size;
     v.to = to / v.length.size;
     double least = 0.0, most = 0.0, coldest = INFINITY, hottest = -INFINITY;
@@ -351,8 +359,13 @@ rb_status rb_report_picture(FILE *out, rb_report_canvas canvas, const rb_rolling
     v.slip = axis_between(least, most);
     v.heat = axis_between(coldest, hottest);
     const rb_report_unit unit = rb_report_axis_unit(v.s->units, "MPa", v.s->max_pressure);
-    v.stress_unit = unit.size;
-    v.stress_label = unit.name;
+    v.stress = unit;
+    v.stress_unit = v.friction_unit = unit.size;
+    if (v.dimensionless) {
+        const rb_report_scales by = rb_report_scales_of(rc, s);
+        v.stress_unit = by.pressure;
+        v.friction_unit = by.friction;
+    }
     v.carter = rb_rolling_carter_holds(rc) && isfinite(s->creep_ratio) && s->normal_load > 0.0;
     return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, "tractions", write_inputs, &v, why);
 }

@@ -31,6 +31,7 @@ typedef enum { RB_REPORT_TSV, RB_REPORT_JSON, RB_REPORT_CSV } rb_report_format;
 typedef struct {
     rb_report_format format; /* of a table; for JSON there are separate functions below */
     int bare;                /* 1: no # lines */
+    int dimensionless;       /* 1: of tractions and stress in the half-width and p0 */
 } rb_report_style;
 
 /* A table that is written cell by cell. */
@@ -79,6 +80,10 @@ rb_status rb_report_terminal(FILE *out, char *text, const rb_report_window *wind
 /* Writes lines of text, broken between words at the given width; returns the number of
  * lines. */
 int rb_report_wrapped(FILE *out, const char *text, int width);
+
+/* 1: the contact has a half-width and a largest pressure, which dimensionless tables and pictures
+ * divide by. */
+int rb_report_has_scales(const rb_rolling_solution *s);
 
 /* ---- Table ------------------------------------------------------------------------ */
 
@@ -195,8 +200,9 @@ typedef enum {
 typedef struct {
     rb_report_picture_kind kind;
     rb_report_picture_size size;
-    int script;      /* 1: write gnuplot's input with the data instead of the picture */
-    const char *own; /* a template instead of the picture's, or NULL */
+    int script;        /* 1: write gnuplot's input with the data instead of the picture */
+    const char *own;   /* a template instead of the picture's, or NULL */
+    int dimensionless; /* 1: x/a, p/p0, q/(mu p0), depth/a of tractions and stress */
 } rb_report_canvas;
 
 /* gnuplot makes all pictures; they are written completely or not at all.  RB_EHELPER:

@@ -136,15 +136,21 @@ void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
 
 static rb_report_columns columns_of(const rb_report_stress *s)
 {
-    return (rb_report_columns){&rb_rolling_stress_scalars, s->at, 0, s->s->units, sizeof *s->at};
+    return (rb_report_columns){.columns = &rb_rolling_stress_scalars,
+                               .owner = s->at,
+                               .units = s->s->units,
+                               .size = sizeof *s->at};
 }
 
 rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s, const char *command,
                                  const rb_report_style *style)
 {
-    const rb_report_columns columns = columns_of(s);
+    const rb_report_scales by = rb_report_scales_of(s->rc, s->s);
+    rb_report_columns columns = columns_of(s);
     char line[400];
+    columns.scales = style->dimensionless ? &by : NULL;
     rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
+    rb_report_comment_scales(&c, &columns);
 
     if (!s->tractions) {
         const rb_rolling_note_list notes = rb_rolling_find_notes(s->rc, s->s);

@@ -8,8 +8,10 @@
 typedef struct {
     const rb_report_stress *s;
     rb_report_length length; /* of one unit of the axes */
+    double y_unit;           /* the same of y: < 0 where books count it the other way */
     double stress_unit;
-    const char *stress_label;
+    rb_report_unit stress; /* of the title */
+    int dimensionless;
     double from, to, depth; /* in units */
     double low, high;       /* of y, likewise */
     double fringe;          /* [stress] */
@@ -17,21 +19,25 @@ typedef struct {
     int column;             /* panels below each other */
 } view;
 
-static view make_view(const rb_report_stress *s)
+static view make_view(const rb_report_stress *s, int dimensionless)
 {
     const rb_report_unit stress = rb_report_axis_unit(s->s->units, "MPa", s->s->max_pressure);
     view v = {.s = s,
-              .length = rb_report_length_axis(s->s->units, s->s->half_width),
-              .stress_unit = stress.size,
-              .stress_label = stress.name};
+              .length = dimensionless ? (rb_report_length){s->s->half_width, "/ a"}
+                                      : rb_report_length_axis(s->s->units, s->s->half_width),
+              .stress_unit = dimensionless ? s->s->max_pressure : stress.size,
+              .stress = stress,
+              .dimensionless = dimensionless};
+    v.y_unit = dimensionless && s->of_b ? -v.length.size : v.length.size;
     v.from = s->at[0].x / v.length.size;
     v.to = s->at[s->nx - 1].x / v.length.size;
     v.depth = 0.0;
     for (int k = 0; k < s->n; k++)
         if (rb_report_stress_is_inside(s, k))
             v.depth = fmax(v.depth, fabs(s->at[k].y) / v.length.size);
-    v.low = s->of_b ? -v.depth : 0.0;
-    v.high = s->of_b ? 0.0 : v.depth;
+    /* books draw the depth downwards */
+    v.low = dimensionless ? v.depth : s->of_b ? -v.depth : 0.0;
+    v.high = dimensionless || s->of_b ? 0.0 : v.depth;
     return v;
 }
 
@@ -68,20 +74,26 @@ static double shown_aspect(const view *v)
 static void let_axes(FILE *out, const view *v)
 {
     rb_report_let(out, "x_unit", v->length.size);
+    rb_report_let(out, "y_unit", v->y_unit);
     rb_report_let(out, "stress_unit", v->stress_unit);
-    rb_report_let_text(out, "stress_name", "%s", v->stress_label);
+    rb_report_let_text(out, "stress_name", "%s", v->dimensionless ? "p_0" : v->stress.name);
+    rb_report_let_text(out, "stress_axis", "%s",
+                       v->dimensionless ? " / p_0" : RB_REPORT_COUNTED_IN(0, v->stress.name));
     rb_report_let(out, "x_from", v->from);
     rb_report_let(out, "x_to", v->to);
     rb_report_let(out, "y_from", v->low);
     rb_report_let(out, "y_to", v->high);
-    rb_report_let_whole(out, "of_b", v->s->of_b);
+    rb_report_let_whole(out, "surface_above", v->high == 0.0);
     rb_report_let(out, "aspect", shown_aspect(v));
     rb_report_let_text(out, "x_label", "x %s%s%s", v->length.label,
                        v->s->s->formulation == RB_STATIC ? "" : "   (rolling towards +x →)",
                        (shown_aspect(v) == v->depth / (v->to - v->from)) ? ""
                                                                          : "   (y not to scale)");
-    rb_report_let_text(out, "y_label", "y %s, %s", v->length.label,
-                       v->s->of_b ? "0: surface of B" : "into A");
+    rb_report_let_text(out, "y_label", "%s %s, %s", v->dimensionless ? "depth" : "y",
+                       v->length.label,
+                       !v->s->of_b        ? "into A"
+                       : v->dimensionless ? "into B"
+                                          : "0: surface of B");
 }
 
 /* Where the bodies touch. */
@@ -119,7 +131,7 @@ static void let_title(FILE *out, const view *v, const char *title)
         snprintf(force, sizeof force, ",  Q/(μP) = %.4g",
                  rb_report_tidy(s->force_ratio, 1.0) + 0.0);
     rb_report_let_text(out, "title", "{/:Bold %s}   %s,  p_0 = %s %s,  a = %s %s%s", title, case_is,
-                       RB_REPORT_NUMBER(s->max_pressure / v->stress_unit, 5), v->stress_label,
+                       RB_REPORT_NUMBER(s->max_pressure / v->stress.size, 5), v->stress.name,
                        RB_REPORT_NUMBER(s->half_width / length.size, 4), length.name, force);
     rb_report_let_text(out, "contact", "%s",
                        given      ? ""
@@ -184,7 +196,7 @@ static void point_of_grid(const void *of, int k, double at[3])
     const field *f = of;
     const rb_rolling_stress *s = &f->v->s->at[k];
     at[0] = s->x / f->v->length.size;
-    at[1] = s->y / f->v->length.size;
+    at[1] = s->y / f->v->y_unit;
     at[2] = rb_report_stress_is_inside(f->v->s, k) ? f->of(s) / f->v->stress_unit : NAN;
 }
 
@@ -194,7 +206,7 @@ static void let_panel(FILE *out, rb_report_canvas canvas, const view *v, int k, 
 {
     const panel at = panel_of(v, k);
     const double largest = m->value / v->stress_unit, x = m->x / v->length.size,
-                 y = m->y / v->length.size;
+                 y = m->y / v->y_unit;
     const double step =
         rb_report_round_step(largest / fmin(10.0, 2.0 * rb_report_labels_in(at.height)));
     const rb_report_named numbers[] = {
@@ -259,7 +271,7 @@ rb_status rb_report_stress_picture(FILE *out, rb_report_canvas canvas, const rb_
 {
     if (check_grid(s, why) != RB_OK)
         return RB_EINVAL;
-    view v = make_view(s);
+    view v = make_view(s, canvas.dimensionless);
     v.shape = rb_report_width_over_height(canvas, RB_REPORT_WIDE);
     v.column = canvas.size == RB_REPORT_85MM;
     return rb_report_draw(out, canvas, RB_REPORT_WIDE, "stress", write_contours, &v, why);
@@ -284,13 +296,14 @@ rb_status rb_report_fringes(FILE *out, rb_report_canvas canvas, const rb_report_
 {
     if (check_grid(s, why) != RB_OK)
         return RB_EINVAL;
-    view v = make_view(s);
+    view v = make_view(s, canvas.dimensionless);
     if (fringe > 0.0)
         v.fringe = fringe;
     else {
         /* A round number is easier to count with. */
         enum { ORDERS = 12 };
-        v.fringe = rb_report_round_step(2.0 * s->maxima->max_shear.value / ORDERS);
+        v.fringe = v.stress_unit * rb_report_round_step(2.0 * s->maxima->max_shear.value /
+                                                        (ORDERS * v.stress_unit));
     }
     return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, "fringes", write_fringes, &v, why);
 }

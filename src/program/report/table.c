@@ -5,8 +5,14 @@
 rb_status rb_report_table(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s,
                           const char *command, const rb_report_style *style)
 {
-    const rb_report_columns columns = {&rb_rolling_solution_columns, s, 0, s->units, 0};
+    const rb_report_scales by =
+        style->dimensionless ? rb_report_scales_of(rc, s) : (rb_report_scales){.mu = 0.0};
+    const rb_report_columns columns = {.columns = &rb_rolling_solution_columns,
+                                       .owner = s,
+                                       .units = s->units,
+                                       .scales = style->dimensionless ? &by : NULL};
     rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
+    rb_report_comment_scales(&c, &columns);
 
     rb_report_comment(&c, "%s, %s; residual %.3g", rb_case_word("formulation", (int)s->formulation),
                       rb_status_text(s->status), s->residual);

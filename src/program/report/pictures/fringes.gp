@@ -1,6 +1,6 @@
 # Photoelastic fringes below the surface: between crossed polarisers light passes as sin^2 of pi times the
 # order.  $table: the points of the grid, NaN outside the body; $zones: where the bodies touch.
-beside = of_b ? 1.018 : -0.018
+beside = surface_above ? 1.018 : -0.018
 eval set_field
 set palette gray
 set cbrange [0:1]
@@ -8,7 +8,7 @@ unset colorbox
 set lmargin at screen 0.11 + 1.5 * right
 set rmargin at screen 0.97
 set bmargin at screen 0.17
-set tmargin at screen of_b ? 0.855 : 0.87
+set tmargin at screen surface_above ? 0.855 : 0.87
 set xlabel x_label offset 0,0.2
 set ylabel y_label
 set size ratio aspect
@@ -19,4 +19,4 @@ if (titled) set label 1 sprintf('{/*%.3g %s}', strlen(title) > 102 ? 102.0 / str
 if (titled) set label 9 bodies at screen 0.5, 0.939 center textcolor rgb '#444444'
 if (titled && contact ne '') set label 4 '{/*0.8 '.contact.'}' at screen 0.5, 0.025 center textcolor rgb '#444444'
 set label 2 sprintf('dark where σ_1 − σ_2 is a multiple of %.4g %s', fringe, stress_name) at screen 0.5, 0.9 center textcolor rgb '#444444'
-splot $table using (column('x_'.mm) / x_unit):(column('y_'.mm) / x_unit):(sin(2 * pi * column('max_shear_'.MPa) / stress_unit / fringe)**2) with pm3d
+splot $table using (column('x_'.mm) / x_unit):(column('y_'.mm) / y_unit):(sin(2 * pi * column('max_shear_'.MPa) / stress_unit / fringe)**2) with pm3d

@@ -1,7 +1,7 @@
 # Contours of the in-plane shear and of von Mises below the surface, in a column of print below each other.
 # $table: the points of the grid, NaN outside the body; $zones: where the bodies touch, zone by zone;
 # $numbers1, $numbers2: the numbers at the contours.  of(k, NAME): what panel k has.
-beside = of_b ? 1.018 : -0.018
+beside = surface_above ? 1.018 : -0.018
 eval set_field
 set contour base
 set multiplot
@@ -10,7 +10,7 @@ top(k) = of(k, 'middle') + of(k, 'height') / 2
 show_x = "set xlabel x_label offset 0,0.2"
 show_y = "set label 5 y_label at screen of(k, 'left') - (titled ? 0.073 : 0.145), of(k, 'middle') center rotate"
 shown(k) = column((k == 1 ? 'max_shear_' : 'von_mises_').MPa) / stress_unit
-field(k) = sprintf("using (column('x_'.mm) / x_unit):(column('y_'.mm) / x_unit):(shown(%d))", k)
+field(k) = sprintf("using (column('x_'.mm) / x_unit):(column('y_'.mm) / y_unit):(shown(%d))", k)
 if (titled) set label 1 title at screen 0.5, top(1) + 0.18 center
 if (titled) set label 9 bodies at screen 0.5, top(1) + 0.12 center textcolor rgb '#444444'
 if (titled && contact ne '') set label 4 '{/*0.8 '.contact.'}' at screen 0.5, 0.025 center textcolor rgb '#444444'
@@ -26,7 +26,7 @@ do for [k=1:2] {
     set cbtics of(k, 'scale_step')
     set colorbox user origin of(k, 'left') + of(k, 'width') + 0.012, top(k) - of(k, 'height') size 0.013, of(k, 'height')
     # the value of the maximum stands in the title, where it covers no contour's
-    set label 2 (k == 1 ? 'in-plane shear' : 'von Mises').'  ['.stress_name.'],  largest '.of(k, 'largest_text').' at +' at screen of(k, 'left') + of(k, 'width') / 2, top(k) + (titled ? 0.05 : 0.03) center
+    set label 2 (k == 1 ? 'in-plane shear' : 'von Mises').stress_axis.',  largest '.of(k, 'largest_text').' at +' at screen of(k, 'left') + of(k, 'width') / 2, top(k) + (titled ? 0.05 : 0.03) center
     set label 3 '' at first of(k, 'largest_x'), first of(k, 'largest_y') point pointtype 1 pointsize 1.6 linewidth 1.6 linecolor rgb '#111111' front
     set cbrange [0:of(k, 'level_step') * ceil(of(k, 'largest') / of(k, 'level_step'))]
     set cntrparam levels incremental of(k, 'level_step'), of(k, 'level_step'), of(k, 'largest')
