@@ -4,6 +4,7 @@ import re
 import numpy as np
 import rollbem
 from scipy import integrate, optimize, special
+from scipy.linalg import expm
 from printed import close, printed, run, value
 
 PAGE = "theory-bodies.md"
@@ -41,6 +42,7 @@ def tag_B10():
 
 
 def tag_B16():
+    printed(PAGE, "with Carter's tractions, s = xi R/(mu a)")
     A, B = printed(PAGE, "2 mu p0 s in A"), printed(PAGE, "2 mu p0 (2 sqrt(s) - s)")
     for body, text in [("a", A.split(" in")[0]), ("b", B)]:
         below = rollbem.stress("examples/rail/case.ini", creep_ratio=0.4, contact_elements=100, body=body)
@@ -152,6 +154,7 @@ def tag_B14():
 
 
 def tag_E2():
+    printed("theory-rolling.md", "1/R_x = 1/R_xA + 1/R_xB")
     along, steep, strip = (printed("theory-rolling.md", t) for t in (
         r"\frac{C_l}{C_s} = \frac{R_D(0,k^2,1)}{R_D(0,1,k^2)}", r"C_s = \frac{p_0\, s\, R_D(0,1,k^2)}{3 E^* l^2}", "R_eq = E\\* a/(2 p_0)"))
     along, steep, strip = along.split("=")[1], steep.split("=")[1], strip.split("=")[1].replace("E\\*", "Es")
@@ -177,6 +180,7 @@ def tag_E2():
 
 
 def tag_U1_U2():
+    printed("theory-rolling.md", "eps = eps_A - eps_B"), printed("theory-rolling.md", "r = Q/(mu P)")
     X, nu, E, mu, R, a = 200.0, 0.3, 210000.0, 0.4, 100.0, 1.0
     eps = value(printed("theory-rolling.md", "eps = X (1-nu^2)/E").split("=")[1].replace("X (", "X*("), X=X, nu=nu, E=E)
     case = dict(similar=True, support="halfplane", gap="parabola", young=E, poisson=nu, radius=R, half_width=a, mu=mu)
@@ -304,6 +308,129 @@ def tag_S1():
     radius = min(value(k.replace("s_{xx}-s_{yy}", "2*half").replace("s_{xy}", "shear"), half=half, shear=shear, c=c).max()
                  for c in np.linspace(-1, 1, 4001))
     close(1/radius, value(limit, mu=mu, s=s), 2e-3)
+
+
+def tag_B17():
+    P = value(printed(PAGE, "P = pi R X^2/E*").split("=")[1].replace("E*", "Es"), R=500, X=800.0, Es=210000/0.91/2)
+    s = rollbem.solve(similar=True, support="halfplane", gap="parabola", young=210000, poisson=0.3, radius=500, mu=0, max_pressure=800)
+    close(s.normal_load, P, 1e-3)
+
+
+def tag_B18():
+    piece, slope, surface = (printed(PAGE, text) for text in ("g(z) Lambda + g' h", "g' Lambda", "sxx = -p - (2/pi) PV int q/(x - s) ds"))
+    printed(PAGE, "g = -p + i q on a piece of length h and Lambda = ln(s_2 - z) - ln(s_1 - z)")
+    printed(PAGE, "a jump [g] at s adds [g]/(s - z)")
+    lo, hi, z, a, b = -0.5, 1.2, 0.3 - 0.4j, 0.7 + 0.1j, 0.9 - 0.3j
+    x, w = np.polynomial.legendre.leggauss(80)
+    s, w = (lo + hi)/2 + (hi - lo)/2*x, (hi - lo)/2*w
+    g = lambda s: a + b*s
+    names = dict(gz=g(z), Lambda=np.log(hi - z) - np.log(lo - z), dg=b, h=hi - lo)
+    close(value(piece.replace("g(z)", "gz").replace("g'", "dg"), **names), (g(s)/(s - z)*w).sum())
+    close(value(slope.replace("g'", "dg"), **names) + g(lo)/(lo - z) - g(hi)/(hi - z), (g(s)/(s - z)**2*w).sum())
+    near = 1e-7j  # q = 1 over -1 ... 1, p = 0: 4 Re Phi = sxx on the surface
+    phi = lambda z: 1j*(np.log(1 - z) - np.log(-1 - z))/(2j*np.pi)
+    close(4*phi(0.4 - near).real, value("-p - (2/pi)*pv", p=0.0, pv=np.log(1.4/0.6)), 1e-5)
+    assert surface
+
+
+def tag_V4_hysteresis():
+    printed(PAGE, r"H = -\int\left(p\,w_N' + q\,w_T'\right)dx \ge 0")
+    s = rollbem.solve(support="halfplane", similar=True, radius=100, young=10, poisson=0.4, load=1, mu=0, formulation="steady", force=0,
+                      relaxation_time="0.01", relaxation_ratio="1", speed=200, gap="parabola", contact_elements=400)
+    close(-(np.array(s.p)*np.gradient(np.array(s.un), np.array(s.x))*s.h).sum(), s.hysteresis, 1e-2)
+
+
+def tag_V8_waves():
+    c_m = printed(PAGE, "c_m = 1 + sum f_k/(1 - i m L_k/R)").split("=")[1].replace("sum", "").replace("i m", "j*m")
+    for m in (1, 7):
+        L, R = 3.0, 2.0
+        E = [integrate.quad(lambda r: np.exp(-r/L)/L*part(m*r/R), 0, 60*L, limit=900)[0] for part in (np.cos, np.sin)]
+        close(value(c_m, f_k=1.0, j=1j, m=m, L_k=L, R=R), 1 + E[0] + 1j*E[1], 1e-7)
+
+
+def tag_L1_coupling():
+    """The signs of L_C in w_N and w_T, and (L6) for one layer on a rigid base."""
+    w_N, w_T = printed(PAGE, r"\left[L_N\,p - i\operatorname{sgn}(k)\,L_C\,q\right]"), printed(PAGE, r"\left[L_T\,q + i\operatorname{sgn}(k)\,L_C\,p\right]")
+    assert w_N and w_T
+    nu, d, n = 0.3, 1.0, 24
+    ka, Es, G = 3 - 4*nu, 1/(1 - nu**2), 1/(2*(1 + nu))
+    s = rollbem.solve(support="halfplane", layer_thickness=d, young=1.0, poisson=nu, radius=1000, gap="parabola", half_width=1, mu=0.3,
+                      mesh="uniform", zone=2.5, contact_elements=n)
+    h, x, F = s.h[0], np.array(s.x), np.array(s.F)
+    k = np.arange(1, 400001)*0.5e-3
+    al = np.minimum(k*d, 200)
+    D = 2*ka*np.cosh(2*al) + 4*al**2 + 1 + ka**2
+    L_C = (2*ka*(ka - 1)*(np.cosh(2*al) - 1) - 8*al**2)/((ka + 1)*D)
+    for j in (3, 7):  # -i sgn(k) L_C: the sine
+        got = (2*L_C/(Es*k)*np.sin(k*(x[j] - x[0]))*np.sinc(k*h/(2*np.pi))).sum()*0.5e-3*h/np.pi
+        close([got, -got], [F[j, n], F[n + 1 + j, 0]], 5e-3)
+    A = [[value(cell.replace("nu", "v") if cell.strip() != "0" else "0*v", G=G, c=value(printed(PAGE, "c = nu/(1 - nu)").split("=")[1], nu=nu), v=nu)
+          for cell in row.replace(r"\nu", " v ").split("&")]
+         for row in printed(PAGE, r"0 & -1 & 1/G & 0 \\ c & 0 & 0 & \frac{1-2\nu}{2(1-\nu)G} \\ \frac{2G}{1-\nu} & 0 & 0 & -c \\ 0 & 0 & 1 & 0").replace("{2(", "{2*(").replace(r")G}", r")*G}").split(r"\\")]
+    A = np.array(A, float)
+    square = A @ A - np.eye(4)
+    assert abs(square @ square).max() < 1e-12
+    parts = printed(PAGE, "a2 = eta sinh(eta)/2, a3 = (eta cosh eta - sinh eta)/2, a0 = cosh eta - a2, a1 = sinh eta - a3").replace("cosh eta", "cosh(eta)").replace("sinh eta", "sinh(eta)")
+    known = dict(eta=1.3)
+    for part in parts.split(","):
+        name, text = part.split("=")
+        known[name.strip()] = value(text, **known)
+    T = value(printed(PAGE, "exp(-A eta) = a0 - a1 A + a2 A^2 - a3 A^3").split("=")[1].replace("A^2", "A2").replace("A^3", "A3"), A=A, A2=A @ A, A3=A @ A @ A, **known) \
+        + known["a0"]*(np.eye(4) - 1)
+    close(T, expm(-1.3*A), 1e-9)
+    C = -T[:2, 2:] @ np.linalg.inv(T[2:, 2:])  # on a rigid base
+    printed(PAGE, "-(T12 - T11 C)(T22 - T21 C)^-1"), printed(PAGE, "L_N = C_WW, L_T = C_UU, L_C = C_UW, over (1 - nu)/G")
+    at = lambda f: f/(2*ka*np.cosh(2.6) + 4*1.69 + 1 + ka**2)*(1 - nu)/G
+    close([abs(C[1, 1]), abs(C[0, 0])], [at(2*ka*np.sinh(2.6) - 5.2), at(2*ka*np.sinh(2.6) + 5.2)], 1e-9)
+
+
+def tag_L2_L5():
+    """The stress function: biharmonic, p and s at the surface, in equilibrium."""
+    f = printed(PAGE, "p cosh eta + s sinh eta + C eta sinh eta + D (eta cosh eta - sinh eta)").replace("cosh eta", "cosh(eta)").replace("sinh eta", "sinh(eta)").replace("D (", "D*(")
+    of = lambda eta: value(f, p=0.7, s=-0.3, C=1.1, D=0.4, eta=eta)
+    at, step = 0.9, 1e-2
+    v = [of(at + k*step) for k in range(-3, 4)]
+    second = (-v[1] + 16*v[2] - 30*v[3] + 16*v[4] - v[5])/(12*step**2)
+    fourth = (-v[0] + 12*v[1] - 39*v[2] + 56*v[3] - 39*v[4] + 12*v[5] - v[6])/(6*step**4)
+    close(fourth + v[3], 2*second, 1e-4)
+    close([of(0.0), (of(1e-6) - of(-1e-6))/2e-6], [0.7, -0.3], 1e-6)
+    half = printed(PAGE, "(1 + eta) exp(-eta) p^ - i eta exp(-eta) q^").replace("p^", "p").replace("q^", "q").replace(") exp(-eta) p", ")*exp(-eta)*p").replace("i eta exp(-eta) q", "i*eta*exp(-eta)*q")
+    near = [value(half, eta=e, p=0.7, q=-0.3j, i=1j) for e in (0.0, 1e-6, -1e-6)]  # q = i s: f'(0) = s
+    close([near[0], (near[1] - near[2])/2e-6], [0.7, -0.3], 1e-6)
+    text = printed(PAGE, "s_xx = f'', s_yy = -f, s_xy = -i f' times exp(ikx)")
+    stress = dict(part.split(" = ") for part in text.replace(" times exp(ikx)", "").replace("f''", "f2").replace("f'", "f1").split(", "))
+    names = dict(f=v[3], f1=(v[1] - 8*v[2] + 8*v[4] - v[5])/(12*step), f2=second, i=1j)
+    along = {name: value(of, **names) for name, of in stress.items()}
+    down = {name: value(of.replace("f1", "f2") if "f1" in of else of.replace("f", "f1"), **names) for name, of in stress.items() if name != "s_xx"}
+    close([1j*along["s_xx"], 1j*along["s_xy"]], [-down["s_xy"], -down["s_yy"]])
+
+
+def tag_V3_pressure():
+    """Hunter's equation for the pressure, in the contact that the program finds."""
+    left, right = printed(PAGE, "(1 + f) p - L p' = [m_0 + m_1 T_1(t) + m_2 T_2(t)]/sqrt(1 - t^2)").replace("(1 + f) p", "(1 + f)*p").replace("p'", "dp").split(" = ")
+    f, R, V, tau, P = 1.0, 100.0, 100.0, 0.01, 1.0
+    s = rollbem.solve(support="halfplane", young=10, poisson=0.5, radius=R, gap="parabola", load=P, mu=0, formulation="steady", force=0,
+                      relaxation_time=[tau], relaxation_ratio=[f], speed=V, contact_elements=400, mesh="fitted")
+    a, x_0, L, Es = (s.contact_to - s.contact_from)/2, (s.contact_to + s.contact_from)/2, V*tau, 10/0.75
+    x, p = np.array(s.x), np.array(s.p)
+    t = (x - x_0)/a
+    inner = abs(t) < 0.9
+    names = dict(f=f, L=L, p=p[inner], dp=np.gradient(p, x)[inner], t=t[inner], T_1=lambda t: t, T_2=lambda t: 2*t*t - 1,
+                 m_0=(1 + f)*P/(np.pi*a), m_1=-Es*(x_0 - L)/(2*R), m_2=-Es*a/(4*R))
+    printed(PAGE, "t = (x - x0)/a, k = (1 + f) a/L, kap = a/L")
+    close(value(left, **names), value(right, **names), 1e-2)
+
+
+def tag_L3_elastic_base():
+    printed(PAGE, r"With Z = c L - c (1, 1, beta), m = 1 + sum f - E\*/E\*_2 (rigid base: 1 + sum f)")
+    more = printed(PAGE, r"2h/(pi E\*) E\*/E\*_2 ln(datum/d)").replace("E\\*_2", "Es_2").replace("E\\*", "Es").replace(") Es/", ")*Es/")
+    case = dict(support="halfplane", layer_thickness=1.0, young=1.0, poisson=0.3, base_young=0.5, base_poisson=0.3, radius=1000,
+                gap="parabola", half_width=1, mu=0.3, mesh="uniform", zone=2.5, contact_elements=24)
+    solved = [rollbem.solve(datum=datum, **case) for datum in (20.0, 50.0)]
+    near, far = (np.array(s.F)[0, :24:6] for s in solved)
+    h, Es = solved[0].h[0], 1/0.91
+    of = lambda datum: value(more, h=h, Es=Es, Es_2=0.5/0.91, datum=datum, d=1.0)
+    close(far - near, 0*far + of(50.0) - of(20.0), 1e-3)
 
 
 if __name__ == "__main__":

@@ -80,5 +80,15 @@ def tag_below():
         close([stress.max(), y[stress.argmax()]], [size, depth], 2e-5)
 
 
+def tag_D6():
+    text = printed(PAGE, "x' = (x - c)/b b' + c'").split("x' =")[1].replace("b b'", "b*e").replace("c'", "f")
+    close([value(text, x=x, c=2.0, b=0.5, e=0.8, f=2.3) for x in (1.5, 2.5)], [1.5, 3.1])  # the edges go with the contact
+    load = printed(PAGE, "P = 2 a^3/(3 R L_N)").split("=")[1]
+    s = rollbem.solve(support="halfplane", similar=True, young=1e9, poisson=0, radius=50, gap="parabola", load=10, mu=0, interlayer_normal=1e-4)
+    close(10, value(load, a=s.half_width, R=50.0, L_N=1e-4), 2e-2)
+    hertz = printed("theory-rolling.md", r"a_H^2 = 4PR/(pi E\*)").split("=")[1].replace("4PR", "4*P*R").replace("E\\*", "Es")
+    close(rollbem.solve("examples/hertz/case.ini", contact_elements=160).half_width**2, value(hertz, P=90.6229, R=500.0, Es=210000/0.91), 1e-3)
+
+
 if __name__ == "__main__":
     raise SystemExit(run(globals()))

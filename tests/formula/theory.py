@@ -125,5 +125,56 @@ def tag_slip():
     assert braked.creepage > 0 > braked.tangential_load
 
 
+def tag_K1_K2_K3_D1_B5():
+    s, names, p, q, plus, minus = problem()
+    R = 50.0
+    g_0 = np.matrix(value(printed(PAGE, "y = x^2/(R + sqrt(R^2 - x^2))").split("=")[1], x=np.array(s.x), R=R)).T
+    printed(PAGE, "which avoids cancellation down to a/R = 1e-8"), printed(PAGE, "instead of R - R cos")
+    names.update(g_0=g_0, delta=s.approach, w_0N=0.0, r_N=p, r_T=q)
+    names["d_N"] = value(printed(PAGE, "d_N = g_0 - delta + w_0N").split("=")[1], **names)
+    y_N = value(printed(PAGE, "y_N = d_N + F_NN r_N + F_NT r_T >= 0").split("=")[1].rstrip(" >"), **names)
+    close(y_N, np.matrix(s.gap).T, 1e-8)
+    pressed, sticks, slides = np.array(s.zone) > 0, np.array(s.zone) == 1, np.array(s.zone) > 1
+    on_C = value(printed("theory-solvers.md", "g_0 - delta + w_0N + F_NN r_N + F_NT r_T = 0").split("=")[0], **names)
+    slip = value(printed(PAGE, "d_T + A (F_TN r_N + F_TT r_T), T_T = [1 -1]").split(", T_T")[0].replace("A (", "A*("), **names)
+    on_S = value(printed("theory-solvers.md", "d_T + A (F_TN r_N + F_TT r_T) = 0").split("=")[0].replace("A (", "A*("), **names)
+    close(slip, np.matrix(s.shift).T, 1e-6), close(on_S, slip)
+    assert abs(on_C[pressed]).max() < 1e-9*s.approach and (abs(slip[sticks]) < 1e-9*abs(slip).max()).all()
+    gamma = {sign: value(printed(PAGE, f"gamma{sign} = mu r_N {sign} r_T").split("=")[1], **names) for sign in "+-"}
+    printed(PAGE, "sliding of A towards +x (lambda+ > 0) requires gamma+ = 0, r_T = -mu r_N")
+    assert min(gamma["+"].min(), gamma["-"].min()) > -1e-9 and slides.any() and (slip[slides] > 0).all() and abs(gamma["+"][slides]).max() < 1e-9
+    close(value("-mu r_N", **names)[slides], q[slides])
+    printed("theory-solvers.md", "in slip: r_T - sg mu_i r_N = 0")
+    both = printed(PAGE, "gamma = T_N^T r_N + T_T^T r_T").split("=")[1].replace("T_N^T", "T_Nt").replace("T_T^T", "T_Tt")
+    pair = value(both, T_Nt=np.matrix([[0.2], [0.2]]), T_Tt=np.matrix([[1], [-1]]), r_N=p[1, 0], r_T=q[1, 0])
+    close(pair.ravel(), [[gamma["+"][1, 0], gamma["-"][1, 0]]])
+    names.update(B=names["A"]*names["F_TT"], lam=slip, gp=gamma["+"], gm=gamma["-"])
+    text = printed(PAGE, "r_T = B^-1 (T_T lambda - A F_TN r_N - d_T)").split("=")[1].replace("B^-1 (", "B^-1*(").replace("T_T lambda", "lam")
+    close(value(text, **names), q, 1e-8)
+    close(value(printed(PAGE, "r_T = gamma+ - mu r_N").split("=")[1].replace("gamma+", "gp"), **names), q)
+    close(value(printed(PAGE, "r_T = mu r_N - gamma-").split("=")[1].replace("gamma-", "gm"), **names), q)
+    printed(PAGE, "the tractions on A are r = +C t_c and w = w_0 + F r with F positive definite"), printed(PAGE, "gives u_c = w_0 + F t_c")
+    close(np.array(s.un), np.array(names["F_NN"]*p + names["F_NT"]*q).ravel(), 1e-8)
+
+
+def tag_K6():
+    load = printed(PAGE, r"w_\delta = \sum p\,h - P \ge 0").split("=")[1].split(r"\ge")[0].replace(r"\sum", "")
+    force = printed(PAGE, r"w_\xi = -s\left(\sum q\,h - Q\right) \ge 0").split("=")[1].split(r"\ge")[0].replace(r"\sum", "").replace("-s", "-s*")
+    slides = printed(PAGE, "sum q h = s mu P and w_xi = -(mu P - s Q) <= 0").split(" and w_xi =")
+    s = rollbem.solve("examples/by-hand/case.ini", formulation="steady", load=300, force=30)
+    p, q, h = (np.matrix(x) for x in (s.p, s.q, s.h))
+    assert abs(value(load, p=p, h=h.T, P=300.0)[0, 0]) < 1e-8 and abs(value(force, q=q, h=h.T, Q=30.0, s=1.0)[0, 0]) < 1e-8
+    for sg in (-1.0, 1.0):
+        names = dict(mu=0.2, P=300.0, Q=30.0, s=sg)
+        names["q"] = value(slides[0].split("=")[1], **names)
+        close(value(force, h=1.0, **names), value(slides[1].split(" <=")[0], **names))
+
+
+def tag_B6_datum():
+    text = printed(PAGE, "P(1-nu^2)/(pi E) (2 ln(2d/a) + 1)").replace("P(", "P*(").replace(") (2", ")*(2")
+    s = rollbem.solve(support="halfplane", gap="parabola", young=210000, poisson=0.3, radius=100, load=500, mu=0, datum=70, contact_elements=160)
+    close(s.approach, value(text, P=500.0, nu=0.3, E=210000.0, d=70.0, a=s.half_width), 1e-3)
+
+
 if __name__ == "__main__":
     raise SystemExit(run(globals()))
