@@ -64,14 +64,6 @@ TEST(steps_are_one_two_or_five)
     CHECK_REL(rb_report_labels_in(0.5), 6.0, 1e-14, "twelve in the whole height");
 }
 
-/* As many as there are, then again. */
-TEST(dashes_repeat)
-{
-    for (int k = 0; k < 12; k++)
-        for (int j = 0; j < k; j++)
-            assert_int_equal(!strcmp(rb_report_dashes(j), rb_report_dashes(k)), j + 6 == k);
-}
-
 /* ---- Gnuplot ----------------------------------------------------------------------- */
 
 TEST(gnuplot_complaint_is_handed_on)

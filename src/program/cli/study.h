@@ -116,7 +116,7 @@ cli_exit cli_study_check(study *st);
 int cli_study_has_pictures(const study *st);
 /* The name of the result that they show. */
 const char *cli_study_shown(const study *st);
-/* Keeps what the pictures show of a number of the table: column j of case k. */
+/* Keeps what the pictures show of a number of the table: column j of case k; NAN: not solved. */
 void cli_study_keep(study *st, int j, int k, double x);
 /* Refuses, before anything is solved, what cannot be drawn. */
 cli_exit cli_study_prepare_pictures(study *st);

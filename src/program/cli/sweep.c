@@ -429,7 +429,7 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
     for (int j = 0; j < column_count(st); j++) {
         const double x = cell_value(st, j, k, &shown);
         const char *word = cell_word(st, j, k);
-        cli_study_keep(st, j, k, x);
+        cli_study_keep(st, j, k, shown.solution.status == RB_OK ? x : NAN);
         if (st->o->style.format == RB_REPORT_JSON)
             st->lost |= json_array_append_new(json_array_get(st->list, (size_t)j),
                                               word ? rb_report_json_text(word)
@@ -566,7 +566,7 @@ static int is_row(study *st, int k, const char *line, size_t length)
     for (int j = st->columns + 2; good && j < column_count(st); j++) {
         good = next_number(&at, &value);
         if (good)
-            cli_study_keep(st, j, k, value);
+            cli_study_keep(st, j, k, status == RB_OK ? value : NAN);
     }
     if (good && *at == '\n')
         count_status(st, k, (rb_status)status);

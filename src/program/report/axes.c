@@ -59,12 +59,6 @@ const char *rb_report_log_format(double from, double to)
     return to >= 1e4 || from < 1e-3 ? "10^{%L}" : "% h";
 }
 
-void rb_report_log_tics(FILE *script, char axis, double from, double to)
-{
-    if (to >= 1e4 || from < 1e-3)
-        fprintf(script, "set format %c '10^{%%L}'\n", axis);
-}
-
 double rb_report_round_down(double x)
 {
     const double ten = pow(10.0, floor(log10(x))), lead = x / ten * (1.0 + 1e-12);
@@ -217,13 +211,4 @@ void rb_report_let_bodies(FILE *script, const rb_rolling_case *rc, rb_units unit
     const words w = words_of(rc, units);
 
     rb_report_let_text(script, "bodies", "{/*%.3g %s}", size_of(&w), w.text);
-}
-
-void rb_report_label_bodies(FILE *out, const rb_rolling_case *rc, rb_units units, double x,
-                            double y)
-{
-    const words w = words_of(rc, units);
-
-    fprintf(out, "set label 9 '{/*%.3g %s}' at screen %g, %g center textcolor rgb '#444444'\n",
-            size_of(&w), w.text, x, y);
 }

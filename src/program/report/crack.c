@@ -218,12 +218,6 @@ void rb_report_crack_summary(FILE *out, const rb_case_crack_result *r, int colou
 
 /* ---- Picture: K over the position, zones below --------------------------------------- */
 
-/* Where the crack is open: pale, beside the strong colours of faces that touch. */
-static const char *colour_of(int zone)
-{
-    return rb_report_zone_colour(zone, zone == RB_ZONE_SEPARATED);
-}
-
 /* The faces on the + side, which is that of +x, and on the other one, as they lie. */
 typedef struct {
     const char *plus, *minus;
@@ -265,11 +259,8 @@ static void let_zone_key(FILE *out, rb_report_canvas canvas, const char *slips, 
         rb_report_let(out, name, titled ? zones[k].x : zones[k].in_column);
         rb_format(name, sizeof name, "zone_y%d", n);
         rb_report_let(out, name, titled || zones[k].line ? 0.025 : 0.065);
-        rb_format(name, sizeof name, "zone_colour%d", n);
-        rb_report_let_text(out, name, "%s",
-                           zones[k].zone == RB_ZONE_SEPARATED
-                               ? "#666666"
-                               : rb_report_zone_colour(zones[k].zone, 0));
+        rb_format(name, sizeof name, "zone_of%d", n);
+        rb_report_let_whole(out, name, zones[k].zone);
     }
     rb_report_let_whole(out, "zone_names", n);
 }
@@ -321,12 +312,12 @@ static void write_steps(FILE *out, const rb_case_crack_result *r)
     fputs("EOD\n", out);
 }
 
-/* A box for each run of nodes in one zone at one position: x, s, half-sizes, colour. */
+/* A box for each run of nodes in one zone at one position: x, s, half-sizes, zone. */
 static void write_zones(FILE *out, const rb_case_crack_result *r, const double *hat)
 {
     const rb_crack_history *h = &r->history;
     const double unit = rb_unit_shown(r->units, "mm", 1.0) / r->half_width;
-    fputs("$zones << EOD\nx along half_x half_along colour\n", out);
+    fputs("$zones << EOD\nx along half_x half_along zone\n", out);
     for (int k = first_of(r); k < h->n; k++) {
         const int *zone = h->zone + (size_t)k * h->nodes;
         const double x = abscissa(r, k), left = k > first_of(r) ? x - abscissa(r, k - 1) : 0.0;
@@ -337,8 +328,7 @@ static void write_zones(FILE *out, const rb_case_crack_result *r, const double *
             if (j + 1 < h->nodes && zone[j + 1] == zone[j])
                 continue;
             fprintf(out, "%.9g %.9g %.9g %.9g %d\n", x + 0.25 * (right - left), 0.5 * (from + to),
-                    0.26 * (left + right), 0.5 * (to - from),
-                    (int)strtol(colour_of(zone[j]) + 1, NULL, 16));
+                    0.26 * (left + right), 0.5 * (to - from), zone[j]);
             from = to;
         }
     }
@@ -481,15 +471,14 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
     const double times = largest > 0.0 ? rb_report_round_step(0.03 * size / largest) : 1.0;
     for (int side = -1; side <= 1; side += 2) {
         const double factor = 0.5 * side * times / r->half_width;
-        fprintf(out, "$face%d << EOD\nx y colour touches\n", (side + 1) / 2);
+        fprintf(out, "$face%d << EOD\nx y zone touches\n", (side + 1) / 2);
         if (path->y[0] < 0.0)
             fprintf(out, "%.9g %.9g 0 0\n", path->x[0] / unit, path->y[0] / unit);
         for (int j = 0; j < n; j++) {
             const double dx = -v->t_y[j] * D_N[j] + v->t_x[j] * D_T[j],
                          dy = v->t_x[j] * D_N[j] + v->t_y[j] * D_T[j];
-            fprintf(out, "%.9g %.9g %ld %d\n", v->x[j] / unit + factor * dx,
-                    v->y[j] / unit + factor * dy, strtol(colour_of(zone[j]) + 1, NULL, 16),
-                    zone[j] != RB_ZONE_SEPARATED);
+            fprintf(out, "%.9g %.9g %d %d\n", v->x[j] / unit + factor * dx,
+                    v->y[j] / unit + factor * dy, zone[j], zone[j] != RB_ZONE_SEPARATED);
         }
         fprintf(out, "%.9g %.9g 0 0\nEOD\n", path->x[path->pieces] / unit,
                 path->y[path->pieces] / unit);

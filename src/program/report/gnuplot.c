@@ -256,36 +256,10 @@ double rb_report_key_font(rb_report_canvas canvas)
     return looks[canvas.kind].key_font * extent_of(canvas, RB_REPORT_FOUR_THIRDS).letters;
 }
 
-const char *rb_report_colour(int k)
-{
-    static const char *const colours[] = {"#1f4e79", "#c0392b", "#b9770e", "#6c3483",
-                                          "#117864", "#5d6d7e", "#7b241c", "#2e86c1"};
-    return colours[k % 8];
-}
-
-const char *rb_report_zone_colour(int zone, int pale)
-{
-    static const char *const colours[][2] = {[RB_ZONE_SEPARATED] = {"#9a9a9a", "#f3f3f3"},
-                                             [RB_ZONE_STICK] = {"#2c7a57", "#d9ebe2"},
-                                             [RB_ZONE_SLIP_NEGATIVE] = {"#c4501b", "#fae3d6"},
-                                             [RB_ZONE_SLIP_POSITIVE] = {"#8a3fa0", "#ecdff1"},
-                                             [RB_ZONE_YIELD_NEGATIVE] = {"#8c6a00", "#f3ecd0"},
-                                             [RB_ZONE_YIELD_POSITIVE] = {"#b0305c", "#f6dde6"},
-                                             [RB_REPORT_FRICTIONLESS] = {"#3d5a80", "#e0e7ef"}};
-    return colours[zone][pale != 0];
-}
-
 int rb_report_zone(const rb_rolling_solution *s, int i)
 {
     const int frictionless = s->mu ? s->mu[i] == 0.0 : isnan(s->force_ratio);
     return frictionless && s->zone[i] != RB_ZONE_SEPARATED ? RB_REPORT_FRICTIONLESS : s->zone[i];
-}
-
-const char *rb_report_dashes(int k)
-{
-    static const char *const types[] = {"solid",     "(9,4)",  "(3,3)",
-                                        "(9,3,3,3)", "(14,3)", "(6,2,2,2,2,2)"};
-    return types[k % 6];
 }
 
 void rb_report_letters_in(rb_report_canvas canvas, rb_report_shape shape, double font,
@@ -307,14 +281,6 @@ rb_report_place rb_report_place_of(rb_report_canvas canvas)
 {
     return canvas.size == RB_REPORT_85MM ? (rb_report_place){0, 0.065, 0.045}
                                          : (rb_report_place){1, 0.0, 0.0};
-}
-
-void rb_report_room(FILE *script, double left, double right, double bottom, double top)
-{
-    fprintf(script,
-            "set lmargin at screen %g\nset rmargin at screen %g\n"
-            "set bmargin at screen %g\nset tmargin at screen %g\n",
-            left, right, bottom, top);
 }
 
 /* ---- Templates --------------------------------------------------------------------- */
@@ -409,17 +375,11 @@ static void write_canvas(FILE *script, rb_report_canvas canvas, rb_report_shape 
     rb_report_let(script, "marker", canvas.kind == RB_REPORT_SVG ? 0.45 : 1.0);
 }
 
-/* Returns 1 if there is one of that name. */
-static int write_template(FILE *script, const char *picture)
+static void write_template(FILE *script, const char *picture)
 {
-    int lines = 0;
-
     for (size_t k = 0; k < sizeof templates / sizeof *templates; k++)
-        if (strcmp(templates[k].picture, picture) == 0) {
+        if (strcmp(templates[k].picture, picture) == 0)
             fputs(templates[k].line, script);
-            lines++;
-        }
-    return lines > 0;
 }
 
 rb_status rb_report_draw(FILE *out, rb_report_canvas canvas, rb_report_shape shape,
@@ -427,8 +387,6 @@ rb_status rb_report_draw(FILE *out, rb_report_canvas canvas, rb_report_shape sha
                          rb_message *why)
 {
     enum { SECONDS = 120 }; /* the largest picture takes one or two */
-    if (canvas.own && !picture)
-        return rb_fail(why, RB_EINVAL, "this picture has no template");
     FILE *file = canvas.script ? out : temporary();
     if (!file)
         return no_temporary(why);
@@ -436,11 +394,10 @@ rb_status rb_report_draw(FILE *out, rb_report_canvas canvas, rb_report_shape sha
     write_canvas(file, canvas, shape);
     inputs(file, canvas, view);
     rb_locale_end(before);
-    if (picture)
-        write_template(file, "common");
+    write_template(file, "common");
     if (canvas.own)
         fputs(canvas.own, file);
-    else if (picture)
+    else
         write_template(file, picture);
     if (canvas.script)
         return rb_report_flush(out);

@@ -101,38 +101,18 @@ typedef struct {
     double right, up; /* in parts of the canvas */
 } rb_report_place;
 rb_report_place rb_report_place_of(rb_report_canvas canvas);
-/* Where the axes stand on the canvas, in parts of it. */
-void rb_report_room(FILE *script, double left, double right, double bottom, double top);
-/* The label of the picture that names the bodies, centred at screen x, y. */
-void rb_report_label_bodies(FILE *script, const rb_rolling_case *rc, rb_units units, double x,
-                            double y);
-/* The same as the text `bodies` of a template. */
+/* What the bodies are, the text `bodies` of a template. */
 void rb_report_let_bodies(FILE *script, const rb_rolling_case *rc, rb_units units);
-/* Thin grid lines at the tics. */
-#define RB_REPORT_GRID "set grid linecolor rgb '#dddddd' linewidth 0.6\n"
-/* A band about a curve, as a part of plot; its argument: the colour of the curve. */
-#define RB_REPORT_BAND                                                                             \
-    "with filledcurves linecolor rgb '%s' fillstyle transparent solid 0.3 noborder"
-/* Its title in the key, the text `band_title` of a template, with the largest half-width, because a
- * narrow band is hidden by its curve; unit: "" of pure numbers. */
+/* The title of a band in the key, the text `band_title` of a template, with the largest half-width,
+ * because a narrow band is hidden by its curve; unit: "" of pure numbers. */
 void rb_report_let_band(FILE *script, int is_error, double most, const char *unit, int titled);
-/* Thin lines through 0. */
-#define RB_REPORT_ZERO "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n"
-/* The powers alone at the tics of a logarithmic axis, 'x' or 'y', where numbers would be
- * longer than their tics. */
-void rb_report_log_tics(FILE *script, char axis, double from, double to);
-/* The format of the numbers there. */
+/* The format of the numbers of a logarithmic axis: the powers alone where numbers would be longer
+ * than their tics. */
 const char *rb_report_log_format(double from, double to);
-/* The colour of curve k of several, as gnuplot's rgb. */
-const char *rb_report_colour(int k);
-/* The colour of a zone as the page has it, strong or a pale shade of it. */
-const char *rb_report_zone_colour(int zone, int pale);
 /* The zone of element i as pictures and strips show it: what touches without friction neither
  * sticks nor slips. */
 enum { RB_REPORT_FRICTIONLESS = 6 };
 int rb_report_zone(const rb_rolling_solution *s, int i);
-/* The dash type of curve k of several, which print in grey tells apart. */
-const char *rb_report_dashes(int k);
 /* A unit of an axis: values divided by `size` are in units of `name`. */
 typedef struct {
     double size;
@@ -166,10 +146,6 @@ const char *rb_report_counted_in(int exponent, const char *unit, char text[64]);
 #define RB_REPORT_COUNTED_IN(exponent, unit) rb_report_counted_in(exponent, unit, (char[64]){""})
 /* Number of labels that fit into this part of the canvas without touching. */
 double rb_report_labels_in(double height);
-/* Colours of a field, from least to most, which are grey from dark to light in print. */
-#define RB_REPORT_PALETTE                                                                          \
-    "set palette defined (0 '#440154', 0.15 '#46327e', 0.3 '#365c8d', 0.45 '#277f8e', "            \
-    "0.6 '#1fa187', 0.75 '#4ac16d', 0.9 '#a0da39', 1 '#fde725')\n"
 
 /* Contour lines of a field on nx x ny points, x first. */
 typedef struct {
@@ -186,8 +162,6 @@ typedef struct {
 
 /* Writes the block $name: x, y and level, a row for each number at the lines. */
 void rb_report_contour_numbers(FILE *script, const char *name, const rb_report_contours *contours);
-/* As a part of splot. */
-#define RB_REPORT_NUMBERS "$numbers using 1:2:3:(sprintf('%%g',$3)) nocontour with labels boxed"
 
 typedef enum {
     RB_REPORT_FOUR_THIRDS,

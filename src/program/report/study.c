@@ -184,11 +184,11 @@ static const char *plain(const char *name, char buffer[64])
 }
 
 /* "max pressure  [10^{9} Pa]" */
-static void write_label(FILE *out, const char *label, const rb_report_quantity *q, const axis *a)
+static void let_label(FILE *out, const char *label, const rb_report_quantity *q, const axis *a)
 {
     char name[64], unit[40];
-    fprintf(out, "set %s '%s%s'\n", label, plain(q->name, name),
-            RB_REPORT_COUNTED_IN(a->exponent, rb_report_raised(q->unit, unit)));
+    rb_report_let_text(out, label, "%s%s", plain(q->name, name),
+                       RB_REPORT_COUNTED_IN(a->exponent, rb_report_raised(q->unit, unit)));
 }
 
 /* Digits that tell the numbers of an axis apart where gnuplot's own five do not; else 0. */
@@ -202,25 +202,27 @@ static int digits_of(const axis *a)
     return digits > OF_GNUPLOT ? (int)fmin(digits, OF_DOUBLE) : 0;
 }
 
-static void write_format(FILE *out, const char *letters, const axis *a)
+/* The axis of this letter, with so many numbers: X_label, X_format ("": gnuplot's own), X_from,
+ * X_to, X_unit, in which it counts, and X_step, 0 where it is logarithmic. */
+static void let_axis(FILE *out, char letter, const rb_report_quantity *q, const axis *a, int labels)
 {
-    if (digits_of(a))
-        fprintf(out, "set format %s '%%.%dg'\n", letters, digits_of(a));
-}
+    const double step = a->logarithmic ? 0.0 : rb_report_round_step((a->to - a->from) / labels);
+    const rb_report_named numbers[] = {
+        {"from", a->from}, {"to", a->to}, {"unit", a->unit}, {"step", isfinite(step) ? step : 0.0}};
+    char name[20];
 
-static void write_axis(FILE *out, char letter, const rb_report_quantity *q, const axis *a,
-                       int labels)
-{
-    char label[] = "xlabel";
-    label[0] = letter;
-    write_label(out, label, q, a);
-    write_format(out, (char[]){letter, '\0'}, a);
-    fprintf(out, "set %crange [%.9g:%.9g]\n", letter, a->from, a->to);
-    if (a->logarithmic) {
-        fprintf(out, "set logscale %c\n", letter);
-        rb_report_log_tics(out, letter, a->from, a->to);
-    } else
-        fprintf(out, "set %ctics %.9g\n", letter, rb_report_round_step((a->to - a->from) / labels));
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
+        rb_format(name, sizeof name, "%c_%s", letter, numbers[k].name);
+        rb_report_let(out, name, numbers[k].x);
+    }
+    rb_format(name, sizeof name, "%c_label", letter);
+    let_label(out, name, q, a);
+    rb_format(name, sizeof name, "%c_format", letter);
+    if (digits_of(a))
+        rb_report_let_text(out, name, "%%.%dg", digits_of(a));
+    else
+        rb_report_let_text(out, name, "%s",
+                           a->logarithmic ? rb_report_log_format(a->from, a->to) : "");
 }
 
 /* Words of users in gnuplot's quotes, without what it takes for commands. */
@@ -233,22 +235,19 @@ static const char *as_title(const char *word, char text[64])
     return text;
 }
 
-/* Words below the picture, each at its place. */
-static void write_words(FILE *out, const view *v)
+/* Words below the picture: word1 at 0, word2 at 1 ... */
+static void let_words(FILE *out, const view *v)
 {
     const rb_report_study *s = v->study;
-    char name[64], text[64];
-    fprintf(out, "set xlabel '%s'\nset xrange [%.9g:%.9g]\nset xtics (", plain(s->x.name, name),
-            v->x.from - 0.5, v->x.to + 0.5);
-    double last = -1.0; /* cases with one y stand in the order of x */
-    for (double place = v->x.from; place <= v->x.to; place += 1.0)
-        for (int k = 0; k < s->n && last < place; k++)
-            if (s->x.value[k] == place) {
-                fprintf(out, "%s'%s' %g", place > v->x.from ? ", " : "",
-                        as_title(s->x.word[k], text), place);
-                last = place;
-            }
-    fputs(")\n", out);
+    char name[20], text[64];
+    int words = 0;
+
+    for (int k = 0; k < s->n && s->x.word; k++) /* cases with one y stand in the order of x */
+        if (s->x.value[k] == words) {
+            rb_format(name, sizeof name, "word%d", ++words);
+            rb_report_let_text(out, name, "%s", as_title(s->x.word[k], text));
+        }
+    rb_report_let_whole(out, "words", words);
 }
 
 /* As many numbers below the picture as a column and a page of print take. */
@@ -257,83 +256,86 @@ static int labels_below(rb_report_place place)
     return place.titled ? 8 : 4;
 }
 
-static void write_title(FILE *out, const view *v, rb_report_place place)
+static void let_title(FILE *out, const view *v)
 {
     const rb_report_study *s = v->study;
-    char shown[64];
-    if (!place.titled)
-        return;
-    fprintf(out, "set label 1 '{/:Bold %s}   %d cases%s", plain(s->shown.name, shown), s->n,
-            s->is_sample ? " of a sample" : "");
+    char shown[64], unit[40], text[300] = "";
+
     if (v->shown.is_zero)
-        fputs(",  all 0 but for rounding", out);
+        rb_append(text, sizeof text, ",  all 0 but for rounding");
     if (s->half_width) {
-        char unit[40];
         double most = 0.0;
         for (int k = 0; k < s->n; k++)
             most = fmax(most, s->half_width[k]); /* fmax passes over NAN */
-        fprintf(out, ",  band: ± %s, at most %s%s%s", s->band, RB_REPORT_NUMBER(most, 2),
-                s->shown.unit[0] ? " " : "", rb_report_raised(s->shown.unit, unit));
+        rb_append(text, sizeof text, ",  band: ± %s, at most %s%s%s", s->band,
+                  RB_REPORT_NUMBER(most, 2), s->shown.unit[0] ? " " : "",
+                  rb_report_raised(s->shown.unit, unit));
     }
-    fputs("' at screen 0.5, 0.972 center\n", out);
+    rb_report_let_text(out, "title", "{/:Bold %s}   %d cases%s%s", plain(s->shown.name, shown),
+                       s->n, s->is_sample ? " of a sample" : "", text);
     if (s->rc)
-        rb_report_label_bodies(out, s->rc, s->units, 0.5, 0.935);
+        rb_report_let_bodies(out, s->rc, s->units);
+    else
+        rb_report_let_text(out, "bodies", "%s", "");
+}
+
+/* The cases in the order in which they are drawn; a blank line behind each `row` cases, 0: none. */
+static void let_table(FILE *out, const view *v, int row)
+{
+    const rb_report_study *s = v->study;
+    char x[RB_NUMBER_TEXT], y[RB_NUMBER_TEXT];
+
+    fprintf(out, "$table << EOD\nx y value%s\n", s->half_width ? " band" : "");
+    for (int i = 0; i < s->n; i++) {
+        /* all digits: at the border of a map none may lie outside */
+        fprintf(out, "%s %s %.9g", rb_number_text(v->at[i].x, x), rb_number_text(v->at[i].y, y),
+                v->at[i].value);
+        if (s->half_width)
+            fprintf(out, " %.9g", v->at[i].half_width);
+        fputs(row > 0 && i % row == row - 1 ? "\n\n" : "\n", out);
+    }
+    fputs("EOD\n", out);
 }
 
 /* ---- Curves ------------------------------------------------------------------------ */
 
-enum { POINTS_UP_TO = 24 }; /* values of a curve that are marked one by one */
+/* Curve k has the rows word(first, k) to word(last, k) of the table and the name nameK. */
+static void let_curves(FILE *out, const view *v)
+{
+    const rb_report_study *s = v->study;
+    char first[200] = "", last[200] = "", name[20], value[64];
+    int n = 0;
+
+    for (int i = 0; i < s->n; n++) {
+        rb_format(name, sizeof name, "name%d", n + 1);
+        snprintf(value, sizeof value, "%g", v->at[i].y);
+        rb_report_let_text(out, name, "%s",
+                           s->y.word ? as_title(s->y.word[v->at[i].k], value) : value);
+        rb_append(first, sizeof first, " %d", i);
+        i += length_of_group(s, v->at, i);
+        rb_append(last, sizeof last, " %d", i - 1);
+    }
+    rb_report_let_text(out, "first", "%s", first);
+    rb_report_let_text(out, "last", "%s", last);
+}
 
 static void write_curves(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
     const rb_report_study *s = v->study;
-    const rb_report_place place = rb_report_place_of(canvas);
-    char name[64], value[64];
-    int curves = 0;
-    for (int i = 0; i < s->n; curves++) {
-        fprintf(out, "$curve%d << EOD\n", curves);
-        for (const int end = i + length_of_group(s, v->at, i); i < end; i++)
-            fprintf(out, s->half_width ? "%.9g %.9g %.9g\n" : "%.9g %.9g\n", v->at[i].x / v->x.unit,
-                    v->at[i].value / v->shown.unit, v->at[i].half_width / v->shown.unit);
-        fputs("EOD\n", out);
-    }
-    fprintf(out,
-            "set bmargin at screen %g\nset tmargin at screen %g\n" RB_REPORT_GRID
-            "set offsets 0,0,graph 0.05,graph %g\n" RB_REPORT_ZERO,
-            0.14 + place.up, 0.9 + place.up, v->shown.from < 0.0 ? 0.05 : 0.0);
-    write_title(out, v, place);
-    if (s->x.word)
-        write_words(out, v);
-    else
-        write_axis(out, 'x', &s->x, &v->x, labels_below(place));
-    write_label(out, "ylabel", &s->shown, &v->shown);
-    write_format(out, "y", &v->shown);
-    if (v->shown.flat)
-        fprintf(out, "set yrange [%.9g:%.9g]\n", v->shown.from, v->shown.to);
-    if (s->y.value)
-        fprintf(out, "set key outside right center samplen 2 font ',%.3g' title \"%s%s%s%s\"\n",
-                rb_report_key_font(canvas), plain(s->y.name, name), s->y.unit[0] ? "\\n[" : "",
-                s->y.unit, s->y.unit[0] ? "]" : "");
-    else
-        fputs("unset key\n", out);
-    fputs("plot ", out);
-    for (int k = 0; k < curves && s->half_width; k++)
-        fprintf(out, "$curve%d using 1:($2-$3):($2+$3) " RB_REPORT_BAND " notitle, ", k,
-                rb_report_colour(k));
-    for (int k = 0, i = 0; k < curves; i += length_of_group(s, v->at, i), k++) {
-        snprintf(value, sizeof value, "%g", v->at[i].y);
-        fprintf(out,
-                "%s$curve%d using 1:2 with %s linecolor rgb '%s' dashtype %s "
-                "pointtype 7 pointsize 0.7 linewidth 2.2 title '%s'",
-                k ? ", " : "", k,
-                s->is_sample || s->points || s->x.word        ? "points"
-                : length_of_group(s, v->at, i) > POINTS_UP_TO ? "lines"
-                                                              : "linespoints",
-                rb_report_colour(k), rb_report_dashes(k),
-                s->y.word ? as_title(s->y.word[v->at[i].k], value) : value);
-    }
-    fputc('\n', out);
+    char name[64];
+
+    let_table(out, v, 0);
+    let_title(out, v);
+    let_axis(out, 'x', &s->x, &v->x, labels_below(rb_report_place_of(canvas)));
+    let_axis(out, 'v', &s->shown, &v->shown, 8);
+    let_words(out, v);
+    let_curves(out, v);
+    rb_report_let_text(out, "y_name", "%s", s->y.value ? plain(s->y.name, name) : "");
+    rb_report_let_text(out, "y_unit", "%s", s->y.value ? s->y.unit : "");
+    rb_report_let_whole(out, "flat", v->shown.flat);
+    rb_report_let_whole(out, "banded", s->half_width != NULL);
+    rb_report_let_whole(out, "apart", s->is_sample || s->points || s->x.word);
 }
 
 /* ---- Map --------------------------------------------------------------------------- */
@@ -353,26 +355,33 @@ static void point_of_map(const void *of, int k, double at[3])
     at[2] = v->at[k].value / v->shown.unit;
 }
 
-/* room: width and height of the map, in parts of the canvas. */
-static void write_numbers(FILE *out, rb_report_canvas canvas, const view *v, const double room[2],
-                          double first, double step, double last)
+static void let_numbers(FILE *out, rb_report_canvas canvas, const view *v, double width,
+                        double height)
 {
+    /* Contours at the numbers of the scale, but for its ends. */
+    const double least = v->shown.from, most = v->shown.to;
+    const double step = rb_report_round_step((most - least) / rb_report_labels_in(height));
+    const double first = step * (floor(least / step + 1e-6) + 1.0);
+    const double last = most - 1e-6 * (most - least);
     double letters[2];
+
+    rb_report_let(out, "level_step", step);
+    rb_report_let(out, "level_first", first);
+    rb_report_let(out, "level_last", last);
     rb_report_letters_in(canvas, RB_REPORT_FOUR_THIRDS, rb_report_key_font(canvas), letters);
     rb_report_contour_numbers(
         out, "numbers",
-        &(rb_report_contours){
-            .nx = v->row,
-            .ny = v->study->n / v->row,
-            .point = point_of_map,
-            .of = v,
-            .from = {v->x.from, v->y.from},
-            .to = {v->x.to, v->y.to},
-            .logarithmic = {v->x.logarithmic, v->y.logarithmic},
-            .first = first,
-            .step = step,
-            .last = last,
-            .letter = {1.0 / (letters[0] * room[0]), 1.0 / (letters[1] * room[1])}});
+        &(rb_report_contours){.nx = v->row,
+                              .ny = v->study->n / v->row,
+                              .point = point_of_map,
+                              .of = v,
+                              .from = {v->x.from, v->y.from},
+                              .to = {v->x.to, v->y.to},
+                              .logarithmic = {v->x.logarithmic, v->y.logarithmic},
+                              .first = first,
+                              .step = step,
+                              .last = last,
+                              .letter = {1.0 / (letters[0] * width), 1.0 / (letters[1] * height)}});
 }
 
 static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
@@ -383,50 +392,23 @@ static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
     /* Long numbers beside the map and its scale take room from it. */
     const double of_digit = 0.012;
     const double beside = of_digit * fmax(digits_of(&v->y) - 3.0, 0.0);
-    const double right = of_digit * fmax(digits_of(&v->shown) - 5.0, 0.0);
-    const double bottom = 0.14 + place.up, height = 0.76, left = 0.13 + place.right + beside;
-    const double width = 0.67 - 2.0 * place.right - beside - right;
-    fputs("$map << EOD\n", out);
-    for (int i = 0; i < s->n; i++)
-        fprintf(out, "%.9g %.9g %.9g\n%s", v->at[i].x / v->x.unit, v->at[i].y / v->y.unit,
-                v->at[i].value / v->shown.unit, i % v->row == v->row - 1 ? "\n" : "");
-    fprintf(out,
-            "EOD\nset view map\nset pm3d map corners2color mean interpolate %d,%d\nunset key\n",
-            steps_between(v->row), steps_between(s->n / v->row));
-    rb_report_room(out, left, left + width, bottom, bottom + height);
-    fputs(RB_REPORT_PALETTE, out);
-    write_title(out, v, place);
-    write_axis(out, 'x', &s->x, &v->x, labels_below(place));
-    write_axis(out, 'y', &s->y, &v->y, 8);
-    fprintf(out, "set colorbox user origin %g, %g size 0.022, %g\n", left + width + 0.02, bottom,
-            height);
-    char label[96];
-    snprintf(label, sizeof label, "label 2 at screen 0.968, %g center rotate",
-             bottom + height / 2.0);
-    write_label(out, label, &s->shown, &v->shown);
-    write_format(out, "cb", &v->shown);
-    if (v->shown.flat)
-        fprintf(out, "set cbrange [%.9g:%.9g]\n", v->shown.from, v->shown.to);
-    else {
-        /* Contours at the numbers of the scale, but for its ends. */
-        const double least = v->shown.from, most = v->shown.to;
-        const double step = rb_report_round_step((most - least) / rb_report_labels_in(height));
-        const double first = step * (floor(least / step + 1e-6) + 1.0);
-        fprintf(
-            out,
-            "set cbrange [%.9g:%.9g]\nset cbtics %.9g\nset contour base\nset cntrlabel onecolor\n"
-            "set cntrparam levels incremental %.9g, %.9g, %.9g\n"
-            "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
-            least, most, step, first, step, most - 1e-6 * (most - least));
-        write_numbers(out, canvas, v, (double[]){width, height}, first, step,
-                      most - 1e-6 * (most - least));
-    }
-    fprintf(out, "splot $map using 1:2:3 with pm3d nocontour%s",
-            v->shown.flat ? "\n"
-                          : ", $map using 1:2:3 with lines nosurface linecolor rgb '#ffffff' "
-                            "linewidth 0.8, ");
+    const double scale = of_digit * fmax(digits_of(&v->shown) - 5.0, 0.0);
+    const double height = 0.76, width = 0.67 - 2.0 * place.right - beside - scale;
+
+    let_table(out, v, v->row);
+    let_title(out, v);
+    let_axis(out, 'x', &s->x, &v->x, labels_below(place));
+    let_axis(out, 'y', &s->y, &v->y, 8);
+    let_axis(out, 'v', &s->shown, &v->shown, 8);
+    rb_report_let(out, "left", 0.13 + place.right + beside);
+    rb_report_let(out, "bottom", 0.14 + place.up);
+    rb_report_let(out, "width", width);
+    rb_report_let(out, "height", height);
+    rb_report_let_whole(out, "between_x", steps_between(v->row));
+    rb_report_let_whole(out, "between_y", steps_between(s->n / v->row));
+    rb_report_let_whole(out, "flat", v->shown.flat);
     if (!v->shown.flat)
-        fprintf(out, RB_REPORT_NUMBERS " font ',%.3g'\n", rb_report_key_font(canvas));
+        let_numbers(out, canvas, v, width, height);
 }
 
 /* ---- Draw -------------------------------------------------------------------------- */
@@ -463,7 +445,7 @@ rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas, const rb_r
         v.shown.to += margin;
     }
     status = v.shown.from <= v.shown.to
-                 ? rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, NULL,
+                 ? rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, map ? "map" : "study",
                                   map ? write_map : write_curves, &v, why)
                  : rb_fail(why, RB_EINVAL, "no case has a %s", s->shown.name);
     free(at);

@@ -18,6 +18,9 @@ tidy(x) = numeric(sprintf('%.9g', x))
 # zones of contact: separated, stick, slip to the left and to the right, yield likewise, frictionless
 strong(zone) = word('#9a9a9a #2c7a57 #c4501b #8a3fa0 #8c6a00 #b0305c #3d5a80', zone + 1)
 pale(zone) = word('#f3f3f3 #d9ebe2 #fae3d6 #ecdff1 #f3ecd0 #f6dde6 #e0e7ef', zone + 1)
+# of a crack: where it is open pale, beside the strong colours of faces that touch
+on_face(zone) = int('0x'.(zone == 0 ? pale(0) : strong(int(zone)))[2:*])
+zone_ink(zone) = zone == 0 ? '#666666' : strong(zone)
 # fields: colours that are grey from dark to light in print, and numbers at their contours
 set palette defined (0 '#440154', 0.15 '#46327e', 0.3 '#365c8d', 0.45 '#277f8e', 0.6 '#1fa187', 0.75 '#4ac16d', 0.9 '#a0da39', 1 '#fde725')
 set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6

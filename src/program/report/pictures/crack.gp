@@ -34,7 +34,7 @@ set autoscale yfix
 set ytics along_step
 set label 2 (titled ? 'along the crack / a' : '{/*0.85 along the crack / a}') at screen 0.03, 0.3 + 0.5 * up center rotate
 do for [k=1:zone_names] {
-    set label k + 2 value(sprintf('zone%d', k)) at screen value(sprintf('zone_x%d', k)), value(sprintf('zone_y%d', k)) left textcolor rgb value(sprintf('zone_colour%d', k)) font key_font
+    set label k + 2 value(sprintf('zone%d', k)) at screen value(sprintf('zone_x%d', k)), value(sprintf('zone_y%d', k)) left textcolor rgb zone_ink(value(sprintf('zone_of%d', k))) font key_font
 }
-plot $zones using 1:2:3:4:5 with boxxyerror fillstyle solid noborder linecolor rgb variable notitle
+plot $zones using 1:2:3:4:(on_face($5)) with boxxyerror fillstyle solid noborder linecolor rgb variable notitle
 unset multiplot

@@ -5,7 +5,7 @@ if (titled) set label 1 title at screen 0.54, 0.972 center
 if (titled) set label 2 K_there at screen 0.54, 0.935 center
 if (!titled) set label 9 faces at graph 0.03, 0.06 font key_font front
 do for [k=1:zone_names] {
-    set label k + 2 value(sprintf('zone%d', k)) at screen value(sprintf('zone_x%d', k)), value(sprintf('zone_y%d', k)) left textcolor rgb value(sprintf('zone_colour%d', k)) font key_font
+    set label k + 2 value(sprintf('zone%d', k)) at screen value(sprintf('zone_x%d', k)), value(sprintf('zone_y%d', k)) left textcolor rgb zone_ink(value(sprintf('zone_of%d', k))) font key_font
 }
 set size ratio -1
 set lmargin at screen left
@@ -28,5 +28,5 @@ plot 0 with lines linecolor rgb '#333333' linewidth 1.5 notitle, \
      $face1 using 1:2 with filledcurves closed linecolor rgb '#ffffff' notitle @grown , \
      $face1 using 1:2 with lines linecolor rgb '#111111' linewidth 2 dashtype solid title face1_name, \
      $face0 using 1:2 with lines linecolor rgb '#8aa4bd' linewidth 2 dashtype (6,6) title face0_name, \
-     $face0 using ($4 > 0 ? $1 : NaN):2:3 with points pointtype 7 pointsize 1 linecolor rgb variable notitle, \
-     $face1 using ($4 > 0 ? $1 : NaN):2:3 with points pointtype 7 pointsize 1 linecolor rgb variable notitle
+     $face0 using ($4 > 0 ? $1 : NaN):2:(on_face($3)) with points pointtype 7 pointsize 1 linecolor rgb variable notitle, \
+     $face1 using ($4 > 0 ? $1 : NaN):2:(on_face($3)) with points pointtype 7 pointsize 1 linecolor rgb variable notitle
