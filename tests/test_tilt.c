@@ -1,6 +1,7 @@
 /* A that is turned at rest: a parabola, a punch with rounded edges, friction between unlike bodies,
  * and what is refused. */
 #include "cli_run.h"
+#include "numbers.h"
 
 #include <math.h>
 
@@ -41,6 +42,76 @@ TEST(a_parabola_moves)
     CHECK_ABS(of_summary(left, "contact_from"), -of_summary(right, "contact_to"), 1e-9, "mirror");
     CHECK_REL(of_summary(left, "resistance_moment"), -of_summary(right, "resistance_moment"), 1e-9,
               "mirror");
+}
+
+/* A punch with square corners at +-a, E* = 1: its table ends there, and so do the elements. */
+#define SQUARE "--support halfplane --gap square.txt --mesh punch --load 1 "
+
+static void write_square(double a)
+{
+    FILE *file = NOT_NULL(fopen("square.txt", "w"));
+    fprintf(file, "x gap\n%.10g 0\n0 0\n%.10g 0\n", -a, a);
+    fclose(file);
+}
+
+/* Errors of the square corner fall with the square of the elements' number. */
+TEST(a_square_punch)
+{
+    const double pi = acos(-1.0);
+    double tilt[2], moment[2];
+    write_square(1.0);
+    for (int k = 0; k < 2; k++) {
+        held_json *full = run_jsonf(SQUARE "--young 0.75 --poisson 0.5 --mu 0 --datum 1 "
+                                           "--contact-elements %d --moment %.15g",
+                                    50 * (k + 1), pi / 10.0);
+        tilt[k] = of_summary(full, "tilt");
+        CHECK_ABS(of_summary(full, "contact_from"), -1.0, 1e-15, "a corner");
+        CHECK_REL(of_summary(full, "approach"), 0.441271, 8e-4 / (1 + 3 * k), "approach");
+        held_json *part = run_jsonf(SQUARE "--young 0.75 --poisson 0.5 --mu 0 "
+                                           "--contact-elements %d --tilt 0.9",
+                                    50 * (k + 1));
+        moment[k] = of_summary(part, "resistance_moment");
+        CHECK_ABS(of_summary(part, "contact_from"), 1.0 - 4.0 / (0.9 * pi), 8e-3 / (1 + k), "from");
+        CHECK_ABS(of_summary(part, "contact_to"), 1.0, 1e-15, "a corner");
+    }
+    CHECK_REL(tilt[1], 0.4, 2.1e-4, "tilt");
+    CHECK_REL(moment[1], 1.0 - 1.0 / (0.9 * pi), 2.1e-4, "moment");
+    assert_true((tilt[0] - 0.4) / (tilt[1] - 0.4) > 3.7);
+    assert_true((moment[0] - 0.646322) / (moment[1] - 0.646322) > 3.7);
+}
+
+TEST(a_bonded_punch)
+{
+    static const double rows[][2] = {{0.3, 0.123018}, {0.45, 0.126897}};
+    write_square(1.0);
+    for (size_t k = 0; k < 2; k++) {
+        held_json *root = run_jsonf(SQUARE "--young %.15g --poisson %g --mu 1e6 --force 0 "
+                                           "--contact-elements 100 --moment 0.1",
+                                    1.0 - rows[k][0] * rows[k][0], rows[k][0]);
+        CHECK_REL(of_summary(root, "tilt"), rows[k][1], 2.5e-4, "nu %g", rows[k][0]);
+    }
+}
+
+/* In random units, a quarter in each turn: the whole punch, or a part at one corner, carries. */
+TEST(hundred_square_punches)
+{
+    unsigned long long seed = 11;
+    const double pi = acos(-1.0);
+    for (int k = 0; k < 100; k++) {
+        const double a = exp(3.0 * uniform_of(&seed)), E = exp(8.0 + 4.0 * uniform_of(&seed)),
+                     P = a * E * exp(-7.0 + 2.0 * uniform_of(&seed)),
+                     share = 0.8 * uniform_of(&seed); /* M/(P a) */
+        if (!is_in_turn(k, 4))
+            continue;
+        write_square(a);
+        held_json *root = run_jsonf("--support halfplane --gap square.txt --mesh punch --mu 0 "
+                                    "--young %.15g --poisson 0 --contact-elements 80 --load %.15g "
+                                    "--moment %.15g",
+                                    E, P, share * P * a);
+        const double unit = 2.0 * P / (pi * E * a), size = fabs(share),
+                     want = unit * (size <= 0.5 ? 2.0 * size : 0.5 / (1.0 - size));
+        CHECK_REL(of_summary(root, "tilt"), copysign(want, share), 2e-3, "case %d: %g", k, share);
+    }
 }
 
 /* Flat over |x| < b = .5, R = 1 at its edges, P = .4. */
@@ -138,13 +209,22 @@ TEST(what_is_refused)
         {"--load 0.03 --tilt 0.01", "of elastic half-planes only"},
         {SOFT "--gap parabola --radius 100 --load 0.03 --tilt 0.01 --moment 3", "--moment"},
         {SOFT "--gap parabola --radius 100 --load 0.03 --moment 0.1 --zone 3", "it topples"},
+        {SQUARE "--moment 1.01", "M/P = 1.01 mm, and A touches between -1 and 1 mm at most: it "
+                                 "topples"},
+        {SQUARE "--zone 1", "the punch is the zone"},
+        {SQUARE "--formulation steady", "of bodies at rest, in one step"},
+        {SQUARE "--increments 2", "equal elements"},
+        {SQUARE "--mesh uniform", "a punch that ends there has --mesh punch"},
+        {"--support halfplane --load 1 --mesh punch", "add --gap FILE"},
         {SOFT "--gap parabola --radius 100 --load 0.03 --moment 0.03 --increments 3",
          "of one state only"},
         {SOFT "--gap parabola --radius 100 --load 0.03 --moment 0.03 --error", "no error bars"},
         {SOFT "--gap parabola --radius 100 --load 0.03 --moment 0.03 --derivatives",
          "give the tilt that it makes"}};
+    write_square(1.0);
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
-        check_refused(rows[k].line, 64, rows[k].words);
+        check_refused(rows[k].line, strstr(rows[k].line, "--mesh uniform") ? 65 : 64,
+                      rows[k].words);
 }
 
 RUN_TESTS(enter_folder, leave_folder)

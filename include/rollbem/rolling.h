@@ -21,7 +21,8 @@ typedef enum { RB_GAP_PARABOLA, RB_GAP_EXACT, RB_GAP_TABLE, RB_GAP_WAVE } rb_rol
 typedef enum {
     RB_MESH_UNIFORM,
     RB_MESH_FITTED,
-    RB_MESH_ALIGNED /* equal elements whose ends meet both edges of the contact */
+    RB_MESH_ALIGNED, /* equal elements whose ends meet both edges of the contact */
+    RB_MESH_PUNCH    /* shorter towards both ends of a gap table, at which A ends */
 } rb_rolling_mesh_kind;
 /* A of steady rolling (theory.md 4.2): the difference to the element upstream, or the
  * second-order difference of equal elements. */

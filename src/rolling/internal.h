@@ -425,6 +425,9 @@ rb_status rb_rolling_check_layer_resolved(const rb_rolling_model *model, rb_stat
  * was found; RB_NO_CONTACT. */
 rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message *why);
 
+/* The same on the elements of a punch. */
+rb_status rb_rolling_solve_punch(rb_rolling_model *model, rb_message *why);
+
 /* The first potential contact, from the undeformed gap: its ends, the smallest gap and that at the
  * edges of the contact. */
 void rb_rolling_first_zone(const rb_rolling_case *rc, double *from, double *to, double *least,
@@ -491,6 +494,9 @@ typedef struct {
     double h_left, h_right; /* lengths of the elements from which the edges were computed; fit.c */
 } rb_rolling_span;
 
+/* The elements of a punch, whose pressure may be infinite at its ends. */
+rb_status rb_rolling_mesh_punch(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                rb_rolling_mesh *mesh, rb_message *why);
 rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int all, int count,
                                 const rb_rolling_span *span, rb_rolling_mesh *mesh,
                                 rb_message *why);

@@ -65,6 +65,11 @@ int rb_rolling_same_body(const rb_rolling_body *x, const rb_rolling_body *y);
 rb_status rb_rolling_profile_smooth(int n, const double *x, const double *gap,
                                     rb_rolling_profile **profile, rb_message *why);
 
+/* As rb_rolling_profile_create, of a body that ends where the table ends: the smallest gap may be
+ * there. */
+rb_status rb_rolling_profile_punch(int n, const double *x, const double *gap, double noise,
+                                   rb_rolling_profile **profile, rb_message *why);
+
 /* The radius of the parabola that is nearest to the gap around its smallest value, in the lowest
  * tenth of its range [length]; NAN: the gap has none: it is flat, a roof or hollow there. */
 double rb_rolling_profile_radius(const rb_rolling_profile *profile);
@@ -597,6 +602,11 @@ rb_rolling_case rb_rolling_program_base(const rb_rolling_program *program,
 
 /* 1: the case, without a program, is a sequence of rolling steps or increments. */
 int rb_rolling_has_steps(const rb_rolling_case *rc);
+/* 1: elements of a mesh that is not replaced by equal ones differ in length. */
+static inline int rb_rolling_mesh_is_graded(const rb_rolling_case *rc)
+{
+    return rc->mesh == RB_MESH_FITTED || rc->mesh == RB_MESH_PUNCH;
+}
 
 /* The solutions of the steps of a history: n elements, `steps` states. */
 typedef struct {

@@ -374,7 +374,7 @@ static int motion_of(const rb_sensitivity *s)
     const int equal = rc->mesh == RB_MESH_UNIFORM || model->equal_instead;
 
     if (s->degenerate > 0 || s->solution.patches != 1 || s->solution.contact < 6 ||
-        (equal && rc->zone > 0.0))
+        (equal && rc->zone > 0.0) || rc->mesh == RB_MESH_PUNCH)
         return RB_SENSITIVITY_FIXED;
     return !equal                                      ? RB_SENSITIVITY_EDGES
            : rc->gap == RB_GAP_TABLE || rc->worn.n > 0 ? RB_SENSITIVITY_FIXED

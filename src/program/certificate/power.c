@@ -300,7 +300,7 @@ rb_status rb_certificate_hysteresis(const rb_rolling_model *model, const rb_roll
             sum += lost_in(c, &of, b, longest, &unresolved);
         }
     }
-    const int fitted = rc->mesh == RB_MESH_FITTED && !c->model->equal_instead;
+    const int fitted = rb_rolling_mesh_is_graded(rc) && !c->model->equal_instead;
     const double share = longest / s->half_width;
     const double missed = 2.0 * share * share + (fitted ? 0.0 : 0.06 * share);
     double differences = 0.0;

@@ -205,7 +205,7 @@ static rb_status restore_step(rb_certificate *c, const rb_resolved_case *resolve
         for (int i = 1; i < n && s == RB_OK; i++)
             m->equal_instead &= fabs(xh[n + i] - xh[n]) <= 1e-9 * xh[n];
     }
-    const int are_equal = m->equal_instead || resolved->rc.mesh != RB_MESH_FITTED;
+    const int are_equal = m->equal_instead || !rb_rolling_mesh_is_graded(&resolved->rc);
     for (int i = 0; i < n && s == RB_OK; i++)
         if (!(xh[n + i] > 0.0) || (i > 0 && !(xh[i] > xh[i - 1])))
             s = rb_fail(why, RB_EFORMAT, "%s: table: element %d is out of order", c->name, i + 1);

@@ -130,6 +130,28 @@ static void tilted(rb_verify *v)
                        "moment P a/2 on a parabola: middle of the contact");
 }
 
+/* Of square corners, on which M = pi a^2 E* X/4 acts (theory-rolling.md U3). */
+static void square_punch(rb_verify *v)
+{
+    static const double x[] = {-1.0, 0.0, 1.0}, gap[] = {0.0, 0.0, 0.0};
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_profile *flat = NULL;
+    static rb_message why;
+    rb_verify_note(v, rb_rolling_profile_punch(3, x, gap, 0.0, &flat, &why), &why);
+    rc.gap = RB_GAP_TABLE;
+    rc.profile = flat;
+    rc.mesh = RB_MESH_PUNCH;
+    rc.contact_elements = 100;
+    rc.half_width = NAN;
+    rc.mu = 0.0;
+    rc.load = 1.0;
+    rc.tilt = 1.0 / (M_PI * rb_rolling_derive(&rc).modulus);
+    if (flat)
+        rb_verify_relative(v, rb_verify_solve(v, &rc)->resistance_moment, 0.25, 3e-4,
+                           "flat punch, 100 elements: moment of its tilt");
+    rb_rolling_profile_free(flat);
+}
+
 /* Steel, R = 460 mm on a rail head of 300 mm, 100 kN (theory-rolling.md E2). */
 static void ellipse(rb_verify *v)
 {
@@ -295,6 +317,7 @@ void rb_verify_contact(rb_verify *v)
     two_forms(v);
     bulk_stress(v);
     tilted(v);
+    square_punch(v);
     ellipse(v);
     wave(v);
     rb_rolling_case rc = rb_verify_uncoupled();

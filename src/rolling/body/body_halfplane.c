@@ -101,7 +101,7 @@ static rb_status halfplane_transforms(const rb_rolling_case *rc, const rb_rollin
                                       rb_rolling_body_flexibility *one_body, rb_message *why)
 {
     (void)plan; /* nothing lies outside the contact */
-    const int are_equal = rc->a.support == RB_BEM_HALFPLANE && rc->mesh != RB_MESH_FITTED;
+    const int are_equal = rc->a.support == RB_BEM_HALFPLANE && !rb_rolling_mesh_is_graded(rc);
     return make(are_equal ? rb_bem_flexibility_toeplitz : rb_bem_flexibility_surface_products, rc,
                 body, mesh, one_body, why);
 }

@@ -289,6 +289,38 @@ static void put_upstream(const rb_rolling_case *rc, int n, double *ends)
     ends[n + 1] = ends[n] + fmin(step, 0.5 * (lower_half(rc) - ends[n]));
 }
 
+/* `across` elements from span->from, whose end lies in *end; the last one's end is returned.
+ * Symmetric to rounding. */
+static double *put_across(const rb_rolling_span *span, int across, double *end)
+{
+    const double centre = 0.5 * (span->from + span->to), half = 0.5 * (span->to - span->from);
+
+    for (int i = 1; i < across; i++)
+        *++end = centre - half * sin(0.5 * M_PI * (across - 2 * i) / across);
+    *++end = span->to;
+    return end;
+}
+
+rb_status rb_rolling_mesh_punch(const rb_rolling_case *rc, const rb_rolling_plan *plan,
+                                rb_rolling_mesh *mesh, rb_message *why)
+{
+    rb_rolling_span all = {.h_left = 0.0};
+
+    rb_rolling_extent(rc, &all.from, &all.to);
+    rb_status s = check_extent(rc, all.from, all.to, why);
+    if (s == RB_OK)
+        s = mesh_alloc(plan->elements, mesh);
+    if (s != RB_OK)
+        return s;
+    mesh->ends[0] = all.from;
+    put_across(&all, mesh->n, mesh->ends);
+    put_upstream(rc, mesh->n, mesh->ends);
+    s = rb_rolling_mesh_set_gap(rc, mesh);
+    if (s != RB_OK)
+        rb_rolling_mesh_free(mesh);
+    return s;
+}
+
 rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int all, int count,
                                 const rb_rolling_span *span, rb_rolling_mesh *mesh, rb_message *why)
 {
@@ -314,13 +346,7 @@ rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int all, int count,
     for (int k = 0; k < count; k++) {
         const int across = elements_across(all, count, span, k);
         step = edge_step(span + k, across);
-        /* Symmetric to rounding. */
-        const double centre = 0.5 * (span[k].from + span[k].to),
-                     half = 0.5 * (span[k].to - span[k].from);
-
-        for (int i = 1; i < across; i++)
-            *++end = centre - half * sin(0.5 * M_PI * (across - 2 * i) / across);
-        *++end = span[k].to;
+        end = put_across(span + k, across, end);
         if (k + 1 < count)
             end =
                 put_between(span[k].to, span[k + 1].from, step,

@@ -233,9 +233,9 @@ static double radius_of(const rb_rolling_profile *p, double lowest)
 
 /* ---- The curve --------------------------------------------------------------------- */
 
-/* is_smooth: 1: without corners. */
+/* is_smooth: 1: without corners; is_punch: 1: the body ends with the table. */
 static rb_status create(int n, const double *x, const double *gap, double noise, int is_smooth,
-                        rb_rolling_profile **profile, rb_message *why)
+                        int is_punch, rb_rolling_profile **profile, rb_message *why)
 {
     *profile = NULL;
     rb_status s = rb_rolling_points_check("gap", n, x, gap, why);
@@ -251,11 +251,13 @@ static rb_status create(int n, const double *x, const double *gap, double noise,
     int lowest = end;
     for (int i = 1; i < n - 1; i++)
         lowest = gap[i] < gap[lowest] ? i : lowest;
-    if (lowest == end)
-        return rb_fail(why, RB_EINVAL,
-                       "gap: row %d: the smallest gap, %g mm, is at an end of the table, which "
-                       "must enclose the contact; gaps are positive where the bodies are apart",
-                       end + 1, gap[end]);
+    if (lowest == end && !is_punch)
+        return rb_fail(
+            why, RB_EINVAL,
+            "gap: row %d: the smallest gap, %g mm, is at an end of the table, which "
+            "must enclose the contact; gaps are positive where the bodies are apart, and a "
+            "punch that ends there has --mesh punch",
+            end + 1, gap[end]);
     rb_rolling_profile *p = calloc(1, sizeof *p);
     rb_arena scratch = {0};
     points smoothed = {0};
@@ -267,7 +269,7 @@ static rb_status create(int n, const double *x, const double *gap, double noise,
         p->to = at[rows - 1];
         s = rb_rolling_interpolant_create((int)rows, at, y, is_smooth, &p->curve);
         if (s == RB_OK)
-            p->radius = radius_of(p, x[lowest]);
+            p->radius = lowest == end ? NAN : radius_of(p, x[lowest]);
     }
     rb_arena_free(&scratch);
     if (s != RB_OK) {
@@ -281,11 +283,17 @@ static rb_status create(int n, const double *x, const double *gap, double noise,
 rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, double noise,
                                     rb_rolling_profile **profile, rb_message *why)
 {
-    return create(n, x, gap, noise, noise > 0.0, profile, why);
+    return create(n, x, gap, noise, noise > 0.0, 0, profile, why);
+}
+
+rb_status rb_rolling_profile_punch(int n, const double *x, const double *gap, double noise,
+                                   rb_rolling_profile **profile, rb_message *why)
+{
+    return create(n, x, gap, noise, noise > 0.0, 1, profile, why);
 }
 
 rb_status rb_rolling_profile_smooth(int n, const double *x, const double *gap,
                                     rb_rolling_profile **profile, rb_message *why)
 {
-    return create(n, x, gap, 0.0, 1, profile, why);
+    return create(n, x, gap, 0.0, 1, 0, profile, why);
 }

@@ -416,13 +416,13 @@ static int suits_fitted_products(const rb_rolling_case *rc)
 static int suits_transforms(const rb_rolling_case *rc)
 {
     return (rc->contact.solver == RB_SOLVER_AUTO || rc->contact.solver == RB_SOLVER_NEWTON) &&
-           (rc->mesh != RB_MESH_FITTED || suits_fitted_products(rc)) &&
+           (!rb_rolling_mesh_is_graded(rc) || suits_fitted_products(rc)) &&
            is_transformed(rc, &rc->a) && (!rc->elastic_b || is_transformed(rc, &rc->b));
 }
 
 int rb_rolling_has_transforms(const rb_rolling_case *rc)
 {
-    return RB_TRANSFORMS && rc->mesh != RB_MESH_FITTED && suits_transforms(rc);
+    return RB_TRANSFORMS && !rb_rolling_mesh_is_graded(rc) && suits_transforms(rc);
 }
 
 int rb_rolling_suits_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
@@ -783,11 +783,20 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
 {
     if (rc->slip_operator == RB_SLIP_SECOND && rc->formulation != RB_STEADY)
         return rb_fail(why, RB_EINVAL, "slip operator second: only for steady rolling");
-    if (rc->slip_operator == RB_SLIP_SECOND && rc->mesh == RB_MESH_FITTED)
+    if (rc->slip_operator == RB_SLIP_SECOND && rb_rolling_mesh_is_graded(rc))
         return rb_fail(why, RB_EINVAL, "slip operator second: only for equal elements");
     if (rc->mesh == RB_MESH_ALIGNED && rc->contact_elements < 12)
         return rb_fail(why, RB_EINVAL, "mesh aligned: expected 12 contact elements or more, got %d",
                        rc->contact_elements);
+    if (rc->mesh == RB_MESH_PUNCH) {
+        if (rc->formulation != RB_STATIC || rb_rolling_has_steps(rc))
+            return rb_fail(why, RB_EINVAL, "mesh punch: of bodies at rest, in one step");
+        if (rc->gap != RB_GAP_TABLE || !rb_rolling_can(rc, RB_BODY_FLAT))
+            return rb_fail(why, RB_EINVAL,
+                           "mesh punch: of half-planes whose punch is a table, add --gap FILE");
+        if (rc->zone > 0.0)
+            return rb_fail(why, RB_EINVAL, "mesh punch: the punch is the zone; leave --zone out");
+    }
     if (!(rc->outer_refinement >= 0.0 && rc->outer_refinement <= 1000.0))
         return rb_fail(why, RB_EINVAL, "outer refinement: expected 0 ... 1000, got %g",
                        rc->outer_refinement);

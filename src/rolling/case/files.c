@@ -136,15 +136,18 @@ static rb_status read_profile(rb_case *c, rb_message *why)
     rb_resolved_case *resolved = &c->resolved;
     const rb_units units = units_of_file(c, "gap");
     const double noise = resolved->gap_smoothing;
+    const int is_punch = resolved->rc.mesh == RB_MESH_PUNCH;
     rb_rolling_table gap;
     if (resolved->rc.gap != RB_GAP_TABLE)
         return rb_case_refuse_given(c, "gap-smoothing", "of a gap from a file only", why);
-    if (!is_read(&c->table[CASE_GAP], resolved->gap_file, units) || c->profile.noise != noise)
+    if (!is_read(&c->table[CASE_GAP], resolved->gap_file, units) || c->profile.noise != noise ||
+        c->profile.is_punch != is_punch)
         free_profile(&c->profile);
     rb_status s = read_over_x(c, &c->table[CASE_GAP], resolved->gap_file, units, &gap, why);
     if (s == RB_OK && !c->profile.curve) {
-        c->profile = (case_profile){.noise = noise};
-        s = rb_rolling_profile_create(gap.n, gap.x, gap.y, noise, &c->profile.curve, why);
+        c->profile = (case_profile){.noise = noise, .is_punch = is_punch};
+        s = (is_punch ? rb_rolling_profile_punch : rb_rolling_profile_create)(
+            gap.n, gap.x, gap.y, noise, &c->profile.curve, why);
         s = rb_case_locate(c, s, why);
     }
     resolved->rc.profile = c->profile.curve;

@@ -17,6 +17,7 @@ static const rb_choice formulations[] = {
 static const rb_choice meshes[] = {{"uniform", RB_MESH_UNIFORM},
                                    {"fitted", RB_MESH_FITTED},
                                    {"aligned", RB_MESH_ALIGNED},
+                                   {"punch", RB_MESH_PUNCH},
                                    {NULL, 0}};
 static const rb_choice slip_operators[] = {
     {"upstream", RB_SLIP_UPSTREAM}, {"second", RB_SLIP_SECOND}, {NULL, 0}};
@@ -327,7 +328,8 @@ const rb_option rb_case_table[] = {
 
     RB_GROUP_LINE("mesh", "Mesh"),
     RB_CHOICE_LINE("mesh", RC(mesh), meshes,
-                   "equal elements, fitted to the contact edges, or equal ones aligned with them",
+                   "equal elements, fitted to the contact edges, equal ones aligned with them, or "
+                   "those of a punch that ends where its gap file ends",
                    .unset = "fitted in steady rolling under a given load, half-width or "
                             "approach without zone and gap file, aligned from 150 elements on "
                             "between similar half-planes, from 401 on between other flat bodies, "

@@ -16,11 +16,11 @@ typedef struct {
     rb_rolling_program program;
 } case_table;
 
-/* The gap computed from a table; kept as long as table and noise are the same. */
+/* The gap computed from a table; kept as long as table, noise and mesh are the same. */
 typedef struct {
     rb_rolling_profile *curve;
     double noise;
-    int borrowed;
+    int is_punch, borrowed;
 } case_profile;
 
 /* The tables that a case may name. */

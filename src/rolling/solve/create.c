@@ -20,6 +20,8 @@ static rb_status solve_on_mesh(rb_rolling_model *model, rb_message *why)
         return rb_rolling_solve_fitted(model, why);
     case RB_MESH_ALIGNED:
         return rb_rolling_solve_aligned(model, why);
+    case RB_MESH_PUNCH:
+        return rb_rolling_solve_punch(model, why);
     default:
         return rb_rolling_solve_zone(model, 0, why);
     }
@@ -47,7 +49,8 @@ static rb_status solve_beside_sliding(rb_rolling_model *model, const rb_rolling_
     }
     if (s == RB_OK)
         s = rb_rolling_model_control(model, why);
-    if (s != RB_OK || model->equal_instead || wanted.mesh == RB_MESH_UNIFORM)
+    if (s != RB_OK || model->equal_instead || wanted.mesh == RB_MESH_UNIFORM ||
+        wanted.mesh == RB_MESH_PUNCH)
         return s;
     rb_rolling_contact_edges(model->rc, &model->mesh, &model->state, &edge[2], &edge[3]);
     const double moved = fmax(fabs(edge[2] - edge[0]), fabs(edge[3] - edge[1]));

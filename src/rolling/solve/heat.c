@@ -140,7 +140,7 @@ static rb_status conductor_set(const rb_rolling_case *rc, const rb_rolling_heat 
 {
     /* more are sooner by transforms, and rows of more are too large to be kept */
     enum { DIRECT = 200, ROWS = 500 };
-    const int n = s->n, equal = rc->mesh != RB_MESH_FITTED && n > 0;
+    const int n = s->n, equal = !rb_rolling_mesh_is_graded(rc) && n > 0;
 
     if (is_known(body, speed, s, equal, c)) {
         c->x = s->x;

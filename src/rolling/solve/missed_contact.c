@@ -356,6 +356,8 @@ rb_status rb_rolling_check_enclosed(const rb_rolling_model *model, const rb_cont
     const int has_ends = !rb_rolling_fills_period(model->rc, &model->mesh);
     rb_status s = RB_OK;
 
+    if (model->rc->mesh == RB_MESH_PUNCH) /* nothing is outside */
+        return RB_OK;
     for (int right = 0; right < 2 && has_ends && s == RB_OK; right++)
         s = check_end(model, state, right, why);
     if (s == RB_OK)

@@ -30,12 +30,13 @@ double rb_rolling_edge_exponent(const rb_rolling_case *rc, double length,
                                : 0.5;
 }
 
-/* 1: the contact goes on at the other end of a period. */
-static int goes_on(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                   const rb_contact_state *state, int open)
+/* 1: the contact goes on at the other end of a period, or ends with the punch. */
+static int ends_with_mesh(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                          const rb_contact_state *state, int open)
 {
-    return rb_rolling_fills_period(rc, mesh) && (open < 0 || open >= mesh->n) &&
-           state->zone[0] != RB_ZONE_SEPARATED && state->zone[mesh->n - 1] != RB_ZONE_SEPARATED;
+    const int goes_on = rb_rolling_fills_period(rc, mesh) && state->zone[0] != RB_ZONE_SEPARATED &&
+                        state->zone[mesh->n - 1] != RB_ZONE_SEPARATED;
+    return (open < 0 || open >= mesh->n) && (goes_on || rc->mesh == RB_MESH_PUNCH);
 }
 
 /* The edge of the run whose outermost element on that side is `outer`.  This element is
@@ -54,7 +55,7 @@ static double edge(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
     const double farthest = open >= 0 && open < mesh->n ? midpoint(mesh, open) : end;
     int j = outer - side;
 
-    if (goes_on(rc, mesh, state, open))
+    if (ends_with_mesh(rc, mesh, state, open))
         return end;
     if (run->last - run->first + 1 < RB_ROLLING_PATCH_LEAST) {
         run->bounded |= bounded;

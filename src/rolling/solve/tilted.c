@@ -43,7 +43,8 @@ static rb_status search(rb_rolling_case *at, double wanted, double near, double 
                                                            ? first
                                                            : (off - off_before) / (x - before);
         double next = x - off / (slope > 0.05 * first ? slope : first);
-        next = fmin(fmax(next, x - strain), x + strain);
+        const double most = fmax(strain, fabs(x)); /* a contact at a corner asks for much tilt */
+        next = fmin(fmax(next, x - most), x + most);
         if (!isnan(low) && !isnan(high) && !(next > low && next < high))
             next = 0.5 * (low + high);
         before = x;

@@ -410,3 +410,13 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
     }
     return unless_open(model, s, why);
 }
+
+rb_status rb_rolling_solve_punch(rb_rolling_model *model, rb_message *why)
+{
+    rb_rolling_mesh mesh;
+    rb_status s = rb_rolling_mesh_punch(model->rc, &model->plan, &mesh, why);
+
+    if (s == RB_OK)
+        s = rb_rolling_model_build(model, &mesh, why);
+    return unless_open(model, s, why);
+}

@@ -513,7 +513,7 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
     double worst = INFINITY, before;
     int round = 0, stood = 0; /* rounds in which the bars did not fall */
     rb_status status = rb_rolling_error_check(rc, why);
-    const int second_order = rc->mesh == RB_MESH_FITTED ||
+    const int second_order = rb_rolling_mesh_is_graded(rc) ||
                              (rc->mesh == RB_MESH_ALIGNED && rc->slip_operator == RB_SLIP_SECOND &&
                               rb_rolling_carter_holds(rc));
 
