@@ -375,6 +375,14 @@ TEST(all_solutions_are_listed)
     write_file("p", "2  0 1 0 0  -1 0"); /* (t, 1) */
     CHECK_RUN(lcp("--all p"), 0, err, "belongs to singular bases only");
     CHECK_RUN(lcp("--all --json p"), 0, out, "\"singular_basis\": true");
+    write_file("p", "2  1 0 -1 0  -1 0.9999999999999"); /* w2 = -1e-13 at z1 = 1 */
+    CHECK_RUN(lcp("--all p"), 0, err, "1 of 1 solutions is one within rounding only");
+    CHECK_RUN(lcp("--all --json p"), 0, out, "\"nearby\": true");
+    write_file("p", "2  1 0 -1 0  -1 1");
+    CHECK_RUN(lcp("--all --json p"), 0, out, "\"nearby\": false");
+    assert_null(strstr(err, "rounding"));
+    write_file("p", "2  2.0000000000000027 -2 2 -2  1.0000000000000355 1");
+    CHECK_RUN(lcp("--all p"), 0, err, "at least 2 solutions: 1 of 4 bases is undecided");
     write_file("p", "1 0 0");
     CHECK_RUN(lcp("--all --json p"), 0, out, "\"solutions\"");
 }

@@ -185,6 +185,7 @@ const char *rb_api_note(const rb_api *a, int k, char *text, int size);
  *   lcp.z lcp.w                  after rb_api_lcp, rb_api_lcp_sparse
  *   lcp.all                      after rb_api_lcp_all, n x solutions
  *   lcp.singular_basis           1: of a singular basis only, an entry per solution
+ *   lcp.nearby                   1: a solution within rounding only, likewise
  *   lcp.bases                    how many were tried, are singular, and are undecided
  *   game.z game.regret game.payoff   after rb_api_game: both strategies below each other, what each
  *                                pays less than the best reply, and the two best replies

@@ -146,9 +146,12 @@ rb_status rb_lcp_solve(const char *solver, const rb_lcp_mixed_problem *p, const 
  * and there may be infinitely many, one of each such basis at least. */
 typedef struct {
     int n, count;
-    double *z;           /* n x count; owned, as is the next one */
+    double *z;           /* n x count; owned, as are the next two */
     int *singular_basis; /* count; 1: of a singular basis only, so that other solutions may lie
                             next to it */
+    int *nearby;         /* count, NULL: none is; 1: a solution within rounding (1e-11 of the
+                            terms), which is none of the numbers as they stand, or is not proved
+                            to be one */
     int bases, singular; /* bases tried, and how many of them are singular */
     int undecided;       /* bases of which is not known whether they have a solution; where
                             it is 0 and count is 0 there is none */

@@ -66,11 +66,13 @@ class Complementarity(Answer):
 class Solutions(list):
     """All solutions of a small problem: their ``z``, or of a game its pairs (x, y), one after the other.
 
-    ``of_singular_basis[k]``: other solutions may lie next to solution k. ``bases`` is how many were tried, ``singular``
-    of them have a singular matrix, and of ``undecided`` ones nobody knows; without any, the list is complete.
+    ``of_singular_basis[k]``: other solutions may lie next to solution k. ``nearby[k]``: it is one within rounding only;
+    with these numbers exactly there may be none. ``bases`` is how many were tried, ``singular`` of them have a singular
+    matrix, and of ``undecided`` ones nobody knows; without any, the list is complete.
     """
 
     of_singular_basis: "list[bool]"
+    nearby: "list[bool]"
     bases: int
     singular: int
     undecided: int
@@ -152,8 +154,10 @@ def _list(handle: Handle, what: str, split: Optional[int] = None) -> Solutions:
     columns = [] if z is None or z.size == 0 else list(np.atleast_2d(z.reshape(-1, order="F").reshape(
         (-1, len(z)) if z.ndim == 1 else z.shape[::-1])))
     found = Solutions((column[:split].copy(), column[split:].copy()) if split else column.copy() for column in columns)
-    singular, bases = handle.array(f"{what}.singular_basis"), handle.array(f"{what}.bases")
-    found.of_singular_basis = [] if singular is None else [one == 1.0 for one in np.atleast_1d(singular)]
+    bases = handle.array(f"{what}.bases")
+    found.of_singular_basis, found.nearby = (
+        [] if flags is None else [one == 1.0 for one in np.atleast_1d(flags)]
+        for flags in (handle.array(f"{what}.{name}") for name in ("singular_basis", "nearby")))
     found.bases, found.singular, found.undecided = (0, 0, 0) if bases is None else (int(x) for x in bases)
     number = handle.array(f"{what}.number")
     if number is not None:
@@ -211,7 +215,7 @@ def lcp(M: Any, q: Any = None, solver: str = "auto", max_pivots: int = 0, *, low
         raise handle.error(status)
     if all:  # of no unknowns
         only = Solutions([np.zeros(0)])
-        only.of_singular_basis, only.bases, only.singular, only.undecided = [False], 1, 0, 0
+        only.of_singular_basis, only.nearby, only.bases, only.singular, only.undecided = [False], [False], 1, 0, 0
         return handle.kept(only, status)
     found = Complementarity(handle, z=_made(handle, "lcp.z"), w=_made(handle, "lcp.w"), scaled_residual=handle.number("task.scaled_residual"),
                             proof=_proof(handle, "lcp", _OF_LCP))

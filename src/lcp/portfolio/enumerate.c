@@ -1,5 +1,6 @@
 /* All solutions of a small problem: every complementary basis is tried, and none is left out
- * because its matrix is singular. */
+ * because its matrix is singular.  What may be a solution is proved to be one, or not to be
+ * one (exact.c), or the basis is undecided; solutions within rounding only are marked. */
 #include "lcp/portfolio/linear.h"
 #include "lcp/proof/bounds.h"
 
@@ -36,6 +37,8 @@ typedef struct {
     int *inside, *swap, m;  /* n, 2n: those z; pivots, and work of dgecon; how many */
     double *z, *w, *terms;  /* n; terms: of the rows of w, by modulus */
     double *bound;          /* n: what the rounding errors of z are a part of */
+    unsigned char *zeros;   /* n: of the present point; of each solution, none where it is one */
+    unsigned char *known;   /* within rounding; known: n x all->count, owned */
     double *inverse, *work; /* n x n each; work: of dgecon as well, 4 n at least */
     lcp_linear *linear;     /* owned */
 } search;
@@ -174,10 +177,14 @@ static void bound_errors(search *s)
     }
 }
 
+/* What rounding errors leave open. */
+typedef enum { NONE, POSSIBLE, NEARLY } likelihood;
+
 /* The bounds of z and the signs of w, which the basis alone does not give; and that the
  * rows of z between their bounds are still zero, which large entries of M may spoil
- * where a z was put on a bound.  regular: 0 where z is the point of a linear program. */
-static int is_solution(search *s, int regular)
+ * where a z was put on a bound.  regular: 0 where z is the point of a linear program.
+ * NEARLY: z solves the problem within rounding; POSSIBLE: the z without rounding errors may. */
+static likelihood is_solution(search *s, int regular)
 {
     const int n = s->n;
     /* Linear programming knows M and q, whose entries are near 1, and z but for rounding of
@@ -186,11 +193,11 @@ static int is_solution(search *s, int regular)
     const double rough = ROUGHLY * largest;
     int close = !regular;
     if (!isfinite(largest)) /* entries near the largest double can give no numbers */
-        return 0;
+        return NONE;
     for (int i = 0; i < n; i++) {
         const double low = rb_lcp_lower(s->lower, i), high = rb_lcp_upper(s->upper, i);
         if (s->z[i] < low - rough || s->z[i] > high + rough)
-            return 0;
+            return NONE;
         close |= s->at[i] == LCP_BETWEEN && (s->z[i] < low + rough || s->z[i] > high - rough);
     }
     for (int i = 0; i < n; i++)
@@ -205,30 +212,36 @@ static int is_solution(search *s, int regular)
         const double low = rb_lcp_lower(s->lower, i), high = rb_lcp_upper(s->upper, i);
         const double small = RIGHT * s->bound[i];
         if (s->z[i] < low - small || s->z[i] > high + small)
-            return 0;
+            return NONE;
         s->z[i] = s->z[i] <= low + small ? low : s->z[i] >= high - small ? high : s->z[i];
     }
     product(s);
-    /* The terms of every row of M z + q, whose rounding is a part of them. */
+    /* The terms of every row of M z + q, whose rounding is a part of them, and what those of z
+     * come to in it. */
+    likelihood is = NEARLY;
     for (int i = 0; i < n; i++) {
         const double *row = s->p.M + i;
+        double of_z = 0.0;
         s->terms[i] = fabs(s->p.q[i]);
-        for (int j = 0; j < n; j++)
-            s->terms[i] += fabs(row[(size_t)j * (size_t)s->p.ldm] * s->z[j]);
+        for (int j = 0; j < n; j++) {
+            const double a = fabs(row[(size_t)j * (size_t)s->p.ldm]);
+            s->terms[i] += a * fabs(s->z[j]);
+            of_z += a * s->bound[j];
+        }
         if (!isfinite(s->terms[i]))
-            return 0;
-    }
-    for (int i = 0; i < n; i++) {
+            return NONE;
         const int fixed = rb_lcp_lower(s->lower, i) >= rb_lcp_upper(s->upper, i);
-        const double small = RIGHT * s->terms[i];
-        if (s->at[i] == LCP_LEFT_OUT)
-            continue;
-        if (s->at[i] != LCP_AT_UPPER && s->w[i] < -small && !fixed)
-            return 0;
-        if (s->at[i] != LCP_AT_LOWER && s->w[i] > small)
-            return 0;
+        const double wrong = s->at[i] == LCP_LEFT_OUT   ? 0.0
+                             : s->at[i] == LCP_BETWEEN  ? fabs(s->w[i])
+                             : fixed                    ? 0.0
+                             : s->at[i] == LCP_AT_UPPER ? s->w[i]
+                                                        : -s->w[i];
+        if (wrong > RIGHT * (s->terms[i] + of_z))
+            return NONE;
+        if (wrong > RIGHT * s->terms[i])
+            is = POSSIBLE;
     }
-    return 1;
+    return is;
 }
 
 void rb_lcp_solutions_free(rb_lcp_solutions *all)
@@ -237,43 +250,82 @@ void rb_lcp_solutions_free(rb_lcp_solutions *all)
         return;
     free(all->z);
     free(all->singular_basis);
+    free(all->nearby);
     free(all->set);
     free(all->member);
     *all = (rb_lcp_solutions){0};
 }
 
-/* Adds z, unless it is known already.  RB_ENOMEM. */
-static rb_status keep(const search *s, int regular, rb_lcp_solutions *all)
+/* 1: the z of a basis and of solution k differ by rounding at most. */
+static int is_close(const search *s, const rb_lcp_solutions *all, int k)
 {
-    const size_t n = (size_t)s->n, count = (size_t)all->count, bytes = n * sizeof *s->z;
-    for (size_t k = 0; k < count; k++) {
-        int same = 1;
-        for (size_t i = 0; same && i < n; i++) {
-            const double x = all->z[k * n + i], y = s->z[i];
-            if (s->choices->compared && !s->choices->compared[i])
-                continue;
-            same = fabs(x - y) <= SAME * fmax(fabs(x), fabs(y)) + RIGHT * s->bound[i];
-        }
-        if (same) {
-            all->singular_basis[k] &= !regular;
-            if (s->choices->found)
-                s->choices->found(s->choices->context, (int)k, s->choice);
-            return RB_OK;
-        }
-    }
-    if ((count & (count - 1)) == 0) { /* full: room for twice as many */
-        const size_t room = count ? 2 * count : 1;
-        double *z = realloc(all->z, room * bytes);
-        all->z = z ? z : all->z;
-        int *mark = z ? realloc(all->singular_basis, room * sizeof *mark) : NULL;
-        if (!mark)
-            return RB_ENOMEM;
-        all->singular_basis = mark;
-    }
-    all->singular_basis[count] = !regular;
-    memcpy(all->z + n * (size_t)all->count++, s->z, bytes);
+    const double *known = all->z + (size_t)k * (size_t)s->n;
+    for (int i = 0; i < s->n; i++)
+        if (!(s->choices->compared && !s->choices->compared[i]) &&
+            fabs(known[i] - s->z[i]) >
+                SAME * fmax(fabs(known[i]), fabs(s->z[i])) + RIGHT * s->bound[i])
+            return 0;
+    return 1;
+}
+
+/* 1: solution k is one of this basis, exactly. */
+static int is_of_basis(const search *s, int k)
+{
+    const unsigned char *zeros = s->known + (size_t)k * (size_t)s->n;
+    for (int i = 0; i < s->n; i++)
+        if (!(zeros[i] & (s->at[i] == LCP_AT_LOWER   ? LCP_Z_IS_LOWER
+                          : s->at[i] == LCP_AT_UPPER ? LCP_Z_IS_UPPER
+                                                     : LCP_W_IS_ZERO)))
+            return 0;
+    return 1;
+}
+
+/* 1: solution k is that of this basis: z with these zeros, none where it is one within rounding
+ * only.  Of regular bases that is decided exactly. */
+static int is_same(const search *s, const rb_lcp_solutions *all, int k, int regular)
+{
+    const int exact = regular && s->zeros[0] && !all->nearby[k] && !all->singular_basis[k];
+    return exact ? is_of_basis(s, k) : is_close(s, all, k);
+}
+
+/* Room for twice as many solutions where count of them are all that there is room for. */
+static rb_status make_room(search *s, rb_lcp_solutions *all)
+{
+    const size_t n = (size_t)s->n, count = (size_t)all->count, room = count ? 2 * count : 1;
+    if ((count & (count - 1)) != 0)
+        return RB_OK;
+    double *z = realloc(all->z, room * n * sizeof *z);
+    all->z = z ? z : all->z;
+    int *singular = realloc(all->singular_basis, room * sizeof *singular);
+    all->singular_basis = singular ? singular : all->singular_basis;
+    int *nearby = realloc(all->nearby, room * sizeof *nearby);
+    all->nearby = nearby ? nearby : all->nearby;
+    unsigned char *known = realloc(s->known, room * n);
+    s->known = known ? known : s->known;
+    return z && singular && nearby && known ? RB_OK : RB_ENOMEM;
+}
+
+/* Adds z, unless it is known already.  nearby: it is a solution within rounding only, as which
+ * it gives way to a near one.  RB_ENOMEM. */
+static rb_status keep(search *s, int regular, int nearby, rb_lcp_solutions *all)
+{
+    const size_t n = (size_t)s->n;
+    int at = 0;
+    while (at < all->count && !is_same(s, all, at, regular))
+        at++;
+    const int is_new = at == all->count;
+    if (is_new && make_room(s, all) != RB_OK)
+        return RB_ENOMEM;
+    if (is_new || (all->nearby[at] && !nearby)) {
+        memcpy(all->z + n * (size_t)at, s->z, n * sizeof *s->z);
+        memcpy(s->known + n * (size_t)at, s->zeros, n);
+        all->singular_basis[at] = !regular;
+        all->nearby[at] = nearby;
+        all->count += is_new;
+    } else if (all->nearby[at] == nearby)
+        all->singular_basis[at] &= !regular;
     if (s->choices->found)
-        s->choices->found(s->choices->context, (int)count, s->choice);
+        s->choices->found(s->choices->context, at, s->choice);
     return RB_OK;
 }
 
@@ -286,20 +338,140 @@ static void choose(search *s, int block, int first, int k)
            (size_t)size * sizeof *s->at);
 }
 
+/* The z between their bounds by the rows of the same numbers. */
+static lcp_point point_of(search *s)
+{
+    return (lcp_point){.p = &s->p,
+                       .lower = s->lower,
+                       .upper = s->upper,
+                       .m = s->m,
+                       .row = s->inside,
+                       .column = s->inside,
+                       .z = s->z};
+}
+
+/* The columns of z between its bounds, and as many rows of w that is zero which are independent in
+ * them (s->swap), of the point that is_solution has seen; RB_UNDECIDED: LAPACK finds too few. */
+static rb_status choose_system(search *s, lcp_point *point)
+{
+    int m = 0, rows = 0, *column = s->swap, *row = column + s->n;
+    for (int i = 0; i < s->n; i++) {
+        const double z = s->z[i];
+        if (s->at[i] == LCP_BETWEEN ||
+            (s->at[i] != LCP_LEFT_OUT && fabs(s->w[i]) <= RIGHT * s->terms[i]))
+            row[rows++] = i;
+        if (s->at[i] == LCP_BETWEEN && z != rb_lcp_lower(s->lower, i) &&
+            z != rb_lcp_upper(s->upper, i) && (z != 0.0 || isfinite(rb_lcp_lower(s->lower, i))))
+            column[m++] = i;
+    }
+    for (int c = 0; c < m; c++)
+        for (int r = 0; r < rows; r++)
+            s->A[r + c * rows] = s->p.M[(size_t)row[r] + (size_t)column[c] * (size_t)s->p.ldm];
+    if (m > rows ||
+        (m > 0 && LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, rows, m, s->A, rows, s->inside) != 0))
+        return RB_UNDECIDED;
+    for (int c = 0; c < m; c++) {
+        const int other = s->inside[c] - 1, kept = row[c];
+        row[c] = row[other];
+        row[other] = kept;
+    }
+    point->m = m;
+    point->row = row;
+    point->column = column;
+    return RB_OK;
+}
+
+/* A basis: its block has an inverse to work with; it is not singular, but for rounding it could
+ * be; it is singular; and then it has no point. */
+typedef enum { INVERTED, REGULAR, SINGULAR_ONE, CONTRADICTORY } basis_kind;
+
+/* What may be a solution is proved to be one, or is one within rounding.  A problem of which only
+ * some numbers are compared was rounded when it was made.  RB_ENOMEM. */
+static rb_status look_at_point(search *s, likelihood is, basis_kind kind, rb_lcp_solutions *all)
+{
+    const int regular = kind <= REGULAR;
+    memset(s->zeros, 0, (size_t)s->n);
+    if (s->choices->compared)
+        return is == NEARLY ? keep(s, regular, 0, all) : RB_OK;
+    for (int k = 0; kind == INVERTED && k < all->count; k++)
+        if (!all->nearby[k] && is_of_basis(s, k)) {
+            all->singular_basis[k] = 0;
+            return RB_OK;
+        }
+    lcp_point point = point_of(s);
+    rb_status exact = kind == INVERTED        ? RB_OK
+                      : kind == CONTRADICTORY ? RB_NO_SOLUTION
+                                              : choose_system(s, &point);
+    if (exact == RB_OK)
+        exact = rb_lcp_is_exact(&point, s->at, s->zeros);
+    if (exact == RB_OK || exact == RB_ENOMEM)
+        return exact == RB_OK ? keep(s, regular, 0, all) : exact;
+    memset(s->zeros, 0, (size_t)s->n);
+    /* of a singular basis another point than this one may be a solution */
+    all->undecided += kind != CONTRADICTORY && (exact == RB_UNDECIDED || kind != INVERTED);
+    return is == NEARLY ? keep(s, regular, 1, all) : RB_OK;
+}
+
 /* One basis: its point, or where its matrix is singular what linear programming says of its
  * complementary cone.  RB_ENOMEM. */
 static rb_status look_at_basis(search *s, rb_lcp_solutions *all)
 {
     all->bases++;
-    if (basic_solution(s))
-        return is_solution(s, 1) ? keep(s, 1, all) : RB_OK;
+    if (basic_solution(s)) {
+        const likelihood is = is_solution(s, 1);
+        return is == NONE ? RB_OK : look_at_point(s, is, INVERTED, all);
+    }
+    const lcp_point point = point_of(s);
     const int regular = rb_lcp_is_regular(s->p.M, s->p.ldm, s->m, s->inside, s->inside);
     const rb_status exists = rb_lcp_linear_decide(s->linear, s->at, s->z);
     all->singular += !regular;
-    if (exists == RB_OK && is_solution(s, 0))
-        return keep(s, regular, all);
-    all->undecided += exists != RB_NO_SOLUTION;
+    if (exists == RB_NO_SOLUTION)
+        return RB_OK;
+    basis_kind kind = REGULAR;
+    if (!regular)
+        kind = rb_lcp_has_no_point(&point) ? CONTRADICTORY : SINGULAR_ONE;
+    const likelihood is = exists == RB_OK ? is_solution(s, 0) : NONE;
+    if (is != NONE)
+        return look_at_point(s, is, kind, all);
+    all->undecided += kind != CONTRADICTORY;
     return RB_OK;
+}
+
+/* At the end: solutions within rounding that come to a proved one are left out, and z are those
+ * of the problem as given. */
+static void finish(search *s, const lcp_posed *posed, double unit, rb_lcp_solutions *all)
+{
+    const size_t n = (size_t)s->n;
+    int kept = 0;
+    for (int k = 0; k < all->count; k++) {
+        double *z = all->z + (size_t)k * n;
+        memcpy(s->z, z, n * sizeof *z);
+        for (size_t i = 0; i < n; i++)
+            s->bound[i] = rb_norm_inf(n, z);
+        int covered = 0;
+        for (int l = 0; all->nearby[k] && !covered && l < all->count; l++)
+            covered = !all->nearby[l] && is_close(s, all, l);
+        if (covered)
+            continue;
+        all->singular_basis[kept] = all->singular_basis[k];
+        all->nearby[kept] = all->nearby[k];
+        memmove(all->z + (size_t)kept++ * n, z, n * sizeof *z);
+    }
+    all->count = kept;
+    kept = 0;
+    for (int k = 0; k < all->count; k++) {
+        double *z = all->z + (size_t)k * n;
+        for (size_t i = 0; i < n; i++)
+            z[i] *= unit;
+        rb_lcp_scale_back(posed, z);
+        if (isfinite(rb_norm_inf(n, z))) {
+            all->singular_basis[kept] = all->singular_basis[k];
+            all->nearby[kept] = all->nearby[k];
+            memmove(all->z + (size_t)kept++ * n, z, n * sizeof *z);
+        }
+    }
+    all->undecided += all->count - kept; /* beyond the largest number */
+    all->count = kept;
 }
 
 rb_status rb_lcp_try_all(const rb_lcp_problem *p, const double *lower, const double *upper,
@@ -333,6 +505,7 @@ rb_status rb_lcp_try_all(const rb_lcp_problem *p, const double *lower, const dou
     s.x = rb_arena_doubles(&scratch, order, 7);
     s.inside = rb_arena_ints(&scratch, order);
     s.swap = rb_arena_ints(&scratch, 2 * order);
+    s.zeros = rb_arena_zeros(&scratch, order, sizeof *s.zeros);
     rb_status status =
         scratch.failed ? RB_ENOMEM : rb_lcp_pose(&given, p->q, lower, upper, &plain, 1, &posed);
     if (status == RB_OK) {
@@ -372,19 +545,9 @@ rb_status rb_lcp_try_all(const rb_lcp_problem *p, const double *lower, const dou
             first += choices->size[digit];
         }
     }
-    int kept = 0;
-    for (int k = 0; k < all->count; k++) {
-        double *z = all->z + (size_t)k * order;
-        for (size_t i = 0; i < order; i++)
-            z[i] *= unit;
-        rb_lcp_scale_back(&posed, z);
-        if (isfinite(rb_norm_inf(order, z))) {
-            all->singular_basis[kept] = all->singular_basis[k];
-            memmove(all->z + (size_t)kept++ * order, z, order * sizeof *z);
-        }
-    }
-    all->undecided += all->count - kept; /* beyond the largest number */
-    all->count = kept;
+    if (status == RB_OK || status == RB_TIME_LIMIT)
+        finish(&s, &posed, unit, all);
+    free(s.known);
     rb_lcp_linear_free(s.linear);
     rb_lcp_posed_free(&posed);
     rb_arena_free(&scratch);

@@ -1,9 +1,12 @@
-/* Whether a small matrix of doubles is singular, exactly. */
+/* Whether a small matrix of doubles is singular, and which numbers of a basis are zero, exactly. */
 #include "lcp/portfolio/linear.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
+
+enum { MOST = 32, PRIMES = 2 };
+static const uint64_t primes[PRIMES] = {2305843009213693921ULL, 2305843009213693907ULL};
 
 static uint64_t times(uint64_t a, uint64_t b, uint64_t prime)
 {
@@ -31,41 +34,122 @@ static uint64_t residue(double x, uint64_t prime)
     return x < 0.0 && value ? prime - value : value;
 }
 
+static uint64_t minus(uint64_t a, uint64_t b, uint64_t prime)
+{
+    return a >= b ? a - b : a + (prime - b);
+}
+
+/* Elimination of m rows of m + 1 entries, by Gauss and Jordan to the unit matrix where the result,
+ * the rank, is m.  only_regular: ends where it is not, and leaves what is above the diagonal. */
+static int eliminate(int m, uint64_t (*a)[MOST + 1], uint64_t prime, int only_regular)
+{
+    int rank = 0;
+    for (int c = 0; c < m && !(only_regular && rank < c); c++) {
+        int r = rank;
+        while (r < m && !a[r][c])
+            r++;
+        if (r == m)
+            continue;
+        for (int j = c; j <= m && r > rank; j++) {
+            const uint64_t t = a[r][j];
+            a[r][j] = a[rank][j];
+            a[rank][j] = t;
+        }
+        const uint64_t inverse = power(a[rank][c], prime - 2, prime);
+        for (int j = c; j <= m; j++)
+            a[rank][j] = times(a[rank][j], inverse, prime);
+        for (int i = only_regular ? rank + 1 : 0; i < m; i++) {
+            const uint64_t f = a[i][c];
+            for (int j = c; f && i != rank && j <= m; j++)
+                a[i][j] = minus(a[i][j], times(f, a[rank][j], prime), prime);
+        }
+        rank++;
+    }
+    return rank;
+}
+
 int rb_lcp_is_regular(const double *M, int ld, int m, const int *row, const int *column)
 {
-    static const uint64_t primes[2] = {2305843009213693921ULL, 2305843009213693907ULL};
-    enum { MOST = 32 };
-    uint64_t a[MOST][MOST];
-    if (m > MOST)
-        return 0;
-    for (int k = 0; k < 2; k++) {
-        const uint64_t prime = primes[k];
-        int c = 0;
-        for (int j = 0; j < m; j++)
-            for (int i = 0; i < m; i++)
-                a[i][j] = residue(M[(size_t)row[i] + (size_t)column[j] * (size_t)ld], prime);
-        for (; c < m; c++) { /* Gauss' elimination */
-            int r = c;
-            while (r < m && !a[r][c])
-                r++;
-            if (r == m)
-                break;
-            for (int j = c; j < m && r > c; j++) {
-                const uint64_t t = a[r][j];
-                a[r][j] = a[c][j];
-                a[c][j] = t;
-            }
-            const uint64_t inverse = power(a[c][c], prime - 2, prime);
-            for (int i = c + 1; i < m; i++) {
-                const uint64_t f = times(a[i][c], inverse, prime);
-                for (int j = c; f && j < m; j++) {
-                    const uint64_t t = times(f, a[c][j], prime);
-                    a[i][j] += a[i][j] >= t ? -t : prime - t;
-                }
-            }
+    uint64_t a[MOST][MOST + 1];
+    for (int k = 0; m <= MOST && k < PRIMES; k++) {
+        for (int i = 0; i < m; i++) {
+            a[i][m] = 0;
+            for (int j = 0; j < m; j++)
+                a[i][j] = residue(M[(size_t)row[i] + (size_t)column[j] * (size_t)ld], primes[k]);
         }
-        if (c == m)
+        if (eliminate(m, a, primes[k], 1) == m)
             return 1;
     }
     return 0;
+}
+
+/* w_i of z, all of them as residues. */
+static uint64_t residue_of_row(const rb_lcp_problem *p, int i, const uint64_t *z, uint64_t prime)
+{
+    uint64_t sum = residue(p->q[i], prime);
+    for (int j = 0; j < p->n; j++)
+        if (z[j])
+            sum = minus(
+                sum,
+                times(residue(-p->M[(size_t)i + (size_t)j * (size_t)p->ldm], prime), z[j], prime),
+                prime);
+    return sum;
+}
+
+/* The rank of w_row = 0 for the columns; z: n, the others, and zero for the columns. */
+static int eliminate_point(const lcp_point *point, uint64_t prime, uint64_t *z,
+                           uint64_t (*a)[MOST + 1])
+{
+    const rb_lcp_problem *p = point->p;
+    const int m = point->m;
+    for (int j = 0; j < p->n; j++)
+        z[j] = residue(point->z[j], prime);
+    for (int c = 0; c < m; c++)
+        z[point->column[c]] = 0;
+    for (int r = 0; r < m; r++) {
+        const double *row = p->M + point->row[r];
+        for (int c = 0; c < m; c++)
+            a[r][c] = residue(row[(size_t)point->column[c] * (size_t)p->ldm], prime);
+        a[r][m] = minus(0, residue_of_row(p, point->row[r], z, prime), prime);
+    }
+    return eliminate(m, a, prime, 0);
+}
+
+int rb_lcp_has_no_point(const lcp_point *point)
+{
+    const int m = point->m;
+    uint64_t a[MOST][MOST + 1], z[MOST];
+    for (int k = 0; k < PRIMES; k++) {
+        if (point->p->n > MOST)
+            return 0;
+        const int rank = eliminate_point(point, primes[k], z, a);
+        int differs = 0;
+        for (int r = rank; r < m; r++)
+            differs |= a[r][m] != 0;
+        if (!differs)
+            return 0;
+    }
+    return 1;
+}
+
+void rb_lcp_zeros(const lcp_point *point, unsigned char *zeros)
+{
+    const rb_lcp_problem *p = point->p;
+    const int n = p->n, m = point->m;
+    uint64_t a[MOST][MOST + 1], z[MOST];
+    for (int i = 0; i < n; i++)
+        zeros[i] = 0;
+    for (int k = 0; n <= MOST && k < PRIMES; k++) {
+        const uint64_t prime = primes[k];
+        const int solved = eliminate_point(point, prime, z, a) == m;
+        for (int c = 0; c < m; c++)
+            z[point->column[c]] = a[c][m];
+        for (int i = 0; i < n; i++) {
+            const double low = rb_lcp_lower(point->lower, i), high = rb_lcp_upper(point->upper, i);
+            const int is = (isfinite(low) && z[i] == residue(low, prime) ? LCP_Z_IS_LOWER : 0) |
+                           (isfinite(high) && z[i] == residue(high, prime) ? LCP_Z_IS_UPPER : 0) |
+                           (residue_of_row(p, i, z, prime) == 0 ? LCP_W_IS_ZERO : 0);
+            zeros[i] = (unsigned char)(!solved ? 0 : k == 0 ? is : zeros[i] & is);
+        }
+    }
 }

@@ -58,8 +58,10 @@ typedef struct {
  * norm < 0.99.  1: there was memory. */
 int rb_proof_inverse(int k, double *A, double unknown, proof_inverse *inverse);
 void rb_proof_inverse_free(proof_inverse *inverse);
-/* x, e: |A^-1 (-b) - x| <= e for each b within `radius` (k, or NULL).  fine: residuals in twice
- * the precision. */
+/* x, e: |A^-1 (-b) - x| <= e for each b within `radius` (k, or NULL).  PROOF_FINE: residuals in
+ * twice the precision; PROOF_FINEST: and, for a few unknowns (A has to be known), bounds that go
+ * with the size of each. */
+enum { PROOF_FINE = 1, PROOF_FINEST };
 void rb_proof_solve(const proof_inverse *inverse, const double *b, const double *radius, int fine,
                     double *x, double *e);
 /* y = |A| x, A m x n column-major. */

@@ -124,6 +124,27 @@ void rb_proof_inverse_free(proof_inverse *v)
     *v = (proof_inverse){0};
 }
 
+/* e = min(e, d + |I - R A| e), where unknowns are of very different sizes: the row sums g take all
+ * of them for as large as the largest. */
+static void tighten(const proof_inverse *v, const double *d, double *e)
+{
+    enum { SWEEPS = 3 };
+    const size_t n = (size_t)v->k;
+    for (int sweep = 0; sweep < SWEEPS; sweep++)
+        for (size_t i = 0; i < n; i++) {
+            double sum = d[i];
+            for (size_t j = 0; j < n; j++) {
+                double lack = i == j ? -1.0 : 0.0, size = i == j ? 1.0 : 0.0;
+                for (size_t k = 0; k < n; k++) {
+                    lack += v->R[i + k * n] * v->A[k + j * n];
+                    size += fabs(v->R[i + k * n] * v->A[k + j * n]);
+                }
+                sum += proof_up(4, fabs(lack) + proof_error(n + 1, size)) * e[j];
+            }
+            e[i] = fmin(e[i], proof_up(2 * n + 2, sum));
+        }
+}
+
 void rb_proof_solve(const proof_inverse *v, const double *given, const double *radius, int fine,
                     double *x, double *e)
 {
@@ -178,8 +199,11 @@ void rb_proof_solve(const proof_inverse *v, const double *given, const double *r
     for (size_t i = 0; i < n; i++)
         d[i] = proof_up(n, d[i]);
     const double most = rb_norm_inf(n, d);
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n; i++)
         e[i] = proof_up(8, d[i] + v->g[i] * (most / (1.0 - v->norm)));
+    if (fine == PROOF_FINEST)
+        tighten(v, d, e);
+    for (size_t i = 0; i < n; i++) {
         e[i] = proof_up(8, e[i] + 4.0 * PROOF_U * (fabs(x[i]) + fabs(low[i])));
         x[i] = ldexp(x[i] + low[i], v->column[i]);
         e[i] = ldexp(e[i], v->column[i]) + PROOF_TINY;

@@ -169,7 +169,8 @@ int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *s
     return ended;
 }
 
-/* The solutions of a list, rows x count, and which of them are of a singular basis only. */
+/* The solutions of a list, rows x count, and which of them are of a singular basis only, or
+ * solutions within rounding only. */
 static rb_status keep_all(rb_api *a, const char *what, const rb_lcp_solutions *all)
 {
     char name[40];
@@ -177,14 +178,18 @@ static rb_status keep_all(rb_api *a, const char *what, const rb_lcp_solutions *a
     api_array *z = rb_api_make_array(a, name, all->n, all->count);
     snprintf(name, sizeof name, "%s.singular_basis", what);
     api_array *singular = z ? rb_api_make_array(a, name, all->count, 1) : NULL;
+    snprintf(name, sizeof name, "%s.nearby", what);
+    api_array *nearby = singular ? rb_api_make_array(a, name, all->count, 1) : NULL;
     snprintf(name, sizeof name, "%s.bases", what);
-    api_array *bases = singular ? rb_api_make_array(a, name, 3, 1) : NULL;
+    api_array *bases = nearby ? rb_api_make_array(a, name, 3, 1) : NULL;
     if (!bases)
         return RB_ENOMEM;
     if (all->count > 0)
         memcpy(z->at, all->z, sizeof *z->at * (size_t)all->n * (size_t)all->count);
-    for (int k = 0; k < all->count; k++)
+    for (int k = 0; k < all->count; k++) {
         singular->at[k] = all->singular_basis ? all->singular_basis[k] : 0;
+        nearby->at[k] = all->nearby ? all->nearby[k] : 0;
+    }
     bases->at[0] = all->bases;
     bases->at[1] = all->singular;
     bases->at[2] = all->undecided;

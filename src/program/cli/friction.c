@@ -250,7 +250,7 @@ static cli_exit find_all(friction_run *run, friction_result *r, const rb_frictio
         r->info.worst = k ? fmax(r->info.worst, e.worst) : e.worst;
         r->info.floor = k ? fmax(r->info.floor, e.floor) : e.floor;
     }
-    cli_note_enumeration(r->file, "states", r->all.count, singular_only, r->all.undecided,
+    cli_note_enumeration(r->file, "states", r->all.count, 0, singular_only, r->all.undecided,
                          r->all.tried);
     r->status = rb_status_text(s != RB_OK             ? s
                                : r->all.count         ? RB_OK

@@ -142,7 +142,7 @@ typedef struct {
     double *z, *w;                         /* n x solutions */
     int solutions;                         /* 1 but for --all */
     int singular, undecided;               /* --all: bases */
-    int *singular_basis;                   /* --all: of each solution; owned */
+    int *singular_basis, *nearby;          /* --all: of each solution, or NULL; owned */
     int sets, *set, *member;               /* --game --all: as of rb_lcp_solutions; owned */
     double payoff[2];                      /* --game, the first solution */
     rb_lcp_proof proof;                    /* --prove, of one solution; owned */
@@ -266,13 +266,16 @@ static cli_exit say_number(lcp_result *r, rb_status s, cli_exit code)
 static cli_exit say_all(const lcp_options *o, lcp_result *r, const rb_lcp_solutions *all,
                         rb_status end)
 {
-    int singular_only = 0;
+    int singular_only = 0, nearby = 0;
     r->info.iters = all->bases;
     r->singular = all->singular;
     r->undecided = all->undecided;
     for (int k = 0; k < all->count; k++)
         singular_only += r->singular_basis[k];
-    cli_note_enumeration(r->file, "bases", all->count, singular_only, all->undecided, all->bases);
+    for (int k = 0; r->nearby && k < all->count; k++)
+        nearby += r->nearby[k];
+    cli_note_enumeration(r->file, "bases", all->count, nearby, singular_only, all->undecided,
+                         all->bases);
     int mixed = 0; /* sets with more than one */
     for (int k = 0; k < r->sets; k++)
         mixed += r->set[k + 1] - r->set[k] > 1;
@@ -313,7 +316,8 @@ static rb_status take_all(lcp_result *r, rb_lcp_solutions *all)
     free(r->w);
     r->z = all->z;
     r->singular_basis = all->singular_basis;
-    all->singular_basis = NULL;
+    r->nearby = all->nearby;
+    all->singular_basis = all->nearby = NULL;
     r->sets = all->sets;
     r->set = all->set;
     r->member = all->member;
@@ -496,9 +500,11 @@ static void add_members(const lcp_run *run, cli_rows *rows, const lcp_result *r)
     if (o->all) {
         json_t *list = json_array(), *sets = r->sets ? json_array() : json_null();
         for (int k = 0; k < r->solutions; k++) {
-            json_t *one = json_pack("{s:o, s:o, s:b}", "z", vector(r->n, r->z + (size_t)k * r->n),
-                                    "w", vector(r->n, r->w + (size_t)k * r->n), "singular_basis",
-                                    r->singular_basis ? r->singular_basis[k] : 0);
+            json_t *one =
+                json_pack("{s:o, s:o, s:b, s:b}", "z", vector(r->n, r->z + (size_t)k * r->n), "w",
+                          vector(r->n, r->w + (size_t)k * r->n), "singular_basis",
+                          r->singular_basis ? r->singular_basis[k] : 0, "nearby",
+                          r->nearby ? r->nearby[k] : 0);
             if (k < r->number.proofs)
                 rb_report_json_set(&one, "proof", rb_report_json_proof(&r->number.proof[k]));
             rb_report_json_append(&list, one);
@@ -572,6 +578,7 @@ static void free_result(lcp_result *r)
     free(r->cover);
     free(r->start);
     free(r->singular_basis);
+    free(r->nearby);
     free(r->set);
     free(r->member);
     free(r->z);

@@ -369,9 +369,14 @@ static rb_status write_problems(FILE *out, const void *context, rb_message *why)
     return rb_report_json_write(out, root);
 }
 
-void cli_note_enumeration(const char *file, const char *what, int solutions, int singular_only,
-                          int undecided, int tried)
+void cli_note_enumeration(const char *file, const char *what, int solutions, int nearby,
+                          int singular_only, int undecided, int tried)
 {
+    if (nearby)
+        fprintf(stderr,
+                "rollbem: %s: note: %d of %d solutions %s within rounding only: with these "
+                "numbers exactly there may be none\n",
+                file, nearby, solutions, nearby == 1 ? "is one" : "are some");
     if (singular_only)
         fprintf(stderr,
                 "rollbem: %s: note: %d of %d solutions belong%s to singular %s only: others may "
@@ -379,9 +384,9 @@ void cli_note_enumeration(const char *file, const char *what, int solutions, int
                 file, singular_only, solutions, singular_only == 1 ? "s" : "", what,
                 singular_only == 1 ? "it" : "them");
     if (solutions && undecided)
-        fprintf(stderr,
-                "rollbem: %s: note: %d of %d %s %s undecided: there may be more solutions\n", file,
-                undecided, tried, what, undecided == 1 ? "is" : "are");
+        fprintf(stderr, "rollbem: %s: note: at least %d solution%s: %d of %d %s %s undecided\n",
+                file, solutions - nearby, rb_plural(solutions - nearby), undecided, tried, what,
+                undecided == 1 ? "is" : "are");
 }
 
 cli_exit cli_solve_problems(cli_problems *p, const cli_args *args, const char *output)

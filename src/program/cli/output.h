@@ -119,8 +119,8 @@ typedef struct {
 cli_exit cli_solve_problems(cli_problems *p, const cli_args *args, const char *output);
 
 /* Notes on what all solutions of a file may lack, where `what` (bases, states) were tried:
- * solutions that only singular ones have, and undecided ones. */
-void cli_note_enumeration(const char *file, const char *what, int solutions, int singular_only,
-                          int undecided, int tried);
+ * those within rounding only, those that only singular ones have, and undecided ones. */
+void cli_note_enumeration(const char *file, const char *what, int solutions, int nearby,
+                          int singular_only, int undecided, int tried);
 
 #endif
