@@ -346,7 +346,7 @@ static void let_title(FILE *out, const view *v)
     const rb_crack_path *path = &r->shape.path;
     const double dx = path->x[path->pieces] - path->x[0], dy = path->y[0] - path->y[path->pieces];
 
-    rb_report_let_table(out, "table", write_table, r, 0);
+    rb_report_let_table(out, "table", write_table, r);
     rb_report_let_units(out, r->units);
     rb_report_let_text(
         out, "title",
@@ -448,7 +448,7 @@ static void write_open(FILE *out, rb_report_canvas canvas, const void *context)
     const double at = h->x[k] / r->half_width;
     char name[40];
 
-    rb_report_let_table(out, "table", write_table, r, 0);
+    rb_report_let_table(out, "table", write_table, r);
     rb_report_let_units(out, r->units);
     const double *D_N = h->D + (size_t)k * 2 * (size_t)n, *D_T = D_N + n;
     const int *zone = h->zone + (size_t)k * (size_t)n;

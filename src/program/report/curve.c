@@ -435,7 +435,7 @@ static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context
     char x[40], y[40];
     double most = 0.0;
 
-    rb_report_let_table(out, "table", write_table, v, 0);
+    rb_report_let_table(out, "table", write_table, v);
     rb_report_let_units(out, c->units);
     rb_format(x, sizeof x, v->over == RB_OVER_SPEED ? "speed_%s" : "%s",
               v->over == RB_OVER_SPEED   ? rb_unit_name(c->units, "mm/s")

@@ -338,7 +338,7 @@ static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context
         drives |= d->creep[k] < 0.0;
         pushes |= d->force[k] > 0.0;
     }
-    rb_report_let_table(out, "table", write_table, f, 0);
+    rb_report_let_table(out, "table", write_table, f);
     rb_report_let_units(out, f->units);
     write_points(out, v);
     rb_report_let_whole(out, "named", named);

@@ -331,26 +331,11 @@ void rb_report_let_units(FILE *script, rb_units units)
 }
 
 void rb_report_let_table(FILE *script, const char *name, rb_report_write_table *write,
-                         const void *of, int row)
+                         const void *of)
 {
-    char *text = NULL;
-    size_t size;
-    FILE *memory = open_memstream(&text, &size);
-    rb_status s = memory ? write(memory, of, &(rb_report_style){.bare = 1}) : RB_ENOMEM;
-
-    if (memory && fclose(memory) != 0)
-        s = RB_ENOMEM;
     fprintf(script, "$%s << EOD\n", name);
-    int rows = -1; /* the first line has headings */
-    for (const char *line = text; s == RB_OK && line && *line; rows++) {
-        const size_t n = strcspn(line, "\n") + 1;
-        fwrite(line, 1, n, script);
-        if (row > 0 && rows >= 0 && rows % row == row - 1)
-            fputc('\n', script);
-        line += n;
-    }
+    (void)write(script, of, &(rb_report_style){.bare = 1}); /* the script keeps its errors */
     fputs("EOD\n", script);
-    free(text);
 }
 
 /* What holds for all templates, a lecturer's too. */

@@ -169,7 +169,7 @@ static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context
     const int last = v->h->n - 1;
     const char *unit = rb_unit_name(v->h->units, "N/mm");
 
-    rb_report_let_table(out, "table", write_table, v->h, 0);
+    rb_report_let_table(out, "table", write_table, v->h);
     rb_report_let_units(out, v->h->units);
     fprintf(out, "$drawn << EOD\n%s\n",
             v->in_time ? "time half_width load approach band band_load band_approach"

@@ -189,11 +189,10 @@ void rb_report_let_whole(FILE *script, const char *name, int n);
 void rb_report_let_text(FILE *script, const char *name, const char *format, ...) RB_PRINTF(3, 4);
 /* The names that columns have for mm, MPa, N/mm, as mm, MPa, N_mm. */
 void rb_report_let_units(FILE *script, rb_units units);
-/* The block $name of a table that `write` writes with bare headings; a blank line behind each `row`
- * rows, 0: none. */
+/* The block $name of a table that `write` writes with bare headings. */
 typedef rb_status rb_report_write_table(FILE *out, const void *of, const rb_report_style *style);
 void rb_report_let_table(FILE *script, const char *name, rb_report_write_table *write,
-                         const void *of, int row);
+                         const void *of);
 
 /* Draws a picture by the template of this name (pictures/NAME.gp) or the canvas's own, from
  * what `inputs` writes; or writes the whole script. */

@@ -288,7 +288,7 @@ static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context
     const rb_rolling_solution *s = v->s;
 
     (void)canvas;
-    rb_report_let_table(out, "table", write_table, s, 0);
+    rb_report_let_table(out, "table", write_table, s);
     rb_report_let_units(out, s->units);
     write_data(out, v);
     write_zones(out, v);

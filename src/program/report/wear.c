@@ -175,7 +175,7 @@ static void write_inputs(FILE *out, rb_report_canvas canvas, const void *context
     int rows = 0;
 
     (void)canvas;
-    rb_report_let_table(out, "table", write_table, w, 0);
+    rb_report_let_table(out, "table", write_table, w);
     rb_report_let_units(out, h->units);
     fputs("$profiles << EOD\nx p depth\n", out);
     for (int k = 0; k < w->profiles; k++) {
