@@ -536,6 +536,84 @@ static rb_status fret(wear_state *r, rb_message *why)
     return rb_arena_done(&scratch, s);
 }
 
+/* ---- Elements about what sticks ---------------------------------------------------- */
+
+/* The edge of what sticks in all of the cycle, on one side (-1 left, +1 right): beyond it a cycle
+ * slides as (x - c)^(3/2), so that the parabola of path^(2/3) through the second, third and fourth
+ * element that slides is zero there.  outer: the last one that sticks.  NaN: too few slide. */
+static double edge_of_stick(const wear_state *r, int outer, int side)
+{
+    const double h = r->model.bodies.f.h[0];
+    double y[3];
+
+    for (int k = 0; k < 3; k++) {
+        const int i = outer + side * (k + 2);
+        if (i < 0 || i >= r->n || !(r->model.state.p[i] > 0.0) || !(r->path[i] > 0.0))
+            return NAN;
+        y[k] = cbrt(gsl_pow_2(r->path[i]));
+    }
+    const double b = 0.5 * (4.0 * y[1] - 3.0 * y[0] - y[2]), c = 0.5 * (y[0] - 2.0 * y[1] + y[2]);
+    const double square = b * b - 4.0 * c * y[0];
+    /* in elements from the second one that slides, towards what sticks */
+    const double inwards = square >= 0.0 ? 2.0 * y[0] / (sqrt(square) + b) : NAN;
+    return r->x[outer] + side * h * (2.0 - inwards);
+}
+
+/* How many elements stick in all of the cycle in one run, and its edges.  0: none, several runs, or
+ * edges that are not known. */
+static int stick_run(const wear_state *r, double *from, double *to)
+{
+    int first = -1, last = -1, count = 0;
+
+    for (int i = 0; i < r->n; i++)
+        if (r->model.state.p[i] > 0.0 && r->path[i] == 0.0) {
+            first = first < 0 ? i : first;
+            last = i;
+            count++;
+        }
+    if (count == 0 || last - first + 1 != count)
+        return 0;
+    *from = edge_of_stick(r, first, -1);
+    *to = edge_of_stick(r, last, 1);
+    return isfinite(*from) && isfinite(*to) ? count : 0;
+}
+
+/* (W6) Elements of such a length that the edges of what sticks lie a quarter of an element within
+ * the last ones that do.  Edges elsewhere move the edge of the worn scar by up to half an element.
+ */
+static rb_status align_with_stick(wear_state *r, rb_message *why)
+{
+    enum { ROUNDS = 4, LEAST = 3 };
+    static const double WITHIN = 0.25, AT_REST = 0.01, OFF_CENTRE = 0.1, LEAST_FACTOR = 0.9,
+                        MOST_FACTOR = 1.5;
+    rb_status s = RB_OK;
+    double from = NAN, to = NAN;
+
+    for (int k = 0; k < ROUNDS && s == RB_OK; k++) {
+        s = fret(r, why);
+        if (s != RB_OK || !stick_run(r, &from, &to))
+            break;
+        const double h = r->model.bodies.f.h[0];
+        const int odd = r->n % 2;
+        const double across = (to - from) / h;
+        int count = 2 * (int)round(0.5 * (across + 2.0 * WITHIN - odd)) + odd;
+        if (across < LEAST_FACTOR * (count - 2.0 * WITHIN)) /* the zone has to hold the contact */
+            count -= 2;
+        const double factor = across / (count - 2.0 * WITHIN);
+        if (count < LEAST || fabs(from + to) > OFF_CENTRE * h || factor > MOST_FACTOR ||
+            fabs(factor - 1.0) * count < AT_REST)
+            break;
+        r->rc.zone *= factor;
+        rb_rolling_model_free(&r->model);
+        s = press(r, why);
+    }
+    if (s != RB_OK)
+        return s;
+    r->work = 0.0; /* nothing has been worn so far */
+    memset(r->path, 0, (size_t)r->n * sizeof *r->path);
+    return RB_OK;
+}
+
 /* From now on by positions along the stroke: what is worn off so far belongs to A and B by their
  * shares. */
 static rb_status begin_positions(wear_state *r, double reach, double half_width, rb_message *why)
@@ -792,6 +870,8 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
     if (s == RB_OK)
         s = rc->formulation == RB_STEADY ? rb_rolling_model_create(rc, &r.model, why)
                                          : press(&r, why);
+    if (s == RB_OK && rc->formulation != RB_STEADY && !wear->slides && rc->zone == 0.0)
+        s = align_with_stick(&r, why);
     if (s == RB_OK && rc->formulation != RB_STEADY) {
         r.rc.worn = worn_of(&r);
         s = pose(&r, &r.model.bodies, 0.0, why);
