@@ -100,11 +100,7 @@ if (process.argv[1]?.endsWith("still.mjs")) {
         );
     }
     await close_browser();
-    for (const [kind, [width, height]] of [
-        ["mouse", SIZES[1]],
-        ["mouse", SIZES[2]],
-        ["touch", SIZES[1]],
-    ]) {
+    for (const [kind, [width, height]] of SIZES.flatMap((size) => ["mouse", "touch"].map((kind) => [kind, size]))) {
         const { moved, headlines, faults } = await drag_brake_in_firefox(url, kind, width, height);
         console.log(
             `Firefox, ${kind}, ${width} x ${height}: moved ${moved.toFixed(1)} px, ${headlines} headlines${faults.join()}`,
