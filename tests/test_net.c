@@ -325,7 +325,6 @@ static const conflict conflicts[] = {
      "of homogeneous elastic bodies"},
     {{"heat!none", "regime=static|increments|static-history"}, "friction heats bodies that roll"},
     {{"heat=unlike", "regime=transient*|steps"}, "both bodies must have the same temperature"},
-    {{"heat!none", "output=stress*"}, "stress has no temperatures"},
     {{"mu=0", "tangential=creep-ratio|force-ratio"}, "no meaning at mu = 0"},
     {{"output=history*|snapshots", "regime=static|steady"}, "for --formulation transient"},
     {{"output=accuracy", "regime=transient*|steps|increments|static-history"},

@@ -59,6 +59,105 @@ TEST(strip_meets_quadrature)
         }
 }
 
+/* ---- Below the surface (T4) -------------------------------------------------------- */
+
+/* All heat of a uniform band |x| < 1 enters the body; k T/(H a). */
+static double below_band(double peclet, double x, double y)
+{
+    rb_rolling_case rc = {.formulation = RB_STEADY, .a.support = RB_BEM_HALFPLANE};
+    double middle = 0.0, length = 2.0, heat = 1.0;
+    const rb_rolling_solution s = {.n = 1, .x = &middle, .h = &length, .heat_a = &heat};
+    rb_rolling_stress at = {.x = x, .y = y};
+
+    rc.heat_a = (rb_rolling_heat){1.0, 1.0, 0.0};
+    rc.speed = 2.0 * peclet;
+    CHECK_STATUS(rb_rolling_temperature_inside(&rc, &s, 0, 1, &at, &heard), RB_OK);
+    return at.temperature;
+}
+
+/* Adaptive quadrature in numpy, 1e-14. */
+TEST(temperature_below_a_band)
+{
+    static const struct {
+        double peclet, t[4];
+    } band[] = {{0.1, {1.843677, 1.656507, 2.084438, 1.177646}},
+                {1.0, {0.822124, 0.605941, 0.768439, 0.427494}},
+                {10.0, {0.259262, 0.061769, 0.168066, 0.094589}},
+                {100.0, {0.040010, 0.000016, 0.016784, 0.000801}}};
+    static const double at[4][2] = {{-1.0, 0.1}, {-1.0, 0.5}, {0.0, 0.1}, {-3.0, 0.5}};
+
+    for (size_t k = 0; k < sizeof band / sizeof *band; k++)
+        for (int j = 0; j < 4; j++)
+            CHECK_ABS(below_band(band[k].peclet, at[j][0], at[j][1]), band[k].t[j], 6e-7,
+                      "Pe = %g, (%g, %g)", band[k].peclet, at[j][0], at[j][1]);
+    /* at the surface that of (T1), which no panel meets; just below it, too */
+    CHECK_ABS(below_band(1.0, -1.0, 0.0), 0.875381, 6e-7, "surface");
+    CHECK_ABS(below_band(1.0, -1.0, 1e-9), below_band(1.0, -1.0, 0.0), 1e-8, "just below");
+    /* exp(u) alone has no double there */
+    assert_true(isfinite(below_band(1e6, -1.0, 1e-4)));
+}
+
+/* Far downstream the body carries all of the heat, 2 H a, with it. */
+TEST(heat_goes_with_the_body)
+{
+    double carried = 0.0;
+
+    for (int k = 0; k < 4000; k++)
+        carried += 0.05 * below_band(1.0, -40.0, 0.05 * (k + 0.5));
+    CHECK_ABS(2.0 * carried, 2.0, 1e-10, "c V int T dy");
+}
+
+/* Exchanged bodies: what was A's is B's, to rounding; the sum is the friction power. */
+TEST(each_body_has_its_heat)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults(), other;
+    rc.formulation = RB_STEADY;
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = 1;
+    rc.approach = NAN;
+    rc.load = 500.0;
+    rc.mu = 0.3;
+    rc.creep = 0.02;
+    rc.contact_elements = 40;
+    rc.speed = 200.0;
+    rc.heat_a = (rb_rolling_heat){50.0, 3.77, 0.0};
+    rc.heat_b = (rb_rolling_heat){0.31, 2.0, 0.0};
+    other = rc;
+    other.creep = -rc.creep;
+    other.heat_a = rc.heat_b;
+    other.heat_b = rc.heat_a;
+    rb_rolling_solution s = {0}, t = {0};
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_OK);
+    CHECK_STATUS(rb_rolling_solve(&other, &t, &heard), RB_OK);
+    CHECK_REL(s.heat_into_a + s.heat_into_b, rc.speed * s.dissipation, 1e-12, "all of it");
+    CHECK_REL(t.heat_share_a, s.heat_into_b / (s.heat_into_a + s.heat_into_b), 1e-10, "shares");
+    for (int k = 0; k < 9; k++) {
+        rb_rolling_stress a = {.x = -2.0 + 0.4 * k, .y = 0.05 * k * k}, b = a;
+        b.y = -a.y;
+        CHECK_STATUS(rb_rolling_temperature_inside(&rc, &s, 0, 1, &a, &heard), RB_OK);
+        CHECK_STATUS(rb_rolling_temperature_inside(&other, &t, 1, 1, &b, &heard), RB_OK);
+        CHECK_REL(b.temperature, a.temperature, 1e-9, "point %d", k);
+    }
+    for (int i = 0; i < s.n; i += 7) { /* the surface is that of (T1) */
+        rb_rolling_stress a = {.x = s.x[i]};
+        CHECK_STATUS(rb_rolling_temperature_inside(&rc, &s, 0, 1, &a, &heard), RB_OK);
+        CHECK_REL(a.temperature, s.temperature[i], 1e-9, "element %d", i);
+    }
+    rb_rolling_solution_free(&s);
+    rb_rolling_solution_free(&t);
+    rc.heat_b.conductivity = 0.0; /* insulated: A takes all */
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), RB_OK);
+    CHECK_ABS(s.heat_share_a, 1.0, 0.0, "insulated B");
+    rc.heat_a.temperature = 20.0; /* conduction adds: no share of friction alone */
+    rc.heat_b = (rb_rolling_heat){0.31, 2.0, 0.0};
+    CHECK_STATUS(rb_rolling_solve(&rc, &t, &heard), RB_OK);
+    assert_true(isnan(t.heat_share_a) && t.heat_into_a < s.heat_into_a);
+    rb_rolling_solution_free(&s);
+    rb_rolling_solution_free(&t);
+}
+
 /* ---- An elliptic source ------------------------------------------------------------ */
 
 /* Similar bodies that slide so fast that the strain does not count: H = mu p xi V. */

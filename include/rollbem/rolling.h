@@ -358,9 +358,10 @@ typedef struct {
     double *plastic; /* accumulated plastic slip of the interface [length]; NULL if it
                         does not yield */
     double *temperature,
-        *temperature_b; /* of the surfaces; NULL if the case has no heat conduction */
-    double *worn;       /* worn depth [length]; NULL if nothing is worn */
-    double *mu;         /* friction coefficients; NULL: the same for all elements */
+        *temperature_b;      /* of the surfaces; NULL if the case has no heat conduction */
+    double *heat_a, *heat_b; /* that enters them per area [stress * length/time]; likewise */
+    double *worn;            /* worn depth [length]; NULL if nothing is worn */
+    double *mu;              /* friction coefficients; NULL: the same for all elements */
 
     int patches;
     rb_rolling_patch *patch; /* in the order of increasing x; owned */
@@ -436,7 +437,11 @@ typedef struct {
     double max_temperature;    /* maximum in the contact; this and the next two are NAN if
                                   the case has no heat conduction */
     double max_temperature_at; /* [length] */
-    double peclet;             /* V a/(2 diffusivity of A), a the half-width */
+    double heat_into_a, heat_into_b; /* the heat that enters each body [force/time]; like the next
+                                        NAN without heat conduction */
+    double heat_share_a;    /* heat_into_a over their sum; NAN if the bodies are not equally warm
+                               far away */
+    double peclet;          /* V a/(2 diffusivity of A), a the half-width */
     double kappa;           /* (F3) for a friction law that depends on the state; above 1 there may
                                be several solutions; otherwise NAN */
     rb_contact_proof proof; /* asked 0: none was asked for */
@@ -762,6 +767,7 @@ typedef struct {
     double tresca_shear;             /* half the largest difference of all three principal
                                         stresses, szz being one of them */
     double von_mises, hydrostatic;   /* hydrostatic = trace/3 */
+    double temperature;              /* in steady rolling with heat conduction */
 } rb_rolling_stress;
 
 /* Stress of a solved model at n points xy (x0, y0, x1, y1, ...).  For a wheel the points

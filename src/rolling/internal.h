@@ -322,13 +322,23 @@ double rb_rolling_sliding_creepage(const rb_rolling_case *rc, const rb_contact_p
 int rb_rolling_has_heat(const rb_rolling_case *rc);
 /* V a/(2 diffusivity); INFINITY if no heat enters the body. */
 double rb_rolling_peclet(const rb_rolling_heat *body, double speed, double half_width);
+/* The speed at which the surface of A (of_b: B) passes the contact, V (1 -+ xi/2), V the mean of
+ * both; < 0: towards +x. */
+double rb_rolling_surface_speed(const rb_rolling_case *rc, int of_b, double creepage);
 /* Temperatures of both surfaces (n each) under the friction power per unit speed (n) of
- * a steady solution with tractions, slip and zones.  conduction: where what the elements
- * make of heat is kept, from NULL on; freed by the caller. */
+ * a steady solution with tractions, slip and zones, and the heat per area that enters each (NULL:
+ * not asked for).  conduction: where what the elements make of heat is kept, from NULL on; freed by
+ * the caller. */
 rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_rolling_solution *s,
                                         const double *power,
                                         struct rb_rolling_conduction **conduction, double *t_a,
-                                        double *t_b, rb_message *why);
+                                        double *t_b, double *heat_a, double *heat_b,
+                                        rb_message *why);
+/* Of transient rolling: each body takes heat as its effusivity and the root of its speed. */
+void rb_rolling_heat_by_effusivity(const rb_rolling_case *rc, const double *power,
+                                   rb_rolling_solution *s);
+/* (T1) G(z): what heat between a point and z/P upstream of it adds to its temperature. */
+double rb_rolling_moving_source(double z);
 
 /* The heat of earlier steps, for the particles that are still in the mesh. */
 typedef struct rb_rolling_heat_track {

@@ -236,6 +236,7 @@ typedef enum {
 typedef enum {
     RB_FOR_ALL,
     RB_FOR_HEAT,
+    RB_FOR_HEAT_INSIDE, /* heat of steady rolling */
     RB_FOR_WORN,
     RB_FOR_LAW,        /* friction coefficients that differ between elements */
     RB_FOR_MOVING_LAW, /* friction coefficients that depend on the state */
@@ -466,7 +467,7 @@ void rb_rolling_peak_temperature(int n, const double *x, const int *zone, const 
 void rb_rolling_conduction_free(struct rb_rolling_conduction *conduction);
 rb_status rb_rolling_solution_heat(const rb_rolling_case *rc, const rb_rolling_solution *s,
                                    struct rb_rolling_conduction **conduction, double *t_a,
-                                   double *t_b, rb_message *why);
+                                   double *t_b, double *heat_a, double *heat_b, rb_message *why);
 
 /* What the tractions of a solved model displace, kept for all variants of the model; of is
  * borrowed. NULL without memory. */
@@ -771,6 +772,11 @@ typedef struct {
     rb_rolling_stress *at; /* nx x ny; stresses of points that are not inside are NAN; owned */
     int *inside;           /* nx x ny; owned */
 } rb_rolling_stress_grid;
+
+/* Sets the temperature of n points of A, or of B (y <= 0), under the heat of a solution in mm, N,
+ * MPa; NAN where the case has none that it can know.  RB_ENOMEM, RB_EINVAL. */
+rb_status rb_rolling_temperature_inside(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                                        int of_b, int n, rb_rolling_stress *at, rb_message *why);
 
 /* Computes shear_yield and x again from the stress at the depth y and the given residual
  * stress. */

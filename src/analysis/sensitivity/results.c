@@ -110,7 +110,8 @@ static rb_status differentiate_heat(const rb_sensitivity *s, const rb_sensitivit
     if (scratch.failed)
         return rb_arena_done(&scratch, RB_ENOMEM);
     for (int k = 0; k < v->at.n && status == RB_OK; k++) {
-        status = rb_rolling_solution_heat(v->model[k].rc, at, &conduction, t, t + n, why);
+        status =
+            rb_rolling_solution_heat(v->model[k].rc, at, &conduction, t, t + n, NULL, NULL, why);
         cblas_daxpy(2 * s->n, v->at.weight[k] / v->step, t, 1, warmer, 1);
     }
     rb_rolling_solution small = *at;
@@ -126,7 +127,8 @@ static rb_status differentiate_heat(const rb_sensitivity *s, const rb_sensitivit
             for (size_t i = 0; i < n; i++)
                 near[j][i] = from[j][i] + part * (to[j][i] - from[j][i]);
         small.creepage = at->creepage + part * (moved[k].creepage - at->creepage);
-        status = rb_rolling_solution_heat(s->model->rc, &small, &conduction, t, t + n, why);
+        status =
+            rb_rolling_solution_heat(s->model->rc, &small, &conduction, t, t + n, NULL, NULL, why);
         cblas_daxpy(2 * s->n, v->at.weight[k] / (part * v->step), t, 1, warmer, 1);
     }
     rb_rolling_conduction_free(conduction);

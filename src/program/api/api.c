@@ -1266,9 +1266,24 @@ static rb_status keep_stress(rb_api *a, int nx, int ny, const rb_rolling_stress 
     const rb_rolling_results *table = &rb_rolling_stress_scalars;
     const entries all = {"stress.", table, at, nx, ny, sizeof *at};
     for (int k = 0; k < table->n; k++)
-        if (!make_entries(a, &all, &table->row[k]))
+        if (rb_rolling_has_result(&table->row[k], a->result.model.rc, 0) &&
+            !make_entries(a, &all, &table->row[k]))
             return RB_ENOMEM;
     return RB_OK;
+}
+
+/* Temperatures under the heat of the solution, which is kept in the units that are shown. */
+static rb_status add_temperature(rb_api *a, int n, rb_rolling_stress *at)
+{
+    rb_rolling_solution s = {0};
+    if (!a->result.solution.temperature)
+        return RB_OK;
+    rb_status status = rb_rolling_model_solution(&a->result.model, &s, &a->why);
+    if (status == RB_OK)
+        status =
+            rb_rolling_temperature_inside(a->result.model.rc, &s, a->stress_of_b, n, at, &a->why);
+    rb_rolling_solution_free(&s);
+    return status;
 }
 
 int rb_api_stress_of(rb_api *a, int of_b)
@@ -1311,6 +1326,8 @@ int rb_api_stress(rb_api *a, int nx, int ny, double depth)
     if (s == RB_OK && a->stress_of_b)
         rb_rolling_mirror_grid(&grid);
     if (s == RB_OK)
+        s = add_temperature(a, nx * ny, grid.at);
+    if (s == RB_OK)
         s = keep_stress(a, nx, ny, grid.at);
     rb_rolling_stress_grid_free(&grid);
     return rb_api_ended(a, s);
@@ -1336,6 +1353,8 @@ int rb_api_stress_at(rb_api *a, int n, const double *xy)
     rb_rolling_mirror_free(mirror);
     if (s == RB_OK && a->stress_of_b)
         rb_rolling_mirror_stress(n, at, NULL);
+    if (s == RB_OK)
+        s = add_temperature(a, n, at);
     if (s == RB_OK)
         s = keep_stress(a, n, 1, at);
     free(place);

@@ -148,6 +148,10 @@ rb_status rb_certificate_restore_stress(rb_certificate *c, const json_t *root,
         rb_rolling_mirror_stress(grid ? 0 : s->grid.nx, s->grid.at, &s->maxima);
         s->limit.y = 0.0 - s->limit.y;
     }
+    if (status == RB_OK)
+        status = rb_rolling_temperature_inside(r->model.rc, &r->solution, of_b,
+                                               grid ? s->grid.nx * s->grid.ny : s->grid.nx,
+                                               s->grid.at, why);
     s->shown = (rb_report_stress){.of_b = of_b,
                                   .nx = grid ? s->grid.nx : 0,
                                   .ny = s->grid.ny,

@@ -248,6 +248,9 @@ static rb_status solve_points(stress *st, const rb_rolling_model *model, rb_mess
         s = rb_rolling_stress_at(model, n, st->xy, st->at_points, why);
     if (s == RB_OK && st->of_b)
         rb_rolling_mirror_stress(n, st->at_points, NULL);
+    if (s == RB_OK)
+        s = rb_rolling_temperature_inside(st->run.model.rc, &st->run.solution, st->of_b, n,
+                                          st->at_points, why);
     free(inside);
     return s;
 }
@@ -345,6 +348,9 @@ static rb_status solve_stress(cli_case_run *run, rb_message *why)
             s = solve_points(st, model, why);
         else if (s == RB_OK)
             s = solve_grid(st, model, st->nx, st->ny, &st->at, why);
+        if (s == RB_OK) /* pictures have none */
+            s = rb_rolling_temperature_inside(st->run.model.rc, &st->run.solution, st->of_b,
+                                              st->at.nx * st->at.ny, st->at.at, why);
         if (s == RB_OK && st->fringes)
             s = solve_grid(st, model, FRINGES_X, FRINGES_Y, &st->fine, why);
         else if (s == RB_OK && run->o.plot)

@@ -10,7 +10,7 @@
 
 static rb_report_columns columns_of(const rb_rolling_curve *c, int kind)
 {
-    return (rb_report_columns){&rb_rolling_curve_columns, c, kind, c->units, 0, NULL};
+    return (rb_report_columns){&rb_rolling_curve_columns, c, kind, c->units, 0, NULL, NULL};
 }
 
 /* The coefficient that Q/(mu P) of a curve refers to: of a law that falls, that of rest. */

@@ -32,6 +32,7 @@ typedef struct {
     rb_units units;
     size_t size;                    /* of a struct of the array; 0: owner has columns */
     const rb_report_scales *scales; /* NULL: numbers with units */
+    const rb_rolling_case *rc;      /* whose results an array of structs shows; NULL: all */
 } rb_report_columns;
 
 /* 1: the column is there and shown. */

@@ -76,7 +76,8 @@ void rb_report_comment_head(const rb_report_cells *c, const char *command)
 int rb_report_shows(const rb_report_columns *c, const rb_rolling_result *r)
 {
     return (c->kind != RB_REPORT_ERRORS || r->error_bar) &&
-           (c->size > 0 || rb_rolling_has_column(r, c->owner));
+           (c->size > 0 ? !c->rc || rb_rolling_has_result(r, c->rc, 0)
+                        : rb_rolling_has_column(r, c->owner));
 }
 
 double rb_report_entry(const rb_report_columns *c, const rb_rolling_result *r, int i)

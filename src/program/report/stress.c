@@ -139,7 +139,8 @@ static rb_report_columns columns_of(const rb_report_stress *s)
     return (rb_report_columns){.columns = &rb_rolling_stress_scalars,
                                .owner = s->at,
                                .units = s->s->units,
-                               .size = sizeof *s->at};
+                               .size = sizeof *s->at,
+                               .rc = s->rc};
 }
 
 rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s, const char *command,

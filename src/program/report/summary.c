@@ -213,6 +213,13 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
     if (!isnan(s->max_temperature))
         fprintf(out, "  heat      %.5g K at x = %.4g %s at most, Peclet number %.3g\n",
                 s->max_temperature, s->max_temperature_at, rb_unit_name(s->units, "mm"), s->peclet);
+    if (!isnan(s->heat_into_a)) {
+        fprintf(out, "            %.5g W/m into A, %.5g W/m into B", s->heat_into_a,
+                s->heat_into_b);
+        if (!isnan(s->heat_share_a))
+            fprintf(out, ": A takes %.4g %%", 100.0 * s->heat_share_a);
+        fputc('\n', out);
+    }
     enum { LONGEST = 200 };
     char strip[LONGEST + 1];
     const int room = width - 13 < LONGEST ? width - 13 : LONGEST;

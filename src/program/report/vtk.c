@@ -84,6 +84,8 @@ static void write_point_data(FILE *out, selection *v)
     fputs("<PointData Scalars=\"max_shear\" Tensors=\"stress\">\n", out);
     for (int j = FIRST_SCALAR; j < rb_rolling_stress_scalars.n; j++) {
         const rb_rolling_result *r = &rb_rolling_stress_scalars.row[j];
+        if (!rb_rolling_has_result(r, v->s->rc, 0))
+            continue;
         for (int k = 0, m = 0; k < v->s->n; k++)
             if (v->number[k] >= 0)
                 v->work[m++] = rb_rolling_number(r, &v->s->at[k]);

@@ -9,10 +9,11 @@
 /* The steps, and their error bars.  Returns how many. */
 static int parts_of(const rb_rolling_wear_history *h, rb_report_columns part[2])
 {
-    part[0] = (rb_report_columns){&rb_rolling_wear_columns, h, RB_REPORT_VALUES, h->units, 0, NULL};
+    part[0] =
+        (rb_report_columns){&rb_rolling_wear_columns, h, RB_REPORT_VALUES, h->units, 0, NULL, NULL};
     if (h->errors)
         part[1] = (rb_report_columns){
-            &rb_rolling_wear_columns, h->errors, RB_REPORT_ERRORS, h->units, 0, NULL};
+            &rb_rolling_wear_columns, h->errors, RB_REPORT_ERRORS, h->units, 0, NULL, NULL};
     return h->errors ? 2 : 1;
 }
 

@@ -30,6 +30,44 @@ static void flash_temperature(rb_verify *v, int elements, double creep, double b
         bound, "flash temperature, creepage %g, %d elements", creep, elements);
 }
 
+/* Steel on aluminium that slides so slowly that heat runs ahead of the contact: who takes it, and
+ * how warm both are below (references of numpy, elliptic heat on 200 cosine elements). */
+static void heat_share(rb_verify *v)
+{
+    static const struct {
+        double speed, share, rise, inside[2]; /* inside: at (-0.5, +-0.1) */
+    } wanted[] = {{10.0, 0.315895, 4.5723, {4.15379, 4.21775}},
+                  {100.0, 0.375319, 2.0490, {1.71116, 1.86068}}};
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_ALIGNED;
+    rc.contact_elements = 200;
+    rc.half_width = 1.0;
+    rc.mu = 1e-7; /* slides everywhere, at speeds that are nearly the same */
+    rc.creep = 1e-4;
+    rc.heat_a = (rb_rolling_heat){50.0, 3.77, 0.0};
+    rc.heat_b = (rb_rolling_heat){200.0, 2.43, 0.0};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++) {
+        static rb_message why;
+        rc.speed = wanted[k].speed;
+        const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+        const double heat = 1e-3 * (s->heat_into_a + s->heat_into_b); /* [W/mm] */
+        rb_verify_relative(v, s->heat_share_a, wanted[k].share, 3e-4,
+                           "heat share of steel on aluminium, V = %g mm/s", rc.speed);
+        rb_verify_relative(v, s->max_temperature / heat, wanted[k].rise, 3e-4,
+                           "its largest rise per W/mm, V = %g mm/s", rc.speed);
+        for (int of_b = 0; of_b < 2; of_b++) {
+            rb_rolling_stress at = {.x = -0.5, .y = of_b ? -0.1 : 0.1};
+            const rb_status found =
+                s->n ? rb_rolling_temperature_inside(&rc, s, of_b, 1, &at, &why) : RB_OK;
+            rb_verify_note(v, found, &why);
+            rb_verify_relative(v, at.temperature / heat, wanted[k].inside[of_b], 3e-4,
+                               "rise 0.1 a below the surface of %s, V = %g mm/s", of_b ? "B" : "A",
+                               rc.speed);
+        }
+    }
+}
+
 /* A cylinder that slides until it has lost 400 times the gap at the edge of Hertz's
  * contact: V = K P S, and p = P/(2b) with V = 2 b^3/(3R). */
 static void wear(rb_verify *v, int steps)
@@ -193,6 +231,7 @@ void rb_verify_interface(rb_verify *v)
     flash_temperature(v, 50, 0.1, 5e-4);
     flash_temperature(v, 200, 0.1, 6.3e-5);
     flash_temperature(v, 200, 2.0, 1e-4);
+    heat_share(v);
     wear(v, 1);
     wear(v, 5);
     worn_limit(v, 54, 0.065);

@@ -828,7 +828,6 @@ static const struct {
     {WEAR, " time-step relaxation-time relaxation-ratio relaxation-time-b relaxation-ratio-b ",
      "wear is of elastic bodies only"},
     {WEAR, " yield-stress hardening ", "wear has no third body that yields"},
-    {STRESS, HEAT, "stress has no temperatures"},
     {WEAR, HEAT, "wear has no temperatures"},
     {DESIGN, " error accuracy history distance steps irregularity increments time-step ",
      no_steps}};

@@ -28,7 +28,7 @@ double rb_rolling_peclet(const rb_rolling_heat *body, double speed, double half_
 /* ---- One body (T1) ----------------------------------------------------------------- */
 
 /* G(z) = z exp(z) [K0|z| + sgn(z) K1|z|] - 1, the integral of exp(t) K0|t| from 0. */
-static double moving_source(double z)
+double rb_rolling_moving_source(double z)
 {
     const double r = fabs(z);
 
@@ -48,12 +48,10 @@ static double rise_from_origin(const rb_rolling_heat *body, double speed, double
 {
     const double P = speed / (2.0 * diffusivity(body)); /* odd in P: the mirror image */
 
-    return moving_source(P * x) / (M_PI * body->conductivity * P);
+    return rb_rolling_moving_source(P * x) / (M_PI * body->conductivity * P);
 }
 
-/* The speed at which the surface of A (of_b: B) passes the contact, V (1 -+ xi/2), V the mean of
- * both; < 0: towards +x. */
-static double surface_speed(const rb_rolling_case *rc, int of_b, double creepage)
+double rb_rolling_surface_speed(const rb_rolling_case *rc, int of_b, double creepage)
 {
     return rc->speed * (of_b ? 1.0 + 0.5 * creepage : 1.0 - 0.5 * creepage);
 }
@@ -311,10 +309,12 @@ static rb_status share_heat(const conductor *a, const conductor *b, const rb_rol
 rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_rolling_solution *s,
                                         const double *power,
                                         struct rb_rolling_conduction **conduction, double *t_a,
-                                        double *t_b, rb_message *why)
+                                        double *t_b, double *per_area_a, double *per_area_b,
+                                        rb_message *why)
 {
     /* A surface that rests under the contact has been warmed for ever: it takes no heat. */
-    const double V_a = surface_speed(rc, 0, s->creepage), V_b = surface_speed(rc, 1, s->creepage);
+    const double V_a = rb_rolling_surface_speed(rc, 0, s->creepage),
+                 V_b = rb_rolling_surface_speed(rc, 1, s->creepage);
     const int n = s->n, into_a = V_a != 0.0, into_b = rc->heat_b.conductivity > 0.0 && V_b != 0.0,
               alike = into_a && into_b && V_a == V_b && is_alike(&rc->heat_a, &rc->heat_b),
               shared = into_a && into_b && !alike;
@@ -358,6 +358,10 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_roll
         status = warm(&own->a, heat_a, t_a);
     for (int i = 0; i < n && status == RB_OK; i++)
         heat[i] -= heat_a[i];
+    if (status == RB_OK && per_area_a) {
+        memcpy(per_area_a, heat_a, (size_t)n * sizeof *heat_a);
+        memcpy(per_area_b, heat, (size_t)n * sizeof *heat);
+    }
     if (status == RB_OK && into_b && !alike)
         status = warm(&own->b, heat, t_b);
     /* What takes no heat has its own temperature, and in contact that of the other surface. */
@@ -413,7 +417,7 @@ rb_status rb_rolling_heat_track_check(const rb_rolling_case *rc, double half_wid
     const rb_rolling_heat *const body[2] = {&rc->heat_a, &rc->heat_b};
 
     for (int b = 0; b < 2; b++) {
-        const double V = surface_speed(rc, b, creepage),
+        const double V = rb_rolling_surface_speed(rc, b, creepage),
                      peclet = rb_rolling_peclet(body[b], V, half_width);
         if (!(peclet >= LEAST_PECLET))
             return rb_fail(why, RB_EINVAL,
@@ -450,16 +454,33 @@ void rb_rolling_heat_track_advance(rb_rolling_heat_track *t)
     t->known = t->known < t->rows ? t->known + 1 : t->rows;
 }
 
+/* What a surface takes grows like the root of its own speed. */
+static double taken(const rb_rolling_case *rc, int of_b, double creepage)
+{
+    const rb_rolling_heat *body = of_b ? &rc->heat_b : &rc->heat_a;
+
+    return sqrt(body->conductivity * body->heat_capacity *
+                fabs(rb_rolling_surface_speed(rc, of_b, creepage) / rc->speed));
+}
+
+void rb_rolling_heat_by_effusivity(const rb_rolling_case *rc, const double *power,
+                                   rb_rolling_solution *s)
+{
+    const double a = taken(rc, 0, s->creepage), b = taken(rc, 1, s->creepage);
+
+    for (int i = 0; i < s->n; i++) {
+        const double heat = rc->speed * power[i] + 0.0; /* not -0 */
+        s->heat_a[i] = heat * a / (a + b);
+        s->heat_b[i] = heat * b / (a + b);
+    }
+}
+
 /* (T3) A particle at x was at x + k c when the k-th step back ended. */
 void rb_rolling_heat_track_step(const rb_rolling_case *rc, const rb_contact_state *state,
                                 rb_rolling_heat_track *t, double *temperature)
 {
     const double *q = state->q, *lambda = state->lambda;
-    const rb_rolling_heat *const body[2] = {&rc->heat_a, &rc->heat_b};
-    double effusivity = 0.0; /* what a surface takes grows like the root of its own speed */
-    for (int b = 0; b < 2; b++)
-        effusivity += sqrt(body[b]->conductivity * body[b]->heat_capacity *
-                           fabs(surface_speed(rc, b, state->xi) / rc->speed));
+    const double effusivity = taken(rc, 0, state->xi) + taken(rc, 1, state->xi);
     const double unit = 2.0 * sqrt(t->step / (M_PI * rc->speed)) / effusivity;
 
     for (int i = 0; i < t->n; i++) {

@@ -125,6 +125,13 @@ static const rb_rolling_result scalars[] = {
     RESULT("max_temperature_at", max_temperature_at, .no_derivative = 1, .unit = "mm",
            .error_bar = RB_SCALE_ELEMENT, .study = 20, .condition = RB_FOR_HEAT,
            .meaning = "its place"),
+    RESULT("heat_a", heat_into_a, .unit = "W/m", .no_derivative = 1, .study = 27,
+           .condition = RB_FOR_HEAT, .meaning = "heat that enters A per width"),
+    RESULT("heat_b", heat_into_b, .unit = "W/m", .no_derivative = 1, .study = 28,
+           .condition = RB_FOR_HEAT, .meaning = "heat that enters B"),
+    RESULT("heat_share_a", heat_share_a, .no_derivative = 1, .error_bar = RB_SCALE_ONE, .study = 29,
+           .condition = RB_FOR_HEAT,
+           .meaning = "heat_a over their sum, of bodies that are equally warm far away"),
     RESULT("peclet", peclet, .study = 21, .condition = RB_FOR_HEAT,
            .meaning = "V a/(2 diffusivity of A), a the half-width"),
     RESULT("kappa", kappa, .study = 23, .condition = RB_FOR_MOVING_LAW,
@@ -166,6 +173,10 @@ static const rb_rolling_result columns[] = {
            .meaning = "coefficient of friction by the law"),
     RESULT("plastic", plastic, .unit = "mm", .condition = RB_FOR_YIELD,
            .meaning = "what the interface has yielded, of either direction"),
+    RESULT("heat_flux_a", heat_a, .no_derivative = 1, .unit = "kW/m2", .condition = RB_FOR_HEAT,
+           .meaning = "heat that enters A's surface per area"),
+    RESULT("heat_flux_b", heat_b, .no_derivative = 1, .unit = "kW/m2", .condition = RB_FOR_HEAT,
+           .meaning = "heat that enters B's surface per area"),
 };
 
 /* New ones at the end: scripts count columns. */
@@ -313,6 +324,8 @@ static const rb_rolling_result stresses[] = {
            .meaning = "largest shear of all planes, after Tresca"),
     STRESS("von_mises", von_mises, .unit = "MPa", .meaning = "stress of von Mises"),
     STRESS("hydrostatic", hydrostatic, .unit = "MPa", .meaning = "a third of the trace"),
+    STRESS("temperature", temperature, .unit = "K", .condition = RB_FOR_HEAT_INSIDE,
+           .meaning = "under the heat of friction, curvature neglected"),
 };
 
 /* of: behind the names of body B's */
@@ -412,6 +425,8 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc,
     switch (r->condition) {
     case RB_FOR_HEAT:
         return rb_rolling_has_heat(rc);
+    case RB_FOR_HEAT_INSIDE:
+        return rb_rolling_has_heat(rc) && rc->formulation == RB_STEADY;
     case RB_FOR_WORN:
         return rc->worn.n > 0;
     case RB_FOR_LAW:

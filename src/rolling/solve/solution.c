@@ -192,16 +192,30 @@ static void set_counts(const rb_rolling_model *model, rb_rolling_solution *s)
 
 rb_status rb_rolling_solution_heat(const rb_rolling_case *rc, const rb_rolling_solution *s,
                                    struct rb_rolling_conduction **conduction, double *t_a,
-                                   double *t_b, rb_message *why)
+                                   double *t_b, double *heat_a, double *heat_b, rb_message *why)
 {
     double *power = rb_alloc((size_t)s->n, 1);
 
     if (!power)
         return RB_ENOMEM;
     rb_rolling_friction_power(s, power);
-    const rb_status status = rb_rolling_steady_temperature(rc, s, power, conduction, t_a, t_b, why);
+    const rb_status status =
+        rb_rolling_steady_temperature(rc, s, power, conduction, t_a, t_b, heat_a, heat_b, why);
     free(power);
     return status;
+}
+
+/* The sums of the heat of the elements. */
+static void set_heat(const rb_rolling_case *rc, rb_rolling_solution *s)
+{
+    s->heat_into_a = s->heat_into_b = 0.0;
+    for (int i = 0; i < s->n; i++) {
+        s->heat_into_a += s->h[i] * s->heat_a[i];
+        s->heat_into_b += s->h[i] * s->heat_b[i];
+    }
+    const double both = s->heat_into_a + s->heat_into_b;
+    if (rc->heat_a.temperature == rc->heat_b.temperature && both > 0.0)
+        s->heat_share_a = s->heat_into_a / both;
 }
 
 rb_status rb_rolling_set_temperature(const rb_rolling_model *model, rb_rolling_solution *s,
@@ -216,13 +230,20 @@ rb_status rb_rolling_set_temperature(const rb_rolling_model *model, rb_rolling_s
     /* of a transient the steps have followed the heat */
     if (rc->formulation == RB_STEADY) {
         struct rb_rolling_conduction *conduction = NULL;
-        status =
-            rb_rolling_solution_heat(rc, s, &conduction, s->temperature, s->temperature_b, why);
+        status = rb_rolling_solution_heat(rc, s, &conduction, s->temperature, s->temperature_b,
+                                          s->heat_a, s->heat_b, why);
         rb_rolling_conduction_free(conduction);
     } else if (model->carried.temperature) {
+        double *power = rb_alloc((size_t)s->n, 1);
+        if (!power)
+            return RB_ENOMEM;
         memcpy(s->temperature, model->carried.temperature, size);
         memcpy(s->temperature_b, model->carried.temperature, size);
+        rb_rolling_friction_power(s, power);
+        rb_rolling_heat_by_effusivity(rc, power, s);
+        free(power);
     }
+    set_heat(rc, s);
     rb_rolling_peak_temperature(s->n, s->x, s->zone, s->temperature, &s->max_temperature,
                                 &s->max_temperature_at);
     return status;
@@ -320,6 +341,7 @@ rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_sol
             unless_tiny(s->dissipation, 1e-11 * rb_rolling_largest_mu(model->rc) * s->normal_load *
                                             rb_rolling_derive(model->rc).strain);
     s->max_temperature = s->max_temperature_at = NAN;
+    s->heat_into_a = s->heat_into_b = s->heat_share_a = NAN;
     s->peclet = s->temperature
                     ? rb_rolling_peclet(&model->rc->heat_a, model->rc->speed, s->half_width)
                     : NAN;

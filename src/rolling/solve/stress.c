@@ -303,7 +303,7 @@ rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *
 
 static rb_rolling_stress nothing_at(double x, double y)
 {
-    return (rb_rolling_stress){x, y, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    return (rb_rolling_stress){x, y, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
 }
 
 /* Under the contact between two edges and half as wide on either side of it, nx x ny points
