@@ -217,6 +217,24 @@ static void expect_violations(const json_t *root, int wanted)
     assert_int_equal(found.violations, wanted);
 }
 
+/* A radius that a table of the gap has stays when that of B changes: the inputs name it. */
+TEST(derivatives_of_a_radius_that_a_table_has)
+{
+    FILE *file = fopen("parabola.txt", "w");
+    assert_non_null(file);
+    for (int i = -150; i <= 150; i++)
+        fprintf(file, "%.10g %.10g\n", 0.04 * i, 0.04 * i * 0.04 * i / 100.0);
+    assert_int_equal(fclose(file), 0);
+    assert_int_equal(
+        rollbem("--support halfplane --formulation static --contact-elements 14 "
+                "--young-b 2e5 --radius-b -80 --gap parabola.txt --approach 0.04 --shift 0.002 "
+                "--derivatives=hertz_half_width --json --output r.json"),
+        0);
+    CHECK_RUN(rollbem("check r.json"), 0, out, "r.json: valid");
+    unlink("r.json");
+    unlink("parabola.txt");
+}
+
 /* Given values that the result does not meet, and those that it does not depend on. */
 /* Of one step and several, of a table, and with the proof in the result; bounds that are too good
  * are noticed, and tractions that belong to no solution. */

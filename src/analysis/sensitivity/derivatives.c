@@ -31,13 +31,9 @@ static double *place_of(const rb_option *o, int entry, rb_resolved_case *words)
                                                  : (double *)(void *)((char *)words + o->offset);
 }
 
-/* A copy of the case in which the number is given, with another value in mm, N, MPa. */
-static rb_case *varied(const rb_case *c, const rb_option *o, int entry, double value)
+/* Gives the number in a copy of the case another value in mm, N, MPa. */
+static void give(const rb_case *c, const rb_option *o, int entry, double value, rb_case *copy)
 {
-    rb_case *copy = rb_case_copy(c);
-
-    if (!copy)
-        return NULL;
     const int k = (int)(o - rb_case_table);
     rb_resolved_case *words = &copy->words;
     if (o->list) { /* its other numbers as they are resolved, in the same units */
@@ -52,6 +48,19 @@ static rb_case *varied(const rb_case *c, const rb_option *o, int entry, double v
         *(double *)(void *)((char *)words + o->offset) = value;
     copy->plain[k] = 0;
     copy->given[k] = copy->given[k] ? copy->given[k] : RB_GIVEN_NUMBER;
+}
+
+/* A copy of the case in which the number is given.  A radius that the table of a gap has is a
+ * number by itself, as in the inputs of a result, and stays when others change. */
+static rb_case *varied(const rb_case *c, const rb_option *o, int entry, double value)
+{
+    rb_case *copy = rb_case_copy(c);
+
+    if (copy && c->resolved.rc.gap == RB_GAP_TABLE && !rb_case_given(c, "radius") &&
+        isfinite(c->resolved.rc.a.radius))
+        give(c, rb_case_option("radius"), 0, c->resolved.rc.a.radius, copy);
+    if (copy)
+        give(c, o, entry, value, copy);
     return copy;
 }
 
