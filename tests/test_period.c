@@ -168,7 +168,7 @@ TEST(tables)
                      2);
 }
 
-/* A history loads and unloads; the document is checked. */
+/* A history loads and unloads, also parabolas; the document is checked. */
 TEST(histories_and_check)
 {
     write_file("up.txt", "load force_ratio\n0.01 0\n0.03 0\n0.05 0\n0.0187 0\n");
@@ -181,6 +181,12 @@ TEST(histories_and_check)
     assert_int_equal(
         rollbem(WAVE "--mu 0.3 --load 0.04 --force-ratio 0.6 --prove --json > flat.json"), 0);
     assert_int_equal(rollbem("check flat.json"), 0);
+    write_file("down.txt", "load shift\n200 1e-3\n400 2e-3\n");
+    assert_int_equal(
+        rollbem("--support halfplane --formulation static --gap parabola --period 30 "
+                "--contact-elements 15 --history down.txt --states --json > down.json"),
+        0);
+    assert_int_equal(rollbem("check down.json"), 0);
 }
 
 /* Equal friction everywhere moves nothing: where all sticks the force is given, 0 by itself. */

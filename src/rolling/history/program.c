@@ -205,8 +205,10 @@ rb_status rb_rolling_program_check_base(const rb_rolling_program *program,
     const double *column = program->load ? program->load : program->approach;
     double most = 0.0;
 
-    /* a gap with a shape of its own has no approach unless one is given: here a column says it */
-    if (rb_rolling_gap_has_shape(rc) && isnan(rc->load) && isnan(rc->approach) && column) {
+    /* a gap with a shape of its own has no approach unless one is given, and the usual one of a
+     * parabola would close a period: here a column says it */
+    if ((rb_rolling_gap_has_shape(rc) || rc->period > 0.0) && isnan(rc->load) &&
+        isnan(rc->approach) && column) {
         for (int r = 0; r < program->n; r++)
             most = fmax(most, column[r]);
         if (most > 0.0)
