@@ -376,7 +376,7 @@ TEST(all_solutions_are_listed)
     CHECK_RUN(lcp("--all p"), 0, err, "belongs to singular bases only");
     CHECK_RUN(lcp("--all --json p"), 0, out, "\"singular_basis\": true");
     write_file("p", "2  1 0 -1 0  -1 0.9999999999999"); /* w2 = -1e-13 at z1 = 1 */
-    CHECK_RUN(lcp("--all p"), 0, err, "1 of 1 solutions is one within rounding only");
+    CHECK_RUN(lcp("--all p"), 0, err, "1 of 1 solutions holds within rounding only");
     CHECK_RUN(lcp("--all --json p"), 0, out, "\"nearby\": true");
     write_file("p", "2  1 0 -1 0  -1 1");
     CHECK_RUN(lcp("--all --json p"), 0, out, "\"nearby\": false");

@@ -185,11 +185,12 @@ rb_status rb_friction_solve(const char *solver, const rb_friction_problem *probl
 
 typedef struct {
     int contacts, count;
-    double *r, *u;       /* 2 contacts x count; owned, as the next two */
+    double *r, *u;       /* 2 contacts x count; owned, as the next three */
     unsigned *states;    /* contacts x count: 1 << state; several bits where r lies on the
                             border between states */
     int *singular_state; /* count; 1: of states with a singular matrix only, so that other
                             solutions may lie next to it */
+    int *nearby;         /* count; 1: within rounding only, as of rb_lcp_solutions */
     int tried, singular, undecided; /* states of all contacts together, as of rb_lcp_solutions */
 } rb_friction_solutions;
 

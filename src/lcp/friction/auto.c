@@ -317,30 +317,37 @@ static rb_status take_turn(const portfolio *p, member *a, double allowance, cons
     return RB_MAXITER;
 }
 
-/* Few contacts in a plane, and no member has found a solution: all states of all contacts.  Beside
- * the reactions between bodies of very unlike masses no measure sees the loads, so that a solution
- * is taken where it is proved and leaves what rounding leaves.  RB_MAXITER: there is none. */
+/* 1: r has zones that are proved, and leaves what rounding leaves or is proved itself. */
+static int take_if_proved(void *context, const double *r)
+{
+    rb_friction_task *task = context;
+    rb_friction_proof proof;
+    if (rb_friction_prove_zones(task->problem, r, &proof, NULL) != RB_OK)
+        return 0;
+    memcpy(task->r, r, (size_t)task->m * sizeof *r);
+    task->proved = rb_friction_prove(task) ||
+                   (task->measured == RB_OK && task->info->scaled <= task->info->floor);
+    if (task->proved)
+        task->info->solver = "enumeration";
+    return task->proved;
+}
+
+/* Few contacts, and no member has found a solution: all states of all contacts in a plane, in
+ * space those that stick or are open.  Beside the reactions between bodies of very unlike masses
+ * no measure sees the loads, so that a solution is taken where it is proved.  RB_MAXITER: there is
+ * none. */
 static rb_status try_all_states(rb_friction_task *task)
 {
-    const size_t m = (size_t)task->m;
     const double left = task->deadline > 0.0 ? task->deadline - rb_seconds() : 0.0;
-    rb_friction_solutions all = {0};
-    rb_friction_proof proof;
-    if (task->d != 2 || task->contacts > RB_FRICTION_ALL_UP_TO || left < 0.0)
+    if (task->d > 3 || task->contacts > RB_FRICTION_ALL_UP_TO || left < 0.0)
         return RB_MAXITER;
-    rb_status s = rb_friction_all(task->problem, left, &all, NULL);
+    rb_friction_solutions all = {0};
+    const rb_status s = task->d == 2
+                            ? rb_friction_all(task->problem, left, &all, NULL)
+                            : rb_friction_try_sticking(task->problem, take_if_proved, task);
     const int ended = s == RB_ENOMEM || s == RB_INTERRUPTED;
-    for (int k = 0; !ended && !task->proved && k < all.count; k++) {
-        const double *r = all.r + (size_t)k * m;
-        s = rb_friction_prove_zones(task->problem, r, &proof, NULL);
-        if (s != RB_OK)
-            continue;
-        memcpy(task->r, r, m * sizeof *r);
-        task->proved = rb_friction_prove(task) ||
-                       (task->measured == RB_OK && task->info->scaled <= task->info->floor);
-        if (task->proved)
-            task->info->solver = "enumeration";
-    }
+    for (int k = 0; !ended && !task->proved && k < all.count; k++)
+        take_if_proved(task, all.r + (size_t)k * (size_t)task->m);
     rb_friction_solutions_free(&all);
     return task->proved ? RB_OK : ended ? s : RB_MAXITER;
 }

@@ -396,6 +396,12 @@ typedef struct {
 /* A step; value: at the extrapolated iterate.  Returns how far it goes over the largest |x|. */
 double rb_friction_descend(rb_friction_descent *descent, double value);
 
+/* states.c: of every choice of up to 8 contacts that stick, the others being open, the reactions,
+ * until one is accepted (not 0).  RB_OK: it was; RB_NO_SOLUTION, RB_EINVAL: more contacts;
+ * RB_SINGULAR, RB_ENOMEM. */
+rb_status rb_friction_try_sticking(const rb_friction_problem *problem,
+                                   int (*accepts)(void *context, const double *r), void *context);
+
 /* Runs a method on the prepared task to its end, with at most `limit` iterations. */
 rb_status rb_friction_run(rb_friction_task *task, const rb_friction_method *method, int variant,
                           int limit);

@@ -1,7 +1,9 @@
 /* All solutions of a small plane problem: every state of every contact is tried. */
 #include "lcp/friction/internal.h"
 #include "lcp/portfolio/linear.h"
+#include "lcp/proof/bounds.h"
 
+#include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,13 +58,14 @@ void rb_friction_solutions_free(rb_friction_solutions *all)
     free(all->u);
     free(all->states);
     free(all->singular_state);
+    free(all->nearby);
     *all = (rb_friction_solutions){0};
 }
 
 /* W and q of the local form, dense. */
 static rb_status local_matrix(const rb_friction_problem *p, double *W, double *q, rb_message *why)
 {
-    const size_t m = 2 * (size_t)p->contacts;
+    const size_t m = (size_t)(p->dimension * p->contacts);
     rb_friction_problem condensed = {0};
     rb_status s = RB_OK;
     if (p->form == RB_FRICTION_GLOBAL)
@@ -144,7 +147,8 @@ rb_status rb_friction_all(const rb_friction_problem *p, double seconds, rb_frict
         all->singular = found.singular;
         all->undecided = found.undecided;
         all->singular_state = found.singular_basis;
-        found.singular_basis = NULL;
+        all->nearby = found.nearby;
+        found.singular_basis = found.nearby = NULL;
         all->r = rb_alloc((size_t)m, (size_t)found.count);
         all->u = rb_alloc((size_t)m, (size_t)found.count);
         s = states.status == RB_OK && all->r && all->u ? RB_OK : RB_ENOMEM;
@@ -169,6 +173,59 @@ rb_status rb_friction_all(const rb_friction_problem *p, double seconds, rb_frict
     rb_friction_solutions_free(all);
     return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for all solutions of %d contacts", nc)
                           : s;
+}
+
+/* r of u = 0 in the contacts of a set of bits, and r = 0 in the others; by residuals in twice the
+ * precision.  0: the block is singular. */
+static int stick(int d, int contacts, const double *W, const double *q, unsigned set,
+                 rb_arena *memory, double *r)
+{
+    enum { TURNS = 10 };
+    const size_t m = (size_t)(d * contacts);
+    double *A = rb_arena_doubles(memory, m, m), *x = rb_arena_doubles(memory, m, 1);
+    int *row = rb_arena_ints(memory, m), *pivot = rb_arena_ints(memory, m), n = 0;
+    for (int i = 0; !memory->failed && i < d * contacts; i++) {
+        r[i] = 0.0;
+        if (set >> (i / d) & 1)
+            row[n++] = i;
+    }
+    for (int c = 0; c < n; c++)
+        for (int i = 0; i < n; i++)
+            A[i + c * n] = W[(size_t)row[i] + (size_t)row[c] * m];
+    if (memory->failed || LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, A, n, pivot) != 0)
+        return 0;
+    for (int turn = 0; turn < TURNS; turn++) {
+        for (int i = 0; i < n; i++) {
+            proof_dot sum = {q[row[i]], 0.0, fabs(q[row[i]])};
+            double error;
+            for (int c = 0; c < n; c++)
+                proof_add(&sum, W[(size_t)row[i] + (size_t)row[c] * m], r[row[c]]);
+            x[i] = -proof_value(&sum, (size_t)n + 1, &error);
+        }
+        LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, 1, A, n, pivot, x, n);
+        for (int i = 0; i < n; i++)
+            r[row[i]] += x[i];
+    }
+    return 1;
+}
+
+rb_status rb_friction_try_sticking(const rb_friction_problem *p,
+                                   int (*accepts)(void *context, const double *r), void *context)
+{
+    const size_t m = (size_t)(p->dimension * p->contacts);
+    rb_arena memory = {0};
+    double *W = rb_arena_doubles(&memory, m, m), *q = rb_arena_doubles(&memory, m, 2), *r = q + m;
+    rb_status s = memory.failed                         ? RB_ENOMEM
+                  : p->contacts > RB_FRICTION_ALL_UP_TO ? RB_EINVAL
+                                                        : local_matrix(p, W, q, NULL);
+    int found = 0;
+    for (unsigned set = 1; s == RB_OK && !found && set < 1u << p->contacts; set++) {
+        rb_arena own = {0};
+        found = stick(p->dimension, p->contacts, W, q, set, &own, r) && accepts(context, r);
+        s = own.failed ? RB_ENOMEM : s;
+        rb_arena_free(&own);
+    }
+    return rb_arena_done(&memory, s != RB_OK || found ? s : RB_NO_SOLUTION);
 }
 
 int rb_friction_may_have_several(const rb_friction_problem *p)

@@ -281,10 +281,11 @@ static int is_of_basis(const search *s, int k)
 }
 
 /* 1: solution k is that of this basis: z with these zeros, none where it is one within rounding
- * only.  Of regular bases that is decided exactly. */
+ * only.  Of regular bases that is decided exactly, if all of z is compared. */
 static int is_same(const search *s, const rb_lcp_solutions *all, int k, int regular)
 {
-    const int exact = regular && s->zeros[0] && !all->nearby[k] && !all->singular_basis[k];
+    const int exact = regular && !s->choices->compared && s->zeros[0] && !all->nearby[k] &&
+                      !all->singular_basis[k];
     return exact ? is_of_basis(s, k) : is_close(s, all, k);
 }
 
@@ -385,15 +386,12 @@ static rb_status choose_system(search *s, lcp_point *point)
  * be; it is singular; and then it has no point. */
 typedef enum { INVERTED, REGULAR, SINGULAR_ONE, CONTRADICTORY } basis_kind;
 
-/* What may be a solution is proved to be one, or is one within rounding.  A problem of which only
- * some numbers are compared was rounded when it was made.  RB_ENOMEM. */
+/* What may be a solution is proved to be one, or is one within rounding.  RB_ENOMEM. */
 static rb_status look_at_point(search *s, likelihood is, basis_kind kind, rb_lcp_solutions *all)
 {
     const int regular = kind <= REGULAR;
     memset(s->zeros, 0, (size_t)s->n);
-    if (s->choices->compared)
-        return is == NEARLY ? keep(s, regular, 0, all) : RB_OK;
-    for (int k = 0; kind == INVERTED && k < all->count; k++)
+    for (int k = 0; kind == INVERTED && !s->choices->compared && k < all->count; k++)
         if (!all->nearby[k] && is_of_basis(s, k)) {
             all->singular_basis[k] = 0;
             return RB_OK;
@@ -437,8 +435,8 @@ static rb_status look_at_basis(search *s, rb_lcp_solutions *all)
     return RB_OK;
 }
 
-/* At the end: solutions within rounding that come to a proved one are left out, and z are those
- * of the problem as given. */
+/* At the end: solutions within rounding that come to a proved one are left out, unless somebody
+ * knows their numbers, and z are those of the problem as given. */
 static void finish(search *s, const lcp_posed *posed, double unit, rb_lcp_solutions *all)
 {
     const size_t n = (size_t)s->n;
@@ -449,7 +447,7 @@ static void finish(search *s, const lcp_posed *posed, double unit, rb_lcp_soluti
         for (size_t i = 0; i < n; i++)
             s->bound[i] = rb_norm_inf(n, z);
         int covered = 0;
-        for (int l = 0; all->nearby[k] && !covered && l < all->count; l++)
+        for (int l = 0; all->nearby[k] && !s->choices->found && !covered && l < all->count; l++)
             covered = !all->nearby[l] && is_close(s, all, l);
         if (covered)
             continue;

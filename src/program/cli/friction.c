@@ -238,11 +238,12 @@ static cli_exit find_all(friction_run *run, friction_result *r, const rb_frictio
     r->info.contact = -1;
     if (s < 0 || s == RB_SINGULAR)
         return failed(r, s, why.text);
-    int singular_only = 0;
+    int singular_only = 0, nearby = 0;
     for (int k = 0; k < r->all.count; k++) {
         rb_friction_errors e;
         const size_t at = (size_t)k * (size_t)r->m;
         singular_only += r->all.singular_state[k];
+        nearby += r->all.nearby[k];
         if (rb_friction_error(p, r->all.r + at, NULL, NULL, &e) != RB_OK)
             return failed(r, RB_ENOMEM, "out of memory");
         r->info.residual = k ? fmax(r->info.residual, e.residual) : e.residual;
@@ -250,7 +251,7 @@ static cli_exit find_all(friction_run *run, friction_result *r, const rb_frictio
         r->info.worst = k ? fmax(r->info.worst, e.worst) : e.worst;
         r->info.floor = k ? fmax(r->info.floor, e.floor) : e.floor;
     }
-    cli_note_enumeration(r->file, "states", r->all.count, 0, singular_only, r->all.undecided,
+    cli_note_enumeration(r->file, "states", r->all.count, nearby, singular_only, r->all.undecided,
                          r->all.tried);
     r->status = rb_status_text(s != RB_OK             ? s
                                : r->all.count         ? RB_OK
@@ -304,11 +305,11 @@ static json_t *json_of_all(const friction_result *r)
                 json_string(name_states(r->all.states[k * r->contacts + c], text, sizeof text)));
         }
         const size_t at = (size_t)k * (size_t)r->m;
-        rb_report_json_append(&list,
-                              json_pack("{s:o, s:o, s:o, s:b}", "r",
-                                        rb_report_json_numbers(r->m, r->all.r + at), "u",
-                                        rb_report_json_numbers(r->m, r->all.u + at), "states",
-                                        states, "singular_state", r->all.singular_state[k]));
+        rb_report_json_append(
+            &list,
+            json_pack("{s:o, s:o, s:o, s:b, s:b}", "r", rb_report_json_numbers(r->m, r->all.r + at),
+                      "u", rb_report_json_numbers(r->m, r->all.u + at), "states", states,
+                      "singular_state", r->all.singular_state[k], "nearby", r->all.nearby[k]));
     }
     return list;
 }

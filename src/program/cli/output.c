@@ -374,9 +374,9 @@ void cli_note_enumeration(const char *file, const char *what, int solutions, int
 {
     if (nearby)
         fprintf(stderr,
-                "rollbem: %s: note: %d of %d solutions %s within rounding only: with these "
+                "rollbem: %s: note: %d of %d solutions hold%s within rounding only: of these "
                 "numbers exactly there may be none\n",
-                file, nearby, solutions, nearby == 1 ? "is one" : "are some");
+                file, nearby, solutions, nearby == 1 ? "s" : "");
     if (singular_only)
         fprintf(stderr,
                 "rollbem: %s: note: %d of %d solutions belong%s to singular %s only: others may "
