@@ -297,7 +297,7 @@ static inline void check_outcome(const rb_contact_problem *p, const rb_contact_s
         check_zones(p, s);
     } else if (status == RB_EINVAL) {
         const char *carries = NOT_NULL(strstr(why->text, "carries at most"));
-        assert_int_equal(sscanf(why->text, "force Q = %lf", &Q), 1);
+        assert_int_equal(sscanf(why->text, "force: Q = %lf", &Q), 1);
         assert_int_equal(sscanf(carries + strcspn(carries, "0123456789"), "%lf", &most), 1);
         assert_true(fabs(Q) > most);
     } else {

@@ -15,7 +15,7 @@ static int fails(int code, const char *text)
 
 int main(int argc, char **argv)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_case *c = rb_case_create(RB_CASE_SINGLE);
     differences d;
 

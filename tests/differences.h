@@ -264,7 +264,7 @@ static void difference_of_input(const difference_frame *f, const rb_case_number 
     rb_status s = RB_OK;
 
     for (int j = 0; j < 4 && s == RB_OK; j++) {
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         rb_rolling_case rc;
         s = number->input.vary(number->input.context,
                                number->input.value + difference_place[j] * step, &rc, &why);
@@ -514,7 +514,7 @@ static void difference_of_steps(const rb_resolved_case *c, const rb_case_number 
     int same = 1;
 
     for (int j = 0; j < 4 && same; j++) {
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         rb_rolling_case rc;
         same = number->input.vary(number->input.context,
                                   number->input.value + difference_place[j] * step, &rc,

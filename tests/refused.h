@@ -24,7 +24,7 @@ static inline void check_refused(const rb_rolling_case *rc, const char *first, c
 #define ACCEPTED(...)                                                                              \
     do {                                                                                           \
         rb_rolling_case rc = rb_rolling_case_defaults();                                           \
-        rb_message why = {""};                                                                     \
+        rb_message why = {.text = ""};                                                             \
         __VA_ARGS__;                                                                               \
         if (rb_rolling_case_check(&rc, &why) != RB_OK)                                             \
             fail_msg("%s: %s", #__VA_ARGS__, why.text);                                            \

@@ -138,7 +138,7 @@ TEST(every_status_has_its_own_words)
 
 TEST(what_went_wrong_has_its_words)
 {
-    const rb_message said = {"why"}, nothing = {""};
+    const rb_message said = {.text = "why"}, nothing = {.text = ""};
     char room[6];
     assert_string_equal(rb_status_text((rb_status)99), "unknown status");
     assert_string_equal(rb_status_reason(RB_ENOMEM, &nothing), "out of memory");

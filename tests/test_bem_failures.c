@@ -264,7 +264,7 @@ TEST(wheels_tell_of_missing_memory)
 {
     const rb_bem_cylinder wheel = {.radius = 50.0, .support = RB_BEM_HUB, .hub_ratio = 0.5};
     rb_bem_mesh mesh;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     char text[80];
     CHECK_OK(rb_bem_mesh_cylinder(&wheel, N, ends, &mesh, NULL));
     snprintf(text, sizeof text, "cylinder: out of memory for %d elements", mesh.n);

@@ -291,7 +291,7 @@ TEST(failing_memory_is_reported)
         OWNED(rb_bem_mesh) mesh = {0};
         held_system *system = NULL;
         OWNED(rb_bem_flexibility) f = {0};
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         char expected[sizeof why.text];
         alloc_fail_after(count);
         rb_status s = rb_bem_mesh_cylinder(&cylinder, 2, ends, &mesh, NULL);

@@ -253,7 +253,7 @@ TEST(values_are_taken_strictly)
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         int at;
         char text[600], room[64], wanted[200];
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         rb_guess guess = {.word = all[k].name};
         assert_ptr_equal(rb_option_find(1, &set, all[k].name, strlen(all[k].name), &at, &guess),
                          &set);
@@ -611,7 +611,7 @@ TEST(contradictions_are_refused)
         {"friction-law=linear mu-fall=0.1,0.1,0.1 slip-scale=9,9,9 speed=3",
          "--mu-fall: expected 1 or 2 numbers, got 3"},
         {"friction-law=linear mu-fall=0.1 slip-scale=9,9 speed=3",
-         "equally many numbers, got 1 and 2"},
+         "--mu-fall: expected as many numbers as --slip-scale has, 2, got 1"},
         {"friction-law=linear speed=3", "needs --mu-fall and --slip-scale"},
         {"mu-fall=0.1", "--mu-fall: only for velocity-dependent friction"},
         {"slip-scale=1", "--slip-scale: only for velocity-dependent friction"},
@@ -669,19 +669,19 @@ TEST(files_are_blamed_by_line)
         {"[normal]\nload = x\n", "case.ini:2: load: expected a number > 0, got 'x'", RB_EFORMAT},
         {"load = 4\napproach = 2\n", "case.ini:2: approach and case.ini:1: load exclude each other",
          RB_EFORMAT},
-        {"load = 4\nforce = 10\n", "case.ini:2: force Q = 10", RB_EFORMAT},
+        {"load = 4\nforce = 10\n", "case.ini:2: force: Q = 10", RB_EFORMAT},
         {"support = halfplane\nload = 4\nradius = 50\nsimilar = yes\nradius-b = -30\n",
          "case.ini:5: radius-b: a bore", RB_EFORMAT},
-        {"load = 4\nrelaxation-time = 2\n", "case.ini:2: --relaxation-time and --relaxation-ratio",
+        {"load = 4\nrelaxation-time = 2\n", "case.ini:2: relaxation-time: expected as many numbers",
          RB_EFORMAT},
         {"support = halfplane\nload = 4\nzone = 1e30\n", "case.ini:3: zone: 1e+30 mm", RB_EFORMAT},
         {"support = halfplane\nload = 4\nforce-ratio = 3\nformulation = steady\n",
-         "case.ini:3: force ratio Q/(mu P) = 3", RB_EFORMAT},
+         "case.ini:3: force-ratio: Q/(mu P) = 3", RB_EFORMAT},
         {"load = 4\nconductivity = 50\n", "case.ini:2: conductivity: ", RB_EFORMAT},
         {"gap = nothere.txt\nload = 4\n", "nothere.txt", RB_ENOENT},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         held_case *c = rb_case_create(RB_CASE_SINGLE);
         write_file("case.ini", bad[k].text);
         rb_status s = rb_case_read(c, "case.ini", 0, NULL, &why);
@@ -711,7 +711,7 @@ TEST(rows_are_blamed_by_file_and_line)
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         char words[300];
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         held_case *c = rb_case_create(RB_CASE_SINGLE);
         write_file("rows.txt", bad[k].text);
         snprintf(words, sizeof words, "support=halfplane %srows.txt", bad[k].words);
@@ -722,6 +722,155 @@ TEST(rows_are_blamed_by_file_and_line)
             s = rb_case_locate(c, rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why), &why);
         if (s != RB_EFORMAT || strncmp(why.text, bad[k].part, strlen(bad[k].part)) != 0)
             fail_msg("status %d, '%s', wanted '%s'", (int)s, why.text, bad[k].part);
+    }
+}
+
+/* Lines of a case file, or words of a command line, or numbers of a program: every refusal names
+ * the option that is wrong by the place where it was given, and by no other one of which it speaks.
+ */
+static rb_status blame(const char *words, int how, char *line_of[], rb_message *why)
+{
+    char text[500], file[600] = "";
+    rb_status s = RB_OK;
+    int n = 0;
+    held_case *c = rb_case_create(RB_CASE_SINGLE);
+    snprintf(text, sizeof text, "%s", words);
+    for (char *word = strtok(text, " "); word && s == RB_OK; word = strtok(NULL, " ")) {
+        char *value = strchr(word, '=');
+        *value++ = '\0';
+        if (how == 0)
+            rb_append(file, sizeof file, "%s = %s\n", word, value);
+        else
+            s = rb_case_set(c, word, value, how, why);
+        snprintf(line_of[n++], 40, "%s", word);
+    }
+    *line_of[n] = '\0';
+    if (how == 0 && s == RB_OK) {
+        write_file("case.ini", file);
+        s = rb_case_read(c, "case.ini", 0, NULL, why);
+    }
+    if (s == RB_OK)
+        s = rb_case_resolve(c, why);
+    OWNED(rb_case_result) r = {.has_errors = 0};
+    if (s == RB_OK)
+        s = rb_case_locate(c, rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, why), why);
+    return s;
+}
+
+static void check_blame(const char *words, const char *option)
+{
+    char names[20][40], *line_of[20], place[100];
+    for (int k = 0; k < 20; k++)
+        line_of[k] = names[k];
+    for (int how = 0; how < 3; how++) {
+        static const int by[] = {0, RB_GIVEN_ARGUMENT, RB_GIVEN_NUMBER};
+        rb_message why = {.text = ""};
+        const rb_status s = blame(words, by[how], line_of, &why);
+        int line = 0;
+        while (*names[line] && strcmp(names[line], option) != 0)
+            line++;
+        if (how == 0)
+            snprintf(place, sizeof place, "case.ini:%d: %s: ", line + 1, option);
+        else
+            snprintf(place, sizeof place, how == 1 ? "--%s: " : "%s: ", option);
+        if (s != (how == 0 ? RB_EFORMAT : RB_EINVAL) ||
+            strncmp(why.text, place, strlen(place)) != 0)
+            fail_msg("%s: status %d, '%s', wanted '%s'", words, (int)s, why.text, place);
+    }
+}
+
+TEST(every_bad_value_is_blamed_where_it_was_given)
+{
+    static const char *const numbers[] = {"-1", "0", "2", "91", "-1e9", "1e9", "x"};
+    int options = 0;
+    for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++) {
+        const int is_number = o->kind == RB_OPTION_NUMBER || o->kind == RB_OPTION_INTEGER;
+        if (!is_number && o->kind != RB_OPTION_CHOICE && o->kind != RB_OPTION_FLAG)
+            continue;
+        if (o->path) /* any other word is the name of a file */
+            continue;
+        for (size_t k = is_number ? 0 : 6; k < sizeof numbers / sizeof *numbers; k++) {
+            char words[200];
+            if (k < 6 && rb_option_in_range(o, strtod(numbers[k], NULL)))
+                continue;
+            snprintf(words, sizeof words, "%s=%s", o->name, numbers[k]);
+            check_blame(words, o->name);
+        }
+        options++;
+    }
+    assert_true(options > 70);
+}
+
+TEST(what_a_refusal_speaks_of_is_not_what_it_blames)
+{
+    static const char *const bad[][2] = {
+        /* the text says --support, --formulation, --load, --speed, which are given, too */
+        {"support=halfplane load=4 cover-thickness=1", "cover-thickness"},
+        {"support=arc load=4 bulk-stress=1", "bulk-stress"},
+        {"formulation=steady support=halfplane creep=0.01 load=4 tilt=0.01", "tilt"},
+        {"formulation=steady creep=0.1 load=4 period=10 support=halfplane", "period"},
+        {"mu=0.2 load=4 force=10", "force"},
+        {"support=halfplane load=4 formulation=steady force-ratio=3", "force-ratio"},
+        {"formulation=steady mu=0 load=4 creep-ratio=0.5", "creep-ratio"},
+        {"support=halfplane load=4 zone=1e30", "zone"},
+        {"support=halfplane load=4 radius=50 similar=yes radius-b=-30", "radius-b"},
+        {"similar=yes support-b=hub load=4 radius-b=plane", "support-b"},
+        {"plane=stress load=4 poisson=-0.7", "poisson"},
+        {"young-b=900 plane=stress load=4 poisson=0.3 poisson-b=-0.7", "poisson-b"},
+        {"support=halfplane plane=stress load=4 layer-thickness=1 base-young=9 base-poisson=-0.7",
+         "base-poisson"},
+        {"support=hub radius=50 load=4 cover-thickness=60", "cover-thickness"},
+        {"support=hub load=4 layer-thickness=1", "layer-thickness"},
+        {"load=4 relaxation-time=2", "relaxation-time"},
+        {"load=4 relaxation-ratio=2", "relaxation-ratio"},
+        {"support=halfplane creep=0.1 formulation=steady load=4 relaxation-time=1 "
+         "relaxation-ratio=1",
+         "relaxation-time"},
+        {"creep=0.1 load=4 formulation=transient", "formulation"},
+        {"load=4 support=halfplane gap=wave", "gap"},
+        {"load=4 support=halfplane period=1 amplitude=0.1 radius-b=9 young-b=9", "radius-b"},
+        {"mesh=aligned formulation=steady creep=0.1 load=4 support=halfplane contact-elements=10",
+         "contact-elements"},
+        {"support=halfplane formulation=static load=4 slip-operator=second", "slip-operator"},
+        {"mesh=fitted formulation=steady creep=0.1 load=4 support=halfplane slip-operator=second",
+         "slip-operator"},
+        {"load=4 hardening=1", "hardening"},
+        {"friction-law=linear mu-fall=0.1 slip-scale=1 speed=3 formulation=steady creep=0.1 load=4 "
+         "yield-stress=1",
+         "yield-stress"},
+        {"friction-law=linear mu-fall=0.1 slip-scale=1 formulation=steady creep=0.1 load=4",
+         "friction-law"},
+        {"support=halfplane load=4 normals=surface", "normals"},
+        {"support=halfplane load=4 bulk-stress-b=1", "bulk-stress-b"},
+        {"formulation=steady creep=0.1 load=4 increments=4", "increments"},
+        {"formulation=steady creep=0.1 load=4 conductivity=50", "conductivity"},
+        {"formulation=static load=4 heat-capacity=4 speed=1 conductivity=50", "conductivity"},
+        {"load=4 transverse-radius=10", "transverse-radius"},
+        {"gap=exact support=halfplane transverse-radius=10 wheel-load=10", "wheel-load"},
+        {"radius=50 half-width=60", "half-width"},
+        {"radius=50 approach=1e-200", "approach"},
+        {"radius=50 load=1e200", "load"},
+        {"load=4 young=1e120", "young"},
+        {"load=4 similar=yes support=halfplane radius-b=1e120", "radius-b"},
+    };
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
+        check_blame(bad[k][0], bad[k][1]);
+}
+
+/* Files with the same layers make the same body. */
+TEST(layers_are_those_that_a_file_holds)
+{
+    write_file("a.txt", "thickness young poisson\n0.5 900 0.3\n1 500 0.3\n");
+    write_file("b.txt", "# the same\nthickness\tyoung\tpoisson\n0.5 9e2 .3\n1.0 500 0.3\n");
+    write_file("other.txt", "thickness young poisson\n0.5 900 0.3\n1 501 0.3\n");
+    for (int k = 0; k < 2; k++) {
+        held_case *c = rb_case_create(RB_CASE_SINGLE);
+        CHECK_OK(set_words(c, "support=halfplane load=5 mu=0 layers=a.txt", &heard));
+        CHECK_OK(rb_case_set(c, "layers-b", k ? "other.txt" : "b.txt", RB_GIVEN_ARGUMENT, &heard));
+        CHECK_OK(rb_case_resolve(c, &heard));
+        const rb_rolling_case *rc = &rb_case_resolved(c)->rc;
+        assert_true(rc->a.stack != NULL);
+        assert_int_equal(rc->a.stack == rc->b.stack, k == 0);
     }
 }
 

@@ -15,7 +15,7 @@ static const char *build_folder(void)
 
 static void read_table(const char *path, rb_io_table *t)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     if (rb_io_table_read(path, t, &why) != RB_OK)
         print_error("%s\n", why.text);
     assert_string_equal(why.text, "");

@@ -987,7 +987,7 @@ TEST(bad_friction_laws_are_refused)
     write_file("mu.txt", "-1 0.3\n1 0.2\n");
     check_refused(RAIL "--mu-fall 0.1", 64, "--mu-fall: only for velocity-dependent friction");
     check_refused(RAIL "--friction-law linear", 64, "needs --mu-fall and --slip-scale");
-    check_refused(RAIL FALLS "--slip-scale 1,2", 64, "equally many numbers");
+    check_refused(RAIL FALLS "--slip-scale 1,2", 64, "as many numbers");
     check_refused(RAIL FALLS "--mu-fall -0.2", 64, "expected mu >= 0 everywhere");
     check_refused(RAIL "--friction-law linear --mu-fall 0.1 --slip-scale 9", 64, "add --speed");
     check_refused(RAIL "--memory 1", 64, "--memory: only for friction that changes");

@@ -774,7 +774,7 @@ TEST(forces_that_nothing_carries_are_refused)
         rb_contact_options options = options_of(RB_SOLVER_AUTO);
         OWNED(rb_contact_problem) p;
         OWNED(rb_contact_state) s;
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         numbers = 12;
         random_problem(&of, &p);
         for (int i = 0; i < of.n; i++) { /* the pressure leans to one side */
@@ -809,7 +809,7 @@ TEST(what_is_not_solved_says_so)
         rb_contact_options options = options_of(RB_SOLVER_AUTO);
         OWNED(rb_contact_problem) p;
         OWNED(rb_contact_state) s;
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         numbers = 19;
         random_problem(&of, &p);
         options.tol = 0.0;

@@ -163,7 +163,7 @@ static rb_status certify(void *context)
     FILE *lines = tmpfile();
     held_case *words = rb_case_create(RB_CASE_CRACK);
     const rb_status s =
-        words ? rb_certificate_check(lines, "r", context, words, &found, &(rb_message){""})
+        words ? rb_certificate_check(lines, "r", context, words, &found, &(rb_message){.text = ""})
               : RB_ENOMEM;
     fclose(lines);
     return s;

@@ -385,7 +385,7 @@ static rb_case *case_of(const char *line)
 {
     char text[1500], *word[200];
     int n = 0, fits = 1;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_case *c = NOT_NULL(rb_case_create(RB_CASE_SINGLE));
     snprintf(text, sizeof text, "%s", line);
     for (char *next = strtok(text, " "); next && n < 199; next = strtok(NULL, " "))

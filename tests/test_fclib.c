@@ -600,7 +600,7 @@ TEST(failing_allocations_are_reported)
         for (int layout = RB_IO_FCLIB_TRIPLET; layout <= RB_IO_FCLIB_CSR; layout++) {
             rb_status s = RB_ENOMEM;
             for (count = 0; s != RB_OK && count < 50; count++) {
-                rb_message why = {""};
+                rb_message why = {.text = ""};
                 alloc_fail_after(count);
                 s = rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "", "", &why);
                 alloc_succeed();

@@ -287,7 +287,7 @@ TEST(models_have_their_range)
                  {0, 1, 1, 1}, {1, 1, 0, 0}, {1, 201, 0, 0},  {1, 2, 0, 1}};
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         OWNED(rb_fem_model) model;
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         const rb_status s = sizes[k].truss
                                 ? rb_fem_model_truss(RB_FEM_UPPER_INSIDE, sizes[k].nx, &model, &why)
                                 : rb_fem_model_bar(sizes[k].nx, sizes[k].ny, &model, &why);
@@ -308,7 +308,7 @@ TEST(condensation_of_every_kind)
         double stiffness[9];
         rb_fem_structure s = {.dofs = n, .dimension = 2, .contacts = 1, .mu = &mu, .gap = &gap};
         rb_fem_condensation *c;
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         for (int i = 0; i < n * n; i++)
             stiffness[i] = K[i % n + 3 * (i / n)];
         if (kind == 2)

@@ -269,7 +269,7 @@ TEST(panels_lie_beside_or_below_each_other)
 
 TEST(wall_needs_steps_and_memory)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     FILE *out = tmpfile();
     CHECK_STATUS(rb_report_picture_wall(out, page, walls[0].wall, 0, walls[0].step, &why),
                  RB_EINVAL);
@@ -292,7 +292,7 @@ TEST(bar_and_truss_need_steps)
 {
     const rb_fem_model model = {0};
     const rb_fem_history history = {0};
-    rb_message why[2] = {{""}, {""}};
+    rb_message why[2] = {{.text = ""}, {.text = ""}};
     FILE *out = tmpfile();
     CHECK_STATUS(rb_report_picture_bar(out, page, &model, &history, &why[0]), RB_EINVAL);
     CHECK_STATUS(rb_report_picture_truss(out, page, &model, &history, &why[1]), RB_EINVAL);

@@ -113,7 +113,7 @@ TEST(failures_name_the_step)
     rb_fem_wall *wall;
     rb_fem_wall_step step;
     rb_friction_problem problem;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     int chosen;
     CHECK_OK(rb_fem_wall_create(&o, &wall, NULL));
     CHECK_STATUS(rb_fem_wall_problem(wall, 0, &problem), RB_EINVAL);

@@ -426,7 +426,7 @@ TEST(the_measure_of_acary_decides_where_asked)
                 rb_friction_options opt = rb_friction_defaults();
                 rb_friction_info info;
                 rb_friction_errors again;
-                rb_message note = {""};
+                rb_message note = {.text = ""};
                 const rb_friction_solution at = {r, u, NULL};
                 if ((solvers[s].needs & RB_FRICTION_ONLY_2D) && p.dimension != 2)
                     continue;

@@ -58,7 +58,7 @@ static const char *printed(cli_exit (*say)(void), cli_exit wanted)
     return text;
 }
 
-static const rb_message reason = {"mu = -1: expected >= 0"}, none = {""};
+static const rb_message reason = {.text = "mu = -1: expected >= 0"}, none = {.text = ""};
 
 static cli_exit fail_with_number(void)
 {

@@ -346,7 +346,7 @@ TEST(results_refer_to_the_largest_mu)
     do {                                                                                           \
         const rb_rolling_program program = {__VA_ARGS__};                                          \
         const rb_rolling_case one = rc;                                                            \
-        rb_message why = {""};                                                                     \
+        rb_message why = {.text = ""};                                                             \
         CHECK_STATUS(rb_rolling_program_check(&program, &one, &why), RB_EINVAL);                   \
         if (!strstr(why.text, words))                                                              \
             fail_msg("'%s' does not say '%s'", why.text, words);                                   \
@@ -355,7 +355,7 @@ TEST(results_refer_to_the_largest_mu)
     do {                                                                                           \
         const rb_rolling_program program = {__VA_ARGS__};                                          \
         const rb_rolling_case one = rc;                                                            \
-        rb_message why = {""};                                                                     \
+        rb_message why = {.text = ""};                                                             \
         if (rb_rolling_program_check(&program, &one, &why) != RB_OK)                               \
             fail_msg("%s", why.text);                                                              \
     } while (0)
@@ -393,7 +393,7 @@ TEST(programs_that_make_no_sense_are_refused)
     ACCEPTED(fine, .n = 3, .time = d);
     fine.time_step = 4e-8; /* of a row no more than 1e7 count */
     ACCEPTED(fine, .n = 2, .time = twice);
-    REFUSED("time step: 4e-08 s makes 2e+07 steps", fine, .n = 3, .time = far, .load = load);
+    REFUSED("time-step: 4e-08 s makes 2e+07 steps", fine, .n = 3, .time = far, .load = load);
 }
 
 static void check_rows(const double *got, const double *wanted, int n, const char *what)

@@ -69,7 +69,7 @@ TEST(steps_are_one_two_or_five)
 TEST(gnuplot_complaint_is_handed_on)
 {
     FILE *script = tmpfile(), *out = tmpfile();
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     fputs("plt 1\n", script);
     assert_int_equal(rb_report_gnuplot(script, RB_REPORT_SVG, 20.0, out, &why), RB_EHELPER);
     assert_non_null(strstr(why.text, "invalid command"));
@@ -82,7 +82,7 @@ TEST(missing_gnuplot_is_named)
     char path[4096];
     snprintf(path, sizeof path, "%s", getenv("PATH"));
     FILE *script = tmpfile(), *out = tmpfile();
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     setenv("PATH", "/nonexistent", 1);
     const rb_status s = rb_report_gnuplot(script, RB_REPORT_SVG, 20.0, out, &why);
     setenv("PATH", path, 1);
@@ -168,7 +168,7 @@ TEST(gnuplot_and_its_surroundings)
 {
     static const char picture[] = "printf '<?xml <svg> more </svg>'";
     char folder[] = "/tmp/rollbem-gnuplot-XXXXXX", name[64], before[4096];
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     FILE *script = tmpfile(), *out = tmpfile(), *disk = fopen("/dev/full", "w");
     assert_non_null(mkdtemp(folder));
     snprintf(name, sizeof name, "%s/gnuplot", folder);

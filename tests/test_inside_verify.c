@@ -45,12 +45,12 @@ TEST(failures_have_a_reason)
     rb_verify v = {.each = keep, .context = &check};
     rb_rolling_case rc = rb_verify_uncoupled();
 
-    rb_verify_note(&v, RB_MAXITER, &(rb_message){""});
+    rb_verify_note(&v, RB_MAXITER, &(rb_message){.text = ""});
     assert_string_equal(v.why, rb_status_text(RB_MAXITER));
-    rb_verify_note(&v, RB_MAXITER, &(rb_message){"so it is"});
+    rb_verify_note(&v, RB_MAXITER, &(rb_message){.text = "so it is"});
     rb_verify_absolute(&v, 0.0, 0.0, 0.0, "it");
     assert_string_equal(check.why, "so it is");
-    rb_verify_note(&v, RB_OK, &(rb_message){"of an earlier one"});
+    rb_verify_note(&v, RB_OK, &(rb_message){.text = "of an earlier one"});
     assert_null(v.why);
     rc.a.poisson = 2.0;
     const rb_rolling_solution *s = rb_verify_solve(&v, &rc);

@@ -94,7 +94,7 @@ TEST(bad_tables_are_named_with_their_line)
     };
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
         rb_io_table t;
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         if (read_text(bad[k].text, &t, &why) != RB_EFORMAT)
             fail_msg("not refused: %s", bad[k].text);
         if (!strstr(why.text, bad[k].part))
@@ -181,7 +181,7 @@ TEST(headings_say_names_and_units)
         OWNED(rb_io_table) t;
         const double *x[2];
         const size_t n = k < TEXTS - 2 ? strlen(text[k]) : 2 * 24 + 2;
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         if (read_bytes(text[k], n, &t, &why) != RB_OK ||
             rb_io_table_assign("g", &t, 2, gap, RB_UNITS_MM, x, &why) != RB_OK)
             fail_msg("%d: %s", k, why.text);

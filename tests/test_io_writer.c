@@ -240,7 +240,7 @@ TEST_WITH(make_folder, remove_folder, short_memory_is_reported_on_every_way)
     const char *const names[] = {link, "/dev/null", below};
     for (int k = 0; k < 3; k++)
         for (int i = 0, refused = 1; refused; i++) {
-            rb_message why = {""};
+            rb_message why = {.text = ""};
             alloc_fail_after(i);
             const rb_status s =
                 k < 2 ? rb_io_writer_check(names[k], &why) : rb_io_folder_check(names[k], &why);
@@ -273,7 +273,7 @@ TEST_WITH(make_folder, remove_folder, every_call_that_fails_leaves_the_old_file)
                {"linkat", "close", EDQUOT, 1},  {"linkat", "rename", EXDEV, 1}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_io_writer w;
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         rb_status s = RB_OK;
         write_line("old");
         if (all[k].first)

@@ -105,9 +105,9 @@ TEST(refusals_have_their_code_and_reason)
         const char *arguments, *said;
     } all[] = {
         {64, "b.ini --relaxation-time 0.1,1 --relaxation-ratio 1 --speed 10",
-         "equally many numbers, got 2 and 1"},
+         "--relaxation-time: expected as many numbers as --relaxation-ratio has, 1, got 2"},
         {64, "b.ini --friction-law exponential --mu-fall 0.1,0.2 --slip-scale 1 --speed 1",
-         "equally many numbers, got 2 and 1"},
+         "--mu-fall: expected as many numbers as --slip-scale has, 1, got 2"},
         {64,
          "b.ini --friction-law exponential --mu-fall 0.1 --slip-scale 1 --speed 1 --memory 1,2,3",
          "--memory: expected 1 or 2 numbers, got 3"},

@@ -364,7 +364,7 @@ TEST(pictures_of_four_kinds)
 TEST(picture_of_another_kind)
 {
     rb_report_picture_kind kind;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     assert_int_equal(rb_report_picture_kind_of("a.bmp", &kind, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "a.bmp"));
     assert_int_equal(rb_report_picture_kind_of(".png", &kind, &why), RB_EINVAL);

@@ -225,7 +225,7 @@ TEST(studies_that_make_no_picture_are_named)
                     "than those with mu = 10"}};
     for (size_t k = 0; k < sizeof studies / sizeof *studies; k++) {
         rb_report_study s = study_of(studies[k].nx, studies[k].ny, studies[k].with_y, room);
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         if (studies[k].place >= 0)
             room[studies[k].place] = studies[k].to;
         const rb_status status = rb_report_study_check(&s, studies[k].map, &why);
@@ -234,7 +234,7 @@ TEST(studies_that_make_no_picture_are_named)
     }
     rb_report_study ragged = study_of(3, 2, 1, room); /* three of one, two of the other */
     ragged.n = 5;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     CHECK_STATUS(rb_report_study_check(&ragged, 1, &why), RB_EINVAL);
     CHECK_OK(rb_report_study_check(&ragged, 0, &why));
     alloc_fail_after(0);
@@ -377,7 +377,7 @@ static int files_in(const char *folder)
 static rb_status dump(void *context)
 {
     const dump_job *j = context;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     FILE *lines = tmpfile();
     rb_status s = rb_report_dump(j->folder, j->model, &why);
     if (s != RB_OK)

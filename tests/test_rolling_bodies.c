@@ -126,7 +126,7 @@ TEST(at_rest_relaxing_bodies_need_steps_in_time)
     OWNED(rb_rolling_bodies) bodies;
     CHECK_OK(rb_rolling_mesh_uniform(&rc, NULL, -1.0, 1.0, &mesh, &heard));
     CHECK_STATUS(rb_rolling_bodies_create(&rc, NULL, &mesh, &bodies, &heard), RB_EINVAL);
-    assert_string_equal(heard.text, "relaxation: bodies that relax and do not roll steadily "
+    assert_string_equal(heard.text, "relaxation-time: bodies that relax and do not roll steadily "
                                     "need a history of steps in time");
 }
 

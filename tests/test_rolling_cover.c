@@ -417,7 +417,7 @@ TEST(elements_longer_than_the_cover_are_refused)
     rb_rolling_case rc = with(roll(0.2, 0.5, 0.0), "half-width 1 contact-elements 6");
     OWNED(rb_rolling_solution) s;
     CHECK_SAYS(rb_rolling_solve(&rc, &s, &heard), RB_EINVAL,
-               "cover thickness: with nu = 0.5 the elements");
+               "cover-thickness: with nu = 0.5 the elements");
     assert_non_null(strstr(heard.text, "may not be longer than the thickness, 0.2 mm"));
     const char *advice = strstr(heard.text, "; take ");
     assert_int_equal(advice ? sscanf(advice, "; take %d", &rc.contact_elements) : 0, 1);

@@ -223,11 +223,11 @@ TEST(tables_of_no_friction_are_refused)
 #define MU(x, y)                                                                                   \
     rc.friction.law = RB_FRICTION_table, rc.friction.table = (rb_rolling_table){3, x, y}
     ACCEPTED(MU(x, mu));
-    REFUSED("friction table: expected a row", MU(x, mu); rc.friction.table.n = 0);
-    REFUSED("friction table: row 3: expected x to increase, got 1", MU(back, mu));
-    REFUSED("friction table: row 2: expected x to increase", MU(gone, mu));
-    REFUSED("friction table: row 2: expected mu >= 0, got -0.1", MU(x, less));
-    REFUSED("friction table: row 2: expected mu >= 0", MU(x, lost));
+    REFUSED("friction-law: expected a row", MU(x, mu); rc.friction.table.n = 0);
+    REFUSED("friction-law: row 3: expected x to increase, got 1", MU(back, mu));
+    REFUSED("friction-law: row 2: expected x to increase", MU(gone, mu));
+    REFUSED("friction-law: row 2: expected mu >= 0, got -0.1", MU(x, less));
+    REFUSED("friction-law: row 2: expected mu >= 0", MU(x, lost));
 #undef MU
 }
 
@@ -251,7 +251,7 @@ TEST(ranges_of_friction_laws)
     REFUSED("mu-fall: expected a number", FALLS; rc.friction.fall[0] = INFINITY);
     REFUSED("slip-scale: expected a number > 0", FALLS; rc.friction.slip_scale[1] = 0.0);
     REFUSED("slip-scale: expected a number > 0", FALLS; rc.friction.slip_scale[1] = INFINITY);
-    REFUSED("friction law rational: needs the speed", FALLS; rc.speed = 0.0);
+    REFUSED("friction-law: rational: needs the speed", FALLS; rc.speed = 0.0);
     REFUSED("speed: expected a number > 0, got inf", FALLS; rc.speed = INFINITY);
     ACCEPTED(FALLS; rc.friction.memory = 1.0; rc.friction.memory_slip = 1.0);
     REFUSED("memory: expected a number > 0", FALLS; rc.friction.memory = -1.0);

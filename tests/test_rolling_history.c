@@ -199,7 +199,7 @@ TEST(bad_programs_name_the_row)
         {"row 2: load", {.n = 3, .load = hole}, RB_STATIC},
         {"row 3: load", {.n = 3, .load = negative}, RB_STATIC},
         {"row 1: shift", {.n = 3, .distance = way, .shift = way}, RB_TRANSIENT},
-        {"row 3: force ratio", {.n = 3, .force_ratio = way}, RB_STATIC}, /* 2 mu P */
+        {"row 3: force-ratio", {.n = 3, .force_ratio = way}, RB_STATIC}, /* 2 mu P */
         {"column distance", {.n = 3, .load = way + 1}, RB_TRANSIENT},
         {"1 row", {.n = 0, .load = way}, RB_STATIC},
     };

@@ -360,7 +360,7 @@ static rb_rolling_solution first_step(const rb_rolling_case *rc, const rb_rollin
 {
     const double a = rb_rolling_derive(rc).half_width;
     rb_rolling_solution s;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     if (rb_rolling_step_between(rc, -1.2 * a, 1.2 * a, NULL, start, rc->distance * a, &s, &why) !=
         RB_OK)
         fail_msg("%s", why.text);

@@ -678,7 +678,7 @@ TEST(bad_ways_are_refused)
     const rb_rolling_program between = {
         .n = 2, .distance = distance, .mu = less, .load = load, .force = force};
     CHECK_SAYS(rb_rolling_history_run(&rc, &between, NULL, &model, &h, &heard), RB_EINVAL,
-               "step 2: force Q = ");
+               "step 2: force: Q = ");
     assert_non_null(strstr(heard.text, "friction carries at most mu P = "));
     rb_rolling_model_free(&model);
     rb_rolling_history_free(&h);

@@ -222,7 +222,7 @@ TEST(a_pool_that_cannot_start_says_why)
 {
     const rb_rolling_sweep sweep = of(4, 4, 0);
     rb_rolling_pool *pool;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     struct rlimit before, few;
     assert_int_equal(getrlimit(RLIMIT_NOFILE, &before), 0);
     for (int room = 0; room < 4; room += 3) { /* none, and enough for one worker */

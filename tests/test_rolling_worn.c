@@ -295,7 +295,7 @@ TEST(wear_that_makes_no_sense_is_refused)
     REFUSED("needs equal elements", rc.mesh = RB_MESH_FITTED);
     REFUSED("--slide needs --formulation static", rc.formulation = RB_STEADY);
     REFUSED("of one elastic material only", STEADY, rc.a.layer = 1.0);
-    REFUSED("not with --yield-stress", rc.yield_stress = 1.0);
+    REFUSED("yield-stress: no wear", rc.yield_stress = 1.0);
     REFUSED("mu: expected a number >= 0", rc.mu = -0.1);
 #undef STEADY
 #undef REFUSED

@@ -404,9 +404,9 @@ TEST(bad_layers_are_refused)
     refused(rc, "softening by 1e+08 MPa/mm has no unique solution");
     rc = plastic_example(0.0);
     set(&rc, "contact-elements 30 zone 1.25 creep nan force 80");
-    refused(rc, "force Q = 80");
+    refused(rc, "force: Q = 80");
     set(&rc, "hardening -20500 force -55");
-    refused(rc, "force Q = -55");
+    refused(rc, "force: Q = -55");
 }
 
 RUN_TESTS(NULL, NULL)

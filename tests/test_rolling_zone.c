@@ -503,7 +503,7 @@ TEST(elements_are_as_long_as_the_layer_at_most)
         rc.a.layer = k ? 0.1 * (1.0 - 1e-6) : 0.1;
         CHECK_STATUS(rb_rolling_solve(&rc, &s, &heard), k ? RB_EINVAL : RB_OK);
         if (k)
-            assert_non_null(strstr(heard.text, "layer thickness: with nu = 0.5"));
+            assert_non_null(strstr(heard.text, "layer-thickness: with nu = 0.5"));
     }
 }
 

@@ -65,7 +65,7 @@ static const words histories[] = {
 TEST(histories_have_derivatives)
 {
     for (size_t h = 0; h < sizeof histories / sizeof *histories; h++) {
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         differences d;
         held_case *c = case_of(RB_CASE_SINGLE, &histories[h], NULL, 0.0);
         if (compare_steps(c, 0, 1, &d, &why) != RB_OK)
@@ -87,7 +87,7 @@ TEST(elements_under_a_table_stay)
 
     for (int given = 0; given < 2; given++) {
         difference_run run = {.states = {0}};
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         held_case *c = case_of(RB_CASE_SINGLE, &w, given ? "zone" : NULL, zone);
         const rb_resolved_case *resolved = rb_case_resolved(c);
         CHECK_STATUS(difference_history(resolved, &resolved->rc, &run, &why), RB_OK);
@@ -187,7 +187,7 @@ TEST(compressed_boundaries_have_derivatives)
 {
     static const words w = {{"support hub load 500 contact-elements 16 outer-elements 1150 "
                              "formulation steady mesh uniform creep-ratio 0.4 poisson 0.3"}};
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     differences d;
     held_case *c = case_of(RB_CASE_SINGLE, &w, "tol", 1e-13);
     rb_case_number number[RB_CASE_NUMBERS_MAX];
@@ -215,7 +215,7 @@ static rb_status with_poisson(void *context, double value, rb_rolling_case *rc, 
 TEST(compressed_boundaries_have_rates)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_rolling_model model, closely;
     rb_sensitivity_rate rate[2];
     double off = 0.0, largest = 0.0;
@@ -257,7 +257,7 @@ TEST(compressed_boundaries_have_rates)
 TEST(rates_of_wheels_are_those_of_derivatives)
 {
     static const words w = {{SIDES_CHANGE}};
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_case_number number[RB_CASE_NUMBERS_MAX];
     rb_case_result r;
     rb_sensitivity *s;
@@ -389,7 +389,7 @@ TEST(single_cases_have_derivatives)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         if (!is_in_turn((int)k, 4))
             continue;
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         differences d;
         held_case *c = case_of(RB_CASE_SINGLE, &cases[k], "tol", 1e-13);
         if (compare_single(c, 0, 1, &d, &why) != RB_OK)
@@ -592,7 +592,7 @@ TEST(points_are_single_cases)
          {RB_OVER_SPEED, 100, 10000, 3, RB_UNITS_MM},
          "speed"}};
     for (size_t k = 0; k < sizeof curve / sizeof *curve; k++) {
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         rb_case_slopes s, want = {0};
         rb_rolling_curve points;
         const rb_case_purpose purpose =

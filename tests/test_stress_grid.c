@@ -127,7 +127,7 @@ TEST(bad_grids_are_refused)
     const rb_rolling_case rc = pressed(RB_BEM_HALFPLANE);
     OWNED(rb_rolling_model) model;
     OWNED(rb_rolling_stress_grid) grid;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     assert_int_equal(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
     assert_int_equal(rb_rolling_stress_on_grid(&model, 1, 4, 0.0, &grid, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "got 1 x 4"));

@@ -543,14 +543,15 @@ TEST(wrong_units_are_named)
     check_refused("--units si --support hub --radius 0.05 --cover-thickness 0.06", 64,
                   "less than the radius, 50 mm, got 60 mm");
     check_refused("--units si --support halfplane --load 1e5 --formulation steady --force 9e4", 64,
-                  "force Q = 90 N/mm: friction carries at most mu P = 30 N/mm");
+                  "--force: Q = 90 N/mm: friction carries at most mu P = 30 N/mm");
     /* the same where only the solution tells what is carried */
     check_refused(
         "--units si --support halfplane --approach 1e-5 --formulation steady --force 9e6", 64,
-        "force Q = 9000 N/mm: friction carries at most mu P = 79.2193 N/mm at this approach");
+        "--force: Q = 9000 N/mm: friction carries at most mu P = 79.2193 N/mm at this approach");
     check_refused("--units si --support halfplane --load 1e5 --formulation steady "
                   "--force 25000 --yield-stress 1e6",
-                  64, "force Q = 25 N/mm: the interface yields, and carries at most 0.516437 N/mm");
+                  64,
+                  "--force: Q = 25 N/mm: the interface yields, and carries at most 0.516437 N/mm");
 }
 
 /* Whatever a refusal lists is read, and is of the quantity. */
@@ -571,7 +572,7 @@ TEST(listed_units_are_read)
                      (int)strcspn(at, ","), at);
             if (rb_unit_read(text, kinds[k], &value, &plain, &heard) != RB_OK || plain)
                 fail_msg("%s: %s", text, heard.text);
-            rb_message why = {""};
+            rb_message why = {.text = ""};
             const char *other = kinds[(k + 1) % (sizeof kinds / sizeof *kinds)];
             assert_int_equal(rb_unit_read(text, other, &value, &plain, &why), RB_EINVAL);
         }
@@ -601,7 +602,7 @@ TEST(what_is_no_unit_of_the_quantity_is_refused)
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         double value;
         int plain;
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         if (rb_unit_read(bad[k][0], bad[k][1], &value, &plain, &why) == RB_OK)
             fail_msg("%s is %g %s", bad[k][0], value, bad[k][1]);
     }

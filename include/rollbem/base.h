@@ -64,6 +64,10 @@ typedef enum {
 /* One line for people: what, where, what was wanted.  Callers may pass NULL. */
 typedef struct {
     char text[640];
+    char about[64]; /* options that the line speaks of, "zone" or "contact-elements,mesh", the wrong
+                       one first; "": of none */
+    int row;        /* of the table that this option names, from 1; 0: of none */
+    int rest;       /* where in the text the words behind the name, and the row, begin */
 } rb_message;
 
 /* One allowed word of an option, and the value (of an enum) that the word stands for. */

@@ -10,17 +10,53 @@
 #include <time.h>
 #include <unistd.h>
 
+/* about NULL: of no input */
+static rb_status say(rb_message *why, rb_status s, const char *about, int row, const char *format,
+                     va_list args)
+{
+    if (!why)
+        return s;
+    void *before = rb_locale_begin();
+    char text[sizeof why->text], name[sizeof why->about];
+    /* into another place first: the arguments may be of the same message */
+    vsnprintf(text, sizeof text, format, args);
+    rb_next_word(about ? about : "", name, sizeof name);
+    *why = (rb_message){.row = row};
+    if (about) {
+        snprintf(why->about, sizeof why->about, "%s", about);
+        rb_append(why->text, sizeof why->text, row > 0 ? "%s: row %d: " : "%s: ", name, row);
+        why->rest = (int)strlen(why->text);
+    }
+    rb_append(why->text, sizeof why->text, "%s", text);
+    rb_locale_end(before);
+    return s;
+}
+
 rb_status rb_fail(rb_message *why, rb_status s, const char *format, ...)
 {
-    if (why) {
-        va_list args;
-        void *before = rb_locale_begin();
-        va_start(args, format);
-        vsnprintf(why->text, sizeof why->text, format, args);
-        va_end(args);
-        rb_locale_end(before);
-    }
+    va_list args;
+    va_start(args, format);
+    say(why, s, NULL, 0, format, args);
+    va_end(args);
     return s;
+}
+
+rb_status rb_refuse(rb_message *why, const char *about, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    say(why, RB_EINVAL, about, 0, format, args);
+    va_end(args);
+    return RB_EINVAL;
+}
+
+rb_status rb_refuse_row(rb_message *why, const char *about, int row, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    say(why, RB_EINVAL, about, row, format, args);
+    va_end(args);
+    return RB_EINVAL;
 }
 
 double rb_largest_shown(double x)

@@ -8,6 +8,13 @@
 /* Writes the formatted line into why (unless it is NULL) and returns s.  An error return
  * is then one statement: return rb_fail(why, RB_EINVAL, "mu = %g: expected >= 0", mu); */
 rb_status rb_fail(rb_message *why, rb_status s, const char *format, ...) RB_PRINTF(3, 4);
+/* The same of a wrong input, with RB_EINVAL: about is the name of its option, and the text begins
+ * with it, "zone: ...".  Behind a comma stand others of which it is wrong together with, and of
+ * which the first one that was given is blamed. */
+rb_status rb_refuse(rb_message *why, const char *about, const char *format, ...) RB_PRINTF(3, 4);
+/* The same of a row of a table, from 1: "history: row 3: ...". */
+rb_status rb_refuse_row(rb_message *why, const char *about, int row, const char *format, ...)
+    RB_PRINTF(4, 5);
 /* x with six digits, towards zero: of the largest value that is accepted a message must not
  * print more. */
 double rb_largest_shown(double x);

@@ -141,7 +141,7 @@ struct rb_rolling_body_kind {
     int can;                                   /* a sum of rb_rolling_ability */
     const rb_rolling_parameter *parameters;
     /* Checks ranges of the parameters; for an addition it is called for every body, with
-     * or without the addition.  which: "", or " of body B".  NULL: nothing to check. */
+     * or without the addition.  which: "", or "-b" of body B.  NULL: nothing to check. */
     rb_status (*check)(const rb_rolling_case *rc, const rb_rolling_body *body, const char *which,
                        rb_message *why);
 
@@ -180,14 +180,14 @@ void rb_rolling_memory_lengths(const rb_rolling_case *rc, const rb_rolling_body 
                                double length[RB_ROLLING_TERMS]);
 /* ---- material.c -------------------------------------------------------------------- */
 
-/* Checks that nu is in the range of plane stress, if that is the problem; what: "base" or
- * "core", NULL for the body itself. */
-rb_status rb_rolling_check_poisson(const rb_rolling_case *rc, const char *what, double poisson,
-                                   const char *which, rb_message *why);
+/* Checks that nu, the value of an option, is in the range of plane stress, if that is the
+ * problem. */
+rb_status rb_rolling_check_poisson(const rb_rolling_case *rc, const char *option, double poisson,
+                                   rb_message *why);
 
 /* ---- body.c ------------------------------------------------------------------------ */
 
-/* Checks a body.  RB_EINVAL: invalid values.  which: "", or " of body B". */
+/* Checks a body.  RB_EINVAL: invalid values.  which: "", or "-b" of body B. */
 rb_status rb_rolling_body_check(const rb_rolling_case *rc, const rb_rolling_body *body,
                                 const char *which, int plane_allowed, rb_message *why);
 

@@ -74,7 +74,7 @@ static double seconds(int n, int kind, const ability *with)
     double least = INFINITY;
 
     for (int k = 0; k < 3 && !(k > 0 && least > 2.0); k++) {
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         rb_case *c = case_with(n, kind, with, &why);
         rb_case_result result = {0};
         const double start = processor_seconds();

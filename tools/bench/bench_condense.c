@@ -24,7 +24,7 @@ static int generate(const char *arguments, rb_friction_problem *p)
 {
     const char *build = getenv("B") ? getenv("B") : "build";
     char name[] = "/tmp/rollbem-condense-XXXXXX", command[400];
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     const int file = mkstemp(name);
     if (file < 0)
         return 0;

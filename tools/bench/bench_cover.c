@@ -45,7 +45,7 @@ static double seconds(int n, rb_rolling_mesh_kind mesh, way how, double *creepag
 
     for (int k = 0; k < 3; k++) {
         rb_rolling_solution s = {0};
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         const double start = processor_seconds();
         if (rb_rolling_solve(&rc, &s, &why) != RB_OK) {
             fprintf(stderr, "bench_cover: %s\n", why.text);

@@ -19,7 +19,7 @@ int main(int argc, char **argv)
                                   .shear = 1.0,
                                   .poisson = 0.3};
     double ends[STRIPS + 1], p[STRIPS], q[STRIPS] = {0}, x[POSITIONS];
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_crack *crack = NULL;
     rb_crack_history h = {0};
 

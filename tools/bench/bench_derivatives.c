@@ -21,7 +21,7 @@ static int measure(const char *name, const char *young_b)
                                            {"contact-elements", "200"}, {"creep-ratio", "0.5"}};
     double solve = 1e30, derive = 1e30;
     int inputs = 0;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
 
     for (int round = 0; round < 5; round++) {
         rb_case *c = rb_case_create(RB_CASE_SINGLE);

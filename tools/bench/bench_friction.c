@@ -287,7 +287,7 @@ static void compare_file(const char *name, const char *path, const rb_friction_p
     const int flat = p->dimension == 2 ? 0 : 1;
     rb_friction_info info;
     rb_friction_handle *handle;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     if (rb_friction_setup(p, &handle, &why) != RB_OK) {
         printf("%s: %s\n", name, why.text);
         return;

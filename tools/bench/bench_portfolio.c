@@ -108,7 +108,7 @@ static void measure(const char *name, const rb_friction_problem *p, tally *t)
 static void measure_file(const char *path, const char *name, tally *t)
 {
     rb_friction_problem p;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     if (rb_friction_read(path, &p, &why) != RB_OK) {
         printf("%s\n", why.text);
         return;

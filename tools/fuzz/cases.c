@@ -31,7 +31,7 @@ static void require_resolved(const rb_case *c)
 
 static void resolve(rb_case *c)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     const rb_status s = rb_case_resolve(c, &why);
     fuzz_require_reason(s, &why);
     if (s == RB_OK)
@@ -43,7 +43,7 @@ void fuzz_ini(const uint8_t *data, size_t size)
     static const rb_case_purpose purposes[] = {RB_CASE_SINGLE, RB_CASE_CURVE, RB_CASE_WEAR};
     char *text = fuzz_text(data, size);
     rb_case *c = new_case();
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     const rb_status s = rb_case_read_text(c, "case.ini", text, &why);
     fuzz_require_reason(s, &why);
     for (int k = 0; s == RB_OK && k < 3; k++) {
@@ -58,7 +58,7 @@ static void resolve_with_file(const char *const (*option)[2], int n, const uint8
                               size_t size)
 {
     rb_case *c = new_case();
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     fuzz_keep("table", data, size);
     for (int k = 0; k < n; k++)
         fuzz_require(rb_case_set(c, option[k][0], option[k][1], RB_GIVEN_ARGUMENT, &why) == RB_OK,
@@ -92,7 +92,7 @@ void fuzz_history(const uint8_t *data, size_t size)
 void fuzz_table(const uint8_t *data, size_t size)
 {
     rb_io_table t;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     fuzz_keep("table", data, size);
     rb_status s = rb_io_table_read("table", &t, &why);
     fuzz_require_reason(s, &why);
@@ -107,13 +107,13 @@ void fuzz_table(const uint8_t *data, size_t size)
         static const rb_io_column known[] = {{"x", "a", "mm", RB_IO_COLUMN_NEEDED},
                                              {"gap", "b|g", "mm", RB_IO_COLUMN_NEEDED}};
         const double *x[2];
-        rb_message why_not = {""};
+        rb_message why_not = {.text = ""};
         s = rb_io_table_assign("table", &t, 2, known, RB_UNITS_SI, x, &why_not);
         fuzz_require_reason(s, &why_not);
         fuzz_require(s != RB_OK || (x[0] && x[1]), "needed columns are there");
     }
     rb_io_table_free(&t);
-    rb_message why_words = {""};
+    rb_message why_words = {.text = ""};
     s = rb_io_table_read_words("table", &t, &why_words);
     fuzz_require_reason(s, &why_words);
     for (int k = 0; s == RB_OK && k < t.rows * t.columns; k++)

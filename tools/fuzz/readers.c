@@ -36,7 +36,7 @@ static void require_matrix(rb_io_matrix *m)
 static void read_friction(rb_friction_file kind)
 {
     rb_friction_problem p = {0};
-    rb_message why = {""}, again = {""};
+    rb_message why = {.text = ""}, again = {.text = ""};
     const rb_status s = rb_friction_read_as(file, kind, &p, &why);
     fuzz_require_reason(s, &why);
     if (s == RB_OK && p.contacts > 0)
@@ -48,7 +48,7 @@ static void read_friction(rb_friction_file kind)
 void fuzz_siconos(const uint8_t *data, size_t size)
 {
     rb_io_lcp lcp;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     fuzz_keep(file, data, size);
     const rb_status s = rb_io_siconos_read_lcp(file, &lcp, &why);
     fuzz_require_reason(s, &why);
@@ -62,18 +62,18 @@ void fuzz_siconos(const uint8_t *data, size_t size)
         if (kind != RB_FRICTION_FILE_SICONOS_SOCLCP)
             read_friction(kind);
     rb_friction_soclcp_data cones = {0};
-    rb_message other = {""};
+    rb_message other = {.text = ""};
     fuzz_require_reason(rb_friction_soclcp_read(file, &cones, &other), &other);
     rb_friction_soclcp_data_free(&cones);
     rb_io_siconos_kind guess;
-    rb_message third = {""};
+    rb_message third = {.text = ""};
     fuzz_require_reason(rb_io_siconos_guess(file, &guess, &third), &third);
 }
 
 void fuzz_matrix_market(const uint8_t *data, size_t size)
 {
     rb_io_matrix m;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     fuzz_keep(file, data, size);
     const rb_status s = rb_io_matrix_market_read(file, &m, &why);
     fuzz_require_reason(s, &why);
@@ -90,7 +90,7 @@ void fuzz_lcp_text(const uint8_t *data, size_t size)
     rb_io_lcp p;
     rb_io_bimatrix game;
     double *x = NULL;
-    rb_message why = {""}, of_game = {""}, of_bounds = {""}, of_both = {""};
+    rb_message why = {.text = ""}, of_game = {.text = ""}, of_bounds = {.text = ""}, of_both = {.text = ""};
     fuzz_keep(file, data, size);
     rb_status s = rb_io_lcp_read(file, NULL, &p, &why);
     fuzz_require_reason(s, &why);
@@ -125,7 +125,7 @@ void fuzz_contact(const uint8_t *data, size_t size)
 {
     rb_io_contact_case *cases = NULL;
     int n = 0;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     fuzz_keep(file, data, size);
     const rb_status s = rb_io_contact_read(file, &n, &cases, &why);
     fuzz_require_reason(s, &why);

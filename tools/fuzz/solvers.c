@@ -90,7 +90,7 @@ void fuzz_lemke(const uint8_t *data, size_t size)
         require_solved("the solution of the sparse method solves", n, M, q, z);
     rb_sparse_free(&a);
     rb_lcp_solutions all = {0};
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     const rb_status s =
         rb_lcp_enumerate(&(rb_lcp_problem){n, M, n, q}, NULL, NULL, 0.0, &all, &why);
     fuzz_require_reason(s, &why);
@@ -119,7 +119,7 @@ void fuzz_friction(const uint8_t *data, size_t size)
                              .q = q};
     const int m = p.dimension * p.contacts, factor = fuzz_choice(&b, 2);
     rb_friction_options opt = rb_friction_defaults();
-    rb_friction_info info = {.msg = {""}};
+    rb_friction_info info = {.msg = {.text = ""}};
 
     opt.max_iters = 60;
     for (int k = 0; k < p.contacts; k++)

@@ -159,7 +159,7 @@ rb_status rb_crack_pass(rb_crack *c, const rb_crack_passage *p, rb_crack_history
     for (int k = 0; k < n && s == RB_OK; k++) {
         const int step = k % p->steps;
         const double x = p->x[step];
-        rb_message reason = {""};
+        rb_message reason = {.text = ""};
         if (p->observer && p->observer->stopped(k, n, p->observer->context))
             s = RB_INTERRUPTED;
         if (s == RB_OK)

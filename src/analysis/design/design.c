@@ -108,7 +108,7 @@ rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d
         if (find_result(word, &k->result, why) != RB_OK)
             return RB_EINVAL;
         const char *unit = k->result && k->result->unit ? k->result->unit : "-";
-        rb_message of_unit = {""};
+        rb_message of_unit = {.text = ""};
         if (rb_case_read_number(c, number, unit, &k->bound, &of_unit) != RB_OK)
             return of_unit.text[0]
                        ? rb_fail(why, RB_EINVAL, "--subject: %s: expected %.200s", word,
@@ -127,7 +127,7 @@ static rb_status read_bounds(const rb_case *c, const char *name, const char *uni
     if (colon)
         *colon = '\0';
     for (int k = 0; k < 2; k++) {
-        rb_message of_unit = {""};
+        rb_message of_unit = {.text = ""};
         if (!colon ||
             rb_case_read_number(c, k ? colon + 1 : text, unit, &bound[k], &of_unit) != RB_OK)
             return of_unit.text[0]

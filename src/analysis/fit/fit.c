@@ -609,7 +609,7 @@ static rb_status try_other_starts(fit_problem *p, progress *of, const double *gi
     memcpy(best, of->theta, bytes);
     for (int k = 0; k < others && s == RB_OK; k++) {
         double theta[RB_CASE_FIT_MAX], sum = INFINITY;
-        rb_message reason = {""};
+        rb_message reason = {.text = ""};
         memcpy(theta, from[k], bytes);
         rb_status at = rb_case_fit_place(p, theta, &moved, &reason);
         if (at == RB_OK)
@@ -710,7 +710,7 @@ static rb_status fit_on_own_elements(const rb_case *c, const rb_case_data *data,
     /* A minimum is one if no numbers around it, near or far, have a lesser sum. */
     int found = !of.searched || s != RB_OK;
     for (int k = 0; k < SEARCHES && s >= 0 && s != RB_INTERRUPTED && !of.several && found; k++) {
-        rb_message reason = {""};
+        rb_message reason = {.text = ""};
         const rb_status searched = rb_case_fit_search(&p, of.squares, of.theta, &found, &reason);
         if (searched != RB_OK)
             s = rb_fail(why, searched, "%s", rb_status_reason(searched, &reason));
@@ -761,7 +761,7 @@ static rb_status add_mesh_part(const rb_case *c, const rb_case_data *data, rb_ca
     for (size_t k = 0; k < sizeof parts / sizeof *parts && s == RB_OK; k++) {
         rb_case_fit other = {.n = fit->n, .level = fit->level};
         rb_case *fewer = rb_case_copy(c);
-        rb_message reason = {""};
+        rb_message reason = {.text = ""};
         s = fewer ? rb_case_set_number(fewer, "contact-elements", round(parts[k] * n), why)
                   : RB_ENOMEM;
         if (s == RB_OK)

@@ -243,7 +243,7 @@ static rb_status read_data(const rb_case *c, const char *path, rb_io_table *t, d
     const int has_force = rb_io_table_has(t, &measured[FORCE]) ||
                           rb_io_table_has(t, &measured[FORCE_RATIO]) ||
                           rb_io_table_has(t, &measured[FORCE_OVER_LOAD]);
-    rb_message misspelt = {""};
+    rb_message misspelt = {.text = ""};
     if ((!has_creep || !has_force) &&
         rb_io_table_assign(path, t, COLUMNS, measured, units, x, &misspelt) != RB_OK &&
         strstr(misspelt.text, "did you mean"))

@@ -165,7 +165,7 @@ static rb_status roll_freely(rb_sensitivity *s, rb_message *why)
 rb_status rb_sensitivity_create(const rb_rolling_model *model, int results, rb_sensitivity **s,
                                 rb_message *why)
 {
-    rb_message reason = {""};
+    rb_message reason = {.text = ""};
     rb_status status;
 
     *s = NULL;

@@ -420,6 +420,9 @@ rb_status rb_case_curve_solve(const rb_case *c, const rb_rolling_range *range, d
     curve->deviations = of.deviations;
     if (of.deviations)
         of.deviations->n = curve->n;
-    return status == RB_OK && s->without == s->rows ? rb_fail(why, RB_EINVAL, "%s", s->reason.text)
-                                                    : status;
+    if (status != RB_OK || s->without < s->rows)
+        return status;
+    if (why)
+        *why = s->reason;
+    return RB_EINVAL;
 }

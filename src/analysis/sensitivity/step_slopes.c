@@ -199,7 +199,7 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
 
     for (int step = 0; step < states->steps;) {
         rb_sensitivity *s = NULL;
-        rb_message reason = {""};
+        rb_message reason = {.text = ""};
         rb_status status = rb_rolling_follower_begin(base, &reason);
         const int ends_row = rb_rolling_follower_ends_row(base);
         if (ends_row)

@@ -287,7 +287,7 @@ static int takes_over(const rb_io_contact_case *c)
 static void read_or_tell(reading *r, const rb_io_contact_case *before, int *lost,
                          rb_io_contact_case *c)
 {
-    rb_message *why = r->why, own = {""};
+    rb_message *why = r->why, own = {.text = ""};
     r->why = &own;
     read_case(r, c);
     r->why = why;
@@ -310,7 +310,7 @@ static void read_or_tell(reading *r, const rb_io_contact_case *before, int *lost
 /* What a case has behind what is read here ends at the next line that says module. */
 rb_status rb_io_contact_read(const char *path, int *n, rb_io_contact_case **cases, rb_message *why)
 {
-    rb_message first = {""}; /* why the first case that is not read is not */
+    rb_message first = {.text = ""}; /* why the first case that is not read is not */
     reading r = {.path = path, .why = why};
     rb_io_contact_case now = {.potential = 1};
     char *text, *line;

@@ -537,9 +537,8 @@ static rb_status check_layer(rb_contact_problem *problem, const rb_contact_optio
     if (s != RB_OK || fabs(Q) <= most)
         return s;
     refused->refused_at = at;
-    return rb_fail(why, RB_EINVAL,
-                   "force Q = %.10g%s: the interface yields, and carries at most %g%s", Q, unit,
-                   rb_largest_shown(most), unit);
+    return rb_refuse(why, "force", "Q = %.10g%s: the interface yields, and carries at most %g%s", Q,
+                     unit, rb_largest_shown(most), unit);
 }
 
 /* Whether a given force is more than friction carries under the load that the approach
@@ -570,14 +569,14 @@ static rb_status check_capacity(rb_contact_problem *problem, const rb_contact_op
         refused->refused_at = sliding.xi;
     rb_contact_state_free(&sliding);
     if (s == RB_OK && resistance > most)
-        return rb_fail(why, RB_EINVAL,
-                       "free axle: the resistance to rolling M/R_A = %g%s is more than "
-                       "friction carries, mu P = %g%s",
-                       resistance, unit, most, unit);
+        return rb_refuse(why, "free-axle",
+                         "the resistance to rolling M/R_A = %g%s is more than "
+                         "friction carries, mu P = %g%s",
+                         resistance, unit, most, unit);
     if (s == RB_OK && fabs(problem->force) > most)
-        return rb_fail(why, RB_EINVAL, "force Q = %.10g%s: friction carries at most mu P = %g%s%s",
-                       problem->force, unit, rb_largest_shown(most), unit,
-                       problem->load_given ? "" : " at this approach");
+        return rb_refuse(why, "force", "Q = %.10g%s: friction carries at most mu P = %g%s%s",
+                         problem->force, unit, rb_largest_shown(most), unit,
+                         problem->load_given ? "" : " at this approach");
     return s < 0 ? s : RB_OK;
 }
 

@@ -36,7 +36,7 @@ static rb_status symmetrise(rb_friction_problem *p)
 static rb_status read_fclib(const char *path, rb_friction_problem *problem, rb_message *why)
 {
     rb_io_fclib file;
-    rb_message detail = {""};
+    rb_message detail = {.text = ""};
     rb_status s = rb_io_fclib_read(path, &file, why);
     if (s != RB_OK)
         return s;
@@ -114,7 +114,7 @@ static rb_status read_siconos(const char *path, int global, rb_friction_problem 
  * one is tried first, and its message counts where neither fits. */
 static rb_status read_text(const char *path, rb_friction_problem *problem, rb_message *why)
 {
-    rb_message other = {""};
+    rb_message other = {.text = ""};
     const rb_status s = read_siconos(path, 0, problem, why);
     const rb_status t = s == RB_EFORMAT ? read_siconos(path, 1, problem, &other) : s;
     if (t == RB_ENOMEM && s == RB_EFORMAT)
@@ -153,7 +153,7 @@ rb_status rb_friction_read_as(const char *path, rb_friction_file kind, rb_fricti
                               rb_message *why)
 {
     *problem = (rb_friction_problem){0};
-    rb_message detail = {""};
+    rb_message detail = {.text = ""};
     rb_status s = RB_OK;
     if (kind == RB_FRICTION_FILE_ANY)
         s = rb_friction_file_kind(path, &kind, why);

@@ -516,7 +516,7 @@ static int sweep(rb_api *a, int n, rb_api *const *cases, int m, const char *cons
         else if (names) {
             /* The crack of case k, with its m options. */
             rb_api *of = st.cases[k];
-            rb_message why = {""};
+            rb_message why = {.text = ""};
             st.crack[k] = rb_case_crack_defaults();
             rb_status u =
                 rb_api_set_crack(of, m, names, values + (size_t)k * (size_t)m, &st.crack[k], &why);

@@ -129,7 +129,7 @@ rb_status rb_certificate_inputs(const rb_certificate *c, const json_t *root, rb_
     json_t *now = rb_report_json_inputs(words), *value;
     rb_status s = now ? RB_OK : RB_ENOMEM;
     const char *key;
-    rb_message reason = {""};
+    rb_message reason = {.text = ""};
 
     for (int round = 0; round < 3 && s == RB_OK && !json_equal(now, inputs); round++) {
         s = set_inputs(root, now, round == 0, words, &reason);

@@ -133,7 +133,7 @@ rb_status rb_certificate_check_table(FILE *out, const char *name, const char *te
     rb_certificate c = {.out = out, .name = name, .found = found, .of = ""};
     json_t *tree = NULL;
     char *line = NULL, command[4200];
-    rb_message reason = {""};
+    rb_message reason = {.text = ""};
 
     *found = (rb_certificate_outcome){.prove = found->prove};
     const char *refused =

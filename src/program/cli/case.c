@@ -22,7 +22,7 @@ rb_case *cli_case_create(rb_case_purpose purpose)
 /* A misspelt command looks like a case file that is not there. */
 static cli_exit read_case_file(const cli_spec *spec, const char *path, rb_case *c)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_guess guess = {.word = path};
     double number;
     int plain;
@@ -62,7 +62,7 @@ cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c, 
 
 cli_exit cli_case_resolve(const cli_spec *spec, rb_case *c, const cli_args *args)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     const cli_exit code = cli_say(rb_case_resolve(c, &why), &why);
     return code == CLI_CONTINUE ? cli_check_files(spec, args) : code;
 }
@@ -214,7 +214,7 @@ cli_exit cli_case_asks(const cli_case_command *command, void *own, int argc, cha
     int given[CLI_COMMAND_OPTIONS_MAX] = {0}, plain[CLI_COMMAND_OPTIONS_MAX] = {0};
     cli_case_run run = run_of(command, own, given, plain, words);
     const cli_spec spec = spec_of(&run);
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     cli_exit code = read_words(&spec, &run, argc, argv);
     if (code == CLI_CONTINUE)
         code = cli_say(rb_case_resolve(words, &why), &why);
@@ -251,7 +251,7 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
     if (code == CLI_CONTINUE && command->check)
         code = command->check(&run);
     if (code == CLI_CONTINUE) {
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         if (!run.o.quiet)
             cli_wait_begin();
         const rb_status s = command->solve(&run, &why);

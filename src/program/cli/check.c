@@ -166,7 +166,7 @@ static cli_exit check_json(const char *path, const char *text, size_t size, cons
                            int prove)
 {
     rb_certificate_outcome found = {.prove = prove};
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     json_error_t error;
     memory_was_refused = 0;
     json_set_alloc_funcs(noting_malloc, free);
@@ -215,7 +215,7 @@ static cli_exit check_json(const char *path, const char *text, size_t size, cons
 static cli_exit check_table(const char *path, const char *text, const char *folder, int prove)
 {
     rb_certificate_outcome found = {.prove = prove};
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     char *line = NULL;
     const rb_status found_line = rb_report_table_command(text, &line);
     if (found_line == RB_ENOMEM)
@@ -279,7 +279,7 @@ static cli_exit check_file(const char *path, const check_options *o)
 {
     char *text = NULL;
     size_t size;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     const rb_status s = rb_io_read_text(path, &text, &size, &why);
     if (s != RB_OK)
         return cli_say(s, &why);

@@ -126,7 +126,7 @@ static cli_exit choose_solvers(comparison *c)
 static cli_exit run_file(comparison *c, const char *path)
 {
     rb_friction_problem p;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     cli_spool read;
     rb_status s = cli_spool_begin(path, &read, &why);
     if (s == RB_OK)

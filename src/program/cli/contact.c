@@ -160,7 +160,7 @@ int cli_contact(int argc, char **argv)
     rb_io_contact_case *cases = NULL;
     cli_exit worst = CLI_OK;
     if (code == CLI_CONTINUE) {
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         all.path = args.operand[0];
         code = cli_say(rb_io_contact_read(all.path, &all.n, &cases, &why), &why);
     }

@@ -47,7 +47,7 @@ static cli_exit check(cli_case_run *run)
 {
     const crack_run *own = run->own;
     const rb_case_crack *crack = rb_case_crack_of(run->words);
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     const rb_status s = rb_case_crack_check(run->c, crack, &why);
     if (s != RB_OK)
         return cli_case_refused(run->words, s, &why);

@@ -83,7 +83,7 @@ static cli_exit read_end(cli_case_run *run, int place, double *end)
     int *given = &run->set.given[place];
     const rb_option_set set = {&number, 1, end, given, &run->set.plain[place]};
     char what[300];
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     *end = default_end[place - FROM];
     if (!text)
         return CLI_CONTINUE;
@@ -114,7 +114,7 @@ static rb_status solve_curves(const rb_case *words, const rb_resolved_case *c,
     for (int k = 0; k < mus->n && s >= 0 && (s == RB_OK || curves->curve[k - 1].unsolved > 0);
          k++) {
         const rb_status before = s;
-        rb_message reason = {""};
+        rb_message reason = {.text = ""};
         rc.mu = curves->mu[k] = mus->value[k];
         if (range->derivatives || range->tolerance) {
             s = rb_case_curve_choose(words, &all, range->derivatives, range->tolerance,
@@ -262,7 +262,7 @@ static cli_exit check(cli_case_run *run)
     /* Names of results and of numbers. */
     const rb_rolling_range range = range_of(r);
     rb_case_slopes slopes;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     if ((r->derivatives || r->tolerance) && run->c->error)
         return cli_fail(CLI_USAGE, "--%s: not together with error bars",
                         r->derivatives ? "derivatives" : "tolerance");

@@ -316,7 +316,7 @@ enum { FORMS = sizeof forms / sizeof *forms };
 cli_exit cli_describe(const cli_spec *spec, const char *form)
 {
     if (strcmp(form, "schema") == 0) {
-        const rb_message why = {""};
+        const rb_message why = {.text = ""};
         const rb_status s = rb_report_json_write(stdout, rb_report_json_schema());
         /* what could not be written is said by main */
         return s == RB_ENOMEM ? cli_say(s, &why) : CLI_OK;

@@ -121,7 +121,7 @@ static cli_exit check(cli_case_run *run)
 {
     designing *f = run->own;
     rb_design *d = &f->design;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     if (f->least && f->largest)
         return cli_fail(CLI_USAGE, "--minimise and --maximise exclude each other");
     if (!f->least && !f->largest)

@@ -164,7 +164,7 @@ static cli_exit run_history(const example_options *o)
 {
     rb_fem_model model;
     rb_fem_history history;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     const int is_bar = strcmp(o->name, "bar") == 0;
     const cli_exit made =
         cli_say(is_bar ? rb_fem_model_bar(160, 16, &model, &why)
@@ -242,7 +242,7 @@ static cli_exit finish_wall(const wall_run *run)
         code = cli_draw_file(&o->pictures, "plot", o->plot, draw_wall, run);
     if (code == CLI_OK && o->output) {
         int chosen[75];
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         const int solved = run->steps - 1; /* the first step, under the weight, is none */
         const int count = run->o->problems < solved ? run->o->problems : solved;
         rb_status s = rb_io_make_folder(run->o->output, &why);
@@ -279,7 +279,7 @@ static cli_exit run_wall(const example_options *o)
     w.dt = o->step;
     w.stopped = is_interrupted;
     wall_run run = {.o = o};
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_status s = rb_fem_wall_create(&w, &run.wall, &why);
     if (s != RB_OK)
         return cli_say(s, &why);
@@ -369,7 +369,7 @@ int cli_example(int argc, char **argv)
         code = cli_fail(CLI_USAGE, "example: expected one of bar, truss, wall");
     const char *name = args.operand ? args.operand[0] : NULL;
     if (code == CLI_CONTINUE && o.output) { /* a folder or a file */
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         code = cli_say(strcmp(name, "wall") == 0 ? rb_io_folder_check(o.output, &why)
                                                  : rb_io_writer_check(o.output, &why),
                        &why);

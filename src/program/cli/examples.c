@@ -28,7 +28,7 @@ rb_option_set cli_example_set(void)
 
 cli_exit cli_example_read(rb_case *c, const char *file)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_guess guess = {.word = chosen};
     char title[80];
     if (!chosen)

@@ -143,7 +143,7 @@ static int read_numbers(const char *text, fitting *f)
 static cli_exit resume(cli_case_run *run)
 {
     fitting *f = run->own;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     char *text = NULL;
     size_t size;
     const rb_io_table *t = &f->table;
@@ -232,7 +232,7 @@ static rb_status solve_fit(cli_case_run *run, rb_message *why)
 static cli_exit prepare(cli_case_run *run)
 {
     fitting *f = run->own;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     if (run->args.operands < 1)
         return cli_fail(CLI_USAGE, "fit needs DATA, and at most one case file");
     if (!f->names)

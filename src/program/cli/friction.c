@@ -201,7 +201,7 @@ static rb_friction_options solver_options(friction_run *run)
 /* What is proved of the reactions, on standard error. */
 static cli_exit prove(friction_result *r, const rb_friction_problem *p, cli_exit code)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     char text[600];
     const rb_status s = rb_friction_prove_zones(p, r->r, &r->proof, &why);
     if (s != RB_OK && s != RB_UNDECIDED)
@@ -228,7 +228,7 @@ static const char *name_states(unsigned states, char *text, size_t size)
 
 static cli_exit find_all(friction_run *run, friction_result *r, const rb_friction_problem *p)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     const double start = rb_seconds();
     const rb_status s = rb_friction_all(p, run->o->seconds, &r->all, &why);
     r->info.solver = "enumeration";
@@ -320,7 +320,7 @@ static const double MUCH = 1e3;
 static cli_exit solve_friction(friction_run *run, friction_result *r)
 {
     rb_friction_problem p;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_status s =
         rb_friction_read_as(cli_spool_path(&r->read), (rb_friction_file)run->o->kind, &p, &why);
     if (s != RB_OK)
@@ -418,7 +418,7 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
 static cli_exit solve_cones(friction_run *run, friction_result *r)
 {
     rb_friction_soclcp_data d;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_status s = rb_friction_soclcp_read(cli_spool_path(&r->read), &d, &why);
     if (s != RB_OK)
         return unreadable(r, s, &why);
@@ -453,7 +453,7 @@ static cli_exit solve_file(void *context, const char *path)
         .measure = cli_friction_measures[run->o->measure].name,
         .info = {.solver = run->o->solver, .residual = NAN, .scaled = NAN, .floor = NAN}};
     rb_friction_file kind = (rb_friction_file)run->o->kind;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_status s = cli_spool_begin(path, &r.read, &why);
     if (s == RB_OK && kind == RB_FRICTION_FILE_ANY)
         s = rb_friction_file_kind(cli_spool_path(&r.read), &kind, &why);

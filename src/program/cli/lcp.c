@@ -209,7 +209,7 @@ static rb_lcp_options solver_options(lcp_run *run, const lcp_result *r)
 /* The numbers are of a file: RB_EINVAL is its fault. */
 static cli_exit invalid(lcp_result *r, rb_status s, const rb_message *msg)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_fail(&why, s, "%s: %s", r->file, msg->text);
     return failed(r, s == RB_EINVAL ? RB_EFORMAT : s, &why);
 }
@@ -241,7 +241,7 @@ static cli_exit say_proof(lcp_result *r, rb_status s, cli_exit code)
 {
     char text[400];
     if (s < 0)
-        return invalid(r, s, &(rb_message){"out of memory"});
+        return invalid(r, s, &(rb_message){.text = "out of memory"});
     fprintf(stderr, "rollbem: %s: %s\n", r->file,
             rb_report_proof_text(&r->proof, text, sizeof text));
     return code;
@@ -252,7 +252,7 @@ static cli_exit say_number(lcp_result *r, rb_status s, cli_exit code)
 {
     char text[400];
     if (s == RB_INTERRUPTED || s < 0)
-        return failed(r, s, &(rb_message){""});
+        return failed(r, s, &(rb_message){.text = ""});
     r->is_counted = 1;
     fprintf(stderr, "rollbem: %s: %s%s\n", r->file,
             rb_report_number_text(&r->number, text, sizeof text),
@@ -351,7 +351,7 @@ static cli_exit run_all(lcp_run *run, rb_io_matrix *M, lcp_result *r)
         const double res = rb_lcp_residual_mixed(&r->boxed, z, w);
         int row;
         if (rb_lcp_scaled_residual(&r->boxed, z, &scaled, &row) != RB_OK)
-            return invalid(r, RB_ENOMEM, &(rb_message){"out of memory"});
+            return invalid(r, RB_ENOMEM, &(rb_message){.text = "out of memory"});
         r->info.res = fmax(r->info.res, res);
         if (!(scaled <= r->info.scaled)) {
             r->info.scaled = scaled;
@@ -370,7 +370,7 @@ static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
 {
     const lcp_options *o = run->o;
     rb_io_lcp p;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_status s = rb_io_lcp_read(r->file, o->q, &p, &why);
     if (s == RB_OK && p.n == 0) { /* nothing is unknown */
         r->status = rb_status_text(RB_OK);
@@ -426,7 +426,7 @@ static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
 static cli_exit solve_game(lcp_run *run, lcp_result *r)
 {
     rb_io_bimatrix g;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_status s = rb_io_bimatrix_read(r->file, &g, &why);
     if (s == RB_OK && run->o->label > g.m + g.n)
         s = rb_fail(&why, RB_EINVAL, "--label: expected one of the %d strategies of %.200s, got %d",

@@ -238,7 +238,7 @@ cli_exit cli_check_files(const cli_spec *spec, const cli_args *args)
             code = check_clash(spec, args, o, path);
         if (code == CLI_CONTINUE && o->file != RB_FILE_READ) {
             rb_report_picture_kind kind;
-            rb_message why = {""};
+            rb_message why = {.text = ""};
             if (o->file == RB_FILE_PICTURE && rb_report_picture_kind_of(path, &kind, &why) != RB_OK)
                 code = cli_fail(CLI_USAGE, "--%s: %s", o->name, why.text);
             else
@@ -286,7 +286,7 @@ rb_status cli_write_to(const char *path, cli_write *write, const void *context, 
 
 cli_exit cli_write_file(const char *path, cli_write *write, const void *context)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     const rb_status s = cli_write_to(path, write, context, &why);
     if (s == RB_EWRITE && !path && errno == EPIPE)
         return CLI_CANTWRITE; /* | head has seen enough */
@@ -303,7 +303,7 @@ typedef struct {
 static rb_status draw_picture(FILE *out, const void *context, rb_message *why)
 {
     const drawing *d = context;
-    rb_message reason = {""};
+    rb_message reason = {.text = ""};
     if (d->canvas.script)
         fprintf(out, "# %s\n# gnuplot -d writes the picture to standard output.\n",
                 cli_command_line());
@@ -320,7 +320,7 @@ cli_exit cli_draw_file(const cli_pictures *pictures, const char *option, const c
 {
     drawing d = {
         .option = option, .template_file = pictures->own, .draw = draw, .context = context};
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     char *own = NULL;
     size_t size;
     if (!path)

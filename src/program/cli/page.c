@@ -58,7 +58,7 @@ static cli_exit read_page(const char *given, built_page *p)
     const char *path = given;
     char program[3000], place[3200];
     size_t size;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     const ssize_t n = readlink("/proc/self/exe", program, sizeof program - 1);
     program[n > 0 ? n : 0] = '\0';
     for (size_t k = 0; k < sizeof places / sizeof *places && !path && n > 0; k++) {

@@ -146,7 +146,7 @@ cli_exit cli_parse(const cli_spec *spec, int argc, char **argv, cli_args *args)
         char word[42], what[64], expected[200];
         snprintf(word, sizeof word, "%.*s", (int)length, name);
         rb_guess guess = {.word = word};
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         int k;
         const rb_option_set *set =
             rb_option_find(spec->set_n, spec->sets, name, length, &k, &guess);

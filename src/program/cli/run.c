@@ -113,7 +113,7 @@ rb_status cli_run_case(const rb_resolved_case *c, const cli_steps *steps, rb_cas
                        rb_message *why)
 {
     static const cli_steps silent = {0};
-    rb_message failure = {""};
+    rb_message failure = {.text = ""};
     watch w = {.steps = steps ? steps : &silent,
                .units = c->units,
                .start = rb_seconds(),

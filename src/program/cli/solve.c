@@ -170,7 +170,7 @@ static cli_exit show_behind(const cli_case_run *run)
 {
     solved *it = run->own;
     rb_rolling_model *model = &it->r.model;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     cli_exit code = CLI_CONTINUE;
     if (it->fclib || it->dump || it->trace)
         code = cli_say_of("matrix", rb_rolling_model_add_matrix(model, &why), &why);
@@ -261,7 +261,7 @@ static rb_status solve_case(cli_case_run *run, rb_message *why)
 /* Only Lemke's method has pivots to trace. */
 static cli_exit choose_pivots(rb_case *c)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     if (rb_case_resolved(c)->rc.contact.solver != RB_SOLVER_AUTO)
         return CLI_CONTINUE;
     rb_status s = rb_case_set(c, "solver", "lemke", RB_GIVEN_ARGUMENT, &why);
@@ -276,7 +276,7 @@ static cli_exit check(cli_case_run *run)
     const rb_resolved_case *c = run->c;
     const int has_steps = rb_case_has_steps(c);
     char name[300];
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     /* Options of steps mean nothing without any; the first of them is history-table. */
     for (int i = 0, of_steps = 0; i < OPTIONS && !has_steps; i++) {
         of_steps |= strcmp(options[i].name, "history-table") == 0;

@@ -112,7 +112,7 @@ static cli_exit prepare(cli_case_run *run)
     if (!st->tractions)
         return CLI_CONTINUE;
     const rb_option_set all = rb_case_options(run->words), *set = &all;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     char buffer[400];
     for (int k = 0; k < set->n; k++) {
         int is_kept = !set->given[k];
@@ -136,7 +136,7 @@ static cli_exit check(cli_case_run *run)
 {
     stress *st = run->own;
     rb_report_vtk_kind kind;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     const rb_report_stress asked = {.of_b = st->of_b, .nx = st->points ? 0 : 1, .rc = &run->c->rc};
     const rb_status s =
         (st->of_b ? rb_rolling_mirror_check : rb_rolling_stress_check)(&run->c->rc, &why);
@@ -289,7 +289,7 @@ static rb_status read_tractions(const cli_case_run *run, stress *st, rb_message 
     enum { KNOWN = sizeof known / sizeof *known };
     const rb_units units = rb_case_units(run->words, rb_option_given(&run->set, "tractions"));
     const double *column[KNOWN] = {NULL};
-    rb_message reason = {""};
+    rb_message reason = {.text = ""};
     rb_io_table table = {0};
     rb_status s = rb_io_table_read(st->tractions, &table, why);
     const int headed = s == RB_OK && table.name != NULL;

@@ -165,7 +165,7 @@ static rb_status check(const study *st, int map, rb_message *why)
  * unless --family names a column. */
 static cli_exit check_curves(study *st)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_status s = check(st, 0, &why);
     if (s == RB_EINVAL && st->o->cases && !st->o->map) {
         st->points = 1;
@@ -199,7 +199,7 @@ cli_exit cli_study_prepare_pictures(study *st)
     if (code == CLI_CONTINUE && o->sample == 0)
         code = choose_axis(st, "family", o->family, st->over, &st->family);
     if (code == CLI_CONTINUE && o->map) {
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         const rb_status s = check(st, 1, &why);
         code = s == RB_OK ? code : cli_say_of("map", s, &why);
     }

@@ -110,7 +110,7 @@ static const char notes[] = CLI_CASE_NOTES
 /* Of every input and of the columns: tells whether a file holds rows of this study. */
 static cli_exit find_fingerprint(study *st)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     uint64_t hash;
     const rb_status s = rb_report_input_hash(st->base, &hash, &why);
     if (s != RB_OK)
@@ -212,7 +212,7 @@ static cli_exit choose_results(study *st)
     const rb_resolved_case *one = rb_case_resolved(st->one);
     char heading[RB_ROLLING_HEADING];
     const rb_rolling_result *r;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     cli_exit code = CLI_CONTINUE;
     for (int k = 0; k < rb_case_crack_scalars.n && st->has_crack; k++)
         if (has_meaning(st, &(study_result){&rb_case_crack_scalars.row[k], OF_CRACK, 0}))
@@ -459,7 +459,7 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
 static rb_status make_case(int k, rb_rolling_case *rc, void *context)
 {
     study *st = context;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     const rb_status s = cli_study_try_one(st, k, &why);
     if (s == RB_OK)
         *rc = rb_case_resolved(st->one)->rc;
@@ -630,7 +630,7 @@ static cli_exit resume(study *st)
 static cli_exit close_output(study *st, cli_exit code)
 {
     if (st->w.file) {
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         rb_status s = RB_OK;
         if (!st->complete || st->lost) {
             rb_io_writer_abandon(&st->w);
@@ -700,7 +700,7 @@ static cli_exit open_output(study *st)
 
     if (st->o->style.format != RB_REPORT_TSV || st->o->style.bare) {
         /* What cannot be resumed appears at the end, whole. */
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         const rb_status s = rb_io_writer_open(st->o->output, &st->w, &why);
         if (s != RB_OK)
             return cli_say(s, &why);
@@ -806,7 +806,7 @@ static void print_summary(FILE *out, const void *context)
 
 static cli_exit run(study *st)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     const rb_rolling_sweep sweep = sweep_of(st);
 
     cli_interrupts_catch();
@@ -828,7 +828,7 @@ static cli_exit run(study *st)
     if (st->unsolved_case) {
         /* Rows have no place for words: the first that was not solved is solved once more. */
         rb_rolling_row row;
-        rb_message reason = {""};
+        rb_message reason = {.text = ""};
         rb_rolling_sweep_case(&sweep, st->unsolved_case - 1, &row, &reason);
         if (row.solution.status == RB_EINVAL && !reason.text[0]) /* a sample that is no case */
             cli_study_try_one(st, st->unsolved_case - 1, &reason);
@@ -853,7 +853,7 @@ static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
     if (code == CLI_CONTINUE)
         code = cli_study_read(st);
     if (code == CLI_CONTINUE && st->o->sample > 0) {
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         code = cli_say(rb_case_resolve(c, &why), &why);
         if (code == CLI_CONTINUE)
             code = cli_study_sample(st, c);
@@ -910,7 +910,7 @@ int cli_sweep(int argc, char **argv)
     code = cli_pool_agree(code, code == CLI_CONTINUE ? st.fingerprint : 0);
     if (cli_pool_is_worker()) {
         const rb_rolling_sweep sweep = sweep_of(&st);
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         if (code == CLI_CONTINUE)
             cli_pool_run(&sweep, &why);
         code = CLI_OK; /* rank 0 has the exit code */

@@ -28,7 +28,7 @@ static void ring(rb_verify *v, rb_bem_plane plane)
     /* constant elements on a polygon are of first order: 0.43/n was measured */
     const double bound = 0.6 / RING;
     double u[4 * RING], t[4 * RING];
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     const rb_bem_material material = rb_bem_material_in_plane(plane, E, nu);
     rb_bem_mesh mesh;
     rb_bem_system *system = NULL;
@@ -78,7 +78,7 @@ typedef struct {
 
 static subsurface below(rb_verify *v, const rb_rolling_case *rc)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_rolling_model model;
     rb_rolling_solution s = {0};
     const rb_rolling_extremum nothing = {NAN, NAN, NAN, RB_MATERIAL_BODY};
@@ -194,7 +194,7 @@ static void below_in_b(rb_verify *v)
     rb_rolling_stress at[2] = {{.sxx = NAN}, {.sxx = NAN}};
     rb_rolling_stress_maxima most = {.tension = {NAN, NAN, NAN, RB_MATERIAL_BODY}};
     rb_rolling_shakedown limit = {.shear_yield = NAN};
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rc.a.poisson = 0.3;
     rb_verify_on_same(&rc);
     rc.mu = 0.3;
@@ -240,7 +240,7 @@ static double shakedown_limit(rb_verify *v, const rb_rolling_case *rc)
     rb_rolling_model model = {0};
     rb_rolling_solution s = {0};
     rb_rolling_shakedown limit = {0};
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_status status = rb_rolling_solve_model(rc, &model, &s, &why);
     if (status == RB_OK)
         status = rb_rolling_shakedown_find(&model, &limit, &why);
@@ -260,7 +260,7 @@ static void loads_of_pressures(rb_verify *v)
     } rows[] = {{0.3, 20.0, 65.02324}, {0.5, 20.0, 51.99160}};
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         rb_rolling_case rc = rb_verify_uncoupled();
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         rc.a.radius = 100.0;
         rc.a.young = 1000.0;
         rc.a.poisson = rows[k].poisson;
@@ -298,7 +298,7 @@ static void below_strips(rb_verify *v)
         rb_rolling_model model = {0};
         rb_rolling_solution s;
         rb_rolling_stress at = {.sxx = NAN};
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         rb_status status =
             rb_rolling_model_of_nodes(&rc, 3, x, rows[k].p, rows[k].q, &model, &s, &why);
         if (status == RB_OK)
@@ -325,7 +325,7 @@ static void at_bonds(rb_verify *v)
         rb_rolling_solution s = {0};
         rb_rolling_stress_maxima most = {.bond[0] = {.shear = {NAN, NAN, NAN, RB_MATERIAL_LAYER},
                                                      .peel = {NAN, NAN, NAN, RB_MATERIAL_LAYER}}};
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         rc.a.poisson = 0.3;
         rb_verify_on_same(&rc);
         rc.a.layer = 0.5 * rb_rolling_derive(&rc).half_width;
@@ -365,7 +365,7 @@ static void on_three_layers(rb_verify *v)
     rb_rolling_model model = {0};
     rb_rolling_solution s = {.max_pressure = NAN, .approach = NAN}, of_ellipse;
     rb_rolling_stress at = {.sxx = NAN};
-    rb_message why = {""};
+    rb_message why = {.text = ""};
 
     rc.a.stack = &layers;
     rc.a.layer = thickness[0];

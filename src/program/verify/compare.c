@@ -44,7 +44,7 @@ void rb_verify_note(rb_verify *v, rb_status s, const rb_message *why)
 const rb_rolling_solution *rb_verify_solve(rb_verify *v, const rb_rolling_case *rc)
 {
     rb_rolling_solution *s = &v->solved[v->last = !v->last];
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rb_rolling_solution_free(s);
     *s = (rb_rolling_solution){0};
     const rb_status status = rb_rolling_solve(rc, s, &why);

@@ -119,7 +119,7 @@ static void relaxation(rb_verify *v)
     rb_rolling_case rc = rb_verify_uncoupled();
     rb_rolling_model model = {0};
     rb_rolling_history h = {0};
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     rc.half_width = rc.load = NAN;
     rc.mu = 0.0;
     rc.formulation = RB_STATIC;
@@ -146,7 +146,7 @@ static void prony(rb_verify *v)
     static const double f[TERMS] = {0.5, 1.5, 0.8}, tau[TERMS] = {1e-3, 0.1, 5.0};
     rb_prony_series s = {.young = 10.0, .terms = TERMS};
     double omega[POINTS], storage[POINTS], loss[POINTS];
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     memcpy(s.ratio, f, sizeof f);
     memcpy(s.time, tau, sizeof tau);
     for (int i = 0; i < POINTS; i++) {

@@ -125,9 +125,9 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_p
     rb_status s = check_memory(rc, mesh, why);
 
     if (s == RB_OK && rb_rolling_relaxes(rc) && rc->formulation != RB_STEADY)
-        s = rb_fail(why, RB_EINVAL,
-                    "relaxation: bodies that relax and do not roll steadily need a history "
-                    "of steps in time");
+        s = rb_refuse(why, "relaxation-time,relaxation-time-b",
+                      "bodies that relax and do not roll steadily need a history "
+                      "of steps in time");
     if (s == RB_OK)
         s = join_bodies(rc, plan ? plan : &own, mesh, large, one_body, &bodies->f, why);
     bodies->system_a = one_body[0].system;

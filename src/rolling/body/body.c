@@ -104,19 +104,19 @@ rb_status rb_rolling_body_check(const rb_rolling_case *rc, const rb_rolling_body
 {
     const int plane = plane_allowed && b->radius == INFINITY,
               bore = plane_allowed && b->radius < 0.0;
+    const char *support = *which ? "support-b" : "support";
 
     if (b->radius == 0.0)
-        return rb_fail(why, RB_EINVAL, "radius%s: expected > 0, or < 0 of a bore, got 0", which);
+        return rb_refuse(why, *which ? "radius-b" : "radius",
+                         "expected > 0, or < 0 of a bore, got 0");
     if (!rb_rolling_kind_of(b))
-        return rb_fail(why, RB_EINVAL, "support%s: there is no number %d", which, (int)b->support);
+        return rb_refuse(why, support, "there is no number %d", (int)b->support);
     if (bore && !(rb_rolling_kind_of(b)->can & RB_BODY_FLAT))
-        return rb_fail(why, RB_EINVAL,
-                       "support%s: a bore has no wheel's boundary, only the support "
-                       "halfplane",
-                       which);
+        return rb_refuse(why, support,
+                         "a bore has no wheel's boundary, only the support halfplane");
     if (plane && !(rb_rolling_kind_of(b)->can & RB_BODY_FLAT))
-        return rb_fail(why, RB_EINVAL, "support%s: a plane has the support halfplane only", which);
-    rb_status s = rb_rolling_check_poisson(rc, NULL, b->poisson, which, why);
+        return rb_refuse(why, support, "a plane has the support halfplane only");
+    rb_status s = rb_rolling_check_poisson(rc, *which ? "poisson-b" : "poisson", b->poisson, why);
     for (const rb_rolling_body_kind *const *kind = rb_rolling_body_kinds; *kind; kind++) {
         if (s != RB_OK)
             return s;

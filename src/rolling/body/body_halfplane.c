@@ -188,21 +188,23 @@ static int has_layer(const rb_rolling_body *body)
 static rb_status check_layer(const rb_rolling_case *rc, const rb_rolling_body *b, const char *which,
                              rb_message *why)
 {
-    const char *of_b = b == &rc->b ? "-b" : "";
+    const char *layers = *which ? "layers-b" : "layers";
     if (has_layer(b) && b->support != RB_BEM_HALFPLANE)
-        return rb_fail(why, RB_EINVAL, "%s%s: for the support halfplane only, got a wheel",
-                       b->stack ? "layers" : "layer thickness", b->stack ? of_b : which);
+        return rb_refuse(why,
+                         b->stack ? layers
+                         : *which ? "layer-thickness-b"
+                                  : "layer-thickness",
+                         "for the support halfplane only, got a wheel");
     if (b->stack && b->memory.n > 0)
-        return rb_fail(why, RB_EINVAL,
-                       "layers%s: several layers are elastic; a layer that relaxes is one "
-                       "(--layer-thickness)",
-                       of_b);
+        return rb_refuse(why, layers,
+                         "several layers are elastic; a layer that relaxes is one "
+                         "(--layer-thickness)");
     if (b->stack && rc->plane == RB_PLANE_STRESS)
-        return rb_fail(why, RB_EINVAL,
-                       "layers%s: several layers are in plane strain; leave --plane stress out",
-                       of_b);
+        return rb_refuse(why, layers,
+                         "several layers are in plane strain; leave --plane stress out");
     return has_layer(b) && b->base_young > 0.0
-               ? rb_rolling_check_poisson(rc, "base", b->base_poisson, which, why)
+               ? rb_rolling_check_poisson(rc, *which ? "base-poisson-b" : "base-poisson",
+                                          b->base_poisson, why)
                : RB_OK;
 }
 

@@ -196,24 +196,23 @@ static int has_cover(const rb_rolling_body *body)
 static rb_status check_cover(const rb_rolling_case *rc, const rb_rolling_body *b, const char *which,
                              rb_message *why)
 {
+    const char *thickness = *which ? "cover-thickness-b" : "cover-thickness";
     if (b->cover != 0.0 && b->support != RB_BEM_HUB)
-        return rb_fail(why, RB_EINVAL,
-                       "cover thickness%s: its core holds the wheel, add --support%s hub", which,
-                       which[0] ? "-b" : "");
+        return rb_refuse(why, thickness, "its core holds the wheel, add --support%s hub", which);
     if (!(b->cover < fabs(b->radius)))
-        return rb_fail(why, RB_EINVAL,
-                       "cover thickness%s: expected less than the radius, %g mm, got %g "
-                       "mm",
-                       which, b->radius, b->cover);
+        return rb_refuse(why, thickness, "expected less than the radius, %g mm, got %g mm",
+                         b->radius, b->cover);
     /* boundary elements hardly tell how an incompressible cover presses on its core all around */
     if (rb_rolling_has_elastic_core(b) && !goes_by_waves(rc, b) &&
         rb_rolling_material(rc, b).poisson > RB_ROLLING_COMPRESSIBLE)
-        return rb_fail(why, RB_EINVAL,
-                       "near-field: boundary elements of a cover on an elastic core need Poisson's "
-                       "ratio%s of 0.499 at most, got %g; leave --near-field out",
-                       which, b->poisson);
+        return rb_refuse(
+            why, *which ? "near-field,poisson-b" : "near-field,poisson",
+            "boundary elements of a cover on an elastic core need --poisson%s of 0.499 "
+            "at most, got %g; leave --near-field out",
+            which, b->poisson);
     return rb_rolling_has_elastic_core(b)
-               ? rb_rolling_check_poisson(rc, "core", b->core_poisson, which, why)
+               ? rb_rolling_check_poisson(rc, *which ? "core-poisson-b" : "core-poisson",
+                                          b->core_poisson, why)
                : RB_OK;
 }
 

@@ -14,13 +14,10 @@ rb_bem_material rb_rolling_base_material(const rb_rolling_case *rc, const rb_rol
 }
 
 /* At -1/2 and below, nu/(1 + nu) is no Poisson's ratio of plane strain. */
-rb_status rb_rolling_check_poisson(const rb_rolling_case *rc, const char *what, double poisson,
-                                   const char *which, rb_message *why)
+rb_status rb_rolling_check_poisson(const rb_rolling_case *rc, const char *option, double poisson,
+                                   rb_message *why)
 {
     if (rc->plane != RB_PLANE_STRESS || poisson > -0.5)
         return RB_OK;
-    return rb_fail(why, RB_EINVAL,
-                   "Poisson's ratio%s%s%s: expected in (-0.5, 0.5] in plane stress, got "
-                   "%g",
-                   what ? " of the " : "", what ? what : "", which, poisson);
+    return rb_refuse(why, option, "expected in (-0.5, 0.5] in plane stress, got %g", poisson);
 }

@@ -23,14 +23,13 @@ rb_status rb_rolling_points_check(const char *what, int n, const double *x, cons
                                   rb_message *why)
 {
     if (n < 3)
-        return rb_fail(why, RB_EINVAL, "%s: a table needs 3 points or more, got %d", what, n);
+        return rb_refuse(why, what, "a table needs 3 points or more, got %d", n);
     for (int i = 0; i < n; i++)
         if (!isfinite(x[i]) || !isfinite(gap[i]))
-            return rb_fail(why, RB_EINVAL, "%s: row %d: not a finite number", what, i + 1);
+            return rb_refuse_row(why, what, i + 1, "not a finite number");
     for (int i = 1; i < n; i++)
         if (x[i] <= x[i - 1])
-            return rb_fail(why, RB_EINVAL,
-                           "%s: row %d: expected an x larger than in the row before", what, i + 1);
+            return rb_refuse_row(why, what, i + 1, "expected an x larger than in the row before");
     return RB_OK;
 }
 
@@ -242,7 +241,7 @@ static rb_status create(int n, const double *x, const double *gap, double noise,
     if (s == RB_OK)
         s = rb_rolling_check_number("gap-smoothing", noise, why);
     if (s == RB_OK && noise > 0.0 && !(1e-9 * fmax(fabs(x[0]), fabs(x[n - 1])) < x[n - 1] - x[0]))
-        s = rb_fail(why, RB_EINVAL, "gap: all points lie at x = %g", x[0]);
+        s = rb_refuse(why, "gap", "all points lie at x = %g", x[0]);
     if (s != RB_OK)
         return s;
     /* The contact starts where the gap is smallest: inside the table, or the table has not
@@ -252,12 +251,12 @@ static rb_status create(int n, const double *x, const double *gap, double noise,
     for (int i = 1; i < n - 1; i++)
         lowest = gap[i] < gap[lowest] ? i : lowest;
     if (lowest == end && !is_punch)
-        return rb_fail(
-            why, RB_EINVAL,
-            "gap: row %d: the smallest gap, %g mm, is at an end of the table, which "
-            "must enclose the contact; gaps are positive where the bodies are apart, and a "
-            "punch that ends there has --mesh punch",
-            end + 1, gap[end]);
+        return rb_refuse_row(
+            why, "gap", end + 1,
+            "the smallest gap, %g mm, is at an end of the table, which must enclose the contact; "
+            "gaps are positive where the bodies are apart, and a punch that ends there has --mesh "
+            "punch",
+            gap[end]);
     rb_rolling_profile *p = calloc(1, sizeof *p);
     rb_arena scratch = {0};
     points smoothed = {0};

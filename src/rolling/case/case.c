@@ -502,8 +502,7 @@ static rb_status check_size(const char *what, double value, rb_message *why)
     const double size = fabs(value);
 
     if (isfinite(size) && (size < least || size > most))
-        return rb_fail(why, RB_EINVAL, "%s: expected a size of %g to %g, got %g", what, least, most,
-                       value);
+        return rb_refuse(why, what, "expected a size of %g to %g, got %g", least, most, value);
     return RB_OK;
 }
 
@@ -518,20 +517,19 @@ static rb_status check_relaxing_body(const rb_rolling_case *rc, const rb_rolling
     if (body->memory.n == 0)
         return RB_OK;
     if (rc->formulation == RB_STEADY && !rb_rolling_body_can(body, RB_BODY_TURNS))
-        return rb_fail(
-            why, RB_EINVAL,
-            "relaxation: steady rolling of a viscoelastic wheel needs whole turns, and a "
-            "clamped arc cannot turn; expected --support hub or halfplane");
+        return rb_refuse(why, "relaxation-time,relaxation-time-b",
+                         "steady rolling of a viscoelastic wheel needs whole turns, and a "
+                         "clamped arc cannot turn; expected --support hub or halfplane");
     if (rc->formulation == RB_TRANSIENT && !rb_rolling_can(rc, RB_BODY_FLAT))
-        return rb_fail(why, RB_EINVAL,
-                       "relaxation: in transient rolling for the support halfplane only, "
-                       "because the state of a wheel or cover extends over its whole "
-                       "circumference; use --formulation steady");
+        return rb_refuse(why, "relaxation-time,relaxation-time-b",
+                         "in transient rolling for the support halfplane only, "
+                         "because the state of a wheel or cover extends over its whole "
+                         "circumference; use --formulation steady");
     if (steps &&
         ((body->layer > 0.0 && body->base_young > 0.0) || rb_rolling_has_elastic_core(body)))
-        return rb_fail(why, RB_EINVAL,
-                       "relaxation: in a computation with steps the base or core of a "
-                       "viscoelastic body must be rigid, got an elastic one");
+        return rb_refuse(why, "relaxation-time,relaxation-time-b",
+                         "in a computation with steps the base or core of a "
+                         "viscoelastic body must be rigid, got an elastic one");
     return RB_OK;
 }
 
@@ -543,8 +541,8 @@ static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
 
     for (int b = 0; b < 1 + rc->elastic_b; b++) {
         if (memory[b]->n < 0 || memory[b]->n > RB_ROLLING_TERMS)
-            return rb_fail(why, RB_EINVAL, "relaxation: expected 0 ... %d terms, got %d",
-                           RB_ROLLING_TERMS, memory[b]->n);
+            return rb_refuse(why, "relaxation-time,relaxation-time-b",
+                             "expected 0 ... %d terms, got %d", RB_ROLLING_TERMS, memory[b]->n);
         for (int k = 0; k < memory[b]->n; k++) {
             s = rb_rolling_check_number(b ? "relaxation-time-b" : "relaxation-time",
                                         memory[b]->time[k], why);
@@ -552,7 +550,8 @@ static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
                 s = rb_rolling_check_number(b ? "relaxation-ratio-b" : "relaxation-ratio",
                                             memory[b]->ratio[k], why);
             if (s == RB_OK)
-                s = check_size("relaxation time", memory[b]->time[k], why);
+                s = check_size(b ? "relaxation-time-b" : "relaxation-time", memory[b]->time[k],
+                               why);
             if (s != RB_OK)
                 return s;
         }
@@ -564,12 +563,13 @@ static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
     if (s != RB_OK || terms == 0)
         return s;
     if (rc->formulation != RB_STATIC && rc->speed == 0.0)
-        return rb_fail(why, RB_EINVAL, "relaxation: needs the speed of rolling, add --speed");
+        return rb_refuse(why, "relaxation-time,relaxation-time-b",
+                         "needs the speed of rolling, add --speed");
     if (rc->formulation != RB_STEADY &&
         (rc->gap == RB_GAP_TABLE || rc->irregularity.n > 0 || rc->worn.n > 0))
-        return rb_fail(why, RB_EINVAL,
-                       "relaxation: a computation with steps needs a parabola or circle "
-                       "as gap, got a table");
+        return rb_refuse(why, "relaxation-time,relaxation-time-b",
+                         "a computation with steps needs a parabola or circle "
+                         "as gap, got a table");
     return RB_OK;
 }
 
@@ -582,34 +582,36 @@ static rb_status check_heat(const rb_rolling_case *rc, rb_message *why)
     if (a->conductivity == 0.0)
         return RB_OK;
     if (a->heat_capacity == 0.0 || (b->conductivity > 0.0 && b->heat_capacity == 0.0))
-        return rb_fail(why, RB_EINVAL,
-                       "conductivity: needs the heat capacity, add --heat-capacity");
+        return rb_refuse(why, "conductivity,conductivity-b",
+                         "needs the heat capacity, add --heat-capacity");
     if (rc->formulation == RB_STATIC)
-        return rb_fail(why, RB_EINVAL,
-                       "conductivity: friction heats bodies that roll, add --formulation "
-                       "steady or transient");
+        return rb_refuse(why, "conductivity,conductivity-b",
+                         "friction heats bodies that roll, add --formulation "
+                         "steady or transient");
     if (rc->speed == 0.0)
-        return rb_fail(why, RB_EINVAL, "conductivity: needs the speed of rolling, add --speed");
+        return rb_refuse(why, "conductivity,conductivity-b",
+                         "needs the speed of rolling, add --speed");
     /* A layer or a cover. */
     if (!rb_rolling_can(rc, RB_BODY_HOMOGENEOUS))
-        return rb_fail(why, RB_EINVAL, "conductivity: of homogeneous elastic bodies; %s",
-                       (rc->a.layer > 0.0 || rc->a.cover > 0.0 ||
-                        (rc->elastic_b && (rc->b.layer > 0.0 || rc->b.cover > 0.0)))
-                           ? "the flash temperature is computed for homogeneous bodies only, and a "
-                             "layer or cover conducts differently"
-                           : "a viscoelastic body is also heated inside, which is not computed");
+        return rb_refuse(
+            why, "conductivity,conductivity-b", "of homogeneous elastic bodies; %s",
+            (rc->a.layer > 0.0 || rc->a.cover > 0.0 ||
+             (rc->elastic_b && (rc->b.layer > 0.0 || rc->b.cover > 0.0)))
+                ? "the flash temperature is computed for homogeneous bodies only, and a "
+                  "layer or cover conducts differently"
+                : "a viscoelastic body is also heated inside, which is not computed");
     if (rc->formulation == RB_TRANSIENT && a->temperature != b->temperature)
-        return rb_fail(why, RB_EINVAL,
-                       "temperature-b: in transient rolling both bodies must have the "
-                       "same temperature");
+        return rb_refuse(why, "temperature-b,temperature",
+                         "in transient rolling both bodies must have the "
+                         "same temperature");
     const int unlike = b->conductivity > 0.0 &&
                        (a->conductivity != b->conductivity ||
                         a->heat_capacity != b->heat_capacity || a->temperature != b->temperature);
     const int most = unlike ? MOST_UNLIKE : MOST;
     if (rc->contact_elements > most)
-        return rb_fail(why, RB_EINVAL,
-                       "conductivity: expected at most %d contact elements%s, got %d", most,
-                       unlike ? " of bodies that conduct differently" : "", rc->contact_elements);
+        return rb_refuse(why, "conductivity,conductivity-b",
+                         "expected at most %d contact elements%s, got %d", most,
+                         unlike ? " of bodies that conduct differently" : "", rc->contact_elements);
     return RB_OK;
 }
 
@@ -632,10 +634,10 @@ static rb_status check_normal(const rb_rolling_case *rc, rb_message *why)
             "approach, load, half-width, max-pressure and wheel-load exclude each other");
     const double reach = fmin(fabs(rc->a.radius), fabs(rc->b.radius));
     if (rc->half_width >= reach)
-        return rb_fail(why, RB_EINVAL,
-                       "half-width: expected less than the radius of either body, %g mm, "
-                       "got %g",
-                       reach, rc->half_width);
+        return rb_refuse(why, "half-width",
+                         "expected less than the radius of either body, %g mm, "
+                         "got %g",
+                         reach, rc->half_width);
     return RB_OK;
 }
 
@@ -647,58 +649,56 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
     if (!isnan(rc->creep) && !isnan(rc->creep_ratio))
         return rb_fail(why, RB_EINVAL, "creep and creep-ratio exclude each other");
     if (rb_rolling_largest_mu(rc) == 0.0 && !isnan(rc->creep_ratio))
-        return rb_fail(why, RB_EINVAL, "creep-ratio: xi R/(mu a) has no meaning at mu = 0");
+        return rb_refuse(why, "creep-ratio", "xi R/(mu a) has no meaning at mu = 0");
     if (rc->formulation == RB_STATIC && count_given(3, load) > 1)
         return rb_fail(why, RB_EINVAL, "shift, force and force-ratio exclude each other");
     if (rc->formulation != RB_STATIC && !isnan(rc->shift))
-        return rb_fail(why, RB_EINVAL,
-                       "shift: rolling is driven by creep, creep-ratio, force or force-ratio");
+        return rb_refuse(why, "shift",
+                         "rolling is driven by creep, creep-ratio, force or force-ratio");
     if (rc->formulation != RB_STATIC && count_given(4, all + 1) > 1)
         return rb_fail(why, RB_EINVAL,
                        "creep, creep-ratio, force and force-ratio exclude each other");
     if (rc->free_axle && count_given(5, all) > 0)
-        return rb_fail(why, RB_EINVAL,
-                       "free axle: it excludes shift, creep, creep-ratio, force and "
-                       "force-ratio");
+        return rb_refuse(why, "free-axle",
+                         "it excludes shift, creep, creep-ratio, force and "
+                         "force-ratio");
     if (rc->free_axle && rc->formulation != RB_STEADY)
-        return rb_fail(why, RB_EINVAL, "free axle: of steady rolling only");
+        return rb_refuse(why, "free-axle", "of steady rolling only");
     if (rc->free_axle && rb_rolling_largest_mu(rc) == 0.0)
-        return rb_fail(why, RB_EINVAL, "free axle: only friction turns it, expected mu > 0");
+        return rb_refuse(why, "free-axle", "only friction turns it, expected mu > 0");
     /* Beyond full sliding there is no equilibrium; without friction no force but zero. */
     if (!isnan(rc->force_ratio) && fabs(rc->force_ratio) > 1.0)
-        return rb_fail(why, RB_EINVAL, "force ratio Q/(mu P) = %g: friction carries at most 1",
-                       rc->force_ratio);
+        return rb_refuse(why, "force-ratio", "Q/(mu P) = %g: friction carries at most 1",
+                         rc->force_ratio);
     if (!isnan(rc->force_ratio) && rb_rolling_largest_mu(rc) == 0.0 && rc->force_ratio != 0.0)
-        return rb_fail(why, RB_EINVAL, "force ratio %g: Q/(mu P) has no meaning at mu = 0",
-                       rc->force_ratio);
+        return rb_refuse(why, "force-ratio", "%g: Q/(mu P) has no meaning at mu = 0",
+                         rc->force_ratio);
     const double P = rb_rolling_derive(rc).load, mu = rb_rolling_largest_mu(rc);
     /* a coefficient that differs from place to place or falls, or an interface that yields,
      * carries less: the solver knows */
     if (!isnan(rc->force) && !isnan(P) && !(rc->yield_stress > 0.0) &&
         rc->friction.law != RB_FRICTION_table && !rb_rolling_law_depends_on_state(rc) &&
         fabs(rc->force) > mu * P * (1.0 + 1e-12))
-        return rb_fail(why, RB_EINVAL,
-                       "force Q = %.10g N/mm: friction carries at most mu P = %g N/mm", rc->force,
-                       rb_largest_shown(mu * P));
+        return rb_refuse(why, "force", "Q = %.10g N/mm: friction carries at most mu P = %g N/mm",
+                         rc->force, rb_largest_shown(mu * P));
     return RB_OK;
 }
 
 static rb_status check_interlayer(const rb_rolling_case *rc, rb_message *why)
 {
     if (rc->hardening != 0.0 && rc->yield_stress == 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "hardening: only for an interface that yields, add --yield-stress");
+        return rb_refuse(why, "hardening", "only for an interface that yields, add --yield-stress");
     if (rc->yield_stress > 0.0 &&
         (rb_rolling_law_depends_on_slip(&rc->friction) || rc->friction.heat != 0.0))
-        return rb_fail(why, RB_EINVAL,
-                       "yield stress: with one coefficient of friction or a table over "
-                       "x, not with a law that follows slip or heat: such a law does not "
-                       "apply where the interface yields instead of sliding");
+        return rb_refuse(why, "yield-stress",
+                         "with one coefficient of friction or a table over "
+                         "x, not with a law that follows slip or heat: such a law does not "
+                         "apply where the interface yields instead of sliding");
     if (rc->yield_stress > 0.0 && rc->contact.solver == RB_SOLVER_CONE)
-        return rb_fail(why, RB_EINVAL,
-                       "solver %s: solves Coulomb's law only, expected lemke, newton or "
-                       "auto with --yield-stress",
-                       rc->contact.cone_solver.name);
+        return rb_refuse(
+            why, "solver,yield-stress",
+            "%s solves Coulomb's law only, expected lemke, newton or auto with --yield-stress",
+            rc->contact.cone_solver.name);
     return RB_OK;
 }
 
@@ -707,10 +707,10 @@ static rb_status check_bore(const rb_rolling_case *rc, rb_message *why)
 {
     if (!rc->elastic_b || rc->b.radius > 0.0 || rc->b.radius < -rc->a.radius)
         return RB_OK;
-    return rb_fail(why, RB_EINVAL,
-                   "radius of body B: a bore must be larger than body A; expected less "
-                   "than -%g mm, got %g mm",
-                   rc->a.radius, rc->b.radius);
+    return rb_refuse(why, "radius-b",
+                     "a bore must be larger than body A; expected less "
+                     "than -%g mm, got %g mm",
+                     rc->a.radius, rc->b.radius);
 }
 
 /* Without a radius nothing is known of what refers to one. */
@@ -720,22 +720,21 @@ static rb_status check_gap(const rb_rolling_case *rc, rb_message *why)
         "the gap has no radius, because its table is no parabola where it is low; give --radius";
 
     if (rc->gap == RB_GAP_TABLE && !rc->profile)
-        return rb_fail(why, RB_EINVAL, "gap: expected a table, and none is given");
+        return rb_refuse(why, "gap", "expected a table, and none is given");
     if (rb_rolling_has_radius(rc))
         return RB_OK;
     if (rc->gap != RB_GAP_TABLE || !rb_rolling_can(rc, RB_BODY_FLAT))
-        return rb_fail(why, RB_EINVAL,
-                       "radius: expected a finite one; only half-planes under a gap from a file "
-                       "may have none");
+        return rb_refuse(why, "radius",
+                         "expected a finite one; only half-planes under a gap from a file "
+                         "may have none");
     if (!rb_rolling_pressing_is_given(rc))
-        return rb_fail(why, RB_EINVAL, "approach: R/2 unless it is given, and %s, or --load",
-                       no_radius);
+        return rb_refuse(why, "approach", "R/2 unless it is given, and %s, or --load", no_radius);
     if (!isnan(rc->half_width))
-        return rb_fail(why, RB_EINVAL, "half-width: Hertz's, and %s, or --load", no_radius);
+        return rb_refuse(why, "half-width", "Hertz's, and %s, or --load", no_radius);
     if (!isnan(rc->creep_ratio))
-        return rb_fail(why, RB_EINVAL, "creep-ratio: xi R/(mu a), and %s, or --creep", no_radius);
+        return rb_refuse(why, "creep-ratio", "xi R/(mu a), and %s, or --creep", no_radius);
     if (rc->free_axle)
-        return rb_fail(why, RB_EINVAL, "free axle: Q = -M/R, and %s", no_radius);
+        return rb_refuse(why, "free-axle", "Q = -M/R, and %s", no_radius);
     return RB_OK;
 }
 
@@ -747,16 +746,15 @@ static rb_status check_irregularity(const rb_rolling_case *rc, rb_message *why)
     if (n == 0)
         return RB_OK;
     if (rc->formulation == RB_STEADY)
-        return rb_fail(why, RB_EINVAL,
-                       "irregularity: only for transient rolling, in which it moves "
-                       "through the contact");
+        return rb_refuse(why, "irregularity",
+                         "only for transient rolling, in which it moves "
+                         "through the contact");
     const rb_status s =
         rb_rolling_points_check("irregularity", n, rc->irregularity.x, rc->irregularity.y, why);
     for (int i = 0; s == RB_OK && i < n; i += n - 1)
         if (rc->irregularity.y[i] != 0.0)
-            return rb_fail(why, RB_EINVAL,
-                           "irregularity: row %d: expected gap 0 where it ends, got %g", i + 1,
-                           rc->irregularity.y[i]);
+            return rb_refuse_row(why, "irregularity", i + 1, "expected gap 0 where it ends, got %g",
+                                 rc->irregularity.y[i]);
     return s;
 }
 
@@ -765,52 +763,55 @@ static rb_status check_worn(const rb_rolling_case *rc, rb_message *why)
     for (int i = 0; i < rc->worn.n; i++)
         if (!isfinite(rc->worn.x[i]) || !isfinite(rc->worn.y[i]) ||
             (i > 0 && !(rc->worn.x[i] > rc->worn.x[i - 1])))
-            return rb_fail(why, RB_EINVAL, "worn: row %d: expected finite numbers, x increasing",
-                           i + 1);
+            return rb_refuse_row(why, "worn", i + 1, "expected finite numbers, x increasing");
     return RB_OK;
 }
 
 static rb_status check_increments(const rb_rolling_case *rc, rb_message *why)
 {
     if (rc->increments > 1 && rc->formulation == RB_STEADY)
-        return rb_fail(why, RB_EINVAL,
-                       "increments: of static contact and of the start of a transient; "
-                       "steady rolling does not depend on its beginning");
+        return rb_refuse(why, "increments",
+                         "of static contact and of the start of a transient; "
+                         "steady rolling does not depend on its beginning");
     return RB_OK;
 }
 
 static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
 {
     if (rc->slip_operator == RB_SLIP_SECOND && rc->formulation != RB_STEADY)
-        return rb_fail(why, RB_EINVAL, "slip operator second: only for steady rolling");
+        return rb_refuse(why, "slip-operator", "second is only for steady rolling");
     if (rc->slip_operator == RB_SLIP_SECOND && rb_rolling_mesh_is_graded(rc))
-        return rb_fail(why, RB_EINVAL, "slip operator second: only for equal elements");
+        return rb_refuse(why, "slip-operator,mesh", "second is only for equal elements");
     if (rc->mesh == RB_MESH_ALIGNED && rc->contact_elements < 12)
-        return rb_fail(why, RB_EINVAL, "mesh aligned: expected 12 contact elements or more, got %d",
-                       rc->contact_elements);
+        return rb_refuse(why, "contact-elements,mesh",
+                         "expected 12 contact elements or more on the mesh aligned, got %d",
+                         rc->contact_elements);
     if (rc->mesh == RB_MESH_PUNCH) {
         if (rc->formulation != RB_STATIC || rb_rolling_has_steps(rc))
-            return rb_fail(why, RB_EINVAL, "mesh punch: of bodies at rest, in one step");
+            return rb_refuse(why, "mesh", "punch: of bodies at rest, in one step");
         if (rc->gap != RB_GAP_TABLE || !rb_rolling_can(rc, RB_BODY_FLAT))
-            return rb_fail(why, RB_EINVAL,
-                           "mesh punch: of half-planes whose punch is a table, add --gap FILE");
+            return rb_refuse(why, "mesh",
+                             "punch: of half-planes whose punch is a table, add --gap FILE");
         if (rc->zone > 0.0)
-            return rb_fail(why, RB_EINVAL, "mesh punch: the punch is the zone; leave --zone out");
+            return rb_refuse(why, "mesh,zone", "the punch is the zone; leave --zone out");
     }
     if (!(rc->outer_refinement >= 0.0 && rc->outer_refinement <= 1000.0))
-        return rb_fail(why, RB_EINVAL, "outer refinement: expected 0 ... 1000, got %g",
-                       rc->outer_refinement);
+        return rb_refuse(why, "outer-refinement", "expected 0 ... 1000, got %g",
+                         rc->outer_refinement);
     if (rc->period == 0.0 && (rc->zone >= rc->a.radius || rc->zone >= fabs(rc->b.radius)))
-        return rb_fail(why, RB_EINVAL, "zone: %g mm is wider than the radius, %g mm", rc->zone,
-                       fmin(rc->a.radius, fabs(rc->b.radius)));
+        return rb_refuse(why, "zone", "%g mm is wider than the radius, %g mm", rc->zone,
+                         fmin(rc->a.radius, fabs(rc->b.radius)));
+    if (rc->period > 0.0 && rc->zone > 0.5 * rc->period * (1.0 + 1e-12))
+        return rb_refuse(why, "zone", "%g mm is more than half the period, %g mm; leave it out",
+                         rc->zone, 0.5 * rc->period);
     if (rc->normals == RB_BEM_NORMALS_SURFACE && rb_rolling_body_can(&rc->a, RB_BODY_FLAT))
-        return rb_fail(why, RB_EINVAL, "normals surface: a half-plane has the obstacle's");
+        return rb_refuse(why, "normals", "surface: a half-plane has the obstacle's");
     if (rc->normals == RB_BEM_NORMALS_SURFACE && rc->elastic_b)
-        return rb_fail(why, RB_EINVAL, "normals surface: with a rigid plane only");
+        return rb_refuse(why, "normals", "surface: with a rigid plane only");
     if (rc->contact.solver == RB_SOLVER_CONE && !rc->contact.cone_solver.solve)
-        return rb_fail(why, RB_EINVAL,
-                       "solver: expected auto, lemke, newton or a cone solver, got '%.60s'",
-                       rc->contact.cone_solver.name ? rc->contact.cone_solver.name : "");
+        return rb_refuse(why, "solver",
+                         "expected auto, lemke, newton or a cone solver, got '%.60s'",
+                         rc->contact.cone_solver.name ? rc->contact.cone_solver.name : "");
     return RB_OK;
 }
 
@@ -821,18 +822,17 @@ static rb_status check_bulk(const rb_rolling_case *rc, rb_message *why)
     const double stress[2] = {rc->bulk_stress, rc->bulk_stress_b};
 
     if (rc->bulk_stress_b != 0.0 && !rc->elastic_b)
-        return rb_fail(why, RB_EINVAL,
-                       "bulk-stress-b: a rigid body B is not strained; make it elastic (--similar, "
-                       "--young-b)");
+        return rb_refuse(why, "bulk-stress-b",
+                         "a rigid body B is not strained; make it elastic (--similar, "
+                         "--young-b)");
     for (int k = 0; k < 2; k++)
         if (stress[k] != 0.0 &&
             !rb_rolling_body_can(k ? &rc->b : &rc->a,
                                  RB_BODY_FLAT | RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC))
-            return rb_fail(
-                why, RB_EINVAL,
-                "bulk-stress%s: of half-planes of one elastic material only (--support%s "
-                "halfplane), without layer and relaxation",
-                k ? "-b" : "", k ? "-b" : "");
+            return rb_refuse(why, k ? "bulk-stress-b" : "bulk-stress",
+                             "of half-planes of one elastic material only (--support%s halfplane), "
+                             "without layer and relaxation",
+                             k ? "-b" : "");
     return RB_OK;
 }
 
@@ -845,17 +845,14 @@ static rb_status check_tilt(const rb_rolling_case *rc, rb_message *why)
     if (!rb_rolling_is_tilted(rc))
         return RB_OK;
     if (rc->tilt != 0.0 && !isnan(rc->moment))
-        return rb_fail(why, RB_EINVAL, "tilt and moment exclude each other");
+        return rb_refuse(why, "tilt,moment", "excludes moment");
     if (rc->formulation != RB_STATIC)
-        return rb_fail(
-            why, RB_EINVAL,
-            "%s: of bodies at rest only (--formulation static); what rolls turns, and its "
-            "moment is the result resistance_moment",
-            which);
+        return rb_refuse(why, which,
+                         "of bodies at rest only (--formulation static); what rolls turns, and its "
+                         "moment is the result resistance_moment");
     if (!rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_ELASTIC))
-        return rb_fail(why, RB_EINVAL,
-                       "%s: of elastic half-planes only (--support halfplane), without relaxation",
-                       which);
+        return rb_refuse(why, which,
+                         "of elastic half-planes only (--support halfplane), without relaxation");
     return RB_OK;
 }
 
@@ -880,32 +877,32 @@ static rb_status check_closed(const rb_rolling_case *rc, rb_message *why)
     double from, to;
 
     if (rc->gap == RB_GAP_EXACT)
-        return rb_fail(why, RB_EINVAL,
-                       "period: needs --gap parabola, wave, or a table that is one period long");
+        return rb_refuse(why, "period",
+                         "needs --gap parabola, wave, or a table that is one period long");
     if (rc->gap == RB_GAP_PARABOLA) {
         const double least = fmin(rc->a.radius, fabs(rc->b.radius));
         return 0.5 * rc->period <= 0.95 * least
                    ? RB_OK
-                   : rb_fail(why, RB_EINVAL,
-                             "period: cylinders of the radius %g mm stand that close only up to "
-                             "%g mm; got %g mm",
-                             least, 1.9 * least, rc->period);
+                   : rb_refuse(why, "period",
+                               "cylinders of the radius %g mm stand that close only up to "
+                               "%g mm; got %g mm",
+                               least, 1.9 * least, rc->period);
     }
     if (rc->gap == RB_GAP_WAVE)
         return RB_OK;
     rb_rolling_profile_range(rc->profile, &from, &to);
     if (fabs(to - from - rc->period) > 1e-6 * rc->period)
-        return rb_fail(why, RB_EINVAL,
-                       "period: the table of the gap must be one period long, %g mm; it is %g mm",
-                       rc->period, to - from);
+        return rb_refuse(why, "period",
+                         "the table of the gap must be one period long, %g mm; it is %g mm",
+                         rc->period, to - from);
     const double first = rb_rolling_profile_gap(rc->profile, from),
                  last = rb_rolling_profile_gap(rc->profile, to);
     return fabs(first - last) <= 1e-6 * fabs(mean_gap(rc)) + 1e-12 * rc->period
                ? RB_OK
-               : rb_fail(why, RB_EINVAL,
-                         "period: the table of the gap must end as it begins, with %g mm; it ends "
-                         "with %g mm",
-                         first, last);
+               : rb_refuse(why, "period",
+                           "the table of the gap must end as it begins, with %g mm; it ends "
+                           "with %g mm",
+                           first, last);
 }
 
 /* What belongs to one contact alone means nothing to many of them. */
@@ -915,7 +912,7 @@ static rb_status check_alone(const rb_rolling_case *rc, rb_message *why)
         int given;
         const char *what, *instead;
     } of_one[] = {
-        {rc->a.datum > 0.0 || rc->b.datum > 0.0, "datum",
+        {rc->a.datum > 0.0 || rc->b.datum > 0.0, rc->a.datum > 0.0 ? "datum" : "datum-b",
          "displacements are those from the mean line of the surface"},
         {!isnan(rc->half_width), "half-width", "Hertz's is that of one contact; give --load"},
         {rb_rolling_has_ellipse(rc), "wheel-load", "give --load"},
@@ -929,24 +926,23 @@ static rb_status check_alone(const rb_rolling_case *rc, rb_message *why)
 
     for (size_t k = 0; k < sizeof of_one / sizeof *of_one; k++)
         if (of_one[k].given)
-            return rb_fail(why, RB_EINVAL, "%s: not with a period: %s", of_one[k].what,
-                           of_one[k].instead);
+            return rb_refuse(why, of_one[k].what, "not with a period: %s", of_one[k].instead);
     return RB_OK;
 }
 
 static rb_status check_wave(const rb_rolling_case *rc, rb_message *why)
 {
     if (rc->gap != RB_GAP_WAVE)
-        return rc->amplitude > 0.0
-                   ? rb_fail(why, RB_EINVAL, "amplitude: that of a wave, add --gap wave")
-                   : RB_OK;
+        return rc->amplitude > 0.0 ? rb_refuse(why, "amplitude", "that of a wave, add --gap wave")
+                                   : RB_OK;
     if (!(rc->period > 0.0) || !(rc->amplitude > 0.0))
-        return rb_fail(why, RB_EINVAL, "gap wave: needs --period and --amplitude");
+        return rb_refuse(why, "gap,period,amplitude", "a wave needs --period and --amplitude");
     if (isfinite(rc->b.radius))
-        return rb_fail(why, RB_EINVAL,
-                       "radius-b: a wave lies on a plane; a table of the gap knows other shapes");
+        return rb_refuse(why, "radius-b",
+                         "a wave lies on a plane; a table of the gap knows other shapes");
     if (!rb_rolling_pressing_is_given(rc))
-        return rb_fail(why, RB_EINVAL, "gap wave: give --load, --approach or --max-pressure");
+        return rb_refuse(why, "gap,period,amplitude",
+                         "a wave needs --load, --approach or --max-pressure");
     return RB_OK;
 }
 
@@ -958,13 +954,13 @@ static rb_status check_period(const rb_rolling_case *rc, rb_message *why)
     if (s != RB_OK || !(rc->period > 0.0))
         return s;
     if (rc->formulation != RB_STATIC)
-        return rb_fail(why, RB_EINVAL,
-                       "period: of bodies at rest only (--formulation static); what rolls over "
-                       "waves is never steady");
+        return rb_refuse(why, "period",
+                         "of bodies at rest only (--formulation static); what rolls over "
+                         "waves is never steady");
     if (!rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC))
-        return rb_fail(why, RB_EINVAL,
-                       "period: of half-planes of one elastic material only (--support "
-                       "halfplane), without layer and relaxation");
+        return rb_refuse(why, "period",
+                         "of half-planes of one elastic material only (--support "
+                         "halfplane), without layer and relaxation");
     if (rc->gap == RB_GAP_TABLE && !rc->profile)
         return RB_OK; /* check_gap says so */
     s = check_alone(rc, why);
@@ -975,10 +971,10 @@ static rb_status check_period(const rb_rolling_case *rc, rb_message *why)
         return s;
     const double most = mean_gap(rc);
     return approach < most ? RB_OK
-                           : rb_fail(why, RB_EINVAL,
-                                     "approach: at %g mm, the mean of the gap, nothing is open, "
-                                     "and only --load tells more; got %g mm",
-                                     most, approach);
+                           : rb_refuse(why, "approach",
+                                       "at %g mm, the mean of the gap, nothing is open, "
+                                       "and only --load tells more; got %g mm",
+                                       most, approach);
 }
 
 /* The strip through the middle of an ellipse. */
@@ -987,22 +983,21 @@ static rb_status check_ellipse(const rb_rolling_case *rc, rb_message *why)
     if (!rb_rolling_has_ellipse(rc))
         return isinf(rc->transverse_radius) && isinf(rc->transverse_radius_b)
                    ? RB_OK
-                   : rb_fail(why, RB_EINVAL,
-                             "transverse-radius%s: that of an ellipse under a load of all of it; "
-                             "give --wheel-load, or leave it out",
-                             isinf(rc->transverse_radius) ? "-b" : "");
+                   : rb_refuse(why,
+                               isinf(rc->transverse_radius) ? "transverse-radius-b"
+                                                            : "transverse-radius",
+                               "that of an ellipse under a load of all of it; give --wheel-load, "
+                               "or leave it out");
     if (!(rc->ellipse.radius > 0.0))
-        return rb_fail(why, RB_EINVAL, "wheel-load: its ellipse has not been found");
+        return rb_refuse(why, "wheel-load", "its ellipse has not been found");
     if (rc->gap != RB_GAP_PARABOLA || rc->worn.n > 0)
-        return rb_fail(why, RB_EINVAL,
-                       "wheel-load: Hertz's ellipse needs --gap parabola, without wear");
+        return rb_refuse(why, "wheel-load", "Hertz's ellipse needs --gap parabola, without wear");
     return rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC) &&
                    rc->plane == RB_PLANE_STRAIN && rc->interlayer_normal == 0.0
                ? RB_OK
-               : rb_fail(
-                     why, RB_EINVAL,
-                     "wheel-load: Hertz's ellipse is that of half-planes of one elastic material "
-                     "each in plane strain (--support halfplane), without normal interlayer");
+               : rb_refuse(why, "wheel-load",
+                           "Hertz's ellipse is that of half-planes of one elastic material "
+                           "each in plane strain (--support halfplane), without normal interlayer");
 }
 
 static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
@@ -1010,10 +1005,10 @@ static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
     const struct {
         const char *what;
         double value;
-    } sizes[] = {{"Young's modulus", rc->a.young},
+    } sizes[] = {{"young", rc->a.young},
                  {"radius", rc->a.radius},
-                 {"Young's modulus of body B", rc->elastic_b ? rc->b.young : 1.0},
-                 {"radius of body B", rc->elastic_b ? rc->b.radius : INFINITY},
+                 {"young-b", rc->elastic_b ? rc->b.young : 1.0},
+                 {"radius-b", rc->elastic_b ? rc->b.radius : INFINITY},
                  {"load", rc->load},
                  {"approach", rc->approach},
                  {"half-width", rc->half_width},
@@ -1049,7 +1044,7 @@ rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
     if (s == RB_OK)
         s = rb_rolling_body_check(rc, &rc->a, "", 0, why);
     if (s == RB_OK && rc->elastic_b)
-        s = rb_rolling_body_check(rc, &rc->b, " of body B", 1, why);
+        s = rb_rolling_body_check(rc, &rc->b, "-b", 1, why);
     for (size_t k = 0; k < sizeof checks / sizeof *checks && s == RB_OK; k++)
         s = checks[k](rc, why);
     return s;

@@ -36,15 +36,15 @@ rb_status rb_rolling_find_ellipse(rb_rolling_case *rc, rb_message *why)
     const double along = 1.0 / rb_rolling_radius(rc),
                  across = 1.0 / rc->transverse_radius + 1.0 / rc->transverse_radius_b;
     if (!(across > 0.0))
-        return rb_fail(why, RB_EINVAL,
-                       "transverse-radius: the sum of both transverse curvatures, %g /mm, must be "
-                       "> 0; bodies that touch along a line have a --load per width",
-                       across);
+        return rb_refuse(why, "transverse-radius,transverse-radius-b,wheel-load",
+                         "the sum of both transverse curvatures, %g /mm, must be "
+                         "> 0; bodies that touch along a line have a --load per width",
+                         across);
     if (!(along > 0.0))
-        return rb_fail(why, RB_EINVAL, "wheel-load: needs the radius of A, --radius");
+        return rb_refuse(why, "wheel-load", "needs the radius of A, --radius");
     if (!(fmin(along, across) > 1e-12 * fmax(along, across)))
-        return rb_fail(why, RB_EINVAL,
-                       "transverse-radius: the ellipse is too long; give --load per width");
+        return rb_refuse(why, "transverse-radius,transverse-radius-b,wheel-load",
+                         "the ellipse is too long; give --load per width");
     const double modulus = rb_rolling_derive(rc).modulus, P = rc->wheel_load,
                  steep = 0.5 * fmax(along, across),
                  k = axes_of(fmin(along, across) / fmax(along, across)),

@@ -473,8 +473,8 @@ static rb_status refuse(const rb_option *o, double value, rb_message *why)
     char expected[200];
     rb_option_expected(o, expected, sizeof expected);
     return o->kind == RB_OPTION_INTEGER
-               ? rb_fail(why, RB_EINVAL, "%s: expected %s, got %.0f", o->name, expected, value)
-               : rb_fail(why, RB_EINVAL, "%s: expected %s, got %g", o->name, expected, value);
+               ? rb_refuse(why, o->name, "expected %s, got %.0f", expected, value)
+               : rb_refuse(why, o->name, "expected %s, got %g", expected, value);
 }
 
 rb_status rb_rolling_check_option(const rb_option *o, double value, rb_message *why)

@@ -54,7 +54,7 @@ static int set_list(const rb_option *o, char *target, const char *value, reading
             return 0;
         memcpy(word, value, n);
         word[n] = '\0';
-        reading one = {0, {""}};
+        reading one = {0, {.text = ""}};
         if (!set_number(o, &list.value[list.n++], word, &one)) {
             r->why = one.why;
             return 0;
@@ -137,7 +137,7 @@ rb_status rb_option_assign(const rb_option_set *set, int k, int by, const char *
                            const char *text, rb_message *why)
 {
     const rb_option *option = &set->options[k];
-    reading r = {0, {""}};
+    reading r = {0, {.text = ""}};
     char expected[200];
 
     const int stated = set_any(option, set->target, text, &r);

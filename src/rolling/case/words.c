@@ -200,7 +200,7 @@ rb_status rb_case_set_number(rb_case *c, const char *name, double value, rb_mess
     if (all.n == 0)
         return RB_EINVAL;
     if (all.options[k].kind != RB_OPTION_NUMBER && all.options[k].kind != RB_OPTION_INTEGER)
-        return rb_fail(why, RB_EINVAL, "%s: takes no number", name);
+        return rb_refuse(why, name, "takes no number");
     rb_format(text, sizeof text, "%.17g", value);
     return set(c, &all, k, text, RB_GIVEN_NUMBER, why);
 }
@@ -282,31 +282,33 @@ static rb_status refuse_by(const rb_case *c, size_t n, const rule *rules, rb_mes
     return RB_OK;
 }
 
-/* The given option that a refusal names by its first words, as "zone: ..." or "radius of body B:
- * ..."; "force ratio Q" and "load begins at 3" only begin with them.  rest: what follows.  NULL:
- * they name none. */
-static const rb_option *named_first(const rb_case *c, const char *text, const char **rest)
+/* The first given one of the options that a refusal is about, or that of A which an option of B
+ * follows; NULL: none is given. */
+static const rb_option *blamed(const rb_case *c, const rb_message *why)
 {
-    static const char of_a[] = " of body A", of_b[] = " of body B";
-    char name[60];
-    const size_t n = strcspn(text, ":(");
-    if (n >= sizeof name - 2)
-        return NULL;
-    snprintf(name, sizeof name, "%.*s", (int)n, text);
-    *rest = text + n;
-    if (n > strlen(of_a) && strcmp(name + n - strlen(of_a), of_a) == 0)
-        name[n - strlen(of_a)] = '\0';
-    else if (n > strlen(of_b) && strcmp(name + n - strlen(of_b), of_b) == 0)
-        memcpy(name + n - strlen(of_b), "-b", 3);
-    for (char *at = name; *at; at++)
-        *at = *at == ' ' ? '-' : *at;
-    for (char *end = name + strlen(name); end; end = strrchr(name, '-')) {
-        if (*end)
-            *rest = text + (end - name);
-        *end = '\0';
-        if (rb_case_given(c, name) != 0)
-            return rb_case_option(name);
-    }
+    char name[sizeof why->about];
+    for (int of_a = 0; of_a < 2; of_a++)
+        for (const char *list = why->about; (list = rb_next_word(list, name, sizeof name));) {
+            const size_t n = strlen(name);
+            if (of_a && n > 2 && strcmp(name + n - 2, "-b") == 0)
+                name[n - 2] = '\0';
+            if (rb_case_given(c, name) != 0)
+                return rb_case_option(name);
+        }
+    return NULL;
+}
+
+/* The table that the value of this option is read from; NULL: none is. */
+static const case_table *table_of(const rb_case *c, const rb_option *o)
+{
+    static const char *const names[CASE_TABLES] = {
+        [CASE_HISTORY] = "history",           [CASE_GAP] = "gap",
+        [CASE_IRREGULARITY] = "irregularity", [CASE_WORN] = "worn",
+        [CASE_FRICTION] = "friction-law",     [CASE_LAYERS] = "layers",
+        [CASE_LAYERS_B] = "layers-b"};
+    for (int k = 0; k < CASE_TABLES; k++)
+        if (c->table[k].path && strcmp(o->name, names[k]) == 0)
+            return &c->table[k];
     return NULL;
 }
 
@@ -314,44 +316,22 @@ rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why)
 {
     if (s != RB_EINVAL || !why)
         return s;
-    static const char *const names[CASE_TABLES] = {
-        [CASE_HISTORY] = "history",           [CASE_GAP] = "gap",
-        [CASE_IRREGULARITY] = "irregularity", [CASE_WORN] = "worn",
-        [CASE_FRICTION] = "friction table",   [CASE_LAYERS] = "layers of A",
-        [CASE_LAYERS_B] = "layers of B"};
     const rb_message said = *why;
-    for (int k = 0; k < CASE_TABLES; k++) {
-        /* "history: row 3: ..." of the library, by the file and its line. */
-        const case_table *t = &c->table[k];
-        const size_t n = strlen(names[k]);
-        int row = 0, rest = 0;
-        if (!t->path || strncmp(said.text, names[k], n) != 0)
-            continue;
-        if (sscanf(said.text + n, ": row %d: %n", &row, &rest) == 1 && row >= 1 &&
-            row <= t->table.rows)
-            return rb_fail(why, RB_EFORMAT, "%s:%d: %s", t->path, t->table.line[row - 1],
-                           said.text + n + rest);
-        return rb_fail(why, RB_EFORMAT, "%s: %s", t->path, said.text);
-    }
-    const char *rest;
+    const rb_option *o = blamed(c, &said);
+    const case_table *t = o ? table_of(c, o) : NULL;
     char source[400];
-    const rb_option *o = named_first(c, said.text, &rest);
+    if (t && said.row >= 1 && said.row <= t->table.rows)
+        return rb_fail(why, RB_EFORMAT, "%s:%d: %s", t->path, t->table.line[said.row - 1],
+                       said.text + said.rest);
+    if (t)
+        return rb_fail(why, RB_EFORMAT, "%s: %s", t->path, said.text);
     const int by = o ? rb_case_given(c, o->name) : 0;
-    if (o && (*rest == ':' || o->kind == RB_OPTION_CHOICE))
-        return rb_fail(why, by > 0 ? RB_EFORMAT : s, "%s%s",
-                       rb_option_source(o, by, c->path, source, sizeof source), rest);
+    if (o)
+        return rb_fail(why, by > 0 ? RB_EFORMAT : s, "%s: %s",
+                       rb_option_source(o, by, c->path, source, sizeof source),
+                       said.text + said.rest);
     if (!*c->path)
         return s;
-    /* of the option, or of the first of the --options in the text that stands in the file */
-    int line = by > 0 ? by : 0;
-    for (const char *at = said.text; line == 0 && (at = strstr(at, "--")); at += 2) {
-        char name[60];
-        const size_t n = strspn(at + 2, "abcdefghijklmnopqrstuvwxyz0123456789-");
-        snprintf(name, sizeof name, "%.*s", (int)n, at + 2);
-        line = rb_case_given(c, name) > 0 ? rb_case_given(c, name) : 0;
-    }
-    if (line > 0)
-        return rb_fail(why, RB_EFORMAT, "%s:%d: %s", c->path, line, said.text);
     for (int i = 0; i < rb_case_table_n; i++)
         if (c->given[i] < 0) /* of the command line: the error need not stand in the file */
             return s;
@@ -511,10 +491,11 @@ static rb_status resolve_memory(const rb_case_memory *typed, const char *which,
                                 rb_rolling_memory *memory, rb_message *why)
 {
     if (typed->times.n != typed->ratios.n)
-        return rb_fail(why, RB_EINVAL,
-                       "--relaxation-time%s and --relaxation-ratio%s: expected equally "
-                       "many numbers, got %d and %d",
-                       which, which, typed->times.n, typed->ratios.n);
+        return rb_refuse(why,
+                         *which ? "relaxation-time-b,relaxation-ratio-b"
+                                : "relaxation-time,relaxation-ratio",
+                         "expected as many numbers as --relaxation-ratio%s has, %d, got %d", which,
+                         typed->ratios.n, typed->times.n);
     memory->n = typed->times.n;
     for (int k = 0; k < memory->n; k++) {
         memory->time[k] = typed->times.value[k];
@@ -670,9 +651,9 @@ static rb_status resolve_law(rb_case *c, rb_message *why)
     /* at rest the slip takes no time, and has no scale */
     const int scaled = c->resolved.rc.formulation != RB_STATIC || typed->slip_scales.n > 0;
     if (s == RB_OK && falls && scaled && typed->falls.n != typed->slip_scales.n)
-        s = rb_fail(why, RB_EINVAL,
-                    "--mu-fall and --slip-scale: expected equally many numbers, got %d and %d",
-                    typed->falls.n, typed->slip_scales.n);
+        s = rb_refuse(why, "mu-fall,slip-scale",
+                      "expected as many numbers as --slip-scale has, %d, got %d",
+                      typed->slip_scales.n, typed->falls.n);
     if (s == RB_OK)
         s = count_numbers(c, "memory", &typed->memories, 1, 2, why);
     if (s == RB_OK)
@@ -776,11 +757,11 @@ static rb_status check_formulation(const rb_case *c, rb_message *why)
     if (s != RB_OK)
         return s;
     if (relaxes_at_rest && !history)
-        return rb_fail(why, RB_EINVAL,
-                       "static contact of viscoelastic bodies needs --history, a table with "
-                       "a column time");
+        return rb_refuse(
+            why, "relaxation-time,relaxation-time-b",
+            "static contact of viscoelastic bodies needs --history, a table with a column time");
     if (transient && !history && !(rc->distance > 0.0))
-        return rb_fail(why, RB_EINVAL, "transient rolling needs --distance or --history");
+        return rb_refuse(why, "formulation", "transient rolling needs --distance or --history");
     return RB_OK;
 }
 
@@ -892,14 +873,14 @@ static rb_status find_load(rb_case *c, rb_message *why)
     const int many = c->purpose == RB_CASE_CURVE || c->purpose == RB_CASE_SPEEDS ||
                      c->purpose == RB_CASE_WEAR || rb_case_has_steps(&c->resolved);
     if (many)
-        return rb_fail(why, RB_EINVAL,
-                       "max-pressure: with more than one state only where Hertz's formula says "
-                       "the load (half-planes of alike materials, gap parabola); give --load");
+        return rb_refuse(why, "max-pressure",
+                         "with more than one state only where Hertz's formula says "
+                         "the load (half-planes of alike materials, gap parabola); give --load");
     /* other meshes would have other loads, and the bar of the load would be that of none */
     if (c->resolved.error || c->resolved.accuracy > 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "max-pressure: error bars only where Hertz's formula says the load "
-                       "(half-planes of alike materials, gap parabola); give --load");
+        return rb_refuse(why, "max-pressure",
+                         "error bars only where Hertz's formula says the load "
+                         "(half-planes of alike materials, gap parabola); give --load");
     return rb_rolling_find_load(&c->resolved.rc, why);
 }
 
@@ -909,13 +890,13 @@ static rb_status find_tilt(rb_case *c, rb_message *why)
     const rb_rolling_case *rc = &c->resolved.rc;
 
     if (c->purpose == RB_CASE_WEAR || rb_case_has_steps(&c->resolved))
-        return rb_fail(why, RB_EINVAL,
-                       "moment: of one state only; with steps give --tilt, or a column tilt of the "
-                       "history");
+        return rb_refuse(why, "moment",
+                         "of one state only; with steps give --tilt, or a column tilt of the "
+                         "history");
     if (c->resolved.error || c->resolved.accuracy > 0.0)
-        return rb_fail(why, RB_EINVAL, "moment: has no error bars, those of --tilt are known");
+        return rb_refuse(why, "moment", "has no error bars, those of --tilt are known");
     if (!isnan(rc->max_pressure) && !rb_rolling_pressure_is_hertz(rc))
-        return rb_fail(why, RB_EINVAL, "moment: needs --load, --half-width or --approach here");
+        return rb_refuse(why, "moment", "needs --load, --half-width or --approach here");
     return rb_rolling_find_tilt(&c->resolved.rc, why);
 }
 

@@ -74,8 +74,11 @@ static double time_at(const history_state *r, int done, int all)
 /* What must hold after every step. */
 static rb_status assess(const history_state *r, rb_status s, rb_message *reason, rb_message *why)
 {
-    if (s != RB_OK)
-        rb_fail(why, s, "step %d: %.260s", r->history->n + 1, rb_status_reason(s, reason));
+    if (s == RB_OK)
+        return s;
+    rb_fail(why, s, "step %d: %.260s", r->history->n + 1, rb_status_reason(s, reason));
+    if (why) /* what the step blames */
+        memcpy(why->about, reason->about, sizeof why->about);
     return s;
 }
 
@@ -109,7 +112,7 @@ static rb_status begin_step(history_state *r, rb_message *why)
     const double c = rests ? 0.0 : r->history->step / r->steps, mu_before = model->rc->mu;
     const rb_rolling_past past = {r->particles.w_T, model->carried.yielded, c};
     rb_rolling_case step;
-    rb_message reason = {""};
+    rb_message reason = {.text = ""};
 
     if (rests) {
         const int all = rb_rolling_program_parts(r->program, r->rc, r->row) * r->steps,
@@ -367,7 +370,7 @@ static rb_status compute_row(history_state *r, int steps, rb_message *why)
     r->steps = steps;
     memset(&r->fall, 0, sizeof r->fall);
     for (int i = 0; i < steps && s == RB_OK; i++) {
-        rb_message reason = {""};
+        rb_message reason = {.text = ""};
         s = begin_step(r, why);
         if (s != RB_OK)
             return s;
@@ -723,19 +726,17 @@ static rb_status prepare(history_state *r, double zone, rb_message *why)
                             : ceil(elements / count * (1.0 - 1e-9));
 
     if (count * each > RB_ROLLING_MOST_STEPS)
-        return rb_fail(why, RB_EINVAL,
-                       "distance: %g half-widths are %.3g steps; expected at most %g",
-                       way / h->half_width, count * each, (double)RB_ROLLING_MOST_STEPS);
+        return rb_refuse(why, "distance", "%g half-widths are %.3g steps; expected at most %g",
+                         way / h->half_width, count * each, (double)RB_ROLLING_MOST_STEPS);
     if (count > shortest && rb_rolling_relaxes(r->rc) && !r->found)
-        return rb_fail(why, RB_EINVAL,
-                       "steps: viscoelastic bodies roll by one element in each step; expected at "
-                       "most %g with these elements, got %g",
-                       shortest, count);
+        return rb_refuse(why, "steps",
+                         "viscoelastic bodies roll by one element in each step; expected at "
+                         "most %g with these elements, got %g",
+                         shortest, count);
     r->rows = r->at_rest + (int)count;
     r->rolled = (int)each;
     if (r->found && r->found->steps != r->rows)
-        return rb_fail(why, RB_EINVAL, "history: %d steps, the program has %d", r->found->steps,
-                       r->rows);
+        return rb_refuse(why, "history", "%d steps, the program has %d", r->found->steps, r->rows);
     h->step = way == 0.0 ? 0.0 : way / count;
     h->steady_from = -1;
     r->row = r->part = r->step = 0;
@@ -768,7 +769,7 @@ static rb_status begin_program(history_state *r, const rb_rolling_case *rc, rb_m
                   : program     ? rb_rolling_program_check_base(program, &whole, why)
                                 : rb_rolling_case_check(&whole, why);
     if (s == RB_OK && !program && rc->formulation == RB_TRANSIENT && rc->distance == 0.0)
-        s = rb_fail(why, RB_EINVAL, "distance: expected > 0, got 0");
+        s = rb_refuse(why, "distance", "expected > 0, got 0");
     if (s == RB_OK && !program) {
         rb_rolling_press_by_load(&r->base); /* a column of loads replaces it */
         s = rb_rolling_program_of_case(rc, &r->columns, &r->own);
@@ -834,8 +835,7 @@ static rb_status check_followed(const rb_rolling_states *states, rb_message *why
 {
     return states->half_width > 0.0
                ? RB_OK
-               : rb_fail(why, RB_EINVAL, "history: half-width %g: expected > 0",
-                         states->half_width);
+               : rb_refuse(why, "history", "half-width %g: expected > 0", states->half_width);
 }
 
 rb_status rb_rolling_history_follow(const rb_rolling_case *rc, const rb_rolling_states *states,

@@ -223,20 +223,20 @@ rb_status rb_rolling_program_check_case(const rb_rolling_case *rc, rb_message *w
     rb_rolling_case touching = *rc;
 
     if (unloaded && rc->force != 0.0 && !isnan(rc->force))
-        return rb_fail(why, RB_EINVAL,
-                       "force: without a load there is no friction; expected 0, "
-                       "got %g",
-                       rc->force);
+        return rb_refuse(why, "force",
+                         "without a load there is no friction; expected 0, "
+                         "got %g",
+                         rc->force);
     /* everything else as under some load */
     if (unloaded)
         touching.load = rb_rolling_hertz_load(rc, 1e-3 * rb_rolling_radius(rc));
     if (lifted)
         touching.approach = 1e-6 * rb_rolling_radius(rc);
     if (lifted && rc->force != 0.0 && !isnan(rc->force))
-        return rb_fail(why, RB_EINVAL,
-                       "force: bodies that do not touch have no friction; expected "
-                       "0, got %g",
-                       rc->force);
+        return rb_refuse(why, "force",
+                         "bodies that do not touch have no friction; expected "
+                         "0, got %g",
+                         rc->force);
     return rb_rolling_case_check(&touching, why);
 }
 
@@ -248,81 +248,76 @@ rb_status rb_rolling_program_check(const rb_rolling_program *program, const rb_r
     int touches = 0;
 
     if (program->n < 1)
-        return rb_fail(why, RB_EINVAL, "history: expected 1 row or more");
+        return rb_refuse(why, "history", "expected 1 row or more");
     if (formulation == RB_STEADY)
-        return rb_fail(why, RB_EINVAL, "history: steady rolling has none");
+        return rb_refuse(why, "history", "steady rolling has none");
     if (formulation == RB_TRANSIENT && !program->distance)
-        return rb_fail(why, RB_EINVAL, "history: transient rolling needs a column distance");
+        return rb_refuse(why, "history", "transient rolling needs a column distance");
     if (formulation == RB_STATIC && program->distance)
-        return rb_fail(why, RB_EINVAL,
-                       "history: a column distance is for transient rolling; static "
-                       "contact does not roll");
+        return rb_refuse(why, "history",
+                         "a column distance is for transient rolling; static "
+                         "contact does not roll");
     if (program->time && formulation == RB_TRANSIENT)
-        return rb_fail(why, RB_EINVAL,
-                       "history: a column time is for static contact; rolling needs a "
-                       "column distance and a speed");
+        return rb_refuse(why, "history",
+                         "a column time is for static contact; rolling needs a "
+                         "column distance and a speed");
     if (program->time && !rb_rolling_relaxes(rc))
-        return rb_fail(why, RB_EINVAL,
-                       "history: a column time is for viscoelastic bodies, see --relaxation-time");
+        return rb_refuse(why, "history",
+                         "a column time is for viscoelastic bodies, see --relaxation-time");
     if (program->mu && rc->friction.law == RB_FRICTION_table)
-        return rb_fail(why, RB_EINVAL,
-                       "history: a column mu cannot be combined with a table of friction over x");
+        return rb_refuse(why, "history",
+                         "a column mu cannot be combined with a table of friction over x");
     for (int c = 0; c < RB_ROLLING_PROGRAM_COLUMNS; c++)
         for (int r = 0; column_of(program, c) && r < program->n; r++)
             if (!isfinite(column_of(program, c)[r]))
-                return rb_fail(why, RB_EINVAL, "history: row %d: %s is not a number", r + 1,
-                               rb_rolling_program_columns[c].name);
+                return rb_refuse_row(why, "history", r + 1, "%s is not a number",
+                                     rb_rolling_program_columns[c].name);
     if (formulation == RB_STATIC && rb_rolling_relaxes(rc)) {
         const double *t = program->time;
         double steps = 0.0;
 
         if (!t)
-            return rb_fail(why, RB_EINVAL,
-                           "history: static contact of viscoelastic bodies needs a column time");
+            return rb_refuse(why, "history",
+                             "static contact of viscoelastic bodies needs a column time");
         if (t[0] != 0.0)
-            return rb_fail(why, RB_EINVAL,
-                           "history: row 1: expected time 0, when the bodies are pressed "
-                           "together, got %g",
-                           t[0]);
+            return rb_refuse_row(why, "history", 1,
+                                 "expected time 0, when the bodies are pressed together, got %g",
+                                 t[0]);
         for (int r = 1; r < program->n; r++) {
             if (t[r] < t[r - 1])
-                return rb_fail(why, RB_EINVAL,
-                               "history: row %d: time %g is before that of the row before", r + 1,
-                               t[r]);
+                return rb_refuse_row(why, "history", r + 1,
+                                     "time %g is before that of the row before", t[r]);
             steps += rb_rolling_program_parts(program, rc, r);
         }
         if (!(steps <= RB_ROLLING_MOST_STEPS))
-            return rb_fail(why, RB_EINVAL, "time step: %g s makes %.3g steps; expected at most %g",
-                           rc->time_step, steps, (double)RB_ROLLING_MOST_STEPS);
+            return rb_refuse(why, "time-step", "%g s makes %.3g steps; expected at most %g",
+                             rc->time_step, steps, (double)RB_ROLLING_MOST_STEPS);
     }
     if (d && d[0] != 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "history: row 1: expected distance 0, where the contact starts "
-                       "from rest, got %g",
-                       d[0]);
+        return rb_refuse_row(why, "history", 1,
+                             "expected distance 0, where the contact starts from rest, got %g",
+                             d[0]);
     for (int r = 1; r < program->n && d; r++) {
         if (d[r] < d[r - 1])
-            return rb_fail(why, RB_EINVAL,
-                           "history: row %d: distance %g is less than in the row before", r + 1,
-                           d[r]);
+            return rb_refuse_row(why, "history", r + 1,
+                                 "distance %g is less than in the row before", d[r]);
         if (d[r] > 0.0 && d[r] == d[r - 1])
-            return rb_fail(why, RB_EINVAL,
-                           "history: row %d: distance %g twice; a jump needs two rows a "
-                           "little apart",
-                           r + 1, d[r]);
+            return rb_refuse_row(why, "history", r + 1,
+                                 "distance %g twice; a jump needs two rows a little apart", d[r]);
     }
     for (int r = 0; r < program->n; r++) {
         const rb_rolling_case at = rb_rolling_program_row(program, rc, r, 1, 1);
-        rb_message reason = {""};
+        rb_message reason = {.text = ""};
         rb_status s = rb_rolling_program_check_case(&at, &reason);
         if (at.load < 0.0)
-            s = rb_fail(&reason, RB_EINVAL, "load: expected a number >= 0, got %g", at.load);
+            s = rb_refuse(&reason, "load", "expected a number >= 0, got %g", at.load);
         if (s != RB_OK)
-            return rb_fail(why, s, "history: row %d: %.200s", r + 1, reason.text);
+            return s == RB_EINVAL ? rb_refuse_row(why, "history", r + 1, "%s", reason.text)
+                                  : rb_fail(why, s, "history: row %d: %.200s", r + 1, reason.text);
         touches |= !(at.load == 0.0 || (isnan(at.load) && at.approach <= 0.0));
     }
     if (!touches)
-        return rb_fail(why, RB_EINVAL, "history: no row presses the bodies together");
+        return rb_refuse(why, "history", "no row presses the bodies together");
     return RB_OK;
 }
 

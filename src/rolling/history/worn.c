@@ -728,7 +728,7 @@ static rb_status one_step(wear_state *r, double part, rb_message *why)
     const double depth = /* per pressure and slid length */
         r->wear->coefficient *
         (r->wear->law == RB_WEAR_ARCHARD ? 1.0 : rb_rolling_largest_mu(&r->rc));
-    rb_message reason = {""};
+    rb_message reason = {.text = ""};
     rb_status s = RB_ZONE;
     double mean = 0.0;
 
@@ -781,9 +781,9 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear, r
     const int rolls = rc->formulation == RB_STEADY;
 
     if (rc->formulation == RB_TRANSIENT)
-        return rb_fail(why, RB_EINVAL,
-                       "wear: only by sliding, by fretting cycles (static) or by rolling "
-                       "(steady), not in a transient");
+        return rb_refuse(why, "formulation",
+                         "wear only by sliding, by fretting cycles (static) or by rolling "
+                         "(steady), not in a transient");
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         const void *at = (const char *)wear + rows[k].offset;
         const double value =
@@ -797,33 +797,31 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear, r
             return s;
     }
     if (rb_rolling_largest_mu(rc) == 0.0 && (wear->law == RB_WEAR_DISSIPATION || !wear->slides))
-        return rb_fail(why, RB_EINVAL, "wear: at mu = 0 friction dissipates nothing");
+        return rb_refuse(why, "mu,friction-law",
+                         "at mu = 0 friction dissipates nothing, and nothing wears");
     if (rc->friction.law != RB_FRICTION_constant && !rolls && wear->law == RB_WEAR_DISSIPATION)
-        return rb_fail(why, RB_EINVAL,
-                       "wear: the law of dissipation takes one coefficient of friction, "
-                       "not a friction law");
+        return rb_refuse(
+            why, "friction-law",
+            "the law of dissipation takes one coefficient of friction, not a friction law");
     if (!rolls && rc->mesh != RB_MESH_UNIFORM)
-        return rb_fail(why, RB_EINVAL, "wear: the worn gap needs equal elements (--mesh uniform)");
+        return rb_refuse(why, "mesh", "the worn gap needs equal elements (--mesh uniform)");
     if (rb_rolling_has_ellipse(rc))
-        return rb_fail(
-            why, RB_EINVAL,
-            "wear: the strip of a --wheel-load wears apart from its ellipse; give --load");
+        return rb_refuse(why, "wheel-load", "the strip wears apart from its ellipse; give --load");
     if (!rolls && rb_rolling_is_strained(rc))
-        return rb_fail(why, RB_EINVAL,
-                       "wear: bulk stress is taken in steady rolling only, got one with %s",
-                       wear->slides ? "--slide" : "fretting cycles");
+        return rb_refuse(why, rc->bulk_stress != 0.0 ? "bulk-stress" : "bulk-stress-b",
+                         "wear takes bulk stress in steady rolling only, got one with %s",
+                         wear->slides ? "--slide" : "fretting cycles");
     if (rolls && wear->slides)
         return rb_fail(why, RB_EINVAL,
                        "wear: --slide needs --formulation static; for a rolling wheel give "
                        "--cycles N (turns)");
     if (rolls && !rb_rolling_body_can(&rc->a, RB_BODY_HOMOGENEOUS))
-        return rb_fail(why, RB_EINVAL,
-                       "wear: a rolling wheel of one elastic material only, got a layer, "
-                       "a cover or relaxation");
+        return rb_refuse(why, "layer-thickness,layers,cover-thickness,relaxation-time",
+                         "wear of a rolling wheel of one elastic material only, got a layer, a "
+                         "cover or relaxation");
     if (rc->yield_stress > 0.0)
-        return rb_fail(
-            why, RB_EINVAL,
-            "wear: not with --yield-stress, because a third body separates the surfaces");
+        return rb_refuse(why, "yield-stress",
+                         "no wear, because a third body separates the surfaces");
     return rb_rolling_case_check(&worn, why);
 }
 

@@ -32,9 +32,9 @@ static rb_status find_edges(const rb_rolling_model *model, double *from, double 
     *known = run.last - run.first + 1 >= RB_ROLLING_ALIGNED_LEAST;
     if (rb_rolling_next_patch(model->rc, &model->mesh, &model->state, run.last + 1, &other) &&
         !rb_rolling_is_convex(model->rc))
-        return rb_fail(why, RB_EINVAL,
-                       "mesh aligned: the contact has several patches, and equal elements "
-                       "cannot end at all their edges; use mesh fitted or uniform");
+        return rb_refuse(why, "mesh",
+                         "aligned: the contact has several patches, and equal elements cannot end "
+                         "at all their edges; use fitted or uniform");
     *from = run.from;
     *to = run.to;
     return RB_OK;

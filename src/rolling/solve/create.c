@@ -193,7 +193,7 @@ rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage, rb
 rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creepage,
                                           rb_message *why)
 {
-    rb_message reason = {""};
+    rb_message reason = {.text = ""};
     const rb_status s = rb_rolling_free_creepage(model, creepage, &reason);
 
     if (s != RB_OK)

@@ -334,11 +334,11 @@ static rb_status fill_problem(const rb_rolling_case *rc, const rb_rolling_mesh *
     const double least = 1.0 / (p->own * most);
     return !p->yield || rc->hardening > -least
                ? RB_OK
-               : rb_fail(why, RB_EINVAL,
-                         "hardening: softening by %g MPa/mm has no unique solution, "
-                         "expected %g MPa/mm at most on elements of %.3g mm; shorter ones allow "
-                         "more",
-                         -rc->hardening, rb_largest_shown(least * (1.0 - 1e-9)), longest);
+               : rb_refuse(why, "hardening",
+                           "softening by %g MPa/mm has no unique solution, "
+                           "expected %g MPa/mm at most on elements of %.3g mm; shorter ones allow "
+                           "more",
+                           -rc->hardening, rb_largest_shown(least * (1.0 - 1e-9)), longest);
 }
 
 static rb_status not_made(rb_status s, int n, rb_message *why)

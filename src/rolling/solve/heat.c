@@ -327,10 +327,10 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc, const rb_roll
     *conduction = own;
     if (status == RB_OK && !into_a && !into_b) {
         rb_arena_free(&scratch);
-        return rb_fail(why, RB_EINVAL,
-                       "temperature: at a creepage of %g the surface of A rests under the contact, "
-                       "and no heat enters B: it gets warmer for ever",
-                       s->creepage);
+        return rb_refuse(why, "conductivity,conductivity-b",
+                         "at a creepage of %g the surface of A rests under the contact, "
+                         "and no heat enters B: it gets warmer for ever",
+                         s->creepage);
     }
     if (status == RB_OK && into_a)
         status = conductor_set(rc, &rc->heat_a, V_a, s, &own->a);
@@ -420,11 +420,12 @@ rb_status rb_rolling_heat_track_check(const rb_rolling_case *rc, double half_wid
         const double V = rb_rolling_surface_speed(rc, b, creepage),
                      peclet = rb_rolling_peclet(body[b], V, half_width);
         if (!(peclet >= LEAST_PECLET))
-            return rb_fail(why, RB_EINVAL,
-                           "temperature: in transient rolling heat conduction is computed along "
-                           "the depth only, which needs V a/(2 diffusivity) >= %g of each surface, "
-                           "got %.3g of %s, V = %.4g mm/s",
-                           LEAST_PECLET, peclet, b ? "B" : "A", V);
+            return rb_refuse(
+                why, "conductivity,conductivity-b",
+                "in transient rolling heat conduction is computed along "
+                "the depth only, which needs V a/(2 diffusivity) >= %g of each surface, "
+                "got %.3g of %s, V = %.4g mm/s",
+                LEAST_PECLET, peclet, b ? "B" : "A", V);
     }
     return RB_OK;
 }

@@ -124,15 +124,14 @@ rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
     if (f->law == RB_FRICTION_table) {
         const rb_rolling_table *t = &f->table;
         if (t->n < 1)
-            return rb_fail(why, RB_EINVAL, "friction table: expected a row or more");
+            return rb_refuse(why, "friction-law", "expected a row or more");
         for (int k = 0; k < t->n; k++) {
             if (!isfinite(t->x[k]) || (k > 0 && !(t->x[k] > t->x[k - 1])))
-                return rb_fail(why, RB_EINVAL,
-                               "friction table: row %d: expected x to increase, got %g", k + 1,
-                               t->x[k]);
+                return rb_refuse_row(why, "friction-law", k + 1, "expected x to increase, got %g",
+                                     t->x[k]);
             if (!(isfinite(t->y[k]) && t->y[k] >= 0.0))
-                return rb_fail(why, RB_EINVAL, "friction table: row %d: expected mu >= 0, got %g",
-                               k + 1, t->y[k]);
+                return rb_refuse_row(why, "friction-law", k + 1, "expected mu >= 0, got %g",
+                                     t->y[k]);
         }
     }
     const int slips = rb_rolling_law_depends_on_slip(f), rolls = rc->formulation != RB_STATIC,
@@ -157,25 +156,24 @@ rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
             return s;
     }
     if (heats && !(isfinite(f->heat_range) && f->heat_range > 0.0))
-        return rb_fail(why, RB_EINVAL, "mu-heat: expected a number > 0 as the third, got %g",
-                       f->heat_range);
+        return rb_refuse(why, "mu-heat", "expected a number > 0 as the third, got %g",
+                         f->heat_range);
     /* Slip that begins at the edge spreads like a crack without toughness (F6). */
     if (slips && !rolls && !remembers && f->fall[0] + f->fall[1] > 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "friction law %s: a static coefficient of %g above the kinetic one of %g "
-                       "needs a sliding distance in static contact, add --memory; without it the "
-                       "result on fine meshes is that of mu = %g",
-                       names[f->law], rc->mu + f->fall[0] + f->fall[1], rc->mu, rc->mu);
+        return rb_refuse(why, "friction-law,mu-fall",
+                         "%s: a static coefficient of %g above the kinetic one of %g "
+                         "needs a sliding distance in static contact, add --memory; without it the "
+                         "result on fine meshes is that of mu = %g",
+                         names[f->law], rc->mu + f->fall[0] + f->fall[1], rc->mu, rc->mu);
     if (slips && rolls && rc->speed == 0.0)
-        return rb_fail(why, RB_EINVAL, "friction law %s: needs the speed of rolling, add --speed",
-                       names[f->law]);
+        return rb_refuse(why, "friction-law", "%s: needs the speed of rolling, add --speed",
+                         names[f->law]);
     if (heats && rolls && !rb_rolling_has_heat(rc))
-        return rb_fail(why, RB_EINVAL, "mu-heat: needs temperatures, add --conductivity");
+        return rb_refuse(why, "mu-heat", "needs temperatures, add --conductivity");
     const double least = end_of_range(rc, -1.0);
     if (least < 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "friction law %s: expected mu >= 0 everywhere, got %g at least",
-                       names[f->law], least);
+        return rb_refuse(why, "friction-law,mu-heat",
+                         "%s: expected mu >= 0 everywhere, got %g at least", names[f->law], least);
     return RB_OK;
 }
 

@@ -25,9 +25,9 @@ static rb_status temperatures_of(rb_rolling_model *model, double *t, rb_message 
 
     if (rc->formulation == RB_TRANSIENT) {
         if (!model->carried.heat)
-            return rb_fail(why, RB_EINVAL,
-                           "temperature: the heat of the steps before is known only while their "
-                           "history runs");
+            return rb_refuse(why, "conductivity,conductivity-b",
+                             "the heat of the steps before is known only while their "
+                             "history runs");
         rb_rolling_heat_track_step(rc, state, model->carried.heat, t);
         return RB_OK;
     }
@@ -458,12 +458,12 @@ static rb_status solve_force(rb_rolling_model *model, rb_message *why)
         if (s == RB_OK && f[1] > 0.0) {
             model->state.refused_at = by.side * x[1];
             const int rests = model->rc->formulation == RB_STATIC;
-            s = rb_fail(why, RB_EINVAL,
-                        "force Q = %.10g N/mm: with this friction law the largest is %g N/mm, "
-                        "at %s %g%s",
-                        p->force, rb_largest_shown(p->force + by.side * f[1]),
-                        rests ? "a shift of" : "creepage",
-                        by.side * x[1] + (rests ? model->shift : 0.0), rests ? " mm" : "");
+            s = rb_refuse(why, "force,force-ratio",
+                          "Q = %.10g N/mm: with this friction law the largest is %g N/mm, "
+                          "at %s %g%s",
+                          p->force, rb_largest_shown(p->force + by.side * f[1]),
+                          rests ? "a shift of" : "creepage",
+                          by.side * x[1] + (rests ? model->shift : 0.0), rests ? " mm" : "");
         } else if (s == RB_OK) {
             /* The force is lacking at x[0] and reached at x[1].  Where a creepage has
              * several states and the search falls on one or another of them, the force

@@ -127,9 +127,8 @@ rb_status rb_rolling_find_load(rb_rolling_case *rc, rb_message *why)
         finer.contact_elements *= 2;
         s = pressure_under(&finer, load, &pressure, NULL, why);
         if (s == RB_OK && pressure > CORNER * wanted)
-            s = rb_fail(
-                why, RB_EINVAL,
-                "max-pressure: the pressure is unbounded at a corner of the gap: give --load");
+            s = rb_refuse(why, "max-pressure",
+                          "the pressure is unbounded at a corner of the gap: give --load");
     }
     if (s == RB_OK) {
         rc->pressed_by = load;

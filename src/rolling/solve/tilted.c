@@ -66,10 +66,10 @@ static rb_status check_arm(const rb_rolling_case *rc, rb_message *why)
     }
     const double arm = rc->moment / rb_rolling_derive(rc).load;
     return !isnan(arm) && !(arm > from && arm < to)
-               ? rb_fail(why, RB_EINVAL,
-                         "moment: the load acts at M/P = %.4g mm, and A touches between %.4g and "
-                         "%.4g mm at most: it topples",
-                         arm, from, to)
+               ? rb_refuse(why, "moment",
+                           "the load acts at M/P = %.4g mm, and A touches between %.4g and "
+                           "%.4g mm at most: it topples",
+                           arm, from, to)
                : RB_OK;
 }
 

@@ -59,6 +59,14 @@ static int is_loaded(const rb_contact_state *state, int i)
 /* A layer or cover that is nearly incompressible carries by waves as short as it is
  * thick: longer elements make the load of nu = 1/2 wrong by 2 % and more.  Others are
  * mattresses when they are thin, which any element resolves (theory-bodies.md L4). */
+static const char *thickness_of(const rb_rolling_body *body, int of_b)
+{
+    static const char *const names[][2] = {{"cover-thickness", "cover-thickness-b"},
+                                           {"layer-thickness", "layer-thickness-b"},
+                                           {"layers", "layers-b"}};
+    return names[body->stack ? 2 : body->layer > 0.0][of_b];
+}
+
 static rb_status check_resolved(const rb_rolling_model *model, rb_message *why)
 {
     static const double nearly_incompressible = 0.49;
@@ -74,12 +82,11 @@ static rb_status check_resolved(const rb_rolling_model *model, rb_message *why)
         const double longest = rb_rolling_longest_element(n, model->state.zone, model->bodies.f.h);
         const double h = longest > 0.0 ? longest : model->bodies.f.h[n / 2];
         if (thickness > 0.0 && poisson > nearly_incompressible && h > thickness * (1.0 + 1e-9))
-            return rb_fail(why, RB_EINVAL,
-                           "%s thickness: with nu = %g the elements, %.3g mm, may not be "
-                           "longer than the thickness, %g mm; take %.0f contact elements "
-                           "or more, twice as many with error bars",
-                           bodies[b]->layer > 0.0 ? "layer" : "cover", poisson, h, thickness,
-                           ceil(rc->contact_elements * h / thickness));
+            return rb_refuse(
+                why, thickness_of(bodies[b], b),
+                "with nu = %g the elements, %.3g mm, may not be longer than the thickness, %g mm; "
+                "take %.0f contact elements or more, twice as many with error bars",
+                poisson, h, thickness, ceil(rc->contact_elements * h / thickness));
     }
     return RB_OK;
 }
@@ -92,17 +99,17 @@ rb_status rb_rolling_check_crushed(const rb_rolling_model *model, rb_message *wh
         rb_rolling_strain(model->rc, model->state.delta, rb_rolling_peak_pressure(model), &what);
 
     return strain >= 1.0
-               ? rb_fail(why, RB_EINVAL,
-                         "the %s is compressed by %.0f %% of its thickness (approach %.3g "
-                         "mm): expected less than 100 %%",
-                         what, 100.0 * strain, model->state.delta)
+               ? rb_refuse(why, "approach,load,half-width,max-pressure",
+                           "the %s is compressed by %.0f %% of its thickness (approach %.3g "
+                           "mm): expected less than 100 %%",
+                           what, 100.0 * strain, model->state.delta)
                : RB_OK;
 }
 
 rb_status rb_rolling_check_layer_resolved(const rb_rolling_model *model, rb_status s,
                                           rb_message *why)
 {
-    rb_message reason = {""};
+    rb_message reason = {.text = ""};
 
     if (s == RB_OK) {
         s = check_resolved(model, why);
@@ -110,8 +117,11 @@ rb_status rb_rolling_check_layer_resolved(const rb_rolling_model *model, rb_stat
     }
     if (s < 0 || s == RB_ZONE || s == RB_INTERRUPTED || !model->state.zone)
         return s;
-    const rb_status unresolved = check_resolved(model, &reason);
-    return unresolved == RB_OK ? s : rb_fail(why, unresolved, "%s", reason.text);
+    if (check_resolved(model, &reason) == RB_OK)
+        return s;
+    if (why)
+        *why = reason;
+    return RB_EINVAL;
 }
 
 /* Elements without contact at either end; n of them if there is no contact. */

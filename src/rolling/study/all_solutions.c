@@ -71,7 +71,7 @@ rb_status rb_rolling_find_solutions(rb_rolling_model *model, rb_rolling_solution
     for (int i = 0; i < model->state.n && places < MOST; i++)
         places += model->state.zone[i] != RB_ZONE_SEPARATED;
     for (int k = 0; k <= places && s == RB_OK; k++) {
-        rb_message reason = {""};
+        rb_message reason = {.text = ""};
         s = rb_rolling_law_start(model, from + (to - from) * k / fmax(places, 1), why);
         if (s != RB_OK)
             break;

@@ -196,7 +196,7 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
     branch_start start = {.scratch = NULL};
     for (int k = 0; k < (moves ? 2 * points : points) && s == RB_OK; k++) {
         const double value = value_at(r, k < points ? k : 2 * points - 1 - k);
-        rb_message reason = {""};
+        rb_message reason = {.text = ""};
         set_creepage(r->over, value, &steady);
         if (is_made)
             s = rb_rolling_model_set_case(model, &steady, &reason);
@@ -263,7 +263,7 @@ static rb_status over_speeds(const rb_rolling_case *rc, const rb_rolling_range *
 
     for (int k = 0; k < r->points && s == RB_OK; k++) {
         const int iterations = model->iterations;
-        rb_message reason = {""};
+        rb_message reason = {.text = ""};
         steady.speed = value_at(r, k);
         rb_rolling_model_free(model);
         s = rb_rolling_model_create(&steady, model, &reason);

@@ -40,15 +40,15 @@ rb_rolling_case rb_rolling_error_run(const rb_rolling_case *rc, int k)
 rb_status rb_rolling_error_check(const rb_rolling_case *rc, rb_message *why)
 {
     if (rc->contact_elements < 12)
-        return rb_fail(why, RB_EINVAL,
-                       "error bars compare with half the elements: expected 12 contact "
-                       "elements or more, got %d",
-                       rc->contact_elements);
+        return rb_refuse(why, "contact-elements,error,accuracy",
+                         "error bars compare with half the elements: expected 12 contact elements "
+                         "or more, got %d",
+                         rc->contact_elements);
     if (rb_rolling_error_runs(rc) > 2 && rc->outer_elements > 0 && rc->outer_elements < 16)
-        return rb_fail(why, RB_EINVAL,
-                       "error bars compare with half the elements: expected 16 outer "
-                       "elements or more, got %d",
-                       rc->outer_elements);
+        return rb_refuse(
+            why, "outer-elements,error,accuracy",
+            "error bars compare with half the elements: expected 16 outer elements or more, got %d",
+            rc->outer_elements);
     return RB_OK;
 }
 
@@ -355,7 +355,7 @@ static rb_status find_parts(const rb_rolling_case *rc, asked_stress with, const 
                             error_parts *parts, rb_message *why)
 {
     sample run[RB_ERROR_RUNS] = {0}, another = {0};
-    rb_message reason = {""};
+    rb_message reason = {.text = ""};
     const int runs = rb_rolling_error_runs(rc), patches = own->solution.patches;
     rb_status status = RB_OK;
 

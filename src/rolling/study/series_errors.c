@@ -241,9 +241,9 @@ rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
     memset(model, 0, sizeof *model);
     memset(history, 0, sizeof *history);
     if (s == RB_OK && program && program->time)
-        s = rb_fail(why, RB_EINVAL,
-                    "error bars: a history in time has none; compare with half the time "
-                    "step and twice the contact elements");
+        s = rb_refuse(why, "error,history",
+                      "a history in time has no error bars; compare with half the time step and "
+                      "twice the contact elements");
     if (s == RB_OK)
         s = rb_rolling_history_run(rc, program, observer, model, history, why);
     if (s == RB_OK)
