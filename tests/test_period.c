@@ -209,8 +209,9 @@ TEST(what_is_refused)
     static const struct {
         const char *line, *why;
     } rows[] = {
-        {SOFT "--gap wave --load 1", "gap wave: needs --period and --amplitude"},
-        {WAVE, "gap wave: give --load, --approach or --max-pressure"},
+        {SOFT "--gap wave --load 1", "--gap: a wave needs --period and --amplitude"},
+        {WAVE, "--gap: a wave needs --load, --approach or --max-pressure"},
+        {WAVE "--load 1 --zone 900", "--zone: 900 mm is more than half the period, "},
         {WAVE "--load 1 --radius 5", "that of a wave's crest follows from"},
         {WAVE "--similar --radius-b 5 --load 1", "a wave lies on a plane"},
         {SOFT "--gap parabola --amplitude 1 --load 1", "amplitude: that of a wave"},

@@ -54,6 +54,19 @@ static void check_ok(rb_status s, const rb_message *why)
 
 /* ---- Figures of independent computations ------------------------------------------------- */
 
+/* What was measured is printed as it was given, whatever its units. */
+TEST(measured_numbers_come_back)
+{
+    write_file("as-given.tsv", "frequency_Hz storage_modulus_MPa tan_delta\n0.01 8.657 0.019\n"
+                               "0.0261 8.771 0.0419\n0.11 9.396 0.0525\n1 10.2 0.07\n"
+                               "10 11.5 0.09\n100 13.1 0.12\n");
+    assert_int_equal(rollbem("prony as-given.tsv --quiet"), 0);
+    assert_non_null(strstr(out, "\t0.0261\t8.771\t"));
+    assert_non_null(strstr(out, "\t0.0419\t"));
+    assert_int_equal(rollbem("prony as-given.tsv --quiet --units si"), 0);
+    assert_non_null(strstr(out, "\t0.0261\t8771000\t"));
+}
+
 TEST(three_terms_at_three_spacings)
 {
     static const struct {
@@ -64,7 +77,7 @@ TEST(three_terms_at_three_spacings)
                   {4, 9.5e-4, 1e-5, 10.0003, 1e-4, 2.804}};
     static moduli m;
     rb_prony_series s;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     sample(three_terms, -2.0, 31, &m);
     for (int k = 0; k < 3; k++) {
         check_ok(rb_prony_fit(&m.d, wanted[k].per_decade, &s, &why), &why);
@@ -79,7 +92,7 @@ TEST(pairs_of_neighbours_are_one_term)
 {
     static moduli m;
     rb_prony_series s;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     sample(three_terms, -2.0, 31, &m);
     check_ok(rb_prony_fit(&m.d, 2.0, &s, &why), &why);
     check_ok(rb_prony_join(&m.d, &s, &why), &why);
@@ -115,7 +128,7 @@ TEST(continuous_spectra_stay_as_they_are)
                   {fractional, 2, 21, 2.3e-4, 1e-5, 7.4e-4, 1e-5}};
     static moduli m;
     rb_prony_series s;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     for (int k = 0; k < 4; k++) {
         sample(wanted[k].of, -3.0, 46, &m);
         check_ok(rb_prony_fit(&m.d, wanted[k].per_decade, &s, &why), &why);
@@ -161,7 +174,7 @@ TEST(ratios_and_slopes_are_complementary)
 {
     static moduli m;
     rb_prony_series s;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     uint64_t seed = 3;
     for (int round = 0; round < 20; round++) {
         sample(round % 2 ? three_terms : fractional, -2.0, 31, &m);
@@ -190,7 +203,7 @@ TEST(noise_is_what_remains)
 {
     static moduli m;
     rb_prony_series s;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     uint64_t seed = 5;
     sample(three_terms, -2.0, 31, &m);
     for (int i = 0; i < 31; i++) { /* 1 % */
@@ -313,7 +326,7 @@ TEST(liquids_have_a_modulus_of_fast_loads_all_the_same)
 {
     static moduli m;
     rb_prony_series s;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     sample(three_terms, -2.0, 31, &m);
     for (int i = 0; i < 31; i++) {
         m.storage[i] = 1e-6 * m.omega[i];

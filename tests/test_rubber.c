@@ -94,18 +94,18 @@ TEST(a_hardness_may_mean_nothing)
 {
     static const struct {
         const char *text, *says;
-    } rows[] = {
-        {"95ShoreA", "young: expected a hardness of 20 to 90 ShoreA, where it says the modulus"},
-        {"19.99ShoreA", "got '19.99ShoreA'"},
-        {"-60ShoreA", "20 to 90"},
-        {"60ShoreD", "young: expected a hardness in ShoreA"},
-        {"60Shore", "a hardness in ShoreA"},
-        {"60ShoreA/2", "a hardness in ShoreA"},
-        {"ShoreA", "a number > 0, got 'ShoreA'"},
-        {"nanShoreA", "a number > 0"},
-        {"60", NULL},
-        {"20ShoreA", NULL},
-        {"90ShoreA", NULL}};
+    } rows[] = {{"95ShoreA", "young: expected a modulus, or a hardness of 20 to 90 ShoreA, outside "
+                             "of which it tells no modulus"},
+                {"19.99ShoreA", "got '19.99ShoreA'"},
+                {"-60ShoreA", "20 to 90"},
+                {"60ShoreD", "young: expected a modulus, or a hardness in ShoreA"},
+                {"60Shore", "a hardness in ShoreA"},
+                {"60ShoreA/2", "a hardness in ShoreA"},
+                {"ShoreA", "a number > 0, got 'ShoreA'"},
+                {"nanShoreA", "a number > 0"},
+                {"60", NULL},
+                {"20ShoreA", NULL},
+                {"90ShoreA", NULL}};
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         rb_case *c = NOT_NULL(rb_case_create(RB_CASE_SINGLE));
         if (rows[k].says)

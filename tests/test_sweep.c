@@ -119,6 +119,7 @@ static const struct {
     {"--vary-1 'mu 0.1 -1'", 64, "case 2: mu: expected a number >= 0"},
     {"--vary-1 'mu 0.1' --vary-2 'mu 0.2'", 64, "'mu' varies already"},
     {"--vary-1 'half-width 1'", 64, "exclude each other"},
+    {"--vary-1 'layers a.txt b.txt'", 64, "'layers' is the name of a file"},
     {"--vary-1 'mu 0.1' --accuracy 1e-3", 64, "--accuracy: a study has error bars"},
     {"--vary-1 'mu 0.1' --results error_approach", 64, "'error_approach' needs --error"},
     {"--vary-1 'mu 0.1' --error --results error_peclet", 64, "peclet has no error bar"},
@@ -314,8 +315,9 @@ TEST(the_first_case_that_fails_says_why)
     assert_int_equal(rollbem("sweep --support halfplane --load 100 --error --quiet "
                              "--vary-1 'contact-elements 16 10 8 20'"),
                      64);
-    assert_string_equal(err, "rollbem: case 2 is not solved: error bars compare with half "
-                             "the elements: expected 12 contact elements or more, got 10\n");
+    assert_string_equal(
+        err, "rollbem: case 2 is not solved: contact-elements: error bars compare with half "
+             "the elements: expected 12 contact elements or more, got 10\n");
     assert_int_equal(rollbem("sweep --support halfplane --load 100 --error --quiet "
                              "--vary-1 'contact-elements 16 20'"),
                      0);
@@ -583,7 +585,7 @@ TEST(files_of_studies_are_blamed_by_line)
                  {"cover-thickness-b = 1", "f.ini:6: cover-thickness-b: its core"},
                  {"shift = 1", "f.ini:6: shift: rolling is driven by"},
                  {"zone = 1e30", "f.ini:6: zone: 1e+30 mm is wider than"},
-                 {"force-ratio = 3", "f.ini:6: force ratio Q/(mu P) = 3"}};
+                 {"force-ratio = 3", "f.ini:6: force-ratio: Q/(mu P) = 3"}};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         char text[300];
         snprintf(text, sizeof text,

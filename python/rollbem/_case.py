@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from . import _values, pictures
 from ._library import (CRACK_OPTIONS, GROUPS, HISTORY_NUMBERS, OPTIONS, RESULTS, SOLVED, Handle, InvalidInput, Kept,
-                       Note, Progress, Unsolved, doubles, handles, lib, texts, unit_of)
+                       Note, Progress, Unsolved, doubles, handles, lib, texts, unit_of, written_tables)
 
 Array = NDArray[np.float64]
 Table = Union[Mapping[str, Sequence[float]], Array]
@@ -36,6 +36,7 @@ _CaseLike = Union["Case", str, os.PathLike, Mapping[str, Optional[Value]], None]
 def _remove(path: str, process: int) -> None:
     """Removes a temporary file, but not from a process that was forked from the one that made it."""
     if os.getpid() == process:
+        written_tables.pop(path, None)
         with contextlib.suppress(FileNotFoundError):
             os.unlink(path)
 
@@ -81,11 +82,12 @@ class Case:
             return _values.flag(name, value) if kind == "flag" else _values.text(name, value)
         if kind in ("number", "integer", "flag"):
             raise InvalidInput(f"{name}=: expected {OPTIONS[name].expected}, got columns of a table")
-        return self._write_table(_values.columns(name, value))
+        return self._write_table(name, _values.columns(name, value))
 
-    def _write_table(self, columns: Table) -> str:
+    def _write_table(self, option: str, columns: Table) -> str:
         with tempfile.NamedTemporaryFile("w", prefix="rollbem-", suffix=".txt", delete=False) as file:
             weakref.finalize(self, _remove, file.name, os.getpid())  # it lives as long as the case
+            written_tables[file.name] = option
             _values.write_columns(columns, file)
         return file.name
 

@@ -238,6 +238,22 @@ _NAMES = re.compile(r"'(?P<quoted>[^']*)'|--(?P<option>[a-z][a-z0-9-]*[a-z0-9])(
                     r"|\b(?P<bare>[a-z]+(?:-[a-z]+)+)\b")
 
 
+# The tables that were given as columns, by the files that the library reads them from.
+written_tables: "dict[str, str]" = {}
+_WRITTEN = re.compile(r"(?P<path>[^\s:]*rollbem-\w+\.txt)(?::(?P<line>\d+)|: (?P<again>[\w-]+)(?=:))?")
+
+
+def _in_tables(found: "re.Match") -> str:
+    """``layers=, row 2`` for the third line of a file that nobody has seen."""
+    name = written_tables.get(found["path"])
+    if name is None:
+        return found[0]
+    if found["line"]:
+        return f"{name}=, row {int(found['line']) - 1}"
+    again = found["again"]
+    return f"{name}=" if not again or _keyword(again) == name else f"{name}=: {again}"
+
+
 def in_keywords(text: str) -> str:
     """A message or note of the program with Python's keywords: ``mu=`` for ``--mu``."""
 
@@ -258,7 +274,7 @@ def in_keywords(text: str) -> str:
         is_value = re.fullmatch(r"[-+.\d][-+.\de]*|[A-Z]", value)
         return f"{name}={value}" if is_value else f"{name}= {value}"
 
-    return _NAMES.sub(replaced, text)
+    return _NAMES.sub(replaced, _WRITTEN.sub(_in_tables, text))
 
 
 # ---- Handles ------------------------------------------------------------------------------

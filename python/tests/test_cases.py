@@ -154,3 +154,13 @@ def test_every_result_has_a_frame(tmp_path):
     path.write_text(run("--json", "--quiet", **LOADED).stdout)
     frame = rollbem.check(path).to_pandas()
     assert frame["valid"].all() and len(frame) >= 1
+
+
+def test_columns_are_blamed_by_their_option():
+    plane = dict(support="halfplane", base_young=1000, base_poisson=0.3, load=5, mu=0)
+    with pytest.raises(rollbem.InvalidInput, match="^layers=, row 2: thickness: expected a number > 0, got -1"):
+        rollbem.solve(**plane, layers=[[0.5, 5000, 0.3], [-1, 2000, 0.3]])
+    with pytest.raises(rollbem.InvalidInput, match="^layers=: unknown column 'a'"):
+        rollbem.solve(**plane, layers={"a": [1, 2], "b": [2, 3], "c": [3, 4]})
+    with pytest.raises(rollbem.InvalidInput, match="^gap=, row 3: expected an x larger"):
+        rollbem.solve(support="halfplane", load=5, gap=[[-1, 1], [0, 0], [0, 0.5], [1, 1]])

@@ -354,12 +354,15 @@ static rb_status set_loads(const rb_resolved_case *c, const rb_case_crack *k, in
     return s;
 }
 
+_Static_assert(RB_ROLLING_OWN_NOTES + RB_CASE_CRACK_NOTES <= (int)RB_CASE_MATERIAL_NOTES,
+               "kinds of notes on materials come behind those of cracks");
+
 /* A note where it applies. */
 static void RB_PRINTF(3, 4) note(rb_case_crack_result *r, int applies, const char *text, ...)
 {
     const int kind = r->note_kinds++;
 
-    if (!applies || r->notes == RB_CASE_CRACK_NOTES)
+    if (!applies || kind >= RB_CASE_CRACK_NOTES)
         return;
     va_list values;
     va_start(values, text);
@@ -405,12 +408,11 @@ static void find_notes(const rb_resolved_case *c, const rb_case_crack *k,
     note(r, k->fluid == RB_CRACK_TRAPPED && !k->locate_closing,
          "The volume of the trapped fluid is that of the last position with an open "
          "mouth, and depends on the positions; --closing located does not.");
-    note(r, !c->rc.elastic_b,
-         "Body B is rigid for the contact: K are the limits of a body that is much "
-         "stiffer than A.");
-    note(r, isfinite(radius),
-         radius < 0.0 ? "Body B has a bore; the crack is computed as in a half-plane."
-                      : "Body B is a cylinder; the crack is computed as in a half-plane.");
+    note(r, !c->rc.elastic_b || isfinite(radius),
+         !c->rc.elastic_b ? "Body B is rigid for the contact: K are the limits of a body that is "
+                            "much stiffer than A."
+         : radius < 0.0   ? "Body B has a bore; the crack is computed as in a half-plane."
+                          : "Body B is a cylinder; the crack is computed as in a half-plane.");
 }
 
 /* The positions of the contact: those of the history, equal ones, or the program's own. */
@@ -671,14 +673,13 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k,
         if (s == RB_OK && !isnan(k->paris) && finer == &rb_case_crack_own_mesh)
             s = rb_case_grow_crack(c, k, &t, observer, r, why);
         const rb_case_crack_growth *g = &r->growth;
-        if ((g->surfaced || g->rests) && r->notes < RB_CASE_CRACK_NOTES)
-            snprintf(r->note[r->notes++], sizeof r->note[0],
-                     g->surfaced ? "The crack came back to the surface beyond a length of %.4g "
-                                   "%s: a piece breaks out."
-                                 : "The crack stops: dK is below the threshold at a length of "
-                                   "%.4g %s.",
-                     rb_unit_shown(c->units, "mm", g->length[g->n - 1]),
-                     rb_unit_name(c->units, "mm"));
+        const int ends = g->surfaced || g->rests;
+        note(r, ends,
+             g->surfaced ? "The crack came back to the surface beyond a length of %.4g %s: a piece "
+                           "breaks out."
+                         : "The crack stops: dK is below the threshold at a length of %.4g %s.",
+             ends ? rb_unit_shown(c->units, "mm", g->length[g->n - 1]) : 0.0,
+             rb_unit_name(c->units, "mm"));
     }
     rb_crack_free(crack);
     rb_case_crack_track_free(&t);

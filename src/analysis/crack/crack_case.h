@@ -37,7 +37,7 @@ typedef struct {
 
 rb_case_crack_summary rb_case_crack_summarise(const rb_crack_history *history, int passes);
 
-enum { RB_CASE_CRACK_NOTES = 8 };
+enum { RB_CASE_CRACK_NOTES = 7 };
 typedef struct {
     rb_case_result contact; /* the contact; solution.n = 0: unloaded */
     double half_width;      /* unit of the lengths of the crack: that of the load, in a history of

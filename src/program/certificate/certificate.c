@@ -331,12 +331,34 @@ static rb_status write_again(rb_certificate *c, void *context, json_t **again, r
     return s;
 }
 
+/* 1: the inputs are those of the result, but a file that they name is not; everything else would
+ * differ with it. */
+static int other_file(rb_certificate *c, const json_t *root, const rb_case *words)
+{
+    const json_t *printed = json_object_get(root, "input_hash");
+    json_t *now = rb_report_json_input_hash(words);
+    const int differs = json_is_string(printed) && json_is_string(now) && !json_equal(printed, now);
+    char files[300] = "";
+    json_decref(now);
+    for (const rb_option *o = rb_case_table; differs && o < rb_case_table + rb_case_table_n; o++) {
+        const char *path = rb_option_path(o, rb_case_resolved(words));
+        if (path && o->file == RB_FILE_READ)
+            rb_append(files, sizeof files, "%s%s of --%s", *files ? ", " : "", path, o->name);
+    }
+    if (*files)
+        rb_certificate_violated(c,
+                                "input_hash: a file that the inputs name is not the one of the "
+                                "result, or has changed since (%s)",
+                                files);
+    return *files != '\0';
+}
+
 rb_status rb_certificate_check(FILE *out, const char *name, const json_t *root, rb_case *words,
                                rb_certificate_outcome *found, rb_message *why)
 {
     rb_certificate c = {.out = out, .name = name, .found = found, .of = ""};
     source of = {root, words};
-    rb_message reason = {""};
+    rb_message reason = {.text = ""};
 
     const int is_crack = json_object_get(root, "crack") != NULL;
 
@@ -346,6 +368,8 @@ rb_status rb_certificate_check(FILE *out, const char *name, const json_t *root, 
     rb_status s = check_head(&c, root, &reason);
     if (s == RB_OK)
         s = rb_certificate_inputs(&c, root, words, &reason);
+    if (s == RB_OK && other_file(&c, root, words))
+        return rb_certificate_end(&c, s, &reason, why);
     if (s == RB_OK)
         s = is_crack ? check_crack(&c, root, words, &reason)
                      : check_steps(&c, root, rb_case_resolved(words), &reason);

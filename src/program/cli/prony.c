@@ -152,6 +152,14 @@ static void summarise(FILE *out, const void *context)
 enum { WITH_UNIT = 4 };
 typedef char headings[WITH_UNIT][40];
 
+/* Without what converting to rad/s and MPa and back has rounded. */
+static double measured(double x)
+{
+    char text[RB_NUMBER_TEXT];
+    rb_format(text, sizeof text, "%.15g", x);
+    return rb_read_number(text, NULL);
+}
+
 static void add_rows(const prony *p, headings heading, cli_rows *rows)
 {
     for (int i = 0; i < p->data.n; i++) {
@@ -159,13 +167,13 @@ static void add_rows(const prony *p, headings heading, cli_rows *rows)
         double E, E_loss;
         rb_prony_moduli(&p->series, omega, &E, &E_loss);
         const cli_value values[] = {
-            CLI_NUMBER("omega", "omega_rad/s", omega),
-            CLI_NUMBER("frequency", "frequency_Hz", omega / (2.0 * M_PI)),
-            CLI_NUMBER("storage_modulus", heading[0], modulus(p, storage)),
+            CLI_NUMBER("omega", "omega_rad/s", measured(omega)),
+            CLI_NUMBER("frequency", "frequency_Hz", measured(omega / (2.0 * M_PI))),
+            CLI_NUMBER("storage_modulus", heading[0], measured(modulus(p, storage))),
             CLI_NUMBER("storage_fitted", heading[1], modulus(p, E)),
-            CLI_NUMBER("loss_modulus", heading[2], modulus(p, loss)),
+            CLI_NUMBER("loss_modulus", heading[2], measured(modulus(p, loss))),
             CLI_NUMBER("loss_fitted", heading[3], modulus(p, E_loss)),
-            CLI_NUMBER("tan_delta", "tan_delta", loss / storage),
+            CLI_NUMBER("tan_delta", "tan_delta", measured(loss / storage)),
             CLI_NUMBER("tan_delta_fitted", "tan_delta_fitted", E_loss / E),
             CLI_NUMBER("deviation", "deviation",
                        hypot(storage - E, loss - E_loss) / hypot(E, E_loss))};
@@ -231,7 +239,7 @@ static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context, r
 
 static cli_exit fit(prony *p, const char *path)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     cli_exit code =
         cli_say(rb_prony_read(path, (rb_units)p->units, &p->table, &p->data, &why), &why);
     if (code != CLI_CONTINUE)

@@ -142,7 +142,7 @@ static rb_status write_results(FILE *out, const void *context, rb_message *why)
 
 static cli_exit read_hardness(rubber *r)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     if ((r->shore == NULL) == (isnan(r->depth) != 0))
         return cli_fail(CLI_USAGE, "rubber: expected one of --shore 60A and --pj 100");
     r->scale = &rb_rubber_scales[r->shore ? RB_RUBBER_SHORE_A : RB_RUBBER_PJ];

@@ -41,6 +41,11 @@ static cli_exit add_column(study *st, const char *source, cli_exit bad, const ch
     study_column *c = &st->column[st->columns];
     c->bad = bad;
     c->option = o;
+    if (o && o->file == RB_FILE_READ && !may_vary(o))
+        return cli_fail(bad,
+                        "%s: '%s' is the name of a file, and a study varies numbers and words; "
+                        "run one case for each file",
+                        source, o->name);
     if (st->columns == COLUMNS_MAX || strlen(name) >= sizeof c->name || (o && !may_vary(o)))
         return cli_fail(bad,
                         "%s: '%.60s' is not an option of a case with a number as value, or "
@@ -322,7 +327,7 @@ static cli_exit add_table(study *st)
 {
     const char *path = st->o->cases;
     rb_io_table *table = &st->table;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     const rb_status s = rb_io_table_read_words(path, table, &why);
     cli_exit code = CLI_CONTINUE;
 
@@ -377,7 +382,7 @@ cli_exit cli_study_sample(study *st, const rb_case *c)
 {
     const int n = st->o->sample;
     rb_case_tolerances t;
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     cli_exit code = CLI_CONTINUE;
 
     if (!st->o->tolerance)
@@ -463,7 +468,7 @@ static rb_status try_values(const study *st, rb_case *c, int k, const study_colu
 
 cli_exit cli_study_set_values(const study *st, rb_case *c, int k)
 {
-    rb_message why = {""};
+    rb_message why = {.text = ""};
     const study_column *bad;
 
     if (try_values(st, c, k, &bad, &why) == RB_OK)
@@ -524,7 +529,7 @@ cli_exit cli_study_check(study *st)
     if (!st->one)
         return cli_fail(CLI_INTERNAL, "out of memory");
     for (int k = 0; k < st->cases && code == CLI_CONTINUE && st->o->sample == 0; k++) {
-        rb_message why = {""};
+        rb_message why = {.text = ""};
         code = cli_study_set_values(st, st->one, k);
         if (code == CLI_CONTINUE)
             code = cli_say(rb_case_resolve(st->one, &why), &why);

@@ -365,6 +365,13 @@ static rb_status read_stack(const rb_case *c, case_table *t, const char *path, r
     return RB_OK;
 }
 
+static int same_layers(const rb_bem_stack *x, const rb_bem_stack *y)
+{
+    const size_t bytes = (size_t)x->n * sizeof(double);
+    return x->n == y->n && memcmp(x->thickness, y->thickness, bytes) == 0 &&
+           memcmp(x->young, y->young, bytes) == 0 && memcmp(x->poisson, y->poisson, bytes) == 0;
+}
+
 rb_status rb_case_read_layers(rb_case *c, int of_b, rb_message *why)
 {
     rb_rolling_body *body = of_b ? &c->resolved.rc.b : &c->resolved.rc.a;
@@ -383,7 +390,9 @@ rb_status rb_case_read_layers(rb_case *c, int of_b, rb_message *why)
     body->layer = of->thickness[0];
     body->young = of->young[0];
     body->poisson = of->poisson[0];
-    body->stack = of->n > 1 ? of : NULL;
+    /* bodies are alike if they have one stack */
+    const rb_bem_stack *of_a = of_b ? c->resolved.rc.a.stack : NULL;
+    body->stack = of_a && same_layers(of_a, of) ? of_a : of->n > 1 ? of : NULL;
     return s;
 }
 

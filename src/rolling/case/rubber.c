@@ -88,13 +88,16 @@ int rb_rubber_read(const char *text, int bare, double *shore, rb_message *why)
         return 0;
     end += named ? 5 + strspn(end + 5, " -") : 0;
     *shore = NAN;
+    const char *or_modulus = bare ? "" : "a modulus, or ";
     if (strcasecmp(end, "A") != 0 && (named || *end))
-        rb_fail(why, RB_EINVAL, "a hardness in ShoreA, of which the modulus is known; got '%.60s'",
+        rb_fail(why, RB_EINVAL,
+                "%sa hardness in ShoreA (others have no known modulus), got '%.60s'", or_modulus,
                 text);
     else if (read < scale->lowest || read > scale->highest)
-        rb_fail(why, RB_EINVAL,
-                "a hardness of %g to %g ShoreA, where it says the modulus; got '%.60s'",
-                scale->lowest, scale->highest, text);
+        rb_fail(
+            why, RB_EINVAL,
+            "%sa hardness of %g to %g ShoreA, outside of which it tells no modulus; got '%.60s'",
+            or_modulus, scale->lowest, scale->highest, text);
     else
         *shore = read;
     return 1;
