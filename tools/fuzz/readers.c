@@ -90,7 +90,8 @@ void fuzz_lcp_text(const uint8_t *data, size_t size)
     rb_io_lcp p;
     rb_io_bimatrix game;
     double *x = NULL;
-    rb_message why = {.text = ""}, of_game = {.text = ""}, of_bounds = {.text = ""}, of_both = {.text = ""};
+    rb_message why = {.text = ""}, of_game = {.text = ""}, of_bounds = {.text = ""},
+               of_both = {.text = ""};
     fuzz_keep(file, data, size);
     rb_status s = rb_io_lcp_read(file, NULL, &p, &why);
     fuzz_require_reason(s, &why);
