@@ -43,6 +43,13 @@ def _words(case: Case) -> "dict[str, str]":
     return words
 
 
+def _above(value: str, most: "float | None") -> bool:
+    try:
+        return most is not None and float(value) > most
+    except ValueError:  # auto
+        return False
+
+
 def page(file: Union[str, os.PathLike], case: _CaseLike = None, **options: Value) -> str:
     """Writes the page for browsers, one HTML file that opens without a network, so that it opens with this case.
 
@@ -54,7 +61,7 @@ def page(file: Union[str, os.PathLike], case: _CaseLike = None, **options: Value
         option = name.replace("-", "_")
         if name in limits["left_out"]:
             raise InvalidInput(f"{option}=: not in the page, use rollbem.solve")
-        if value.isdigit() and int(value) > limits["largest"].get(name, int(value)):
+        if _above(value, limits["largest"].get(name)):
             raise InvalidInput(f"{option}=: the page goes up to {limits['largest'][name]}, use rollbem.solve for {value}")
     carried = json.dumps(words, separators=(",", ":")).replace("<", "\\u003c")  # no text may end the element that holds it
     Path(file).write_text(text.replace(f"{_CASE}null", _CASE + carried, 1), encoding="utf-8")

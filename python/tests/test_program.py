@@ -262,7 +262,8 @@ def test_the_page_is_the_program_s(tmp_path):
     assert run("page", "--output", str(tmp_path / "want.html"), **case).returncode == 0
     ours = rollbem.page(tmp_path / "ours.html", **case)
     assert open(ours, "rb").read() == (tmp_path / "want.html").read_bytes()
-    for wrong in (dict(contact_elements=401), dict(error=True), dict(gap={"x": [-1, 0, 1], "gap": [1, 0, 1]}), dict(units="si")):
+    for wrong in (dict(contact_elements=401), dict(error=True), dict(gap={"x": [-1, 0, 1], "gap": [1, 0, 1]}), dict(units="si"),
+                  dict(formulation="transient", creep=1e-3, distance=40.5)):
         with pytest.raises(rollbem.InvalidInput):
             rollbem.page(tmp_path / "wrong.html", **{**STEADY, **wrong})
     assert not (tmp_path / "wrong.html").exists()
