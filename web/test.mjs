@@ -2067,6 +2067,17 @@ async function views(page) {
             );
         });
     await crawled("Chromium", page);
+    await test("the first screen's sliders have room for a hand in every window", async () => {
+        for (const wide of [320, 360, 430, 480, 500, 540, 600, 768, 1000, 1440]) {
+            await page.size(wide, 850);
+            await settled();
+            const least = await page.run(
+                "Math.min(...[...document.querySelectorAll('#at-hero [data-dial]')].map((of) => of.getBoundingClientRect().width))",
+            );
+            check(least > 55, `a slider of ${least} px in a window of ${wide}`);
+        }
+        await page.size(1440, 900);
+    });
     await test("frames while a hand drags the border of the hero (a figure, no bound)", async () => {
         await page.size(1440, 900);
         await page.run("rollbem.preset('rail'); rollbem.open('hero')");
