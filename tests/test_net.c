@@ -277,6 +277,7 @@ static const conflict conflicts[] = {
     {{"mesh=punch", "zone=given"}, "leave --zone out"},
     {{"slip=second", "regime!steady"}, "only for steady rolling"},
     {{"slip=second", "mesh=fitted"}, "only for equal elements"},
+    {{"slip=second", "mesh=punch"}, NULL}, /* steady and at rest */
     {{"surface=layer|on-elastic", "support!halfplane", NULL, "shape=default"}, HALFPLANE_ONLY},
     {{"surface=relaxing", "support=arc", "regime=steady"}, "cannot turn"},
     {{RELAXING, "support!halfplane", "regime=transient*|steps"}, HALFPLANE_ONLY},
@@ -345,7 +346,8 @@ static const conflict conflicts[] = {
     {{"period=given", "surface!plain", "body-b!rigid"},
      "of half-planes of one elastic material only"},
     {{"period=given", "surface!plain", "body-b=rigid"}, NULL},
-    {{"period=given", "mesh=fitted|aligned|punch"}, "equal elements only"},
+    {{"period=given", "mesh=fitted|aligned"}, "equal elements only"},
+    {{"period=given", "mesh=punch"}, NULL}, /* a wave is no table */
     {{"period=given", "normal=half-width"}, "Hertz's is that of one contact"},
     {{"period=given", "gap=exact"}, "needs --gap parabola, wave"},
     {{"period=given", "gap=file|smoothed"}, "must be one period long"},
