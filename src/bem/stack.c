@@ -55,10 +55,10 @@ void rb_bem_stack_rows_free(rb_bem_stack_rows *rows)
 
 /* ---- Within a row ------------------------------------------------------------------ */
 
-/* exp(-A eta) = a[0] - a[1] A + a[2] A^2 - a[3] A^3, because (A^2 - 1)^2 = 0; times exp(-eta). */
-static void factors(double eta, double a[4])
+void rb_bem_stack_factors(double eta, double a[4])
 {
-    const double ch = 0.5 * (1.0 + exp(-2.0 * eta)), sh = -0.5 * expm1(-2.0 * eta);
+    const double fade2 = exp(-2.0 * eta), ch = 0.5 * (1.0 + fade2),
+                 sh = eta < 0.3 ? -0.5 * expm1(-2.0 * eta) : 0.5 * (1.0 - fade2);
 
     a[2] = 0.5 * eta * sh;
     if (eta < 0.3) { /* eta ch - sh = sum 2 n eta^(2n + 1)/(2n + 1)! */
@@ -87,11 +87,11 @@ static void times_A(const rb_bem_stack_row *row, const double s[4], double to[4]
     to[RB_STACK_Y] = s[RB_STACK_X];
 }
 
-void rb_bem_stack_lift(const rb_bem_stack_row *row, double eta, const double s[4], double to[4])
+void rb_bem_stack_lift(const rb_bem_stack_row *row, const double a[4], const double s[4],
+                       double to[4])
 {
-    double a[4], power[4][4] = {{s[0], s[1], s[2], s[3]}};
+    double power[4][4] = {{s[0], s[1], s[2], s[3]}};
 
-    factors(eta, a);
     for (int k = 1; k < 4; k++)
         times_A(row, power[k - 1], power[k]);
     for (int i = 0; i < 4; i++)
@@ -104,11 +104,13 @@ static void ascend(const rb_bem_stack_row *row, double k, const double below[2][
                    double above[2][2], double down[2][2])
 {
     double u[2][2], t[2][2]; /* of the upper face, by tractions of one on the lower one */
+    double a[4];
 
+    rb_bem_stack_factors(k * row->thickness, a);
     for (int j = 0; j < 2; j++) {
         const double s[4] = {-below[0][j], -below[1][j], j == 0, j == 1};
         double to[4];
-        rb_bem_stack_lift(row, k * row->thickness, s, to);
+        rb_bem_stack_lift(row, a, s, to);
         for (int i = 0; i < 2; i++) {
             u[i][j] = to[i];
             t[i][j] = to[2 + i];

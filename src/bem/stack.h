@@ -34,8 +34,12 @@ void rb_bem_stack_rows_free(rb_bem_stack_rows *rows);
 void rb_bem_stack_compliances(const rb_bem_stack_rows *rows, double k, double (*C)[2][2],
                               double (*down)[2][2]);
 
-/* The state at the distance eta/k above a lower face on which it is s, both times exp(-eta). */
-void rb_bem_stack_lift(const rb_bem_stack_row *row, double eta, const double s[4], double to[4]);
+/* exp(-A eta) = a[0] - a[1] A + a[2] A^2 - a[3] A^3, because (A^2 - 1)^2 = 0; times exp(-eta). */
+void rb_bem_stack_factors(double eta, double a[4]);
+/* The state at the distance eta/k above a lower face on which it is s, both times exp(-eta); a: the
+ * factors of eta. */
+void rb_bem_stack_lift(const rb_bem_stack_row *row, const double a[4], const double s[4],
+                       double to[4]);
 
 /* ---- The kernel (L7) --------------------------------------------------------------- */
 

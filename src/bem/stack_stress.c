@@ -192,10 +192,10 @@ static void stress_of(const rb_bem_stack_row *row, const double s[4], double of[
     of[2] = s[RB_STACK_X];
 }
 
-/* What is left of a half-plane's state at eta below it: exp(-eta) (1 + eta (A + 1)). */
-static void sink(const rb_bem_stack_row *row, double eta, const double s[4], double to[4])
+/* What is left of a half-plane's state at eta below it: fade (1 + eta (A + 1)), fade exp(-eta). */
+static void sink(const rb_bem_stack_row *row, double eta, double fade, const double s[4],
+                 double to[4])
 {
-    const double fade = exp(-eta);
     for (int i = 0; i < 4; i++) {
         double rate = s[i];
         for (int j = 0; j < 4; j++)
@@ -215,19 +215,22 @@ static void set_amplitude(const rb_bem_stack_field *f, int j, int g, double belo
     const rb_bem_stack_row *row = &f->rows->row[j];
     const state *at = &f->at[(size_t)j * (size_t)f->n + (size_t)g];
     const double k = f->k[g], fade = exp(-k * below);
+    double a[4];
 
+    if (j < f->rows->n)
+        rb_bem_stack_factors(k * (row->thickness - below), a);
     for (int i = 0; i < 2; i++) {
         const double *s = i ? at->im : at->re;
         double here[4], whole[3], half[3] = {0.0, 0.0, 0.0}, factor = fade;
         if (j == f->rows->n) {
-            sink(row, k * below, s, here);
+            sink(row, k * below, fade, s, here);
             factor = 1.0;
         } else {
-            rb_bem_stack_lift(row, k * (row->thickness - below), s, here);
+            rb_bem_stack_lift(row, a, s, here);
         }
         stress_of(row, here, whole);
         if (j == 0) {
-            sink(row, k * below, i ? f->top[g].im : f->top[g].re, here);
+            sink(row, k * below, fade, i ? f->top[g].im : f->top[g].re, here);
             stress_of(row, here, half);
         }
         for (int c = 0; c < 3; c++)
