@@ -70,6 +70,8 @@ static void scale(int k, const double *A, int *row, int *column, double *factor,
     memcpy(B, A, n * n * sizeof *B);
 }
 
+/* Step 2 of docs/proof.md: R and g_i >= sum_j |I - R A|_ij, of which norm = max g < 1 says that A
+ * is regular. */
 int rb_proof_inverse(int k, double *A, double unknown, proof_inverse *v)
 {
     const size_t n = (size_t)k;
@@ -124,8 +126,8 @@ void rb_proof_inverse_free(proof_inverse *v)
     *v = (proof_inverse){0};
 }
 
-/* e = min(e, d + |I - R A| e), where unknowns are of very different sizes: the row sums g take all
- * of them for as large as the largest. */
+/* Step 3 by components: e = min(e, d + |I - R A| e), where unknowns are of very different sizes:
+ * the row sums g take all of them for as large as the largest. */
 static void tighten(const proof_inverse *v, const double *d, double *e)
 {
     enum { SWEEPS = 3 };
@@ -145,6 +147,8 @@ static void tighten(const proof_inverse *v, const double *d, double *e)
         }
 }
 
+/* Step 3: |A^-1 r| <= d + g max(d)/(1 - norm) with d = |R| |r|, r = A x + b bounded as in bounds.h.
+ */
 void rb_proof_solve(const proof_inverse *v, const double *given, const double *radius, int fine,
                     double *x, double *e)
 {

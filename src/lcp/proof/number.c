@@ -88,6 +88,8 @@ static int is_wrong(const counter *s, int *open)
     return 0;
 }
 
+/* Steps 2 to 4 of docs/proof.md for the regular point of a basis; of any other one whether Farkas'
+ * lemma excludes it. */
 static rb_status judge_basis(counter *s, proof_absence *absence, basis_verdict *verdict)
 {
     const size_t n = (size_t)s->n;
@@ -205,6 +207,7 @@ void rb_lcp_number_free(rb_lcp_number *number)
     *number = (rb_lcp_number){0};
 }
 
+/* Every complementary basis. */
 static rb_status judge_all(counter *s, double bases, double seconds, proof_absence *absence)
 {
     const double began = rb_seconds();

@@ -270,7 +270,7 @@ static double row_sum(const prover *p, int i, int rhs, double b, double own, int
     return value;
 }
 
-/* z_C = X_0 + X_beta t with the bounds EX.  NULL, or why not; *memory: RB_ENOMEM. */
+/* Steps 2 and 3: z_C = X_0 + X_beta t with the bounds EX.  NULL, or why not; *memory: RB_ENOMEM. */
 static const char *solve_basis(prover *p, int fine, double *norm, rb_status *memory)
 {
     const int m = p->m;
@@ -341,9 +341,9 @@ static const char *solve_basis(prover *p, int fine, double *norm, rb_status *mem
     return why;
 }
 
-/* t >= 0 of the undecided pairs: w_beta = y + S t, and <S> v >= c > 0 with a v > 0 makes S an
- * H-matrix, so that there is one t, 0 <= t <= v max max(0, -y)/c.  RB_UNDECIDED: S is not shown to
- * be one; RB_ENOMEM. */
+/* Step 5, t >= 0 of the undecided pairs: w_beta = y + S t, and <S> v >= c > 0 with a v > 0 makes S
+ * an H-matrix, so that there is one t, 0 <= t <= v max max(0, -y)/c.  RB_UNDECIDED: S is not shown
+ * to be one; RB_ENOMEM. */
 static rb_status bound_undecided(prover *p)
 {
     const int b = p->betas, n = p->n;
@@ -426,6 +426,7 @@ static int is_isolated(const prover *p)
 /* What an attempt has found of a sign: proved, proved to be the other one, or neither. */
 typedef enum { RIGHT, WRONG, OPEN } verdict;
 
+/* Step 4 for one number. */
 static verdict above(double x, double e, double bound)
 {
     return x - e > bound ? RIGHT : x + e < bound ? WRONG : OPEN;
@@ -476,7 +477,8 @@ static void widen(const prover *p, int n, const double *X, double *E)
     }
 }
 
-/* RB_OK: proved; RB_UNDECIDED: proof->reason, and the basis is changed where *again is 1. */
+/* Steps 4 and 5.  RB_OK: proved; RB_UNDECIDED: proof->reason, and the basis is changed where *again
+ * is 1. */
 static rb_status attempt(prover *p, int *fine, int *again, rb_lcp_proof *proof)
 {
     const int n = p->n;
@@ -557,6 +559,7 @@ static rb_status attempt(prover *p, int *fine, int *again, rb_lcp_proof *proof)
 
 /* ---- Results ---------------------------------------------------------------------------- */
 
+/* z, its bounds and how far z as given is from it, of a basis that is proved. */
 static void write_proof(prover *p, const double *given, rb_lcp_proof *proof)
 {
     for (int i = 0; i < p->n; i++) {
@@ -638,7 +641,8 @@ static double nearby(const prover *p, const double *given)
     return eps;
 }
 
-/* The basis that z means: C are the z between their bounds whose row is nearly zero. */
+/* Step 1 of docs/proof.md, the basis that z means: C are the z between their bounds whose row is
+ * nearly zero. */
 static void guess(prover *p, const double *z)
 {
     for (int i = 0; i < p->n; i++) {
@@ -686,6 +690,7 @@ static rb_status copy_without_zeros(const rb_sparse *M, rb_sparse *to)
     return s;
 }
 
+/* Steps 1 to 5, until a basis is proved or an attempt changes none. */
 rb_status rb_lcp_prove(const rb_lcp_mixed_problem *given, const double *z, rb_lcp_proof *proof)
 {
     const int n = given->M->rows;
