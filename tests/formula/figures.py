@@ -5,7 +5,7 @@ a formula that a function of this folder evaluates.
     rows NAME            a section of tests/figures, which looks for its rows on the page
     formula CHAPTER.TAG  a function of this folder
     by COMMAND           what takes too long, or needs what is not here: not run, but it must exist
-    in FILE [FUNCTION]   numbers that a test compares, or that the program has as constants: they stand there
+    in FILE [FUNCTION...] numbers that a test compares, or that the program has as constants: they stand there
     from SOURCE          literature, or numbers of sections
     OPTIONS | EXPRESSION; EXPRESSION ...
                          run by the program, OPTIONS with a command before them or not; an expression has
@@ -59,11 +59,12 @@ def summary(options):
 
 
 def numbers_in(place):
-    """The numbers of a file, or of one function or table of it."""
-    file, _, name = place.partition(" ")
-    text = open(file).read()
-    if name:
-        text = re.search(rf"^[^\n;]*\b{name}\b[^;]*?\{{.*?^\}}", text, re.S | re.M)[0]
+    """The numbers of a file, or of functions and tables of it; none of what is not there."""
+    file, *names = place.split()
+    text = open(file).read() if os.path.exists(file) else ""
+    if names:
+        found = [re.search(rf"^[^\n;]*\b{name}\b[^;]*?\{{.*?^\}}", text, re.S | re.M) for name in names]
+        text = " ".join(m[0] for m in found if m)
     return {abs(float(x)) for x in re.findall(r"(?<![\w.])(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", text)}
 
 
