@@ -86,6 +86,11 @@ static const sentence notes[] = {
      FRETS "--datum 0.1 --datum-b 0.1 --shift 0.001", FRETS "--shift 0.001"},
     {"near-datum", "The approach is negative", FRETS "--datum 0.1 --datum-b 0.1 --force 1",
      FRETS "--datum 1 --datum-b 1 --force 1"},
+    {"base-pulls", "the smooth base pulls at its layer",
+     "--support halfplane --gap parabola --young 1000 --poisson 0.3 --radius 50 --mu 0 --load 1 "
+     "--layer-thickness 0.3 --layer-base smooth",
+     "--support halfplane --gap parabola --young 1000 --poisson 0.3 --radius 50 --mu 0 --load 1 "
+     "--layer-thickness 200 --layer-base smooth"},
     {"short-memory", "the bodies relax so much that under the given approach",
      "--support halfplane --gap parabola --young 1 --poisson 0.4 --radius 50 --mu 0 "
      "--approach 0.5 --relaxation-time 0.5 --relaxation-ratio 10 --formulation transient "

@@ -189,6 +189,9 @@ typedef struct {
     double thickness;         /* of the layer; 0: half-plane */
     int elastic_base;         /* of the layer; 0: rigid */
     rb_bem_material base;
+    int smooth_base;           /* of one elastic layer: it slides on its base without friction and
+                                  does not leave it (L9); its displacement along the surface has no
+                                  datum */
     const rb_bem_stack *stack; /* of several elastic layers, the first of which is that of
                                   `material` and `thickness`; NULL: one */
     double period; /* of tractions that repeat themselves along an elastic half-plane [length]: its

@@ -54,18 +54,22 @@ typedef struct {
     double temperature;   /* far from the contact */
 } rb_rolling_heat;
 
+/* A layer on a smooth base slides on it without friction and does not leave it. */
+typedef enum { RB_BASE_BONDED, RB_BASE_SMOOTH } rb_rolling_base;
+
 typedef struct {
     double young, poisson; /* [stress], [-]; of a viscoelastic body the glassy
                               (instantaneous) modulus */
     double radius;         /* [length]; of body B also INFINITY: a plane; < 0: a bore around A */
     rb_bem_support support;
-    double arc;       /* half-angle of the clamped arc [degrees] */
-    double hub_ratio; /* radius of the rigid hub / radius */
-    double datum;     /* half-plane: where along it a load moves nothing; 0: 2R/e */
-    double strip;     /* homogeneous half-plane: in place of a datum, the width of a strip
-                         of a half-space that rests far away, as in CONTACT; 0: a datum */
-    double layer;     /* half-plane: thickness of a layer of this material, bonded to a
-                         base [length]; 0: no layer */
+    rb_rolling_base layer_base; /* how a layer is held */
+    double arc;                 /* half-angle of the clamped arc [degrees] */
+    double hub_ratio;           /* radius of the rigid hub / radius */
+    double datum;               /* half-plane: where along it a load moves nothing; 0: 2R/e */
+    double strip;               /* homogeneous half-plane: in place of a datum, the width of a strip
+                                   of a half-space that rests far away, as in CONTACT; 0: a datum */
+    double layer;               /* half-plane: thickness of a layer of this material, bonded to a
+                                   base [length]; 0: no layer */
     double base_young, base_poisson; /* of the base; young 0: rigid */
     double cover;                    /* hub: thickness of a cover of this material, bonded to a core
                                         [length]; 0: none */
@@ -392,6 +396,9 @@ typedef struct {
     /* steady, of an ellipse between alike bodies: Q of the whole of it by strips, and with the
      * slope of Kalker's C11 [force]; otherwise NAN */
     double ellipse_force, ellipse_force_kalker;
+    /* of layers on smooth bases: the creepage of what is unstrained ahead of the contact, and
+     * behind it (L9); NAN: there is none */
+    double creepage_ahead, creepage_behind;
     double mean_pressure, contact_share; /* with a period L: P/L [stress], and the part of L in
                                             contact; otherwise NAN */
     double tilt;                         /* of A; NAN: neither tilt nor moment is given */

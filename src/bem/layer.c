@@ -9,12 +9,13 @@
 rb_status rb_bem_layer_remainder_of(const rb_bem_surface *body, double reach,
                                     rb_bem_layer_remainder *k)
 {
-    const double base = rb_bem_layer_base_compliance(body), d = body->thickness;
+    const double base = rb_bem_layer_base_compliance(body), d = body->thickness,
+                 everywhere = base > 0.0 ? base * log(body->datum / d) : 0.0;
 
     *k = (rb_bem_layer_remainder){.table = rb_bem_layer_table_of(body, reach / d),
                                   .scale = (1.0 - body->material.poisson) /
                                            (M_PI * body->material.shear),
-                                  .everywhere = base > 0.0 ? base * log(body->datum / d) : 0.0,
+                                  .everywhere = {everywhere, body->smooth_base ? 0.0 : everywhere},
                                   .d = d};
     return k->table ? RB_OK : RB_ENOMEM;
 }
@@ -22,8 +23,8 @@ rb_status rb_bem_layer_remainder_of(const rb_bem_surface *body, double reach,
 rb_bem_layer_kernel rb_bem_layer_primitive(const rb_bem_layer_remainder *k, double x)
 {
     rb_bem_layer_kernel e = rb_bem_layer_integral(k->table, x / k->d);
-    e.of[0] = k->scale * (e.of[0] * k->d + k->everywhere * x);
-    e.of[1] = k->scale * (e.of[1] * k->d + k->everywhere * x);
+    e.of[0] = k->scale * (e.of[0] * k->d + k->everywhere[0] * x);
+    e.of[1] = k->scale * (e.of[1] * k->d + k->everywhere[1] * x);
     e.of[2] *= k->scale * k->d;
     return e;
 }
@@ -44,8 +45,8 @@ static rb_bem_layer_kernel under(const rb_bem_layer_remainder *k, double x, cons
     const double h = ends[1] - ends[0], by = k->scale * h,
                  X = 0.5 * ((x - ends[0]) + (x - ends[1]));
     rb_bem_layer_kernel e = rb_bem_layer_mean(k->table, X / k->d, 0.5 * h / k->d);
-    e.of[0] = by * (e.of[0] + k->everywhere);
-    e.of[1] = by * (e.of[1] + k->everywhere);
+    e.of[0] = by * (e.of[0] + k->everywhere[0]);
+    e.of[1] = by * (e.of[1] + k->everywhere[1]);
     e.of[2] *= by;
     return e;
 }

@@ -19,8 +19,11 @@ typedef struct {
 void rb_bem_layer_wave_at(const rb_bem_surface *body, double complex al, rb_bem_layer_wave *wave);
 
 /* What the layer has over the half-plane (L3): Z = c L - c (1, 1, beta) of pressure,
- * friction and coupling. */
+ * friction and coupling; of friction on a smooth base without the membrane, whose kernel is
+ * rb_bem_layer_membrane (L9). */
 void rb_bem_layer_remainder_at(const rb_bem_surface *body, double complex al, double complex Z[3]);
+
+double rb_bem_layer_membrane(const rb_bem_surface *body, double X);
 
 /* Its limit for al -> 0, which is real. */
 void rb_bem_layer_longest_waves(const rb_bem_surface *body, double Z[3]);
@@ -56,8 +59,8 @@ rb_bem_layer_kernel rb_bem_layer_integral(const rb_bem_layer_table *table, doubl
  * back when done. */
 typedef struct {
     const rb_bem_layer_table *table;
-    double scale;      /* (1 - nu)/(pi shear) */
-    double everywhere; /* by the datum of an elastic base */
+    double scale;         /* (1 - nu)/(pi shear) */
+    double everywhere[2]; /* by the datum of an elastic base: of pressure, of friction */
     double d;
 } rb_bem_layer_remainder;
 rb_status rb_bem_layer_remainder_of(const rb_bem_surface *body, double reach,

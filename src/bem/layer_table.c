@@ -189,6 +189,7 @@ static rb_status fill_side(const rb_bem_layer_table *table, int side, int from)
                 rb_bem_stack_kernel_at(stack, X, value[j]);
             else
                 sum_waves(&w, X, value[j]);
+            value[j][1] += rb_bem_layer_membrane(&body, X);
             value[j][2] *= side ? -1.0 : 1.0;
         }
         if (s == RB_OK)
@@ -308,7 +309,8 @@ static int is_for(const rb_bem_layer_table *table, const rb_bem_surface *body)
 {
     const rb_bem_surface *own = &table->body;
     int same = own->material.poisson == body->material.poisson &&
-               own->elastic_base == body->elastic_base && own->terms == body->terms;
+               own->elastic_base == body->elastic_base && own->smooth_base == body->smooth_base &&
+               own->terms == body->terms;
 
     if (same && own->elastic_base)
         same = own->base.poisson == body->base.poisson &&

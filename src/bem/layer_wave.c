@@ -1,6 +1,8 @@
 /* Waves in a layer bonded to a rigid or elastic base (L1), (L2). */
 #include "bem/layer.h"
 
+#include <math.h>
+
 /* 1 + sum f_k/(1 - i k L_k): compliance of the layer's material over its glassy one. */
 static double complex creep(const rb_bem_surface *body, double complex k)
 {
@@ -15,6 +17,7 @@ typedef struct {
     double nu;
     double complex rho; /* compliance of the base over 1/(2 G) (0: rigid) */
     double beta;
+    int slides; /* on a smooth base, which bears no friction (L9) */
 } bonded_layer;
 
 /* What a function f with the derivatives f[1], f[2], f[3] at eta = al lacks of following
@@ -24,14 +27,14 @@ static void miss_bond(const bonded_layer *layer, const double complex f[4], doub
 {
     const double nu = layer->nu, beta = layer->beta;
     *v = (1.0 - nu) * f[3] - (2.0 - nu) * f[1] - layer->rho * (f[0] + beta * f[1]);
-    *u = (1.0 - nu) * f[2] + nu * f[0] + layer->rho * (f[1] + beta * f[0]);
+    *u = layer->slides ? f[1] : (1.0 - nu) * f[2] + nu * f[0] + layer->rho * (f[1] + beta * f[0]);
 }
 
 /* The half-plane's own function misses the bond by what comes down to it; the two that
  * grow make up for that.  All are multiplied by 2 exp(-al). */
 void rb_bem_layer_wave_at(const rb_bem_surface *body, double complex al, rb_bem_layer_wave *wave)
 {
-    bonded_layer layer = {.nu = body->material.poisson};
+    bonded_layer layer = {.nu = body->material.poisson, .slides = body->smooth_base};
     const double complex fade = cexp(-al), decay = fade * fade, c = 1.0 + decay,
                          h = 2.0 * fade * csinh(al);
     const double complex falls[2][4] = {{2.0 * decay * (1.0 + al), -2.0 * decay * al,
@@ -66,6 +69,14 @@ void rb_bem_layer_remainder_at(const rb_bem_surface *body, double complex al, do
     Z[0] = softer * w.d[0];
     Z[1] = -softer * w.c[1];
     Z[2] = -softer * w.c[0];
+    if (body->smooth_base)
+        Z[1] -= 0.5 * (1.0 / al + 2.0) * cexp(-2.0 * al);
+}
+
+/* int_0^inf (1 + 2 al) exp(-2 al) (cos(al X) - 1)/(2 al^2) dal */
+double rb_bem_layer_membrane(const rb_bem_surface *body, double X)
+{
+    return body->smooth_base ? -0.5 * X * atan(0.5 * X) : 0.0;
 }
 
 double rb_bem_layer_base_compliance(const rb_bem_surface *body)
@@ -88,4 +99,8 @@ void rb_bem_layer_longest_waves(const rb_bem_surface *body, double Z[3])
         softer += body->ratio[k];
     Z[0] = Z[1] = base - softer;
     Z[2] = base * coupling_of(body->base) - softer * coupling_of(body->material);
+    if (body->smooth_base) {
+        Z[1] = -1.0; /* besides that of the membrane */
+        Z[2] = -0.5;
+    }
 }

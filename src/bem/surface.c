@@ -37,6 +37,8 @@ rb_status rb_bem_surface_check(const rb_bem_surface *body, rb_message *why)
     if (stack && (stack->n < 2 || body->terms > 0 || body->thickness != stack->thickness[0]))
         return rb_fail(why, RB_EINVAL, "stack: expected two elastic layers or more, got %d",
                        stack->n);
+    if (body->smooth_base && (body->thickness == 0.0 || stack || body->terms > 0))
+        return rb_fail(why, RB_EINVAL, "smooth base: of one elastic layer only");
     for (int k = 0; stack && k < stack->n && s == RB_OK; k++)
         s = stack->thickness[k] > 0.0 && isfinite(stack->thickness[k])
                 ? rb_bem_material_check(

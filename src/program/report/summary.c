@@ -117,6 +117,8 @@ static void write_body(FILE *out, const rb_rolling_body *body, rb_units units)
     if (body->stack)
         fprintf(out, "all %.6g %s on ", rb_unit_shown(units, "mm", rb_rolling_layers_depth(body)),
                 mm);
+    if (body->layer_base == RB_BASE_SMOOTH)
+        fputs("(sliding) ", out);
     if (young > 0.0)
         write_material(out, young, body->layer > 0.0 ? body->base_poisson : body->core_poisson,
                        units);
@@ -129,8 +131,9 @@ static int is_alike(const rb_rolling_body *a, const rb_rolling_body *b)
 {
     return a->young == b->young && a->poisson == b->poisson && a->layer == b->layer &&
            a->stack == b->stack && a->cover == b->cover && a->base_young == b->base_young &&
-           a->base_poisson == b->base_poisson && a->core_young == b->core_young &&
-           a->core_poisson == b->core_poisson && (a->memory.n > 0) == (b->memory.n > 0);
+           a->layer_base == b->layer_base && a->base_poisson == b->base_poisson &&
+           a->core_young == b->core_young && a->core_poisson == b->core_poisson &&
+           (a->memory.n > 0) == (b->memory.n > 0);
 }
 
 void rb_report_bodies(FILE *out, const rb_rolling_case *rc, rb_units units)

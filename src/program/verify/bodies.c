@@ -350,6 +350,25 @@ static void at_bonds(rb_verify *v)
     }
 }
 
+/* As thick as the contact is half wide, by Chebyshev's polynomials (L9). */
+static void on_smooth_base(rb_verify *v)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    const rb_rolling_derived hertz = rb_rolling_derive(&rc);
+    rc.half_width = NAN;
+    rc.load = 1.4226461 * hertz.load;
+    rc.mu = 0.0;
+    rc.formulation = RB_STATIC;
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = 100;
+    rc.a.layer = hertz.half_width;
+    rc.a.layer_base = RB_BASE_SMOOTH;
+    const rb_rolling_solution *s = rb_verify_solve(v, &rc);
+    rb_verify_relative(v, s->half_width, hertz.half_width, 2e-4, "layer on a smooth base: a");
+    rb_verify_relative(v, s->max_pressure / hertz.stress, 1.4569765, 5e-4,
+                       "layer on a smooth base: p0");
+}
+
 /* R 50, P 500 on layers of .1 mm, 400 GPa, .05 mm, 3 GPa, and .3 mm, 70 GPa, by Chebyshev's
  * polynomials; the stress below an ellipse of pressure and friction by 400 Gauss points (L6, L8).
  */
@@ -438,6 +457,7 @@ void rb_verify_bodies(rb_verify *v)
     below_in_b(v);
     below_strips(v);
     at_bonds(v);
+    on_smooth_base(v);
     on_three_layers(v);
     loads_of_pressures(v);
 }

@@ -71,7 +71,8 @@ int rb_rolling_same_body(const rb_rolling_body *x, const rb_rolling_body *y)
     const char *a = (const char *)x, *b = (const char *)y;
 
     return memcmp(a + YOUNG, b + YOUNG, SUPPORT - YOUNG) == 0 && x->support == y->support &&
-           memcmp(a + ARC, b + ARC, MEMORY - ARC) == 0 && x->memory.n == y->memory.n &&
+           x->layer_base == y->layer_base && memcmp(a + ARC, b + ARC, MEMORY - ARC) == 0 &&
+           x->memory.n == y->memory.n &&
            memcmp(x->memory.time, y->memory.time, sizeof x->memory.time) == 0 &&
            memcmp(x->memory.ratio, y->memory.ratio, sizeof x->memory.ratio) == 0;
 }

@@ -56,6 +56,7 @@ rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc, const rb_
         .thickness = body->layer,
         .elastic_base = elastic_base,
         .base = elastic_base ? rb_rolling_base_material(rc, body) : (rb_bem_material){0},
+        .smooth_base = body->layer_base == RB_BASE_SMOOTH,
         .stack = body->stack};
 }
 
@@ -202,6 +203,9 @@ static rb_status check_layer(const rb_rolling_case *rc, const rb_rolling_body *b
     if (b->stack && rc->plane == RB_PLANE_STRESS)
         return rb_refuse(why, layers,
                          "several layers are in plane strain; leave --plane stress out");
+    if (b->layer_base == RB_BASE_SMOOTH && (b->stack || b->memory.n > 0))
+        return rb_refuse(why, *which ? "layer-base-b" : "layer-base",
+                         "smooth: of one elastic layer only");
     return has_layer(b) && b->base_young > 0.0
                ? rb_rolling_check_poisson(rc, *which ? "base-poisson-b" : "base-poisson",
                                           b->base_poisson, why)
@@ -211,6 +215,7 @@ static rb_status check_layer(const rb_rolling_case *rc, const rb_rolling_body *b
 static const rb_rolling_parameter layer_parameters[] = {
     {"base-young", has_layer, "a base has its layer on it, see --layer-thickness"},
     {"base-poisson", has_layer, "a base has its layer on it, see --layer-thickness"},
+    {"layer-base", has_layer, "a base has its layer on it, see --layer-thickness"},
     {.option = NULL}};
 
 const rb_rolling_body_kind rb_rolling_layer = {.name = "layer",

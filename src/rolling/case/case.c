@@ -447,7 +447,8 @@ static int are_alike(const rb_rolling_body *a, const rb_rolling_body *b)
                 a->memory.n == b->memory.n;
 
     if (a->layer > 0.0)
-        alike &= a->base_young == b->base_young && a->base_poisson == b->base_poisson;
+        alike &= a->base_young == b->base_young && a->base_poisson == b->base_poisson &&
+                 a->layer_base == b->layer_base;
     if (a->cover > 0.0)
         alike &= a->core_young == b->core_young && a->core_poisson == b->core_poisson;
     if (a->support != RB_BEM_HALFPLANE)
@@ -776,6 +777,25 @@ static rb_status check_increments(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
+/* Nothing holds a layer on a smooth base along the surface (L9). */
+static rb_status check_smooth_base(const rb_rolling_case *rc, rb_message *why)
+{
+    const char *name = rc->a.layer_base == RB_BASE_SMOOTH ? "layer-base" : "layer-base-b";
+
+    if (!rb_rolling_slides_on_base(rc))
+        return RB_OK;
+    if (rc->formulation == RB_TRANSIENT || rb_rolling_has_steps(rc))
+        return rb_refuse(why, name,
+                         "smooth: of steady rolling and of bodies at rest in one step; "
+                         "nothing holds the layer from step to step");
+    if (rc->formulation == RB_STATIC && rb_rolling_largest_mu(rc) > 0.0 &&
+        !rb_rolling_force_is_given(rc))
+        return rb_refuse(why, name,
+                         "smooth: a shift means nothing where no datum holds the layer; "
+                         "give --force");
+    return RB_OK;
+}
+
 static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
 {
     if (rc->slip_operator == RB_SLIP_SECOND && rc->formulation != RB_STEADY)
@@ -1033,11 +1053,11 @@ static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
 rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
 {
     static rb_status (*const checks[])(const rb_rolling_case *, rb_message *) = {
-        check_period,       check_memory, check_heat,       rb_rolling_law_check,
-        check_interlayer,   check_normal, check_tangential, check_bore,
-        check_gap,          check_bulk,   check_tilt,       check_ellipse,
-        check_irregularity, check_worn,   check_increments, check_sizes,
-        check_mesh};
+        check_period,       check_memory,     check_heat,       rb_rolling_law_check,
+        check_interlayer,   check_normal,     check_tangential, check_bore,
+        check_gap,          check_bulk,       check_tilt,       check_ellipse,
+        check_irregularity, check_worn,       check_increments, check_sizes,
+        check_mesh,         check_smooth_base};
     const rb_rolling_case defaults = rb_rolling_case_defaults();
     rb_status s = rb_rolling_check_ranges(rc, &defaults, why);
 

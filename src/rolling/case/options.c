@@ -19,6 +19,8 @@ static const rb_choice meshes[] = {{"uniform", RB_MESH_UNIFORM},
                                    {"aligned", RB_MESH_ALIGNED},
                                    {"punch", RB_MESH_PUNCH},
                                    {NULL, 0}};
+static const rb_choice layer_bases[] = {
+    {"bonded", RB_BASE_BONDED}, {"smooth", RB_BASE_SMOOTH}, {NULL, 0}};
 static const rb_choice slip_operators[] = {
     {"upstream", RB_SLIP_UPSTREAM}, {"second", RB_SLIP_SECOND}, {NULL, 0}};
 static const rb_choice normals[] = {
@@ -75,6 +77,9 @@ const rb_option rb_case_table[] = {
                    .modulus = 1),
     RB_NUMBER_LINE("base-poisson", RC(a.base_poisson), "-", RB_ABOVE_UPTO(-1, 0.5),
                    "Poisson's ratio of an elastic base"),
+    RB_CHOICE_LINE("layer-base", RC(a.layer_base), layer_bases,
+                   "whether the layer is bonded to its base or slides on it without friction and "
+                   "stays on it"),
     RB_NUMBER_LINE("cover-thickness", RC(a.cover), "mm", RB_ABOVE(0),
                    "hub: thickness of a cover of this material, bonded to the core", .word = "none",
                    .word_value = 0.0, .one_only = ONE_COVER),
@@ -135,6 +140,8 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("base-poisson-b", RC(b.base_poisson), "-", RB_ABOVE_UPTO(-1, 0.5),
                    "Poisson's ratio of an elastic base", .of_a = RC(a.base_poisson),
                    .if_similar = 1),
+    RB_CHOICE_LINE("layer-base-b", RC(b.layer_base), layer_bases, "the same of B's layer",
+                   .of_a = RC(a.layer_base), .if_similar = 1),
     RB_NUMBER_LINE("cover-thickness-b", RC(b.cover), "mm", RB_ABOVE(0),
                    "hub: thickness of a cover of its material on its core", .word = "none",
                    .word_value = 0.0, .one_only = ONE_COVER, .of_a = RC(a.cover), .if_similar = 1),

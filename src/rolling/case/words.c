@@ -378,6 +378,12 @@ static rb_status resolve_body_b(rb_case *c, rb_message *why)
         if ((is_b && !rc->elastic_b) || (!o->into && !o->of_a))
             continue;
         /* What is given of B lies in its place; the rest is A's, as the table says. */
+        if (o->kind == RB_OPTION_CHOICE) {
+            if (would_follow(c, o) && !c->given[o - rb_case_table])
+                *(int *)(void *)((char *)rc + o->offset) =
+                    *(const int *)(const void *)((char *)rc + o->of_a);
+            continue;
+        }
         double *to = (double *)(void *)((char *)rc + (o->into ? o->into : o->offset));
         const double *typed = (const double *)(const void *)((char *)s + o->offset);
         if (o->into && !isnan(*typed))
@@ -965,9 +971,10 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     if (!rb_case_given(c, "contact-elements") &&
         (rc->mesh == RB_MESH_FITTED || (refined && rc->mesh == RB_MESH_ALIGNED)))
         rc->contact_elements = 100;
-    /* Q = 0, which a shift does not say where all of a period sticks */
-    if (rc->period > 0.0 && isnan(rc->approach) && isnan(rc->shift) &&
-        !rb_rolling_force_is_given(rc) && !c->resolved.history_file)
+    /* Q = 0, which a shift does not say where all of a period sticks, nor on a smooth base */
+    if (((rc->period > 0.0 && isnan(rc->approach)) ||
+         (rc->formulation == RB_STATIC && rb_rolling_slides_on_base(rc))) &&
+        isnan(rc->shift) && !rb_rolling_force_is_given(rc) && !c->resolved.history_file)
         rc->force = 0.0;
     if (c->resolved.program.n > 0)
         c->resolved.rc = rb_rolling_program_base(&c->resolved.program, &c->resolved.rc);

@@ -136,7 +136,8 @@ static int flat_layer(const rb_rolling_case *rc, const rb_rolling_solution *s, c
 
     for (int b = 0; b < 1 + rc->elastic_b; b++) {
         const double R = fabs(bodies[b]->radius), t = bodies[b]->stack ? 0.0 : bodies[b]->layer;
-        if (rc->formulation == RB_STATIC || !(t > 0.0) || !isfinite(R) || t < thick * R)
+        if (rc->formulation == RB_STATIC || !(t > 0.0) || !isfinite(R) || t < thick * R ||
+            bodies[b]->layer_base == RB_BASE_SMOOTH) /* a strip, and no cover */
             continue;
         thickest[b] = t / R;
         shift +=
@@ -470,6 +471,70 @@ static int no_creepage(const rb_rolling_case *rc, const rb_rolling_solution *s, 
                       "rolls at creepage 0.");
 }
 
+/* The largest tension across a smooth base (L9), within a few thicknesses of the contact; NAN
+ * without memory.  sign: of the friction on the body. */
+static double tension_of_base(const rb_rolling_case *rc, const rb_rolling_body *body,
+                              const rb_rolling_solution *s, double sign)
+{
+    enum { POINTS = 60 };
+    const double mm = rb_unit_stored(s->units, "mm", 1.0),
+                 MPa = rb_unit_stored(s->units, "MPa", 1.0),
+                 from = mm * s->contact_from - 4.0 * body->layer,
+                 to = mm * s->contact_to + 4.0 * body->layer;
+    double length[RB_ROLLING_TERMS], xy[2 * POINTS], stress[3 * POINTS], most = 0.0;
+    rb_arena scratch = {0};
+    const size_t n = (size_t)s->n;
+    double *x = rb_arena_doubles(&scratch, n, 3), *p = x ? x + n : NULL, *q = x ? p + n : NULL;
+    rb_bem_layer_field *field = NULL;
+
+    if (!x)
+        return NAN;
+    for (int i = 0; i < s->n; i++) {
+        x[i] = mm * s->x[i];
+        p[i] = MPa * s->p[i];
+        q[i] = sign * MPa * s->q[i];
+    }
+    for (int k = 0; k < POINTS; k++) {
+        xy[2 * k] = from + k * (to - from) / (POINTS - 1);
+        xy[2 * k + 1] = body->layer;
+    }
+    const rb_bem_surface surface = rb_rolling_halfplane_surface(rc, body, length);
+    const rb_bem_edge_load load = {s->n, x, p, q};
+    const rb_bem_points points = {POINTS, xy};
+    rb_status status = rb_bem_halfplane_stress_linear(&load, points, stress);
+    if (status == RB_OK)
+        status = rb_bem_layer_field_create(&surface, &load, &field, NULL);
+    if (status == RB_OK)
+        status = rb_bem_layer_field_add(field, points, stress, NULL);
+    rb_bem_layer_field_free(field);
+    for (int k = 0; k < POINTS && status == RB_OK; k++)
+        most = fmax(most, stress[3 * k + 1]);
+    rb_arena_free(&scratch);
+    return status == RB_ENOMEM ? NAN : most / MPa;
+}
+
+static int base_pulls(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    static const double small = 0.01;
+    double most = 0.0;
+
+    if (!rb_rolling_slides_on_base(rc) || !(s->max_pressure > 0.0))
+        return 0;
+    if (rc->a.layer_base == RB_BASE_SMOOTH)
+        most = tension_of_base(rc, &rc->a, s, 1.0);
+    if (rc->elastic_b && rc->b.layer_base == RB_BASE_SMOOTH)
+        most = fmax(most, tension_of_base(rc, &rc->b, s, -1.0));
+    if (isnan(most))
+        return NO_MEMORY;
+    return most > small * s->max_pressure &&
+           write_note(
+               text,
+               "Beside the contact the smooth base pulls at its layer, with up to %.2g p0. "
+               "In a strip between two equal rolls that is the stress of the middle plane; a "
+               "layer that nothing holds down would lift off there.",
+               most / s->max_pressure);
+}
+
 static int strained_creepage(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
 {
     (void)s;
@@ -710,6 +775,7 @@ static const struct {
     {"strip-of-ellipse", strip_of_ellipse, 0},
     {"flat-layer", flat_layer, 0},
     {"near-datum", near_datum, 0},
+    {"base-pulls", base_pulls, 0},
     {"short-memory", short_memory, 0},
     {"row-of-steps", row_of_steps, 0},
     {"jumps", jumps, 0},

@@ -70,6 +70,10 @@ static const rb_rolling_result scalars[] = {
     RESULT("creep_ratio", creep_ratio, .study = 6, .meaning = "xi R/(mu a), a: hertz_half_width"),
     RESULT("free_creepage", free_creepage, .error_bar = RB_SCALE_CREEPAGE, .study = 7,
            .meaning = "xi where Q = 0; steady rolling"),
+    RESULT("creepage_ahead", creepage_ahead, .no_derivative = 1, .condition = RB_FOR_SMOOTH_BASE,
+           .meaning = "xi of a layer on a smooth base that is unstrained ahead of the contact"),
+    RESULT("creepage_behind", creepage_behind, .no_derivative = 1, .condition = RB_FOR_SMOOTH_BASE,
+           .meaning = "xi of a layer on a smooth base that is unstrained behind it"),
     RESULT("hertz_half_width", hertz_half_width, .unit = "mm",
            .meaning = "a of P and the combined radius, Hertz's; with a third body "
                       "or memory theirs by formula: scale of the ratios"),
@@ -454,6 +458,8 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc,
         return rb_rolling_is_tilted(rc);
     case RB_FOR_ELLIPSE:
         return rc->ellipse.radius > 0.0;
+    case RB_FOR_SMOOTH_BASE:
+        return rc->formulation != RB_STATIC && rb_rolling_slides_on_base(rc);
     case RB_FOR_ALL:
         break;
     }

@@ -86,6 +86,15 @@ static double unless_tiny(double x, double tiny)
     return fabs(x) <= tiny ? 0.0 : x;
 }
 
+/* (L9) What half of the friction stretches a layer on a smooth base, per friction. */
+static double half_stretch(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    const rb_bem_material m = rb_rolling_material(rc, body);
+    return body->layer_base == RB_BASE_SMOOTH && body->layer > 0.0
+               ? (1.0 - m.poisson) / (4.0 * m.shear * body->layer)
+               : 0.0;
+}
+
 static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
 {
     const rb_contact_problem *p = &model->problem;
@@ -113,6 +122,14 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
     }
     s->force_ratio = rb_rolling_force_ratio(model);
     s->creep_ratio = rb_rolling_ratio_of_creepage(model, s->creepage);
+    const rb_rolling_case *rc = model->rc;
+    const double stretch =
+        s->formulation == RB_STATIC || !rb_rolling_slides_on_base(rc)
+            ? NAN
+            : s->tangential_load *
+                  (half_stretch(rc, &rc->a) + (rc->elastic_b ? half_stretch(rc, &rc->b) : 0.0));
+    s->creepage_ahead = s->creepage + stretch;
+    s->creepage_behind = s->creepage - stretch;
     s->ellipse_force = s->ellipse_force_kalker = NAN;
     if (rb_rolling_ellipse_slides_alike(model->rc))
         rb_rolling_ellipse_forces(model->rc, s->creep_ratio, &s->ellipse_force,
