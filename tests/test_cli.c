@@ -129,7 +129,7 @@ static const struct {
     {"--free-axle", 64, "rollbem: --free-axle: of steady rolling only"},
     {"--support halfplane --load 100 --young-b 1000 --layer-thickness-b 0.01 --poisson-b "
      "0.495 --mesh uniform --contact-elements 20",
-     64, "--layer-thickness: with nu = 0.495 the elements"},
+     64, "--layer-thickness-b: with nu = 0.495 the elements"},
     {"--trace --solver newton", 64, "--trace: only --solver lemke pivots"},
     {"--support hub --contact-elements 3 --zone 47.5 --approach 1", 64,
      "no room for the element before it within the radius, 50 mm"},
