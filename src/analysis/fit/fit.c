@@ -573,27 +573,30 @@ static rb_status converge_again(fit_problem *p, progress *of, const rb_case_fit_
     return s == RB_OK ? gauss_newton(p, of, chi2, observer, why) : s;
 }
 
-/* From half and twice each number that the fit has begun with, but a coefficient of friction, of
- * which forces are nearly linear: a lesser sum may lie beyond larger ones.  On few elements, which
- * the fit then leaves for its own at the least sum of all. */
+/* From half and twice each number that the fit has begun with, and from a quarter and four times
+ * where the sum there is less, but not of a coefficient of friction, of which forces are nearly
+ * linear: a lesser sum may lie beyond larger ones.  On few elements, which the fit then leaves for
+ * its own at the least sum of all. */
 static rb_status try_other_starts(fit_problem *p, progress *of, const double *given,
                                   const rb_case_fit_observer *observer, rb_message *why)
 {
-    static const double factors[] = {0.5, 2.0};
-    enum { OTHERS = 1 + 2 * RB_CASE_FIT_MAX };
+    static const double factors[] = {0.5, 0.25, 2.0, 4.0};
+    enum { FACTORS = sizeof factors / sizeof *factors, OTHERS = 1 + FACTORS * RB_CASE_FIT_MAX };
     const rb_case *fine = p->c;
     const size_t bytes = (size_t)p->n * sizeof *given;
-    double least = INFINITY, best[RB_CASE_FIT_MAX], from[OTHERS][RB_CASE_FIT_MAX];
-    int moved, others = 1;
+    double least = INFINITY, nearer = INFINITY, best[RB_CASE_FIT_MAX];
+    double from[OTHERS][RB_CASE_FIT_MAX];
+    int moved, others = 1, is_far[OTHERS] = {0};
 
     memcpy(from[0], of->theta, bytes);
     for (int j = 0; j < p->n; j++)
-        for (int k = 0;
-             k < 2 && p->fit->parameter[j].positive && strcmp(p->fit->parameter[j].name, "mu") != 0;
+        for (int k = 0; k < FACTORS && p->fit->parameter[j].positive &&
+                        strcmp(p->fit->parameter[j].name, "mu") != 0;
              k++) {
             memcpy(from[others], given, bytes);
             from[others][j] *= factors[k];
             rb_case_fit_clip(&p->fit->parameter[j], &from[others][j]);
+            is_far[others] = k % 2;
             others += memcmp(from[others], given, bytes) != 0;
         }
     if (others == 1)
@@ -612,6 +615,11 @@ static rb_status try_other_starts(fit_problem *p, progress *of, const double *gi
         rb_message reason = {.text = ""};
         memcpy(theta, from[k], bytes);
         rb_status at = rb_case_fit_place(p, theta, &moved, &reason);
+        if (at == RB_OK && k > 0)
+            at = rb_case_fit_sum(p, theta, INFINITY, NULL, &sum, &reason);
+        if (at == RB_OK && is_far[k] && !(sum < nearer))
+            continue;
+        nearer = sum;
         if (at == RB_OK)
             at = rb_case_fit_descend(p, theta, NULL, &reason);
         if (at == RB_OK)
