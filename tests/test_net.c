@@ -287,7 +287,7 @@ static const conflict conflicts[] = {
     {{RELAXING, "regime=transient*|steps|static-history", "gap=file|smoothed"}, SMOOTH_GAP},
     {{RELAXING, "regime=transient*|steps|static-history", "worn=scar"}, SMOOTH_GAP},
     {{RELAXING, "irregularity=flat"}, SMOOTH_GAP},
-    {{RELAXING, "regime=static-history", "output=error"}, "has none"},
+    {{RELAXING, "regime=static-history", "output=error"}, "has no error bars"},
     {{"surface=b*", "body-b=rigid"}, "body B is rigid"},
     {{"surface=b-layer", "body-b=hub|arc"}, HALFPLANE_ONLY},
     {{"surface=layer|on-elastic", "body-b=arc"}, HALFPLANE_ONLY},
