@@ -185,7 +185,7 @@ TEST(a_history_has_bars_of_its_steps)
     const rb_rolling_program timed = {.n = 2, .time = distance, .load = load};
     set(&memory, "formulation static creep-ratio nan relaxation-time 1 relaxation-ratio 0.5");
     CHECK_SAYS(rb_rolling_history_with_errors(&memory, &timed, NULL, &model, &h, &heard), RB_EINVAL,
-               "a history in time has none");
+               "a history in time has no error bars");
     rb_rolling_history_free(&h);
 }
 
