@@ -277,7 +277,10 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
             if (code == CLI_OK && run.o.cite)
                 cli_print_citations(&run.c->rc, run.solution);
             cli_page_end();
-            code = code == CLI_OK ? write_files(&spec, &run, 1) : code;
+            const cli_exit drawn = code == CLI_OK ? write_files(&spec, &run, 1) : code;
+            /* what is not solved may be too little for a picture: the reason is said below */
+            const int too_little = code == CLI_OK && s != RB_OK && drawn == CLI_USAGE;
+            code = too_little ? CLI_OK : drawn;
         } else
             code = CLI_OK;
         if (code == CLI_OK && s != RB_OK)
