@@ -362,6 +362,14 @@ static int pressed_corners(const rb_rolling_case *rc, const rb_rolling_solution 
                rc->worn.n > 0 ? " Give the table more rows." : "");
 }
 
+static int punch_corners(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    return rc->mesh == RB_MESH_PUNCH && s->n > 0 && (s->p[0] > 0.0 || s->p[s->n - 1] > 0.0) &&
+           write_note(text,
+                      "The punch presses with a corner, where the pressure is infinite: p0 is "
+                      "the mean of the last element and grows with their number.");
+}
+
 /* How far a uniform traction of one on a strip of half-width a moves it on average, times pi:
  * positive unless the datum, from which displacements are measured, is too near.  Beyond
  * the length that a stiff layer stretches or bends over the base moves alone. */
@@ -787,6 +795,7 @@ static const struct {
     {"irregularity-rows", irregularity_rows, 0},
     {"coarse-elements", coarse_elements, 0},
     {"pressed-corners", pressed_corners, 0},
+    {"punch-corners", punch_corners, 0},
     {"static-creepage", static_creepage, 0},
     {"no-creepage", no_creepage, 0},
     {"strained-creepage", strained_creepage, 0},
