@@ -74,7 +74,7 @@ static void compare(const char *file, const char *words)
     snprintf(path, sizeof path, "%s/%s", examples, file);
     rb_status s = set_words(c, words, &heard);
     if (s == RB_OK && *file)
-        s = rb_case_read(c, path, 0, NULL, &heard);
+        s = rb_case_read(c, path, &heard);
     if (s == RB_OK)
         s = rb_case_resolve(c, &heard);
     if (s != RB_OK || rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &heard) != RB_OK)
@@ -684,7 +684,7 @@ TEST(files_are_blamed_by_line)
         rb_message why = {.text = ""};
         held_case *c = rb_case_create(RB_CASE_SINGLE);
         write_file("case.ini", bad[k].text);
-        rb_status s = rb_case_read(c, "case.ini", 0, NULL, &why);
+        rb_status s = rb_case_read(c, "case.ini", &why);
         if (s == RB_OK)
             s = rb_case_resolve(c, &why);
         if (s != bad[k].status || !strstr(why.text, bad[k].part))
@@ -747,7 +747,7 @@ static rb_status blame(const char *words, int how, char *line_of[], rb_message *
     *line_of[n] = '\0';
     if (how == 0 && s == RB_OK) {
         write_file("case.ini", file);
-        s = rb_case_read(c, "case.ini", 0, NULL, why);
+        s = rb_case_read(c, "case.ini", why);
     }
     if (s == RB_OK)
         s = rb_case_resolve(c, why);
@@ -927,13 +927,13 @@ TEST(own_options_are_read_beside_the_case)
     const rb_option_set set = {options, 2, &own, NULL, NULL};
     held_case *c = rb_case_create(RB_CASE_SINGLE);
     write_file("own.ini", "mu = 0.2\n[own]\nweight = 2\n");
-    CHECK_OK(rb_case_read(c, "own.ini", 1, &set, &heard));
+    CHECK_OK(rb_case_read_with(c, "own.ini", 1, &set, &heard));
     CHECK_OK(rb_case_resolve(c, &heard));
     CHECK_ABS(own, 2.0, 0.0, "own");
     CHECK_ABS(rb_case_resolved(c)->rc.mu, 0.2, 0.0, "mu");
     CHECK_STATUS(rb_option_assign(&set, 0, 1, "own", "1", &heard), RB_EINVAL);
     write_file("own.ini", "[own]\nmu = 0.2\n");
-    CHECK_SAYS(rb_case_read(c, "own.ini", 1, &set, &heard), RB_EFORMAT,
+    CHECK_SAYS(rb_case_read_with(c, "own.ini", 1, &set, &heard), RB_EFORMAT,
                "own.ini:2: key 'mu' belongs to section");
 }
 
@@ -942,7 +942,7 @@ TEST(an_argument_wins_over_the_file)
     held_case *c = rb_case_create(RB_CASE_SINGLE);
     write_file("case.ini", "load = 4\nmu = 0.1\nyoung-b = 1000\n");
     CHECK_OK(set_words(c, "approach=0.01 mu=0.2 similar=yes", &heard));
-    CHECK_OK(rb_case_read(c, "case.ini", 0, NULL, &heard));
+    CHECK_OK(rb_case_read(c, "case.ini", &heard));
     CHECK_OK(rb_case_resolve(c, &heard));
     const rb_resolved_case *s = rb_case_resolved(c);
     assert_true(isnan(s->rc.load) && s->rc.approach == 0.01 && s->rc.mu == 0.2);
@@ -1034,7 +1034,7 @@ static rb_status use_memory(void)
     rb_case *c = rb_case_create(RB_CASE_SINGLE), *copy = NULL;
     rb_status s = c ? rb_case_set(c, "gap", "gap.txt", RB_GIVEN_ARGUMENT, NULL) : RB_ENOMEM;
     if (s == RB_OK)
-        s = rb_case_read(c, "case.ini", 0, NULL, NULL);
+        s = rb_case_read(c, "case.ini", NULL);
     if (s == RB_OK)
         s = rb_case_resolve(c, NULL);
     if (s == RB_OK && !(copy = rb_case_copy(c)))

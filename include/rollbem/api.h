@@ -10,10 +10,9 @@
  *     const double *p = rb_api_array(a, "p", &rows, &columns);
  *     rb_api_free(a);
  *
- * Options and results are those of rb_case_describe and of the tables of
- * rollbem/rolling.h.  A status is an rb_status: 0: solved; negative: the input was
- * refused; positive: the solver ended without a solution.  rb_api_message then has the
- * reason. */
+ * Options are those of rb_api_option, results those of the tables of rollbem/rolling.h.
+ * A status is an rb_status: 0: solved; negative: the input was refused; positive: the
+ * solver ended without a solution.  rb_api_message then has the reason. */
 #ifndef ROLLBEM_API_H
 #define ROLLBEM_API_H
 

@@ -86,12 +86,6 @@ typedef enum {
 
 /* "solved", "secondary ray", ...: static text. */
 const char *rb_status_text(rb_status s);
-/* The text of why, or that of s if why is NULL or empty. */
-const char *rb_status_reason(rb_status s, const rb_message *why);
-
-/* For progress displays: the name of the computation that runs, as any thread of the process
- * has recorded it last (static text); NULL: none. */
-const char *rb_phase_now(void);
 
 /* What long computations ask every few milliseconds; once it does not return 0 they end with
  * RB_INTERRUPTED.  It must be quick.  asked NULL: nothing is asked. */

@@ -20,9 +20,6 @@ typedef struct {
 } rb_bem_material;
 
 rb_bem_material rb_bem_material_from_young(double young, double poisson);
-/* Converts plane stress to plane strain (B2); nowhere else is this done.  young, poisson:
- * those of the real material; in plane stress poisson is in (-0.5, 0.5]. */
-rb_bem_material rb_bem_material_in_plane(rb_bem_plane plane, double young, double poisson);
 
 /* ---- Meshes (B4) ----------------------------------------------------------------- */
 
@@ -121,10 +118,6 @@ rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material
                                rb_bem_system **system, rb_message *why);
 
 void rb_bem_system_free(rb_bem_system *system);
-
-/* Estimated reciprocal condition number (1-norm) of the scaled matrix A; NAN if A is
- * hierarchical. */
-double rb_bem_system_rcond(const rb_bem_system *system);
 
 /* Displacement u and traction t of every element (2n each, global x, y) under the mesh's
  * given values and the contact tractions t_contact (2 contact_n, global; NULL: zero). */

@@ -24,19 +24,6 @@ RB_PUBLIC_BEGIN
 
 /* ---- Options --------------------------------------------------------------------- */
 
-/* An option table, which begins with a heading, and the struct that holds its values. */
-typedef struct {
-    const rb_option *options;
-    int n;
-    void *target;
-    int *given; /* n: source of each value, see below; NULL: not recorded */
-    int *plain; /* n: 1 if the value is a number that was given without a unit,
-                   RB_GIVEN_HARDNESS; NULL: not recorded */
-} rb_option_set;
-
-/* In `plain`: the value is the modulus of a hardness, in MPa. */
-enum { RB_GIVEN_HARDNESS = 2 };
-
 /* Source of a value: 0: the default; k > 0: line k of the case file; RB_GIVEN_ARGUMENT:
  * an argument, which has priority over the file; RB_GIVEN_NUMBER: rb_case_set_number and
  * rb_case_set_word. */
@@ -66,20 +53,15 @@ rb_case *rb_case_create(rb_case_purpose purpose);
 rb_case *rb_case_copy(const rb_case *c);
 void rb_case_free(rb_case *c);
 
-/* All n options and headings, in the order of the help; their offsets refer to
- * rb_resolved_case. */
-const rb_option *rb_case_describe(int *n);
-
 /* Sets an option.  by: RB_GIVEN_ARGUMENT, or the line of the case file.  The text is
  * copied.  RB_EINVAL: there is no such option, or the value is out of range. */
 rb_status rb_case_set(rb_case *c, const char *name, const char *text, int by, rb_message *why);
 /* The same for options whose value is a number. */
 rb_status rb_case_set_number(rb_case *c, const char *name, double value, rb_message *why);
 
-/* Reads a case file.  Values that were set by an argument are kept.  also: n further
- * tables whose keys the file may contain.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
-rb_status rb_case_read(rb_case *c, const char *path, int n, const rb_option_set *also,
-                       rb_message *why);
+/* Reads a case file.  Values that were set by an argument are kept.  RB_ENOENT, RB_EFORMAT,
+ * RB_ENOMEM. */
+rb_status rb_case_read(rb_case *c, const char *path, rb_message *why);
 
 /* Computes rb_resolved_case from the given values: refuses contradictions, fills in body
  * B and the mesh, reads the files of gap and history, and checks the result.  Call it

@@ -183,11 +183,6 @@ typedef struct {
 rb_status rb_contact_residual(const rb_contact_problem *problem, const rb_contact_state *state,
                               rb_contact_violation *violation);
 
-/* P, Q and M of the state. */
-double rb_contact_load(const rb_contact_problem *problem, const rb_contact_state *state);
-double rb_contact_force(const rb_contact_problem *problem, const rb_contact_state *state);
-double rb_contact_moment(const rb_contact_problem *problem, const rb_contact_state *state);
-
 /* ---- The LCP (K4, K5, K6) ---------------------------------------------------------- */
 
 /* The scaled LCP: M z + b >= 0 complementary to z >= 0; the physical unknown is z_scale_j

@@ -47,10 +47,6 @@ typedef struct {
     double *v;     /* n: global form; or NULL */
 } rb_friction_solution;
 
-/* Checks a problem.  RB_EINVAL: dimension other than 2 or 3, no contact, inconsistent
- * sizes, mu < 0, NaN or infinity, or K not symmetric; why names the place. */
-rb_status rb_friction_problem_check(const rb_friction_problem *problem, rb_message *why);
-
 /* Condenses the global form to W = H' K^-1 H, q = w + H' K^-1 f; W is stored as a sparse
  * matrix if there are unconnected bodies.  RB_SINGULAR: K is singular; why names its
  * nullity. */

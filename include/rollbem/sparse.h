@@ -36,9 +36,6 @@ rb_status rb_sparse_from_dense(int rows, int cols, const double *dense, int lda,
 
 void rb_sparse_free(rb_sparse *a);
 
-/* y = alpha A x + beta y. */
-void rb_sparse_apply(double alpha, const rb_sparse *a, const double *x, double beta, double *y);
-
 RB_PUBLIC_END
 
 #endif

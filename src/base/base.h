@@ -15,6 +15,8 @@ rb_status rb_refuse(rb_message *why, const char *about, const char *format, ...)
 /* The same of a row of a table, from 1: "history: row 3: ...". */
 rb_status rb_refuse_row(rb_message *why, const char *about, int row, const char *format, ...)
     RB_PRINTF(4, 5);
+/* The text of why, or that of s if why is NULL or empty. */
+const char *rb_status_reason(rb_status s, const rb_message *why);
 /* x with six digits, towards zero: of the largest value that is accepted a message must not
  * print more. */
 double rb_largest_shown(double x);
@@ -69,6 +71,9 @@ int rb_format(char *text, size_t size, const char *format, ...) RB_PRINTF(3, 4);
 
 /* Records the name of the computation that now runs (static text), for rb_phase_now. */
 void rb_phase(const char *what);
+/* For progress displays: the name of the computation that runs, as any thread of the process
+ * has recorded it last (static text); NULL: none. */
+const char *rb_phase_now(void);
 
 /* What this thread was told to ask (rb_interrupt_by) answers; 0 where nothing is asked.  A loop
  * that may take long asks in every turn, on the thread of its caller. */

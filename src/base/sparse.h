@@ -5,6 +5,9 @@
 #include "base/base.h"
 #include "rollbem/sparse.h"
 
+/* y = alpha A x + beta y. */
+void rb_sparse_apply(double alpha, const rb_sparse *a, const double *x, double beta, double *y);
+
 /* Adds factor times A; A has at most as many rows and columns as t. */
 void rb_triplets_add_matrix(rb_triplets *t, double factor, const rb_sparse *a);
 /* Reserves memory for `more` further entries at once.  This is optional, because

@@ -12,6 +12,14 @@
  * drowns in the rounding of the others. */
 int rb_bem_is_incompressible(rb_bem_material material);
 
+/* Converts plane stress to plane strain (B2); nowhere else is this done.  young, poisson:
+ * those of the real material; in plane stress poisson is in (-0.5, 0.5]. */
+rb_bem_material rb_bem_material_in_plane(rb_bem_plane plane, double young, double poisson);
+
+/* Estimated reciprocal condition number (1-norm) of the scaled matrix A; NAN if A is
+ * hierarchical. */
+double rb_bem_system_rcond(const rb_bem_system *system);
+
 /* ---- Meshes (B4) ----------------------------------------------------------------- */
 
 /* Length of element j. */

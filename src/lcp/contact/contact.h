@@ -28,6 +28,11 @@ rb_contact_response rb_contact_operator_response(const rb_contact_operator *op);
 
 /* ---- The problem ------------------------------------------------------------------- */
 
+/* P, Q and M of the state. */
+double rb_contact_load(const rb_contact_problem *problem, const rb_contact_state *state);
+double rb_contact_force(const rb_contact_problem *problem, const rb_contact_state *state);
+double rb_contact_moment(const rb_contact_problem *problem, const rb_contact_state *state);
+
 /* As rb_contact_problem_alloc, but the caller keeps the operator: set problem->op to NULL before
  * you free the problem. */
 rb_status rb_contact_problem_borrow(rb_contact_operator *op, rb_contact_problem *problem);

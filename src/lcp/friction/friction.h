@@ -8,6 +8,10 @@
 
 /* ---- The problem ------------------------------------------------------------------- */
 
+/* Checks a problem.  RB_EINVAL: dimension other than 2 or 3, no contact, inconsistent
+ * sizes, mu < 0, NaN or infinity, or K not symmetric; why names the place. */
+rb_status rb_friction_problem_check(const rb_friction_problem *problem, rb_message *why);
+
 /* Eliminates bilateral constraints: the new problem has none, and the same r and u.
  * Global: K v = H r + G l + f, u = H' v + w, G' v + b = 0 (G: n x c, b: c); n - rank(G)
  * unknowns v remain.  Local: u = W r + V l + q, V' r + R l + s = 0 (V: m x c, R: c x c,

@@ -356,7 +356,7 @@ int rb_api_set(rb_api *a, const char *name, const char *text)
 int rb_api_read(rb_api *a, const char *path)
 {
     forget(a, 0);
-    return note_refusal(a, path, rb_case_read(a->words, path, 0, NULL, &a->why));
+    return note_refusal(a, path, rb_case_read(a->words, path, &a->why));
 }
 
 rb_status rb_api_check_refusals(const rb_api *a, rb_message *why)

@@ -34,7 +34,7 @@ static cli_exit read_case_file(const cli_spec *spec, const char *path, rb_case *
     if (strcmp(path, "solve") == 0 || strcmp(path, "run") == 0)
         return cli_fail(CLI_USAGE,
                         "there is no command '%s': rollbem [OPTION...] [CASE.ini] solves", path);
-    const rb_status s = rb_case_read(c, path, spec->set_n - 2, spec->sets + 1, &why);
+    const rb_status s = rb_case_read_with(c, path, spec->set_n - 2, spec->sets + 1, &why);
     if (s != RB_ENOENT)
         return cli_say(s, &why);
     if (rb_unit_is_known(path))

@@ -10,7 +10,7 @@
 
 #include "base/base.h"
 #include "rollbem/case.h"
-#include "rollbem/options.h"
+#include "rolling/case/options.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -10,6 +10,14 @@
 
 /* ---- Options --------------------------------------------------------------------- */
 
+/* All n options and headings, in the order of the help; their offsets refer to
+ * rb_resolved_case. */
+const rb_option *rb_case_describe(int *n);
+
+/* As rb_case_read.  also: n further tables whose keys the file may contain. */
+rb_status rb_case_read_with(rb_case *c, const char *path, int n, const rb_option_set *also,
+                            rb_message *why);
+
 /* Finds the option whose name is the first `length` characters of `name` in n sets.
  * Returns its set and writes its row into *index.  NULL: there is no such option; the
  * names of all options were then passed to guess. */

@@ -124,8 +124,8 @@ static rb_status read_text(rb_case *c, const char *path, const char *text, int n
     return s;
 }
 
-rb_status rb_case_read(rb_case *c, const char *path, int n, const rb_option_set *also,
-                       rb_message *why)
+rb_status rb_case_read_with(rb_case *c, const char *path, int n, const rb_option_set *also,
+                            rb_message *why)
 {
     char *text;
     size_t size;
@@ -135,6 +135,11 @@ rb_status rb_case_read(rb_case *c, const char *path, int n, const rb_option_set 
     s = read_text(c, path, text, n, also, why);
     free(text);
     return rb_case_without_content(c, path, s, why);
+}
+
+rb_status rb_case_read(rb_case *c, const char *path, rb_message *why)
+{
+    return rb_case_read_with(c, path, 0, NULL, why);
 }
 
 rb_status rb_case_read_text(rb_case *c, const char *name, const char *text, rb_message *why)
