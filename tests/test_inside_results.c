@@ -72,7 +72,7 @@ TEST(steps_warm_what_passes_them)
         OWNED(rb_arena) memory = {0};
         rb_rolling_heat_track track = {.n = N, .h = h, .step = c};
         double q[N], lambda[N], t[N], heat[STEPS][N];
-        const rb_contact_state state = {.n = N, .q = q, .lambda = lambda};
+        const rb_contact_state moved = {.n = N, .q = q, .lambda = lambda};
         CHECK_OK(rb_rolling_heat_track_create(&rc, 5.0, &memory, &track, NULL));
         assert_int_equal(track.rows, (int)ceil(N / lengths[j]) + 1);
         const double unit = 2.0 * sqrt(c / (M_PI * V)) / (sqrt(160.0) + sqrt(10.0));
@@ -83,7 +83,7 @@ TEST(steps_warm_what_passes_them)
                 heat[k][i] = -q[i] * lambda[i] * V / c;
             }
             rb_rolling_heat_track_advance(&track);
-            rb_rolling_heat_track_step(&rc, &state, &track, t);
+            rb_rolling_heat_track_step(&rc, &moved, &track, t);
             for (int i = 0; i < N; i++) {
                 double want = 20.0;
                 for (int b = 0; b <= k; b++) { /* b steps ago it stood at place */
@@ -153,7 +153,7 @@ TEST(unlike_bodies_share_by_temperature)
         assert_true(s.n <= 100 && RB_ZONE_SEPARATED == 0);
         struct rb_rolling_conduction *conduction = NULL;
         CHECK_OK(rb_rolling_steady_temperature(&rc, &s, power, &conduction, s.temperature,
-                                               s.temperature_b, NULL));
+                                               s.temperature_b, NULL, NULL, NULL));
         rb_rolling_conduction_free(conduction);
         for (int i = 0; i < s.n; i++) {
             CHECK_ABS(s.temperature[i], 0.0, 1e-12, "A away from B, %d at %d", k, i);
@@ -181,7 +181,7 @@ TEST(shares_of_equal_elements_are_those_of_any)
             rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
             struct rb_rolling_conduction *conduction = NULL;
             CHECK_OK(rb_rolling_steady_temperature(&rc, &s, power, &conduction, t[2 * k],
-                                                   t[2 * k + 1], NULL));
+                                                   t[2 * k + 1], NULL, NULL, NULL));
             rb_rolling_conduction_free(conduction);
         }
         for (int i = 0; i < s.n; i++) {

@@ -27,7 +27,8 @@ TEST(cells_are_quoted_where_needed)
                  {"tab\there", "tab\\x09here"}};
     for (int csv = 0; csv < 2; csv++)
         for (size_t k = 0; k < sizeof cells / sizeof *cells; k++) {
-            const rb_report_style style = {csv ? RB_REPORT_CSV : RB_REPORT_TSV, 1};
+            const rb_report_style style = {.format = csv ? RB_REPORT_CSV : RB_REPORT_TSV,
+                                           .bare = 1};
             FILE *file = tmpfile();
             char want[100];
             rb_report_cells c = rb_report_cells_begin(file, &style, "");

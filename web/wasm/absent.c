@@ -252,6 +252,12 @@ rb_status rb_rolling_profile_create(int n, const double *x, const double *gap, d
     return rb_fail(why, RB_EINVAL, "a gap from a file is %s", refusal);
 }
 
+rb_status rb_rolling_profile_punch(int n, const double *x, const double *gap, double noise,
+                                   rb_rolling_profile **profile, rb_message *why)
+{
+    return rb_rolling_profile_create(n, x, gap, noise, profile, why);
+}
+
 void rb_rolling_profile_free(rb_rolling_profile *profile)
 {
     (void)profile;
