@@ -262,64 +262,65 @@ TEST(maps_suit_the_number_of_cases)
     static double room[3 * MOST];
     rb_report_study s = study_of(3, 2, 1, room);
     const char *script = drawn(&s, 1);
-    assert_non_null(strstr(script, "interpolate 27,40\n"));
-    assert_non_null(strstr(script, "$numbers << EOD\n"));
-    assert_non_null(strstr(script, "set cntrparam levels incremental"));
-    assert_non_null(strstr(script, "labels boxed"));
-    assert_non_null(strstr(script, "$map << EOD\n1 10 10\n2 10 20\n3 10 30\n\n1 20 20\n"));
+    assert_non_null(strstr(script, "between_x = 27\nbetween_y = 40\n"));
+    assert_non_null(strstr(script, "level_step = 10.0\nlevel_first = 20.0\n"));
+    assert_non_null(strstr(script, "$numbers << EOD\nx y level\n1.66666667 11.6666667 20\n"));
+    assert_non_null(
+        strstr(script, "$table << EOD\nx y value\n1 10 10\n2 10 20\n3 10 30\n\n1 20 20\n"));
     s = study_of(90, 2, 1, room);
     script = drawn(&s, 1);
-    assert_non_null(strstr(script, "interpolate 1,40\n"));
+    assert_non_null(strstr(script, "between_x = 1\nbetween_y = 40\n"));
     for (int zero = 0; zero < 2; zero++) { /* the same but for rounding, or zero */
         for (int k = 0; k < s.n; k++)
             room[2 * MOST + k] = zero ? 0.0 : 4.0 * (1.0 + 1e-15 * (k % 3));
         for (int map = 0; map < 2; map++) {
             script = drawn(&s, map);
-            char range[40];
-            snprintf(range, sizeof range, "set %srange [%s]\n", map ? "cb" : "y",
-                     zero ? "-1:1" : "3.6:4.4");
-            assert_non_null(strstr(script, range));
-            assert_null(strstr(script, "contour base"));
-            assert_null(strstr(script, "labels boxed"));
-            assert_true(!map || strstr(script, "splot $map using 1:2:3 with pm3d nocontour\n"));
+            double from, to;
+            assert_int_equal(sscanf(NOT_NULL(strstr(script, "v_from = ")),
+                                    "v_from = %lf v_to = %lf", &from, &to),
+                             2);
+            CHECK_REL(from, zero ? -1.0 : 3.6, 1e-12, "from");
+            CHECK_REL(to, zero ? 1.0 : 4.4, 1e-12, "to");
+            assert_non_null(strstr(script, "flat = 1\n"));
+            assert_null(strstr(script, "$numbers << EOD"));
         }
     }
     for (int k = 0; k < s.n; k++)
         room[2 * MOST + k] = 1e-16 * (k % 3);
     s.rounding = 3e-16; /* about zero */
     assert_non_null(strstr(drawn(&s, 1), "all 0 but for rounding"));
-    assert_non_null(strstr(drawn(&s, 1), "set cbrange [-1:1]"));
+    assert_non_null(strstr(drawn(&s, 1), "v_from = -1.0\nv_to = 1.0\n"));
     s.rounding = 1e-16;
-    assert_non_null(strstr(drawn(&s, 1), "contour base"));
+    assert_non_null(strstr(drawn(&s, 1), "flat = 0\n"));
     s.rounding = 0.0;
     for (int k = 0; k < s.n; k++)
         room[2 * MOST + k] = 0.0;
     room[2 * MOST] = 1e-8; /* beside zero that is a difference */
-    assert_non_null(strstr(drawn(&s, 1), "contour base"));
-    assert_null(strstr(drawn(&s, 0), "set yrange"));
+    assert_non_null(strstr(drawn(&s, 1), "flat = 0\n"));
+    assert_non_null(strstr(drawn(&s, 0), "flat = 0\n"));
 }
 
-/* Points are marked where there are few; a power of ten stands beside the unit. */
+/* A curve for each value of the other option; a power of ten stands beside the unit. */
 TEST(curves_suit_the_number_of_cases)
 {
     static double room[3 * MOST];
     for (int many = 0; many < 2; many++) {
         rb_report_study s = study_of(many ? 25 : 24, 2, 1, room);
         const char *script = drawn(&s, 0);
-        assert_int_equal(strstr(script, " with linespoints ") == NULL, many);
-        assert_int_equal(strstr(script, " with lines ") != NULL, many);
-        assert_non_null(strstr(script, "title '10', $curve1"));
-        assert_non_null(strstr(script, "set ylabel 'max pressure  [MPa]'\n"));
-        assert_non_null(strstr(script, "set xlabel 'load  [N/mm]'\n"));
+        assert_non_null(strstr(script, many ? "first = ' 0 25'\nlast = ' 24 49'\n"
+                                            : "first = ' 0 24'\nlast = ' 23 47'\n"));
+        assert_non_null(strstr(script, "name1 = '10'\n"));
+        assert_non_null(strstr(script, "v_label = 'max pressure  [MPa]'\n"));
+        assert_non_null(strstr(script, "x_label = 'load  [N/mm]'\n"));
     }
     rb_report_study s = study_of(3, 1, 0, room);
     room[2 * MOST] = -2e5;
     s.shown.unit = "";
     const char *script = drawn(&s, 0);
-    assert_non_null(strstr(script, "set ylabel 'max pressure  [10^{5}]'\n"));
-    assert_non_null(strstr(script, "\n1 -2\n2 0.0002\n"));
-    assert_non_null(strstr(script, "set offsets 0,0,graph 0.05,graph 0.05\n"));
-    assert_non_null(strstr(script, "unset key\n"));
+    assert_non_null(strstr(script, "v_label = 'max pressure  [10^{5}]'\n"));
+    assert_non_null(strstr(script, "v_unit = 100000.0\n"));
+    assert_non_null(strstr(script, "v_from = -"));
+    assert_non_null(strstr(script, "y_name = ''\n"));
     room[2 * MOST] = 0.01;
     for (int k = 1; k < 3; k++) {
         room[k] = pow(10.0, k);
@@ -327,9 +328,9 @@ TEST(curves_suit_the_number_of_cases)
     }
     s.shown.unit = "MPa";
     script = drawn(&s, 0);
-    assert_non_null(strstr(script, "set ylabel 'max pressure  [10^{-2} MPa]'\n"));
-    assert_non_null(strstr(script, "set logscale x\n"));
-    assert_non_null(strstr(script, "set offsets 0,0,graph 0.05,graph 0\n"));
+    assert_non_null(strstr(script, "v_label = 'max pressure  [10^{-2} MPa]'\n"));
+    assert_non_null(strstr(script, "v_unit = 0.01\n"));
+    assert_non_null(strstr(script, "x_step = 0.0\n"));
 }
 
 /* ---- Files ------------------------------------------------------------------------- */
