@@ -44,8 +44,9 @@ TEST(bodies_are_compared_by_their_numbers)
         ((unsigned char *)&y)[k] ^= 1;
         numbers += !rb_rolling_same_body(&x, &y);
     }
-    /* support and the count of terms are ints, the layers a pointer, all others doubles */
-    assert_int_equal(numbers, (int)(13 * sizeof(double) + 2 * sizeof(int) + sizeof(void *) +
+    /* support, what holds the layer and the count of terms are ints, the layers a pointer, all
+     * others doubles */
+    assert_int_equal(numbers, (int)(13 * sizeof(double) + 3 * sizeof(int) + sizeof(void *) +
                                     2 * RB_ROLLING_TERMS * sizeof(double)));
 }
 

@@ -414,11 +414,11 @@ TEST(doors_and_refusals)
         {"--young 3", "--young: the first row of --layers says it"},
         {"--layer-thickness 3", "--layer-thickness: the first row of --layers says it"},
         {"--support hub", "layers: for the support halfplane only"},
-        {"--plane stress", "--layers: several layers are in plane strain"},
+        {"--plane stress", "--plane: stress: several layers are in plane strain"},
         {"--similar --layers-b s.csv", "--similar: B has the layers of --layers-b"},
         {"--layers-b s.csv --poisson-b .3", "--poisson-b: the first row of --layers-b says it"},
         {"--relaxation-time 1 --relaxation-ratio 1 --formulation steady --speed 3",
-         "--layers: several layers are elastic"},
+         "--relaxation-time: several layers are elastic"},
         {"--formulation steady --speed 3 --conductivity 3 --heat-capacity 3", "conductivity"},
     };
     char line[600];

@@ -197,12 +197,11 @@ static rb_status check_layer(const rb_rolling_case *rc, const rb_rolling_body *b
                                   : "layer-thickness",
                          "for the support halfplane only, got a wheel");
     if (b->stack && b->memory.n > 0)
-        return rb_refuse(why, layers,
+        return rb_refuse(why, *which ? "relaxation-time-b" : "relaxation-time",
                          "several layers are elastic; a layer that relaxes is one "
                          "(--layer-thickness)");
     if (b->stack && rc->plane == RB_PLANE_STRESS)
-        return rb_refuse(why, layers,
-                         "several layers are in plane strain; leave --plane stress out");
+        return rb_refuse(why, "plane", "stress: several layers are in plane strain; leave it out");
     if (b->layer_base == RB_BASE_SMOOTH && (b->stack || b->memory.n > 0))
         return rb_refuse(why, *which ? "layer-base-b" : "layer-base",
                          "smooth: of one elastic layer only");
