@@ -14,7 +14,7 @@
 HELD_TYPE(json_t, json_decref)
 
 static char program[600], folder[40] = "/tmp/rollbem-cli-XXXXXX";
-static char out[1000000], err[20000];
+static char out[4000000], err[20000];
 
 static inline void slurp(const char *name, char *text, size_t size)
 {

@@ -50,7 +50,7 @@ int rb_report_exponent(double largest)
 double rb_report_round_step(double step)
 {
     const double power = pow(10.0, floor(log10(step)));
-    const double digit = step / power;
+    const double digit = step / power * (1.0 - 1e-9); /* rounding makes no longer steps */
     return power * (digit <= 1.0 ? 1.0 : digit <= 2.0 ? 2.0 : digit <= 5.0 ? 5.0 : 10.0);
 }
 
