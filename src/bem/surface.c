@@ -68,7 +68,7 @@ rb_status rb_bem_surface_check(const rb_bem_surface *body, rb_message *why)
 /* int ln|s/d| ds over the strip of half-length b whose midpoint lies X from the point.
  * Near: [s ln|s/d| - s].  Far: the difference of its two large parts is formed as
  * X ln((X + b)/(X - b)). */
-static double strip_log(double X, double b, double d)
+static inline double strip_log(double X, double b, double d)
 {
     const double s1 = X - b, s2 = X + b;
     if (fabs(X) < 4.0 * b) {

@@ -397,14 +397,15 @@ rb_status rb_lcp_measure(const lcp_matrix *M, const lcp_scale *scale, const doub
     for (int j = 0; j < M->n; j++) {
         const lcp_column a = rb_lcp_column(M, j);
         const double x = z[j];
-        const int given = x == rb_lcp_lower(lower, j) || x == rb_lcp_upper(upper, j);
         for (int k = 0; x != 0.0 && k < a.count; k++) {
             const int i = a.row ? a.row[k] : k;
             const double t = a.x[k] * x;
             w[i] += t;
             terms[i] += fabs(t);
-            data[i] += given ? fabs(t) : 0.0;
         }
+        const int given = x == rb_lcp_lower(lower, j) || x == rb_lcp_upper(upper, j);
+        for (int k = 0; given && x != 0.0 && k < a.count; k++)
+            data[a.row ? a.row[k] : k] += fabs(a.x[k] * x);
     }
     /* Of z that are so large that rounding of their terms hides q and the bounds nothing is
      * known: they may stand for a matrix that is singular. */
