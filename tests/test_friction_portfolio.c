@@ -140,7 +140,9 @@ TEST(faint_contacts_do_not_hold_auto_up)
         int most;
         double flops;
     } rows[] = {{"siconos/fc3d/Capsules-i101-404.dat", 260, 2.3e7},
-                {"fclib/Capsules-i125-1213.hdf5", 90, 1.1e7}};
+                {"fclib/Capsules-i125-1213.hdf5", 90, 1.25e7}};
+    /* Newton's path depends on the rounding of OpenBLAS's kernels: the second file took at
+     * most 1.1e7 with those of Haswell, 1.13e7 Sandybridge, 1.22e7 SkylakeX and Cooperlake */
     for (int k = 0; k < 2; k++) {
         OWNED(rb_friction_problem) p;
         rb_friction_info info;
