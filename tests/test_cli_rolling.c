@@ -936,6 +936,22 @@ TEST(the_largest_stress_covers_no_contour)
     assert_non_null(strstr(out, title));
 }
 
+/* Stress is not divided by mu, and its table says of which contact a and p0 are. */
+TEST(dimensionless_stress_names_its_contact)
+{
+    double half_width, p0, mu;
+    char end;
+    assert_int_equal(rollbem("stress " SIMILAR
+                             "--mu 0.35 --contact-elements 20 --grid 3x2 --dimensionless --quiet"),
+                     0);
+    assert_int_equal(sscanf(NOT_NULL(strstr(out, "# a = ")),
+                            "# a = %lf mm, p0 = %lf MPa, mu = %lf%c", &half_width, &p0, &mu, &end),
+                     4);
+    assert_int_equal(end, '\n');
+    assert_true(half_width > 0.0 && p0 > 0.0);
+    CHECK_REL(mu, 0.35, 1e-15, "mu");
+}
+
 TEST(a_truss_is_drawn_with_its_bars)
 {
     assert_int_equal(rollbem("example truss --nodes 4 --output t.tsv --plot t.svg "

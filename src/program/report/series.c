@@ -58,9 +58,8 @@ void rb_report_comment_scales(const rb_report_cells *c, const rb_report_columns 
     const char *mm = rb_unit_name(columns->units, "mm"), *MPa = rb_unit_name(columns->units, "MPa");
     if (!by)
         return;
-    const int has_friction = columns->columns == &rb_rolling_solution_columns;
-    rb_report_comment(c, "a = %.9g %s, p0 = %.9g %s%s%.*g", by->length, mm, by->pressure, MPa,
-                      has_friction ? ", mu = " : "", has_friction ? 9 : 0, by->mu);
+    rb_report_comment(c, "a = %.9g %s, p0 = %.9g %s, mu = %.9g", by->length, mm, by->pressure, MPa,
+                      by->mu);
 }
 
 /* ---- Columns ----------------------------------------------------------------------- */
