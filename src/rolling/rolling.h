@@ -604,13 +604,13 @@ rb_rolling_case rb_rolling_program_base(const rb_rolling_program *program,
 
 /* 1: the case, without a program, is a sequence of rolling steps or increments. */
 int rb_rolling_has_steps(const rb_rolling_case *rc);
-/* 1: elements of a mesh that is not replaced by equal ones differ in length. */
 /* 1: a layer slides on its base (L9). */
 static inline int rb_rolling_slides_on_base(const rb_rolling_case *rc)
 {
     return rc->a.layer_base == RB_BASE_SMOOTH ||
            (rc->elastic_b && rc->b.layer_base == RB_BASE_SMOOTH);
 }
+/* 1: elements of a mesh that is not replaced by equal ones differ in length. */
 static inline int rb_rolling_mesh_is_graded(const rb_rolling_case *rc)
 {
     return rc->mesh == RB_MESH_FITTED || rc->mesh == RB_MESH_PUNCH;

@@ -108,10 +108,10 @@ rb_status rb_lcp_is_exact(const lcp_point *point, const lcp_side *side, unsigned
            *radius = b + n, *x = radius + n, *within = x + n;
     double *A = malloc((m ? m * m : 1) * sizeof *A);
     proof_inverse inverse = {0};
-    rb_status s = A && !memory.failed && rb_proof_arithmetic() ? RB_OK : RB_ENOMEM;
+    rb_status s = !A || memory.failed ? RB_ENOMEM : rb_proof_arithmetic() ? RB_OK : RB_UNDECIDED;
     if (s != RB_OK) {
         free(A);
-        return rb_arena_done(&memory, memory.failed || !A ? RB_ENOMEM : RB_UNDECIDED);
+        return rb_arena_done(&memory, s);
     }
     for (size_t r = 0; r < m; r++) {
         const int i = point->row[r];

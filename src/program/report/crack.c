@@ -7,7 +7,14 @@
 
 static rb_report_columns columns_of(const rb_case_crack_result *r)
 {
-    return (rb_report_columns){&rb_case_crack_columns, &r->history, 0, r->units, 0, NULL, NULL};
+    return (rb_report_columns){
+        .columns = &rb_case_crack_columns, .owner = &r->history, .units = r->units};
+}
+
+static rb_report_columns growth_columns_of(const rb_case_crack_result *r)
+{
+    return (rb_report_columns){
+        .columns = &rb_case_crack_growth_columns, .owner = &r->growth, .units = r->units};
 }
 
 static const char sign_of_K[] =
@@ -32,14 +39,7 @@ rb_status rb_report_crack_table(FILE *out, const rb_case_crack_result *r, const 
                                 const rb_report_style *style)
 {
     const int grows = r->growth.n > 0;
-    const rb_report_columns columns = grows ? (rb_report_columns){&rb_case_crack_growth_columns,
-                                                                  &r->growth,
-                                                                  0,
-                                                                  r->units,
-                                                                  0,
-                                                                  NULL,
-                                                                  NULL}
-                                            : columns_of(r);
+    const rb_report_columns columns = grows ? growth_columns_of(r) : columns_of(r);
     rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
     rb_report_comment(&c, "%s", grows ? about_growth : sign_of_K);
     for (int k = 0; k < r->notes; k++)
@@ -112,8 +112,7 @@ void rb_report_json_crack(json_t **root, const rb_case_crack_result *r)
     rb_report_json_set(root, "summary", summary);
     rb_report_json_set(root, "table", table);
     if (r->growth.n > 0) {
-        const rb_report_columns growth = {
-            &rb_case_crack_growth_columns, &r->growth, 0, r->units, 0, NULL, NULL};
+        const rb_report_columns growth = growth_columns_of(r);
         json_t *grown = json_object();
         rb_report_json_columns(&grown, r->growth.n, &growth, 0);
         rb_report_json_set(&grown, "rests", json_boolean(r->growth.rests));

@@ -10,7 +10,8 @@
 
 static rb_report_columns columns_of(const rb_rolling_curve *c, int kind)
 {
-    return (rb_report_columns){&rb_rolling_curve_columns, c, kind, c->units, 0, NULL, NULL};
+    return (rb_report_columns){
+        .columns = &rb_rolling_curve_columns, .owner = c, .kind = kind, .units = c->units};
 }
 
 /* The coefficient that Q/(mu P) of a curve refers to: of a law that falls, that of rest. */

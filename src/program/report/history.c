@@ -7,7 +7,8 @@
 
 static rb_report_columns columns_of(const rb_rolling_history *h, int kind)
 {
-    return (rb_report_columns){&rb_rolling_history_columns, h, kind, h->units, 0, NULL, NULL};
+    return (rb_report_columns){
+        .columns = &rb_rolling_history_columns, .owner = h, .kind = kind, .units = h->units};
 }
 
 /* The history, and what stands beside its values.  Returns how many. */

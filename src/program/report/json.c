@@ -172,7 +172,8 @@ void rb_report_json_columns(json_t **object, int rows, const rb_report_columns *
 
 json_t *rb_report_json_table_columns(const rb_rolling_solution *s)
 {
-    const rb_report_columns columns = {&rb_rolling_solution_columns, s, 0, s->units, 0, NULL, NULL};
+    const rb_report_columns columns = {
+        .columns = &rb_rolling_solution_columns, .owner = s, .units = s->units};
     json_t *table = json_object();
     rb_report_json_columns(&table, s->n, &columns, 1);
     return table;

@@ -10,10 +10,12 @@
 static int parts_of(const rb_rolling_wear_history *h, rb_report_columns part[2])
 {
     part[0] =
-        (rb_report_columns){&rb_rolling_wear_columns, h, RB_REPORT_VALUES, h->units, 0, NULL, NULL};
+        (rb_report_columns){.columns = &rb_rolling_wear_columns, .owner = h, .units = h->units};
     if (h->errors)
-        part[1] = (rb_report_columns){
-            &rb_rolling_wear_columns, h->errors, RB_REPORT_ERRORS, h->units, 0, NULL, NULL};
+        part[1] = (rb_report_columns){.columns = &rb_rolling_wear_columns,
+                                      .owner = h->errors,
+                                      .kind = RB_REPORT_ERRORS,
+                                      .units = h->units};
     return h->errors ? 2 : 1;
 }
 

@@ -559,8 +559,7 @@ static double edge_of_stick(const wear_state *r, int outer, int side)
     return r->x[outer] + side * h * (2.0 - inwards);
 }
 
-/* How many elements stick in all of the cycle in one run, and its edges.  0: none, several runs, or
- * edges that are not known. */
+/* 1: the elements that stick in all of the cycle are one run with edges that are known. */
 static int stick_run(const wear_state *r, double *from, double *to)
 {
     int first = -1, last = -1, count = 0;
@@ -575,7 +574,7 @@ static int stick_run(const wear_state *r, double *from, double *to)
         return 0;
     *from = edge_of_stick(r, first, -1);
     *to = edge_of_stick(r, last, 1);
-    return isfinite(*from) && isfinite(*to) ? count : 0;
+    return isfinite(*from) && isfinite(*to);
 }
 
 /* (W6) Elements of such a length that the edges of what sticks lie a quarter of an element within
