@@ -767,6 +767,8 @@ TEST(pictures_name_the_case)
          "--speed 1000 --load 100 --formulation steady --creep 1e-4",
          "plot",
          "A: hub, R = 50 mm, cover 5 mm, E = 94.5 GPa, ν = 0.1, relaxes on a rigid core;  B rigid"},
+        {"--support halfplane --layer-thickness 2 --layer-base smooth --load 100 --force 0", "plot",
+         "layer 2 mm, E = 94.5 GPa, ν = 0.1, sliding on a rigid base;  B rigid"},
         {"curve " SIMILAR "--points 5", "plot", "A: half-plane, R = 50 mm, E"},
         {"curve " SIMILAR "--points 5 --mu 0.1,0.3", "plot", "mu = '0.1 0.3'"},
         {"stress " SIMILAR "--grid 15x9", "plot", "A: half-plane, R = 50 mm, E"},

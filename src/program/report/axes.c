@@ -172,11 +172,13 @@ static void add_body(words *w, const rb_rolling_body *b, rb_units units)
     add_words(w, ", ");
     add_material(w, b->young, b->poisson, units);
     add_words(w, "%s", b->memory.n > 0 ? ", relaxes" : "");
-    if ((b->layer > 0.0 || b->cover > 0.0) && below > 0.0) {
-        add_words(w, " on ");
+    if (!(b->layer > 0.0 || b->cover > 0.0))
+        return;
+    add_words(w, b->layer_base == RB_BASE_SMOOTH ? ", sliding on " : " on ");
+    if (below > 0.0)
         add_material(w, below, b->layer > 0.0 ? b->base_poisson : b->core_poisson, units);
-    } else if (b->layer > 0.0 || b->cover > 0.0)
-        add_words(w, " on a rigid %s", b->layer > 0.0 ? "base" : "core");
+    else
+        add_words(w, "a rigid %s", b->layer > 0.0 ? "base" : "core");
 }
 
 /* The size of letters at which they fit into a line. */

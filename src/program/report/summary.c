@@ -113,12 +113,12 @@ static void write_body(FILE *out, const rb_rolling_body *body, rb_units units)
         return;
     const double young = body->layer > 0.0 ? body->base_young : body->core_young;
     fprintf(out, ", %.6g %s thick%s ", rb_unit_shown(units, "mm", thickness), mm,
-            body->stack ? "," : " on");
+            body->stack                          ? ","
+            : body->layer_base == RB_BASE_SMOOTH ? ", sliding on"
+                                                 : " on");
     if (body->stack)
         fprintf(out, "all %.6g %s on ", rb_unit_shown(units, "mm", rb_rolling_layers_depth(body)),
                 mm);
-    if (body->layer_base == RB_BASE_SMOOTH)
-        fputs("(sliding) ", out);
     if (young > 0.0)
         write_material(out, young, body->layer > 0.0 ? body->base_poisson : body->core_poisson,
                        units);
