@@ -320,6 +320,15 @@ TEST(no_point_of_a_scan_has_more)
             compare(k);
 }
 
+/* A tension far behind the contact, where friction stretches a stiff film on a soft base, and two
+ * nearly equal ones on the axis of a wheel: below its contact on a ridge that is narrower than the
+ * points are apart there. */
+TEST(peaks_that_were_once_missed)
+{
+    compare(318);
+    compare(361);
+}
+
 /* ---- Bonds ------------------------------------------------------------------------- */
 
 /* A layer of the base's material: Hertz's stress at its depth, and behind full sliding a little

@@ -4,6 +4,7 @@
 
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sort.h>
+#include <gsl/gsl_vector.h>
 
 /* Places are (s, depth): along the surface and below it, the arc of a wheel's circle; each
  * material is then a strip between two depths. */
@@ -24,6 +25,7 @@ typedef struct {
     rb_rolling_field *field;
     double radius;      /* 0: flat */
     double low, high;   /* s of the outermost nodes of the tractions */
+    double middle;      /* s of the middle of the widest contact */
     double reach;       /* how far on either side of them */
     double *left_out;   /* s of the two ends of a clamped arc, or of jumps of given friction */
     double around_them; /* how far the stress is left out there */
@@ -102,15 +104,16 @@ static rb_status stress_at(const search *f, const strip *in, int n, const double
 static rb_status set_candidates(search *f, rb_arena *memory)
 {
     enum { FILLED = 100, STEPS = 400 };
-    int n;
-    const double *x = rb_rolling_field_nodes(f->field, &n);
+    const rb_bem_edge_load *load = rb_rolling_field_load(f->field);
+    const double *x = load->x;
+    const int n = load->n;
     const double radius = f->radius;
     f->low = radius > 0.0 ? radius * asin(x[0] / radius) : x[0];
     f->high = radius > 0.0 ? radius * asin(x[n - 1] / radius) : x[n - 1];
     const double width = f->high - f->low, widest = width / FILLED;
     const double most = f->reach > 0.0 ? f->reach : width;
     double *s = f->s =
-        rb_arena_doubles(memory, 2 * (size_t)n + 2 * FILLED + 2 + 2 * (size_t)STEPS, 1);
+        rb_arena_doubles(memory, 2 * (size_t)n + 2 * FILLED + 3 + 2 * (size_t)STEPS, 1);
     if (!s)
         return RB_ENOMEM;
     int m = 0;
@@ -129,6 +132,7 @@ static rb_status set_candidates(search *f, rb_arena *memory)
         s[m++] = f->high + away;
         step = fmin(1.2 * step, most / 40.0 + widest);
     }
+    s[m++] = f->middle;
     gsl_sort(s, 1, (size_t)m);
     f->candidates = m;
     f->reach = most;
@@ -136,20 +140,31 @@ static rb_status set_candidates(search *f, rb_arena *memory)
 }
 
 /* Adds the points of one depth: the candidates, but as far from each other as fits what
- * changes there. */
+ * changes there.  They are counted from the middle of the contact: below it a symmetric one has
+ * ridges that are narrower than this distance. */
 static void add_row(search *f, const strip *in, double depth)
 {
     row *r = &f->row[f->rows++];
     *r = (row){in, depth, f->n, 0};
-    double last = -INFINITY;
-    for (int k = 0; k < f->candidates; k++)
-        if (f->s[k] - last >= 0.3 * depth && f->s[k] > last) {
-            if (f->at_s)
-                f->at_s[f->n] = f->s[k];
-            last = f->s[k];
-            f->n++;
-            r->n++;
+    for (int right = 0; right < 2; right++) {
+        double last = right ? f->middle : INFINITY;
+        for (int i = 0; i < f->candidates; i++) {
+            const int k = right ? i : f->candidates - 1 - i;
+            const double away = right ? f->s[k] - last : last - f->s[k];
+            if ((right ? f->s[k] > f->middle : f->s[k] <= f->middle) && away >= 0.3 * depth &&
+                away > 0.0) {
+                if (f->at_s)
+                    f->at_s[f->n] = f->s[k];
+                last = f->s[k];
+                f->n++;
+                r->n++;
+            }
         }
+        if (f->at_s && !right) {
+            gsl_vector_view left = gsl_vector_view_array(f->at_s + r->first, (size_t)r->n);
+            gsl_vector_reverse(&left.vector);
+        }
+    }
 }
 
 /* From both boundaries of the strip into it, in steps that grow with the distance from the
@@ -189,6 +204,24 @@ static strip strip_of(const rb_rolling_body *a, int k, double deep)
                    top, rb_rolling_bond_depth(a, k + 1)};
 }
 
+/* The middle of the widest patch of the contact.  Returns the width of the narrowest one. */
+static double set_middle(search *f, double most)
+{
+    double narrowest = most, widest = 0.0;
+    rb_rolling_run run = {.last = -1};
+    while (rb_rolling_next_patch(f->model->rc, &f->model->mesh, &f->model->state, run.last + 1,
+                                 &run)) {
+        const double width = run.to - run.from;
+        if (width > widest)
+            f->middle = 0.5 * (run.from + run.to);
+        widest = fmax(widest, width);
+        narrowest = width > 0.0 ? fmin(narrowest, width) : narrowest;
+    }
+    if (f->radius > 0.0)
+        f->middle = f->radius * asin(f->middle / f->radius);
+    return narrowest;
+}
+
 /* The strips of A down to the depth, and the rows in them. */
 static rb_status set_rows(search *f, double depth, rb_arena *memory)
 {
@@ -209,10 +242,11 @@ static rb_status set_rows(search *f, double depth, rb_arena *memory)
                              : layer;
     f->radius = is_flat ? 0.0 : a->radius;
     f->reach = is_flat ? 0.0 : M_PI * a->radius;
-    int n;
-    const double *x = rb_rolling_field_nodes(f->field, &n), width = x[n - 1] - x[0];
+    const rb_bem_edge_load *load = rb_rolling_field_load(f->field);
+    const double width = load->x[load->n - 1] - load->x[0];
     if (layer > 0.0)
         f->reach = fmax(0.5 * width, 8.0 * plate);
+    const double narrowest = set_middle(f, width);
     rb_status s = set_candidates(f, memory);
     if (s != RB_OK)
         return s;
@@ -236,11 +270,6 @@ static rb_status set_rows(search *f, double depth, rb_arena *memory)
             f->strips = k;
     }
     /* The first row is as deep as a part of the narrowest patch. */
-    double narrowest = width;
-    rb_rolling_run run = {.last = -1};
-    while (
-        rb_rolling_next_patch(f->model->rc, &f->model->mesh, &f->model->state, run.last + 1, &run))
-        narrowest = run.to > run.from ? fmin(narrowest, run.to - run.from) : narrowest;
     for (int k = 0; k < f->strips; k++)
         add_rows(f, &f->strip[k], fmax(0.02 * narrowest, 1e-3 * width));
     /* The same again, with memory for the points. */
@@ -622,6 +651,83 @@ static rb_status maxima_of_bond(search *f, int which, double searched,
     return status;
 }
 
+/* ---- Far from the contact ---------------------------------------------------------- */
+
+/* A stiff layer takes up what stretches the base over a length l = d E/E_base, many times that
+ * over which it bends.  Far behind the contact friction Q pulls it like l Q/x, the pressure P
+ * pushes it together like (l/x)^2 P: the tension may be largest at a few l P/Q.  0: not so. */
+static double far_reach(const search *f)
+{
+    enum { AFFORDABLE = 6000 }; /* thicknesses of the first layer: the number of its waves */
+    const rb_rolling_body *a = &f->model->rc->a;
+    const rb_bem_edge_load *load = rb_rolling_field_load(f->field);
+    double stretched = 0.0, P = 0.0, Q = 0.0;
+    for (int k = 0; k < rb_rolling_layers(a) && a->base_young > 0.0; k++)
+        stretched += (rb_rolling_bond_depth(a, k + 1) - rb_rolling_bond_depth(a, k)) *
+                     rb_rolling_layer_of(a, k).young / a->base_young;
+    for (int j = 0; j + 1 < load->n; j++) {
+        const double half = 0.5 * (load->x[j + 1] - load->x[j]);
+        P += half * (load->p[j] + load->p[j + 1]);
+        Q += half * (load->q[j] + load->q[j + 1]);
+    }
+    const double most = AFFORDABLE * rb_rolling_bond_depth(a, 1),
+                 reach = fabs(Q) > 1e-3 * P ? fmin(4.0 * stretched * P / fabs(Q), most) : 0.0;
+    return stretched > rb_rolling_layers_depth(a) && reach > f->reach ? reach : 0.0;
+}
+
+/* The tension along the top or the bottom of a layer, beyond what has been searched: in the body,
+ * and at its bond. */
+static rb_status tension_far_away(search *f, int layer, int at_bottom, int n, double *s,
+                                  rb_rolling_stress *at, rb_rolling_stress_maxima *maxima,
+                                  rb_message *why)
+{
+    const strip in = strip_of(&f->model->rc->a, layer, INFINITY);
+    const double deep = at_bottom ? in.bottom : in.top;
+    const int bond = layer - !at_bottom;
+    rb_rolling_extremum found, *const to[2] = {&maxima->tension,
+                                               bond < 0 || bond >= RB_ROLLING_BONDS ? NULL
+                                               : at_bottom ? &maxima->bond[bond].tension_above
+                                                           : &maxima->bond[bond].tension_below};
+    for (int k = 0; k < n; k++)
+        s[n + k] = deep;
+    rb_status status = stress_at(f, &in, n, s, s + n, at, why);
+    for (int i = 0; i < 2 && status == RB_OK; i++) {
+        if (to[i])
+            status = peak_of_bond(f, &in, deep, i ? along : tension, n, s, at, &found, why);
+        if (to[i] && status == RB_OK && !isnan(found.x) &&
+            !(found.value <= to[i]->value * (1.0 + 1e-7)))
+            *to[i] = found;
+    }
+    return status;
+}
+
+static rb_status look_far(search *f, double searched, rb_rolling_stress_maxima *maxima,
+                          rb_arena *memory, rb_message *why)
+{
+    enum { STEPS = 40 };
+    const rb_rolling_body *a = &f->model->rc->a;
+    const double reach = far_reach(f);
+    double *s = rb_arena_doubles(memory, 2 * STEPS, 2);
+    rb_rolling_stress *at = rb_arena_zeros(memory, 2 * STEPS, sizeof *at);
+    if (memory->failed)
+        return RB_ENOMEM;
+    if (!(reach > 0.0))
+        return RB_OK;
+    /* they begin where the near search still was, that a peak between the two be one */
+    const double from = 0.7 * f->reach;
+    for (int k = 0; k < STEPS; k++) {
+        const double away = from * pow(reach / from, (double)k / (STEPS - 1));
+        s[STEPS - 1 - k] = f->low - away;
+        s[STEPS + k] = f->high + away;
+    }
+    f->reach = reach;
+    rb_status status = RB_OK;
+    for (int k = 0; k < 2 * rb_rolling_layers(a) && status == RB_OK; k++)
+        if (!(searched > 0.0 && searched < rb_rolling_bond_depth(a, k / 2 + k % 2)))
+            status = tension_far_away(f, k / 2, k % 2, 2 * STEPS, s, at, maxima, why);
+    return status;
+}
+
 rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double depth,
                                         rb_rolling_stress_maxima *maxima, rb_message *why)
 {
@@ -650,6 +756,8 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
         s = maximum(&f, of_body[i], rb_rolling_maximum(maxima, i), why);
     for (int k = 0; k < RB_ROLLING_BONDS && s == RB_OK; k++)
         s = maxima_of_bond(&f, k, depth, maxima, &memory, why);
+    if (s == RB_OK)
+        s = look_far(&f, depth, maxima, &memory, why);
     rb_rolling_field_free(f.field);
     rb_arena_free(&memory);
     return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the largest stresses") : s;

@@ -30,8 +30,8 @@ void rb_rolling_field_free(rb_rolling_field *field);
 /* As rb_rolling_stress_at. */
 rb_status rb_rolling_field_at(const rb_rolling_field *field, int n, const double *xy,
                               rb_rolling_stress *stress, rb_message *why);
-/* The n abscissae between which the tractions are linear. */
-const double *rb_rolling_field_nodes(const rb_rolling_field *field, int *n);
+/* Its tractions, linear between nodes. */
+const rb_bem_edge_load *rb_rolling_field_load(const rb_rolling_field *field);
 
 /* ---- given_tractions.c ------------------------------------------------------------- */
 

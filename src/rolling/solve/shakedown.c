@@ -76,13 +76,12 @@ static double needed_with(const row *r, double c, double *x)
 
 static rb_status look_at(row *r, double y)
 {
-    int nodes;
-    const double *x = rb_rolling_field_nodes(r->field, &nodes);
+    const rb_bem_edge_load *load = rb_rolling_field_load(r->field);
     r->n = 0;
     for (int i = 0; i < ACROSS; i++)
         r->xy[2 * r->n++] = r->from + (r->to - r->from) * i / (ACROSS - 1);
-    for (int i = 0; i < nodes && y == 0.0; i++)
-        r->xy[2 * r->n++] = x[i];
+    for (int i = 0; i < load->n && y == 0.0; i++)
+        r->xy[2 * r->n++] = load->x[i];
     for (int i = 0; i < r->n; i++)
         r->xy[2 * i + 1] = y;
     return rb_rolling_field_at(r->field, r->n, r->xy, r->at, NULL);
@@ -139,8 +138,7 @@ static rb_status row_of(const rb_rolling_model *model, rb_arena *scratch, rb_rol
     if (s != RB_OK)
         return s;
     const double a = 0.5 * (to - from);
-    int nodes;
-    rb_rolling_field_nodes(*field, &nodes);
+    const int nodes = rb_rolling_field_load(*field)->n;
     *r = rb_arena_zeros(scratch, 1, sizeof **r);
     double *xy = rb_arena_doubles(scratch, (size_t)nodes + ACROSS, 2);
     rb_rolling_stress *at = rb_arena_zeros(scratch, (size_t)nodes + ACROSS, sizeof *at);

@@ -142,10 +142,9 @@ rb_status rb_rolling_field_create(const rb_rolling_model *model, rb_rolling_fiel
     return s;
 }
 
-const double *rb_rolling_field_nodes(const rb_rolling_field *f, int *n)
+const rb_bem_edge_load *rb_rolling_field_load(const rb_rolling_field *f)
 {
-    *n = f->nodes.n;
-    return f->nodes.x;
+    return &f->nodes;
 }
 
 /* A wheel's contours are polygons: points between its outer one and the circle, which the
