@@ -78,7 +78,7 @@ static const struct {
     {"help frobnicate mesh", 64, "help: nothing about 'frobnicate mesh'"},
     {"--contact-elements 10000000 --zone 10", 64, "GB of memory"},
     {"--force-ratio 1.5", 64, "friction carries at most 1"},
-    {"--error --dump d", 64, "--dump, --fclib and --trace: not together with error bars"},
+    {"--error --dump d", 64, "--dump: not together with error bars"},
     {"--smooth-derivatives --error", 64, "--smooth-derivatives: not together with error bars"},
     {"--increments 2 --approach 1 --derivatives all", 64, "under a given approach the unit of"},
     {"--increments 2 --load 1 --contact-elements 20000 --tolerance mu=1%", 64, "fewer than 1500"},
@@ -103,7 +103,7 @@ static const struct {
      "slide in opposite directions without friction; take the exact derivatives"},
     {"design --support halfplane --load 500 --minimise max_pressure --maximise half_width "
      "--over radius=20:200",
-     64, "--minimise and --maximise exclude each other"},
+     64, "--maximise: not together with --minimise"},
     {"--accuracy 0.1 --trace", 64, "--trace: not together with error bars"},
     {"--support halfplane --load 9 --contact-elements 2100 --fclib f.hdf5", 64,
      "--fclib: 2100 elements are too many for a dense W"},

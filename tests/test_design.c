@@ -138,7 +138,7 @@ TEST(what_is_refused)
                {"max_pressure", "contact-elements=1:200", NULL, "is not a number of this case"},
                {"max_pressure", "gap=-1:1", NULL, "table"},
                {"max_pressure", "radius=1:200", "half_width=3",
-                "--subject: expected RESULT<=X or RESULT>=X, got"},
+                "subject: expected RESULT<=X or RESULT>=X, got"},
                {"max_pressure", "radius=1:200", "half_width<=x", "x"},
                {"max_pressure", " radius=1:200", "load >= 1, half_width <= x", "load"},
                {"max_pressure", " radius=1:200 ", "half_width <= 1 mm, half_width >= x",

@@ -885,7 +885,7 @@ TEST(fits_of_many_elements_have_matrices)
     assert_int_equal(rollbem("fit creep.tsv --fit mu --similar --support halfplane --load 240 "
                              "--contact-elements 1600 --mesh uniform --zone 5"),
                      64);
-    assert_non_null(strstr(err, "fit: expected fewer than 1500 elements, got 1600"));
+    assert_non_null(strstr(err, "contact-elements: expected fewer than 1500 elements, got 1600"));
 }
 
 #define RESUMED                                                                                    \

@@ -97,6 +97,69 @@ TEST(forty_mistakes_get_a_line_that_helps)
     assert_int_equal(wrong, 0);
 }
 
+/* Of the commands' own options too a case file's line is named, and another code. */
+TEST(own_options_in_a_file_are_refused_with_their_line)
+{
+#define HALFPLANES "support = halfplane\nsimilar = yes\nload = 100\n\n"
+    static const struct {
+        const char *command, *text, *said; /* text: from line 5 on */
+    } all[] = {
+        {"crack", "mu = 0\ncrack-angle = 180\n", "own.ini:6: crack-angle: expected more than 0"},
+        {"crack", "to = 2\nfrom = 5\n", "own.ini:6: from: A rolls towards +x"},
+        {"crack", "closing = located\n", "own.ini:5: closing: located only for --fluid"},
+        {"crack", "unloaded = yes\n", "own.ini:5: unloaded: needs --remote-stress"},
+        {"crack", "threshold = 1\n", "own.ini:5: threshold: of a crack that grows"},
+        {"crack", "states = yes\n", "own.ini:5: states: with --json"},
+        {"crack", "[body-b]\nlayer-thickness-b = 1\nbase-young-b = 10\nbase-poisson-b = 0.3\n",
+         "own.ini:6: layer-thickness-b: below a crack"},
+        {"wear", "wear-coefficient = 1e-9\nslide = 1\ncycles = 3\n",
+         "own.ini:7: cycles: not together with --slide"},
+        {"fit creep.tsv", "fit = mou\n", "own.ini:5: fit: 'mou' is not a number"},
+        {"fit creep.tsv", "fit = mu\nstart = mu\n", "own.ini:6: start: expected NAME=X"},
+        {"fit creep.tsv", "fit = mu\nbounds = mu=2:1\n", "own.ini:6: bounds: expected NAME=A:B"},
+        {"fit creep.tsv", "fit = mu\nstart = mu=0.5\nbounds = mu=0.1:0.2\n",
+         "own.ini:6: start: mu = 0.5 is not within"},
+        {"", "tolerance = mou=1\n", "own.ini:5: tolerance: 'mou' is not a number"},
+        {"", "derivatives = mou\n", "own.ini:5: derivatives: expected a result that has"},
+        {"", "error = yes\n[output]\nprove = yes\n", "own.ini:7: prove: not together with error"},
+        {"curve", "from = 1\nto = 1\n", "own.ini:6: to: expected two different values"},
+        {"stress", "grid = 9\n", "own.ini:5: grid: expected two numbers >= 2"},
+        {"stress", "grid = 9x9\npoints = at.txt\n", "own.ini:6: points: not together with --grid"},
+        {"design", "minimise = max_pressure\nover = mou=1:2\n", "own.ini:6: over: 'mou' is not"},
+        {"design", "over = radius=1:200\nminimise = pressure\n", "own.ini:6: minimise: expected"},
+        {"design", "minimise = max_pressure\nover = radius=1:200\nsubject = contact<=3\n",
+         "own.ini:7: subject: expected a result that has derivatives"},
+        {"sweep", "vary-1 = mou 1 2\n", "own.ini:5: vary-1: 'mou' is not an option"},
+        {"sweep", "vary-1 = mu 0.1 0.2\nresults = pressure\n", "own.ini:6: results: no result"},
+        {"sweep", "vary-1 = mu 0.1 0.2\nshow = stick\n", "own.ini:6: show: there is no picture"},
+    };
+    write_file("creep.tsv", "creep\tforce\n0.001\t-3\n0.002\t-5\n");
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        char text[300], arguments[60];
+        snprintf(text, sizeof text, HALFPLANES "%s", all[k].text);
+        write_file("own.ini", text);
+        snprintf(arguments, sizeof arguments, "%s own.ini", all[k].command);
+        check_refused(arguments, 65, all[k].said);
+    }
+    /* what the rooms below refuse, which know no options */
+    static const struct {
+        const char *text, *said;
+    } wheels[] = {
+        {"zone = 60\n", "wheel.ini:2: zone: "},
+        {"outer-elements = 4\n", "wheel.ini:2: outer-elements: "},
+        {"support = hub\nhub-ratio = 0.99\nzone = 45\nouter-elements = 12\n",
+         "wheel.ini:5: outer-elements: "},
+        {"support = hub\ncover-thickness = 49\ncore-young = 1000\n",
+         "wheel.ini:3: cover-thickness: hub of radius 15"},
+    };
+    for (size_t k = 0; k < sizeof wheels / sizeof *wheels; k++) {
+        char text[300];
+        snprintf(text, sizeof text, "load = 100\n%s", wheels[k].text);
+        write_file("wheel.ini", text);
+        check_refused("wheel.ini", 65, wheels[k].said);
+    }
+}
+
 /* What every command refuses: the exit code, and one line. */
 TEST(refusals_have_their_code_and_reason)
 {
@@ -201,12 +264,9 @@ TEST(refusals_have_their_code_and_reason)
          "b.ini --all-solutions --shift 0.001 --memory 1 --friction-law linear --mu-fall .1 "
          "--slip-scale 1 --speed 1",
          "only for steady rolling"},
-        {64, "b.ini --shift 0.001 --error --dump d",
-         "--dump, --fclib and --trace: not together with error bars"},
-        {64, "b.ini --shift 0.001 --error --fclib f.hdf5",
-         "--dump, --fclib and --trace: not together with error bars"},
-        {64, "b.ini --shift 0.001 --error --trace",
-         "--dump, --fclib and --trace: not together with error bars"},
+        {64, "b.ini --shift 0.001 --error --dump d", ": not together with error bars"},
+        {64, "b.ini --shift 0.001 --error --fclib f.hdf5", ": not together with error bars"},
+        {64, "b.ini --shift 0.001 --error --trace", ": not together with error bars"},
         {64, "b.ini --shift 0.001 --accuracy 0.1 --trace", "not together with error bars"},
         {64, "b.ini --shift 0.001 --trace --solver newton", "--trace: only --solver lemke pivots"},
         {64, "b.ini --formulation transient --distance 0.3 --steps 2 --states",
@@ -235,7 +295,7 @@ TEST(refusals_have_their_code_and_reason)
         {64, "wear b.ini --slide 1", "wear needs --wear-coefficient"},
         {64, "wear b.ini --wear-coefficient 1", "wear needs --slide or --cycles"},
         {64, "wear b.ini --wear-coefficient 1 --slide 1 --cycles 1",
-         "--slide and --cycles exclude each other"},
+         "--cycles: not together with --slide"},
         {64, "wear b.ini --wear-coefficient 1e-7 --slide 1 --formulation steady --creep-ratio 0.5",
          "--slide needs --formulation static"},
         {64,
@@ -246,7 +306,7 @@ TEST(refusals_have_their_code_and_reason)
         {64, "stress b.ini --grid 1x3", "expected two numbers >= 2 such as 61x41"},
         {64, "stress b.ini --grid 3x3x3", "expected two numbers >= 2 such as 61x41"},
         {64, "stress b.ini --grid 3", "expected two numbers >= 2 such as 61x41, got '3'"},
-        {64, "stress b.ini --grid 3x3 --points at.txt", "--grid and --points exclude each other"},
+        {64, "stress b.ini --grid 3x3 --points at.txt", "--points: not together with --grid"},
         {64, "stress b.ini --grid 3x3 --vtk v.txt",
          "expected a name ending in .vti or .vtu, got 'v.txt'"},
         {64, "stress b.ini --points at.txt --vtk v.vti",

@@ -83,33 +83,33 @@ static rb_status check_lengths(const rb_resolved_case *c, const rb_case_crack *k
     const double deepest = l.depth + l.length * fabs(sin(k->angle * M_PI / 180.0));
 
     if (!(l.length > 0.0 && isfinite(l.mouth) && l.depth >= 0.0))
-        return rb_fail(why, RB_EINVAL,
-                       "--unloaded: without --load and --half-width there is no half-width that "
-                       "the lengths of the crack could be measured by; give them with a unit, "
-                       "such as --crack-length 0.05mm");
+        return rb_refuse(why, "unloaded",
+                         "without --load and --half-width there is no half-width that "
+                         "the lengths of the crack could be measured by; give them with a unit, "
+                         "such as --crack-length 0.05mm");
     if (!k->unloaded && rc->elastic_b && deepest > DEEPEST * fabs(rc->b.radius))
-        return rb_fail(why, RB_EINVAL,
-                       "crack: body B counts as a half-plane; a crack as deep as %g of "
-                       "its radius needs its shape, expected at most %g",
-                       deepest / fabs(rc->b.radius), DEEPEST);
+        return rb_refuse(why, "crack-length,crack-depth,radius-b",
+                         "body B counts as a half-plane; a crack as deep as %g of "
+                         "its radius needs its shape, expected at most %g",
+                         deepest / fabs(rc->b.radius), DEEPEST);
     if (!isnan(k->grow_to) && !(l.grow_to > l.length))
-        return rb_fail(why, RB_EINVAL,
-                       "--grow-to: expected more than the length of the crack, %g mm, got %g mm",
-                       l.length, l.grow_to);
+        return rb_refuse(why, "grow-to",
+                         "expected more than the length of the crack, %g mm, got %g mm", l.length,
+                         l.grow_to);
     if (rb_case_has_steps(c) || k->unloaded)
         return RB_OK;
     if (!(l.from < l.to))
-        return rb_fail(why, RB_EINVAL,
-                       "--from and --to: A rolls towards +x; expected --from below --to, "
-                       "got %g and %g half-widths",
-                       l.from / a, l.to / a);
+        return rb_refuse(why, "from,to",
+                         "A rolls towards +x; expected --from below --to, "
+                         "got %g and %g half-widths",
+                         l.from / a, l.to / a);
     const double step = (l.to - l.from) / a / (rc->steps > 0 ? rc->steps : INTERVALS);
     if (step > WIDE * (1.0 + 1e-12))
-        return rb_fail(why, RB_EINVAL,
-                       "--steps: %d steps of %g half-widths would jump over the crack, "
-                       "expected at least %d",
-                       rc->steps > 0 ? rc->steps : INTERVALS, step,
-                       (int)ceil((l.to - l.from) / a / WIDE * (1.0 - 1e-12)));
+        return rb_refuse(why, "steps",
+                         "%d steps of %g half-widths would jump over the crack, "
+                         "expected at least %d",
+                         rc->steps > 0 ? rc->steps : INTERVALS, step,
+                         (int)ceil((l.to - l.from) / a / WIDE * (1.0 - 1e-12)));
     return RB_OK;
 }
 
@@ -129,18 +129,17 @@ static rb_status check_remote(const rb_resolved_case *c, const rb_case_crack *k,
 
     if (k->remote_stresses.n > 2 ||
         (cycles && !(k->remote_stresses.value[0] < k->remote_stresses.value[1])))
-        return rb_fail(why, RB_EINVAL,
-                       "--remote-stress: expected one number, or low,high of a cycle");
+        return rb_refuse(why, "remote-stress", "expected one number, or low,high of a cycle");
     if (cycles && !k->unloaded)
-        return rb_fail(why, RB_EINVAL,
-                       "--remote-stress: a cycle acts alone, --unloaded; with a contact a column "
-                       "bulk_stress_b of --history says how both go together");
+        return rb_refuse(why, "remote-stress",
+                         "a cycle acts alone, --unloaded; with a contact a column "
+                         "bulk_stress_b of --history says how both go together");
     if (cycles && k->fluid != RB_CRACK_DRY)
-        return rb_fail(why, RB_EINVAL, "--fluid: not under a cycle of the remote stress");
+        return rb_refuse(why, "fluid", "not under a cycle of the remote stress");
     if (k->unloaded && k->remote_stress == 0.0 && !cycles)
-        return rb_fail(why, RB_EINVAL, "--unloaded: needs --remote-stress");
+        return rb_refuse(why, "unloaded", "needs --remote-stress");
     if (k->unloaded && (bulk || c->program.bulk_stress_b))
-        return rb_fail(why, RB_EINVAL, "--bulk-stress-b: --unloaded takes --remote-stress");
+        return rb_refuse(why, "bulk-stress-b", "--unloaded takes --remote-stress");
     return RB_OK;
 }
 
@@ -148,47 +147,45 @@ rb_status rb_case_crack_check(const rb_resolved_case *c, const rb_case_crack *k,
 {
     const rb_rolling_case *rc = &c->rc;
     if (!(k->angle >= 0.0 && k->angle < 180.0) || (k->depth == 0.0 && k->angle == 0.0))
-        return rb_fail(why, RB_EINVAL,
-                       "--crack-angle: expected more than 0 and less than 180 degrees%s, "
-                       "got %g: the crack would lie outside body B",
-                       k->depth > 0.0 ? " (0 below the surface)" : "", k->angle);
+        return rb_refuse(why, "crack-angle",
+                         "expected more than 0 and less than 180 degrees%s, "
+                         "got %g: the crack would lie outside body B",
+                         k->depth > 0.0 ? " (0 below the surface)" : "", k->angle);
     if (k->fluid != RB_CRACK_DRY && k->depth > 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "--fluid: enters at the mouth, which a crack with --crack-depth "
-                       "does not have");
+        return rb_refuse(why, "fluid",
+                         "enters at the mouth, which a crack with --crack-depth "
+                         "does not have");
     if (k->locate_closing && k->fluid != RB_CRACK_TRAPPED)
-        return rb_fail(why, RB_EINVAL, "--closing located: only for --fluid trapped");
+        return rb_refuse(why, "closing", "located only for --fluid trapped");
     if (k->unloaded && k->coupled)
-        return rb_fail(why, RB_EINVAL, "--unloaded and --coupled exclude each other");
+        return rb_refuse(why, "coupled,unloaded", "not together with --unloaded");
     rb_status s = check_remote(c, k, why);
     if (s != RB_OK)
         return s;
     if (k->unloaded && k->fluid == RB_CRACK_PRESSURE)
-        return rb_fail(why, RB_EINVAL,
-                       "--fluid pressure: is the contact pressure, and --unloaded has none");
+        return rb_refuse(why, "fluid", "pressure is the contact pressure, and --unloaded has none");
     if (!k->unloaded && rc->period > 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "--period: a crack is that of one contact alone, without --period");
+        return rb_refuse(why, "period", "a crack is that of one contact alone, without --period");
     if (!k->unloaded && rc->elastic_b &&
         !rb_rolling_body_can(&rc->b, RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC))
-        return rb_fail(why, RB_EINVAL,
-                       "crack: the stress in body B is known where it is homogeneous and "
-                       "elastic only, without a layer, a cover or memory");
+        return rb_refuse(why, "layer-thickness-b,layers-b,cover-thickness-b,relaxation-time-b",
+                         "below a crack the stress in body B is known where it is homogeneous and "
+                         "elastic only, without a layer, a cover or memory");
     if (k->coupled && (rb_rolling_largest_mu(rc) > 0.0 || rb_case_has_steps(c)))
-        return rb_fail(why, RB_EINVAL,
-                       "--coupled: for a contact without friction and without steps of its "
-                       "own, --mu 0");
+        return rb_refuse(why, "coupled",
+                         "for a contact without friction and without steps of its "
+                         "own, --mu 0");
     if (k->coupled && !rc->elastic_b)
-        return rb_fail(why, RB_EINVAL,
-                       "--coupled: a rigid body B is not changed by its crack; make it "
-                       "elastic (--similar, --young-b)");
+        return rb_refuse(why, "coupled",
+                         "a rigid body B is not changed by its crack; make it "
+                         "elastic (--similar, --young-b)");
     if (k->coupled && k->fluid != RB_CRACK_DRY)
-        return rb_fail(why, RB_EINVAL, "--coupled: of a crack without fluid");
+        return rb_refuse(why, "coupled", "of a crack without fluid");
     s = rb_case_check_growth(k, why);
     if (s != RB_OK)
         return s;
     if (rb_case_has_steps(c) && !isnan(k->to))
-        return rb_fail(why, RB_EINVAL, "--to: the history says how far the contact goes");
+        return rb_refuse(why, "to", "the history says how far the contact goes");
     const double a = unit_of_load(c, k); /* before anything is solved, if it is known */
     return isnan(a) ? RB_OK : check_lengths(c, k, a, why);
 }
@@ -449,10 +446,10 @@ static rb_status set_positions(const rb_resolved_case *c, const rb_case_crack *k
                                : l.from;
     for (int i = 1; i < t->n && has_steps; i++)
         if (t->x[i] - t->x[i - 1] > WIDE * r->half_width)
-            return rb_fail(why, RB_EINVAL,
-                           "--steps: step %d rolls %g half-widths and jumps over the "
-                           "crack, expected at most %g",
-                           i + 1, (t->x[i] - t->x[i - 1]) / r->half_width, WIDE);
+            return rb_refuse(why, "steps",
+                             "step %d rolls %g half-widths and jumps over the "
+                             "crack, expected at most %g",
+                             i + 1, (t->x[i] - t->x[i - 1]) / r->half_width, WIDE);
     return RB_OK;
 }
 
@@ -662,8 +659,7 @@ static rb_status solve_once(const rb_resolved_case *c, const rb_case_crack *k,
                                       .approach = r->contact.solution.approach};
         const rb_case_crack l = rb_case_crack_lengths(c, k, r->half_width);
         if (k->coupled && !model->bodies.F)
-            s = rb_fail(why, RB_EINVAL, "--coupled: fewer than %d contact elements",
-                        RB_ROLLING_LARGE);
+            s = rb_refuse(why, "coupled", "fewer than %d contact elements", RB_ROLLING_LARGE);
         else
             s = rb_case_crack_pass(c, &l, &t, k->coupled ? &wheel : NULL, observer, crack, r, why);
         if (s == RB_INTERRUPTED)

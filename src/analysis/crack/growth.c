@@ -13,15 +13,15 @@ rb_status rb_case_check_growth(const rb_case_crack *k, rb_message *why)
     if (isnan(k->paris))
         return isnan(k->grow_to) && k->threshold == 0.0 && !k->tension
                    ? RB_OK
-                   : rb_fail(why, RB_EINVAL,
-                             "--grow-to, --threshold and --growth: of a crack that grows; "
-                             "give --paris C,m");
+                   : rb_refuse(why, "grow-to,threshold,growth",
+                               "of a crack that grows; "
+                               "give --paris C,m");
     if (k->paris_law.n != 2 || !(k->paris_law.value[1] > 0.0))
-        return rb_fail(why, RB_EINVAL, "--paris: expected two numbers C,m > 0");
+        return rb_refuse(why, "paris", "expected two numbers C,m > 0");
     if (k->unloaded && !rb_case_crack_cycles(k))
-        return rb_fail(why, RB_EINVAL,
-                       "--paris: cracks grow under loads that pass; --unloaded needs a cycle, "
-                       "--remote-stress low,high");
+        return rb_refuse(why, "paris",
+                         "cracks grow under loads that pass; --unloaded needs a cycle, "
+                         "--remote-stress low,high");
     return RB_OK;
 }
 

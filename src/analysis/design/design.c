@@ -39,7 +39,8 @@ const char *rb_design_result_name(const rb_rolling_result *result)
     return result ? result->name : ripple_;
 }
 
-static rb_status find_result(const char *name, const rb_rolling_result **result, rb_message *why)
+static rb_status find_result(const char *option, const char *name, const rb_rolling_result **result,
+                             rb_message *why)
 {
     int is_column = 0;
 
@@ -51,7 +52,7 @@ static rb_status find_result(const char *name, const rb_rolling_result **result,
         return RB_OK;
     rb_message reason;
     rb_case_refuse_result(name, &rb_rolling_solution_scalars, ripple_, &reason);
-    return rb_fail(why, RB_EINVAL, "design: %s", reason.text);
+    return rb_refuse(why, option, "%s", reason.text);
 }
 
 const char *rb_design_name(const rb_design *d)
@@ -66,7 +67,7 @@ const char *rb_design_unit(const rb_design *d)
 
 rb_status rb_design_objective(const char *name, rb_design *d, rb_message *why)
 {
-    const rb_status s = find_result(name, &d->result, why);
+    const rb_status s = find_result("minimise,maximise", name, &d->result, why);
     const rb_option *o = rb_case_option(name);
 
     d->input = s != RB_OK && o && o->kind == RB_OPTION_NUMBER ? o : NULL;
@@ -80,10 +81,10 @@ static rb_status find_input(rb_design *d, rb_message *why)
         if (strcmp(d->variable[d->input_at].name, d->input->name) == 0)
             return RB_OK;
     return !d->input ? RB_OK
-                     : rb_fail(why, RB_EINVAL,
-                               "design: %s is no result, and an input has to be varied: add %s=A:B "
-                               "to --over",
-                               d->input->name, d->input->name);
+                     : rb_refuse(why, "minimise,maximise",
+                                 "%s is no result, and an input has to be varied: add %s=A:B "
+                                 "to --over",
+                                 d->input->name, d->input->name);
 }
 
 rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d, rb_message *why)
@@ -93,11 +94,10 @@ rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d
     while ((text = rb_next_word(text, word, sizeof word))) {
         char *sign = strpbrk(word, "<>");
         if (!sign)
-            return rb_fail(why, RB_EINVAL, "--subject: expected RESULT<=X or RESULT>=X, got '%s'",
-                           word);
+            return rb_refuse(why, "subject", "expected RESULT<=X or RESULT>=X, got '%s'", word);
         if (d->constraints == RB_DESIGN_CONSTRAINTS)
-            return rb_fail(why, RB_EINVAL, "--subject: expected at most %d constraints",
-                           RB_DESIGN_CONSTRAINTS);
+            return rb_refuse(why, "subject", "expected at most %d constraints",
+                             RB_DESIGN_CONSTRAINTS);
         rb_design_constraint *k = &d->constraint[d->constraints++];
         *k = (rb_design_constraint){.at_least = *sign == '>'};
         const char *number = sign + 1 + (sign[1] == '=');
@@ -105,16 +105,15 @@ rb_status rb_design_constraints(const rb_case *c, const char *text, rb_design *d
         do
             *sign = '\0'; /* and blanks before it */
         while (sign > word && *--sign == ' ');
-        if (find_result(word, &k->result, why) != RB_OK)
+        if (find_result("subject", word, &k->result, why) != RB_OK)
             return RB_EINVAL;
         const char *unit = k->result && k->result->unit ? k->result->unit : "-";
         rb_message of_unit = {.text = ""};
         if (rb_case_read_number(c, number, unit, &k->bound, &of_unit) != RB_OK)
             return of_unit.text[0]
-                       ? rb_fail(why, RB_EINVAL, "--subject: %s: expected %.200s", word,
-                                 of_unit.text)
-                       : rb_fail(why, RB_EINVAL, "--subject: %s: expected a number, got '%.40s'",
-                                 word, number);
+                       ? rb_refuse(why, "subject", "%s: expected %.200s", word, of_unit.text)
+                       : rb_refuse(why, "subject", "%s: expected a number, got '%.40s'", word,
+                                   number);
     }
     return RB_OK;
 }
@@ -131,11 +130,10 @@ static rb_status read_bounds(const rb_case *c, const char *name, const char *uni
         if (!colon ||
             rb_case_read_number(c, k ? colon + 1 : text, unit, &bound[k], &of_unit) != RB_OK)
             return of_unit.text[0]
-                       ? rb_fail(why, RB_EINVAL, "--over: %s: expected %.200s", name, of_unit.text)
-                       : rb_fail(why, RB_EINVAL, "--over: expected %s=A:B", name);
+                       ? rb_refuse(why, "over", "%s: expected %.200s", name, of_unit.text)
+                       : rb_refuse(why, "over", "expected %s=A:B", name);
     }
-    return bound[0] < bound[1] ? RB_OK
-                               : rb_fail(why, RB_EINVAL, "--over: %s: expected A < B", name);
+    return bound[0] < bound[1] ? RB_OK : rb_refuse(why, "over", "%s: expected A < B", name);
 }
 
 static rb_status add_variable(rb_design *d, const char *name, const char *unit, double low,
@@ -165,8 +163,8 @@ static rb_status add_variables(const rb_case *c, int numbers, const rb_case_numb
     for (; !is_gap && k < numbers && strcmp(number[k].name, name) != 0; k++)
         rb_guess_try(&guess, number[k].name);
     if (!is_gap && (k == numbers || number[k].entry > 0))
-        return rb_fail(why, RB_EINVAL, "--over: '%.40s' is not a number of this case%s", name,
-                       rb_guess_text(&guess, ""));
+        return rb_refuse(why, "over", "'%.40s' is not a number of this case%s", name,
+                         rb_guess_text(&guess, ""));
     const char *unit = is_gap ? "mm" : number[k].option->unit;
     if (read_bounds(c, name, unit, range, bound, why) != RB_OK)
         return RB_EINVAL;
@@ -174,15 +172,14 @@ static rb_status add_variables(const rb_case *c, int numbers, const rb_case_numb
         const double value = number[k].input.value;
         const rb_units units = rb_case_resolved(c)->units;
         if (!(bound[0] <= value && value <= bound[1]))
-            return rb_fail(why, RB_EINVAL,
-                           "--over: %s begins at %g %s, which is not within its bounds", name,
-                           rb_unit_shown(units, unit, value), rb_unit_name(units, unit));
+            return rb_refuse(why, "over", "%s begins at %g %s, which is not within its bounds",
+                             name, rb_unit_shown(units, unit, value), rb_unit_name(units, unit));
         return add_variable(d, name, unit, bound[0], bound[1], value, why);
     }
     d->gap_from = d->n;
     d->gap_n = rb_case_gap_rows(c, &d->gap_x, &gap);
     if (d->gap_n == 0)
-        return rb_fail(why, RB_EINVAL, "--over gap: needs a gap from a table (--gap FILE)");
+        return rb_refuse(why, "over", "gap needs a gap from a table (--gap FILE)");
     rb_status s = RB_OK;
     for (int i = 0; i < d->gap_n && s == RB_OK; i++) {
         char row[40];
@@ -206,7 +203,7 @@ rb_status rb_design_variables(const rb_case *c, const char *text, rb_design *d, 
             *range++ = '\0';
         for (int k = 0; k < d->n && s == RB_OK; k++)
             if (strcmp(d->variable[k].name, word) == 0)
-                s = rb_fail(why, RB_EINVAL, "--over: %s stands there twice", word);
+                s = rb_refuse(why, "over", "%s stands there twice", word);
         if (s == RB_OK)
             s = add_variables(c, numbers, number, word, range, d, why);
     }
@@ -566,7 +563,8 @@ rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer, 
     if (!rb_design_available())
         s = rb_fail(why, RB_EINVAL, "design: this rollbem was built without NLopt (libnlopt-dev)");
     else if (rb_case_has_steps(rb_case_resolved(c)) || rb_case_resolved(c)->error)
-        s = rb_fail(why, RB_EINVAL, "design: only for cases of one step without error bars");
+        s = rb_refuse(why, "error,history,formulation,increments",
+                      "only for cases of one step without error bars");
     else if (!p.x || !p.value || !p.gradient || !p.best)
         s = rb_fail(why, RB_ENOMEM, "out of memory for a design");
     d->evaluations = 0;

@@ -288,24 +288,24 @@ static rb_status set_parameter(fit_problem *p, int j, rb_message *why)
         fmin(of->high,
              strcmp(of->name, "mu") == 0 || strcmp(of->name, "mu-fall") == 0 ? MOST_MU : of->to);
     if (!isfinite(of->value))
-        return rb_fail(why, RB_EINVAL, "--fit: %s has no value to start from; give --%s", of->name,
-                       of->name);
+        return rb_refuse(why, "fit", "%s has no value to start from; give --%s", of->name,
+                         of->name);
     of->scale = of->value != 0.0                 ? fabs(of->value)
                 : offset                         ? 0.1 * d->half_width / d->radius
                 : strcmp(o->unit, "mm/MPa") == 0 ? 1e-2 * d->half_width / d->modulus
                                                  : 1e-2;
     const rb_units units = p->c->resolved.units;
     if (!(of->low <= of->high))
-        return rb_fail(why, RB_EINVAL, "--bounds: %s: no value of %g to %g can be fitted", of->name,
-                       rb_unit_shown(units, of->unit, asked[0]),
-                       rb_unit_shown(units, of->unit, asked[1]));
+        return rb_refuse(why, "bounds", "%s: no value of %g to %g can be fitted", of->name,
+                         rb_unit_shown(units, of->unit, asked[0]),
+                         rb_unit_shown(units, of->unit, asked[1]));
     const double x = of->value, near = 1e-12 * of->scale; /* what other units round */
     if (!isnan(of->start) && (x < of->low - near || x > of->high + near ||
                               (of->low_open && x <= of->from) || (of->high_open && x >= of->to)))
-        return rb_fail(why, RB_EINVAL, "--start: %s = %g is not within its bounds, %g to %g",
-                       of->name, rb_unit_shown(units, of->unit, of->value),
-                       rb_unit_shown(units, of->unit, of->low),
-                       rb_unit_shown(units, of->unit, of->high));
+        return rb_refuse(why, "start", "%s = %g is not within its bounds, %g to %g", of->name,
+                         rb_unit_shown(units, of->unit, of->value),
+                         rb_unit_shown(units, of->unit, of->low),
+                         rb_unit_shown(units, of->unit, of->high));
     rb_case_fit_clip(of, &of->value);
     return RB_OK;
 }
@@ -685,8 +685,8 @@ static rb_status fit_on_own_elements(const rb_case *c, const rb_case_data *data,
     rb_status s = RB_OK;
 
     if (data->n <= fit->n)
-        return rb_fail(why, RB_EINVAL, "--fit: expected at least %d points for %d number%s, got %d",
-                       fit->n + 1, fit->n, fit->n > 1 ? "s" : "", data->n);
+        return rb_refuse(why, "fit", "expected at least %d points for %d number%s, got %d",
+                         fit->n + 1, fit->n, fit->n > 1 ? "s" : "", data->n);
     fit->degrees_of_freedom = data->n - fit->n;
     p.at = calloc(points, sizeof *p.at);
     p.known = calloc(FIT_CASES, sizeof *p.known);
@@ -702,8 +702,7 @@ static rb_status fit_on_own_elements(const rb_case *c, const rb_case_data *data,
         of.theta[j] = fit->parameter[j].value;
     }
     if (s == RB_OK && p.offset >= 0 && data->is_ratio)
-        s = rb_fail(why, RB_EINVAL,
-                    "--fit creep-offset: needs creepages, a column creep and no ratios");
+        s = rb_refuse(why, "fit", "creep-offset needs creepages, a column creep and no ratios");
     memcpy(of.start, of.theta, sizeof of.start);
     memcpy(given, of.theta, sizeof given);
     for (int k = 0; k < p.points && s == RB_OK; k++) {

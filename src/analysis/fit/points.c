@@ -313,10 +313,10 @@ rb_status rb_case_fit_place(fit_problem *p, const double *theta, int *moved, rb_
         if (s == RB_OK && of->first == k)
             s = rb_rolling_model_create(&rc, &fresh, why);
         if (s == RB_OK && fresh.mesh.n >= RB_ROLLING_LARGE)
-            s = rb_fail(why, RB_EINVAL,
-                        "fit: expected fewer than %d elements, got %d; give fewer by "
-                        "--contact-elements or a smaller --zone",
-                        RB_ROLLING_LARGE, fresh.mesh.n);
+            s = rb_refuse(why, "contact-elements,zone",
+                          "expected fewer than %d elements, got %d; give fewer by "
+                          "--contact-elements or a smaller --zone",
+                          RB_ROLLING_LARGE, fresh.mesh.n);
         if (s == RB_OK && of->first == k) /* an adjoint takes its factors */
             s = rb_rolling_model_add_matrix(&fresh, why);
         const rb_rolling_mesh *old = &of->base.mesh, *mesh = &fresh.mesh;

@@ -35,10 +35,9 @@ rb_status rb_case_fit_check_name(const char *name, rb_message *why)
             rb_guess_try(&guess, rb_case_table[k].name);
     if (!o)
         rb_guess_try(&guess, offset_);
-    return rb_fail(why, RB_EINVAL,
-                   "--fit: '%.60s' is not a number that can be fitted to forces%s%s", name,
-                   is_measured(name) ? "; creep-offset is added to the measured creepage" : "",
-                   rb_guess_text(&guess, ""));
+    return rb_refuse(why, "fit", "'%.60s' is not a number that can be fitted to forces%s%s", name,
+                     is_measured(name) ? "; creep-offset is added to the measured creepage" : "",
+                     rb_guess_text(&guess, ""));
 }
 
 static rb_case_parameter *parameter_of(rb_case_fit *fit, const char *name)
@@ -56,9 +55,9 @@ static rb_status read_names(const char *text, rb_case_fit *fit, rb_message *why)
     fit->n = 0;
     for (const char *at = text; (at = rb_next_word(at, name, sizeof name));) {
         if (!*name || strlen(name) >= sizeof fit->parameter->name || parameter_of(fit, name))
-            return rb_fail(why, RB_EINVAL, "--fit: expected different names, got '%.200s'", text);
+            return rb_refuse(why, "fit", "expected different names, got '%.200s'", text);
         if (fit->n == RB_CASE_FIT_MAX)
-            return rb_fail(why, RB_EINVAL, "--fit: expected at most %d names", RB_CASE_FIT_MAX);
+            return rb_refuse(why, "fit", "expected at most %d names", RB_CASE_FIT_MAX);
         if (rb_case_fit_check_name(name, why) != RB_OK)
             return RB_EINVAL;
         rb_case_parameter *p = &fit->parameter[fit->n++];
@@ -67,7 +66,7 @@ static rb_status read_names(const char *text, rb_case_fit *fit, rb_message *why)
         p->low = -INFINITY;
         p->high = INFINITY;
     }
-    return fit->n > 0 ? RB_OK : rb_fail(why, RB_EINVAL, "--fit: expected a name, got ''");
+    return fit->n > 0 ? RB_OK : rb_refuse(why, "fit", "expected a name, got ''");
 }
 
 /* 1: it is a number of the parameter, alone or with a unit. */
@@ -95,8 +94,8 @@ static rb_status read_values(const rb_case *c, const char *option, const char *t
         rb_case_parameter *p = first ? parameter_of(fit, word) : NULL;
         if (!p || !second != !ranges || !read_number(c, p, first, &x) ||
             (ranges && (!read_number(c, p, second, &y) || !(x < y))))
-            return rb_fail(why, RB_EINVAL, "--%s: expected %s of a fitted number, got '%s'", option,
-                           ranges ? "NAME=A:B, A < B," : "NAME=X", whole);
+            return rb_refuse(why, option, "expected %s of a fitted number, got '%s'",
+                             ranges ? "NAME=A:B, A < B," : "NAME=X", whole);
         if (ranges) {
             p->low = x;
             p->high = y;

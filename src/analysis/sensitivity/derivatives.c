@@ -390,10 +390,7 @@ rb_status rb_case_refuse_result(const char *name, const rb_rolling_results *tabl
 
 rb_status rb_case_name_option(const char *option, rb_status s, rb_message *why)
 {
-    rb_message refusal = {.text = ""};
-    if (why)
-        refusal = *why;
-    return rb_fail(why, s, "--%s: %.450s", option, refusal.text);
+    return s != RB_EINVAL ? s : rb_refuse(why, option, "%.450s", why ? why->text : "");
 }
 
 /* "mu = 0.02, radius = 1%" */

@@ -92,10 +92,10 @@ rb_status rb_case_slopes_add_deviations(const rb_case *c, const char *tolerance,
         if (!rb_sensitivity_has(result[k]))
             continue;
         if (s->n + s->deviations == RB_ROW_OWN)
-            return rb_fail(why, RB_EINVAL,
-                           "--tolerance: more than %d columns with those of the derivatives; name "
-                           "fewer of them",
-                           RB_ROW_OWN);
+            return rb_refuse(why, "tolerance",
+                             "more than %d columns with those of the derivatives; name "
+                             "fewer of them",
+                             RB_ROW_OWN);
         s->deviation[s->deviations++] = result[k];
     }
     return status;

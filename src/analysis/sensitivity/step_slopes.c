@@ -324,9 +324,10 @@ static rb_status check_elements(int n, rb_message *why)
 {
     return n < RB_ROLLING_LARGE
                ? RB_OK
-               : rb_fail(why, RB_EINVAL,
-                         "derivatives of a history need a matrix: expected fewer than %d elements",
-                         RB_ROLLING_LARGE);
+               : rb_refuse(
+                     why, "contact-elements,mesh",
+                     "derivatives of a history need a matrix: expected fewer than %d elements",
+                     RB_ROLLING_LARGE);
 }
 
 rb_status rb_case_slopes_check_steps(const rb_case *c, rb_message *why)
@@ -335,9 +336,9 @@ rb_status rb_case_slopes_check_steps(const rb_case *c, rb_message *why)
 
     if (isnan(rb_rolling_derive(rc).load) &&
         !(c->resolved.program.n > 0 && c->resolved.program.load))
-        return rb_fail(why, RB_EINVAL,
-                       "derivatives of a history: under a given approach the unit of "
-                       "its distances depends on the solution; give a load");
+        return rb_refuse(why, "approach",
+                         "derivatives of a history: under a given approach the unit of "
+                         "its distances depends on the solution; give a load");
     /* those of bodies that relax are as long as a step */
     return rb_rolling_relaxes(rc) ? RB_OK : check_elements(rc->contact_elements, why);
 }

@@ -4,6 +4,8 @@
 #include "lcp/friction/friction.h"
 
 #include <jansson.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -98,6 +100,17 @@ cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why)
     return cli_say(rb_case_locate(c, s, why), why);
 }
 
+cli_exit cli_case_refuse(const rb_case *c, const char *about, const char *format, ...)
+{
+    rb_message why = {.text = ""};
+    char text[sizeof why.text];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    return cli_case_refused(c, rb_refuse(&why, about, "%s", text), &why);
+}
+
 /* ---- Commands that solve one ------------------------------------------------------ */
 
 /* Those on the rows of a curve, or on the solution; n = 0: none. */
@@ -188,6 +201,8 @@ static cli_spec spec_of(cli_case_run *run)
     spec.sets[spec.set_n++] = command->options_last ? output : run->set;
     spec.sets[spec.set_n++] = command->options_last ? run->set : output;
     spec.sets[spec.set_n++] = cli_example_set();
+    rb_case_also_locate(run->words, &run->set);
+    rb_case_also_locate(run->words, &output);
     return spec;
 }
 
@@ -224,6 +239,7 @@ cli_exit cli_case_asks(const cli_case_command *command, void *own, int argc, cha
         *asked = json_object();
         command->asked(&run, asked);
     }
+    rb_case_also_locate(words, NULL);
     *files = run.args.operands;
     cli_args_free(&run.args);
     return code;
@@ -245,8 +261,9 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
         run.c = rb_case_resolved(run.words);
         rb_case_store(run.words, &run.set, own);
         if (run.o.style.dimensionless && run.o.style.format == RB_REPORT_JSON)
-            code = cli_fail(CLI_USAGE, "--dimensionless: of the table and the picture; JSON has "
-                                       "units: leave one of them out");
+            code = cli_case_refuse(run.words, "dimensionless",
+                                   "of the table and the picture; JSON has units: leave one of "
+                                   "them out");
     }
     if (code == CLI_CONTINUE && command->check)
         code = command->check(&run);

@@ -49,6 +49,9 @@ cli_exit cli_check_units(const rb_case *c, const rb_option_set *set, const cli_a
 
 /* Prints why the library refused the case; the exit code tells command line from file. */
 cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why);
+/* Refuses an option, the first given one of about (as rb_refuse), where it stands. */
+cli_exit cli_case_refuse(const rb_case *c, const char *about, const char *format, ...)
+    RB_PRINTF(3, 4);
 
 /* ---- Commands that solve one ------------------------------------------------------ */
 

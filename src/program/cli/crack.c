@@ -52,10 +52,10 @@ static cli_exit check(cli_case_run *run)
     if (s != RB_OK)
         return cli_case_refused(run->words, s, &why);
     if (own->states && (run->o.style.format != RB_REPORT_JSON || run->c->units != RB_UNITS_MM))
-        return cli_fail(CLI_USAGE, "--states: with --json and in mm, N, MPa only");
+        return cli_case_refuse(run->words, "states", "with --json and in mm, N, MPa only");
     return crack->unloaded && (run->o.plot || own->orbit)
-               ? cli_fail(CLI_USAGE, "%s: --unloaded has no positions to draw over",
-                          run->o.plot ? "--plot" : "--orbit")
+               ? cli_case_refuse(run->words, run->o.plot ? "plot" : "orbit",
+                                 "--unloaded has no positions to draw over")
                : CLI_CONTINUE;
 }
 

@@ -249,7 +249,8 @@ static cli_exit check(cli_case_run *run)
     if (code != CLI_CONTINUE)
         return code;
     if (r->from == r->to)
-        return cli_fail(CLI_USAGE, "--from and --to: expected two different values");
+        return cli_case_refuse(run->words, "to,from",
+                               "expected two different values as --from and --to");
     /* The picture shows the force as a part of the friction, mu P. */
     rb_rolling_case rc = run->c->rc;
     int frictionless = rb_rolling_largest_mu(&rc) == 0.0;
@@ -258,20 +259,20 @@ static cli_exit check(cli_case_run *run)
         frictionless |= rb_rolling_largest_mu(&rc) == 0.0;
     }
     if (run->o.plot && frictionless && r->over != RB_OVER_SPEED)
-        return cli_fail(CLI_USAGE, "--plot: no curve to draw at mu = 0");
+        return cli_case_refuse(run->words, "plot", "no curve to draw at mu = 0");
     /* Names of results and of numbers. */
     const rb_rolling_range range = range_of(r);
     rb_case_slopes slopes;
     rb_message why = {.text = ""};
     if ((r->derivatives || r->tolerance) && run->c->error)
-        return cli_fail(CLI_USAGE, "--%s: not together with error bars",
-                        r->derivatives ? "derivatives" : "tolerance");
+        return cli_case_refuse(run->words, r->derivatives ? "derivatives" : "tolerance",
+                               "not together with error bars");
     if (!r->derivatives && !r->tolerance)
         return CLI_CONTINUE;
     const rb_status s =
         rb_case_curve_choose(run->words, &range, r->derivatives, r->tolerance, &slopes, &why);
     rb_case_slopes_free(&slopes);
-    return s != RB_OK ? cli_say(s, &why) : CLI_CONTINUE;
+    return cli_case_refused(run->words, s, &why);
 }
 
 static const cli_case_command command = {

@@ -123,7 +123,7 @@ static cli_exit check(cli_case_run *run)
     rb_design *d = &f->design;
     rb_message why = {.text = ""};
     if (f->least && f->largest)
-        return cli_fail(CLI_USAGE, "--minimise and --maximise exclude each other");
+        return cli_case_refuse(run->words, "maximise,minimise", "not together with --minimise");
     if (!f->least && !f->largest)
         return cli_fail(CLI_USAGE, "design needs --minimise RESULT or --maximise RESULT");
     d->largest = f->largest != NULL;
@@ -134,7 +134,7 @@ static cli_exit check(cli_case_run *run)
         s = rb_design_variables(run->words, f->over, d, &why);
     if (s == RB_OK)
         s = rb_design_constraints(run->words, f->subject, d, &why);
-    return cli_say(s, &why);
+    return cli_case_refused(run->words, s, &why);
 }
 
 static const cli_case_command command = {

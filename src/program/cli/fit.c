@@ -239,9 +239,9 @@ static cli_exit prepare(cli_case_run *run)
         return cli_fail(CLI_USAGE, "fit needs --fit NAME,...");
     const rb_case_fit_words words = {f->names, f->start, f->bounds, f->sigma};
     f->fit.level = f->level;
-    return cli_say(rb_case_fit_read(run->words, &words, run->args.operand[0], &f->table, &f->data,
-                                    &f->fit, &why),
-                   &why);
+    const rb_status s = rb_case_fit_read(run->words, &words, run->args.operand[0], &f->table,
+                                         &f->data, &f->fit, &why);
+    return cli_case_refused(run->words, s, &why);
 }
 
 static const cli_case_command command = {

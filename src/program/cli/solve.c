@@ -288,45 +288,47 @@ static cli_exit check(cli_case_run *run)
     }
     if (run->o.style.dimensionless && (it->derivatives || it->smooth || it->history_table ||
                                        it->history_plot || it->steps.snapshots))
-        return cli_fail(CLI_USAGE,
-                        "--dimensionless: of the tractions of the case, not together "
-                        "with --%s",
-                        it->derivatives     ? "derivatives"
-                        : it->smooth        ? "smooth-derivatives"
-                        : it->history_table ? "history-table"
-                        : it->history_plot  ? "history-plot"
-                                            : "snapshots");
+        return cli_case_refuse(run->words, "dimensionless",
+                               "of the tractions of the case, not together "
+                               "with --%s",
+                               it->derivatives     ? "derivatives"
+                               : it->smooth        ? "smooth-derivatives"
+                               : it->history_table ? "history-table"
+                               : it->history_plot  ? "history-plot"
+                                                   : "snapshots");
     /* With error bars of a solution there is no model to show (run.h). */
     const int model_kept = has_steps || !(c->error || c->accuracy > 0.0);
     if ((it->dump || it->trace || it->fclib) && !model_kept)
-        return cli_fail(CLI_USAGE, "--dump, --fclib and --trace: not together with error bars");
+        return cli_case_refuse(run->words, "dump,fclib,trace", "not together with error bars");
     if (it->all_solutions &&
         (c->rc.formulation != RB_STEADY || !model_kept || !rb_rolling_law_depends_on_state(&c->rc)))
-        return cli_fail(CLI_USAGE, "--all-solutions: only for steady rolling without error bars, "
-                                   "with friction that depends on the slip or the temperature");
+        return cli_case_refuse(run->words, "all-solutions",
+                               "only for steady rolling without error bars, "
+                               "with friction that depends on the slip or the temperature");
     if (it->all_solutions && (it->dump || it->trace || it->fclib))
-        return cli_fail(CLI_USAGE, "--all-solutions: not together with --dump, --fclib, "
-                                   "--trace, which show one of them");
+        return cli_case_refuse(run->words, "all-solutions",
+                               "not together with --dump, --fclib, "
+                               "--trace, which show one of them");
     if (it->all_solutions && (!isnan(c->rc.force) || !isnan(c->rc.force_ratio) || c->rc.free_axle))
-        return cli_fail(CLI_USAGE, "--all-solutions: at a given creepage, not under a given force");
+        return cli_case_refuse(run->words, "all-solutions",
+                               "at a given creepage, not under a given force");
     if (it->prove && !model_kept)
-        return cli_fail(CLI_USAGE, "--prove: not together with error bars");
+        return cli_case_refuse(run->words, "prove", "not together with error bars");
     if (it->smooth && (it->derivatives || it->tolerance))
-        return cli_fail(CLI_USAGE, "--smooth-derivatives: not together with --%s",
-                        it->derivatives ? "derivatives" : "tolerance");
+        return cli_case_refuse(run->words, "smooth-derivatives", "not together with --%s",
+                               it->derivatives ? "derivatives" : "tolerance");
     if (it->smooth && (has_steps || !model_kept))
-        return cli_fail(CLI_USAGE, "--smooth-derivatives: not %s",
-                        has_steps ? "for a case with steps" : "together with error bars");
+        return cli_case_refuse(run->words, "smooth-derivatives", "not %s",
+                               has_steps ? "for a case with steps" : "together with error bars");
     if (it->smooth)
         it->derivatives = it->smooth;
     if ((it->derivatives || it->tolerance) && !model_kept)
-        return cli_fail(CLI_USAGE, "--derivatives and --tolerance: not together with error bars");
+        return cli_case_refuse(run->words, "derivatives,tolerance", "not together with error bars");
     if ((it->derivatives || it->tolerance) && has_steps && c->error)
-        return cli_fail(CLI_USAGE, "--%s: not together with error bars",
-                        it->derivatives ? "derivatives" : "tolerance");
+        return cli_case_refuse(run->words, "derivatives,tolerance", "not together with error bars");
     if (it->trace && c->rc.contact.solver != RB_SOLVER_AUTO &&
         c->rc.contact.solver != RB_SOLVER_LEMKE)
-        return cli_fail(CLI_USAGE, "--trace: only --solver lemke pivots");
+        return cli_case_refuse(run->words, "trace", "only --solver lemke pivots");
     const cli_exit code = it->trace ? choose_pivots(run->words) : CLI_CONTINUE;
     if (code != CLI_CONTINUE)
         return code;
@@ -337,17 +339,16 @@ static cli_exit check(cli_case_run *run)
                                   RB_CASE_SLOPES_MAX, &it->slopes_of_steps, &why);
     else if (it->derivatives &&
              (s = rb_report_derivatives_of(it->derivatives, c, &it->shown, &why)) != RB_OK)
-        return cli_fail(cli_exit_of(s), "--%sderivatives: %s", it->smooth ? "smooth-" : "",
-                        rb_status_reason(s, &why));
+        s = rb_case_name_option(it->smooth ? "smooth-derivatives" : "derivatives", s, &why);
     if (s == RB_OK && it->tolerance)
         s = rb_case_read_tolerances(run->words, it->tolerance, &it->tolerances, &why);
     if (s == RB_OK && (it->derivatives || it->tolerance) && has_steps)
         s = rb_case_slopes_check_steps(run->words, &why);
     if (s != RB_OK)
-        return cli_say(s, &why);
+        return cli_case_refused(run->words, s, &why);
     /* Where the states of the steps are printed, and in which units. */
     if (it->states && (run->o.style.format != RB_REPORT_JSON || c->units != RB_UNITS_MM))
-        return cli_fail(CLI_USAGE, "--states: with --json and in mm, N, MPa only");
+        return cli_case_refuse(run->words, "states", "with --json and in mm, N, MPa only");
     return CLI_CONTINUE;
 }
 

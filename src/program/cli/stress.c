@@ -119,8 +119,9 @@ static cli_exit prepare(cli_case_run *run)
         for (size_t i = 0; i < sizeof kept / sizeof *kept && !is_kept; i++)
             is_kept = strcmp(set->options[k].name, kept[i]) == 0;
         if (!is_kept && set->given[k] > 0 && !cli_case_file_of(&run->args))
-            return cli_fail(CLI_USAGE, "--example: with --tractions no contact is solved; leave it "
-                                       "out");
+            return cli_case_refuse(run->words, "example",
+                                   "with --tractions no contact is solved; leave it "
+                                   "out");
         if (!is_kept)
             return cli_fail(CLI_USAGE, "%s: with --tractions no contact is solved; leave it out",
                             rb_option_source(&set->options[k], set->given[k],
@@ -143,26 +144,29 @@ static cli_exit check(cli_case_run *run)
     if (s != RB_OK)
         return cli_case_refused(run->words, s, &why);
     if (st->tractions && !rb_rolling_can(&run->c->rc, RB_BODY_FLAT))
-        return cli_fail(CLI_USAGE, "--tractions: of half-planes and layers; a wheel is not flat: "
-                                   "take --support halfplane");
+        return cli_case_refuse(run->words, "tractions",
+                               "of half-planes and layers; a wheel is not flat: "
+                               "take --support halfplane");
     if (st->tractions && run->o.cite)
-        return cli_fail(CLI_USAGE, "--cite: with --tractions no contact is solved, and nothing but "
-                                   "(B8) of docs/theory.md is used; leave it out");
+        return cli_case_refuse(run->words, "cite",
+                               "with --tractions no contact is solved, and nothing but "
+                               "(B8) of docs/theory.md is used; leave it out");
     if (st->tractions && st->map)
-        return cli_fail(CLI_USAGE,
-                        "--shakedown-map: its limits are those of rolling; with --tractions take "
-                        "--shakedown");
+        return cli_case_refuse(run->words, "shakedown-map",
+                               "its limits are those of rolling; with --tractions take "
+                               "--shakedown");
     if (st->vtk && (rb_report_vtk_kind_of(st->vtk, &kind, &why) != RB_OK ||
                     rb_report_vtk_check(kind, &asked, &why) != RB_OK))
-        return cli_fail(CLI_USAGE, "--vtk: %s", why.text);
+        return cli_case_refuse(run->words, "vtk", "%s", why.text);
     if (st->map && run->c->rc.plane == RB_PLANE_STRESS)
-        return cli_fail(CLI_USAGE, "--shakedown-map: its limits are those of plane "
-                                   "strain; in plane stress take --shakedown");
+        return cli_case_refuse(run->words, "shakedown-map",
+                               "its limits are those of plane "
+                               "strain; in plane stress take --shakedown");
     if (!read_grid(st))
-        return cli_fail(CLI_USAGE, "--grid: expected two numbers >= 2 such as 61x41, got '%s'",
-                        st->grid);
+        return cli_case_refuse(run->words, "grid",
+                               "expected two numbers >= 2 such as 61x41, got '%s'", st->grid);
     if (st->grid && st->points)
-        return cli_fail(CLI_USAGE, "--grid and --points exclude each other");
+        return cli_case_refuse(run->words, "points,grid", "not together with --grid");
     if (!st->points)
         return CLI_CONTINUE;
     static const rb_io_column places[] = {{"x", "position|pos", "mm", RB_IO_COLUMN_NEEDED},

@@ -46,6 +46,7 @@ typedef struct {
     const rb_case *base;
     rb_case *one; /* the current case: a copy of base with other numbers */
     const study_options *o;
+    const char *file;            /* the case file; NULL: none */
     const rb_option_set *own;    /* the options of a study, whose values are in o */
     const rb_option_set *cracks; /* those of a crack of base */
     int has_crack; /* 1: one of them is given or varies, the contact passes over a crack */

@@ -71,8 +71,8 @@ static cli_exit choose_axis(const study *st, const char *option, const char *nam
         }
     return *found >= 0 || !name
                ? CLI_CONTINUE
-               : cli_fail(CLI_USAGE, "--%s: expected %s option that varies, got '%s'%s", option,
-                          but < 0 ? "an" : "another", name, rb_guess_text(&guess, ""));
+               : cli_case_refuse(st->base, option, "expected %s option that varies, got '%s'%s",
+                                 but < 0 ? "an" : "another", name, rb_guess_text(&guess, ""));
 }
 
 /* The word of a row of a column; numbers between words as they are read. */
@@ -181,21 +181,18 @@ cli_exit cli_study_prepare_pictures(study *st)
     char name[STUDY_HEADING];
     if (!cli_study_has_pictures(st))
         return o->show || o->over || o->family
-                   ? cli_fail(CLI_USAGE,
-                              "--%s: there is no picture; --plot FILE or --map FILE asks for one",
-                              o->show   ? "show"
-                              : o->over ? "over"
-                                        : "family")
+                   ? cli_case_refuse(st->base, "show,over,family",
+                                     "there is no picture; --plot FILE or --map FILE asks for one")
                    : CLI_CONTINUE;
     for (int j = 0; j < st->results; j++)
         if (strcmp(name_of(&st->result[j], name), cli_study_shown(st)) == 0)
             st->drawn_column = st->columns + 2 + j;
     cli_exit code = choose_axis(st, "over", o->over, -1, &st->over);
     if (code == CLI_CONTINUE && st->over < 0)
-        code = cli_fail(CLI_USAGE, "--%s: no option varies", o->plot ? "plot" : "map");
+        code = cli_case_refuse(st->base, "plot,map", "no option varies");
     st->family = -1;
     if (code == CLI_CONTINUE && o->sample > 0 && o->family)
-        code = cli_fail(CLI_USAGE, "--family: the cases of --sample are points, not curves");
+        code = cli_case_refuse(st->base, "family", "the cases of --sample are points, not curves");
     if (code == CLI_CONTINUE && o->sample == 0)
         code = choose_axis(st, "family", o->family, st->over, &st->family);
     if (code == CLI_CONTINUE && o->map) {

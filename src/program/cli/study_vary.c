@@ -211,12 +211,15 @@ static cli_exit unknown(cli_exit bad, const char *source, const char *name)
 
 static cli_exit add_varied(study *st, int k)
 {
-    char source[24], name[64];
-    int at = 0;
+    char option[16], source[400], name[64];
+    int at = 0, place = 0;
 
-    snprintf(source, sizeof source, "--vary-%d", k + 1);
-    /* It stands in the case file or on the command line. */
-    const cli_exit bad = rb_option_given(st->own, source + 2) > 0 ? CLI_DATA : CLI_USAGE;
+    snprintf(option, sizeof option, "vary-%d", k + 1);
+    while (strcmp(st->own->options[place].name, option) != 0)
+        place++;
+    const int by = st->own->given[place];
+    const cli_exit bad = by > 0 ? CLI_DATA : CLI_USAGE;
+    rb_option_source(&st->own->options[place], by, st->file, source, sizeof source);
     if (sscanf(st->o->vary[k], "%63s%n", name, &at) != 1)
         return cli_fail(bad, "%s: expected an option and numbers, got '%s'", source,
                         st->o->vary[k]);
@@ -228,7 +231,7 @@ static cli_exit add_varied(study *st, int k)
         return code;
     /* The values behind the name of the column that has just been added. */
     study_column *c = &st->column[st->columns - 1];
-    typed t = typed_of(st, source + 2, o);
+    typed t = typed_of(st, option, o);
     char *copy = strdup(st->o->vary[k] + at);
     st->owned_n[k] = strlen(st->o->vary[k] + at) + 1;
     const int rows = copy ? read_values(&t, copy, &st->owned[k], &st->owned_words[k]) : NO_MEMORY;
@@ -389,7 +392,7 @@ cli_exit cli_study_sample(study *st, const rb_case *c)
         return cli_fail(CLI_USAGE, "--sample needs --tolerance NAME=X,...");
     const rb_status s = rb_case_read_tolerances(c, st->o->tolerance, &t, &why);
     if (s != RB_OK)
-        return cli_say(s, &why);
+        return cli_case_refused(c, s, &why);
     st->sampled = rb_alloc((size_t)n, (size_t)t.n);
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     if (!st->sampled || !rng) {
@@ -487,9 +490,9 @@ static rb_status check_crack(const study *st, rb_message *why)
     if (!crack)
         return RB_OK;
     if (!isnan(crack->paris))
-        return rb_fail(why, RB_EINVAL,
-                       "--paris: a study has the K of cracks of given lengths; rollbem "
-                       "crack lets one grow");
+        return rb_refuse(why, "paris",
+                         "a study has the K of cracks of given lengths; rollbem "
+                         "crack lets one grow");
     return rb_case_crack_check(rb_case_resolved(st->one), crack, why);
 }
 
@@ -533,7 +536,8 @@ cli_exit cli_study_check(study *st)
         code = cli_study_set_values(st, st->one, k);
         if (code == CLI_CONTINUE)
             code = cli_say(rb_case_resolve(st->one, &why), &why);
-        const rb_status s = code == CLI_CONTINUE ? check_crack(st, &why) : RB_OK;
+        const rb_status s =
+            code == CLI_CONTINUE ? rb_case_locate(st->one, check_crack(st, &why), &why) : RB_OK;
         if (s != RB_OK)
             code = cli_fail(cli_exit_of(s), "case %d: %s", k + 1, why.text);
     }

@@ -182,7 +182,7 @@ static cli_exit choose_by_name(study *st, const char *option, const char *name)
                                         &rb_rolling_maxima_b_scalars},
                                        {OF_SOLUTION, OF_STRESS, OF_STRESS_B}};
     if (bar && !rb_case_resolved(st->base)->error)
-        return cli_fail(CLI_USAGE, "--%s: '%s' needs --error", option, name);
+        return cli_case_refuse(st->base, option, "'%s' needs --error", name);
     for (int t = 0; t < from.n; t++)
         for (int k = 0; k < from.table[t]->n; k++) {
             const study_result found = {&from.table[t]->row[k], from.of[t], 0};
@@ -191,7 +191,7 @@ static cli_exit choose_by_name(study *st, const char *option, const char *name)
                 continue;
             choose(st, found);
             return bar && !has_error_bar(st, &found)
-                       ? cli_fail(CLI_USAGE, "--%s: %s has no error bar", option, own)
+                       ? cli_case_refuse(st->base, option, "%s has no error bar", own)
                        : CLI_CONTINUE;
         }
     /* With the results that there are, where none is similar. */
@@ -201,7 +201,7 @@ static cli_exit choose_by_name(study *st, const char *option, const char *name)
         for (int k = 0; k < from.table[t]->n; k++)
             rb_append(all, sizeof all, "%s%s", *all ? ", " : "; there are ",
                       from.table[t]->row[k].name);
-    return cli_fail(CLI_USAGE, "--%s: no result '%s'%s%s", option, name, near, all);
+    return cli_case_refuse(st->base, option, "no result '%s'%s%s", name, near, all);
 }
 
 /* Those of the crack, or those that the cases have and no option names, then those of
@@ -228,7 +228,7 @@ static cli_exit choose_results(study *st)
     if (code == CLI_CONTINUE && cli_study_has_pictures(st)) {
         const char *shown = cli_study_shown(st);
         code = is_given(st, shown)
-                   ? cli_fail(CLI_USAGE, "--show: %s varies; expected a result", shown)
+                   ? cli_case_refuse(st->base, "show", "%s varies; expected a result", shown)
                    : choose_by_name(st, "show", shown);
     }
     if (code == CLI_CONTINUE && one->error) {
@@ -238,18 +238,18 @@ static cli_exit choose_results(study *st)
                 choose(st, (study_result){st->result[k].r, st->result[k].of, 1});
     }
     if (code == CLI_CONTINUE && st->o->derivatives && st->has_crack)
-        code = cli_fail(CLI_USAGE, "--derivatives: the K of cracks have none");
+        code = cli_case_refuse(st->base, "derivatives", "the K of cracks have none");
     if (code == CLI_CONTINUE && st->o->derivatives) {
         const rb_status s =
             rb_case_slopes_choose(st->base, &rb_rolling_solution_scalars, st->o->derivatives,
                                   RB_ROW_OWN, &st->slopes, &why);
         if (s != RB_OK)
-            code = cli_say(s, &why);
+            code = cli_case_refused(st->base, s, &why);
     }
     const int deviates = st->o->tolerance && st->o->sample == 0;
     if (code == CLI_CONTINUE && deviates && st->has_crack)
-        code =
-            cli_fail(CLI_USAGE, "--tolerance: the K of cracks have no derivatives; give --sample");
+        code = cli_case_refuse(st->base, "tolerance",
+                               "the K of cracks have no derivatives; give --sample");
     if (code == CLI_CONTINUE && deviates) {
         const rb_rolling_result *of[RESULTS_MAX];
         int n = 0;
@@ -259,7 +259,7 @@ static cli_exit choose_results(study *st)
         const rb_status s =
             rb_case_slopes_add_deviations(st->base, st->o->tolerance, n, of, &st->slopes, &why);
         if (s != RB_OK)
-            code = cli_say(s, &why);
+            code = cli_case_refused(st->base, s, &why);
     }
     /* Not every body's stress is known; what else is wrong is known with the first case. */
     if (code != CLI_CONTINUE)
@@ -850,6 +850,7 @@ static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
 {
     cli_exit code = cli_case_read(spec, argc, argv, c, args);
 
+    st->file = cli_case_file_of(args);
     if (code == CLI_CONTINUE)
         code = cli_study_read(st);
     if (code == CLI_CONTINUE && st->o->sample > 0) {
@@ -900,6 +901,7 @@ int cli_sweep(int argc, char **argv)
                                     cli_example_set()},
                            .set_n = 4};
     st.own = &spec.sets[1];
+    rb_case_also_locate(c, st.own);
     st.cracks = &spec.sets[2];
     cli_exit code = cli_pool_begin(argc, argv);
     if (code != CLI_CONTINUE) {

@@ -157,11 +157,12 @@ static cli_exit check(cli_case_run *run)
     if (isnan(w->coefficient))
         return cli_fail(CLI_USAGE, "wear needs --wear-coefficient");
     if (!isnan(w->slide) && !isnan(w->cycles))
-        return cli_fail(CLI_USAGE, "--slide and --cycles exclude each other");
+        return cli_case_refuse(run->words, "cycles,slide", "not together with --slide");
     if (isnan(w->slide) && isnan(w->cycles))
         return cli_fail(CLI_USAGE, "wear needs --slide or --cycles");
     if (run->c->rc.formulation == RB_STEADY && w->profile)
-        return cli_fail(CLI_USAGE, "--profile: a wheel that rolls stays round; see the radius");
+        return cli_case_refuse(run->words, "profile",
+                               "a wheel that rolls stays round; see the radius");
     return CLI_CONTINUE;
 }
 

@@ -16,6 +16,17 @@ static int goes_by_waves(const rb_rolling_case *rc, const rb_rolling_body *body)
     return body->cover > 0.0 && rc->near_field == RB_NEAR_FIELD_AUTO;
 }
 
+/* src/bem knows no options: what it refuses is that of the first ones, or of the
+ * others. */
+static rb_status name_options(rb_status s, int other, const char *first, const char *second,
+                              rb_message *why)
+{
+    return s == RB_EINVAL ? rb_refuse(why, other ? second : first, "%s", why ? why->text : "") : s;
+}
+
+static const char of_rings[] = "hub-ratio,cover-thickness,radius",
+                  of_rings_b[] = "hub-ratio-b,cover-thickness-b,radius-b";
+
 static rb_status boundary_mesh(const rb_rolling_plan *plan, const rb_rolling_body *body,
                                const rb_rolling_mesh *mesh, rb_bem_cylinder *cylinder,
                                rb_bem_mesh *boundary, rb_message *why)
@@ -27,7 +38,15 @@ static rb_status boundary_mesh(const rb_rolling_plan *plan, const rb_rolling_bod
                                   .cover = body->cover,
                                   .outer_elements = plan->outer_elements,
                                   .refinement = plan->outer_refinement};
-    return rb_bem_mesh_cylinder(cylinder, mesh->n, mesh->ends, boundary, why);
+    rb_status s = rb_bem_mesh_cylinder(cylinder, mesh->n, mesh->ends, boundary, why);
+    if (s != RB_EINVAL)
+        return s;
+    /* is it also wrong with as many elements as fit? */
+    rb_bem_cylinder graded = *cylinder;
+    graded.outer_elements = 0;
+    s = rb_bem_mesh_cylinder(&graded, mesh->n, mesh->ends, boundary, NULL);
+    rb_bem_mesh_free(boundary);
+    return name_options(RB_EINVAL, s == RB_OK, "zone,arc,arc-b", "outer-elements", why);
 }
 
 /* The boundary elements of a wheel, of its cover alone where the core is rigid, of both
@@ -42,7 +61,8 @@ static rb_status wheel_system(const rb_rolling_case *rc, const rb_rolling_plan *
     rb_status s = boundary_mesh(plan, body, mesh, &cylinder, &boundary, why);
 
     if (s == RB_OK && rb_rolling_has_elastic_core(body)) {
-        s = rb_bem_mesh_core(&cylinder, &boundary, &core, why);
+        s = name_options(rb_bem_mesh_core(&cylinder, &boundary, &core, why), body == &rc->b,
+                         of_rings, of_rings_b, why);
         if (s == RB_OK)
             s = rb_bem_system_create_bonded(&boundary, material, &core,
                                             rb_rolling_base_material(rc, body), system, why);
@@ -111,8 +131,9 @@ static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_p
     const rb_bem_wheel wheel = rb_rolling_wheel_of(rc, body, length);
     const double start = rb_seconds();
     const int by_waves = goes_by_waves(rc, body);
-    rb_status s = by_waves ? rb_bem_flexibility_wheel(mesh->n, mesh->ends, &wheel, rc->normals,
-                                                      &one_body->f, why)
+    rb_status s = by_waves ? name_options(rb_bem_flexibility_wheel(mesh->n, mesh->ends, &wheel,
+                                                                   rc->normals, &one_body->f, why),
+                                          body == &rc->b, of_rings, of_rings_b, why)
                            : wheel_system(rc, plan, body, mesh, &one_body->system, why);
 
     if (s == RB_OK && !by_waves) {
@@ -149,8 +170,9 @@ static rb_status wheel_transforms(const rb_rolling_case *rc, const rb_rolling_pl
     double length[RB_ROLLING_TERMS];
     const rb_bem_wheel wheel = rb_rolling_wheel_of(rc, body, length);
     (void)plan;
-    return rb_bem_flexibility_wheel_products(mesh->n, mesh->ends, &wheel, rc->normals, &one_body->f,
-                                             why);
+    return name_options(rb_bem_flexibility_wheel_products(mesh->n, mesh->ends, &wheel, rc->normals,
+                                                          &one_body->f, why),
+                        body == &rc->b, of_rings, of_rings_b, why);
 }
 
 enum { WHEEL = RB_BODY_BOUNDARY | RB_BODY_ELASTIC | RB_BODY_STRESS };

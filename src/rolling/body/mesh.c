@@ -170,17 +170,21 @@ int rb_rolling_fills_period(const rb_rolling_case *rc, const rb_rolling_mesh *me
     return rc->period > 0.0 && mesh->ends[mesh->n] - mesh->ends[0] >= (1.0 - 1e-9) * rc->period;
 }
 
+/* What decides how wide the potential contact is. */
+static const char of_extent[] = "zone,approach,load,half-width,max-pressure,radius";
+
 /* The mesh must stay on the lower half of every round body. */
 static rb_status check_extent(const rb_rolling_case *rc, double from, double to, rb_message *why)
 {
     const double radius = lower_half(rc);
 
     if (!(from < to))
-        return rb_fail(why, RB_EINVAL, "potential contact from %g to %g mm is empty", from, to);
+        return rb_refuse(why, of_extent, "the potential contact from %g to %g mm is empty", from,
+                         to);
     if (fmax(fabs(from), fabs(to)) >= radius)
-        return rb_fail(why, RB_EINVAL,
-                       "potential contact from %g to %g mm is wider than the radius, %g mm", from,
-                       to, radius);
+        return rb_refuse(why, of_extent,
+                         "the potential contact from %g to %g mm is wider than the radius, %g mm",
+                         from, to, radius);
     return RB_OK;
 }
 
@@ -209,10 +213,10 @@ static rb_status equal_elements(const rb_rolling_case *rc, int n, double from, d
     if (s != RB_OK)
         return s;
     /* an arc beyond the quarter circle turns back */
-    return rb_fail(why, RB_EINVAL,
-                   "potential contact from %g to %g mm: no room for the element before it "
-                   "within the radius, %g mm; take more elements",
-                   from, to, rc->a.radius);
+    return rb_refuse(why, of_extent,
+                     "the potential contact from %g to %g mm: no room for the element before it "
+                     "within the radius, %g mm; take more elements",
+                     from, to, rc->a.radius);
 }
 
 rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, const rb_rolling_plan *plan,

@@ -282,9 +282,44 @@ static rb_status refuse_by(const rb_case *c, size_t n, const rule *rules, rb_mes
     return RB_OK;
 }
 
+/* An option and where its value comes from; of NULL: none. */
+typedef struct {
+    const rb_option *of;
+    int given;
+} source;
+
+static source given_in(const rb_option_set *set, const char *name)
+{
+    for (int k = 0; k < set->n; k++)
+        if (set->given && set->given[k] && strcmp(set->options[k].name, name) == 0)
+            return (source){&set->options[k], set->given[k]};
+    return (source){NULL, 0};
+}
+
+/* Where an option of the case, of its crack or of the command is given. */
+static source source_of(const rb_case *c, const char *name)
+{
+    const rb_option_set crack = {rb_case_crack_options, rb_case_crack_options_n, NULL,
+                                 (int *)c->crack.given, NULL};
+    source found = {rb_case_option(name), rb_case_given(c, name)};
+    if (!found.given)
+        found = given_in(&crack, name);
+    for (int k = 0; k < c->commands && !found.given; k++)
+        found = given_in(&c->command[k], name);
+    return found;
+}
+
+void rb_case_also_locate(rb_case *c, const rb_option_set *set)
+{
+    if (!set)
+        c->commands = 0;
+    else if (c->commands < (int)(sizeof c->command / sizeof *c->command))
+        c->command[c->commands++] = *set;
+}
+
 /* The first given one of the options that a refusal is about, or that of A which an option of B
- * follows; NULL: none is given. */
-static const rb_option *blamed(const rb_case *c, const rb_message *why)
+ * follows. */
+static source blamed(const rb_case *c, const rb_message *why)
 {
     char name[sizeof why->about];
     for (int of_a = 0; of_a < 2; of_a++)
@@ -292,10 +327,11 @@ static const rb_option *blamed(const rb_case *c, const rb_message *why)
             const size_t n = strlen(name);
             if (of_a && n > 2 && strcmp(name + n - 2, "-b") == 0)
                 name[n - 2] = '\0';
-            if (rb_case_given(c, name) != 0)
-                return rb_case_option(name);
+            const source found = source_of(c, name);
+            if (found.given)
+                return found;
         }
-    return NULL;
+    return (source){NULL, 0};
 }
 
 /* The table that the value of this option is read from; NULL: none is. */
@@ -317,18 +353,17 @@ rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why)
     if (s != RB_EINVAL || !why)
         return s;
     const rb_message said = *why;
-    const rb_option *o = blamed(c, &said);
-    const case_table *t = o ? table_of(c, o) : NULL;
-    char source[400];
+    const source by = blamed(c, &said);
+    const case_table *t = by.of ? table_of(c, by.of) : NULL;
+    char place[400];
     if (t && said.row >= 1 && said.row <= t->table.rows)
         return rb_fail(why, RB_EFORMAT, "%s:%d: %s", t->path, t->table.line[said.row - 1],
                        said.text + said.rest);
     if (t)
         return rb_fail(why, RB_EFORMAT, "%s: %s", t->path, said.text);
-    const int by = o ? rb_case_given(c, o->name) : 0;
-    if (o)
-        return rb_fail(why, by > 0 ? RB_EFORMAT : s, "%s: %s",
-                       rb_option_source(o, by, c->path, source, sizeof source),
+    if (by.of)
+        return rb_fail(why, by.given > 0 ? RB_EFORMAT : s, "%s: %s",
+                       rb_option_source(by.of, by.given, c->path, place, sizeof place),
                        said.text + said.rest);
     if (!*c->path)
         return s;

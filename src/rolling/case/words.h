@@ -57,7 +57,9 @@ struct rb_case {
     rb_contact_cone_finder *find_cone_solver; /* NULL: there are none */
     int confined;                             /* 1: rb_case_confine was called */
     const char *folder;                       /* of it; borrowed */
-    char **text;                              /* copies of values; owned */
+    rb_option_set command[2];                 /* rb_case_also_locate: of a command; borrowed */
+    int commands;
+    char **text; /* copies of values; owned */
     int texts;
 };
 
