@@ -543,6 +543,14 @@ static rb_status search(problem *p)
     return p->status;
 }
 
+#else
+
+/* Not reached: rb_design_available. */
+static rb_status search(problem *p)
+{
+    return evaluate(p, p->best);
+}
+
 #endif
 
 rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer, rb_design *d,
@@ -571,10 +579,8 @@ rb_status rb_design_solve(const rb_case *c, const rb_design_observer *observer, 
     d->start = d->value = NAN;
     for (int j = 0; j < d->n && p.best; j++)
         p.best[j] = d->variable[j].start;
-#if RB_NLOPT
     if (s == RB_OK)
         s = search(&p);
-#endif
     for (int j = 0; j < d->n && p.best; j++)
         d->variable[j].value = p.best[j];
     if (s == RB_OK && !(p.best_value < INFINITY))
