@@ -17,6 +17,9 @@ static const char *const cases[] = {
     SMALL "--support halfplane --load 100 --creep 1e-4 --slip-operator second" STEADY,
     SMALL "--support arc --approach 0.01 --creep-ratio 0.4 --young-b 210000 --poisson-b 0.3 "
           "--radius-b 80 --gap parabola" STEADY,
+    TINY
+    "--support halfplane --young-b 70000 --poisson-b 0.3 --wheel-load 1000 --transverse-radius "
+    "80 --creep-ratio 0.4 --strips 3" STEADY,
 };
 
 enum { CASES = sizeof cases / sizeof cases[0] };

@@ -107,32 +107,92 @@ TEST(force_of_the_whole)
         CHECK_ABS(Q, rows[k].corrected, 6e-4, "row %zu", k);
         CHECK_REL(Q, rows[k].solid, 0.03, "row %zu", k);
     }
-    /* strips at the nodes of Chebyshev, each a case of its own */
-    enum { N = 9 };
-    const double pi = acos(-1.0);
-    held_json *middle = run_jsonf(ROLLS, 0.3, 300.0, 0.4);
-    const double a = of_summary(middle, "ellipse_a"), xi = of_summary(middle, "creepage"),
-                 R = of_summary(middle, "strip_radius");
-    double sum = 0.0;
-    for (int j = 0; j < N / 2 + 1; j++) {
-        const double sine = sin((j + 0.5) * pi / N);
-        held_json *strip = run_jsonf("--support halfplane --similar --young 210000 --poisson 0.3 "
-                                     "--mu 0.3 --formulation steady --gap parabola --radius %.15g "
-                                     "--half-width %.15g --creep %.15g",
-                                     R, a * sine, xi);
-        sum += (j == N / 2 ? 1.0 : 2.0) * 0.75 * pi / N * sine * sine * sine *
-               of_summary(strip, "force_ratio");
-    }
-    CHECK_ABS(of_summary(middle, "ellipse_force") / 3e4, sum, 1e-3, "strips");
     /* not of unlike bodies, and not where Kalker's table ends */
     held_json *unlike =
         run_json("--support halfplane --young 210000 --young-b 70000 --wheel-load 1kN --mu 0.3 "
                  "--radius 100 --transverse-radius 100 --formulation steady --creep-ratio 0.3");
     assert_null(json_object_get(json_object_get(unlike, "summary"), "ellipse_force"));
+    held_json *middle = run_jsonf(ROLLS, 0.3, 300.0, 0.4);
     held_json *thin = run_jsonf(ROLLS, 0.3, 1e5, 0.4);
     assert_true(isnan(of_summary(thin, "ellipse_force_kalker")));
     CHECK_ABS(of_summary(thin, "ellipse_force") / 3e4, of_summary(middle, "ellipse_force") / 3e4,
               1e-9, "any ellipse");
+}
+
+/* (E3) Q by --strips is that of cases of their own at the nodes cos(phi) across the ellipse, whose
+ * weights make them carry W: unlike bodies, friction that falls or is heated, a third body. */
+TEST(strips_are_cases_of_their_own)
+{
+    static const struct {
+        const char *bodies, *rolls;
+        int strips;
+    } rows[] = {
+        {"--support halfplane --young 210000 --poisson 0.3 --young-b 73000 --poisson-b 0.33",
+         "--mu 0.3 --creep 0.004", 5},
+        {STEEL,
+         "--mu 0.1 --friction-law exponential --mu-fall 0.1 --slip-scale 60 --speed 20000 "
+         "--creep 0.002",
+         4},
+        {STEEL,
+         "--mu 0.3 --mu-heat -0.1,20,300 --conductivity 50 --heat-capacity 3.6 --speed 20000 "
+         "--temperature 20 --creep 0.003",
+         4},
+        {STEEL, "--mu 0.3 --interlayer-tangential 2e-6 --creep -0.002", 5},
+        {STEEL, "--mu 0.3 --bulk-stress 100 --force-ratio -0.4", 3}};
+    const double pi = acos(-1.0), W = 1e5;
+
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        const int n = rows[k].strips;
+        held_json *whole = run_jsonf("%s %s --formulation steady --wheel-load 100kN --radius 460 "
+                                     "--transverse-radius-b 300 --contact-elements 60 --strips %d",
+                                     rows[k].bodies, rows[k].rolls, n);
+        char rolls[300];
+        snprintf(rolls, sizeof rolls, "%s", rows[k].rolls);
+        char *force = strstr(rolls, "--force-ratio");
+        if (force) /* the strips have the creepage that this makes */
+            snprintf(force, sizeof rolls - (size_t)(force - rolls), "--creep %.17g",
+                     of_summary(whole, "creepage"));
+        double sum = 0.0, carried = 0.0;
+        for (int j = 0; j < n; j++) {
+            const double sine = sin((j + 0.5) * pi / n);
+            held_json *strip = run_jsonf(
+                "%s %s --formulation steady --gap parabola --radius %.17g --half-width %.17g "
+                "--contact-elements 60",
+                rows[k].bodies, rolls, of_summary(whole, "strip_radius"),
+                of_summary(whole, "ellipse_a") * sine);
+            sum += sine * of_summary(strip, "tangential_load");
+            carried += sine * of_summary(strip, "normal_load");
+        }
+        CHECK_REL(of_summary(whole, "ellipse_force"), W * sum / carried, 1e-7, "row %zu", k);
+    }
+}
+
+/* (E3) by both ways, and full sliding, which any number of strips has; a curve has the forces of
+ * its points. */
+TEST(strips_add_up)
+{
+    static const double s[] = {0.1, 0.3, 0.5, 0.8},
+                        want[] = {0.220631962, 0.572880187, 0.811119584, 0.980201331};
+    for (size_t k = 0; k < 4; k++) {
+        held_json *nine = run_jsonf(ROLLS " --strips 9", 0.3, 300.0, s[k]);
+        held_json *more = run_jsonf(ROLLS " --strips 15", 0.3, 300.0, s[k]);
+        CHECK_ABS(of_summary(nine, "ellipse_force") / -3e4, want[k], 4.4e-4, "9, s = %g", s[k]);
+        CHECK_ABS(of_summary(more, "ellipse_force") / -3e4, want[k], 1e-4, "15, s = %g", s[k]);
+    }
+    held_json *slides =
+        run_json("--support halfplane --young 210000 --young-b 70000 --wheel-load 1kN --mu 0.3 "
+                 "--radius 100 --transverse-radius 100 --formulation steady --creep 0.5 --strips 3 "
+                 "--contact-elements 30");
+    CHECK_REL(of_summary(slides, "ellipse_force"), -300.0, 1e-9, "full sliding");
+#define UNLIKE                                                                                     \
+    "--support halfplane --young 210000 --young-b 70000 --wheel-load 1kN --mu 0.3 --radius 100 "   \
+    "--transverse-radius 100 --strips 3 --contact-elements 30 "
+    held_json *curve = run_json("curve " UNLIKE "--from 0 --to 1 --points 3");
+    for (size_t k = 0; k < 3; k++) {
+        held_json *one = run_jsonf(UNLIKE "--formulation steady --creep-ratio %g", 0.5 * (double)k);
+        CHECK_ABS(entry(json_object_get(curve, "curve"), "ellipse_force", k),
+                  of_summary(one, "ellipse_force"), 0.05, "point %zu", k);
+    }
 }
 
 /* a and p0 grow like the cube root of the load, what the strip carries per width like its square.
@@ -166,6 +226,11 @@ TEST(what_is_refused)
         {"wear " STEEL "--wheel-load 1kN --radius 100 --transverse-radius 80 --mu 0.3 --slide 100 "
          "--wear-coefficient 1e-8",
          "apart from its ellipse"},
+        {STEEL "--load 10 --radius 100 --strips 9 --formulation steady --creep 0", "--wheel-load"},
+        {STEEL "--wheel-load 1kN --radius 100 --transverse-radius 80 --strips 9 --mu 0.3",
+         "--formulation steady"},
+        {STEEL "--wheel-load 1kN --radius 100 --transverse-radius 80 --strips -1 --mu 0.3",
+         "--strips: expected a whole number"},
         {"--wheel-load 1kN --transverse-radius 80", "half-planes of one elastic material"},
         {STEEL "--wheel-load 1kN --transverse-radius 80 --layer-thickness 3 --base-young 1e5",
          "half-planes of one elastic material"}};

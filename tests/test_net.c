@@ -191,7 +191,7 @@ static const char options_elsewhere[] =
     "relaxation-ratio-b"
     " free-axle gap-smoothing conductivity heat-capacity temperature conductivity-b heat-capacity-b"
     " temperature-b worn interlayer-normal interlayer-tangential yield-stress hardening"
-    " bulk-stress bulk-stress-b tilt moment wheel-load layer-base layer-base-b"
+    " bulk-stress bulk-stress-b tilt moment wheel-load strips layer-base layer-base-b"
     " transverse-radius transverse-radius-b period amplitude ";
 
 enum { LEVELS = 40 };

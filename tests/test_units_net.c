@@ -45,6 +45,9 @@ static const char *const lines[] = {
     "~ --max-pressure {MPa 900} --shift {mm 1e-4}",
     "~ --gap parabola --wheel-load {N 100000} --transverse-radius {mm 300} --transverse-radius-b "
     "{mm 2000}",
+    "~ --gap parabola --wheel-load {N 100000} --transverse-radius {mm 300} --strips 3 "
+    "--formulation "
+    "steady --creep 1e-3 --contact-elements 20",
     "~ --load {N/mm 500} --shift {mm 1e-3} --bulk-stress {MPa 40} --bulk-stress-b {MPa -20}",
     "~ --load {N/mm 500} --moment {N 30} --shift {mm 1e-4}",
     "--support halfplane --young {MPa 205000} --poisson 0.3 --gap wave --period {mm 1} --amplitude "

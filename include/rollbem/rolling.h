@@ -187,6 +187,8 @@ typedef struct {
      * through the middle of the ellipse that rb_rolling_find_ellipse finds. */
     double wheel_load, transverse_radius, transverse_radius_b;
     rb_rolling_ellipse ellipse;
+    int strips; /* steady: of the ellipse, each solved for its force; 0: none, the closed form of
+                   bodies that are alike */
 
     /* static: one of shift, force, force_ratio loads the contact (all NAN: the shift is a
      * tenth of the given approach, as in *Addi*, or 0 under load control); creep or
@@ -393,7 +395,8 @@ typedef struct {
     double support_balance;              /* (reaction + load)/P; NAN for half-planes */
     double approach, tangential_shift;   /* delta; rigid shift (static) [length] */
     rb_rolling_ellipse ellipse;          /* NAN: there is none */
-    /* steady, of an ellipse between alike bodies: Q of the whole of it by strips, and with the
+    /* steady, of an ellipse between alike bodies, or by the strips that the case asks for: Q of the
+     * whole of it; and of alike bodies with the
      * slope of Kalker's C11 [force]; otherwise NAN */
     double ellipse_force, ellipse_force_kalker;
     /* of layers on smooth bases: the creepage of what is unstrained ahead of the contact, and
@@ -731,8 +734,9 @@ typedef struct rb_rolling_curve {
     double *residual;
     double *speed; /* [length/s]; 0 if no speed is given, because no body is viscoelastic */
     double *resistance_moment, *resistance_ratio, *hysteresis; /* as in rb_rolling_solution */
-    double *torque_a, *torque_b; /* likewise; torque_b: NULL if B is a plane */
-    double *max_temperature;     /* NULL if the case has no heat conduction */
+    double *torque_a, *torque_b;                  /* likewise; torque_b: NULL if B is a plane */
+    double *max_temperature;                      /* NULL if the case has no heat conduction */
+    double *ellipse_force, *ellipse_force_kalker; /* as in rb_rolling_solution; NULL: none */
     int *branch;   /* 1: computed in the direction from `from` to `to`, 2: in the opposite
                       direction; NULL if friction does not depend on the state */
     double *kappa; /* as in rb_rolling_solution; NULL likewise */

@@ -38,6 +38,10 @@ rb_status rb_rolling_program_check_base(const rb_rolling_program *program,
 int rb_rolling_ellipse_slides_alike(const rb_rolling_case *rc);
 void rb_rolling_ellipse_forces(const rb_rolling_case *rc, double creep_ratio, double *strips,
                                double *kalker);
+/* NAN where there is none; of the strips that the case asks for, `strips` is set by
+ * rb_rolling_solve_strips. */
+void rb_rolling_set_ellipse_forces(const rb_rolling_case *rc, double creep_ratio, double *strips,
+                                   double *kalker);
 /* 1: a tilt or a moment is given; and the tilt (U3). */
 int rb_rolling_is_tilted(const rb_rolling_case *rc);
 double rb_rolling_tilt(const rb_rolling_case *rc);

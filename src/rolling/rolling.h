@@ -250,6 +250,7 @@ typedef enum {
     RB_FOR_CYLINDER_B,
     RB_FOR_TILT,
     RB_FOR_ELLIPSE,
+    RB_FOR_ELLIPSE_FORCE,
     RB_FOR_SMOOTH_BASE
 } rb_rolling_condition;
 
@@ -437,6 +438,10 @@ rb_rolling_case rb_rolling_without_force(const rb_rolling_case *rc);
 /* The creepage at which Q = 0 (steady, mu > 0), on the model's mesh.  The model's
  * solution is not changed, but the data that it keeps for further solves is. */
 rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage, rb_message *why);
+/* The force of the whole ellipse at the creepage of the solved model, by the strips that its case
+ * asks for, each solved on its own; force is left as it is where it asks for none.  A strip without
+ * a solution: its status, NAN. */
+rb_status rb_rolling_solve_strips(const rb_rolling_model *model, double *force, rb_message *why);
 
 /* P and Q of the state. */
 double rb_rolling_model_load(const rb_rolling_model *model);

@@ -52,6 +52,11 @@ rb_status rb_rolling_solve_model_reuse(const rb_rolling_case *rc, rb_rolling_mod
         s = rb_rolling_free_creepage_if_any(model, &solution->free_creepage, why);
         solution->seconds_total = rb_seconds() - start;
     }
+    if (s == RB_OK && rc->strips > 0) {
+        s = rb_rolling_solve_strips(model, &solution->ellipse_force, why);
+        solution->seconds_total = rb_seconds() - start;
+        solution->status = s >= 0 ? s : solution->status;
+    }
     return s;
 }
 

@@ -387,6 +387,9 @@ rb_status rb_certificate_restore(rb_certificate *c, const rb_resolved_case *reso
         *creepage = free_rolling == RB_OK ? *creepage : (double)NAN;
         s = free_rolling == RB_ENOMEM ? free_rolling : RB_OK;
     }
+    /* so are the strips of an ellipse */
+    if (s == RB_OK && stored->summary)
+        s = rb_rolling_solve_strips(&r->model, &r->solution.ellipse_force, why);
     if (s == RB_OK && stored->summary)
         take_over(stored->summary, &r->model, &r->solution);
     if (s == RB_OK && c->moving > 0) {

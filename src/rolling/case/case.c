@@ -350,6 +350,7 @@ void rb_rolling_press_by_load(rb_rolling_case *rc)
 {
     rc->half_width = rc->max_pressure = rc->pressed_by = rc->wheel_load = NAN;
     rc->transverse_radius = rc->transverse_radius_b = INFINITY;
+    rc->strips = 0;
 }
 
 int rb_rolling_is_strained(const rb_rolling_case *rc)
@@ -1000,6 +1001,9 @@ static rb_status check_period(const rb_rolling_case *rc, rb_message *why)
 /* The strip through the middle of an ellipse. */
 static rb_status check_ellipse(const rb_rolling_case *rc, rb_message *why)
 {
+    if (!rb_rolling_has_ellipse(rc) && rc->strips > 0)
+        return rb_refuse(why, "strips",
+                         "of an ellipse under a load of all of it, add --wheel-load");
     if (!rb_rolling_has_ellipse(rc))
         return isinf(rc->transverse_radius) && isinf(rc->transverse_radius_b)
                    ? RB_OK
@@ -1008,6 +1012,8 @@ static rb_status check_ellipse(const rb_rolling_case *rc, rb_message *why)
                                                             : "transverse-radius",
                                "that of an ellipse under a load of all of it; give --wheel-load, "
                                "or leave it out");
+    if (rc->strips > 0 && rc->formulation != RB_STEADY)
+        return rb_refuse(why, "strips", "of an ellipse that rolls, add --formulation steady");
     if (!(rc->ellipse.radius > 0.0))
         return rb_refuse(why, "wheel-load", "its ellipse has not been found");
     if (rc->gap != RB_GAP_PARABOLA || rc->worn.n > 0)

@@ -114,6 +114,16 @@ void rb_rolling_ellipse_forces(const rb_rolling_case *rc, double creep_ratio, do
                  s = fabs(creep_ratio),
                  factor = steeper(rc->ellipse.a / rc->ellipse.b,
                                   rb_rolling_material(rc, &rc->a).poisson);
-    *strips = all * by_strips(s);
-    *kalker = isnan(factor) ? NAN : all * by_strips(factor * s);
+    *strips = all * by_strips(s) + 0.0; /* -0 is 0 */
+    *kalker = isnan(factor) ? NAN : all * by_strips(factor * s) + 0.0;
+}
+
+void rb_rolling_set_ellipse_forces(const rb_rolling_case *rc, double creep_ratio, double *strips,
+                                   double *kalker)
+{
+    *strips = *kalker = NAN;
+    if (rb_rolling_ellipse_slides_alike(rc))
+        rb_rolling_ellipse_forces(rc, creep_ratio, strips, kalker);
+    if (rc->strips > 0)
+        *strips = NAN;
 }

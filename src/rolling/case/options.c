@@ -265,6 +265,9 @@ const rb_option rb_case_table[] = {
                    .word = "flat", .word_value = INFINITY),
     RB_NUMBER_LINE("transverse-radius-b", RC(transverse_radius_b), "mm", RB_ANY,
                    "the same of B, as of a rail's head", .word = "flat", .word_value = INFINITY),
+    RB_INTEGER_LINE("strips", RC(strips), RB_FROM_TO(0, 1000),
+                    "wheel-load, steady: strips of the ellipse, each solved, that are added to "
+                    "ellipse_force, 15 do; 0: by formula, of alike bodies"),
 
     RB_GROUP_LINE("tangential", "Tangential direction: one of (static: see the notes)"),
     RB_NUMBER_LINE("shift", RC(shift), "mm", RB_ANY, "static: rigid displacement of A towards +x",

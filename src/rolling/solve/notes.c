@@ -453,6 +453,23 @@ static int strip_of_ellipse(const rb_rolling_case *rc, const rb_rolling_solution
                "there.");
 }
 
+/* (E3) Their slopes at no creepage. */
+static int slope_of_strips(const rb_rolling_case *rc, const rb_rolling_solution *s, char *text)
+{
+    static const double small = 1e-5, told = 0.01;
+    double strips, kalker;
+
+    if (!(s->ellipse.radius > 0.0) || !rb_rolling_ellipse_slides_alike(rc))
+        return 0;
+    rb_rolling_ellipse_forces(rc, small, &strips, &kalker);
+    const double more = strips / kalker - 1.0;
+    return fabs(more) > told &&
+           write_note(text,
+                      "At small creepage strips give %.2g %% %s creep force than the ellipse, by "
+                      "Kalker's C11; ellipse_force_kalker has its slope.",
+                      100.0 * fabs(more), more < 0.0 ? "less" : "more");
+}
+
 /* ---- What is given, perhaps in other units ----------------------------------------- */
 
 static int is_creepage_given(const rb_rolling_case *rc)
@@ -781,6 +798,7 @@ static const struct {
     {"strains", strains, 0},
     {"thin-and-strained", thin_and_strained, 0},
     {"strip-of-ellipse", strip_of_ellipse, 0},
+    {"slope-of-strips", slope_of_strips, 0},
     {"flat-layer", flat_layer, 0},
     {"near-datum", near_datum, 0},
     {"base-pulls", base_pulls, 0},

@@ -54,12 +54,14 @@ static const rb_rolling_result scalars[] = {
     RESULT("strip_radius", ellipse.radius, .unit = "mm", .no_derivative = 1,
            .condition = RB_FOR_ELLIPSE,
            .meaning = "E* a/(2 p0): radius of a cylinder with this a and p0, not that of rolling"),
-    RESULT("ellipse_force", ellipse_force, .unit = "N", .no_derivative = 1,
-           .condition = RB_FOR_ELLIPSE,
-           .meaning = "Q of the whole ellipse by strips, steady rolling of alike bodies"),
+    RESULT("ellipse_force", ellipse_force, .unit = "N", .no_derivative = 1, .study = 30,
+           .condition = RB_FOR_ELLIPSE_FORCE,
+           .meaning = "Q of the whole ellipse by strips, steady rolling of alike bodies, or with "
+                      "--strips"),
     RESULT("ellipse_force_kalker", ellipse_force_kalker, .unit = "N", .no_derivative = 1,
-           .condition = RB_FOR_ELLIPSE,
-           .meaning = "the same with the slope of Kalker's C11, a/b from 0.1 to 10"),
+           .study = 31, .condition = RB_FOR_ELLIPSE_FORCE,
+           .meaning = "the same of alike bodies with the slope of Kalker's C11, a/b from 0.1 to "
+                      "10"),
     RESULT("mean_pressure", mean_pressure, .unit = "MPa", .no_derivative = 1,
            .condition = RB_FOR_PERIOD, .meaning = "P over the period, with --period"),
     RESULT("contact_share", contact_share, .no_derivative = 1, .condition = RB_FOR_PERIOD,
@@ -272,6 +274,11 @@ static const rb_rolling_result points[] = {
           .meaning = "M + Q R_A, on A's axle, > 0 the way A rolls"),
     POINT("torque_b", torque_b, .unit = "N", .error_bar = RB_SCALE_ONE,
           .condition = RB_FOR_CYLINDER_B, .meaning = "M - Q R_B, on B's axle, > 0 the way B rolls"),
+    POINT("ellipse_force", ellipse_force, .unit = "N", .condition = RB_FOR_ELLIPSE_FORCE,
+          .meaning = "Q of the whole ellipse by strips"),
+    POINT("ellipse_force_kalker", ellipse_force_kalker, .unit = "N",
+          .condition = RB_FOR_ELLIPSE_FORCE,
+          .meaning = "the same of alike bodies with the slope of Kalker's C11"),
 };
 
 static const rb_rolling_result wears[] = {
@@ -458,6 +465,8 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc,
         return rb_rolling_is_tilted(rc);
     case RB_FOR_ELLIPSE:
         return rc->ellipse.radius > 0.0;
+    case RB_FOR_ELLIPSE_FORCE:
+        return rc->strips > 0 || rb_rolling_ellipse_slides_alike(rc);
     case RB_FOR_SMOOTH_BASE:
         return rc->formulation != RB_STATIC && rb_rolling_slides_on_base(rc);
     case RB_FOR_ALL:

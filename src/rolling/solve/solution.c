@@ -130,10 +130,7 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
                   (half_stretch(rc, &rc->a) + (rc->elastic_b ? half_stretch(rc, &rc->b) : 0.0));
     s->creepage_ahead = s->creepage + stretch;
     s->creepage_behind = s->creepage - stretch;
-    s->ellipse_force = s->ellipse_force_kalker = NAN;
-    if (rb_rolling_ellipse_slides_alike(model->rc))
-        rb_rolling_ellipse_forces(model->rc, s->creep_ratio, &s->ellipse_force,
-                                  &s->ellipse_force_kalker);
+    rb_rolling_set_ellipse_forces(rc, s->creep_ratio, &s->ellipse_force, &s->ellipse_force_kalker);
 }
 
 /* ---- All together ------------------------------------------------------------------ */

@@ -37,8 +37,9 @@ static rb_status keep(rb_rolling_solutions *all, const rb_rolling_model *model, 
         return rb_fail(why, RB_ENOMEM, "out of memory for %d solutions", all->n + 1);
     all->solution = more;
     const rb_status s = rb_rolling_model_solution(model, &more[all->n], why);
-    all->n += s == RB_OK;
-    return s;
+    if (s != RB_OK)
+        return s;
+    return rb_rolling_solve_strips(model, &more[all->n++].ellipse_force, why);
 }
 
 static int by_force(const void *x, const void *y)

@@ -86,6 +86,12 @@ static rb_status record(const rb_rolling_model *model, const watcher *w, rb_roll
     if (c->torque_b)
         c->torque_b[k] = torque_b;
     rb_status s = rb_rolling_hysteresis(model, &c->hysteresis[k]);
+    if (c->ellipse_force) {
+        rb_rolling_set_ellipse_forces(model->rc, c->creep_ratio[k], &c->ellipse_force[k],
+                                      &c->ellipse_force_kalker[k]);
+        if (s == RB_OK)
+            s = rb_rolling_solve_strips(model, &c->ellipse_force[k], why);
+    }
     if (s == RB_OK && c->max_temperature) {
         rb_rolling_solution warm;
         s = rb_rolling_model_solution(model, &warm, why);
@@ -100,6 +106,8 @@ static rb_status record(const rb_rolling_model *model, const watcher *w, rb_roll
         return s;
     const rb_status status = rb_rolling_model_solution(model, &c->last, why);
 
+    if (c->ellipse_force)
+        c->last.ellipse_force = c->ellipse_force[k];
     for (int i = 0; i < c->n && status == RB_OK; i++) {
         c->last.dissipation = fmin(c->last.dissipation, c->dissipation[i]);
         if (c->kappa)
