@@ -407,6 +407,34 @@ TEST(short_cracks)
     }
 }
 
+/* Where the contact changes from step to step its errors go to and fro with the mesh: twice the
+ * difference between two meshes held neither of these. */
+TEST(bars_of_histories_hold)
+{
+    static const struct {
+        const char *options, *name;
+        double want, most; /* of 1000 contact elements, 80 of the crack; of 1500, 200 */
+    } rows[] = {{"--mu 0.3 --half-width 1 --formulation transient --distance 12 --creep-ratio 0.5 "
+                 "--crack-angle 90 --crack-length 0.3 --crack-friction 0.3",
+                 "K_II_max", 4.7540, 0.1},
+                {"--mu 0.5 --formulation static --history there.txt --crack-angle 45 "
+                 "--crack-length 0.1 --crack-friction 0 --from 0.9",
+                 "K_II_min", -5.16977, 0.02}};
+    write_file("there.txt", "load force_ratio\n90 0\n90 0.5\n60 0.2\n90 -0.5\n90 0.3\n");
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        char line[500];
+        snprintf(line, sizeof line,
+                 "crack --similar --support halfplane --gap parabola --young 210000 --poisson 0.3 "
+                 "--radius 1000 --error %s",
+                 rows[k].options);
+        held_json *root = run_json(line);
+        const double bar =
+            number_in(json_object_get(json_object_get(root, "summary"), "errors"), rows[k].name);
+        CHECK_ABS(in_summary(root, rows[k].name), rows[k].want, bar, "%s", line);
+        CHECK_MAX(bar, rows[k].most, "%s", line);
+    }
+}
+
 /* The half-width is that of the loads of the history; lengths with a unit need none. */
 TEST(fretting_has_its_own_half_width)
 {

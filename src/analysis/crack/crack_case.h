@@ -140,9 +140,10 @@ const rb_rolling_result_table *rb_case_result_table(int k);
 
 /* ---- crack_results.c --------------------------------------------------------------- */
 
-/* Error bars: twice the largest difference to the summaries of other meshes, of which this is one;
- * of second order a third of the difference is left in one with twice as many elements. */
-void rb_case_crack_add_errors(const rb_case_crack_summary *other, rb_case_crack_result *result);
+/* Error bars: three times the spread over this mesh and two others of the contact, and twice the
+ * difference to a finer one of the crack, where of second order a third of it is left. */
+void rb_case_crack_set_errors(const rb_case_crack_summary contact[2],
+                              const rb_case_crack_summary *crack, rb_case_crack_result *result);
 /* The summary and its error bars as the own numbers of a row. */
 void rb_case_crack_set_row(rb_case_crack_result *result, rb_rolling_row *row);
 
