@@ -226,9 +226,10 @@ rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load, rb_bem_po
 
 /* Stress in a layer or in the base below it under given tractions (L5).  load: tractions
  * at nodes.  The arrays of body and load must exist until the field is freed.  The first
- * call whose points extend over more than three times the width of the load computes the
- * Fourier components of the field again.  RB_EINVAL: body is no layer, a point lies
- * outside, or the points extend too far for so thin a layer. */
+ * call with points computes the Fourier components of the field, and one whose points
+ * extend over more than those before and twice the width of the load computes them again.
+ * RB_EINVAL: body is no layer, a point lies outside, or the points extend too far for so
+ * thin a layer. */
 typedef struct rb_bem_layer_field rb_bem_layer_field;
 rb_status rb_bem_layer_field_create(const rb_bem_surface *body, const rb_bem_edge_load *load,
                                     rb_bem_layer_field **field, rb_message *why);

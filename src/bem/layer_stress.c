@@ -244,8 +244,7 @@ rb_status rb_bem_layer_field_create(const rb_bem_surface *body, const rb_bem_edg
         return RB_ENOMEM;
     f->body = *body;
     f->load = *load;
-    const rb_status s = body->stack ? rb_bem_stack_field_create(body, load, &f->stack, why)
-                                    : make_waves(f, 2.0 * (load->x[load->n - 1] - load->x[0]), why);
+    const rb_status s = body->stack ? rb_bem_stack_field_create(body, load, &f->stack, why) : RB_OK;
     if (s == RB_OK)
         *field = f;
     else
@@ -269,7 +268,8 @@ rb_status rb_bem_layer_field_add(rb_bem_layer_field *field, rb_bem_points points
             return rb_fail(why, RB_EINVAL, "point %d at (%g, %g) lies outside the body", k, at,
                            depth);
     }
-    const rb_status s = high - low > field->reach ? make_waves(field, high - low, why) : RB_OK;
+    const double reach = fmax(high - low, 2.0 * (x[field->load.n - 1] - x[0]));
+    const rb_status s = reach > field->reach ? make_waves(field, reach, why) : RB_OK;
     if (s != RB_OK)
         return s;
     for (int k = 0; k < points.n; k++)
