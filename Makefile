@@ -300,7 +300,7 @@ $(B)/tests/fault_malloc.so: tests/fault_malloc.c tests/fault_malloc.h tests/faul
 	$(Q)$(CC) $(STD) -O1 -Wall -Wextra -fPIC -shared -o $@ $< -ldl
 
 # the checker of the net shares nothing with the library; whoever builds a test that runs it gets it too
-$(B)/tests/test_net $(B)/tests/test_hostile $(B)/tests/test_certificates: | $(B)/tests/checker $(B)/rollbem
+$(B)/tests/test_net $(B)/tests/test_hostile $(B)/tests/test_certificates $(B)/tests/test_random_abilities: | $(B)/tests/checker $(B)/rollbem
 $(B)/tests/test_commands: | $(B)/rollbem
 $(B)/tests/test_net: | $(B)/tests/differences $(B)/tests/calls
 $(B)/tests/calls $(B)/tests/differences: $(B)/tests/%: $(B)/tests/%.o $(B)/librollbem.a

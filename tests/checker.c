@@ -328,6 +328,58 @@ static double wanted(const contact *c, const rows *controls, const char *column,
     return number(c->inputs, key);
 }
 
+/* Complete elliptic integrals K and E of the modulus e, by the arithmetic-geometric mean. */
+static void elliptic(double e, double *K, double *E)
+{
+    double a = 1.0, b = sqrt((1.0 - e) * (1.0 + e)), c = e, sum = 0.5 * e * e, power = 0.5;
+    for (int i = 0; i < 40; i++) {
+        c = 0.5 * (a - b);
+        const double next = 0.5 * (a + b);
+        b = sqrt(a * b);
+        a = next;
+        power *= 2.0;
+        sum += power * c * c;
+    }
+    *K = 0.5 * pi / a;
+    *E = *K * (1.0 - sum);
+}
+
+/* Curvatures of Hertz's ellipse along its short and its long semi-axis s and l, times
+ * E* l/p0 (Johnson 4.25). */
+static void curvatures(double s_over_l, double *steep, double *flat)
+{
+    const double e = sqrt((1.0 - s_over_l) * (1.0 + s_over_l));
+    double K, E;
+    elliptic(e, &K, &E);
+    *flat = e < 1e-4 ? 0.5 * pi : 2.0 * s_over_l * (K - E) / (e * e);
+    *steep = e < 1e-4 ? 0.5 * pi : 2.0 * s_over_l * (E / (s_over_l * s_over_l) - K) / (e * e);
+}
+
+/* The radius E* a/(2 p0) of the strip through the middle of the ellipse; 0: there is none. */
+static double strip_radius(const contact *c)
+{
+    const double second = number(c->inputs, "transverse-radius"),
+                 second_b = number(c->inputs, "transverse-radius-b"),
+                 load = number(c->inputs, "wheel-load"), along = 1.0 / c->radius,
+                 across = (isnan(second) ? 0.0 : 1.0 / second) +
+                          (isnan(second_b) ? 0.0 : 1.0 / second_b);
+    double low = -16.0, high = 0.0, steep, flat;
+    if (isnan(load))
+        return 0.0;
+    for (int i = 0; i < 100; i++) {
+        const double middle = 0.5 * (low + high);
+        curvatures(exp(middle), &steep, &flat);
+        *(flat / steep < fmin(along, across) / fmax(along, across) ? &low : &high) = middle;
+    }
+    const double ratio = exp(0.5 * (low + high));
+    curvatures(ratio, &steep, &flat);
+    /* p0 l/E* from the curvature, p0 s l = 3 P/(2 pi) */
+    const double slope = fmax(along, across) / steep; /* p0/(E* l) */
+    const double l = cbrt(1.5 * load / (pi * ratio * slope * c->modulus));
+    const double a = along >= across ? ratio * l : l;
+    return a / (2.0 * slope * l);
+}
+
 static contact contact_of(const json_t *root, const rows *controls)
 {
     contact c = {.inputs = json_object_get(root, "inputs"),
@@ -347,6 +399,8 @@ static contact contact_of(const json_t *root, const rows *controls)
         compliance += (1.0 - c.b.poisson * c.b.poisson) / c.b.young;
     c.modulus = 1.0 / compliance;
     c.radius = 1.0 / (1.0 / c.a.radius + (c.b.young > 0.0 ? 1.0 / c.b.radius : 0.0));
+    const double strip = strip_radius(&c);
+    c.radius = strip > 0.0 ? strip : c.radius;
     c.surface_normals = strcmp(word(c.inputs, "normals"), "surface") == 0;
     c.formulation = strcmp(formulation, "steady") == 0      ? STEADY
                     : strcmp(formulation, "transient") == 0 ? TRANSIENT
@@ -414,6 +468,8 @@ static void check_contact(const contact *c, const table *t)
     double whole = 0.0; /* of a period, whose ends are one place */
     for (int i = 0; i < t->n; i++)
         whole += t->column[H][i];
+    if (strcmp(word(c->inputs, "mesh"), "punch") == 0) /* the punch ends there */
+        return;
     if (t->n > 0 && (p[0] > 0.0 || p[t->n - 1] > 0.0) && !(whole >= c->period * (1.0 - 1e-9)))
         violated("ends", "the contact reaches an end of the potential contact");
 }
@@ -652,7 +708,7 @@ static void check_ratios(const contact *c, const table *t)
 {
     const double P_ = number(c->summary, "normal_load");
     const double Q_ = number(c->summary, "tangential_load");
-    double a = sqrt(4.0 * P_ * c->radius / (pi * c->modulus));
+    double a = isfinite(c->radius) ? sqrt(4.0 * P_ * c->radius / (pi * c->modulus)) : NAN;
     const int relaxes =
         c->formulation != STATIC && (has_memory(c->inputs, "") || has_memory(c->inputs, "-b"));
     if (c->period > 0.0) /* Westergaard's, of a wave */
@@ -1383,6 +1439,10 @@ static void check_case(const json_t *root, const char *table_path, const char *s
     const json_t *object = json_object_get(root, "table");
     const char *status = word(c.summary, "status");
     table t = table_from_json(object);
+    if (isinf(c.a.datum) && t.n > 0) /* a flat punch: of its half-width */
+        c.a.datum = (t.column[X][t.n - 1] - t.column[X][0] +
+                     0.5 * (t.column[H][0] + t.column[H][t.n - 1])) /
+                    exp(1.0);
     c.worn = json_object_get(object, "worn_mm");
     c.plastic = json_object_get(object, "plastic_mm");
     if (!c.worn != !word(c.inputs, "worn")[0])

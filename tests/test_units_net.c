@@ -42,6 +42,14 @@ static const char *const lines[] = {
     "~ --load {N/mm 500} --shift {mm 0.001} --increments 3 --error",
     "~ --gap {gap} --load {N/mm 100} --gap-smoothing {mm 1e-7}",
     "~ --worn {worn} --load {N/mm 100}",
+    "--support halfplane --young {MPa 205000} --poisson 0.3 --gap {gap} --mesh punch --mu 0.2 "
+    "--load "
+    "{N/mm 900} --moment {N 40} --force {N/mm 30} --contact-elements 20",
+    "--support halfplane --radius {mm 46.5} --young {MPa 2000} --layer-thickness {mm 2} "
+    "--layer-base smooth --base-young {MPa 205000} --load {N/mm 50} --mu 0.2 --formulation steady "
+    "--force {N/mm 2} --contact-elements 20",
+    "--support halfplane --radius {mm 46.5} --young 60ShoreA --layer-thickness {mm 2} --layer-base "
+    "smooth --load {N/mm 1} --mu 0.2 --force {N/mm 0.05} --contact-elements 20",
     "~ --max-pressure {MPa 900} --shift {mm 1e-4}",
     "~ --gap parabola --wheel-load {N 100000} --transverse-radius {mm 300} --transverse-radius-b "
     "{mm 2000}",

@@ -348,13 +348,15 @@ static void take_over(const json_t *summary, const rb_rolling_model *m, rb_rolli
 }
 
 /* Results that are nothing but rounding follow from no number that is stored: each moves by a
- * rounding of what results of its unit usually are. */
+ * rounding of what results of its unit usually are, and errors that are shares by one of 1. */
 static void move_results(const rb_rolling_results *table, const rb_rolling_case *rc, int rows,
                          void *owner)
 {
     for (int k = 0; k < table->n; k++) {
         const rb_rolling_result *r = &table->row[k];
-        const double by = 1e-4 * rb_sensitivity_rounding(rc, r, 0.0); /* 1e-15 of it */
+        const double by = r->no_derivative && !r->unit
+                              ? 1e-15
+                              : 1e-4 * rb_sensitivity_rounding(rc, r, 0.0); /* 1e-15 of it */
         if (r->kind != RB_RESULT_NUMBER)
             continue;
         if (rows == 0)

@@ -901,6 +901,8 @@ static rb_status check_purpose(const rb_case *c, rb_message *why)
         {!curve && mus->n > 1, "mu",
          comma ? "expected one number, with a decimal point; a curve takes several"
                : "expected one number; a curve takes several"},
+        {rb_rolling_slides_on_base(&c->resolved.rc), "history",
+         "not on a smooth base: nothing holds the layer from step to step"},
         {rb_case_has_steps(&c->resolved), "accuracy",
          "only for static and steady cases without steps"}};
 

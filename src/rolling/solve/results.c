@@ -41,7 +41,8 @@ static const rb_rolling_result scalars[] = {
     RESULT("approach", approach, .unit = "mm", .error_bar = RB_SCALE_APPROACH, .study = 4,
            .meaning = "delta: how far A moved towards B"),
     RESULT("tangential_shift", tangential_shift, .unit = "mm", .error_bar = RB_SCALE_SHIFT,
-           .meaning = "rigid shift of A; static contact"),
+           .meaning = "rigid shift of A; static contact; of a layer on a smooth base only its "
+                      "differences mean something"),
     RESULT("ellipse_a", ellipse.a, .unit = "mm", .no_derivative = 1, .condition = RB_FOR_ELLIPSE,
            .meaning =
                "semi-axis of Hertz's ellipse along the rolling direction, with --wheel-load"),
@@ -106,7 +107,8 @@ static const rb_rolling_result scalars[] = {
     RESULT("resistance_moment", resistance_moment, .unit = "N", .error_bar = RB_SCALE_MOMENT,
            .study = 16, .meaning = "M = int x p dx; > 0: the load acts ahead of x = 0"),
     RESULT("resistance_ratio", resistance_ratio, .error_bar = RB_SCALE_STRAIN, .study = 17,
-           .meaning = "M/(P R), 1/R = 1/R_A + 1/R_B, the coefficient of rolling resistance"),
+           .meaning = "M/(P R), 1/R = 1/R_A + 1/R_B, of an ellipse R the strip_radius: the "
+                      "coefficient of rolling resistance"),
     RESULT("hysteresis_factor", hysteresis_factor, .no_derivative = 1, .error_bar = RB_SCALE_ONE,
            .condition = RB_FOR_MEMORY,
            .meaning = "Tabor's factor (3 pi/2) M/(P a), a half the width of the contact; steady"),
@@ -261,7 +263,7 @@ static const rb_rolling_result points[] = {
     POINT("resistance_moment", resistance_moment, .unit = "N", .error_bar = RB_SCALE_ONE,
           .meaning = "M = int x p dx"),
     POINT("resistance_ratio", resistance_ratio, .unit = "1", .error_bar = RB_SCALE_ONE,
-          .meaning = "M/(P R), 1/R = 1/R_A + 1/R_B"),
+          .meaning = "M/(P R), 1/R = 1/R_A + 1/R_B, of an ellipse R the strip_radius"),
     POINT("hysteresis", hysteresis, .unit = "N/mm", .error_bar = RB_SCALE_ONE,
           .meaning = "power per unit speed that bodies which relax lose"),
     POINT("max_temperature", max_temperature, .unit = "K", .error_bar = RB_SCALE_ONE,
