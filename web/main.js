@@ -262,18 +262,25 @@ async function main() {
         },
         { rootMargin: "250px 0px" },
     );
-    /* The chapter in the middle of the window is the one of the links. */
+    /* The chapter in the middle of the window is the one of the links; of two that meet there the lower one.  A chapter
+     * above may grow into the middle and leave it again while the lower one stays: so the set is kept. */
+    const middle = new Set();
     const place = new IntersectionObserver(
         (entries) => {
             for (const { target, isIntersecting } of entries) {
-                if (!isIntersecting) continue;
-                current = target.id.slice(3);
-                for (const link of at("chapters").children)
-                    link.setAttribute("aria-current", link.dataset.view === current ? "true" : "false");
-                const here = at("chapters").querySelector("[aria-current=true]");
-                if (here) at("chapters").scrollTo({ left: here.offsetLeft - 40 });
-                store.rewrite();
+                if (isIntersecting) middle.add(target);
+                else middle.delete(target);
             }
+            const lowest = Object.values(views)
+                .filter(({ section }) => middle.has(section))
+                .at(-1);
+            if (!lowest) return;
+            current = lowest.section.id.slice(3);
+            for (const link of at("chapters").children)
+                link.setAttribute("aria-current", link.dataset.view === current ? "true" : "false");
+            const here = at("chapters").querySelector("[aria-current=true]");
+            if (here) at("chapters").scrollTo({ left: here.offsetLeft - 40 });
+            store.rewrite();
         },
         { rootMargin: "-45% 0px -50% 0px" },
     );

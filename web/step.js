@@ -664,17 +664,17 @@ export function step_view(words, page) {
             host.replaceChildren();
         sentence.textContent = tie.textContent = z0.textContent = "";
     }
-    /* 3^n, in words, beside the exchanges that the library needed. */
+    /* 3^n beside the exchanges that the library needed: in digits as far as a reader counts them at a glance. */
     function count_ways() {
         const a = page.answer,
             n = a?.columns.x.length;
         if (!n) return;
         const log = n * Math.log10(3),
-            digits = Math.floor(log) + 1;
+            digits = Math.floor(log) + 1,
+            many = { lead: Math.floor(10 ** (log - digits + 2)), more: digits - 2 };
         counted.textContent = fill_in(a.words.solver === "lemke" ? words.step.ways : words.step.ways_only, {
             n,
-            lead: Math.floor(10 ** (log - digits + 2)),
-            more: digits - 2,
+            ways: digits > 6 ? fill_in(words.step.many_ways, many) : 3 ** n,
             pivots: a.numbers.iterations,
         });
     }

@@ -586,9 +586,9 @@ export const words = {
         tie_last:
             "With z₀ {stays} reach zero: the bounds of friction where nothing is pressed. Where z₀ may leave it does, and the method ends.",
         still: "A step of length zero, the other half of the tie: roles are exchanged and no value changes, so the pressure is still zero.",
-        ways: "{n} elements, each apart, sticking or slipping: that is {lead} followed by {more} digits of combinations. Lemke's method needed {pivots} exchanges for the contact of the first screen.",
-        ways_only:
-            "{n} elements, each apart, sticking or slipping: that is {lead} followed by {more} digits of combinations.",
+        ways: "{n} elements, each apart, sticking or slipping: that is {ways} combinations. Lemke's method needed {pivots} exchanges for the contact of the first screen.",
+        ways_only: "{n} elements, each apart, sticking or slipping: that is {ways} combinations.",
+        many_ways: "{lead} followed by {more} digits of",
         how: "Lift the body until it is free, lower it, and let one element after the other touch, stick or slip. Every state on the way is a solution of a problem that is a little easier.",
         race: "who is first",
         scaled: "M is shown as the method uses it, scaled to numbers of order one: friction is divided by μ times the highest pressure, so the block 2μI of the table is 2I in M.",

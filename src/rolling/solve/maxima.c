@@ -4,7 +4,6 @@
 
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_sort.h>
-#include <gsl/gsl_vector.h>
 
 /* Places are (s, depth): along the surface and below it, the arc of a wheel's circle; each
  * material is then a strip between two depths. */
@@ -160,10 +159,8 @@ static void add_row(search *f, const strip *in, double depth)
                 r->n++;
             }
         }
-        if (f->at_s && !right) {
-            gsl_vector_view left = gsl_vector_view_array(f->at_s + r->first, (size_t)r->n);
-            gsl_vector_reverse(&left.vector);
-        }
+        if (f->at_s && !right)
+            gsl_sort(f->at_s + r->first, 1, (size_t)r->n); /* those of the left came outwards */
     }
 }
 
