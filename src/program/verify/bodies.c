@@ -2,6 +2,7 @@
 #include "program/verify/internal.h"
 
 #include "rolling/case/closed_forms.h"
+#include "rolling/case/rubber.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -369,6 +370,24 @@ static void on_smooth_base(rb_verify *v)
                        "layer on a smooth base: p0");
 }
 
+/* Moduli of hardnesses as published (docs/rolls.md): the relations of 60 ShoreA, and ISO 48's law
+ * at 100 P&J. */
+static void hardness(rb_verify *v)
+{
+    static const struct {
+        int scale;
+        double reading, young[3];
+    } rows[] = {{RB_RUBBER_SHORE_A, 60.0, {3.605, 3.489, 5.884}}, {RB_RUBBER_PJ, 100.0, {3.77}}};
+
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        const rb_rubber_scale *scale = &rb_rubber_scales[rows[k].scale];
+        for (int j = 0; j < 3 && rows[k].young[j] > 0.0; j++)
+            rb_verify_relative(v, scale->relation[j].young(rows[k].reading), rows[k].young[j], 1e-3,
+                               "%g %s by %s: Young's modulus / MPa", rows[k].reading, scale->name,
+                               scale->relation[j].name);
+    }
+}
+
 /* R 50, P 500 on layers of .1 mm, 400 GPa, .05 mm, 3 GPa, and .3 mm, 70 GPa, by Chebyshev's
  * polynomials; the stress below an ellipse of pressure and friction by 400 Gauss points (L6, L8).
  */
@@ -458,6 +477,7 @@ void rb_verify_bodies(rb_verify *v)
     below_strips(v);
     at_bonds(v);
     on_smooth_base(v);
+    hardness(v);
     on_three_layers(v);
     loads_of_pressures(v);
 }
