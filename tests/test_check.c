@@ -94,7 +94,8 @@ static void write_controls(void)
               "shift\\n0.2 100 0\\n0.4 120 1e-4\\n' > dry.txt; printf 'time "
               "load\\n0 100\\n1e-3 100\\n3e-3 50\\n' > calm.txt; printf 'load shift\\n100 0\\n60 "
               "1e-4\\n0 2e-4\\n100 1e-4\\n' > lift.txt; printf 'time load shift mu\\n0 200 1e-3 "
-              "0.3\\n0.01 0 1e-3 0.2\\n5 0 1e-3 0.2\\n5.01 200 1.2e-3 0.2\\n' > heal.txt"),
+              "0.3\\n0.01 0 1e-3 0.2\\n5 0 1e-3 0.2\\n5.01 200 1.2e-3 0.2\\n' > heal.txt; printf "
+              "'load force_ratio\\n90 0\\n90 0.6\\n90 -0.6\\n90 0.6\\n' > fret.txt"),
         0);
 }
 
@@ -143,6 +144,8 @@ TEST(results_are_valid)
         "--support halfplane --history lift.txt --mu 0.3 --states --young-b 3000 "
         "--contact-elements 20",
         "--support halfplane --history lift.txt --mu 0.3 --states --similar --increments 3",
+        "--support halfplane --history fret.txt --mu 0.3 --states --similar --fretting "
+        "--formulation static --contact-elements 30",
         "--support halfplane --load 100 --mu 0.3 --states --similar --formulation transient "
         "--creep 1e-3 --distance 3 --steps 2",
         "--support halfplane --history way.txt --formulation transient --mu 0.3 "

@@ -216,6 +216,8 @@ typedef struct {
                          two rows [s]; 0: one step per row */
     double distance;  /* transient: rolled distance / Hertz half-width */
     int steps;        /* transient */
+    int fretting;     /* 1: of a history at rest whose rows end with a cycle, what fretting does to
+                         each element in the last one */
 
     rb_rolling_mesh_kind mesh;
     int contact_elements;    /* uniform: in the potential contact; fitted: across the contact
@@ -352,6 +354,19 @@ typedef struct {
                     one element, because p does not fall to zero there like (E1) of theory.md */
 } rb_rolling_patch;
 
+/* The largest value along the surface, and its x. */
+typedef struct {
+    double value, at;
+} rb_rolling_peak;
+
+/* Work of friction in the last cycle of a history [force], and the largest values of its columns in
+ * rb_rolling_solution; that of SWT is also looked for at the edges. */
+typedef struct {
+    double work;
+    rb_rolling_peak fretting_work, slip_range, ruiz_1, ruiz_2, swt, tresca_shear;
+    rb_rolling_peak ruiz_2_b, swt_b, tresca_shear_b;
+} rb_rolling_fretting;
+
 typedef struct {
     int n;           /* contact elements, in the order of increasing x */
     double *x, *h;   /* midpoints and lengths [length]; owned, as all arrays here */
@@ -368,6 +383,13 @@ typedef struct {
     double *heat_a, *heat_b; /* that enters them per area [stress * length/time]; likewise */
     double *worn;            /* worn depth [length]; NULL if nothing is worn */
     double *mu;              /* friction coefficients; NULL: the same for all elements */
+    /* Of the last cycle of a history (theory-rolling.md 4.17), NULL without `fretting`: work of
+     * friction [force/length], range of the slip [length], Ruiz's two parameters [force/length],
+     * [stress * force/length], largest tension along x, parameter of Smith, Watson and Topper and
+     * largest shear of all planes [stress]; those that depend on the body also of B. */
+    double *fretting_work, *slip_range, *ruiz_1;
+    double *tension, *ruiz_2, *swt, *tresca_shear;
+    double *tension_b, *ruiz_2_b, *swt_b, *tresca_shear_b;
 
     int patches;
     rb_rolling_patch *patch; /* in the order of increasing x; owned */
@@ -449,9 +471,10 @@ typedef struct {
     double max_temperature_at; /* [length] */
     double heat_into_a, heat_into_b; /* the heat that enters each body [force/time]; like the next
                                         NAN without heat conduction */
-    double heat_share_a;    /* heat_into_a over their sum; NAN if the bodies are not equally warm
-                               far away */
-    double peclet;          /* V a/(2 diffusivity of A), a the half-width */
+    double heat_share_a; /* heat_into_a over their sum; NAN if the bodies are not equally warm
+                            far away */
+    double peclet;       /* V a/(2 diffusivity of A), a the half-width */
+    rb_rolling_fretting fretting; /* NAN without it */
     double kappa;           /* (F3) for a friction law that depends on the state; above 1 there may
                                be several solutions; otherwise NAN */
     rb_contact_proof proof; /* asked 0: none was asked for */
@@ -514,6 +537,8 @@ typedef struct rb_rolling_model {
     struct rb_rolling_conduction *conduction; /* how heat warms these elements, kept from
                                                  round to round of a friction law; NULL: not
                                                  known yet; owned */
+    struct rb_rolling_cycle *cycle;  /* what fretting has done so far in the last cycle of its
+                                        history; NULL: not asked for; owned */
     struct rb_rolling_given *given;  /* tractions that were given instead of solved for; NULL: those
                                         of the state; owned */
     struct rb_rolling_model *freely; /* solved free rolling of the same case, if it was

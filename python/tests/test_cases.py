@@ -111,6 +111,15 @@ def test_units_are_those_of_the_table():
     assert steps.to_pandas().attrs["units"]["slip"] == "elements"
 
 
+def test_fretting_is_a_part_of_the_solution():
+    steps = rollbem.history(
+        {"force_ratio": [0, 0.6, -0.6, 0.6]}, fretting=True, load=500.0, mu=0.5, **{**PLANES, "formulation": "static"}
+    )
+    solution = steps.solution
+    assert solution.work_per_cycle == pytest.approx((solution.fretting_work * solution.h).sum())
+    assert solution.ruiz_2_max == solution.ruiz_2.max() > 0 and solution.swt_max >= solution.swt.max()
+
+
 def test_pictures_of_several_cases():
     pyplot = pytest.importorskip("matplotlib").pyplot
     one, other = rollbem.solve(**LOADED), rollbem.solve(**{**LOADED, "load": 700.0})

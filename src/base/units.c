@@ -415,6 +415,7 @@ static const struct {
     {"MPa.mm^0.5",
      {"MPa.mm^0.5", "Pa.m^0.5", "psi.in^0.5"},
      "MPa.mm^0.5, N/mm^1.5, MPa.m^0.5, Pa.m^0.5, psi.in^0.5, ksi.in^0.5"},
+    {"MPa.N/mm", {"MPa.N/mm", "Pa.N/m", "psi.lbf/in"}, "MPa.N/mm, Pa.N/m, psi.lbf/in"},
     {"s", {"s", "s", "s"}, "s, ms, us, min, h"},
     {"degrees", {"degrees", "degrees", "degrees"}, "degrees, deg, rad"},
     {"W/(m K)",

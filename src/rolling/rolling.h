@@ -251,7 +251,9 @@ typedef enum {
     RB_FOR_TILT,
     RB_FOR_ELLIPSE,
     RB_FOR_ELLIPSE_FORCE,
-    RB_FOR_SMOOTH_BASE
+    RB_FOR_SMOOTH_BASE,
+    RB_FOR_FRETTING,
+    RB_FOR_FRETTING_B /* likewise of an elastic B */
 } rb_rolling_condition;
 
 /* Description of one result.  Tables, JSON, studies and error bars are made from these

@@ -93,6 +93,29 @@ static void write_rolling(FILE *out, const rb_rolling_solution *s)
     }
 }
 
+/* What the last cycle of a history does to the surfaces. */
+static void write_fretting(FILE *out, const rb_rolling_solution *s)
+{
+    const rb_rolling_fretting *f = &s->fretting;
+    const char *mm = rb_unit_name(s->units, "mm");
+
+    fprintf(out,
+            "  fretting  %.5g %s of work in the last cycle, at most %.5g %s; slip range %.4g %s",
+            f->work, rb_unit_name(s->units, "N"), f->fretting_work.value,
+            rb_unit_name(s->units, "N/mm"), f->slip_range.value, mm);
+    for (int b = 0; b < (s->tension_b ? 2 : 1); b++) {
+        const rb_rolling_peak *ruiz = b ? &f->ruiz_2_b : &f->ruiz_2, *swt = b ? &f->swt_b : &f->swt;
+        fprintf(out, "\n            %s: Ruiz 2 %.4g %s", b ? "B" : "A", ruiz->value,
+                rb_unit_name(s->units, "MPa.N/mm"));
+        if (!isnan(ruiz->at))
+            fprintf(out, " at x = %.4g %s", ruiz->at, mm);
+        fprintf(out, ", SWT %.4g %s", swt->value, rb_unit_name(s->units, "MPa"));
+        if (!isnan(swt->at))
+            fprintf(out, " at x = %.4g %s", swt->at, mm);
+    }
+    fputc('\n', out);
+}
+
 static void write_material(FILE *out, double young, double poisson, rb_units units)
 {
     fprintf(out, "E = %.6g %s, nu = %.6g", rb_unit_shown(units, "MPa", young),
@@ -213,6 +236,8 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
         fprintf(out, "  shift     %.6g %s\n", s->tangential_shift, rb_unit_name(s->units, "mm"));
     if (!isnan(s->creepage) && (s->formulation != RB_STATIC || s->creepage != 0.0))
         write_rolling(out, s);
+    if (!isnan(s->fretting.work))
+        write_fretting(out, s);
     if (!isnan(s->max_temperature))
         fprintf(out, "  heat      %.5g K at x = %.4g %s at most, Peclet number %.3g\n",
                 s->max_temperature, s->max_temperature_at, rb_unit_name(s->units, "mm"), s->peclet);

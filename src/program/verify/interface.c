@@ -1,5 +1,5 @@
 /* References for the interface between the bodies: falling friction, a third body, heat,
- * wear. */
+ * wear, fretting. */
 #include "program/verify/internal.h"
 
 #include "rolling/case/closed_forms.h"
@@ -216,6 +216,49 @@ static void yielding_half_planes(rb_verify *v, double hardening, double want)
                        "yielding interface, hardening %g: Q/(mu P) of CONTACT", hardening);
 }
 
+/* Steel on steel under a force that goes back and forth between +-0.6 mu P (Q1). */
+static void fretting(rb_verify *v)
+{
+    static const double ratio[] = {0.0, 0.6, -0.6, 0.6};
+    const rb_rolling_program program = {.n = 4, .force_ratio = ratio};
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_history h;
+    rb_rolling_model model;
+    rb_rolling_solution s = {.n = 0};
+    rb_message why = {.text = ""};
+
+    rc.a.radius = 100.0;
+    rc.a.young = 210e3;
+    rc.a.poisson = 0.3;
+    rb_verify_on_same(&rc);
+    rc.half_width = NAN;
+    rc.load = 500.0;
+    rc.mu = 0.5;
+    rc.formulation = RB_STATIC;
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.contact_elements = 400;
+    rc.fretting = 1;
+    rb_status status = rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why);
+    if (status == RB_OK)
+        status = rb_rolling_model_solution(&model, &s, &why);
+    rb_verify_note(v, status, &why);
+    const struct {
+        double got, wanted, bound;
+        const char *what;
+    } rows[] = {{s.fretting.work, 0.0368862, 1e-4, "work per cycle"},
+                {s.fretting.fretting_work.value, 0.114359, 2e-4, "largest work of an element"},
+                {s.fretting.ruiz_1.value, 0.0571796, 2e-4, "largest Ruiz 1"},
+                {s.fretting.ruiz_2.value, 9.60785, 3e-3, "largest Ruiz 2"},
+                {s.fretting.swt.value, 0.477465, 2e-4, "SWT at the edge"},
+                {s.fretting.tresca_shear.value, 165.9700, 2e-4, "largest shear"}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
+        rb_verify_relative(v, status == RB_OK ? rows[k].got : (double)NAN, rows[k].wanted,
+                           rows[k].bound, "fretting between +-0.6 mu P: %s", rows[k].what);
+    rb_rolling_solution_free(&s);
+    rb_rolling_history_free(&h);
+    rb_rolling_model_free(&model);
+}
+
 void rb_verify_interface(rb_verify *v)
 {
     falling_friction(v);
@@ -235,4 +278,5 @@ void rb_verify_interface(rb_verify *v)
     wear(v, 5);
     worn_limit(v, 54, 0.065);
     worn_limit(v, 108, 0.034);
+    fretting(v);
 }

@@ -668,6 +668,13 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
         return rb_refuse(why, "free-axle", "of steady rolling only");
     if (rc->free_axle && rb_rolling_largest_mu(rc) == 0.0)
         return rb_refuse(why, "free-axle", "only friction turns it, expected mu > 0");
+    if (rc->fretting && rc->formulation != RB_STATIC)
+        return rb_refuse(why, "fretting",
+                         "what rolls has no cycle that closes; take --formulation static");
+    if (rc->fretting && rb_rolling_largest_mu(rc) == 0.0)
+        return rb_refuse(why, "fretting", "without friction nothing frets; expected mu > 0");
+    if (rc->fretting && rb_rolling_relaxes(rc))
+        return rb_refuse(why, "fretting", "of elastic bodies only; leave out the relaxation times");
     /* Beyond full sliding there is no equilibrium; without friction no force but zero. */
     if (!isnan(rc->force_ratio) && fabs(rc->force_ratio) > 1.0)
         return rb_refuse(why, "force-ratio", "Q/(mu P) = %g: friction carries at most 1",

@@ -327,6 +327,10 @@ const rb_option rb_case_table[] = {
                  "bulk_stress_b, tilt; a column replaces the value of the case",
                  .unset = "none", .file = RB_FILE_READ),
 
+    RB_FLAG_LINE("fretting", RC(fretting),
+                 "with --history, at rest: what the last cycle of its rows does to each element: "
+                 "work of friction, slip range, Ruiz's two parameters, SWT, largest shear"),
+
     RB_NUMBER_LINE("time-step", RC(time_step), "s", RB_ABOVE(0),
                    "static, viscoelastic bodies: longest step between two rows of the "
                    "history; rows: one step for each row",

@@ -51,6 +51,7 @@ typedef struct {
     double shift; /* rigid shift so far [length] */
     rb_rolling_particles particles;
     rb_rolling_steady steady;
+    int frets_from;           /* row after which the cycle begins that --fretting asks for */
     int row, part;            /* of the program: rows towards this one that are done */
     int step, steps;          /* of the present row: done, and in all */
     rb_rolling_stride stride; /* the current step */
@@ -212,6 +213,7 @@ static void end_step(history_state *r, rb_status s)
     if (rests)
         r->shift += state->xi;
     rb_rolling_particles_leave(&r->particles, &r->stride);
+    rb_rolling_cycle_step(model);
     h->substeps[k] = done;
     h->distance[k] = r->to;
     h->shift[k] = r->shift;
@@ -369,6 +371,7 @@ static rb_status compute_row(history_state *r, int steps, rb_message *why)
 
     r->steps = steps;
     memset(&r->fall, 0, sizeof r->fall);
+    rb_rolling_cycle_begin_row(r->model->cycle);
     for (int i = 0; i < steps && s == RB_OK; i++) {
         rb_message reason = {.text = ""};
         s = begin_step(r, why);
@@ -586,23 +589,81 @@ static rb_status compute_row_at_rest(history_state *r, rb_message *why)
     return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the steps of a row") : s;
 }
 
-/* The last cycle: the last row and the one before it are prescribed as two rows before were. */
+/* The row at which the last cycle begins: the last row and the one before it are prescribed as it
+ * and the one before it; -1: none is. */
+static int begin_of_cycle(const rb_rolling_program *program)
+{
+    const int last = program->n - 1;
+    int j = last - 1;
+
+    while (j > 0 && !(rb_rolling_program_is_same(program, j, last) &&
+                      rb_rolling_program_is_same(program, j - 1, last - 1)))
+        j--;
+    return j > 0 ? j : -1;
+}
+
+/* The same for --fretting, which sees by the friction whether the cycle closes: the row before may
+ * differ, as when the force rises from zero the first time. */
+static int begin_of_fretting(const rb_rolling_program *program)
+{
+    const int last = program->n - 1;
+    int j = begin_of_cycle(program);
+
+    if (j >= 0)
+        return j;
+    for (j = last - 1; j >= 0 && !rb_rolling_program_is_same(program, j, last);)
+        j--;
+    return j;
+}
+
+/* Without `fretting` -1.  A body whose stress is not known is refused before anything is solved. */
+static rb_status prepare_cycle(history_state *r, rb_message *why)
+{
+    r->frets_from = -1;
+    if (!r->rc->fretting)
+        return RB_OK;
+    rb_status s = rb_rolling_stress_check(r->rc, why);
+    if (s == RB_OK && r->rc->elastic_b)
+        s = rb_rolling_mirror_check(r->rc, why);
+    r->frets_from = begin_of_fretting(r->program);
+    return s == RB_OK && r->frets_from < 0
+               ? rb_refuse(why, "fretting",
+                           "the rows of the history end with no cycle; the last row must prescribe "
+                           "what a row before it does")
+               : s;
+}
+
+static rb_status follow_cycle(const history_state *r, rb_message *why)
+{
+    return r->row - 1 == r->frets_from ? rb_rolling_cycle_begin(r->model, why)
+                                       : rb_rolling_cycle_end_row(r->model, why);
+}
+
+/* How much of mu p0 the friction at the end of a cycle may differ from that at its beginning. */
+static const double CLOSES = 1e-6;
+
+static rb_status check_cycle(const history_state *r, rb_message *why)
+{
+    const double misses = r->model->cycle ? rb_rolling_cycle_misses(r->model) : 0.0;
+
+    return misses <= CLOSES
+               ? RB_OK
+               : rb_refuse(why, "fretting",
+                           "the cycle from row %d of the history to the last one does not close, "
+                           "friction differs by %.2g mu p0; append the rows of the cycle once more",
+                           r->frets_from + 1, misses);
+}
+
+/* The last cycle. */
 static void find_cycle(const history_state *r)
 {
     rb_rolling_history *h = r->history;
     const rb_rolling_program *program = r->program;
-    const int last = program->n - 1;
+    const int last = program->n - 1,
+              j = program->distance || h->n != program->n ? -1 : begin_of_cycle(program);
 
-    h->cycle_work = NAN;
-    h->cycle_rows = 0;
-    if (program->distance || h->n != program->n)
-        return;
-    for (int j = last - 1; j > 0 && h->cycle_rows == 0; j--)
-        if (rb_rolling_program_is_same(program, j, last) &&
-            rb_rolling_program_is_same(program, j - 1, last - 1)) {
-            h->cycle_rows = last - j;
-            h->cycle_work = h->friction_work[last] - h->friction_work[j];
-        }
+    h->cycle_work = j < 0 ? (double)NAN : h->friction_work[last] - h->friction_work[j];
+    h->cycle_rows = j < 0 ? 0 : last - j;
 }
 
 static rb_status all_rows(history_state *r, rb_message *why)
@@ -616,12 +677,17 @@ static rb_status all_rows(history_state *r, rb_message *why)
                                      : compute_row(r, r->rolled, why);
         if (s != RB_OK)
             return s;
+        if (r->rc->fretting && r->part == 0) {
+            const rb_status seen = follow_cycle(r, why);
+            if (seen != RB_OK)
+                return seen;
+        }
         if (r->found && r->found->rows.jumped == r->history->n)
             note_jump(r);
         if (o && o->step && o->step(r->model, r->history, k, r->rows, o->context))
             return rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k + 1, r->rows);
     }
-    return RB_OK;
+    return check_cycle(r, why);
 }
 
 /* ---- Preparation ------------------------------------------------------------------- */
@@ -774,7 +840,9 @@ static rb_status begin_program(history_state *r, const rb_rolling_case *rc, rb_m
         rb_rolling_press_by_load(&r->base); /* a column of loads replaces it */
         s = rb_rolling_program_of_case(rc, &r->columns, &r->own);
     }
-    return s == RB_OK && !r->is_variant ? rb_rolling_program_check(r->program, r->rc, why) : s;
+    if (s == RB_OK && !r->is_variant)
+        s = rb_rolling_program_check(r->program, r->rc, why);
+    return s == RB_OK ? prepare_cycle(r, why) : s;
 }
 
 /* Loads that move and surfaces that are irregular may widen the contact beyond that of

@@ -94,6 +94,19 @@ rb_status rb_rolling_particles_bodies(rb_rolling_particles *r, double interval, 
 void rb_rolling_particles_leave(rb_rolling_particles *r, const rb_rolling_stride *stride);
 void rb_rolling_particles_free(rb_rolling_particles *r);
 
+/* ---- fretting.c -------------------------------------------------------------------- */
+
+/* Gives the model a cycle that starts from its state; RB_EINVAL: the stress of a body is not known.
+ */
+rb_status rb_rolling_cycle_begin(rb_rolling_model *model, rb_message *why);
+/* A row begins, perhaps once more in other steps; the model has gone one step of it; the row ends
+ * with the state of the model. */
+void rb_rolling_cycle_begin_row(rb_rolling_cycle *cycle);
+void rb_rolling_cycle_step(const rb_rolling_model *model);
+rb_status rb_rolling_cycle_end_row(const rb_rolling_model *model, rb_message *why);
+/* The largest difference between the friction now and where it began, as a part of mu p0. */
+double rb_rolling_cycle_misses(const rb_rolling_model *model);
+
 /* ---- stroke.c ---------------------------------------------------------------------- */
 
 /* Worn profiles of A and B that move over each other by a stroke, in elements of equal length, and

@@ -1,5 +1,5 @@
 /* A solved contact problem on a given mesh, and its given ratio. */
-#include "rolling/internal.h"
+#include "rolling/solve/results.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -46,6 +46,7 @@ void rb_rolling_model_free(rb_rolling_model *model)
     free(model->carried.yielded);
     rb_rolling_conduction_free(model->conduction);
     rb_rolling_given_free(model->given);
+    rb_rolling_cycle_free(model->cycle);
     rb_rolling_forget_free_rolling(model);
     memset(model, 0, sizeof *model);
 }

@@ -16,6 +16,13 @@
 #define WEAR(name, member, ...) OF(rb_rolling_wear_history, name, member, __VA_ARGS__)
 #define POINT(name, member, ...) OF(rb_rolling_curve, name, member, __VA_ARGS__)
 
+/* A largest value of a cycle and its place. */
+#define PEAK(name, member, unit_, condition_, words)                                               \
+    RESULT(name "_max", fretting.member.value, .unit = unit_, .no_derivative = 1,                  \
+           .condition = condition_, .meaning = words),                                             \
+        RESULT(name "_max_at", fretting.member.at, .unit = "mm", .no_derivative = 1,               \
+               .condition = condition_, .meaning = "its place")
+
 static const rb_rolling_result scalars[] = {
     RESULT("iterations", iterations, .kind = RB_RESULT_WHOLE, .study = 15,
            .meaning = "pivots or Newton steps, of all solves"),
@@ -145,6 +152,18 @@ static const rb_rolling_result scalars[] = {
     RESULT("kappa", kappa, .study = 23, .condition = RB_FOR_MOVING_LAW,
            .meaning = "uniqueness of friction that falls: above 1 there may be several "
                       "solutions"),
+    RESULT("work_per_cycle", fretting.work, .unit = "N", .no_derivative = 1,
+           .condition = RB_FOR_FRETTING,
+           .meaning = "work of friction in the last cycle of a history, with --fretting"),
+    PEAK("fretting_work", fretting_work, "N/mm", RB_FOR_FRETTING, "largest fretting_work"),
+    PEAK("slip_range", slip_range, "mm", RB_FOR_FRETTING, "largest slip_range"),
+    PEAK("ruiz_1", ruiz_1, "N/mm", RB_FOR_FRETTING, "largest ruiz_1"),
+    PEAK("ruiz_2", ruiz_2, "MPa.N/mm", RB_FOR_FRETTING, "largest ruiz_2"),
+    PEAK("swt", swt, "MPa", RB_FOR_FRETTING, "largest swt, also at the edges of the contact"),
+    PEAK("tresca_shear", tresca_shear, "MPa", RB_FOR_FRETTING, "largest tresca_shear"),
+    PEAK("ruiz_2_b", ruiz_2_b, "MPa.N/mm", RB_FOR_FRETTING_B, "largest ruiz_2_b"),
+    PEAK("swt_b", swt_b, "MPa", RB_FOR_FRETTING_B, "largest swt_b, also at the edges"),
+    PEAK("tresca_shear_b", tresca_shear_b, "MPa", RB_FOR_FRETTING_B, "largest tresca_shear_b"),
     RESULT("datum", datum, .unit = "mm",
            .meaning = "distance along the surface at which a load moves nothing; half-planes"),
     RESULT("boundary_elements", boundary_elements, .kind = RB_RESULT_WHOLE,
@@ -157,6 +176,13 @@ static const rb_rolling_result scalars[] = {
     RESULT("lcp", seconds_lcp, .kind = RB_RESULT_SECONDS, .meaning = "complementarity problem"),
     RESULT("total", seconds_total, .kind = RB_RESULT_SECONDS, .meaning = "everything"),
 };
+
+#define CYCLE(name, unit_, words)                                                                  \
+    RESULT(#name, name, .unit = unit_, .no_derivative = 1, .condition = RB_FOR_FRETTING,           \
+           .meaning = words)
+#define CYCLE_B(name, unit_, words)                                                                \
+    RESULT(#name, name, .unit = unit_, .no_derivative = 1, .condition = RB_FOR_FRETTING_B,         \
+           .meaning = words)
 
 static const rb_rolling_result columns[] = {
     RESULT("x", x, .no_derivative = 1, .unit = "mm", .meaning = "midpoint"),
@@ -185,6 +211,18 @@ static const rb_rolling_result columns[] = {
            .meaning = "heat that enters A's surface per area"),
     RESULT("heat_flux_b", heat_b, .no_derivative = 1, .unit = "kW/m2", .condition = RB_FOR_HEAT,
            .meaning = "heat that enters B's surface per area"),
+    CYCLE(fretting_work, "N/mm", "work of friction in the last cycle, int |q| ds"),
+    CYCLE(slip_range, "mm", "largest less least slip in it, twice the amplitude"),
+    CYCLE(ruiz_1, "N/mm", "Ruiz's first parameter, largest |q| times slip_range"),
+    CYCLE(tension, "MPa", "largest sxx at A's surface"),
+    CYCLE(ruiz_2, "MPa.N/mm", "Ruiz's second parameter, tension times ruiz_1; 0 in compression"),
+    CYCLE(swt, "MPa",
+          "Smith, Watson and Topper: tension times half the range of the strain along x"),
+    CYCLE(tresca_shear, "MPa", "largest shear of all planes at A's surface, after Tresca"),
+    CYCLE_B(tension_b, "MPa", "largest sxx at B's surface"),
+    CYCLE_B(ruiz_2_b, "MPa.N/mm", "Ruiz's second parameter of B"),
+    CYCLE_B(swt_b, "MPa", "Smith, Watson and Topper's of B"),
+    CYCLE_B(tresca_shear_b, "MPa", "largest shear of all planes at B's surface"),
 };
 
 /* New ones at the end: scripts count columns. */
@@ -471,6 +509,10 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc,
         return rc->strips > 0 || rb_rolling_ellipse_slides_alike(rc);
     case RB_FOR_SMOOTH_BASE:
         return rc->formulation != RB_STATIC && rb_rolling_slides_on_base(rc);
+    case RB_FOR_FRETTING:
+        return rc->fretting;
+    case RB_FOR_FRETTING_B:
+        return rc->fretting && rc->elastic_b;
     case RB_FOR_ALL:
         break;
     }

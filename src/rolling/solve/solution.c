@@ -354,6 +354,7 @@ rb_status rb_rolling_bare_solution(const rb_rolling_model *model, rb_rolling_sol
         s->dissipation =
             unless_tiny(s->dissipation, 1e-11 * rb_rolling_largest_mu(model->rc) * s->normal_load *
                                             rb_rolling_derive(model->rc).strain);
+    rb_rolling_cycle_results(model, s);
     s->max_temperature = s->max_temperature_at = NAN;
     s->heat_into_a = s->heat_into_b = s->heat_share_a = NAN;
     s->peclet = s->temperature
