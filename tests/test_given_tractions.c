@@ -215,10 +215,40 @@ TEST(jumps_and_what_is_refused)
             "printf -- '-1 -1 0\\n1 -1 0\\n' > t.tsv; \"$R\" stress --tractions t.tsv --grid 3x3"))
         fail_msg("%s", err);
     assert_non_null(strstr(out, "p < 0 in 2 rows: the surface is pulled there"));
-    if (shell("\"$R\" stress --tractions t.tsv --json --output t.json --quiet"))
+}
+
+/* A result stores its tractions: the stress of nodes, jumps, elements, layers and B is computed
+ * again from them, and a traction, a sum or a stress that has been changed is noticed. */
+TEST(results_can_be_checked)
+{
+    static const char *const cases[] = {
+        "t.tsv --grid 5x4", "t.tsv --grid 5x4 --similar --body b",
+        "t.tsv --grid 5x4 --layer-thickness 0.3 --base-young 70000 --base-poisson 0.3",
+        "smooth.tsv --shakedown --points p.tsv", "e.tsv --grid 5x4"};
+    static const char *const changes[] = {"s/ 100.0,$/ 100.1,/", "s/\"normal_load\": /&1/",
+                                          "s/\"von_mises\": /\"moses\": /",
+                                          "s/\"friction_jumps\": 2/\"friction_jumps\": 1/"};
+    if (shell("printf -- '-1 100 20\n1 100 20\n' > t.tsv; printf -- '-1 0 0\n0 100 9\n1 0 0\n' "
+              "> smooth.tsv; printf '0.1 0.2\n-3 1\n' > p.tsv; \"$R\" --support halfplane "
+              "--load 100 --mu 0.3 --formulation steady --creep-ratio 0.4 --contact-elements 20 "
+              "> e.tsv"))
         fail_msg("%s", err);
-    assert_int_not_equal(shell("\"$R\" check t.json"), 0);
-    assert_non_null(strstr(err, "no contact was solved that could be checked"));
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        if (shellf("\"$R\" stress --tractions %s --json --output t.json --quiet && \"$R\" check "
+                   "t.json",
+                   cases[k]) ||
+            !strstr(out, "valid"))
+            fail_msg("%s: %s%s", cases[k], out, err);
+    for (size_t k = 0; k < sizeof changes / sizeof *changes; k++)
+        if (shellf("\"$R\" stress --tractions %s --json --output t.json --quiet && sed '%s' t.json "
+                   "> changed.json && ! cmp -s t.json changed.json",
+                   cases[0], changes[k]) ||
+            shell("\"$R\" check changed.json") != 1)
+            fail_msg("%s: %s%s", changes[k], out, err);
+    assert_int_equal(shell("sed 's/\"x_mm\"/\"x\"/' t.json > changed.json; \"$R\" check "
+                           "changed.json"),
+                     65);
+    assert_non_null(strstr(err, "its tractions have no rows"));
 }
 
 RUN_TESTS(enter_folder, leave_folder)

@@ -751,6 +751,15 @@ rb_status rb_rolling_model_of_elements(const rb_rolling_case *rc, int n, const d
                                        const double *h, const double *p, const double *q,
                                        const double *zone, rb_rolling_model *model,
                                        rb_rolling_solution *s, rb_message *why);
+/* Rows of a table of tractions: nodes, or with h and zone elements; all borrowed. */
+typedef struct {
+    int n;
+    const double *x, *p, *q, *h, *zone;
+} rb_rolling_traction_rows;
+/* By one of the two functions above. */
+rb_status rb_rolling_model_of_rows(const rb_rolling_case *rc, const rb_rolling_traction_rows *rows,
+                                   rb_rolling_model *model, rb_rolling_solution *s,
+                                   rb_message *why);
 /* The largest stresses leave out such a part of half the loaded width around jumps of friction. */
 #define RB_ROLLING_LEFT_OUT 1e-3
 /* The next place from node *k on where given friction jumps, so that sxx is unbounded at the

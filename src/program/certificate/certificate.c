@@ -18,12 +18,10 @@ static rb_status check_head(const rb_certificate *c, const json_t *root, rb_mess
     static const char *const others[] = {"curve", "wear", "design", "parameters"};
     const json_t *inputs = json_object_get(root, "inputs"),
                  *summary = json_object_get(root, "summary");
+    const int is_given = json_is_object(json_object_get(root, "tractions"));
 
     if (strcmp(rb_certificate_word(root, "schema"), "rollbem/1") != 0)
         return rb_certificate_refuse(c, "not a result of schema rollbem/1", why);
-    if (json_object_get(root, "tractions"))
-        return rb_certificate_refuse(
-            c, "its tractions were given, and no contact was solved that could be checked", why);
     if (json_object_get(root, "growth"))
         return rb_certificate_refuse(
             c, "a crack that grows: the faces at its other lengths are not printed", why);
@@ -36,8 +34,8 @@ static rb_status check_head(const rb_certificate *c, const json_t *root, rb_mess
                            "%s: cannot be checked: results with '%s' (only single cases, "
                            "histories, stress and cracks without error bars can be)",
                            c->name, others[k]);
-    if (!json_is_object(inputs) || !json_is_object(summary) ||
-        !json_is_object(json_object_get(root, "table")))
+    if (!json_is_object(inputs) || (!is_given && (!json_is_object(summary) ||
+                                                  !json_is_object(json_object_get(root, "table")))))
         return rb_certificate_refuse(c,
                                      "inputs, summary or table is missing (only single cases, "
                                      "histories, stress and cracks without error bars can be)",
@@ -48,7 +46,7 @@ static rb_status check_head(const rb_certificate *c, const json_t *root, rb_mess
     if (strcmp(rb_certificate_word(inputs, "units"), "mm") != 0 ||
         strcmp(rb_certificate_word(json_object_get(root, "units"), "system"), "mm") != 0)
         return rb_certificate_refuse(c, "units other than mm, N, MPa", why);
-    if (strcmp(rb_certificate_word(summary, "status"), "solved") != 0)
+    if (!is_given && strcmp(rb_certificate_word(summary, "status"), "solved") != 0)
         return rb_certificate_refuse(c, "its status is not solved", why);
     if (strcmp(rb_certificate_word(root, "version"), RB_VERSION) != 0)
         return rb_certificate_refuse(c, "it is of another version of rollbem", why);
@@ -89,12 +87,14 @@ typedef struct {
     rb_rolling_solutions all;
     rb_certificate_stress stress;
     rb_certificate_slopes slopes;
+    rb_certificate_given given;
 } parts;
 
 static void free_parts(parts *p)
 {
     rb_certificate_slopes_free(&p->slopes);
     rb_rolling_stress_grid_free(&p->stress.grid);
+    free(p->given.numbers);
     rb_rolling_solutions_free(&p->all);
     rb_rolling_states_free(&p->states);
     rb_case_result_free(&p->r);
@@ -213,13 +213,18 @@ static rb_status write_case(rb_certificate *c, void *context, json_t **again, rb
 
     for (size_t k = 0; k < sizeof of_stress / sizeof *of_stress; k++)
         has_stress |= json_object_get(root, of_stress[k]) != NULL;
-    rb_status s =
-        rb_certificate_restore(c, rb_case_resolved(of->words), &stored, &p.r, &p.states, why);
+    const int is_given = json_is_object(json_object_get(root, "tractions"));
+    rb_status s = is_given ? rb_certificate_restore_given(c, root, rb_case_resolved(of->words),
+                                                          &p.r, &p.given, why)
+                           : rb_certificate_restore(c, rb_case_resolved(of->words), &stored, &p.r,
+                                                    &p.states, why);
     if (s == RB_OK && c->judges)
         judge_proof(c, summary);
     if (s == RB_OK && has_stress)
         s = rb_certificate_restore_stress(c, root, &p.r, &p.stress, why);
-    if (s == RB_OK)
+    if (s == RB_OK && is_given)
+        rb_report_stress_take(&p.stress.shown, &p.given.rows, &p.r.model);
+    if (s == RB_OK && !is_given)
         s = rb_certificate_restore_slopes(c, root, of->words, &p.r, &p.states, &p.slopes, why);
     if (s == RB_OK && has_solutions)
         s = restore_solutions(c, of, &p, why);
@@ -227,12 +232,13 @@ static rb_status write_case(rb_certificate *c, void *context, json_t **again, rb
         s = judge_solutions(c, &p, why);
     if (s == RB_OK) {
         const rb_rolling_note_list notes =
-            rb_rolling_find_notes(&rb_case_resolved(of->words)->rc, &p.r.solution);
+            is_given ? (rb_rolling_note_list){.n = 0}
+                     : rb_rolling_find_notes(&rb_case_resolved(of->words)->rc, &p.r.solution);
         *again = rb_report_json_document(&(rb_report_document){
             .command = rb_certificate_word(root, "command"),
             .words = of->words,
-            .notes = &notes,
-            .result = &p.r,
+            .notes = is_given ? NULL : &notes,
+            .result = is_given ? NULL : &p.r,
             .states = history ? &p.states : NULL,
             .slopes = &p.slopes.of_steps,
             .stress = has_stress ? &p.stress.shown : NULL,

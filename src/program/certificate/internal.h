@@ -115,6 +115,17 @@ rb_status rb_certificate_restore_stress(rb_certificate *c, const json_t *root,
                                         const rb_case_result *r, rb_certificate_stress *s,
                                         rb_message *why);
 
+/* Tractions that were given, as they are stored. */
+typedef struct {
+    rb_rolling_traction_rows rows;
+    double *numbers; /* all of them; owned */
+} rb_certificate_given;
+
+/* The model of given tractions.  r, given: free them in any case. */
+rb_status rb_certificate_restore_given(rb_certificate *c, const json_t *root,
+                                       const rb_resolved_case *resolved, rb_case_result *r,
+                                       rb_certificate_given *given, rb_message *why);
+
 /* ---- slopes.c ----------------------------------------------------------------------- */
 
 /* Derivatives and standard deviations that are asked for. */

@@ -165,3 +165,39 @@ rb_status rb_certificate_restore_stress(rb_certificate *c, const json_t *root,
                                   .s = &r->solution};
     return status;
 }
+
+rb_status rb_certificate_restore_given(rb_certificate *c, const json_t *root,
+                                       const rb_resolved_case *resolved, rb_case_result *r,
+                                       rb_certificate_given *given, rb_message *why)
+{
+    static const char *const keys[] = {"x_mm", "p_MPa", "q_MPa", "h_mm", "zone"};
+    enum { COLUMNS = sizeof keys / sizeof *keys };
+    const json_t *stored = json_object_get(root, "tractions");
+    const int n = (int)json_array_size(json_object_get(stored, keys[0])),
+              columns = json_object_get(stored, "h_mm") ? COLUMNS : 3;
+    const uint64_t moving = c->moving;
+    rb_message reason = {.text = ""};
+    rb_status s = RB_OK;
+
+    if (n < 2)
+        return rb_certificate_refuse(c, "its tractions have no rows", why);
+    if (!(given->numbers = rb_alloc((size_t)n, COLUMNS)))
+        return RB_ENOMEM;
+    for (int k = 0; k < columns && s == RB_OK; k++) {
+        /* places stay as they are, two at one place are a jump, and so do zones */
+        c->moving = k == 1 || k == 2 ? c->moving : 0;
+        s = rb_certificate_list(c, stored, keys[k], n, given->numbers + (size_t)k * (size_t)n, why);
+        c->moving = c->moving ? c->moving : moving;
+    }
+    if (s != RB_OK)
+        return s;
+    const double *at = given->numbers;
+    given->rows = (rb_rolling_traction_rows){n,
+                                             at,
+                                             at + n,
+                                             at + 2 * (size_t)n,
+                                             columns > 3 ? at + 3 * (size_t)n : NULL,
+                                             columns > 3 ? at + 4 * (size_t)n : NULL};
+    s = rb_rolling_model_of_rows(&resolved->rc, &given->rows, &r->model, &r->solution, &reason);
+    return s == RB_OK || s == RB_ENOMEM ? s : rb_certificate_refuse(c, reason.text, why);
+}

@@ -14,11 +14,13 @@ typedef struct {
     const char *grid, *points, *tractions, *vtk, *fringes, *map;
     double depth, fringe, yield_shear;
     int shakedown, of_b;
-    int pulls, jumps, by_friction; /* of given tractions, as in rb_report_stress */
     /* where the stress is asked for */
     int nx, ny;        /* of the grid */
     rb_io_table place; /* the file of points; rows = 0: the grid */
     double *xy;        /* place.rows pairs; owned */
+    rb_io_table read;  /* the file of tractions */
+    double *none;      /* zeros of it; owned */
+    rb_rolling_traction_rows rows;
     /* results */
     rb_case_result run;
     rb_rolling_mirror *mirror; /* B, of run's model; NULL: A is asked for; owned */
@@ -119,9 +121,8 @@ static cli_exit prepare(cli_case_run *run)
         for (size_t i = 0; i < sizeof kept / sizeof *kept && !is_kept; i++)
             is_kept = strcmp(set->options[k].name, kept[i]) == 0;
         if (!is_kept && set->given[k] > 0 && !cli_case_file_of(&run->args))
-            return cli_case_refuse(run->words, "example",
-                                   "with --tractions no contact is solved; leave it "
-                                   "out");
+            return cli_fail(CLI_USAGE, "--example: with --tractions no contact is solved; leave it "
+                                       "out");
         if (!is_kept)
             return cli_fail(CLI_USAGE, "%s: with --tractions no contact is solved; leave it out",
                             rb_option_source(&set->options[k], set->given[k],
@@ -198,25 +199,24 @@ static int wants_shakedown(const stress *st)
 static rb_report_stress of_grid(const cli_case_run *run, const rb_rolling_stress_grid *grid)
 {
     const stress *st = run->own;
-    return (rb_report_stress){.of_b = st->of_b,
-                              .tractions = st->tractions,
-                              .pulls = st->pulls,
-                              .jumps = st->jumps,
-                              .by_friction = st->by_friction,
-                              .nx = grid->nx,
-                              .ny = grid->ny,
-                              .n = grid->nx * grid->ny,
-                              .depth = rb_unit_shown(run->c->units, "mm", st->depth),
-                              .at = grid->at,
-                              .inside = grid->inside,
-                              .maxima = &st->maxima,
-                              .errors = !run->c->error ? NULL
-                                        : st->of_b     ? &st->errors.stress_b
-                                                       : &st->errors.stress,
-                              .shakedown = wants_shakedown(st) ? &st->found : NULL,
-                              .yield_shear = rb_unit_shown(run->c->units, "MPa", st->yield_shear),
-                              .rc = &run->c->rc,
-                              .s = &st->run.solution};
+    rb_report_stress s = {.of_b = st->of_b,
+                          .nx = grid->nx,
+                          .ny = grid->ny,
+                          .n = grid->nx * grid->ny,
+                          .depth = rb_unit_shown(run->c->units, "mm", st->depth),
+                          .at = grid->at,
+                          .inside = grid->inside,
+                          .maxima = &st->maxima,
+                          .errors = !run->c->error ? NULL
+                                    : st->of_b     ? &st->errors.stress_b
+                                                   : &st->errors.stress,
+                          .shakedown = wants_shakedown(st) ? &st->found : NULL,
+                          .yield_shear = rb_unit_shown(run->c->units, "MPa", st->yield_shear),
+                          .rc = &run->c->rc,
+                          .s = &st->run.solution};
+    if (st->tractions && st->run.model.rc)
+        rb_report_stress_take(&s, &st->rows, &st->run.model);
+    return s;
 }
 
 /* At the points of the file; the first one that is not in the body is named by its line. */
@@ -294,38 +294,27 @@ static rb_status read_tractions(const cli_case_run *run, stress *st, rb_message 
     const rb_units units = rb_case_units(run->words, rb_option_given(&run->set, "tractions"));
     const double *column[KNOWN] = {NULL};
     rb_message reason = {.text = ""};
-    rb_io_table table = {0};
-    rb_status s = rb_io_table_read(st->tractions, &table, why);
-    const int headed = s == RB_OK && table.name != NULL;
+    rb_io_table *table = &st->read;
+    rb_status s = rb_io_table_read(st->tractions, table, why);
+    const int headed = s == RB_OK && table->name != NULL;
     if (s == RB_OK)
-        s = rb_io_table_assign(st->tractions, &table,
-                               headed                   ? (int)KNOWN
-                               : table.columns == P + 1 ? P + 1
-                                                        : Q + 1,
+        s = rb_io_table_assign(st->tractions, table,
+                               headed                    ? (int)KNOWN
+                               : table->columns == P + 1 ? P + 1
+                                                         : Q + 1,
                                known, units, column, why);
-    double *none = s == RB_OK ? rb_alloc((size_t)table.rows, 1) : NULL;
-    if (s == RB_OK && !none)
+    if (s == RB_OK && !(st->none = rb_alloc((size_t)table->rows, 1)))
         s = RB_ENOMEM;
-    if (s == RB_OK && !column[H] != !column[ZONE])
-        s = rb_fail(&reason, RB_EFORMAT, "elements need both columns, h and zone");
-    if (s == RB_OK) {
-        const double *q = column[Q] ? column[Q] : none;
-        rb_case_result *r = &st->run;
-        s = column[H] ? rb_rolling_model_of_elements(&run->c->rc, table.rows, column[X], column[H],
-                                                     column[P], q, column[ZONE], &r->model,
-                                                     &r->solution, &reason)
-                      : rb_rolling_model_of_nodes(&run->c->rc, table.rows, column[X], column[P], q,
-                                                  &r->model, &r->solution, &reason);
-        st->by_friction = 1;
-        for (int k = 0; k < table.rows; k++) {
-            st->pulls += column[P][k] < 0.0;
-            st->by_friction &= column[P][k] == 0.0;
-        }
-        for (int k = 0; !isnan(rb_rolling_next_friction_jump(&r->model, &k));)
-            st->jumps++;
-    }
-    free(none);
-    rb_io_table_free(&table);
+    if (s != RB_OK)
+        return s;
+    st->rows = (rb_rolling_traction_rows){.n = table->rows,
+                                          .x = column[X],
+                                          .p = column[P],
+                                          .q = column[Q] ? column[Q] : st->none,
+                                          .h = column[H],
+                                          .zone = column[ZONE]};
+    s = rb_rolling_model_of_rows(&run->c->rc, &st->rows, &st->run.model, &st->run.solution,
+                                 &reason);
     if (s != RB_OK && reason.text[0])
         rb_fail(why, s, "%.200s: %.400s", st->tractions, reason.text);
     return s;
@@ -550,6 +539,8 @@ int cli_stress(int argc, char **argv)
     rb_rolling_stress_grid_free(&st.fine);
     free(st.at_points);
     rb_io_table_free(&st.place);
+    rb_io_table_free(&st.read);
+    free(st.none);
     free(st.xy);
     return code;
 }

@@ -311,14 +311,19 @@ typedef struct {
     const rb_rolling_stress *at; /* n; borrowed, as all here */
     const int *inside;           /* n; NULL: all */
     const rb_rolling_stress_maxima *maxima;
-    const rb_rolling_stress_maxima *errors; /* NULL: not computed */
-    const rb_rolling_shakedown *shakedown;  /* NULL: not asked for */
-    double yield_shear;                     /* k of A [stress]; NAN: not given */
-    const char *tractions;         /* file of those given, whose totals s has; NULL: of a contact */
+    const rb_rolling_stress_maxima *errors;    /* NULL: not computed */
+    const rb_rolling_shakedown *shakedown;     /* NULL: not asked for */
+    double yield_shear;                        /* k of A [stress]; NAN: not given */
+    const rb_rolling_traction_rows *tractions; /* those given, whose totals s has; NULL: of a
+                                                  contact */
     int pulls, jumps, by_friction; /* of these rows: with p < 0; where q jumps; p is zero in all */
     const rb_rolling_case *rc;
     const rb_rolling_solution *s;
 } rb_report_stress;
+
+/* Takes given tractions and counts in them, `model` being made of them. */
+void rb_report_stress_take(rb_report_stress *s, const rb_rolling_traction_rows *tractions,
+                           const rb_rolling_model *model);
 
 /* One row per point; the maxima are in the header.  RB_EWRITE: see errno. */
 rb_status rb_report_stress_table(FILE *out, const rb_report_stress *stress, const char *command,

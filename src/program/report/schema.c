@@ -163,7 +163,7 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(&of, "body", typed("string", "whose stress: a or b"));
     rb_report_json_set(&of, "tractions",
                        typed("object", "of --tractions: their totals; largest: of |p|, or of |q| "
-                                       "where p is zero"));
+                                       "where p is zero; their rows x, p, q, of elements h, zone"));
     rb_report_json_set(&of, "grid",
                        columns(&rb_rolling_stress_scalars, 1, "stress, an entry per point"));
     rb_report_json_set(&of, "points",

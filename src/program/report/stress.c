@@ -81,6 +81,20 @@ static const char *shakedown_text(const rb_report_stress *s, char *line, size_t 
     return line;
 }
 
+void rb_report_stress_take(rb_report_stress *s, const rb_rolling_traction_rows *tractions,
+                           const rb_rolling_model *model)
+{
+    s->tractions = tractions;
+    s->pulls = s->jumps = 0;
+    s->by_friction = 1;
+    for (int k = 0; k < tractions->n; k++) {
+        s->pulls += tractions->p[k] < 0.0;
+        s->by_friction &= tractions->p[k] == 0.0;
+    }
+    for (int k = 0; !isnan(rb_rolling_next_friction_jump(model, &k));)
+        s->jumps++;
+}
+
 /* Totals of given tractions, and what a reader of them has to know: of the lines 0 to
  * GIVEN_LINES - 1 those that are not NULL. */
 enum { GIVEN_LINES = 3 };
@@ -186,6 +200,32 @@ static json_t *json_extremum(rb_rolling_extremum m)
     return rb_report_json_named(3, (rb_report_named[]){{"value", m.value}, {"x", m.x}, {"y", m.y}});
 }
 
+/* The rows as they were read, for those who check the result. */
+static void set_rows(json_t **given, const rb_rolling_traction_rows *rows, rb_units units)
+{
+    const struct {
+        const char *name, *unit;
+        const double *x;
+    } columns[] = {{"x", "mm", rows->x},
+                   {"p", "MPa", rows->p},
+                   {"q", "MPa", rows->q},
+                   {"h", "mm", rows->h},
+                   {"zone", NULL, rows->zone}};
+    for (size_t c = 0; c < sizeof columns / sizeof *columns; c++) {
+        const char *unit = columns[c].unit;
+        char key[60];
+        if (!columns[c].x)
+            continue;
+        json_t *list = json_array();
+        for (int k = 0; k < rows->n; k++)
+            rb_report_json_append(
+                &list, rb_report_json_number(rb_unit_shown(units, unit, columns[c].x[k])));
+        snprintf(key, sizeof key, unit ? "%s_%s" : "%s", columns[c].name,
+                 unit ? rb_unit_name(units, unit) : "");
+        rb_report_json_set(given, key, list);
+    }
+}
+
 void rb_report_json_stress(json_t **root, const rb_report_stress *s)
 {
     const rb_report_columns columns = columns_of(s);
@@ -199,7 +239,9 @@ void rb_report_json_stress(json_t **root, const rb_report_stress *s)
                                           {"half_width", s->s->half_width},
                                           {"rows_pulled", s->pulls},
                                           {"friction_jumps", s->jumps}};
-        rb_report_json_set(root, "tractions", rb_report_json_named(7, totals));
+        json_t *given = rb_report_json_named(7, totals);
+        set_rows(&given, s->tractions, s->s->units);
+        rb_report_json_set(root, "tractions", given);
     }
     rb_report_json_set(root, "depth", rb_report_json_number(s->depth > 0.0 ? s->depth : NAN));
     json_t *all = json_object();

@@ -143,3 +143,14 @@ rb_status rb_rolling_model_of_elements(const rb_rolling_case *rc, int n, const d
     s->half_width = 0.5 * (s->contact_to - s->contact_from);
     return RB_OK;
 }
+
+rb_status rb_rolling_model_of_rows(const rb_rolling_case *rc, const rb_rolling_traction_rows *rows,
+                                   rb_rolling_model *model, rb_rolling_solution *s, rb_message *why)
+{
+    if (!rows->h != !rows->zone)
+        return rb_fail(why, RB_EFORMAT, "elements need both columns, h and zone");
+    return rows->h
+               ? rb_rolling_model_of_elements(rc, rows->n, rows->x, rows->h, rows->p, rows->q,
+                                              rows->zone, model, s, why)
+               : rb_rolling_model_of_nodes(rc, rows->n, rows->x, rows->p, rows->q, model, s, why);
+}
