@@ -1153,17 +1153,26 @@ static void fit_planted(int kind, unsigned seed, double factor, double noise, in
 /* Which of them run takes turns, a few each time. */
 TEST(random_fits_find_the_truth_or_refuse)
 {
-    static const double factors[] = {2.0, 0.5, 4.0, 0.25};
+    static const double factors[] = {2.0, 0.5, 4.0, 0.25, 8.0, 0.125};
+    enum { FACTORS = sizeof factors / sizeof factors[0] };
     int intervals = 0, seen = 0;
 
-    for (int k = 0; k < 4 * FITTED; k++) {
-        if (!is_in_turn(k, 18))
+    for (int k = 0; k < FACTORS * FITTED; k++) {
+        if (!is_in_turn(k, 27))
             continue;
         fit_planted(k % FITTED, 1000u * (unsigned)k + 7u, factors[k / FITTED], k % 2 ? 0.004 : 0.0,
                     &intervals);
         seen++;
     }
     assert_true(2 * intervals >= seen || seen < 4); /* most of them are found */
+}
+
+/* A layer from an eighth of its thickness: the sum has another minimum at a twentieth. */
+TEST(a_layer_is_found_from_an_eighth)
+{
+    int intervals = 0;
+    fit_planted(3, 4007u, 0.125, 0.0, &intervals);
+    assert_int_equal(intervals, 1);
 }
 
 /* From half of the modulus a fit on elements that stay came to rest at 6.17, with an interval.  The

@@ -573,14 +573,14 @@ static rb_status converge_again(fit_problem *p, progress *of, const rb_case_fit_
     return s == RB_OK ? gauss_newton(p, of, chi2, observer, why) : s;
 }
 
-/* From half and twice each number that the fit has begun with, and from a quarter and four times
+/* From half and twice each number that the fit has begun with, and from 4 and 8 times more or less
  * where the sum there is less, but not of a coefficient of friction, of which forces are nearly
  * linear: a lesser sum may lie beyond larger ones.  On few elements, which the fit then leaves for
  * its own at the least sum of all. */
 static rb_status try_other_starts(fit_problem *p, progress *of, const double *given,
                                   const rb_case_fit_observer *observer, rb_message *why)
 {
-    static const double factors[] = {0.5, 0.25, 2.0, 4.0};
+    static const double factors[] = {0.5, 0.25, 0.125, 2.0, 4.0, 8.0};
     enum { FACTORS = sizeof factors / sizeof *factors, OTHERS = 1 + FACTORS * RB_CASE_FIT_MAX };
     const rb_case *fine = p->c;
     const size_t bytes = (size_t)p->n * sizeof *given;
@@ -596,7 +596,7 @@ static rb_status try_other_starts(fit_problem *p, progress *of, const double *gi
             memcpy(from[others], given, bytes);
             from[others][j] *= factors[k];
             rb_case_fit_clip(&p->fit->parameter[j], &from[others][j]);
-            is_far[others] = k % 2;
+            is_far[others] = k % 3 != 0;
             others += memcmp(from[others], given, bytes) != 0;
         }
     if (others == 1)
