@@ -118,6 +118,9 @@ static inline void *not_null_(const void *pointer, const char *text, const char 
 /* |got - want| <= tol |want| */
 #define CHECK_REL(got, want, tol, ...)                                                             \
     check_close_(got, want, (tol)*fabs(want), __FILE__, __LINE__, __VA_ARGS__)
+/* A number as a page prints it, with two digits. */
+#define CHECK_TWO_DIGITS(got, want, ...)                                                           \
+    CHECK_ABS(got, want, 0.06 * pow(10.0, floor(log10(fabs(want)))), __VA_ARGS__)
 /* got <= bound */
 #define CHECK_MAX(got, bound, ...) check_max_(got, bound, __FILE__, __LINE__, __VA_ARGS__)
 /* The status of a call, before which `heard` is empty. */

@@ -22,6 +22,32 @@ TEST(selection_is_by_difficulty)
     rb_fem_wall_free(wall);
 }
 
+/* The table of docs/fem.md; Acary's wall has 2064 contacts and 7212 unknowns. */
+TEST(walls_have_their_size)
+{
+    static const struct {
+        int fine[3], coarse[3], contacts, unknowns, rank;
+    } rows[] = {{{4, 3, 3}, {3, 2, 3}, 161, 901, 483},
+                {{8, 6, 3}, {4, 3, 3}, 606, 3133, 1818},
+                {{14, 10, 3}, {5, 3, 3}, 1722, 8155, 5166}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        rb_fem_wall_options o = rb_fem_wall_defaults();
+        rb_fem_wall *wall;
+        int rank = 0;
+        memcpy(o.fine, rows[k].fine, sizeof o.fine);
+        memcpy(o.coarse, rows[k].coarse, sizeof o.coarse);
+        CHECK_OK(rb_fem_wall_create(&o, &wall, NULL));
+        assert_int_equal(rb_fem_wall_contacts(wall), rows[k].contacts);
+        assert_int_equal(rb_fem_wall_dofs(wall), rows[k].unknowns);
+        assert_int_equal(3 * rows[k].contacts, rows[k].rank);
+        if (k == 0 || getenv("ROLLBEM_TEST_ALL")) {
+            CHECK_OK(rb_fem_wall_rank(wall, &rank));
+            assert_int_equal(rank, rows[k].rank);
+        }
+        rb_fem_wall_free(wall);
+    }
+}
+
 /* Rigid blocks: 73 freedoms, H of rank 73, hundreds of times hyperstatic; pressed only,
  * the contacts of the upper support carry the force. */
 TEST(rigid_wall_carries_its_load)

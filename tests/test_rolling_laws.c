@@ -722,6 +722,7 @@ TEST(a_step_has_two_starts)
             stick += model.state.zone[i] == RB_ZONE_STICK;
         if (start == 0) {
             CHECK_ABS(ratio[0], 0.5977, 5e-4, "CONTACT");
+            CHECK_ABS(ratio[0], 0.5978, 6e-5, "theory-rolling.md F5");
             assert_int_equal(stick, 77);
         }
     }

@@ -83,11 +83,18 @@ static void carter_errors(const char *elements, const char *mesh, int smooth, do
     const double mu = 0.3, P = 500.0, E = 94500.0 / (2.0 * (1.0 - 0.1 * 0.1)),
                  unit = mu * sqrt(4.0 * P / (M_PI * E * 50.0)); /* mu a/R */
     double sum[SLOPES] = {0.0};
+    int missed = 0;
     for (int k = 0; k < PLACES; k++) {
         const double s = 0.05 + 0.9 * k / (PLACES - 1) + 1e-3 * sin(k);
         static const char *const inputs[] = {"mu", "creep"};
         differentiated d;
-        CHECK_OK(differentiate_by(&w, "creep", -s * unit, 2, inputs, smooth, &d, &heard));
+        const rb_status found =
+            differentiate_by(&w, "creep", -s * unit, 2, inputs, smooth, &d, &heard);
+        if (found != RB_OK && strstr(heard.text, "too short") && ++missed * 8 < PLACES) {
+            differentiated_free(&d);
+            continue; /* of few elements none stick */
+        }
+        CHECK_OK(found);
         const rb_rolling_solution *by_mu = &d.by[0].d.value[0], *by_xi = &d.by[1].d.value[0];
         const double got[SLOPES] = {by_xi->tangential_load * -unit / (mu * P),
                                     by_mu->tangential_load / P,
@@ -100,7 +107,7 @@ static void carter_errors(const char *elements, const char *mesh, int smooth, do
             sum[j] += pow(got[j] - want[j], 2.0);
     }
     for (int j = 0; j < SLOPES; j++)
-        error[j] = sqrt(sum[j] / PLACES);
+        error[j] = sqrt(sum[j] / (PLACES - missed));
 }
 
 TEST(carter_slopes_are_of_second_order)
@@ -123,6 +130,29 @@ TEST(carter_slopes_are_of_second_order)
             if (!(exact[by] > (of_D ? 15.0 : 50.0) * e[2][by]))
                 fail_msg("%s, %s: exact derivatives %.3g, smooth ones %.3g", meshes[m],
                          slope_name[by], exact[by], e[2][by]);
+        }
+    }
+}
+
+/* The table of docs/theory-solvers.md, to its digits; columns of 25 to 400 aligned elements. */
+TEST(carter_errors_are_those_of_the_page)
+{
+    static const char *const elements[] = {"25", "50", "100", "200", "400"};
+    static const double shown[][5] = {{2.4e-2, 1.2e-2, 5.7e-3, 2.8e-3, 1.4e-3},
+                                      {3.0e-3, 6.0e-4, 1.5e-4, 3.6e-5, 8.8e-6},
+                                      {1.4e-2, 6.8e-3, 3.3e-3, 1.6e-3, 8.0e-4},
+                                      {2.6e-3, 4.4e-4, 1.0e-4, 2.3e-5, 5.8e-6}};
+    for (int k = 0; k < 5; k++) {
+        if (!is_in_turn(k, 5))
+            continue;
+        for (int smooth = 0; smooth < 2; smooth++) {
+            double e[SLOPES];
+            carter_errors(elements[k], "aligned", smooth, e);
+            for (int of_mu = 0; of_mu < 2; of_mu++) {
+                const double want = shown[2 * of_mu + smooth][k];
+                CHECK_TWO_DIGITS(e[of_mu ? Q_BY_MU : Q_BY_S], want, "%s, %s", elements[k],
+                                 smooth ? "smooth" : "exact");
+            }
         }
     }
 }

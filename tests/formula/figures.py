@@ -4,18 +4,22 @@ a formula that a function of this folder evaluates.
 
     rows NAME            a section of tests/figures, which looks for its rows on the page
     formula CHAPTER.TAG  a function of this folder
-    by COMMAND           what takes too long, or needs what is not here: not run, but it must exist
+    by build/tests/TEST  a test that compares the numbers: they stand in its source
+    by COMMAND           what takes too long, or needs what is not here: not run, but it must exist (in front of a test:
+                         ROLLBEM_TEST_ALL=1, it prints the numbers and compares other ones)
     in FILE [FUNCTION...] numbers that a test compares, or that the program has as constants: they stand there
-    from SOURCE          literature, or numbers of sections
+    from SOURCE          literature; theory.md: numbers of sections, whose headings stand there
     OPTIONS | EXPRESSION; EXPRESSION ...
                          run by the program, OPTIONS with a command before them or not; an expression has
-                         the names of the summary in JSON, of a crack those of its contact, too; without OPTIONS
-                         it is arithmetic.  N in 1 2: before it stands for two lines with {N}.  Each value must
+                         the names of the summary in JSON, of a crack those of its contact, too, and the other objects, as
+                         parameters["mu"]["value"] of a fit; of what is refused `name = number` of its line; without
+                         OPTIONS it is arithmetic.  N in 1 2: before it stands for two lines with {N}.  Each value must
                          stand in the table or the paragraph below.
     turns                before such lines: a quarter of them is run each day, all with ROLLBEM_TEST_ALL.
 
-Below lines of the last three kinds alone each number must be met by one of them, or stand in the comment."""
+But for rows, formulas and commands that are not run each number must be met by one of them, or stand in the comment."""
 import ast
+import builtins
 import glob
 import json
 import math
@@ -53,9 +57,12 @@ def commands(comment):
 def summary(options):
     printed = subprocess.run([os.environ.get("ROLLBEM", "build/rollbem"), *options.split(), "--json", "--quiet"],
                              capture_output=True, text=True)
-    assert printed.stdout, f"{options}: {printed.stderr}"
+    if not printed.stdout:
+        assert " = " in printed.stderr, f"{options}: {printed.stderr}"
+        return {name: float(x) for name, x in re.findall(r"(\w+) = ([-+.\de]*\d)", printed.stderr)}
     root = json.loads(printed.stdout)
-    return {name: x for name, x in [*root.get("contact", {}).items(), *root["summary"].items()] if isinstance(x, (int, float))}
+    parts = {name: x for name, x in root.items() if isinstance(x, dict)}
+    return parts | {name: x for name, x in [*root.get("contact", {}).items(), *root.get("summary", {}).items(), *root.items()] if isinstance(x, (int, float))}
 
 
 def numbers_in(place):
@@ -68,6 +75,14 @@ def numbers_in(place):
     return {abs(float(x)) for x in re.findall(r"(?<![\w.])(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", text)}
 
 
+def named(rest):
+    """The numbers that a test compares (build/tests/test_bem_system, _disc: two of them), or those of sections."""
+    if rest == "theory.md":
+        return {float(x) for page in glob.glob("docs/theory*.md") for x in re.findall(r"^#+ (\d\.\d+)", open(page).read(), re.M)}
+    first, *others = re.findall(r"\b_?[a-z]\w+", rest.partition("build/tests/test")[2])
+    return set().union(*(numbers_in(f"tests/test{name}.c") for name in [first, *others]))
+
+
 def missing(kind, rest):
     """What is wrong with a line that names a section, a function, a program."""
     if kind == "rows":
@@ -75,6 +90,7 @@ def missing(kind, rest):
     if kind == "formula":
         chapter, _, tag = rest.partition(".")
         return [] if f"def {tag}(" in open(f"tests/formula/{chapter}.py").read() else [f"no {rest}"]
+    rest = re.sub(r"^ROLLBEM_TEST_ALL=1 ", "", rest)
     places = [re.sub(r"build/bench/(\w+).*", r"tools/bench/\1.c", rest), re.sub(r"build/tests/(\w+).*", r"tests/\1.c", rest), rest.split()[0]]
     return [] if any(os.path.exists(p) for p in places) or rest.startswith(("make ", "CONTACT")) else [f"{rest}: not here"]
 
@@ -86,21 +102,24 @@ def check(comment, block, shown):
     met, near, ran, all_named = set(), set(), 0, False
     for k, line in enumerate(lines):
         kind, _, rest = line.strip().partition(" ")
+        compares = rest.startswith(("build/tests/", "theory.md"))
         if kind in ("rows", "formula", "by"):
             wrong += missing(kind, rest)
-            all_named = True
-        elif kind == "from":
+            all_named |= not compares
+        elif kind == "from" and not compares:
             all_named |= not any(map(is_measured, FIGURE.findall(rest)))
-        elif kind == "in":
-            there = numbers_in(rest)
+        if kind == "in" or compares:
+            there = numbers_in(rest) if kind == "in" else named(rest)
             alike = {w for w in shown if any(abs(x - abs(float(w))) <= 0.5001*unit(w) for x in there)}
-            wrong += [] if alike else [f"nothing here is {line.strip()}"]
+            wrong += [] if alike or kind != "in" else [f"nothing here is {line.strip()}"]
             met |= alike
+        elif kind in ("rows", "formula", "by", "from"):
+            pass
         elif turns and not everything and k % 4 != turn % 4:
             continue
         else:
             options, _, expressions = line.partition("|")
-            names = {**vars(math), **(summary(options) if options.strip() else {})}
+            names = {**vars(math), **vars(builtins), **(summary(options) if options.strip() else {})}
             for expression in expressions.split(";"):
                 x = eval(expression, names)
                 alike = [w for w in FIGURE.findall(block) if abs(abs(x) - abs(float(w))) <= 0.6*unit(w) and abs(float(w)) >= 0.05*abs(x)
