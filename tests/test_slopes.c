@@ -194,6 +194,8 @@ TEST(compressed_boundaries_have_derivatives)
     int n, poisson = 0;
 
     (void)state;
+    if (!is_in_turn(0, 2))
+        skip();
     CHECK_STATUS(rb_case_numbers(c, number, &n, &why), RB_OK);
     while (strcmp(number[poisson].name, "poisson") != 0)
         poisson++;
@@ -221,6 +223,8 @@ TEST(compressed_boundaries_have_rates)
     double off = 0.0, largest = 0.0;
 
     (void)state;
+    if (!is_in_turn(1, 2))
+        skip();
     rc.formulation = RB_STEADY;
     rc.mesh = RB_MESH_UNIFORM;
     rc.a.support = RB_BEM_HUB;

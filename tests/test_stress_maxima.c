@@ -132,13 +132,16 @@ TEST(maxima_lie_where_they_are)
          "tresca_shear", 0.5 * 52.5, 1e-3, 0.0, "body"},
     };
     json_t *root = NULL;
+    int line_of = 0;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         if (k == 0 || strcmp(rows[k].line, rows[k - 1].line) != 0) {
             char line[600];
             snprintf(line, sizeof line, "stress %s --grid 2x2", rows[k].line);
             json_decref(root);
-            root = run_json(line);
+            root = is_in_turn(line_of++, 4) ? run_json(line) : NULL;
         }
+        if (!root)
+            continue;
         const json_t *one = json_object_get(json_object_get(root, "maxima"), rows[k].name);
         CHECK_REL(number_in(one, "value"), rows[k].want, rows[k].tolerance, "%s: %s", rows[k].line,
                   rows[k].name);
