@@ -225,6 +225,9 @@ const char *rb_api_variable(const rb_api *a, int variable, char *text, int size)
 int rb_api_guess(rb_api *a, int n, const int *zone);
 /* Whose stress the functions below compute from now on: 0: A's (as at first), 1: B's, at y <= 0. */
 int rb_api_stress_of(rb_api *a, int of_b);
+/* Instead of solving the case of a handle for "stress": pressure and friction on A at n places of a
+ * half-plane, x increasing, linear between them and zero outside; twice the same x is a jump. */
+int rb_api_tractions(rb_api *a, int n, const double *x, const double *p, const double *q);
 /* Stress below the surface on nx x ny points, y increasing, down to a depth [length] (0:
  * automatic). */
 int rb_api_stress(rb_api *a, int nx, int ny, double depth);

@@ -900,16 +900,42 @@ def history(program: Optional[Table] = None, case: _CaseLike = None, *,
     return found
 
 
+def _given(case: Case, tractions: Any) -> Solution:
+    """Tractions in the place of a contact."""
+    if isinstance(tractions, dict):
+        unknown = set(tractions) - {"x", "p", "q"}
+        if unknown or not {"x", "p"} <= set(tractions):
+            raise InvalidInput(f"tractions=: expected x, p and q, got {', '.join(map(str, tractions))}")
+        columns = [_values.array("tractions", tractions[name]) for name in ("x", "p", "q") if name in tractions]
+    else:
+        rows = _values.array("tractions", tractions)
+        columns = list(rows.T) if rows.ndim == 2 else [rows]
+    if len(columns) not in (2, 3) or len({column.shape for column in columns}) > 1 or columns[0].ndim != 1:
+        raise InvalidInput("tractions=: expected x, p and q of as many places")
+    x, p, q = [np.ascontiguousarray(column) for column in (*columns, np.zeros_like(columns[0]))[:3]]
+    handle = case.handle("stress")
+    return handle.kept(Solution(case, handle),
+                       handle.run("rb_api_tractions", len(x), doubles(x), doubles(p), doubles(q)))
+
+
 def stress(case: Union[Solution, _CaseLike] = None, grid: "tuple[int, int]" = (61, 41),
-           depth: Optional[float] = None, points: Any = None, body: str = "a", **options: Any) -> Stress:
+           depth: Optional[float] = None, points: Any = None, body: str = "a", tractions: Any = None,
+           **options: Any) -> Stress:
     """Stress below the surface of A, or with ``body="b"`` of B, on a grid or at points (n x 2: x, y > 0 inside A, y < 0
     inside B).
 
-    ``case`` may be a :class:`Solution`, which is not solved again.
+    ``case`` may be a :class:`Solution`, which is not solved again.  ``tractions`` are x, p and q (or x and p) as columns or
+    as arrays of a dict, linear between places that increase, twice the same x a jump: on half-planes, and then no contact
+    is solved; of ``solution`` the numbers normal_load, tangential_load, resistance_moment, max_pressure and half_width are
+    theirs.
     """
     if body not in ("a", "b"):
         raise InvalidInput(f"body=: expected 'a' or 'b', got {body!r}")
-    if isinstance(case, Solution) and not options:
+    if tractions is not None:
+        if isinstance(case, Solution):
+            raise InvalidInput("tractions=: not together with a solution")
+        solution = _given(_case(case, {"support": "halfplane", **options}), tractions)
+    elif isinstance(case, Solution) and not options:
         solution = case
     else:
         whole = case.case.but(**options) if isinstance(case, Solution) else _case(case, options)

@@ -53,6 +53,7 @@ FUNCTIONS = {
     "rb_api_array": (_Handle, _Handle, _Text, _Ints, _Ints),
     "rb_api_curve_over": (_Int, _Handle, _Text, _Double, _Double, _Int),
     "rb_api_stress_of": (_Int, _Handle, _Int),
+    "rb_api_tractions": (_Int, _Handle, _Int, _Doubles, _Doubles, _Doubles),
     "rb_api_stress": (_Int, _Handle, _Int, _Int, _Double),
     "rb_api_stress_at": (_Int, _Handle, _Int, _Doubles),
     "rb_api_stress_maxima": (_Int, _Handle, _Double),

@@ -111,6 +111,22 @@ def test_units_are_those_of_the_table():
     assert steps.to_pandas().attrs["units"]["slip"] == "elements"
 
 
+def test_stress_below_given_tractions():
+    rows = np.array([[-1, 1, 0], [1, 1, 0]])
+    below = rollbem.stress(tractions=rows, points=[[1.0, 0.1]])
+    assert [below.sxx[0], below.syy[0], below.sxy[0]] == pytest.approx([-0.468222, -0.499974, -0.317516], abs=1e-6)
+    assert below.solution.normal_load == 2 and np.isnan(below.solution.creepage)
+    sheared = rollbem.stress(tractions={"x": [-1, 1], "p": [0, 0], "q": [1, 1]}, points=[[1.0, -0.1]], body="b", similar=True)
+    assert sheared.sxx[0] == pytest.approx(1.590421, abs=1e-6)
+    assert rollbem.stress(tractions=rows[:, :2], points=[[0.5, 0.25]]).sxx[0] == pytest.approx(-0.620906, abs=1e-6)
+    metre = rollbem.stress(tractions=rows * [1e-3, 1e6, 1], points=[[1e-3, 1e-4]], units="si")
+    assert metre.sxx[0] == pytest.approx(-0.468222e6, rel=1e-5) and metre.solution.normal_load == pytest.approx(2000)
+    for bad, says in ((dict(load=100), "load: with given tractions"), (dict(support="hub"), "support"),
+                      (dict(tractions=rows[::-1]), "x has to increase"), (dict(tractions=[[1, 2, 3, 4]]), "expected x, p and q")):
+        with pytest.raises(rollbem.InvalidInput, match=says):
+            rollbem.stress(**{"tractions": rows, **bad})
+
+
 def test_fretting_is_a_part_of_the_solution():
     steps = rollbem.history(
         {"force_ratio": [0, 0.6, -0.6, 0.6]}, fretting=True, load=500.0, mu=0.5, **{**PLANES, "formulation": "static"}

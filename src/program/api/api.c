@@ -683,7 +683,8 @@ double rb_api_number(const rb_api *a, const char *name)
     const int is_error = strncmp(name, error_, strlen(error_)) == 0;
     const rb_rolling_result *r = rb_rolling_find_result(&rb_rolling_solution_scalars,
                                                         is_error ? name + strlen(error_) : name);
-    if (!r || result->solution.n == 0 || (is_error && (!result->has_errors || !r->error_bar)))
+    if (!r || (result->solution.n == 0 && !result->model.given) ||
+        (is_error && (!result->has_errors || !r->error_bar)))
         return NAN;
     return shown(a, r->unit,
                  rb_rolling_number(r, is_error ? &result->errors.scalar : &result->solution));
@@ -1290,6 +1291,36 @@ int rb_api_stress_of(rb_api *a, int of_b)
 {
     a->stress_of_b = of_b != 0;
     return RB_OK;
+}
+
+int rb_api_tractions(rb_api *a, int n, const double *x, const double *p, const double *q)
+{
+    rb_message reason = {.text = ""};
+    const rb_option_set all = rb_case_options(a->words);
+
+    for (int k = 0; k < all.n; k++)
+        if (all.given[k] && !rb_case_is_of_tractions(all.options[k].name))
+            return rb_api_ended(a, rb_refuse(&a->why, all.options[k].name,
+                                             "%s: with given tractions no contact is solved; "
+                                             "leave it out",
+                                             all.options[k].name));
+    if (rb_api_resolve(a) < 0)
+        return a->status;
+    double *rows = n > 0 ? rb_alloc((size_t)n, 3) : NULL;
+    if (n > 0 && !rows)
+        return rb_api_ended(a, rb_fail(&a->why, RB_ENOMEM, "out of memory"));
+    for (int k = 0; k < n; k++) {
+        rows[k] = stored(a, "mm", x[k]);
+        rows[n + k] = stored(a, "MPa", p[k]);
+        rows[2 * n + k] = stored(a, "MPa", q[k]);
+    }
+    rb_case_result *r = &a->result;
+    rb_status s = rb_rolling_model_of_nodes(&rb_case_resolved(a->words)->rc, n, rows, rows + n,
+                                            rows + 2 * n, &r->model, &r->solution, &reason);
+    free(rows);
+    if (s != RB_OK)
+        rb_rolling_model_free(&r->model);
+    return rb_api_ended(a, s == RB_OK ? s : rb_fail(&a->why, s, "%s", reason.text));
 }
 
 /* The model of the body that is asked for: A, or B in a mirror, to be freed. */

@@ -105,11 +105,6 @@ static int read_grid(stress *st)
 /* Given tractions act on a half-plane, and nothing is solved: what else a case has says nothing. */
 static cli_exit prepare(cli_case_run *run)
 {
-    static const char *const kept[] = {
-        "layers",    "layers-b",        "young",        "poisson",           "support",
-        "similar",   "layer-thickness", "base-young",   "base-poisson",      "young-b",
-        "poisson-b", "support-b",       "base-young-b", "base-poisson-b",    "plane",
-        "units",     "radius",          "radius-b",     "layer-thickness-b", "gap"};
     const stress *st = run->own;
     if (!st->tractions)
         return CLI_CONTINUE;
@@ -117,9 +112,7 @@ static cli_exit prepare(cli_case_run *run)
     rb_message why = {.text = ""};
     char buffer[400];
     for (int k = 0; k < set->n; k++) {
-        int is_kept = !set->given[k];
-        for (size_t i = 0; i < sizeof kept / sizeof *kept && !is_kept; i++)
-            is_kept = strcmp(set->options[k].name, kept[i]) == 0;
+        const int is_kept = !set->given[k] || rb_case_is_of_tractions(set->options[k].name);
         if (!is_kept && set->given[k] > 0 && !cli_case_file_of(&run->args))
             return cli_fail(CLI_USAGE, "--example: with --tractions no contact is solved; leave it "
                                        "out");

@@ -103,6 +103,9 @@ int rb_case_gap_rows(const rb_case *c, const double **x, const double **gap);
 /* 1: a column of the history replaces the value of the option. */
 int rb_case_is_replaced(const rb_case *c, const rb_option *option);
 /* 1: transient rolling, a static history or increments. */
+/* 1: the option means something where tractions are given, on half-planes, and nothing is solved.
+ */
+int rb_case_is_of_tractions(const char *option);
 int rb_case_has_steps(const rb_resolved_case *resolved);
 
 /* ---- Solving ----------------------------------------------------------------------- */

@@ -870,6 +870,19 @@ int rb_case_takes(rb_case_purpose purpose, const char *option)
     return 1;
 }
 
+int rb_case_is_of_tractions(const char *option)
+{
+    static const char *const kept[] = {
+        "layers",    "layers-b",        "young",        "poisson",           "support",
+        "similar",   "layer-thickness", "base-young",   "base-poisson",      "young-b",
+        "poisson-b", "support-b",       "base-young-b", "base-poisson-b",    "plane",
+        "units",     "radius",          "radius-b",     "layer-thickness-b", "gap"};
+    for (size_t k = 0; k < sizeof kept / sizeof *kept; k++)
+        if (strcmp(option, kept[k]) == 0)
+            return 1;
+    return 0;
+}
+
 static rb_status check_never_taken(const rb_case *c, rb_message *why)
 {
     for (size_t k = 0; k < NEVER_TAKEN; k++)

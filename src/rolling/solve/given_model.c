@@ -30,7 +30,8 @@ static rb_status begin(const rb_rolling_case *rc, int n, rb_rolling_model *model
                        rb_rolling_solution *s, rb_message *why)
 {
     *model = (rb_rolling_model){.rc = NULL};
-    *s = (rb_rolling_solution){.force_ratio = NAN, .status = RB_OK};
+    *s = rb_rolling_no_row(RB_OK).solution; /* what no contact has is not there */
+    s->normal_load = s->tangential_load = s->resistance_moment = s->max_pressure = 0.0;
     rb_status status = rb_rolling_stress_check(rc, why);
     if (status == RB_OK && !rb_rolling_body_can(&rc->a, RB_BODY_FLAT))
         status = rb_fail(why, RB_EINVAL,
