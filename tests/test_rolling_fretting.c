@@ -227,6 +227,13 @@ TEST(what_has_no_cycle_is_refused)
         CHECK_SAYS(rb_rolling_history_run(&rc, &bad[k].program, NULL, &model, &h, &heard),
                    RB_EINVAL, bad[k].says);
     }
+    const rb_rolling_case rc = rolling_case(STEEL "similar contact-elements 30 fretting");
+    const rb_rolling_program closes = {.n = 4, .force_ratio = reverses};
+    OWNED(rb_rolling_history) h;
+    OWNED(rb_rolling_model) model;
+    CHECK_SAYS(rb_rolling_history_with_errors(&rc, &closes, NULL, &model, &h, &heard), RB_EINVAL,
+               "has no error bars");
+    assert_string_equal(heard.about, "error,fretting");
 }
 
 /* Without the cycle a solution of such a case has nothing of it. */

@@ -244,6 +244,10 @@ rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
         s = rb_refuse(why, "error,history",
                       "a history in time has no error bars; compare with half the time step and "
                       "twice the contact elements");
+    if (s == RB_OK && rc->fretting)
+        s = rb_refuse(why, "error,fretting",
+                      "what a cycle does to the elements has no error bars; compare with twice the "
+                      "contact elements");
     if (s == RB_OK)
         s = rb_rolling_history_run(rc, program, observer, model, history, why);
     if (s == RB_OK)
