@@ -42,6 +42,8 @@ static const struct {
     {"curve --plot a.bmp", 64, "--plot: expected a name ending in .png, .svg, .pdf or .eps"},
     {"--fretting --formulation static", 64, "--fretting: needs --history, a table whose rows end"},
     {"--fretting --formulation steady --creep 0.001", 64, "--fretting: what rolls has no cycle"},
+    {"--fretting-plot f.svg --increments 2 --formulation static", 64,
+     "--fretting-plot: needs --fretting"},
     {"stress --fretting", 64, "--fretting: only of a single case with --history"},
     {"curve --fretting", 64, "--fretting: only of a single case with --history"},
     {"stress --grid 10", 64, "--grid: expected two numbers >= 2 such as 61x41, got '10'"},
@@ -797,6 +799,23 @@ TEST(pictures_name_the_case)
         assert_int_equal(rollbem(line), 0);
         if (shellf("grep -F \"%s\" named.gp", pictures[k].text) != 0)
             fail_msg("--%s: no %s", pictures[k].option, pictures[k].text);
+    }
+}
+
+/* Of both bodies, or of A on a rigid plane, whose cycle closes the second time. */
+TEST(fretting_has_a_picture)
+{
+    static const char *const of_b[] = {"--similar", ""}, *const band[] = {"band2 = 3", "band2 = 0"};
+    for (int k = 0; k < 2; k++) {
+        if (shellf(
+                "printf 'force_ratio\\n0\\n0.6\\n-0.6\\n0.6\\n-0.6\\n0.6\\n' > frets.txt; \"$R\" "
+                "--support halfplane %s --load 100 --formulation static --history frets.txt "
+                "--fretting --contact-elements 20 --quiet --output out.tsv --fretting-plot "
+                "frets.svg --plot-script frets.gp && grep -F 'Ruiz 2  [MPa' frets.gp && grep -F "
+                "'%s' frets.gp",
+                of_b[k], band[k]))
+            fail_msg("%s: %s", of_b[k], err);
+        assert_int_equal(shell("tail -c 20 frets.svg | grep -q svg"), 0);
     }
 }
 

@@ -11,7 +11,7 @@
 typedef struct {
     /* options */
     int trace, all_solutions, states, prove;
-    const char *dump, *fclib, *history_table, *history_plot;
+    const char *dump, *fclib, *history_table, *history_plot, *fretting_plot;
     const char *derivatives, *smooth, *tolerance;
     cli_steps steps;
     /* results */
@@ -68,6 +68,8 @@ static const rb_option options[] = {
                  .unset = "none", .file = RB_FILE_WRITTEN),
     CLI_PICTURE_LINE("history-plot", PLACE(history_plot),
                      "picture of creepage or shift, force and stick over the distance"),
+    CLI_PICTURE_LINE("fretting-plot", PLACE(fretting_plot),
+                     "with --fretting: picture of work, Ruiz's second parameter and SWT over x"),
     RB_TEXT_LINE("snapshots", PLACE(steps.snapshots), "DIR",
                  "tractions of steps as step_000001.tsv (or .csv), ...", .unset = "none",
                  .file = RB_FILE_FOLDER),
@@ -161,9 +163,17 @@ static rb_status draw_history(FILE *out, rb_report_canvas canvas, const void *co
     return rb_report_history_picture(out, canvas, &run->c->rc, &it->r.history, why);
 }
 
+static rb_status draw_fretting(FILE *out, rb_report_canvas canvas, const void *context,
+                               rb_message *why)
+{
+    const cli_case_run *run = context;
+    return rb_report_fretting_picture(out, canvas, &run->c->rc, run->solution, why);
+}
+
 static const cli_case_file files[] = {{"history-table", .write = write_history},
                                       {"plot", .draw = draw},
                                       {"history-plot", .draw = draw_history},
+                                      {"fretting-plot", .draw = draw_fretting},
                                       {NULL, NULL, NULL}};
 
 static cli_exit show_behind(const cli_case_run *run)
@@ -252,7 +262,7 @@ static rb_status solve_case(cli_case_run *run, rb_message *why)
     for (int k = 0; k < it->all.n; k++)
         rb_rolling_solution_convert(&it->all.solution[k], units);
     if (it->r.history.n == 0) /* nothing to write, not even of the first step */
-        it->history_table = it->history_plot = NULL;
+        it->history_table = it->history_plot = it->fretting_plot = NULL;
     run->solution = &it->r.solution;
     run->printable = s >= 0 && it->r.solution.n > 0;
     return s;
@@ -286,6 +296,8 @@ static cli_exit check(cli_case_run *run)
                             rb_option_source(&options[i], run->set.given[i],
                                              cli_case_file_of(&run->args), name, sizeof name));
     }
+    if (it->fretting_plot && !c->rc.fretting)
+        return cli_case_refuse(run->words, "fretting-plot", "needs --fretting");
     if (run->o.style.dimensionless && (it->derivatives || it->smooth || it->history_table ||
                                        it->history_plot || it->steps.snapshots))
         return cli_case_refuse(run->words, "dimensionless",

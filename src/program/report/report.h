@@ -363,6 +363,9 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stre
  * a static history; errors as bands. */
 rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas, const rb_rolling_case *rc,
                                     const rb_rolling_history *history, rb_message *why);
+/* Work of friction, Ruiz's second parameter and SWT of the last cycle over x. */
+rb_status rb_report_fretting_picture(FILE *out, rb_report_canvas canvas, const rb_rolling_case *rc,
+                                     const rb_rolling_solution *s, rb_message *why);
 
 /* ---- Parameter studies ------------------------------------------------------------- */
 

@@ -33,6 +33,10 @@ do for [k=1:3] {
         plot $drawn using 1:(column(k+1)-column(k+4)):(column(k+1)+column(k+4)) with @band_style linecolor rgb c notitle, \
              $drawn using 1:k+1 with @line linecolor rgb c linewidth 1.8 pointtype 7 pointsize 0.8 notitle
     }
+    if (banded == 3) { # of both bodies
+        plot $drawn using 1:k+1 with lines linecolor rgb c linewidth 1.8 title 'A', \
+             $drawn using 1:k+4 with lines linecolor rgb c linewidth 1.8 dashtype 12 title 'B'
+    }
     if (banded == 0) {
         plot $drawn using 1:k+1 with @line linecolor rgb c linewidth 1.8 pointtype 7 pointsize 0.8 notitle
     }
