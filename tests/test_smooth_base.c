@@ -55,9 +55,10 @@ TEST(indentation_of_a_layer_on_an_elastic_base)
 }
 
 /* Half of a strip of thickness 2d under a rigid roll, R = C = 1 by P = pi E* C^2/(4R). */
-#define STRIP                                                                                      \
-    "--support halfplane --gap parabola --radius 100 --young 0.91e3 --poisson 0.3 --layer-base "   \
-    "smooth --formulation steady --load 0.785398163397448 --mesh uniform --contact-elements 200 "
+#define STRIP_OF                                                                                   \
+    "--support halfplane --gap parabola --radius 100 --layer-base smooth --formulation steady "    \
+    "--mesh uniform --contact-elements 200 "
+#define STRIP STRIP_OF "--young 0.91e3 --poisson 0.3 --load 0.785398163397448 "
 
 TEST(a_strip_between_two_equal_rolls)
 {
@@ -74,6 +75,62 @@ TEST(a_strip_between_two_equal_rolls)
                 run_jsonf(STRIP "--layer-thickness %.15g --mu %g --force 0", C / thin[i], mu[j]);
             CHECK_ABS(of_summary(root, "creepage") * 100.0 / C, free[i][j], 1.5e-3,
                       "C/d = %g, mu = %g", thin[i], mu[j]);
+        }
+}
+
+/* The same of nu = 1/2, and of nu = 0.3 between rolls of the strip's material, whose C is that of
+ * the pair; a part in each turn. */
+TEST(strips_of_other_pairs)
+{
+    static const double thin[] = {0.25, 0.5, 1.0, 2.0}, mu[] = {0.02, 0.1, 0.3},
+                        half[][3] = {{0.0927, 0.0927, 0.0927},
+                                     {0.1704, 0.1700, 0.1700},
+                                     {0.3011, 0.2742, 0.2740},
+                                     {0.4778, 0.4217, 0.3768}},
+                        elastic[][3] = {{NAN, NAN, NAN},
+                                        {NAN, 0.08445, 0.08445},
+                                        {NAN, 0.13165, 0.13165},
+                                        {NAN, 0.16832, 0.16481}};
+    const double pi = acos(-1.0), C = sqrt(0.1 / pi);
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 3; j++) {
+            if (!is_in_turn(3 * i + j, 3))
+                continue;
+            held_json *root = run_jsonf(STRIP_OF "--young 750 --poisson 0.5 --load %.15g "
+                                                 "--layer-thickness %.15g --mu %g --force 0",
+                                        0.25 * pi * 10.0 * C * C, C / thin[i], mu[j]);
+            CHECK_ABS(of_summary(root, "creepage") * 100.0 / C, half[i][j], 1.5e-3,
+                      "nu 0.5, C/d = %g, mu = %g", thin[i], mu[j]);
+            if (isnan(elastic[i][j]))
+                continue;
+            held_json *pair =
+                run_jsonf(STRIP_OF "--young 910 --poisson 0.3 --young-b 910 --poisson-b 0.3 --load "
+                                   "%.15g --layer-thickness %.15g --mu %g --force 0",
+                          0.25 * pi * 5.0 * C * C, C / thin[i], mu[j]);
+            CHECK_ABS(of_summary(pair, "creepage") * 100.0 / C, elastic[i][j], 1e-3,
+                      "elastic rolls, C/d = %g, mu = %g", thin[i], mu[j]);
+        }
+}
+
+/* Under a vanishing friction that turns round once in the contact (mu -> 0), xi R/a is that of the
+ * displacements of the pressure; first-order elements. */
+TEST(strips_without_friction)
+{
+    static const double a[] = {0.1, 0.5, 1.0}, load[] = {1.0051971, 1.1225783, 1.4226461},
+                        nu[] = {0.0, 0.3, 0.5},
+                        want[][3] = {{-0.42150, -0.31478, -0.23516},
+                                     {-0.22436, -0.09434, 0.04686},
+                                     {0.03850, 0.19959, 0.42289}};
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            held_json *root = run_jsonf(
+                "--support halfplane --gap parabola --radius 100 --young %.15g --poisson %g "
+                "--layer-base smooth --formulation steady --mesh fitted --contact-elements 100 "
+                "--mu "
+                "1e-5 --force 0 --load %.15g --layer-thickness %.15g",
+                1e3 * (1.0 - nu[i] * nu[i]), nu[i], 0.025 * acos(-1.0) * load[j], 0.1 / a[j]);
+            CHECK_ABS(of_summary(root, "creepage") * 1e3, want[i][j], 2.5e-3, "nu %g, a/d %g",
+                      nu[i], a[j]);
         }
 }
 
@@ -94,6 +151,23 @@ TEST(two_creepages_of_a_strip)
         CHECK_ABS(ahead * 100.0 / C, rows[k][2], 1.5e-3, "ahead of %g", rows[k][0]);
         CHECK_REL(ahead - xi, Q / (2.0 * 1e3 * C), 1e-9, "stretch");
         CHECK_REL(xi - of_summary(root, "creepage_behind"), Q / (2.0 * 1e3 * C), 1e-9, "stretch");
+    }
+    static const double rough[][4] = {{-0.6, 0.2040, 0.1333, 0.3160},
+                                      {-0.3, 0.1236, 0.0883, 0.2229},
+                                      {0.3, 0.0079, 0.0433, 0.0623},
+                                      {0.6, -0.0548, 0.0159, -0.0289}};
+    for (size_t k = 0; k < sizeof rough / sizeof *rough; k++) {
+        if (!is_in_turn((int)k, 2))
+            continue;
+        held_json *root =
+            run_jsonf(STRIP "--layer-thickness %.15g --mu 0.3 --force-ratio %g", C, rough[k][0]);
+        CHECK_ABS(of_summary(root, "creepage") * 100.0 / C, rough[k][1], 1.5e-3, "%g", rough[k][0]);
+        CHECK_ABS(of_summary(root, "creepage_ahead") * 100.0 / C, rough[k][2], 1.5e-3, "%g",
+                  rough[k][0]);
+        held_json *thin = run_jsonf(STRIP "--layer-thickness %.15g --mu 0.3 --force-ratio %g",
+                                    0.5 * C, rough[k][0]);
+        CHECK_ABS(of_summary(thin, "creepage") * 100.0 / C, rough[k][3], 1.5e-3, "C/d 2, %g",
+                  rough[k][0]);
     }
 }
 
