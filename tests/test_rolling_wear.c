@@ -279,6 +279,33 @@ TEST(an_edge_of_stick_has_its_place_in_an_element)
     }
 }
 
+/* Where the elements do not take their place about what sticks, or hardly anything is worn, the
+ * volume is of first order in their length, and its bar holds that of 400 elements. */
+TEST(bars_hold_where_the_order_is_the_first)
+{
+    static const struct {
+        const char *words;
+        double coefficient, volume, most;
+    } rows[] = {{"similar mu 0.5 zone auto", 1e-12, 3.7196e-9, 0.1},
+                {"similar mu 0.5 zone 0.45", 1e-8, 4.174e-5, 0.3},
+                {"mu 0.5 young-b 70000 poisson-b 0.33 zone auto", 1e-10, 8.6057e-7, 0.1}};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        const rb_rolling_wear wear = {.law = RB_WEAR_ARCHARD,
+                                      .coefficient = rows[k].coefficient,
+                                      .way = 1e6,
+                                      .steps = 10,
+                                      .increments = 4};
+        rb_rolling_case rc = half_plane(RB_STATIC, 60);
+        set(&rc, "young 210000 poisson 0.3 gap parabola radius 100 load 100 force-ratio 0.64");
+        set(&rc, rows[k].words);
+        worn w;
+        CHECK_OK(rb_rolling_wear_with_errors(&rc, &wear, NULL, &w.h, &w.last, &heard));
+        CHECK_ABS(w.h.worn[10], rows[k].volume, w.h.errors->worn[10], "%s", rows[k].words);
+        CHECK_MAX(w.h.errors->worn[10], rows[k].most * rows[k].volume, "%s", rows[k].words);
+        worn_free(&w);
+    }
+}
+
 /* Far beyond the elastic displacement a cycle is four strokes long. */
 TEST(gross_slip_wears_four_strokes)
 {
