@@ -217,6 +217,17 @@ rb_status rb_bem_field_stress(const rb_bem_field *field, rb_bem_points points, d
                               rb_message *why);
 void rb_bem_field_free(rb_bem_field *field);
 
+/* (B15) Stress in the cover of a wheel, on an elastic core or a rigid one.  load: linear between
+ * nodes, the abscissae of which are measured along the circle from its lowest point; borrowed.
+ * RB_EINVAL: thinner than this part of the radius; a point lies outside the cover. */
+#define RB_BEM_RING_THINNEST 1e-4
+typedef struct rb_bem_ring_field rb_bem_ring_field;
+rb_status rb_bem_ring_field_create(const rb_bem_wheel *wheel, const rb_bem_edge_load *load,
+                                   rb_bem_ring_field **field, rb_message *why);
+rb_status rb_bem_ring_field_stress(const rb_bem_ring_field *field, rb_bem_points points,
+                                   double *stress, rb_message *why);
+void rb_bem_ring_field_free(rb_bem_ring_field *field);
+
 /* As rb_bem_halfplane_stress for tractions that are linear between n nodes and zero outside; two
  * nodes at one place are a jump.  Where q does not jump sxx is finite everywhere.  Use it for
  * points within a few contact widths: rounding errors grow with the ratio of their distance to the

@@ -10,14 +10,20 @@ typedef double complex cplx;
 
 enum { TERMS = 24 }; /* of the exponential series, of matrices with a norm of about 2 */
 
-/* E = exp(M step), row by row. */
-static void transfer(double m, double nu, double step, double E[4][4])
+void rb_ring_equations(double m, double nu, double M[4][4])
 {
     const double a = nu / (1.0 - nu), c = 1.0 / (1.0 - nu);
-    const double M[4][4] = {{-a, -a * m, 1.0 - a, 0.0},
-                            {m, 1.0, 0.0, 2.0},
-                            {c, c * m, a, -m},
-                            {c * m, c * m * m, a * m, -1.0}};
+    const double equations[4][4] = {{-a, -a * m, 1.0 - a, 0.0},
+                                    {m, 1.0, 0.0, 2.0},
+                                    {c, c * m, a, -m},
+                                    {c * m, c * m * m, a * m, -1.0}};
+    memcpy(M, equations, sizeof equations);
+}
+
+void rb_ring_transfer(double m, double nu, double step, double E[4][4])
+{
+    double M[4][4];
+    rb_ring_equations(m, nu, M);
     double power[4][4] = {{1.0, 0, 0, 0}, {0, 1.0, 0, 0}, {0, 0, 1.0, 0}, {0, 0, 0, 1.0}};
 
     memcpy(E, power, sizeof power);
@@ -47,7 +53,7 @@ rb_ring_compliance rb_ring_across(double m, double nu, double inner, double oute
     const int steps = (int)ceil(fmax(1.0, (m + 1.0) * thickness));
     double E[4][4];
 
-    transfer(m, nu, thickness / steps, E);
+    rb_ring_transfer(m, nu, thickness / steps, E);
     for (int k = 0; k < steps; k++) {
         cplx D[2][2], S[2][2];
         for (int i = 0; i < 2; i++) {

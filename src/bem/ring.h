@@ -16,11 +16,19 @@ typedef struct {
     double complex uu, uv, vu, vv;
 } rb_ring_compliance;
 
+/* dy/d ln r = M y of y = (2 G U, 2 G V, r S, r T); and E = exp(M step), for steps over which it
+ * changes by some powers of ten at most. */
+void rb_ring_equations(double m, double nu, double M[4][4]);
+void rb_ring_transfer(double m, double nu, double step, double E[4][4]);
+
 /* The disc without a hole, m > 1; kappa = 3 - 4 nu. */
 rb_ring_compliance rb_ring_of_disc(double m, double kappa);
 /* From the inner contour of a ring, with compliance K, to its outer one. */
 rb_ring_compliance rb_ring_across(double m, double nu, double inner, double outer,
                                   rb_ring_compliance K);
+
+/* A wheel without memory, at its outer contour. */
+rb_ring_compliance rb_ring_of_wheel(const rb_bem_wheel *wheel, double m);
 
 /* Primitive over x of the disc's answer to a unit load at angle 0, its waves m >= 2, over
  * R/(4 pi G): N = T is the real part, C below the imaginary one. */

@@ -20,9 +20,8 @@ typedef double complex cplx;
 
 /* ---- Waves ------------------------------------------------------------------------- */
 
-/* What the inner contour changes of the disc, and the waves 0 and 1, which the disc in
- * closed form does not have. */
-static void inner_waves(const rb_bem_wheel *w, double m, cplx softer, cplx c[3])
+/* Of the whole wheel, at its outer contour. */
+static rb_ring_compliance wheel_waves(const rb_bem_wheel *w, double m, cplx softer)
 {
     const rb_ring_compliance rigid = {0.0, 0.0, 0.0, 0.0};
     /* What the inner contour rests on, over its own 2 G: an elastic core, or nothing that
@@ -33,7 +32,19 @@ static void inner_waves(const rb_bem_wheel *w, double m, cplx softer, cplx c[3])
     const cplx over = w->hub > 0.0 ? w->material.shear / w->core.shear / softer : 0.0;
 
     K = (rb_ring_compliance){over * K.uu, over * K.uv, over * K.vu, over * K.vv};
-    const rb_ring_compliance wheel = rb_ring_across(m, w->material.poisson, w->inner, w->radius, K);
+    return rb_ring_across(m, w->material.poisson, w->inner, w->radius, K);
+}
+
+rb_ring_compliance rb_ring_of_wheel(const rb_bem_wheel *w, double m)
+{
+    return wheel_waves(w, m, 1.0);
+}
+
+/* What the inner contour changes of the disc, and the waves 0 and 1, which the disc in
+ * closed form does not have. */
+static void inner_waves(const rb_bem_wheel *w, double m, cplx softer, cplx c[3])
+{
+    const rb_ring_compliance wheel = wheel_waves(w, m, softer);
     rb_ring_compliance disc = {0.0, 0.0, 0.0, 0.0};
     const double twice = m > 0.0 ? 2.0 : 1.0;
 

@@ -88,13 +88,7 @@ rb_status rb_rolling_boundary_mesh(const rb_rolling_model *model, int of_b, rb_b
 rb_status rb_rolling_boundary_system(const rb_rolling_model *model, rb_bem_system **system,
                                      rb_message *why)
 {
-    /* A stiff cover bends on a soft core: with 1.5 the tension at their bond is 5.2, 2.4 and 1.7 %
-     * too large at t/R = 0.0015, 0.005 and 0.02, with 3 it is 3.0, 0.6 and
-     * 0.05 %, with 6 no better at the thick end. */
-    rb_rolling_plan plan = model->plan;
-    if (rb_rolling_has_elastic_core(&model->rc->a))
-        plan.outer_refinement = 3.0 * fmax(plan.outer_refinement, 1.0);
-    return wheel_system(model->rc, &plan, &model->rc->a, &model->mesh, system, why);
+    return wheel_system(model->rc, &model->plan, &model->rc->a, &model->mesh, system, why);
 }
 
 rb_bem_wheel rb_rolling_wheel_of(const rb_rolling_case *rc, const rb_rolling_body *body,

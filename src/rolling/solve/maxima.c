@@ -590,7 +590,7 @@ static rb_status peak_of_bond(const search *f, const strip *in, double depth, me
     for (int i = 1; i + 1 < n; i++)
         if (of(&at[i]) >= of(&at[i - 1]) && of(&at[i]) > of(&at[i + 1]))
             most = fmax(most, of(&at[i]));
-    if (!(most > 1e-9 * largest))
+    if (!(most > 1e-7 * largest)) /* less is what waves leave of each other */
         return RB_OK;
     for (int i = 1; i + 1 < n; i++) {
         double top = of(&at[i]), place[2] = {s[i], depth}, xy[2];

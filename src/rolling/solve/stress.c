@@ -1,5 +1,5 @@
 /* Subsurface stress of body A (B8): closed-form strips on the half-plane, with the waves
- * of its layer (L5), Somigliana's identity on a wheel. */
+ * of its layer (L5), waves around a cover (B15), Somigliana's identity on a wheel. */
 #include "rolling/solve/results.h"
 
 #include <gsl/gsl_math.h>
@@ -25,7 +25,9 @@ struct rb_rolling_field {
     rb_bem_field *wheel;             /* NULL for a half-plane; owned */
     rb_bem_system *made;             /* NULL: that of the model, if any; owned */
     rb_bem_layer_field *layer;       /* NULL: of one material; owned */
+    rb_bem_ring_field *ring;         /* of a cover; owned */
     rb_bem_edge_load nodes;          /* the tractions, linear between them; in memory */
+    rb_bem_edge_load arc;            /* of a cover: they along its circle */
     double length[RB_ROLLING_TERMS]; /* of its memory, which the layer borrows */
     rb_arena memory;
 };
@@ -37,6 +39,7 @@ void rb_rolling_field_free(rb_rolling_field *f)
     rb_bem_field_free(f->wheel);
     rb_bem_system_free(f->made);
     rb_bem_layer_field_free(f->layer);
+    rb_bem_ring_field_free(f->ring);
     rb_arena_free(&f->memory);
     free(f);
 }
@@ -49,12 +52,6 @@ rb_status rb_rolling_stress_check(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL,
                        "stress: below contacts that repeat themselves it is not computed; take one "
                        "contact alone, without --period");
-    if (rb_rolling_has_elastic_core(&rc->a) &&
-        rb_rolling_material(rc, &rc->a).poisson > RB_ROLLING_COMPRESSIBLE)
-        return rb_fail(why, RB_EINVAL,
-                       "stress: in a cover on an elastic core it is computed for Poisson's ratios "
-                       "of 0.499 at most, got %g",
-                       rc->a.poisson);
     /* given tractions make the same stress in a body that relaxes everywhere alike */
     return rc->a.memory.n == 0 || !rb_rolling_has_elastic_core(&rc->a)
                ? RB_OK
@@ -82,6 +79,37 @@ static rb_status create_flat(rb_rolling_field *f, rb_message *why)
     return s == RB_OK && model->rc->a.layer > 0.0
                ? rb_bem_layer_field_create(&surface, &f->nodes, &f->layer, why)
                : s;
+}
+
+/* By waves, along the circle; then the nodes are kept by their x. */
+static rb_status create_cover(rb_rolling_field *f, rb_message *why)
+{
+    const rb_rolling_model *model = f->model;
+    const double radius = model->rc->a.radius;
+    const rb_bem_wheel wheel = rb_rolling_wheel_of(model->rc, &model->rc->a, f->length);
+    const size_t n = (size_t)model->mesh.n;
+    double *t = rb_arena_doubles(&f->memory, n, 2), *p = rb_arena_doubles(&f->memory, n, 1),
+           *q = rb_arena_doubles(&f->memory, n, 1), *ends = rb_arena_doubles(&f->memory, n + 1, 1);
+    if (f->memory.failed)
+        return RB_ENOMEM;
+    rb_rolling_contact_tractions(model, t);
+    for (size_t i = 0; i <= n; i++)
+        ends[i] = radius * asin(model->mesh.ends[i] / radius);
+    for (size_t i = 0; i < n; i++) {
+        const double angle = 0.5 * (ends[i] + ends[i + 1]) / radius, x = cos(angle), y = sin(angle);
+        q[i] = x * t[2 * i] + y * t[2 * i + 1];
+        p[i] = x * t[2 * i + 1] - y * t[2 * i];
+    }
+    rb_status s = rb_rolling_traction_nodes(model->rc, &model->mesh, &model->state, ends, p, q,
+                                            RB_ROLLING_EDGE_NODES, &f->memory, &f->arc);
+    if (s == RB_OK)
+        s = rb_bem_ring_field_create(&wheel, &f->arc, &f->ring, why);
+    double *x = rb_arena_doubles(&f->memory, (size_t)f->arc.n, 1);
+    for (int k = 0; x && k < f->arc.n; k++)
+        x[k] = radius * sin(f->arc.x[k] / radius);
+    f->nodes = f->arc;
+    f->nodes.x = x;
+    return s == RB_OK && !x ? RB_ENOMEM : s;
 }
 
 /* Along the contour, on which each element has its own normal and tangent; then the nodes
@@ -134,7 +162,9 @@ rb_status rb_rolling_field_create(const rb_rolling_model *model, rb_rolling_fiel
     if (!f)
         return RB_ENOMEM;
     f->model = model;
-    s = (rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT) ? create_flat : create_wheel)(f, why);
+    s = (rb_rolling_body_can(&model->rc->a, RB_BODY_FLAT)                  ? create_flat
+         : model->rc->a.cover > RB_BEM_RING_THINNEST * model->rc->a.radius ? create_cover
+                                                                           : create_wheel)(f, why);
     if (s == RB_OK)
         *field = f;
     else
@@ -179,6 +209,8 @@ static void lift_onto_polygon(const rb_bem_mesh *mesh, double radius, int n, dou
 static rb_status evaluate(const rb_rolling_field *f, int n, const double *xy, rb_arena *scratch,
                           double *sigma, rb_message *why)
 {
+    if (f->ring)
+        return rb_bem_ring_field_stress(f->ring, (rb_bem_points){n, xy}, sigma, why);
     if (!f->wheel) {
         for (int k = 0; k < n; k++)
             if (!(xy[2 * k + 1] >= 0.0))
