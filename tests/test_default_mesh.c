@@ -98,6 +98,28 @@ TEST(many_elements_never_give_a_larger_error)
             check_errors(rows[k], 0, 4, sizes, 2400);
 }
 
+/* From mu beta = 1 on Newton's method fails on most aligned elements: there the program takes equal
+ * ones, with which it ends.  Fewer, which have a matrix, know the force nearly. */
+TEST(strong_coupling_gets_equal_elements)
+{
+    static const double mu[] = {2.2, 2.3, 2.5, 10.0}; /* beta = 4/9 */
+    for (size_t k = 0; k < sizeof mu / sizeof *mu; k++) {
+        char friction[20];
+        snprintf(friction, sizeof friction, "mu %g", mu[k]);
+        const words w = {{"support halfplane gap parabola young 94500 poisson 0.1 half-width 1 "
+                          "formulation steady creep-ratio 0.4",
+                          friction}};
+        held_case *c = case_of(RB_CASE_SINGLE, &w, "contact-elements", 1600);
+        const int strong = mu[k] * 4.0 / 9.0 > 1.0;
+        assert_int_equal(rb_case_resolved(c)->rc.mesh == RB_MESH_UNIFORM, strong);
+        if (strong) {
+            const rb_rolling_solution s = solved(&w, 1600), few = solved(&w, 100);
+            assert_true(s.n < 2400);
+            CHECK_ABS(s.force_ratio, few.force_ratio, 2e-3, "mu = %g", mu[k]);
+        }
+    }
+}
+
 /* Carter's force to a given accuracy; where little sticks more elements are needed than a matrix
  * could have.  Fewer than the bars of aligned elements can do with begin as fitted ones. */
 TEST(an_accuracy_is_reached_without_a_matrix)

@@ -89,6 +89,9 @@ rb_bem_material rb_rolling_base_material(const rb_rolling_case *rc, const rb_rol
 /* The largest coefficient of the friction law; it is the mu of Q/(mu P) and of xi R/(mu
  * a). */
 double rb_rolling_largest_mu(const rb_rolling_case *rc);
+/* The largest coefficient times Dundurs' constant of both bodies: from 1 on the contact may have
+ * several solutions, or an open element beside each closed one. */
+double rb_rolling_mu_beta(const rb_rolling_case *rc);
 /* 1 if the coefficients depend on the solution, so that they have to be iterated: in
  * rolling, if the law depends on the slip velocity or on the temperature. */
 int rb_rolling_law_depends_on_state(const rb_rolling_case *rc);

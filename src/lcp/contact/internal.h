@@ -163,6 +163,9 @@ rb_status rb_contact_cone_solve(const rb_contact_problem *problem,
 
 /* The zone of an element in contact that slides by lambda. */
 rb_contact_zone rb_contact_sliding_zone(double lambda);
+
+/* 1: further steps and other starts may be tried. */
+int rb_contact_has_patience(const rb_contact_problem *problem, const rb_contact_state *state);
 /* Zones from p, q and lambda; entries below tol times the scales count as zero. */
 void rb_contact_classify(const rb_contact_problem *problem, double tol, rb_contact_state *state);
 

@@ -162,7 +162,9 @@ static rb_status follow(path *k)
         }
         s = solve_both(k);
     }
-    for (int count = 0; s == RB_OK && count < MOST_BENDS; count++) {
+    for (int count = 0;
+         s == RB_OK && count < MOST_BENDS && rb_contact_has_patience(k->problem, k->state);
+         count++) {
         bend at = {k->way * INFINITY, -1, 0};
 
         for (int i = 0; i < k->problem->n; i++) {

@@ -383,6 +383,11 @@ double rb_rolling_tilt(const rb_rolling_case *rc)
     return isnan(rc->moment) ? rc->tilt : isnan(rc->tilted_by) ? 0.0 : rc->tilted_by;
 }
 
+double rb_rolling_mu_beta(const rb_rolling_case *rc)
+{
+    return rb_rolling_largest_mu(rc) * fabs(rb_rolling_derive(rc).dundurs);
+}
+
 int rb_rolling_force_is_given(const rb_rolling_case *rc)
 {
     return !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
@@ -409,8 +414,7 @@ static int is_transformed(const rb_rolling_case *rc, const rb_rolling_body *body
 static int suits_fitted_products(const rb_rolling_case *rc)
 {
     return rc->formulation == RB_STEADY && rc->slip_operator == RB_SLIP_UPSTREAM &&
-           rc->yield_stress == 0.0 &&
-           rb_rolling_largest_mu(rc) * fabs(rb_rolling_derive(rc).dundurs) < 1.0 &&
+           rc->yield_stress == 0.0 && rb_rolling_mu_beta(rc) < 1.0 &&
            rb_rolling_can(rc, RB_BODY_FLAT);
 }
 

@@ -347,7 +347,8 @@ const rb_option rb_case_table[] = {
                    .unset = "fitted in steady rolling under a given load, half-width or "
                             "approach without zone and gap file, aligned from 150 elements on "
                             "between similar half-planes, from 401 on between other flat bodies, "
-                            "from 1500 on with wheels; else uniform",
+                            "from 1500 on with wheels; uniform from 241 on where mu beta >= 1; "
+                            "else uniform",
                    .common = 1),
     RB_CHOICE_LINE("slip-operator", RC(slip_operator), slip_operators,
                    "steady, equal elements: difference to the element upstream, or of "

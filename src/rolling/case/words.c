@@ -723,8 +723,9 @@ static rb_status resolve_law(rb_case *c, rb_message *why)
 
 /* From so many elements on they are not graded to the edges, on any support.  Where pressure and
  * friction are coupled, on layers and in bodies that relax equal elements are of first order: up to
- * so many graded ones are worth their time, and where products solve for them so many. */
-enum { MANY = 1500, MOST_GRADED = 400, MOST_GRADED_BY_PRODUCTS = 100000 };
+ * so many graded ones are worth their time, and where products solve for them so many.  From mu
+ * beta = 1 on Lemke's method takes seconds for more, and Newton's fails on most aligned ones. */
+enum { MANY = 1500, MOST_GRADED = 400, MOST_GRADED_BY_PRODUCTS = 100000, MOST_GRADED_STRONG = 240 };
 /* half as many, by which error bars are found, are still aligned elements */
 enum { LEAST_REFINED = 24 };
 int rb_case_has_steps(const rb_resolved_case *resolved)
@@ -1006,8 +1007,10 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     const int graded = rb_rolling_couples(rc) || !rb_rolling_can(rc, RB_BODY_HOMOGENEOUS);
     rb_rolling_case fitted = *rc;
     fitted.mesh = RB_MESH_FITTED;
+    const int strong = rb_rolling_mu_beta(rc) >= 1.0;
     const int most = !graded                                   ? 0
                      : rb_rolling_suits_large(&fitted, &equal) ? MOST_GRADED_BY_PRODUCTS
+                     : strong                                  ? MOST_GRADED_STRONG
                                                                : MOST_GRADED;
     const int many = rc->contact_elements > most &&
                      (rc->contact_elements >= MANY || rb_rolling_suits_large(rc, &equal));
@@ -1019,7 +1022,8 @@ rb_status rb_case_resolve(rb_case *c, rb_message *why)
     const int refined = c->resolved.accuracy > 0.0 && rb_rolling_carter_holds(rc) &&
                         rc->contact_elements >= LEAST_REFINED && !rb_case_given(c, "mesh");
     if (!rb_case_given(c, "mesh") && (rc->formulation == RB_STEADY || scales) && !paper &&
-        rc->zone == 0.0 && rc->gap != RB_GAP_TABLE && !c->resolved.worn_file && rc->period == 0.0)
+        !(strong && many && !scales) && rc->zone == 0.0 && rc->gap != RB_GAP_TABLE &&
+        !c->resolved.worn_file && rc->period == 0.0)
         rc->mesh = !many && !refined && rc->slip_operator == RB_SLIP_UPSTREAM ? RB_MESH_FITTED
                                                                               : RB_MESH_ALIGNED;
     if (!rb_case_given(c, "contact-elements") &&

@@ -450,11 +450,27 @@ double rb_rolling_sliding_creepage(const rb_rolling_case *rc, const rb_contact_p
     return moved + (rc->formulation == RB_STEADY ? 2.0 * ratio : 4.0 * ratio * a / p->e_T[0]);
 }
 
+/* Where mu beta >= 1: Newton's steps without a matrix times elements, some seconds of them. */
+static const double MOST_WORK = 1e5;
+
+/* A mesh of so many elements asks for few enough to be solved with a matrix in seconds. */
+enum { LEAST_STEPS = 40, MOST_BY_MATRIX = 200 };
+
 rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling_case *rc, int warm,
                                    rb_contact_state *state, rb_message *why)
 {
+    const double coupling = rb_rolling_mu_beta(rc);
+    const int many = coupling >= 1.0 && !rb_contact_operator_matrix(problem->op).F;
+
     problem->sliding = rb_rolling_sliding_creepage(rc, problem);
-    return rb_contact_solve(problem, &rc->contact, warm, state, why);
+    problem->patience = many ? LEAST_STEPS + (int)(MOST_WORK / problem->n) : 0;
+    const rb_status s = rb_contact_solve(problem, &rc->contact, warm, state, why);
+    if (s > 0 && many)
+        rb_fail(why, s,
+                "mu beta = %.3g: from 1 on Newton's method may fail on many elements, as it did on "
+                "%d; give at most %d --contact-elements, or --solver lemke",
+                coupling, problem->n, MOST_BY_MATRIX);
+    return s;
 }
 
 rb_status rb_rolling_model_lcp(const rb_rolling_model *model, rb_contact_lcp *lcp, rb_message *why)

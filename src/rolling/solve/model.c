@@ -203,6 +203,9 @@ rb_status rb_rolling_model_of_result(const rb_rolling_case *rc, const rb_rolling
     return s == RB_OK ? set_up(model, 0, why) : s;
 }
 
+/* Elements up to which Lemke's method solves in seconds where mu beta >= 1. */
+enum { MOST_WITH_COUPLING = 300 };
+
 rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh, rb_message *why)
 {
     const int kept = model->same_bodies && model->mesh.n == mesh->n &&
@@ -244,8 +247,9 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
     }
     /* Lemke's method asks for the matrix, and so does a tolerance below GMRES's own */
     const int inaccurate = s == RB_OK && model->state.residual > model->rc->contact.tol;
+    const int most = model->problem.patience > 0 ? MOST_WITH_COUPLING : RB_ROLLING_LARGE - 1;
     if (s < 0 || s == RB_ZONE || s == RB_INTERRUPTED || (s == RB_OK && !inaccurate) || !large ||
-        model->mesh.n >= RB_ROLLING_LARGE)
+        model->mesh.n > most)
         return s;
     s = rb_rolling_model_add_matrix(model, why);
     if (s == RB_OK)

@@ -145,8 +145,7 @@ int rb_rolling_next_merged_patch(const rb_rolling_case *rc, const rb_rolling_mes
     /* Where A slides, F_NN - mu F_NT of (K5) has its largest entries beside the diagonal,
      * not on it, once mu beta > 1 or so: every other element opens, however small they
      * are. */
-    const int one_place = rb_rolling_is_convex(rc),
-              alternates = rb_rolling_largest_mu(rc) * fabs(rb_rolling_derive(rc).dundurs) > 1.0;
+    const int one_place = rb_rolling_is_convex(rc), alternates = rb_rolling_mu_beta(rc) > 1.0;
     rb_rolling_run next;
 
     if (!rb_rolling_next_patch(rc, mesh, state, at, run))
