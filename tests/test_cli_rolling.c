@@ -501,6 +501,33 @@ TEST(rows_before_full_sliding_have_derivatives)
 #undef STEPS
 }
 
+/* What sticks again after full sliding under a given shift: against solutions for other mu. */
+TEST(rows_that_stick_again_have_derivatives)
+{
+    enum { ROWS = 4 };
+    static const char line[] =
+        "--similar --support halfplane --young 210000 --poisson 0.3 --radius 100 --gap parabola "
+        "--history back.txt --json --derivatives tangential_load:mu --mu %s";
+    static const char *const mu[] = {"0.3", "0.2998", "0.3002"};
+    double got[ROWS], Q[2][ROWS];
+    write_file("back.txt", "load shift\n100 0.001\n100 0.01\n100 0.009\n100 0.005\n");
+    for (size_t k = 0; k < 3; k++) {
+        held_json *root = run_jsonf(line, mu[k]);
+        const json_t *history = json_object_get(root, "history");
+        for (size_t row = 0; row < ROWS; row++)
+            if (k == 0)
+                got[row] = slope(root, "tangential_load", "mu", row);
+            else
+                Q[k - 1][row] = json_number_value(
+                    json_array_get(json_object_get(history, "tangential_load"), row));
+        const json_t *stick = json_object_get(history, "stick");
+        assert_int_equal(json_integer_value(json_array_get(stick, 1)), 0);
+        assert_true(json_integer_value(json_array_get(stick, 2)) > 0);
+    }
+    for (size_t row = 0; row < ROWS; row++)
+        CHECK_REL(got[row], (Q[1][row] - Q[0][row]) / 4e-4, 1e-4, "row %zu", row + 1);
+}
+
 /* The balance of power (V4) from the JSON alone: for every support, both bodies, every way to
  * drive.  Of a wheel that turns the lever arms' part is also int (p u_T - q u_N) dx / R, by the
  * printed displacements of A on a rigid plane. */

@@ -220,7 +220,10 @@ static rb_status all_steps(const rb_rolling_states *states, rb_rolling_follower 
             more = rb_rolling_model_force(model) > 0.0 ? -more : more;
             if (!isnan(model->rc->force) || model->problem.axle != 0.0)
                 status =
-                    rb_fail(&reason, RB_SINGULAR, "the whole contact slides under the given force");
+                    rb_fail(&reason, RB_SINGULAR,
+                            "the whole contact slides under the given force; with less friction "
+                            "or load there is no solution, and this and all later rows have no "
+                            "derivative; a given force-ratio has them");
             model->problem.force_given = 0;
             model->state.xi += more;
             for (int i = 0; i < model->state.n; i++)
